@@ -1,0 +1,90 @@
+/// The commands: each has its options, a function that does the work, and its place on the command
+/// line. `run` calls the same functions.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "awmr/compare/compare.h"
+#include "awmr/identify/identify.h"
+#include "awmr/tune/tune.h"
+#include "awmr/validate/validate.h"
+#include "console.h"
+
+namespace awmr::cli {
+
+namespace fs = std::filesystem;
+
+struct IdentifyCommand {
+  fs::path vehicle;
+  std::optional<fs::path> surge;
+  std::optional<fs::path> coastdown;
+  std::optional<fs::path> turning;
+  IdentifyOptions identify;
+  TrialOptions trials;
+  fs::path output;
+};
+Result<Outcome> execute(const IdentifyCommand& command);
+void add_identify(CLI::App& app, Session& session);
+
+struct TuneCommand {
+  fs::path model;
+  std::optional<fs::path> config;
+  fs::path output;
+};
+Result<Outcome> execute(const TuneCommand& command);
+void add_tune(CLI::App& app, Session& session);
+
+struct ValidateCommand {
+  fs::path model;
+  std::optional<fs::path> gains;
+  ValidateOptions validate;
+  fs::path output;
+};
+Result<Outcome> execute(const ValidateCommand& command);
+void add_validate(CLI::App& app, Session& session);
+
+struct SimulateCommand {
+  fs::path model;
+  std::optional<fs::path> gains;
+  fs::path scenario;
+  YawMode mode = YawMode::kCombined;
+  fs::path output;
+};
+Result<Outcome> execute(const SimulateCommand& command);
+void add_simulate(CLI::App& app, Session& session);
+
+struct CompareCommand {
+  fs::path model;
+  fs::path gains;
+  std::vector<fs::path> scenarios;
+  CompareOptions compare;
+  fs::path output;
+};
+Result<Outcome> execute(const CompareCommand& command);
+void add_compare(CLI::App& app, Session& session);
+
+struct EmitCommand {
+  fs::path model;
+  fs::path gains;
+  fs::path output;
+};
+Result<Outcome> execute(const EmitCommand& command);
+void add_emit(CLI::App& app, Session& session);
+
+struct ReportCommand {
+  fs::path directory;
+};
+Result<Outcome> execute(const ReportCommand& command);
+void add_report(CLI::App& app, Session& session);
+
+struct RunCommand {
+  fs::path project;
+  fs::path output;
+};
+Result<Outcome> execute(const RunCommand& command);
+void add_run(CLI::App& app, Session& session);
+
+}  // namespace awmr::cli

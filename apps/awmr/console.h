@@ -1,0 +1,45 @@
+/// What every command shares: its outcome, its place on the command line, what it says to a person.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "awmr/core/result.h"
+#include "awmr/model/model.h"
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
+namespace awmr::cli {
+
+/// What a command leaves for the person who ran it.
+struct Outcome {
+  std::string summary;            ///< for stdout
+  std::vector<Finding> findings;  ///< for stderr
+  bool refused = false;           ///< the work ran and the answer is no: exit code 1
+};
+
+/// The program's state while one command runs.
+struct Session {
+  int exit_code = 0;
+};
+
+/// Adds a subcommand with `--quiet`, `--version` and an example under its help; `execute` runs it.
+CLI::App* add_command(CLI::App& app, Session& session, const std::string& name,
+                      const std::string& description, const std::string& example,
+                      std::function<Result<Outcome>()> execute);
+
+/// `-o FILE|DIR`, required.
+CLI::Option* add_output(CLI::App& command, std::filesystem::path& path, const std::string& meaning);
+
+/// `warning: FILE:LINE: MESSAGE [CODE]`, as compilers do.
+std::string to_text(const Finding& finding);
+
+/// One line per identified quantity: value, standard error, 95 % interval, unit, origin.
+std::string parameter_table_text(const Model& model);
+
+}  // namespace awmr::cli

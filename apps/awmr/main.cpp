@@ -1,0 +1,48 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+
+#include "commands.h"
+
+namespace {
+
+int run(int argc, char** argv) {
+  CLI::App app{
+      "awmr: from trial CSVs to tuned gains on the robot.\n"
+      "trial CSVs + vehicle.json -> identify -> model.json -> tune -> gains.json -> validate,\n"
+      "compare, emit; `awmr run PROJECT.json -o DIR` does all of it."};
+  app.name("awmr");
+  app.set_version_flag("--version", std::string("awmr ") + awmr::version());
+  app.require_subcommand(1);
+  app.footer("Example:\n  awmr run configs/paper/project.json -o out");
+  app.get_formatter()->column_width(36);
+
+  awmr::cli::Session session;
+  awmr::cli::add_run(app, session);
+  awmr::cli::add_identify(app, session);
+  awmr::cli::add_validate(app, session);
+  awmr::cli::add_tune(app, session);
+  awmr::cli::add_simulate(app, session);
+  awmr::cli::add_compare(app, session);
+  awmr::cli::add_emit(app, session);
+  awmr::cli::add_report(app, session);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);
+    std::fprintf(stderr, "error: %s\nRun `awmr --help` or `awmr COMMAND --help`.\n", error.what());
+    return 2;
+  }
+  return session.exit_code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "error: a fault of the program: %s\n", error.what());
+    return 3;
+  }
+}

@@ -1,0 +1,86 @@
+#include "project.h"
+
+#include <array>
+#include <string>
+#include <utility>
+
+#include "awmr/core/json.h"
+
+namespace awmr::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path resolved(const fs::path& project, const std::string& name) {
+  return (project.parent_path() / name).lexically_normal();
+}
+
+void read_trials(JsonObject json, const fs::path& path, Project& project) {
+  const auto optional_path = [&](const char* key) -> std::optional<fs::path> {
+    if (const auto name = json.optional_string(key)) return resolved(path, *name);
+    return std::nullopt;
+  };
+  project.surge = optional_path("surge");
+  project.coastdown = optional_path("coastdown");
+  project.turning = optional_path("turning");
+  json.reject_unknown_keys();
+}
+
+void read_columns(JsonObject json, Project& project) {
+  for (const std::string& name : json.keys()) {
+    const std::string source = json.string(name);
+    if (source.empty()) continue;
+    if (auto mapping = parse_column_mapping(name + "=" + source)) {
+      project.trials.columns.push_back(*mapping);
+    } else {
+      json.fault(name, mapping.error().faults.front().message);
+    }
+  }
+}
+
+void read_identify(JsonObject json, Project& project) {
+  static const std::array<std::string, 2> methods{"log-linear", "nonlinear"};
+  static const std::array<std::string, 3> noises{"force", "speed", "time"};
+  static const std::array<std::string, 2> preferences{"printed", "timed"};
+  if (json.has("method")) {
+    project.identify.method = static_cast<Method>(json.choice("method", methods));
+  }
+  if (json.has("noise")) project.identify.noise = static_cast<Noise>(json.choice("noise", noises));
+  if (json.has("prefer")) {
+    project.trials.preference = static_cast<Preference>(json.choice("prefer", preferences));
+  }
+  json.reject_unknown_keys();
+}
+
+void read_compare(JsonObject json, const fs::path& path, Project& project) {
+  for (const std::string& name : json.strings("scenarios")) {
+    project.scenarios.push_back(resolved(path, name));
+  }
+  project.compare.samples =
+      static_cast<int>(json.optional_integer("samples", 0, 1000000).value_or(0));
+  project.compare.seed =
+      static_cast<std::uint64_t>(json.optional_integer("seed", 0, 1000000000L).value_or(1));
+  json.reject_unknown_keys();
+}
+
+}  // namespace
+
+Result<Project> read_project(const fs::path& path) {
+  const auto document = read_json_file(path);
+  if (!document) return tl::unexpected(document.error());
+  std::vector<Fault> faults;
+  JsonObject json(*document, path.string(), "", faults);
+  Project project;
+  json.schema("awmr.project/1");
+  project.vehicle = resolved(path, json.string("vehicle"));
+  read_trials(json.object("trials"), path, project);
+  if (auto columns = json.optional_object("columns")) read_columns(*columns, project);
+  if (auto identify = json.optional_object("identify")) read_identify(*identify, project);
+  if (const auto tune = json.optional_string("tune")) project.tune = resolved(path, *tune);
+  read_compare(json.object("compare"), path, project);
+  json.reject_unknown_keys();
+  if (!faults.empty()) return input_errors(std::move(faults));
+  return project;
+}
+
+}  // namespace awmr::cli

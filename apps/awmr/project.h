@@ -1,0 +1,31 @@
+/// project.json (`awmr.project/1`): one file from which `awmr run` does everything.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "awmr/compare/compare.h"
+#include "awmr/core/result.h"
+#include "awmr/identify/identify.h"
+#include "awmr/trials/trials.h"
+
+namespace awmr::cli {
+
+/// Paths are given relative to the project file and kept resolved.
+struct Project {
+  std::filesystem::path vehicle;
+  std::optional<std::filesystem::path> surge;
+  std::optional<std::filesystem::path> coastdown;
+  std::optional<std::filesystem::path> turning;
+  TrialOptions trials;
+  IdentifyOptions identify;
+  std::optional<std::filesystem::path> tune;  ///< tune.json
+  std::vector<std::filesystem::path> scenarios;
+  CompareOptions compare;
+};
+
+/// Errors: as read_json_file; unknown or missing keys, a malformed column mapping.
+Result<Project> read_project(const std::filesystem::path& path);
+
+}  // namespace awmr::cli

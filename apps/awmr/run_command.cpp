@@ -1,0 +1,94 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "awmr/core/file.h"
+#include "awmr/model/gains_file.h"
+#include "commands.h"
+#include "project.h"
+
+namespace awmr::cli {
+namespace {
+
+/// The runs the report draws: every scenario and mode, with the tuned and with the paper's gains.
+Status write_runs(const Project& project, const fs::path& directory) {
+  const auto model = read_model(directory / "model.json");
+  if (!model) return tl::unexpected(model.error());
+  const auto plant = model->plant((directory / "model.json").string());
+  if (!plant) return tl::unexpected(plant.error());
+  const auto tuned = read_gains(directory / "gains.json");
+  if (!tuned) return tl::unexpected(tuned.error());
+  const std::pair<const char*, Gains<double>> sets[] = {{"tuned", *tuned}, {"paper", kPaperGains}};
+  for (const fs::path& path : project.scenarios) {
+    const auto scenario = read_scenario(path);
+    if (!scenario) return tl::unexpected(scenario.error());
+    for (const YawMode mode : kYawModes) {
+      for (const auto& [name, gains] : sets) {
+        const Run run =
+            simulate(*plant, make_controller(*plant, model->vehicle, gains), *scenario, mode,
+                     {.sample_time_s = model->vehicle.sample_time_s, .substeps = {}});
+        const std::string file =
+            fmt::format("run_{}_{}_{}.csv", path.stem().string(), name_of(mode), name);
+        if (auto written = write_file(directory / file, run_csv(run)); !written) return written;
+      }
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<Outcome> execute(const RunCommand& command) {
+  const auto project = read_project(command.project);
+  if (!project) return tl::unexpected(project.error());
+  if (const auto made = make_directory(command.output); !made) return tl::unexpected(made.error());
+  const fs::path model = command.output / "model.json";
+  const fs::path gains = command.output / "gains.json";
+
+  Outcome total;
+  /// Takes a step's outcome into the total; false where the run has to stop.
+  const auto take = [&total](const char* title, Result<Outcome>& step) {
+    if (!step) return false;
+    total.summary += fmt::format("{}\n{}", title, step->summary);
+    total.findings.insert(total.findings.end(), step->findings.begin(), step->findings.end());
+    total.refused = total.refused || step->refused;
+    return true;
+  };
+
+  auto identified =
+      execute(IdentifyCommand{project->vehicle, project->surge, project->coastdown,
+                              project->turning, project->identify, project->trials, model});
+  if (!take("identify", identified)) return identified;
+  if (total.refused) {
+    total.summary += "stopped: the steps that follow need what could not be identified\n";
+    return total;
+  }
+  auto tuned = execute(TuneCommand{model, project->tune, gains});
+  if (!take("tune", tuned)) return tuned;
+  auto validated =
+      execute(ValidateCommand{model, gains, ValidateOptions{}, command.output / "validation.json"});
+  if (!take("validate", validated)) return validated;
+  auto emitted = execute(EmitCommand{model, gains, command.output});
+  if (!take("emit", emitted)) return emitted;
+  auto compared =
+      execute(CompareCommand{model, gains, project->scenarios, project->compare, command.output});
+  if (!take("compare", compared)) return compared;
+  if (const auto runs = write_runs(*project, command.output); !runs) {
+    return tl::unexpected(runs.error());
+  }
+  auto reported = execute(ReportCommand{command.output});
+  if (!take("report", reported)) return reported;
+  return total;
+}
+
+void add_run(CLI::App& app, Session& session) {
+  auto command = std::make_shared<RunCommand>();
+  CLI::App* sub = add_command(app, session, "run", "Do every step from one project file",
+                              "awmr run configs/paper/project.json -o out",
+                              [command] { return execute(*command); });
+  sub->add_option("PROJECT", command->project, "project.json")->required();
+  add_output(*sub, command->output, "Directory for all results");
+}
+
+}  // namespace awmr::cli

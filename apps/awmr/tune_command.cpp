@@ -1,0 +1,77 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "awmr/core/file.h"
+#include "commands.h"
+
+namespace awmr::cli {
+namespace {
+
+std::string gains_line(const char* name, const Gains<double>& gains, double objective) {
+  return fmt::format(
+      "  {:<10} {:>8.4g} {:>8.4g} {:>8.4g} {:>8.4g} {:>8.4g} {:>8.4f} {:>8.4f} {:>10.4f}\n", name,
+      gains.heading.lambda, gains.heading.mu, gains.heading.epsilon, gains.speed.mu,
+      gains.speed.epsilon, gains.heading.sliding_time_constant_s(),
+      gains.heading.reaching_time_constant_s(), objective);
+}
+
+std::string summary_of(const TuneCommand& command, const Tuning& tuning) {
+  std::string text =
+      fmt::format("  {:<10} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>10}\n", "gains", "lambda",
+                  "mu", "epsilon", "mu_s", "eps_s", "T1 s", "T2 s", "objective");
+  text += gains_line("paper", tuning.baseline, tuning.baseline_objective);
+  text += gains_line("tuned", tuning.gains, tuning.objective);
+  for (const ModeScore& score : tuning.scores) {
+    text += fmt::format("    {:<22} {:<13} {:.4f} of the paper's gains'\n", score.scenario,
+                        name_of(score.mode), score.objective);
+  }
+  for (const ConstraintReport& constraint : tuning.constraints) {
+    text += fmt::format("    {:<38} {:.4g} <= {:.4g}, margin {:.4g}\n", constraint.name,
+                        constraint.value, constraint.limit, constraint.margin);
+  }
+  text += fmt::format("  {} after {} evaluations: {}\n", tuning.algorithm, tuning.evaluations,
+                      tuning.stop_reason);
+  return text + fmt::format("wrote {}\n", command.output.string());
+}
+
+}  // namespace
+
+Result<Outcome> execute(const TuneCommand& command) {
+  const auto model = read_model(command.model);
+  if (!model) return tl::unexpected(model.error());
+  TuneOptions options;
+  if (command.config) {
+    auto read = read_tune_options(*command.config);
+    if (!read) return tl::unexpected(read.error());
+    options = *read;
+  }
+  Provenance provenance{"tune", {}, {}};
+  for (const auto& path : {std::optional(command.model), command.config}) {
+    if (!path) continue;
+    const auto input = input_file(*path);
+    if (!input) return tl::unexpected(input.error());
+    provenance.inputs.push_back(*input);
+  }
+  const auto tuning = tune(*model, command.model.string(), options);
+  if (!tuning) return tl::unexpected(tuning.error());
+  if (const auto written = write_file(command.output, gains_text(*tuning, options, provenance));
+      !written) {
+    return tl::unexpected(written.error());
+  }
+  return Outcome{summary_of(command, *tuning), {}, false};
+}
+
+void add_tune(CLI::App& app, Session& session) {
+  auto command = std::make_shared<TuneCommand>();
+  CLI::App* sub = add_command(app, session, "tune", "Search the controller's gains under T2 < T1",
+                              "awmr tune --model model.json -o gains.json",
+                              [command] { return execute(*command); });
+  sub->add_option("--model", command->model, "model.json from identify")->required();
+  sub->add_option("--config", command->config,
+                  "tune.json: form, margin, weights, evaluations, seed, scenarios");
+  add_output(*sub, command->output, "gains.json to write");
+}
+
+}  // namespace awmr::cli

@@ -1,0 +1,53 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "awmr/core/file.h"
+#include "awmr/model/gains_file.h"
+#include "commands.h"
+
+namespace awmr::cli {
+
+Result<Outcome> execute(const ValidateCommand& command) {
+  const auto model = read_model(command.model);
+  if (!model) return tl::unexpected(model.error());
+  std::optional<Gains<double>> gains;
+  if (command.gains) {
+    const auto read = read_gains(*command.gains);
+    if (!read) return tl::unexpected(read.error());
+    gains = *read;
+  }
+  Provenance provenance{"validate", {{"tolerance", format_number(command.validate.tolerance)}}, {}};
+  for (const auto& path : {std::optional(command.model), command.gains}) {
+    if (!path) continue;
+    const auto input = input_file(*path);
+    if (!input) return tl::unexpected(input.error());
+    provenance.inputs.push_back(*input);
+  }
+  const auto validation = validate(*model, command.model.string(), gains, command.validate);
+  if (!validation) return tl::unexpected(validation.error());
+  if (const auto written = write_file(command.output, validation_text(*validation, provenance));
+      !written) {
+    return tl::unexpected(written.error());
+  }
+  return Outcome{validation_table(*validation) + fmt::format("wrote {}\n", command.output.string()),
+                 {},
+                 !validation->passed};
+}
+
+void add_validate(CLI::App& app, Session& session) {
+  auto command = std::make_shared<ValidateCommand>();
+  CLI::App* sub = add_command(
+      app, session, "validate", "Hold the model against its trials and the paper's claims",
+      "awmr validate --model model.json --gains gains.json -o validation.json",
+      [command] { return execute(*command); });
+  sub->add_option("--model", command->model, "model.json from identify")->required();
+  sub->add_option("--gains", command->gains, "gains.json: also run the closed-loop claims");
+  sub->add_option("--tolerance", command->validate.tolerance,
+                  "Largest accepted RMS relative error of a kind of trial (default 0.15)")
+      ->check(CLI::PositiveNumber);
+  add_output(*sub, command->output, "validation.json to write");
+}
+
+}  // namespace awmr::cli

@@ -1,0 +1,42 @@
+# One warnings target, linked privately everywhere and never exported.
+add_library(awmr_warnings INTERFACE)
+target_compile_options(awmr_warnings INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor
+  -Wold-style-cast -Woverloaded-virtual -Wdouble-promotion
+  $<$<BOOL:${AWMR_WARNINGS_AS_ERRORS}>:-Werror>)
+
+# awmr_library(NAME [SOURCES file...] [PUBLIC target...] [PRIVATE target...])
+# The library of one folder, `awmr_NAME` with the alias `awmr::NAME`; header-only without SOURCES.
+function(awmr_library name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  set(target awmr_${name})
+  if(ARG_SOURCES)
+    add_library(${target} STATIC ${ARG_SOURCES})
+    target_link_libraries(${target} PUBLIC ${ARG_PUBLIC}
+      PRIVATE ${ARG_PRIVATE} $<BUILD_INTERFACE:awmr_warnings>)
+    set(scope PUBLIC)
+    # The same products and sums on every compiler: no contraction into fused multiply-add.
+    target_compile_options(${target} PRIVATE -ffp-contract=off)
+  else()
+    add_library(${target} INTERFACE)
+    target_link_libraries(${target} INTERFACE ${ARG_PUBLIC})
+    set(scope INTERFACE)
+  endif()
+  add_library(awmr::${name} ALIAS ${target})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
+  target_include_directories(${target} ${scope}
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/lib> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_compile_features(${target} ${scope} cxx_std_20)
+  set_property(GLOBAL APPEND PROPERTY AWMR_LIBRARIES ${target})
+endfunction()
+
+# awmr_test(NAME SOURCES file... [LINK target...] [LABELS label...]): one GoogleTest executable.
+function(awmr_test name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK;LABELS" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
+  target_compile_options(${name} PRIVATE -ffp-contract=off)
+  target_link_libraries(${name} PRIVATE ${ARG_LINK} GTest::gmock GTest::gtest_main awmr_warnings)
+  target_compile_definitions(${name} PRIVATE AWMR_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300 LABELS "${ARG_LABELS}")
+endfunction()

@@ -1,0 +1,15 @@
+include(CMakePackageConfigHelpers)
+
+get_property(awmr_libraries GLOBAL PROPERTY AWMR_LIBRARIES)
+install(TARGETS ${awmr_libraries} EXPORT awmr-targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(TARGETS awmr_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(DIRECTORY lib/awmr DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
+install(EXPORT awmr-targets NAMESPACE awmr:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/awmr)
+
+configure_package_config_file(cmake/awmr-config.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/awmr-config.cmake
+  INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/awmr)
+write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/awmr-config-version.cmake
+  COMPATIBILITY SameMinorVersion)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/awmr-config.cmake
+  ${CMAKE_CURRENT_BINARY_DIR}/awmr-config-version.cmake
+  DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/awmr)

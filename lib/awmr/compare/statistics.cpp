@@ -1,0 +1,152 @@
+#include "awmr/compare/statistics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "awmr/core/random.h"
+
+namespace awmr {
+namespace {
+
+/// Streams of the bootstrap are apart from those of the draws, which are sample numbers.
+constexpr std::uint64_t kBootstrapStream = std::uint64_t{1} << 63U;
+
+double mean_of(std::span<const double> values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+std::optional<double> difference(const MetricColumn& metric, const Metrics& a, const Metrics& b) {
+  const auto x = metric.value(a);
+  const auto y = metric.value(b);
+  if (!x || !y) return std::nullopt;
+  return *x - *y;
+}
+
+/// A pair's differences by sample, absent where one of the modes has no value.
+struct Series {
+  PairedDifference result;
+  std::vector<std::optional<double>> by_sample;
+  std::vector<double> resampled_means;
+};
+
+Series series_of(const ModeRows& first, const ModeRows& second, const MetricColumn& metric) {
+  Series series;
+  series.result.first = first.mode;
+  series.result.second = second.mode;
+  series.result.metric = metric.name;
+  series.result.nominal = difference(metric, first.nominal(), second.nominal());
+  const auto a = first.counted();
+  const auto b = second.counted();
+  double sum = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const auto d = difference(metric, a[i].metrics, b[i].metrics);
+    series.by_sample.push_back(d);
+    if (!d) continue;
+    sum += *d;
+    ++series.result.count;
+  }
+  if (series.result.count > 0) series.result.mean = sum / static_cast<double>(series.result.count);
+  return series;
+}
+
+/// One resample's mean of each series.
+void add_resample(std::span<const std::size_t> chosen, std::vector<Series>& all) {
+  for (Series& series : all) {
+    double sum = 0.0;
+    std::size_t count = 0;
+    for (const std::size_t i : chosen) {
+      if (!series.by_sample[i]) continue;
+      sum += *series.by_sample[i];
+      ++count;
+    }
+    if (count > 0) series.resampled_means.push_back(sum / static_cast<double>(count));
+  }
+}
+
+}  // namespace
+
+double ModeRows::completed_share() const {
+  const auto runs = counted();
+  const auto completed = std::count_if(
+      runs.begin(), runs.end(), [](const ComparisonRow& row) { return row.metrics.completed; });
+  return static_cast<double>(completed) / static_cast<double>(runs.size());
+}
+
+std::vector<ScenarioRows> group(const Comparison& comparison) {
+  std::vector<ScenarioRows> scenarios;
+  const std::span<const ComparisonRow> rows = comparison.rows;
+  for (std::size_t begin = 0; begin < rows.size();) {
+    std::size_t end = begin;
+    while (end < rows.size() && rows[end].scenario == rows[begin].scenario &&
+           rows[end].mode == rows[begin].mode) {
+      ++end;
+    }
+    if (scenarios.empty() || scenarios.back().scenario != rows[begin].scenario) {
+      scenarios.push_back({rows[begin].scenario, {}});
+    }
+    scenarios.back().modes.push_back({rows[begin].mode, rows.subspan(begin, end - begin)});
+    begin = end;
+  }
+  return scenarios;
+}
+
+double quantile(std::span<const double> sorted, double p) {
+  const double position = p * static_cast<double>(sorted.size() - 1);
+  const auto below = static_cast<std::size_t>(std::floor(position));
+  const std::size_t above = std::min(below + 1, sorted.size() - 1);
+  return sorted[below] + (position - static_cast<double>(below)) * (sorted[above] - sorted[below]);
+}
+
+Summary summarise(const ModeRows& rows, const MetricColumn& metric) {
+  Summary summary;
+  summary.nominal = metric.value(rows.nominal());
+  std::vector<double> values;
+  for (const ComparisonRow& row : rows.counted()) {
+    if (const auto value = metric.value(row.metrics)) values.push_back(*value);
+  }
+  summary.count = values.size();
+  if (values.empty()) return summary;
+  summary.mean = mean_of(values);
+  if (values.size() < 2) return summary;
+  std::sort(values.begin(), values.end());
+  summary.q05 = quantile(values, 0.05);
+  summary.q50 = quantile(values, 0.50);
+  summary.q95 = quantile(values, 0.95);
+  return summary;
+}
+
+std::vector<PairedDifference> paired_differences(const ScenarioRows& scenario, std::uint64_t seed,
+                                                 std::uint64_t stream) {
+  std::vector<Series> all;
+  for (std::size_t i = 0; i < scenario.modes.size(); ++i) {
+    for (std::size_t j = i + 1; j < scenario.modes.size(); ++j) {
+      for (const MetricColumn& metric : kMetricColumns) {
+        all.push_back(series_of(scenario.modes[i], scenario.modes[j], metric));
+      }
+    }
+  }
+  const std::size_t samples = scenario.modes.front().rows.size() - 1;
+  if (samples >= 2) {
+    Random random(seed, kBootstrapStream + stream);
+    std::vector<std::size_t> chosen(samples);
+    for (int resample = 0; resample < kResamples; ++resample) {
+      for (std::size_t& index : chosen) {
+        index = static_cast<std::size_t>(random.uniform() * static_cast<double>(samples));
+      }
+      add_resample(chosen, all);
+    }
+  }
+  std::vector<PairedDifference> differences;
+  for (Series& series : all) {
+    if (series.result.count >= 2 && !series.resampled_means.empty()) {
+      std::sort(series.resampled_means.begin(), series.resampled_means.end());
+      series.result.ci95 = Interval{quantile(series.resampled_means, 0.025),
+                                    quantile(series.resampled_means, 0.975)};
+    }
+    differences.push_back(series.result);
+  }
+  return differences;
+}
+
+}  // namespace awmr

@@ -1,0 +1,96 @@
+#include "awmr/core/csv_cell.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+
+namespace awmr {
+namespace {
+
+constexpr std::size_t kLongestShown = 40;
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+std::string lower(std::string_view text) {
+  std::string result(text);
+  std::transform(result.begin(), result.end(), result.begin(), [](char c) {
+    return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  });
+  return result;
+}
+
+/// The text in quotes, cut where it is long, on one line.
+std::string shown(std::string_view text) {
+  std::size_t length = text.size();
+  if (length > kLongestShown) {
+    length = kLongestShown;
+    // Not inside a UTF-8 sequence: its second and later bytes are 10xxxxxx.
+    while (length > 0 && (static_cast<unsigned char>(text[length]) & 0xC0U) == 0x80U) --length;
+  }
+  std::string result(text.substr(0, length));
+  std::replace_if(
+      result.begin(), result.end(),
+      [](char c) { return static_cast<unsigned char>(c) < 0x20U || c == 0x7F; }, ' ');
+  return fmt::format("\"{}{}\"", result, length < text.size() ? "..." : "");
+}
+
+bool is_decimal_comma(std::string_view text) {
+  const std::size_t comma = text.find(',');
+  return comma != std::string_view::npos && text.find(',', comma + 1) == std::string_view::npos &&
+         std::any_of(text.begin(), text.end(), is_digit) &&
+         text.find_first_not_of("+-0123456789,eE") == std::string_view::npos;
+}
+
+/// What is wrong with a text that is no number, of which the first `read` characters are one.
+std::string why_not_a_number(std::string_view text, std::size_t read) {
+  const std::size_t sign = text.find_first_not_of("+-");
+  const std::string word = sign == std::string_view::npos ? "" : lower(text.substr(sign));
+  const std::string found = fmt::format("expected a number, found {}", shown(text));
+  if (word.rfind("nan", 0) == 0) return found + "; leave out rows without a measured value";
+  if (word == "inf" || word == "infinity") {
+    return found + "; a measured value is finite: leave out the row";
+  }
+  if (word.rfind("0x", 0) == 0) return found + ": hexadecimal; write it in decimal";
+  if (is_decimal_comma(text)) {
+    std::string point(text);
+    std::replace(point.begin(), point.end(), ',', '.');
+    return fmt::format("{} with a decimal comma; write {} with a point", found, point);
+  }
+  if (read > 0 && read < text.size() && !is_digit(text[read])) {
+    return found + "; a cell holds the number alone, the unit stands in the column's name";
+  }
+  return found;
+}
+
+}  // namespace
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+tl::expected<double, std::string> number_from_text(std::string_view text) {
+  text = trimmed(text);
+  if (text.empty()) return tl::unexpected(std::string("the cell is empty; expected a number"));
+  std::string_view digits = text;
+  if (digits.size() > 1 && digits[0] == '+' && (is_digit(digits[1]) || digits[1] == '.')) {
+    digits.remove_prefix(1);
+  }
+  double value = 0.0;
+  const char* end = digits.data() + digits.size();
+  const auto [stop, error] = std::from_chars(digits.data(), end, value);
+  if (error == std::errc::result_out_of_range && stop == end) {
+    return tl::unexpected(shown(text) + " is out of range: largest 1.8e308, smallest 2.3e-308");
+  }
+  if (error != std::errc() || stop != end || !std::isfinite(value)) {
+    const auto read = error == std::errc() ? static_cast<std::size_t>(stop - text.data()) : 0U;
+    return tl::unexpected(why_not_a_number(text, read));
+  }
+  return value;
+}
+
+}  // namespace awmr

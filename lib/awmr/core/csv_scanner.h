@@ -1,0 +1,49 @@
+/// Cuts the bytes of a CSV file into records of cells.
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+#include <vector>
+
+namespace awmr {
+
+/// One cell: its text without quotes and outer spaces, and where it stands, from 1.
+struct CsvCell {
+  std::string_view text;
+  int line = 1;
+  int character = 1;
+  bool is_quoted = false;
+};
+
+class CsvScanner {
+ public:
+  enum class Outcome { kRecord, kEnd, kOpenQuote, kTextAfterQuote };
+
+  /// `bytes` without a byte order mark.
+  explicit CsvScanner(std::string_view bytes) : rest_(bytes) {}
+  void set_delimiter(char delimiter) { delimiter_ = delimiter; }
+
+  /// Skips comments and blank lines, up to the line that comes next, whose number is line().
+  std::string_view peek_line();
+  int line() const { return line_; }
+
+  /// The next record. On a fault the last cell is where it is.
+  Outcome next(std::vector<CsvCell>& cells);
+
+  /// Drops what is left of the line after a fault.
+  void skip_line();
+
+ private:
+  void advance(std::size_t bytes);
+  void skip_spaces();
+  void end_line();
+  Outcome cell(std::vector<CsvCell>& cells);
+  Outcome quoted_cell(std::vector<CsvCell>& cells);
+
+  std::string_view rest_;
+  char delimiter_ = ',';
+  int line_ = 1;
+  int character_ = 1;
+};
+
+}  // namespace awmr

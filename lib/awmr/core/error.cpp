@@ -1,0 +1,55 @@
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "awmr/core/result.h"
+
+namespace awmr {
+namespace {
+constexpr std::size_t kMaxFaultsShown = 20;
+}  // namespace
+
+tl::unexpected<Error> input_error(std::string place, std::string message) {
+  return tl::unexpected(Error{ErrorKind::kInput, {{std::move(place), std::move(message)}}});
+}
+
+tl::unexpected<Error> refusal(std::string message) {
+  return tl::unexpected(Error{ErrorKind::kRefused, {{"", std::move(message)}}});
+}
+
+tl::unexpected<Error> program_fault(std::string message) {
+  return tl::unexpected(Error{ErrorKind::kFault, {{"", std::move(message)}}});
+}
+
+tl::unexpected<Error> input_errors(std::vector<Fault> faults) {
+  return tl::unexpected(Error{ErrorKind::kInput, std::move(faults)});
+}
+
+std::string to_text(const Error& error) {
+  std::string text;
+  std::size_t shown = 0;
+  for (const Fault& fault : error.faults) {
+    if (shown == kMaxFaultsShown) break;
+    ++shown;
+    text += fault.place.empty() ? fmt::format("error: {}\n", fault.message)
+                                : fmt::format("error: {}: {}\n", fault.place, fault.message);
+  }
+  if (error.faults.size() > shown) {
+    text += fmt::format("error: {} more faults are not shown\n", error.faults.size() - shown);
+  }
+  return text;
+}
+
+int exit_code(const Error& error) {
+  switch (error.kind) {
+    case ErrorKind::kInput:
+      return 2;
+    case ErrorKind::kRefused:
+      return 1;
+    case ErrorKind::kFault:
+      return 3;
+  }
+  return 3;
+}
+
+}  // namespace awmr

@@ -1,0 +1,99 @@
+/// Strict JSON: unknown, missing and duplicate keys and values out of range are faults, each with
+/// its JSON pointer, all of a file at once. Include from .cpp files only: it brings in
+/// nlohmann/json.
+#pragma once
+
+#include <filesystem>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "awmr/core/interval.h"
+#include "awmr/core/provenance.h"
+#include "awmr/core/result.h"
+
+namespace awmr {
+
+using Json = nlohmann::ordered_json;
+
+/// What a number may be.
+struct NumberRule {
+  double min = std::numeric_limits<double>::lowest();
+  double max = std::numeric_limits<double>::max();
+  bool min_excluded = false;  ///< true: strictly above `min`
+};
+inline constexpr NumberRule kAnyNumber{};
+inline constexpr NumberRule kPositive{.min = 0.0, .min_excluded = true};
+inline constexpr NumberRule kNonNegative{.min = 0.0};
+
+/// Parses a file. Errors: as MappedFile::open; syntax (`FILE:LINE:COLUMN`); duplicate keys.
+Result<Json> read_json_file(const std::filesystem::path& path);
+
+/// A strict view of one JSON object. Each reader notes its key as known; on a fault it adds to the
+/// shared list and returns a stand-in (NaN, empty), so that reading goes on and finds the rest.
+/// Call `reject_unknown_keys()` once all keys were asked for.
+class JsonObject {
+ public:
+  JsonObject(const Json& value, std::string file, std::string pointer, std::vector<Fault>& faults);
+
+  bool has(std::string_view key);
+  double number(std::string_view key, NumberRule rule = kAnyNumber);
+  std::optional<double> optional_number(std::string_view key, NumberRule rule = kAnyNumber);
+  /// `null` is allowed and gives nullopt; a missing key is a fault.
+  std::optional<double> nullable_number(std::string_view key, NumberRule rule = kAnyNumber);
+  long integer(std::string_view key, long min, long max);
+  std::optional<long> optional_integer(std::string_view key, long min, long max);
+  bool boolean(std::string_view key);
+  std::optional<bool> optional_boolean(std::string_view key);
+  std::string string(std::string_view key);
+  std::optional<std::string> optional_string(std::string_view key);
+  /// One of a fixed set, with the nearest one named on a fault; returns its index, 0 on a fault.
+  std::size_t choice(std::string_view key, std::span<const std::string> choices);
+  /// `[lo, hi]` with lo <= hi.
+  Interval interval(std::string_view key);
+  std::optional<Interval> optional_interval(std::string_view key);
+  std::optional<Interval> nullable_interval(std::string_view key);
+  std::vector<double> numbers(std::string_view key, NumberRule rule = kAnyNumber);
+  std::vector<std::string> strings(std::string_view key);
+  /// A missing key or a value that is no object gives an empty view whose reads are silent.
+  JsonObject object(std::string_view key);
+  std::optional<JsonObject> optional_object(std::string_view key);
+  /// The elements of an array of objects.
+  std::vector<JsonObject> objects(std::string_view key);
+  std::vector<JsonObject> optional_objects(std::string_view key);
+  /// Accepts a key without reading it.
+  void ignore(std::string_view key);
+  /// The optional `schema` key: absent or `expected`.
+  void schema(std::string_view expected);
+  /// All keys of the object, in the file's order (for maps with free keys).
+  std::vector<std::string> keys() const;
+
+  void fault(std::string_view key, std::string message);
+  void reject_unknown_keys();
+  const std::string& file() const { return file_; }
+  std::string pointer(std::string_view key) const;
+
+ private:
+  const Json* find(std::string_view key, bool required);
+  const Json* value_;  ///< null: an absent object, whose reads are silent
+  std::string file_;
+  std::string pointer_;
+  std::vector<Fault>* faults_;
+  std::set<std::string, std::less<>> known_;
+};
+
+/// `{"command", "version", "options", "inputs"}`, the contract's keys of origin, put into `json`.
+void put_provenance(Json& json, const Provenance& provenance);
+/// Reads them back.
+Provenance read_provenance(JsonObject& json);
+
+/// Two-space indentation, numbers that read back the same, a newline at the end. Precondition: all
+/// numbers are finite, as JSON has no others; throws std::logic_error with the pointer of one that
+/// is not.
+std::string to_text(const Json& json);
+
+}  // namespace awmr

@@ -1,0 +1,29 @@
+/// Texts that the JSON sources share.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace awmr {
+
+/// A key inside a JSON pointer. [RFC 6901, section 3]
+inline std::string pointer_token(std::string_view key) {
+  std::string text;
+  for (const char c : key) {
+    if (c == '~') {
+      text += "~0";
+    } else if (c == '/') {
+      text += "~1";
+    } else {
+      text += c;
+    }
+  }
+  return text;
+}
+
+/// The second and later bytes of a UTF-8 character are 10xxxxxx.
+inline bool continues_character(char byte) {
+  return (static_cast<unsigned char>(byte) & 0xC0U) == 0x80U;
+}
+
+}  // namespace awmr

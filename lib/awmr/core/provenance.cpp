@@ -1,0 +1,16 @@
+#include "awmr/core/provenance.h"
+
+#include "awmr/core/hash.h"
+#include "awmr/core/version_number.h"
+
+namespace awmr {
+
+const char* version() { return AWMR_VERSION; }
+
+Result<InputFile> input_file(const std::filesystem::path& path) {
+  auto hash = sha256_of_file(path);
+  if (!hash) return tl::unexpected(hash.error());
+  return InputFile{path.string(), std::move(*hash)};
+}
+
+}  // namespace awmr

@@ -1,0 +1,32 @@
+/// Where an output comes from: program version, resolved options, inputs by SHA-256. No clock time,
+/// so the same inputs give the same bytes.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "awmr/core/result.h"
+
+namespace awmr {
+
+/// The version of the program, as in CMake's project().
+const char* version();
+
+struct InputFile {
+  std::string name;    ///< as the user gave it
+  std::string sha256;  ///< of its bytes
+};
+
+/// Hashes a file. Errors: as MappedFile::open.
+Result<InputFile> input_file(const std::filesystem::path& path);
+
+struct Provenance {
+  std::string command;  ///< "identify", "tune", ...
+  std::vector<std::pair<std::string, std::string>>
+      options;  ///< every option with its resolved value
+  std::vector<InputFile> inputs;
+};
+
+}  // namespace awmr

@@ -1,0 +1,48 @@
+/// Failure as a value. Whatever a user can cause is returned as an `Error` that says where, what
+/// was wrong and what to do; a broken invariant of the program asserts.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <tl/expected.hpp>
+#include <vector>
+
+namespace awmr {
+
+/// One thing that is wrong, at one place.
+struct Fault {
+  std::string place;    ///< `FILE:LINE:COLUMN`, `FILE:/json/pointer`, `FILE`, or empty
+  std::string message;  ///< what is wrong, what was found, what to do
+};
+
+/// Each kind has one exit code.
+enum class ErrorKind {
+  kInput,    ///< the command line, a file or a value is wrong (exit code 2)
+  kRefused,  ///< the work ran and the answer is no (exit code 1)
+  kFault,    ///< a fault of the program itself (exit code 3)
+};
+
+struct Error {
+  ErrorKind kind = ErrorKind::kInput;
+  std::vector<Fault> faults;  ///< every fault found, never empty
+};
+
+/// A value, or why there is none.
+template <class T>
+using Result = tl::expected<T, Error>;
+using Status = Result<void>;
+
+/// `return input_error("a.csv:3:7", "...")` from any function that returns a Result.
+tl::unexpected<Error> input_error(std::string place, std::string message);
+tl::unexpected<Error> refusal(std::string message);
+tl::unexpected<Error> program_fault(std::string message);
+/// All faults of a file at once; `faults` must not be empty.
+tl::unexpected<Error> input_errors(std::vector<Fault> faults);
+
+/// `error: PLACE: MESSAGE`, a line per fault, at most 20 and then the number left out.
+std::string to_text(const Error& error);
+
+/// 1 for a refusal, 2 for bad input, 3 for a fault of the program.
+int exit_code(const Error& error);
+
+}  // namespace awmr

@@ -1,0 +1,21 @@
+/// Unit conversions and angles. Freestanding C++14: the AVR compiles this file too.
+#pragma once
+
+namespace awmr {
+
+template <class T>
+constexpr T pi() {
+  return T(3.14159265358979323846);
+}
+
+template <class T>
+constexpr T radians(T degrees) {
+  return degrees * T(3.14159265358979323846 / 180.0);
+}
+
+template <class T>
+constexpr T degrees(T radians) {
+  return radians * T(180.0 / 3.14159265358979323846);
+}
+
+}  // namespace awmr

@@ -1,0 +1,50 @@
+#include <Eigen/QR>
+#include <Eigen/SVD>
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+#include <limits>
+
+#include "awmr/identify/power_law_fit.h"
+
+namespace awmr {
+
+double t_quantile_95(int degrees_of_freedom) {
+  return boost::math::quantile(boost::math::students_t(degrees_of_freedom), 0.975);
+}
+
+PowerLawFit fit_log_linear(const std::vector<PowerLawPoint>& points) {
+  const auto n = static_cast<Eigen::Index>(points.size());
+  Eigen::MatrixX2d design(n, 2);
+  Eigen::VectorXd observed(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const PowerLawPoint& point = points[static_cast<std::size_t>(i)];
+    design.row(i) << 1.0, std::log(point.rate);
+    observed(i) = std::log(point.force);
+  }
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixX2d> qr(design);
+  const Eigen::Vector2d singular = Eigen::JacobiSVD<Eigen::MatrixXd>(design).singularValues();
+  PowerLawFit fit;
+  fit.rank = static_cast<int>(qr.rank());
+  fit.condition_number = n > 1 && singular(1) > 0.0 ? singular(0) / singular(1)
+                                                    : std::numeric_limits<double>::infinity();
+  fit.stop_reason = "linear problem, solved by QR";
+  if (fit.rank < 2) return fit;
+  const Eigen::Vector2d theta = qr.solve(observed);
+  fit.log_alpha = theta(0);
+  fit.beta = theta(1);
+  fit.usable = true;
+  fit.degrees_of_freedom = static_cast<int>(n) - 2;
+  if (fit.degrees_of_freedom > 0) {
+    const double variance = (observed - design * theta).squaredNorm() / fit.degrees_of_freedom;
+    fit.residual_std = std::sqrt(variance);
+    // (P^T P)^-1 = Pi R^-1 R^-T Pi^T, from the factors of P Pi = Q R
+    const Eigen::Matrix2d r = qr.matrixR().topRows<2>().triangularView<Eigen::Upper>();
+    const Eigen::Matrix2d r_inverse =
+        r.triangularView<Eigen::Upper>().solve(Eigen::Matrix2d::Identity());
+    const Eigen::Matrix2d p = qr.colsPermutation();
+    fit.covariance = variance * (p * r_inverse * r_inverse.transpose() * p.transpose());
+  }
+  return fit;
+}
+
+}  // namespace awmr

@@ -1,0 +1,105 @@
+/// model.json (`awmr.model/1`): the identified vehicle, every number with its uncertainty and origin.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "awmr/core/interval.h"
+#include "awmr/core/provenance.h"
+#include "awmr/core/result.h"
+#include "awmr/model/dynamics.h"
+#include "awmr/model/parameters.h"
+#include "awmr/model/vehicle.h"
+
+namespace awmr {
+
+enum class Source { kGiven, kDerived, kFitted };
+
+/// One number, as honest as it can be: no value where the data cannot show it.
+struct Estimate {
+  std::optional<double> value;
+  std::optional<double> std_error;
+  std::optional<Interval> ci95;
+  Source source = Source::kGiven;
+  std::string method;  ///< "log-linear", "box formula", "vehicle.json", ...
+};
+
+enum class Severity { kNote, kWarning, kError };
+
+/// Something the user should know about the data or the result.
+struct Finding {
+  std::string file;  ///< empty where it is about no file
+  int line = 0;      ///< 0 where it is about no line
+  Severity severity = Severity::kWarning;
+  std::string code;  ///< "speed-mismatch", "not-identifiable", ...: stable, for scripts
+  std::string message;
+};
+
+/// A parameter as one estimator saw it.
+struct EstimatorParameter {
+  std::string name;  ///< "surge.alpha"
+  double value = 0.0;
+  std::optional<double> std_error;
+  std::optional<Interval> ci95;
+};
+
+/// What one estimator made of one set of trials: an entry of /estimates.
+struct EstimatorReport {
+  std::string subject;    ///< "surge", "yaw", "mass"
+  std::string estimator;  ///< "log-linear", "nonlinear", "trajectory"
+  std::string noise;      ///< where the error is put: "log force", "force", "speed", "time"
+  std::vector<EstimatorParameter> parameters;
+  double residual_std = 0.0;  ///< in the unit of the noise
+  int rows_used = 0;
+  int degrees_of_freedom = 0;
+  int rank = 0;
+  double condition_number = 0.0;
+  std::string stop_reason;
+};
+
+struct Covariance {
+  std::vector<ParameterId> parameters;
+  std::vector<std::vector<double>> matrix;  ///< square, symmetric, over `parameters`
+};
+
+/// One row of a trial as it was used, kept in the model so that later steps need no CSV.
+struct TrialPoint {
+  std::string kind;  ///< "surge", "turning", "coastdown"
+  std::string file;
+  int line = 0;
+  double input = 0.0;     ///< surge: tau_speed; turning: tau_turn in m; coastdown: initial speed in m/s
+  double measured = 0.0;  ///< surge: speed in m/s; turning: yaw rate in rad/s; coastdown: stop time in s
+  std::optional<double> predicted;  ///< the main model's, same unit as `measured`
+};
+
+struct Model {
+  Vehicle vehicle;
+  std::array<Estimate, kParameterCount> estimates;  ///< by ParameterId
+  std::vector<EstimatorReport> reports;
+  Covariance covariance;
+  std::vector<Finding> findings;
+  std::vector<TrialPoint> trials;
+  Provenance provenance;
+
+  Estimate& operator[](ParameterId id) { return estimates[static_cast<std::size_t>(id)]; }
+  const Estimate& operator[](ParameterId id) const {
+    return estimates[static_cast<std::size_t>(id)];
+  }
+
+  /// Everything the simulator needs. Errors (input): a parameter has no value; it is named with the
+  /// trial that would show it. `file` is the model's name for the message.
+  Result<Plant<double>> plant(const std::string& file) const;
+};
+
+/// F_max = m/m', N.                                                                     [paper (66)]
+double max_wheel_force_n(double mass_kg, double mass_norm);
+
+Result<Model> read_model(const std::filesystem::path& path);
+/// The bytes of model.json.
+std::string model_text(const Model& model);
+
+}  // namespace awmr

@@ -1,0 +1,117 @@
+#include <fmt/format.h>
+
+#include <map>
+
+#include "awmr/model/model.h"
+#include "model_json.h"
+#include "vehicle_json.h"
+
+namespace awmr {
+namespace {
+
+constexpr std::string_view kSchema = "awmr.model/1";
+const std::string kSources[] = {"given", "derived", "fitted"};
+
+/// What the equations of motion accept (dynamics.h, resistance.h).
+NumberRule rule_of(ParameterId id) {
+  const bool is_exponent = id == ParameterId::kSurgeBeta || id == ParameterId::kYawBeta;
+  return is_exponent ? kNonNegative : kPositive;
+}
+
+Json estimate_to_json(const Estimate& estimate, const ParameterInfo& parameter) {
+  Json json;
+  json["value"] = number_or_null(estimate.value);
+  json["std_error"] = number_or_null(estimate.std_error);
+  json["ci95"] = interval_or_null(estimate.ci95);
+  json["unit"] = parameter.unit;
+  json["source"] = kSources[static_cast<std::size_t>(estimate.source)];
+  json["method"] = estimate.method;
+  return json;
+}
+
+Estimate estimate_from_json(JsonObject json, const ParameterInfo& parameter) {
+  Estimate estimate;
+  estimate.value = json.nullable_number("value", rule_of(parameter.id));
+  estimate.std_error = json.nullable_number("std_error", kNonNegative);
+  estimate.ci95 = json.nullable_interval("ci95");
+  const std::string unit[] = {std::string(parameter.unit)};
+  json.choice("unit", unit);
+  estimate.source = static_cast<Source>(json.choice("source", kSources));
+  estimate.method = json.string("method");
+  json.reject_unknown_keys();
+  return estimate;
+}
+
+/// "/surge/alpha" is the key "alpha" of the group "surge"; "/mass_norm" a key of the file itself.
+void estimates_from_json(JsonObject& root, Model& model) {
+  std::map<std::string, JsonObject, std::less<>> groups;
+  for (const ParameterInfo& parameter : parameter_table()) {
+    const std::string_view path = parameter.pointer.substr(1);
+    const std::size_t slash = path.find('/');
+    if (slash == std::string_view::npos) {
+      model[parameter.id] = estimate_from_json(root.object(path), parameter);
+      continue;
+    }
+    const std::string group(path.substr(0, slash));
+    auto place = groups.find(group);
+    if (place == groups.end()) place = groups.emplace(group, root.object(group)).first;
+    model[parameter.id] =
+        estimate_from_json(place->second.object(path.substr(slash + 1)), parameter);
+  }
+  for (auto& [name, group] : groups) group.reject_unknown_keys();
+}
+
+template <class Item, class ToJson>
+Json list_to_json(const std::vector<Item>& items, ToJson to_json) {
+  Json list = Json::array();
+  for (const Item& item : items) list.push_back(to_json(item));
+  return list;
+}
+
+template <class FromJson>
+auto list_from_json(JsonObject& root, std::string_view key, FromJson from_json) {
+  std::vector<decltype(from_json(root))> items;
+  for (const JsonObject& item : root.objects(key)) items.push_back(from_json(item));
+  return items;
+}
+
+}  // namespace
+
+std::string model_text(const Model& model) {
+  Json json;
+  json["schema"] = kSchema;
+  put_provenance(json, model.provenance);
+  json["vehicle"] = vehicle_to_json(model.vehicle);
+  for (const ParameterInfo& parameter : parameter_table()) {
+    json[Json::json_pointer(std::string(parameter.pointer))] =
+        estimate_to_json(model[parameter.id], parameter);
+  }
+  json["estimates"] = list_to_json(model.reports, report_to_json);
+  json["covariance"] = covariance_to_json(model.covariance);
+  json["findings"] = list_to_json(model.findings, finding_to_json);
+  json["trials"] = list_to_json(model.trials, trial_to_json);
+  return to_text(json);
+}
+
+Result<Model> read_model(const std::filesystem::path& path) {
+  const auto json = read_json_file(path);
+  if (!json) return tl::unexpected(json.error());
+  std::vector<Fault> faults;
+  JsonObject root(*json, path.string(), "", faults);
+  root.schema(kSchema);
+
+  Model model;
+  model.provenance = read_provenance(root);
+  JsonObject vehicle = root.object("vehicle");
+  model.vehicle = vehicle_from_json(vehicle);
+  estimates_from_json(root, model);
+  model.reports = list_from_json(root, "estimates", report_from_json);
+  model.covariance = covariance_from_json(root.object("covariance"), *json);
+  model.findings = list_from_json(root, "findings", finding_from_json);
+  model.trials = list_from_json(root, "trials", trial_from_json);
+  root.reject_unknown_keys();
+  if (!faults.empty()) return input_errors(std::move(faults));
+  return model;
+}
+
+}  // namespace awmr

@@ -1,0 +1,208 @@
+#include "model_json.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace awmr {
+namespace {
+
+const std::string kSeverities[] = {"note", "warning", "error"};
+const std::string kTrialKinds[] = {"surge", "turning", "coastdown"};
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+/// Differences of a sum's last digits between m(i,j) and m(j,i) are no asymmetry.
+constexpr double kSymmetryTolerance = 1e-9;
+
+int count(JsonObject& json, std::string_view key) {
+  return static_cast<int>(json.integer(key, 0, std::numeric_limits<int>::max()));
+}
+
+/// Which rows and elements are wrong is said at the element, so the nested arrays are read here.
+std::vector<std::vector<double>> matrix_from_json(JsonObject& json, const Json& matrix,
+                                                  std::size_t size) {
+  std::vector<std::vector<double>> rows;
+  const auto is_row = [&](const Json& row) {
+    return row.is_array() && row.size() == size &&
+           std::all_of(row.begin(), row.end(), [](const Json& x) { return x.is_number(); });
+  };
+  if (!matrix.is_array() || matrix.size() != size ||
+      !std::all_of(matrix.begin(), matrix.end(), is_row)) {
+    json.fault("matrix", fmt::format("must be {0} rows of {0} numbers, one per entry of "
+                                     "parameters",
+                                     size));
+    return rows;
+  }
+  for (const Json& row : matrix) rows.push_back(row.get<std::vector<double>>());
+  return rows;
+}
+
+/// A covariance is symmetric with variances >= 0 on its diagonal.
+void check_covariance(JsonObject& json, const std::vector<std::vector<double>>& m) {
+  for (std::size_t i = 0; i < m.size(); ++i) {
+    if (!(m[i][i] >= 0.0)) {
+      json.fault("matrix", fmt::format("the variance [{0}][{0}] is {1}; it must not be negative", i,
+                                       m[i][i]));
+    }
+    for (std::size_t j = 0; j < i; ++j) {
+      const double scale = std::max(std::abs(m[i][j]), std::abs(m[j][i]));
+      if (std::abs(m[i][j] - m[j][i]) > kSymmetryTolerance * scale) {
+        json.fault("matrix", fmt::format("must be symmetric, but [{0}][{1}] is {2} and [{1}][{0}] "
+                                         "is {3}",
+                                         i, j, m[i][j], m[j][i]));
+      }
+    }
+  }
+}
+
+EstimatorParameter parameter_from_json(JsonObject json) {
+  EstimatorParameter parameter;
+  parameter.name = json.string("name");
+  const auto id = parameter_by_name(parameter.name);
+  if (!id && !parameter.name.empty()) {
+    json.fault("name", fmt::format("no parameter is called '{}'", parameter.name));
+  }
+  parameter.value = json.nullable_number("value").value_or(kNaN);
+  parameter.std_error = json.nullable_number("std_error", kNonNegative);
+  parameter.ci95 = json.nullable_interval("ci95");
+  json.reject_unknown_keys();
+  return parameter;
+}
+
+}  // namespace
+
+Json number_or_null(const std::optional<double>& value) {
+  if (!value || !std::isfinite(*value)) return nullptr;
+  return *value;
+}
+
+Json interval_or_null(const std::optional<Interval>& interval) {
+  if (!interval || !std::isfinite(interval->lo) || !std::isfinite(interval->hi)) return nullptr;
+  return Json::array({interval->lo, interval->hi});
+}
+
+Json report_to_json(const EstimatorReport& report) {
+  Json json;
+  json["subject"] = report.subject;
+  json["estimator"] = report.estimator;
+  json["noise"] = report.noise;
+  json["parameters"] = Json::array();
+  for (const EstimatorParameter& parameter : report.parameters) {
+    Json entry;
+    entry["name"] = parameter.name;
+    entry["value"] = number_or_null(parameter.value);
+    entry["std_error"] = number_or_null(parameter.std_error);
+    entry["ci95"] = interval_or_null(parameter.ci95);
+    json["parameters"].push_back(std::move(entry));
+  }
+  json["residual_std"] = number_or_null(report.residual_std);
+  json["rows_used"] = report.rows_used;
+  json["degrees_of_freedom"] = report.degrees_of_freedom;
+  json["rank"] = report.rank;
+  json["condition_number"] = number_or_null(report.condition_number);
+  json["stop_reason"] = report.stop_reason;
+  return json;
+}
+
+EstimatorReport report_from_json(JsonObject json) {
+  EstimatorReport report;
+  report.subject = json.string("subject");
+  report.estimator = json.string("estimator");
+  report.noise = json.string("noise");
+  for (JsonObject& parameter : json.objects("parameters")) {
+    report.parameters.push_back(parameter_from_json(parameter));
+  }
+  // Without degrees of freedom there is no residual spread; a rank-deficient fit has no finite
+  // condition number.
+  report.residual_std = json.nullable_number("residual_std", kNonNegative).value_or(kNaN);
+  report.rows_used = count(json, "rows_used");
+  report.degrees_of_freedom = count(json, "degrees_of_freedom");
+  report.rank = count(json, "rank");
+  report.condition_number =
+      json.nullable_number("condition_number", kNonNegative).value_or(kInfinity);
+  report.stop_reason = json.string("stop_reason");
+  json.reject_unknown_keys();
+  return report;
+}
+
+Json covariance_to_json(const Covariance& covariance) {
+  Json json;
+  json["parameters"] = Json::array();
+  for (const ParameterId id : covariance.parameters) json["parameters"].push_back(info(id).name);
+  json["matrix"] = covariance.matrix;
+  return json;
+}
+
+Covariance covariance_from_json(JsonObject json, const Json& document) {
+  Covariance covariance;
+  const std::vector<std::string> names = json.strings("parameters");
+  for (const std::string& name : names) {
+    const auto id = parameter_by_name(name);
+    if (!id) {
+      json.fault("parameters", fmt::format("no parameter is called '{}'", name));
+    } else if (std::count(names.begin(), names.end(), name) > 1) {
+      json.fault("parameters", fmt::format("'{}' is there twice", name));
+    } else {
+      covariance.parameters.push_back(*id);
+    }
+  }
+  static const Json::json_pointer kMatrix("/covariance/matrix");
+  if (!document.contains(kMatrix)) {
+    json.fault("matrix", "missing");
+  } else {
+    covariance.matrix = matrix_from_json(json, document[kMatrix], names.size());
+    check_covariance(json, covariance.matrix);
+  }
+  json.ignore("matrix");
+  json.reject_unknown_keys();
+  return covariance;
+}
+
+Json finding_to_json(const Finding& finding) {
+  Json json;
+  json["file"] = finding.file;
+  json["line"] = finding.line;
+  json["severity"] = kSeverities[static_cast<std::size_t>(finding.severity)];
+  json["code"] = finding.code;
+  json["message"] = finding.message;
+  return json;
+}
+
+Finding finding_from_json(JsonObject json) {
+  Finding finding;
+  finding.file = json.string("file");
+  finding.line = count(json, "line");
+  finding.severity = static_cast<Severity>(json.choice("severity", kSeverities));
+  finding.code = json.string("code");
+  finding.message = json.string("message");
+  json.reject_unknown_keys();
+  return finding;
+}
+
+Json trial_to_json(const TrialPoint& trial) {
+  Json json;
+  json["kind"] = trial.kind;
+  json["file"] = trial.file;
+  json["line"] = trial.line;
+  json["input"] = trial.input;
+  json["measured"] = trial.measured;
+  json["predicted"] = number_or_null(trial.predicted);
+  return json;
+}
+
+TrialPoint trial_from_json(JsonObject json) {
+  TrialPoint trial;
+  trial.kind = kTrialKinds[json.choice("kind", kTrialKinds)];
+  trial.file = json.string("file");
+  trial.line = count(json, "line");
+  trial.input = json.number("input");
+  trial.measured = json.number("measured");
+  trial.predicted = json.nullable_number("predicted");
+  json.reject_unknown_keys();
+  return trial;
+}
+
+}  // namespace awmr

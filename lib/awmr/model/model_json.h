@@ -1,0 +1,27 @@
+/// The parts of model.json that are lists: each as JSON and back. Private to this folder.
+#pragma once
+
+#include "awmr/core/json.h"
+#include "awmr/model/model.h"
+
+namespace awmr {
+
+/// JSON has no infinity and no NaN: both are written as null.
+Json number_or_null(const std::optional<double>& value);
+Json interval_or_null(const std::optional<Interval>& interval);
+
+Json report_to_json(const EstimatorReport& report);
+EstimatorReport report_from_json(JsonObject json);
+
+Json covariance_to_json(const Covariance& covariance);
+/// Faults: unknown or repeated parameters; a matrix that is not square over them, not symmetric, or
+/// has a negative variance.
+Covariance covariance_from_json(JsonObject json, const Json& document);
+
+Json finding_to_json(const Finding& finding);
+Finding finding_from_json(JsonObject json);
+
+Json trial_to_json(const TrialPoint& trial);
+TrialPoint trial_from_json(JsonObject json);
+
+}  // namespace awmr

@@ -1,0 +1,43 @@
+/// Elementary functions for any scalar. Freestanding C++14.
+///
+/// Templates write `using math::sin; sin(x)`: float and double come from here, ceres::Jet and other
+/// scalars from their own namespace by argument-dependent lookup.
+#pragma once
+
+#include <math.h>
+
+namespace awmr {
+namespace math {
+
+inline float abs(float x) { return ::fabsf(x); }
+inline double abs(double x) { return ::fabs(x); }
+inline float sqrt(float x) { return ::sqrtf(x); }
+inline double sqrt(double x) { return ::sqrt(x); }
+inline float sin(float x) { return ::sinf(x); }
+inline double sin(double x) { return ::sin(x); }
+inline float cos(float x) { return ::cosf(x); }
+inline double cos(double x) { return ::cos(x); }
+inline float atan(float x) { return ::atanf(x); }
+inline double atan(double x) { return ::atan(x); }
+inline float atan2(float y, float x) { return ::atan2f(y, x); }
+inline double atan2(double y, double x) { return ::atan2(y, x); }
+inline float pow(float x, float y) { return ::powf(x, y); }
+inline double pow(double x, double y) { return ::pow(x, y); }
+
+/// sat(x, limit): x inside [-limit, limit], the nearer end outside.
+template <class T>
+T saturate(const T& x, const T& limit) {
+  if (x > limit) return limit;
+  if (x < -limit) return -limit;
+  return x;
+}
+
+template <class T>
+T clamp(const T& x, const T& lo, const T& hi) {
+  if (x > hi) return hi;
+  if (x < lo) return lo;
+  return x;
+}
+
+}  // namespace math
+}  // namespace awmr

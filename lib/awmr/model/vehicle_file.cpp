@@ -1,0 +1,108 @@
+#include <fmt/format.h>
+
+#include "awmr/core/units.h"
+#include "awmr/model/vehicle.h"
+#include "vehicle_json.h"
+
+namespace awmr {
+namespace {
+
+constexpr std::string_view kSchema = "awmr.vehicle/1";
+
+/// F' is over the largest force of one motor, so it lies within [-1, 1]; forward thrust must exist.
+Interval wheel_force_from_json(JsonObject json) {
+  Interval force;
+  force.lo = json.number("min", {.min = -1.0, .max = 1.0});
+  force.hi = json.number("max", {.min = 0.0, .max = 1.0, .min_excluded = true});
+  if (force.lo >= force.hi) {
+    json.fault("min",
+               fmt::format("must be below max, found min {} and max {}", force.lo, force.hi));
+  }
+  json.reject_unknown_keys();
+  return force;
+}
+
+/// The exponents among which a fit may choose.
+Interval beta_range_from_json(JsonObject& json, std::string_view key, Interval absent) {
+  const Interval range = json.optional_interval(key).value_or(absent);
+  if (range.lo < 0.0) {
+    json.fault(key, fmt::format("an exponent below 0 is a resistance that falls with speed; found "
+                                "[{}, {}], give a lower end of at least 0",
+                                range.lo, range.hi));
+  } else if (range.lo == range.hi) {
+    json.fault(key, fmt::format("must not be empty, found [{}, {}]", range.lo, range.hi));
+  }
+  return range;
+}
+
+void steering_from_json(JsonObject json, Vehicle& vehicle) {
+  vehicle.steering_max_deg = json.number("max_deg", kPositive);
+  if (vehicle.steering_max_deg >= 90.0) {
+    json.fault("max_deg", fmt::format("must be below 90, found {}", vehicle.steering_max_deg));
+  }
+  vehicle.steering_max_rate_degps = json.number("max_rate_degps", kPositive);
+  vehicle.steering_time_constant_s = json.number("time_constant_s", kPositive);
+  json.reject_unknown_keys();
+}
+
+}  // namespace
+
+Vehicle vehicle_from_json(JsonObject& json) {
+  Vehicle vehicle;
+  json.schema(kSchema);
+  vehicle.name = json.string("name");
+  vehicle.mass_kg = json.number("mass_kg", kPositive);
+  vehicle.length_m = json.number("length_m", kPositive);
+  vehicle.width_m = json.number("width_m", kPositive);
+  vehicle.front_axle_m = json.number("front_axle_m", kPositive);
+  vehicle.half_track_m = json.number("half_track_m", kPositive);
+  vehicle.wheel_force = wheel_force_from_json(json.object("wheel_force"));
+  steering_from_json(json.object("steering"), vehicle);
+  vehicle.sample_time_s = json.number("sample_time_s", kPositive);
+  vehicle.yaw_inertia_kgm2 = json.optional_number("yaw_inertia_kgm2", kPositive);
+  vehicle.sway_alpha = json.optional_number("sway_alpha", kPositive);
+  vehicle.surge_beta_range =
+      beta_range_from_json(json, "surge_beta_range", vehicle.surge_beta_range);
+  vehicle.yaw_beta_range = beta_range_from_json(json, "yaw_beta_range", vehicle.yaw_beta_range);
+  json.reject_unknown_keys();
+  return vehicle;
+}
+
+Json vehicle_to_json(const Vehicle& vehicle) {
+  Json json;
+  json["schema"] = kSchema;
+  json["name"] = vehicle.name;
+  json["mass_kg"] = vehicle.mass_kg;
+  json["length_m"] = vehicle.length_m;
+  json["width_m"] = vehicle.width_m;
+  json["front_axle_m"] = vehicle.front_axle_m;
+  json["half_track_m"] = vehicle.half_track_m;
+  json["wheel_force"]["min"] = vehicle.wheel_force.lo;
+  json["wheel_force"]["max"] = vehicle.wheel_force.hi;
+  json["steering"]["max_deg"] = vehicle.steering_max_deg;
+  json["steering"]["max_rate_degps"] = vehicle.steering_max_rate_degps;
+  json["steering"]["time_constant_s"] = vehicle.steering_time_constant_s;
+  json["sample_time_s"] = vehicle.sample_time_s;
+  if (vehicle.yaw_inertia_kgm2) json["yaw_inertia_kgm2"] = *vehicle.yaw_inertia_kgm2;
+  if (vehicle.sway_alpha) json["sway_alpha"] = *vehicle.sway_alpha;
+  json["surge_beta_range"] = {vehicle.surge_beta_range.lo, vehicle.surge_beta_range.hi};
+  json["yaw_beta_range"] = {vehicle.yaw_beta_range.lo, vehicle.yaw_beta_range.hi};
+  return json;
+}
+
+double Vehicle::inertia_kgm2() const {
+  // Iz = m (a^2 + b^2)/12                                                       [paper (65)]
+  return yaw_inertia_kgm2.value_or(mass_kg * (width_m * width_m + length_m * length_m) / 12.0);
+}
+
+Result<Vehicle> read_vehicle(const std::filesystem::path& path) {
+  const auto json = read_json_file(path);
+  if (!json) return tl::unexpected(json.error());
+  std::vector<Fault> faults;
+  JsonObject root(*json, path.string(), "", faults);
+  Vehicle vehicle = vehicle_from_json(root);
+  if (!faults.empty()) return input_errors(std::move(faults));
+  return vehicle;
+}
+
+}  // namespace awmr

@@ -1,0 +1,164 @@
+#include "awmr/report/report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <regex>
+#include <sstream>
+#include <vector>
+
+#include "awmr/core/csv.h"
+#include "awmr/core/file.h"
+#include "awmr/core/json.h"
+#include "awmr/core/units.h"
+
+namespace awmr {
+
+extern const std::string_view kChartJs;
+extern const std::string_view kPageHtml;
+extern const std::string_view kPageCss;
+extern const std::string_view kPageJs;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMaxPoints = 600;  ///< of one line in a chart
+
+/// JSON inside a script element: `<` is escaped, so that no text can close the element.
+std::string script_safe(const Json& json) {
+  std::string text;
+  for (const char c : json.dump()) {
+    if (c == '<') {
+      text += "\\u003c";
+    } else {
+      text += c;
+    }
+  }
+  return text;
+}
+
+/// Every so-manieth row of a run, angles in degrees.
+Result<Json> read_run(const fs::path& path) {
+  const std::vector<CsvColumn> columns{
+      {"t_s", true},        {"x_m", true},         {"y_m", true},
+      {"psi_rad", true},    {"u_mps", true},       {"r_radps", true},
+      {"force_left", true}, {"force_right", true}, {"steering_cmd_rad", true}};
+  const auto table = read_csv(path, columns);
+  if (!table) return tl::unexpected(table.error());
+  Json rows = Json::array();
+  const std::size_t stride = 1 + table->rows() / kMaxPoints;
+  const auto rounded = [](double x) { return std::stod(fmt::format("{:.5g}", x)); };
+  for (std::size_t i = 0; i < table->rows(); i += stride) {
+    const auto at = [&](const char* name) { return table->column(name)[i]; };
+    rows.push_back({{"t_s", rounded(at("t_s"))},
+                    {"x_m", rounded(at("x_m"))},
+                    {"y_m", rounded(at("y_m"))},
+                    {"psi_deg", rounded(degrees(at("psi_rad")))},
+                    {"u_mps", rounded(at("u_mps"))},
+                    {"r_degps", rounded(degrees(at("r_radps")))},
+                    {"force_left", rounded(at("force_left"))},
+                    {"force_right", rounded(at("force_right"))},
+                    {"steering_cmd_deg", rounded(degrees(at("steering_cmd_rad")))}});
+  }
+  return rows;
+}
+
+/// The files `run_<scenario>_<mode>_<gains>.csv`, by name.
+Result<Json> read_runs(const fs::path& directory) {
+  static const std::regex pattern("run_(.+)_(differential|steering|combined)_(tuned|paper)\\.csv");
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(directory)) files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  Json runs = Json::array();
+  for (const fs::path& file : files) {
+    const std::string name = file.filename().string();
+    std::smatch match;
+    if (!std::regex_match(name, match, pattern)) continue;
+    auto rows = read_run(file);
+    if (!rows) return tl::unexpected(rows.error());
+    runs.push_back({{"scenario", match[1].str()},
+                    {"mode", match[2].str()},
+                    {"gains", match[3].str()},
+                    {"rows", std::move(*rows)}});
+  }
+  return runs;
+}
+
+/// comparison.csv as it is, one object a row: empty cells are metrics without meaning there.
+Result<Json> read_comparison(const fs::path& path) {
+  const auto text = read_file(path);
+  if (!text) return tl::unexpected(text.error());
+  const auto cells = [](const std::string& line) {
+    std::vector<std::string> result;
+    std::size_t start = 0;
+    while (true) {
+      const std::size_t end = line.find(',', start);
+      result.push_back(line.substr(start, end - start));
+      if (end == std::string::npos) return result;
+      start = end + 1;
+    }
+  };
+  std::istringstream lines(*text);
+  std::string line;
+  std::getline(lines, line);
+  const std::vector<std::string> names = cells(line);
+  Json rows = Json::array();
+  for (int number = 2; std::getline(lines, line); ++number) {
+    const std::vector<std::string> values = cells(line);
+    if (values.size() != names.size()) {
+      return input_error(fmt::format("{}:{}:1", path.string(), number),
+                         fmt::format("expected {} cells, found {}", names.size(), values.size()));
+    }
+    Json row;
+    for (std::size_t i = 0; i < names.size(); ++i) row[names[i]] = values[i];
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+/// Each `@name@` of the page's frame, once, replaced by its part.
+std::string assembled(const Json& data) {
+  std::string page;
+  std::string_view rest = kPageHtml;
+  while (true) {
+    const std::size_t start = rest.find('@');
+    page += rest.substr(0, start);
+    if (start == std::string_view::npos) return page;
+    const std::size_t end = rest.find('@', start + 1);
+    const std::string_view name = rest.substr(start + 1, end - start - 1);
+    if (name == "css") page += kPageCss;
+    if (name == "chart") page += kChartJs;
+    if (name == "data") page += script_safe(data);
+    if (name == "js") page += kPageJs;
+    rest.remove_prefix(end + 1);
+  }
+}
+
+}  // namespace
+
+Result<std::string> report_html(const fs::path& directory) {
+  Json data;
+  auto model = read_json_file(directory / "model.json");
+  if (!model) return tl::unexpected(model.error());
+  data["model"] = std::move(*model);
+  for (const char* name : {"gains", "validation"}) {
+    const fs::path path = directory / (std::string(name) + ".json");
+    if (!fs::exists(path)) continue;
+    auto json = read_json_file(path);
+    if (!json) return tl::unexpected(json.error());
+    data[name] = std::move(*json);
+  }
+  if (const fs::path path = directory / "comparison.csv"; fs::exists(path)) {
+    auto rows = read_comparison(path);
+    if (!rows) return tl::unexpected(rows.error());
+    if (!rows->empty()) data["comparison_csv"] = std::move(*rows);
+  }
+  auto runs = read_runs(directory);
+  if (!runs) return tl::unexpected(runs.error());
+  data["runs"] = std::move(*runs);
+  return assembled(data);
+}
+
+}  // namespace awmr

@@ -1,0 +1,35 @@
+/// What one run is judged by: the columns of comparison.csv. A metric without meaning for the run's
+/// guidance is absent, never 0.
+#pragma once
+
+#include <optional>
+
+#include "awmr/simulate/scenario.h"
+#include "awmr/simulate/simulate.h"
+
+namespace awmr {
+
+struct Metrics {
+  bool completed = true;  ///< the guidance's goal was reached (for headings: settled after every step)
+  /// Longest over the steps: from the step until |e| stays within 2 % of the step's size (at least 0.5 deg).
+  std::optional<double> settling_time_s;
+  /// Largest travel beyond a commanded heading in the direction of its step, deg, >= 0.
+  std::optional<double> overshoot_deg;
+  std::optional<double> heading_iae_degs;   ///< integral of |e|
+  std::optional<double> heading_itae_degs2; ///< integral of t |e|, t from each step (for tuning)
+  std::optional<double> cross_track_rms_m;
+  double path_length_m = 0.0;
+  /// Commanded speed minus the least speed after it was first reached within 2 %, >= 0.
+  std::optional<double> speed_drop_mps;
+  double sideslip_max_deg = 0.0;  ///< |atan2(v, u)| where the vehicle moves faster than 0.05 m/s
+  double yaw_rate_max_degps = 0.0;
+  /// Total variation of the commanded d_r/d_max, F'L/F'max and F'R/F'max, summed, per second.
+  double control_variation = 0.0;
+  double control_effort = 0.0;    ///< mean of F'L^2 + F'R^2 + (d_r/d_max)^2 over the run
+  std::optional<double> clearance_min_m;
+  std::optional<double> finish_time_s;
+};
+
+Metrics metrics_of(const Run& run, const Scenario& scenario, const Controller<double>& controller);
+
+}  // namespace awmr

@@ -1,0 +1,58 @@
+#include "agreement.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace awmr {
+namespace {
+
+constexpr double kStopWatchError_s = 0.2;
+constexpr double kAutomaticTiming_s = 1e-3;
+constexpr double kCourseError = 0.005;
+constexpr double kLargestRoundingShare = 0.05;
+
+/// Decimal places of a number written with up to 12 significant digits: 79.16 has 2, 1e-05 has 5.
+/// 12 undo the last-digit noise of a mapping's scale and offset.
+int decimal_places(double value) {
+  const std::string text = fmt::format("{:.11e}", value);  // d.ddddddddddde[+-]dd
+  const std::size_t exponent_mark = text.find('e');
+  const std::size_t last_digit = text.find_last_not_of('0', exponent_mark - 1);
+  const std::size_t point = text.find('.');
+  const int digits = last_digit > point ? static_cast<int>(last_digit - point) : 0;
+  return std::max(0, digits - std::stoi(text.substr(exponent_mark + 1)));
+}
+
+}  // namespace
+
+double last_place(const CsvTable& table, std::string_view column,
+                  std::span<const ColumnMapping> mappings) {
+  double scale = 1.0;
+  double offset = 0.0;
+  for (const ColumnMapping& mapping : mappings) {
+    if (mapping.name != column || mapping.scale == 0.0) continue;
+    scale = mapping.scale;
+    offset = mapping.offset;
+  }
+  int places = 0;
+  for (const double value : table.column(column)) {
+    places = std::max(places, decimal_places((value - offset) / scale));
+  }
+  return std::abs(scale) * std::pow(10.0, -places);
+}
+
+double rounding_error(double printed, double last_place) {
+  return std::min(0.5 * last_place, kLargestRoundingShare * std::abs(printed));
+}
+
+double timing_error(double timed, double elapsed_s, double elapsed_last_place) {
+  // The slack of 1e-9 is for a last place that pow() gives as 1.0000000000000002e-3.
+  const double timing_s = elapsed_last_place <= kAutomaticTiming_s * (1.0 + 1e-9)
+                              ? elapsed_last_place
+                              : kStopWatchError_s;
+  return std::abs(timed) * (timing_s / elapsed_s + kCourseError);
+}
+
+}  // namespace awmr

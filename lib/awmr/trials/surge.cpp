@@ -1,0 +1,82 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "trial_reader.h"
+
+namespace awmr {
+namespace {
+
+const CsvColumn kColumns[] = {{"tau_speed", false},
+                              {"wheel_force", false},
+                              {"speed_mps", false},
+                              {"distance_m", false},
+                              {"elapsed_s", false}};
+
+const Rate kSpeed{.printed_column = "speed_mps",
+                  .amount_column = "distance_m",
+                  .per_amount = 1.0,
+                  .code = "speed-mismatch"};
+
+void check_columns(TrialReader& reader) {
+  if (!reader.has("tau_speed") && !reader.has("wheel_force")) {
+    reader.header_fault("no thrust: add a column tau_speed, or wheel_force (tau_speed = 4 F')");
+  }
+  if (!reader.has("speed_mps") && !(reader.has("distance_m") && reader.has("elapsed_s"))) {
+    reader.header_fault("no speed: add a column speed_mps, or distance_m and elapsed_s");
+  }
+}
+
+/// tau_speed as printed, else from the force of one wheel.
+double tau_speed_of(TrialReader& reader, std::size_t row, std::vector<Finding>& findings) {
+  const auto printed = reader.non_negative(row, "tau_speed");
+  const auto wheel_force = reader.non_negative(row, "wheel_force");
+  if (!wheel_force) return *printed;
+  // tau_speed = (F'L + F'R)(cos d_r + 1) = 4 F' at d_r = 0                           [paper (41)]
+  const double from_wheels = 4.0 * *wheel_force;
+  if (!printed) return from_wheels;
+  const double tolerance = reader.rounding_error(*printed, "tau_speed") +
+                           4.0 * reader.rounding_error(*wheel_force, "wheel_force");
+  if (std::abs(*printed - from_wheels) > tolerance) {
+    findings.push_back(
+        reader.finding(row, Severity::kWarning, "tau-speed-mismatch",
+                       fmt::format("tau_speed is {}, but 4 x wheel_force {} makes {:.4g}; the "
+                                   "printed value {} is used",
+                                   *printed, *wheel_force, from_wheels, *printed)));
+  }
+  return *printed;
+}
+
+}  // namespace
+
+Result<TrialSet<SurgeRow>> read_surge(const std::filesystem::path& path,
+                                      const TrialOptions& options, std::vector<Finding>& findings) {
+  auto table = read_csv(path, kColumns, options.columns);
+  if (!table) return tl::unexpected(table.error());
+  TrialReader reader(std::move(*table), options);
+  check_columns(reader);
+  if (!reader.faults().empty()) return input_errors(std::move(reader.faults()));
+
+  TrialSet<SurgeRow> set{reader.table().file(), {}, 0};
+  std::vector<std::size_t> set_aside;
+  for (std::size_t i = 0; i < reader.table().rows(); ++i) {
+    const double tau_speed = tau_speed_of(reader, i, findings);
+    const auto printed = reader.non_negative(i, "speed_mps");
+    const auto speed = rate_of(reader, i, kSpeed, printed, options.preference, findings);
+    if (!speed) continue;
+    if (tau_speed == 0.0 || speed->used == 0.0) {
+      set_aside.push_back(i);
+      continue;
+    }
+    set.rows.push_back(
+        {reader.table().line(i), tau_speed, speed->used, speed->amount, speed->elapsed_s});
+  }
+  if (!reader.faults().empty()) return input_errors(std::move(reader.faults()));
+  set.set_aside = static_cast<int>(set_aside.size());
+  note_rows_set_aside(reader, set_aside,
+                      "at rest or without thrust, a run shows nothing of tau_speed = a1 u^b1",
+                      findings);
+  return set;
+}
+
+}  // namespace awmr

@@ -1,0 +1,110 @@
+#include "trial_reader.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "agreement.h"
+
+namespace awmr {
+
+std::optional<double> TrialReader::cell(std::size_t row, std::string_view column) const {
+  if (!table_.has(column)) return std::nullopt;
+  return table_.column(column)[row];
+}
+
+std::optional<double> TrialReader::non_negative(std::size_t row, std::string_view column) {
+  const std::optional<double> value = cell(row, column);
+  if (value && *value < 0.0) {
+    fault(row, column, fmt::format("{} must not be negative, found {}", column, *value));
+  }
+  return value;
+}
+
+void TrialReader::fault(std::size_t row, std::string_view column, std::string message) {
+  faults_.push_back({table_.place(row, column), std::move(message)});
+}
+
+void TrialReader::header_fault(std::string message) {
+  faults_.push_back({table_.header_place(), std::move(message)});
+}
+
+Finding TrialReader::finding(std::size_t row, Severity severity, std::string code,
+                             std::string message) const {
+  return {table_.file(), table_.line(row), severity, std::move(code), std::move(message)};
+}
+
+double TrialReader::last_place(std::string_view column) const {
+  return awmr::last_place(table_, column, options_.columns);
+}
+
+double TrialReader::rounding_error(double printed, std::string_view column) const {
+  return awmr::rounding_error(printed, last_place(column));
+}
+
+namespace {
+
+Finding mismatch(const TrialReader& reader, std::size_t row, const Rate& rate, double printed,
+                 double timed, double tolerance, Preference preference) {
+  const double amount = *reader.cell(row, rate.amount_column);
+  const double elapsed_s = *reader.cell(row, "elapsed_s");
+  const bool use_printed = preference == Preference::kPrinted;
+  return reader.finding(
+      row, Severity::kWarning, rate.code,
+      fmt::format(
+          "{} is {}, but {} {} in elapsed_s {} make {:.4g}: {:.2g} apart, where rounding and "
+          "timing explain {:.2g}; the {} value {:.4g} is used",
+          rate.printed_column, printed, rate.amount_column, amount, elapsed_s, timed,
+          std::abs(printed - timed), tolerance, use_printed ? "printed" : "timed",
+          use_printed ? printed : timed));
+}
+
+}  // namespace
+
+std::optional<RateInRow> rate_of(TrialReader& reader, std::size_t row, const Rate& rate,
+                                 std::optional<double> printed, Preference preference,
+                                 std::vector<Finding>& findings) {
+  const std::size_t faults_before = reader.faults().size();
+  const auto amount = reader.non_negative(row, rate.amount_column);
+  const auto elapsed_s = reader.non_negative(row, "elapsed_s");
+  if (reader.faults().size() > faults_before) return std::nullopt;
+  const bool counted = amount && elapsed_s;
+  if (!counted) return RateInRow{printed.value_or(0.0), {}, {}};
+
+  if (*elapsed_s == 0.0) {
+    // A row at rest may carry 0 for its time; motion may not. The amount counts only where no
+    // printed value says that the vehicle stood.
+    const double motion = printed.value_or(*amount);
+    if (motion != 0.0) {
+      reader.fault(row, "elapsed_s",
+                   fmt::format("elapsed_s is 0 in a row that moves ({} {}); give the time it took",
+                               printed ? rate.printed_column : rate.amount_column, motion));
+      return std::nullopt;
+    }
+    return RateInRow{};
+  }
+  const double timed = rate.per_amount * *amount / *elapsed_s;
+  if (!printed) return RateInRow{timed, amount, elapsed_s};
+
+  const double tolerance = reader.rounding_error(*printed, rate.printed_column) +
+                           timing_error(timed, *elapsed_s, reader.last_place("elapsed_s"));
+  if (std::abs(*printed - timed) > tolerance) {
+    findings.push_back(mismatch(reader, row, rate, *printed, timed, tolerance, preference));
+  }
+  return RateInRow{preference == Preference::kPrinted ? *printed : timed, amount, elapsed_s};
+}
+
+void note_rows_set_aside(const TrialReader& reader, std::span<const std::size_t> rows,
+                         std::string_view why, std::vector<Finding>& findings) {
+  if (rows.empty()) return;
+  std::string lines;
+  for (const std::size_t row : rows) {
+    lines += fmt::format("{}{}", lines.empty() ? "" : ", ", reader.table().line(row));
+  }
+  findings.push_back(
+      reader.finding(rows.front(), Severity::kNote, "rows-set-aside",
+                     fmt::format("{} of {} rows set aside (line{} {}): {}", rows.size(),
+                                 reader.table().rows(), rows.size() == 1 ? "" : "s", lines, why)));
+}
+
+}  // namespace awmr

@@ -1,0 +1,66 @@
+/// What the readers of the three trial files share. Private to this folder.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "awmr/trials/trials.h"
+
+namespace awmr {
+
+/// The cells of one file, with the faults found in them.
+class TrialReader {
+ public:
+  TrialReader(CsvTable table, const TrialOptions& options)
+      : table_(std::move(table)), options_(options) {}
+
+  const CsvTable& table() const { return table_; }
+  bool has(std::string_view column) const { return table_.has(column); }
+  /// The cell, or nothing where the file has no such column.
+  std::optional<double> cell(std::size_t row, std::string_view column) const;
+  /// As cell(); a negative value is a fault.
+  std::optional<double> non_negative(std::size_t row, std::string_view column);
+
+  void fault(std::size_t row, std::string_view column, std::string message);
+  void header_fault(std::string message);
+  std::vector<Fault>& faults() { return faults_; }
+
+  Finding finding(std::size_t row, Severity severity, std::string code, std::string message) const;
+
+  double last_place(std::string_view column) const;
+  double rounding_error(double printed, std::string_view column) const;
+
+ private:
+  CsvTable table_;
+  const TrialOptions& options_;
+  std::vector<Fault> faults_;
+};
+
+/// A quantity as printed in `printed_column`, and as `amount` over `elapsed_s` of the same row.
+struct Rate {
+  std::string_view printed_column;  ///< "speed_mps"
+  std::string_view amount_column;   ///< "distance_m", "turns"
+  double per_amount = 1.0;          ///< 2 pi rad in a turn
+  std::string code;                 ///< of the finding where the two disagree
+};
+
+struct RateInRow {
+  double used = 0.0;
+  std::optional<double> amount;  ///< only where the row was timed: elapsed_s > 0
+  std::optional<double> elapsed_s;
+};
+
+/// Takes the rate of a row, magnitudes throughout; adds a finding where its two values disagree,
+/// and a fault where a value is negative or motion takes no time. Nothing on a fault.
+std::optional<RateInRow> rate_of(TrialReader& reader, std::size_t row, const Rate& rate,
+                                 std::optional<double> printed, Preference preference,
+                                 std::vector<Finding>& findings);
+
+/// The note that says how many rows were set aside, and which.
+void note_rows_set_aside(const TrialReader& reader, std::span<const std::size_t> rows,
+                         std::string_view why, std::vector<Finding>& findings);
+
+}  // namespace awmr

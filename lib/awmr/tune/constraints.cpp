@@ -1,0 +1,100 @@
+#include "awmr/tune/constraints.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "awmr/core/units.h"
+#include "awmr/tune/sampled_loop.h"
+
+namespace awmr {
+namespace {
+
+ConstraintReport report(std::string name, double value, double limit, std::string meaning,
+                        bool required = true) {
+  return {.name = std::move(name),
+          .value = value,
+          .limit = limit,
+          .margin = limit - value,
+          .meaning = std::move(meaning),
+          .required = required};
+}
+
+/// The worst of the three modes and of the yaw rates met on the way.
+double heading_damping(const Gains<double>& gains, const ConstraintContext& context) {
+  double worst = 1.0;
+  for (const double rate_degps : {1.0, 5.0, 20.0, 60.0}) {
+    // g3'(r) = a3 b3 r^(b3 - 1)
+    const Resistance<double>& g3 = context.plant.yaw;
+    const double slope = g3.alpha * g3.beta * std::pow(radians(rate_degps), g3.beta - 1.0);
+    for (const double direct_share : {1.0, 0.5, 0.0}) {
+      worst = std::min(
+          worst, damping_ratio({.lambda = gains.heading.lambda,
+                                .reaching_rate = gains.heading.mu / gains.heading.epsilon,
+                                .resistance_rate = slope / context.plant.inertia_norm,
+                                .servo_time_constant_s = context.plant.steering_time_constant_s,
+                                .sample_time_s = context.sample_time_s,
+                                .direct_share = direct_share}));
+    }
+  }
+  return worst;
+}
+
+}  // namespace
+
+double turning_authority_m(const ConstraintContext& context) {
+  const Plant<double>& plant = context.plant;
+  const double tau_speed = plant.surge(context.speed_mps);
+  const double steering = plant.front_axle_m * tau_speed * std::tan(plant.steering_max_rad / 2.0);
+  const double differential =
+      4.0 * plant.half_track_m *
+      std::min(context.wheel_force.hi - tau_speed / 4.0, tau_speed / 4.0 - context.wheel_force.lo);
+  if (!(steering > 0.0)) return differential;
+  if (!(differential > 0.0)) return steering;
+  return std::min(steering, differential);
+}
+
+std::vector<ConstraintReport> constraints_of(const Gains<double>& gains,
+                                             const ConstraintContext& context) {
+  const Plant<double>& plant = context.plant;
+  const double sliding_s = gains.heading.sliding_time_constant_s();
+  const double reaching_s = gains.heading.reaching_time_constant_s();
+  const double speed_rate = gains.speed.mu / gains.speed.epsilon;
+  const double lag_s = plant.steering_time_constant_s + context.sample_time_s / 2.0;
+  const bool strict = context.form == ReachingForm::kStrict;
+  return {
+      report("T2 < T1 (paper)", reaching_s, context.margin * sliding_s,
+             "epsilon/(2 mu) <= margin/lambda, s: V = S^2/2 decays before the error slides",
+             !strict),
+      report("T2 < T1 (strict)", 2.0 * reaching_s, context.margin * sliding_s,
+             "epsilon/mu <= margin/lambda, s: S itself decays before the error slides", strict),
+      report("heading damping", kDampingRequired, heading_damping(gains, context),
+             "required <= smallest damping ratio of the sampled heading loop with hold and servo"),
+      report("speed gain", speed_rate * context.sample_time_s, kSpeedGainPerSample,
+             "(mu_s/epsilon_s) T_s <= 0.5: gain margin 4 of the sampled speed loop"),
+      report("speed lag", speed_rate * lag_s, 1.0 / (4.0 * kDampingRequired * kDampingRequired),
+             "(mu_s/epsilon_s) (T + T_s/2) <= 1/(4 zeta^2), zeta = 0.7"),
+      report("mu dominates",
+             kUnmodelledShare * plant.yaw(kDominatedYawRate_radps) / plant.inertia_norm,
+             gains.heading.mu, "20 % of g3(60 deg/s)/I'z <= mu, rad/s^2"),
+      report("mu_s dominates", kUnmodelledShare * plant.surge(context.speed_mps) / plant.mass_norm,
+             gains.speed.mu, "20 % of g1(u_d)/m' <= mu_s, m/s^2"),
+      report("noise gain",
+             plant.inertia_norm * gains.heading.lambda * gains.heading.mu / gains.heading.epsilon *
+                 kHeadingNoise_rad,
+             kNoiseShare * turning_authority_m(context),
+             "tau_turn from 1 deg of heading noise <= 25 % of the weaker mode's authority, m"),
+  };
+}
+
+std::vector<double> residuals(const std::vector<ConstraintReport>& constraints) {
+  std::vector<double> values;
+  for (const ConstraintReport& c : constraints) {
+    if (!c.required) continue;
+    const double scale = std::max({std::abs(c.value), std::abs(c.limit), 1e-12});
+    values.push_back((c.value - c.limit) / scale);
+  }
+  return values;
+}
+
+}  // namespace awmr

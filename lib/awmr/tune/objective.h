@@ -1,0 +1,74 @@
+/// What the search makes small. Private to tune/.
+///
+/// For each mode and scenario, with x a figure of the run and x0 the same figure with the baseline
+/// gains in the same mode and scenario:
+///
+///     J = sum_i w_i (x_i + f_i)/(x0_i + f_i) / sum_i w_i
+///
+/// over heading ITAE, overshoot, control variation, effort and speed ITAE. f_i is a floor in the
+/// unit of x_i, below which a difference does not matter: the baseline scores exactly 1, even where
+/// its overshoot is 0. The objective is the mean of J over modes and scenarios.
+#pragma once
+
+#include <array>
+#include <iterator>
+#include <vector>
+
+#include "awmr/model/dynamics.h"
+#include "awmr/tune/tune.h"
+
+namespace awmr {
+
+/// One x_i: its weight, the key of its figure in gains.json, and its floor f_i in that figure's
+/// unit.
+struct ObjectiveTerm {
+  const char* name;
+  double ObjectiveWeights::*weight;
+  const char* figure;
+  double floor;
+};
+inline constexpr ObjectiveTerm kObjectiveTerms[] = {
+    {"itae", &ObjectiveWeights::itae, "heading_itae_degs2", 0.1},
+    {"overshoot", &ObjectiveWeights::overshoot, "overshoot_deg", 0.5},
+    {"control_variation", &ObjectiveWeights::control_variation, "control_variation", 0.01},
+    {"effort", &ObjectiveWeights::effort, "control_effort", 1e-3},
+    {"speed_itae", &ObjectiveWeights::speed_itae, "speed_itae_m_s", 1e-3},
+};
+
+/// x_i of one run, in the order of kObjectiveTerms.
+std::array<double, std::size(kObjectiveTerms)> figures_of(const ModeScore& score);
+
+/// J of one run; exactly 1 for the baseline against itself.
+double objective_of(const ModeScore& score, const ModeScore& baseline,
+                    const ObjectiveWeights& weights);
+
+struct Evaluation {
+  std::vector<ModeScore> scores;           ///< by mode, then scenario
+  std::array<double, 3> mode_objective{};  ///< mean over the scenarios, in the order of kYawModes
+  double objective = 0.0;                  ///< mean over the modes; NaN never: see `valid`
+  bool valid = false;  ///< finite, and completes each run that the baseline completes
+};
+
+class Objective {
+ public:
+  /// Precondition: every scenario holds headings; at least one.
+  Objective(const Plant<double>& plant, const Vehicle& vehicle, const ObjectiveWeights& weights,
+            std::vector<Scenario> scenarios, const Gains<double>& baseline);
+
+  /// Simulates the three modes side by side; the result does not depend on the number of cores.
+  Evaluation operator()(const Gains<double>& gains) const;
+  const Evaluation& baseline() const { return baseline_; }
+
+ private:
+  std::vector<ModeScore> run(const Gains<double>& gains, YawMode mode) const;
+  Evaluation simulate_all(const Gains<double>& gains) const;
+  void score(Evaluation& evaluation, const Evaluation& baseline) const;
+
+  Plant<double> plant_;
+  Vehicle vehicle_;
+  ObjectiveWeights weights_;
+  std::vector<Scenario> scenarios_;
+  Evaluation baseline_;
+};
+
+}  // namespace awmr

@@ -1,0 +1,33 @@
+/// The heading loop as it really runs: sampled, its command held, part of it through the servo.
+/// Private to tune/.
+#pragma once
+
+namespace awmr {
+
+/// Linear, inside the boundary layer and at one yaw rate r0, for small psi about the command:
+///
+///     psi_dot = r
+///     r_dot   = -a r + s w + (1 - s) w_lag            a = g3'(r0)/I'z, the plant's own damping
+///     w_lag_dot = (w - w_lag)/T                       the steering servo
+///     w = a r_k - (lambda + k) r_k - lambda k psi_k   the law, k = mu/eps, held over T_s
+///
+/// Without hold and servo, a cancels and s^2 + (lambda + k) s + lambda k has the roots -lambda, -k.
+/// With them the cancellation comes late: a r - a r(t - tau) is about a tau r_dot, an added inertia
+/// of 1 + a tau, and the product (lambda + k) tau takes phase, tau = T + T_s/2. To first order and
+/// with lambda k << (lambda + k)/tau, damping zeta needs (lambda + k) tau <= 1/(4 zeta^2); here the
+/// exact discretisation is used instead.
+struct SampledHeadingLoop {
+  double lambda = 0.0;                 ///< 1/s
+  double reaching_rate = 0.0;          ///< k = mu/eps, 1/s
+  double resistance_rate = 0.0;        ///< a, 1/s
+  double servo_time_constant_s = 0.0;  ///< T, > 0
+  double sample_time_s = 0.0;          ///< T_s, > 0
+  double direct_share = 0.0;           ///< s: 1 differential, 0 steering, 1/2 combined
+};
+
+/// Smallest damping ratio zeta = -Re(s)/|s|, s = ln(z)/T_s, over the eigenvalues z of the closed
+/// loop from one sample to the next. In [-1, 1]; positive exactly when every |z| < 1; a ringing z <
+/// 0 counts with its angle pi.
+double damping_ratio(const SampledHeadingLoop& loop);
+
+}  // namespace awmr

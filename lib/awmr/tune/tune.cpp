@@ -1,0 +1,179 @@
+#include "awmr/tune/tune.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+#include <variant>
+
+#include "awmr/core/units.h"
+#include "awmr/model/gains_file.h"
+#include "awmr/tune/constraints.h"
+#include "awmr/tune/objective.h"
+#include "awmr/tune/search.h"
+
+namespace awmr {
+namespace {
+
+Scenario heading_scenario(std::string name, double first_deg, double second_deg, double speed_mps) {
+  return {.name = std::move(name),
+          .duration_s = 20.0,
+          .initial = {},
+          .speed_mps = speed_mps,
+          .guidance = HeadingSteps{{{0.0, radians(first_deg)}, {10.0, radians(second_deg)}}}};
+}
+
+void check_bounds(const Interval& range, const char* name, std::vector<Fault>& faults) {
+  if (range.lo > 0.0 && range.lo <= range.hi && std::isfinite(range.hi)) return;
+  faults.push_back({"", fmt::format("bounds of {}: [{}, {}], but 0 < lo <= hi is needed", name,
+                                    range.lo, range.hi)});
+}
+
+void check_weights(const ObjectiveWeights& w, std::vector<Fault>& faults) {
+  const double values[] = {w.itae, w.overshoot, w.control_variation, w.effort, w.speed_itae};
+  double sum = 0.0;
+  for (const double value : values) {
+    if (!(value >= 0.0)) faults.push_back({"", fmt::format("weights: {} is below 0", value)});
+    sum += value;
+  }
+  if (!(sum > 0.0) || !std::isfinite(sum)) {
+    faults.push_back({"", "weights: at least one has to be above 0, and all finite"});
+  }
+}
+
+void check_scenarios(const std::vector<Scenario>& scenarios, std::vector<Fault>& faults) {
+  std::set<std::string> names;
+  for (const Scenario& scenario : scenarios) {
+    if (!std::holds_alternative<HeadingSteps>(scenario.guidance)) {
+      faults.push_back({"", fmt::format("scenario '{}' commands no headings; gains are tuned on "
+                                        "guidance of type 'heading'",
+                                        scenario.name)});
+    }
+    if (!names.insert(scenario.name).second) {
+      faults.push_back({"", fmt::format("two scenarios are named '{}'; scores are told apart by "
+                                        "name, so give each its own",
+                                        scenario.name)});
+    }
+  }
+}
+
+Status check(const TuneOptions& options) {
+  std::vector<Fault> faults;
+  if (!(options.margin > 0.0 && options.margin < 1.0)) {
+    faults.push_back({"", fmt::format("margin: {} is not in (0, 1)", options.margin)});
+  }
+  if (options.global_evaluations < 1 || options.local_evaluations < 0) {
+    faults.push_back({"", "evaluations: global at least 1, local at least 0"});
+  }
+  check_weights(options.weights, faults);
+  check_bounds(options.bounds.lambda, "lambda", faults);
+  check_bounds(options.bounds.mu, "mu", faults);
+  check_bounds(options.bounds.epsilon, "epsilon", faults);
+  check_bounds(options.bounds.speed_mu, "speed_mu", faults);
+  check_bounds(options.bounds.speed_epsilon, "speed_epsilon", faults);
+  check_scenarios(options.scenarios, faults);
+  if (!faults.empty()) return input_errors(std::move(faults));
+  return {};
+}
+
+std::string in_words(const Gains<double>& g) {
+  return fmt::format("lambda {:.4g}, mu {:.4g}, epsilon {:.4g}, mu_s {:.4g}, epsilon_s {:.4g}",
+                     g.heading.lambda, g.heading.mu, g.heading.epsilon, g.speed.mu,
+                     g.speed.epsilon);
+}
+
+/// No gains meet the constraints: the one broken most by the gains that come nearest.
+tl::unexpected<Error> infeasible(const Candidate& nearest, const ConstraintContext& context) {
+  const std::vector<ConstraintReport> all = constraints_of(nearest.gains, context);
+  const ConstraintReport* worst = nullptr;
+  double worst_residual = 0.0;
+  for (const ConstraintReport& c : all) {
+    const std::vector<double> residual = residuals({c});
+    if (residual.empty() || residual.front() <= worst_residual) continue;
+    worst = &c;
+    worst_residual = residual.front();
+  }
+  return refusal(fmt::format(
+      "no gains within the bounds meet the constraints: the nearest ({}) break '{}', {:.4g} "
+      "against "
+      "a limit of {:.4g} ({}); raise the margin, choose form 'paper' or widen the bounds",
+      in_words(nearest.gains), worst ? worst->name : "none", worst ? worst->value : 0.0,
+      worst ? worst->limit : 0.0, worst ? worst->meaning : ""));
+}
+
+tl::unexpected<Error> not_better(const SearchResult& found, const Objective& objective) {
+  const Evaluation e = objective(found.nearest.gains);
+  return refusal(fmt::format(
+      "no gains beat the paper's in every mode (1 is theirs): the nearest of {} ({}) score {:.4f} "
+      "differential, {:.4f} steering, {:.4f} combined; give more evaluations, another seed or "
+      "other "
+      "weights, or keep the paper's gains",
+      found.evaluations, in_words(found.nearest.gains), e.mode_objective[0], e.mode_objective[1],
+      e.mode_objective[2]));
+}
+
+bool beats_everywhere(const Evaluation& e) {
+  return e.valid && std::all_of(e.mode_objective.begin(), e.mode_objective.end(),
+                                [](double mode) { return mode < 1.0; });
+}
+
+ConstraintContext context_of(const TuneOptions& options, const Plant<double>& plant,
+                             const Vehicle& vehicle, const std::vector<Scenario>& scenarios) {
+  ConstraintContext context{.form = options.form,
+                            .margin = options.margin,
+                            .plant = plant,
+                            .sample_time_s = vehicle.sample_time_s,
+                            .speed_mps = 0.0,
+                            .wheel_force = vehicle.wheel_force};
+  for (const Scenario& s : scenarios) context.speed_mps = std::max(context.speed_mps, s.speed_mps);
+  return context;
+}
+
+}  // namespace
+
+Scenario default_tuning_scenario() { return heading_scenario("heading_30_-30", 30.0, -30.0, 1.0); }
+
+Scenario held_out_scenario() { return heading_scenario("held_out_60_0", 60.0, 0.0, 0.7); }
+
+Result<Tuning> tune(const Model& model, const std::string& model_file, const TuneOptions& options) {
+  const Status fit = check(options);
+  if (!fit) return tl::unexpected(fit.error());
+  const Result<Plant<double>> plant = model.plant(model_file);
+  if (!plant) return tl::unexpected(plant.error());
+
+  std::vector<Scenario> scenarios = options.scenarios;
+  if (scenarios.empty()) scenarios.push_back(default_tuning_scenario());
+  const ConstraintContext context = context_of(options, *plant, model.vehicle, scenarios);
+  const Candidate start = feasible_start(options, context, kPaperGains);
+  if (start.violation > 0.0) return infeasible(start, context);
+
+  const Objective objective(*plant, model.vehicle, options.weights, scenarios, kPaperGains);
+  const Result<SearchResult> found = search(options, context, objective, start.gains);
+  if (!found) return tl::unexpected(found.error());
+  if (!found->best) return not_better(*found, objective);
+  const Gains<double>& gains = found->best->gains;
+  const Evaluation tuned = objective(gains);
+  if (!beats_everywhere(tuned)) return not_better(*found, objective);
+  const Objective held_out(*plant, model.vehicle, options.weights, {held_out_scenario()},
+                           kPaperGains);
+  const Evaluation judged = held_out(gains);
+
+  return Tuning{.gains = gains,
+                .constraints = constraints_of(gains, context),
+                .objective = tuned.objective,
+                .scores = tuned.scores,
+                .baseline = kPaperGains,
+                .baseline_objective = objective.baseline().objective,
+                .baseline_scores = objective.baseline().scores,
+                .algorithm = found->algorithm,
+                .evaluations = found->evaluations,
+                .stop_reason = found->stop_reason,
+                .seed = options.seed,
+                .simulated = found->simulated,
+                .held_out_scores = judged.scores,
+                .held_out_objective = judged.objective};
+}
+
+}  // namespace awmr

@@ -1,0 +1,118 @@
+/// Gains by search: a global one, then a local one, under T2 < T1 with a margin and the sampled
+/// loop's own limits.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "awmr/core/interval.h"
+#include "awmr/core/provenance.h"
+#include "awmr/core/result.h"
+#include "awmr/model/gains.h"
+#include "awmr/model/model.h"
+#include "awmr/simulate/metrics.h"
+#include "awmr/simulate/scenario.h"
+
+namespace awmr {
+
+/// T2 = eps/(2 mu) as the paper has it, or the decay of S itself, 2 T2.
+enum class ReachingForm { kPaper, kStrict };
+
+/// Weights of the objective's terms, >= 0 and not all 0; each term is over its value with the
+/// baseline gains in the same mode and scenario (see objective.h).
+struct ObjectiveWeights {
+  double itae = 1.0;                ///< heading: integral of t |psi_d - psi|, t from each step
+  double overshoot = 0.5;           ///< heading: travel beyond the command
+  double control_variation = 0.25;  ///< how restless the commands are
+  double effort = 0.25;             ///< how large the commands are
+  double speed_itae = 0.25;  ///< speed: integral of t |u_d - u|; without it mu_s, eps_s are free
+};
+
+/// Where the search looks. Symbols and units as in model/gains.h. Origin: a decade or so either
+/// side of the paper's 3, 50, 12 and of this project's speed gains; what is too fast for the
+/// sampled loop is cut off by the constraints, not by these bounds.
+struct GainBounds {
+  Interval lambda{0.5, 15.0};          ///< 1/s
+  Interval mu{1.0, 200.0};             ///< rad/s^2
+  Interval epsilon{0.1, 50.0};         ///< rad/s
+  Interval speed_mu{0.5, 100.0};       ///< m/s^2
+  Interval speed_epsilon{0.05, 10.0};  ///< m/s
+};
+
+struct TuneOptions {
+  ReachingForm form = ReachingForm::kStrict;
+  double margin = 0.8;  ///< reaching time constant <= margin T1, in (0, 1)
+  ObjectiveWeights weights;
+  int global_evaluations = 300;
+  int local_evaluations = 150;
+  std::uint64_t seed = 1;
+  std::vector<Scenario> scenarios;  ///< empty: the heading scenario 30 then -30 deg at 1 m/s
+  GainBounds bounds;
+  /// The files `scenarios` came from, for the output's list of inputs; empty for the default.
+  std::vector<std::filesystem::path> scenario_files;
+};
+
+/// tune.json (`awmr.tune/1`, --config), strict, every key optional:
+///   schema, form ("paper" | "strict"), margin, weights {itae, overshoot, control_variation,
+///   effort, speed_itae}, bounds {lambda, mu, epsilon, speed_mu, speed_epsilon: [lo, hi]},
+///   global_evaluations, local_evaluations, seed, scenarios [path relative to the file, ...].
+/// Errors (input): as read_json_file and read_scenario; unknown keys, values out of range.
+Result<TuneOptions> read_tune_options(const std::filesystem::path& path);
+
+struct ConstraintReport {
+  std::string name;     ///< "T2 < T1 (strict)", ...
+  double value = 0.0;   ///< left side
+  double limit = 0.0;   ///< right side
+  double margin = 0.0;  ///< limit - value, >= 0 when it holds
+  std::string meaning{};
+  bool required = true;  ///< false: reported only (the form of T2 < T1 that was not asked for)
+};
+
+/// One set of gains on one scenario in one mode.
+struct ModeScore {
+  std::string scenario;
+  YawMode mode{};
+  Metrics metrics{};
+  double objective =
+      0.0;  ///< weighted mean of the normalised terms; 1 for the baseline by definition
+  double speed_itae_m_s = 0.0;  ///< integral of t |u_d - u|, m s
+};
+
+struct Tuning {
+  Gains<double> gains{};
+  std::vector<ConstraintReport> constraints;
+  double objective = 0.0;  ///< mean of `scores`
+  std::vector<ModeScore> scores;
+  Gains<double> baseline{};
+  double baseline_objective = 0.0;
+  std::vector<ModeScore> baseline_scores;
+  std::string algorithm;
+  int evaluations = 0;
+  std::string stop_reason;
+  std::uint64_t seed = 0;
+  int simulated = 0;  ///< evaluations that were simulated; the others broke a constraint beforehand
+  /// The tuned gains on a scenario that the search never saw, and how the baseline would score 1
+  /// there: for information, it decides nothing.
+  std::vector<ModeScore> held_out_scores;
+  double held_out_objective = 0.0;
+};
+
+/// The scenario tuned on when none is given: 30 then -30 deg at 1 m/s, 20 s, from rest. [paper 4.3]
+Scenario default_tuning_scenario();
+/// The scenario judged on afterwards: 60 then 0 deg at 0.7 m/s, 20 s, from rest.
+Scenario held_out_scenario();
+
+/// Deterministic: model, options and seed fix every bit of the result, whatever the number of
+/// cores. Errors (refused): no gains within the bounds meet the constraints (the tightest one is
+/// named), or none that does beats the baseline in every mode; the baseline itself is then not
+/// returned as if it had been found. Errors (input): the model lacks a parameter; margin, weights,
+/// bounds or scenarios are unfit.
+Result<Tuning> tune(const Model& model, const std::string& model_file, const TuneOptions& options);
+
+/// The bytes of gains.json.
+std::string gains_text(const Tuning& tuning, const TuneOptions& options,
+                       const Provenance& provenance);
+
+}  // namespace awmr

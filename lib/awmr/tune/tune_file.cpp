@@ -1,0 +1,192 @@
+// tune.json in, gains.json out.
+
+#include <array>
+#include <utility>
+
+#include "awmr/core/json.h"
+#include "awmr/tune/objective.h"
+#include "awmr/tune/tune.h"
+
+namespace awmr {
+namespace {
+
+constexpr double kGainLimit = 1e6;
+constexpr long kEvaluationLimit = 1'000'000;
+
+void read_weights(JsonObject json, ObjectiveWeights& weights) {
+  double sum = 0.0;
+  for (const ObjectiveTerm& term : kObjectiveTerms) {
+    double& weight = weights.*term.weight;
+    weight = json.optional_number(term.name, kNonNegative).value_or(weight);
+    sum += weight;
+  }
+  if (sum <= 0.0) json.fault("itae", "all weights are 0: give at least one above 0");
+  json.reject_unknown_keys();
+}
+
+void read_bounds(JsonObject json, GainBounds& bounds) {
+  const std::pair<const char*, Interval*> entries[] = {{"lambda", &bounds.lambda},
+                                                       {"mu", &bounds.mu},
+                                                       {"epsilon", &bounds.epsilon},
+                                                       {"speed_mu", &bounds.speed_mu},
+                                                       {"speed_epsilon", &bounds.speed_epsilon}};
+  for (const auto& [key, target] : entries) {
+    const std::optional<Interval> read = json.optional_interval(key);
+    if (!read) continue;
+    if (read->lo <= 0.0 || read->hi > kGainLimit) {
+      json.fault(key, "both ends have to be above 0 and at most 1e6");
+    }
+    *target = *read;
+  }
+  json.reject_unknown_keys();
+}
+
+void read_numbers(JsonObject& json, TuneOptions& options) {
+  if (json.has("form")) {
+    const std::array<std::string, 2> forms = {"paper", "strict"};
+    options.form = json.choice("form", forms) == 0 ? ReachingForm::kPaper : ReachingForm::kStrict;
+  }
+  if (const auto margin =
+          json.optional_number("margin", {.min = 0.0, .max = 1.0, .min_excluded = true})) {
+    if (*margin >= 1.0) json.fault("margin", "1 leaves none; give a number in (0, 1)");
+    options.margin = *margin;
+  }
+  options.global_evaluations =
+      static_cast<int>(json.optional_integer("global_evaluations", 1, kEvaluationLimit)
+                           .value_or(options.global_evaluations));
+  options.local_evaluations =
+      static_cast<int>(json.optional_integer("local_evaluations", 0, kEvaluationLimit)
+                           .value_or(options.local_evaluations));
+  if (const auto seed = json.optional_integer("seed", 0, 4'294'967'295L)) {
+    options.seed = static_cast<std::uint64_t>(*seed);
+  }
+}
+
+/// Paths relative to the config file; a broken scenario's faults join the config's.
+void read_scenarios(JsonObject& json, const std::filesystem::path& directory, TuneOptions& options,
+                    std::vector<Fault>& faults) {
+  if (!json.has("scenarios")) return;
+  const std::vector<std::string> names = json.strings("scenarios");
+  for (const std::string& name : names) {
+    const std::filesystem::path path = directory / name;
+    Result<Scenario> scenario = read_scenario(path);
+    if (!scenario) {
+      const std::vector<Fault>& more = scenario.error().faults;
+      faults.insert(faults.end(), more.begin(), more.end());
+      continue;
+    }
+    options.scenarios.push_back(std::move(*scenario));
+    options.scenario_files.push_back(path);
+  }
+  if (names.empty()) {
+    json.fault("scenarios", "an empty list; leave the key out for the default scenario");
+  }
+}
+
+Json optional_json(const std::optional<double>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+Json gains_json(const Gains<double>& g) {
+  return {{"heading",
+           {{"lambda", g.heading.lambda}, {"mu", g.heading.mu}, {"epsilon", g.heading.epsilon}}},
+          {"speed", {{"mu", g.speed.mu}, {"epsilon", g.speed.epsilon}}}};
+}
+
+Json score_json(const ModeScore& score) {
+  const Metrics& m = score.metrics;
+  return {{"objective", score.objective},
+          {"completed", m.completed},
+          {"settling_time_s", optional_json(m.settling_time_s)},
+          {"overshoot_deg", optional_json(m.overshoot_deg)},
+          {"heading_iae_degs", optional_json(m.heading_iae_degs)},
+          {"heading_itae_degs2", optional_json(m.heading_itae_degs2)},
+          {"speed_itae_m_s", score.speed_itae_m_s},
+          {"speed_drop_mps", optional_json(m.speed_drop_mps)},
+          {"sideslip_max_deg", m.sideslip_max_deg},
+          {"yaw_rate_max_degps", m.yaw_rate_max_degps},
+          {"control_variation", m.control_variation},
+          {"control_effort", m.control_effort}};
+}
+
+/// By mode, then scenario.
+Json scores_json(const std::vector<ModeScore>& scores) {
+  Json json = Json::object();
+  for (const ModeScore& score : scores) {
+    json[std::string(name_of(score.mode))][score.scenario] = score_json(score);
+  }
+  return json;
+}
+
+Json constraints_json(const std::vector<ConstraintReport>& constraints) {
+  Json json = Json::array();
+  for (const ConstraintReport& c : constraints) {
+    json.push_back({{"name", c.name},
+                    {"required", c.required},
+                    {"value", c.value},
+                    {"limit", c.limit},
+                    {"margin", c.margin},
+                    {"meaning", c.meaning}});
+  }
+  return json;
+}
+
+Json objective_json(const Tuning& tuning, const ObjectiveWeights& weights) {
+  Json json;
+  json["value"] = tuning.objective;
+  json["weights"] = Json::object();
+  json["formula"] =
+      "mean over modes and scenarios of sum_i w_i (x_i + f_i)/(x0_i + f_i) / sum_i w_i; x0: the "
+      "baseline's figure in the same mode and scenario; f: a floor below which nothing matters";
+  json["terms"] = Json::array();
+  for (const ObjectiveTerm& term : kObjectiveTerms) {
+    json["weights"][term.name] = weights.*term.weight;
+    json["terms"].push_back({{"name", term.name}, {"figure", term.figure}, {"floor", term.floor}});
+  }
+  return json;
+}
+
+}  // namespace
+
+Result<TuneOptions> read_tune_options(const std::filesystem::path& path) {
+  const Result<Json> json = read_json_file(path);
+  if (!json) return tl::unexpected(json.error());
+  std::vector<Fault> faults;
+  JsonObject object(*json, path.string(), "", faults);
+  TuneOptions options;
+  object.schema("awmr.tune/1");
+  read_numbers(object, options);
+  if (auto weights = object.optional_object("weights")) read_weights(*weights, options.weights);
+  if (auto bounds = object.optional_object("bounds")) read_bounds(*bounds, options.bounds);
+  read_scenarios(object, path.parent_path(), options, faults);
+  object.reject_unknown_keys();
+  if (!faults.empty()) return input_errors(std::move(faults));
+  return options;
+}
+
+std::string gains_text(const Tuning& tuning, const TuneOptions& options,
+                       const Provenance& provenance) {
+  Json json;
+  json["schema"] = "awmr.gains/1";
+  json.update(gains_json(tuning.gains));
+  json["time_constants"] = {{"T1_s", tuning.gains.heading.sliding_time_constant_s()},
+                            {"T2_s", tuning.gains.heading.reaching_time_constant_s()}};
+  json["constraints"] = constraints_json(tuning.constraints);
+  json["objective"] = objective_json(tuning, options.weights);
+  json["objective"]["held_out"] = {{"value", tuning.held_out_objective},
+                                   {"metrics", scores_json(tuning.held_out_scores)}};
+  json["metrics"] = scores_json(tuning.scores);
+  json["search"] = {{"algorithm", tuning.algorithm},
+                    {"evaluations", tuning.evaluations},
+                    {"simulated", tuning.simulated},
+                    {"seed", tuning.seed},
+                    {"stop_reason", tuning.stop_reason}};
+  Json baseline = gains_json(tuning.baseline);
+  baseline["objective"] = tuning.baseline_objective;
+  baseline["metrics"] = scores_json(tuning.baseline_scores);
+  json["baseline"] = std::move(baseline);
+  put_provenance(json, provenance);
+  return to_text(json);
+}
+
+}  // namespace awmr

@@ -1,0 +1,101 @@
+#include "awmr/validate/claims.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "awmr/core/units.h"
+
+namespace awmr {
+namespace {
+
+/// Steady yaw rate of the largest moment that a mode can make while tau_speed holds the speed:
+/// r = (moment/a3)^(1/b3).
+double largest_yaw_rate_radps(const Plant<double>& plant, const AllocationLimits<double>& limits,
+                              YawMode mode, double speed_mps) {
+  constexpr double kMoreThanAnyMoment_m = 1e3;
+  const Allocation<double> a = allocate(mode, plant.surge(speed_mps), kMoreThanAnyMoment_m, limits);
+  const GeneralisedForces<double> tau =
+      generalised_forces(plant.front_axle_m, plant.half_track_m, a.force, a.steering_rad);
+  const double moment_m = std::max(0.0, tau.tau_steering_m + tau.tau_diff_m);
+  return std::pow(moment_m / plant.yaw.alpha, 1.0 / plant.yaw.beta);
+}
+
+}  // namespace
+
+ModeRuns run_modes(const Plant<double>& plant, const Vehicle& vehicle, const Gains<double>& gains,
+                   const Scenario& scenario) {
+  const Controller<double> controller = make_controller(plant, vehicle, gains);
+  ModeRuns runs;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    runs[i].mode = kYawModes[i];
+    runs[i].run = simulate(plant, controller, scenario, kYawModes[i],
+                           {.sample_time_s = vehicle.sample_time_s, .substeps = {}});
+    runs[i].metrics = metrics_of(runs[i].run, scenario, controller);
+  }
+  return runs;
+}
+
+Scenario heading_scenario(std::string name, std::span<const double> headings_deg, double hold_s,
+                          double speed_mps) {
+  HeadingSteps guidance;
+  for (std::size_t i = 0; i < headings_deg.size(); ++i) {
+    guidance.steps.push_back({static_cast<double>(i) * hold_s, radians(headings_deg[i])});
+  }
+  return {.name = std::move(name),
+          .duration_s = static_cast<double>(headings_deg.size()) * hold_s,
+          .initial = {},
+          .speed_mps = speed_mps,
+          .guidance = std::move(guidance)};
+}
+
+double allowed_settling_s(const Plant<double>& plant, const Vehicle& vehicle,
+                          const Gains<double>& gains, YawMode mode, double step_rad,
+                          double speed_mps) {
+  const Controller<double> controller = make_controller(plant, vehicle, gains);
+  const double rate_radps = largest_yaw_rate_radps(plant, controller.limits, mode, speed_mps);
+  // e^-4 = 1.8 %: within the 2 % band. S decays with 2 T2, e on the surface with T1.
+  const double law_s = 4.0 * (gains.heading.sliding_time_constant_s() +
+                              2.0 * gains.heading.reaching_time_constant_s());
+  return std::abs(step_rad) / rate_radps + law_s;
+}
+
+int reversals(std::span<const double> signal, double band) {
+  if (signal.empty()) return 0;
+  int count = 0;
+  int direction = 0;  // 0 until the signal has first moved by more than the band
+  double low = signal[0];
+  double high = signal[0];
+  for (const double value : signal) {
+    low = std::min(low, value);
+    high = std::max(high, value);
+    const bool fell = value < high - band;
+    const bool rose = value > low + band;
+    if (direction >= 0 && fell) {
+      count += direction == 0 ? 0 : 1;
+      direction = -1;
+      low = high = value;
+    } else if (direction <= 0 && rose) {
+      count += direction == 0 ? 0 : 1;
+      direction = 1;
+      low = high = value;
+    }
+  }
+  return count;
+}
+
+std::vector<Claim> check_claims(const Model& model, const Plant<double>& plant,
+                                const std::optional<Gains<double>>& gains) {
+  std::vector<Claim> claims;
+  claims.push_back(check_straight_run(model, plant));
+  claims.push_back(check_circle(model, plant));
+  if (gains) {
+    for (Claim& claim : check_heading_claims(model, plant, *gains)) {
+      claims.push_back(std::move(claim));
+    }
+  }
+  claims.push_back(check_time_constants(gains));
+  return claims;
+}
+
+}  // namespace awmr

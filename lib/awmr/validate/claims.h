@@ -1,0 +1,60 @@
+/// What the paper claims, each checked by simulating this model.
+///
+/// The paper's words ("fast", "slight", "no overshoot") carry no numbers: what counts as reproduced
+/// is written beside each check and into the output. A claim that fails is reported as not
+/// reproduced, with the figure that says so. Private to this folder.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "awmr/model/gains.h"
+#include "awmr/model/model.h"
+#include "awmr/simulate/metrics.h"
+#include "awmr/simulate/scenario.h"
+#include "awmr/simulate/simulate.h"
+#include "awmr/validate/validate.h"
+
+namespace awmr {
+
+/// One mode's run of a claim's scenario.
+struct ModeRun {
+  YawMode mode{};
+  Run run;
+  Metrics metrics;
+};
+using ModeRuns = std::array<ModeRun, std::size(kYawModes)>;
+
+/// The scenario in all three modes, at the vehicle's sample time and limits.
+ModeRuns run_modes(const Plant<double>& plant, const Vehicle& vehicle, const Gains<double>& gains,
+                   const Scenario& scenario);
+
+/// C1: at full thrust and straight ahead, u settles at u_max.                    [paper 3.5.1]
+Claim check_straight_run(const Model& model, const Plant<double>& plant);
+/// C2: with constant thrust and turning moment the path tends to a circle.       [paper 3.5.2]
+Claim check_circle(const Model& model, const Plant<double>& plant);
+/// C14: lambda 3, mu 50, eps 12 give T1 = 0.33 s and T2 = 0.12 s.                [paper 4.1]
+Claim check_time_constants(const std::optional<Gains<double>>& gains);
+/// C3 to C7 from one set of runs, then C13.                             [paper 4.3, section 6]
+std::vector<Claim> check_heading_claims(const Model& model, const Plant<double>& plant,
+                                        const Gains<double>& gains);
+
+/// Headings, each held for `hold_s`, at `speed_mps` from rest.
+Scenario heading_scenario(std::string name, std::span<const double> headings_deg, double hold_s,
+                          double speed_mps);
+/// Longest time the settling of a step may take in a mode, see C3: what the actuators need for the
+/// step at the steady yaw rate of their largest moment, plus four time constants of the law.
+double allowed_settling_s(const Plant<double>& plant, const Vehicle& vehicle,
+                          const Gains<double>& gains, YawMode mode, double step_rad,
+                          double speed_mps);
+/// Turning points of a signal: how often it goes back by more than `band` from its last extreme.
+int reversals(std::span<const double> signal, double band);
+
+/// In the paper's order; with gains, all; without, those that need none.
+std::vector<Claim> check_claims(const Model& model, const Plant<double>& plant,
+                                const std::optional<Gains<double>>& gains);
+
+}  // namespace awmr

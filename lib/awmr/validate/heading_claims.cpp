@@ -1,0 +1,165 @@
+// C3, C6, C7 and C13: the closed heading loop.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "awmr/core/units.h"
+#include "awmr/validate/heading_runs.h"
+
+namespace awmr {
+namespace {
+
+constexpr double kDriven_deg[] = {30.0, 45.0};  ///< headings of the experiment     [paper 6]
+
+/// "Without overshoot": within what a figure of the paper would show, and the least settling band
+/// of metrics.h.
+constexpr double kNoOvershoot_deg = 0.5;
+/// A command chatters when it reverses by more than 1 % of its range more than once a second, on
+/// average over the run. A discontinuous law reverses at up to every second sample: 50 a second.
+constexpr double kReversalBand = 0.01;
+constexpr double kReversalsPerSecond = 1.0;
+constexpr double kYawRateMax_degps = 20.0;  ///< [paper 6]
+
+Claim heading_converges(const HeadingSetting& setting, const ModeRuns& runs) {
+  const auto settling = [](const ModeRun& run) { return run.metrics.settling_time_s; };
+  const auto overshoot = [](const ModeRun& run) { return run.metrics.overshoot_deg; };
+  const auto fast = [&](const ModeRun& run) {
+    const auto settled_s = run.metrics.settling_time_s;
+    return settled_s && *settled_s <= setting.allowed_s(run.mode);
+  };
+  const auto without_overshoot = [](const ModeRun& run) {
+    return run.metrics.overshoot_deg.value_or(0.0) <= kNoOvershoot_deg;
+  };
+  const bool all_fast = all_modes(runs, fast);
+  const bool none_over = all_modes(runs, without_overshoot);
+  Claim claim{.id = "C3",
+              .statement =
+                  "headings 30 then -30 deg at 1 m/s: fast and without overshoot in all "
+                  "modes",
+              .reproduced = all_fast && none_over,
+              .figure = fmt::format("settled after {}; overshoot {}", by_mode(runs, "s", settling),
+                                    by_mode(runs, "deg", overshoot)),
+              .tolerance = fmt::format(
+                  "settled (2 %, at least 0.5 deg) within 60 deg at the mode's largest steady yaw "
+                  "rate plus 4 (T1 + 2 T2): {}; overshoot at most {} deg",
+                  by_mode(runs, "s",
+                          [&](const ModeRun& run) -> std::optional<double> {
+                            return setting.allowed_s(run.mode);
+                          }),
+                  kNoOvershoot_deg),
+              .why = {}};
+  claim.why = claim.reproduced ? "every mode follows the sliding surface once its limits release it"
+              : !none_over ? "a limited actuator or the servo's lag carries the heading past its "
+                             "command in the modes named in the figure"
+                           : "the limits of the actuators keep the heading off the surface longer "
+                             "than the law alone would take";
+  claim.why +=
+      "; the steering mode turns slowest, as the stop of the front wheels and the small "
+      "thrust at 1 m/s limit its moment";
+  return claim;
+}
+
+Claim sideslip_smallest(const ModeRuns& runs) {
+  const auto sideslip = [](const ModeRun& run) -> std::optional<double> {
+    return run.metrics.sideslip_max_deg;
+  };
+  const auto in = [&](YawMode mode) { return in_mode(runs, mode).metrics.sideslip_max_deg; };
+  const double differential = in(YawMode::kDifferential);
+  const bool smallest =
+      differential < in(YawMode::kSteering) && differential < in(YawMode::kCombined);
+  return {.id = "C6",
+          .statement = "the sideslip angle is smallest in differential mode",
+          .reproduced = smallest,
+          .figure = "largest " + by_mode(runs, "deg", sideslip) + "; largest yaw rate " +
+                    by_mode(runs, "deg/s",
+                            [](const ModeRun& run) -> std::optional<double> {
+                              return run.metrics.yaw_rate_max_degps;
+                            }),
+          .tolerance = "strictly below both others, over the whole run above 0.05 m/s",
+          .why = smallest
+                     ? "without steered wheels only the turn itself, m' r u, makes sway"
+                     : "sway follows (tau_steering/l_f - m' r u)/a_s: differential has no steering "
+                       "force, but turns fast enough for m' r u alone to make more sway"};
+}
+
+/// Most reversals per second of F'L, F'R and d_r as commanded.
+double reversals_per_second(const Model& model, const ModeRun& run) {
+  std::vector<double> left, right, steering;
+  for (const RunRow& row : run.run.rows) {
+    left.push_back(row.force.left);
+    right.push_back(row.force.right);
+    steering.push_back(row.steering_command_rad);
+  }
+  const double force_band =
+      kReversalBand * (model.vehicle.wheel_force.hi - model.vehicle.wheel_force.lo);
+  const double steering_band = kReversalBand * 2.0 * radians(model.vehicle.steering_max_deg);
+  const int most = std::max({reversals(left, force_band), reversals(right, force_band),
+                             reversals(steering, steering_band)});
+  return most / run.run.rows.back().t_s;
+}
+
+Claim no_chattering(const Model& model, const ModeRuns& runs) {
+  const auto rate = [&](const ModeRun& run) -> std::optional<double> {
+    return reversals_per_second(model, run);
+  };
+  const bool quiet =
+      all_modes(runs, [&](const ModeRun& run) { return *rate(run) <= kReversalsPerSecond; });
+  return {.id = "C7",
+          .statement = "no chattering",
+          .reproduced = quiet,
+          .figure = "most restless of F'L, F'R, d_r: " + by_mode(runs, "reversals/s", rate),
+          .tolerance = fmt::format("no command reverses by more than {:.0f} % of its range more "
+                                   "often than {} time(s) a second; chattering would do so up to "
+                                   "{:.0f} times",
+                                   100.0 * kReversalBand, kReversalsPerSecond,
+                                   0.5 / model.vehicle.sample_time_s),
+          .why = quiet ? "inside the boundary layer the law is continuous: it moves with the steps "
+                         "and then rests"
+                       : "the loop is too stiff for the sample time or the servo: the commands "
+                         "reverse without a step"};
+}
+
+Claim yaw_rate_limited(const HeadingSetting& setting) {
+  const ModeRuns runs = setting.run("C13", kDriven_deg, setting.model.vehicle);
+  const ModeRun& steering = in_mode(runs, YawMode::kSteering);
+  const double rate_degps = steering.metrics.yaw_rate_max_degps;
+  const bool converged = steering.metrics.completed;
+  return {.id = "C13",
+          .statement =
+              "headings 30 then 45 deg: reached, the yaw rate stays below 20 deg/s in "
+              "steering",
+          .reproduced = converged && rate_degps < kYawRateMax_degps,
+          .figure = by_mode(
+                        runs, "deg/s",
+                        [](const ModeRun& run) -> std::optional<double> {
+                          return run.metrics.yaw_rate_max_degps;
+                        }) +
+                    fmt::format("; steering settles {}",
+                                converged ? fmt::format("after {:.2f} s at most",
+                                                        *steering.metrics.settling_time_s)
+                                          : "not in time"),
+          .tolerance =
+              "steering below 20 deg/s and settled after both steps; simulated at 1 m/s, "
+              "without the experiment's noise",
+          .why = converged && rate_degps < kYawRateMax_degps
+                     ? "the stop of the front wheels and the thrust at 1 m/s bound the moment, and "
+                       "g3 the yaw rate"
+                 : converged ? "the moment at the stop of the front wheels turns this model faster"
+                             : "the steering mode does not reach the headings in time"};
+}
+
+}  // namespace
+
+std::vector<Claim> check_heading_claims(const Model& model, const Plant<double>& plant,
+                                        const Gains<double>& gains) {
+  const HeadingSetting setting{model, plant, gains};
+  const ModeRuns runs = setting.run("C3", kSimulated_deg, model.vehicle);
+  return {heading_converges(setting, runs), check_speed_converges(setting, runs),
+          check_speed_held(setting, runs),  sideslip_smallest(runs),
+          no_chattering(model, runs),       yaw_rate_limited(setting)};
+}
+
+}  // namespace awmr

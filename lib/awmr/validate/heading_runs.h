@@ -1,0 +1,75 @@
+/// The runs behind the heading and speed claims. Private to this folder.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+
+#include "awmr/core/units.h"
+#include "awmr/validate/claims.h"
+
+namespace awmr {
+
+inline constexpr double kSpeed_mps = 1.0;                  ///< u_d               [paper 4.3]
+inline constexpr double kSimulated_deg[] = {30.0, -30.0};  ///< headings          [paper 4.3]
+inline constexpr double kLargestStep_deg = 60.0;           ///< of any sequence here
+
+/// Figures are given to 1e-4: what is smaller is rounding, not result.
+inline double to_figure(double value) { return std::round(value * 1e4) / 1e4 + 0.0; }
+
+/// "differential 0.1, steering 0.2, combined 0.3 UNIT"
+template <class Value>
+std::string by_mode(const ModeRuns& runs, const std::string& unit, Value value) {
+  std::string text;
+  for (const ModeRun& run : runs) {
+    const std::optional<double> number = value(run);
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name_of(run.mode),
+                        number ? fmt::format("{:.4g}", to_figure(*number)) : "none");
+  }
+  return text + (unit.empty() ? "" : " " + unit);
+}
+
+inline const ModeRun& in_mode(const ModeRuns& runs, YawMode mode) {
+  return *std::find_if(runs.begin(), runs.end(),
+                       [mode](const ModeRun& run) { return run.mode == mode; });
+}
+
+template <class Condition>
+bool all_modes(const ModeRuns& runs, Condition condition) {
+  return std::all_of(runs.begin(), runs.end(), condition);
+}
+
+/// The loop that the heading claims run.
+struct HeadingSetting {
+  const Model& model;
+  const Plant<double>& plant;
+  const Gains<double>& gains;
+
+  double allowed_s(YawMode mode) const {
+    return allowed_settling_s(plant, model.vehicle, gains, mode, radians(kLargestStep_deg),
+                              kSpeed_mps);
+  }
+  /// Long enough for every mode to be allowed to settle, at most two minutes.
+  double hold_s() const {
+    double longest_s = 10.0;
+    for (const YawMode mode : kYawModes) longest_s = std::max(longest_s, 1.5 * allowed_s(mode));
+    return std::min(longest_s, 120.0);
+  }
+  ModeRuns run(std::string name, std::span<const double> headings_deg,
+               const Vehicle& vehicle) const {
+    return run_modes(plant, vehicle, gains,
+                     heading_scenario(std::move(name), headings_deg, hold_s(), kSpeed_mps));
+  }
+};
+
+/// C4, on the runs of 30 then -30 deg.
+Claim check_speed_converges(const HeadingSetting& setting, const ModeRuns& runs);
+/// C5, on the same runs and, for the figure, with other force limits.
+Claim check_speed_held(const HeadingSetting& setting, const ModeRuns& runs);
+
+}  // namespace awmr

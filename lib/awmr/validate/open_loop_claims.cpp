@@ -1,0 +1,191 @@
+// C1, C2 and C14: what needs no feedback.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "awmr/model/gains_file.h"
+#include "awmr/validate/circle_fit.h"
+#include "awmr/validate/claims.h"
+
+namespace awmr {
+namespace {
+
+constexpr double kFullThrust = 2.0;  ///< the paper's largest tau_speed                 [paper 3.5]
+constexpr double kCircleTurn_m = 0.4;  ///< the paper's constant tau_turn [paper 3.5.2]
+
+/// Agreement with the steady speed solved from g1(u) = tau_speed: the run lasts long enough for
+/// the transient to be gone, what remains is the integrator's error, far below this.
+constexpr double kSteadyTolerance = 1e-3;
+/// Agreement with a measured speed: Table 2 disagrees with itself by 5 % (10 m/9.26 s is 1.080
+/// m/s, printed 1.03), so no model can be held to less.
+constexpr double kMeasuredTolerance = 0.05;
+/// Largest distance of the last turn from its circle, over the radius.
+constexpr double kCircleTolerance = 0.01;
+
+/// Open loop needs no gains; any will do for the controller's limits.
+Controller<double> limits_only(const Model& model, const Plant<double>& plant) {
+  return make_controller(plant, model.vehicle, kPaperGains);
+}
+
+Run run_open_loop(const Model& model, const Plant<double>& plant, YawMode mode, OpenLoop forces,
+                  double duration_s) {
+  const Scenario scenario{.name = "open loop",
+                          .duration_s = duration_s,
+                          .initial = {},
+                          .speed_mps = 0.0,
+                          .guidance = forces};
+  return simulate(plant, limits_only(model, plant), scenario, mode,
+                  {.sample_time_s = model.vehicle.sample_time_s, .substeps = {}});
+}
+
+/// The surge trial at the largest tau_speed: its speed is the paper's u_max.
+const TrialPoint* fastest_trial(const Model& model) {
+  const TrialPoint* fastest = nullptr;
+  for (const TrialPoint& trial : model.trials) {
+    if (trial.kind == "surge" && (!fastest || trial.input > fastest->input)) fastest = &trial;
+  }
+  return fastest;
+}
+
+struct Turn {
+  YawMode mode{};
+  std::optional<Circle> circle;  ///< over the last full turn; absent without one in time
+  double speed_mps = 0.0;        ///< at the end of the run
+};
+
+/// Points of the run's last full turn, empty where it made less than two: the first is transient.
+std::vector<Point> last_turn(const Run& run) {
+  const double end_rad = run.rows.back().state.psi_rad;
+  if (std::abs(end_rad) < 4.0 * std::numbers::pi) return {};
+  std::vector<Point> points;
+  for (auto row = run.rows.rbegin(); row != run.rows.rend(); ++row) {
+    if (std::abs(end_rad - row->state.psi_rad) > 2.0 * std::numbers::pi) break;
+    points.push_back({row->state.x_m, row->state.y_m});
+  }
+  return points;
+}
+
+Turn turn_of(const Model& model, const Plant<double>& plant, YawMode mode) {
+  Turn turn{.mode = mode, .circle = {}};
+  // A slow vehicle needs longer for two turns.
+  for (const double duration_s : {60.0, 240.0, 960.0}) {
+    const Run run = run_open_loop(model, plant, mode, {kFullThrust, kCircleTurn_m}, duration_s);
+    const State<double>& end = run.rows.back().state;
+    turn.speed_mps = std::hypot(end.u_mps, end.v_mps);
+    turn.circle = fit_circle(last_turn(run));
+    if (turn.circle) break;
+  }
+  return turn;
+}
+
+std::string figure_of(const Turn& turn) {
+  if (!turn.circle) return fmt::format("{}: no two turns in 960 s", name_of(turn.mode));
+  return fmt::format("{}: diameter {:.2f} m, off the circle by {:.3f} % of the radius, {:.2f} m/s",
+                     name_of(turn.mode), 2.0 * turn.circle->radius_m,
+                     100.0 * turn.circle->deviation_m / turn.circle->radius_m, turn.speed_mps);
+}
+
+/// Why the diameters differ: what of tau_turn each mode delivers.
+std::string delivered_moments(const Model& model, const Plant<double>& plant) {
+  const AllocationLimits<double> limits = limits_only(model, plant).limits;
+  std::string text;
+  for (const YawMode mode : kYawModes) {
+    const Allocation<double> a = allocate(mode, kFullThrust, kCircleTurn_m, limits);
+    const GeneralisedForces<double> tau =
+        generalised_forces(plant.front_axle_m, plant.half_track_m, a.force, a.steering_rad);
+    text += fmt::format("{}{} {:.3f} m", text.empty() ? "" : ", ", name_of(mode),
+                        tau.tau_steering_m + tau.tau_diff_m);
+  }
+  return text;
+}
+
+}  // namespace
+
+Claim check_straight_run(const Model& model, const Plant<double>& plant) {
+  Claim claim{.id = "C1",
+              .statement = "tau_speed 2 without turning: the speed settles at u_max",
+              .figure = {},
+              .tolerance = {},
+              .why = {}};
+  const Run run = run_open_loop(model, plant, YawMode::kDifferential, {kFullThrust, 0.0}, 60.0);
+  const double settled_mps = run.rows.back().state.u_mps;
+  const double steady_mps = std::pow(kFullThrust / plant.surge.alpha, 1.0 / plant.surge.beta);
+  const bool settles = std::abs(settled_mps - steady_mps) <= kSteadyTolerance * steady_mps;
+  claim.figure = fmt::format("simulated {:.4f} m/s, solved from g1(u) = 2 {:.4f} m/s", settled_mps,
+                             steady_mps);
+  claim.tolerance = fmt::format("within {} % of the solved speed", 100.0 * kSteadyTolerance);
+
+  const TrialPoint* fastest = fastest_trial(model);
+  const bool at_full_thrust = fastest && std::abs(fastest->input - kFullThrust) < 1e-9;
+  if (!at_full_thrust) {
+    claim.reproduced = settles;
+    claim.why =
+        fmt::format("{}; the model carries no trial at tau_speed 2, so u_max is the model's own",
+                    settles ? "the speed settles where thrust and resistance balance"
+                            : "the force limits keep tau_speed 2 from the wheels");
+    return claim;
+  }
+  const double difference = settled_mps / fastest->measured - 1.0;
+  claim.reproduced = settles && std::abs(difference) <= kMeasuredTolerance;
+  claim.figure +=
+      fmt::format(", measured u_max {:.4g} m/s ({:+.1f} %)", fastest->measured, 100.0 * difference);
+  claim.tolerance +=
+      fmt::format(" and {:.0f} % of the measured one, by which Table 2 disagrees with itself",
+                  100.0 * kMeasuredTolerance);
+  claim.why = !settles ? "the simulated speed does not reach the balance of thrust and resistance: "
+                         "the force limits keep tau_speed 2 from the wheels"
+              : claim.reproduced
+                  ? "the speed settles where thrust and resistance balance; the power law was "
+                    "fitted over all trials and does not go through the last one"
+                  : "the fitted power law does not go through the fastest trial";
+  return claim;
+}
+
+Claim check_circle(const Model& model, const Plant<double>& plant) {
+  Claim claim{.id = "C2",
+              .statement = "constant tau_speed 2 and tau_turn 0.4 m: the path tends to a circle",
+              .figure = {},
+              .tolerance = fmt::format("in every mode the last full turn stays within {:.0f} % of "
+                                       "the radius of the circle fitted to it",
+                                       100.0 * kCircleTolerance),
+              .why = {}};
+  claim.reproduced = true;
+  for (const YawMode mode : kYawModes) {
+    const Turn turn = turn_of(model, plant, mode);
+    claim.figure += (claim.figure.empty() ? "" : "; ") + figure_of(turn);
+    claim.reproduced = claim.reproduced && turn.circle &&
+                       turn.circle->deviation_m <= kCircleTolerance * turn.circle->radius_m;
+  }
+  claim.why = fmt::format(
+      "constant forces settle at constant u, v and r, which is a circle; the diameters differ by "
+      "the moment that each mode's limits let through: {}",
+      delivered_moments(model, plant));
+  return claim;
+}
+
+Claim check_time_constants(const std::optional<Gains<double>>& gains) {
+  const HeadingGains<double>& paper = kPaperGains.heading;
+  const double t1_s = paper.sliding_time_constant_s();
+  const double t2_s = paper.reaching_time_constant_s();
+  Claim claim{
+      .id = "C14",
+      .statement = "lambda 3, mu 50, eps 12 give T1 = 0.33 s and T2 = 0.12 s",
+      .figure = fmt::format("T1 = 1/lambda = {:.4f} s, T2 = eps/(2 mu) = {:.4f} s", t1_s, t2_s),
+      .tolerance = "0.005 s, half of the last printed digit",
+      .why = fmt::format("arithmetic; S itself decays with 2 T2 = {:.2f} s, which is {} T1 "
+                         "too",
+                         2.0 * t2_s, 2.0 * t2_s < t1_s ? "below" : "not below")};
+  claim.reproduced = std::abs(t1_s - 0.33) <= 0.005 && std::abs(t2_s - 0.12) <= 0.005;
+  if (gains) {
+    claim.figure += fmt::format("; the gains given here: T1 {:.4f} s, T2 {:.4f} s",
+                                gains->heading.sliding_time_constant_s(),
+                                gains->heading.reaching_time_constant_s());
+  }
+  return claim;
+}
+
+}  // namespace awmr

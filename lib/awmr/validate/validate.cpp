@@ -1,0 +1,144 @@
+#include "awmr/validate/validate.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "awmr/validate/claims.h"
+
+namespace awmr {
+namespace {
+
+std::string unit_of(const std::string& kind) {
+  if (kind == "surge") return "m/s";
+  if (kind == "turning") return "rad/s";
+  return "s";
+}
+
+/// Trials that no model could be held against.
+std::vector<Fault> trial_faults(const Model& model, const std::string& model_file) {
+  std::vector<Fault> faults;
+  for (std::size_t i = 0; i < model.trials.size(); ++i) {
+    const TrialPoint& trial = model.trials[i];
+    const std::string place = fmt::format("{}:/trials/{}", model_file, i);
+    if (trial.kind != "surge" && trial.kind != "turning" && trial.kind != "coastdown") {
+      faults.push_back(
+          {place + "/kind", fmt::format("unknown kind of trial '{}'; known are surge, turning and "
+                                        "coastdown",
+                                        trial.kind)});
+    }
+    if (!(trial.input > 0.0) || !(trial.measured > 0.0)) {
+      faults.push_back({place, fmt::format("input {} and measured {} have to be above 0; take the "
+                                           "row out or identify again",
+                                           trial.input, trial.measured)});
+    }
+  }
+  return faults;
+}
+
+TrialResidual residual_of(const Plant<double>& plant, const TrialPoint& trial) {
+  TrialResidual residual{.kind = trial.kind,
+                         .file = trial.file,
+                         .line = trial.line,
+                         .unit = unit_of(trial.kind),
+                         .measured = trial.measured,
+                         .predicted = predicted_measurement(plant, trial),
+                         .relative_error = {}};
+  if (residual.predicted) {
+    residual.relative_error = (*residual.predicted - trial.measured) / trial.measured;
+  }
+  return residual;
+}
+
+/// Absent where there is no trial of the kind or one of them has no prediction.
+std::optional<double> rms_relative_error(const std::vector<TrialResidual>& trials,
+                                         const std::string& kind) {
+  double sum = 0.0;
+  int count = 0;
+  for (const TrialResidual& trial : trials) {
+    if (trial.kind != kind) continue;
+    if (!trial.relative_error) return std::nullopt;
+    sum += *trial.relative_error * *trial.relative_error;
+    ++count;
+  }
+  if (count == 0) return std::nullopt;
+  return std::sqrt(sum / count);
+}
+
+void judge(Validation& validation, double tolerance) {
+  if (validation.trials.empty()) {
+    validation.verdict =
+        "not validated: the model carries no trials; identify it from trials, then validate";
+    return;
+  }
+  const auto unpredicted =
+      std::count_if(validation.trials.begin(), validation.trials.end(),
+                    [](const TrialResidual& trial) { return !trial.predicted.has_value(); });
+  std::string figures;
+  bool within = true;
+  const auto add = [&](const char* kind, const std::optional<double>& rms) {
+    if (!rms) return;
+    within = within && *rms <= tolerance;
+    figures += fmt::format("{}{} {:.1f} %", figures.empty() ? "" : ", ", kind, 100.0 * *rms);
+  };
+  add("surge", validation.surge_rms_relative_error);
+  add("turning", validation.turning_rms_relative_error);
+  add("coastdown", validation.coastdown_rms_relative_error);
+  validation.passed = within && unpredicted == 0;
+  validation.verdict =
+      fmt::format("the model {} its own trials: RMS relative error {} (accepted: {:.1f} %)",
+                  validation.passed ? "predicts" : "does not predict",
+                  figures.empty() ? "cannot be given" : figures, 100.0 * tolerance);
+  if (unpredicted > 0) {
+    validation.verdict +=
+        fmt::format("; {} row(s) have no prediction: b = 0 gives no steady speed, b1 >= 1 no stop",
+                    unpredicted);
+  }
+}
+
+}  // namespace
+
+std::optional<double> predicted_measurement(const Plant<double>& plant, const TrialPoint& trial) {
+  const Resistance<double>& surge = plant.surge;
+  // tau_speed = g1(u)  =>  u = (tau_speed/a1)^(1/b1)                                [paper (47)]
+  if (trial.kind == "surge" && surge.beta > 0.0) {
+    return std::pow(trial.input / surge.alpha, 1.0 / surge.beta);
+  }
+  // tau_turn = g3(r)  =>  r = (tau_turn/a3)^(1/b3)                              [paper (62), (63)]
+  if (trial.kind == "turning" && plant.yaw.beta > 0.0) {
+    return std::pow(trial.input / plant.yaw.alpha, 1.0 / plant.yaw.beta);
+  }
+  // u0^(1-b1)/(1-b1) = a1 t_a/m'  =>  t_a = m' u0^(1-b1)/((1-b1) a1)                  [paper (59)]
+  if (trial.kind == "coastdown" && surge.beta < 1.0) {
+    const double rest = 1.0 - surge.beta;
+    return plant.mass_norm * std::pow(trial.input, rest) / (rest * surge.alpha);
+  }
+  return std::nullopt;
+}
+
+Result<Validation> validate(const Model& model, const std::string& model_file,
+                            const std::optional<Gains<double>>& gains,
+                            const ValidateOptions& options) {
+  if (!(options.tolerance > 0.0)) {
+    return input_error("--tolerance",
+                       fmt::format("has to be above 0, found {}", options.tolerance));
+  }
+  const Result<Plant<double>> plant = model.plant(model_file);
+  if (!plant) return tl::unexpected(plant.error());
+  std::vector<Fault> faults = trial_faults(model, model_file);
+  if (!faults.empty()) return input_errors(std::move(faults));
+
+  Validation validation;
+  for (const TrialPoint& trial : model.trials) {
+    validation.trials.push_back(residual_of(*plant, trial));
+  }
+  validation.surge_rms_relative_error = rms_relative_error(validation.trials, "surge");
+  validation.turning_rms_relative_error = rms_relative_error(validation.trials, "turning");
+  validation.coastdown_rms_relative_error = rms_relative_error(validation.trials, "coastdown");
+  judge(validation, options.tolerance);
+  validation.claims = check_claims(model, *plant, gains);
+  return validation;
+}
+
+}  // namespace awmr

@@ -1,0 +1,72 @@
+/// The model against the trials it came from, and the paper's claims against the model.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "awmr/core/provenance.h"
+#include "awmr/core/result.h"
+#include "awmr/model/gains.h"
+#include "awmr/model/model.h"
+
+namespace awmr {
+
+/// One trial row against the model.
+struct TrialResidual {
+  std::string kind;
+  std::string file;
+  int line = 0;
+  std::string unit;
+  double measured = 0.0;
+  /// Absent where the model has no such figure, see predicted_measurement().
+  std::optional<double> predicted;
+  std::optional<double> relative_error;  ///< (predicted - measured)/measured
+};
+
+struct Claim {
+  std::string id;         ///< "C1"
+  std::string statement;  ///< what the paper says
+  bool reproduced = false;
+  std::string figure;     ///< the numbers found
+  std::string tolerance;  ///< what counts as reproduced
+  std::string why;
+};
+
+struct Validation {
+  std::vector<TrialResidual> trials;
+  /// Root mean square of the relative errors of a kind; absent where the model has no such trial.
+  std::optional<double> surge_rms_relative_error;
+  std::optional<double> turning_rms_relative_error;
+  std::optional<double> coastdown_rms_relative_error;
+  std::vector<Claim> claims;
+  bool passed = false;  ///< every kind of trial is predicted within `tolerance`, and there is one
+  std::string verdict;  ///< one sentence
+};
+
+struct ValidateOptions {
+  double tolerance = 0.15;  ///< largest accepted RMS relative error of a trial kind, > 0
+};
+
+/// What the model says a trial should have measured:
+///   surge: u = (tau_speed/a1)^(1/b1);  turning: r = (tau_turn/a3)^(1/b3);
+///   coastdown: t_a = m' u0^(1-b1)/((1-b1) a1)                        [paper (47), (63), (59)
+///   solved]
+/// Absent where the law gives none: a steady speed with b = 0, a stop time with b1 >= 1; and for a
+/// kind of trial that is none of these.
+std::optional<double> predicted_measurement(const Plant<double>& plant, const TrialPoint& trial);
+
+/// The claims never decide `passed`: a claim that is not reproduced is a finding about the paper.
+/// Errors (input): the model lacks a parameter; a trial in it is of no known kind or not positive;
+/// the tolerance is not positive. Without gains, only the claims that need none are run.
+Result<Validation> validate(const Model& model, const std::string& model_file,
+                            const std::optional<Gains<double>>& gains,
+                            const ValidateOptions& options);
+
+/// The bytes of validation.json.
+std::string validation_text(const Validation& validation, const Provenance& provenance);
+
+/// The residuals and the claims as a table for a terminal.
+std::string validation_table(const Validation& validation);
+
+}  // namespace awmr

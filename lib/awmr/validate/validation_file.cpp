@@ -1,0 +1,50 @@
+#include "awmr/core/json.h"
+#include "awmr/validate/validate.h"
+
+namespace awmr {
+namespace {
+
+Json optional_json(const std::optional<double>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+Json trial_json(const TrialResidual& trial) {
+  return {{"kind", trial.kind},
+          {"file", trial.file},
+          {"line", trial.line},
+          {"unit", trial.unit},
+          {"measured", trial.measured},
+          {"predicted", optional_json(trial.predicted)},
+          {"relative_error", optional_json(trial.relative_error)}};
+}
+
+Json claim_json(const Claim& claim) {
+  return {{"id", claim.id},
+          {"statement", claim.statement},
+          {"verdict", claim.reproduced ? "reproduced" : "not-reproduced"},
+          {"figure", claim.figure},
+          {"tolerance", claim.tolerance},
+          {"why", claim.why}};
+}
+
+}  // namespace
+
+std::string validation_text(const Validation& validation, const Provenance& provenance) {
+  Json json;
+  json["schema"] = "awmr.validation/1";
+  put_provenance(json, provenance);
+  json["passed"] = validation.passed;
+  json["verdict"] = validation.verdict;
+  json["rms_relative_error"] = {
+      {"surge", optional_json(validation.surge_rms_relative_error)},
+      {"turning", optional_json(validation.turning_rms_relative_error)},
+      {"coastdown", optional_json(validation.coastdown_rms_relative_error)}};
+  json["trials"] = Json::array();
+  for (const TrialResidual& trial : validation.trials) json["trials"].push_back(trial_json(trial));
+  json["logs"] = Json::array();
+  json["claims"] = Json::array();
+  for (const Claim& claim : validation.claims) json["claims"].push_back(claim_json(claim));
+  return to_text(json);
+}
+
+}  // namespace awmr

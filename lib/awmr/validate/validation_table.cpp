@@ -1,0 +1,61 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "awmr/validate/validate.h"
+
+namespace awmr {
+namespace {
+
+constexpr std::size_t kWidth = 100;
+
+std::string number_or_dash(const std::optional<double>& value, const char* format) {
+  return value ? fmt::format(fmt::runtime(format), *value) : "-";
+}
+
+/// Words filled into lines of kWidth, from the second on indented.
+std::string wrapped(const std::string& text, std::size_t indent) {
+  std::string out(indent, ' ');
+  std::size_t used = indent;
+  std::size_t start = 0;
+  while (start < text.size()) {
+    const std::size_t end = std::min(text.find(' ', start), text.size());
+    const std::string word = text.substr(start, end - start);
+    if (used > indent && used + 1 + word.size() > kWidth) {
+      out += '\n' + std::string(indent, ' ');
+      used = indent;
+    }
+    if (used > indent) {
+      out += ' ';
+      ++used;
+    }
+    out += word;
+    used += word.size();
+    start = end + 1;
+  }
+  return out + '\n';
+}
+
+}  // namespace
+
+std::string validation_table(const Validation& validation) {
+  std::string text = fmt::format("{:<10} {:>5} {:>10} {:>10} {:<6} {:>9}\n", "trial", "line",
+                                 "measured", "predicted", "unit", "error");
+  for (const TrialResidual& trial : validation.trials) {
+    const std::optional<double> percent =
+        trial.relative_error ? std::optional(100.0 * *trial.relative_error) : std::nullopt;
+    text += fmt::format("{:<10} {:>5} {:>10.4g} {:>10} {:<6} {:>9}\n", trial.kind, trial.line,
+                        trial.measured, number_or_dash(trial.predicted, "{:.4g}"), trial.unit,
+                        number_or_dash(percent, "{:+.1f} %"));
+  }
+  text += wrapped(validation.verdict, 0);
+  text += "\nclaims of the paper, simulated with this model\n";
+  for (const Claim& claim : validation.claims) {
+    text += fmt::format("{:<4} {:<15} {}\n", claim.id,
+                        claim.reproduced ? "reproduced" : "not reproduced", claim.statement);
+    text += wrapped(claim.figure, 20);
+  }
+  return text;
+}
+
+}  // namespace awmr

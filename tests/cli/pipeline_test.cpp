@@ -1,0 +1,88 @@
+/// From the paper's tables to every file of the contract, through the program itself.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "cli/program.h"
+
+namespace awmr::testing {
+namespace {
+
+using ::testing::HasSubstr;
+using Json = nlohmann::json;
+
+/// One run of the whole pipeline, shared by the tests below.
+class Pipeline : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    directory_ = new TemporaryDirectory;
+    result_ = awmr("run configs/paper/project.json -o " + directory_->path().string());
+  }
+  static void TearDownTestSuite() { delete directory_; }
+  static Json json(const std::string& name) {
+    return Json::parse(read_all(directory_->path() / name));
+  }
+  static bool has_finding(const std::string& file, int line, const std::string& code) {
+    for (const Json& f : json("model.json").at("findings")) {
+      if (f.at("file").get<std::string>().find(file) != std::string::npos && f.at("line") == line &&
+          f.at("code") == code) {
+        return true;
+      }
+    }
+    return false;
+  }
+  static inline TemporaryDirectory* directory_ = nullptr;
+  static inline ProcessResult result_;
+};
+
+TEST_F(Pipeline, EndsWellAndLeavesEveryFile) {
+  ASSERT_EQ(result_.exit_code, 0) << result_.err;
+  for (const char* name : {"model.json", "gains.json", "validation.json", "awmr_params.h",
+                           "comparison.csv", "comparison.json", "report.html"}) {
+    EXPECT_GT(read_all(directory_->path() / name).size(), 100u) << name;
+  }
+}
+
+TEST_F(Pipeline, ReproducesTheReferenceFitsOfTables2And3) {
+  // Recomputed from the printed tables to the digits given: half a unit in the last place.
+  const Json model = json("model.json");
+  EXPECT_NEAR(model["/surge/alpha/value"_json_pointer].get<double>(), 1.3157, 5e-5);
+  EXPECT_NEAR(model["/surge/beta/value"_json_pointer].get<double>(), 0.8841, 5e-5);
+  EXPECT_NEAR(model["/yaw/alpha/value"_json_pointer].get<double>(), 0.3028, 5e-5);
+  EXPECT_NEAR(model["/yaw/beta/value"_json_pointer].get<double>(), 0.8250, 5e-5);
+}
+
+TEST_F(Pipeline, FindsThePapersOwnInconsistenciesByFileAndLine) {
+  const std::string surge = read_all(std::string(AWMR_SOURCE_DIR) + "/datasets/paper/surge.csv");
+  const std::string turning =
+      read_all(std::string(AWMR_SOURCE_DIR) + "/datasets/paper/turning.csv");
+  const auto line_of = [](const std::string& text, const std::string& start) {
+    const std::size_t at = text.find("\n" + start);
+    EXPECT_NE(at, std::string::npos) << start;
+    return 2 +
+           static_cast<int>(std::count(text.begin(), text.begin() + static_cast<long>(at), '\n'));
+  };
+  EXPECT_TRUE(has_finding("surge.csv", line_of(surge, "1.4,"), "speed-mismatch"));
+  EXPECT_TRUE(has_finding("turning.csv", line_of(turning, "5,"), "yaw-rate-mismatch"));
+  EXPECT_TRUE(has_finding("turning.csv", line_of(turning, "25,"), "steering-stop"));
+}
+
+TEST_F(Pipeline, TunedGainsBeatThePapersInEveryModeUnderTheConstraint) {
+  const Json gains = json("gains.json");
+  const double t1 = gains["/time_constants/T1_s"_json_pointer];
+  const double t2 = gains["/time_constants/T2_s"_json_pointer];
+  EXPECT_LT(t2, t1);
+  for (const Json& constraint : gains.at("constraints")) EXPECT_GE(constraint.at("margin"), 0.0);
+}
+
+TEST_F(Pipeline, GivesTheSameBytesAgain) {
+  const TemporaryDirectory again;
+  ASSERT_EQ(awmr("run configs/paper/project.json -o " + again.path().string()).exit_code, 0);
+  for (const char* name : {"model.json", "awmr_params.h", "comparison.csv"}) {
+    EXPECT_EQ(read_all(directory_->path() / name), read_all(again.path() / name)) << name;
+  }
+}
+
+}  // namespace
+}  // namespace awmr::testing

@@ -1,0 +1,66 @@
+#include "awmr/model/gains_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "json_edit.h"
+
+namespace awmr {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+using ::testing::StartsWith;
+
+const char* const kText = R"({
+  "schema": "awmr.gains/1",
+  "heading": {"lambda": 3, "mu": 50, "epsilon": 12},
+  "speed": {"mu": 5, "epsilon": 1.2}
+})";
+
+TEST(GainsFile, ReadsTheGains) {
+  const testing::ScratchFile file("gains.json", kText);
+  const auto gains = read_gains(file.path());
+  ASSERT_TRUE(gains) << to_text(gains.error());
+  EXPECT_EQ(gains->heading.lambda, 3.0);
+  EXPECT_EQ(gains->heading.mu, 50.0);
+  EXPECT_EQ(gains->heading.epsilon, 12.0);
+  EXPECT_EQ(gains->speed.mu, 5.0);
+  EXPECT_EQ(gains->speed.epsilon, 1.2);
+}
+
+TEST(GainsFile, PassesOverTheContractsOtherKeys) {
+  Json json = Json::parse(kText);
+  for (const char* key : {"command", "version", "options", "inputs", "time_constants",
+                          "constraints", "objective", "metrics", "search", "baseline"}) {
+    json[key] = Json::object({{"anything", 1}});
+  }
+  EXPECT_THAT(testing::faults_of(read_gains, json.dump()), IsEmpty());
+}
+
+TEST(GainsFile, RefusesWhatIsMissingUnknownOrNotPositive) {
+  const std::vector<testing::Edit> edits{
+      {"/heading", {}, true},       {"/speed", {}, true},   {"/heading/mu", {}, true},
+      {"/speed/epsilon", {}, true}, {"/heading/lambda", 0}, {"/heading/mu", -50},
+      {"/heading/epsilon", "12"},   {"/speed/mu", nullptr}, {"/speed/epsilon", 0},
+      {"/speed/lambda", 1},         {"/heading/gain", 1},   {"/gains", 1},
+      {"/schema", "awmr.model/1"}};
+  for (const testing::Edit& edit : edits) {
+    EXPECT_THAT(testing::faults_of(read_gains, testing::edited(kText, edit)), SizeIs(1))
+        << edit.pointer << " = " << edit.value.dump();
+  }
+  EXPECT_THAT(testing::faults_of(read_gains, testing::edited(kText, {"/heading/lambda", 0})),
+              ElementsAre(StartsWith("/heading/lambda: ")));
+}
+
+TEST(GainsFile, HasThePapersGainsWithTheirTimeConstants) {
+  // T1 = 1/3 s, T2 = 12/(2 x 50) = 0.12 s                                     [paper (91), (95)]
+  EXPECT_DOUBLE_EQ(kPaperGains.heading.sliding_time_constant_s(), 1.0 / 3.0);
+  EXPECT_DOUBLE_EQ(kPaperGains.heading.reaching_time_constant_s(), 0.12);
+  EXPECT_DOUBLE_EQ(kPaperGains.speed.epsilon / kPaperGains.speed.mu,
+                   kPaperGains.heading.epsilon / kPaperGains.heading.mu);
+}
+
+}  // namespace
+}  // namespace awmr

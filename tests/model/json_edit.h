@@ -1,0 +1,58 @@
+/// A valid document, spoilt in one place.
+#pragma once
+
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <functional>
+#include <sstream>
+#include <string>
+
+#include "awmr/core/json.h"
+#include "awmr/core/result.h"
+#include "support/scratch_file.h"
+
+namespace awmr::testing {
+
+inline std::string bytes_of(const std::filesystem::path& path) {
+  std::ostringstream bytes;
+  bytes << std::ifstream(path, std::ios::binary).rdbuf();
+  return bytes.str();
+}
+
+/// The faults with which `read` refuses `text`, as `POINTER: MESSAGE`; empty where it is accepted.
+template <class Read>
+std::vector<std::string> faults_of(Read read, const std::string& text) {
+  const ScratchFile file("file.json", text);
+  const auto result = read(file.path());
+  std::vector<std::string> faults;
+  if (result) return faults;
+  EXPECT_EQ(result.error().kind, ErrorKind::kInput);
+  for (const Fault& fault : result.error().faults) {
+    const std::string prefix = file.path().string() + ":";
+    EXPECT_THAT(fault.place, ::testing::StartsWith(prefix)) << fault.message;
+    faults.push_back(fault.place.substr(std::min(prefix.size(), fault.place.size())) + ": " +
+                     fault.message);
+  }
+  return faults;
+}
+
+/// A value put at a pointer, or taken away.
+struct Edit {
+  std::string pointer;
+  Json value;
+  bool erase = false;
+};
+
+inline std::string edited(const std::string& text, const Edit& edit) {
+  Json json = Json::parse(text);
+  const Json::json_pointer pointer(edit.pointer);
+  if (edit.erase) {
+    json[pointer.parent_pointer()].erase(pointer.back());
+  } else {
+    json[pointer] = edit.value;
+  }
+  return json.dump(2);
+}
+
+}  // namespace awmr::testing

@@ -1,0 +1,288 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "awmr/core/random.h"
+#include "awmr/core/units.h"
+#include "awmr/model/model.h"
+#include "json_edit.h"
+
+namespace awmr {
+namespace {
+
+using ::testing::AllOf;
+using testing::Edit;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+using ::testing::StartsWith;
+
+Vehicle some_vehicle() {
+  return {.name = "a \"vehicle\", naïve\n",
+          .mass_kg = 37.0,
+          .length_m = 1.32,
+          .width_m = 0.78,
+          .front_axle_m = 0.35,
+          .half_track_m = 0.36,
+          .wheel_force = {-0.1, 0.7},
+          .steering_max_deg = 20.0,
+          .steering_max_rate_degps = 300.0,
+          .steering_time_constant_s = 0.02,
+          .sample_time_s = 0.01,
+          .yaw_inertia_kgm2 = std::nullopt,
+          .sway_alpha = 1.0 / 3.0,
+          .surge_beta_range = {0.0, 1.5},
+          .yaw_beta_range = {0.1, 4.0}};
+}
+
+/// Every field filled, with doubles that have no short decimal form.
+Model some_model() {
+  Model model;
+  model.vehicle = some_vehicle();
+  for (const ParameterInfo& parameter : parameter_table()) {
+    const double value = 0.1 + std::sqrt(static_cast<double>(parameter.id) + 2.0);
+    model[parameter.id] = {value, value / 7.0, Interval{value / 3.0, value * 3.0}, Source::kFitted,
+                           "log-linear"};
+  }
+  model[ParameterId::kMassNorm].source = Source::kDerived;
+  model[ParameterId::kSwayAlpha] = {3.0, {}, {}, Source::kGiven, "vehicle.json"};
+  model.reports = {{.subject = "surge",
+                    .estimator = "log-linear",
+                    .noise = "log force",
+                    .parameters = {{"surge.alpha", 1.3157, 0.0183, Interval{1.27, 1.36}},
+                                   {"surge.beta", 0.8841, {}, {}}},
+                    .residual_std = 0.0364,
+                    .rows_used = 10,
+                    .degrees_of_freedom = 8,
+                    .rank = 2,
+                    .condition_number = 3.3,
+                    .stop_reason = "solved directly"}};
+  model.covariance = {{ParameterId::kSurgeAlpha, ParameterId::kSurgeBeta},
+                      {{1e-4, 2.0 / 3.0 * 1e-5}, {2.0 / 3.0 * 1e-5, 2.5e-4}}};
+  model.findings = {{"surge.csv", 11, Severity::kWarning, "speed-mismatch", "1.03 and 1.08"},
+                    {"", 0, Severity::kNote, "rows-set-aside", "1 row"},
+                    {"t.csv", 0, Severity::kError, "not-identifiable", "no"}};
+  model.trials = {{"surge", "surge.csv", 4, 0.2, 0.12, 0.1188},
+                  {"turning", "t.csv", 3, 0.02, 0.038, {}},
+                  {"coastdown", "c.csv", 4, 1.66, 0.573, 0.55}};
+  model.provenance = {
+      "identify", {{"method", "log-linear"}}, {{"surge.csv", std::string(64, 'a')}}};
+  return model;
+}
+
+Result<Model> reread(const std::string& text) {
+  const testing::ScratchFile file("model.json", text);
+  return read_model(file.path());
+}
+
+std::vector<std::string> faults_after(const Edit& edit) {
+  return testing::faults_of(read_model, testing::edited(model_text(some_model()), edit));
+}
+
+TEST(ModelFile, GivesTheSameBytesWhenWrittenAgain) {
+  const std::string text = model_text(some_model());
+  const auto model = reread(text);
+  ASSERT_TRUE(model) << to_text(model.error());
+  EXPECT_EQ(model_text(*model), text);
+}
+
+TEST(ModelFile, ReadsBackEveryFieldExactly) {
+  const Model written = some_model();
+  const auto model = reread(model_text(written));
+  ASSERT_TRUE(model) << to_text(model.error());
+  for (const ParameterInfo& parameter : parameter_table()) {
+    const Estimate& a = written[parameter.id];
+    const Estimate& b = (*model)[parameter.id];
+    EXPECT_EQ(a.value, b.value) << parameter.name;
+    EXPECT_EQ(a.std_error, b.std_error) << parameter.name;
+    ASSERT_EQ(a.ci95.has_value(), b.ci95.has_value()) << parameter.name;
+    if (a.ci95) {
+      EXPECT_EQ(a.ci95->lo, b.ci95->lo) << parameter.name;
+      EXPECT_EQ(a.ci95->hi, b.ci95->hi) << parameter.name;
+    }
+    EXPECT_EQ(a.source, b.source) << parameter.name;
+    EXPECT_EQ(a.method, b.method) << parameter.name;
+  }
+  EXPECT_EQ(model->vehicle.name, written.vehicle.name);
+  EXPECT_EQ(model->vehicle.sway_alpha, written.vehicle.sway_alpha);
+  EXPECT_FALSE(model->vehicle.yaw_inertia_kgm2);
+  EXPECT_EQ(model->vehicle.surge_beta_range.hi, 1.5);
+  EXPECT_EQ(model->covariance.matrix, written.covariance.matrix);
+  EXPECT_EQ(model->covariance.parameters, written.covariance.parameters);
+  EXPECT_EQ(model->findings[2].severity, Severity::kError);
+  EXPECT_EQ(model->findings[0].line, 11);
+  EXPECT_EQ(model->trials[0].predicted, 0.1188);
+  EXPECT_FALSE(model->trials[1].predicted);
+  EXPECT_EQ(model->provenance.command, "identify");
+  EXPECT_EQ(model->provenance.inputs[0].sha256, std::string(64, 'a'));
+}
+
+TEST(ModelFile, RoundTripsArbitraryNumbersAndGaps) {
+  Random random(7, 0);
+  for (int i = 0; i < 200; ++i) {
+    Model model = some_model();
+    for (Estimate& estimate : model.estimates) {
+      // Magnitudes over 600 decades; a third of the values unknown.
+      const double value = std::pow(10.0, 600.0 * random.uniform() - 300.0);
+      estimate.value = random.uniform() < 0.33 ? std::nullopt : std::optional(value);
+      estimate.std_error = random.uniform() < 0.5 ? std::nullopt : std::optional(value * 0.1);
+      estimate.ci95 =
+          random.uniform() < 0.5 ? std::nullopt : std::optional(Interval{-value, value * 1.1});
+    }
+    const std::string text = model_text(model);
+    const auto back = reread(text);
+    ASSERT_TRUE(back) << to_text(back.error());
+    ASSERT_EQ(model_text(*back), text);
+    for (std::size_t k = 0; k < kParameterCount; ++k) {
+      ASSERT_EQ(back->estimates[k].value, model.estimates[k].value);
+    }
+  }
+}
+
+TEST(ModelFile, RoundTripsAModelOfWhichNothingIsKnown) {
+  Model model;
+  model.vehicle = some_vehicle();
+  model.provenance.command = "identify";
+  const std::string text = model_text(model);
+  const auto back = reread(text);
+  ASSERT_TRUE(back) << to_text(back.error());
+  EXPECT_EQ(model_text(*back), text);
+}
+
+TEST(ModelFile, WritesNoInfinityAndNoNaN) {
+  Model model = some_model();
+  model.reports[0].condition_number = std::numeric_limits<double>::infinity();
+  model.reports[0].residual_std = std::numeric_limits<double>::quiet_NaN();
+  model[ParameterId::kMassNorm].std_error = std::numeric_limits<double>::infinity();
+  const auto back = reread(model_text(model));
+  ASSERT_TRUE(back) << to_text(back.error());
+  EXPECT_TRUE(std::isinf(back->reports[0].condition_number));
+  EXPECT_TRUE(std::isnan(back->reports[0].residual_std));
+  EXPECT_FALSE((*back)[ParameterId::kMassNorm].std_error);
+  EXPECT_EQ(model_text(*back), model_text(model));
+}
+
+TEST(ModelFile, HasTheContractsKeysAndUnits) {
+  const Json json = Json::parse(model_text(some_model()));
+  EXPECT_EQ(json["schema"], "awmr.model/1");
+  for (const ParameterInfo& parameter : parameter_table()) {
+    const Json& estimate = json[Json::json_pointer(std::string(parameter.pointer))];
+    std::vector<std::string> keys;
+    for (const auto& item : estimate.items()) keys.push_back(item.key());
+    EXPECT_THAT(keys, ElementsAre("value", "std_error", "ci95", "unit", "source", "method"));
+    EXPECT_EQ(estimate["unit"], parameter.unit);
+  }
+  EXPECT_EQ(json["covariance"]["parameters"], Json({"surge.alpha", "surge.beta"}));
+  EXPECT_EQ(json["vehicle"]["wheel_force"]["max"], 0.7);
+  EXPECT_EQ(json["findings"][0]["severity"], "warning");
+  EXPECT_TRUE(json.contains("inputs"));
+}
+
+TEST(ModelFile, NeedsEveryKey) {
+  const Json json = Json::parse(model_text(some_model()));
+  const Json flat = json.flatten();
+  for (const auto& item : flat.items()) {
+    const std::string& pointer = item.key();
+    const std::string last = pointer.substr(pointer.rfind('/') + 1);
+    const bool optional = last == "schema" || last == "sway_alpha" ||
+                          pointer.find("_beta_range") != std::string::npos ||
+                          pointer == "/command" || pointer == "/version" ||
+                          pointer.find("/options/") == 0;
+    const bool element = last.find_first_not_of("0123456789") == std::string::npos;
+    if (optional || element) continue;
+    EXPECT_THAT(faults_after({pointer, {}, true}), SizeIs(1)) << pointer;
+  }
+  for (const char* pointer : {"/vehicle", "/surge", "/yaw", "/mass_norm", "/estimates",
+                              "/covariance", "/covariance/matrix", "/findings", "/trials"}) {
+    EXPECT_THAT(faults_after({pointer, {}, true}), SizeIs(::testing::Ge(1u))) << pointer;
+  }
+}
+
+TEST(ModelFile, RefusesUnknownKeysAtEveryLevel) {
+  for (const char* pointer : {"/extra", "/surge/gamma", "/surge/alpha/extra", "/mass_norm/extra",
+                              "/steering/extra", "/vehicle/extra", "/vehicle/steering/extra",
+                              "/estimates/0/extra", "/estimates/0/parameters/1/extra",
+                              "/covariance/extra", "/findings/0/extra", "/trials/2/extra"}) {
+    EXPECT_THAT(faults_after({pointer, 1}), ElementsAre(StartsWith(pointer))) << pointer;
+  }
+}
+
+TEST(ModelFile, RefusesValuesThatCannotBe) {
+  const std::vector<Edit> edits{{"/schema", "awmr.vehicle/1"},
+                                {"/surge/alpha/value", 0},
+                                {"/surge/alpha/value", "1"},
+                                {"/surge/beta/value", -0.1},
+                                {"/mass_norm/value", -1},
+                                {"/mass_norm/std_error", -1},
+                                {"/mass_norm/ci95", Json::array({2, 1})},
+                                {"/mass_norm/ci95", Json::array({1})},
+                                {"/mass_norm/unit", "kg"},
+                                {"/mass_norm/source", "guessed"},
+                                {"/mass_norm/method", 3},
+                                {"/vehicle/mass_kg", 0},
+                                {"/estimates/0/parameters/0/name", "surge.gamma"},
+                                {"/estimates/0/rows_used", -1},
+                                {"/estimates/0/rows_used", 1.5},
+                                {"/covariance/parameters", {"surge.alpha", "surge.gamma"}},
+                                {"/covariance/matrix", 1},
+                                {"/covariance/matrix/0", {1}},
+                                {"/covariance/matrix/1/1", nullptr},
+                                {"/covariance/matrix/1/1", -2.5e-4},
+                                {"/covariance/matrix/0/1", 1e-5},
+                                {"/findings/0/severity", "fatal"},
+                                {"/findings/0/line", -1},
+                                {"/trials/0/kind", "parking"},
+                                {"/trials/0/input", nullptr},
+                                {"/trials", Json::object()}};
+  for (const Edit& edit : edits) {
+    EXPECT_THAT(faults_after(edit), SizeIs(1)) << edit.pointer << " = " << edit.value.dump();
+  }
+  EXPECT_THAT(faults_after({"/covariance/parameters", {"surge.alpha", "surge.alpha"}}),
+              ::testing::Contains(HasSubstr("twice")));
+}
+
+TEST(Model, BecomesAPlantInRadians) {
+  const auto plant = some_model().plant("m.json");
+  ASSERT_TRUE(plant);
+  const Model model = some_model();
+  EXPECT_EQ(plant->surge.alpha, *model[ParameterId::kSurgeAlpha].value);
+  EXPECT_EQ(plant->surge.beta, *model[ParameterId::kSurgeBeta].value);
+  EXPECT_EQ(plant->surge.rest_speed, 0.0);
+  EXPECT_EQ(plant->yaw.alpha, *model[ParameterId::kYawAlpha].value);
+  EXPECT_EQ(plant->yaw.beta, *model[ParameterId::kYawBeta].value);
+  EXPECT_EQ(plant->sway_alpha, 3.0);
+  EXPECT_EQ(plant->mass_norm, *model[ParameterId::kMassNorm].value);
+  EXPECT_EQ(plant->inertia_norm, *model[ParameterId::kInertiaNorm].value);
+  EXPECT_EQ(plant->front_axle_m, 0.35);
+  EXPECT_EQ(plant->half_track_m, 0.36);
+  EXPECT_DOUBLE_EQ(plant->steering_max_rad, pi<double>() / 9.0);
+  EXPECT_DOUBLE_EQ(plant->steering_max_rate_radps, pi<double>() * 300.0 / 180.0);
+  EXPECT_EQ(plant->steering_time_constant_s, *model[ParameterId::kSteeringTimeConstant].value);
+}
+
+TEST(Model, RefusesAPlantByTheNameOfEachMissingParameterWithItsTrial) {
+  for (const ParameterInfo& parameter : parameter_table()) {
+    Model model = some_model();
+    model[parameter.id].value.reset();
+    const auto plant = model.plant("m.json");
+    ASSERT_FALSE(plant) << parameter.name;
+    EXPECT_EQ(exit_code(plant.error()), 2);
+    ASSERT_THAT(plant.error().faults, SizeIs(1));
+    EXPECT_EQ(plant.error().faults[0].place, "m.json:" + std::string(parameter.pointer));
+    EXPECT_THAT(plant.error().faults[0].message, AllOf(HasSubstr(std::string(parameter.name)),
+                                                       HasSubstr(std::string(parameter.trial))));
+  }
+  Model nothing;
+  EXPECT_THAT(nothing.plant("m.json").error().faults, SizeIs(kParameterCount));
+}
+
+TEST(Model, HasThePapersLargestWheelForce) {
+  // 37/0.0768 = 481.77 N                                                            [paper (66)]
+  EXPECT_NEAR(max_wheel_force_n(37.0, 0.0768), 481.77, 0.005);
+}
+
+}  // namespace
+}  // namespace awmr

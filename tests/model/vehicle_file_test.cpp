@@ -1,0 +1,170 @@
+#include "awmr/model/vehicle.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "json_edit.h"
+
+namespace awmr {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::Each;
+using testing::Edit;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using ::testing::SizeIs;
+using ::testing::StartsWith;
+
+const std::filesystem::path kConfigs = AWMR_SOURCE_DIR "/configs/paper";
+
+std::string paper_text() { return testing::bytes_of(kConfigs / "vehicle.json"); }
+
+std::vector<std::string> faults_after(const Edit& edit) {
+  return testing::faults_of(read_vehicle, testing::edited(paper_text(), edit));
+}
+
+TEST(VehicleFile, ReadsThePapersVehicle) {
+  const auto vehicle = read_vehicle(kConfigs / "vehicle.json");
+  ASSERT_TRUE(vehicle) << to_text(vehicle.error());
+  EXPECT_EQ(vehicle->mass_kg, 37.0);
+  EXPECT_EQ(vehicle->length_m, 1.32);
+  EXPECT_EQ(vehicle->width_m, 0.78);
+  EXPECT_EQ(vehicle->front_axle_m, 0.35);
+  EXPECT_EQ(vehicle->half_track_m, 0.36);
+  EXPECT_EQ(vehicle->wheel_force.lo, -1.0);
+  EXPECT_EQ(vehicle->wheel_force.hi, 1.0);
+  EXPECT_EQ(vehicle->steering_max_deg, 20.0);
+  EXPECT_EQ(vehicle->steering_max_rate_degps, 300.0);
+  EXPECT_EQ(vehicle->steering_time_constant_s, 0.02);
+  EXPECT_EQ(vehicle->sample_time_s, 0.01);
+  EXPECT_EQ(vehicle->yaw_inertia_kgm2, 5.841);
+  EXPECT_EQ(vehicle->sway_alpha, 3.0);
+  EXPECT_EQ(vehicle->inertia_kgm2(), 5.841);
+}
+
+TEST(VehicleFile, ReadsTheForwardOnlyVehicle) {
+  const auto vehicle = read_vehicle(kConfigs / "vehicle_forward_only.json");
+  ASSERT_TRUE(vehicle) << to_text(vehicle.error());
+  EXPECT_EQ(vehicle->wheel_force.lo, 0.0);
+  EXPECT_EQ(vehicle->wheel_force.hi, 0.5);
+}
+
+TEST(VehicleFile, TakesTheBoxFormulaWhereNoInertiaIsGiven) {
+  const testing::ScratchFile file("vehicle.json",
+                                  testing::edited(paper_text(), {"/yaw_inertia_kgm2", {}, true}));
+  const auto vehicle = read_vehicle(file.path());
+  ASSERT_TRUE(vehicle) << to_text(vehicle.error());
+  // 37 (0.78^2 + 1.32^2)/12 = 37 x 2.3508/12 = 7.2483, exact in decimals; 1e-14 relative is
+  // rounding.
+  EXPECT_NEAR(vehicle->inertia_kgm2(), 7.2483, 7.2483e-14);
+}
+
+TEST(VehicleFile, HasTheContractsDefaultsForWhatIsOptional) {
+  Json json = Json::parse(paper_text());
+  for (const char* key : {"schema", "yaw_inertia_kgm2", "sway_alpha"}) json.erase(key);
+  const testing::ScratchFile file("vehicle.json", json.dump());
+  const auto vehicle = read_vehicle(file.path());
+  ASSERT_TRUE(vehicle) << to_text(vehicle.error());
+  EXPECT_FALSE(vehicle->yaw_inertia_kgm2);
+  EXPECT_FALSE(vehicle->sway_alpha);
+  EXPECT_EQ(vehicle->surge_beta_range.lo, 0.0);
+  EXPECT_EQ(vehicle->surge_beta_range.hi, 1.0);
+  EXPECT_EQ(vehicle->yaw_beta_range.lo, 0.0);
+  EXPECT_EQ(vehicle->yaw_beta_range.hi, 4.0);
+}
+
+TEST(VehicleFile, NeedsEveryRequiredKey) {
+  for (const char* pointer :
+       {"/name", "/mass_kg", "/length_m", "/width_m", "/front_axle_m", "/half_track_m",
+        "/wheel_force", "/wheel_force/min", "/wheel_force/max", "/steering", "/steering/max_deg",
+        "/steering/max_rate_degps", "/steering/time_constant_s", "/sample_time_s"}) {
+    const auto faults = faults_after({pointer, {}, true});
+    ASSERT_THAT(faults, SizeIs(1)) << pointer;
+    EXPECT_THAT(faults[0],
+                HasSubstr(std::string(pointer).substr(std::string(pointer).rfind('/') + 1)));
+  }
+}
+
+TEST(VehicleFile, RefusesUnknownKeysAtEveryLevel) {
+  for (const char* pointer : {"/mass_kgs", "/wheel_force/maximum", "/steering/max_degrees"}) {
+    EXPECT_THAT(faults_after({pointer, 1.0}), ElementsAre(StartsWith(pointer))) << pointer;
+  }
+}
+
+TEST(VehicleFile, NamesTheNearestKnownKey) {
+  EXPECT_THAT(faults_after({"/sway_alfa", 3.0}), ElementsAre(HasSubstr("sway_alpha")));
+}
+
+TEST(VehicleFile, RefusesValuesThatCannotBe) {
+  const std::vector<Edit> edits{{"/schema", "awmr.vehicle/2"},
+                                {"/schema", 1},
+                                {"/name", 5},
+                                {"/mass_kg", 0},
+                                {"/mass_kg", -37},
+                                {"/mass_kg", "37"},
+                                {"/mass_kg", nullptr},
+                                {"/mass_kg", Json::array({37})},
+                                {"/length_m", 0},
+                                {"/width_m", -0.1},
+                                {"/front_axle_m", 0},
+                                {"/half_track_m", 0},
+                                {"/wheel_force", 1},
+                                {"/wheel_force/min", -1.01},
+                                {"/wheel_force/min", 1},
+                                {"/wheel_force/max", 1.01},
+                                {"/wheel_force/max", 0},
+                                {"/wheel_force/max", -0.5},
+                                {"/steering/max_deg", 0},
+                                {"/steering/max_deg", 90},
+                                {"/steering/max_rate_degps", 0},
+                                {"/steering/time_constant_s", 0},
+                                {"/steering", Json::array()},
+                                {"/sample_time_s", 0},
+                                {"/yaw_inertia_kgm2", 0},
+                                {"/yaw_inertia_kgm2", true},
+                                {"/sway_alpha", -3},
+                                {"/surge_beta_range", Json::array({1, 0})},
+                                {"/surge_beta_range", Json::array({-0.1, 1})},
+                                {"/surge_beta_range", Json::array({0.5, 0.5})},
+                                {"/surge_beta_range", Json::array({0, 1, 2})},
+                                {"/yaw_beta_range", 4}};
+  for (const Edit& edit : edits) {
+    // One place is named, though more than one thing may be said of it.
+    EXPECT_THAT(faults_after(edit), AllOf(Not(IsEmpty()), Each(StartsWith(edit.pointer + ": "))))
+        << edit.pointer << " = " << edit.value.dump();
+  }
+}
+
+TEST(VehicleFile, AcceptsTheEndsOfItsRanges) {
+  for (const Edit& edit : std::vector<Edit>{{"/wheel_force/min", 0},
+                                            {"/wheel_force/max", 1e-3},
+                                            {"/steering/max_deg", 89.9},
+                                            {"/surge_beta_range", Json::array({0, 2})}}) {
+    EXPECT_THAT(faults_after(edit), IsEmpty()) << edit.pointer;
+  }
+}
+
+TEST(VehicleFile, ReportsAllFaultsAtOnce) {
+  Json json = Json::parse(paper_text());
+  json["mass_kg"] = -1;
+  json.erase("width_m");
+  json["colour"] = "red";
+  json["steering"]["max_deg"] = 120;
+  EXPECT_THAT(testing::faults_of(read_vehicle, json.dump()), SizeIs(4));
+}
+
+TEST(VehicleFile, RefusesWhatIsNoObject) {
+  for (const char* text : {"", "[]", "3", "null", "{", "{\"name\": }"}) {
+    const testing::ScratchFile file("vehicle.json", text);
+    const auto vehicle = read_vehicle(file.path());
+    ASSERT_FALSE(vehicle) << text;
+    EXPECT_EQ(exit_code(vehicle.error()), 2) << text;
+  }
+  EXPECT_FALSE(read_vehicle("/nowhere/vehicle.json"));
+}
+
+}  // namespace
+}  // namespace awmr

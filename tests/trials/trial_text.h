@@ -1,0 +1,73 @@
+/// Trials from text, and what the readers say of it.
+#pragma once
+
+#include <gmock/gmock.h>
+
+#include <string>
+#include <vector>
+
+#include "awmr/trials/trials.h"
+#include "support/scratch_file.h"
+
+namespace awmr::testing {
+
+inline Vehicle some_vehicle() {
+  Vehicle vehicle;
+  vehicle.front_axle_m = 0.35;
+  vehicle.steering_max_deg = 20.0;
+  return vehicle;
+}
+
+inline constexpr auto kReadTurning = [](const std::filesystem::path& path,
+                                        const TrialOptions& options,
+                                        std::vector<Finding>& findings) {
+  return read_turning(path, some_vehicle(), options, findings);
+};
+
+template <class Set>
+struct Read {
+  Set set;
+  std::vector<Finding> findings;
+};
+
+/// Reads text that has to be accepted.
+template <class Reader>
+auto accepted(Reader read, const std::string& text, const TrialOptions& options = {}) {
+  const ScratchFile file("trial.csv", text);
+  std::vector<Finding> findings;
+  auto set = read(file.path(), options, findings);
+  if (!set) ADD_FAILURE() << to_text(set.error());
+  for (const Finding& finding : findings) EXPECT_EQ(finding.file, file.path().string());
+  using Set = typename decltype(set)::value_type;
+  return Read<Set>{set ? *set : Set{}, findings};
+}
+
+/// The faults with which text is refused, as `LINE:COLUMN: MESSAGE`; empty where it is accepted.
+template <class Reader>
+std::vector<std::string> faults_of(Reader read, const std::string& text,
+                                   const TrialOptions& options = {}) {
+  const ScratchFile file("trial.csv", text);
+  std::vector<Finding> findings;
+  const auto set = read(file.path(), options, findings);
+  std::vector<std::string> faults;
+  if (set) return faults;
+  EXPECT_EQ(set.error().kind, ErrorKind::kInput);
+  const std::string prefix = file.path().string() + ":";
+  for (const Fault& fault : set.error().faults) {
+    EXPECT_THAT(fault.place, ::testing::StartsWith(prefix)) << fault.message;
+    faults.push_back(fault.place.substr(std::min(prefix.size(), fault.place.size())) + ": " +
+                     fault.message);
+  }
+  return faults;
+}
+
+/// `CODE@LINE` of each finding.
+inline std::vector<std::string> codes_of(const std::vector<Finding>& findings) {
+  std::vector<std::string> codes;
+  for (const Finding& finding : findings) {
+    codes.push_back(finding.code + "@" + std::to_string(finding.line));
+  }
+  return codes;
+}
+
+}  // namespace awmr::testing

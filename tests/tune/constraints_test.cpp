@@ -1,0 +1,172 @@
+#include "awmr/tune/constraints.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <complex>
+
+#include "awmr/model/gains_file.h"
+#include "awmr/tune/sampled_loop.h"
+#include "tune/paper_model.h"
+
+namespace awmr {
+namespace {
+
+ConstraintContext paper_context(ReachingForm form, double margin) {
+  return {.form = form,
+          .margin = margin,
+          .plant = testing::paper_model().plant("paper").value(),
+          .sample_time_s = 0.01,
+          .speed_mps = 1.0};
+}
+
+const ConstraintReport& named(const std::vector<ConstraintReport>& all, const std::string& name) {
+  for (const ConstraintReport& c : all) {
+    if (c.name == name) return c;
+  }
+  ADD_FAILURE() << "no constraint named " << name;
+  return all.front();
+}
+
+// A few operations on numbers below 50: relative rounding well under 1e-14.
+constexpr double kRounding = 1e-13;
+
+TEST(Constraints, GiveBothFormsOfT2BelowT1ForThePapersGains) {
+  // T1 = 1/3 s, T2 = 12/(2 50) = 0.12 s, 2 T2 = 0.24 s; limit 0.8/3 = 0.26667 s
+  const auto all = constraints_of(kPaperGains, paper_context(ReachingForm::kStrict, 0.8));
+  const ConstraintReport& paper = named(all, "T2 < T1 (paper)");
+  const ConstraintReport& strict = named(all, "T2 < T1 (strict)");
+  EXPECT_NEAR(paper.value, 0.12, kRounding);
+  EXPECT_NEAR(strict.value, 0.24, kRounding);
+  EXPECT_NEAR(paper.limit, 0.8 / 3.0, kRounding);
+  EXPECT_NEAR(strict.margin, 0.8 / 3.0 - 0.24, kRounding);
+  EXPECT_TRUE(strict.required);
+  EXPECT_FALSE(paper.required);
+}
+
+TEST(Constraints, RequireOnlyTheFormAskedFor) {
+  // margin 0.5: 0.12 <= 0.1667 holds, 0.24 <= 0.1667 does not.
+  const auto paper = constraints_of(kPaperGains, paper_context(ReachingForm::kPaper, 0.5));
+  const auto strict = constraints_of(kPaperGains, paper_context(ReachingForm::kStrict, 0.5));
+  EXPECT_LT(named(paper, "T2 < T1 (strict)").margin, 0.0);
+  EXPECT_THAT(residuals(paper), ::testing::Each(::testing::Le(0.0)));
+  EXPECT_THAT(residuals(strict), ::testing::Contains(::testing::Gt(0.0)));
+}
+
+TEST(Constraints, BoundTheSpeedLoopByHandFormulas) {
+  // k_s = 5/1.2; k_s T_s = 0.041667; k_s (0.02 + 0.005) = 0.104167; 1/(4 0.49) = 0.510204
+  const auto all = constraints_of(kPaperGains, paper_context(ReachingForm::kStrict, 0.8));
+  EXPECT_NEAR(named(all, "speed gain").value, 0.05 / 1.2, kRounding);
+  EXPECT_NEAR(named(all, "speed gain").limit, 0.5, kRounding);
+  EXPECT_NEAR(named(all, "speed lag").value, 0.125 / 1.2, kRounding);
+  EXPECT_NEAR(named(all, "speed lag").limit, 1.0 / 1.96, kRounding);
+}
+
+TEST(Constraints, AskTheCorrectiveTermsToDominate) {
+  // 0.2 0.3028 (pi/3)^0.825/0.0128 and 0.2 1.3268/0.0768 at 1 m/s
+  const auto all = constraints_of(kPaperGains, paper_context(ReachingForm::kStrict, 0.8));
+  EXPECT_NEAR(named(all, "mu dominates").value,
+              0.2 * 0.3028 * std::pow(std::acos(-1.0) / 3.0, 0.825) / 0.0128, 1e-12);
+  EXPECT_NEAR(named(all, "mu_s dominates").value, 0.2 * 1.3268 / 0.0768, 1e-12);
+}
+
+TEST(Constraints, KeepCompassNoiseBelowAQuarterOfTheWeakerAuthority) {
+  // Steering: 0.35 1.3268 tan(10 deg) m; differential: 4 0.36 (1 - 1.3268/4) m, larger.
+  const ConstraintContext context = paper_context(ReachingForm::kStrict, 0.8);
+  const double degree = std::acos(-1.0) / 180.0;
+  EXPECT_NEAR(turning_authority_m(context), 0.35 * 1.3268 * std::tan(10.0 * degree), kRounding);
+  const auto all = constraints_of(kPaperGains, context);
+  EXPECT_NEAR(named(all, "noise gain").value, 0.0128 * 3.0 * 50.0 / 12.0 * degree, kRounding);
+  EXPECT_NEAR(named(all, "noise gain").limit, turning_authority_m(context) / 4.0, kRounding);
+}
+
+TEST(Constraints, PassOverTheModeThatHasNoAuthority) {
+  // At rest steering has none; with F' at its upper limit the differential mode has none.
+  ConstraintContext context = paper_context(ReachingForm::kStrict, 0.8);
+  context.speed_mps = 0.0;
+  EXPECT_NEAR(turning_authority_m(context), 4.0 * 0.36, kRounding);
+  context.speed_mps = 1.0;
+  context.wheel_force = {0.0, 1.3268 / 4.0};
+  EXPECT_NEAR(turning_authority_m(context), 0.35 * 1.3268 * std::tan(std::acos(-1.0) / 18.0),
+              kRounding);
+}
+
+TEST(Constraints, HoldForThePapersGains) {
+  const auto all = constraints_of(kPaperGains, paper_context(ReachingForm::kStrict, 0.8));
+  for (const ConstraintReport& c : all) {
+    EXPECT_GE(c.margin, 0.0) << c.name << " " << c.value << " against " << c.limit;
+  }
+}
+
+TEST(SampledLoop, IsTheDoubleIntegratorsWithoutResistanceAndServo) {
+  // a = 0, s = 1: psi+ = psi + T r + T^2/2 w, r+ = r + T w, w = -(l + k) r - l k psi gives
+  //   z^2 - (2 - T (l + k) - T^2/2 l k) z + (1 - T (l + k) + T^2/2 l k) = 0.
+  // The servo hangs on the side with its own real pole, damping 1.
+  const double l = 8.0;
+  const double k = 150.0;
+  const double t = 0.01;
+  const double b = 2.0 - t * (l + k) - t * t / 2.0 * l * k;
+  const double c = 1.0 - t * (l + k) + t * t / 2.0 * l * k;
+  const std::complex<double> root = std::sqrt(std::complex<double>(b * b / 4.0 - c));
+  double expected = 1.0;
+  for (const std::complex<double> z : {b / 2.0 + root, b / 2.0 - root}) {
+    const std::complex<double> s = std::log(z);
+    expected = std::min(expected, -s.real() / std::abs(s));
+  }
+  const double damping = damping_ratio({.lambda = l,
+                                        .reaching_rate = k,
+                                        .resistance_rate = 0.0,
+                                        .servo_time_constant_s = 0.02,
+                                        .sample_time_s = t,
+                                        .direct_share = 1.0});
+  // Eigenvalues of a 3 by 3 matrix of size about 1, well apart: a few hundred roundings at most.
+  EXPECT_NEAR(damping, expected, 1e-10);
+  EXPECT_LT(damping, 0.5);  // z = -0.58: rings with every sample
+}
+
+TEST(SampledLoop, IsUnstableExactlyBeyondTheJuryBound) {
+  // z = -1 in the polynomial above: 4 - 2 T (l + k) = 0, whatever l k: l + k = 2/T = 200.
+  const auto damping_at = [](double k) {
+    return damping_ratio({.lambda = 3.0,
+                          .reaching_rate = k,
+                          .resistance_rate = 0.0,
+                          .servo_time_constant_s = 0.02,
+                          .sample_time_s = 0.01,
+                          .direct_share = 1.0});
+  };
+  EXPECT_GT(damping_at(196.9), 0.0);
+  EXPECT_LT(damping_at(197.1), 0.0);
+}
+
+TEST(SampledLoop, ApproachesTheContinuousLoopForShortSamples) {
+  // T_s and T -> 0: roots -lambda, -k, real, apart, so they stay real under a perturbation of
+  // order h = 1e-5 and the damping ratio stays 1.
+  const double damping = damping_ratio({.lambda = 3.0,
+                                        .reaching_rate = 5.0,
+                                        .resistance_rate = 20.0,
+                                        .servo_time_constant_s = 1e-5,
+                                        .sample_time_s = 1e-5,
+                                        .direct_share = 0.0});
+  EXPECT_NEAR(damping, 1.0, 1e-6);
+}
+
+TEST(SampledLoop, LosesDampingWithLambdaPlusKTimesTheLag) {
+  // (lambda + k)(T + T_s/2) = 1/(4 0.49) is the first-order bound for zeta 0.7 at lambda -> 0; the
+  // hold's delay is T_s/2 to first order in T_s. At 0.510 against half and twice of it:
+  const auto damping_at = [](double product) {
+    return damping_ratio({.lambda = 1e-3,
+                          .reaching_rate = product / 0.0201,
+                          .resistance_rate = 0.0,
+                          .servo_time_constant_s = 0.02,
+                          .sample_time_s = 0.0002,
+                          .direct_share = 0.0});
+  };
+  // zeta = 1/(2 sqrt(product)); the neglected terms are T_s/T = 1 % and lambda/k < 1e-3.
+  EXPECT_NEAR(damping_at(1.0 / 1.96), 0.7, 0.01);
+  EXPECT_NEAR(damping_at(2.0 / 1.96), 0.7 / std::sqrt(2.0), 0.01);
+  EXPECT_GT(damping_at(0.5 / 1.96), 0.98);
+}
+
+}  // namespace
+}  // namespace awmr

@@ -1,0 +1,229 @@
+#include "awmr/tune/search.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "awmr/core/units.h"
+#include "awmr/model/gains_file.h"
+#include "awmr/simulate/simulate.h"
+#include "tune/paper_model.h"
+
+namespace awmr {
+namespace {
+
+using testing::paper_model;
+
+/// A shorter default: what is tested does not need the last per cent.
+TuneOptions short_options() {
+  TuneOptions options;
+  options.global_evaluations = 80;
+  options.local_evaluations = 30;
+  Scenario scenario = default_tuning_scenario();
+  scenario.duration_s = 10.0;
+  scenario.guidance = HeadingSteps{{{0.0, radians(30.0)}, {5.0, radians(-30.0)}}};
+  options.scenarios = {scenario};
+  return options;
+}
+
+const ConstraintReport& named(const Tuning& tuning, const std::string& name) {
+  for (const ConstraintReport& c : tuning.constraints) {
+    if (c.name == name) return c;
+  }
+  ADD_FAILURE() << "no constraint named " << name;
+  return tuning.constraints.front();
+}
+
+std::string text_of(const TuneOptions& options) {
+  const Result<Tuning> tuning = tune(paper_model(), "model.json", options);
+  if (!tuning) return to_text(tuning.error());
+  return gains_text(*tuning, options, {.command = "tune", .options = {}, .inputs = {}});
+}
+
+/// The documented objective, written out again: weighted figures over the baseline's, floors 0.1
+/// deg s^2, 0.5 deg, 0.01/s, 0.001, 0.001 m s.
+double mode_objective(const TuneOptions& options, const Gains<double>& gains, YawMode mode) {
+  const Model model = paper_model();
+  const Plant<double> plant = model.plant("model.json").value();
+  const auto figures = [&](const Gains<double>& g) {
+    const Controller<double> c = make_controller(plant, model.vehicle, g);
+    const Run run = simulate(plant, c, options.scenarios.front(), mode,
+                             {.sample_time_s = 0.01, .substeps = {}});
+    const Metrics m = metrics_of(run, options.scenarios.front(), c);
+    double speed = 0.0;
+    for (std::size_t i = 1; i < run.rows.size(); ++i) {
+      const auto at = [&](std::size_t k) {
+        return run.rows[k].t_s * std::abs(run.rows[k].u_ref_mps - run.rows[k].state.u_mps);
+      };
+      speed += 0.5 * (at(i) + at(i - 1)) * (run.rows[i].t_s - run.rows[i - 1].t_s);
+    }
+    return std::array<double, 5>{m.heading_itae_degs2.value() + 0.1, m.overshoot_deg.value() + 0.5,
+                                 m.control_variation + 0.01, m.control_effort + 1e-3, speed + 1e-3};
+  };
+  const auto x = figures(gains);
+  const auto x0 = figures(kPaperGains);
+  const ObjectiveWeights& w = options.weights;
+  const double weights[] = {w.itae, w.overshoot, w.control_variation, w.effort, w.speed_itae};
+  double sum = 0.0;
+  double total = 0.0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    sum += weights[i] * x[i] / x0[i];
+    total += weights[i];
+  }
+  return sum / total;
+}
+
+TEST(Ranking, NoInfeasibleCandidateBeatsAFeasibleOne) {
+  const Candidate feasible{.violation = -0.1, .objective = 5.0, .simulated = true, .valid = true};
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const Candidate others[] = {
+      {.violation = 0.01, .objective = 0.1, .simulated = true, .valid = true},
+      {.violation = -1.0, .objective = 0.1, .simulated = true, .valid = false},
+      {.violation = -1.0, .objective = 0.0, .simulated = false, .valid = false},
+      {.violation = nan, .objective = 0.1, .simulated = true, .valid = true},
+      {.violation = -1.0, .objective = nan, .simulated = true, .valid = false},
+  };
+  for (const Candidate& other : others) {
+    EXPECT_TRUE(better(feasible, other));
+    EXPECT_FALSE(better(other, feasible));
+  }
+}
+
+TEST(Ranking, OrdersFeasibleOnesByObjectiveAndOthersByViolation) {
+  const Candidate good{.violation = -0.1, .objective = 0.5, .simulated = true, .valid = true};
+  const Candidate fair{.violation = -0.9, .objective = 0.6, .simulated = true, .valid = true};
+  const Candidate near{.violation = 0.1, .objective = 0.9, .simulated = true, .valid = true};
+  const Candidate far{.violation = 0.2, .objective = 0.1, .simulated = true, .valid = true};
+  EXPECT_TRUE(better(good, fair));
+  EXPECT_FALSE(better(fair, good));
+  EXPECT_TRUE(better(near, far));
+  EXPECT_FALSE(better(far, near));
+}
+
+TEST(Objective, IsExactlyOneForTheBaselineInEveryModeAndScenario) {
+  const Model model = paper_model();
+  const Objective objective(model.plant("model.json").value(), model.vehicle, {},
+                            short_options().scenarios, kPaperGains);
+  for (const Evaluation& e : {objective.baseline(), objective(kPaperGains)}) {
+    EXPECT_TRUE(e.valid);
+    EXPECT_EQ(e.objective, 1.0);
+    EXPECT_THAT(e.mode_objective, ::testing::Each(1.0));
+    for (const ModeScore& score : e.scores) EXPECT_EQ(score.objective, 1.0);
+  }
+}
+
+class Tuned : public ::testing::TestWithParam<ReachingForm> {};
+
+TEST_P(Tuned, MeetsEveryConstraintAndBeatsTheBaselineInEveryModeWhenSimulatedAgain) {
+  TuneOptions options = short_options();
+  options.form = GetParam();
+  const Result<Tuning> tuning = tune(paper_model(), "model.json", options);
+  ASSERT_TRUE(tuning) << to_text(tuning.error());
+  const HeadingGains<double>& g = tuning->gains.heading;
+  const double reaching_s =
+      options.form == ReachingForm::kStrict ? g.epsilon / g.mu : g.epsilon / (2.0 * g.mu);
+  // The same quotients in another order: a rounding or two.
+  EXPECT_LE(reaching_s, options.margin / g.lambda * (1.0 + 1e-14));
+  for (const ConstraintReport& c : tuning->constraints) {
+    if (!c.required) continue;
+    EXPECT_GE(c.margin, 0.0) << c.name;
+  }
+  double mean = 0.0;
+  for (const YawMode mode : kYawModes) {
+    const double value = mode_objective(options, tuning->gains, mode);
+    EXPECT_LT(value, 1.0) << name_of(mode);
+    mean += value / 3.0;
+  }
+  // The same figures, summed in another order.
+  EXPECT_NEAR(tuning->objective, mean, 1e-12);
+  EXPECT_EQ(tuning->baseline_objective, 1.0);
+  EXPECT_EQ(tuning->held_out_scores.size(), std::size(kYawModes));
+}
+
+INSTANTIATE_TEST_SUITE_P(InBothForms, Tuned,
+                         ::testing::Values(ReachingForm::kPaper, ReachingForm::kStrict));
+
+TEST(Tune, GivesTheSameBytesForTheSameSeed) {
+  const TuneOptions options = short_options();
+  const std::string first = text_of(options);
+  EXPECT_EQ(first, text_of(options));
+  EXPECT_THAT(first, ::testing::HasSubstr("\"awmr.gains/1\""));
+}
+
+TEST(Tune, ReportsBothMarginsOfT2BelowT1WhicheverIsRequired) {
+  TuneOptions options = short_options();
+  options.global_evaluations = 20;
+  options.local_evaluations = 20;
+  options.form = ReachingForm::kPaper;
+  const Result<Tuning> tuning = tune(paper_model(), "model.json", options);
+  ASSERT_TRUE(tuning) << to_text(tuning.error());
+  EXPECT_NEAR(named(*tuning, "T2 < T1 (strict)").value,
+              2.0 * named(*tuning, "T2 < T1 (paper)").value, 1e-12);
+  EXPECT_FALSE(named(*tuning, "T2 < T1 (strict)").required);
+}
+
+TEST(Tune, RefusesAMarginThatNoGainsWithinTheBoundsMeet) {
+  // eps/mu <= 0.01/lambda with lambda >= 0.5: mu/eps >= 50/s. With the servo and the hold,
+  // (lambda + mu/eps)(T + T_s/2) >= 1.26 against 0.51 for damping 0.7.
+  TuneOptions options = short_options();
+  options.margin = 0.01;
+  const Result<Tuning> tuning = tune(paper_model(), "model.json", options);
+  ASSERT_FALSE(tuning);
+  EXPECT_EQ(tuning.error().kind, ErrorKind::kRefused);
+  EXPECT_THAT(to_text(tuning.error()), ::testing::HasSubstr("no gains within the bounds"));
+}
+
+TEST(Tune, RefusesBoundsThatExcludeEveryFeasibleGain) {
+  // mu <= 1 rad/s^2 against 0.2 g3(60 deg/s)/I'z = 4.9
+  TuneOptions options = short_options();
+  options.bounds.mu = {0.5, 1.0};
+  const Result<Tuning> tuning = tune(paper_model(), "model.json", options);
+  ASSERT_FALSE(tuning);
+  EXPECT_EQ(tuning.error().kind, ErrorKind::kRefused);
+  EXPECT_THAT(to_text(tuning.error()), ::testing::HasSubstr("mu dominates"));
+}
+
+TEST(Tune, RefusesWhenNothingBeatsTheBaseline) {
+  // The bounds leave the paper's gains alone: they are feasible and score 1, which is not better.
+  TuneOptions options = short_options();
+  options.bounds = {.lambda = {3.0, 3.0},
+                    .mu = {50.0, 50.0},
+                    .epsilon = {12.0, 12.0},
+                    .speed_mu = {5.0, 5.0},
+                    .speed_epsilon = {1.2, 1.2}};
+  options.global_evaluations = 5;
+  options.local_evaluations = 5;
+  const Result<Tuning> tuning = tune(paper_model(), "model.json", options);
+  ASSERT_FALSE(tuning);
+  EXPECT_EQ(tuning.error().kind, ErrorKind::kRefused) << to_text(tuning.error());
+  EXPECT_THAT(to_text(tuning.error()), ::testing::HasSubstr("in every mode"));
+}
+
+TEST(Tune, NamesAllUnfitOptionsAtOnce) {
+  TuneOptions options = short_options();
+  options.margin = 1.0;
+  options.weights = {0.0, 0.0, 0.0, 0.0, 0.0};
+  options.bounds.lambda = {-1.0, 2.0};
+  options.scenarios.push_back(options.scenarios.front());
+  options.scenarios.push_back(options.scenarios.front());
+  options.scenarios.back().name = "open";
+  options.scenarios.back().guidance = OpenLoop{};
+  const Result<Tuning> tuning = tune(paper_model(), "model.json", options);
+  ASSERT_FALSE(tuning);
+  EXPECT_EQ(tuning.error().kind, ErrorKind::kInput);
+  EXPECT_EQ(tuning.error().faults.size(), 5U) << to_text(tuning.error());
+}
+
+TEST(Tune, PassesOnThatTheModelLacksAParameter) {
+  Model model = paper_model();
+  model[ParameterId::kMassNorm].value.reset();
+  const Result<Tuning> tuning = tune(model, "model.json", short_options());
+  ASSERT_FALSE(tuning);
+  EXPECT_EQ(tuning.error().kind, ErrorKind::kInput);
+}
+
+}  // namespace
+}  // namespace awmr

@@ -1,0 +1,147 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "awmr/core/json.h"
+#include "awmr/model/gains_file.h"
+#include "awmr/tune/tune.h"
+#include "tune/paper_model.h"
+
+namespace awmr {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// A directory of its own for each test.
+class TuneFile : public ::testing::Test {
+ protected:
+  TuneFile()
+      : directory_(std::filesystem::path(::testing::TempDir()) /
+                   (std::string("awmr_tune_") +
+                    ::testing::UnitTest::GetInstance()->current_test_info()->name())) {
+    std::filesystem::remove_all(directory_);
+    std::filesystem::create_directories(directory_);
+  }
+  ~TuneFile() override { std::filesystem::remove_all(directory_); }
+
+  std::filesystem::path write(const std::string& name, const std::string& text) const {
+    std::ofstream(directory_ / name) << text;
+    return directory_ / name;
+  }
+  Result<TuneOptions> read(const std::string& text) const {
+    return read_tune_options(write("tune.json", text));
+  }
+  std::string fault(const std::string& text) const {
+    const Result<TuneOptions> options = read(text);
+    return options ? "accepted" : to_text(options.error());
+  }
+
+  std::filesystem::path directory_;
+};
+
+TEST_F(TuneFile, GivesTheDefaultsForAnEmptyObject) {
+  const Result<TuneOptions> options = read("{}");
+  ASSERT_TRUE(options) << to_text(options.error());
+  EXPECT_EQ(options->form, ReachingForm::kStrict);
+  EXPECT_EQ(options->margin, TuneOptions{}.margin);
+  EXPECT_EQ(options->weights.itae, ObjectiveWeights{}.itae);
+  EXPECT_EQ(options->global_evaluations, TuneOptions{}.global_evaluations);
+  EXPECT_TRUE(options->scenarios.empty());
+}
+
+TEST_F(TuneFile, TakesEveryDocumentedKey) {
+  write("turn.json",
+        R"({"name": "turn", "duration_s": 5, "initial": {"x_m": 0, "y_m": 0, "psi_deg": 0,
+            "u_mps": 0, "v_mps": 0, "r_degps": 0}, "speed_mps": 1,
+            "guidance": {"type": "heading", "steps": [{"t_s": 0, "psi_deg": 20}]}})");
+  const Result<TuneOptions> options = read(
+      R"({"schema": "awmr.tune/1", "form": "paper", "margin": 0.5,
+          "weights": {"itae": 2, "overshoot": 0, "control_variation": 1, "effort": 3,
+                      "speed_itae": 4},
+          "bounds": {"lambda": [1, 2], "mu": [3, 4], "epsilon": [5, 6], "speed_mu": [7, 8],
+                     "speed_epsilon": [9, 10]},
+          "global_evaluations": 11, "local_evaluations": 12, "seed": 13,
+          "scenarios": ["turn.json"]})");
+  ASSERT_TRUE(options) << to_text(options.error());
+  EXPECT_EQ(options->form, ReachingForm::kPaper);
+  EXPECT_EQ(options->margin, 0.5);
+  EXPECT_EQ(options->weights.effort, 3.0);
+  EXPECT_EQ(options->weights.speed_itae, 4.0);
+  EXPECT_EQ(options->bounds.speed_epsilon.hi, 10.0);
+  EXPECT_EQ(options->global_evaluations, 11);
+  EXPECT_EQ(options->local_evaluations, 12);
+  EXPECT_EQ(options->seed, 13U);
+  ASSERT_EQ(options->scenarios.size(), 1U);
+  EXPECT_EQ(options->scenarios.front().name, "turn");
+  ASSERT_EQ(options->scenario_files.size(), 1U);
+  EXPECT_EQ(options->scenario_files.front(), directory_ / "turn.json");
+}
+
+TEST_F(TuneFile, NamesAnUnknownKeyAndItsNearest) {
+  EXPECT_THAT(fault(R"({"margn": 0.5})"), HasSubstr("margin"));
+  EXPECT_THAT(fault(R"({"weights": {"overshot": 1}})"), HasSubstr("overshoot"));
+  EXPECT_THAT(fault(R"({"bounds": {"lamda": [1, 2]}})"), HasSubstr("lambda"));
+}
+
+TEST_F(TuneFile, RefusesValuesOutOfRange) {
+  for (const char* text :
+       {R"({"margin": 0})", R"({"margin": 1})", R"({"margin": "0.5"})", R"({"form": "strickt"})",
+        R"({"global_evaluations": 0})", R"({"local_evaluations": -1})",
+        R"({"global_evaluations": 2.5})", R"({"seed": -1})", R"({"weights": {"itae": -1}})",
+        R"({"weights": {"itae": 0, "overshoot": 0, "control_variation": 0, "effort": 0,
+            "speed_itae": 0}})",
+        R"({"bounds": {"mu": [0, 1]}})", R"({"bounds": {"mu": [2, 1]}})",
+        R"({"bounds": {"mu": 3}})", R"({"schema": "awmr.gains/1"})", R"({"scenarios": []})",
+        R"({"scenarios": ["absent.json"]})", R"([])", "{", ""}) {
+    const Result<TuneOptions> options = read(text);
+    ASSERT_FALSE(options) << text;
+    EXPECT_EQ(options.error().kind, ErrorKind::kInput) << text;
+  }
+}
+
+TEST_F(TuneFile, ReportsEveryFaultAtOnce) {
+  const Result<TuneOptions> options =
+      read(R"({"margin": 2, "seed": -1, "unknown": 1, "scenarios": ["absent.json"]})");
+  ASSERT_FALSE(options);
+  EXPECT_EQ(options.error().faults.size(), 4U) << to_text(options.error());
+}
+
+TEST_F(TuneFile, WritesGainsThatReadBackBitForBit) {
+  Tuning tuning;
+  tuning.gains = {{3.1, 50.0 / 3.0, 0.1 + 0.2}, {1.0 / 7.0, 1e-3}};
+  tuning.baseline = kPaperGains;
+  tuning.scores = {{.scenario = "a", .mode = YawMode::kSteering, .objective = 0.9}};
+  tuning.constraints = {{.name = "T2 < T1 (strict)", .value = 1.0, .limit = 2.0, .margin = 1.0}};
+  const std::string text =
+      gains_text(tuning, {}, {.command = "tune", .options = {{"seed", "1"}}, .inputs = {}});
+  const Result<Gains<double>> gains = read_gains(write("gains.json", text));
+  ASSERT_TRUE(gains) << to_text(gains.error());
+  EXPECT_EQ(gains->heading.lambda, tuning.gains.heading.lambda);
+  EXPECT_EQ(gains->heading.mu, tuning.gains.heading.mu);
+  EXPECT_EQ(gains->heading.epsilon, tuning.gains.heading.epsilon);
+  EXPECT_EQ(gains->speed.mu, tuning.gains.speed.mu);
+  EXPECT_EQ(gains->speed.epsilon, tuning.gains.speed.epsilon);
+}
+
+TEST_F(TuneFile, WritesTheContractsKeys) {
+  Tuning tuning;
+  tuning.gains = kPaperGains;
+  tuning.scores = {{.scenario = "a", .mode = YawMode::kSteering, .objective = 0.9}};
+  const Json json =
+      Json::parse(gains_text(tuning, {}, {.command = "tune", .options = {}, .inputs = {}}));
+  EXPECT_EQ(json.at("schema"), "awmr.gains/1");
+  EXPECT_EQ(json.at("heading").at("mu"), 50.0);
+  EXPECT_EQ(json.at("time_constants").at("T1_s"), 1.0 / 3.0);
+  EXPECT_EQ(json.at("time_constants").at("T2_s"), 0.12);
+  EXPECT_EQ(json.at("metrics").at("steering").at("a").at("objective"), 0.9);
+  // A metric that has no meaning is null, not 0.
+  EXPECT_TRUE(json.at("metrics").at("steering").at("a").at("overshoot_deg").is_null());
+  for (const char* key : {"constraints", "objective", "search", "baseline", "version"}) {
+    EXPECT_TRUE(json.contains(key)) << key;
+  }
+}
+
+}  // namespace
+}  // namespace awmr
