@@ -46,11 +46,10 @@ Result<Outcome> execute(const CompareCommand& command) {
   const auto json = write_file(command.output / "comparison.json",
                                comparison_text(*comparison, command.compare, provenance));
   if (!json) return tl::unexpected(json.error());
-  return Outcome{
-      comparison_table(*comparison) + fmt::format("wrote {} and comparison.csv\n",
-                                                  (command.output / "comparison.json").string()),
-      {},
-      false};
+  const std::string table = comparison_table(*comparison);
+  return Outcome{.summary = table + fmt::format("wrote {} and comparison.csv\n",
+                                                (command.output / "comparison.json").string()),
+                 .brief = table};
 }
 
 void add_compare(CLI::App& app, Session& session) {

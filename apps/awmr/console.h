@@ -18,9 +18,10 @@ namespace awmr::cli {
 
 /// What a command leaves for the person who ran it.
 struct Outcome {
-  std::string summary;            ///< for stdout
-  std::vector<Finding> findings;  ///< for stderr
-  bool refused = false;           ///< the work ran and the answer is no: exit code 1
+  std::string summary = {};            ///< for stdout
+  std::string brief = {};              ///< the same in a few lines, for `run`
+  std::vector<Finding> findings = {};  ///< for stderr
+  bool refused = false;                ///< the work ran and the answer is no: exit code 1
 };
 
 /// The program's state while one command runs.

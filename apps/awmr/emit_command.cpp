@@ -20,15 +20,16 @@ Result<Outcome> execute(const EmitCommand& command) {
   if (!model_input) return tl::unexpected(model_input.error());
   const auto gains_input = input_file(command.gains);
   if (!gains_input) return tl::unexpected(gains_input.error());
-  const auto header = params_header(
-      *model, *gains, {command.model.string(), model_input->sha256, gains_input->sha256});
+  const auto header =
+      params_header(*model, *gains,
+                    {command.model.filename().string(), model_input->sha256, gains_input->sha256});
   if (!header) return tl::unexpected(header.error());
   if (const auto made = make_directory(command.output); !made) return tl::unexpected(made.error());
   const fs::path path = command.output / "awmr_params.h";
   if (const auto written = write_file(path, *header); !written) {
     return tl::unexpected(written.error());
   }
-  return Outcome{fmt::format("wrote {}\n", path.string()), {}, false};
+  return Outcome{.summary = fmt::format("wrote {}\n", path.string())};
 }
 
 void add_emit(CLI::App& app, Session& session) {

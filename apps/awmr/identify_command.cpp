@@ -110,8 +110,11 @@ Result<Outcome> execute(const IdentifyCommand& command) {
   if (const auto written = write_file(command.output, model_text(identified->model)); !written) {
     return tl::unexpected(written.error());
   }
-  return Outcome{summary_of(command, identified->model), identified->model.findings,
-                 !identified->refused.empty()};
+  const Model& model = identified->model;
+  return Outcome{.summary = summary_of(command, model),
+                 .brief = parameter_table_text(model),
+                 .findings = model.findings,
+                 .refused = !identified->refused.empty()};
 }
 
 void add_identify(CLI::App& app, Session& session) {

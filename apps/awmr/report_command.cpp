@@ -17,7 +17,7 @@ Result<Outcome> execute(const ReportCommand& command) {
   if (const auto written = write_file(path, *html); !written) {
     return tl::unexpected(written.error());
   }
-  return Outcome{fmt::format("wrote {}\n", path.string()), {}, false};
+  return Outcome{.summary = fmt::format("wrote {}\n", path.string())};
 }
 
 void add_report(CLI::App& app, Session& session) {

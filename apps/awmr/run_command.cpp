@@ -50,7 +50,7 @@ Result<Outcome> execute(const RunCommand& command) {
   /// Takes a step's outcome into the total; false where the run has to stop.
   const auto take = [&total](const char* title, Result<Outcome>& step) {
     if (!step) return false;
-    total.summary += fmt::format("{}\n{}", title, step->summary);
+    total.summary += fmt::format("{}\n{}", title, step->brief);
     total.findings.insert(total.findings.end(), step->findings.begin(), step->findings.end());
     total.refused = total.refused || step->refused;
     return true;
@@ -70,7 +70,7 @@ Result<Outcome> execute(const RunCommand& command) {
       execute(ValidateCommand{model, gains, ValidateOptions{}, command.output / "validation.json"});
   if (!take("validate", validated)) return validated;
   auto emitted = execute(EmitCommand{model, gains, command.output});
-  if (!take("emit", emitted)) return emitted;
+  if (!emitted) return emitted;
   auto compared =
       execute(CompareCommand{model, gains, project->scenarios, project->compare, command.output});
   if (!take("compare", compared)) return compared;
@@ -78,7 +78,11 @@ Result<Outcome> execute(const RunCommand& command) {
     return tl::unexpected(runs.error());
   }
   auto reported = execute(ReportCommand{command.output});
-  if (!take("report", reported)) return reported;
+  if (!reported) return reported;
+  total.summary += fmt::format(
+      "wrote model.json gains.json validation.json awmr_params.h comparison.json comparison.csv,\n"
+      "the runs and report.html to {}\n",
+      command.output.string());
   return total;
 }
 

@@ -35,16 +35,14 @@ Result<Outcome> execute(const SimulateCommand& command) {
     return tl::unexpected(written.error());
   }
   const State<double>& last = run.rows.back().state;
-  return Outcome{
-      fmt::format(
-          "{}, {}: {} rows, {} RK4 steps per sample\n"
-          "  at {:g} s: x {:.3f} m, y {:.3f} m, psi {:.2f} deg, u {:.3f} m/s, r {:.2f} deg/s\n"
-          "wrote {}\n",
-          scenario->name, name_of(command.mode), run.rows.size(), run.substeps, run.rows.back().t_s,
-          last.x_m, last.y_m, degrees(last.psi_rad), last.u_mps, degrees(last.r_radps),
-          command.output.string()),
-      {},
-      false};
+  const std::string summary = fmt::format(
+      "{}, {}: {} rows, {} RK4 steps per sample\n"
+      "  at {:g} s: x {:.3f} m, y {:.3f} m, psi {:.2f} deg, u {:.3f} m/s, r {:.2f} deg/s\nwrote "
+      "{}\n",
+      scenario->name, name_of(command.mode), run.rows.size(), run.substeps, run.rows.back().t_s,
+      last.x_m, last.y_m, degrees(last.psi_rad), last.u_mps, degrees(last.r_radps),
+      command.output.string());
+  return Outcome{.summary = summary};
 }
 
 void add_simulate(CLI::App& app, Session& session) {

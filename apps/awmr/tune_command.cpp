@@ -17,12 +17,18 @@ std::string gains_line(const char* name, const Gains<double>& gains, double obje
       gains.heading.reaching_time_constant_s(), objective);
 }
 
-std::string summary_of(const TuneCommand& command, const Tuning& tuning) {
+/// The tuned gains under the paper's, with their time constants and objective.
+std::string gains_table(const Tuning& tuning) {
   std::string text =
       fmt::format("  {:<10} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>10}\n", "gains", "lambda",
                   "mu", "epsilon", "mu_s", "eps_s", "T1 s", "T2 s", "objective");
   text += gains_line("paper", tuning.baseline, tuning.baseline_objective);
   text += gains_line("tuned", tuning.gains, tuning.objective);
+  return text;
+}
+
+std::string summary_of(const TuneCommand& command, const Tuning& tuning) {
+  std::string text = gains_table(tuning);
   for (const ModeScore& score : tuning.scores) {
     text += fmt::format("    {:<22} {:<13} {:.4f} of the paper's gains'\n", score.scenario,
                         name_of(score.mode), score.objective);
@@ -48,9 +54,11 @@ Result<Outcome> execute(const TuneCommand& command) {
     options = *read;
   }
   Provenance provenance{"tune", {}, {}};
-  for (const auto& path : {std::optional(command.model), command.config}) {
-    if (!path) continue;
-    const auto input = input_file(*path);
+  std::vector<fs::path> inputs{command.model};
+  if (command.config) inputs.push_back(*command.config);
+  inputs.insert(inputs.end(), options.scenario_files.begin(), options.scenario_files.end());
+  for (const fs::path& path : inputs) {
+    const auto input = input_file(path);
     if (!input) return tl::unexpected(input.error());
     provenance.inputs.push_back(*input);
   }
@@ -60,7 +68,7 @@ Result<Outcome> execute(const TuneCommand& command) {
       !written) {
     return tl::unexpected(written.error());
   }
-  return Outcome{summary_of(command, *tuning), {}, false};
+  return Outcome{.summary = summary_of(command, *tuning), .brief = gains_table(*tuning)};
 }
 
 void add_tune(CLI::App& app, Session& session) {

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <memory>
@@ -8,6 +9,21 @@
 #include "commands.h"
 
 namespace awmr::cli {
+namespace {
+
+/// The verdict, and the claims by what became of them.
+std::string brief_of(const Validation& validation) {
+  std::vector<std::string> reproduced;
+  std::vector<std::string> others;
+  for (const Claim& claim : validation.claims) {
+    (claim.reproduced ? reproduced : others).push_back(claim.id);
+  }
+  return fmt::format("  {}\n  claims reproduced: {}; not reproduced: {}\n", validation.verdict,
+                     fmt::join(reproduced, " "),
+                     others.empty() ? "none" : fmt::format("{}", fmt::join(others, " ")));
+}
+
+}  // namespace
 
 Result<Outcome> execute(const ValidateCommand& command) {
   const auto model = read_model(command.model);
@@ -31,9 +47,10 @@ Result<Outcome> execute(const ValidateCommand& command) {
       !written) {
     return tl::unexpected(written.error());
   }
-  return Outcome{validation_table(*validation) + fmt::format("wrote {}\n", command.output.string()),
-                 {},
-                 !validation->passed};
+  return Outcome{
+      .summary = validation_table(*validation) + fmt::format("wrote {}\n", command.output.string()),
+      .brief = brief_of(*validation),
+      .refused = !validation->passed};
 }
 
 void add_validate(CLI::App& app, Session& session) {

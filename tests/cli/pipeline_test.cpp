@@ -24,7 +24,8 @@ class Pipeline : public ::testing::Test {
     return Json::parse(read_all(directory_->path() / name));
   }
   static bool has_finding(const std::string& file, int line, const std::string& code) {
-    for (const Json& f : json("model.json").at("findings")) {
+    const Json model = json("model.json");
+    for (const Json& f : model.at("findings")) {
       if (f.at("file").get<std::string>().find(file) != std::string::npos && f.at("line") == line &&
           f.at("code") == code) {
         return true;

@@ -1,5 +1,8 @@
 #include <fmt/format.h>
 
+#include <array>
+#include <cmath>
+
 #include "awmr/compare/ranking.h"
 #include "awmr/compare/statistics.h"
 
@@ -10,12 +13,17 @@ namespace {
 constexpr std::array<const char*, kMetricColumns.size()> kHeads = {
     "settle", "overs.", "IAE", "x-track", "path", "drop", "slip", "yaw", "var.", "clear", "finish"};
 
+/// At most 7 characters up to 10^7.
+std::string figure(double value) {
+  return fmt::format("{:.{}f}", value, std::abs(value) < 100.0 ? 3 : std::abs(value) < 1e4 ? 1 : 0);
+}
+
 std::string row_text(const ModeRows& rows, const std::vector<RankedMode>& ranking) {
   std::string text =
       fmt::format("  {:<12} {:>4.0f}", name_of(rows.mode), 100.0 * rows.completed_share());
   for (const MetricColumn& metric : kMetricColumns) {
     const auto mean = summarise(rows, metric).mean;
-    text += mean ? fmt::format(" {:>7.3g}", *mean) : fmt::format(" {:>7}", "-");
+    text += fmt::format(" {:>7}", mean ? figure(*mean) : "-");
   }
   std::string place = "-";
   for (const RankedMode& ranked : ranking) {

@@ -35,7 +35,8 @@ std::string to_text(const Error& error) {
                                 : fmt::format("error: {}: {}\n", fault.place, fault.message);
   }
   if (error.faults.size() > shown) {
-    text += fmt::format("error: {} more faults are not shown\n", error.faults.size() - shown);
+    const std::size_t left = error.faults.size() - shown;
+    text += fmt::format("error: {} more fault{} not shown\n", left, left == 1 ? " is" : "s are");
   }
   return text;
 }

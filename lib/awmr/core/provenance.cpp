@@ -10,7 +10,7 @@ const char* version() { return AWMR_VERSION; }
 Result<InputFile> input_file(const std::filesystem::path& path) {
   auto hash = sha256_of_file(path);
   if (!hash) return tl::unexpected(hash.error());
-  return InputFile{path.string(), std::move(*hash)};
+  return InputFile{path.filename().string(), std::move(*hash)};
 }
 
 }  // namespace awmr

@@ -15,7 +15,7 @@ namespace awmr {
 const char* version();
 
 struct InputFile {
-  std::string name;    ///< as the user gave it
+  std::string name;    ///< its file name, without the directory: the same wherever it lies
   std::string sha256;  ///< of its bytes
 };
 
@@ -24,8 +24,8 @@ Result<InputFile> input_file(const std::filesystem::path& path);
 
 struct Provenance {
   std::string command;  ///< "identify", "tune", ...
-  std::vector<std::pair<std::string, std::string>>
-      options;  ///< every option with its resolved value
+  /// Every option with its resolved value.
+  std::vector<std::pair<std::string, std::string>> options;
   std::vector<InputFile> inputs;
 };
 

@@ -1,166 +1,157 @@
 #include <fmt/format.h>
 
-#include <cmath>
-#include <limits>
-#include <utility>
-#include <vector>
+#include <string_view>
 
 #include "awmr/core/hash.h"
+#include "awmr/core/json_text.h"
 #include "awmr/core/units.h"
 #include "awmr/emit/emit.h"
+#include "macros.h"
 
 namespace awmr {
 namespace {
 
-struct Define {
-  std::string name;
-  double value;
-  std::string comment;
-  bool positive = true;
-};
-
-/// A float literal that reads back to the same float: %.9g and `f`, always with a point or
-/// exponent.
+/// %.9g and `f`: nine significant digits read back to the same float. `3f` is no literal of C, so
+/// a point or an exponent is always there; a sign needs parentheses, as a macro's value has to bind
+/// tighter than what is around it.
 std::string float_literal(double value) {
-  std::string text = fmt::format("{:.9g}", static_cast<double>(static_cast<float>(value)));
+  const float rounded = static_cast<float>(value) + 0.0F;  // -0 + 0 = 0
+  std::string text = fmt::format("{:.9g}", static_cast<double>(rounded));
   if (text.find_first_of(".e") == std::string::npos) text += ".0";
-  return text + "f";
+  text += "f";
+  return rounded < 0.0F ? "(" + text + ")" : text;
 }
 
-bool is_float(double value) {
-  const double magnitude = std::abs(value);
-  using Limits = std::numeric_limits<float>;
-  return magnitude == 0.0 || (magnitude >= static_cast<double>(Limits::min()) &&
-                              magnitude <= static_cast<double>(Limits::max()));
+/// Names from files inside a C89 comment: one line of printable ASCII, other characters as '?',
+/// that neither ends the comment nor seems to start one.
+std::string comment_safe(std::string_view text) {
+  std::string safe;
+  for (const char c : text) {
+    if (continues_character(c)) continue;
+    const bool joins =
+        !safe.empty() && ((safe.back() == '*' && c == '/') || (safe.back() == '/' && c == '*'));
+    if (joins) safe += ' ';
+    safe += c >= ' ' && c <= '~' ? c : '?';
+  }
+  return safe;
 }
 
-std::string origin(const Estimate& estimate) {
-  const char* source = estimate.source == Source::kGiven     ? "given"
-                       : estimate.source == Source::kDerived ? "derived"
-                                                             : "fitted";
-  std::string text = fmt::format("{}, {}", source, estimate.method);
-  if (estimate.std_error) text += fmt::format(", std error {:.2g}", *estimate.std_error);
-  return text;
-}
+constexpr std::string_view kCheckMacro = R"(
+/* Checked by the compiler, after an edit by hand too. In C a condition that does not hold makes a
+   bit-field of negative width, whose name says what is wrong. C calls a comparison of floats no
+   integer constant expression, but compilers fold it; __extension__ is for -Wpedantic. */
+#if defined(__cplusplus) && __cplusplus >= 201103L
+#define AWMR_PARAMS_CHECK(what, condition) static_assert(condition, #what)
+#elif defined(__GNUC__)
+#define AWMR_PARAMS_CHECK(what, condition) \
+  __extension__ struct awmr_check_##what { unsigned int what : (condition) ? 1 : -1; }
+#else
+#define AWMR_PARAMS_CHECK(what, condition) \
+  struct awmr_check_##what { unsigned int what : (condition) ? 1 : -1; }
+#endif
 
-/// A comment may not end early: file contents reach it through names.
-std::string comment_safe(std::string text) {
-  for (std::size_t at = 0; (at = text.find("*/", at)) != std::string::npos;)
-    text.replace(at, 2, "* /");
-  return text;
-}
+)";
 
-std::vector<Define> defines_of(const Model& model, const Gains<double>& gains) {
-  const auto parameter = [&](const char* name, ParameterId id, bool positive) {
-    const ParameterInfo& p = info(id);
-    return Define{name, *model[id].value,
-                  fmt::format("{}, {}: {}; {}", p.symbol, p.unit, p.meaning, origin(model[id])),
-                  positive};
-  };
-  const Vehicle& v = model.vehicle;
-  return {
-      parameter("AWMR_SURGE_ALPHA", ParameterId::kSurgeAlpha, true),
-      parameter("AWMR_SURGE_BETA", ParameterId::kSurgeBeta, false),
-      parameter("AWMR_YAW_ALPHA", ParameterId::kYawAlpha, true),
-      parameter("AWMR_YAW_BETA", ParameterId::kYawBeta, false),
-      parameter("AWMR_SWAY_ALPHA", ParameterId::kSwayAlpha, false),
-      parameter("AWMR_MASS_NORM", ParameterId::kMassNorm, true),
-      parameter("AWMR_INERTIA_NORM", ParameterId::kInertiaNorm, true),
-      {"AWMR_FRONT_AXLE_M", v.front_axle_m, "l_f, m: centre of gravity to front axle; vehicle"},
-      {"AWMR_HALF_TRACK_M", v.half_track_m, "d, m: centre line to a wheel; vehicle"},
-      {"AWMR_WHEEL_FORCE_MIN", v.wheel_force.lo, "F'min of one wheel over F_max; vehicle", false},
-      {"AWMR_WHEEL_FORCE_MAX", v.wheel_force.hi, "F'max of one wheel over F_max; vehicle"},
-      {"AWMR_STEERING_MAX_RAD", radians(v.steering_max_deg),
-       "stop of the front wheels, rad; vehicle"},
-      {"AWMR_SAMPLE_TIME_S", v.sample_time_s, "T_s, s; vehicle"},
-      {"AWMR_HEADING_LAMBDA", gains.heading.lambda, "lambda, 1/s; gains"},
-      {"AWMR_HEADING_MU", gains.heading.mu, "mu, rad/s^2; gains"},
-      {"AWMR_HEADING_EPSILON", gains.heading.epsilon, "epsilon, rad/s; gains"},
-      {"AWMR_SPEED_MU", gains.speed.mu, "mu_s, m/s^2; gains"},
-      {"AWMR_SPEED_EPSILON", gains.speed.epsilon, "epsilon_s, m/s; gains"},
-  };
-}
+/// T2 < T1 as epsilon/(2 mu) < 1/lambda without a division.                             [paper
+/// (95)]
+constexpr std::string_view kRelations =
+    R"(/* T2 = epsilon/(2 mu) < T1 = 1/lambda: the sliding surface is reached faster than it decays */
+AWMR_PARAMS_CHECK(AWMR_T2_IS_BELOW_T1,
+                  0.5f * AWMR_HEADING_EPSILON * AWMR_HEADING_LAMBDA < AWMR_HEADING_MU);
+AWMR_PARAMS_CHECK(AWMR_WHEEL_FORCE_MIN_IS_BELOW_MAX, AWMR_WHEEL_FORCE_MIN < AWMR_WHEEL_FORCE_MAX);
+AWMR_PARAMS_CHECK(AWMR_STEERING_MAX_RAD_IS_BELOW_HALF_PI, AWMR_STEERING_MAX_RAD < 1.57079633f);
+)";
 
-/// The compiler's own checks, in a form that C89 accepts without a complaint: floating constants
-/// may not size an array there, but a bit-field's width is folded, and `__extension__` keeps
-/// -Wpedantic quiet about it.
-std::string checks(const std::vector<Define>& defines) {
-  std::string text =
-      "/* Checked by the compiler, after an edit by hand too: a condition that does not hold makes "
-      "a\n"
-      "   bit-field of negative width. */\n"
-      "#if defined(__GNUC__)\n"
-      "#define AWMR_CHECK_EXTENSION __extension__\n"
-      "#else\n"
-      "#define AWMR_CHECK_EXTENSION\n"
-      "#endif\n"
-      "#define AWMR_CHECK(name, condition) \\\n"
-      "  AWMR_CHECK_EXTENSION struct awmr_check_##name { unsigned int holds : (condition) ? 1 : "
-      "-1; }\n\n"
-      "/* T2 < T1: epsilon/(2 mu) < 1/lambda */\n"
-      "AWMR_CHECK(reaching_is_faster_than_sliding,\n"
-      "           AWMR_HEADING_EPSILON * AWMR_HEADING_LAMBDA < 2.0f * AWMR_HEADING_MU);\n"
-      "AWMR_CHECK(wheel_force_range, AWMR_WHEEL_FORCE_MIN < AWMR_WHEEL_FORCE_MAX);\n";
-  for (const Define& define : defines) {
-    if (define.positive) {
-      text += fmt::format("AWMR_CHECK({}_is_positive, {} > 0.0f);\n", define.name.substr(5),
-                          define.name);
+std::string checks_text(const std::vector<Macro>& macros) {
+  std::string text(kCheckMacro);
+  for (const Macro& macro : macros) {
+    if (macro.range == MacroRange::kPositive) {
+      text += fmt::format("AWMR_PARAMS_CHECK({0}_IS_POSITIVE, {0} > 0.0f);\n", macro.name);
+    } else if (macro.range == MacroRange::kNotNegative) {
+      text += fmt::format("AWMR_PARAMS_CHECK({0}_IS_NOT_NEGATIVE, {0} >= 0.0f);\n", macro.name);
     }
   }
-  return text;
+  text += kRelations;
+  return text + "#undef AWMR_PARAMS_CHECK\n";
 }
 
-Status check_values(const std::vector<Define>& defines, const Gains<double>& gains,
-                    const std::string& model_file) {
+std::string intro_text(const Model& model, const EmitInputs& inputs) {
+  return fmt::format(
+      "/* awmr_params.h: parameters and gains of \"{}\", made by awmr {}.\n"
+      "   model: {}, SHA-256 {}\n"
+      "   gains: {}, SHA-256 {}\n"
+      "   Forces are over F_max, the largest force of one motor, in N. */\n"
+      "#ifndef AWMR_PARAMS_H\n"
+      "#define AWMR_PARAMS_H\n\n",
+      comment_safe(model.vehicle.name), version(), comment_safe(inputs.model_file),
+      comment_safe(inputs.model_sha256), comment_safe(inputs.gains_file),
+      comment_safe(inputs.gains_sha256));
+}
+
+std::string defines_text(const std::vector<Macro>& macros, const EmitInputs& inputs) {
+  std::string text;
+  for (const Macro& macro : macros) {
+    text += fmt::format("/* {} */\n#define {} {}\n", comment_safe(macro.comment), macro.name,
+                        float_literal(macro.value));
+  }
+  return text + fmt::format(
+                    "/* SHA-256 of the model's SHA-256 followed by the gains', as 128 lower-case "
+                    "hexadecimal digits */\n"
+                    "#define AWMR_PARAMS_SHA256 \"{}\"\n",
+                    params_sha256(inputs));
+}
+
+/// Between the values as they are written, since rounding to float32 may make neighbours equal.
+Status check_relations(const Model& model, const Gains<double>& gains, const EmitInputs& inputs) {
+  const Vehicle& vehicle = model.vehicle;
   std::vector<Fault> faults;
-  for (const Define& define : defines) {
-    if (!is_float(define.value)) {
-      faults.push_back({model_file, fmt::format("{} = {:g} is not a normal 32-bit float",
-                                                define.name, define.value)});
-    } else if (define.positive && !(define.value > 0.0)) {
-      faults.push_back(
-          {model_file, fmt::format("{} = {:g} has to be above 0", define.name, define.value)});
-    }
+  if (!(static_cast<float>(vehicle.wheel_force.lo) < static_cast<float>(vehicle.wheel_force.hi))) {
+    faults.push_back({inputs.model_file + ":/vehicle/wheel_force",
+                      fmt::format("min = {:g} has to be below max = {:g}", vehicle.wheel_force.lo,
+                                  vehicle.wheel_force.hi)});
+  }
+  if (!(static_cast<float>(radians(vehicle.steering_max_deg)) < 1.57079633F)) {
+    faults.push_back({inputs.model_file + ":/vehicle/steering/max_deg",
+                      fmt::format("{:g} has to be below 90", vehicle.steering_max_deg)});
   }
   if (!faults.empty()) return input_errors(std::move(faults));
-  const double t1_s = gains.heading.sliding_time_constant_s();
-  const double t2_s = gains.heading.reaching_time_constant_s();
-  if (t2_s >= t1_s) {
-    return refusal(
-        fmt::format("T2 = {:.4g} s is not below T1 = {:.4g} s: the reaching phase has to be the "
-                    "faster; tune again",
-                    t2_s, t1_s));
+
+  // A compiler may fold the product in float or exactly: both have to hold.
+  const float epsilon = static_cast<float>(gains.heading.epsilon);
+  const float lambda = static_cast<float>(gains.heading.lambda);
+  const float mu = static_cast<float>(gains.heading.mu);
+  const double exact = 0.5 * static_cast<double>(epsilon) * static_cast<double>(lambda);
+  if (!(0.5F * epsilon * lambda < mu) || !(exact < static_cast<double>(mu))) {
+    return refusal(fmt::format(
+        "T2 = epsilon/(2 mu) = {:g} s is not below T1 = 1/lambda = {:g} s in {}: the sliding "
+        "surface has to be reached faster than it decays; lower epsilon or lambda, raise mu, or "
+        "tune again",
+        gains.heading.reaching_time_constant_s(), gains.heading.sliding_time_constant_s(),
+        inputs.gains_file));
   }
   return {};
 }
 
 }  // namespace
 
+std::string params_sha256(const EmitInputs& inputs) {
+  return sha256_hex(inputs.model_sha256 + inputs.gains_sha256);
+}
+
 Result<std::string> params_header(const Model& model, const Gains<double>& gains,
                                   const EmitInputs& inputs) {
   if (const auto plant = model.plant(inputs.model_file); !plant) {
     return tl::unexpected(plant.error());
   }
-  const std::vector<Define> defines = defines_of(model, gains);
-  if (const auto checked = check_values(defines, gains, inputs.model_file); !checked) {
+  const std::vector<Macro> macros = macros_of(model, gains, inputs);
+  if (const auto checked = check_macros(macros); !checked) {
     return tl::unexpected(checked.error());
   }
-  std::string text = fmt::format(
-      "/* awmr_params.h: parameters and gains of \"{}\", made by awmr {}.\n"
-      "   Forces are over F_max, the largest force of one motor. Make it again rather than edit "
-      "it. */\n"
-      "#ifndef AWMR_PARAMS_H\n#define AWMR_PARAMS_H\n\n",
-      comment_safe(model.vehicle.name), version());
-  for (const Define& define : defines) {
-    text += fmt::format("/* {} */\n#define {} {}\n", comment_safe(define.comment), define.name,
-                        define.value < 0.0 ? fmt::format("({})", float_literal(define.value))
-                                           : float_literal(define.value));
+  if (const auto checked = check_relations(model, gains, inputs); !checked) {
+    return tl::unexpected(checked.error());
   }
-  text += fmt::format(
-      "/* SHA-256 of the model's SHA-256 followed by the gains', both in hexadecimal */\n"
-      "#define AWMR_PARAMS_SHA256 \"{}\"\n\n",
-      sha256_hex(inputs.model_sha256 + inputs.gains_sha256));
-  return text + checks(defines) + "\n#endif /* AWMR_PARAMS_H */\n";
+  return intro_text(model, inputs) + defines_text(macros, inputs) + checks_text(macros) +
+         "\n#endif /* AWMR_PARAMS_H */\n";
 }
 
 }  // namespace awmr

@@ -42,6 +42,14 @@ std::vector<PowerLawPoint> points_of(const std::vector<TurningRow>& rows) {
   return points;
 }
 
+/// A power law needs two different forces: repeats of one show scatter, no exponent.
+bool has_two_forces(const std::vector<PowerLawPoint>& points) {
+  constexpr double kSame = 1e-9;
+  return std::any_of(points.begin(), points.end(), [&](const PowerLawPoint& p) {
+    return std::abs(p.force - points.front().force) > kSame * points.front().force;
+  });
+}
+
 bool all_timed(const std::vector<PowerLawPoint>& points) {
   return std::all_of(points.begin(), points.end(),
                      [](const PowerLawPoint& p) { return p.travel && p.elapsed_s; });
@@ -157,7 +165,7 @@ class Identifier {
   /// All estimators on one subject; the chosen one fills the main values. Empty where the rows
   /// cannot show the law.
   std::optional<PowerLawFit> fit(const Subject& subject) {
-    if (subject.points.empty()) return std::nullopt;
+    if (!has_two_forces(subject.points)) return std::nullopt;
     const PowerLawFit log_linear = fit_log_linear(subject.points);
     if (!log_linear.usable) return std::nullopt;
     report(subject, "log-linear", "log force", log_linear);
@@ -321,13 +329,16 @@ class Identifier {
       case ParameterId::kSurgeAlpha:
       case ParameterId::kSurgeBeta:
         if (!data_.surge) return "there is no surge trial";
-        return fmt::format("{} usable surge rows do not hold two different speeds",
-                           data_.surge->rows.size());
+        return fmt::format(
+            "the usable surge rows ({}) do not hold two different tau_speed with different speeds",
+            data_.surge->rows.size());
       case ParameterId::kYawAlpha:
       case ParameterId::kYawBeta:
         if (!data_.turning) return "there is no turning trial";
-        return fmt::format("{} usable turning rows do not hold two different yaw rates",
-                           data_.turning->rows.size());
+        return fmt::format(
+            "the usable turning rows ({}) do not hold two different tau_turn with different yaw "
+            "rates",
+            data_.turning->rows.size());
       case ParameterId::kMassNorm:
       case ParameterId::kInertiaNorm:
         if (!data_.coastdown || data_.coastdown->rows.empty())

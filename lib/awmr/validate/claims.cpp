@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "awmr/core/units.h"
+#include "awmr/model/gains_file.h"
 
 namespace awmr {
 namespace {
@@ -49,14 +50,12 @@ Scenario heading_scenario(std::string name, std::span<const double> headings_deg
           .guidance = std::move(guidance)};
 }
 
-double allowed_settling_s(const Plant<double>& plant, const Vehicle& vehicle,
-                          const Gains<double>& gains, YawMode mode, double step_rad,
-                          double speed_mps) {
-  const Controller<double> controller = make_controller(plant, vehicle, gains);
+double allowed_settling_s(const Plant<double>& plant, const Vehicle& vehicle, YawMode mode,
+                          double step_rad, double speed_mps) {
+  const Controller<double> controller = make_controller(plant, vehicle, kPaperGains);
   const double rate_radps = largest_yaw_rate_radps(plant, controller.limits, mode, speed_mps);
-  // e^-4 = 1.8 %: within the 2 % band. S decays with 2 T2, e on the surface with T1.
-  const double law_s = 4.0 * (gains.heading.sliding_time_constant_s() +
-                              2.0 * gains.heading.reaching_time_constant_s());
+  const double law_s = 4.0 * (kPaperGains.heading.sliding_time_constant_s() +
+                              2.0 * kPaperGains.heading.reaching_time_constant_s());
   return std::abs(step_rad) / rate_radps + law_s;
 }
 

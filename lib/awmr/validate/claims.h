@@ -45,11 +45,11 @@ std::vector<Claim> check_heading_claims(const Model& model, const Plant<double>&
 /// Headings, each held for `hold_s`, at `speed_mps` from rest.
 Scenario heading_scenario(std::string name, std::span<const double> headings_deg, double hold_s,
                           double speed_mps);
-/// Longest time the settling of a step may take in a mode, see C3: what the actuators need for the
-/// step at the steady yaw rate of their largest moment, plus four time constants of the law.
-double allowed_settling_s(const Plant<double>& plant, const Vehicle& vehicle,
-                          const Gains<double>& gains, YawMode mode, double step_rad,
-                          double speed_mps);
+/// Longest time that settling may take to be called fast, see C3: what the mode's largest steady
+/// yaw rate needs for the step, plus 4 (T1 + 2 T2) of the paper's gains: e^-4 = 1.8 %, within the 2
+/// % band; S decays with 2 T2, then e with T1.
+double allowed_settling_s(const Plant<double>& plant, const Vehicle& vehicle, YawMode mode,
+                          double step_rad, double speed_mps);
 /// Turning points of a signal: how often it goes back by more than `band` from its last extreme.
 int reversals(std::span<const double> signal, double band);
 

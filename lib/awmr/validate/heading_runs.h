@@ -51,8 +51,7 @@ struct HeadingSetting {
   const Gains<double>& gains;
 
   double allowed_s(YawMode mode) const {
-    return allowed_settling_s(plant, model.vehicle, gains, mode, radians(kLargestStep_deg),
-                              kSpeed_mps);
+    return allowed_settling_s(plant, model.vehicle, mode, radians(kLargestStep_deg), kSpeed_mps);
   }
   /// Long enough for every mode to be allowed to settle, at most two minutes.
   double hold_s() const {

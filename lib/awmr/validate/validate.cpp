@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "awmr/validate/claims.h"
 
@@ -91,9 +92,9 @@ void judge(Validation& validation, double tolerance) {
                   validation.passed ? "predicts" : "does not predict",
                   figures.empty() ? "cannot be given" : figures, 100.0 * tolerance);
   if (unpredicted > 0) {
-    validation.verdict +=
-        fmt::format("; {} row(s) have no prediction: b = 0 gives no steady speed, b1 >= 1 no stop",
-                    unpredicted);
+    validation.verdict += fmt::format(
+        "; {} row(s) have no finite prediction: b near 0 gives no steady speed, b1 >= 1 no stop",
+        unpredicted);
   }
 }
 
@@ -101,20 +102,19 @@ void judge(Validation& validation, double tolerance) {
 
 std::optional<double> predicted_measurement(const Plant<double>& plant, const TrialPoint& trial) {
   const Resistance<double>& surge = plant.surge;
-  // tau_speed = g1(u)  =>  u = (tau_speed/a1)^(1/b1)                                [paper (47)]
+  double prediction = std::numeric_limits<double>::infinity();
   if (trial.kind == "surge" && surge.beta > 0.0) {
-    return std::pow(trial.input / surge.alpha, 1.0 / surge.beta);
-  }
-  // tau_turn = g3(r)  =>  r = (tau_turn/a3)^(1/b3)                              [paper (62), (63)]
-  if (trial.kind == "turning" && plant.yaw.beta > 0.0) {
-    return std::pow(trial.input / plant.yaw.alpha, 1.0 / plant.yaw.beta);
-  }
-  // u0^(1-b1)/(1-b1) = a1 t_a/m'  =>  t_a = m' u0^(1-b1)/((1-b1) a1)                  [paper (59)]
-  if (trial.kind == "coastdown" && surge.beta < 1.0) {
+    // tau_speed = g1(u)  =>  u = (tau_speed/a1)^(1/b1)                              [paper (47)]
+    prediction = std::pow(trial.input / surge.alpha, 1.0 / surge.beta);
+  } else if (trial.kind == "turning" && plant.yaw.beta > 0.0) {
+    // tau_turn = g3(r)  =>  r = (tau_turn/a3)^(1/b3)                          [paper (62), (63)]
+    prediction = std::pow(trial.input / plant.yaw.alpha, 1.0 / plant.yaw.beta);
+  } else if (trial.kind == "coastdown" && surge.beta < 1.0) {
+    // u0^(1-b1)/(1-b1) = a1 t_a/m'  =>  t_a = m' u0^(1-b1)/((1-b1) a1)              [paper (59)]
     const double rest = 1.0 - surge.beta;
-    return plant.mass_norm * std::pow(trial.input, rest) / (rest * surge.alpha);
+    prediction = plant.mass_norm * std::pow(trial.input, rest) / (rest * surge.alpha);
   }
-  return std::nullopt;
+  return std::isfinite(prediction) ? std::optional(prediction) : std::nullopt;
 }
 
 Result<Validation> validate(const Model& model, const std::string& model_file,

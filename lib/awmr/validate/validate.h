@@ -52,8 +52,8 @@ struct ValidateOptions {
 ///   surge: u = (tau_speed/a1)^(1/b1);  turning: r = (tau_turn/a3)^(1/b3);
 ///   coastdown: t_a = m' u0^(1-b1)/((1-b1) a1)                        [paper (47), (63), (59)
 ///   solved]
-/// Absent where the law gives none: a steady speed with b = 0, a stop time with b1 >= 1; and for a
-/// kind of trial that is none of these.
+/// Absent where the law gives none: a finite steady speed with b near 0, a stop time with b1 >= 1;
+/// and for a kind of trial that is none of these.
 std::optional<double> predicted_measurement(const Plant<double>& plant, const TrialPoint& trial);
 
 /// The claims never decide `passed`: a claim that is not reproduced is a finding about the paper.

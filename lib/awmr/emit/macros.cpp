@@ -1,0 +1,130 @@
+#include "macros.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <string_view>
+#include <utility>
+
+#include "awmr/core/units.h"
+
+namespace awmr {
+namespace {
+
+constexpr std::string_view source_name(Source source) {
+  switch (source) {
+    case Source::kGiven:
+      return "given";
+    case Source::kDerived:
+      return "derived";
+    case Source::kFitted:
+      break;
+  }
+  return "fitted";
+}
+
+Macro parameter_macro(std::string name, const Model& model, ParameterId id, MacroRange range,
+                      const std::string& file) {
+  const ParameterInfo& parameter = info(id);
+  const Estimate& estimate = model[id];
+  const std::string error =
+      estimate.std_error ? fmt::format("std error {:.2g}", *estimate.std_error) : "no std error";
+  return {.name = std::move(name),
+          .value = *estimate.value,
+          .comment =
+              fmt::format("{}, {}: {}; {}, {}, {}", parameter.symbol, parameter.unit,
+                          parameter.meaning, source_name(estimate.source), estimate.method, error),
+          .place = fmt::format("{}:{}/value", file, parameter.pointer),
+          .range = range};
+}
+
+void add_parameters(std::vector<Macro>& macros, const Model& model, const std::string& file) {
+  const auto add = [&](std::string name, ParameterId id, MacroRange range) {
+    macros.push_back(parameter_macro(std::move(name), model, id, range, file));
+  };
+  add("AWMR_SURGE_ALPHA", ParameterId::kSurgeAlpha, MacroRange::kPositive);
+  add("AWMR_SURGE_BETA", ParameterId::kSurgeBeta, MacroRange::kNotNegative);
+  add("AWMR_YAW_ALPHA", ParameterId::kYawAlpha, MacroRange::kPositive);
+  add("AWMR_YAW_BETA", ParameterId::kYawBeta, MacroRange::kNotNegative);
+  add("AWMR_SWAY_ALPHA", ParameterId::kSwayAlpha, MacroRange::kPositive);
+  add("AWMR_MASS_NORM", ParameterId::kMassNorm, MacroRange::kPositive);
+  add("AWMR_INERTIA_NORM", ParameterId::kInertiaNorm, MacroRange::kPositive);
+}
+
+void add_vehicle(std::vector<Macro>& macros, const Vehicle& vehicle, const std::string& file) {
+  const auto add = [&](std::string name, double value, std::string_view comment,
+                       std::string_view key, MacroRange range = MacroRange::kPositive) {
+    macros.push_back({std::move(name), value, fmt::format("{}; given, vehicle", comment),
+                      fmt::format("{}:/vehicle/{}", file, key), range});
+  };
+  add("AWMR_FRONT_AXLE_M", vehicle.front_axle_m, "l_f, m: centre of gravity to front axle",
+      "front_axle_m");
+  add("AWMR_HALF_TRACK_M", vehicle.half_track_m, "d, m: centre line to a wheel", "half_track_m");
+  add("AWMR_WHEEL_FORCE_MIN", vehicle.wheel_force.lo,
+      "F'min, 1: least force of one wheel over F_max", "wheel_force/min", MacroRange::kAnySign);
+  add("AWMR_WHEEL_FORCE_MAX", vehicle.wheel_force.hi,
+      "F'max, 1: largest force of one wheel over F_max", "wheel_force/max");
+  add("AWMR_STEERING_MAX_RAD", radians(vehicle.steering_max_deg),
+      "d_max, rad: stop of the front wheels, either side", "steering/max_deg");
+  add("AWMR_SAMPLE_TIME_S", vehicle.sample_time_s, "T_s, s: sample time of the controller",
+      "sample_time_s");
+}
+
+void add_gains(std::vector<Macro>& macros, const Gains<double>& gains, const std::string& file) {
+  const auto add = [&](std::string name, double value, std::string_view comment,
+                       std::string_view pointer) {
+    macros.push_back({std::move(name), value, fmt::format("{}; gains", comment),
+                      fmt::format("{}:{}", file, pointer), MacroRange::kPositive});
+  };
+  add("AWMR_HEADING_LAMBDA", gains.heading.lambda,
+      "lambda, 1/s: slope of the sliding surface S = e_dot + lambda e", "/heading/lambda");
+  add("AWMR_HEADING_MU", gains.heading.mu, "mu, rad/s^2: corrective yaw acceleration",
+      "/heading/mu");
+  add("AWMR_HEADING_EPSILON", gains.heading.epsilon,
+      "epsilon, rad/s: half width of the boundary layer of S", "/heading/epsilon");
+  add("AWMR_SPEED_MU", gains.speed.mu, "mu_s, m/s^2: corrective surge acceleration", "/speed/mu");
+  add("AWMR_SPEED_EPSILON", gains.speed.epsilon,
+      "epsilon_s, m/s: half width of the boundary layer of u_d - u", "/speed/epsilon");
+}
+
+/// False for NaN too.
+bool is_zero_or_normal_float(double value) {
+  using Limits = std::numeric_limits<float>;
+  const double magnitude = std::abs(value);
+  const bool is_zero = !(magnitude > 0.0) && !std::isnan(value);
+  return is_zero || (magnitude >= static_cast<double>(Limits::min()) &&
+                     magnitude <= static_cast<double>(Limits::max()));
+}
+
+}  // namespace
+
+std::vector<Macro> macros_of(const Model& model, const Gains<double>& gains,
+                             const EmitInputs& inputs) {
+  std::vector<Macro> macros;
+  add_parameters(macros, model, inputs.model_file);
+  add_vehicle(macros, model.vehicle, inputs.model_file);
+  add_gains(macros, gains, inputs.gains_file);
+  return macros;
+}
+
+Status check_macros(const std::vector<Macro>& macros) {
+  std::vector<Fault> faults;
+  for (const Macro& macro : macros) {
+    if (!is_zero_or_normal_float(macro.value)) {
+      faults.push_back({macro.place, fmt::format("{} = {:g} does not fit a 32-bit float, whose "
+                                                 "magnitudes go from 1.18e-38 to 3.40e+38",
+                                                 macro.name, macro.value)});
+    } else if (macro.range == MacroRange::kPositive && macro.value <= 0.0) {
+      faults.push_back(
+          {macro.place, fmt::format("{} = {:g} has to be above 0", macro.name, macro.value)});
+    } else if (macro.range == MacroRange::kNotNegative && macro.value < 0.0) {
+      faults.push_back(
+          {macro.place, fmt::format("{} = {:g} may not be below 0", macro.name, macro.value)});
+    }
+  }
+  if (!faults.empty()) return input_errors(std::move(faults));
+  return {};
+}
+
+}  // namespace awmr

@@ -1,0 +1,241 @@
+#include "awmr/compare/compare.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "awmr/core/json.h"
+#include "awmr/model/gains_file.h"
+#include "awmr/simulate/simulate.h"
+#include "compare/uncertain_model.h"
+
+namespace awmr {
+namespace {
+
+using ::testing::HasSubstr;
+
+const Provenance kProvenance{"compare", {{"samples", "4"}}, {{"model.json", "abc"}}};
+
+Comparison compared(const CompareOptions& options,
+                    std::vector<Scenario> scenarios = {testing::short_heading()}) {
+  const auto c = compare(testing::uncertain_model(), "model.json", kPaperGains, scenarios, options);
+  EXPECT_TRUE(c) << (c ? "" : to_text(c.error()));
+  return c.value_or(Comparison{});
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+std::vector<std::string> cells_of(const std::string& line) {
+  std::vector<std::string> cells(1);
+  for (const char c : line) {
+    if (c == ',') {
+      cells.emplace_back();
+    } else {
+      cells.back() += c;
+    }
+  }
+  return cells;
+}
+
+TEST(Compare, TheSameBytesWhateverTheNumberOfThreads) {
+  const std::vector<Scenario> scenarios = {testing::short_heading(), testing::short_open_loop()};
+  const CompareOptions one{.samples = 4, .seed = 11, .threads = 1};
+  const Comparison reference = compared(one, scenarios);
+  for (const int threads : {0, 2, 7, 64}) {
+    CompareOptions options = one;
+    options.threads = threads;
+    const Comparison other = compared(options, scenarios);
+    EXPECT_EQ(comparison_csv(reference), comparison_csv(other)) << threads;
+    EXPECT_EQ(comparison_text(reference, one, kProvenance),
+              comparison_text(other, options, kProvenance))
+        << threads;
+  }
+}
+
+TEST(Compare, RowsGoByScenarioModeAndSample) {
+  const Comparison c = compared({.samples = 2, .seed = 1, .threads = 2},
+                                {testing::short_heading("a"), testing::short_heading("b")});
+  ASSERT_EQ(c.rows.size(), 2U * 3U * 3U);
+  for (std::size_t i = 0; i < c.rows.size(); ++i) {
+    EXPECT_EQ(c.rows[i].scenario, i < 9 ? "a" : "b");
+    EXPECT_EQ(c.rows[i].mode, kYawModes[(i / 3) % 3]);
+    EXPECT_EQ(c.rows[i].sample, static_cast<int>(i % 3));
+  }
+}
+
+TEST(Compare, SampleZeroIsTheModelItself) {
+  const Model model = testing::uncertain_model();
+  const Comparison c = compared({.samples = 3, .seed = 1, .threads = 1});
+  const Comparison nominal = compared({.samples = 0, .seed = 99, .threads = 1});
+  const Plant<double> plant = *model.plant("model.json");
+  const Controller<double> controller = make_controller(plant, model.vehicle, kPaperGains);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Scenario scenario = testing::short_heading();
+    const Metrics direct =
+        metrics_of(simulate(plant, controller, scenario, kYawModes[i],
+                            {.sample_time_s = model.vehicle.sample_time_s, .substeps = {}}),
+                   scenario, controller);
+    EXPECT_EQ(c.rows[4 * i].metrics.heading_iae_degs, direct.heading_iae_degs);
+    EXPECT_EQ(nominal.rows[i].metrics.heading_iae_degs, direct.heading_iae_degs);
+  }
+}
+
+TEST(Compare, ASampleIsTheSameVehicleInEveryScenarioAndMode) {
+  // In open loop straight ahead the modes do not differ, so neither may the drawn vehicles.
+  Scenario straight = testing::short_open_loop();
+  straight.guidance = OpenLoop{2.0, 0.0};
+  Scenario again = straight;
+  again.name = "again";
+  const Comparison c = compared({.samples = 3, .seed = 5, .threads = 2}, {straight, again});
+  for (std::size_t sample = 0; sample < 4; ++sample) {
+    for (std::size_t other = 1; other < 6; ++other) {
+      // The modes' formulas for F' round differently: some 100 steps of a few 1e-16 on 1 m.
+      EXPECT_NEAR(c.rows[sample].metrics.path_length_m,
+                  c.rows[4 * other + sample].metrics.path_length_m, 1e-12);
+    }
+  }
+  EXPECT_NE(c.rows[1].metrics.path_length_m, c.rows[2].metrics.path_length_m);
+}
+
+TEST(Compare, MoreSamplesKeepTheFirstOnes) {
+  const Comparison few = compared({.samples = 2, .seed = 1, .threads = 2});
+  const Comparison more = compared({.samples = 5, .seed = 1, .threads = 2});
+  for (std::size_t mode = 0; mode < 3; ++mode) {
+    for (std::size_t sample = 0; sample <= 2; ++sample) {
+      EXPECT_EQ(few.rows[3 * mode + sample].metrics.heading_iae_degs,
+                more.rows[6 * mode + sample].metrics.heading_iae_degs);
+    }
+  }
+}
+
+TEST(Compare, RefusesBadOptionsAllAtOnce) {
+  const auto c = compare(testing::uncertain_model(), "model.json", kPaperGains, {},
+                         {.samples = -1, .seed = 1, .threads = -1});
+  ASSERT_FALSE(c);
+  EXPECT_EQ(c.error().kind, ErrorKind::kInput);
+  EXPECT_EQ(c.error().faults.size(), 3U);
+}
+
+TEST(Compare, RefusesTwoScenariosOfOneName) {
+  const auto c = compare(testing::uncertain_model(), "model.json", kPaperGains,
+                         {testing::short_heading("a"), testing::short_heading("a")}, {});
+  ASSERT_FALSE(c);
+  EXPECT_THAT(to_text(c.error()), HasSubstr("two scenarios are named 'a'"));
+}
+
+TEST(Compare, NamesTheMissingParameter) {
+  Model model = testing::uncertain_model();
+  model[ParameterId::kInertiaNorm].value.reset();
+  for (const int samples : {0, 2}) {
+    const auto c = compare(model, "m.json", kPaperGains, {testing::short_heading()},
+                           {.samples = samples, .seed = 1, .threads = 1});
+    ASSERT_FALSE(c);
+    EXPECT_EQ(c.error().kind, ErrorKind::kInput);
+    EXPECT_THAT(to_text(c.error()), HasSubstr("m.json:/inertia_norm"));
+  }
+}
+
+TEST(Compare, NeedsACovarianceOnlyForSamples) {
+  const Model model = testing::fitted_paper_model();
+  const auto run = [&](int samples) {
+    return compare(model, "m.json", kPaperGains, {testing::short_heading()},
+                   {.samples = samples, .seed = 1, .threads = 1});
+  };
+  EXPECT_TRUE(run(0));
+  ASSERT_FALSE(run(1));
+  EXPECT_THAT(to_text(run(1).error()), HasSubstr("m.json:/covariance"));
+}
+
+TEST(ComparisonCsv, HasTheContractsColumns) {
+  const auto lines = lines_of(comparison_csv(compared({.samples = 1, .seed = 1, .threads = 1})));
+  ASSERT_EQ(lines.size(), 1U + 3U * 2U);
+  EXPECT_EQ(lines[0],
+            "scenario,mode,sample,completed,settling_time_s,overshoot_deg,heading_iae_degs,"
+            "cross_track_rms_m,path_length_m,speed_drop_mps,sideslip_max_deg,yaw_rate_max_degps,"
+            "control_variation,clearance_min_m,finish_time_s");
+  for (const std::string& line : lines) EXPECT_EQ(cells_of(line).size(), 15U);
+  const auto first = cells_of(lines[1]);
+  EXPECT_EQ(first[0], "step");
+  EXPECT_EQ(first[1], "differential");
+  EXPECT_EQ(first[2], "0");
+  EXPECT_EQ(first[3], "1");
+  EXPECT_EQ(first[7], "");   // no line to be off
+  EXPECT_EQ(first[13], "");  // no obstacle
+}
+
+TEST(ComparisonCsv, LeavesHeadingMetricsEmptyInOpenLoop) {
+  const auto lines = lines_of(comparison_csv(
+      compared({.samples = 0, .seed = 1, .threads = 1}, {testing::short_open_loop()})));
+  const auto cells = cells_of(lines.at(1));
+  for (const std::size_t empty : {4U, 5U, 6U, 7U, 9U}) EXPECT_EQ(cells[empty], "") << empty;
+  EXPECT_NE(cells[8], "");
+}
+
+TEST(ComparisonCsv, QuotesNamesThatNeedIt) {
+  const auto lines = lines_of(comparison_csv(compared({.samples = 0, .seed = 1, .threads = 1},
+                                                      {testing::short_heading("turn, \"fast\"")})));
+  EXPECT_EQ(lines.at(1).rfind("\"turn, \"\"fast\"\"\",differential,0,1,", 0), 0U) << lines[1];
+}
+
+TEST(ComparisonJson, WithoutSamplesSaysWhyThereAreNoIntervals) {
+  const CompareOptions options{.samples = 0, .seed = 1, .threads = 1};
+  const Json json = Json::parse(comparison_text(compared(options), options, kProvenance));
+  EXPECT_EQ(json["schema"], "awmr.comparison/1");
+  EXPECT_EQ(json["command"], "compare");
+  EXPECT_EQ(json["inputs"].size(), 1U);
+  EXPECT_THAT(json["statistics"]["ci95"].get<std::string>(), HasSubstr("at least 2 samples"));
+  const Json& scenario = json["scenarios"][0];
+  const Json& iae = scenario["modes"]["steering"]["metrics"]["heading_iae_degs"];
+  EXPECT_EQ(iae["mean"], iae["nominal"]);
+  EXPECT_TRUE(iae["q05"].is_null());
+  for (const Json& d : scenario["paired_differences"]) EXPECT_TRUE(d["ci95"].is_null());
+  EXPECT_EQ(scenario["ranking"].size(), 3U);
+}
+
+TEST(ComparisonJson, WithSamplesHasIntervalsAroundTheMeans) {
+  const CompareOptions options{.samples = 6, .seed = 1, .threads = 2};
+  const Json json = Json::parse(comparison_text(compared(options), options, kProvenance));
+  const Json& scenario = json["scenarios"][0];
+  int seen = 0;
+  for (const Json& d : scenario["paired_differences"]) {
+    if (d["metric"] != "heading_iae_degs") continue;
+    ++seen;
+    ASSERT_TRUE(d["ci95"].is_array());
+    EXPECT_LE(d["ci95"][0].get<double>(), d["mean"].get<double>());
+    EXPECT_GE(d["ci95"][1].get<double>(), d["mean"].get<double>());
+  }
+  EXPECT_EQ(seen, 3);
+  const Json& iae = scenario["modes"]["differential"]["metrics"]["heading_iae_degs"];
+  EXPECT_EQ(iae["count"], 6);
+  EXPECT_LE(iae["q05"].get<double>(), iae["q95"].get<double>());
+}
+
+TEST(ComparisonJson, RanksNoOpenLoopScenario) {
+  const CompareOptions options{.samples = 0, .seed = 1, .threads = 1};
+  const Json json = Json::parse(
+      comparison_text(compared(options, {testing::short_open_loop()}), options, kProvenance));
+  EXPECT_TRUE(json["scenarios"][0]["ranking"].empty());
+  EXPECT_TRUE(json["scenarios"][0]["ranking_note"].is_string());
+}
+
+TEST(ComparisonTable, HasUnitsAndAlignedRows) {
+  const std::string table = comparison_table(compared({.samples = 0, .seed = 1, .threads = 1}));
+  const auto lines = lines_of(table);
+  ASSERT_EQ(lines.size(), 6U);
+  EXPECT_THAT(lines[0], HasSubstr("step"));
+  EXPECT_THAT(lines[2], HasSubstr("deg/s"));
+  EXPECT_EQ(lines[3].size(), lines[1].size());
+  EXPECT_EQ(lines[4].size(), lines[5].size());
+  for (const std::string& line : lines) EXPECT_LE(line.size(), 120U);
+}
+
+}  // namespace
+}  // namespace awmr

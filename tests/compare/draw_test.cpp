@@ -1,0 +1,150 @@
+#include "awmr/compare/draw.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "compare/uncertain_model.h"
+
+namespace awmr {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr int kDraws = 20000;
+
+/// The coordinates that are drawn: logarithms of a1, a3 and m', b1 as it is.
+std::array<double, 4> coordinates(const Plant<double>& plant) {
+  return {std::log(plant.surge.alpha), plant.surge.beta, std::log(plant.yaw.alpha),
+          std::log(plant.mass_norm)};
+}
+
+std::vector<std::array<double, 4>> drawn(const PlantSampler& sampler) {
+  std::vector<std::array<double, 4>> draws;
+  for (int sample = 1; sample <= kDraws; ++sample) {
+    draws.push_back(coordinates(*sampler.draw(7, sample)));
+  }
+  return draws;
+}
+
+TEST(PlantSampler, DrawsHaveTheModelsMeanAndCovariance) {
+  Model model = testing::uncertain_model();
+  model.vehicle.surge_beta_range = {0.0, 4.0};  // no draw is cut off
+  const auto sampler = PlantSampler::make(model, "model.json");
+  ASSERT_TRUE(sampler);
+  const auto draws = drawn(*sampler);
+  const std::array<double, 4> centre = coordinates(*model.plant("model.json"));
+  const std::array<double, 4> scale = {1.3157, 1.0, 0.3028, 0.0768};
+  std::array<double, 4> mean{};
+  for (const auto& z : draws) {
+    for (std::size_t i = 0; i < 4; ++i) mean[i] += z[i] / kDraws;
+  }
+  const auto expected = [&](std::size_t i, std::size_t j) {
+    return model.covariance.matrix[i][j] / (scale[i] * scale[j]);
+  };
+  for (std::size_t i = 0; i < 4; ++i) {
+    // Standard error of a mean sigma/sqrt(n); 5 of them are passed once in 10^6 seeds.
+    EXPECT_NEAR(mean[i], centre[i], 5.0 * std::sqrt(expected(i, i) / kDraws)) << i;
+    for (std::size_t j = 0; j < 4; ++j) {
+      double covariance = 0.0;
+      for (const auto& z : draws) {
+        covariance += (z[i] - mean[i]) * (z[j] - mean[j]) / (kDraws - 1);
+      }
+      // Var(s_ij) = (C_ii C_jj + C_ij^2)/(n - 1) for normal draws.
+      const double deviation =
+          std::sqrt((expected(i, i) * expected(j, j) + expected(i, j) * expected(i, j)) / kDraws);
+      EXPECT_NEAR(covariance, expected(i, j), 5.0 * deviation) << i << ' ' << j;
+    }
+  }
+}
+
+TEST(PlantSampler, LeavesAloneWhatTheCovarianceDoesNotCover) {
+  const Model model = testing::uncertain_model();
+  const auto sampler = PlantSampler::make(model, "model.json");
+  ASSERT_TRUE(sampler);
+  const auto plant = sampler->draw(1, 1);
+  ASSERT_TRUE(plant);
+  EXPECT_EQ(plant->yaw.beta, 0.8250);
+  EXPECT_EQ(plant->inertia_norm, 0.01212);
+  EXPECT_EQ(plant->sway_alpha, 3.0);
+  EXPECT_NE(plant->surge.alpha, 1.3157);
+  EXPECT_NE(plant->mass_norm, 0.0768);
+}
+
+TEST(PlantSampler, ADrawDependsOnSeedAndSampleAlone) {
+  const auto sampler = PlantSampler::make(testing::uncertain_model(), "model.json");
+  ASSERT_TRUE(sampler);
+  const auto first = coordinates(*sampler->draw(1, 5));
+  EXPECT_EQ(first, coordinates(*sampler->draw(1, 5)));
+  EXPECT_NE(first, coordinates(*sampler->draw(1, 6)));
+  EXPECT_NE(first, coordinates(*sampler->draw(2, 5)));
+}
+
+TEST(PlantSampler, KeepsPositiveQuantitiesPositiveWhateverTheirError) {
+  Model model = testing::fitted_paper_model();
+  model.covariance.parameters = {ParameterId::kMassNorm};
+  model.covariance.matrix = {{4.0 * 0.0768 * 0.0768}};  // s.e. of 200 %
+  const auto sampler = PlantSampler::make(model, "model.json");
+  ASSERT_TRUE(sampler);
+  for (int sample = 1; sample <= 1000; ++sample) {
+    EXPECT_GT(sampler->draw(1, sample)->mass_norm, 0.0);
+  }
+}
+
+TEST(PlantSampler, KeepsExponentsInTheVehiclesRange) {
+  Model model = testing::uncertain_model();
+  model[ParameterId::kSurgeBeta].value = 0.995;  // s.e. 0.016: a third would be above 1
+  const auto sampler = PlantSampler::make(model, "model.json");
+  ASSERT_TRUE(sampler);
+  for (int sample = 1; sample <= 1000; ++sample) {
+    EXPECT_LE(sampler->draw(1, sample)->surge.beta, 1.0);
+  }
+}
+
+TEST(PlantSampler, SaysWhenTheRangeLeavesNothingToDraw) {
+  Model model = testing::uncertain_model();
+  model[ParameterId::kSurgeBeta].value = 2.0;
+  const auto sampler = PlantSampler::make(model, "m.json");
+  ASSERT_TRUE(sampler);
+  const auto plant = sampler->draw(1, 1);
+  ASSERT_FALSE(plant);
+  EXPECT_EQ(plant.error().kind, ErrorKind::kInput);
+  EXPECT_THAT(to_text(plant.error()), HasSubstr("surge_beta_range"));
+}
+
+TEST(PlantSampler, DrawsFromASingularCovariance) {
+  // m' computed from a1 alone, m' = c a1: correlation 1, so the drawn ratio is constant.
+  Model model = testing::fitted_paper_model();
+  const double c = 0.0768 / 1.3157;
+  model.covariance.parameters = {ParameterId::kSurgeAlpha, ParameterId::kMassNorm};
+  model.covariance.matrix = {{4e-4, 4e-4 * c}, {4e-4 * c, 4e-4 * c * c}};
+  const auto sampler = PlantSampler::make(model, "model.json");
+  ASSERT_TRUE(sampler);
+  for (int sample = 1; sample <= 100; ++sample) {
+    const auto plant = sampler->draw(1, sample);
+    // The zero eigenvalue is rounding, 1e-16 of 5e-4: its root is 2e-10, times normals up to 5.
+    EXPECT_NEAR(std::log(plant->mass_norm / plant->surge.alpha), std::log(c), 1e-8);
+  }
+}
+
+TEST(PlantSampler, RefusesWhatIsNoCovariance) {
+  Model none = testing::fitted_paper_model();
+  Model indefinite = testing::uncertain_model();
+  indefinite.covariance.matrix[0][1] = indefinite.covariance.matrix[1][0] = 1.0;
+  Model ragged = testing::uncertain_model();
+  ragged.covariance.matrix.pop_back();
+  Model not_a_number = testing::uncertain_model();
+  not_a_number.covariance.matrix[2][2] = std::nan("");
+  for (const Model& model : {none, indefinite, ragged, not_a_number}) {
+    const auto sampler = PlantSampler::make(model, "m.json");
+    ASSERT_FALSE(sampler);
+    EXPECT_EQ(sampler.error().kind, ErrorKind::kInput);
+    EXPECT_THAT(to_text(sampler.error()), HasSubstr("m.json:/covariance"));
+  }
+}
+
+}  // namespace
+}  // namespace awmr

@@ -1,0 +1,210 @@
+/// What is wrong with a CSV file: place, what was found, what to do.
+#include <gmock/gmock.h>
+
+#include "core/csv_text.h"
+#include "core/faults.h"
+
+namespace awmr::testing {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
+using ::testing::SizeIs;
+using ::testing::StartsWith;
+
+const std::vector<CsvColumn> kSurge = {{"tau_speed"}, {"speed_mps"}};
+
+std::vector<std::string> faults(std::string_view text,
+                                const std::vector<ColumnMapping>& mappings = {}) {
+  return faults_of(read_text(text, kSurge, mappings));
+}
+
+/// The faults of a file whose one row has this cell under speed_mps.
+std::vector<std::string> cell_faults(const std::string& cell, char delimiter = ',') {
+  const std::string d(1, delimiter);
+  return faults("tau_speed" + d + "speed_mps\n1" + d + cell + "\n");
+}
+
+TEST(CsvFaults, EmptyFile) {
+  EXPECT_THAT(faults(""), ElementsAre(AllOf(StartsWith("a.csv: "), HasSubstr("is empty"))));
+}
+
+TEST(CsvFaults, OnlyAByteOrderMarkOrCommentsIsNoHeader) {
+  EXPECT_THAT(faults("\xEF\xBB\xBF"), ElementsAre(HasSubstr("no header row")));
+  EXPECT_THAT(faults("# nothing\n\n"), ElementsAre(HasSubstr("no header row")));
+}
+
+TEST(CsvFaults, HeaderWithoutRows) {
+  EXPECT_THAT(faults("# c\ntau_speed,speed_mps\n"),
+              ElementsAre(AllOf(StartsWith("a.csv:2:1: "), HasSubstr("no rows"))));
+}
+
+TEST(CsvFaults, RowsWithoutHeader) {
+  EXPECT_THAT(
+      faults("1,0.5\n2,1.2\n"),
+      ElementsAre(AllOf(StartsWith("a.csv:1:1: "), HasSubstr("expected the columns' names"))));
+}
+
+TEST(CsvFaults, MissingFileAndDirectory) {
+  EXPECT_THAT(faults_of(read_csv("/no/such/a.csv", kSurge)),
+              ElementsAre(AllOf(StartsWith("a.csv: "), HasSubstr("No such file"))));
+  const auto directory = read_csv("/tmp", kSurge);
+  EXPECT_THAT(faults_of(directory), ElementsAre(HasSubstr("is a directory")));
+}
+
+TEST(CsvFaults, MissingColumnNamesTheNearestOne) {
+  EXPECT_THAT(faults("tau_sped,speed_mps\n1,0.5\n"),
+              ElementsAre(AllOf(StartsWith("a.csv:1:1: "), HasSubstr("tau_speed is missing"),
+                                HasSubstr("did you mean \"tau_sped\"?"))));
+}
+
+TEST(CsvFaults, MissingColumnWithNothingNearListsTheHeader) {
+  EXPECT_THAT(faults("thrust,speed_mps\n1,0.5\n"),
+              ElementsAre(AllOf(HasSubstr("the header has thrust, speed_mps"),
+                                HasSubstr("--column tau_speed=SOURCE"))));
+}
+
+TEST(CsvFaults, EveryMissingColumnAtOnce) { EXPECT_THAT(faults("a,b\n1,2\n"), SizeIs(2)); }
+
+TEST(CsvFaults, MissingSourceOfAMappingIsNamed) {
+  EXPECT_THAT(faults("tau_speed,V (m/s)\n1,0.5\n", {{"speed_mps", "v (m/s)", 1.0, 0.0}}),
+              ElementsAre(AllOf(HasSubstr("\"v (m/s)\", mapped to speed_mps, is missing"),
+                                HasSubstr("did you mean \"V (m/s)\"?"))));
+}
+
+TEST(CsvFaults, TwoMappingsForOneColumn) {
+  EXPECT_THAT(faults("tau_speed,a,b\n1,2,3\n",
+                     {{"speed_mps", "a", 1.0, 0.0}, {"speed_mps", "b", 1.0, 0.0}}),
+              ElementsAre(HasSubstr("two mappings give the column speed_mps")));
+}
+
+TEST(CsvFaults, DuplicateColumnIsPlacedAtTheSecond) {
+  EXPECT_THAT(faults("tau_speed,speed_mps,speed_mps\n1,2,3\n"),
+              ElementsAre(AllOf(StartsWith("a.csv:1:21: "), HasSubstr("stands twice"))));
+}
+
+TEST(CsvFaults, RaggedRows) {
+  EXPECT_THAT(faults("tau_speed,speed_mps\n1\n1,2,3\n1,2,\n"),
+              ElementsAre(AllOf(StartsWith("a.csv:2:1: "), HasSubstr("1 cells, the header 2")),
+                          AllOf(StartsWith("a.csv:3:5: "), HasSubstr("3 cells, the header 2")),
+                          StartsWith("a.csv:4:5: ")));
+}
+
+TEST(CsvFaults, DecimalCommasInACommaFile) {
+  EXPECT_THAT(faults("tau_speed,speed_mps\n0,5,1,25\n"), ElementsAre(HasSubstr("decimal commas")));
+}
+
+TEST(CsvFaults, DecimalCommaInASemicolonFile) {
+  EXPECT_THAT(cell_faults("1,25", ';'),
+              ElementsAre(AllOf(StartsWith("a.csv:2:3: "), HasSubstr("\"1,25\""),
+                                HasSubstr("decimal comma; write 1.25 with a point"))));
+  EXPECT_THAT(cell_faults("\"-1,25e3\""), ElementsAre(HasSubstr("write -1.25e3 with a point")));
+}
+
+TEST(CsvFaults, EmptyCells) {
+  EXPECT_THAT(cell_faults(""),
+              ElementsAre(AllOf(StartsWith("a.csv:2:3: "), HasSubstr("is empty"))));
+  EXPECT_THAT(cell_faults("  "), ElementsAre(StartsWith("a.csv:2:3: ")));
+  EXPECT_THAT(cell_faults("\"\""), ElementsAre(HasSubstr("is empty")));
+  EXPECT_THAT(faults("tau_speed\tspeed_mps\n\t\n"), SizeIs(2));
+}
+
+TEST(CsvFaults, NaN) {
+  for (const char* cell : {"nan", "NaN", "-nan", "+NAN", "nan(1)"}) {
+    EXPECT_THAT(cell_faults(cell), ElementsAre(AllOf(StartsWith("a.csv:2:3: column speed_mps: "),
+                                                     HasSubstr("without a measured value"))))
+        << cell;
+  }
+}
+
+TEST(CsvFaults, Infinity) {
+  for (const char* cell : {"inf", "-inf", "+Inf", "Infinity", "-INFINITY"}) {
+    EXPECT_THAT(cell_faults(cell), ElementsAre(HasSubstr("is finite"))) << cell;
+  }
+}
+
+TEST(CsvFaults, Hexadecimal) {
+  for (const char* cell : {"0x1F", "-0X2", "0x1p3"}) {
+    EXPECT_THAT(cell_faults(cell), ElementsAre(HasSubstr("hexadecimal"))) << cell;
+  }
+}
+
+TEST(CsvFaults, Text) {
+  for (const char* cell : {"fast", "--1", "+-1", "-+1", "++1", "+", "-", ".", "e5", "1e", "1..2",
+                           "1 2", "1'000", "1e5.5", "=A1"}) {
+    EXPECT_THAT(cell_faults(cell),
+                ElementsAre(AllOf(StartsWith("a.csv:2:3: "), HasSubstr("expected a number, found"),
+                                  HasSubstr(std::string("\"").append(cell).append("\"")))))
+        << cell;
+  }
+}
+
+TEST(CsvFaults, UnitBehindTheNumber) {
+  EXPECT_THAT(cell_faults("1.5 m/s"),
+              ElementsAre(HasSubstr("the unit stands in the column's name")));
+}
+
+TEST(CsvFaults, NumbersOutOfRange) {
+  EXPECT_THAT(cell_faults("1e999"), ElementsAre(HasSubstr("out of range")));
+  EXPECT_THAT(cell_faults("-1e999"), ElementsAre(HasSubstr("out of range")));
+  EXPECT_THAT(cell_faults("1e-999"), ElementsAre(HasSubstr("out of range")));
+  EXPECT_THAT(faults("tau_speed,v\n1,1e300\n", {{"speed_mps", "v", 1e10, 0.0}}),
+              ElementsAre(HasSubstr("out of range once scaled")));
+}
+
+TEST(CsvFaults, QuoteThatIsNotClosed) {
+  EXPECT_THAT(faults("tau_speed,speed_mps\n1,\"2\n3,4\n"),
+              ElementsAre(AllOf(StartsWith("a.csv:2:3: "), HasSubstr("not closed"))));
+  EXPECT_THAT(faults("tau_speed,\"speed_mps\n1,2\n"),
+              ElementsAre(AllOf(StartsWith("a.csv:1:11: "), HasSubstr("not closed"))));
+}
+
+TEST(CsvFaults, TextAfterAQuotedCellAndOnWithTheNextLine) {
+  EXPECT_THAT(faults("tau_speed,speed_mps\n\"1\"0,2\nx,4\n"),
+              ElementsAre(AllOf(StartsWith("a.csv:2:1: "), HasSubstr("double a quote")),
+                          StartsWith("a.csv:3:1: ")));
+}
+
+TEST(CsvFaults, LineNumbersGoOnAfterALineBreakInAQuotedCell) {
+  EXPECT_THAT(
+      faults("note,tau_speed,speed_mps\n\"a\nb\",x,y\n\"c\",1,z\n"),
+      ElementsAre(StartsWith("a.csv:3:4: "), StartsWith("a.csv:3:6: "), StartsWith("a.csv:4:7: ")));
+}
+
+TEST(CsvFaults, BinaryAndUtf16) {
+  using namespace std::string_view_literals;
+  EXPECT_THAT(faults("\xFF\xFEt\0a\0u\0"sv), ElementsAre(HasSubstr("save it as UTF-8")));
+}
+
+TEST(CsvFaults, EveryFaultAtOnceHeaderAndRows) {
+  EXPECT_THAT(faults("tau_speed,sped_mps\nx,1\n1\ny,2\n"),
+              ElementsAre(StartsWith("a.csv:1:1: "), StartsWith("a.csv:2:1: "),
+                          StartsWith("a.csv:3:1: "), StartsWith("a.csv:4:1: ")));
+}
+
+TEST(CsvFaults, ReadingEndsAfterAHundredAndTwentyAreShown) {
+  std::string text = "tau_speed,speed_mps\n";
+  for (int i = 0; i < 100000; ++i) text += "1,x\n";
+  const auto table = read_text(text, kSurge);
+  ASSERT_FALSE(table);
+  EXPECT_EQ(table.error().faults.size(), 100U);
+  const std::string shown = to_text(table.error());
+  EXPECT_EQ(std::count(shown.begin(), shown.end(), '\n'), 21);
+  EXPECT_THAT(shown, EndsWith("error: 80 more faults are not shown\n"));
+}
+
+TEST(CsvFaults, ALongCellIsCutBetweenCharacters) {
+  std::string cell = "x";
+  for (int i = 0; i < 50; ++i) cell += "\xC3\xBC";
+  const auto texts = cell_faults(cell);
+  ASSERT_THAT(texts, SizeIs(1));
+  // 1 + 2 * 19 = 39 bytes: the 40th would be half a character.
+  std::string expected = "\"x";
+  for (int i = 0; i < 19; ++i) expected += "\xC3\xBC";
+  EXPECT_THAT(texts[0], HasSubstr(expected + "...\""));
+}
+
+}  // namespace
+}  // namespace awmr::testing

@@ -1,0 +1,92 @@
+/// Numbers and tables that are written read back the same; no bytes break the reader.
+#include <gmock/gmock.h>
+#include <rapidcheck.h>
+#include <rapidcheck/gtest.h>
+
+#include <bit>
+#include <charconv>
+#include <cmath>
+
+#include "awmr/core/csv_cell.h"
+#include "core/any_finite.h"
+#include "core/csv_text.h"
+
+namespace awmr::testing {
+namespace {
+
+RC_GTEST_PROP(FormatNumber, ReadsBackTheSameBits, ()) {
+  const double value = *any_finite();
+  const auto back = number_from_text(format_number(value));
+  RC_ASSERT(back.has_value());
+  RC_ASSERT(std::bit_cast<std::uint64_t>(*back) == std::bit_cast<std::uint64_t>(value));
+}
+
+RC_GTEST_PROP(FormatNumber, NoShorterTextReadsBackTheSame, ()) {
+  const double value = *any_finite();
+  const std::string text = format_number(value);
+  // Rounding to some number of digits gives the nearest number with as many: if that does not read
+  // back the same, no other does.
+  for (int digits = 1; digits <= 17; ++digits) {
+    for (const auto form : {std::chars_format::scientific, std::chars_format::general}) {
+      char other[64];
+      const int precision = form == std::chars_format::scientific ? digits - 1 : digits;
+      const char* end = std::to_chars(other, other + sizeof(other), value, form, precision).ptr;
+      const std::string_view shorter(other, static_cast<std::size_t>(end - other));
+      const auto back = number_from_text(shorter);
+      RC_ASSERT(!back.has_value() || *back != value || shorter.size() >= text.size());
+    }
+  }
+}
+
+TEST(FormatNumber, IsWhatOneWouldWrite) {
+  EXPECT_EQ(format_number(0.1), "0.1");
+  EXPECT_EQ(format_number(-2.0), "-2");
+  EXPECT_EQ(format_number(1e300), "1e+300");
+  EXPECT_EQ(format_number(0.0), "0");
+}
+
+RC_GTEST_PROP(Csv, ATableThatIsWrittenReadsBackTheSame, ()) {
+  const auto columns = *rc::gen::inRange<std::size_t>(1, 5);
+  const auto rows = *rc::gen::inRange<std::size_t>(1, 20);
+  const char delimiter = *rc::gen::element(',', ';', '\t');
+  const std::string end = *rc::gen::element<std::string>("\n", "\r\n", "\r", "\n# c,o;m\n", "\n\n");
+  const auto values = *rc::gen::container<std::vector<double>>(columns * rows, any_finite());
+  const bool is_quoted = *rc::gen::arbitrary<bool>();
+  const std::string quote = is_quoted ? "\"" : "";
+  std::vector<CsvColumn> asked;
+  std::string text;
+  for (std::size_t c = 0; c < columns; ++c) {
+    asked.push_back({"column " + std::to_string(c)});
+    text += (c == 0 ? "" : std::string(1, delimiter)) + quote + asked.back().name + quote;
+  }
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    text += (i % columns == 0 ? end : std::string(1, delimiter)) + quote +
+            format_number(values[i]) + quote;
+  }
+  const auto table = read_text(text, asked);
+  RC_ASSERT(table.has_value());
+  RC_ASSERT(table->rows() == rows);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    RC_ASSERT(table->column(asked[i % columns].name)[i / columns] == values[i]);
+  }
+}
+
+RC_GTEST_PROP(Csv, NoBytesBreakTheReader, ()) {
+  const auto pieces = *rc::gen::container<std::vector<std::string>>(rc::gen::element<std::string>(
+      "x", "1", ",", ";", "\t", "\n", "\r", "\"", "\"\"", "#", " ", "+", "-", ".", "e", "nan", "0x",
+      "\xC3\xBC", "\xFF", "\xEF\xBB\xBF", std::string(1, '\0')));
+  std::string text = *rc::gen::element<std::string>("", "x\n", "x,y\n");
+  for (const std::string& piece : pieces) text += piece;
+  const auto table = read_text(text, {{"x"}, {"y", false}});
+  if (!table) {
+    RC_ASSERT(!table.error().faults.empty());
+    RC_ASSERT(table.error().kind == ErrorKind::kInput);
+    return;
+  }
+  RC_ASSERT(table->rows() > 0);
+  RC_ASSERT(table->column("x").size() == table->rows());
+  for (const double value : table->column("x")) RC_ASSERT(std::isfinite(value));
+}
+
+}  // namespace
+}  // namespace awmr::testing

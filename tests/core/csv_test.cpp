@@ -1,0 +1,147 @@
+/// What a CSV file may look like.
+#include "awmr/core/csv.h"
+
+#include <gmock/gmock.h>
+
+#include "core/csv_text.h"
+
+namespace awmr::testing {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::EndsWith;
+
+const std::vector<CsvColumn> kSurge = {{"tau_speed"}, {"speed_mps"}};
+
+void expect_two_rows(const Result<CsvTable>& table) {
+  ASSERT_TRUE(table) << to_text(table.error());
+  EXPECT_THAT(table->column("tau_speed"), ElementsAre(0.5, 2.0));
+  EXPECT_THAT(table->column("speed_mps"), ElementsAre(0.25, 1.66));
+}
+
+TEST(Csv, ReadsCommas) {
+  expect_two_rows(read_text("tau_speed,speed_mps\n0.5,0.25\n2,1.66\n", kSurge));
+}
+
+TEST(Csv, ReadsSemicolons) {
+  expect_two_rows(read_text("tau_speed;speed_mps\n0.5;0.25\n2;1.66\n", kSurge));
+}
+
+TEST(Csv, ReadsTabs) {
+  expect_two_rows(read_text("tau_speed\tspeed_mps\n0.5\t0.25\n2\t1.66\n", kSurge));
+}
+
+TEST(Csv, DetectsTheDelimiterThatFindsTheColumnsAskedFor) {
+  // Four commas against two semicolons in the header.
+  expect_two_rows(
+      read_text("note, a, b, c, d;tau_speed;speed_mps\nx;0.5;0.25\ny;2;1.66\n", kSurge));
+}
+
+TEST(Csv, ReadsWindowsAndOldMacintoshLineEnds) {
+  for (const std::string end : {"\r\n", "\r"}) {
+    const auto table =
+        read_text("tau_speed,speed_mps" + end + "0.5,0.25" + end + "2,1.66" + end, kSurge);
+    expect_two_rows(table);
+    EXPECT_EQ(table->line(1), 3);
+  }
+}
+
+TEST(Csv, ReadsALastLineWithoutAnEnd) {
+  expect_two_rows(read_text("tau_speed,speed_mps\n0.5,0.25\n2,1.66", kSurge));
+}
+
+TEST(Csv, SkipsAByteOrderMarkAndDoesNotCountIt) {
+  const auto table = read_text("\xEF\xBB\xBFtau_speed,speed_mps\n0.5,0.25\n2,1.66\n", kSurge);
+  expect_two_rows(table);
+  EXPECT_THAT(table->header_place(), EndsWith("a.csv:1:1"));
+}
+
+TEST(Csv, SkipsCommentsAndBlankLinesButCountsThem) {
+  const auto table = read_text(
+      "# a trial\n\ntau_speed,speed_mps\n  # slow, \"open quote\n0.5,0.25\n \t \n2,1.66\n", kSurge);
+  expect_two_rows(table);
+  EXPECT_THAT(table->header_place(), EndsWith("a.csv:3:1"));
+  EXPECT_EQ(table->line(0), 5);
+  EXPECT_EQ(table->line(1), 7);
+}
+
+TEST(Csv, ReadsQuotedCellsWithDelimitersQuotesAndLineBreaks) {
+  const auto table = read_text(
+      "\"tau_speed\",\"a \"\"note\"\", b\",speed_mps\n\"0.5\",\"x\ny, z\",0.25\n 2 ,\"#\", "
+      "\"1.66\" \n",
+      kSurge);
+  expect_two_rows(table);
+  EXPECT_EQ(table->line(0), 2);
+  EXPECT_EQ(table->line(1), 4);
+}
+
+TEST(Csv, FindsAColumnWhoseNameHoldsAQuote) {
+  const auto table = read_text("\"the \"\"W\"\"\",b\n1,2\n", {{"the \"W\""}});
+  ASSERT_TRUE(table) << to_text(table.error());
+  EXPECT_THAT(table->column("the \"W\""), ElementsAre(1.0));
+}
+
+TEST(Csv, ReadsEveryDecimalForm) {
+  const auto table = read_text(
+      "x\n+1.5\n-1.5\n.5\n5.\n+.5\n1e3\n1E-3\n1e+3\n-0\n4.9406564584124654e-324\n", {{"x"}});
+  ASSERT_TRUE(table) << to_text(table.error());
+  EXPECT_THAT(table->column("x"),
+              ElementsAre(1.5, -1.5, 0.5, 5.0, 0.5, 1000.0, 0.001, 1000.0, 0.0, 5e-324));
+}
+
+TEST(Csv, IgnoresExtraColumnsWhateverTheyHold) {
+  expect_two_rows(
+      read_text("note,tau_speed,x,x,speed_mps,\n,0.5,,nan,0.25,\nb,2,1,1,1.66,\n", kSurge));
+}
+
+TEST(Csv, AnOptionalColumnMayBeAbsent) {
+  const auto table = read_text("tau_speed\n1\n", {{"tau_speed"}, {"elapsed_s", false}});
+  ASSERT_TRUE(table) << to_text(table.error());
+  EXPECT_TRUE(table->has("tau_speed"));
+  EXPECT_FALSE(table->has("elapsed_s"));
+}
+
+TEST(Csv, PlacesACellByLineAndCharacter) {
+  // The umlaut is two bytes and one character.
+  const auto table = read_text("note,tau_speed,speed_mps\n\xC3\xBC,  0.5,0.25\n", kSurge);
+  ASSERT_TRUE(table) << to_text(table.error());
+  EXPECT_THAT(table->place(0, "tau_speed"), EndsWith("a.csv:2:5"));
+  EXPECT_THAT(table->place(0, "speed_mps"), EndsWith("a.csv:2:9"));
+  EXPECT_THAT(table->place(0, "elapsed_s"), EndsWith("a.csv:2:1"));
+}
+
+TEST(Csv, ReadsAPipe) {
+  const auto table = read_csv("/dev/null", kSurge);
+  ASSERT_FALSE(table);
+  EXPECT_THAT(table.error().faults[0].message, ::testing::HasSubstr("the file is empty"));
+}
+
+TEST(Csv, AMappingTakesAnotherNameAndUnit) {
+  const auto table = read_text("t_s,W (IMU)\n0,10\n1,-20\n", {{"t_s"}, {"yaw_rate_radps"}},
+                               {{"yaw_rate_radps", "W (IMU)", 0.5, 1.0}});
+  ASSERT_TRUE(table) << to_text(table.error());
+  EXPECT_THAT(table->column("yaw_rate_radps"), ElementsAre(6.0, -9.0));
+}
+
+TEST(Csv, AMappingWinsOverAColumnOfTheSameName) {
+  const auto table = read_text("x,y\n1,2\n", {{"x"}}, {{"x", "y", 1.0, 0.0}});
+  ASSERT_TRUE(table) << to_text(table.error());
+  EXPECT_THAT(table->column("x"), ElementsAre(2.0));
+}
+
+TEST(Csv, AMappingWithoutItsSourceLeavesAColumnOfTheNameAsItIs) {
+  const auto table = read_text("x\n3\n", {{"x"}}, {{"x", "y", 100.0, 0.0}});
+  ASSERT_TRUE(table) << to_text(table.error());
+  EXPECT_THAT(table->column("x"), ElementsAre(3.0));
+}
+
+TEST(Csv, OneSourceMayServeTwoColumns) {
+  const auto table =
+      read_text("w\n4\n", {{"a"}, {"b"}}, {{"a", "w", 1.0, 0.0}, {"b", "w", 0.5, 0.0}});
+  ASSERT_TRUE(table) << to_text(table.error());
+  EXPECT_THAT(table->column("a"), ElementsAre(4.0));
+  EXPECT_THAT(table->column("b"), ElementsAre(2.0));
+}
+
+}  // namespace
+}  // namespace awmr::testing

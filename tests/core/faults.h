@@ -1,0 +1,25 @@
+/// What an error says, for matchers.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "awmr/core/result.h"
+
+namespace awmr::testing {
+
+/// `PLACE: MESSAGE` of each fault, the place without the directory of its file.
+template <class T>
+std::vector<std::string> faults_of(const Result<T>& result) {
+  std::vector<std::string> texts;
+  if (result) return texts;
+  for (const Fault& fault : result.error().faults) {
+    texts.push_back(fault.place.substr(fault.place.rfind("a.") == std::string::npos
+                                           ? 0
+                                           : fault.place.rfind("a.")) +
+                    ": " + fault.message);
+  }
+  return texts;
+}
+
+}  // namespace awmr::testing

@@ -1,0 +1,164 @@
+/// Files that appear whole or not at all.
+#include "awmr/core/file.h"
+
+#include <gmock/gmock.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <thread>
+
+#include "core/faults.h"
+#include "support/process.h"
+
+namespace awmr::testing {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+namespace fs = std::filesystem;
+
+class FileTest : public ::testing::Test {
+ protected:
+  fs::path path(const char* name) const { return directory_.path() / name; }
+  std::vector<std::string> names() const {
+    std::vector<std::string> found;
+    for (const auto& entry : fs::directory_iterator(directory_.path())) {
+      found.push_back(entry.path().filename().string());
+    }
+    return found;
+  }
+  TemporaryDirectory directory_;
+};
+
+/// While it lives no file can grow beyond `bytes`: writing fails as on a full disk.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(rlim_t bytes) {
+    std::signal(SIGXFSZ, SIG_IGN);
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit{bytes, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FileSizeLimit() { setrlimit(RLIMIT_FSIZE, &before_); }
+  FileSizeLimit(const FileSizeLimit&) = delete;
+  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
+
+ private:
+  rlimit before_{};
+};
+
+TEST_F(FileTest, WritesAndReadsAnyBytes) {
+  std::string bytes;
+  for (int i = 0; i < 300000; ++i) bytes += static_cast<char>(i % 256);
+  ASSERT_TRUE(write_file(path("a.bin"), bytes));
+  EXPECT_EQ(read_file(path("a.bin")).value(), bytes);
+  EXPECT_THAT(names(), ElementsAre("a.bin"));
+}
+
+TEST_F(FileTest, AnEmptyFileIsEmpty) {
+  ASSERT_TRUE(write_file(path("a.txt"), ""));
+  EXPECT_THAT(MappedFile::open(path("a.txt")).value().bytes(), IsEmpty());
+}
+
+TEST_F(FileTest, AFailingWriteLeavesTheOldFileAndNothingElse) {
+  ASSERT_TRUE(write_file(path("a.txt"), "precious"));
+  const std::string large(100000, 'x');
+  {
+    const FileSizeLimit limit(1000);
+    const auto written = write_file(path("a.txt"), large);
+    EXPECT_THAT(faults_of(written),
+                ElementsAre(HasSubstr("cannot write the file: File too large")));
+    EXPECT_FALSE(write_file(path("new.txt"), large));
+  }
+  EXPECT_EQ(read_file(path("a.txt")).value(), "precious");
+  EXPECT_THAT(names(), ElementsAre("a.txt"));
+}
+
+TEST_F(FileTest, AMappedViewOutlivesTheReplacementOfItsFile) {
+  ASSERT_TRUE(write_file(path("a.txt"), "old"));
+  const auto mapped = MappedFile::open(path("a.txt"));
+  ASSERT_TRUE(write_file(path("a.txt"), "new bytes"));
+  EXPECT_EQ(mapped.value().bytes(), "old");
+  EXPECT_EQ(read_file(path("a.txt")).value(), "new bytes");
+}
+
+TEST_F(FileTest, ACopyOfAMappedFileKeepsTheBytes) {
+  ASSERT_TRUE(write_file(path("a.txt"), "bytes"));
+  MappedFile copy;
+  {
+    const auto mapped = MappedFile::open(path("a.txt"));
+    copy = mapped.value();
+  }
+  EXPECT_EQ(copy.bytes(), "bytes");
+}
+
+TEST_F(FileTest, MissingDirectoryAndDirectoryAsFileAreFaults) {
+  const auto missing = write_file(path("no") / "a.txt", "x");
+  EXPECT_THAT(faults_of(missing), ElementsAre(HasSubstr("No such file or directory")));
+  ASSERT_TRUE(make_directory(path("d")));
+  EXPECT_THAT(faults_of(write_file(path("d"), "x")), ElementsAre(HasSubstr("is a directory")));
+  EXPECT_THAT(faults_of(read_file(path("d"))), ElementsAre(HasSubstr("is a directory")));
+  EXPECT_THAT(faults_of(read_file(path("a.txt"))), ElementsAre(HasSubstr("No such file")));
+  EXPECT_THAT(names(), ElementsAre("d"));
+}
+
+TEST_F(FileTest, KeepsTheModeOfTheOldFileAndGivesANewOneTheUsual) {
+  const mode_t mask = ::umask(022);
+  ::umask(mask);
+  ASSERT_TRUE(write_file(path("a.txt"), "x"));
+  struct stat status {};
+  ASSERT_EQ(::stat(path("a.txt").c_str(), &status), 0);
+  EXPECT_EQ(status.st_mode & 0777U, 0666U & ~mask);
+  ASSERT_EQ(::chmod(path("a.txt").c_str(), 0600), 0);
+  ASSERT_TRUE(write_file(path("a.txt"), "y"));
+  ASSERT_EQ(::stat(path("a.txt").c_str(), &status), 0);
+  EXPECT_EQ(status.st_mode & 0777U, 0600U);
+}
+
+TEST_F(FileTest, ReplacesWhatASymbolicLinkPointsTo) {
+  ASSERT_TRUE(write_file(path("a.txt"), "x"));
+  fs::create_symlink("a.txt", path("link"));
+  ASSERT_TRUE(write_file(path("link"), "y"));
+  EXPECT_TRUE(fs::is_symlink(path("link")));
+  EXPECT_EQ(read_file(path("a.txt")).value(), "y");
+}
+
+TEST_F(FileTest, WritesToAndReadsFromAPipe) {
+  ASSERT_EQ(::mkfifo(path("pipe").c_str(), 0600), 0);
+  const std::string bytes(200000, 'p');  // more than a pipe holds
+  std::thread writer([&] { EXPECT_TRUE(write_file(path("pipe"), bytes)); });
+  EXPECT_EQ(read_file(path("pipe")).value(), bytes);
+  writer.join();
+  EXPECT_TRUE(fs::is_fifo(path("pipe")));
+}
+
+TEST_F(FileTest, AReaderNeverSeesPartOfAFile) {
+  const std::string old_bytes(50000, 'a');
+  const std::string new_bytes(70000, 'b');
+  ASSERT_TRUE(write_file(path("a.txt"), old_bytes));
+  std::thread writer([&] {
+    for (int i = 0; i < 20; ++i) {
+      EXPECT_TRUE(write_file(path("a.txt"), i % 2 == 0 ? new_bytes : old_bytes));
+    }
+  });
+  for (int i = 0; i < 200; ++i) {
+    const std::string bytes = read_file(path("a.txt")).value();
+    EXPECT_TRUE(bytes == old_bytes || bytes == new_bytes);
+  }
+  writer.join();
+}
+
+TEST_F(FileTest, MakesADirectoryWithItsParents) {
+  ASSERT_TRUE(make_directory(path("a") / "b" / "c"));
+  ASSERT_TRUE(make_directory(path("a") / "b" / "c"));
+  EXPECT_TRUE(fs::is_directory(path("a") / "b" / "c"));
+  ASSERT_TRUE(write_file(path("f"), "x"));
+  EXPECT_FALSE(make_directory(path("f") / "d"));
+}
+
+}  // namespace
+}  // namespace awmr::testing

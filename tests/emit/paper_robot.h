@@ -1,0 +1,97 @@
+/// A model and gains as identify and tune would make them from the paper's tables, by hand.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "awmr/core/units.h"
+#include "awmr/emit/emit.h"
+#include "awmr/model/gains_file.h"
+
+namespace awmr::testing {
+
+inline Model paper_robot() {
+  Model model;
+  model.vehicle = {.name = "AWMR",
+                   .mass_kg = 37.0,
+                   .length_m = 1.2,
+                   .width_m = 0.7,
+                   .front_axle_m = 0.34,
+                   .half_track_m = 0.3,
+                   .wheel_force = {-1.0, 1.0},
+                   .steering_max_deg = 20.0,
+                   .steering_max_rate_degps = 100.0,
+                   .steering_time_constant_s = 0.02,
+                   .sample_time_s = 0.01,
+                   .yaw_inertia_kgm2 = {},
+                   .sway_alpha = {}};
+  const auto fitted = [](double value, double std_error) {
+    return Estimate{.value = value,
+                    .std_error = std_error,
+                    .ci95 = Interval{value - 2.0 * std_error, value + 2.0 * std_error},
+                    .source = Source::kFitted,
+                    .method = "log-linear"};
+  };
+  // The values of the paper's Appendix B, with the standard errors of its tables' log-linear fits.
+  model[ParameterId::kSurgeAlpha] = fitted(1.3268, 0.0183);
+  model[ParameterId::kSurgeBeta] = fitted(0.8933, 0.0156);
+  model[ParameterId::kYawAlpha] = fitted(0.3028, 0.0042);
+  model[ParameterId::kYawBeta] = fitted(0.8250, 0.012);
+  model[ParameterId::kSwayAlpha] = {3.0, {}, {}, Source::kGiven, "vehicle.json"};
+  model[ParameterId::kMassNorm] = {0.0768, 0.0108, {}, Source::kDerived, "stop time"};
+  model[ParameterId::kInertiaNorm] = {0.0128, {}, {}, Source::kDerived, "box formula"};
+  model[ParameterId::kSteeringTimeConstant] = {0.02, {}, {}, Source::kGiven, "vehicle.json"};
+  return model;
+}
+
+inline EmitInputs paper_inputs() {
+  return {.model_file = "model.json",
+          .model_sha256 = std::string(64, 'a'),
+          .gains_sha256 = std::string(64, 'b'),
+          .gains_file = "gains.json"};
+}
+
+/// The contract's macros with the values they have to have, by name.
+inline std::vector<std::pair<std::string, double>> expected_macros(const Model& model,
+                                                                   const Gains<double>& gains) {
+  const auto value = [&model](ParameterId id) { return model[id].value.value(); };
+  const Vehicle& vehicle = model.vehicle;
+  return {{"AWMR_SURGE_ALPHA", value(ParameterId::kSurgeAlpha)},
+          {"AWMR_SURGE_BETA", value(ParameterId::kSurgeBeta)},
+          {"AWMR_YAW_ALPHA", value(ParameterId::kYawAlpha)},
+          {"AWMR_YAW_BETA", value(ParameterId::kYawBeta)},
+          {"AWMR_SWAY_ALPHA", value(ParameterId::kSwayAlpha)},
+          {"AWMR_MASS_NORM", value(ParameterId::kMassNorm)},
+          {"AWMR_INERTIA_NORM", value(ParameterId::kInertiaNorm)},
+          {"AWMR_FRONT_AXLE_M", vehicle.front_axle_m},
+          {"AWMR_HALF_TRACK_M", vehicle.half_track_m},
+          {"AWMR_WHEEL_FORCE_MIN", vehicle.wheel_force.lo},
+          {"AWMR_WHEEL_FORCE_MAX", vehicle.wheel_force.hi},
+          {"AWMR_STEERING_MAX_RAD", radians(vehicle.steering_max_deg)},
+          {"AWMR_SAMPLE_TIME_S", vehicle.sample_time_s},
+          {"AWMR_HEADING_LAMBDA", gains.heading.lambda},
+          {"AWMR_HEADING_MU", gains.heading.mu},
+          {"AWMR_HEADING_EPSILON", gains.heading.epsilon},
+          {"AWMR_SPEED_MU", gains.speed.mu},
+          {"AWMR_SPEED_EPSILON", gains.speed.epsilon}};
+}
+
+/// The text after `#define NAME `; empty where there is none.
+inline std::string macro_text(const std::string& header, const std::string& name) {
+  const std::string start = "\n#define " + name + " ";
+  const std::size_t at = header.find(start);
+  if (at == std::string::npos) return "";
+  const std::size_t begin = at + start.size();
+  return header.substr(begin, header.find('\n', begin) - begin);
+}
+
+/// The header as a user might edit it by hand.
+inline std::string with_macro(std::string header, const std::string& name,
+                              const std::string& literal) {
+  const std::string old_line = "\n#define " + name + " " + macro_text(header, name) + "\n";
+  return header.replace(header.find(old_line), old_line.size(),
+                        "\n#define " + name + " " + literal + "\n");
+}
+
+}  // namespace awmr::testing

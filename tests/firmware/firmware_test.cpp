@@ -1,0 +1,87 @@
+/// The emitted header and the simulator's own controller, built and linked for the ATmega2560.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <iostream>
+#include <map>
+#include <sstream>
+
+#include "emit/paper_robot.h"
+#include "support/toolchain.h"
+
+namespace awmr::testing {
+namespace {
+
+constexpr long kFlashBytesMax = 8192;  // of 262144: the controller alone, room for the rest
+constexpr long kRamBytesMax = 512;     // of 8192, without the stack
+
+class Firmware : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_TRUE(found(kAvrGxx));
+    ASSERT_TRUE(found(kAvrSize));
+    write_all(directory_.path() / "awmr_params.h",
+              params_header(paper_robot(), kPaperGains, paper_inputs()).value());
+  }
+
+  ProcessResult avr_gxx(const std::string& options) const {
+    return run_process(std::string("'") + kAvrGxx +
+                           "' -mmcu=atmega2560 -std=c++14 -Os -ffunction-sections -fdata-sections "
+                           "-Wall -Wextra -Wpedantic -Wshadow -Werror -I. -I'" AWMR_SOURCE_DIR
+                           "/lib' " +
+                           options,
+                       directory_.path());
+  }
+
+  /// Bytes by section, as `avr-size -A` lists them.
+  std::map<std::string, long> section_sizes(const std::string& file) const {
+    const ProcessResult sized =
+        run_process(std::string("'") + kAvrSize + "' -A " + file, directory_.path());
+    EXPECT_TRUE(succeeded(sized));
+    std::map<std::string, long> sizes;
+    std::istringstream lines(sized.out);
+    for (std::string line; std::getline(lines, line);) {
+      std::istringstream words(line);
+      std::string name;
+      long bytes = 0;
+      if (words >> name >> bytes) sizes[name] = bytes;
+    }
+    return sizes;
+  }
+
+  TemporaryDirectory directory_;
+};
+
+TEST_F(Firmware, LinksAndFitsTheChip) {
+  const ProcessResult built = avr_gxx(
+      "'" AWMR_SOURCE_DIR "/tests/firmware/firmware.cpp' -Wl,--gc-sections -o firmware.elf");
+  ASSERT_TRUE(succeeded(built));
+  EXPECT_EQ(built.err, "");
+
+  std::map<std::string, long> sizes = section_sizes("firmware.elf");
+  const long flash_bytes = sizes[".text"] + sizes[".data"];
+  const long ram_bytes = sizes[".data"] + sizes[".bss"];
+  std::cout << "ATmega2560: " << flash_bytes << " bytes of flash, " << ram_bytes
+            << " bytes of RAM without the stack\n";
+  RecordProperty("flash_bytes", std::to_string(flash_bytes));
+  RecordProperty("ram_bytes", std::to_string(ram_bytes));
+  // Above what start-up code and vectors take alone (about 250 bytes): the controller is in it.
+  EXPECT_GT(flash_bytes, 1000);
+  EXPECT_LT(flash_bytes, kFlashBytesMax);
+  EXPECT_LT(ram_bytes, kRamBytesMax);
+}
+
+TEST_F(Firmware, NeedsNoHeapAndNoExceptions) {
+  // Nothing that the linker would have to bring: the object's undefined symbols are those of the
+  // float arithmetic and libm.
+  ASSERT_TRUE(
+      succeeded(avr_gxx("-c '" AWMR_SOURCE_DIR "/tests/firmware/firmware.cpp' -o firmware.o "
+                        "-Wl,--gc-sections")));
+  const std::string bytes = read_all(directory_.path() / "firmware.o");
+  for (const char* symbol : {"malloc", "_Znw", "_Zna", "__cxa_", "__gxx_personality"}) {
+    EXPECT_EQ(bytes.find(symbol), std::string::npos) << symbol;
+  }
+}
+
+}  // namespace
+}  // namespace awmr::testing

@@ -1,0 +1,41 @@
+/// Compilers that tests run. The target needs `awmr_use_toolchain(TARGET)` (toolchain.cmake).
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "support/process.h"
+
+namespace awmr::testing {
+
+inline constexpr const char* kGcc = AWMR_TOOL_GCC;
+inline constexpr const char* kGxx = AWMR_TOOL_GXX;
+inline constexpr const char* kClang = AWMR_TOOL_CLANG;
+inline constexpr const char* kClangxx = AWMR_TOOL_CLANGXX;
+inline constexpr const char* kObjcopy = AWMR_TOOL_OBJCOPY;
+inline constexpr const char* kAvrGcc = AWMR_TOOL_AVR_GCC;
+inline constexpr const char* kAvrGxx = AWMR_TOOL_AVR_GXX;
+inline constexpr const char* kAvrObjcopy = AWMR_TOOL_AVR_OBJCOPY;
+inline constexpr const char* kAvrSize = AWMR_TOOL_AVR_SIZE;
+
+/// For ASSERT_TRUE: was the program found when the build was configured?
+inline ::testing::AssertionResult found(std::string_view program) {
+  if (program.ends_with("-NOTFOUND") || program.empty()) {
+    return ::testing::AssertionFailure()
+           << program << ": the test needs this program; scripts/setup installs it, then run cmake "
+           << "again with --fresh";
+  }
+  return ::testing::AssertionSuccess();
+}
+
+/// For ASSERT_TRUE: the program ended with 0 and had nothing to say against it.
+inline ::testing::AssertionResult succeeded(const ProcessResult& result) {
+  if (result.exit_code == 0) return ::testing::AssertionSuccess();
+  return ::testing::AssertionFailure() << "exit code " << result.exit_code << "\n"
+                                       << result.out << result.err;
+}
+
+}  // namespace awmr::testing

@@ -1,0 +1,55 @@
+#include "awmr/validate/circle_fit.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace awmr {
+namespace {
+
+std::vector<Point> arc(double x_m, double y_m, double radius_m, double angle_rad, int count) {
+  std::vector<Point> points;
+  for (int i = 0; i < count; ++i) {
+    const double a = angle_rad * i / count;
+    points.push_back({x_m + radius_m * std::cos(a), y_m + radius_m * std::sin(a)});
+  }
+  return points;
+}
+
+TEST(CircleFit, RecoversAFullCircleFarFromTheOrigin) {
+  const auto circle = fit_circle(arc(1000.0, -300.0, 1.145, 2.0 * std::numbers::pi, 500));
+  ASSERT_TRUE(circle);
+  // The coordinates carry 1000 * 2^-53 = 1.1e-13 m of rounding; sums of 500 stay below 100 times
+  // it.
+  EXPECT_NEAR(circle->x_m, 1000.0, 1e-11);
+  EXPECT_NEAR(circle->y_m, -300.0, 1e-11);
+  EXPECT_NEAR(circle->radius_m, 1.145, 1e-11);
+  EXPECT_LT(circle->deviation_m, 1e-11);
+}
+
+TEST(CircleFit, RecoversAQuarterArc) {
+  const auto circle = fit_circle(arc(2.0, 3.0, 5.0, std::numbers::pi / 2.0, 200));
+  ASSERT_TRUE(circle);
+  // A quarter arc's scatter has condition about 100: 1e-16 * 5 m * 100, with a margin of 100.
+  EXPECT_NEAR(circle->radius_m, 5.0, 5e-12);
+}
+
+TEST(CircleFit, MeasuresTheDeviationOfOnePointOut) {
+  std::vector<Point> points = arc(0.0, 0.0, 1.0, 2.0 * std::numbers::pi, 1000);
+  points[0].x_m += 0.1;
+  const auto circle = fit_circle(points);
+  ASSERT_TRUE(circle);
+  // One of 1000 points moved by 0.1 m shifts centre and radius by some 0.1/1000 * 2 m each.
+  EXPECT_NEAR(circle->deviation_m, 0.1, 1e-3);
+}
+
+TEST(CircleFit, RefusesALineAndTooFewPoints) {
+  EXPECT_FALSE(fit_circle(std::vector<Point>{{0.0, 0.0}, {1.0, 1.0}}));
+  EXPECT_FALSE(fit_circle(std::vector<Point>{{0.0, 0.0}, {1.0, 2.0}, {2.0, 4.0}, {3.0, 6.0}}));
+  EXPECT_FALSE(fit_circle(std::vector<Point>(10, Point{1.0, 1.0})));
+}
+
+}  // namespace
+}  // namespace awmr
