@@ -5,7 +5,10 @@
 
 #include <bit>
 #include <cstdint>
+#include <iterator>
 #include <limits>
+#include <ostream>
+#include <vector>
 
 #include "emit/paper_robot.h"
 #include "support/toolchain.h"
@@ -22,6 +25,8 @@ struct Compiler {
   bool is_cxx;
   bool is_avr;
 };
+
+void PrintTo(const Compiler& compiler, std::ostream* out) { *out << compiler.name; }
 
 constexpr Compiler kCompilers[] = {
     {"GccC89", kGcc, "c89", false, false},          {"GccC99", kGcc, "c99", false, false},

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <ostream>
 #include <set>
 #include <sstream>
 
@@ -15,7 +17,6 @@ namespace awmr::testing {
 namespace {
 
 using ::testing::HasSubstr;
-using ::testing::IsEmpty;
 using ::testing::Not;
 
 std::string paper_header() {
@@ -137,6 +138,8 @@ struct BadValue {
   double value;
   std::string complaint;
 };
+
+void PrintTo(const BadValue& bad, std::ostream* out) { *out << bad.value; }
 
 class BadValues : public ::testing::TestWithParam<BadValue> {};
 

@@ -1,0 +1,92 @@
+/// What the data cannot show is refused by name.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+
+#include "identify/synthetic.h"
+
+namespace awmr::testing {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+bool has_finding(const Model& model, const std::string& code) {
+  return std::any_of(model.findings.begin(), model.findings.end(),
+                     [&](const Finding& f) { return f.code == code; });
+}
+
+TEST(Refusal, EverySubsetOfTrialsIsRecoveredOrRefused) {
+  const Truth& truth = kTruths[0];
+  const TrialData all = synthetic(truth, 0.0, 1);
+  for (int subset = 1; subset < 8; ++subset) {
+    TrialData data;
+    if (subset & 1) data.surge = all.surge;
+    if (subset & 2) data.turning = all.turning;
+    if (subset & 4) data.coastdown = all.coastdown;
+    const auto result = identify(vehicle(), data, {}, {});
+    ASSERT_TRUE(result);
+    const Model& m = result->model;
+    EXPECT_EQ(m[ParameterId::kSurgeBeta].value.has_value(), data.surge.has_value());
+    EXPECT_EQ(m[ParameterId::kYawBeta].value.has_value(), data.turning.has_value());
+    const bool mass = data.surge && data.coastdown;
+    EXPECT_EQ(m[ParameterId::kMassNorm].value.has_value(), mass);
+    if (mass) {
+      EXPECT_NEAR(*m[ParameterId::kMassNorm].value, truth.mass_norm, 1e-11);
+    }
+    // A coast-down without a surge trial is asked for m' and cannot give it.
+    if (data.coastdown && !data.surge) {
+      EXPECT_THAT(result->refused, ElementsAre(ParameterId::kMassNorm, ParameterId::kInertiaNorm));
+    } else {
+      EXPECT_THAT(result->refused, IsEmpty());
+    }
+  }
+}
+
+TEST(Refusal, EqualForcesShowNoExponent) {
+  TrialData data = synthetic(kTruths[0], 0.0, 1);
+  data.turning.reset();
+  data.coastdown.reset();
+  for (SurgeRow& row : data.surge->rows) row.tau_speed = 1.0;
+  const auto result = identify(vehicle(), data, {}, {});
+  ASSERT_TRUE(result);
+  EXPECT_THAT(result->refused, ElementsAre(ParameterId::kSurgeAlpha, ParameterId::kSurgeBeta));
+  EXPECT_TRUE(has_finding(result->model, "not-identifiable"));
+}
+
+TEST(Refusal, TwoRowsGiveValuesWithoutAnError) {
+  TrialData data = synthetic(kTruths[0], 0.0, 1);
+  data.turning.reset();
+  data.coastdown.reset();
+  data.surge->rows.resize(2);
+  const auto result = identify(vehicle(), data, {}, {});
+  ASSERT_TRUE(result);
+  EXPECT_NEAR(*result->model[ParameterId::kSurgeBeta].value, kTruths[0].b1, 1e-12);
+  EXPECT_FALSE(result->model[ParameterId::kSurgeBeta].std_error);
+  EXPECT_TRUE(has_finding(result->model, "no-degrees-of-freedom"));
+}
+
+TEST(Refusal, AnExponentOfOneOrMoreMakesAStopTimeWorthless) {
+  TrialData data = synthetic({1.0, 1.3, 0.3, 0.8, 0.1}, 0.0, 1);
+  data.coastdown->rows = {{2, 1.0, 0.5}};
+  const auto result = identify(vehicle(), data, {}, {});
+  ASSERT_TRUE(result);
+  EXPECT_THAT(result->refused, ElementsAre(ParameterId::kMassNorm, ParameterId::kInertiaNorm));
+  EXPECT_TRUE(has_finding(result->model, "exponent-at-bound"));
+}
+
+TEST(Refusal, TimeNoiseWithoutTimesIsRefused) {
+  TrialData data = synthetic(kTruths[0], 0.0, 1);
+  data.turning.reset();
+  data.coastdown.reset();
+  IdentifyOptions options;
+  options.method = Method::kNonlinear;
+  options.noise = Noise::kTime;
+  const auto result = identify(vehicle(), data, options, {});
+  ASSERT_TRUE(result);
+  EXPECT_THAT(result->refused, ElementsAre(ParameterId::kSurgeAlpha, ParameterId::kSurgeBeta));
+  EXPECT_TRUE(has_finding(result->model, "not-timed"));
+}
+
+}  // namespace
+}  // namespace awmr::testing
