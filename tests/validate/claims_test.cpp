@@ -121,6 +121,18 @@ TEST(Claims, MotorsThatOnlyDriveForwardCostTheDifferentialModeItsSpeed) {
   EXPECT_THAT(drop.why, HasSubstr("a side saturates"));
 }
 
+TEST(Claims, TheSideslipIsAlsoGivenForThePapersGains) {
+  const Model model = testing::fitted_paper_model();
+  Gains<double> fast = kPaperGains;
+  fast.heading = {.lambda = 6.0, .mu = 100.0, .epsilon = 6.0};
+  const Claim own = claim_of(check_claims(model, plant_of(model), fast), "C6");
+  // At 200 deg/s sway is m' r u/a_s = 0.0768 * 3.5/3 = 0.09 m/s: 5 deg without any steering.
+  EXPECT_FALSE(own.reproduced) << own.figure;
+  EXPECT_THAT(own.figure, HasSubstr("with the paper's gains"));
+  const Claim paper = claim_of(check_claims(model, plant_of(model), kPaperGains), "C6");
+  EXPECT_THAT(paper.figure, ::testing::Not(HasSubstr("with the paper's gains")));
+}
+
 TEST(Claims, AControllerThatIsTooStiffForItsSampleTimeChatters) {
   const Model model = testing::fitted_paper_model();
   Gains<double> stiff = kPaperGains;

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -18,39 +19,57 @@ std::string figure(double value) {
   return fmt::format("{:.{}f}", value, std::abs(value) < 100.0 ? 3 : std::abs(value) < 1e4 ? 1 : 0);
 }
 
-std::string row_text(const ModeRows& rows, const std::vector<RankedMode>& ranking) {
-  std::string text =
-      fmt::format("  {:<12} {:>4.0f}", name_of(rows.mode), 100.0 * rows.completed_share());
-  for (const MetricColumn& metric : kMetricColumns) {
-    const auto mean = summarise(rows, metric).mean;
-    text += fmt::format(" {:>7}", mean ? figure(*mean) : "-");
-  }
-  std::string place = "-";
+/// Whether any mode has the metric: the others' columns are left out.
+bool is_shown(const ScenarioRows& scenario, const MetricColumn& metric) {
+  return std::any_of(scenario.modes.begin(), scenario.modes.end(), [&](const ModeRows& rows) {
+    return summarise(rows, metric).mean.has_value();
+  });
+}
+
+std::string place_of(YawMode mode, const std::vector<RankedMode>& ranking) {
   for (const RankedMode& ranked : ranking) {
-    if (ranked.mode != rows.mode) continue;
-    place = fmt::format("{}{}", ranked.rank, ranked.tied_with.empty() ? "" : "=");
+    if (ranked.mode == mode) {
+      return fmt::format("{}{}", ranked.rank, ranked.tied_with.empty() ? "" : "=");
+    }
   }
-  return text + fmt::format(" {:>4}\n", place);
+  return "-";
+}
+
+std::string table_of(const ScenarioRows& scenario) {
+  const std::vector<RankedMode> ranking = rank(scenario);
+  std::string head = fmt::format("  {:<12} {:>4}", "mode", "done");
+  std::string units = fmt::format("  {:<12} {:>4}", "", "%");
+  std::vector<std::string> lines;
+  for (const ModeRows& rows : scenario.modes) {
+    lines.push_back(
+        fmt::format("  {:<12} {:>4.0f}", name_of(rows.mode), 100.0 * rows.completed_share()));
+  }
+  for (std::size_t i = 0; i < kMetricColumns.size(); ++i) {
+    if (!is_shown(scenario, kMetricColumns[i])) continue;
+    head += fmt::format(" {:>7}", kHeads[i]);
+    units += fmt::format(" {:>7}", kMetricColumns[i].unit);
+    for (std::size_t mode = 0; mode < lines.size(); ++mode) {
+      const auto mean = summarise(scenario.modes[mode], kMetricColumns[i]).mean;
+      lines[mode] += fmt::format(" {:>7}", mean ? figure(*mean) : "-");
+    }
+  }
+  std::string text = head + " rank\n" + units + '\n';
+  for (std::size_t mode = 0; mode < lines.size(); ++mode) {
+    text += fmt::format("{} {:>4}\n", lines[mode], place_of(scenario.modes[mode].mode, ranking));
+  }
+  return text;
 }
 
 }  // namespace
 
 std::string comparison_table(const Comparison& comparison) {
-  std::string head = fmt::format("  {:<12} {:>4}", "mode", "done");
-  std::string units = fmt::format("  {:<12} {:>4}", "", "%");
-  for (std::size_t i = 0; i < kMetricColumns.size(); ++i) {
-    head += fmt::format(" {:>7}", kHeads[i]);
-    units += fmt::format(" {:>7}", kMetricColumns[i].unit);
-  }
   std::string text;
   for (const ScenarioRows& scenario : group(comparison)) {
     const std::size_t samples = scenario.modes.front().rows.size() - 1;
     text += fmt::format(
         "{}: {}\n", scenario.scenario,
         samples == 0 ? "the model's own values" : fmt::format("mean of {} sample(s)", samples));
-    text += head + " rank\n" + units + "\n";
-    const std::vector<RankedMode> ranking = rank(scenario);
-    for (const ModeRows& rows : scenario.modes) text += row_text(rows, ranking);
+    text += table_of(scenario);
   }
   return text;
 }

@@ -10,6 +10,7 @@
 namespace awmr {
 namespace {
 
+constexpr double kReachedShare = 0.001;   ///< of the commanded speed
 constexpr double kSettledShare = 0.02;    ///< of the step's size
 constexpr double kSettledLeastDeg = 0.5;  ///< band of the smallest steps
 constexpr double kMovingMps = 0.05;       ///< below it the sideslip angle has no meaning
@@ -67,11 +68,11 @@ void heading_metrics(const Run& run, Metrics& m) {
   m.heading_itae_degs2 = itae;
 }
 
-/// Commanded speed minus the least after it was first reached within 2 %.
+/// Commanded speed minus the least after it was first reached within 0.1 %.
 std::optional<double> speed_drop(const Run& run, double speed_mps) {
   std::optional<double> least;
   for (const RunRow& row : run.rows) {
-    const bool reached = row.state.u_mps >= (1.0 - kSettledShare) * speed_mps;
+    const bool reached = row.state.u_mps >= (1.0 - kReachedShare) * speed_mps;
     if (reached || least) least = std::min(least.value_or(row.state.u_mps), row.state.u_mps);
   }
   if (!least || !(speed_mps > 0.0)) return std::nullopt;

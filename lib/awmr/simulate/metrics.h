@@ -19,7 +19,7 @@ struct Metrics {
   std::optional<double> heading_itae_degs2; ///< integral of t |e|, t from each step (for tuning)
   std::optional<double> cross_track_rms_m;
   double path_length_m = 0.0;
-  /// Commanded speed minus the least speed after it was first reached within 2 %, >= 0.
+  /// Commanded speed minus the least speed after it was first reached within 0.1 %, >= 0.
   std::optional<double> speed_drop_mps;
   double sideslip_max_deg = 0.0;  ///< |atan2(v, u)| where the vehicle moves faster than 0.05 m/s
   double yaw_rate_max_degps = 0.0;

@@ -13,6 +13,9 @@ namespace {
 /// of time constant T is (h/T)^5/120, so 10 keeps it below 1e-7 of the excursion.
 constexpr double kStepsPerTimeConstant = 10.0;
 
+/// The largest speed (m/s, rad/s) below which resistance may be its chord.
+constexpr double kChordSpeed = 1e-3;
+
 /// Speed below which resistance is its chord. On the chord the speed decays at alpha
 /// w^(beta-1)/inertia; RK4 is stable to rate h < 2.78 and monotone to about 1, so w is where that
 /// rate is 1/h:
@@ -20,6 +23,11 @@ constexpr double kStepsPerTimeConstant = 10.0;
 double rest_speed(const Resistance<double>& law, double inertia, double step_s) {
   if (law.beta >= 1.0) return 0.0;
   return std::pow(law.alpha * step_s / inertia, 1.0 / (1.0 - law.beta));
+}
+
+double step_for_chord(const Resistance<double>& law, double inertia) {
+  if (law.beta >= 1.0) return std::numeric_limits<double>::infinity();
+  return inertia / law.alpha * std::pow(kChordSpeed, 1.0 - law.beta);
 }
 
 Plant<double> at_rest_resolved(Plant<double> plant, double step_s) {
@@ -93,12 +101,18 @@ void command(const Controller<double>& controller, const Scenario& scenario, Yaw
 
 }  // namespace
 
-/// The fastest time constants that do not depend on speed: m'/a_s of sway and T of the servo.
+/// h <= T/10 for the time constants that do not depend on speed, m'/a_s of sway and T of the servo;
+/// and h such that resistance is its chord only below kChordSpeed (rest_speed() solved for h):
+///   h <= (inertia/alpha) kChordSpeed^(1 - beta)
 int substeps_for(const Plant<double>& plant, double sample_time_s) {
-  double fastest_s = plant.steering_time_constant_s;
-  if (plant.sway_alpha > 0.0) fastest_s = std::min(fastest_s, plant.mass_norm / plant.sway_alpha);
-  return std::max(1,
-                  static_cast<int>(std::ceil(kStepsPerTimeConstant * sample_time_s / fastest_s)));
+  double step_s = plant.steering_time_constant_s / kStepsPerTimeConstant;
+  if (plant.sway_alpha > 0.0) {
+    step_s = std::min(step_s, plant.mass_norm / plant.sway_alpha / kStepsPerTimeConstant);
+  }
+  step_s = std::min(step_s, step_for_chord(plant.surge, plant.mass_norm));
+  step_s = std::min(step_s, step_for_chord(plant.yaw, plant.inertia_norm));
+  // Room for rounding, so that a sample of exactly n steps takes n.
+  return std::max(1, static_cast<int>(std::ceil(sample_time_s / step_s - 1e-9)));
 }
 
 Controller<double> make_controller(const Plant<double>& plant, const Vehicle& vehicle,

@@ -91,6 +91,10 @@ void judge(Validation& validation, double tolerance) {
       fmt::format("the model {} its own trials: RMS relative error {} (accepted: {:.1f} %)",
                   validation.passed ? "predicts" : "does not predict",
                   figures.empty() ? "cannot be given" : figures, 100.0 * tolerance);
+  const auto stops =
+      std::count_if(validation.trials.begin(), validation.trials.end(),
+                    [](const TrialResidual& trial) { return trial.kind == "coastdown"; });
+  if (stops == 1) validation.verdict += "; one stop time only gives m', it cannot check it";
   if (unpredicted > 0) {
     validation.verdict += fmt::format(
         "; {} row(s) have no finite prediction: b near 0 gives no steady speed, b1 >= 1 no stop",

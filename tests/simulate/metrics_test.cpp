@@ -1,0 +1,80 @@
+/// Metrics on runs made by hand.
+#include "awmr/simulate/metrics.h"
+
+#include <gtest/gtest.h>
+
+#include "simulate/paper_plant.h"
+
+namespace awmr::testing {
+namespace {
+
+const Scenario kSteps{"step", 4.0, {}, 1.0, HeadingSteps{{{0.0, radians(10.0)}}}};
+
+/// A 10 deg step whose heading is `psi_deg` at 0, 1, 2, 3, 4 s, at 1 m/s along x.
+awmr::Run by_hand(const double (&psi_deg)[5]) {
+  awmr::Run run;
+  for (int i = 0; i < 5; ++i) {
+    RunRow row;
+    row.t_s = i;
+    row.state.psi_rad = radians(psi_deg[i]);
+    row.state.x_m = i;
+    row.state.u_mps = 1.0;
+    row.psi_ref_rad = radians(10.0);
+    row.u_ref_mps = 1.0;
+    run.rows.push_back(row);
+  }
+  return run;
+}
+
+Metrics judged(const awmr::Run& run) {
+  return metrics_of(run, kSteps, make_controller(paper_plant(), reversible_vehicle(), {}));
+}
+
+TEST(Metrics, HeadingStepIsSettledFromTheFirstRowThatStaysInTheBand) {
+  // The band is 0.5 deg; 10.4 at 2 s and 9.9 after it are inside, 11 at 1 s is not.
+  const Metrics m = judged(by_hand({0.0, 11.0, 10.4, 9.9, 10.0}));
+  EXPECT_TRUE(m.completed);
+  EXPECT_EQ(m.settling_time_s, 2.0);
+  EXPECT_NEAR(*m.overshoot_deg, 1.0, 1e-12);
+  // |e| dt: 10 + 1 + 0.4 + 0.1;  t |e| dt: 0 + 1 + 0.8 + 0.3
+  EXPECT_NEAR(*m.heading_iae_degs, 11.5, 1e-9);
+  EXPECT_NEAR(*m.heading_itae_degs2, 2.1, 1e-9);
+  EXPECT_EQ(m.path_length_m, 4.0);
+}
+
+TEST(Metrics, AStepThatNeverSettlesIsNotCompletedAndHasNoSettlingTime) {
+  const Metrics m = judged(by_hand({0.0, 2.0, 4.0, 6.0, 8.0}));
+  EXPECT_FALSE(m.completed);
+  EXPECT_FALSE(m.settling_time_s);
+  EXPECT_EQ(m.overshoot_deg, 0.0);
+}
+
+TEST(Metrics, SpeedDropCountsFromWhereTheSpeedWasReached) {
+  awmr::Run run = by_hand({0.0, 10.0, 10.0, 10.0, 10.0});
+  const double speeds[] = {0.0, 0.9, 1.0, 0.93, 1.0};
+  for (int i = 0; i < 5; ++i) run.rows[static_cast<std::size_t>(i)].state.u_mps = speeds[i];
+  EXPECT_NEAR(*judged(run).speed_drop_mps, 0.07, 1e-12);
+  for (RunRow& row : run.rows) row.state.u_mps = 0.5;
+  EXPECT_FALSE(judged(run).speed_drop_mps);
+}
+
+TEST(Metrics, ControlVariationIsPerSecondAndOverTheLimits) {
+  awmr::Run run = by_hand({0.0, 10.0, 10.0, 10.0, 10.0});
+  run.rows[1].steering_command_rad =
+      radians(20.0);             // there and back: twice the full range of one side
+  run.rows[2].force.left = 0.5;  // there and back at F'max = 1
+  EXPECT_NEAR(judged(run).control_variation, (2.0 + 1.0) / 4.0, 1e-12);
+}
+
+TEST(Metrics, OpenLoopHasNoHeadingMetrics) {
+  const awmr::Run run = run_open_loop(paper_plant(), {}, 1.0, {1.0, 0.0});
+  const Scenario open{"open", 1.0, {}, 0.0, OpenLoop{1.0, 0.0}};
+  const Metrics m = metrics_of(run, open, make_controller(paper_plant(), reversible_vehicle(), {}));
+  EXPECT_FALSE(m.settling_time_s);
+  EXPECT_FALSE(m.overshoot_deg);
+  EXPECT_FALSE(m.speed_drop_mps);
+  EXPECT_GT(m.path_length_m, 0.0);
+}
+
+}  // namespace
+}  // namespace awmr::testing
