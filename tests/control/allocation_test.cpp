@@ -1,0 +1,121 @@
+/// The allocations: exact inverses inside the limits, finite and in order outside.
+#include "awmr/control/allocation.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <cmath>
+
+#include "support/paper_vehicle.h"
+
+namespace awmr::testing {
+namespace {
+
+constexpr YawMode kModes[] = {YawMode::kDifferential, YawMode::kSteering, YawMode::kCombined};
+
+AllocationLimits<double> limits(CombinedSplit split = CombinedSplit::kRedistribute) {
+  AllocationLimits<double> l = paper_controller_of<double>().limits;
+  l.split = split;
+  return l;
+}
+
+double drawn(double lo, double hi) {
+  return lo + (hi - lo) * *rc::gen::inRange(0, 10001) / 10000.0;
+}
+
+GeneralisedForces<double> delivered(const Allocation<double>& a) {
+  const auto l = limits();
+  return generalised_forces(l.front_axle_m, l.half_track_m, a.force, a.steering_rad);
+}
+
+double moment(const Allocation<double>& a) {
+  const auto tau = delivered(a);
+  return tau.tau_steering_m + tau.tau_diff_m;
+}
+
+TEST(Allocation, DeliversExactlyWhatIsAskedForInsideTheLimits) {
+  EXPECT_TRUE(rc::check([] {
+    const double tau_speed = drawn(0.1, 2.0);
+    // |d_r| < 20 deg needs |tau_turn| < l_f tau_speed tan(10 deg); the forces then stay inside too.
+    const double tau_turn_m = drawn(-1, 1) * 0.99 * 0.35 * tau_speed * std::tan(radians(10.0));
+    for (const YawMode mode : kModes) {
+      const Allocation<double> a = allocate(mode, tau_speed, tau_turn_m, limits());
+      RC_ASSERT(!a.speed_limited && !a.steering_limited && !a.force_limited &&
+                !a.steering_powerless);
+      RC_ASSERT(std::abs(delivered(a).tau_speed - tau_speed) < 1e-14);
+      RC_ASSERT(std::abs(moment(a) - tau_turn_m) < 1e-14);
+    }
+  }));
+}
+
+TEST(Allocation, EachModeUsesItsOwnPath) {
+  const Allocation<double> differential = allocate(YawMode::kDifferential, 1.0, 0.05, limits());
+  EXPECT_EQ(differential.steering_rad, 0.0);
+  EXPECT_DOUBLE_EQ(differential.force.right, 1.0 / 4.0 + 0.05 / (4.0 * 0.36));
+  EXPECT_DOUBLE_EQ(differential.force.left, 1.0 / 4.0 - 0.05 / (4.0 * 0.36));
+  const Allocation<double> steering = allocate(YawMode::kSteering, 1.0, 0.05, limits());
+  EXPECT_EQ(steering.force.left, steering.force.right);
+  EXPECT_DOUBLE_EQ(steering.steering_rad, 2.0 * std::atan(0.05 / 0.35));
+  const Allocation<double> combined = allocate(YawMode::kCombined, 1.0, 0.05, limits());
+  EXPECT_NEAR(delivered(combined).tau_steering_m, 0.025, 1e-15);
+  EXPECT_NEAR(delivered(combined).tau_diff_m, 0.025, 1e-15);
+}
+
+TEST(Allocation, StaysInsideTheLimitsAndFiniteWhateverIsAskedFor) {
+  const double extremes[] = {0.0, 1e-300, -1e-300, 1e-7, -1e-7, 1.0,   -1.0,
+                             4.0, -4.0,   1e6,     -1e6, 1e300, -1e300};
+  for (const YawMode mode : kModes) {
+    for (const double tau_speed : extremes) {
+      for (const double tau_turn_m : extremes) {
+        for (const CombinedSplit split :
+             {CombinedSplit::kFixedHalf, CombinedSplit::kRedistribute}) {
+          const auto l = limits(split);
+          const Allocation<double> a = allocate(mode, tau_speed, tau_turn_m, l);
+          ASSERT_TRUE(std::abs(a.steering_rad) <= l.steering_max_rad)
+              << tau_speed << " " << tau_turn_m;
+          ASSERT_TRUE(a.force.left >= -1.0 && a.force.left <= 1.0)
+              << tau_speed << " " << tau_turn_m;
+          ASSERT_TRUE(a.force.right >= -1.0 && a.force.right <= 1.0)
+              << tau_speed << " " << tau_turn_m;
+        }
+      }
+    }
+  }
+}
+
+TEST(Allocation, SaysWhenSteeringHasNoAuthority) {
+  for (const double tau_speed : {0.0, -0.5, 1e-9}) {
+    EXPECT_TRUE(allocate(YawMode::kSteering, tau_speed, 0.1, limits()).steering_powerless);
+    const Allocation<double> combined = allocate(YawMode::kCombined, tau_speed, 0.1, limits());
+    EXPECT_TRUE(combined.steering_powerless);
+    EXPECT_NEAR(moment(combined), 0.1, 1e-15);  // all of it by the forces
+  }
+  EXPECT_FALSE(allocate(YawMode::kSteering, 0.5, 0.1, limits()).steering_powerless);
+}
+
+TEST(Allocation, ClipsTauSpeedFirstThenSteeringThenForces) {
+  const Allocation<double> fast = allocate(YawMode::kSteering, 9.0, 0.0, limits());
+  EXPECT_TRUE(fast.speed_limited);
+  EXPECT_DOUBLE_EQ(fast.force.left, 1.0);
+  // At d_max the forces follow from the clipped angle: F' = tau_speed/(2 (1 + cos d_max)).
+  const Allocation<double> turning = allocate(YawMode::kSteering, 1.0, 5.0, limits());
+  EXPECT_TRUE(turning.steering_limited);
+  EXPECT_DOUBLE_EQ(turning.steering_rad, radians(20.0));
+  EXPECT_DOUBLE_EQ(turning.force.left, 1.0 / (2.0 * (1.0 + std::cos(radians(20.0)))));
+}
+
+TEST(Allocation, RedistributionNeverDeliversLessOfTheMomentThanTheFixedHalf) {
+  EXPECT_TRUE(rc::check([] {
+    const double tau_speed = drawn(0.05, 4.0);
+    const double tau_turn_m = drawn(0.0, 3.0);
+    const double fixed = moment(
+        allocate(YawMode::kCombined, tau_speed, tau_turn_m, limits(CombinedSplit::kFixedHalf)));
+    const double shared = moment(allocate(YawMode::kCombined, tau_speed, tau_turn_m, limits()));
+    // Not beyond what was asked for either.
+    RC_ASSERT(shared >= std::min(fixed, tau_turn_m) - 1e-12);
+    RC_ASSERT(shared <= std::max(fixed, tau_turn_m) + 1e-12);
+  }));
+}
+
+}  // namespace
+}  // namespace awmr::testing

@@ -1,0 +1,64 @@
+/// The heading and speed laws, by hand.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/paper_vehicle.h"
+
+namespace awmr::testing {
+namespace {
+
+TEST(Laws, WrapIsInMinusPiToPiWithPiItself) {
+  constexpr double kPi = pi<double>();
+  EXPECT_EQ(wrap_angle(kPi), kPi);
+  EXPECT_EQ(wrap_angle(-kPi), kPi);
+  EXPECT_NEAR(wrap_angle(3.0 * kPi + 0.1), -kPi + 0.1, 1e-14);
+  EXPECT_NEAR(wrap_angle(-7.0), -7.0 + 2.0 * kPi, 1e-14);
+}
+
+TEST(Laws, HeadingLawBySubstitution) {
+  // S = (0.1 - 0.4) + 3 (0.5 - 0.2) = 0.6, inside the layer: mu S/eps = 50 * 0.6/12 = 2.5
+  const Controller<double> c = paper_controller_of<double>();
+  const Measurement<double> m{0.2, 1.0, 0.0, 0.4};
+  const Reference<double> ref{0.5, 0.1, 0.7, 1.0, 0.0};
+  EXPECT_NEAR(sliding_surface(c.gains.heading, m, ref), 0.6, 1e-15);
+  EXPECT_NEAR(heading_law(c, m, ref),
+              0.3028 * std::pow(0.4, 0.825) + 0.01212 * (0.7 + 3.0 * (0.1 - 0.4) + 2.5), 1e-15);
+}
+
+TEST(Laws, TheLayersConditionIsOnTheSurfaceNotOnTheError) {
+  // e = 3 rad < eps = 4, yet S = 9 > 4: the correction saturates at mu.
+  Controller<double> c = paper_controller_of<double>();
+  c.gains.heading.epsilon = 4.0;
+  EXPECT_NEAR(heading_law(c, {0.0, 0.0, 0.0, 0.0}, {3.0, 0.0, 0.0, 0.0, 0.0}), 0.01212 * 50.0,
+              1e-15);
+}
+
+TEST(Laws, ErrorsAcrossTheCutTakeTheShortWay) {
+  const Controller<double> c = paper_controller_of<double>();
+  const double right =
+      heading_law(c, {radians(170.0), 0.0, 0.0, 0.0}, {radians(-170.0), 0.0, 0.0, 0.0, 0.0});
+  const double same = heading_law(c, {0.0, 0.0, 0.0, 0.0}, {radians(20.0), 0.0, 0.0, 0.0, 0.0});
+  EXPECT_NEAR(right, same, 1e-14);
+}
+
+TEST(Laws, SpeedLawBySubstitution) {
+  const Controller<double> c = paper_controller_of<double>();
+  // (u_d - u)/eps_s = 0.3/1.2 = 0.25
+  EXPECT_NEAR(speed_law(c, {0.0, 0.7, 0.05, 0.2}, {0.0, 0.0, 0.0, 1.0, 0.1}),
+              1.3157 * std::pow(0.7, 0.8841) - 0.0768 * 0.2 * 0.05 + 0.0768 * (0.1 + 5.0 * 0.25),
+              1e-15);
+}
+
+TEST(Laws, OnTheModelItselfTheSurfaceDecaysAtItsStatedRate) {
+  // r_dot = (tau_turn - g3(r))/I'z with the law's tau_turn gives S_dot = -mu sat(S/eps).
+  const Controller<double> c = paper_controller_of<double>();
+  const Measurement<double> m{0.2, 1.0, 0.0, 0.4};
+  const Reference<double> ref{0.5, 0.1, 0.7, 1.0, 0.0};
+  const double r_dot = (heading_law(c, m, ref) - c.yaw(m.r_radps)) / c.inertia_norm;
+  const double s_dot = ref.psi_accel_radps2 - r_dot + 3.0 * (ref.psi_rate_radps - m.r_radps);
+  EXPECT_NEAR(s_dot, -50.0 * 0.6 / 12.0, 1e-12);
+}
+
+}  // namespace
+}  // namespace awmr::testing

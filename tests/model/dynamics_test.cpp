@@ -1,0 +1,124 @@
+/// The equations of motion by substitution, symmetry and agreement of their two forms.
+#include "awmr/model/dynamics.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <cmath>
+
+#include "support/paper_vehicle.h"
+
+namespace awmr::testing {
+namespace {
+
+/// A double in [lo, hi] from a whole number, so that shrinking works.
+double drawn(double lo, double hi) {
+  return lo + (hi - lo) * *rc::gen::inRange(0, 10001) / 10000.0;
+}
+
+State<double> drawn_state() {
+  return {drawn(-9, 9), drawn(-9, 9), drawn(-7, 7),      drawn(-2, 2),
+          drawn(-1, 1), drawn(-3, 3), drawn(-0.35, 0.35)};
+}
+
+/// Equal up to the rounding of sums of terms of at most about 1e3: 1e3 * 2^-52 * ten operations.
+void expect_same(const State<double>& a, const State<double>& b) {
+  constexpr double kRounding = 3e-12;
+  RC_ASSERT(std::abs(a.x_m - b.x_m) < kRounding);
+  RC_ASSERT(std::abs(a.y_m - b.y_m) < kRounding);
+  RC_ASSERT(std::abs(a.psi_rad - b.psi_rad) < kRounding);
+  RC_ASSERT(std::abs(a.u_mps - b.u_mps) < kRounding);
+  RC_ASSERT(std::abs(a.v_mps - b.v_mps) < kRounding);
+  RC_ASSERT(std::abs(a.r_radps - b.r_radps) < kRounding);
+  RC_ASSERT(std::abs(a.steering_rad - b.steering_rad) < kRounding);
+}
+
+TEST(Dynamics, FourWheelFormIsTheReducedFormWhereTheSidesAreDrivenAlike) {
+  EXPECT_TRUE(rc::check([] {
+    const Plant<double> plant = paper_plant_of<double>();
+    const State<double> s = drawn_state();
+    const SideForces<double> f{drawn(-1, 1), drawn(-1, 1)};
+    const double command = drawn(-0.5, 0.5);
+    expect_same(
+        state_rates(plant, s, f, command),
+        state_rates(plant, s, WheelForces<double>{f.left, f.right, f.left, f.right}, command));
+  }));
+}
+
+TEST(Dynamics, MirroredVehicleMovesAsTheMirrorImage) {
+  EXPECT_TRUE(rc::check([] {
+    const Plant<double> plant = paper_plant_of<double>();
+    const State<double> s = drawn_state();
+    const WheelForces<double> f{drawn(-1, 1), drawn(-1, 1), drawn(-1, 1), drawn(-1, 1)};
+    const double command = drawn(-0.5, 0.5);
+    const auto mirrored = [](const State<double>& a) {
+      return State<double>{a.x_m,    -a.y_m,     -a.psi_rad,     a.u_mps,
+                           -a.v_mps, -a.r_radps, -a.steering_rad};
+    };
+    expect_same(
+        mirrored(state_rates(plant, s, f, command)),
+        state_rates(plant, mirrored(s),
+                    WheelForces<double>{f.front_right, f.front_left, f.rear_right, f.rear_left},
+                    -command));
+  }));
+}
+
+TEST(Dynamics, NeitherPlaceNorHeadingMattersToTheBody) {
+  EXPECT_TRUE(rc::check([] {
+    const Plant<double> plant = paper_plant_of<double>();
+    const State<double> s = drawn_state();
+    State<double> moved = s;
+    moved.x_m += 5.0;
+    moved.y_m -= 3.0;
+    const double turn = drawn(-3, 3);
+    moved.psi_rad += turn;
+    const SideForces<double> f{drawn(-1, 1), drawn(-1, 1)};
+    State<double> expected = state_rates(plant, s, f, 0.1);
+    const double x_rate = expected.x_m;
+    expected.x_m = std::cos(turn) * x_rate - std::sin(turn) * expected.y_m;
+    expected.y_m = std::sin(turn) * x_rate + std::cos(turn) * expected.y_m;
+    expect_same(state_rates(plant, moved, f, 0.1), expected);
+  }));
+}
+
+TEST(Dynamics, EachEquationBySubstitution) {
+  const Plant<double> p = paper_plant_of<double>();
+  const State<double> s{1.0, 2.0, 0.5, 1.2, 0.1, 0.4, 0.2};
+  const WheelForces<double> f{0.3, 0.5, 0.2, 0.6};
+  const State<double> d = state_rates(p, s, f, 0.25);
+  const double sin_d = std::sin(0.2);
+  const double cos_d = std::cos(0.2);
+  EXPECT_DOUBLE_EQ(d.x_m, 1.2 * std::cos(0.5) - 0.1 * std::sin(0.5));
+  EXPECT_DOUBLE_EQ(d.y_m, 1.2 * std::sin(0.5) + 0.1 * std::cos(0.5));
+  EXPECT_DOUBLE_EQ(d.psi_rad, 0.4);
+  // m' u_dot - m' r v = S_f cos d_r + S_r - g1(u), and so on: the equations, multiplied out.
+  EXPECT_NEAR(0.0768 * (d.u_mps - 0.4 * 0.1), 0.8 * cos_d + 0.8 - 1.3157 * std::pow(1.2, 0.8841),
+              1e-14);
+  EXPECT_NEAR(0.0768 * (d.v_mps + 0.4 * 1.2), 0.8 * sin_d - 3.0 * 0.1, 1e-14);
+  EXPECT_NEAR(0.01212 * d.r_radps,
+              0.35 * 0.8 * sin_d + 0.36 * cos_d * 0.2 + 0.36 * 0.4 - 0.3028 * std::pow(0.4, 0.825),
+              1e-14);
+  EXPECT_DOUBLE_EQ(d.steering_rad, (0.25 - 0.2) / 0.02);
+}
+
+TEST(Servo, SaturatesTheTargetAndTheRate) {
+  const Plant<double> p = paper_plant_of<double>();
+  EXPECT_DOUBLE_EQ(steering_rate(p, p.steering_max_rad, 2.0), 0.0);
+  EXPECT_DOUBLE_EQ(steering_rate(p, 0.0, 2.0), p.steering_max_rate_radps);
+  EXPECT_DOUBLE_EQ(steering_rate(p, 0.0, -2.0), -p.steering_max_rate_radps);
+  EXPECT_DOUBLE_EQ(steering_rate(p, 0.01, 0.03), 1.0);
+}
+
+TEST(Resistance, IsOddZeroAtRestAndLinearBelowItsChord) {
+  const Resistance<double> exact{2.0, 0.5};
+  EXPECT_EQ(exact(0.0), 0.0);
+  EXPECT_DOUBLE_EQ(exact(4.0), 4.0);
+  EXPECT_DOUBLE_EQ(exact(-4.0), -4.0);
+  const Resistance<double> chord{2.0, 0.5, 0.01};
+  EXPECT_DOUBLE_EQ(chord(0.01), exact(0.01));
+  EXPECT_DOUBLE_EQ(chord(0.005), exact(0.01) / 2.0);
+  EXPECT_DOUBLE_EQ(chord(-0.005), -exact(0.01) / 2.0);
+}
+
+}  // namespace
+}  // namespace awmr::testing

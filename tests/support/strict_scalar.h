@@ -1,0 +1,35 @@
+/// A number that converts from double only when asked to, and to nothing: code that compiles with
+/// it mixes no double into its scalar by accident.
+#pragma once
+
+#include <cmath>
+
+namespace awmr::testing {
+
+class Strict {
+ public:
+  Strict() = default;
+  explicit Strict(double value) : value_(value) {}
+  double value() const { return value_; }
+
+  friend Strict operator+(Strict a, Strict b) { return Strict(a.value_ + b.value_); }
+  friend Strict operator-(Strict a, Strict b) { return Strict(a.value_ - b.value_); }
+  friend Strict operator*(Strict a, Strict b) { return Strict(a.value_ * b.value_); }
+  friend Strict operator/(Strict a, Strict b) { return Strict(a.value_ / b.value_); }
+  friend Strict operator-(Strict a) { return Strict(-a.value_); }
+  Strict& operator+=(Strict b) { return *this = *this + b; }
+  Strict& operator-=(Strict b) { return *this = *this - b; }
+  friend bool operator<(Strict a, Strict b) { return a.value_ < b.value_; }
+  friend bool operator>(Strict a, Strict b) { return a.value_ > b.value_; }
+
+  friend Strict abs(Strict a) { return Strict(std::abs(a.value_)); }
+  friend Strict sin(Strict a) { return Strict(std::sin(a.value_)); }
+  friend Strict cos(Strict a) { return Strict(std::cos(a.value_)); }
+  friend Strict atan(Strict a) { return Strict(std::atan(a.value_)); }
+  friend Strict pow(Strict a, Strict b) { return Strict(std::pow(a.value_, b.value_)); }
+
+ private:
+  double value_ = 0.0;
+};
+
+}  // namespace awmr::testing
