@@ -26,6 +26,8 @@ class Strict {
   friend Strict sin(Strict a) { return Strict(std::sin(a.value_)); }
   friend Strict cos(Strict a) { return Strict(std::cos(a.value_)); }
   friend Strict atan(Strict a) { return Strict(std::atan(a.value_)); }
+  friend Strict atan2(Strict y, Strict x) { return Strict(std::atan2(y.value_, x.value_)); }
+  friend Strict sqrt(Strict a) { return Strict(std::sqrt(a.value_)); }
   friend Strict pow(Strict a, Strict b) { return Strict(std::pow(a.value_, b.value_)); }
 
  private:

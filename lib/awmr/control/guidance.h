@@ -1,0 +1,102 @@
+/// Waypoints by line of sight. Freestanding C++14: the same source for the simulator and the AVR.
+///
+/// Lines and polylines are in guidance_line.h, timed paths in guidance_path.h, obstacles in
+/// guidance_obstacles.h, heading reference shaping in guidance_shaping.h.
+#pragma once
+
+#include "awmr/core/units.h"
+#include "awmr/model/scalar_math.h"
+
+namespace awmr {
+
+template <class T>
+struct Point {
+  T x_m;
+  T y_m;
+};
+
+template <class T>
+T squared_distance_m2(const Point<T>& a, const Point<T>& b) {
+  const T dx = b.x_m - a.x_m;
+  const T dy = b.y_m - a.y_m;
+  return dx * dx + dy * dy;
+}
+
+template <class T>
+T distance_m(const Point<T>& a, const Point<T>& b) {
+  using math::sqrt;
+  return sqrt(squared_distance_m2(a, b));
+}
+
+/// The direction from `from` to `to`, in (-pi, pi]; `otherwise_rad` where the points coincide and
+/// have none.
+template <class T>
+T direction_rad(const Point<T>& from, const Point<T>& to, const T& otherwise_rad) {
+  using math::atan2;
+  if (!(squared_distance_m2(from, to) > T(0.0))) return otherwise_rad;
+  return atan2(to.y_m - from.y_m, to.x_m - from.x_m);
+}
+
+/// Points to go to, one after the other.
+template <class T>
+struct Waypoints {
+  const Point<T>* points_m;  ///< not owned; `count` of them
+  int count;                 ///< >= 0
+  T acceptance_m;            ///< > 0: a point is reached within this distance of it
+  /// A point that the vehicle has gone past without coming within `acceptance_m` of it (it is beyond
+  /// the perpendicular to the leg through the point): true: it is missed, the next one follows;
+  /// false, as in the paper: the vehicle turns back to it.
+  bool skip_passed;
+};
+
+template <class T>
+struct WaypointProgress {
+  int next;                ///< index of the point being gone to; `count` when all are done
+  int missed;              ///< points passed by, see Waypoints::skip_passed
+  Point<T> leg_start_m;    ///< where the present leg began
+  T psi_rad;               ///< the last line of sight, held where there is none
+};
+
+/// Before the first step; `psi_rad` is the vehicle's heading.
+template <class T>
+WaypointProgress<T> start_waypoints(const Point<T>& position_m, const T& psi_rad) {
+  return {0, 0, position_m, psi_rad};
+}
+
+template <class T>
+struct WaypointGuidance {
+  T psi_rad;      ///< psi_d, in (-pi, pi]
+  bool finished;  ///< no point is left: psi_d holds the last line of sight
+};
+
+/// Beyond the perpendicular to the leg through its end. A leg without length has no far side.
+template <class T>
+bool is_past(const Point<T>& position_m, const Point<T>& leg_start_m, const Point<T>& leg_end_m) {
+  const T along = (position_m.x_m - leg_end_m.x_m) * (leg_end_m.x_m - leg_start_m.x_m) +
+                  (position_m.y_m - leg_end_m.y_m) * (leg_end_m.y_m - leg_start_m.y_m);
+  return along > T(0.0);
+}
+
+/// psi_d = atan2(y_d - y, x_d - x)                                  [paper (103), sign corrected]
+/// to the first point that is not yet reached. Points that coincide, or lie within the acceptance
+/// radius of each other, are reached in the same step. No points: finished at once, heading held.
+template <class T>
+WaypointGuidance<T> guide(const Waypoints<T>& waypoints, const Point<T>& position_m,
+                          WaypointProgress<T>& progress) {
+  const T acceptance_m2 = waypoints.acceptance_m * waypoints.acceptance_m;
+  while (progress.next < waypoints.count) {
+    const Point<T>& target = waypoints.points_m[progress.next];
+    const bool reached = !(squared_distance_m2(position_m, target) > acceptance_m2);
+    const bool missed = !reached && waypoints.skip_passed &&
+                        is_past(position_m, progress.leg_start_m, target);
+    if (!reached && !missed) break;
+    if (missed) ++progress.missed;
+    progress.leg_start_m = target;
+    ++progress.next;
+  }
+  if (progress.next >= waypoints.count) return {progress.psi_rad, true};
+  progress.psi_rad = direction_rad(position_m, waypoints.points_m[progress.next], progress.psi_rad);
+  return {progress.psi_rad, false};
+}
+
+}  // namespace awmr
