@@ -12,14 +12,55 @@
 #include "commands.h"
 
 namespace awmr::cli {
+namespace {
+
+/// How the run ended, where its guidance has an end.
+std::string end_of(const Run& run, const Scenario& scenario) {
+  if (run.end == RunEnd::kNoPassage) {
+    return "  no passage: the obstacles leave no way to where the guidance leads; stopped\n";
+  }
+  const bool ends = std::holds_alternative<WaypointCourse>(scenario.guidance) ||
+                    std::holds_alternative<LineCourse>(scenario.guidance);
+  if (!ends) return "";
+  if (run.end == RunEnd::kDuration) return "  not at the end of its course in time\n";
+  if (run.missed_waypoints == 0) return "  at the end of its course\n";
+  return fmt::format("  at the end of its course, {} waypoint(s) missed\n", run.missed_waypoints);
+}
+
+std::string summary_of(const Run& run, const Scenario& scenario, const SimulateCommand& command) {
+  const State<double>& last = run.rows.back().state;
+  return fmt::format(
+             "{}, {}: {} rows, {} RK4 steps per sample\n"
+             "  at {:g} s: x {:.3f} m, y {:.3f} m, psi {:.2f} deg, u {:.3f} m/s, r {:.2f} deg/s\n",
+             scenario.name, name_of(command.mode), run.rows.size(), run.substeps,
+             run.rows.back().t_s, last.x_m, last.y_m, degrees(last.psi_rad), last.u_mps,
+             degrees(last.r_radps)) +
+         end_of(run, scenario);
+}
+
+/// What there is of the course's figures.
+std::string figures_of(const Metrics& metrics) {
+  std::string text;
+  const auto add = [&text](const char* name, const std::optional<double>& value, const char* unit) {
+    if (value)
+      text += fmt::format("{}{} {:.3f} {}", text.empty() ? "  " : ", ", name, *value, unit);
+  };
+  add("settled after", metrics.settling_time_s, "s");
+  add("overshoot", metrics.overshoot_deg, "deg");
+  add("cross-track RMS", metrics.cross_track_rms_m, "m");
+  add("least clearance", metrics.clearance_min_m, "m");
+  return text.empty() ? text : text + "\n";
+}
+
+}  // namespace
 
 Result<Outcome> execute(const SimulateCommand& command) {
   const auto model = read_model(command.model);
   if (!model) return tl::unexpected(model.error());
-  const auto plant = model->plant(command.model.string());
-  if (!plant) return tl::unexpected(plant.error());
   const auto scenario = read_scenario(command.scenario);
   if (!scenario) return tl::unexpected(scenario.error());
+  const auto plant = plant_for(*scenario, *model, command.model.string());
+  if (!plant) return tl::unexpected(plant.error());
   Gains<double> gains = kPaperGains;
   if (command.gains) {
     const auto read = read_gains(*command.gains);
@@ -28,21 +69,18 @@ Result<Outcome> execute(const SimulateCommand& command) {
   } else if (!std::holds_alternative<OpenLoop>(scenario->guidance)) {
     return input_error("--gains", "this scenario closes the loop: give --gains GAINS.json");
   }
-  const Controller<double> controller = make_controller(*plant, model->vehicle, gains);
+  // The controller knows the model's own values, not a corner of their intervals.
+  const auto nominal = model->plant(command.model.string());
+  if (!nominal) return tl::unexpected(nominal.error());
+  const Controller<double> controller = make_controller(*nominal, model->vehicle, gains);
   const Run run = simulate(*plant, controller, *scenario, command.mode,
                            {.sample_time_s = model->vehicle.sample_time_s, .substeps = {}});
-  if (const auto written = write_file(command.output, run_csv(run)); !written) {
+  if (const auto written = write_file(command.output, run_csv(run, *scenario)); !written) {
     return tl::unexpected(written.error());
   }
-  const State<double>& last = run.rows.back().state;
-  const std::string summary = fmt::format(
-      "{}, {}: {} rows, {} RK4 steps per sample\n"
-      "  at {:g} s: x {:.3f} m, y {:.3f} m, psi {:.2f} deg, u {:.3f} m/s, r {:.2f} deg/s\nwrote "
-      "{}\n",
-      scenario->name, name_of(command.mode), run.rows.size(), run.substeps, run.rows.back().t_s,
-      last.x_m, last.y_m, degrees(last.psi_rad), last.u_mps, degrees(last.r_radps),
-      command.output.string());
-  return Outcome{.summary = summary};
+  return Outcome{.summary = summary_of(run, *scenario, command) +
+                            figures_of(metrics_of(run, *scenario, controller)) +
+                            fmt::format("wrote {}\n", command.output.string())};
 }
 
 void add_simulate(CLI::App& app, Session& session) {

@@ -56,8 +56,8 @@ TEST(Obstacles, TheSideOnceTakenIsKept) {
 }
 
 TEST(Obstacles, AWallOfOverlappingSectorsIsRoundedAsOne) {
-  const std::vector<O> wall = {{{4.0, 0.0}, 1.0}, {{4.0, 2.5}, 1.0}, {{4.0, -2.5}, 1.0},
-                               {{4.0, -5.0}, 1.0}};
+  const std::vector<O> wall = {
+      {{4.0, 0.0}, 1.0}, {{4.0, 2.5}, 1.0}, {{4.0, -2.5}, 1.0}, {{4.0, -5.0}, 1.0}};
   const auto a = avoided(wall);
   // Leftmost edge: bearing of (4, 2.5) plus its half angle; the right one is further.
   const double d = std::hypot(4.0, 2.5);
@@ -113,9 +113,9 @@ TEST(Obstacles, MixNoDoubleIntoTheirScalar) {
   const Avoidance<S> avoidance{S(4.0), S(1.0), S(0.2), S(0.5), S(0.5), S(0.5), S(0.2), S(2.0)};
   const Obstacle<S> obstacle{{S(5.0), S(0.0)}, S(1.0)};
   AvoidanceState state;
-  EXPECT_TRUE(avoid(avoidance, &obstacle, 1, {S(0.0), S(0.0)}, S(0.0), S(1.0), S(0.0), S(1e9),
-                    state)
-                  .active);
+  EXPECT_TRUE(
+      avoid(avoidance, &obstacle, 1, {S(0.0), S(0.0)}, S(0.0), S(1.0), S(0.0), S(1e9), state)
+          .active);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@
 namespace awmr::testing {
 namespace {
 
-using P = Point<double>;
+using P = Position<double>;
 constexpr double kPi = pi<double>();
 
 TEST(Waypoints, TheLineOfSightPointsFromTheVehicleToThePoint) {
@@ -187,7 +187,7 @@ TEST(Shaping, GoesTheShortWayRound) {
 
 TEST(Guidance, MixesNoDoubleIntoItsScalar) {
   using S = Strict;
-  const Point<S> points[] = {{S(1.0), S(2.0)}, {S(3.0), S(4.0)}};
+  const Position<S> points[] = {{S(1.0), S(2.0)}, {S(3.0), S(4.0)}};
   auto progress = start_waypoints(points[0], S(0.0));
   EXPECT_FALSE(guide(Waypoints<S>{points, 2, S(0.1), true}, points[0], progress).finished);
   auto along = start_polyline(S(0.0));

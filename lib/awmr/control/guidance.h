@@ -10,20 +10,20 @@
 namespace awmr {
 
 template <class T>
-struct Point {
+struct Position {
   T x_m;
   T y_m;
 };
 
 template <class T>
-T squared_distance_m2(const Point<T>& a, const Point<T>& b) {
+T squared_distance_m2(const Position<T>& a, const Position<T>& b) {
   const T dx = b.x_m - a.x_m;
   const T dy = b.y_m - a.y_m;
   return dx * dx + dy * dy;
 }
 
 template <class T>
-T distance_m(const Point<T>& a, const Point<T>& b) {
+T distance_m(const Position<T>& a, const Position<T>& b) {
   using math::sqrt;
   return sqrt(squared_distance_m2(a, b));
 }
@@ -31,7 +31,7 @@ T distance_m(const Point<T>& a, const Point<T>& b) {
 /// The direction from `from` to `to`, in (-pi, pi]; `otherwise_rad` where the points coincide and
 /// have none.
 template <class T>
-T direction_rad(const Point<T>& from, const Point<T>& to, const T& otherwise_rad) {
+T direction_rad(const Position<T>& from, const Position<T>& to, const T& otherwise_rad) {
   using math::atan2;
   if (!(squared_distance_m2(from, to) > T(0.0))) return otherwise_rad;
   return atan2(to.y_m - from.y_m, to.x_m - from.x_m);
@@ -40,26 +40,26 @@ T direction_rad(const Point<T>& from, const Point<T>& to, const T& otherwise_rad
 /// Points to go to, one after the other.
 template <class T>
 struct Waypoints {
-  const Point<T>* points_m;  ///< not owned; `count` of them
-  int count;                 ///< >= 0
-  T acceptance_m;            ///< > 0: a point is reached within this distance of it
-  /// A point that the vehicle has gone past without coming within `acceptance_m` of it (it is beyond
-  /// the perpendicular to the leg through the point): true: it is missed, the next one follows;
-  /// false, as in the paper: the vehicle turns back to it.
+  const Position<T>* points_m;  ///< not owned; `count` of them
+  int count;                    ///< >= 0
+  T acceptance_m;               ///< > 0: a point is reached within this distance of it
+  /// A point that the vehicle has gone past without coming within `acceptance_m` of it (it is
+  /// beyond the perpendicular to the leg through the point): true: it is missed, the next one
+  /// follows; false, as in the paper: the vehicle turns back to it.
   bool skip_passed;
 };
 
 template <class T>
 struct WaypointProgress {
-  int next;                ///< index of the point being gone to; `count` when all are done
-  int missed;              ///< points passed by, see Waypoints::skip_passed
-  Point<T> leg_start_m;    ///< where the present leg began
-  T psi_rad;               ///< the last line of sight, held where there is none
+  int next;                 ///< index of the point being gone to; `count` when all are done
+  int missed;               ///< points passed by, see Waypoints::skip_passed
+  Position<T> leg_start_m;  ///< where the present leg began
+  T psi_rad;                ///< the last line of sight, held where there is none
 };
 
 /// Before the first step; `psi_rad` is the vehicle's heading.
 template <class T>
-WaypointProgress<T> start_waypoints(const Point<T>& position_m, const T& psi_rad) {
+WaypointProgress<T> start_waypoints(const Position<T>& position_m, const T& psi_rad) {
   return {0, 0, position_m, psi_rad};
 }
 
@@ -71,7 +71,8 @@ struct WaypointGuidance {
 
 /// Beyond the perpendicular to the leg through its end. A leg without length has no far side.
 template <class T>
-bool is_past(const Point<T>& position_m, const Point<T>& leg_start_m, const Point<T>& leg_end_m) {
+bool is_past(const Position<T>& position_m, const Position<T>& leg_start_m,
+             const Position<T>& leg_end_m) {
   const T along = (position_m.x_m - leg_end_m.x_m) * (leg_end_m.x_m - leg_start_m.x_m) +
                   (position_m.y_m - leg_end_m.y_m) * (leg_end_m.y_m - leg_start_m.y_m);
   return along > T(0.0);
@@ -81,14 +82,14 @@ bool is_past(const Point<T>& position_m, const Point<T>& leg_start_m, const Poin
 /// to the first point that is not yet reached. Points that coincide, or lie within the acceptance
 /// radius of each other, are reached in the same step. No points: finished at once, heading held.
 template <class T>
-WaypointGuidance<T> guide(const Waypoints<T>& waypoints, const Point<T>& position_m,
+WaypointGuidance<T> guide(const Waypoints<T>& waypoints, const Position<T>& position_m,
                           WaypointProgress<T>& progress) {
   const T acceptance_m2 = waypoints.acceptance_m * waypoints.acceptance_m;
   while (progress.next < waypoints.count) {
-    const Point<T>& target = waypoints.points_m[progress.next];
+    const Position<T>& target = waypoints.points_m[progress.next];
     const bool reached = !(squared_distance_m2(position_m, target) > acceptance_m2);
-    const bool missed = !reached && waypoints.skip_passed &&
-                        is_past(position_m, progress.leg_start_m, target);
+    const bool missed =
+        !reached && waypoints.skip_passed && is_past(position_m, progress.leg_start_m, target);
     if (!reached && !missed) break;
     if (missed) ++progress.missed;
     progress.leg_start_m = target;

@@ -41,8 +41,8 @@ T line_heading_rad(const LineLaw<T>& law, const T& psi_line_rad, const T& cross_
 /// Corners joined by lines; two of them are one line.
 template <class T>
 struct Polyline {
-  const Point<T>* points_m;  ///< not owned; `count` of them
-  int count;                 ///< >= 0
+  const Position<T>* points_m;  ///< not owned; `count` of them
+  int count;                    ///< >= 0
   /// >= 0: the next segment is taken up this far before the present one ends, so that a corner is
   /// rounded from the inside; the last ends at its end.
   T corner_m;
@@ -74,13 +74,13 @@ struct PolylineGuidance {
 /// exist for a vertical line and loses the sign of the direction.]
 /// Segments without length (points that coincide) are passed over; where none has any: finished.
 template <class T>
-PolylineGuidance<T> guide(const Polyline<T>& line, const Point<T>& position_m, const T& sideslip,
+PolylineGuidance<T> guide(const Polyline<T>& line, const Position<T>& position_m, const T& sideslip,
                           PolylineProgress<T>& progress) {
   using math::atan2;
   T cross_track_m = T(0.0);
   for (; progress.segment + 1 < line.count; ++progress.segment) {
-    const Point<T>& a = line.points_m[progress.segment];
-    const Point<T>& b = line.points_m[progress.segment + 1];
+    const Position<T>& a = line.points_m[progress.segment];
+    const Position<T>& b = line.points_m[progress.segment + 1];
     const T length_m = distance_m(a, b);
     if (!(length_m > T(0.0))) continue;
     const T tx = (b.x_m - a.x_m) / length_m;

@@ -1,15 +1,17 @@
 /// Obstacle avoidance: turns a guidance heading out of the sectors that circular obstacles block.
 /// Freestanding C++14.
 ///
-/// The paper names MMD, D_obs and sigma, its figure of the algorithm is lost  [paper 5.2.2]; this is
-/// this project's definition.
+/// The paper names MMD, D_obs and sigma, its figure of the algorithm is lost  [paper 5.2.2]; this
+/// is this project's definition.
 ///
 ///   MMD(u)  = mmd_base + mmd_per_speed |u|              minimum manoeuvring distance
 ///   R_i     = radius_i + vehicle_radius + clearance     grown radius
 ///   D_i     = |c_i - p|,  D_obs = D_i - R_i             distance to the grown edge
 ///   w_i     = clamp((MMD - D_obs)/MMD, 0, 1)            how far D_obs is inside MMD
-///   alpha_i = asin(R_i/D_i) + sigma w_i                 half angle of the blocked sector around the
-///                                                       bearing of c_i; pi/2 + sigma w_i inside R_i
+///   alpha_i = asin(R_i/D_i) + sigma w_i                 half angle of the blocked sector around
+///   the
+///                                                       bearing of c_i; pi/2 + sigma w_i inside
+///                                                       R_i
 /// An obstacle counts while D_obs <= MMD (+ hysteresis once avoidance is on) and it is nearer than
 /// the target. psi_d is turned from the guidance heading to the nearest edge of the union of the
 /// blocked sectors that contain it, left or right; the side once taken is kept until the other is
@@ -18,9 +20,9 @@
 /// A vehicle of turning radius rho that heads for the middle of a circle can still pass it from
 /// D^2 >= (R + rho)^2 - rho^2, that is D_obs < rho whatever R: MMD >= rho plus the way travelled
 /// while the turn begins is enough for one obstacle. Where that does not hold (several obstacles, a
-/// start too near) the speed is cut: along the ray of the heading, the distance to a circle grown by
-/// vehicle_radius + clearance/2 over `brake_m` is the share of the speed that is allowed, so that the
-/// vehicle stops before it.
+/// start too near) the speed is cut: along the ray of the heading, the distance to a circle grown
+/// by vehicle_radius + clearance/2 over `brake_m` is the share of the speed that is allowed, so
+/// that the vehicle stops before it.
 ///
 /// Edge cases: inside R_i the sector is more than a half-plane, so psi_d leads out, and a heading
 /// further in is stopped; on the very centre the bearing is the vehicle's heading; every direction
@@ -34,7 +36,7 @@ namespace awmr {
 
 template <class T>
 struct Obstacle {
-  Point<T> centre_m;
+  Position<T> centre_m;
   T radius_m;  ///< > 0
 };
 
@@ -67,7 +69,7 @@ struct Avoided {
 /// True where the obstacle's grown circle holds the whole acceptance circle of a target: no course
 /// that keeps the clearance reaches it.
 template <class T>
-bool covers(const Avoidance<T>& avoidance, const Obstacle<T>& obstacle, const Point<T>& target_m,
+bool covers(const Avoidance<T>& avoidance, const Obstacle<T>& obstacle, const Position<T>& target_m,
             const T& acceptance_m) {
   return distance_m(obstacle.centre_m, target_m) + acceptance_m <=
          obstacle.radius_m + avoidance.vehicle_radius_m + avoidance.clearance_m;
@@ -102,7 +104,7 @@ struct Surroundings {
   const Avoidance<T>& avoidance;
   const Obstacle<T>* obstacles;
   int count;
-  Point<T> position_m;
+  Position<T> position_m;
   T psi_rad;
   T mmd_m;
   T reach_m;
@@ -116,8 +118,7 @@ struct Surroundings {
     const bool counts = !(free_m > reach_m) && free_m < target_m;
     if (!counts) return {T(0.0), T(0.0), false};
     const T inside = math::clamp((mmd_m - free_m) / mmd_m, T(0.0), T(1.0));
-    const T tangent =
-        free_m > T(0.0) ? arc_sine(grown_m / centre_m) : pi<T>() / T(2.0);
+    const T tangent = free_m > T(0.0) ? arc_sine(grown_m / centre_m) : pi<T>() / T(2.0);
     return {direction_rad(position_m, obstacle.centre_m, psi_rad),
             tangent + avoidance.sigma_rad * inside, true};
   }
@@ -151,8 +152,8 @@ struct Surroundings {
     using math::sqrt;
     T share = T(1.0);
     for (int i = 0; i < count; ++i) {
-      const T grown_m = obstacles[i].radius_m + avoidance.vehicle_radius_m +
-                        avoidance.clearance_m / T(2.0);
+      const T grown_m =
+          obstacles[i].radius_m + avoidance.vehicle_radius_m + avoidance.clearance_m / T(2.0);
       const T centre_m = distance_m(position_m, obstacles[i].centre_m);
       const T off = direction_rad(position_m, obstacles[i].centre_m, psi_rad) - psi_rad;
       const T along_m = centre_m * cos(off);
@@ -172,13 +173,13 @@ struct Surroundings {
 /// (obstacles beyond it do not matter; a very large number where there is no target).
 template <class T>
 Avoided<T> avoid(const Avoidance<T>& avoidance, const Obstacle<T>* obstacles, int count,
-                 const Point<T>& position_m, const T& psi_rad, const T& u_mps,
+                 const Position<T>& position_m, const T& psi_rad, const T& u_mps,
                  const T& guidance_rad, const T& target_m, AvoidanceState& state) {
   using math::abs;
   const T mmd_m = avoidance.mmd_base_m + avoidance.mmd_per_speed_s * abs(u_mps);
   const T kept_m = state.side == AvoidanceSide::kNone ? T(0.0) : avoidance.hysteresis_m;
-  const detail::Surroundings<T> around{avoidance, obstacles,      count,  position_m, psi_rad,
-                                       mmd_m,     mmd_m + kept_m, target_m};
+  const detail::Surroundings<T> around{avoidance, obstacles, count,          position_m,
+                                       psi_rad,   mmd_m,     mmd_m + kept_m, target_m};
   const T share = around.speed_share();
   const T left = around.turn_out(guidance_rad, T(1.0));
   if (!(left > T(0.0))) {

@@ -9,7 +9,7 @@ namespace awmr {
 /// A point of a timed path and its derivatives.
 template <class T>
 struct PathPoint {
-  Point<T> position_m;
+  Position<T> position_m;
   T vx_mps, vy_mps;
   T ax_mps2, ay_mps2;
 };
@@ -48,7 +48,8 @@ constexpr T path_speed_min_mps() {
   return T(1e-4);
 }
 
-/// Open in position, as in the paper: psi_d = atan2(yd_dot, xd_dot),  u_d = |p_d_dot|  [paper (116)]
+/// Open in position, as in the paper: psi_d = atan2(yd_dot, xd_dot),  u_d = |p_d_dot|  [paper
+/// (116)]
 ///   psi_d_dot = (xd_dot yd_ddot - yd_dot xd_ddot)/|p_d_dot|^2
 /// `held_rad` is the psi_d of the step before, for a path that stands still.
 template <class T>
@@ -68,7 +69,7 @@ PathGuidance<T> open_path(const PathPoint<T>& path, const T& held_rad) {
 /// so that on the path the speed is the path's own, and behind it the vehicle catches up.
 template <class T>
 PathGuidance<T> closed_path(const PathPoint<T>& path, const T& gain_per_s,
-                            const Point<T>& position_m, const T& sideslip, const T& held_rad) {
+                            const Position<T>& position_m, const T& sideslip, const T& held_rad) {
   using math::atan2;
   const PathGuidance<T> open = open_path(path, held_rad);
   const T ex = path.position_m.x_m - position_m.x_m;

@@ -21,34 +21,40 @@ struct Segment {
   std::size_t end;  ///< one past the last
 };
 
-std::vector<Segment> segments_of(const Run& run) {
+/// The commanded heading, before what the scenario does to it on the way to the law.
+double goal_rad(const RunRow& row, const Scenario& scenario) {
+  return scenario.shaping || scenario.avoidance ? row.course.psi_goal_rad : row.psi_ref_rad;
+}
+
+std::vector<Segment> segments_of(const Run& run, const Scenario& scenario) {
   std::vector<Segment> segments;
   for (std::size_t i = 0; i < run.rows.size(); ++i) {
-    const bool starts = i == 0 || run.rows[i].psi_ref_rad < run.rows[i - 1].psi_ref_rad ||
-                        run.rows[i].psi_ref_rad > run.rows[i - 1].psi_ref_rad;
+    const double goal = goal_rad(run.rows[i], scenario);
+    const double before = i == 0 ? goal : goal_rad(run.rows[i - 1], scenario);
+    const bool starts = i == 0 || goal < before || goal > before;
     if (starts) segments.push_back({i, i});
     segments.back().end = i + 1;
   }
   return segments;
 }
 
-double error_deg(const RunRow& row) {
-  return degrees(wrap_angle(row.psi_ref_rad - row.state.psi_rad));
+double error_deg(const RunRow& row, const Scenario& scenario) {
+  return degrees(wrap_angle(goal_rad(row, scenario) - row.state.psi_rad));
 }
 
 /// Settling, overshoot, IAE and ITAE over the steps of a heading scenario.
-void heading_metrics(const Run& run, Metrics& m) {
+void heading_metrics(const Run& run, const Scenario& scenario, Metrics& m) {
   double settling_s = 0.0;
   double overshoot_deg = 0.0;
   double iae = 0.0;
   double itae = 0.0;
-  for (const Segment& segment : segments_of(run)) {
+  for (const Segment& segment : segments_of(run, scenario)) {
     const RunRow& first = run.rows[segment.begin];
-    const double step_deg = error_deg(first);
+    const double step_deg = error_deg(first, scenario);
     const double band_deg = std::max(kSettledShare * std::abs(step_deg), kSettledLeastDeg);
     std::size_t settled = segment.begin;
     for (std::size_t i = segment.begin; i < segment.end; ++i) {
-      const double e = error_deg(run.rows[i]);
+      const double e = error_deg(run.rows[i], scenario);
       if (std::abs(e) > band_deg) settled = i + 1;
       overshoot_deg = std::max(overshoot_deg, step_deg > 0.0 ? -e : e);
       if (i + 1 == run.rows.size()) break;
@@ -108,14 +114,58 @@ void motion_metrics(const Run& run, const Controller<double>& controller, Metric
   m.control_effort = effort / static_cast<double>(run.rows.size());
 }
 
+/// How far from the leg, line or path, root mean square over the rows from `begin` on.
+double cross_track_rms_m(const Run& run, std::size_t begin) {
+  double sum = 0.0;
+  for (std::size_t i = begin; i < run.rows.size(); ++i) {
+    sum += run.rows[i].course.cross_track_m * run.rows[i].course.cross_track_m;
+  }
+  return std::sqrt(sum / static_cast<double>(run.rows.size() - begin));
+}
+
+/// Courses that end are completed when they have; a timed one when the vehicle is no further from
+/// the path's point than its tolerance in the second half of the run.
+void course_metrics(const Run& run, const Scenario& scenario, Metrics& m) {
+  m.cross_track_rms_m = cross_track_rms_m(run, 0);
+  if (const auto* timed = std::get_if<LissajousCourse>(&scenario.guidance)) {
+    for (std::size_t i = run.rows.size() / 2; i < run.rows.size(); ++i) {
+      const RunRow& row = run.rows[i];
+      const double off_m = distance_m(row.course.target_m, {row.state.x_m, row.state.y_m});
+      m.completed = m.completed && off_m <= timed->tolerance_m;
+    }
+    return;
+  }
+  m.completed = run.end == RunEnd::kFinished && run.missed_waypoints == 0;
+  if (m.completed) m.finish_time_s = run.rows.back().t_s;
+}
+
+/// Whether the guidance asks for one speed all the time, which a drop can be held against.
+bool asks_for_one_speed(const Scenario& scenario) {
+  if (scenario.avoidance || std::holds_alternative<LissajousCourse>(scenario.guidance))
+    return false;
+  const auto* waypoints = std::get_if<WaypointCourse>(&scenario.guidance);
+  const auto* line = std::get_if<LineCourse>(&scenario.guidance);
+  return !(waypoints && waypoints->slow_down_m) && !(line && line->slow_down_m);
+}
+
 }  // namespace
 
 Metrics metrics_of(const Run& run, const Scenario& scenario, const Controller<double>& controller) {
   Metrics m;
   motion_metrics(run, controller, m);
+  const bool open = std::holds_alternative<OpenLoop>(scenario.guidance);
   if (std::holds_alternative<HeadingSteps>(scenario.guidance)) {
-    heading_metrics(run, m);
-    m.speed_drop_mps = speed_drop(run, scenario.speed_mps);
+    heading_metrics(run, scenario, m);
+  } else if (!open) {
+    course_metrics(run, scenario, m);
+  }
+  if (!open && asks_for_one_speed(scenario)) m.speed_drop_mps = speed_drop(run, scenario.speed_mps);
+  if (!scenario.obstacles.empty()) {
+    m.clearance_min_m = run.rows.front().clearance_m;
+    for (const RunRow& row : run.rows) {
+      m.clearance_min_m = std::min(*m.clearance_min_m, row.clearance_m);
+    }
+    m.completed = m.completed && *m.clearance_min_m > 0.0;
   }
   return m;
 }

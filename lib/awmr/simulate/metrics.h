@@ -10,14 +10,18 @@
 namespace awmr {
 
 struct Metrics {
-  bool completed = true;  ///< the guidance's goal was reached (for headings: settled after every step)
-  /// Longest over the steps: from the step until |e| stays within 2 % of the step's size (at least 0.5 deg).
+  /// The guidance's goal was reached without touching an obstacle. Headings: settled after every
+  /// step; waypoints: each reached; a line: its end; a timed path: within its tolerance in the
+  /// second half of the run.
+  bool completed = true;
+  /// Longest over the steps: from the step until |e| stays within 2 % of the step's size (at least
+  /// 0.5 deg).
   std::optional<double> settling_time_s;
   /// Largest travel beyond a commanded heading in the direction of its step, deg, >= 0.
   std::optional<double> overshoot_deg;
-  std::optional<double> heading_iae_degs;   ///< integral of |e|
-  std::optional<double> heading_itae_degs2; ///< integral of t |e|, t from each step (for tuning)
-  std::optional<double> cross_track_rms_m;
+  std::optional<double> heading_iae_degs;    ///< integral of |e|
+  std::optional<double> heading_itae_degs2;  ///< integral of t |e|, t from each step (for tuning)
+  std::optional<double> cross_track_rms_m;   ///< from the present leg, line or path
   double path_length_m = 0.0;
   /// Commanded speed minus the least speed after it was first reached within 0.1 %, >= 0.
   std::optional<double> speed_drop_mps;
@@ -25,7 +29,7 @@ struct Metrics {
   double yaw_rate_max_degps = 0.0;
   /// Total variation of the commanded d_r/d_max, F'L/F'max and F'R/F'max, summed, per second.
   double control_variation = 0.0;
-  double control_effort = 0.0;    ///< mean of F'L^2 + F'R^2 + (d_r/d_max)^2 over the run
+  double control_effort = 0.0;  ///< mean of F'L^2 + F'R^2 + (d_r/d_max)^2 over the run
   std::optional<double> clearance_min_m;
   std::optional<double> finish_time_s;
 };

@@ -1,6 +1,7 @@
-/// scenario.json (`awmr.scenario/1`): what the vehicle is asked to do.
+/// scenario.json (`awmr.scenario/1`): what the vehicle is asked to do, and in which world.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -8,9 +9,15 @@
 #include <variant>
 #include <vector>
 
+#include "awmr/control/guidance_line.h"
+#include "awmr/control/guidance_obstacles.h"
+#include "awmr/control/guidance_path.h"
+#include "awmr/control/guidance_shaping.h"
 #include "awmr/control/yaw_mode.h"
 #include "awmr/core/result.h"
+#include "awmr/model/model.h"
 #include "awmr/model/state.h"
+#include "awmr/simulate/world.h"
 
 namespace awmr {
 
@@ -30,17 +37,66 @@ struct HeadingSteps {
   std::vector<HeadingStep> steps;  ///< strictly increasing in time, not empty
 };
 
-using Guidance = std::variant<OpenLoop, HeadingSteps>;
+/// Points to go to by line of sight; the run ends when the last is reached.
+struct WaypointCourse {
+  std::vector<Position<double>> points_m;  ///< not empty
+  double acceptance_m = 0.0;               ///< > 0
+  bool skip_passed = false;                ///< see Waypoints::skip_passed
+  /// Within this distance of the last point the speed falls in proportion, to a tenth at least.
+  std::optional<double> slow_down_m;
+};
+
+/// A line or polyline to follow; the run ends past its end.
+struct LineCourse {
+  std::vector<Position<double>> points_m;  ///< at least two
+  LineLaw<double> law{};
+  double corner_m = 0.0;              ///< >= 0, see Polyline::corner_m
+  std::optional<double> slow_down_m;  ///< as in WaypointCourse, along the last segment
+};
+
+/// A path in time. The scenario's speed_mps 0: the path's own speed; else that constant speed,
+/// which is for the open form only.
+struct LissajousCourse {
+  Lissajous<double> path{};
+  bool closed_loop = false;
+  double position_gain_per_s = 0.5;  ///< k of the closed form, > 0
+  double tolerance_m = 1.0;  ///< completed: from the path by no more than this in the second half
+};
+
+using Guidance = std::variant<OpenLoop, HeadingSteps, WaypointCourse, LineCourse, LissajousCourse>;
 
 struct Scenario {
   std::string name;
   double duration_s = 0.0;  ///< > 0
   State<double> initial{};
-  double speed_mps = 0.0;   ///< u_d, >= 0
+  double speed_mps = 0.0;  ///< u_d, >= 0
   Guidance guidance;
+  std::vector<Obstacle<double>> obstacles = {};
+  std::optional<Avoidance<double>> avoidance = {};  ///< absent: obstacles are only measured
+  std::optional<HeadingShaping<double>> shaping = {};
+  Disturbance disturbance = {};
+  std::vector<WheelFault> faults = {};
+  std::vector<SlipperyPatch> patches = {};
+  std::optional<Battery> battery = {};
+  std::optional<Sensors> sensors = {};
+  std::optional<Actuators> actuators = {};
+  ControlOptions control = {};
+  std::vector<CornerParameter> corner = {};
+  std::uint64_t seed = 0;  ///< of everything random in the scenario
+
+  /// Something is drawn from a seed.
+  bool random() const;
 };
 
+/// Errors: as read_json_file; unknown, missing or impossible values.
 Result<Scenario> read_scenario(const std::filesystem::path& path);
+
+/// The model with the scenario's corner parameters at the ends of their 95 % intervals.
+/// Errors (input): a parameter of the corner has no interval.
+Result<Model> model_at_corner(Model model, const Scenario& scenario, const std::string& model_file);
+/// Its plant. Errors (input): as above and as Model::plant.
+Result<Plant<double>> plant_for(const Scenario& scenario, const Model& model,
+                                const std::string& model_file);
 
 /// "differential", "steering", "combined".
 std::string_view name_of(YawMode mode);

@@ -1,17 +1,11 @@
-#include <array>
-#include <numbers>
 #include <string>
 #include <utility>
 
-#include "awmr/core/json.h"
 #include "awmr/core/units.h"
-#include "awmr/simulate/scenario.h"
+#include "awmr/simulate/scenario_json.h"
 
 namespace awmr {
 namespace {
-
-const std::array<std::string, 5> kGuidanceTypes{"open_loop", "heading", "waypoints", "line",
-                                                "lissajous"};
 
 State<double> read_initial(JsonObject json) {
   State<double> state{};
@@ -25,38 +19,19 @@ State<double> read_initial(JsonObject json) {
   return state;
 }
 
-HeadingSteps read_heading_steps(JsonObject& json) {
-  HeadingSteps heading;
-  std::vector<JsonObject> steps = json.objects("steps");
-  for (JsonObject& step : steps) {
-    heading.steps.push_back({step.number("t_s", kNonNegative), radians(step.number("psi_deg"))});
-    step.reject_unknown_keys();
+/// What is there, but without effect.
+void reject_idle_keys(JsonObject& json, const Scenario& scenario) {
+  const bool open = std::holds_alternative<OpenLoop>(scenario.guidance);
+  if (scenario.avoidance && scenario.obstacles.empty()) {
+    json.fault("avoidance", "there are no obstacles to avoid; add obstacles or remove it");
   }
-  if (heading.steps.empty() || heading.steps.front().t_s > 0.0) {
-    json.fault("steps", "the first step has to be at t_s = 0");
+  for (const char* key : {"avoidance", "shaping", "sensors", "control"}) {
+    if (open && json.has(key)) json.fault(key, "open loop has no use for it; remove it");
   }
-  for (std::size_t i = 1; i < heading.steps.size(); ++i) {
-    if (heading.steps[i].t_s <= heading.steps[i - 1].t_s) {
-      json.fault("steps", "the steps' times have to increase");
-      break;
-    }
+  const auto* timed = std::get_if<LissajousCourse>(&scenario.guidance);
+  if (timed && timed->closed_loop && scenario.speed_mps > 0.0) {
+    json.fault("speed_mps", "has to be 0 on a closed timed path, whose speed is the path's own");
   }
-  return heading;
-}
-
-Guidance read_guidance(JsonObject json) {
-  Guidance guidance;
-  const std::size_t type = json.choice("type", kGuidanceTypes);
-  if (type == 0) {
-    guidance = OpenLoop{json.number("tau_speed"), json.number("tau_turn")};
-  } else if (type == 1) {
-    guidance = read_heading_steps(json);
-  } else {
-    json.fault("type", "this guidance is not in this version; use open_loop or heading");
-    return guidance;
-  }
-  json.reject_unknown_keys();
-  return guidance;
 }
 
 }  // namespace
@@ -72,32 +47,19 @@ Result<Scenario> read_scenario(const std::filesystem::path& path) {
   scenario.duration_s = json.number("duration_s", kPositive);
   scenario.initial = read_initial(json.object("initial"));
   scenario.speed_mps = json.number("speed_mps", kNonNegative);
-  scenario.guidance = read_guidance(json.object("guidance"));
-  for (const char* key : {"obstacles", "avoidance", "disturbance", "sensors", "seed"}) {
-    if (json.has(key)) json.fault(key, "this key is not in this version; remove it");
+  scenario.guidance = read_guidance(json.object("guidance"), *document);
+  scenario.obstacles = read_obstacles(json);
+  if (auto avoidance = json.optional_object("avoidance")) {
+    scenario.avoidance = read_avoidance(*avoidance);
   }
+  if (auto shaping = json.optional_object("shaping")) scenario.shaping = read_shaping(*shaping);
+  read_world(json, scenario);
+  scenario.seed =
+      static_cast<std::uint64_t>(json.optional_integer("seed", 0, 1000000000L).value_or(0));
+  reject_idle_keys(json, scenario);
   json.reject_unknown_keys();
   if (!faults.empty()) return input_errors(std::move(faults));
   return scenario;
-}
-
-std::string_view name_of(YawMode mode) {
-  switch (mode) {
-    case YawMode::kDifferential:
-      return "differential";
-    case YawMode::kSteering:
-      return "steering";
-    case YawMode::kCombined:
-      return "combined";
-  }
-  return "";
-}
-
-std::optional<YawMode> yaw_mode_by_name(std::string_view name) {
-  for (const YawMode mode : kYawModes) {
-    if (name_of(mode) == name) return mode;
-  }
-  return std::nullopt;
 }
 
 }  // namespace awmr

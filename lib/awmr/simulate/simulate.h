@@ -1,6 +1,8 @@
-/// The closed loop: RK4 on the 3-DOF plant between samples, the controller's command held over each.
+/// The closed loop: RK4 on the 3-DOF plant between samples, the controller's command held over
+/// each.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,29 +14,54 @@
 
 namespace awmr {
 
+/// What a row tells of the course beside the vehicle's state; unused in open loop.
+struct CourseRow {
+  double psi_goal_rad = 0.0;    ///< the guidance's heading, before avoidance and shaping
+  double cross_track_m = 0.0;   ///< from the present leg, line or path, left positive
+  Position<double> target_m{};  ///< the point gone to: waypoint, segment's end, point of the path
+  int leg = 0;                  ///< index of the waypoint or segment
+};
+
 /// The state at t and the command computed from it, held until the next row.
 struct RunRow {
   double t_s = 0.0;
   State<double> state{};
   SideForces<double> force{};
   double steering_command_rad = 0.0;
-  double tau_speed = 0.0;   ///< asked for by the law, before any limit
-  double tau_turn_m = 0.0;  ///< asked for by the law, before any limit
+  double tau_speed = 0.0;    ///< asked for by the law, before any limit
+  double tau_turn_m = 0.0;   ///< asked for by the law, before any limit
   double psi_ref_rad = 0.0;  ///< 0 in open loop
   double u_ref_mps = 0.0;    ///< 0 in open loop
+  CourseRow course = {};
+  Measurement<double> measured = {};          ///< what the controller was told
+  Position<double> measured_position_m = {};  ///< the same
+  BodyLoad disturbance = {};                  ///< without a slope's share
+  double clearance_m = 0.0;                   ///< from the vehicle's circle to the nearest obstacle
+};
+
+/// How a run ended.
+enum class RunEnd {
+  kDuration,   ///< at the scenario's duration
+  kFinished,   ///< the last waypoint was reached, or the end of the line
+  kNoPassage,  ///< obstacles leave no way to where the guidance leads: the vehicle stopped
 };
 
 struct Run {
-  std::vector<RunRow> rows;  ///< at 0, T_s, 2 T_s, ... up to and including duration_s
+  std::vector<RunRow> rows;  ///< at 0, T_s, 2 T_s, ... up to and including the end
   int substeps = 0;          ///< RK4 steps per sample
+  RunEnd end = RunEnd::kDuration;
+  int missed_waypoints = 0;  ///< passed by, or covered by an obstacle
 };
 
 struct SimulateOptions {
-  double sample_time_s = 0.01;      ///< T_s, > 0
-  std::optional<int> substeps;      ///< RK4 steps per sample; absent: substeps_for()
+  double sample_time_s = 0.01;  ///< T_s, > 0
+  std::optional<int> substeps;  ///< RK4 steps per sample; absent: substeps_for()
+  std::uint64_t seed = 0;       ///< with the scenario's seed: of everything random
+  std::uint64_t sample = 0;     ///< another draw of the same seeds for each
 };
 
-/// Steps per sample such that the step resolves the fastest time constant of the plant: see the .cpp.
+/// Steps per sample such that the step resolves the fastest time constant of the plant: see the
+/// .cpp.
 int substeps_for(const Plant<double>& plant, double sample_time_s);
 
 /// The plant's controller with these gains and the vehicle's limits.
@@ -42,11 +69,12 @@ Controller<double> make_controller(const Plant<double>& plant, const Vehicle& ve
                                    const Gains<double>& gains,
                                    CombinedSplit split = CombinedSplit::kRedistribute);
 
-/// Never fails on a valid plant, controller and scenario; all rows are finite.
+/// Never fails on a valid plant, controller and scenario; all rows are finite. The scenario's
+/// corner is not applied here: see plant_for.
 Run simulate(const Plant<double>& plant, const Controller<double>& controller,
              const Scenario& scenario, YawMode mode, const SimulateOptions& options);
 
-/// The bytes of run.csv, contract columns.
-std::string run_csv(const Run& run);
+/// The bytes of run.csv: the contract's columns, then those that the scenario gives a meaning.
+std::string run_csv(const Run& run, const Scenario& scenario);
 
 }  // namespace awmr

@@ -1,0 +1,45 @@
+#include "awmr/simulate/disturbance.h"
+
+#include <cmath>
+
+#include "awmr/core/units.h"
+
+namespace awmr {
+
+DisturbanceSource::DisturbanceSource(const std::vector<DisturbanceTerm>& terms,
+                                     double sample_time_s, const RunSeed& seed,
+                                     std::uint64_t first_use) {
+  for (const DisturbanceTerm& term : terms) {
+    Running running{.term = term, .random = seed.random(first_use + terms_.size())};
+    if (term.kind == DisturbanceTerm::Kind::kSine) {
+      running.phase_rad =
+          term.phase_rad ? *term.phase_rad : 2.0 * pi<double>() * running.random.uniform();
+    }
+    if (term.kind == DisturbanceTerm::Kind::kNoise) {
+      // x(t + T_s) = c x(t) + sqrt(1 - c^2) sigma n,  c = exp(-2 pi f T_s): the low pass at its
+      // samples, in its steady state from the start.
+      running.keep = std::exp(-2.0 * pi<double>() * term.bandwidth_hz * sample_time_s);
+      running.value = term.value * running.random.normal();
+    }
+    terms_.push_back(running);
+  }
+}
+
+double DisturbanceSource::next(double t_s) {
+  double sum = 0.0;
+  for (Running& running : terms_) {
+    const DisturbanceTerm& term = running.term;
+    double value = term.value;
+    if (term.kind == DisturbanceTerm::Kind::kSine) {
+      value *= std::sin(2.0 * pi<double>() * term.frequency_hz * t_s + running.phase_rad);
+    } else if (term.kind == DisturbanceTerm::Kind::kNoise) {
+      value = running.value;
+      running.value = running.keep * running.value + std::sqrt(1.0 - running.keep * running.keep) *
+                                                         term.value * running.random.normal();
+    }
+    if (term.window.holds(t_s)) sum += value;
+  }
+  return sum;
+}
+
+}  // namespace awmr

@@ -1,0 +1,174 @@
+// scenario.json: guidance, obstacles, avoidance, shaping.
+
+#include <array>
+#include <numbers>
+#include <string>
+
+#include "awmr/core/units.h"
+#include "awmr/simulate/scenario_json.h"
+
+namespace awmr {
+namespace {
+
+const std::array<std::string, 5> kGuidanceTypes{"open_loop", "heading", "waypoints", "line",
+                                                "lissajous"};
+constexpr NumberRule kBelowRightAngle{.min = 0.0, .max = 89.0};
+constexpr NumberRule kApproachAngle{.min = 0.0, .max = 90.0, .min_excluded = true};
+
+HeadingSteps read_heading_steps(JsonObject& json) {
+  HeadingSteps heading;
+  std::vector<JsonObject> steps = json.objects("steps");
+  for (JsonObject& step : steps) {
+    heading.steps.push_back({step.number("t_s", kNonNegative), radians(step.number("psi_deg"))});
+    step.reject_unknown_keys();
+  }
+  if (heading.steps.empty() || heading.steps.front().t_s > 0.0) {
+    json.fault("steps", "the first step has to be at t_s = 0");
+  }
+  for (std::size_t i = 1; i < heading.steps.size(); ++i) {
+    if (heading.steps[i].t_s <= heading.steps[i - 1].t_s) {
+      json.fault("steps", "the steps' times have to increase");
+      break;
+    }
+  }
+  return heading;
+}
+
+/// `[x, y]` under a key.
+Position<double> read_point(JsonObject& json, const char* key) {
+  const std::vector<double> xy = json.numbers(key);
+  if (xy.size() == 2) return {xy[0], xy[1]};
+  json.fault(key, "expected a point [x, y] in m");
+  return {};
+}
+
+/// `[[x, y], ...]`: read from the whole document, as JsonObject knows no arrays of arrays.
+std::vector<Position<double>> read_points(JsonObject& json, const Json& document, const char* key,
+                                          std::size_t least) {
+  std::vector<Position<double>> points;
+  bool well_formed = true;
+  const Json& array = document.at(Json::json_pointer(json.pointer(key)));
+  if (array.is_array()) {
+    for (const Json& point : array) {
+      const bool pair =
+          point.is_array() && point.size() == 2 && point[0].is_number() && point[1].is_number();
+      well_formed = well_formed && pair;
+      if (pair) points.push_back({point[0].get<double>(), point[1].get<double>()});
+    }
+  }
+  if (!well_formed || points.size() < least) {
+    json.fault(key,
+               "expected an array of points [[x, y], ...] in m, at least " + std::to_string(least));
+  }
+  return points;
+}
+
+WaypointCourse read_waypoints(JsonObject& json, const Json& document) {
+  WaypointCourse course;
+  if (json.has("points_m")) {
+    course.points_m = read_points(json, document, "points_m", 1);
+  } else {
+    json.fault("points_m", "missing: the points to go to, [[x, y], ...] in m");
+  }
+  course.acceptance_m = json.number("acceptance_m", kPositive);
+  course.skip_passed = json.optional_boolean("skip_passed").value_or(false);
+  course.slow_down_m = json.optional_number("slow_down_m", kPositive);
+  return course;
+}
+
+LineCourse read_line(JsonObject& json, const Json& document) {
+  LineCourse course;
+  if (json.has("points_m")) {
+    course.points_m = read_points(json, document, "points_m", 2);
+  } else {
+    course.points_m = {read_point(json, "from_m"), read_point(json, "to_m")};
+  }
+  course.law.delta_rad = radians(json.number("delta_deg", kApproachAngle));
+  course.law.width_m = json.number("width_m", kPositive);
+  course.law.sideslip_compensation = json.optional_boolean("sideslip_compensation").value_or(true);
+  course.corner_m = json.optional_number("corner_m", kNonNegative).value_or(0.0);
+  course.slow_down_m = json.optional_number("slow_down_m", kPositive);
+  return course;
+}
+
+/// Two numbers under a key.
+std::array<double, 2> read_pair(JsonObject& json, const char* key) {
+  const std::vector<double> pair = json.numbers(key);
+  if (pair.size() == 2) return {pair[0], pair[1]};
+  json.fault(key, "expected two numbers, for x and y");
+  return {};
+}
+
+LissajousCourse read_lissajous(JsonObject& json) {
+  LissajousCourse course;
+  const auto amplitude_m = read_pair(json, "amplitude_m");
+  const auto rate_radps = read_pair(json, "rate_radps");
+  course.path = {amplitude_m[0], amplitude_m[1], rate_radps[0], rate_radps[1]};
+  course.closed_loop = json.boolean("closed_loop");
+  if (const auto gain = json.optional_number("position_gain_per_s", kPositive)) {
+    if (!course.closed_loop) json.fault("position_gain_per_s", "is for closed_loop true only");
+    course.position_gain_per_s = *gain;
+  }
+  course.tolerance_m = json.optional_number("tolerance_m", kPositive).value_or(course.tolerance_m);
+  return course;
+}
+
+}  // namespace
+
+Guidance read_guidance(JsonObject json, const Json& document) {
+  Guidance guidance;
+  switch (json.choice("type", kGuidanceTypes)) {
+    case 0:
+      guidance = OpenLoop{json.number("tau_speed"), json.number("tau_turn")};
+      break;
+    case 1:
+      guidance = read_heading_steps(json);
+      break;
+    case 2:
+      guidance = read_waypoints(json, document);
+      break;
+    case 3:
+      guidance = read_line(json, document);
+      break;
+    default:
+      guidance = read_lissajous(json);
+      break;
+  }
+  json.reject_unknown_keys();
+  return guidance;
+}
+
+std::vector<Obstacle<double>> read_obstacles(JsonObject& scenario) {
+  std::vector<Obstacle<double>> obstacles;
+  for (JsonObject& json : scenario.optional_objects("obstacles")) {
+    obstacles.push_back(
+        {{json.number("x_m"), json.number("y_m")}, json.number("radius_m", kPositive)});
+    json.reject_unknown_keys();
+  }
+  return obstacles;
+}
+
+Avoidance<double> read_avoidance(JsonObject json) {
+  const Avoidance<double> avoidance{
+      .mmd_base_m = json.number("mmd_base_m", kPositive),
+      .mmd_per_speed_s = json.number("mmd_per_speed_s", kNonNegative),
+      .sigma_rad = radians(json.number("sigma_deg", kBelowRightAngle)),
+      .vehicle_radius_m = json.number("vehicle_radius_m", kNonNegative),
+      .clearance_m = json.number("clearance_m", kPositive),
+      .hysteresis_m = json.number("hysteresis_m", kNonNegative),
+      .side_hysteresis_rad = radians(json.number("side_hysteresis_deg", kNonNegative)),
+      .brake_m = json.number("brake_m", kPositive)};
+  json.reject_unknown_keys();
+  return avoidance;
+}
+
+HeadingShaping<double> read_shaping(JsonObject json) {
+  const HeadingShaping<double> shaping{
+      .omega_radps = json.number("omega_radps", {.min = 0.0, .max = 50.0, .min_excluded = true}),
+      .rate_max_radps = radians(json.number("rate_max_degps", kPositive)),
+      .accel_max_radps2 = radians(json.number("accel_max_degps2", kPositive))};
+  json.reject_unknown_keys();
+  return shaping;
+}
+
+}  // namespace awmr

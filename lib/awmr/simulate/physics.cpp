@@ -1,0 +1,178 @@
+#include "awmr/simulate/physics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "awmr/simulate/simulate.h"
+
+namespace awmr {
+namespace {
+
+/// RK4 steps per fastest time constant of the smooth part of the plant: the local error of a mode
+/// of time constant T is (h/T)^5/120, so 10 keeps it below 1e-7 of the excursion.
+constexpr double kStepsPerTimeConstant = 10.0;
+
+/// The largest speed (m/s, rad/s) below which resistance may be its chord.
+constexpr double kChordSpeed = 1e-3;
+
+constexpr double kGravity_mps2 = 9.80665;
+
+/// Streams of RunSeed::random: at most 200 terms an axis.
+constexpr std::uint64_t kSurgeUse = 100;
+constexpr std::uint64_t kSwayUse = 300;
+constexpr std::uint64_t kYawUse = 500;
+
+/// Speed below which resistance is its chord. On the chord the speed decays at alpha
+/// w^(beta-1)/inertia; RK4 is stable to rate h < 2.78 and monotone to about 1, so w is where that
+/// rate is 1/h:
+///   w = (alpha h / inertia)^(1/(1 - beta))   for beta < 1;   no such speed for beta >= 1.
+double rest_speed(const Resistance<double>& law, double inertia, double step_s) {
+  if (law.beta >= 1.0) return 0.0;
+  return std::pow(law.alpha * step_s / inertia, 1.0 / (1.0 - law.beta));
+}
+
+double step_for_chord(const Resistance<double>& law, double inertia) {
+  if (law.beta >= 1.0) return std::numeric_limits<double>::infinity();
+  return inertia / law.alpha * std::pow(kChordSpeed, 1.0 - law.beta);
+}
+
+State<double> moved(const State<double>& s, const State<double>& d, double h) {
+  return {s.x_m + h * d.x_m,
+          s.y_m + h * d.y_m,
+          s.psi_rad + h * d.psi_rad,
+          s.u_mps + h * d.u_mps,
+          s.v_mps + h * d.v_mps,
+          s.r_radps + h * d.r_radps,
+          s.steering_rad + h * d.steering_rad};
+}
+
+/// A speed whose square would be below the normal range is rest: no crawl through subnormal
+/// numbers.
+void settle(double& speed) {
+  if (std::abs(speed) < 1e-150) speed = 0.0;
+}
+
+RunSeed seed_of(const Scenario& scenario, const SimulateOptions& options) {
+  return run_seed(scenario.seed, options.seed, options.sample);
+}
+
+}  // namespace
+
+Plant<double> at_rest_resolved(Plant<double> plant, double step_s) {
+  plant.surge.rest_speed = rest_speed(plant.surge, plant.mass_norm, step_s);
+  plant.yaw.rest_speed = rest_speed(plant.yaw, plant.inertia_norm, step_s);
+  return plant;
+}
+
+/// h <= T/10 for the time constants that do not depend on speed, m'/a_s of sway and T of the servo;
+/// and h such that resistance is its chord only below kChordSpeed (rest_speed() solved for h):
+///   h <= (inertia/alpha) kChordSpeed^(1 - beta)
+int substeps_for(const Plant<double>& plant, double sample_time_s) {
+  double step_s = plant.steering_time_constant_s / kStepsPerTimeConstant;
+  if (plant.sway_alpha > 0.0) {
+    step_s = std::min(step_s, plant.mass_norm / plant.sway_alpha / kStepsPerTimeConstant);
+  }
+  step_s = std::min(step_s, step_for_chord(plant.surge, plant.mass_norm));
+  step_s = std::min(step_s, step_for_chord(plant.yaw, plant.inertia_norm));
+  // Room for rounding, so that a sample of exactly n steps takes n.
+  return std::max(1, static_cast<int>(std::ceil(sample_time_s / step_s - 1e-9)));
+}
+
+Physics::Physics(const Plant<double>& plant, double force_max, const Scenario& scenario,
+                 const SimulateOptions& options)
+    : plant_(plant),
+      force_max_(force_max),
+      scenario_(&scenario),
+      sample_time_s_(options.sample_time_s),
+      substeps_(options.substeps.value_or(substeps_for(plant, options.sample_time_s))),
+      state_(scenario.initial),
+      surge_(scenario.disturbance.surge, sample_time_s_, seed_of(scenario, options), kSurgeUse),
+      sway_(scenario.disturbance.sway, sample_time_s_, seed_of(scenario, options), kSwayUse),
+      yaw_(scenario.disturbance.yaw, sample_time_s_, seed_of(scenario, options), kYawUse),
+      loaded_(scenario.disturbance.any()),
+      by_wheel_(!scenario.faults.empty() || !scenario.patches.empty()) {
+  plant_ = at_rest_resolved(plant, sample_time_s_ / substeps_);
+}
+
+const BodyLoad& Physics::disturb(double t_s) {
+  if (loaded_) load_ = {surge_.next(t_s), sway_.next(t_s), yaw_.next(t_s)};
+  return load_;
+}
+
+/// What of each wheel's commanded force arrives: the battery's limit, the motor's fault, and the
+/// ground under it. The rear axle is taken as far behind the centre of gravity as the front one is
+/// before it.
+WheelForces<double> Physics::at_the_ground(double t_s, const SideForces<double>& force) const {
+  double wheels[] = {force.left, force.right, force.left, force.right};  // by Wheel
+  for (const WheelFault& fault : scenario_->faults) {
+    if (!fault.window.holds(t_s)) continue;
+    for (const Wheel wheel : fault.wheels) wheels[static_cast<int>(wheel)] *= fault.share;
+  }
+  const double cos_psi = std::cos(state_.psi_rad);
+  const double sin_psi = std::sin(state_.psi_rad);
+  for (const SlipperyPatch& patch : scenario_->patches) {
+    for (int wheel = 0; wheel < 4; ++wheel) {
+      const double ahead_m = wheel < 2 ? plant_.front_axle_m : -plant_.front_axle_m;
+      const double left_m = wheel % 2 == 0 ? plant_.half_track_m : -plant_.half_track_m;
+      const Position<double> at{state_.x_m + ahead_m * cos_psi - left_m * sin_psi,
+                                state_.y_m + ahead_m * sin_psi + left_m * cos_psi};
+      if (squared_distance_m2(at, patch.centre_m) > patch.radius_m * patch.radius_m) continue;
+      wheels[wheel] = math::saturate(wheels[wheel], patch.force_max);
+    }
+  }
+  return {wheels[0], wheels[1], wheels[2], wheels[3]};
+}
+
+template <class Forces>
+State<double> Physics::rates(const State<double>& at, const Forces& force,
+                             double steering_command_rad) const {
+  State<double> d = state_rates(plant_, at, force, steering_command_rad);
+  if (!loaded_) return d;
+  d.u_mps += load_.surge / plant_.mass_norm;
+  d.v_mps += load_.sway / plant_.mass_norm;
+  d.r_radps += load_.yaw_m / plant_.inertia_norm;
+  if (const auto& slope = scenario_->disturbance.slope) {
+    // m g sin(slope) downhill: over m it is the same for every vehicle.
+    const double accel_mps2 = kGravity_mps2 * std::sin(slope->angle_rad);
+    d.u_mps += accel_mps2 * std::cos(slope->downhill_rad - at.psi_rad);
+    d.v_mps += accel_mps2 * std::sin(slope->downhill_rad - at.psi_rad);
+  }
+  return d;
+}
+
+/// Steps of the classical Runge-Kutta method over one sample, commands held.
+template <class Forces>
+void Physics::integrate(const Forces& force, double steering_command_rad) {
+  const double h = sample_time_s_ / substeps_;
+  for (int i = 0; i < substeps_; ++i) {
+    const State<double> k1 = rates(state_, force, steering_command_rad);
+    const State<double> k2 = rates(moved(state_, k1, h / 2.0), force, steering_command_rad);
+    const State<double> k3 = rates(moved(state_, k2, h / 2.0), force, steering_command_rad);
+    const State<double> k4 = rates(moved(state_, k3, h), force, steering_command_rad);
+    State<double> next = moved(state_, k1, h / 6.0);
+    next = moved(next, k2, h / 3.0);
+    next = moved(next, k3, h / 3.0);
+    state_ = moved(next, k4, h / 6.0);
+  }
+  settle(state_.u_mps);
+  settle(state_.v_mps);
+  settle(state_.r_radps);
+}
+
+void Physics::step(double t_s, const SideForces<double>& commanded, double steering_command_rad) {
+  SideForces<double> force = commanded;
+  if (const auto& battery = scenario_->battery) {
+    const double gone =
+        math::clamp((t_s - battery->from_s) / (battery->to_s - battery->from_s), 0.0, 1.0);
+    const double most = force_max_ * (1.0 - gone * (1.0 - battery->share_end));
+    force = {math::saturate(force.left, most), math::saturate(force.right, most)};
+  }
+  if (by_wheel_) {
+    integrate(at_the_ground(t_s, force), steering_command_rad);
+  } else {
+    integrate(force, steering_command_rad);
+  }
+}
+
+}  // namespace awmr

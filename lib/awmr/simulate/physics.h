@@ -1,0 +1,50 @@
+/// The vehicle in its world, one sample at a time: what simulate() steps, and what a controller
+/// that runs elsewhere (on a chip) can be held against.
+#pragma once
+
+#include "awmr/model/dynamics.h"
+#include "awmr/simulate/disturbance.h"
+#include "awmr/simulate/scenario.h"
+
+namespace awmr {
+
+struct SimulateOptions;
+
+class Physics {
+ public:
+  /// `force_max` is F'max of the vehicle's motors, for the battery.
+  Physics(const Plant<double>& plant, double force_max, const Scenario& scenario,
+          const SimulateOptions& options);
+
+  const State<double>& state() const { return state_; }
+  int substeps() const { return substeps_; }
+  /// The disturbance over the sample that begins at `t_s`, without the slope's share; to be asked
+  /// once per sample, before step().
+  const BodyLoad& disturb(double t_s);
+  /// Over one sample, with the commands held.
+  void step(double t_s, const SideForces<double>& force, double steering_command_rad);
+
+ private:
+  WheelForces<double> at_the_ground(double t_s, const SideForces<double>& force) const;
+  template <class Forces>
+  void integrate(const Forces& force, double steering_command_rad);
+  template <class Forces>
+  State<double> rates(const State<double>& at, const Forces& force,
+                      double steering_command_rad) const;
+
+  Plant<double> plant_;  ///< with its chord at rest
+  double force_max_;
+  const Scenario* scenario_;
+  double sample_time_s_;
+  int substeps_;
+  State<double> state_;
+  DisturbanceSource surge_, sway_, yaw_;
+  BodyLoad load_;
+  bool loaded_;    ///< some disturbance or slope is there
+  bool by_wheel_;  ///< the wheels of a side may differ
+};
+
+/// RK4 step h's stand-in for resistance at rest, see the .cpp.
+Plant<double> at_rest_resolved(Plant<double> plant, double step_s);
+
+}  // namespace awmr

@@ -1,0 +1,83 @@
+#include "awmr/core/csv.h"
+#include "awmr/simulate/simulate.h"
+
+namespace awmr {
+namespace {
+
+struct Column {
+  const char* name;
+  double (*value)(const RunRow&);
+};
+
+constexpr Column kColumns[] = {
+    {"t_s", [](const RunRow& r) { return r.t_s; }},
+    {"x_m", [](const RunRow& r) { return r.state.x_m; }},
+    {"y_m", [](const RunRow& r) { return r.state.y_m; }},
+    {"psi_rad", [](const RunRow& r) { return r.state.psi_rad; }},
+    {"u_mps", [](const RunRow& r) { return r.state.u_mps; }},
+    {"v_mps", [](const RunRow& r) { return r.state.v_mps; }},
+    {"r_radps", [](const RunRow& r) { return r.state.r_radps; }},
+    {"force_left", [](const RunRow& r) { return r.force.left; }},
+    {"force_right", [](const RunRow& r) { return r.force.right; }},
+    {"steering_rad", [](const RunRow& r) { return r.state.steering_rad; }},
+    {"steering_cmd_rad", [](const RunRow& r) { return r.steering_command_rad; }},
+    {"tau_speed", [](const RunRow& r) { return r.tau_speed; }},
+    {"tau_turn", [](const RunRow& r) { return r.tau_turn_m; }},
+    {"psi_ref_rad", [](const RunRow& r) { return r.psi_ref_rad; }},
+    {"u_ref_mps", [](const RunRow& r) { return r.u_ref_mps; }},
+};
+constexpr Column kCourse[] = {
+    {"psi_goal_rad", [](const RunRow& r) { return r.course.psi_goal_rad; }},
+    {"cross_track_m", [](const RunRow& r) { return r.course.cross_track_m; }},
+    {"target_x_m", [](const RunRow& r) { return r.course.target_m.x_m; }},
+    {"target_y_m", [](const RunRow& r) { return r.course.target_m.y_m; }},
+    {"leg", [](const RunRow& r) { return static_cast<double>(r.course.leg); }},
+};
+constexpr Column kClearance[] = {{"clearance_m", [](const RunRow& r) { return r.clearance_m; }}};
+constexpr Column kMeasured[] = {
+    {"measured_x_m", [](const RunRow& r) { return r.measured_position_m.x_m; }},
+    {"measured_y_m", [](const RunRow& r) { return r.measured_position_m.y_m; }},
+    {"measured_psi_rad", [](const RunRow& r) { return r.measured.psi_rad; }},
+    {"measured_u_mps", [](const RunRow& r) { return r.measured.u_mps; }},
+    {"measured_v_mps", [](const RunRow& r) { return r.measured.v_mps; }},
+    {"measured_r_radps", [](const RunRow& r) { return r.measured.r_radps; }},
+};
+constexpr Column kDisturbance[] = {
+    {"disturbance_surge", [](const RunRow& r) { return r.disturbance.surge; }},
+    {"disturbance_sway", [](const RunRow& r) { return r.disturbance.sway; }},
+    {"disturbance_yaw_m", [](const RunRow& r) { return r.disturbance.yaw_m; }},
+};
+
+bool has_course(const Scenario& scenario) {
+  return !std::holds_alternative<OpenLoop>(scenario.guidance) &&
+         !std::holds_alternative<HeadingSteps>(scenario.guidance);
+}
+
+}  // namespace
+
+std::string run_csv(const Run& run, const Scenario& scenario) {
+  std::vector<Column> columns(std::begin(kColumns), std::end(kColumns));
+  const auto add = [&](bool wanted, const auto& more) {
+    if (wanted) columns.insert(columns.end(), std::begin(more), std::end(more));
+  };
+  add(has_course(scenario), kCourse);
+  add(!scenario.obstacles.empty(), kClearance);
+  add(scenario.sensors.has_value(), kMeasured);
+  add(scenario.disturbance.any(), kDisturbance);
+  std::string text;
+  for (const Column& column : columns) {
+    text += column.name;
+    text += ',';
+  }
+  text.back() = '\n';
+  for (const RunRow& row : run.rows) {
+    for (const Column& column : columns) {
+      text += format_number(column.value(row));
+      text += ',';
+    }
+    text.back() = '\n';
+  }
+  return text;
+}
+
+}  // namespace awmr

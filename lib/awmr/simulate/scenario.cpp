@@ -1,0 +1,75 @@
+#include "awmr/simulate/scenario.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace awmr {
+namespace {
+
+bool is_random(const DisturbanceTerm& term) {
+  return term.kind == DisturbanceTerm::Kind::kNoise ||
+         (term.kind == DisturbanceTerm::Kind::kSine && !term.phase_rad);
+}
+
+bool is_random(const std::vector<DisturbanceTerm>& terms) {
+  return std::any_of(terms.begin(), terms.end(),
+                     [](const DisturbanceTerm& term) { return is_random(term); });
+}
+
+bool has_noise(const Channel& channel) { return channel.noise > 0.0 || channel.noise < 0.0; }
+
+}  // namespace
+
+bool Scenario::random() const {
+  if (is_random(disturbance.surge) || is_random(disturbance.sway) || is_random(disturbance.yaw)) {
+    return true;
+  }
+  return sensors && (has_noise(sensors->heading) || has_noise(sensors->yaw_rate) ||
+                     has_noise(sensors->speed) || (sensors->gps && has_noise(sensors->gps->x)));
+}
+
+Result<Model> model_at_corner(Model model, const Scenario& scenario,
+                              const std::string& model_file) {
+  std::vector<Fault> faults;
+  for (const CornerParameter& corner : scenario.corner) {
+    Estimate& estimate = model[corner.id];
+    if (!estimate.ci95) {
+      faults.push_back({model_file + ":" + std::string(info(corner.id).pointer),
+                        "has no 95 % interval (ci95), whose end the scenario '" + scenario.name +
+                            "' asks for; identify it from trials, or take it out of the "
+                            "scenario's corner"});
+      continue;
+    }
+    estimate.value = corner.high ? estimate.ci95->hi : estimate.ci95->lo;
+  }
+  if (!faults.empty()) return input_errors(std::move(faults));
+  return model;
+}
+
+Result<Plant<double>> plant_for(const Scenario& scenario, const Model& model,
+                                const std::string& model_file) {
+  const auto cornered = model_at_corner(model, scenario, model_file);
+  if (!cornered) return tl::unexpected(cornered.error());
+  return cornered->plant(model_file);
+}
+
+std::string_view name_of(YawMode mode) {
+  switch (mode) {
+    case YawMode::kDifferential:
+      return "differential";
+    case YawMode::kSteering:
+      return "steering";
+    case YawMode::kCombined:
+      return "combined";
+  }
+  return "";
+}
+
+std::optional<YawMode> yaw_mode_by_name(std::string_view name) {
+  for (const YawMode mode : kYawModes) {
+    if (name_of(mode) == name) return mode;
+  }
+  return std::nullopt;
+}
+
+}  // namespace awmr

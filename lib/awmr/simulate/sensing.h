@@ -1,0 +1,38 @@
+/// What the controller is told. Private to this folder.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "awmr/control/controller.h"
+#include "awmr/control/guidance.h"
+#include "awmr/model/state.h"
+#include "awmr/simulate/disturbance.h"
+#include "awmr/simulate/world.h"
+
+namespace awmr {
+
+struct Sensed {
+  Measurement<double> motion;
+  Position<double> position_m;
+};
+
+class Sensing {
+ public:
+  Sensing(const std::optional<Sensors>& sensors, double sample_time_s, const RunSeed& seed);
+  /// The k-th sample; to be asked once per sample, in order from 0.
+  Sensed at(std::size_t k, const State<double>& truth);
+
+ private:
+  Position<double> navigate(std::size_t k, const State<double>& truth,
+                            const Measurement<double>& motion);
+  std::optional<Sensors> sensors_;
+  double sample_time_s_;
+  Random heading_, yaw_rate_, speed_, gps_;
+  std::vector<Position<double>> true_m_;       ///< by sample
+  std::vector<Position<double>> travelled_m_;  ///< by sample: dead reckoning from the first
+  Position<double> fix_offset_m_{};            ///< position = travelled + this
+  std::size_t next_fix_ = 0;
+};
+
+}  // namespace awmr

@@ -1,0 +1,134 @@
+/// What the world does to the vehicle beside the equations of motion: disturbances, faults of the
+/// wheels, sensors, actuators. Everything is off unless the scenario asks for it; what is random
+/// comes from seeds.
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "awmr/control/guidance.h"
+#include "awmr/model/parameters.h"
+
+namespace awmr {
+
+/// Force over F_max (surge forward, sway left positive) and moment over F_max in m,
+/// counter-clockwise positive.
+struct BodyLoad {
+  double surge = 0.0;
+  double sway = 0.0;
+  double yaw_m = 0.0;
+};
+
+/// From `from_s` on, up to but not including `to_s`.
+struct Window {
+  double from_s = 0.0;
+  double to_s = std::numeric_limits<double>::infinity();
+  bool holds(double t_s) const { return t_s >= from_s && t_s < to_s; }
+};
+
+/// One term of a disturbance, constant over each sample. Surge and sway: force over F_max, forward
+/// and left positive; yaw: moment over F_max in m, counter-clockwise positive.
+struct DisturbanceTerm {
+  enum class Kind { kConstant, kSine, kNoise };
+  Kind kind = Kind::kConstant;
+  /// kConstant: the value; kSine: the amplitude; kNoise: the standard deviation. Its sign counts.
+  double value = 0.0;
+  Window window;                    ///< a step is a constant with from_s > 0
+  double frequency_hz = 0.0;        ///< kSine, > 0
+  std::optional<double> phase_rad;  ///< kSine; absent: drawn from the seed
+  double bandwidth_hz = 0.0;        ///< kNoise, > 0: corner of the first-order low pass
+};
+
+/// A plane that falls by `angle_rad` towards `downhill_rad` (a heading in the world's frame).
+struct Slope {
+  double angle_rad = 0.0;
+  double downhill_rad = 0.0;
+};
+
+struct Disturbance {
+  std::vector<DisturbanceTerm> surge;
+  std::vector<DisturbanceTerm> sway;
+  std::vector<DisturbanceTerm> yaw;
+  std::optional<Slope> slope;
+  bool any() const { return slope || !surge.empty() || !sway.empty() || !yaw.empty(); }
+};
+
+/// By wheel: front left, front right, rear left, rear right.
+enum class Wheel { kFrontLeft, kFrontRight, kRearLeft, kRearRight };
+
+/// A motor that gives only a share of the force it is asked for.
+struct WheelFault {
+  std::vector<Wheel> wheels;
+  Window window;
+  double share = 0.0;  ///< [0, 1]; 0: the motor is dead
+};
+
+/// A slippery disc on the ground: a wheel on it passes on no more than `force_max`.
+struct SlipperyPatch {
+  Position<double> centre_m{};
+  double radius_m = 0.0;   ///< > 0
+  double force_max = 0.0;  ///< >= 0, over F_max
+};
+
+/// The battery runs down: the largest force of a motor falls linearly from all of F'max at
+/// `from_s` to `share_end` of it at `to_s`, and stays there. The controller does not know.
+struct Battery {
+  double from_s = 0.0;
+  double to_s = 0.0;       ///< > from_s
+  double share_end = 1.0;  ///< [0, 1]
+};
+
+/// Standard deviations are per reading (white), biases constant; a quantum of 0 does not quantise.
+struct Channel {
+  double noise = 0.0;
+  double bias = 0.0;
+  double quantum = 0.0;  ///< >= 0
+};
+
+/// A receiver that gives a position at its own rate, late. Between fixes the position is carried on
+/// by the measured heading and speed (dead reckoning).
+struct Gps {
+  double rate_hz = 0.0;    ///< > 0
+  double latency_s = 0.0;  ///< >= 0
+  Channel x, y;            ///< m
+  std::vector<Window> dropouts;
+};
+
+/// Without a sensor of a quantity the controller is given its true value, except sway: real
+/// vehicles do not measure it, `sway_measured` false gives 0.
+struct Sensors {
+  Channel heading;   ///< rad
+  Channel yaw_rate;  ///< rad/s
+  Channel speed;     ///< m/s, surge
+  bool sway_measured = true;
+  std::optional<Gps> gps;
+};
+
+/// Commands as an ATmega puts them out.
+struct Actuators {
+  double steering_quantum_rad = 0.0;  ///< > 0: one step of the servo's pulse
+  int pwm_counts = 0;                 ///< > 0: counts for the force F'max
+};
+
+/// A parameter at an end of its 95 % interval.
+struct CornerParameter {
+  ParameterId id{};
+  bool high = true;
+};
+
+/// How the controller is extended, beside the laws of control/controller.h.
+struct ControlOptions {
+  bool redistribute = true;  ///< combined mode: see CombinedSplit
+  struct Observer {
+    double bandwidth_radps = 0.0;  ///< > 0
+    double yaw_max_m = 0.0;        ///< > 0: most that is taken for a disturbance
+    double surge_max = 0.0;        ///< > 0
+    /// true: the observer is told what the limits leave of the command; false: what was asked for,
+    /// so that a saturated actuator looks like a disturbance and the estimate winds up.
+    bool anti_windup = true;
+  };
+  std::optional<Observer> observer;
+};
+
+}  // namespace awmr

@@ -1,0 +1,212 @@
+// scenario.json: disturbance, faults, slippery, battery, sensors, actuators, control, corner.
+
+#include <array>
+#include <string>
+
+#include "awmr/core/units.h"
+#include "awmr/simulate/scenario_json.h"
+
+namespace awmr {
+namespace {
+
+constexpr NumberRule kShare{.min = 0.0, .max = 1.0};
+
+Window read_window(JsonObject& json) {
+  Window window;
+  window.from_s = json.optional_number("from_s", kNonNegative).value_or(window.from_s);
+  window.to_s = json.optional_number("to_s", kNonNegative).value_or(window.to_s);
+  if (!(window.to_s > window.from_s)) json.fault("to_s", "has to be after from_s");
+  return window;
+}
+
+DisturbanceTerm read_term(JsonObject& json) {
+  static const std::array<std::string, 4> kinds{"constant", "step", "sine", "noise"};
+  DisturbanceTerm term;
+  const std::size_t kind = json.choice("type", kinds);
+  if (kind == 2) {
+    term.kind = DisturbanceTerm::Kind::kSine;
+    term.value = json.number("amplitude");
+    term.frequency_hz = json.number("frequency_hz", kPositive);
+    if (const auto phase_deg = json.optional_number("phase_deg")) {
+      term.phase_rad = radians(*phase_deg);
+    }
+  } else if (kind == 3) {
+    term.kind = DisturbanceTerm::Kind::kNoise;
+    term.value = json.number("std", kNonNegative);
+    term.bandwidth_hz = json.number("bandwidth_hz", kPositive);
+  } else {
+    term.value = json.number("value");
+  }
+  if (kind == 1) {
+    term.window.from_s = json.number("t_s", kNonNegative);
+  } else {
+    term.window = read_window(json);
+  }
+  json.reject_unknown_keys();
+  return term;
+}
+
+std::vector<DisturbanceTerm> read_terms(JsonObject& json, const char* key) {
+  std::vector<DisturbanceTerm> terms;
+  for (JsonObject& term : json.optional_objects(key)) terms.push_back(read_term(term));
+  return terms;
+}
+
+Disturbance read_disturbance(JsonObject json) {
+  Disturbance disturbance{.surge = read_terms(json, "surge"),
+                          .sway = read_terms(json, "sway"),
+                          .yaw = read_terms(json, "yaw"),
+                          .slope = {}};
+  if (auto slope = json.optional_object("slope")) {
+    disturbance.slope = Slope{radians(slope->number("angle_deg", {.min = 0.0, .max = 45.0})),
+                              radians(slope->number("downhill_deg"))};
+    slope->reject_unknown_keys();
+  }
+  json.reject_unknown_keys();
+  return disturbance;
+}
+
+WheelFault read_fault(JsonObject& json) {
+  static const std::array<std::string, 6> names{"front_left", "front_right", "rear_left",
+                                                "rear_right", "left",        "right"};
+  static const std::vector<Wheel> wheels[] = {{Wheel::kFrontLeft},
+                                              {Wheel::kFrontRight},
+                                              {Wheel::kRearLeft},
+                                              {Wheel::kRearRight},
+                                              {Wheel::kFrontLeft, Wheel::kRearLeft},
+                                              {Wheel::kFrontRight, Wheel::kRearRight}};
+  WheelFault fault{.wheels = wheels[json.choice("wheel", names)],
+                   .window = read_window(json),
+                   .share = json.number("share", kShare)};
+  json.reject_unknown_keys();
+  return fault;
+}
+
+SlipperyPatch read_patch(JsonObject& json) {
+  SlipperyPatch patch{.centre_m = {json.number("x_m"), json.number("y_m")},
+                      .radius_m = json.number("radius_m", kPositive),
+                      .force_max = json.number("force_max", kNonNegative)};
+  json.reject_unknown_keys();
+  return patch;
+}
+
+Battery read_battery(JsonObject json) {
+  Battery battery{.from_s = json.number("from_s", kNonNegative),
+                  .to_s = json.number("to_s", kPositive),
+                  .share_end = json.number("share_end", kShare)};
+  if (!(battery.to_s > battery.from_s)) json.fault("to_s", "has to be after from_s");
+  json.reject_unknown_keys();
+  return battery;
+}
+
+/// A sensor's numbers in the unit of the file, times `unit` in that of the program.
+Channel read_channel(JsonObject json, double unit) {
+  Channel channel{.noise = unit * json.optional_number("noise", kNonNegative).value_or(0.0),
+                  .bias = unit * json.optional_number("bias").value_or(0.0),
+                  .quantum = unit * json.optional_number("quantum", kNonNegative).value_or(0.0)};
+  json.reject_unknown_keys();
+  return channel;
+}
+
+Gps read_gps(JsonObject json) {
+  Gps gps;
+  gps.rate_hz = json.number("rate_hz", {.min = 0.0, .max = 1000.0, .min_excluded = true});
+  gps.latency_s = json.number("latency_s", kNonNegative);
+  gps.x.noise = json.number("noise_m", kNonNegative);
+  gps.x.quantum = json.optional_number("quantum_m", kNonNegative).value_or(0.0);
+  gps.y = gps.x;
+  for (JsonObject& window : json.optional_objects("dropouts")) {
+    gps.dropouts.push_back(read_window(window));
+    window.reject_unknown_keys();
+  }
+  json.reject_unknown_keys();
+  return gps;
+}
+
+Sensors read_sensors(JsonObject json) {
+  Sensors sensors;
+  const auto channel = [&](const char* key, double unit) {
+    const auto object = json.optional_object(key);
+    return object ? read_channel(*object, unit) : Channel{};
+  };
+  sensors.heading = channel("heading_deg", radians(1.0));
+  sensors.yaw_rate = channel("yaw_rate_degps", radians(1.0));
+  sensors.speed = channel("speed_mps", 1.0);
+  sensors.sway_measured = json.optional_boolean("sway_measured").value_or(true);
+  if (auto gps = json.optional_object("gps")) sensors.gps = read_gps(*gps);
+  json.reject_unknown_keys();
+  return sensors;
+}
+
+/// The servo's pulse: `us_per_deg` at a resolution of `step_us` (an ATmega's timer at 2 MHz: 0.5).
+Actuators read_actuators(JsonObject json) {
+  Actuators actuators;
+  if (auto servo = json.optional_object("servo")) {
+    const double us_per_deg = servo->number("us_per_deg", kPositive);
+    actuators.steering_quantum_rad = radians(servo->number("step_us", kPositive) / us_per_deg);
+    servo->reject_unknown_keys();
+  }
+  actuators.pwm_counts =
+      static_cast<int>(json.optional_integer("pwm_counts", 1, 65535).value_or(0));
+  json.reject_unknown_keys();
+  return actuators;
+}
+
+ControlOptions read_control(JsonObject json) {
+  static const std::array<std::string, 2> splits{"redistribute", "fixed_half"};
+  ControlOptions control;
+  if (json.has("combined_split")) {
+    control.redistribute = json.choice("combined_split", splits) == 0;
+  }
+  if (auto observer = json.optional_object("disturbance_observer")) {
+    control.observer =
+        ControlOptions::Observer{.bandwidth_radps = observer->number("bandwidth_radps", kPositive),
+                                 .yaw_max_m = observer->number("yaw_max_m", kPositive),
+                                 .surge_max = observer->number("surge_max", kPositive),
+                                 .anti_windup = observer->boolean("anti_windup")};
+    observer->reject_unknown_keys();
+  }
+  json.reject_unknown_keys();
+  return control;
+}
+
+std::vector<CornerParameter> read_corner(JsonObject json) {
+  static const std::array<std::string, 2> ends{"lo", "hi"};
+  std::vector<CornerParameter> corner;
+  for (const std::string& name : json.keys()) {
+    const bool high = json.choice(name, ends) == 1;
+    if (const auto id = parameter_by_name(name)) {
+      corner.push_back({*id, high});
+    } else {
+      std::string known;
+      for (const ParameterInfo& parameter : parameter_table()) {
+        known += (known.empty() ? "" : ", ") + std::string(parameter.name);
+      }
+      json.fault(name, "is no parameter; they are " + known);
+    }
+  }
+  return corner;
+}
+
+}  // namespace
+
+void read_world(JsonObject& json, Scenario& scenario) {
+  if (auto object = json.optional_object("disturbance")) {
+    scenario.disturbance = read_disturbance(*object);
+  }
+  for (JsonObject& fault : json.optional_objects("faults")) {
+    scenario.faults.push_back(read_fault(fault));
+  }
+  for (JsonObject& patch : json.optional_objects("slippery")) {
+    scenario.patches.push_back(read_patch(patch));
+  }
+  if (auto object = json.optional_object("battery")) scenario.battery = read_battery(*object);
+  if (auto object = json.optional_object("sensors")) scenario.sensors = read_sensors(*object);
+  if (auto object = json.optional_object("actuators")) {
+    scenario.actuators = read_actuators(*object);
+  }
+  if (auto object = json.optional_object("control")) scenario.control = read_control(*object);
+  if (auto object = json.optional_object("corner")) scenario.corner = read_corner(*object);
+}
+
+}  // namespace awmr
