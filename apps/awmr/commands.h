@@ -42,6 +42,8 @@ struct ValidateCommand {
   std::optional<fs::path> gains;
   ValidateOptions validate;
   fs::path output;
+  bool claims = false;                   ///< all fourteen, each with tolerance and reason
+  std::optional<fs::path> claims_table = {};  ///< Markdown
 };
 Result<Outcome> execute(const ValidateCommand& command);
 void add_validate(CLI::App& app, Session& session);

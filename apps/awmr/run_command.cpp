@@ -30,7 +30,8 @@ Status write_runs(const Project& project, const fs::path& directory) {
                      {.sample_time_s = model->vehicle.sample_time_s, .substeps = {}});
         const std::string file =
             fmt::format("run_{}_{}_{}.csv", path.stem().string(), name_of(mode), name);
-        if (auto written = write_file(directory / file, run_csv(run, *scenario)); !written) return written;
+        if (auto written = write_file(directory / file, run_csv(run, *scenario)); !written)
+          return written;
       }
     }
   }

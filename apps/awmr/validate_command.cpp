@@ -33,6 +33,8 @@ Result<Outcome> execute(const ValidateCommand& command) {
     const auto read = read_gains(*command.gains);
     if (!read) return tl::unexpected(read.error());
     gains = *read;
+  } else if (command.claims) {
+    gains = kPaperGains;
   }
   Provenance provenance{"validate", {{"tolerance", format_number(command.validate.tolerance)}}, {}};
   for (const auto& path : {std::optional(command.model), command.gains}) {
@@ -47,8 +49,14 @@ Result<Outcome> execute(const ValidateCommand& command) {
       !written) {
     return tl::unexpected(written.error());
   }
+  if (command.claims_table) {
+    const auto table = write_file(*command.claims_table, claims_markdown(validation->claims));
+    if (!table) return tl::unexpected(table.error());
+  }
   return Outcome{
-      .summary = validation_table(*validation) + fmt::format("wrote {}\n", command.output.string()),
+      .summary = (command.claims ? claims_table(validation->claims) + validation->verdict + '\n'
+                                 : validation_table(*validation)) +
+                 fmt::format("wrote {}\n", command.output.string()),
       .brief = brief_of(*validation),
       .refused = !validation->passed};
 }
@@ -64,6 +72,12 @@ void add_validate(CLI::App& app, Session& session) {
   sub->add_option("--tolerance", command->validate.tolerance,
                   "Largest accepted RMS relative error of a kind of trial (default 0.15)")
       ->check(CLI::PositiveNumber);
+  auto* claims = sub->add_flag("--claims", command->claims,
+                               "Tell of each of the paper's fourteen claims what was found, what "
+                               "counts and why; without --gains, with the paper's gains");
+  sub->add_option("--claims-table", command->claims_table,
+                  "Also write the claims as a Markdown table")
+      ->needs(claims);
   add_output(*sub, command->output, "validation.json to write");
 }
 

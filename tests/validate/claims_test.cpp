@@ -35,7 +35,8 @@ TEST(Claims, RunsOnlyTheOpenLoopOnesWithoutGains) {
   EXPECT_THAT(ids_of(check_claims(model, plant_of(model), std::nullopt)),
               ElementsAre("C1", "C2", "C14"));
   EXPECT_THAT(ids_of(check_claims(model, plant_of(model), kPaperGains)),
-              ElementsAre("C1", "C2", "C3", "C4", "C5", "C6", "C7", "C13", "C14"));
+              ElementsAre("C1", "C2", "C3", "C4", "C5", "C6", "C7", "C8", "C9", "C10", "C11", "C12",
+                          "C13", "C14"));
 }
 
 TEST(Claims, TheStraightRunGivesTheModelsAndTheMeasuredSpeed) {
@@ -100,7 +101,7 @@ TEST(Claims, TheTimeConstantsAreThePapers) {
 
 TEST(Claims, ThePapersGainsReproduceAllButTheSlightDrop) {
   const Model model = testing::fitted_paper_model();
-  const auto claims = check_claims(model, plant_of(model), kPaperGains);
+  const auto claims = check_heading_claims(model, plant_of(model), kPaperGains);
   for (const char* id : {"C3", "C4", "C6", "C7", "C13"}) {
     const Claim claim = claim_of(claims, id);
     EXPECT_TRUE(claim.reproduced) << id << ": " << claim.figure;
@@ -116,7 +117,7 @@ TEST(Claims, ThePapersGainsReproduceAllButTheSlightDrop) {
 TEST(Claims, MotorsThatOnlyDriveForwardCostTheDifferentialModeItsSpeed) {
   Model model = testing::fitted_paper_model();
   model.vehicle.wheel_force = {0.0, 0.5};
-  const Claim drop = claim_of(check_claims(model, plant_of(model), kPaperGains), "C5");
+  const Claim drop = claim_of(check_heading_claims(model, plant_of(model), kPaperGains), "C5");
   EXPECT_FALSE(drop.reproduced);
   EXPECT_THAT(drop.why, HasSubstr("a side saturates"));
 }
@@ -125,11 +126,11 @@ TEST(Claims, TheSideslipIsAlsoGivenForThePapersGains) {
   const Model model = testing::fitted_paper_model();
   Gains<double> fast = kPaperGains;
   fast.heading = {.lambda = 6.0, .mu = 100.0, .epsilon = 6.0};
-  const Claim own = claim_of(check_claims(model, plant_of(model), fast), "C6");
+  const Claim own = claim_of(check_heading_claims(model, plant_of(model), fast), "C6");
   // At 200 deg/s sway is m' r u/a_s = 0.0768 * 3.5/3 = 0.09 m/s: 5 deg without any steering.
   EXPECT_FALSE(own.reproduced) << own.figure;
   EXPECT_THAT(own.figure, HasSubstr("with the paper's gains"));
-  const Claim paper = claim_of(check_claims(model, plant_of(model), kPaperGains), "C6");
+  const Claim paper = claim_of(check_heading_claims(model, plant_of(model), kPaperGains), "C6");
   EXPECT_THAT(paper.figure, ::testing::Not(HasSubstr("with the paper's gains")));
 }
 
@@ -138,7 +139,7 @@ TEST(Claims, AControllerThatIsTooStiffForItsSampleTimeChatters) {
   Gains<double> stiff = kPaperGains;
   // mu/eps = 1000/s against 100 samples a second: S is overshot at every sample.
   stiff.heading = {.lambda = 3.0, .mu = 200.0, .epsilon = 0.2};
-  const Claim claim = claim_of(check_claims(model, plant_of(model), stiff), "C7");
+  const Claim claim = claim_of(check_heading_claims(model, plant_of(model), stiff), "C7");
   EXPECT_FALSE(claim.reproduced) << claim.figure;
 }
 
@@ -147,7 +148,7 @@ TEST(Claims, ALazyControllerIsNotFast) {
   Gains<double> lazy = kPaperGains;
   // With eps = 300 rad/s the slow pole is mu/eps = 1/6 per s: 2 % takes 4 * 6 s.
   lazy.heading.epsilon = 300.0;
-  const Claim claim = claim_of(check_claims(model, plant_of(model), lazy), "C3");
+  const Claim claim = claim_of(check_heading_claims(model, plant_of(model), lazy), "C3");
   EXPECT_FALSE(claim.reproduced);
   EXPECT_THAT(claim.why, HasSubstr("takes longer"));
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "awmr/core/units.h"
@@ -92,6 +93,11 @@ std::vector<Claim> check_claims(const Model& model, const Plant<double>& plant,
     for (Claim& claim : check_heading_claims(model, plant, *gains)) {
       claims.push_back(std::move(claim));
     }
+    // C13 goes after C8 to C12.
+    const auto driven = claims.end() - 1;
+    std::vector<Claim> guided = check_guidance_claims(model, plant, *gains);
+    claims.insert(driven, std::make_move_iterator(guided.begin()),
+                  std::make_move_iterator(guided.end()));
   }
   claims.push_back(check_time_constants(gains));
   return claims;

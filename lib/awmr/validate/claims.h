@@ -42,6 +42,10 @@ Claim check_time_constants(const std::optional<Gains<double>>& gains);
 std::vector<Claim> check_heading_claims(const Model& model, const Plant<double>& plant,
                                         const Gains<double>& gains);
 
+/// C8 to C12: waypoints, line, obstacles, timed path, best modes.           [paper 5, section 7]
+std::vector<Claim> check_guidance_claims(const Model& model, const Plant<double>& plant,
+                                         const Gains<double>& gains);
+
 /// Headings, each held for `hold_s`, at `speed_mps` from rest.
 Scenario heading_scenario(std::string name, std::span<const double> headings_deg, double hold_s,
                           double speed_mps);

@@ -69,4 +69,9 @@ std::string validation_text(const Validation& validation, const Provenance& prov
 /// The residuals and the claims as a table for a terminal.
 std::string validation_table(const Validation& validation);
 
+/// Every claim with verdict, figure, tolerance and why, for a terminal.
+std::string claims_table(const std::vector<Claim>& claims);
+/// The same as a Markdown table, for the documentation.
+std::string claims_markdown(const std::vector<Claim>& claims);
+
 }  // namespace awmr

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "awmr/validate/text.h"
 #include "awmr/validate/validate.h"
 
 namespace awmr {
@@ -13,7 +14,8 @@ std::string number_or_dash(const std::optional<double>& value, const char* forma
   return value ? fmt::format(fmt::runtime(format), *value) : "-";
 }
 
-/// Words filled into lines of kWidth, from the second on indented.
+}  // namespace
+
 std::string wrapped(const std::string& text, std::size_t indent) {
   std::string out(indent, ' ');
   std::size_t used = indent;
@@ -35,8 +37,6 @@ std::string wrapped(const std::string& text, std::size_t indent) {
   }
   return out + '\n';
 }
-
-}  // namespace
 
 std::string validation_table(const Validation& validation) {
   std::string text = fmt::format("{:<10} {:>5} {:>10} {:>10} {:<6} {:>9}\n", "trial", "line",

@@ -1,0 +1,12 @@
+/// Text for a terminal. Private to this folder.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+namespace awmr {
+
+/// Words filled into indented lines of 100 characters.
+std::string wrapped(const std::string& text, std::size_t indent);
+
+}  // namespace awmr
