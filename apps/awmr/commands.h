@@ -60,10 +60,12 @@ void add_simulate(CLI::App& app, Session& session);
 
 struct CompareCommand {
   fs::path model;
-  fs::path gains;
+  std::vector<fs::path> gains;
   std::vector<fs::path> scenarios;
   CompareOptions compare;
   fs::path output;
+  bool resume = false;  ///< go on from the output directory
+  bool quiet = false;   ///< no progress bar
 };
 Result<Outcome> execute(const CompareCommand& command);
 void add_compare(CLI::App& app, Session& session);

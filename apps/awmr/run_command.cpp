@@ -73,7 +73,7 @@ Result<Outcome> execute(const RunCommand& command) {
   auto emitted = execute(EmitCommand{model, gains, command.output});
   if (!emitted) return emitted;
   auto compared =
-      execute(CompareCommand{model, gains, project->scenarios, project->compare, command.output});
+      execute(CompareCommand{model, {gains}, project->scenarios, project->compare, command.output});
   if (!take("compare", compared)) return compared;
   if (const auto runs = write_runs(*project, command.output); !runs) {
     return tl::unexpected(runs.error());

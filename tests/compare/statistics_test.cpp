@@ -137,8 +137,8 @@ TEST(Ranking, PutsTheLowestScoreFirstAndNamesTies) {
             row(YawMode::kCombined, 0, 20.0)};
   const auto ranking = rank(group(c)[0]);
   EXPECT_THAT(ranks(ranking), ElementsAre(1, 1, 3));
-  EXPECT_THAT(ranking[0].tied_with, ElementsAre(YawMode::kCombined));
-  EXPECT_THAT(ranking[1].tied_with, ElementsAre(YawMode::kDifferential));
+  EXPECT_THAT(ranking[0].tied_with, ElementsAre("combined"));
+  EXPECT_THAT(ranking[1].tied_with, ElementsAre("differential"));
   EXPECT_EQ(ranking[2].mode, YawMode::kSteering);
   EXPECT_THAT(ranking[2].tied_with, IsEmpty());
   EXPECT_GT(ranking[2].score, ranking[0].score);

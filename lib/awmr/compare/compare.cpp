@@ -6,6 +6,7 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <thread>
 #include <utility>
@@ -18,7 +19,8 @@ namespace {
 
 constexpr std::size_t kModeCount = std::size(kYawModes);
 
-std::vector<Fault> option_faults(const std::vector<Scenario>& scenarios,
+std::vector<Fault> option_faults(const std::vector<NamedGains>& gains,
+                                 const std::vector<Scenario>& scenarios,
                                  const CompareOptions& options) {
   std::vector<Fault> faults;
   if (options.samples < 0) {
@@ -36,35 +38,121 @@ std::vector<Fault> option_faults(const std::vector<Scenario>& scenarios,
                                                   scenario.name)});
     }
   }
+  std::set<std::string> sets;
+  for (const NamedGains& set : gains) {
+    if (!sets.insert(set.name).second) {
+      faults.push_back({"--gains", fmt::format("two sets of gains are named '{}'", set.name)});
+    }
+  }
+  if (gains.empty()) faults.push_back({"--gains", "none given; give at least one"});
   return faults;
 }
 
-/// The model's own plant, then one per sample.
-Result<std::vector<Plant<double>>> plants_of(const Model& model, const std::string& model_file,
-                                             const CompareOptions& options) {
-  const Result<Plant<double>> nominal = model.plant(model_file);
-  if (!nominal) return tl::unexpected(nominal.error());
-  std::vector<Plant<double>> plants{*nominal};
-  if (options.samples == 0) return plants;
-  const Result<PlantSampler> sampler = PlantSampler::make(model, model_file);
-  if (!sampler) return tl::unexpected(sampler.error());
-  for (int sample = 1; sample <= options.samples; ++sample) {
-    const Result<Plant<double>> plant = sampler->draw(options.seed, sample);
-    if (!plant) return tl::unexpected(plant.error());
-    plants.push_back(*plant);
+/// The vehicles that are run: by sample, and by scenario where it has a corner.
+class Fleet {
+ public:
+  static Result<Fleet> make(const Model& model, const std::string& model_file,
+                            const std::vector<Scenario>& scenarios, const CompareOptions& options) {
+    const Result<Plant<double>> nominal = model.plant(model_file);
+    if (!nominal) return tl::unexpected(nominal.error());
+    std::vector<Model> drawn{model};
+    if (options.samples > 0) {
+      const Result<PlantSampler> sampler = PlantSampler::make(model, model_file);
+      if (!sampler) return tl::unexpected(sampler.error());
+      for (int sample = 1; sample <= options.samples; ++sample) {
+        Result<Model> one = sampler->draw_model(options.seed, sample);
+        if (!one) return tl::unexpected(one.error());
+        drawn.push_back(std::move(*one));
+      }
+    }
+    Fleet fleet;
+    for (const Scenario& scenario : scenarios) {
+      fleet.first_.push_back(fleet.plants_.size());
+      // Without a corner the vehicles are those of the first scenario without one.
+      if (scenario.corner.empty()) {
+        if (fleet.plain_) {
+          fleet.first_.back() = *fleet.plain_;
+          continue;
+        }
+        fleet.plain_ = fleet.plants_.size();
+      }
+      for (const Model& one : drawn) {
+        const Result<Plant<double>> plant = plant_for(scenario, one, model_file);
+        if (!plant) return tl::unexpected(plant.error());
+        fleet.plants_.push_back(*plant);
+      }
+    }
+    fleet.nominal_ = *nominal;
+    return fleet;
   }
-  return plants;
+  const Plant<double>& nominal() const { return nominal_; }
+  const Plant<double>& at(std::size_t scenario, std::size_t sample) const {
+    return plants_[first_[scenario] + sample];
+  }
+
+ private:
+  Plant<double> nominal_{};
+  std::vector<Plant<double>> plants_;
+  std::vector<std::size_t> first_;    ///< by scenario, into plants_
+  std::optional<std::size_t> plain_;  ///< into plants_
+};
+
+/// Where a row stands: by scenario, gains, mode, sample.
+struct Layout {
+  std::size_t scenarios, gains, samples;
+  std::size_t contenders() const { return gains * kModeCount; }
+  std::size_t count() const { return scenarios * contenders() * samples; }
+  std::size_t index(std::size_t scenario, std::size_t contender, std::size_t sample) const {
+    return (scenario * contenders() + contender) * samples + sample;
+  }
+};
+
+/// The rows, each once it is finished.
+using Slots = std::vector<std::optional<ComparisonRow>>;
+
+template <class Items, class Same>
+std::optional<std::size_t> position_of(const Items& items, const Same& same) {
+  const auto found = std::find_if(std::begin(items), std::end(items), same);
+  if (found == std::end(items)) return std::nullopt;
+  return static_cast<std::size_t>(found - std::begin(items));
 }
 
-/// Runs task(0) ... task(count - 1) once each, in any order. What a task throws comes out here.
-template <class Task>
-void run_in_parallel(std::size_t count, int threads, const Task& task) {
+Status take_finished(const std::vector<Scenario>& scenarios, const std::vector<NamedGains>& gains,
+                     const CompareOptions& options, const Layout& layout, Slots& slots) {
+  for (const ComparisonRow& row : options.finished) {
+    const auto scenario =
+        position_of(scenarios, [&](const Scenario& other) { return other.name == row.scenario; });
+    const auto set =
+        position_of(gains, [&](const NamedGains& other) { return other.name == row.gains; });
+    const auto mode = position_of(kYawModes, [&](YawMode other) { return other == row.mode; });
+    if (!scenario || !set || !mode || row.sample < 0) {
+      return input_error("--resume",
+                         fmt::format("the finished run of '{}' in sample {} is none of this "
+                                     "comparison's; compare into another directory",
+                                     row.scenario, row.sample));
+    }
+    const auto sample = static_cast<std::size_t>(row.sample);
+    if (sample >= layout.samples) continue;  // fewer samples are asked for now
+    slots[layout.index(*scenario, *set * kModeCount + *mode, sample)] = row;
+  }
+  return {};
+}
+
+/// Runs task(0) ... task(count - 1) once each, in any order, until `stop`; `after` is called on
+/// this thread. What a task throws comes out here.
+template <class Task, class After>
+void run_in_parallel(std::size_t count, int threads, const std::atomic<bool>* stop,
+                     const Task& task, const After& after) {
   std::atomic<std::size_t> next = 0;
   std::exception_ptr thrown;
   std::mutex thrown_mutex;
-  const auto work = [&] {
+  const auto work = [&](const auto& then) {
     try {
-      for (std::size_t i = next++; i < count; i = next++) task(i);
+      for (std::size_t i = next++; i < count; i = next++) {
+        if (stop != nullptr && stop->load()) return;
+        task(i);
+        then();
+      }
     } catch (...) {
       const std::lock_guard lock(thrown_mutex);
       thrown = std::current_exception();
@@ -76,40 +164,86 @@ void run_in_parallel(std::size_t count, int threads, const Task& task) {
   {
     std::vector<std::jthread> helpers;
     // This thread works too.
-    for (std::size_t i = 1; i < std::min(wanted, count); ++i) helpers.emplace_back(work);
-    work();
+    for (std::size_t i = 1; i < std::min(wanted, count); ++i) {
+      helpers.emplace_back([&] { work([] {}); });
+    }
+    work(after);
   }
   if (thrown) std::rethrow_exception(thrown);
+}
+
+Comparison gathered(const Layout& layout, Slots slots) {
+  Comparison comparison;
+  std::size_t whole = layout.samples;
+  for (std::size_t i = 0; i < slots.size(); ++i) {
+    if (slots[i]) {
+      comparison.rows.push_back(std::move(*slots[i]));
+    } else {
+      whole = std::min(whole, i % layout.samples);
+      comparison.stopped = true;
+    }
+  }
+  comparison.whole_samples = static_cast<int>(whole);
+  return comparison;
 }
 
 }  // namespace
 
 Result<Comparison> compare(const Model& model, const std::string& model_file,
+                           const std::vector<NamedGains>& gains,
+                           const std::vector<Scenario>& scenarios, const CompareOptions& options) {
+  std::vector<Fault> faults = option_faults(gains, scenarios, options);
+  if (!faults.empty()) return input_errors(std::move(faults));
+  const auto fleet = Fleet::make(model, model_file, scenarios, options);
+  if (!fleet) return tl::unexpected(fleet.error());
+
+  const Layout layout{scenarios.size(), gains.size(),
+                      static_cast<std::size_t>(options.samples) + 1};
+  Slots slots(layout.count());
+  if (const Status taken = take_finished(scenarios, gains, options, layout, slots); !taken) {
+    return tl::unexpected(taken.error());
+  }
+  const auto run_one = [&](std::size_t scenario, std::size_t contender, std::size_t sample) {
+    const NamedGains& set = gains[contender / kModeCount];
+    const YawMode mode = kYawModes[contender % kModeCount];
+    // The controller knows the model's own values, not the drawn ones.
+    const Controller<double> controller =
+        make_controller(fleet->nominal(), model.vehicle, set.gains);
+    // Sample 0 is the run of `awmr simulate`: the scenario's seed alone.
+    const Run run = simulate(fleet->at(scenario, sample), controller, scenarios[scenario], mode,
+                             {.sample_time_s = model.vehicle.sample_time_s,
+                              .substeps = {},
+                              .seed = sample == 0 ? 0 : options.seed,
+                              .sample = sample});
+    return ComparisonRow{.scenario = scenarios[scenario].name,
+                         .mode = mode,
+                         .sample = static_cast<int>(sample),
+                         .metrics = metrics_of(run, scenarios[scenario], controller),
+                         .gains = set.name};
+  };
+  std::atomic<std::size_t> done = 0;
+  const std::size_t per_sample = layout.scenarios * layout.contenders();
+  // Each task owns one slot, so the order in which threads take them leaves no trace.
+  run_in_parallel(
+      layout.count(), options.threads, options.stop,
+      [&](std::size_t i) {
+        const std::size_t sample = i / per_sample;
+        const std::size_t scenario = i % per_sample / layout.contenders();
+        const std::size_t contender = i % layout.contenders();
+        auto& slot = slots[layout.index(scenario, contender, sample)];
+        if (!slot) slot = run_one(scenario, contender, sample);
+        ++done;
+      },
+      [&] {
+        if (options.progress) options.progress(done, layout.count());
+      });
+  return gathered(layout, std::move(slots));
+}
+
+Result<Comparison> compare(const Model& model, const std::string& model_file,
                            const Gains<double>& gains, const std::vector<Scenario>& scenarios,
                            const CompareOptions& options) {
-  std::vector<Fault> faults = option_faults(scenarios, options);
-  if (!faults.empty()) return input_errors(std::move(faults));
-  const auto plants = plants_of(model, model_file, options);
-  if (!plants) return tl::unexpected(plants.error());
-
-  // The controller knows the model's own values, not the drawn ones.
-  const Controller<double> controller = make_controller(plants->front(), model.vehicle, gains);
-  const std::size_t samples = plants->size();
-  Comparison comparison;
-  comparison.rows.resize(scenarios.size() * kModeCount * samples);
-  // Each task owns one row, so the order in which threads take them leaves no trace.
-  run_in_parallel(comparison.rows.size(), options.threads, [&](std::size_t i) {
-    const Scenario& scenario = scenarios[i / (kModeCount * samples)];
-    const std::size_t sample = i % samples;
-    const YawMode mode = kYawModes[(i / samples) % kModeCount];
-    const Run run = simulate((*plants)[sample], controller, scenario, mode,
-                             {.sample_time_s = model.vehicle.sample_time_s, .substeps = {}});
-    comparison.rows[i] = {.scenario = scenario.name,
-                          .mode = mode,
-                          .sample = static_cast<int>(sample),
-                          .metrics = metrics_of(run, scenario, controller)};
-  });
-  return comparison;
+  return compare(model, model_file, std::vector<NamedGains>{{"", gains}}, scenarios, options);
 }
 
 }  // namespace awmr

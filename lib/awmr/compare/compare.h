@@ -1,7 +1,11 @@
-/// The three yaw-control modes on the same scenarios: metrics, paired differences, ranking.
+/// The three yaw-control modes, and several sets of gains, on the same scenarios: metrics, paired
+/// differences, ranking.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
+#include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -14,10 +18,10 @@
 
 namespace awmr {
 
-struct CompareOptions {
-  int samples = 0;  ///< Monte-Carlo samples beside the nominal model (sample 0), >= 0
-  std::uint64_t seed = 1;
-  int threads = 0;  ///< 0: one per core; results do not depend on it
+/// One set of gains, by the name that its rows carry.
+struct NamedGains {
+  std::string name;  ///< empty where there is only one set
+  Gains<double> gains;
 };
 
 struct ComparisonRow {
@@ -25,28 +29,57 @@ struct ComparisonRow {
   YawMode mode{};
   int sample = 0;  ///< 0: the model's own values
   Metrics metrics;
+  std::string gains = {};  ///< NamedGains::name
+};
+
+struct CompareOptions {
+  int samples = 0;  ///< Monte-Carlo samples beside the nominal model (sample 0), >= 0
+  std::uint64_t seed = 1;
+  int threads = 0;  ///< 0: one per core; results do not depend on it
+  /// Rows that are there already, from a comparison of the same inputs and seed.
+  std::vector<ComparisonRow> finished = {};
+  /// Told of the runs done and of all, from the thread that called compare().
+  std::function<void(std::size_t done, std::size_t total)> progress = {};
+  /// Once true, no further run is begun.
+  const std::atomic<bool>* stop = nullptr;
 };
 
 struct Comparison {
-  std::vector<ComparisonRow> rows;  ///< by scenario, mode, sample
+  std::vector<ComparisonRow> rows;  ///< the finished ones, by scenario, gains, mode, sample
+  /// Samples, the nominal one included, that every scenario, mode and set of gains has from 0 on:
+  /// what is judged. Fewer than asked for where the comparison was stopped.
+  int whole_samples = 0;
+  bool stopped = false;
 };
 
-/// Samples draw the fitted parameters from the model's covariance (draw.h), the same draw for all
-/// three modes and every scenario; the controller keeps the model's own values.
-/// Errors (input): the model lacks a parameter, or, with samples, a covariance to draw from; no
-/// scenario, or two of the same name; a negative number of samples or threads.
+/// Samples draw the fitted parameters from the model's covariance (draw.h), and the scenarios'
+/// noise and disturbances from the seeds: the same draws for all modes and gains. The controller
+/// keeps the model's own values. Samples are run one after the other, each in every scenario and
+/// mode, so that a stopped comparison is a smaller one. Errors (input): the model lacks a
+/// parameter, or, with samples, a covariance to draw from, or an interval that a scenario's corner
+/// needs; no scenario, or two of the same name; a negative number of samples or threads; a finished
+/// row that is none of this comparison's.
+Result<Comparison> compare(const Model& model, const std::string& model_file,
+                           const std::vector<NamedGains>& gains,
+                           const std::vector<Scenario>& scenarios, const CompareOptions& options);
 Result<Comparison> compare(const Model& model, const std::string& model_file,
                            const Gains<double>& gains, const std::vector<Scenario>& scenarios,
                            const CompareOptions& options);
 
 /// The bytes of comparison.csv: the contract's columns, `completed` as 1 or 0, empty cells where a
-/// metric has no meaning.
+/// metric has no meaning; with several sets of gains also `gains`.
 std::string comparison_csv(const Comparison& comparison);
 /// The bytes of comparison.json.
 std::string comparison_text(const Comparison& comparison, const CompareOptions& options,
                             const Provenance& provenance);
 
-/// Figures by scenario and mode, and the ranking, as a table for a terminal.
-std::string comparison_table(const Comparison& comparison);
+/// The rows of a comparison.csv written before, and a check that its comparison.json is of the same
+/// inputs and options (`--samples` and `--threads` may differ). Errors (input): the files are
+/// missing, malformed or of another comparison.
+Result<std::vector<ComparisonRow>> read_finished(const std::filesystem::path& directory,
+                                                 const Provenance& provenance);
+
+/// Figures by scenario and mode, the ranking and a verdict in a sentence, for a terminal.
+std::string comparison_table(const Comparison& comparison, std::uint64_t seed = 1);
 
 }  // namespace awmr

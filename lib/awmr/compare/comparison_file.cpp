@@ -1,5 +1,8 @@
 // comparison.csv and comparison.json.
 
+#include <algorithm>
+
+#include "awmr/compare/binomial.h"
 #include "awmr/compare/ranking.h"
 #include "awmr/compare/statistics.h"
 #include "awmr/core/csv.h"
@@ -20,6 +23,10 @@ Json optional_json(const std::optional<double>& value) {
   return value ? Json(*value) : Json(nullptr);
 }
 
+Json interval_json(const std::optional<Interval>& interval) {
+  return interval ? Json::array({interval->lo, interval->hi}) : Json(nullptr);
+}
+
 Json summary_json(const Summary& summary) {
   return {{"nominal", optional_json(summary.nominal)}, {"count", summary.count},
           {"mean", optional_json(summary.mean)},       {"q05", optional_json(summary.q05)},
@@ -28,7 +35,15 @@ Json summary_json(const Summary& summary) {
 
 Json mode_json(const ModeRows& rows) {
   Json json;
-  json["completed"] = {{"nominal", rows.nominal().completed}, {"share", rows.completed_share()}};
+  const std::size_t runs = rows.counted().size();
+  json["completed"] = {
+      {"nominal", rows.nominal().completed},
+      {"count", rows.completed_count()},
+      {"of", runs},
+      {"share", rows.completed_share()},
+      {"ci95",
+       interval_json(runs >= 2 ? std::optional(clopper_pearson(rows.completed_count(), runs))
+                               : std::nullopt)}};
   json["metrics"] = Json::object();
   for (const MetricColumn& metric : kMetricColumns) {
     json["metrics"][std::string(metric.name)] = summary_json(summarise(rows, metric));
@@ -37,22 +52,24 @@ Json mode_json(const ModeRows& rows) {
 }
 
 Json difference_json(const PairedDifference& d) {
-  return {{"first", name_of(d.first)},
-          {"second", name_of(d.second)},
+  return {{"first", d.first_label},
+          {"second", d.second_label},
           {"metric", d.metric},
           {"nominal", optional_json(d.nominal)},
           {"count", d.count},
           {"mean", optional_json(d.mean)},
-          {"ci95", d.ci95 ? Json::array({d.ci95->lo, d.ci95->hi}) : Json(nullptr)}};
+          {"ci95", interval_json(d.ci95)},
+          {"p", optional_json(d.p)},
+          {"p_holm", optional_json(d.p_holm)}};
 }
 
 Json ranked_json(const RankedMode& ranked) {
   Json json = {{"rank", ranked.rank},
-               {"mode", name_of(ranked.mode)},
+               {"mode", ranked.label},
                {"score", ranked.score},
                {"completed_share", ranked.completed_share},
-               {"tied_with", Json::array()}};
-  for (const YawMode mode : ranked.tied_with) json["tied_with"].push_back(name_of(mode));
+               {"behind_ci95", interval_json(ranked.behind_ci95)},
+               {"tied_with", ranked.tied_with}};
   return json;
 }
 
@@ -61,18 +78,21 @@ Json scenario_json(const ScenarioRows& scenario, std::uint64_t seed, std::uint64
   json["name"] = scenario.scenario;
   json["modes"] = Json::object();
   for (const ModeRows& rows : scenario.modes) {
-    json["modes"][std::string(name_of(rows.mode))] = mode_json(rows);
+    json["modes"][rows.label()] = mode_json(rows);
   }
   json["paired_differences"] = Json::array();
-  for (const PairedDifference& d : paired_differences(scenario, seed, stream)) {
+  const std::vector<PairedDifference> differences = paired_differences(scenario, seed, stream);
+  for (const PairedDifference& d : differences) {
     // A metric without meaning for the scenario has no difference either.
     if (d.nominal || d.mean) json["paired_differences"].push_back(difference_json(d));
   }
   json["ranking"] = Json::array();
-  for (const RankedMode& ranked : rank(scenario)) json["ranking"].push_back(ranked_json(ranked));
+  const std::vector<RankedMode> ranking = rank(scenario, seed, stream);
+  for (const RankedMode& ranked : ranking) json["ranking"].push_back(ranked_json(ranked));
   if (json["ranking"].empty()) {
     json["ranking_note"] = "not ranked: the scenario gives the vehicle nothing to follow";
   }
+  json["verdict"] = verdict_of(scenario, ranking, differences);
   return json;
 }
 
@@ -82,6 +102,12 @@ Json statistics_json(int samples) {
   json["paired_differences"] = "first minus second, by sample";
   json["ci95"] = samples >= 2 ? "of the mean, percentile bootstrap over samples"
                               : "null: an interval needs at least 2 samples (--samples)";
+  json["p"] = samples >= 2 ? "two-sided, paired t test of the mean difference"
+                           : "null: a test needs at least 2 samples (--samples)";
+  json["p_holm"] = samples >= 2 ? "p corrected for all differences of the scenario (Holm)"
+                                : "null: a test needs at least 2 samples (--samples)";
+  json["completed_ci95"] = samples >= 2 ? "of the share, exact (Clopper-Pearson)"
+                                        : "null: an interval needs at least 2 samples (--samples)";
   json["resamples"] = samples >= 2 ? Json(kResamples) : Json(nullptr);
   json["quantiles"] = samples >= 2 ? "5, 50 and 95 %, linear between order statistics"
                                    : "null: quantiles need at least 2 samples (--samples)";
@@ -103,12 +129,14 @@ Json ranking_json() {
 }  // namespace
 
 std::string comparison_csv(const Comparison& comparison) {
+  const bool several = std::any_of(comparison.rows.begin(), comparison.rows.end(),
+                                   [](const ComparisonRow& row) { return !row.gains.empty(); });
   std::string text = "scenario,mode,sample,completed";
   for (const MetricColumn& metric : kMetricColumns) {
     text += ',';
     text += metric.name;
   }
-  text += '\n';
+  text += several ? ",gains\n" : "\n";
   for (const ComparisonRow& row : comparison.rows) {
     text += cell(row.scenario);
     text += ',';
@@ -118,6 +146,7 @@ std::string comparison_csv(const Comparison& comparison) {
       text += ',';
       if (const auto value = metric.value(row.metrics)) text += format_number(*value);
     }
+    if (several) text += ',' + cell(row.gains);
     text += '\n';
   }
   return text;
@@ -128,13 +157,18 @@ std::string comparison_text(const Comparison& comparison, const CompareOptions& 
   Json json;
   json["schema"] = "awmr.comparison/1";
   put_provenance(json, provenance);
+  const Comparison judged = judged_part(comparison);
+  const int samples = comparison.stopped ? std::max(0, judged.whole_samples - 1) : options.samples;
   json["samples"] = options.samples;
+  if (comparison.stopped) {
+    json["stopped"] = {{"finished_runs", comparison.rows.size()}, {"judged_samples", samples}};
+  }
   json["seed"] = options.seed;
-  json["statistics"] = statistics_json(options.samples);
+  json["statistics"] = statistics_json(samples);
   json["ranking"] = ranking_json();
   json["scenarios"] = Json::array();
   std::uint64_t stream = 0;
-  for (const ScenarioRows& scenario : group(comparison)) {
+  for (const ScenarioRows& scenario : group(judged)) {
     json["scenarios"].push_back(scenario_json(scenario, options.seed, stream++));
   }
   return to_text(json);

@@ -26,23 +26,46 @@ bool is_shown(const ScenarioRows& scenario, const MetricColumn& metric) {
   });
 }
 
-std::string place_of(YawMode mode, const std::vector<RankedMode>& ranking) {
+std::string place_of(const std::string& label, const std::vector<RankedMode>& ranking) {
   for (const RankedMode& ranked : ranking) {
-    if (ranked.mode == mode) {
+    if (ranked.label == label) {
       return fmt::format("{}{}", ranked.rank, ranked.tied_with.empty() ? "" : "=");
     }
   }
   return "-";
 }
 
-std::string table_of(const ScenarioRows& scenario) {
-  const std::vector<RankedMode> ranking = rank(scenario);
-  std::string head = fmt::format("  {:<12} {:>4}", "mode", "done");
-  std::string units = fmt::format("  {:<12} {:>4}", "", "%");
+/// Words filled into lines of 100 characters, two spaces before each.
+std::string wrapped(const std::string& text) {
+  constexpr std::size_t kWidth = 100;
+  std::string out;
+  std::string line(1, ' ');
+  for (std::size_t start = 0; start < text.size();) {
+    const std::size_t end = std::min(text.find(' ', start), text.size());
+    const std::string word = text.substr(start, end - start);
+    if (line.size() + 1 + word.size() > kWidth) {
+      out += line;
+      out += '\n';
+      line.assign(1, ' ');
+    }
+    line += ' ';
+    line += word;
+    start = end + 1;
+  }
+  out += line;
+  out += '\n';
+  return out;
+}
+
+std::string table_of(const ScenarioRows& scenario, const std::vector<RankedMode>& ranking) {
+  std::size_t width = 12;
+  for (const ModeRows& rows : scenario.modes) width = std::max(width, rows.label().size());
+  std::string head = fmt::format("  {:<{}} {:>4}", "mode", width, "done");
+  std::string units = fmt::format("  {:<{}} {:>4}", "", width, "%");
   std::vector<std::string> lines;
   for (const ModeRows& rows : scenario.modes) {
     lines.push_back(
-        fmt::format("  {:<12} {:>4.0f}", name_of(rows.mode), 100.0 * rows.completed_share()));
+        fmt::format("  {:<{}} {:>4.0f}", rows.label(), width, 100.0 * rows.completed_share()));
   }
   for (std::size_t i = 0; i < kMetricColumns.size(); ++i) {
     if (!is_shown(scenario, kMetricColumns[i])) continue;
@@ -55,21 +78,25 @@ std::string table_of(const ScenarioRows& scenario) {
   }
   std::string text = head + " rank\n" + units + '\n';
   for (std::size_t mode = 0; mode < lines.size(); ++mode) {
-    text += fmt::format("{} {:>4}\n", lines[mode], place_of(scenario.modes[mode].mode, ranking));
+    text += fmt::format("{} {:>4}\n", lines[mode], place_of(scenario.modes[mode].label(), ranking));
   }
   return text;
 }
 
 }  // namespace
 
-std::string comparison_table(const Comparison& comparison) {
+std::string comparison_table(const Comparison& comparison, std::uint64_t seed) {
   std::string text;
-  for (const ScenarioRows& scenario : group(comparison)) {
+  const Comparison judged = judged_part(comparison);
+  std::uint64_t stream = 0;
+  for (const ScenarioRows& scenario : group(judged)) {
+    const std::vector<RankedMode> ranking = rank(scenario, seed, stream);
     const std::size_t samples = scenario.modes.front().rows.size() - 1;
     text += fmt::format(
         "{}: {}\n", scenario.scenario,
         samples == 0 ? "the model's own values" : fmt::format("mean of {} sample(s)", samples));
-    text += table_of(scenario);
+    text += table_of(scenario, ranking);
+    text += wrapped(verdict_of(scenario, ranking, paired_differences(scenario, seed, stream++)));
   }
   return text;
 }

@@ -90,6 +90,12 @@ Result<PlantSampler> PlantSampler::make(const Model& model, const std::string& m
 }
 
 Result<Plant<double>> PlantSampler::draw(std::uint64_t seed, int sample) const {
+  const Result<Model> drawn = draw_model(seed, sample);
+  if (!drawn) return tl::unexpected(drawn.error());
+  return drawn->plant(model_file_);
+}
+
+Result<Model> PlantSampler::draw_model(std::uint64_t seed, int sample) const {
   Random random(seed, static_cast<std::uint64_t>(sample));
   const std::vector<ParameterId>& ids = model_.covariance.parameters;
   std::vector<double> normals(ids.size());
@@ -104,7 +110,7 @@ Result<Plant<double>> PlantSampler::draw(std::uint64_t seed, int sample) const {
       accepted = accepted && in_range(model_.vehicle, ids[i], value);
       drawn[ids[i]].value = value;
     }
-    if (accepted) return drawn.plant(model_file_);
+    if (accepted) return drawn;
   }
   return input_error(model_file_ + ":/vehicle",
                      fmt::format("{} draws of the exponents all fell outside surge_beta_range or "

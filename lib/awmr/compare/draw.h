@@ -23,6 +23,8 @@ class PlantSampler {
   /// The plant of `sample` (>= 1): depends on seed and sample alone. Errors (input): the ranges of
   /// the exponents leave next to nothing to draw.
   Result<Plant<double>> draw(std::uint64_t seed, int sample) const;
+  /// The same as a model, whose intervals are still those of the identified one.
+  Result<Model> draw_model(std::uint64_t seed, int sample) const;
 
  private:
   Model model_;

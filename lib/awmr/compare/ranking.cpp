@@ -1,9 +1,16 @@
 #include "awmr/compare/ranking.h"
 
 #include <algorithm>
+#include <numeric>
+
+#include "awmr/compare/binomial.h"
+#include "awmr/core/random.h"
 
 namespace awmr {
 namespace {
+
+/// The bootstrap of scores is apart from that of differences (statistics.cpp) and from the draws.
+constexpr std::uint64_t kScoreStream = std::uint64_t{3} << 62U;
 
 /// True where some mode was judged by how well it followed a command.
 bool has_a_goal(const ScenarioRows& scenario) {
@@ -13,38 +20,99 @@ bool has_a_goal(const ScenarioRows& scenario) {
   });
 }
 
-std::vector<double> scores_of(const ScenarioRows& scenario) {
-  std::vector<double> sums(scenario.modes.size(), 0.0);
-  int metrics = 0;
-  for (const MetricColumn& metric : kMetricColumns) {
-    if (!(metric.ranking_floor > 0.0)) continue;
-    std::vector<std::optional<double>> means;
-    double worst = metric.ranking_floor;
-    bool any = false;
-    for (const ModeRows& rows : scenario.modes) {
-      means.push_back(summarise(rows, metric).mean);
-      any = any || means.back();
-      worst = std::max(worst, means.back().value_or(0.0));
-    }
-    if (!any) continue;
-    ++metrics;
-    for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += means[i] ? *means[i] / worst : 1.0;
-  }
-  for (double& sum : sums) sum /= metrics > 0 ? metrics : 1;
-  return sums;
+bool any_has(const ScenarioRows& scenario, const MetricColumn& metric) {
+  return std::any_of(scenario.modes.begin(), scenario.modes.end(), [&](const ModeRows& rows) {
+    return summarise(rows, metric).mean.has_value();
+  });
 }
 
-}  // namespace
+/// The metrics that rank this scenario's modes, with their scales.
+struct Scale {
+  const MetricColumn* metric;
+  double scale;
+};
 
-std::vector<RankedMode> rank(const ScenarioRows& scenario) {
-  if (!has_a_goal(scenario)) return {};
-  const std::vector<double> scores = scores_of(scenario);
+std::vector<Scale> scales_of(const ScenarioRows& scenario) {
+  std::vector<Scale> scales;
+  for (const MetricColumn& metric : kMetricColumns) {
+    if (metric.ranking_floor > 0.0 && any_has(scenario, metric)) {
+      scales.push_back({&metric, scale_of(scenario, metric)});
+    }
+  }
+  return scales;
+}
+
+/// Mean of one mode's metric over its runs, over the scale; 1 where it has none.
+double score_of(const ModeRows& rows, const std::vector<Scale>& scales) {
+  double sum = 0.0;
+  for (const Scale& scale : scales) {
+    const auto mean = summarise(rows, *scale.metric).mean;
+    sum += mean ? *mean / scale.scale : 1.0;
+  }
+  return scales.empty() ? 0.0 : sum / static_cast<double>(scales.size());
+}
+
+/// One run's score on the same scales.
+double score_of(const Metrics& metrics, const std::vector<Scale>& scales) {
+  double sum = 0.0;
+  for (const Scale& scale : scales) {
+    const auto value = scale.metric->value(metrics);
+    sum += value ? *value / scale.scale : 1.0;
+  }
+  return sum / static_cast<double>(scales.size());
+}
+
+/// 95 % interval of the mean of a's score minus b's, sample by sample.
+Interval score_difference(const ModeRows& a, const ModeRows& b, const std::vector<Scale>& scales,
+                          Random random) {
+  const auto first = a.counted();
+  const auto second = b.counted();
+  std::vector<double> by_sample;
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    by_sample.push_back(score_of(first[i].metrics, scales) - score_of(second[i].metrics, scales));
+  }
+  const auto n = static_cast<double>(by_sample.size());
+  std::vector<double> means;
+  for (int resample = 0; resample < kResamples; ++resample) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < by_sample.size(); ++i) {
+      sum += by_sample[static_cast<std::size_t>(random.uniform() * n)];
+    }
+    means.push_back(sum / n);
+  }
+  std::sort(means.begin(), means.end());
+  return {quantile(means, 0.025), quantile(means, 0.975)};
+}
+
+bool complete_alike(const ModeRows& a, const ModeRows& b) {
+  const auto first = a.counted();
+  const auto second = b.counted();
+  if (first.size() < 2) return a.completed_count() == b.completed_count();
+  std::size_t only_first = 0;
+  std::size_t only_second = 0;
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    if (first[i].metrics.completed && !second[i].metrics.completed) ++only_first;
+    if (second[i].metrics.completed && !first[i].metrics.completed) ++only_second;
+  }
+  return mcnemar_p(only_first, only_second) >= kSignificance;
+}
+
+const ModeRows& rows_of(const ScenarioRows& scenario, const RankedMode& ranked) {
+  return *std::find_if(scenario.modes.begin(), scenario.modes.end(),
+                       [&](const ModeRows& rows) { return rows.label() == ranked.label; });
+}
+
+/// Best first, ranks not yet given.
+std::vector<RankedMode> sorted_modes(const ScenarioRows& scenario,
+                                     const std::vector<Scale>& scales) {
   std::vector<RankedMode> ranked;
-  for (std::size_t i = 0; i < scenario.modes.size(); ++i) {
+  for (const ModeRows& rows : scenario.modes) {
     ranked.push_back({.rank = 0,
-                      .mode = scenario.modes[i].mode,
-                      .score = scores[i],
-                      .completed_share = scenario.modes[i].completed_share(),
+                      .mode = rows.mode,
+                      .label = rows.label(),
+                      .score = score_of(rows, scales),
+                      .completed_share = rows.completed_share(),
+                      .behind_ci95 = {},
                       .tied_with = {}});
   }
   std::stable_sort(ranked.begin(), ranked.end(), [](const RankedMode& a, const RankedMode& b) {
@@ -52,16 +120,42 @@ std::vector<RankedMode> rank(const ScenarioRows& scenario) {
     if (a.completed_share < b.completed_share) return false;
     return a.score < b.score;
   });
+  return ranked;
+}
+
+}  // namespace
+
+double scale_of(const ScenarioRows& scenario, const MetricColumn& metric) {
+  double worst = metric.ranking_floor;
+  for (const ModeRows& rows : scenario.modes) {
+    worst = std::max(worst, summarise(rows, metric).mean.value_or(0.0));
+  }
+  return worst;
+}
+
+std::vector<RankedMode> rank(const ScenarioRows& scenario, std::uint64_t seed,
+                             std::uint64_t stream) {
+  if (!has_a_goal(scenario)) return {};
+  const std::vector<Scale> scales = scales_of(scenario);
+  std::vector<RankedMode> ranked = sorted_modes(scenario, scales);
   std::size_t leader = 0;  // the best of the current rank
   for (std::size_t i = 0; i < ranked.size(); ++i) {
-    const bool ties = !(ranked[i].completed_share < ranked[leader].completed_share) &&
-                      ranked[i].score - ranked[leader].score <= kTieMargin;
-    if (!ties) leader = i;
+    const ModeRows& own = rows_of(scenario, ranked[i]);
+    const ModeRows& best = rows_of(scenario, ranked[leader]);
+    bool near = ranked[i].score - ranked[leader].score <= kTieMargin;
+    if (i != leader && own.counted().size() >= 2) {
+      ranked[i].behind_ci95 =
+          score_difference(own, best, scales, Random(seed, kScoreStream | (stream << 8U) | i));
+      near = near || ranked[i].behind_ci95->contains(0.0);
+    }
+    if (!near || !complete_alike(own, best)) leader = i;
     ranked[i].rank = static_cast<int>(leader) + 1;
   }
   for (RankedMode& mode : ranked) {
     for (const RankedMode& other : ranked) {
-      if (other.rank == mode.rank && other.mode != mode.mode) mode.tied_with.push_back(other.mode);
+      if (other.rank == mode.rank && other.label != mode.label) {
+        mode.tied_with.push_back(other.label);
+      }
     }
   }
   return ranked;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "awmr/compare/binomial.h"
 #include "awmr/core/random.h"
 
 namespace awmr {
@@ -34,6 +35,8 @@ Series series_of(const ModeRows& first, const ModeRows& second, const MetricColu
   Series series;
   series.result.first = first.mode;
   series.result.second = second.mode;
+  series.result.first_label = first.label();
+  series.result.second_label = second.label();
   series.result.metric = metric.name;
   series.result.nominal = difference(metric, first.nominal(), second.nominal());
   const auto a = first.counted();
@@ -46,7 +49,16 @@ Series series_of(const ModeRows& first, const ModeRows& second, const MetricColu
     sum += *d;
     ++series.result.count;
   }
-  if (series.result.count > 0) series.result.mean = sum / static_cast<double>(series.result.count);
+  if (series.result.count == 0) return series;
+  const double mean = sum / static_cast<double>(series.result.count);
+  series.result.mean = mean;
+  if (series.result.count < 2) return series;
+  double squares = 0.0;
+  for (const auto& d : series.by_sample) {
+    if (d) squares += (*d - mean) * (*d - mean);
+  }
+  const double deviation = std::sqrt(squares / static_cast<double>(series.result.count - 1));
+  series.result.p = paired_t_p(mean, deviation, series.result.count);
   return series;
 }
 
@@ -64,13 +76,57 @@ void add_resample(std::span<const std::size_t> chosen, std::vector<Series>& all)
   }
 }
 
+/// Fills in p_holm.
+void correct(std::vector<PairedDifference>& differences) {
+  std::vector<double> p;
+  for (const PairedDifference& d : differences) {
+    if (d.p) p.push_back(*d.p);
+  }
+  const std::vector<double> corrected = holm(p);
+  std::size_t next = 0;
+  for (PairedDifference& d : differences) {
+    if (d.p) d.p_holm = corrected[next++];
+  }
+}
+
 }  // namespace
 
-double ModeRows::completed_share() const {
+std::size_t ModeRows::completed_count() const {
   const auto runs = counted();
-  const auto completed = std::count_if(
-      runs.begin(), runs.end(), [](const ComparisonRow& row) { return row.metrics.completed; });
-  return static_cast<double>(completed) / static_cast<double>(runs.size());
+  return static_cast<std::size_t>(std::count_if(
+      runs.begin(), runs.end(), [](const ComparisonRow& row) { return row.metrics.completed; }));
+}
+
+double ModeRows::completed_share() const {
+  return static_cast<double>(completed_count()) / static_cast<double>(counted().size());
+}
+
+std::string ModeRows::label() const {
+  const std::string name(name_of(mode));
+  return gains.empty() ? name : name + " with " + gains;
+}
+
+Comparison judged_part(const Comparison& comparison) {
+  Comparison part{
+      .rows = {}, .whole_samples = comparison.whole_samples, .stopped = comparison.stopped};
+  for (const ComparisonRow& row : comparison.rows) {
+    if (row.sample < comparison.whole_samples) part.rows.push_back(row);
+  }
+  return part;
+}
+
+std::vector<double> holm(std::span<const double> p) {
+  std::vector<std::size_t> order(p.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return p[a] < p[b]; });
+  std::vector<double> corrected(p.size());
+  double largest = 0.0;  // of the smaller ones: the correction keeps their order
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    largest = std::max(largest, static_cast<double>(p.size() - i) * p[order[i]]);
+    corrected[order[i]] = std::min(1.0, largest);
+  }
+  return corrected;
 }
 
 std::vector<ScenarioRows> group(const Comparison& comparison) {
@@ -79,13 +135,14 @@ std::vector<ScenarioRows> group(const Comparison& comparison) {
   for (std::size_t begin = 0; begin < rows.size();) {
     std::size_t end = begin;
     while (end < rows.size() && rows[end].scenario == rows[begin].scenario &&
-           rows[end].mode == rows[begin].mode) {
+           rows[end].mode == rows[begin].mode && rows[end].gains == rows[begin].gains) {
       ++end;
     }
     if (scenarios.empty() || scenarios.back().scenario != rows[begin].scenario) {
       scenarios.push_back({rows[begin].scenario, {}});
     }
-    scenarios.back().modes.push_back({rows[begin].mode, rows.subspan(begin, end - begin)});
+    scenarios.back().modes.push_back(
+        {rows[begin].mode, rows[begin].gains, rows.subspan(begin, end - begin)});
     begin = end;
   }
   return scenarios;
@@ -121,9 +178,10 @@ std::vector<PairedDifference> paired_differences(const ScenarioRows& scenario, s
   std::vector<Series> all;
   for (std::size_t i = 0; i < scenario.modes.size(); ++i) {
     for (std::size_t j = i + 1; j < scenario.modes.size(); ++j) {
-      for (const MetricColumn& metric : kMetricColumns) {
-        all.push_back(series_of(scenario.modes[i], scenario.modes[j], metric));
-      }
+      const ModeRows& a = scenario.modes[i];
+      const ModeRows& b = scenario.modes[j];
+      if (a.mode != b.mode && a.gains != b.gains) continue;
+      for (const MetricColumn& metric : kMetricColumns) all.push_back(series_of(a, b, metric));
     }
   }
   const std::size_t samples = scenario.modes.front().rows.size() - 1;
@@ -146,6 +204,7 @@ std::vector<PairedDifference> paired_differences(const ScenarioRows& scenario, s
     }
     differences.push_back(series.result);
   }
+  correct(differences);
   return differences;
 }
 

@@ -13,9 +13,11 @@
 
 namespace awmr {
 
-/// The rows of one scenario in one mode: the model's own (sample 0), then the drawn ones.
+/// The rows of one scenario in one mode with one set of gains: the model's own (sample 0), then the
+/// drawn ones.
 struct ModeRows {
   YawMode mode{};
+  std::string gains;  ///< empty where there is one set only
   std::span<const ComparisonRow> rows;
 
   const Metrics& nominal() const { return rows.front().metrics; }
@@ -23,8 +25,11 @@ struct ModeRows {
   std::span<const ComparisonRow> counted() const {
     return rows.size() > 1 ? rows.subspan(1) : rows;
   }
+  std::size_t completed_count() const;
   /// Share of the counted runs that completed, in [0, 1].
   double completed_share() const;
+  /// "combined", or "combined with tuned.json".
+  std::string label() const;
 };
 
 struct ScenarioRows {
@@ -32,7 +37,10 @@ struct ScenarioRows {
   std::vector<ModeRows> modes;
 };
 
+/// All finished rows, which are to be whole: see judged_part().
 std::vector<ScenarioRows> group(const Comparison& comparison);
+/// The comparison without the samples that not all contenders have finished.
+Comparison judged_part(const Comparison& comparison);
 
 struct Summary {
   std::optional<double> nominal;
@@ -45,20 +53,32 @@ Summary summarise(const ModeRows& rows, const MetricColumn& metric);
 /// Linear between order statistics (type 7 of Hyndman and Fan). `sorted` is not empty, p in [0, 1].
 double quantile(std::span<const double> sorted, double p);
 
-/// first minus second, sample by sample: the same drawn vehicle in both modes.
+/// first minus second, sample by sample: the same drawn vehicle and noise in both modes.
 struct PairedDifference {
   YawMode first{};
   YawMode second{};
+  std::string first_label;
+  std::string second_label;
   std::string_view metric;
   std::optional<double> nominal;
   std::size_t count = 0;         ///< samples that have the metric in both modes
   std::optional<double> mean;    ///< over those
   std::optional<Interval> ci95;  ///< of the mean; absent for fewer than 2
+  std::optional<double> p;       ///< of the paired t test; absent for fewer than 2
+  /// p corrected for all differences of the scenario (Holm): below 0.05 the difference is real,
+  /// with at most a 5 % risk of a single wrong word in the whole scenario.
+  std::optional<double> p_holm;
 };
+
+inline constexpr double kSignificance = 0.05;
+
+/// Holm's step-down correction, in the order given.
+std::vector<double> holm(std::span<const double> p);
 
 inline constexpr int kResamples = 1000;
 /// 95 % intervals of the mean by the percentile bootstrap: whole samples are resampled, the same
-/// ones for every metric and pair. `stream` separates scenarios.
+/// ones for every metric and pair. `stream` separates scenarios. Pairs are of the same gains or of
+/// the same mode.
 std::vector<PairedDifference> paired_differences(const ScenarioRows& scenario, std::uint64_t seed,
                                                  std::uint64_t stream);
 

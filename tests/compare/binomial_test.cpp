@@ -1,0 +1,60 @@
+#include "awmr/compare/binomial.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "awmr/compare/statistics.h"
+
+namespace awmr {
+namespace {
+
+TEST(ClopperPearson, IsExactAtTheEnds) {
+  // 0 of n: the upper end solves (1 - p)^n = 0.025; n of n the other way round.
+  EXPECT_EQ(clopper_pearson(0, 20).lo, 0.0);
+  EXPECT_NEAR(clopper_pearson(0, 20).hi, 1.0 - std::pow(0.025, 1.0 / 20.0), 1e-12);
+  EXPECT_NEAR(clopper_pearson(20, 20).lo, std::pow(0.025, 1.0 / 20.0), 1e-12);
+  EXPECT_EQ(clopper_pearson(20, 20).hi, 1.0);
+}
+
+TEST(ClopperPearson, LeavesATailOfTwoAndAHalfPercentOnEachSide) {
+  const Interval share = clopper_pearson(7, 30);
+  const auto tail = [](double p, int from, int to) {
+    double sum = 0.0;
+    for (int k = from; k <= to; ++k) {
+      sum += std::exp(std::lgamma(31.0) - std::lgamma(k + 1.0) - std::lgamma(31.0 - k) +
+                      k * std::log(p) + (30 - k) * std::log1p(-p));
+    }
+    return sum;
+  };
+  EXPECT_NEAR(tail(share.lo, 7, 30), 0.025, 1e-9);
+  EXPECT_NEAR(tail(share.hi, 0, 7), 0.025, 1e-9);
+}
+
+TEST(McNemar, IsTheSignTestOfTheDiscordantPairs) {
+  EXPECT_EQ(mcnemar_p(0, 0), 1.0);
+  EXPECT_NEAR(mcnemar_p(0, 6), 2.0 / 64.0, 1e-12);
+  EXPECT_NEAR(mcnemar_p(1, 5), 2.0 * 7.0 / 64.0, 1e-12);
+  EXPECT_EQ(mcnemar_p(3, 3), 1.0);
+}
+
+TEST(PairedT, HasTheTablesQuantiles) {
+  // t(0.975; 9) = 2.262157 (any table): mean 2.262157 standard errors gives 5 %.
+  EXPECT_NEAR(paired_t_p(2.262157, std::sqrt(10.0), 10), 0.05, 1e-6);
+  EXPECT_EQ(paired_t_p(0.0, 0.0, 5), 1.0);
+  EXPECT_EQ(paired_t_p(1.0, 0.0, 5), 0.0);
+}
+
+TEST(Holm, StepsDownAndKeepsTheOrder) {
+  // 4 * 0.01, 3 * 0.02, then 2 * 0.03 and 0.2 no smaller than what came before.
+  const std::vector<double> p = {0.03, 0.01, 0.2, 0.02};
+  const std::vector<double> corrected = holm(p);
+  EXPECT_NEAR(corrected[1], 0.04, 1e-15);
+  EXPECT_NEAR(corrected[3], 0.06, 1e-15);
+  EXPECT_NEAR(corrected[0], 0.06, 1e-15);
+  EXPECT_NEAR(corrected[2], 0.2, 1e-15);
+}
+
+}  // namespace
+}  // namespace awmr

@@ -1,0 +1,42 @@
+/// Ctrl-C on the program itself.
+#include <gtest/gtest.h>
+
+#include "support/process.h"
+
+namespace awmr::testing {
+namespace {
+
+TEST(Interrupt, LeavesValidFilesAndResumeEndsInTheSameBytes) {
+  const TemporaryDirectory directory;
+  const std::string out = directory.path().string();
+  const std::string program = AWMR_PROGRAM;
+  const auto in_source = [](const std::string& line) { return run_process(line, AWMR_SOURCE_DIR); };
+  ASSERT_EQ(in_source(program +
+                      " identify --vehicle configs/paper/vehicle.json --surge "
+                      "datasets/paper/surge.csv --coastdown datasets/paper/coastdown.csv "
+                      "--turning datasets/paper/turning.csv -o " +
+                      out + "/model.json")
+                .exit_code,
+            0);
+  write_all(directory.path() / "gains.json",
+            R"({"schema": "awmr.gains/1", "heading": {"lambda": 3, "mu": 50, "epsilon": 12},)"
+            R"( "speed": {"mu": 5, "epsilon": 1.2}})");
+  const auto compare = [&](const std::string& samples, const std::string& to) {
+    return program + " compare --model " + out + "/model.json --gains " + out +
+           "/gains.json --scenario configs/paper/scenarios/c8_waypoints.json --seed 5 --samples " +
+           samples + " -o " + out + "/" + to;
+  };
+  // Long enough that it cannot be done in 1 s, so that the signal finds it at work.
+  const auto stopped = in_source("timeout --signal=INT 1 " + compare("20000", "part"));
+  EXPECT_NE(stopped.exit_code, 0);
+  EXPECT_NE(stopped.err.find("--resume"), std::string::npos) << stopped.err;
+  // Fewer samples in all: what is there is kept, what is missing is run.
+  const auto resumed = in_source(compare("12", "part") + " --resume");
+  EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
+  EXPECT_EQ(in_source(compare("12", "whole")).exit_code, 0);
+  EXPECT_EQ(read_all(directory.path() / "part/comparison.csv"),
+            read_all(directory.path() / "whole/comparison.csv"));
+}
+
+}  // namespace
+}  // namespace awmr::testing

@@ -1,0 +1,149 @@
+/// Stopping and going on, several sets of gains, noise from seeds.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "awmr/compare/compare.h"
+#include "awmr/core/file.h"
+#include "awmr/core/json.h"
+#include "awmr/model/gains_file.h"
+#include "compare/uncertain_model.h"
+#include "support/process.h"
+
+namespace awmr {
+namespace {
+
+using ::testing::HasSubstr;
+
+const std::vector<Scenario> kScenarios = {testing::short_heading("a"),
+                                          testing::short_heading("b, \"quoted\"")};
+const Provenance kProvenance{"compare", {{"samples", "6"}, {"seed", "3"}}, {{"model.json", "abc"}}};
+
+Comparison compared(const CompareOptions& options,
+                    const std::vector<NamedGains>& gains = {{"", kPaperGains}}) {
+  const auto c = compare(testing::uncertain_model(), "model.json", gains, kScenarios, options);
+  EXPECT_TRUE(c) << (c ? "" : to_text(c.error()));
+  return c.value_or(Comparison{});
+}
+
+/// Stopped once `runs` runs are done.
+Comparison stopped_after(std::size_t runs) {
+  std::atomic<bool> stop = false;
+  CompareOptions options{.samples = 6, .seed = 3, .threads = 1};
+  options.stop = &stop;
+  options.progress = [&](std::size_t done, std::size_t) { stop = done >= runs; };
+  return compared(options);
+}
+
+const CompareOptions kWhole{.samples = 6, .seed = 3, .threads = 2};
+
+TEST(Resume, AStoppedComparisonIsASmallerOne) {
+  const Comparison c = stopped_after(20);  // 6 runs a sample: 3 whole samples and 2 runs
+  EXPECT_TRUE(c.stopped);
+  EXPECT_EQ(c.rows.size(), 20U);
+  EXPECT_EQ(c.whole_samples, 3);
+  const Json json = Json::parse(comparison_text(c, kWhole, kProvenance));
+  EXPECT_EQ(json["stopped"]["finished_runs"], 20);
+  EXPECT_EQ(json["stopped"]["judged_samples"], 2);
+  EXPECT_EQ(json["scenarios"][0]["modes"]["steering"]["completed"]["of"], 2);
+}
+
+TEST(Resume, StoppedBeforeTheFirstSampleNothingIsJudged) {
+  const Comparison c = stopped_after(2);
+  EXPECT_EQ(c.whole_samples, 0);
+  EXPECT_TRUE(Json::parse(comparison_text(c, kWhole, kProvenance))["scenarios"].empty());
+  EXPECT_EQ(comparison_table(c), "");
+}
+
+TEST(Resume, GoingOnEndsInTheSameBytes) {
+  const testing::TemporaryDirectory directory;
+  const Comparison part = stopped_after(20);
+  testing::write_all(directory.path() / "comparison.csv", comparison_csv(part));
+  testing::write_all(directory.path() / "comparison.json",
+                     comparison_text(part, kWhole, kProvenance));
+  const auto finished = read_finished(directory.path(), kProvenance);
+  ASSERT_TRUE(finished) << to_text(finished.error());
+  EXPECT_EQ(finished->size(), 20U);
+  CompareOptions options = kWhole;
+  options.finished = *finished;
+  const Comparison resumed = compared(options);
+  const Comparison whole = compared(kWhole);
+  EXPECT_EQ(comparison_csv(resumed), comparison_csv(whole));
+  EXPECT_EQ(comparison_text(resumed, kWhole, kProvenance),
+            comparison_text(whole, kWhole, kProvenance));
+}
+
+TEST(Resume, RefusesAnotherComparisonsFiles) {
+  const testing::TemporaryDirectory directory;
+  const Comparison c = compared({.samples = 1, .seed = 3, .threads = 1});
+  testing::write_all(directory.path() / "comparison.csv", comparison_csv(c));
+  testing::write_all(directory.path() / "comparison.json", comparison_text(c, kWhole, kProvenance));
+  Provenance other_seed = kProvenance;
+  other_seed.options[1].second = "4";
+  Provenance other_model = kProvenance;
+  other_model.inputs[0].sha256 = "abd";
+  Provenance more_samples = kProvenance;
+  more_samples.options[0].second = "60";
+  EXPECT_THAT(to_text(read_finished(directory.path(), other_seed).error()), HasSubstr("--seed"));
+  EXPECT_THAT(to_text(read_finished(directory.path(), other_model).error()),
+              HasSubstr("other inputs"));
+  EXPECT_TRUE(read_finished(directory.path(), more_samples));
+  testing::write_all(directory.path() / "comparison.csv", "scenario,mode\nbroken\n");
+  EXPECT_THAT(to_text(read_finished(directory.path(), kProvenance).error()),
+              HasSubstr("comparison.csv:2:1"));
+}
+
+TEST(Resume, RefusesRowsOfAnUnknownScenario) {
+  CompareOptions options = kWhole;
+  options.finished = compared({.samples = 0, .seed = 3, .threads = 1}).rows;
+  options.finished.front().scenario = "c";
+  const auto c =
+      compare(testing::uncertain_model(), "model.json", kPaperGains, kScenarios, options);
+  ASSERT_FALSE(c);
+  EXPECT_THAT(to_text(c.error()), HasSubstr("none of this comparison's"));
+}
+
+TEST(SeveralGains, AreComparedWithEachOtherAndByMode) {
+  Gains<double> slow = kPaperGains;
+  slow.heading.mu = 10.0;
+  const CompareOptions options{.samples = 4, .seed = 1, .threads = 2};
+  const Comparison c = compared(options, {{"paper.json", kPaperGains}, {"slow.json", slow}});
+  EXPECT_EQ(c.rows.size(), 2U * 6U * 5U);
+  EXPECT_THAT(comparison_csv(c), HasSubstr(",finish_time_s,gains\n"));
+  const Json json = Json::parse(comparison_text(c, options, kProvenance));
+  const Json& scenario = json["scenarios"][0];
+  EXPECT_EQ(scenario["modes"].size(), 6U);
+  EXPECT_TRUE(scenario["modes"].contains("combined with slow.json"));
+  // 3 pairs of modes for each set, and a pair of sets for each mode.
+  std::set<std::string> pairs;
+  for (const Json& d : scenario["paired_differences"]) {
+    pairs.insert(d["first"].get<std::string>() + d["second"].get<std::string>());
+  }
+  EXPECT_EQ(pairs.size(), 9U);
+  // A tenth of mu/eps settles ten times as slowly: the paper's gains win.
+  EXPECT_THAT(scenario["ranking"][0]["mode"].get<std::string>(), HasSubstr("paper.json"));
+}
+
+TEST(Noise, IsTheSameForAllModesAndOtherInEverySample) {
+  Scenario noisy = testing::short_heading("noisy");
+  noisy.speed_mps = 0.0;
+  noisy.initial.u_mps = 0.0;
+  noisy.guidance = OpenLoop{0.0, 0.0};
+  noisy.disturbance.surge = {{.kind = DisturbanceTerm::Kind::kNoise,
+                              .value = 0.5,
+                              .window = {},
+                              .frequency_hz = 0.0,
+                              .phase_rad = {},
+                              .bandwidth_hz = 1.0}};
+  const auto c = compare(testing::uncertain_model(), "model.json", kPaperGains, {noisy},
+                         {.samples = 2, .seed = 1, .threads = 1});
+  ASSERT_TRUE(c);
+  for (std::size_t sample = 0; sample < 3; ++sample) {
+    // Nothing is commanded, so the modes differ by nothing.
+    EXPECT_EQ(c->rows[sample].metrics.path_length_m, c->rows[3 + sample].metrics.path_length_m);
+    EXPECT_EQ(c->rows[sample].metrics.path_length_m, c->rows[6 + sample].metrics.path_length_m);
+  }
+  EXPECT_NE(c->rows[1].metrics.path_length_m, c->rows[2].metrics.path_length_m);
+}
+
+}  // namespace
+}  // namespace awmr
