@@ -1,0 +1,17 @@
+/// The paper's vehicle as an identified model, with intervals for corners.
+#pragma once
+
+#include "validate/paper_model.h"
+
+namespace awmr::testing {
+
+/// Every parameter within 10 % either way.
+inline Model model_with_intervals() {
+  Model model = fitted_paper_model();
+  for (Estimate& estimate : model.estimates) {
+    if (estimate.value) estimate.ci95 = Interval{0.9 * *estimate.value, 1.1 * *estimate.value};
+  }
+  return model;
+}
+
+}  // namespace awmr::testing

@@ -1,0 +1,239 @@
+/// Disturbances, faults, battery, sensors, actuators, observer.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "awmr/model/gains_file.h"
+#include "awmr/simulate/metrics.h"
+#include "awmr/simulate/sensing.h"
+#include "simulate/paper_plant.h"
+
+namespace awmr::testing {
+namespace {
+
+Scenario straight(double duration_s = 10.0) {
+  Scenario s{.name = "straight",
+             .duration_s = duration_s,
+             .initial = {},
+             .speed_mps = 1.0,
+             .guidance = HeadingSteps{{{0.0, 0.0}}}};
+  s.initial.u_mps = 1.0;
+  return s;
+}
+
+awmr::Run run_of(const Scenario& scenario, YawMode mode = YawMode::kCombined,
+                 std::uint64_t sample = 0) {
+  const Plant<double> plant = paper_plant();
+  SimulateOptions options;
+  options.sample = sample;
+  return simulate(plant, make_controller(plant, reversible_vehicle(), kPaperGains), scenario, mode,
+                  options);
+}
+
+DisturbanceTerm constant(double value, double from_s = 0.0) {
+  DisturbanceTerm term;
+  term.value = value;
+  term.window.from_s = from_s;
+  return term;
+}
+
+TEST(Disturbances, AConstantYawMomentLeavesTheLawsSteadyError) {
+  // In the layer at rest: I'z mu lambda e/eps = -N  =>  e = -N eps/(I'z mu lambda).
+  Scenario s = straight();
+  s.disturbance.yaw = {constant(0.01)};
+  const double expected = 0.01 * 12.0 / (0.01212 * 50.0 * 3.0);
+  const awmr::Run run = run_of(s, YawMode::kDifferential);
+  EXPECT_NEAR(run.rows.back().state.psi_rad, expected, 1e-6);
+}
+
+TEST(Disturbances, AStepActsFromItsTimeOn) {
+  Scenario s = straight();
+  s.disturbance.surge = {constant(0.2, 5.0)};
+  const awmr::Run run = run_of(s);
+  EXPECT_NEAR(run.rows[499].state.u_mps, 1.0, 1e-9);
+  EXPECT_GT(run.rows[600].state.u_mps, 1.01);
+}
+
+TEST(Disturbances, ASlopePullsDownhillWhicheverWayTheVehicleFaces) {
+  Scenario s = straight();
+  s.disturbance.slope = Slope{radians(5.0), radians(-90.0)};
+  EXPECT_LT(run_of(s).rows.back().state.y_m, -0.1);  // sideways
+  s.guidance = HeadingSteps{{{0.0, radians(-90.0)}}};
+  s.initial.psi_rad = radians(-90.0);
+  EXPECT_GT(run_of(s).rows.back().state.u_mps, 1.05);  // downhill
+}
+
+TEST(Disturbances, BandLimitedNoiseHasItsDeviationAndMemory) {
+  Scenario s = straight(400.0);
+  DisturbanceTerm noise;
+  noise.kind = DisturbanceTerm::Kind::kNoise;
+  noise.value = 0.1;
+  noise.bandwidth_hz = 1.0;
+  s.disturbance.sway = {noise};
+  const awmr::Run run = run_of(s);
+  double square = 0.0, product = 0.0;
+  constexpr std::size_t kLag = 10;  // 0.1 s
+  for (std::size_t i = 0; i + kLag < run.rows.size(); ++i) {
+    const double x = run.rows[i].disturbance.sway;
+    square += x * x;
+    product += x * run.rows[i + kLag].disturbance.sway;
+  }
+  const double n = static_cast<double>(run.rows.size() - kLag);
+  // Correlation time 1/(2 pi) s: about 400 * pi independent values, variance known to
+  // sqrt(2/1257) = 4 %; four times that.
+  EXPECT_NEAR(square / n, 0.01, 0.16 * 0.01);
+  EXPECT_NEAR(product / square, std::exp(-0.2 * pi<double>()), 0.1);
+}
+
+TEST(Disturbances, AreTheSameForTheSameSampleAndOtherForAnother) {
+  Scenario s = straight();
+  DisturbanceTerm sine;
+  sine.kind = DisturbanceTerm::Kind::kSine;
+  sine.value = 0.1;
+  sine.frequency_hz = 0.5;
+  s.disturbance.yaw = {sine};  // its phase is drawn
+  EXPECT_EQ(run_csv(run_of(s, YawMode::kCombined, 3), s),
+            run_csv(run_of(s, YawMode::kCombined, 3), s));
+  EXPECT_NE(run_csv(run_of(s, YawMode::kCombined, 3), s),
+            run_csv(run_of(s, YawMode::kCombined, 4), s));
+}
+
+TEST(Wheels, ADeadWheelCostsAQuarterOfTheThrust) {
+  // Open loop, straight, differential with both sides alike: the front pair's failure halves it.
+  Scenario s = straight(20.0);
+  s.guidance = OpenLoop{1.0, 0.0};
+  s.faults = {{.wheels = {Wheel::kFrontLeft, Wheel::kFrontRight}, .window = {}, .share = 0.0}};
+  const awmr::Run run = run_of(s, YawMode::kDifferential);
+  EXPECT_NEAR(run.rows.back().state.u_mps, std::pow(0.5 / 1.3157, 1.0 / 0.8841), 1e-6);
+  s.faults = {{.wheels = {Wheel::kRearLeft}, .window = {}, .share = 0.0}};
+  EXPECT_GT(run_of(s, YawMode::kDifferential).rows.back().state.psi_rad, 0.5);  // turns left
+}
+
+TEST(Wheels, ASlipperyPatchUnderTheLeftWheelsTurnsLeftOnlyThere) {
+  Scenario s = straight(3.0);
+  s.guidance = OpenLoop{1.3157, 0.0};
+  s.patches = {{.centre_m = {0.0, 5.3}, .radius_m = 5.0, .force_max = 0.1}};
+  EXPECT_GT(run_of(s, YawMode::kDifferential).rows.back().state.psi_rad, 0.1);
+  s.patches[0].centre_m = {0.0, 50.0};
+  EXPECT_EQ(run_of(s, YawMode::kDifferential).rows.back().state.psi_rad, 0.0);
+}
+
+TEST(Battery, TheSpeedFallsToWhatTheForceLeft) {
+  Scenario s = straight(60.0);
+  s.battery = Battery{.from_s = 5.0, .to_s = 20.0, .share_end = 0.2};
+  const awmr::Run run = run_of(s, YawMode::kDifferential);
+  EXPECT_NEAR(run.rows[400].state.u_mps, 1.0, 1e-9);
+  EXPECT_NEAR(run.rows.back().state.u_mps, std::pow(0.8 / 1.3157, 1.0 / 0.8841), 1e-6);
+}
+
+TEST(SensorChannels, HaveTheirNoiseBiasAndSteps) {
+  Scenario s = straight(100.0);
+  s.guidance = OpenLoop{1.0, 0.0};
+  Sensors sensors;
+  sensors.heading = {.noise = 0.02, .bias = 0.1, .quantum = 0.0};
+  sensors.yaw_rate = {.noise = 0.0, .bias = 0.26, .quantum = 0.5};
+  sensors.sway_measured = false;
+  s.sensors = sensors;
+  const awmr::Run run = run_of(s);
+  double sum = 0.0, square = 0.0;
+  for (const RunRow& row : run.rows) {
+    sum += row.measured.psi_rad - row.state.psi_rad;
+    square += std::pow(row.measured.psi_rad - row.state.psi_rad - 0.1, 2);
+    EXPECT_EQ(row.measured.r_radps, 0.5);  // 0.26 to the nearest half
+    EXPECT_EQ(row.measured.u_mps, row.state.u_mps);
+  }
+  const double n = static_cast<double>(run.rows.size());
+  EXPECT_NEAR(sum / n, 0.1, 4.0 * 0.02 / 100.0);          // 10^4 readings: s.e. 0.02/100
+  EXPECT_NEAR(std::sqrt(square / n), 0.02, 0.03 * 0.02);  // s.e. 1/sqrt(2 10^4) = 0.7 %
+}
+
+/// Largest distance of the position told from the true one, from `from_s` on.
+double largest_error_m(const awmr::Run& run, double from_s, double to_s) {
+  double largest = 0.0;
+  for (const RunRow& row : run.rows) {
+    if (row.t_s < from_s || row.t_s > to_s) continue;
+    largest =
+        std::max(largest, distance_m(row.measured_position_m, {row.state.x_m, row.state.y_m}));
+  }
+  return largest;
+}
+
+Scenario with_gps(double latency_s, std::vector<Window> dropouts) {
+  Scenario s = straight(60.0);
+  s.guidance = HeadingSteps{{{0.0, 0.0}, {20.0, radians(90.0)}}};
+  Gps gps;
+  gps.rate_hz = 5.0;
+  gps.latency_s = latency_s;
+  gps.dropouts = std::move(dropouts);
+  Sensors sensors;
+  sensors.speed.bias = 0.1;  // what dead reckoning goes wrong by, 0.1 m a second
+  sensors.gps = gps;
+  s.sensors = sensors;
+  return s;
+}
+
+TEST(GpsReceiver, BetweenFixesAndForItsLatencyThePositionIsCarriedOn) {
+  // Dead reckoning runs for 0.2 s + latency at most and drifts by 0.1 m/s; the speed's held value
+  // over a sample adds less than 0.01 m where the speed or heading changes.
+  EXPECT_LT(largest_error_m(run_of(with_gps(0.0, {})), 1.0, 60.0), 0.1 * 0.2 + 0.01);
+  EXPECT_LT(largest_error_m(run_of(with_gps(0.5, {})), 1.0, 60.0), 0.1 * 0.7 + 0.01);
+  EXPECT_GT(largest_error_m(run_of(with_gps(0.5, {})), 1.0, 60.0), 0.1 * 0.5);
+}
+
+TEST(GpsReceiver, InADropOutThePositionDriftsAndComesBack) {
+  const awmr::Run run = run_of(with_gps(0.0, {{30.0, 45.0}}));
+  EXPECT_NEAR(largest_error_m(run, 30.0, 45.0), 1.5, 0.1);
+  EXPECT_LT(largest_error_m(run, 45.5, 60.0), 0.05);
+}
+
+TEST(ActuatorSteps, CommandsAreMultiplesOfTheirSteps) {
+  Scenario s = straight();
+  s.guidance = HeadingSteps{{{0.0, radians(30.0)}}};
+  s.actuators = Actuators{.steering_quantum_rad = radians(0.4), .pwm_counts = 255};
+  for (const RunRow& row : run_of(s).rows) {
+    const double steps = row.steering_command_rad / radians(0.4);
+    const double counts = row.force.left * 255.0;
+    EXPECT_NEAR(steps, std::round(steps), 1e-9);
+    EXPECT_NEAR(counts, std::round(counts), 1e-9);
+  }
+}
+
+ControlOptions::Observer observer(bool anti_windup) {
+  return {.bandwidth_radps = 5.0, .yaw_max_m = 0.3, .surge_max = 0.5, .anti_windup = anti_windup};
+}
+
+TEST(Observer, TakesOffTheSteadyErrorOfAConstantDisturbance) {
+  Scenario s = straight();
+  s.disturbance.yaw = {constant(0.01)};
+  s.disturbance.surge = {constant(-0.1)};
+  for (const YawMode mode : kYawModes) {
+    s.control.observer.reset();
+    const State<double> without = run_of(s, mode).rows.back().state;
+    s.control.observer = observer(true);
+    const State<double> with = run_of(s, mode).rows.back().state;
+    EXPECT_GT(std::abs(without.psi_rad), 0.05) << name_of(mode);
+    EXPECT_LT(std::abs(with.psi_rad), 1e-4) << name_of(mode);
+    EXPECT_GT(std::abs(without.u_mps - 1.0), 0.1) << name_of(mode);
+    EXPECT_LT(std::abs(with.u_mps - 1.0), 1e-4) << name_of(mode);
+  }
+}
+
+double overshoot_deg(bool anti_windup) {
+  Scenario s = straight(20.0);
+  s.guidance = HeadingSteps{{{0.0, radians(90.0)}}};
+  s.control.observer = observer(anti_windup);
+  const awmr::Run run = run_of(s, YawMode::kSteering);
+  const Plant<double> plant = paper_plant();
+  return *metrics_of(run, s, make_controller(plant, reversible_vehicle(), kPaperGains))
+              .overshoot_deg;
+}
+
+TEST(Observer, WithAntiWindupASaturatedTurnIsNotTakenForADisturbance) {
+  // Steering is at its stop through most of a 90 deg turn.
+  EXPECT_LT(overshoot_deg(true), 2.0);
+  EXPECT_GT(overshoot_deg(false), 2.0 * overshoot_deg(true));
+}
+
+}  // namespace
+}  // namespace awmr::testing
