@@ -73,5 +73,111 @@ TEST(YawModeNames, GoBothWays) {
   EXPECT_FALSE(yaw_mode_by_name("sideways"));
 }
 
+const std::string kFull = R"({
+  "name": "everything", "duration_s": 4,
+  "initial": {"x_m": 0, "y_m": 0, "psi_deg": 0, "u_mps": 0, "v_mps": 0, "r_degps": 0},
+  "speed_mps": 1,
+  "guidance": {"type": "waypoints", "points_m": [[1, 2], [3, 4]], "acceptance_m": 0.5,
+               "skip_passed": true, "slow_down_m": 2},
+  "obstacles": [{"x_m": 5, "y_m": 6, "radius_m": 0.5}],
+  "avoidance": {"mmd_base_m": 6, "mmd_per_speed_s": 1, "sigma_deg": 10, "vehicle_radius_m": 0.8,
+                "clearance_m": 0.5, "hysteresis_m": 0.5, "side_hysteresis_deg": 10, "brake_m": 1.5},
+  "shaping": {"omega_radps": 4, "rate_max_degps": 60, "accel_max_degps2": 300},
+  "disturbance": {"surge": [{"type": "constant", "value": 0.1, "from_s": 1, "to_s": 2}],
+                  "sway": [{"type": "step", "t_s": 1, "value": 0.2}],
+                  "yaw": [{"type": "sine", "amplitude": 0.3, "frequency_hz": 2, "phase_deg": 90},
+                          {"type": "noise", "std": 0.4, "bandwidth_hz": 3}],
+                  "slope": {"angle_deg": 5, "downhill_deg": 90}},
+  "faults": [{"wheel": "left", "from_s": 1, "share": 0.5}],
+  "slippery": [{"x_m": 1, "y_m": 2, "radius_m": 3, "force_max": 0.1}],
+  "battery": {"from_s": 0, "to_s": 3, "share_end": 0.5},
+  "sensors": {"heading_deg": {"noise": 1, "bias": 2, "quantum": 0.1},
+              "yaw_rate_degps": {"noise": 0.3}, "speed_mps": {"bias": 0.1}, "sway_measured": false,
+              "gps": {"rate_hz": 10, "latency_s": 0.1, "noise_m": 0.05, "quantum_m": 0.01,
+                      "dropouts": [{"from_s": 1, "to_s": 2}]}},
+  "actuators": {"servo": {"us_per_deg": 10, "step_us": 4}, "pwm_counts": 255},
+  "control": {"combined_split": "fixed_half",
+              "disturbance_observer": {"bandwidth_radps": 5, "yaw_max_m": 0.1, "surge_max": 0.2,
+                                       "anti_windup": true}},
+  "corner": {"mass_norm": "hi", "surge.alpha": "lo"},
+  "seed": 7
+})";
+
+TEST(ScenarioFile, ReadsTheWholeWorldInSiUnits) {
+  const auto s = read(kFull);
+  ASSERT_TRUE(s) << to_text(s.error());
+  const auto& course = std::get<WaypointCourse>(s->guidance);
+  EXPECT_EQ(course.points_m[1].y_m, 4.0);
+  EXPECT_TRUE(course.skip_passed);
+  EXPECT_EQ(course.slow_down_m, 2.0);
+  EXPECT_EQ(s->avoidance->sigma_rad, radians(10.0));
+  EXPECT_EQ(s->shaping->accel_max_radps2, radians(300.0));
+  EXPECT_EQ(s->disturbance.surge[0].window.to_s, 2.0);
+  EXPECT_EQ(s->disturbance.sway[0].window.from_s, 1.0);
+  EXPECT_EQ(s->disturbance.yaw[0].phase_rad, radians(90.0));
+  EXPECT_EQ(s->disturbance.yaw[1].kind, DisturbanceTerm::Kind::kNoise);
+  EXPECT_EQ(s->disturbance.slope->downhill_rad, radians(90.0));
+  EXPECT_EQ(s->faults[0].wheels.size(), 2U);
+  EXPECT_EQ(s->patches[0].force_max, 0.1);
+  EXPECT_EQ(s->battery->share_end, 0.5);
+  EXPECT_EQ(s->sensors->heading.bias, radians(2.0));
+  EXPECT_FALSE(s->sensors->sway_measured);
+  EXPECT_EQ(s->sensors->gps->y.quantum, 0.01);
+  EXPECT_NEAR(s->actuators->steering_quantum_rad, radians(0.4), 1e-15);
+  EXPECT_FALSE(s->control.redistribute);
+  EXPECT_TRUE(s->control.observer->anti_windup);
+  EXPECT_EQ(s->corner[0].id, ParameterId::kMassNorm);
+  EXPECT_FALSE(s->corner[1].high);
+  EXPECT_EQ(s->seed, 7U);
+  EXPECT_TRUE(s->random());
+}
+
+TEST(ScenarioFile, NamesTheFaultsOfTheWorldByPointer) {
+  const std::pair<std::string, std::string> cases[] = {
+      {replaced(kFull, "[[1, 2], [3, 4]]", "[[1, 2], [3]]"), "/guidance/points_m"},
+      {replaced(kFull, "[[1, 2], [3, 4]]", "[]"), "/guidance/points_m"},
+      {replaced(kFull, "\"points_m\": [[1, 2], [3, 4]], ", ""), "/guidance/points_m"},
+      {replaced(kFull, "\"radius_m\": 0.5", "\"radius_m\": 0"), "/obstacles/0/radius_m"},
+      {replaced(kFull, "\"mmd_base_m\": 6", "\"mmd_bse_m\": 6"), "did you mean \"mmd_base_m\""},
+      {replaced(kFull, "\"to_s\": 2}],\n                  \"sway",
+                "\"to_s\": 0.5}],\n                  \"sway"),
+       "/disturbance/surge/0/to_s"},
+      {replaced(kFull, "\"noise\", \"std\"", "\"nois\", \"std\""), "did you mean noise"},
+      {replaced(kFull, "\"left\"", "\"lefd\""), "/faults/0/wheel"},
+      {replaced(kFull, "\"share_end\": 0.5", "\"share_end\": 2"), "/battery/share_end"},
+      {replaced(kFull, "\"rate_hz\": 10", "\"rate_hz\": 0"), "/sensors/gps/rate_hz"},
+      {replaced(kFull, "\"mass_norm\": \"hi\"", "\"mass_nrm\": \"hi\""), "/corner/mass_nrm"},
+      {replaced(kFull, "\"obstacles\": [{\"x_m\": 5, \"y_m\": 6, \"radius_m\": 0.5}],", ""),
+       "no obstacles to avoid"},
+      {replaced(kHeading, "\"speed_mps\": 1,\n", "\"speed_mps\": 1, \"avoidance\": 3,\n"),
+       "/avoidance"},
+  };
+  for (const auto& [text, words] : cases) {
+    const auto scenario = read(text);
+    ASSERT_FALSE(scenario) << words;
+    EXPECT_THAT(to_text(scenario.error()), HasSubstr(words));
+  }
+}
+
+TEST(ScenarioFile, ReadsLinesAndTimedPaths) {
+  const std::string steps =
+      "{\"type\": \"heading\", \"steps\": [{\"t_s\": 0, \"psi_deg\": 30}, "
+      "{\"t_s\": 2, \"psi_deg\": -30}]}";
+  const auto line = read(replaced(kHeading, steps,
+                                  R"({"type": "line", "from_m": [0, 1], "to_m": [2, 3],
+                                      "delta_deg": 45, "width_m": 2})"));
+  ASSERT_TRUE(line) << to_text(line.error());
+  EXPECT_EQ(std::get<LineCourse>(line->guidance).points_m[1].y_m, 3.0);
+  EXPECT_TRUE(std::get<LineCourse>(line->guidance).law.sideslip_compensation);
+  const std::string timed = R"({"type": "lissajous", "amplitude_m": [1, 2],
+                                "rate_radps": [0.1, 0.2], "closed_loop": true})";
+  const auto closed =
+      read(replaced(replaced(kHeading, steps, timed), "\"speed_mps\": 1", "\"speed_mps\": 0"));
+  ASSERT_TRUE(closed) << to_text(closed.error());
+  EXPECT_EQ(std::get<LissajousCourse>(closed->guidance).path.rate_y_radps, 0.2);
+  // A closed timed path has the path's speed.
+  EXPECT_THAT(to_text(read(replaced(kHeading, steps, timed)).error()), HasSubstr("/speed_mps"));
+}
+
 }  // namespace
 }  // namespace awmr::testing
