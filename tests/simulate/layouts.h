@@ -14,7 +14,7 @@ inline constexpr Avoidance<double> kAvoidance{.mmd_base_m = 6.0,
                                               .vehicle_radius_m = 0.8,
                                               .clearance_m = 0.5,
                                               .hysteresis_m = 0.5,
-                                              .side_hysteresis_rad = radians(10.0),
+                                              .side_hysteresis_rad = radians(90.0),
                                               .brake_m = 1.5};
 inline constexpr Position<double> kGoal_m{30.0, 0.0};
 
@@ -24,7 +24,7 @@ inline Scenario random_layout(std::uint64_t number) {
   Random random(20260117, number);
   Scenario scenario{
       .name = "layout",
-      .duration_s = 45.0,
+      .duration_s = 60.0,
       .initial = {},
       .speed_mps = 1.0,
       .guidance =

@@ -35,8 +35,8 @@ TEST_P(Layouts, AThousandWithAPassageAreNeverTouched) {
     completed += run.end == RunEnd::kFinished ? 1 : 0;
   }
   // Keeping clear is promised, arriving is not: the rule is local, and a vehicle that cannot turn
-  // on the spot may have to stop. Most arrive: three in four at least.
-  EXPECT_GT(completed, 700);
+  // on the spot may have to stop before it gets round.
+  EXPECT_GT(completed, GetParam() == YawMode::kSteering ? 700 : 950);
 }
 
 INSTANTIATE_TEST_SUITE_P(EveryMode, Layouts, ::testing::ValuesIn(kYawModes),

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "awmr/compare/binomial.h"
+#include "awmr/compare/overall.h"
 #include "awmr/compare/ranking.h"
 #include "awmr/compare/statistics.h"
 #include "awmr/core/csv.h"
@@ -73,26 +74,58 @@ Json ranked_json(const RankedMode& ranked) {
   return json;
 }
 
-Json scenario_json(const ScenarioRows& scenario, std::uint64_t seed, std::uint64_t stream) {
-  Json json;
-  json["name"] = scenario.scenario;
-  json["modes"] = Json::object();
-  for (const ModeRows& rows : scenario.modes) {
-    json["modes"][rows.label()] = mode_json(rows);
+/// A scenario with what was found out about it.
+struct Judged {
+  ScenarioRows rows;
+  std::vector<PairedDifference> differences;
+  std::vector<RankedMode> ranking;
+};
+
+std::vector<Judged> judge(const Comparison& comparison, std::uint64_t seed) {
+  std::vector<Judged> all;
+  std::uint64_t stream = 0;
+  for (ScenarioRows& scenario : group(comparison)) {
+    auto differences = paired_differences(scenario, seed, stream);
+    auto ranking = rank(scenario, seed, stream++);
+    all.push_back({std::move(scenario), std::move(differences), std::move(ranking)});
   }
+  return all;
+}
+
+Json scenario_json(const Judged& scenario) {
+  Json json;
+  json["name"] = scenario.rows.scenario;
+  json["modes"] = Json::object();
+  for (const ModeRows& rows : scenario.rows.modes) json["modes"][rows.label()] = mode_json(rows);
   json["paired_differences"] = Json::array();
-  const std::vector<PairedDifference> differences = paired_differences(scenario, seed, stream);
-  for (const PairedDifference& d : differences) {
+  for (const PairedDifference& d : scenario.differences) {
     // A metric without meaning for the scenario has no difference either.
     if (d.nominal || d.mean) json["paired_differences"].push_back(difference_json(d));
   }
   json["ranking"] = Json::array();
-  const std::vector<RankedMode> ranking = rank(scenario, seed, stream);
-  for (const RankedMode& ranked : ranking) json["ranking"].push_back(ranked_json(ranked));
+  for (const RankedMode& ranked : scenario.ranking) json["ranking"].push_back(ranked_json(ranked));
   if (json["ranking"].empty()) {
     json["ranking_note"] = "not ranked: the scenario gives the vehicle nothing to follow";
   }
-  json["verdict"] = verdict_of(scenario, ranking, differences);
+  json["verdict"] = verdict_of(scenario.rows, scenario.ranking, scenario.differences);
+  return json;
+}
+
+/// By metric and contender: in how many of the ranked scenarios it was best, or tied with the best.
+Json overall_json(const std::vector<Judged>& scenarios) {
+  std::vector<JudgedScenario> ranked;
+  for (const Judged& scenario : scenarios) {
+    if (!scenario.ranking.empty()) ranked.push_back({&scenario.rows, &scenario.differences});
+  }
+  Json json = Json::array();
+  for (const MetricTally& one : tally(ranked)) {
+    Json counts = Json::object();
+    for (std::size_t i = 0; i < one.best_or_tied.size(); ++i) {
+      counts[ranked.front().rows->modes[i].label()] = one.best_or_tied[i];
+    }
+    json.push_back(
+        {{"metric", one.metric}, {"scenarios", one.scenarios}, {"best_or_tied", counts}});
+  }
   return json;
 }
 
@@ -166,11 +199,10 @@ std::string comparison_text(const Comparison& comparison, const CompareOptions& 
   json["seed"] = options.seed;
   json["statistics"] = statistics_json(samples);
   json["ranking"] = ranking_json();
+  const std::vector<Judged> scenarios = judge(judged, options.seed);
+  json["overall"] = overall_json(scenarios);
   json["scenarios"] = Json::array();
-  std::uint64_t stream = 0;
-  for (const ScenarioRows& scenario : group(judged)) {
-    json["scenarios"].push_back(scenario_json(scenario, options.seed, stream++));
-  }
+  for (const Judged& scenario : scenarios) json["scenarios"].push_back(scenario_json(scenario));
   return to_text(json);
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "awmr/compare/overall.h"
 #include "awmr/compare/ranking.h"
 #include "awmr/compare/statistics.h"
 
@@ -83,22 +84,49 @@ std::string table_of(const ScenarioRows& scenario, const std::vector<RankedMode>
   return text;
 }
 
+/// "best or tied, of 12 scenarios" by metric, where there are several to count.
+std::string overall_of(const std::vector<JudgedScenario>& scenarios) {
+  if (scenarios.size() < 2) return "";
+  std::string text =
+      fmt::format("best or tied with the best, by metric\n  {:<20} {:>9}", "", "scenarios");
+  for (const ModeRows& rows : scenarios.front().rows->modes) {
+    text += fmt::format(" {:>12}", rows.label());
+  }
+  text += '\n';
+  for (const MetricTally& one : tally(scenarios)) {
+    text += fmt::format("  {:<20} {:>9}", one.metric, one.scenarios);
+    for (std::size_t i = 0; i < one.best_or_tied.size(); ++i) {
+      const std::size_t width =
+          std::max<std::size_t>(12, scenarios.front().rows->modes[i].label().size());
+      text += fmt::format(" {:>{}}", one.best_or_tied[i], width);
+    }
+    text += '\n';
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string comparison_table(const Comparison& comparison, std::uint64_t seed) {
   std::string text;
   const Comparison judged = judged_part(comparison);
+  const std::vector<ScenarioRows> scenarios = group(judged);
+  std::vector<std::vector<PairedDifference>> differences;
+  std::vector<JudgedScenario> ranked;
+  differences.reserve(scenarios.size());
   std::uint64_t stream = 0;
-  for (const ScenarioRows& scenario : group(judged)) {
+  for (const ScenarioRows& scenario : scenarios) {
     const std::vector<RankedMode> ranking = rank(scenario, seed, stream);
+    differences.push_back(paired_differences(scenario, seed, stream++));
     const std::size_t samples = scenario.modes.front().rows.size() - 1;
     text += fmt::format(
         "{}: {}\n", scenario.scenario,
         samples == 0 ? "the model's own values" : fmt::format("mean of {} sample(s)", samples));
     text += table_of(scenario, ranking);
-    text += wrapped(verdict_of(scenario, ranking, paired_differences(scenario, seed, stream++)));
+    text += wrapped(verdict_of(scenario, ranking, differences.back()));
+    if (!ranking.empty()) ranked.push_back({&scenario, &differences.back()});
   }
-  return text;
+  return text + overall_of(ranked);
 }
 
 }  // namespace awmr

@@ -29,7 +29,7 @@ Avoidance<double> avoidance() {
           .vehicle_radius_m = 0.8,
           .clearance_m = 0.5,
           .hysteresis_m = 0.5,
-          .side_hysteresis_rad = radians(10.0),
+          .side_hysteresis_rad = radians(90.0),
           .brake_m = 1.5};
 }
 

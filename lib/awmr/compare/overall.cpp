@@ -1,0 +1,61 @@
+#include "awmr/compare/overall.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "awmr/compare/ranking.h"
+
+namespace awmr {
+namespace {
+
+/// Of a metric's scale: a smaller nominal difference decides nothing.
+constexpr double kAlikeShare = 0.01;
+
+/// Whether `other` is told to be better than `own` in the metric.
+bool beats(const JudgedScenario& scenario, const MetricColumn& metric, const ModeRows& other,
+           const ModeRows& own) {
+  const auto theirs = summarise(other, metric).mean;
+  const auto mine = summarise(own, metric).mean;
+  if (!theirs) return false;
+  if (!mine) return true;
+  if (!(*theirs < *mine)) return false;
+  for (const PairedDifference& d : *scenario.differences) {
+    const bool pair = (d.first_label == other.label() && d.second_label == own.label()) ||
+                      (d.first_label == own.label() && d.second_label == other.label());
+    if (pair && d.metric == metric.name && d.p_holm) return *d.p_holm < kSignificance;
+  }
+  return *mine - *theirs > kAlikeShare * scale_of(*scenario.rows, metric);
+}
+
+bool any_has(const ScenarioRows& scenario, const MetricColumn& metric) {
+  return std::any_of(scenario.modes.begin(), scenario.modes.end(), [&](const ModeRows& rows) {
+    return summarise(rows, metric).mean.has_value();
+  });
+}
+
+}  // namespace
+
+std::vector<MetricTally> tally(const std::vector<JudgedScenario>& scenarios) {
+  std::vector<MetricTally> tallies;
+  if (scenarios.empty()) return tallies;
+  const std::size_t contenders = scenarios.front().rows->modes.size();
+  for (const MetricColumn& metric : kMetricColumns) {
+    if (!(metric.ranking_floor > 0.0)) continue;
+    MetricTally one{metric.name, 0, std::vector<int>(contenders, 0)};
+    for (const JudgedScenario& scenario : scenarios) {
+      if (!any_has(*scenario.rows, metric)) continue;
+      ++one.scenarios;
+      const std::vector<ModeRows>& modes = scenario.rows->modes;
+      for (std::size_t i = 0; i < contenders; ++i) {
+        const bool beaten = std::any_of(modes.begin(), modes.end(), [&](const ModeRows& other) {
+          return &other != &modes[i] && beats(scenario, metric, other, modes[i]);
+        });
+        one.best_or_tied[i] += beaten ? 0 : 1;
+      }
+    }
+    if (one.scenarios > 0) tallies.push_back(std::move(one));
+  }
+  return tallies;
+}
+
+}  // namespace awmr

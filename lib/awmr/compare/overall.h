@@ -1,0 +1,30 @@
+/// Which mode is best for what, over all scenarios. Private to this folder.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "awmr/compare/statistics.h"
+
+namespace awmr {
+
+/// In how many scenarios each contender was the best in one metric, or not told apart from it.
+struct MetricTally {
+  std::string_view metric;
+  int scenarios = 0;              ///< that were ranked and have the metric in some mode
+  std::vector<int> best_or_tied;  ///< by contender, as ScenarioRows::modes
+};
+
+/// One scenario with its differences.
+struct JudgedScenario {
+  const ScenarioRows* rows = nullptr;
+  const std::vector<PairedDifference>* differences = nullptr;
+};
+
+/// By ranked metric, over the scenarios given: those that are ranked. A contender is beaten in a
+/// metric by one whose mean is lower: with samples where Holm's p says so, without where it is by
+/// more than 1 % of the metric's scale. A contender without a value is beaten by any that has one.
+std::vector<MetricTally> tally(const std::vector<JudgedScenario>& scenarios);
+
+}  // namespace awmr
