@@ -23,10 +23,12 @@ Status write_runs(const Project& project, const fs::path& directory) {
   for (const fs::path& path : project.scenarios) {
     const auto scenario = read_scenario(path);
     if (!scenario) return tl::unexpected(scenario.error());
+    const auto driven = plant_for(*scenario, *model, (directory / "model.json").string());
+    if (!driven) return tl::unexpected(driven.error());
     for (const YawMode mode : kYawModes) {
       for (const auto& [name, gains] : sets) {
         const Run run =
-            simulate(*plant, make_controller(*plant, model->vehicle, gains), *scenario, mode,
+            simulate(*driven, make_controller(*plant, model->vehicle, gains), *scenario, mode,
                      {.sample_time_s = model->vehicle.sample_time_s, .substeps = {}});
         const std::string file =
             fmt::format("run_{}_{}_{}.csv", path.stem().string(), name_of(mode), name);

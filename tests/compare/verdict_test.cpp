@@ -1,0 +1,91 @@
+/// What is said in words, and the count over all scenarios.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "awmr/compare/overall.h"
+#include "awmr/compare/ranking.h"
+#include "awmr/core/random.h"
+
+namespace awmr {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// 20 samples in which steering takes `behind_s` longer than differential, give or take `spread_s`,
+/// and fails in the first `failures`.
+Comparison twenty(double behind_s, double spread_s, int failures = 0) {
+  Comparison c;
+  for (const YawMode mode : {YawMode::kDifferential, YawMode::kSteering}) {
+    for (int i = 0; i <= 20; ++i) {
+      Random random(5, static_cast<std::uint64_t>(i));
+      ComparisonRow row{.scenario = "s", .mode = mode, .sample = i, .metrics = {}};
+      const double common_s = 10.0 + random.normal();
+      const double extra_s = behind_s + spread_s * random.normal();
+      row.metrics.settling_time_s = common_s + (mode == YawMode::kSteering ? extra_s : 0.0);
+      row.metrics.heading_iae_degs = 50.0;
+      row.metrics.completed = mode == YawMode::kDifferential || i > failures;
+      c.rows.push_back(row);
+    }
+  }
+  return c;
+}
+
+struct Judged {
+  ScenarioRows rows;
+  std::vector<PairedDifference> differences;
+  std::vector<RankedMode> ranking;
+};
+
+Judged judged(const Comparison& c) {
+  Judged j{group(c)[0], {}, {}};
+  j.differences = paired_differences(j.rows, 1, 0);
+  j.ranking = rank(j.rows, 1, 0);
+  return j;
+}
+
+std::string verdict(const Comparison& c) {
+  const Judged j = judged(c);
+  return verdict_of(j.rows, j.ranking, j.differences);
+}
+
+TEST(Verdict, NamesTheBestAndWhatTheOtherIsBehindIn) {
+  const std::string text = verdict(twenty(3.0, 0.1));
+  EXPECT_THAT(text, HasSubstr("differential is best; steering is behind"));
+  EXPECT_THAT(text, HasSubstr("settling_time_s: 3"));
+  EXPECT_THAT(text, HasSubstr("95 %"));
+  EXPECT_THAT(text, HasSubstr("all completed"));
+}
+
+TEST(Verdict, SaysThatATieIsATie) {
+  // A mean of 0.1 s with a standard error of 2/sqrt(20) = 0.45 s.
+  EXPECT_THAT(verdict(twenty(0.1, 2.0)), HasSubstr("tie: these runs do not tell them apart"));
+}
+
+TEST(Verdict, GivesTheExactShareOfFailures) {
+  // 10 of 20 against 20 of 20: McNemar's p is 2/1024, and 10 of 20 has [27, 73] %.
+  const std::string text = verdict(twenty(0.0, 0.0, 10));
+  EXPECT_THAT(text, HasSubstr("differential is best"));
+  EXPECT_THAT(text, HasSubstr("steering completed 10 of 20 (95 %: 27 to 73 %)"));
+}
+
+TEST(Verdict, DoesNotRankByAFailureThatMayBeChance) {
+  // One of 20: p = 1.
+  EXPECT_THAT(verdict(twenty(0.0, 0.0, 1)), HasSubstr("tie"));
+}
+
+TEST(Tally, CountsTheBestAndWhatIsNotToldApart) {
+  const Judged clear = judged(twenty(3.0, 0.1));
+  const Judged alike = judged(twenty(0.1, 2.0));
+  const auto tallies =
+      tally({{&clear.rows, &clear.differences}, {&alike.rows, &alike.differences}});
+  ASSERT_EQ(tallies.size(), 4U);  // those, and sideslip and control variation, which are 0
+  EXPECT_EQ(tallies[0].metric, "settling_time_s");
+  EXPECT_EQ(tallies[0].scenarios, 2);
+  EXPECT_THAT(tallies[0].best_or_tied, ElementsAre(2, 1));
+  EXPECT_THAT(tallies[1].best_or_tied, ElementsAre(2, 2));
+}
+
+}  // namespace
+}  // namespace awmr
