@@ -33,13 +33,15 @@ Comparison twenty(double behind_s, double spread_s, int failures = 0) {
 }
 
 struct Judged {
+  Comparison comparison;  // whose rows the others look at
   ScenarioRows rows;
   std::vector<PairedDifference> differences;
   std::vector<RankedMode> ranking;
 };
 
 Judged judged(const Comparison& c) {
-  Judged j{group(c)[0], {}, {}};
+  Judged j{c, {}, {}, {}};
+  j.rows = group(j.comparison)[0];
   j.differences = paired_differences(j.rows, 1, 0);
   j.ranking = rank(j.rows, 1, 0);
   return j;
