@@ -29,6 +29,7 @@ awmr::Controller<float> controller() {
   c.limits.force_min = AWMR_WHEEL_FORCE_MIN;
   c.limits.force_max = AWMR_WHEEL_FORCE_MAX;
   c.limits.steering_max_rad = AWMR_STEERING_MAX_RAD;
+  c.limits.steering_max_tan_half = awmr::tan_half(AWMR_STEERING_MAX_RAD);
   return c;
 }
 

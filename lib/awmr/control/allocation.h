@@ -1,7 +1,9 @@
 /// (tau_speed, tau_turn) -> (F'L, F'R, d_r), the exact inverse of [paper (41)]. Freestanding C++14.
 ///
-/// No small-angle approximation: sin a/(1 + cos a) = tan(a/2). [paper (42), corrected: L and R are
-/// swapped there against (41), and d stands where l_f belongs in d_r.]
+/// No small-angle approximation: with q = tan(d_r/2), the quantity that the steering path sets,
+///   sin d_r = 2 q/(1 + q^2),   1 + cos d_r = 2/(1 + q^2),
+/// so that the only function needed is the arc tangent of the angle commanded. [paper (42),
+/// corrected: L and R are swapped there against (41), and d stands where l_f belongs in d_r.]
 ///
 /// Order of limits: tau_speed is clipped to [4 F'min, 4 F'max]; d_r to |d_r| <= d_max, and F' follow
 /// from the clipped, commanded d_r; then each F' is clipped to [F'min, F'max].
@@ -13,6 +15,14 @@
 
 namespace awmr {
 
+/// q = tan(angle/2), |angle| < pi.
+template <class T>
+T tan_half(const T& angle_rad) {
+  using math::cos;
+  using math::sin;
+  return sin(angle_rad) / (T(1.0) + cos(angle_rad));
+}
+
 template <class T>
 struct AllocationLimits {
   T front_axle_m;      ///< l_f, > 0
@@ -21,6 +31,7 @@ struct AllocationLimits {
   T force_max;         ///< F'max of one wheel, > F'min
   T steering_max_rad;  ///< in (0, pi/2)
   CombinedSplit split = CombinedSplit::kRedistribute;
+  T steering_max_tan_half = tan_half(steering_max_rad);  ///< tan(d_max/2), follows from d_max
 };
 
 template <class T>
@@ -41,29 +52,35 @@ constexpr T steering_authority_min() {
 
 namespace detail {
 
-/// Front wheels' angle that makes `moment_m`: d_r = 2 atan(moment/(l_f tau_speed)), clipped.
+/// q of the angle that makes `moment_m`: q = moment/(l_f tau_speed), clipped to tan(d_max/2).
 template <class T>
 T steering_for(const AllocationLimits<T>& limits, const T& tau_speed, const T& moment_m,
                Allocation<T>& a) {
-  using math::atan;
   if (!(tau_speed > steering_authority_min<T>())) {
     a.steering_powerless = true;
     return T(0.0);
   }
-  const T angle = T(2.0) * atan(moment_m / (limits.front_axle_m * tau_speed));
-  const T clipped = math::saturate(angle, limits.steering_max_rad);
-  a.steering_limited = clipped < angle || clipped > angle;
+  const T q = moment_m / (limits.front_axle_m * tau_speed);
+  const T clipped = math::saturate(q, limits.steering_max_tan_half);
+  a.steering_limited = clipped < q || clipped > q;
   return clipped;
 }
 
-/// F'R,L = tau_speed/(2 (1 + cos d_r)) +- moment/(2 d (1 + cos d_r)), clipped.
+/// d_r = 2 atan q; d_max itself where q was clipped.
+template <class T>
+T angle_of(const AllocationLimits<T>& limits, const T& q, const Allocation<T>& a) {
+  using math::atan;
+  if (a.steering_limited) return q > T(0.0) ? limits.steering_max_rad : -limits.steering_max_rad;
+  return math::saturate(T(2.0) * atan(q), limits.steering_max_rad);
+}
+
+/// F'R,L = (tau_speed +- moment/d)/(2 (1 + cos d_r)) = (tau_speed +- moment/d)(1 + q^2)/4, clipped.
 template <class T>
 SideForces<T> forces_for(const AllocationLimits<T>& limits, const T& tau_speed, const T& moment_m,
-                         const T& steering_rad, Allocation<T>& a) {
-  using math::cos;
-  const T twice = T(2.0) * (T(1.0) + cos(steering_rad));
-  const T mean = tau_speed / twice;
-  const T half_difference = moment_m / (limits.half_track_m * twice);
+                         const T& q, Allocation<T>& a) {
+  const T quarter = (T(1.0) + q * q) * T(0.25);
+  const T mean = tau_speed * quarter;
+  const T half_difference = moment_m / limits.half_track_m * quarter;
   const T left = mean - half_difference;
   const T right = mean + half_difference;
   const SideForces<T> clipped{math::clamp(left, limits.force_min, limits.force_max),
@@ -73,18 +90,37 @@ SideForces<T> forces_for(const AllocationLimits<T>& limits, const T& tau_speed, 
   return clipped;
 }
 
+/// Half of tau_turn each way; with kRedistribute, what d_r's stop takes away is added to the forces'
+/// share, and what the forces' limits take away then goes back to d_r. Returns q.
+template <class T>
+T allocate_combined(const AllocationLimits<T>& limits, const T& tau_speed, const T& tau_turn_m,
+                    Allocation<T>& a) {
+  const T half = tau_turn_m * T(0.5);
+  const bool redistribute = limits.split == CombinedSplit::kRedistribute;
+  const T q = steering_for(limits, tau_speed, half, a);
+  // Steering's moment: l_f tau_speed sin d_r/(1 + cos d_r) = l_f tau_speed q.
+  const bool lost = a.steering_limited || a.steering_powerless;
+  const T difference =
+      redistribute && lost ? tau_turn_m - limits.front_axle_m * tau_speed * q : half;
+  a.force = forces_for(limits, tau_speed, difference, q, a);
+  if (!redistribute || !a.force_limited || lost) return q;
+  // What the clipped forces amount to, both over 1 + cos d_r = 2/(1 + q^2).
+  const T one_plus_cos = T(2.0) / (T(1.0) + q * q);
+  const T delivered_m =
+      limits.half_track_m * (a.force.right - a.force.left) * one_plus_cos;
+  const T pair = (a.force.left + a.force.right) * one_plus_cos;
+  return steering_for(limits, pair, tau_turn_m - delivered_m, a);
+}
+
 }  // namespace detail
 
 /// tau_speed dimensionless, tau_turn_m in m. Always finite for finite input.
 /// differential: d_r = 0;  F'R,L = tau_speed/4 +- tau_turn/(4 d)
 /// steering:     d_r = 2 atan(tau_turn/(l_f tau_speed));  F'L = F'R = tau_speed/(2 (1 + cos d_r))
-/// combined:     half of tau_turn each way; with kRedistribute, what d_r's stop takes away is added to
-///               the forces' share, and what the forces' limits take away then goes back to d_r.
+/// combined:     d_r = 2 atan(tau_turn/(2 l_f tau_speed)) and the other half of tau_turn by the forces
 template <class T>
 Allocation<T> allocate(YawMode mode, const T& tau_speed, const T& tau_turn_m,
                        const AllocationLimits<T>& limits) {
-  using math::cos;
-  using math::sin;
   Allocation<T> a{};
   const T speed =
       math::clamp(tau_speed, T(4.0) * limits.force_min, T(4.0) * limits.force_max);
@@ -92,28 +128,17 @@ Allocation<T> allocate(YawMode mode, const T& tau_speed, const T& tau_turn_m,
 
   if (mode == YawMode::kDifferential) {
     a.steering_rad = T(0.0);
-    a.force = detail::forces_for(limits, speed, tau_turn_m, a.steering_rad, a);
+    a.force = detail::forces_for(limits, speed, tau_turn_m, T(0.0), a);
     return a;
   }
+  T q = T(0.0);
   if (mode == YawMode::kSteering) {
-    a.steering_rad = detail::steering_for(limits, speed, tau_turn_m, a);
-    a.force = detail::forces_for(limits, speed, T(0.0), a.steering_rad, a);
-    return a;
+    q = detail::steering_for(limits, speed, tau_turn_m, a);
+    a.force = detail::forces_for(limits, speed, T(0.0), q, a);
+  } else {
+    q = detail::allocate_combined(limits, speed, tau_turn_m, a);
   }
-
-  const T half = tau_turn_m / T(2.0);
-  const bool redistribute = limits.split == CombinedSplit::kRedistribute;
-  a.steering_rad = detail::steering_for(limits, speed, half, a);
-  // Steering's moment at d_r: l_f tau_speed tan(d_r/2) = l_f tau_speed sin d_r/(1 + cos d_r).
-  const T steered = limits.front_axle_m * speed * sin(a.steering_rad) / (T(1.0) + cos(a.steering_rad));
-  const T difference = redistribute ? tau_turn_m - steered : half;
-  a.force = detail::forces_for(limits, speed, difference, a.steering_rad, a);
-  if (redistribute && a.force_limited && !a.steering_limited && !a.steering_powerless) {
-    const T delivered = limits.half_track_m * (a.force.right - a.force.left) *
-                        (T(1.0) + cos(a.steering_rad));
-    const T pair = (a.force.left + a.force.right) * (T(1.0) + cos(a.steering_rad));
-    a.steering_rad = detail::steering_for(limits, pair, tau_turn_m - delivered, a);
-  }
+  a.steering_rad = detail::angle_of(limits, q, a);
   return a;
 }
 

@@ -11,10 +11,12 @@
 
 namespace awmr {
 
-template <class T>
+/// G is the form in which the resistance is known: the law itself, or a table of it
+/// (resistance_table.h); whatever gives g for a speed.
+template <class T, class G = Resistance<T>>
 struct Controller {
-  Resistance<T> surge;  ///< g1, dimensionless, of u in m/s
-  Resistance<T> yaw;    ///< g3, m, of r in rad/s
+  G surge;              ///< g1, dimensionless, of u in m/s
+  G yaw;                ///< g3, m, of r in rad/s
   T mass_norm;          ///< m', s^2/m
   T inertia_norm;       ///< I'z, s^2 m
   Gains<T> gains;
@@ -53,6 +55,11 @@ T wrap_angle(T angle_rad) {
   while (!(angle_rad > -pi<T>())) angle_rad += T(2.0) * pi<T>();
   return angle_rad;
 }
+/// float in constant time, which a control step on the chip needs.
+template <>
+inline float wrap_angle(float angle_rad) {
+  return float_math::wrapped(angle_rad);
+}
 
 /// S = e_dot + lambda e,  e = wrap(psi_d - psi),  e_dot = psi_d_dot - r                 [paper (82)]
 template <class T>
@@ -64,31 +71,36 @@ T sliding_surface(const HeadingGains<T>& gains, const Measurement<T>& m, const R
 /// [paper (89), corrected: (84)-(85) write r_ddot for r_dot, (88)-(89) psi_d_dot - r_dot for
 /// psi_d_dot - r; (78), (87): the condition of sat is on |S| <= eps, not on |e|. The disturbance is
 /// unknown and drops out; mu has to dominate it.]
-template <class T>
-T heading_law(const Controller<T>& c, const Measurement<T>& m, const Reference<T>& ref) {
-  const T s = sliding_surface(c.gains.heading, m, ref);
-  const T correction = c.gains.heading.mu * math::saturate(s / c.gains.heading.epsilon, T(1.0));
+template <class T, class G>
+T heading_law(const Controller<T, G>& c, const T& sliding_radps, const Measurement<T>& m,
+              const Reference<T>& ref) {
+  const T correction =
+      c.gains.heading.mu * math::saturate(sliding_radps / c.gains.heading.epsilon, T(1.0));
   return c.yaw(m.r_radps) +
          c.inertia_norm * (ref.psi_accel_radps2 +
                            c.gains.heading.lambda * (ref.psi_rate_radps - m.r_radps) + correction);
 }
+template <class T, class G>
+T heading_law(const Controller<T, G>& c, const Measurement<T>& m, const Reference<T>& ref) {
+  return heading_law(c, sliding_surface(c.gains.heading, m, ref), m, ref);
+}
 
 /// tau_speed = g1(u) - m' r v + m' (u_d_dot + mu_s sat((u_d - u)/eps_s))                [paper (102)]
-template <class T>
-T speed_law(const Controller<T>& c, const Measurement<T>& m, const Reference<T>& ref) {
+template <class T, class G>
+T speed_law(const Controller<T, G>& c, const Measurement<T>& m, const Reference<T>& ref) {
   const T error = ref.speed_mps - m.u_mps;
   const T correction = c.gains.speed.mu * math::saturate(error / c.gains.speed.epsilon, T(1.0));
   return c.surge(m.u_mps) - c.mass_norm * m.r_radps * m.v_mps +
          c.mass_norm * (ref.accel_mps2 + correction);
 }
 
-template <class T>
-Command<T> control_step(const Controller<T>& c, YawMode mode, const Measurement<T>& m,
+template <class T, class G>
+Command<T> control_step(const Controller<T, G>& c, YawMode mode, const Measurement<T>& m,
                         const Reference<T>& ref) {
   Command<T> command{};
   command.tau_speed = speed_law(c, m, ref);
-  command.tau_turn_m = heading_law(c, m, ref);
   command.sliding_radps = sliding_surface(c.gains.heading, m, ref);
+  command.tau_turn_m = heading_law(c, command.sliding_radps, m, ref);
   command.allocation = allocate(mode, command.tau_speed, command.tau_turn_m, c.limits);
   return command;
 }

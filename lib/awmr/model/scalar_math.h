@@ -1,10 +1,13 @@
 /// Elementary functions for any scalar. Freestanding C++14.
 ///
 /// Templates write `using math::sin; sin(x)`: float and double come from here, ceres::Jet and other
-/// scalars from their own namespace by argument-dependent lookup.
+/// scalars from their own namespace by argument-dependent lookup. float's sin, cos, atan and atan2
+/// are float_math.h's, the same bits on every machine.
 #pragma once
 
 #include <math.h>
+
+#include "awmr/model/float_math.h"
 
 namespace awmr {
 namespace math {
@@ -13,13 +16,13 @@ inline float abs(float x) { return ::fabsf(x); }
 inline double abs(double x) { return ::fabs(x); }
 inline float sqrt(float x) { return ::sqrtf(x); }
 inline double sqrt(double x) { return ::sqrt(x); }
-inline float sin(float x) { return ::sinf(x); }
+inline float sin(float x) { return float_math::sin(x); }
 inline double sin(double x) { return ::sin(x); }
-inline float cos(float x) { return ::cosf(x); }
+inline float cos(float x) { return float_math::cos(x); }
 inline double cos(double x) { return ::cos(x); }
-inline float atan(float x) { return ::atanf(x); }
+inline float atan(float x) { return float_math::atan(x); }
 inline double atan(double x) { return ::atan(x); }
-inline float atan2(float y, float x) { return ::atan2f(y, x); }
+inline float atan2(float y, float x) { return float_math::atan2(y, x); }
 inline double atan2(double y, double x) { return ::atan2(y, x); }
 inline float pow(float x, float y) { return ::powf(x, y); }
 inline double pow(double x, double y) { return ::pow(x, y); }

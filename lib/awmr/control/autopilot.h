@@ -1,0 +1,164 @@
+/// One whole step of the firmware: checks, guidance, heading and speed laws, allocation, limits.
+/// Freestanding C++14. The host's float run is this source too, and gives the same bits.
+#pragma once
+
+#include <stdint.h>
+
+#include "awmr/control/controller.h"
+#include "awmr/control/guidance.h"
+#include "awmr/control/parameters_block.h"
+#include "awmr/control/resistance_table.h"
+#include "awmr/control/safety.h"
+
+namespace awmr {
+
+struct AutopilotInput {
+  uint8_t mode;  ///< a YawMode
+  Measurement<float> measured;
+  Point<float> position_m;     ///< read while following waypoints only
+  Reference<float> reference;  ///< its heading is not read while following waypoints
+  InputTimes times;
+};
+
+struct AutopilotOutput {
+  Allocation<float> command;
+  float tau_speed;
+  float tau_turn_m;
+  float psi_ref_rad;  ///< the heading held or led to
+  bool arrived;       ///< no waypoint is left
+  uint8_t fault;      ///< SafetyFault bits; not 0: `command` is the safe one
+};
+
+/// G is ResistanceTable or Resistance<float>.
+template <class G>
+struct Autopilot {
+  Controller<float, G> controller;
+  SafetyLimits limits;
+  Waypoints<float> waypoints;  ///< count 0: none to follow
+  WaypointProgress<float> progress;
+  uint32_t last_step_ms;
+  bool has_stepped;
+  bool is_leg_started;
+  bool are_parameters_good;
+};
+
+/// The form of g that a block describes.
+inline void set_resistance(const TableShape& shape, float /*alpha*/, float /*beta*/,
+                           const float* values, ResistanceTable& table) {
+  table = {values, static_cast<uint16_t>(shape.count), static_cast<uint16_t>(shape.first),
+           static_cast<uint8_t>(shape.mantissa_bits), shape.slope_at_rest};
+}
+inline void set_resistance(const TableShape& /*shape*/, float alpha, float beta,
+                           const float* /*values*/, Resistance<float>& law) {
+  law.alpha = alpha;
+  law.beta = beta;
+  law.rest_speed = 0.0F;
+}
+
+/// Reads the parameters and checks them against the check sum that they were emitted with. False,
+/// and from then on the safe command only: they are not those. Block and values lie in flash on an
+/// AVR.
+template <class G>
+bool start_autopilot(Autopilot<G>& a, const ParameterBlock* block, const float* surge_values,
+                     size_t surge_count, const float* yaw_values, size_t yaw_count, uint32_t crc) {
+  const ParameterBlock p = read_from_flash(block);
+  a.controller.mass_norm = p.mass_norm;
+  a.controller.inertia_norm = p.inertia_norm;
+  a.controller.gains = {{p.heading_lambda, p.heading_mu, p.heading_epsilon},
+                        {p.speed_mu, p.speed_epsilon}};
+  a.controller.limits.front_axle_m = p.front_axle_m;
+  a.controller.limits.half_track_m = p.half_track_m;
+  a.controller.limits.force_min = p.force_min;
+  a.controller.limits.force_max = p.force_max;
+  a.controller.limits.steering_max_rad = p.steering_max_rad;
+  a.controller.limits.split = CombinedSplit::kRedistribute;
+  a.controller.limits.steering_max_tan_half = tan_half(p.steering_max_rad);
+  set_resistance(p.surge_table, p.surge_alpha, p.surge_beta, surge_values, a.controller.surge);
+  set_resistance(p.yaw_table, p.yaw_alpha, p.yaw_beta, yaw_values, a.controller.yaw);
+  a.limits = {p.speed_max_mps,    p.yaw_rate_max_radps, p.heading_timeout_ms,
+              p.speed_timeout_ms, p.command_timeout_ms, p.step_timeout_ms};
+  a.waypoints = {nullptr, 0, 0.0F, false};
+  a.has_stepped = false;
+  a.is_leg_started = false;
+  a.are_parameters_good =
+      crc32_of_parameters(block, surge_values, surge_count, yaw_values, yaw_count) == crc;
+  return a.are_parameters_good;
+}
+
+/// Follows points from the next step on; none: holds the reference's heading again.
+template <class G>
+void follow_waypoints(Autopilot<G>& a, const Waypoints<float>& waypoints) {
+  a.waypoints = waypoints;
+  a.is_leg_started = false;
+}
+
+namespace detail {
+
+/// Positions may be this far from the origin, m: their squares are far from overflow.
+constexpr float kPositionMax = 1e6F;
+
+/// The step's own time; the first has none before it.
+template <class G>
+uint8_t check_period(Autopilot<G>& a, uint32_t now_ms) {
+  const bool late = a.has_stepped && is_older(now_ms, a.last_step_ms, a.limits.step_timeout_ms);
+  a.last_step_ms = now_ms;
+  a.has_stepped = true;
+  return late ? kFaultStepLate : kFaultNone;
+}
+
+template <class G>
+uint8_t check_input(Autopilot<G>& a, const AutopilotInput& in) {
+  unsigned fault = a.are_parameters_good ? kFaultNone : kFaultParameters;
+  if (in.mode > static_cast<uint8_t>(YawMode::kCombined)) fault |= kFaultRange;
+  fault |= check_measurement(a.limits, in.measured);
+  fault |= check_reference(a.limits, in.reference);
+  fault |= check_times(a.limits, in.times);
+  fault |= check_period(a, in.times.now_ms);
+  if (a.waypoints.count > 0) {
+    fault |= check_magnitude(in.position_m.x_m, kPositionMax);
+    fault |= check_magnitude(in.position_m.y_m, kPositionMax);
+  }
+  return static_cast<uint8_t>(fault);
+}
+
+/// The reference with the heading that the waypoints lead to, where there are any.
+template <class G>
+Reference<float> led(Autopilot<G>& a, const AutopilotInput& in, bool& arrived) {
+  Reference<float> ref = in.reference;
+  arrived = false;
+  if (a.waypoints.count <= 0) return ref;
+  if (!a.is_leg_started) {
+    a.progress = start_waypoints(in.position_m, in.measured.psi_rad);
+    a.is_leg_started = true;
+  }
+  const WaypointGuidance<float> guidance = guide(a.waypoints, in.position_m, a.progress);
+  arrived = guidance.finished;
+  ref.psi_rad = guidance.psi_rad;
+  ref.psi_rate_radps = 0.0F;
+  ref.psi_accel_radps2 = 0.0F;
+  return ref;
+}
+
+}  // namespace detail
+
+template <class G>
+AutopilotOutput autopilot_step(Autopilot<G>& a, const AutopilotInput& in) {
+  AutopilotOutput out{};
+  out.fault = detail::check_input(a, in);
+  out.command = safe_command<float>();
+  if (out.fault != kFaultNone) return out;
+  const Reference<float> ref = detail::led(a, in, out.arrived);
+  const Command<float> command =
+      control_step(a.controller, static_cast<YawMode>(in.mode), in.measured, ref);
+  out.psi_ref_rad = ref.psi_rad;
+  out.tau_speed = command.tau_speed;
+  out.tau_turn_m = command.tau_turn_m;
+  if (is_within_limits(a.controller.limits, command.allocation)) {
+    out.command = command.allocation;
+  } else {
+    out.fault = kFaultOutput;
+  }
+  return out;
+}
+
+}  // namespace awmr

@@ -1,0 +1,39 @@
+/// Cyclic redundancy checks, a bit at a time: no table to store. Freestanding C++14.
+#pragma once
+
+#include <stddef.h>
+#include <stdint.h>
+
+namespace awmr {
+
+/// CRC-32 of IEEE 802.3 (reflected, 0xEDB88320), the one of zip and PNG: "123456789" gives
+/// 0xCBF43926. Start with kCrc32Start, feed bytes in order, end with ~crc.
+constexpr uint32_t kCrc32Start = 0xFFFFFFFFUL;
+
+inline uint32_t crc32_with(uint32_t crc, uint8_t byte) {
+  crc ^= byte;
+  for (uint8_t bit = 0; bit < 8; ++bit) {
+    crc = (crc & 1U) != 0 ? (crc >> 1U) ^ 0xEDB88320UL : crc >> 1U;
+  }
+  return crc;
+}
+
+/// CRC-16 of CCITT with start 0xFFFF: "123456789" gives 0x29B1. For frames.
+constexpr uint16_t kCrc16Start = 0xFFFFU;
+
+inline uint16_t crc16_with(uint16_t crc, uint8_t byte) {
+  // Four shifts for eight bits: the polynomial x^16 + x^12 + x^5 + 1 folds by nibbles.
+  uint8_t high = static_cast<uint8_t>((crc >> 8U) ^ byte);
+  high = static_cast<uint8_t>(high ^ (high >> 4U));
+  const uint16_t folded = static_cast<uint16_t>((static_cast<uint16_t>(high) << 12U) ^
+                                                (static_cast<uint16_t>(high) << 5U) ^ high);
+  return static_cast<uint16_t>(static_cast<uint16_t>(crc << 8U) ^ folded);
+}
+
+inline uint16_t crc16_of(const uint8_t* bytes, size_t size) {
+  uint16_t crc = kCrc16Start;
+  for (size_t i = 0; i < size; ++i) crc = crc16_with(crc, bytes[i]);
+  return crc;
+}
+
+}  // namespace awmr

@@ -1,0 +1,45 @@
+/// A resistance as a table: what the chip uses instead of powf. Freestanding C++14.
+///
+/// The entries lie where a float's exponent and its leading m mantissa bits say, 2^m to an octave,
+/// so that the error follows the curve's own scale and an index is a shift of the bits, no
+/// logarithm. In between the curve is its chord, and below the first entry the chord to the origin.
+/// Odd: g(-w) = -g(w).
+#pragma once
+
+#include <stdint.h>
+
+#include "awmr/control/flash.h"
+#include "awmr/model/float_math.h"
+
+namespace awmr {
+
+struct ResistanceTable {
+  const float* values;    ///< g at the entries, ascending; in flash on an AVR
+  uint16_t count;         ///< of entries, >= 2
+  uint16_t first;         ///< cell_of() of the first entry
+  uint8_t mantissa_bits;  ///< m, 0 to 7
+  float slope_at_rest;    ///< g(w)/w at the first entry
+
+  /// The exponent and the leading mantissa bits of a magnitude, as one number.
+  static uint16_t cell_of(uint32_t magnitude_bits, uint8_t mantissa_bits) {
+    return static_cast<uint16_t>(static_cast<uint16_t>(magnitude_bits >> 16U) >>
+                                 (7U - mantissa_bits));
+  }
+
+  /// g(w). Beyond the last entry, and for what is no number, NaN: a caller checks the range first.
+  float operator()(const float& speed) const {
+    const uint32_t magnitude = bits_of(speed) & 0x7FFFFFFFUL;
+    const uint16_t cell = cell_of(magnitude, mantissa_bits);
+    if (cell < first) return slope_at_rest * speed;
+    const uint16_t index = static_cast<uint16_t>(cell - first);
+    if (index + 1 >= count) return float_math::not_a_number();
+    const float low = flash_float(values + index);
+    const float high = flash_float(values + index + 1);
+    // The mantissa's other bits are the place inside the cell: 1 <= 1 + t < 2, exactly.
+    const float one_plus_t = float_of(((magnitude << mantissa_bits) & 0x007FFFFFUL) | 0x3F800000UL);
+    const float value = low + (one_plus_t - 1.0F) * (high - low);
+    return speed < 0.0F ? -value : value;
+  }
+};
+
+}  // namespace awmr

@@ -1,0 +1,111 @@
+/// What the autopilot refuses to steer by, and what it does then. Freestanding C++14.
+#pragma once
+
+#include <stdint.h>
+
+#include "awmr/control/allocation.h"
+#include "awmr/control/controller.h"
+#include "awmr/control/flash.h"
+
+namespace awmr {
+
+/// Why the safe command was given: bits, as several faults may come at once. Only kFaultParameters
+/// stays; the others last as long as their cause.
+enum SafetyFault : uint8_t {
+  kFaultNone = 0x00,
+  kFaultParameters = 0x01,      ///< the parameters in flash are not those that were emitted
+  kFaultNotFinite = 0x02,       ///< a measurement or a reference is infinite or NaN
+  kFaultRange = 0x04,           ///< a measurement, a reference or the mode is out of range
+  kFaultHeadingStale = 0x08,    ///< heading and yaw rate were not renewed in time
+  kFaultSpeedStale = 0x10,      ///< speed (and position, where it is used) was not renewed in time
+  kFaultCommandTimeout = 0x20,  ///< the reference was not renewed in time
+  kFaultStepLate = 0x40,        ///< the step before was too long ago
+  kFaultOutput = 0x80           ///< the command would have been no number or outside its limits
+};
+
+/// When things were last renewed, in ms of one clock that may wrap around.
+struct InputTimes {
+  uint32_t now_ms;
+  uint32_t heading_ms;
+  uint32_t speed_ms;
+  uint32_t command_ms;
+};
+
+struct SafetyLimits {
+  float speed_max_mps;
+  float yaw_rate_max_radps;
+  uint32_t heading_timeout_ms;
+  uint32_t speed_timeout_ms;
+  uint32_t command_timeout_ms;
+  uint32_t step_timeout_ms;
+};
+
+/// Motors off, wheels straight.
+template <class T>
+Allocation<T> safe_command() {
+  Allocation<T> a{};
+  a.force = {T(0.0), T(0.0)};
+  a.steering_rad = T(0.0);
+  return a;
+}
+
+namespace detail {
+
+/// kFaultNotFinite, kFaultRange where |value| > largest, or none: by the bits, which order as the
+/// magnitudes do and cost the chip a tenth of a comparison of floats.
+inline uint8_t check_magnitude(float value, float largest) {
+  const uint32_t magnitude = bits_of(value) & 0x7FFFFFFFUL;
+  if (magnitude >= 0x7F800000UL) return kFaultNotFinite;
+  return magnitude > bits_of(largest) ? kFaultRange : kFaultNone;
+}
+
+/// True where `then_ms` lies more than `limit_ms` before `now_ms`; the difference is right across
+/// the clock's wrap. A time to come is none that the clock gave: old as well.
+inline bool is_older(uint32_t now_ms, uint32_t then_ms, uint32_t limit_ms) {
+  return static_cast<uint32_t>(now_ms - then_ms) > limit_ms;
+}
+
+}  // namespace detail
+
+/// The largest acceleration that a reference may ask for, 1/s^2 and m/s^2, and yaw rate, rad/s: far
+/// beyond any vehicle, only so that no product overflows.
+constexpr float kReferenceMax = 1e6F;
+
+inline uint8_t check_measurement(const SafetyLimits& limits, const Measurement<float>& m) {
+  return static_cast<uint8_t>(detail::check_magnitude(m.psi_rad, 0.5F * float_math::kAngleMax) |
+                              detail::check_magnitude(m.u_mps, limits.speed_max_mps) |
+                              detail::check_magnitude(m.v_mps, limits.speed_max_mps) |
+                              detail::check_magnitude(m.r_radps, limits.yaw_rate_max_radps));
+}
+
+/// Heading measured and wanted may be half of kAngleMax each, so that their difference is in it.
+inline uint8_t check_reference(const SafetyLimits& limits, const Reference<float>& ref) {
+  return static_cast<uint8_t>(detail::check_magnitude(ref.psi_rad, 0.5F * float_math::kAngleMax) |
+                              detail::check_magnitude(ref.psi_rate_radps, kReferenceMax) |
+                              detail::check_magnitude(ref.psi_accel_radps2, kReferenceMax) |
+                              detail::check_magnitude(ref.speed_mps, limits.speed_max_mps) |
+                              detail::check_magnitude(ref.accel_mps2, kReferenceMax));
+}
+
+inline uint8_t check_times(const SafetyLimits& limits, const InputTimes& times) {
+  unsigned fault = kFaultNone;
+  if (detail::is_older(times.now_ms, times.heading_ms, limits.heading_timeout_ms)) {
+    fault |= kFaultHeadingStale;
+  }
+  if (detail::is_older(times.now_ms, times.speed_ms, limits.speed_timeout_ms)) {
+    fault |= kFaultSpeedStale;
+  }
+  if (detail::is_older(times.now_ms, times.command_ms, limits.command_timeout_ms)) {
+    fault |= kFaultCommandTimeout;
+  }
+  return static_cast<uint8_t>(fault);
+}
+
+/// The last gate before the motors: false for NaN too.
+inline bool is_within_limits(const AllocationLimits<float>& limits, const Allocation<float>& a) {
+  return a.force.left >= limits.force_min && a.force.left <= limits.force_max &&
+         a.force.right >= limits.force_min && a.force.right <= limits.force_max &&
+         detail::check_magnitude(a.steering_rad, limits.steering_max_rad) == kFaultNone;
+}
+
+}  // namespace awmr

@@ -1,0 +1,126 @@
+/// float_math.h against double's functions of the C library, whose error (1e-16) does not count.
+#include "awmr/model/float_math.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <limits>
+
+namespace awmr::testing {
+namespace {
+
+/// Steps through the floats' bit patterns; 1 (AWMR_EXHAUSTIVE set) is every float.
+std::uint32_t stride() { return std::getenv("AWMR_EXHAUSTIVE") != nullptr ? 1U : 1009U; }
+
+double unit_in_last_place(double value) {
+  int exponent = 0;
+  std::frexp(value, &exponent);
+  return std::ldexp(1.0, std::max(exponent, -125) - 24);
+}
+
+struct Worst {
+  double absolute = 0.0;
+  double ulps = 0.0;
+};
+
+/// Worst errors of `f` against `reference` over the positive floats of [lo, hi] and their
+/// negatives.
+template <class F, class Reference>
+Worst worst_error(float lo, float hi, F f, Reference reference) {
+  Worst worst;
+  for (std::uint64_t bits = std::bit_cast<std::uint32_t>(lo);
+       bits <= std::bit_cast<std::uint32_t>(hi); bits += stride()) {
+    const float magnitude = std::bit_cast<float>(static_cast<std::uint32_t>(bits));
+    for (const float x : {magnitude, -magnitude}) {
+      const double exact = reference(static_cast<double>(x));
+      const double error = std::abs(static_cast<double>(f(x)) - exact);
+      worst.absolute = std::max(worst.absolute, error);
+      worst.ulps = std::max(worst.ulps, error / unit_in_last_place(exact));
+    }
+  }
+  ::testing::Test::RecordProperty("absolute", std::to_string(worst.absolute * 1e9) + "e-9");
+  ::testing::Test::RecordProperty("ulps", std::to_string(worst.ulps));
+  return worst;
+}
+
+// From the least normal float: below it the chip's subnormal numbers are its own affair.
+constexpr float kLeast = std::numeric_limits<float>::min();
+
+TEST(FloatMath, SineAndCosineKeepTheirStatedErrorUpToTheLargestAngle) {
+  const auto sine = worst_error(
+      kLeast, float_math::kAngleMax, [](float x) { return float_math::sin(x); },
+      [](double x) { return std::sin(x); });
+  EXPECT_LT(sine.absolute, 7.9e-8);
+  const auto cosine = worst_error(
+      kLeast, float_math::kAngleMax, [](float x) { return float_math::cos(x); },
+      [](double x) { return std::cos(x); });
+  EXPECT_LT(cosine.absolute, 7.9e-8);
+}
+
+TEST(FloatMath, ArcTangentKeepsItsStatedErrorOverAllFloats) {
+  const auto worst = worst_error(
+      kLeast, std::numeric_limits<float>::max(), [](float x) { return float_math::atan(x); },
+      [](double x) { return std::atan(x); });
+  EXPECT_LT(worst.ulps, 2.4);
+}
+
+TEST(FloatMath, AngleOfAVectorKeepsItsStatedErrorInEveryDirection) {
+  double worst = 0.0;
+  for (int i = 0; i < 400000; ++i) {
+    const double direction = -3.14159 + 6.28318 * i / 400000.0;
+    const double length = std::exp2(i % 41 - 20);
+    const auto x = static_cast<float>(length * std::cos(direction));
+    const auto y = static_cast<float>(length * std::sin(direction));
+    const double exact = std::atan2(static_cast<double>(y), static_cast<double>(x));
+    worst = std::max(worst, std::abs(static_cast<double>(float_math::atan2(y, x)) - exact));
+  }
+  EXPECT_LT(worst, 3e-7);
+}
+
+TEST(FloatMath, AnglesOfTheAxesAndOfTheOriginAreExact) {
+  EXPECT_EQ(float_math::atan2(0.0F, 0.0F), 0.0F);
+  EXPECT_EQ(float_math::atan2(0.0F, 2.0F), 0.0F);
+  EXPECT_EQ(float_math::atan2(3.0F, 0.0F), float_math::kPiBy2);
+  EXPECT_EQ(float_math::atan2(-3.0F, 0.0F), -float_math::kPiBy2);
+  EXPECT_EQ(float_math::atan2(0.0F, -1.0F), float_math::kPi);
+  EXPECT_EQ(float_math::atan2(-0.0F, -1.0F), float_math::kPi);
+}
+
+TEST(FloatMath, WrapsIntoMinusPiToPiAndChangesNothingThere) {
+  double worst = 0.0;
+  for (std::uint64_t bits = std::bit_cast<std::uint32_t>(1e-3F);
+       bits <= std::bit_cast<std::uint32_t>(float_math::kAngleMax); bits += stride()) {
+    const float magnitude = std::bit_cast<float>(static_cast<std::uint32_t>(bits));
+    for (const float x : {magnitude, -magnitude}) {
+      const float wrapped = float_math::wrapped(x);
+      ASSERT_TRUE(wrapped > -float_math::kPi && wrapped <= float_math::kPi) << x;
+      if (x > -float_math::kPi && x <= float_math::kPi) {
+        ASSERT_EQ(wrapped, x);
+      }
+      const double off = std::remainder(static_cast<double>(wrapped) - static_cast<double>(x),
+                                        2.0 * 3.14159265358979323846);
+      worst = std::max(worst, std::abs(off));
+    }
+  }
+  EXPECT_LT(worst, 4e-7);
+}
+
+TEST(FloatMath, WhatIsNoAngleGivesNaN) {
+  const float infinity = std::numeric_limits<float>::infinity();
+  for (const float x : {infinity, -infinity, std::nanf(""), 8200.0F, -1e30F}) {
+    EXPECT_TRUE(std::isnan(float_math::sin(x)));
+    EXPECT_TRUE(std::isnan(float_math::cos(x)));
+    EXPECT_TRUE(std::isnan(float_math::wrapped(x)));
+  }
+  EXPECT_TRUE(std::isnan(float_math::atan(std::nanf(""))));
+  EXPECT_TRUE(std::isnan(float_math::atan2(std::nanf(""), 1.0F)));
+  EXPECT_TRUE(std::isnan(float_math::atan2(1.0F, std::nanf(""))));
+  EXPECT_EQ(float_math::atan(infinity), float_math::kPiBy2);
+  EXPECT_EQ(float_math::atan(-infinity), -float_math::kPiBy2);
+}
+
+}  // namespace
+}  // namespace awmr::testing
