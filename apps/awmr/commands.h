@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "awmr/compare/compare.h"
+#include "awmr/emit/emit.h"
 #include "awmr/identify/identify.h"
 #include "awmr/tune/tune.h"
 #include "awmr/validate/validate.h"
@@ -74,6 +75,8 @@ struct EmitCommand {
   fs::path model;
   fs::path gains;
   fs::path output;
+  EmitOptions emit = {};
+  bool header_only = false;  ///< awmr_params.h alone, without the library around it
 };
 Result<Outcome> execute(const EmitCommand& command);
 void add_emit(CLI::App& app, Session& session);

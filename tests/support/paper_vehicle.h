@@ -34,6 +34,7 @@ Controller<T> paper_controller_of() {
                      .force_min = T(-1.0),
                      .force_max = T(1.0),
                      .steering_max_rad = plant.steering_max_rad,
+                     .steering_max_tan_half = tan_half(plant.steering_max_rad),
                      .split = CombinedSplit::kRedistribute}};
 }
 

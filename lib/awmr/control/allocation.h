@@ -5,10 +5,11 @@
 /// so that the only function needed is the arc tangent of the angle commanded. [paper (42),
 /// corrected: L and R are swapped there against (41), and d stands where l_f belongs in d_r.]
 ///
-/// Order of limits: tau_speed is clipped to [4 F'min, 4 F'max]; d_r to |d_r| <= d_max, and F' follow
-/// from the clipped, commanded d_r; then each F' is clipped to [F'min, F'max].
+/// Order of limits: tau_speed is clipped to [4 F'min, 4 F'max]; d_r to |d_r| <= d_max, and F'
+/// follow from the clipped, commanded d_r; then each F' is clipped to [F'min, F'max].
 #pragma once
 
+#include "awmr/control/flash.h"
 #include "awmr/control/yaw_mode.h"
 #include "awmr/model/scalar_math.h"
 #include "awmr/model/state.h"
@@ -25,13 +26,13 @@ T tan_half(const T& angle_rad) {
 
 template <class T>
 struct AllocationLimits {
-  T front_axle_m;      ///< l_f, > 0
-  T half_track_m;      ///< d, > 0
-  T force_min;         ///< F'min of one wheel, over F_max
-  T force_max;         ///< F'max of one wheel, > F'min
-  T steering_max_rad;  ///< in (0, pi/2)
+  T front_axle_m;           ///< l_f, > 0
+  T half_track_m;           ///< d, > 0
+  T force_min;              ///< F'min of one wheel, over F_max
+  T force_max;              ///< F'max of one wheel, > F'min
+  T steering_max_rad;       ///< d_max, in (0, pi/2)
+  T steering_max_tan_half;  ///< tan_half(d_max)
   CombinedSplit split = CombinedSplit::kRedistribute;
-  T steering_max_tan_half = tan_half(steering_max_rad);  ///< tan(d_max/2), follows from d_max
 };
 
 template <class T>
@@ -44,7 +45,8 @@ struct Allocation {
   bool steering_powerless;  ///< steering was asked for, but tau_speed is too small to steer with
 };
 
-/// Below this tau_speed the front wheels push too little to turn the vehicle: d_r is commanded to 0.
+/// Below this tau_speed the front wheels push too little to turn the vehicle: d_r is commanded to
+/// 0.
 template <class T>
 constexpr T steering_authority_min() {
   return T(1e-6);
@@ -52,18 +54,31 @@ constexpr T steering_authority_min() {
 
 namespace detail {
 
+/// x in [lo, hi]; `limited` is set where that changes it.
+template <class T>
+AWMR_SHARED T clipped(const T& x, const T& lo, const T& hi, bool& limited) {
+  if (x > hi) {
+    limited = true;
+    return hi;
+  }
+  if (x < lo) {
+    limited = true;
+    return lo;
+  }
+  return x;
+}
+
 /// q of the angle that makes `moment_m`: q = moment/(l_f tau_speed), clipped to tan(d_max/2).
 template <class T>
-T steering_for(const AllocationLimits<T>& limits, const T& tau_speed, const T& moment_m,
-               Allocation<T>& a) {
+AWMR_SHARED T steering_for(const AllocationLimits<T>& limits, const T& tau_speed, const T& moment_m,
+                           Allocation<T>& a) {
   if (!(tau_speed > steering_authority_min<T>())) {
     a.steering_powerless = true;
     return T(0.0);
   }
   const T q = moment_m / (limits.front_axle_m * tau_speed);
-  const T clipped = math::saturate(q, limits.steering_max_tan_half);
-  a.steering_limited = clipped < q || clipped > q;
-  return clipped;
+  return clipped(q, -limits.steering_max_tan_half, limits.steering_max_tan_half,
+                 a.steering_limited);
 }
 
 /// d_r = 2 atan q; d_max itself where q was clipped.
@@ -81,33 +96,34 @@ SideForces<T> forces_for(const AllocationLimits<T>& limits, const T& tau_speed, 
   const T quarter = (T(1.0) + q * q) * T(0.25);
   const T mean = tau_speed * quarter;
   const T half_difference = moment_m / limits.half_track_m * quarter;
-  const T left = mean - half_difference;
-  const T right = mean + half_difference;
-  const SideForces<T> clipped{math::clamp(left, limits.force_min, limits.force_max),
-                              math::clamp(right, limits.force_min, limits.force_max)};
-  a.force_limited = clipped.left < left || clipped.left > left || clipped.right < right ||
-                    clipped.right > right;
-  return clipped;
+  return {clipped(mean - half_difference, limits.force_min, limits.force_max, a.force_limited),
+          clipped(mean + half_difference, limits.force_min, limits.force_max, a.force_limited)};
 }
 
-/// Half of tau_turn each way; with kRedistribute, what d_r's stop takes away is added to the forces'
-/// share, and what the forces' limits take away then goes back to d_r. Returns q.
+/// q for the mode's steering share of tau_turn; `difference_m` is what it leaves to the forces:
+/// with kRedistribute, what d_r's stop takes away too.
 template <class T>
-T allocate_combined(const AllocationLimits<T>& limits, const T& tau_speed, const T& tau_turn_m,
-                    Allocation<T>& a) {
-  const T half = tau_turn_m * T(0.5);
-  const bool redistribute = limits.split == CombinedSplit::kRedistribute;
-  const T q = steering_for(limits, tau_speed, half, a);
-  // Steering's moment: l_f tau_speed sin d_r/(1 + cos d_r) = l_f tau_speed q.
+T share(YawMode mode, const AllocationLimits<T>& limits, const T& tau_speed, const T& tau_turn_m,
+        T& difference_m, Allocation<T>& a) {
+  difference_m = tau_turn_m;
+  if (mode == YawMode::kDifferential) return T(0.0);
+  const bool combined = mode == YawMode::kCombined;
+  difference_m = combined ? tau_turn_m * T(0.5) : T(0.0);
+  const T q = steering_for(limits, tau_speed, tau_turn_m - difference_m, a);
   const bool lost = a.steering_limited || a.steering_powerless;
-  const T difference =
-      redistribute && lost ? tau_turn_m - limits.front_axle_m * tau_speed * q : half;
-  a.force = forces_for(limits, tau_speed, difference, q, a);
-  if (!redistribute || !a.force_limited || lost) return q;
-  // What the clipped forces amount to, both over 1 + cos d_r = 2/(1 + q^2).
+  if (combined && lost && limits.split == CombinedSplit::kRedistribute) {
+    // Steering's moment: l_f tau_speed sin d_r/(1 + cos d_r) = l_f tau_speed q.
+    difference_m = tau_turn_m - limits.front_axle_m * tau_speed * q;
+  }
+  return q;
+}
+
+/// What the clipped forces leave of tau_turn goes to the steering. Returns q.
+template <class T>
+T give_back(const AllocationLimits<T>& limits, const T& tau_turn_m, const T& q, Allocation<T>& a) {
+  // Both over 1 + cos d_r = 2/(1 + q^2).
   const T one_plus_cos = T(2.0) / (T(1.0) + q * q);
-  const T delivered_m =
-      limits.half_track_m * (a.force.right - a.force.left) * one_plus_cos;
+  const T delivered_m = limits.half_track_m * (a.force.right - a.force.left) * one_plus_cos;
   const T pair = (a.force.left + a.force.right) * one_plus_cos;
   return steering_for(limits, pair, tau_turn_m - delivered_m, a);
 }
@@ -117,26 +133,21 @@ T allocate_combined(const AllocationLimits<T>& limits, const T& tau_speed, const
 /// tau_speed dimensionless, tau_turn_m in m. Always finite for finite input.
 /// differential: d_r = 0;  F'R,L = tau_speed/4 +- tau_turn/(4 d)
 /// steering:     d_r = 2 atan(tau_turn/(l_f tau_speed));  F'L = F'R = tau_speed/(2 (1 + cos d_r))
-/// combined:     d_r = 2 atan(tau_turn/(2 l_f tau_speed)) and the other half of tau_turn by the forces
+/// combined:     d_r = 2 atan(tau_turn/(2 l_f tau_speed)) and the other half of tau_turn by the
+///               forces; with kRedistribute, what one path's limits take away goes to the other.
 template <class T>
 Allocation<T> allocate(YawMode mode, const T& tau_speed, const T& tau_turn_m,
                        const AllocationLimits<T>& limits) {
   Allocation<T> a{};
-  const T speed =
-      math::clamp(tau_speed, T(4.0) * limits.force_min, T(4.0) * limits.force_max);
-  a.speed_limited = speed < tau_speed || speed > tau_speed;
-
-  if (mode == YawMode::kDifferential) {
-    a.steering_rad = T(0.0);
-    a.force = detail::forces_for(limits, speed, tau_turn_m, T(0.0), a);
-    return a;
-  }
-  T q = T(0.0);
-  if (mode == YawMode::kSteering) {
-    q = detail::steering_for(limits, speed, tau_turn_m, a);
-    a.force = detail::forces_for(limits, speed, T(0.0), q, a);
-  } else {
-    q = detail::allocate_combined(limits, speed, tau_turn_m, a);
+  // By the quarter, which is a wheel's own: 4 F'min <= tau_speed <= 4 F'max.
+  const T speed = T(4.0) * detail::clipped(tau_speed * T(0.25), limits.force_min, limits.force_max,
+                                           a.speed_limited);
+  T difference_m = T(0.0);
+  T q = detail::share(mode, limits, speed, tau_turn_m, difference_m, a);
+  a.force = detail::forces_for(limits, speed, difference_m, q, a);
+  if (mode == YawMode::kCombined && limits.split == CombinedSplit::kRedistribute &&
+      a.force_limited && !a.steering_limited && !a.steering_powerless) {
+    q = detail::give_back(limits, tau_turn_m, q, a);
   }
   a.steering_rad = detail::angle_of(limits, q, a);
   return a;

@@ -43,15 +43,20 @@ struct Autopilot {
 };
 
 /// The form of g that a block describes.
-inline void set_resistance(const TableShape& shape, float /*alpha*/, float /*beta*/,
+inline void set_resistance(const TableShape* shape, const float* /*alpha_beta*/,
                            const float* values, ResistanceTable& table) {
-  table = {values, static_cast<uint16_t>(shape.count), static_cast<uint16_t>(shape.first),
-           static_cast<uint8_t>(shape.mantissa_bits), shape.slope_at_rest};
+  TableShape read;
+  read_flash(shape, read);
+  table.values = values;
+  table.count = static_cast<uint16_t>(read.count);
+  table.first = static_cast<uint16_t>(read.first);
+  table.mantissa_bits = static_cast<uint8_t>(read.mantissa_bits);
+  table.slope_at_rest = read.slope_at_rest;
 }
-inline void set_resistance(const TableShape& /*shape*/, float alpha, float beta,
+inline void set_resistance(const TableShape* /*shape*/, const float* alpha_beta,
                            const float* /*values*/, Resistance<float>& law) {
-  law.alpha = alpha;
-  law.beta = beta;
+  law.alpha = flash_float(alpha_beta);
+  law.beta = flash_float(alpha_beta + 1);
   law.rest_speed = 0.0F;
 }
 
@@ -61,25 +66,22 @@ inline void set_resistance(const TableShape& /*shape*/, float alpha, float beta,
 template <class G>
 bool start_autopilot(Autopilot<G>& a, const ParameterBlock* block, const float* surge_values,
                      size_t surge_count, const float* yaw_values, size_t yaw_count, uint32_t crc) {
-  const ParameterBlock p = read_from_flash(block);
-  a.controller.mass_norm = p.mass_norm;
-  a.controller.inertia_norm = p.inertia_norm;
-  a.controller.gains = {{p.heading_lambda, p.heading_mu, p.heading_epsilon},
-                        {p.speed_mu, p.speed_epsilon}};
-  a.controller.limits.front_axle_m = p.front_axle_m;
-  a.controller.limits.half_track_m = p.half_track_m;
-  a.controller.limits.force_min = p.force_min;
-  a.controller.limits.force_max = p.force_max;
-  a.controller.limits.steering_max_rad = p.steering_max_rad;
-  a.controller.limits.split = CombinedSplit::kRedistribute;
-  a.controller.limits.steering_max_tan_half = tan_half(p.steering_max_rad);
-  set_resistance(p.surge_table, p.surge_alpha, p.surge_beta, surge_values, a.controller.surge);
-  set_resistance(p.yaw_table, p.yaw_alpha, p.yaw_beta, yaw_values, a.controller.yaw);
-  a.limits = {p.speed_max_mps,    p.yaw_rate_max_radps, p.heading_timeout_ms,
-              p.speed_timeout_ms, p.command_timeout_ms, p.step_timeout_ms};
-  a.waypoints = {nullptr, 0, 0.0F, false};
+  Controller<float, G>& c = a.controller;
+  read_flash(&block->mass_norm, c.mass_norm);
+  read_flash(&block->inertia_norm, c.inertia_norm);
+  read_flash(&block->gains, c.gains);
+  read_flash(&block->front_axle_m, c.limits.front_axle_m);
+  read_flash(&block->half_track_m, c.limits.half_track_m);
+  read_flash(&block->force_min, c.limits.force_min);
+  read_flash(&block->force_max, c.limits.force_max);
+  read_flash(&block->steering_max_rad, c.limits.steering_max_rad);
+  read_flash(&block->steering_max_tan_half, c.limits.steering_max_tan_half);
+  c.limits.split = CombinedSplit::kRedistribute;
+  set_resistance(&block->surge_table, block->surge_alpha_beta, surge_values, c.surge);
+  set_resistance(&block->yaw_table, block->yaw_alpha_beta, yaw_values, c.yaw);
+  read_flash(&block->safety, a.limits);
+  a.waypoints.count = 0;
   a.has_stepped = false;
-  a.is_leg_started = false;
   a.are_parameters_good =
       crc32_of_parameters(block, surge_values, surge_count, yaw_values, yaw_count) == crc;
   return a.are_parameters_good;

@@ -5,11 +5,15 @@
 #include <stdint.h>
 #include <string.h>
 
+/// AWMR_IN_FLASH: a constant that takes no RAM. AWMR_SHARED: a function called from several places
+/// that is not to be copied into each.
 #ifdef __AVR__
 #include <avr/pgmspace.h>
 #define AWMR_IN_FLASH PROGMEM
+#define AWMR_SHARED __attribute__((noinline))
 #else
 #define AWMR_IN_FLASH
+#define AWMR_SHARED
 #endif
 
 namespace awmr {
@@ -27,6 +31,16 @@ inline uint8_t flash_byte(const uint8_t* address) {
   return pgm_read_byte(address);
 #else
   return *address;
+#endif
+}
+
+/// Copies what lies in flash at `source`.
+template <class V>
+void read_flash(const V* source, V& value) {
+#ifdef __AVR__
+  memcpy_P(&value, source, sizeof value);
+#else
+  value = *source;
 #endif
 }
 

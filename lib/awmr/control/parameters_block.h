@@ -6,6 +6,8 @@
 
 #include "awmr/control/crc.h"
 #include "awmr/control/flash.h"
+#include "awmr/control/safety.h"
+#include "awmr/model/gains.h"
 
 namespace awmr {
 
@@ -19,10 +21,8 @@ struct TableShape {
 
 /// Of 32-bit members only, so without padding: the same bytes on every little-endian machine.
 struct ParameterBlock {
-  float surge_alpha;
-  float surge_beta;
-  float yaw_alpha;
-  float yaw_beta;
+  float surge_alpha_beta[2];
+  float yaw_alpha_beta[2];
   float mass_norm;
   float inertia_norm;
   float front_axle_m;
@@ -30,18 +30,10 @@ struct ParameterBlock {
   float force_min;
   float force_max;
   float steering_max_rad;
-  float heading_lambda;
-  float heading_mu;
-  float heading_epsilon;
-  float speed_mu;
-  float speed_epsilon;
-  float speed_max_mps;          ///< a measured |u| or |v| above it is no measurement
-  float yaw_rate_max_radps;     ///< a measured |r| above it is no measurement
-  uint32_t heading_timeout_ms;  ///< oldest heading and yaw rate to steer by
-  uint32_t speed_timeout_ms;    ///< oldest speed and position to steer by
-  uint32_t command_timeout_ms;  ///< longest silence of whoever gives the reference
-  uint32_t step_timeout_ms;     ///< longest time between two steps
-  TableShape surge_table;       ///< count 0: by powf
+  float steering_max_tan_half;
+  Gains<float> gains;
+  SafetyLimits safety;
+  TableShape surge_table;  ///< count 0: by powf
   TableShape yaw_table;
 };
 
@@ -58,16 +50,6 @@ inline uint32_t crc32_of_parameters(const ParameterBlock* block, const float* su
   uint32_t crc = crc32_of_flash(kCrc32Start, block, sizeof *block);
   crc = crc32_of_flash(crc, surge_values, surge_count * sizeof(float));
   return ~crc32_of_flash(crc, yaw_values, yaw_count * sizeof(float));
-}
-
-inline ParameterBlock read_from_flash(const ParameterBlock* block) {
-  ParameterBlock copy;
-#ifdef __AVR__
-  memcpy_P(&copy, block, sizeof copy);
-#else
-  copy = *block;
-#endif
-  return copy;
 }
 
 }  // namespace awmr

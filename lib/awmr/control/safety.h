@@ -31,13 +31,14 @@ struct InputTimes {
   uint32_t command_ms;
 };
 
+/// Of 32-bit members only: part of ParameterBlock.
 struct SafetyLimits {
-  float speed_max_mps;
-  float yaw_rate_max_radps;
-  uint32_t heading_timeout_ms;
-  uint32_t speed_timeout_ms;
-  uint32_t command_timeout_ms;
-  uint32_t step_timeout_ms;
+  float speed_max_mps;          ///< a measured |u| or |v| above it is no measurement
+  float yaw_rate_max_radps;     ///< a measured |r| above it is no measurement
+  uint32_t heading_timeout_ms;  ///< oldest heading and yaw rate to steer by
+  uint32_t speed_timeout_ms;    ///< oldest speed and position to steer by
+  uint32_t command_timeout_ms;  ///< longest silence of whoever gives the reference
+  uint32_t step_timeout_ms;     ///< longest time between two steps
 };
 
 /// Motors off, wheels straight.
@@ -53,7 +54,7 @@ namespace detail {
 
 /// kFaultNotFinite, kFaultRange where |value| > largest, or none: by the bits, which order as the
 /// magnitudes do and cost the chip a tenth of a comparison of floats.
-inline uint8_t check_magnitude(float value, float largest) {
+AWMR_SHARED inline uint8_t check_magnitude(float value, float largest) {
   const uint32_t magnitude = bits_of(value) & 0x7FFFFFFFUL;
   if (magnitude >= 0x7F800000UL) return kFaultNotFinite;
   return magnitude > bits_of(largest) ? kFaultRange : kFaultNone;
@@ -103,9 +104,14 @@ inline uint8_t check_times(const SafetyLimits& limits, const InputTimes& times) 
 
 /// The last gate before the motors: false for NaN too.
 inline bool is_within_limits(const AllocationLimits<float>& limits, const Allocation<float>& a) {
-  return a.force.left >= limits.force_min && a.force.left <= limits.force_max &&
-         a.force.right >= limits.force_min && a.force.right <= limits.force_max &&
-         detail::check_magnitude(a.steering_rad, limits.steering_max_rad) == kFaultNone;
+  bool outside = false;
+  detail::clipped(a.force.left, limits.force_min, limits.force_max, outside);
+  detail::clipped(a.force.right, limits.force_min, limits.force_max, outside);
+  // NaN is neither above nor below.
+  return !outside &&
+         (detail::check_magnitude(a.force.left, kReferenceMax) |
+          detail::check_magnitude(a.force.right, kReferenceMax) |
+          detail::check_magnitude(a.steering_rad, limits.steering_max_rad)) == kFaultNone;
 }
 
 }  // namespace awmr

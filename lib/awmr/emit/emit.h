@@ -1,8 +1,13 @@
-/// awmr_params.h: the identified model and the tuned gains as a header for the AVR.
+/// The firmware: awmr_params.h, the identified model and the tuned gains as a header, and the
+/// Arduino library around it.
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
+#include "awmr/control/parameters_block.h"
+#include "awmr/control/resistance_table.h"
 #include "awmr/core/result.h"
 #include "awmr/model/gains.h"
 #include "awmr/model/model.h"
@@ -26,5 +31,69 @@ std::string params_sha256(const EmitInputs& inputs);
 /// range (every such value at once). Errors (refused): T2 >= T1 as float32 sees it.
 Result<std::string> params_header(const Model& model, const Gains<double>& gains,
                                   const EmitInputs& inputs);
+
+/// How the firmware computes the resistances g1 and g3.
+enum class ResistanceForm {
+  kTable,  ///< an interpolated table in flash: the faster by far
+  kPowf    ///< the power law by the C library's powf
+};
+
+struct EmitOptions {
+  ResistanceForm resistance = ResistanceForm::kTable;
+  /// The largest error of a table, in shares of the resistance itself or, where that is less, of a
+  /// tenth of the largest force (4 F'max for surge) or moment (4 d F'max for yaw).
+  double table_error = 1e-3;
+  std::uint32_t heading_timeout_ms = 100;  ///< oldest heading and yaw rate to steer by
+  std::uint32_t speed_timeout_ms = 600;  ///< oldest speed and position: two GPS fixes at 5 Hz late
+  std::uint32_t command_timeout_ms = 1000;  ///< longest silence of whoever gives the reference
+  std::uint32_t step_timeout_ms = 0;        ///< longest time between steps; 0: three sample times
+};
+
+/// A resistance table and how far it is from the law.
+struct EmittedTable {
+  std::vector<float> values;
+  std::uint16_t first = 0;
+  std::uint8_t mantissa_bits = 0;
+  float slope_at_rest = 0.0F;
+  double lowest_speed = 0.0;          ///< of the first entry; below it the chord to the origin
+  double top_speed = 0.0;             ///< of the last entry
+  double worst_error = 0.0;           ///< absolute, below a tenth of full scale, in the unit of g
+  double worst_relative_error = 0.0;  ///< above it
+  double split = 0.0;                 ///< a tenth of full scale, in the unit of g
+
+  /// Refers to this object's values.
+  ResistanceTable view() const;
+};
+
+/// The numbers of the firmware as the chip holds them.
+struct AutopilotParameters {
+  ParameterBlock block{};
+  EmittedTable surge;  ///< no values with powf
+  EmittedTable yaw;
+  ResistanceForm resistance = ResistanceForm::kTable;
+  double table_error = 0.0;
+  std::uint32_t crc = 0;
+};
+
+/// Errors: as params_header; a table that cannot be within its bound (refused).
+Result<AutopilotParameters> autopilot_parameters(const Model& model, const Gains<double>& gains,
+                                                 const EmitInputs& inputs,
+                                                 const EmitOptions& options);
+
+/// The bytes of awmr_autopilot_params.h: tables with their error, limits of the safety checks, the
+/// check sum over all parameters.
+std::string autopilot_header(const AutopilotParameters& parameters);
+
+struct EmittedFile {
+  std::string path;  ///< relative, with '/'
+  std::string bytes;
+};
+
+/// An Arduino library: awmr_params.h, library.properties, src/ with the C interface and the control
+/// sources as they are, examples/. Also valid for PlatformIO and for plain avr-gcc with -I src.
+/// The same bytes for the same inputs. Errors: as autopilot_parameters.
+Result<std::vector<EmittedFile>> firmware_library(const Model& model, const Gains<double>& gains,
+                                                  const EmitInputs& inputs,
+                                                  const EmitOptions& options);
 
 }  // namespace awmr

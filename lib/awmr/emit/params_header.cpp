@@ -6,21 +6,11 @@
 #include "awmr/core/json_text.h"
 #include "awmr/core/units.h"
 #include "awmr/emit/emit.h"
+#include "literals.h"
 #include "macros.h"
 
 namespace awmr {
 namespace {
-
-/// %.9g and `f`: nine significant digits read back to the same float. `3f` is no literal of C, so
-/// a point or an exponent is always there; a sign needs parentheses, as a macro's value has to bind
-/// tighter than what is around it.
-std::string float_literal(double value) {
-  const float rounded = static_cast<float>(value) + 0.0F;  // -0 + 0 = 0
-  std::string text = fmt::format("{:.9g}", static_cast<double>(rounded));
-  if (text.find_first_of(".e") == std::string::npos) text += ".0";
-  text += "f";
-  return rounded < 0.0F ? "(" + text + ")" : text;
-}
 
 /// Names from files inside a C89 comment: one line of printable ASCII, other characters as '?',
 /// that neither ends the comment nor seems to start one.
@@ -133,6 +123,17 @@ Status check_relations(const Model& model, const Gains<double>& gains, const Emi
 }
 
 }  // namespace
+
+/// %.9g and `f`: nine significant digits read back to the same float. `3f` is no literal of C, so
+/// a point or an exponent is always there; a sign needs parentheses, as a macro's value has to bind
+/// tighter than what is around it.
+std::string float_literal(double value) {
+  const float rounded = static_cast<float>(value) + 0.0F;  // -0 + 0 = 0
+  std::string text = fmt::format("{:.9g}", static_cast<double>(rounded));
+  if (text.find_first_of(".e") == std::string::npos) text += ".0";
+  text += "f";
+  return rounded < 0.0F ? "(" + text + ")" : text;
+}
 
 std::string params_sha256(const EmitInputs& inputs) {
   return sha256_hex(inputs.model_sha256 + inputs.gains_sha256);

@@ -117,6 +117,7 @@ Controller<double> make_controller(const Plant<double>& plant, const Vehicle& ve
                      .force_min = vehicle.wheel_force.lo,
                      .force_max = vehicle.wheel_force.hi,
                      .steering_max_rad = plant.steering_max_rad,
+                     .steering_max_tan_half = tan_half(plant.steering_max_rad),
                      .split = split}};
 }
 

@@ -1,0 +1,51 @@
+#include "emit_options.h"
+
+#include <CLI/CLI.hpp>
+#include <map>
+#include <string>
+
+#include "awmr/core/provenance.h"
+
+namespace awmr::cli {
+
+void add_emit_options(CLI::App& command, EmitOptions& options) {
+  static const std::map<std::string, ResistanceForm> forms{{"table", ResistanceForm::kTable},
+                                                           {"powf", ResistanceForm::kPowf}};
+  command
+      .add_option("--resistance", options.resistance,
+                  "table (interpolated, in flash; the default) or powf")
+      ->transform(CLI::CheckedTransformer(forms))
+      ->default_str("table");
+  command
+      .add_option("--table-error", options.table_error,
+                  "Largest error of a table, as a share of the resistance or of a tenth of the "
+                  "largest force")
+      ->check(CLI::Range(1e-7, 0.1))
+      ->capture_default_str();
+  const auto timeout = [&](const char* name, std::uint32_t& value, const char* meaning) {
+    command.add_option(name, value, meaning)
+        ->check(CLI::Range(1U, 3600000U))
+        ->capture_default_str();
+  };
+  timeout("--heading-timeout-ms", options.heading_timeout_ms, "Oldest heading to steer by");
+  timeout("--speed-timeout-ms", options.speed_timeout_ms, "Oldest speed and position to steer by");
+  timeout("--command-timeout-ms", options.command_timeout_ms, "Longest silence of the commander");
+  command
+      .add_option("--step-timeout-ms", options.step_timeout_ms,
+                  "Longest time between steps [three sample times]")
+      ->check(CLI::Range(1U, 3600000U));
+}
+
+Result<EmitInputs> emit_inputs(const std::filesystem::path& model,
+                               const std::filesystem::path& gains) {
+  const auto model_input = input_file(model);
+  if (!model_input) return tl::unexpected(model_input.error());
+  const auto gains_input = input_file(gains);
+  if (!gains_input) return tl::unexpected(gains_input.error());
+  return EmitInputs{.model_file = model.filename().string(),
+                    .model_sha256 = model_input->sha256,
+                    .gains_sha256 = gains_input->sha256,
+                    .gains_file = gains.filename().string()};
+}
+
+}  // namespace awmr::cli

@@ -1,0 +1,90 @@
+#include <fmt/format.h>
+
+#include "awmr/emit/emit.h"
+#include "literals.h"
+
+namespace awmr {
+namespace {
+
+constexpr std::string_view kIntro =
+    R"(/* awmr_autopilot_params.h, made by awmr {}: how the firmware computes the resistances, what its
+   safety checks let pass, and the check sum over all parameters. Values of the model and the gains
+   are in awmr_params.h; an edit there or here is found by the check sum at start-up. */
+#ifndef AWMR_AUTOPILOT_PARAMS_H
+#define AWMR_AUTOPILOT_PARAMS_H
+
+/* 1: the resistances by interpolated tables in flash; 0: by powf */
+#define AWMR_RESISTANCE_TABLE {}
+
+/* tan(d_max/2) of AWMR_STEERING_MAX_RAD */
+#define AWMR_STEERING_MAX_TAN_HALF {}
+
+/* A measured |u| or |v| in m/s, |r| in rad/s above these is no measurement */
+#define AWMR_SPEED_MAX_MPS {}
+#define AWMR_YAW_RATE_MAX_RADPS {}
+/* ms: oldest heading and yaw rate, oldest speed and position, longest silence of whoever gives the
+   reference, longest time between two steps */
+#define AWMR_HEADING_TIMEOUT_MS {}UL
+#define AWMR_SPEED_TIMEOUT_MS {}UL
+#define AWMR_COMMAND_TIMEOUT_MS {}UL
+#define AWMR_STEP_TIMEOUT_MS {}UL
+/* CRC-32 of the parameter block and the tables' values, as they lie in flash */
+#define AWMR_PARAMETERS_CRC32 0x{:08X}UL
+)";
+
+constexpr std::string_view kTable = R"(
+/* {} resistance: {} values, {} to an octave from {:g} to {:g} {}, the chord to the origin below.
+   Worst error, measured in float32 at 64 places of each cell: {:.2e} {} where the resistance is below
+   {:g} (bound {:.2e}), a share of {:.2e} of it above (bound {:.2e}). */
+#define {}_COUNT {}
+#define {}_FIRST {}
+#define {}_MANTISSA_BITS {}
+#define {}_SLOPE_AT_REST {}
+#define {}_VALUES {{ \
+)";
+
+struct TableText {
+  std::string_view title;
+  std::string_view macro;
+  std::string_view speed_unit;
+  std::string_view unit;
+};
+
+std::string table_text(const EmittedTable& table, const TableText& names, double error_share) {
+  const std::string_view macro = names.macro;
+  std::string text = fmt::format(
+      kTable, names.title, table.values.size(), 1 << table.mantissa_bits, table.lowest_speed,
+      table.top_speed, names.speed_unit, table.worst_error, names.unit, table.split,
+      error_share * table.split, table.worst_relative_error, error_share, macro,
+      table.values.size(), macro, table.first, macro, table.mantissa_bits, macro,
+      float_literal(static_cast<double>(table.slope_at_rest)), macro);
+  for (std::size_t i = 0; i < table.values.size(); ++i) {
+    const bool last = i + 1 == table.values.size();
+    text += fmt::format("  {}{} \\\n", float_literal(static_cast<double>(table.values[i])),
+                        last ? "" : ",");
+  }
+  return text + "}\n";
+}
+
+}  // namespace
+
+std::string autopilot_header(const AutopilotParameters& parameters) {
+  const ParameterBlock& block = parameters.block;
+  const bool by_table = parameters.resistance == ResistanceForm::kTable;
+  std::string text =
+      fmt::format(kIntro, version(), by_table ? 1 : 0,
+                  float_literal(static_cast<double>(block.steering_max_tan_half)),
+                  float_literal(static_cast<double>(block.safety.speed_max_mps)),
+                  float_literal(static_cast<double>(block.safety.yaw_rate_max_radps)),
+                  block.safety.heading_timeout_ms, block.safety.speed_timeout_ms,
+                  block.safety.command_timeout_ms, block.safety.step_timeout_ms, parameters.crc);
+  if (by_table) {
+    text += table_text(parameters.surge, {"Surge", "AWMR_SURGE_TABLE", "m/s", "of F_max"},
+                       parameters.table_error);
+    text +=
+        table_text(parameters.yaw, {"Yaw", "AWMR_YAW_TABLE", "rad/s", "m"}, parameters.table_error);
+  }
+  return text + "\n#endif /* AWMR_AUTOPILOT_PARAMS_H */\n";
+}
+
+}  // namespace awmr

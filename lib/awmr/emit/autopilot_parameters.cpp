@@ -1,0 +1,92 @@
+#include <cmath>
+
+#include "awmr/control/allocation.h"
+#include "awmr/core/units.h"
+#include "awmr/emit/emit.h"
+#include "resistance_tables.h"
+
+namespace awmr {
+namespace {
+
+/// Three sample times, whole milliseconds.
+std::uint32_t default_step_timeout_ms(double sample_time_s) {
+  return static_cast<std::uint32_t>(std::ceil(3000.0 * sample_time_s - 1e-9));
+}
+
+TableShape shape_of(const EmittedTable& table) {
+  return {static_cast<std::uint32_t>(table.values.size()), table.first, table.mantissa_bits,
+          table.slope_at_rest};
+}
+
+ParameterBlock block_of(const Plant<double>& plant, const Model& model, const Gains<double>& gains,
+                        const EmitOptions& options) {
+  const auto single = [](double value) { return static_cast<float>(value) + 0.0F; };
+  const auto estimate = [&](ParameterId id) { return single(*model[id].value); };
+  ParameterBlock block{};
+  block.surge_alpha_beta[0] = estimate(ParameterId::kSurgeAlpha);
+  block.surge_alpha_beta[1] = estimate(ParameterId::kSurgeBeta);
+  block.yaw_alpha_beta[0] = estimate(ParameterId::kYawAlpha);
+  block.yaw_alpha_beta[1] = estimate(ParameterId::kYawBeta);
+  block.mass_norm = single(plant.mass_norm);
+  block.inertia_norm = single(plant.inertia_norm);
+  block.front_axle_m = single(plant.front_axle_m);
+  block.half_track_m = single(plant.half_track_m);
+  block.force_min = single(model.vehicle.wheel_force.lo);
+  block.force_max = single(model.vehicle.wheel_force.hi);
+  block.steering_max_rad = single(radians(model.vehicle.steering_max_deg));
+  block.steering_max_tan_half = single(tan_half(radians(model.vehicle.steering_max_deg)));
+  block.gains.heading.lambda = single(gains.heading.lambda);
+  block.gains.heading.mu = single(gains.heading.mu);
+  block.gains.heading.epsilon = single(gains.heading.epsilon);
+  block.gains.speed.mu = single(gains.speed.mu);
+  block.gains.speed.epsilon = single(gains.speed.epsilon);
+  block.safety.heading_timeout_ms = options.heading_timeout_ms;
+  block.safety.speed_timeout_ms = options.speed_timeout_ms;
+  block.safety.command_timeout_ms = options.command_timeout_ms;
+  block.safety.step_timeout_ms = options.step_timeout_ms != 0
+                                     ? options.step_timeout_ms
+                                     : default_step_timeout_ms(model.vehicle.sample_time_s);
+  return block;
+}
+
+}  // namespace
+
+Result<AutopilotParameters> autopilot_parameters(const Model& model, const Gains<double>& gains,
+                                                 const EmitInputs& inputs,
+                                                 const EmitOptions& options) {
+  if (const auto checked = params_header(model, gains, inputs); !checked) {
+    return tl::unexpected(checked.error());
+  }
+  const auto plant = model.plant(inputs.model_file);
+  if (!plant) return tl::unexpected(plant.error());
+  const ResistanceLaw surge = [&](double u) { return plant->surge(u); };
+  const ResistanceLaw yaw = [&](double r) { return plant->yaw(r); };
+  const double full_force = 4.0 * model.vehicle.wheel_force.hi;
+  const double full_moment_m = full_force * plant->half_track_m;
+  const double speed_top = table_top(surge, full_force);
+  const double rate_top = table_top(yaw, full_moment_m);
+
+  AutopilotParameters parameters;
+  parameters.resistance = options.resistance;
+  parameters.table_error = options.table_error;
+  parameters.block = block_of(*plant, model, gains, options);
+  // The largest float below the last entry: a speed at the top has no cell above it.
+  parameters.block.safety.speed_max_mps = std::nextafter(static_cast<float>(speed_top), 0.0F);
+  parameters.block.safety.yaw_rate_max_radps = std::nextafter(static_cast<float>(rate_top), 0.0F);
+  if (options.resistance == ResistanceForm::kTable) {
+    auto table = resistance_table("surge", surge, full_force, speed_top, options.table_error);
+    if (!table) return tl::unexpected(table.error());
+    parameters.surge = std::move(*table);
+    table = resistance_table("yaw", yaw, full_moment_m, rate_top, options.table_error);
+    if (!table) return tl::unexpected(table.error());
+    parameters.yaw = std::move(*table);
+    parameters.block.surge_table = shape_of(parameters.surge);
+    parameters.block.yaw_table = shape_of(parameters.yaw);
+  }
+  parameters.crc = crc32_of_parameters(&parameters.block, parameters.surge.values.data(),
+                                       parameters.surge.values.size(), parameters.yaw.values.data(),
+                                       parameters.yaw.values.size());
+  return parameters;
+}
+
+}  // namespace awmr

@@ -1,0 +1,106 @@
+#include "resistance_tables.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+namespace awmr {
+namespace {
+
+constexpr int kMaxMantissaBits = 7;
+constexpr int kLowestExponent = -20;  ///< 1e-6 m/s or rad/s: below it everything is at rest
+constexpr int kMaxEntries = 1024;     ///< 4 KiB of flash
+constexpr int kSamplesPerCell = 64;
+
+EmittedTable table_between(const ResistanceLaw& law, int lowest_exponent, int top_exponent,
+                           int mantissa_bits) {
+  EmittedTable table;
+  table.mantissa_bits = static_cast<std::uint8_t>(mantissa_bits);
+  const int per_octave = 1 << mantissa_bits;
+  const int count = (top_exponent - lowest_exponent) * per_octave + 1;
+  for (int i = 0; i < count; ++i) {
+    const double speed = std::ldexp(1.0 + static_cast<double>(i % per_octave) / per_octave,
+                                    lowest_exponent + i / per_octave);
+    table.values.push_back(static_cast<float>(law(speed)));
+  }
+  table.lowest_speed = std::ldexp(1.0, lowest_exponent);
+  table.top_speed = std::ldexp(1.0, top_exponent);
+  const auto lowest = static_cast<float>(table.lowest_speed);
+  table.first = ResistanceTable::cell_of(bits_of(lowest), table.mantissa_bits);
+  table.slope_at_rest = table.values.front() / lowest;
+  return table;
+}
+
+/// Compares the table with the law at `samples` places of [lo, hi).
+void measure(const ResistanceLaw& law, double lo, double hi, int samples, EmittedTable& table) {
+  const ResistanceTable view = table.view();
+  for (int i = 0; i < samples; ++i) {
+    const auto speed = static_cast<float>(lo + (hi - lo) * i / samples);
+    const double exact = law(static_cast<double>(speed));
+    const double error = std::abs(static_cast<double>(view(speed)) - exact);
+    if (exact < table.split) {
+      table.worst_error = std::max(table.worst_error, error);
+    } else {
+      table.worst_relative_error = std::max(table.worst_relative_error, error / exact);
+    }
+  }
+}
+
+void measure_all(const ResistanceLaw& law, EmittedTable& table) {
+  // Below the first entry by octaves too: the law may be steepest at rest.
+  for (double hi = table.lowest_speed; hi > 1e-9; hi /= 2.0) {
+    measure(law, hi / 2.0, hi, kSamplesPerCell, table);
+  }
+  const int per_octave = 1 << table.mantissa_bits;
+  for (double lo = table.lowest_speed; lo < table.top_speed; lo *= 2.0) {
+    measure(law, lo, 2.0 * lo, kSamplesPerCell * per_octave, table);
+  }
+}
+
+/// In shares of what is allowed for.
+double worst_share(const EmittedTable& table) {
+  return std::max(table.worst_error / table.split, table.worst_relative_error);
+}
+
+}  // namespace
+
+ResistanceTable EmittedTable::view() const {
+  return {values.data(), static_cast<std::uint16_t>(values.size()), first, mantissa_bits,
+          slope_at_rest};
+}
+
+double table_top(const ResistanceLaw& law, double full_scale) {
+  double top = 1.0;
+  while (top < 64.0 && law(top) < 1.5 * full_scale) top *= 2.0;
+  return top;
+}
+
+Result<EmittedTable> resistance_table(const std::string& name, const ResistanceLaw& law,
+                                      double full_scale, double top, double error_share) {
+  const int top_exponent = std::ilogb(top);
+  EmittedTable best;
+  double least_share = HUGE_VAL;
+  for (int bits = 0; bits <= kMaxMantissaBits; ++bits) {
+    for (int lowest = top_exponent - 1; lowest >= kLowestExponent; --lowest) {
+      const int entries = (top_exponent - lowest) * (1 << bits) + 1;
+      if (entries > kMaxEntries) break;
+      if (!best.values.empty() && entries >= static_cast<int>(best.values.size())) break;
+      EmittedTable table = table_between(law, lowest, top_exponent, bits);
+      table.split = 0.1 * full_scale;
+      measure_all(law, table);
+      least_share = std::min(least_share, worst_share(table));
+      if (worst_share(table) <= error_share) best = std::move(table);
+    }
+  }
+  if (!best.values.empty()) return best;
+  return refusal(
+      fmt::format("the {} resistance has no table of at most {} entries with an error below "
+                  "--table-error {:g}; "
+                  "the best has {:.2g}: allow a larger --table-error, or use --resistance powf",
+                  name, kMaxEntries, error_share, least_share));
+}
+
+}  // namespace awmr

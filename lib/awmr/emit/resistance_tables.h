@@ -1,0 +1,28 @@
+/// A resistance law as the table that the chip interpolates (control/resistance_table.h), no larger
+/// than a bound on its error asks for. Private to emit/.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "awmr/control/resistance_table.h"
+#include "awmr/core/result.h"
+#include "awmr/emit/emit.h"
+
+namespace awmr {
+
+using ResistanceLaw = std::function<double(double)>;
+
+/// The least power of two at which g exceeds the largest force or moment by half of it, so that no
+/// speed the vehicle can drive at lies beyond: between 1 and 64 m/s or rad/s.
+double table_top(const ResistanceLaw& law, double full_scale);
+
+/// The smallest table of `law` up to `top` whose error, in the chip's own arithmetic, stays below
+/// `error_share` of the law or, where that is less, of a tenth of `full_scale`. `name` is for the
+/// message.
+/// Errors (refused): not even the largest table does.
+Result<EmittedTable> resistance_table(const std::string& name, const ResistanceLaw& law,
+                                      double full_scale, double top, double error_share);
+
+}  // namespace awmr
