@@ -81,6 +81,8 @@ struct EmitCommand {
 Result<Outcome> execute(const EmitCommand& command);
 void add_emit(CLI::App& app, Session& session);
 
+void add_pil(CLI::App& app, Session& session);
+
 struct ReportCommand {
   fs::path directory;
 };

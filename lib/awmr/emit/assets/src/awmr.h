@@ -65,7 +65,7 @@ typedef struct awmr_output {
 
 #ifdef __cplusplus
 #include "awmr/control/guidance.h"
-typedef awmr::Point<float> awmr_point;
+typedef awmr::Position<float> awmr_point;
 extern "C" {
 #else
 typedef struct awmr_point {

@@ -1,0 +1,129 @@
+#include "comparison.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "awmr/core/units.h"
+
+namespace awmr::pil {
+namespace {
+
+struct Sample {
+  State<double> state;
+  SideForces<double> force;
+  double steering_command_rad;
+  double tau_speed;
+  double tau_turn_m;
+  double psi_ref_rad;
+  double fault;
+};
+
+struct Signal {
+  const char* name;
+  double (*of)(const Sample&);
+};
+
+constexpr std::array<Signal, 13> kSignals{{
+    {"x_m", [](const Sample& s) { return s.state.x_m; }},
+    {"y_m", [](const Sample& s) { return s.state.y_m; }},
+    {"heading_deg", [](const Sample& s) { return degrees(s.state.psi_rad); }},
+    {"u_mps", [](const Sample& s) { return s.state.u_mps; }},
+    {"v_mps", [](const Sample& s) { return s.state.v_mps; }},
+    {"r_radps", [](const Sample& s) { return s.state.r_radps; }},
+    {"force_left", [](const Sample& s) { return s.force.left; }},
+    {"force_right", [](const Sample& s) { return s.force.right; }},
+    {"steering_cmd_rad", [](const Sample& s) { return s.steering_command_rad; }},
+    {"tau_speed", [](const Sample& s) { return s.tau_speed; }},
+    {"tau_turn", [](const Sample& s) { return s.tau_turn_m; }},
+    {"psi_ref_rad", [](const Sample& s) { return s.psi_ref_rad; }},
+    {"fault", [](const Sample& s) { return s.fault; }},
+}};
+
+Sample sample_of(const LoopRow& row) {
+  const AutopilotOutput& out = row.step.output;
+  return {.state = row.state,
+          .force = {static_cast<double>(out.command.force.left),
+                    static_cast<double>(out.command.force.right)},
+          .steering_command_rad = static_cast<double>(out.command.steering_rad),
+          .tau_speed = static_cast<double>(out.tau_speed),
+          .tau_turn_m = static_cast<double>(out.tau_turn_m),
+          .psi_ref_rad = static_cast<double>(out.psi_ref_rad),
+          .fault = static_cast<double>(out.fault)};
+}
+
+Sample sample_of(const RunRow& row) {
+  return {.state = row.state,
+          .force = row.force,
+          .steering_command_rad = row.steering_command_rad,
+          .tau_speed = row.tau_speed,
+          .tau_turn_m = row.tau_turn_m,
+          .psi_ref_rad = row.psi_ref_rad,
+          .fault = 0.0};
+}
+
+/// Angles of a reference may differ by whole turns.
+double apart(const Signal& signal, double a, double b) {
+  if (std::isfinite(a) != std::isfinite(b)) return std::numeric_limits<double>::infinity();
+  const double off = a - b;
+  const bool is_reference = std::string_view(signal.name) == "psi_ref_rad";
+  return std::abs(is_reference ? std::remainder(off, 2.0 * pi<double>()) : off);
+}
+
+template <class RowsA, class RowsB>
+Difference difference_of(const RowsA& a, const RowsB& b) {
+  Difference result;
+  result.same_length = a.size() == b.size();
+  const std::size_t rows = std::min(a.size(), b.size());
+  for (const Signal& signal : kSignals) {
+    double largest = 0.0;
+    for (std::size_t i = 0; i < rows; ++i) {
+      largest = std::max(largest,
+                         apart(signal, signal.of(sample_of(a[i])), signal.of(sample_of(b[i]))));
+    }
+    result.signals.emplace_back(signal.name, largest);
+  }
+  return result;
+}
+
+}  // namespace
+
+double Difference::largest() const {
+  double largest = 0.0;
+  for (const auto& [name, value] : signals) largest = std::max(largest, value);
+  return largest;
+}
+
+double Difference::of(const std::string& signal) const {
+  for (const auto& [name, value] : signals) {
+    if (name == signal) return value;
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+Difference difference(const std::vector<LoopRow>& a, const std::vector<LoopRow>& b) {
+  return difference_of(a, b);
+}
+
+Difference difference(const std::vector<LoopRow>& a, const Run& b) {
+  return difference_of(a, b.rows);
+}
+
+Cycles cycles_of(const std::vector<LoopRow>& rows) {
+  Cycles cycles{.min = std::numeric_limits<unsigned>::max()};
+  double sum = 0.0;
+  double count = 0.0;
+  for (const LoopRow& row : rows) {
+    if (!row.step.cycles) continue;
+    cycles.min = std::min(cycles.min, *row.step.cycles);
+    cycles.max = std::max(cycles.max, *row.step.cycles);
+    sum += *row.step.cycles;
+    count += 1.0;
+  }
+  cycles.mean = sum / std::max(count, 1.0);
+  return cycles;
+}
+
+}  // namespace awmr::pil

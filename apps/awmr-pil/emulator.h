@@ -1,0 +1,79 @@
+// An ATmega2560 on libsimavr, in this process.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "awmr/core/result.h"
+
+struct avr_t;
+
+namespace awmr::pil {
+
+inline constexpr double kClockHz = 16e6;
+
+/// What simavr 1.6 leaves out: the cycles between an interrupt and its vector's first instruction,
+/// on a chip with a 3-byte program counter. [ATmega2560 data sheet, 7.7.1]
+inline constexpr unsigned kInterruptEntryCycles = 5;
+
+class Emulator {
+ public:
+  /// Errors (input): the file is no firmware for this chip. There is one emulator at a time.
+  static Result<std::unique_ptr<Emulator>> load(const std::filesystem::path& elf);
+  ~Emulator();
+  Emulator(const Emulator&) = delete;
+  Emulator& operator=(const Emulator&) = delete;
+
+  /// Flash takes .text and .data, RAM .data and .bss.
+  unsigned flash_bytes() const { return flash_bytes_; }
+  unsigned ram_bytes() const { return ram_bytes_; }
+
+  /// A variable in RAM by its symbol. Precondition: the firmware has it.
+  std::span<std::uint8_t> ram(const std::string& symbol, std::size_t size);
+  /// A constant in flash by its symbol.
+  std::span<std::uint8_t> flash(const std::string& symbol, std::size_t size);
+
+  /// Runs until the chip goes to sleep. Errors (fault): it crashed, or is awake after
+  /// `cycle_limit`.
+  Status run_to_sleep(std::uint64_t cycle_limit);
+  /// Runs until `done` says so; asked after each run of instructions.
+  Status run_until(const std::function<bool()>& done, std::uint64_t cycle_limit);
+  /// From an interrupt's entry (which counts) to the sleep after it, of the last interrupt.
+  unsigned last_interrupt_cycles() const { return last_interrupt_cycles_; }
+  std::uint64_t cycles() const;
+
+  /// Fills the free RAM with a pattern; the chip has to be asleep.
+  void paint_stack();
+  /// Bytes from the top of the RAM down to the lowest that was written since paint_stack().
+  unsigned stack_bytes() const;
+
+  /// Bytes that USART0 sends; and bytes for it to receive, as fast as it takes them.
+  void on_uart_output(std::function<void(std::uint8_t)> receive) { receive_ = std::move(receive); }
+  void connect_uart();
+  void send_to_uart(std::span<const std::uint8_t> bytes);
+
+ private:
+  Emulator() = default;
+  Status run_once();
+  static void sleep(avr_t* avr, std::uint64_t cycles);
+  void feed_uart();
+
+  avr_t* avr_ = nullptr;
+  std::map<std::string, std::uint32_t> symbols_;
+  unsigned flash_bytes_ = 0;
+  unsigned ram_bytes_ = 0;
+  bool asleep_ = false;
+  std::uint64_t entered_at_ = 0;
+  unsigned last_interrupt_cycles_ = 0;
+  std::function<void(std::uint8_t)> receive_;
+  std::string to_send_;
+  std::size_t sent_ = 0;
+  bool uart_ready_ = true;
+};
+
+}  // namespace awmr::pil

@@ -1,0 +1,63 @@
+// Whatever executes the control step: the host's own build of it, the emulated chip, a board.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "awmr/control/autopilot.h"
+#include "awmr/core/result.h"
+#include "awmr/emit/emit.h"
+
+namespace awmr::pil {
+
+struct Points {
+  std::vector<Position<float>> points_m;
+  float acceptance_m = 0.0F;
+};
+
+struct Step {
+  AutopilotOutput output{};
+  std::optional<unsigned> cycles;  ///< absent on the host
+};
+
+class Executor {
+ public:
+  virtual ~Executor() = default;
+  /// Resets it: the fault of its start-up check. Errors: the link or the chip fails.
+  virtual Result<std::uint8_t> start() = 0;
+  virtual Status follow(const Points& points) = 0;
+  virtual Result<Step> step(const AutopilotInput& input) = 0;
+};
+
+/// What a chip's firmware takes, where it can be told.
+struct ChipFigures {
+  unsigned flash_bytes = 0;
+  unsigned ram_bytes = 0;
+  std::optional<unsigned> stack_bytes;  ///< unknown of a real board
+};
+
+class Chip : public Executor {
+ public:
+  virtual ChipFigures figures() const = 0;
+};
+
+/// In float on this machine, as the chip does it; `parameters` has to outlive it.
+std::unique_ptr<Executor> host_executor(const AutopilotParameters& parameters);
+
+/// Through the RAM of an emulated chip. `damage_parameters`: flips a bit of them in flash first.
+Result<std::unique_ptr<Chip>> memory_link(const std::filesystem::path& elf, bool damage_parameters);
+/// Through the USART of an emulated chip.
+Result<std::unique_ptr<Chip>> uart_link(const std::filesystem::path& elf, bool damage_parameters,
+                                        std::uint32_t parameters_crc);
+/// Through a serial port. `elf` is what the board is to have been flashed with.
+Result<std::unique_ptr<Chip>> port_link(const std::filesystem::path& port, unsigned baud,
+                                        const std::filesystem::path& elf,
+                                        std::uint32_t parameters_crc);
+/// Gives an emulated chip's USART to whoever opens the pseudo-terminal, whose name goes to stdout;
+/// until its other end is closed.
+Status serve_terminal(const std::filesystem::path& elf);
+
+}  // namespace awmr::pil

@@ -1,0 +1,46 @@
+// Firmware for `awmr pil --link memory`: the control step in a timer interrupt, asleep in between.
+// The emulator's host writes the inputs and reads the outputs in RAM, by these symbols.
+#include <avr/interrupt.h>
+#include <avr/io.h>
+#include <avr/sleep.h>
+
+#include "awmr.h"
+
+extern "C" {
+awmr_input pil_input;
+awmr_output pil_output;
+awmr_point pil_points[16];
+int16_t pil_point_count;  // above 0: follow them from the next step on
+float pil_acceptance_m;
+uint8_t pil_init_fault;
+volatile uint8_t pil_steps;  // done, modulo 256
+}
+
+namespace {
+
+// Timer 1 counts F_CPU/8 up to the sample time; 32 ms is the longest that it can.
+const uint32_t kTimerCounts = static_cast<uint32_t>(AWMR_SAMPLE_TIME_S * (F_CPU / 8) + 0.5f);
+static_assert(kTimerCounts >= 2 && kTimerCounts <= 65536,
+              "the sample time has to be between 1 us and 32 ms");
+
+}  // namespace
+
+ISR(TIMER1_COMPA_vect) {
+  if (pil_point_count > 0) {
+    awmr_follow(pil_points, pil_point_count, pil_acceptance_m);
+    pil_point_count = 0;
+  }
+  awmr_step(&pil_input, &pil_output);
+  ++pil_steps;
+}
+
+int main() {
+  pil_init_fault = awmr_init();
+  OCR1A = static_cast<uint16_t>(kTimerCounts - 1);
+  TCCR1B = _BV(WGM12) | _BV(CS11);
+  TIMSK1 = _BV(OCIE1A);
+  set_sleep_mode(SLEEP_MODE_IDLE);
+  sleep_enable();
+  sei();
+  for (;;) sleep_cpu();
+}

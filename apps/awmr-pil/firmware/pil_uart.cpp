@@ -1,0 +1,126 @@
+// Firmware for `awmr pil --link uart`: the control step on request over USART0 (the USB serial of a
+// Mega 2560), asleep in between. Also what `--port` expects on a real board.
+#include <avr/interrupt.h>
+#include <avr/io.h>
+#include <avr/sleep.h>
+#include <string.h>
+
+#include "awmr.h"
+#include "frame.h"
+
+#ifndef PIL_BAUD
+#define PIL_BAUD 500000UL
+#endif
+
+namespace {
+
+volatile uint8_t ring[256];  // indices wrap by themselves
+volatile uint8_t ring_head;
+uint8_t ring_tail;
+
+pil::FrameReader reader;
+awmr_point points[16];
+
+void send(uint8_t byte) {
+  while ((UCSR0A & _BV(UDRE0)) == 0) {
+  }
+  UDR0 = byte;
+}
+
+void answer(uint8_t type, const void* payload, uint8_t length) {
+  const uint8_t* bytes = static_cast<const uint8_t*>(payload);
+  uint16_t crc = awmr::kCrc16Start;
+  send(pil::kFrameStart);
+  const uint8_t head[2] = {type, length};
+  for (uint8_t i = 0; i < 2; ++i) {
+    crc = awmr::crc16_with(crc, head[i]);
+    send(head[i]);
+  }
+  for (uint8_t i = 0; i < length; ++i) {
+    crc = awmr::crc16_with(crc, bytes[i]);
+    send(bytes[i]);
+  }
+  send(static_cast<uint8_t>(crc & 0xFFU));
+  send(static_cast<uint8_t>(crc >> 8U));
+}
+
+void hello() {
+  struct {
+    uint8_t fault;
+    uint32_t crc;
+  } reply = {awmr_init(), AWMR_PARAMETERS_CRC32};
+  answer(pil::kHello, &reply, sizeof reply);
+}
+
+void follow() {
+  float acceptance_m;
+  if (reader.length < sizeof acceptance_m) return;
+  const uint8_t bytes = static_cast<uint8_t>(reader.length - sizeof acceptance_m);
+  if (bytes > sizeof points || bytes % sizeof points[0] != 0) return;
+  memcpy(&acceptance_m, reader.payload, sizeof acceptance_m);
+  memcpy(points, reader.payload + sizeof acceptance_m, bytes);
+  awmr_follow(points, static_cast<int16_t>(bytes / sizeof points[0]), acceptance_m);
+  answer(pil::kFollow, 0, 0);
+}
+
+// Timer 1 runs at the clock's own rate: a step of up to 65535 cycles is counted.
+void step() {
+  awmr_input input;
+  struct {
+    awmr_output output;
+    uint16_t cycles;
+  } reply;
+  if (reader.length != sizeof input) return;
+  memcpy(&input, reader.payload, sizeof input);
+  const uint16_t start = TCNT1;
+  awmr_step(&input, &reply.output);
+  reply.cycles = static_cast<uint16_t>(TCNT1 - start);
+  answer(pil::kStep, &reply, sizeof reply);
+}
+
+void serve() {
+  switch (reader.type) {
+    case pil::kHello:
+      hello();
+      break;
+    case pil::kFollow:
+      follow();
+      break;
+    case pil::kStep:
+      step();
+      break;
+    default:
+      break;
+  }
+}
+
+}  // namespace
+
+ISR(USART0_RX_vect) {
+  const uint8_t head = ring_head;
+  ring[head] = UDR0;
+  ring_head = static_cast<uint8_t>(head + 1);
+}
+
+int main() {
+  awmr_init();
+  TCCR1B = _BV(CS10);
+  UCSR0A = _BV(U2X0);
+  UBRR0 = static_cast<uint16_t>(F_CPU / 8 / PIL_BAUD - 1);
+  UCSR0C = _BV(UCSZ01) | _BV(UCSZ00);
+  UCSR0B = _BV(RXCIE0) | _BV(RXEN0) | _BV(TXEN0);
+  set_sleep_mode(SLEEP_MODE_IDLE);
+  sleep_enable();
+  for (;;) {
+    cli();
+    while (ring_tail == ring_head) {
+      sei();
+      sleep_cpu();  // the instruction after sei() runs before any interrupt: none is missed
+      cli();
+    }
+    sei();
+    const uint8_t byte = ring[ring_tail];
+    ring_tail = static_cast<uint8_t>(ring_tail + 1);
+    if (reader.take(byte)) serve();
+  }
+}

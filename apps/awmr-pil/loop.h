@@ -1,0 +1,44 @@
+// The closed loop of simulate/ with the control step executed elsewhere, in float.
+#pragma once
+
+#include <vector>
+
+#include "awmr/model/model.h"
+#include "awmr/simulate/scenario.h"
+#include "executor.h"
+#include "pil_options.h"
+
+namespace awmr::pil {
+
+struct LoopSetup {
+  Plant<double> plant;
+  double sample_time_s = 0.01;
+  double force_max = 1.0;
+  Scenario scenario;
+  YawMode mode = YawMode::kCombined;
+  cli::Injection injection = cli::Injection::kNone;
+};
+
+struct LoopRow {
+  double t_s = 0.0;
+  State<double> state{};
+  Step step;
+};
+
+/// Errors (input): the scenario asks for what the firmware does not do.
+Status check_scenario(const Scenario& scenario, const std::string& file);
+
+/// Errors: the executor's. Ends with the scenario, or where its course does.
+Result<std::vector<LoopRow>> run_loop(const LoopSetup& setup, Executor& executor);
+
+/// The samples at which the setup's injection changes the inputs: [first, last).
+struct Window {
+  std::size_t first = 0;
+  std::size_t last = 0;
+};
+Window injection_window(const LoopSetup& setup);
+
+/// The fault bits that an injection has to raise.
+std::uint8_t expected_fault(cli::Injection injection);
+
+}  // namespace awmr::pil

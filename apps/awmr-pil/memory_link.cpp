@@ -1,0 +1,83 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "emulator.h"
+#include "executor.h"
+#include "wire.h"
+
+namespace awmr::pil {
+namespace {
+
+constexpr std::size_t kMaxPoints = 16;
+/// Start-up computes a check sum over the parameters: a second is ten times what it takes.
+constexpr std::uint64_t kStartCycles = 16'000'000;
+
+class MemoryLink : public Chip {
+ public:
+  explicit MemoryLink(std::unique_ptr<Emulator> emulator) : emulator_(std::move(emulator)) {}
+
+  Result<std::uint8_t> start() override {
+    if (auto asleep = emulator_->run_to_sleep(kStartCycles); !asleep) {
+      return tl::unexpected(asleep.error());
+    }
+    emulator_->paint_stack();
+    input_ = emulator_->ram("pil_input", kInputBytes);
+    output_ = emulator_->ram("pil_output", kOutputBytes);
+    steps_ = emulator_->ram("pil_steps", 1);
+    return emulator_->ram("pil_init_fault", 1)[0];
+  }
+
+  Status follow(const Points& points) override {
+    if (points.points_m.size() > kMaxPoints) {
+      return input_error("", fmt::format("the firmware has room for {} waypoints, there are {}",
+                                         kMaxPoints, points.points_m.size()));
+    }
+    Writer writer;
+    for (const Position<float>& point : points.points_m) writer.put(point.x_m).put(point.y_m);
+    put("pil_points", writer);
+    put("pil_acceptance_m", Writer().put(points.acceptance_m));
+    put("pil_point_count", Writer().put(static_cast<std::int16_t>(points.points_m.size())));
+    return {};
+  }
+
+  /// The chip is asleep here, its last step done, so that nothing reads while this writes.
+  Result<Step> step(const AutopilotInput& input) override {
+    const std::vector<std::uint8_t> bytes = pack(input);
+    std::copy(bytes.begin(), bytes.end(), input_.begin());
+    const std::uint8_t before = steps_[0];
+    while (steps_[0] == before) {
+      if (auto asleep = emulator_->run_to_sleep(kStartCycles); !asleep) {
+        return tl::unexpected(asleep.error());
+      }
+    }
+    return Step{unpack(output_), emulator_->last_interrupt_cycles()};
+  }
+
+  ChipFigures figures() const override {
+    return {emulator_->flash_bytes(), emulator_->ram_bytes(), emulator_->stack_bytes()};
+  }
+
+ private:
+  void put(const std::string& symbol, const Writer& writer) {
+    std::copy(writer.bytes().begin(), writer.bytes().end(),
+              emulator_->ram(symbol, writer.bytes().size()).begin());
+  }
+
+  std::unique_ptr<Emulator> emulator_;
+  std::span<std::uint8_t> input_;
+  std::span<std::uint8_t> output_;
+  std::span<std::uint8_t> steps_;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<Chip>> memory_link(const std::filesystem::path& elf,
+                                          bool damage_parameters) {
+  auto emulator = Emulator::load(elf);
+  if (!emulator) return tl::unexpected(emulator.error());
+  if (damage_parameters) (*emulator)->flash("awmr_parameters", 1)[0] ^= 0x01U;
+  return std::make_unique<MemoryLink>(std::move(*emulator));
+}
+
+}  // namespace awmr::pil

@@ -1,0 +1,160 @@
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <stdlib.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <map>
+
+#include "emulator.h"
+#include "frame_link.h"
+
+namespace awmr::pil {
+namespace {
+
+constexpr int kAnswerTimeout_ms = 2000;
+/// A Mega 2560 restarts when its port is opened, and its boot loader waits.
+constexpr int kBootTime_ms = 2000;
+
+/// Bytes as they are, nothing echoed.
+bool make_raw(int file, speed_t speed) {
+  termios settings{};
+  if (::tcgetattr(file, &settings) != 0) return false;
+  ::cfmakeraw(&settings);
+  settings.c_cflag |= CLOCAL | CREAD;
+  ::cfsetspeed(&settings, speed);
+  return ::tcsetattr(file, TCSANOW, &settings) == 0;
+}
+
+class Port : public Line {
+ public:
+  Port(std::filesystem::path path, speed_t speed, unsigned flash_bytes, unsigned ram_bytes)
+      : path_(std::move(path)), speed_(speed), flash_bytes_(flash_bytes), ram_bytes_(ram_bytes) {}
+  ~Port() override {
+    if (file_ >= 0) ::close(file_);
+  }
+  Port(const Port&) = delete;
+  Port& operator=(const Port&) = delete;
+
+  Status open() override {
+    file_ = ::open(path_.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC);
+    if (file_ < 0) return input_error(path_.string(), std::strerror(errno));
+    if (!make_raw(file_, speed_)) return input_error(path_.string(), "is no serial port");
+    const bool is_terminal = path_.string().starts_with("/dev/pts/");
+    if (!is_terminal) ::usleep(kBootTime_ms * 1000);
+    ::tcflush(file_, TCIOFLUSH);
+    return {};
+  }
+
+  Status send(std::span<const std::uint8_t> bytes) override {
+    while (!bytes.empty()) {
+      const ssize_t count = ::write(file_, bytes.data(), bytes.size());
+      if (count < 0 && errno != EINTR) return input_error(path_.string(), std::strerror(errno));
+      if (count > 0) bytes = bytes.subspan(static_cast<std::size_t>(count));
+    }
+    return {};
+  }
+
+  Result<std::uint8_t> receive() override {
+    if (at_ == count_) {
+      pollfd waiting{.fd = file_, .events = POLLIN, .revents = 0};
+      if (::poll(&waiting, 1, kAnswerTimeout_ms) <= 0) {
+        return input_error(path_.string(), fmt::format("gave no answer within {} ms: is the board "
+                                                       "flashed with pil_uart.elf, the baud right?",
+                                                       kAnswerTimeout_ms));
+      }
+      const ssize_t count = ::read(file_, buffer_, sizeof buffer_);
+      if (count <= 0) return input_error(path_.string(), "was closed");
+      at_ = 0;
+      count_ = static_cast<std::size_t>(count);
+    }
+    return buffer_[at_++];
+  }
+
+  ChipFigures figures() const override { return {flash_bytes_, ram_bytes_, {}}; }
+
+ private:
+  std::filesystem::path path_;
+  speed_t speed_;
+  unsigned flash_bytes_;
+  unsigned ram_bytes_;
+  int file_ = -1;
+  std::uint8_t buffer_[256] = {};
+  std::size_t at_ = 0;
+  std::size_t count_ = 0;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<Chip>> port_link(const std::filesystem::path& port, unsigned baud,
+                                        const std::filesystem::path& elf,
+                                        std::uint32_t parameters_crc) {
+  static const std::map<unsigned, speed_t> speeds{{9600, B9600},     {57600, B57600},
+                                                  {115200, B115200}, {230400, B230400},
+                                                  {500000, B500000}, {1000000, B1000000}};
+  const auto speed = speeds.find(baud);
+  if (speed == speeds.end()) {
+    return input_error("--baud", fmt::format("{}: one of 9600, 57600, 115200, 230400, 500000, "
+                                             "1000000",
+                                             baud));
+  }
+  // The file tells what the board's flash and RAM hold.
+  const auto emulator = Emulator::load(elf);
+  if (!emulator) return tl::unexpected(emulator.error());
+  return frame_link(std::make_unique<Port>(port, speed->second, (*emulator)->flash_bytes(),
+                                           (*emulator)->ram_bytes()),
+                    parameters_crc);
+}
+
+Status serve_terminal(const std::filesystem::path& elf) {
+  auto emulator = Emulator::load(elf);
+  if (!emulator) return tl::unexpected(emulator.error());
+  const int terminal = ::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
+  if (terminal < 0 || ::grantpt(terminal) != 0 || ::unlockpt(terminal) != 0 ||
+      !make_raw(terminal, B500000)) {
+    return program_fault("no pseudo-terminal can be made");
+  }
+  std::string answer;
+  (*emulator)->on_uart_output([&](std::uint8_t byte) { answer += static_cast<char>(byte); });
+  (*emulator)->connect_uart();
+  std::printf("%s\n", ::ptsname(terminal));
+  std::fflush(stdout);
+  constexpr std::uint64_t kLong = 1'000'000'000'000;
+  bool was_open = false;
+  for (;;) {
+    pollfd waiting{.fd = terminal, .events = POLLIN, .revents = 0};
+    // Emulates on while there is something to do, and waits for bytes while there is nothing.
+    ::poll(&waiting, 1, answer.empty() ? 1 : 0);
+    if ((waiting.revents & POLLIN) != 0) {
+      std::uint8_t bytes[256];
+      const ssize_t count = ::read(terminal, bytes, sizeof bytes);
+      if (count > 0) {
+        was_open = true;
+        (*emulator)->send_to_uart({bytes, static_cast<std::size_t>(count)});
+      }
+    } else if ((waiting.revents & POLLHUP) != 0 && was_open) {
+      break;
+    }
+    // Long enough for a request, its step and its answer.
+    const std::uint64_t end = (*emulator)->cycles() + 100'000;
+    if (auto ran = (*emulator)->run_until([&] { return (*emulator)->cycles() >= end; }, kLong);
+        !ran) {
+      return ran;
+    }
+    std::size_t sent = 0;
+    while (sent < answer.size()) {
+      const ssize_t count = ::write(terminal, answer.data() + sent, answer.size() - sent);
+      if (count <= 0) break;
+      sent += static_cast<std::size_t>(count);
+    }
+    answer.clear();
+  }
+  ::close(terminal);
+  return {};
+}
+
+}  // namespace awmr::pil

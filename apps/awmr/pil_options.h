@@ -1,0 +1,56 @@
+/// The options of `awmr pil`, shared with awmr-pil, which does the work.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "awmr/control/yaw_mode.h"
+#include "awmr/emit/emit.h"
+
+namespace CLI {
+class App;
+}  // namespace CLI
+
+namespace awmr::cli {
+
+enum class PilLink { kMemory, kUart };
+
+/// What can be done to the controller's inputs, or to its parameters, on purpose.
+enum class Injection {
+  kNone,
+  kNaN,             ///< the measured yaw rate
+  kInfinite,        ///< the measured speed
+  kRange,           ///< a speed that no vehicle of this model drives at
+  kMode,            ///< a mode that there is none of
+  kHeadingStale,    ///< heading no longer renewed
+  kSpeedStale,      ///< speed no longer renewed
+  kCommandTimeout,  ///< reference no longer renewed
+  kStepLate,        ///< a pause before a step
+  kParameters       ///< a bit of the parameters in flash, before the start
+};
+
+struct PilOptions {
+  std::filesystem::path model;
+  std::filesystem::path gains;
+  std::filesystem::path scenario;
+  YawMode mode = YawMode::kCombined;
+  PilLink link = PilLink::kMemory;
+  std::optional<std::filesystem::path> port;  ///< a real board's, with kUart
+  unsigned baud = 500000;
+  EmitOptions emit;
+  std::optional<unsigned> cycles_max;  ///< absent: 12,000 by table, 24,000 by powf
+  unsigned flash_max = 8192;           ///< bytes
+  unsigned ram_max = 512;              ///< bytes, without the stack
+  std::optional<double> difference_max;  ///< from the host's float run; absent: 0 and 1e-6
+  double heading_max_deg = 0.05;         ///< from the host's double run
+  Injection injection = Injection::kNone;
+  std::optional<std::filesystem::path> build_directory;  ///< kept; absent: one that goes away
+  std::filesystem::path output;
+};
+
+/// Everything but `-o`.
+void add_pil_options(CLI::App& command, PilOptions& options);
+
+}  // namespace awmr::cli
