@@ -26,7 +26,9 @@ class HostExecutor : public Executor {
   }
 
   Result<Step> step(const AutopilotInput& input) override {
-    return Step{autopilot_step(autopilot_, input), {}};
+    Step step;
+    autopilot_step(autopilot_, input, step.output);
+    return step;
   }
 
  private:

@@ -1,7 +1,7 @@
 /// (tau_speed, tau_turn) -> (F'L, F'R, d_r), the exact inverse of [paper (41)]. Freestanding C++14.
 ///
 /// No small-angle approximation: with q = tan(d_r/2), the quantity that the steering path sets,
-///   sin d_r = 2 q/(1 + q^2),   1 + cos d_r = 2/(1 + q^2),
+///   sin d_r = 2 q/(1 + q^2),   1 + cos d_r = 2/(1 + q^2),   tau_steering = l_f tau_speed q,
 /// so that the only function needed is the arc tangent of the angle commanded. [paper (42),
 /// corrected: L and R are swapped there against (41), and d stands where l_f belongs in d_r.]
 ///
@@ -52,11 +52,41 @@ constexpr T steering_authority_min() {
   return T(1e-6);
 }
 
+/// What the allocation needs of the limits, computed once; of Ts only. With h = q/2, a steering angle costs one
+/// division and a pair of forces none.
+template <class T>
+struct AllocationConstants {
+  T tau_speed_min;        ///< 4 F'min
+  T tau_speed_max;        ///< 4 F'max
+  T force_min;
+  T force_max;
+  T half_track_m;         ///< d
+  T half_track_inverse;   ///< 1/d
+  T axle_twice_m;         ///< 2 l_f
+  T axle_half_inverse;    ///< 1/(2 l_f)
+  T steering_max_rad;     ///< d_max
+  T h_max;                ///< tan(d_max/2)/2
+};
+
+template <class T>
+AllocationConstants<T> prepared(const AllocationLimits<T>& limits) {
+  return {T(4.0) * limits.force_min,
+          T(4.0) * limits.force_max,
+          limits.force_min,
+          limits.force_max,
+          limits.half_track_m,
+          T(1.0) / limits.half_track_m,
+          T(2.0) * limits.front_axle_m,
+          T(0.5) / limits.front_axle_m,
+          limits.steering_max_rad,
+          T(0.5) * limits.steering_max_tan_half};
+}
+
 namespace detail {
 
-/// x in [lo, hi]; `limited` is set where that changes it.
+/// x in [lo, hi]; `limited` is set where that changes it. NaN stays NaN.
 template <class T>
-AWMR_SHARED T clipped(const T& x, const T& lo, const T& hi, bool& limited) {
+T clipped(const T& x, const T& lo, const T& hi, bool& limited) {
   if (x > hi) {
     limited = true;
     return hi;
@@ -67,89 +97,109 @@ AWMR_SHARED T clipped(const T& x, const T& lo, const T& hi, bool& limited) {
   }
   return x;
 }
+/// The same, without a comparison of floats where |x| is below both limits and 0 between them.
+AWMR_SHARED inline float clipped(float x, float lo, float hi, bool& limited) {
+  const uint32_t magnitude = float_math::magnitude_bits(x);
+  if (magnitude <= bits_of(hi) && magnitude <= bits_of(-lo) &&
+      (bits_of(hi) | bits_of(-lo)) >> 31U == 0) {
+    return x;
+  }
+  return clipped<float>(x, lo, hi, limited);
+}
 
-/// q of the angle that makes `moment_m`: q = moment/(l_f tau_speed), clipped to tan(d_max/2).
+/// d_r = 2 atan q = 2 atan(2 h).
 template <class T>
-AWMR_SHARED T steering_for(const AllocationLimits<T>& limits, const T& tau_speed, const T& moment_m,
-                           Allocation<T>& a) {
+T angle_of_h(const T& h) {
+  using math::atan;
+  return T(2.0) * atan(T(2.0) * h);
+}
+inline float angle_of_h(float h) { return float_math::twice_atan_of_twice(h); }
+
+/// h of the angle that makes a moment at tau_speed: h = q/2 = moment/(2 l_f tau_speed), clipped;
+/// `half_ratio` is moment/(2 l_f).
+template <class T>
+T steering_for(const AllocationConstants<T>& c, const T& tau_speed, const T& half_ratio,
+               Allocation<T>& a) {
   if (!(tau_speed > steering_authority_min<T>())) {
     a.steering_powerless = true;
     return T(0.0);
   }
-  const T q = moment_m / (limits.front_axle_m * tau_speed);
-  return clipped(q, -limits.steering_max_tan_half, limits.steering_max_tan_half,
-                 a.steering_limited);
+  return clipped(half_ratio / tau_speed, -c.h_max, c.h_max, a.steering_limited);
 }
 
-/// d_r = 2 atan q; d_max itself where q was clipped.
+/// d_max itself where h was clipped.
 template <class T>
-T angle_of(const AllocationLimits<T>& limits, const T& q, const Allocation<T>& a) {
-  using math::atan;
-  if (a.steering_limited) return q > T(0.0) ? limits.steering_max_rad : -limits.steering_max_rad;
-  return math::saturate(T(2.0) * atan(q), limits.steering_max_rad);
+T angle_of(const AllocationConstants<T>& c, const T& h, const Allocation<T>& a) {
+  if (a.steering_limited) return h > T(0.0) ? c.steering_max_rad : -c.steering_max_rad;
+  return math::saturate(angle_of_h(h), c.steering_max_rad);
 }
 
-/// F'R,L = (tau_speed +- moment/d)/(2 (1 + cos d_r)) = (tau_speed +- moment/d)(1 + q^2)/4, clipped.
+/// F'R,L = (tau_speed +- moment/d)/(2 (1 + cos d_r)) = (tau_speed +- moment/d)(1/4 + h^2), clipped.
 template <class T>
-SideForces<T> forces_for(const AllocationLimits<T>& limits, const T& tau_speed, const T& moment_m,
-                         const T& q, Allocation<T>& a) {
-  const T quarter = (T(1.0) + q * q) * T(0.25);
+void forces_for(const AllocationConstants<T>& c, const T& tau_speed, const T& moment_over_track,
+                const T& quarter, Allocation<T>& a) {
   const T mean = tau_speed * quarter;
-  const T half_difference = moment_m / limits.half_track_m * quarter;
-  return {clipped(mean - half_difference, limits.force_min, limits.force_max, a.force_limited),
-          clipped(mean + half_difference, limits.force_min, limits.force_max, a.force_limited)};
+  const T half_difference = moment_over_track * quarter;
+  a.force.left = clipped(mean - half_difference, c.force_min, c.force_max, a.force_limited);
+  a.force.right = clipped(mean + half_difference, c.force_min, c.force_max, a.force_limited);
 }
 
-/// q for the mode's steering share of tau_turn; `difference_m` is what it leaves to the forces:
-/// with kRedistribute, what d_r's stop takes away too.
+/// What the clipped forces leave of tau_turn goes to the steering. Returns h.
+/// With 1 + cos d_r = 1/(2 (1/4 + h^2)):  tau_speed = (F'L + F'R)/(2 quarter),
+/// delivered = d (F'R - F'L)/(2 quarter), so that
+///   moment/(2 l_f tau_speed) = (2 quarter tau_turn - d (F'R - F'L))/(2 l_f (F'L + F'R))
 template <class T>
-T share(YawMode mode, const AllocationLimits<T>& limits, const T& tau_speed, const T& tau_turn_m,
-        T& difference_m, Allocation<T>& a) {
-  difference_m = tau_turn_m;
-  if (mode == YawMode::kDifferential) return T(0.0);
-  const bool combined = mode == YawMode::kCombined;
-  difference_m = combined ? tau_turn_m * T(0.5) : T(0.0);
-  const T q = steering_for(limits, tau_speed, tau_turn_m - difference_m, a);
-  const bool lost = a.steering_limited || a.steering_powerless;
-  if (combined && lost && limits.split == CombinedSplit::kRedistribute) {
-    // Steering's moment: l_f tau_speed sin d_r/(1 + cos d_r) = l_f tau_speed q.
-    difference_m = tau_turn_m - limits.front_axle_m * tau_speed * q;
-  }
-  return q;
-}
-
-/// What the clipped forces leave of tau_turn goes to the steering. Returns q.
-template <class T>
-T give_back(const AllocationLimits<T>& limits, const T& tau_turn_m, const T& q, Allocation<T>& a) {
-  // Both over 1 + cos d_r = 2/(1 + q^2).
-  const T one_plus_cos = T(2.0) / (T(1.0) + q * q);
-  const T delivered_m = limits.half_track_m * (a.force.right - a.force.left) * one_plus_cos;
-  const T pair = (a.force.left + a.force.right) * one_plus_cos;
-  return steering_for(limits, pair, tau_turn_m - delivered_m, a);
+T give_back(const AllocationConstants<T>& c, const T& tau_turn_m, const T& quarter,
+            Allocation<T>& a) {
+  const T rest_m =
+      (quarter + quarter) * tau_turn_m - c.half_track_m * (a.force.right - a.force.left);
+  return steering_for(c, a.force.left + a.force.right, rest_m * c.axle_half_inverse, a);
 }
 
 }  // namespace detail
 
-/// tau_speed dimensionless, tau_turn_m in m. Always finite for finite input.
+/// tau_speed dimensionless, tau_turn_m in m; `split` is for the combined mode. Always finite for
+/// finite input.
 /// differential: d_r = 0;  F'R,L = tau_speed/4 +- tau_turn/(4 d)
 /// steering:     d_r = 2 atan(tau_turn/(l_f tau_speed));  F'L = F'R = tau_speed/(2 (1 + cos d_r))
 /// combined:     d_r = 2 atan(tau_turn/(2 l_f tau_speed)) and the other half of tau_turn by the
 ///               forces; with kRedistribute, what one path's limits take away goes to the other.
 template <class T>
+void allocate(YawMode mode, const T& tau_speed, const T& tau_turn_m,
+              const AllocationConstants<T>& c, CombinedSplit split, Allocation<T>& a) {
+  a = Allocation<T>{};
+  const T speed = detail::clipped(tau_speed, c.tau_speed_min, c.tau_speed_max, a.speed_limited);
+  const bool combined = mode == YawMode::kCombined;
+  const bool redistribute = combined && split == CombinedSplit::kRedistribute;
+  T steered_m = T(0.0);     // the moment asked of the steering
+  T difference_m = T(0.0);  // and of the forces
+  if (mode != YawMode::kSteering) difference_m = tau_turn_m;
+  if (mode == YawMode::kSteering) steered_m = tau_turn_m;
+  if (combined) difference_m = steered_m = T(0.5) * tau_turn_m;
+
+  T h = T(0.0);
+  T quarter = T(0.25);
+  if (mode != YawMode::kDifferential) {
+    h = detail::steering_for(c, speed, steered_m * c.axle_half_inverse, a);
+    quarter = T(0.25) + h * h;
+  }
+  const bool lost = a.steering_limited || a.steering_powerless;
+  // Steering's moment: l_f tau_speed q = 2 h l_f tau_speed.
+  if (redistribute && lost) difference_m = tau_turn_m - h * speed * c.axle_twice_m;
+  const T over_track =
+      mode == YawMode::kSteering ? T(0.0) : difference_m * c.half_track_inverse;
+  detail::forces_for(c, speed, over_track, quarter, a);
+  if (redistribute && a.force_limited && !lost) {
+    h = detail::give_back(c, tau_turn_m, quarter, a);
+  }
+  if (mode != YawMode::kDifferential) a.steering_rad = detail::angle_of(c, h, a);
+}
+
+template <class T>
 Allocation<T> allocate(YawMode mode, const T& tau_speed, const T& tau_turn_m,
                        const AllocationLimits<T>& limits) {
   Allocation<T> a{};
-  // By the quarter, which is a wheel's own: 4 F'min <= tau_speed <= 4 F'max.
-  const T speed = T(4.0) * detail::clipped(tau_speed * T(0.25), limits.force_min, limits.force_max,
-                                           a.speed_limited);
-  T difference_m = T(0.0);
-  T q = detail::share(mode, limits, speed, tau_turn_m, difference_m, a);
-  a.force = detail::forces_for(limits, speed, difference_m, q, a);
-  if (mode == YawMode::kCombined && limits.split == CombinedSplit::kRedistribute &&
-      a.force_limited && !a.steering_limited && !a.steering_powerless) {
-    q = detail::give_back(limits, tau_turn_m, q, a);
-  }
-  a.steering_rad = detail::angle_of(limits, q, a);
+  allocate(mode, tau_speed, tau_turn_m, prepared(limits), limits.split, a);
   return a;
 }
 

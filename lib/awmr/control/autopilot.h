@@ -32,7 +32,7 @@ struct AutopilotOutput {
 /// G is ResistanceTable or Resistance<float>.
 template <class G>
 struct Autopilot {
-  Controller<float, G> controller;
+  PreparedController<float, G> controller;
   SafetyLimits limits;
   Waypoints<float> waypoints;  ///< count 0: none to follow
   WaypointProgress<float> progress;
@@ -66,17 +66,8 @@ inline void set_resistance(const TableShape* /*shape*/, const float* alpha_beta,
 template <class G>
 bool start_autopilot(Autopilot<G>& a, const ParameterBlock* block, const float* surge_values,
                      size_t surge_count, const float* yaw_values, size_t yaw_count, uint32_t crc) {
-  Controller<float, G>& c = a.controller;
-  read_flash(&block->mass_norm, c.mass_norm);
-  read_flash(&block->inertia_norm, c.inertia_norm);
-  read_flash(&block->gains, c.gains);
-  read_flash(&block->front_axle_m, c.limits.front_axle_m);
-  read_flash(&block->half_track_m, c.limits.half_track_m);
-  read_flash(&block->force_min, c.limits.force_min);
-  read_flash(&block->force_max, c.limits.force_max);
-  read_flash(&block->steering_max_rad, c.limits.steering_max_rad);
-  read_flash(&block->steering_max_tan_half, c.limits.steering_max_tan_half);
-  c.limits.split = CombinedSplit::kRedistribute;
+  PreparedController<float, G>& c = a.controller;
+  read_flash(&block->constants, c.constants);
   set_resistance(&block->surge_table, block->surge_alpha_beta, surge_values, c.surge);
   set_resistance(&block->yaw_table, block->yaw_alpha_beta, yaw_values, c.yaw);
   read_flash(&block->safety, a.limits);
@@ -123,44 +114,47 @@ uint8_t check_input(Autopilot<G>& a, const AutopilotInput& in) {
   return static_cast<uint8_t>(fault);
 }
 
-/// The reference with the heading that the waypoints lead to, where there are any.
+/// The reference with the heading that the waypoints lead to.
 template <class G>
 Reference<float> led(Autopilot<G>& a, const AutopilotInput& in, bool& arrived) {
-  Reference<float> ref = in.reference;
-  arrived = false;
-  if (a.waypoints.count <= 0) return ref;
   if (!a.is_leg_started) {
     a.progress = start_waypoints(in.position_m, in.measured.psi_rad);
     a.is_leg_started = true;
   }
   const WaypointGuidance<float> guidance = guide(a.waypoints, in.position_m, a.progress);
   arrived = guidance.finished;
-  ref.psi_rad = guidance.psi_rad;
-  ref.psi_rate_radps = 0.0F;
-  ref.psi_accel_radps2 = 0.0F;
-  return ref;
+  return {guidance.psi_rad, 0.0F, 0.0F, in.reference.speed_mps, in.reference.accel_mps2};
+}
+
+template <class G>
+void control(Autopilot<G>& a, const AutopilotInput& in, const Reference<float>& ref,
+             AutopilotOutput& out) {
+  out.psi_ref_rad = ref.psi_rad;
+  out.tau_speed = speed_law(a.controller, in.measured, ref);
+  out.tau_turn_m = heading_law(a.controller, in.measured, ref);
+  allocate(static_cast<YawMode>(in.mode), out.tau_speed, out.tau_turn_m,
+           a.controller.constants.allocation, CombinedSplit::kRedistribute, out.command);
 }
 
 }  // namespace detail
 
 template <class G>
-AutopilotOutput autopilot_step(Autopilot<G>& a, const AutopilotInput& in) {
-  AutopilotOutput out{};
+void autopilot_step(Autopilot<G>& a, const AutopilotInput& in, AutopilotOutput& out) {
+  out.arrived = false;
   out.fault = detail::check_input(a, in);
-  out.command = safe_command<float>();
-  if (out.fault != kFaultNone) return out;
-  const Reference<float> ref = detail::led(a, in, out.arrived);
-  const Command<float> command =
-      control_step(a.controller, static_cast<YawMode>(in.mode), in.measured, ref);
-  out.psi_ref_rad = ref.psi_rad;
-  out.tau_speed = command.tau_speed;
-  out.tau_turn_m = command.tau_turn_m;
-  if (is_within_limits(a.controller.limits, command.allocation)) {
-    out.command = command.allocation;
-  } else {
+  if (out.fault == kFaultNone) {
+    if (a.waypoints.count > 0) {
+      detail::control(a, in, detail::led(a, in, out.arrived), out);
+    } else {
+      detail::control(a, in, in.reference, out);
+    }
+    if (is_within_limits(a.controller.constants.allocation, out.command)) return;
     out.fault = kFaultOutput;
   }
-  return out;
+  out.command = safe_command<float>();
+  out.tau_speed = 0.0F;
+  out.tau_turn_m = 0.0F;
+  out.psi_ref_rad = 0.0F;
 }
 
 }  // namespace awmr

@@ -61,6 +61,36 @@ inline float wrap_angle(float angle_rad) {
   return float_math::wrapped(angle_rad);
 }
 
+/// What the laws and the allocation need of model, gains and limits, computed once; of Ts only.
+template <class T>
+struct ControlConstants {
+  T mass_norm;
+  T inertia_norm;
+  T lambda;
+  T heading_mu;
+  T heading_slope;  ///< mu/epsilon, 1/s
+  T speed_mu;
+  T speed_slope;    ///< mu_s/epsilon_s, 1/s
+  AllocationConstants<T> allocation;
+};
+
+/// A controller as the chip holds it.
+template <class T, class G = Resistance<T>>
+struct PreparedController {
+  G surge;
+  G yaw;
+  ControlConstants<T> constants;
+};
+
+template <class T, class G>
+PreparedController<T, G> prepared(const Controller<T, G>& c) {
+  return {c.surge,
+          c.yaw,
+          {c.mass_norm, c.inertia_norm, c.gains.heading.lambda, c.gains.heading.mu,
+           c.gains.heading.mu / c.gains.heading.epsilon, c.gains.speed.mu,
+           c.gains.speed.mu / c.gains.speed.epsilon, prepared(c.limits)}};
+}
+
 /// S = e_dot + lambda e,  e = wrap(psi_d - psi),  e_dot = psi_d_dot - r                 [paper (82)]
 template <class T>
 T sliding_surface(const HeadingGains<T>& gains, const Measurement<T>& m, const Reference<T>& ref) {
@@ -72,36 +102,44 @@ T sliding_surface(const HeadingGains<T>& gains, const Measurement<T>& m, const R
 /// psi_d_dot - r; (78), (87): the condition of sat is on |S| <= eps, not on |e|. The disturbance is
 /// unknown and drops out; mu has to dominate it.]
 template <class T, class G>
-T heading_law(const Controller<T, G>& c, const T& sliding_radps, const Measurement<T>& m,
+T heading_law(const PreparedController<T, G>& c, const Measurement<T>& m,
               const Reference<T>& ref) {
-  const T correction =
-      c.gains.heading.mu * math::saturate(sliding_radps / c.gains.heading.epsilon, T(1.0));
+  const ControlConstants<T>& k = c.constants;
+  const T error_rate = ref.psi_rate_radps - m.r_radps;
+  const T s = error_rate + k.lambda * wrap_angle(ref.psi_rad - m.psi_rad);
+  // mu sat(S/eps) = sat(S mu/eps, mu)
+  const T correction = math::saturate(k.heading_slope * s, k.heading_mu);
   return c.yaw(m.r_radps) +
-         c.inertia_norm * (ref.psi_accel_radps2 +
-                           c.gains.heading.lambda * (ref.psi_rate_radps - m.r_radps) + correction);
+         k.inertia_norm * (ref.psi_accel_radps2 + k.lambda * error_rate + correction);
 }
 template <class T, class G>
 T heading_law(const Controller<T, G>& c, const Measurement<T>& m, const Reference<T>& ref) {
-  return heading_law(c, sliding_surface(c.gains.heading, m, ref), m, ref);
+  return heading_law(prepared(c), m, ref);
 }
 
 /// tau_speed = g1(u) - m' r v + m' (u_d_dot + mu_s sat((u_d - u)/eps_s))                [paper (102)]
 template <class T, class G>
+T speed_law(const PreparedController<T, G>& c, const Measurement<T>& m, const Reference<T>& ref) {
+  const ControlConstants<T>& k = c.constants;
+  const T correction = math::saturate(k.speed_slope * (ref.speed_mps - m.u_mps), k.speed_mu);
+  return c.surge(m.u_mps) +
+         k.mass_norm * (ref.accel_mps2 + correction - m.r_radps * m.v_mps);
+}
+template <class T, class G>
 T speed_law(const Controller<T, G>& c, const Measurement<T>& m, const Reference<T>& ref) {
-  const T error = ref.speed_mps - m.u_mps;
-  const T correction = c.gains.speed.mu * math::saturate(error / c.gains.speed.epsilon, T(1.0));
-  return c.surge(m.u_mps) - c.mass_norm * m.r_radps * m.v_mps +
-         c.mass_norm * (ref.accel_mps2 + correction);
+  return speed_law(prepared(c), m, ref);
 }
 
 template <class T, class G>
 Command<T> control_step(const Controller<T, G>& c, YawMode mode, const Measurement<T>& m,
                         const Reference<T>& ref) {
+  const PreparedController<T, G> ready = prepared(c);
   Command<T> command{};
-  command.tau_speed = speed_law(c, m, ref);
+  command.tau_speed = speed_law(ready, m, ref);
+  command.tau_turn_m = heading_law(ready, m, ref);
   command.sliding_radps = sliding_surface(c.gains.heading, m, ref);
-  command.tau_turn_m = heading_law(c, command.sliding_radps, m, ref);
-  command.allocation = allocate(mode, command.tau_speed, command.tau_turn_m, c.limits);
+  allocate(mode, command.tau_speed, command.tau_turn_m, ready.constants.allocation,
+           c.limits.split, command.allocation);
   return command;
 }
 

@@ -44,17 +44,4 @@ void read_flash(const V* source, V& value) {
 #endif
 }
 
-/// The 32 bits of a float, and back.
-inline uint32_t bits_of(float value) {
-  uint32_t bits = 0;
-  memcpy(&bits, &value, sizeof bits);
-  return bits;
-}
-
-inline float float_of(uint32_t bits) {
-  float value = 0.0F;
-  memcpy(&value, &bits, sizeof value);
-  return value;
-}
-
 }  // namespace awmr

@@ -4,10 +4,10 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "awmr/control/controller.h"
 #include "awmr/control/crc.h"
 #include "awmr/control/flash.h"
 #include "awmr/control/safety.h"
-#include "awmr/model/gains.h"
 
 namespace awmr {
 
@@ -23,15 +23,7 @@ struct TableShape {
 struct ParameterBlock {
   float surge_alpha_beta[2];
   float yaw_alpha_beta[2];
-  float mass_norm;
-  float inertia_norm;
-  float front_axle_m;
-  float half_track_m;
-  float force_min;
-  float force_max;
-  float steering_max_rad;
-  float steering_max_tan_half;
-  Gains<float> gains;
+  ControlConstants<float> constants;
   SafetyLimits safety;
   TableShape surge_table;  ///< count 0: by powf
   TableShape yaw_table;

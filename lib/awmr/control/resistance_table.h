@@ -28,7 +28,7 @@ struct ResistanceTable {
 
   /// g(w). Beyond the last entry, and for what is no number, NaN: a caller checks the range first.
   float operator()(const float& speed) const {
-    const uint32_t magnitude = bits_of(speed) & 0x7FFFFFFFUL;
+    const uint32_t magnitude = float_math::magnitude_bits(speed);
     const uint16_t cell = cell_of(magnitude, mantissa_bits);
     if (cell < first) return slope_at_rest * speed;
     const uint16_t index = static_cast<uint16_t>(cell - first);
@@ -38,7 +38,7 @@ struct ResistanceTable {
     // The mantissa's other bits are the place inside the cell: 1 <= 1 + t < 2, exactly.
     const float one_plus_t = float_of(((magnitude << mantissa_bits) & 0x007FFFFFUL) | 0x3F800000UL);
     const float value = low + (one_plus_t - 1.0F) * (high - low);
-    return speed < 0.0F ? -value : value;
+    return bits_of(speed) >> 31U != 0 ? -value : value;
   }
 };
 

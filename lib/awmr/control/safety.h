@@ -55,8 +55,8 @@ namespace detail {
 /// kFaultNotFinite, kFaultRange where |value| > largest, or none: by the bits, which order as the
 /// magnitudes do and cost the chip a tenth of a comparison of floats.
 AWMR_SHARED inline uint8_t check_magnitude(float value, float largest) {
-  const uint32_t magnitude = bits_of(value) & 0x7FFFFFFFUL;
-  if (magnitude >= 0x7F800000UL) return kFaultNotFinite;
+  const uint32_t magnitude = float_math::magnitude_bits(value);
+  if (magnitude >= float_math::kInfinityBits) return kFaultNotFinite;
   return magnitude > bits_of(largest) ? kFaultRange : kFaultNone;
 }
 
@@ -102,16 +102,20 @@ inline uint8_t check_times(const SafetyLimits& limits, const InputTimes& times) 
   return static_cast<uint8_t>(fault);
 }
 
+/// lo <= value <= hi; false for NaN.
+namespace detail {
+inline bool is_between(float value, float lo, float hi) {
+  const int32_t order = float_math::order_of(value);
+  return !float_math::is_nan(value) && order >= float_math::order_of(lo) &&
+         order <= float_math::order_of(hi);
+}
+}  // namespace detail
+
 /// The last gate before the motors: false for NaN too.
-inline bool is_within_limits(const AllocationLimits<float>& limits, const Allocation<float>& a) {
-  bool outside = false;
-  detail::clipped(a.force.left, limits.force_min, limits.force_max, outside);
-  detail::clipped(a.force.right, limits.force_min, limits.force_max, outside);
-  // NaN is neither above nor below.
-  return !outside &&
-         (detail::check_magnitude(a.force.left, kReferenceMax) |
-          detail::check_magnitude(a.force.right, kReferenceMax) |
-          detail::check_magnitude(a.steering_rad, limits.steering_max_rad)) == kFaultNone;
+inline bool is_within_limits(const AllocationConstants<float>& c, const Allocation<float>& a) {
+  return detail::is_between(a.force.left, c.force_min, c.force_max) &&
+         detail::is_between(a.force.right, c.force_min, c.force_max) &&
+         detail::check_magnitude(a.steering_rad, c.steering_max_rad) == kFaultNone;
 }
 
 }  // namespace awmr

@@ -73,7 +73,7 @@ std::string autopilot_header(const AutopilotParameters& parameters) {
   const bool by_table = parameters.resistance == ResistanceForm::kTable;
   std::string text =
       fmt::format(kIntro, version(), by_table ? 1 : 0,
-                  float_literal(static_cast<double>(block.steering_max_tan_half)),
+                  float_literal(static_cast<double>(parameters.steering_max_tan_half)),
                   float_literal(static_cast<double>(block.safety.speed_max_mps)),
                   float_literal(static_cast<double>(block.safety.yaw_rate_max_radps)),
                   block.safety.heading_timeout_ms, block.safety.speed_timeout_ms,

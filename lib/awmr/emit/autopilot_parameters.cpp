@@ -27,19 +27,21 @@ ParameterBlock block_of(const Plant<double>& plant, const Model& model, const Ga
   block.surge_alpha_beta[1] = estimate(ParameterId::kSurgeBeta);
   block.yaw_alpha_beta[0] = estimate(ParameterId::kYawAlpha);
   block.yaw_alpha_beta[1] = estimate(ParameterId::kYawBeta);
-  block.mass_norm = single(plant.mass_norm);
-  block.inertia_norm = single(plant.inertia_norm);
-  block.front_axle_m = single(plant.front_axle_m);
-  block.half_track_m = single(plant.half_track_m);
-  block.force_min = single(model.vehicle.wheel_force.lo);
-  block.force_max = single(model.vehicle.wheel_force.hi);
-  block.steering_max_rad = single(radians(model.vehicle.steering_max_deg));
-  block.steering_max_tan_half = single(tan_half(radians(model.vehicle.steering_max_deg)));
-  block.gains.heading.lambda = single(gains.heading.lambda);
-  block.gains.heading.mu = single(gains.heading.mu);
-  block.gains.heading.epsilon = single(gains.heading.epsilon);
-  block.gains.speed.mu = single(gains.speed.mu);
-  block.gains.speed.epsilon = single(gains.speed.epsilon);
+  // In float from here on, as a compiler folds awmr.cpp's expressions.
+  Controller<float> controller{};
+  controller.mass_norm = single(plant.mass_norm);
+  controller.inertia_norm = single(plant.inertia_norm);
+  controller.gains = {{single(gains.heading.lambda), single(gains.heading.mu),
+                       single(gains.heading.epsilon)},
+                      {single(gains.speed.mu), single(gains.speed.epsilon)}};
+  const double steering_max_rad = radians(model.vehicle.steering_max_deg);
+  controller.limits.front_axle_m = single(plant.front_axle_m);
+  controller.limits.half_track_m = single(plant.half_track_m);
+  controller.limits.force_min = single(model.vehicle.wheel_force.lo);
+  controller.limits.force_max = single(model.vehicle.wheel_force.hi);
+  controller.limits.steering_max_rad = single(steering_max_rad);
+  controller.limits.steering_max_tan_half = single(tan_half(steering_max_rad));
+  block.constants = prepared(controller).constants;
   block.safety.heading_timeout_ms = options.heading_timeout_ms;
   block.safety.speed_timeout_ms = options.speed_timeout_ms;
   block.safety.command_timeout_ms = options.command_timeout_ms;
@@ -70,6 +72,7 @@ Result<AutopilotParameters> autopilot_parameters(const Model& model, const Gains
   parameters.resistance = options.resistance;
   parameters.table_error = options.table_error;
   parameters.block = block_of(*plant, model, gains, options);
+  parameters.steering_max_tan_half = 2.0F * parameters.block.constants.allocation.h_max;
   // The largest float below the last entry: a speed at the top has no cell above it.
   parameters.block.safety.speed_max_mps = std::nextafter(static_cast<float>(speed_top), 0.0F);
   parameters.block.safety.yaw_rate_max_radps = std::nextafter(static_cast<float>(rate_top), 0.0F);

@@ -68,6 +68,7 @@ struct EmittedTable {
 /// The numbers of the firmware as the chip holds them.
 struct AutopilotParameters {
   ParameterBlock block{};
+  float steering_max_tan_half = 0.0F;
   EmittedTable surge;  ///< no values with powf
   EmittedTable yaw;
   ResistanceForm resistance = ResistanceForm::kTable;

@@ -2,7 +2,6 @@
 #include "awmr.h"
 
 #include <stddef.h>
-#include <string.h>
 
 #include "awmr/control/autopilot.h"
 
@@ -33,16 +32,16 @@ extern const awmr::ParameterBlock awmr_parameters;
 const awmr::ParameterBlock awmr_parameters AWMR_IN_FLASH = {
     {AWMR_SURGE_ALPHA, AWMR_SURGE_BETA},
     {AWMR_YAW_ALPHA, AWMR_YAW_BETA},
-    AWMR_MASS_NORM,
-    AWMR_INERTIA_NORM,
-    AWMR_FRONT_AXLE_M,
-    AWMR_HALF_TRACK_M,
-    AWMR_WHEEL_FORCE_MIN,
-    AWMR_WHEEL_FORCE_MAX,
-    AWMR_STEERING_MAX_RAD,
-    AWMR_STEERING_MAX_TAN_HALF,
-    {{AWMR_HEADING_LAMBDA, AWMR_HEADING_MU, AWMR_HEADING_EPSILON},
-     {AWMR_SPEED_MU, AWMR_SPEED_EPSILON}},
+    {AWMR_MASS_NORM,
+     AWMR_INERTIA_NORM,
+     AWMR_HEADING_LAMBDA,
+     AWMR_HEADING_MU,
+     AWMR_HEADING_MU / AWMR_HEADING_EPSILON,
+     AWMR_SPEED_MU,
+     AWMR_SPEED_MU / AWMR_SPEED_EPSILON,
+     {4.0f * AWMR_WHEEL_FORCE_MIN, 4.0f * AWMR_WHEEL_FORCE_MAX, AWMR_WHEEL_FORCE_MIN,
+      AWMR_WHEEL_FORCE_MAX, AWMR_HALF_TRACK_M, 1.0f / AWMR_HALF_TRACK_M, 2.0f * AWMR_FRONT_AXLE_M,
+      0.5f / AWMR_FRONT_AXLE_M, AWMR_STEERING_MAX_RAD, 0.5f * AWMR_STEERING_MAX_TAN_HALF}},
     {AWMR_SPEED_MAX_MPS, AWMR_YAW_RATE_MAX_RADPS, AWMR_HEADING_TIMEOUT_MS, AWMR_SPEED_TIMEOUT_MS,
      AWMR_COMMAND_TIMEOUT_MS, AWMR_STEP_TIMEOUT_MS},
     AWMR_TABLE_SHAPE(AWMR_SURGE_TABLE),
@@ -76,9 +75,11 @@ static_assert(sizeof(awmr_output) == sizeof(awmr::AutopilotOutput), "");
 static_assert(offsetof(awmr_output, tau_speed) == offsetof(awmr::AutopilotOutput, tau_speed), "");
 static_assert(offsetof(awmr_output, arrived) == offsetof(awmr::AutopilotOutput, arrived), "");
 
-void awmr_step(const awmr_input* input, awmr_output* output) {
-  awmr::AutopilotInput in;
-  memcpy(&in, input, sizeof in);
-  const awmr::AutopilotOutput out = awmr::autopilot_step(autopilot, in);
-  memcpy(output, &out, sizeof out);
+// So they are used in place; the barriers keep the compiler from moving what a caller writes before
+// or reads after past the call, whatever it knows of the two types.
+__attribute__((noinline)) void awmr_step(const awmr_input* input, awmr_output* output) {
+  __asm__ volatile("" ::: "memory");
+  awmr::autopilot_step(autopilot, *reinterpret_cast<const awmr::AutopilotInput*>(input),
+                       *reinterpret_cast<awmr::AutopilotOutput*>(output));
+  __asm__ volatile("" ::: "memory");
 }
