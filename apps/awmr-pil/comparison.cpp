@@ -80,8 +80,8 @@ Difference difference_of(const RowsA& a, const RowsB& b) {
   for (const Signal& signal : kSignals) {
     double largest = 0.0;
     for (std::size_t i = 0; i < rows; ++i) {
-      largest = std::max(largest,
-                         apart(signal, signal.of(sample_of(a[i])), signal.of(sample_of(b[i]))));
+      largest =
+          std::max(largest, apart(signal, signal.of(sample_of(a[i])), signal.of(sample_of(b[i]))));
     }
     result.signals.emplace_back(signal.name, largest);
   }

@@ -119,9 +119,8 @@ void Emulator::paint_stack() {
 unsigned Emulator::stack_bytes() const {
   const std::size_t from = symbols_.at("_end") - kRamOffset;
   const std::uint8_t* end = avr_->data + avr_->ramend + 1;
-  const std::uint8_t* lowest =
-      std::find_if(avr_->data + from, avr_->data + avr_->ramend + 1,
-                   [](std::uint8_t byte) { return byte != kPaint; });
+  const std::uint8_t* lowest = std::find_if(avr_->data + from, avr_->data + avr_->ramend + 1,
+                                            [](std::uint8_t byte) { return byte != kPaint; });
   return static_cast<unsigned>(end - lowest);
 }
 

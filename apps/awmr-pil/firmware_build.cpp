@@ -44,8 +44,9 @@ Result<fs::path> build_firmware(const fs::path& directory, const std::vector<Emi
     }
   }
   if (exit_code_of("command -v avr-g++ >/dev/null 2>&1") != 0) {
-    return input_error("avr-g++", "is not installed; it builds the firmware: "
-                                  "apt-get install gcc-avr avr-libc binutils-avr");
+    return input_error("avr-g++",
+                       "is not installed; it builds the firmware: "
+                       "apt-get install gcc-avr avr-libc binutils-avr");
   }
   const char* program = link == LinkKind::kMemory ? "pil_memory" : "pil_uart";
   const std::string line =

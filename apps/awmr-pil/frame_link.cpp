@@ -23,9 +23,10 @@ class FrameLink : public Chip {
     const auto crc = reader.get<std::uint32_t>();
     if (crc != parameters_crc_) {
       return input_error(
-          "--port", fmt::format("the board holds other parameters (check sum {:08X}) than this model "
-                                "and these gains give ({:08X}): flash pil_uart.elf of --build-dir",
-                                crc, parameters_crc_));
+          "--port",
+          fmt::format("the board holds other parameters (check sum {:08X}) than this model "
+                      "and these gains give ({:08X}): flash pil_uart.elf of --build-dir",
+                      crc, parameters_crc_));
     }
     return fault;
   }

@@ -10,18 +10,17 @@ class HostExecutor : public Executor {
 
   Result<std::uint8_t> start() override {
     const AutopilotParameters& p = *parameters_;
-    const bool good = start_autopilot(autopilot_, &p.block, p.surge.values.data(),
-                                      p.surge.values.size(), p.yaw.values.data(),
-                                      p.yaw.values.size(), p.crc);
+    const bool good =
+        start_autopilot(autopilot_, &p.block, p.surge.values.data(), p.surge.values.size(),
+                        p.yaw.values.data(), p.yaw.values.size(), p.crc);
     return std::uint8_t{good ? kFaultNone : kFaultParameters};
   }
 
   Status follow(const Points& points) override {
     points_ = points;
-    follow_waypoints(autopilot_,
-                     Waypoints<float>{points_.points_m.data(),
-                                      static_cast<int>(points_.points_m.size()),
-                                      points_.acceptance_m, false});
+    follow_waypoints(autopilot_, Waypoints<float>{points_.points_m.data(),
+                                                  static_cast<int>(points_.points_m.size()),
+                                                  points_.acceptance_m, false});
     return {};
   }
 

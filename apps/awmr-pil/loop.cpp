@@ -20,8 +20,8 @@ float single(double value) { return static_cast<float>(value); }
 /// Waypoints that the chip's own guidance goes to; else the host leads and the chip gets a heading.
 const WaypointCourse* course_for_chip(const Scenario& scenario) {
   const auto* course = std::get_if<WaypointCourse>(&scenario.guidance);
-  const bool plain = course != nullptr && !course->skip_passed && !scenario.avoidance &&
-                     !scenario.shaping;
+  const bool plain =
+      course != nullptr && !course->skip_passed && !scenario.avoidance && !scenario.shaping;
   return plain ? course : nullptr;
 }
 
@@ -98,8 +98,9 @@ void delay(std::uint32_t by_ms, InputTimes& times) {
 Status check_scenario(const Scenario& scenario, const std::string& file) {
   std::vector<Fault> faults;
   if (std::holds_alternative<OpenLoop>(scenario.guidance)) {
-    faults.push_back({file + ":/guidance", "is open loop, which asks nothing of a controller: give "
-                                           "heading, waypoints, line or lissajous"});
+    faults.push_back({file + ":/guidance",
+                      "is open loop, which asks nothing of a controller: give "
+                      "heading, waypoints, line or lissajous"});
   }
   if (scenario.actuators) faults.push_back({file + ":/actuators", "the firmware has none: remove"});
   if (scenario.control.observer) {
@@ -153,8 +154,7 @@ std::uint8_t expected_fault(Injection injection) {
 Result<std::vector<LoopRow>> run_loop(const LoopSetup& setup, Executor& executor) {
   const SimulateOptions options{.sample_time_s = setup.sample_time_s, .substeps = {}};
   Physics physics(setup.plant, setup.force_max, setup.scenario, options);
-  Sensing sensing(setup.scenario.sensors, setup.sample_time_s,
-                  run_seed(setup.scenario.seed, 0, 0));
+  Sensing sensing(setup.scenario.sensors, setup.sample_time_s, run_seed(setup.scenario.seed, 0, 0));
   Sensed sensed = sensing.at(0, physics.state());
   Pilot pilot(setup.scenario, setup.sample_time_s, sensed);
   const WaypointCourse* course = course_for_chip(setup.scenario);
@@ -178,15 +178,15 @@ Result<std::vector<LoopRow>> run_loop(const LoopSetup& setup, Executor& executor
     auto step = executor.step(input);
     if (!step) return tl::unexpected(step.error());
     row.step = *step;
-    const bool ended = course != nullptr ? step->output.arrived
-                                         : order.finished || order.no_passage;
+    const bool ended =
+        course != nullptr ? step->output.arrived : order.finished || order.no_passage;
     if (ended || k == samples) break;
     physics.disturb(row.t_s);
     const Allocation<float>& command = step->output.command;
-    physics.step(row.t_s,
-                 {static_cast<double>(command.force.left),
-                  static_cast<double>(command.force.right)},
-                 static_cast<double>(command.steering_rad));
+    physics.step(
+        row.t_s,
+        {static_cast<double>(command.force.left), static_cast<double>(command.force.right)},
+        static_cast<double>(command.steering_rad));
   }
   return rows;
 }

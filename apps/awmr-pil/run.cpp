@@ -113,9 +113,9 @@ Result<ChipRun> run_chip(const PilOptions& options, const Inputs& in) {
   if (directory.path().empty()) return program_fault("no temporary directory can be made");
   const auto library = firmware_library(in.model, in.gains, in.names, options.emit);
   if (!library) return tl::unexpected(library.error());
-  const auto elf = build_firmware(
-      directory.path(), *library,
-      options.link == cli::PilLink::kMemory ? LinkKind::kMemory : LinkKind::kUart);
+  const auto elf =
+      build_firmware(directory.path(), *library,
+                     options.link == cli::PilLink::kMemory ? LinkKind::kMemory : LinkKind::kUart);
   if (!elf) return tl::unexpected(elf.error());
   auto chip = connect(options, in, *elf);
   if (!chip) return tl::unexpected(chip.error());
@@ -178,9 +178,9 @@ Injected injected_of(const LoopSetup& setup, const std::vector<LoopRow>& rows) {
       continue;
     }
     result.seen &= out.fault;
-    const bool still = std::max({std::abs(out.command.force.left),
-                                 std::abs(out.command.force.right),
-                                 std::abs(out.command.steering_rad)}) <= 0.0F;
+    const bool still =
+        std::max({std::abs(out.command.force.left), std::abs(out.command.force.right),
+                  std::abs(out.command.steering_rad)}) <= 0.0F;
     result.safe = result.safe && still;
   }
   return result;
@@ -211,10 +211,9 @@ Status compare_runs(const PilOptions& options, const Inputs& in, Report& report)
   }
   const auto plant = in.model.plant(options.model.string());
   if (!plant) return tl::unexpected(plant.error());
-  const Run exact =
-      simulate(in.setup.plant, make_controller(*plant, in.model.vehicle, in.gains),
-               in.setup.scenario, in.setup.mode,
-               {.sample_time_s = in.setup.sample_time_s, .substeps = {}});
+  const Run exact = simulate(in.setup.plant, make_controller(*plant, in.model.vehicle, in.gains),
+                             in.setup.scenario, in.setup.mode,
+                             {.sample_time_s = in.setup.sample_time_s, .substeps = {}});
   report.from_double = difference(report.chip.rows, exact);
   const auto by_powf = run_host(in, ResistanceForm::kPowf, options.emit);
   if (!by_powf) return tl::unexpected(by_powf.error());
@@ -305,9 +304,8 @@ Result<std::string> text_of(const PilOptions& options, const Inputs& in, const R
   if (report.from_double) json["difference_double"] = json_of(*report.from_double);
   if (report.by_float32) json["effect"]["float32"] = json_of(*report.by_float32);
   if (report.by_table) json["effect"]["table"] = json_of(*report.by_table);
-  json["cycles"] = {{"min", report.cycles.min},
-                    {"mean", report.cycles.mean},
-                    {"max", report.cycles.max}};
+  json["cycles"] = {
+      {"min", report.cycles.min}, {"mean", report.cycles.mean}, {"max", report.cycles.max}};
   json["period_share"] = report.cycles.max / (in.setup.sample_time_s * kClockHz);
   json["flash_bytes"] = report.chip.figures.flash_bytes;
   json["ram_bytes"] = report.chip.figures.ram_bytes;

@@ -18,8 +18,8 @@ std::vector<std::string> arguments_of(const CLI::App& command) {
   for (const CLI::Option* option : command.get_options()) {
     for (const std::string& value : option->results()) {
       const std::string name = "--" + option->get_lnames().front();
-      arguments.push_back(option->get_items_expected_max() == 0 ? name
-                                                                : fmt::format("{}={}", name, value));
+      arguments.push_back(
+          option->get_items_expected_max() == 0 ? name : fmt::format("{}={}", name, value));
     }
   }
   return arguments;
@@ -47,11 +47,12 @@ Result<Outcome> become_awmr_pil(const std::vector<std::string>& arguments) {
 void add_pil(CLI::App& app, Session& session) {
   auto options = std::make_shared<PilOptions>();
   auto command = std::make_shared<CLI::App*>(nullptr);
-  *command = add_command(app, session, "pil",
-                         "Run the firmware on an emulated ATmega2560 against the simulated vehicle",
-                         "awmr pil --model model.json --gains gains.json --scenario "
-                         "configs/paper/scenarios/c3_heading_steps.json --mode combined -o pil.json",
-                         [command] { return become_awmr_pil(arguments_of(**command)); });
+  *command =
+      add_command(app, session, "pil",
+                  "Run the firmware on an emulated ATmega2560 against the simulated vehicle",
+                  "awmr pil --model model.json --gains gains.json --scenario "
+                  "configs/paper/scenarios/c3_heading_steps.json --mode combined -o pil.json",
+                  [command] { return become_awmr_pil(arguments_of(**command)); });
   add_pil_options(**command, *options);
   add_output(**command, options->output, "pil.json to write");
 }

@@ -52,20 +52,22 @@ constexpr T steering_authority_min() {
   return T(1e-6);
 }
 
-/// What the allocation needs of the limits, computed once; of Ts only. With h = q/2, a steering angle costs one
-/// division and a pair of forces none.
+/// What the allocation needs of the limits, computed once; of Ts only. With h = q/2, a steering
+/// angle costs one division and a pair of forces none.
 template <class T>
 struct AllocationConstants {
-  T tau_speed_min;        ///< 4 F'min
-  T tau_speed_max;        ///< 4 F'max
+  T tau_speed_min;  ///< 4 F'min
+  T tau_speed_max;  ///< 4 F'max
   T force_min;
   T force_max;
-  T half_track_m;         ///< d
-  T half_track_inverse;   ///< 1/d
-  T axle_twice_m;         ///< 2 l_f
-  T axle_half_inverse;    ///< 1/(2 l_f)
-  T steering_max_rad;     ///< d_max
-  T h_max;                ///< tan(d_max/2)/2
+  T half_track_m;          ///< d
+  T track_inverse;         ///< 1/(2 d)
+  T half_track_inverse;    ///< 1/d
+  T axle_twice_m;          ///< 2 l_f
+  T axle_quarter_inverse;  ///< 1/(4 l_f)
+  T axle_half_inverse;     ///< 1/(2 l_f)
+  T steering_max_rad;      ///< d_max
+  T h_max;                 ///< tan(d_max/2)/2
 };
 
 template <class T>
@@ -75,8 +77,10 @@ AllocationConstants<T> prepared(const AllocationLimits<T>& limits) {
           limits.force_min,
           limits.force_max,
           limits.half_track_m,
+          T(0.5) / limits.half_track_m,
           T(1.0) / limits.half_track_m,
           T(2.0) * limits.front_axle_m,
+          T(0.25) / limits.front_axle_m,
           T(0.5) / limits.front_axle_m,
           limits.steering_max_rad,
           T(0.5) * limits.steering_max_tan_half};
@@ -171,23 +175,22 @@ void allocate(YawMode mode, const T& tau_speed, const T& tau_turn_m,
   const T speed = detail::clipped(tau_speed, c.tau_speed_min, c.tau_speed_max, a.speed_limited);
   const bool combined = mode == YawMode::kCombined;
   const bool redistribute = combined && split == CombinedSplit::kRedistribute;
-  T steered_m = T(0.0);     // the moment asked of the steering
-  T difference_m = T(0.0);  // and of the forces
-  if (mode != YawMode::kSteering) difference_m = tau_turn_m;
-  if (mode == YawMode::kSteering) steered_m = tau_turn_m;
-  if (combined) difference_m = steered_m = T(0.5) * tau_turn_m;
-
   T h = T(0.0);
   T quarter = T(0.25);
   if (mode != YawMode::kDifferential) {
-    h = detail::steering_for(c, speed, steered_m * c.axle_half_inverse, a);
+    // In the combined mode half of tau_turn: the half is in the constant.
+    h = detail::steering_for(
+        c, speed, tau_turn_m * (combined ? c.axle_quarter_inverse : c.axle_half_inverse), a);
     quarter = T(0.25) + h * h;
   }
   const bool lost = a.steering_limited || a.steering_powerless;
-  // Steering's moment: l_f tau_speed q = 2 h l_f tau_speed.
-  if (redistribute && lost) difference_m = tau_turn_m - h * speed * c.axle_twice_m;
-  const T over_track =
-      mode == YawMode::kSteering ? T(0.0) : difference_m * c.half_track_inverse;
+  T over_track = T(0.0);  // the forces' share of the moment over d
+  if (redistribute && lost) {
+    // Steering's moment: l_f tau_speed q = 2 h l_f tau_speed.
+    over_track = (tau_turn_m - h * speed * c.axle_twice_m) * c.half_track_inverse;
+  } else if (mode != YawMode::kSteering) {
+    over_track = tau_turn_m * (combined ? c.track_inverse : c.half_track_inverse);
+  }
   detail::forces_for(c, speed, over_track, quarter, a);
   if (redistribute && a.force_limited && !lost) {
     h = detail::give_back(c, tau_turn_m, quarter, a);

@@ -15,7 +15,7 @@ namespace awmr {
 struct AutopilotInput {
   uint8_t mode;  ///< a YawMode
   Measurement<float> measured;
-  Position<float> position_m;     ///< read while following waypoints only
+  Position<float> position_m;  ///< read while following waypoints only
   Reference<float> reference;  ///< its heading is not read while following waypoints
   InputTimes times;
 };

@@ -1,5 +1,5 @@
-/// The sliding-mode heading and speed laws and the allocation, one step at a time. Freestanding C++14:
-/// the same source runs in the simulator (double), in its float twin and on the AVR.
+/// The sliding-mode heading and speed laws and the allocation, one step at a time. Freestanding
+/// C++14: the same source runs in the simulator (double), in its float twin and on the AVR.
 #pragma once
 
 #include "awmr/control/allocation.h"
@@ -15,10 +15,10 @@ namespace awmr {
 /// (resistance_table.h); whatever gives g for a speed.
 template <class T, class G = Resistance<T>>
 struct Controller {
-  G surge;              ///< g1, dimensionless, of u in m/s
-  G yaw;                ///< g3, m, of r in rad/s
-  T mass_norm;          ///< m', s^2/m
-  T inertia_norm;       ///< I'z, s^2 m
+  G surge;         ///< g1, dimensionless, of u in m/s
+  G yaw;           ///< g3, m, of r in rad/s
+  T mass_norm;     ///< m', s^2/m
+  T inertia_norm;  ///< I'z, s^2 m
   Gains<T> gains;
   AllocationLimits<T> limits;
 };
@@ -33,11 +33,11 @@ struct Measurement {
 
 template <class T>
 struct Reference {
-  T psi_rad;              ///< psi_d
-  T psi_rate_radps;       ///< psi_d_dot
-  T psi_accel_radps2;     ///< psi_d_ddot
-  T speed_mps;            ///< u_d
-  T accel_mps2;           ///< u_d_dot
+  T psi_rad;           ///< psi_d
+  T psi_rate_radps;    ///< psi_d_dot
+  T psi_accel_radps2;  ///< psi_d_ddot
+  T speed_mps;         ///< u_d
+  T accel_mps2;        ///< u_d_dot
 };
 
 template <class T>
@@ -70,7 +70,7 @@ struct ControlConstants {
   T heading_mu;
   T heading_slope;  ///< mu/epsilon, 1/s
   T speed_mu;
-  T speed_slope;    ///< mu_s/epsilon_s, 1/s
+  T speed_slope;  ///< mu_s/epsilon_s, 1/s
   AllocationConstants<T> allocation;
 };
 
@@ -91,7 +91,8 @@ PreparedController<T, G> prepared(const Controller<T, G>& c) {
            c.gains.speed.mu / c.gains.speed.epsilon, prepared(c.limits)}};
 }
 
-/// S = e_dot + lambda e,  e = wrap(psi_d - psi),  e_dot = psi_d_dot - r                 [paper (82)]
+/// S = e_dot + lambda e,  e = wrap(psi_d - psi),  e_dot = psi_d_dot - r                 [paper
+/// (82)]
 template <class T>
 T sliding_surface(const HeadingGains<T>& gains, const Measurement<T>& m, const Reference<T>& ref) {
   return ref.psi_rate_radps - m.r_radps + gains.lambda * wrap_angle(ref.psi_rad - m.psi_rad);
@@ -102,8 +103,7 @@ T sliding_surface(const HeadingGains<T>& gains, const Measurement<T>& m, const R
 /// psi_d_dot - r; (78), (87): the condition of sat is on |S| <= eps, not on |e|. The disturbance is
 /// unknown and drops out; mu has to dominate it.]
 template <class T, class G>
-T heading_law(const PreparedController<T, G>& c, const Measurement<T>& m,
-              const Reference<T>& ref) {
+T heading_law(const PreparedController<T, G>& c, const Measurement<T>& m, const Reference<T>& ref) {
   const ControlConstants<T>& k = c.constants;
   const T error_rate = ref.psi_rate_radps - m.r_radps;
   const T s = error_rate + k.lambda * wrap_angle(ref.psi_rad - m.psi_rad);
@@ -117,13 +117,13 @@ T heading_law(const Controller<T, G>& c, const Measurement<T>& m, const Referenc
   return heading_law(prepared(c), m, ref);
 }
 
-/// tau_speed = g1(u) - m' r v + m' (u_d_dot + mu_s sat((u_d - u)/eps_s))                [paper (102)]
+/// tau_speed = g1(u) - m' r v + m' (u_d_dot + mu_s sat((u_d - u)/eps_s))                [paper
+/// (102)]
 template <class T, class G>
 T speed_law(const PreparedController<T, G>& c, const Measurement<T>& m, const Reference<T>& ref) {
   const ControlConstants<T>& k = c.constants;
   const T correction = math::saturate(k.speed_slope * (ref.speed_mps - m.u_mps), k.speed_mu);
-  return c.surge(m.u_mps) +
-         k.mass_norm * (ref.accel_mps2 + correction - m.r_radps * m.v_mps);
+  return c.surge(m.u_mps) + k.mass_norm * (ref.accel_mps2 + correction - m.r_radps * m.v_mps);
 }
 template <class T, class G>
 T speed_law(const Controller<T, G>& c, const Measurement<T>& m, const Reference<T>& ref) {
@@ -138,8 +138,8 @@ Command<T> control_step(const Controller<T, G>& c, YawMode mode, const Measureme
   command.tau_speed = speed_law(ready, m, ref);
   command.tau_turn_m = heading_law(ready, m, ref);
   command.sliding_radps = sliding_surface(c.gains.heading, m, ref);
-  allocate(mode, command.tau_speed, command.tau_turn_m, ready.constants.allocation,
-           c.limits.split, command.allocation);
+  allocate(mode, command.tau_speed, command.tau_turn_m, ready.constants.allocation, c.limits.split,
+           command.allocation);
   return command;
 }
 

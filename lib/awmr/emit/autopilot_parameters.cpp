@@ -31,9 +31,9 @@ ParameterBlock block_of(const Plant<double>& plant, const Model& model, const Ga
   Controller<float> controller{};
   controller.mass_norm = single(plant.mass_norm);
   controller.inertia_norm = single(plant.inertia_norm);
-  controller.gains = {{single(gains.heading.lambda), single(gains.heading.mu),
-                       single(gains.heading.epsilon)},
-                      {single(gains.speed.mu), single(gains.speed.epsilon)}};
+  controller.gains = {
+      {single(gains.heading.lambda), single(gains.heading.mu), single(gains.heading.epsilon)},
+      {single(gains.speed.mu), single(gains.speed.epsilon)}};
   const double steering_max_rad = radians(model.vehicle.steering_max_deg);
   controller.limits.front_axle_m = single(plant.front_axle_m);
   controller.limits.half_track_m = single(plant.half_track_m);
