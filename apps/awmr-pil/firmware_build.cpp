@@ -13,9 +13,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// -mcall-prologues and -mrelax: a fifth less flash for a twentieth more cycles.
+/// -mcall-prologues, -mrelax and what follows: a tenth less flash for a fiftieth more cycles.
 constexpr const char* kFlags =
     "-mmcu=atmega2560 -DF_CPU=16000000UL -std=c++14 -Os -mcall-prologues -mrelax "
+    "-fno-split-wide-types -fno-tree-switch-conversion "
     "-ffunction-sections -fdata-sections -fno-exceptions -fno-threadsafe-statics -Wall -Wextra "
     "-Wpedantic -Werror -Wl,--gc-sections";
 

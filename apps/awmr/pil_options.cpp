@@ -26,8 +26,8 @@ const std::map<std::string, Injection> kInjections{{"none", Injection::kNone},
 void add_bounds(CLI::App& command, PilOptions& options) {
   command.add_option("--cycles-max", options.cycles_max,
                      "Most cycles of a step [12000 by table, 24000 by powf]");
-  command.add_option("--flash-max", options.flash_max, "Most bytes of flash")
-      ->capture_default_str();
+  command.add_option("--flash-max", options.flash_max,
+                     "Most bytes of flash [8192, with --link uart 9216]");
   command.add_option("--ram-max", options.ram_max, "Most bytes of RAM, without the stack")
       ->capture_default_str();
   command

@@ -14,7 +14,8 @@
 
 namespace {
 
-volatile uint8_t ring[256];  // indices wrap by themselves
+const uint8_t kRingMask = 63;
+volatile uint8_t ring[kRingMask + 1];  // the main loop takes each byte before 64 more have come
 volatile uint8_t ring_head;
 uint8_t ring_tail;
 
@@ -99,7 +100,7 @@ void serve() {
 ISR(USART0_RX_vect) {
   const uint8_t head = ring_head;
   ring[head] = UDR0;
-  ring_head = static_cast<uint8_t>(head + 1);
+  ring_head = static_cast<uint8_t>((head + 1) & kRingMask);
 }
 
 int main() {
@@ -120,7 +121,7 @@ int main() {
     }
     sei();
     const uint8_t byte = ring[ring_tail];
-    ring_tail = static_cast<uint8_t>(ring_tail + 1);
+    ring_tail = static_cast<uint8_t>((ring_tail + 1) & kRingMask);
     if (reader.take(byte)) serve();
   }
 }

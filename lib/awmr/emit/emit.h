@@ -42,7 +42,7 @@ struct EmitOptions {
   ResistanceForm resistance = ResistanceForm::kTable;
   /// The largest error of a table, in shares of the resistance itself or, where that is less, of a
   /// tenth of the largest force (4 F'max for surge) or moment (4 d F'max for yaw).
-  double table_error = 1e-3;
+  double table_error = 5e-4;
   std::uint32_t heading_timeout_ms = 100;  ///< oldest heading and yaw rate to steer by
   std::uint32_t speed_timeout_ms = 600;  ///< oldest speed and position: two GPS fixes at 5 Hz late
   std::uint32_t command_timeout_ms = 1000;  ///< longest silence of whoever gives the reference
