@@ -1,0 +1,188 @@
+/// The emitted library as compilers see it: for the chip as C and C++, in the sketches with Arduino's
+/// core, on the host under sanitizers; the same bytes every time.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "emit/paper_robot.h"
+#include "support/toolchain.h"
+
+namespace awmr::testing {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+constexpr const char* kArduino = "/usr/share/arduino/hardware/arduino/avr";
+
+std::vector<EmittedFile> library(EmitOptions options = {}) {
+  return firmware_library(paper_robot(), kPaperGains, paper_inputs(), options).value();
+}
+
+class Library : public ::testing::TestWithParam<ResistanceForm> {
+ protected:
+  void SetUp() override {
+    for (const EmittedFile& file : library({.resistance = GetParam()})) {
+      fs::create_directories((directory_.path() / file.path).parent_path());
+      write_all(directory_.path() / file.path, file.bytes);
+    }
+  }
+  ProcessResult run(const std::string& line) const { return run_process(line, directory_.path()); }
+
+  TemporaryDirectory directory_;
+};
+
+constexpr const char* kUse = R"(#include "awmr.h"
+#include <stdio.h>
+int main(void) {
+  const awmr_point points[2] = {{5.0f, 5.0f}, {10.0f, 0.0f}};
+  awmr_input in = {0};
+  awmr_output out;
+  int step;
+  if (awmr_init() != AWMR_FAULT_NONE) return 1;
+  awmr_follow(points, 2, 1.0f);
+  in.mode = AWMR_COMBINED;
+  in.u_ref_mps = 1.0f;
+  for (step = 0; step < 1000; ++step) {
+    in.u_mps = 0.001f * (float)step;
+    in.psi_rad = 0.01f * (float)step;
+    in.x_m = 0.01f * (float)step;
+    in.now_ms = in.heading_ms = in.speed_ms = in.command_ms = 10UL * (unsigned long)step;
+    awmr_step(&in, &out);
+    if (out.fault != AWMR_FAULT_NONE || out.force_left > AWMR_WHEEL_FORCE_MAX) return 2;
+  }
+  in.speed_ms -= 5000;
+  awmr_step(&in, &out);
+  if (out.fault != AWMR_FAULT_SPEED_STALE || out.force_left != 0.0f) return 3;
+  return 0;
+}
+)";
+
+TEST_P(Library, CompilesForTheChipAsCAndAsCxx) {
+  write_all(directory_.path() / "use.c", kUse);
+  const std::string flags =
+      " -mmcu=atmega2560 -Os -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion "
+      "-Werror -Isrc ";
+  EXPECT_TRUE(succeeded(run(kAvrGcc + flags + "-std=c99 -c use.c -o use.o")));
+  EXPECT_TRUE(succeeded(run(kAvrGxx + flags + "-std=c++14 -c src/awmr.cpp -o awmr.o")));
+  EXPECT_TRUE(succeeded(run(kAvrGxx + flags + "-std=c++11 -c src/awmr.cpp -o awmr11.o")));
+  EXPECT_TRUE(succeeded(run(std::string(kAvrGxx) + " -mmcu=atmega2560 use.o awmr.o -o use.elf")));
+}
+
+TEST_P(Library, RunsOnTheHostUnderSanitizers) {
+  write_all(directory_.path() / "use.c", kUse);
+  const std::string flags =
+      " -O1 -g -Wall -Wextra -Wpedantic -Werror -ffp-contract=off -fsanitize=address,undefined "
+      "-fno-sanitize-recover=all -Isrc ";
+  ASSERT_TRUE(succeeded(run(kGcc + flags + "-std=c99 -c use.c -o use.o")));
+  ASSERT_TRUE(succeeded(run(kGxx + flags + "-std=c++14 use.o src/awmr.cpp -o use")));
+  EXPECT_TRUE(succeeded(run("./use")));
+}
+
+TEST_P(Library, AnEditByHandIsFoundAtStartUp) {
+  write_all(directory_.path() / "use.c", kUse);
+  const std::string header = read_all(directory_.path() / "awmr_params.h");
+  write_all(directory_.path() / "awmr_params.h", with_macro(header, "AWMR_HEADING_LAMBDA", "2.0f"));
+  ASSERT_TRUE(succeeded(run(std::string(kGcc) + " -std=c99 -Isrc -c use.c -o use.o")));
+  ASSERT_TRUE(succeeded(run(std::string(kGxx) + " -std=c++14 -Isrc use.o src/awmr.cpp -o use")));
+  EXPECT_EQ(run("./use").exit_code, 1);
+}
+
+class Sketches : public Library {};
+
+TEST_P(Sketches, CompileAndLinkWithDebiansArduinoCore) {
+  ASSERT_TRUE(fs::exists(kArduino)) << "scripts/setup installs arduino-core-avr";
+  const std::string core = std::string(kArduino) + "/cores/arduino";
+  const std::string wire = std::string(kArduino) + "/libraries/Wire/src";
+  const std::string spi = std::string(kArduino) + "/libraries/SPI/src";
+  // Arduino's own options (platform.txt); its core has warnings of its own.
+  const std::string flags = " -mmcu=atmega2560 -DF_CPU=16000000L -DARDUINO=10819 "
+                            "-DARDUINO_AVR_MEGA2560 -DARDUINO_ARCH_AVR -Os -ffunction-sections "
+                            "-fdata-sections -I" + core + " -I" + kArduino +
+                            "/variants/mega -I" + wire + " -I" + spi +
+                            " -I" AWMR_SOURCE_DIR "/tests/emit/arduino -Isrc ";
+  const std::string cxx = std::string("'") + kAvrGxx + "' -std=gnu++11 -fpermissive -fno-exceptions "
+                          "-fno-threadsafe-statics" + flags;
+  const ProcessResult built = run(
+      "mkdir -p core && cd core && for f in " + core + "/*.c " + wire + "/utility/*.c; do '" +
+      kAvrGcc + "' -std=gnu11 -w" + flags + "-I../src -c $f || exit 1; done && for f in " + core +
+      "/*.cpp " + wire + "/*.cpp; do " + cxx + "-w -I../src -c $f || exit 1; done");
+  ASSERT_TRUE(succeeded(built));
+  for (const char* name : {"HeadingHold", "WaypointFollowing"}) {
+    const std::string sketch = std::string("examples/") + name + "/" + name + ".ino";
+    EXPECT_TRUE(succeeded(run(cxx + "-Wall -Wextra -Werror -x c++ -include Arduino.h -c " + sketch +
+                              " -o sketch.o && " + cxx + "-Wall -Wextra -Werror -c src/awmr.cpp -o "
+                              "awmr.o && '" + kAvrGxx + "' -mmcu=atmega2560 -Os -Wl,--gc-sections "
+                              "sketch.o awmr.o core/*.o -lm -o sketch.elf")))
+        << name;
+  }
+}
+
+constexpr auto kForm = [](const auto& test) {
+  return std::string(test.param == ResistanceForm::kTable ? "Table" : "Powf");
+};
+INSTANTIATE_TEST_SUITE_P(, Library,
+                         ::testing::Values(ResistanceForm::kTable, ResistanceForm::kPowf), kForm);
+INSTANTIATE_TEST_SUITE_P(, Sketches, ::testing::Values(ResistanceForm::kTable), kForm);
+
+TEST(LibraryFiles, AreTheSameBytesWhenMadeAgainAndHoldTheControlSourcesAsTheyAre) {
+  const auto once = library();
+  const auto again = library();
+  ASSERT_EQ(once.size(), again.size());
+  std::set<std::string> paths;
+  for (std::size_t i = 0; i < once.size(); ++i) {
+    EXPECT_EQ(once[i].path, again[i].path);
+    EXPECT_EQ(once[i].bytes, again[i].bytes);
+    EXPECT_TRUE(paths.insert(once[i].path).second) << once[i].path;
+    if (once[i].path.starts_with("src/awmr/")) {
+      EXPECT_EQ(once[i].bytes, read_all(AWMR_SOURCE_DIR "/lib/" + once[i].path.substr(4)));
+    }
+  }
+  for (const char* path : {"awmr_params.h", "library.properties", "src/awmr.h", "src/awmr.cpp",
+                           "src/awmr/control/controller.h", "LICENSE"}) {
+    EXPECT_TRUE(paths.contains(path)) << path;
+  }
+}
+
+TEST(ResistanceTables, StayWithinTheirBoundOfTheLawBetweenTheirMeasuredPlaces) {
+  const Plant<double> plant = paper_robot().plant("model.json").value();
+  for (const double bound : {1e-2, 1e-3, 1e-4}) {
+    const auto p = autopilot_parameters(paper_robot(), kPaperGains, paper_inputs(),
+                                        {.table_error = bound})
+                       .value();
+    const ResistanceTable table = p.surge.view();
+    // Places that are no multiple of a cell's 64th; a chord's error changes little between them.
+    for (int i = 1; i < 40000; ++i) {
+      const float speed = static_cast<float>(i * 1.99e-4);
+      const double exact = plant.surge(static_cast<double>(speed));
+      const double allowed = 1.01 * bound * std::max(exact, p.surge.split);
+      ASSERT_NEAR(static_cast<double>(table(speed)), exact, allowed) << speed;
+      ASSERT_EQ(table(-speed), -table(speed));
+    }
+    EXPECT_EQ(table(0.0F), 0.0F);
+    EXPECT_TRUE(std::isnan(table(static_cast<float>(p.surge.top_speed))));
+    EXPECT_TRUE(std::isnan(table(HUGE_VALF)));
+    EXPECT_TRUE(std::isnan(table(std::nanf(""))));
+  }
+}
+
+TEST(ResistanceTables, AreRefusedWhereNoTableIsGoodEnough) {
+  const auto p =
+      autopilot_parameters(paper_robot(), kPaperGains, paper_inputs(), {.table_error = 1e-7});
+  ASSERT_FALSE(p);
+  EXPECT_EQ(exit_code(p.error()), 1);
+  EXPECT_THAT(to_text(p.error()), HasSubstr("--table-error"));
+}
+
+TEST(Crc, GivesItsCatalogueValues) {
+  std::uint32_t crc = kCrc32Start;
+  for (const char c : std::string("123456789")) crc = crc32_with(crc, static_cast<std::uint8_t>(c));
+  EXPECT_EQ(~crc, 0xCBF43926U);
+  const std::uint8_t bytes[] = {'1', '2', '3', '4', '5', '6', '7', '8', '9'};
+  EXPECT_EQ(crc16_of(bytes, sizeof bytes), 0x29B1);
+}
+
+}  // namespace
+}  // namespace awmr::testing
