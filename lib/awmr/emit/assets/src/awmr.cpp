@@ -60,17 +60,13 @@ uint8_t awmr_init(void) {
   return good ? AWMR_FAULT_NONE : AWMR_FAULT_PARAMETERS;
 }
 
-void awmr_follow(const awmr_point* points, int16_t count, float acceptance_m) {
-  const awmr::Waypoints<float> waypoints = {points, count, acceptance_m, false};
-  awmr::follow_waypoints(autopilot, waypoints);
-}
-
 // The C structs have the members of the C++ ones in their order.
 static_assert(sizeof(awmr_input) == sizeof(awmr::AutopilotInput), "");
 static_assert(offsetof(awmr_input, psi_rad) == offsetof(awmr::AutopilotInput, measured), "");
 static_assert(offsetof(awmr_input, x_m) == offsetof(awmr::AutopilotInput, position_m), "");
 static_assert(offsetof(awmr_input, psi_ref_rad) == offsetof(awmr::AutopilotInput, reference), "");
 static_assert(offsetof(awmr_input, now_ms) == offsetof(awmr::AutopilotInput, times), "");
+static_assert(sizeof(awmr_point) == sizeof(awmr::Position<float>), "");
 static_assert(sizeof(awmr_output) == sizeof(awmr::AutopilotOutput), "");
 static_assert(offsetof(awmr_output, tau_speed) == offsetof(awmr::AutopilotOutput, tau_speed), "");
 static_assert(offsetof(awmr_output, arrived) == offsetof(awmr::AutopilotOutput, arrived), "");
@@ -82,4 +78,12 @@ __attribute__((noinline)) void awmr_step(const awmr_input* input, awmr_output* o
   awmr::autopilot_step(autopilot, *reinterpret_cast<const awmr::AutopilotInput*>(input),
                        *reinterpret_cast<awmr::AutopilotOutput*>(output));
   __asm__ volatile("" ::: "memory");
+}
+
+__attribute__((noinline)) void awmr_follow(const awmr_point* points, int16_t count,
+                                           float acceptance_m) {
+  __asm__ volatile("" ::: "memory");
+  const awmr::Waypoints<float> waypoints = {
+      reinterpret_cast<const awmr::Position<float>*>(points), count, acceptance_m, false};
+  awmr::follow_waypoints(autopilot, waypoints);
 }

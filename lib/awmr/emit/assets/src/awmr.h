@@ -63,15 +63,13 @@ typedef struct awmr_output {
   uint8_t fault;           /* AWMR_FAULT_...; not 0: the safe command */
 } awmr_output;
 
-#ifdef __cplusplus
-#include "awmr/control/guidance.h"
-typedef awmr::Position<float> awmr_point;
-extern "C" {
-#else
 typedef struct awmr_point {
   float x_m;
   float y_m;
 } awmr_point;
+
+#ifdef __cplusplus
+extern "C" {
 #endif
 
 /* Reads and checks the parameters. AWMR_FAULT_NONE, or AWMR_FAULT_PARAMETERS: awmr_step then gives
