@@ -10,6 +10,7 @@
 #include "awmr/compare/compare.h"
 #include "awmr/emit/emit.h"
 #include "awmr/identify/identify.h"
+#include "awmr/identify/recover.h"
 #include "awmr/tune/tune.h"
 #include "awmr/validate/validate.h"
 #include "console.h"
@@ -21,14 +22,37 @@ namespace fs = std::filesystem;
 struct IdentifyCommand {
   fs::path vehicle;
   std::optional<fs::path> surge;
-  std::optional<fs::path> coastdown;
+  std::vector<fs::path> coastdowns;
   std::optional<fs::path> turning;
+  std::vector<fs::path> logs;
+  bool steady_from_logs = false;  ///< steady stretches of the logs become surge and turning rows
   IdentifyOptions identify;
   TrialOptions trials;
   fs::path output;
 };
 Result<Outcome> execute(const IdentifyCommand& command);
 void add_identify(CLI::App& app, Session& session);
+
+struct RecoverCommand {
+  fs::path model;
+  RecoverOptions recover;
+  std::optional<fs::path> output;
+};
+Result<Outcome> execute(const RecoverCommand& command);
+void add_recover(CLI::App& app, Session& session);
+
+struct SuggestCommand {
+  fs::path model;
+  std::string parameter;
+  std::optional<fs::path> gains;
+  std::optional<fs::path> scenario;
+  YawMode mode = YawMode::kCombined;
+  int repeats = 3;
+  int most = 8;
+  std::optional<fs::path> output;
+};
+Result<Outcome> execute(const SuggestCommand& command);
+void add_suggest(CLI::App& app, Session& session);
 
 struct TuneCommand {
   fs::path model;

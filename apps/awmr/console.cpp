@@ -71,6 +71,7 @@ std::string parameter_table_text(const Model& model) {
                                  "std error", "95 % interval", "unit", "origin");
   for (const ParameterInfo& parameter : parameter_table()) {
     const Estimate& estimate = model[parameter.id];
+    if (parameter.term && estimate.source == Source::kGiven && estimate.value == 0.0) continue;
     const std::string value =
         estimate.value ? fmt::format("{:.5g}", *estimate.value) : std::string("unknown");
     const std::string error =

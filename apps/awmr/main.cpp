@@ -27,6 +27,8 @@ int run(int argc, char** argv) {
   awmr::cli::add_emit(app, session);
   awmr::cli::add_pil(app, session);
   awmr::cli::add_report(app, session);
+  awmr::cli::add_suggest(app, session);
+  awmr::cli::add_recover(app, session);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

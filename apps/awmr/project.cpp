@@ -1,10 +1,10 @@
 #include "project.h"
 
-#include <array>
 #include <string>
 #include <utility>
 
 #include "awmr/core/json.h"
+#include "identify_options.h"
 
 namespace awmr::cli {
 namespace {
@@ -21,8 +21,18 @@ void read_trials(JsonObject json, const fs::path& path, Project& project) {
     return std::nullopt;
   };
   project.surge = optional_path("surge");
-  project.coastdown = optional_path("coastdown");
+  if (const auto coastdown = optional_path("coastdown")) project.coastdowns.push_back(*coastdown);
   project.turning = optional_path("turning");
+  if (json.has("coastdowns")) {
+    for (const std::string& name : json.strings("coastdowns")) {
+      project.coastdowns.push_back(resolved(path, name));
+    }
+  }
+  if (json.has("logs")) {
+    for (const std::string& name : json.strings("logs")) {
+      project.logs.push_back(resolved(path, name));
+    }
+  }
   json.reject_unknown_keys();
 }
 
@@ -39,16 +49,30 @@ void read_columns(JsonObject json, Project& project) {
 }
 
 void read_identify(JsonObject json, Project& project) {
-  static const std::array<std::string, 2> methods{"log-linear", "nonlinear"};
-  static const std::array<std::string, 3> noises{"force", "speed", "time"};
-  static const std::array<std::string, 2> preferences{"printed", "timed"};
-  if (json.has("method")) {
-    project.identify.method = static_cast<Method>(json.choice("method", methods));
-  }
-  if (json.has("noise")) project.identify.noise = static_cast<Noise>(json.choice("noise", noises));
-  if (json.has("prefer")) {
-    project.trials.preference = static_cast<Preference>(json.choice("prefer", preferences));
-  }
+  const auto choice = [&json](const char* key, const auto& table, auto set) {
+    if (!json.has(key)) return;
+    const std::vector<std::string> names = names_of(table);
+    set(table[json.choice(key, names)].value);
+  };
+  IdentifyOptions& options = project.identify;
+  choice("method", kMethods, [&](Method value) { options.method = value; });
+  choice("noise", kNoises, [&](Noise value) { options.noise = value; });
+  choice("loss", kLosses, [&](Loss value) { options.loss = value; });
+  choice("prefer", kPreferences, [&](Preference value) { project.trials.preference = value; });
+  const auto each = [&json](const char* key, const auto& add) {
+    if (!json.has(key)) return;
+    for (const std::string& text : json.strings(key)) {
+      if (const auto added = add(text); !added)
+        json.fault(key, added.error().faults.front().message);
+    }
+  };
+  each("family", [&](const std::string& text) { return add_family(text, options); });
+  each("fit", [&](const std::string& text) { return add_asked(text, options); });
+  options.joint = json.optional_boolean("joint").value_or(false);
+  options.seed =
+      static_cast<std::uint64_t>(json.optional_integer("seed", 0, 1000000000L).value_or(1));
+  options.bootstrap = static_cast<int>(json.optional_integer("bootstrap", 0, 1000000).value_or(0));
+  project.steady_from_logs = json.optional_boolean("steady_from_logs").value_or(false);
   json.reject_unknown_keys();
 }
 

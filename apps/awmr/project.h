@@ -16,8 +16,10 @@ namespace awmr::cli {
 struct Project {
   std::filesystem::path vehicle;
   std::optional<std::filesystem::path> surge;
-  std::optional<std::filesystem::path> coastdown;
+  std::vector<std::filesystem::path> coastdowns;
   std::optional<std::filesystem::path> turning;
+  std::vector<std::filesystem::path> logs;
+  bool steady_from_logs = false;
   TrialOptions trials;
   IdentifyOptions identify;
   std::optional<std::filesystem::path> tune;  ///< tune.json

@@ -59,9 +59,15 @@ Result<Outcome> execute(const RunCommand& command) {
     return true;
   };
 
-  auto identified =
-      execute(IdentifyCommand{project->vehicle, project->surge, project->coastdown,
-                              project->turning, project->identify, project->trials, model});
+  auto identified = execute(IdentifyCommand{.vehicle = project->vehicle,
+                                            .surge = project->surge,
+                                            .coastdowns = project->coastdowns,
+                                            .turning = project->turning,
+                                            .logs = project->logs,
+                                            .steady_from_logs = project->steady_from_logs,
+                                            .identify = project->identify,
+                                            .trials = project->trials,
+                                            .output = model});
   if (!take("identify", identified)) return identified;
   if (total.refused) {
     total.summary += "stopped: the steps that follow need what could not be identified\n";

@@ -18,9 +18,11 @@ TEST(Parameters, AreInTheOrderOfTheirIds) {
 TEST(Parameters, HaveThePlacesOfTheContract) {
   std::vector<std::string> pointers;
   for (const ParameterInfo& parameter : parameter_table()) pointers.emplace_back(parameter.pointer);
-  EXPECT_EQ(pointers, (std::vector<std::string>{"/surge/alpha", "/surge/beta", "/yaw/alpha",
-                                                "/yaw/beta", "/sway/alpha", "/mass_norm",
-                                                "/inertia_norm", "/steering/time_constant_s"}));
+  EXPECT_EQ(pointers,
+            (std::vector<std::string>{
+                "/surge/alpha", "/surge/beta", "/yaw/alpha", "/yaw/beta", "/sway/alpha",
+                "/mass_norm", "/inertia_norm", "/steering/time_constant_s", "/surge/coulomb",
+                "/surge/quadratic", "/yaw/coulomb", "/yaw/quadratic", "/wheel/dead_zone"}));
 }
 
 TEST(Parameters, AreNamedAsTheirPlaceWithDots) {

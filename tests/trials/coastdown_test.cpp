@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "trial_text.h"
 
 namespace awmr {
@@ -30,10 +32,41 @@ TEST(CoastdownTrial, SetsARunFromRestAside) {
   EXPECT_THAT(codes_of(read.findings), ElementsAre("rows-set-aside@2"));
 }
 
-TEST(CoastdownTrial, SaysThatACurveIsNotReadAndWhatIs) {
-  EXPECT_THAT(faults_of(read_coastdown, "t_s,speed_mps\n0,1.66\n0.1,1.2\n"),
-              ElementsAre(AllOf(StartsWith("1:1: "), HasSubstr("initial_speed_mps"),
-                                HasSubstr("stop_time_s"))));
+TEST(CoastdownTrial, ReadsCurvesByRun) {
+  const auto read = accepted(read_coastdown,
+                             "run,t_s,speed_mps\n1,0,1.6\n1,0.1,1.2\n1,0.2,0.8\n1,0.3,0.5\n1,0.4,"
+                             "0.2\n2,0,1.5\n2,0.1,1.1\n2,0.2,0.7\n2,0.3,0.4\n2,0.4,-0.01\n");
+  EXPECT_TRUE(read.set.rows.empty());
+  ASSERT_THAT(read.set.curves, SizeIs(2));
+  EXPECT_EQ(read.set.curves[1].line, 7);
+  EXPECT_THAT(read.set.curves[1].speed_mps, ElementsAre(1.5, 1.1, 0.7, 0.4, -0.01));
+}
+
+TEST(CoastdownTrial, RefusesACurveWhoseTimeDoesNotRiseOrThatIsTooShort) {
+  EXPECT_THAT(faults_of(read_coastdown, "t_s,speed_mps\n0,3\n0.1,2\n0.1,1\n0.2,1\n0.3,1\n"),
+              ElementsAre(AllOf(StartsWith("4:1: "), HasSubstr("rise"))));
+  EXPECT_THAT(faults_of(read_coastdown, "t_s,speed_mps\n0,3\n0.1,2\n"),
+              ElementsAre(AllOf(StartsWith("2:1: "), HasSubstr("2 rows"))));
+}
+
+TEST(CoastdownTrial, RefusesBothFormsInOneFile) {
+  EXPECT_THAT(faults_of(read_coastdown,
+                        "t_s,speed_mps,initial_speed_mps,stop_time_s\n0,1,1,1\n0.1,1,1,1\n"),
+              ElementsAre(HasSubstr("two files")));
+  EXPECT_THAT(faults_of(read_coastdown, "t_s,initial_speed_mps\n0,1\n"),
+              ElementsAre(HasSubstr("speed_mps")));
+}
+
+TEST(CoastdownTrial, KnowsHowWellATimeIsKnownFromHowItIsWritten) {
+  // A stop watch: 0.1 s. An automatic time to the millisecond: its rounding, 1 ms / sqrt 12.
+  EXPECT_EQ(accepted(read_coastdown, "initial_speed_mps,stop_time_s\n1.66,0.57\n")
+                .set.rows[0]
+                .timing_std_s,
+            0.1);
+  EXPECT_NEAR(accepted(read_coastdown, "initial_speed_mps,stop_time_s\n1.66,0.573\n")
+                  .set.rows[0]
+                  .timing_std_s,
+              1e-3 / std::sqrt(12.0), 1e-9);
 }
 
 TEST(CoastdownTrial, NeedsItsColumns) {

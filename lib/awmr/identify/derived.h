@@ -1,30 +1,34 @@
-/// m', I'z and what makes them doubtful. Private to identify/.
+/// m' from stop times, and what makes m' and I'z doubtful. Private to identify/.
 #pragma once
 
+#include <Eigen/Core>
 #include <optional>
 #include <vector>
 
-#include "awmr/identify/power_law_fit.h"
+#include "awmr/identify/steady_fit.h"
 #include "awmr/trials/trials.h"
 
 namespace awmr {
 
-/// ln m' and its derivatives by what it was made from.
+/// ln m' and where it comes from.
 struct MassFromStopTime {
   double log_mass_norm = 0.0;
-  double by_beta = 0.0;  ///< d ln m'/d b1 = -1/(1 - b1) + mean ln u_max; d ln m'/d ln a1 = 1
-  double timing_variance = 0.0;  ///< of ln m' from the scatter of the runs; 0 for one run
+  /// d ln m' by SteadyFit::free of the surge fit. For a power law d/d ln a1 = 1 and
+  /// d/d b1 = -1/(1 - b1) + mean ln u_max.
+  Eigen::VectorXd by_surge;
+  double timing_variance = 0.0;  ///< of ln m': the scatter of the runs, or how one was timed
 };
 
-/// m' = (1 - b1) a1 t_a / u_max^(1 - b1), the mean of its logarithm over the runs.      [paper
-/// (60)] Precondition: b1 < 1, at least one run.
-MassFromStopTime mass_from_stop_time(const PowerLawFit& surge,
-                                     const std::vector<StopTimeRow>& runs);
+/// t_a = m' int_0^u dw/g1(w), so m' = t_a / int; the mean of its logarithm over the runs. For a
+/// power law m' = (1 - b1) a1 t_a / u_max^(1 - b1). [paper (60)] None where the law never stops.
+/// Precondition: at least one run.
+std::optional<MassFromStopTime> mass_from_stop_time(const SteadyFit& surge,
+                                                    const std::vector<StopTimeRow>& runs);
 
-/// Findings about a vehicle that stops as fast as this: `implausible-deceleration`,
-/// `fragile-mass`, `single-stop-time`.
-void check_mass(const PowerLawFit& surge, const TrialSet<StopTimeRow>& coastdown, double mass_kg,
-                double mass_norm, std::optional<double> relative_std_error,
+/// Findings about a vehicle that stops as fast as this: `implausible-deceleration`, `fragile-mass`,
+/// `single-stop-time`.
+void check_mass(const Resistance<double>& surge, const TrialSet<StopTimeRow>& coastdown,
+                double mass_kg, double mass_norm, std::optional<double> relative_std_error,
                 std::vector<Finding>& findings);
 
 /// `inertia-mismatch`: a measured Iz far from the uniform box's.

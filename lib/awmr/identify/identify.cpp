@@ -1,125 +1,74 @@
 #include "awmr/identify/identify.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
-#include "awmr/identify/derived.h"
-#include "awmr/identify/power_law_fit.h"
+#include "awmr/identify/joint_covariance.h"
+#include "awmr/identify/log_stage.h"
+#include "awmr/identify/mass.h"
+#include "awmr/identify/subject_fit.h"
+#include "awmr/model/steady.h"
 
 namespace awmr {
 namespace {
 
-/// One resistance to identify: surge or yaw.
-struct Subject {
-  std::string name;
-  ParameterId alpha;
-  ParameterId beta;
-  Interval beta_range;
-  std::string file;
-  std::vector<PowerLawPoint> points;
-};
-
-std::vector<PowerLawPoint> points_of(const std::vector<SurgeRow>& rows) {
-  std::vector<PowerLawPoint> points;
+std::vector<SteadyPoint> points_of(const std::vector<SurgeRow>& rows) {
+  std::vector<SteadyPoint> points;
   for (const SurgeRow& row : rows) {
-    points.push_back({row.tau_speed, row.speed_mps, row.distance_m, row.elapsed_s});
+    points.push_back({row.tau_speed, row.speed_mps, row.distance_m, row.elapsed_s, row.line});
   }
   return points;
 }
 
-std::vector<PowerLawPoint> points_of(const std::vector<TurningRow>& rows) {
-  std::vector<PowerLawPoint> points;
+/// Of each F' the dead zone takes F'0, and with it the same share of tau_turn. Rows within it are
+/// left out: they turned nothing.
+std::vector<SteadyPoint> points_of(const std::vector<TurningRow>& rows, double dead_zone) {
+  std::vector<SteadyPoint> points;
   for (const TurningRow& row : rows) {
-    PowerLawPoint point{row.tau_turn_m, row.yaw_rate_radps, {}, row.elapsed_s};
+    if (!(row.wheel_force > dead_zone)) continue;
+    const double share = dead_zone > 0.0 ? 1.0 - dead_zone / row.wheel_force : 1.0;
+    SteadyPoint point{share * row.tau_turn_m, row.yaw_rate_radps, {}, row.elapsed_s, row.line};
     if (row.turns) point.travel = 2.0 * std::numbers::pi * *row.turns;
     points.push_back(point);
   }
   return points;
 }
 
-/// A power law needs two different forces: repeats of one show scatter, no exponent.
-bool has_two_forces(const std::vector<PowerLawPoint>& points) {
-  constexpr double kSame = 1e-9;
-  return std::any_of(points.begin(), points.end(), [&](const PowerLawPoint& p) {
-    return std::abs(p.force - points.front().force) > kSame * points.front().force;
-  });
-}
-
-bool all_timed(const std::vector<PowerLawPoint>& points) {
-  return std::all_of(points.begin(), points.end(),
-                     [](const PowerLawPoint& p) { return p.travel && p.elapsed_s; });
-}
-
-std::string noise_name(Noise noise) {
-  switch (noise) {
-    case Noise::kForce:
-      return "force";
-    case Noise::kSpeed:
-      return "speed";
-    case Noise::kTime:
-      return "time";
-  }
-  return {};
-}
-
 /// exp(value) with the standard error of its logarithm, the interval symmetric in the logarithm.
-Estimate from_log(double log_value, std::optional<double> log_std_error, int degrees_of_freedom,
+Estimate from_log(double log_value, std::optional<double> variance, double degrees_of_freedom,
                   Source source, std::string method) {
   Estimate estimate{std::exp(log_value), {}, {}, source, std::move(method)};
-  if (log_std_error) {
-    const double half = t_quantile_95(degrees_of_freedom) * *log_std_error;
-    estimate.std_error = *estimate.value * *log_std_error;
+  if (variance) {
+    const double error = std::sqrt(*variance);
+    const double half = t_quantile_95(degrees_of_freedom) * error;
+    estimate.std_error = *estimate.value * error;
     estimate.ci95 = Interval{std::exp(log_value - half), std::exp(log_value + half)};
   }
   return estimate;
 }
 
-std::optional<double> log_alpha_std_error(const PowerLawFit& fit) {
-  if (!fit.covariance) return std::nullopt;
-  return std::sqrt((*fit.covariance)(0, 0));
-}
-
-std::optional<double> beta_std_error(const PowerLawFit& fit) {
-  if (!fit.covariance || fit.beta_at_bound) return std::nullopt;
-  return std::sqrt((*fit.covariance)(1, 1));
-}
-
-Estimate beta_estimate(const PowerLawFit& fit, const std::string& method) {
-  Estimate estimate{fit.beta, beta_std_error(fit), {}, Source::kFitted, method};
-  if (estimate.std_error) {
-    const double half = t_quantile_95(fit.degrees_of_freedom) * *estimate.std_error;
-    estimate.ci95 = Interval{fit.beta - half, fit.beta + half};
-  }
-  return estimate;
-}
-
-/// Collects what identify() returns.
+/// Collects what identify() returns, one source of evidence after the other.
 class Identifier {
  public:
   Identifier(const Vehicle& vehicle, const TrialData& data, const IdentifyOptions& options,
-             std::vector<Finding> findings)
-      : vehicle_(vehicle), data_(data), options_(options) {
+             Method method, std::vector<Finding> findings)
+      : vehicle_(vehicle), data_(data), options_(options), method_(method) {
     result_.model.vehicle = vehicle;
     result_.model.findings = std::move(findings);
   }
 
   Identification run() {
     set_given();
-    if (data_.surge) {
-      surge_ = fit({"surge", ParameterId::kSurgeAlpha, ParameterId::kSurgeBeta,
-                    vehicle_.surge_beta_range, data_.surge->file, points_of(data_.surge->rows)});
-    }
-    if (data_.turning) {
-      yaw_ = fit({"yaw", ParameterId::kYawAlpha, ParameterId::kYawBeta, vehicle_.yaw_beta_range,
-                  data_.turning->file, points_of(data_.turning->rows)});
-    }
-    derive_mass();
-    set_covariance();
+    fit_surge();
+    fit_yaw();
+    find_mass();
+    fit_logs();
+    result_.model.covariance = covariance_.covariance();
     keep_trials();
     refuse_what_is_missing();
     return std::move(result_);
@@ -129,6 +78,12 @@ class Identifier {
   void find(Severity severity, const std::string& file, const std::string& code,
             std::string message) {
     result_.model.findings.push_back({file, 0, severity, code, std::move(message)});
+  }
+
+  void take(std::vector<EstimatorReport>& reports, std::vector<Finding>& findings) {
+    Model& model = result_.model;
+    std::move(reports.begin(), reports.end(), std::back_inserter(model.reports));
+    std::move(findings.begin(), findings.end(), std::back_inserter(model.findings));
   }
 
   void set_given() {
@@ -141,176 +96,229 @@ class Identifier {
     check_inertia(vehicle_, result_.model.findings);
   }
 
-  void report(const Subject& subject, const std::string& estimator, const std::string& noise,
-              const PowerLawFit& fit) {
-    EstimatorReport report;
-    report.subject = subject.name;
-    report.estimator = estimator;
-    report.noise = noise;
-    const Estimate alpha = from_log(fit.log_alpha, log_alpha_std_error(fit), fit.degrees_of_freedom,
-                                    Source::kFitted, estimator);
-    const Estimate beta = beta_estimate(fit, estimator);
-    report.parameters = {
-        {std::string(info(subject.alpha).name), *alpha.value, alpha.std_error, alpha.ci95},
-        {std::string(info(subject.beta).name), *beta.value, beta.std_error, beta.ci95}};
-    report.residual_std = fit.residual_std;
-    report.rows_used = static_cast<int>(subject.points.size());
-    report.degrees_of_freedom = fit.degrees_of_freedom;
-    report.rank = fit.rank;
-    report.condition_number = fit.condition_number;
-    report.stop_reason = fit.stop_reason;
-    result_.model.reports.push_back(std::move(report));
+  SubjectOptions subject_options(const FamilyChoice& family) const {
+    // Tables go by the nonlinear fit where the logs have the last word.
+    const Method method = method_ == Method::kTrajectory ? table_method() : method_;
+    return {method, options_.noise, family, options_.loss, options_.side_by_side};
   }
 
-  /// All estimators on one subject; the chosen one fills the main values. Empty where the rows
-  /// cannot show the law.
-  std::optional<PowerLawFit> fit(const Subject& subject) {
-    if (!has_two_forces(subject.points)) return std::nullopt;
-    const PowerLawFit log_linear = fit_log_linear(subject.points);
-    if (!log_linear.usable) return std::nullopt;
-    report(subject, "log-linear", "log force", log_linear);
-    PowerLawFit chosen = log_linear;
-    const Noise wanted =
-        options_.noise.value_or(all_timed(subject.points) ? Noise::kTime : Noise::kSpeed);
-    for (const Noise noise : {Noise::kForce, Noise::kSpeed, Noise::kTime}) {
-      if (noise == Noise::kTime && !all_timed(subject.points)) {
-        if (options_.method == Method::kNonlinear && wanted == noise) {
-          find(Severity::kError, subject.file, "not-timed",
-               "--noise time needs a distance or turns and elapsed_s in every row");
-          return std::nullopt;
-        }
-        continue;
+  Method table_method() const {
+    const auto plain = [](const FamilyChoice& choice) { return choice.family == Family::kPower; };
+    const bool log_linear_does =
+        plain(options_.surge_family) && plain(options_.yaw_family) && options_.loss == Loss::kNone;
+    return log_linear_does ? Method::kLogLinear : Method::kNonlinear;
+  }
+
+  /// A fitted law becomes the main values, with its block of the covariance.
+  void set_law(const Subject& subject, const SubjectFit& fit) {
+    const SteadyFit& law = *fit.chosen;
+    Model& model = result_.model;
+    const EstimatorReport* report = nullptr;
+    for (const EstimatorReport& r : fit.reports) {
+      if (!fit.log_linear && r.family == name_of(fit.problem.family) && !r.parameters.empty() &&
+          r.parameters.front().profile95) {
+        report = &r;
       }
-      const PowerLawFit candidate =
-          fit_nonlinear(subject.points, noise, subject.beta_range, log_linear);
-      report(subject, "nonlinear", noise_name(noise), candidate);
-      if (options_.method == Method::kNonlinear && noise == wanted) chosen = candidate;
     }
-    const std::string method = options_.method == Method::kLogLinear
-                                   ? std::string("log-linear")
-                                   : "nonlinear, noise on " + noise_name(wanted);
-    if (!chosen.usable) {
-      find(Severity::kError, subject.file, "not-converged",
-           fmt::format("the {} fit of {} did not converge: {}", method, subject.name,
-                       chosen.stop_reason));
-      return std::nullopt;
+    const std::vector<Coordinate> coordinates = coordinates_of(fit.problem.family);
+    for (std::size_t i = 0; i < coordinates.size(); ++i) {
+      std::optional<Interval> profile;
+      if (report) profile = report->parameters[i].profile95;
+      model[parameter_of(subject, coordinates[i])] =
+          estimate_of(law, coordinates[i], profile, fit.method);
     }
-    result_.model[subject.alpha] = from_log(chosen.log_alpha, log_alpha_std_error(chosen),
-                                            chosen.degrees_of_freedom, Source::kFitted, method);
-    result_.model[subject.beta] = beta_estimate(chosen, method);
-    check_fit(subject, chosen);
-    return chosen;
+    if (!terms_of(fit.problem.family).beta) {
+      model[subject.beta] = {
+          1.0, {}, {}, Source::kGiven, "family " + std::string(name_of(fit.problem.family))};
+    }
+    if (!law.has_covariance()) return;
+    const Eigen::Index first = covariance_.add_block(law.covariance);
+    for (std::size_t i = 0; i < law.free.size(); ++i) {
+      const Coordinate c = law.free[i];
+      covariance_.set(parameter_of(subject, c),
+                      {{first + static_cast<Eigen::Index>(i), slope_of(c, law[c])}});
+    }
+    if (subject.name == "surge") surge_block_ = first;
   }
 
-  void check_fit(const Subject& subject, const PowerLawFit& fit) {
-    if (fit.degrees_of_freedom == 0) {
-      find(Severity::kWarning, subject.file, "no-degrees-of-freedom",
-           fmt::format(
-               "two rows fix the two parameters of {} exactly and leave nothing to judge them "
-               "by: no standard error; record a third run",
-               subject.name));
-    }
-    const Interval& range = subject.beta_range;
-    if (fit.beta_at_bound || !range.contains(fit.beta)) {
-      find(Severity::kWarning, subject.file, "exponent-at-bound",
-           fmt::format(
-               "the exponent {} = {:.4g} is {} the accepted range [{:g}, {:g}]: a power law of "
-               "this range may not describe these runs",
-               info(subject.beta).name, fit.beta, fit.beta_at_bound ? "at the end of" : "outside",
-               range.lo, range.hi));
+  void fit_surge() {
+    if (!data_.surge) return;
+    Subject subject{.name = "surge",
+                    .families = {kFamilies.begin(), kFamilies.end()},
+                    .beta_range = vehicle_.surge_beta_range,
+                    .file = data_.surge->file,
+                    .points = points_of(data_.surge->rows)};
+    surge_ = fit_subject(subject, subject_options(options_.surge_family));
+    take(surge_.reports, surge_.findings);
+    if (!surge_.chosen) return;
+    result_.model.surge_family = surge_.problem.family;
+    set_law(subject, surge_);
+  }
+
+  void fit_yaw() {
+    if (!data_.turning) return;
+    const double dead_zone = *result_.model[ParameterId::kWheelDeadZone].value;
+    Subject subject{.name = "yaw",
+                    .alpha = ParameterId::kYawAlpha,
+                    .beta = ParameterId::kYawBeta,
+                    .coulomb = ParameterId::kYawCoulomb,
+                    .quadratic = ParameterId::kYawQuadratic,
+                    .families = {Family::kPower, Family::kCoulombLinear,
+                                 Family::kCoulombLinearQuadratic, Family::kCoulombPower},
+                    .beta_range = vehicle_.yaw_beta_range,
+                    .file = data_.turning->file,
+                    .points = points_of(data_.turning->rows, dead_zone)};
+    FamilyChoice family = options_.yaw_family;
+    // A dead zone belongs to the wheels: the surge runs show it, and the turning runs are freed of
+    // it.
+    if (family.family == Family::kDeadZone) family.family = Family::kPower;
+    yaw_ = fit_subject(subject, subject_options(family));
+    take(yaw_.reports, yaw_.findings);
+    if (!yaw_.chosen) return;
+    result_.model.yaw_family = yaw_.problem.family;
+    set_law(subject, yaw_);
+  }
+
+  bool has_coastdown() const {
+    return (data_.coastdown && !data_.coastdown->rows.empty()) || !data_.curves.empty();
+  }
+
+  void find_mass() {
+    if (!has_coastdown()) return;
+    mass_ = estimate_mass(surge_.chosen ? &surge_ : nullptr, data_.coastdown, data_.curves,
+                          vehicle_, options_.joint);
+    take(mass_.reports, mass_.findings);
+    if (mass_.alone && mass_.alone->beta_variance > 0.0) set_beta_of_curve(*mass_.alone);
+    if (mass_.joint) {
+      set_joint(*mass_.joint);
+    } else if (mass_.estimate) {
+      set_mass(*mass_.estimate);
     }
   }
 
-  void derive_mass() {
-    if (!data_.coastdown || data_.coastdown->rows.empty() || !surge_ || surge_->beta >= 1.0) return;
-    mass_ = mass_from_stop_time(*surge_, data_.coastdown->rows);
-    std::optional<double> std_error;
-    if (surge_->covariance) {
-      const Eigen::Vector2d by(1.0, mass_->by_beta);
-      std_error = std::sqrt(by.dot(*surge_->covariance * by) + mass_->timing_variance);
-    }
-    const double log_inertia =
-        mass_->log_mass_norm + std::log(vehicle_.inertia_kgm2() / vehicle_.mass_kg);
-    const int dof = surge_->degrees_of_freedom;
-    result_.model[ParameterId::kMassNorm] =
-        from_log(mass_->log_mass_norm, std_error, dof, Source::kDerived, "stop time");
-    // I'z = m' Iz / m                                                              [paper (68)]
+  void set_beta_of_curve(const CoastFit& curve) {
+    const double error = std::sqrt(curve.beta_variance);
+    const double half = t_quantile_95(curve.dof) * error;
+    result_.model[ParameterId::kSurgeBeta] = {curve.beta, error,
+                                              Interval{curve.beta - half, curve.beta + half},
+                                              Source::kFitted, "coast-down curve"};
+  }
+
+  /// I'z = m' Iz / m                                                                 [paper (68)]
+  void set_inertia(double log_mass, std::optional<double> variance, double dof) {
     result_.model[ParameterId::kInertiaNorm] =
-        from_log(log_inertia, std_error, dof, Source::kDerived,
+        from_log(log_mass + std::log(vehicle_.inertia_kgm2() / vehicle_.mass_kg), variance, dof,
+                 Source::kDerived,
                  vehicle_.yaw_inertia_kgm2 ? "m' and the given inertia" : "m' and the box formula");
-    check_mass(*surge_, *data_.coastdown, vehicle_.mass_kg, std::exp(mass_->log_mass_norm),
-               std_error, result_.model.findings);
   }
 
-  /// Over (a1, b1, a3, b3, m', I'z), as far as they are known: J C J^T with C over
-  /// (ln a1, b1, ln a3, b3, timing) and J the derivatives of the parameters.
-  void set_covariance() {
-    Eigen::Matrix<double, 5, 5> base = Eigen::Matrix<double, 5, 5>::Zero();
-    Eigen::Matrix<double, 6, 5> by = Eigen::Matrix<double, 6, 5>::Zero();
-    std::vector<std::pair<Eigen::Index, ParameterId>> known;
+  void set_mass(const MassEstimate& mass) {
+    const SteadyFit& surge = *surge_.chosen;
+    const auto variance = mass.variance(surge);
+    const double dof = variance ? mass.dof(surge) : 0.0;
+    result_.model[ParameterId::kMassNorm] =
+        from_log(mass.log_mass_norm, variance, dof, Source::kDerived, mass.method);
+    set_inertia(mass.log_mass_norm, variance, dof);
+    if (!variance) return;
+    const Eigen::Index own =
+        covariance_.add_block(Eigen::MatrixXd::Constant(1, 1, mass.own_variance));
+    for (const ParameterId id : {ParameterId::kMassNorm, ParameterId::kInertiaNorm}) {
+      const double value = *result_.model[id].value;
+      JointCovariance::Gradient gradient{{own, value}};
+      for (Eigen::Index i = 0; i < mass.by_surge.size(); ++i) {
+        gradient[*surge_block_ + i] = value * mass.by_surge(i);
+      }
+      covariance_.set(id, std::move(gradient));
+    }
+  }
+
+  void set_joint(const JointFit& joint) {
+    Model& model = result_.model;
+    const Eigen::Index first = covariance_.add_block(joint.covariance);
+    const Subject surge{};  // the ids of surge
+    for (std::size_t i = 0; i < joint.surge.free.size(); ++i) {
+      const auto at = static_cast<Eigen::Index>(i);
+      const Coordinate c = joint.surge.free[i];
+      const double x = joint.surge[c];
+      const double error = std::sqrt(joint.covariance(at, at));
+      const double half = t_quantile_95(joint.dof(at)) * error;
+      model[parameter_of(surge, c)] = {value_from(c, x), slope_of(c, x) * error,
+                                       Interval{value_from(c, x - half), value_from(c, x + half)},
+                                       Source::kFitted, "joint with the coast-down curves"};
+      covariance_.set(parameter_of(surge, c), {{first + at, slope_of(c, x)}});
+    }
+    const Eigen::Index last = joint.covariance.rows() - 1;
+    const double variance = joint.covariance(last, last);
+    model[ParameterId::kMassNorm] = from_log(joint.log_mass_norm, variance, joint.dof(last),
+                                             Source::kFitted, "joint with the surge runs");
+    set_inertia(joint.log_mass_norm, variance, joint.dof(last));
+    for (const ParameterId id : {ParameterId::kMassNorm, ParameterId::kInertiaNorm}) {
+      covariance_.set(id, {{first + last, *model[id].value}});
+    }
+    surge_.chosen = joint.surge;
+  }
+
+  void fit_logs() {
+    if (data_.logs.empty()) return;
+    LogStage stage = run_log_stage(vehicle_, data_.logs, options_, asked(), result_.model,
+                                   method_ == Method::kTrajectory);
+    log_reasons_ = std::move(stage.reasons);
+    take(stage.reports, stage.findings);
+    if (stage.block.size() == 0) return;
+    const Eigen::Index first = covariance_.add_block(stage.block);
+    for (const LogStage::Main& main : stage.main) {
+      result_.model[main.id] = main.estimate;
+      covariance_.set(main.id, {{first + main.place, main.slope}});
+    }
+  }
+
+  /// u or r by the law that is in the model, and the stop time.
+  std::optional<double> predicted(const std::string& kind, double input) const {
     const Model& model = result_.model;
-    const auto add_law = [&](const std::optional<PowerLawFit>& law, Eigen::Index at,
-                             ParameterId alpha, ParameterId beta) {
-      if (!law || !law->covariance) return;
-      base.block<2, 2>(at, at) = *law->covariance;
-      by(at, at) = *model[alpha].value;
-      by(at + 1, at + 1) = 1.0;
-      known.emplace_back(at, alpha);
-      if (!law->beta_at_bound) known.emplace_back(at + 1, beta);
+    const auto law = [&](ParameterId alpha, ParameterId beta, ParameterId c, ParameterId q) {
+      std::optional<Resistance<double>> known;
+      if (model[alpha].value && model[beta].value) {
+        known = Resistance<double>{.alpha = *model[alpha].value,
+                                   .beta = *model[beta].value,
+                                   .coulomb = *model[c].value,
+                                   .quadratic = *model[q].value};
+      }
+      return known;
     };
-    add_law(surge_, 0, ParameterId::kSurgeAlpha, ParameterId::kSurgeBeta);
-    add_law(yaw_, 2, ParameterId::kYawAlpha, ParameterId::kYawBeta);
-    if (mass_ && surge_->covariance) {
-      base(4, 4) = mass_->timing_variance;
-      for (const auto& [row, id] : {std::pair(Eigen::Index{4}, ParameterId::kMassNorm),
-                                    std::pair(Eigen::Index{5}, ParameterId::kInertiaNorm)}) {
-        const double value = *model[id].value;
-        by(row, 0) = value;
-        by(row, 1) = value * mass_->by_beta;
-        by(row, 4) = value;
-        known.emplace_back(row, id);
-      }
+    const auto surge = law(ParameterId::kSurgeAlpha, ParameterId::kSurgeBeta,
+                           ParameterId::kSurgeCoulomb, ParameterId::kSurgeQuadratic);
+    const auto yaw = law(ParameterId::kYawAlpha, ParameterId::kYawBeta, ParameterId::kYawCoulomb,
+                         ParameterId::kYawQuadratic);
+    if (kind == "surge" && surge) {
+      return steady_rate(*surge, input - 4.0 * *model[ParameterId::kWheelDeadZone].value);
     }
-    const Eigen::Matrix<double, 6, 6> full = by * base * by.transpose();
-    Covariance& covariance = result_.model.covariance;
-    for (const auto& [row, row_id] : known) {
-      covariance.parameters.push_back(row_id);
-      std::vector<double>& line = covariance.matrix.emplace_back();
-      // The mean of the two halves: symmetric to the last bit.
-      for (const auto& [column, column_id] : known) {
-        line.push_back(0.5 * (full(row, column) + full(column, row)));
-      }
+    if (kind == "turning" && yaw) return steady_rate(*yaw, input);
+    if (kind == "coastdown" && surge && model[ParameterId::kMassNorm].value) {
+      return stop_time_s(*surge, *model[ParameterId::kMassNorm].value, input);
     }
+    return std::nullopt;
   }
 
   void keep_trials() {
     std::vector<TrialPoint>& trials = result_.model.trials;
-    const auto predict = [](const std::optional<PowerLawFit>& law, double force) {
-      std::optional<double> rate;
-      if (law) rate = std::exp((std::log(force) - law->log_alpha) / law->beta);
-      return rate;
+    const auto keep = [&](const std::string& kind, const std::string& file, int line, double input,
+                          double measured) {
+      trials.push_back({kind, file, line, input, measured, predicted(kind, input)});
     };
     if (data_.surge) {
       for (const SurgeRow& row : data_.surge->rows) {
-        trials.push_back({"surge", data_.surge->file, row.line, row.tau_speed, row.speed_mps,
-                          predict(surge_, row.tau_speed)});
+        keep("surge", data_.surge->file, row.line, row.tau_speed, row.speed_mps);
       }
     }
     if (data_.turning) {
-      for (const TurningRow& row : data_.turning->rows) {
-        trials.push_back({"turning", data_.turning->file, row.line, row.tau_turn_m,
-                          row.yaw_rate_radps, predict(yaw_, row.tau_turn_m)});
+      const double dead_zone = *result_.model[ParameterId::kWheelDeadZone].value;
+      for (const SteadyPoint& point : points_of(data_.turning->rows, dead_zone)) {
+        keep("turning", data_.turning->file, point.line, point.force, point.rate);
       }
     }
     if (data_.coastdown) {
       for (const StopTimeRow& row : data_.coastdown->rows) {
-        std::optional<double> stop_s;
-        if (mass_) {  // t_a = m' u^(1-b1)/((1-b1) a1)                               [paper (59)]
-          stop_s = std::exp(mass_->log_mass_norm - surge_->log_alpha) *
-                   std::pow(row.initial_speed_mps, 1.0 - surge_->beta) / (1.0 - surge_->beta);
-        }
-        trials.push_back({"coastdown", data_.coastdown->file, row.line, row.initial_speed_mps,
-                          row.stop_time_s, stop_s});
+        keep("coastdown", data_.coastdown->file, row.line, row.initial_speed_mps, row.stop_time_s);
       }
     }
   }
@@ -320,15 +328,24 @@ class Identifier {
     std::vector<ParameterId> ids;
     if (data_.surge) ids.insert(ids.end(), {ParameterId::kSurgeAlpha, ParameterId::kSurgeBeta});
     if (data_.turning) ids.insert(ids.end(), {ParameterId::kYawAlpha, ParameterId::kYawBeta});
-    if (data_.coastdown) ids.insert(ids.end(), {ParameterId::kMassNorm, ParameterId::kInertiaNorm});
+    if (data_.coastdown || !data_.curves.empty()) {
+      ids.insert(ids.end(), {ParameterId::kMassNorm, ParameterId::kInertiaNorm});
+    }
+    if (!data_.logs.empty()) {
+      for (const ParameterInfo& parameter : parameter_table()) {
+        if (!parameter.term) ids.push_back(parameter.id);
+      }
+    }
     return ids;
   }
 
-  std::string reason(ParameterId id) const {
+  std::string table_reason(ParameterId id) const {
     switch (id) {
       case ParameterId::kSurgeAlpha:
       case ParameterId::kSurgeBeta:
-        if (!data_.surge) return "there is no surge trial";
+        if (!data_.surge) {
+          return mass_.alone ? mass_.reason : std::string("there is no surge trial");
+        }
         return fmt::format(
             "the usable surge rows ({}) do not hold two different tau_speed with different speeds",
             data_.surge->rows.size());
@@ -341,51 +358,74 @@ class Identifier {
             data_.turning->rows.size());
       case ParameterId::kMassNorm:
       case ParameterId::kInertiaNorm:
-        if (!data_.coastdown || data_.coastdown->rows.empty())
-          return "there is no coast-down trial";
-        if (!surge_)
-          return "a stop time shows m' only together with a1 and b1, which are not identified";
-        return fmt::format(
-            "the surge exponent {:.4g} is 1 or more: with it the vehicle never stops, and "
-            "a stop time says nothing",
-            surge_->beta);
+        return has_coastdown() ? mass_.reason : std::string("there is no coast-down trial");
       case ParameterId::kSwayAlpha:
         return "sway_alpha is not in vehicle.json";
-      case ParameterId::kSteeringTimeConstant:
+      default:
         return "it is not in vehicle.json";
     }
-    return {};
   }
 
   void refuse_what_is_missing() {
     const std::vector<ParameterId> ids = asked();
     for (const ParameterInfo& parameter : parameter_table()) {
       Estimate& estimate = result_.model[parameter.id];
-      if (estimate.value) continue;
-      estimate.source = Source::kFitted;
-      estimate.method = "none";
       const bool wanted = std::find(ids.begin(), ids.end(), parameter.id) != ids.end();
+      const auto logged = log_reasons_.find(parameter.id);
+      // A given value stands, but where a log was to show it, that it does not is said.
+      const bool held = estimate.value && logged != log_reasons_.end() && wanted &&
+                        estimate.source == Source::kGiven;
+      if (estimate.value && !held) continue;
+      if (!estimate.value) {
+        estimate.source = Source::kFitted;
+        estimate.method = "none";
+      }
       if (wanted) result_.refused.push_back(parameter.id);
+      const std::string why =
+          logged != log_reasons_.end() ? logged->second : table_reason(parameter.id);
       find(wanted ? Severity::kError : Severity::kNote, "", "not-identifiable",
-           fmt::format("{} ({}) cannot be identified: {}; {}", parameter.name, parameter.meaning,
-                       reason(parameter.id), parameter.trial));
+           fmt::format(
+               "{} ({}) cannot be identified: {}; {}{}", parameter.name, parameter.meaning, why,
+               parameter.trial,
+               held ? fmt::format(" (the given {:.4g} is kept)", *estimate.value) : std::string()));
     }
   }
 
   const Vehicle& vehicle_;
   const TrialData& data_;
   const IdentifyOptions& options_;
+  const Method method_;
   Identification result_;
-  std::optional<PowerLawFit> surge_;
-  std::optional<PowerLawFit> yaw_;
-  std::optional<MassFromStopTime> mass_;
+  SubjectFit surge_;
+  SubjectFit yaw_;
+  MassResult mass_;
+  std::map<ParameterId, std::string> log_reasons_;
+  JointCovariance covariance_;
+  std::optional<Eigen::Index> surge_block_;
 };
 
 }  // namespace
 
 Result<Identification> identify(const Vehicle& vehicle, const TrialData& data,
                                 const IdentifyOptions& options, std::vector<Finding> findings) {
-  return Identifier(vehicle, data, options, std::move(findings)).run();
+  const bool other_family =
+      options.surge_family.family != Family::kPower || options.yaw_family.family != Family::kPower;
+  const bool robust = options.loss != Loss::kNone;
+  if (options.method == Method::kLogLinear && (other_family || robust)) {
+    return input_error("--method", fmt::format("log-linear knows the power law and squares only; "
+                                               "with {} use nonlinear",
+                                               other_family ? "--family" : "--loss"));
+  }
+  if (options.method == Method::kTrajectory && data.logs.empty()) {
+    return input_error("--method", "trajectory needs a driving log (--log)");
+  }
+  if (options.joint && (!data.surge || data.curves.empty())) {
+    return input_error("--joint", "needs a surge trial and a coast-down curve");
+  }
+  const Method method = options.method.value_or(!data.logs.empty()       ? Method::kTrajectory
+                                                : other_family || robust ? Method::kNonlinear
+                                                                         : Method::kLogLinear);
+  return Identifier(vehicle, data, options, method, std::move(findings)).run();
 }
 
 }  // namespace awmr

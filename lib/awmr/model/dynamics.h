@@ -7,19 +7,21 @@
 
 namespace awmr {
 
-/// What the equations of motion need to know. All forces are over F_max, the largest force of one motor.
+/// What the equations of motion need to know. All forces are over F_max, the largest force of one
+/// motor.
 template <class T>
 struct Plant {
-  Resistance<T> surge;           ///< g1(u), dimensionless
-  Resistance<T> yaw;             ///< g3(r), m
-  T sway_alpha;                  ///< a_s in g2(v) = a_s v, s/m                          [paper App. B]
-  T mass_norm;                   ///< m' = m / F_max, s^2/m, > 0                          [paper (66)]
-  T inertia_norm;                ///< I'z = Iz / F_max, s^2 m, > 0                        [paper (67)]
-  T front_axle_m;                ///< l_f, centre of gravity to front axle, > 0
-  T half_track_m;                ///< d, centre line to a wheel, > 0
-  T steering_max_rad;            ///< stop of the front wheels, either side, > 0
-  T steering_max_rate_radps;     ///< the servo's fastest turn, > 0
-  T steering_time_constant_s;    ///< T, the servo's first-order lag, > 0
+  Resistance<T> surge;        ///< g1(u), dimensionless
+  Resistance<T> yaw;          ///< g3(r), m
+  T sway_alpha;               ///< a_s in g2(v) = a_s v, s/m                          [paper App. B]
+  T mass_norm;                ///< m' = m / F_max, s^2/m, > 0                          [paper (66)]
+  T inertia_norm;             ///< I'z = Iz / F_max, s^2 m, > 0                        [paper (67)]
+  T front_axle_m;             ///< l_f, centre of gravity to front axle, > 0
+  T half_track_m;             ///< d, centre line to a wheel, > 0
+  T steering_max_rad;         ///< stop of the front wheels, either side, > 0
+  T steering_max_rate_radps;  ///< the servo's fastest turn, > 0
+  T steering_time_constant_s;  ///< T, the servo's first-order lag, > 0
+  T wheel_dead_zone = T(0.0);  ///< F'0, the part of each F' that moves nothing, >= 0
 };
 
 namespace detail {
@@ -70,11 +72,15 @@ State<T> state_rates(const Plant<T>& p, const State<T>& s, const WheelForces<T>&
   using math::sin;
   const T cos_d = cos(s.steering_rad);
   const T sin_d = sin(s.steering_rad);
-  const T front = f.front_left + f.front_right;
-  const T rear = f.rear_left + f.rear_right;
+  const WheelForces<T> e{beyond_dead_zone(f.front_left, p.wheel_dead_zone),
+                         beyond_dead_zone(f.front_right, p.wheel_dead_zone),
+                         beyond_dead_zone(f.rear_left, p.wheel_dead_zone),
+                         beyond_dead_zone(f.rear_right, p.wheel_dead_zone)};
+  const T front = e.front_left + e.front_right;
+  const T rear = e.rear_left + e.rear_right;
   const T moment = p.front_axle_m * front * sin_d +
-                   p.half_track_m * cos_d * (f.front_right - f.front_left) +
-                   p.half_track_m * (f.rear_right - f.rear_left);
+                   p.half_track_m * cos_d * (e.front_right - e.front_left) +
+                   p.half_track_m * (e.rear_right - e.rear_left);
   return detail::rates(p, s, front * cos_d + rear, front * sin_d, moment,
                        steering_rate(p, s.steering_rad, steering_command_rad));
 }
@@ -88,7 +94,8 @@ struct GeneralisedForces {
 };
 
 /// tau_speed = (F'L + F'R)(cos d_r + 1),  tau_steering = l_f (F'L + F'R) sin d_r,
-/// tau_diff = d (F'R - F'L)(cos d_r + 1)                                                [paper (41)]
+/// tau_diff = d (F'R - F'L)(cos d_r + 1)                                                [paper
+/// (41)]
 template <class T>
 GeneralisedForces<T> generalised_forces(const T& front_axle_m, const T& half_track_m,
                                         const SideForces<T>& f, const T& steering_rad) {
@@ -103,12 +110,15 @@ GeneralisedForces<T> generalised_forces(const T& front_axle_m, const T& half_tra
 /// The reduced form, left and right pairs alike.
 ///   u_dot = (tau_speed + m' r v - g1(u)) / m'
 ///   v_dot = (tau_steering/l_f - m' r u - g2(v)) / m'
-///   r_dot = (tau_steering + tau_diff - g3(r)) / I'z                                     [paper (40)]
+///   r_dot = (tau_steering + tau_diff - g3(r)) / I'z                                     [paper
+///   (40)]
 template <class T>
 State<T> state_rates(const Plant<T>& p, const State<T>& s, const SideForces<T>& f,
                      const T& steering_command_rad) {
+  const SideForces<T> effective{beyond_dead_zone(f.left, p.wheel_dead_zone),
+                                beyond_dead_zone(f.right, p.wheel_dead_zone)};
   const GeneralisedForces<T> tau =
-      generalised_forces(p.front_axle_m, p.half_track_m, f, s.steering_rad);
+      generalised_forces(p.front_axle_m, p.half_track_m, effective, s.steering_rad);
   return detail::rates(p, s, tau.tau_speed, tau.tau_steering_m / p.front_axle_m,
                        tau.tau_steering_m + tau.tau_diff_m,
                        steering_rate(p, s.steering_rad, steering_command_rad));

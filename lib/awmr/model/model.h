@@ -1,4 +1,5 @@
-/// model.json (`awmr.model/1`): the identified vehicle, every number with its uncertainty and origin.
+/// model.json (`awmr.model/1`): the identified vehicle, every number with its uncertainty and
+/// origin.
 #pragma once
 
 #include <array>
@@ -12,6 +13,7 @@
 #include "awmr/core/provenance.h"
 #include "awmr/core/result.h"
 #include "awmr/model/dynamics.h"
+#include "awmr/model/family.h"
 #include "awmr/model/parameters.h"
 #include "awmr/model/vehicle.h"
 
@@ -44,14 +46,40 @@ struct EstimatorParameter {
   std::string name;  ///< "surge.alpha"
   double value = 0.0;
   std::optional<double> std_error;
-  std::optional<Interval> ci95;
+  std::optional<Interval> ci95;  ///< of the curvature at the optimum
+  /// From the profile of the cost: bounds where the data leave an end open.
+  std::optional<Interval> profile95 = {};
+};
+
+/// A test of what a fit assumes of its residuals.
+struct Diagnostic {
+  std::string name;  ///< "normality", "whiteness of yaw_rate_radps", "lack of fit"
+  double statistic = 0.0;
+  double p_value = 1.0;
+  std::string meaning;  ///< one sentence
+};
+
+/// What the estimates become without one row or log.
+struct LeaveOneOut {
+  std::string file;
+  int line = 0;                ///< 0: the whole file
+  std::vector<double> values;  ///< as EstimatorReport::parameters
+};
+
+/// One of the starts of a search.
+struct SearchStart {
+  std::vector<double> values;  ///< as EstimatorReport::parameters
+  double cost = 0.0;           ///< after the search, half the sum of squared standardised residuals
+  bool chosen = false;
+  std::string stop_reason;
 };
 
 /// What one estimator made of one set of trials: an entry of /estimates.
 struct EstimatorReport {
-  std::string subject;    ///< "surge", "yaw", "mass"
-  std::string estimator;  ///< "log-linear", "nonlinear", "trajectory"
-  std::string noise;      ///< where the error is put: "log force", "force", "speed", "time"
+  std::string subject;  ///< "surge", "yaw", "mass", "log"
+  std::string
+      estimator;      ///< "log-linear", "nonlinear", "trajectory", "stop-time", "curve", "joint"
+  std::string noise;  ///< where the error is put: "log force", "force", "speed", "time", ...
   std::vector<EstimatorParameter> parameters;
   double residual_std = 0.0;  ///< in the unit of the noise
   int rows_used = 0;
@@ -59,6 +87,11 @@ struct EstimatorReport {
   int rank = 0;
   double condition_number = 0.0;
   std::string stop_reason;
+  std::string family = {};          ///< of resistance; empty: the paper's power law
+  std::optional<double> aicc = {};  ///< corrected Akaike criterion; less is better, same noise only
+  std::vector<Diagnostic> diagnostics = {};
+  std::vector<LeaveOneOut> leave_one_out = {};
+  std::vector<SearchStart> starts = {};
 };
 
 struct Covariance {
@@ -71,13 +104,20 @@ struct TrialPoint {
   std::string kind;  ///< "surge", "turning", "coastdown"
   std::string file;
   int line = 0;
-  double input = 0.0;     ///< surge: tau_speed; turning: tau_turn in m; coastdown: initial speed in m/s
-  double measured = 0.0;  ///< surge: speed in m/s; turning: yaw rate in rad/s; coastdown: stop time in s
+  double input =
+      0.0;  ///< surge: tau_speed; turning: tau_turn in m; coastdown: initial speed in m/s
+  double measured =
+      0.0;  ///< surge: speed in m/s; turning: yaw rate in rad/s; coastdown: stop time in s
   std::optional<double> predicted;  ///< the main model's, same unit as `measured`
 };
 
 struct Model {
+  /// Nothing known but that a power law has no other terms.
+  Model();
+
   Vehicle vehicle;
+  Family surge_family = Family::kPower;
+  Family yaw_family = Family::kPower;
   std::array<Estimate, kParameterCount> estimates;  ///< by ParameterId
   std::vector<EstimatorReport> reports;
   Covariance covariance;
@@ -95,7 +135,8 @@ struct Model {
   Result<Plant<double>> plant(const std::string& file) const;
 };
 
-/// F_max = m/m', N.                                                                     [paper (66)]
+/// F_max = m/m', N.                                                                     [paper
+/// (66)]
 double max_wheel_force_n(double mass_kg, double mass_norm);
 
 Result<Model> read_model(const std::filesystem::path& path);

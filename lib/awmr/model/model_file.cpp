@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <array>
 #include <map>
 
 #include "awmr/model/model.h"
@@ -14,6 +15,7 @@ const std::string kSources[] = {"given", "derived", "fitted"};
 
 /// What the equations of motion accept (dynamics.h, resistance.h).
 NumberRule rule_of(ParameterId id) {
+  if (info(id).term) return kNonNegative;
   const bool is_exponent = id == ParameterId::kSurgeBeta || id == ParameterId::kYawBeta;
   return is_exponent ? kNonNegative : kPositive;
 }
@@ -48,6 +50,18 @@ void estimates_from_json(JsonObject& root, Model& model) {
   for (const ParameterInfo& parameter : parameter_table()) {
     const std::string_view path = parameter.pointer.substr(1);
     const std::size_t slash = path.find('/');
+    if (parameter.term) {
+      const std::string group(path.substr(0, slash));
+      if (!groups.contains(group)) {
+        const auto object = root.optional_object(group);
+        if (!object) continue;
+        groups.emplace(group, *object);
+      }
+      if (const auto term = groups.at(group).optional_object(path.substr(slash + 1))) {
+        model[parameter.id] = estimate_from_json(*term, parameter);
+      }
+      continue;
+    }
     if (slash == std::string_view::npos) {
       model[parameter.id] = estimate_from_json(root.object(path), parameter);
       continue;
@@ -58,7 +72,29 @@ void estimates_from_json(JsonObject& root, Model& model) {
     model[parameter.id] =
         estimate_from_json(place->second.object(path.substr(slash + 1)), parameter);
   }
+  const auto family = [&groups](const std::string& group) {
+    static const std::array<std::string, kFamilies.size()> kNames = [] {
+      std::array<std::string, kFamilies.size()> names;
+      for (const Family f : kFamilies) names[static_cast<std::size_t>(f)] = name_of(f);
+      return names;
+    }();
+    JsonObject& json = groups.at(group);
+    return json.has("family") ? kFamilies[json.choice("family", kNames)] : Family::kPower;
+  };
+  model.surge_family = family("surge");
+  model.yaw_family = family("yaw");
   for (auto& [name, group] : groups) group.reject_unknown_keys();
+}
+
+void put_estimates(Json& json, const Model& model) {
+  for (const ParameterInfo& parameter : parameter_table()) {
+    const Estimate& estimate = model[parameter.id];
+    if (parameter.term && estimate.source == Source::kGiven && estimate.value == 0.0) continue;
+    json[Json::json_pointer(std::string(parameter.pointer))] =
+        estimate_to_json(estimate, parameter);
+  }
+  if (model.surge_family != Family::kPower) json["surge"]["family"] = name_of(model.surge_family);
+  if (model.yaw_family != Family::kPower) json["yaw"]["family"] = name_of(model.yaw_family);
 }
 
 template <class Item, class ToJson>
@@ -82,10 +118,7 @@ std::string model_text(const Model& model) {
   json["schema"] = kSchema;
   put_provenance(json, model.provenance);
   json["vehicle"] = vehicle_to_json(model.vehicle);
-  for (const ParameterInfo& parameter : parameter_table()) {
-    json[Json::json_pointer(std::string(parameter.pointer))] =
-        estimate_to_json(model[parameter.id], parameter);
-  }
+  put_estimates(json, model);
   json["estimates"] = list_to_json(model.reports, report_to_json);
   json["covariance"] = covariance_to_json(model.covariance);
   json["findings"] = list_to_json(model.findings, finding_to_json);

@@ -17,6 +17,12 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 /// Differences of a sum's last digits between m(i,j) and m(j,i) are no asymmetry.
 constexpr double kSymmetryTolerance = 1e-9;
 
+/// A parameter, or what a fit of logs estimates beside them.
+bool is_estimated_name(std::string_view name) {
+  return parameter_by_name(name) || name == kInputDelayName || name == kMassOverSurgeName ||
+         name.starts_with(kBiasPrefix);
+}
+
 int count(JsonObject& json, std::string_view key) {
   return static_cast<int>(json.integer(key, 0, std::numeric_limits<int>::max()));
 }
@@ -61,15 +67,59 @@ void check_covariance(JsonObject& json, const std::vector<std::vector<double>>& 
 EstimatorParameter parameter_from_json(JsonObject json) {
   EstimatorParameter parameter;
   parameter.name = json.string("name");
-  const auto id = parameter_by_name(parameter.name);
-  if (!id && !parameter.name.empty()) {
+  if (!parameter.name.empty() && !is_estimated_name(parameter.name)) {
     json.fault("name", fmt::format("no parameter is called '{}'", parameter.name));
   }
   parameter.value = json.nullable_number("value").value_or(kNaN);
   parameter.std_error = json.nullable_number("std_error", kNonNegative);
   parameter.ci95 = json.nullable_interval("ci95");
+  parameter.profile95 = json.optional_interval("profile95");
   json.reject_unknown_keys();
   return parameter;
+}
+
+/// What a report has only where it was worked out.
+void put_details(Json& json, const EstimatorReport& report) {
+  if (!report.family.empty()) json["family"] = report.family;
+  if (report.aicc) json["aicc"] = number_or_null(report.aicc);
+  for (const Diagnostic& diagnostic : report.diagnostics) {
+    json["diagnostics"].push_back({{"name", diagnostic.name},
+                                   {"statistic", number_or_null(diagnostic.statistic)},
+                                   {"p_value", number_or_null(diagnostic.p_value)},
+                                   {"meaning", diagnostic.meaning}});
+  }
+  for (const LeaveOneOut& without : report.leave_one_out) {
+    json["leave_one_out"].push_back(
+        {{"file", without.file}, {"line", without.line}, {"values", without.values}});
+  }
+  for (const SearchStart& start : report.starts) {
+    json["starts"].push_back({{"values", start.values},
+                              {"cost", number_or_null(start.cost)},
+                              {"chosen", start.chosen},
+                              {"stop_reason", start.stop_reason}});
+  }
+}
+
+void read_details(JsonObject& json, EstimatorReport& report) {
+  report.family = json.optional_string("family").value_or("");
+  if (json.has("aicc")) report.aicc = json.nullable_number("aicc");
+  for (JsonObject& entry : json.optional_objects("diagnostics")) {
+    report.diagnostics.push_back(
+        {entry.string("name"), entry.nullable_number("statistic").value_or(kNaN),
+         entry.nullable_number("p_value").value_or(kNaN), entry.string("meaning")});
+    entry.reject_unknown_keys();
+  }
+  for (JsonObject& entry : json.optional_objects("leave_one_out")) {
+    report.leave_one_out.push_back(
+        {entry.string("file"), count(entry, "line"), entry.numbers("values")});
+    entry.reject_unknown_keys();
+  }
+  for (JsonObject& entry : json.optional_objects("starts")) {
+    report.starts.push_back({entry.numbers("values"),
+                             entry.nullable_number("cost").value_or(kInfinity),
+                             entry.boolean("chosen"), entry.string("stop_reason")});
+    entry.reject_unknown_keys();
+  }
 }
 
 }  // namespace
@@ -96,6 +146,7 @@ Json report_to_json(const EstimatorReport& report) {
     entry["value"] = number_or_null(parameter.value);
     entry["std_error"] = number_or_null(parameter.std_error);
     entry["ci95"] = interval_or_null(parameter.ci95);
+    if (parameter.profile95) entry["profile95"] = interval_or_null(parameter.profile95);
     json["parameters"].push_back(std::move(entry));
   }
   json["residual_std"] = number_or_null(report.residual_std);
@@ -104,6 +155,7 @@ Json report_to_json(const EstimatorReport& report) {
   json["rank"] = report.rank;
   json["condition_number"] = number_or_null(report.condition_number);
   json["stop_reason"] = report.stop_reason;
+  put_details(json, report);
   return json;
 }
 
@@ -124,6 +176,7 @@ EstimatorReport report_from_json(JsonObject json) {
   report.condition_number =
       json.nullable_number("condition_number", kNonNegative).value_or(kInfinity);
   report.stop_reason = json.string("stop_reason");
+  read_details(json, report);
   json.reject_unknown_keys();
   return report;
 }

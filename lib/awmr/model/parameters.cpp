@@ -35,6 +35,16 @@ const std::array<ParameterInfo, kParameterCount>& parameter_table() {
       {ParameterId::kSteeringTimeConstant, "steering.time_constant_s", "/steering/time_constant_s",
        "T", "s", "first-order lag of the steering servo",
        "a log with steering_cmd_deg and steering_deg; or give it in vehicle.json"},
+      {ParameterId::kSurgeCoulomb, "surge.coulomb", "/surge/coulomb", "c1", "1",
+       "Coulomb part of the surge resistance over F_max", kSurgeTrial, true},
+      {ParameterId::kSurgeQuadratic, "surge.quadratic", "/surge/quadratic", "q1", "s^2/m^2",
+       "quadratic part of the surge resistance over F_max", kSurgeTrial, true},
+      {ParameterId::kYawCoulomb, "yaw.coulomb", "/yaw/coulomb", "c3", "m",
+       "Coulomb part of the yaw resistance over F_max", kTurningTrial, true},
+      {ParameterId::kYawQuadratic, "yaw.quadratic", "/yaw/quadratic", "q3", "m s^2/rad^2",
+       "quadratic part of the yaw resistance over F_max", kTurningTrial, true},
+      {ParameterId::kWheelDeadZone, "wheel.dead_zone", "/wheel/dead_zone", "F'0", "1",
+       "part of each wheel's command that moves nothing, over F_max", kSurgeTrial, true},
   }};
   return kTable;
 }

@@ -17,8 +17,14 @@ enum class ParameterId {
   kMassNorm,
   kInertiaNorm,
   kSteeringTimeConstant,
+  // Terms that only some families of resistance have; 0 in a power law.
+  kSurgeCoulomb,
+  kSurgeQuadratic,
+  kYawCoulomb,
+  kYawQuadratic,
+  kWheelDeadZone,
 };
-inline constexpr std::size_t kParameterCount = 8;
+inline constexpr std::size_t kParameterCount = 13;
 
 struct ParameterInfo {
   ParameterId id;
@@ -27,8 +33,15 @@ struct ParameterInfo {
   std::string_view symbol;   ///< "a1"
   std::string_view unit;     ///< "1" where dimensionless
   std::string_view meaning;
-  std::string_view trial;    ///< the trial that shows it, in words for a refusal
+  std::string_view trial;  ///< the trial that shows it, in words for a refusal
+  bool term = false;       ///< 0 and absent from model.json unless the family has it
 };
+
+/// What a fit of logs can estimate beside the parameters; in /estimates only.
+inline constexpr std::string_view kInputDelayName = "input_delay_s";
+inline constexpr std::string_view kBiasPrefix = "bias.";  ///< + the channel's column
+/// What a coast-down shows without a surge trial: m'/a1, in s (m/s)^(b1 - 1).
+inline constexpr std::string_view kMassOverSurgeName = "mass_norm/surge.alpha";
 
 /// In the order of ParameterId.
 const std::array<ParameterInfo, kParameterCount>& parameter_table();

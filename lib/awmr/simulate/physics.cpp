@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "awmr/model/runge_kutta.h"
+#include "awmr/model/steady.h"
 #include "awmr/simulate/simulate.h"
 
 namespace awmr {
@@ -24,28 +26,9 @@ constexpr std::uint64_t kSurgeUse = 100;
 constexpr std::uint64_t kSwayUse = 300;
 constexpr std::uint64_t kYawUse = 500;
 
-/// Speed below which resistance is its chord. On the chord the speed decays at alpha
-/// w^(beta-1)/inertia; RK4 is stable to rate h < 2.78 and monotone to about 1, so w is where that
-/// rate is 1/h:
-///   w = (alpha h / inertia)^(1/(1 - beta))   for beta < 1;   no such speed for beta >= 1.
-double rest_speed(const Resistance<double>& law, double inertia, double step_s) {
-  if (law.beta >= 1.0) return 0.0;
-  return std::pow(law.alpha * step_s / inertia, 1.0 / (1.0 - law.beta));
-}
-
 double step_for_chord(const Resistance<double>& law, double inertia) {
-  if (law.beta >= 1.0) return std::numeric_limits<double>::infinity();
-  return inertia / law.alpha * std::pow(kChordSpeed, 1.0 - law.beta);
-}
-
-State<double> moved(const State<double>& s, const State<double>& d, double h) {
-  return {s.x_m + h * d.x_m,
-          s.y_m + h * d.y_m,
-          s.psi_rad + h * d.psi_rad,
-          s.u_mps + h * d.u_mps,
-          s.v_mps + h * d.v_mps,
-          s.r_radps + h * d.r_radps,
-          s.steering_rad + h * d.steering_rad};
+  if (law.beta >= 1.0 && !(law.coulomb > 0.0)) return std::numeric_limits<double>::infinity();
+  return inertia * kChordSpeed / law.at(kChordSpeed);
 }
 
 /// A speed whose square would be below the normal range is rest: no crawl through subnormal
@@ -68,7 +51,7 @@ Plant<double> at_rest_resolved(Plant<double> plant, double step_s) {
 
 /// h <= T/6 for the time constants that do not depend on speed, m'/a_s of sway and T of the servo;
 /// and h such that resistance is its chord only below kChordSpeed (rest_speed() solved for h):
-///   h <= (inertia/alpha) kChordSpeed^(1 - beta)
+///   h <= inertia kChordSpeed / g(kChordSpeed)
 int substeps_for(const Plant<double>& plant, double sample_time_s) {
   double step_s = plant.steering_time_constant_s / kStepsPerTimeConstant;
   if (plant.sway_alpha > 0.0) {
@@ -147,14 +130,9 @@ template <class Forces>
 void Physics::integrate(const Forces& force, double steering_command_rad) {
   const double h = sample_time_s_ / substeps_;
   for (int i = 0; i < substeps_; ++i) {
-    const State<double> k1 = rates(state_, force, steering_command_rad);
-    const State<double> k2 = rates(moved(state_, k1, h / 2.0), force, steering_command_rad);
-    const State<double> k3 = rates(moved(state_, k2, h / 2.0), force, steering_command_rad);
-    const State<double> k4 = rates(moved(state_, k3, h), force, steering_command_rad);
-    State<double> next = moved(state_, k1, h / 6.0);
-    next = moved(next, k2, h / 3.0);
-    next = moved(next, k3, h / 3.0);
-    state_ = moved(next, k4, h / 6.0);
+    state_ = rk4_step(state_, h, [&](const State<double>& at) {
+      return rates(at, force, steering_command_rad);
+    });
   }
   settle(state_.u_mps);
   settle(state_.v_mps);

@@ -47,11 +47,22 @@ double rounding_error(double printed, double last_place) {
   return std::min(0.5 * last_place, kLargestRoundingShare * std::abs(printed));
 }
 
-double timing_error(double timed, double elapsed_s, double elapsed_last_place) {
+namespace {
+
+bool is_automatic(double elapsed_last_place) {
   // The slack of 1e-9 is for a last place that pow() gives as 1.0000000000000002e-3.
-  const double timing_s = elapsed_last_place <= kAutomaticTiming_s * (1.0 + 1e-9)
-                              ? elapsed_last_place
-                              : kStopWatchError_s;
+  return elapsed_last_place <= kAutomaticTiming_s * (1.0 + 1e-9);
+}
+
+}  // namespace
+
+double timing_std_s(double elapsed_last_place) {
+  return is_automatic(elapsed_last_place) ? elapsed_last_place / std::sqrt(12.0)
+                                          : 0.5 * kStopWatchError_s;
+}
+
+double timing_error(double timed, double elapsed_s, double elapsed_last_place) {
+  const double timing_s = is_automatic(elapsed_last_place) ? elapsed_last_place : kStopWatchError_s;
   return std::abs(timed) * (timing_s / elapsed_s + kCourseError);
 }
 

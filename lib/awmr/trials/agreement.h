@@ -32,4 +32,8 @@ double rounding_error(double printed, double last_place);
 /// How far the truth may lie from `timed`, which was measured over `elapsed_s` > 0.
 double timing_error(double timed, double elapsed_s, double elapsed_last_place);
 
+/// Standard deviation of a time written to this last place, s: a stop watch's two presses of 0.1 s
+/// / sqrt 2 each, or the rounding of an automatic one.
+double timing_std_s(double elapsed_last_place);
+
 }  // namespace awmr

@@ -1,43 +1,48 @@
 #include <fmt/format.h>
 
+#include "agreement.h"
 #include "trial_reader.h"
 
 namespace awmr {
 namespace {
 
-const CsvColumn kColumns[] = {
-    {"initial_speed_mps", false}, {"stop_time_s", false}, {"t_s", false}, {"speed_mps", false}};
+const CsvColumn kColumns[] = {{"initial_speed_mps", false},
+                              {"stop_time_s", false},
+                              {"t_s", false},
+                              {"speed_mps", false},
+                              {"run", false}};
+
+/// Two parameters of the curve, its initial speed and something left to judge them by.
+constexpr std::size_t kShortestCurve = 5;
+
+bool is_curve(const TrialReader& reader) { return reader.has("t_s") && reader.has("speed_mps"); }
+bool is_stop_time(const TrialReader& reader) {
+  return reader.has("initial_speed_mps") && reader.has("stop_time_s");
+}
 
 void check_columns(TrialReader& reader) {
-  if (reader.has("initial_speed_mps") && reader.has("stop_time_s")) return;
-  if (reader.has("t_s") || reader.has("speed_mps")) {
+  if (is_curve(reader) && is_stop_time(reader)) {
     reader.header_fault(
-        "a coast-down as a curve (t_s, speed_mps) is not read by this version; give "
-        "initial_speed_mps and stop_time_s, a row per run");
+        "both a curve (t_s, speed_mps) and stop times (initial_speed_mps, stop_time_s): give "
+        "two files, --coastdown twice");
     return;
   }
-  for (const std::string_view column : {"initial_speed_mps", "stop_time_s"}) {
+  if (is_curve(reader) || is_stop_time(reader)) return;
+  const bool meant_curve = reader.has("t_s") || reader.has("speed_mps");
+  const std::string_view stop[] = {"initial_speed_mps", "stop_time_s"};
+  const std::string_view curve[] = {"t_s", "speed_mps"};
+  for (const std::string_view column : meant_curve ? curve : stop) {
     if (reader.has(column)) continue;
     reader.header_fault(
-        fmt::format("missing column {}; a coast-down has initial_speed_mps and "
-                    "stop_time_s, a row per run",
+        fmt::format("missing column {}; a coast-down has t_s and speed_mps (its curve), or "
+                    "initial_speed_mps and stop_time_s (a row per run)",
                     column));
   }
 }
 
-}  // namespace
-
-Result<TrialSet<StopTimeRow>> read_coastdown(const std::filesystem::path& path,
-                                             const TrialOptions& options,
-                                             std::vector<Finding>& findings) {
-  auto table = read_csv(path, kColumns, options.columns);
-  if (!table) return tl::unexpected(table.error());
-  TrialReader reader(std::move(*table), options);
-  check_columns(reader);
-  if (!reader.faults().empty()) return input_errors(std::move(reader.faults()));
-
-  TrialSet<StopTimeRow> set{reader.table().file(), {}, 0};
+void read_stop_times(TrialReader& reader, CoastdownSet& set, std::vector<Finding>& findings) {
   std::vector<std::size_t> set_aside;
+  const double timing_s = timing_std_s(reader.last_place("stop_time_s"));
   for (std::size_t i = 0; i < reader.table().rows(); ++i) {
     const double speed_mps = *reader.non_negative(i, "initial_speed_mps");
     const double stop_time_s = *reader.non_negative(i, "stop_time_s");
@@ -49,13 +54,61 @@ Result<TrialSet<StopTimeRow>> read_coastdown(const std::filesystem::path& path,
     } else if (speed_mps == 0.0) {
       set_aside.push_back(i);
     } else {
-      set.rows.push_back({reader.table().line(i), speed_mps, stop_time_s});
+      set.rows.push_back({reader.table().line(i), speed_mps, stop_time_s, timing_s});
     }
   }
-  if (!reader.faults().empty()) return input_errors(std::move(reader.faults()));
   set.set_aside = static_cast<int>(set_aside.size());
   note_rows_set_aside(reader, set_aside, "a coast-down that begins at rest shows nothing of m'",
                       findings);
+}
+
+/// A run is what has one value of `run`, in one piece; without that column the file is one run.
+void read_curves(TrialReader& reader, CoastdownSet& set) {
+  std::optional<double> run;
+  const auto close = [&] {
+    if (set.curves.empty() || set.curves.back().t_s.size() >= kShortestCurve) return;
+    const CoastCurve& curve = set.curves.back();
+    reader.faults().push_back({fmt::format("{}:{}:1", curve.file, curve.line),
+                               fmt::format("this coast-down has {} rows; record at least {}",
+                                           curve.t_s.size(), kShortestCurve)});
+  };
+  for (std::size_t i = 0; i < reader.table().rows(); ++i) {
+    const double t_s = *reader.cell(i, "t_s");
+    const double this_run = reader.cell(i, "run").value_or(0.0);
+    if (run != this_run) {
+      close();
+      set.curves.push_back({reader.table().file(), reader.table().line(i), {}, {}});
+      run = this_run;
+    } else if (!(t_s > set.curves.back().t_s.back())) {
+      reader.fault(i, "t_s",
+                   fmt::format("found {} after {}: time has to rise within a run; number several "
+                               "runs in a column run",
+                               t_s, set.curves.back().t_s.back()));
+    }
+    set.curves.back().t_s.push_back(t_s);
+    set.curves.back().speed_mps.push_back(*reader.cell(i, "speed_mps"));
+  }
+  close();
+}
+
+}  // namespace
+
+Result<CoastdownSet> read_coastdown(const std::filesystem::path& path, const TrialOptions& options,
+                                    std::vector<Finding>& findings) {
+  auto table = read_csv(path, kColumns, options.columns);
+  if (!table) return tl::unexpected(table.error());
+  TrialReader reader(std::move(*table), options);
+  check_columns(reader);
+  if (!reader.faults().empty()) return input_errors(std::move(reader.faults()));
+
+  CoastdownSet set;
+  set.file = reader.table().file();
+  if (is_curve(reader)) {
+    read_curves(reader, set);
+  } else {
+    read_stop_times(reader, set, findings);
+  }
+  if (!reader.faults().empty()) return input_errors(std::move(reader.faults()));
   return set;
 }
 

@@ -42,6 +42,15 @@ struct StopTimeRow {
   int line = 0;
   double initial_speed_mps = 0.0;
   double stop_time_s = 0.0;
+  double timing_std_s = 0.0;  ///< how well the time is known from the way it is written
+};
+
+/// One coast-down as it was recorded: speed by time, motors off at some unknown moment.
+struct CoastCurve {
+  std::string file;
+  int line = 0;  ///< of its first row
+  std::vector<double> t_s;
+  std::vector<double> speed_mps;
 };
 
 /// A file of one kind. Rows that carry no information for a power law (at rest, no force) are set
@@ -51,6 +60,11 @@ struct TrialSet {
   std::string file;
   std::vector<Row> rows;
   int set_aside = 0;
+};
+
+/// A coast-down file is either of the two.
+struct CoastdownSet : TrialSet<StopTimeRow> {
+  std::vector<CoastCurve> curves;
 };
 
 /// Which value is used where a row gives a speed or yaw rate both as printed and through its
@@ -64,14 +78,13 @@ struct TrialOptions {
 
 /// Readers. Findings added: `speed-mismatch`, `yaw-rate-mismatch`, `tau-turn-mismatch`,
 /// `steering-stop`, `rows-set-aside`. Errors: as read_csv; missing column combinations; negative
-/// speed, time or distance.
+/// speed, time or distance; a curve whose time does not rise or that is too short.
 Result<TrialSet<SurgeRow>> read_surge(const std::filesystem::path& path,
                                       const TrialOptions& options, std::vector<Finding>& findings);
 Result<TrialSet<TurningRow>> read_turning(const std::filesystem::path& path, const Vehicle& vehicle,
                                           const TrialOptions& options,
                                           std::vector<Finding>& findings);
-Result<TrialSet<StopTimeRow>> read_coastdown(const std::filesystem::path& path,
-                                             const TrialOptions& options,
-                                             std::vector<Finding>& findings);
+Result<CoastdownSet> read_coastdown(const std::filesystem::path& path, const TrialOptions& options,
+                                    std::vector<Finding>& findings);
 
 }  // namespace awmr

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "awmr/model/steady.h"
 #include "awmr/validate/claims.h"
 
 namespace awmr {
@@ -105,20 +106,13 @@ void judge(Validation& validation, double tolerance) {
 }  // namespace
 
 std::optional<double> predicted_measurement(const Plant<double>& plant, const TrialPoint& trial) {
-  const Resistance<double>& surge = plant.surge;
-  double prediction = std::numeric_limits<double>::infinity();
-  if (trial.kind == "surge" && surge.beta > 0.0) {
-    // tau_speed = g1(u)  =>  u = (tau_speed/a1)^(1/b1)                              [paper (47)]
-    prediction = std::pow(trial.input / surge.alpha, 1.0 / surge.beta);
-  } else if (trial.kind == "turning" && plant.yaw.beta > 0.0) {
-    // tau_turn = g3(r)  =>  r = (tau_turn/a3)^(1/b3)                          [paper (62), (63)]
-    prediction = std::pow(trial.input / plant.yaw.alpha, 1.0 / plant.yaw.beta);
-  } else if (trial.kind == "coastdown" && surge.beta < 1.0) {
-    // u0^(1-b1)/(1-b1) = a1 t_a/m'  =>  t_a = m' u0^(1-b1)/((1-b1) a1)              [paper (59)]
-    const double rest = 1.0 - surge.beta;
-    prediction = plant.mass_norm * std::pow(trial.input, rest) / (rest * surge.alpha);
+  // tau_speed = 4 F' at d_r = 0, of which the dead zone takes 4 F'0               [paper (41)]
+  if (trial.kind == "surge") {
+    return steady_rate(plant.surge, trial.input - 4.0 * plant.wheel_dead_zone);
   }
-  return std::isfinite(prediction) ? std::optional(prediction) : std::nullopt;
+  if (trial.kind == "turning") return steady_rate(plant.yaw, trial.input);
+  if (trial.kind == "coastdown") return stop_time_s(plant.surge, plant.mass_norm, trial.input);
+  return std::nullopt;
 }
 
 Result<Validation> validate(const Model& model, const std::string& model_file,

@@ -1,0 +1,101 @@
+#include "identify_options.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+namespace awmr::cli {
+namespace {
+
+std::string text_of(const FamilyChoice& choice) {
+  return choice.family ? std::string(name_of(*choice.family)) : std::string("auto");
+}
+
+}  // namespace
+
+Status add_family(std::string_view text, IdentifyOptions& options) {
+  const std::size_t equals = text.find('=');
+  const std::string_view subject = equals == std::string_view::npos ? "" : text.substr(0, equals);
+  const std::string_view name = equals == std::string_view::npos ? text : text.substr(equals + 1);
+  FamilyChoice choice{std::nullopt};
+  if (name != "auto") {
+    choice.family = family_by_name(name);
+    if (!choice.family) {
+      std::vector<std::string_view> names;
+      for (const Family family : kFamilies) names.push_back(name_of(family));
+      return input_error("--family", fmt::format("no family is called '{}'; the names are {}, auto",
+                                                 name, fmt::join(names, ", ")));
+    }
+  }
+  if (subject.empty()) {
+    options.surge_family = options.yaw_family = choice;
+  } else if (subject == "surge") {
+    options.surge_family = choice;
+  } else if (subject == "yaw") {
+    if (choice.family == Family::kDeadZone) {
+      return input_error("--family",
+                         "a dead zone belongs to the wheels: ask for it as "
+                         "surge=dead-zone, the turning runs are freed of it too");
+    }
+    options.yaw_family = choice;
+  } else {
+    return input_error("--family", fmt::format("'{}' is neither surge nor yaw", subject));
+  }
+  return {};
+}
+
+Status add_asked(std::string_view name, IdentifyOptions& options) {
+  if (name == "all") {
+    for (const ParameterInfo& parameter : parameter_table()) {
+      if (!parameter.term) options.asked.push_back(parameter.id);
+    }
+    return {};
+  }
+  if (name == kInputDelayName) {
+    options.fit_input_delay = true;
+    return {};
+  }
+  std::vector<std::string> names;
+  for (const ParameterInfo& p : parameter_table()) {
+    if (!p.term) names.emplace_back(p.name);
+  }
+  names.emplace_back("all");
+  names.emplace_back(kInputDelayName);
+  for (const Channel channel : kChannels) {
+    const std::string bias = fmt::format("{}{}", kBiasPrefix, info(channel).name);
+    if (name == bias) {
+      options.biases.push_back(channel);
+      return {};
+    }
+    names.push_back(bias);
+  }
+  const auto id = parameter_by_name(name);
+  if (!id || info(*id).term) {
+    return input_error("--fit", fmt::format("no parameter is called '{}'; the names are {}", name,
+                                            fmt::join(names, ", ")));
+  }
+  options.asked.push_back(*id);
+  return {};
+}
+
+std::vector<std::pair<std::string, std::string>> described(const IdentifyOptions& options) {
+  std::vector<std::pair<std::string, std::string>> words{
+      {"method", options.method ? name_in(kMethods, *options.method) : std::string("by the data")},
+      {"noise", options.noise ? name_in(kNoises, *options.noise) : std::string("as measured")},
+      {"family",
+       fmt::format("surge={} yaw={}", text_of(options.surge_family), text_of(options.yaw_family))},
+      {"loss", name_in(kLosses, options.loss)}};
+  if (options.joint) words.emplace_back("joint", "true");
+  for (const ParameterId id : options.asked) words.emplace_back("fit", info(id).name);
+  if (options.fit_input_delay) words.emplace_back("fit", kInputDelayName);
+  for (const Channel channel : options.biases) {
+    words.emplace_back("fit", fmt::format("{}{}", kBiasPrefix, info(channel).name));
+  }
+  words.emplace_back("seed", std::to_string(options.seed));
+  words.emplace_back("starts", std::to_string(options.starts));
+  words.emplace_back("bootstrap", std::to_string(options.bootstrap));
+  return words;
+}
+
+}  // namespace awmr::cli

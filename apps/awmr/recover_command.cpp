@@ -1,0 +1,123 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "awmr/core/file.h"
+#include "awmr/identify/recover.h"
+#include "commands.h"
+#include "identify_options.h"
+#include "progress.h"
+
+namespace awmr::cli {
+namespace {
+
+constexpr Named<RecoverPlan> kPlans[] = {
+    {"tables", RecoverPlan::kTables}, {"curve", RecoverPlan::kCurve}, {"log", RecoverPlan::kLog}};
+constexpr Named<RowError> kErrors[] = {{"log-force", RowError::kLogForce},
+                                       {"force", RowError::kForce},
+                                       {"speed", RowError::kSpeed},
+                                       {"time", RowError::kTime}};
+
+std::string table_of(const Recovery& recovery) {
+  std::string text = fmt::format("{} runs, {} of them with something refused; noise {}\n",
+                                 recovery.runs, recovery.failed, recovery.noise_text);
+  text += fmt::format("  {:<24} {:>10} {:>11} {:>10} {:>10} {:>9} {:>6}\n", "", "truth", "bias",
+                      "rmse", "std error", "coverage", "runs");
+  for (const RecoveredParameter& p : recovery.parameters) {
+    text += fmt::format("  {:<24} {:>10.5g} {:>+11.2g} {:>10.2g} {:>10.2g} {:>7.1f} % {:>6}\n",
+                        info(p.id).name, p.truth, p.bias, p.rmse, p.mean_std_error,
+                        100.0 * p.coverage95, p.runs);
+  }
+  return text;
+}
+
+}  // namespace
+
+Result<Outcome> execute(const RecoverCommand& command) {
+  const auto model = read_model(command.model);
+  if (!model) return tl::unexpected(model.error());
+  const auto input = input_file(command.model);
+  if (!input) return tl::unexpected(input.error());
+  RecoverOptions options = command.recover;
+  options.identify.surge_family.family = model->surge_family;
+  options.identify.yaw_family.family = model->yaw_family;
+  Progress progress("recover", options.runs);
+  const auto recovery = recover(*model, command.model.string(), options,
+                                [&progress](int done) { progress.at(done); });
+  progress.finish();
+  if (!recovery) return tl::unexpected(recovery.error());
+  std::string summary = table_of(*recovery);
+  if (command.output) {
+    Provenance provenance{"recover", described(options.identify), {*input}};
+    provenance.options.emplace_back("plan", name_in(kPlans, options.plan));
+    provenance.options.emplace_back("runs", std::to_string(options.runs));
+    provenance.options.emplace_back("recover_seed", std::to_string(options.seed));
+    if (const auto written = write_file(*command.output, recovery_text(*recovery, provenance));
+        !written) {
+      return tl::unexpected(written.error());
+    }
+    summary += fmt::format("wrote {}\n", command.output->string());
+  }
+  return Outcome{.summary = summary};
+}
+
+void add_recover(CLI::App& app, Session& session) {
+  struct Raw {
+    RecoverCommand command;
+    std::string plan = "tables", method, noise, error;
+    std::vector<std::string> asked;
+  };
+  auto raw = std::make_shared<Raw>();
+  CLI::App* sub = add_command(
+      app, session, "recover",
+      "Simulate trials at the model's values, identify them, compare: bias and coverage",
+      "awmr recover --model model.json --runs 1000 -o recover.json", [raw]() -> Result<Outcome> {
+        RecoverOptions& options = raw->command.recover;
+        options.plan = value_in(kPlans, raw->plan);
+        if (!raw->method.empty()) options.identify.method = value_in(kMethods, raw->method);
+        if (!raw->noise.empty()) options.identify.noise = value_in(kNoises, raw->noise);
+        if (!raw->error.empty()) options.error = value_in(kErrors, raw->error);
+        for (const std::string& name : raw->asked) {
+          if (auto added = add_asked(name, options.identify); !added) {
+            return tl::unexpected(added.error());
+          }
+        }
+        return execute(raw->command);
+      });
+  RecoverCommand& command = raw->command;
+  RecoverOptions& options = command.recover;
+  sub->add_option("--model", command.model, "model.json from identify")->required();
+  sub->add_option("--runs", options.runs, "Simulated data sets (default 200)")
+      ->check(CLI::Range(2, 1000000));
+  sub->add_option("--seed", options.seed, "Default 1");
+  sub->add_option("--threads", options.threads, "Default: all; the result does not depend on it")
+      ->check(CLI::Range(1, 1024));
+  sub->add_option(
+         "--plan", raw->plan,
+         "tables (default): the model's own trials; curve: with a coast-down curve; log: a "
+         "driving log alone")
+      ->check(CLI::IsMember(names_of(kPlans)));
+  sub->add_option("--method", raw->method, "Estimator under test, as in identify")
+      ->check(CLI::IsMember(names_of(kMethods)));
+  sub->add_option("--noise", raw->noise, "Its noise model, as in identify")
+      ->check(CLI::IsMember(names_of(kNoises)));
+  sub->add_option("--error", raw->error,
+                  "Where the simulated error of table rows lies: log-force, force, speed or time "
+                  "(default: where the estimator assumes it)")
+      ->check(CLI::IsMember(names_of(kErrors)));
+  sub->add_option("--fit", raw->asked, "Parameters asked for, as in identify")->delimiter(',');
+  sub->add_flag("--joint", options.identify.joint, "As in identify");
+  sub->add_option("--speed-noise", options.sensors.speed_mps, "m/s (default 0.02)")
+      ->check(CLI::NonNegativeNumber);
+  sub->add_option("--correlation", options.sensors.correlation_s,
+                  "Correlation time of every sensor's error, s (default 0: white)")
+      ->check(CLI::NonNegativeNumber);
+  sub->add_option("--duration", options.drive.duration_s, "Of a log, s (default 60)")
+      ->check(CLI::PositiveNumber);
+  sub->add_option("--rate", options.drive.rate_hz, "Of a log, Hz (default 100)")
+      ->check(CLI::PositiveNumber);
+  sub->add_option("-o,--output", command.output, "recover.json to write");
+}
+
+}  // namespace awmr::cli

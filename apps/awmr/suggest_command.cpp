@@ -1,0 +1,113 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "awmr/core/file.h"
+#include "awmr/identify/suggest.h"
+#include "awmr/model/gains_file.h"
+#include "awmr/simulate/metrics.h"
+#include "awmr/simulate/simulate.h"
+#include "commands.h"
+
+namespace awmr::cli {
+namespace {
+
+/// A metric of one closed loop, the controller staying as it was tuned while the plant varies.
+struct LoopMetric {
+  const char* name;
+  std::optional<double> Metrics::*value;
+};
+constexpr LoopMetric kLoopMetrics[] = {{"heading_iae_degs", &Metrics::heading_iae_degs},
+                                       {"overshoot_deg", &Metrics::overshoot_deg},
+                                       {"speed_drop_mps", &Metrics::speed_drop_mps}};
+
+Status add_metrics(const SuggestCommand& command, const Model& model, SuggestOptions& options) {
+  if (!command.gains && !command.scenario) return {};
+  if (!command.gains || !command.scenario) {
+    return input_error("--gains",
+                       "--gains and --scenario go together: they are the closed loop "
+                       "whose metric is to become surer");
+  }
+  const auto plant = model.plant(command.model.string());
+  if (!plant) return tl::unexpected(plant.error());
+  const auto gains = read_gains(*command.gains);
+  if (!gains) return tl::unexpected(gains.error());
+  const auto scenario = read_scenario(*command.scenario);
+  if (!scenario) return tl::unexpected(scenario.error());
+  const auto controller = make_controller(*plant, model.vehicle, *gains);
+  for (const LoopMetric& metric : kLoopMetrics) {
+    options.metrics.push_back(
+        {metric.name, [=, sample_time_s = model.vehicle.sample_time_s, mode = command.mode,
+                       scenario = *scenario](const Plant<double>& varied) {
+           const awmr::Run run = simulate(varied, controller, scenario, mode,
+                                          {.sample_time_s = sample_time_s, .substeps = {}});
+           return (metrics_of(run, scenario, controller).*metric.value).value_or(0.0);
+         }});
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<Outcome> execute(const SuggestCommand& command) {
+  const auto model = read_model(command.model);
+  if (!model) return tl::unexpected(model.error());
+  SuggestOptions options;
+  options.parameter = command.parameter;
+  options.repeats = command.repeats;
+  if (auto added = add_metrics(command, *model, options); !added) {
+    return tl::unexpected(added.error());
+  }
+  const auto suggestion = suggest(*model, command.model.string(), options);
+  if (!suggestion) return tl::unexpected(suggestion.error());
+  std::string summary = field_sheet(*suggestion, static_cast<std::size_t>(command.most));
+  if (command.output) {
+    Provenance provenance{"suggest",
+                          {{"parameter", command.parameter.empty() ? "all" : command.parameter},
+                           {"repeats", std::to_string(command.repeats)}},
+                          {}};
+    for (const auto& path : {std::optional(command.model), command.gains, command.scenario}) {
+      if (!path) continue;
+      const auto input = input_file(*path);
+      if (!input) return tl::unexpected(input.error());
+      provenance.inputs.push_back(*input);
+    }
+    if (const auto written = write_file(*command.output, suggestion_text(*suggestion, provenance));
+        !written) {
+      return tl::unexpected(written.error());
+    }
+    summary += fmt::format("wrote {}\n", command.output->string());
+  }
+  return Outcome{.summary = summary};
+}
+
+void add_suggest(CLI::App& app, Session& session) {
+  struct Raw {
+    SuggestCommand command;
+    std::string mode = "combined";
+  };
+  auto raw = std::make_shared<Raw>();
+  CLI::App* sub = add_command(
+      app, session, "suggest", "Rank the trials that could be recorded next, as a field sheet",
+      "awmr suggest --model model.json --parameter mass_norm -o suggest.json", [raw] {
+        raw->command.mode = *yaw_mode_by_name(raw->mode);
+        return execute(raw->command);
+      });
+  SuggestCommand& command = raw->command;
+  sub->add_option("--model", command.model, "model.json from identify")->required();
+  sub->add_option("--parameter", command.parameter,
+                  "What is to become surer: a parameter, or with --gains and --scenario one of "
+                  "heading_iae_degs, overshoot_deg, speed_drop_mps (default: all, A-optimal)");
+  sub->add_option("--gains", command.gains, "gains.json of the closed loop");
+  sub->add_option("--scenario", command.scenario, "scenario.json of the closed loop");
+  sub->add_option("--mode", raw->mode, "differential, steering or combined (default)")
+      ->check(CLI::IsMember({"differential", "steering", "combined"}));
+  sub->add_option("--repeats", command.repeats, "Runs of each trial (default 3)")
+      ->check(CLI::Range(1, 1000));
+  sub->add_option("--most", command.most, "Trials on the sheet (default 8; the file has all)")
+      ->check(CLI::Range(1, 1000));
+  sub->add_option("-o,--output", command.output, "suggest.json to write");
+}
+
+}  // namespace awmr::cli

@@ -1,0 +1,67 @@
+/// Driving logs: commands and whatever was measured, by time.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "awmr/trials/trials.h"
+
+namespace awmr {
+
+/// What a log may have measured.
+enum class Channel { kX, kY, kHeading, kSpeed, kSway, kYawRate, kSteering };
+inline constexpr std::size_t kChannelCount = 7;
+inline constexpr std::array<Channel, kChannelCount> kChannels{
+    Channel::kX,    Channel::kY,       Channel::kHeading, Channel::kSpeed,
+    Channel::kSway, Channel::kYawRate, Channel::kSteering};
+
+struct ChannelInfo {
+  std::string_view column;  ///< as in the CSV: "heading_deg"
+  std::string_view name;    ///< in SI: "heading_rad"
+  std::string_view unit;    ///< "rad"
+  double to_si = 1.0;       ///< column times this
+};
+const ChannelInfo& info(Channel channel);
+
+/// A measured channel. A sensor slower than the log repeats its last value: only the row where a
+/// value is new counts as measured.
+struct Measured {
+  std::vector<double> value;  ///< by row, SI; heading unwrapped
+  std::vector<bool> fresh;    ///< by row
+  int fresh_count = 0;
+  bool held = false;  ///< repeats were found and set aside
+};
+
+struct DrivingLog {
+  std::string file;
+  std::vector<int> line;
+  std::vector<double> t_s;  ///< strictly rising
+  std::vector<double> force_left;
+  std::vector<double> force_right;
+  /// The servo's command; absent where only its angle was logged, which then drives the model.
+  std::optional<std::vector<double>> steering_command_rad;
+  std::array<std::optional<Measured>, kChannelCount> measured;
+
+  std::size_t rows() const { return t_s.size(); }
+  const std::optional<Measured>& operator[](Channel c) const {
+    return measured[static_cast<std::size_t>(c)];
+  }
+  std::optional<Measured>& operator[](Channel c) { return measured[static_cast<std::size_t>(c)]; }
+  double median_step_s() const;
+};
+
+/// Rows further apart than this many median steps are a gap: what was commanded between is unknown.
+inline constexpr double kGapSteps = 10.0;
+
+/// Columns t_s, force_left, force_right, steering_cmd_deg or steering_deg, and any of the channels;
+/// latitude_deg and longitude_deg stand in for x_m and y_m (local tangent plane at the first row).
+/// Findings: `held-samples`, `log-gap`. Errors: as read_csv; time that does not rise; nothing
+/// measured; fewer than 10 rows.
+Result<DrivingLog> read_log(const std::filesystem::path& path, const TrialOptions& options,
+                            std::vector<Finding>& findings);
+
+}  // namespace awmr

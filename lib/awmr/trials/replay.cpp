@@ -1,0 +1,119 @@
+#include "awmr/trials/replay.h"
+
+#include <limits>
+#include <optional>
+
+namespace awmr {
+namespace {
+
+constexpr std::size_t kShortestWindow = 3;
+
+/// The first measured value at or after `begin`, with its row.
+std::optional<std::size_t> first_fresh(const LogWindow& window, Channel channel, std::size_t from) {
+  const auto& measured = (*window.log)[channel];
+  if (!measured) return std::nullopt;
+  for (std::size_t row = std::max(from, window.begin); row < window.end; ++row) {
+    if (measured->fresh[row]) return row;
+  }
+  return std::nullopt;
+}
+
+/// The slope of a channel over about a fifth of a second from the window's begin.
+std::optional<double> first_slope(const LogWindow& window, Channel channel) {
+  const auto first = first_fresh(window, channel, window.begin);
+  if (!first) return std::nullopt;
+  const DrivingLog& log = *window.log;
+  constexpr double kSpan_s = 0.2;
+  for (auto row = first_fresh(window, channel, *first + 1); row;
+       row = first_fresh(window, channel, *row + 1)) {
+    if (log.t_s[*row] - log.t_s[*first] < kSpan_s && *row + 1 < window.end) continue;
+    return (log[channel]->value[*row] - log[channel]->value[*first]) /
+           (log.t_s[*row] - log.t_s[*first]);
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::vector<LogWindow> windows_of(const DrivingLog& log, double longest_s) {
+  std::vector<LogWindow> windows;
+  const double gap_s = kGapSteps * log.median_step_s();
+  std::size_t begin = 0;
+  const auto close = [&](std::size_t end) {
+    if (end - begin >= kShortestWindow) windows.push_back({&log, begin, end});
+    begin = end;
+  };
+  std::size_t piece_end = 0;  // of the piece without a gap that `begin` is in
+  for (std::size_t row = 1; row <= log.rows(); ++row) {
+    if (row == log.rows() || log.t_s[row] - log.t_s[row - 1] > gap_s) {
+      piece_end = row;
+      // Equal parts, so that no short rest remains.
+      const double span_s = log.t_s[piece_end - 1] - log.t_s[begin];
+      const auto parts = static_cast<std::size_t>(std::max(1.0, std::ceil(span_s / longest_s)));
+      const std::size_t first = begin;
+      for (std::size_t part = 1; part <= parts; ++part) {
+        close(first + (piece_end - first) * part / parts);
+      }
+    }
+  }
+  return windows;
+}
+
+HeldSignal::HeldSignal(const std::vector<double>& t_s, const std::vector<double>& value)
+    : t_s_(&t_s), value_(&value), integral_(t_s.size(), 0.0) {
+  for (std::size_t i = 1; i < t_s.size(); ++i) {
+    integral_[i] = integral_[i - 1] + value[i - 1] * (t_s[i] - t_s[i - 1]);
+  }
+}
+
+std::size_t HeldSignal::row_at(double t_s) const {
+  const auto after = std::upper_bound(t_s_->begin(), t_s_->end(), t_s);
+  return after == t_s_->begin() ? 0 : static_cast<std::size_t>(after - t_s_->begin()) - 1;
+}
+
+double HeldSignal::integral(double t_s) const {
+  const std::size_t row = row_at(t_s);
+  return integral_[row] + (*value_)[row] * (t_s - (*t_s_)[row]);
+}
+
+double HeldSignal::at(double t_s) const { return (*value_)[row_at(t_s)]; }
+
+LogSignals::LogSignals(const DrivingLog& driving_log)
+    : log(&driving_log),
+      left(driving_log.t_s, driving_log.force_left),
+      right(driving_log.t_s, driving_log.force_right),
+      steering(driving_log.t_s, driving_log.steering_command_rad
+                                    ? *driving_log.steering_command_rad
+                                    : driving_log[Channel::kSteering]->value) {}
+
+State<double> measured_start(const LogWindow& window) {
+  const DrivingLog& log = *window.log;
+  const auto first = [&](Channel channel) -> std::optional<double> {
+    const auto row = first_fresh(window, channel, window.begin);
+    if (!row) return std::nullopt;
+    return log[channel]->value[*row];
+  };
+  const auto x_rate = first_slope(window, Channel::kX);
+  const auto y_rate = first_slope(window, Channel::kY);
+  const bool course = x_rate && y_rate;
+  State<double> s{};
+  s.x_m = first(Channel::kX).value_or(0.0);
+  s.y_m = first(Channel::kY).value_or(0.0);
+  s.psi_rad = first(Channel::kHeading).value_or(course ? std::atan2(*y_rate, *x_rate) : 0.0);
+  s.u_mps = first(Channel::kSpeed).value_or(course ? std::hypot(*x_rate, *y_rate) : 0.0);
+  s.v_mps = first(Channel::kSway).value_or(0.0);
+  s.r_radps =
+      first(Channel::kYawRate).value_or(first_slope(window, Channel::kHeading).value_or(0.0));
+  s.steering_rad =
+      first(Channel::kSteering)
+          .value_or(log.steering_command_rad ? (*log.steering_command_rad)[window.begin] : 0.0);
+  return s;
+}
+
+double replay_step_s(const Plant<double>& plant) {
+  double fastest_s = plant.steering_time_constant_s;
+  if (plant.sway_alpha > 0.0) fastest_s = std::min(fastest_s, plant.mass_norm / plant.sway_alpha);
+  return 0.25 * fastest_s;
+}
+
+}  // namespace awmr

@@ -1,0 +1,136 @@
+/// The model driven by a log's commands. A template on the scalar: predictions in double,
+/// derivatives in ceres::Jet.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "awmr/model/runge_kutta.h"
+#include "awmr/trials/log.h"
+
+namespace awmr {
+
+/// Rows [begin, end) of a log, without a gap between.
+struct LogWindow {
+  const DrivingLog* log = nullptr;
+  std::size_t begin = 0;
+  std::size_t end = 0;
+};
+
+/// The log cut at its gaps, and into pieces of at most `longest_s`; pieces shorter than 3 rows are
+/// left out.
+std::vector<LogWindow> windows_of(const DrivingLog& log, double longest_s);
+
+/// A command that was held from row to row, as its integral over time: the mean over any span is
+/// then a difference, whose derivative by a delay exists although the command jumps.
+class HeldSignal {
+ public:
+  HeldSignal(const std::vector<double>& t_s, const std::vector<double>& value);
+  /// The integral up to t, a time inside or outside of the log; beyond its ends the end's value
+  /// holds.
+  double integral(double t_s) const;
+  double at(double t_s) const;
+
+ private:
+  std::size_t row_at(double t_s) const;
+  const std::vector<double>* t_s_;
+  const std::vector<double>* value_;
+  std::vector<double> integral_;
+};
+
+struct LogSignals {
+  explicit LogSignals(const DrivingLog& log);
+  const DrivingLog* log;
+  HeldSignal left;
+  HeldSignal right;
+  HeldSignal steering;  ///< the command, or the angle where only that was logged
+};
+
+/// The value of a scalar; a type that carries derivatives has its own overload beside it.
+inline double value_of(double x) { return x; }
+
+/// Mean of a command over [t, t + h] as it arrives `delay_s` later.
+template <class T>
+T delayed_mean(const HeldSignal& signal, double t_s, double h_s, const T& delay_s) {
+  // mean = (U(t + h - d) - U(t - d))/h, whose derivative by d is -(u(t + h - d) - u(t - d))/h. The
+  // linear term that carries it to T is zero in value.
+  const double d = value_of(delay_s);
+  const double mean = (signal.integral(t_s + h_s - d) - signal.integral(t_s - d)) / h_s;
+  const double slope = -(signal.at(t_s + h_s - d) - signal.at(t_s - d)) / h_s;
+  return T(mean) + slope * (delay_s - T(d));
+}
+
+/// Runs the model over a window from `start` and calls visit(row, state) at every row. Steps are at
+/// most `longest_step_s`. `delay` null: none.
+template <class T, class Visit>
+void replay(const LogSignals& signals, std::size_t begin, std::size_t end, Plant<T> plant,
+            const T* delay_s, double longest_step_s, State<T> state, Visit visit) {
+  const DrivingLog& log = *signals.log;
+  const bool servo = log.steering_command_rad.has_value();
+  // A logged angle is what it is: no stop, no lag.
+  if (!servo) plant.steering_max_rad = T(10.0);
+  const auto angle_at = [&](std::size_t row, double share) {
+    const std::vector<double>& angle = log[Channel::kSteering]->value;
+    return angle[row] + share * (angle[std::min(row + 1, log.rows() - 1)] - angle[row]);
+  };
+  for (std::size_t row = begin; row < end; ++row) {
+    if (!servo) state.steering_rad = T(angle_at(row, 0.0));
+    visit(row, state);
+    if (row + 1 == end) return;
+    const double span_s = log.t_s[row + 1] - log.t_s[row];
+    const int steps = std::max(1, static_cast<int>(std::ceil(span_s / longest_step_s - 1e-9)));
+    const double h = span_s / steps;
+    for (int i = 0; i < steps; ++i) {
+      const double at_s = log.t_s[row] + i * h;
+      SideForces<T> force{T(log.force_left[row]), T(log.force_right[row])};
+      if (delay_s) {
+        force = {delayed_mean(signals.left, at_s, h, *delay_s),
+                 delayed_mean(signals.right, at_s, h, *delay_s)};
+      }
+      T steering{};
+      if (!servo) {
+        steering = T(angle_at(row, (i + 0.5) / steps));
+        state.steering_rad = steering;
+      } else {
+        steering = delay_s ? delayed_mean(signals.steering, at_s, h, *delay_s)
+                           : T((*log.steering_command_rad)[row]);
+      }
+      state = rk4_step(state, T(h), [&](const State<T>& at) {
+        return state_rates(plant, at, force, steering);
+      });
+    }
+  }
+}
+
+/// What a channel of the log would have read in this state.
+template <class T>
+const T& channel_of(const State<T>& s, Channel channel) {
+  switch (channel) {
+    case Channel::kX:
+      return s.x_m;
+    case Channel::kY:
+      return s.y_m;
+    case Channel::kHeading:
+      return s.psi_rad;
+    case Channel::kSpeed:
+      return s.u_mps;
+    case Channel::kSway:
+      return s.v_mps;
+    case Channel::kYawRate:
+      return s.r_radps;
+    case Channel::kSteering:
+      break;
+  }
+  return s.steering_rad;
+}
+
+/// A start for a window from what was measured in it: first values, and what follows from others
+/// (yaw rate from heading, heading and speed from position); the rest at rest.
+State<double> measured_start(const LogWindow& window);
+
+/// RK4 at a quarter of the plant's fastest fixed time constant (servo, sway) errs by 3e-5 of an
+/// excursion a time constant.
+double replay_step_s(const Plant<double>& plant);
+
+}  // namespace awmr

@@ -1,0 +1,155 @@
+#include "awmr/trials/steady.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "awmr/core/units.h"
+
+namespace awmr {
+namespace {
+
+/// Rows [begin, end).
+struct Stretch {
+  std::size_t begin = 0;
+  std::size_t end = 0;
+};
+
+const std::vector<double>& steering_of(const DrivingLog& log) {
+  return log[Channel::kSteering] ? log[Channel::kSteering]->value : *log.steering_command_rad;
+}
+
+/// The command, not the angle, tells where it changed; the angle's noise would.
+const std::vector<double>& steering_command_of(const DrivingLog& log) {
+  return log.steering_command_rad ? *log.steering_command_rad : log[Channel::kSteering]->value;
+}
+
+std::vector<Stretch> constant_commands(const DrivingLog& log, double same) {
+  const std::vector<double>& steering = steering_command_of(log);
+  const double gap_s = kGapSteps * log.median_step_s();
+  std::vector<Stretch> stretches;
+  Stretch stretch{0, 1};
+  for (std::size_t i = 1; i <= log.rows(); ++i) {
+    const auto moved = [&](const std::vector<double>& signal) {
+      return std::abs(signal[i] - signal[stretch.begin]) > same;
+    };
+    if (i < log.rows() && !moved(log.force_left) && !moved(log.force_right) && !moved(steering) &&
+        log.t_s[i] - log.t_s[i - 1] <= gap_s) {
+      continue;
+    }
+    stretch.end = i;
+    stretches.push_back(stretch);
+    stretch.begin = i;
+  }
+  return stretches;
+}
+
+/// Mean, rise from end to end and their errors of a rate, by the straight line through it.
+struct Line {
+  int count = 0;
+  double mean = 0.0;
+  double rise = 0.0;
+  double mean_error = 0.0;
+  double rise_error = 0.0;
+};
+
+Line line_through(const DrivingLog& log, const Measured& rate, Stretch s) {
+  double t = 0.0;
+  double w = 0.0;
+  int n = 0;
+  for (std::size_t i = s.begin; i < s.end; ++i) {
+    if (!rate.fresh[i]) continue;
+    t += log.t_s[i];
+    w += rate.value[i];
+    ++n;
+  }
+  if (n < 5) return {};
+  t /= n;
+  w /= n;
+  double tt = 0.0;
+  double tw = 0.0;
+  double ww = 0.0;
+  for (std::size_t i = s.begin; i < s.end; ++i) {
+    if (!rate.fresh[i]) continue;
+    const double dt = log.t_s[i] - t;
+    const double dw = rate.value[i] - w;
+    tt += dt * dt;
+    tw += dt * dw;
+    ww += dw * dw;
+  }
+  const double slope = tw / tt;
+  const double variance = std::max(0.0, (ww - slope * tw) / (n - 2));
+  const double span_s = log.t_s[s.end - 1] - log.t_s[s.begin];
+  return {n, w, slope * span_s, std::sqrt(variance / n), std::sqrt(variance / tt) * span_s};
+}
+
+bool is_steady(const Line& line, double drift) {
+  if (line.count == 0) return false;
+  return std::abs(line.rise) <= drift * std::abs(line.mean) ||
+         std::abs(line.rise) <= 3.0 * line.rise_error;
+}
+
+double mean_of(const std::vector<double>& signal, Stretch s) {
+  double sum = 0.0;
+  for (std::size_t i = s.begin; i < s.end; ++i) sum += signal[i];
+  return sum / static_cast<double>(s.end - s.begin);
+}
+
+}  // namespace
+
+SteadyRuns steady_runs(const DrivingLog& log, const Vehicle& vehicle, const SteadyRule& rule,
+                       std::vector<Finding>& findings) {
+  SteadyRuns runs;
+  runs.surge.file = runs.turning.file = log.file;
+  for (Stretch stretch : constant_commands(log, rule.same)) {
+    const double from_s = log.t_s[stretch.begin] + rule.settling_s;
+    while (stretch.begin < stretch.end && log.t_s[stretch.begin] < from_s) ++stretch.begin;
+    if (stretch.begin >= stretch.end ||
+        log.t_s[stretch.end - 1] - log.t_s[stretch.begin] < rule.shortest_s) {
+      continue;
+    }
+    const double left = mean_of(log.force_left, stretch);
+    const double right = mean_of(log.force_right, stretch);
+    const double steering_rad = mean_of(steering_of(log), stretch);
+    const bool turning = std::abs(steering_rad) > rule.straight_rad;
+    const auto& rate = log[turning ? Channel::kYawRate : Channel::kSpeed];
+    if (!rate || !(left > 0.0) || std::abs(left - right) > rule.same) continue;
+    const Line line = line_through(log, *rate, stretch);
+    if (!is_steady(line, rule.drift)) continue;
+    // At rest within the scatter: no information for a resistance curve.
+    if (!(std::abs(line.mean) > 3.0 * line.mean_error) || line.mean == 0.0) continue;
+    if (turning ? line.mean * steering_rad < 0.0 : line.mean < 0.0) continue;
+
+    const int row = log.line[stretch.begin];
+    const double force = 0.5 * (left + right);
+    const double rate_value = std::abs(line.mean);
+    if (turning) {
+      // tau_turn = 2 l_f F' sin d_r                                             [paper (62)]
+      const double angle = std::abs(steering_rad);
+      runs.turning.rows.push_back(
+          {.line = row,
+           .steering_rad = angle,
+           .wheel_force = force,
+           .tau_turn_m = 2.0 * vehicle.front_axle_m * force * std::sin(angle),
+           .yaw_rate_radps = rate_value,
+           .turns = {},
+           .elapsed_s = {}});
+    } else {
+      runs.surge.rows.push_back({row, 4.0 * force, rate_value, {}, {}});
+    }
+    const SteadySegment segment{
+        log.t_s[stretch.begin], log.t_s[stretch.end - 1], row, turning, rate_value,
+        line.mean_error};
+    runs.segments.push_back(segment);
+    findings.push_back(
+        {log.file, row, Severity::kNote, "steady-segment",
+         fmt::format("steady from {:.3f} to {:.3f} s: {} run, F' = {:.4g}, steering {:.3g} deg, "
+                     "{} {:.4g} +- {:.2g} {}",
+                     segment.begin_s, segment.end_s, turning ? "turning" : "surge", force,
+                     degrees(steering_rad), turning ? "yaw rate" : "speed", rate_value,
+                     line.mean_error, turning ? "rad/s" : "m/s")});
+  }
+  return runs;
+}
+
+}  // namespace awmr

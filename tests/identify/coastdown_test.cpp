@@ -1,0 +1,200 @@
+/// m' from coast-down curves: exact curves, several runs, an unknown start, no surge law, both
+/// kinds.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "awmr/identify/synthetic.h"
+#include "awmr/model/steady.h"
+#include "identify/synthetic.h"
+
+namespace awmr::testing {
+namespace {
+
+Plant<double> plant(const Truth& t) {
+  return {.surge = {.alpha = t.a1, .beta = t.b1},
+          .yaw = {.alpha = t.a3, .beta = t.b3},
+          .sway_alpha = 3.0,
+          .mass_norm = t.mass_norm,
+          .inertia_norm = t.mass_norm * 0.196,
+          .front_axle_m = 0.35,
+          .half_track_m = 0.36,
+          .steering_max_rad = 0.35,
+          .steering_max_rate_radps = 5.0,
+          .steering_time_constant_s = 0.02};
+}
+
+/// u(t)^(1-b) = u0^(1-b) - (1-b)(a/m') t                                         [paper (58)]
+double closed_form(const Truth& t, double u0, double time_s) {
+  const double s = 1.0 - t.b1;
+  const double base = std::pow(u0, s) - s * t.a1 / t.mass_norm * time_s;
+  return base > 0.0 ? std::pow(base, 1.0 / s) : 0.0;
+}
+
+CoastCurve exact_curve(const Truth& t, double u0, double plateau_s) {
+  CoastCurve curve{"curve.csv", 2, {}, {}};
+  for (int i = 0; i < 150; ++i) {
+    const double time_s = 0.01 * i;
+    curve.t_s.push_back(5.0 + time_s);
+    curve.speed_mps.push_back(closed_form(t, u0, std::max(0.0, time_s - plateau_s)));
+  }
+  return curve;
+}
+
+TrialData surge_only(const Truth& t, double sigma, std::uint64_t seed) {
+  TrialData data = synthetic(t, sigma, seed);
+  data.turning.reset();
+  data.coastdown.reset();
+  return data;
+}
+
+TEST(CoastDown, AnExactCurveGivesTheMass) {
+  for (const Truth& t : kTruths) {
+    TrialData data = surge_only(t, 0.0, 1);
+    data.curves = {exact_curve(t, 1.5, 0.0), exact_curve(t, 0.9, 0.0)};
+    const auto result = identify(vehicle(), data, {}, {});
+    ASSERT_TRUE(result);
+    EXPECT_TRUE(result->refused.empty());
+    EXPECT_NEAR(*result->model[ParameterId::kMassNorm].value / t.mass_norm, 1.0, 1e-8);
+    EXPECT_EQ(result->model[ParameterId::kMassNorm].method, "coast-down curve");
+  }
+}
+
+TEST(CoastDown, FindsTheMomentOfMotorsOffInACurveRecordedFromBefore) {
+  const Truth& t = kTruths[1];
+  TrialData data = surge_only(t, 0.0, 1);
+  data.curves = {exact_curve(t, 1.5, 0.4037)};
+  const auto result = identify(vehicle(), data, {}, {});
+  ASSERT_TRUE(result);
+  EXPECT_NEAR(*result->model[ParameterId::kMassNorm].value / t.mass_norm, 1.0, 1e-6);
+}
+
+TEST(CoastDown, TheClosedFormIsTheIntegratedOneForOtherFamiliesToo) {
+  // c + alpha w: u(t) = (u0 + c/alpha) e^(-alpha t/m') - c/alpha until rest. RK4 at 2 ms against
+  // it.
+  const double alpha = 1.1, c = 0.2, m = 0.3, u0 = 1.4;
+  TrialData data;
+  data.surge = TrialSet<SurgeRow>{"surge.csv", {}, 0};
+  for (int i = 1; i <= 10; ++i) {
+    data.surge->rows.push_back({i + 1, c + alpha * 0.15 * i, 0.15 * i, {}, {}});
+  }
+  CoastCurve curve{"curve.csv", 2, {}, {}};
+  for (int i = 0; i < 100; ++i) {
+    const double time_s = 0.01 * i;
+    curve.t_s.push_back(time_s);
+    curve.speed_mps.push_back(
+        std::max(0.0, (u0 + c / alpha) * std::exp(-alpha * time_s / m) - c / alpha));
+  }
+  data.curves = {curve};
+  IdentifyOptions options;
+  options.surge_family.family = Family::kCoulombLinear;
+  const auto result = identify(vehicle(), data, options, {});
+  ASSERT_TRUE(result);
+  // The stop falls inside a step: an error of about c h/m' = 1e-3 m/s in one row of a hundred.
+  EXPECT_NEAR(*result->model[ParameterId::kMassNorm].value / m, 1.0, 1e-3);
+}
+
+TEST(CoastDown, IsManyTimesSurerThanAStopTime) {
+  const Truth& t = kTruths[0];
+  TrialData stop = surge_only(t, 0.02, 7);
+  stop.coastdown = TrialSet<StopTimeRow>{
+      "stop.csv", {{2, 1.6, *stop_time_s(plant(t).surge, t.mass_norm, 1.6)}}, 0};
+  TrialData curve = surge_only(t, 0.02, 7);
+  Random random(1, 1);
+  curve.curves = {simulate_coastdown(plant(t), 1.6, 2.0, 100.0, 0.02, 0.0, random)};
+  const auto by_stop = identify(vehicle(), stop, {}, {});
+  const auto by_curve = identify(vehicle(), curve, {}, {});
+  ASSERT_TRUE(by_stop && by_curve);
+  const auto relative = [](const Model& m) {
+    return *m[ParameterId::kMassNorm].std_error / *m[ParameterId::kMassNorm].value;
+  };
+  // d ln m'/d b1 is about -8 for the stop time; the curve's is below 1.
+  EXPECT_LT(relative(by_curve->model), 0.4 * relative(by_stop->model));
+}
+
+TEST(CoastDown, WithoutASurgeLawRefusesTheMassAndTellsTheRatio) {
+  const Truth& t = kTruths[1];
+  TrialData data;
+  data.curves = {exact_curve(t, 1.5, 0.0)};
+  const auto result = identify(vehicle(), data, {}, {});
+  ASSERT_TRUE(result);
+  EXPECT_THAT(result->refused,
+              ::testing::ElementsAre(ParameterId::kMassNorm, ParameterId::kInertiaNorm));
+  EXPECT_NEAR(*result->model[ParameterId::kSurgeBeta].value, t.b1, 1e-6);
+  bool told = false;
+  for (const Finding& f : result->model.findings) {
+    told = told ||
+           (f.code == "not-identifiable" && f.message.find("m'/a1 = 0.5556") != std::string::npos);
+  }
+  EXPECT_TRUE(told);  // 0.5/0.9
+}
+
+TEST(CoastDown, SetsASpeedThatDoesNotFallAside) {
+  TrialData data = surge_only(kTruths[0], 0.0, 1);
+  CoastCurve flat{"curve.csv", 2, {}, {}};
+  Random random(3, 1);
+  for (int i = 0; i < 100; ++i) {
+    flat.t_s.push_back(0.01 * i);
+    flat.speed_mps.push_back(1.0 + 0.01 * random.normal());
+  }
+  data.curves = {flat};
+  const auto result = identify(vehicle(), data, {}, {});
+  ASSERT_TRUE(result);
+  EXPECT_THAT(result->refused,
+              ::testing::ElementsAre(ParameterId::kMassNorm, ParameterId::kInertiaNorm));
+}
+
+TEST(CoastDown, TwoKindsAreWeighedTogetherAndTheirContradictionIsSaid) {
+  const Truth& t = kTruths[1];
+  TrialData data = surge_only(t, 0.01, 2);
+  Random random(2, 1);
+  data.curves = {simulate_coastdown(plant(t), 1.5, 1.5, 100.0, 0.02, 0.0, random)};
+  const double stop_s = *stop_time_s(plant(t).surge, t.mass_norm, 1.5);
+  data.coastdown = TrialSet<StopTimeRow>{"stop.csv", {{2, 1.5, stop_s, 0.01}}, 0};
+  const auto agree = identify(vehicle(), data, {}, {});
+  ASSERT_TRUE(agree);
+  EXPECT_EQ(agree->model[ParameterId::kMassNorm].method, "stop time and coast-down curve");
+  EXPECT_TRUE(agree->model[ParameterId::kMassNorm].ci95->contains(t.mass_norm));
+  const auto disagreement = [](const Model& model) {
+    return std::any_of(model.findings.begin(), model.findings.end(),
+                       [](const Finding& f) { return f.code == "estimates-disagree"; });
+  };
+  EXPECT_FALSE(disagreement(agree->model));
+  data.coastdown->rows[0].stop_time_s *= 2.0;
+  EXPECT_TRUE(disagreement(identify(vehicle(), data, {}, {})->model));
+}
+
+TEST(CoastDown, JointlyTheCurveSharpensTheExponentToo) {
+  const Truth& t = kTruths[0];
+  TrialData data = surge_only(t, 0.03, 9);
+  Random random(9, 1);
+  for (int i = 0; i < 3; ++i) {
+    data.curves.push_back(simulate_coastdown(plant(t), 1.6, 1.0, 100.0, 0.01, 0.0, random));
+  }
+  IdentifyOptions joint;
+  joint.joint = true;
+  const auto apart = identify(vehicle(), data, {}, {});
+  const auto together = identify(vehicle(), data, joint, {});
+  ASSERT_TRUE(apart && together);
+  for (const ParameterId id : {ParameterId::kSurgeBeta, ParameterId::kMassNorm}) {
+    EXPECT_LT(*together->model[id].std_error, *apart->model[id].std_error) << info(id).name;
+    const Interval& ci = *together->model[id].ci95;
+    const double truth = id == ParameterId::kSurgeBeta ? t.b1 : t.mass_norm;
+    EXPECT_TRUE(ci.contains(truth)) << info(id).name << " [" << ci.lo << ", " << ci.hi << "]";
+  }
+}
+
+TEST(CoastDown, CorrelatedNoiseWidensTheInterval) {
+  const Truth& t = kTruths[0];
+  TrialData data = surge_only(t, 0.0, 1);
+  Random random(4, 1);
+  data.curves = {simulate_coastdown(plant(t), 1.6, 2.0, 100.0, 0.02, 0.1, random)};
+  const auto result = identify(vehicle(), data, {}, {});
+  ASSERT_TRUE(result);
+  EXPECT_TRUE(std::any_of(result->model.findings.begin(), result->model.findings.end(),
+                          [](const Finding& f) { return f.code == "coloured-residuals"; }));
+}
+
+}  // namespace
+}  // namespace awmr::testing

@@ -1,0 +1,255 @@
+/// The fit of driving logs: truth recovered, subsets of channels, gaps, and what a log cannot show.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "awmr/identify/recover.h"
+#include "awmr/identify/synthetic.h"
+#include "identify/synthetic.h"
+
+namespace awmr::testing {
+namespace {
+
+Vehicle robot() {
+  Vehicle v = vehicle();
+  v.sway_alpha.reset();
+  v.front_axle_m = 0.35;
+  v.half_track_m = 0.36;
+  v.wheel_force = {-1.0, 1.0};
+  v.steering_max_deg = 20.0;
+  v.steering_max_rate_degps = 300.0;
+  v.sample_time_s = 0.01;
+  return v;
+}
+
+Plant<double> plant(const Truth& t) {
+  return {.surge = {.alpha = t.a1, .beta = t.b1},
+          .yaw = {.alpha = t.a3, .beta = t.b3},
+          .sway_alpha = 3.0,
+          .mass_norm = t.mass_norm,
+          .inertia_norm = 0.16 * t.mass_norm,
+          .front_axle_m = 0.35,
+          .half_track_m = 0.36,
+          .steering_max_rad = 0.349065850398866,
+          .steering_max_rate_radps = 5.23598775598299,
+          .steering_time_constant_s = 0.02};
+}
+
+DrivingLog drive(const Truth& t, std::uint64_t seed, DrivePlan plan = {.duration_s = 20.0}) {
+  Random random(seed, 5);
+  plan.drive = seed;
+  return simulate_log(plant(t), robot(), plan, {}, random);
+}
+
+bool refused(const Identification& result, ParameterId id) {
+  return std::find(result.refused.begin(), result.refused.end(), id) != result.refused.end();
+}
+
+/// Within `deviations` of its own standard error.
+void expect_recovered(const Identification& result, ParameterId id, double truth,
+                      double deviations) {
+  const Estimate& estimate = result.model[id];
+  ASSERT_TRUE(estimate.value && estimate.std_error) << info(id).name;
+  EXPECT_NEAR(*estimate.value, truth, deviations * *estimate.std_error) << info(id).name;
+}
+
+TEST(Log, GivesEveryParameterFromNothingElse) {
+  for (const Truth& t : kTruths) {
+    TrialData data;
+    data.logs = {drive(t, 3)};
+    const auto result = identify(robot(), data, {}, {});
+    ASSERT_TRUE(result);
+    EXPECT_TRUE(result->refused.empty());
+    // Eight parameters, two truths: 4.5 deviations make a chance of 1e-4 for the test to fail.
+    expect_recovered(*result, ParameterId::kSurgeAlpha, t.a1, 4.5);
+    expect_recovered(*result, ParameterId::kSurgeBeta, t.b1, 4.5);
+    expect_recovered(*result, ParameterId::kYawAlpha, t.a3, 4.5);
+    expect_recovered(*result, ParameterId::kYawBeta, t.b3, 4.5);
+    expect_recovered(*result, ParameterId::kMassNorm, t.mass_norm, 4.5);
+    expect_recovered(*result, ParameterId::kInertiaNorm, 0.16 * t.mass_norm, 4.5);
+    const auto& report = result->model.reports.back();
+    EXPECT_EQ(report.estimator, "trajectory");
+    EXPECT_GE(report.starts.size(), 7U);
+    EXPECT_EQ(std::count_if(report.starts.begin(), report.starts.end(),
+                            [](const SearchStart& s) { return s.chosen; }),
+              1);
+  }
+}
+
+TEST(Log, SpeedAloneShowsSurgeAndRefusesYaw) {
+  TrialData data;
+  data.logs = {drive(kTruths[1], 4, {.duration_s = 20.0, .straight = true})};
+  for (const Channel c : {Channel::kX, Channel::kY, Channel::kHeading, Channel::kYawRate}) {
+    data.logs[0][c].reset();
+  }
+  const auto result = identify(robot(), data, {}, {});
+  ASSERT_TRUE(result);
+  expect_recovered(*result, ParameterId::kMassNorm, kTruths[1].mass_norm, 4.5);
+  expect_recovered(*result, ParameterId::kSurgeBeta, kTruths[1].b1, 4.5);
+  for (const ParameterId id : {ParameterId::kYawAlpha, ParameterId::kYawBeta,
+                               ParameterId::kInertiaNorm, ParameterId::kSwayAlpha}) {
+    EXPECT_TRUE(refused(*result, id)) << info(id).name;
+    EXPECT_FALSE(result->model[id].value) << info(id).name;
+  }
+  // The given servo lag stays, and that the log does not show it is said.
+  EXPECT_TRUE(refused(*result, ParameterId::kSteeringTimeConstant));
+  EXPECT_EQ(result->model[ParameterId::kSteeringTimeConstant].value, 0.02);
+}
+
+TEST(Log, AtOneConstantThrustShowsOnlyACombinationOfAlphaAndBeta) {
+  TrialData data;
+  data.logs = {drive(kTruths[0], 5, {.duration_s = 10.0, .hold_s = 100.0, .straight = true})};
+  DrivingLog& log = data.logs[0];
+  // From steady speed on: the start is cut off.
+  const auto keep = [](std::vector<double>& v) { v.erase(v.begin(), v.begin() + 300); };
+  log.line.erase(log.line.begin(), log.line.begin() + 300);
+  keep(log.t_s);
+  keep(log.force_left);
+  keep(log.force_right);
+  keep(*log.steering_command_rad);
+  for (auto& measured : log.measured) {
+    if (!measured) continue;
+    keep(measured->value);
+    measured->fresh.erase(measured->fresh.begin(), measured->fresh.begin() + 300);
+  }
+  const auto result = identify(robot(), data, {}, {});
+  ASSERT_TRUE(result);
+  EXPECT_TRUE(refused(*result, ParameterId::kSurgeBeta));
+  EXPECT_TRUE(refused(*result, ParameterId::kMassNorm));
+}
+
+TEST(Log, GapsAndIrregularSamplesAreNoHindrance) {
+  const Truth& t = kTruths[1];
+  DrivingLog full = drive(t, 6, {.duration_s = 30.0});
+  DrivingLog log;
+  log.file = full.file;
+  log.steering_command_rad.emplace();
+  Random random(1, 9);
+  for (const Channel c : kChannels) {
+    if (full[c]) log[c] = Measured{{}, {}, 0, full[c]->held};
+  }
+  for (std::size_t i = 0; i < full.rows(); ++i) {
+    const bool gap = i > 1200 && i < 1600;
+    // A third of the rows is lost, but never one in which the command changes.
+    const bool lost = i % 150 != 0 && random.uniform() < 0.33;
+    if (gap || lost) continue;
+    log.line.push_back(full.line[i]);
+    log.t_s.push_back(full.t_s[i]);
+    log.force_left.push_back(full.force_left[i]);
+    log.force_right.push_back(full.force_right[i]);
+    log.steering_command_rad->push_back((*full.steering_command_rad)[i]);
+    for (const Channel c : kChannels) {
+      if (!full[c]) continue;
+      log[c]->value.push_back(full[c]->value[i]);
+      log[c]->fresh.push_back(full[c]->fresh[i]);
+      log[c]->fresh_count += full[c]->fresh[i] ? 1 : 0;
+    }
+  }
+  TrialData data;
+  data.logs = {log};
+  const auto result = identify(robot(), data, {}, {});
+  ASSERT_TRUE(result);
+  expect_recovered(*result, ParameterId::kMassNorm, t.mass_norm, 4.5);
+  expect_recovered(*result, ParameterId::kInertiaNorm, 0.16 * t.mass_norm, 4.5);
+}
+
+TEST(Log, FindsADelayAndABias) {
+  const Truth& t = kTruths[1];
+  DrivingLog log = drive(t, 8);
+  // The commands were logged three samples before they reached the wheels: in the log they stand
+  // early.
+  const auto early = [](std::vector<double>& v) {
+    std::rotate(v.begin(), v.begin() + 3, v.end());
+    std::fill(v.end() - 3, v.end(), v[v.size() - 4]);
+  };
+  early(log.force_left);
+  early(log.force_right);
+  early(*log.steering_command_rad);
+  for (double& r : log[Channel::kYawRate]->value) r += 0.05;
+  TrialData data;
+  data.logs = {log};
+  IdentifyOptions options;
+  options.fit_input_delay = true;
+  options.biases = {Channel::kYawRate};
+  const auto result = identify(robot(), data, options, {});
+  ASSERT_TRUE(result);
+  const EstimatorReport& report = result->model.reports.back();
+  const auto parameter = [&](const std::string& name) {
+    for (const EstimatorParameter& p : report.parameters) {
+      if (p.name == name) return p;
+    }
+    ADD_FAILURE() << name;
+    return EstimatorParameter{};
+  };
+  EXPECT_NEAR(parameter("input_delay_s").value, 0.03, 4.5 * *parameter("input_delay_s").std_error);
+  EXPECT_NEAR(parameter("bias.yaw_rate_radps").value, 0.05,
+              4.5 * *parameter("bias.yaw_rate_radps").std_error);
+  EXPECT_LT(*parameter("input_delay_s").std_error, 0.003);
+}
+
+TEST(Log, IsTheSameWhateverTheThreads) {
+  TrialData data;
+  data.logs = {drive(kTruths[0], 11, {.duration_s = 12.0})};
+  IdentifyOptions one;
+  one.threads = 1;
+  IdentifyOptions three;
+  three.threads = 3;
+  EXPECT_EQ(model_text(identify(robot(), data, one, {})->model),
+            model_text(identify(robot(), data, three, {})->model));
+}
+
+TEST(Log, AgainstTablesAContradictionIsSaid) {
+  const Truth& t = kTruths[0];
+  TrialData data = synthetic(t, 0.01, 3);
+  data.coastdown.reset();
+  data.logs = {drive({t.a1 * 1.3, t.b1, t.a3, t.b3, t.mass_norm}, 3)};
+  const auto result = identify(robot(), data, {}, {});
+  ASSERT_TRUE(result);
+  const bool said = std::any_of(
+      result->model.findings.begin(), result->model.findings.end(), [](const Finding& f) {
+        return f.code == "estimates-disagree" && f.message.starts_with("surge.alpha");
+      });
+  EXPECT_TRUE(said);
+}
+
+TEST(Log, CorrelatedErrorsAreFoundAndWidenTheIntervals) {
+  const Truth& t = kTruths[1];
+  Random white(1, 5);
+  Random coloured(1, 5);
+  const DrivePlan plan{.duration_s = 20.0, .drive = 2};
+  TrialData data;
+  data.logs = {simulate_log(plant(t), robot(), plan, {}, white)};
+  const auto plain = identify(robot(), data, {}, {});
+  data.logs = {simulate_log(plant(t), robot(), plan, {.correlation_s = 0.1}, coloured)};
+  const auto result = identify(robot(), data, {}, {});
+  ASSERT_TRUE(plain && result);
+  EXPECT_THAT(result->model.reports.back().noise, ::testing::HasSubstr("correlated over"));
+  EXPECT_GT(*result->model[ParameterId::kSurgeAlpha].std_error,
+            2.0 * *plain->model[ParameterId::kSurgeAlpha].std_error);
+  expect_recovered(*result, ParameterId::kSurgeAlpha, t.a1, 4.5);
+}
+
+TEST(Recover, TellsBiasAndCoverageOfTables) {
+  const auto fitted = identify(robot(), synthetic(kTruths[0], 0.02, 1), {}, {});
+  ASSERT_TRUE(fitted);
+  Model model = fitted->model;
+  model[ParameterId::kSwayAlpha].value = 3.0;
+  RecoverOptions options;
+  options.runs = 400;
+  const auto recovery = recover(model, "model.json", options, {});
+  ASSERT_TRUE(recovery);
+  EXPECT_EQ(recovery->failed, 0);
+  for (const RecoveredParameter& p : recovery->parameters) {
+    // 95 % of 400 with a deviation of 1.1 %; 4.5 of them.
+    EXPECT_NEAR(p.coverage95, 0.95, 0.05) << info(p.id).name;
+    EXPECT_NEAR(p.bias, 0.0, 5.0 * p.rmse / std::sqrt(400.0) + 0.02 * p.truth) << info(p.id).name;
+  }
+  options.threads = 1;
+  const auto again = recover(model, "model.json", options, {});
+  EXPECT_EQ(recovery_text(*again, {}), recovery_text(*recovery, {}));
+}
+
+}  // namespace
+}  // namespace awmr::testing

@@ -1,0 +1,80 @@
+/// The next trial: what it promises is what it then gives.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "awmr/identify/suggest.h"
+#include "identify/synthetic.h"
+
+namespace awmr::testing {
+namespace {
+
+Model some_model(double sigma) {
+  Vehicle v = vehicle();
+  v.front_axle_m = 0.35;
+  v.half_track_m = 0.36;
+  v.wheel_force = {-0.5, 0.5};
+  v.steering_max_deg = 20.0;
+  v.steering_max_rate_degps = 300.0;
+  return identify(v, synthetic(kTruths[0], sigma, 3), {}, {})->model;
+}
+
+TEST(Suggest, RanksEveryCandidateByWhatItPromisesAndNoneMakesItWorse) {
+  const auto suggestion = suggest(some_model(0.05), "m.json", {.parameter = "mass_norm"});
+  ASSERT_TRUE(suggestion);
+  ASSERT_GT(suggestion->trials.size(), 10U);
+  double last = 0.0;
+  for (const SuggestedTrial& trial : suggestion->trials) {
+    EXPECT_LE(trial.std_error_after, trial.std_error_before * (1.0 + 1e-9)) << trial.settings;
+    EXPECT_GE(trial.std_error_after, last);
+    EXPECT_GE(trial.d_gain, -1e-9);
+    last = trial.std_error_after;
+  }
+  // A stop time is a poor way to m': something that moves has to come before any turning run.
+  EXPECT_TRUE(suggestion->trials.front().kind == "log" ||
+              suggestion->trials.front().kind == "coastdown");
+}
+
+TEST(Suggest, ATurningRunSaysNothingOfSurge) {
+  const auto suggestion = suggest(some_model(0.05), "m.json", {.parameter = "surge.beta"});
+  ASSERT_TRUE(suggestion);
+  for (const SuggestedTrial& trial : suggestion->trials) {
+    if (trial.kind != "turning") continue;
+    EXPECT_NEAR(trial.std_error_after, trial.std_error_before, 1e-6 * trial.std_error_before);
+  }
+}
+
+TEST(Suggest, ThePromiseForARepeatedTrialIsTheStandardErrorOfMoreRuns) {
+  // One number, ln u, with noise s from n runs adds n (d ln u/d p)^2/s^2 to the information: four
+  // times the runs, four times the information.
+  const Model model = some_model(0.05);
+  const auto one = suggest(model, "m.json", {.parameter = "surge.beta", .repeats = 1});
+  const auto four = suggest(model, "m.json", {.parameter = "surge.beta", .repeats = 4});
+  ASSERT_TRUE(one && four);
+  const auto find = [](const Suggestion& s, double tau) {
+    for (const SuggestedTrial& t : s.trials) {
+      if (t.kind == "surge" && std::abs(t.numbers[0].second - tau) < 1e-9) return t;
+    }
+    ADD_FAILURE();
+    return SuggestedTrial{};
+  };
+  const SuggestedTrial a = find(*one, 0.1);
+  const SuggestedTrial b = find(*four, 0.1);
+  const auto fall = [](const SuggestedTrial& t) {
+    const double before = t.std_error_before * t.std_error_before;
+    const double after = t.std_error_after * t.std_error_after;
+    return before / after -
+           1.0;  // x/(1 + y) in the information x of the trial: grows, at most fourfold
+  };
+  EXPECT_GT(fall(b), fall(a));
+  EXPECT_LE(fall(b), 4.0 * fall(a));
+}
+
+TEST(Suggest, RefusesAnUnknownParameterWithTheNamesThereAre) {
+  const auto suggestion = suggest(some_model(0.05), "m.json", {.parameter = "mass"});
+  ASSERT_FALSE(suggestion);
+  EXPECT_NE(to_text(suggestion.error()).find("mass_norm"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace awmr::testing

@@ -1,0 +1,199 @@
+/// Families, robust losses, outliers and influence on tables of steady runs.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "awmr/model/steady.h"
+#include "identify/synthetic.h"
+
+namespace awmr::testing {
+namespace {
+
+const Finding* finding(const Model& model, const std::string& code) {
+  for (const Finding& f : model.findings) {
+    if (f.code == code) return &f;
+  }
+  return nullptr;
+}
+
+/// Twelve surge runs on a curve, speeds off by `noise` deviations of a fixed pattern.
+TrialData runs_on(const Resistance<double>& law, double dead_zone, double noise,
+                  std::uint64_t seed) {
+  Random random(seed, 3);
+  TrialData data;
+  data.surge = TrialSet<SurgeRow>{"surge.csv", {}, 0};
+  for (int i = 1; i <= 12; ++i) {
+    const double speed = 0.15 * i;
+    data.surge->rows.push_back(
+        {i + 1, law.at(speed) + 4.0 * dead_zone, speed + noise * random.normal(), {}, {}});
+  }
+  return data;
+}
+
+IdentifyOptions family(std::optional<Family> family) {
+  IdentifyOptions options;
+  options.surge_family.family = family;
+  return options;
+}
+
+TEST(Families, ExactRunsGiveTheirOwnFamilyBack) {
+  // Each law is its family's at other values; the speeds are exact, so only rounding remains: 1e-12
+  // of the speeds times a condition number below 1e4.
+  const struct {
+    Family family;
+    Resistance<double> law;
+    double dead_zone;
+  } cases[] = {
+      {Family::kCoulombLinear, {.alpha = 1.1, .beta = 1.0, .coulomb = 0.2}, 0.0},
+      {Family::kCoulombLinearQuadratic,
+       {.alpha = 0.7, .beta = 1.0, .coulomb = 0.2, .quadratic = 0.3},
+       0.0},
+      {Family::kCoulombPower, {.alpha = 1.1, .beta = 0.6, .coulomb = 0.2}, 0.0},
+      {Family::kDeadZone, {.alpha = 1.3, .beta = 0.7}, 0.05},
+  };
+  for (const auto& c : cases) {
+    const auto result =
+        identify(vehicle(), runs_on(c.law, c.dead_zone, 0.0, 1), family(c.family), {});
+    ASSERT_TRUE(result);
+    const Model& m = result->model;
+    EXPECT_EQ(m.surge_family, c.family);
+    EXPECT_NEAR(*m[ParameterId::kSurgeAlpha].value, c.law.alpha, 1e-7) << name_of(c.family);
+    EXPECT_NEAR(*m[ParameterId::kSurgeBeta].value, c.law.beta, 1e-7) << name_of(c.family);
+    EXPECT_NEAR(*m[ParameterId::kSurgeCoulomb].value, c.law.coulomb, 1e-7) << name_of(c.family);
+    EXPECT_NEAR(*m[ParameterId::kSurgeQuadratic].value, c.law.quadratic, 1e-7) << name_of(c.family);
+    EXPECT_NEAR(*m[ParameterId::kWheelDeadZone].value, c.dead_zone, 1e-7) << name_of(c.family);
+  }
+}
+
+TEST(Families, AutoPrefersThePowerLawWhereItIsTheTruthAndLeavesItWhereItIsNot) {
+  const Resistance<double> power{.alpha = 1.3157, .beta = 0.8841};
+  const auto plain = identify(vehicle(), runs_on(power, 0.0, 0.005, 4), family({}), {});
+  ASSERT_TRUE(plain);
+  EXPECT_EQ(plain->model.surge_family, Family::kPower);
+  EXPECT_EQ(finding(plain->model, "power-law-inadequate"), nullptr);
+
+  const Resistance<double> stiff{.alpha = 0.5, .beta = 1.0, .coulomb = 0.5};
+  const auto other = identify(vehicle(), runs_on(stiff, 0.0, 0.005, 4), family({}), {});
+  ASSERT_TRUE(other);
+  EXPECT_NE(other->model.surge_family, Family::kPower);
+  const auto forced = identify(vehicle(), runs_on(stiff, 0.0, 0.005, 4), {}, {});
+  ASSERT_TRUE(forced);
+  const Finding* verdict = finding(forced->model, "power-law-inadequate");
+  ASSERT_NE(verdict, nullptr);
+  EXPECT_THAT(verdict->message, ::testing::HasSubstr("use --family coulomb-linear"));
+}
+
+TEST(Families, TheDeadZoneOfTheWheelsFreesTheTurningRuns) {
+  const Resistance<double> surge{.alpha = 1.3, .beta = 0.7};
+  const Resistance<double> yaw{.alpha = 0.3, .beta = 0.8};
+  constexpr double kZone = 0.05;
+  TrialData data = runs_on(surge, kZone, 0.0, 1);
+  data.turning = TrialSet<TurningRow>{"turning.csv", {}, 0};
+  for (int i = 1; i <= 6; ++i) {
+    const double force = 0.1 + 0.02 * i;
+    const double per_force = 0.2;  // 2 l_f sin d_r
+    const double rate = *steady_rate(yaw, per_force * (force - kZone));
+    data.turning->rows.push_back({.line = i + 1,
+                                  .steering_rad = 0.3,
+                                  .wheel_force = force,
+                                  .tau_turn_m = per_force * force,
+                                  .yaw_rate_radps = rate,
+                                  .turns = {},
+                                  .elapsed_s = {}});
+  }
+  IdentifyOptions options = family(Family::kDeadZone);
+  const auto result = identify(vehicle(), data, options, {});
+  ASSERT_TRUE(result);
+  EXPECT_NEAR(*result->model[ParameterId::kYawAlpha].value, 0.3, 1e-6);
+  EXPECT_NEAR(*result->model[ParameterId::kYawBeta].value, 0.8, 1e-6);
+}
+
+TEST(Losses, LeaveOneBadRunWithoutSayWhileSquaresFollowIt) {
+  const Resistance<double> law{.alpha = 1.3157, .beta = 0.8841};
+  TrialData data = runs_on(law, 0.0, 0.003, 2);
+  data.surge->rows[10].speed_mps *= 0.7;
+  IdentifyOptions squares;
+  squares.method = Method::kNonlinear;
+  const double by_squares =
+      *identify(vehicle(), data, squares, {})->model[ParameterId::kSurgeBeta].value;
+  for (const Loss loss : {Loss::kHuber, Loss::kCauchy, Loss::kTukey}) {
+    IdentifyOptions options;
+    options.loss = loss;
+    const auto result = identify(vehicle(), data, options, {});
+    ASSERT_TRUE(result);
+    const Estimate& beta = result->model[ParameterId::kSurgeBeta];
+    // The other eleven runs fix b1 to about 0.004; squares are pulled away by ten times that.
+    EXPECT_NEAR(*beta.value, law.beta, 0.02) << static_cast<int>(loss);
+    EXPECT_LT(std::abs(*beta.value - law.beta), 0.3 * std::abs(by_squares - law.beta));
+    EXPECT_TRUE(beta.ci95->contains(law.beta)) << static_cast<int>(loss);
+  }
+}
+
+TEST(Outliers, AreNamedWithTheirLineAndTheirInfluence) {
+  TrialData data = runs_on({.alpha = 1.3157, .beta = 0.8841}, 0.0, 0.003, 2);
+  data.surge->rows[10].speed_mps *= 0.7;
+  const auto result = identify(vehicle(), data, {}, {});
+  ASSERT_TRUE(result);
+  const Finding* outlier = finding(result->model, "outlier");
+  ASSERT_NE(outlier, nullptr);
+  EXPECT_EQ(outlier->line, data.surge->rows[10].line);
+  const auto influential = std::find_if(
+      result->model.findings.begin(), result->model.findings.end(), [&](const Finding& f) {
+        return f.code == "influential-row" && f.line == data.surge->rows[10].line;
+      });
+  ASSERT_NE(influential, result->model.findings.end());
+  EXPECT_THAT(influential->message, ::testing::HasSubstr("surge.alpha becomes"));
+}
+
+TEST(Outliers, LeavingARowOutGivesWhatTheFitWithoutItGives) {
+  const TrialData data = runs_on({.alpha = 1.3157, .beta = 0.8841}, 0.0, 0.02, 5);
+  const auto result = identify(vehicle(), data, {}, {});
+  ASSERT_TRUE(result);
+  const EstimatorReport& report = result->model.reports.front();
+  ASSERT_EQ(report.leave_one_out.size(), 12U);
+  TrialData without = data;
+  without.surge->rows.erase(without.surge->rows.begin() + 3);
+  const auto refit = identify(vehicle(), without, {}, {});
+  EXPECT_EQ(report.leave_one_out[3].line, data.surge->rows[3].line);
+  EXPECT_NEAR(report.leave_one_out[3].values[1], *refit->model[ParameterId::kSurgeBeta].value,
+              1e-12);
+}
+
+TEST(Profiles, AreTheCurvaturesIntervalForAlmostExactRunsAndCoverTheTruth) {
+  // With small noise the model is linear over the interval: profile and curvature agree to second
+  // order.
+  const TrialData data = runs_on({.alpha = 1.3157, .beta = 0.8841}, 0.0, 1e-4, 5);
+  IdentifyOptions options;
+  options.method = Method::kNonlinear;
+  const auto result = identify(vehicle(), data, options, {});
+  ASSERT_TRUE(result);
+  int compared = 0;
+  for (const EstimatorReport& report : result->model.reports) {
+    for (const EstimatorParameter& p : report.parameters) {
+      if (!p.profile95 || report.family != "power") continue;
+      const double width = p.ci95->hi - p.ci95->lo;
+      EXPECT_NEAR(p.profile95->lo, p.ci95->lo, 1e-3 * width) << p.name;
+      EXPECT_NEAR(p.profile95->hi, p.ci95->hi, 1e-3 * width) << p.name;
+      ++compared;
+    }
+  }
+  EXPECT_EQ(compared, 2);
+}
+
+TEST(Options, ThatContradictEachOtherAreRefused) {
+  const TrialData data = runs_on({.alpha = 1.3157, .beta = 0.8841}, 0.0, 0.01, 5);
+  IdentifyOptions options;
+  options.method = Method::kLogLinear;
+  options.loss = Loss::kHuber;
+  EXPECT_FALSE(identify(vehicle(), data, options, {}));
+  options = {};
+  options.method = Method::kTrajectory;
+  EXPECT_FALSE(identify(vehicle(), data, options, {}));
+  options = {};
+  options.joint = true;
+  EXPECT_FALSE(identify(vehicle(), data, options, {}));
+}
+
+}  // namespace
+}  // namespace awmr::testing

@@ -1,0 +1,167 @@
+/// Driving logs: what is read, what is refused, what counts as measured; steady runs found in them.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "awmr/core/units.h"
+#include "awmr/trials/replay.h"
+#include "awmr/trials/steady.h"
+#include "trial_text.h"
+
+namespace awmr {
+namespace {
+
+using testing::codes_of;
+using ::testing::ElementsAre;
+using testing::faults_of;
+using ::testing::HasSubstr;
+using ::testing::SizeIs;
+using ::testing::StartsWith;
+
+/// Twelve rows at 10 Hz with these further columns, each a function of the row.
+template <class Cell>
+std::string log_text(const std::string& columns, Cell cell, int rows = 12) {
+  std::string text = "t_s,force_left,force_right,steering_cmd_deg," + columns + "\n";
+  for (int i = 0; i < rows; ++i) {
+    text += std::to_string(0.1 * i) + ",0.2,0.2,5," + cell(i) + "\n";
+  }
+  return text;
+}
+
+testing::Read<DrivingLog> accepted_log(const std::string& text) {
+  return testing::accepted(read_log, text);
+}
+
+TEST(Log, ReadsChannelsInSi) {
+  const auto read = accepted_log(log_text("heading_deg,yaw_rate_radps", [](int i) {
+    return std::to_string(10 * i) + "," + std::to_string(0.1 * i);
+  }));
+  const DrivingLog& log = read.set;
+  EXPECT_EQ(log.rows(), 12U);
+  EXPECT_EQ(log.line[0], 2);
+  EXPECT_NEAR(log[Channel::kHeading]->value[3], radians(30.0), 1e-12);
+  EXPECT_NEAR((*log.steering_command_rad)[0], radians(5.0), 1e-12);
+  EXPECT_FALSE(log[Channel::kSpeed]);
+  EXPECT_NEAR(log.median_step_s(), 0.1, 1e-9);
+}
+
+TEST(Log, UnwrapsTheHeadingEitherWay) {
+  const auto up = accepted_log(log_text("heading_deg", [](int i) {
+    return std::to_string(std::remainder(150.0 + 20.0 * i, 360.0));
+  }));
+  const auto down = accepted_log(log_text("heading_deg", [](int i) {
+    return std::to_string(std::remainder(-150.0 - 20.0 * i, 360.0));
+  }));
+  for (std::size_t i = 0; i < 12; ++i) {
+    const double turned = radians(20.0 * static_cast<double>(i));
+    EXPECT_NEAR(up.set[Channel::kHeading]->value[i], radians(150.0) + turned, 1e-6);
+    EXPECT_NEAR(down.set[Channel::kHeading]->value[i], radians(-150.0) - turned, 1e-6);
+  }
+}
+
+TEST(Log, CountsOnlyNewValuesOfASlowSensor) {
+  // Positions each third row, y now and then the same by chance.
+  const auto read = accepted_log(log_text(
+      "x_m,y_m,speed_mps",
+      [](int i) {
+        return std::to_string(i / 3) + "," + std::to_string(i / 6) + "," +
+               std::to_string(1.0 + 0.01 * i);
+      },
+      30));
+  EXPECT_THAT(codes_of(read.findings), ElementsAre("held-samples@0", "held-samples@0"));
+  EXPECT_EQ(read.set[Channel::kX]->fresh_count, 10);
+  EXPECT_EQ(read.set[Channel::kY]->fresh_count, 10);
+  EXPECT_TRUE(read.set[Channel::kX]->fresh[3]);
+  EXPECT_FALSE(read.set[Channel::kX]->fresh[4]);
+  EXPECT_EQ(read.set[Channel::kSpeed]->fresh_count, 30);
+}
+
+TEST(Log, TakesASignalAtRestAsMeasured) {
+  const auto read = accepted_log(log_text("speed_mps", [](int) { return std::string("0"); }));
+  EXPECT_FALSE(read.set[Channel::kSpeed]->held);
+  EXPECT_EQ(read.set[Channel::kSpeed]->fresh_count, 12);
+}
+
+TEST(Log, TurnsLatitudeAndLongitudeIntoMetres) {
+  // On the WGS-84 ellipsoid at the equator a degree of longitude is 111319.49 m, one of latitude
+  // there 110574.3 m; over 1e-4 of a degree the Earth's curve is below a micrometre.
+  const auto read = accepted_log(log_text("latitude_deg,longitude_deg", [](int i) {
+    return "0.000" + std::to_string(i % 10) + ",0.00" + std::to_string(10 + i);
+  }));
+  EXPECT_NEAR(read.set[Channel::kX]->value[5], 5 * 1e-4 * 111319.4908, 1e-4);
+  EXPECT_NEAR(read.set[Channel::kY]->value[5], 5 * 1e-4 * 110574.2727, 1e-3);
+}
+
+TEST(Log, RefusesWhatItCannotUse) {
+  EXPECT_THAT(faults_of(read_log, "t_s,force_left,force_right\n0,0,0\n"), SizeIs(3));
+  EXPECT_THAT(
+      faults_of(read_log,
+                log_text("speed_mps", [](int i) { return std::string(i == 5 ? "nan" : "1"); })),
+      ElementsAre(StartsWith("7:")));
+  std::string text = log_text("speed_mps", [](int) { return std::string("1"); });
+  text += "0.5,0.2,0.2,5,1\n";
+  EXPECT_THAT(faults_of(read_log, text), ElementsAre(HasSubstr("time has to rise")));
+  EXPECT_THAT(faults_of(read_log, log_text(
+                                      "speed_mps", [](int) { return std::string("1"); }, 5)),
+              ElementsAre(HasSubstr("at least 10")));
+  EXPECT_THAT(faults_of(read_log, log_text("latitude_deg", [](int) { return std::string("1"); })),
+              ElementsAre(HasSubstr("go together")));
+}
+
+TEST(Log, CutsWindowsAtGapsAndIntoEqualParts) {
+  std::string text = "t_s,force_left,force_right,steering_deg,speed_mps\n";
+  for (int i = 0; i < 100; ++i) text += std::to_string(0.1 * i) + ",0.1,0.1,0,1\n";
+  for (int i = 0; i < 50; ++i) text += std::to_string(30.0 + 0.1 * i) + ",0.1,0.1,0,1\n";
+  const auto read = accepted_log(text);
+  EXPECT_THAT(codes_of(read.findings), ElementsAre("log-gap@102"));
+  const auto windows = windows_of(read.set, 6.0);
+  ASSERT_THAT(windows, SizeIs(3));
+  EXPECT_EQ(windows[0].end, 50U);
+  EXPECT_EQ(windows[1].begin, 50U);
+  EXPECT_EQ(windows[1].end, 100U);
+  EXPECT_EQ(windows[2].begin, 100U);
+  EXPECT_EQ(windows[2].end, 150U);
+}
+
+TEST(Log, AHeldSignalsDelayedMeanHasItsDerivative) {
+  const std::vector<double> t{0.0, 1.0, 2.0, 3.0};
+  const std::vector<double> value{1.0, 3.0, -2.0, 5.0};
+  const HeldSignal signal(t, value);
+  // Over [1.2, 2.2] with a delay of 0.5: [0.7, 1.7] is 0.3 of 1 and 0.7 of 3.
+  EXPECT_NEAR(delayed_mean(signal, 1.2, 1.0, 0.5), 0.3 * 1.0 + 0.7 * 3.0, 1e-12);
+  // Beyond the ends the end's value holds.
+  EXPECT_NEAR(delayed_mean(signal, 0.0, 1.0, 2.0), 1.0, 1e-12);
+  EXPECT_NEAR(delayed_mean(signal, 5.0, 1.0, 0.0), 5.0, 1e-12);
+}
+
+TEST(SteadyRuns, AreFoundWithTheirSpansAndNotWhereTheSpeedStillRises) {
+  // 0..4 s: speed rising; 4..8 s: another thrust, steady at 1 m/s; 8..12 s: a steady left turn.
+  std::string text = "t_s,force_left,force_right,steering_deg,speed_mps,yaw_rate_radps\n";
+  for (int i = 0; i < 120; ++i) {
+    const double t = 0.1 * i;
+    const bool turn = t >= 8.0;
+    const double force = t < 4.0 ? 0.1 : turn ? 0.2 : 0.3;
+    const double wiggle = i % 2 == 0 ? 1e-3 : -1e-3;
+    text += std::to_string(t) + "," + std::to_string(force) + "," + std::to_string(force) + "," +
+            (turn ? "10" : "0") + "," + std::to_string(t < 4.0 ? 0.2 * t + wiggle : 1.0 + wiggle) +
+            "," + std::to_string((turn ? 0.3 : 0.0) + wiggle) + "\n";
+  }
+  const auto read = accepted_log(text);
+  const Vehicle vehicle = testing::some_vehicle();
+  std::vector<Finding> findings;
+  const SteadyRuns runs = steady_runs(read.set, vehicle, {}, findings);
+  ASSERT_THAT(runs.surge.rows, SizeIs(1));
+  EXPECT_NEAR(runs.surge.rows[0].tau_speed, 1.2, 1e-9);
+  EXPECT_NEAR(runs.surge.rows[0].speed_mps, 1.0, 1e-3);
+  ASSERT_THAT(runs.turning.rows, SizeIs(1));
+  EXPECT_NEAR(runs.turning.rows[0].yaw_rate_radps, 0.3, 1e-3);
+  EXPECT_NEAR(runs.turning.rows[0].tau_turn_m,
+              2.0 * vehicle.front_axle_m * 0.2 * std::sin(radians(10.0)), 1e-12);
+  EXPECT_THAT(codes_of(findings), ElementsAre("steady-segment@52", "steady-segment@92"));
+  EXPECT_NEAR(runs.segments[0].begin_s, 5.0, 1e-9);
+  EXPECT_NEAR(runs.segments[0].end_s, 7.9, 1e-9);
+}
+
+}  // namespace
+}  // namespace awmr
