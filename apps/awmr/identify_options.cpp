@@ -62,7 +62,7 @@ Status add_asked(std::string_view name, IdentifyOptions& options) {
   }
   names.emplace_back("all");
   names.emplace_back(kInputDelayName);
-  for (const Channel channel : kChannels) {
+  for (const LogChannel channel : kChannels) {
     const std::string bias = fmt::format("{}{}", kBiasPrefix, info(channel).name);
     if (name == bias) {
       options.biases.push_back(channel);
@@ -89,7 +89,7 @@ std::vector<std::pair<std::string, std::string>> described(const IdentifyOptions
   if (options.joint) words.emplace_back("joint", "true");
   for (const ParameterId id : options.asked) words.emplace_back("fit", info(id).name);
   if (options.fit_input_delay) words.emplace_back("fit", kInputDelayName);
-  for (const Channel channel : options.biases) {
+  for (const LogChannel channel : options.biases) {
     words.emplace_back("fit", fmt::format("{}{}", kBiasPrefix, info(channel).name));
   }
   words.emplace_back("seed", std::to_string(options.seed));

@@ -81,7 +81,7 @@ TEST(Log, GivesEveryParameterFromNothingElse) {
 TEST(Log, SpeedAloneShowsSurgeAndRefusesYaw) {
   TrialData data;
   data.logs = {drive(kTruths[1], 4, {.duration_s = 20.0, .straight = true})};
-  for (const Channel c : {Channel::kX, Channel::kY, Channel::kHeading, Channel::kYawRate}) {
+  for (const LogChannel c : {LogChannel::kX, LogChannel::kY, LogChannel::kHeading, LogChannel::kYawRate}) {
     data.logs[0][c].reset();
   }
   const auto result = identify(robot(), data, {}, {});
@@ -127,7 +127,7 @@ TEST(Log, GapsAndIrregularSamplesAreNoHindrance) {
   log.file = full.file;
   log.steering_command_rad.emplace();
   Random random(1, 9);
-  for (const Channel c : kChannels) {
+  for (const LogChannel c : kChannels) {
     if (full[c]) log[c] = Measured{{}, {}, 0, full[c]->held};
   }
   for (std::size_t i = 0; i < full.rows(); ++i) {
@@ -140,7 +140,7 @@ TEST(Log, GapsAndIrregularSamplesAreNoHindrance) {
     log.force_left.push_back(full.force_left[i]);
     log.force_right.push_back(full.force_right[i]);
     log.steering_command_rad->push_back((*full.steering_command_rad)[i]);
-    for (const Channel c : kChannels) {
+    for (const LogChannel c : kChannels) {
       if (!full[c]) continue;
       log[c]->value.push_back(full[c]->value[i]);
       log[c]->fresh.push_back(full[c]->fresh[i]);
@@ -167,12 +167,12 @@ TEST(Log, FindsADelayAndABias) {
   early(log.force_left);
   early(log.force_right);
   early(*log.steering_command_rad);
-  for (double& r : log[Channel::kYawRate]->value) r += 0.05;
+  for (double& r : log[LogChannel::kYawRate]->value) r += 0.05;
   TrialData data;
   data.logs = {log};
   IdentifyOptions options;
   options.fit_input_delay = true;
-  options.biases = {Channel::kYawRate};
+  options.biases = {LogChannel::kYawRate};
   const auto result = identify(robot(), data, options, {});
   ASSERT_TRUE(result);
   const EstimatorReport& report = result->model.reports.back();

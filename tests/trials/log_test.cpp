@@ -40,9 +40,9 @@ TEST(Log, ReadsChannelsInSi) {
   const DrivingLog& log = read.set;
   EXPECT_EQ(log.rows(), 12U);
   EXPECT_EQ(log.line[0], 2);
-  EXPECT_NEAR(log[Channel::kHeading]->value[3], radians(30.0), 1e-12);
+  EXPECT_NEAR(log[LogChannel::kHeading]->value[3], radians(30.0), 1e-12);
   EXPECT_NEAR((*log.steering_command_rad)[0], radians(5.0), 1e-12);
-  EXPECT_FALSE(log[Channel::kSpeed]);
+  EXPECT_FALSE(log[LogChannel::kSpeed]);
   EXPECT_NEAR(log.median_step_s(), 0.1, 1e-9);
 }
 
@@ -55,8 +55,8 @@ TEST(Log, UnwrapsTheHeadingEitherWay) {
   }));
   for (std::size_t i = 0; i < 12; ++i) {
     const double turned = radians(20.0 * static_cast<double>(i));
-    EXPECT_NEAR(up.set[Channel::kHeading]->value[i], radians(150.0) + turned, 1e-6);
-    EXPECT_NEAR(down.set[Channel::kHeading]->value[i], radians(-150.0) - turned, 1e-6);
+    EXPECT_NEAR(up.set[LogChannel::kHeading]->value[i], radians(150.0) + turned, 1e-6);
+    EXPECT_NEAR(down.set[LogChannel::kHeading]->value[i], radians(-150.0) - turned, 1e-6);
   }
 }
 
@@ -70,17 +70,17 @@ TEST(Log, CountsOnlyNewValuesOfASlowSensor) {
       },
       30));
   EXPECT_THAT(codes_of(read.findings), ElementsAre("held-samples@0", "held-samples@0"));
-  EXPECT_EQ(read.set[Channel::kX]->fresh_count, 10);
-  EXPECT_EQ(read.set[Channel::kY]->fresh_count, 10);
-  EXPECT_TRUE(read.set[Channel::kX]->fresh[3]);
-  EXPECT_FALSE(read.set[Channel::kX]->fresh[4]);
-  EXPECT_EQ(read.set[Channel::kSpeed]->fresh_count, 30);
+  EXPECT_EQ(read.set[LogChannel::kX]->fresh_count, 10);
+  EXPECT_EQ(read.set[LogChannel::kY]->fresh_count, 10);
+  EXPECT_TRUE(read.set[LogChannel::kX]->fresh[3]);
+  EXPECT_FALSE(read.set[LogChannel::kX]->fresh[4]);
+  EXPECT_EQ(read.set[LogChannel::kSpeed]->fresh_count, 30);
 }
 
 TEST(Log, TakesASignalAtRestAsMeasured) {
   const auto read = accepted_log(log_text("speed_mps", [](int) { return std::string("0"); }));
-  EXPECT_FALSE(read.set[Channel::kSpeed]->held);
-  EXPECT_EQ(read.set[Channel::kSpeed]->fresh_count, 12);
+  EXPECT_FALSE(read.set[LogChannel::kSpeed]->held);
+  EXPECT_EQ(read.set[LogChannel::kSpeed]->fresh_count, 12);
 }
 
 TEST(Log, TurnsLatitudeAndLongitudeIntoMetres) {
@@ -89,8 +89,8 @@ TEST(Log, TurnsLatitudeAndLongitudeIntoMetres) {
   const auto read = accepted_log(log_text("latitude_deg,longitude_deg", [](int i) {
     return "0.000" + std::to_string(i % 10) + ",0.00" + std::to_string(10 + i);
   }));
-  EXPECT_NEAR(read.set[Channel::kX]->value[5], 5 * 1e-4 * 111319.4908, 1e-4);
-  EXPECT_NEAR(read.set[Channel::kY]->value[5], 5 * 1e-4 * 110574.2727, 1e-3);
+  EXPECT_NEAR(read.set[LogChannel::kX]->value[5], 5 * 1e-4 * 111319.4908, 1e-4);
+  EXPECT_NEAR(read.set[LogChannel::kY]->value[5], 5 * 1e-4 * 110574.2727, 1e-3);
 }
 
 TEST(Log, RefusesWhatItCannotUse) {

@@ -187,7 +187,7 @@ class LogFitter {
     if (options_.delay) {
       model_.quantities.push_back({.kind = FreeQuantity::Kind::kDelay, .scale = 0.1});
     }
-    for (const Channel channel : options_.biases) {
+    for (const LogChannel channel : options_.biases) {
       model_.quantities.push_back(
           {.kind = FreeQuantity::Kind::kBias, .channel = channel, .scale = 1.0});
     }
@@ -205,8 +205,8 @@ class LogFitter {
     bool heading = false;
     bool servo = false;
     for (const DrivingLog& log : logs_) {
-      position = position || log[Channel::kX] || log[Channel::kY];
-      heading = heading || log[Channel::kHeading];
+      position = position || log[LogChannel::kX] || log[LogChannel::kY];
+      heading = heading || log[LogChannel::kHeading];
       servo = servo || log.steering_command_rad;
     }
     if (position) {
@@ -246,10 +246,10 @@ class LogFitter {
     const DrivingLog& log = *fit.window.log;
     std::array<std::optional<double>, kChannelCount> previous_s;
     for (std::size_t row = fit.window.begin; row < fit.window.end; ++row) {
-      for (const Channel channel : kChannels) {
+      for (const LogChannel channel : kChannels) {
         if (!log[channel] || !log[channel]->fresh[row]) continue;
         // An angle that drives the model is no measurement of it.
-        if (channel == Channel::kSteering && !log.steering_command_rad) continue;
+        if (channel == LogChannel::kSteering && !log.steering_command_rad) continue;
         auto& before_s = previous_s[static_cast<std::size_t>(channel)];
         fit.samples.push_back({row, channel, 1.0, before_s ? log.t_s[row] - *before_s : 0.0});
         before_s = log.t_s[row];
@@ -265,7 +265,7 @@ class LogFitter {
 
   /// The noise of a smooth signal shows in its second differences: sum d^2 / (6 (n - 2)).
   void first_noise() {
-    std::map<Channel, std::pair<double, int>> sums;
+    std::map<LogChannel, std::pair<double, int>> sums;
     for (const FitWindow& window : windows_) {
       std::array<std::vector<double>, kChannelCount> values;
       for (const Sample& sample : window.samples) {
@@ -435,8 +435,8 @@ class LogFitter {
   /// Noise levels from the residuals of the last solution: standard deviation (by the median under
   /// a robust loss), correlation by its first lag.
   void update_noise() {
-    std::map<Channel, std::vector<double>> all;
-    std::map<Channel, std::array<double, 3>> lag;  // sum e e', sum e^2, sum dt
+    std::map<LogChannel, std::vector<double>> all;
+    std::map<LogChannel, std::array<double, 3>> lag;  // sum e e', sum e^2, sum dt
     for (const FitWindow& window : windows_) {
       std::array<std::optional<double>, kChannelCount> previous;
       for (std::size_t i = 0; i < window.samples.size(); ++i) {
@@ -789,7 +789,7 @@ LogFit fit_logs(const std::vector<DrivingLog>& logs, const LogFitOptions& option
   return LogFitter(logs, options).run();
 }
 
-std::map<Channel, double> prediction_error(const DrivingLog& log, const Plant<double>& plant,
+std::map<LogChannel, double> prediction_error(const DrivingLog& log, const Plant<double>& plant,
                                            double delay_s) {
   const LogSignals signals(log);
   Plant<double> resolved = plant;
@@ -802,13 +802,13 @@ std::map<Channel, double> prediction_error(const DrivingLog& log, const Plant<do
     double squares = 0.0;
     int count = 0;
   };
-  std::map<Channel, Sums> sums;
+  std::map<LogChannel, Sums> sums;
   for (const LogWindow& window : windows_of(log, kWindow_s)) {
     replay(signals, window.begin, window.end, resolved, delay_s > 0.0 ? &delay_s : nullptr, step_s,
            measured_start(window), [&](std::size_t row, const State<double>& state) {
-             for (const Channel channel : kChannels) {
+             for (const LogChannel channel : kChannels) {
                if (!log[channel] || !log[channel]->fresh[row]) continue;
-               if (channel == Channel::kSteering && !log.steering_command_rad) continue;
+               if (channel == LogChannel::kSteering && !log.steering_command_rad) continue;
                const double measured = log[channel]->value[row];
                const double error = channel_of(state, channel) - measured;
                Sums& s = sums[channel];
@@ -819,7 +819,7 @@ std::map<Channel, double> prediction_error(const DrivingLog& log, const Plant<do
              }
            });
   }
-  std::map<Channel, double> nrmse;
+  std::map<LogChannel, double> nrmse;
   for (const auto& [channel, s] : sums) {
     const double mean = s.sum / s.count;
     const double variance = s.squares / s.count - mean * mean;

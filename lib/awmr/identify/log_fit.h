@@ -23,7 +23,7 @@ struct FreeQuantity {
   enum class Kind { kParameter, kDelay, kBias };
   Kind kind = Kind::kParameter;
   ParameterId id = ParameterId::kMassNorm;  ///< of kParameter
-  Channel channel = Channel::kX;            ///< of kBias
+  LogChannel channel = LogChannel::kX;            ///< of kBias
   bool logarithmic = false;                 ///< the coordinate is ln of the value
   double scale = 1.0;  ///< a change of the coordinate of this size would be large
 
@@ -40,7 +40,7 @@ struct LogFitOptions {
   std::vector<ParameterId> guessed;
   std::vector<ParameterId> free;
   bool delay = false;
-  std::vector<Channel> biases;
+  std::vector<LogChannel> biases;
   Loss loss = Loss::kNone;
   std::uint64_t seed = 1;
   int starts = 6;
@@ -62,7 +62,7 @@ struct LogFit {
   std::vector<bool> identifiable;  ///< by quantity
   std::vector<std::string> why;    ///< by quantity, where it is not
   std::vector<std::optional<Interval>> bootstrap95;  ///< of the value, by quantity, where asked for
-  std::map<Channel, ChannelNoise> noise;
+  std::map<LogChannel, ChannelNoise> noise;
   EstimatorReport report;
   bool usable = false;
 };
@@ -75,7 +75,7 @@ Plant<double> plant_at(const Vehicle& vehicle, const std::map<ParameterId, doubl
 
 /// Root mean square error of each measured channel when the model runs over the log in windows,
 /// over the channel's standard deviation (NRMSE).
-std::map<Channel, double> prediction_error(const DrivingLog& log, const Plant<double>& plant,
+std::map<LogChannel, double> prediction_error(const DrivingLog& log, const Plant<double>& plant,
                                            double delay_s);
 
 }  // namespace awmr

@@ -35,17 +35,17 @@ std::map<ParameterId, double> guesses(const std::vector<DrivingLog>& logs, const
     const double left = rms(log.force_left);
     const double right = rms(log.force_right);
     thrust += 2.0 * (left + right) / n;
-    speed += (log[Channel::kSpeed] ? rms(log[Channel::kSpeed]->value) : 1.0) / n;
+    speed += (log[LogChannel::kSpeed] ? rms(log[LogChannel::kSpeed]->value) : 1.0) / n;
     std::vector<double> difference;
     for (std::size_t i = 0; i < log.rows(); ++i) {
       difference.push_back(log.force_right[i] - log.force_left[i]);
     }
     const double steering =
-        rms(log.steering_command_rad ? *log.steering_command_rad : log[Channel::kSteering]->value);
+        rms(log.steering_command_rad ? *log.steering_command_rad : log[LogChannel::kSteering]->value);
     moment += (2.0 * vehicle.half_track_m * rms(difference) +
                vehicle.front_axle_m * (left + right) * steering) /
               n;
-    yaw_rate += (log[Channel::kYawRate] ? rms(log[Channel::kYawRate]->value) : 0.2) / n;
+    yaw_rate += (log[LogChannel::kYawRate] ? rms(log[LogChannel::kYawRate]->value) : 0.2) / n;
   }
   const auto or_else = [](double value, double otherwise) {
     return value > 1e-6 && std::isfinite(value) ? value : otherwise;

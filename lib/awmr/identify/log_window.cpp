@@ -115,7 +115,7 @@ std::vector<T> raw_residuals(const LogModel& model, const Unpacked<T>& u, const 
   replay(*window.signals, window.window.begin, window.window.end, plant,
          u.delayed ? &u.delay : nullptr, h, u.start, [&](std::size_t row, const State<T>& state) {
            for (; next < window.samples.size() && window.samples[next].row == row; ++next) {
-             const Channel c = window.samples[next].channel;
+             const LogChannel c = window.samples[next].channel;
              residuals.push_back(channel_of(state, c) + u.bias[static_cast<std::size_t>(c)] -
                                  log[c]->value[row]);
            }

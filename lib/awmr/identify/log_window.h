@@ -20,7 +20,7 @@ struct StartComponent {
 /// One measured value: where it stands, and how it is weighed.
 struct Sample {
   std::size_t row;
-  Channel channel;
+  LogChannel channel;
   double weight = 1.0;   ///< sqrt of a robust loss's weight
   double since_s = 0.0;  ///< to the window's previous sample of this channel; 0: the first
 };
@@ -44,7 +44,7 @@ struct LogModel {
   std::map<ParameterId, double> held;  ///< all parameters; free ones overridden
   std::vector<FreeQuantity> quantities;
   std::vector<StartComponent> start;
-  std::map<Channel, ChannelNoise> noise;
+  std::map<LogChannel, ChannelNoise> noise;
   double longest_step_s = 0.01;
 };
 

@@ -267,14 +267,14 @@ class Suggester {
            const DrivingLog log = simulate_log(
                p, vehicle, {.duration_s = duration_s, .straight = straight}, silent, none);
            std::vector<double> values;
-           const auto take = [&](Channel channel, double noise) {
+           const auto take = [&](LogChannel channel, double noise) {
              for (std::size_t row = 0; row < log.rows(); ++row) {
                if (log[channel]->fresh[row]) values.push_back(log[channel]->value[row] / noise);
              }
            };
-           take(Channel::kSpeed, sensors.speed_mps);
-           take(Channel::kYawRate, sensors.yaw_rate_radps);
-           take(Channel::kHeading, sensors.heading_rad);
+           take(LogChannel::kSpeed, sensors.speed_mps);
+           take(LogChannel::kYawRate, sensors.yaw_rate_radps);
+           take(LogChannel::kHeading, sensors.heading_rad);
            return values;
          }});
   }

@@ -164,19 +164,19 @@ void command_drive(const Vehicle& vehicle, const DrivePlan& plan, DrivingLog& lo
   }
 }
 
-double std_of(const SensorNoise& noise, Channel channel) {
+double std_of(const SensorNoise& noise, LogChannel channel) {
   switch (channel) {
-    case Channel::kX:
-    case Channel::kY:
+    case LogChannel::kX:
+    case LogChannel::kY:
       return noise.position_m;
-    case Channel::kHeading:
+    case LogChannel::kHeading:
       return noise.heading_rad;
-    case Channel::kSpeed:
+    case LogChannel::kSpeed:
       return noise.speed_mps;
-    case Channel::kYawRate:
+    case LogChannel::kYawRate:
       return noise.yaw_rate_radps;
-    case Channel::kSway:
-    case Channel::kSteering:
+    case LogChannel::kSway:
+    case LogChannel::kSteering:
       break;
   }
   return 0.002;  // rad of a measured servo
@@ -198,13 +198,13 @@ DrivingLog simulate_log(const Plant<double>& plant, const Vehicle& vehicle, cons
   replay<double>(signals, 0, log.rows(), resolved, nullptr, step_s, State<double>{},
                  [&](std::size_t row, const State<double>& state) { truth[row] = state; });
 
-  std::vector<Channel> channels{Channel::kX, Channel::kY, Channel::kHeading, Channel::kSpeed,
-                                Channel::kYawRate};
-  if (plan.servo_measured) channels.push_back(Channel::kSteering);
+  std::vector<LogChannel> channels{LogChannel::kX, LogChannel::kY, LogChannel::kHeading, LogChannel::kSpeed,
+                                LogChannel::kYawRate};
+  if (plan.servo_measured) channels.push_back(LogChannel::kSteering);
   const auto every =
       static_cast<std::size_t>(std::max(1.0, std::round(plan.rate_hz / noise.position_rate_hz)));
-  for (const Channel channel : channels) {
-    const bool position = channel == Channel::kX || channel == Channel::kY;
+  for (const LogChannel channel : channels) {
+    const bool position = channel == LogChannel::kX || channel == LogChannel::kY;
     const std::size_t stride = position ? every : 1;
     NoiseSource source(std_of(noise, channel), noise.correlation_s,
                        static_cast<double>(stride) / plan.rate_hz);

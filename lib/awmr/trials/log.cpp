@@ -125,15 +125,15 @@ void add_geographic(TrialReader& reader, DrivingLog& log) {
     double up = 0.0;
     plane.Forward(latitude[i], longitude[i], 0.0, east[i], north[i], up);
   }
-  log[Channel::kX] = measured_of(std::move(east));
-  log[Channel::kY] = measured_of(std::move(north));
+  log[LogChannel::kX] = measured_of(std::move(east));
+  log[LogChannel::kY] = measured_of(std::move(north));
 }
 
 /// A receiver gives x and y together: a repeat of one alone is chance.
 void join_position(DrivingLog& log) {
-  if (!log[Channel::kX] || !log[Channel::kY]) return;
-  Measured& x = *log[Channel::kX];
-  Measured& y = *log[Channel::kY];
+  if (!log[LogChannel::kX] || !log[LogChannel::kY]) return;
+  Measured& x = *log[LogChannel::kX];
+  Measured& y = *log[LogChannel::kY];
   x.held = y.held = x.held || y.held;
   if (!x.held) return;
   for (std::size_t i = 1; i < log.rows(); ++i) {
@@ -145,7 +145,7 @@ void join_position(DrivingLog& log) {
 
 void note_held(const DrivingLog& log, std::vector<Finding>& findings) {
   const double duration_s = log.t_s.back() - log.t_s.front();
-  for (const Channel channel : kChannels) {
+  for (const LogChannel channel : kChannels) {
     if (!log[channel] || !log[channel]->held) continue;
     findings.push_back(
         {log.file, 0, Severity::kNote, "held-samples",
@@ -169,7 +169,7 @@ void note_gaps(const DrivingLog& log, std::vector<Finding>& findings) {
 
 }  // namespace
 
-const ChannelInfo& info(Channel channel) {
+const ChannelInfo& info(LogChannel channel) {
   static constexpr double kDegree = pi<double>() / 180.0;
   static constexpr std::array<ChannelInfo, kChannelCount> kTable{
       {{"x_m", "x_m", "m", 1.0},
@@ -209,13 +209,13 @@ Result<DrivingLog> read_log(const std::filesystem::path& path, const TrialOption
   log.force_right = values_of(reader, "force_right", 1.0);
   if (reader.has("steering_cmd_deg")) {
     log.steering_command_rad =
-        values_of(reader, "steering_cmd_deg", info(Channel::kSteering).to_si);
+        values_of(reader, "steering_cmd_deg", info(LogChannel::kSteering).to_si);
   }
-  for (const Channel channel : kChannels) {
+  for (const LogChannel channel : kChannels) {
     const ChannelInfo& about = info(channel);
     if (!reader.has(about.column)) continue;
     std::vector<double> values = values_of(reader, about.column, about.to_si);
-    if (channel == Channel::kHeading) unwrap(values);
+    if (channel == LogChannel::kHeading) unwrap(values);
     log[channel] = measured_of(std::move(values));
   }
   join_position(log);

@@ -13,11 +13,11 @@
 namespace awmr {
 
 /// What a log may have measured.
-enum class Channel { kX, kY, kHeading, kSpeed, kSway, kYawRate, kSteering };
+enum class LogChannel { kX, kY, kHeading, kSpeed, kSway, kYawRate, kSteering };
 inline constexpr std::size_t kChannelCount = 7;
-inline constexpr std::array<Channel, kChannelCount> kChannels{
-    Channel::kX,    Channel::kY,       Channel::kHeading, Channel::kSpeed,
-    Channel::kSway, Channel::kYawRate, Channel::kSteering};
+inline constexpr std::array<LogChannel, kChannelCount> kChannels{
+    LogChannel::kX,    LogChannel::kY,       LogChannel::kHeading, LogChannel::kSpeed,
+    LogChannel::kSway, LogChannel::kYawRate, LogChannel::kSteering};
 
 struct ChannelInfo {
   std::string_view column;  ///< as in the CSV: "heading_deg"
@@ -25,7 +25,7 @@ struct ChannelInfo {
   std::string_view unit;    ///< "rad"
   double to_si = 1.0;       ///< column times this
 };
-const ChannelInfo& info(Channel channel);
+const ChannelInfo& info(LogChannel channel);
 
 /// A measured channel. A sensor slower than the log repeats its last value: only the row where a
 /// value is new counts as measured.
@@ -47,10 +47,10 @@ struct DrivingLog {
   std::array<std::optional<Measured>, kChannelCount> measured;
 
   std::size_t rows() const { return t_s.size(); }
-  const std::optional<Measured>& operator[](Channel c) const {
+  const std::optional<Measured>& operator[](LogChannel c) const {
     return measured[static_cast<std::size_t>(c)];
   }
-  std::optional<Measured>& operator[](Channel c) { return measured[static_cast<std::size_t>(c)]; }
+  std::optional<Measured>& operator[](LogChannel c) { return measured[static_cast<std::size_t>(c)]; }
   double median_step_s() const;
 };
 

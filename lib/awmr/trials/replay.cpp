@@ -9,7 +9,7 @@ namespace {
 constexpr std::size_t kShortestWindow = 3;
 
 /// The first measured value at or after `begin`, with its row.
-std::optional<std::size_t> first_fresh(const LogWindow& window, Channel channel, std::size_t from) {
+std::optional<std::size_t> first_fresh(const LogWindow& window, LogChannel channel, std::size_t from) {
   const auto& measured = (*window.log)[channel];
   if (!measured) return std::nullopt;
   for (std::size_t row = std::max(from, window.begin); row < window.end; ++row) {
@@ -19,7 +19,7 @@ std::optional<std::size_t> first_fresh(const LogWindow& window, Channel channel,
 }
 
 /// The slope of a channel over about a fifth of a second from the window's begin.
-std::optional<double> first_slope(const LogWindow& window, Channel channel) {
+std::optional<double> first_slope(const LogWindow& window, LogChannel channel) {
   const auto first = first_fresh(window, channel, window.begin);
   if (!first) return std::nullopt;
   const DrivingLog& log = *window.log;
@@ -84,28 +84,28 @@ LogSignals::LogSignals(const DrivingLog& driving_log)
       right(driving_log.t_s, driving_log.force_right),
       steering(driving_log.t_s, driving_log.steering_command_rad
                                     ? *driving_log.steering_command_rad
-                                    : driving_log[Channel::kSteering]->value) {}
+                                    : driving_log[LogChannel::kSteering]->value) {}
 
 State<double> measured_start(const LogWindow& window) {
   const DrivingLog& log = *window.log;
-  const auto first = [&](Channel channel) -> std::optional<double> {
+  const auto first = [&](LogChannel channel) -> std::optional<double> {
     const auto row = first_fresh(window, channel, window.begin);
     if (!row) return std::nullopt;
     return log[channel]->value[*row];
   };
-  const auto x_rate = first_slope(window, Channel::kX);
-  const auto y_rate = first_slope(window, Channel::kY);
+  const auto x_rate = first_slope(window, LogChannel::kX);
+  const auto y_rate = first_slope(window, LogChannel::kY);
   const bool course = x_rate && y_rate;
   State<double> s{};
-  s.x_m = first(Channel::kX).value_or(0.0);
-  s.y_m = first(Channel::kY).value_or(0.0);
-  s.psi_rad = first(Channel::kHeading).value_or(course ? std::atan2(*y_rate, *x_rate) : 0.0);
-  s.u_mps = first(Channel::kSpeed).value_or(course ? std::hypot(*x_rate, *y_rate) : 0.0);
-  s.v_mps = first(Channel::kSway).value_or(0.0);
+  s.x_m = first(LogChannel::kX).value_or(0.0);
+  s.y_m = first(LogChannel::kY).value_or(0.0);
+  s.psi_rad = first(LogChannel::kHeading).value_or(course ? std::atan2(*y_rate, *x_rate) : 0.0);
+  s.u_mps = first(LogChannel::kSpeed).value_or(course ? std::hypot(*x_rate, *y_rate) : 0.0);
+  s.v_mps = first(LogChannel::kSway).value_or(0.0);
   s.r_radps =
-      first(Channel::kYawRate).value_or(first_slope(window, Channel::kHeading).value_or(0.0));
+      first(LogChannel::kYawRate).value_or(first_slope(window, LogChannel::kHeading).value_or(0.0));
   s.steering_rad =
-      first(Channel::kSteering)
+      first(LogChannel::kSteering)
           .value_or(log.steering_command_rad ? (*log.steering_command_rad)[window.begin] : 0.0);
   return s;
 }

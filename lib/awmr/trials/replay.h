@@ -71,7 +71,7 @@ void replay(const LogSignals& signals, std::size_t begin, std::size_t end, Plant
   // A logged angle is what it is: no stop, no lag.
   if (!servo) plant.steering_max_rad = T(10.0);
   const auto angle_at = [&](std::size_t row, double share) {
-    const std::vector<double>& angle = log[Channel::kSteering]->value;
+    const std::vector<double>& angle = log[LogChannel::kSteering]->value;
     return angle[row] + share * (angle[std::min(row + 1, log.rows() - 1)] - angle[row]);
   };
   for (std::size_t row = begin; row < end; ++row) {
@@ -105,21 +105,21 @@ void replay(const LogSignals& signals, std::size_t begin, std::size_t end, Plant
 
 /// What a channel of the log would have read in this state.
 template <class T>
-const T& channel_of(const State<T>& s, Channel channel) {
+const T& channel_of(const State<T>& s, LogChannel channel) {
   switch (channel) {
-    case Channel::kX:
+    case LogChannel::kX:
       return s.x_m;
-    case Channel::kY:
+    case LogChannel::kY:
       return s.y_m;
-    case Channel::kHeading:
+    case LogChannel::kHeading:
       return s.psi_rad;
-    case Channel::kSpeed:
+    case LogChannel::kSpeed:
       return s.u_mps;
-    case Channel::kSway:
+    case LogChannel::kSway:
       return s.v_mps;
-    case Channel::kYawRate:
+    case LogChannel::kYawRate:
       return s.r_radps;
-    case Channel::kSteering:
+    case LogChannel::kSteering:
       break;
   }
   return s.steering_rad;

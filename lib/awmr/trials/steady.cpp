@@ -16,12 +16,12 @@ struct Stretch {
 };
 
 const std::vector<double>& steering_of(const DrivingLog& log) {
-  return log[Channel::kSteering] ? log[Channel::kSteering]->value : *log.steering_command_rad;
+  return log[LogChannel::kSteering] ? log[LogChannel::kSteering]->value : *log.steering_command_rad;
 }
 
 /// The command, not the angle, tells where it changed; the angle's noise would.
 const std::vector<double>& steering_command_of(const DrivingLog& log) {
-  return log.steering_command_rad ? *log.steering_command_rad : log[Channel::kSteering]->value;
+  return log.steering_command_rad ? *log.steering_command_rad : log[LogChannel::kSteering]->value;
 }
 
 std::vector<Stretch> constant_commands(const DrivingLog& log, double same) {
@@ -112,7 +112,7 @@ SteadyRuns steady_runs(const DrivingLog& log, const Vehicle& vehicle, const Stea
     const double right = mean_of(log.force_right, stretch);
     const double steering_rad = mean_of(steering_of(log), stretch);
     const bool turning = std::abs(steering_rad) > rule.straight_rad;
-    const auto& rate = log[turning ? Channel::kYawRate : Channel::kSpeed];
+    const auto& rate = log[turning ? LogChannel::kYawRate : LogChannel::kSpeed];
     if (!rate || !(left > 0.0) || std::abs(left - right) > rule.same) continue;
     const Line line = line_through(log, *rate, stretch);
     if (!is_steady(line, rule.drift)) continue;
