@@ -67,6 +67,10 @@ struct ValidateCommand {
   std::optional<fs::path> gains;
   ValidateOptions validate;
   fs::path output;
+  std::vector<fs::path> logs = {};
+  TrialOptions trials = {};  ///< columns of the logs
+  double horizon_s = 10.0;
+  double log_tolerance = 0.3;
   bool claims = false;                   ///< all fourteen, each with tolerance and reason
   std::optional<fs::path> claims_table = {};  ///< Markdown
 };

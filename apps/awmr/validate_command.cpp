@@ -23,6 +23,23 @@ std::string brief_of(const Validation& validation) {
                      others.empty() ? "none" : fmt::format("{}", fmt::join(others, " ")));
 }
 
+Result<std::vector<LogValidation>> validate_logs(const ValidateCommand& command,
+                                                 const Plant<double>& plant,
+                                                 std::vector<Finding>& findings) {
+  std::vector<LogValidation> validations;
+  std::vector<Fault> faults;
+  for (const fs::path& path : command.logs) {
+    const auto log = read_log(path, command.trials, findings);
+    if (log) {
+      validations.push_back(validate_log(*log, plant, command.horizon_s, command.log_tolerance));
+    } else {
+      faults.insert(faults.end(), log.error().faults.begin(), log.error().faults.end());
+    }
+  }
+  if (!faults.empty()) return input_errors(std::move(faults));
+  return validations;
+}
+
 }  // namespace
 
 Result<Outcome> execute(const ValidateCommand& command) {
@@ -37,14 +54,20 @@ Result<Outcome> execute(const ValidateCommand& command) {
     gains = kPaperGains;
   }
   Provenance provenance{"validate", {{"tolerance", format_number(command.validate.tolerance)}}, {}};
-  for (const auto& path : {std::optional(command.model), command.gains}) {
-    if (!path) continue;
-    const auto input = input_file(*path);
+  std::vector<fs::path> inputs{command.model};
+  if (command.gains) inputs.push_back(*command.gains);
+  inputs.insert(inputs.end(), command.logs.begin(), command.logs.end());
+  for (const fs::path& path : inputs) {
+    const auto input = input_file(path);
     if (!input) return tl::unexpected(input.error());
     provenance.inputs.push_back(*input);
   }
-  const auto validation = validate(*model, command.model.string(), gains, command.validate);
+  auto validation = validate(*model, command.model.string(), gains, command.validate);
   if (!validation) return tl::unexpected(validation.error());
+  std::vector<Finding> findings;
+  auto logs = validate_logs(command, *model->plant(command.model.string()), findings);
+  if (!logs) return tl::unexpected(logs.error());
+  add_logs(*validation, std::move(*logs), command.log_tolerance);
   if (const auto written = write_file(command.output, validation_text(*validation, provenance));
       !written) {
     return tl::unexpected(written.error());
@@ -58,20 +81,38 @@ Result<Outcome> execute(const ValidateCommand& command) {
                                  : validation_table(*validation)) +
                  fmt::format("wrote {}\n", command.output.string()),
       .brief = brief_of(*validation),
+      .findings = std::move(findings),
       .refused = !validation->passed};
 }
 
 void add_validate(CLI::App& app, Session& session) {
   auto command = std::make_shared<ValidateCommand>();
+  auto columns = std::make_shared<std::vector<std::string>>();
   CLI::App* sub = add_command(
       app, session, "validate", "Hold the model against its trials and the paper's claims",
       "awmr validate --model model.json --gains gains.json -o validation.json",
-      [command] { return execute(*command); });
+      [command, columns]() -> Result<Outcome> {
+        for (const std::string& text : *columns) {
+          auto mapping = parse_column_mapping(text);
+          if (!mapping) return tl::unexpected(mapping.error());
+          command->trials.columns.push_back(*mapping);
+        }
+        return execute(*command);
+      });
   sub->add_option("--model", command->model, "model.json from identify")->required();
   sub->add_option("--gains", command->gains, "gains.json: also run the closed-loop claims");
   sub->add_option("--tolerance", command->validate.tolerance,
                   "Largest accepted RMS relative error of a kind of trial (default 0.15)")
       ->check(CLI::PositiveNumber);
+  sub->add_option("--log", command->logs,
+                  "CSV of a driving log, best one that the model was not fitted to; may be repeated");
+  sub->add_option("--horizon", command->horizon_s,
+                  "Length of the windows that a log is predicted over, s (default 10)")
+      ->check(CLI::PositiveNumber);
+  sub->add_option("--log-tolerance", command->log_tolerance,
+                  "Largest accepted NRMSE of a channel over a window (default 0.3)")
+      ->check(CLI::PositiveNumber);
+  sub->add_option("--column", *columns, "NAME=SOURCE[*SCALE][+OFFSET]: another column's name");
   auto* claims = sub->add_flag("--claims", command->claims,
                                "Tell of each of the paper's fourteen claims what was found, what "
                                "counts and why; without --gains, with the paper's gains");

@@ -33,6 +33,9 @@ struct AllocationLimits {
   T steering_max_rad;       ///< d_max, in (0, pi/2)
   T steering_max_tan_half;  ///< tan_half(d_max)
   CombinedSplit split = CombinedSplit::kRedistribute;
+  /// F'0 of every wheel: the forces here are those beyond it, and so are their limits; the command
+  /// that goes out is with_dead_zone() of them.
+  T dead_zone = T(0.0);
 };
 
 template <class T>

@@ -61,8 +61,23 @@ Result<AutopilotParameters> autopilot_parameters(const Model& model, const Gains
   }
   const auto plant = model.plant(inputs.model_file);
   if (!plant) return tl::unexpected(plant.error());
-  const ResistanceLaw surge = [&](double u) { return plant->surge(u); };
-  const ResistanceLaw yaw = [&](double r) { return plant->yaw(r); };
+  if (plant->wheel_dead_zone > 0.0) {
+    return input_error(inputs.model_file + ":/wheel/dead_zone",
+                       "the firmware does not make up for a dead zone of the wheels; emit the header "
+                       "alone (--header-only) and add AWMR_WHEEL_DEAD_ZONE where the motors are "
+                       "written, or identify a family without it");
+  }
+  const Resistance<double> surge_law = feed_forward(plant->surge);
+  const Resistance<double> yaw_law = feed_forward(plant->yaw);
+  const auto has_terms = [](const Resistance<double>& law) {
+    return law.coulomb > 0.0 || law.quadratic > 0.0;
+  };
+  if (options.resistance == ResistanceForm::kPowf && (has_terms(surge_law) || has_terms(yaw_law))) {
+    return input_error("--resistance",
+                       "powf knows the power law alone; this model's family needs the table");
+  }
+  const ResistanceLaw surge = [&](double u) { return surge_law(u); };
+  const ResistanceLaw yaw = [&](double r) { return yaw_law(r); };
   const double full_force = 4.0 * model.vehicle.wheel_force.hi;
   const double full_moment_m = full_force * plant->half_track_m;
   const double speed_top = table_top(surge, full_force);

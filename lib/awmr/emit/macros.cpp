@@ -50,6 +50,16 @@ void add_parameters(std::vector<Macro>& macros, const Model& model, const std::s
   add("AWMR_SWAY_ALPHA", ParameterId::kSwayAlpha, MacroRange::kPositive);
   add("AWMR_MASS_NORM", ParameterId::kMassNorm, MacroRange::kPositive);
   add("AWMR_INERTIA_NORM", ParameterId::kInertiaNorm, MacroRange::kPositive);
+  // Only of families that have them: a power law's header is the contract's, no more.
+  const std::pair<const char*, ParameterId> terms[] = {
+      {"AWMR_SURGE_COULOMB", ParameterId::kSurgeCoulomb},
+      {"AWMR_SURGE_QUADRATIC", ParameterId::kSurgeQuadratic},
+      {"AWMR_YAW_COULOMB", ParameterId::kYawCoulomb},
+      {"AWMR_YAW_QUADRATIC", ParameterId::kYawQuadratic},
+      {"AWMR_WHEEL_DEAD_ZONE", ParameterId::kWheelDeadZone}};
+  for (const auto& [name, id] : terms) {
+    if (model[id].value != 0.0) add(name, id, MacroRange::kPositive);
+  }
 }
 
 void add_vehicle(std::vector<Macro>& macros, const Vehicle& vehicle, const std::string& file) {

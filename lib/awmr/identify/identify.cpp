@@ -266,9 +266,29 @@ class Identifier {
     take(stage.reports, stage.findings);
     if (stage.block.size() == 0) return;
     const Eigen::Index first = covariance_.add_block(stage.block);
+    const bool fills_surge = std::any_of(
+        stage.main.begin(), stage.main.end(),
+        [](const LogStage::Main& main) { return main.id == ParameterId::kSurgeAlpha; });
+    if (fills_surge) set_family_of_logs(stage.surge_family);
     for (const LogStage::Main& main : stage.main) {
       result_.model[main.id] = main.estimate;
       covariance_.set(main.id, {{first + main.place, main.slope}});
+    }
+  }
+
+  /// Terms that the logs' family does not have are gone, whatever the tables' had.
+  void set_family_of_logs(Family family) {
+    Model& model = result_.model;
+    model.surge_family = family;
+    model.yaw_family = options_.yaw_family.family.value_or(Family::kPower);
+    const Estimate none{0.0, {}, {}, Source::kGiven, "not in the family"};
+    const FamilyTerms terms = terms_of(family);
+    if (!terms.coulomb) model[ParameterId::kSurgeCoulomb] = none;
+    if (!terms.quadratic) model[ParameterId::kSurgeQuadratic] = none;
+    if (!terms.dead_zone) model[ParameterId::kWheelDeadZone] = none;
+    if (!terms.beta) {
+      model[ParameterId::kSurgeBeta] = {
+          1.0, {}, {}, Source::kGiven, fmt::format("family {}", name_of(family))};
     }
   }
 

@@ -284,6 +284,7 @@ class LogFitter {
       noise.std = count > 0 ? std::sqrt(sum / (6.0 * count)) : 1.0;
       // Noise-free data still have to weigh something.
       noise.std = std::max(noise.std, 1e-9);
+      noise.sensor_std = noise.std;
     }
   }
 
@@ -469,6 +470,7 @@ class LogFitter {
       const double rho = squares > 0.0 ? products / squares : 0.0;
       // Correlation of no consequence (below a tenth) is left alone.
       const bool coloured = rho * std::sqrt(n) > kOnePercent && rho > 0.1;
+      noise.step_s = spans / n;
       noise.correlation_s = coloured ? -(spans / n) / std::log(std::min(rho, 0.999)) : 0.0;
     }
     if (options_.loss == Loss::kNone) return;
@@ -660,6 +662,12 @@ class LogFitter {
     refuse_stopped();
     fit_.bootstrap95.assign(static_cast<std::size_t>(n), std::nullopt);
     if (options_.bootstrap > 0) bootstrap(scores);
+    fit_.aic = 2.0 * static_cast<double>(n);
+    for (const auto& [channel, noise] : model_.noise) {
+      const double phi =
+          noise.correlation_s > 0.0 ? std::exp(-noise.step_s / noise.correlation_s) : 0.0;
+      fit_.aic += noise.count * std::log(noise.std * noise.std * (1.0 - phi * phi));
+    }
     report();
   }
 

@@ -52,6 +52,11 @@ struct LogFitOptions {
 struct ChannelNoise {
   double std = 1.0;            ///< SI
   double correlation_s = 0.0;  ///< tau; 0: white
+  double step_s = 0.0;         ///< mean time between samples
+  double sensor_std = 0.0;     ///< what the signal's own roughness shows, without a model
+
+  /// Errors far above the sensor's and correlated over a second or more are the model's.
+  bool of_the_model() const { return std > 3.0 * sensor_std && correlation_s >= 1.0; }
   int count = 0;
 };
 
@@ -63,6 +68,8 @@ struct LogFit {
   std::vector<std::string> why;    ///< by quantity, where it is not
   std::vector<std::optional<Interval>> bootstrap95;  ///< of the value, by quantity, where asked for
   std::map<LogChannel, ChannelNoise> noise;
+  /// -2 ln L + 2 p with the noise at its estimate: n ln(sigma^2 (1 - phi^2)) over the channels.
+  double aic = 0.0;
   EstimatorReport report;
   bool usable = false;
 };

@@ -71,7 +71,7 @@ std::map<ParameterId, double> guesses(const std::vector<DrivingLog>& logs, const
 }
 
 /// The terms that the families asked for have, with their exponents.
-void free_terms(const IdentifyOptions& options, LogFitOptions& fit) {
+void free_terms(Family surge_family, Family yaw_family, LogFitOptions& fit) {
   const auto drop = [&](ParameterId id) {
     std::erase(fit.free, id);
     fit.start[id] = 1.0;
@@ -80,8 +80,8 @@ void free_terms(const IdentifyOptions& options, LogFitOptions& fit) {
     if (!contains(fit.free, id)) fit.free.push_back(id);
     if (!(fit.start[id] > 0.0)) fit.start[id] = start;
   };
-  const FamilyTerms surge = terms_of(options.surge_family.family.value_or(Family::kPower));
-  const FamilyTerms yaw = terms_of(options.yaw_family.family.value_or(Family::kPower));
+  const FamilyTerms surge = terms_of(surge_family);
+  const FamilyTerms yaw = terms_of(yaw_family);
   constexpr double kShare = 0.1;  // of the power law's value at 1
   if (!surge.beta) drop(ParameterId::kSurgeBeta);
   if (!yaw.beta) drop(ParameterId::kYawBeta);
@@ -119,13 +119,15 @@ class Stage {
 
   LogStage run() {
     prepare();
-    LogFit fit = fit_logs(logs_, fit_);
+    const LogFit fit = options_.surge_family.family ? fit_family(*options_.surge_family.family)
+                                                    : best_family();
     report(fit);
+    judge_model(fit);
     if (!fit.usable) {
       stage_.findings.push_back(
           {logs_.front().file, 0, Severity::kError, "not-converged",
            "the fit of the logs did not converge: " + fit.report.stop_reason});
-      for (const ParameterId id : fit_.free) {
+      for (const ParameterId id : chosen_.free) {
         stage_.reasons[id] = "the fit of the logs did not converge";
       }
       return std::move(stage_);
@@ -159,7 +161,78 @@ class Stage {
       fit_.free.push_back(parameter.id);
       if (!known.value) fit_.guessed.push_back(parameter.id);
     }
-    free_terms(options_, fit_);
+  }
+
+  LogFit fit_family(Family surge) {
+    chosen_ = fit_;
+    free_terms(surge, options_.yaw_family.family.value_or(Family::kPower), chosen_);
+    LogFit result = fit_logs(logs_, chosen_);
+    result.report.family = name_of(surge);
+    if (std::isfinite(result.aic)) result.report.aicc = result.aic;
+    stage_.surge_family = surge;
+    return result;
+  }
+
+  /// Every family of surge resistance in turn; the least AIC of those that converged is taken, the
+  /// others are reported.
+  LogFit best_family() {
+    std::optional<LogFit> best;
+    LogFitOptions best_options;
+    Family best_name = Family::kPower;
+    double power_aic = 0.0;
+    for (const Family family : kFamilies) {
+      LogFit fit = fit_family(family);
+      if (family == Family::kPower) power_aic = fit.aic;
+      const bool better = !best || (fit.usable && (!best->usable || fit.aic < best->aic));
+      if (!better) {
+        stage_.reports.push_back(fit.report);
+        continue;
+      }
+      if (best) stage_.reports.push_back(best->report);
+      best = std::move(fit);
+      best_options = chosen_;
+      best_name = family;
+    }
+    chosen_ = best_options;
+    stage_.surge_family = best_name;
+    constexpr double kPlainlyBetter = 10.0;
+    if (best_name != Family::kPower && power_aic - best->aic > kPlainlyBetter) {
+      stage_.findings.push_back(
+          {logs_.front().file, 0, Severity::kNote, "power-law-inadequate",
+           fmt::format("a power law does not describe these logs: {} is better by {:.0f} of AIC",
+                       name_of(best_name), power_aic - best->aic)});
+    }
+    return *best;
+  }
+
+  /// Where the errors are the model's own: is it the family?
+  void judge_model(const LogFit& fit) {
+    for (const auto& [channel, noise] : fit.noise) {
+      if (!noise.of_the_model()) continue;
+      std::string advice = "something that the model does not know acts on the vehicle";
+      const bool power = options_.surge_family.family == Family::kPower && fit_rivals_;
+      if (channel == LogChannel::kSpeed && power) {
+        const LogFitOptions kept = chosen_;
+        const Family family = stage_.surge_family;
+        fit_rivals_ = false;
+        const LogFit rival = best_family();
+        if (stage_.surge_family != Family::kPower) {
+          advice = fmt::format("a power law does not describe these logs; --family surge={} does "
+                               "better by {:.0f} of AIC",
+                               name_of(stage_.surge_family), fit.aic - rival.aic);
+        }
+        stage_.reports.push_back(rival.report);
+        chosen_ = kept;
+        stage_.surge_family = family;
+      }
+      stage_.findings.push_back(
+          {logs_.front().file, 0, Severity::kWarning, "model-inadequate",
+           fmt::format("the model misses {} by {:.3g} {} over {:.2g} s at a time, where the sensor's "
+                       "own noise is {:.2g}: {}. The intervals hold for the model as it is, not for "
+                       "the vehicle",
+                       info(channel).name, noise.std, info(channel).unit, noise.correlation_s,
+                       noise.sensor_std, advice)});
+    }
   }
 
   void report(const LogFit& fit) {
@@ -224,7 +297,7 @@ class Stage {
     for (std::size_t out = 0; out < logs_.size(); ++out) {
       std::vector<DrivingLog> others = logs_;
       others.erase(others.begin() + static_cast<std::ptrdiff_t>(out));
-      LogFitOptions options = fit_;
+      LogFitOptions options = chosen_;
       options.bootstrap = 0;
       const LogFit fit = fit_logs(others, options);
       LeaveOneOut entry{logs_[out].file, 0, {}};
@@ -261,7 +334,9 @@ class Stage {
   const std::vector<ParameterId>& asked_;
   const Model& model_;
   const bool overrule_;
-  LogFitOptions fit_;
+  LogFitOptions fit_;     ///< of the power law, without a family's terms
+  LogFitOptions chosen_;  ///< with them
+  bool fit_rivals_ = true;
   LogStage stage_;
 };
 

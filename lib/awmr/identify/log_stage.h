@@ -20,6 +20,7 @@ struct LogStage {
     double slope;        ///< d value / d coordinate
   };
   std::vector<Main> main;
+  Family surge_family = Family::kPower;        ///< of the fit
   Eigen::MatrixXd block;                       ///< covariance of the fit's coordinates
   std::map<ParameterId, std::string> reasons;  ///< free in the fit, but not identifiable
   std::vector<EstimatorReport> reports;

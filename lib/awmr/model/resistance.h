@@ -38,6 +38,26 @@ struct Resistance {
   }
 };
 
+/// The law as a controller feeds it forward. A curve that jumps at rest would make the command chatter
+/// between +c and -c there, so below this speed (m/s, rad/s) it is its chord.
+template <class T>
+constexpr T feed_forward_rest_speed() {
+  return T(0.02);
+}
+template <class T>
+Resistance<T> feed_forward(Resistance<T> law) {
+  if (law.coulomb > T(0.0)) law.rest_speed = feed_forward_rest_speed<T>();
+  return law;
+}
+
+/// The command that leaves `force` beyond a motor's dead zone; 0 for 0.
+template <class T>
+T with_dead_zone(const T& force, const T& zone) {
+  if (force > T(0.0)) return force + zone;
+  if (force < T(0.0)) return force - zone;
+  return force;
+}
+
 /// What is left of a command after a motor's dead zone, >= 0: it does nothing up to `zone` and
 /// loses that much beyond.
 template <class T>

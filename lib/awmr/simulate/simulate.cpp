@@ -96,10 +96,11 @@ double clearance_m(const Scenario& scenario, const State<double>& state) {
   return least_m;
 }
 
-void fill(RunRow& row, const Command<double>& command) {
+void fill(RunRow& row, const Command<double>& command, double dead_zone) {
   row.tau_speed = command.tau_speed;
   row.tau_turn_m = command.tau_turn_m;
-  row.force = command.allocation.force;
+  row.force = {with_dead_zone(command.allocation.force.left, dead_zone),
+               with_dead_zone(command.allocation.force.right, dead_zone)};
   row.steering_command_rad = command.allocation.steering_rad;
 }
 
@@ -107,18 +108,21 @@ void fill(RunRow& row, const Command<double>& command) {
 
 Controller<double> make_controller(const Plant<double>& plant, const Vehicle& vehicle,
                                    const Gains<double>& gains, CombinedSplit split) {
-  return {.surge = plant.surge,
-          .yaw = plant.yaw,
+  const double zone = plant.wheel_dead_zone;
+  const double backward = vehicle.wheel_force.lo < -zone ? vehicle.wheel_force.lo + zone : 0.0;
+  return {.surge = feed_forward(plant.surge),
+          .yaw = feed_forward(plant.yaw),
           .mass_norm = plant.mass_norm,
           .inertia_norm = plant.inertia_norm,
           .gains = gains,
           .limits = {.front_axle_m = plant.front_axle_m,
                      .half_track_m = plant.half_track_m,
-                     .force_min = vehicle.wheel_force.lo,
-                     .force_max = vehicle.wheel_force.hi,
+                     .force_min = zone > 0.0 ? backward : vehicle.wheel_force.lo,
+                     .force_max = vehicle.wheel_force.hi - zone,
                      .steering_max_rad = plant.steering_max_rad,
                      .steering_max_tan_half = tan_half(plant.steering_max_rad),
-                     .split = split}};
+                     .split = split,
+                     .dead_zone = zone}};
 }
 
 Run simulate(const Plant<double>& plant, const Controller<double>& controller,
@@ -126,7 +130,8 @@ Run simulate(const Plant<double>& plant, const Controller<double>& controller,
   const double sample_s = options.sample_time_s;
   // The last sample at or before the duration, with room for rounding.
   const auto samples = static_cast<std::size_t>(std::floor(scenario.duration_s / sample_s + 1e-9));
-  Physics physics(plant, controller.limits.force_max, scenario, options);
+  const double force_max = controller.limits.force_max + controller.limits.dead_zone;
+  Physics physics(plant, force_max, scenario, options);
   Sensing sensing(scenario.sensors, sample_s,
                   run_seed(scenario.seed, options.seed, options.sample));
   Sensed sensed = sensing.at(0, physics.state());
@@ -146,19 +151,19 @@ Run simulate(const Plant<double>& plant, const Controller<double>& controller,
     row.measured_position_m = sensed.position_m;
     if (!scenario.obstacles.empty()) row.clearance_m = clearance_m(scenario, row.state);
     if (open) {
-      fill(row, autopilot.open_loop(*open));
+      fill(row, autopilot.open_loop(*open), controller.limits.dead_zone);
     } else {
       const Pilot::Order order = pilot.at(row.t_s, sensed);
       row.course = order.course;
       row.psi_ref_rad = order.reference.psi_rad;
       row.u_ref_mps = order.reference.speed_mps;
-      fill(row, autopilot.follow(sensed.motion, order.reference));
+      fill(row, autopilot.follow(sensed.motion, order.reference), controller.limits.dead_zone);
       if (order.finished) run.end = RunEnd::kFinished;
       if (order.no_passage && std::abs(row.state.u_mps) < kStopped_mps) {
         run.end = RunEnd::kNoPassage;
       }
     }
-    if (scenario.actuators) quantise(*scenario.actuators, controller.limits.force_max, row);
+    if (scenario.actuators) quantise(*scenario.actuators, force_max, row);
     row.disturbance = physics.disturb(row.t_s);
     if (run.end == RunEnd::kDuration && k < samples) {
       physics.step(row.t_s, row.force, row.steering_command_rad);

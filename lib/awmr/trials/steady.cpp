@@ -89,6 +89,20 @@ bool is_steady(const Line& line, double drift) {
          std::abs(line.rise) <= 3.0 * line.rise_error;
 }
 
+/// Cuts the stretch to its steady rest; none where there is no such rest.
+std::optional<Line> steady_rest(const DrivingLog& log, const Measured& rate,
+                                const SteadyRule& rule, Stretch& stretch) {
+  for (double from_s = log.t_s[stretch.begin] + rule.settling_s;; from_s += rule.later_s) {
+    while (stretch.begin < stretch.end && log.t_s[stretch.begin] < from_s) ++stretch.begin;
+    if (stretch.begin >= stretch.end ||
+        log.t_s[stretch.end - 1] - log.t_s[stretch.begin] < rule.shortest_s) {
+      return std::nullopt;
+    }
+    const Line line = line_through(log, rate, stretch);
+    if (is_steady(line, rule.drift)) return line;
+  }
+}
+
 double mean_of(const std::vector<double>& signal, Stretch s) {
   double sum = 0.0;
   for (std::size_t i = s.begin; i < s.end; ++i) sum += signal[i];
@@ -102,20 +116,15 @@ SteadyRuns steady_runs(const DrivingLog& log, const Vehicle& vehicle, const Stea
   SteadyRuns runs;
   runs.surge.file = runs.turning.file = log.file;
   for (Stretch stretch : constant_commands(log, rule.same)) {
-    const double from_s = log.t_s[stretch.begin] + rule.settling_s;
-    while (stretch.begin < stretch.end && log.t_s[stretch.begin] < from_s) ++stretch.begin;
-    if (stretch.begin >= stretch.end ||
-        log.t_s[stretch.end - 1] - log.t_s[stretch.begin] < rule.shortest_s) {
-      continue;
-    }
     const double left = mean_of(log.force_left, stretch);
     const double right = mean_of(log.force_right, stretch);
     const double steering_rad = mean_of(steering_of(log), stretch);
     const bool turning = std::abs(steering_rad) > rule.straight_rad;
     const auto& rate = log[turning ? LogChannel::kYawRate : LogChannel::kSpeed];
     if (!rate || !(left > 0.0) || std::abs(left - right) > rule.same) continue;
-    const Line line = line_through(log, *rate, stretch);
-    if (!is_steady(line, rule.drift)) continue;
+    const auto found = steady_rest(log, *rate, rule, stretch);
+    if (!found) continue;
+    const Line& line = *found;
     // At rest within the scatter: no information for a resistance curve.
     if (!(std::abs(line.mean) > 3.0 * line.mean_error) || line.mean == 0.0) continue;
     if (turning ? line.mean * steering_rad < 0.0 : line.mean < 0.0) continue;

@@ -105,6 +105,21 @@ void judge(Validation& validation, double tolerance) {
 
 }  // namespace
 
+void add_logs(Validation& validation, std::vector<LogValidation> logs, double tolerance) {
+  if (logs.empty()) return;
+  std::size_t predicted = 0;
+  for (const LogValidation& log : logs) predicted += log.passed ? 1 : 0;
+  const bool all = predicted == logs.size();
+  const std::string sentence =
+      fmt::format("{} of {} logs are predicted over {:g} s with an NRMSE of at most {:g} in every "
+                  "channel",
+                  predicted, logs.size(), logs.front().horizon_s, tolerance);
+  validation.passed = validation.trials.empty() ? all : validation.passed && all;
+  validation.verdict =
+      validation.trials.empty() ? sentence : fmt::format("{}; {}", validation.verdict, sentence);
+  validation.logs = std::move(logs);
+}
+
 std::optional<double> predicted_measurement(const Plant<double>& plant, const TrialPoint& trial) {
   // tau_speed = 4 F' at d_r = 0, of which the dead zone takes 4 F'0               [paper (41)]
   if (trial.kind == "surge") {

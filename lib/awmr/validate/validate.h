@@ -9,6 +9,7 @@
 #include "awmr/core/result.h"
 #include "awmr/model/gains.h"
 #include "awmr/model/model.h"
+#include "awmr/validate/logs.h"
 
 namespace awmr {
 
@@ -39,8 +40,10 @@ struct Validation {
   std::optional<double> surge_rms_relative_error;
   std::optional<double> turning_rms_relative_error;
   std::optional<double> coastdown_rms_relative_error;
+  std::vector<LogValidation> logs;
   std::vector<Claim> claims;
-  bool passed = false;  ///< every kind of trial is predicted within `tolerance`, and there is one
+  /// Every kind of trial, and every log, is predicted within its tolerance; and there is one.
+  bool passed = false;
   std::string verdict;  ///< one sentence
 };
 
@@ -62,6 +65,9 @@ std::optional<double> predicted_measurement(const Plant<double>& plant, const Tr
 Result<Validation> validate(const Model& model, const std::string& model_file,
                             const std::optional<Gains<double>>& gains,
                             const ValidateOptions& options);
+
+/// Adds the logs' figures and takes them into the verdict.
+void add_logs(Validation& validation, std::vector<LogValidation> logs, double tolerance);
 
 /// The bytes of validation.json.
 std::string validation_text(const Validation& validation, const Provenance& provenance);

@@ -18,6 +18,24 @@ Json trial_json(const TrialResidual& trial) {
           {"relative_error", optional_json(trial.relative_error)}};
 }
 
+Json error_json(const PredictionError& error) {
+  return {{"nrmse", error.nrmse}, {"r2", error.r2}, {"rmse", error.rmse}};
+}
+
+Json log_json(const LogValidation& log) {
+  Json channels = Json::object();
+  for (const ChannelValidation& channel : log.channels) {
+    channels[channel.channel] = {{"unit", channel.unit},
+                                 {"samples", channel.samples},
+                                 {"one_step", error_json(channel.one_step)},
+                                 {"long_horizon", error_json(channel.long_horizon)}};
+  }
+  return {{"file", log.file},
+          {"horizon_s", log.horizon_s},
+          {"passed", log.passed},
+          {"channels", channels}};
+}
+
 Json claim_json(const Claim& claim) {
   return {{"id", claim.id},
           {"statement", claim.statement},
@@ -42,6 +60,7 @@ std::string validation_text(const Validation& validation, const Provenance& prov
   json["trials"] = Json::array();
   for (const TrialResidual& trial : validation.trials) json["trials"].push_back(trial_json(trial));
   json["logs"] = Json::array();
+  for (const LogValidation& log : validation.logs) json["logs"].push_back(log_json(log));
   json["claims"] = Json::array();
   for (const Claim& claim : validation.claims) json["claims"].push_back(claim_json(claim));
   return to_text(json);

@@ -48,6 +48,14 @@ std::string validation_table(const Validation& validation) {
                         trial.measured, number_or_dash(trial.predicted, "{:.4g}"), trial.unit,
                         number_or_dash(percent, "{:+.1f} %"));
   }
+  for (const LogValidation& log : validation.logs) {
+    text += fmt::format("{}\n  {:<16} {:>9} {:>13} {:>13} {:>13}\n", log.file, "channel", "samples",
+                        "one-step R2", "long R2", "long NRMSE");
+    for (const ChannelValidation& c : log.channels) {
+      text += fmt::format("  {:<16} {:>9} {:>13.4f} {:>13.4f} {:>13.4f}\n", c.channel, c.samples,
+                          c.one_step.r2, c.long_horizon.r2, c.long_horizon.nrmse);
+    }
+  }
   text += wrapped(validation.verdict, 0);
   text += "\nclaims of the paper, simulated with this model\n";
   for (const Claim& claim : validation.claims) {
