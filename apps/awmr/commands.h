@@ -71,7 +71,7 @@ struct ValidateCommand {
   TrialOptions trials = {};  ///< columns of the logs
   double horizon_s = 10.0;
   double log_tolerance = 0.3;
-  bool claims = false;                   ///< all fourteen, each with tolerance and reason
+  bool claims = false;                        ///< all fourteen, each with tolerance and reason
   std::optional<fs::path> claims_table = {};  ///< Markdown
 };
 Result<Outcome> execute(const ValidateCommand& command);

@@ -40,9 +40,9 @@ struct PilOptions {
   std::optional<std::filesystem::path> port;  ///< a real board's, with kUart
   unsigned baud = 500000;
   EmitOptions emit;
-  std::optional<unsigned> cycles_max;  ///< absent: 12,000 by table, 24,000 by powf
-  std::optional<unsigned> flash_max;  ///< bytes; absent: 8192, and 9216 with kUart's framing
-  unsigned ram_max = 512;              ///< bytes, without the stack
+  std::optional<unsigned> cycles_max;    ///< absent: 12,000 by table, 24,000 by powf
+  std::optional<unsigned> flash_max;     ///< bytes; absent: 8192, and 9216 with kUart's framing
+  unsigned ram_max = 512;                ///< bytes, without the stack
   std::optional<double> difference_max;  ///< from the host's float run; absent: 0 and 1e-6
   double heading_max_deg = 0.05;         ///< from the host's double run
   Injection injection = Injection::kNone;

@@ -78,8 +78,8 @@ Result<Outcome> execute(const RunCommand& command) {
   auto validated =
       execute(ValidateCommand{model, gains, ValidateOptions{}, command.output / "validation.json"});
   if (!take("validate", validated)) return validated;
-  auto emitted = execute(EmitCommand{
-      .model = model, .gains = gains, .output = command.output, .header_only = true});
+  auto emitted = execute(
+      EmitCommand{.model = model, .gains = gains, .output = command.output, .header_only = true});
   if (!emitted) return emitted;
   auto compared =
       execute(CompareCommand{model, {gains}, project->scenarios, project->compare, command.output});

@@ -104,8 +104,9 @@ void add_validate(CLI::App& app, Session& session) {
   sub->add_option("--tolerance", command->validate.tolerance,
                   "Largest accepted RMS relative error of a kind of trial (default 0.15)")
       ->check(CLI::PositiveNumber);
-  sub->add_option("--log", command->logs,
-                  "CSV of a driving log, best one that the model was not fitted to; may be repeated");
+  sub->add_option(
+      "--log", command->logs,
+      "CSV of a driving log, best one that the model was not fitted to; may be repeated");
   sub->add_option("--horizon", command->horizon_s,
                   "Length of the windows that a log is predicted over, s (default 10)")
       ->check(CLI::PositiveNumber);

@@ -91,6 +91,20 @@ PreparedController<T, G> prepared(const Controller<T, G>& c) {
            c.gains.speed.mu / c.gains.speed.epsilon, prepared(c.limits)}};
 }
 
+/// The resistance fed forward. At rest a curve that jumps there (feed_forward() in resistance.h)
+/// says nothing of the force it takes to move; which way the vehicle is to move, `intent`, does:
+///   g(w) outside of the chord;  g(rest) sat((w + intent)/rest) on it
+template <class T>
+T fed_forward(const Resistance<T>& law, const T& speed, const T& intent) {
+  using math::abs;
+  if (!(abs(speed) < law.rest_speed)) return law(speed);
+  return law.at(law.rest_speed) * math::saturate(T((speed + intent) / law.rest_speed), T(1.0));
+}
+template <class T, class G>
+T fed_forward(const G& table, const T& speed, const T&) {
+  return table(speed);
+}
+
 /// S = e_dot + lambda e,  e = wrap(psi_d - psi),  e_dot = psi_d_dot - r                 [paper
 /// (82)]
 template <class T>
@@ -109,7 +123,7 @@ T heading_law(const PreparedController<T, G>& c, const Measurement<T>& m, const 
   const T s = error_rate + k.lambda * wrap_angle(ref.psi_rad - m.psi_rad);
   // mu sat(S/eps) = sat(S mu/eps, mu)
   const T correction = math::saturate(k.heading_slope * s, k.heading_mu);
-  return c.yaw(m.r_radps) +
+  return fed_forward(c.yaw, m.r_radps, s) +
          k.inertia_norm * (ref.psi_accel_radps2 + k.lambda * error_rate + correction);
 }
 template <class T, class G>
@@ -122,8 +136,10 @@ T heading_law(const Controller<T, G>& c, const Measurement<T>& m, const Referenc
 template <class T, class G>
 T speed_law(const PreparedController<T, G>& c, const Measurement<T>& m, const Reference<T>& ref) {
   const ControlConstants<T>& k = c.constants;
-  const T correction = math::saturate(k.speed_slope * (ref.speed_mps - m.u_mps), k.speed_mu);
-  return c.surge(m.u_mps) + k.mass_norm * (ref.accel_mps2 + correction - m.r_radps * m.v_mps);
+  const T error = ref.speed_mps - m.u_mps;
+  const T correction = math::saturate(k.speed_slope * error, k.speed_mu);
+  return fed_forward(c.surge, m.u_mps, error) +
+         k.mass_norm * (ref.accel_mps2 + correction - m.r_radps * m.v_mps);
 }
 template <class T, class G>
 T speed_law(const Controller<T, G>& c, const Measurement<T>& m, const Reference<T>& ref) {

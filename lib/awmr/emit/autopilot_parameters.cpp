@@ -62,17 +62,23 @@ Result<AutopilotParameters> autopilot_parameters(const Model& model, const Gains
   const auto plant = model.plant(inputs.model_file);
   if (!plant) return tl::unexpected(plant.error());
   if (plant->wheel_dead_zone > 0.0) {
-    return input_error(inputs.model_file + ":/wheel/dead_zone",
-                       "the firmware does not make up for a dead zone of the wheels; emit the header "
-                       "alone (--header-only) and add AWMR_WHEEL_DEAD_ZONE where the motors are "
-                       "written, or identify a family without it");
+    return input_error(
+        inputs.model_file + ":/wheel/dead_zone",
+        "the firmware does not make up for a dead zone of the wheels; emit the header "
+        "alone (--header-only) and add AWMR_WHEEL_DEAD_ZONE where the motors are "
+        "written, or identify a family without it");
   }
-  const Resistance<double> surge_law = feed_forward(plant->surge);
-  const Resistance<double> yaw_law = feed_forward(plant->yaw);
-  const auto has_terms = [](const Resistance<double>& law) {
-    return law.coulomb > 0.0 || law.quadratic > 0.0;
-  };
-  if (options.resistance == ResistanceForm::kPowf && (has_terms(surge_law) || has_terms(yaw_law))) {
+  const Resistance<double>& surge_law = plant->surge;
+  const Resistance<double>& yaw_law = plant->yaw;
+  if (surge_law.coulomb > 0.0 || yaw_law.coulomb > 0.0) {
+    return input_error(
+        inputs.model_file + (surge_law.coulomb > 0.0 ? ":/surge/coulomb" : ":/yaw/coulomb"),
+        "the firmware does not make up for friction at rest, as the simulated controller does; "
+        "emit "
+        "the header alone (--header-only), or identify a family without it");
+  }
+  if (options.resistance == ResistanceForm::kPowf &&
+      (surge_law.quadratic > 0.0 || yaw_law.quadratic > 0.0)) {
     return input_error("--resistance",
                        "powf knows the power law alone; this model's family needs the table");
   }

@@ -266,9 +266,9 @@ class Identifier {
     take(stage.reports, stage.findings);
     if (stage.block.size() == 0) return;
     const Eigen::Index first = covariance_.add_block(stage.block);
-    const bool fills_surge = std::any_of(
-        stage.main.begin(), stage.main.end(),
-        [](const LogStage::Main& main) { return main.id == ParameterId::kSurgeAlpha; });
+    const bool fills_surge =
+        std::any_of(stage.main.begin(), stage.main.end(),
+                    [](const LogStage::Main& main) { return main.id == ParameterId::kSurgeAlpha; });
     if (fills_surge) set_family_of_logs(stage.surge_family);
     for (const LogStage::Main& main : stage.main) {
       result_.model[main.id] = main.estimate;

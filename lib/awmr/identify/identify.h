@@ -38,7 +38,7 @@ struct IdentifyOptions {
   bool joint = false;  ///< a1, b1, m' together from surge rows and coast-down curves
   std::vector<ParameterId> asked = {};  ///< empty: those the given trials exist for
   bool fit_input_delay = false;         ///< logs: one delay of all commands
-  std::vector<LogChannel> biases = {};     ///< logs: channels with an unknown constant offset
+  std::vector<LogChannel> biases = {};  ///< logs: channels with an unknown constant offset
   std::uint64_t seed = 1;               ///< of the starts and of the bootstrap
   int starts = 6;               ///< random starts of a fit of logs that has no start of its own
   int bootstrap = 0;            ///< resamples of the block bootstrap of a fit of logs; 0: none

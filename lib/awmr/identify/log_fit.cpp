@@ -798,7 +798,7 @@ LogFit fit_logs(const std::vector<DrivingLog>& logs, const LogFitOptions& option
 }
 
 std::map<LogChannel, double> prediction_error(const DrivingLog& log, const Plant<double>& plant,
-                                           double delay_s) {
+                                              double delay_s) {
   const LogSignals signals(log);
   Plant<double> resolved = plant;
   const double step_s = replay_step_s(plant);

@@ -23,7 +23,7 @@ struct FreeQuantity {
   enum class Kind { kParameter, kDelay, kBias };
   Kind kind = Kind::kParameter;
   ParameterId id = ParameterId::kMassNorm;  ///< of kParameter
-  LogChannel channel = LogChannel::kX;            ///< of kBias
+  LogChannel channel = LogChannel::kX;      ///< of kBias
   bool logarithmic = false;                 ///< the coordinate is ln of the value
   double scale = 1.0;  ///< a change of the coordinate of this size would be large
 
@@ -83,6 +83,6 @@ Plant<double> plant_at(const Vehicle& vehicle, const std::map<ParameterId, doubl
 /// Root mean square error of each measured channel when the model runs over the log in windows,
 /// over the channel's standard deviation (NRMSE).
 std::map<LogChannel, double> prediction_error(const DrivingLog& log, const Plant<double>& plant,
-                                           double delay_s);
+                                              double delay_s);
 
 }  // namespace awmr

@@ -40,8 +40,8 @@ std::map<ParameterId, double> guesses(const std::vector<DrivingLog>& logs, const
     for (std::size_t i = 0; i < log.rows(); ++i) {
       difference.push_back(log.force_right[i] - log.force_left[i]);
     }
-    const double steering =
-        rms(log.steering_command_rad ? *log.steering_command_rad : log[LogChannel::kSteering]->value);
+    const double steering = rms(log.steering_command_rad ? *log.steering_command_rad
+                                                         : log[LogChannel::kSteering]->value);
     moment += (2.0 * vehicle.half_track_m * rms(difference) +
                vehicle.front_axle_m * (left + right) * steering) /
               n;
@@ -119,8 +119,8 @@ class Stage {
 
   LogStage run() {
     prepare();
-    const LogFit fit = options_.surge_family.family ? fit_family(*options_.surge_family.family)
-                                                    : best_family();
+    const LogFit fit =
+        options_.surge_family.family ? fit_family(*options_.surge_family.family) : best_family();
     report(fit);
     judge_model(fit);
     if (!fit.usable) {
@@ -217,9 +217,10 @@ class Stage {
         fit_rivals_ = false;
         const LogFit rival = best_family();
         if (stage_.surge_family != Family::kPower) {
-          advice = fmt::format("a power law does not describe these logs; --family surge={} does "
-                               "better by {:.0f} of AIC",
-                               name_of(stage_.surge_family), fit.aic - rival.aic);
+          advice = fmt::format(
+              "a power law does not describe these logs; --family surge={} does "
+              "better by {:.0f} of AIC",
+              name_of(stage_.surge_family), fit.aic - rival.aic);
         }
         stage_.reports.push_back(rival.report);
         chosen_ = kept;
@@ -227,11 +228,12 @@ class Stage {
       }
       stage_.findings.push_back(
           {logs_.front().file, 0, Severity::kWarning, "model-inadequate",
-           fmt::format("the model misses {} by {:.3g} {} over {:.2g} s at a time, where the sensor's "
-                       "own noise is {:.2g}: {}. The intervals hold for the model as it is, not for "
-                       "the vehicle",
-                       info(channel).name, noise.std, info(channel).unit, noise.correlation_s,
-                       noise.sensor_std, advice)});
+           fmt::format(
+               "the model misses {} by {:.3g} {} over {:.2g} s at a time, where the sensor's "
+               "own noise is {:.2g}: {}. The intervals hold for the model as it is, not for "
+               "the vehicle",
+               info(channel).name, noise.std, info(channel).unit, noise.correlation_s,
+               noise.sensor_std, advice)});
     }
   }
 

@@ -198,8 +198,8 @@ DrivingLog simulate_log(const Plant<double>& plant, const Vehicle& vehicle, cons
   replay<double>(signals, 0, log.rows(), resolved, nullptr, step_s, State<double>{},
                  [&](std::size_t row, const State<double>& state) { truth[row] = state; });
 
-  std::vector<LogChannel> channels{LogChannel::kX, LogChannel::kY, LogChannel::kHeading, LogChannel::kSpeed,
-                                LogChannel::kYawRate};
+  std::vector<LogChannel> channels{LogChannel::kX, LogChannel::kY, LogChannel::kHeading,
+                                   LogChannel::kSpeed, LogChannel::kYawRate};
   if (plan.servo_measured) channels.push_back(LogChannel::kSteering);
   const auto every =
       static_cast<std::size_t>(std::max(1.0, std::round(plan.rate_hz / noise.position_rate_hz)));

@@ -50,7 +50,9 @@ struct DrivingLog {
   const std::optional<Measured>& operator[](LogChannel c) const {
     return measured[static_cast<std::size_t>(c)];
   }
-  std::optional<Measured>& operator[](LogChannel c) { return measured[static_cast<std::size_t>(c)]; }
+  std::optional<Measured>& operator[](LogChannel c) {
+    return measured[static_cast<std::size_t>(c)];
+  }
   double median_step_s() const;
 };
 

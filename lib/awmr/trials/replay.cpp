@@ -9,7 +9,8 @@ namespace {
 constexpr std::size_t kShortestWindow = 3;
 
 /// The first measured value at or after `begin`, with its row.
-std::optional<std::size_t> first_fresh(const LogWindow& window, LogChannel channel, std::size_t from) {
+std::optional<std::size_t> first_fresh(const LogWindow& window, LogChannel channel,
+                                       std::size_t from) {
   const auto& measured = (*window.log)[channel];
   if (!measured) return std::nullopt;
   for (std::size_t row = std::max(from, window.begin); row < window.end; ++row) {

@@ -96,9 +96,8 @@ void replay(const LogSignals& signals, std::size_t begin, std::size_t end, Plant
         steering = delay_s ? delayed_mean(signals.steering, at_s, h, *delay_s)
                            : T((*log.steering_command_rad)[row]);
       }
-      state = rk4_step(state, T(h), [&](const State<T>& at) {
-        return state_rates(plant, at, force, steering);
-      });
+      state = rk4_step(state, T(h),
+                       [&](const State<T>& at) { return state_rates(plant, at, force, steering); });
     }
   }
 }

@@ -90,8 +90,8 @@ bool is_steady(const Line& line, double drift) {
 }
 
 /// Cuts the stretch to its steady rest; none where there is no such rest.
-std::optional<Line> steady_rest(const DrivingLog& log, const Measured& rate,
-                                const SteadyRule& rule, Stretch& stretch) {
+std::optional<Line> steady_rest(const DrivingLog& log, const Measured& rate, const SteadyRule& rule,
+                                Stretch& stretch) {
   for (double from_s = log.t_s[stretch.begin] + rule.settling_s;; from_s += rule.later_s) {
     while (stretch.begin < stretch.end && log.t_s[stretch.begin] < from_s) ++stretch.begin;
     if (stretch.begin >= stretch.end ||
