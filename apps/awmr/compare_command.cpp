@@ -1,10 +1,8 @@
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <memory>
@@ -13,6 +11,7 @@
 #include "awmr/core/file.h"
 #include "awmr/model/gains_file.h"
 #include "commands.h"
+#include "progress.h"
 
 namespace awmr::cli {
 namespace {
@@ -36,43 +35,6 @@ class StopOnInterrupt {
 
  private:
   struct sigaction before_ = {};
-};
-
-/// A bar with the time left, on a terminal and only for work over a second.
-class ProgressBar {
- public:
-  explicit ProgressBar(bool shown) : shown_(shown && ::isatty(STDERR_FILENO) == 1) {}
-  ~ProgressBar() {
-    if (drawn_) std::fputs("\r\033[K", stderr);
-  }
-  ProgressBar(const ProgressBar&) = delete;
-  ProgressBar& operator=(const ProgressBar&) = delete;
-
-  void operator()(std::size_t done, std::size_t total) {
-    using std::chrono::duration;
-    const auto now = Clock::now();
-    if (!shown_ || duration<double>(now - drawn_at_).count() < 0.1) return;
-    const double passed_s = duration<double>(now - start_).count();
-    if (passed_s < 1.0) return;
-    drawn_at_ = now;
-    drawn_ = true;
-    const double share = static_cast<double>(done) / static_cast<double>(total);
-    const double left_s = passed_s * (1.0 - share) / std::max(share, 1e-9);
-    constexpr int kWidth = 30;
-    const int filled = static_cast<int>(share * kWidth);
-    std::fputs(fmt::format("\r\033[K[{:=<{}}{:<{}}] {:3.0f} %  {}/{} runs  {:.0f} s left", "",
-                           filled, "", kWidth - filled, 100.0 * share, done, total, left_s)
-                   .c_str(),
-               stderr);
-    std::fflush(stderr);
-  }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  bool shown_;
-  bool drawn_ = false;
-  Clock::time_point start_ = Clock::now();
-  Clock::time_point drawn_at_ = start_;
 };
 
 /// Their file names; the paths as given where two are the same.

@@ -3,37 +3,33 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 
 namespace awmr::cli {
 
-Progress::Progress(std::string title, int total)
-    : title_(std::move(title)),
-      total_(total),
-      terminal_(isatty(STDERR_FILENO) != 0),
-      begin_(Clock::now()),
-      last_(begin_) {}
+ProgressBar::ProgressBar(bool shown) : shown_(shown && ::isatty(STDERR_FILENO) == 1) {}
 
-void Progress::at(int done) {
-  const Clock::time_point now = Clock::now();
-  using Seconds = std::chrono::duration<double>;
-  const double elapsed_s = Seconds(now - begin_).count();
-  if (!terminal_ || elapsed_s < 1.0 || Seconds(now - last_).count() < 0.1) return;
-  last_ = now;
-  drawn_ = true;
-  constexpr int kWidth = 30;
-  const int filled = kWidth * done / total_;
-  const double left_s = done > 0 ? elapsed_s * (total_ - done) / done : 0.0;
-  const std::string bar =
-      fmt::format("\r{} [{}{}] {}/{}, {:.0f} s left ", title_, std::string(filled, '#'),
-                  std::string(kWidth - filled, '.'), done, total_, left_s);
-  std::fwrite(bar.data(), 1, bar.size(), stderr);
-  std::fflush(stderr);
+ProgressBar::~ProgressBar() {
+  if (drawn_) std::fputs("\r\033[K", stderr);
 }
 
-void Progress::finish() {
-  if (!drawn_) return;
-  std::fputs("\r\033[K", stderr);
+void ProgressBar::operator()(std::size_t done, std::size_t total) {
+  using std::chrono::duration;
+  const auto now = Clock::now();
+  if (!shown_ || duration<double>(now - drawn_at_).count() < 0.1) return;
+  const double passed_s = duration<double>(now - start_).count();
+  if (passed_s < 1.0) return;
+  drawn_at_ = now;
+  drawn_ = true;
+  const double share = static_cast<double>(done) / static_cast<double>(total);
+  const double left_s = passed_s * (1.0 - share) / std::max(share, 1e-9);
+  constexpr int kWidth = 30;
+  const int filled = static_cast<int>(share * kWidth);
+  std::fputs(fmt::format("\r\033[K[{:=<{}}{:<{}}] {:3.0f} %  {}/{} runs  {:.0f} s left", "", filled,
+                         "", kWidth - filled, 100.0 * share, done, total, left_s)
+                 .c_str(),
+             stderr);
   std::fflush(stderr);
 }
 

@@ -1,27 +1,27 @@
-/// A progress bar with the time left, on a terminal only and for work over a second.
+/// A bar with the time left, on a terminal and only for work over a second.
 #pragma once
 
 #include <chrono>
-#include <string>
+#include <cstddef>
 
 namespace awmr::cli {
 
-class Progress {
+class ProgressBar {
  public:
-  Progress(std::string title, int total);
+  explicit ProgressBar(bool shown = true);
+  ~ProgressBar();  ///< clears the line
+  ProgressBar(const ProgressBar&) = delete;
+  ProgressBar& operator=(const ProgressBar&) = delete;
+
   /// Redraws at most ten times a second. Calls must not overlap.
-  void at(int done);
-  /// Clears the bar.
-  void finish();
+  void operator()(std::size_t done, std::size_t total);
 
  private:
   using Clock = std::chrono::steady_clock;
-  std::string title_;
-  int total_;
-  bool terminal_;
+  bool shown_;
   bool drawn_ = false;
-  Clock::time_point begin_;
-  Clock::time_point last_;
+  Clock::time_point start_ = Clock::now();
+  Clock::time_point drawn_at_ = start_;
 };
 
 }  // namespace awmr::cli

@@ -42,10 +42,11 @@ Result<Outcome> execute(const RecoverCommand& command) {
   RecoverOptions options = command.recover;
   options.identify.surge_family.family = model->surge_family;
   options.identify.yaw_family.family = model->yaw_family;
-  Progress progress("recover", options.runs);
-  const auto recovery = recover(*model, command.model.string(), options,
-                                [&progress](int done) { progress.at(done); });
-  progress.finish();
+  auto bar = std::make_unique<ProgressBar>();
+  const auto recovery = recover(*model, command.model.string(), options, [&](int done) {
+    (*bar)(static_cast<std::size_t>(done), static_cast<std::size_t>(options.runs));
+  });
+  bar.reset();
   if (!recovery) return tl::unexpected(recovery.error());
   std::string summary = table_of(*recovery);
   if (command.output) {

@@ -76,7 +76,12 @@ Result<Outcome> execute(const RunCommand& command) {
   auto tuned = execute(TuneCommand{model, project->tune, gains});
   if (!take("tune", tuned)) return tuned;
   auto validated =
-      execute(ValidateCommand{model, gains, ValidateOptions{}, command.output / "validation.json"});
+      execute(ValidateCommand{.model = model,
+                              .gains = gains,
+                              .validate = {},
+                              .output = command.output / "validation.json",
+                              .logs = project->logs,
+                              .trials = project->trials});
   if (!take("validate", validated)) return validated;
   auto emitted = execute(
       EmitCommand{.model = model, .gains = gains, .output = command.output, .header_only = true});
