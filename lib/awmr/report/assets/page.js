@@ -80,15 +80,24 @@ function fitted(kind, law, xName, yName) {
   const {alpha, beta} = law;
   if (alpha.value !== null && beta.value !== null) {
     const top = 1.05 * Math.max(...points.map((t) => t.measured));
-    const curve = [...Array(101).keys()].map((i) => ({x: top * i / 100, y: alpha.value * (top * i / 100) ** beta.value}));
-    sets.push(line(`${digits(alpha.value)} w^${digits(beta.value)}`, curve, colours[2]));
+    // g(w) = c + alpha w^beta + q w^2; a surge run's tau_speed also loses 4 F'0 to the dead zone.
+    const term = (entry) => (entry ? entry.value : 0);
+    const c = term(law.coulomb) + (kind === "surge" ? 4 * term((model.wheel || {}).dead_zone) : 0);
+    const q = term(law.quadratic);
+    const curve = [...Array(101).keys()].map((i) => top * i / 100)
+      .map((w) => ({x: w, y: c + alpha.value * w ** beta.value + q * w * w}));
+    const name = `${c ? digits(c) + " + " : ""}${digits(alpha.value)} w^${digits(beta.value)}${q ? ` + ${digits(q)} w^2` : ""}`;
+    sets.push(line(name, curve, colours[2]));
   }
   chart(fits, `${kind}: the identified resistance against its trials`, xName, yName, sets);
 }
-const fits = section("Resistance", "Points are the trials' rows; orange ones carry a finding. The curve is the main estimate.");
-fits.className = "grid";
-fitted("surge", model.surge, "speed, m/s", "tau_speed");
-fitted("turning", model.yaw, "yaw rate, rad/s", "tau_turn, m");
+let fits = null;
+if (model.trials.length) {
+  fits = section("Resistance", "Points are the trials' rows; orange ones carry a finding. The curve is the main estimate.");
+  fits.className = "grid";
+  fitted("surge", model.surge, "speed, m/s", "tau_speed");
+  fitted("turning", model.yaw, "yaw rate, rad/s", "tau_turn, m");
+}
 
 const quantities = [["surge.alpha", model.surge.alpha], ["surge.beta", model.surge.beta], ["yaw.alpha", model.yaw.alpha],
   ["yaw.beta", model.yaw.beta], ["sway.alpha", model.sway.alpha], ["mass_norm", model.mass_norm],
@@ -97,14 +106,21 @@ table(section("Parameters"), ["", "value", "std error", "95 % interval", "unit",
   quantities.map(([name, e]) => [name, digits(e.value, 5), digits(e.std_error, 2),
     e.ci95 ? `[${digits(e.ci95[0])}, ${digits(e.ci95[1])}]` : "–", e.unit, `${e.source}, ${e.method}`]), [1, 2]);
 table(section("Estimators side by side", "The paper's log-linear fit puts the error on the logarithm of the force, which is set exactly; what is measured is time."),
-  ["", "estimator", "noise on", "alpha", "beta", "residual std", "rows", "stopped because"],
-  model.estimates.map((r) => [r.subject, r.estimator, r.noise,
-    ...[0, 1].map((i) => r.parameters[i] ? `${digits(r.parameters[i].value)} ± ${digits(r.parameters[i].std_error, 2)}` : "–"),
-    digits(r.residual_std, 3), r.rows_used, r.stop_reason]), [3, 4, 5, 6]);
+  ["", "estimator", "noise on", "estimates", "AICc", "residual std", "rows", "stopped because"],
+  model.estimates.map((r) => [r.subject, [r.estimator, r.family].filter(Boolean).join(", "), r.noise,
+    r.parameters.map((p) => `${p.name} ${digits(p.value)} ± ${digits(p.std_error, 2)}`).join("; "),
+    digits(r.aicc), digits(r.residual_std, 3), r.rows_used, r.stop_reason]), [4, 5, 6]);
 if (model.findings.length) {
   const list = section("Findings");
   table(list, ["", "where", "what", "code"], model.findings.map((f) => [f.severity,
     f.file ? `${f.file}${f.line ? ":" + f.line : ""}` : "", f.message, f.code]), []);
+}
+
+if (data.validation && data.validation.logs && data.validation.logs.length) {
+  table(section("Logs", "Predicted from the commands alone over windows; NRMSE is the error over the signal's own deviation."),
+    ["log", "channel", "samples", "one-step R2", "long R2", "long NRMSE"],
+    data.validation.logs.flatMap((l) => Object.entries(l.channels).map(([name, c]) => [l.file, name, c.samples,
+      digits(c.one_step.r2), digits(c.long_horizon.r2), digits(c.long_horizon.nrmse)])), [2, 3, 4, 5]);
 }
 
 function missing(title, command) { section(title, `Not in this directory; \`${command}\` makes it.`); }
