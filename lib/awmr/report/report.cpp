@@ -11,6 +11,7 @@
 #include "awmr/core/csv.h"
 #include "awmr/core/file.h"
 #include "awmr/core/json.h"
+#include "awmr/model/model.h"
 #include "awmr/core/units.h"
 
 namespace awmr {
@@ -140,6 +141,10 @@ std::string assembled(const Json& data) {
 
 Result<std::string> report_html(const fs::path& directory) {
   Json data;
+  // Strictly first: what the page shows is a model, or the fault's place is named.
+  if (const auto checked = read_model(directory / "model.json"); !checked) {
+    return tl::unexpected(checked.error());
+  }
   auto model = read_json_file(directory / "model.json");
   if (!model) return tl::unexpected(model.error());
   data["model"] = std::move(*model);

@@ -1,0 +1,89 @@
+/// The report: one file, nothing from outside, nothing that a file's content can break.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "awmr/model/model.h"
+#include "awmr/report/report.h"
+#include "support/scratch_file.h"
+
+namespace awmr::testing {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+Model some_model(const std::string& name) {
+  Model model;
+  model.vehicle = {.name = name,
+                   .mass_kg = 37.0,
+                   .length_m = 1.32,
+                   .width_m = 0.78,
+                   .front_axle_m = 0.35,
+                   .half_track_m = 0.36,
+                   .wheel_force = {-1.0, 1.0},
+                   .steering_max_deg = 20.0,
+                   .steering_max_rate_degps = 300.0,
+                   .steering_time_constant_s = 0.02,
+                   .sample_time_s = 0.01,
+                   .yaw_inertia_kgm2 = {},
+                   .sway_alpha = 3.0};
+  model.provenance.command = "identify";
+  return model;
+}
+
+Result<std::string> report_of(const std::string& model_json) {
+  const ScratchFile file("model.json", model_json);
+  return report_html(file.path().parent_path());
+}
+
+TEST(Report, IsTheSameBytesFromTheSameFiles) {
+  const std::string text = model_text(some_model("robot"));
+  const auto first = report_of(text);
+  const auto second = report_of(text);
+  ASSERT_TRUE(first && second);
+  EXPECT_EQ(*first, *second);
+}
+
+TEST(Report, LoadsNothingFromOutside) {
+  const auto html = report_of(model_text(some_model("robot")));
+  ASSERT_TRUE(html);
+  for (const char* loading :
+       {"src=\"http", "href=\"http", "src='http", "@import", "<link", "fetch("}) {
+    EXPECT_THAT(*html, Not(HasSubstr(loading))) << loading;
+  }
+}
+
+TEST(Report, ANameCannotEndTheScriptThatHoldsIt) {
+  const std::string hostile = "</script><script>alert(1)</script><!-- @js@ @data@";
+  const auto html = report_of(model_text(some_model(hostile)));
+  ASSERT_TRUE(html);
+  EXPECT_THAT(*html, Not(HasSubstr("</script><script>alert(1)")));
+  EXPECT_THAT(*html, Not(HasSubstr("<script>alert(1)")));
+  // The name is there, escaped, so that the page shows it as it is.
+  EXPECT_THAT(*html, HasSubstr("alert(1)"));
+}
+
+TEST(Report, NamesThePlaceOfWhatIsBroken) {
+  const auto syntax = report_of("{\"schema\": \"awmr.model/1\",\n  oops}");
+  ASSERT_FALSE(syntax);
+  EXPECT_THAT(syntax.error().faults.front().place, HasSubstr("model.json:2:"));
+  const auto keys = report_of("{\"schema\": \"awmr.model/1\"}");
+  ASSERT_FALSE(keys);
+  EXPECT_THAT(to_text(keys.error()), HasSubstr("/vehicle"));
+  EXPECT_EQ(exit_code(keys.error()), 2);
+}
+
+TEST(Report, NeedsAModelAndRefusesABrokenCompanion) {
+  const ScratchFile other("notes.txt", "no model here");
+  EXPECT_FALSE(report_html(other.path().parent_path()));
+  const ScratchFile model("model.json", model_text(some_model("robot")));
+  std::ofstream(model.path().parent_path() / "gains.json") << "{";
+  const auto broken = report_html(model.path().parent_path());
+  ASSERT_FALSE(broken);
+  EXPECT_THAT(broken.error().faults.front().place, HasSubstr("gains.json"));
+}
+
+}  // namespace
+}  // namespace awmr::testing
