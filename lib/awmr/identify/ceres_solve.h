@@ -4,6 +4,7 @@
 #include <ceres/ceres.h>
 #include <glog/logging.h>
 
+#include <Eigen/Core>
 #include <string>
 
 #include "awmr/trials/replay.h"
@@ -35,6 +36,19 @@ inline std::string stop_reason(const ceres::Solver::Summary& summary) {
     default:
       return "failed: " + summary.message;
   }
+}
+
+/// A Jacobian as Ceres hands it out, with its zeros.
+inline Eigen::MatrixXd dense(const ceres::CRSMatrix& rows) {
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(rows.num_rows, rows.num_cols);
+  for (int i = 0; i < rows.num_rows; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    for (auto k = static_cast<std::size_t>(rows.rows[at]);
+         k < static_cast<std::size_t>(rows.rows[at + 1]); ++k) {
+      matrix(i, rows.cols[k]) = rows.values[k];
+    }
+  }
+  return matrix;
 }
 
 inline bool converged(const ceres::Solver::Summary& summary) {

@@ -180,14 +180,7 @@ class CoastSearch {
     for (double* block : first) problem_.SetParameterBlockVariable(block);
     ceres::CRSMatrix rows;
     problem_.Evaluate(options, nullptr, nullptr, nullptr, &rows);
-    Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(rows.num_rows, rows.num_cols);
-    for (int i = 0; i < rows.num_rows; ++i) {
-      for (int k = rows.rows[static_cast<std::size_t>(i)];
-           k < rows.rows[static_cast<std::size_t>(i) + 1]; ++k) {
-        dense(i, rows.cols[static_cast<std::size_t>(k)]) = rows.values[static_cast<std::size_t>(k)];
-      }
-    }
-    return dense;
+    return dense(rows);
   }
 
   /// Moves theta, ln m' and each run's start, in that order.

@@ -4,41 +4,12 @@
 
 #include <cmath>
 
-#include "awmr/core/units.h"
 #include "awmr/identify/ceres_solve.h"
+#include "awmr/model/plant_of.h"
 #include "awmr/model/steady.h"
 
 namespace awmr {
 namespace {
-
-template <class T>
-using Values = std::array<T, kParameterCount>;
-
-template <class T>
-const T& value(const Values<T>& values, ParameterId id) {
-  return values[static_cast<std::size_t>(id)];
-}
-
-template <class T>
-Plant<T> plant_from(const Vehicle& vehicle, const Values<T>& v) {
-  return {.surge = {.alpha = value(v, ParameterId::kSurgeAlpha),
-                    .beta = value(v, ParameterId::kSurgeBeta),
-                    .coulomb = value(v, ParameterId::kSurgeCoulomb),
-                    .quadratic = value(v, ParameterId::kSurgeQuadratic)},
-          .yaw = {.alpha = value(v, ParameterId::kYawAlpha),
-                  .beta = value(v, ParameterId::kYawBeta),
-                  .coulomb = value(v, ParameterId::kYawCoulomb),
-                  .quadratic = value(v, ParameterId::kYawQuadratic)},
-          .sway_alpha = value(v, ParameterId::kSwayAlpha),
-          .mass_norm = value(v, ParameterId::kMassNorm),
-          .inertia_norm = value(v, ParameterId::kInertiaNorm),
-          .front_axle_m = T(vehicle.front_axle_m),
-          .half_track_m = T(vehicle.half_track_m),
-          .steering_max_rad = T(radians(vehicle.steering_max_deg)),
-          .steering_max_rate_radps = T(radians(vehicle.steering_max_rate_degps)),
-          .steering_time_constant_s = value(v, ParameterId::kSteeringTimeConstant),
-          .wheel_dead_zone = value(v, ParameterId::kWheelDeadZone)};
-}
 
 template <class T>
 Resistance<double> plain(const Resistance<T>& law) {
@@ -49,7 +20,7 @@ Resistance<double> plain(const Resistance<T>& law) {
 /// The numbers of one evaluation as T, each with its own derivative where T has them.
 template <class T>
 struct Unpacked {
-  Values<T> values;
+  ParameterValues<T> values;
   T delay = T(0.0);
   bool delayed = false;
   std::array<T, kChannelCount> bias{};
@@ -104,7 +75,7 @@ Unpacked<T> unpack(const LogModel& model, const double* coordinates, const FitWi
 /// Model + bias - measured of every sample, in order.
 template <class T>
 std::vector<T> raw_residuals(const LogModel& model, const Unpacked<T>& u, const FitWindow& window) {
-  Plant<T> plant = plant_from(model.vehicle, u.values);
+  Plant<T> plant = plant_of(model.vehicle, u.values);
   const double h = model.longest_step_s;
   plant.surge.rest_speed = T(rest_speed(plain(plant.surge), value_of(plant.mass_norm), h));
   plant.yaw.rest_speed = T(rest_speed(plain(plant.yaw), value_of(plant.inertia_norm), h));
@@ -207,9 +178,9 @@ bool evaluate(const LogModel& model, const double* coordinates, bool with_jacobi
 }
 
 Plant<double> plant_at(const Vehicle& vehicle, const std::map<ParameterId, double>& values) {
-  Values<double> v{};
+  ParameterValues<double> v{};
   for (const auto& [id, number] : values) v[static_cast<std::size_t>(id)] = number;
-  return plant_from(vehicle, v);
+  return plant_of(vehicle, v);
 }
 
 }  // namespace awmr

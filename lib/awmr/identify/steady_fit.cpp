@@ -140,14 +140,7 @@ class Search {
     for (const Coordinate c : columns) options.parameter_blocks.push_back(block(c));
     ceres::CRSMatrix rows;
     ceres_->Evaluate(options, nullptr, nullptr, nullptr, &rows);
-    Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(rows.num_rows, rows.num_cols);
-    for (int i = 0; i < rows.num_rows; ++i) {
-      for (int k = rows.rows[static_cast<std::size_t>(i)];
-           k < rows.rows[static_cast<std::size_t>(i) + 1]; ++k) {
-        dense(i, rows.cols[static_cast<std::size_t>(k)]) = rows.values[static_cast<std::size_t>(k)];
-      }
-    }
-    return dense;
+    return dense(rows);
   }
 
   const Coordinates& theta() const { return theta_; }

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "awmr/core/units.h"
+#include "awmr/model/plant_of.h"
 
 namespace awmr {
 
@@ -25,24 +25,9 @@ Result<Plant<double>> Model::plant(const std::string& file) const {
   }
   if (!faults.empty()) return input_errors(std::move(faults));
 
-  const auto value = [this](ParameterId id) { return *(*this)[id].value; };
-  return Plant<double>{.surge = {.alpha = value(ParameterId::kSurgeAlpha),
-                                 .beta = value(ParameterId::kSurgeBeta),
-                                 .coulomb = value(ParameterId::kSurgeCoulomb),
-                                 .quadratic = value(ParameterId::kSurgeQuadratic)},
-                       .yaw = {.alpha = value(ParameterId::kYawAlpha),
-                               .beta = value(ParameterId::kYawBeta),
-                               .coulomb = value(ParameterId::kYawCoulomb),
-                               .quadratic = value(ParameterId::kYawQuadratic)},
-                       .sway_alpha = value(ParameterId::kSwayAlpha),
-                       .mass_norm = value(ParameterId::kMassNorm),
-                       .inertia_norm = value(ParameterId::kInertiaNorm),
-                       .front_axle_m = vehicle.front_axle_m,
-                       .half_track_m = vehicle.half_track_m,
-                       .steering_max_rad = radians(vehicle.steering_max_deg),
-                       .steering_max_rate_radps = radians(vehicle.steering_max_rate_degps),
-                       .steering_time_constant_s = value(ParameterId::kSteeringTimeConstant),
-                       .wheel_dead_zone = value(ParameterId::kWheelDeadZone)};
+  ParameterValues<double> values{};
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = *estimates[i].value;
+  return plant_of(vehicle, values);
 }
 
 }  // namespace awmr

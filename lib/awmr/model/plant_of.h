@@ -1,0 +1,39 @@
+/// Parameters and vehicle -> what the equations of motion need. A template on the scalar.
+#pragma once
+
+#include <array>
+
+#include "awmr/core/units.h"
+#include "awmr/model/dynamics.h"
+#include "awmr/model/parameters.h"
+#include "awmr/model/vehicle.h"
+
+namespace awmr {
+
+/// By ParameterId.
+template <class T>
+using ParameterValues = std::array<T, kParameterCount>;
+
+template <class T>
+Plant<T> plant_of(const Vehicle& vehicle, const ParameterValues<T>& values) {
+  const auto value = [&values](ParameterId id) { return values[static_cast<std::size_t>(id)]; };
+  return {.surge = {.alpha = value(ParameterId::kSurgeAlpha),
+                    .beta = value(ParameterId::kSurgeBeta),
+                    .coulomb = value(ParameterId::kSurgeCoulomb),
+                    .quadratic = value(ParameterId::kSurgeQuadratic)},
+          .yaw = {.alpha = value(ParameterId::kYawAlpha),
+                  .beta = value(ParameterId::kYawBeta),
+                  .coulomb = value(ParameterId::kYawCoulomb),
+                  .quadratic = value(ParameterId::kYawQuadratic)},
+          .sway_alpha = value(ParameterId::kSwayAlpha),
+          .mass_norm = value(ParameterId::kMassNorm),
+          .inertia_norm = value(ParameterId::kInertiaNorm),
+          .front_axle_m = T(vehicle.front_axle_m),
+          .half_track_m = T(vehicle.half_track_m),
+          .steering_max_rad = T(radians(vehicle.steering_max_deg)),
+          .steering_max_rate_radps = T(radians(vehicle.steering_max_rate_degps)),
+          .steering_time_constant_s = value(ParameterId::kSteeringTimeConstant),
+          .wheel_dead_zone = value(ParameterId::kWheelDeadZone)};
+}
+
+}  // namespace awmr
