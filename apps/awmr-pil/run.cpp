@@ -69,7 +69,7 @@ Result<Inputs> read_inputs(const PilOptions& options) {
   if (const auto fit = check_scenario(*scenario, options.scenario.string()); !fit) {
     return tl::unexpected(fit.error());
   }
-  const auto plant = plant_for(*scenario, *model, options.model.string());
+  const auto plant = plant_for(*scenario, *model);
   if (!plant) return tl::unexpected(plant.error());
   const auto names = cli::emit_inputs(options.model, options.gains);
   if (!names) return tl::unexpected(names.error());
@@ -218,7 +218,7 @@ Status compare_runs(const PilOptions& options, const Inputs& in, Report& report)
     report.injected = injected_of(in.setup, report.chip.rows);
     return {};
   }
-  const auto plant = in.model.plant(options.model.string());
+  const auto plant = in.model.plant();
   if (!plant) return tl::unexpected(plant.error());
   const Run exact = simulate(in.setup.plant, make_controller(*plant, in.model.vehicle, in.gains),
                              in.setup.scenario, in.setup.mode,

@@ -10,7 +10,7 @@
 #include "awmr/compare/compare.h"
 #include "awmr/emit/emit.h"
 #include "awmr/identify/identify.h"
-#include "awmr/identify/recover.h"
+#include "awmr/identify/planning/recover.h"
 #include "awmr/tune/tune.h"
 #include "awmr/validate/validate.h"
 #include "console.h"

@@ -118,7 +118,7 @@ Result<Outcome> execute(const CompareCommand& command) {
   const StopOnInterrupt interrupt;
   auto bar = std::make_unique<ProgressBar>(!command.quiet);
   options.progress = [&bar](std::size_t done, std::size_t total) { (*bar)(done, total); };
-  const auto comparison = compare(*model, command.model.string(), *gains, *scenarios, options);
+  const auto comparison = compare(*model, *gains, *scenarios, options);
   bar.reset();
   if (!comparison) return tl::unexpected(comparison.error());
   if (const auto written = write_comparison(command, *comparison, *provenance); !written) {

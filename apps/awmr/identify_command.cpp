@@ -109,10 +109,10 @@ std::string names_of(const EstimatorReport& report) {
 }
 
 std::string summary_of(const IdentifyCommand& command, const Model& model) {
-  std::string text = fmt::format("{}: {} trial rows\n", model.vehicle.name, model.trials.size());
+  std::string text = fmt::format("{}: {} trial rows\n", model.vehicle.name, model.record.trials.size());
   text += parameter_table_text(model);
   text += "  estimators side by side:\n";
-  for (const EstimatorReport& report : model.reports) {
+  for (const EstimatorReport& report : model.record.reports) {
     std::string values;
     for (const EstimatorParameter& parameter : report.parameters) {
       values += fmt::format(" {}={:.4f}", parameter.name, parameter.value);
@@ -144,14 +144,14 @@ Result<Outcome> execute(const IdentifyCommand& command) {
   if (!provenance) return tl::unexpected(provenance.error());
   auto identified = identify(*vehicle, *data, command.identify, std::move(findings));
   if (!identified) return tl::unexpected(identified.error());
-  identified->model.provenance = std::move(*provenance);
+  identified->model.record.provenance = std::move(*provenance);
   if (const auto written = write_file(command.output, model_text(identified->model)); !written) {
     return tl::unexpected(written.error());
   }
   const Model& model = identified->model;
   return Outcome{.summary = summary_of(command, model),
                  .brief = parameter_table_text(model),
-                 .findings = model.findings,
+                 .findings = model.record.findings,
                  .refused = !identified->refused.empty()};
 }
 

@@ -19,9 +19,9 @@ struct Named {
 inline constexpr Named<Method> kMethods[] = {{"log-linear", Method::kLogLinear},
                                              {"nonlinear", Method::kNonlinear},
                                              {"trajectory", Method::kTrajectory}};
-inline constexpr Named<Noise> kNoises[] = {
-    {"force", Noise::kForce}, {"speed", Noise::kSpeed}, {"time", Noise::kTime}};
-inline constexpr Named<Loss> kLosses[] = {{"squares", Loss::kNone},
+inline constexpr Named<ErrorModel> kNoises[] = {
+    {"force", ErrorModel::kForce}, {"speed", ErrorModel::kSpeed}, {"time", ErrorModel::kTime}};
+inline constexpr Named<Loss> kLosses[] = {{"squares", Loss::kSquared},
                                           {"huber", Loss::kHuber},
                                           {"cauchy", Loss::kCauchy},
                                           {"tukey", Loss::kTukey}};

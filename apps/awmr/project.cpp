@@ -56,7 +56,7 @@ void read_identify(JsonObject json, Project& project) {
   };
   IdentifyOptions& options = project.identify;
   choice("method", kMethods, [&](Method value) { options.method = value; });
-  choice("noise", kNoises, [&](Noise value) { options.noise = value; });
+  choice("noise", kNoises, [&](ErrorModel value) { options.noise = value; });
   choice("loss", kLosses, [&](Loss value) { options.loss = value; });
   choice("prefer", kPreferences, [&](Preference value) { project.trials.preference = value; });
   const auto each = [&json](const char* key, const auto& add) {

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "awmr/core/file.h"
-#include "awmr/identify/recover.h"
+#include "awmr/identify/planning/recover.h"
 #include "commands.h"
 #include "identify_options.h"
 #include "progress.h"
@@ -43,7 +43,7 @@ Result<Outcome> execute(const RecoverCommand& command) {
   options.identify.surge_family.family = model->surge_family;
   options.identify.yaw_family.family = model->yaw_family;
   auto bar = std::make_unique<ProgressBar>();
-  const auto recovery = recover(*model, command.model.string(), options, [&](int done) {
+  const auto recovery = recover(*model, options, [&](int done) {
     (*bar)(static_cast<std::size_t>(done), static_cast<std::size_t>(options.runs));
   });
   bar.reset();

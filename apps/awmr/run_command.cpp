@@ -15,7 +15,7 @@ namespace {
 Status write_runs(const Project& project, const fs::path& directory) {
   const auto model = read_model(directory / "model.json");
   if (!model) return tl::unexpected(model.error());
-  const auto plant = model->plant((directory / "model.json").string());
+  const auto plant = model->plant();
   if (!plant) return tl::unexpected(plant.error());
   const auto tuned = read_gains(directory / "gains.json");
   if (!tuned) return tl::unexpected(tuned.error());
@@ -23,7 +23,7 @@ Status write_runs(const Project& project, const fs::path& directory) {
   for (const fs::path& path : project.scenarios) {
     const auto scenario = read_scenario(path);
     if (!scenario) return tl::unexpected(scenario.error());
-    const auto driven = plant_for(*scenario, *model, (directory / "model.json").string());
+    const auto driven = plant_for(*scenario, *model);
     if (!driven) return tl::unexpected(driven.error());
     for (const YawMode mode : kYawModes) {
       for (const auto& [name, gains] : sets) {

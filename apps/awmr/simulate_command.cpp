@@ -59,7 +59,7 @@ Result<Outcome> execute(const SimulateCommand& command) {
   if (!model) return tl::unexpected(model.error());
   const auto scenario = read_scenario(command.scenario);
   if (!scenario) return tl::unexpected(scenario.error());
-  const auto plant = plant_for(*scenario, *model, command.model.string());
+  const auto plant = plant_for(*scenario, *model);
   if (!plant) return tl::unexpected(plant.error());
   Gains<double> gains = kPaperGains;
   if (command.gains) {
@@ -70,7 +70,7 @@ Result<Outcome> execute(const SimulateCommand& command) {
     return input_error("--gains", "this scenario closes the loop: give --gains GAINS.json");
   }
   // The controller knows the model's own values, not a corner of their intervals.
-  const auto nominal = model->plant(command.model.string());
+  const auto nominal = model->plant();
   if (!nominal) return tl::unexpected(nominal.error());
   const Controller<double> controller = make_controller(*nominal, model->vehicle, gains);
   const Run run = simulate(*plant, controller, *scenario, command.mode,

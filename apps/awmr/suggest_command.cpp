@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "awmr/core/file.h"
-#include "awmr/identify/suggest.h"
+#include "awmr/identify/planning/suggest.h"
 #include "awmr/model/gains_file.h"
 #include "awmr/simulate/metrics.h"
 #include "awmr/simulate/simulate.h"
@@ -29,7 +29,7 @@ Status add_metrics(const SuggestCommand& command, const Model& model, SuggestOpt
                        "--gains and --scenario go together: they are the closed loop "
                        "whose metric is to become surer");
   }
-  const auto plant = model.plant(command.model.string());
+  const auto plant = model.plant();
   if (!plant) return tl::unexpected(plant.error());
   const auto gains = read_gains(*command.gains);
   if (!gains) return tl::unexpected(gains.error());
@@ -59,7 +59,7 @@ Result<Outcome> execute(const SuggestCommand& command) {
   if (auto added = add_metrics(command, *model, options); !added) {
     return tl::unexpected(added.error());
   }
-  const auto suggestion = suggest(*model, command.model.string(), options);
+  const auto suggestion = suggest(*model, options);
   if (!suggestion) return tl::unexpected(suggestion.error());
   std::string summary = field_sheet(*suggestion, static_cast<std::size_t>(command.most));
   if (command.output) {

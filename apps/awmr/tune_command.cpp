@@ -62,7 +62,7 @@ Result<Outcome> execute(const TuneCommand& command) {
     if (!input) return tl::unexpected(input.error());
     provenance.inputs.push_back(*input);
   }
-  const auto tuning = tune(*model, command.model.string(), options);
+  const auto tuning = tune(*model, options);
   if (!tuning) return tl::unexpected(tuning.error());
   if (const auto written = write_file(command.output, gains_text(*tuning, options, provenance));
       !written) {

@@ -62,10 +62,10 @@ Result<Outcome> execute(const ValidateCommand& command) {
     if (!input) return tl::unexpected(input.error());
     provenance.inputs.push_back(*input);
   }
-  auto validation = validate(*model, command.model.string(), gains, command.validate);
+  auto validation = validate(*model, gains, command.validate);
   if (!validation) return tl::unexpected(validation.error());
   std::vector<Finding> findings;
-  auto logs = validate_logs(command, *model->plant(command.model.string()), findings);
+  auto logs = validate_logs(command, *model->plant(), findings);
   if (!logs) return tl::unexpected(logs.error());
   add_logs(*validation, std::move(*logs), command.log_tolerance);
   if (const auto written = write_file(command.output, validation_text(*validation, provenance));

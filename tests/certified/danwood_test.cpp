@@ -22,7 +22,7 @@ TEST(DanWood, ParametersAndStandardDeviationsAgreeToSixDigits) {
   vehicle.surge_beta_range = {0.0, 10.0};
   IdentifyOptions options;
   options.method = Method::kNonlinear;
-  options.noise = Noise::kForce;
+  options.noise = ErrorModel::kForce;
   const auto result = identify(vehicle, danwood(), options, {});
   ASSERT_TRUE(result);
   const Estimate& alpha = result->model[ParameterId::kSurgeAlpha];
@@ -34,7 +34,7 @@ TEST(DanWood, ParametersAndStandardDeviationsAgreeToSixDigits) {
   EXPECT_NEAR(*beta.value, 3.8604055871e+00, 1e-6 * 3.86);
   EXPECT_NEAR(*beta.std_error, 5.1726610913e-02, 1e-6 * 0.0517);
   // Certified residual standard deviation 3.2853114039e-02.
-  for (const EstimatorReport& report : result->model.reports) {
+  for (const EstimatorReport& report : result->model.record.reports) {
     if (report.noise == "force" && report.family == "power") {
       EXPECT_NEAR(report.residual_std, 0.1 * 3.2853114039e-02, 1e-6 * 0.0033);
       EXPECT_EQ(report.degrees_of_freedom, 4);

@@ -21,7 +21,7 @@ const Provenance kProvenance{"compare", {{"samples", "4"}}, {{"model.json", "abc
 
 Comparison compared(const CompareOptions& options,
                     std::vector<Scenario> scenarios = {testing::short_heading()}) {
-  const auto c = compare(testing::uncertain_model(), "model.json", kPaperGains, scenarios, options);
+  const auto c = compare(testing::uncertain_model(), kPaperGains, scenarios, options);
   EXPECT_TRUE(c) << (c ? "" : to_text(c.error()));
   return c.value_or(Comparison{});
 }
@@ -75,7 +75,7 @@ TEST(Compare, SampleZeroIsTheModelItself) {
   const Model model = testing::uncertain_model();
   const Comparison c = compared({.samples = 3, .seed = 1, .threads = 1});
   const Comparison nominal = compared({.samples = 0, .seed = 99, .threads = 1});
-  const Plant<double> plant = *model.plant("model.json");
+  const Plant<double> plant = *model.plant();
   const Controller<double> controller = make_controller(plant, model.vehicle, kPaperGains);
   for (std::size_t i = 0; i < 3; ++i) {
     const Scenario scenario = testing::short_heading();
@@ -117,7 +117,7 @@ TEST(Compare, MoreSamplesKeepTheFirstOnes) {
 }
 
 TEST(Compare, RefusesBadOptionsAllAtOnce) {
-  const auto c = compare(testing::uncertain_model(), "model.json", kPaperGains, {},
+  const auto c = compare(testing::uncertain_model(), kPaperGains, {},
                          {.samples = -1, .seed = 1, .threads = -1});
   ASSERT_FALSE(c);
   EXPECT_EQ(c.error().kind, ErrorKind::kInput);
@@ -125,7 +125,7 @@ TEST(Compare, RefusesBadOptionsAllAtOnce) {
 }
 
 TEST(Compare, RefusesTwoScenariosOfOneName) {
-  const auto c = compare(testing::uncertain_model(), "model.json", kPaperGains,
+  const auto c = compare(testing::uncertain_model(), kPaperGains,
                          {testing::short_heading("a"), testing::short_heading("a")}, {});
   ASSERT_FALSE(c);
   EXPECT_THAT(to_text(c.error()), HasSubstr("two scenarios are named 'a'"));
@@ -135,23 +135,23 @@ TEST(Compare, NamesTheMissingParameter) {
   Model model = testing::uncertain_model();
   model[ParameterId::kInertiaNorm].value.reset();
   for (const int samples : {0, 2}) {
-    const auto c = compare(model, "m.json", kPaperGains, {testing::short_heading()},
+    const auto c = compare(model, kPaperGains, {testing::short_heading()},
                            {.samples = samples, .seed = 1, .threads = 1});
     ASSERT_FALSE(c);
     EXPECT_EQ(c.error().kind, ErrorKind::kInput);
-    EXPECT_THAT(to_text(c.error()), HasSubstr("m.json:/inertia_norm"));
+    EXPECT_THAT(to_text(c.error()), HasSubstr("model.json:/inertia_norm"));
   }
 }
 
 TEST(Compare, NeedsACovarianceOnlyForSamples) {
   const Model model = testing::fitted_paper_model();
   const auto run = [&](int samples) {
-    return compare(model, "m.json", kPaperGains, {testing::short_heading()},
+    return compare(model, kPaperGains, {testing::short_heading()},
                    {.samples = samples, .seed = 1, .threads = 1});
   };
   EXPECT_TRUE(run(0));
   ASSERT_FALSE(run(1));
-  EXPECT_THAT(to_text(run(1).error()), HasSubstr("m.json:/covariance"));
+  EXPECT_THAT(to_text(run(1).error()), HasSubstr("model.json:/covariance"));
 }
 
 TEST(ComparisonCsv, HasTheContractsColumns) {

@@ -33,10 +33,10 @@ std::vector<std::array<double, 4>> drawn(const PlantSampler& sampler) {
 TEST(PlantSampler, DrawsHaveTheModelsMeanAndCovariance) {
   Model model = testing::uncertain_model();
   model.vehicle.surge_beta_range = {0.0, 4.0};  // no draw is cut off
-  const auto sampler = PlantSampler::make(model, "model.json");
+  const auto sampler = PlantSampler::make(model);
   ASSERT_TRUE(sampler);
   const auto draws = drawn(*sampler);
-  const std::array<double, 4> centre = coordinates(*model.plant("model.json"));
+  const std::array<double, 4> centre = coordinates(*model.plant());
   const std::array<double, 4> scale = {1.3157, 1.0, 0.3028, 0.0768};
   std::array<double, 4> mean{};
   for (const auto& z : draws) {
@@ -63,7 +63,7 @@ TEST(PlantSampler, DrawsHaveTheModelsMeanAndCovariance) {
 
 TEST(PlantSampler, LeavesAloneWhatTheCovarianceDoesNotCover) {
   const Model model = testing::uncertain_model();
-  const auto sampler = PlantSampler::make(model, "model.json");
+  const auto sampler = PlantSampler::make(model);
   ASSERT_TRUE(sampler);
   const auto plant = sampler->draw(1, 1);
   ASSERT_TRUE(plant);
@@ -75,7 +75,7 @@ TEST(PlantSampler, LeavesAloneWhatTheCovarianceDoesNotCover) {
 }
 
 TEST(PlantSampler, ADrawDependsOnSeedAndSampleAlone) {
-  const auto sampler = PlantSampler::make(testing::uncertain_model(), "model.json");
+  const auto sampler = PlantSampler::make(testing::uncertain_model());
   ASSERT_TRUE(sampler);
   const auto first = coordinates(*sampler->draw(1, 5));
   EXPECT_EQ(first, coordinates(*sampler->draw(1, 5)));
@@ -87,7 +87,7 @@ TEST(PlantSampler, KeepsPositiveQuantitiesPositiveWhateverTheirError) {
   Model model = testing::fitted_paper_model();
   model.covariance.parameters = {ParameterId::kMassNorm};
   model.covariance.matrix = {{4.0 * 0.0768 * 0.0768}};  // s.e. of 200 %
-  const auto sampler = PlantSampler::make(model, "model.json");
+  const auto sampler = PlantSampler::make(model);
   ASSERT_TRUE(sampler);
   for (int sample = 1; sample <= 1000; ++sample) {
     EXPECT_GT(sampler->draw(1, sample)->mass_norm, 0.0);
@@ -97,7 +97,7 @@ TEST(PlantSampler, KeepsPositiveQuantitiesPositiveWhateverTheirError) {
 TEST(PlantSampler, KeepsExponentsInTheVehiclesRange) {
   Model model = testing::uncertain_model();
   model[ParameterId::kSurgeBeta].value = 0.995;  // s.e. 0.016: a third would be above 1
-  const auto sampler = PlantSampler::make(model, "model.json");
+  const auto sampler = PlantSampler::make(model);
   ASSERT_TRUE(sampler);
   for (int sample = 1; sample <= 1000; ++sample) {
     EXPECT_LE(sampler->draw(1, sample)->surge.beta, 1.0);
@@ -107,7 +107,7 @@ TEST(PlantSampler, KeepsExponentsInTheVehiclesRange) {
 TEST(PlantSampler, SaysWhenTheRangeLeavesNothingToDraw) {
   Model model = testing::uncertain_model();
   model[ParameterId::kSurgeBeta].value = 2.0;
-  const auto sampler = PlantSampler::make(model, "m.json");
+  const auto sampler = PlantSampler::make(model);
   ASSERT_TRUE(sampler);
   const auto plant = sampler->draw(1, 1);
   ASSERT_FALSE(plant);
@@ -121,7 +121,7 @@ TEST(PlantSampler, DrawsFromASingularCovariance) {
   const double c = 0.0768 / 1.3157;
   model.covariance.parameters = {ParameterId::kSurgeAlpha, ParameterId::kMassNorm};
   model.covariance.matrix = {{4e-4, 4e-4 * c}, {4e-4 * c, 4e-4 * c * c}};
-  const auto sampler = PlantSampler::make(model, "model.json");
+  const auto sampler = PlantSampler::make(model);
   ASSERT_TRUE(sampler);
   for (int sample = 1; sample <= 100; ++sample) {
     const auto plant = sampler->draw(1, sample);
@@ -139,10 +139,10 @@ TEST(PlantSampler, RefusesWhatIsNoCovariance) {
   Model not_a_number = testing::uncertain_model();
   not_a_number.covariance.matrix[2][2] = std::nan("");
   for (const Model& model : {none, indefinite, ragged, not_a_number}) {
-    const auto sampler = PlantSampler::make(model, "m.json");
+    const auto sampler = PlantSampler::make(model);
     ASSERT_FALSE(sampler);
     EXPECT_EQ(sampler.error().kind, ErrorKind::kInput);
-    EXPECT_THAT(to_text(sampler.error()), HasSubstr("m.json:/covariance"));
+    EXPECT_THAT(to_text(sampler.error()), HasSubstr("model.json:/covariance"));
   }
 }
 

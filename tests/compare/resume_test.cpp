@@ -20,7 +20,7 @@ const Provenance kProvenance{"compare", {{"samples", "6"}, {"seed", "3"}}, {{"mo
 
 Comparison compared(const CompareOptions& options,
                     const std::vector<NamedGains>& gains = {{"", kPaperGains}}) {
-  const auto c = compare(testing::uncertain_model(), "model.json", gains, kScenarios, options);
+  const auto c = compare(testing::uncertain_model(), gains, kScenarios, options);
   EXPECT_TRUE(c) << (c ? "" : to_text(c.error()));
   return c.value_or(Comparison{});
 }
@@ -97,7 +97,7 @@ TEST(Resume, RefusesRowsOfAnUnknownScenario) {
   options.finished = compared({.samples = 0, .seed = 3, .threads = 1}).rows;
   options.finished.front().scenario = "c";
   const auto c =
-      compare(testing::uncertain_model(), "model.json", kPaperGains, kScenarios, options);
+      compare(testing::uncertain_model(), kPaperGains, kScenarios, options);
   ASSERT_FALSE(c);
   EXPECT_THAT(to_text(c.error()), HasSubstr("none of this comparison's"));
 }
@@ -134,7 +134,7 @@ TEST(Noise, IsTheSameForAllModesAndOtherInEverySample) {
                               .frequency_hz = 0.0,
                               .phase_rad = {},
                               .bandwidth_hz = 1.0}};
-  const auto c = compare(testing::uncertain_model(), "model.json", kPaperGains, {noisy},
+  const auto c = compare(testing::uncertain_model(), kPaperGains, {noisy},
                          {.samples = 2, .seed = 1, .threads = 1});
   ASSERT_TRUE(c);
   for (std::size_t sample = 0; sample < 3; ++sample) {

@@ -154,7 +154,7 @@ TEST(LibraryFiles, AreTheSameBytesWhenMadeAgainAndHoldTheControlSourcesAsTheyAre
 }
 
 TEST(ResistanceTables, StayWithinTheirBoundOfTheLawBetweenTheirMeasuredPlaces) {
-  const Plant<double> plant = paper_robot().plant("model.json").value();
+  const Plant<double> plant = paper_robot().plant().value();
   for (const double bound : {1e-2, 1e-3, 1e-4}) {
     const auto p =
         autopilot_parameters(paper_robot(), kPaperGains, paper_inputs(), {.table_error = bound})

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "awmr/identify/synthetic.h"
+#include "awmr/identify/planning/synthetic.h"
 #include "awmr/model/steady.h"
 #include "identify/synthetic.h"
 
@@ -123,7 +123,7 @@ TEST(CoastDown, WithoutASurgeLawRefusesTheMassAndTellsTheRatio) {
               ::testing::ElementsAre(ParameterId::kMassNorm, ParameterId::kInertiaNorm));
   EXPECT_NEAR(*result->model[ParameterId::kSurgeBeta].value, t.b1, 1e-6);
   bool told = false;
-  for (const Finding& f : result->model.findings) {
+  for (const Finding& f : result->model.record.findings) {
     told = told ||
            (f.code == "not-identifiable" && f.message.find("m'/a1 = 0.5556") != std::string::npos);
   }
@@ -157,7 +157,7 @@ TEST(CoastDown, TwoKindsAreWeighedTogetherAndTheirContradictionIsSaid) {
   EXPECT_EQ(agree->model[ParameterId::kMassNorm].method, "stop time and coast-down curve");
   EXPECT_TRUE(agree->model[ParameterId::kMassNorm].ci95->contains(t.mass_norm));
   const auto disagreement = [](const Model& model) {
-    return std::any_of(model.findings.begin(), model.findings.end(),
+    return std::any_of(model.record.findings.begin(), model.record.findings.end(),
                        [](const Finding& f) { return f.code == "estimates-disagree"; });
   };
   EXPECT_FALSE(disagreement(agree->model));
@@ -192,7 +192,7 @@ TEST(CoastDown, CorrelatedNoiseWidensTheInterval) {
   data.curves = {simulate_coastdown(plant(t), 1.6, 2.0, 100.0, 0.02, 0.1, random)};
   const auto result = identify(vehicle(), data, {}, {});
   ASSERT_TRUE(result);
-  EXPECT_TRUE(std::any_of(result->model.findings.begin(), result->model.findings.end(),
+  EXPECT_TRUE(std::any_of(result->model.record.findings.begin(), result->model.record.findings.end(),
                           [](const Finding& f) { return f.code == "coloured-residuals"; }));
 }
 

@@ -23,7 +23,7 @@ TEST(Identify, ExactDataGiveTheTruthByEveryEstimator) {
     // I'z = m' Iz/m with the box's Iz/m = (0.78^2 + 1.32^2)/12
     EXPECT_NEAR(*model[ParameterId::kInertiaNorm].value,
                 truth.mass_norm * (0.78 * 0.78 + 1.32 * 1.32) / 12.0, 1e-11);
-    for (const EstimatorReport& report : model.reports) {
+    for (const EstimatorReport& report : model.record.reports) {
       // Families with other terms bend to the truth only approximately; the mass has its own line.
       if (report.subject == "mass" || report.family != "power") continue;
       const bool surge = report.subject == "surge";

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "awmr/identify/recover.h"
-#include "awmr/identify/synthetic.h"
+#include "awmr/identify/planning/recover.h"
+#include "awmr/identify/planning/synthetic.h"
 #include "identify/synthetic.h"
 
 namespace awmr::testing {
@@ -69,7 +69,7 @@ TEST(Log, GivesEveryParameterFromNothingElse) {
     expect_recovered(*result, ParameterId::kYawBeta, t.b3, 4.5);
     expect_recovered(*result, ParameterId::kMassNorm, t.mass_norm, 4.5);
     expect_recovered(*result, ParameterId::kInertiaNorm, 0.16 * t.mass_norm, 4.5);
-    const auto& report = result->model.reports.back();
+    const auto& report = result->model.record.reports.back();
     EXPECT_EQ(report.estimator, "trajectory");
     EXPECT_GE(report.starts.size(), 7U);
     EXPECT_EQ(std::count_if(report.starts.begin(), report.starts.end(),
@@ -175,7 +175,7 @@ TEST(Log, FindsADelayAndABias) {
   options.biases = {LogChannel::kYawRate};
   const auto result = identify(robot(), data, options, {});
   ASSERT_TRUE(result);
-  const EstimatorReport& report = result->model.reports.back();
+  const EstimatorReport& report = result->model.record.reports.back();
   const auto parameter = [&](const std::string& name) {
     for (const EstimatorParameter& p : report.parameters) {
       if (p.name == name) return p;
@@ -208,7 +208,7 @@ TEST(Log, AgainstTablesAContradictionIsSaid) {
   const auto result = identify(robot(), data, {}, {});
   ASSERT_TRUE(result);
   const bool said = std::any_of(
-      result->model.findings.begin(), result->model.findings.end(), [](const Finding& f) {
+      result->model.record.findings.begin(), result->model.record.findings.end(), [](const Finding& f) {
         return f.code == "estimates-disagree" && f.message.starts_with("surge.alpha");
       });
   EXPECT_TRUE(said);
@@ -217,15 +217,15 @@ TEST(Log, AgainstTablesAContradictionIsSaid) {
 TEST(Log, CorrelatedErrorsAreFoundAndWidenTheIntervals) {
   const Truth& t = kTruths[1];
   Random white(1, 5);
-  Random coloured(1, 5);
+  Random autocorrelated(1, 5);
   const DrivePlan plan{.duration_s = 20.0, .drive = 2};
   TrialData data;
   data.logs = {simulate_log(plant(t), robot(), plan, {}, white)};
   const auto plain = identify(robot(), data, {}, {});
-  data.logs = {simulate_log(plant(t), robot(), plan, {.correlation_s = 0.1}, coloured)};
+  data.logs = {simulate_log(plant(t), robot(), plan, {.correlation_s = 0.1}, autocorrelated)};
   const auto result = identify(robot(), data, {}, {});
   ASSERT_TRUE(plain && result);
-  EXPECT_THAT(result->model.reports.back().noise, ::testing::HasSubstr("correlated over"));
+  EXPECT_THAT(result->model.record.reports.back().noise, ::testing::HasSubstr("correlated over"));
   EXPECT_GT(*result->model[ParameterId::kSurgeAlpha].std_error,
             2.0 * *plain->model[ParameterId::kSurgeAlpha].std_error);
   expect_recovered(*result, ParameterId::kSurgeAlpha, t.a1, 4.5);
@@ -238,7 +238,7 @@ TEST(Recover, TellsBiasAndCoverageOfTables) {
   model[ParameterId::kSwayAlpha].value = 3.0;
   RecoverOptions options;
   options.runs = 400;
-  const auto recovery = recover(model, "model.json", options, {});
+  const auto recovery = recover(model, options, {});
   ASSERT_TRUE(recovery);
   EXPECT_EQ(recovery->failed, 0);
   for (const RecoveredParameter& p : recovery->parameters) {
@@ -247,7 +247,7 @@ TEST(Recover, TellsBiasAndCoverageOfTables) {
     EXPECT_NEAR(p.bias, 0.0, 5.0 * p.rmse / std::sqrt(400.0) + 0.02 * p.truth) << info(p.id).name;
   }
   options.threads = 1;
-  const auto again = recover(model, "model.json", options, {});
+  const auto again = recover(model, options, {});
   EXPECT_EQ(recovery_text(*again, {}), recovery_text(*recovery, {}));
 }
 

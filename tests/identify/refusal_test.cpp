@@ -12,7 +12,7 @@ using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
 bool has_finding(const Model& model, const std::string& code) {
-  return std::any_of(model.findings.begin(), model.findings.end(),
+  return std::any_of(model.record.findings.begin(), model.record.findings.end(),
                      [&](const Finding& f) { return f.code == code; });
 }
 
@@ -81,7 +81,7 @@ TEST(Refusal, TimeNoiseWithoutTimesIsRefused) {
   data.coastdown.reset();
   IdentifyOptions options;
   options.method = Method::kNonlinear;
-  options.noise = Noise::kTime;
+  options.noise = ErrorModel::kTime;
   const auto result = identify(vehicle(), data, options, {});
   ASSERT_TRUE(result);
   EXPECT_THAT(result->refused, ElementsAre(ParameterId::kSurgeAlpha, ParameterId::kSurgeBeta));

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "awmr/identify/suggest.h"
+#include "awmr/identify/planning/suggest.h"
 #include "identify/synthetic.h"
 
 namespace awmr::testing {
@@ -20,7 +20,7 @@ Model some_model(double sigma) {
 }
 
 TEST(Suggest, RanksEveryCandidateByWhatItPromisesAndNoneMakesItWorse) {
-  const auto suggestion = suggest(some_model(0.05), "m.json", {.parameter = "mass_norm"});
+  const auto suggestion = suggest(some_model(0.05), {.parameter = "mass_norm"});
   ASSERT_TRUE(suggestion);
   ASSERT_GT(suggestion->trials.size(), 10U);
   double last = 0.0;
@@ -36,7 +36,7 @@ TEST(Suggest, RanksEveryCandidateByWhatItPromisesAndNoneMakesItWorse) {
 }
 
 TEST(Suggest, ATurningRunSaysNothingOfSurge) {
-  const auto suggestion = suggest(some_model(0.05), "m.json", {.parameter = "surge.beta"});
+  const auto suggestion = suggest(some_model(0.05), {.parameter = "surge.beta"});
   ASSERT_TRUE(suggestion);
   for (const SuggestedTrial& trial : suggestion->trials) {
     if (trial.kind != "turning") continue;
@@ -48,8 +48,8 @@ TEST(Suggest, ThePromiseForARepeatedTrialIsTheStandardErrorOfMoreRuns) {
   // One number, ln u, with noise s from n runs adds n (d ln u/d p)^2/s^2 to the information: four
   // times the runs, four times the information.
   const Model model = some_model(0.05);
-  const auto one = suggest(model, "m.json", {.parameter = "surge.beta", .repeats = 1});
-  const auto four = suggest(model, "m.json", {.parameter = "surge.beta", .repeats = 4});
+  const auto one = suggest(model, {.parameter = "surge.beta", .repeats = 1});
+  const auto four = suggest(model, {.parameter = "surge.beta", .repeats = 4});
   ASSERT_TRUE(one && four);
   const auto find = [](const Suggestion& s, double tau) {
     for (const SuggestedTrial& t : s.trials) {
@@ -71,7 +71,7 @@ TEST(Suggest, ThePromiseForARepeatedTrialIsTheStandardErrorOfMoreRuns) {
 }
 
 TEST(Suggest, RefusesAnUnknownParameterWithTheNamesThereAre) {
-  const auto suggestion = suggest(some_model(0.05), "m.json", {.parameter = "mass"});
+  const auto suggestion = suggest(some_model(0.05), {.parameter = "mass"});
   ASSERT_FALSE(suggestion);
   EXPECT_NE(to_text(suggestion.error()).find("mass_norm"), std::string::npos);
 }

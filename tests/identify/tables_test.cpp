@@ -11,7 +11,7 @@ namespace awmr::testing {
 namespace {
 
 const Finding* finding(const Model& model, const std::string& code) {
-  for (const Finding& f : model.findings) {
+  for (const Finding& f : model.record.findings) {
     if (f.code == code) return &f;
   }
   return nullptr;
@@ -139,10 +139,10 @@ TEST(Outliers, AreNamedWithTheirLineAndTheirInfluence) {
   ASSERT_NE(outlier, nullptr);
   EXPECT_EQ(outlier->line, data.surge->rows[10].line);
   const auto influential = std::find_if(
-      result->model.findings.begin(), result->model.findings.end(), [&](const Finding& f) {
+      result->model.record.findings.begin(), result->model.record.findings.end(), [&](const Finding& f) {
         return f.code == "influential-row" && f.line == data.surge->rows[10].line;
       });
-  ASSERT_NE(influential, result->model.findings.end());
+  ASSERT_NE(influential, result->model.record.findings.end());
   EXPECT_THAT(influential->message, ::testing::HasSubstr("surge.alpha becomes"));
 }
 
@@ -150,7 +150,7 @@ TEST(Outliers, LeavingARowOutGivesWhatTheFitWithoutItGives) {
   const TrialData data = runs_on({.alpha = 1.3157, .beta = 0.8841}, 0.0, 0.02, 5);
   const auto result = identify(vehicle(), data, {}, {});
   ASSERT_TRUE(result);
-  const EstimatorReport& report = result->model.reports.front();
+  const EstimatorReport& report = result->model.record.reports.front();
   ASSERT_EQ(report.leave_one_out.size(), 12U);
   TrialData without = data;
   without.surge->rows.erase(without.surge->rows.begin() + 3);
@@ -169,7 +169,7 @@ TEST(Profiles, AreTheCurvaturesIntervalForAlmostExactRunsAndCoverTheTruth) {
   const auto result = identify(vehicle(), data, options, {});
   ASSERT_TRUE(result);
   int compared = 0;
-  for (const EstimatorReport& report : result->model.reports) {
+  for (const EstimatorReport& report : result->model.record.reports) {
     for (const EstimatorParameter& p : report.parameters) {
       if (!p.profile95 || report.family != "power") continue;
       const double width = p.ci95->hi - p.ci95->lo;

@@ -49,7 +49,7 @@ Model some_model() {
   }
   model[ParameterId::kMassNorm].source = Source::kDerived;
   model[ParameterId::kSwayAlpha] = {3.0, {}, {}, Source::kGiven, "vehicle.json"};
-  model.reports = {{.subject = "surge",
+  model.record.reports = {{.subject = "surge",
                     .estimator = "log-linear",
                     .noise = "log force",
                     .parameters = {{"surge.alpha", 1.3157, 0.0183, Interval{1.27, 1.36}},
@@ -62,13 +62,13 @@ Model some_model() {
                     .stop_reason = "solved directly"}};
   model.covariance = {{ParameterId::kSurgeAlpha, ParameterId::kSurgeBeta},
                       {{1e-4, 2.0 / 3.0 * 1e-5}, {2.0 / 3.0 * 1e-5, 2.5e-4}}};
-  model.findings = {{"surge.csv", 11, Severity::kWarning, "speed-mismatch", "1.03 and 1.08"},
+  model.record.findings = {{"surge.csv", 11, Severity::kWarning, "speed-mismatch", "1.03 and 1.08"},
                     {"", 0, Severity::kNote, "rows-set-aside", "1 row"},
                     {"t.csv", 0, Severity::kError, "not-identifiable", "no"}};
-  model.trials = {{"surge", "surge.csv", 4, 0.2, 0.12, 0.1188},
+  model.record.trials = {{"surge", "surge.csv", 4, 0.2, 0.12, 0.1188},
                   {"turning", "t.csv", 3, 0.02, 0.038, {}},
                   {"coastdown", "c.csv", 4, 1.66, 0.573, 0.55}};
-  model.provenance = {
+  model.record.provenance = {
       "identify", {{"method", "log-linear"}}, {{"surge.csv", std::string(64, 'a')}}};
   return model;
 }
@@ -112,12 +112,12 @@ TEST(ModelFile, ReadsBackEveryFieldExactly) {
   EXPECT_EQ(model->vehicle.surge_beta_range.hi, 1.5);
   EXPECT_EQ(model->covariance.matrix, written.covariance.matrix);
   EXPECT_EQ(model->covariance.parameters, written.covariance.parameters);
-  EXPECT_EQ(model->findings[2].severity, Severity::kError);
-  EXPECT_EQ(model->findings[0].line, 11);
-  EXPECT_EQ(model->trials[0].predicted, 0.1188);
-  EXPECT_FALSE(model->trials[1].predicted);
-  EXPECT_EQ(model->provenance.command, "identify");
-  EXPECT_EQ(model->provenance.inputs[0].sha256, std::string(64, 'a'));
+  EXPECT_EQ(model->record.findings[2].severity, Severity::kError);
+  EXPECT_EQ(model->record.findings[0].line, 11);
+  EXPECT_EQ(model->record.trials[0].predicted, 0.1188);
+  EXPECT_FALSE(model->record.trials[1].predicted);
+  EXPECT_EQ(model->record.provenance.command, "identify");
+  EXPECT_EQ(model->record.provenance.inputs[0].sha256, std::string(64, 'a'));
 }
 
 TEST(ModelFile, RoundTripsArbitraryNumbersAndGaps) {
@@ -145,7 +145,7 @@ TEST(ModelFile, RoundTripsArbitraryNumbersAndGaps) {
 TEST(ModelFile, RoundTripsAModelOfWhichNothingIsKnown) {
   Model model;
   model.vehicle = some_vehicle();
-  model.provenance.command = "identify";
+  model.record.provenance.command = "identify";
   const std::string text = model_text(model);
   const auto back = reread(text);
   ASSERT_TRUE(back) << to_text(back.error());
@@ -154,8 +154,8 @@ TEST(ModelFile, RoundTripsAModelOfWhichNothingIsKnown) {
 
 TEST(ModelFile, WritesNoInfinityAndNoNaN) {
   Model model = some_model();
-  model.reports[0].condition_number = std::numeric_limits<double>::infinity();
-  model.reports[0].residual_std = std::numeric_limits<double>::quiet_NaN();
+  model.record.reports[0].condition_number = std::numeric_limits<double>::infinity();
+  model.record.reports[0].residual_std = std::numeric_limits<double>::quiet_NaN();
   model[ParameterId::kMassNorm].std_error = std::numeric_limits<double>::infinity();
   const auto back = reread(model_text(model));
   ASSERT_TRUE(back) << to_text(back.error());
@@ -245,7 +245,7 @@ TEST(ModelFile, RefusesValuesThatCannotBe) {
 }
 
 TEST(Model, BecomesAPlantInRadians) {
-  const auto plant = some_model().plant("m.json");
+  const auto plant = some_model().plant();
   ASSERT_TRUE(plant);
   const Model model = some_model();
   EXPECT_EQ(plant->surge.alpha, *model[ParameterId::kSurgeAlpha].value);
@@ -267,16 +267,16 @@ TEST(Model, RefusesAPlantByTheNameOfEachMissingParameterWithItsTrial) {
   for (const ParameterInfo& parameter : parameter_table()) {
     Model model = some_model();
     model[parameter.id].value.reset();
-    const auto plant = model.plant("m.json");
+    const auto plant = model.plant();
     ASSERT_FALSE(plant) << parameter.name;
     EXPECT_EQ(exit_code(plant.error()), 2);
     ASSERT_THAT(plant.error().faults, SizeIs(1));
-    EXPECT_EQ(plant.error().faults[0].place, "m.json:" + std::string(parameter.pointer));
+    EXPECT_EQ(plant.error().faults[0].place, "model.json:" + std::string(parameter.pointer));
     EXPECT_THAT(plant.error().faults[0].message, AllOf(HasSubstr(std::string(parameter.name)),
                                                        HasSubstr(std::string(parameter.trial))));
   }
   Model nothing;
-  EXPECT_THAT(nothing.plant("m.json").error().faults, SizeIs(8));  // a power law has no other terms
+  EXPECT_THAT(nothing.plant().error().faults, SizeIs(8));  // a power law has no other terms
 }
 
 TEST(Model, HasThePapersLargestWheelForce) {

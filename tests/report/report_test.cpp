@@ -29,7 +29,7 @@ Model some_model(const std::string& name) {
                    .sample_time_s = 0.01,
                    .yaw_inertia_kgm2 = {},
                    .sway_alpha = 3.0};
-  model.provenance.command = "identify";
+  model.record.provenance.command = "identify";
   return model;
 }
 

@@ -36,8 +36,8 @@ class ScenarioFiles : public ::testing::TestWithParam<fs::path> {
   }
   static awmr::Run run(const Scenario& scenario, YawMode mode) {
     static const Model model = model_with_intervals();
-    const auto controller = make_controller(*model.plant("m"), model.vehicle, kPaperGains);
-    return simulate(*plant_for(scenario, model, "m"), controller, scenario, mode, {});
+    const auto controller = make_controller(*model.plant(), model.vehicle, kPaperGains);
+    return simulate(*plant_for(scenario, model), controller, scenario, mode, {});
   }
 };
 
@@ -50,7 +50,7 @@ const std::set<std::string> kNotForAll{
 TEST_P(ScenarioFiles, RunsInEveryMode) {
   const Scenario s = scenario();
   const Model model = model_with_intervals();
-  const auto controller = make_controller(*model.plant("m"), model.vehicle, kPaperGains);
+  const auto controller = make_controller(*model.plant(), model.vehicle, kPaperGains);
   for (const YawMode mode : kYawModes) {
     const awmr::Run r = run(s, mode);
     for (const RunRow& row : r.rows) {

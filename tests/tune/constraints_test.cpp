@@ -16,7 +16,7 @@ namespace {
 ConstraintContext paper_context(ReachingForm form, double margin) {
   return {.form = form,
           .margin = margin,
-          .plant = testing::paper_model().plant("paper").value(),
+          .plant = testing::paper_model().plant().value(),
           .sample_time_s = 0.01,
           .speed_mps = 1.0};
 }

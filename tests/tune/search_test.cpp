@@ -38,7 +38,7 @@ const ConstraintReport& named(const Tuning& tuning, const std::string& name) {
 }
 
 std::string text_of(const TuneOptions& options) {
-  const Result<Tuning> tuning = tune(paper_model(), "model.json", options);
+  const Result<Tuning> tuning = tune(paper_model(), options);
   if (!tuning) return to_text(tuning.error());
   return gains_text(*tuning, options, {.command = "tune", .options = {}, .inputs = {}});
 }
@@ -47,7 +47,7 @@ std::string text_of(const TuneOptions& options) {
 /// deg s^2, 0.5 deg, 0.01/s, 0.001, 0.001 m s.
 double mode_objective(const TuneOptions& options, const Gains<double>& gains, YawMode mode) {
   const Model model = paper_model();
-  const Plant<double> plant = model.plant("model.json").value();
+  const Plant<double> plant = model.plant().value();
   const auto figures = [&](const Gains<double>& g) {
     const Controller<double> c = make_controller(plant, model.vehicle, g);
     const Run run = simulate(plant, c, options.scenarios.front(), mode,
@@ -105,7 +105,7 @@ TEST(Ranking, OrdersFeasibleOnesByObjectiveAndOthersByViolation) {
 
 TEST(Objective, IsExactlyOneForTheBaselineInEveryModeAndScenario) {
   const Model model = paper_model();
-  const Objective objective(model.plant("model.json").value(), model.vehicle, {},
+  const Objective objective(model.plant().value(), model.vehicle, {},
                             short_options().scenarios, kPaperGains);
   for (const Evaluation& e : {objective.baseline(), objective(kPaperGains)}) {
     EXPECT_TRUE(e.valid);
@@ -120,7 +120,7 @@ class Tuned : public ::testing::TestWithParam<ReachingForm> {};
 TEST_P(Tuned, MeetsEveryConstraintAndBeatsTheBaselineInEveryModeWhenSimulatedAgain) {
   TuneOptions options = short_options();
   options.form = GetParam();
-  const Result<Tuning> tuning = tune(paper_model(), "model.json", options);
+  const Result<Tuning> tuning = tune(paper_model(), options);
   ASSERT_TRUE(tuning) << to_text(tuning.error());
   const HeadingGains<double>& g = tuning->gains.heading;
   const double reaching_s =
@@ -158,7 +158,7 @@ TEST(Tune, ReportsBothMarginsOfT2BelowT1WhicheverIsRequired) {
   options.global_evaluations = 20;
   options.local_evaluations = 20;
   options.form = ReachingForm::kPaper;
-  const Result<Tuning> tuning = tune(paper_model(), "model.json", options);
+  const Result<Tuning> tuning = tune(paper_model(), options);
   ASSERT_TRUE(tuning) << to_text(tuning.error());
   EXPECT_NEAR(named(*tuning, "T2 < T1 (strict)").value,
               2.0 * named(*tuning, "T2 < T1 (paper)").value, 1e-12);
@@ -170,7 +170,7 @@ TEST(Tune, RefusesAMarginThatNoGainsWithinTheBoundsMeet) {
   // (lambda + mu/eps)(T + T_s/2) >= 1.26 against 0.51 for damping 0.7.
   TuneOptions options = short_options();
   options.margin = 0.01;
-  const Result<Tuning> tuning = tune(paper_model(), "model.json", options);
+  const Result<Tuning> tuning = tune(paper_model(), options);
   ASSERT_FALSE(tuning);
   EXPECT_EQ(tuning.error().kind, ErrorKind::kRefused);
   EXPECT_THAT(to_text(tuning.error()), ::testing::HasSubstr("no gains within the bounds"));
@@ -180,7 +180,7 @@ TEST(Tune, RefusesBoundsThatExcludeEveryFeasibleGain) {
   // mu <= 1 rad/s^2 against 0.2 g3(60 deg/s)/I'z = 4.9
   TuneOptions options = short_options();
   options.bounds.mu = {0.5, 1.0};
-  const Result<Tuning> tuning = tune(paper_model(), "model.json", options);
+  const Result<Tuning> tuning = tune(paper_model(), options);
   ASSERT_FALSE(tuning);
   EXPECT_EQ(tuning.error().kind, ErrorKind::kRefused);
   EXPECT_THAT(to_text(tuning.error()), ::testing::HasSubstr("mu dominates"));
@@ -196,7 +196,7 @@ TEST(Tune, RefusesWhenNothingBeatsTheBaseline) {
                     .speed_epsilon = {1.2, 1.2}};
   options.global_evaluations = 5;
   options.local_evaluations = 5;
-  const Result<Tuning> tuning = tune(paper_model(), "model.json", options);
+  const Result<Tuning> tuning = tune(paper_model(), options);
   ASSERT_FALSE(tuning);
   EXPECT_EQ(tuning.error().kind, ErrorKind::kRefused) << to_text(tuning.error());
   EXPECT_THAT(to_text(tuning.error()), ::testing::HasSubstr("in every mode"));
@@ -211,7 +211,7 @@ TEST(Tune, NamesAllUnfitOptionsAtOnce) {
   options.scenarios.push_back(options.scenarios.front());
   options.scenarios.back().name = "open";
   options.scenarios.back().guidance = OpenLoop{};
-  const Result<Tuning> tuning = tune(paper_model(), "model.json", options);
+  const Result<Tuning> tuning = tune(paper_model(), options);
   ASSERT_FALSE(tuning);
   EXPECT_EQ(tuning.error().kind, ErrorKind::kInput);
   EXPECT_EQ(tuning.error().faults.size(), 5U) << to_text(tuning.error());
@@ -220,7 +220,7 @@ TEST(Tune, NamesAllUnfitOptionsAtOnce) {
 TEST(Tune, PassesOnThatTheModelLacksAParameter) {
   Model model = paper_model();
   model[ParameterId::kMassNorm].value.reset();
-  const Result<Tuning> tuning = tune(model, "model.json", short_options());
+  const Result<Tuning> tuning = tune(model, short_options());
   ASSERT_FALSE(tuning);
   EXPECT_EQ(tuning.error().kind, ErrorKind::kInput);
 }

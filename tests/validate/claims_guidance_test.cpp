@@ -18,7 +18,7 @@ using ::testing::HasSubstr;
 const Claim& claim_of(const std::string& id) {
   static const Model model = testing::fitted_paper_model();
   static const std::vector<Claim> claims =
-      check_guidance_claims(model, *model.plant("model.json"), kPaperGains);
+      check_guidance_claims(model, *model.plant(), kPaperGains);
   return *std::find_if(claims.begin(), claims.end(),
                        [&](const Claim& claim) { return claim.id == id; });
 }
@@ -43,14 +43,14 @@ TEST(GuidanceClaims, CombinedIsNotAloneAtTheTop) {
 TEST(GuidanceClaims, AVehicleThatCannotTurnFails) {
   Model model = testing::fitted_paper_model();
   model.vehicle.steering_max_deg = 3.0;
-  const auto claims = check_guidance_claims(model, *model.plant("model.json"), kPaperGains);
+  const auto claims = check_guidance_claims(model, *model.plant(), kPaperGains);
   EXPECT_FALSE(claims.front().reproduced);
   EXPECT_THAT(claims.front().why, HasSubstr("steering turns too wide"));
 }
 
 std::string run_of(const Scenario& scenario) {
   const Model model = testing::fitted_paper_model();
-  const Plant<double> plant = *model.plant("model.json");
+  const Plant<double> plant = *model.plant();
   Scenario first = scenario;
   first.duration_s = std::min(first.duration_s, 30.0);
   const awmr::Run run = simulate(plant, make_controller(plant, model.vehicle, kPaperGains), first,

@@ -15,7 +15,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-Plant<double> plant_of(const Model& model) { return *model.plant("model.json"); }
+Plant<double> plant_of(const Model& model) { return *model.plant(); }
 
 Claim claim_of(const std::vector<Claim>& claims, const std::string& id) {
   const auto found = std::find_if(claims.begin(), claims.end(),
@@ -63,7 +63,7 @@ TEST(Claims, TheStraightRunFailsWhereTheForceIsNotToBeHad) {
 
 TEST(Claims, TheStraightRunFailsWhereTheModelMissesTheFastestTrial) {
   Model model = testing::fitted_paper_model();
-  model.trials = {{"surge", "surge.csv", 2, 2.0, 2.2, {}}};
+  model.record.trials = {{"surge", "surge.csv", 2, 2.0, 2.2, {}}};
   const Claim claim = check_straight_run(model, plant_of(model));
   EXPECT_FALSE(claim.reproduced);
   EXPECT_THAT(claim.why, HasSubstr("does not go through"));

@@ -20,7 +20,7 @@ Model model_with_trials() {
 }
 
 Validation validated(const Model& model, double tolerance = 0.15) {
-  const auto validation = validate(model, "model.json", std::nullopt, {.tolerance = tolerance});
+  const auto validation = validate(model, std::nullopt, {.tolerance = tolerance});
   EXPECT_TRUE(validation);
   return *validation;
 }
@@ -40,7 +40,7 @@ TEST(Validate, PredictsTheTrialsAsComputedByHand) {
 }
 
 TEST(Validate, ThePredictionSolvesTheResistanceLaw) {
-  const auto plant = testing::fitted_paper_model().plant("model.json");
+  const auto plant = testing::fitted_paper_model().plant();
   ASSERT_TRUE(plant);
   for (const double input : {1e-3, 0.2, 1.0, 3.7}) {
     const auto u = predicted_measurement(*plant, {"surge", "", 0, input, 1.0, {}});
@@ -85,34 +85,34 @@ TEST(Validate, HasNoStopTimeForAnExponentOfOne) {
 TEST(Validate, NamesTheMissingParameterAndItsTrial) {
   Model model = model_with_trials();
   model[ParameterId::kMassNorm].value.reset();
-  const auto v = validate(model, "m.json", std::nullopt, {});
+  const auto v = validate(model, std::nullopt, {});
   ASSERT_FALSE(v);
   EXPECT_EQ(v.error().kind, ErrorKind::kInput);
-  EXPECT_THAT(to_text(v.error()), HasSubstr("m.json:/mass_norm"));
+  EXPECT_THAT(to_text(v.error()), HasSubstr("model.json:/mass_norm"));
 }
 
 TEST(Validate, RefusesTrialsThatNoModelCouldMeet) {
   Model model = model_with_trials();
-  model.trials[1].measured = 0.0;
-  model.trials[2].kind = "flying";
-  const auto v = validate(model, "m.json", std::nullopt, {});
+  model.record.trials[1].measured = 0.0;
+  model.record.trials[2].kind = "flying";
+  const auto v = validate(model, std::nullopt, {});
   ASSERT_FALSE(v);
   EXPECT_EQ(v.error().kind, ErrorKind::kInput);
   EXPECT_EQ(v.error().faults.size(), 2U);
-  EXPECT_THAT(to_text(v.error()), HasSubstr("m.json:/trials/1"));
-  EXPECT_THAT(to_text(v.error()), HasSubstr("m.json:/trials/2/kind"));
+  EXPECT_THAT(to_text(v.error()), HasSubstr("model.json:/trials/1"));
+  EXPECT_THAT(to_text(v.error()), HasSubstr("model.json:/trials/2/kind"));
 }
 
 TEST(Validate, RefusesAToleranceThatIsNotPositive) {
   for (const double tolerance : {0.0, -0.1, std::nan("")}) {
-    const auto v = validate(model_with_trials(), "m.json", std::nullopt, {.tolerance = tolerance});
+    const auto v = validate(model_with_trials(), std::nullopt, {.tolerance = tolerance});
     ASSERT_FALSE(v);
     EXPECT_EQ(v.error().kind, ErrorKind::kInput);
   }
 }
 
 TEST(ValidationFile, HasTheKeysOfTheContract) {
-  const auto v = validate(model_with_trials(), "model.json", kPaperGains, {});
+  const auto v = validate(model_with_trials(), kPaperGains, {});
   ASSERT_TRUE(v);
   const Provenance provenance{"validate", {{"tolerance", "0.15"}}, {{"model.json", "abc"}}};
   const Json json = Json::parse(validation_text(*v, provenance));
@@ -132,14 +132,14 @@ TEST(ValidationFile, HasTheKeysOfTheContract) {
 TEST(ValidationFile, IsTheSameTextEveryTime) {
   const Provenance provenance{"validate", {}, {}};
   const auto text = [&] {
-    return validation_text(*validate(model_with_trials(), "model.json", kPaperGains, {}),
+    return validation_text(*validate(model_with_trials(), kPaperGains, {}),
                            provenance);
   };
   EXPECT_EQ(text(), text());
 }
 
 TEST(ValidationTable, FitsAHundredColumns) {
-  const auto v = validate(model_with_trials(), "model.json", kPaperGains, {});
+  const auto v = validate(model_with_trials(), kPaperGains, {});
   ASSERT_TRUE(v);
   const std::string table = validation_table(*v);
   EXPECT_THAT(table, HasSubstr("C14"));

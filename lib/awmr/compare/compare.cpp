@@ -51,13 +51,13 @@ std::vector<Fault> option_faults(const std::vector<NamedGains>& gains,
 /// The vehicles that are run: by sample, and by scenario where it has a corner.
 class Fleet {
  public:
-  static Result<Fleet> make(const Model& model, const std::string& model_file,
+  static Result<Fleet> make(const Model& model,
                             const std::vector<Scenario>& scenarios, const CompareOptions& options) {
-    const Result<Plant<double>> nominal = model.plant(model_file);
+    const Result<Plant<double>> nominal = model.plant();
     if (!nominal) return tl::unexpected(nominal.error());
     std::vector<Model> drawn{model};
     if (options.samples > 0) {
-      const Result<PlantSampler> sampler = PlantSampler::make(model, model_file);
+      const Result<PlantSampler> sampler = PlantSampler::make(model);
       if (!sampler) return tl::unexpected(sampler.error());
       for (int sample = 1; sample <= options.samples; ++sample) {
         Result<Model> one = sampler->draw_model(options.seed, sample);
@@ -77,7 +77,7 @@ class Fleet {
         fleet.plain_ = fleet.plants_.size();
       }
       for (const Model& one : drawn) {
-        const Result<Plant<double>> plant = plant_for(scenario, one, model_file);
+        const Result<Plant<double>> plant = plant_for(scenario, one);
         if (!plant) return tl::unexpected(plant.error());
         fleet.plants_.push_back(*plant);
       }
@@ -189,12 +189,12 @@ Comparison gathered(const Layout& layout, Slots slots) {
 
 }  // namespace
 
-Result<Comparison> compare(const Model& model, const std::string& model_file,
+Result<Comparison> compare(const Model& model,
                            const std::vector<NamedGains>& gains,
                            const std::vector<Scenario>& scenarios, const CompareOptions& options) {
   std::vector<Fault> faults = option_faults(gains, scenarios, options);
   if (!faults.empty()) return input_errors(std::move(faults));
-  const auto fleet = Fleet::make(model, model_file, scenarios, options);
+  const auto fleet = Fleet::make(model, scenarios, options);
   if (!fleet) return tl::unexpected(fleet.error());
 
   const Layout layout{scenarios.size(), gains.size(),
@@ -240,10 +240,10 @@ Result<Comparison> compare(const Model& model, const std::string& model_file,
   return gathered(layout, std::move(slots));
 }
 
-Result<Comparison> compare(const Model& model, const std::string& model_file,
+Result<Comparison> compare(const Model& model,
                            const Gains<double>& gains, const std::vector<Scenario>& scenarios,
                            const CompareOptions& options) {
-  return compare(model, model_file, std::vector<NamedGains>{{"", gains}}, scenarios, options);
+  return compare(model, std::vector<NamedGains>{{"", gains}}, scenarios, options);
 }
 
 }  // namespace awmr

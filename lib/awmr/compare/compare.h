@@ -59,10 +59,10 @@ struct Comparison {
 /// parameter, or, with samples, a covariance to draw from, or an interval that a scenario's corner
 /// needs; no scenario, or two of the same name; a negative number of samples or threads; a finished
 /// row that is none of this comparison's.
-Result<Comparison> compare(const Model& model, const std::string& model_file,
+Result<Comparison> compare(const Model& model,
                            const std::vector<NamedGains>& gains,
                            const std::vector<Scenario>& scenarios, const CompareOptions& options);
-Result<Comparison> compare(const Model& model, const std::string& model_file,
+Result<Comparison> compare(const Model& model,
                            const Gains<double>& gains, const std::vector<Scenario>& scenarios,
                            const CompareOptions& options);
 

@@ -48,9 +48,9 @@ Status check_shape(const Covariance& covariance, const std::string& place) {
 
 }  // namespace
 
-Result<PlantSampler> PlantSampler::make(const Model& model, const std::string& model_file) {
-  if (const auto plant = model.plant(model_file); !plant) return tl::unexpected(plant.error());
-  const std::string place = model_file + ":/covariance";
+Result<PlantSampler> PlantSampler::make(const Model& model) {
+  if (const auto plant = model.plant(); !plant) return tl::unexpected(plant.error());
+  const std::string place = model.file + ":/covariance";
   const Covariance& covariance = model.covariance;
   if (const Status shape = check_shape(covariance, place); !shape) {
     return tl::unexpected(shape.error());
@@ -58,7 +58,6 @@ Result<PlantSampler> PlantSampler::make(const Model& model, const std::string& m
 
   PlantSampler sampler;
   sampler.model_ = model;
-  sampler.model_file_ = model_file;
   const auto n = static_cast<Eigen::Index>(covariance.parameters.size());
   Eigen::MatrixXd drawn(n, n);
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -92,7 +91,7 @@ Result<PlantSampler> PlantSampler::make(const Model& model, const std::string& m
 Result<Plant<double>> PlantSampler::draw(std::uint64_t seed, int sample) const {
   const Result<Model> drawn = draw_model(seed, sample);
   if (!drawn) return tl::unexpected(drawn.error());
-  return drawn->plant(model_file_);
+  return drawn->plant();
 }
 
 Result<Model> PlantSampler::draw_model(std::uint64_t seed, int sample) const {
@@ -112,7 +111,7 @@ Result<Model> PlantSampler::draw_model(std::uint64_t seed, int sample) const {
     }
     if (accepted) return drawn;
   }
-  return input_error(model_file_ + ":/vehicle",
+  return input_error(model_.file + ":/vehicle",
                      fmt::format("{} draws of the exponents all fell outside surge_beta_range or "
                                  "yaw_beta_range: widen the range, or identify from more trials",
                                  kMostTries));

@@ -18,7 +18,7 @@ namespace awmr {
 class PlantSampler {
  public:
   /// Errors (input): a parameter has no value; no covariance; one that is no covariance.
-  static Result<PlantSampler> make(const Model& model, const std::string& model_file);
+  static Result<PlantSampler> make(const Model& model);
 
   /// The plant of `sample` (>= 1): depends on seed and sample alone. Errors (input): the ranges of
   /// the exponents leave next to nothing to draw.
@@ -28,7 +28,6 @@ class PlantSampler {
 
  private:
   Model model_;
-  std::string model_file_;
   std::vector<double> centre_;               ///< ln p or b, by position in the covariance
   std::vector<std::vector<double>> factor_;  ///< L with L L^T = the covariance of those
 };

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 #include <tl/expected.hpp>
+#include <utility>
 #include <vector>
 
 namespace awmr {
@@ -46,3 +47,24 @@ std::string to_text(const Error& error);
 int exit_code(const Error& error);
 
 }  // namespace awmr
+
+/// Hands an error on to the caller: both stand in a function that returns a Result.
+///
+///     AWMR_RETURN_IF_ERROR(write_file(path, text));
+///     AWMR_ASSIGN_OR_RETURN(const Model model, read_model(path));
+///
+/// The second declares `model`, so it cannot be the only statement of an `if`.
+#define AWMR_RETURN_IF_ERROR(expression)                                      \
+  do {                                                                        \
+    if (auto awmr_status = (expression); !awmr_status) {                      \
+      return ::tl::unexpected<::awmr::Error>(std::move(awmr_status).error()); \
+    }                                                                         \
+  } while (false)
+#define AWMR_ASSIGN_OR_RETURN(declaration, expression) \
+  AWMR_ASSIGN_OR_RETURN_AS(AWMR_JOIN(awmr_result_, __LINE__), declaration, expression)
+#define AWMR_ASSIGN_OR_RETURN_AS(result, declaration, expression)                 \
+  auto result = (expression);                                                     \
+  if (!result) return ::tl::unexpected<::awmr::Error>(std::move(result).error()); \
+  declaration = std::move(*result)
+#define AWMR_JOIN(left, right) AWMR_JOIN_EXPANDED(left, right)
+#define AWMR_JOIN_EXPANDED(left, right) left##right

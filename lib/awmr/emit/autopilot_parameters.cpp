@@ -59,7 +59,7 @@ Result<AutopilotParameters> autopilot_parameters(const Model& model, const Gains
   if (const auto checked = params_header(model, gains, inputs); !checked) {
     return tl::unexpected(checked.error());
   }
-  const auto plant = model.plant(inputs.model_file);
+  const auto plant = model.plant();
   if (!plant) return tl::unexpected(plant.error());
   if (plant->wheel_dead_zone > 0.0) {
     return input_error(

@@ -141,7 +141,7 @@ std::string params_sha256(const EmitInputs& inputs) {
 
 Result<std::string> params_header(const Model& model, const Gains<double>& gains,
                                   const EmitInputs& inputs) {
-  if (const auto plant = model.plant(inputs.model_file); !plant) {
+  if (const auto plant = model.plant(); !plant) {
     return tl::unexpected(plant.error());
   }
   const std::vector<Macro> macros = macros_of(model, gains, inputs);

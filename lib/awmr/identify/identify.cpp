@@ -8,10 +8,10 @@
 #include <numbers>
 #include <utility>
 
-#include "awmr/identify/joint_covariance.h"
-#include "awmr/identify/log_stage.h"
-#include "awmr/identify/mass.h"
-#include "awmr/identify/subject_fit.h"
+#include "awmr/identify/uncertainty/joint_covariance.h"
+#include "awmr/identify/logs/log_stage.h"
+#include "awmr/identify/coastdown/mass.h"
+#include "awmr/identify/tables/subject_fit.h"
 #include "awmr/model/steady.h"
 
 namespace awmr {
@@ -59,7 +59,7 @@ class Identifier {
              Method method, std::vector<Finding> findings)
       : vehicle_(vehicle), data_(data), options_(options), method_(method) {
     result_.model.vehicle = vehicle;
-    result_.model.findings = std::move(findings);
+    result_.model.record.findings = std::move(findings);
   }
 
   Identification run() {
@@ -77,13 +77,13 @@ class Identifier {
  private:
   void find(Severity severity, const std::string& file, const std::string& code,
             std::string message) {
-    result_.model.findings.push_back({file, 0, severity, code, std::move(message)});
+    result_.model.record.findings.push_back({file, 0, severity, code, std::move(message)});
   }
 
   void take(std::vector<EstimatorReport>& reports, std::vector<Finding>& findings) {
     Model& model = result_.model;
-    std::move(reports.begin(), reports.end(), std::back_inserter(model.reports));
-    std::move(findings.begin(), findings.end(), std::back_inserter(model.findings));
+    std::move(reports.begin(), reports.end(), std::back_inserter(model.record.reports));
+    std::move(findings.begin(), findings.end(), std::back_inserter(model.record.findings));
   }
 
   void set_given() {
@@ -93,7 +93,7 @@ class Identifier {
     }
     result_.model[ParameterId::kSteeringTimeConstant] = {
         vehicle_.steering_time_constant_s, {}, {}, Source::kGiven, "vehicle"};
-    check_inertia(vehicle_, result_.model.findings);
+    check_inertia(vehicle_, result_.model.record.findings);
   }
 
   SubjectOptions subject_options(const FamilyChoice& family) const {
@@ -105,7 +105,7 @@ class Identifier {
   Method table_method() const {
     const auto plain = [](const FamilyChoice& choice) { return choice.family == Family::kPower; };
     const bool log_linear_does =
-        plain(options_.surge_family) && plain(options_.yaw_family) && options_.loss == Loss::kNone;
+        plain(options_.surge_family) && plain(options_.yaw_family) && options_.loss == Loss::kSquared;
     return log_linear_does ? Method::kLogLinear : Method::kNonlinear;
   }
 
@@ -120,7 +120,7 @@ class Identifier {
         report = &r;
       }
     }
-    const std::vector<Coordinate> coordinates = coordinates_of(fit.problem.family);
+    const std::vector<TransformedParameter> coordinates = coordinates_of(fit.problem.family);
     for (std::size_t i = 0; i < coordinates.size(); ++i) {
       std::optional<Interval> profile;
       if (report) profile = report->parameters[i].profile95;
@@ -134,9 +134,9 @@ class Identifier {
     if (!law.has_covariance()) return;
     const Eigen::Index first = covariance_.add_block(law.covariance);
     for (std::size_t i = 0; i < law.free.size(); ++i) {
-      const Coordinate c = law.free[i];
+      const TransformedParameter c = law.free[i];
       covariance_.set(parameter_of(subject, c),
-                      {{first + static_cast<Eigen::Index>(i), slope_of(c, law[c])}});
+                      {{first + static_cast<Eigen::Index>(i), jacobian_of(c, law[c])}});
     }
     if (subject.name == "surge") surge_block_ = first;
   }
@@ -238,14 +238,14 @@ class Identifier {
     const Subject surge{};  // the ids of surge
     for (std::size_t i = 0; i < joint.surge.free.size(); ++i) {
       const auto at = static_cast<Eigen::Index>(i);
-      const Coordinate c = joint.surge.free[i];
+      const TransformedParameter c = joint.surge.free[i];
       const double x = joint.surge[c];
       const double error = std::sqrt(joint.covariance(at, at));
       const double half = t_quantile_95(joint.dof(at)) * error;
-      model[parameter_of(surge, c)] = {value_from(c, x), slope_of(c, x) * error,
+      model[parameter_of(surge, c)] = {value_from(c, x), jacobian_of(c, x) * error,
                                        Interval{value_from(c, x - half), value_from(c, x + half)},
                                        Source::kFitted, "joint with the coast-down curves"};
-      covariance_.set(parameter_of(surge, c), {{first + at, slope_of(c, x)}});
+      covariance_.set(parameter_of(surge, c), {{first + at, jacobian_of(c, x)}});
     }
     const Eigen::Index last = joint.covariance.rows() - 1;
     const double variance = joint.covariance(last, last);
@@ -272,7 +272,7 @@ class Identifier {
     if (fills_surge) set_family_of_logs(stage.surge_family);
     for (const LogStage::Main& main : stage.main) {
       result_.model[main.id] = main.estimate;
-      covariance_.set(main.id, {{first + main.place, main.slope}});
+      covariance_.set(main.id, {{first + main.place, main.jacobian}});
     }
   }
 
@@ -320,7 +320,7 @@ class Identifier {
   }
 
   void keep_trials() {
-    std::vector<TrialPoint>& trials = result_.model.trials;
+    std::vector<TrialPoint>& trials = result_.model.record.trials;
     const auto keep = [&](const std::string& kind, const std::string& file, int line, double input,
                           double measured) {
       trials.push_back({kind, file, line, input, measured, predicted(kind, input)});
@@ -430,7 +430,7 @@ Result<Identification> identify(const Vehicle& vehicle, const TrialData& data,
                                 const IdentifyOptions& options, std::vector<Finding> findings) {
   const bool other_family =
       options.surge_family.family != Family::kPower || options.yaw_family.family != Family::kPower;
-  const bool robust = options.loss != Loss::kNone;
+  const bool robust = options.loss != Loss::kSquared;
   if (options.method == Method::kLogLinear && (other_family || robust)) {
     return input_error("--method", fmt::format("log-linear knows the power law and squares only; "
                                                "with {} use nonlinear",

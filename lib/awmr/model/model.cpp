@@ -14,7 +14,7 @@ Model::Model() {
   }
 }
 
-Result<Plant<double>> Model::plant(const std::string& file) const {
+Result<Plant<double>> Model::plant() const {
   std::vector<Fault> faults;
   for (const ParameterInfo& parameter : parameter_table()) {
     if ((*this)[parameter.id].value) continue;

@@ -111,19 +111,28 @@ struct TrialPoint {
   std::optional<double> predicted;  ///< the main model's, same unit as `measured`
 };
 
+/// How a model was identified: what every estimator made of the data, what is doubtful, and where
+/// it all comes from.
+struct IdentificationRecord {
+  std::vector<EstimatorReport> reports;
+  std::vector<Finding> findings;
+  std::vector<TrialPoint> trials;
+  Provenance provenance;
+};
+
+/// The vehicle as identified: what is known beforehand, the resistance families, every quantity
+/// with its uncertainty.
 struct Model {
   /// Nothing known but that a power law has no other terms.
   Model();
 
+  std::string file = "model.json";  ///< the name that errors about it carry; the path it was read from
   Vehicle vehicle;
   Family surge_family = Family::kPower;
   Family yaw_family = Family::kPower;
   std::array<Estimate, kParameterCount> estimates;  ///< by ParameterId
-  std::vector<EstimatorReport> reports;
   Covariance covariance;
-  std::vector<Finding> findings;
-  std::vector<TrialPoint> trials;
-  Provenance provenance;
+  IdentificationRecord record;
 
   Estimate& operator[](ParameterId id) { return estimates[static_cast<std::size_t>(id)]; }
   const Estimate& operator[](ParameterId id) const {
@@ -131,8 +140,8 @@ struct Model {
   }
 
   /// Everything the simulator needs. Errors (input): a parameter has no value; it is named with the
-  /// trial that would show it. `file` is the model's name for the message.
-  Result<Plant<double>> plant(const std::string& file) const;
+  /// trial that would show it.
+  Result<Plant<double>> plant() const;
 };
 
 /// F_max = m/m', N.                                                                     [paper

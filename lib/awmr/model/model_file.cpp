@@ -116,13 +116,13 @@ auto list_from_json(JsonObject& root, std::string_view key, FromJson from_json) 
 std::string model_text(const Model& model) {
   Json json;
   json["schema"] = kSchema;
-  put_provenance(json, model.provenance);
+  put_provenance(json, model.record.provenance);
   json["vehicle"] = vehicle_to_json(model.vehicle);
   put_estimates(json, model);
-  json["estimates"] = list_to_json(model.reports, report_to_json);
+  json["estimates"] = list_to_json(model.record.reports, report_to_json);
   json["covariance"] = covariance_to_json(model.covariance);
-  json["findings"] = list_to_json(model.findings, finding_to_json);
-  json["trials"] = list_to_json(model.trials, trial_to_json);
+  json["findings"] = list_to_json(model.record.findings, finding_to_json);
+  json["trials"] = list_to_json(model.record.trials, trial_to_json);
   return to_text(json);
 }
 
@@ -134,14 +134,15 @@ Result<Model> read_model(const std::filesystem::path& path) {
   root.schema(kSchema);
 
   Model model;
-  model.provenance = read_provenance(root);
+  model.file = path.string();
+  model.record.provenance = read_provenance(root);
   JsonObject vehicle = root.object("vehicle");
   model.vehicle = vehicle_from_json(vehicle);
   estimates_from_json(root, model);
-  model.reports = list_from_json(root, "estimates", report_from_json);
+  model.record.reports = list_from_json(root, "estimates", report_from_json);
   model.covariance = covariance_from_json(root.object("covariance"), *json);
-  model.findings = list_from_json(root, "findings", finding_from_json);
-  model.trials = list_from_json(root, "trials", trial_from_json);
+  model.record.findings = list_from_json(root, "findings", finding_from_json);
+  model.record.trials = list_from_json(root, "trials", trial_from_json);
   root.reject_unknown_keys();
   if (!faults.empty()) return input_errors(std::move(faults));
   return model;

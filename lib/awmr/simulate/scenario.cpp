@@ -28,13 +28,12 @@ bool Scenario::random() const {
                      has_noise(sensors->speed) || (sensors->gps && has_noise(sensors->gps->x)));
 }
 
-Result<Model> model_at_corner(Model model, const Scenario& scenario,
-                              const std::string& model_file) {
+Result<Model> model_at_corner(Model model, const Scenario& scenario) {
   std::vector<Fault> faults;
   for (const CornerParameter& corner : scenario.corner) {
     Estimate& estimate = model[corner.id];
     if (!estimate.ci95) {
-      faults.push_back({model_file + ":" + std::string(info(corner.id).pointer),
+      faults.push_back({model.file + ":" + std::string(info(corner.id).pointer),
                         "has no 95 % interval (ci95), whose end the scenario '" + scenario.name +
                             "' asks for; identify it from trials, or take it out of the "
                             "scenario's corner"});
@@ -46,11 +45,10 @@ Result<Model> model_at_corner(Model model, const Scenario& scenario,
   return model;
 }
 
-Result<Plant<double>> plant_for(const Scenario& scenario, const Model& model,
-                                const std::string& model_file) {
-  const auto cornered = model_at_corner(model, scenario, model_file);
+Result<Plant<double>> plant_for(const Scenario& scenario, const Model& model) {
+  const auto cornered = model_at_corner(model, scenario);
   if (!cornered) return tl::unexpected(cornered.error());
-  return cornered->plant(model_file);
+  return cornered->plant();
 }
 
 std::string_view name_of(YawMode mode) {

@@ -93,10 +93,9 @@ Result<Scenario> read_scenario(const std::filesystem::path& path);
 
 /// The model with the scenario's corner parameters at the ends of their 95 % intervals.
 /// Errors (input): a parameter of the corner has no interval.
-Result<Model> model_at_corner(Model model, const Scenario& scenario, const std::string& model_file);
+Result<Model> model_at_corner(Model model, const Scenario& scenario);
 /// Its plant. Errors (input): as above and as Model::plant.
-Result<Plant<double>> plant_for(const Scenario& scenario, const Model& model,
-                                const std::string& model_file);
+Result<Plant<double>> plant_for(const Scenario& scenario, const Model& model);
 
 /// "differential", "steering", "combined".
 std::string_view name_of(YawMode mode);

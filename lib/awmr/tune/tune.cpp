@@ -137,10 +137,10 @@ Scenario default_tuning_scenario() { return heading_scenario("heading_30_-30", 3
 
 Scenario held_out_scenario() { return heading_scenario("held_out_60_0", 60.0, 0.0, 0.7); }
 
-Result<Tuning> tune(const Model& model, const std::string& model_file, const TuneOptions& options) {
+Result<Tuning> tune(const Model& model, const TuneOptions& options) {
   const Status fit = check(options);
   if (!fit) return tl::unexpected(fit.error());
-  const Result<Plant<double>> plant = model.plant(model_file);
+  const Result<Plant<double>> plant = model.plant();
   if (!plant) return tl::unexpected(plant.error());
 
   std::vector<Scenario> scenarios = options.scenarios;

@@ -109,7 +109,7 @@ Scenario held_out_scenario();
 /// named), or none that does beats the baseline in every mode; the baseline itself is then not
 /// returned as if it had been found. Errors (input): the model lacks a parameter; margin, weights,
 /// bounds or scenarios are unfit.
-Result<Tuning> tune(const Model& model, const std::string& model_file, const TuneOptions& options);
+Result<Tuning> tune(const Model& model, const TuneOptions& options);
 
 /// The bytes of gains.json.
 std::string gains_text(const Tuning& tuning, const TuneOptions& options,

@@ -45,7 +45,7 @@ Run run_open_loop(const Model& model, const Plant<double>& plant, YawMode mode, 
 /// The surge trial at the largest tau_speed: its speed is the paper's u_max.
 const TrialPoint* fastest_trial(const Model& model) {
   const TrialPoint* fastest = nullptr;
-  for (const TrialPoint& trial : model.trials) {
+  for (const TrialPoint& trial : model.record.trials) {
     if (trial.kind == "surge" && (!fastest || trial.input > fastest->input)) fastest = &trial;
   }
   return fastest;

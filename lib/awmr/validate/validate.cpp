@@ -19,11 +19,11 @@ std::string unit_of(const std::string& kind) {
 }
 
 /// Trials that no model could be held against.
-std::vector<Fault> trial_faults(const Model& model, const std::string& model_file) {
+std::vector<Fault> trial_faults(const Model& model) {
   std::vector<Fault> faults;
-  for (std::size_t i = 0; i < model.trials.size(); ++i) {
-    const TrialPoint& trial = model.trials[i];
-    const std::string place = fmt::format("{}:/trials/{}", model_file, i);
+  for (std::size_t i = 0; i < model.record.trials.size(); ++i) {
+    const TrialPoint& trial = model.record.trials[i];
+    const std::string place = fmt::format("{}:/trials/{}", model.file, i);
     if (trial.kind != "surge" && trial.kind != "turning" && trial.kind != "coastdown") {
       faults.push_back(
           {place + "/kind", fmt::format("unknown kind of trial '{}'; known are surge, turning and "
@@ -130,20 +130,20 @@ std::optional<double> predicted_measurement(const Plant<double>& plant, const Tr
   return std::nullopt;
 }
 
-Result<Validation> validate(const Model& model, const std::string& model_file,
+Result<Validation> validate(const Model& model,
                             const std::optional<Gains<double>>& gains,
                             const ValidateOptions& options) {
   if (!(options.tolerance > 0.0)) {
     return input_error("--tolerance",
                        fmt::format("has to be above 0, found {}", options.tolerance));
   }
-  const Result<Plant<double>> plant = model.plant(model_file);
+  const Result<Plant<double>> plant = model.plant();
   if (!plant) return tl::unexpected(plant.error());
-  std::vector<Fault> faults = trial_faults(model, model_file);
+  std::vector<Fault> faults = trial_faults(model);
   if (!faults.empty()) return input_errors(std::move(faults));
 
   Validation validation;
-  for (const TrialPoint& trial : model.trials) {
+  for (const TrialPoint& trial : model.record.trials) {
     validation.trials.push_back(residual_of(*plant, trial));
   }
   validation.surge_rms_relative_error = rms_relative_error(validation.trials, "surge");

@@ -62,7 +62,7 @@ std::optional<double> predicted_measurement(const Plant<double>& plant, const Tr
 /// The claims never decide `passed`: a claim that is not reproduced is a finding about the paper.
 /// Errors (input): the model lacks a parameter; a trial in it is of no known kind or not positive;
 /// the tolerance is not positive. Without gains, only the claims that need none are run.
-Result<Validation> validate(const Model& model, const std::string& model_file,
+Result<Validation> validate(const Model& model,
                             const std::optional<Gains<double>>& gains,
                             const ValidateOptions& options);
 

@@ -1,0 +1,131 @@
+#include "awmr/identify/coastdown/derived.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "awmr/model/steady.h"
+
+namespace awmr {
+namespace {
+
+constexpr double kGravity = 9.80665;           ///< m/s^2
+constexpr double kFragileShare = 0.10;         ///< relative standard error of m' worth a warning
+constexpr double kInertiaDisagreement = 0.10;  ///< relative difference of Iz worth a note
+
+}  // namespace
+
+namespace {
+
+/// ln of the stop time at m' = 1.
+std::optional<double> log_unit_stop_time(const Resistance<double>& law, double speed_mps) {
+  const auto stop_s = stop_time_s(law, 1.0, speed_mps);
+  if (!stop_s) return std::nullopt;
+  return std::log(*stop_s);
+}
+
+/// Central difference of ln m' by one coordinate; exact for ln alpha, where the step does not
+/// matter.
+double derivative(const SteadyFit& surge, TransformedParameter c, double speed_mps) {
+  if (c == TransformedParameter::kDeadZone) return 0.0;  // the motors are off
+  const double h = 1e-6 * std::max(1e-3, std::abs(surge[c]));
+  SteadyFit above = surge;
+  SteadyFit below = surge;
+  above[c] += h;
+  below[c] -= h;
+  const auto high = log_unit_stop_time(above.law(), speed_mps);
+  const auto low = log_unit_stop_time(below.law(), speed_mps);
+  return high && low ? -(*high - *low) / (2.0 * h) : 0.0;
+}
+
+/// For a power law in closed form: -1/(1 - b1) + ln u_max by b1.
+double by_coordinate(const SteadyFit& surge, TransformedParameter c, double speed_mps) {
+  const Resistance<double> law = surge.law();
+  if (law.coulomb > 0.0 || law.quadratic > 0.0) return derivative(surge, c, speed_mps);
+  if (c == TransformedParameter::kLogAlpha) return 1.0;
+  if (c == TransformedParameter::kBeta) return -1.0 / (1.0 - law.beta) + std::log(speed_mps);
+  return 0.0;
+}
+
+}  // namespace
+
+std::optional<MassFromStopTime> mass_from_stop_time(const SteadyFit& surge,
+                                                    const std::vector<StopTimeRow>& runs) {
+  const double n = static_cast<double>(runs.size());
+  MassFromStopTime mass{0.0, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(surge.free.size())),
+                        0.0};
+  std::vector<double> values;
+  for (const StopTimeRow& run : runs) {
+    const auto log_unit = log_unit_stop_time(surge.law(), run.initial_speed_mps);
+    if (!log_unit) return std::nullopt;
+    values.push_back(std::log(run.stop_time_s) - *log_unit);
+    mass.log_mass_norm += values.back() / n;
+    for (std::size_t i = 0; i < surge.free.size(); ++i) {
+      mass.by_surge(static_cast<Eigen::Index>(i)) +=
+          by_coordinate(surge, surge.free[i], run.initial_speed_mps) / n;
+    }
+  }
+  if (runs.size() == 1) {
+    const double relative = runs.front().timing_std_s / runs.front().stop_time_s;
+    mass.timing_variance = relative * relative;
+    return mass;
+  }
+  double squares = 0.0;
+  for (const double value : values) {
+    squares += (value - mass.log_mass_norm) * (value - mass.log_mass_norm);
+  }
+  mass.timing_variance = squares / (n - 1.0) / n;
+  return mass;
+}
+
+void check_mass(const Resistance<double>& surge, const TrialSet<StopTimeRow>& coastdown,
+                double mass_kg, double mass_norm, std::optional<double> relative_std_error,
+                std::vector<Finding>& findings) {
+  for (const StopTimeRow& run : coastdown.rows) {
+    // |u_dot| at motors-off: g1(u)/m'
+    const double deceleration = surge.at(run.initial_speed_mps) / mass_norm;
+    if (deceleration <= kGravity) continue;
+    findings.push_back(
+        {coastdown.file, run.line, Severity::kWarning, "implausible-deceleration",
+         fmt::format(
+             "stopping from {:.3g} m/s in {:.3g} s means a first deceleration of {:.1f} m/s^2 "
+             "({:.1f} g), more than a tyre gives, and F_max = {:.0f} N a motor; check the stop "
+             "time, or record the coast-down curve",
+             run.initial_speed_mps, run.stop_time_s, deceleration, deceleration / kGravity,
+             mass_kg / mass_norm)});
+  }
+  if (coastdown.rows.size() == 1) {
+    findings.push_back(
+        {coastdown.file, coastdown.rows.front().line, Severity::kNote, "single-stop-time",
+         fmt::format(
+             "one stop time shows no scatter: the standard error of mass_norm takes the "
+             "timing as good to {:.2g} s, from the way it is written; repeat the coast-down "
+             "or record its curve",
+             coastdown.rows.front().timing_std_s)});
+  }
+  if (relative_std_error && *relative_std_error > kFragileShare) {
+    findings.push_back(
+        {coastdown.file, 0, Severity::kWarning, "fragile-mass",
+         fmt::format("the standard error of mass_norm is {:.0f} % of its value, because "
+                     "m' from a stop time hangs on the last centimetres (b1 = {:.3f}); record the "
+                     "whole coast-down curve, or more surge runs at low speed",
+                     100.0 * *relative_std_error, surge.beta)});
+  }
+}
+
+void check_inertia(const Vehicle& vehicle, std::vector<Finding>& findings) {
+  if (!vehicle.yaw_inertia_kgm2) return;
+  Vehicle box = vehicle;
+  box.yaw_inertia_kgm2.reset();
+  const double expected = box.inertia_kgm2();
+  const double given = *vehicle.yaw_inertia_kgm2;
+  if (std::abs(given - expected) <= kInertiaDisagreement * std::max(given, expected)) return;
+  findings.push_back(
+      {"", 0, Severity::kNote, "inertia-mismatch",
+       fmt::format("yaw_inertia_kgm2 is given as {:.4g}, the box formula gives {:.4g} "
+                   "kg m^2; the given value is used",
+                   given, expected)});
+}
+
+}  // namespace awmr

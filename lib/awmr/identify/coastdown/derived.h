@@ -1,0 +1,37 @@
+/// m' from stop times, and what makes m' and I'z doubtful. Private to identify/.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "awmr/identify/tables/steady_fit.h"
+#include "awmr/trials/trials.h"
+
+namespace awmr {
+
+/// ln m' and where it comes from.
+struct MassFromStopTime {
+  double log_mass_norm = 0.0;
+  /// d ln m' by SteadyFit::free of the surge fit. For a power law d/d ln a1 = 1 and
+  /// d/d b1 = -1/(1 - b1) + mean ln u_max.
+  Eigen::VectorXd by_surge;
+  double timing_variance = 0.0;  ///< of ln m': the scatter of the runs, or how one was timed
+};
+
+/// t_a = m' int_0^u dw/g1(w), so m' = t_a / int; the mean of its logarithm over the runs. For a
+/// power law m' = (1 - b1) a1 t_a / u_max^(1 - b1). [paper (60)] None where the law never stops.
+/// Precondition: at least one run.
+std::optional<MassFromStopTime> mass_from_stop_time(const SteadyFit& surge,
+                                                    const std::vector<StopTimeRow>& runs);
+
+/// Findings about a vehicle that stops as fast as this: `implausible-deceleration`, `fragile-mass`,
+/// `single-stop-time`.
+void check_mass(const Resistance<double>& surge, const TrialSet<StopTimeRow>& coastdown,
+                double mass_kg, double mass_norm, std::optional<double> relative_std_error,
+                std::vector<Finding>& findings);
+
+/// `inertia-mismatch`: a measured Iz far from the uniform box's.
+void check_inertia(const Vehicle& vehicle, std::vector<Finding>& findings);
+
+}  // namespace awmr

@@ -1,0 +1,38 @@
+/// What driving logs add to a model: which parameters they fill, and what they say of those that
+/// other trials filled. Private to identify/.
+#pragma once
+
+#include <Eigen/Core>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "awmr/identify/logs/log_fit.h"
+
+namespace awmr {
+
+struct LogStage {
+  /// A parameter that the logs fill.
+  struct Main {
+    ParameterId id;
+    Estimate estimate;
+    Eigen::Index place;  ///< in `block`
+    double jacobian;        ///< d value / d coordinate
+  };
+  std::vector<Main> main;
+  Family surge_family = Family::kPower;        ///< of the fit
+  Eigen::MatrixXd block;                       ///< covariance of the fit's coordinates
+  std::map<ParameterId, std::string> reasons;  ///< free in the fit, but not identifiable
+  std::vector<EstimatorReport> reports;
+  std::vector<Finding> findings;
+};
+
+/// Fits the logs from the model's values so far. All of `asked` are free; others are held at their
+/// value, or free as well where they have none. `overrule`: the logs also fill what other trials
+/// did. Findings: `estimates-disagree` (logs against tables, p < 0.01), `coloured-residuals`,
+/// `not-converged`, `held-out-log` (each log predicted by the others).
+LogStage run_log_stage(const Vehicle& vehicle, const std::vector<DrivingLog>& logs,
+                       const IdentifyOptions& options, const std::vector<ParameterId>& asked,
+                       const Model& model, bool overrule);
+
+}  // namespace awmr

@@ -1,0 +1,62 @@
+/// The user's own self-test: simulate trials at a model's values, identify them, compare, many
+/// times.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "awmr/identify/identify.h"
+#include "awmr/identify/planning/synthetic.h"
+
+namespace awmr {
+
+/// Which trials are simulated.
+enum class RecoverPlan {
+  kTables,  ///< rows as the model's own trials
+  kCurve,   ///< the same, with a coast-down curve in place of the stop times
+  kLog,     ///< a driving log and nothing else
+};
+
+struct RecoverOptions {
+  RecoverPlan plan = RecoverPlan::kTables;
+  int runs = 200;
+  std::uint64_t seed = 1;
+  int threads = 0;           ///< 0: all; the result does not depend on it
+  IdentifyOptions identify;  ///< the estimator under test
+  /// Where the simulated error lies; absent: where the estimator assumes it.
+  std::optional<RowError> error;
+  SensorNoise sensors;  ///< of curves and logs
+  double curve_s = 2.0;
+  double curve_rate_hz = 100.0;
+  DrivePlan drive;
+};
+
+struct RecoveredParameter {
+  ParameterId id = ParameterId::kMassNorm;
+  double truth = 0.0;
+  double bias = 0.0;
+  double rmse = 0.0;
+  double mean_std_error = 0.0;  ///< what the fits said of themselves
+  double coverage95 = 0.0;      ///< share of runs whose interval holds the truth
+  double worst_error = 0.0;     ///< largest |estimate/truth - 1|
+  int runs = 0;                 ///< that gave an estimate with an interval
+};
+
+struct Recovery {
+  std::vector<RecoveredParameter> parameters;
+  RowNoise noise;  ///< as simulated
+  std::string noise_text;
+  int runs = 0;
+  int failed = 0;  ///< runs in which something asked for was refused
+};
+
+/// `progress` is called with the runs done so far, from any thread, one at a time. Errors (input):
+/// the model lacks a parameter, or has no trials for the plan; fewer than 2 runs.
+Result<Recovery> recover(const Model& model,
+                         const RecoverOptions& options, const std::function<void(int)>& progress);
+
+/// The bytes of recover.json.
+std::string recovery_text(const Recovery& recovery, const Provenance& provenance);
+
+}  // namespace awmr

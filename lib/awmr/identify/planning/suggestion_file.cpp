@@ -1,0 +1,27 @@
+#include "awmr/core/json.h"
+#include "awmr/identify/planning/suggest.h"
+
+namespace awmr {
+
+std::string suggestion_text(const Suggestion& suggestion, const Provenance& provenance) {
+  Json json;
+  json["schema"] = "awmr.suggest/1";
+  put_provenance(json, provenance);
+  json["criterion"] = suggestion.criterion;
+  json["assumptions"] = suggestion.assumptions;
+  json["trials"] = Json::array();
+  for (const SuggestedTrial& trial : suggestion.trials) {
+    Json settings;
+    for (const auto& [name, value] : trial.numbers) settings[name] = value;
+    json["trials"].push_back({{"kind", trial.kind},
+                              {"settings", settings},
+                              {"words", trial.settings},
+                              {"parameter", trial.parameter},
+                              {"std_error_before", trial.std_error_before},
+                              {"std_error_after", trial.std_error_after},
+                              {"information_gain", trial.d_gain}});
+  }
+  return to_text(json);
+}
+
+}  // namespace awmr

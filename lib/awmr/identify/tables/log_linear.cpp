@@ -1,0 +1,54 @@
+#include <Eigen/QR>
+#include <Eigen/SVD>
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+#include <limits>
+
+#include "awmr/identify/tables/steady_fit.h"
+
+namespace awmr {
+
+double t_quantile_95(double degrees_of_freedom) {
+  return boost::math::quantile(boost::math::students_t(degrees_of_freedom), 0.975);
+}
+
+SteadyFit fit_log_linear(const std::vector<SteadyPoint>& points) {
+  const auto n = static_cast<Eigen::Index>(points.size());
+  Eigen::MatrixX2d design(n, 2);
+  Eigen::VectorXd observed(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const SteadyPoint& point = points[static_cast<std::size_t>(i)];
+    design.row(i) << 1.0, std::log(point.rate);
+    observed(i) = std::log(point.force);
+  }
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixX2d> qr(design);
+  const Eigen::Vector2d singular = Eigen::JacobiSVD<Eigen::MatrixXd>(design).singularValues();
+  SteadyFit fit;
+  fit.free = coordinates_of(Family::kPower);
+  fit.rank = static_cast<int>(qr.rank());
+  fit.condition_number = n > 1 && singular(1) > 0.0 ? singular(0) / singular(1)
+                                                    : std::numeric_limits<double>::infinity();
+  fit.stop_reason = "linear problem, solved by QR";
+  if (fit.rank < 2) return fit;
+  const Eigen::Vector2d theta = qr.solve(observed);
+  fit[TransformedParameter::kLogAlpha] = theta(0);
+  fit[TransformedParameter::kBeta] = theta(1);
+  fit.usable = true;
+  fit.residuals = design * theta - observed;
+  const Eigen::MatrixXd q = Eigen::MatrixXd(qr.householderQ()).leftCols(2);
+  fit.leverages = q.rowwise().squaredNorm();
+  fit.degrees_of_freedom = static_cast<int>(n) - 2;
+  if (fit.degrees_of_freedom > 0) {
+    const double variance = fit.residuals.squaredNorm() / fit.degrees_of_freedom;
+    fit.residual_std = std::sqrt(variance);
+    // (P^T P)^-1 = Pi R^-1 R^-T Pi^T, from the factors of P Pi = Q R
+    const Eigen::Matrix2d r = qr.matrixR().topRows<2>().triangularView<Eigen::Upper>();
+    const Eigen::Matrix2d r_inverse =
+        r.triangularView<Eigen::Upper>().solve(Eigen::Matrix2d::Identity());
+    const Eigen::Matrix2d p = qr.colsPermutation();
+    fit.covariance = variance * (p * r_inverse * r_inverse.transpose() * p.transpose());
+  }
+  return fit;
+}
+
+}  // namespace awmr

@@ -1,0 +1,27 @@
+/// Robust losses: what they are, and the covariance under them. Private to identify/.
+#pragma once
+
+#include <ceres/loss_function.h>
+
+#include <Eigen/Core>
+#include <memory>
+
+#include "awmr/identify/options.h"
+
+namespace awmr {
+
+/// Ceres' loss for residuals of this scale: tuned to 95 % efficiency under normal noise
+/// (Huber 1.345, Cauchy 2.385, Tukey 4.685 standard deviations). Null for Loss::kSquared.
+std::unique_ptr<ceres::LossFunction> make_loss(Loss loss, double scale);
+
+/// 1.4826 median |e|: the standard deviation of normal residuals, untouched by a minority of
+/// outliers.
+double median_scale(const Eigen::VectorXd& residuals);
+
+/// The factor that takes (J^T J)^-1 to the covariance of an M-estimate:
+///   kappa^2 [sum psi^2/(n - p)] / [mean psi']^2,  kappa = 1 + (p/n) var(psi')/mean(psi')^2  [Huber
+///   1981, 7.6]
+double m_estimate_variance(const ceres::LossFunction& loss, const Eigen::VectorXd& residuals,
+                           int parameters);
+
+}  // namespace awmr

@@ -1,0 +1,157 @@
+#include "awmr/identify/uncertainty/diagnostics.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/math/distributions/chi_squared.hpp>
+#include <boost/math/distributions/fisher_f.hpp>
+#include <boost/math/distributions/normal.hpp>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+namespace awmr {
+namespace {
+
+constexpr std::size_t kFewestForShape = 8;
+constexpr double kSignificant = 0.05;
+
+double mean_of(std::span<const double> x) {
+  return std::accumulate(x.begin(), x.end(), 0.0) / static_cast<double>(x.size());
+}
+
+/// p of the modified statistic A* = A^2 (1 + 0.75/n + 2.25/n^2).
+double anderson_darling_p(double a) {
+  if (a >= 0.6) return std::exp(1.2937 - 5.709 * a + 0.0186 * a * a);
+  if (a >= 0.34) return std::exp(0.9177 - 4.279 * a - 1.38 * a * a);
+  if (a >= 0.2) return 1.0 - std::exp(-8.318 + 42.796 * a - 59.938 * a * a);
+  return 1.0 - std::exp(-13.436 + 101.14 * a - 223.73 * a * a);
+}
+
+std::string verdict(double p, const char* passed, const char* failed) {
+  return p < kSignificant ? failed : passed;
+}
+
+}  // namespace
+
+std::optional<Diagnostic> normality(std::span<const double> residuals) {
+  const std::size_t n = residuals.size();
+  if (n < kFewestForShape) return std::nullopt;
+  std::vector<double> x(residuals.begin(), residuals.end());
+  std::sort(x.begin(), x.end());
+  const double mean = mean_of(x);
+  double squares = 0.0;
+  for (const double e : x) squares += (e - mean) * (e - mean);
+  const double sd = std::sqrt(squares / static_cast<double>(n - 1));
+  if (!(sd > 0.0)) return std::nullopt;
+  const boost::math::normal standard;
+  const double size = static_cast<double>(n);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    // Far in a tail the probability rounds to 0 or 1; its logarithm has to stay finite.
+    const double tiny = 1e-300;
+    const double below = std::max(tiny, boost::math::cdf(standard, (x[i] - mean) / sd));
+    const double above = std::max(
+        tiny, boost::math::cdf(boost::math::complement(standard, (x[n - 1 - i] - mean) / sd)));
+    sum += (2.0 * static_cast<double>(i) + 1.0) * (std::log(below) + std::log(above));
+  }
+  const double a = (-size - sum / size) * (1.0 + 0.75 / size + 2.25 / (size * size));
+  const double p = std::clamp(anderson_darling_p(a), 0.0, 1.0);
+  return Diagnostic{
+      "normality", a, p,
+      verdict(p, "the residuals may be normal",
+              "the residuals are not normal: look for outliers, or use a robust loss")};
+}
+
+std::optional<Diagnostic> whiteness(std::span<const double> residuals, int lags) {
+  const auto n = static_cast<int>(residuals.size());
+  if (n <= lags + 1) return std::nullopt;
+  const double mean = mean_of(residuals);
+  double variance = 0.0;
+  for (const double e : residuals) variance += (e - mean) * (e - mean);
+  if (!(variance > 0.0)) return std::nullopt;
+  double q = 0.0;
+  for (int k = 1; k <= lags; ++k) {
+    double sum = 0.0;
+    for (int i = k; i < n; ++i) {
+      sum += (residuals[static_cast<std::size_t>(i)] - mean) *
+             (residuals[static_cast<std::size_t>(i - k)] - mean);
+    }
+    const double rho = sum / variance;
+    q += rho * rho / (n - k);
+  }
+  q *= static_cast<double>(n) * (n + 2.0);
+  const double p = boost::math::cdf(boost::math::complement(boost::math::chi_squared(lags), q));
+  return Diagnostic{
+      "whiteness", q, p,
+      verdict(p, "the residuals may be white", "neighbouring residuals are correlated")};
+}
+
+std::optional<Diagnostic> curvature(const std::vector<SteadyPoint>& points,
+                                    const Eigen::VectorXd& residuals) {
+  const std::size_t n = points.size();
+  if (n < kFewestForShape) return std::nullopt;
+  std::vector<std::size_t> order(n);
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return points[a].force < points[b].force; });
+  double steps = 0.0;
+  double squares = 0.0;
+  const double mean = residuals.mean();
+  for (std::size_t i = 0; i < n; ++i) {
+    const double e = residuals(static_cast<Eigen::Index>(order[i]));
+    squares += (e - mean) * (e - mean);
+    if (i == 0) continue;
+    const double step = e - residuals(static_cast<Eigen::Index>(order[i - 1]));
+    steps += step * step;
+  }
+  if (!(squares > 0.0)) return std::nullopt;
+  const double size = static_cast<double>(n);
+  const double ratio = steps / squares;  // 2 for white noise
+  const double deviation = std::sqrt(4.0 * (size - 2.0) / (size * size - 1.0));
+  const double p = boost::math::cdf(boost::math::normal(), (ratio - 2.0) / deviation);
+  return Diagnostic{"curvature", ratio, p,
+                    verdict(p, "the residuals scatter about the curve",
+                            "neighbouring forces err alike: the curve bends otherwise")};
+}
+
+std::optional<Diagnostic> lack_of_fit(const std::vector<SteadyPoint>& points,
+                                      const Eigen::VectorXd& residuals, int parameters) {
+  std::map<double, std::vector<double>> groups;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    groups[points[i].force].push_back(residuals(static_cast<Eigen::Index>(i)));
+  }
+  double pure = 0.0;
+  double between = 0.0;
+  for (const auto& [force, group] : groups) {
+    const double mean = mean_of(group);
+    between += static_cast<double>(group.size()) * mean * mean;
+    for (const double e : group) pure += (e - mean) * (e - mean);
+  }
+  const auto pure_dof = static_cast<double>(points.size() - groups.size());
+  const double between_dof = static_cast<double>(groups.size()) - parameters;
+  if (pure_dof < 1.0 || between_dof < 1.0 || !(pure > 0.0)) return std::nullopt;
+  const double f = (between / between_dof) / (pure / pure_dof);
+  const double p =
+      boost::math::cdf(boost::math::complement(boost::math::fisher_f(between_dof, pure_dof), f));
+  return Diagnostic{"lack of fit", f, p,
+                    verdict(p, "the curve misses the runs no more than repeats differ",
+                            "the curve misses the runs by more than repeats differ")};
+}
+
+Eigen::VectorXd studentised(const SteadyFit& fit) {
+  const int dof = fit.degrees_of_freedom;
+  if (dof < 2 || fit.leverages.size() == 0) return {};
+  Eigen::VectorXd t(fit.residuals.size());
+  const double sse = fit.residuals.squaredNorm();
+  for (Eigen::Index i = 0; i < t.size(); ++i) {
+    const double free = 1.0 - fit.leverages(i);
+    const double e = fit.residuals(i);
+    const double without = (sse - e * e / free) / (dof - 1.0);
+    // A point that alone decides a parameter has no residual to judge.
+    t(i) = free > 1e-12 && without > 0.0 ? e / std::sqrt(without * free) : 0.0;
+  }
+  return t;
+}
+
+}  // namespace awmr

@@ -1,0 +1,34 @@
+/// Tests of what a fit assumes of its residuals. Private to identify/.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "awmr/identify/tables/steady_fit.h"
+#include "awmr/model/model.h"
+
+namespace awmr {
+
+/// Anderson-Darling against the normal distribution, mean and variance estimated; p by D'Agostino &
+/// Stephens (1986), table 4.9. None below 8 residuals.
+std::optional<Diagnostic> normality(std::span<const double> residuals);
+
+/// Ljung-Box: are the first `lags` autocorrelations those of white noise?
+std::optional<Diagnostic> whiteness(std::span<const double> residuals, int lags);
+
+/// Von Neumann's ratio of the residuals in order of force, normal approximation, one-sided:
+/// neighbours that err alike mean that the curve bends otherwise. None below 8 residuals.
+std::optional<Diagnostic> curvature(const std::vector<SteadyPoint>& points,
+                                    const Eigen::VectorXd& residuals);
+
+/// F test of lack of fit against the scatter of repeats at the same force. None without repeats.
+std::optional<Diagnostic> lack_of_fit(const std::vector<SteadyPoint>& points,
+                                      const Eigen::VectorXd& residuals, int parameters);
+
+/// Externally studentised: e_i / (s_(i) sqrt(1 - h_i)), Student's t with dof - 1 degrees of
+/// freedom. Empty where dof < 2.
+Eigen::VectorXd studentised(const SteadyFit& fit);
+
+}  // namespace awmr
