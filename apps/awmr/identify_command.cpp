@@ -105,7 +105,8 @@ class TrialFiles {
 };
 
 std::string names_of(const EstimatorReport& report) {
-  return report.family.empty() ? report.estimator : report.estimator + " " + report.family;
+  const std::string name(name_in(kEstimatorNames, report.estimator));
+  return report.family.empty() ? name : name + " " + report.family;
 }
 
 std::string summary_of(const IdentifyCommand& command, const Model& model) {
@@ -118,7 +119,8 @@ std::string summary_of(const IdentifyCommand& command, const Model& model) {
       values += fmt::format(" {}={:.4f}", parameter.name, parameter.value);
     }
     const std::string score = report.aicc ? fmt::format(" AICc {:.1f}", *report.aicc) : "";
-    text += fmt::format("    {:<6} {:<36} noise on {:<10}{}{}\n", report.subject, names_of(report),
+    text += fmt::format("    {:<6} {:<36} noise on {:<10}{}{}\n", name_in(kFitSubjectNames, report.subject),
+                        names_of(report),
                         report.noise, values, score);
   }
   return text + fmt::format("wrote {}\n", command.output.string());

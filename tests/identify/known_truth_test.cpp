@@ -25,8 +25,8 @@ TEST(Identify, ExactDataGiveTheTruthByEveryEstimator) {
                 truth.mass_norm * (0.78 * 0.78 + 1.32 * 1.32) / 12.0, 1e-11);
     for (const EstimatorReport& report : model.record.reports) {
       // Families with other terms bend to the truth only approximately; the mass has its own line.
-      if (report.subject == "mass" || report.family != "power") continue;
-      const bool surge = report.subject == "surge";
+      if (report.subject == FitSubject::kMass || report.family != "power") continue;
+      const bool surge = report.subject == FitSubject::kSurge;
       EXPECT_NEAR(report.parameters[0].value, surge ? truth.a1 : truth.a3, 1e-9) << report.noise;
       EXPECT_NEAR(report.parameters[1].value, surge ? truth.b1 : truth.b3, 1e-9) << report.noise;
     }

@@ -70,7 +70,7 @@ TEST(Log, GivesEveryParameterFromNothingElse) {
     expect_recovered(*result, ParameterId::kMassNorm, t.mass_norm, 4.5);
     expect_recovered(*result, ParameterId::kInertiaNorm, 0.16 * t.mass_norm, 4.5);
     const auto& report = result->model.record.reports.back();
-    EXPECT_EQ(report.estimator, "trajectory");
+    EXPECT_EQ(report.estimator, Estimator::kTrajectory);
     EXPECT_GE(report.starts.size(), 7U);
     EXPECT_EQ(std::count_if(report.starts.begin(), report.starts.end(),
                             [](const SearchStart& s) { return s.chosen; }),

@@ -31,15 +31,15 @@ TEST(Suggest, RanksEveryCandidateByWhatItPromisesAndNoneMakesItWorse) {
     last = trial.std_error_after;
   }
   // A stop time is a poor way to m': something that moves has to come before any turning run.
-  EXPECT_TRUE(suggestion->trials.front().kind == "log" ||
-              suggestion->trials.front().kind == "coastdown");
+  EXPECT_TRUE(suggestion->trials.front().kind == TrialKind::kLog ||
+              suggestion->trials.front().kind == TrialKind::kCoastdown);
 }
 
 TEST(Suggest, ATurningRunSaysNothingOfSurge) {
   const auto suggestion = suggest(some_model(0.05), {.parameter = "surge.beta"});
   ASSERT_TRUE(suggestion);
   for (const SuggestedTrial& trial : suggestion->trials) {
-    if (trial.kind != "turning") continue;
+    if (trial.kind != TrialKind::kTurning) continue;
     EXPECT_NEAR(trial.std_error_after, trial.std_error_before, 1e-6 * trial.std_error_before);
   }
 }
@@ -53,7 +53,7 @@ TEST(Suggest, ThePromiseForARepeatedTrialIsTheStandardErrorOfMoreRuns) {
   ASSERT_TRUE(one && four);
   const auto find = [](const Suggestion& s, double tau) {
     for (const SuggestedTrial& t : s.trials) {
-      if (t.kind == "surge" && std::abs(t.numbers[0].second - tau) < 1e-9) return t;
+      if (t.kind == TrialKind::kSurge && std::abs(t.numbers[0].second - tau) < 1e-9) return t;
     }
     ADD_FAILURE();
     return SuggestedTrial{};

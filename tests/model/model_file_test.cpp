@@ -49,8 +49,8 @@ Model some_model() {
   }
   model[ParameterId::kMassNorm].source = Source::kDerived;
   model[ParameterId::kSwayAlpha] = {3.0, {}, {}, Source::kGiven, "vehicle.json"};
-  model.record.reports = {{.subject = "surge",
-                    .estimator = "log-linear",
+  model.record.reports = {{.subject = FitSubject::kSurge,
+                    .estimator = Estimator::kLogLinear,
                     .noise = "log force",
                     .parameters = {{"surge.alpha", 1.3157, 0.0183, Interval{1.27, 1.36}},
                                    {"surge.beta", 0.8841, {}, {}}},
@@ -65,9 +65,9 @@ Model some_model() {
   model.record.findings = {{"surge.csv", 11, Severity::kWarning, "speed-mismatch", "1.03 and 1.08"},
                     {"", 0, Severity::kNote, "rows-set-aside", "1 row"},
                     {"t.csv", 0, Severity::kError, "not-identifiable", "no"}};
-  model.record.trials = {{"surge", "surge.csv", 4, 0.2, 0.12, 0.1188},
-                  {"turning", "t.csv", 3, 0.02, 0.038, {}},
-                  {"coastdown", "c.csv", 4, 1.66, 0.573, 0.55}};
+  model.record.trials = {{TrialKind::kSurge, "surge.csv", 4, 0.2, 0.12, 0.1188},
+                  {TrialKind::kTurning, "t.csv", 3, 0.02, 0.038, {}},
+                  {TrialKind::kCoastdown, "c.csv", 4, 1.66, 0.573, 0.55}};
   model.record.provenance = {
       "identify", {{"method", "log-linear"}}, {{"surge.csv", std::string(64, 'a')}}};
   return model;

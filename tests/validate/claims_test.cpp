@@ -63,7 +63,7 @@ TEST(Claims, TheStraightRunFailsWhereTheForceIsNotToBeHad) {
 
 TEST(Claims, TheStraightRunFailsWhereTheModelMissesTheFastestTrial) {
   Model model = testing::fitted_paper_model();
-  model.record.trials = {{"surge", "surge.csv", 2, 2.0, 2.2, {}}};
+  model.record.trials = {{TrialKind::kSurge, "surge.csv", 2, 2.0, 2.2, {}}};
   const Claim claim = check_straight_run(model, plant_of(model));
   EXPECT_FALSE(claim.reproduced);
   EXPECT_THAT(claim.why, HasSubstr("does not go through"));

@@ -34,10 +34,10 @@ inline Model fitted_paper_model() {
 
 /// Four of the printed rows: tau_speed and m/s, tau_turn and rad/s, m/s and s.
 inline void add_paper_trials(Model& model) {
-  model.record.trials = {{"surge", "surge.csv", 3, 0.2, 0.12, {}},
-                  {"surge", "surge.csv", 12, 2.0, 1.66, {}},
-                  {"turning", "turning.csv", 4, 0.064, 0.15, {}},
-                  {"coastdown", "coastdown.csv", 4, 1.66, 0.573, {}}};
+  model.record.trials = {{TrialKind::kSurge, "surge.csv", 3, 0.2, 0.12, {}},
+                  {TrialKind::kSurge, "surge.csv", 12, 2.0, 1.66, {}},
+                  {TrialKind::kTurning, "turning.csv", 4, 0.064, 0.15, {}},
+                  {TrialKind::kCoastdown, "coastdown.csv", 4, 1.66, 0.573, {}}};
 }
 
 }  // namespace awmr::testing

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "awmr/core/interval.h"
+#include "awmr/core/name_table.h"
 #include "awmr/core/provenance.h"
 #include "awmr/core/result.h"
 
@@ -53,6 +54,11 @@ class JsonObject {
   std::optional<std::string> optional_string(std::string_view key);
   /// One of a fixed set, with the nearest one named on a fault; returns its index, 0 on a fault.
   std::size_t choice(std::string_view key, std::span<const std::string> choices);
+  /// The value of the name; the table's first on a fault.
+  template <class T, std::size_t N>
+  T choice(std::string_view key, const NameTable<T, N>& table) {
+    return table[choice(key, std::span<const std::string>(names_in(table)))].value;
+  }
   /// `[lo, hi]` with lo <= hi.
   Interval interval(std::string_view key);
   std::optional<Interval> optional_interval(std::string_view key);

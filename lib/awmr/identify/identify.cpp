@@ -138,12 +138,12 @@ class Identifier {
       covariance_.set(parameter_of(subject, c),
                       {{first + static_cast<Eigen::Index>(i), jacobian_of(c, law[c])}});
     }
-    if (subject.name == "surge") surge_block_ = first;
+    if (subject.name == FitSubject::kSurge) surge_block_ = first;
   }
 
   void fit_surge() {
     if (!data_.surge) return;
-    Subject subject{.name = "surge",
+    Subject subject{.name = FitSubject::kSurge,
                     .families = {kFamilies.begin(), kFamilies.end()},
                     .beta_range = vehicle_.surge_beta_range,
                     .file = data_.surge->file,
@@ -158,7 +158,7 @@ class Identifier {
   void fit_yaw() {
     if (!data_.turning) return;
     const double dead_zone = *result_.model[ParameterId::kWheelDeadZone].value;
-    Subject subject{.name = "yaw",
+    Subject subject{.name = FitSubject::kYaw,
                     .alpha = ParameterId::kYawAlpha,
                     .beta = ParameterId::kYawBeta,
                     .coulomb = ParameterId::kYawCoulomb,
@@ -293,7 +293,7 @@ class Identifier {
   }
 
   /// u or r by the law that is in the model, and the stop time.
-  std::optional<double> predicted(const std::string& kind, double input) const {
+  std::optional<double> predicted(TrialKind kind, double input) const {
     const Model& model = result_.model;
     const auto law = [&](ParameterId alpha, ParameterId beta, ParameterId c, ParameterId q) {
       std::optional<Resistance<double>> known;
@@ -309,11 +309,11 @@ class Identifier {
                            ParameterId::kSurgeCoulomb, ParameterId::kSurgeQuadratic);
     const auto yaw = law(ParameterId::kYawAlpha, ParameterId::kYawBeta, ParameterId::kYawCoulomb,
                          ParameterId::kYawQuadratic);
-    if (kind == "surge" && surge) {
+    if (kind == TrialKind::kSurge && surge) {
       return steady_rate(*surge, input - 4.0 * *model[ParameterId::kWheelDeadZone].value);
     }
-    if (kind == "turning" && yaw) return steady_rate(*yaw, input);
-    if (kind == "coastdown" && surge && model[ParameterId::kMassNorm].value) {
+    if (kind == TrialKind::kTurning && yaw) return steady_rate(*yaw, input);
+    if (kind == TrialKind::kCoastdown && surge && model[ParameterId::kMassNorm].value) {
       return stop_time_s(*surge, *model[ParameterId::kMassNorm].value, input);
     }
     return std::nullopt;
@@ -321,24 +321,24 @@ class Identifier {
 
   void keep_trials() {
     std::vector<TrialPoint>& trials = result_.model.record.trials;
-    const auto keep = [&](const std::string& kind, const std::string& file, int line, double input,
+    const auto keep = [&](TrialKind kind, const std::string& file, int line, double input,
                           double measured) {
       trials.push_back({kind, file, line, input, measured, predicted(kind, input)});
     };
     if (data_.surge) {
       for (const SurgeRow& row : data_.surge->rows) {
-        keep("surge", data_.surge->file, row.line, row.tau_speed, row.speed_mps);
+        keep(TrialKind::kSurge, data_.surge->file, row.line, row.tau_speed, row.speed_mps);
       }
     }
     if (data_.turning) {
       const double dead_zone = *result_.model[ParameterId::kWheelDeadZone].value;
       for (const SteadyPoint& point : points_of(data_.turning->rows, dead_zone)) {
-        keep("turning", data_.turning->file, point.line, point.force, point.rate);
+        keep(TrialKind::kTurning, data_.turning->file, point.line, point.force, point.rate);
       }
     }
     if (data_.coastdown) {
       for (const StopTimeRow& row : data_.coastdown->rows) {
-        keep("coastdown", data_.coastdown->file, row.line, row.initial_speed_mps, row.stop_time_s);
+        keep(TrialKind::kCoastdown, data_.coastdown->file, row.line, row.initial_speed_mps, row.stop_time_s);
       }
     }
   }

@@ -6,15 +6,14 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "awmr/core/interval.h"
-#include "awmr/core/provenance.h"
 #include "awmr/core/result.h"
 #include "awmr/model/dynamics.h"
 #include "awmr/model/family.h"
 #include "awmr/model/parameters.h"
+#include "awmr/model/record.h"
 #include "awmr/model/vehicle.h"
 
 namespace awmr {
@@ -30,94 +29,9 @@ struct Estimate {
   std::string method;  ///< "log-linear", "box formula", "vehicle.json", ...
 };
 
-enum class Severity { kNote, kWarning, kError };
-
-/// Something the user should know about the data or the result.
-struct Finding {
-  std::string file;  ///< empty where it is about no file
-  int line = 0;      ///< 0 where it is about no line
-  Severity severity = Severity::kWarning;
-  std::string code;  ///< "speed-mismatch", "not-identifiable", ...: stable, for scripts
-  std::string message;
-};
-
-/// A parameter as one estimator saw it.
-struct EstimatorParameter {
-  std::string name;  ///< "surge.alpha"
-  double value = 0.0;
-  std::optional<double> std_error;
-  std::optional<Interval> ci95;  ///< of the curvature at the optimum
-  /// From the profile of the cost: bounds where the data leave an end open.
-  std::optional<Interval> profile95 = {};
-};
-
-/// A test of what a fit assumes of its residuals.
-struct Diagnostic {
-  std::string name;  ///< "normality", "whiteness of yaw_rate_radps", "lack of fit"
-  double statistic = 0.0;
-  double p_value = 1.0;
-  std::string meaning;  ///< one sentence
-};
-
-/// What the estimates become without one row or log.
-struct LeaveOneOut {
-  std::string file;
-  int line = 0;                ///< 0: the whole file
-  std::vector<double> values;  ///< as EstimatorReport::parameters
-};
-
-/// One of the starts of a search.
-struct SearchStart {
-  std::vector<double> values;  ///< as EstimatorReport::parameters
-  double cost = 0.0;           ///< after the search, half the sum of squared standardised residuals
-  bool chosen = false;
-  std::string stop_reason;
-};
-
-/// What one estimator made of one set of trials: an entry of /estimates.
-struct EstimatorReport {
-  std::string subject;  ///< "surge", "yaw", "mass", "log"
-  std::string
-      estimator;      ///< "log-linear", "nonlinear", "trajectory", "stop-time", "curve", "joint"
-  std::string noise;  ///< where the error is put: "log force", "force", "speed", "time", ...
-  std::vector<EstimatorParameter> parameters;
-  double residual_std = 0.0;  ///< in the unit of the noise
-  int rows_used = 0;
-  int degrees_of_freedom = 0;
-  int rank = 0;
-  double condition_number = 0.0;
-  std::string stop_reason;
-  std::string family = {};          ///< of resistance; empty: the paper's power law
-  std::optional<double> aicc = {};  ///< corrected Akaike criterion; less is better, same noise only
-  std::vector<Diagnostic> diagnostics = {};
-  std::vector<LeaveOneOut> leave_one_out = {};
-  std::vector<SearchStart> starts = {};
-};
-
 struct Covariance {
   std::vector<ParameterId> parameters;
   std::vector<std::vector<double>> matrix;  ///< square, symmetric, over `parameters`
-};
-
-/// One row of a trial as it was used, kept in the model so that later steps need no CSV.
-struct TrialPoint {
-  std::string kind;  ///< "surge", "turning", "coastdown"
-  std::string file;
-  int line = 0;
-  double input =
-      0.0;  ///< surge: tau_speed; turning: tau_turn in m; coastdown: initial speed in m/s
-  double measured =
-      0.0;  ///< surge: speed in m/s; turning: yaw rate in rad/s; coastdown: stop time in s
-  std::optional<double> predicted;  ///< the main model's, same unit as `measured`
-};
-
-/// How a model was identified: what every estimator made of the data, what is doubtful, and where
-/// it all comes from.
-struct IdentificationRecord {
-  std::vector<EstimatorReport> reports;
-  std::vector<Finding> findings;
-  std::vector<TrialPoint> trials;
-  Provenance provenance;
 };
 
 /// The vehicle as identified: what is known beforehand, the resistance families, every quantity

@@ -10,7 +10,9 @@ namespace awmr {
 namespace {
 
 const std::string kSeverities[] = {"note", "warning", "error"};
-const std::string kTrialKinds[] = {"surge", "turning", "coastdown"};
+/// A row belongs to a table; logs have none.
+constexpr NameTable<TrialKind, 3> kTableNames{
+    {kTrialKindNames[0], kTrialKindNames[1], kTrialKindNames[2]}};
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
@@ -136,8 +138,8 @@ Json interval_or_null(const std::optional<Interval>& interval) {
 
 Json report_to_json(const EstimatorReport& report) {
   Json json;
-  json["subject"] = report.subject;
-  json["estimator"] = report.estimator;
+  json["subject"] = name_in(kFitSubjectNames, report.subject);
+  json["estimator"] = name_in(kEstimatorNames, report.estimator);
   json["noise"] = report.noise;
   json["parameters"] = Json::array();
   for (const EstimatorParameter& parameter : report.parameters) {
@@ -161,8 +163,8 @@ Json report_to_json(const EstimatorReport& report) {
 
 EstimatorReport report_from_json(JsonObject json) {
   EstimatorReport report;
-  report.subject = json.string("subject");
-  report.estimator = json.string("estimator");
+  report.subject = json.choice("subject", kFitSubjectNames);
+  report.estimator = json.choice("estimator", kEstimatorNames);
   report.noise = json.string("noise");
   for (JsonObject& parameter : json.objects("parameters")) {
     report.parameters.push_back(parameter_from_json(parameter));
@@ -237,7 +239,7 @@ Finding finding_from_json(JsonObject json) {
 
 Json trial_to_json(const TrialPoint& trial) {
   Json json;
-  json["kind"] = trial.kind;
+  json["kind"] = name_in(kTrialKindNames, trial.kind);
   json["file"] = trial.file;
   json["line"] = trial.line;
   json["input"] = trial.input;
@@ -248,7 +250,7 @@ Json trial_to_json(const TrialPoint& trial) {
 
 TrialPoint trial_from_json(JsonObject json) {
   TrialPoint trial;
-  trial.kind = kTrialKinds[json.choice("kind", kTrialKinds)];
+  trial.kind = json.choice("kind", kTableNames);
   trial.file = json.string("file");
   trial.line = count(json, "line");
   trial.input = json.number("input");

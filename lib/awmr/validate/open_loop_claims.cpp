@@ -46,7 +46,7 @@ Run run_open_loop(const Model& model, const Plant<double>& plant, YawMode mode, 
 const TrialPoint* fastest_trial(const Model& model) {
   const TrialPoint* fastest = nullptr;
   for (const TrialPoint& trial : model.record.trials) {
-    if (trial.kind == "surge" && (!fastest || trial.input > fastest->input)) fastest = &trial;
+    if (trial.kind == TrialKind::kSurge && (!fastest || trial.input > fastest->input)) fastest = &trial;
   }
   return fastest;
 }

@@ -12,9 +12,9 @@
 namespace awmr {
 namespace {
 
-std::string unit_of(const std::string& kind) {
-  if (kind == "surge") return "m/s";
-  if (kind == "turning") return "rad/s";
+std::string unit_of(TrialKind kind) {
+  if (kind == TrialKind::kSurge) return "m/s";
+  if (kind == TrialKind::kTurning) return "rad/s";
   return "s";
 }
 
@@ -24,12 +24,6 @@ std::vector<Fault> trial_faults(const Model& model) {
   for (std::size_t i = 0; i < model.record.trials.size(); ++i) {
     const TrialPoint& trial = model.record.trials[i];
     const std::string place = fmt::format("{}:/trials/{}", model.file, i);
-    if (trial.kind != "surge" && trial.kind != "turning" && trial.kind != "coastdown") {
-      faults.push_back(
-          {place + "/kind", fmt::format("unknown kind of trial '{}'; known are surge, turning and "
-                                        "coastdown",
-                                        trial.kind)});
-    }
     if (!(trial.input > 0.0) || !(trial.measured > 0.0)) {
       faults.push_back({place, fmt::format("input {} and measured {} have to be above 0; take the "
                                            "row out or identify again",
@@ -55,7 +49,7 @@ TrialResidual residual_of(const Plant<double>& plant, const TrialPoint& trial) {
 
 /// Absent where there is no trial of the kind or one of them has no prediction.
 std::optional<double> rms_relative_error(const std::vector<TrialResidual>& trials,
-                                         const std::string& kind) {
+                                         TrialKind kind) {
   double sum = 0.0;
   int count = 0;
   for (const TrialResidual& trial : trials) {
@@ -94,7 +88,7 @@ void judge(Validation& validation, double tolerance) {
                   figures.empty() ? "cannot be given" : figures, 100.0 * tolerance);
   const auto stops =
       std::count_if(validation.trials.begin(), validation.trials.end(),
-                    [](const TrialResidual& trial) { return trial.kind == "coastdown"; });
+                    [](const TrialResidual& trial) { return trial.kind == TrialKind::kCoastdown; });
   if (stops == 1) validation.verdict += "; one stop time only gives m', it cannot check it";
   if (unpredicted > 0) {
     validation.verdict += fmt::format(
@@ -122,11 +116,11 @@ void add_logs(Validation& validation, std::vector<LogValidation> logs, double to
 
 std::optional<double> predicted_measurement(const Plant<double>& plant, const TrialPoint& trial) {
   // tau_speed = 4 F' at d_r = 0, of which the dead zone takes 4 F'0               [paper (41)]
-  if (trial.kind == "surge") {
+  if (trial.kind == TrialKind::kSurge) {
     return steady_rate(plant.surge, trial.input - 4.0 * plant.wheel_dead_zone);
   }
-  if (trial.kind == "turning") return steady_rate(plant.yaw, trial.input);
-  if (trial.kind == "coastdown") return stop_time_s(plant.surge, plant.mass_norm, trial.input);
+  if (trial.kind == TrialKind::kTurning) return steady_rate(plant.yaw, trial.input);
+  if (trial.kind == TrialKind::kCoastdown) return stop_time_s(plant.surge, plant.mass_norm, trial.input);
   return std::nullopt;
 }
 
@@ -146,9 +140,9 @@ Result<Validation> validate(const Model& model,
   for (const TrialPoint& trial : model.record.trials) {
     validation.trials.push_back(residual_of(*plant, trial));
   }
-  validation.surge_rms_relative_error = rms_relative_error(validation.trials, "surge");
-  validation.turning_rms_relative_error = rms_relative_error(validation.trials, "turning");
-  validation.coastdown_rms_relative_error = rms_relative_error(validation.trials, "coastdown");
+  validation.surge_rms_relative_error = rms_relative_error(validation.trials, TrialKind::kSurge);
+  validation.turning_rms_relative_error = rms_relative_error(validation.trials, TrialKind::kTurning);
+  validation.coastdown_rms_relative_error = rms_relative_error(validation.trials, TrialKind::kCoastdown);
   judge(validation, options.tolerance);
   validation.claims = check_claims(model, *plant, gains);
   return validation;

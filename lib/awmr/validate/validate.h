@@ -15,7 +15,7 @@ namespace awmr {
 
 /// One trial row against the model.
 struct TrialResidual {
-  std::string kind;
+  TrialKind kind = TrialKind::kSurge;
   std::string file;
   int line = 0;
   std::string unit;

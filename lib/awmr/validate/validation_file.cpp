@@ -9,7 +9,7 @@ Json optional_json(const std::optional<double>& value) {
 }
 
 Json trial_json(const TrialResidual& trial) {
-  return {{"kind", trial.kind},
+  return {{"kind", name_in(kTrialKindNames, trial.kind)},
           {"file", trial.file},
           {"line", trial.line},
           {"unit", trial.unit},

@@ -39,9 +39,9 @@ MassEstimate combined(const MassEstimate& a, const MassEstimate& b, const Steady
 }
 
 EstimatorReport report_of(const MassEstimate& mass, const SteadyFit& surge,
-                          const std::string& estimator, const std::string& noise) {
+                          Estimator estimator, const std::string& noise) {
   EstimatorReport report;
-  report.subject = "mass";
+  report.subject = FitSubject::kMass;
   report.estimator = estimator;
   report.noise = noise;
   EstimatorParameter parameter{"mass_norm", std::exp(mass.log_mass_norm), {}, {}, {}};
@@ -136,7 +136,7 @@ class MassEstimator {
     if (stop && curve) compare(*stop, *curve, surge, curves_.front().file, result_.findings);
     if (stop && curve && surge.has_covariance()) {
       result_.estimate = combined(*stop, *curve, surge);
-      result_.reports.push_back(report_of(*result_.estimate, surge, "combined", "time and speed"));
+      result_.reports.push_back(report_of(*result_.estimate, surge, Estimator::kCombined, "time and speed"));
     } else {
       result_.estimate = curve ? curve : stop;
     }
@@ -162,8 +162,8 @@ class MassEstimator {
         "{:.4g}, not m' itself",
         ratio, ratio * error, fit.beta);
     EstimatorReport report;
-    report.subject = "mass";
-    report.estimator = "curve";
+    report.subject = FitSubject::kMass;
+    report.estimator = Estimator::kCurve;
     report.noise = "speed";
     const double beta_error = std::sqrt(fit.beta_variance);
     report.parameters = {{std::string(kMassOverSurgeName),
@@ -193,7 +193,7 @@ class MassEstimator {
       return std::nullopt;
     }
     MassEstimate estimate = from_stop_time(*mass, stops_->rows.size());
-    result_.reports.push_back(report_of(estimate, surge, "stop-time", "time"));
+    result_.reports.push_back(report_of(estimate, surge, Estimator::kStopTime, "time"));
     result_.reports.back().rows_used = static_cast<int>(stops_->rows.size());
     return estimate;
   }
@@ -211,7 +211,7 @@ class MassEstimator {
       return std::nullopt;
     }
     MassEstimate estimate = from_curve(fit);
-    result_.reports.push_back(report_of(estimate, surge, "curve", "speed"));
+    result_.reports.push_back(report_of(estimate, surge, Estimator::kCurve, "speed"));
     add_curve_figures(result_.reports.back(), fit);
     if (fit.autocorrelated) {
       result_.findings.push_back(
@@ -225,8 +225,8 @@ class MassEstimator {
   void fit_jointly() {
     JointFit joint = fit_joint(surge_->problem, *surge_->chosen, curves_);
     EstimatorReport report;
-    report.subject = "mass";
-    report.estimator = "joint";
+    report.subject = FitSubject::kMass;
+    report.estimator = Estimator::kJoint;
     report.noise = "as the surge fit, and speed";
     for (std::size_t i = 0; i < joint.surge.free.size(); ++i) {
       const auto at = static_cast<Eigen::Index>(i);

@@ -704,8 +704,8 @@ class LogFitter {
 
   void report() {
     EstimatorReport& report = fit_.report;
-    report.subject = "log";
-    report.estimator = "trajectory";
+    report.subject = FitSubject::kLog;
+    report.estimator = Estimator::kTrajectory;
     int samples = 0;
     for (const auto& [channel, noise] : model_.noise) {
       report.noise += fmt::format("{}{} {:.3g} {}", report.noise.empty() ? "" : ", ",

@@ -41,7 +41,7 @@ const char* name_of(RowError error) {
 }
 
 /// The residual scatter that the model's own fit of this subject left, in the unit of the error.
-double scatter(const Model& model, const std::string& subject, RowError error) {
+double scatter(const Model& model, FitSubject subject, RowError error) {
   for (const EstimatorReport& report : model.record.reports) {
     if (report.subject == subject && report.noise == name_of(error) &&
         (report.family.empty() || report.family == "power")) {
@@ -56,16 +56,16 @@ TablePlan plan_of(const Model& model) {
   TablePlan plan;
   double force_sum = 0.0;
   for (const TrialPoint& trial : model.record.trials) {
-    if (trial.kind == "surge") plan.surge_tau_speed.push_back(trial.input);
-    if (trial.kind == "coastdown") plan.stop_from_mps.push_back(trial.input);
-    if (trial.kind == "turning") force_sum = std::max(force_sum, trial.input);
+    if (trial.kind == TrialKind::kSurge) plan.surge_tau_speed.push_back(trial.input);
+    if (trial.kind == TrialKind::kCoastdown) plan.stop_from_mps.push_back(trial.input);
+    if (trial.kind == TrialKind::kTurning) force_sum = std::max(force_sum, trial.input);
   }
   // tau_turn = 2 l_f F' sin d_r: one F' whose largest angle is the vehicle's stop.        [paper
   // (62)]
   const double stop_rad = model.vehicle.steering_max_deg * 0.017453292519943295;
   plan.turning_wheel_force = force_sum / (2.0 * model.vehicle.front_axle_m * std::sin(stop_rad));
   for (const TrialPoint& trial : model.record.trials) {
-    if (trial.kind != "turning") continue;
+    if (trial.kind != TrialKind::kTurning) continue;
     plan.turning_steering_rad.push_back(
         std::asin(trial.input / (2.0 * model.vehicle.front_axle_m * plan.turning_wheel_force)));
   }
@@ -84,8 +84,8 @@ class Recoverer {
   Recoverer(const Model& model, const Plant<double>& plant, const RecoverOptions& options)
       : model_(model), plant_(plant), options_(options), plan_(plan_of(model)) {
     noise_.error = options.error.value_or(error_of(options.identify));
-    noise_.surge = scatter(model, "surge", noise_.error);
-    noise_.turning = scatter(model, "yaw", noise_.error);
+    noise_.surge = scatter(model, FitSubject::kSurge, noise_.error);
+    noise_.turning = scatter(model, FitSubject::kYaw, noise_.error);
     constexpr double kStopWatch_s = 0.02;
     noise_.stop_time_s = kStopWatch_s;
   }
@@ -133,7 +133,7 @@ class Recoverer {
   double steady_top() const {
     double top = 0.5;
     for (const TrialPoint& trial : model_.record.trials) {
-      if (trial.kind == "surge") top = std::max(top, trial.measured);
+      if (trial.kind == TrialKind::kSurge) top = std::max(top, trial.measured);
     }
     return top;
   }

@@ -158,7 +158,7 @@ class Suggester {
   }
 
   /// The scatter of the model's own rows of this kind, over their rate; 5 % where there are none.
-  double row_noise(const std::string& kind) const {
+  double row_noise(TrialKind kind) const {
     double squares = 0.0;
     int count = 0;
     for (const TrialPoint& trial : model_.record.trials) {
@@ -176,8 +176,8 @@ class Suggester {
   void list_candidates() {
     const Vehicle& v = model_.vehicle;
     const double most = v.wheel_force.hi;
-    const double surge_noise = row_noise("surge");
-    const double turning_noise = row_noise("turning");
+    const double surge_noise = row_noise(TrialKind::kSurge);
+    const double turning_noise = row_noise(TrialKind::kTurning);
     const double repeats = options_.repeats;
     suggestion_.assumptions = {
         fmt::format("steady speeds scatter by {:.2g} of their value, yaw rates by {:.2g}: what "
@@ -191,7 +191,7 @@ class Suggester {
         fmt::format("{} runs of each", options_.repeats)};
     for (const double share : {0.05, 0.1, 0.2, 0.35, 0.5, 0.75, 1.0}) {
       const double tau = 4.0 * most * share;
-      add({.trial = {.kind = "surge",
+      add({.trial = {.kind = TrialKind::kSurge,
                      .settings =
                          fmt::format("straight, tau_speed {:.3g} (F' = {:.3g}), {} runs over "
                                      "10 m after reaching steady speed",
@@ -206,7 +206,7 @@ class Suggester {
       for (const double force_share : {0.2, 0.5, 1.0}) {
         const double angle = radians(v.steering_max_deg) * angle_share;
         const double force = most * force_share;
-        add({.trial = {.kind = "turning",
+        add({.trial = {.kind = TrialKind::kTurning,
                        .settings = fmt::format("steering {:.3g} deg, F' = {:.3g}, {} full turns",
                                                degrees(angle), force, options_.repeats),
                        .numbers = {{"steering_deg", degrees(angle)},
@@ -235,7 +235,7 @@ class Suggester {
       const double noise = options_.sensors.speed_mps / std::sqrt(options_.repeats);
       const double duration_s =
           std::min(10.0, 1.2 * stop_time_s(plant_.surge, plant_.mass_norm, from).value_or(5.0));
-      add({.trial = {.kind = "coastdown",
+      add({.trial = {.kind = TrialKind::kCoastdown,
                      .settings = fmt::format("motors off from {:.3g} m/s, speed recorded at 100 Hz "
                                              "to rest ({:.2g} s), {} runs",
                                              from, duration_s, options_.repeats),
@@ -256,7 +256,7 @@ class Suggester {
   void add_log(const std::string& what, bool straight, double duration_s) {
     const Vehicle vehicle = model_.vehicle;
     const SensorNoise sensors = options_.sensors;
-    add({.trial = {.kind = "log",
+    add({.trial = {.kind = TrialKind::kLog,
                    .settings = fmt::format("{}, new levels every 1.5 s, {:g} s logged at 100 Hz",
                                            what, duration_s),
                    .numbers = {{"duration_s", duration_s}, {"rate_hz", 100.0}, {"runs", 1.0}}},
@@ -329,7 +329,7 @@ std::string field_sheet(const Suggestion& suggestion, std::size_t most) {
   int number = 1;
   for (const SuggestedTrial& trial : suggestion.trials) {
     if (static_cast<std::size_t>(number) > most) break;
-    text += fmt::format("[ ] {}. {:<9} {}\n", number++, trial.kind, trial.settings);
+    text += fmt::format("[ ] {}. {:<9} {}\n", number++, name_in(kTrialKindNames, trial.kind), trial.settings);
     text +=
         fmt::format("       {}: standard error {:.3g} -> {:.3g};  information +{:.1f}\n",
                     trial.parameter, trial.std_error_before, trial.std_error_after, trial.d_gain);

@@ -27,7 +27,7 @@ struct SuggestOptions {
 
 /// A trial that could be recorded.
 struct SuggestedTrial {
-  std::string kind;                                     ///< "surge", "turning", "coastdown", "log"
+  TrialKind kind = TrialKind::kSurge;
   std::string settings;                                 ///< in words, for the field sheet
   std::vector<std::pair<std::string, double>> numbers;  ///< the same, for scripts
   std::string parameter = {};                           ///< what it is ranked by

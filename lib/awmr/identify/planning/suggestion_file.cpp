@@ -13,7 +13,7 @@ std::string suggestion_text(const Suggestion& suggestion, const Provenance& prov
   for (const SuggestedTrial& trial : suggestion.trials) {
     Json settings;
     for (const auto& [name, value] : trial.numbers) settings[name] = value;
-    json["trials"].push_back({{"kind", trial.kind},
+    json["trials"].push_back({{"kind", name_in(kTrialKindNames, trial.kind)},
                               {"settings", settings},
                               {"words", trial.settings},
                               {"parameter", trial.parameter},

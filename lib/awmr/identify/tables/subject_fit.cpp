@@ -60,14 +60,14 @@ bool all_timed(const std::vector<SteadyPoint>& points) {
 }
 
 EstimatorReport report_of(const Subject& subject, const SteadyFit& fit, Family family,
-                          const std::string& estimator, const std::string& noise) {
+                          Estimator estimator, const std::string& noise) {
   EstimatorReport report;
   report.subject = subject.name;
   report.estimator = estimator;
   report.noise = noise;
   report.family = name_of(family);
   for (const TransformedParameter c : coordinates_of(family)) {
-    const Estimate estimate = estimate_of(fit, c, {}, estimator);
+    const Estimate estimate = estimate_of(fit, c, {}, std::string(name_in(kEstimatorNames, estimator)));
     report.parameters.push_back({std::string(info(parameter_of(subject, c)).name), *estimate.value,
                                  estimate.std_error, estimate.ci95});
   }
@@ -95,7 +95,7 @@ class SubjectFitter {
     if (!has_two_forces(subject_.points)) return std::move(result_);
     const SteadyFit line = fit_log_linear(subject_.points);
     if (!line.usable) return std::move(result_);
-    result_.reports.push_back(report_of(subject_, line, Family::kPower, "log-linear", "log force"));
+    result_.reports.push_back(report_of(subject_, line, Family::kPower, Estimator::kLogLinear, "log force"));
     wanted_ = options_.noise.value_or(all_timed(subject_.points) ? ErrorModel::kTime : ErrorModel::kSpeed);
     if (options_.method != Method::kLogLinear && wanted_ == ErrorModel::kTime &&
         !all_timed(subject_.points)) {
@@ -135,7 +135,7 @@ class SubjectFitter {
     const SteadyProblem p = problem(family, noise);
     if (subject_.points.size() < coordinates_of(family).size()) return;
     SteadyFit fit = family == Family::kPower ? fit_steady(p, line.theta) : fit_steady(p);
-    EstimatorReport report = report_of(subject_, fit, family, "nonlinear", noise_name(noise));
+    EstimatorReport report = report_of(subject_, fit, family, Estimator::kNonlinear, noise_name(noise));
     if (options_.loss != Loss::kSquared) report.noise += ", " + loss_name(options_.loss);
     report.aicc = options_.loss == Loss::kSquared ? aicc(fit) : std::nullopt;
     if (noise == wanted_ && options_.loss == Loss::kSquared && fit.has_covariance() && fit.usable) {
@@ -213,7 +213,7 @@ class SubjectFitter {
     if (options_.loss != Loss::kSquared) result_.method += ", " + loss_name(options_.loss);
     if (!chosen->fit.usable) {
       find(Severity::kError, 0, "not-converged",
-           fmt::format("the {} fit of {} did not converge: {}", result_.method, subject_.name,
+           fmt::format("the {} fit of {} did not converge: {}", result_.method, name_in(kFitSubjectNames, subject_.name),
                        chosen->fit.stop_reason));
       return;
     }
@@ -229,7 +229,7 @@ class SubjectFitter {
           Severity::kWarning, 0, "no-degrees-of-freedom",
           fmt::format("{} rows fix the {} parameters of {} exactly and leave nothing to judge them "
                       "by: no standard error; record another run",
-                      subject_.points.size(), fit.free.size(), subject_.name));
+                      subject_.points.size(), fit.free.size(), name_in(kFitSubjectNames, subject_.name)));
     }
     const Interval& range = subject_.beta_range;
     const double beta = fit[TransformedParameter::kBeta];

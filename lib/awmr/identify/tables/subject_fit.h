@@ -11,7 +11,7 @@ namespace awmr {
 
 /// What is to be identified from which runs.
 struct Subject {
-  std::string name;  ///< "surge", "yaw"
+  FitSubject name = FitSubject::kSurge;  ///< surge or yaw
   ParameterId alpha = ParameterId::kSurgeAlpha;
   ParameterId beta = ParameterId::kSurgeBeta;
   ParameterId coulomb = ParameterId::kSurgeCoulomb;

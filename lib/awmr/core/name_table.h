@@ -1,0 +1,49 @@
+/// The names of an enumeration's values, in one table: for files, options and messages alike.
+///
+///     inline constexpr NameTable<Colour, 2> kColourNames{{{"red", Colour::kRed}, {"blue", Colour::kBlue}}};
+///     name_in(kColourNames, Colour::kRed);  // "red"
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace awmr {
+
+template <class T>
+struct Named {
+  std::string_view name;
+  T value;
+};
+
+template <class T, std::size_t N>
+using NameTable = std::array<Named<T>, N>;
+
+/// Empty for a value that the table does not have.
+template <class T, std::size_t N>
+constexpr std::string_view name_in(const NameTable<T, N>& table, T value) {
+  for (const Named<T>& entry : table) {
+    if (entry.value == value) return entry.name;
+  }
+  return {};
+}
+
+template <class T, std::size_t N>
+constexpr std::optional<T> value_in(const NameTable<T, N>& table, std::string_view name) {
+  for (const Named<T>& entry : table) {
+    if (entry.name == name) return entry.value;
+  }
+  return std::nullopt;
+}
+
+template <class T, std::size_t N>
+std::vector<std::string> names_in(const NameTable<T, N>& table) {
+  std::vector<std::string> names;
+  for (const Named<T>& entry : table) names.emplace_back(entry.name);
+  return names;
+}
+
+}  // namespace awmr
