@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "awmr/identify/ceres_solve.h"
+#include "awmr/identify/uncertainty/quantiles.h"
 
 namespace awmr {
 namespace {
@@ -288,8 +289,7 @@ Eigen::MatrixXd add_noise(const Eigen::MatrixXd& j, const Eigen::VectorXd& e,
   const double variance = e.squaredNorm() / (n - static_cast<double>(j.cols()));
   fit.residual_std_mps = std::sqrt(variance);
   double phi = lag_one(e, sizes);
-  constexpr double kOnePercent = 2.576;
-  fit.autocorrelated = phi * std::sqrt(n) > kOnePercent;
+  fit.autocorrelated = phi * std::sqrt(n) > kNormalQuantile995;
   if (!fit.autocorrelated) phi = 0.0;
   fit.dof = (n - static_cast<double>(j.cols())) * (1.0 - phi) / (1.0 + phi);
   const Eigen::MatrixXd inverse =

@@ -1,16 +1,11 @@
 #include <Eigen/QR>
 #include <Eigen/SVD>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <limits>
 
 #include "awmr/identify/tables/steady_fit.h"
 
 namespace awmr {
-
-double t_quantile_95(double degrees_of_freedom) {
-  return boost::math::quantile(boost::math::students_t(degrees_of_freedom), 0.975);
-}
 
 SteadyFit fit_log_linear(const std::vector<SteadyPoint>& points) {
   const auto n = static_cast<Eigen::Index>(points.size());

@@ -10,6 +10,7 @@
 
 #include "awmr/core/interval.h"
 #include "awmr/identify/options.h"
+#include "awmr/identify/uncertainty/quantiles.h"
 #include "awmr/model/family.h"
 #include "awmr/model/resistance.h"
 
@@ -96,8 +97,5 @@ Interval profile_interval(const SteadyProblem& problem, const SteadyFit& fit, Tr
 /// AICc = n ln(SSE/n) + 2 k + 2 k (k + 1)/(n - k - 1), k = free coordinates + 1 (the variance).
 /// None for n <= k + 1.
 std::optional<double> aicc(const SteadyFit& fit);
-
-/// The half width of a 95 % interval over its standard error: Student's t.
-double t_quantile_95(double degrees_of_freedom);
 
 }  // namespace awmr

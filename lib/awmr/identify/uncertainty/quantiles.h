@@ -1,0 +1,12 @@
+/// How many standard errors an interval is wide. Private to identify/.
+#pragma once
+
+namespace awmr {
+
+inline constexpr double kNormalQuantile995 = 2.576;  ///< two-sided 99 % of the standard normal
+
+/// The half width of a 95 % interval over its standard error: the 97.5 % quantile of Student's t.
+/// Precondition: degrees_of_freedom > 0.
+double t_quantile_95(double degrees_of_freedom);
+
+}  // namespace awmr
