@@ -1,4 +1,4 @@
-/// docs/claims.md is what the program says.
+/// lib/awmr/validate/CLAIMS.md is what the program says.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -24,9 +24,9 @@ TEST(ClaimsDocument, IsWhatTheProgramMakes) {
                                      directory.path());
   ASSERT_EQ(validated.exit_code, 0) << validated.err;
   EXPECT_EQ(read_all(directory.path() / "claims.md"),
-            read_all(std::string(AWMR_SOURCE_DIR) + "/docs/claims.md"))
-      << "make it again: awmr validate --model model.json --claims --claims-table docs/claims.md "
-         "-o validation.json";
+            read_all(std::string(AWMR_SOURCE_DIR) + "/lib/awmr/validate/CLAIMS.md"))
+      << "make it again: awmr validate --model model.json --claims --claims-table "
+         "lib/awmr/validate/CLAIMS.md -o validation.json";
   EXPECT_THAT(validated.out, ::testing::HasSubstr("11 of 14 claims reproduced"));
 }
 

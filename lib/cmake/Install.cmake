@@ -6,7 +6,7 @@ install(TARGETS awmr_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(DIRECTORY lib/awmr DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
 install(EXPORT awmr-targets NAMESPACE awmr:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/awmr)
 
-configure_package_config_file(cmake/awmr-config.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/awmr-config.cmake
+configure_package_config_file(lib/cmake/awmr-config.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/awmr-config.cmake
   INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/awmr)
 write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/awmr-config-version.cmake
   COMPATIBILITY SameMinorVersion)
