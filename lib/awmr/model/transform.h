@@ -1,0 +1,49 @@
+/// The coordinate in which a parameter is searched, drawn and given a normal error.
+///
+///     linear:       coordinate = value        d value / d coordinate = 1
+///     logarithmic:  coordinate = ln value     d value / d coordinate = value
+///
+/// A quantity that is positive and known up to a factor is normal in its logarithm. An exponent is
+/// not: it lies in a fixed range. Nor is a family's term: it may be exactly zero.
+#pragma once
+
+#include <cmath>
+
+#include "awmr/model/parameters.h"
+
+namespace awmr {
+
+enum class Scale { kLinear, kLogarithmic };
+
+/// Linear: the exponents b1 and b3, and the terms that only some families have (Coulomb, quadratic,
+/// dead zone). Logarithmic: every other parameter.
+inline Scale scale_of(ParameterId id) {
+  const bool exponent = id == ParameterId::kSurgeBeta || id == ParameterId::kYawBeta;
+  return exponent || info(id).term ? Scale::kLinear : Scale::kLogarithmic;
+}
+
+/// The value must be positive on a logarithmic scale.
+inline double to_coordinate(Scale scale, double value) {
+  return scale == Scale::kLogarithmic ? std::log(value) : value;
+}
+/// A template on the scalar: the derivatives of ceres::Jet come with it.
+template <class T>
+T from_coordinate(Scale scale, const T& coordinate) {
+  using std::exp;
+  return scale == Scale::kLogarithmic ? T(exp(coordinate)) : coordinate;
+}
+/// d value / d coordinate, at a value.
+inline double jacobian(Scale scale, double value) {
+  return scale == Scale::kLogarithmic ? value : 1.0;
+}
+
+inline double to_coordinate(ParameterId id, double value) {
+  return to_coordinate(scale_of(id), value);
+}
+inline double from_coordinate(ParameterId id, double coordinate) {
+  return from_coordinate(scale_of(id), coordinate);
+}
+/// d value / d coordinate, at a value.
+inline double jacobian(ParameterId id, double value) { return jacobian(scale_of(id), value); }
+
+}  // namespace awmr
