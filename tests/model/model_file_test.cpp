@@ -50,24 +50,24 @@ Model some_model() {
   model[ParameterId::kMassNorm].source = Source::kDerived;
   model[ParameterId::kSwayAlpha] = {3.0, {}, {}, Source::kGiven, "vehicle.json"};
   model.record.reports = {{.subject = FitSubject::kSurge,
-                    .estimator = Estimator::kLogLinear,
-                    .noise = "log force",
-                    .parameters = {{"surge.alpha", 1.3157, 0.0183, Interval{1.27, 1.36}},
-                                   {"surge.beta", 0.8841, {}, {}}},
-                    .residual_std = 0.0364,
-                    .rows_used = 10,
-                    .degrees_of_freedom = 8,
-                    .rank = 2,
-                    .condition_number = 3.3,
-                    .stop_reason = "solved directly"}};
+                           .estimator = Estimator::kLogLinear,
+                           .noise = "log force",
+                           .parameters = {{"surge.alpha", 1.3157, 0.0183, Interval{1.27, 1.36}},
+                                          {"surge.beta", 0.8841, {}, {}}},
+                           .residual_std = 0.0364,
+                           .rows_used = 10,
+                           .degrees_of_freedom = 8,
+                           .rank = 2,
+                           .condition_number = 3.3,
+                           .stop_reason = "solved directly"}};
   model.covariance = {{ParameterId::kSurgeAlpha, ParameterId::kSurgeBeta},
                       {{1e-4, 2.0 / 3.0 * 1e-5}, {2.0 / 3.0 * 1e-5, 2.5e-4}}};
   model.record.findings = {{"surge.csv", 11, Severity::kWarning, "speed-mismatch", "1.03 and 1.08"},
-                    {"", 0, Severity::kNote, "rows-set-aside", "1 row"},
-                    {"t.csv", 0, Severity::kError, "not-identifiable", "no"}};
+                           {"", 0, Severity::kNote, "rows-set-aside", "1 row"},
+                           {"t.csv", 0, Severity::kError, "not-identifiable", "no"}};
   model.record.trials = {{TrialKind::kSurge, "surge.csv", 4, 0.2, 0.12, 0.1188},
-                  {TrialKind::kTurning, "t.csv", 3, 0.02, 0.038, {}},
-                  {TrialKind::kCoastdown, "c.csv", 4, 1.66, 0.573, 0.55}};
+                         {TrialKind::kTurning, "t.csv", 3, 0.02, 0.038, {}},
+                         {TrialKind::kCoastdown, "c.csv", 4, 1.66, 0.573, 0.55}};
   model.record.provenance = {
       "identify", {{"method", "log-linear"}}, {{"surge.csv", std::string(64, 'a')}}};
   return model;
@@ -159,8 +159,8 @@ TEST(ModelFile, WritesNoInfinityAndNoNaN) {
   model[ParameterId::kMassNorm].std_error = std::numeric_limits<double>::infinity();
   const auto back = reread(model_text(model));
   ASSERT_TRUE(back) << to_text(back.error());
-  EXPECT_TRUE(std::isinf(back->reports[0].condition_number));
-  EXPECT_TRUE(std::isnan(back->reports[0].residual_std));
+  EXPECT_TRUE(std::isinf(back->record.reports[0].condition_number));
+  EXPECT_TRUE(std::isnan(back->record.reports[0].residual_std));
   EXPECT_FALSE((*back)[ParameterId::kMassNorm].std_error);
   EXPECT_EQ(model_text(*back), model_text(model));
 }

@@ -1,12 +1,18 @@
-/// (tau_speed, tau_turn) -> (F'L, F'R, d_r), the exact inverse of [paper (41)]. Freestanding C++14.
+/// Allocation: (tau_speed, tau_turn) -> (F'L, F'R, d_r), in three modes. Freestanding C++14.
 ///
-/// No small-angle approximation: with q = tan(d_r/2), the quantity that the steering path sets,
-///   sin d_r = 2 q/(1 + q^2),   1 + cos d_r = 2/(1 + q^2),   tau_steering = l_f tau_speed q,
-/// so that the only function needed is the arc tangent of the angle commanded. [paper (42),
-/// corrected: L and R are swapped there against (41), and d stands where l_f belongs in d_r.]
+/// The exact inverse of generalised_forces() in model/dynamics.h, without the paper's small-angle
+/// approximation. The steering path sets q = tan(d_r/2), with which
+///   sin d_r      = 2 q/(1 + q^2)
+///   1 + cos d_r  = 2/(1 + q^2)
+///   tau_steering = l_f tau_speed q
+/// so that the only function needed is the arc tangent of the angle commanded. The code computes
+/// with h = q/2 = tan(d_r/2)/2, because then 1/(2 (1 + cos d_r)) = 1/4 + h^2: a steering angle
+/// costs one division, and a pair of forces none.
 ///
-/// Order of limits: tau_speed is clipped to [4 F'min, 4 F'max]; d_r to |d_r| <= d_max, and F'
-/// follow from the clipped, commanded d_r; then each F' is clipped to [F'min, F'max].
+/// Order of limits:
+///   1. tau_speed is clipped to [4 F'min, 4 F'max];
+///   2. d_r is clipped to |d_r| <= d_max, and the F' follow from the clipped, commanded d_r;
+///   3. each F' is clipped to [F'min, F'max].
 #pragma once
 
 #include "awmr/control/flash.h"
@@ -16,7 +22,7 @@
 
 namespace awmr {
 
-/// q = tan(angle/2), |angle| < pi.
+/// q = tan(angle/2) = sin(angle)/(1 + cos(angle)), |angle| < pi.
 template <class T>
 T tan_half(const T& angle_rad) {
   using math::cos;
@@ -24,55 +30,59 @@ T tan_half(const T& angle_rad) {
   return sin(angle_rad) / (T(1.0) + cos(angle_rad));
 }
 
+/// The vehicle's geometry and what its actuators can do.
 template <class T>
 struct AllocationLimits {
-  T front_axle_m;           ///< l_f, > 0
-  T half_track_m;           ///< d, > 0
-  T force_min;              ///< F'min of one wheel, over F_max
-  T force_max;              ///< F'max of one wheel, > F'min
-  T steering_max_rad;       ///< d_max, in (0, pi/2)
-  T steering_max_tan_half;  ///< tan_half(d_max)
+  T front_axle_m;           ///< l_f, m, > 0: centre of gravity to front axle
+  T half_track_m;           ///< d, m, > 0: centre line to the middle of a wheel
+  T force_min;              ///< F'min of one wheel, over F_max, in [-1, F'max); < 0 reverses
+  T force_max;              ///< F'max of one wheel, over F_max, in (0, 1]
+  T steering_max_rad;       ///< d_max, rad, in (0, pi/2): stop of the front wheels, either side
+  T steering_max_tan_half;  ///< tan_half(d_max): given, so that the chip need not compute it
+  /// What the combined mode does with a path that saturates.
   CombinedSplit split = CombinedSplit::kRedistribute;
-  /// F'0 of every wheel: the forces here are those beyond it, and so are their limits; the command
-  /// that goes out is with_dead_zone() of them.
+  /// F'0 of every wheel, over F_max, >= 0. The forces of an allocation, and the limits above, are
+  /// those beyond it; the command that goes out to a motor is with_dead_zone() of them.
   T dead_zone = T(0.0);
 };
 
+/// The commands, and which limits they met.
 template <class T>
 struct Allocation {
-  SideForces<T> force;      ///< F' of each wheel of a side
-  T steering_rad;           ///< the commanded d_r, left positive
+  SideForces<T> force;      ///< F' of each wheel of a side, in [F'min, F'max]
+  T steering_rad;           ///< the commanded d_r, rad, left positive, |d_r| <= d_max
   bool speed_limited;       ///< tau_speed was clipped
   bool steering_limited;    ///< d_r was clipped
   bool force_limited;       ///< an F' was clipped
   bool steering_powerless;  ///< steering was asked for, but tau_speed is too small to steer with
 };
 
-/// Below this tau_speed the front wheels push too little to turn the vehicle: d_r is commanded to
-/// 0.
+/// Below this tau_speed the front wheels push too little to turn the vehicle, and d_r is commanded
+/// to 0.
 template <class T>
 constexpr T steering_authority_min() {
   return T(1e-6);
 }
 
-/// What the allocation needs of the limits, computed once; of Ts only. With h = q/2, a steering
-/// angle costs one division and a pair of forces none.
+/// What the allocation needs of the limits, computed once. It has members of type T only, so that
+/// it has no padding and a check sum can go over it.
 template <class T>
 struct AllocationConstants {
-  T tau_speed_min;  ///< 4 F'min
-  T tau_speed_max;  ///< 4 F'max
-  T force_min;
-  T force_max;
-  T half_track_m;          ///< d
-  T track_inverse;         ///< 1/(2 d)
-  T half_track_inverse;    ///< 1/d
-  T axle_twice_m;          ///< 2 l_f
-  T axle_quarter_inverse;  ///< 1/(4 l_f)
-  T axle_half_inverse;     ///< 1/(2 l_f)
-  T steering_max_rad;      ///< d_max
+  T tau_speed_min;         ///< 4 F'min
+  T tau_speed_max;         ///< 4 F'max
+  T force_min;             ///< F'min
+  T force_max;             ///< F'max
+  T half_track_m;          ///< d, m
+  T track_inverse;         ///< 1/(2 d), 1/m
+  T half_track_inverse;    ///< 1/d, 1/m
+  T axle_twice_m;          ///< 2 l_f, m
+  T axle_quarter_inverse;  ///< 1/(4 l_f), 1/m
+  T axle_half_inverse;     ///< 1/(2 l_f), 1/m
+  T steering_max_rad;      ///< d_max, rad
   T h_max;                 ///< tan(d_max/2)/2
 };
 
+/// The constants of these limits.
 template <class T>
 AllocationConstants<T> prepared(const AllocationLimits<T>& limits) {
   return {T(4.0) * limits.force_min,
@@ -91,7 +101,7 @@ AllocationConstants<T> prepared(const AllocationLimits<T>& limits) {
 
 namespace detail {
 
-/// x in [lo, hi]; `limited` is set where that changes it. NaN stays NaN.
+/// x, or the end of [lo, hi] that it lies beyond; `limited` is then set. NaN stays NaN.
 template <class T>
 T clipped(const T& x, const T& lo, const T& hi, bool& limited) {
   if (x > hi) {
@@ -104,7 +114,9 @@ T clipped(const T& x, const T& lo, const T& hi, bool& limited) {
   }
   return x;
 }
-/// The same, without a comparison of floats where |x| is below both limits and 0 between them.
+
+/// The same for float. Where lo <= 0 <= hi and |x| is below both magnitudes, it does without a
+/// comparison of floats, which costs the chip more than one of bits.
 AWMR_SHARED inline float clipped(float x, float lo, float hi, bool& limited) {
   const uint32_t magnitude = float_math::magnitude_bits(x);
   if (magnitude <= bits_of(hi) && magnitude <= bits_of(-lo) &&
@@ -114,7 +126,7 @@ AWMR_SHARED inline float clipped(float x, float lo, float hi, bool& limited) {
   return clipped<float>(x, lo, hi, limited);
 }
 
-/// d_r = 2 atan q = 2 atan(2 h).
+/// The steering angle of an h, rad: d_r = 2 atan q = 2 atan(2 h).
 template <class T>
 T angle_of_h(const T& h) {
   using math::atan;
@@ -122,8 +134,9 @@ T angle_of_h(const T& h) {
 }
 inline float angle_of_h(float h) { return float_math::twice_atan_of_twice(h); }
 
-/// h of the angle that makes a moment at tau_speed: h = q/2 = moment/(2 l_f tau_speed), clipped;
-/// `half_ratio` is moment/(2 l_f).
+/// The h of the angle that makes a yaw moment at tau_speed, clipped to |h| <= h_max:
+///   h = q/2 = moment/(2 l_f tau_speed)
+/// `half_ratio` is moment/(2 l_f). Sets steering_limited or steering_powerless in `a`.
 template <class T>
 T steering_for(const AllocationConstants<T>& c, const T& tau_speed, const T& half_ratio,
                Allocation<T>& a) {
@@ -134,14 +147,16 @@ T steering_for(const AllocationConstants<T>& c, const T& tau_speed, const T& hal
   return clipped(half_ratio / tau_speed, -c.h_max, c.h_max, a.steering_limited);
 }
 
-/// d_max itself where h was clipped.
+/// The steering angle that is commanded for h, rad; exactly +-d_max where h was clipped.
 template <class T>
 T angle_of(const AllocationConstants<T>& c, const T& h, const Allocation<T>& a) {
   if (a.steering_limited) return h > T(0.0) ? c.steering_max_rad : -c.steering_max_rad;
   return math::saturate(angle_of_h(h), c.steering_max_rad);
 }
 
-/// F'R,L = (tau_speed +- moment/d)/(2 (1 + cos d_r)) = (tau_speed +- moment/d)(1/4 + h^2), clipped.
+/// Puts the side forces into `a`, each clipped to [F'min, F'max]:
+///   F'R,L = (tau_speed +- moment/d)/(2 (1 + cos d_r)) = (tau_speed +- moment/d) (1/4 + h^2)
+/// `moment_over_track` is moment/d, `quarter` is 1/4 + h^2.
 template <class T>
 void forces_for(const AllocationConstants<T>& c, const T& tau_speed, const T& moment_over_track,
                 const T& quarter, Allocation<T>& a) {
@@ -151,10 +166,13 @@ void forces_for(const AllocationConstants<T>& c, const T& tau_speed, const T& mo
   a.force.right = clipped(mean + half_difference, c.force_min, c.force_max, a.force_limited);
 }
 
-/// What the clipped forces leave of tau_turn goes to the steering. Returns h.
-/// With 1 + cos d_r = 1/(2 (1/4 + h^2)):  tau_speed = (F'L + F'R)/(2 quarter),
-/// delivered = d (F'R - F'L)/(2 quarter), so that
-///   moment/(2 l_f tau_speed) = (2 quarter tau_turn - d (F'R - F'L))/(2 l_f (F'L + F'R))
+/// The h by which the steering delivers what the clipped forces leave of tau_turn. With
+/// quarter = 1/4 + h^2, so that 1 + cos d_r = 1/(2 quarter), the clipped forces make
+///   tau_speed = (F'L + F'R)/(2 quarter)
+///   tau_diff  = d (F'R - F'L)/(2 quarter)
+/// and the rest of the moment, tau_turn - tau_diff, asks for
+///   h = (tau_turn - tau_diff)/(2 l_f tau_speed)
+///     = (2 quarter tau_turn - d (F'R - F'L))/(2 l_f (F'L + F'R))
 template <class T>
 T give_back(const AllocationConstants<T>& c, const T& tau_turn_m, const T& quarter,
             Allocation<T>& a) {
@@ -165,12 +183,23 @@ T give_back(const AllocationConstants<T>& c, const T& tau_turn_m, const T& quart
 
 }  // namespace detail
 
-/// tau_speed dimensionless, tau_turn_m in m; `split` is for the combined mode. Always finite for
-/// finite input.
-/// differential: d_r = 0;  F'R,L = tau_speed/4 +- tau_turn/(4 d)
-/// steering:     d_r = 2 atan(tau_turn/(l_f tau_speed));  F'L = F'R = tau_speed/(2 (1 + cos d_r))
-/// combined:     d_r = 2 atan(tau_turn/(2 l_f tau_speed)) and the other half of tau_turn by the
-///               forces; with kRedistribute, what one path's limits take away goes to the other.
+/// The commands that make tau_speed (dimensionless, forward positive) and tau_turn (m,
+/// counter-clockwise positive):
+///
+///   differential   d_r   = 0
+///                  F'R,L = tau_speed/4 +- tau_turn/(4 d)
+///
+///   steering       d_r   = 2 atan(tau_turn/(l_f tau_speed))
+///                  F'R,L = tau_speed/(2 (1 + cos d_r))
+///
+///   combined       d_r   = 2 atan(tau_turn/(2 l_f tau_speed))
+///                  F'R,L = tau_speed/(2 (1 + cos d_r)) +- tau_turn/(4 d (1 + cos d_r))
+///                                                                          [paper (42), corrected]
+/// Corrected: the paper prints the combined mode with L and R swapped against its (41), and with d
+/// where l_f belongs in d_r; its small angles, sin d_r = d_r and cos d_r = 1, are not needed.
+///
+/// `split` is for the combined mode: with kRedistribute, what the limits take away from one path
+/// goes to the other. The result is finite for finite input.
 template <class T>
 void allocate(YawMode mode, const T& tau_speed, const T& tau_turn_m,
               const AllocationConstants<T>& c, CombinedSplit split, Allocation<T>& a) {
@@ -181,7 +210,7 @@ void allocate(YawMode mode, const T& tau_speed, const T& tau_turn_m,
   T h = T(0.0);
   T quarter = T(0.25);
   if (mode != YawMode::kDifferential) {
-    // In the combined mode half of tau_turn: the half is in the constant.
+    // The combined mode steers for half of tau_turn: its constant is half of steering's.
     h = detail::steering_for(
         c, speed, tau_turn_m * (combined ? c.axle_quarter_inverse : c.axle_half_inverse), a);
     quarter = T(0.25) + h * h;
@@ -189,7 +218,7 @@ void allocate(YawMode mode, const T& tau_speed, const T& tau_turn_m,
   const bool lost = a.steering_limited || a.steering_powerless;
   T over_track = T(0.0);  // the forces' share of the moment over d
   if (redistribute && lost) {
-    // Steering's moment: l_f tau_speed q = 2 h l_f tau_speed.
+    // The steering makes the moment l_f tau_speed q = 2 h l_f tau_speed of tau_turn.
     over_track = (tau_turn_m - h * speed * c.axle_twice_m) * c.half_track_inverse;
   } else if (mode != YawMode::kSteering) {
     over_track = tau_turn_m * (combined ? c.track_inverse : c.half_track_inverse);
@@ -201,6 +230,7 @@ void allocate(YawMode mode, const T& tau_speed, const T& tau_turn_m,
   if (mode != YawMode::kDifferential) a.steering_rad = detail::angle_of(c, h, a);
 }
 
+/// The same from the limits themselves, where the time of a step does not matter.
 template <class T>
 Allocation<T> allocate(YawMode mode, const T& tau_speed, const T& tau_turn_m,
                        const AllocationLimits<T>& limits) {

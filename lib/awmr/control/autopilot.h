@@ -12,37 +12,40 @@
 
 namespace awmr {
 
+/// What the firmware knows at one step.
 struct AutopilotInput {
-  uint8_t mode;  ///< a YawMode
-  Measurement<float> measured;
-  Position<float> position_m;  ///< read while following waypoints only
-  Reference<float> reference;  ///< its heading is not read while following waypoints
-  InputTimes times;
+  uint8_t mode;                 ///< a YawMode
+  Measurement<float> measured;  ///< the vehicle's motion, as the sensors say
+  Position<float> position_m;   ///< read while following waypoints only
+  Reference<float> reference;   ///< its heading is not read while following waypoints
+  InputTimes times;             ///< how old all of this is
 };
 
+/// What the firmware does at one step.
 struct AutopilotOutput {
-  Allocation<float> command;
-  float tau_speed;
-  float tau_turn_m;
-  float psi_ref_rad;  ///< the heading held or led to
-  bool arrived;       ///< no waypoint is left
-  uint8_t fault;      ///< SafetyFault bits; not 0: `command` is the safe one
+  Allocation<float> command;  ///< to the motors and the servo
+  float tau_speed;            ///< asked for by the speed law, dimensionless; 0 on a fault
+  float tau_turn_m;           ///< asked for by the heading law, m; 0 on a fault
+  float psi_ref_rad;          ///< the heading held or led to
+  bool arrived;               ///< no waypoint is left
+  uint8_t fault;              ///< SafetyFault bits; not 0: `command` is the safe one
 };
 
-/// G is ResistanceTable or Resistance<float>.
+/// The autopilot between two steps. G is ResistanceTable or Resistance<float>.
 template <class G>
 struct Autopilot {
   PreparedController<float, G> controller;
   SafetyLimits limits;
-  Waypoints<float> waypoints;  ///< count 0: none to follow
-  WaypointProgress<float> progress;
-  uint32_t last_step_ms;
-  bool has_stepped;
-  bool is_leg_started;
-  bool are_parameters_good;
+  Waypoints<float> waypoints;        ///< count 0: none to follow
+  WaypointProgress<float> progress;  ///< valid once is_leg_started
+  uint32_t last_step_ms;             ///< valid once has_stepped
+  bool has_stepped;                  ///< a step was made since the start
+  bool is_leg_started;               ///< the first step towards the waypoints was made
+  bool are_parameters_good;          ///< the check sum was right at the start
 };
 
-/// The form of g that a block describes.
+/// The resistance in the form that the firmware was compiled for: from the block's table, or from
+/// the block's alpha and beta.
 inline void set_resistance(const TableShape* shape, const float* /*alpha_beta*/,
                            const float* values, ResistanceTable& table) {
   TableShape read;
@@ -60,9 +63,9 @@ inline void set_resistance(const TableShape* /*shape*/, const float* alpha_beta,
   law.rest_speed = 0.0F;
 }
 
-/// Reads the parameters and checks them against the check sum that they were emitted with. False,
-/// and from then on the safe command only: they are not those. Block and values lie in flash on an
-/// AVR.
+/// Reads the parameters and checks them against `crc`, the check sum that they were emitted with.
+/// Where they differ it returns false, and every step from then on gives the safe command only. On
+/// an AVR the block and the values lie in flash.
 template <class G>
 bool start_autopilot(Autopilot<G>& a, const ParameterBlock* block, const float* surge_values,
                      size_t surge_count, const float* yaw_values, size_t yaw_count, uint32_t crc) {
@@ -78,7 +81,8 @@ bool start_autopilot(Autopilot<G>& a, const ParameterBlock* block, const float* 
   return a.are_parameters_good;
 }
 
-/// Follows points from the next step on; none: holds the reference's heading again.
+/// Follows these points from the next step on. With no points it holds the reference's heading
+/// again.
 template <class G>
 void follow_waypoints(Autopilot<G>& a, const Waypoints<float>& waypoints) {
   a.waypoints = waypoints;
@@ -90,7 +94,7 @@ namespace detail {
 /// Positions may be this far from the origin, m: their squares are far from overflow.
 constexpr float kPositionMax = 1e6F;
 
-/// The step's own time; the first has none before it.
+/// kFaultStepLate where the step before was too long ago; the first step has none before it.
 template <class G>
 uint8_t check_period(Autopilot<G>& a, uint32_t now_ms) {
   const bool late = a.has_stepped && is_older(now_ms, a.last_step_ms, a.limits.step_timeout_ms);
@@ -99,6 +103,7 @@ uint8_t check_period(Autopilot<G>& a, uint32_t now_ms) {
   return late ? kFaultStepLate : kFaultNone;
 }
 
+/// The faults of one step's input.
 template <class G>
 uint8_t check_input(Autopilot<G>& a, const AutopilotInput& in) {
   unsigned fault = a.are_parameters_good ? kFaultNone : kFaultParameters;
@@ -126,6 +131,7 @@ Reference<float> led(Autopilot<G>& a, const AutopilotInput& in, bool& arrived) {
   return {guidance.psi_rad, 0.0F, 0.0F, in.reference.speed_mps, in.reference.accel_mps2};
 }
 
+/// The laws and the allocation for a reference.
 template <class G>
 void control(Autopilot<G>& a, const AutopilotInput& in, const Reference<float>& ref,
              AutopilotOutput& out) {
@@ -138,6 +144,8 @@ void control(Autopilot<G>& a, const AutopilotInput& in, const Reference<float>& 
 
 }  // namespace detail
 
+/// One step, to be called once per sample time. On a fault, of the input or of the command, the
+/// motors are commanded off and the wheels straight, and `out.fault` tells why.
 template <class G>
 void autopilot_step(Autopilot<G>& a, const AutopilotInput& in, AutopilotOutput& out) {
   out.arrived = false;

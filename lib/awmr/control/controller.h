@@ -11,41 +11,44 @@
 
 namespace awmr {
 
-/// G is the form in which the resistance is known: the law itself, or a table of it
-/// (resistance_table.h); whatever gives g for a speed.
+/// The model and the gains by which a vehicle is controlled. G is the form in which a resistance is
+/// known: the law itself, or a table of it (resistance_table.h); it has to give g for a speed.
 template <class T, class G = Resistance<T>>
 struct Controller {
-  G surge;         ///< g1, dimensionless, of u in m/s
-  G yaw;           ///< g3, m, of r in rad/s
-  T mass_norm;     ///< m', s^2/m
-  T inertia_norm;  ///< I'z, s^2 m
-  Gains<T> gains;
-  AllocationLimits<T> limits;
+  G surge;                     ///< g1, dimensionless, of u in m/s: the model's, fed forward
+  G yaw;                       ///< g3, m, of r in rad/s: the model's, fed forward
+  T mass_norm;                 ///< m', s^2/m, > 0: the model's
+  T inertia_norm;              ///< I'z, s^2 m, > 0: the model's
+  Gains<T> gains;              ///< as tuned
+  AllocationLimits<T> limits;  ///< the vehicle's
 };
 
+/// What the sensors say of the vehicle's motion at one sample.
 template <class T>
 struct Measurement {
-  T psi_rad;
-  T u_mps;
-  T v_mps;
-  T r_radps;
+  T psi_rad;  ///< psi, rad: heading, counter-clockwise from the world's x axis; any number of turns
+  T u_mps;    ///< u, m/s: surge speed, forward positive
+  T v_mps;    ///< v, m/s: sway speed, left positive; 0 where no sensor shows it
+  T r_radps;  ///< r, rad/s: yaw rate, counter-clockwise positive
 };
 
+/// What the laws are asked to follow at one sample.
 template <class T>
 struct Reference {
-  T psi_rad;           ///< psi_d
-  T psi_rate_radps;    ///< psi_d_dot
-  T psi_accel_radps2;  ///< psi_d_ddot
-  T speed_mps;         ///< u_d
-  T accel_mps2;        ///< u_d_dot
+  T psi_rad;           ///< psi_d, rad: heading wanted; any number of turns
+  T psi_rate_radps;    ///< psi_d_dot, rad/s: 0 for a heading that is held
+  T psi_accel_radps2;  ///< psi_d_ddot, rad/s^2: 0 for a heading that is held
+  T speed_mps;         ///< u_d, m/s: speed wanted, forward positive
+  T accel_mps2;        ///< u_d_dot, m/s^2: 0 for a speed that is held
 };
 
+/// What the laws answer, and the commands it comes to.
 template <class T>
 struct Command {
-  T tau_speed;
-  T tau_turn_m;
-  T sliding_radps;  ///< S
-  Allocation<T> allocation;
+  T tau_speed;               ///< dimensionless, forward positive: asked for, before any limit
+  T tau_turn_m;              ///< m, counter-clockwise positive: asked for, before any limit
+  T sliding_radps;           ///< S, rad/s: 0 on the sliding surface
+  Allocation<T> allocation;  ///< forces and angle, inside their limits
 };
 
 /// The angle's equal in (-pi, pi].
@@ -55,33 +58,35 @@ T wrap_angle(T angle_rad) {
   while (!(angle_rad > -pi<T>())) angle_rad += T(2.0) * pi<T>();
   return angle_rad;
 }
-/// float in constant time, which a control step on the chip needs.
+/// For float it takes the same time for every angle, as a control step on the chip has to.
 template <>
 inline float wrap_angle(float angle_rad) {
   return float_math::wrapped(angle_rad);
 }
 
-/// What the laws and the allocation need of model, gains and limits, computed once; of Ts only.
+/// What the laws and the allocation need of model, gains and limits, computed once. It has members
+/// of type T only, so that it has no padding and a check sum can go over it.
 template <class T>
 struct ControlConstants {
-  T mass_norm;
-  T inertia_norm;
-  T lambda;
-  T heading_mu;
+  T mass_norm;      ///< m', s^2/m
+  T inertia_norm;   ///< I'z, s^2 m
+  T lambda;         ///< lambda, 1/s
+  T heading_mu;     ///< mu, rad/s^2
   T heading_slope;  ///< mu/epsilon, 1/s
-  T speed_mu;
-  T speed_slope;  ///< mu_s/epsilon_s, 1/s
+  T speed_mu;       ///< mu_s, m/s^2
+  T speed_slope;    ///< mu_s/eps_s, 1/s
   AllocationConstants<T> allocation;
 };
 
 /// A controller as the chip holds it.
 template <class T, class G = Resistance<T>>
 struct PreparedController {
-  G surge;
-  G yaw;
+  G surge;  ///< g1
+  G yaw;    ///< g3
   ControlConstants<T> constants;
 };
 
+/// The controller with its constants computed.
 template <class T, class G>
 PreparedController<T, G> prepared(const Controller<T, G>& c) {
   return {c.surge,
@@ -91,31 +96,40 @@ PreparedController<T, G> prepared(const Controller<T, G>& c) {
            c.gains.speed.mu / c.gains.speed.epsilon, prepared(c.limits)}};
 }
 
-/// The resistance fed forward. At rest a curve that jumps there (feed_forward() in resistance.h)
-/// says nothing of the force it takes to move; which way the vehicle is to move, `intent`, does:
-///   g(w) outside of the chord;  g(rest) sat((w + intent)/rest) on it
+/// The resistance that a law adds to its command, at the speed w:
+///   g(w)                                        for |w| >= rest_speed
+///   g(rest_speed) sat((w + intent)/rest_speed)  below
+/// The second line is for curves that jump at rest (feed_forward() in resistance.h): there the
+/// curve does not tell the force that gets the vehicle moving, but the sign of `intent`, the speed
+/// error, tells which way that force has to point.
 template <class T>
 T fed_forward(const Resistance<T>& law, const T& speed, const T& intent) {
   using math::abs;
   if (!(abs(speed) < law.rest_speed)) return law(speed);
   return law.at(law.rest_speed) * math::saturate(T((speed + intent) / law.rest_speed), T(1.0));
 }
+/// A table has no jump at rest, so it needs no intent.
 template <class T, class G>
 T fed_forward(const G& table, const T& speed, const T&) {
   return table(speed);
 }
 
-/// S = e_dot + lambda e,  e = wrap(psi_d - psi),  e_dot = psi_d_dot - r                 [paper
-/// (82)]
+/// The sliding variable of the heading law, rad/s:
+///   S     = e_dot + lambda e
+///   e     = wrap(psi_d - psi)
+///   e_dot = psi_d_dot - r                                                        [paper (81)-(82)]
 template <class T>
 T sliding_surface(const HeadingGains<T>& gains, const Measurement<T>& m, const Reference<T>& ref) {
   return ref.psi_rate_radps - m.r_radps + gains.lambda * wrap_angle(ref.psi_rad - m.psi_rad);
 }
 
-/// tau_turn = g3(r) + I'z (psi_d_ddot + lambda (psi_d_dot - r) + mu sat(S/eps))
-/// [paper (89), corrected: (84)-(85) write r_ddot for r_dot, (88)-(89) psi_d_dot - r_dot for
-/// psi_d_dot - r; (78), (87): the condition of sat is on |S| <= eps, not on |e|. The disturbance is
-/// unknown and drops out; mu has to dominate it.]
+/// The heading law, m:
+///   tau_turn = g3(r) + I'z (psi_d_ddot + lambda (psi_d_dot - r) + mu sat(S/eps))
+///   sat(z)   = z for |z| <= 1, sgn z beyond                           [paper (84)-(89), corrected]
+/// Corrected: (84)-(85) print r_ddot for r_dot, (88)-(89) print psi_d_dot - r_dot for
+/// psi_d_dot - r, and in (87), as in (78), sat asks for |e| <= eps instead of |S| <= eps. The
+/// printed law also subtracts the disturbance, which nobody knows: it drops out, and mu has to
+/// dominate it.
 template <class T, class G>
 T heading_law(const PreparedController<T, G>& c, const Measurement<T>& m, const Reference<T>& ref) {
   const ControlConstants<T>& k = c.constants;
@@ -126,13 +140,17 @@ T heading_law(const PreparedController<T, G>& c, const Measurement<T>& m, const 
   return fed_forward(c.yaw, m.r_radps, s) +
          k.inertia_norm * (ref.psi_accel_radps2 + k.lambda * error_rate + correction);
 }
+/// The same from the controller itself, where the time of a step does not matter.
 template <class T, class G>
 T heading_law(const Controller<T, G>& c, const Measurement<T>& m, const Reference<T>& ref) {
   return heading_law(prepared(c), m, ref);
 }
 
-/// tau_speed = g1(u) - m' r v + m' (u_d_dot + mu_s sat((u_d - u)/eps_s))                [paper
-/// (102)]
+/// The speed law, dimensionless:
+///   tau_speed = g1(u) - m' r v + m' (u_d_dot + mu_s sat(e_u/eps_s)),   e_u = u_d - u
+///                                                                    [paper (97)-(102), corrected]
+/// Corrected: (100)-(102) are printed without u_d_dot, which (99) has; the disturbance drops out as
+/// in the heading law.
 template <class T, class G>
 T speed_law(const PreparedController<T, G>& c, const Measurement<T>& m, const Reference<T>& ref) {
   const ControlConstants<T>& k = c.constants;
@@ -141,11 +159,13 @@ T speed_law(const PreparedController<T, G>& c, const Measurement<T>& m, const Re
   return fed_forward(c.surge, m.u_mps, error) +
          k.mass_norm * (ref.accel_mps2 + correction - m.r_radps * m.v_mps);
 }
+/// The same from the controller itself, where the time of a step does not matter.
 template <class T, class G>
 T speed_law(const Controller<T, G>& c, const Measurement<T>& m, const Reference<T>& ref) {
   return speed_law(prepared(c), m, ref);
 }
 
+/// Both laws and the allocation, for one sample.
 template <class T, class G>
 Command<T> control_step(const Controller<T, G>& c, YawMode mode, const Measurement<T>& m,
                         const Reference<T>& ref) {

@@ -18,6 +18,7 @@
 
 namespace awmr {
 
+/// Reads a float that lies in flash at `address`.
 inline float flash_float(const float* address) {
 #ifdef __AVR__
   return pgm_read_float(address);
@@ -26,6 +27,7 @@ inline float flash_float(const float* address) {
 #endif
 }
 
+/// Reads a byte that lies in flash at `address`.
 inline uint8_t flash_byte(const uint8_t* address) {
 #ifdef __AVR__
   return pgm_read_byte(address);
@@ -34,7 +36,7 @@ inline uint8_t flash_byte(const uint8_t* address) {
 #endif
 }
 
-/// Copies what lies in flash at `source`.
+/// Copies what lies in flash at `source` to `value`.
 template <class V>
 void read_flash(const V* source, V& value) {
 #ifdef __AVR__

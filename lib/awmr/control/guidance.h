@@ -9,12 +9,14 @@
 
 namespace awmr {
 
+/// A point of the world frame, in which psi counts counter-clockwise from the x axis.
 template <class T>
 struct Position {
-  T x_m;
-  T y_m;
+  T x_m;  ///< x, m
+  T y_m;  ///< y, m
 };
 
+/// The square of the distance between two points, m^2.
 template <class T>
 T squared_distance_m2(const Position<T>& a, const Position<T>& b) {
   const T dx = b.x_m - a.x_m;
@@ -22,6 +24,7 @@ T squared_distance_m2(const Position<T>& a, const Position<T>& b) {
   return dx * dx + dy * dy;
 }
 
+/// The distance between two points, m, >= 0.
 template <class T>
 T distance_m(const Position<T>& a, const Position<T>& b) {
   using math::sqrt;
@@ -42,13 +45,15 @@ template <class T>
 struct Waypoints {
   const Position<T>* points_m;  ///< not owned; `count` of them
   int count;                    ///< >= 0
-  T acceptance_m;               ///< > 0: a point is reached within this distance of it
-  /// A point that the vehicle has gone past without coming within `acceptance_m` of it (it is
-  /// beyond the perpendicular to the leg through the point): true: it is missed, the next one
-  /// follows; false, as in the paper: the vehicle turns back to it.
+  T acceptance_m;               ///< m, > 0: a point is reached within this distance of it
+  /// What becomes of a point that the vehicle went past without coming within `acceptance_m` of it,
+  /// that is, beyond the perpendicular to the leg through the point. true: it is missed and the
+  /// next one follows, for a vehicle that cannot turn tightly enough to come back. false, as in the
+  /// paper: the vehicle turns back to it.
   bool skip_passed;
 };
 
+/// How far the vehicle has come along the points.
 template <class T>
 struct WaypointProgress {
   int next;                 ///< index of the point being gone to; `count` when all are done
@@ -57,19 +62,20 @@ struct WaypointProgress {
   T psi_rad;                ///< the last line of sight, held where there is none
 };
 
-/// Before the first step; `psi_rad` is the vehicle's heading.
+/// The progress before the first step: `position_m` and `psi_rad` are the vehicle's.
 template <class T>
 WaypointProgress<T> start_waypoints(const Position<T>& position_m, const T& psi_rad) {
   return {0, 0, position_m, psi_rad};
 }
 
+/// Where the waypoints lead at one step.
 template <class T>
 struct WaypointGuidance {
   T psi_rad;      ///< psi_d, in (-pi, pi]
   bool finished;  ///< no point is left: psi_d holds the last line of sight
 };
 
-/// Beyond the perpendicular to the leg through its end. A leg without length has no far side.
+/// True beyond the perpendicular to the leg through its end. Nothing is past a leg without length.
 template <class T>
 bool is_past(const Position<T>& position_m, const Position<T>& leg_start_m,
              const Position<T>& leg_end_m) {
@@ -78,9 +84,12 @@ bool is_past(const Position<T>& position_m, const Position<T>& leg_start_m,
   return along > T(0.0);
 }
 
-/// psi_d = atan2(y_d - y, x_d - x)                                  [paper (103), sign corrected]
-/// to the first point that is not yet reached. Points that coincide, or lie within the acceptance
-/// radius of each other, are reached in the same step. No points: finished at once, heading held.
+/// The line of sight to the first point (x_d, y_d) that is not yet reached:
+///   psi_d = atan2(y_d - y, x_d - x)                                       [paper (103), corrected]
+/// Corrected: the printed differences point from the waypoint to the vehicle.
+///
+/// Points that coincide, or lie within the acceptance radius of each other, are reached in the same
+/// step. With no points the guidance is finished at once and the heading held.
 template <class T>
 WaypointGuidance<T> guide(const Waypoints<T>& waypoints, const Position<T>& position_m,
                           WaypointProgress<T>& progress) {

@@ -12,7 +12,9 @@ constexpr T sideslip_speed_min_mps() {
   return T(0.05);
 }
 
-/// beta = atan2(v, u), rad: the course is psi + beta. 0 at rest.
+/// The sideslip angle, rad, in (-pi, pi]: the vehicle travels in the direction psi + beta.
+///   beta = atan2(v, u)
+/// 0 below sideslip_speed_min_mps().
 template <class T>
 T sideslip_rad(const T& u_mps, const T& v_mps) {
   using math::atan2;
@@ -21,15 +23,24 @@ T sideslip_rad(const T& u_mps, const T& v_mps) {
   return atan2(v_mps, u_mps);
 }
 
+/// How a line is approached.
 template <class T>
 struct LineLaw {
-  T delta_rad;  ///< Delta in (0, pi/2]: angle at which the line is approached from outside the lane
-  T width_m;    ///< R > 0: half width of the lane in which the approach flattens
-  bool sideslip_compensation;  ///< subtract beta, so that the course, not the heading, is led
+  /// Delta, rad, in (0, pi/2]: angle at which the line is approached from outside the lane. Larger:
+  /// the line is reached on a shorter way and met more abruptly.
+  T delta_rad;
+  /// R, m, > 0: half width of the lane inside which the approach flattens in proportion to the
+  /// distance. Larger: smoother, and later on the line.
+  T width_m;
+  /// true, as in the paper: beta is subtracted, so that the course and not the heading is led, and
+  /// a vehicle that slips stays on the line. false: for vehicles that cannot measure v.
+  bool sideslip_compensation;
 };
 
-/// psi_d = psi_AB - beta - Delta sat(e/R), in (-pi, pi]                              [paper (107)]
-/// e is the signed distance from the line, positive to the left of its direction.
+/// The heading that leads to a line of direction psi_AB and then along it, rad, in (-pi, pi]:
+///   psi_d = psi_AB - beta - Delta sat(e/R)                                           [paper (107)]
+/// e = cross_track_m is the signed distance from the line, m, positive to the left of its
+/// direction; beta = sideslip, rad.
 template <class T>
 T line_heading_rad(const LineLaw<T>& law, const T& psi_line_rad, const T& cross_track_m,
                    const T& sideslip) {
@@ -38,41 +49,47 @@ T line_heading_rad(const LineLaw<T>& law, const T& psi_line_rad, const T& cross_
                     law.delta_rad * math::saturate(cross_track_m / law.width_m, T(1.0)));
 }
 
-/// Corners joined by lines; two of them are one line.
+/// Corners joined by line segments, driven from the first to the last. Two corners are one line.
 template <class T>
 struct Polyline {
-  const Position<T>* points_m;  ///< not owned; `count` of them
-  int count;                    ///< >= 0
-  /// >= 0: the next segment is taken up this far before the present one ends, so that a corner is
-  /// rounded from the inside; the last ends at its end.
+  const Position<T>* points_m;  ///< the corners in the world frame, m; not owned, `count` of them
+  int count;                    ///< >= 0; with fewer than two corners the line is finished at once
+  /// m, >= 0: the next segment is taken up this far before the present one ends, so that a corner
+  /// is rounded on its inside. The last segment is driven to its end. 0: corners are overshot.
   T corner_m;
-  LineLaw<T> law;
+  LineLaw<T> law;  ///< how each segment is approached
 };
 
+/// How far the vehicle has come along the corners.
 template <class T>
 struct PolylineProgress {
   int segment;  ///< from points_m[segment] to points_m[segment + 1]
   T psi_rad;    ///< the last psi_d, held where there is none
 };
 
+/// The progress before the first step: `psi_rad` is the vehicle's heading.
 template <class T>
 PolylineProgress<T> start_polyline(const T& psi_rad) {
   return {0, psi_rad};
 }
 
+/// Where the polyline leads at one step.
 template <class T>
 struct PolylineGuidance {
-  T psi_rad;        ///< psi_d, in (-pi, pi]
-  T cross_track_m;  ///< e, left of the present segment positive
-  T to_go_m;        ///< along the present segment, to its end
+  T psi_rad;        ///< psi_d, rad, in (-pi, pi]
+  T cross_track_m;  ///< e, m: distance from the present segment's line, left of it positive
+  T to_go_m;        ///< m: along the present segment, to its end
   bool finished;    ///< past the last segment's end: psi_d holds its last value
 };
 
-/// With the unit vector t from A to B:
-///   psi_AB = atan2(t_y, t_x),   e = -(x - x_A) t_y + (y - y_A) t_x
-/// [paper (104)-(105), corrected: (105) reverses the direction; the slope form of (104) does not
-/// exist for a vertical line and loses the sign of the direction.]
-/// Segments without length (points that coincide) are passed over; where none has any: finished.
+/// The heading along the present segment from A to B. With its unit vector t = (B - A)/|B - A|:
+///   psi_AB = atan2(t_y, t_x)
+///   e      = -(x - x_A) t_y + (y - y_A) t_x                         [paper (104)-(106), corrected]
+/// Corrected: (105) prints the direction from B to A. (104) and (106) print distance and direction
+/// by the line's slope, which a vertical line does not have and which is the same from B to A.
+///
+/// Segments without length, whose corners coincide, are passed over; where no segment has a length
+/// the guidance is finished and the heading held.
 template <class T>
 PolylineGuidance<T> guide(const Polyline<T>& line, const Position<T>& position_m, const T& sideslip,
                           PolylineProgress<T>& progress) {

@@ -1,32 +1,36 @@
 /// Obstacle avoidance: turns a guidance heading out of the sectors that circular obstacles block.
 /// Freestanding C++14.
 ///
-/// The paper names MMD, D_obs and sigma, its figure of the algorithm is lost  [paper 5.2.2]; this
-/// is this project's definition.
+/// The paper names MMD, D_obs and sigma, but its figure of the algorithm is lost.     [paper 5.2.2]
+/// This is the project's own definition. For obstacle i with centre c_i, seen from position p:
 ///
-///   MMD(u)  = mmd_base + mmd_per_speed |u|              minimum manoeuvring distance
-///   R_i     = radius_i + vehicle_radius + clearance     grown radius
-///   D_i     = |c_i - p|,  D_obs = D_i - R_i             distance to the grown edge
-///   w_i     = clamp((MMD - D_obs)/MMD, 0, 1)            how far D_obs is inside MMD
-///   alpha_i = asin(R_i/D_i) + sigma w_i                 half angle of the blocked sector around
-///   the
-///                                                       bearing of c_i; pi/2 + sigma w_i inside
-///                                                       R_i
-/// An obstacle counts while D_obs <= MMD (+ hysteresis once avoidance is on) and it is nearer than
-/// the target. psi_d is turned from the guidance heading to the nearest edge of the union of the
-/// blocked sectors that contain it, left or right; the side once taken is kept until the other is
-/// nearer by `side_hysteresis_rad`, or until the guidance heading is free again.
+///   MMD(u)  = mmd_base + mmd_per_speed |u|            minimum manoeuvring distance
+///   R_i     = radius_i + vehicle_radius + clearance   grown radius
+///   D_i     = |c_i - p|                               distance to the centre
+///   D_obs   = D_i - R_i                               distance to the grown edge
+///   w_i     = clamp((MMD - D_obs)/MMD, 0, 1)          how far D_obs is inside MMD
+///   alpha_i = asin(R_i/D_i) + sigma w_i               half angle of the blocked sector, D_i > R_i
+///           = pi/2          + sigma w_i               the same inside the grown circle
 ///
-/// A vehicle of turning radius rho that heads for the middle of a circle can still pass it from
-/// D^2 >= (R + rho)^2 - rho^2, that is D_obs < rho whatever R: MMD >= rho plus the way travelled
-/// while the turn begins is enough for one obstacle. Where that does not hold (several obstacles, a
-/// start too near) the speed is cut: along the ray of the heading, the distance to a circle grown
-/// by vehicle_radius + clearance/2 over `brake_m` is the share of the speed that is allowed, so
-/// that the vehicle stops before it.
+/// The blocked sector lies around the bearing of c_i. An obstacle counts while D_obs <= MMD (plus
+/// the hysteresis once avoidance is on) and while it is nearer than the target. psi_d is turned
+/// from the guidance heading to the nearest edge, left or right, of the union of the blocked
+/// sectors that contain it. The side once taken is kept until the other is nearer by
+/// `side_hysteresis_rad`, or until the guidance heading is free again.
 ///
-/// Edge cases: inside R_i the sector is more than a half-plane, so psi_d leads out, and a heading
-/// further in is stopped; on the very centre the bearing is the vehicle's heading; every direction
-/// blocked: `blocked`, share 0, psi_d unchanged. An obstacle on a waypoint: see covers().
+/// Why it clears one obstacle: a vehicle of turning radius rho that heads for the middle of a
+/// circle can still pass it from D^2 >= (R + rho)^2 - rho^2, that is from D_obs < rho whatever R
+/// is. So an MMD of rho plus the way travelled while the turn begins is enough. Where that does not
+/// hold, with several obstacles or a start too near, the speed is cut: the share of it that is
+/// allowed is the distance along the heading to a circle grown by vehicle_radius + clearance/2,
+/// over `brake_m`, so that the vehicle stops before the circle.
+///
+/// Edge cases:
+///   inside R_i                the sector is more than a half-plane, so psi_d leads out; a vehicle
+///                             that heads further in is stopped
+///   on the very centre        the bearing is taken to be the vehicle's heading
+///   every direction blocked   `blocked` is set, the share is 0, psi_d is the guidance heading
+///   an obstacle on a waypoint see covers()
 #pragma once
 
 #include "awmr/control/controller.h"
@@ -34,36 +38,51 @@
 
 namespace awmr {
 
+/// A disc that the vehicle must not touch.
 template <class T>
 struct Obstacle {
-  Position<T> centre_m;
-  T radius_m;  ///< > 0
+  Position<T> centre_m;  ///< c_i, m, in the world frame
+  T radius_m;            ///< radius_i, m, > 0
 };
 
+/// How obstacles are avoided; the symbols are those above.
 template <class T>
 struct Avoidance {
-  T mmd_base_m;           ///< > 0
-  T mmd_per_speed_s;      ///< >= 0
-  T sigma_rad;            ///< in [0, pi/2): how much further than the tangent it turns at D_obs = 0
-  T vehicle_radius_m;     ///< >= 0: of the circle around the vehicle
-  T clearance_m;          ///< > 0: to keep free beside it
-  T hysteresis_m;         ///< >= 0
-  T side_hysteresis_rad;  ///< >= 0
-  T brake_m;              ///< > 0
+  /// mmd_base, m, > 0: at least the vehicle's turning radius.
+  T mmd_base_m;
+  /// mmd_per_speed, s, >= 0: the time that a turn takes to begin (servo, yaw inertia).
+  T mmd_per_speed_s;
+  /// sigma, rad, in [0, pi/2): by how much more than the tangent asks for the vehicle turns at
+  /// D_obs = 0. Larger: a wider berth.
+  T sigma_rad;
+  /// vehicle_radius, m, >= 0: of the circle around the vehicle's centre of gravity that holds it.
+  T vehicle_radius_m;
+  /// clearance, m, > 0: to keep free between that circle and the obstacle.
+  T clearance_m;
+  /// m, >= 0: by how much D_obs has to exceed MMD before an obstacle stops counting. It keeps the
+  /// avoidance from switching on and off at the edge.
+  T hysteresis_m;
+  /// rad, >= 0: by how much nearer the other side has to be before the side is changed.
+  T side_hysteresis_rad;
+  /// brake, m, > 0: free way ahead below which the speed is cut. At least the stopping distance.
+  T brake_m;
 };
 
+/// The side to which psi_d is turned.
 enum class AvoidanceSide { kNone, kLeft, kRight };
 
+/// What the avoidance remembers from step to step.
 struct AvoidanceState {
   AvoidanceSide side = AvoidanceSide::kNone;  ///< kNone: the guidance heading is free
 };
 
+/// The heading and the speed that avoid the obstacles at one step.
 template <class T>
 struct Avoided {
-  T psi_rad;      ///< psi_d, in (-pi, pi]
-  T speed_share;  ///< of u_d, in [0, 1]
-  bool active;    ///< psi_d is not the guidance heading
-  bool blocked;   ///< every direction is
+  T psi_rad;      ///< psi_d, rad, in (-pi, pi]
+  T speed_share;  ///< dimensionless, in [0, 1]: the part of u_d that is allowed
+  bool active;    ///< psi_d is not the guidance heading, or every direction is blocked
+  bool blocked;   ///< every direction is blocked
 };
 
 /// True where the obstacle's grown circle holds the whole acceptance circle of a target: no course
@@ -77,17 +96,19 @@ bool covers(const Avoidance<T>& avoidance, const Obstacle<T>& obstacle, const Po
 
 namespace detail {
 
-/// Sectors whose edge is nearer than this are left: rad, above the rounding of a float.
+/// A heading this near to a sector's edge, rad, counts as outside the sector; above a float's
+/// rounding.
 template <class T>
 constexpr T sector_tolerance_rad() {
   return T(1e-4);
 }
 
+/// The headings that one obstacle blocks.
 template <class T>
 struct Sector {
-  T bearing_rad;
-  T half_rad;
-  bool counts;
+  T bearing_rad;  ///< of the obstacle's centre
+  T half_rad;     ///< alpha_i
+  bool counts;    ///< false: the obstacle is too far, or beyond the target
 };
 
 /// asin(s) for s in [0, 1).
@@ -98,18 +119,19 @@ T arc_sine(const T& s) {
   return atan2(s, sqrt(T(1.0) - s * s));
 }
 
-/// What the vehicle is asked to avoid, at one step.
+/// What the vehicle has around it at one step.
 template <class T>
 struct Surroundings {
   const Avoidance<T>& avoidance;
-  const Obstacle<T>* obstacles;
+  const Obstacle<T>* obstacles;  ///< `count` of them
   int count;
-  Position<T> position_m;
-  T psi_rad;
-  T mmd_m;
-  T reach_m;
-  T target_m;
+  Position<T> position_m;  ///< p
+  T psi_rad;               ///< the vehicle's heading
+  T mmd_m;                 ///< MMD(u)
+  T reach_m;               ///< largest D_obs that counts: MMD, plus the hysteresis once active
+  T target_m;              ///< distance to where the guidance leads
 
+  /// The sector that obstacle i blocks.
   Sector<T> sector(int i) const {
     const Obstacle<T>& obstacle = obstacles[i];
     const T grown_m = obstacle.radius_m + avoidance.vehicle_radius_m + avoidance.clearance_m;
@@ -123,8 +145,8 @@ struct Surroundings {
             tangent + avoidance.sigma_rad * inside, true};
   }
 
-  /// How far `heading_rad` has to turn to `sign` (1: left, -1: right) to leave all sectors; 2 pi or
-  /// more: it cannot.
+  /// By how much `heading_rad` has to turn to leave all sectors, rad, >= 0; to the left for
+  /// sign = 1, to the right for sign = -1. 2 pi or more: there is no way out.
   T turn_out(const T& heading_rad, const T& sign) const {
     const T full = T(2.0) * pi<T>();
     T turned = T(0.0);
@@ -169,8 +191,10 @@ struct Surroundings {
 
 }  // namespace detail
 
-/// `guidance_rad` is the heading that the guidance wants, `target_m` the distance to where it leads
-/// (obstacles beyond it do not matter; a very large number where there is no target).
+/// Turns the guidance heading out of the sectors that `count` obstacles block, and cuts the speed
+/// where that is not enough. `guidance_rad` is the heading that the guidance wants and `target_m`
+/// the distance to where it leads: obstacles beyond it do not matter. It is a very large number
+/// where there is no target. `psi_rad` and `u_mps` are the vehicle's.
 template <class T>
 Avoided<T> avoid(const Avoidance<T>& avoidance, const Obstacle<T>* obstacles, int count,
                  const Position<T>& position_m, const T& psi_rad, const T& u_mps,

@@ -9,17 +9,20 @@ namespace awmr {
 /// A point of a timed path and its derivatives.
 template <class T>
 struct PathPoint {
-  Position<T> position_m;
-  T vx_mps, vy_mps;
-  T ax_mps2, ay_mps2;
+  Position<T> position_m;  ///< p_d = (x_d, y_d), m
+  T vx_mps, vy_mps;        ///< p_d_dot, m/s
+  T ax_mps2, ay_mps2;      ///< p_d_ddot, m/s^2
 };
 
-/// x_d = A_x cos(w_x t),  y_d = A_y sin(w_y t)                                 [paper (117)-(118)]
+/// A Lissajous figure:
+///   x_d = A_x cos(w_x t)
+///   y_d = A_y sin(w_y t)                                                       [paper (117)-(118)]
 template <class T>
 struct Lissajous {
-  T amplitude_x_m, amplitude_y_m;
-  T rate_x_radps, rate_y_radps;
+  T amplitude_x_m, amplitude_y_m;  ///< A_x, A_y, m: 10 each in the paper
+  T rate_x_radps, rate_y_radps;    ///< w_x, w_y, rad/s: 0.01 and 0.03 in the paper
 
+  /// The point of the path at the time t_s and its derivatives.
   PathPoint<T> at(const T& t_s) const {
     using math::cos;
     using math::sin;
@@ -35,11 +38,12 @@ struct Lissajous {
   }
 };
 
+/// Where a timed path leads at one step.
 template <class T>
 struct PathGuidance {
-  T psi_rad;         ///< psi_d, in (-pi, pi]
-  T psi_rate_radps;  ///< its derivative along the path
-  T speed_mps;       ///< u_d >= 0
+  T psi_rad;         ///< psi_d, rad, in (-pi, pi]
+  T psi_rate_radps;  ///< psi_d_dot, rad/s, of the path itself
+  T speed_mps;       ///< u_d, m/s, >= 0
 };
 
 /// Below this speed, m/s, a path has no direction (a cusp, a turning point): the heading is held.
@@ -48,9 +52,10 @@ constexpr T path_speed_min_mps() {
   return T(1e-4);
 }
 
-/// Open in position, as in the paper: psi_d = atan2(yd_dot, xd_dot),  u_d = |p_d_dot|  [paper
-/// (116)]
-///   psi_d_dot = (xd_dot yd_ddot - yd_dot xd_ddot)/|p_d_dot|^2
+/// The path's own direction and speed, open loop in position as in the paper:
+///   psi_d     = atan2(y_d_dot, x_d_dot)                                              [paper (116)]
+///   psi_d_dot = (x_d_dot y_d_ddot - y_d_dot x_d_ddot)/|p_d_dot|^2
+///   u_d       = |p_d_dot|
 /// `held_rad` is the psi_d of the step before, for a path that stands still.
 template <class T>
 PathGuidance<T> open_path(const PathPoint<T>& path, const T& held_rad) {
@@ -63,10 +68,12 @@ PathGuidance<T> open_path(const PathPoint<T>& path, const T& held_rad) {
           (path.vx_mps * path.ay_mps2 - path.vy_mps * path.ax_mps2) / speed2, sqrt(speed2)};
 }
 
-/// Closed in position, with k > 0 in 1/s and e_p = p_d - p:
-///   psi_d = atan2(w_y, w_x) - beta  with  w = p_d_dot + k e_p,
-///   u_d = max(0, |p_d_dot| + k e_p . t),  t the direction of the path
-/// so that on the path the speed is the path's own, and behind it the vehicle catches up.
+/// This project's form, with the position fed back. With e_p = p_d - p, k = gain_per_s > 0, the
+/// direction t of the path and w = p_d_dot + k e_p:
+///   psi_d = atan2(w_y, w_x) - beta
+///   u_d   = max(0, |p_d_dot| + k e_p . t)
+/// On the path the speed is the path's own, and behind it the vehicle catches up. `sideslip` is
+/// beta, rad, and `held_rad` as in open_path().
 template <class T>
 PathGuidance<T> closed_path(const PathPoint<T>& path, const T& gain_per_s,
                             const Position<T>& position_m, const T& sideslip, const T& held_rad) {

@@ -6,32 +6,39 @@
 
 namespace awmr {
 
-/// Second order, critically damped, its rate and acceleration limited:
-///   e = wrap(psi_in - psi_d),  r_des = sat(w e/2, r_max),
+/// A filter of second order, critically damped, with its rate and its acceleration limited:
+///   e          = wrap(psi_in - psi_d)
+///   r_des      = sat(w e/2, r_max)
 ///   psi_d_ddot = sat(2 w (r_des - psi_d_dot), a_max)
-/// which without the limits is psi_ddot + 2 w psi_dot + w^2 psi = w^2 psi_in.
+/// Without the limits it is psi_d_ddot + 2 w psi_d_dot + w^2 psi_d = w^2 psi_in.
 template <class T>
 struct HeadingShaping {
-  T omega_radps;       ///< w > 0; w T_s <= 0.5 keeps the discrete filter without overshoot
-  T rate_max_radps;    ///< r_max > 0
-  T accel_max_radps2;  ///< a_max > 0
+  /// w, rad/s, > 0: bandwidth. Larger: the reference follows faster. w T_s <= 0.5 keeps the
+  /// discrete filter without overshoot.
+  T omega_radps;
+  /// r_max, rad/s, > 0: such as the largest yaw rate that the turning trials covered.
+  T rate_max_radps;
+  /// a_max, rad/s^2, > 0: such as what the vehicle's yaw moment can do.
+  T accel_max_radps2;
 };
 
+/// The filter's output, which is its state too.
 template <class T>
 struct ShapedHeading {
-  T psi_rad;           ///< psi_d, unwrapped
-  T psi_rate_radps;    ///< psi_d_dot
-  T psi_accel_radps2;  ///< psi_d_ddot over the step that ends here
+  T psi_rad;           ///< psi_d, rad, not wrapped
+  T psi_rate_radps;    ///< psi_d_dot, rad/s
+  T psi_accel_radps2;  ///< psi_d_ddot, rad/s^2, over the step that ends here
 };
 
-/// At rest on a heading.
+/// The filter at rest on a heading.
 template <class T>
 ShapedHeading<T> start_shaping(const T& psi_rad) {
   return {psi_rad, T(0.0), T(0.0)};
 }
 
-/// One sample on (semi-implicit Euler: the new rate moves the heading). `target_rad` may jump and
-/// may be wrapped: the filter takes the short way round.
+/// Moves the filter on by one sample towards psi_in = target_rad, which may jump and may be
+/// wrapped: the filter takes the short way round. The step is semi-implicit Euler: the new rate
+/// moves the heading.
 template <class T>
 void shape(const HeadingShaping<T>& filter, const T& target_rad, const T& sample_time_s,
            ShapedHeading<T>& state) {

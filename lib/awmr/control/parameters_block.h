@@ -11,32 +11,34 @@
 
 namespace awmr {
 
-/// Where a table's entries lie: see ResistanceTable.
+/// Where the entries of a ResistanceTable lie; its members say what each of these is.
 struct TableShape {
-  uint32_t count;
-  uint32_t first;
-  uint32_t mantissa_bits;
-  float slope_at_rest;
+  uint32_t count;          ///< entries; 0: there is no table, the power law is computed by powf
+  uint32_t first;          ///< ResistanceTable::first
+  uint32_t mantissa_bits;  ///< ResistanceTable::mantissa_bits
+  float slope_at_rest;     ///< ResistanceTable::slope_at_rest
 };
 
-/// Of 32-bit members only, so without padding: the same bytes on every little-endian machine.
+/// All parameters of the firmware. It has 32-bit members only and so no padding: its bytes, and the
+/// check sum over them, are the same on every little-endian machine.
 struct ParameterBlock {
-  float surge_alpha_beta[2];
-  float yaw_alpha_beta[2];
+  float surge_alpha_beta[2];  ///< a1, b1
+  float yaw_alpha_beta[2];    ///< a3, b3
   ControlConstants<float> constants;
   SafetyLimits safety;
-  TableShape surge_table;  ///< count 0: by powf
-  TableShape yaw_table;
+  TableShape surge_table;  ///< of g1
+  TableShape yaw_table;    ///< of g3
 };
 
-/// CRC-32 going on over `size` bytes that lie in flash on an AVR.
+/// The CRC-32 that goes on from `crc` over `size` bytes, which lie in flash on an AVR.
 inline uint32_t crc32_of_flash(uint32_t crc, const void* address, size_t size) {
   const uint8_t* bytes = static_cast<const uint8_t*>(address);
   for (size_t i = 0; i < size; ++i) crc = crc32_with(crc, flash_byte(bytes + i));
   return crc;
 }
 
-/// Of the block, the surge table's values and the yaw table's, in this order.
+/// The check sum of the firmware's parameters: CRC-32 of the block, the surge table's values and
+/// the yaw table's, in this order.
 inline uint32_t crc32_of_parameters(const ParameterBlock* block, const float* surge_values,
                                     size_t surge_count, const float* yaw_values, size_t yaw_count) {
   uint32_t crc = crc32_of_flash(kCrc32Start, block, sizeof *block);

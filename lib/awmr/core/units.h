@@ -3,16 +3,19 @@
 
 namespace awmr {
 
+/// Half a turn, rad, rounded to the scalar.
 template <class T>
 constexpr T pi() {
   return T(3.14159265358979323846);
 }
 
+/// An angle or angular rate given in degrees, in radians.
 template <class T>
 constexpr T radians(T degrees) {
   return degrees * T(3.14159265358979323846 / 180.0);
 }
 
+/// An angle or angular rate given in radians, in degrees.
 template <class T>
 constexpr T degrees(T radians) {
   return radians * T(180.0 / 3.14159265358979323846);

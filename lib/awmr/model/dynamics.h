@@ -1,4 +1,7 @@
 /// The 3-DOF vehicle and its steering servo. Templates on the scalar: double, float, ceres::Jet.
+///
+/// Which equation of the paper is implemented where, and what the printed ones have wrong that is
+/// not implemented as such: README.md in this folder.
 #pragma once
 
 #include "awmr/model/resistance.h"
@@ -7,26 +10,46 @@
 
 namespace awmr {
 
-/// What the equations of motion need to know. All forces are over F_max, the largest force of one
-/// motor.
+/// What the equations of motion need to know of a vehicle. Every force is divided by F_max, the
+/// largest force of one motor in N, so that forces are dimensionless and moments are in m.
 template <class T>
 struct Plant {
-  Resistance<T> surge;        ///< g1(u), dimensionless
-  Resistance<T> yaw;          ///< g3(r), m
-  T sway_alpha;               ///< a_s in g2(v) = a_s v, s/m                          [paper App. B]
-  T mass_norm;                ///< m' = m / F_max, s^2/m, > 0                          [paper (66)]
-  T inertia_norm;             ///< I'z = Iz / F_max, s^2 m, > 0                        [paper (67)]
-  T front_axle_m;             ///< l_f, centre of gravity to front axle, > 0
-  T half_track_m;             ///< d, centre line to a wheel, > 0
-  T steering_max_rad;         ///< stop of the front wheels, either side, > 0
-  T steering_max_rate_radps;  ///< the servo's fastest turn, > 0
-  T steering_time_constant_s;  ///< T, the servo's first-order lag, > 0
-  T wheel_dead_zone = T(0.0);  ///< F'0, the part of each F' that moves nothing, >= 0
+  /// g1(u), dimensionless: resistance to surge over F_max. From surge trials or a driven log.
+  Resistance<T> surge;
+  /// g3(r), m: resistance to yaw over F_max. From turning trials or a driven log.
+  Resistance<T> yaw;
+  /// a_s, s/m, > 0: resistance to sway over F_max, g2(v) = a_s v. From a log that measures sway, or
+  /// given: the paper prints it as alpha_3 = 3 and gives no trial for it.            [paper App. B]
+  T sway_alpha;
+  /// m' = m/F_max, s^2/m, > 0. From a coast-down or a driven log.                      [paper (66)]
+  T mass_norm;
+  /// I'z = Iz/F_max, s^2 m, > 0. From m' and Iz, or a driven log.                      [paper (67)]
+  T inertia_norm;
+  /// l_f, m, > 0: from the centre of gravity forward to the front axle. Measured on the vehicle.
+  T front_axle_m;
+  /// d, m, > 0: from the centre line to the middle of a wheel. Measured on the vehicle.
+  T half_track_m;
+  /// d_max, rad, in (0, pi/2): stop of the front wheels, the same on either side. Data sheet.
+  T steering_max_rad;
+  /// d_rate_max, rad/s, > 0: the servo's fastest turn, either way. Data sheet.
+  T steering_max_rate_radps;
+  /// T, s, > 0: time constant of the servo's first-order lag. Data sheet, or a log of its angle.
+  T steering_time_constant_s;
+  /// F'0, over F_max, >= 0: the part of each wheel's force command that moves nothing. 0: none, as
+  /// in the paper; another value comes from the dead-zone family of resistances.
+  T wheel_dead_zone = T(0.0);
 };
 
 namespace detail {
 
-/// Body rates from the resultant of the wheels: X, Y over F_max and the yaw moment over F_max in m.
+/// Rates of the state from the resultant of the wheels: forces X = surge_force (forward) and
+/// Y = sway_force (left) over F_max, yaw moment N = yaw_moment_m over F_max in m.
+///   x_dot   = u cos psi - v sin psi
+///   y_dot   = u sin psi + v cos psi
+///   psi_dot = r
+///   u_dot   = (X + m' r v - g1(u)) / m'
+///   v_dot   = (Y - m' r u - g2(v)) / m',   g2(v) = a_s v
+///   r_dot   = (N          - g3(r)) / I'z                                              [paper (39)]
 template <class T>
 State<T> rates(const Plant<T>& p, const State<T>& s, const T& surge_force, const T& sway_force,
                const T& yaw_moment_m, const T& steering_rate_radps) {
@@ -35,16 +58,11 @@ State<T> rates(const Plant<T>& p, const State<T>& s, const T& surge_force, const
   const T cos_psi = cos(s.psi_rad);
   const T sin_psi = sin(s.psi_rad);
   State<T> d{};
-  // x_dot = u cos psi - v sin psi;  y_dot = u sin psi + v cos psi;  psi_dot = r
-  //                     [paper (39); (20), (29)-(31) corrected: sign of the g2 sin psi term in x]
   d.x_m = s.u_mps * cos_psi - s.v_mps * sin_psi;
   d.y_m = s.u_mps * sin_psi + s.v_mps * cos_psi;
   d.psi_rad = s.r_radps;
-  // u_dot = (X + m' r v - g1(u)) / m'
   d.u_mps = (surge_force - p.surge(s.u_mps)) / p.mass_norm + s.r_radps * s.v_mps;
-  // v_dot = (Y - m' r u - g2(v)) / m',  g2(v) = a_s v
   d.v_mps = (sway_force - p.sway_alpha * s.v_mps) / p.mass_norm - s.r_radps * s.u_mps;
-  // r_dot = (N - g3(r)) / I'z
   d.r_radps = (yaw_moment_m - p.yaw(s.r_radps)) / p.inertia_norm;
   d.steering_rad = steering_rate_radps;
   return d;
@@ -52,7 +70,9 @@ State<T> rates(const Plant<T>& p, const State<T>& s, const T& surge_force, const
 
 }  // namespace detail
 
-/// d_r_dot = sat((sat(d_ro, d_max) - d_r)/T, d_rate_max)                               [paper (44)]
+/// The servo, rad/s: a first-order lag whose target and whose rate are limited.
+///   d_r_dot = sat((sat(d_ro, d_max) - d_r)/T, d_rate_max)                        [paper (43)-(44)]
+/// d_ro is the angle commanded, rad, left positive.
 template <class T>
 T steering_rate(const Plant<T>& p, const T& steering_rad, const T& steering_command_rad) {
   const T target = math::saturate(steering_command_rad, p.steering_max_rad);
@@ -60,11 +80,13 @@ T steering_rate(const Plant<T>& p, const T& steering_rad, const T& steering_comm
                         p.steering_max_rate_radps);
 }
 
-/// The four-wheel form, each wheel's force its own.
-///   u_dot = (S_f cos d_r + S_r + m' r v - g1(u)) / m',   S_f = F'FL + F'FR,  S_r = F'RL + F'RR
-///   v_dot = (S_f sin d_r - m' r u - g2(v)) / m'
+/// Rates of the state where each wheel has a force of its own. With S_f = F'FL + F'FR and
+/// S_r = F'RL + F'RR, the last three are
+///   u_dot = (S_f cos d_r + S_r + m' r v - g1(u)) / m'
+///   v_dot = (S_f sin d_r       - m' r u - g2(v)) / m'
 ///   r_dot = (l_f S_f sin d_r + d cos d_r (F'FR - F'FL) + d (F'RR - F'RL) - g3(r)) / I'z
-/// [paper (39), corrected: the printed rear term repeats the front pair; (31): F'RR - F'RL]
+/// and the first three those of detail::rates.                              [paper (39), corrected]
+/// Corrected: the rear term of the printed r_dot repeats the front pair of forces.
 template <class T>
 State<T> state_rates(const Plant<T>& p, const State<T>& s, const WheelForces<T>& f,
                      const T& steering_command_rad) {
@@ -85,17 +107,18 @@ State<T> state_rates(const Plant<T>& p, const State<T>& s, const WheelForces<T>&
                        steering_rate(p, s.steering_rad, steering_command_rad));
 }
 
-/// tau_speed, tau_steering and tau_diff: what two side forces and a steering angle amount to.
+/// What two side forces and a steering angle amount to. All are over F_max.
 template <class T>
 struct GeneralisedForces {
-  T tau_speed;       ///< dimensionless, forward positive
-  T tau_steering_m;  ///< yaw moment of the steered front wheels over F_max, m
-  T tau_diff_m;      ///< yaw moment of the right-left difference over F_max, m
+  T tau_speed;       ///< dimensionless: thrust along the body's x axis, forward positive
+  T tau_steering_m;  ///< m: yaw moment of the steered front wheels, counter-clockwise positive
+  T tau_diff_m;      ///< m: yaw moment of the right-left difference, counter-clockwise positive
 };
 
-/// tau_speed = (F'L + F'R)(cos d_r + 1),  tau_steering = l_f (F'L + F'R) sin d_r,
-/// tau_diff = d (F'R - F'L)(cos d_r + 1)                                                [paper
-/// (41)]
+/// The generalised forces of side forces F'L, F'R at a steering angle d_r.
+///   tau_speed    =     (F'L + F'R) (cos d_r + 1)
+///   tau_steering = l_f (F'L + F'R)  sin d_r
+///   tau_diff     = d   (F'R - F'L) (cos d_r + 1)                                      [paper (41)]
 template <class T>
 GeneralisedForces<T> generalised_forces(const T& front_axle_m, const T& half_track_m,
                                         const SideForces<T>& f, const T& steering_rad) {
@@ -107,11 +130,11 @@ GeneralisedForces<T> generalised_forces(const T& front_axle_m, const T& half_tra
           half_track_m * (f.right - f.left) * one_plus_cos};
 }
 
-/// The reduced form, left and right pairs alike.
-///   u_dot = (tau_speed + m' r v - g1(u)) / m'
-///   v_dot = (tau_steering/l_f - m' r u - g2(v)) / m'
-///   r_dot = (tau_steering + tau_diff - g3(r)) / I'z                                     [paper
-///   (40)]
+/// Rates of the state where the wheels of a side are driven alike. The last three are
+///   u_dot = (tau_speed               + m' r v - g1(u)) / m'
+///   v_dot = (tau_steering/l_f        - m' r u - g2(v)) / m'
+///   r_dot = (tau_steering + tau_diff          - g3(r)) / I'z                          [paper (40)]
+/// with tau_turn = tau_steering + tau_diff, and the first three those of detail::rates.
 template <class T>
 State<T> state_rates(const Plant<T>& p, const State<T>& s, const SideForces<T>& f,
                      const T& steering_command_rad) {

@@ -36,13 +36,15 @@ namespace float_math {
 inline uint32_t magnitude_bits(float x) { return bits_of(x) & 0x7FFFFFFFUL; }
 constexpr uint32_t kInfinityBits = 0x7F800000UL;
 
-/// Orders as the values do, -0 with 0; NaN beyond the infinities.
+/// A whole number that orders as the floats do: -0 is equal to 0, a NaN lies beyond the infinity of
+/// its sign.
 inline int32_t order_of(float x) {
   const int32_t magnitude = static_cast<int32_t>(magnitude_bits(x));
   return (bits_of(x) & 0x80000000UL) != 0 ? -magnitude : magnitude;
 }
 inline bool is_nan(float x) { return magnitude_bits(x) > kInfinityBits; }
 
+/// The largest angle, rad, that these functions take.
 constexpr float kAngleMax = 8192.0F;
 
 constexpr float kPi = 3.14159265F;
@@ -82,7 +84,7 @@ inline float atan_poly(float t) {
 
 constexpr float kTanPiBy8 = 0.414213562F;
 
-/// sin(x + quarter pi/2).
+/// sin(x + quarter pi/2), so that quarter 0 is the sine and quarter 1 the cosine.
 inline float sin_from(float x, int quarter) {
   if (!(::fabsf(x) <= kAngleMax)) return not_a_number();
   const int k = nearest(x * 0.636619772F);
@@ -94,15 +96,15 @@ inline float sin_from(float x, int quarter) {
 
 }  // namespace detail
 
-/// Worst error 7.9e-8.
+/// sin x, |x| <= kAngleMax. Worst error 7.9e-8.
 inline float sin(float x) { return detail::sin_from(x, 0); }
 
-/// Worst error 7.9e-8.
+/// cos x, |x| <= kAngleMax. Worst error 7.9e-8.
 inline float cos(float x) { return detail::sin_from(x, 1); }
 
 namespace detail {
 
-/// eighths pi/4.
+/// `eighths` times pi/4, for 0 to 4.
 inline float eighths_of_turn(uint8_t eighths) {
   // No switch, which compilers turn into a table in RAM.
   if (eighths == 0) return 0.0F;
@@ -116,7 +118,8 @@ inline float eighths_of_turn(uint8_t eighths) {
 /// The angle of (x, y) in (-pi, pi], 0 at the origin; a zero has no sign here. Both finite and
 /// below 1.7e38. Worst error 5e-7, and 9e-7 of the value.
 ///
-/// The octant's angle, eighths pi/4, plus or minus the arc tangent of a ratio below tan(pi/8).
+/// Computed as an octant's angle, a multiple of pi/4, plus or minus the arc tangent of a ratio
+/// below tan(pi/8).
 inline float atan2(float y, float x) {
   float small = ::fabsf(y);
   float large = ::fabsf(x);
@@ -146,7 +149,7 @@ inline float atan2(float y, float x) {
   return bits_of(y) >> 31U != 0 && magnitude_bits(y) != 0 ? -angle : angle;
 }
 
-/// Worst error 9e-7 of the value.
+/// atan x. Worst error 9e-7 of the value.
 inline float atan(float x) { return atan2(x, 1.0F); }
 
 /// 2 atan(2 h), the angle with tan(angle/2) = 2 h. Worst error 5e-7 of the value to 22.6 deg, 9e-7

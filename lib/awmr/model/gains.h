@@ -1,28 +1,38 @@
-/// Controller gains and their time constants. Freestanding C++14.
+/// Controller gains and the time constants that follow from them. Freestanding C++14.
 #pragma once
 
 namespace awmr {
 
-/// Heading, S = e_dot + lambda e in rad/s.                                        [paper (82), (89)]
+/// Gains of the heading law, heading_law() in control/controller.h, on S = e_dot + lambda e.
 template <class T>
 struct HeadingGains {
-  T lambda;   ///< 1/s, > 0: slope of the sliding surface
-  T mu;       ///< rad/s^2, > 0: corrective yaw acceleration, has to dominate |disturbance|/I'z
-  T epsilon;  ///< rad/s, > 0: half width of the boundary layer, |S| <= epsilon
+  /// lambda, 1/s, > 0: slope of the sliding surface. Larger: the heading error falls faster.
+  T lambda;
+  /// mu, rad/s^2, > 0: largest corrective yaw acceleration. It has to exceed |disturbance|/I'z.
+  T mu;
+  /// epsilon, rad/s, > 0: half width of the boundary layer |S| <= epsilon, in which the correction
+  /// is proportional to S. Larger: less chattering, a softer response.
+  T epsilon;
 
-  /// T1 = 1/lambda, s: decay of the error on the surface.                               [paper (91)]
+  /// T1, s: on the surface S = 0 the error falls as exp(-t/T1).
+  ///   T1 = 1/lambda                                                              [paper (90)-(91)]
   T sliding_time_constant_s() const { return T(1.0) / lambda; }
-  /// T2 = epsilon/(2 mu), s: decay of V = S^2/2 in the layer. S itself decays with 2 T2. [paper (95)]
+
+  /// T2, s: in the boundary layer V = S^2/2 falls as exp(-t/T2), so S itself with 2 T2.
+  ///   T2 = epsilon/(2 mu)                                             [paper (92)-(95), corrected]
+  /// Corrected: the paper calls this phase sliding; the surface is still being reached.
   T reaching_time_constant_s() const { return epsilon / (T(2.0) * mu); }
 };
 
-/// Surge, on the error u_d - u.                                                        [paper (102)]
+/// Gains of the speed law, speed_law() in control/controller.h, on e_u = u_d - u. The paper prints
+/// no values for them.
 template <class T>
 struct SpeedGains {
-  T mu;       ///< m/s^2, > 0
-  T epsilon;  ///< m/s, > 0
+  T mu;       ///< mu_s, m/s^2, > 0: largest corrective acceleration
+  T epsilon;  ///< eps_s, m/s, > 0: half width of the layer |e_u| <= eps_s, proportional inside
 };
 
+/// The gains of both loops.
 template <class T>
 struct Gains {
   HeadingGains<T> heading;

@@ -18,29 +18,36 @@
 
 namespace awmr {
 
-enum class Source { kGiven, kDerived, kFitted };
+/// Where a number comes from.
+enum class Source {
+  kGiven,    ///< by the user, in vehicle.json
+  kDerived,  ///< computed from other numbers of the model, such as I'z from m' and Iz
+  kFitted,   ///< estimated from trials
+};
 
-/// One number, as honest as it can be: no value where the data cannot show it.
+/// One identified number with its uncertainty and its origin.
 struct Estimate {
-  std::optional<double> value;
-  std::optional<double> std_error;
-  std::optional<Interval> ci95;
+  std::optional<double> value;      ///< in the parameter's unit; absent: the data cannot show it
+  std::optional<double> std_error;  ///< in the same unit, > 0; absent: given, or too few data
+  std::optional<Interval> ci95;     ///< 95 % confidence interval; absent as `std_error`
   Source source = Source::kGiven;
   std::string method;  ///< "log-linear", "box formula", "vehicle.json", ...
 };
 
+/// The covariance of the fitted parameters.
 struct Covariance {
-  std::vector<ParameterId> parameters;
+  std::vector<ParameterId> parameters;      ///< which row and column is whose
   std::vector<std::vector<double>> matrix;  ///< square, symmetric, over `parameters`
 };
 
 /// The vehicle as identified: what is known beforehand, the resistance families, every quantity
 /// with its uncertainty.
 struct Model {
-  /// Nothing known but that a power law has no other terms.
+  /// A model of which nothing is known yet. Only the terms that a power law does not have are set,
+  /// to 0.
   Model();
 
-  std::string file = "model.json";  ///< the name that errors about it carry; the path it was read from
+  std::string file = "model.json";  ///< what errors call it: the path that it was read from
   Vehicle vehicle;
   Family surge_family = Family::kPower;
   Family yaw_family = Family::kPower;
@@ -53,15 +60,16 @@ struct Model {
     return estimates[static_cast<std::size_t>(id)];
   }
 
-  /// Everything the simulator needs. Errors (input): a parameter has no value; it is named with the
-  /// trial that would show it.
+  /// The plant that the estimates and the vehicle make, for simulation and control.
+  /// Errors (input): a parameter has no value; each is named with the trial that would show it.
   Result<Plant<double>> plant() const;
 };
 
-/// F_max = m/m', N.                                                                     [paper
-/// (66)]
+/// The largest force of one motor, N:
+///   F_max = m/m'                                                                      [paper (66)]
 double max_wheel_force_n(double mass_kg, double mass_norm);
 
+/// Errors: as read_json_file; unknown, missing or impossible values.
 Result<Model> read_model(const std::filesystem::path& path);
 /// The bytes of model.json.
 std::string model_text(const Model& model);

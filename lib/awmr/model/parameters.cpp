@@ -13,8 +13,8 @@ constexpr std::string_view kTurningTrial =
 }  // namespace
 
 const std::array<ParameterInfo, kParameterCount>& parameter_table() {
-  // g1(u) = a1 |u|^b1 sgn u is dimensionless and g3(r) = a3 |r|^b3 sgn r in m, which sets the
-  // units.
+  // The units follow from g1(u) = a1 |u|^b1 sgn u, which is dimensionless, and from
+  // g3(r) = a3 |r|^b3 sgn r, which is in m.
   static constexpr std::array<ParameterInfo, kParameterCount> kTable{{
       {ParameterId::kSurgeAlpha, "surge.alpha", "/surge/alpha", "a1", "(s/m)^b1",
        "surge resistance at 1 m/s over F_max", kSurgeTrial},

@@ -10,10 +10,12 @@
 
 namespace awmr {
 
-/// By ParameterId.
+/// A value for each parameter, indexed by ParameterId, in the units of parameter_table().
 template <class T>
 using ParameterValues = std::array<T, kParameterCount>;
 
+/// The plant of these values and the vehicle's geometry and steering limits. The one place where
+/// parameters become the numbers of the equations of motion.
 template <class T>
 Plant<T> plant_of(const Vehicle& vehicle, const ParameterValues<T>& values) {
   const auto value = [&values](ParameterId id) { return values[static_cast<std::size_t>(id)]; };

@@ -5,30 +5,37 @@
 
 namespace awmr {
 
-/// g(w) = (c + alpha |w|^beta + q w^2) sgn w            [paper (47), (63) with c = q = 0; odd
-/// extension]
+/// The force or moment that resists a speed w, positive against motion in w's direction:
+///   g(w) = (c + alpha |w|^beta + q w^2) sgn w                                   [paper (47), (63)]
+/// The paper has c = q = 0 and w > 0 only; its law is extended here to an odd curve.
 ///
-/// Surge: w = u in m/s, g1 dimensionless (force over F_max). Yaw: w = r in rad/s, g3 in m (moment
-/// over F_max). alpha > 0 in the unit of g per unit of w^beta; beta >= 0, in [0, 1] for surge in
-/// the paper; c >= 0 (Coulomb) in the unit of g; q >= 0 in the unit of g per unit of w^2.
-///
-/// For beta < 1 the slope at rest is infinite, for c > 0 the curve jumps there. A simulation of
-/// step h cannot follow time constants below h, so below `rest_speed` the curve is its chord to the
-/// origin; 0 keeps the law exact (simulate/ states how it chooses the value).
+/// Surge: g1 of w = u in m/s, dimensionless (a force over F_max). Yaw: g3 of w = r in rad/s, in m
+/// (a moment over F_max). Which terms are free is the family's choice (family.h).
 template <class T>
 struct Resistance {
+  /// alpha, > 0: resistance at unit speed where c = q = 0. Surge: a1, (s/m)^b1; yaw: a3,
+  /// m (s/rad)^b3. Fitted to steady runs or logs.
   T alpha;
+  /// beta, dimensionless, >= 0: how steeply the resistance rises. Surge: b1, in [0, 1] in the
+  /// paper; yaw: b3. Below 1 the slope at rest is infinite.
   T beta;
+  /// Surge: m/s, yaw: rad/s; >= 0: below it the curve is replaced by its chord to the origin. 0,
+  /// for fits and steady states, keeps the law exact. A simulation sets it (see rest_speed() in
+  /// steady.h), because at rest the slope is infinite for beta < 1 and the curve jumps for c > 0,
+  /// and steps of h seconds cannot follow time constants below h.
   T rest_speed = T(0.0);
+  /// c, in the unit of g, >= 0: Coulomb friction, the same at every speed. 0 in the paper.
   T coulomb = T(0.0);
+  /// q, >= 0: quadratic part. Surge: q1, s^2/m^2; yaw: q3, m s^2/rad^2. 0 in the paper.
   T quadratic = T(0.0);
 
-  /// g at |w| = magnitude > 0, without chord or sign.
+  /// g(magnitude) for a magnitude > 0, without the chord.
   T at(const T& magnitude) const {
     using math::pow;
     return coulomb + alpha * pow(magnitude, beta) + quadratic * magnitude * magnitude;
   }
 
+  /// g(speed) with sign and chord, for any speed; 0 at 0.
   T operator()(const T& speed) const {
     using math::abs;
     const T magnitude = abs(speed);
@@ -38,19 +45,21 @@ struct Resistance {
   }
 };
 
-/// The law as a controller feeds it forward. A curve that jumps at rest would make the command chatter
-/// between +c and -c there, so below this speed (m/s, rad/s) it is its chord.
+/// Below this speed (m/s, rad/s) a controller feeds the chord of a curve with Coulomb friction
+/// forward: the curve jumps at rest, so the command would chatter between +c and -c there.
 template <class T>
 constexpr T feed_forward_rest_speed() {
   return T(0.02);
 }
+/// The law as a controller feeds it forward: with a chord at rest where it would jump there.
 template <class T>
 Resistance<T> feed_forward(Resistance<T> law) {
   if (law.coulomb > T(0.0)) law.rest_speed = feed_forward_rest_speed<T>();
   return law;
 }
 
-/// The command that leaves `force` beyond a motor's dead zone; 0 for 0.
+/// The command of which a motor with a dead zone makes `force`; 0 for 0. Both are over F_max, and
+/// zone = F'0 >= 0. The inverse of beyond_dead_zone() for every force but 0.
 template <class T>
 T with_dead_zone(const T& force, const T& zone) {
   if (force > T(0.0)) return force + zone;
@@ -58,8 +67,8 @@ T with_dead_zone(const T& force, const T& zone) {
   return force;
 }
 
-/// What is left of a command after a motor's dead zone, >= 0: it does nothing up to `zone` and
-/// loses that much beyond.
+/// The force that a motor with a dead zone makes of `command`: none while |command| <= zone, and
+/// beyond that the command less the zone. Both are over F_max, and zone = F'0 >= 0.
 template <class T>
 T beyond_dead_zone(const T& command, const T& zone) {
   if (command > zone) return command - zone;

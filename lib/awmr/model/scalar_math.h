@@ -35,13 +35,14 @@ T saturate(const T& x, const T& limit) {
   return x;
 }
 
-/// By the bits, to the same result; NaN stays NaN. limit >= 0.
+/// The same for float, limit >= 0, by comparing bits, which costs the chip less. NaN stays NaN.
 inline float saturate(float x, float limit) {
   const uint32_t magnitude = float_math::magnitude_bits(x);
   if (magnitude <= float_math::magnitude_bits(limit) || float_math::is_nan(x)) return x;
   return bits_of(x) >> 31U != 0 ? -limit : limit;
 }
 
+/// x inside [lo, hi], the nearer end outside; lo <= hi.
 template <class T>
 T clamp(const T& x, const T& lo, const T& hi) {
   if (x > hi) return hi;

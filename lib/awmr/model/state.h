@@ -1,33 +1,40 @@
-/// Named state of the vehicle: right-handed, x forward, y left, psi counter-clockwise. Freestanding C++14.
+/// What moves and what is commanded, by name. Freestanding C++14.
+///
+/// World frame: x and y fixed to the ground. Body frame: origin at the centre of gravity, x forward
+/// and y left. Both are right-handed with z up, so angles and yaw rates count counter-clockwise.
 #pragma once
 
 namespace awmr {
 
+/// The state X = (x, y, psi, u, v, r) and the servo's angle beside it. The same struct holds the
+/// state's derivative in time; each field is then per second.
 template <class T>
 struct State {
-  T x_m;
-  T y_m;
-  T psi_rad;       ///< heading, unwrapped, counter-clockwise from the x axis
-  T u_mps;         ///< surge, forward positive
-  T v_mps;         ///< sway, left positive
-  T r_radps;       ///< yaw rate, counter-clockwise positive
-  T steering_rad;  ///< d_r, the front wheels' angle as it is, left positive
+  T x_m;           ///< x, m: position of the centre of gravity in the world frame
+  T y_m;           ///< y, m: the same
+  T psi_rad;       ///< psi, rad: heading, counter-clockwise from the world's x axis; not wrapped
+  T u_mps;         ///< u, m/s: surge speed along the body's x axis, forward positive
+  T v_mps;         ///< v, m/s: sway speed along the body's y axis, left positive
+  T r_radps;       ///< r, rad/s: yaw rate, counter-clockwise positive
+  T steering_rad;  ///< d_r, rad: angle of the front wheels as it is, left positive; |d_r| <= d_max
 };
 
-/// One force per side, over F_max: the left and right pairs are driven alike.
+/// The forces where both wheels of a side are driven alike. Each is the force of ONE wheel over
+/// F_max, dimensionless, in [-1, 1], forward positive.
 template <class T>
 struct SideForces {
-  T left;
-  T right;
+  T left;   ///< F'L = F'FL = F'RL
+  T right;  ///< F'R = F'FR = F'RR
 };
 
-/// One force per wheel, over F_max.
+/// The forces where each wheel has its own: over F_max, dimensionless, in [-1, 1], along the wheel,
+/// forward positive.
 template <class T>
 struct WheelForces {
-  T front_left;
-  T front_right;
-  T rear_left;
-  T rear_right;
+  T front_left;   ///< F'FL
+  T front_right;  ///< F'FR
+  T rear_left;    ///< F'RL
+  T rear_right;   ///< F'RR
 };
 
 }  // namespace awmr

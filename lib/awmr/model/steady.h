@@ -7,22 +7,27 @@
 
 namespace awmr {
 
-/// The w > 0 with g(w) = force: steady speed in m/s under tau_speed, or yaw rate in rad/s under
-/// tau_turn. None where the force does not overcome c, or the curve never reaches it.
+/// The w > 0 at which the resistance holds a force: g(w) = force. For g1 and force = tau_speed it
+/// is the steady speed in m/s, for g3 and force = tau_turn in m the steady yaw rate in rad/s.
+/// None where the force does not overcome Coulomb friction c, or the curve never reaches it.
 std::optional<double> steady_rate(const Resistance<double>& law, double force);
 
-/// Time from motors-off at speed_mps > 0 to rest, s:
-///   t_a = m' int_0^u dw / g(w) = m' u^(1-b) / ((1-b) a) for a power law         [paper (59),
-///   solved]
-/// None where the vehicle never stops: c = 0 and b >= 1.
+/// Time from motors off at speed_mps = u > 0 to rest, s:
+///   t_a = m' int_0^u dw/g(w)
+///       = m' u^(1-beta) / ((1-beta) alpha)   for a power law                     [paper (55)-(59)]
+/// None where the vehicle never stops: c = 0 and beta >= 1.
 std::optional<double> stop_time_s(const Resistance<double>& law, double mass_norm,
                                   double speed_mps);
 
-/// Speed below which a simulation of step h takes the resistance as its chord
-/// (Resistance::rest_speed). On the chord the speed decays at g(w)/(w inertia); Runge-Kutta is
-/// stable to rate h < 2.78 and monotone to about 1, so w is where that rate is 1/h:
-///   w = (alpha h / inertia)^(1/(1 - beta))   for a power law of beta < 1, by iteration of
-///   w = g(w) h / inertia                     with a Coulomb part;   0, no such speed, otherwise.
+/// The speed, m/s or rad/s, below which a simulation with steps of h = step_s seconds replaces the
+/// resistance by its chord (Resistance::rest_speed). `inertia` is m' for surge and I'z for yaw.
+///
+/// On the chord that ends at w the speed decays at the rate g(w)/(w inertia). The Runge-Kutta
+/// method is stable while rate times h is below 2.78 and monotone while it is below about 1, so w
+/// is where the rate is 1/h:
+///   w = g(w) h/inertia                        with Coulomb friction: solved by iteration
+///   w = (alpha h/inertia)^(1/(1 - beta))      for a power law of beta < 1
+///   w = 0: the law needs no chord             otherwise
 double rest_speed(const Resistance<double>& law, double inertia, double step_s);
 
 }  // namespace awmr

@@ -10,25 +10,27 @@
 
 namespace awmr {
 
+/// What the user measures on the vehicle or reads in its data sheets.
 struct Vehicle {
   std::string name;
-  double mass_kg = 0.0;           ///< m, > 0
-  double length_m = 0.0;          ///< b of the box formula, > 0
-  double width_m = 0.0;           ///< a of the box formula, > 0
-  double front_axle_m = 0.0;      ///< l_f, > 0
-  double half_track_m = 0.0;      ///< d, > 0
-  Interval wheel_force;           ///< F' of one wheel over F_max: -1 <= min < max, 0 < max <= 1
-  double steering_max_deg = 0.0;  ///< (0, 90)
-  double steering_max_rate_degps = 0.0;    ///< > 0
-  double steering_time_constant_s = 0.0;   ///< T, > 0
-  double sample_time_s = 0.0;              ///< T_s, > 0
-  std::optional<double> yaw_inertia_kgm2;  ///< measured Iz; absent: the box formula
-  std::optional<double> sway_alpha;        ///< a_s of g2, s/m
-  Interval surge_beta_range{0.0, 1.0};     ///< where b1 may lie, 0 <= lo < hi
-  Interval yaw_beta_range{0.0, 4.0};       ///< where b3 may lie, 0 <= lo < hi
+  double mass_kg = 0.0;                    ///< m, kg, > 0: as it drives, batteries included
+  double length_m = 0.0;                   ///< b of the box formula, m, > 0: along the body's x
+  double width_m = 0.0;                    ///< a of the box formula, m, > 0: along the body's y
+  double front_axle_m = 0.0;               ///< l_f, m, > 0: centre of gravity to front axle
+  double half_track_m = 0.0;               ///< d, m, > 0: centre line to the middle of a wheel
+  Interval wheel_force;                    ///< F' of one wheel: -1 <= min < max, 0 < max <= 1
+  double steering_max_deg = 0.0;           ///< d_max, deg, in (0, 90): stop, the same either side
+  double steering_max_rate_degps = 0.0;    ///< d_rate_max, deg/s, > 0: the servo's fastest turn
+  double steering_time_constant_s = 0.0;   ///< T, s, > 0: the servo's first-order lag
+  double sample_time_s = 0.0;              ///< T_s, s, > 0: between two steps of the controller
+  std::optional<double> yaw_inertia_kgm2;  ///< Iz, kg m^2, > 0, measured; absent: the box formula
+  std::optional<double> sway_alpha;        ///< a_s of g2, s/m, > 0; absent: a log has to show it
+  Interval surge_beta_range{0.0, 1.0};     ///< where a fit may put b1, 0 <= lo < hi
+  Interval yaw_beta_range{0.0, 4.0};       ///< where a fit may put b3, 0 <= lo < hi
 
-  /// Iz = m (a^2 + b^2)/12 for a uniform box, or the measured value.                    [paper
-  /// (65)]
+  /// Yaw inertia about the centre of gravity, kg m^2: the measured Iz where there is one, else that
+  /// of a uniform box,
+  ///   Iz = m (a^2 + b^2)/12                                                           [paper (65)]
   double inertia_kgm2() const;
 };
 

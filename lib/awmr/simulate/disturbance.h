@@ -25,7 +25,7 @@ inline RunSeed run_seed(std::uint64_t scenario_seed, std::uint64_t seed, std::ui
   return {scenario_seed + seed * 0x9E3779B97F4A7C15U, sample};
 }
 
-/// One axis's terms, summed.
+/// The sum of one axis's terms, sample by sample.
 class DisturbanceSource {
  public:
   /// `first_use`: of RunSeed::random, one per term.

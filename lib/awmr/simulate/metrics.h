@@ -9,6 +9,7 @@
 
 namespace awmr {
 
+/// The metrics of one run.
 struct Metrics {
   /// The guidance's goal was reached without touching an obstacle. Headings: settled after every
   /// step; waypoints: each reached; a line: its end; a timed path: within its tolerance in the
@@ -22,7 +23,7 @@ struct Metrics {
   std::optional<double> heading_iae_degs;    ///< integral of |e|
   std::optional<double> heading_itae_degs2;  ///< integral of t |e|, t from each step (for tuning)
   std::optional<double> cross_track_rms_m;   ///< from the present leg, line or path
-  double path_length_m = 0.0;
+  double path_length_m = 0.0;                ///< of the way driven
   /// Commanded speed minus the least speed after it was first reached within 0.1 %, >= 0.
   std::optional<double> speed_drop_mps;
   double sideslip_max_deg = 0.0;  ///< |atan2(v, u)| where the vehicle moves faster than 0.05 m/s
@@ -30,8 +31,9 @@ struct Metrics {
   /// Total variation of the commanded d_r/d_max, F'L/F'max and F'R/F'max, summed, per second.
   double control_variation = 0.0;
   double control_effort = 0.0;  ///< mean of F'L^2 + F'R^2 + (d_r/d_max)^2 over the run
-  std::optional<double> clearance_min_m;
-  std::optional<double> finish_time_s;
+  std::optional<double>
+      clearance_min_m;                  ///< least distance from the vehicle's circle to an obstacle
+  std::optional<double> finish_time_s;  ///< when the guidance's end was reached
 };
 
 Metrics metrics_of(const Run& run, const Scenario& scenario, const Controller<double>& controller);

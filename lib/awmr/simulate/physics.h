@@ -40,11 +40,12 @@ class Physics {
   State<double> state_;
   DisturbanceSource surge_, sway_, yaw_;
   BodyLoad load_;
-  bool loaded_;    ///< some disturbance or slope is there
-  bool by_wheel_;  ///< the wheels of a side may differ
+  bool loaded_;    ///< the scenario has a disturbance or a slope
+  bool by_wheel_;  ///< the two wheels of a side may have different forces
 };
 
-/// RK4 step h's stand-in for resistance at rest, see the .cpp.
+/// The plant whose resistances have the chord at rest that RK4 steps of step_s seconds need: see
+/// rest_speed() in model/steady.h.
 Plant<double> at_rest_resolved(Plant<double> plant, double step_s);
 
 }  // namespace awmr

@@ -11,6 +11,7 @@
 
 namespace awmr {
 
+/// The guidance of one run, with what it remembers from sample to sample.
 class Pilot {
  public:
   /// `start` is what the sensors say at t = 0.

@@ -21,15 +21,17 @@
 
 namespace awmr {
 
-/// Constant generalised forces, through the mode's allocation and limits.
+/// Constant generalised forces. They go through the mode's allocation and limits as the
+/// controller's would.
 struct OpenLoop {
-  double tau_speed = 0.0;
-  double tau_turn_m = 0.0;
+  double tau_speed = 0.0;   ///< dimensionless, forward positive
+  double tau_turn_m = 0.0;  ///< m, counter-clockwise positive
 };
 
+/// A heading and the time from which it is to be held.
 struct HeadingStep {
-  double t_s = 0.0;
-  double psi_rad = 0.0;
+  double t_s = 0.0;      ///< s, >= 0
+  double psi_rad = 0.0;  ///< rad, counter-clockwise from the world's x axis
 };
 
 /// Headings to hold, each from its time on; the first at t = 0.
@@ -65,11 +67,12 @@ struct LissajousCourse {
 
 using Guidance = std::variant<OpenLoop, HeadingSteps, WaypointCourse, LineCourse, LissajousCourse>;
 
+/// One run to simulate. What is optional is off where it is absent.
 struct Scenario {
   std::string name;
-  double duration_s = 0.0;  ///< > 0
-  State<double> initial{};
-  double speed_mps = 0.0;  ///< u_d, >= 0
+  double duration_s = 0.0;  ///< s, > 0
+  State<double> initial{};  ///< the initial state
+  double speed_mps = 0.0;   ///< u_d, m/s, >= 0
   Guidance guidance;
   std::vector<Obstacle<double>> obstacles = {};
   std::optional<Avoidance<double>> avoidance = {};  ///< absent: obstacles are only measured
@@ -84,7 +87,7 @@ struct Scenario {
   std::vector<CornerParameter> corner = {};
   std::uint64_t seed = 0;  ///< of everything random in the scenario
 
-  /// Something is drawn from a seed.
+  /// True where something in the scenario is drawn from a seed.
   bool random() const;
 };
 
@@ -94,7 +97,7 @@ Result<Scenario> read_scenario(const std::filesystem::path& path);
 /// The model with the scenario's corner parameters at the ends of their 95 % intervals.
 /// Errors (input): a parameter of the corner has no interval.
 Result<Model> model_at_corner(Model model, const Scenario& scenario);
-/// Its plant. Errors (input): as above and as Model::plant.
+/// The plant of model_at_corner(). Errors (input): as there and as Model::plant.
 Result<Plant<double>> plant_for(const Scenario& scenario, const Model& model);
 
 /// "differential", "steering", "combined".

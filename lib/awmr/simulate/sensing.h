@@ -12,11 +12,13 @@
 
 namespace awmr {
 
+/// What the controller is told at one sample.
 struct Sensed {
   Measurement<double> motion;
   Position<double> position_m;
 };
 
+/// The sensors of one run, with their noise, latency and drop-outs.
 class Sensing {
  public:
   Sensing(const std::optional<Sensors>& sensors, double sample_time_s, const RunSeed& seed);

@@ -17,7 +17,7 @@ namespace awmr {
 /// What a row tells of the course beside the vehicle's state; unused in open loop.
 struct CourseRow {
   double psi_goal_rad = 0.0;    ///< the guidance's heading, before avoidance and shaping
-  double cross_track_m = 0.0;   ///< from the present leg, line or path, left positive
+  double cross_track_m = 0.0;   ///< from the present leg, line or path; left of it is positive
   Position<double> target_m{};  ///< the point gone to: waypoint, segment's end, point of the path
   int leg = 0;                  ///< index of the waypoint or segment
 };
@@ -26,12 +26,12 @@ struct CourseRow {
 struct RunRow {
   double t_s = 0.0;
   State<double> state{};
-  SideForces<double> force{};
-  double steering_command_rad = 0.0;
-  double tau_speed = 0.0;    ///< asked for by the law, before any limit
-  double tau_turn_m = 0.0;   ///< asked for by the law, before any limit
-  double psi_ref_rad = 0.0;  ///< 0 in open loop
-  double u_ref_mps = 0.0;    ///< 0 in open loop
+  SideForces<double> force{};         ///< commanded, over F_max
+  double steering_command_rad = 0.0;  ///< d_ro, rad, left positive
+  double tau_speed = 0.0;             ///< asked for by the law, before any limit
+  double tau_turn_m = 0.0;            ///< asked for by the law, before any limit
+  double psi_ref_rad = 0.0;           ///< 0 in open loop
+  double u_ref_mps = 0.0;             ///< 0 in open loop
   CourseRow course = {};
   Measurement<double> measured = {};          ///< what the controller was told
   Position<double> measured_position_m = {};  ///< the same
@@ -46,6 +46,7 @@ enum class RunEnd {
   kNoPassage,  ///< obstacles leave no way to where the guidance leads: the vehicle stopped
 };
 
+/// One simulated run.
 struct Run {
   std::vector<RunRow> rows;  ///< at 0, T_s, 2 T_s, ... up to and including the end
   int substeps = 0;          ///< RK4 steps per sample
@@ -53,11 +54,16 @@ struct Run {
   int missed_waypoints = 0;  ///< passed by, or covered by an obstacle
 };
 
+/// How a run is computed.
 struct SimulateOptions {
-  double sample_time_s = 0.01;  ///< T_s, > 0
-  std::optional<int> substeps;  ///< RK4 steps per sample; absent: substeps_for()
-  std::uint64_t seed = 0;       ///< with the scenario's seed: of everything random
-  std::uint64_t sample = 0;     ///< another draw of the same seeds for each
+  /// T_s, s, > 0: time between two commands of the controller; the vehicle's.
+  double sample_time_s = 0.01;
+  /// RK4 steps per sample, > 0. Absent: substeps_for(). To be given to study the integration error.
+  std::optional<int> substeps;
+  /// Together with the scenario's own seed it decides everything random. Another seed: another run.
+  std::uint64_t seed = 0;
+  /// The number of the draw, where one seed is to give many runs: 0, 1, 2, ...
+  std::uint64_t sample = 0;
 };
 
 /// Steps per sample such that the step resolves the fastest time constant of the plant: see the

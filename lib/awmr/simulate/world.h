@@ -12,15 +12,14 @@
 
 namespace awmr {
 
-/// Force over F_max (surge forward, sway left positive) and moment over F_max in m,
-/// counter-clockwise positive.
+/// A force and a moment on the vehicle, in the body frame, over F_max.
 struct BodyLoad {
-  double surge = 0.0;
-  double sway = 0.0;
-  double yaw_m = 0.0;
+  double surge = 0.0;  ///< dimensionless, forward positive
+  double sway = 0.0;   ///< dimensionless, left positive
+  double yaw_m = 0.0;  ///< m, counter-clockwise positive
 };
 
-/// From `from_s` on, up to but not including `to_s`.
+/// A span of time: from `from_s` on, up to but not including `to_s`.
 struct Window {
   double from_s = 0.0;
   double to_s = std::numeric_limits<double>::infinity();
@@ -40,12 +39,13 @@ struct DisturbanceTerm {
   double bandwidth_hz = 0.0;        ///< kNoise, > 0: corner of the first-order low pass
 };
 
-/// A plane that falls by `angle_rad` towards `downhill_rad` (a heading in the world's frame).
+/// A plane that falls in one direction.
 struct Slope {
-  double angle_rad = 0.0;
-  double downhill_rad = 0.0;
+  double angle_rad = 0.0;     ///< rad, below the horizontal
+  double downhill_rad = 0.0;  ///< rad: the heading, in the world frame, in which it falls
 };
 
+/// All that pushes the vehicle beside its own wheels; the terms of an axis add up.
 struct Disturbance {
   std::vector<DisturbanceTerm> surge;
   std::vector<DisturbanceTerm> sway;
@@ -54,7 +54,7 @@ struct Disturbance {
   bool any() const { return slope || !surge.empty() || !sway.empty() || !yaw.empty(); }
 };
 
-/// By wheel: front left, front right, rear left, rear right.
+/// The four driven wheels.
 enum class Wheel { kFrontLeft, kFrontRight, kRearLeft, kRearRight };
 
 /// A motor that gives only a share of the force it is asked for.
@@ -79,11 +79,11 @@ struct Battery {
   double share_end = 1.0;  ///< [0, 1]
 };
 
-/// Standard deviations are per reading (white), biases constant; a quantum of 0 does not quantise.
+/// The errors of one sensor, in the unit of what it measures.
 struct Channel {
-  double noise = 0.0;
-  double bias = 0.0;
-  double quantum = 0.0;  ///< >= 0
+  double noise = 0.0;    ///< >= 0: standard deviation, independent from reading to reading
+  double bias = 0.0;     ///< constant over a run; its sign counts
+  double quantum = 0.0;  ///< >= 0: step of the reading; 0: none
 };
 
 /// A receiver that gives a position at its own rate, late. Between fixes the position is carried on
@@ -105,16 +105,16 @@ struct Sensors {
   std::optional<Gps> gps;
 };
 
-/// Commands as an ATmega puts them out.
+/// The steps in which a microcontroller can put out its commands.
 struct Actuators {
   double steering_quantum_rad = 0.0;  ///< > 0: one step of the servo's pulse
   int pwm_counts = 0;                 ///< > 0: counts for the force F'max
 };
 
-/// A parameter at an end of its 95 % interval.
+/// A parameter that is put at an end of its 95 % interval.
 struct CornerParameter {
   ParameterId id{};
-  bool high = true;
+  bool high = true;  ///< the upper end, else the lower
 };
 
 /// How the controller is extended, beside the laws of control/controller.h.

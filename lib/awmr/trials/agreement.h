@@ -5,14 +5,15 @@
 ///
 ///     |printed - timed| <= rounding(printed) + timed (stop_watch/elapsed + course)
 ///
-/// rounding    half a unit in the last decimal place of the printed column, at most 5 % of the
-/// value.
-///             Trailing zeros are not seen, so the place is the finest of the whole column; the 5 %
-///             keep a column of whole numbers from agreeing with everything.
-/// stop_watch  0.2 s: a hand on a stop watch is good to about 0.1 s, once at the start and once at
-/// the
-///             end. Times given to the millisecond or finer are not hand-timed: one unit of theirs.
-/// course      0.5 %: where a 10 m course (to 5 cm) or a full turn (to 2 deg) begins and ends.
+/// with
+///
+///     rounding     half a unit in the last decimal place of the printed column, and at most 5 % of
+///                  the value. Trailing zeros are not seen, so the place is the finest of the whole
+///                  column; the 5 % keep a column of whole numbers from agreeing with everything.
+///     stop_watch   0.2 s: a hand on a stop watch is good to about 0.1 s, once at the start and
+///                  once at the end. Times given to the millisecond or finer are not hand-timed:
+///                  for them it is one unit of their last place.
+///     course       0.5 %: where a 10 m course (to 5 cm) or a full turn (to 2 deg) begins and ends.
 #pragma once
 
 #include <span>
@@ -32,8 +33,8 @@ double rounding_error(double printed, double last_place);
 /// How far the truth may lie from `timed`, which was measured over `elapsed_s` > 0.
 double timing_error(double timed, double elapsed_s, double elapsed_last_place);
 
-/// Standard deviation of a time written to this last place, s: a stop watch's two presses of 0.1 s
-/// / sqrt 2 each, or the rounding of an automatic one.
+/// Standard deviation of a time written to this last place, s: that of a stop watch's two presses,
+/// 0.1/sqrt(2) s each, or of the rounding of an automatic one.
 double timing_std_s(double elapsed_last_place);
 
 }  // namespace awmr

@@ -12,18 +12,19 @@
 
 namespace awmr {
 
-/// What a log may have measured.
+/// The quantities that a log may have measured: those of State.
 enum class LogChannel { kX, kY, kHeading, kSpeed, kSway, kYawRate, kSteering };
 inline constexpr std::size_t kChannelCount = 7;
 inline constexpr std::array<LogChannel, kChannelCount> kChannels{
     LogChannel::kX,    LogChannel::kY,       LogChannel::kHeading, LogChannel::kSpeed,
     LogChannel::kSway, LogChannel::kYawRate, LogChannel::kSteering};
 
+/// How a channel is called and converted.
 struct ChannelInfo {
   std::string_view column;  ///< as in the CSV: "heading_deg"
   std::string_view name;    ///< in SI: "heading_rad"
-  std::string_view unit;    ///< "rad"
-  double to_si = 1.0;       ///< column times this
+  std::string_view unit;    ///< of the SI value: "rad"
+  double to_si = 1.0;       ///< the SI value is the column's times this
 };
 const ChannelInfo& info(LogChannel channel);
 
@@ -32,17 +33,19 @@ const ChannelInfo& info(LogChannel channel);
 struct Measured {
   std::vector<double> value;  ///< by row, SI; heading unwrapped
   std::vector<bool> fresh;    ///< by row
-  int fresh_count = 0;
-  bool held = false;  ///< repeats were found and set aside
+  int fresh_count = 0;        ///< rows that count as measured
+  bool held = false;          ///< repeats were found and set aside
 };
 
+/// One log. Every vector has an entry for each row.
 struct DrivingLog {
   std::string file;
-  std::vector<int> line;
-  std::vector<double> t_s;  ///< strictly rising
-  std::vector<double> force_left;
-  std::vector<double> force_right;
-  /// The servo's command; absent where only its angle was logged, which then drives the model.
+  std::vector<int> line;            ///< of the file
+  std::vector<double> t_s;          ///< s, strictly rising
+  std::vector<double> force_left;   ///< F'L of each left wheel, over F_max, forward positive
+  std::vector<double> force_right;  ///< F'R of each right wheel, over F_max, forward positive
+  /// d_ro, rad, left positive: the servo's command. Absent where only its angle was logged, which
+  /// then drives the model.
   std::optional<std::vector<double>> steering_command_rad;
   std::array<std::optional<Measured>, kChannelCount> measured;
 

@@ -11,7 +11,7 @@
 
 namespace awmr {
 
-/// Rows [begin, end) of a log, without a gap between.
+/// A part of a log that has no gap: the rows from `begin` up to but not including `end`.
 struct LogWindow {
   const DrivingLog* log = nullptr;
   std::size_t begin = 0;
@@ -39,6 +39,7 @@ class HeldSignal {
   std::vector<double> integral_;
 };
 
+/// The commands of a log as held signals.
 struct LogSignals {
   explicit LogSignals(const DrivingLog& log);
   const DrivingLog* log;
@@ -124,12 +125,14 @@ const T& channel_of(const State<T>& s, LogChannel channel) {
   return s.steering_rad;
 }
 
-/// A start for a window from what was measured in it: first values, and what follows from others
-/// (yaw rate from heading, heading and speed from position); the rest at rest.
+/// The initial state of a window from what was measured in it: the first value of each channel, and
+/// where a channel is missing what follows from others (yaw rate from heading, heading and speed
+/// from position). What nothing tells is taken to be 0.
 State<double> measured_start(const LogWindow& window);
 
-/// RK4 at a quarter of the plant's fastest fixed time constant (servo, sway) errs by 3e-5 of an
-/// excursion a time constant.
+/// The longest step of replay() for this plant, s: a quarter of its fastest fixed time constant,
+/// the servo's or sway's. A Runge-Kutta step of that length errs by 3e-5 of an excursion in each
+/// time constant.
 double replay_step_s(const Plant<double>& plant);
 
 }  // namespace awmr

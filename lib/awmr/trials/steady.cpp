@@ -133,7 +133,7 @@ SteadyRuns steady_runs(const DrivingLog& log, const Vehicle& vehicle, const Stea
     const double force = 0.5 * (left + right);
     const double rate_value = std::abs(line.mean);
     if (turning) {
-      // tau_turn = 2 l_f F' sin d_r                                             [paper (62)]
+      // tau_turn = 2 l_f F' sin d_r                                                    [paper (62)]
       const double angle = std::abs(steering_rad);
       runs.turning.rows.push_back(
           {.line = row,

@@ -18,23 +18,27 @@ namespace awmr {
 /// With |steering| <= straight_rad it is a surge run (rate: speed), else a turning run (rate: yaw
 /// rate). Both sides have to be driven alike, forward.
 struct SteadyRule {
-  double same = 1e-3;  ///< F', and rad of steering
-  double settling_s = 1.0;
-  double shortest_s = 1.0;
-  double later_s = 0.25;
-  double drift = 0.03;
-  double straight_rad = 0.0087;  ///< half a degree
+  double same = 1e-3;            ///< >= 0, in F' and in rad of steering: larger for noisy commands
+  double settling_s = 1.0;       ///< s, >= 0: longer for vehicles that settle slowly
+  double shortest_s = 1.0;       ///< s, > 0: shorter accepts more and less certain segments
+  double later_s = 0.25;         ///< s, > 0
+  double drift = 0.03;           ///< > 0, a share of the mean rate: smaller is stricter
+  double straight_rad = 0.0087;  ///< rad, > 0: half a degree
 };
 
+/// One stretch of a log in which the vehicle moved steadily.
 struct SteadySegment {
   double begin_s = 0.0;
   double end_s = 0.0;
-  int line = 0;  ///< of its first row
-  bool turning = false;
-  double mean_rate = 0.0;  ///< m/s or rad/s
-  double std_error = 0.0;  ///< of the mean, from the scatter about the line, as if white
+  int line = 0;            ///< of its first row
+  bool turning = false;    ///< a turning run, else a surge run
+  double mean_rate = 0.0;  ///< rad/s of a turning run, m/s of a surge run
+  /// Of the mean, in its unit, from the scatter about the straight line. It takes the errors of
+  /// neighbouring rows as independent.
+  double std_error = 0.0;
 };
 
+/// The steady segments of a log, and the trials that they amount to.
 struct SteadyRuns {
   TrialSet<SurgeRow> surge;
   TrialSet<TurningRow> turning;

@@ -32,7 +32,7 @@ double tau_speed_of(TrialReader& reader, std::size_t row, std::vector<Finding>& 
   const auto printed = reader.non_negative(row, "tau_speed");
   const auto wheel_force = reader.non_negative(row, "wheel_force");
   if (!wheel_force) return *printed;
-  // tau_speed = (F'L + F'R)(cos d_r + 1) = 4 F' at d_r = 0                           [paper (41)]
+  // tau_speed = (F'L + F'R)(cos d_r + 1) = 4 F' at d_r = 0                             [paper (41)]
   const double from_wheels = 4.0 * *wheel_force;
   if (!printed) return from_wheels;
   const double tolerance = reader.rounding_error(*printed, "tau_speed") +

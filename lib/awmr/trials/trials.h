@@ -15,34 +15,36 @@
 
 namespace awmr {
 
-/// A run at constant tau_speed with d_r = 0.                                     [paper (45)-(54)]
+/// A run at constant tau_speed with d_r = 0, to the steady speed u at which
+///   tau_speed = g1(u)                                                            [paper (45)-(46)]
 struct SurgeRow {
-  int line = 0;
-  double tau_speed = 0.0;            ///< 4 F', > 0
-  double speed_mps = 0.0;            ///< steady speed as used, > 0
-  std::optional<double> distance_m;  ///< with elapsed_s where the run was timed
-  std::optional<double> elapsed_s;
+  int line = 0;                      ///< of the file
+  double tau_speed = 0.0;            ///< 4 F', dimensionless, > 0
+  double speed_mps = 0.0;            ///< u, m/s, > 0: printed or timed, as preferred
+  std::optional<double> distance_m;  ///< m, > 0; with elapsed_s where the run was timed
+  std::optional<double> elapsed_s;   ///< s, > 0
 };
 
-/// A run at constant F' and d_r, to the steady yaw rate. Magnitudes: g3 is odd, so a turn to the
-/// right is taken as its mirror image.                                                    [paper
-/// (61)-(63)]
+/// A run with the same F' on every wheel and a constant d_r, to the steady yaw rate r at which
+///   2 l_f F' sin d_r = g3(r)                                                     [paper (61)-(62)]
+/// All are magnitudes: g3 is odd, so a turn to the right is taken as its mirror image.
 struct TurningRow {
-  int line = 0;
-  double steering_rad = 0.0;
-  double wheel_force = 0.0;     ///< F' of each wheel
-  double tau_turn_m = 0.0;      ///< as used: printed where given, else 2 l_f F' sin d_r
-  double yaw_rate_radps = 0.0;  ///< as used
-  std::optional<double> turns;
-  std::optional<double> elapsed_s;
+  int line = 0;                     ///< of the file
+  double steering_rad = 0.0;        ///< d_r, rad, > 0
+  double wheel_force = 0.0;         ///< F' of each wheel, over F_max, > 0
+  double tau_turn_m = 0.0;          ///< m, > 0: printed where given, else 2 l_f F' sin d_r
+  double yaw_rate_radps = 0.0;      ///< r, rad/s, > 0: printed or timed, as preferred
+  std::optional<double> turns;      ///< full turns, > 0; with elapsed_s where the run was timed
+  std::optional<double> elapsed_s;  ///< s, > 0
 };
 
-/// Motors off at `initial_speed_mps`, at rest after `stop_time_s`.               [paper (55)-(60)]
+/// A coast-down that was timed: motors off at initial_speed_mps = u_max, at rest after
+/// stop_time_s = t_a. stop_time_s() in model/steady.h has the equation.
 struct StopTimeRow {
-  int line = 0;
-  double initial_speed_mps = 0.0;
-  double stop_time_s = 0.0;
-  double timing_std_s = 0.0;  ///< how well the time is known from the way it is written
+  int line = 0;                    ///< of the file
+  double initial_speed_mps = 0.0;  ///< u_max, m/s, > 0
+  double stop_time_s = 0.0;        ///< t_a, s, > 0
+  double timing_std_s = 0.0;       ///< s, > 0: standard deviation, from the way the time is written
 };
 
 /// One coast-down as it was recorded: speed by time, motors off at some unknown moment.
@@ -53,13 +55,14 @@ struct CoastCurve {
   std::vector<double> speed_mps;
 };
 
-/// A file of one kind. Rows that carry no information for a power law (at rest, no force) are set
-/// aside.
+/// The rows of one file. A row at rest or without force carries no information for a power law,
+/// whose logarithm it does not have: it is set aside and counted.           [paper (49), corrected]
+/// Corrected: (49) prints twelve rows for eleven trials, the first of them the logarithm of zero.
 template <class Row>
 struct TrialSet {
   std::string file;
   std::vector<Row> rows;
-  int set_aside = 0;
+  int set_aside = 0;  ///< how many rows the file had beside `rows`
 };
 
 /// A coast-down file is either of the two.

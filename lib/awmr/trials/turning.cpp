@@ -48,7 +48,7 @@ void check_stop(const TrialReader& reader, std::size_t row, const Vehicle& vehic
                   steering_deg, vehicle.steering_max_deg)));
 }
 
-/// tau_turn as printed, else 2 l_f F' sin d_r                                         [paper (62)]
+/// tau_turn as printed, else 2 l_f F' sin d_r                                          [paper (62)]
 /// The paper heads its column N m; over F_max, as everywhere here, it is in m.
 double tau_turn_of(TrialReader& reader, std::size_t row, double computed, const Vehicle& vehicle,
                    std::vector<Finding>& findings) {
