@@ -42,8 +42,7 @@ Result<EmitInputs> emit_inputs(const std::filesystem::path& model,
   if (!model_input) return tl::unexpected(model_input.error());
   const auto gains_input = input_file(gains);
   if (!gains_input) return tl::unexpected(gains_input.error());
-  return EmitInputs{.model_file = model.filename().string(),
-                    .model_sha256 = model_input->sha256,
+  return EmitInputs{.model_sha256 = model_input->sha256,
                     .gains_sha256 = gains_input->sha256,
                     .gains_file = gains.filename().string()};
 }

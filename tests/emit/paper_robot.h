@@ -46,8 +46,7 @@ inline Model paper_robot() {
 }
 
 inline EmitInputs paper_inputs() {
-  return {.model_file = "model.json",
-          .model_sha256 = std::string(64, 'a'),
+  return {.model_sha256 = std::string(64, 'a'),
           .gains_sha256 = std::string(64, 'b'),
           .gains_file = "gains.json"};
 }

@@ -103,7 +103,8 @@ TEST(ParamsHeader, KeepsNamesFromFilesInsideTheirComments) {
   model.vehicle.name = "a */ int x; /* b **/*/ \xC3\xA9\xE2\x80\xAE\n#error \\\n\?\?/ \x01 end";
   model[ParameterId::kMassNorm].method = "*/\n#define AWMR_MASS_NORM 1\n/*";
   EmitInputs inputs = paper_inputs();
-  inputs.model_file = "*/ m \n.json";
+  model.file = "* m \n.json";  // a file's name has no '/'
+  inputs.gains_file = "*/ g \n.json";
   const std::string header = params_header(model, kPaperGains, inputs).value();
   EXPECT_TRUE(std::all_of(header.begin(), header.end(),
                           [](char c) { return c == '\n' || (c >= ' ' && c <= '~'); }));

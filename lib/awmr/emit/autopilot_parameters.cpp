@@ -1,8 +1,11 @@
 #include <cmath>
+#include <string>
+#include <utility>
 
 #include "awmr/control/allocation.h"
 #include "awmr/core/units.h"
 #include "awmr/emit/emit.h"
+#include "macros.h"
 #include "resistance_tables.h"
 
 namespace awmr {
@@ -18,16 +21,13 @@ TableShape shape_of(const EmittedTable& table) {
           table.slope_at_rest};
 }
 
-ParameterBlock block_of(const Plant<double>& plant, const Model& model, const Gains<double>& gains,
-                        const EmitOptions& options) {
-  const auto single = [](double value) { return static_cast<float>(value) + 0.0F; };
-  const auto estimate = [&](ParameterId id) { return single(*model[id].value); };
-  ParameterBlock block{};
-  block.surge_alpha_beta[0] = estimate(ParameterId::kSurgeAlpha);
-  block.surge_alpha_beta[1] = estimate(ParameterId::kSurgeBeta);
-  block.yaw_alpha_beta[0] = estimate(ParameterId::kYawAlpha);
-  block.yaw_alpha_beta[1] = estimate(ParameterId::kYawBeta);
-  // In float from here on, as a compiler folds awmr.cpp's expressions.
+/// The value as a float of the chip; -0 becomes 0.
+float single(double value) { return static_cast<float>(value) + 0.0F; }
+
+/// The controller in float. What is computed from it is computed in float too, as the compiler of
+/// the firmware folds the expressions of awmr.cpp.
+Controller<float> float_controller(const Plant<double>& plant, const Model& model,
+                                   const Gains<double>& gains) {
   Controller<float> controller{};
   controller.mass_norm = single(plant.mass_norm);
   controller.inertia_norm = single(plant.inertia_norm);
@@ -41,7 +41,19 @@ ParameterBlock block_of(const Plant<double>& plant, const Model& model, const Ga
   controller.limits.force_max = single(model.vehicle.wheel_force.hi);
   controller.limits.steering_max_rad = single(steering_max_rad);
   controller.limits.steering_max_tan_half = single(tan_half(steering_max_rad));
-  block.constants = prepared(controller).constants;
+  return controller;
+}
+
+/// All parameters but the tables and the speeds that they end at.
+ParameterBlock block_of(const Plant<double>& plant, const Model& model, const Gains<double>& gains,
+                        const EmitOptions& options) {
+  const auto estimate = [&](ParameterId id) { return single(*model[id].value); };
+  ParameterBlock block{};
+  block.surge_alpha_beta[0] = estimate(ParameterId::kSurgeAlpha);
+  block.surge_alpha_beta[1] = estimate(ParameterId::kSurgeBeta);
+  block.yaw_alpha_beta[0] = estimate(ParameterId::kYawAlpha);
+  block.yaw_alpha_beta[1] = estimate(ParameterId::kYawBeta);
+  block.constants = prepared(float_controller(plant, model, gains)).constants;
   block.safety.heading_timeout_ms = options.heading_timeout_ms;
   block.safety.speed_timeout_ms = options.speed_timeout_ms;
   block.safety.command_timeout_ms = options.command_timeout_ms;
@@ -51,61 +63,79 @@ ParameterBlock block_of(const Plant<double>& plant, const Model& model, const Ga
   return block;
 }
 
+/// Refuses what the simulated controller makes up for and the firmware does not.
+Status check_family(const Model& model, const Plant<double>& plant, ResistanceForm form) {
+  const std::string file = file_name(model);
+  if (plant.wheel_dead_zone > 0.0) {
+    return input_error(file + ":/wheel/dead_zone",
+                       "the firmware does not make up for a dead zone of the wheels; emit the "
+                       "header alone (--header-only) and add AWMR_WHEEL_DEAD_ZONE where the motors "
+                       "are written, or identify a family without it");
+  }
+  if (plant.surge.coulomb > 0.0 || plant.yaw.coulomb > 0.0) {
+    return input_error(file + (plant.surge.coulomb > 0.0 ? ":/surge/coulomb" : ":/yaw/coulomb"),
+                       "the firmware does not make up for friction at rest, as the simulated "
+                       "controller does; emit the header alone (--header-only), or identify a "
+                       "family without it");
+  }
+  if (form == ResistanceForm::kPowf && (plant.surge.quadratic > 0.0 || plant.yaw.quadratic > 0.0)) {
+    return input_error("--resistance",
+                       "powf knows the power law alone; this model's family needs the table");
+  }
+  return {};
+}
+
+/// A resistance as the chip will know it.
+struct ChipLaw {
+  std::string name;   ///< for messages
+  ResistanceLaw law;  ///< g1, dimensionless, or g3, m
+  double full_scale;  ///< the largest force or moment there is, in the unit of g
+  double top;         ///< m/s or rad/s: beyond every speed that the vehicle can drive at
+};
+
+ChipLaw chip_law(std::string name, const Resistance<double>& law, double full_scale) {
+  ChipLaw chip{std::move(name), [law](double speed) { return law(speed); }, full_scale, 0.0};
+  chip.top = table_top(chip.law, full_scale);
+  return chip;
+}
+
+/// The largest float below `top`: a speed at the top itself has no cell of the table above it.
+float largest_below(double top) { return std::nextafter(static_cast<float>(top), 0.0F); }
+
+/// Puts both tables into the parameters. Errors (refused): no table is within the bound.
+Status add_tables(const ChipLaw& surge, const ChipLaw& yaw, AutopilotParameters& parameters) {
+  const auto table = [&](const ChipLaw& chip) {
+    return resistance_table(chip.name, chip.law, chip.full_scale, chip.top, parameters.table_error);
+  };
+  AWMR_ASSIGN_OR_RETURN(parameters.surge, table(surge));
+  AWMR_ASSIGN_OR_RETURN(parameters.yaw, table(yaw));
+  parameters.block.surge_table = shape_of(parameters.surge);
+  parameters.block.yaw_table = shape_of(parameters.yaw);
+  return {};
+}
+
 }  // namespace
 
 Result<AutopilotParameters> autopilot_parameters(const Model& model, const Gains<double>& gains,
                                                  const EmitInputs& inputs,
                                                  const EmitOptions& options) {
-  if (const auto checked = params_header(model, gains, inputs); !checked) {
-    return tl::unexpected(checked.error());
-  }
-  const auto plant = model.plant();
-  if (!plant) return tl::unexpected(plant.error());
-  if (plant->wheel_dead_zone > 0.0) {
-    return input_error(
-        inputs.model_file + ":/wheel/dead_zone",
-        "the firmware does not make up for a dead zone of the wheels; emit the header "
-        "alone (--header-only) and add AWMR_WHEEL_DEAD_ZONE where the motors are "
-        "written, or identify a family without it");
-  }
-  const Resistance<double>& surge_law = plant->surge;
-  const Resistance<double>& yaw_law = plant->yaw;
-  if (surge_law.coulomb > 0.0 || yaw_law.coulomb > 0.0) {
-    return input_error(
-        inputs.model_file + (surge_law.coulomb > 0.0 ? ":/surge/coulomb" : ":/yaw/coulomb"),
-        "the firmware does not make up for friction at rest, as the simulated controller does; "
-        "emit "
-        "the header alone (--header-only), or identify a family without it");
-  }
-  if (options.resistance == ResistanceForm::kPowf &&
-      (surge_law.quadratic > 0.0 || yaw_law.quadratic > 0.0)) {
-    return input_error("--resistance",
-                       "powf knows the power law alone; this model's family needs the table");
-  }
-  const ResistanceLaw surge = [&](double u) { return surge_law(u); };
-  const ResistanceLaw yaw = [&](double r) { return yaw_law(r); };
+  AWMR_RETURN_IF_ERROR(params_header(model, gains, inputs));
+  AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, model.plant());
+  AWMR_RETURN_IF_ERROR(check_family(model, plant, options.resistance));
+
   const double full_force = 4.0 * model.vehicle.wheel_force.hi;
-  const double full_moment_m = full_force * plant->half_track_m;
-  const double speed_top = table_top(surge, full_force);
-  const double rate_top = table_top(yaw, full_moment_m);
+  const ChipLaw surge = chip_law("surge", plant.surge, full_force);
+  const ChipLaw yaw = chip_law("yaw", plant.yaw, full_force * plant.half_track_m);
 
   AutopilotParameters parameters;
   parameters.resistance = options.resistance;
   parameters.table_error = options.table_error;
-  parameters.block = block_of(*plant, model, gains, options);
+  parameters.block = block_of(plant, model, gains, options);
   parameters.steering_max_tan_half = 2.0F * parameters.block.constants.allocation.h_max;
-  // The largest float below the last entry: a speed at the top has no cell above it.
-  parameters.block.safety.speed_max_mps = std::nextafter(static_cast<float>(speed_top), 0.0F);
-  parameters.block.safety.yaw_rate_max_radps = std::nextafter(static_cast<float>(rate_top), 0.0F);
+  parameters.block.safety.speed_max_mps = largest_below(surge.top);
+  parameters.block.safety.yaw_rate_max_radps = largest_below(yaw.top);
   if (options.resistance == ResistanceForm::kTable) {
-    auto table = resistance_table("surge", surge, full_force, speed_top, options.table_error);
-    if (!table) return tl::unexpected(table.error());
-    parameters.surge = std::move(*table);
-    table = resistance_table("yaw", yaw, full_moment_m, rate_top, options.table_error);
-    if (!table) return tl::unexpected(table.error());
-    parameters.yaw = std::move(*table);
-    parameters.block.surge_table = shape_of(parameters.surge);
-    parameters.block.yaw_table = shape_of(parameters.yaw);
+    AWMR_RETURN_IF_ERROR(add_tables(surge, yaw, parameters));
   }
   parameters.crc = crc32_of_parameters(&parameters.block, parameters.surge.values.data(),
                                        parameters.surge.values.size(), parameters.yaw.values.data(),

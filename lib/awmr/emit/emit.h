@@ -14,11 +14,11 @@
 
 namespace awmr {
 
+/// What the emitted files name as their origin, beside the model's own file name.
 struct EmitInputs {
-  std::string model_file;    ///< as the user gave it
-  std::string model_sha256;  ///< of its bytes
-  std::string gains_sha256;
-  std::string gains_file = "gains.json";
+  std::string model_sha256;               ///< of the bytes of the model's file, lower-case digits
+  std::string gains_sha256;               ///< of the bytes of the gains' file, lower-case digits
+  std::string gains_file = "gains.json";  ///< without its folders
 };
 
 /// AWMR_PARAMS_SHA256: SHA-256 of the 128 characters that the model's and the gains' SHA-256 make
@@ -38,45 +38,55 @@ enum class ResistanceForm {
   kPowf    ///< the power law by the C library's powf
 };
 
+/// How the firmware is made.
 struct EmitOptions {
+  /// kPowf where the flash is short and the control step has time to spare; it takes a power law.
   ResistanceForm resistance = ResistanceForm::kTable;
-  /// The largest error of a table, in shares of the resistance itself or, where that is less, of a
-  /// tenth of the largest force (4 F'max for surge) or moment (4 d F'max for yaw).
+  /// > 0: the largest error of a table, as a share of the resistance itself or, where that is less,
+  /// of a tenth of the largest force (4 F'max for surge) or moment (4 d F'max for yaw). Larger: a
+  /// smaller table.
   double table_error = 5e-4;
-  std::uint32_t heading_timeout_ms = 100;  ///< oldest heading and yaw rate to steer by
-  std::uint32_t speed_timeout_ms = 600;  ///< oldest speed and position: two GPS fixes at 5 Hz late
-  std::uint32_t command_timeout_ms = 1000;  ///< longest silence of whoever gives the reference
-  std::uint32_t step_timeout_ms = 0;        ///< longest time between steps; 0: three sample times
+  /// ms, > 0: oldest heading and yaw rate to steer by. Longer for a slow compass.
+  std::uint32_t heading_timeout_ms = 100;
+  /// ms, > 0: oldest speed and position to steer by; the default lets two fixes of a 5 Hz GPS fail.
+  std::uint32_t speed_timeout_ms = 600;
+  /// ms, > 0: longest silence of whoever gives the reference, before the motors stop. Longer over
+  /// an unreliable radio link.
+  std::uint32_t command_timeout_ms = 1000;
+  /// ms: longest time between two steps; 0: three sample times.
+  std::uint32_t step_timeout_ms = 0;
 };
 
-/// A resistance table and how far it is from the law.
+/// A resistance table and how far it is from the law. Speeds are in m/s for g1, in rad/s for g3.
 struct EmittedTable {
-  std::vector<float> values;
-  std::uint16_t first = 0;
-  std::uint8_t mantissa_bits = 0;
-  float slope_at_rest = 0.0F;
+  std::vector<float> values;          ///< ResistanceTable::values
+  std::uint16_t first = 0;            ///< ResistanceTable::first
+  std::uint8_t mantissa_bits = 0;     ///< ResistanceTable::mantissa_bits
+  float slope_at_rest = 0.0F;         ///< ResistanceTable::slope_at_rest
   double lowest_speed = 0.0;          ///< of the first entry; below it the chord to the origin
   double top_speed = 0.0;             ///< of the last entry
-  double worst_error = 0.0;           ///< absolute, below a tenth of full scale, in the unit of g
-  double worst_relative_error = 0.0;  ///< above it
-  double split = 0.0;                 ///< a tenth of full scale, in the unit of g
+  double split = 0.0;                 ///< a tenth of the largest force or moment, in the unit of g
+  double worst_error = 0.0;           ///< where g is below `split`: absolute, in the unit of g
+  double worst_relative_error = 0.0;  ///< where g is above `split`: a share of g
 
-  /// Refers to this object's values.
+  /// The table as the chip reads it. It refers to this object's values.
   ResistanceTable view() const;
 };
 
 /// The numbers of the firmware as the chip holds them.
 struct AutopilotParameters {
   ParameterBlock block{};
-  float steering_max_tan_half = 0.0F;
-  EmittedTable surge;  ///< no values with powf
-  EmittedTable yaw;
-  ResistanceForm resistance = ResistanceForm::kTable;
-  double table_error = 0.0;
-  std::uint32_t crc = 0;
+  float steering_max_tan_half = 0.0F;                  ///< tan(d_max/2)
+  EmittedTable surge;                                  ///< of g1; without values for kPowf
+  EmittedTable yaw;                                    ///< of g3; without values for kPowf
+  ResistanceForm resistance = ResistanceForm::kTable;  ///< as in EmitOptions
+  double table_error = 0.0;                            ///< as in EmitOptions
+  std::uint32_t crc = 0;                               ///< crc32_of_parameters() of all of it
 };
 
-/// Errors: as params_header; a table that cannot be within its bound (refused).
+/// The numbers of the firmware for this model and these gains.
+/// Errors: as params_header; (input) a family of resistance that the firmware does not know;
+/// (refused) a table that cannot be within its bound.
 Result<AutopilotParameters> autopilot_parameters(const Model& model, const Gains<double>& gains,
                                                  const EmitInputs& inputs,
                                                  const EmitOptions& options);
@@ -85,6 +95,7 @@ Result<AutopilotParameters> autopilot_parameters(const Model& model, const Gains
 /// check sum over all parameters.
 std::string autopilot_header(const AutopilotParameters& parameters);
 
+/// A file of the emitted library.
 struct EmittedFile {
   std::string path;  ///< relative, with '/'
   std::string bytes;

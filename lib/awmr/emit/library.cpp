@@ -24,14 +24,13 @@ includes=awmr.h
 Result<std::vector<EmittedFile>> firmware_library(const Model& model, const Gains<double>& gains,
                                                   const EmitInputs& inputs,
                                                   const EmitOptions& options) {
-  const auto parameters = autopilot_parameters(model, gains, inputs, options);
-  if (!parameters) return tl::unexpected(parameters.error());
-  const auto header = params_header(model, gains, inputs);
-  if (!header) return tl::unexpected(header.error());
+  AWMR_ASSIGN_OR_RETURN(const AutopilotParameters parameters,
+                        autopilot_parameters(model, gains, inputs, options));
+  AWMR_ASSIGN_OR_RETURN(std::string header, params_header(model, gains, inputs));
   std::vector<EmittedFile> files{
-      {"awmr_params.h", *header},
+      {"awmr_params.h", std::move(header)},
       {"library.properties", fmt::format(kProperties, version(), params_sha256(inputs))},
-      {"src/awmr_autopilot_params.h", autopilot_header(*parameters)}};
+      {"src/awmr_autopilot_params.h", autopilot_header(parameters)}};
   for (const EmbeddedFile& file : embedded_files()) {
     files.push_back({std::string(file.path), std::string(file.bytes)});
   }

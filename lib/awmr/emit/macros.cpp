@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <string_view>
 #include <utility>
@@ -50,7 +51,7 @@ void add_parameters(std::vector<Macro>& macros, const Model& model, const std::s
   add("AWMR_SWAY_ALPHA", ParameterId::kSwayAlpha, MacroRange::kPositive);
   add("AWMR_MASS_NORM", ParameterId::kMassNorm, MacroRange::kPositive);
   add("AWMR_INERTIA_NORM", ParameterId::kInertiaNorm, MacroRange::kPositive);
-  // Only of families that have them: a power law's header is the contract's, no more.
+  // Written for the families that have these terms only: the header of a power law stays short.
   const std::pair<const char*, ParameterId> terms[] = {
       {"AWMR_SURGE_COULOMB", ParameterId::kSurgeCoulomb},
       {"AWMR_SURGE_QUADRATIC", ParameterId::kSurgeQuadratic},
@@ -98,7 +99,7 @@ void add_gains(std::vector<Macro>& macros, const Gains<double>& gains, const std
       "epsilon_s, m/s: half width of the boundary layer of u_d - u", "/speed/epsilon");
 }
 
-/// False for NaN too.
+/// True for what a float32 holds with full precision: 0 and the normal numbers. False for NaN.
 bool is_zero_or_normal_float(double value) {
   using Limits = std::numeric_limits<float>;
   const double magnitude = std::abs(value);
@@ -109,11 +110,15 @@ bool is_zero_or_normal_float(double value) {
 
 }  // namespace
 
+std::string file_name(const Model& model) {
+  return std::filesystem::path(model.file).filename().string();
+}
+
 std::vector<Macro> macros_of(const Model& model, const Gains<double>& gains,
                              const EmitInputs& inputs) {
   std::vector<Macro> macros;
-  add_parameters(macros, model, inputs.model_file);
-  add_vehicle(macros, model.vehicle, inputs.model_file);
+  add_parameters(macros, model, file_name(model));
+  add_vehicle(macros, model.vehicle, file_name(model));
   add_gains(macros, gains, inputs.gains_file);
   return macros;
 }

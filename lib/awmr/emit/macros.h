@@ -8,17 +8,23 @@
 
 namespace awmr {
 
+/// The values that a macro may have.
 enum class MacroRange { kPositive, kNotNegative, kAnySign };
 
+/// One macro of awmr_params.h.
 struct Macro {
-  std::string name;
-  double value = 0.0;
+  std::string name;     ///< "AWMR_SURGE_ALPHA"
+  double value = 0.0;   ///< in the unit that the comment names, before it is rounded to float32
   std::string comment;  ///< symbol, unit, meaning, origin
   std::string place;    ///< `FILE:/json/pointer` of the value
   MacroRange range = MacroRange::kPositive;
 };
 
-/// In the order of the header. Precondition: the model has a value for each.
+/// The name of the model's file without its folders, as the emitted files and errors about them
+/// call it.
+std::string file_name(const Model& model);
+
+/// The macros in the order of the header. Precondition: the model has a value for each.
 std::vector<Macro> macros_of(const Model& model, const Gains<double>& gains,
                              const EmitInputs& inputs);
 

@@ -42,8 +42,8 @@ constexpr std::string_view kCheckMacro = R"(
 
 )";
 
-/// T2 < T1 as epsilon/(2 mu) < 1/lambda without a division.                             [paper
-/// (95)]
+/// The constraint T2 < T1 of tune/ as the compiler can check it, without a division:
+///   epsilon/(2 mu) < 1/lambda   is   epsilon lambda/2 < mu                      [paper (91), (95)]
 constexpr std::string_view kRelations =
     R"(/* T2 = epsilon/(2 mu) < T1 = 1/lambda: the sliding surface is reached faster than it decays */
 AWMR_PARAMS_CHECK(AWMR_T2_IS_BELOW_T1,
@@ -73,7 +73,7 @@ std::string intro_text(const Model& model, const EmitInputs& inputs) {
       "   Forces are over F_max, the largest force of one motor, in N. */\n"
       "#ifndef AWMR_PARAMS_H\n"
       "#define AWMR_PARAMS_H\n\n",
-      comment_safe(model.vehicle.name), version(), comment_safe(inputs.model_file),
+      comment_safe(model.vehicle.name), version(), comment_safe(file_name(model)),
       comment_safe(inputs.model_sha256), comment_safe(inputs.gains_file),
       comment_safe(inputs.gains_sha256));
 }
@@ -91,22 +91,23 @@ std::string defines_text(const std::vector<Macro>& macros, const EmitInputs& inp
                     params_sha256(inputs));
 }
 
-/// Between the values as they are written, since rounding to float32 may make neighbours equal.
+/// Checks that the values keep their order. It compares them as they are written, because rounding
+/// to float32 may make two of them equal.
 Status check_relations(const Model& model, const Gains<double>& gains, const EmitInputs& inputs) {
   const Vehicle& vehicle = model.vehicle;
   std::vector<Fault> faults;
   if (!(static_cast<float>(vehicle.wheel_force.lo) < static_cast<float>(vehicle.wheel_force.hi))) {
-    faults.push_back({inputs.model_file + ":/vehicle/wheel_force",
+    faults.push_back({file_name(model) + ":/vehicle/wheel_force",
                       fmt::format("min = {:g} has to be below max = {:g}", vehicle.wheel_force.lo,
                                   vehicle.wheel_force.hi)});
   }
   if (!(static_cast<float>(radians(vehicle.steering_max_deg)) < 1.57079633F)) {
-    faults.push_back({inputs.model_file + ":/vehicle/steering/max_deg",
+    faults.push_back({file_name(model) + ":/vehicle/steering/max_deg",
                       fmt::format("{:g} has to be below 90", vehicle.steering_max_deg)});
   }
   if (!faults.empty()) return input_errors(std::move(faults));
 
-  // A compiler may fold the product in float or exactly: both have to hold.
+  // A compiler may fold the product in float or exactly: the check has to hold either way.
   const float epsilon = static_cast<float>(gains.heading.epsilon);
   const float lambda = static_cast<float>(gains.heading.lambda);
   const float mu = static_cast<float>(gains.heading.mu);
@@ -141,16 +142,10 @@ std::string params_sha256(const EmitInputs& inputs) {
 
 Result<std::string> params_header(const Model& model, const Gains<double>& gains,
                                   const EmitInputs& inputs) {
-  if (const auto plant = model.plant(); !plant) {
-    return tl::unexpected(plant.error());
-  }
+  AWMR_RETURN_IF_ERROR(model.plant());
   const std::vector<Macro> macros = macros_of(model, gains, inputs);
-  if (const auto checked = check_macros(macros); !checked) {
-    return tl::unexpected(checked.error());
-  }
-  if (const auto checked = check_relations(model, gains, inputs); !checked) {
-    return tl::unexpected(checked.error());
-  }
+  AWMR_RETURN_IF_ERROR(check_macros(macros));
+  AWMR_RETURN_IF_ERROR(check_relations(model, gains, inputs));
   return intro_text(model, inputs) + defines_text(macros, inputs) + checks_text(macros) +
          "\n#endif /* AWMR_PARAMS_H */\n";
 }

@@ -50,7 +50,7 @@ void measure(const ResistanceLaw& law, double lo, double hi, int samples, Emitte
 }
 
 void measure_all(const ResistanceLaw& law, EmittedTable& table) {
-  // Below the first entry by octaves too: the law may be steepest at rest.
+  // Below the first entry as well, octave by octave: the law may be steepest at rest.
   for (double hi = table.lowest_speed; hi > 1e-9; hi /= 2.0) {
     measure(law, hi / 2.0, hi, kSamplesPerCell, table);
   }
@@ -60,7 +60,7 @@ void measure_all(const ResistanceLaw& law, EmittedTable& table) {
   }
 }
 
-/// In shares of what is allowed for.
+/// The table's worst error as a share of g, or of `split` where g is below it.
 double worst_share(const EmittedTable& table) {
   return std::max(table.worst_error / table.split, table.worst_relative_error);
 }

@@ -12,6 +12,7 @@
 
 namespace awmr {
 
+/// g as a function of a speed >= 0: g1 of m/s or g3 of rad/s.
 using ResistanceLaw = std::function<double(double)>;
 
 /// The least power of two at which g exceeds the largest force or moment by half of it, so that no
