@@ -1,0 +1,235 @@
+"""Holds the index of the paper's equations, lib/awmr/model/README.md, to the citations in lib/.
+
+    equation_index_test.py           checks the tree, then that each kind of fault is found
+    equation_index_test.py --list    prints every citation with what it stands at, for a new row
+"""
+
+import re
+import shutil
+import sys
+import tempfile
+import unittest
+from dataclasses import dataclass
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+INDEX = "lib/awmr/model/README.md"
+LAST_EQUATION = 118
+COLUMNS = 100
+
+CITATION = re.compile(r"\[paper ([^\[\]]*)\]")
+RANGE = r"\(\d+\)(?:-\(\d+\))?"
+EQUATIONS = re.compile(rf"{RANGE}(?:, {RANGE})*(?:, corrected)?$")
+PLACES = re.compile(r"(?:section )?\d+(?:\.\d+)*(?:, (?:section )?\d+(?:\.\d+)*)*$|App\. [A-Z]$")
+ROW = re.compile(
+    r"\| (?P<equations>\(\d[^|]*?) \| (?P<says>[^|]*?) \| \[(?P<file>[^\]]*)\]\((?P<link>[^)]*)\)"
+    r" \| `(?P<function>\w+)` \| \[(?P<test>[^\]]*)\]\((?P<test_link>[^)]*)\)(?: by `(?P<by>\w+)`)? \|$"
+)
+NOTE = re.compile(r"\| (?P<equations>\(\d[^|]*?) \| [^|]+ \|$")
+STATEMENTS = {"if", "for", "while", "switch", "return"}
+NOT_A_DECLARATION = re.compile(r"\s*(//|#|template\b|(public|private|protected):|$)")
+
+
+@dataclass(frozen=True)
+class Citation:
+    file: str
+    line: int
+    text: str
+    names: frozenset  # of what it documents and of what encloses it
+
+
+def indent_of(line):
+    return len(line) - len(line.lstrip())
+
+
+def names_declared(lines, start):
+    """The identifiers that the declaration beginning at lines[start] may declare."""
+    text = ""
+    for line in lines[start : start + 12]:
+        text += " " + line.split("//")[0]
+        if re.search(r"[;{]", text):
+            break
+    text = re.split(r"[;{]", text)[0]
+    value = re.match(r"[^(]*?(\w+)(?:\[\])?\s*=", text)  # a constant or a field with a default
+    if value:
+        return [value[1]]
+    typed = re.findall(r"\b(?:struct|class|enum class)\s+(\w+)", text)
+    called = [name for name in re.findall(r"(\w+)\s*\(", text)[:1] if name not in STATEMENTS]
+    return typed or called or re.findall(r"(\w+)\s*$", text)
+
+
+def names_at(lines, at):
+    names = set()
+    if re.match(r"\s*//", lines[at]):
+        below = at
+        while below < len(lines) and NOT_A_DECLARATION.match(lines[below]):
+            if not lines[below].strip():
+                break
+            below += 1
+        names.update(names_declared(lines, below))
+    else:
+        names.update(names_declared(lines, at))
+    indent = indent_of(lines[at])
+    for above in range(at - 1, -1, -1):
+        if indent == 0:
+            break
+        if indent_of(lines[above]) < indent and not NOT_A_DECLARATION.match(lines[above]):
+            names.update(names_declared(lines, above))
+            indent = indent_of(lines[above])
+    return frozenset(names)
+
+
+def sources(root):
+    return sorted(p for p in (root / "lib").rglob("*") if p.suffix in (".h", ".cpp"))
+
+
+def citations(root, faults):
+    found = []
+    for path in sources(root):
+        file = path.relative_to(root).as_posix()
+        lines = path.read_text(encoding="utf-8").splitlines()
+        for i, line in enumerate(lines):
+            place = f"{file}:{i + 1}"
+            whole = CITATION.findall(line)
+            if len(whole) != len(re.findall(r"\[paper\b", line)) or re.search(r"[\[(]paper\s*$", line):
+                faults.append(f"{place}: a citation is broken over two lines; it stands on one")
+            if whole and len(line) > COLUMNS:
+                faults.append(f"{place}: a citation ends beyond column {COLUMNS}")
+            for text in whole:
+                if EQUATIONS.match(text):
+                    found.append(Citation(file, i + 1, text, names_at(lines, i)))
+                elif not PLACES.match(text):
+                    faults.append(f"{place}: [paper {text}] is neither equations, as in [paper (42), corrected], "
+                                  "nor a section, as in [paper 5.2.2]")
+    return found
+
+
+def numbers(equations):
+    covered = set()
+    for first, last in re.findall(r"\((\d+)\)(?:-\((\d+)\))?", equations):
+        covered.update(range(int(first), int(last or first) + 1))
+    return covered
+
+
+def mentions(path, name):
+    return re.search(rf"\b{name}\b", path.read_text(encoding="utf-8")) is not None
+
+
+def check(root):
+    """Every fault of the tree, as text; and the number of rows and citations."""
+    faults = []
+    cited = citations(root, faults)
+    rows, covered = [], set()
+    library = None
+    for i, line in enumerate((root / INDEX).read_text(encoding="utf-8").splitlines()):
+        place = f"{INDEX}:{i + 1}"
+        row = ROW.match(line)
+        if not row:
+            if NOTE.match(line):
+                covered |= numbers(NOTE.match(line)["equations"])
+            elif line.startswith("| ("):
+                faults.append(f"{place}: a row that is neither of the index nor of the notes")
+            continue
+        rows.append(row)
+        covered |= numbers(row["equations"])
+        here = [c for c in cited if (c.file, c.text) == (row["file"], row["equations"])]
+        if not here:
+            faults.append(f"{place}: [paper {row['equations']}] does not stand in {row['file']}")
+        elif not any(row["function"] in c.names for c in here):
+            faults.append(f"{place}: in {row['file']} [paper {row['equations']}] does not stand at {row['function']}")
+        for name, link in ((row["file"], row["link"]), (row["test"], row["test_link"])):
+            if (root / INDEX).parent.joinpath(link).resolve() != (root / name).resolve():
+                faults.append(f"{place}: the link {link} does not lead to {name}")
+        test = root / row["test"]
+        called = row["by"] or row["function"]
+        if not row["test"].startswith("tests/") or not test.is_file():
+            faults.append(f"{place}: there is no test {row['test']}")
+        elif not mentions(test, called):
+            faults.append(f"{place}: {row['test']} does not mention {called}")
+        if row["by"]:
+            library = library or "\n".join(p.read_text(encoding="utf-8") for p in sources(root))
+            if not re.search(rf"\b{row['by']}\b", library):
+                faults.append(f"{place}: nothing in lib/ is called {row['by']}")
+    for c in cited:
+        if not any((r["file"], r["equations"]) == (c.file, c.text) and r["function"] in c.names for r in rows):
+            faults.append(f"{c.file}:{c.line}: [paper {c.text}] at {', '.join(sorted(c.names))} is not in {INDEX}")
+    for number in sorted(set(range(1, LAST_EQUATION + 1)) - covered):
+        faults.append(f"{INDEX}: says nothing of equation ({number})")
+    return faults, len(rows), len(cited)
+
+
+class EquationIndex(unittest.TestCase):
+    def test_agrees_with_the_citations(self):
+        faults, rows, cited = check(ROOT)
+        print(f"{rows} rows for {cited} citations")
+        self.assertEqual([], faults, "\n" + "\n".join(faults))
+
+
+class Faults(unittest.TestCase):
+    """Each kind of fault, made in a copy of the tree, is found."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.root = Path(folder.name)
+        for part in ("lib", "tests"):
+            shutil.copytree(ROOT / part, self.root / part,
+                            ignore=lambda _, names: [n for n in names if Path(n).suffix in (".csv", ".json")])
+        lines = (ROOT / INDEX).read_text(encoding="utf-8").splitlines()
+        self.row = next(line for line in lines if ROW.match(line) and not ROW.match(line)["by"])
+        self.before = check(self.root)[0]
+
+    def edit(self, file, old, new):
+        path = self.root / file
+        text = path.read_text(encoding="utf-8")
+        self.assertIn(old, text)
+        path.write_text(text.replace(old, new, 1), encoding="utf-8")
+
+    def expect(self, text):
+        new = [fault for fault in check(self.root)[0] if fault not in self.before]
+        self.assertTrue(any(text in fault for fault in new), new)
+
+    def test_a_citation_broken_over_two_lines(self):
+        row = ROW.match(self.row)
+        self.edit(row["file"], f"[paper {row['equations']}]", f"[paper\n/// {row['equations']}]")
+        self.expect("broken over two lines")
+
+    def test_an_equation_that_the_index_lacks(self):
+        self.edit(INDEX, self.row + "\n", "")
+        self.expect(f"is not in {INDEX}")
+
+    def test_a_row_for_another_file(self):
+        row = ROW.match(self.row)
+        self.edit(INDEX, self.row, self.row.replace(row["file"], "lib/awmr/core/units.h"))
+        self.expect("does not stand in lib/awmr/core/units.h")
+
+    def test_a_row_for_another_function(self):
+        row = ROW.match(self.row)
+        self.edit(INDEX, self.row, self.row.replace(f"`{row['function']}`", "`other_function`"))
+        self.expect("does not stand at other_function")
+
+    def test_a_test_that_does_not_exist(self):
+        row = ROW.match(self.row)
+        self.edit(INDEX, self.row, self.row.replace(row["test"], "tests/model/no_test.cpp"))
+        self.expect("there is no test tests/model/no_test.cpp")
+
+    def test_a_test_that_does_not_mention_the_function(self):
+        row = ROW.match(self.row)
+        (self.root / row["test"]).write_text("// nothing\n", encoding="utf-8")
+        self.expect(f"{row['test']} does not mention {row['function']}")
+
+    def test_an_equation_of_the_paper_that_is_passed_over(self):
+        text = (self.root / INDEX).read_text(encoding="utf-8")
+        kept = [l for l in text.splitlines() if not (l.startswith("| (") and 103 in numbers(l.split(" | ")[0]))]
+        (self.root / INDEX).write_text("\n".join(kept) + "\n", encoding="utf-8")
+        self.expect("says nothing of equation (103)")
+
+
+if __name__ == "__main__":
+    if sys.argv[1:] == ["--list"]:
+        problems = []
+        for c in citations(ROOT, problems):
+            print(f"{c.file}:{c.line}: {c.text}: {', '.join(sorted(c.names))}")
+        print("\n".join(problems))
+    else:
+        unittest.main()
