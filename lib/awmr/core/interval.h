@@ -4,8 +4,10 @@
 namespace awmr {
 
 struct Interval {
-  double lo = 0.0;
-  double hi = 0.0;
+  double lo = 0.0;  ///< the lower end
+  double hi = 0.0;  ///< the upper end, >= lo
+
+  /// True at the ends too; false for NaN.
   bool contains(double value) const { return lo <= value && value <= hi; }
 };
 

@@ -22,6 +22,7 @@ struct LoopControl {
   /// Called on the caller's thread after each item that it has worked on.
   std::function<void()> progress = {};
 };
+/// The same, with a way to end it early and to follow it.
 void parallel_for(std::size_t count, int threads, const std::function<void(std::size_t)>& body,
                   const LoopControl& control);
 

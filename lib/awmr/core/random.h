@@ -6,16 +6,20 @@
 
 namespace awmr {
 
+/// One stream of numbers.
 class Random {
  public:
-  /// Streams of one seed are independent: one per sample, per sensor, ...
+  /// The streams of a seed are independent of each other. Whatever is random on its own takes its
+  /// own stream: each sample, each sensor.
   Random(std::uint64_t seed, std::uint64_t stream);
 
+  /// The next 32 random bits.
   std::uint32_t bits();
-  /// Uniform in [0, 1), 53 bits.
+  /// The next number, uniform in [0, 1), with 53 random bits.
   double uniform();
-  /// Standard normal (Box-Muller; one number per two draws, so position depends on the count
-  /// alone).
+  /// The next number, normal with mean 0 and standard deviation 1. It takes two uniform ones and
+  /// uses one half of what the Box-Muller method makes of them, so that the place in the stream
+  /// depends only on how many numbers were drawn.
   double normal();
 
  private:

@@ -11,7 +11,12 @@
 
 namespace awmr {
 
-enum class Severity { kNote, kWarning, kError };
+/// How much a finding matters.
+enum class Severity {
+  kNote,     ///< worth knowing: rows set aside, a choice that was made
+  kWarning,  ///< doubtful: the result may be off
+  kError,    ///< something that was asked for could not be done
+};
 
 /// Something the user should know about the data or the result.
 struct Finding {
@@ -58,9 +63,10 @@ inline constexpr NameTable<Estimator, 7> kEstimatorNames{{{"log-linear", Estimat
 struct EstimatorParameter {
   std::string name;  ///< "surge.alpha"
   double value = 0.0;
-  std::optional<double> std_error;
-  std::optional<Interval> ci95;  ///< of the curvature at the optimum
-  /// From the profile of the cost: bounds where the data leave an end open.
+  std::optional<double> std_error;  ///< > 0; absent where there are too few data
+  std::optional<Interval> ci95;     ///< 95 % interval from the curvature of the cost at its minimum
+  /// 95 % interval from the profile of the cost. It need not be symmetric; an end that the data
+  /// leave open is the parameter's bound.
   std::optional<Interval> profile95 = {};
 };
 
@@ -68,11 +74,11 @@ struct EstimatorParameter {
 struct Diagnostic {
   std::string name;  ///< "normality", "whiteness of yaw_rate_radps", "lack of fit"
   double statistic = 0.0;
-  double p_value = 1.0;
-  std::string meaning;  ///< one sentence
+  double p_value = 1.0;  ///< in [0, 1]: small where the assumption is doubtful
+  std::string meaning;   ///< what follows from it, in one sentence
 };
 
-/// What the estimates become without one row or log.
+/// The estimates from all data but one row of a table, or one log.
 struct LeaveOneOut {
   std::string file;
   int line = 0;                ///< 0: the whole file
@@ -93,12 +99,12 @@ struct EstimatorReport {
   Estimator estimator = Estimator::kLogLinear;
   std::string noise;  ///< where the error is put: "log force", "force", "speed", "time", ...
   std::vector<EstimatorParameter> parameters;
-  double residual_std = 0.0;  ///< in the unit of the noise
-  int rows_used = 0;
-  int degrees_of_freedom = 0;
-  int rank = 0;
-  double condition_number = 0.0;
-  std::string stop_reason;
+  double residual_std = 0.0;        ///< in the unit of the noise
+  int rows_used = 0;                ///< of the tables or logs
+  int degrees_of_freedom = 0;       ///< of the residuals: rows less parameters
+  int rank = 0;                     ///< of the problem: how many combinations the data show
+  double condition_number = 0.0;    ///< of the problem, >= 1; infinite where the rank is lacking
+  std::string stop_reason;          ///< why the solver ended
   std::string family = {};          ///< of resistance; empty: the paper's power law
   std::optional<double> aicc = {};  ///< corrected Akaike criterion; less is better, same noise only
   std::vector<Diagnostic> diagnostics = {};
@@ -106,7 +112,7 @@ struct EstimatorReport {
   std::vector<SearchStart> starts = {};
 };
 
-/// One row of a trial as it was used, kept in the model so that later steps need no CSV.
+/// One row of a trial as it was used. The model keeps it so that later steps need no CSV.
 struct TrialPoint {
   TrialKind kind = TrialKind::kSurge;  ///< of a table
   std::string file;
@@ -115,7 +121,7 @@ struct TrialPoint {
   double input = 0.0;
   /// surge: speed in m/s; turning: yaw rate in rad/s; coastdown: stop time in s
   double measured = 0.0;
-  std::optional<double> predicted;  ///< the main model's, same unit as `measured`
+  std::optional<double> predicted;  ///< by the main model, in the unit of `measured`
 };
 
 /// How a model was identified: what every estimator made of the data, what is doubtful, and where
