@@ -7,6 +7,8 @@
 #include <memory>
 #include <utility>
 
+#include "awmr/core/option_text.h"
+
 namespace awmr::cli {
 namespace {
 
@@ -16,7 +18,7 @@ void print(std::FILE* stream, const std::string& text) {
 
 int report(const Result<Outcome>& result, bool quiet) {
   if (!result) {
-    print(stderr, awmr::to_text(result.error()));
+    print(stderr, spell_options(awmr::to_text(result.error()), "--"));
     return exit_code(result.error());
   }
   for (const Finding& finding : result->findings) {
@@ -63,7 +65,8 @@ std::string to_text(const Finding& finding) {
   if (!finding.file.empty()) place = finding.file + ":";
   if (finding.line > 0) place += fmt::format("{}:", finding.line);
   if (!place.empty()) place += " ";
-  return fmt::format("{}: {}{} [{}]", severity, place, finding.message, finding.code);
+  return fmt::format("{}: {}{} [{}]", severity, place, spell_options(finding.message, "--"),
+                     finding.code);
 }
 
 std::string parameter_table_text(const Model& model) {

@@ -14,7 +14,7 @@ namespace {
 
 Result<Provenance> provenance_of(const IdentifyCommand& command) {
   Provenance provenance{"identify", described(command.identify), {}};
-  provenance.options.emplace_back("prefer", name_in(kPreferences, command.trials.preference));
+  provenance.options.emplace_back("prefer", name_in(kPreferenceNames, command.trials.preference));
   if (command.steady_from_logs) provenance.options.emplace_back("steady_from_logs", "true");
   for (const ColumnMapping& mapping : command.trials.columns) {
     provenance.options.emplace_back(
@@ -110,7 +110,8 @@ std::string names_of(const EstimatorReport& report) {
 }
 
 std::string summary_of(const IdentifyCommand& command, const Model& model) {
-  std::string text = fmt::format("{}: {} trial rows\n", model.vehicle.name, model.record.trials.size());
+  std::string text =
+      fmt::format("{}: {} trial rows\n", model.vehicle.name, model.record.trials.size());
   text += parameter_table_text(model);
   text += "  estimators side by side:\n";
   for (const EstimatorReport& report : model.record.reports) {
@@ -119,9 +120,9 @@ std::string summary_of(const IdentifyCommand& command, const Model& model) {
       values += fmt::format(" {}={:.4f}", parameter.name, parameter.value);
     }
     const std::string score = report.aicc ? fmt::format(" AICc {:.1f}", *report.aicc) : "";
-    text += fmt::format("    {:<6} {:<36} noise on {:<10}{}{}\n", name_in(kFitSubjectNames, report.subject),
-                        names_of(report),
-                        report.noise, values, score);
+    text += fmt::format("    {:<6} {:<36} noise on {:<10}{}{}\n",
+                        name_in(kFitSubjectNames, report.subject), names_of(report), report.noise,
+                        values, score);
   }
   return text + fmt::format("wrote {}\n", command.output.string());
 }
@@ -184,10 +185,10 @@ void add_identify(CLI::App& app, Session& session) {
             return tl::unexpected(added.error());
           }
         }
-        if (!raw->method.empty()) command.identify.method = value_in(kMethods, raw->method);
-        if (!raw->noise.empty()) command.identify.noise = value_in(kNoises, raw->noise);
-        command.identify.loss = value_in(kLosses, raw->loss);
-        command.trials.preference = value_in(kPreferences, raw->prefer);
+        if (!raw->method.empty()) command.identify.method = value_in(kMethodNames, raw->method);
+        if (!raw->noise.empty()) command.identify.noise = value_in(kErrorModelNames, raw->noise);
+        command.identify.loss = *value_in(kLossNames, raw->loss);
+        command.trials.preference = *value_in(kPreferenceNames, raw->prefer);
         return execute(command);
       });
   IdentifyCommand& command = raw->command;
@@ -201,17 +202,17 @@ void add_identify(CLI::App& app, Session& session) {
   sub->add_option("--method", raw->method,
                   "Which estimator fills the main values: log-linear (default for tables), "
                   "nonlinear, trajectory (default with --log)")
-      ->check(CLI::IsMember(names_of(kMethods)));
+      ->check(CLI::IsMember(names_in(kMethodNames)));
   sub->add_option("--noise", raw->noise,
                   "Where the nonlinear fit puts the error: force, speed or time (default: on what "
                   "was measured)")
-      ->check(CLI::IsMember(names_of(kNoises)));
+      ->check(CLI::IsMember(names_in(kErrorModelNames)));
   sub->add_option("--family", raw->families,
                   "Resistance: power (default), coulomb-linear, coulomb-linear-quadratic, "
                   "coulomb-power, dead-zone, or auto (least AICc); surge=NAME, yaw=NAME for one")
       ->delimiter(',');
   sub->add_option("--loss", raw->loss, "squares (default), huber, cauchy or tukey")
-      ->check(CLI::IsMember(names_of(kLosses)));
+      ->check(CLI::IsMember(names_in(kLossNames)));
   sub->add_flag("--joint", command.identify.joint,
                 "Fit a1, b1 and m' together from the surge runs and the coast-down curves");
   sub->add_option("--fit", raw->asked,
@@ -234,7 +235,7 @@ void add_identify(CLI::App& app, Session& session) {
       ->check(CLI::Range(1, 1024));
   sub->add_option("--prefer", raw->prefer,
                   "Which of two disagreeing values to use: printed (default) or timed")
-      ->check(CLI::IsMember(names_of(kPreferences)));
+      ->check(CLI::IsMember(names_in(kPreferenceNames)));
   sub->add_option("--column", raw->columns, "NAME=SOURCE[*SCALE][+OFFSET]: another column's name");
   add_output(*sub, command.output, "model.json to write");
 }

@@ -81,11 +81,13 @@ Status add_asked(std::string_view name, IdentifyOptions& options) {
 
 std::vector<std::pair<std::string, std::string>> described(const IdentifyOptions& options) {
   std::vector<std::pair<std::string, std::string>> words{
-      {"method", options.method ? name_in(kMethods, *options.method) : std::string("by the data")},
-      {"noise", options.noise ? name_in(kNoises, *options.noise) : std::string("as measured")},
+      {"method",
+       std::string(options.method ? name_in(kMethodNames, *options.method) : "by the data")},
+      {"noise",
+       std::string(options.noise ? name_in(kErrorModelNames, *options.noise) : "as measured")},
       {"family",
        fmt::format("surge={} yaw={}", text_of(options.surge_family), text_of(options.yaw_family))},
-      {"loss", name_in(kLosses, options.loss)}};
+      {"loss", std::string(name_in(kLossNames, options.loss))}};
   if (options.joint) words.emplace_back("joint", "true");
   for (const ParameterId id : options.asked) words.emplace_back("fit", info(id).name);
   if (options.fit_input_delay) words.emplace_back("fit", kInputDelayName);

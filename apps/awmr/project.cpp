@@ -51,14 +51,13 @@ void read_columns(JsonObject json, Project& project) {
 void read_identify(JsonObject json, Project& project) {
   const auto choice = [&json](const char* key, const auto& table, auto set) {
     if (!json.has(key)) return;
-    const std::vector<std::string> names = names_of(table);
-    set(table[json.choice(key, names)].value);
+    set(json.choice(key, table));
   };
   IdentifyOptions& options = project.identify;
-  choice("method", kMethods, [&](Method value) { options.method = value; });
-  choice("noise", kNoises, [&](ErrorModel value) { options.noise = value; });
-  choice("loss", kLosses, [&](Loss value) { options.loss = value; });
-  choice("prefer", kPreferences, [&](Preference value) { project.trials.preference = value; });
+  choice("method", kMethodNames, [&](Method value) { options.method = value; });
+  choice("noise", kErrorModelNames, [&](ErrorModel value) { options.noise = value; });
+  choice("loss", kLossNames, [&](Loss value) { options.loss = value; });
+  choice("prefer", kPreferenceNames, [&](Preference value) { project.trials.preference = value; });
   const auto each = [&json](const char* key, const auto& add) {
     if (!json.has(key)) return;
     for (const std::string& text : json.strings(key)) {

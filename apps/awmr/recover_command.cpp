@@ -12,12 +12,12 @@
 namespace awmr::cli {
 namespace {
 
-constexpr Named<RecoverPlan> kPlans[] = {
-    {"tables", RecoverPlan::kTables}, {"curve", RecoverPlan::kCurve}, {"log", RecoverPlan::kLog}};
-constexpr Named<RowError> kErrors[] = {{"log-force", RowError::kLogForce},
-                                       {"force", RowError::kForce},
-                                       {"speed", RowError::kSpeed},
-                                       {"time", RowError::kTime}};
+constexpr NameTable<RecoverPlan, 3> kPlans{
+    {{"tables", RecoverPlan::kTables}, {"curve", RecoverPlan::kCurve}, {"log", RecoverPlan::kLog}}};
+constexpr NameTable<RowError, 4> kErrors{{{"log-force", RowError::kLogForce},
+                                          {"force", RowError::kForce},
+                                          {"speed", RowError::kSpeed},
+                                          {"time", RowError::kTime}}};
 
 std::string table_of(const Recovery& recovery) {
   std::string text = fmt::format("{} runs, {} of them with something refused; noise {}\n",
@@ -75,9 +75,9 @@ void add_recover(CLI::App& app, Session& session) {
       "Simulate trials at the model's values, identify them, compare: bias and coverage",
       "awmr recover --model model.json --runs 1000 -o recover.json", [raw]() -> Result<Outcome> {
         RecoverOptions& options = raw->command.recover;
-        options.plan = value_in(kPlans, raw->plan);
-        if (!raw->method.empty()) options.identify.method = value_in(kMethods, raw->method);
-        if (!raw->noise.empty()) options.identify.noise = value_in(kNoises, raw->noise);
+        options.plan = *value_in(kPlans, raw->plan);
+        if (!raw->method.empty()) options.identify.method = value_in(kMethodNames, raw->method);
+        if (!raw->noise.empty()) options.identify.noise = value_in(kErrorModelNames, raw->noise);
         if (!raw->error.empty()) options.error = value_in(kErrors, raw->error);
         for (const std::string& name : raw->asked) {
           if (auto added = add_asked(name, options.identify); !added) {
@@ -98,15 +98,15 @@ void add_recover(CLI::App& app, Session& session) {
          "--plan", raw->plan,
          "tables (default): the model's own trials; curve: with a coast-down curve; log: a "
          "driving log alone")
-      ->check(CLI::IsMember(names_of(kPlans)));
+      ->check(CLI::IsMember(names_in(kPlans)));
   sub->add_option("--method", raw->method, "Estimator under test, as in identify")
-      ->check(CLI::IsMember(names_of(kMethods)));
+      ->check(CLI::IsMember(names_in(kMethodNames)));
   sub->add_option("--noise", raw->noise, "Its noise model, as in identify")
-      ->check(CLI::IsMember(names_of(kNoises)));
+      ->check(CLI::IsMember(names_in(kErrorModelNames)));
   sub->add_option("--error", raw->error,
                   "Where the simulated error of table rows lies: log-force, force, speed or time "
                   "(default: where the estimator assumes it)")
-      ->check(CLI::IsMember(names_of(kErrors)));
+      ->check(CLI::IsMember(names_in(kErrors)));
   sub->add_option("--fit", raw->asked, "Parameters asked for, as in identify")->delimiter(',');
   sub->add_flag("--joint", options.identify.joint, "As in identify");
   sub->add_option("--speed-noise", options.sensors.speed_mps, "m/s (default 0.02)")

@@ -35,7 +35,7 @@ TEST(DanWood, ParametersAndStandardDeviationsAgreeToSixDigits) {
   EXPECT_NEAR(*beta.std_error, 5.1726610913e-02, 1e-6 * 0.0517);
   // Certified residual standard deviation 3.2853114039e-02.
   for (const EstimatorReport& report : result->model.record.reports) {
-    if (report.noise == "force" && report.family == "power") {
+    if (report.noise == name_of(ErrorModel::kForce) && report.family == "power") {
       EXPECT_NEAR(report.residual_std, 0.1 * 3.2853114039e-02, 1e-6 * 0.0033);
       EXPECT_EQ(report.degrees_of_freedom, 4);
       EXPECT_EQ(report.rank, 2);

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 #include <string>
 
+#include "awmr/core/index.h"
 #include "awmr/trials/replay.h"
 
 namespace awmr {
@@ -42,9 +43,7 @@ inline std::string stop_reason(const ceres::Solver::Summary& summary) {
 inline Eigen::MatrixXd dense(const ceres::CRSMatrix& rows) {
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(rows.num_rows, rows.num_cols);
   for (int i = 0; i < rows.num_rows; ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    for (auto k = static_cast<std::size_t>(rows.rows[at]);
-         k < static_cast<std::size_t>(rows.rows[at + 1]); ++k) {
+    for (std::size_t k = at(rows.rows[at(i)]); k < at(rows.rows[at(i + 1)]); ++k) {
       matrix(i, rows.cols[k]) = rows.values[k];
     }
   }

@@ -3,8 +3,11 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
+#include "awmr/core/name_table.h"
 #include "awmr/model/family.h"
 #include "awmr/model/parameters.h"
 #include "awmr/trials/log.h"
@@ -12,34 +15,73 @@
 namespace awmr {
 
 /// Which estimator fills the main values.
-enum class Method { kLogLinear, kNonlinear, kTrajectory };
-/// Where the nonlinear fit puts the error.
-/// kLogForce, a factor on the force, is the log-linear method's assumption.
-enum class ErrorModel { kForce, kSpeed, kTime, kLogForce };
-/// What a residual costs: squares, or a robust loss that an outlier cannot dominate.
-enum class Loss { kSquared, kHuber, kCauchy, kTukey };
+enum class Method {
+  kLogLinear,   ///< tables: the paper's; power law and squared loss only
+  kNonlinear,   ///< tables: where the error is on speed or time, another family or a robust loss
+  kTrajectory,  ///< logs: where there are drives rather than runs; tables fill what they lack
+};
+inline constexpr NameTable<Method, 3> kMethodNames{{{"log-linear", Method::kLogLinear},
+                                                    {"nonlinear", Method::kNonlinear},
+                                                    {"trajectory", Method::kTrajectory}}};
 
-/// One family, or the one with the least AICc.
+/// Where the nonlinear fit puts the error: on what was measured, not on what was set exactly.
+enum class ErrorModel {
+  kForce,     ///< the force was the uncertain one, e.g. a motor whose thrust drifts
+  kSpeed,     ///< the rate was read off a sensor
+  kTime,      ///< a known distance or angle was timed
+  kLogForce,  ///< a factor on the force: the log-linear method's assumption
+};
+/// Those that can be asked for.
+inline constexpr NameTable<ErrorModel, 3> kErrorModelNames{
+    {{"force", ErrorModel::kForce}, {"speed", ErrorModel::kSpeed}, {"time", ErrorModel::kTime}}};
+/// As in /estimates.
+constexpr std::string_view name_of(ErrorModel noise) {
+  return noise == ErrorModel::kLogForce ? "log force" : name_in(kErrorModelNames, noise);
+}
+
+/// What a residual costs: squares, or a robust loss that an outlier cannot dominate.
+enum class Loss {
+  kSquared,  ///< default: the best where errors are normal
+  kHuber,    ///< a few runs lie off the curve
+  kCauchy,   ///< many do, or far off
+  kTukey,    ///< gross mistakes, which then count for nothing; needs a good initial guess
+};
+inline constexpr NameTable<Loss, 4> kLossNames{{{"squares", Loss::kSquared},
+                                                {"huber", Loss::kHuber},
+                                                {"cauchy", Loss::kCauchy},
+                                                {"tukey", Loss::kTukey}}};
+/// As in /estimates: "Huber", "Cauchy", "Tukey".
+inline std::string title_of(Loss loss) {
+  std::string title(name_in(kLossNames, loss));
+  title.front() = static_cast<char>(title.front() - 'a' + 'A');
+  return title;
+}
+
+/// One family of resistance, where it is known or to be compared with others; none to take the one
+/// with the minimum AICc, where the data are to say.
 struct FamilyChoice {
-  std::optional<Family> family = Family::kPower;  ///< none: by AICc
+  std::optional<Family> family = Family::kPower;
 };
 
 struct IdentifyOptions {
   /// Default: the trajectory fit where there are logs, else log-linear, the paper's; nonlinear
   /// where a family or a loss is asked for that log-linear least squares does not know.
   std::optional<Method> method = {};
-  std::optional<ErrorModel> noise = {};  ///< default: time where it is given, else speed
-  FamilyChoice surge_family = {};
+  /// Default: time where every run was timed, else speed. Set it where another was uncertain.
+  std::optional<ErrorModel> noise = {};
+  FamilyChoice surge_family = {};  ///< other than power where `power-law-inadequate` is found
   FamilyChoice yaw_family = {};
-  Loss loss = Loss::kSquared;
-  bool joint = false;  ///< a1, b1, m' together from surge rows and coast-down curves
+  Loss loss = Loss::kSquared;  ///< robust where `outlier` is found and the run cannot be repeated
+  /// a1, b1, m' together from surge rows and coast-down curves: the curve then sharpens a1 and b1
+  /// too, where it is believed as much as the rows.
+  bool joint = false;
   std::vector<ParameterId> asked = {};  ///< empty: those the given trials exist for
-  bool fit_input_delay = false;         ///< logs: one delay of all commands
+  bool fit_input_delay = false;         ///< logs: one delay of all commands, s, where it is unknown
   std::vector<LogChannel> biases = {};  ///< logs: channels with an unknown constant offset
-  std::uint64_t seed = 1;               ///< of the starts and of the bootstrap
-  int starts = 6;               ///< random starts of a fit of logs that has no start of its own
-  int bootstrap = 0;            ///< resamples of the block bootstrap of a fit of logs; 0: none
-  bool cross_validate = false;  ///< logs: leave one out, predict it
+  std::uint64_t seed = 1;               ///< of the multistart and of the bootstrap
+  int starts = 6;     ///< logs: random initial guesses where no trial gives one; >= 0
+  int bootstrap = 0;  ///< logs: resamples, some 1000 where errors stay correlated; 0: none
+  bool cross_validate = false;  ///< logs: leave one out, predict it; where there are two or more
   int threads = 0;              ///< 0: all; the result does not depend on it
   bool side_by_side = true;     ///< false: the asked estimator alone, without its rivals and tests
 };

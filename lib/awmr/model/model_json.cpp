@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "awmr/core/option_text.h"
+
 namespace awmr {
 namespace {
 
@@ -222,7 +224,7 @@ Json finding_to_json(const Finding& finding) {
   json["line"] = finding.line;
   json["severity"] = kSeverities[static_cast<std::size_t>(finding.severity)];
   json["code"] = finding.code;
-  json["message"] = finding.message;
+  json["message"] = plain_text(finding.message);
   return json;
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "awmr/core/csv.h"
+#include "awmr/core/name_table.h"
 #include "awmr/core/result.h"
 #include "awmr/model/model.h"
 #include "awmr/model/vehicle.h"
@@ -73,6 +74,8 @@ struct CoastdownSet : TrialSet<StopTimeRow> {
 /// Which value is used where a row gives a speed or yaw rate both as printed and through its
 /// timing.
 enum class Preference { kPrinted, kTimed };
+inline constexpr NameTable<Preference, 2> kPreferenceNames{
+    {{"printed", Preference::kPrinted}, {"timed", Preference::kTimed}}};
 
 struct TrialOptions {
   std::vector<ColumnMapping> columns;

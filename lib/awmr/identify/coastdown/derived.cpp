@@ -14,10 +14,6 @@ constexpr double kGravity = 9.80665;           ///< m/s^2
 constexpr double kFragileShare = 0.10;         ///< relative standard error of m' worth a warning
 constexpr double kInertiaDisagreement = 0.10;  ///< relative difference of Iz worth a note
 
-}  // namespace
-
-namespace {
-
 /// ln of the stop time at m' = 1.
 std::optional<double> log_unit_stop_time(const Resistance<double>& law, double speed_mps) {
   const auto stop_s = stop_time_s(law, 1.0, speed_mps);
@@ -53,8 +49,7 @@ double by_coordinate(const SteadyFit& surge, TransformedParameter c, double spee
 std::optional<MassFromStopTime> mass_from_stop_time(const SteadyFit& surge,
                                                     const std::vector<StopTimeRow>& runs) {
   const double n = static_cast<double>(runs.size());
-  MassFromStopTime mass{0.0, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(surge.free.size())),
-                        0.0};
+  MassFromStopTime mass{0.0, Eigen::VectorXd::Zero(rows_of(surge.free)), 0.0};
   std::vector<double> values;
   for (const StopTimeRow& run : runs) {
     const auto log_unit = log_unit_stop_time(surge.law(), run.initial_speed_mps);
@@ -62,7 +57,7 @@ std::optional<MassFromStopTime> mass_from_stop_time(const SteadyFit& surge,
     values.push_back(std::log(run.stop_time_s) - *log_unit);
     mass.log_mass_norm += values.back() / n;
     for (std::size_t i = 0; i < surge.free.size(); ++i) {
-      mass.by_surge(static_cast<Eigen::Index>(i)) +=
+      mass.by_surge(eigen_index(i)) +=
           by_coordinate(surge, surge.free[i], run.initial_speed_mps) / n;
     }
   }

@@ -8,11 +8,11 @@
 namespace awmr {
 
 SteadyFit fit_log_linear(const std::vector<SteadyPoint>& points) {
-  const auto n = static_cast<Eigen::Index>(points.size());
+  const Eigen::Index n = rows_of(points);
   Eigen::MatrixX2d design(n, 2);
   Eigen::VectorXd observed(n);
   for (Eigen::Index i = 0; i < n; ++i) {
-    const SteadyPoint& point = points[static_cast<std::size_t>(i)];
+    const SteadyPoint& point = points[at(i)];
     design.row(i) << 1.0, std::log(point.rate);
     observed(i) = std::log(point.force);
   }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "awmr/core/index.h"
+
 namespace awmr {
 
 std::unique_ptr<ceres::LossFunction> make_loss(Loss loss, double scale) {
@@ -21,10 +23,8 @@ std::unique_ptr<ceres::LossFunction> make_loss(Loss loss, double scale) {
 }
 
 double median_scale(const Eigen::VectorXd& residuals) {
-  std::vector<double> sizes(static_cast<std::size_t>(residuals.size()));
-  for (std::size_t i = 0; i < sizes.size(); ++i) {
-    sizes[i] = std::abs(residuals(static_cast<Eigen::Index>(i)));
-  }
+  std::vector<double> sizes(at(residuals.size()));
+  for (std::size_t i = 0; i < sizes.size(); ++i) sizes[i] = std::abs(residuals(eigen_index(i)));
   std::sort(sizes.begin(), sizes.end());
   const std::size_t half = sizes.size() / 2;
   const double median = sizes.size() % 2 == 1 ? sizes[half] : 0.5 * (sizes[half - 1] + sizes[half]);
@@ -35,20 +35,20 @@ double m_estimate_variance(const ceres::LossFunction& loss, const Eigen::VectorX
                            int parameters) {
   const auto n = static_cast<double>(residuals.size());
   double squares = 0.0;
-  double slope_sum = 0.0;
-  double slope_squares = 0.0;
+  double jacobian_sum = 0.0;
+  double jacobian_squares = 0.0;
   for (const double e : residuals) {
     // cost rho(e^2)/2  =>  psi = e rho',  psi' = rho' + 2 e^2 rho''
     double rho[3];
     loss.Evaluate(e * e, rho);
     const double psi = e * rho[1];
-    const double slope = rho[1] + 2.0 * e * e * rho[2];
+    const double jacobian = rho[1] + 2.0 * e * e * rho[2];
     squares += psi * psi;
-    slope_sum += slope;
-    slope_squares += slope * slope;
+    jacobian_sum += jacobian;
+    jacobian_squares += jacobian * jacobian;
   }
-  const double mean = slope_sum / n;
-  const double variance = std::max(0.0, slope_squares / n - mean * mean);
+  const double mean = jacobian_sum / n;
+  const double variance = std::max(0.0, jacobian_squares / n - mean * mean);
   const double kappa = 1.0 + parameters / n * variance / (mean * mean);
   return kappa * kappa * squares / (n - parameters) / (mean * mean);
 }

@@ -9,6 +9,9 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <vector>
+
+#include "awmr/core/index.h"
 
 namespace awmr {
 namespace {
@@ -74,8 +77,7 @@ std::optional<Diagnostic> whiteness(std::span<const double> residuals, int lags)
   for (int k = 1; k <= lags; ++k) {
     double sum = 0.0;
     for (int i = k; i < n; ++i) {
-      sum += (residuals[static_cast<std::size_t>(i)] - mean) *
-             (residuals[static_cast<std::size_t>(i - k)] - mean);
+      sum += (residuals[at(i)] - mean) * (residuals[at(i - k)] - mean);
     }
     const double rho = sum / variance;
     q += rho * rho / (n - k);
@@ -87,22 +89,22 @@ std::optional<Diagnostic> whiteness(std::span<const double> residuals, int lags)
       verdict(p, "the residuals may be white", "neighbouring residuals are correlated")};
 }
 
-std::optional<Diagnostic> curvature(const std::vector<SteadyPoint>& points,
+std::optional<Diagnostic> curvature(std::span<const double> forces,
                                     const Eigen::VectorXd& residuals) {
-  const std::size_t n = points.size();
+  const std::size_t n = forces.size();
   if (n < kFewestForShape) return std::nullopt;
   std::vector<std::size_t> order(n);
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return points[a].force < points[b].force; });
+                   [&](std::size_t a, std::size_t b) { return forces[a] < forces[b]; });
   double steps = 0.0;
   double squares = 0.0;
   const double mean = residuals.mean();
   for (std::size_t i = 0; i < n; ++i) {
-    const double e = residuals(static_cast<Eigen::Index>(order[i]));
+    const double e = residuals(eigen_index(order[i]));
     squares += (e - mean) * (e - mean);
     if (i == 0) continue;
-    const double step = e - residuals(static_cast<Eigen::Index>(order[i - 1]));
+    const double step = e - residuals(eigen_index(order[i - 1]));
     steps += step * step;
   }
   if (!(squares > 0.0)) return std::nullopt;
@@ -115,11 +117,11 @@ std::optional<Diagnostic> curvature(const std::vector<SteadyPoint>& points,
                             "neighbouring forces err alike: the curve bends otherwise")};
 }
 
-std::optional<Diagnostic> lack_of_fit(const std::vector<SteadyPoint>& points,
+std::optional<Diagnostic> lack_of_fit(std::span<const double> forces,
                                       const Eigen::VectorXd& residuals, int parameters) {
   std::map<double, std::vector<double>> groups;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    groups[points[i].force].push_back(residuals(static_cast<Eigen::Index>(i)));
+  for (std::size_t i = 0; i < forces.size(); ++i) {
+    groups[forces[i]].push_back(residuals(eigen_index(i)));
   }
   double pure = 0.0;
   double between = 0.0;
@@ -128,7 +130,7 @@ std::optional<Diagnostic> lack_of_fit(const std::vector<SteadyPoint>& points,
     between += static_cast<double>(group.size()) * mean * mean;
     for (const double e : group) pure += (e - mean) * (e - mean);
   }
-  const auto pure_dof = static_cast<double>(points.size() - groups.size());
+  const auto pure_dof = static_cast<double>(forces.size() - groups.size());
   const double between_dof = static_cast<double>(groups.size()) - parameters;
   if (pure_dof < 1.0 || between_dof < 1.0 || !(pure > 0.0)) return std::nullopt;
   const double f = (between / between_dof) / (pure / pure_dof);
@@ -139,15 +141,15 @@ std::optional<Diagnostic> lack_of_fit(const std::vector<SteadyPoint>& points,
                             "the curve misses the runs by more than repeats differ")};
 }
 
-Eigen::VectorXd studentised(const SteadyFit& fit) {
-  const int dof = fit.degrees_of_freedom;
-  if (dof < 2 || fit.leverages.size() == 0) return {};
-  Eigen::VectorXd t(fit.residuals.size());
-  const double sse = fit.residuals.squaredNorm();
+Eigen::VectorXd studentised(const Eigen::VectorXd& residuals, const Eigen::VectorXd& leverages,
+                            int degrees_of_freedom) {
+  if (degrees_of_freedom < 2 || leverages.size() == 0) return {};
+  Eigen::VectorXd t(residuals.size());
+  const double sse = residuals.squaredNorm();
   for (Eigen::Index i = 0; i < t.size(); ++i) {
-    const double free = 1.0 - fit.leverages(i);
-    const double e = fit.residuals(i);
-    const double without = (sse - e * e / free) / (dof - 1.0);
+    const double free = 1.0 - leverages(i);
+    const double e = residuals(i);
+    const double without = (sse - e * e / free) / (degrees_of_freedom - 1.0);
     // A point that alone decides a parameter has no residual to judge.
     t(i) = free > 1e-12 && without > 0.0 ? e / std::sqrt(without * free) : 0.0;
   }

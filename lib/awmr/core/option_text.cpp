@@ -1,0 +1,29 @@
+#include "awmr/core/option_text.h"
+
+namespace awmr {
+namespace {
+
+constexpr std::string_view kOpen = "{option:";
+constexpr std::string_view kClose = "}";
+
+}  // namespace
+
+std::string option_text(std::string_view name) {
+  return std::string(kOpen).append(name).append(kClose);
+}
+
+std::string spell_options(std::string_view message, std::string_view prefix) {
+  std::string text;
+  while (true) {
+    const std::size_t open = message.find(kOpen);
+    const std::size_t close = open == message.npos ? open : message.find(kClose, open);
+    if (close == message.npos) return text.append(message);
+    const std::size_t name = open + kOpen.size();
+    text.append(message.substr(0, open)).append(prefix).append(message.substr(name, close - name));
+    message.remove_prefix(close + kClose.size());
+  }
+}
+
+std::string plain_text(std::string_view message) { return spell_options(message, ""); }
+
+}  // namespace awmr

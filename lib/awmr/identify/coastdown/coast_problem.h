@@ -1,0 +1,63 @@
+/// All coast-down curves as one least-squares problem. Private to identify/coastdown/.
+#pragma once
+
+#include <ceres/ceres.h>
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "awmr/core/index.h"
+#include "awmr/identify/tables/steady_fit.h"
+#include "awmr/trials/trials.h"
+
+namespace awmr {
+
+/// The initial state of a run: its plateau's mean and end, if it was recorded from before
+/// motors-off.
+struct CoastInitialState {
+  double block[2];         ///< u0 in m/s, t0 in s
+  bool free_time = false;  ///< t0 is fitted along
+};
+
+/// The residuals u(t) - measured of every sample, run after run, over the surge law's ln a, b, c,
+/// q, ln m' and each run's (u0, t0). The surge law is held unless its blocks are set variable.
+/// The problem points into itself and into `curves`: it stays where it was made.
+class CoastProblem {
+ public:
+  /// `terms_free`: derivatives by c or q may be wanted, which the closed form does not know.
+  CoastProblem(const std::vector<CoastCurve>& curves, const TransformedParameters& surge,
+               double log_mass, bool terms_free);
+  CoastProblem(const CoastProblem&) = delete;
+  CoastProblem& operator=(const CoastProblem&) = delete;
+
+  ceres::Problem& problem() { return problem_; }
+  double* block(TransformedParameter c) { return &theta_[at(c)]; }
+  double* log_mass() { return &log_mass_; }
+  const TransformedParameters& theta() const { return theta_; }
+
+  void solve();
+  const ceres::Solver::Summary& summary() const { return summary_; }
+
+  Eigen::VectorXd residuals();  ///< m/s, by sample
+  /// Samples by columns: `first` in order, then each run's initial state (u0, and t0 where free).
+  Eigen::MatrixXd jacobian(const std::vector<double*>& first);
+
+  /// Moves theta, ln m' and each run's initial state, in that order.
+  void step(const std::vector<TransformedParameter>& free, const Eigen::VectorXd& by);
+
+  const std::vector<int>& sizes() const { return sizes_; }  ///< samples, by run
+
+ private:
+  const std::vector<CoastCurve>* curves_;
+  TransformedParameters theta_;
+  double log_mass_;
+  std::vector<CoastInitialState> initial_;
+  std::vector<int> sizes_;
+  ceres::Problem problem_;
+  ceres::Solver::Summary summary_;
+};
+
+/// Deceleration at the start of the curves against g1 there: m' ~ g(u) dt/du.
+double guess_log_mass(const std::vector<CoastCurve>& curves, const Resistance<double>& law);
+
+}  // namespace awmr

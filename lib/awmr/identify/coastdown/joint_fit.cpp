@@ -1,0 +1,178 @@
+#include "awmr/identify/coastdown/joint_fit.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "awmr/identify/coastdown/coast_noise.h"
+#include "awmr/identify/coastdown/coast_problem.h"
+
+namespace awmr {
+namespace {
+
+constexpr int kMaximumRounds = 200;
+/// Of a step, in standard errors, and of the noise levels, relative.
+constexpr double kTolerance = 1e-8;
+
+/// A number for each of the two sets of rows.
+struct BySet {
+  double surge = 0.0;
+  double coast = 0.0;
+};
+
+/// The columns that surge rows and curves share: the surge law's, a dead zone excepted, which does
+/// not enter a coast-down.
+struct SharedColumns {
+  std::vector<double*> blocks;         ///< of the curves' problem, with ln m' as the last
+  std::vector<Eigen::Index> of_surge;  ///< by block but the last: its column among the surge rows
+};
+
+/// Both sets of rows, residuals and jacobians, at one place.
+struct Rows {
+  SteadyRows surge;
+  Eigen::VectorXd coast_residuals;
+  Eigen::MatrixXd coast_jacobian;  ///< over SharedColumns, then the initial states
+};
+
+/// Jacobians over (surge law, ln m', initial states), and the covariance at these noise levels.
+struct Stacked {
+  Eigen::MatrixXd surge;
+  Eigen::MatrixXd coast;
+  Eigen::MatrixXd covariance;
+};
+
+SharedColumns shared_columns(CoastProblem& problem, const std::vector<TransformedParameter>& free) {
+  SharedColumns shared;
+  for (std::size_t i = 0; i < free.size(); ++i) {
+    if (free[i] == TransformedParameter::kDeadZone) continue;
+    shared.blocks.push_back(problem.block(free[i]));
+    shared.of_surge.push_back(eigen_index(i));
+  }
+  shared.blocks.push_back(problem.log_mass());
+  return shared;
+}
+
+/// C = (Js^T Js / vs + Jc^T Jc / vc)^-1
+Stacked stack(const Rows& rows, const SharedColumns& shared, const BySet& variance) {
+  const Eigen::Index p = rows.surge.jacobian.cols();
+  const Eigen::Index own = rows.coast_jacobian.cols() - rows_of(shared.of_surge);
+  Stacked stacked;
+  stacked.surge = Eigen::MatrixXd::Zero(rows.surge.residuals.size(), p + own);
+  stacked.surge.leftCols(p) = rows.surge.jacobian;
+  stacked.coast = Eigen::MatrixXd::Zero(rows.coast_jacobian.rows(), p + own);
+  for (std::size_t i = 0; i < shared.of_surge.size(); ++i) {
+    stacked.coast.col(shared.of_surge[i]) = rows.coast_jacobian.col(eigen_index(i));
+  }
+  stacked.coast.rightCols(own) = rows.coast_jacobian.rightCols(own);
+  const Eigen::MatrixXd information = stacked.surge.transpose() * stacked.surge / variance.surge +
+                                      stacked.coast.transpose() * stacked.coast / variance.coast;
+  stacked.covariance = information.ldlt().solve(Eigen::MatrixXd::Identity(p + own, p + own));
+  return stacked;
+}
+
+/// Gauss-Newton: -C (Js^T es / vs + Jc^T ec / vc)
+Eigen::VectorXd gauss_newton_step(const Stacked& s, const Rows& rows, const BySet& variance) {
+  return -s.covariance * (s.surge.transpose() * rows.surge.residuals / variance.surge +
+                          s.coast.transpose() * rows.coast_residuals / variance.coast);
+}
+
+/// Rows less what each set spends on the parameters, n - tr(C J^T J)/v.
+BySet degrees_of_freedom(const Stacked& s, const Rows& rows, const BySet& variance) {
+  const double surge_spent =
+      (s.covariance * (s.surge.transpose() * s.surge)).trace() / variance.surge;
+  const double coast_spent =
+      (s.covariance * (s.coast.transpose() * s.coast)).trace() / variance.coast;
+  return {static_cast<double>(rows.surge.residuals.size()) - surge_spent,
+          static_cast<double>(rows.coast_residuals.size()) - coast_spent};
+}
+
+/// Variance components: e^T e / dof of each set.
+BySet variance_components(const Rows& rows, const BySet& dof) {
+  return {rows.surge.residuals.squaredNorm() / std::max(1.0, dof.surge),
+          rows.coast_residuals.squaredNorm() / std::max(1.0, dof.coast)};
+}
+
+/// Satterthwaite's degrees of freedom of the first `count` variances, V = Vs + Vc by the two sets:
+///   V^2 / (Vs^2/dof_s + Vc^2/dof_c)
+Eigen::VectorXd satterthwaite(const Stacked& s, const BySet& variance, const BySet& dof,
+                              Eigen::Index count) {
+  const Eigen::MatrixXd by_surge =
+      s.covariance * (s.surge.transpose() * s.surge) * s.covariance / variance.surge;
+  const Eigen::MatrixXd by_coast =
+      s.covariance * (s.coast.transpose() * s.coast) * s.covariance / variance.coast;
+  Eigen::VectorXd combined = Eigen::VectorXd::Zero(count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const double total = by_surge(i, i) + by_coast(i, i);
+    combined(i) = total * total /
+                  (by_surge(i, i) * by_surge(i, i) / std::max(1.0, dof.surge) +
+                   by_coast(i, i) * by_coast(i, i) / std::max(1.0, dof.coast));
+  }
+  return combined;
+}
+
+/// The largest relative change of a noise level.
+double change(const BySet& from, const BySet& to) {
+  return std::max(std::abs(to.surge / from.surge - 1.0), std::abs(to.coast / from.coast - 1.0));
+}
+
+/// The largest element of a step in standard errors.
+double length(const Eigen::VectorXd& step, const Stacked& s) {
+  return (step.array() / s.covariance.diagonal().array().sqrt()).abs().maxCoeff();
+}
+
+double mean_square(const Eigen::VectorXd& e) {
+  return e.squaredNorm() / static_cast<double>(e.size());
+}
+
+/// What is known at this place and these noise levels, whether or not it is the last.
+void keep(const Stacked& s, const Rows& rows, CoastProblem& problem, const BySet& variance,
+          const BySet& dof, JointFit& joint) {
+  const Eigen::Index count = rows_of(joint.surge.free) + 1;
+  joint.covariance = s.covariance.topLeftCorner(count, count);
+  joint.dof = satterthwaite(s, variance, dof, count);
+  joint.log_mass_norm = *problem.log_mass();
+  joint.coast.residuals = by_run(rows.coast_residuals, problem.sizes());
+  joint.coast.residual_std_mps = std::sqrt(variance.coast);
+  joint.coast.rows = static_cast<int>(rows.coast_residuals.size());
+  joint.surge.covariance = joint.covariance.topLeftCorner(count - 1, count - 1);
+}
+
+}  // namespace
+
+JointFit fit_joint(const SteadyProblem& surge, const SteadyFit& start,
+                   const std::vector<CoastCurve>& curves) {
+  JointFit joint;
+  joint.surge = start;
+  const FamilyTerms terms = terms_of(surge.family);
+  CoastProblem problem(curves, start.theta, fit_coast(curves, start).log_mass_norm,
+                       terms.coulomb || terms.quadratic);
+  problem.solve();  // each run's initial state
+  const SharedColumns shared = shared_columns(problem, start.free);
+  BySet variance{start.residual_std * start.residual_std, mean_square(problem.residuals())};
+  joint.coast.stop_reason = "not converged: the step is still above 1e-8 standard errors";
+  // The noise levels are those of the last step's residuals; both settle together.
+  for (int round = 0; round < kMaximumRounds && !joint.coast.usable; ++round) {
+    joint.surge.theta = problem.theta();
+    const Eigen::MatrixXd coast_jacobian = problem.jacobian(shared.blocks);
+    const Rows rows{steady_rows(surge, joint.surge.theta, start.free), problem.residuals(),
+                    coast_jacobian};
+    const Stacked s = stack(rows, shared, variance);
+    const Eigen::VectorXd step = gauss_newton_step(s, rows, variance);
+    const BySet dof = degrees_of_freedom(s, rows, variance);
+    keep(s, rows, problem, variance, dof, joint);
+    const BySet next = variance_components(rows, dof);
+    if (length(step, s) < kTolerance && change(variance, next) < kTolerance) {
+      joint.coast.usable = true;
+      joint.coast.stop_reason = "converged: steps below 1e-8 standard errors";
+      joint.surge.residual_std = std::sqrt(next.surge);
+      joint.surge.residuals = rows.surge.residuals;
+    } else {
+      problem.step(start.free, step);
+    }
+    variance = next;
+  }
+  joint.surge.stop_reason = joint.coast.stop_reason;
+  return joint;
+}
+
+}  // namespace awmr

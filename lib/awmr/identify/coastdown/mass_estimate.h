@@ -1,0 +1,44 @@
+/// ln m' with its sources of error, by one trial or by several. Private to identify/.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "awmr/identify/coastdown/coast_fit.h"
+#include "awmr/identify/coastdown/derived.h"
+
+namespace awmr {
+
+/// ln m' and its errors: the surge law's, which every coast-down shares, and its own.
+struct MassEstimate {
+  double log_mass_norm = 0.0;
+  Eigen::VectorXd by_surge;   ///< d ln m' by SteadyFit::free of the surge fit
+  double own_variance = 0.0;  ///< of ln m', independent of the surge fit; >= 0
+  double own_dof = 1e9;       ///< degrees of freedom of that variance; 1e9: known, not estimated
+  std::string method;         ///< "stop time", "coast-down curve", "stop time and coast-down curve"
+
+  /// Of ln m'; none where the surge fit has no covariance.
+  std::optional<double> variance(const SteadyFit& surge) const;
+  /// Satterthwaite: V^2 / (V_surge^2/dof_surge + V_own^2/dof_own)
+  double dof(const SteadyFit& surge) const;
+};
+
+MassEstimate from_stop_time(const MassFromStopTime& mass, std::size_t runs);
+MassEstimate from_curve(const CoastFit& fit);
+
+/// w a + (1 - w) b of minimum variance, the surge fit's share being common to both.
+/// Precondition: the surge fit has a covariance.
+MassEstimate combined(const MassEstimate& a, const MassEstimate& b, const SteadyFit& surge);
+
+/// `estimates-disagree`, where two estimates differ by more than chance allows (p < 0.01).
+std::vector<Finding> disagreement(const MassEstimate& a, const MassEstimate& b,
+                                  const SteadyFit& surge, const std::string& file);
+
+/// An estimate as an entry of /estimates. `noise`: where the error was put, in words.
+EstimatorReport report_of(const MassEstimate& mass, const SteadyFit& surge, Estimator estimator,
+                          std::string_view noise);
+
+}  // namespace awmr

@@ -1,0 +1,35 @@
+/// The model as it grows: what each source of evidence sets, with its share of the covariance.
+/// Private to identify/.
+#pragma once
+
+#include <optional>
+
+#include "awmr/identify/coastdown/mass.h"
+#include "awmr/identify/logs/log_stage.h"
+#include "awmr/identify/tables/subject_fit.h"
+#include "awmr/identify/uncertainty/joint_covariance.h"
+#include "awmr/model/model.h"
+
+namespace awmr {
+
+/// A model and the covariance of all that is fitted in it. Later evidence replaces earlier.
+struct MainValues {
+  Model& model;
+  JointCovariance covariance = {};
+  std::optional<Eigen::Index> surge_block = {};  ///< place of the surge fit's covariance
+};
+
+/// What vehicle.json gives: the sway resistance and the servo.
+void set_given(const Vehicle& vehicle, Model& model);
+
+/// A fitted resistance law with its family. Precondition: `fit` has one.
+void set_law(const Subject& subject, const SubjectFit& fit, MainValues& values);
+
+/// m' by coast-downs and I'z from it; b1 too, where a curve stands alone.
+/// Precondition: set_law() of the surge fit, where there is one.
+void set_mass(const MassResult& mass, const std::optional<SteadyFit>& surge, MainValues& values);
+
+/// What the logs fill. `yaw_family`: of the logs' fit.
+void set_logs(const LogStage& logs, Family yaw_family, MainValues& values);
+
+}  // namespace awmr

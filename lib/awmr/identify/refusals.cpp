@@ -1,0 +1,86 @@
+#include "awmr/identify/refusals.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace awmr {
+namespace {
+
+bool has_coastdown(const TrialData& data) {
+  return (data.coastdown && !data.coastdown->rows.empty()) || !data.curves.empty();
+}
+
+/// Why the tables do not show a parameter.
+std::string table_reason(ParameterId id, const TrialData& data, const Reasons& reasons) {
+  switch (id) {
+    case ParameterId::kSurgeAlpha:
+    case ParameterId::kSurgeBeta:
+      if (!data.surge) return reasons.curve_alone ? reasons.mass : "there is no surge trial";
+      return fmt::format(
+          "the usable surge rows ({}) do not hold two different tau_speed with different speeds",
+          data.surge->rows.size());
+    case ParameterId::kYawAlpha:
+    case ParameterId::kYawBeta:
+      if (!data.turning) return "there is no turning trial";
+      return fmt::format(
+          "the usable turning rows ({}) do not hold two different tau_turn with different yaw "
+          "rates",
+          data.turning->rows.size());
+    case ParameterId::kMassNorm:
+    case ParameterId::kInertiaNorm:
+      return has_coastdown(data) ? reasons.mass : "there is no coast-down trial";
+    case ParameterId::kSwayAlpha:
+      return "sway_alpha is not in vehicle.json";
+    default:
+      return "it is not in vehicle.json";
+  }
+}
+
+}  // namespace
+
+std::vector<ParameterId> asked_for(const TrialData& data, const IdentifyOptions& options) {
+  if (!options.asked.empty()) return options.asked;
+  std::vector<ParameterId> ids;
+  if (data.surge) ids.insert(ids.end(), {ParameterId::kSurgeAlpha, ParameterId::kSurgeBeta});
+  if (data.turning) ids.insert(ids.end(), {ParameterId::kYawAlpha, ParameterId::kYawBeta});
+  if (data.coastdown || !data.curves.empty()) {
+    ids.insert(ids.end(), {ParameterId::kMassNorm, ParameterId::kInertiaNorm});
+  }
+  if (!data.logs.empty()) {
+    for (const ParameterInfo& parameter : parameter_table()) {
+      if (!parameter.term) ids.push_back(parameter.id);
+    }
+  }
+  return ids;
+}
+
+std::vector<ParameterId> refuse_what_is_missing(const TrialData& data, const Reasons& reasons,
+                                                const std::vector<ParameterId>& asked,
+                                                Model& model) {
+  std::vector<ParameterId> refused;
+  for (const ParameterInfo& parameter : parameter_table()) {
+    Estimate& estimate = model[parameter.id];
+    const bool wanted = std::find(asked.begin(), asked.end(), parameter.id) != asked.end();
+    const auto logged = reasons.logs.find(parameter.id);
+    const bool held = estimate.value && logged != reasons.logs.end() && wanted &&
+                      estimate.source == Source::kGiven;
+    if (estimate.value && !held) continue;
+    if (!estimate.value) {
+      estimate.source = Source::kFitted;
+      estimate.method = "none";
+    }
+    if (wanted) refused.push_back(parameter.id);
+    const std::string why =
+        logged != reasons.logs.end() ? logged->second : table_reason(parameter.id, data, reasons);
+    const std::string kept =
+        held ? fmt::format(" (the given {:.4g} is kept)", *estimate.value) : std::string();
+    model.record.findings.push_back(
+        {"", 0, wanted ? Severity::kError : Severity::kNote, "not-identifiable",
+         fmt::format("{} ({}) cannot be identified: {}; {}{}", parameter.name, parameter.meaning,
+                     why, parameter.trial, kept)});
+  }
+  return refused;
+}
+
+}  // namespace awmr

@@ -1,0 +1,31 @@
+/// What was asked for, and what the data cannot show of it. Private to identify/.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "awmr/identify/options.h"
+#include "awmr/model/model.h"
+#include "awmr/trials/trial_data.h"
+
+namespace awmr {
+
+/// The parameters asked for: those named, else those that the given trials exist for.
+std::vector<ParameterId> asked_for(const TrialData& data, const IdentifyOptions& options);
+
+/// Why a parameter has no value, beyond what the presence of trials says.
+struct Reasons {
+  std::string mass;                         ///< why the coast-downs give no m'
+  bool curve_alone = false;                 ///< curves without a surge law: `mass` tells of a1 too
+  std::map<ParameterId, std::string> logs;  ///< free in the fit of the logs, but not identifiable
+};
+
+/// Marks what has no value as not identified and says why, what is asked for as an error
+/// (`not-identifiable`). A given value stands, but where a log was to show it, that it does not is
+/// said. Returns what was asked for and refused.
+std::vector<ParameterId> refuse_what_is_missing(const TrialData& data, const Reasons& reasons,
+                                                const std::vector<ParameterId>& asked,
+                                                Model& model);
+
+}  // namespace awmr

@@ -1,0 +1,107 @@
+#include "awmr/identify/tables/family_choice.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "awmr/identify/tables/profile.h"
+
+namespace awmr {
+namespace {
+
+/// The profile's interval of every coordinate that has a standard error, in the parameter's scale.
+void add_profiles(Candidate& candidate) {
+  const std::vector<TransformedParameter> coordinates = coordinates_of(candidate.problem.family);
+  for (std::size_t i = 0; i < candidate.report.parameters.size(); ++i) {
+    const TransformedParameter c = coordinates[i];
+    if (!candidate.fit.std_error(c)) continue;
+    candidate.report.parameters[i].profile95 =
+        values_from(c, profile_interval(candidate.problem, candidate.fit, c));
+  }
+}
+
+Candidate fit_candidate(const Subject& subject, const SteadyProblem& problem, ErrorModel wanted,
+                        const SteadyFit& line) {
+  const bool squared = problem.loss == Loss::kSquared;
+  Candidate candidate{
+      problem,
+      problem.family == Family::kPower ? fit_steady(problem, line.theta) : fit_steady(problem),
+      {}};
+  const SteadyFit& fit = candidate.fit;
+  candidate.report =
+      report_of(subject, fit, problem.family, Estimator::kNonlinear, name_of(problem.noise));
+  if (!squared) candidate.report.noise += ", " + title_of(problem.loss);
+  candidate.report.aicc = squared ? aicc(fit) : std::nullopt;
+  if (problem.noise == wanted && squared && fit.has_covariance() && fit.usable) {
+    add_profiles(candidate);
+  }
+  return candidate;
+}
+
+/// The families and noise models to be tried, in the order of the reports.
+std::vector<std::pair<Family, ErrorModel>> plan(const Subject& subject,
+                                                const SubjectOptions& options, ErrorModel wanted) {
+  std::vector<std::pair<Family, ErrorModel>> fits;
+  if (!options.side_by_side) {
+    if (options.method == Method::kLogLinear) return fits;
+    if (options.family.family) return {{*options.family.family, wanted}};
+    for (const Family family : subject.families) fits.emplace_back(family, wanted);
+    return fits;
+  }
+  for (const ErrorModel noise : {ErrorModel::kForce, ErrorModel::kSpeed, ErrorModel::kTime}) {
+    if (noise == ErrorModel::kTime && !all_timed(subject.points)) continue;
+    fits.emplace_back(Family::kPower, noise);
+  }
+  for (const Family family : subject.families) {
+    if (family != Family::kPower) fits.emplace_back(family, wanted);
+  }
+  return fits;
+}
+
+}  // namespace
+
+bool all_timed(const std::vector<SteadyPoint>& points) {
+  return std::all_of(points.begin(), points.end(),
+                     [](const SteadyPoint& p) { return p.travel && p.elapsed_s; });
+}
+
+ErrorModel wanted_noise(const Subject& subject, const SubjectOptions& options) {
+  return options.noise.value_or(all_timed(subject.points) ? ErrorModel::kTime : ErrorModel::kSpeed);
+}
+
+std::vector<Candidate> fit_candidates(const Subject& subject, const SubjectOptions& options,
+                                      ErrorModel wanted, const SteadyFit& line) {
+  std::vector<Candidate> candidates;
+  for (const auto& [family, noise] : plan(subject, options, wanted)) {
+    if (subject.points.size() < coordinates_of(family).size()) continue;
+    const SteadyProblem problem{subject.points, family, noise, options.loss, subject.beta_range};
+    candidates.push_back(fit_candidate(subject, problem, wanted, line));
+  }
+  return candidates;
+}
+
+const Candidate* candidate_of(const std::vector<Candidate>& candidates, Family family,
+                              ErrorModel noise) {
+  for (const Candidate& c : candidates) {
+    if (c.problem.family == family && c.problem.noise == noise) return &c;
+  }
+  return nullptr;
+}
+
+const Candidate* best_candidate(const std::vector<Candidate>& candidates, ErrorModel noise) {
+  const Candidate* best = nullptr;
+  for (const Candidate& c : candidates) {
+    if (c.problem.noise != noise || !c.fit.usable || !aicc(c.fit)) continue;
+    if (!best || *aicc(c.fit) < *aicc(best->fit)) best = &c;
+  }
+  return best;
+}
+
+std::string method_in_words(const SteadyProblem& problem) {
+  std::string words = fmt::format("nonlinear, noise on {}", name_of(problem.noise));
+  if (problem.family != Family::kPower) words += fmt::format(", {}", name_of(problem.family));
+  if (problem.loss != Loss::kSquared) words += ", " + title_of(problem.loss);
+  return words;
+}
+
+}  // namespace awmr

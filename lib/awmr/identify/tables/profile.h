@@ -1,0 +1,25 @@
+/// Intervals from the profile of the sum of squares, and the criterion that compares families.
+/// Private to identify/.
+#pragma once
+
+#include <optional>
+
+#include "awmr/identify/tables/steady_fit.h"
+
+namespace awmr {
+
+/// The minimum sum of squares with one coordinate held. Infinite where the search fails.
+double profile_cost(const SteadyProblem& problem, const TransformedParameters& initial_guess,
+                    TransformedParameter held, double value);
+
+/// Where the profile of the sum of squares rises by t^2 s^2 on either side, as an interval of the
+/// coordinate; an end that a bound cuts off lies on the bound.
+/// Precondition: squared loss, degrees of freedom, `c` free.
+Interval profile_interval(const SteadyProblem& problem, const SteadyFit& fit,
+                          TransformedParameter c);
+
+/// AICc = n ln(SSE/n) + 2 k + 2 k (k + 1)/(n - k - 1), k = free coordinates + 1 (the variance).
+/// None for n <= k + 1.
+std::optional<double> aicc(const SteadyFit& fit);
+
+}  // namespace awmr

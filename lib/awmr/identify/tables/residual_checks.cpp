@@ -1,0 +1,82 @@
+#include "awmr/identify/tables/residual_checks.h"
+
+#include <fmt/format.h>
+
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+
+#include "awmr/core/index.h"
+#include "awmr/core/option_text.h"
+#include "awmr/identify/uncertainty/diagnostics.h"
+
+namespace awmr {
+namespace {
+
+constexpr double kOutlierLevel = 0.05;  ///< for the whole table (Bonferroni)
+
+Finding exponent_at_bound(const Subject& subject, double beta, bool held) {
+  const Interval& range = subject.beta_range;
+  return {subject.file, 0, Severity::kWarning, "exponent-at-bound",
+          fmt::format("the exponent {} = {:.4g} is {} the accepted range [{:g}, {:g}]: a power law "
+                      "of this range may not describe these runs",
+                      info(subject.beta).name, beta, held ? "at the end of" : "outside", range.lo,
+                      range.hi)};
+}
+
+}  // namespace
+
+std::vector<Finding> bound_findings(const Subject& subject, const SteadyFit& fit, Family family) {
+  std::vector<Finding> findings;
+  if (fit.degrees_of_freedom == 0) {
+    findings.push_back(
+        {subject.file, 0, Severity::kWarning, "no-degrees-of-freedom",
+         fmt::format("{} rows fix the {} parameters of {} exactly and leave nothing to judge them "
+                     "by: no standard error; record another run",
+                     subject.points.size(), fit.free.size(),
+                     name_in(kFitSubjectNames, subject.name))});
+  }
+  const double beta = fit[TransformedParameter::kBeta];
+  const bool held = fit.held_by_bound(TransformedParameter::kBeta);
+  if (terms_of(family).beta && (held || !subject.beta_range.contains(beta))) {
+    findings.push_back(exponent_at_bound(subject, beta, held));
+  }
+  for (const TransformedParameter c : fit.at_bound) {
+    if (c == TransformedParameter::kBeta) continue;
+    findings.push_back(
+        {subject.file, 0, Severity::kNote, "term-at-zero",
+         fmt::format("{} came out as 0, the end of its range: these runs do not need this term",
+                     info(parameter_of(subject, c)).name)});
+  }
+  return findings;
+}
+
+std::vector<Diagnostic> residual_tests(const Subject& subject, const SteadyFit& fit) {
+  std::vector<double> forces;
+  for (const SteadyPoint& point : subject.points) forces.push_back(point.force);
+  std::vector<Diagnostic> tests;
+  for (const auto& test : {normality({fit.residuals.data(), at(fit.residuals.size())}),
+                           curvature(forces, fit.residuals),
+                           lack_of_fit(forces, fit.residuals, static_cast<int>(fit.free.size()))}) {
+    if (test) tests.push_back(*test);
+  }
+  return tests;
+}
+
+std::vector<Finding> outlier_findings(const Subject& subject, const SteadyFit& fit) {
+  std::vector<Finding> findings;
+  const Eigen::VectorXd t = studentised(fit.residuals, fit.leverages, fit.degrees_of_freedom);
+  for (Eigen::Index i = 0; i < t.size(); ++i) {
+    const boost::math::students_t distribution(fit.degrees_of_freedom - 1);
+    const double p = 2.0 * boost::math::cdf(boost::math::complement(distribution, std::abs(t(i)))) *
+                     static_cast<double>(t.size());
+    if (p > kOutlierLevel) continue;
+    findings.push_back(
+        {subject.file, subject.points[at(i)].line, Severity::kWarning, "outlier",
+         fmt::format("this run lies {:.1f} standard deviations off the curve of the others (chance "
+                     "of one such run in {}: {:.2g}); check it, or use a robust loss ({})",
+                     std::abs(t(i)), t.size(), p, option_text("loss huber"))});
+  }
+  return findings;
+}
+
+}  // namespace awmr

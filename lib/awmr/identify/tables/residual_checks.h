@@ -1,0 +1,22 @@
+/// What is doubtful about a fit of steady runs: bounds it runs into, residuals that are not what
+/// the method assumes, single runs. Private to identify/.
+#pragma once
+
+#include <vector>
+
+#include "awmr/identify/tables/subject.h"
+
+namespace awmr {
+
+/// `no-degrees-of-freedom`, `exponent-at-bound`, `term-at-zero`.
+std::vector<Finding> bound_findings(const Subject& subject, const SteadyFit& fit, Family family);
+
+/// Normality, curvature and lack of fit of the residuals, those that the number of runs allows.
+/// Precondition: degrees of freedom.
+std::vector<Diagnostic> residual_tests(const Subject& subject, const SteadyFit& fit);
+
+/// `outlier`: runs off the curve of the others, by Student's t at 5 % for the whole table
+/// (Bonferroni).
+std::vector<Finding> outlier_findings(const Subject& subject, const SteadyFit& fit);
+
+}  // namespace awmr

@@ -1,0 +1,143 @@
+#include "awmr/identify/tables/steady_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "awmr/core/index.h"
+#include "awmr/identify/ceres_solve.h"
+#include "awmr/identify/tables/robust.h"
+#include "awmr/model/steady.h"
+
+namespace awmr {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// beta has to stay above 0 where the curve is inverted.
+constexpr double kMinimumInvertibleBeta = 1e-3;
+
+/// g^-1(force) with its derivatives; 0 where the force does not overcome Coulomb friction. One
+/// Newton step from the root in double carries the derivatives of an implicit function exactly.
+template <class T>
+T inverse(const Resistance<T>& law, const T& force) {
+  const Resistance<double> plain{value_of(law.alpha), value_of(law.beta), 0.0,
+                                 value_of(law.coulomb), value_of(law.quadratic)};
+  const std::optional<double> root = steady_rate(plain, value_of(force));
+  if (!root) return T(0.0);
+  const double jacobian =
+      plain.alpha * plain.beta * std::pow(*root, plain.beta - 1.0) + 2.0 * plain.quadratic * *root;
+  return T(*root) - (law.at(T(*root)) - force) / jacobian;
+}
+
+/// The residual of one run over the five coordinates.
+struct SteadyResidual {
+  SteadyPoint point;
+  ErrorModel noise;
+
+  template <class T>
+  bool operator()(const T* log_alpha, const T* beta, const T* coulomb, const T* quadratic,
+                  const T* dead_zone, T* residual) const {
+    using std::exp;
+    const Resistance<T> law{exp(*log_alpha), *beta, T(0.0), *coulomb, *quadratic};
+    const T force = T(point.force) - *dead_zone;
+    if (noise == ErrorModel::kForce) {
+      residual[0] = law.at(T(point.rate)) - force;
+      return true;
+    }
+    if (noise == ErrorModel::kLogForce) {
+      using std::log;
+      if (!(force > T(0.0))) return false;
+      residual[0] = log(law.at(T(point.rate)) / force);
+      return true;
+    }
+    const T rate = inverse(law, force);
+    if (noise == ErrorModel::kSpeed) {
+      residual[0] = rate - point.rate;
+      return true;
+    }
+    if (!(rate > T(0.0))) return false;  // no motion takes forever: not a point to step to
+    residual[0] = *point.travel / rate - *point.elapsed_s;
+    return true;
+  }
+};
+
+using Cost = ceres::AutoDiffCostFunction<SteadyResidual, 1, 1, 1, 1, 1, 1>;
+
+}  // namespace
+
+Interval bounds_of(const SteadyProblem& problem, TransformedParameter c) {
+  if (c == TransformedParameter::kLogAlpha) return {-kInfinity, kInfinity};
+  if (c != TransformedParameter::kBeta) return {0.0, kInfinity};
+  const bool inverted = problem.noise == ErrorModel::kSpeed || problem.noise == ErrorModel::kTime;
+  const double lowest =
+      inverted ? std::max(problem.beta_range.lo, kMinimumInvertibleBeta) : problem.beta_range.lo;
+  return {lowest, problem.beta_range.hi};
+}
+
+SteadySearch::SteadySearch(const SteadyProblem& problem, const TransformedParameters& initial_guess,
+                           std::optional<TransformedParameter> held)
+    : problem_(problem), theta_(initial_guess) {
+  ceres::Problem::Options options;
+  options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  ceres_ = std::make_unique<ceres::Problem>(options);
+  for (const SteadyPoint& point : problem.points) {
+    ceres_->AddResidualBlock(
+        new Cost(new SteadyResidual{point, problem.noise}), &loss_,
+        block(TransformedParameter::kLogAlpha), block(TransformedParameter::kBeta),
+        block(TransformedParameter::kCoulomb), block(TransformedParameter::kQuadratic),
+        block(TransformedParameter::kDeadZone));
+  }
+  free_or_hold(held);
+}
+
+void SteadySearch::free_or_hold(std::optional<TransformedParameter> held) {
+  const std::vector<TransformedParameter> family = coordinates_of(problem_.family);
+  for (std::size_t i = 0; i < kTransformedParameterCount; ++i) {
+    const auto c = static_cast<TransformedParameter>(i);
+    const bool in_family = std::find(family.begin(), family.end(), c) != family.end();
+    if (!in_family || held == c) {
+      ceres_->SetParameterBlockConstant(block(c));
+      continue;
+    }
+    const Interval bounds = bounds_of(problem_, c);
+    theta_[i] = std::clamp(theta_[i], bounds.lo, bounds.hi);
+    if (std::isfinite(bounds.lo)) ceres_->SetParameterLowerBound(block(c), 0, bounds.lo);
+    if (std::isfinite(bounds.hi)) ceres_->SetParameterUpperBound(block(c), 0, bounds.hi);
+  }
+}
+
+void SteadySearch::solve() { ceres::Solve(exact_options(), ceres_.get(), &summary_); }
+
+void SteadySearch::solve_robustly() {
+  for (int round = 0; round < 20; ++round) {
+    const double scale = median_scale(residuals());
+    if (!(scale > 0.0)) return;  // over half of the points fit exactly: nothing to weigh down
+    loss_.Reset(make_loss(problem_.loss, scale).release(), ceres::TAKE_OWNERSHIP);
+    const TransformedParameters before = theta_;
+    solve();
+    double moved = 0.0;
+    for (std::size_t i = 0; i < kTransformedParameterCount; ++i) {
+      moved = std::max(moved, std::abs(theta_[i] - before[i]));
+    }
+    if (moved < 1e-10) return;
+  }
+}
+
+Eigen::VectorXd SteadySearch::residuals() {
+  std::vector<double> values;
+  ceres::Problem::EvaluateOptions options;
+  options.apply_loss_function = false;
+  ceres_->Evaluate(options, nullptr, &values, nullptr, nullptr);
+  return Eigen::Map<Eigen::VectorXd>(values.data(), rows_of(values));
+}
+
+Eigen::MatrixXd SteadySearch::jacobian(const std::vector<TransformedParameter>& columns) {
+  ceres::Problem::EvaluateOptions options;
+  options.apply_loss_function = false;
+  for (const TransformedParameter c : columns) options.parameter_blocks.push_back(block(c));
+  ceres::CRSMatrix rows;
+  ceres_->Evaluate(options, nullptr, nullptr, nullptr, &rows);
+  return dense(rows);
+}
+
+}  // namespace awmr

@@ -1,0 +1,49 @@
+/// The search behind fit_steady(), for fits and profiles. Private to identify/tables/.
+#pragma once
+
+#include <ceres/ceres.h>
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "awmr/identify/tables/steady_fit.h"
+
+namespace awmr {
+
+/// The Ceres problem over five blocks of one number, those not free held constant: the family's
+/// coordinates less the one that is `held`. The initial guess is moved into the bounds.
+/// `problem` has to outlive the search, which points into itself: it stays where it was made.
+class SteadySearch {
+ public:
+  SteadySearch(const SteadyProblem& problem, const TransformedParameters& initial_guess,
+               std::optional<TransformedParameter> held);
+  SteadySearch(const SteadySearch&) = delete;
+  SteadySearch& operator=(const SteadySearch&) = delete;
+
+  void solve();
+  /// The loss takes its scale from the residuals, which it changes: a few rounds settle both.
+  void solve_robustly();
+
+  /// By point, in the unit of the noise, without the loss.
+  Eigen::VectorXd residuals();
+  /// Points by columns, without the loss.
+  Eigen::MatrixXd jacobian(const std::vector<TransformedParameter>& columns);
+
+  const TransformedParameters& theta() const { return theta_; }
+  const ceres::Solver::Summary& summary() const { return summary_; }
+  const ceres::LossFunction& loss() const { return loss_; }
+
+ private:
+  double* block(TransformedParameter c) { return &theta_[at(c)]; }
+  void free_or_hold(std::optional<TransformedParameter> held);
+
+  const SteadyProblem& problem_;
+  TransformedParameters theta_;
+  ceres::LossFunctionWrapper loss_{nullptr, ceres::TAKE_OWNERSHIP};
+  std::unique_ptr<ceres::Problem> ceres_;
+  ceres::Solver::Summary summary_;
+};
+
+}  // namespace awmr

@@ -1,0 +1,49 @@
+/// What is to be identified from which runs, surge or yaw, and how a fit of it is written down.
+/// Private to identify/.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "awmr/identify/tables/steady_fit.h"
+#include "awmr/model/model.h"
+#include "awmr/trials/trials.h"
+
+namespace awmr {
+
+/// One resistance law, the names of its parameters and the runs that show it.
+struct Subject {
+  FitSubject name = FitSubject::kSurge;  ///< surge or yaw
+  ParameterId alpha = ParameterId::kSurgeAlpha;
+  ParameterId beta = ParameterId::kSurgeBeta;
+  ParameterId coulomb = ParameterId::kSurgeCoulomb;
+  ParameterId quadratic = ParameterId::kSurgeQuadratic;
+  std::vector<Family> families;  ///< that make sense for it; the first is the power law
+  Interval beta_range;           ///< accepted exponents; a fit is kept inside
+  std::string file;              ///< of the runs, for findings
+  std::vector<SteadyPoint> points;
+};
+
+/// g1: tau_speed = g1(u), from the surge runs.                                  [paper (45)-(54)]
+Subject surge_subject(const Vehicle& vehicle, const TrialSet<SurgeRow>& runs);
+/// g3: tau_turn = g3(r), from the turning runs less the wheels' dead zone F'0.  [paper (61)-(63)]
+Subject yaw_subject(const Vehicle& vehicle, const TrialSet<TurningRow>& runs, double dead_zone);
+
+/// Of each F' the dead zone takes F'0, and with it the same share of tau_turn. Rows within it are
+/// left out: they turned nothing.
+std::vector<SteadyPoint> turning_points(const std::vector<TurningRow>& rows, double dead_zone);
+
+/// The parameter that a coordinate of a fit is.
+ParameterId parameter_of(const Subject& subject, TransformedParameter c);
+
+/// Value, standard error and 95 % interval of one coordinate: Student's t, or the given interval.
+Estimate estimate_of(const SteadyFit& fit, TransformedParameter c,
+                     const std::optional<Interval>& interval, const std::string& method);
+
+/// A fit as an entry of /estimates. `noise`: where the error was put, in words.
+EstimatorReport report_of(const Subject& subject, const SteadyFit& fit, Family family,
+                          Estimator estimator, std::string_view noise);
+
+}  // namespace awmr

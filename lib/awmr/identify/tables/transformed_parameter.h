@@ -1,0 +1,35 @@
+/// The numbers in which a resistance curve is fitted, and the parameters of the model they stand
+/// for. Private to identify/.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "awmr/core/interval.h"
+#include "awmr/model/family.h"
+
+namespace awmr {
+
+/// f = alpha w^beta + c + q w^2 at the force f + z. alpha goes by its logarithm: it is positive,
+/// and its error is a factor.
+enum class TransformedParameter {
+  kLogAlpha,   ///< ln alpha, without bounds
+  kBeta,       ///< beta, 1, within the accepted range
+  kCoulomb,    ///< c, >= 0
+  kQuadratic,  ///< q, >= 0
+  kDeadZone,   ///< z = 4 F'0, the tau_speed that the dead zones of four wheels take, >= 0
+};
+inline constexpr std::size_t kTransformedParameterCount = 5;
+/// By TransformedParameter.
+using TransformedParameters = std::array<double, kTransformedParameterCount>;
+
+/// Those that a family frees, in the order of TransformedParameter.
+std::vector<TransformedParameter> coordinates_of(Family family);
+
+/// The parameter's value: alpha from its logarithm, F'0 = z/4, the others as they are.
+double value_from(TransformedParameter c, double coordinate);
+Interval values_from(TransformedParameter c, const Interval& coordinate);
+/// d value / d coordinate.
+double jacobian_of(TransformedParameter c, double coordinate);
+
+}  // namespace awmr

@@ -1,0 +1,14 @@
+/// The rows of the tables as they went into a model. Private to identify/.
+#pragma once
+
+#include <vector>
+
+#include "awmr/model/model.h"
+#include "awmr/trials/trial_data.h"
+
+namespace awmr {
+
+/// Every row of the tables with what the model's main values predict for it, where they can.
+std::vector<TrialPoint> trials_as_used(const TrialData& data, const Model& model);
+
+}  // namespace awmr
