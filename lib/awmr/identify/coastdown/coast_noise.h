@@ -14,8 +14,8 @@ std::vector<std::vector<double>> by_run(const Eigen::VectorXd& e, const std::vec
 
 /// Fills the residuals, their level and correlation, rank and degrees of freedom of `fit` from the
 /// jacobian `j` and the residuals `e` at the optimum. Returns the covariance over the columns of
-/// `j`, which allows for errors correlated from sample to sample; 0 x 0 where rank or degrees of freedom
-/// are lacking.
+/// `j`, which allows for errors correlated from sample to sample; 0 x 0 where rank or degrees of
+/// freedom are lacking.
 Eigen::MatrixXd add_coast_noise(const Eigen::MatrixXd& j, const Eigen::VectorXd& e,
                                 const std::vector<int>& sizes, CoastFit& fit);
 

@@ -27,7 +27,7 @@ std::optional<Diagnostic> lack_of_fit(std::span<const double> forces,
                                       const Eigen::VectorXd& residuals, int parameters);
 
 /// Externally studentised: e_i / (s_(i) sqrt(1 - h_i)), Student's t with dof - 1 degrees of
-/// freedom. `leverages`: h_i in [0, 1], as many as residuals. Empty where dof < 2 or leverages are unknown.
+/// freedom. `leverages`: h_i in [0, 1], as many as residuals. Empty where dof < 2 or without leverages.
 Eigen::VectorXd studentised(const Eigen::VectorXd& residuals, const Eigen::VectorXd& leverages,
                             int degrees_of_freedom);
 
