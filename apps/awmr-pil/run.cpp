@@ -9,8 +9,11 @@
 #include <filesystem>
 
 #include "awmr/core/file.h"
+#include "awmr/core/input_file.h"
 #include "awmr/core/json.h"
 #include "awmr/model/gains_file.h"
+#include "awmr/model/model_file.h"
+#include "awmr/simulate/scenario_file.h"
 #include "comparison.h"
 #include "emit_options.h"
 #include "emulator.h"

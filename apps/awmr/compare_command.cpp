@@ -9,7 +9,10 @@
 #include <set>
 
 #include "awmr/core/file.h"
+#include "awmr/core/input_file.h"
 #include "awmr/model/gains_file.h"
+#include "awmr/model/model_file.h"
+#include "awmr/simulate/scenario_file.h"
 #include "commands.h"
 #include "progress.h"
 

@@ -7,6 +7,7 @@
 
 #include "awmr/core/file.h"
 #include "awmr/model/gains_file.h"
+#include "awmr/model/model_file.h"
 #include "commands.h"
 #include "emit_options.h"
 

@@ -4,6 +4,7 @@
 #include <map>
 #include <string>
 
+#include "awmr/core/input_file.h"
 #include "awmr/core/provenance.h"
 
 namespace awmr::cli {

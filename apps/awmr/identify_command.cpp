@@ -4,8 +4,10 @@
 #include <memory>
 #include <utility>
 
-#include "awmr/core/file.h"
-#include "awmr/trials/steady.h"
+#include "awmr/core/input_file.h"
+#include "awmr/model/model_file.h"
+#include "awmr/model/vehicle_file.h"
+#include "awmr/trials/load.h"
 #include "commands.h"
 #include "identify_options.h"
 
@@ -27,82 +29,11 @@ Result<Provenance> provenance_of(const IdentifyCommand& command) {
   if (command.turning) paths.push_back(*command.turning);
   paths.insert(paths.end(), command.logs.begin(), command.logs.end());
   for (const fs::path& path : paths) {
-    auto input = input_file(path);
-    if (!input) return tl::unexpected(input.error());
-    provenance.inputs.push_back(*input);
+    AWMR_ASSIGN_OR_RETURN(InputFile input, input_file(path));
+    provenance.inputs.push_back(std::move(input));
   }
   return provenance;
 }
-
-/// Reads all trials; the faults of all files come together.
-class TrialFiles {
- public:
-  TrialFiles(const IdentifyCommand& command, const Vehicle& vehicle)
-      : command_(command), vehicle_(vehicle) {}
-
-  Result<TrialData> read(std::vector<Finding>& findings) {
-    const TrialOptions& options = command_.trials;
-    if (command_.surge) keep(read_surge(*command_.surge, options, findings), data_.surge);
-    if (command_.turning) {
-      keep(read_turning(*command_.turning, vehicle_, options, findings), data_.turning);
-    }
-    for (const fs::path& path : command_.coastdowns) {
-      std::optional<CoastdownSet> set;
-      keep(read_coastdown(path, options, findings), set);
-      if (set) add_coastdown(path, std::move(*set));
-    }
-    for (const fs::path& path : command_.logs) {
-      std::optional<DrivingLog> log;
-      keep(read_log(path, options, findings), log);
-      if (log) data_.logs.push_back(std::move(*log));
-    }
-    if (!faults_.empty()) return input_errors(std::move(faults_));
-    if (command_.steady_from_logs) add_steady_runs(findings);
-    return std::move(data_);
-  }
-
- private:
-  template <class Read, class Kept>
-  void keep(Result<Read> read, std::optional<Kept>& kept) {
-    if (read) {
-      kept = std::move(*read);
-    } else {
-      faults_.insert(faults_.end(), read.error().faults.begin(), read.error().faults.end());
-    }
-  }
-
-  void add_coastdown(const fs::path& path, CoastdownSet set) {
-    data_.curves.insert(data_.curves.end(), set.curves.begin(), set.curves.end());
-    if (!set.curves.empty()) return;
-    if (data_.coastdown) {
-      faults_.push_back({path.string(), "a second file of stop times; put all rows into one"});
-      return;
-    }
-    data_.coastdown = std::move(set);
-  }
-
-  /// Rows found in logs join those of a file; their findings name the log.
-  void add_steady_runs(std::vector<Finding>& findings) {
-    const auto join = [](auto& all, auto& found) {
-      if (found.rows.empty()) return;
-      if (!all) {
-        all = std::move(found);
-      } else {
-        all->rows.insert(all->rows.end(), found.rows.begin(), found.rows.end());
-      }
-    };
-    for (const DrivingLog& log : data_.logs) {
-      SteadyRuns runs = steady_runs(log, vehicle_, {}, findings);
-      join(data_.surge, runs.surge);
-      join(data_.turning, runs.turning);
-    }
-  }
-
-  const IdentifyCommand& command_;
-  const Vehicle& vehicle_;
-  TrialData data_;
-  std::vector<Fault> faults_;
-};
 
 std::string names_of(const EstimatorReport& report) {
   const std::string name(name_in(kEstimatorNames, report.estimator));
@@ -137,25 +68,24 @@ Result<Outcome> execute(const IdentifyCommand& command) {
   if (command.steady_from_logs && command.logs.empty()) {
     return input_error("--steady-from-log", "needs a log (--log)");
   }
-  const auto vehicle = read_vehicle(command.vehicle);
-  if (!vehicle) return tl::unexpected(vehicle.error());
-  std::vector<Finding> findings;
-  const auto data = TrialFiles(command, *vehicle).read(findings);
-  if (!data) return tl::unexpected(data.error());
-
-  auto provenance = provenance_of(command);
-  if (!provenance) return tl::unexpected(provenance.error());
-  auto identified = identify(*vehicle, *data, command.identify, std::move(findings));
-  if (!identified) return tl::unexpected(identified.error());
-  identified->model.record.provenance = std::move(*provenance);
-  if (const auto written = write_file(command.output, model_text(identified->model)); !written) {
-    return tl::unexpected(written.error());
-  }
-  const Model& model = identified->model;
+  AWMR_ASSIGN_OR_RETURN(Vehicle vehicle, read_vehicle(command.vehicle));
+  AWMR_ASSIGN_OR_RETURN(const Trials trials,
+                        load_trials({.vehicle = std::move(vehicle),
+                                     .surge = command.surge,
+                                     .turning = command.turning,
+                                     .coastdowns = command.coastdowns,
+                                     .logs = command.logs,
+                                     .steady_from_logs = command.steady_from_logs,
+                                     .options = command.trials}));
+  AWMR_ASSIGN_OR_RETURN(Provenance provenance, provenance_of(command));
+  AWMR_ASSIGN_OR_RETURN(Identification identified, identify(trials, command.identify));
+  Model& model = identified.model;
+  model.record.provenance = std::move(provenance);
+  AWMR_RETURN_IF_ERROR(write_model(model, command.output));
   return Outcome{.summary = summary_of(command, model),
                  .brief = parameter_table_text(model),
                  .findings = model.record.findings,
-                 .refused = !identified->refused.empty()};
+                 .refused = !identified.refused.empty()};
 }
 
 void add_identify(CLI::App& app, Session& session) {

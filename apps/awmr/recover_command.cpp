@@ -4,7 +4,9 @@
 #include <memory>
 
 #include "awmr/core/file.h"
+#include "awmr/core/input_file.h"
 #include "awmr/identify/planning/recover.h"
+#include "awmr/model/model_file.h"
 #include "commands.h"
 #include "identify_options.h"
 #include "progress.h"

@@ -5,6 +5,8 @@
 
 #include "awmr/core/file.h"
 #include "awmr/model/gains_file.h"
+#include "awmr/model/model_file.h"
+#include "awmr/simulate/scenario_file.h"
 #include "commands.h"
 #include "project.h"
 
@@ -13,27 +15,17 @@ namespace {
 
 /// The runs the report draws: every scenario and mode, with the tuned and with the paper's gains.
 Status write_runs(const Project& project, const fs::path& directory) {
-  const auto model = read_model(directory / "model.json");
-  if (!model) return tl::unexpected(model.error());
-  const auto plant = model->plant();
-  if (!plant) return tl::unexpected(plant.error());
-  const auto tuned = read_gains(directory / "gains.json");
-  if (!tuned) return tl::unexpected(tuned.error());
-  const std::pair<const char*, Gains<double>> sets[] = {{"tuned", *tuned}, {"paper", kPaperGains}};
+  AWMR_ASSIGN_OR_RETURN(const Model model, read_model(directory / "model.json"));
+  AWMR_ASSIGN_OR_RETURN(const Gains<double> tuned, read_gains(directory / "gains.json"));
+  const std::pair<const char*, Gains<double>> sets[] = {{"tuned", tuned}, {"paper", kPaperGains}};
   for (const fs::path& path : project.scenarios) {
-    const auto scenario = read_scenario(path);
-    if (!scenario) return tl::unexpected(scenario.error());
-    const auto driven = plant_for(*scenario, *model);
-    if (!driven) return tl::unexpected(driven.error());
+    AWMR_ASSIGN_OR_RETURN(const Scenario scenario, read_scenario(path));
     for (const YawMode mode : kYawModes) {
       for (const auto& [name, gains] : sets) {
-        const Run run =
-            simulate(*driven, make_controller(*plant, model->vehicle, gains), *scenario, mode,
-                     {.sample_time_s = model->vehicle.sample_time_s, .substeps = {}});
+        AWMR_ASSIGN_OR_RETURN(const Run run, simulate(model, gains, scenario, mode));
         const std::string file =
             fmt::format("run_{}_{}_{}.csv", path.stem().string(), name_of(mode), name);
-        if (auto written = write_file(directory / file, run_csv(run, *scenario)); !written)
-          return written;
+        AWMR_RETURN_IF_ERROR(write_file(directory / file, run_csv(run, scenario)));
       }
     }
   }

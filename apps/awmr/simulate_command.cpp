@@ -8,7 +8,9 @@
 
 #include "awmr/core/file.h"
 #include "awmr/model/gains_file.h"
+#include "awmr/model/model_file.h"
 #include "awmr/simulate/metrics.h"
+#include "awmr/simulate/scenario_file.h"
 #include "commands.h"
 
 namespace awmr::cli {
@@ -55,31 +57,19 @@ std::string figures_of(const Metrics& metrics) {
 }  // namespace
 
 Result<Outcome> execute(const SimulateCommand& command) {
-  const auto model = read_model(command.model);
-  if (!model) return tl::unexpected(model.error());
-  const auto scenario = read_scenario(command.scenario);
-  if (!scenario) return tl::unexpected(scenario.error());
-  const auto plant = plant_for(*scenario, *model);
-  if (!plant) return tl::unexpected(plant.error());
+  AWMR_ASSIGN_OR_RETURN(const Model model, read_model(command.model));
+  AWMR_ASSIGN_OR_RETURN(const Scenario scenario, read_scenario(command.scenario));
   Gains<double> gains = kPaperGains;
   if (command.gains) {
-    const auto read = read_gains(*command.gains);
-    if (!read) return tl::unexpected(read.error());
-    gains = *read;
-  } else if (!std::holds_alternative<OpenLoop>(scenario->guidance)) {
+    AWMR_ASSIGN_OR_RETURN(gains, read_gains(*command.gains));
+  } else if (!std::holds_alternative<OpenLoop>(scenario.guidance)) {
     return input_error("--gains", "this scenario closes the loop: give --gains GAINS.json");
   }
-  // The controller knows the model's own values, not a corner of their intervals.
-  const auto nominal = model->plant();
-  if (!nominal) return tl::unexpected(nominal.error());
-  const Controller<double> controller = make_controller(*nominal, model->vehicle, gains);
-  const Run run = simulate(*plant, controller, *scenario, command.mode,
-                           {.sample_time_s = model->vehicle.sample_time_s, .substeps = {}});
-  if (const auto written = write_file(command.output, run_csv(run, *scenario)); !written) {
-    return tl::unexpected(written.error());
-  }
-  return Outcome{.summary = summary_of(run, *scenario, command) +
-                            figures_of(metrics_of(run, *scenario, controller)) +
+  AWMR_ASSIGN_OR_RETURN(const Run run, simulate(model, gains, scenario, command.mode));
+  AWMR_ASSIGN_OR_RETURN(const Controller<double> controller, controller_for(model, gains));
+  AWMR_RETURN_IF_ERROR(write_file(command.output, run_csv(run, scenario)));
+  return Outcome{.summary = summary_of(run, scenario, command) +
+                            figures_of(metrics_of(run, scenario, controller)) +
                             fmt::format("wrote {}\n", command.output.string())};
 }
 

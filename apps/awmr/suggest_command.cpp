@@ -4,9 +4,12 @@
 #include <memory>
 
 #include "awmr/core/file.h"
+#include "awmr/core/input_file.h"
 #include "awmr/identify/planning/suggest.h"
 #include "awmr/model/gains_file.h"
+#include "awmr/model/model_file.h"
 #include "awmr/simulate/metrics.h"
+#include "awmr/simulate/scenario_file.h"
 #include "awmr/simulate/simulate.h"
 #include "commands.h"
 

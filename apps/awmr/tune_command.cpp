@@ -4,6 +4,8 @@
 #include <memory>
 
 #include "awmr/core/file.h"
+#include "awmr/core/input_file.h"
+#include "awmr/model/model_file.h"
 #include "commands.h"
 
 namespace awmr::cli {

@@ -5,7 +5,9 @@
 #include <memory>
 
 #include "awmr/core/file.h"
+#include "awmr/core/input_file.h"
 #include "awmr/model/gains_file.h"
+#include "awmr/model/model_file.h"
 #include "commands.h"
 
 namespace awmr::cli {

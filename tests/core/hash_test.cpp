@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "awmr/core/input_file.h"
 #include "awmr/core/provenance.h"
 #include "support/scratch_file.h"
 

@@ -7,6 +7,7 @@
 
 #include "awmr/identify/planning/recover.h"
 #include "awmr/identify/planning/synthetic.h"
+#include "awmr/model/model_file.h"
 #include "identify/synthetic.h"
 
 namespace awmr::testing {

@@ -7,6 +7,7 @@
 #include "awmr/core/random.h"
 #include "awmr/core/units.h"
 #include "awmr/model/model.h"
+#include "awmr/model/model_file.h"
 #include "json_edit.h"
 
 namespace awmr {

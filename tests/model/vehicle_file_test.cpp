@@ -1,4 +1,4 @@
-#include "awmr/model/vehicle.h"
+#include "awmr/model/vehicle_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

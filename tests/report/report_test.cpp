@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "awmr/model/model.h"
+#include "awmr/model/model_file.h"
 #include "awmr/report/report.h"
 #include "support/scratch_file.h"
 

@@ -2,6 +2,7 @@
 
 #include "awmr/core/units.h"
 #include "awmr/simulate/scenario.h"
+#include "awmr/simulate/scenario_file.h"
 #include "support/process.h"
 
 namespace awmr::testing {

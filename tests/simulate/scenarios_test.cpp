@@ -7,6 +7,7 @@
 
 #include "awmr/model/gains_file.h"
 #include "awmr/simulate/metrics.h"
+#include "awmr/simulate/scenario_file.h"
 #include "awmr/simulate/simulate.h"
 #include "simulate/paper_model_ci.h"
 #include "simulate/symmetry.h"

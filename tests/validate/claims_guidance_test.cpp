@@ -6,6 +6,7 @@
 #include <string>
 
 #include "awmr/model/gains_file.h"
+#include "awmr/simulate/scenario_file.h"
 #include "awmr/validate/claims.h"
 #include "awmr/validate/paper_courses.h"
 #include "validate/paper_model.h"
@@ -17,8 +18,7 @@ using ::testing::HasSubstr;
 
 const Claim& claim_of(const std::string& id) {
   static const Model model = testing::fitted_paper_model();
-  static const std::vector<Claim> claims =
-      check_guidance_claims(model, *model.plant(), kPaperGains);
+  static const std::vector<Claim> claims = check_guidance_claims(model, kPaperGains);
   return *std::find_if(claims.begin(), claims.end(),
                        [&](const Claim& claim) { return claim.id == id; });
 }
@@ -43,7 +43,7 @@ TEST(GuidanceClaims, CombinedIsNotAloneAtTheTop) {
 TEST(GuidanceClaims, AVehicleThatCannotTurnFails) {
   Model model = testing::fitted_paper_model();
   model.vehicle.steering_max_deg = 3.0;
-  const auto claims = check_guidance_claims(model, *model.plant(), kPaperGains);
+  const auto claims = check_guidance_claims(model, kPaperGains);
   EXPECT_FALSE(claims.front().reproduced);
   EXPECT_THAT(claims.front().why, HasSubstr("steering turns too wide"));
 }

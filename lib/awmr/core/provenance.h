@@ -2,25 +2,20 @@
 /// so the same inputs give the same bytes.
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
-
-#include "awmr/core/result.h"
 
 namespace awmr {
 
 /// The version of the program, as in CMake's project().
 const char* version();
 
+/// A file that an output was made from; input_file() in core/input_file.h makes it.
 struct InputFile {
   std::string name;    ///< its file name, without the directory: the same wherever it lies
   std::string sha256;  ///< of its bytes
 };
-
-/// Hashes a file. Errors: as MappedFile::open.
-Result<InputFile> input_file(const std::filesystem::path& path);
 
 struct Provenance {
   std::string command;  ///< "identify", "tune", ...

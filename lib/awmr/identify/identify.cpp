@@ -123,4 +123,8 @@ Result<Identification> identify(const Vehicle& vehicle, const TrialData& data,
   return result;
 }
 
+Result<Identification> identify(const Trials& trials, const IdentifyOptions& options) {
+  return identify(trials.vehicle, trials.data, options, trials.findings);
+}
+
 }  // namespace awmr

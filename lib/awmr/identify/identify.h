@@ -6,6 +6,7 @@
 #include "awmr/core/result.h"
 #include "awmr/identify/options.h"
 #include "awmr/model/model.h"
+#include "awmr/trials/load.h"
 #include "awmr/trials/trial_data.h"
 
 namespace awmr {
@@ -20,5 +21,8 @@ struct Identification {
 /// finding, and is in `refused`.
 Result<Identification> identify(const Vehicle& vehicle, const TrialData& data,
                                 const IdentifyOptions& options, std::vector<Finding> findings);
+
+/// The same for trials that load_trials() read; their findings come first in the record.
+Result<Identification> identify(const Trials& trials, const IdentifyOptions& options);
 
 }  // namespace awmr

@@ -1,15 +1,15 @@
 #include "awmr/model/gains_file.h"
 
-#include "awmr/core/json.h"
+#include "awmr/core/file.h"
+#include "awmr/model/gains_json.h"
 
 namespace awmr {
 
 Result<Gains<double>> read_gains(const std::filesystem::path& path) {
-  const auto json = read_json_file(path);
-  if (!json) return tl::unexpected(json.error());
+  AWMR_ASSIGN_OR_RETURN(const Json json, read_json_file(path));
   std::vector<Fault> faults;
-  JsonObject root(*json, path.string(), "", faults);
-  root.schema("awmr.gains/1");
+  JsonObject root(json, path.string(), "", faults);
+  root.schema(kGainsSchema);
 
   JsonObject heading = root.object("heading");
   JsonObject speed = root.object("speed");
@@ -28,6 +28,13 @@ Result<Gains<double>> read_gains(const std::filesystem::path& path) {
   root.reject_unknown_keys();
   if (!faults.empty()) return input_errors(std::move(faults));
   return gains;
+}
+
+Status write_gains(const Gains<double>& gains, const std::filesystem::path& path) {
+  Json json;
+  json["schema"] = kGainsSchema;
+  json.update(gains_to_json(gains));
+  return write_file(path, to_text(json));
 }
 
 }  // namespace awmr

@@ -1,20 +1,20 @@
-/// gains.json (`awmr.gains/1`): the gains a later command needs. tune/ writes the rest of the file.
+/// gains.json (`awmr.gains/1`): the gains that a later command needs. tune/ adds how they were found.
 #pragma once
 
 #include <filesystem>
 
 #include "awmr/core/result.h"
 #include "awmr/model/gains.h"
+#include "awmr/model/paper_gains.h"
 
 namespace awmr {
 
-/// The gains printed in the paper: lambda 3, mu 50, epsilon 12.                         [paper 4.1]
-/// It prints no mu_s and epsilon_s. Those here, 5 and 1.2, are this project's: their ratio is that
-/// of the heading loop's mu and epsilon.
-inline constexpr Gains<double> kPaperGains{{3.0, 50.0, 12.0}, {5.0, 1.2}};
-
-/// Reads `/heading` and `/speed`. The file's other keys are allowed and not looked at.
-/// Errors: as read_json_file; a gain that is missing, unknown or not above 0.
+/// Reads `/heading` and `/speed`; the contract's other keys are allowed and passed over.
+/// Errors: as read_json_file; gains that are missing or not above 0.
 Result<Gains<double>> read_gains(const std::filesystem::path& path);
+
+/// Writes `/heading` and `/speed`, for gains that were not tuned here; gains_text() in tune/tune.h
+/// makes the whole file. Errors: as write_file.
+Status write_gains(const Gains<double>& gains, const std::filesystem::path& path);
 
 }  // namespace awmr

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <array>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -68,10 +67,5 @@ struct Model {
 /// The largest force of one motor, N:
 ///   F_max = m/m'                                                                      [paper (66)]
 double max_wheel_force_n(double mass_kg, double mass_norm);
-
-/// Errors: as read_json_file; unknown, missing or impossible values.
-Result<Model> read_model(const std::filesystem::path& path);
-/// The bytes of model.json.
-std::string model_text(const Model& model);
 
 }  // namespace awmr

@@ -1,9 +1,11 @@
+#include "awmr/model/model_file.h"
+
 #include <fmt/format.h>
 
 #include <array>
 #include <map>
 
-#include "awmr/model/model.h"
+#include "awmr/core/file.h"
 #include "model_json.h"
 #include "vehicle_json.h"
 
@@ -127,10 +129,9 @@ std::string model_text(const Model& model) {
 }
 
 Result<Model> read_model(const std::filesystem::path& path) {
-  const auto json = read_json_file(path);
-  if (!json) return tl::unexpected(json.error());
+  AWMR_ASSIGN_OR_RETURN(const Json json, read_json_file(path));
   std::vector<Fault> faults;
-  JsonObject root(*json, path.string(), "", faults);
+  JsonObject root(json, path.string(), "", faults);
   root.schema(kSchema);
 
   Model model;
@@ -140,12 +141,16 @@ Result<Model> read_model(const std::filesystem::path& path) {
   model.vehicle = vehicle_from_json(vehicle);
   estimates_from_json(root, model);
   model.record.reports = list_from_json(root, "estimates", report_from_json);
-  model.covariance = covariance_from_json(root.object("covariance"), *json);
+  model.covariance = covariance_from_json(root.object("covariance"), json);
   model.record.findings = list_from_json(root, "findings", finding_from_json);
   model.record.trials = list_from_json(root, "trials", trial_from_json);
   root.reject_unknown_keys();
   if (!faults.empty()) return input_errors(std::move(faults));
   return model;
+}
+
+Status write_model(const Model& model, const std::filesystem::path& path) {
+  return write_file(path, model_text(model));
 }
 
 }  // namespace awmr

@@ -1,12 +1,10 @@
-/// vehicle.json (`awmr.vehicle/1`): what is known of the vehicle before any trial.
+/// What is known of the vehicle before any trial. Its file: vehicle_file.h.
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <string>
 
 #include "awmr/core/interval.h"
-#include "awmr/core/result.h"
 
 namespace awmr {
 
@@ -33,8 +31,5 @@ struct Vehicle {
   ///   Iz = m (a^2 + b^2)/12                                                           [paper (65)]
   double inertia_kgm2() const;
 };
-
-/// Errors: as read_json_file; unknown, missing or impossible values.
-Result<Vehicle> read_vehicle(const std::filesystem::path& path);
 
 }  // namespace awmr

@@ -1,7 +1,8 @@
+#include "awmr/model/vehicle_file.h"
+
 #include <fmt/format.h>
 
 #include "awmr/core/units.h"
-#include "awmr/model/vehicle.h"
 #include "vehicle_json.h"
 
 namespace awmr {
@@ -90,16 +91,10 @@ Json vehicle_to_json(const Vehicle& vehicle) {
   return json;
 }
 
-double Vehicle::inertia_kgm2() const {
-  // Iz = m (a^2 + b^2)/12                                                              [paper (65)]
-  return yaw_inertia_kgm2.value_or(mass_kg * (width_m * width_m + length_m * length_m) / 12.0);
-}
-
 Result<Vehicle> read_vehicle(const std::filesystem::path& path) {
-  const auto json = read_json_file(path);
-  if (!json) return tl::unexpected(json.error());
+  AWMR_ASSIGN_OR_RETURN(const Json json, read_json_file(path));
   std::vector<Fault> faults;
-  JsonObject root(*json, path.string(), "", faults);
+  JsonObject root(json, path.string(), "", faults);
   Vehicle vehicle = vehicle_from_json(root);
   if (!faults.empty()) return input_errors(std::move(faults));
   return vehicle;

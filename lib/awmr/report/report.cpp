@@ -11,8 +11,9 @@
 #include "awmr/core/csv.h"
 #include "awmr/core/file.h"
 #include "awmr/core/json.h"
-#include "awmr/model/model.h"
 #include "awmr/core/units.h"
+#include "awmr/model/model.h"
+#include "awmr/model/model_file.h"
 
 namespace awmr {
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "awmr/core/units.h"
+
 namespace awmr {
 namespace {
 
@@ -28,6 +30,19 @@ bool Scenario::random() const {
                      has_noise(sensors->speed) || (sensors->gps && has_noise(sensors->gps->x)));
 }
 
+Scenario heading_steps(const std::vector<double>& headings_deg,
+                       const HeadingStepsOptions& options) {
+  HeadingSteps guidance;
+  for (std::size_t i = 0; i < headings_deg.size(); ++i) {
+    guidance.steps.push_back({static_cast<double>(i) * options.hold_s, radians(headings_deg[i])});
+  }
+  return {.name = options.name,
+          .duration_s = static_cast<double>(headings_deg.size()) * options.hold_s,
+          .initial = {},
+          .speed_mps = options.speed_mps,
+          .guidance = std::move(guidance)};
+}
+
 Result<Model> model_at_corner(Model model, const Scenario& scenario) {
   std::vector<Fault> faults;
   for (const CornerParameter& corner : scenario.corner) {
@@ -46,9 +61,7 @@ Result<Model> model_at_corner(Model model, const Scenario& scenario) {
 }
 
 Result<Plant<double>> plant_for(const Scenario& scenario, const Model& model) {
-  const auto cornered = model_at_corner(model, scenario);
-  if (!cornered) return tl::unexpected(cornered.error());
-  return cornered->plant();
+  return model_at_corner(model, scenario).and_then(&Model::plant);
 }
 
 std::string_view name_of(YawMode mode) {

@@ -1,8 +1,7 @@
-/// scenario.json (`awmr.scenario/1`): what the vehicle is asked to do, and in which world.
+/// What the vehicle is asked to do, and in which world. Its file: scenario_file.h.
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -80,19 +79,28 @@ struct Scenario {
   Disturbance disturbance = {};
   std::vector<WheelFault> faults = {};
   std::vector<SlipperyPatch> patches = {};
-  std::optional<Battery> battery = {};
-  std::optional<Sensors> sensors = {};
-  std::optional<Actuators> actuators = {};
+  std::optional<Battery> battery = {};      ///< absent: it never runs down
+  std::optional<Sensors> sensors = {};      ///< absent: the controller knows the true state
+  std::optional<Actuators> actuators = {};  ///< absent: any force and angle can be commanded
   ControlOptions control = {};
-  std::vector<CornerParameter> corner = {};
+  std::vector<CornerParameter> corner = {};  ///< of the plant; the controller does not know
   std::uint64_t seed = 0;  ///< of everything random in the scenario
 
   /// True where something in the scenario is drawn from a seed.
   bool random() const;
 };
 
-/// Errors: as read_json_file; unknown, missing or impossible values.
-Result<Scenario> read_scenario(const std::filesystem::path& path);
+struct HeadingStepsOptions {
+  double hold_s = 10.0;    ///< > 0: how long each heading is held
+  double speed_mps = 1.0;  ///< u_d, >= 0
+  std::string name = "heading steps";
+};
+
+/// The scenario of the paper's heading runs: from rest at heading 0, each heading (deg,
+/// counter-clockwise positive; not empty) in turn. heading_steps({30, -30}) is C3.
+/// [paper 4.3]
+Scenario heading_steps(const std::vector<double>& headings_deg,
+                       const HeadingStepsOptions& options = {});
 
 /// The model with the scenario's corner parameters at the ends of their 95 % intervals.
 /// Errors (input): a parameter of the corner has no interval.

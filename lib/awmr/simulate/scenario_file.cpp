@@ -1,3 +1,5 @@
+#include "awmr/simulate/scenario_file.h"
+
 #include <string>
 #include <utility>
 
@@ -37,17 +39,16 @@ void reject_idle_keys(JsonObject& json, const Scenario& scenario) {
 }  // namespace
 
 Result<Scenario> read_scenario(const std::filesystem::path& path) {
-  const auto document = read_json_file(path);
-  if (!document) return tl::unexpected(document.error());
+  AWMR_ASSIGN_OR_RETURN(const Json document, read_json_file(path));
   std::vector<Fault> faults;
-  JsonObject json(*document, path.string(), "", faults);
+  JsonObject json(document, path.string(), "", faults);
   Scenario scenario;
   json.schema("awmr.scenario/1");
   scenario.name = json.string("name");
   scenario.duration_s = json.number("duration_s", kPositive);
   scenario.initial = read_initial(json.object("initial"));
   scenario.speed_mps = json.number("speed_mps", kNonNegative);
-  scenario.guidance = read_guidance(json.object("guidance"), *document);
+  scenario.guidance = read_guidance(json.object("guidance"), document);
   scenario.obstacles = read_obstacles(json);
   if (auto avoidance = json.optional_object("avoidance")) {
     scenario.avoidance = read_avoidance(*avoidance);

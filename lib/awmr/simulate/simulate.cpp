@@ -173,4 +173,17 @@ Run simulate(const Plant<double>& plant, const Controller<double>& controller,
   return run;
 }
 
+Result<Controller<double>> controller_for(const Model& model, const Gains<double>& gains) {
+  AWMR_ASSIGN_OR_RETURN(const Plant<double> nominal, model.plant());
+  return make_controller(nominal, model.vehicle, gains);
+}
+
+Result<Run> simulate(const Model& model, const Gains<double>& gains, const Scenario& scenario,
+                     YawMode mode) {
+  AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, plant_for(scenario, model));
+  AWMR_ASSIGN_OR_RETURN(const Controller<double> controller, controller_for(model, gains));
+  return simulate(plant, controller, scenario, mode,
+                  {.sample_time_s = model.vehicle.sample_time_s, .substeps = {}});
+}
+
 }  // namespace awmr

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "awmr/control/controller.h"
+#include "awmr/core/result.h"
 #include "awmr/model/dynamics.h"
 #include "awmr/model/vehicle.h"
 #include "awmr/simulate/scenario.h"
@@ -36,7 +37,8 @@ struct RunRow {
   Measurement<double> measured = {};          ///< what the controller was told
   Position<double> measured_position_m = {};  ///< the same
   BodyLoad disturbance = {};                  ///< without a slope's share
-  double clearance_m = 0.0;                   ///< from the vehicle's circle to the nearest obstacle
+  /// From the vehicle's circle to the nearest obstacle, < 0 inside of it; 0 without obstacles.
+  double clearance_m = 0.0;
 };
 
 /// How a run ended.
@@ -75,6 +77,17 @@ Controller<double> make_controller(const Plant<double>& plant, const Vehicle& ve
                                    const Gains<double>& gains,
                                    CombinedSplit split = CombinedSplit::kRedistribute);
 
+/// The controller that knows the model's own values, not a corner of their intervals.
+/// Errors (input): as Model::plant.
+Result<Controller<double>> controller_for(const Model& model, const Gains<double>& gains);
+
+/// One run of the model under its own controller, at the vehicle's sample time: the scenario's
+/// corner moves the plant, and the controller does not know.
+/// Errors (input): as plant_for and Model::plant.
+Result<Run> simulate(const Model& model, const Gains<double>& gains, const Scenario& scenario,
+                     YawMode mode);
+
+/// The same with plant, controller and sample time of the caller's choice.
 /// Never fails on a valid plant, controller and scenario; all rows are finite. The scenario's
 /// corner is not applied here: see plant_for.
 Run simulate(const Plant<double>& plant, const Controller<double>& controller,

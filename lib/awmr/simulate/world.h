@@ -21,7 +21,8 @@ struct BodyLoad {
 
 /// A span of time: from `from_s` on, up to but not including `to_s`.
 struct Window {
-  double from_s = 0.0;
+  double from_s = 0.0;  ///< >= 0
+  /// > from_s; infinity: to the end of the run.
   double to_s = std::numeric_limits<double>::infinity();
   bool holds(double t_s) const { return t_s >= from_s && t_s < to_s; }
 };
@@ -35,7 +36,7 @@ struct DisturbanceTerm {
   double value = 0.0;
   Window window;                    ///< a step is a constant with from_s > 0
   double frequency_hz = 0.0;        ///< kSine, > 0
-  std::optional<double> phase_rad;  ///< kSine; absent: drawn from the seed
+  std::optional<double> phase_rad;  ///< kSine, at t = 0; absent: drawn from the seed
   double bandwidth_hz = 0.0;        ///< kNoise, > 0: corner of the first-order low pass
 };
 
@@ -47,9 +48,9 @@ struct Slope {
 
 /// All that pushes the vehicle beside its own wheels; the terms of an axis add up.
 struct Disturbance {
-  std::vector<DisturbanceTerm> surge;
-  std::vector<DisturbanceTerm> sway;
-  std::vector<DisturbanceTerm> yaw;
+  std::vector<DisturbanceTerm> surge;  ///< force over F_max, forward positive
+  std::vector<DisturbanceTerm> sway;   ///< force over F_max, to the left positive
+  std::vector<DisturbanceTerm> yaw;    ///< moment over F_max, m, counter-clockwise positive
   std::optional<Slope> slope;
   bool any() const { return slope || !surge.empty() || !sway.empty() || !yaw.empty(); }
 };
@@ -61,7 +62,7 @@ enum class Wheel { kFrontLeft, kFrontRight, kRearLeft, kRearRight };
 struct WheelFault {
   std::vector<Wheel> wheels;
   Window window;
-  double share = 0.0;  ///< [0, 1]; 0: the motor is dead
+  double share = 0.0;  ///< of the force asked for, [0, 1]; 0: the motor is dead
 };
 
 /// A slippery disc on the ground: a wheel on it passes on no more than `force_max`.
@@ -74,9 +75,9 @@ struct SlipperyPatch {
 /// The battery runs down: the largest force of a motor falls linearly from all of F'max at
 /// `from_s` to `share_end` of it at `to_s`, and stays there. The controller does not know.
 struct Battery {
-  double from_s = 0.0;
+  double from_s = 0.0;     ///< >= 0
   double to_s = 0.0;       ///< > from_s
-  double share_end = 1.0;  ///< [0, 1]
+  double share_end = 1.0;  ///< of F'max, [0, 1]
 };
 
 /// The errors of one sensor, in the unit of what it measures.
@@ -102,13 +103,13 @@ struct Sensors {
   Channel yaw_rate;  ///< rad/s
   Channel speed;     ///< m/s, surge
   bool sway_measured = true;
-  std::optional<Gps> gps;
+  std::optional<Gps> gps;  ///< absent: the true position
 };
 
 /// The steps in which a microcontroller can put out its commands.
 struct Actuators {
-  double steering_quantum_rad = 0.0;  ///< > 0: one step of the servo's pulse
-  int pwm_counts = 0;                 ///< > 0: counts for the force F'max
+  double steering_quantum_rad = 0.0;  ///< one step of the servo's pulse; 0: any angle
+  int pwm_counts = 0;                 ///< counts for the force F'max; 0: any force
 };
 
 /// A parameter that is put at an end of its 95 % interval.
@@ -121,9 +122,9 @@ struct CornerParameter {
 struct ControlOptions {
   bool redistribute = true;  ///< combined mode: see CombinedSplit
   struct Observer {
-    double bandwidth_radps = 0.0;  ///< > 0
-    double yaw_max_m = 0.0;        ///< > 0: most that is taken for a disturbance
-    double surge_max = 0.0;        ///< > 0
+    double bandwidth_radps = 0.0;  ///< of the estimate, > 0
+    double yaw_max_m = 0.0;  ///< most that is taken for a disturbance: moment over F_max, m, > 0
+    double surge_max = 0.0;  ///< the same along x: force over F_max, > 0
     /// true: the observer is told what the limits leave of the command; false: what was asked for,
     /// so that a saturated actuator looks like a disturbance and the estimate winds up.
     bool anti_windup = true;

@@ -192,9 +192,8 @@ double DrivingLog::median_step_s() const {
 
 Result<DrivingLog> read_log(const std::filesystem::path& path, const TrialOptions& options,
                             std::vector<Finding>& findings) {
-  auto table = read_csv(path, kColumns, options.columns);
-  if (!table) return tl::unexpected(table.error());
-  TrialReader reader(std::move(*table), options);
+  AWMR_ASSIGN_OR_RETURN(CsvTable table, read_csv(path, kColumns, options.columns));
+  TrialReader reader(std::move(table), options);
   check_columns(reader);
   check_time(reader);
   DrivingLog log;

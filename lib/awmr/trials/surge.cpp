@@ -51,9 +51,8 @@ double tau_speed_of(TrialReader& reader, std::size_t row, std::vector<Finding>& 
 
 Result<TrialSet<SurgeRow>> read_surge(const std::filesystem::path& path,
                                       const TrialOptions& options, std::vector<Finding>& findings) {
-  auto table = read_csv(path, kColumns, options.columns);
-  if (!table) return tl::unexpected(table.error());
-  TrialReader reader(std::move(*table), options);
+  AWMR_ASSIGN_OR_RETURN(CsvTable table, read_csv(path, kColumns, options.columns));
+  TrialReader reader(std::move(table), options);
   check_columns(reader);
   if (!reader.faults().empty()) return input_errors(std::move(reader.faults()));
 

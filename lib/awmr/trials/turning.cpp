@@ -107,9 +107,8 @@ std::optional<TurningRow> read_row(TrialReader& reader, std::size_t row, const V
 Result<TrialSet<TurningRow>> read_turning(const std::filesystem::path& path, const Vehicle& vehicle,
                                           const TrialOptions& options,
                                           std::vector<Finding>& findings) {
-  auto table = read_csv(path, kColumns, options.columns);
-  if (!table) return tl::unexpected(table.error());
-  TrialReader reader(std::move(*table), options);
+  AWMR_ASSIGN_OR_RETURN(CsvTable table, read_csv(path, kColumns, options.columns));
+  TrialReader reader(std::move(table), options);
   check_columns(reader);
   if (!reader.faults().empty()) return input_errors(std::move(reader.faults()));
 

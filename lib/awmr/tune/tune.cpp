@@ -9,21 +9,13 @@
 #include <variant>
 
 #include "awmr/core/units.h"
-#include "awmr/model/gains_file.h"
+#include "awmr/model/paper_gains.h"
 #include "awmr/tune/constraints.h"
 #include "awmr/tune/objective.h"
 #include "awmr/tune/search.h"
 
 namespace awmr {
 namespace {
-
-Scenario heading_scenario(std::string name, double first_deg, double second_deg, double speed_mps) {
-  return {.name = std::move(name),
-          .duration_s = 20.0,
-          .initial = {},
-          .speed_mps = speed_mps,
-          .guidance = HeadingSteps{{{0.0, radians(first_deg)}, {10.0, radians(second_deg)}}}};
-}
 
 void check_bounds(const Interval& range, const char* name, std::vector<Fault>& faults) {
   if (range.lo > 0.0 && range.lo <= range.hi && std::isfinite(range.hi)) return;
@@ -133,9 +125,13 @@ ConstraintContext context_of(const TuneOptions& options, const Plant<double>& pl
 
 }  // namespace
 
-Scenario default_tuning_scenario() { return heading_scenario("heading_30_-30", 30.0, -30.0, 1.0); }
+Scenario default_tuning_scenario() {
+  return heading_steps({30.0, -30.0}, {.name = "heading_30_-30"});
+}
 
-Scenario held_out_scenario() { return heading_scenario("held_out_60_0", 60.0, 0.0, 0.7); }
+Scenario held_out_scenario() {
+  return heading_steps({60.0, 0.0}, {.speed_mps = 0.7, .name = "held_out_60_0"});
+}
 
 Result<Tuning> tune(const Model& model, const TuneOptions& options) {
   const Status fit = check(options);

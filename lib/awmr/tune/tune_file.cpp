@@ -4,6 +4,8 @@
 #include <utility>
 
 #include "awmr/core/json.h"
+#include "awmr/model/gains_json.h"
+#include "awmr/simulate/scenario_file.h"
 #include "awmr/tune/objective.h"
 #include "awmr/tune/tune.h"
 
@@ -87,12 +89,6 @@ Json optional_json(const std::optional<double>& value) {
   return value ? Json(*value) : Json(nullptr);
 }
 
-Json gains_json(const Gains<double>& g) {
-  return {{"heading",
-           {{"lambda", g.heading.lambda}, {"mu", g.heading.mu}, {"epsilon", g.heading.epsilon}}},
-          {"speed", {{"mu", g.speed.mu}, {"epsilon", g.speed.epsilon}}}};
-}
-
 Json score_json(const ModeScore& score) {
   const Metrics& m = score.metrics;
   return {{"objective", score.objective},
@@ -167,8 +163,8 @@ Result<TuneOptions> read_tune_options(const std::filesystem::path& path) {
 std::string gains_text(const Tuning& tuning, const TuneOptions& options,
                        const Provenance& provenance) {
   Json json;
-  json["schema"] = "awmr.gains/1";
-  json.update(gains_json(tuning.gains));
+  json["schema"] = kGainsSchema;
+  json.update(gains_to_json(tuning.gains));
   json["time_constants"] = {{"T1_s", tuning.gains.heading.sliding_time_constant_s()},
                             {"T2_s", tuning.gains.heading.reaching_time_constant_s()}};
   json["constraints"] = constraints_json(tuning.constraints);
@@ -181,7 +177,7 @@ std::string gains_text(const Tuning& tuning, const TuneOptions& options,
                     {"simulated", tuning.simulated},
                     {"seed", tuning.seed},
                     {"stop_reason", tuning.stop_reason}};
-  Json baseline = gains_json(tuning.baseline);
+  Json baseline = gains_to_json(tuning.baseline);
   baseline["objective"] = tuning.baseline_objective;
   baseline["metrics"] = scores_json(tuning.baseline_scores);
   json["baseline"] = std::move(baseline);

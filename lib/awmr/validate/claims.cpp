@@ -5,8 +5,7 @@
 #include <iterator>
 #include <utility>
 
-#include "awmr/core/units.h"
-#include "awmr/model/gains_file.h"
+#include "awmr/model/paper_gains.h"
 
 namespace awmr {
 namespace {
@@ -25,30 +24,15 @@ double largest_yaw_rate_radps(const Plant<double>& plant, const AllocationLimits
 
 }  // namespace
 
-ModeRuns run_modes(const Plant<double>& plant, const Vehicle& vehicle, const Gains<double>& gains,
-                   const Scenario& scenario) {
-  const Controller<double> controller = make_controller(plant, vehicle, gains);
+ModeRuns run_modes(const Model& model, const Gains<double>& gains, const Scenario& scenario) {
+  const Controller<double> controller = controller_for(model, gains).value();
   ModeRuns runs;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     runs[i].mode = kYawModes[i];
-    runs[i].run = simulate(plant, controller, scenario, kYawModes[i],
-                           {.sample_time_s = vehicle.sample_time_s, .substeps = {}});
+    runs[i].run = simulate(model, gains, scenario, kYawModes[i]).value();
     runs[i].metrics = metrics_of(runs[i].run, scenario, controller);
   }
   return runs;
-}
-
-Scenario heading_scenario(std::string name, std::span<const double> headings_deg, double hold_s,
-                          double speed_mps) {
-  HeadingSteps guidance;
-  for (std::size_t i = 0; i < headings_deg.size(); ++i) {
-    guidance.steps.push_back({static_cast<double>(i) * hold_s, radians(headings_deg[i])});
-  }
-  return {.name = std::move(name),
-          .duration_s = static_cast<double>(headings_deg.size()) * hold_s,
-          .initial = {},
-          .speed_mps = speed_mps,
-          .guidance = std::move(guidance)};
 }
 
 double allowed_settling_s(const Plant<double>& plant, const Vehicle& vehicle, YawMode mode,
@@ -95,7 +79,7 @@ std::vector<Claim> check_claims(const Model& model, const Plant<double>& plant,
     }
     // C13 goes after C8 to C12.
     const auto driven = claims.end() - 1;
-    std::vector<Claim> guided = check_guidance_claims(model, plant, *gains);
+    std::vector<Claim> guided = check_guidance_claims(model, *gains);
     claims.insert(driven, std::make_move_iterator(guided.begin()),
                   std::make_move_iterator(guided.end()));
   }

@@ -28,9 +28,9 @@ struct ModeRun {
 };
 using ModeRuns = std::array<ModeRun, std::size(kYawModes)>;
 
-/// The scenario in all three modes, at the vehicle's sample time and limits.
-ModeRuns run_modes(const Plant<double>& plant, const Vehicle& vehicle, const Gains<double>& gains,
-                   const Scenario& scenario);
+/// The scenario in all three modes. Precondition: the model has every parameter, and an interval
+/// for each of the scenario's corner.
+ModeRuns run_modes(const Model& model, const Gains<double>& gains, const Scenario& scenario);
 
 /// C1: at full thrust and straight ahead, u settles at u_max.                    [paper 3.5.1]
 Claim check_straight_run(const Model& model, const Plant<double>& plant);
@@ -43,12 +43,8 @@ std::vector<Claim> check_heading_claims(const Model& model, const Plant<double>&
                                         const Gains<double>& gains);
 
 /// C8 to C12: waypoints, line, obstacles, timed path, best modes.           [paper 5, section 7]
-std::vector<Claim> check_guidance_claims(const Model& model, const Plant<double>& plant,
-                                         const Gains<double>& gains);
+std::vector<Claim> check_guidance_claims(const Model& model, const Gains<double>& gains);
 
-/// Headings, each held for `hold_s`, at `speed_mps` from rest.
-Scenario heading_scenario(std::string name, std::span<const double> headings_deg, double hold_s,
-                          double speed_mps);
 /// Longest time that settling may take to be called fast, see C3: what the mode's largest steady
 /// yaw rate needs for the step, plus 4 (T1 + 2 T2) of the paper's gains: e^-4 = 1.8 %, within the 2
 /// % band; S decays with 2 T2, then e with T1.

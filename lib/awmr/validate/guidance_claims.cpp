@@ -48,12 +48,9 @@ std::string modes_without(const ModeRuns& runs, Condition condition) {
 }
 
 struct Courses {
-  const Plant<double>& plant;
-  const Vehicle& vehicle;
+  const Model& model;
   const Gains<double>& gains;
-  ModeRuns run(const Scenario& scenario) const {
-    return run_modes(plant, vehicle, gains, scenario);
-  }
+  ModeRuns run(const Scenario& scenario) const { return run_modes(model, gains, scenario); }
 };
 
 Claim waypoints_reached(const ModeRuns& runs) {
@@ -241,9 +238,8 @@ Claim best_modes(const Courses& courses, const ModeRuns& points) {
 
 }  // namespace
 
-std::vector<Claim> check_guidance_claims(const Model& model, const Plant<double>& plant,
-                                         const Gains<double>& gains) {
-  const Courses courses{plant, model.vehicle, gains};
+std::vector<Claim> check_guidance_claims(const Model& model, const Gains<double>& gains) {
+  const Courses courses{model, gains};
   const ModeRuns points = courses.run(waypoint_scenario());
   return {waypoints_reached(points), line_followed(courses), obstacles_avoided(courses),
           timed_path_followed(courses), best_modes(courses, points)};

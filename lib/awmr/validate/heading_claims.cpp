@@ -7,13 +7,13 @@
 #include <vector>
 
 #include "awmr/core/units.h"
-#include "awmr/model/gains_file.h"
+#include "awmr/model/paper_gains.h"
 #include "awmr/validate/heading_runs.h"
 
 namespace awmr {
 namespace {
 
-constexpr double kDriven_deg[] = {30.0, 45.0};  ///< headings of the experiment     [paper 6]
+const std::vector<double> kDriven_deg{30.0, 45.0};  ///< headings of the experiment     [paper 6]
 
 /// "Without overshoot": within what a figure of the paper would show, and the least settling band
 /// of metrics.h.
@@ -100,9 +100,8 @@ Claim sideslip_smallest(const HeadingSetting& setting, const ModeRuns& runs) {
                    "force, but turns fast enough for m' r u alone to make more sway"};
   if (!same_heading_gains(setting.gains.heading, kPaperGains.heading)) {
     const HeadingSetting paper{setting.model, setting.plant, kPaperGains};
-    claim.figure +=
-        "; with the paper's gains: largest " +
-        by_mode(paper.run("C6", kSimulated_deg, setting.model.vehicle), "deg", sideslip);
+    claim.figure += "; with the paper's gains: largest " +
+                    by_mode(paper.run("C6", kSimulated_deg), "deg", sideslip);
   }
   return claim;
 }
@@ -145,7 +144,7 @@ Claim no_chattering(const Model& model, const ModeRuns& runs) {
 }
 
 Claim yaw_rate_limited(const HeadingSetting& setting) {
-  const ModeRuns runs = setting.run("C13", kDriven_deg, setting.model.vehicle);
+  const ModeRuns runs = setting.run("C13", kDriven_deg);
   const ModeRun& steering = in_mode(runs, YawMode::kSteering);
   const double rate_degps = steering.metrics.yaw_rate_max_degps;
   const bool converged = steering.metrics.completed;
@@ -178,7 +177,7 @@ Claim yaw_rate_limited(const HeadingSetting& setting) {
 std::vector<Claim> check_heading_claims(const Model& model, const Plant<double>& plant,
                                         const Gains<double>& gains) {
   const HeadingSetting setting{model, plant, gains};
-  const ModeRuns runs = setting.run("C3", kSimulated_deg, model.vehicle);
+  const ModeRuns runs = setting.run("C3", kSimulated_deg);
   return {heading_converges(setting, runs), check_speed_converges(setting, runs),
           check_speed_held(setting, runs),  sideslip_smallest(setting, runs),
           no_chattering(model, runs),       yaw_rate_limited(setting)};

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "awmr/core/units.h"
 #include "awmr/validate/claims.h"
@@ -16,7 +16,7 @@
 namespace awmr {
 
 inline constexpr double kSpeed_mps = 1.0;                  ///< u_d               [paper 4.3]
-inline constexpr double kSimulated_deg[] = {30.0, -30.0};  ///< headings          [paper 4.3]
+inline const std::vector<double> kSimulated_deg{30.0, -30.0};  ///< headings      [paper 4.3]
 inline constexpr double kLargestStep_deg = 60.0;           ///< of any sequence here
 
 /// Figures are given to 1e-4: what is smaller is rounding, not result.
@@ -59,10 +59,10 @@ struct HeadingSetting {
     for (const YawMode mode : kYawModes) longest_s = std::max(longest_s, 1.5 * allowed_s(mode));
     return std::min(longest_s, 120.0);
   }
-  ModeRuns run(std::string name, std::span<const double> headings_deg,
-               const Vehicle& vehicle) const {
-    return run_modes(plant, vehicle, gains,
-                     heading_scenario(std::move(name), headings_deg, hold_s(), kSpeed_mps));
+  ModeRuns run(std::string name, const std::vector<double>& headings_deg) const {
+    const HeadingStepsOptions options{
+        .hold_s = hold_s(), .speed_mps = kSpeed_mps, .name = std::move(name)};
+    return run_modes(model, gains, heading_steps(headings_deg, options));
   }
 };
 

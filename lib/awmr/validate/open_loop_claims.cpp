@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "awmr/model/gains_file.h"
+#include "awmr/model/paper_gains.h"
 #include "awmr/validate/circle_fit.h"
 #include "awmr/validate/claims.h"
 
@@ -26,20 +26,14 @@ constexpr double kMeasuredTolerance = 0.05;
 /// Largest distance of the last turn from its circle, over the radius.
 constexpr double kCircleTolerance = 0.01;
 
-/// Open loop needs no gains; any will do for the controller's limits.
-Controller<double> limits_only(const Model& model, const Plant<double>& plant) {
-  return make_controller(plant, model.vehicle, kPaperGains);
-}
-
-Run run_open_loop(const Model& model, const Plant<double>& plant, YawMode mode, OpenLoop forces,
-                  double duration_s) {
+Run run_open_loop(const Model& model, YawMode mode, OpenLoop forces, double duration_s) {
   const Scenario scenario{.name = "open loop",
                           .duration_s = duration_s,
                           .initial = {},
                           .speed_mps = 0.0,
                           .guidance = forces};
-  return simulate(plant, limits_only(model, plant), scenario, mode,
-                  {.sample_time_s = model.vehicle.sample_time_s, .substeps = {}});
+  // Open loop needs no gains; any will do.
+  return simulate(model, kPaperGains, scenario, mode).value();
 }
 
 /// The surge trial at the largest tau_speed: its speed is the paper's u_max.
@@ -69,11 +63,11 @@ std::vector<Point> last_turn(const Run& run) {
   return points;
 }
 
-Turn turn_of(const Model& model, const Plant<double>& plant, YawMode mode) {
+Turn turn_of(const Model& model, YawMode mode) {
   Turn turn{.mode = mode, .circle = {}};
   // A slow vehicle needs longer for two turns.
   for (const double duration_s : {60.0, 240.0, 960.0}) {
-    const Run run = run_open_loop(model, plant, mode, {kFullThrust, kCircleTurn_m}, duration_s);
+    const Run run = run_open_loop(model, mode, {kFullThrust, kCircleTurn_m}, duration_s);
     const State<double>& end = run.rows.back().state;
     turn.speed_mps = std::hypot(end.u_mps, end.v_mps);
     turn.circle = fit_circle(last_turn(run));
@@ -91,7 +85,7 @@ std::string figure_of(const Turn& turn) {
 
 /// Why the diameters differ: what of tau_turn each mode delivers.
 std::string delivered_moments(const Model& model, const Plant<double>& plant) {
-  const AllocationLimits<double> limits = limits_only(model, plant).limits;
+  const AllocationLimits<double> limits = make_controller(plant, model.vehicle, kPaperGains).limits;
   std::string text;
   for (const YawMode mode : kYawModes) {
     const Allocation<double> a = allocate(mode, kFullThrust, kCircleTurn_m, limits);
@@ -122,7 +116,7 @@ Claim check_straight_run(const Model& model, const Plant<double>& plant) {
               .figure = {},
               .tolerance = {},
               .why = {}};
-  const Run run = run_open_loop(model, plant, YawMode::kDifferential, {kFullThrust, 0.0}, 60.0);
+  const Run run = run_open_loop(model, YawMode::kDifferential, {kFullThrust, 0.0}, 60.0);
   const double settled_mps = run.rows.back().state.u_mps;
   const double steady_mps = std::pow(kFullThrust / plant.surge.alpha, 1.0 / plant.surge.beta);
   const bool settles = std::abs(settled_mps - steady_mps) <= kSteadyTolerance * steady_mps;
@@ -165,7 +159,7 @@ Claim check_circle(const Model& model, const Plant<double>& plant) {
               .why = {}};
   claim.reproduced = true;
   for (const YawMode mode : kYawModes) {
-    const Turn turn = turn_of(model, plant, mode);
+    const Turn turn = turn_of(model, mode);
     claim.figure += (claim.figure.empty() ? "" : "; ") + figure_of(turn);
     claim.reproduced = claim.reproduced && turn.circle &&
                        turn.circle->deviation_m <= kCircleTolerance * turn.circle->radius_m;

@@ -77,15 +77,19 @@ double speed_drop(const ModeRun& run, double step_s) {
 std::string speed_drop_elsewhere(const HeadingSetting& setting) {
   std::string text;
   for (const Interval limits : {Interval{-1.0, 1.0}, Interval{0.0, 0.5}}) {
-    Vehicle other = setting.model.vehicle;
-    const Interval own = other.wheel_force;
+    const Interval own = setting.model.vehicle.wheel_force;
     if (std::abs(limits.lo - own.lo) + std::abs(limits.hi - own.hi) < 1e-12) continue;
-    other.wheel_force = limits;
+    Model other = setting.model;
+    other.vehicle.wheel_force = limits;
+    // As long as the vehicle with its own limits, so that the figures are of the same run.
+    const ModeRuns runs = run_modes(
+        other, setting.gains,
+        heading_steps(kSimulated_deg,
+                      {.hold_s = setting.hold_s(), .speed_mps = kSpeed_mps, .name = "C5"}));
     text += fmt::format("; with F' in [{}, {}]: {}", limits.lo, limits.hi,
-                        by_mode(setting.run("C5", kSimulated_deg, other), "m/s",
-                                [&](const ModeRun& run) -> std::optional<double> {
-                                  return speed_drop(run, setting.hold_s());
-                                }));
+                        by_mode(runs, "m/s", [&](const ModeRun& run) -> std::optional<double> {
+                          return speed_drop(run, setting.hold_s());
+                        }));
   }
   return text;
 }

@@ -124,27 +124,25 @@ std::optional<double> predicted_measurement(const Plant<double>& plant, const Tr
   return std::nullopt;
 }
 
-Result<Validation> validate(const Model& model,
-                            const std::optional<Gains<double>>& gains,
+Result<Validation> validate(const Model& model, const std::optional<Gains<double>>& gains,
                             const ValidateOptions& options) {
   if (!(options.tolerance > 0.0)) {
-    return input_error("--tolerance",
-                       fmt::format("has to be above 0, found {}", options.tolerance));
+    return input_error("",
+                       fmt::format("tolerance: has to be above 0, found {}", options.tolerance));
   }
-  const Result<Plant<double>> plant = model.plant();
-  if (!plant) return tl::unexpected(plant.error());
+  AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, model.plant());
   std::vector<Fault> faults = trial_faults(model);
   if (!faults.empty()) return input_errors(std::move(faults));
 
   Validation validation;
   for (const TrialPoint& trial : model.record.trials) {
-    validation.trials.push_back(residual_of(*plant, trial));
+    validation.trials.push_back(residual_of(plant, trial));
   }
   validation.surge_rms_relative_error = rms_relative_error(validation.trials, TrialKind::kSurge);
   validation.turning_rms_relative_error = rms_relative_error(validation.trials, TrialKind::kTurning);
   validation.coastdown_rms_relative_error = rms_relative_error(validation.trials, TrialKind::kCoastdown);
   judge(validation, options.tolerance);
-  validation.claims = check_claims(model, *plant, gains);
+  validation.claims = check_claims(model, plant, gains);
   return validation;
 }
 

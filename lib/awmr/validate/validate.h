@@ -53,8 +53,8 @@ struct ValidateOptions {
 
 /// What the model says a trial should have measured:
 ///   surge: u = (tau_speed/a1)^(1/b1);  turning: r = (tau_turn/a3)^(1/b3);
-///   coastdown: t_a = m' u0^(1-b1)/((1-b1) a1)                        [paper (47), (63), (59)
-///   solved]
+///   coastdown: t_a = m' u0^(1-b1)/((1-b1) a1)
+/// [paper (47), (63), (59), solved]
 /// Absent where the law gives none: a finite steady speed with b near 0, a stop time with b1 >= 1;
 /// and for a kind of trial that is none of these.
 std::optional<double> predicted_measurement(const Plant<double>& plant, const TrialPoint& trial);
@@ -62,8 +62,7 @@ std::optional<double> predicted_measurement(const Plant<double>& plant, const Tr
 /// The claims never decide `passed`: a claim that is not reproduced is a finding about the paper.
 /// Errors (input): the model lacks a parameter; a trial in it is of no known kind or not positive;
 /// the tolerance is not positive. Without gains, only the claims that need none are run.
-Result<Validation> validate(const Model& model,
-                            const std::optional<Gains<double>>& gains,
+Result<Validation> validate(const Model& model, const std::optional<Gains<double>>& gains,
                             const ValidateOptions& options);
 
 /// Adds the logs' figures and takes them into the verdict.

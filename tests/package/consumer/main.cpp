@@ -1,6 +1,7 @@
 #include <cstdio>
 
 #include "awmr/model/vehicle.h"
+#include "awmr/model/vehicle_file.h"
 #include "awmr/simulate/simulate.h"
 
 int main(int, char** argv) {

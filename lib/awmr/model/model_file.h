@@ -1,0 +1,21 @@
+/// model.json (`awmr.model/1`).
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "awmr/core/result.h"
+#include "awmr/model/model.h"
+
+namespace awmr {
+
+/// Errors: as read_json_file; unknown, missing or impossible values.
+Result<Model> read_model(const std::filesystem::path& path);
+
+/// The bytes of model.json.
+std::string model_text(const Model& model);
+
+/// Errors: as write_file.
+Status write_model(const Model& model, const std::filesystem::path& path);
+
+}  // namespace awmr

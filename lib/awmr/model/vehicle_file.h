@@ -1,0 +1,14 @@
+/// vehicle.json (`awmr.vehicle/1`).
+#pragma once
+
+#include <filesystem>
+
+#include "awmr/core/result.h"
+#include "awmr/model/vehicle.h"
+
+namespace awmr {
+
+/// Errors: as read_json_file; unknown, missing or impossible values.
+Result<Vehicle> read_vehicle(const std::filesystem::path& path);
+
+}  // namespace awmr

@@ -1,0 +1,17 @@
+# Types, equations and the closed loop build for targets without a file system: what they include
+# is asked of the compiler's preprocessor.
+foreach(source
+    core/provenance.h model/vehicle.h model/model.h model/record.h model/vehicle.cpp model/family.cpp
+    model/parameters.cpp model/model.cpp control/controller.h control/autopilot.h
+    simulate/scenario.h simulate/world.h simulate/simulate.h simulate/metrics.h
+    simulate/scenario.cpp simulate/passage.cpp simulate/disturbance.cpp simulate/sensing.cpp
+    simulate/physics.cpp simulate/pilot.cpp simulate/simulate.cpp simulate/metrics.cpp)
+  execute_process(COMMAND ${COMPILER} -std=c++20 -I${LIB} -x c++ -M ${LIB}/awmr/${source}
+    OUTPUT_VARIABLE included RESULT_VARIABLE result)
+  if(NOT result EQUAL 0)
+    message(FATAL_ERROR "${source} cannot be preprocessed")
+  endif()
+  if(included MATCHES "/(filesystem|fstream)[ \n\\\\]|core/(file|json|csv|input_file)\\.h|_file\\.h")
+    message(SEND_ERROR "${source} includes ${CMAKE_MATCH_0}")
+  endif()
+endforeach()
