@@ -5,10 +5,11 @@ target_compile_options(awmr_warnings INTERFACE
   -Wold-style-cast -Woverloaded-virtual -Wdouble-promotion
   $<$<BOOL:${AWMR_WARNINGS_AS_ERRORS}>:-Werror>)
 
-# awmr_library(NAME [SOURCES file...] [PUBLIC target...] [PRIVATE target...])
+# awmr_library(NAME HEADERS file... [SOURCES file...] [PUBLIC target...] [PRIVATE target...])
 # The library of one folder, `awmr_NAME` with the alias `awmr::NAME`; header-only without SOURCES.
+# HEADERS are the public ones: they are installed, and no other is.
 function(awmr_library name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "HEADERS;SOURCES;PUBLIC;PRIVATE" ${ARGN})
   set(target awmr_${name})
   if(ARG_SOURCES)
     add_library(${target} STATIC ${ARG_SOURCES})
@@ -26,6 +27,8 @@ function(awmr_library name)
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
   target_include_directories(${target} ${scope}
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/lib> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_sources(${target} ${scope} FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR}/lib
+    FILES ${ARG_HEADERS})
   target_compile_features(${target} ${scope} cxx_std_20)
   set_property(GLOBAL APPEND PROPERTY AWMR_LIBRARIES ${target})
 endfunction()

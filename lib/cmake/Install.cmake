@@ -1,9 +1,9 @@
 include(CMakePackageConfigHelpers)
 
 get_property(awmr_libraries GLOBAL PROPERTY AWMR_LIBRARIES)
-install(TARGETS ${awmr_libraries} EXPORT awmr-targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(TARGETS ${awmr_libraries} EXPORT awmr-targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+  FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(TARGETS awmr_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-install(DIRECTORY lib/awmr DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
 install(EXPORT awmr-targets NAMESPACE awmr:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/awmr)
 
 configure_package_config_file(lib/cmake/awmr-config.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/awmr-config.cmake

@@ -1,0 +1,33 @@
+/// Everything. A file of one's own needs only the header of its task:
+///
+///     read a vehicle, a model, gains     model/vehicle_file.h, model/model_file.h, model/gains_file.h
+///     read trials                        trials/load.h
+///     fit a model to them                identify/identify.h
+///     ask which trial to record next     identify/planning/suggest.h
+///     ask how well a fit can be          identify/planning/recover.h
+///     search gains                       tune/tune.h
+///     run the closed loop, judge a run   simulate/simulate.h, simulate/metrics.h
+///     hold a model against its trials    validate/validate.h
+///     compare the yaw-control modes      compare/compare.h
+///     make firmware                      emit/emit.h
+///     make the report                    report/report.h
+///
+/// Whatever can fail returns a Result (core/result.h): a value, or every fault that was found.
+#pragma once
+
+#include "awmr/compare/compare.h"
+#include "awmr/core/result.h"
+#include "awmr/emit/emit.h"
+#include "awmr/identify/identify.h"
+#include "awmr/identify/planning/recover.h"
+#include "awmr/identify/planning/suggest.h"
+#include "awmr/model/gains_file.h"
+#include "awmr/model/model_file.h"
+#include "awmr/model/vehicle_file.h"
+#include "awmr/report/report.h"
+#include "awmr/simulate/metrics.h"
+#include "awmr/simulate/scenario_file.h"
+#include "awmr/simulate/simulate.h"
+#include "awmr/trials/load.h"
+#include "awmr/tune/tune.h"
+#include "awmr/validate/validate.h"
