@@ -4,14 +4,19 @@
 #include <numbers>
 #include <string>
 
+#include "awmr/core/name_table.h"
 #include "awmr/core/units.h"
 #include "awmr/simulate/scenario_json.h"
 
 namespace awmr {
 namespace {
 
-const std::array<std::string, 5> kGuidanceTypes{"open_loop", "heading", "waypoints", "line",
-                                                "lissajous"};
+enum class GuidanceType { kOpenLoop, kHeading, kWaypoints, kLine, kLissajous };
+constexpr NameTable<GuidanceType, 5> kGuidanceTypes{{{"open_loop", GuidanceType::kOpenLoop},
+                                                     {"heading", GuidanceType::kHeading},
+                                                     {"waypoints", GuidanceType::kWaypoints},
+                                                     {"line", GuidanceType::kLine},
+                                                     {"lissajous", GuidanceType::kLissajous}}};
 constexpr NumberRule kBelowRightAngle{.min = 0.0, .max = 89.0};
 constexpr NumberRule kApproachAngle{.min = 0.0, .max = 90.0, .min_excluded = true};
 
@@ -118,19 +123,19 @@ LissajousCourse read_lissajous(JsonObject& json) {
 Guidance read_guidance(JsonObject json, const Json& document) {
   Guidance guidance;
   switch (json.choice("type", kGuidanceTypes)) {
-    case 0:
+    case GuidanceType::kOpenLoop:
       guidance = OpenLoop{json.number("tau_speed"), json.number("tau_turn")};
       break;
-    case 1:
+    case GuidanceType::kHeading:
       guidance = read_heading_steps(json);
       break;
-    case 2:
+    case GuidanceType::kWaypoints:
       guidance = read_waypoints(json, document);
       break;
-    case 3:
+    case GuidanceType::kLine:
       guidance = read_line(json, document);
       break;
-    default:
+    case GuidanceType::kLissajous:
       guidance = read_lissajous(json);
       break;
   }

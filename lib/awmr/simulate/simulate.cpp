@@ -12,7 +12,7 @@
 namespace awmr {
 namespace {
 
-/// A vehicle that was told to stop has, below this.
+/// Below this speed a vehicle that was told to stop counts as stopped.
 constexpr double kStopped_mps = 1e-3;
 
 /// The laws, and what the scenario adds to them.
@@ -104,6 +104,19 @@ void fill(RunRow& row, const Command<double>& command, double dead_zone) {
   row.steering_command_rad = command.allocation.steering_rad;
 }
 
+/// What the guidance orders at this row and what the laws make of it. Returns how the run ends
+/// here; kDuration: it goes on.
+RunEnd follow_guidance(Pilot& pilot, Autopilot& autopilot, const Sensed& sensed, double dead_zone,
+                       RunRow& row) {
+  const Pilot::Order order = pilot.at(row.t_s, sensed);
+  row.course = order.course;
+  row.psi_ref_rad = order.reference.psi_rad;
+  row.u_ref_mps = order.reference.speed_mps;
+  fill(row, autopilot.follow(sensed.motion, order.reference), dead_zone);
+  if (order.no_passage && std::abs(row.state.u_mps) < kStopped_mps) return RunEnd::kNoPassage;
+  return order.finished ? RunEnd::kFinished : RunEnd::kDuration;
+}
+
 }  // namespace
 
 Controller<double> make_controller(const Plant<double>& plant, const Vehicle& vehicle,
@@ -153,15 +166,7 @@ Run simulate(const Plant<double>& plant, const Controller<double>& controller,
     if (open) {
       fill(row, autopilot.open_loop(*open), controller.limits.dead_zone);
     } else {
-      const Pilot::Order order = pilot.at(row.t_s, sensed);
-      row.course = order.course;
-      row.psi_ref_rad = order.reference.psi_rad;
-      row.u_ref_mps = order.reference.speed_mps;
-      fill(row, autopilot.follow(sensed.motion, order.reference), controller.limits.dead_zone);
-      if (order.finished) run.end = RunEnd::kFinished;
-      if (order.no_passage && std::abs(row.state.u_mps) < kStopped_mps) {
-        run.end = RunEnd::kNoPassage;
-      }
+      run.end = follow_guidance(pilot, autopilot, sensed, controller.limits.dead_zone, row);
     }
     if (scenario.actuators) quantise(*scenario.actuators, force_max, row);
     row.disturbance = physics.disturb(row.t_s);

@@ -3,6 +3,7 @@
 #include <array>
 #include <string>
 
+#include "awmr/core/name_table.h"
 #include "awmr/core/units.h"
 #include "awmr/simulate/scenario_json.h"
 
@@ -19,25 +20,31 @@ Window read_window(JsonObject& json) {
   return window;
 }
 
+/// As the file has them; a step is a constant that begins later.
+enum class TermType { kConstant, kStep, kSine, kNoise };
+constexpr NameTable<TermType, 4> kTermTypes{{{"constant", TermType::kConstant},
+                                             {"step", TermType::kStep},
+                                             {"sine", TermType::kSine},
+                                             {"noise", TermType::kNoise}}};
+
 DisturbanceTerm read_term(JsonObject& json) {
-  static const std::array<std::string, 4> kinds{"constant", "step", "sine", "noise"};
   DisturbanceTerm term;
-  const std::size_t kind = json.choice("type", kinds);
-  if (kind == 2) {
+  const TermType type = json.choice("type", kTermTypes);
+  if (type == TermType::kSine) {
     term.kind = DisturbanceTerm::Kind::kSine;
     term.value = json.number("amplitude");
     term.frequency_hz = json.number("frequency_hz", kPositive);
     if (const auto phase_deg = json.optional_number("phase_deg")) {
       term.phase_rad = radians(*phase_deg);
     }
-  } else if (kind == 3) {
+  } else if (type == TermType::kNoise) {
     term.kind = DisturbanceTerm::Kind::kNoise;
     term.value = json.number("std", kNonNegative);
     term.bandwidth_hz = json.number("bandwidth_hz", kPositive);
   } else {
     term.value = json.number("value");
   }
-  if (kind == 1) {
+  if (type == TermType::kStep) {
     term.window.from_s = json.number("t_s", kNonNegative);
   } else {
     term.window = read_window(json);
@@ -153,10 +160,11 @@ Actuators read_actuators(JsonObject json) {
 }
 
 ControlOptions read_control(JsonObject json) {
-  static const std::array<std::string, 2> splits{"redistribute", "fixed_half"};
+  static constexpr NameTable<bool, 2> kRedistributes{
+      {{"redistribute", true}, {"fixed_half", false}}};
   ControlOptions control;
   if (json.has("combined_split")) {
-    control.redistribute = json.choice("combined_split", splits) == 0;
+    control.redistribute = json.choice("combined_split", kRedistributes);
   }
   if (auto observer = json.optional_object("disturbance_observer")) {
     control.observer =
@@ -171,10 +179,10 @@ ControlOptions read_control(JsonObject json) {
 }
 
 std::vector<CornerParameter> read_corner(JsonObject json) {
-  static const std::array<std::string, 2> ends{"lo", "hi"};
+  static constexpr NameTable<bool, 2> kHigh{{{"lo", false}, {"hi", true}}};
   std::vector<CornerParameter> corner;
   for (const std::string& name : json.keys()) {
-    const bool high = json.choice(name, ends) == 1;
+    const bool high = json.choice(name, kHigh);
     if (const auto id = parameter_by_name(name)) {
       corner.push_back({*id, high});
     } else {

@@ -109,54 +109,74 @@ double mean_of(const std::vector<double>& signal, Stretch s) {
   return sum / static_cast<double>(s.end - s.begin);
 }
 
+/// A steady run as it was driven.
+struct SteadyRun {
+  SteadySegment segment;
+  double wheel_force = 0.0;   ///< F' of each wheel
+  double steering_rad = 0.0;  ///< signed
+};
+
+/// The run in a stretch of constant commands, or nothing where it shows no resistance: driven
+/// backward or unevenly, never steady, at rest, or turning against its steering.
+std::optional<SteadyRun> steady_run(const DrivingLog& log, const SteadyRule& rule,
+                                    Stretch stretch) {
+  const double left = mean_of(log.force_left, stretch);
+  const double right = mean_of(log.force_right, stretch);
+  const double steering_rad = mean_of(steering_of(log), stretch);
+  const bool turning = std::abs(steering_rad) > rule.straight_rad;
+  const auto& rate = log[turning ? LogChannel::kYawRate : LogChannel::kSpeed];
+  if (!rate || !(left > 0.0) || std::abs(left - right) > rule.same) return std::nullopt;
+  const auto line = steady_rest(log, *rate, rule, stretch);
+  if (!line) return std::nullopt;
+  // At rest within the scatter: no information for a resistance curve.
+  if (!(std::abs(line->mean) > 3.0 * line->mean_error) || line->mean == 0.0) return std::nullopt;
+  if (turning ? line->mean * steering_rad < 0.0 : line->mean < 0.0) return std::nullopt;
+  return SteadyRun{{log.t_s[stretch.begin], log.t_s[stretch.end - 1], log.line[stretch.begin],
+                    turning, std::abs(line->mean), line->mean_error},
+                   0.5 * (left + right),
+                   steering_rad};
+}
+
+TurningRow turning_row(const SteadyRun& run, const Vehicle& vehicle) {
+  const double angle = std::abs(run.steering_rad);
+  // tau_turn = 2 l_f F' sin d_r                                                        [paper (62)]
+  return {.line = run.segment.line,
+          .steering_rad = angle,
+          .wheel_force = run.wheel_force,
+          .tau_turn_m = 2.0 * vehicle.front_axle_m * run.wheel_force * std::sin(angle),
+          .yaw_rate_radps = run.segment.mean_rate,
+          .turns = {},
+          .elapsed_s = {}};
+}
+
+Finding note_of(const SteadyRun& run, const std::string& file) {
+  const SteadySegment& segment = run.segment;
+  return {file, segment.line, Severity::kNote, "steady-segment",
+          fmt::format("steady from {:.3f} to {:.3f} s: {} run, F' = {:.4g}, steering {:.3g} deg, "
+                      "{} {:.4g} +- {:.2g} {}",
+                      segment.begin_s, segment.end_s, segment.turning ? "turning" : "surge",
+                      run.wheel_force, degrees(run.steering_rad),
+                      segment.turning ? "yaw rate" : "speed", segment.mean_rate, segment.std_error,
+                      segment.turning ? "rad/s" : "m/s")};
+}
+
 }  // namespace
 
 SteadyRuns steady_runs(const DrivingLog& log, const Vehicle& vehicle, const SteadyRule& rule,
                        std::vector<Finding>& findings) {
   SteadyRuns runs;
   runs.surge.file = runs.turning.file = log.file;
-  for (Stretch stretch : constant_commands(log, rule.same)) {
-    const double left = mean_of(log.force_left, stretch);
-    const double right = mean_of(log.force_right, stretch);
-    const double steering_rad = mean_of(steering_of(log), stretch);
-    const bool turning = std::abs(steering_rad) > rule.straight_rad;
-    const auto& rate = log[turning ? LogChannel::kYawRate : LogChannel::kSpeed];
-    if (!rate || !(left > 0.0) || std::abs(left - right) > rule.same) continue;
-    const auto found = steady_rest(log, *rate, rule, stretch);
-    if (!found) continue;
-    const Line& line = *found;
-    // At rest within the scatter: no information for a resistance curve.
-    if (!(std::abs(line.mean) > 3.0 * line.mean_error) || line.mean == 0.0) continue;
-    if (turning ? line.mean * steering_rad < 0.0 : line.mean < 0.0) continue;
-
-    const int row = log.line[stretch.begin];
-    const double force = 0.5 * (left + right);
-    const double rate_value = std::abs(line.mean);
-    if (turning) {
-      // tau_turn = 2 l_f F' sin d_r                                                    [paper (62)]
-      const double angle = std::abs(steering_rad);
-      runs.turning.rows.push_back(
-          {.line = row,
-           .steering_rad = angle,
-           .wheel_force = force,
-           .tau_turn_m = 2.0 * vehicle.front_axle_m * force * std::sin(angle),
-           .yaw_rate_radps = rate_value,
-           .turns = {},
-           .elapsed_s = {}});
+  for (const Stretch stretch : constant_commands(log, rule.same)) {
+    const auto run = steady_run(log, rule, stretch);
+    if (!run) continue;
+    if (run->segment.turning) {
+      runs.turning.rows.push_back(turning_row(*run, vehicle));
     } else {
-      runs.surge.rows.push_back({row, 4.0 * force, rate_value, {}, {}});
+      runs.surge.rows.push_back(
+          {run->segment.line, 4.0 * run->wheel_force, run->segment.mean_rate, {}, {}});
     }
-    const SteadySegment segment{
-        log.t_s[stretch.begin], log.t_s[stretch.end - 1], row, turning, rate_value,
-        line.mean_error};
-    runs.segments.push_back(segment);
-    findings.push_back(
-        {log.file, row, Severity::kNote, "steady-segment",
-         fmt::format("steady from {:.3f} to {:.3f} s: {} run, F' = {:.4g}, steering {:.3g} deg, "
-                     "{} {:.4g} +- {:.2g} {}",
-                     segment.begin_s, segment.end_s, turning ? "turning" : "surge", force,
-                     degrees(steering_rad), turning ? "yaw rate" : "speed", rate_value,
-                     line.mean_error, turning ? "rad/s" : "m/s")});
+    runs.segments.push_back(run->segment);
+    findings.push_back(note_of(*run, log.file));
   }
   return runs;
 }

@@ -24,8 +24,28 @@ constexpr double kReversalBand = 0.01;
 constexpr double kReversalsPerSecond = 1.0;
 constexpr double kYawRateMax_degps = 20.0;  ///< [paper 6]
 
+std::optional<double> settling_s(const ModeRun& run) { return run.metrics.settling_time_s; }
+
+std::string why_heading_converges_or_not(const HeadingSetting& setting, const ModeRuns& runs,
+                                         bool reproduced, bool none_over) {
+  std::string why = reproduced ? "every mode follows the sliding surface once its limits release it"
+                    : !none_over ? "a limited actuator or the servo's lag carries the heading past "
+                                   "its command in the modes named in the figure"
+                                 : "the law, or what the actuators leave of it, takes longer than "
+                                   "the paper's time constants";
+  const auto settled_s = [&](YawMode mode) {
+    return settling_s(in_mode(runs, mode)).value_or(setting.hold_s());
+  };
+  if (settled_s(YawMode::kSteering) > settled_s(YawMode::kDifferential) &&
+      settled_s(YawMode::kSteering) > settled_s(YawMode::kCombined)) {
+    why +=
+        "; steering is slowest: the stop of the front wheels and the small thrust at 1 m/s "
+        "limit its moment";
+  }
+  return why;
+}
+
 Claim heading_converges(const HeadingSetting& setting, const ModeRuns& runs) {
-  const auto settling = [](const ModeRun& run) { return run.metrics.settling_time_s; };
   const auto overshoot = [](const ModeRun& run) { return run.metrics.overshoot_deg; };
   const auto fast = [&](const ModeRun& run) {
     const auto settled_s = run.metrics.settling_time_s;
@@ -36,37 +56,23 @@ Claim heading_converges(const HeadingSetting& setting, const ModeRuns& runs) {
   };
   const bool all_fast = all_modes(runs, fast);
   const bool none_over = all_modes(runs, without_overshoot);
-  Claim claim{.id = "C3",
-              .statement =
-                  "headings 30 then -30 deg at 1 m/s: fast and without overshoot in all "
-                  "modes",
-              .reproduced = all_fast && none_over,
-              .figure = fmt::format("settled after {}; overshoot {}", by_mode(runs, "s", settling),
-                                    by_mode(runs, "deg", overshoot)),
-              .tolerance = fmt::format(
-                  "settled (2 %, at least 0.5 deg) within 60 deg at the mode's largest steady yaw "
-                  "rate plus 4 (T1 + 2 T2) of the paper: {}; overshoot at most {} deg",
-                  by_mode(runs, "s",
-                          [&](const ModeRun& run) -> std::optional<double> {
-                            return setting.allowed_s(run.mode);
-                          }),
-                  kNoOvershoot_deg),
-              .why = {}};
-  claim.why = claim.reproduced ? "every mode follows the sliding surface once its limits release it"
-              : !none_over ? "a limited actuator or the servo's lag carries the heading past its "
-                             "command in the modes named in the figure"
-                           : "the law, or what the actuators leave of it, takes longer than the "
-                             "paper's time constants";
-  const auto settled_s = [&](YawMode mode) {
-    return settling(in_mode(runs, mode)).value_or(setting.hold_s());
-  };
-  if (settled_s(YawMode::kSteering) > settled_s(YawMode::kDifferential) &&
-      settled_s(YawMode::kSteering) > settled_s(YawMode::kCombined)) {
-    claim.why +=
-        "; steering is slowest: the stop of the front wheels and the small thrust at 1 m/s "
-        "limit its moment";
-  }
-  return claim;
+  const bool reproduced = all_fast && none_over;
+  return {.id = "C3",
+          .statement =
+              "headings 30 then -30 deg at 1 m/s: fast and without overshoot in all "
+              "modes",
+          .reproduced = reproduced,
+          .figure = fmt::format("settled after {}; overshoot {}", by_mode(runs, "s", settling_s),
+                                by_mode(runs, "deg", overshoot)),
+          .tolerance = fmt::format(
+              "settled (2 %, at least 0.5 deg) within 60 deg at the mode's largest steady yaw "
+              "rate plus 4 (T1 + 2 T2) of the paper: {}; overshoot at most {} deg",
+              by_mode(runs, "s",
+                      [&](const ModeRun& run) -> std::optional<double> {
+                        return setting.allowed_s(run.mode);
+                      }),
+              kNoOvershoot_deg),
+          .why = why_heading_converges_or_not(setting, runs, reproduced, none_over)};
 }
 
 bool same_heading_gains(const HeadingGains<double>& a, const HeadingGains<double>& b) {
