@@ -30,6 +30,20 @@ TEST(GainsFile, ReadsTheGains) {
   EXPECT_EQ(gains->speed.epsilon, 1.2);
 }
 
+TEST(GainsFile, WritesWhatItReads) {
+  const testing::ScratchFile file("gains.json", "");
+  const Gains<double> gains{{2.5, 40.0, 8.0}, {4.0, 1.5}};
+  ASSERT_TRUE(write_gains(gains, file.path()));
+  const auto read = read_gains(file.path());
+  ASSERT_TRUE(read) << to_text(read.error());
+  EXPECT_EQ(read->heading.lambda, 2.5);
+  EXPECT_EQ(read->heading.mu, 40.0);
+  EXPECT_EQ(read->heading.epsilon, 8.0);
+  EXPECT_EQ(read->speed.mu, 4.0);
+  EXPECT_EQ(read->speed.epsilon, 1.5);
+  EXPECT_FALSE(write_gains(gains, "/no/such/directory/gains.json"));
+}
+
 TEST(GainsFile, PassesOverTheContractsOtherKeys) {
   Json json = Json::parse(kText);
   for (const char* key : {"command", "version", "options", "inputs", "time_constants",

@@ -127,5 +127,44 @@ TEST_P(ScenarioFiles, IsTheSameElsewhere) {
 INSTANTIATE_TEST_SUITE_P(Each, ScenarioFiles, ::testing::ValuesIn(scenario_files()),
                          [](const auto& file) { return file.param.stem().string(); });
 
+TEST(RunOfAModel, IsItsPlantUnderItsOwnControllerAtItsSampleTime) {
+  Model model = model_with_intervals();
+  model.vehicle.sample_time_s = 0.02;
+  Scenario scenario = heading_steps({20.0, -40.0}, {.hold_s = 3.0});
+  scenario.corner = {{ParameterId::kYawAlpha, true}};
+  const auto controller = make_controller(*model.plant(), model.vehicle, kPaperGains);
+  const awmr::Run spelled_out = simulate(*plant_for(scenario, model), controller, scenario,
+                                         YawMode::kCombined, {.sample_time_s = 0.02, .substeps = {}});
+  const auto run = simulate(model, kPaperGains, scenario, YawMode::kCombined);
+  ASSERT_TRUE(run) << to_text(run.error());
+  ASSERT_EQ(run->rows.size(), spelled_out.rows.size());
+  EXPECT_EQ(run_csv(*run, scenario), run_csv(spelled_out, scenario));
+  EXPECT_EQ(controller_for(model, kPaperGains)->yaw.alpha, controller.yaw.alpha);
+}
+
+TEST(RunOfAModel, NamesWhatTheModelLacks) {
+  Model model = model_with_intervals();
+  model[ParameterId::kMassNorm].value.reset();
+  const auto run = simulate(model, kPaperGains, heading_steps({30.0}), YawMode::kSteering);
+  ASSERT_FALSE(run);
+  EXPECT_NE(to_text(run.error()).find("/mass_norm"), std::string::npos);
+}
+
+TEST(HeadingSteps, OfThirtyAndMinusThirtyAreC3) {
+  const auto file =
+      read_scenario(std::string(AWMR_SOURCE_DIR) + "/configs/paper/scenarios/c3_heading_steps.json");
+  ASSERT_TRUE(file) << to_text(file.error());
+  const Scenario made = heading_steps({30, -30});
+  EXPECT_EQ(made.duration_s, file->duration_s);
+  EXPECT_EQ(made.speed_mps, file->speed_mps);
+  const auto& steps = std::get<HeadingSteps>(made.guidance).steps;
+  const auto& expected = std::get<HeadingSteps>(file->guidance).steps;
+  ASSERT_EQ(steps.size(), expected.size());
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    EXPECT_EQ(steps[i].t_s, expected[i].t_s);
+    EXPECT_EQ(steps[i].psi_rad, expected[i].psi_rad);
+  }
+}
+
 }  // namespace
 }  // namespace awmr::testing

@@ -1,0 +1,93 @@
+/// Trial files read and joined.
+#include "awmr/trials/load.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "trial_text.h"
+
+namespace awmr {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::SizeIs;
+
+const std::filesystem::path kPaper = AWMR_SOURCE_DIR "/datasets/paper";
+const std::filesystem::path kSynthetic = AWMR_SOURCE_DIR "/datasets/synthetic";
+
+TrialFiles paper_files() {
+  return {.vehicle = testing::some_vehicle(),
+          .surge = kPaper / "surge.csv",
+          .turning = kPaper / "turning.csv",
+          .coastdowns = {kPaper / "coastdown.csv"}};
+}
+
+TEST(LoadTrials, ReadsWhatThereIsAndKeepsFindingsInOrder) {
+  const auto trials = load_trials(paper_files());
+  ASSERT_TRUE(trials) << to_text(trials.error());
+  EXPECT_EQ(trials->vehicle.front_axle_m, 0.35);
+  EXPECT_THAT(trials->data.surge->rows, SizeIs(10));
+  EXPECT_THAT(trials->data.turning->rows, SizeIs(5));
+  EXPECT_TRUE(trials->data.coastdown);
+  EXPECT_TRUE(trials->data.logs.empty());
+  std::vector<Finding> expected;
+  ASSERT_TRUE(read_surge(kPaper / "surge.csv", {}, expected));
+  ASSERT_TRUE(read_turning(kPaper / "turning.csv", testing::some_vehicle(), {}, expected));
+  ASSERT_TRUE(read_coastdown(kPaper / "coastdown.csv", {}, expected));
+  EXPECT_EQ(testing::codes_of(trials->findings), testing::codes_of(expected));
+}
+
+TEST(LoadTrials, CurvesAndStopTimesOfSeveralFilesComeTogether) {
+  TrialFiles files = paper_files();
+  files.coastdowns = {kSynthetic / "coastdown.csv", kPaper / "coastdown.csv",
+                      kSynthetic / "coastdown.csv"};
+  const auto trials = load_trials(files);
+  ASSERT_TRUE(trials) << to_text(trials.error());
+  EXPECT_TRUE(trials->data.coastdown);
+  EXPECT_GT(trials->data.curves.size(), 1u);
+  EXPECT_EQ(trials->data.curves.size() % 2, 0u);
+}
+
+TEST(LoadTrials, ASecondFileOfStopTimesIsRefused) {
+  TrialFiles files = paper_files();
+  files.coastdowns.push_back(kPaper / "coastdown.csv");
+  const auto trials = load_trials(files);
+  ASSERT_FALSE(trials);
+  EXPECT_THAT(to_text(trials.error()), HasSubstr("a second file of stop times"));
+}
+
+TEST(LoadTrials, TheFaultsOfAllFilesComeTogether) {
+  const auto trials = load_trials({.vehicle = testing::some_vehicle(),
+                                   .surge = "/no/surge.csv",
+                                   .turning = "/no/turning.csv",
+                                   .coastdowns = {"/no/coastdown.csv"},
+                                   .logs = {"/no/log.csv"}});
+  ASSERT_FALSE(trials);
+  std::vector<std::string> places;
+  for (const Fault& fault : trials.error().faults) places.push_back(fault.place);
+  EXPECT_THAT(places,
+              ElementsAre("/no/surge.csv", "/no/turning.csv", "/no/coastdown.csv", "/no/log.csv"));
+}
+
+TEST(LoadTrials, NoFileAndSteadyRunsWithoutALogAreRefused) {
+  EXPECT_THAT(to_text(load_trials({.vehicle = testing::some_vehicle()}).error()),
+              HasSubstr("no trials"));
+  TrialFiles files = paper_files();
+  files.steady_from_logs = true;
+  EXPECT_THAT(to_text(load_trials(files).error()), HasSubstr("there is no log"));
+}
+
+TEST(LoadTrials, SteadyRunsOfALogJoinTheRowsOfATable) {
+  TrialFiles files = paper_files();
+  files.logs = {kSynthetic / "drive_1.csv"};
+  files.steady_from_logs = true;
+  const auto trials = load_trials(files);
+  ASSERT_TRUE(trials) << to_text(trials.error());
+  EXPECT_THAT(trials->data.logs, SizeIs(1));
+  EXPECT_GT(trials->data.surge->rows.size() + trials->data.turning->rows.size(), 15u);
+  EXPECT_EQ(trials->data.surge->file, (kPaper / "surge.csv").string());
+}
+
+}  // namespace
+}  // namespace awmr
