@@ -52,9 +52,10 @@ struct ValidateOptions {
 };
 
 /// What the model says a trial should have measured:
-///   surge: u = (tau_speed/a1)^(1/b1);  turning: r = (tau_turn/a3)^(1/b3);
-///   coastdown: t_a = m' u0^(1-b1)/((1-b1) a1)
-/// [paper (47), (63), (59), solved]
+///   surge      the steady speed u, m/s, at tau_speed
+///   turning    the steady yaw rate r, rad/s, at tau_turn
+///   coastdown  the time t_a, s, from motors off to rest
+/// steady_rate() and stop_time_s() of model/steady.h have the equations.
 /// Absent where the law gives none: a finite steady speed with b near 0, a stop time with b1 >= 1;
 /// and for a kind of trial that is none of these.
 std::optional<double> predicted_measurement(const Plant<double>& plant, const TrialPoint& trial);
