@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <atomic>
 #include <csignal>
 #include <cstdio>
@@ -9,11 +8,11 @@
 #include <set>
 
 #include "awmr/core/file.h"
-#include "awmr/core/input_file.h"
 #include "awmr/model/gains_file.h"
 #include "awmr/model/model_file.h"
 #include "awmr/simulate/scenario_file.h"
 #include "commands.h"
+#include "inputs.h"
 #include "progress.h"
 
 namespace awmr::cli {
@@ -40,104 +39,80 @@ class StopOnInterrupt {
   struct sigaction before_ = {};
 };
 
-/// Their file names; the paths as given where two are the same.
-Result<std::vector<NamedGains>> read_all_gains(const std::vector<fs::path>& paths) {
+/// Each under its file name; under the path as given where two names are the same.
+Result<std::vector<NamedGains>> read_named_gains(const std::vector<fs::path>& paths) {
+  AWMR_ASSIGN_OR_RETURN(const std::vector<Gains<double>> gains, read_each(paths, read_gains));
   std::set<fs::path> names;
   for (const fs::path& path : paths) names.insert(path.filename());
   std::vector<NamedGains> all;
-  std::vector<Fault> faults;
-  for (const fs::path& path : paths) {
-    const auto gains = read_gains(path);
-    if (!gains) {
-      faults.insert(faults.end(), gains.error().faults.begin(), gains.error().faults.end());
-      continue;
-    }
-    const fs::path name = names.size() == paths.size() ? path.filename() : path;
-    all.push_back({paths.size() == 1 ? "" : name.string(), *gains});
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    const fs::path name = names.size() == paths.size() ? paths[i].filename() : paths[i];
+    all.push_back({paths.size() == 1 ? "" : name.string(), gains[i]});
   }
-  if (!faults.empty()) return input_errors(std::move(faults));
   return all;
 }
 
-Result<std::vector<Scenario>> read_all_scenarios(const std::vector<fs::path>& paths) {
-  std::vector<Scenario> scenarios;
-  std::vector<Fault> faults;
-  for (const fs::path& path : paths) {
-    const auto scenario = read_scenario(path);
-    if (scenario) {
-      scenarios.push_back(*scenario);
-    } else {
-      faults.insert(faults.end(), scenario.error().faults.begin(), scenario.error().faults.end());
-    }
-  }
-  if (!faults.empty()) return input_errors(std::move(faults));
-  return scenarios;
+Result<Provenance> provenance_of(const CompareCommand& command) {
+  std::vector<fs::path> paths{command.model};
+  paths.insert(paths.end(), command.gains.begin(), command.gains.end());
+  paths.insert(paths.end(), command.scenarios.begin(), command.scenarios.end());
+  AWMR_ASSIGN_OR_RETURN(std::vector<InputFile> inputs, input_files(paths));
+  return Provenance{"compare",
+                    {{"samples", std::to_string(command.compare.samples)},
+                     {"seed", std::to_string(command.compare.seed)}},
+                    std::move(inputs)};
 }
 
-Result<Provenance> provenance_of(const CompareCommand& command) {
-  Provenance provenance{"compare",
-                        {{"samples", std::to_string(command.compare.samples)},
-                         {"seed", std::to_string(command.compare.seed)}},
-                        {}};
-  std::vector<fs::path> inputs{command.model};
-  inputs.insert(inputs.end(), command.gains.begin(), command.gains.end());
-  inputs.insert(inputs.end(), command.scenarios.begin(), command.scenarios.end());
-  for (const fs::path& path : inputs) {
-    const auto input = input_file(path);
-    if (!input) return tl::unexpected(input.error());
-    provenance.inputs.push_back(*input);
-  }
-  return provenance;
+/// The comparison with a progress bar, until Ctrl-C.
+Result<Comparison> compare_until_interrupted(const Model& model,
+                                             const std::vector<NamedGains>& gains,
+                                             const std::vector<Scenario>& scenarios,
+                                             CompareOptions options, bool quiet) {
+  ProgressBar bar(!quiet);
+  options.stop = &stop_requested;
+  options.progress = [&bar](std::size_t done, std::size_t total) { bar(done, total); };
+  return compare(model, gains, scenarios, options);
 }
 
 Status write_comparison(const CompareCommand& command, const Comparison& comparison,
                         const Provenance& provenance) {
-  if (auto made = make_directory(command.output); !made) return made;
-  auto csv = write_file(command.output / "comparison.csv", comparison_csv(comparison));
-  if (!csv) return csv;
+  AWMR_RETURN_IF_ERROR(make_directory(command.output));
+  AWMR_RETURN_IF_ERROR(write_file(command.output / "comparison.csv", comparison_csv(comparison)));
   return write_file(command.output / "comparison.json",
                     comparison_text(comparison, command.compare, provenance));
+}
+
+/// Says how to go on and ends the program by the signal: the caller sees what it would have seen
+/// without the handler.
+void end_interrupted(const CompareCommand& command, const Comparison& comparison) {
+  const std::string file = (command.output / "comparison.csv").string();
+  const std::string text =
+      fmt::format("stopped: {} finished runs are in {}; the same command with --resume goes on\n",
+                  comparison.rows.size(), file);
+  std::fputs(text.c_str(), stderr);
+  std::signal(SIGINT, SIG_DFL);
+  std::raise(SIGINT);
 }
 
 }  // namespace
 
 Result<Outcome> execute(const CompareCommand& command) {
-  const auto model = read_model(command.model);
-  if (!model) return tl::unexpected(model.error());
-  const auto gains = read_all_gains(command.gains);
-  if (!gains) return tl::unexpected(gains.error());
-  const auto scenarios = read_all_scenarios(command.scenarios);
-  if (!scenarios) return tl::unexpected(scenarios.error());
-  const auto provenance = provenance_of(command);
-  if (!provenance) return tl::unexpected(provenance.error());
-
+  AWMR_ASSIGN_OR_RETURN(const Model model, read_model(command.model));
+  AWMR_ASSIGN_OR_RETURN(const std::vector<NamedGains> gains, read_named_gains(command.gains));
+  AWMR_ASSIGN_OR_RETURN(const std::vector<Scenario> scenarios,
+                        read_each(command.scenarios, read_scenario));
+  AWMR_ASSIGN_OR_RETURN(const Provenance provenance, provenance_of(command));
   CompareOptions options = command.compare;
   if (command.resume) {
-    auto finished = read_finished(command.output, *provenance);
-    if (!finished) return tl::unexpected(finished.error());
-    options.finished = std::move(*finished);
+    AWMR_ASSIGN_OR_RETURN(options.finished, read_finished(command.output, provenance));
   }
-  options.stop = &stop_requested;
   const StopOnInterrupt interrupt;
-  auto bar = std::make_unique<ProgressBar>(!command.quiet);
-  options.progress = [&bar](std::size_t done, std::size_t total) { (*bar)(done, total); };
-  const auto comparison = compare(*model, *gains, *scenarios, options);
-  bar.reset();
-  if (!comparison) return tl::unexpected(comparison.error());
-  if (const auto written = write_comparison(command, *comparison, *provenance); !written) {
-    return tl::unexpected(written.error());
-  }
-  if (comparison->stopped) {
-    std::fputs(fmt::format("stopped: {} finished runs are in {}; the same command with --resume "
-                           "goes on\n",
-                           comparison->rows.size(), (command.output / "comparison.csv").string())
-                   .c_str(),
-               stderr);
-    // The caller sees what it would have seen without the handler.
-    std::signal(SIGINT, SIG_DFL);
-    std::raise(SIGINT);
-  }
-  const std::string table = comparison_table(*comparison, command.compare.seed);
+  AWMR_ASSIGN_OR_RETURN(
+      const Comparison comparison,
+      compare_until_interrupted(model, gains, scenarios, std::move(options), command.quiet));
+  AWMR_RETURN_IF_ERROR(write_comparison(command, comparison, provenance));
+  if (comparison.stopped) end_interrupted(command, comparison);
+  const std::string table = comparison_table(comparison, command.compare.seed);
   return Outcome{.summary = table + fmt::format("wrote {} and comparison.csv\n",
                                                 (command.output / "comparison.json").string()),
                  .brief = table};

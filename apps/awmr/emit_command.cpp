@@ -18,8 +18,8 @@ namespace {
 Status write_files(const fs::path& directory, const std::vector<EmittedFile>& files) {
   for (const EmittedFile& file : files) {
     const fs::path path = directory / file.path;
-    if (auto made = make_directory(path.parent_path()); !made) return made;
-    if (auto written = write_file(path, file.bytes); !written) return written;
+    AWMR_RETURN_IF_ERROR(make_directory(path.parent_path()));
+    AWMR_RETURN_IF_ERROR(write_file(path, file.bytes));
   }
   return {};
 }
@@ -32,39 +32,34 @@ std::string table_line(const char* name, const EmittedTable& table) {
       table.worst_relative_error);
 }
 
+/// How well the tables of resistance hold; nothing where powf is called instead.
+Result<std::string> table_lines(const Model& model, const Gains<double>& gains,
+                                const EmitInputs& inputs, const EmitOptions& options) {
+  if (options.resistance != ResistanceForm::kTable) return std::string();
+  AWMR_ASSIGN_OR_RETURN(const auto parameters, autopilot_parameters(model, gains, inputs, options));
+  return table_line("surge", parameters.surge) + table_line("yaw", parameters.yaw);
+}
+
 }  // namespace
 
 Result<Outcome> execute(const EmitCommand& command) {
-  const auto model = read_model(command.model);
-  if (!model) return tl::unexpected(model.error());
-  const auto gains = read_gains(command.gains);
-  if (!gains) return tl::unexpected(gains.error());
-  const auto inputs = emit_inputs(command.model, command.gains);
-  if (!inputs) return tl::unexpected(inputs.error());
-
+  AWMR_ASSIGN_OR_RETURN(const Model model, read_model(command.model));
+  AWMR_ASSIGN_OR_RETURN(const Gains<double> gains, read_gains(command.gains));
+  AWMR_ASSIGN_OR_RETURN(const EmitInputs inputs, emit_inputs(command.model, command.gains));
   std::vector<EmittedFile> files;
-  std::string summary;
+  std::string tables;
   if (command.header_only) {
-    const auto header = params_header(*model, *gains, *inputs);
-    if (!header) return tl::unexpected(header.error());
-    files.push_back({"awmr_params.h", *header});
+    AWMR_ASSIGN_OR_RETURN(std::string header, params_header(model, gains, inputs));
+    files.push_back({"awmr_params.h", std::move(header)});
   } else {
-    auto library = firmware_library(*model, *gains, *inputs, command.emit);
-    if (!library) return tl::unexpected(library.error());
-    files = std::move(*library);
-    if (command.emit.resistance == ResistanceForm::kTable) {
-      const auto parameters = autopilot_parameters(*model, *gains, *inputs, command.emit);
-      if (!parameters) return tl::unexpected(parameters.error());
-      summary += table_line("surge", parameters->surge) + table_line("yaw", parameters->yaw);
-    }
+    AWMR_ASSIGN_OR_RETURN(files, firmware_library(model, gains, inputs, command.emit));
+    AWMR_ASSIGN_OR_RETURN(tables, table_lines(model, gains, inputs, command.emit));
   }
-  if (const auto made = make_directory(command.output); !made) return tl::unexpected(made.error());
-  if (const auto written = write_files(command.output, files); !written) {
-    return tl::unexpected(written.error());
-  }
-  summary = fmt::format("wrote {}{}\n{}", (command.output / "awmr_params.h").string(),
-                        command.header_only ? "" : " and the Arduino library around it", summary);
-  return Outcome{.summary = summary};
+  AWMR_RETURN_IF_ERROR(make_directory(command.output));
+  AWMR_RETURN_IF_ERROR(write_files(command.output, files));
+  return Outcome{.summary = fmt::format(
+                     "wrote {}{}\n{}", (command.output / "awmr_params.h").string(),
+                     command.header_only ? "" : " and the Arduino library around it", tables)};
 }
 
 void add_emit(CLI::App& app, Session& session) {

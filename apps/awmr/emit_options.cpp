@@ -39,12 +39,10 @@ void add_emit_options(CLI::App& command, EmitOptions& options) {
 
 Result<EmitInputs> emit_inputs(const std::filesystem::path& model,
                                const std::filesystem::path& gains) {
-  const auto model_input = input_file(model);
-  if (!model_input) return tl::unexpected(model_input.error());
-  const auto gains_input = input_file(gains);
-  if (!gains_input) return tl::unexpected(gains_input.error());
-  return EmitInputs{.model_sha256 = model_input->sha256,
-                    .gains_sha256 = gains_input->sha256,
+  AWMR_ASSIGN_OR_RETURN(const InputFile model_input, input_file(model));
+  AWMR_ASSIGN_OR_RETURN(const InputFile gains_input, input_file(gains));
+  return EmitInputs{.model_sha256 = model_input.sha256,
+                    .gains_sha256 = gains_input.sha256,
                     .gains_file = gains.filename().string()};
 }
 

@@ -4,12 +4,12 @@
 #include <memory>
 #include <utility>
 
-#include "awmr/core/input_file.h"
 #include "awmr/model/model_file.h"
 #include "awmr/model/vehicle_file.h"
 #include "awmr/trials/load.h"
 #include "commands.h"
 #include "identify_options.h"
+#include "inputs.h"
 
 namespace awmr::cli {
 namespace {
@@ -28,10 +28,7 @@ Result<Provenance> provenance_of(const IdentifyCommand& command) {
   paths.insert(paths.end(), command.coastdowns.begin(), command.coastdowns.end());
   if (command.turning) paths.push_back(*command.turning);
   paths.insert(paths.end(), command.logs.begin(), command.logs.end());
-  for (const fs::path& path : paths) {
-    AWMR_ASSIGN_OR_RETURN(InputFile input, input_file(path));
-    provenance.inputs.push_back(std::move(input));
-  }
+  AWMR_ASSIGN_OR_RETURN(provenance.inputs, input_files(paths));
   return provenance;
 }
 
@@ -56,6 +53,92 @@ std::string summary_of(const IdentifyCommand& command, const Model& model) {
                         values, score);
   }
   return text + fmt::format("wrote {}\n", command.output.string());
+}
+
+/// The command and what the command line says of it in words.
+struct IdentifyWords {
+  IdentifyCommand command;
+  std::vector<std::string> columns;
+  std::vector<std::string> asked;
+  std::vector<std::string> families;
+  std::string method;
+  std::string noise;
+  std::string loss = "squares";
+  std::string prefer = "printed";
+};
+
+/// Errors: a malformed column mapping; an unknown parameter or family.
+Result<IdentifyCommand> command_of(const IdentifyWords& words) {
+  IdentifyCommand command = words.command;
+  AWMR_ASSIGN_OR_RETURN(command.trials.columns, column_mappings(words.columns));
+  for (const std::string& name : words.asked) {
+    AWMR_RETURN_IF_ERROR(add_asked(name, command.identify));
+  }
+  for (const std::string& name : words.families) {
+    AWMR_RETURN_IF_ERROR(add_family(name, command.identify));
+  }
+  if (!words.method.empty()) command.identify.method = value_in(kMethodNames, words.method);
+  if (!words.noise.empty()) command.identify.noise = value_in(kErrorModelNames, words.noise);
+  command.identify.loss = *value_in(kLossNames, words.loss);
+  command.trials.preference = *value_in(kPreferenceNames, words.prefer);
+  return command;
+}
+
+void add_trial_files(CLI::App& sub, IdentifyCommand& command) {
+  sub.add_option("--vehicle", command.vehicle, "vehicle.json: what is known beforehand")
+      ->required();
+  sub.add_option("--surge", command.surge, "CSV of runs at constant thrust, wheels straight");
+  sub.add_option("--coastdown", command.coastdowns,
+                 "CSV of coast-downs, motors off: stop times or whole curves; may be repeated");
+  sub.add_option("--turning", command.turning, "CSV of runs at constant thrust and steering");
+  sub.add_option("--log", command.logs, "CSV of a driving log; may be repeated");
+}
+
+void add_fit_options(CLI::App& sub, IdentifyWords& words) {
+  sub.add_option("--method", words.method,
+                 "Which estimator fills the main values: log-linear (default for tables), "
+                 "nonlinear, trajectory (default with --log)")
+      ->check(CLI::IsMember(names_in(kMethodNames)));
+  sub.add_option("--noise", words.noise,
+                 "Where the nonlinear fit puts the error: force, speed or time (default: on what "
+                 "was measured)")
+      ->check(CLI::IsMember(names_in(kErrorModelNames)));
+  sub.add_option("--family", words.families,
+                 "Resistance: power (default), coulomb-linear, coulomb-linear-quadratic, "
+                 "coulomb-power, dead-zone, or auto (least AICc); surge=NAME, yaw=NAME for one")
+      ->delimiter(',');
+  sub.add_option("--loss", words.loss, "squares (default), huber, cauchy or tukey")
+      ->check(CLI::IsMember(names_in(kLossNames)));
+  sub.add_flag("--joint", words.command.identify.joint,
+               "Fit a1, b1 and m' together from the surge runs and the coast-down curves");
+  sub.add_option("--fit", words.asked,
+                 "What is asked for, e.g. surge.alpha,mass_norm; for logs also all, "
+                 "input_delay_s, bias.yaw_rate_radps, ...")
+      ->delimiter(',');
+}
+
+void add_log_options(CLI::App& sub, IdentifyCommand& command) {
+  sub.add_flag("--steady-from-log", command.steady_from_logs,
+               "Take steady stretches of the logs as surge and turning runs");
+  sub.add_option("--starts", command.identify.starts,
+                 "Random starts of a fit of logs without tables (default 6)")
+      ->check(CLI::Range(0, 1000));
+  sub.add_option("--bootstrap", command.identify.bootstrap,
+                 "Intervals of a fit of logs from this many block bootstrap resamples")
+      ->check(CLI::Range(0, 1000000));
+  sub.add_flag("--cross-validate", command.identify.cross_validate,
+               "Leave each log out once and predict it from the others");
+  sub.add_option("--seed", command.identify.seed, "Of starts and bootstrap (default 1)");
+  sub.add_option("--threads", command.identify.threads,
+                 "Default: all; the result does not depend on it")
+      ->check(CLI::Range(1, 1024));
+}
+
+void add_reading_options(CLI::App& sub, IdentifyWords& words) {
+  sub.add_option("--prefer", words.prefer,
+                 "Which of two disagreeing values to use: printed (default) or timed")
+      ->check(CLI::IsMember(names_in(kPreferenceNames)));
+  sub.add_option("--column", words.columns, "NAME=SOURCE[*SCALE][+OFFSET]: another column's name");
 }
 
 }  // namespace
@@ -89,85 +172,19 @@ Result<Outcome> execute(const IdentifyCommand& command) {
 }
 
 void add_identify(CLI::App& app, Session& session) {
-  struct Raw {
-    IdentifyCommand command;
-    std::vector<std::string> columns, asked, families;
-    std::string method, noise, loss = "squares", prefer = "printed";
-  };
-  auto raw = std::make_shared<Raw>();
+  auto words = std::make_shared<IdentifyWords>();
   CLI::App* sub = add_command(
       app, session, "identify", "Fit the vehicle's parameters to its trials and logs",
       "awmr identify --vehicle vehicle.json --surge surge.csv --turning turning.csv -o model.json",
-      [raw]() -> Result<Outcome> {
-        IdentifyCommand& command = raw->command;
-        for (const std::string& text : raw->columns) {
-          auto mapping = parse_column_mapping(text);
-          if (!mapping) return tl::unexpected(mapping.error());
-          command.trials.columns.push_back(*mapping);
-        }
-        for (const std::string& name : raw->asked) {
-          if (auto added = add_asked(name, command.identify); !added) {
-            return tl::unexpected(added.error());
-          }
-        }
-        for (const std::string& text : raw->families) {
-          if (auto added = add_family(text, command.identify); !added) {
-            return tl::unexpected(added.error());
-          }
-        }
-        if (!raw->method.empty()) command.identify.method = value_in(kMethodNames, raw->method);
-        if (!raw->noise.empty()) command.identify.noise = value_in(kErrorModelNames, raw->noise);
-        command.identify.loss = *value_in(kLossNames, raw->loss);
-        command.trials.preference = *value_in(kPreferenceNames, raw->prefer);
+      [words]() -> Result<Outcome> {
+        AWMR_ASSIGN_OR_RETURN(const IdentifyCommand command, command_of(*words));
         return execute(command);
       });
-  IdentifyCommand& command = raw->command;
-  sub->add_option("--vehicle", command.vehicle, "vehicle.json: what is known beforehand")
-      ->required();
-  sub->add_option("--surge", command.surge, "CSV of runs at constant thrust, wheels straight");
-  sub->add_option("--coastdown", command.coastdowns,
-                  "CSV of coast-downs, motors off: stop times or whole curves; may be repeated");
-  sub->add_option("--turning", command.turning, "CSV of runs at constant thrust and steering");
-  sub->add_option("--log", command.logs, "CSV of a driving log; may be repeated");
-  sub->add_option("--method", raw->method,
-                  "Which estimator fills the main values: log-linear (default for tables), "
-                  "nonlinear, trajectory (default with --log)")
-      ->check(CLI::IsMember(names_in(kMethodNames)));
-  sub->add_option("--noise", raw->noise,
-                  "Where the nonlinear fit puts the error: force, speed or time (default: on what "
-                  "was measured)")
-      ->check(CLI::IsMember(names_in(kErrorModelNames)));
-  sub->add_option("--family", raw->families,
-                  "Resistance: power (default), coulomb-linear, coulomb-linear-quadratic, "
-                  "coulomb-power, dead-zone, or auto (least AICc); surge=NAME, yaw=NAME for one")
-      ->delimiter(',');
-  sub->add_option("--loss", raw->loss, "squares (default), huber, cauchy or tukey")
-      ->check(CLI::IsMember(names_in(kLossNames)));
-  sub->add_flag("--joint", command.identify.joint,
-                "Fit a1, b1 and m' together from the surge runs and the coast-down curves");
-  sub->add_option("--fit", raw->asked,
-                  "What is asked for, e.g. surge.alpha,mass_norm; for logs also all, "
-                  "input_delay_s, bias.yaw_rate_radps, ...")
-      ->delimiter(',');
-  sub->add_flag("--steady-from-log", command.steady_from_logs,
-                "Take steady stretches of the logs as surge and turning runs");
-  sub->add_option("--starts", command.identify.starts,
-                  "Random starts of a fit of logs without tables (default 6)")
-      ->check(CLI::Range(0, 1000));
-  sub->add_option("--bootstrap", command.identify.bootstrap,
-                  "Intervals of a fit of logs from this many block bootstrap resamples")
-      ->check(CLI::Range(0, 1000000));
-  sub->add_flag("--cross-validate", command.identify.cross_validate,
-                "Leave each log out once and predict it from the others");
-  sub->add_option("--seed", command.identify.seed, "Of starts and bootstrap (default 1)");
-  sub->add_option("--threads", command.identify.threads,
-                  "Default: all; the result does not depend on it")
-      ->check(CLI::Range(1, 1024));
-  sub->add_option("--prefer", raw->prefer,
-                  "Which of two disagreeing values to use: printed (default) or timed")
-      ->check(CLI::IsMember(names_in(kPreferenceNames)));
-  sub->add_option("--column", raw->columns, "NAME=SOURCE[*SCALE][+OFFSET]: another column's name");
-  add_output(*sub, command.output, "model.json to write");
+  add_trial_files(*sub, words->command);
+  add_fit_options(*sub, *words);
+  add_log_options(*sub, words->command);
+  add_reading_options(*sub, *words);
+  add_output(*sub, words->command.output, "model.json to write");
 }
 
 }  // namespace awmr::cli

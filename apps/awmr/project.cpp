@@ -89,10 +89,9 @@ void read_compare(JsonObject json, const fs::path& path, Project& project) {
 }  // namespace
 
 Result<Project> read_project(const fs::path& path) {
-  const auto document = read_json_file(path);
-  if (!document) return tl::unexpected(document.error());
+  AWMR_ASSIGN_OR_RETURN(const auto document, read_json_file(path));
   std::vector<Fault> faults;
-  JsonObject json(*document, path.string(), "", faults);
+  JsonObject json(document, path.string(), "", faults);
   Project project;
   json.schema("awmr.project/1");
   project.vehicle = resolved(path, json.string("vehicle"));

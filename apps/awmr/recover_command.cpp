@@ -4,11 +4,11 @@
 #include <memory>
 
 #include "awmr/core/file.h"
-#include "awmr/core/input_file.h"
 #include "awmr/identify/planning/recover.h"
 #include "awmr/model/model_file.h"
 #include "commands.h"
 #include "identify_options.h"
+#include "inputs.h"
 #include "progress.h"
 
 namespace awmr::cli {
@@ -34,93 +34,113 @@ std::string table_of(const Recovery& recovery) {
   return text;
 }
 
+Status write_recovery(const RecoverCommand& command, const RecoverOptions& options,
+                      const std::vector<InputFile>& inputs, const Recovery& recovery) {
+  Provenance provenance{"recover", described(options.identify), inputs};
+  provenance.options.emplace_back("plan", name_in(kPlans, options.plan));
+  provenance.options.emplace_back("runs", std::to_string(options.runs));
+  provenance.options.emplace_back("recover_seed", std::to_string(options.seed));
+  return write_file(*command.output, recovery_text(recovery, provenance));
+}
+
+/// The command and what the command line says of it in words.
+struct RecoverWords {
+  RecoverCommand command;
+  std::string plan = "tables";
+  std::string method;
+  std::string noise;
+  std::string error;
+  std::vector<std::string> asked;
+};
+
+/// Errors: an unknown parameter.
+Result<RecoverCommand> command_of(const RecoverWords& words) {
+  RecoverCommand command = words.command;
+  RecoverOptions& options = command.recover;
+  options.plan = *value_in(kPlans, words.plan);
+  if (!words.method.empty()) options.identify.method = value_in(kMethodNames, words.method);
+  if (!words.noise.empty()) options.identify.noise = value_in(kErrorModelNames, words.noise);
+  if (!words.error.empty()) options.error = value_in(kErrors, words.error);
+  for (const std::string& name : words.asked) {
+    AWMR_RETURN_IF_ERROR(add_asked(name, options.identify));
+  }
+  return command;
+}
+
+void add_runs(CLI::App& sub, RecoverCommand& command) {
+  sub.add_option("--model", command.model, "model.json from identify")->required();
+  sub.add_option("--runs", command.recover.runs, "Simulated data sets (default 200)")
+      ->check(CLI::Range(2, 1000000));
+  sub.add_option("--seed", command.recover.seed, "Default 1");
+  sub.add_option("--threads", command.recover.threads,
+                 "Default: all; the result does not depend on it")
+      ->check(CLI::Range(1, 1024));
+}
+
+void add_estimator(CLI::App& sub, RecoverWords& words) {
+  sub.add_option("--plan", words.plan,
+                 "tables (default): the model's own trials; curve: with a coast-down curve; log: a "
+                 "driving log alone")
+      ->check(CLI::IsMember(names_in(kPlans)));
+  sub.add_option("--method", words.method, "Estimator under test, as in identify")
+      ->check(CLI::IsMember(names_in(kMethodNames)));
+  sub.add_option("--noise", words.noise, "Its noise model, as in identify")
+      ->check(CLI::IsMember(names_in(kErrorModelNames)));
+  sub.add_option("--error", words.error,
+                 "Where the simulated error of table rows lies: log-force, force, speed or time "
+                 "(default: where the estimator assumes it)")
+      ->check(CLI::IsMember(names_in(kErrors)));
+  sub.add_option("--fit", words.asked, "Parameters asked for, as in identify")->delimiter(',');
+  sub.add_flag("--joint", words.command.recover.identify.joint, "As in identify");
+}
+
+void add_simulated_trials(CLI::App& sub, RecoverOptions& options) {
+  sub.add_option("--speed-noise", options.sensors.speed_mps, "m/s (default 0.02)")
+      ->check(CLI::NonNegativeNumber);
+  sub.add_option("--correlation", options.sensors.correlation_s,
+                 "Correlation time of every sensor's error, s (default 0: white)")
+      ->check(CLI::NonNegativeNumber);
+  sub.add_option("--duration", options.drive.duration_s, "Of a log, s (default 60)")
+      ->check(CLI::PositiveNumber);
+  sub.add_option("--rate", options.drive.rate_hz, "Of a log, Hz (default 100)")
+      ->check(CLI::PositiveNumber);
+}
+
 }  // namespace
 
 Result<Outcome> execute(const RecoverCommand& command) {
-  const auto model = read_model(command.model);
-  if (!model) return tl::unexpected(model.error());
-  const auto input = input_file(command.model);
-  if (!input) return tl::unexpected(input.error());
+  AWMR_ASSIGN_OR_RETURN(const Model model, read_model(command.model));
+  AWMR_ASSIGN_OR_RETURN(const std::vector<InputFile> inputs, input_files({command.model}));
   RecoverOptions options = command.recover;
-  options.identify.surge_family.family = model->surge_family;
-  options.identify.yaw_family.family = model->yaw_family;
+  options.identify.surge_family.family = model.surge_family;
+  options.identify.yaw_family.family = model.yaw_family;
   auto bar = std::make_unique<ProgressBar>();
-  const auto recovery = recover(*model, options, [&](int done) {
+  auto recovered = recover(model, options, [&](int done) {
     (*bar)(static_cast<std::size_t>(done), static_cast<std::size_t>(options.runs));
   });
-  bar.reset();
-  if (!recovery) return tl::unexpected(recovery.error());
-  std::string summary = table_of(*recovery);
+  bar.reset();  // cleared before anything is said
+  AWMR_ASSIGN_OR_RETURN(const Recovery recovery, std::move(recovered));
+  std::string summary = table_of(recovery);
   if (command.output) {
-    Provenance provenance{"recover", described(options.identify), {*input}};
-    provenance.options.emplace_back("plan", name_in(kPlans, options.plan));
-    provenance.options.emplace_back("runs", std::to_string(options.runs));
-    provenance.options.emplace_back("recover_seed", std::to_string(options.seed));
-    if (const auto written = write_file(*command.output, recovery_text(*recovery, provenance));
-        !written) {
-      return tl::unexpected(written.error());
-    }
+    AWMR_RETURN_IF_ERROR(write_recovery(command, options, inputs, recovery));
     summary += fmt::format("wrote {}\n", command.output->string());
   }
   return Outcome{.summary = summary};
 }
 
 void add_recover(CLI::App& app, Session& session) {
-  struct Raw {
-    RecoverCommand command;
-    std::string plan = "tables", method, noise, error;
-    std::vector<std::string> asked;
-  };
-  auto raw = std::make_shared<Raw>();
+  auto words = std::make_shared<RecoverWords>();
   CLI::App* sub = add_command(
       app, session, "recover",
       "Simulate trials at the model's values, identify them, compare: bias and coverage",
-      "awmr recover --model model.json --runs 1000 -o recover.json", [raw]() -> Result<Outcome> {
-        RecoverOptions& options = raw->command.recover;
-        options.plan = *value_in(kPlans, raw->plan);
-        if (!raw->method.empty()) options.identify.method = value_in(kMethodNames, raw->method);
-        if (!raw->noise.empty()) options.identify.noise = value_in(kErrorModelNames, raw->noise);
-        if (!raw->error.empty()) options.error = value_in(kErrors, raw->error);
-        for (const std::string& name : raw->asked) {
-          if (auto added = add_asked(name, options.identify); !added) {
-            return tl::unexpected(added.error());
-          }
-        }
-        return execute(raw->command);
+      "awmr recover --model model.json --runs 1000 -o recover.json", [words]() -> Result<Outcome> {
+        AWMR_ASSIGN_OR_RETURN(const RecoverCommand command, command_of(*words));
+        return execute(command);
       });
-  RecoverCommand& command = raw->command;
-  RecoverOptions& options = command.recover;
-  sub->add_option("--model", command.model, "model.json from identify")->required();
-  sub->add_option("--runs", options.runs, "Simulated data sets (default 200)")
-      ->check(CLI::Range(2, 1000000));
-  sub->add_option("--seed", options.seed, "Default 1");
-  sub->add_option("--threads", options.threads, "Default: all; the result does not depend on it")
-      ->check(CLI::Range(1, 1024));
-  sub->add_option(
-         "--plan", raw->plan,
-         "tables (default): the model's own trials; curve: with a coast-down curve; log: a "
-         "driving log alone")
-      ->check(CLI::IsMember(names_in(kPlans)));
-  sub->add_option("--method", raw->method, "Estimator under test, as in identify")
-      ->check(CLI::IsMember(names_in(kMethodNames)));
-  sub->add_option("--noise", raw->noise, "Its noise model, as in identify")
-      ->check(CLI::IsMember(names_in(kErrorModelNames)));
-  sub->add_option("--error", raw->error,
-                  "Where the simulated error of table rows lies: log-force, force, speed or time "
-                  "(default: where the estimator assumes it)")
-      ->check(CLI::IsMember(names_in(kErrors)));
-  sub->add_option("--fit", raw->asked, "Parameters asked for, as in identify")->delimiter(',');
-  sub->add_flag("--joint", options.identify.joint, "As in identify");
-  sub->add_option("--speed-noise", options.sensors.speed_mps, "m/s (default 0.02)")
-      ->check(CLI::NonNegativeNumber);
-  sub->add_option("--correlation", options.sensors.correlation_s,
-                  "Correlation time of every sensor's error, s (default 0: white)")
-      ->check(CLI::NonNegativeNumber);
-  sub->add_option("--duration", options.drive.duration_s, "Of a log, s (default 60)")
-      ->check(CLI::PositiveNumber);
-  sub->add_option("--rate", options.drive.rate_hz, "Of a log, Hz (default 100)")
-      ->check(CLI::PositiveNumber);
-  sub->add_option("-o,--output", command.output, "recover.json to write");
+  add_runs(*sub, words->command);
+  add_estimator(*sub, *words);
+  add_simulated_trials(*sub, words->command.recover);
+  sub->add_option("-o,--output", words->command.output, "recover.json to write");
 }
 
 }  // namespace awmr::cli

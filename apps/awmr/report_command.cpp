@@ -11,12 +11,9 @@
 namespace awmr::cli {
 
 Result<Outcome> execute(const ReportCommand& command) {
-  const auto html = report_html(command.directory);
-  if (!html) return tl::unexpected(html.error());
+  AWMR_ASSIGN_OR_RETURN(const std::string html, report_html(command.directory));
   const fs::path path = command.directory / "report.html";
-  if (const auto written = write_file(path, *html); !written) {
-    return tl::unexpected(written.error());
-  }
+  AWMR_RETURN_IF_ERROR(write_file(path, html));
   return Outcome{.summary = fmt::format("wrote {}\n", path.string())};
 }
 

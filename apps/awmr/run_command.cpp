@@ -32,60 +32,61 @@ Status write_runs(const Project& project, const fs::path& directory) {
   return {};
 }
 
+/// Takes a step's outcome into that of the whole, under its title.
+void add_step(Outcome& total, const char* title, Outcome step) {
+  total.summary += fmt::format("{}\n{}", title, step.brief);
+  total.findings.insert(total.findings.end(), step.findings.begin(), step.findings.end());
+  total.refused = total.refused || step.refused;
+}
+
+Result<Outcome> identify_step(const Project& project, const fs::path& model) {
+  return execute(IdentifyCommand{.vehicle = project.vehicle,
+                                 .surge = project.surge,
+                                 .coastdowns = project.coastdowns,
+                                 .turning = project.turning,
+                                 .logs = project.logs,
+                                 .steady_from_logs = project.steady_from_logs,
+                                 .identify = project.identify,
+                                 .trials = project.trials,
+                                 .output = model});
+}
+
+Result<Outcome> validate_step(const Project& project, const fs::path& directory) {
+  return execute(ValidateCommand{.model = directory / "model.json",
+                                 .gains = directory / "gains.json",
+                                 .validate = {},
+                                 .output = directory / "validation.json",
+                                 .logs = project.logs,
+                                 .trials = project.trials});
+}
+
 }  // namespace
 
 Result<Outcome> execute(const RunCommand& command) {
-  const auto project = read_project(command.project);
-  if (!project) return tl::unexpected(project.error());
-  if (const auto made = make_directory(command.output); !made) return tl::unexpected(made.error());
+  AWMR_ASSIGN_OR_RETURN(const Project project, read_project(command.project));
+  AWMR_RETURN_IF_ERROR(make_directory(command.output));
   const fs::path model = command.output / "model.json";
   const fs::path gains = command.output / "gains.json";
 
   Outcome total;
-  /// Takes a step's outcome into the total; false where the run has to stop.
-  const auto take = [&total](const char* title, Result<Outcome>& step) {
-    if (!step) return false;
-    total.summary += fmt::format("{}\n{}", title, step->brief);
-    total.findings.insert(total.findings.end(), step->findings.begin(), step->findings.end());
-    total.refused = total.refused || step->refused;
-    return true;
-  };
-
-  auto identified = execute(IdentifyCommand{.vehicle = project->vehicle,
-                                            .surge = project->surge,
-                                            .coastdowns = project->coastdowns,
-                                            .turning = project->turning,
-                                            .logs = project->logs,
-                                            .steady_from_logs = project->steady_from_logs,
-                                            .identify = project->identify,
-                                            .trials = project->trials,
-                                            .output = model});
-  if (!take("identify", identified)) return identified;
+  AWMR_ASSIGN_OR_RETURN(Outcome identified, identify_step(project, model));
+  add_step(total, "identify", std::move(identified));
   if (total.refused) {
     total.summary += "stopped: the steps that follow need what could not be identified\n";
     return total;
   }
-  auto tuned = execute(TuneCommand{model, project->tune, gains});
-  if (!take("tune", tuned)) return tuned;
-  auto validated =
-      execute(ValidateCommand{.model = model,
-                              .gains = gains,
-                              .validate = {},
-                              .output = command.output / "validation.json",
-                              .logs = project->logs,
-                              .trials = project->trials});
-  if (!take("validate", validated)) return validated;
-  auto emitted = execute(
-      EmitCommand{.model = model, .gains = gains, .output = command.output, .header_only = true});
-  if (!emitted) return emitted;
-  auto compared =
-      execute(CompareCommand{model, {gains}, project->scenarios, project->compare, command.output});
-  if (!take("compare", compared)) return compared;
-  if (const auto runs = write_runs(*project, command.output); !runs) {
-    return tl::unexpected(runs.error());
-  }
-  auto reported = execute(ReportCommand{command.output});
-  if (!reported) return reported;
+  AWMR_ASSIGN_OR_RETURN(Outcome tuned, execute(TuneCommand{model, project.tune, gains}));
+  add_step(total, "tune", std::move(tuned));
+  AWMR_ASSIGN_OR_RETURN(Outcome validated, validate_step(project, command.output));
+  add_step(total, "validate", std::move(validated));
+  AWMR_RETURN_IF_ERROR(execute(
+      EmitCommand{.model = model, .gains = gains, .output = command.output, .header_only = true}));
+  AWMR_ASSIGN_OR_RETURN(
+      Outcome compared,
+      execute(CompareCommand{model, {gains}, project.scenarios, project.compare, command.output}));
+  add_step(total, "compare", std::move(compared));
+  AWMR_RETURN_IF_ERROR(write_runs(project, command.output));
+  AWMR_RETURN_IF_ERROR(execute(ReportCommand{command.output}));
   total.summary += fmt::format(
       "wrote model.json gains.json validation.json awmr_params.h comparison.json comparison.csv,\n"
       "the runs and report.html to {}\n",

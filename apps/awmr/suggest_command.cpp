@@ -4,7 +4,6 @@
 #include <memory>
 
 #include "awmr/core/file.h"
-#include "awmr/core/input_file.h"
 #include "awmr/identify/planning/suggest.h"
 #include "awmr/model/gains_file.h"
 #include "awmr/model/model_file.h"
@@ -12,6 +11,7 @@
 #include "awmr/simulate/scenario_file.h"
 #include "awmr/simulate/simulate.h"
 #include "commands.h"
+#include "inputs.h"
 
 namespace awmr::cli {
 namespace {
@@ -25,6 +25,7 @@ constexpr LoopMetric kLoopMetrics[] = {{"heading_iae_degs", &Metrics::heading_ia
                                        {"overshoot_deg", &Metrics::overshoot_deg},
                                        {"speed_drop_mps", &Metrics::speed_drop_mps}};
 
+/// The metrics of the closed loop that `--gains` and `--scenario` describe; none without them.
 Status add_metrics(const SuggestCommand& command, const Model& model, SuggestOptions& options) {
   if (!command.gains && !command.scenario) return {};
   if (!command.gains || !command.scenario) {
@@ -32,17 +33,14 @@ Status add_metrics(const SuggestCommand& command, const Model& model, SuggestOpt
                        "--gains and --scenario go together: they are the closed loop "
                        "whose metric is to become surer");
   }
-  const auto plant = model.plant();
-  if (!plant) return tl::unexpected(plant.error());
-  const auto gains = read_gains(*command.gains);
-  if (!gains) return tl::unexpected(gains.error());
-  const auto scenario = read_scenario(*command.scenario);
-  if (!scenario) return tl::unexpected(scenario.error());
-  const auto controller = make_controller(*plant, model.vehicle, *gains);
+  AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, model.plant());
+  AWMR_ASSIGN_OR_RETURN(const Gains<double> gains, read_gains(*command.gains));
+  AWMR_ASSIGN_OR_RETURN(const Scenario scenario, read_scenario(*command.scenario));
+  const Controller<double> controller = make_controller(plant, model.vehicle, gains);
   for (const LoopMetric& metric : kLoopMetrics) {
     options.metrics.push_back(
-        {metric.name, [=, sample_time_s = model.vehicle.sample_time_s, mode = command.mode,
-                       scenario = *scenario](const Plant<double>& varied) {
+        {metric.name, [=, sample_time_s = model.vehicle.sample_time_s,
+                       mode = command.mode](const Plant<double>& varied) {
            const awmr::Run run = simulate(varied, controller, scenario, mode,
                                           {.sample_time_s = sample_time_s, .substeps = {}});
            return (metrics_of(run, scenario, controller).*metric.value).value_or(0.0);
@@ -51,35 +49,30 @@ Status add_metrics(const SuggestCommand& command, const Model& model, SuggestOpt
   return {};
 }
 
+Status write_suggestion(const SuggestCommand& command, const Suggestion& suggestion) {
+  std::vector<fs::path> paths{command.model};
+  if (command.gains) paths.push_back(*command.gains);
+  if (command.scenario) paths.push_back(*command.scenario);
+  AWMR_ASSIGN_OR_RETURN(std::vector<InputFile> inputs, input_files(paths));
+  const Provenance provenance{"suggest",
+                              {{"parameter", command.parameter.empty() ? "all" : command.parameter},
+                               {"repeats", std::to_string(command.repeats)}},
+                              std::move(inputs)};
+  return write_file(*command.output, suggestion_text(suggestion, provenance));
+}
+
 }  // namespace
 
 Result<Outcome> execute(const SuggestCommand& command) {
-  const auto model = read_model(command.model);
-  if (!model) return tl::unexpected(model.error());
+  AWMR_ASSIGN_OR_RETURN(const Model model, read_model(command.model));
   SuggestOptions options;
   options.parameter = command.parameter;
   options.repeats = command.repeats;
-  if (auto added = add_metrics(command, *model, options); !added) {
-    return tl::unexpected(added.error());
-  }
-  const auto suggestion = suggest(*model, options);
-  if (!suggestion) return tl::unexpected(suggestion.error());
-  std::string summary = field_sheet(*suggestion, static_cast<std::size_t>(command.most));
+  AWMR_RETURN_IF_ERROR(add_metrics(command, model, options));
+  AWMR_ASSIGN_OR_RETURN(const Suggestion suggestion, suggest(model, options));
+  std::string summary = field_sheet(suggestion, static_cast<std::size_t>(command.most));
   if (command.output) {
-    Provenance provenance{"suggest",
-                          {{"parameter", command.parameter.empty() ? "all" : command.parameter},
-                           {"repeats", std::to_string(command.repeats)}},
-                          {}};
-    for (const auto& path : {std::optional(command.model), command.gains, command.scenario}) {
-      if (!path) continue;
-      const auto input = input_file(*path);
-      if (!input) return tl::unexpected(input.error());
-      provenance.inputs.push_back(*input);
-    }
-    if (const auto written = write_file(*command.output, suggestion_text(*suggestion, provenance));
-        !written) {
-      return tl::unexpected(written.error());
-    }
+    AWMR_RETURN_IF_ERROR(write_suggestion(command, suggestion));
     summary += fmt::format("wrote {}\n", command.output->string());
   }
   return Outcome{.summary = summary};

@@ -4,9 +4,9 @@
 #include <memory>
 
 #include "awmr/core/file.h"
-#include "awmr/core/input_file.h"
 #include "awmr/model/model_file.h"
 #include "commands.h"
+#include "inputs.h"
 
 namespace awmr::cli {
 namespace {
@@ -44,33 +44,26 @@ std::string summary_of(const TuneCommand& command, const Tuning& tuning) {
   return text + fmt::format("wrote {}\n", command.output.string());
 }
 
+Result<Provenance> provenance_of(const TuneCommand& command, const TuneOptions& options) {
+  std::vector<fs::path> paths{command.model};
+  if (command.config) paths.push_back(*command.config);
+  paths.insert(paths.end(), options.scenario_files.begin(), options.scenario_files.end());
+  AWMR_ASSIGN_OR_RETURN(std::vector<InputFile> inputs, input_files(paths));
+  return Provenance{"tune", {}, std::move(inputs)};
+}
+
 }  // namespace
 
 Result<Outcome> execute(const TuneCommand& command) {
-  const auto model = read_model(command.model);
-  if (!model) return tl::unexpected(model.error());
+  AWMR_ASSIGN_OR_RETURN(const Model model, read_model(command.model));
   TuneOptions options;
   if (command.config) {
-    auto read = read_tune_options(*command.config);
-    if (!read) return tl::unexpected(read.error());
-    options = *read;
+    AWMR_ASSIGN_OR_RETURN(options, read_tune_options(*command.config));
   }
-  Provenance provenance{"tune", {}, {}};
-  std::vector<fs::path> inputs{command.model};
-  if (command.config) inputs.push_back(*command.config);
-  inputs.insert(inputs.end(), options.scenario_files.begin(), options.scenario_files.end());
-  for (const fs::path& path : inputs) {
-    const auto input = input_file(path);
-    if (!input) return tl::unexpected(input.error());
-    provenance.inputs.push_back(*input);
-  }
-  const auto tuning = tune(*model, options);
-  if (!tuning) return tl::unexpected(tuning.error());
-  if (const auto written = write_file(command.output, gains_text(*tuning, options, provenance));
-      !written) {
-    return tl::unexpected(written.error());
-  }
-  return Outcome{.summary = summary_of(command, *tuning), .brief = gains_table(*tuning)};
+  AWMR_ASSIGN_OR_RETURN(const Provenance provenance, provenance_of(command, options));
+  AWMR_ASSIGN_OR_RETURN(const Tuning tuning, tune(model, options));
+  AWMR_RETURN_IF_ERROR(write_file(command.output, gains_text(tuning, options, provenance)));
+  return Outcome{.summary = summary_of(command, tuning), .brief = gains_table(tuning)};
 }
 
 void add_tune(CLI::App& app, Session& session) {

@@ -1,0 +1,40 @@
+/// What several commands read: lists of files, column mappings, and the hashes of what an output is
+/// made from.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "awmr/core/csv.h"
+#include "awmr/core/provenance.h"
+#include "awmr/core/result.h"
+
+namespace awmr::cli {
+
+/// Name and hash of each file, in this order. Errors: as input_file(), for the first that fails.
+Result<std::vector<InputFile>> input_files(const std::vector<std::filesystem::path>& paths);
+
+/// The mappings that `--column` gave. Errors: as parse_column_mapping(), for the first that fails.
+Result<std::vector<ColumnMapping>> column_mappings(const std::vector<std::string>& texts);
+
+/// What `read(path)` makes of each file, in this order; the faults of all files come together.
+template <class Read>
+auto read_each(const std::vector<std::filesystem::path>& paths, const Read& read)
+    -> Result<std::vector<typename decltype(read(paths[0]))::value_type>> {
+  std::vector<typename decltype(read(paths[0]))::value_type> all;
+  std::vector<Fault> faults;
+  for (const std::filesystem::path& path : paths) {
+    auto one = read(path);
+    if (one) {
+      all.push_back(std::move(*one));
+    } else {
+      faults.insert(faults.end(), one.error().faults.begin(), one.error().faults.end());
+    }
+  }
+  if (!faults.empty()) return input_errors(std::move(faults));
+  return all;
+}
+
+}  // namespace awmr::cli
