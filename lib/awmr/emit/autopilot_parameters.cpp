@@ -11,7 +11,7 @@
 namespace awmr {
 namespace {
 
-/// Three sample times, whole milliseconds.
+/// The default of EmitOptions::step_timeout_ms: three sample times, rounded up to milliseconds.
 std::uint32_t default_step_timeout_ms(double sample_time_s) {
   return static_cast<std::uint32_t>(std::ceil(3000.0 * sample_time_s - 1e-9));
 }

@@ -11,7 +11,7 @@ namespace awmr {
 namespace {
 
 constexpr int kMaxMantissaBits = 7;
-constexpr int kLowestExponent = -20;  ///< 1e-6 m/s or rad/s: below it everything is at rest
+constexpr int kLowestExponent = -20;  ///< first entry at 2^-20 = 1e-6 m/s or rad/s or above
 constexpr int kMaxEntries = 1024;     ///< 4 KiB of flash
 constexpr int kSamplesPerCell = 64;
 

@@ -15,7 +15,8 @@ namespace {
 constexpr std::string_view kSchema = "awmr.model/1";
 const std::string kSources[] = {"given", "derived", "fitted"};
 
-/// What the equations of motion accept (dynamics.h, resistance.h).
+/// The values of a parameter with which the equations of motion make sense: dynamics.h and
+/// resistance.h have the bounds at their fields.
 NumberRule rule_of(ParameterId id) {
   if (info(id).term) return kNonNegative;
   const bool is_exponent = id == ParameterId::kSurgeBeta || id == ParameterId::kYawBeta;
@@ -46,7 +47,8 @@ Estimate estimate_from_json(JsonObject json, const ParameterInfo& parameter) {
   return estimate;
 }
 
-/// "/surge/alpha" is the key "alpha" of the group "surge"; "/mass_norm" a key of the file itself.
+/// Reads every estimate at its place: "/surge/alpha" is the key "alpha" of the group "surge",
+/// "/mass_norm" a key of the file itself.
 void estimates_from_json(JsonObject& root, Model& model) {
   std::map<std::string, JsonObject, std::less<>> groups;
   for (const ParameterInfo& parameter : parameter_table()) {

@@ -12,16 +12,16 @@ namespace awmr {
 namespace {
 
 const std::string kSeverities[] = {"note", "warning", "error"};
-/// A row belongs to a table; logs have none.
+/// The kinds of trial that /trials may name: those that are tables. A log has no rows there.
 constexpr NameTable<TrialKind, 3> kTableNames{
     {kTrialKindNames[0], kTrialKindNames[1], kTrialKindNames[2]}};
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-/// Differences of a sum's last digits between m(i,j) and m(j,i) are no asymmetry.
+/// m(i,j) and m(j,i) may differ by this share: they are sums whose last digits depend on the order.
 constexpr double kSymmetryTolerance = 1e-9;
 
-/// A parameter, or what a fit of logs estimates beside them.
+/// True for the name of a parameter, and of what a fit estimates beside the parameters.
 bool is_estimated_name(std::string_view name) {
   return parameter_by_name(name) || name == kInputDelayName || name == kMassOverSurgeName ||
          name.starts_with(kBiasPrefix);
@@ -31,7 +31,7 @@ int count(JsonObject& json, std::string_view key) {
   return static_cast<int>(json.integer(key, 0, std::numeric_limits<int>::max()));
 }
 
-/// Which rows and elements are wrong is said at the element, so the nested arrays are read here.
+/// Reads the nested arrays of a matrix and reports each fault with the place of its element.
 std::vector<std::vector<double>> matrix_from_json(JsonObject& json, const Json& matrix,
                                                   std::size_t size) {
   std::vector<std::vector<double>> rows;
@@ -82,7 +82,7 @@ EstimatorParameter parameter_from_json(JsonObject json) {
   return parameter;
 }
 
-/// What a report has only where it was worked out.
+/// Writes the parts of a report that not every estimator works out; each has no key where absent.
 void put_details(Json& json, const EstimatorReport& report) {
   if (!report.family.empty()) json["family"] = report.family;
   if (report.aicc) json["aicc"] = number_or_null(report.aicc);
@@ -171,8 +171,8 @@ EstimatorReport report_from_json(JsonObject json) {
   for (JsonObject& parameter : json.objects("parameters")) {
     report.parameters.push_back(parameter_from_json(parameter));
   }
-  // Without degrees of freedom there is no residual spread; a rank-deficient fit has no finite
-  // condition number.
+  // Both may be null: a fit without degrees of freedom has no residual spread, and one that lacks
+  // rank has no finite condition number.
   report.residual_std = json.nullable_number("residual_std", kNonNegative).value_or(kNaN);
   report.rows_used = count(json, "rows_used");
   report.degrees_of_freedom = count(json, "degrees_of_freedom");

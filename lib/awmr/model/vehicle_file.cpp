@@ -23,7 +23,7 @@ Interval wheel_force_from_json(JsonObject json) {
   return force;
 }
 
-/// The exponents among which a fit may choose.
+/// Reads the range of exponents among which a fit may choose; `absent` where there is no such key.
 Interval beta_range_from_json(JsonObject& json, std::string_view key, Interval absent) {
   const Interval range = json.optional_interval(key).value_or(absent);
   if (range.lo < 0.0) {
