@@ -87,7 +87,12 @@ LogSignals::LogSignals(const DrivingLog& driving_log)
                                     ? *driving_log.steering_command_rad
                                     : driving_log[LogChannel::kSteering]->value) {}
 
-State<double> measured_start(const LogWindow& window) {
+bool is_measurement(const DrivingLog& log, LogChannel channel, std::size_t row) {
+  if (!log[channel] || !log[channel]->fresh[row]) return false;
+  return channel != LogChannel::kSteering || log.steering_command_rad;
+}
+
+State<double> measured_initial_state(const LogWindow& window) {
   const DrivingLog& log = *window.log;
   const auto first = [&](LogChannel channel) -> std::optional<double> {
     const auto row = first_fresh(window, channel, window.begin);

@@ -62,8 +62,8 @@ T delayed_mean(const HeldSignal& signal, double t_s, double h_s, const T& delay_
   return T(mean) + slope * (delay_s - T(d));
 }
 
-/// Runs the model over a window from `start` and calls visit(row, state) at every row. Steps are at
-/// most `longest_step_s`. `delay` null: none.
+/// Runs the model over rows [begin, end) from the initial state `state` and calls visit(row, state)
+/// at every row. Steps are at most `longest_step_s`. `delay_s` null: none.
 template <class T, class Visit>
 void replay(const LogSignals& signals, std::size_t begin, std::size_t end, Plant<T> plant,
             const T* delay_s, double longest_step_s, State<T> state, Visit visit) {
@@ -103,32 +103,46 @@ void replay(const LogSignals& signals, std::size_t begin, std::size_t end, Plant
   }
 }
 
-/// What a channel of the log would have read in this state.
+/// The component of the state that a channel reads.
 template <class T>
-const T& channel_of(const State<T>& s, LogChannel channel) {
+constexpr T State<T>::*component_of(LogChannel channel) {
   switch (channel) {
     case LogChannel::kX:
-      return s.x_m;
+      return &State<T>::x_m;
     case LogChannel::kY:
-      return s.y_m;
+      return &State<T>::y_m;
     case LogChannel::kHeading:
-      return s.psi_rad;
+      return &State<T>::psi_rad;
     case LogChannel::kSpeed:
-      return s.u_mps;
+      return &State<T>::u_mps;
     case LogChannel::kSway:
-      return s.v_mps;
+      return &State<T>::v_mps;
     case LogChannel::kYawRate:
-      return s.r_radps;
+      return &State<T>::r_radps;
     case LogChannel::kSteering:
       break;
   }
-  return s.steering_rad;
+  return &State<T>::steering_rad;
 }
+
+/// What a channel of the log would have read in this state.
+template <class T>
+T& channel_of(State<T>& s, LogChannel channel) {
+  return s.*component_of<T>(channel);
+}
+template <class T>
+const T& channel_of(const State<T>& s, LogChannel channel) {
+  return s.*component_of<T>(channel);
+}
+
+/// Whether a row holds a new value of a channel to compare the model with. An angle that drives the
+/// model, where no command of the servo was logged, is no measurement of it.
+bool is_measurement(const DrivingLog& log, LogChannel channel, std::size_t row);
 
 /// The initial state of a window from what was measured in it: the first value of each channel, and
 /// where a channel is missing what follows from others (yaw rate from heading, heading and speed
 /// from position). What nothing tells is taken to be 0.
-State<double> measured_start(const LogWindow& window);
+State<double> measured_initial_state(const LogWindow& window);
 
 /// The longest step of replay() for this plant, s: a quarter of its fastest fixed time constant,
 /// the servo's or sway's. A Runge-Kutta step of that length errs by 3e-5 of an excursion in each

@@ -4,17 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "awmr/model/dynamics.h"
-#include "awmr/trials/log.h"
+#include "awmr/trials/prediction.h"
 
 namespace awmr {
-
-/// How far predictions of one channel are from what was measured.
-struct PredictionError {
-  double nrmse = 0.0;  ///< root mean square error over the channel's own standard deviation
-  double r2 = 0.0;     ///< 1 - sum of squared errors / sum of squares about the mean
-  double rmse = 0.0;   ///< SI
-};
 
 struct ChannelValidation {
   std::string channel;  ///< "yaw_rate_radps"

@@ -7,7 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "awmr/identify/logs/log_fit.h"
+#include "awmr/identify/options.h"
+#include "awmr/model/model.h"
 
 namespace awmr {
 
@@ -17,7 +18,7 @@ struct LogStage {
     ParameterId id;
     Estimate estimate;
     Eigen::Index place;  ///< in `block`
-    double jacobian;        ///< d value / d coordinate
+    double jacobian;     ///< d value / d coordinate
   };
   std::vector<Main> main;
   Family surge_family = Family::kPower;        ///< of the fit
@@ -29,8 +30,10 @@ struct LogStage {
 
 /// Fits the logs from the model's values so far. All of `asked` are free; others are held at their
 /// value, or free as well where they have none. `overrule`: the logs also fill what other trials
-/// did. Findings: `estimates-disagree` (logs against tables, p < 0.01), `coloured-residuals`,
-/// `not-converged`, `held-out-log` (each log predicted by the others).
+/// did.
+/// Findings: `estimates-disagree` (logs against tables, p < 0.01), `coloured-residuals`,
+/// `model-inadequate`, `power-law-inadequate`, `not-identifiable`, `not-converged`, `held-out-log`
+/// (each log predicted by the others).
 LogStage run_log_stage(const Vehicle& vehicle, const std::vector<DrivingLog>& logs,
                        const IdentifyOptions& options, const std::vector<ParameterId>& asked,
                        const Model& model, bool overrule);

@@ -1,0 +1,23 @@
+/// Does the model describe the logs? Private to identify/.
+#pragma once
+
+#include <vector>
+
+#include "awmr/identify/logs/family_choice.h"
+
+namespace awmr {
+
+/// `coloured-residuals` for every channel whose residuals stay correlated after the whitening.
+std::vector<Finding> autocorrelation_findings(const LogFit& fit, const std::string& file);
+
+struct Adequacy {
+  std::vector<EstimatorReport> rivals;  ///< other families, where they were tried
+  std::vector<Finding> findings;
+};
+
+/// `model-inadequate` for every channel whose errors are the model's own, not the sensor's. Where
+/// that is the speed and `try_families`, the other families of surge resistance are fitted too.
+Adequacy judge_adequacy(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
+                        const LogFit& fit, Family yaw, bool try_families);
+
+}  // namespace awmr

@@ -1,0 +1,57 @@
+#include "awmr/identify/logs/bootstrap.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "awmr/core/index.h"
+#include "awmr/core/random.h"
+
+namespace awmr {
+namespace {
+
+Eigen::VectorXd mean_of(const std::vector<Eigen::VectorXd>& scores, Eigen::Index n) {
+  Eigen::VectorXd mean = Eigen::VectorXd::Zero(n);
+  for (const Eigen::VectorXd& score : scores) mean += score / static_cast<double>(scores.size());
+  return mean;
+}
+
+/// The sum of as many scores as there are, drawn with replacement, without their mean.
+Eigen::VectorXd drawn_sum(const std::vector<Eigen::VectorXd>& scores, const Eigen::VectorXd& mean,
+                          Random& random) {
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(mean.size());
+  for (std::size_t i = 0; i < scores.size(); ++i) {
+    const double place = random.uniform() * static_cast<double>(scores.size());
+    sum += scores[static_cast<std::size_t>(place)] - mean;
+  }
+  return sum;
+}
+
+double percentile(const std::vector<double>& sorted, double share) {
+  return sorted[at(std::lround(share * static_cast<double>(sorted.size() - 1)))];
+}
+
+}  // namespace
+
+std::vector<Interval> block_bootstrap(const BootstrapInput& input,
+                                      const BootstrapOptions& options) {
+  const std::size_t n = input.quantities.size();
+  std::vector<std::vector<double>> draws(n);
+  Random random(options.seed, 2);
+  const Eigen::VectorXd mean = mean_of(input.scores, eigen_index(n));
+  for (int b = 0; b < options.resamples; ++b) {
+    const Eigen::VectorXd step = input.covariance * drawn_sum(input.scores, mean, random);
+    for (std::size_t i = 0; i < n; ++i) {
+      draws[i].push_back(input.coordinates[i] + step(eigen_index(i)));
+    }
+  }
+  std::vector<Interval> intervals;
+  for (std::size_t i = 0; i < n; ++i) {
+    std::sort(draws[i].begin(), draws[i].end());
+    const FreeQuantity& q = input.quantities[i];
+    intervals.push_back(
+        {q.value(percentile(draws[i], 0.025)), q.value(percentile(draws[i], 0.975))});
+  }
+  return intervals;
+}
+
+}  // namespace awmr

@@ -1,0 +1,156 @@
+#include "awmr/identify/logs/ceres_problem.h"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "awmr/core/index.h"
+#include "awmr/identify/ceres_solve.h"
+
+namespace awmr {
+namespace {
+
+using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// Standard deviation of the pull to the initial guess, over the quantity's large change.
+constexpr double kPriorStd = 5.0;
+
+/// Evaluates every window before Ceres asks for any. The point is the one that Ceres moves.
+class Evaluator : public ceres::EvaluationCallback {
+ public:
+  Evaluator(const LogProblem& problem, const SearchPoint& point)
+      : problem_(problem), point_(point) {}
+
+  void PrepareForEvaluation(bool jacobians, bool new_point) final {
+    if (!new_point && (!jacobians || has_jacobians_)) return;
+    has_jacobians_ = jacobians;
+    residuals_ = evaluate_all(problem_, point_, jacobians);
+  }
+
+  const LogProblem& problem() const { return problem_; }
+  const WindowResiduals& residuals(std::size_t window) const { return residuals_[window]; }
+
+ private:
+  const LogProblem& problem_;
+  const SearchPoint& point_;
+  bool has_jacobians_ = false;
+  std::vector<WindowResiduals> residuals_;
+};
+
+/// Hands Ceres what the Evaluator made of one window: blocks coordinates, initial state.
+class WindowCost : public ceres::CostFunction {
+ public:
+  WindowCost(const Evaluator& evaluator, std::size_t window)
+      : evaluator_(evaluator),
+        window_(window),
+        quantities_(static_cast<int>(evaluator.problem().model.quantities.size())),
+        initial_(static_cast<int>(evaluator.problem().model.initial.size())) {
+    mutable_parameter_block_sizes()->push_back(quantities_);
+    mutable_parameter_block_sizes()->push_back(initial_);
+    const std::size_t samples = evaluator.problem().windows[window].samples.size();
+    set_num_residuals(static_cast<int>(samples) + initial_);
+  }
+
+  bool Evaluate(double const* const*, double* residuals, double** jacobians) const final {
+    const WindowResiduals& window = evaluator_.residuals(window_);
+    if (!window.finite) return false;
+    const Eigen::Index rows = window.residuals.size();
+    Eigen::Map<Eigen::VectorXd>(residuals, rows) = window.residuals;
+    if (!jacobians) return true;
+    if (jacobians[0]) {
+      Eigen::Map<RowMajor>(jacobians[0], rows, quantities_) = window.jacobian.leftCols(quantities_);
+    }
+    if (jacobians[1]) {
+      Eigen::Map<RowMajor>(jacobians[1], rows, initial_) = window.jacobian.rightCols(initial_);
+    }
+    return true;
+  }
+
+ private:
+  const Evaluator& evaluator_;
+  std::size_t window_;
+  int quantities_;
+  int initial_;
+};
+
+/// (x_i - initial_i) / std_i
+class PriorCost : public ceres::CostFunction {
+ public:
+  explicit PriorCost(const LogProblem& problem) : initial_(problem.initial) {
+    for (const FreeQuantity& q : problem.model.quantities) {
+      std_.push_back(kPriorStd * q.large_change);
+    }
+    mutable_parameter_block_sizes()->push_back(static_cast<int>(initial_.size()));
+    set_num_residuals(static_cast<int>(initial_.size()));
+  }
+  bool Evaluate(double const* const* x, double* residuals, double** jacobians) const final {
+    const std::size_t n = initial_.size();
+    for (std::size_t i = 0; i < n; ++i) {
+      residuals[i] = (x[0][i] - initial_[i]) / std_[i];
+      if (!jacobians || !jacobians[0]) continue;
+      for (std::size_t j = 0; j < n; ++j) jacobians[0][i * n + j] = i == j ? 1.0 / std_[i] : 0.0;
+    }
+    return true;
+  }
+
+ private:
+  std::vector<double> initial_;
+  std::vector<double> std_;
+};
+
+void bound(ceres::Problem& problem, const std::vector<Interval>& bounds,
+           std::vector<double>& coordinates) {
+  for (std::size_t i = 0; i < bounds.size(); ++i) {
+    coordinates[i] = std::clamp(coordinates[i], bounds[i].lo, bounds[i].hi);
+    problem.SetParameterLowerBound(coordinates.data(), static_cast<int>(i), bounds[i].lo);
+    problem.SetParameterUpperBound(coordinates.data(), static_cast<int>(i), bounds[i].hi);
+  }
+}
+
+ceres::Solver::Options solver_options(double function_tolerance) {
+  silence_ceres();
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_SCHUR;
+  options.max_num_iterations = 100;
+  options.function_tolerance = function_tolerance;
+  options.gradient_tolerance = 1e-12;
+  options.parameter_tolerance = 1e-9;
+  options.logging_type = ceres::SILENT;
+  options.num_threads = 1;
+  return options;
+}
+
+}  // namespace
+
+Solved solve(const LogProblem& problem, SearchPoint from, double function_tolerance) {
+  Solved solved;
+  solved.point = std::move(from);
+  SearchPoint& point = solved.point;
+  Evaluator evaluator(problem, point);
+  ceres::Problem::Options problem_options;
+  problem_options.evaluation_callback = &evaluator;
+  ceres::Problem search(problem_options);
+  double* const coordinates = point.coordinates.data();
+  // Ceres eliminates the initial states in the order of their addresses: here that of the windows,
+  // in every run.
+  auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
+  for (std::size_t i = 0; i < problem.windows.size(); ++i) {
+    double* const initial_state = point.initial_states.data() + i * problem.model.initial.size();
+    search.AddResidualBlock(new WindowCost(evaluator, i), nullptr, coordinates, initial_state);
+    ordering->AddElementToGroup(initial_state, 0);
+  }
+  ordering->AddElementToGroup(coordinates, 1);
+  search.AddResidualBlock(new PriorCost(problem), nullptr, coordinates);
+  bound(search, problem.bounds, point.coordinates);
+  ceres::Solver::Options options = solver_options(function_tolerance);
+  options.linear_solver_ordering = ordering;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &search, &summary);
+  solved.cost = summary.final_cost;
+  solved.converged = converged(summary);
+  solved.usable = summary.IsSolutionUsable();
+  solved.stop_reason = stop_reason(summary);
+  return solved;
+}
+
+}  // namespace awmr

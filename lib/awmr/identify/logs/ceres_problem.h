@@ -1,0 +1,23 @@
+/// The search for the least squares of a LogProblem, by Ceres. Private to identify/.
+#pragma once
+
+#include <limits>
+#include <string>
+
+#include "awmr/identify/logs/log_problem.h"
+
+namespace awmr {
+
+struct Solved {
+  SearchPoint point;  ///< where the search ended
+  double cost = std::numeric_limits<double>::infinity();
+  bool converged = false;
+  bool usable = false;  ///< the point is at least no worse than where the search began
+  std::string stop_reason;
+};
+
+/// Levenberg-Marquardt within the bounds, each window's initial state eliminated. Ends when a step
+/// changes the cost by less than this share.
+Solved solve(const LogProblem& problem, SearchPoint from, double function_tolerance);
+
+}  // namespace awmr

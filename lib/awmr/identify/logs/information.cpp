@@ -1,0 +1,70 @@
+#include "awmr/identify/logs/information.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "awmr/core/index.h"
+
+namespace awmr {
+namespace {
+
+/// J_t - J_s (J_s^T J_s)^-1 J_s^T J_t: what the coordinates do that no initial state undoes.
+Eigen::MatrixXd projected(const WindowResiduals& window, Eigen::Index n) {
+  const Eigen::MatrixXd jt = window.jacobian.leftCols(n);
+  const Eigen::MatrixXd js = window.jacobian.rightCols(window.jacobian.cols() - n);
+  const Eigen::MatrixXd inner = (js.transpose() * js).ldlt().solve(js.transpose() * jt);
+  return jt - js * inner;
+}
+
+}  // namespace
+
+Eigen::MatrixXd information(const std::vector<WindowResiduals>& residuals, Eigen::Index n) {
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(n, n);
+  for (const WindowResiduals& window : residuals) {
+    const Eigen::MatrixXd jt = window.jacobian.leftCols(n);
+    sum += projected(window, n).transpose() * jt;
+  }
+  return 0.5 * (sum + sum.transpose());
+}
+
+std::vector<Eigen::VectorXd> block_scores(const std::vector<FitWindow>& windows,
+                                          const std::vector<WindowResiduals>& residuals,
+                                          Eigen::Index n, double block_s) {
+  std::vector<Eigen::VectorXd> scores;
+  for (std::size_t w = 0; w < windows.size(); ++w) {
+    const Eigen::MatrixXd rows = projected(residuals[w], n);
+    const std::vector<double>& t_s = windows[w].rows.log->t_s;
+    double from_s = t_s[windows[w].rows.begin];
+    Eigen::VectorXd score = Eigen::VectorXd::Zero(n);
+    for (Eigen::Index i = 0; i < rows_of(windows[w].samples); ++i) {
+      const double now_s = t_s[windows[w].samples[at(i)].row];
+      if (now_s - from_s >= block_s) {
+        scores.push_back(score);
+        score.setZero();
+        from_s = now_s;
+      }
+      score += rows.row(i).transpose() * residuals[w].residuals(i);
+    }
+    scores.push_back(score);
+  }
+  return scores;
+}
+
+double block_length_s(const NoiseLevels& noise) {
+  double longest_s = 0.0;
+  for (const auto& [channel, level] : noise) longest_s = std::max(longest_s, level.correlation_s);
+  return std::max(1.0, 5.0 * longest_s);
+}
+
+double akaike(const NoiseLevels& noise, Eigen::Index n) {
+  double aic = 2.0 * static_cast<double>(n);
+  for (const auto& [channel, level] : noise) {
+    const double phi =
+        level.correlation_s > 0.0 ? std::exp(-level.step_s / level.correlation_s) : 0.0;
+    aic += level.count * std::log(level.std * level.std * (1.0 - phi * phi));
+  }
+  return aic;
+}
+
+}  // namespace awmr

@@ -1,0 +1,82 @@
+#include "awmr/identify/logs/initial_guess.h"
+
+#include <cmath>
+
+#include "awmr/core/index.h"
+
+namespace awmr {
+namespace {
+
+double rms(const std::vector<double>& values) {
+  double squares = 0.0;
+  for (const double value : values) squares += value * value;
+  return std::sqrt(squares / static_cast<double>(values.size()));
+}
+
+/// Root mean squares of one log or, each the mean over them, of several.
+struct Magnitudes {
+  double thrust = 0.0;    ///< tau_speed
+  double speed = 0.0;     ///< m/s
+  double moment = 0.0;    ///< tau_turn, m
+  double yaw_rate = 0.0;  ///< rad/s
+};
+
+Magnitudes magnitudes(const DrivingLog& log, const Vehicle& vehicle) {
+  const double left = rms(log.force_left);
+  const double right = rms(log.force_right);
+  std::vector<double> difference;
+  for (std::size_t i = 0; i < log.rows(); ++i) {
+    difference.push_back(log.force_right[i] - log.force_left[i]);
+  }
+  const double steering =
+      rms(log.steering_command_rad ? *log.steering_command_rad : log[LogChannel::kSteering]->value);
+  const auto& speed = log[LogChannel::kSpeed];
+  const auto& yaw_rate = log[LogChannel::kYawRate];
+  return {.thrust = 2.0 * (left + right),
+          .speed = speed ? rms(speed->value) : 1.0,
+          .moment = 2.0 * vehicle.half_track_m * rms(difference) +
+                    vehicle.front_axle_m * (left + right) * steering,
+          .yaw_rate = yaw_rate ? rms(yaw_rate->value) : 0.2};
+}
+
+Magnitudes mean_magnitudes(const std::vector<DrivingLog>& logs, const Vehicle& vehicle) {
+  Magnitudes mean;
+  const double n = static_cast<double>(logs.size());
+  for (const DrivingLog& log : logs) {
+    const Magnitudes m = magnitudes(log, vehicle);
+    mean.thrust += m.thrust / n;
+    mean.speed += m.speed / n;
+    mean.moment += m.moment / n;
+    mean.yaw_rate += m.yaw_rate / n;
+  }
+  return mean;
+}
+
+/// A log at rest has no magnitude.
+double or_else(double value, double otherwise) {
+  return value > 1e-6 && std::isfinite(value) ? value : otherwise;
+}
+
+}  // namespace
+
+ParameterValues<double> guess_from_logs(const std::vector<DrivingLog>& logs,
+                                        const Vehicle& vehicle) {
+  constexpr double kTimeConstant_s = 0.3;
+  constexpr double kBeta = 0.8;
+  const Magnitudes m = mean_magnitudes(logs, vehicle);
+  const double surge = or_else(m.thrust, 1.0) / std::pow(or_else(m.speed, 1.0), kBeta);
+  const double yaw = or_else(m.moment, 0.05) / std::pow(or_else(m.yaw_rate, 0.2), kBeta);
+  const double mass = kTimeConstant_s * surge;
+  ParameterValues<double> guess{};
+  guess[at(ParameterId::kSurgeAlpha)] = surge;
+  guess[at(ParameterId::kSurgeBeta)] = kBeta;
+  guess[at(ParameterId::kYawAlpha)] = yaw;
+  guess[at(ParameterId::kYawBeta)] = kBeta;
+  guess[at(ParameterId::kSwayAlpha)] = mass / 0.1;
+  guess[at(ParameterId::kMassNorm)] = mass;
+  guess[at(ParameterId::kInertiaNorm)] = mass * vehicle.inertia_kgm2() / vehicle.mass_kg;
+  guess[at(ParameterId::kSteeringTimeConstant)] = 0.05;
+  return guess;
+}
+
+}  // namespace awmr

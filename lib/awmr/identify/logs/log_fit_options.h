@@ -1,0 +1,30 @@
+/// What a caller of fit_logs() can ask for. Private to identify/.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "awmr/identify/options.h"
+#include "awmr/model/plant_of.h"
+#include "awmr/model/vehicle.h"
+
+namespace awmr {
+
+struct LogFitOptions {
+  Vehicle vehicle;
+  /// By ParameterId: where the search begins, and what a parameter that is not free is held at.
+  ParameterValues<double> initial_guess{};
+  /// Free parameters whose initial guess is an order of magnitude: the multistart draws these anew.
+  /// Empty where other trials gave every initial guess, and one search is enough.
+  std::vector<ParameterId> guessed;
+  std::vector<ParameterId> free;
+  bool delay = false;              ///< one input delay of all commands is free
+  std::vector<LogChannel> biases;  ///< channels whose constant offset is free
+  Loss loss = Loss::kSquared;      ///< a robust one where a sensor has outliers
+  std::uint64_t seed = 1;          ///< of the multistart and of the bootstrap
+  int multistart = 6;              ///< random initial guesses beside the given one
+  int bootstrap = 0;               ///< resamples of the block bootstrap; 0: none
+  int threads = 0;                 ///< 0: every core; the result does not depend on it
+};
+
+}  // namespace awmr

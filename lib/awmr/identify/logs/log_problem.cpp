@@ -1,0 +1,40 @@
+#include "awmr/identify/logs/log_problem.h"
+
+#include <utility>
+
+#include "awmr/core/parallel.h"
+
+namespace awmr {
+
+LogProblem log_problem(const std::vector<DrivingLog>& logs, const LogFitOptions& options) {
+  LogProblem problem;
+  problem.windows = fit_windows(logs);
+  problem.model = {
+      .vehicle = options.vehicle,
+      .held = options.initial_guess,
+      .quantities = free_quantities(options),
+      .initial = initial_components(logs),
+      .noise = sensor_noise(problem.windows),
+      .longest_step_s = replay_step_s(plant_of(options.vehicle, options.initial_guess))};
+  problem.initial = initial_coordinates(problem.model.quantities, options.initial_guess);
+  problem.bounds = coordinate_bounds(problem.model.quantities, problem.initial, options.vehicle);
+  problem.threads = options.threads;
+  return problem;
+}
+
+SearchPoint from_measured(const LogProblem& problem, std::vector<double> coordinates) {
+  return {std::move(coordinates), measured_initial_states(problem.windows, problem.model.initial)};
+}
+
+std::vector<WindowResiduals> evaluate_all(const LogProblem& problem, const SearchPoint& point,
+                                          bool with_jacobian) {
+  std::vector<WindowResiduals> residuals(problem.windows.size());
+  const std::size_t k = problem.model.initial.size();
+  parallel_for(problem.windows.size(), problem.threads, [&](std::size_t i) {
+    residuals[i] = evaluate(problem.model, problem.windows[i], point.coordinates.data(),
+                            point.initial_states.data() + i * k, with_jacobian);
+  });
+  return residuals;
+}
+
+}  // namespace awmr

@@ -1,0 +1,50 @@
+/// The least-squares problem of a fit of logs. Private to identify/.
+#pragma once
+
+#include <vector>
+
+#include "awmr/identify/logs/residuals.h"
+
+namespace awmr {
+
+/// Half the sum of squares of: every window's residuals, and a pull of every coordinate to its
+/// initial guess,
+///
+///     (x_i - initial_i) / (5 large_change_i)
+///
+/// so weak that data of any use outweigh it, and what no data show stays put.
+struct LogProblem {
+  LogModel model;
+  std::vector<FitWindow> windows;
+  std::vector<double> initial;   ///< coordinate of the initial guess, by quantity
+  std::vector<Interval> bounds;  ///< of the coordinate, by quantity
+  int threads = 0;               ///< 0: every core
+
+  /// Free numbers: the quantities, and an initial state for every window.
+  std::size_t unknowns() const {
+    return model.quantities.size() + model.initial.size() * windows.size();
+  }
+};
+
+/// Where a search stands.
+struct SearchPoint {
+  std::vector<double> coordinates;     ///< by quantity
+  std::vector<double> initial_states;  ///< by window, then by component
+};
+
+/// The problem at the initial guess: sensor noise, no outlier weighed down. The logs must outlive
+/// it.
+LogProblem log_problem(const std::vector<DrivingLog>& logs, const LogFitOptions& options);
+
+/// The coordinates with every window's initial state as it was measured.
+SearchPoint from_measured(const LogProblem& problem, std::vector<double> coordinates);
+
+/// Rough searches integrate with steps this much longer.
+inline constexpr double kRoughStep = 2.0;
+
+/// By window: in parallel, each on its own, so that the result does not depend on the number of
+/// threads.
+std::vector<WindowResiduals> evaluate_all(const LogProblem& problem, const SearchPoint& point,
+                                          bool with_jacobian);
+
+}  // namespace awmr

@@ -1,0 +1,94 @@
+#include "awmr/identify/logs/log_report.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "awmr/core/index.h"
+#include "awmr/identify/uncertainty/diagnostics.h"
+#include "awmr/identify/uncertainty/quantiles.h"
+
+namespace awmr {
+namespace {
+
+/// "speed_mps 0.012 m/s correlated over 0.4 s, yaw_rate_radps 0.03 rad/s"
+std::string in_words(const NoiseLevels& levels) {
+  std::string text;
+  for (const auto& [channel, noise] : levels) {
+    text += fmt::format("{}{} {:.3g} {}", text.empty() ? "" : ", ", info(channel).name, noise.std,
+                        info(channel).unit);
+    if (noise.correlation_s > 0.0) {
+      text += fmt::format(" correlated over {:.3g} s", noise.correlation_s);
+    }
+  }
+  return text;
+}
+
+/// The i-th quantity with its interval: the bootstrap's where there is one, else normal in the
+/// coordinate.
+EstimatorParameter parameter_of(const LogReportInput& input, std::size_t i) {
+  constexpr double kManyDegrees = 1e6;  // of freedom: normal
+  const FreeQuantity& q = input.problem.model.quantities[i];
+  const double x = input.solved.point.coordinates[i];
+  EstimatorParameter parameter{q.name(), q.value(x), {}, {}, {}};
+  if (!input.found.why_not[i].empty()) return parameter;
+  const double error = std::sqrt(input.found.covariance(eigen_index(i), eigen_index(i)));
+  const double half = t_quantile_95(kManyDegrees) * error;
+  parameter.std_error = q.jacobian(x) * error;
+  parameter.ci95 = input.bootstrap95.empty() ? Interval{q.value(x - half), q.value(x + half)}
+                                             : input.bootstrap95[i];
+  return parameter;
+}
+
+/// The standardised residuals of one channel, window after window.
+std::vector<double> series_of(const LogReportInput& input, LogChannel channel) {
+  std::vector<double> series;
+  for (std::size_t w = 0; w < input.residuals.size(); ++w) {
+    const std::vector<Sample>& samples = input.problem.windows[w].samples;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      if (samples[i].channel != channel) continue;
+      series.push_back(input.residuals[w].residuals(eigen_index(i)));
+    }
+  }
+  return series;
+}
+
+/// Whiteness, then normality of each channel; the name says which channel.
+std::vector<Diagnostic> residual_tests(const LogReportInput& input) {
+  constexpr int kLags = 10;
+  std::vector<Diagnostic> tests;
+  for (const auto& [channel, noise] : input.problem.model.noise) {
+    const std::vector<double> series = series_of(input, channel);
+    for (auto& test : {whiteness(series, kLags), normality(series)}) {
+      if (!test) continue;
+      tests.push_back(*test);
+      tests.back().name += fmt::format(" of {}", info(channel).name);
+    }
+  }
+  return tests;
+}
+
+}  // namespace
+
+EstimatorReport log_report(const LogReportInput& input) {
+  const NoiseLevels& noise = input.problem.model.noise;
+  EstimatorReport report;
+  report.subject = FitSubject::kLog;
+  report.estimator = Estimator::kTrajectory;
+  report.noise = in_words(noise);
+  for (std::size_t i = 0; i < input.problem.model.quantities.size(); ++i) {
+    report.parameters.push_back(parameter_of(input, i));
+  }
+  report.residual_std = 1.0;  // of standardised residuals
+  for (const auto& [channel, level] : noise) report.rows_used += level.count;
+  report.degrees_of_freedom = report.rows_used - static_cast<int>(input.problem.unknowns());
+  report.rank = input.found.rank;
+  report.condition_number = input.found.condition_number;
+  report.stop_reason = input.solved.stop_reason;
+  report.diagnostics = residual_tests(input);
+  return report;
+}
+
+}  // namespace awmr

@@ -1,0 +1,77 @@
+#include "awmr/identify/logs/multistart.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "awmr/core/random.h"
+#include "awmr/identify/logs/ceres_problem.h"
+
+namespace awmr {
+namespace {
+
+/// At most half a minute's worth of windows, spread over all logs: enough to tell a good initial
+/// guess from a bad one. Steps are long.
+LogProblem rough_problem(const LogProblem& problem) {
+  constexpr std::size_t kMaximumWindows = 3;
+  LogProblem rough = problem;
+  rough.model.longest_step_s = kRoughStep * problem.model.longest_step_s;
+  rough.windows.clear();
+  const std::size_t count = std::min(kMaximumWindows, problem.windows.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    rough.windows.push_back(problem.windows[i * problem.windows.size() / count]);
+  }
+  return rough;
+}
+
+/// The initial guess with every guessed quantity drawn anew: a factor up to e^2 either way for a
+/// logarithm, anywhere in [0.3, 1.3] for an exponent; a family's term stays. One random number per
+/// quantity, drawn or not.
+std::vector<double> drawn(const LogProblem& problem, const std::vector<ParameterId>& guessed,
+                          Random& random) {
+  std::vector<double> coordinates = problem.initial;
+  for (std::size_t i = 0; i < coordinates.size(); ++i) {
+    const FreeQuantity& q = problem.model.quantities[i];
+    const double u = random.uniform();
+    const bool draw =
+        std::any_of(guessed.begin(), guessed.end(), [&](ParameterId id) { return q.is(id); });
+    if (!draw) continue;
+    if (q.scale == Scale::kLogarithmic) {
+      coordinates[i] += 4.0 * u - 2.0;
+    } else if (!info(q.id).term) {
+      coordinates[i] = std::clamp(0.3 + u, problem.bounds[i].lo, problem.bounds[i].hi);
+    }
+  }
+  return coordinates;
+}
+
+}  // namespace
+
+Multistart multistart(const LogProblem& problem, const LogFitOptions& options) {
+  const std::vector<FreeQuantity>& quantities = problem.model.quantities;
+  if (options.guessed.empty()) {
+    return {problem.initial,
+            {{values_at(quantities, problem.initial), 0.0, true, "from the other trials"}}};
+  }
+  constexpr double kRough = 1e-4;
+  constexpr std::size_t kReasonLength = 60;
+  const LogProblem rough = rough_problem(problem);
+  Random random(options.seed, 1);
+  Multistart result;
+  double least = std::numeric_limits<double>::infinity();
+  std::size_t chosen = 0;
+  for (int i = 0; i <= options.multistart; ++i) {
+    const std::vector<double> from =
+        i == 0 ? problem.initial : drawn(problem, options.guessed, random);
+    const Solved solved = solve(rough, from_measured(rough, from), kRough);
+    result.starts.push_back({values_at(quantities, from), solved.cost, false,
+                             solved.stop_reason.substr(0, kReasonLength)});
+    if (!solved.usable || !(solved.cost < least)) continue;
+    least = solved.cost;
+    result.coordinates = solved.point.coordinates;
+    chosen = result.starts.size() - 1;
+  }
+  if (!result.coordinates.empty()) result.starts[chosen].chosen = true;
+  return result;
+}
+
+}  // namespace awmr

@@ -1,0 +1,17 @@
+/// The fit and its noise levels, each from the other. Private to identify/.
+#pragma once
+
+#include "awmr/identify/logs/log_problem.h"
+
+namespace awmr {
+
+struct NoiseIteration {
+  LogProblem problem;  ///< with its noise levels and the weights of a robust loss
+  SearchPoint point;
+};
+
+/// Fits, takes the noise of every channel from its residuals, fits again: until no level changes by
+/// more than a hundredth, a few rounds at most.
+NoiseIteration settle_noise(LogProblem problem, SearchPoint point, Loss loss);
+
+}  // namespace awmr

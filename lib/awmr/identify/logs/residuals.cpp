@@ -1,0 +1,176 @@
+#include "awmr/identify/logs/residuals.h"
+
+#include <ceres/jet.h>
+
+#include <array>
+#include <cmath>
+
+#include "awmr/core/index.h"
+#include "awmr/identify/ceres_solve.h"
+#include "awmr/model/steady.h"
+
+namespace awmr {
+namespace {
+
+template <class T>
+Resistance<double> plain(const Resistance<T>& law) {
+  return {value_of(law.alpha), value_of(law.beta), 0.0, value_of(law.coulomb),
+          value_of(law.quadratic)};
+}
+
+/// The numbers of one evaluation as T, each with its own derivative where T has them.
+template <class T>
+struct Unpacked {
+  ParameterValues<T> values{};
+  T delay = T(0.0);
+  bool delayed = false;
+  std::array<T, kChannelCount> bias{};
+  State<T> initial{};
+};
+
+/// `seed(i, x)` makes the i-th number of the evaluation: coordinates, then the initial state.
+template <class T, class Seed>
+Unpacked<T> unpack(const LogModel& model, const FitWindow& window, const double* coordinates,
+                   const double* initial_state, Seed seed) {
+  Unpacked<T> u{};
+  for (std::size_t i = 0; i < kParameterCount; ++i) u.values[i] = T(model.held[i]);
+  const std::size_t n = model.quantities.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const FreeQuantity& quantity = model.quantities[i];
+    const T number = from_coordinate<T>(quantity.scale, seed(i, coordinates[i]));
+    switch (quantity.kind) {
+      case FreeQuantity::Kind::kParameter:
+        u.values[at(quantity.id)] = number;
+        break;
+      case FreeQuantity::Kind::kDelay:
+        u.delay = number;
+        u.delayed = true;
+        break;
+      case FreeQuantity::Kind::kBias:
+        u.bias[at(quantity.channel)] = number;
+        break;
+    }
+  }
+  for (const LogChannel channel : kChannels) {
+    channel_of(u.initial, channel) = T(channel_of(window.measured, channel));
+  }
+  for (std::size_t i = 0; i < model.initial.size(); ++i) {
+    channel_of(u.initial, model.initial[i].channel) = seed(n + i, initial_state[i]);
+  }
+  return u;
+}
+
+/// Model + bias - measured of every sample, in order.
+template <class T>
+std::vector<T> raw_residuals(const LogModel& model, const Unpacked<T>& u, const FitWindow& window) {
+  Plant<T> plant = plant_of(model.vehicle, u.values);
+  const double h = model.longest_step_s;
+  plant.surge.rest_speed = T(rest_speed(plain(plant.surge), value_of(plant.mass_norm), h));
+  plant.yaw.rest_speed = T(rest_speed(plain(plant.yaw), value_of(plant.inertia_norm), h));
+  std::vector<T> residuals;
+  residuals.reserve(window.samples.size());
+  const DrivingLog& log = *window.rows.log;
+  std::size_t next = 0;
+  replay(*window.signals, window.rows.begin, window.rows.end, plant, u.delayed ? &u.delay : nullptr,
+         h, u.initial, [&](std::size_t row, const State<T>& state) {
+           for (; next < window.samples.size() && window.samples[next].row == row; ++next) {
+             const LogChannel c = window.samples[next].channel;
+             residuals.push_back(channel_of(state, c) + u.bias[at(c)] - log[c]->value[row]);
+           }
+         });
+  return residuals;
+}
+
+/// White for a first-order process:
+///
+///     (e_k - phi e_{k-1}) / (sigma sqrt(1 - phi^2)),   phi = e^(-dt/tau)
+///
+/// and e/sigma for the first sample of a channel and for white noise.
+template <class T>
+std::vector<T> standardised(const LogModel& model, const FitWindow& window,
+                            const std::vector<T>& raw) {
+  std::array<const T*, kChannelCount> previous{};
+  std::vector<T> out;
+  out.reserve(raw.size());
+  for (std::size_t i = 0; i < raw.size(); ++i) {
+    const Sample& sample = window.samples[i];
+    const ChannelNoise& noise = model.noise.at(sample.channel);
+    const T*& before = previous[at(sample.channel)];
+    const double phi =
+        before && noise.correlation_s > 0.0 ? std::exp(-sample.since_s / noise.correlation_s) : 0.0;
+    const double weight = sample.weight / (noise.std * std::sqrt(1.0 - phi * phi));
+    out.push_back(phi > 0.0 ? T(weight * (raw[i] - phi * *before)) : T(weight * raw[i]));
+    before = &raw[i];
+  }
+  return out;
+}
+
+/// The weak pull of a component of the initial state to what was measured.
+double pull(const InitialComponent& component, const FitWindow& window, double initial) {
+  return (initial - channel_of(window.measured, component.channel)) / component.prior_std;
+}
+
+WindowResiduals evaluate_values(const LogModel& model, const FitWindow& window,
+                                const double* coordinates, const double* initial_state) {
+  const auto u = unpack<double>(model, window, coordinates, initial_state,
+                                [](std::size_t, double x) { return x; });
+  const std::vector<double> raw = raw_residuals(model, u, window);
+  const std::vector<double> out = standardised(model, window, raw);
+  const Eigen::Index n = rows_of(raw);
+  const Eigen::Index k = rows_of(model.initial);
+  WindowResiduals result;
+  result.raw = Eigen::Map<const Eigen::VectorXd>(raw.data(), n);
+  result.residuals.resize(n + k);
+  result.residuals.head(n) = Eigen::Map<const Eigen::VectorXd>(out.data(), n);
+  for (Eigen::Index i = 0; i < k; ++i) {
+    result.residuals(n + i) = pull(model.initial[at(i)], window, initial_state[i]);
+  }
+  result.finite = result.residuals.allFinite();
+  return result;
+}
+
+template <int N>
+WindowResiduals evaluate_jacobian(const LogModel& model, const FitWindow& window,
+                                  const double* coordinates, const double* initial_state) {
+  using Jet = ceres::Jet<double, N>;
+  const auto u = unpack<Jet>(model, window, coordinates, initial_state,
+                             [](std::size_t i, double x) { return Jet(x, static_cast<int>(i)); });
+  const std::vector<Jet> raw = raw_residuals(model, u, window);
+  const std::vector<Jet> out = standardised(model, window, raw);
+  const Eigen::Index n = rows_of(raw);
+  const Eigen::Index k = rows_of(model.initial);
+  const Eigen::Index columns = rows_of(model.quantities) + k;
+  WindowResiduals result;
+  result.raw.resize(n);
+  result.residuals.resize(n + k);
+  result.jacobian.resize(n + k, columns);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    result.raw(i) = raw[at(i)].a;
+    result.residuals(i) = out[at(i)].a;
+    result.jacobian.row(i) = out[at(i)].v.head(columns).transpose();
+  }
+  result.jacobian.bottomRows(k).setZero();
+  for (Eigen::Index i = 0; i < k; ++i) {
+    result.residuals(n + i) = pull(model.initial[at(i)], window, initial_state[i]);
+    result.jacobian(n + i, columns - k + i) = 1.0 / model.initial[at(i)].prior_std;
+  }
+  result.finite = result.residuals.allFinite() && result.jacobian.allFinite();
+  return result;
+}
+
+}  // namespace
+
+WindowResiduals evaluate(const LogModel& model, const FitWindow& window, const double* coordinates,
+                         const double* initial_state, bool with_jacobian) {
+  if (!with_jacobian) return evaluate_values(model, window, coordinates, initial_state);
+  // A jet of a fixed size costs as much as all its derivatives: the smallest that holds them.
+  const std::size_t numbers = model.quantities.size() + model.initial.size();
+  if (numbers <= 12) return evaluate_jacobian<12>(model, window, coordinates, initial_state);
+  if (numbers <= 16) return evaluate_jacobian<16>(model, window, coordinates, initial_state);
+  if (numbers <= 20) return evaluate_jacobian<20>(model, window, coordinates, initial_state);
+  // 13 parameters, a delay, 7 biases and 7 components of the initial state are the most there are.
+  static_assert(kParameterCount + 1 + kChannelCount + kChannelCount <= 28);
+  return evaluate_jacobian<28>(model, window, coordinates, initial_state);
+}
+
+}  // namespace awmr

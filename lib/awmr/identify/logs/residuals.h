@@ -1,0 +1,38 @@
+/// The residuals of one window of a log and their derivatives. Private to identify/.
+///
+/// The model is driven by the logged commands and compared with everything that was measured. Where
+/// a channel's errors are correlated, they are taken as a first-order process and whitened.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "awmr/identify/logs/channel_noise.h"
+#include "awmr/identify/logs/quantities.h"
+
+namespace awmr {
+
+/// What every window shares.
+struct LogModel {
+  Vehicle vehicle;
+  ParameterValues<double> held;  ///< all parameters; those among the quantities are overridden
+  std::vector<FreeQuantity> quantities;
+  std::vector<InitialComponent> initial;
+  NoiseLevels noise;
+  double longest_step_s = 0.01;  ///< of the integration
+};
+
+/// A window with n samples under q quantities and k components of the initial state.
+struct WindowResiduals {
+  Eigen::VectorXd raw;        ///< n: model + bias - measured, SI
+  Eigen::VectorXd residuals;  ///< n + k: standardised, whitened and weighed; the pulls to measured
+  /// (n + k) x (q + k): by coordinate, then by component; empty unless asked for.
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> jacobian;
+  bool finite = false;  ///< false where the model leaves the finite numbers
+};
+
+/// `coordinates` by quantity, `initial_state` by component.
+WindowResiduals evaluate(const LogModel& model, const FitWindow& window, const double* coordinates,
+                         const double* initial_state, bool with_jacobian);
+
+}  // namespace awmr

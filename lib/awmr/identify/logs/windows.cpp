@@ -1,0 +1,73 @@
+#include "awmr/identify/logs/windows.h"
+
+#include <array>
+#include <optional>
+
+#include "awmr/core/index.h"
+
+namespace awmr {
+namespace {
+
+std::vector<Sample> samples_of(const LogWindow& window) {
+  const DrivingLog& log = *window.log;
+  std::vector<Sample> samples;
+  std::array<std::optional<double>, kChannelCount> previous_s;
+  for (std::size_t row = window.begin; row < window.end; ++row) {
+    for (const LogChannel channel : kChannels) {
+      if (!is_measurement(log, channel, row)) continue;
+      auto& before_s = previous_s[at(channel)];
+      samples.push_back({row, channel, 1.0, before_s ? log.t_s[row] - *before_s : 0.0});
+      before_s = log.t_s[row];
+    }
+  }
+  return samples;
+}
+
+}  // namespace
+
+std::vector<FitWindow> fit_windows(const std::vector<DrivingLog>& logs) {
+  std::vector<FitWindow> windows;
+  for (const DrivingLog& log : logs) {
+    const auto signals = std::make_shared<const LogSignals>(log);
+    for (const LogWindow& rows : windows_of(log, kWindow_s)) {
+      FitWindow window{rows, signals, samples_of(rows), measured_initial_state(rows)};
+      if (!window.samples.empty()) windows.push_back(std::move(window));
+    }
+  }
+  return windows;
+}
+
+std::vector<InitialComponent> initial_components(const std::vector<DrivingLog>& logs) {
+  bool position = false;
+  bool heading = false;
+  bool servo = false;
+  for (const DrivingLog& log : logs) {
+    position = position || log[LogChannel::kX] || log[LogChannel::kY];
+    heading = heading || log[LogChannel::kHeading];
+    servo = servo || log.steering_command_rad;
+  }
+  std::vector<InitialComponent> components;
+  if (position) {
+    components.push_back({LogChannel::kX, 100.0});
+    components.push_back({LogChannel::kY, 100.0});
+  }
+  if (position || heading) components.push_back({LogChannel::kHeading, 10.0});
+  components.push_back({LogChannel::kSpeed, 1.0});
+  components.push_back({LogChannel::kSway, 1.0});
+  components.push_back({LogChannel::kYawRate, 1.0});
+  if (servo) components.push_back({LogChannel::kSteering, 0.2});
+  return components;
+}
+
+std::vector<double> measured_initial_states(const std::vector<FitWindow>& windows,
+                                            const std::vector<InitialComponent>& components) {
+  std::vector<double> states;
+  for (const FitWindow& window : windows) {
+    for (const InitialComponent& component : components) {
+      states.push_back(channel_of(window.measured, component.channel));
+    }
+  }
+  return states;
+}
+
+}  // namespace awmr

@@ -1,0 +1,47 @@
+/// The logs cut into windows, each with its samples and its own initial state (multiple shooting;
+/// the windows are not tied to each other, so that a disturbance spoils one window and not the
+/// rest). Private to identify/.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "awmr/trials/replay.h"
+
+namespace awmr {
+
+/// The length of a window.
+inline constexpr double kWindow_s = 10.0;
+
+/// One measured value: where it stands, and how it is weighed.
+struct Sample {
+  std::size_t row;
+  LogChannel channel;
+  double weight = 1.0;   ///< square root of a robust loss's weight
+  double since_s = 0.0;  ///< time since the window's previous sample of this channel; 0: the first
+};
+
+struct FitWindow {
+  LogWindow rows;
+  std::shared_ptr<const LogSignals> signals;  ///< the log's commands
+  std::vector<Sample> samples;                ///< in order of rows, never empty
+  State<double> measured{};                   ///< the initial state, as far as it was measured
+};
+
+/// The windows of all logs, which must outlive them; those without a sample are left out.
+std::vector<FitWindow> fit_windows(const std::vector<DrivingLog>& logs);
+
+/// A component of the initial state that is free in every window, by the channel that reads it.
+struct InitialComponent {
+  LogChannel channel;
+  double prior_std;  ///< of a weak pull to the measured or assumed initial state, SI
+};
+
+/// The components of the initial state that anything measured depends on.
+std::vector<InitialComponent> initial_components(const std::vector<DrivingLog>& logs);
+
+/// By window, then by component: the initial states as measured.
+std::vector<double> measured_initial_states(const std::vector<FitWindow>& windows,
+                                            const std::vector<InitialComponent>& components);
+
+}  // namespace awmr

@@ -1,0 +1,114 @@
+#include "awmr/trials/prediction.h"
+
+#include <array>
+#include <cmath>
+
+#include "awmr/core/index.h"
+#include "awmr/model/steady.h"
+#include "awmr/trials/replay.h"
+
+namespace awmr {
+namespace {
+
+/// Sums over the samples of a channel.
+struct Sums {
+  double one_step = 0.0;      ///< squared errors
+  double long_horizon = 0.0;  ///< squared errors
+  double measured = 0.0;
+  double squares = 0.0;  ///< of what was measured
+  int count = 0;
+};
+using ChannelSums = std::array<Sums, kChannelCount>;
+
+/// The model ready to run over any rows of a log.
+struct Predictor {
+  LogSignals signals;
+  Plant<double> plant;
+  double step_s;
+  double delay_s;
+};
+
+Predictor predictor(const DrivingLog& log, Plant<double> plant, double delay_s) {
+  const double step_s = replay_step_s(plant);
+  plant.surge.rest_speed = rest_speed(plant.surge, plant.mass_norm, step_s);
+  plant.yaw.rest_speed = rest_speed(plant.yaw, plant.inertia_norm, step_s);
+  return {LogSignals(log), plant, step_s, delay_s};
+}
+
+template <class Visit>
+void run(const Predictor& model, std::size_t begin, std::size_t end, const State<double>& initial,
+         Visit visit) {
+  replay<double>(model.signals, begin, end, model.plant,
+                 model.delay_s > 0.0 ? &model.delay_s : nullptr, model.step_s, initial, visit);
+}
+
+/// visit(channel, value) for everything that was measured in a row.
+template <class Visit>
+void each_measurement(const DrivingLog& log, std::size_t row, Visit visit) {
+  for (const LogChannel channel : kChannels) {
+    if (is_measurement(log, channel, row)) visit(channel, log[channel]->value[row]);
+  }
+}
+
+/// One row on from what was measured in this row, and from the long run for the rest.
+void add_one_step(const Predictor& model, std::size_t row, State<double> state, ChannelSums& sums) {
+  const DrivingLog& log = *model.signals.log;
+  each_measurement(log, row, [&](LogChannel channel, double measured) {
+    channel_of(state, channel) = measured;
+  });
+  run(model, row, row + 2, state, [&](std::size_t reached, const State<double>& next) {
+    if (reached == row) return;
+    each_measurement(log, reached, [&](LogChannel channel, double measured) {
+      const double error = channel_of(next, channel) - measured;
+      sums[at(channel)].one_step += error * error;
+    });
+  });
+}
+
+void add_window(const Predictor& model, const LogWindow& window, ChannelSums& sums) {
+  run(model, window.begin, window.end, measured_initial_state(window),
+      [&](std::size_t row, const State<double>& state) {
+        each_measurement(*window.log, row, [&](LogChannel channel, double measured) {
+          Sums& s = sums[at(channel)];
+          const double error = channel_of(state, channel) - measured;
+          s.long_horizon += error * error;
+          s.measured += measured;
+          s.squares += measured * measured;
+          ++s.count;
+        });
+        if (row + 1 < window.end) add_one_step(model, row, state, sums);
+      });
+}
+
+/// sum y^2 - n (mean y)^2
+double about_mean(const Sums& sums) {
+  const double n = sums.count;
+  const double mean = sums.measured / n;
+  return sums.squares - n * mean * mean;
+}
+
+PredictionError error_of(double squared_errors, const Sums& sums) {
+  const double n = sums.count;
+  return {std::sqrt(squared_errors / about_mean(sums)), 1.0 - squared_errors / about_mean(sums),
+          std::sqrt(squared_errors / n)};
+}
+
+}  // namespace
+
+std::vector<ChannelPrediction> predict_log(const DrivingLog& log, const Plant<double>& plant,
+                                           const PredictionOptions& options) {
+  const Predictor model = predictor(log, plant, options.delay_s);
+  ChannelSums sums{};
+  for (const LogWindow& window : windows_of(log, options.horizon_s)) {
+    add_window(model, window, sums);
+  }
+  std::vector<ChannelPrediction> predictions;
+  for (const LogChannel channel : kChannels) {
+    const Sums& s = sums[at(channel)];
+    if (s.count < 2 || !(about_mean(s) > 0.0)) continue;
+    predictions.push_back({channel, s.count, error_of(s.one_step, s), error_of(s.long_horizon, s)});
+  }
+  return predictions;
+}
+
+}  // namespace awmr
