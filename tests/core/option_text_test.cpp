@@ -1,0 +1,20 @@
+#include "awmr/core/option_text.h"
+
+#include <gtest/gtest.h>
+
+namespace awmr::testing {
+namespace {
+
+TEST(OptionText, IsSpeltAsTheCallerSpellsOptions) {
+  const std::string message = "use " + option_text("loss huber") + ", or " + option_text("joint");
+  EXPECT_EQ(spell_options(message, "--"), "use --loss huber, or --joint");
+  EXPECT_EQ(plain_text(message), "use loss huber, or joint");
+}
+
+TEST(OptionText, LeavesOtherBracesAlone) {
+  EXPECT_EQ(plain_text("{} {a} {option:"), "{} {a} {option:");
+  EXPECT_EQ(plain_text(""), "");
+}
+
+}  // namespace
+}  // namespace awmr::testing
