@@ -4,6 +4,8 @@
 
 #include <utility>
 
+#include "awmr/core/option_text.h"
+
 namespace awmr {
 namespace {
 
@@ -13,9 +15,9 @@ std::optional<std::string> try_rivals(BestFamily rivals, double aic, Adequacy& a
   adequacy.rivals.push_back(rivals.best.fit.report);
   if (rivals.finding) adequacy.findings.push_back(*rivals.finding);
   if (rivals.best.surge == Family::kPower) return std::nullopt;
-  return fmt::format(
-      "a power law does not describe these logs; --family surge={} does better by {:.0f} of AIC",
-      name_of(rivals.best.surge), aic - rivals.best.fit.aic);
+  return fmt::format("a power law does not describe these logs; {} does better by {:.0f} of AIC",
+                     option_text(fmt::format("family surge={}", name_of(rivals.best.surge))),
+                     aic - rivals.best.fit.aic);
 }
 
 }  // namespace
@@ -29,8 +31,8 @@ std::vector<Finding> autocorrelation_findings(const LogFit& fit, const std::stri
         {file, 0, Severity::kNote, "coloured-residuals",
          fmt::format("{}: the residuals stay correlated (p = {:.2g}) beyond what a first-order "
                      "process explains: the model misses something, and the intervals are too "
-                     "narrow by some factor; --bootstrap 1000 gives wider ones",
-                     test.name, test.p_value)});
+                     "narrow by some factor; {} gives wider ones",
+                     test.name, test.p_value, option_text("bootstrap 1000"))});
   }
   return findings;
 }
