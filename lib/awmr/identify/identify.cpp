@@ -67,8 +67,7 @@ void record(Step& step, Model& model) {
   std::move(step.findings.begin(), step.findings.end(), std::back_inserter(model.record.findings));
 }
 
-/// The surge or yaw law, as far as the runs show it. Reports go to the record after the main
-/// values, which take the profile intervals from them.
+/// The surge or yaw law, as far as the runs show it.
 SubjectFit identify_law(const Subject& subject, const SubjectOptions& options, MainValues& values) {
   SubjectFit fit = fit_subject(subject, options);
   if (fit.chosen) set_law(subject, fit, values);

@@ -33,18 +33,6 @@ Estimate from_log(double log_value, std::optional<double> variance, double degre
   return estimate;
 }
 
-/// The report of the chosen nonlinear fit that has profile intervals; null where there is none.
-const EstimatorReport* profiled_report(const SubjectFit& fit) {
-  const EstimatorReport* report = nullptr;
-  for (const EstimatorReport& r : fit.reports) {
-    if (!fit.log_linear && r.family == name_of(fit.problem.family) && !r.parameters.empty() &&
-        r.parameters.front().profile95) {
-      report = &r;
-    }
-  }
-  return report;
-}
-
 void set_beta_of_curve(const CoastFit& curve, Model& model) {
   const double error = std::sqrt(curve.beta_variance);
   const double half = t_quantile_95(curve.dof) * error;
@@ -136,13 +124,8 @@ void set_law(const Subject& subject, const SubjectFit& fit, MainValues& values) 
   Model& model = values.model;
   const bool surge = subject.name == FitSubject::kSurge;
   (surge ? model.surge_family : model.yaw_family) = family;
-  const EstimatorReport* profiled = profiled_report(fit);
-  const std::vector<TransformedParameter> coordinates = coordinates_of(family);
-  for (std::size_t i = 0; i < coordinates.size(); ++i) {
-    std::optional<Interval> profile;
-    if (profiled) profile = profiled->parameters[i].profile95;
-    model[parameter_of(subject, coordinates[i])] =
-        estimate_of(law, coordinates[i], profile, fit.method);
+  for (const TransformedParameter c : coordinates_of(family)) {
+    model[parameter_of(subject, c)] = estimate_of(law, c, {}, fit.method);
   }
   if (!terms_of(family).beta) model[subject.beta] = exponent_of_family(family);
   if (!law.has_covariance()) return;
