@@ -24,6 +24,19 @@ LogFit without_solution(std::string why, std::vector<SearchStart> starts) {
   return fit;
 }
 
+/// Empty where no bootstrap was asked for.
+std::vector<Interval> bootstrap_intervals(const LogProblem& problem,
+                                          const std::vector<double>& coordinates,
+                                          const std::vector<WindowResiduals>& residuals,
+                                          const Eigen::MatrixXd& covariance,
+                                          const LogFitOptions& options) {
+  if (options.bootstrap <= 0) return {};
+  const double block_s = block_length_s(problem.model.noise);
+  const auto scores = block_scores(problem.windows, residuals, covariance.rows(), block_s);
+  return block_bootstrap({problem.model.quantities, coordinates, covariance, scores},
+                         {.resamples = options.bootstrap, .seed = options.seed});
+}
+
 }  // namespace
 
 LogFit fit_logs(const std::vector<DrivingLog>& logs, const LogFitOptions& options) {
@@ -48,13 +61,8 @@ LogFit fit_logs(const std::vector<DrivingLog>& logs, const LogFitOptions& option
   const Eigen::Index n = rows_of(quantities);
   const Identifiability found =
       without_stopped(identifiability(information(residuals, n), quantities), problem, coordinates);
-  std::vector<Interval> bootstrap95;
-  if (options.bootstrap > 0) {
-    const double block_s = block_length_s(problem.model.noise);
-    const auto scores = block_scores(problem.windows, residuals, n, block_s);
-    bootstrap95 = block_bootstrap({quantities, coordinates, found.covariance, scores},
-                                  {.resamples = options.bootstrap, .seed = options.seed});
-  }
+  const std::vector<Interval> bootstrap95 =
+      bootstrap_intervals(problem, coordinates, residuals, found.covariance, options);
 
   EstimatorReport report = log_report({problem, solved, residuals, found, bootstrap95});
   report.starts = search.starts;
