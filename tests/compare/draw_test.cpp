@@ -104,6 +104,52 @@ TEST(PlantSampler, KeepsExponentsInTheVehiclesRange) {
   }
 }
 
+/// A family's term may be exactly 0, and half of a normal about 0 is what is left of it where it
+/// has to be 0 or more: of mean sigma sqrt(2/pi) and variance sigma^2 (1 - 2/pi).
+TEST(PlantSampler, DrawsATermFittedAsZeroFromTheHalfOfItsNormalAboveZero) {
+  constexpr double kSigma = 0.02;
+  Model model = testing::fitted_paper_model();
+  model.surge_family = Family::kCoulombPower;
+  model[ParameterId::kSurgeCoulomb] = {0.0, kSigma, Interval{0.0, 0.04}, Source::kFitted, ""};
+  model.covariance.parameters = {ParameterId::kSurgeAlpha, ParameterId::kSurgeCoulomb};
+  model.covariance.matrix = {{4e-4, 0.0}, {0.0, kSigma * kSigma}};
+  const auto sampler = PlantSampler::make(model);
+  ASSERT_TRUE(sampler);
+  double mean = 0.0;
+  for (int sample = 1; sample <= kDraws; ++sample) {
+    const auto plant = sampler->draw(7, sample);
+    ASSERT_TRUE(plant);
+    ASSERT_TRUE(std::isfinite(plant->surge.alpha));
+    ASSERT_TRUE(std::isfinite(plant->surge.coulomb));
+    ASSERT_GE(plant->surge.coulomb, 0.0);
+    mean += plant->surge.coulomb / kDraws;
+  }
+  const double half = 2.0 / std::acos(-1.0);
+  EXPECT_NEAR(mean, kSigma * std::sqrt(half), 5.0 * kSigma * std::sqrt((1.0 - half) / kDraws));
+}
+
+TEST(PlantSampler, DrawsATermWellAboveZeroAsTheNormalThatItsFitGave) {
+  constexpr double kSigma = 0.02;
+  constexpr double kValue = 0.2;  // ten standard errors from 0: none is drawn again
+  Model model = testing::fitted_paper_model();
+  model.surge_family = Family::kDeadZone;
+  model[ParameterId::kWheelDeadZone] = {kValue, kSigma, Interval{0.16, 0.24}, Source::kFitted, ""};
+  model.covariance.parameters = {ParameterId::kWheelDeadZone};
+  model.covariance.matrix = {{kSigma * kSigma}};
+  const auto sampler = PlantSampler::make(model);
+  ASSERT_TRUE(sampler);
+  double mean = 0.0;
+  double squares = 0.0;
+  for (int sample = 1; sample <= kDraws; ++sample) {
+    const double z = (sampler->draw(7, sample)->wheel_dead_zone - kValue) / kSigma;
+    mean += z / kDraws;
+    squares += z * z / kDraws;
+  }
+  // Of standard normals: the mean errs by 1/sqrt(n), the mean square by sqrt(2/n).
+  EXPECT_NEAR(mean, 0.0, 5.0 / std::sqrt(kDraws));
+  EXPECT_NEAR(squares, 1.0, 5.0 * std::sqrt(2.0 / kDraws));
+}
+
 TEST(PlantSampler, SaysWhenTheRangeLeavesNothingToDraw) {
   Model model = testing::uncertain_model();
   model[ParameterId::kSurgeBeta].value = 2.0;

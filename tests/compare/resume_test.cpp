@@ -5,6 +5,7 @@
 #include "awmr/compare/compare.h"
 #include "awmr/core/file.h"
 #include "awmr/core/json.h"
+#include "awmr/core/option_text.h"
 #include "awmr/model/gains_file.h"
 #include "compare/uncertain_model.h"
 #include "support/process.h"
@@ -83,7 +84,8 @@ TEST(Resume, RefusesAnotherComparisonsFiles) {
   other_model.inputs[0].sha256 = "abd";
   Provenance more_samples = kProvenance;
   more_samples.options[0].second = "60";
-  EXPECT_THAT(to_text(read_finished(directory.path(), other_seed).error()), HasSubstr("--seed"));
+  EXPECT_THAT(to_text(read_finished(directory.path(), other_seed).error()),
+              HasSubstr(option_text("seed")));
   EXPECT_THAT(to_text(read_finished(directory.path(), other_model).error()),
               HasSubstr("other inputs"));
   EXPECT_TRUE(read_finished(directory.path(), more_samples));

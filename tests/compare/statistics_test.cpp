@@ -15,14 +15,6 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-const MetricColumn& column(std::string_view name) {
-  for (const MetricColumn& metric : kMetricColumns) {
-    if (metric.name == name) return metric;
-  }
-  ADD_FAILURE() << name;
-  return kMetricColumns.front();
-}
-
 ComparisonRow row(YawMode mode, int sample, double iae_degs, bool completed = true) {
   ComparisonRow r{.scenario = "s", .mode = mode, .sample = sample, .metrics = {}};
   r.metrics.completed = completed;
@@ -45,19 +37,19 @@ TEST(Summary, LeavesTheNominalRunOutOfTheSamples) {
     c.rows.push_back(row(YawMode::kSteering, i, i == 0 ? 100.0 : i));
   }
   const auto groups = group(c);
-  const Summary s = summarise(groups[0].modes[0], column("heading_iae_degs"));
+  const Summary s = summarise(groups[0].modes[0], column_of(MetricId::kHeadingIae));
   EXPECT_EQ(s.nominal, 100.0);
   EXPECT_EQ(s.count, 4U);
   EXPECT_EQ(s.mean, 2.5);
   EXPECT_EQ(s.q50, 2.5);
-  EXPECT_FALSE(summarise(groups[0].modes[0], column("clearance_min_m")).mean);
+  EXPECT_FALSE(summarise(groups[0].modes[0], column_of(MetricId::kClearance)).mean);
 }
 
 TEST(Summary, WithoutSamplesHasTheNominalMeanAndNoQuantiles) {
   Comparison c;
   c.rows.push_back(row(YawMode::kSteering, 0, 3.0));
   const auto groups = group(c);
-  const Summary s = summarise(groups[0].modes[0], column("heading_iae_degs"));
+  const Summary s = summarise(groups[0].modes[0], column_of(MetricId::kHeadingIae));
   EXPECT_EQ(s.mean, 3.0);
   EXPECT_FALSE(s.q05 || s.q50 || s.q95);
 }
@@ -79,15 +71,15 @@ Comparison paired(int samples, double difference_spread) {
 
 PairedDifference iae_difference(const Comparison& c, std::uint64_t seed) {
   for (const PairedDifference& d : paired_differences(group(c)[0], seed, 0)) {
-    if (d.metric == "heading_iae_degs") return d;
+    if (d.metric == MetricId::kHeadingIae) return d;
   }
   return {};
 }
 
 TEST(PairedDifferences, CancelWhatTheModesShare) {
   const PairedDifference d = iae_difference(paired(100, 0.0), 1);
-  EXPECT_EQ(d.first, YawMode::kDifferential);
-  EXPECT_EQ(d.second, YawMode::kSteering);
+  EXPECT_EQ(d.first.mode, YawMode::kDifferential);
+  EXPECT_EQ(d.second.mode, YawMode::kSteering);
   EXPECT_EQ(d.count, 100U);
   // Differences of numbers near 50: a few units of 50 * 2^-53.
   EXPECT_NEAR(*d.mean, -1.0, 1e-13);
@@ -139,7 +131,7 @@ TEST(Ranking, PutsTheLowestScoreFirstAndNamesTies) {
   EXPECT_THAT(ranks(ranking), ElementsAre(1, 1, 3));
   EXPECT_THAT(ranking[0].tied_with, ElementsAre("combined"));
   EXPECT_THAT(ranking[1].tied_with, ElementsAre("differential"));
-  EXPECT_EQ(ranking[2].mode, YawMode::kSteering);
+  EXPECT_EQ(ranking[2].contender.mode, YawMode::kSteering);
   EXPECT_THAT(ranking[2].tied_with, IsEmpty());
   EXPECT_GT(ranking[2].score, ranking[0].score);
 }
@@ -149,8 +141,8 @@ TEST(Ranking, NeverLetsAFailureBeatASuccess) {
   c.rows = {row(YawMode::kDifferential, 0, 1.0, false), row(YawMode::kSteering, 0, 40.0),
             row(YawMode::kCombined, 0, 20.0)};
   const auto ranking = rank(group(c)[0]);
-  EXPECT_EQ(ranking[0].mode, YawMode::kCombined);
-  EXPECT_EQ(ranking[2].mode, YawMode::kDifferential);
+  EXPECT_EQ(ranking[0].contender.mode, YawMode::kCombined);
+  EXPECT_EQ(ranking[2].contender.mode, YawMode::kDifferential);
   EXPECT_EQ(ranking[2].rank, 3);
 }
 

@@ -83,7 +83,7 @@ TEST(Tally, CountsTheBestAndWhatIsNotToldApart) {
   const auto tallies =
       tally({{&clear.rows, &clear.differences}, {&alike.rows, &alike.differences}});
   ASSERT_EQ(tallies.size(), 4U);  // those, and sideslip and control variation, which are 0
-  EXPECT_EQ(tallies[0].metric, "settling_time_s");
+  EXPECT_EQ(tallies[0].metric, MetricId::kSettlingTime);
   EXPECT_EQ(tallies[0].scenarios, 2);
   EXPECT_THAT(tallies[0].best_or_tied, ElementsAre(2, 1));
   EXPECT_THAT(tallies[1].best_or_tied, ElementsAre(2, 2));

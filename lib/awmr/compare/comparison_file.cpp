@@ -53,9 +53,9 @@ Json mode_json(const ModeRows& rows) {
 }
 
 Json difference_json(const PairedDifference& d) {
-  return {{"first", d.first_label},
-          {"second", d.second_label},
-          {"metric", d.metric},
+  return {{"first", d.first.label()},
+          {"second", d.second.label()},
+          {"metric", column_of(d.metric).name},
           {"nominal", optional_json(d.nominal)},
           {"count", d.count},
           {"mean", optional_json(d.mean)},
@@ -66,7 +66,7 @@ Json difference_json(const PairedDifference& d) {
 
 Json ranked_json(const RankedMode& ranked) {
   Json json = {{"rank", ranked.rank},
-               {"mode", ranked.label},
+               {"mode", ranked.contender.label()},
                {"score", ranked.score},
                {"completed_share", ranked.completed_share},
                {"behind_ci95", interval_json(ranked.behind_ci95)},
@@ -123,8 +123,9 @@ Json overall_json(const std::vector<Judged>& scenarios) {
     for (std::size_t i = 0; i < one.best_or_tied.size(); ++i) {
       counts[ranked.front().rows->modes[i].label()] = one.best_or_tied[i];
     }
-    json.push_back(
-        {{"metric", one.metric}, {"scenarios", one.scenarios}, {"best_or_tied", counts}});
+    json.push_back({{"metric", column_of(one.metric).name},
+                    {"scenarios", one.scenarios},
+                    {"best_or_tied", counts}});
   }
   return json;
 }
@@ -152,7 +153,7 @@ Json ranking_json() {
   json["score"] = kScoreFormula;
   json["metrics"] = Json::array();
   for (const MetricColumn& metric : kMetricColumns) {
-    if (!(metric.ranking_floor > 0.0)) continue;
+    if (!metric.ranked()) continue;
     json["metrics"].push_back({{"name", metric.name}, {"floor", metric.ranking_floor}});
   }
   json["tie_margin"] = kTieMargin;

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "awmr/compare/overall.h"
@@ -11,25 +10,15 @@
 namespace awmr {
 namespace {
 
-/// Short heads of the metrics' columns, in their order.
-constexpr std::array<const char*, kMetricColumns.size()> kHeads = {
-    "settle", "overs.", "IAE", "x-track", "path", "drop", "slip", "yaw", "var.", "clear", "finish"};
-
 /// At most 7 characters up to 10^7.
 std::string figure(double value) {
   return fmt::format("{:.{}f}", value, std::abs(value) < 100.0 ? 3 : std::abs(value) < 1e4 ? 1 : 0);
 }
 
-/// Whether any mode has the metric: the others' columns are left out.
-bool is_shown(const ScenarioRows& scenario, const MetricColumn& metric) {
-  return std::any_of(scenario.modes.begin(), scenario.modes.end(), [&](const ModeRows& rows) {
-    return summarise(rows, metric).mean.has_value();
-  });
-}
-
-std::string place_of(const std::string& label, const std::vector<RankedMode>& ranking) {
+/// "1", "2=" for a tie, "-" where nothing was ranked.
+std::string place_of(const Contender& contender, const std::vector<RankedMode>& ranking) {
   for (const RankedMode& ranked : ranking) {
-    if (ranked.label == label) {
+    if (ranked.contender == contender) {
       return fmt::format("{}{}", ranked.rank, ranked.tied_with.empty() ? "" : "=");
     }
   }
@@ -58,6 +47,7 @@ std::string wrapped(const std::string& text) {
   return out;
 }
 
+/// A line per mode, a column per metric that some mode has.
 std::string table_of(const ScenarioRows& scenario, const std::vector<RankedMode>& ranking) {
   std::size_t width = 12;
   for (const ModeRows& rows : scenario.modes) width = std::max(width, rows.label().size());
@@ -68,18 +58,19 @@ std::string table_of(const ScenarioRows& scenario, const std::vector<RankedMode>
     lines.push_back(
         fmt::format("  {:<{}} {:>4.0f}", rows.label(), width, 100.0 * rows.completed_share()));
   }
-  for (std::size_t i = 0; i < kMetricColumns.size(); ++i) {
-    if (!is_shown(scenario, kMetricColumns[i])) continue;
-    head += fmt::format(" {:>7}", kHeads[i]);
-    units += fmt::format(" {:>7}", kMetricColumns[i].unit);
+  for (const MetricColumn& metric : kMetricColumns) {
+    if (!any_has(scenario, metric)) continue;
+    head += fmt::format(" {:>7}", metric.head);
+    units += fmt::format(" {:>7}", metric.unit);
     for (std::size_t mode = 0; mode < lines.size(); ++mode) {
-      const auto mean = summarise(scenario.modes[mode], kMetricColumns[i]).mean;
+      const auto mean = summarise(scenario.modes[mode], metric).mean;
       lines[mode] += fmt::format(" {:>7}", mean ? figure(*mean) : "-");
     }
   }
   std::string text = head + " rank\n" + units + '\n';
   for (std::size_t mode = 0; mode < lines.size(); ++mode) {
-    text += fmt::format("{} {:>4}\n", lines[mode], place_of(scenario.modes[mode].label(), ranking));
+    text +=
+        fmt::format("{} {:>4}\n", lines[mode], place_of(scenario.modes[mode].contender, ranking));
   }
   return text;
 }
@@ -94,7 +85,7 @@ std::string overall_of(const std::vector<JudgedScenario>& scenarios) {
   }
   text += '\n';
   for (const MetricTally& one : tally(scenarios)) {
-    text += fmt::format("  {:<20} {:>9}", one.metric, one.scenarios);
+    text += fmt::format("  {:<20} {:>9}", column_of(one.metric).name, one.scenarios);
     for (std::size_t i = 0; i < one.best_or_tied.size(); ++i) {
       const std::size_t width =
           std::max<std::size_t>(12, scenarios.front().rows->modes[i].label().size());

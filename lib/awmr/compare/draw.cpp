@@ -3,10 +3,14 @@
 #include <fmt/format.h>
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
+#include "awmr/core/index.h"
 #include "awmr/core/random.h"
+#include "awmr/model/transform.h"
 
 namespace awmr {
 namespace {
@@ -17,18 +21,11 @@ constexpr int kMostTries = 1000;
 /// 17 digits, a derived parameter (m' from a1, b1) makes it singular.
 constexpr double kSingularTolerance = 1e-9;
 
-bool is_exponent(ParameterId id) {
-  return id == ParameterId::kSurgeBeta || id == ParameterId::kYawBeta;
-}
-
 bool in_range(const Vehicle& vehicle, ParameterId id, double value) {
   if (id == ParameterId::kSurgeBeta) return vehicle.surge_beta_range.contains(value);
   if (id == ParameterId::kYawBeta) return vehicle.yaw_beta_range.contains(value);
-  return true;
+  return !info(id).term || value >= 0.0;
 }
-
-/// d p/d z of the drawn coordinate z: p for z = ln p, 1 for z = p.
-double scale_of(ParameterId id, double value) { return is_exponent(id) ? 1.0 : value; }
 
 Status check_shape(const Covariance& covariance, const std::string& place) {
   const std::size_t n = covariance.parameters.size();
@@ -46,52 +43,70 @@ Status check_shape(const Covariance& covariance, const std::string& place) {
   return {};
 }
 
-}  // namespace
-
-Result<PlantSampler> PlantSampler::make(const Model& model) {
-  if (const auto plant = model.plant(); !plant) return tl::unexpected(plant.error());
-  const std::string place = model.file + ":/covariance";
-  const Covariance& covariance = model.covariance;
-  if (const Status shape = check_shape(covariance, place); !shape) {
-    return tl::unexpected(shape.error());
-  }
-
-  PlantSampler sampler;
-  sampler.model_ = model;
-  const auto n = static_cast<Eigen::Index>(covariance.parameters.size());
-  Eigen::MatrixXd drawn(n, n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const ParameterId id_i = covariance.parameters[static_cast<std::size_t>(i)];
-    const double value = *model[id_i].value;
-    sampler.centre_.push_back(is_exponent(id_i) ? value : std::log(value));
-    for (Eigen::Index j = 0; j < n; ++j) {
-      const ParameterId id_j = covariance.parameters[static_cast<std::size_t>(j)];
-      drawn(i, j) = covariance.matrix[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] /
-                    (scale_of(id_i, value) * scale_of(id_j, *model[id_j].value));
+/// Cov(z_p, z_q) = C_pq / (dp/dz_p dq/dz_q)
+Eigen::MatrixXd coordinate_covariance(const Model& model) {
+  const std::vector<ParameterId>& ids = model.covariance.parameters;
+  Eigen::MatrixXd covariance(rows_of(ids), rows_of(ids));
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    for (std::size_t j = 0; j < ids.size(); ++j) {
+      covariance(eigen_index(i), eigen_index(j)) =
+          model.covariance.matrix[i][j] /
+          (jacobian(ids[i], *model[ids[i]].value) * jacobian(ids[j], *model[ids[j]].value));
     }
   }
+  return covariance;
+}
 
-  // C = V diag(w) V^T  =>  L = V diag(sqrt w), which also holds for a singular C.
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(drawn);
+/// L with L L^T = C; none where C is no covariance.
+///   C = V diag(w) V^T  =>  L = V diag(sqrt w), which also holds for a singular C.
+std::optional<Eigen::MatrixXd> factor_of(const Eigen::MatrixXd& covariance) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(covariance);
   const double largest = eigen.eigenvalues().maxCoeff();
   if (eigen.info() != Eigen::Success || !std::isfinite(largest) ||
       eigen.eigenvalues().minCoeff() < -kSingularTolerance * std::abs(largest)) {
+    return std::nullopt;
+  }
+  return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+}
+
+/// Why there was nothing to draw, and what to do.
+tl::unexpected<Error> nothing_to_draw(const Model& model) {
+  const std::vector<ParameterId>& ids = model.covariance.parameters;
+  const bool terms =
+      std::any_of(ids.begin(), ids.end(), [](ParameterId id) { return info(id).term; });
+  return input_error(
+      model.file + ":/vehicle",
+      fmt::format("{} draws of the exponents{} all fell outside surge_beta_range or "
+                  "yaw_beta_range{}: widen the range, or identify from more trials",
+                  kMostTries, terms ? " and terms" : "", terms ? ", or below 0" : ""));
+}
+
+}  // namespace
+
+Result<PlantSampler> PlantSampler::make(const Model& model) {
+  AWMR_RETURN_IF_ERROR(model.plant());
+  const std::string place = model.file + ":/covariance";
+  AWMR_RETURN_IF_ERROR(check_shape(model.covariance, place));
+  const std::optional<Eigen::MatrixXd> factor = factor_of(coordinate_covariance(model));
+  if (!factor) {
     return input_error(place + "/matrix",
                        "is no covariance: it is not positive semi-definite; identify again");
   }
-  const Eigen::MatrixXd factor =
-      eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
-  for (Eigen::Index i = 0; i < n; ++i) {
+  PlantSampler sampler;
+  sampler.model_ = model;
+  for (const ParameterId id : model.covariance.parameters) {
+    sampler.centre_.push_back(to_coordinate(id, *model[id].value));
+  }
+  for (Eigen::Index i = 0; i < factor->rows(); ++i) {
     std::vector<double>& row = sampler.factor_.emplace_back();
-    for (Eigen::Index j = 0; j < n; ++j) row.push_back(factor(i, j));
+    for (Eigen::Index j = 0; j < factor->cols(); ++j) row.push_back((*factor)(i, j));
   }
   return sampler;
 }
 
 Result<Plant<double>> PlantSampler::draw(std::uint64_t seed, int sample) const {
-  const Result<Model> drawn = draw_model(seed, sample);
-  if (!drawn) return tl::unexpected(drawn.error());
-  return drawn->plant();
+  AWMR_ASSIGN_OR_RETURN(const Model drawn, draw_model(seed, sample));
+  return drawn.plant();
 }
 
 Result<Model> PlantSampler::draw_model(std::uint64_t seed, int sample) const {
@@ -105,16 +120,13 @@ Result<Model> PlantSampler::draw_model(std::uint64_t seed, int sample) const {
     for (std::size_t i = 0; i < ids.size(); ++i) {
       double z = centre_[i];
       for (std::size_t j = 0; j < ids.size(); ++j) z += factor_[i][j] * normals[j];
-      const double value = is_exponent(ids[i]) ? z : std::exp(z);
+      const double value = from_coordinate(ids[i], z);
       accepted = accepted && in_range(model_.vehicle, ids[i], value);
       drawn[ids[i]].value = value;
     }
     if (accepted) return drawn;
   }
-  return input_error(model_.file + ":/vehicle",
-                     fmt::format("{} draws of the exponents all fell outside surge_beta_range or "
-                                 "yaw_beta_range: widen the range, or identify from more trials",
-                                 kMostTries));
+  return nothing_to_draw(model_);
 }
 
 }  // namespace awmr

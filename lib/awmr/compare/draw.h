@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include "awmr/core/result.h"
@@ -10,26 +9,31 @@
 
 namespace awmr {
 
-/// Draws the parameters of the model's covariance C, the others stay at their values. A quantity
-/// that has to be positive is drawn in its logarithm, where by the delta method
-///   Cov(ln p, ln q) = C_pq/(p q),   Cov(ln p, q) = C_pq/p,
-/// so that its median is the model's value; exponents b are drawn as they are and drawn again,
-/// all parameters together, until they lie in the vehicle's surge_beta_range and yaw_beta_range.
+/// Draws the parameters of the model's covariance C, the others stay at their values. The
+/// coordinate z of a parameter p (model/transform.h) is drawn from a normal about its estimate; by
+/// the delta method, with dp/dz = p for a logarithm and 1 for a linear coordinate,
+///   Cov(z_p, z_q) = C_pq / (dp/dz_p dq/dz_q).
+///
+/// A quantity that has to be positive is drawn in its logarithm, so that its median is the model's
+/// value. Exponents b and a family's terms (Coulomb, quadratic, dead zone) are drawn as they are,
+/// and all parameters are drawn again until the exponents lie in the vehicle's surge_beta_range and
+/// yaw_beta_range and no term is negative. A term that was fitted as 0 is thus drawn from the half
+/// of its normal above 0: its mean is 0.8 of its standard error, no longer the estimate.
 class PlantSampler {
  public:
   /// Errors (input): a parameter has no value; no covariance; one that is no covariance.
   static Result<PlantSampler> make(const Model& model);
 
-  /// The plant of `sample` (>= 1): depends on seed and sample alone. Errors (input): the ranges of
-  /// the exponents leave next to nothing to draw.
+  /// The plant of `sample` (>= 1): depends on seed and sample alone. Errors (input): what the
+  /// exponents and terms may be leaves next to nothing to draw.
   Result<Plant<double>> draw(std::uint64_t seed, int sample) const;
   /// The same as a model, whose intervals are still those of the identified one.
   Result<Model> draw_model(std::uint64_t seed, int sample) const;
 
  private:
   Model model_;
-  std::vector<double> centre_;               ///< ln p or b, by position in the covariance
-  std::vector<std::vector<double>> factor_;  ///< L with L L^T = the covariance of those
+  std::vector<double> centre_;               ///< z by position in the covariance
+  std::vector<std::vector<double>> factor_;  ///< L with L L^T = Cov(z)
 };
 
 }  // namespace awmr

@@ -4,43 +4,65 @@
 #include <array>
 #include <optional>
 #include <string_view>
+#include <variant>
 
+#include "awmr/core/index.h"
 #include "awmr/simulate/metrics.h"
 
 namespace awmr {
 
+/// The position in kMetricColumns.
+enum class MetricId {
+  kSettlingTime,
+  kOvershoot,
+  kHeadingIae,
+  kCrossTrack,
+  kPathLength,
+  kSpeedDrop,
+  kSideslip,
+  kYawRate,
+  kControlVariation,
+  kClearance,
+  kFinishTime,
+};
+
 struct MetricColumn {
-  std::string_view name;
+  MetricId id;
+  std::string_view name;  ///< in comparison.csv and comparison.json
+  std::string_view head;  ///< of the table on a terminal: at most 7 characters
   std::string_view unit;
-  std::optional<double> (*value)(const Metrics&);
-  /// > 0: lower is better and the ranking counts it; the floor is what is too small to matter, in
-  /// the metric's unit (ranking.h). 0: not ranked.
+  std::variant<double Metrics::*, std::optional<double> Metrics::*> figure;
+  /// In the metric's unit, >= 0: what is too small to matter (ranking.h). Lower is better for a
+  /// metric that has one, and the ranking counts it; 0: not ranked.
   double ranking_floor = 0.0;
+
+  bool ranked() const { return ranking_floor > 0.0; }
+  /// Absent where the metric has no meaning for the run.
+  std::optional<double> value(const Metrics& metrics) const {
+    return std::visit([&](auto member) { return std::optional<double>(metrics.*member); }, figure);
+  }
+  void set(Metrics& metrics, double value) const {
+    std::visit([&](auto member) { metrics.*member = value; }, figure);
+  }
 };
 
 inline constexpr std::array<MetricColumn, 11> kMetricColumns = {{
-    {"settling_time_s", "s",
-     [](const Metrics& m) -> std::optional<double> { return m.settling_time_s; }, 0.1},
-    {"overshoot_deg", "deg",
-     [](const Metrics& m) -> std::optional<double> { return m.overshoot_deg; }, 0.5},
-    {"heading_iae_degs", "deg s",
-     [](const Metrics& m) -> std::optional<double> { return m.heading_iae_degs; }, 1.0},
-    {"cross_track_rms_m", "m",
-     [](const Metrics& m) -> std::optional<double> { return m.cross_track_rms_m; }, 0.05},
-    {"path_length_m", "m",
-     [](const Metrics& m) -> std::optional<double> { return m.path_length_m; }},
-    {"speed_drop_mps", "m/s",
-     [](const Metrics& m) -> std::optional<double> { return m.speed_drop_mps; }, 0.02},
-    {"sideslip_max_deg", "deg",
-     [](const Metrics& m) -> std::optional<double> { return m.sideslip_max_deg; }, 0.5},
-    {"yaw_rate_max_degps", "deg/s",
-     [](const Metrics& m) -> std::optional<double> { return m.yaw_rate_max_degps; }},
-    {"control_variation", "1/s",
-     [](const Metrics& m) -> std::optional<double> { return m.control_variation; }, 0.05},
-    {"clearance_min_m", "m",
-     [](const Metrics& m) -> std::optional<double> { return m.clearance_min_m; }},
-    {"finish_time_s", "s",
-     [](const Metrics& m) -> std::optional<double> { return m.finish_time_s; }, 0.1},
+    {MetricId::kSettlingTime, "settling_time_s", "settle", "s", &Metrics::settling_time_s, 0.1},
+    {MetricId::kOvershoot, "overshoot_deg", "overs.", "deg", &Metrics::overshoot_deg, 0.5},
+    {MetricId::kHeadingIae, "heading_iae_degs", "IAE", "deg s", &Metrics::heading_iae_degs, 1.0},
+    {MetricId::kCrossTrack, "cross_track_rms_m", "x-track", "m", &Metrics::cross_track_rms_m, 0.05},
+    {MetricId::kPathLength, "path_length_m", "path", "m", &Metrics::path_length_m},
+    {MetricId::kSpeedDrop, "speed_drop_mps", "drop", "m/s", &Metrics::speed_drop_mps, 0.02},
+    {MetricId::kSideslip, "sideslip_max_deg", "slip", "deg", &Metrics::sideslip_max_deg, 0.5},
+    {MetricId::kYawRate, "yaw_rate_max_degps", "yaw", "deg/s", &Metrics::yaw_rate_max_degps},
+    {MetricId::kControlVariation, "control_variation", "var.", "1/s", &Metrics::control_variation,
+     0.05},
+    {MetricId::kClearance, "clearance_min_m", "clear", "m", &Metrics::clearance_min_m},
+    {MetricId::kFinishTime, "finish_time_s", "finish", "s", &Metrics::finish_time_s, 0.1},
 }};
+
+inline const MetricColumn& column_of(MetricId id) {
+  return kMetricColumns[at(id)];
+}
 
 }  // namespace awmr

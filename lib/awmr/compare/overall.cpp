@@ -8,10 +8,10 @@
 namespace awmr {
 namespace {
 
-/// Of a metric's scale: a smaller nominal difference decides nothing.
+/// A nominal difference below this share of the metric's scale decides nothing.
 constexpr double kAlikeShare = 0.01;
 
-/// Whether `other` is told to be better than `own` in the metric.
+/// Whether the runs tell that `other` is better than `own` in the metric.
 bool beats(const JudgedScenario& scenario, const MetricColumn& metric, const ModeRows& other,
            const ModeRows& own) {
   const auto theirs = summarise(other, metric).mean;
@@ -20,17 +20,10 @@ bool beats(const JudgedScenario& scenario, const MetricColumn& metric, const Mod
   if (!mine) return true;
   if (!(*theirs < *mine)) return false;
   for (const PairedDifference& d : *scenario.differences) {
-    const bool pair = (d.first_label == other.label() && d.second_label == own.label()) ||
-                      (d.first_label == own.label() && d.second_label == other.label());
-    if (pair && d.metric == metric.name && d.p_holm) return *d.p_holm < kSignificance;
+    if (d.metric != metric.id || !d.p_holm) continue;
+    if (d.is_between(own.contender, other.contender)) return *d.p_holm < kSignificance;
   }
-  return *mine - *theirs > kAlikeShare * scale_of(*scenario.rows, metric);
-}
-
-bool any_has(const ScenarioRows& scenario, const MetricColumn& metric) {
-  return std::any_of(scenario.modes.begin(), scenario.modes.end(), [&](const ModeRows& rows) {
-    return summarise(rows, metric).mean.has_value();
-  });
+  return *mine - *theirs > kAlikeShare * ranking_scale(*scenario.rows, metric);
 }
 
 }  // namespace
@@ -40,8 +33,8 @@ std::vector<MetricTally> tally(const std::vector<JudgedScenario>& scenarios) {
   if (scenarios.empty()) return tallies;
   const std::size_t contenders = scenarios.front().rows->modes.size();
   for (const MetricColumn& metric : kMetricColumns) {
-    if (!(metric.ranking_floor > 0.0)) continue;
-    MetricTally one{metric.name, 0, std::vector<int>(contenders, 0)};
+    if (!metric.ranked()) continue;
+    MetricTally one{metric.id, 0, std::vector<int>(contenders, 0)};
     for (const JudgedScenario& scenario : scenarios) {
       if (!any_has(*scenario.rows, metric)) continue;
       ++one.scenarios;

@@ -1,8 +1,6 @@
 /// Which mode is best for what, over all scenarios. Private to this folder.
 #pragma once
 
-#include <string>
-#include <string_view>
 #include <vector>
 
 #include "awmr/compare/statistics.h"
@@ -11,7 +9,7 @@ namespace awmr {
 
 /// In how many scenarios each contender was the best in one metric, or not told apart from it.
 struct MetricTally {
-  std::string_view metric;
+  MetricId metric{};
   int scenarios = 0;              ///< that were ranked and have the metric in some mode
   std::vector<int> best_or_tied;  ///< by contender, as ScenarioRows::modes
 };

@@ -12,17 +12,11 @@ namespace {
 /// The bootstrap of scores is apart from that of differences (statistics.cpp) and from the draws.
 constexpr std::uint64_t kScoreStream = std::uint64_t{3} << 62U;
 
-/// True where some mode was judged by how well it followed a command.
+/// Whether some mode was judged by how well it followed a command.
 bool has_a_goal(const ScenarioRows& scenario) {
   return std::any_of(scenario.modes.begin(), scenario.modes.end(), [](const ModeRows& rows) {
     const Metrics& m = rows.nominal();
     return m.heading_iae_degs || m.cross_track_rms_m || m.finish_time_s;
-  });
-}
-
-bool any_has(const ScenarioRows& scenario, const MetricColumn& metric) {
-  return std::any_of(scenario.modes.begin(), scenario.modes.end(), [&](const ModeRows& rows) {
-    return summarise(rows, metric).mean.has_value();
   });
 }
 
@@ -35,8 +29,8 @@ struct Scale {
 std::vector<Scale> scales_of(const ScenarioRows& scenario) {
   std::vector<Scale> scales;
   for (const MetricColumn& metric : kMetricColumns) {
-    if (metric.ranking_floor > 0.0 && any_has(scenario, metric)) {
-      scales.push_back({&metric, scale_of(scenario, metric)});
+    if (metric.ranked() && any_has(scenario, metric)) {
+      scales.push_back({&metric, ranking_scale(scenario, metric)});
     }
   }
   return scales;
@@ -84,6 +78,8 @@ Interval score_difference(const ModeRows& a, const ModeRows& b, const std::vecto
   return {quantile(means, 0.025), quantile(means, 0.975)};
 }
 
+/// Whether the two shares of completed runs are not told apart: by the exact McNemar test, or for a
+/// single run by being equal.
 bool complete_alike(const ModeRows& a, const ModeRows& b) {
   const auto first = a.counted();
   const auto second = b.counted();
@@ -97,9 +93,9 @@ bool complete_alike(const ModeRows& a, const ModeRows& b) {
   return mcnemar_p(only_first, only_second) >= kSignificance;
 }
 
-const ModeRows& rows_of(const ScenarioRows& scenario, const RankedMode& ranked) {
+const ModeRows& runs_of(const ScenarioRows& scenario, const RankedMode& ranked) {
   return *std::find_if(scenario.modes.begin(), scenario.modes.end(),
-                       [&](const ModeRows& rows) { return rows.label() == ranked.label; });
+                       [&](const ModeRows& rows) { return rows.contender == ranked.contender; });
 }
 
 /// Best first, ranks not yet given.
@@ -108,8 +104,7 @@ std::vector<RankedMode> sorted_modes(const ScenarioRows& scenario,
   std::vector<RankedMode> ranked;
   for (const ModeRows& rows : scenario.modes) {
     ranked.push_back({.rank = 0,
-                      .mode = rows.mode,
-                      .label = rows.label(),
+                      .contender = rows.contender,
                       .score = score_of(rows, scales),
                       .completed_share = rows.completed_share(),
                       .behind_ci95 = {},
@@ -125,7 +120,7 @@ std::vector<RankedMode> sorted_modes(const ScenarioRows& scenario,
 
 }  // namespace
 
-double scale_of(const ScenarioRows& scenario, const MetricColumn& metric) {
+double ranking_scale(const ScenarioRows& scenario, const MetricColumn& metric) {
   double worst = metric.ranking_floor;
   for (const ModeRows& rows : scenario.modes) {
     worst = std::max(worst, summarise(rows, metric).mean.value_or(0.0));
@@ -140,8 +135,8 @@ std::vector<RankedMode> rank(const ScenarioRows& scenario, std::uint64_t seed,
   std::vector<RankedMode> ranked = sorted_modes(scenario, scales);
   std::size_t leader = 0;  // the best of the current rank
   for (std::size_t i = 0; i < ranked.size(); ++i) {
-    const ModeRows& own = rows_of(scenario, ranked[i]);
-    const ModeRows& best = rows_of(scenario, ranked[leader]);
+    const ModeRows& own = runs_of(scenario, ranked[i]);
+    const ModeRows& best = runs_of(scenario, ranked[leader]);
     bool near = ranked[i].score - ranked[leader].score <= kTieMargin;
     if (i != leader && own.counted().size() >= 2) {
       ranked[i].behind_ci95 =
@@ -153,8 +148,8 @@ std::vector<RankedMode> rank(const ScenarioRows& scenario, std::uint64_t seed,
   }
   for (RankedMode& mode : ranked) {
     for (const RankedMode& other : ranked) {
-      if (other.rank == mode.rank && other.label != mode.label) {
-        mode.tied_with.push_back(other.label);
+      if (other.rank == mode.rank && other.contender != mode.contender) {
+        mode.tied_with.push_back(other.contender.label());
       }
     }
   }

@@ -10,6 +10,7 @@
 #include "awmr/compare/metric_columns.h"
 #include "awmr/core/file.h"
 #include "awmr/core/json.h"
+#include "awmr/core/option_text.h"
 
 namespace awmr {
 namespace {
@@ -46,47 +47,7 @@ bool read_number(const std::string& text, Number& value) {
   return error == std::errc{} && end == text.data() + text.size();
 }
 
-/// By position in kMetricColumns, back into the metrics.
-bool set_metric(Metrics& m, std::size_t column, double value) {
-  switch (column) {
-    case 0:
-      m.settling_time_s = value;
-      return true;
-    case 1:
-      m.overshoot_deg = value;
-      return true;
-    case 2:
-      m.heading_iae_degs = value;
-      return true;
-    case 3:
-      m.cross_track_rms_m = value;
-      return true;
-    case 4:
-      m.path_length_m = value;
-      return true;
-    case 5:
-      m.speed_drop_mps = value;
-      return true;
-    case 6:
-      m.sideslip_max_deg = value;
-      return true;
-    case 7:
-      m.yaw_rate_max_degps = value;
-      return true;
-    case 8:
-      m.control_variation = value;
-      return true;
-    case 9:
-      m.clearance_min_m = value;
-      return true;
-    case 10:
-      m.finish_time_s = value;
-      return true;
-    default:
-      return false;
-  }
-}
-
+/// None where the cells are no row as comparison_csv writes it.
 std::optional<ComparisonRow> row_of(const std::vector<std::string>& cells, bool with_gains) {
   constexpr std::size_t kFirst = 4;
   if (cells.size() != kFirst + kMetricColumns.size() + (with_gains ? 1 : 0)) return std::nullopt;
@@ -101,15 +62,15 @@ std::optional<ComparisonRow> row_of(const std::vector<std::string>& cells, bool 
   for (std::size_t i = 0; i < kMetricColumns.size(); ++i) {
     if (cells[kFirst + i].empty()) continue;
     double value = 0.0;
-    if (!read_number(cells[kFirst + i], value) || !set_metric(row.metrics, i, value)) {
-      return std::nullopt;
-    }
+    if (!read_number(cells[kFirst + i], value)) return std::nullopt;
+    kMetricColumns[i].set(row.metrics, value);
   }
   if (with_gains) row.gains = cells.back();
   return row;
 }
 
-/// The options and inputs that make two comparisons the same.
+/// Two comparisons have the same rows when their inputs and options are the same, but for the free
+/// ones.
 Status same_origin(const Provenance& before, const Provenance& now, const std::string& file) {
   const auto fixed = [](const Provenance& p) {
     std::vector<std::pair<std::string, std::string>> options;
@@ -123,8 +84,9 @@ Status same_origin(const Provenance& before, const Provenance& now, const std::s
   };
   if (fixed(before) != fixed(now)) {
     return input_error(file,
-                       "was made with other options (--seed); resume with the same, or "
-                       "compare into another directory");
+                       fmt::format("was made with other options ({}); resume with the same, or "
+                                   "compare into another directory",
+                                   option_text("seed")));
   }
   if (!std::equal(before.inputs.begin(), before.inputs.end(), now.inputs.begin(), now.inputs.end(),
                   same_input)) {
@@ -135,29 +97,23 @@ Status same_origin(const Provenance& before, const Provenance& now, const std::s
   return {};
 }
 
-}  // namespace
-
-Result<std::vector<ComparisonRow>> read_finished(const std::filesystem::path& directory,
-                                                 const Provenance& provenance) {
-  const std::filesystem::path json_path = directory / "comparison.json";
-  const auto document = read_json_file(json_path);
-  if (!document) return tl::unexpected(document.error());
+Result<Provenance> read_origin(const std::filesystem::path& path) {
+  AWMR_ASSIGN_OR_RETURN(const Json document, read_json_file(path));
   std::vector<Fault> faults;
-  JsonObject json(*document, json_path.string(), "", faults);
-  const Provenance before = read_provenance(json);
+  JsonObject json(document, path.string(), "", faults);
+  Provenance origin = read_provenance(json);
   if (!faults.empty()) return input_errors(std::move(faults));
-  if (const Status same = same_origin(before, provenance, json_path.string()); !same) {
-    return tl::unexpected(same.error());
-  }
-  const std::filesystem::path csv_path = directory / "comparison.csv";
-  const auto text = read_file(csv_path);
-  if (!text) return tl::unexpected(text.error());
+  return origin;
+}
+
+Result<std::vector<ComparisonRow>> read_rows(const std::filesystem::path& path) {
+  AWMR_ASSIGN_OR_RETURN(const std::string text, read_file(path));
   std::vector<ComparisonRow> rows;
   bool with_gains = false;
   int line = 0;
-  for (std::size_t start = 0; start < text->size();) {
-    const std::size_t end = std::min(text->find('\n', start), text->size());
-    const auto cells = cells_of(std::string_view(*text).substr(start, end - start));
+  for (std::size_t start = 0; start < text.size();) {
+    const std::size_t end = std::min(text.find('\n', start), text.size());
+    const auto cells = cells_of(std::string_view(text).substr(start, end - start));
     start = end + 1;
     if (++line == 1) {
       with_gains = cells.back() == "gains";
@@ -165,12 +121,22 @@ Result<std::vector<ComparisonRow>> read_finished(const std::filesystem::path& di
     }
     auto row = row_of(cells, with_gains);
     if (!row) {
-      return input_error(fmt::format("{}:{}:1", csv_path.string(), line),
+      return input_error(fmt::format("{}:{}:1", path.string(), line),
                          "is no row of a comparison; compare into another directory");
     }
     rows.push_back(std::move(*row));
   }
   return rows;
+}
+
+}  // namespace
+
+Result<std::vector<ComparisonRow>> read_finished(const std::filesystem::path& directory,
+                                                 const Provenance& provenance) {
+  const std::filesystem::path json = directory / "comparison.json";
+  AWMR_ASSIGN_OR_RETURN(const Provenance before, read_origin(json));
+  AWMR_RETURN_IF_ERROR(same_origin(before, provenance, json.string()));
+  return read_rows(directory / "comparison.csv");
 }
 
 }  // namespace awmr

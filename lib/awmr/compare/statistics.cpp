@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "awmr/compare/binomial.h"
+#include "awmr/core/index.h"
 #include "awmr/core/random.h"
 
 namespace awmr {
@@ -33,11 +34,9 @@ struct Series {
 
 Series series_of(const ModeRows& first, const ModeRows& second, const MetricColumn& metric) {
   Series series;
-  series.result.first = first.mode;
-  series.result.second = second.mode;
-  series.result.first_label = first.label();
-  series.result.second_label = second.label();
-  series.result.metric = metric.name;
+  series.result.first = first.contender;
+  series.result.second = second.contender;
+  series.result.metric = metric.id;
   series.result.nominal = difference(metric, first.nominal(), second.nominal());
   const auto a = first.counted();
   const auto b = second.counted();
@@ -76,7 +75,37 @@ void add_resample(std::span<const std::size_t> chosen, std::vector<Series>& all)
   }
 }
 
-/// Fills in p_holm.
+/// Every metric of every pair of the same gains or of the same mode.
+std::vector<Series> all_series(const ScenarioRows& scenario) {
+  std::vector<Series> all;
+  for (std::size_t i = 0; i < scenario.modes.size(); ++i) {
+    for (std::size_t j = i + 1; j < scenario.modes.size(); ++j) {
+      const ModeRows& a = scenario.modes[i];
+      const ModeRows& b = scenario.modes[j];
+      const bool comparable =
+          a.contender.mode == b.contender.mode || a.contender.gains == b.contender.gains;
+      if (!comparable) continue;
+      for (const MetricColumn& metric : kMetricColumns) all.push_back(series_of(a, b, metric));
+    }
+  }
+  return all;
+}
+
+/// The bootstrap: nothing below two samples.
+void resample(std::vector<Series>& all, std::size_t samples, Random random) {
+  if (samples < 2) return;
+  std::vector<std::size_t> chosen(samples);
+  for (int round = 0; round < kResamples; ++round) {
+    for (std::size_t& index : chosen) {
+      index = static_cast<std::size_t>(random.uniform() * static_cast<double>(samples));
+    }
+    add_resample(chosen, all);
+  }
+}
+
+Contender contender_of(const ComparisonRow& row) { return {row.mode, row.gains}; }
+
+/// Fills in p_holm from the p of all differences.
 void correct(std::vector<PairedDifference>& differences) {
   std::vector<double> p;
   for (const PairedDifference& d : differences) {
@@ -93,15 +122,15 @@ void correct(std::vector<PairedDifference>& differences) {
 
 std::size_t ModeRows::completed_count() const {
   const auto runs = counted();
-  return static_cast<std::size_t>(std::count_if(
-      runs.begin(), runs.end(), [](const ComparisonRow& row) { return row.metrics.completed; }));
+  return at(std::count_if(runs.begin(), runs.end(),
+                          [](const ComparisonRow& row) { return row.metrics.completed; }));
 }
 
 double ModeRows::completed_share() const {
   return static_cast<double>(completed_count()) / static_cast<double>(counted().size());
 }
 
-std::string ModeRows::label() const {
+std::string Contender::label() const {
   const std::string name(name_of(mode));
   return gains.empty() ? name : name + " with " + gains;
 }
@@ -135,17 +164,22 @@ std::vector<ScenarioRows> group(const Comparison& comparison) {
   for (std::size_t begin = 0; begin < rows.size();) {
     std::size_t end = begin;
     while (end < rows.size() && rows[end].scenario == rows[begin].scenario &&
-           rows[end].mode == rows[begin].mode && rows[end].gains == rows[begin].gains) {
+           contender_of(rows[end]) == contender_of(rows[begin])) {
       ++end;
     }
     if (scenarios.empty() || scenarios.back().scenario != rows[begin].scenario) {
       scenarios.push_back({rows[begin].scenario, {}});
     }
-    scenarios.back().modes.push_back(
-        {rows[begin].mode, rows[begin].gains, rows.subspan(begin, end - begin)});
+    scenarios.back().modes.push_back({contender_of(rows[begin]), rows.subspan(begin, end - begin)});
     begin = end;
   }
   return scenarios;
+}
+
+bool any_has(const ScenarioRows& scenario, const MetricColumn& metric) {
+  return std::any_of(scenario.modes.begin(), scenario.modes.end(), [&](const ModeRows& rows) {
+    return summarise(rows, metric).mean.has_value();
+  });
 }
 
 double quantile(std::span<const double> sorted, double p) {
@@ -175,26 +209,8 @@ Summary summarise(const ModeRows& rows, const MetricColumn& metric) {
 
 std::vector<PairedDifference> paired_differences(const ScenarioRows& scenario, std::uint64_t seed,
                                                  std::uint64_t stream) {
-  std::vector<Series> all;
-  for (std::size_t i = 0; i < scenario.modes.size(); ++i) {
-    for (std::size_t j = i + 1; j < scenario.modes.size(); ++j) {
-      const ModeRows& a = scenario.modes[i];
-      const ModeRows& b = scenario.modes[j];
-      if (a.mode != b.mode && a.gains != b.gains) continue;
-      for (const MetricColumn& metric : kMetricColumns) all.push_back(series_of(a, b, metric));
-    }
-  }
-  const std::size_t samples = scenario.modes.front().rows.size() - 1;
-  if (samples >= 2) {
-    Random random(seed, kBootstrapStream + stream);
-    std::vector<std::size_t> chosen(samples);
-    for (int resample = 0; resample < kResamples; ++resample) {
-      for (std::size_t& index : chosen) {
-        index = static_cast<std::size_t>(random.uniform() * static_cast<double>(samples));
-      }
-      add_resample(chosen, all);
-    }
-  }
+  std::vector<Series> all = all_series(scenario);
+  resample(all, scenario.modes.front().rows.size() - 1, Random(seed, kBootstrapStream + stream));
   std::vector<PairedDifference> differences;
   for (Series& series : all) {
     if (series.result.count >= 2 && !series.resampled_means.empty()) {

@@ -13,12 +13,20 @@
 
 namespace awmr {
 
-/// The rows of one scenario in one mode with one set of gains: the model's own (sample 0), then the
-/// drawn ones.
-struct ModeRows {
+/// What is compared in a scenario: a mode with a set of gains.
+struct Contender {
   YawMode mode{};
-  std::string gains;  ///< empty where there is one set only
-  std::span<const ComparisonRow> rows;
+  std::string gains;  ///< NamedGains::name; empty where there is one set only
+
+  /// "combined", or "combined with tuned.json".
+  std::string label() const;
+  friend bool operator==(const Contender&, const Contender&) = default;
+};
+
+/// The rows of one contender in one scenario: the model's own (sample 0), then the drawn ones.
+struct ModeRows {
+  Contender contender;
+  std::span<const ComparisonRow> rows;  ///< never empty
 
   const Metrics& nominal() const { return rows.front().metrics; }
   /// What the statistics are over: the drawn samples, or the nominal run where none was drawn.
@@ -28,8 +36,7 @@ struct ModeRows {
   std::size_t completed_count() const;
   /// Share of the counted runs that completed, in [0, 1].
   double completed_share() const;
-  /// "combined", or "combined with tuned.json".
-  std::string label() const;
+  std::string label() const { return contender.label(); }
 };
 
 struct ScenarioRows {
@@ -50,24 +57,29 @@ struct Summary {
 };
 Summary summarise(const ModeRows& rows, const MetricColumn& metric);
 
+/// Whether any mode has the metric in any of its counted runs.
+bool any_has(const ScenarioRows& scenario, const MetricColumn& metric);
+
 /// Linear between order statistics (type 7 of Hyndman and Fan). `sorted` is not empty, p in [0, 1].
 double quantile(std::span<const double> sorted, double p);
 
 /// first minus second, sample by sample: the same drawn vehicle and noise in both modes.
 struct PairedDifference {
-  YawMode first{};
-  YawMode second{};
-  std::string first_label;
-  std::string second_label;
-  std::string_view metric;
-  std::optional<double> nominal;
-  std::size_t count = 0;         ///< samples that have the metric in both modes
-  std::optional<double> mean;    ///< over those
-  std::optional<Interval> ci95;  ///< of the mean; absent for fewer than 2
-  std::optional<double> p;       ///< of the paired t test; absent for fewer than 2
+  Contender first;
+  Contender second;
+  MetricId metric{};
+  std::optional<double> nominal;  ///< of sample 0, in the metric's unit
+  std::size_t count = 0;          ///< samples that have the metric in both modes
+  std::optional<double> mean;     ///< over those, in the metric's unit
+  std::optional<Interval> ci95;   ///< of the mean; absent for fewer than 2
+  std::optional<double> p;        ///< of the paired t test, in [0, 1]; absent for fewer than 2
   /// p corrected for all differences of the scenario (Holm): below 0.05 the difference is real,
   /// with at most a 5 % risk of a single wrong word in the whole scenario.
   std::optional<double> p_holm;
+
+  bool is_between(const Contender& a, const Contender& b) const {
+    return (first == a && second == b) || (first == b && second == a);
+  }
 };
 
 inline constexpr double kSignificance = 0.05;

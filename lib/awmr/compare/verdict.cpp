@@ -9,6 +9,7 @@
 namespace awmr {
 namespace {
 
+/// "a, b and c"
 std::string joined(const std::vector<std::string>& names) {
   std::string text;
   for (std::size_t i = 0; i < names.size(); ++i) {
@@ -17,24 +18,17 @@ std::string joined(const std::vector<std::string>& names) {
   return text;
 }
 
-const MetricColumn& column(std::string_view name) {
-  return *std::find_if(kMetricColumns.begin(), kMetricColumns.end(),
-                       [&](const MetricColumn& metric) { return metric.name == name; });
-}
-
 /// The ranked metric in which `other` is furthest behind `best`, of those that are told apart.
 const PairedDifference* widest_gap(const ScenarioRows& scenario,
                                    const std::vector<PairedDifference>& differences,
-                                   const std::string& best, const std::string& other) {
+                                   const Contender& best, const Contender& other) {
   const PairedDifference* widest = nullptr;
   double widest_share = 0.0;
   for (const PairedDifference& d : differences) {
-    const bool forward = d.first_label == best && d.second_label == other;
-    const bool backward = d.first_label == other && d.second_label == best;
-    const MetricColumn& metric = column(d.metric);
-    if (!(forward || backward) || !d.mean || !(metric.ranking_floor > 0.0)) continue;
+    const MetricColumn& metric = column_of(d.metric);
+    if (!d.is_between(best, other) || !d.mean || !metric.ranked()) continue;
     if (d.p_holm && *d.p_holm >= kSignificance) continue;
-    const double behind = (forward ? -*d.mean : *d.mean) / scale_of(scenario, metric);
+    const double behind = (d.first == best ? -*d.mean : *d.mean) / ranking_scale(scenario, metric);
     if (behind > widest_share) {
       widest = &d;
       widest_share = behind;
@@ -43,12 +37,12 @@ const PairedDifference* widest_gap(const ScenarioRows& scenario,
   return widest;
 }
 
-/// "steering is behind: finish_time_s 8.2 s more (95 %: 8 to 8.4)"
-std::string gap_text(const PairedDifference* gap, const std::string& other) {
+/// ", most of all in finish_time_s: 8.2 s more (95 %: 8 to 8.4)"
+std::string gap_text(const PairedDifference* gap, const Contender& other) {
   if (gap == nullptr) return "";
-  const bool forward = gap->second_label == other;  // first minus second is then below 0
-  const double sign = forward ? -1.0 : 1.0;
-  const MetricColumn& metric = column(gap->metric);
+  // Where `other` comes second, first minus second is below 0.
+  const double sign = gap->second == other ? -1.0 : 1.0;
+  const MetricColumn& metric = column_of(gap->metric);
   std::string text = fmt::format(", most of all in {}: {:.3g} {} more", metric.name,
                                  sign * *gap->mean, metric.unit);
   if (gap->ci95) {
@@ -59,6 +53,7 @@ std::string gap_text(const PairedDifference* gap, const std::string& other) {
   return text;
 }
 
+/// "steering completed 10 of 20 (95 %: 27 to 73 %)", or "all completed".
 std::string completion_text(const ScenarioRows& scenario) {
   std::string text;
   for (const ModeRows& rows : scenario.modes) {
@@ -67,8 +62,9 @@ std::string completion_text(const ScenarioRows& scenario) {
     const Interval share = clopper_pearson(rows.completed_count(), runs);
     text += fmt::format("{}{} completed {} of {}", text.empty() ? "" : ", ", rows.label(),
                         rows.completed_count(), runs);
-    if (runs >= 2)
+    if (runs >= 2) {
       text += fmt::format(" (95 %: {:.0f} to {:.0f} %)", 100.0 * share.lo, 100.0 * share.hi);
+    }
   }
   return text.empty() ? "all completed" : text;
 }
@@ -83,7 +79,7 @@ std::string verdict_of(const ScenarioRows& scenario, const std::vector<RankedMod
   if (best.completed_share <= 0.0) {
     text = "none completed; by score ";
   }
-  std::vector<std::string> first{best.label};
+  std::vector<std::string> first{best.contender.label()};
   first.insert(first.end(), best.tied_with.begin(), best.tied_with.end());
   if (first.size() == ranking.size() && first.size() > 1) {
     text += joined(first) + " tie: these runs do not tell them apart";
@@ -91,9 +87,10 @@ std::string verdict_of(const ScenarioRows& scenario, const std::vector<RankedMod
     text += joined(first) + (first.size() > 1 ? " tie for the first place" : " is best");
     for (const RankedMode& other : ranking) {
       if (other.rank == 1) continue;
-      text += fmt::format(
-          "; {} is behind{}", other.label,
-          gap_text(widest_gap(scenario, differences, best.label, other.label), other.label));
+      const PairedDifference* gap =
+          widest_gap(scenario, differences, best.contender, other.contender);
+      text +=
+          fmt::format("; {} is behind{}", other.contender.label(), gap_text(gap, other.contender));
     }
   }
   text += "; " + completion_text(scenario);

@@ -1,0 +1,27 @@
+/// The vehicles that a comparison runs. Private to this folder.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "awmr/compare/compare.h"
+
+namespace awmr {
+
+struct Fleet {
+  Plant<double> nominal{};              ///< the model's own values: what the controller knows
+  std::vector<Plant<double>> vehicles;  ///< samples 0, 1, ... of one scenario, then of another
+  std::vector<std::size_t> first;       ///< by scenario: where its sample 0 is in `vehicles`
+
+  const Plant<double>& vehicle(std::size_t scenario, std::size_t sample) const {
+    return vehicles[first[scenario] + sample];
+  }
+};
+
+/// Sample 0 is the model itself, samples 1 ... options.samples are drawn from it (draw.h), and each
+/// scenario moves them to its corner, where it has one. Errors (input): the model lacks a
+/// parameter, a covariance to draw from, or an interval that a corner needs.
+Result<Fleet> fleet_of(const Model& model, const std::vector<Scenario>& scenarios,
+                       const CompareOptions& options);
+
+}  // namespace awmr
