@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdint>
+#include <array>
 #include <regex>
 #include <sstream>
+#include <utility>
 #include <vector>
 
 #include "awmr/core/csv.h"
@@ -41,19 +42,18 @@ std::string script_safe(const Json& json) {
   return text;
 }
 
-/// Every so-manieth row of a run, angles in degrees.
+/// The rows of a run, as many as kMaxPoints or a part of them at even spacing; angles in degrees.
 Result<Json> read_run(const fs::path& path) {
   const std::vector<CsvColumn> columns{
       {"t_s", true},        {"x_m", true},         {"y_m", true},
       {"psi_rad", true},    {"u_mps", true},       {"r_radps", true},
       {"force_left", true}, {"force_right", true}, {"steering_cmd_rad", true}};
-  const auto table = read_csv(path, columns);
-  if (!table) return tl::unexpected(table.error());
+  AWMR_ASSIGN_OR_RETURN(const CsvTable table, read_csv(path, columns));
   Json rows = Json::array();
-  const std::size_t stride = 1 + table->rows() / kMaxPoints;
+  const std::size_t stride = 1 + table.rows() / kMaxPoints;
   const auto rounded = [](double x) { return std::stod(fmt::format("{:.5g}", x)); };
-  for (std::size_t i = 0; i < table->rows(); i += stride) {
-    const auto at = [&](const char* name) { return table->column(name)[i]; };
+  for (std::size_t i = 0; i < table.rows(); i += stride) {
+    const auto at = [&](const char* name) { return table.column(name)[i]; };
     rows.push_back({{"t_s", rounded(at("t_s"))},
                     {"x_m", rounded(at("x_m"))},
                     {"y_m", rounded(at("y_m"))},
@@ -78,20 +78,18 @@ Result<Json> read_runs(const fs::path& directory) {
     const std::string name = file.filename().string();
     std::smatch match;
     if (!std::regex_match(name, match, pattern)) continue;
-    auto rows = read_run(file);
-    if (!rows) return tl::unexpected(rows.error());
+    AWMR_ASSIGN_OR_RETURN(Json rows, read_run(file));
     runs.push_back({{"scenario", match[1].str()},
                     {"mode", match[2].str()},
                     {"gains", match[3].str()},
-                    {"rows", std::move(*rows)}});
+                    {"rows", std::move(rows)}});
   }
   return runs;
 }
 
 /// comparison.csv as it is, one object a row: empty cells are metrics without meaning there.
 Result<Json> read_comparison(const fs::path& path) {
-  const auto text = read_file(path);
-  if (!text) return tl::unexpected(text.error());
+  AWMR_ASSIGN_OR_RETURN(const std::string text, read_file(path));
   const auto cells = [](const std::string& line) {
     std::vector<std::string> result;
     std::size_t start = 0;
@@ -102,7 +100,7 @@ Result<Json> read_comparison(const fs::path& path) {
       start = end + 1;
     }
   };
-  std::istringstream lines(*text);
+  std::istringstream lines(text);
   std::string line;
   std::getline(lines, line);
   const std::vector<std::string> names = cells(line);
@@ -122,6 +120,9 @@ Result<Json> read_comparison(const fs::path& path) {
 
 /// Each `@name@` of the page's frame, once, replaced by its part.
 std::string assembled(const Json& data) {
+  const std::string json = script_safe(data);
+  const std::array<std::pair<std::string_view, std::string_view>, 4> parts{
+      {{"css", kPageCss}, {"chart", kChartJs}, {"data", json}, {"js", kPageJs}}};
   std::string page;
   std::string_view rest = kPageHtml;
   while (true) {
@@ -130,10 +131,9 @@ std::string assembled(const Json& data) {
     if (start == std::string_view::npos) return page;
     const std::size_t end = rest.find('@', start + 1);
     const std::string_view name = rest.substr(start + 1, end - start - 1);
-    if (name == "css") page += kPageCss;
-    if (name == "chart") page += kChartJs;
-    if (name == "data") page += script_safe(data);
-    if (name == "js") page += kPageJs;
+    for (const auto& [part, text] : parts) {
+      if (part == name) page += text;
+    }
     rest.remove_prefix(end + 1);
   }
 }
@@ -143,27 +143,18 @@ std::string assembled(const Json& data) {
 Result<std::string> report_html(const fs::path& directory) {
   Json data;
   // Strictly first: what the page shows is a model, or the fault's place is named.
-  if (const auto checked = read_model(directory / "model.json"); !checked) {
-    return tl::unexpected(checked.error());
-  }
-  auto model = read_json_file(directory / "model.json");
-  if (!model) return tl::unexpected(model.error());
-  data["model"] = std::move(*model);
+  AWMR_RETURN_IF_ERROR(read_model(directory / "model.json"));
+  AWMR_ASSIGN_OR_RETURN(data["model"], read_json_file(directory / "model.json"));
   for (const char* name : {"gains", "validation"}) {
     const fs::path path = directory / (std::string(name) + ".json");
     if (!fs::exists(path)) continue;
-    auto json = read_json_file(path);
-    if (!json) return tl::unexpected(json.error());
-    data[name] = std::move(*json);
+    AWMR_ASSIGN_OR_RETURN(data[name], read_json_file(path));
   }
   if (const fs::path path = directory / "comparison.csv"; fs::exists(path)) {
-    auto rows = read_comparison(path);
-    if (!rows) return tl::unexpected(rows.error());
-    if (!rows->empty()) data["comparison_csv"] = std::move(*rows);
+    AWMR_ASSIGN_OR_RETURN(Json rows, read_comparison(path));
+    if (!rows.empty()) data["comparison_csv"] = std::move(rows);
   }
-  auto runs = read_runs(directory);
-  if (!runs) return tl::unexpected(runs.error());
-  data["runs"] = std::move(*runs);
+  AWMR_ASSIGN_OR_RETURN(data["runs"], read_runs(directory));
   return assembled(data);
 }
 

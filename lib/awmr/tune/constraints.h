@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "awmr/core/units.h"
 #include "awmr/model/dynamics.h"
 #include "awmr/tune/tune.h"
 
@@ -13,23 +14,24 @@ inline constexpr double kDampingRequired = 0.7;
 /// Part of the modelled resistance that the corrective terms have to dominate: more than the model
 /// may be wrong by on its own trials (0.15 is validate's default tolerance).
 inline constexpr double kUnmodelledShare = 0.2;
-/// The yaw rate at which mu has to dominate, rad/s: 60 deg/s.
-inline constexpr double kDominatedYawRate_radps = 1.0471975511965976;
+/// The yaw rate at which mu has to dominate.
+inline constexpr double kDominatedYawRate_radps = radians(60.0);
 /// mu_s/eps_s T_s at most: the sampled integrator is unstable from 2 on, so the gain margin is 4.
 inline constexpr double kSpeedGainPerSample = 0.5;
 
 /// A heading error of this size, the noise of a compass, may take at most this part of the
 /// authority.
-inline constexpr double kHeadingNoise_rad = 0.017453292519943295;  // 1 deg
+inline constexpr double kHeadingNoise_rad = radians(1.0);
 inline constexpr double kNoiseShare = 0.25;
 
+/// What the constraints depend on beside the gains.
 struct ConstraintContext {
-  ReachingForm form = ReachingForm::kStrict;
-  double margin = 0.8;
-  Plant<double> plant{};
-  double sample_time_s = 0.01;      ///< T_s
-  double speed_mps = 1.0;           ///< largest u_d of the scenarios
-  Interval wheel_force{-1.0, 1.0};  ///< F' of one wheel
+  ReachingForm form = ReachingForm::kStrict;  ///< the form of T2 < T1 that is required
+  double margin = 0.8;                        ///< reaching time constant <= margin T1, in (0, 1)
+  Plant<double> plant{};                      ///< the model's own values
+  double sample_time_s = 0.01;                ///< T_s, > 0
+  double speed_mps = 1.0;                     ///< largest u_d of the scenarios, >= 0
+  Interval wheel_force{-1.0, 1.0};            ///< F' of one wheel over F_max
 };
 
 /// Largest tau_turn of the weaker of steering and differential at steady speed u_d, m; one that has
@@ -39,23 +41,30 @@ struct ConstraintContext {
 double turning_authority_m(const ConstraintContext& context);
 
 /// Every constraint as value <= limit:
-///   T2 < T1 (paper)    eps/(2 mu) <= margin/lambda                                        [paper
-///   (95)] T2 < T1 (strict)   eps/mu     <= margin/lambda; one of the two forms is required, both
-///   are given heading damping    0.7 <= smallest zeta of the sampled loop, over the three modes'
-///   actuation and
-///                      yaw rates of 1, 5, 20 and 60 deg/s (the slope of g3 depends on the rate)
-///   speed gain         (mu_s/eps_s) T_s <= 0.5. The loop's pole, g1 cancelled with the hold's
-///   delay, is
-///                      z = 1 - k_s (1 - exp(-a T_s))/a, a = g1'/m' >= 0, so z in [1 - k_s T_s, 1)
-///   speed lag          (mu_s/eps_s)(T + T_s/2) <= 1/(4 zeta^2): k_s/(s (1 + tau s)) closes to
-///                      tau s^2 + s + k_s, zeta = 1/(2 sqrt(k_s tau)). The motors' lag is not in
-///                      the model; the servo's T stands in for it.
-///   mu dominates       0.2 g3(60 deg/s)/I'z <= mu                                       [paper
-///   (88)] mu_s dominates     0.2 g1(u_d)/m' <= mu_s [paper (102)]
-///   noise gain         I'z lambda (mu/eps) 1 deg <= 0.25 turning_authority_m(): the law's gain
-///   from psi to
-///                      tau_turn; beyond it a compass's noise alone drives the actuators to their
-///                      stops
+///   T2 < T1 (paper)    eps/(2 mu) <= margin/lambda                                    [paper (95)]
+///   T2 < T1 (strict)   eps/mu     <= margin/lambda
+///   heading damping    0.7 <= smallest zeta of the sampled loop
+///   speed gain         (mu_s/eps_s) T_s <= 0.5
+///   speed lag          (mu_s/eps_s) (T + T_s/2) <= 1/(4 zeta^2)
+///   mu dominates       0.2 g3(60 deg/s)/I'z <= mu                                     [paper (88)]
+///   mu_s dominates     0.2 g1(u_d)/m' <= mu_s                                        [paper (102)]
+///   noise gain         I'z lambda (mu/eps) 1 deg <= 0.25 turning_authority_m()
+///
+/// T2 < T1: one of the two forms is required, both are given.
+///
+/// Heading damping is that of the worst of the three modes' actuation and of yaw rates of 1, 5, 20
+/// and 60 deg/s, since the slope of g3 depends on the rate.
+///
+/// Speed gain: with g1 cancelled with the hold's delay the loop's pole is
+///   z = 1 - k_s (1 - exp(-a T_s))/a,   k_s = mu_s/eps_s,   a = g1'/m' >= 0,
+/// so z is in [1 - k_s T_s, 1).
+///
+/// Speed lag: k_s/(s (1 + tau s)) closes to tau s^2 + s + k_s, so zeta = 1/(2 sqrt(k_s tau)). The
+/// motors' lag is not in the model; the servo's T stands in for it.
+///
+/// Noise gain is the law's gain from psi to tau_turn: beyond the limit the noise of a compass alone
+/// drives the actuators to their stops.
+///
 /// mu by itself has no upper limit from the actuators' authority: what they cannot deliver the
 /// allocation clips, and the paper's own mu (I'z mu = 0.64 m) is beyond it in every mode.
 std::vector<ConstraintReport> constraints_of(const Gains<double>& gains,

@@ -19,13 +19,12 @@
 
 namespace awmr {
 
-/// One x_i: its weight, the key of its figure in gains.json, and its floor f_i in that figure's
-/// unit.
+/// One x_i.
 struct ObjectiveTerm {
-  const char* name;
-  double ObjectiveWeights::*weight;
-  const char* figure;
-  double floor;
+  const char* name;                  ///< of its weight in tune.json and gains.json
+  double ObjectiveWeights::*weight;  ///< w_i
+  const char* figure;                ///< the key of x_i in gains.json
+  double floor;                      ///< f_i in the figure's unit, > 0
 };
 inline constexpr ObjectiveTerm kObjectiveTerms[] = {
     {"itae", &ObjectiveWeights::itae, "heading_itae_degs2", 0.1},
@@ -45,7 +44,7 @@ double objective_of(const ModeScore& score, const ModeScore& baseline,
 struct Evaluation {
   std::vector<ModeScore> scores;           ///< by mode, then scenario
   std::array<double, 3> mode_objective{};  ///< mean over the scenarios, in the order of kYawModes
-  double objective = 0.0;                  ///< mean over the modes; NaN never: see `valid`
+  double objective = 0.0;                  ///< mean over the modes; finite where `valid`
   bool valid = false;  ///< finite, and completes each run that the baseline completes
 };
 

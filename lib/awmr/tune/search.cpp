@@ -16,7 +16,7 @@ namespace awmr {
 namespace {
 
 constexpr unsigned kDimension = 5;
-/// ISRES individuals per generation; its default 20 (n + 1) would spend the budget on two
+/// ISRES individuals per generation. NLopt's default of 20 (n + 1) would spend the budget on two
 /// generations.
 constexpr unsigned kPopulation = 40;
 /// First step and smallest step of the local search, in ln(gain): 20 % and 0.1 %.
@@ -24,8 +24,8 @@ constexpr double kFirstStep = 0.2;
 constexpr double kLastStep = 1e-3;
 /// A local search that improves the objective by less is the last one.
 constexpr double kWorthwhile = 1e-4;
-/// What the global search sees for a point that breaks a constraint: worse than any objective of
-/// use.
+/// What the global search sees for a point that breaks a constraint: worse than any objective that
+/// matters.
 constexpr double kRejected = 1e3;
 /// Starts of the feasibility search beside the baseline and the middle of the bounds, and steps of
 /// each.
@@ -78,7 +78,9 @@ Optimizer optimizer(nlopt_algorithm algorithm, const GainBounds& bounds, int eva
   return opt;
 }
 
-/// What NLopt's callbacks share: the problem, the last point, the best one.
+/// What NLopt's callbacks share: the problem, the last point, the best one. NLopt asks for the
+/// objective and for the constraints of a point one after the other, and hands on a single pointer:
+/// the last point is kept so that it is simulated once.
 class Problem {
  public:
   Problem(const TuneOptions& options, const ConstraintContext& context, const Objective& objective)
@@ -206,7 +208,7 @@ Result<std::string> search_locally(Problem& problem, const TuneOptions& options)
   return stop;
 }
 
-/// For feasible_start: the largest residual alone.
+/// What the callback of feasible_start() shares: it looks at the largest residual alone.
 struct Feasibility {
   const TuneOptions& options;
   const ConstraintContext& context;
@@ -276,9 +278,8 @@ Result<SearchResult> search(const TuneOptions& options, const ConstraintContext&
   if (failed(global)) return program_fault("NLopt's ISRES: " + reason(global));
   std::string stop = "global: " + reason(global);
   problem.simulate_all = true;
-  const Result<std::string> local = search_locally(problem, options);
-  if (!local) return tl::unexpected(local.error());
-  stop += *local;
+  AWMR_ASSIGN_OR_RETURN(const std::string local, search_locally(problem, options));
+  stop += local;
   SearchResult result{
       .best = std::nullopt,
       .nearest = problem.nearest,

@@ -89,8 +89,7 @@ tl::unexpected<Error> infeasible(const Candidate& nearest, const ConstraintConte
   }
   return refusal(fmt::format(
       "no gains within the bounds meet the constraints: the nearest ({}) break '{}', {:.4g} "
-      "against "
-      "a limit of {:.4g} ({}); raise the margin, choose form 'paper' or widen the bounds",
+      "against a limit of {:.4g} ({}); raise the margin, choose form 'paper' or widen the bounds",
       in_words(nearest.gains), worst ? worst->name : "none", worst ? worst->value : 0.0,
       worst ? worst->limit : 0.0, worst ? worst->meaning : ""));
 }
@@ -100,8 +99,7 @@ tl::unexpected<Error> not_better(const SearchResult& found, const Objective& obj
   return refusal(fmt::format(
       "no gains beat the paper's in every mode (1 is theirs): the nearest of {} ({}) score {:.4f} "
       "differential, {:.4f} steering, {:.4f} combined; give more evaluations, another seed or "
-      "other "
-      "weights, or keep the paper's gains",
+      "other weights, or keep the paper's gains",
       found.evaluations, in_words(found.nearest.gains), e.mode_objective[0], e.mode_objective[1],
       e.mode_objective[2]));
 }
@@ -134,25 +132,22 @@ Scenario held_out_scenario() {
 }
 
 Result<Tuning> tune(const Model& model, const TuneOptions& options) {
-  const Status fit = check(options);
-  if (!fit) return tl::unexpected(fit.error());
-  const Result<Plant<double>> plant = model.plant();
-  if (!plant) return tl::unexpected(plant.error());
+  AWMR_RETURN_IF_ERROR(check(options));
+  AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, model.plant());
 
   std::vector<Scenario> scenarios = options.scenarios;
   if (scenarios.empty()) scenarios.push_back(default_tuning_scenario());
-  const ConstraintContext context = context_of(options, *plant, model.vehicle, scenarios);
+  const ConstraintContext context = context_of(options, plant, model.vehicle, scenarios);
   const Candidate start = feasible_start(options, context, kPaperGains);
   if (start.violation > 0.0) return infeasible(start, context);
 
-  const Objective objective(*plant, model.vehicle, options.weights, scenarios, kPaperGains);
-  const Result<SearchResult> found = search(options, context, objective, start.gains);
-  if (!found) return tl::unexpected(found.error());
-  if (!found->best) return not_better(*found, objective);
-  const Gains<double>& gains = found->best->gains;
+  const Objective objective(plant, model.vehicle, options.weights, scenarios, kPaperGains);
+  AWMR_ASSIGN_OR_RETURN(const SearchResult found, search(options, context, objective, start.gains));
+  if (!found.best) return not_better(found, objective);
+  const Gains<double>& gains = found.best->gains;
   const Evaluation tuned = objective(gains);
-  if (!beats_everywhere(tuned)) return not_better(*found, objective);
-  const Objective held_out(*plant, model.vehicle, options.weights, {held_out_scenario()},
+  if (!beats_everywhere(tuned)) return not_better(found, objective);
+  const Objective held_out(plant, model.vehicle, options.weights, {held_out_scenario()},
                            kPaperGains);
   const Evaluation judged = held_out(gains);
 
@@ -163,11 +158,11 @@ Result<Tuning> tune(const Model& model, const TuneOptions& options) {
                 .baseline = kPaperGains,
                 .baseline_objective = objective.baseline().objective,
                 .baseline_scores = objective.baseline().scores,
-                .algorithm = found->algorithm,
-                .evaluations = found->evaluations,
-                .stop_reason = found->stop_reason,
+                .algorithm = found.algorithm,
+                .evaluations = found.evaluations,
+                .stop_reason = found.stop_reason,
                 .seed = options.seed,
-                .simulated = found->simulated,
+                .simulated = found.simulated,
                 .held_out_scores = judged.scores,
                 .held_out_objective = judged.objective};
 }

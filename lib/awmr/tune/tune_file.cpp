@@ -1,6 +1,5 @@
 // tune.json in, gains.json out.
 
-#include <array>
 #include <utility>
 
 #include "awmr/core/json.h"
@@ -12,6 +11,8 @@
 namespace awmr {
 namespace {
 
+constexpr NameTable<ReachingForm, 2> kReachingFormNames{
+    {{"paper", ReachingForm::kPaper}, {"strict", ReachingForm::kStrict}}};
 constexpr double kGainLimit = 1e6;
 constexpr long kEvaluationLimit = 1'000'000;
 
@@ -44,10 +45,7 @@ void read_bounds(JsonObject json, GainBounds& bounds) {
 }
 
 void read_numbers(JsonObject& json, TuneOptions& options) {
-  if (json.has("form")) {
-    const std::array<std::string, 2> forms = {"paper", "strict"};
-    options.form = json.choice("form", forms) == 0 ? ReachingForm::kPaper : ReachingForm::kStrict;
-  }
+  if (json.has("form")) options.form = json.choice("form", kReachingFormNames);
   if (const auto margin =
           json.optional_number("margin", {.min = 0.0, .max = 1.0, .min_excluded = true})) {
     if (*margin >= 1.0) json.fault("margin", "1 leaves none; give a number in (0, 1)");
@@ -145,10 +143,9 @@ Json objective_json(const Tuning& tuning, const ObjectiveWeights& weights) {
 }  // namespace
 
 Result<TuneOptions> read_tune_options(const std::filesystem::path& path) {
-  const Result<Json> json = read_json_file(path);
-  if (!json) return tl::unexpected(json.error());
+  AWMR_ASSIGN_OR_RETURN(const Json json, read_json_file(path));
   std::vector<Fault> faults;
-  JsonObject object(*json, path.string(), "", faults);
+  JsonObject object(json, path.string(), "", faults);
   TuneOptions options;
   object.schema("awmr.tune/1");
   read_numbers(object, options);
