@@ -70,6 +70,33 @@ TEST(Suggest, ThePromiseForARepeatedTrialIsTheStandardErrorOfMoreRuns) {
   EXPECT_LE(fall(b), 4.0 * fall(a));
 }
 
+TEST(Suggest, ATermFittedAsZeroHasAFiniteErrorThatTrialsShrink) {
+  constexpr double kSigma = 0.02;
+  Model model = some_model(0.05);
+  model.surge_family = Family::kCoulombPower;
+  model[ParameterId::kSurgeCoulomb] = {0.0, kSigma, Interval{0.0, 0.04}, Source::kFitted, ""};
+  Covariance& covariance = model.covariance;
+  covariance.parameters.push_back(ParameterId::kSurgeCoulomb);
+  for (auto& row : covariance.matrix) row.push_back(0.0);
+  covariance.matrix.emplace_back(covariance.parameters.size(), 0.0);
+  covariance.matrix.back().back() = kSigma * kSigma;
+  for (const char* parameter : {"", "surge.coulomb"}) {
+    const auto suggestion = suggest(model, {.parameter = parameter});
+    ASSERT_TRUE(suggestion);
+    for (const SuggestedTrial& trial : suggestion->trials) {
+      EXPECT_TRUE(std::isfinite(trial.std_error_before)) << trial.settings;
+      EXPECT_TRUE(std::isfinite(trial.std_error_after)) << trial.settings;
+      EXPECT_TRUE(std::isfinite(trial.d_gain)) << trial.settings;
+      EXPECT_LE(trial.std_error_after, trial.std_error_before * (1.0 + 1e-9)) << trial.settings;
+    }
+    EXPECT_LT(suggestion->trials.front().std_error_after,
+              suggestion->trials.front().std_error_before);
+  }
+  // In its own unit; C is kept invertible by a variance of 1e-8.
+  const auto suggestion = suggest(model, {.parameter = "surge.coulomb"});
+  EXPECT_NEAR(suggestion->trials.front().std_error_before, kSigma, 1e-6);
+}
+
 TEST(Suggest, RefusesAnUnknownParameterWithTheNamesThereAre) {
   const auto suggestion = suggest(some_model(0.05), {.parameter = "mass"});
   ASSERT_FALSE(suggestion);

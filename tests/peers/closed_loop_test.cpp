@@ -11,6 +11,7 @@
 
 #include "awmr/core/units.h"
 #include "awmr/model/gains_file.h"
+#include "awmr/model/rest.h"
 #include "awmr/simulate/physics.h"
 #include "awmr/simulate/simulate.h"
 
@@ -122,7 +123,7 @@ TEST(Cvode, TheClosedLoopAgreesOverEverySampleInEveryMode) {
     const awmr::Run run = simulate(plant, controller, disturbed_turns(), mode,
                                    {.sample_time_s = kSample_s, .substeps = {}});
     // The chord at rest is part of what is simulated, not of the integrator's error.
-    const Plant<double> resolved = at_rest_resolved(plant, kSample_s / run.substeps);
+    const Plant<double> resolved = resolved_at_rest(plant, kSample_s / run.substeps);
     for (std::size_t i = 0; i + 1 < run.rows.size(); ++i) {
       const State<double> expected = reference.after(resolved, run.rows[i], kSample_s);
       const State<double>& found = run.rows[i + 1].state;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "awmr/model/rest.h"
 #include "awmr/simulate/physics.h"
 #include "simulate/paper_plant.h"
 
@@ -71,7 +72,7 @@ RC_GTEST_PROP(Energy, WorkDoneIsKineticEnergyPlusDissipation, ()) {
   const auto controller = make_controller(plant, reversible_vehicle(), {});
   const awmr::Run run = simulate(plant, controller, scenario, YawMode::kCombined,
                                  {.sample_time_s = kStep_s, .substeps = 1});
-  const Plant<double> resolved = at_rest_resolved(plant, kStep_s);
+  const Plant<double> resolved = resolved_at_rest(plant, kStep_s);
   double balance = 0.0;
   for (std::size_t i = 1; i < run.rows.size(); ++i) {
     // The command and the disturbance of the row before hold over the step.

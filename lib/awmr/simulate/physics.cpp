@@ -4,8 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "awmr/core/gravity.h"
+#include "awmr/model/rest.h"
 #include "awmr/model/runge_kutta.h"
-#include "awmr/model/steady.h"
 #include "awmr/simulate/simulate.h"
 
 namespace awmr {
@@ -18,8 +19,6 @@ constexpr double kStepsPerTimeConstant = 6.0;
 
 /// The largest speed (m/s, rad/s) below which resistance may be its chord.
 constexpr double kChordSpeed = 1e-3;
-
-constexpr double kGravity_mps2 = 9.80665;
 
 /// Streams of RunSeed::random: at most 200 terms an axis.
 constexpr std::uint64_t kSurgeUse = 100;
@@ -42,12 +41,6 @@ RunSeed seed_of(const Scenario& scenario, const SimulateOptions& options) {
 }
 
 }  // namespace
-
-Plant<double> at_rest_resolved(Plant<double> plant, double step_s) {
-  plant.surge.rest_speed = rest_speed(plant.surge, plant.mass_norm, step_s);
-  plant.yaw.rest_speed = rest_speed(plant.yaw, plant.inertia_norm, step_s);
-  return plant;
-}
 
 /// h <= T/6 for the time constants that do not depend on speed, m'/a_s of sway and T of the servo;
 /// and h such that resistance is its chord only below kChordSpeed (rest_speed() solved for h):
@@ -76,7 +69,7 @@ Physics::Physics(const Plant<double>& plant, double force_max, const Scenario& s
       yaw_(scenario.disturbance.yaw, sample_time_s_, seed_of(scenario, options), kYawUse),
       loaded_(scenario.disturbance.any()),
       by_wheel_(!scenario.faults.empty() || !scenario.patches.empty()) {
-  plant_ = at_rest_resolved(plant, sample_time_s_ / substeps_);
+  plant_ = resolved_at_rest(plant, sample_time_s_ / substeps_);
 }
 
 const BodyLoad& Physics::disturb(double t_s) {

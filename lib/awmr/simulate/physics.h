@@ -44,8 +44,4 @@ class Physics {
   bool by_wheel_;  ///< the two wheels of a side may have different forces
 };
 
-/// The plant whose resistances have the chord at rest that RK4 steps of step_s seconds need: see
-/// rest_speed() in model/steady.h.
-Plant<double> at_rest_resolved(Plant<double> plant, double step_s);
-
 }  // namespace awmr

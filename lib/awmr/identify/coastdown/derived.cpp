@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "awmr/core/gravity.h"
 #include "awmr/model/steady.h"
 
 namespace awmr {
 namespace {
 
-constexpr double kGravity = 9.80665;           ///< m/s^2
 constexpr double kFragileShare = 0.10;         ///< relative standard error of m' worth a warning
 constexpr double kInertiaDisagreement = 0.10;  ///< relative difference of Iz worth a note
 
@@ -80,14 +80,14 @@ void check_mass(const Resistance<double>& surge, const TrialSet<StopTimeRow>& co
   for (const StopTimeRow& run : coastdown.rows) {
     // |u_dot| at motors-off: g1(u)/m'
     const double deceleration = surge.at(run.initial_speed_mps) / mass_norm;
-    if (deceleration <= kGravity) continue;
+    if (deceleration <= kGravity_mps2) continue;
     findings.push_back(
         {coastdown.file, run.line, Severity::kWarning, "implausible-deceleration",
          fmt::format(
              "stopping from {:.3g} m/s in {:.3g} s means a first deceleration of {:.1f} m/s^2 "
              "({:.1f} g), more than a tyre gives, and F_max = {:.0f} N a motor; check the stop "
              "time, or record the coast-down curve",
-             run.initial_speed_mps, run.stop_time_s, deceleration, deceleration / kGravity,
+             run.initial_speed_mps, run.stop_time_s, deceleration, deceleration / kGravity_mps2,
              mass_kg / mass_norm)});
   }
   if (coastdown.rows.size() == 1) {

@@ -3,14 +3,25 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
-#include <map>
-#include <mutex>
-#include <thread>
+
+#include "awmr/core/index.h"
+#include "awmr/core/option_text.h"
+#include "awmr/core/parallel.h"
+#include "awmr/core/units.h"
+#include "awmr/model/family.h"
 
 namespace awmr {
 namespace {
 
+/// As in EstimatorReport::noise.
+constexpr NameTable<RowError, 4> kRowErrorNames{{{"log force", RowError::kLogForce},
+                                                 {"force", RowError::kForce},
+                                                 {"speed", RowError::kSpeed},
+                                                 {"time", RowError::kTime}}};
+
+/// Where the estimator under test assumes the error of a row.
 RowError error_of(const IdentifyOptions& options) {
   if (options.method != Method::kNonlinear) return RowError::kLogForce;
   switch (options.noise.value_or(ErrorModel::kTime)) {
@@ -26,25 +37,11 @@ RowError error_of(const IdentifyOptions& options) {
   return RowError::kLogForce;
 }
 
-const char* name_of(RowError error) {
-  switch (error) {
-    case RowError::kLogForce:
-      return "log force";
-    case RowError::kForce:
-      return "force";
-    case RowError::kSpeed:
-      return "speed";
-    case RowError::kTime:
-      return "time";
-  }
-  return "";
-}
-
 /// The residual scatter that the model's own fit of this subject left, in the unit of the error.
 double scatter(const Model& model, FitSubject subject, RowError error) {
   for (const EstimatorReport& report : model.record.reports) {
-    if (report.subject == subject && report.noise == name_of(error) &&
-        (report.family.empty() || report.family == "power")) {
+    if (report.subject == subject && report.noise == name_in(kRowErrorNames, error) &&
+        (report.family.empty() || report.family == name_of(Family::kPower))) {
       return report.residual_std;
     }
   }
@@ -54,16 +51,18 @@ double scatter(const Model& model, FitSubject subject, RowError error) {
 /// The inputs of the model's own trials.
 TablePlan plan_of(const Model& model) {
   TablePlan plan;
-  double force_sum = 0.0;
+  double most_tau_turn_m = 0.0;
   for (const TrialPoint& trial : model.record.trials) {
     if (trial.kind == TrialKind::kSurge) plan.surge_tau_speed.push_back(trial.input);
     if (trial.kind == TrialKind::kCoastdown) plan.stop_from_mps.push_back(trial.input);
-    if (trial.kind == TrialKind::kTurning) force_sum = std::max(force_sum, trial.input);
+    if (trial.kind == TrialKind::kTurning) {
+      most_tau_turn_m = std::max(most_tau_turn_m, trial.input);
+    }
   }
-  // tau_turn = 2 l_f F' sin d_r: one F' whose largest angle is the vehicle's stop.        [paper
-  // (62)]
-  const double stop_rad = model.vehicle.steering_max_deg * 0.017453292519943295;
-  plan.turning_wheel_force = force_sum / (2.0 * model.vehicle.front_axle_m * std::sin(stop_rad));
+  // tau_turn = 2 l_f F' sin d_r: one F' whose largest angle is the vehicle's stop.     [paper (62)]
+  const double stop_rad = radians(model.vehicle.steering_max_deg);
+  plan.turning_wheel_force =
+      most_tau_turn_m / (2.0 * model.vehicle.front_axle_m * std::sin(stop_rad));
   for (const TrialPoint& trial : model.record.trials) {
     if (trial.kind != TrialKind::kTurning) continue;
     plan.turning_steering_rad.push_back(
@@ -72,86 +71,103 @@ TablePlan plan_of(const Model& model) {
   return plan;
 }
 
-/// What the runs of one parameter add up to. Sums are taken in the order of the runs afterwards, so
-/// that threads do not matter.
-struct OneRun {
-  std::vector<std::optional<Estimate>> estimates;  ///< by ParameterId
-  bool failed = false;
+/// The fastest of the model's surge trials, m/s: a coast-down starts from it. At least 0.5.
+double top_speed_mps(const Model& model) {
+  double top = 0.5;
+  for (const TrialPoint& trial : model.record.trials) {
+    if (trial.kind == TrialKind::kSurge) top = std::max(top, trial.measured);
+  }
+  return top;
+}
+
+RowNoise noise_of(const Model& model, const RecoverOptions& options) {
+  const RowError error = options.error.value_or(error_of(options.identify));
+  constexpr double kStopWatch_s = 0.02;
+  return {.error = error,
+          .surge = scatter(model, FitSubject::kSurge, error),
+          .turning = scatter(model, FitSubject::kYaw, error),
+          .stop_time_s = kStopWatch_s};
+}
+
+/// What all runs have in common.
+struct Experiment {
+  Plant<double> truth{};
+  Vehicle vehicle;
+  TablePlan tables;
+  RowNoise noise;
+  double coast_from_mps = 0.0;
 };
 
-class Recoverer {
- public:
-  Recoverer(const Model& model, const Plant<double>& plant, const RecoverOptions& options)
-      : model_(model), plant_(plant), options_(options), plan_(plan_of(model)) {
-    noise_.error = options.error.value_or(error_of(options.identify));
-    noise_.surge = scatter(model, FitSubject::kSurge, noise_.error);
-    noise_.turning = scatter(model, FitSubject::kYaw, noise_.error);
-    constexpr double kStopWatch_s = 0.02;
-    noise_.stop_time_s = kStopWatch_s;
-  }
-
-  const RowNoise& noise() const { return noise_; }
-
-  OneRun run(int index) const {
-    Random random(options_.seed, static_cast<std::uint64_t>(index));
+/// The trials of run `index`: the seed and the index alone decide on the errors.
+TrialData simulated_trials(const Experiment& experiment, const RecoverOptions& options,
+                           std::uint64_t index) {
+  Random random(options.seed, index);
+  const SensorNoise& sensors = options.sensors;
+  if (options.plan == RecoverPlan::kLog) {
+    DrivePlan drive = options.drive;
+    drive.drive = options.seed + index;
     TrialData data;
-    if (options_.plan == RecoverPlan::kLog) {
-      DrivePlan drive = options_.drive;
-      drive.drive = options_.seed + static_cast<std::uint64_t>(index);
-      data.logs.push_back(simulate_log(plant_, model_.vehicle, drive, options_.sensors, random));
-    } else {
-      TablePlan plan = plan_;
-      const bool curve = options_.plan == RecoverPlan::kCurve;
-      if (curve) plan.stop_from_mps.clear();
-      data = simulate_tables(plant_, plan, noise_, random);
-      if (curve) {
-        const auto top = steady_top();
-        data.curves.push_back(simulate_coastdown(plant_, top, options_.curve_s,
-                                                 options_.curve_rate_hz, options_.sensors.speed_mps,
-                                                 options_.sensors.correlation_s, random));
-      }
-    }
-    IdentifyOptions identify_options = options_.identify;
-    identify_options.threads = 1;
-    identify_options.side_by_side = false;
-    const auto identified = identify(model_.vehicle, data, identify_options, {});
-    OneRun one;
-    if (!identified) {
-      one.failed = true;
-      return one;
-    }
-    one.failed = !identified->refused.empty();
-    for (const Estimate& estimate : identified->model.estimates) {
-      const bool fitted = estimate.value && estimate.ci95 && estimate.source != Source::kGiven;
-      one.estimates.push_back(fitted ? std::optional(estimate) : std::nullopt);
-    }
-    return one;
+    data.logs.push_back(simulate_log(experiment.truth, experiment.vehicle, drive, sensors, random));
+    return data;
   }
-
- private:
-  /// The fastest of the model's surge trials, as the coast-down starts from it.
-  double steady_top() const {
-    double top = 0.5;
-    for (const TrialPoint& trial : model_.record.trials) {
-      if (trial.kind == TrialKind::kSurge) top = std::max(top, trial.measured);
-    }
-    return top;
+  TablePlan tables = experiment.tables;
+  const bool curve = options.plan == RecoverPlan::kCurve;
+  if (curve) tables.stop_from_mps.clear();
+  TrialData data = simulate_tables(experiment.truth, tables, experiment.noise, random);
+  if (curve) {
+    data.curves.push_back(simulate_coastdown(experiment.truth, experiment.coast_from_mps,
+                                             options.curve_s, options.curve_rate_hz,
+                                             sensors.speed_mps, sensors.correlation_s, random));
   }
+  return data;
+}
 
-  const Model& model_;
-  const Plant<double>& plant_;
-  const RecoverOptions& options_;
-  TablePlan plan_;
-  RowNoise noise_;
+/// What one run found.
+struct OneRun {
+  std::vector<std::optional<Estimate>> estimates;  ///< by ParameterId; empty after an error
+  bool failed = false;                             ///< something asked for was refused
 };
 
+OneRun identified_again(const Vehicle& vehicle, const TrialData& data, IdentifyOptions options) {
+  options.threads = 1;
+  options.side_by_side = false;
+  const auto identified = identify(vehicle, data, options, {});
+  if (!identified) return {.estimates = {}, .failed = true};
+  OneRun run{.estimates = {}, .failed = !identified->refused.empty()};
+  for (const Estimate& estimate : identified->model.estimates) {
+    const bool fitted = estimate.value && estimate.ci95 && estimate.source != Source::kGiven;
+    run.estimates.push_back(fitted ? std::optional(estimate) : std::nullopt);
+  }
+  return run;
+}
+
+/// All runs, in order. Progress is told on this thread; its last call has them all.
+std::vector<OneRun> all_runs(const Experiment& experiment, const RecoverOptions& options,
+                             const std::function<void(int)>& progress) {
+  std::vector<OneRun> runs(at(options.runs));
+  std::atomic<int> done = 0;
+  int told = 0;
+  LoopControl control;
+  if (progress) control.progress = [&] { progress(told = done); };
+  parallel_for(
+      runs.size(), options.threads,
+      [&](std::size_t i) {
+        runs[i] = identified_again(experiment.vehicle, simulated_trials(experiment, options, i),
+                                   options.identify);
+        ++done;
+      },
+      control);
+  if (progress && told < options.runs) progress(options.runs);
+  return runs;
+}
+
+/// Sums are taken in the order of the runs, so that threads do not matter.
 RecoveredParameter judged(ParameterId id, double truth, const std::vector<OneRun>& runs) {
   RecoveredParameter p{.id = id, .truth = truth};
   int covered = 0;
   for (const OneRun& run : runs) {
-    const auto at = static_cast<std::size_t>(id);
-    if (at >= run.estimates.size() || !run.estimates[at]) continue;
-    const Estimate& estimate = *run.estimates[at];
+    if (at(id) >= run.estimates.size() || !run.estimates[at(id)]) continue;
+    const Estimate& estimate = *run.estimates[at(id)];
     const double error = *estimate.value - truth;
     p.bias += error;
     p.rmse += error * error;
@@ -169,63 +185,48 @@ RecoveredParameter judged(ParameterId id, double truth, const std::vector<OneRun
   return p;
 }
 
+std::string noise_in_words(const RowNoise& rows, const RecoverOptions& options) {
+  const SensorNoise& s = options.sensors;
+  if (options.plan == RecoverPlan::kLog) {
+    return fmt::format(
+        "speed {:g} m/s, yaw rate {:.3g} rad/s, heading {:.3g} rad, position {:g} m at {:g} Hz, "
+        "correlated over {:g} s",
+        s.speed_mps, s.yaw_rate_radps, s.heading_rad, s.position_m, s.position_rate_hz,
+        s.correlation_s);
+  }
+  return fmt::format("on {}: surge {:.3g}, turning {:.3g}; stop time {:g} s; curve {:g} m/s",
+                     name_in(kRowErrorNames, rows.error), rows.surge, rows.turning,
+                     rows.stop_time_s, s.speed_mps);
+}
+
 }  // namespace
 
-Result<Recovery> recover(const Model& model,
-                         const RecoverOptions& options, const std::function<void(int)>& progress) {
-  const auto plant = model.plant();
-  if (!plant) return tl::unexpected(plant.error());
-  if (options.runs < 2) return input_error("--runs", "at least 2 are needed");
+Result<Recovery> recover(const Model& model, const RecoverOptions& options,
+                         const std::function<void(int)>& progress) {
+  AWMR_ASSIGN_OR_RETURN(const Plant<double> truth, model.plant());
+  if (options.runs < 2) return input_error(option_text("runs"), "at least 2 are needed");
   if (options.plan != RecoverPlan::kLog && model.record.trials.empty()) {
-    return input_error(model.file + ":/trials",
-                       "holds no trials whose inputs could be simulated again; use --plan log");
+    return input_error(
+        model.file + ":/trials",
+        "holds no trials whose inputs could be simulated again; use " + option_text("plan log"));
   }
-  const Recoverer recoverer(model, *plant, options);
-  std::vector<OneRun> runs(static_cast<std::size_t>(options.runs));
-  std::mutex mutex;
-  int next = 0;
-  int done = 0;
-  const auto work = [&] {
-    for (;;) {
-      int index = 0;
-      {
-        const std::scoped_lock lock(mutex);
-        if (next == options.runs) return;
-        index = next++;
-      }
-      OneRun one = recoverer.run(index);
-      const std::scoped_lock lock(mutex);
-      runs[static_cast<std::size_t>(index)] = std::move(one);
-      if (progress) progress(++done);
-    }
-  };
-  const unsigned available = std::max(1U, std::thread::hardware_concurrency());
-  const unsigned count = options.threads > 0 ? static_cast<unsigned>(options.threads) : available;
-  std::vector<std::thread> pool;
-  for (unsigned t = 1; t < count; ++t) pool.emplace_back(work);
-  work();
-  for (std::thread& thread : pool) thread.join();
+  const Experiment experiment{.truth = truth,
+                              .vehicle = model.vehicle,
+                              .tables = plan_of(model),
+                              .noise = noise_of(model, options),
+                              .coast_from_mps = top_speed_mps(model)};
+  const std::vector<OneRun> runs = all_runs(experiment, options, progress);
 
-  Recovery recovery;
-  recovery.runs = options.runs;
-  recovery.noise = recoverer.noise();
+  Recovery recovery{.parameters = {},
+                    .noise = experiment.noise,
+                    .noise_text = noise_in_words(experiment.noise, options),
+                    .runs = options.runs};
   recovery.failed = static_cast<int>(
       std::count_if(runs.begin(), runs.end(), [](const OneRun& run) { return run.failed; }));
   for (const ParameterInfo& parameter : parameter_table()) {
     const RecoveredParameter p = judged(parameter.id, *model[parameter.id].value, runs);
     if (p.runs > 0) recovery.parameters.push_back(p);
   }
-  const SensorNoise& s = options.sensors;
-  recovery.noise_text =
-      options.plan == RecoverPlan::kLog
-          ? fmt::format(
-                "speed {:g} m/s, yaw rate {:.3g} rad/s, heading {:.3g} rad, position {:g} m "
-                "at {:g} Hz, correlated over {:g} s",
-                s.speed_mps, s.yaw_rate_radps, s.heading_rad, s.position_m, s.position_rate_hz,
-                s.correlation_s)
-          : fmt::format("on {}: surge {:.3g}, turning {:.3g}; stop time {:g} s; curve {:g} m/s",
-                        name_of(recovery.noise.error), recovery.noise.surge, recovery.noise.turning,
-                        recovery.noise.stop_time_s, s.speed_mps);
   return recovery;
 }
 

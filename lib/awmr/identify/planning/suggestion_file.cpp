@@ -1,3 +1,7 @@
+// suggest.json and the sheet for the field.
+
+#include <fmt/format.h>
+
 #include "awmr/core/json.h"
 #include "awmr/identify/planning/suggest.h"
 
@@ -22,6 +26,24 @@ std::string suggestion_text(const Suggestion& suggestion, const Provenance& prov
                               {"information_gain", trial.d_gain}});
   }
   return to_text(json);
+}
+
+std::string field_sheet(const Suggestion& suggestion, std::size_t most) {
+  std::string text = fmt::format("FIELD SHEET    ranked by: {}\n", suggestion.criterion);
+  for (const std::string& assumption : suggestion.assumptions) {
+    text += fmt::format("  assumed: {}\n", assumption);
+  }
+  text += '\n';
+  std::size_t number = 1;
+  for (const SuggestedTrial& trial : suggestion.trials) {
+    if (number > most) break;
+    text += fmt::format("[ ] {}. {:<9} {}\n", number++, name_in(kTrialKindNames, trial.kind),
+                        trial.settings);
+    text +=
+        fmt::format("       {}: standard error {:.3g} -> {:.3g};  information +{:.1f}\n",
+                    trial.parameter, trial.std_error_before, trial.std_error_after, trial.d_gain);
+  }
+  return text;
 }
 
 }  // namespace awmr

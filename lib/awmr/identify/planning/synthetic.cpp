@@ -5,13 +5,15 @@
 #include <numbers>
 
 #include "awmr/core/units.h"
+#include "awmr/model/rest.h"
 #include "awmr/model/steady.h"
 #include "awmr/trials/replay.h"
 
 namespace awmr {
 namespace {
 
-/// White, or first-order with the same standard deviation: e_k = phi e_{k-1} + sqrt(1 - phi^2) w_k.
+/// White noise, or first-order noise of the same standard deviation:
+///   e_k = phi e_{k-1} + sqrt(1 - phi^2) w_k,   phi = exp(-h/T)
 class NoiseSource {
  public:
   NoiseSource(double std, double correlation_s, double step_s)
@@ -61,52 +63,65 @@ NoisyRow noisy(double force, double rate, double travel, RowError error, double 
   return row;
 }
 
+/// u with g1(u) = tau_speed, less what the dead zones of the four wheels take.
+TrialSet<SurgeRow> surge_rows(const Plant<double>& plant, const TablePlan& plan,
+                              const RowNoise& noise, Random& random) {
+  TrialSet<SurgeRow> set{"simulated surge", {}, 0};
+  int line = 2;
+  for (const double tau : plan.surge_tau_speed) {
+    const auto speed = steady_rate(plant.surge, tau - 4.0 * plant.wheel_dead_zone);
+    if (!speed) continue;
+    const NoisyRow row =
+        noisy(tau, *speed, plan.surge_distance_m, noise.error, noise.surge, random);
+    set.rows.push_back({line++, row.force, row.rate, plan.surge_distance_m, row.elapsed_s});
+  }
+  return set;
+}
+
+/// r with g3(r) = 2 l_f F' sin d_r, F' less the dead zone of a wheel.
+TrialSet<TurningRow> turning_rows(const Plant<double>& plant, const TablePlan& plan,
+                                  const RowNoise& noise, Random& random) {
+  TrialSet<TurningRow> set{"simulated turning", {}, 0};
+  int line = 2;
+  for (const double angle : plan.turning_steering_rad) {
+    const double effective = plan.turning_wheel_force - plant.wheel_dead_zone;
+    const double tau = 2.0 * plant.front_axle_m * effective * std::sin(angle);
+    const auto rate = steady_rate(plant.yaw, tau);
+    if (!rate) continue;
+    const NoisyRow row =
+        noisy(tau, *rate, 2.0 * std::numbers::pi, noise.error, noise.turning, random);
+    set.rows.push_back({.line = line++,
+                        .steering_rad = angle,
+                        .wheel_force = plan.turning_wheel_force,
+                        .tau_turn_m = row.force * plan.turning_wheel_force / effective,
+                        .yaw_rate_radps = row.rate,
+                        .turns = 1.0,
+                        .elapsed_s = row.elapsed_s});
+  }
+  return set;
+}
+
+TrialSet<StopTimeRow> stop_rows(const Plant<double>& plant, const TablePlan& plan,
+                                const RowNoise& noise, Random& random) {
+  TrialSet<StopTimeRow> set{"simulated coast-down", {}, 0};
+  int line = 2;
+  for (const double speed : plan.stop_from_mps) {
+    const auto stop_s = stop_time_s(plant.surge, plant.mass_norm, speed);
+    if (!stop_s) continue;
+    set.rows.push_back(
+        {line++, speed, *stop_s + noise.stop_time_s * random.normal(), noise.stop_time_s});
+  }
+  return set;
+}
+
 }  // namespace
 
 TrialData simulate_tables(const Plant<double>& plant, const TablePlan& plan, const RowNoise& noise,
                           Random& random) {
   TrialData data;
-  int line = 2;
-  if (!plan.surge_tau_speed.empty()) {
-    data.surge = TrialSet<SurgeRow>{"simulated surge", {}, 0};
-    for (const double tau : plan.surge_tau_speed) {
-      const auto speed = steady_rate(plant.surge, tau - 4.0 * plant.wheel_dead_zone);
-      if (!speed) continue;
-      const NoisyRow row =
-          noisy(tau, *speed, plan.surge_distance_m, noise.error, noise.surge, random);
-      data.surge->rows.push_back(
-          {line++, row.force, row.rate, plan.surge_distance_m, row.elapsed_s});
-    }
-  }
-  if (!plan.turning_steering_rad.empty()) {
-    data.turning = TrialSet<TurningRow>{"simulated turning", {}, 0};
-    line = 2;
-    for (const double angle : plan.turning_steering_rad) {
-      const double effective = plan.turning_wheel_force - plant.wheel_dead_zone;
-      const double tau = 2.0 * plant.front_axle_m * effective * std::sin(angle);
-      const auto rate = steady_rate(plant.yaw, tau);
-      if (!rate) continue;
-      const NoisyRow row =
-          noisy(tau, *rate, 2.0 * std::numbers::pi, noise.error, noise.turning, random);
-      data.turning->rows.push_back({.line = line++,
-                                    .steering_rad = angle,
-                                    .wheel_force = plan.turning_wheel_force,
-                                    .tau_turn_m = row.force * plan.turning_wheel_force / effective,
-                                    .yaw_rate_radps = row.rate,
-                                    .turns = 1.0,
-                                    .elapsed_s = row.elapsed_s});
-    }
-  }
-  if (!plan.stop_from_mps.empty()) {
-    data.coastdown = TrialSet<StopTimeRow>{"simulated coast-down", {}, 0};
-    line = 2;
-    for (const double speed : plan.stop_from_mps) {
-      const auto stop_s = stop_time_s(plant.surge, plant.mass_norm, speed);
-      if (!stop_s) continue;
-      data.coastdown->rows.push_back(
-          {line++, speed, *stop_s + noise.stop_time_s * random.normal(), noise.stop_time_s});
-    }
-  }
+  if (!plan.surge_tau_speed.empty()) data.surge = surge_rows(plant, plan, noise, random);
+  if (!plan.turning_steering_rad.empty()) data.turning = turning_rows(plant, plan, noise, random);
+  if (!plan.stop_from_mps.empty()) data.coastdown = stop_rows(plant, plan, noise, random);
   return data;
 }
 
@@ -117,8 +132,7 @@ CoastCurve simulate_coastdown(const Plant<double>& plant, double speed_mps, doub
   NoiseSource noise(noise_mps, correlation_s, 1.0 / rate_hz);
   const auto rows = static_cast<int>(std::lround(duration_s * rate_hz));
   constexpr double kStep_s = 1e-4;
-  Plant<double> resolved = plant;
-  resolved.surge.rest_speed = rest_speed(plant.surge, plant.mass_norm, kStep_s);
+  const Plant<double> resolved = resolved_at_rest(plant, kStep_s);
   State<double> state{};
   state.u_mps = speed_mps;
   const int steps = std::max(1, static_cast<int>(std::lround(1.0 / (rate_hz * kStep_s))));
@@ -136,7 +150,7 @@ CoastCurve simulate_coastdown(const Plant<double>& plant, double speed_mps, doub
 
 namespace {
 
-/// Thrust, difference and steering, held for hold_s each.
+/// Commands of thrust, difference of the sides and steering, each held for hold_s.
 void command_drive(const Vehicle& vehicle, const DrivePlan& plan, DrivingLog& log) {
   Random random(plan.drive, 7);
   const auto rows = static_cast<int>(std::lround(plan.duration_s * plan.rate_hz));
@@ -182,6 +196,23 @@ double std_of(const SensorNoise& noise, LogChannel channel) {
   return 0.002;  // rad of a measured servo
 }
 
+/// The channel's truth with noise in every `stride`-th row, held between.
+Measured measured(const std::vector<State<double>>& truth, LogChannel channel, std::size_t stride,
+                  NoiseSource source, Random& random) {
+  Measured result{std::vector<double>(truth.size()), std::vector<bool>(truth.size(), false), 0,
+                  stride > 1};
+  for (std::size_t row = 0; row < truth.size(); ++row) {
+    if (row % stride == 0) {
+      result.value[row] = channel_of(truth[row], channel) + source.next(random);
+      result.fresh[row] = true;
+      ++result.fresh_count;
+    } else {
+      result.value[row] = result.value[row - 1];
+    }
+  }
+  return result;
+}
+
 }  // namespace
 
 DrivingLog simulate_log(const Plant<double>& plant, const Vehicle& vehicle, const DrivePlan& plan,
@@ -190,12 +221,9 @@ DrivingLog simulate_log(const Plant<double>& plant, const Vehicle& vehicle, cons
   log.file = "simulated log";
   command_drive(vehicle, plan, log);
   std::vector<State<double>> truth(log.rows());
-  Plant<double> resolved = plant;
   const double step_s = std::min(1e-3, replay_step_s(plant));
-  resolved.surge.rest_speed = rest_speed(plant.surge, plant.mass_norm, step_s);
-  resolved.yaw.rest_speed = rest_speed(plant.yaw, plant.inertia_norm, step_s);
-  const LogSignals signals(log);
-  replay<double>(signals, 0, log.rows(), resolved, nullptr, step_s, State<double>{},
+  replay<double>(LogSignals(log), 0, log.rows(), resolved_at_rest(plant, step_s), nullptr, step_s,
+                 State<double>{},
                  [&](std::size_t row, const State<double>& state) { truth[row] = state; });
 
   std::vector<LogChannel> channels{LogChannel::kX, LogChannel::kY, LogChannel::kHeading,
@@ -206,20 +234,9 @@ DrivingLog simulate_log(const Plant<double>& plant, const Vehicle& vehicle, cons
   for (const LogChannel channel : channels) {
     const bool position = channel == LogChannel::kX || channel == LogChannel::kY;
     const std::size_t stride = position ? every : 1;
-    NoiseSource source(std_of(noise, channel), noise.correlation_s,
-                       static_cast<double>(stride) / plan.rate_hz);
-    Measured measured{std::vector<double>(log.rows()), std::vector<bool>(log.rows(), false), 0,
-                      stride > 1};
-    for (std::size_t row = 0; row < log.rows(); ++row) {
-      if (row % stride == 0) {
-        measured.value[row] = channel_of(truth[row], channel) + source.next(random);
-        measured.fresh[row] = true;
-        ++measured.fresh_count;
-      } else {
-        measured.value[row] = measured.value[row - 1];
-      }
-    }
-    log[channel] = std::move(measured);
+    const NoiseSource source(std_of(noise, channel), noise.correlation_s,
+                             static_cast<double>(stride) / plan.rate_hz);
+    log[channel] = measured(truth, channel, stride, source, random);
   }
   return log;
 }

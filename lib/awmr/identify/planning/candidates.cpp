@@ -1,0 +1,168 @@
+#include "awmr/identify/planning/candidates.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "awmr/core/units.h"
+#include "awmr/model/steady.h"
+
+namespace awmr {
+namespace {
+
+/// Logs and coast-downs are recorded at this rate.
+constexpr double kRate_hz = 100.0;
+/// A rate (m/s, rad/s) that stands for rest, so that its logarithm exists.
+constexpr double kAtRest = 1e-6;
+
+/// The scatter of the model's own rows of this kind, over their rate; 5 % where there are none.
+double relative_scatter(const Model& model, TrialKind kind) {
+  double squares = 0.0;
+  int count = 0;
+  for (const TrialPoint& trial : model.record.trials) {
+    if (trial.kind != kind || !trial.predicted) continue;
+    const double relative = *trial.predicted / trial.measured - 1.0;
+    squares += relative * relative;
+    ++count;
+  }
+  constexpr double kOtherwise = 0.05;
+  return count > 2 && squares > 0.0 ? std::sqrt(squares / (count - 2)) : kOtherwise;
+}
+
+/// Steady speed u under tau_speed: ln u, whose error is the relative scatter over sqrt(runs).
+Candidate surge_candidate(double wheel_force, double scatter, double runs) {
+  const double tau = 4.0 * wheel_force;
+  return {
+      .trial = {.kind = TrialKind::kSurge,
+                .settings = fmt::format("straight, tau_speed {:.3g} (F' = {:.3g}), {:g} runs over "
+                                        "10 m after reaching steady speed",
+                                        tau, wheel_force, runs),
+                .numbers = {{"tau_speed", tau}, {"runs", runs}}},
+      .standardised = [=](const Plant<double>& p) {
+        const double u = steady_rate(p.surge, tau - 4.0 * p.wheel_dead_zone).value_or(kAtRest);
+        return std::vector{std::sqrt(runs) * std::log(u) / scatter};
+      }};
+}
+
+/// Steady yaw rate r under tau_turn = 2 l_f F' sin d_r: ln r, as for surge.
+Candidate turning_candidate(double steering_rad, double wheel_force, double scatter, double runs) {
+  return {.trial = {.kind = TrialKind::kTurning,
+                    .settings = fmt::format("steering {:.3g} deg, F' = {:.3g}, {:g} full turns",
+                                            degrees(steering_rad), wheel_force, runs),
+                    .numbers = {{"steering_deg", degrees(steering_rad)},
+                                {"wheel_force", wheel_force},
+                                {"runs", runs}}},
+          .standardised = [=](const Plant<double>& p) {
+            const double effective = std::max(0.0, wheel_force - p.wheel_dead_zone);
+            const double tau = 2.0 * p.front_axle_m * effective * std::sin(steering_rad);
+            const double r = steady_rate(p.yaw, tau).value_or(kAtRest);
+            return std::vector{std::sqrt(runs) * std::log(r) / scatter};
+          }};
+}
+
+/// Every speed of the curve, from motors off to rest.
+Candidate coastdown_candidate(double from_mps, double duration_s, double noise_mps, double runs) {
+  return {.trial = {.kind = TrialKind::kCoastdown,
+                    .settings = fmt::format("motors off from {:.3g} m/s, speed recorded at 100 Hz "
+                                            "to rest ({:.2g} s), {:g} runs",
+                                            from_mps, duration_s, runs),
+                    .numbers = {{"initial_speed_mps", from_mps},
+                                {"duration_s", duration_s},
+                                {"rate_hz", kRate_hz},
+                                {"runs", runs}}},
+          .standardised = [=, noise = noise_mps / std::sqrt(runs)](const Plant<double>& p) {
+            Random none(1, 1);
+            std::vector<double> values =
+                simulate_coastdown(p, from_mps, duration_s, kRate_hz, 0.0, 0.0, none).speed_mps;
+            for (double& value : values) value /= noise;
+            return values;
+          }};
+}
+
+/// Every speed, yaw rate and heading of a log.
+Candidate log_candidate(const std::string& what, const Vehicle& vehicle, const DrivePlan& plan,
+                        const SensorNoise& sensors) {
+  return {.trial = {.kind = TrialKind::kLog,
+                    .settings = fmt::format("{}, new levels every {:g} s, {:g} s logged at 100 Hz",
+                                            what, plan.hold_s, plan.duration_s),
+                    .numbers = {{"duration_s", plan.duration_s},
+                                {"rate_hz", plan.rate_hz},
+                                {"runs", 1.0}}},
+          .standardised = [=](const Plant<double>& p) {
+            Random none(1, 1);
+            SensorNoise silent = sensors;
+            silent.speed_mps = silent.yaw_rate_radps = silent.heading_rad = silent.position_m = 0.0;
+            const DrivingLog log = simulate_log(p, vehicle, plan, silent, none);
+            std::vector<double> values;
+            const auto take = [&](LogChannel channel, double noise) {
+              for (std::size_t row = 0; row < log.rows(); ++row) {
+                if (log[channel]->fresh[row]) values.push_back(log[channel]->value[row] / noise);
+              }
+            };
+            take(LogChannel::kSpeed, sensors.speed_mps);
+            take(LogChannel::kYawRate, sensors.yaw_rate_radps);
+            take(LogChannel::kHeading, sensors.heading_rad);
+            return values;
+          }};
+}
+
+void add_coastdowns(const Vehicle& vehicle, const Plant<double>& plant,
+                    const SuggestOptions& options, std::vector<Candidate>& candidates) {
+  const double top =
+      steady_rate(plant.surge, 4.0 * (vehicle.wheel_force.hi - plant.wheel_dead_zone))
+          .value_or(1.0);
+  for (const double share : {0.5, 1.0}) {
+    const double from = share * top;
+    const double stop_s = stop_time_s(plant.surge, plant.mass_norm, from).value_or(5.0);
+    candidates.push_back(coastdown_candidate(from, std::min(10.0, 1.2 * stop_s),
+                                             options.sensors.speed_mps, options.repeats));
+  }
+}
+
+void add_logs(const Vehicle& vehicle, const SensorNoise& sensors,
+              std::vector<Candidate>& candidates) {
+  constexpr const char* kSteps = "thrust and steering steps, both sides apart at times";
+  candidates.push_back(log_candidate("straight starts and stops", vehicle,
+                                     {.duration_s = 30.0, .straight = true}, sensors));
+  candidates.push_back(log_candidate(kSteps, vehicle, {.duration_s = 30.0}, sensors));
+  candidates.push_back(log_candidate(kSteps, vehicle, {.duration_s = 120.0}, sensors));
+}
+
+}  // namespace
+
+std::vector<Candidate> candidates_of(const Model& model, const Plant<double>& plant,
+                                     const SuggestOptions& options) {
+  const Vehicle& vehicle = model.vehicle;
+  const double most = vehicle.wheel_force.hi;
+  std::vector<Candidate> candidates;
+  const double surge_scatter = relative_scatter(model, TrialKind::kSurge);
+  for (const double share : {0.05, 0.1, 0.2, 0.35, 0.5, 0.75, 1.0}) {
+    candidates.push_back(surge_candidate(most * share, surge_scatter, options.repeats));
+  }
+  const double turning_scatter = relative_scatter(model, TrialKind::kTurning);
+  for (const double angle_share : {0.25, 0.5, 1.0}) {
+    for (const double force_share : {0.2, 0.5, 1.0}) {
+      candidates.push_back(turning_candidate(radians(vehicle.steering_max_deg) * angle_share,
+                                             most * force_share, turning_scatter, options.repeats));
+    }
+  }
+  add_coastdowns(vehicle, plant, options, candidates);
+  add_logs(vehicle, options.sensors, candidates);
+  return candidates;
+}
+
+std::vector<std::string> assumptions_of(const Model& model, const SuggestOptions& options) {
+  const SensorNoise& sensors = options.sensors;
+  return {fmt::format("steady speeds scatter by {:.2g} of their value, yaw rates by {:.2g}: what "
+                      "this model's own rows do, or 0.05",
+                      relative_scatter(model, TrialKind::kSurge),
+                      relative_scatter(model, TrialKind::kTurning)),
+          fmt::format("logs and curves at 100 Hz with {:g} m/s, {:.2g} rad/s, {:.2g} rad; position "
+                      "{:g} m at {:g} Hz",
+                      sensors.speed_mps, sensors.yaw_rate_radps, sensors.heading_rad,
+                      sensors.position_m, sensors.position_rate_hz),
+          fmt::format("{} runs of each", options.repeats)};
+}
+
+}  // namespace awmr

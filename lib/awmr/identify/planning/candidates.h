@@ -1,0 +1,25 @@
+/// The trials that could be recorded next, each with what it would measure. Private to this folder.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "awmr/identify/planning/suggest.h"
+
+namespace awmr {
+
+struct Candidate {
+  SuggestedTrial trial;  ///< kind, settings and numbers; its standard errors are still to be found
+  /// What the trial would measure on a plant, each number over the standard deviation of its error:
+  /// as many numbers for every plant.
+  std::function<std::vector<double>(const Plant<double>&)> standardised;
+};
+
+std::vector<Candidate> candidates_of(const Model& model, const Plant<double>& plant,
+                                     const SuggestOptions& options);
+
+/// What is assumed of the errors of the candidates' measurements, in words.
+std::vector<std::string> assumptions_of(const Model& model, const SuggestOptions& options);
+
+}  // namespace awmr
