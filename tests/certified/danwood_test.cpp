@@ -3,7 +3,7 @@
 
 #include "awmr/identify/identify.h"
 
-namespace awmr {
+namespace awmr::testing {
 namespace {
 
 /// The certified data as a surge trial: y is the force, scaled by 0.1 so that tau_speed stays
@@ -44,4 +44,4 @@ TEST(DanWood, ParametersAndStandardDeviationsAgreeToSixDigits) {
 }
 
 }  // namespace
-}  // namespace awmr
+}  // namespace awmr::testing

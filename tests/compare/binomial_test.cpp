@@ -7,7 +7,7 @@
 
 #include "awmr/compare/statistics.h"
 
-namespace awmr {
+namespace awmr::testing {
 namespace {
 
 TEST(ClopperPearson, IsExactAtTheEnds) {
@@ -57,4 +57,4 @@ TEST(Holm, StepsDownAndKeepsTheOrder) {
 }
 
 }  // namespace
-}  // namespace awmr
+}  // namespace awmr::testing

@@ -12,7 +12,7 @@
 #include "awmr/simulate/simulate.h"
 #include "compare/uncertain_model.h"
 
-namespace awmr {
+namespace awmr::testing {
 namespace {
 
 using ::testing::HasSubstr;
@@ -20,8 +20,8 @@ using ::testing::HasSubstr;
 const Provenance kProvenance{"compare", {{"samples", "4"}}, {{"model.json", "abc"}}};
 
 Comparison compared(const CompareOptions& options,
-                    std::vector<Scenario> scenarios = {testing::short_heading()}) {
-  const auto c = compare(testing::uncertain_model(), kPaperGains, scenarios, options);
+                    std::vector<Scenario> scenarios = {short_heading()}) {
+  const auto c = compare(uncertain_model(), kPaperGains, scenarios, options);
   EXPECT_TRUE(c) << (c ? "" : to_text(c.error()));
   return c.value_or(Comparison{});
 }
@@ -46,7 +46,7 @@ std::vector<std::string> cells_of(const std::string& line) {
 }
 
 TEST(Compare, TheSameBytesWhateverTheNumberOfThreads) {
-  const std::vector<Scenario> scenarios = {testing::short_heading(), testing::short_open_loop()};
+  const std::vector<Scenario> scenarios = {short_heading(), short_open_loop()};
   const CompareOptions one{.samples = 4, .seed = 11, .threads = 1};
   const Comparison reference = compared(one, scenarios);
   for (const int threads : {0, 2, 7, 64}) {
@@ -61,8 +61,8 @@ TEST(Compare, TheSameBytesWhateverTheNumberOfThreads) {
 }
 
 TEST(Compare, RowsGoByScenarioModeAndSample) {
-  const Comparison c = compared({.samples = 2, .seed = 1, .threads = 2},
-                                {testing::short_heading("a"), testing::short_heading("b")});
+  const Comparison c =
+      compared({.samples = 2, .seed = 1, .threads = 2}, {short_heading("a"), short_heading("b")});
   ASSERT_EQ(c.rows.size(), 2U * 3U * 3U);
   for (std::size_t i = 0; i < c.rows.size(); ++i) {
     EXPECT_EQ(c.rows[i].scenario, i < 9 ? "a" : "b");
@@ -72,13 +72,13 @@ TEST(Compare, RowsGoByScenarioModeAndSample) {
 }
 
 TEST(Compare, SampleZeroIsTheModelItself) {
-  const Model model = testing::uncertain_model();
+  const Model model = uncertain_model();
   const Comparison c = compared({.samples = 3, .seed = 1, .threads = 1});
   const Comparison nominal = compared({.samples = 0, .seed = 99, .threads = 1});
   const Plant<double> plant = *model.plant();
   const Controller<double> controller = make_controller(plant, model.vehicle, kPaperGains);
   for (std::size_t i = 0; i < 3; ++i) {
-    const Scenario scenario = testing::short_heading();
+    const Scenario scenario = short_heading();
     const Metrics direct =
         metrics_of(simulate(plant, controller, scenario, kYawModes[i],
                             {.sample_time_s = model.vehicle.sample_time_s, .substeps = {}}),
@@ -90,7 +90,7 @@ TEST(Compare, SampleZeroIsTheModelItself) {
 
 TEST(Compare, ASampleIsTheSameVehicleInEveryScenarioAndMode) {
   // In open loop straight ahead the modes do not differ, so neither may the drawn vehicles.
-  Scenario straight = testing::short_open_loop();
+  Scenario straight = short_open_loop();
   straight.guidance = OpenLoop{2.0, 0.0};
   Scenario again = straight;
   again.name = "again";
@@ -117,25 +117,25 @@ TEST(Compare, MoreSamplesKeepTheFirstOnes) {
 }
 
 TEST(Compare, RefusesBadOptionsAllAtOnce) {
-  const auto c = compare(testing::uncertain_model(), kPaperGains, {},
-                         {.samples = -1, .seed = 1, .threads = -1});
+  const auto c =
+      compare(uncertain_model(), kPaperGains, {}, {.samples = -1, .seed = 1, .threads = -1});
   ASSERT_FALSE(c);
   EXPECT_EQ(c.error().kind, ErrorKind::kInput);
   EXPECT_EQ(c.error().faults.size(), 3U);
 }
 
 TEST(Compare, RefusesTwoScenariosOfOneName) {
-  const auto c = compare(testing::uncertain_model(), kPaperGains,
-                         {testing::short_heading("a"), testing::short_heading("a")}, {});
+  const auto c =
+      compare(uncertain_model(), kPaperGains, {short_heading("a"), short_heading("a")}, {});
   ASSERT_FALSE(c);
   EXPECT_THAT(to_text(c.error()), HasSubstr("two scenarios are named 'a'"));
 }
 
 TEST(Compare, NamesTheMissingParameter) {
-  Model model = testing::uncertain_model();
+  Model model = uncertain_model();
   model[ParameterId::kInertiaNorm].value.reset();
   for (const int samples : {0, 2}) {
-    const auto c = compare(model, kPaperGains, {testing::short_heading()},
+    const auto c = compare(model, kPaperGains, {short_heading()},
                            {.samples = samples, .seed = 1, .threads = 1});
     ASSERT_FALSE(c);
     EXPECT_EQ(c.error().kind, ErrorKind::kInput);
@@ -144,9 +144,9 @@ TEST(Compare, NamesTheMissingParameter) {
 }
 
 TEST(Compare, NeedsACovarianceOnlyForSamples) {
-  const Model model = testing::fitted_paper_model();
+  const Model model = fitted_paper_model();
   const auto run = [&](int samples) {
-    return compare(model, kPaperGains, {testing::short_heading()},
+    return compare(model, kPaperGains, {short_heading()},
                    {.samples = samples, .seed = 1, .threads = 1});
   };
   EXPECT_TRUE(run(0));
@@ -172,16 +172,16 @@ TEST(ComparisonCsv, HasTheContractsColumns) {
 }
 
 TEST(ComparisonCsv, LeavesHeadingMetricsEmptyInOpenLoop) {
-  const auto lines = lines_of(comparison_csv(
-      compared({.samples = 0, .seed = 1, .threads = 1}, {testing::short_open_loop()})));
+  const auto lines = lines_of(
+      comparison_csv(compared({.samples = 0, .seed = 1, .threads = 1}, {short_open_loop()})));
   const auto cells = cells_of(lines.at(1));
   for (const std::size_t empty : {4U, 5U, 6U, 7U, 9U}) EXPECT_EQ(cells[empty], "") << empty;
   EXPECT_NE(cells[8], "");
 }
 
 TEST(ComparisonCsv, QuotesNamesThatNeedIt) {
-  const auto lines = lines_of(comparison_csv(compared({.samples = 0, .seed = 1, .threads = 1},
-                                                      {testing::short_heading("turn, \"fast\"")})));
+  const auto lines = lines_of(comparison_csv(
+      compared({.samples = 0, .seed = 1, .threads = 1}, {short_heading("turn, \"fast\"")})));
   EXPECT_EQ(lines.at(1).rfind("\"turn, \"\"fast\"\"\",differential,0,1,", 0), 0U) << lines[1];
 }
 
@@ -220,8 +220,8 @@ TEST(ComparisonJson, WithSamplesHasIntervalsAroundTheMeans) {
 
 TEST(ComparisonJson, RanksNoOpenLoopScenario) {
   const CompareOptions options{.samples = 0, .seed = 1, .threads = 1};
-  const Json json = Json::parse(
-      comparison_text(compared(options, {testing::short_open_loop()}), options, kProvenance));
+  const Json json =
+      Json::parse(comparison_text(compared(options, {short_open_loop()}), options, kProvenance));
   EXPECT_TRUE(json["scenarios"][0]["ranking"].empty());
   EXPECT_TRUE(json["scenarios"][0]["ranking_note"].is_string());
 }
@@ -240,4 +240,4 @@ TEST(ComparisonTable, HasUnitsAndAlignedRows) {
 }
 
 }  // namespace
-}  // namespace awmr
+}  // namespace awmr::testing

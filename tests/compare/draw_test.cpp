@@ -9,7 +9,7 @@
 
 #include "compare/uncertain_model.h"
 
-namespace awmr {
+namespace awmr::testing {
 namespace {
 
 using ::testing::HasSubstr;
@@ -31,7 +31,7 @@ std::vector<std::array<double, 4>> drawn(const PlantSampler& sampler) {
 }
 
 TEST(PlantSampler, DrawsHaveTheModelsMeanAndCovariance) {
-  Model model = testing::uncertain_model();
+  Model model = uncertain_model();
   model.vehicle.surge_beta_range = {0.0, 4.0};  // no draw is cut off
   const auto sampler = PlantSampler::make(model);
   ASSERT_TRUE(sampler);
@@ -62,7 +62,7 @@ TEST(PlantSampler, DrawsHaveTheModelsMeanAndCovariance) {
 }
 
 TEST(PlantSampler, LeavesAloneWhatTheCovarianceDoesNotCover) {
-  const Model model = testing::uncertain_model();
+  const Model model = uncertain_model();
   const auto sampler = PlantSampler::make(model);
   ASSERT_TRUE(sampler);
   const auto plant = sampler->draw(1, 1);
@@ -75,7 +75,7 @@ TEST(PlantSampler, LeavesAloneWhatTheCovarianceDoesNotCover) {
 }
 
 TEST(PlantSampler, ADrawDependsOnSeedAndSampleAlone) {
-  const auto sampler = PlantSampler::make(testing::uncertain_model());
+  const auto sampler = PlantSampler::make(uncertain_model());
   ASSERT_TRUE(sampler);
   const auto first = coordinates(*sampler->draw(1, 5));
   EXPECT_EQ(first, coordinates(*sampler->draw(1, 5)));
@@ -84,7 +84,7 @@ TEST(PlantSampler, ADrawDependsOnSeedAndSampleAlone) {
 }
 
 TEST(PlantSampler, KeepsPositiveQuantitiesPositiveWhateverTheirError) {
-  Model model = testing::fitted_paper_model();
+  Model model = fitted_paper_model();
   model.covariance.parameters = {ParameterId::kMassNorm};
   model.covariance.matrix = {{4.0 * 0.0768 * 0.0768}};  // s.e. of 200 %
   const auto sampler = PlantSampler::make(model);
@@ -95,7 +95,7 @@ TEST(PlantSampler, KeepsPositiveQuantitiesPositiveWhateverTheirError) {
 }
 
 TEST(PlantSampler, KeepsExponentsInTheVehiclesRange) {
-  Model model = testing::uncertain_model();
+  Model model = uncertain_model();
   model[ParameterId::kSurgeBeta].value = 0.995;  // s.e. 0.016: a third would be above 1
   const auto sampler = PlantSampler::make(model);
   ASSERT_TRUE(sampler);
@@ -151,7 +151,7 @@ TEST(PlantSampler, DrawsATermWellAboveZeroAsTheNormalThatItsFitGave) {
 }
 
 TEST(PlantSampler, SaysWhenTheRangeLeavesNothingToDraw) {
-  Model model = testing::uncertain_model();
+  Model model = uncertain_model();
   model[ParameterId::kSurgeBeta].value = 2.0;
   const auto sampler = PlantSampler::make(model);
   ASSERT_TRUE(sampler);
@@ -163,7 +163,7 @@ TEST(PlantSampler, SaysWhenTheRangeLeavesNothingToDraw) {
 
 TEST(PlantSampler, DrawsFromASingularCovariance) {
   // m' computed from a1 alone, m' = c a1: correlation 1, so the drawn ratio is constant.
-  Model model = testing::fitted_paper_model();
+  Model model = fitted_paper_model();
   const double c = 0.0768 / 1.3157;
   model.covariance.parameters = {ParameterId::kSurgeAlpha, ParameterId::kMassNorm};
   model.covariance.matrix = {{4e-4, 4e-4 * c}, {4e-4 * c, 4e-4 * c * c}};
@@ -177,12 +177,12 @@ TEST(PlantSampler, DrawsFromASingularCovariance) {
 }
 
 TEST(PlantSampler, RefusesWhatIsNoCovariance) {
-  Model none = testing::fitted_paper_model();
-  Model indefinite = testing::uncertain_model();
+  Model none = fitted_paper_model();
+  Model indefinite = uncertain_model();
   indefinite.covariance.matrix[0][1] = indefinite.covariance.matrix[1][0] = 1.0;
-  Model ragged = testing::uncertain_model();
+  Model ragged = uncertain_model();
   ragged.covariance.matrix.pop_back();
-  Model not_a_number = testing::uncertain_model();
+  Model not_a_number = uncertain_model();
   not_a_number.covariance.matrix[2][2] = std::nan("");
   for (const Model& model : {none, indefinite, ragged, not_a_number}) {
     const auto sampler = PlantSampler::make(model);
@@ -193,4 +193,4 @@ TEST(PlantSampler, RefusesWhatIsNoCovariance) {
 }
 
 }  // namespace
-}  // namespace awmr
+}  // namespace awmr::testing

@@ -10,18 +10,17 @@
 #include "compare/uncertain_model.h"
 #include "support/process.h"
 
-namespace awmr {
+namespace awmr::testing {
 namespace {
 
 using ::testing::HasSubstr;
 
-const std::vector<Scenario> kScenarios = {testing::short_heading("a"),
-                                          testing::short_heading("b, \"quoted\"")};
+const std::vector<Scenario> kScenarios = {short_heading("a"), short_heading("b, \"quoted\"")};
 const Provenance kProvenance{"compare", {{"samples", "6"}, {"seed", "3"}}, {{"model.json", "abc"}}};
 
 Comparison compared(const CompareOptions& options,
                     const std::vector<NamedGains>& gains = {{"", kPaperGains}}) {
-  const auto c = compare(testing::uncertain_model(), gains, kScenarios, options);
+  const auto c = compare(uncertain_model(), gains, kScenarios, options);
   EXPECT_TRUE(c) << (c ? "" : to_text(c.error()));
   return c.value_or(Comparison{});
 }
@@ -56,11 +55,10 @@ TEST(Resume, StoppedBeforeTheFirstSampleNothingIsJudged) {
 }
 
 TEST(Resume, GoingOnEndsInTheSameBytes) {
-  const testing::TemporaryDirectory directory;
+  const TemporaryDirectory directory;
   const Comparison part = stopped_after(20);
-  testing::write_all(directory.path() / "comparison.csv", comparison_csv(part));
-  testing::write_all(directory.path() / "comparison.json",
-                     comparison_text(part, kWhole, kProvenance));
+  write_all(directory.path() / "comparison.csv", comparison_csv(part));
+  write_all(directory.path() / "comparison.json", comparison_text(part, kWhole, kProvenance));
   const auto finished = read_finished(directory.path(), kProvenance);
   ASSERT_TRUE(finished) << to_text(finished.error());
   EXPECT_EQ(finished->size(), 20U);
@@ -74,10 +72,10 @@ TEST(Resume, GoingOnEndsInTheSameBytes) {
 }
 
 TEST(Resume, RefusesAnotherComparisonsFiles) {
-  const testing::TemporaryDirectory directory;
+  const TemporaryDirectory directory;
   const Comparison c = compared({.samples = 1, .seed = 3, .threads = 1});
-  testing::write_all(directory.path() / "comparison.csv", comparison_csv(c));
-  testing::write_all(directory.path() / "comparison.json", comparison_text(c, kWhole, kProvenance));
+  write_all(directory.path() / "comparison.csv", comparison_csv(c));
+  write_all(directory.path() / "comparison.json", comparison_text(c, kWhole, kProvenance));
   Provenance other_seed = kProvenance;
   other_seed.options[1].second = "4";
   Provenance other_model = kProvenance;
@@ -89,7 +87,7 @@ TEST(Resume, RefusesAnotherComparisonsFiles) {
   EXPECT_THAT(to_text(read_finished(directory.path(), other_model).error()),
               HasSubstr("other inputs"));
   EXPECT_TRUE(read_finished(directory.path(), more_samples));
-  testing::write_all(directory.path() / "comparison.csv", "scenario,mode\nbroken\n");
+  write_all(directory.path() / "comparison.csv", "scenario,mode\nbroken\n");
   EXPECT_THAT(to_text(read_finished(directory.path(), kProvenance).error()),
               HasSubstr("comparison.csv:2:1"));
 }
@@ -98,8 +96,7 @@ TEST(Resume, RefusesRowsOfAnUnknownScenario) {
   CompareOptions options = kWhole;
   options.finished = compared({.samples = 0, .seed = 3, .threads = 1}).rows;
   options.finished.front().scenario = "c";
-  const auto c =
-      compare(testing::uncertain_model(), kPaperGains, kScenarios, options);
+  const auto c = compare(uncertain_model(), kPaperGains, kScenarios, options);
   ASSERT_FALSE(c);
   EXPECT_THAT(to_text(c.error()), HasSubstr("none of this comparison's"));
 }
@@ -126,7 +123,7 @@ TEST(SeveralGains, AreComparedWithEachOtherAndByMode) {
 }
 
 TEST(Noise, IsTheSameForAllModesAndOtherInEverySample) {
-  Scenario noisy = testing::short_heading("noisy");
+  Scenario noisy = short_heading("noisy");
   noisy.speed_mps = 0.0;
   noisy.initial.u_mps = 0.0;
   noisy.guidance = OpenLoop{0.0, 0.0};
@@ -136,8 +133,8 @@ TEST(Noise, IsTheSameForAllModesAndOtherInEverySample) {
                               .frequency_hz = 0.0,
                               .phase_rad = {},
                               .bandwidth_hz = 1.0}};
-  const auto c = compare(testing::uncertain_model(), kPaperGains, {noisy},
-                         {.samples = 2, .seed = 1, .threads = 1});
+  const auto c =
+      compare(uncertain_model(), kPaperGains, {noisy}, {.samples = 2, .seed = 1, .threads = 1});
   ASSERT_TRUE(c);
   for (std::size_t sample = 0; sample < 3; ++sample) {
     // Nothing is commanded, so the modes differ by nothing.
@@ -148,4 +145,4 @@ TEST(Noise, IsTheSameForAllModesAndOtherInEverySample) {
 }
 
 }  // namespace
-}  // namespace awmr
+}  // namespace awmr::testing

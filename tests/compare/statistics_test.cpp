@@ -9,7 +9,7 @@
 #include "awmr/compare/ranking.h"
 #include "awmr/core/random.h"
 
-namespace awmr {
+namespace awmr::testing {
 namespace {
 
 using ::testing::ElementsAre;
@@ -165,4 +165,4 @@ TEST(Ranking, IsEmptyWhereThereIsNothingToFollow) {
 }
 
 }  // namespace
-}  // namespace awmr
+}  // namespace awmr::testing

@@ -3,7 +3,7 @@
 
 #include "awmr/compare/compare.h"
 #include "awmr/core/units.h"
-#include "validate/paper_model.h"
+#include "support/paper_vehicle.h"
 
 namespace awmr::testing {
 

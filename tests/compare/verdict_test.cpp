@@ -6,7 +6,7 @@
 #include "awmr/compare/ranking.h"
 #include "awmr/core/random.h"
 
-namespace awmr {
+namespace awmr::testing {
 namespace {
 
 using ::testing::ElementsAre;
@@ -90,4 +90,4 @@ TEST(Tally, CountsTheBestAndWhatIsNotToldApart) {
 }
 
 }  // namespace
-}  // namespace awmr
+}  // namespace awmr::testing

@@ -8,24 +8,13 @@
 #include "awmr/core/units.h"
 #include "awmr/emit/emit.h"
 #include "awmr/model/gains_file.h"
+#include "support/paper_vehicle.h"
 
 namespace awmr::testing {
 
 inline Model paper_robot() {
   Model model;
-  model.vehicle = {.name = "AWMR",
-                   .mass_kg = 37.0,
-                   .length_m = 1.2,
-                   .width_m = 0.7,
-                   .front_axle_m = 0.34,
-                   .half_track_m = 0.3,
-                   .wheel_force = {-1.0, 1.0},
-                   .steering_max_deg = 20.0,
-                   .steering_max_rate_degps = 100.0,
-                   .steering_time_constant_s = 0.02,
-                   .sample_time_s = 0.01,
-                   .yaw_inertia_kgm2 = {},
-                   .sway_alpha = {}};
+  model.vehicle = paper_vehicle();
   const auto fitted = [](double value, double std_error) {
     return Estimate{.value = value,
                     .std_error = std_error,

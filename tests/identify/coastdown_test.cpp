@@ -8,21 +8,18 @@
 #include "awmr/identify/planning/synthetic.h"
 #include "awmr/model/steady.h"
 #include "identify/synthetic.h"
+#include "support/paper_vehicle.h"
 
 namespace awmr::testing {
 namespace {
 
 Plant<double> plant(const Truth& t) {
-  return {.surge = {.alpha = t.a1, .beta = t.b1},
-          .yaw = {.alpha = t.a3, .beta = t.b3},
-          .sway_alpha = 3.0,
-          .mass_norm = t.mass_norm,
-          .inertia_norm = t.mass_norm * 0.196,
-          .front_axle_m = 0.35,
-          .half_track_m = 0.36,
-          .steering_max_rad = 0.35,
-          .steering_max_rate_radps = 5.0,
-          .steering_time_constant_s = 0.02};
+  Plant<double> plant = paper_plant();
+  plant.surge = {.alpha = t.a1, .beta = t.b1};
+  plant.yaw = {.alpha = t.a3, .beta = t.b3};
+  plant.mass_norm = t.mass_norm;
+  plant.inertia_norm = t.mass_norm * 0.196;
+  return plant;
 }
 
 /// u(t)^(1-b) = u0^(1-b) - (1-b)(a/m') t                                         [paper (58)]
@@ -192,7 +189,8 @@ TEST(CoastDown, CorrelatedNoiseWidensTheInterval) {
   data.curves = {simulate_coastdown(plant(t), 1.6, 2.0, 100.0, 0.02, 0.1, random)};
   const auto result = identify(vehicle(), data, {}, {});
   ASSERT_TRUE(result);
-  EXPECT_TRUE(std::any_of(result->model.record.findings.begin(), result->model.record.findings.end(),
+  EXPECT_TRUE(std::any_of(result->model.record.findings.begin(),
+                          result->model.record.findings.end(),
                           [](const Finding& f) { return f.code == "coloured-residuals"; }));
 }
 

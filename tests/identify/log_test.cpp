@@ -9,33 +9,26 @@
 #include "awmr/identify/planning/synthetic.h"
 #include "awmr/model/model_file.h"
 #include "identify/synthetic.h"
+#include "support/paper_vehicle.h"
 
 namespace awmr::testing {
 namespace {
 
 Vehicle robot() {
-  Vehicle v = vehicle();
-  v.sway_alpha.reset();
-  v.front_axle_m = 0.35;
-  v.half_track_m = 0.36;
-  v.wheel_force = {-1.0, 1.0};
-  v.steering_max_deg = 20.0;
-  v.steering_max_rate_degps = 300.0;
-  v.sample_time_s = 0.01;
+  Vehicle v = paper_vehicle();
+  v.name = "synthetic";
+  v.yaw_inertia_kgm2.reset();  // the box formula
+  v.sway_alpha.reset();        // asked of the log
   return v;
 }
 
 Plant<double> plant(const Truth& t) {
-  return {.surge = {.alpha = t.a1, .beta = t.b1},
-          .yaw = {.alpha = t.a3, .beta = t.b3},
-          .sway_alpha = 3.0,
-          .mass_norm = t.mass_norm,
-          .inertia_norm = 0.16 * t.mass_norm,
-          .front_axle_m = 0.35,
-          .half_track_m = 0.36,
-          .steering_max_rad = 0.349065850398866,
-          .steering_max_rate_radps = 5.23598775598299,
-          .steering_time_constant_s = 0.02};
+  Plant<double> plant = paper_plant();
+  plant.surge = {.alpha = t.a1, .beta = t.b1};
+  plant.yaw = {.alpha = t.a3, .beta = t.b3};
+  plant.mass_norm = t.mass_norm;
+  plant.inertia_norm = 0.16 * t.mass_norm;
+  return plant;
 }
 
 DrivingLog drive(const Truth& t, std::uint64_t seed, DrivePlan plan = {.duration_s = 20.0}) {
@@ -82,7 +75,8 @@ TEST(Log, GivesEveryParameterFromNothingElse) {
 TEST(Log, SpeedAloneShowsSurgeAndRefusesYaw) {
   TrialData data;
   data.logs = {drive(kTruths[1], 4, {.duration_s = 20.0, .straight = true})};
-  for (const LogChannel c : {LogChannel::kX, LogChannel::kY, LogChannel::kHeading, LogChannel::kYawRate}) {
+  for (const LogChannel c :
+       {LogChannel::kX, LogChannel::kY, LogChannel::kHeading, LogChannel::kYawRate}) {
     data.logs[0][c].reset();
   }
   const auto result = identify(robot(), data, {}, {});
@@ -208,10 +202,11 @@ TEST(Log, AgainstTablesAContradictionIsSaid) {
   data.logs = {drive({t.a1 * 1.3, t.b1, t.a3, t.b3, t.mass_norm}, 3)};
   const auto result = identify(robot(), data, {}, {});
   ASSERT_TRUE(result);
-  const bool said = std::any_of(
-      result->model.record.findings.begin(), result->model.record.findings.end(), [](const Finding& f) {
-        return f.code == "estimates-disagree" && f.message.starts_with("surge.alpha");
-      });
+  const bool said =
+      std::any_of(result->model.record.findings.begin(), result->model.record.findings.end(),
+                  [](const Finding& f) {
+                    return f.code == "estimates-disagree" && f.message.starts_with("surge.alpha");
+                  });
   EXPECT_TRUE(said);
 }
 

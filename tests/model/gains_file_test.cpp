@@ -5,7 +5,7 @@
 
 #include "json_edit.h"
 
-namespace awmr {
+namespace awmr::testing {
 namespace {
 
 using ::testing::ElementsAre;
@@ -20,7 +20,7 @@ const char* const kText = R"({
 })";
 
 TEST(GainsFile, ReadsTheGains) {
-  const testing::ScratchFile file("gains.json", kText);
+  const ScratchFile file("gains.json", kText);
   const auto gains = read_gains(file.path());
   ASSERT_TRUE(gains) << to_text(gains.error());
   EXPECT_EQ(gains->heading.lambda, 3.0);
@@ -31,7 +31,7 @@ TEST(GainsFile, ReadsTheGains) {
 }
 
 TEST(GainsFile, WritesWhatItReads) {
-  const testing::ScratchFile file("gains.json", "");
+  const ScratchFile file("gains.json", "");
   const Gains<double> gains{{2.5, 40.0, 8.0}, {4.0, 1.5}};
   ASSERT_TRUE(write_gains(gains, file.path()));
   const auto read = read_gains(file.path());
@@ -50,21 +50,21 @@ TEST(GainsFile, PassesOverTheContractsOtherKeys) {
                           "constraints", "objective", "metrics", "search", "baseline"}) {
     json[key] = Json::object({{"anything", 1}});
   }
-  EXPECT_THAT(testing::faults_of(read_gains, json.dump()), IsEmpty());
+  EXPECT_THAT(faults_of(read_gains, json.dump()), IsEmpty());
 }
 
 TEST(GainsFile, RefusesWhatIsMissingUnknownOrNotPositive) {
-  const std::vector<testing::Edit> edits{
+  const std::vector<Edit> edits{
       {"/heading", {}, true},       {"/speed", {}, true},   {"/heading/mu", {}, true},
       {"/speed/epsilon", {}, true}, {"/heading/lambda", 0}, {"/heading/mu", -50},
       {"/heading/epsilon", "12"},   {"/speed/mu", nullptr}, {"/speed/epsilon", 0},
       {"/speed/lambda", 1},         {"/heading/gain", 1},   {"/gains", 1},
       {"/schema", "awmr.model/1"}};
-  for (const testing::Edit& edit : edits) {
-    EXPECT_THAT(testing::faults_of(read_gains, testing::edited(kText, edit)), SizeIs(1))
+  for (const Edit& edit : edits) {
+    EXPECT_THAT(faults_of(read_gains, edited(kText, edit)), SizeIs(1))
         << edit.pointer << " = " << edit.value.dump();
   }
-  EXPECT_THAT(testing::faults_of(read_gains, testing::edited(kText, {"/heading/lambda", 0})),
+  EXPECT_THAT(faults_of(read_gains, edited(kText, {"/heading/lambda", 0})),
               ElementsAre(StartsWith("/heading/lambda: ")));
 }
 
@@ -77,4 +77,4 @@ TEST(GainsFile, HasThePapersGainsWithTheirTimeConstants) {
 }
 
 }  // namespace
-}  // namespace awmr
+}  // namespace awmr::testing

@@ -9,12 +9,12 @@
 #include "awmr/model/model.h"
 #include "awmr/model/model_file.h"
 #include "json_edit.h"
+#include "support/paper_vehicle.h"
 
-namespace awmr {
+namespace awmr::testing {
 namespace {
 
 using ::testing::AllOf;
-using testing::Edit;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -22,21 +22,14 @@ using ::testing::SizeIs;
 using ::testing::StartsWith;
 
 Vehicle some_vehicle() {
-  return {.name = "a \"vehicle\", naïve\n",
-          .mass_kg = 37.0,
-          .length_m = 1.32,
-          .width_m = 0.78,
-          .front_axle_m = 0.35,
-          .half_track_m = 0.36,
-          .wheel_force = {-0.1, 0.7},
-          .steering_max_deg = 20.0,
-          .steering_max_rate_degps = 300.0,
-          .steering_time_constant_s = 0.02,
-          .sample_time_s = 0.01,
-          .yaw_inertia_kgm2 = std::nullopt,
-          .sway_alpha = 1.0 / 3.0,
-          .surge_beta_range = {0.0, 1.5},
-          .yaw_beta_range = {0.1, 4.0}};
+  Vehicle vehicle = paper_vehicle();
+  vehicle.name = "a \"vehicle\", naïve\n";
+  vehicle.wheel_force = {-0.1, 0.7};
+  vehicle.yaw_inertia_kgm2 = std::nullopt;
+  vehicle.sway_alpha = 1.0 / 3.0;
+  vehicle.surge_beta_range = {0.0, 1.5};
+  vehicle.yaw_beta_range = {0.1, 4.0};
+  return vehicle;
 }
 
 /// Every field filled, with doubles that have no short decimal form.
@@ -75,12 +68,12 @@ Model some_model() {
 }
 
 Result<Model> reread(const std::string& text) {
-  const testing::ScratchFile file("model.json", text);
+  const ScratchFile file("model.json", text);
   return read_model(file.path());
 }
 
 std::vector<std::string> faults_after(const Edit& edit) {
-  return testing::faults_of(read_model, testing::edited(model_text(some_model()), edit));
+  return faults_of(read_model, edited(model_text(some_model()), edit));
 }
 
 TEST(ModelFile, GivesTheSameBytesWhenWrittenAgain) {
@@ -286,4 +279,4 @@ TEST(Model, HasThePapersLargestWheelForce) {
 }
 
 }  // namespace
-}  // namespace awmr
+}  // namespace awmr::testing

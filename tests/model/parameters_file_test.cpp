@@ -5,7 +5,7 @@
 
 #include "awmr/model/parameters.h"
 
-namespace awmr {
+namespace awmr::testing {
 namespace {
 
 TEST(Parameters, AreInTheOrderOfTheirIds) {
@@ -45,4 +45,4 @@ TEST(Parameters, AreNotFoundByOtherNames) {
 }
 
 }  // namespace
-}  // namespace awmr
+}  // namespace awmr::testing

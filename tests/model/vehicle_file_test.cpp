@@ -5,12 +5,11 @@
 
 #include "json_edit.h"
 
-namespace awmr {
+namespace awmr::testing {
 namespace {
 
 using ::testing::AllOf;
 using ::testing::Each;
-using testing::Edit;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -20,10 +19,10 @@ using ::testing::StartsWith;
 
 const std::filesystem::path kConfigs = AWMR_SOURCE_DIR "/configs/paper";
 
-std::string paper_text() { return testing::bytes_of(kConfigs / "vehicle.json"); }
+std::string paper_text() { return bytes_of(kConfigs / "vehicle.json"); }
 
 std::vector<std::string> faults_after(const Edit& edit) {
-  return testing::faults_of(read_vehicle, testing::edited(paper_text(), edit));
+  return faults_of(read_vehicle, edited(paper_text(), edit));
 }
 
 TEST(VehicleFile, ReadsThePapersVehicle) {
@@ -53,8 +52,7 @@ TEST(VehicleFile, ReadsTheForwardOnlyVehicle) {
 }
 
 TEST(VehicleFile, TakesTheBoxFormulaWhereNoInertiaIsGiven) {
-  const testing::ScratchFile file("vehicle.json",
-                                  testing::edited(paper_text(), {"/yaw_inertia_kgm2", {}, true}));
+  const ScratchFile file("vehicle.json", edited(paper_text(), {"/yaw_inertia_kgm2", {}, true}));
   const auto vehicle = read_vehicle(file.path());
   ASSERT_TRUE(vehicle) << to_text(vehicle.error());
   // 37 (0.78^2 + 1.32^2)/12 = 37 x 2.3508/12 = 7.2483, exact in decimals; 1e-14 relative is
@@ -65,7 +63,7 @@ TEST(VehicleFile, TakesTheBoxFormulaWhereNoInertiaIsGiven) {
 TEST(VehicleFile, HasTheContractsDefaultsForWhatIsOptional) {
   Json json = Json::parse(paper_text());
   for (const char* key : {"schema", "yaw_inertia_kgm2", "sway_alpha"}) json.erase(key);
-  const testing::ScratchFile file("vehicle.json", json.dump());
+  const ScratchFile file("vehicle.json", json.dump());
   const auto vehicle = read_vehicle(file.path());
   ASSERT_TRUE(vehicle) << to_text(vehicle.error());
   EXPECT_FALSE(vehicle->yaw_inertia_kgm2);
@@ -153,12 +151,12 @@ TEST(VehicleFile, ReportsAllFaultsAtOnce) {
   json.erase("width_m");
   json["colour"] = "red";
   json["steering"]["max_deg"] = 120;
-  EXPECT_THAT(testing::faults_of(read_vehicle, json.dump()), SizeIs(4));
+  EXPECT_THAT(faults_of(read_vehicle, json.dump()), SizeIs(4));
 }
 
 TEST(VehicleFile, RefusesWhatIsNoObject) {
   for (const char* text : {"", "[]", "3", "null", "{", "{\"name\": }"}) {
-    const testing::ScratchFile file("vehicle.json", text);
+    const ScratchFile file("vehicle.json", text);
     const auto vehicle = read_vehicle(file.path());
     ASSERT_FALSE(vehicle) << text;
     EXPECT_EQ(exit_code(vehicle.error()), 2) << text;
@@ -167,4 +165,4 @@ TEST(VehicleFile, RefusesWhatIsNoObject) {
 }
 
 }  // namespace
-}  // namespace awmr
+}  // namespace awmr::testing

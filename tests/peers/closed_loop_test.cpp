@@ -14,8 +14,9 @@
 #include "awmr/model/rest.h"
 #include "awmr/simulate/physics.h"
 #include "awmr/simulate/simulate.h"
+#include "support/paper_vehicle.h"
 
-namespace awmr {
+namespace awmr::testing {
 namespace {
 
 /// What holds over one sample.
@@ -104,20 +105,9 @@ Scenario disturbed_turns() {
 }
 
 TEST(Cvode, TheClosedLoopAgreesOverEverySampleInEveryMode) {
-  const Plant<double> plant{.surge = {1.3157, 0.8841},
-                            .yaw = {0.3028, 0.8250},
-                            .sway_alpha = 3.0,
-                            .mass_norm = 0.0768,
-                            .inertia_norm = 0.01212,
-                            .front_axle_m = 0.35,
-                            .half_track_m = 0.36,
-                            .steering_max_rad = radians(20.0),
-                            .steering_max_rate_radps = radians(300.0),
-                            .steering_time_constant_s = 0.02};
-  Vehicle vehicle{};
-  vehicle.wheel_force = {-1.0, 1.0};
+  const Plant<double> plant = paper_plant();
   constexpr double kSample_s = 0.01;
-  const auto controller = make_controller(plant, vehicle, kPaperGains);
+  const auto controller = make_controller(plant, paper_vehicle(), kPaperGains);
   Reference reference;
   for (const YawMode mode : kYawModes) {
     const awmr::Run run = simulate(plant, controller, disturbed_turns(), mode,
@@ -141,4 +131,4 @@ TEST(Cvode, TheClosedLoopAgreesOverEverySampleInEveryMode) {
 }
 
 }  // namespace
-}  // namespace awmr
+}  // namespace awmr::testing

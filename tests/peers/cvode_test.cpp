@@ -9,22 +9,10 @@
 
 #include "awmr/core/units.h"
 #include "awmr/simulate/simulate.h"
+#include "support/paper_vehicle.h"
 
-namespace awmr {
+namespace awmr::testing {
 namespace {
-
-Plant<double> paper_plant() {
-  return {.surge = {1.3157, 0.8841},
-          .yaw = {0.3028, 0.8250},
-          .sway_alpha = 3.0,
-          .mass_norm = 0.0768,
-          .inertia_norm = 0.01212,
-          .front_axle_m = 0.35,
-          .half_track_m = 0.36,
-          .steering_max_rad = radians(20.0),
-          .steering_max_rate_radps = radians(300.0),
-          .steering_time_constant_s = 0.02};
-}
 
 /// What CVODE needs to know: the plant and the command, constant in open loop.
 struct Problem {
@@ -123,4 +111,4 @@ TEST(Simulate, ConvergesWithFourthOrderWhereTheModelIsSmooth) {
 }
 
 }  // namespace
-}  // namespace awmr
+}  // namespace awmr::testing

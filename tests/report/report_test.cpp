@@ -7,6 +7,7 @@
 #include "awmr/model/model.h"
 #include "awmr/model/model_file.h"
 #include "awmr/report/report.h"
+#include "support/paper_vehicle.h"
 #include "support/scratch_file.h"
 
 namespace awmr::testing {
@@ -17,19 +18,8 @@ using ::testing::Not;
 
 Model some_model(const std::string& name) {
   Model model;
-  model.vehicle = {.name = name,
-                   .mass_kg = 37.0,
-                   .length_m = 1.32,
-                   .width_m = 0.78,
-                   .front_axle_m = 0.35,
-                   .half_track_m = 0.36,
-                   .wheel_force = {-1.0, 1.0},
-                   .steering_max_deg = 20.0,
-                   .steering_max_rate_degps = 300.0,
-                   .steering_time_constant_s = 0.02,
-                   .sample_time_s = 0.01,
-                   .yaw_inertia_kgm2 = {},
-                   .sway_alpha = 3.0};
+  model.vehicle = paper_vehicle();
+  model.vehicle.name = name;
   model.record.provenance.command = "identify";
   return model;
 }

@@ -69,7 +69,7 @@ RC_GTEST_PROP(Energy, WorkDoneIsKineticEnergyPlusDissipation, ()) {
   const Plant<double> plant = any_plant();
   const Scenario scenario = any_open_loop();
   constexpr double kStep_s = 1e-3;
-  const auto controller = make_controller(plant, reversible_vehicle(), {});
+  const auto controller = make_controller(plant, paper_vehicle(), {});
   const awmr::Run run = simulate(plant, controller, scenario, YawMode::kCombined,
                                  {.sample_time_s = kStep_s, .substeps = 1});
   const Plant<double> resolved = resolved_at_rest(plant, kStep_s);
@@ -94,7 +94,7 @@ RC_GTEST_PROP(FourWheels, AgreeWithTheReducedForm, ()) {
   const Scenario reduced = any_open_loop();
   Scenario four = reduced;
   four.faults = {{.wheels = {Wheel::kFrontLeft}, .window = {}, .share = 1.0}};
-  const auto controller = make_controller(plant, reversible_vehicle(), {});
+  const auto controller = make_controller(plant, paper_vehicle(), {});
   for (const YawMode mode : kYawModes) {
     const State<double> a = simulate(plant, controller, reduced, mode, {}).rows.back().state;
     const State<double> b = simulate(plant, controller, four, mode, {}).rows.back().state;

@@ -32,7 +32,7 @@ const struct {
 TEST(Families, SettleAtTheSpeedThatTheLawAndTheDeadZoneLeave) {
   for (const auto& c : kCases) {
     Plant<double> plant = plant_of(c.surge, c.dead_zone);
-    const Vehicle vehicle = reversible_vehicle();
+    const Vehicle vehicle = paper_vehicle();
     Controller<double> controller = make_controller(plant, vehicle, {});
     // In open loop the command goes out as it is.
     controller.limits.dead_zone = 0.0;
@@ -56,7 +56,7 @@ TEST(Families, AtRestAForceBelowCoulombFrictionMovesNothingMuch) {
 TEST(Families, TheControllerHoldsSpeedAndHeadingWithEveryOne) {
   for (const auto& c : kCases) {
     const Plant<double> plant = plant_of(c.surge, c.dead_zone);
-    const Controller<double> controller = make_controller(plant, reversible_vehicle(), kPaperGains);
+    const Controller<double> controller = make_controller(plant, paper_vehicle(), kPaperGains);
     const Scenario scenario{"heading", 8.0, {}, 0.8, HeadingSteps{{{0.0, 0.5}}}};
     for (const YawMode mode : kYawModes) {
       const awmr::Run run =

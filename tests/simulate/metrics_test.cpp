@@ -27,7 +27,7 @@ awmr::Run by_hand(const double (&psi_deg)[5]) {
 }
 
 Metrics judged(const awmr::Run& run) {
-  return metrics_of(run, kSteps, make_controller(paper_plant(), reversible_vehicle(), {}));
+  return metrics_of(run, kSteps, make_controller(paper_plant(), paper_vehicle(), {}));
 }
 
 TEST(Metrics, HeadingStepIsSettledFromTheFirstRowThatStaysInTheBand) {
@@ -69,7 +69,7 @@ TEST(Metrics, ControlVariationIsPerSecondAndOverTheLimits) {
 TEST(Metrics, OpenLoopHasNoHeadingMetrics) {
   const awmr::Run run = run_open_loop(paper_plant(), {}, 1.0, {1.0, 0.0});
   const Scenario open{"open", 1.0, {}, 0.0, OpenLoop{1.0, 0.0}};
-  const Metrics m = metrics_of(run, open, make_controller(paper_plant(), reversible_vehicle(), {}));
+  const Metrics m = metrics_of(run, open, make_controller(paper_plant(), paper_vehicle(), {}));
   EXPECT_FALSE(m.settling_time_s);
   EXPECT_FALSE(m.overshoot_deg);
   EXPECT_FALSE(m.speed_drop_mps);

@@ -15,7 +15,7 @@ namespace {
 awmr::Run run_of(const Scenario& scenario, YawMode mode) {
   const Plant<double> plant = paper_plant();
   // One RK4 step a sample, for speed: (h/T)^5/120 of the servo's lag is 3e-4 of its excursion.
-  return simulate(plant, make_controller(plant, reversible_vehicle(), kPaperGains), scenario, mode,
+  return simulate(plant, make_controller(plant, paper_vehicle(), kPaperGains), scenario, mode,
                   {.sample_time_s = 0.01, .substeps = 1});
 }
 
@@ -135,7 +135,7 @@ TEST(NoPassage, TheVehicleStopsAndSaysSo) {
     EXPECT_EQ(run.end, RunEnd::kNoPassage);
     EXPECT_LT(std::abs(run.rows.back().state.u_mps), 1e-3);
     const Plant<double> plant = paper_plant();
-    const auto controller = make_controller(plant, reversible_vehicle(), kPaperGains);
+    const auto controller = make_controller(plant, paper_vehicle(), kPaperGains);
     EXPECT_FALSE(metrics_of(run, scenario, controller).completed);
   }
 }

@@ -1,7 +1,7 @@
 /// The paper's vehicle as an identified model, with intervals for corners.
 #pragma once
 
-#include "validate/paper_model.h"
+#include "support/paper_vehicle.h"
 
 namespace awmr::testing {
 

@@ -27,7 +27,7 @@ awmr::Run run_of(const Scenario& scenario, YawMode mode = YawMode::kCombined,
   const Plant<double> plant = paper_plant();
   SimulateOptions options;
   options.sample = sample;
-  return simulate(plant, make_controller(plant, reversible_vehicle(), kPaperGains), scenario, mode,
+  return simulate(plant, make_controller(plant, paper_vehicle(), kPaperGains), scenario, mode,
                   options);
 }
 
@@ -225,8 +225,7 @@ double overshoot_deg(bool anti_windup) {
   s.control.observer = observer(anti_windup);
   const awmr::Run run = run_of(s, YawMode::kSteering);
   const Plant<double> plant = paper_plant();
-  return *metrics_of(run, s, make_controller(plant, reversible_vehicle(), kPaperGains))
-              .overshoot_deg;
+  return *metrics_of(run, s, make_controller(plant, paper_vehicle(), kPaperGains)).overshoot_deg;
 }
 
 TEST(Observer, WithAntiWindupASaturatedTurnIsNotTakenForADisturbance) {

@@ -1,29 +1,51 @@
-/// The paper's vehicle over any scalar.
+/// The one robot of the tests: configs/paper/vehicle.json and what Tables 2 and 3 give for it. A test whose numbers
+/// hang on another field copies this one and sets that field.
 #pragma once
 
 #include "awmr/control/controller.h"
-#include "awmr/core/units.h"
-#include "awmr/model/dynamics.h"
+#include "awmr/model/model.h"
+#include "awmr/model/plant_of.h"
+#include "awmr/model/vehicle_file.h"
 
 namespace awmr::testing {
 
+/// configs/paper/vehicle.json; throws where it cannot be read.
+inline const Vehicle& paper_vehicle() {
+  static const Vehicle kVehicle =
+      read_vehicle(AWMR_SOURCE_DIR "/configs/paper/vehicle.json").value();
+  return kVehicle;
+}
+
+/// By ParameterId: a1, b1, a3, b3 log-linear from the tables as printed, m' as printed, and I'z = m' Iz/m.
+template <class T>
+ParameterValues<T> paper_values_of() {
+  ParameterValues<T> values;
+  values.fill(T(0.0));
+  const auto set = [&values](ParameterId id, double value) {
+    values[static_cast<std::size_t>(id)] = T(value);
+  };
+  set(ParameterId::kSurgeAlpha, 1.3157);
+  set(ParameterId::kSurgeBeta, 0.8841);
+  set(ParameterId::kYawAlpha, 0.3028);
+  set(ParameterId::kYawBeta, 0.8250);
+  set(ParameterId::kSwayAlpha, 3.0);
+  set(ParameterId::kMassNorm, 0.0768);
+  set(ParameterId::kInertiaNorm, 0.01212);
+  set(ParameterId::kSteeringTimeConstant, 0.02);
+  return values;
+}
+
 template <class T>
 Plant<T> paper_plant_of() {
-  return {.surge = {T(1.3157), T(0.8841)},
-          .yaw = {T(0.3028), T(0.8250)},
-          .sway_alpha = T(3.0),
-          .mass_norm = T(0.0768),
-          .inertia_norm = T(0.01212),
-          .front_axle_m = T(0.35),
-          .half_track_m = T(0.36),
-          .steering_max_rad = T(radians(20.0)),
-          .steering_max_rate_radps = T(radians(300.0)),
-          .steering_time_constant_s = T(0.02)};
+  return plant_of<T>(paper_vehicle(), paper_values_of<T>());
 }
+
+inline Plant<double> paper_plant() { return paper_plant_of<double>(); }
 
 template <class T>
 Controller<T> paper_controller_of() {
   const Plant<T> plant = paper_plant_of<T>();
+  const Interval& force = paper_vehicle().wheel_force;
   return {.surge = plant.surge,
           .yaw = plant.yaw,
           .mass_norm = plant.mass_norm,
@@ -31,11 +53,22 @@ Controller<T> paper_controller_of() {
           .gains = {{T(3.0), T(50.0), T(12.0)}, {T(5.0), T(1.2)}},
           .limits = {.front_axle_m = plant.front_axle_m,
                      .half_track_m = plant.half_track_m,
-                     .force_min = T(-1.0),
-                     .force_max = T(1.0),
+                     .force_min = T(force.lo),
+                     .force_max = T(force.hi),
                      .steering_max_rad = plant.steering_max_rad,
                      .steering_max_tan_half = tan_half(plant.steering_max_rad),
                      .split = CombinedSplit::kRedistribute}};
+}
+
+/// A model of these values, without uncertainty.
+inline Model fitted_paper_model() {
+  Model model;
+  model.vehicle = paper_vehicle();
+  const ParameterValues<double> values = paper_values_of<double>();
+  for (const ParameterInfo& parameter : parameter_table()) {
+    if (!parameter.term) model[parameter.id].value = values[static_cast<std::size_t>(parameter.id)];
+  }
+  return model;
 }
 
 }  // namespace awmr::testing

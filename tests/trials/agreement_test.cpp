@@ -4,11 +4,11 @@
 
 #include "support/scratch_file.h"
 
-namespace awmr {
+namespace awmr::testing {
 namespace {
 
 double last_place_of(const std::string& cells, std::span<const ColumnMapping> mappings = {}) {
-  const testing::ScratchFile file("a.csv", "v\n" + cells);
+  const ScratchFile file("a.csv", "v\n" + cells);
   const CsvColumn columns[] = {{mappings.empty() ? "v" : mappings[0].name, true}};
   const auto table = read_csv(file.path(), columns, mappings);
   if (!table) {
@@ -49,4 +49,4 @@ TEST(Agreement, TimesByHandOrToTheUnitOfAnAutomaticClock) {
 }
 
 }  // namespace
-}  // namespace awmr
+}  // namespace awmr::testing

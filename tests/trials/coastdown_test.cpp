@@ -5,14 +5,11 @@
 
 #include "trial_text.h"
 
-namespace awmr {
+namespace awmr::testing {
 namespace {
 
-using testing::accepted;
 using ::testing::AllOf;
-using testing::codes_of;
 using ::testing::ElementsAre;
-using testing::faults_of;
 using ::testing::HasSubstr;
 using ::testing::SizeIs;
 using ::testing::StartsWith;
@@ -82,4 +79,4 @@ TEST(CoastdownTrial, RefusesNegativeCellsAndAStopInNoTime) {
 }
 
 }  // namespace
-}  // namespace awmr
+}  // namespace awmr::testing

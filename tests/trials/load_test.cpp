@@ -6,7 +6,7 @@
 
 #include "trial_text.h"
 
-namespace awmr {
+namespace awmr::testing {
 namespace {
 
 using ::testing::ElementsAre;
@@ -17,7 +17,7 @@ const std::filesystem::path kPaper = AWMR_SOURCE_DIR "/datasets/paper";
 const std::filesystem::path kSynthetic = AWMR_SOURCE_DIR "/datasets/synthetic";
 
 TrialFiles paper_files() {
-  return {.vehicle = testing::some_vehicle(),
+  return {.vehicle = paper_vehicle(),
           .surge = kPaper / "surge.csv",
           .turning = kPaper / "turning.csv",
           .coastdowns = {kPaper / "coastdown.csv"}};
@@ -33,9 +33,9 @@ TEST(LoadTrials, ReadsWhatThereIsAndKeepsFindingsInOrder) {
   EXPECT_TRUE(trials->data.logs.empty());
   std::vector<Finding> expected;
   ASSERT_TRUE(read_surge(kPaper / "surge.csv", {}, expected));
-  ASSERT_TRUE(read_turning(kPaper / "turning.csv", testing::some_vehicle(), {}, expected));
+  ASSERT_TRUE(read_turning(kPaper / "turning.csv", paper_vehicle(), {}, expected));
   ASSERT_TRUE(read_coastdown(kPaper / "coastdown.csv", {}, expected));
-  EXPECT_EQ(testing::codes_of(trials->findings), testing::codes_of(expected));
+  EXPECT_EQ(codes_of(trials->findings), codes_of(expected));
 }
 
 TEST(LoadTrials, CurvesAndStopTimesOfSeveralFilesComeTogether) {
@@ -58,7 +58,7 @@ TEST(LoadTrials, ASecondFileOfStopTimesIsRefused) {
 }
 
 TEST(LoadTrials, TheFaultsOfAllFilesComeTogether) {
-  const auto trials = load_trials({.vehicle = testing::some_vehicle(),
+  const auto trials = load_trials({.vehicle = paper_vehicle(),
                                    .surge = "/no/surge.csv",
                                    .turning = "/no/turning.csv",
                                    .coastdowns = {"/no/coastdown.csv"},
@@ -71,8 +71,7 @@ TEST(LoadTrials, TheFaultsOfAllFilesComeTogether) {
 }
 
 TEST(LoadTrials, NoFileAndSteadyRunsWithoutALogAreRefused) {
-  EXPECT_THAT(to_text(load_trials({.vehicle = testing::some_vehicle()}).error()),
-              HasSubstr("no trials"));
+  EXPECT_THAT(to_text(load_trials({.vehicle = paper_vehicle()}).error()), HasSubstr("no trials"));
   TrialFiles files = paper_files();
   files.steady_from_logs = true;
   EXPECT_THAT(to_text(load_trials(files).error()), HasSubstr("there is no log"));
@@ -90,4 +89,4 @@ TEST(LoadTrials, SteadyRunsOfALogJoinTheRowsOfATable) {
 }
 
 }  // namespace
-}  // namespace awmr
+}  // namespace awmr::testing

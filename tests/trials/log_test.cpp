@@ -9,12 +9,10 @@
 #include "awmr/trials/steady.h"
 #include "trial_text.h"
 
-namespace awmr {
+namespace awmr::testing {
 namespace {
 
-using testing::codes_of;
 using ::testing::ElementsAre;
-using testing::faults_of;
 using ::testing::HasSubstr;
 using ::testing::SizeIs;
 using ::testing::StartsWith;
@@ -29,9 +27,7 @@ std::string log_text(const std::string& columns, Cell cell, int rows = 12) {
   return text;
 }
 
-testing::Read<DrivingLog> accepted_log(const std::string& text) {
-  return testing::accepted(read_log, text);
-}
+Read<DrivingLog> accepted_log(const std::string& text) { return accepted(read_log, text); }
 
 TEST(Log, ReadsChannelsInSi) {
   const auto read = accepted_log(log_text("heading_deg,yaw_rate_radps", [](int i) {
@@ -148,7 +144,7 @@ TEST(SteadyRuns, AreFoundWithTheirSpansAndNotWhereTheSpeedStillRises) {
             "," + std::to_string((turn ? 0.3 : 0.0) + wiggle) + "\n";
   }
   const auto read = accepted_log(text);
-  const Vehicle vehicle = testing::some_vehicle();
+  const Vehicle vehicle = paper_vehicle();
   std::vector<Finding> findings;
   const SteadyRuns runs = steady_runs(read.set, vehicle, {}, findings);
   ASSERT_THAT(runs.surge.rows, SizeIs(1));
@@ -164,4 +160,4 @@ TEST(SteadyRuns, AreFoundWithTheirSpansAndNotWhereTheSpeedStillRises) {
 }
 
 }  // namespace
-}  // namespace awmr
+}  // namespace awmr::testing

@@ -5,7 +5,7 @@
 #include "awmr/core/units.h"
 #include "trial_text.h"
 
-namespace awmr {
+namespace awmr::testing {
 namespace {
 
 using ::testing::AllOf;
@@ -34,7 +34,7 @@ TEST(PaperSurgeTrial, SaysWhichRowsContradictThemselves) {
   std::vector<Finding> findings;
   ASSERT_TRUE(read_surge(kPaper / "surge.csv", {}, findings));
   // Lines: 4 is trial 2 (0.12 for 0.1263), 10 is trial 8 (1.03 for 1.080), 3 is trial 1 (at rest).
-  ASSERT_THAT(testing::codes_of(findings),
+  ASSERT_THAT(codes_of(findings),
               ElementsAre("speed-mismatch@4", "speed-mismatch@10", "rows-set-aside@3"));
   EXPECT_THAT(findings[0].message, AllOf(HasSubstr("0.12,"), HasSubstr("0.1263")));
   EXPECT_THAT(findings[1].message, AllOf(HasSubstr("1.03"), HasSubstr("9.26"), HasSubstr("1.08"),
@@ -57,7 +57,7 @@ TEST(PaperSurgeTrial, UsesTheTimesWhereTheyArePreferred) {
 
 TEST(PaperTurningTrial, HasFiveRowsAsPrinted) {
   std::vector<Finding> findings;
-  const auto set = read_turning(kPaper / "turning.csv", testing::some_vehicle(), {}, findings);
+  const auto set = read_turning(kPaper / "turning.csv", paper_vehicle(), {}, findings);
   ASSERT_TRUE(set) << to_text(set.error());
   EXPECT_EQ(set->set_aside, 0);
   ASSERT_EQ(set->rows.size(), 5u);
@@ -74,9 +74,9 @@ TEST(PaperTurningTrial, HasFiveRowsAsPrinted) {
 
 TEST(PaperTurningTrial, SaysWhichRowsContradictThemselvesOrTheVehicle) {
   std::vector<Finding> findings;
-  ASSERT_TRUE(read_turning(kPaper / "turning.csv", testing::some_vehicle(), {}, findings));
+  ASSERT_TRUE(read_turning(kPaper / "turning.csv", paper_vehicle(), {}, findings));
   // Lines 3 to 7 are 5, 10, 15, 20, 25 degrees.
-  ASSERT_THAT(testing::codes_of(findings),
+  ASSERT_THAT(codes_of(findings),
               ElementsAre("yaw-rate-mismatch@3", "tau-turn-mismatch@3", "yaw-rate-mismatch@6",
                           "tau-turn-mismatch@6", "steering-stop@7", "tau-turn-mismatch@7"));
   EXPECT_THAT(findings[0].message, AllOf(HasSubstr("0.038"), HasSubstr("83.34"),
@@ -104,4 +104,4 @@ TEST(PaperCoastdown, HasTheStopTimeComputedBack) {
 }
 
 }  // namespace
-}  // namespace awmr
+}  // namespace awmr::testing

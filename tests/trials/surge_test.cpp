@@ -3,13 +3,10 @@
 
 #include "trial_text.h"
 
-namespace awmr {
+namespace awmr::testing {
 namespace {
 
-using testing::accepted;
-using testing::codes_of;
 using ::testing::ElementsAre;
-using testing::faults_of;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
@@ -120,7 +117,7 @@ TEST(SurgeTrial, RefusesMalformedFiles) {
         "tau_speed,speed_mps\n1,fast\n", "tau_speed,speed_mps\n1,nan\n",
         "tau_speed,speed_mps\n1,inf\n", "tau_speed,speed_mps,speed_mps\n1,1,1\n",
         "tau_speed,speed_mps\n1,\"1\n"}) {
-    const testing::ScratchFile file("trial.csv", text);
+    const ScratchFile file("trial.csv", text);
     std::vector<Finding> findings;
     const auto set = read_surge(file.path(), {}, findings);
     ASSERT_FALSE(set) << text;
@@ -129,4 +126,4 @@ TEST(SurgeTrial, RefusesMalformedFiles) {
 }
 
 }  // namespace
-}  // namespace awmr
+}  // namespace awmr::testing

@@ -7,21 +7,15 @@
 #include <vector>
 
 #include "awmr/trials/trials.h"
+#include "support/paper_vehicle.h"
 #include "support/scratch_file.h"
 
 namespace awmr::testing {
 
-inline Vehicle some_vehicle() {
-  Vehicle vehicle;
-  vehicle.front_axle_m = 0.35;
-  vehicle.steering_max_deg = 20.0;
-  return vehicle;
-}
-
 inline constexpr auto kReadTurning = [](const std::filesystem::path& path,
                                         const TrialOptions& options,
                                         std::vector<Finding>& findings) {
-  return read_turning(path, some_vehicle(), options, findings);
+  return read_turning(path, paper_vehicle(), options, findings);
 };
 
 template <class Set>

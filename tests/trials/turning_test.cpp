@@ -6,17 +6,13 @@
 #include "awmr/core/units.h"
 #include "trial_text.h"
 
-namespace awmr {
+namespace awmr::testing {
 namespace {
 
-using testing::accepted;
 using ::testing::AllOf;
-using testing::codes_of;
 using ::testing::ElementsAre;
-using testing::faults_of;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-using testing::kReadTurning;
 using ::testing::SizeIs;
 using ::testing::StartsWith;
 
@@ -115,4 +111,4 @@ TEST(TurningTrial, RefusesNegativeAndImpossibleCellsAllAtOnce) {
 }
 
 }  // namespace
-}  // namespace awmr
+}  // namespace awmr::testing

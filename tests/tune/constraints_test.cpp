@@ -10,13 +10,13 @@
 #include "awmr/tune/sampled_loop.h"
 #include "tune/paper_model.h"
 
-namespace awmr {
+namespace awmr::testing {
 namespace {
 
 ConstraintContext paper_context(ReachingForm form, double margin) {
   return {.form = form,
           .margin = margin,
-          .plant = testing::paper_model().plant().value(),
+          .plant = paper_model().plant().value(),
           .sample_time_s = 0.01,
           .speed_mps = 1.0};
 }
@@ -169,4 +169,4 @@ TEST(SampledLoop, LosesDampingWithLambdaPlusKTimesTheLag) {
 }
 
 }  // namespace
-}  // namespace awmr
+}  // namespace awmr::testing

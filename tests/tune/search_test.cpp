@@ -12,10 +12,8 @@
 #include "awmr/simulate/simulate.h"
 #include "tune/paper_model.h"
 
-namespace awmr {
+namespace awmr::testing {
 namespace {
-
-using testing::paper_model;
 
 /// A shorter default: what is tested does not need the last per cent.
 TuneOptions short_options() {
@@ -105,8 +103,8 @@ TEST(Ranking, OrdersFeasibleOnesByObjectiveAndOthersByViolation) {
 
 TEST(Objective, IsExactlyOneForTheBaselineInEveryModeAndScenario) {
   const Model model = paper_model();
-  const Objective objective(model.plant().value(), model.vehicle, {},
-                            short_options().scenarios, kPaperGains);
+  const Objective objective(model.plant().value(), model.vehicle, {}, short_options().scenarios,
+                            kPaperGains);
   for (const Evaluation& e : {objective.baseline(), objective(kPaperGains)}) {
     EXPECT_TRUE(e.valid);
     EXPECT_EQ(e.objective, 1.0);
@@ -226,4 +224,4 @@ TEST(Tune, PassesOnThatTheModelLacksAParameter) {
 }
 
 }  // namespace
-}  // namespace awmr
+}  // namespace awmr::testing

@@ -9,7 +9,7 @@
 #include "awmr/tune/tune.h"
 #include "tune/paper_model.h"
 
-namespace awmr {
+namespace awmr::testing {
 namespace {
 
 using ::testing::HasSubstr;
@@ -144,4 +144,4 @@ TEST_F(TuneFile, WritesTheContractsKeys) {
 }
 
 }  // namespace
-}  // namespace awmr
+}  // namespace awmr::testing

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-namespace awmr {
+namespace awmr::testing {
 namespace {
 
 std::vector<Point> arc(double x_m, double y_m, double radius_m, double angle_rad, int count) {
@@ -52,4 +52,4 @@ TEST(CircleFit, RefusesALineAndTooFewPoints) {
 }
 
 }  // namespace
-}  // namespace awmr
+}  // namespace awmr::testing

@@ -11,13 +11,13 @@
 #include "awmr/validate/paper_courses.h"
 #include "validate/paper_model.h"
 
-namespace awmr {
+namespace awmr::testing {
 namespace {
 
 using ::testing::HasSubstr;
 
 const Claim& claim_of(const std::string& id) {
-  static const Model model = testing::fitted_paper_model();
+  static const Model model = fitted_paper_model();
   static const std::vector<Claim> claims = check_guidance_claims(model, kPaperGains);
   return *std::find_if(claims.begin(), claims.end(),
                        [&](const Claim& claim) { return claim.id == id; });
@@ -41,7 +41,7 @@ TEST(GuidanceClaims, CombinedIsNotAloneAtTheTop) {
 }
 
 TEST(GuidanceClaims, AVehicleThatCannotTurnFails) {
-  Model model = testing::fitted_paper_model();
+  Model model = fitted_paper_model();
   model.vehicle.steering_max_deg = 3.0;
   const auto claims = check_guidance_claims(model, kPaperGains);
   EXPECT_FALSE(claims.front().reproduced);
@@ -49,7 +49,7 @@ TEST(GuidanceClaims, AVehicleThatCannotTurnFails) {
 }
 
 std::string run_of(const Scenario& scenario) {
-  const Model model = testing::fitted_paper_model();
+  const Model model = fitted_paper_model();
   const Plant<double> plant = *model.plant();
   Scenario first = scenario;
   first.duration_s = std::min(first.duration_s, 30.0);
@@ -79,4 +79,4 @@ TEST(GuidanceClaims, TheFilesOfThePapersScenariosAreTheSameRuns) {
 }
 
 }  // namespace
-}  // namespace awmr
+}  // namespace awmr::testing

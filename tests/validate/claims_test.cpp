@@ -9,7 +9,7 @@
 #include "awmr/model/gains_file.h"
 #include "validate/paper_model.h"
 
-namespace awmr {
+namespace awmr::testing {
 namespace {
 
 using ::testing::ElementsAre;
@@ -31,7 +31,7 @@ std::vector<std::string> ids_of(const std::vector<Claim>& claims) {
 }
 
 TEST(Claims, RunsOnlyTheOpenLoopOnesWithoutGains) {
-  const Model model = testing::fitted_paper_model();
+  const Model model = fitted_paper_model();
   EXPECT_THAT(ids_of(check_claims(model, plant_of(model), std::nullopt)),
               ElementsAre("C1", "C2", "C14"));
   EXPECT_THAT(ids_of(check_claims(model, plant_of(model), kPaperGains)),
@@ -40,8 +40,8 @@ TEST(Claims, RunsOnlyTheOpenLoopOnesWithoutGains) {
 }
 
 TEST(Claims, TheStraightRunGivesTheModelsAndTheMeasuredSpeed) {
-  Model model = testing::fitted_paper_model();
-  testing::add_paper_trials(model);
+  Model model = fitted_paper_model();
+  add_paper_trials(model);
   // (2/1.3157)^(1/0.8841) = 1.6059 m/s, 3.3 % below the measured 1.66.
   const Claim fitted = check_straight_run(model, plant_of(model));
   EXPECT_TRUE(fitted.reproduced);
@@ -54,7 +54,7 @@ TEST(Claims, TheStraightRunGivesTheModelsAndTheMeasuredSpeed) {
 }
 
 TEST(Claims, TheStraightRunFailsWhereTheForceIsNotToBeHad) {
-  Model model = testing::fitted_paper_model();
+  Model model = fitted_paper_model();
   model.vehicle.wheel_force = {0.0, 0.3};
   const Claim claim = check_straight_run(model, plant_of(model));
   EXPECT_FALSE(claim.reproduced);
@@ -62,7 +62,7 @@ TEST(Claims, TheStraightRunFailsWhereTheForceIsNotToBeHad) {
 }
 
 TEST(Claims, TheStraightRunFailsWhereTheModelMissesTheFastestTrial) {
-  Model model = testing::fitted_paper_model();
+  Model model = fitted_paper_model();
   model.record.trials = {{TrialKind::kSurge, "surge.csv", 2, 2.0, 2.2, {}}};
   const Claim claim = check_straight_run(model, plant_of(model));
   EXPECT_FALSE(claim.reproduced);
@@ -70,7 +70,7 @@ TEST(Claims, TheStraightRunFailsWhereTheModelMissesTheFastestTrial) {
 }
 
 TEST(Claims, TheDiametersFollowFromTheSteadyState) {
-  const Model model = testing::fitted_paper_model();
+  const Model model = fitted_paper_model();
   const Claim claim = check_circle(model, plant_of(model));
   EXPECT_TRUE(claim.reproduced);
   // Steady: r = (tau/a3)^(1/b3), diameter 2 sqrt(u^2 + v^2)/r with sway (tau_st/l_f - m' r u)/a_s.
@@ -83,7 +83,7 @@ TEST(Claims, TheDiametersFollowFromTheSteadyState) {
 }
 
 TEST(Claims, AVehicleThatCannotTurnMakesNoCircle) {
-  Model model = testing::fitted_paper_model();
+  Model model = fitted_paper_model();
   // differential: tau = 0.36 * 2 * 0.005 = 0.0036 m, r = (0.0036/0.3028)^(1/0.825) = 0.0046 rad/s:
   // a turn takes 22 minutes.
   model.vehicle.wheel_force = {0.0, 0.005};
@@ -100,7 +100,7 @@ TEST(Claims, TheTimeConstantsAreThePapers) {
 }
 
 TEST(Claims, ThePapersGainsReproduceAllButTheSlightDrop) {
-  const Model model = testing::fitted_paper_model();
+  const Model model = fitted_paper_model();
   const auto claims = check_heading_claims(model, plant_of(model), kPaperGains);
   for (const char* id : {"C3", "C4", "C6", "C7", "C13"}) {
     const Claim claim = claim_of(claims, id);
@@ -115,7 +115,7 @@ TEST(Claims, ThePapersGainsReproduceAllButTheSlightDrop) {
 }
 
 TEST(Claims, MotorsThatOnlyDriveForwardCostTheDifferentialModeItsSpeed) {
-  Model model = testing::fitted_paper_model();
+  Model model = fitted_paper_model();
   model.vehicle.wheel_force = {0.0, 0.5};
   const Claim drop = claim_of(check_heading_claims(model, plant_of(model), kPaperGains), "C5");
   EXPECT_FALSE(drop.reproduced);
@@ -123,7 +123,7 @@ TEST(Claims, MotorsThatOnlyDriveForwardCostTheDifferentialModeItsSpeed) {
 }
 
 TEST(Claims, TheSideslipIsAlsoGivenForThePapersGains) {
-  const Model model = testing::fitted_paper_model();
+  const Model model = fitted_paper_model();
   Gains<double> fast = kPaperGains;
   fast.heading = {.lambda = 6.0, .mu = 100.0, .epsilon = 6.0};
   const Claim own = claim_of(check_heading_claims(model, plant_of(model), fast), "C6");
@@ -135,7 +135,7 @@ TEST(Claims, TheSideslipIsAlsoGivenForThePapersGains) {
 }
 
 TEST(Claims, AControllerThatIsTooStiffForItsSampleTimeChatters) {
-  const Model model = testing::fitted_paper_model();
+  const Model model = fitted_paper_model();
   Gains<double> stiff = kPaperGains;
   // mu/eps = 1000/s against 100 samples a second: S is overshot at every sample.
   stiff.heading = {.lambda = 3.0, .mu = 200.0, .epsilon = 0.2};
@@ -144,7 +144,7 @@ TEST(Claims, AControllerThatIsTooStiffForItsSampleTimeChatters) {
 }
 
 TEST(Claims, ALazyControllerIsNotFast) {
-  const Model model = testing::fitted_paper_model();
+  const Model model = fitted_paper_model();
   Gains<double> lazy = kPaperGains;
   // With eps = 300 rad/s the slow pole is mu/eps = 1/6 per s: 2 % takes 4 * 6 s.
   lazy.heading.epsilon = 300.0;
@@ -167,7 +167,7 @@ TEST(Reversals, CountsTurningPointsBeyondTheBand) {
 }
 
 TEST(AllowedSettling, AddsTheActuatorsAndTheLawsShare) {
-  const Model model = testing::fitted_paper_model();
+  const Model model = fitted_paper_model();
   // steering at 1 m/s: moment 0.35 * 1.3157 tan(10 deg) = 0.0811977 m and
   // r = (0.0811977/0.3028)^(1/0.825) = 0.202832 rad/s; 4 (1/3 + 0.24) = 2.29333 s. (python3, 6
   // digits)
@@ -177,4 +177,4 @@ TEST(AllowedSettling, AddsTheActuatorsAndTheLawsShare) {
 }
 
 }  // namespace
-}  // namespace awmr
+}  // namespace awmr::testing

@@ -6,21 +6,20 @@
 #include "awmr/core/units.h"
 #include "awmr/trials/replay.h"
 #include "awmr/validate/validate.h"
+#include "support/paper_vehicle.h"
 
 namespace awmr::testing {
 namespace {
 
 Plant<double> plant(double alpha) {
-  return {.surge = {.alpha = alpha, .beta = 0.9},
-          .yaw = {.alpha = 0.3, .beta = 0.8},
-          .sway_alpha = 3.0,
-          .mass_norm = 0.3,
-          .inertia_norm = 0.05,
-          .front_axle_m = 0.35,
-          .half_track_m = 0.36,
-          .steering_max_rad = radians(20.0),
-          .steering_max_rate_radps = 5.0,
-          .steering_time_constant_s = 0.05};
+  Plant<double> plant = paper_plant();
+  plant.surge = {.alpha = alpha, .beta = 0.9};
+  plant.yaw = {.alpha = 0.3, .beta = 0.8};
+  plant.mass_norm = 0.3;
+  plant.inertia_norm = 0.05;
+  plant.steering_max_rate_radps = 5.0;
+  plant.steering_time_constant_s = 0.05;
+  return plant;
 }
 
 /// What plant(1) does under steps of thrust and steering, at 50 Hz, without noise.

@@ -8,14 +8,14 @@
 #include "awmr/validate/validate.h"
 #include "validate/paper_model.h"
 
-namespace awmr {
+namespace awmr::testing {
 namespace {
 
 using ::testing::HasSubstr;
 
 Model model_with_trials() {
-  Model model = testing::fitted_paper_model();
-  testing::add_paper_trials(model);
+  Model model = fitted_paper_model();
+  add_paper_trials(model);
   return model;
 }
 
@@ -40,7 +40,7 @@ TEST(Validate, PredictsTheTrialsAsComputedByHand) {
 }
 
 TEST(Validate, ThePredictionSolvesTheResistanceLaw) {
-  const auto plant = testing::fitted_paper_model().plant();
+  const auto plant = fitted_paper_model().plant();
   ASSERT_TRUE(plant);
   for (const double input : {1e-3, 0.2, 1.0, 3.7}) {
     const auto u = predicted_measurement(*plant, {TrialKind::kSurge, "", 0, input, 1.0, {}});
@@ -67,7 +67,7 @@ TEST(Validate, GivesTheRmsByKindAndPassesWithinTheTolerance) {
 }
 
 TEST(Validate, DoesNotPassAModelWithoutTrials) {
-  const Validation v = validated(testing::fitted_paper_model());
+  const Validation v = validated(fitted_paper_model());
   EXPECT_FALSE(v.passed);
   EXPECT_FALSE(v.surge_rms_relative_error);
   EXPECT_THAT(v.verdict, HasSubstr("no trials"));
@@ -130,8 +130,7 @@ TEST(ValidationFile, HasTheKeysOfTheContract) {
 TEST(ValidationFile, IsTheSameTextEveryTime) {
   const Provenance provenance{"validate", {}, {}};
   const auto text = [&] {
-    return validation_text(*validate(model_with_trials(), kPaperGains, {}),
-                           provenance);
+    return validation_text(*validate(model_with_trials(), kPaperGains, {}), provenance);
   };
   EXPECT_EQ(text(), text());
 }
@@ -150,4 +149,4 @@ TEST(ValidationTable, FitsAHundredColumns) {
 }
 
 }  // namespace
-}  // namespace awmr
+}  // namespace awmr::testing
