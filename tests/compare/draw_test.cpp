@@ -108,7 +108,7 @@ TEST(PlantSampler, KeepsExponentsInTheVehiclesRange) {
 /// has to be 0 or more: of mean sigma sqrt(2/pi) and variance sigma^2 (1 - 2/pi).
 TEST(PlantSampler, DrawsATermFittedAsZeroFromTheHalfOfItsNormalAboveZero) {
   constexpr double kSigma = 0.02;
-  Model model = testing::fitted_paper_model();
+  Model model = fitted_paper_model();
   model.surge_family = Family::kCoulombPower;
   model[ParameterId::kSurgeCoulomb] = {0.0, kSigma, Interval{0.0, 0.04}, Source::kFitted, ""};
   model.covariance.parameters = {ParameterId::kSurgeAlpha, ParameterId::kSurgeCoulomb};
@@ -131,7 +131,7 @@ TEST(PlantSampler, DrawsATermFittedAsZeroFromTheHalfOfItsNormalAboveZero) {
 TEST(PlantSampler, DrawsATermWellAboveZeroAsTheNormalThatItsFitGave) {
   constexpr double kSigma = 0.02;
   constexpr double kValue = 0.2;  // ten standard errors from 0: none is drawn again
-  Model model = testing::fitted_paper_model();
+  Model model = fitted_paper_model();
   model.surge_family = Family::kDeadZone;
   model[ParameterId::kWheelDeadZone] = {kValue, kSigma, Interval{0.16, 0.24}, Source::kFitted, ""};
   model.covariance.parameters = {ParameterId::kWheelDeadZone};
