@@ -138,10 +138,11 @@ TEST(Outliers, AreNamedWithTheirLineAndTheirInfluence) {
   const Finding* outlier = finding(result->model, "outlier");
   ASSERT_NE(outlier, nullptr);
   EXPECT_EQ(outlier->line, data.surge->rows[10].line);
-  const auto influential = std::find_if(
-      result->model.record.findings.begin(), result->model.record.findings.end(), [&](const Finding& f) {
-        return f.code == "influential-row" && f.line == data.surge->rows[10].line;
-      });
+  const auto influential =
+      std::find_if(result->model.record.findings.begin(), result->model.record.findings.end(),
+                   [&](const Finding& f) {
+                     return f.code == "influential-row" && f.line == data.surge->rows[10].line;
+                   });
   ASSERT_NE(influential, result->model.record.findings.end());
   EXPECT_THAT(influential->message, ::testing::HasSubstr("surge.alpha becomes"));
 }

@@ -133,8 +133,9 @@ TEST(RunOfAModel, IsItsPlantUnderItsOwnControllerAtItsSampleTime) {
   Scenario scenario = heading_steps({20.0, -40.0}, {.hold_s = 3.0});
   scenario.corner = {{ParameterId::kYawAlpha, true}};
   const auto controller = make_controller(*model.plant(), model.vehicle, kPaperGains);
-  const awmr::Run spelled_out = simulate(*plant_for(scenario, model), controller, scenario,
-                                         YawMode::kCombined, {.sample_time_s = 0.02, .substeps = {}});
+  const awmr::Run spelled_out =
+      simulate(*plant_for(scenario, model), controller, scenario, YawMode::kCombined,
+               {.sample_time_s = 0.02, .substeps = {}});
   const auto run = simulate(model, kPaperGains, scenario, YawMode::kCombined);
   ASSERT_TRUE(run) << to_text(run.error());
   ASSERT_EQ(run->rows.size(), spelled_out.rows.size());
@@ -151,8 +152,8 @@ TEST(RunOfAModel, NamesWhatTheModelLacks) {
 }
 
 TEST(HeadingSteps, OfThirtyAndMinusThirtyAreC3) {
-  const auto file =
-      read_scenario(std::string(AWMR_SOURCE_DIR) + "/configs/paper/scenarios/c3_heading_steps.json");
+  const auto file = read_scenario(std::string(AWMR_SOURCE_DIR) +
+                                  "/configs/paper/scenarios/c3_heading_steps.json");
   ASSERT_TRUE(file) << to_text(file.error());
   const Scenario made = heading_steps({30, -30});
   EXPECT_EQ(made.duration_s, file->duration_s);

@@ -59,12 +59,10 @@ struct Comparison {
 /// parameter, or, with samples, a covariance to draw from, or an interval that a scenario's corner
 /// needs; no scenario, or two of the same name; a negative number of samples or threads; a finished
 /// row that is none of this comparison's.
-Result<Comparison> compare(const Model& model,
-                           const std::vector<NamedGains>& gains,
+Result<Comparison> compare(const Model& model, const std::vector<NamedGains>& gains,
                            const std::vector<Scenario>& scenarios, const CompareOptions& options);
-Result<Comparison> compare(const Model& model,
-                           const Gains<double>& gains, const std::vector<Scenario>& scenarios,
-                           const CompareOptions& options);
+Result<Comparison> compare(const Model& model, const Gains<double>& gains,
+                           const std::vector<Scenario>& scenarios, const CompareOptions& options);
 
 /// The bytes of comparison.csv: the contract's columns, `completed` as 1 or 0, empty cells where a
 /// metric has no meaning; with several sets of gains also `gains`.

@@ -61,8 +61,6 @@ inline constexpr std::array<MetricColumn, 11> kMetricColumns = {{
     {MetricId::kFinishTime, "finish_time_s", "finish", "s", &Metrics::finish_time_s, 0.1},
 }};
 
-inline const MetricColumn& column_of(MetricId id) {
-  return kMetricColumns[at(id)];
-}
+inline const MetricColumn& column_of(MetricId id) { return kMetricColumns[at(id)]; }
 
 }  // namespace awmr

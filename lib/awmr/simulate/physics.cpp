@@ -123,9 +123,8 @@ template <class Forces>
 void Physics::integrate(const Forces& force, double steering_command_rad) {
   const double h = sample_time_s_ / substeps_;
   for (int i = 0; i < substeps_; ++i) {
-    state_ = rk4_step(state_, h, [&](const State<double>& at) {
-      return rates(at, force, steering_command_rad);
-    });
+    state_ = rk4_step(
+        state_, h, [&](const State<double>& at) { return rates(at, force, steering_command_rad); });
   }
   settle(state_.u_mps);
   settle(state_.v_mps);

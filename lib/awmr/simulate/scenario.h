@@ -84,7 +84,7 @@ struct Scenario {
   std::optional<Actuators> actuators = {};  ///< absent: any force and angle can be commanded
   ControlOptions control = {};
   std::vector<CornerParameter> corner = {};  ///< of the plant; the controller does not know
-  std::uint64_t seed = 0;  ///< of everything random in the scenario
+  std::uint64_t seed = 0;                    ///< of everything random in the scenario
 
   /// True where something in the scenario is drawn from a seed.
   bool random() const;

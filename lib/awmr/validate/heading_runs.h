@@ -15,9 +15,9 @@
 
 namespace awmr {
 
-inline constexpr double kSpeed_mps = 1.0;                  ///< u_d               [paper 4.3]
+inline constexpr double kSpeed_mps = 1.0;                      ///< u_d               [paper 4.3]
 inline const std::vector<double> kSimulated_deg{30.0, -30.0};  ///< headings      [paper 4.3]
-inline constexpr double kLargestStep_deg = 60.0;           ///< of any sequence here
+inline constexpr double kLargestStep_deg = 60.0;               ///< of any sequence here
 
 /// Figures are given to 1e-4: what is smaller is rounding, not result.
 inline double to_figure(double value) { return std::round(value * 1e4) / 1e4 + 0.0; }

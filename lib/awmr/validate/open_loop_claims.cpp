@@ -40,7 +40,8 @@ Run run_open_loop(const Model& model, YawMode mode, OpenLoop forces, double dura
 const TrialPoint* fastest_trial(const Model& model) {
   const TrialPoint* fastest = nullptr;
   for (const TrialPoint& trial : model.record.trials) {
-    if (trial.kind == TrialKind::kSurge && (!fastest || trial.input > fastest->input)) fastest = &trial;
+    if (trial.kind == TrialKind::kSurge && (!fastest || trial.input > fastest->input))
+      fastest = &trial;
   }
   return fastest;
 }

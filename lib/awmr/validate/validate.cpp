@@ -48,8 +48,7 @@ TrialResidual residual_of(const Plant<double>& plant, const TrialPoint& trial) {
 }
 
 /// Absent where there is no trial of the kind or one of them has no prediction.
-std::optional<double> rms_relative_error(const std::vector<TrialResidual>& trials,
-                                         TrialKind kind) {
+std::optional<double> rms_relative_error(const std::vector<TrialResidual>& trials, TrialKind kind) {
   double sum = 0.0;
   int count = 0;
   for (const TrialResidual& trial : trials) {
@@ -104,10 +103,10 @@ void add_logs(Validation& validation, std::vector<LogValidation> logs, double to
   std::size_t predicted = 0;
   for (const LogValidation& log : logs) predicted += log.passed ? 1 : 0;
   const bool all = predicted == logs.size();
-  const std::string sentence =
-      fmt::format("{} of {} logs are predicted over {:g} s with an NRMSE of at most {:g} in every "
-                  "channel",
-                  predicted, logs.size(), logs.front().horizon_s, tolerance);
+  const std::string sentence = fmt::format(
+      "{} of {} logs are predicted over {:g} s with an NRMSE of at most {:g} in every "
+      "channel",
+      predicted, logs.size(), logs.front().horizon_s, tolerance);
   validation.passed = validation.trials.empty() ? all : validation.passed && all;
   validation.verdict =
       validation.trials.empty() ? sentence : fmt::format("{}; {}", validation.verdict, sentence);
@@ -120,7 +119,8 @@ std::optional<double> predicted_measurement(const Plant<double>& plant, const Tr
     return steady_rate(plant.surge, trial.input - 4.0 * plant.wheel_dead_zone);
   }
   if (trial.kind == TrialKind::kTurning) return steady_rate(plant.yaw, trial.input);
-  if (trial.kind == TrialKind::kCoastdown) return stop_time_s(plant.surge, plant.mass_norm, trial.input);
+  if (trial.kind == TrialKind::kCoastdown)
+    return stop_time_s(plant.surge, plant.mass_norm, trial.input);
   return std::nullopt;
 }
 
@@ -139,8 +139,10 @@ Result<Validation> validate(const Model& model, const std::optional<Gains<double
     validation.trials.push_back(residual_of(plant, trial));
   }
   validation.surge_rms_relative_error = rms_relative_error(validation.trials, TrialKind::kSurge);
-  validation.turning_rms_relative_error = rms_relative_error(validation.trials, TrialKind::kTurning);
-  validation.coastdown_rms_relative_error = rms_relative_error(validation.trials, TrialKind::kCoastdown);
+  validation.turning_rms_relative_error =
+      rms_relative_error(validation.trials, TrialKind::kTurning);
+  validation.coastdown_rms_relative_error =
+      rms_relative_error(validation.trials, TrialKind::kCoastdown);
   judge(validation, options.tolerance);
   validation.claims = check_claims(model, plant, gains);
   return validation;

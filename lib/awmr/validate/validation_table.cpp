@@ -44,8 +44,9 @@ std::string validation_table(const Validation& validation) {
   for (const TrialResidual& trial : validation.trials) {
     const std::optional<double> percent =
         trial.relative_error ? std::optional(100.0 * *trial.relative_error) : std::nullopt;
-    text += fmt::format("{:<10} {:>5} {:>10.4g} {:>10} {:<6} {:>9}\n", name_in(kTrialKindNames, trial.kind), trial.line,
-                        trial.measured, number_or_dash(trial.predicted, "{:.4g}"), trial.unit,
+    text += fmt::format("{:<10} {:>5} {:>10.4g} {:>10} {:<6} {:>9}\n",
+                        name_in(kTrialKindNames, trial.kind), trial.line, trial.measured,
+                        number_or_dash(trial.predicted, "{:.4g}"), trial.unit,
                         number_or_dash(percent, "{:+.1f} %"));
   }
   for (const LogValidation& log : validation.logs) {

@@ -53,8 +53,8 @@ struct Recovery {
 
 /// `progress` is called with the runs done so far, from any thread, one at a time. Errors (input):
 /// the model lacks a parameter, or has no trials for the plan; fewer than 2 runs.
-Result<Recovery> recover(const Model& model,
-                         const RecoverOptions& options, const std::function<void(int)>& progress);
+Result<Recovery> recover(const Model& model, const RecoverOptions& options,
+                         const std::function<void(int)>& progress);
 
 /// The bytes of recover.json.
 std::string recovery_text(const Recovery& recovery, const Provenance& provenance);

@@ -45,8 +45,7 @@ struct Suggestion {
 /// Information adds up: C_after = (C^-1 + J^T W J)^-1 with J the derivatives of what the candidate
 /// would measure. Errors (input): the model lacks a parameter or any covariance; an unknown
 /// parameter name.
-Result<Suggestion> suggest(const Model& model,
-                           const SuggestOptions& options);
+Result<Suggestion> suggest(const Model& model, const SuggestOptions& options);
 
 /// The bytes of suggest.json.
 std::string suggestion_text(const Suggestion& suggestion, const Provenance& provenance);
