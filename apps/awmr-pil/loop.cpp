@@ -196,6 +196,13 @@ Result<std::vector<LoopRow>> run_loop(const LoopSetup& setup, Executor& executor
         row.t_s,
         {static_cast<double>(command.force.left), static_cast<double>(command.force.right)},
         static_cast<double>(command.steering_rad));
+    if (!physics.resolved()) {
+      return input_error(fmt::format("scenario '{}'", setup.scenario.name),
+                         fmt::format("the simulated vehicle cannot go on after {:g} s: resistance "
+                                     "is too stiff there for any step, or a number is no longer "
+                                     "finite",
+                                     row.t_s));
+    }
   }
   return rows;
 }

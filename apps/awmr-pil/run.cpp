@@ -217,6 +217,7 @@ Status compare_runs(const PilOptions& options, const Inputs& in, Report& report)
   const Run exact = simulate(in.setup.plant, make_controller(*plant, in.model.vehicle, in.gains),
                              in.setup.scenario, in.setup.mode,
                              {.sample_time_s = in.setup.sample_time_s, .substeps = {}});
+  AWMR_RETURN_IF_ERROR(failure_of(exact, in.setup.scenario));
   report.from_double = difference(report.chip.rows, exact);
   const auto by_powf = run_host(in, ResistanceForm::kPowf, options.emit);
   if (!by_powf) return tl::unexpected(by_powf.error());

@@ -84,7 +84,7 @@ struct Scenario {
   std::optional<Actuators> actuators = {};  ///< absent: any force and angle can be commanded
   ControlOptions control = {};
   std::vector<CornerParameter> corner = {};  ///< of the plant; the controller does not know
-  std::uint64_t seed = 0;  ///< of everything random in the scenario
+  std::uint64_t seed = 0;                    ///< of everything random in the scenario
 
   /// True where something in the scenario is drawn from a seed.
   bool random() const;
@@ -105,7 +105,8 @@ Scenario heading_steps(const std::vector<double>& headings_deg,
 /// The model with the scenario's corner parameters at the ends of their 95 % intervals.
 /// Errors (input): a parameter of the corner has no interval.
 Result<Model> model_at_corner(Model model, const Scenario& scenario);
-/// The plant of model_at_corner(). Errors (input): as there and as Model::plant.
+/// The plant of model_at_corner(). Errors (input): as there, as Model::plant and as check_work (in
+/// simulate.h).
 Result<Plant<double>> plant_for(const Scenario& scenario, const Model& model);
 
 /// "differential", "steering", "combined".
