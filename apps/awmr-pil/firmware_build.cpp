@@ -1,11 +1,13 @@
 #include "firmware_build.h"
 
 #include <fmt/format.h>
-#include <sys/wait.h>
+#include <unistd.h>
 
-#include <cstdlib>
+#include <cerrno>
+#include <cstring>
 
 #include "awmr/core/file.h"
+#include "awmr/core/process.h"
 #include "firmware_sources.h"
 
 namespace awmr::pil {
@@ -14,20 +16,47 @@ namespace {
 namespace fs = std::filesystem;
 
 /// -mcall-prologues, -mrelax and what follows: a tenth less flash for a fiftieth more cycles.
-constexpr const char* kFlags =
-    "-mmcu=atmega2560 -DF_CPU=16000000UL -std=c++14 -Os -mcall-prologues -mrelax "
-    "-fno-split-wide-types -fno-tree-switch-conversion "
-    "-ffunction-sections -fdata-sections -fno-exceptions -fno-threadsafe-statics -Wall -Wextra "
-    "-Wpedantic -Werror -Wl,--gc-sections";
+constexpr const char* kFlags[] = {"-mmcu=atmega2560",
+                                  "-DF_CPU=16000000UL",
+                                  "-std=c++14",
+                                  "-Os",
+                                  "-mcall-prologues",
+                                  "-mrelax",
+                                  "-fno-split-wide-types",
+                                  "-fno-tree-switch-conversion",
+                                  "-ffunction-sections",
+                                  "-fdata-sections",
+                                  "-fno-exceptions",
+                                  "-fno-threadsafe-statics",
+                                  "-Wall",
+                                  "-Wextra",
+                                  "-Wpedantic",
+                                  "-Werror",
+                                  "-Wl,--gc-sections",
+                                  "-Isrc",
+                                  "-Ipil",
+                                  "src/awmr.cpp"};
+/// It takes two seconds; a hundred times that on a machine that is busy.
+constexpr double kTimeLimit_s = 200.0;
 
 Status put(const fs::path& path, std::string_view bytes) {
-  if (auto made = make_directory(path.parent_path()); !made) return made;
+  AWMR_RETURN_IF_ERROR(make_directory(path.parent_path()));
   return write_file(path, bytes);
 }
 
-int exit_code_of(const std::string& line) {
-  const int status = std::system(line.c_str());  // NOLINT(concurrency-mt-unsafe): one thread
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+/// Nothing below `kept` on the way to `file` is a symbolic link.
+Status check_no_link(const fs::path& kept, const fs::path& file) {
+  fs::path place = kept;
+  for (const fs::path& part : file) {
+    place /= part;
+    std::error_code ignored;
+    if (fs::is_symlink(fs::symlink_status(place, ignored))) {
+      return input_error(place.string(),
+                         "is a symbolic link in the folder of --build-dir, and what it points to "
+                         "would be overwritten: remove it, or give another folder");
+    }
+  }
+  return {};
 }
 
 }  // namespace
@@ -35,30 +64,59 @@ int exit_code_of(const std::string& line) {
 Result<fs::path> build_firmware(const fs::path& directory, const std::vector<EmittedFile>& library,
                                 LinkKind link) {
   for (const EmittedFile& file : library) {
-    if (auto done = put(directory / file.path, file.bytes); !done) {
-      return tl::unexpected(done.error());
-    }
+    AWMR_RETURN_IF_ERROR(put(directory / file.path, file.bytes));
   }
   for (const auto& [name, bytes] : firmware_sources()) {
-    if (auto done = put(directory / "pil" / std::string(name), bytes); !done) {
-      return tl::unexpected(done.error());
-    }
+    AWMR_RETURN_IF_ERROR(put(directory / "pil" / std::string(name), bytes));
   }
-  if (exit_code_of("command -v avr-g++ >/dev/null 2>&1") != 0) {
+  const auto compiler = find_program("avr-g++");
+  if (!compiler) {
     return input_error("avr-g++",
                        "is not installed; it builds the firmware: "
                        "apt-get install gcc-avr avr-libc binutils-avr");
   }
-  const char* program = link == LinkKind::kMemory ? "pil_memory" : "pil_uart";
-  const std::string line =
-      fmt::format("cd '{}' && avr-g++ {} -Isrc -Ipil src/awmr.cpp pil/{}.cpp -o {}.elf 2>build.log",
-                  directory.string(), kFlags, program, program);
-  if (exit_code_of(line) != 0) {
-    const auto log = read_file(directory / "build.log");
+  const std::string program = link == LinkKind::kMemory ? "pil_memory" : "pil_uart";
+  ProgramCall call{.program = *compiler,
+                   .arguments{std::begin(kFlags), std::end(kFlags)},
+                   .directory = directory,
+                   .environment = plain_environment(directory),
+                   .time_limit_s = kTimeLimit_s};
+  call.arguments.insert(call.arguments.end(), {"pil/" + program + ".cpp", "-o", program + ".elf"});
+  AWMR_ASSIGN_OR_RETURN(const ProgramEnd built, run_program(call));
+  if (built.timed_out) {
     return program_fault(
-        fmt::format("the firmware does not compile:\n{}", log ? *log : std::string()));
+        fmt::format("{} did not end within {} s", compiler->string(), kTimeLimit_s));
   }
-  return directory / (std::string(program) + ".elf");
+  if (built.exit_code != 0) {
+    return program_fault(fmt::format("the firmware does not compile:\n{}", built.output));
+  }
+  return directory / (program + ".elf");
+}
+
+Status prepare_to_keep(const fs::path& kept) {
+  const std::string name = kept.string();
+  if (name.empty()) return input_error("--build-dir", "the folder's name is empty: give one");
+  if (name.starts_with('-')) {
+    return input_error(
+        "--build-dir",
+        fmt::format("'{0}' looks like an option; a folder of that name is './{0}'", name));
+  }
+  AWMR_RETURN_IF_ERROR(make_directory(kept));
+  if (::access(kept.c_str(), W_OK | X_OK) != 0) {
+    return input_error(name, fmt::format("cannot write to the folder: {}", std::strerror(errno)));
+  }
+  return {};
+}
+
+Status keep_firmware(const fs::path& directory, const fs::path& kept) {
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(directory)) {
+    if (!entry.is_regular_file()) continue;
+    const fs::path file = entry.path().lexically_relative(directory);
+    AWMR_RETURN_IF_ERROR(check_no_link(kept, file));
+    AWMR_ASSIGN_OR_RETURN(const std::string bytes, read_file(entry.path()));
+    AWMR_RETURN_IF_ERROR(put(kept / file, bytes));
+  }
+  return {};
 }
 
 }  // namespace awmr::pil

@@ -15,6 +15,9 @@ namespace {
 
 using cli::Injection;
 
+/// The firmware's pil_points.
+constexpr std::size_t kMaxWaypoints = 16;
+
 float single(double value) { return static_cast<float>(value); }
 
 /// Waypoints that the chip's own guidance goes to; else the host leads and the chip gets a heading.
@@ -109,6 +112,12 @@ Status check_scenario(const Scenario& scenario, const std::string& file) {
   if (!scenario.control.redistribute) {
     faults.push_back({file + ":/control/redistribute", "the firmware always does: remove"});
   }
+  const WaypointCourse* course = course_for_chip(scenario);
+  if (course != nullptr && course->points_m.size() > kMaxWaypoints) {
+    faults.push_back({file + ":/guidance/points_m",
+                      fmt::format("the firmware has room for {} waypoints, there are {}",
+                                  kMaxWaypoints, course->points_m.size())});
+  }
   if (!faults.empty()) return input_errors(std::move(faults));
   return {};
 }
@@ -187,6 +196,13 @@ Result<std::vector<LoopRow>> run_loop(const LoopSetup& setup, Executor& executor
         row.t_s,
         {static_cast<double>(command.force.left), static_cast<double>(command.force.right)},
         static_cast<double>(command.steering_rad));
+    if (!physics.resolved()) {
+      return input_error(fmt::format("scenario '{}'", setup.scenario.name),
+                         fmt::format("the simulated vehicle cannot go on after {:g} s: resistance "
+                                     "is too stiff there for any step, or a number is no longer "
+                                     "finite",
+                                     row.t_s));
+    }
   }
   return rows;
 }

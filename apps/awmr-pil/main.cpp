@@ -7,10 +7,12 @@
 #include "executor.h"
 #include "pil_options.h"
 #include "run.h"
+#include "work_folder.h"
 
 namespace {
 
 int report(const awmr::Error& error) {
+  awmr::pil::end_if_told_to();
   std::fputs(awmr::to_text(error).c_str(), stderr);
   return awmr::exit_code(error);
 }
@@ -49,9 +51,11 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  awmr::pil::clean_up_at_signals();
   try {
     return run(argc, argv);
   } catch (const std::exception& error) {
+    awmr::pil::end_if_told_to();
     std::fprintf(stderr, "error: a fault of the program: %s\n", error.what());
     return 3;
   }

@@ -41,8 +41,10 @@ class Port : public Line {
   Port& operator=(const Port&) = delete;
 
   Status open() override {
-    file_ = ::open(path_.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC);
+    // Without O_NONBLOCK a modem port may wait for its carrier without end.
+    file_ = ::open(path_.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC | O_NONBLOCK);
     if (file_ < 0) return input_error(path_.string(), std::strerror(errno));
+    ::fcntl(file_, F_SETFL, ::fcntl(file_, F_GETFL) & ~O_NONBLOCK);
     if (!make_raw(file_, speed_)) return input_error(path_.string(), "is no serial port");
     const bool is_terminal = path_.string().starts_with("/dev/pts/");
     if (!is_terminal) ::usleep(kBootTime_ms * 1000);

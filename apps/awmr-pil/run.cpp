@@ -1,7 +1,6 @@
 #include "run.h"
 
 #include <fmt/format.h>
-#include <stdlib.h>
 #include <time.h>
 
 #include <algorithm>
@@ -20,6 +19,7 @@
 #include "executor.h"
 #include "firmware_build.h"
 #include "loop.h"
+#include "work_folder.h"
 
 namespace awmr::pil {
 namespace {
@@ -27,30 +27,6 @@ namespace {
 namespace fs = std::filesystem;
 using cli::Injection;
 using cli::PilOptions;
-
-/// The given directory, or one that goes away with the object.
-class BuildDirectory {
- public:
-  explicit BuildDirectory(const std::optional<fs::path>& given) : kept_(given.has_value()) {
-    if (given) {
-      path_ = *given;
-      return;
-    }
-    std::string pattern = (fs::temp_directory_path() / "awmr-pil-XXXXXX").string();
-    if (::mkdtemp(pattern.data()) != nullptr) path_ = pattern;
-  }
-  ~BuildDirectory() {
-    std::error_code ignored;
-    if (!kept_ && !path_.empty()) fs::remove_all(path_, ignored);
-  }
-  BuildDirectory(const BuildDirectory&) = delete;
-  BuildDirectory& operator=(const BuildDirectory&) = delete;
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-  bool kept_;
-};
 
 /// What was read, and what follows from it.
 struct Inputs {
@@ -61,6 +37,19 @@ struct Inputs {
   AutopilotParameters parameters;
 };
 
+/// The step of pil_memory.cpp is started by a timer that counts eighths of the clock in 16 bits.
+Status check_sample_time(const Model& model) {
+  // In float and rounded as the firmware does it.
+  const float counts = static_cast<float>(model.vehicle.sample_time_s) * 2e6F + 0.5F;
+  if (counts >= 2.0F && counts < 65537.0F) return {};
+  return input_error(
+      model.file + ":/vehicle/sample_time_s",
+      fmt::format("the emulated chip's timer starts a step every 1 us to {:.6g} ms, found {:.6g} "
+                  "ms; identify the vehicle with a sample time that the firmware can hold, or use "
+                  "--link uart",
+                  65536.0 * 8.0 / kClockHz * 1000.0, model.vehicle.sample_time_s * 1000.0));
+}
+
 Result<Inputs> read_inputs(const PilOptions& options) {
   Inputs in;
   auto model = read_model(options.model);
@@ -69,9 +58,8 @@ Result<Inputs> read_inputs(const PilOptions& options) {
   if (!gains) return tl::unexpected(gains.error());
   const auto scenario = read_scenario(options.scenario);
   if (!scenario) return tl::unexpected(scenario.error());
-  if (const auto fit = check_scenario(*scenario, options.scenario.string()); !fit) {
-    return tl::unexpected(fit.error());
-  }
+  AWMR_RETURN_IF_ERROR(check_scenario(*scenario, options.scenario.string()));
+  if (options.link == cli::PilLink::kMemory) AWMR_RETURN_IF_ERROR(check_sample_time(*model));
   const auto plant = plant_for(*scenario, *model);
   if (!plant) return tl::unexpected(plant.error());
   const auto names = cli::emit_inputs(options.model, options.gains);
@@ -121,14 +109,17 @@ double elapsed_s(bool emulated) {
 }
 
 Result<ChipRun> run_chip(const PilOptions& options, const Inputs& in) {
-  const BuildDirectory directory(options.build_directory);
-  if (directory.path().empty()) return program_fault("no temporary directory can be made");
+  if (options.build_directory) AWMR_RETURN_IF_ERROR(prepare_to_keep(*options.build_directory));
+  AWMR_ASSIGN_OR_RETURN(const auto folder, WorkFolder::make());
   const auto library = firmware_library(in.model, in.gains, in.names, options.emit);
   if (!library) return tl::unexpected(library.error());
   const auto elf =
-      build_firmware(directory.path(), *library,
+      build_firmware(folder->path(), *library,
                      options.link == cli::PilLink::kMemory ? LinkKind::kMemory : LinkKind::kUart);
   if (!elf) return tl::unexpected(elf.error());
+  if (options.build_directory) {
+    AWMR_RETURN_IF_ERROR(keep_firmware(folder->path(), *options.build_directory));
+  }
   auto chip = connect(options, in, *elf);
   if (!chip) return tl::unexpected(chip.error());
   const auto started = (*chip)->start();
@@ -226,6 +217,7 @@ Status compare_runs(const PilOptions& options, const Inputs& in, Report& report)
   const Run exact = simulate(in.setup.plant, make_controller(*plant, in.model.vehicle, in.gains),
                              in.setup.scenario, in.setup.mode,
                              {.sample_time_s = in.setup.sample_time_s, .substeps = {}});
+  AWMR_RETURN_IF_ERROR(failure_of(exact, in.setup.scenario));
   report.from_double = difference(report.chip.rows, exact);
   const auto by_powf = run_host(in, ResistanceForm::kPowf, options.emit);
   if (!by_powf) return tl::unexpected(by_powf.error());
@@ -325,7 +317,6 @@ Result<std::string> text_of(const PilOptions& options, const Inputs& in, const R
   json["ram_bytes"] = report.chip.figures.ram_bytes;
   const auto& stack = report.chip.figures.stack_bytes;
   json["stack_bytes"] = stack ? Json(*stack) : Json(nullptr);
-  json["real_time_factor"] = report.chip.real_time_factor;
   if (const auto& injected = report.injected) {
     json["injected"] = {{"expected_fault", injected->expected},
                         {"fault", injected->seen},

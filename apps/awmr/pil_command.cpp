@@ -5,7 +5,9 @@
 #include <cerrno>
 #include <cstring>
 #include <memory>
+#include <optional>
 
+#include "awmr/core/process.h"
 #include "commands.h"
 #include "pil_options.h"
 
@@ -25,36 +27,52 @@ std::vector<std::string> arguments_of(const CLI::App& command) {
   return arguments;
 }
 
-/// awmr-pil beside this program, else on the path. It takes this process over, so that its output
-/// and its exit code are the command's.
-Result<Outcome> become_awmr_pil(const std::vector<std::string>& arguments) {
-  std::error_code ignored;
-  const fs::path beside = fs::read_symlink("/proc/self/exe", ignored).parent_path() / "awmr-pil";
-  std::vector<char*> argv{const_cast<char*>("awmr-pil"), const_cast<char*>("run")};
-  for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
-  argv.push_back(nullptr);
-  ::execv(beside.c_str(), argv.data());
-  ::execvp("awmr-pil", argv.data());
+/// awmr-pil beside this program, else on the path.
+std::optional<fs::path> awmr_pil() {
+  std::error_code error;
+  const fs::path self = fs::read_symlink("/proc/self/exe", error);
+  if (!error && fs::exists(self.parent_path() / "awmr-pil", error)) {
+    return self.parent_path() / "awmr-pil";
+  }
+  return find_program("awmr-pil");
+}
+
+/// awmr-pil takes this process over, so that its output and its exit code are the command's.
+Result<Outcome> become_awmr_pil(std::vector<std::string> arguments) {
+  const auto program = awmr_pil();
+  int reason = ENOENT;
+  if (program) {
+    arguments.insert(arguments.begin(), {"awmr-pil", "run"});
+    std::vector<char*> argv;
+    for (std::string& argument : arguments) argv.push_back(argument.data());
+    argv.push_back(nullptr);
+    ::execv(program->c_str(), argv.data());
+    reason = errno;
+  }
   return input_error("awmr-pil",
                      fmt::format("cannot be started ({}); it runs the firmware on an emulated chip "
                                  "and is built where libsimavr is: apt-get install libsimavr-dev "
                                  "gcc-avr avr-libc, then build awmr again",
-                                 std::strerror(errno)));
+                                 std::strerror(reason)));
 }
 
 }  // namespace
 
 void add_pil(CLI::App& app, Session& session) {
-  auto options = std::make_shared<PilOptions>();
-  auto command = std::make_shared<CLI::App*>(nullptr);
-  *command =
+  // CLI11 writes to the options long after this function has ended: the command holds them.
+  struct Held {
+    PilOptions options;
+    CLI::App* command = nullptr;
+  };
+  auto held = std::make_shared<Held>();
+  held->command =
       add_command(app, session, "pil",
                   "Run the firmware on an emulated ATmega2560 against the simulated vehicle",
                   "awmr pil --model model.json --gains gains.json --scenario "
                   "configs/paper/scenarios/c3_heading_steps.json --mode combined -o pil.json",
-                  [command] { return become_awmr_pil(arguments_of(**command)); });
-  add_pil_options(**command, *options);
-  add_output(**command, options->output, "pil.json to write");
+                  [held] { return become_awmr_pil(arguments_of(*held->command)); });
+  add_pil_options(*held->command, held->options);
+  add_output(*held->command, held->options.output, "pil.json to write");
 }
 
 }  // namespace awmr::cli

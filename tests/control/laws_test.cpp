@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "support/paper_vehicle.h"
+#include "support/strict_scalar.h"
 
 namespace awmr::testing {
 namespace {
@@ -14,6 +16,23 @@ TEST(Laws, WrapIsInMinusPiToPiWithPiItself) {
   EXPECT_EQ(wrap_angle(-kPi), kPi);
   EXPECT_NEAR(wrap_angle(3.0 * kPi + 0.1), -kPi + 0.1, 1e-14);
   EXPECT_NEAR(wrap_angle(-7.0), -7.0 + 2.0 * kPi, 1e-14);
+}
+
+TEST(Laws, WrapTakesNoLongerForALargeAngleAndLeavesNaNAsItIs) {
+  // It took off 2 pi at a time: 50 s for a run at 1e10 deg, and without end from 1e17 on, where
+  // 2 pi less is the same number.
+  constexpr double kPi = pi<double>();
+  for (const double angle : {1.7e8, 1e10, -1e17, 1e300, -1.7e308}) {
+    const double wrapped = wrap_angle(angle);
+    EXPECT_TRUE(wrapped > -kPi && wrapped <= kPi) << angle;
+    EXPECT_NEAR(std::sin(wrapped), std::sin(angle), 1e-12) << angle;
+    EXPECT_NEAR(std::cos(wrapped), std::cos(angle), 1e-12) << angle;
+  }
+  EXPECT_TRUE(std::isnan(wrap_angle(std::nan(""))));
+  EXPECT_TRUE(std::isnan(wrap_angle(std::numeric_limits<double>::infinity())));
+  EXPECT_TRUE(std::isnan(wrap_angle(std::numeric_limits<float>::quiet_NaN())));
+  const Strict strict = wrap_angle(Strict(1e10));
+  EXPECT_EQ(strict.value(), wrap_angle(1e10));
 }
 
 TEST(Laws, HeadingLawBySubstitution) {

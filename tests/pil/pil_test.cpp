@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -41,6 +43,19 @@ class Pil : public ::testing::Test {
     return awmr("pil --model " + path("model.json") + " --gains " + path("gains.json") +
                 " --scenario " + scenario + " --mode " + mode + " " + options + " -o " +
                 path(output));
+  }
+  /// As pil(), for what stands before it on the command line: variables, another directory.
+  static ProcessResult pil_after(const std::string& before, const std::string& options,
+                                 const std::string& output = "after.json") {
+    return run_process("export " + before + " && " + std::string(AWMR_PROGRAM) + " pil --model " +
+                           path("model.json") + " --gains " + path("gains.json") + " --scenario " +
+                           kC13 + " --mode combined " + options + " -o " + path(output),
+                       AWMR_SOURCE_DIR);
+  }
+  static bool exists(const std::string& name) { return std::filesystem::exists(path(name)); }
+  static std::size_t entries(const std::string& name) {
+    const std::filesystem::directory_iterator first(path(name)), last;
+    return static_cast<std::size_t>(std::distance(first, last));
   }
   static Json result(const std::string& name = "pil.json") {
     return Json::parse(read_all(path(name)));
@@ -148,6 +163,152 @@ TEST_F(Pil, OverTheUartItIsTheSameRun) {
   ASSERT_EQ(run.exit_code, 0) << run.out << run.err;
   EXPECT_EQ(result("uart.json")["difference"], result("memory.json")["difference"]);
   EXPECT_EQ(result("uart.json")["difference_double"], result("memory.json")["difference_double"]);
+}
+
+TEST_F(Pil, OptionsAreNotUsedAfterTheyAreFreed) {
+  // Freed memory is overwritten at once, so that options that CLI11 still writes to are garbage.
+  const ProcessResult run =
+      pil_after("GLIBC_TUNABLES=glibc.malloc.tcache_count=0:glibc.malloc.perturb=165", "");
+  EXPECT_EQ(run.exit_code, 0) << run.out << run.err;
+}
+
+TEST_F(Pil, NoShellReadsTheNameOfTheBuildDirectoryOrOfTmpdir) {
+  std::filesystem::create_directory(path("x'; touch HACKED; echo '"));
+  const ProcessResult kept =
+      pil_after("A=b", "--build-dir \"" + path("k'; touch HACKED; echo '") + "\"");
+  EXPECT_EQ(kept.exit_code, 0) << kept.err;
+  EXPECT_TRUE(exists("k'; touch HACKED; echo '/pil_memory.elf"));
+  const ProcessResult temporary =
+      pil_after("TMPDIR=\"" + path("x'; touch HACKED; echo '") + "\"", "");
+  EXPECT_EQ(temporary.exit_code, 0) << temporary.err;
+  for (const std::string& place : {path(""), path("x'"), std::string(AWMR_SOURCE_DIR)}) {
+    EXPECT_FALSE(std::filesystem::exists(std::filesystem::path(place) / "HACKED")) << place;
+  }
+}
+
+TEST_F(Pil, TheCompilerDoesNotSeeTheUsersCompilerVariables) {
+  const ProcessResult run = pil_after("CPATH=" + path("evil") + " GCC_EXEC_PREFIX=/no/such/", "");
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  std::filesystem::create_directory(path("evil"));
+  write_all(path("evil/stdint.h"), "#error not this one\n");
+  const ProcessResult shadowed = pil_after("CPATH=" + path("evil"), "");
+  EXPECT_EQ(shadowed.exit_code, 0) << shadowed.err;
+}
+
+TEST_F(Pil, ALinkInTheBuildDirectoryIsNotFollowed) {
+  std::filesystem::create_directory(path("links"));
+  write_all(path("precious"), "precious");
+  for (const char* name : {"build.log", "pil_memory.elf", "awmr_params.h"}) {
+    std::filesystem::create_symlink(path("precious"), path("links/" + std::string(name)));
+  }
+  const ProcessResult run = pil_after("A=b", "--build-dir " + path("links"));
+  EXPECT_EQ(run.exit_code, 2) << run.out;
+  EXPECT_THAT(run.err, HasSubstr("symbolic link"));
+  EXPECT_EQ(read_all(path("precious")), "precious");
+}
+
+TEST_F(Pil, ATmpdirThatIsMissingOrReadOnlyIsTwoWithWords) {
+  for (const std::string& place :
+       {path("missing"), std::string("/proc"), path("model.json"), std::string("relative")}) {
+    const ProcessResult run = pil_after("TMPDIR=" + place, "", "none.json");
+    EXPECT_EQ(run.exit_code, 2) << place << run.err;
+    EXPECT_THAT(run.err, HasSubstr("error: TMPDIR: ")) << place;
+  }
+  EXPECT_FALSE(exists("none.json"));
+}
+
+TEST_F(Pil, ABuildDirectoryThatLooksLikeAnOptionIsTwoWithWords) {
+  const ProcessResult run = pil(kC13, "combined", "--build-dir=-x", "none.json");
+  EXPECT_EQ(run.exit_code, 2) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("looks like an option"));
+  const ProcessResult file =
+      pil(kC13, "combined", "--build-dir " + path("model.json") + "/below", "none.json");
+  EXPECT_EQ(file.exit_code, 2) << file.err;
+  const ProcessResult kernel = pil(kC13, "combined", "--build-dir /proc/below", "none.json");
+  EXPECT_EQ(kernel.exit_code, 2) << kernel.err;
+}
+
+TEST_F(Pil, ASampleTimeBeyondTheTimerIsRefusedInWordsAndNotByTheCompiler) {
+  Json model = Json::parse(read_all(path("model.json")));
+  for (const double sample_time_s : {0.033, 0.05, 4e-7}) {
+    model["vehicle"]["sample_time_s"] = sample_time_s;
+    write_all(path("slow.json"), model.dump());
+    const ProcessResult run =
+        awmr("pil --model " + path("slow.json") + " --gains " + path("gains.json") +
+             " --scenario " + kC13 + " --mode combined -o " + path("none.json"));
+    EXPECT_EQ(run.exit_code, 2) << run.err;
+    EXPECT_THAT(run.err, HasSubstr("slow.json:/vehicle/sample_time_s"));
+    EXPECT_THAT(run.err, Not(HasSubstr("static_assert")));
+  }
+}
+
+TEST_F(Pil, TwoRunsGiveTheSameBytesAndTheRealTimeFactorIsOnStdoutOnly) {
+  const ProcessResult first = pil(kC13, "combined", "", "first.json");
+  const ProcessResult second = pil(kC13, "combined", "", "second.json");
+  ASSERT_EQ(first.exit_code, 0) << first.err;
+  ASSERT_EQ(second.exit_code, 0) << second.err;
+  EXPECT_THAT(first.out, HasSubstr(" times real time"));
+  EXPECT_EQ(read_all(path("first.json")), read_all(path("second.json")));
+  EXPECT_FALSE(result("first.json").contains("real_time_factor"));
+}
+
+TEST_F(Pil, ASignalLeavesNoFolderBehind) {
+  std::filesystem::create_directory(path("tmp"));
+  // At moments from before the compiler's start to the emulation's end, which takes seconds.
+  for (const char* signal : {"TERM", "INT", "HUP"}) {
+    for (const char* after_s : {"0.05", "0.2", "0.5", "1.0", "2.0"}) {
+      const ProcessResult run = run_process(
+          "export TMPDIR=" + path("tmp") + "; timeout --preserve-status --signal=" + signal + " " +
+              after_s + " " + AWMR_PROGRAM + " pil --model " + path("model.json") + " --gains " +
+              path("gains.json") + " --scenario " + kC8 + " --mode combined -o " + path("cut.json"),
+          AWMR_SOURCE_DIR);
+      EXPECT_NE(run.exit_code, 3) << run.err;
+      EXPECT_EQ(run.err, "") << signal << " after " << after_s << " s";
+      EXPECT_EQ(entries("tmp"), 0u) << signal << " after " << after_s << " s";
+    }
+  }
+}
+
+TEST_F(Pil, AFolderThatAKilledRunLeftIsGoneAfterTheNext) {
+  std::filesystem::create_directory(path("left"));
+  const std::string killed = "timeout --signal=KILL 1 " + std::string(AWMR_PROGRAM);
+  const std::string run_c8 = " pil --model " + path("model.json") + " --gains " +
+                             path("gains.json") + " --scenario " + kC8 + " --mode combined -o " +
+                             path("cut.json");
+  for (int i = 0; i < 5 && entries("left") == 0; ++i) {
+    run_process("export TMPDIR=" + path("left") + "; " + killed + run_c8, AWMR_SOURCE_DIR);
+  }
+  ASSERT_GT(entries("left"), 0u);
+  // Not a dead run's: another name, no number, a link, a lock that is held.
+  for (const char* name : {"other", "awmr-pil-abc", "awmr-pil-1-locked"}) {
+    std::filesystem::create_directory(path("left/" + std::string(name)));
+  }
+  std::filesystem::create_directory_symlink(path("left/other"), path("left/awmr-pil-2-linked"));
+  const ProcessResult next =
+      run_process("exec 9<" + path("left/awmr-pil-1-locked") +
+                      " && flock -n 9 && export TMPDIR=" + path("left") + " && " + AWMR_PROGRAM +
+                      " pil --model " + path("model.json") + " --gains " + path("gains.json") +
+                      " --scenario " + kC13 + " --mode combined -o " + path("next.json"),
+                  AWMR_SOURCE_DIR);
+  ASSERT_EQ(next.exit_code, 0) << next.err;
+  EXPECT_EQ(entries("left"), 4u);
+}
+
+TEST_F(Pil, BoundsThatAreNoNumbersAreTwo) {
+  for (const char* option : {"--difference-max nan", "--heading-max-deg nan", "--cycles-max -1",
+                             "--heading-max-deg inf", "--flash-max 1e3", "--ram-max 0"}) {
+    EXPECT_EQ(pil(kC13, "combined", option, "none.json").exit_code, 2) << option;
+  }
+}
+
+TEST_F(Pil, MoreWaypointsThanTheFirmwareHoldsAreRefusedWithTheirPlace) {
+  Json scenario = Json::parse(read_all(std::string(AWMR_SOURCE_DIR) + "/" + kC8));
+  scenario["guidance"]["points_m"] = Json::array();
+  for (int i = 0; i < 17; ++i) scenario["guidance"]["points_m"].push_back({100.0 + i, 0.0});
+  write_all(path("many.json"), scenario.dump());
+  const ProcessResult run = pil(path("many.json"), "combined", "", "none.json");
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("many.json:/guidance/points_m"));
 }
 
 TEST_F(Pil, SpeaksToABoardOnASerialPort) {

@@ -107,8 +107,9 @@ Status take_finished(const std::vector<Scenario>& scenarios, const std::vector<N
   return {};
 }
 
-ComparisonRow run_of(const Vehicle& vehicle, const Fleet& fleet, const NamedGains& set,
-                     const Scenario& scenario, const Place& place, std::uint64_t seed) {
+/// Errors (input): as failure_of.
+Result<ComparisonRow> run_of(const Vehicle& vehicle, const Fleet& fleet, const NamedGains& set,
+                             const Scenario& scenario, const Place& place, std::uint64_t seed) {
   // The controller knows the model's own values, not the drawn ones.
   const Controller<double> controller = make_controller(fleet.nominal, vehicle, set.gains);
   const YawMode mode = kYawModes[place.mode];
@@ -118,11 +119,12 @@ ComparisonRow run_of(const Vehicle& vehicle, const Fleet& fleet, const NamedGain
                             .substeps = {},
                             .seed = place.sample == 0 ? 0 : seed,
                             .sample = place.sample});
-  return {.scenario = scenario.name,
-          .mode = mode,
-          .sample = static_cast<int>(place.sample),
-          .metrics = metrics_of(run, scenario, controller),
-          .gains = set.name};
+  AWMR_RETURN_IF_ERROR(failure_of(run, scenario));
+  return ComparisonRow{.scenario = scenario.name,
+                       .mode = mode,
+                       .sample = static_cast<int>(place.sample),
+                       .metrics = metrics_of(run, scenario, controller),
+                       .gains = set.name};
 }
 
 Comparison gathered(const Layout& layout, Slots slots) {
@@ -152,6 +154,7 @@ Result<Comparison> compare(const Model& model, const std::vector<NamedGains>& ga
   Slots slots(layout.count());
   AWMR_RETURN_IF_ERROR(take_finished(scenarios, gains, options, layout, slots));
 
+  std::vector<Status> failures(layout.count());
   std::atomic<std::size_t> done = 0;
   LoopControl control;
   if (options.stop != nullptr) control.stop = [&] { return options.stop->load(); };
@@ -161,14 +164,20 @@ Result<Comparison> compare(const Model& model, const std::vector<NamedGains>& ga
       layout.count(), options.threads,
       [&](std::size_t i) {
         const Place place = layout.in_running_order(i);
-        auto& slot = slots[layout.row(place)];
-        if (!slot) {
-          slot = run_of(model.vehicle, fleet, gains[place.gains], scenarios[place.scenario], place,
-                        options.seed);
+        const std::size_t index = layout.row(place);
+        if (!slots[index]) {
+          auto row = run_of(model.vehicle, fleet, gains[place.gains], scenarios[place.scenario],
+                            place, options.seed);
+          if (row) {
+            slots[index] = std::move(*row);
+          } else {
+            failures[index] = tl::unexpected(row.error());
+          }
         }
         ++done;
       },
       control);
+  for (const Status& failure : failures) AWMR_RETURN_IF_ERROR(failure);
   return gathered(layout, std::move(slots));
 }
 

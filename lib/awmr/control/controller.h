@@ -51,9 +51,20 @@ struct Command {
   Allocation<T> allocation;  ///< forces and angle, inside their limits
 };
 
-/// The angle's equal in (-pi, pi].
+/// Up to this many turns wrap_angle takes them off one by one, beyond it all at once.
+constexpr int kTurnsOneByOne = 64;
+
+/// The angle's equal in (-pi, pi], in constant time. NaN stays NaN, and an infinite angle becomes
+/// it.
 template <class T>
 T wrap_angle(T angle_rad) {
+  using math::atan2;
+  using math::cos;
+  using math::sin;
+  const T few = T(2.0 * kTurnsOneByOne) * pi<T>();
+  // NaN is on neither side of a bound: the loops below would not end.
+  if (!(angle_rad < few && angle_rad > -few)) angle_rad = atan2(sin(angle_rad), cos(angle_rad));
+  if (!(angle_rad < few && angle_rad > -few)) return angle_rad;
   while (angle_rad > pi<T>()) angle_rad -= T(2.0) * pi<T>();
   while (!(angle_rad > -pi<T>())) angle_rad += T(2.0) * pi<T>();
   return angle_rad;

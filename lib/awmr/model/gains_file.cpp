@@ -2,6 +2,7 @@
 
 #include "awmr/core/file.h"
 #include "awmr/model/gains_json.h"
+#include "awmr/model/ranges.h"
 
 namespace awmr {
 
@@ -13,11 +14,11 @@ Result<Gains<double>> read_gains(const std::filesystem::path& path) {
 
   JsonObject heading = root.object("heading");
   JsonObject speed = root.object("speed");
-  const Gains<double> gains{.heading = {.lambda = heading.number("lambda", kPositive),
-                                        .mu = heading.number("mu", kPositive),
-                                        .epsilon = heading.number("epsilon", kPositive)},
-                            .speed = {.mu = speed.number("mu", kPositive),
-                                      .epsilon = speed.number("epsilon", kPositive)}};
+  const Gains<double> gains{
+      .heading = {.lambda = heading.number("lambda", kGain),
+                  .mu = heading.number("mu", kGain),
+                  .epsilon = heading.number("epsilon", kGain)},
+      .speed = {.mu = speed.number("mu", kGain), .epsilon = speed.number("epsilon", kGain)}};
   heading.reject_unknown_keys();
   speed.reject_unknown_keys();
 

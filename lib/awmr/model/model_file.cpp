@@ -6,6 +6,7 @@
 #include <map>
 
 #include "awmr/core/file.h"
+#include "awmr/model/ranges.h"
 #include "model_json.h"
 #include "vehicle_json.h"
 
@@ -18,9 +19,10 @@ const std::string kSources[] = {"given", "derived", "fitted"};
 /// The values of a parameter with which the equations of motion make sense: dynamics.h and
 /// resistance.h have the bounds at their fields.
 NumberRule rule_of(ParameterId id) {
-  if (info(id).term) return kNonNegative;
+  if (info(id).term) return kTerm;
+  if (id == ParameterId::kSteeringTimeConstant) return kServoTime_s;
   const bool is_exponent = id == ParameterId::kSurgeBeta || id == ParameterId::kYawBeta;
-  return is_exponent ? kNonNegative : kPositive;
+  return is_exponent ? kExponent : kCoefficient;
 }
 
 Json estimate_to_json(const Estimate& estimate, const ParameterInfo& parameter) {

@@ -20,15 +20,16 @@ std::optional<double> steady_rate(const Resistance<double>& law, double force) {
     if (!(force > 0.0) || !(law.beta > 0.0)) return std::nullopt;
     return finite(std::pow(force / law.alpha, 1.0 / law.beta));
   }
-  if (!(force > law.coulomb)) return std::nullopt;
+  if (!(force > law.coulomb) || !std::isfinite(force)) return std::nullopt;
   constexpr double kFastest = 1e9;
+  constexpr double kSlowest = 1e-300;
   double hi = 1.0;
-  while (law.at(hi) < force) {
-    hi *= 2.0;
-    if (hi > kFastest) return std::nullopt;
-  }
+  while (law.at(hi) < force && hi <= kFastest) hi *= 2.0;
+  if (!(hi <= kFastest && law.at(hi) >= force)) return std::nullopt;
+  // A curve that jumps at rest by more than c (beta = 0) never comes down to a force in between.
   double lo = hi;
-  while (law.at(lo) > force) lo /= 2.0;
+  while (law.at(lo) > force && lo >= kSlowest) lo /= 2.0;
+  if (!(law.at(lo) <= force)) return std::nullopt;
   // g rises, so halving the bracket finds the root to the last bit.
   for (int i = 0; i < 200 && std::nextafter(lo, hi) < hi; ++i) {
     const double middle = 0.5 * (lo + hi);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "awmr/core/units.h"
+#include "awmr/model/ranges.h"
 #include "vehicle_json.h"
 
 namespace awmr {
@@ -30,6 +31,9 @@ Interval beta_range_from_json(JsonObject& json, std::string_view key, Interval a
     json.fault(key, fmt::format("an exponent below 0 is a resistance that falls with speed; found "
                                 "[{}, {}], give a lower end of at least 0",
                                 range.lo, range.hi));
+  } else if (range.hi > kExponent.max) {
+    json.fault(key, fmt::format("an exponent is at most {}, found [{}, {}]", kExponent.max,
+                                range.lo, range.hi));
   } else if (range.lo == range.hi) {
     json.fault(key, fmt::format("must not be empty, found [{}, {}]", range.lo, range.hi));
   }
@@ -41,8 +45,8 @@ void steering_from_json(JsonObject json, Vehicle& vehicle) {
   if (vehicle.steering_max_deg >= 90.0) {
     json.fault("max_deg", fmt::format("must be below 90, found {}", vehicle.steering_max_deg));
   }
-  vehicle.steering_max_rate_degps = json.number("max_rate_degps", kPositive);
-  vehicle.steering_time_constant_s = json.number("time_constant_s", kPositive);
+  vehicle.steering_max_rate_degps = json.number("max_rate_degps", kServoRate_degps);
+  vehicle.steering_time_constant_s = json.number("time_constant_s", kServoTime_s);
   json.reject_unknown_keys();
 }
 
@@ -52,16 +56,16 @@ Vehicle vehicle_from_json(JsonObject& json) {
   Vehicle vehicle;
   json.schema(kSchema);
   vehicle.name = json.string("name");
-  vehicle.mass_kg = json.number("mass_kg", kPositive);
-  vehicle.length_m = json.number("length_m", kPositive);
-  vehicle.width_m = json.number("width_m", kPositive);
-  vehicle.front_axle_m = json.number("front_axle_m", kPositive);
-  vehicle.half_track_m = json.number("half_track_m", kPositive);
+  vehicle.mass_kg = json.number("mass_kg", kMass_kg);
+  vehicle.length_m = json.number("length_m", kSize_m);
+  vehicle.width_m = json.number("width_m", kSize_m);
+  vehicle.front_axle_m = json.number("front_axle_m", kSize_m);
+  vehicle.half_track_m = json.number("half_track_m", kSize_m);
   vehicle.wheel_force = wheel_force_from_json(json.object("wheel_force"));
   steering_from_json(json.object("steering"), vehicle);
-  vehicle.sample_time_s = json.number("sample_time_s", kPositive);
-  vehicle.yaw_inertia_kgm2 = json.optional_number("yaw_inertia_kgm2", kPositive);
-  vehicle.sway_alpha = json.optional_number("sway_alpha", kPositive);
+  vehicle.sample_time_s = json.number("sample_time_s", kSampleTime_s);
+  vehicle.yaw_inertia_kgm2 = json.optional_number("yaw_inertia_kgm2", kYawInertia_kgm2);
+  vehicle.sway_alpha = json.optional_number("sway_alpha", kCoefficient);
   vehicle.surge_beta_range =
       beta_range_from_json(json, "surge_beta_range", vehicle.surge_beta_range);
   vehicle.yaw_beta_range = beta_range_from_json(json, "yaw_beta_range", vehicle.yaw_beta_range);

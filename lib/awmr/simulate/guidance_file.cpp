@@ -1,6 +1,9 @@
 // scenario.json: guidance, obstacles, avoidance, shaping.
 
+#include <fmt/format.h>
+
 #include <array>
+#include <cmath>
 #include <numbers>
 #include <string>
 
@@ -24,7 +27,8 @@ HeadingSteps read_heading_steps(JsonObject& json) {
   HeadingSteps heading;
   std::vector<JsonObject> steps = json.objects("steps");
   for (JsonObject& step : steps) {
-    heading.steps.push_back({step.number("t_s", kNonNegative), radians(step.number("psi_deg"))});
+    heading.steps.push_back(
+        {step.number("t_s", kTime_s), radians(step.number("psi_deg", kAngle_deg))});
     step.reject_unknown_keys();
   }
   if (heading.steps.empty() || heading.steps.front().t_s > 0.0) {
@@ -41,7 +45,7 @@ HeadingSteps read_heading_steps(JsonObject& json) {
 
 /// `[x, y]` under a key.
 Position<double> read_point(JsonObject& json, const char* key) {
-  const std::vector<double> xy = json.numbers(key);
+  const std::vector<double> xy = json.numbers(key, kCoordinate_m);
   if (xy.size() == 2) return {xy[0], xy[1]};
   json.fault(key, "expected a point [x, y] in m");
   return {};
@@ -52,18 +56,25 @@ std::vector<Position<double>> read_points(JsonObject& json, const Json& document
                                           std::size_t least) {
   std::vector<Position<double>> points;
   bool well_formed = true;
+  bool in_range = true;
   const Json& array = document.at(Json::json_pointer(json.pointer(key)));
   if (array.is_array()) {
     for (const Json& point : array) {
       const bool pair =
           point.is_array() && point.size() == 2 && point[0].is_number() && point[1].is_number();
       well_formed = well_formed && pair;
-      if (pair) points.push_back({point[0].get<double>(), point[1].get<double>()});
+      if (!pair) continue;
+      points.push_back({point[0].get<double>(), point[1].get<double>()});
+      in_range = in_range && std::abs(points.back().x_m) <= kCoordinate_m.max &&
+                 std::abs(points.back().y_m) <= kCoordinate_m.max;
     }
   }
   if (!well_formed || points.size() < least) {
     json.fault(key,
                "expected an array of points [[x, y], ...] in m, at least " + std::to_string(least));
+  } else if (!in_range) {
+    json.fault(key, fmt::format("a coordinate is beyond {:g} m; give points within it",
+                                kCoordinate_m.max));
   }
   return points;
 }
@@ -75,9 +86,9 @@ WaypointCourse read_waypoints(JsonObject& json, const Json& document) {
   } else {
     json.fault("points_m", "missing: the points to go to, [[x, y], ...] in m");
   }
-  course.acceptance_m = json.number("acceptance_m", kPositive);
+  course.acceptance_m = json.number("acceptance_m", kLength_m);
   course.skip_passed = json.optional_boolean("skip_passed").value_or(false);
-  course.slow_down_m = json.optional_number("slow_down_m", kPositive);
+  course.slow_down_m = json.optional_number("slow_down_m", kLength_m);
   return course;
 }
 
@@ -89,16 +100,16 @@ LineCourse read_line(JsonObject& json, const Json& document) {
     course.points_m = {read_point(json, "from_m"), read_point(json, "to_m")};
   }
   course.law.delta_rad = radians(json.number("delta_deg", kApproachAngle));
-  course.law.width_m = json.number("width_m", kPositive);
+  course.law.width_m = json.number("width_m", kLength_m);
   course.law.sideslip_compensation = json.optional_boolean("sideslip_compensation").value_or(true);
-  course.corner_m = json.optional_number("corner_m", kNonNegative).value_or(0.0);
-  course.slow_down_m = json.optional_number("slow_down_m", kPositive);
+  course.corner_m = json.optional_number("corner_m", kLengthOrNone_m).value_or(0.0);
+  course.slow_down_m = json.optional_number("slow_down_m", kLength_m);
   return course;
 }
 
 /// Two numbers under a key.
-std::array<double, 2> read_pair(JsonObject& json, const char* key) {
-  const std::vector<double> pair = json.numbers(key);
+std::array<double, 2> read_pair(JsonObject& json, const char* key, NumberRule rule) {
+  const std::vector<double> pair = json.numbers(key, rule);
   if (pair.size() == 2) return {pair[0], pair[1]};
   json.fault(key, "expected two numbers, for x and y");
   return {};
@@ -106,15 +117,15 @@ std::array<double, 2> read_pair(JsonObject& json, const char* key) {
 
 LissajousCourse read_lissajous(JsonObject& json) {
   LissajousCourse course;
-  const auto amplitude_m = read_pair(json, "amplitude_m");
-  const auto rate_radps = read_pair(json, "rate_radps");
+  const auto amplitude_m = read_pair(json, "amplitude_m", kCoordinate_m);
+  const auto rate_radps = read_pair(json, "rate_radps", kSignedRate_radps);
   course.path = {amplitude_m[0], amplitude_m[1], rate_radps[0], rate_radps[1]};
   course.closed_loop = json.boolean("closed_loop");
-  if (const auto gain = json.optional_number("position_gain_per_s", kPositive)) {
+  if (const auto gain = json.optional_number("position_gain_per_s", kRate)) {
     if (!course.closed_loop) json.fault("position_gain_per_s", "is for closed_loop true only");
     course.position_gain_per_s = *gain;
   }
-  course.tolerance_m = json.optional_number("tolerance_m", kPositive).value_or(course.tolerance_m);
+  course.tolerance_m = json.optional_number("tolerance_m", kLength_m).value_or(course.tolerance_m);
   return course;
 }
 
@@ -124,7 +135,7 @@ Guidance read_guidance(JsonObject json, const Json& document) {
   Guidance guidance;
   switch (json.choice("type", kGuidanceTypes)) {
     case GuidanceType::kOpenLoop:
-      guidance = OpenLoop{json.number("tau_speed"), json.number("tau_turn")};
+      guidance = OpenLoop{json.number("tau_speed", kForce), json.number("tau_turn", kForce)};
       break;
     case GuidanceType::kHeading:
       guidance = read_heading_steps(json);
@@ -146,8 +157,8 @@ Guidance read_guidance(JsonObject json, const Json& document) {
 std::vector<Obstacle<double>> read_obstacles(JsonObject& scenario) {
   std::vector<Obstacle<double>> obstacles;
   for (JsonObject& json : scenario.optional_objects("obstacles")) {
-    obstacles.push_back(
-        {{json.number("x_m"), json.number("y_m")}, json.number("radius_m", kPositive)});
+    obstacles.push_back({{json.number("x_m", kCoordinate_m), json.number("y_m", kCoordinate_m)},
+                         json.number("radius_m", kLength_m)});
     json.reject_unknown_keys();
   }
   return obstacles;
@@ -155,14 +166,15 @@ std::vector<Obstacle<double>> read_obstacles(JsonObject& scenario) {
 
 Avoidance<double> read_avoidance(JsonObject json) {
   const Avoidance<double> avoidance{
-      .mmd_base_m = json.number("mmd_base_m", kPositive),
-      .mmd_per_speed_s = json.number("mmd_per_speed_s", kNonNegative),
+      .mmd_base_m = json.number("mmd_base_m", kLength_m),
+      .mmd_per_speed_s = json.number("mmd_per_speed_s", kTime_s),
       .sigma_rad = radians(json.number("sigma_deg", kBelowRightAngle)),
-      .vehicle_radius_m = json.number("vehicle_radius_m", kNonNegative),
-      .clearance_m = json.number("clearance_m", kPositive),
-      .hysteresis_m = json.number("hysteresis_m", kNonNegative),
-      .side_hysteresis_rad = radians(json.number("side_hysteresis_deg", kNonNegative)),
-      .brake_m = json.number("brake_m", kPositive)};
+      .vehicle_radius_m = json.number("vehicle_radius_m", kLengthOrNone_m),
+      .clearance_m = json.number("clearance_m", kLength_m),
+      .hysteresis_m = json.number("hysteresis_m", kLengthOrNone_m),
+      .side_hysteresis_rad =
+          radians(json.number("side_hysteresis_deg", {.min = 0.0, .max = 180.0})),
+      .brake_m = json.number("brake_m", kLength_m)};
   json.reject_unknown_keys();
   return avoidance;
 }
@@ -170,8 +182,8 @@ Avoidance<double> read_avoidance(JsonObject json) {
 HeadingShaping<double> read_shaping(JsonObject json) {
   const HeadingShaping<double> shaping{
       .omega_radps = json.number("omega_radps", {.min = 0.0, .max = 50.0, .min_excluded = true}),
-      .rate_max_radps = radians(json.number("rate_max_degps", kPositive)),
-      .accel_max_radps2 = radians(json.number("accel_max_degps2", kPositive))};
+      .rate_max_radps = radians(json.number("rate_max_degps", kRate)),
+      .accel_max_radps2 = radians(json.number("accel_max_degps2", kRate))};
   json.reject_unknown_keys();
   return shaping;
 }

@@ -167,6 +167,7 @@ Metrics metrics_of(const Run& run, const Scenario& scenario, const Controller<do
     }
     m.completed = m.completed && *m.clearance_min_m > 0.0;
   }
+  m.completed = m.completed && run.end != RunEnd::kFailed;
   return m;
 }
 

@@ -25,6 +25,31 @@ constexpr std::uint64_t kSurgeUse = 100;
 constexpr std::uint64_t kSwayUse = 300;
 constexpr std::uint64_t kYawUse = 500;
 
+/// The largest product of a rate (1/s) and an RK4 step: a deviation that dies out at this rate
+/// does so without changing its sign, and Runge-Kutta is stable to 2.78.
+constexpr double kMostRateTimesStep = 1.0;
+
+/// A step is halved at most this often, and a run has at most so many halves.
+constexpr int kMostHalvings = 40;
+constexpr long kMostHalves = 50'000'000;
+
+/// g'(w)/inertia, at which a deviation from the speed w dies out:
+///   g'(w) = alpha beta |w|^(beta-1) + 2 q |w|
+/// For beta <= 1 it falls with |w| and is below 1/h from the chord's end on, by the choice of h.
+double decay_rate(const Resistance<double>& law, double inertia, double speed) {
+  const double w = std::abs(speed);
+  if (law.beta < 1.0 && !(law.quadratic > 0.0)) return 0.0;
+  if (w < law.rest_speed) return 0.0;
+  const double slope = law.beta > 0.0 ? law.alpha * law.beta * std::pow(w, law.beta - 1.0) : 0.0;
+  return (slope + 2.0 * law.quadratic * w) / inertia;
+}
+
+bool is_finite(const State<double>& s) {
+  return std::isfinite(s.x_m) && std::isfinite(s.y_m) && std::isfinite(s.psi_rad) &&
+         std::isfinite(s.u_mps) && std::isfinite(s.v_mps) && std::isfinite(s.r_radps) &&
+         std::isfinite(s.steering_rad);
+}
+
 double step_for_chord(const Resistance<double>& law, double inertia) {
   if (law.beta >= 1.0 && !(law.coulomb > 0.0)) return std::numeric_limits<double>::infinity();
   return inertia * kChordSpeed / law.at(kChordSpeed);
@@ -45,15 +70,25 @@ RunSeed seed_of(const Scenario& scenario, const SimulateOptions& options) {
 /// h <= T/6 for the time constants that do not depend on speed, m'/a_s of sway and T of the servo;
 /// and h such that resistance is its chord only below kChordSpeed (rest_speed() solved for h):
 ///   h <= inertia kChordSpeed / g(kChordSpeed)
-int substeps_for(const Plant<double>& plant, double sample_time_s) {
-  double step_s = plant.steering_time_constant_s / kStepsPerTimeConstant;
+StepLimit step_limit(const Plant<double>& plant) {
+  StepLimit limit{plant.steering_time_constant_s / kStepsPerTimeConstant,
+                  ParameterId::kSteeringTimeConstant};
+  const auto at_most = [&limit](double step_s, ParameterId parameter) {
+    if (step_s < limit.step_s) limit = {step_s, parameter};
+  };
   if (plant.sway_alpha > 0.0) {
-    step_s = std::min(step_s, plant.mass_norm / plant.sway_alpha / kStepsPerTimeConstant);
+    at_most(plant.mass_norm / plant.sway_alpha / kStepsPerTimeConstant, ParameterId::kSwayAlpha);
   }
-  step_s = std::min(step_s, step_for_chord(plant.surge, plant.mass_norm));
-  step_s = std::min(step_s, step_for_chord(plant.yaw, plant.inertia_norm));
+  at_most(step_for_chord(plant.surge, plant.mass_norm), ParameterId::kSurgeBeta);
+  at_most(step_for_chord(plant.yaw, plant.inertia_norm), ParameterId::kYawBeta);
+  return limit;
+}
+
+int substeps_for(const Plant<double>& plant, double sample_time_s) {
   // Room for rounding, so that a sample of exactly n steps takes n.
-  return std::max(1, static_cast<int>(std::ceil(sample_time_s / step_s - 1e-9)));
+  const double count = std::ceil(sample_time_s / step_limit(plant).step_s - 1e-9);
+  if (!(count >= 1.0)) return 1;
+  return count < kMostSubsteps ? static_cast<int>(count) : kMostSubsteps;
 }
 
 Physics::Physics(const Plant<double>& plant, double force_max, const Scenario& scenario,
@@ -118,14 +153,42 @@ State<double> Physics::rates(const State<double>& at, const Forces& force,
   return d;
 }
 
-/// Steps of the classical Runge-Kutta method over one sample, commands held.
+/// Faster than this nothing of the plant changes at `at`: resistance that grows with speed, and
+/// the turning of the velocity in the vehicle's frame (m' r v and m' r u), at r.
+double Physics::fastest_rate(const State<double>& at) const {
+  return std::max({std::abs(at.r_radps), decay_rate(plant_.surge, plant_.mass_norm, at.u_mps),
+                   decay_rate(plant_.yaw, plant_.inertia_norm, at.r_radps)});
+}
+
+/// One step of the classical Runge-Kutta method where it resolves the rates at both of its ends,
+/// else two of half the length.
+template <class Rates>
+State<double> Physics::advance(const State<double>& from, double h, const Rates& rates,
+                               int halvings) {
+  if (fastest_rate(from) * h <= kMostRateTimesStep) {
+    const State<double> to = rk4_step(from, h, rates);
+    if (fastest_rate(to) * h <= kMostRateTimesStep) return to;
+  }
+  if (halvings == kMostHalvings || halves_ == kMostHalves) resolved_ = false;
+  if (!resolved_) return from;
+  ++halves_;
+  const State<double> middle = advance(from, h / 2.0, rates, halvings + 1);
+  return advance(middle, h / 2.0, rates, halvings + 1);
+}
+
+/// Over one sample, commands held.
 template <class Forces>
 void Physics::integrate(const Forces& force, double steering_command_rad) {
   const double h = sample_time_s_ / substeps_;
-  for (int i = 0; i < substeps_; ++i) {
-    state_ = rk4_step(
-        state_, h, [&](const State<double>& at) { return rates(at, force, steering_command_rad); });
+  State<double> state = state_;
+  for (int i = 0; i < substeps_ && resolved_; ++i) {
+    state = advance(
+        state, h, [&](const State<double>& at) { return rates(at, force, steering_command_rad); },
+        0);
   }
+  resolved_ = resolved_ && is_finite(state);
+  if (!resolved_) return;
+  state_ = state;
   settle(state_.u_mps);
   settle(state_.v_mps);
   settle(state_.r_radps);

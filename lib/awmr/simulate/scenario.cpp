@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "awmr/core/units.h"
+#include "awmr/simulate/simulate.h"
 
 namespace awmr {
 namespace {
@@ -61,7 +62,10 @@ Result<Model> model_at_corner(Model model, const Scenario& scenario) {
 }
 
 Result<Plant<double>> plant_for(const Scenario& scenario, const Model& model) {
-  return model_at_corner(model, scenario).and_then(&Model::plant);
+  AWMR_ASSIGN_OR_RETURN(const Plant<double> plant,
+                        model_at_corner(model, scenario).and_then(&Model::plant));
+  AWMR_RETURN_IF_ERROR(check_work(plant, model.file, scenario, model.vehicle.sample_time_s));
+  return plant;
 }
 
 std::string_view name_of(YawMode mode) {

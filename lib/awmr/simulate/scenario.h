@@ -105,7 +105,8 @@ Scenario heading_steps(const std::vector<double>& headings_deg,
 /// The model with the scenario's corner parameters at the ends of their 95 % intervals.
 /// Errors (input): a parameter of the corner has no interval.
 Result<Model> model_at_corner(Model model, const Scenario& scenario);
-/// The plant of model_at_corner(). Errors (input): as there and as Model::plant.
+/// The plant of model_at_corner(). Errors (input): as there, as Model::plant and as check_work (in
+/// simulate.h).
 Result<Plant<double>> plant_for(const Scenario& scenario, const Model& model);
 
 /// "differential", "steering", "combined".

@@ -11,12 +11,12 @@ namespace {
 
 State<double> read_initial(JsonObject json) {
   State<double> state{};
-  state.x_m = json.number("x_m");
-  state.y_m = json.number("y_m");
-  state.psi_rad = radians(json.number("psi_deg"));
-  state.u_mps = json.number("u_mps");
-  state.v_mps = json.number("v_mps");
-  state.r_radps = radians(json.number("r_degps"));
+  state.x_m = json.number("x_m", kCoordinate_m);
+  state.y_m = json.number("y_m", kCoordinate_m);
+  state.psi_rad = radians(json.number("psi_deg", kAngle_deg));
+  state.u_mps = json.number("u_mps", kSignedSpeed_mps);
+  state.v_mps = json.number("v_mps", kSignedSpeed_mps);
+  state.r_radps = radians(json.number("r_degps", kYawRate_degps));
   json.reject_unknown_keys();
   return state;
 }
@@ -45,9 +45,9 @@ Result<Scenario> read_scenario(const std::filesystem::path& path) {
   Scenario scenario;
   json.schema("awmr.scenario/1");
   scenario.name = json.string("name");
-  scenario.duration_s = json.number("duration_s", kPositive);
+  scenario.duration_s = json.number("duration_s", kDuration_s);
   scenario.initial = read_initial(json.object("initial"));
-  scenario.speed_mps = json.number("speed_mps", kNonNegative);
+  scenario.speed_mps = json.number("speed_mps", kSpeed_mps);
   scenario.guidance = read_guidance(json.object("guidance"), document);
   scenario.obstacles = read_obstacles(json);
   if (auto avoidance = json.optional_object("avoidance")) {

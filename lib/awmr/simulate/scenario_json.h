@@ -6,6 +6,26 @@
 
 namespace awmr {
 
+// What the numbers of a scenario may be (README.md lists them): wider than any course, and within
+// what the simulator stays finite for.
+inline constexpr NumberRule kDuration_s{.min = 0.0, .max = 1e6, .min_excluded = true};
+inline constexpr NumberRule kTime_s{.min = 0.0, .max = 1e6};
+inline constexpr NumberRule kCoordinate_m{.min = -1e6, .max = 1e6};
+inline constexpr NumberRule kLength_m{.min = 0.0, .max = 1e6, .min_excluded = true};
+inline constexpr NumberRule kLengthOrNone_m{.min = 0.0, .max = 1e6};
+inline constexpr NumberRule kSignedSpeed_mps{.min = -1e3, .max = 1e3};
+inline constexpr NumberRule kSpeed_mps{.min = 0.0, .max = 1e3};
+inline constexpr NumberRule kAngle_deg{.min = -1e12, .max = 1e12};
+inline constexpr NumberRule kYawRate_degps{.min = -1e5, .max = 1e5};
+/// Forces over F_max and moments over F_max in m: a thousand motors.
+inline constexpr NumberRule kForce{.min = -1e3, .max = 1e3};
+inline constexpr NumberRule kForceSize{.min = 0.0, .max = 1e3};
+inline constexpr NumberRule kRate{.min = 0.0, .max = 1e6, .min_excluded = true};
+inline constexpr NumberRule kSignedRate_radps{.min = -1e3, .max = 1e3};
+/// Noise, bias and quantum of a sensor, in its own unit.
+inline constexpr NumberRule kSensorSize{.min = 0.0, .max = 1e6};
+inline constexpr NumberRule kSensorBias{.min = -1e6, .max = 1e6};
+
 /// `document` is the whole file, for arrays of points.
 Guidance read_guidance(JsonObject json, const Json& document);
 std::vector<Obstacle<double>> read_obstacles(JsonObject& scenario);

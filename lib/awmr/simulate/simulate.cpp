@@ -1,10 +1,14 @@
 #include "awmr/simulate/simulate.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "awmr/control/disturbance_observer.h"
+#include "awmr/core/units.h"
 #include "awmr/simulate/physics.h"
 #include "awmr/simulate/pilot.h"
 #include "awmr/simulate/sensing.h"
@@ -96,6 +100,44 @@ double clearance_m(const Scenario& scenario, const State<double>& state) {
   return least_m;
 }
 
+/// The last sample at or before the duration, with room for rounding.
+std::size_t samples_in(double duration_s, double sample_time_s) {
+  return static_cast<std::size_t>(std::floor(duration_s / sample_time_s + 1e-9));
+}
+
+bool is_finite(const RunRow& row) {
+  const double numbers[] = {row.state.x_m,
+                            row.state.y_m,
+                            row.state.psi_rad,
+                            row.state.u_mps,
+                            row.state.v_mps,
+                            row.state.r_radps,
+                            row.state.steering_rad,
+                            row.force.left,
+                            row.force.right,
+                            row.steering_command_rad,
+                            row.tau_speed,
+                            row.tau_turn_m,
+                            row.psi_ref_rad,
+                            row.u_ref_mps,
+                            row.course.psi_goal_rad,
+                            row.course.cross_track_m,
+                            row.course.target_m.x_m,
+                            row.course.target_m.y_m,
+                            row.measured.psi_rad,
+                            row.measured.u_mps,
+                            row.measured.v_mps,
+                            row.measured.r_radps,
+                            row.measured_position_m.x_m,
+                            row.measured_position_m.y_m,
+                            row.disturbance.surge,
+                            row.disturbance.sway,
+                            row.disturbance.yaw_m,
+                            row.clearance_m};
+  return std::all_of(std::begin(numbers), std::end(numbers),
+                     [](double number) { return std::isfinite(number); });
+}
+
 void fill(RunRow& row, const Command<double>& command, double dead_zone) {
   row.tau_speed = command.tau_speed;
   row.tau_turn_m = command.tau_turn_m;
@@ -138,11 +180,49 @@ Controller<double> make_controller(const Plant<double>& plant, const Vehicle& ve
                      .dead_zone = zone}};
 }
 
+Status check_work(const Plant<double>& plant, const std::string& model_file,
+                  const Scenario& scenario, double sample_time_s) {
+  const double rows = scenario.duration_s / sample_time_s + 1.0;
+  if (!(rows <= kMostRows)) {
+    return input_error(
+        fmt::format("scenario '{}':/duration_s", scenario.name),
+        fmt::format("{:g} s at a sample time of {:g} s are {:.3g} rows, more than the {:g} that a "
+                    "run may have: give at most {:g} s",
+                    scenario.duration_s, sample_time_s, rows, kMostRows,
+                    (kMostRows - 1.0) * sample_time_s));
+  }
+  const StepLimit limit = step_limit(plant);
+  const double steps = rows * std::max(1.0, std::ceil(sample_time_s / limit.step_s - 1e-9));
+  if (!(steps <= kMostSteps)) {
+    const ParameterInfo& parameter = info(limit.parameter);
+    return input_error(
+        model_file + ":" + std::string(parameter.pointer),
+        fmt::format("its time constant asks for RK4 steps of {:.3g} s, {:.3g} of them in {:g} s "
+                    "(scenario '{}'), more than the {:g} that a run may take: check {} and what it "
+                    "is divided by, or give a shorter duration_s",
+                    limit.step_s, steps, scenario.duration_s, scenario.name, kMostSteps,
+                    parameter.name));
+  }
+  return {};
+}
+
+Status failure_of(const Run& run, const Scenario& scenario) {
+  if (run.end != RunEnd::kFailed) return {};
+  const RunRow& last = run.rows.back();
+  return input_error(
+      fmt::format("scenario '{}'", scenario.name),
+      fmt::format("the simulation cannot go on after {:g} s, at u {:.4g} m/s, v {:.4g} m/s, r "
+                  "{:.4g} deg/s: resistance is too stiff there for any step, or a number is no "
+                  "longer finite; check the initial speeds, the disturbances, and the model's "
+                  "exponents",
+                  last.t_s, last.state.u_mps, last.state.v_mps, degrees(last.state.r_radps)));
+}
+
 Run simulate(const Plant<double>& plant, const Controller<double>& controller,
              const Scenario& scenario, YawMode mode, const SimulateOptions& options) {
   const double sample_s = options.sample_time_s;
-  // The last sample at or before the duration, with room for rounding.
-  const auto samples = static_cast<std::size_t>(std::floor(scenario.duration_s / sample_s + 1e-9));
+  const bool too_much = !check_work(plant, "", scenario, sample_s) && !options.substeps.has_value();
+  const auto samples = too_much ? std::size_t{0} : samples_in(scenario.duration_s, sample_s);
   const double force_max = controller.limits.force_max + controller.limits.dead_zone;
   Physics physics(plant, force_max, scenario, options);
   Sensing sensing(scenario.sensors, sample_s,
@@ -170,10 +250,16 @@ Run simulate(const Plant<double>& plant, const Controller<double>& controller,
     }
     if (scenario.actuators) quantise(*scenario.actuators, force_max, row);
     row.disturbance = physics.disturb(row.t_s);
+    if (!is_finite(row)) {
+      if (k > 0) run.rows.pop_back();
+      run.end = RunEnd::kFailed;
+    }
     if (run.end == RunEnd::kDuration && k < samples) {
       physics.step(row.t_s, row.force, row.steering_command_rad);
+      if (!physics.resolved()) run.end = RunEnd::kFailed;
     }
   }
+  if (too_much) run.end = RunEnd::kFailed;
   run.missed_waypoints = pilot.missed();
   return run;
 }
@@ -187,8 +273,10 @@ Result<Run> simulate(const Model& model, const Gains<double>& gains, const Scena
                      YawMode mode) {
   AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, plant_for(scenario, model));
   AWMR_ASSIGN_OR_RETURN(const Controller<double> controller, controller_for(model, gains));
-  return simulate(plant, controller, scenario, mode,
-                  {.sample_time_s = model.vehicle.sample_time_s, .substeps = {}});
+  Run run = simulate(plant, controller, scenario, mode,
+                     {.sample_time_s = model.vehicle.sample_time_s, .substeps = {}});
+  AWMR_RETURN_IF_ERROR(failure_of(run, scenario));
+  return run;
 }
 
 }  // namespace awmr

@@ -46,6 +46,9 @@ enum class RunEnd {
   kDuration,   ///< at the scenario's duration
   kFinished,   ///< the last waypoint was reached, or the end of the line
   kNoPassage,  ///< obstacles leave no way to where the guidance leads: the vehicle stopped
+  /// Before its time, and of no use (see failure_of): a number was no longer finite, no step was
+  /// short enough for the motion, or the run is beyond kMostRows or kMostSteps.
+  kFailed,
 };
 
 /// One simulated run.
@@ -68,8 +71,13 @@ struct SimulateOptions {
   std::uint64_t sample = 0;
 };
 
-/// Steps per sample such that the step resolves the fastest time constant of the plant: see the
-/// .cpp.
+/// What a run may take: half a gigabyte of rows, about a minute of steps.
+inline constexpr double kMostRows = 2e6;
+inline constexpr double kMostSteps = 1e8;
+inline constexpr int kMostSubsteps = 100'000'000;
+
+/// RK4 steps per sample such that the step resolves the fastest time constant of the plant that
+/// does not depend on speed (see physics.cpp), at most kMostSubsteps.
 int substeps_for(const Plant<double>& plant, double sample_time_s);
 
 /// The plant's controller with these gains and the vehicle's limits.
@@ -83,13 +91,21 @@ Result<Controller<double>> controller_for(const Model& model, const Gains<double
 
 /// One run of the model under its own controller, at the vehicle's sample time: the scenario's
 /// corner moves the plant, and the controller does not know.
-/// Errors (input): as plant_for and Model::plant.
+/// Errors (input): as plant_for, Model::plant and failure_of.
 Result<Run> simulate(const Model& model, const Gains<double>& gains, const Scenario& scenario,
                      YawMode mode);
 
+/// Errors (input): the run would have more than kMostRows rows (names duration_s) or take more
+/// than kMostSteps steps (names the parameter whose time constant asks for them).
+Status check_work(const Plant<double>& plant, const std::string& model_file,
+                  const Scenario& scenario, double sample_time_s);
+
+/// Errors (input): the run ended as kFailed; says when, and at what speeds.
+Status failure_of(const Run& run, const Scenario& scenario);
+
 /// The same with plant, controller and sample time of the caller's choice.
-/// Never fails on a valid plant, controller and scenario; all rows are finite. The scenario's
-/// corner is not applied here: see plant_for.
+/// All rows are finite, and there is at least one; RunEnd::kFailed where it cannot go on. The
+/// scenario's corner is not applied here: see plant_for.
 Run simulate(const Plant<double>& plant, const Controller<double>& controller,
              const Scenario& scenario, YawMode mode, const SimulateOptions& options);
 

@@ -14,8 +14,8 @@ constexpr NumberRule kShare{.min = 0.0, .max = 1.0};
 
 Window read_window(JsonObject& json) {
   Window window;
-  window.from_s = json.optional_number("from_s", kNonNegative).value_or(window.from_s);
-  window.to_s = json.optional_number("to_s", kNonNegative).value_or(window.to_s);
+  window.from_s = json.optional_number("from_s", kTime_s).value_or(window.from_s);
+  window.to_s = json.optional_number("to_s", kTime_s).value_or(window.to_s);
   if (!(window.to_s > window.from_s)) json.fault("to_s", "has to be after from_s");
   return window;
 }
@@ -32,20 +32,20 @@ DisturbanceTerm read_term(JsonObject& json) {
   const TermType type = json.choice("type", kTermTypes);
   if (type == TermType::kSine) {
     term.kind = DisturbanceTerm::Kind::kSine;
-    term.value = json.number("amplitude");
-    term.frequency_hz = json.number("frequency_hz", kPositive);
-    if (const auto phase_deg = json.optional_number("phase_deg")) {
+    term.value = json.number("amplitude", kForce);
+    term.frequency_hz = json.number("frequency_hz", kRate);
+    if (const auto phase_deg = json.optional_number("phase_deg", kAngle_deg)) {
       term.phase_rad = radians(*phase_deg);
     }
   } else if (type == TermType::kNoise) {
     term.kind = DisturbanceTerm::Kind::kNoise;
-    term.value = json.number("std", kNonNegative);
-    term.bandwidth_hz = json.number("bandwidth_hz", kPositive);
+    term.value = json.number("std", kForceSize);
+    term.bandwidth_hz = json.number("bandwidth_hz", kRate);
   } else {
-    term.value = json.number("value");
+    term.value = json.number("value", kForce);
   }
   if (type == TermType::kStep) {
-    term.window.from_s = json.number("t_s", kNonNegative);
+    term.window.from_s = json.number("t_s", kTime_s);
   } else {
     term.window = read_window(json);
   }
@@ -66,7 +66,7 @@ Disturbance read_disturbance(JsonObject json) {
                           .slope = {}};
   if (auto slope = json.optional_object("slope")) {
     disturbance.slope = Slope{radians(slope->number("angle_deg", {.min = 0.0, .max = 45.0})),
-                              radians(slope->number("downhill_deg"))};
+                              radians(slope->number("downhill_deg", kAngle_deg))};
     slope->reject_unknown_keys();
   }
   json.reject_unknown_keys();
@@ -90,16 +90,17 @@ WheelFault read_fault(JsonObject& json) {
 }
 
 SlipperyPatch read_patch(JsonObject& json) {
-  SlipperyPatch patch{.centre_m = {json.number("x_m"), json.number("y_m")},
-                      .radius_m = json.number("radius_m", kPositive),
-                      .force_max = json.number("force_max", kNonNegative)};
+  SlipperyPatch patch{
+      .centre_m = {json.number("x_m", kCoordinate_m), json.number("y_m", kCoordinate_m)},
+      .radius_m = json.number("radius_m", kLength_m),
+      .force_max = json.number("force_max", kForceSize)};
   json.reject_unknown_keys();
   return patch;
 }
 
 Battery read_battery(JsonObject json) {
-  Battery battery{.from_s = json.number("from_s", kNonNegative),
-                  .to_s = json.number("to_s", kPositive),
+  Battery battery{.from_s = json.number("from_s", kTime_s),
+                  .to_s = json.number("to_s", kDuration_s),
                   .share_end = json.number("share_end", kShare)};
   if (!(battery.to_s > battery.from_s)) json.fault("to_s", "has to be after from_s");
   json.reject_unknown_keys();
@@ -108,9 +109,9 @@ Battery read_battery(JsonObject json) {
 
 /// A sensor's numbers in the unit of the file, times `unit` in that of the program.
 Channel read_channel(JsonObject json, double unit) {
-  Channel channel{.noise = unit * json.optional_number("noise", kNonNegative).value_or(0.0),
-                  .bias = unit * json.optional_number("bias").value_or(0.0),
-                  .quantum = unit * json.optional_number("quantum", kNonNegative).value_or(0.0)};
+  Channel channel{.noise = unit * json.optional_number("noise", kSensorSize).value_or(0.0),
+                  .bias = unit * json.optional_number("bias", kSensorBias).value_or(0.0),
+                  .quantum = unit * json.optional_number("quantum", kSensorSize).value_or(0.0)};
   json.reject_unknown_keys();
   return channel;
 }
@@ -118,9 +119,9 @@ Channel read_channel(JsonObject json, double unit) {
 Gps read_gps(JsonObject json) {
   Gps gps;
   gps.rate_hz = json.number("rate_hz", {.min = 0.0, .max = 1000.0, .min_excluded = true});
-  gps.latency_s = json.number("latency_s", kNonNegative);
-  gps.x.noise = json.number("noise_m", kNonNegative);
-  gps.x.quantum = json.optional_number("quantum_m", kNonNegative).value_or(0.0);
+  gps.latency_s = json.number("latency_s", kTime_s);
+  gps.x.noise = json.number("noise_m", kSensorSize);
+  gps.x.quantum = json.optional_number("quantum_m", kSensorSize).value_or(0.0);
   gps.y = gps.x;
   for (JsonObject& window : json.optional_objects("dropouts")) {
     gps.dropouts.push_back(read_window(window));
@@ -149,8 +150,8 @@ Sensors read_sensors(JsonObject json) {
 Actuators read_actuators(JsonObject json) {
   Actuators actuators;
   if (auto servo = json.optional_object("servo")) {
-    const double us_per_deg = servo->number("us_per_deg", kPositive);
-    actuators.steering_quantum_rad = radians(servo->number("step_us", kPositive) / us_per_deg);
+    const double us_per_deg = servo->number("us_per_deg", kRate);
+    actuators.steering_quantum_rad = radians(servo->number("step_us", kRate) / us_per_deg);
     servo->reject_unknown_keys();
   }
   actuators.pwm_counts =
@@ -168,9 +169,9 @@ ControlOptions read_control(JsonObject json) {
   }
   if (auto observer = json.optional_object("disturbance_observer")) {
     control.observer =
-        ControlOptions::Observer{.bandwidth_radps = observer->number("bandwidth_radps", kPositive),
-                                 .yaw_max_m = observer->number("yaw_max_m", kPositive),
-                                 .surge_max = observer->number("surge_max", kPositive),
+        ControlOptions::Observer{.bandwidth_radps = observer->number("bandwidth_radps", kRate),
+                                 .yaw_max_m = observer->number("yaw_max_m", kRate),
+                                 .surge_max = observer->number("surge_max", kRate),
                                  .anti_windup = observer->boolean("anti_windup")};
     observer->reject_unknown_keys();
   }

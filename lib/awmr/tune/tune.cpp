@@ -10,6 +10,7 @@
 
 #include "awmr/core/units.h"
 #include "awmr/model/paper_gains.h"
+#include "awmr/simulate/simulate.h"
 #include "awmr/tune/constraints.h"
 #include "awmr/tune/objective.h"
 #include "awmr/tune/search.h"
@@ -137,6 +138,9 @@ Result<Tuning> tune(const Model& model, const TuneOptions& options) {
 
   std::vector<Scenario> scenarios = options.scenarios;
   if (scenarios.empty()) scenarios.push_back(default_tuning_scenario());
+  for (const Scenario& scenario : scenarios) {
+    AWMR_RETURN_IF_ERROR(check_work(plant, model.file, scenario, model.vehicle.sample_time_s));
+  }
   const ConstraintContext context = context_of(options, plant, model.vehicle, scenarios);
   const Candidate start = feasible_start(options, context, kPaperGains);
   if (start.violation > 0.0) return infeasible(start, context);

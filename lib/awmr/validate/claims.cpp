@@ -24,12 +24,20 @@ double largest_yaw_rate_radps(const Plant<double>& plant, const AllocationLimits
 
 }  // namespace
 
+Run run_or_failed(const Model& model, const Gains<double>& gains, const Scenario& scenario,
+                  YawMode mode) {
+  Run failed;
+  failed.rows.emplace_back();
+  failed.end = RunEnd::kFailed;
+  return simulate(model, gains, scenario, mode).value_or(std::move(failed));
+}
+
 ModeRuns run_modes(const Model& model, const Gains<double>& gains, const Scenario& scenario) {
   const Controller<double> controller = controller_for(model, gains).value();
   ModeRuns runs;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     runs[i].mode = kYawModes[i];
-    runs[i].run = simulate(model, gains, scenario, kYawModes[i]).value();
+    runs[i].run = run_or_failed(model, gains, scenario, kYawModes[i]);
     runs[i].metrics = metrics_of(runs[i].run, scenario, controller);
   }
   return runs;

@@ -28,6 +28,10 @@ struct ModeRun {
 };
 using ModeRuns = std::array<ModeRun, std::size(kYawModes)>;
 
+/// simulate(), where a run that the simulator refuses is one row that ends as kFailed: whatever is
+/// claimed of it is not reproduced.
+Run run_or_failed(const Model& model, const Gains<double>& gains, const Scenario& scenario,
+                  YawMode mode);
 /// The scenario in all three modes. Precondition: the model has every parameter, and an interval
 /// for each of the scenario's corner.
 ModeRuns run_modes(const Model& model, const Gains<double>& gains, const Scenario& scenario);

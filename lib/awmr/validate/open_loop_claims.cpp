@@ -33,7 +33,7 @@ Run run_open_loop(const Model& model, YawMode mode, OpenLoop forces, double dura
                           .speed_mps = 0.0,
                           .guidance = forces};
   // Open loop needs no gains; any will do.
-  return simulate(model, kPaperGains, scenario, mode).value();
+  return run_or_failed(model, kPaperGains, scenario, mode);
 }
 
 /// The surge trial at the largest tau_speed: its speed is the paper's u_max.

@@ -1,0 +1,162 @@
+#include "work_folder.h"
+
+#include <dirent.h>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <pthread.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <mutex>
+#include <string_view>
+#include <thread>
+
+#include "awmr/core/process.h"
+
+namespace awmr::pil {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kPrefix = "awmr-pil-";
+constexpr int kEndingSignals[] = {SIGINT,  SIGTERM, SIGHUP,    SIGQUIT, SIGALRM,
+                                  SIGUSR1, SIGUSR2, SIGVTALRM, SIGXCPU, SIGXFSZ};
+
+/// Held by whoever makes or removes the folder, and for good by the thread that ends the program.
+std::mutex folder_mutex;
+fs::path folder;  ///< this run's; empty without one
+
+/// `awmr-pil-NUMBER-XXXXXX`, with a process's number.
+bool is_run_folder(std::string_view name) {
+  if (!name.starts_with(kPrefix)) return false;
+  name.remove_prefix(kPrefix.size());
+  const std::size_t digits = std::min(name.find_first_not_of("0123456789"), name.size());
+  return digits > 0 && name.substr(digits).starts_with('-');
+}
+
+/// A lock that ends with the process, on the folder itself; -1 where another process has it.
+int lock_folder(const fs::path& path) {
+  const int file = ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+  if (file >= 0 && ::flock(file, LOCK_EX | LOCK_NB) == 0) return file;
+  if (file >= 0) ::close(file);
+  return -1;
+}
+
+/// A folder of this user's (no link) that no process holds the lock of. The lock tells more than
+/// the number in the name, which may be another process's by now, a dead one's that nobody has
+/// waited for, or one's in another container on the same TMPDIR.
+bool is_left_over(const fs::path& path) {
+  if (!is_run_folder(path.filename().string())) return false;
+  struct stat status {};
+  if (::lstat(path.c_str(), &status) != 0 || !S_ISDIR(status.st_mode)) return false;
+  if (status.st_uid != ::geteuid()) return false;
+  const int lock = lock_folder(path);
+  if (lock >= 0) ::close(lock);
+  return lock >= 0;
+}
+
+void remove_left_overs(const fs::path& directory) {
+  std::error_code ignored;
+  for (fs::directory_iterator entry(directory, ignored), end; !ignored && entry != end;
+       entry.increment(ignored)) {
+    std::error_code kept;
+    if (is_left_over(entry->path())) fs::remove_all(entry->path(), kept);
+  }
+}
+
+/// Again where the main thread or the compiler was still writing into it.
+void remove_folder(const fs::path& path) {
+  for (int attempt = 0; attempt < 20; ++attempt) {
+    std::error_code error;
+    fs::remove_all(path, error);
+    if (!error && !fs::exists(path, error)) return;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+}
+
+sigset_t handled_signals() {
+  sigset_t signals;
+  ::sigemptyset(&signals);
+  for (const int number : kEndingSignals) {
+    struct sigaction action {};
+    ::sigaction(number, nullptr, &action);
+    if (action.sa_handler != SIG_IGN) ::sigaddset(&signals, number);
+  }
+  return signals;
+}
+
+/// Waits for a signal, cleans up, and lets it do what it does.
+void* end_at_signal(void*) {
+  const sigset_t signals = handled_signals();
+  int number = 0;
+  while (::sigwait(&signals, &number) != 0) {
+  }
+  folder_mutex.lock();
+  end_running_programs();
+  if (!folder.empty()) remove_folder(folder);
+  ::signal(number, SIG_DFL);
+  sigset_t one;
+  ::sigemptyset(&one);
+  ::sigaddset(&one, number);
+  ::pthread_sigmask(SIG_UNBLOCK, &one, nullptr);
+  ::raise(number);
+  return nullptr;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<WorkFolder>> WorkFolder::make() {
+  const char* given = ::getenv("TMPDIR");  // NOLINT(concurrency-mt-unsafe): nothing sets it
+  const fs::path directory = given != nullptr && *given != '\0' ? given : "/tmp";
+  const auto failed = [&](const std::string& why) {
+    return input_error("TMPDIR", fmt::format("no folder can be made in '{}': {}; set TMPDIR to "
+                                             "a folder that can be written to",
+                                             directory.string(), why));
+  };
+  if (!directory.is_absolute()) return failed("it is not an absolute path");
+  remove_left_overs(directory);
+  const std::lock_guard lock(folder_mutex);
+  std::string name = (directory / fmt::format("{}new-XXXXXX", kPrefix)).string();
+  if (::mkdtemp(name.data()) == nullptr) return failed(std::strerror(errno));
+  folder = name;
+  std::unique_ptr<WorkFolder> made(new WorkFolder);
+  made->path_ = name;
+  made->lock_ = lock_folder(name);
+  // Only now, with its lock, it has a name by which another run would remove it.
+  const std::string suffix = name.substr(name.size() - 6);
+  const fs::path locked = directory / fmt::format("{}{}-{}", kPrefix, ::getpid(), suffix);
+  if (::rename(name.c_str(), locked.c_str()) == 0) folder = made->path_ = locked;
+  return made;
+}
+
+WorkFolder::~WorkFolder() {
+  const std::lock_guard lock(folder_mutex);
+  remove_folder(path_);
+  folder.clear();
+  if (lock_ >= 0) ::close(lock_);
+}
+
+void clean_up_at_signals() {
+  const sigset_t signals = handled_signals();
+  ::pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  pthread_t thread{};
+  if (::pthread_create(&thread, nullptr, end_at_signal, nullptr) == 0) {
+    ::pthread_detach(thread);
+  } else {
+    ::pthread_sigmask(SIG_UNBLOCK, &signals, nullptr);
+  }
+}
+
+void end_if_told_to() {
+  folder_mutex.lock();
+  folder_mutex.unlock();
+}
+
+}  // namespace awmr::pil

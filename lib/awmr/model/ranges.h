@@ -1,0 +1,22 @@
+/// What the numbers of vehicle.json, model.json and gains.json may be: README.md beside this file
+/// lists them. Wider than any vehicle, so that a unit that was taken for another, or a damaged
+/// file, is found where it is read. Include from .cpp files only.
+#pragma once
+
+#include "awmr/core/json.h"
+
+namespace awmr {
+
+inline constexpr NumberRule kMass_kg{.min = 1e-3, .max = 1e6};
+inline constexpr NumberRule kSize_m{.min = 1e-3, .max = 1e3};
+inline constexpr NumberRule kYawInertia_kgm2{.min = 1e-9, .max = 1e9};
+inline constexpr NumberRule kServoRate_degps{.min = 1e-3, .max = 1e6};
+inline constexpr NumberRule kServoTime_s{.min = 1e-6, .max = 1e3};
+inline constexpr NumberRule kSampleTime_s{.min = 1e-4, .max = 1.0};
+/// Coefficients of resistance, m' and I'z, each in its own unit.
+inline constexpr NumberRule kCoefficient{.min = 1e-9, .max = 1e9};
+inline constexpr NumberRule kTerm{.min = 0.0, .max = 1e9};
+inline constexpr NumberRule kExponent{.min = 0.0, .max = 20.0};
+inline constexpr NumberRule kGain{.min = 1e-9, .max = 1e9};
+
+}  // namespace awmr
