@@ -52,11 +52,15 @@ Result<std::vector<NamedGains>> read_named_gains(const std::vector<fs::path>& pa
   return all;
 }
 
-Result<Provenance> provenance_of(const CompareCommand& command) {
+std::vector<fs::path> inputs_of(const CompareCommand& command) {
   std::vector<fs::path> paths{command.model};
   paths.insert(paths.end(), command.gains.begin(), command.gains.end());
   paths.insert(paths.end(), command.scenarios.begin(), command.scenarios.end());
-  AWMR_ASSIGN_OR_RETURN(std::vector<InputFile> inputs, input_files(paths));
+  return paths;
+}
+
+Result<Provenance> provenance_of(const CompareCommand& command) {
+  AWMR_ASSIGN_OR_RETURN(std::vector<InputFile> inputs, input_files(inputs_of(command)));
   return Provenance{"compare",
                     {{"samples", std::to_string(command.compare.samples)},
                      {"seed", std::to_string(command.compare.seed)}},
@@ -77,9 +81,11 @@ Result<Comparison> compare_until_interrupted(const Model& model,
 Status write_comparison(const CompareCommand& command, const Comparison& comparison,
                         const Provenance& provenance) {
   AWMR_RETURN_IF_ERROR(make_directory(command.output));
-  AWMR_RETURN_IF_ERROR(write_file(command.output / "comparison.csv", comparison_csv(comparison)));
-  return write_file(command.output / "comparison.json",
-                    comparison_text(comparison, command.compare, provenance));
+  // The last one names the hash of the first.
+  const OutputFile files[] = {{command.output / "comparison.csv", comparison_csv(comparison)},
+                              {command.output / "comparison.json",
+                               comparison_text(comparison, command.compare, provenance)}};
+  return write_files(files);
 }
 
 /// Says how to go on and ends the program by the signal: the caller sees what it would have seen
@@ -102,6 +108,8 @@ Result<Outcome> execute(const CompareCommand& command) {
   AWMR_ASSIGN_OR_RETURN(const std::vector<Scenario> scenarios,
                         read_each(command.scenarios, read_scenario));
   AWMR_ASSIGN_OR_RETURN(const Provenance provenance, provenance_of(command));
+  AWMR_RETURN_IF_ERROR(
+      check_outputs(command.output, {"comparison.csv", "comparison.json"}, inputs_of(command)));
   CompareOptions options = command.compare;
   if (command.resume) {
     AWMR_ASSIGN_OR_RETURN(options.finished, read_finished(command.output, provenance));

@@ -3,17 +3,23 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <memory>
 #include <utility>
 
+#include "awmr/core/file.h"
 #include "awmr/core/option_text.h"
+#include "awmr/core/text.h"
 
 namespace awmr::cli {
 namespace {
 
-void print(std::FILE* stream, const std::string& text) {
-  std::fwrite(text.data(), 1, text.size(), stream);
+/// False where the stream does not take it all, as on a full disk.
+bool print(std::FILE* stream, const std::string& text) {
+  return std::fwrite(text.data(), 1, text.size(), stream) == text.size() &&
+         std::fflush(stream) == 0;
 }
 
 int report(const Result<Outcome>& result, bool quiet) {
@@ -25,7 +31,11 @@ int report(const Result<Outcome>& result, bool quiet) {
     const bool matters = result->refused && finding.severity == Severity::kError;
     if (!quiet || matters) print(stderr, to_text(finding) + "\n");
   }
-  if (!quiet) print(stdout, result->summary);
+  if (!quiet && !print(stdout, printable_lines(result->summary))) {
+    print(stderr,
+          fmt::format("error: cannot write to standard output: {}\n", std::strerror(errno)));
+    return 2;
+  }
   return result->refused ? 1 : 0;
 }
 
@@ -57,6 +67,15 @@ CLI::Option* add_output(CLI::App& command, std::filesystem::path& path,
   return command.add_option("-o,--output", path, meaning)->required();
 }
 
+Status check_outputs(const std::filesystem::path& directory, const std::vector<std::string>& names,
+                     std::span<const std::filesystem::path> inputs) {
+  if (!std::filesystem::exists(directory)) return {};
+  for (const std::string& name : names) {
+    AWMR_RETURN_IF_ERROR(check_output(directory / name, inputs));
+  }
+  return {};
+}
+
 std::string to_text(const Finding& finding) {
   const char* severity = finding.severity == Severity::kNote      ? "note"
                          : finding.severity == Severity::kWarning ? "warning"
@@ -65,8 +84,8 @@ std::string to_text(const Finding& finding) {
   if (!finding.file.empty()) place = finding.file + ":";
   if (finding.line > 0) place += fmt::format("{}:", finding.line);
   if (!place.empty()) place += " ";
-  return fmt::format("{}: {}{} [{}]", severity, place, spell_options(finding.message, "--"),
-                     finding.code);
+  return fmt::format("{}: {}{} [{}]", severity, printable(shortened(place)),
+                     printable(shortened(spell_options(finding.message, "--"))), finding.code);
 }
 
 std::string parameter_table_text(const Model& model) {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,10 @@ CLI::App* add_command(CLI::App& app, Session& session, const std::string& name,
 
 /// `-o FILE|DIR`, required.
 CLI::Option* add_output(CLI::App& command, std::filesystem::path& path, const std::string& meaning);
+
+/// As check_output for files of a directory, which may not be there yet; nothing is made.
+Status check_outputs(const std::filesystem::path& directory, const std::vector<std::string>& names,
+                     std::span<const std::filesystem::path> inputs);
 
 /// `warning: FILE:LINE: MESSAGE [CODE]`, as compilers do.
 std::string to_text(const Finding& finding);

@@ -14,14 +14,17 @@
 namespace awmr::cli {
 namespace {
 
-/// `DIR/PATH` for each file, directories made as needed.
-Status write_files(const fs::path& directory, const std::vector<EmittedFile>& files) {
+/// `DIR/PATH` for each file, directories made as needed; all or none.
+Status write_emitted(const EmitCommand& command, const std::vector<EmittedFile>& files) {
+  const fs::path inputs[] = {command.model, command.gains};
+  std::vector<OutputFile> outputs;
   for (const EmittedFile& file : files) {
-    const fs::path path = directory / file.path;
+    const fs::path path = command.output / file.path;
     AWMR_RETURN_IF_ERROR(make_directory(path.parent_path()));
-    AWMR_RETURN_IF_ERROR(write_file(path, file.bytes));
+    AWMR_RETURN_IF_ERROR(check_output(path, inputs));
+    outputs.push_back({path, file.bytes});
   }
-  return {};
+  return write_files(outputs);
 }
 
 std::string table_line(const char* name, const EmittedTable& table) {
@@ -56,7 +59,7 @@ Result<Outcome> execute(const EmitCommand& command) {
     AWMR_ASSIGN_OR_RETURN(tables, table_lines(model, gains, inputs, command.emit));
   }
   AWMR_RETURN_IF_ERROR(make_directory(command.output));
-  AWMR_RETURN_IF_ERROR(write_files(command.output, files));
+  AWMR_RETURN_IF_ERROR(write_emitted(command, files));
   return Outcome{.summary = fmt::format(
                      "wrote {}{}\n{}", (command.output / "awmr_params.h").string(),
                      command.header_only ? "" : " and the Arduino library around it", tables)};

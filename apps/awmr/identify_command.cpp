@@ -4,6 +4,7 @@
 #include <memory>
 #include <utility>
 
+#include "awmr/core/file.h"
 #include "awmr/model/model_file.h"
 #include "awmr/model/vehicle_file.h"
 #include "awmr/trials/load.h"
@@ -14,6 +15,15 @@
 namespace awmr::cli {
 namespace {
 
+std::vector<fs::path> inputs_of(const IdentifyCommand& command) {
+  std::vector<fs::path> paths{command.vehicle};
+  if (command.surge) paths.push_back(*command.surge);
+  paths.insert(paths.end(), command.coastdowns.begin(), command.coastdowns.end());
+  if (command.turning) paths.push_back(*command.turning);
+  paths.insert(paths.end(), command.logs.begin(), command.logs.end());
+  return paths;
+}
+
 Result<Provenance> provenance_of(const IdentifyCommand& command) {
   Provenance provenance{"identify", described(command.identify), {}};
   provenance.options.emplace_back("prefer", name_in(kPreferenceNames, command.trials.preference));
@@ -23,12 +33,7 @@ Result<Provenance> provenance_of(const IdentifyCommand& command) {
         "column", fmt::format("{}={}*{}+{}", mapping.name, mapping.source,
                               format_number(mapping.scale), format_number(mapping.offset)));
   }
-  std::vector<fs::path> paths{command.vehicle};
-  if (command.surge) paths.push_back(*command.surge);
-  paths.insert(paths.end(), command.coastdowns.begin(), command.coastdowns.end());
-  if (command.turning) paths.push_back(*command.turning);
-  paths.insert(paths.end(), command.logs.begin(), command.logs.end());
-  AWMR_ASSIGN_OR_RETURN(provenance.inputs, input_files(paths));
+  AWMR_ASSIGN_OR_RETURN(provenance.inputs, input_files(inputs_of(command)));
   return provenance;
 }
 
@@ -151,6 +156,7 @@ Result<Outcome> execute(const IdentifyCommand& command) {
   if (command.steady_from_logs && command.logs.empty()) {
     return input_error("--steady-from-log", "needs a log (--log)");
   }
+  AWMR_RETURN_IF_ERROR(check_output(command.output, inputs_of(command)));
   AWMR_ASSIGN_OR_RETURN(Vehicle vehicle, read_vehicle(command.vehicle));
   AWMR_ASSIGN_OR_RETURN(const Trials trials,
                         load_trials({.vehicle = std::move(vehicle),

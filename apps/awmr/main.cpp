@@ -1,7 +1,11 @@
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <cstdio>
 #include <exception>
+#include <iostream>
+#include <string>
 
+#include "awmr/core/text.h"
 #include "commands.h"
 
 namespace {
@@ -32,8 +36,12 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);
-    std::fprintf(stderr, "error: %s\nRun `awmr --help` or `awmr COMMAND --help`.\n", error.what());
+    if (error.get_exit_code() == 0) {
+      app.exit(error);
+      return std::cout.flush() ? 0 : 2;
+    }
+    const std::string what = awmr::printable(awmr::shortened(error.what()));
+    std::fprintf(stderr, "error: %s\nRun `awmr --help` or `awmr COMMAND --help`.\n", what.c_str());
     return 2;
   }
   return session.exit_code;
@@ -42,6 +50,8 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  // Beyond a limit of the file size a write then fails, instead of the program being ended.
+  std::signal(SIGXFSZ, SIG_IGN);
   try {
     return run(argc, argv);
   } catch (const std::exception& error) {

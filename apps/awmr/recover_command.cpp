@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <span>
 
 #include "awmr/core/file.h"
 #include "awmr/identify/planning/recover.h"
@@ -111,6 +112,9 @@ void add_simulated_trials(CLI::App& sub, RecoverOptions& options) {
 Result<Outcome> execute(const RecoverCommand& command) {
   AWMR_ASSIGN_OR_RETURN(const Model model, read_model(command.model));
   AWMR_ASSIGN_OR_RETURN(const std::vector<InputFile> inputs, input_files({command.model}));
+  if (command.output) {
+    AWMR_RETURN_IF_ERROR(check_output(*command.output, std::span(&command.model, 1)));
+  }
   RecoverOptions options = command.recover;
   options.identify.surge_family.family = model.surge_family;
   options.identify.yaw_family.family = model.yaw_family;

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <set>
 
 #include "awmr/core/file.h"
 #include "awmr/model/gains_file.h"
@@ -13,6 +14,10 @@
 namespace awmr::cli {
 namespace {
 
+std::string run_name(const fs::path& scenario, YawMode mode, const char* gains) {
+  return fmt::format("run_{}_{}_{}.csv", scenario.stem().string(), name_of(mode), gains);
+}
+
 /// The runs the report draws: every scenario and mode, with the tuned and with the paper's gains.
 Status write_runs(const Project& project, const fs::path& directory) {
   AWMR_ASSIGN_OR_RETURN(const Model model, read_model(directory / "model.json"));
@@ -23,9 +28,8 @@ Status write_runs(const Project& project, const fs::path& directory) {
     for (const YawMode mode : kYawModes) {
       for (const auto& [name, gains] : sets) {
         AWMR_ASSIGN_OR_RETURN(const Run run, simulate(model, gains, scenario, mode));
-        const std::string file =
-            fmt::format("run_{}_{}_{}.csv", path.stem().string(), name_of(mode), name);
-        AWMR_RETURN_IF_ERROR(write_file(directory / file, run_csv(run, scenario)));
+        AWMR_RETURN_IF_ERROR(
+            write_file(directory / run_name(path, mode, name), run_csv(run, scenario)));
       }
     }
   }
@@ -60,10 +64,53 @@ Result<Outcome> validate_step(const Project& project, const fs::path& directory)
                                  .trials = project.trials});
 }
 
+std::vector<fs::path> inputs_of(const RunCommand& command, const Project& project) {
+  std::vector<fs::path> inputs{command.project, project.vehicle};
+  for (const auto& path : {project.surge, project.turning, project.tune}) {
+    if (path) inputs.push_back(*path);
+  }
+  for (const auto* paths : {&project.coastdowns, &project.logs, &project.scenarios}) {
+    inputs.insert(inputs.end(), paths->begin(), paths->end());
+  }
+  return inputs;
+}
+
+std::vector<std::string> outputs_of(const Project& project) {
+  std::vector<std::string> outputs{"model.json",    "gains.json",     "validation.json",
+                                   "awmr_params.h", "comparison.csv", "comparison.json",
+                                   "report.html"};
+  for (const fs::path& path : project.scenarios) {
+    for (const YawMode mode : kYawModes) {
+      for (const char* gains : {"tuned", "paper"}) outputs.push_back(run_name(path, mode, gains));
+    }
+  }
+  return outputs;
+}
+
+/// What is wrong with the project's files as a whole, found before the first step: a broken
+/// scenario, two scenarios whose runs would have one name, an output that is an input.
+Status check(const RunCommand& command, const Project& project) {
+  std::vector<Fault> faults;
+  std::set<std::string> stems;
+  for (const fs::path& path : project.scenarios) {
+    if (const auto scenario = read_scenario(path); !scenario) {
+      faults.insert(faults.end(), scenario.error().faults.begin(), scenario.error().faults.end());
+    }
+    if (stems.insert(path.stem().string()).second) continue;
+    faults.push_back({command.project.string() + ":/compare/scenarios",
+                      fmt::format("two scenarios have the file name {}, by which their runs are "
+                                  "named; rename one",
+                                  path.filename().string())});
+  }
+  if (!faults.empty()) return input_errors(std::move(faults));
+  return check_outputs(command.output, outputs_of(project), inputs_of(command, project));
+}
+
 }  // namespace
 
 Result<Outcome> execute(const RunCommand& command) {
   AWMR_ASSIGN_OR_RETURN(const Project project, read_project(command.project));
+  AWMR_RETURN_IF_ERROR(check(command, project));
   AWMR_RETURN_IF_ERROR(make_directory(command.output));
   const fs::path model = command.output / "model.json";
   const fs::path gains = command.output / "gains.json";

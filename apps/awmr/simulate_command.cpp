@@ -59,6 +59,9 @@ std::string figures_of(const Metrics& metrics) {
 Result<Outcome> execute(const SimulateCommand& command) {
   AWMR_ASSIGN_OR_RETURN(const Model model, read_model(command.model));
   AWMR_ASSIGN_OR_RETURN(const Scenario scenario, read_scenario(command.scenario));
+  std::vector<fs::path> inputs{command.model, command.scenario};
+  if (command.gains) inputs.push_back(*command.gains);
+  AWMR_RETURN_IF_ERROR(check_output(command.output, inputs));
   Gains<double> gains = kPaperGains;
   if (command.gains) {
     AWMR_ASSIGN_OR_RETURN(gains, read_gains(*command.gains));

@@ -49,11 +49,15 @@ Status add_metrics(const SuggestCommand& command, const Model& model, SuggestOpt
   return {};
 }
 
-Status write_suggestion(const SuggestCommand& command, const Suggestion& suggestion) {
+std::vector<fs::path> inputs_of(const SuggestCommand& command) {
   std::vector<fs::path> paths{command.model};
   if (command.gains) paths.push_back(*command.gains);
   if (command.scenario) paths.push_back(*command.scenario);
-  AWMR_ASSIGN_OR_RETURN(std::vector<InputFile> inputs, input_files(paths));
+  return paths;
+}
+
+Status write_suggestion(const SuggestCommand& command, const Suggestion& suggestion) {
+  AWMR_ASSIGN_OR_RETURN(std::vector<InputFile> inputs, input_files(inputs_of(command)));
   const Provenance provenance{"suggest",
                               {{"parameter", command.parameter.empty() ? "all" : command.parameter},
                                {"repeats", std::to_string(command.repeats)}},
@@ -64,6 +68,9 @@ Status write_suggestion(const SuggestCommand& command, const Suggestion& suggest
 }  // namespace
 
 Result<Outcome> execute(const SuggestCommand& command) {
+  if (command.output) {
+    AWMR_RETURN_IF_ERROR(check_output(*command.output, inputs_of(command)));
+  }
   AWMR_ASSIGN_OR_RETURN(const Model model, read_model(command.model));
   SuggestOptions options;
   options.parameter = command.parameter;

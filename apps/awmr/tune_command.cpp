@@ -48,6 +48,7 @@ Result<Provenance> provenance_of(const TuneCommand& command, const TuneOptions& 
   std::vector<fs::path> paths{command.model};
   if (command.config) paths.push_back(*command.config);
   paths.insert(paths.end(), options.scenario_files.begin(), options.scenario_files.end());
+  AWMR_RETURN_IF_ERROR(check_output(command.output, paths));
   AWMR_ASSIGN_OR_RETURN(std::vector<InputFile> inputs, input_files(paths));
   return Provenance{"tune", {}, std::move(inputs)};
 }

@@ -42,11 +42,21 @@ Result<std::optional<Gains<double>>> gains_of(const ValidateCommand& command) {
   return std::nullopt;
 }
 
-Result<Provenance> provenance_of(const ValidateCommand& command) {
+std::vector<fs::path> inputs_of(const ValidateCommand& command) {
   std::vector<fs::path> paths{command.model};
   if (command.gains) paths.push_back(*command.gains);
   paths.insert(paths.end(), command.logs.begin(), command.logs.end());
-  AWMR_ASSIGN_OR_RETURN(std::vector<InputFile> inputs, input_files(paths));
+  return paths;
+}
+
+Status check_outputs(const ValidateCommand& command) {
+  AWMR_RETURN_IF_ERROR(check_output(command.output, inputs_of(command)));
+  if (!command.claims_table) return {};
+  return check_output(*command.claims_table, inputs_of(command));
+}
+
+Result<Provenance> provenance_of(const ValidateCommand& command) {
+  AWMR_ASSIGN_OR_RETURN(std::vector<InputFile> inputs, input_files(inputs_of(command)));
   return Provenance{
       "validate", {{"tolerance", format_number(command.validate.tolerance)}}, std::move(inputs)};
 }
@@ -93,12 +103,13 @@ void add_claims_options(CLI::App& sub, ValidateCommand& command) {
 Result<Outcome> execute(const ValidateCommand& command) {
   AWMR_ASSIGN_OR_RETURN(const Model model, read_model(command.model));
   AWMR_ASSIGN_OR_RETURN(const std::optional<Gains<double>> gains, gains_of(command));
-  AWMR_ASSIGN_OR_RETURN(const Provenance provenance, provenance_of(command));
+  AWMR_RETURN_IF_ERROR(check_outputs(command));
   AWMR_ASSIGN_OR_RETURN(Validation validation, validate(model, gains, command.validate));
   std::vector<Finding> findings;
   AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, model.plant());
   AWMR_ASSIGN_OR_RETURN(std::vector<LogValidation> logs, validate_logs(command, plant, findings));
   add_logs(validation, std::move(logs), command.log_tolerance);
+  AWMR_ASSIGN_OR_RETURN(const Provenance provenance, provenance_of(command));
   AWMR_RETURN_IF_ERROR(write_file(command.output, validation_text(validation, provenance)));
   if (command.claims_table) {
     AWMR_RETURN_IF_ERROR(write_file(*command.claims_table, claims_markdown(validation.claims)));

@@ -15,7 +15,8 @@ namespace {
 
 using ::testing::HasSubstr;
 
-const std::vector<Scenario> kScenarios = {short_heading("a"), short_heading("b, \"quoted\"")};
+const std::vector<Scenario> kScenarios = {short_heading("a"),
+                                          short_heading("=b, \"quoted\"\nline")};
 const Provenance kProvenance{"compare", {{"samples", "6"}, {"seed", "3"}}, {{"model.json", "abc"}}};
 
 Comparison compared(const CompareOptions& options,
@@ -89,7 +90,30 @@ TEST(Resume, RefusesAnotherComparisonsFiles) {
   EXPECT_TRUE(read_finished(directory.path(), more_samples));
   write_all(directory.path() / "comparison.csv", "scenario,mode\nbroken\n");
   EXPECT_THAT(to_text(read_finished(directory.path(), kProvenance).error()),
+              HasSubstr("is not as it was written"));
+  Json of_version_1 = Json::parse(comparison_text(c, kWhole, kProvenance));
+  of_version_1.erase("csv_sha256");
+  write_all(directory.path() / "comparison.json", to_text(of_version_1));
+  EXPECT_THAT(to_text(read_finished(directory.path(), kProvenance).error()),
               HasSubstr("comparison.csv:2:1"));
+}
+
+TEST(Resume, EditedRowsWereTakenForFinishedRuns) {
+  const TemporaryDirectory directory;
+  const Comparison c = compared({.samples = 1, .seed = 3, .threads = 1});
+  std::string csv = comparison_csv(c);
+  write_all(directory.path() / "comparison.json", comparison_text(c, kWhole, kProvenance));
+  write_all(directory.path() / "comparison.csv", csv);
+  ASSERT_TRUE(read_finished(directory.path(), kProvenance));
+  csv[csv.find_last_of("0123456789")] ^= 1;
+  write_all(directory.path() / "comparison.csv", csv);
+  EXPECT_THAT(to_text(read_finished(directory.path(), kProvenance).error()),
+              HasSubstr("is not as it was written"));
+}
+
+TEST(ComparisonCsv, ANameThatASpreadsheetRunsLandedRawInACell) {
+  const std::string csv = comparison_csv(compared({.samples = 0, .seed = 3, .threads = 1}));
+  EXPECT_THAT(csv, HasSubstr("\n\"'=b, \"\"quoted\"\"\nline\",differential,"));
 }
 
 TEST(Resume, RefusesRowsOfAnUnknownScenario) {

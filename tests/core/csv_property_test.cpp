@@ -88,5 +88,24 @@ RC_GTEST_PROP(Csv, NoBytesBreakTheReader, ()) {
   for (const double value : table->column("x")) RC_ASSERT(std::isfinite(value));
 }
 
+RC_GTEST_PROP(CsvText, AnyTextReadsBackFromItsCell, (const std::vector<std::string>& texts)) {
+  RC_PRE(!texts.empty());
+  std::string line = cell_of_text(texts[0]);
+  for (std::size_t i = 1; i < texts.size(); ++i) line.append(",").append(cell_of_text(texts[i]));
+  line += "\nnext";
+  std::string_view rest = line;
+  RC_ASSERT(take_text_record(rest) == texts);
+  RC_ASSERT(rest == "next");
+}
+
+TEST(CsvText, NoCellBeginsAsAFormula) {
+  for (const std::string begin : {"=", "+", "-", "@", "\t", "\r"}) {
+    const std::string cell = cell_of_text(begin + "1+1");
+    EXPECT_EQ(cell.substr(cell[0] == '"' ? 1 : 0, 1), "'") << cell;
+  }
+  EXPECT_EQ(cell_of_text("c3, a heading"), "\"c3, a heading\"");
+  EXPECT_EQ(cell_of_text("c3 = a heading"), "c3 = a heading");
+}
+
 }  // namespace
 }  // namespace awmr::testing

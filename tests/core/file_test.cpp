@@ -61,7 +61,7 @@ TEST_F(FileTest, WritesAndReadsAnyBytes) {
 
 TEST_F(FileTest, AnEmptyFileIsEmpty) {
   ASSERT_TRUE(write_file(path("a.txt"), ""));
-  EXPECT_THAT(MappedFile::open(path("a.txt")).value().bytes(), IsEmpty());
+  EXPECT_THAT(read_file(path("a.txt")).value(), IsEmpty());
 }
 
 TEST_F(FileTest, AFailingWriteLeavesTheOldFileAndNothingElse) {
@@ -76,24 +76,6 @@ TEST_F(FileTest, AFailingWriteLeavesTheOldFileAndNothingElse) {
   }
   EXPECT_EQ(read_file(path("a.txt")).value(), "precious");
   EXPECT_THAT(names(), ElementsAre("a.txt"));
-}
-
-TEST_F(FileTest, AMappedViewOutlivesTheReplacementOfItsFile) {
-  ASSERT_TRUE(write_file(path("a.txt"), "old"));
-  const auto mapped = MappedFile::open(path("a.txt"));
-  ASSERT_TRUE(write_file(path("a.txt"), "new bytes"));
-  EXPECT_EQ(mapped.value().bytes(), "old");
-  EXPECT_EQ(read_file(path("a.txt")).value(), "new bytes");
-}
-
-TEST_F(FileTest, ACopyOfAMappedFileKeepsTheBytes) {
-  ASSERT_TRUE(write_file(path("a.txt"), "bytes"));
-  MappedFile copy;
-  {
-    const auto mapped = MappedFile::open(path("a.txt"));
-    copy = mapped.value();
-  }
-  EXPECT_EQ(copy.bytes(), "bytes");
 }
 
 TEST_F(FileTest, MissingDirectoryAndDirectoryAsFileAreFaults) {

@@ -7,18 +7,12 @@
 #include "awmr/compare/ranking.h"
 #include "awmr/compare/statistics.h"
 #include "awmr/core/csv.h"
+#include "awmr/core/csv_cell.h"
+#include "awmr/core/hash.h"
 #include "awmr/core/json.h"
 
 namespace awmr {
 namespace {
-
-/// A text cell, quoted where it has to be.
-std::string cell(const std::string& text) {
-  if (text.find_first_of(",;\t\"#\r\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + '"';
-}
 
 Json optional_json(const std::optional<double>& value) {
   return value ? Json(*value) : Json(nullptr);
@@ -172,7 +166,7 @@ std::string comparison_csv(const Comparison& comparison) {
   }
   text += several ? ",gains\n" : "\n";
   for (const ComparisonRow& row : comparison.rows) {
-    text += cell(row.scenario);
+    text += cell_of_text(row.scenario);
     text += ',';
     text += name_of(row.mode);
     text += ',' + std::to_string(row.sample) + (row.metrics.completed ? ",1" : ",0");
@@ -180,7 +174,7 @@ std::string comparison_csv(const Comparison& comparison) {
       text += ',';
       if (const auto value = metric.value(row.metrics)) text += format_number(*value);
     }
-    if (several) text += ',' + cell(row.gains);
+    if (several) text += ',' + cell_of_text(row.gains);
     text += '\n';
   }
   return text;
@@ -191,6 +185,7 @@ std::string comparison_text(const Comparison& comparison, const CompareOptions& 
   Json json;
   json["schema"] = "awmr.comparison/1";
   put_provenance(json, provenance);
+  json["csv_sha256"] = sha256_hex(comparison_csv(comparison));  // says which rows belong to it
   const Comparison judged = judged_part(comparison);
   const int samples = comparison.stopped ? std::max(0, judged.whole_samples - 1) : options.samples;
   json["samples"] = options.samples;

@@ -4,11 +4,14 @@
 
 #include <algorithm>
 #include <charconv>
+#include <optional>
 #include <set>
 
 #include "awmr/compare/compare.h"
 #include "awmr/compare/metric_columns.h"
+#include "awmr/core/csv_cell.h"
 #include "awmr/core/file.h"
+#include "awmr/core/hash.h"
 #include "awmr/core/json.h"
 #include "awmr/core/option_text.h"
 
@@ -17,29 +20,6 @@ namespace {
 
 /// What may change between a comparison and its continuation.
 const std::set<std::string, std::less<>> kFreeOptions{"samples"};
-
-/// The cells of one line as comparison_csv writes it.
-std::vector<std::string> cells_of(std::string_view line) {
-  std::vector<std::string> cells(1);
-  bool quoted = false;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    const char c = line[i];
-    if (c == '"') {
-      const bool doubled = quoted && i + 1 < line.size() && line[i + 1] == '"';
-      if (doubled) {
-        cells.back() += '"';
-        ++i;
-      } else {
-        quoted = !quoted;
-      }
-    } else if (c == ',' && !quoted) {
-      cells.emplace_back();
-    } else {
-      cells.back() += c;
-    }
-  }
-  return cells;
-}
 
 template <class Number>
 bool read_number(const std::string& text, Number& value) {
@@ -97,30 +77,37 @@ Status same_origin(const Provenance& before, const Provenance& now, const std::s
   return {};
 }
 
-Result<Provenance> read_origin(const std::filesystem::path& path) {
+/// What comparison.json says of itself and of its rows.
+struct Origin {
+  Provenance provenance;
+  std::optional<std::string> csv_sha256;  ///< none in files of earlier versions
+};
+
+Result<Origin> read_origin(const std::filesystem::path& path) {
   AWMR_ASSIGN_OR_RETURN(const Json document, read_json_file(path));
   std::vector<Fault> faults;
   JsonObject json(document, path.string(), "", faults);
-  Provenance origin = read_provenance(json);
+  Origin origin{read_provenance(json), json.optional_string("csv_sha256")};
   if (!faults.empty()) return input_errors(std::move(faults));
   return origin;
 }
 
-Result<std::vector<ComparisonRow>> read_rows(const std::filesystem::path& path) {
+Result<std::vector<ComparisonRow>> read_rows(const std::filesystem::path& path,
+                                             const std::optional<std::string>& sha256) {
   AWMR_ASSIGN_OR_RETURN(const std::string text, read_file(path));
+  if (sha256 && *sha256 != sha256_hex(text)) {
+    return input_error(path.string(),
+                       "is not as it was written with comparison.json: it was changed, or is of "
+                       "another comparison; compare into another directory");
+  }
   std::vector<ComparisonRow> rows;
-  bool with_gains = false;
-  int line = 0;
-  for (std::size_t start = 0; start < text.size();) {
-    const std::size_t end = std::min(text.find('\n', start), text.size());
-    const auto cells = cells_of(std::string_view(text).substr(start, end - start));
-    start = end + 1;
-    if (++line == 1) {
-      with_gains = cells.back() == "gains";
-      continue;
-    }
-    auto row = row_of(cells, with_gains);
+  std::string_view rest = text;
+  const bool with_gains = take_text_record(rest).back() == "gains";
+  while (!rest.empty()) {
+    const std::string_view before = std::string_view(text).substr(0, text.size() - rest.size());
+    auto row = row_of(take_text_record(rest), with_gains);
     if (!row) {
+      const auto line = 1 + std::count(before.begin(), before.end(), '\n');
       return input_error(fmt::format("{}:{}:1", path.string(), line),
                          "is no row of a comparison; compare into another directory");
     }
@@ -134,9 +121,9 @@ Result<std::vector<ComparisonRow>> read_rows(const std::filesystem::path& path) 
 Result<std::vector<ComparisonRow>> read_finished(const std::filesystem::path& directory,
                                                  const Provenance& provenance) {
   const std::filesystem::path json = directory / "comparison.json";
-  AWMR_ASSIGN_OR_RETURN(const Provenance before, read_origin(json));
-  AWMR_RETURN_IF_ERROR(same_origin(before, provenance, json.string()));
-  return read_rows(directory / "comparison.csv");
+  AWMR_ASSIGN_OR_RETURN(const Origin before, read_origin(json));
+  AWMR_RETURN_IF_ERROR(same_origin(before.provenance, provenance, json.string()));
+  return read_rows(directory / "comparison.csv", before.csv_sha256);
 }
 
 }  // namespace awmr

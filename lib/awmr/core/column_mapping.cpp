@@ -6,6 +6,7 @@
 
 #include "awmr/core/csv.h"
 #include "awmr/core/csv_cell.h"
+#include "awmr/core/text.h"
 
 namespace awmr {
 namespace {
@@ -62,7 +63,8 @@ std::optional<std::string> take_scale_and_offset(std::string_view rest, ColumnMa
     if (!offset) return "the offset is no finite number";
     mapping.offset = *offset;
   }
-  if (!rest.empty()) return fmt::format("\"{}\" is left over; quote a SOURCE with * or +", rest);
+  if (!rest.empty())
+    return fmt::format("\"{}\" is left over; quote a SOURCE with * or +", shortened(rest, 100));
   return std::nullopt;
 }
 
@@ -70,7 +72,8 @@ std::optional<std::string> take_scale_and_offset(std::string_view rest, ColumnMa
 
 Result<ColumnMapping> parse_column_mapping(std::string_view text) {
   const auto wrong = [&](std::string_view why) {
-    return input_error("", fmt::format("column mapping \"{}\": {}; {}", text, why, kForm));
+    return input_error(
+        "", fmt::format("column mapping \"{}\": {}; {}", shortened(text, 100), why, kForm));
   };
   const std::size_t equals = text.find('=');
   if (equals == std::string_view::npos) return wrong("there is no '='");

@@ -1,7 +1,6 @@
 #include "awmr/core/csv.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -11,8 +10,10 @@
 
 #include "awmr/core/csv_cell.h"
 #include "awmr/core/csv_scanner.h"
-#include "awmr/core/file.h"
+#include "awmr/core/csv_text.h"
+#include "awmr/core/input_file.h"
 #include "awmr/core/nearest.h"
+#include "awmr/core/text.h"
 
 namespace awmr {
 namespace {
@@ -28,6 +29,17 @@ std::string name_of(const CsvCell& cell) {
     if (cell.is_quoted && cell.text.substr(i, 2) == "\"\"") ++i;
   }
   return name;
+}
+
+/// The header's names, as many as can be read at a glance.
+std::string listed(std::span<const std::string> names) {
+  constexpr std::size_t kMost = 20;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(names.size(), kMost); ++i) {
+    text += (i == 0 ? "" : ", ") + shortened(names[i], 60);
+  }
+  if (names.size() > kMost) text += fmt::format(" and {} more", names.size() - kMost);
+  return text;
 }
 
 }  // namespace
@@ -233,7 +245,7 @@ void CsvParser::report_missing(const std::string& name, const std::string& sourc
     message += fmt::format("; did you mean \"{}\"?", near);
   } else {
     message += fmt::format("; the header has {}; rename one or map it with --column {}=SOURCE",
-                           fmt::join(header_, ", "), name);
+                           listed(header_), name);
   }
   fault(table_.header_line_, 1, std::move(message));
 }
@@ -277,21 +289,27 @@ void CsvParser::read_cells() {
   }
 }
 
-Result<CsvTable> read_csv(const std::filesystem::path& path, std::span<const CsvColumn> columns,
-                          std::span<const ColumnMapping> mappings) {
-  const auto file = MappedFile::open(path);
-  if (!file) return tl::unexpected(file.error());
-  std::string_view bytes = file->bytes();
+Result<CsvTable> read_csv_text(std::string_view bytes, const std::string& file,
+                               std::span<const CsvColumn> columns,
+                               std::span<const ColumnMapping> mappings) {
   if (bytes.empty()) {
-    return input_error(path.string(), "the file is empty; expected a header row and rows");
+    return input_error(file, "the file is empty; expected a header row and rows");
   }
   if (bytes.find('\0') != std::string_view::npos) {
-    return input_error(path.string(), "this is not UTF-8 text (UTF-16?); save it as UTF-8");
+    return input_error(file, "this is not UTF-8 text (UTF-16?); save it as UTF-8");
   }
-  if (bytes.substr(0, kByteOrderMark.size()) == kByteOrderMark) {
-    bytes.remove_prefix(kByteOrderMark.size());
-  }
-  return CsvParser(path.string(), bytes, columns, mappings).parse();
+  if (bytes.starts_with(kByteOrderMark)) bytes.remove_prefix(kByteOrderMark.size());
+  return CsvParser(file, bytes, columns, mappings).parse();
+}
+
+Result<CsvTable> read_csv(const std::filesystem::path& path, std::span<const CsvColumn> columns,
+                          std::span<const ColumnMapping> mappings) {
+  AWMR_ASSIGN_OR_RETURN(const std::string bytes, read_input(path));
+  return read_csv_text(bytes, path.string(), columns, mappings);
+}
+
+std::string finding_file(const CsvTable& table) {
+  return std::filesystem::path(table.file()).filename().string();
 }
 
 std::string format_number(double value) {

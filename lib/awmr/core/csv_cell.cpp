@@ -7,10 +7,12 @@
 #include <charconv>
 #include <cmath>
 
+#include "awmr/core/text.h"
+
 namespace awmr {
 namespace {
 
-constexpr std::size_t kLongestShown = 40;
+constexpr std::size_t kLongestCell = 40;  ///< shown in a message
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
@@ -24,17 +26,12 @@ std::string lower(std::string_view text) {
 
 /// The text in quotes, cut where it is long, on one line.
 std::string shown(std::string_view text) {
-  std::size_t length = text.size();
-  if (length > kLongestShown) {
-    length = kLongestShown;
-    // Not inside a UTF-8 sequence: its second and later bytes are 10xxxxxx.
-    while (length > 0 && (static_cast<unsigned char>(text[length]) & 0xC0U) == 0x80U) --length;
-  }
-  std::string result(text.substr(0, length));
+  const std::string_view begin = first_characters(text, kLongestCell);
+  std::string result(begin);
   std::replace_if(
       result.begin(), result.end(),
       [](char c) { return static_cast<unsigned char>(c) < 0x20U || c == 0x7F; }, ' ');
-  return fmt::format("\"{}{}\"", result, length < text.size() ? "..." : "");
+  return fmt::format("\"{}{}\"", result, begin.size() < text.size() ? "..." : "");
 }
 
 bool is_decimal_comma(std::string_view text) {
@@ -91,6 +88,38 @@ tl::expected<double, std::string> number_from_text(std::string_view text) {
     return tl::unexpected(why_not_a_number(text, read));
   }
   return value;
+}
+
+std::string cell_of_text(std::string_view text) {
+  constexpr std::string_view kFormulaBegins = "=+-@\t\r'";
+  const bool guarded = !text.empty() && kFormulaBegins.find(text[0]) != std::string_view::npos;
+  std::string cell = guarded ? "'" : "";
+  if (text.find_first_of(",;\t\"#\r\n") == std::string_view::npos) return cell.append(text);
+  cell.insert(0, 1, '"');
+  for (const char c : text) cell.append(c == '"' ? 2 : 1, c);
+  return cell + '"';
+}
+
+std::vector<std::string> take_text_record(std::string_view& csv) {
+  std::vector<std::string> cells(1);
+  bool quoted = false;
+  std::size_t i = 0;
+  for (; i < csv.size() && (quoted || csv[i] != '\n'); ++i) {
+    const bool doubled = quoted && csv.substr(i, 2) == "\"\"";
+    if (doubled) ++i;
+    if (csv[i] == '"' && !doubled) {
+      quoted = !quoted;
+    } else if (csv[i] == ',' && !quoted) {
+      cells.emplace_back();
+    } else {
+      cells.back() += csv[i];
+    }
+  }
+  csv.remove_prefix(std::min(i + 1, csv.size()));
+  for (std::string& cell : cells) {
+    if (cell.starts_with('\'')) cell.erase(0, 1);
+  }
+  return cells;
 }
 
 }  // namespace awmr

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "awmr/core/result.h"
+#include "awmr/core/text.h"
 
 namespace awmr {
 namespace {
@@ -31,8 +32,10 @@ std::string to_text(const Error& error) {
   for (const Fault& fault : error.faults) {
     if (shown == kMaxFaultsShown) break;
     ++shown;
-    text += fault.place.empty() ? fmt::format("error: {}\n", fault.message)
-                                : fmt::format("error: {}: {}\n", fault.place, fault.message);
+    const std::string message = printable(shortened(fault.message));
+    const std::string place = printable(shortened(fault.place));
+    text += place.empty() ? fmt::format("error: {}\n", message)
+                          : fmt::format("error: {}: {}\n", place, message);
   }
   if (error.faults.size() > shown) {
     const std::size_t left = error.faults.size() - shown;

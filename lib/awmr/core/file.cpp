@@ -1,53 +1,102 @@
 #include "awmr/core/file.h"
 
 #include <fcntl.h>
-#include <sys/mman.h>
+#include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <array>
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <optional>
 #include <utility>
+#include <vector>
+
+#include "awmr/core/temporary_file.h"
 
 namespace awmr {
 namespace {
 
-/// Closes a descriptor at the end of its scope.
-class Descriptor {
- public:
-  explicit Descriptor(int number) : number_(number) {}
-  ~Descriptor() {
-    if (number_ >= 0) ::close(number_);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  int number() const { return number_; }
+namespace fs = std::filesystem;
 
- private:
-  int number_;
-};
+constexpr int kMostLinks = 40;  ///< symbolic links followed, as the system does
 
 std::string reason() { return std::strerror(errno); }
 
-bool write_all(int descriptor, std::string_view bytes) {
-  while (!bytes.empty()) {
-    const ssize_t count = ::write(descriptor, bytes.data(), bytes.size());
+tl::unexpected<Error> write_error(const fs::path& path, const std::string& why) {
+  return input_error(path.string(), "cannot write the file: " + why);
+}
+
+std::string size_text(std::size_t bytes) {
+  constexpr std::size_t kMebibyte = std::size_t{1} << 20U;
+  return bytes < kMebibyte ? fmt::format("{} bytes", bytes)
+                           : fmt::format("{} MiB", bytes / kMebibyte);
+}
+
+/// Appends up to the end, at most one byte more than `max_bytes`; false where reading fails.
+bool read_all(int descriptor, std::size_t max_bytes, std::string& bytes) {
+  constexpr std::size_t kBlock = std::size_t{1} << 18U;
+  while (bytes.size() <= max_bytes) {
+    const std::size_t before = bytes.size();
+    bytes.resize(before + std::min(kBlock, max_bytes + 1 - before));
+    const ssize_t count = ::read(descriptor, bytes.data() + before, bytes.size() - before);
+    bytes.resize(before + static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
     if (count < 0 && errno == EINTR) continue;
-    if (count < 0) return false;
-    bytes.remove_prefix(static_cast<std::size_t>(count));
+    if (count <= 0) return count == 0;
   }
   return true;
 }
 
-bool read_all(int descriptor, std::string& bytes) {
-  std::array<char, 65536> block;
-  while (true) {
-    const ssize_t count = ::read(descriptor, block.data(), block.size());
-    if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) return count == 0;
-    bytes.append(block.data(), static_cast<std::size_t>(count));
+/// What the path names once symbolic links are followed, the last of which may lead to nothing yet.
+std::optional<fs::path> resolved(fs::path path) {
+  std::error_code error;
+  for (int i = 0; i < kMostLinks && fs::is_symlink(fs::symlink_status(path, error)); ++i) {
+    const fs::path next = fs::read_symlink(path, error);
+    if (error) return std::nullopt;
+    path = next.is_absolute() ? next : path.parent_path() / next;
   }
+  if (fs::is_symlink(fs::symlink_status(path, error))) return std::nullopt;
+  return path;
+}
+
+/// Where the bytes go, and what stands there now.
+struct Target {
+  fs::path path;
+  bool exists = false;
+  bool is_stream = false;  ///< a terminal, a pipe or another device: nothing to replace
+  struct stat status {};
+};
+
+Result<Target> target_of(const fs::path& path) {
+  Target target{.path = path};
+  target.exists = ::stat(path.c_str(), &target.status) == 0;
+  if (!target.exists && errno != ENOENT) return write_error(path, reason());
+  if (target.exists && S_ISDIR(target.status.st_mode)) {
+    return write_error(path, "this is a directory; give a file");
+  }
+  target.is_stream = target.exists && !S_ISREG(target.status.st_mode);
+  if (target.is_stream) return target;
+  const auto file = resolved(path);
+  if (!file) return write_error(path, "its symbolic links lead nowhere");
+  target.path = *file;
+  if (!target.exists) return target;
+  const bool is_writable =
+      (target.status.st_mode & 0222U) != 0 && ::access(path.c_str(), W_OK) == 0;
+  if (!is_writable) {
+    return write_error(path, "it is read-only; make it writable or give another name");
+  }
+  if (target.status.st_nlink > 1) {
+    return write_error(path,
+                       "it has another name (hard link) that would keep the old bytes; remove one "
+                       "of them or give another name");
+  }
+  return target;
+}
+
+Status write_stream(const fs::path& path, std::string_view bytes) {
+  const Descriptor file(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
+  if (file.number() < 0 || !write_all(file.number(), bytes)) return write_error(path, reason());
+  return {};
 }
 
 /// What umask() takes from a new file's mode. It can only be read by setting it, so once.
@@ -60,16 +109,54 @@ mode_t creation_mask() {
   return mask;
 }
 
+fs::path directory_of(const fs::path& path) {
+  return path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
+
 /// Makes the renaming last; where the system cannot, the new file still stands whole.
-void flush_directory(const std::filesystem::path& path) {
-  const Descriptor directory(
-      ::open(path.empty() ? "." : path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+void flush_directory(const fs::path& path) {
+  const Descriptor directory(::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (directory.number() >= 0) ::fsync(directory.number());
+}
+
+/// A file that is written but not yet in its place.
+struct Staged {
+  fs::path path;  ///< as typed
+  std::string_view bytes;
+  Target target;
+  std::optional<TemporaryFile> temporary;  ///< none for a stream
+};
+
+Result<Staged> stage(const fs::path& path, std::string_view bytes) {
+  AWMR_ASSIGN_OR_RETURN(Target target, target_of(path));
+  if (target.is_stream) return Staged{path, bytes, std::move(target), std::nullopt};
+  const fs::path directory = directory_of(target.path);
+  remove_stale_temporaries(directory);
+  auto temporary = TemporaryFile::in(directory);
+  if (!temporary) return write_error(path, reason());
+  const mode_t mode = target.exists ? target.status.st_mode & 07777U : 0666U & ~creation_mask();
+  if (!temporary->write(bytes, mode)) return write_error(path, reason());
+  return Staged{path, bytes, std::move(target), std::move(temporary)};
+}
+
+/// Puts all of them in their place.
+Status finish(std::vector<Staged> files) {
+  for (Staged& file : files) {
+    if (!file.temporary) {
+      AWMR_RETURN_IF_ERROR(write_stream(file.path, file.bytes));
+    } else if (!file.temporary->rename_to(file.target.path)) {
+      return write_error(file.path, reason());
+    }
+  }
+  for (const Staged& file : files) {
+    if (file.temporary) flush_directory(directory_of(file.target.path));
+  }
+  return {};
 }
 
 }  // namespace
 
-Result<MappedFile> MappedFile::open(const std::filesystem::path& path) {
+Result<std::string> read_file(const fs::path& path, std::size_t max_bytes) {
   const std::string name = path.string();
   const Descriptor file(::open(name.c_str(), O_RDONLY | O_CLOEXEC));
   if (file.number() < 0) return input_error(name, "cannot open the file: " + reason());
@@ -78,64 +165,60 @@ Result<MappedFile> MappedFile::open(const std::filesystem::path& path) {
     return input_error(name, "cannot read the file: " + reason());
   }
   if (S_ISDIR(status.st_mode)) return input_error(name, "this is a directory; give a file");
-  MappedFile mapped;
-  if (!S_ISREG(status.st_mode)) {
-    const auto bytes = std::make_shared<std::string>();
-    if (!read_all(file.number(), *bytes)) {
-      return input_error(name, "cannot read the file: " + reason());
+  const auto size = static_cast<std::size_t>(S_ISREG(status.st_mode) ? status.st_size : 0);
+  std::string bytes;
+  bytes.reserve(std::min(size, max_bytes) + 1);
+  if (size <= max_bytes && !read_all(file.number(), max_bytes, bytes)) {
+    return input_error(name, "cannot read the file: " + reason());
+  }
+  if (std::max(size, bytes.size()) > max_bytes) {
+    return input_error(name, fmt::format("it is longer than {}, the most that is read of such a "
+                                         "file; is it the right one?",
+                                         size_text(max_bytes)));
+  }
+  if (bytes.size() < size) {
+    return input_error(name, "it became shorter while it was read; wait until it is written");
+  }
+  return bytes;
+}
+
+Status write_file(const fs::path& path, std::string_view bytes) {
+  AWMR_ASSIGN_OR_RETURN(Staged file, stage(path, bytes));
+  std::vector<Staged> files;
+  files.push_back(std::move(file));
+  return finish(std::move(files));
+}
+
+Status write_files(std::span<const OutputFile> files) {
+  std::vector<Staged> all;
+  for (const OutputFile& file : files) {
+    AWMR_ASSIGN_OR_RETURN(Staged staged, stage(file.path, file.bytes));
+    all.push_back(std::move(staged));
+  }
+  return finish(std::move(all));
+}
+
+Status check_output(const fs::path& path, std::span<const fs::path> inputs) {
+  AWMR_ASSIGN_OR_RETURN(const Target target, target_of(path));
+  if (target.is_stream) return {};
+  for (const fs::path& input : inputs) {
+    struct stat status {};
+    if (!target.exists || ::stat(input.c_str(), &status) != 0) continue;
+    if (status.st_dev == target.status.st_dev && status.st_ino == target.status.st_ino) {
+      return write_error(path,
+                         fmt::format("it is the input {}; give another name", input.string()));
     }
-    mapped.bytes_ = *bytes;
-    mapped.region_ = bytes;
-    return mapped;
   }
-  const auto size = static_cast<std::size_t>(status.st_size);
-  if (size == 0) return mapped;
-  void* address = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file.number(), 0);
-  if (address == MAP_FAILED) return input_error(name, "cannot read the file: " + reason());
-  mapped.region_ = std::shared_ptr<void>(address, [size](void* at) { ::munmap(at, size); });
-  mapped.bytes_ = {static_cast<const char*>(address), size};
-  return mapped;
-}
-
-Result<std::string> read_file(const std::filesystem::path& path) {
-  const auto mapped = MappedFile::open(path);
-  if (!mapped) return tl::unexpected(mapped.error());
-  return std::string(mapped->bytes());
-}
-
-Status write_file(const std::filesystem::path& path, std::string_view bytes) {
-  const auto failed = [&](const std::string& why) {
-    return input_error(path.string(), "cannot write the file: " + why);
-  };
-  struct stat old {};
-  const bool exists = ::stat(path.c_str(), &old) == 0;
-  if (exists && S_ISDIR(old.st_mode)) return failed("this is a directory; give a file");
-  if (exists && !S_ISREG(old.st_mode)) {  // a terminal or a pipe cannot be replaced
-    const Descriptor file(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
-    if (file.number() < 0 || !write_all(file.number(), bytes)) return failed(reason());
-    return {};
+  const fs::path directory = directory_of(target.path);
+  if (::access(directory.c_str(), W_OK | X_OK) != 0) {
+    return write_error(path, fmt::format("directory {}: {}", directory.string(), reason()));
   }
-  // Through a symbolic link, the file it points to is replaced, not the link.
-  std::error_code error;
-  const auto target = exists ? std::filesystem::canonical(path, error) : path;
-  if (error) return failed(error.message());
-  std::string temporary = target.string() + ".XXXXXX";
-  const Descriptor file(::mkstemp(temporary.data()));
-  if (file.number() < 0) return failed(reason());
-  const mode_t mode = exists ? old.st_mode & 07777U : 0666U & ~creation_mask();
-  if (!write_all(file.number(), bytes) || ::fchmod(file.number(), mode) != 0 ||
-      ::fsync(file.number()) != 0 || ::rename(temporary.c_str(), target.c_str()) != 0) {
-    const std::string why = reason();
-    ::unlink(temporary.c_str());
-    return failed(why);
-  }
-  flush_directory(target.parent_path());
   return {};
 }
 
-Status make_directory(const std::filesystem::path& path) {
+Status make_directory(const fs::path& path) {
   std::error_code error;
-  std::filesystem::create_directories(path, error);
+  fs::create_directories(path, error);
   if (error) {
     return input_error(path.string(), "cannot make the directory: " + error.message());
   }

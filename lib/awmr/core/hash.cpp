@@ -25,9 +25,8 @@ std::string sha256_hex(std::string_view bytes) {
 }
 
 Result<std::string> sha256_of_file(const std::filesystem::path& path) {
-  const auto file = MappedFile::open(path);
-  if (!file) return tl::unexpected(file.error());
-  return sha256_hex(file->bytes());
+  AWMR_ASSIGN_OR_RETURN(const std::string bytes, read_file(path));
+  return sha256_hex(bytes);
 }
 
 }  // namespace awmr

@@ -11,6 +11,7 @@
 #include "awmr/core/csv.h"
 #include "awmr/core/json_text.h"
 #include "awmr/core/nearest.h"
+#include "awmr/core/text.h"
 
 namespace awmr {
 namespace {
@@ -20,12 +21,7 @@ constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 /// A value as a fault shows it, cut between characters where it is long.
 std::string describe(const Json& value) {
   std::string text = value.dump();
-  if (text.size() > 40) {
-    std::size_t length = 37;
-    while (continues_character(text[length])) --length;
-    text.resize(length);
-    text.append("...");
-  }
+  if (text.size() > 40) text = std::string(first_characters(text, 37)) + "...";
   return fmt::format("{} {}", value.type_name(), text);
 }
 
@@ -44,14 +40,21 @@ bool allows(const NumberRule& rule, double value) {
   return value <= rule.max && (rule.min_excluded ? value > rule.min : value >= rule.min);
 }
 
+void add_fault(std::vector<Fault>& faults, const std::string& file, const std::string& pointer,
+               std::string message) {
+  if (faults.size() >= kMaxFaults) return;
+  faults.push_back(
+      {pointer.empty() ? file : fmt::format("{}:{}", file, pointer), std::move(message)});
+}
+
 }  // namespace
 
 JsonObject::JsonObject(const Json& value, std::string file, std::string pointer,
                        std::vector<Fault>& faults)
     : value_(&value), file_(std::move(file)), pointer_(std::move(pointer)), faults_(&faults) {
   if (!value.is_object()) {
-    faults_->push_back({pointer_.empty() ? file_ : fmt::format("{}:{}", file_, pointer_),
-                        fmt::format("expected an object, found {}", describe(value))});
+    add_fault(*faults_, file_, pointer_,
+              fmt::format("expected an object, found {}", describe(value)));
     value_ = nullptr;
   }
 }
@@ -61,7 +64,7 @@ std::string JsonObject::pointer(std::string_view key) const {
 }
 
 void JsonObject::fault(std::string_view key, std::string message) {
-  faults_->push_back({fmt::format("{}:{}", file_, pointer(key)), std::move(message)});
+  add_fault(*faults_, file_, pointer(key), std::move(message));
 }
 
 const Json* JsonObject::find(std::string_view key, bool required) {
@@ -196,8 +199,8 @@ std::vector<double> JsonObject::numbers(std::string_view key, NumberRule rule) {
     if (element.is_number() && allows(rule, element.get<double>())) {
       result.push_back(element.get<double>());
     } else {
-      faults_->push_back({fmt::format("{}:{}/{}", file_, pointer(key), i),
-                          fmt::format("expected {}, found {}", describe(rule), describe(element))});
+      add_fault(*faults_, file_, fmt::format("{}/{}", pointer(key), i),
+                fmt::format("expected {}, found {}", describe(rule), describe(element)));
     }
   }
   return result;
@@ -216,8 +219,8 @@ std::vector<std::string> JsonObject::strings(std::string_view key) {
     if (element.is_string()) {
       result.push_back(element.get<std::string>());
     } else {
-      faults_->push_back({fmt::format("{}:{}/{}", file_, pointer(key), i),
-                          fmt::format("expected a string, found {}", describe(element))});
+      add_fault(*faults_, file_, fmt::format("{}/{}", pointer(key), i),
+                fmt::format("expected a string, found {}", describe(element)));
     }
   }
   return result;
@@ -276,7 +279,7 @@ std::vector<std::string> JsonObject::keys() const {
 void JsonObject::reject_unknown_keys() {
   const std::vector<std::string> known(known_.begin(), known_.end());
   for (const std::string& key : keys()) {
-    if (known_.count(key) != 0) continue;
+    if (known_.count(key) != 0 || faults_->size() >= kMaxFaults) continue;
     const std::string near = nearest(key, known);
     fault(key, near.empty()
                    ? fmt::format("unknown key; the keys here are {}", fmt::join(known, ", "))

@@ -1,15 +1,17 @@
-#include "awmr/core/json.h"
+#include "awmr/core/json_document.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
+#include <optional>
 #include <stdexcept>
+#include <unordered_set>
 #include <utility>
 
-#include "awmr/core/file.h"
+#include "awmr/core/input_file.h"
 #include "awmr/core/json_text.h"
+#include "awmr/core/text.h"
 
 namespace awmr {
 namespace {
@@ -25,50 +27,110 @@ std::string place_of(const std::string& file, std::string_view text, std::size_t
   return fmt::format("{}:{}:{}", file, lines + 1, characters + 1);
 }
 
-/// Follows the parser through the document, to name the keys given twice by their JSON pointer.
-class DuplicateKeys {
- public:
-  explicit DuplicateKeys(std::string file) : file_(std::move(file)) {}
-
-  bool operator()(int /*depth*/, Json::parse_event_t event, Json& parsed) {
-    using Event = Json::parse_event_t;
-    if (event == Event::key) note_key(parsed.get<std::string>());
-    if (event == Event::object_start || event == Event::array_start) {
-      begin_element();
-      open_.emplace_back().is_array = event == Event::array_start;
+/// What would need memory or a stack beyond all use, found before anything is built.
+std::optional<Fault> beyond_bounds(const std::string& file, std::string_view text) {
+  std::size_t depth = 0;
+  std::size_t values = 1;
+  bool in_string = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (in_string && c == '\\') ++i;
+    if (c == '"') in_string = !in_string;
+    if (in_string) continue;
+    if (c == '[' || c == '{') ++depth;
+    if ((c == ']' || c == '}') && depth > 0) --depth;
+    if (c == ',' || c == '[' || c == '{') ++values;
+    if (depth > kMaxJsonDepth) {
+      return Fault{place_of(file, text, i),
+                   fmt::format("arrays and objects are nested more than {} deep", kMaxJsonDepth)};
     }
-    if (event == Event::object_end || event == Event::array_end) open_.pop_back();
-    if (event == Event::value) begin_element();
-    return true;
+    if (values > kMaxJsonValues) {
+      return Fault{place_of(file, text, i),
+                   fmt::format("there are more than {} values", kMaxJsonValues)};
+    }
   }
+  return std::nullopt;
+}
+
+/// Builds the document from the parser's events and names the keys given twice by their JSON
+/// pointer. Json's own builder looks for each new key in a list of all before it.
+class DocumentBuilder final : public Json::json_sax_t {
+ public:
+  explicit DocumentBuilder(std::string file, std::string_view text)
+      : file_(std::move(file)), text_(text) {}
+
+  bool null() override { return add(nullptr); }
+  bool boolean(bool value) override { return add(value); }
+  bool number_integer(number_integer_t value) override { return add(value); }
+  bool number_unsigned(number_unsigned_t value) override { return add(value); }
+  bool number_float(number_float_t value, const string_t& /*text*/) override { return add(value); }
+  bool string(string_t& value) override { return add(std::move(value)); }
+  bool binary(binary_t& /*value*/) override { return false; }  // not in a text
+  bool start_object(std::size_t /*size*/) override { return open(Json::object()); }
+  bool key(string_t& value) override;
+  bool end_object() override { return close(); }
+  bool start_array(std::size_t /*size*/) override { return open(Json::array()); }
+  bool end_array() override { return close(); }
+  bool parse_error(std::size_t position, const std::string& last_token,
+                   const Json::exception& error) override;
+
+  Json& document() { return document_; }
   std::vector<Fault>& faults() { return faults_; }
 
  private:
+  /// An array or object that is not closed yet.
   struct Level {
-    bool is_array = false;
-    std::size_t elements = 0;
-    std::string key;
-    std::set<std::string> keys;
+    Json value;
+    std::string key;  ///< of the member that comes next
+    std::unordered_set<std::string> keys;
   };
 
-  void begin_element() {
-    if (!open_.empty() && open_.back().is_array)
-      open_.back().key = std::to_string(open_.back().elements++);
+  bool open(Json value) {
+    levels_.push_back({std::move(value), "", {}});
+    return true;
   }
-  void note_key(std::string key) {
-    Level& level = open_.back();
-    const bool is_new = level.keys.insert(key).second;
-    level.key = std::move(key);
-    if (is_new) return;
-    std::string place = file_ + ":";
-    for (const Level& outer : open_) place.append("/").append(pointer_token(outer.key));
-    faults_.push_back({std::move(place), "this key stands twice in its object; keep one"});
-  }
+  bool add(Json value);
+  bool close();
 
   std::string file_;
-  std::vector<Level> open_;
+  std::string_view text_;
+  std::vector<Level> levels_;
+  Json document_;
   std::vector<Fault> faults_;
 };
+
+bool DocumentBuilder::add(Json value) {
+  if (levels_.empty()) {
+    document_ = std::move(value);
+  } else if (Level& level = levels_.back(); level.value.is_array()) {
+    level.value.push_back(std::move(value));
+  } else {
+    // The members of an ordered object are a vector of pairs, whose keys are already known to differ.
+    std::vector<Json::object_t::value_type>& members = level.value.get_ref<Json::object_t&>();
+    members.emplace_back(std::move(level.key), std::move(value));
+  }
+  return true;
+}
+
+bool DocumentBuilder::close() {
+  Json value = std::move(levels_.back().value);
+  levels_.pop_back();
+  return add(std::move(value));
+}
+
+bool DocumentBuilder::key(string_t& value) {
+  Level& level = levels_.back();
+  level.key = std::move(value);
+  if (level.keys.insert(level.key).second || faults_.size() >= kMaxFaults) return true;
+  std::string place = file_ + ":";
+  for (const Level& outer : levels_) {
+    const bool is_array = outer.value.is_array();
+    place.append("/").append(is_array ? std::to_string(outer.value.size())
+                                      : pointer_token(outer.key));
+  }
+  faults_.push_back({std::move(place), "this key stands twice in its object; keep one"});
+  return true;
+}
 
 /// The parser's own words, without its prefix "[json.exception...] ... at line 3, column 5: ".
 std::string reason_of(const Json::exception& error) {
@@ -79,14 +141,18 @@ std::string reason_of(const Json::exception& error) {
   return prefix == std::string::npos ? text : text.substr(prefix + 2);
 }
 
-/// Where the literal stands that "number overflow parsing '1e999'" names.
-std::string place_of_overflow(const std::string& file, std::string_view text,
-                              std::string_view reason) {
-  const std::size_t open = reason.find('\'');
-  const std::size_t close = reason.rfind('\'');
-  if (open == close) return file;
-  const std::size_t found = text.find(reason.substr(open + 1, close - open - 1));
-  return found == std::string_view::npos ? file : place_of(file, text, found);
+bool DocumentBuilder::parse_error(std::size_t position, const std::string& last_token,
+                                  const Json::exception& error) {
+  const std::string reason = reason_of(error);
+  if (dynamic_cast<const Json::out_of_range*>(&error) != nullptr) {
+    const std::size_t begin = position - std::min(position, last_token.size());
+    faults_ = {{place_of(file_, text_, begin), "a number is out of range: " + reason}};
+  } else {
+    // `position` counts what was read, the byte in fault included.
+    const std::size_t offset = position == 0 ? 0 : position - 1;
+    faults_ = {{place_of(file_, text_, offset), "this is not valid JSON: " + reason}};
+  }
+  return false;
 }
 
 /// nlohmann would print NaN and infinity as null, silently.
@@ -103,29 +169,20 @@ void require_finite(const Json& value, const std::string& pointer) {
 
 }  // namespace
 
+Result<Json> read_json_text(std::string_view text, const std::string& file) {
+  if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) {
+    return input_error(file, "the file is empty; expected a JSON object");
+  }
+  if (auto fault = beyond_bounds(file, text)) return input_errors({std::move(*fault)});
+  DocumentBuilder builder(file, text);
+  Json::sax_parse(text, &builder);
+  if (!builder.faults().empty()) return input_errors(std::move(builder.faults()));
+  return std::move(builder.document());
+}
+
 Result<Json> read_json_file(const std::filesystem::path& path) {
-  const auto text = read_file(path);
-  if (!text) return tl::unexpected(text.error());
-  const std::string name = path.string();
-  if (text->find_first_not_of(" \t\r\n") == std::string::npos) {
-    return input_error(name, "the file is empty; expected a JSON object");
-  }
-  DuplicateKeys duplicates(name);
-  Json json;
-  try {
-    json = Json::parse(*text, std::ref(duplicates));
-  } catch (const Json::parse_error& error) {
-    // `byte` counts what was read, the byte in fault included.
-    const std::size_t offset = error.byte == 0 ? 0 : error.byte - 1;
-    return input_error(place_of(name, *text, offset),
-                       "this is not valid JSON: " + reason_of(error));
-  } catch (const Json::out_of_range& error) {
-    const std::string reason = reason_of(error);
-    return input_error(place_of_overflow(name, *text, reason),
-                       fmt::format("a number is out of range: {}", reason));
-  }
-  if (!duplicates.faults().empty()) return input_errors(std::move(duplicates.faults()));
-  return json;
+  AWMR_ASSIGN_OR_RETURN(const std::string text, read_input(path, kMaxJsonBytes));
+  return read_json_text(text, path.string());
 }
 
 std::string to_text(const Json& json) {

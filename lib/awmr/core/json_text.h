@@ -1,10 +1,12 @@
-/// Texts that the JSON sources share.
+/// What the JSON sources share.
 #pragma once
 
 #include <string>
 #include <string_view>
 
 namespace awmr {
+
+inline constexpr std::size_t kMaxFaults = 100;  ///< of a file; more are of no use
 
 /// A key inside a JSON pointer. [RFC 6901, section 3]
 inline std::string pointer_token(std::string_view key) {
@@ -19,11 +21,6 @@ inline std::string pointer_token(std::string_view key) {
     }
   }
   return text;
-}
-
-/// The second and later bytes of a UTF-8 character are 10xxxxxx.
-inline bool continues_character(char byte) {
-  return (static_cast<unsigned char>(byte) & 0xC0U) == 0x80U;
 }
 
 }  // namespace awmr

@@ -7,6 +7,8 @@
 namespace awmr {
 namespace {
 
+constexpr std::size_t kLongestCompared = 100;  ///< bytes; the distance takes the product of lengths
+
 /// Levenshtein distance, one row at a time.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
@@ -28,7 +30,9 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 std::string nearest(std::string_view word, std::span<const std::string> candidates) {
   std::size_t best = std::max<std::size_t>(1, word.size() / 3) + 1;
   std::string found;
+  if (word.size() > kLongestCompared) return found;
   for (const std::string& candidate : candidates) {
+    if (candidate.size() > kLongestCompared) continue;
     const std::size_t distance = edit_distance(word, candidate);
     if (distance < best) {
       best = distance;

@@ -3,7 +3,7 @@
 #include <string_view>
 
 #include "awmr/core/hash.h"
-#include "awmr/core/json_text.h"
+#include "awmr/core/text.h"
 #include "awmr/core/units.h"
 #include "awmr/emit/emit.h"
 #include "literals.h"

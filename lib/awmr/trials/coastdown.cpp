@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "agreement.h"
+#include "awmr/core/csv_text.h"
 #include "trial_reader.h"
 
 namespace awmr {
@@ -68,7 +69,7 @@ void read_curves(TrialReader& reader, CoastdownSet& set) {
   const auto close = [&] {
     if (set.curves.empty() || set.curves.back().t_s.size() >= kShortestCurve) return;
     const CoastCurve& curve = set.curves.back();
-    reader.faults().push_back({fmt::format("{}:{}:1", curve.file, curve.line),
+    reader.faults().push_back({fmt::format("{}:{}:1", reader.table().file(), curve.line),
                                fmt::format("this coast-down has {} rows; record at least {}",
                                            curve.t_s.size(), kShortestCurve)});
   };
@@ -77,7 +78,7 @@ void read_curves(TrialReader& reader, CoastdownSet& set) {
     const double this_run = reader.cell(i, "run").value_or(0.0);
     if (run != this_run) {
       close();
-      set.curves.push_back({reader.table().file(), reader.table().line(i), {}, {}});
+      set.curves.push_back({finding_file(reader.table()), reader.table().line(i), {}, {}});
       run = this_run;
     } else if (!(t_s > set.curves.back().t_s.back())) {
       reader.fault(i, "t_s",
@@ -102,7 +103,7 @@ Result<CoastdownSet> read_coastdown(const std::filesystem::path& path, const Tri
   if (!reader.faults().empty()) return input_errors(std::move(reader.faults()));
 
   CoastdownSet set;
-  set.file = reader.table().file();
+  set.file = finding_file(reader.table());
   if (is_curve(reader)) {
     read_curves(reader, set);
   } else {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "awmr/core/csv_text.h"
 #include "awmr/core/units.h"
 #include "trial_reader.h"
 
@@ -200,7 +201,7 @@ Result<DrivingLog> read_log(const std::filesystem::path& path, const TrialOption
   if (reader.faults().empty() && reader.has("latitude_deg")) add_geographic(reader, log);
   if (!reader.faults().empty()) return input_errors(std::move(reader.faults()));
 
-  log.file = reader.table().file();
+  log.file = finding_file(reader.table());
   for (std::size_t i = 0; i < reader.table().rows(); ++i)
     log.line.push_back(reader.table().line(i));
   log.t_s = values_of(reader, "t_s", 1.0);

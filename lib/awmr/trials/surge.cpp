@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "awmr/core/csv_text.h"
 #include "trial_reader.h"
 
 namespace awmr {
@@ -56,7 +57,7 @@ Result<TrialSet<SurgeRow>> read_surge(const std::filesystem::path& path,
   check_columns(reader);
   if (!reader.faults().empty()) return input_errors(std::move(reader.faults()));
 
-  TrialSet<SurgeRow> set{reader.table().file(), {}, 0};
+  TrialSet<SurgeRow> set{finding_file(reader.table()), {}, 0};
   std::vector<std::size_t> set_aside;
   for (std::size_t i = 0; i < reader.table().rows(); ++i) {
     const double tau_speed = tau_speed_of(reader, i, findings);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "agreement.h"
+#include "awmr/core/csv_text.h"
 
 namespace awmr {
 
@@ -31,7 +32,7 @@ void TrialReader::header_fault(std::string message) {
 
 Finding TrialReader::finding(std::size_t row, Severity severity, std::string code,
                              std::string message) const {
-  return {table_.file(), table_.line(row), severity, std::move(code), std::move(message)};
+  return {finding_file(table_), table_.line(row), severity, std::move(code), std::move(message)};
 }
 
 double TrialReader::last_place(std::string_view column) const {

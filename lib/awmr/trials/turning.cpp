@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "awmr/core/csv_text.h"
 #include "awmr/core/units.h"
 #include "trial_reader.h"
 
@@ -112,7 +113,7 @@ Result<TrialSet<TurningRow>> read_turning(const std::filesystem::path& path, con
   check_columns(reader);
   if (!reader.faults().empty()) return input_errors(std::move(reader.faults()));
 
-  TrialSet<TurningRow> set{reader.table().file(), {}, 0};
+  TrialSet<TurningRow> set{finding_file(reader.table()), {}, 0};
   std::vector<std::size_t> set_aside;
   for (std::size_t i = 0; i < reader.table().rows(); ++i) {
     const auto row = read_row(reader, i, vehicle, options.preference, findings);

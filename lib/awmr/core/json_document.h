@@ -1,0 +1,21 @@
+/// A JSON document that is in memory already, and the bounds of every document. They are far beyond
+/// what any of the program's files holds.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+#include "awmr/core/json.h"
+
+namespace awmr {
+
+inline constexpr std::size_t kMaxJsonBytes = std::size_t{64} << 20U;
+inline constexpr std::size_t kMaxJsonDepth = 64;          ///< arrays and objects in each other
+inline constexpr std::size_t kMaxJsonValues = 2'000'000;  ///< in all
+
+/// Parses a text, in time and memory that grow as its length; `file` names it in errors. Errors:
+/// beyond a bound, syntax, a number out of range (all `FILE:LINE:COLUMN`); duplicate keys.
+Result<Json> read_json_text(std::string_view text, const std::string& file);
+
+}  // namespace awmr

@@ -1,0 +1,92 @@
+#include "awmr/core/temporary_file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <signal.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <charconv>
+#include <string>
+
+namespace awmr {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kPrefix = ".awmr-";
+constexpr std::size_t kRandomCharacters = 6;  ///< as mkostemp makes them
+
+/// The process that made a temporary file, by the file's name.
+std::optional<pid_t> maker_of(std::string_view name) {
+  if (!name.starts_with(kPrefix)) return std::nullopt;
+  name.remove_prefix(kPrefix.size());
+  pid_t number = 0;
+  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
+  const std::string_view rest = name.substr(static_cast<std::size_t>(end - name.data()));
+  const bool fits = error == std::errc() && number > 0 && rest.size() == kRandomCharacters + 1;
+  return fits && rest[0] == '-' ? std::optional(number) : std::nullopt;
+}
+
+bool is_running(pid_t process) { return ::kill(process, 0) == 0 || errno != ESRCH; }
+
+}  // namespace
+
+Descriptor::~Descriptor() {
+  if (number_ >= 0) ::close(number_);
+}
+
+bool write_all(int descriptor, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t count = ::write(descriptor, bytes.data(), bytes.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) return false;
+    bytes.remove_prefix(static_cast<std::size_t>(count));
+  }
+  return true;
+}
+
+std::optional<TemporaryFile> TemporaryFile::in(const fs::path& directory) {
+  std::string name = (directory / fmt::format("{}{}-XXXXXX", kPrefix, ::getpid())).string();
+  Descriptor file(::mkostemp(name.data(), O_CLOEXEC));
+  if (file.number() < 0) return std::nullopt;
+  // Where the file system knows no locks, the number of the process is all there is.
+  (void)::flock(file.number(), LOCK_EX | LOCK_NB);
+  return TemporaryFile(name, std::move(file));
+}
+
+TemporaryFile::TemporaryFile(TemporaryFile&& other) noexcept
+    : path_(std::exchange(other.path_, {})), file_(std::move(other.file_)) {}
+
+TemporaryFile::~TemporaryFile() {
+  if (!path_.empty()) ::unlink(path_.c_str());
+}
+
+bool TemporaryFile::write(std::string_view bytes, mode_t mode) {
+  return write_all(file_.number(), bytes) && ::fchmod(file_.number(), mode) == 0 &&
+         ::fsync(file_.number()) == 0;
+}
+
+bool TemporaryFile::rename_to(const fs::path& target) {
+  if (::rename(path_.c_str(), target.c_str()) != 0) return false;
+  path_.clear();
+  return true;
+}
+
+void remove_stale_temporaries(const fs::path& directory) {
+  std::error_code error;
+  for (fs::directory_iterator it(directory, error), end; !error && it != end; it.increment(error)) {
+    const auto maker = maker_of(it->path().filename().native());
+    if (!maker || is_running(*maker)) continue;
+    const Descriptor file(
+        ::open(it->path().c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK));
+    struct stat status {};
+    if (file.number() < 0 || ::fstat(file.number(), &status) != 0) continue;
+    if (!S_ISREG(status.st_mode) || ::flock(file.number(), LOCK_EX | LOCK_NB) != 0) continue;
+    ::unlink(it->path().c_str());
+  }
+}
+
+}  // namespace awmr

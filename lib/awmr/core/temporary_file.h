@@ -1,0 +1,54 @@
+/// Files under a temporary name, which is how an output appears whole. Used by file.cpp alone.
+#pragma once
+
+#include <sys/types.h>
+
+#include <filesystem>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+namespace awmr {
+
+/// Closes a descriptor at the end of its scope.
+class Descriptor {
+ public:
+  explicit Descriptor(int number) : number_(number) {}
+  ~Descriptor();
+  Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
+  Descriptor& operator=(Descriptor&&) = delete;
+  int number() const { return number_; }
+
+ private:
+  int number_;
+};
+
+/// False where writing fails; errno says why.
+bool write_all(int descriptor, std::string_view bytes);
+
+/// `DIRECTORY/.awmr-PID-XXXXXX`, short enough for any file system, whatever the output's name. Goes
+/// away with the object unless it was renamed.
+class TemporaryFile {
+ public:
+  /// Nothing where it cannot be made; errno says why.
+  static std::optional<TemporaryFile> in(const std::filesystem::path& directory);
+  ~TemporaryFile();
+  TemporaryFile(TemporaryFile&& other) noexcept;
+  TemporaryFile& operator=(TemporaryFile&&) = delete;
+
+  /// Writes and flushes; false where that fails.
+  bool write(std::string_view bytes, mode_t mode);
+  bool rename_to(const std::filesystem::path& target);
+
+ private:
+  TemporaryFile(std::filesystem::path path, Descriptor file)
+      : path_(std::move(path)), file_(std::move(file)) {}
+  std::filesystem::path path_;  ///< empty: nothing to remove
+  Descriptor file_;
+};
+
+/// Removes the temporary files in `directory` whose program is gone: no process has their number,
+/// and nobody holds their lock (on another machine, where numbers mean other processes).
+void remove_stale_temporaries(const std::filesystem::path& directory);
+
+}  // namespace awmr

@@ -1,0 +1,146 @@
+/// What the program could destroy, or claim wrongly of its inputs.
+#include <gmock/gmock.h>
+#include <sys/stat.h>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/program.h"
+
+namespace awmr::testing {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+namespace fs = std::filesystem;
+
+class DataLoss : public ::testing::Test {
+ protected:
+  DataLoss() {
+    fs::copy(std::string(AWMR_SOURCE_DIR) + "/configs/paper/vehicle.json", path("vehicle.json"));
+    fs::copy(std::string(AWMR_SOURCE_DIR) + "/datasets/paper/surge.csv", path("surge.csv"));
+  }
+  std::string path(const std::string& name) const { return (directory_.path() / name).string(); }
+  std::string text(const std::string& name) const { return read_all(path(name)); }
+  /// Identifies from the surge table that lies here, by whatever path.
+  ProcessResult identify(const std::string& surge, const std::string& output,
+                         const std::string& before = "", const std::string& after = "") {
+    return awmr_after(before, "identify --vehicle " + path("vehicle.json") + " --surge " + surge +
+                                  " -o " + output + " " + after);
+  }
+  ProcessResult awmr_after(const std::string& before, const std::string& arguments) {
+    return run_process(before + std::string(AWMR_PROGRAM) + " " + arguments, AWMR_SOURCE_DIR);
+  }
+  TemporaryDirectory directory_;
+};
+
+TEST_F(DataLoss, AnOutputThatWasAnInputWasDestroyed) {
+  const std::string surge = text("surge.csv");
+  fs::create_symlink("surge.csv", path("link"));
+  for (const char* output : {"surge.csv", "link", "./link", "../surge.csv"}) {
+    fs::create_directory(path("d"));
+    const std::string typed =
+        output[0] == '.' && output[1] == '.' ? path("d/") + output : path(output);
+    const ProcessResult result = identify(path("surge.csv"), typed);
+    EXPECT_EQ(result.exit_code, 2) << output;
+    EXPECT_THAT(result.err, HasSubstr("it is the input"));
+    EXPECT_EQ(text("surge.csv"), surge);
+  }
+}
+
+TEST_F(DataLoss, AReadOnlyModelWasReplaced) {
+  write_all(path("model.json"), "precious");
+  ASSERT_EQ(::chmod(path("model.json").c_str(), 0444), 0);
+  EXPECT_EQ(identify(path("surge.csv"), path("model.json")).exit_code, 2);
+  EXPECT_EQ(text("model.json"), "precious");
+}
+
+TEST_F(DataLoss, FullStandardOutputGaveExitZero) {
+  const ProcessResult result =
+      identify(path("surge.csv"), path("model.json"), "", "--fit surge.alpha >/dev/full");
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("cannot write to standard output"));
+  EXPECT_EQ(awmr("--help >/dev/full").exit_code, 2);
+  EXPECT_EQ(awmr("identify --help >/dev/full").exit_code, 2);
+}
+
+TEST_F(DataLoss, ALimitOfTheFileSizeEndedTheProgramAndLeftATemporaryFile) {
+  const ProcessResult result = identify(path("surge.csv"), path("model.json"), "ulimit -f 1; ");
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("File too large"));
+  for (const auto& entry : fs::directory_iterator(directory_.path())) {
+    EXPECT_THAT(entry.path().filename().string(), Not(HasSubstr(".awmr")));
+  }
+}
+
+TEST_F(DataLoss, APipeWasHashedAsAnEmptyFile) {
+  ASSERT_EQ(identify(path("surge.csv"), path("file.json"), "", "--fit surge.alpha").exit_code, 0);
+  ASSERT_EQ(identify("/dev/stdin", path("pipe.json"), "cat " + path("surge.csv") + " | ",
+                     "--fit surge.alpha")
+                .exit_code,
+            0);
+  const auto hash = [&](const char* name) {
+    return nlohmann::json::parse(text(name))["inputs"][1]["sha256"].get<std::string>();
+  };
+  EXPECT_EQ(hash("pipe.json"), hash("file.json"));
+}
+
+TEST_F(DataLoss, TheSpellingOfAPathChangedTheModel) {
+  fs::create_directory(path("d"));
+  const std::string disagreeing = "wheel_force,tau_speed,speed_mps\n1,4,0.5\n2,9,1.1\n3,12,1.7\n";
+  write_all(path("rows.csv"), disagreeing);
+  const std::string fit = "--fit surge.alpha,surge.beta";
+  ASSERT_EQ(identify(path("rows.csv"), path("a.json"), "", fit).exit_code, 0);
+  ASSERT_EQ(identify(path("d/../././rows.csv"), path("b.json"), "", fit).exit_code, 0);
+  EXPECT_EQ(text("a.json"), text("b.json"));
+  EXPECT_THAT(text("a.json"), HasSubstr("tau-speed-mismatch"));
+  EXPECT_THAT(text("a.json"), Not(HasSubstr(directory_.path().string())));
+}
+
+TEST_F(DataLoss, AnEndlessInputNeverEnded) {
+  const ProcessResult result = awmr("identify --vehicle /dev/zero --surge " + path("surge.csv") +
+                                    " -o " + path("model.json"));
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("longer than 64 MiB"));
+}
+
+TEST_F(DataLoss, ControlCharactersOfANameReachedTheTerminal) {
+  std::string vehicle = text("vehicle.json");
+  const std::size_t name = vehicle.find("\"name\": \"") + 9;
+  vehicle.insert(name, "\\u001b[2J\\u009b");
+  write_all(path("vehicle.json"), vehicle);
+  const ProcessResult result = identify(path("surge.csv"), path("model.json"));
+  EXPECT_THAT(result.out, HasSubstr("\\x1b[2J"));
+  EXPECT_THAT(result.out + result.err, Not(HasSubstr("\x1B")));
+  write_all(path("a\x1B[2J.csv"), "x\n");
+  EXPECT_THAT(identify("'" + path("a\x1B[2J.csv") + "'", path("model.json")).err,
+              Not(HasSubstr("\x1B")));
+}
+
+TEST_F(DataLoss, ATenMegabyteCellMadeATenMegabyteLine) {
+  write_all(path("surge.csv"), "tau_speed,speed_mps\n1," + std::string(10'000'000, 'x') + "\n");
+  const ProcessResult result = identify(path("surge.csv"), path("model.json"));
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_LT(result.err.size(), 5000U);
+  write_all(path("surge.csv"), std::string(10'000'000, 'x') + ",speed_mps\n1,2\n");
+  EXPECT_LT(identify(path("surge.csv"), path("model.json")).err.size(), 5000U);
+}
+
+TEST_F(DataLoss, TwoScenariosWithOneFileNameOverwroteEachOther) {
+  fs::create_directory(path("d"));
+  const std::string scenario =
+      std::string(AWMR_SOURCE_DIR) + "/configs/paper/scenarios/c3_heading_steps.json";
+  fs::copy(scenario, path("s.json"));
+  fs::copy(scenario, path("d/s.json"));
+  write_all(path("project.json"),
+            R"({"vehicle": "vehicle.json", "trials": {"surge": "surge.csv"},
+                "compare": {"scenarios": ["s.json", "d/s.json", "missing.json"]}})");
+  const ProcessResult result = awmr("run " + path("project.json") + " -o " + path("out"));
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("two scenarios have the file name s.json"));
+  EXPECT_THAT(result.err, HasSubstr("missing.json"));  // before any step
+  EXPECT_FALSE(fs::exists(path("out")));
+}
+
+}  // namespace
+}  // namespace awmr::testing

@@ -1,0 +1,19 @@
+/// A column mapping is read with a scale that can be undone, or refused.
+#include <cmath>
+
+#include "awmr/core/csv.h"
+#include "fuzz/target.h"
+
+using awmr::fuzz::require;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const auto mapping = awmr::parse_column_mapping(awmr::fuzz::text_of(data, size));
+  if (!mapping) {
+    require(awmr::to_text(mapping.error()).size() < 5'000, "an error can be read");
+    return 0;
+  }
+  require(!mapping->name.empty() && !mapping->source.empty(), "a mapping has two names");
+  require(std::isfinite(mapping->scale) && mapping->scale != 0.0, "a scale can be undone");
+  require(std::isfinite(mapping->offset), "an offset is finite");
+  return 0;
+}

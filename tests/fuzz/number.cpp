@@ -1,0 +1,31 @@
+/// A number reads back the same bits; a text reads back from its cell; what is shown steers nothing.
+#include <bit>
+#include <cmath>
+
+#include "awmr/core/csv.h"
+#include "awmr/core/csv_cell.h"
+#include "awmr/core/text.h"
+#include "fuzz/target.h"
+
+using awmr::fuzz::require;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string_view text = awmr::fuzz::text_of(data, size);
+  if (const auto number = awmr::number_from_text(text)) {
+    require(std::isfinite(*number), "a number is finite");
+    const auto again = awmr::number_from_text(awmr::format_number(*number));
+    require(again && std::bit_cast<std::uint64_t>(*again) == std::bit_cast<std::uint64_t>(*number),
+            "a number reads back the same bits");
+  } else {
+    require(number.error().size() < 1000, "a message can be read");
+  }
+  const std::string line = awmr::cell_of_text(text) + ",x\n";
+  std::string_view rest = line;
+  const auto cells = awmr::take_text_record(rest);
+  require(cells.size() == 2 && cells[0] == text && rest.empty(), "a text reads back from its cell");
+  for (const char c : awmr::printable(text)) {
+    require(static_cast<unsigned char>(c) >= 0x20 && c != 0x7F, "no control character is shown");
+  }
+  require(awmr::shortened(text, 30).size() <= 35, "a shortened text is short");
+  return 0;
+}
