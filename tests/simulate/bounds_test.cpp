@@ -90,7 +90,7 @@ double largest_speed(const Plant<double>& p, const Scenario& s, double force) {
 void is_finite_bounded_and_within_limits(double beyond) {
   const Plant<double> plant = any_plant(beyond);
   const Scenario scenario = any_scenario(beyond);
-  Vehicle vehicle = reversible_vehicle();
+  Vehicle vehicle = paper_vehicle();
   const auto controller = make_controller(plant, vehicle, {{3.0, 50.0, 12.0}, {2.0 * beyond, 0.5}});
   // Time constants of microseconds are as well tested by the few that the box's inside has.
   if (substeps_for(plant, 0.01) > 500) return;
@@ -126,7 +126,7 @@ Scenario coasting(double r_radps, double duration_s = 2.0) {
 }
 
 awmr::Run run_of(const Plant<double>& plant, const Scenario& scenario) {
-  return simulate(plant, make_controller(plant, reversible_vehicle(), {}), scenario,
+  return simulate(plant, make_controller(plant, paper_vehicle(), {}), scenario,
                   YawMode::kDifferential, {});
 }
 
@@ -204,7 +204,7 @@ TEST(Bounds, AHeadingManyTurnsAwayTakesNoLongerThanAnyOther) {
   const auto start = std::chrono::steady_clock::now();
   const Plant<double> plant = paper_plant();
   const awmr::Run run =
-      simulate(plant, make_controller(plant, reversible_vehicle(), {{3, 50, 12}, {2, 0.5}}),
+      simulate(plant, make_controller(plant, paper_vehicle(), {{3, 50, 12}, {2, 0.5}}),
                scenario, YawMode::kCombined, {});
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
   EXPECT_EQ(run.end, RunEnd::kDuration);
