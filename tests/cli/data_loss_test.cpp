@@ -1,4 +1,5 @@
 /// What the program could destroy, or claim wrongly of its inputs.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <sys/stat.h>
 
@@ -25,11 +26,11 @@ class DataLoss : public ::testing::Test {
   /// Identifies from the surge table that lies here, by whatever path.
   ProcessResult identify(const std::string& surge, const std::string& output,
                          const std::string& before = "", const std::string& after = "") {
-    return awmr_after(before, "identify --vehicle " + path("vehicle.json") + " --surge " + surge +
-                                  " -o " + output + " " + after);
+    return awmr_after(before, fmt::format("identify --vehicle {} --surge {} -o {} {}",
+                                          path("vehicle.json"), surge, output, after));
   }
   ProcessResult awmr_after(const std::string& before, const std::string& arguments) {
-    return run_process(before + std::string(AWMR_PROGRAM) + " " + arguments, AWMR_SOURCE_DIR);
+    return run_process(fmt::format("{}{} {}", before, AWMR_PROGRAM, arguments), AWMR_SOURCE_DIR);
   }
   TemporaryDirectory directory_;
 };
@@ -75,7 +76,7 @@ TEST_F(DataLoss, ALimitOfTheFileSizeEndedTheProgramAndLeftATemporaryFile) {
 
 TEST_F(DataLoss, APipeWasHashedAsAnEmptyFile) {
   ASSERT_EQ(identify(path("surge.csv"), path("file.json"), "", "--fit surge.alpha").exit_code, 0);
-  ASSERT_EQ(identify("/dev/stdin", path("pipe.json"), "cat " + path("surge.csv") + " | ",
+  ASSERT_EQ(identify("/dev/stdin", path("pipe.json"), fmt::format("cat {} | ", path("surge.csv")),
                      "--fit surge.alpha")
                 .exit_code,
             0);
@@ -98,8 +99,8 @@ TEST_F(DataLoss, TheSpellingOfAPathChangedTheModel) {
 }
 
 TEST_F(DataLoss, AnEndlessInputNeverEnded) {
-  const ProcessResult result = awmr("identify --vehicle /dev/zero --surge " + path("surge.csv") +
-                                    " -o " + path("model.json"));
+  const ProcessResult result = awmr(fmt::format("identify --vehicle /dev/zero --surge {} -o {}",
+                                                path("surge.csv"), path("model.json")));
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_THAT(result.err, HasSubstr("longer than 64 MiB"));
 }
@@ -113,12 +114,13 @@ TEST_F(DataLoss, ControlCharactersOfANameReachedTheTerminal) {
   EXPECT_THAT(result.out, HasSubstr("\\x1b[2J"));
   EXPECT_THAT(result.out + result.err, Not(HasSubstr("\x1B")));
   write_all(path("a\x1B[2J.csv"), "x\n");
-  EXPECT_THAT(identify("'" + path("a\x1B[2J.csv") + "'", path("model.json")).err,
+  EXPECT_THAT(identify(fmt::format("'{}'", path("a\x1B[2J.csv")), path("model.json")).err,
               Not(HasSubstr("\x1B")));
 }
 
 TEST_F(DataLoss, ATenMegabyteCellMadeATenMegabyteLine) {
-  write_all(path("surge.csv"), "tau_speed,speed_mps\n1," + std::string(10'000'000, 'x') + "\n");
+  write_all(path("surge.csv"),
+            fmt::format("tau_speed,speed_mps\n1,{}\n", std::string(10'000'000, 'x')));
   const ProcessResult result = identify(path("surge.csv"), path("model.json"));
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_LT(result.err.size(), 5000U);
@@ -135,7 +137,7 @@ TEST_F(DataLoss, TwoScenariosWithOneFileNameOverwroteEachOther) {
   write_all(path("project.json"),
             R"({"vehicle": "vehicle.json", "trials": {"surge": "surge.csv"},
                 "compare": {"scenarios": ["s.json", "d/s.json", "missing.json"]}})");
-  const ProcessResult result = awmr("run " + path("project.json") + " -o " + path("out"));
+  const ProcessResult result = awmr(fmt::format("run {} -o {}", path("project.json"), path("out")));
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_THAT(result.err, HasSubstr("two scenarios have the file name s.json"));
   EXPECT_THAT(result.err, HasSubstr("missing.json"));  // before any step
