@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "awmr/core/option_text.h"
 #include "awmr/model/steady.h"
 #include "identify/synthetic.h"
 
@@ -81,7 +82,8 @@ TEST(Families, AutoPrefersThePowerLawWhereItIsTheTruthAndLeavesItWhereItIsNot) {
   ASSERT_TRUE(forced);
   const Finding* verdict = finding(forced->model, "power-law-inadequate");
   ASSERT_NE(verdict, nullptr);
-  EXPECT_THAT(verdict->message, ::testing::HasSubstr("use --family coulomb-linear"));
+  EXPECT_THAT(verdict->message,
+              ::testing::HasSubstr("use " + option_text("family coulomb-linear")));
 }
 
 TEST(Families, TheDeadZoneOfTheWheelsFreesTheTurningRuns) {

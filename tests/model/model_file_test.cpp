@@ -119,8 +119,12 @@ TEST(ModelFile, RoundTripsArbitraryNumbersAndGaps) {
   for (int i = 0; i < 200; ++i) {
     Model model = some_model();
     for (Estimate& estimate : model.estimates) {
-      // Magnitudes over 600 decades; a third of the values unknown.
-      const double value = std::pow(10.0, 600.0 * random.uniform() - 300.0);
+      // Magnitudes over all that the reader takes (ranges.h); a third of the values unknown.
+      const auto id = static_cast<ParameterId>(&estimate - model.estimates.data());
+      const bool exponent = id == ParameterId::kSurgeBeta || id == ParameterId::kYawBeta;
+      const bool time = id == ParameterId::kSteeringTimeConstant;
+      const double decades = time ? 9.0 * random.uniform() - 6.0 : 18.0 * random.uniform() - 9.0;
+      const double value = exponent ? 20.0 * random.uniform() : std::pow(10.0, decades);
       estimate.value = random.uniform() < 0.33 ? std::nullopt : std::optional(value);
       estimate.std_error = random.uniform() < 0.5 ? std::nullopt : std::optional(value * 0.1);
       estimate.ci95 =

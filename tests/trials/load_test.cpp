@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "steady_log.h"
 #include "trial_text.h"
 
 namespace awmr::testing {
@@ -78,14 +79,17 @@ TEST(LoadTrials, NoFileAndSteadyRunsWithoutALogAreRefused) {
 }
 
 TEST(LoadTrials, SteadyRunsOfALogJoinTheRowsOfATable) {
+  const ScratchFile log("steady.csv", steady_log_text());
   TrialFiles files = paper_files();
-  files.logs = {kSynthetic / "drive_1.csv"};
+  files.logs = {log.path()};
   files.steady_from_logs = true;
   const auto trials = load_trials(files);
   ASSERT_TRUE(trials) << to_text(trials.error());
   EXPECT_THAT(trials->data.logs, SizeIs(1));
-  EXPECT_GT(trials->data.surge->rows.size() + trials->data.turning->rows.size(), 15u);
-  EXPECT_EQ(trials->data.surge->file, (kPaper / "surge.csv").string());
+  // Ten and five rows of the tables, and one of each kind from the log.
+  EXPECT_THAT(trials->data.surge->rows, SizeIs(11));
+  EXPECT_THAT(trials->data.turning->rows, SizeIs(6));
+  EXPECT_EQ(trials->data.surge->file, "surge.csv");
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ auto accepted(Reader read, const std::string& text, const TrialOptions& options 
   std::vector<Finding> findings;
   auto set = read(file.path(), options, findings);
   if (!set) ADD_FAILURE() << to_text(set.error());
-  for (const Finding& finding : findings) EXPECT_EQ(finding.file, file.path().string());
+  for (const Finding& finding : findings) EXPECT_EQ(finding.file, file.path().filename().string());
   using Set = typename decltype(set)::value_type;
   return Read<Set>{set ? *set : Set{}, findings};
 }
