@@ -289,6 +289,45 @@ std::optional<Contradiction> judge_speed(const Evidence& evidence) {
                        scaled_mapping(evidence, "speed_mps", factor)};
 }
 
+/// The partial regression of a rate on the two moments; 0 where a moment's share is not shown.
+struct MomentShares {
+  double steering = 0.0;
+  double sides = 0.0;
+};
+
+MomentShares moment_shares(const std::vector<WindowSums>& windows,
+                           double (*rate)(const WindowSums&)) {
+  double ss = 0.0, sd = 0.0, dd = 0.0, sr = 0.0, dr = 0.0, rr = 0.0;
+  for (const WindowSums& w : windows) {
+    const double y = rate(w) / w.span_s;
+    ss += w.tau_steering_m * w.tau_steering_m;
+    sd += w.tau_steering_m * w.tau_diff_m;
+    dd += w.tau_diff_m * w.tau_diff_m;
+    sr += w.tau_steering_m * y;
+    dr += w.tau_diff_m * y;
+    rr += y * y;
+  }
+  const double n = static_cast<double>(windows.size());
+  const double determinant = ss * dd - sd * sd;
+  const bool steering_only = dd < 1e-6 * ss;
+  const bool sides_only = ss < 1e-6 * dd;
+  const bool apart = determinant > 1e-3 * ss * dd && !steering_only && !sides_only;
+  if (n < 10.0 || rr <= 0.0) return {};
+  constexpr double kSignificant = 5.0;  // standard errors
+  const auto shown = [&](double coefficient, double variance_factor, double explained) {
+    const double noise = std::max(0.0, rr - explained) / std::max(1.0, n - 2.0);
+    return std::abs(coefficient) > kSignificant * std::sqrt(noise * variance_factor) ? coefficient
+                                                                                     : 0.0;
+  };
+  if (steering_only) return {shown(sr / ss, 1.0 / ss, sr * sr / ss), 0};
+  if (sides_only) return {0.0, shown(dr / dd, 1.0 / dd, dr * dr / dd)};
+  if (!apart) return {};
+  const double bs = (sr * dd - dr * sd) / determinant;
+  const double bd = (dr * ss - sr * sd) / determinant;
+  const double explained = bs * sr + bd * dr;
+  return {shown(bs, dd / determinant, explained), shown(bd, ss / determinant, explained)};
+}
+
 /// How sharply the vehicle turns for its steering angle, over what its front axle allows:
 /// (r/u)/(tan d_r/l_f), at most about 1 for a vehicle that steers by its front axle. The angle is
 /// taken times `factor`; windows in which the sides would then turn the vehicle more than its
@@ -327,15 +366,23 @@ std::optional<Contradiction> judge_steering_unit(const Evidence& evidence) {
   // In radians the stop itself would read as 1.7 % of what it is in degrees.
   if (largest_deg > 0.025 * stop_deg) return std::nullopt;
   const double degree = 180.0 / pi<double>();
+  // As radians it turns no more sharply than its axle points, as degrees 57 times more; and a
+  // moment by steering turns it about as well as the same moment by the sides.
+  constexpr double kImpossible = 8.0;
+  const MomentShares shares = moment_shares(
+      evidence.windows, evidence.has(LogChannel::kHeading)
+                            ? [](const WindowSums& w) { return w.turned_rad; }
+                            : [](const WindowSums& w) { return w.rate_rad; });
   const auto sharp = sharpness(evidence, degree);
-  // As radians it turns no more sharply than its axle points; as degrees 57 times more.
-  constexpr double kImpossiblySharp = 8.0;
-  if (!sharp || *sharp * degree < kImpossiblySharp) return std::nullopt;
+  const double times = sharp                 ? *sharp * degree
+                       : shares.sides != 0.0 ? std::abs(shares.steering / shares.sides)
+                                             : 0.0;
+  if (times < kImpossible) return std::nullopt;
   return Contradiction{
       column,
       fmt::format("the vehicle turns {:.3g} times as sharply as its front axle points, whose "
                   "largest angle is {:.3g} % of the stop: the angle looks like radians",
-                  *sharp * degree, 100.0 * largest_deg / stop_deg),
+                  times, 100.0 * largest_deg / stop_deg),
       scaled_mapping(evidence, column, degree)};
 }
 
@@ -349,45 +396,6 @@ struct SignRelation {
   Signed b;
   int sign;
 };
-
-/// Signs of the partial regression of a rate on the two moments, 0 where one is not shown.
-struct MomentSigns {
-  int steering = 0;
-  int sides = 0;
-};
-
-MomentSigns moment_signs(const std::vector<WindowSums>& windows,
-                         double (*rate)(const WindowSums&)) {
-  double ss = 0.0, sd = 0.0, dd = 0.0, sr = 0.0, dr = 0.0, rr = 0.0;
-  for (const WindowSums& w : windows) {
-    const double y = rate(w) / w.span_s;
-    ss += w.tau_steering_m * w.tau_steering_m;
-    sd += w.tau_steering_m * w.tau_diff_m;
-    dd += w.tau_diff_m * w.tau_diff_m;
-    sr += w.tau_steering_m * y;
-    dr += w.tau_diff_m * y;
-    rr += y * y;
-  }
-  const double n = static_cast<double>(windows.size());
-  const double determinant = ss * dd - sd * sd;
-  const bool steering_only = dd < 1e-3 * ss;
-  const bool sides_only = ss < 1e-3 * dd;
-  const bool apart = determinant > 1e-3 * ss * dd && !steering_only && !sides_only;
-  if (n < 10.0 || rr <= 0.0) return {};
-  constexpr double kSignificant = 5.0;  // standard errors
-  const auto sign = [&](double coefficient, double variance_factor, double explained) {
-    const double noise = std::max(0.0, rr - explained) / std::max(1.0, n - 2.0);
-    const double t = coefficient / std::sqrt(noise * variance_factor);
-    return std::abs(t) > kSignificant ? (t > 0.0 ? 1 : -1) : 0;
-  };
-  if (steering_only) return {sign(sr / ss, 1.0 / ss, sr * sr / ss), 0};
-  if (sides_only) return {0, sign(dr / dd, 1.0 / dd, dr * dr / dd)};
-  if (!apart) return {};
-  const double bs = (sr * dd - dr * sd) / determinant;
-  const double bd = (dr * ss - sr * sd) / determinant;
-  const double explained = bs * sr + bd * dr;
-  return {sign(bs, dd / determinant, explained), sign(bd, ss / determinant, explained)};
-}
 
 /// +1: positions move where the heading points; -1: where its mirror image does; 0: cannot be told.
 int course_sign(const std::vector<WindowSums>& windows) {
@@ -409,6 +417,8 @@ int course_sign(const std::vector<WindowSums>& windows) {
   return 0;
 }
 
+int sign_of(double value) { return value > 0.0 ? 1 : (value < 0.0 ? -1 : 0); }
+
 std::vector<SignRelation> sign_relations(const Evidence& evidence) {
   std::vector<SignRelation> relations;
   const auto add = [&](Signed a, Signed b, int sign) {
@@ -417,14 +427,14 @@ std::vector<SignRelation> sign_relations(const Evidence& evidence) {
   const auto rate = [](const WindowSums& w) { return w.rate_rad; };
   const auto turn = [](const WindowSums& w) { return w.turned_rad; };
   if (evidence.has(LogChannel::kYawRate)) {
-    const MomentSigns signs = moment_signs(evidence.windows, rate);
-    add(Signed::kSteering, Signed::kYawRate, signs.steering);
-    add(Signed::kSides, Signed::kYawRate, signs.sides);
+    const MomentShares shares = moment_shares(evidence.windows, rate);
+    add(Signed::kSteering, Signed::kYawRate, sign_of(shares.steering));
+    add(Signed::kSides, Signed::kYawRate, sign_of(shares.sides));
   }
   if (!evidence.has(LogChannel::kHeading)) return relations;
-  const MomentSigns signs = moment_signs(evidence.windows, turn);
-  add(Signed::kSteering, Signed::kHeading, signs.steering);
-  add(Signed::kSides, Signed::kHeading, signs.sides);
+  const MomentShares shares = moment_shares(evidence.windows, turn);
+  add(Signed::kSteering, Signed::kHeading, sign_of(shares.steering));
+  add(Signed::kSides, Signed::kHeading, sign_of(shares.sides));
   if (evidence.has(LogChannel::kYawRate)) {
     const auto ratio = robust_ratio(series(evidence.windows, rate), series(evidence.windows, turn));
     if (ratio) add(Signed::kYawRate, Signed::kHeading, ratio->ratio > 0.0 ? 1 : -1);
