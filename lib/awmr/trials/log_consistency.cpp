@@ -9,6 +9,7 @@
 #include <complex>
 #include <optional>
 
+#include "awmr/core/option_text.h"
 #include "awmr/core/units.h"
 #include "awmr/trials/replay.h"
 #include "awmr/trials/robust_ratio.h"
@@ -153,7 +154,7 @@ std::string swapped_mapping(const Evidence& evidence) {
     }
     return fmt::format("\"{}\"", column);
   };
-  return fmt::format("force_left={} and force_right={}", source("force_right"),
+  return fmt::format("force_left={}' and column 'force_right={}", source("force_right"),
                      source("force_left"));
 }
 
@@ -278,7 +279,7 @@ std::optional<Contradiction> judge_speed(const Evidence& evidence) {
       fmt::format("the positions move {:.4g} times as far as the speed says", ratio->ratio);
   if (const auto unit = known_factor(ratio->ratio, kPositionUnits)) {
     return Contradiction{"x_m", compared + fmt::format(": the positions look like {}", unit->words),
-                         scaled_mapping(evidence, "x_m", 1.0 / unit->factor) + " and " +
+                         scaled_mapping(evidence, "x_m", 1.0 / unit->factor) + "' and column '" +
                              scaled_mapping(evidence, "y_m", 1.0 / unit->factor)};
   }
   const auto unit = known_factor(ratio->ratio, kSpeedUnits);
@@ -559,6 +560,40 @@ std::optional<GyroBias> gyro_bias(const DrivingLog& log) {
   const double error =
       1.2533 * 1.4826 * median(deviations) / std::sqrt(static_cast<double>(offsets.size()));
   return GyroBias{bias, error};
+}
+
+bool has_gyro_bias(const DrivingLog& log) {
+  constexpr double kPlain = 5.0;  // standard errors
+  const auto bias = gyro_bias(log);
+  return bias && std::abs(bias->bias_radps) > kPlain * bias->std_error_radps;
+}
+
+Status check_consistency(const DrivingLog& log, const std::string& place, const Vehicle& vehicle,
+                         const TrialOptions& options, std::vector<Finding>& findings) {
+  const std::vector<Contradiction> found = contradictions(log, vehicle, options.columns);
+  std::vector<Fault> faults;
+  for (const Contradiction& one : found) {
+    if (options.as_is) {
+      findings.push_back({log.file, 0, Severity::kWarning, "log-contradiction",
+                          fmt::format("{}: {}", one.column, one.message)});
+      continue;
+    }
+    faults.push_back(
+        {place, fmt::format("{}: {}; map it by {}, or take it {}", one.column, one.message,
+                            option_text("column '" + one.mapping + "'"), option_text("as-is"))});
+  }
+  if (!faults.empty()) return input_errors(std::move(faults));
+  if (!found.empty()) return {};
+  const auto bias = gyro_bias(log);
+  if (has_gyro_bias(log)) {
+    findings.push_back(
+        {log.file, 0, Severity::kWarning, "gyro-bias",
+         fmt::format("yaw_rate_radps stands {:.3g} +- {:.2g} rad/s off the heading's own rate: a "
+                     "gyro's bias; it is estimated with the rest ({})",
+                     bias->bias_radps, bias->std_error_radps,
+                     option_text("fit bias.yaw_rate_radps"))});
+  }
+  return {};
 }
 
 }  // namespace awmr

@@ -14,6 +14,7 @@
 /// may be to blame, all are named.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -36,11 +37,19 @@ struct Contradiction {
 std::vector<Contradiction> contradictions(const DrivingLog& log, const Vehicle& vehicle,
                                           std::span<const ColumnMapping> mappings);
 
+/// Refuses such a log. Errors (input): each contradiction at `place`, the log as its user named it,
+/// with the mapping that would mend it. With `options.as_is` they are findings (`log-contradiction`,
+/// a warning) instead. A gyro bias of five standard errors and more is a finding (`gyro-bias`).
+Status check_consistency(const DrivingLog& log, const std::string& place, const Vehicle& vehicle,
+                         const TrialOptions& options, std::vector<Finding>& findings);
+
 /// The constant offset of the yaw rate against the heading, where both were measured and agree.
 struct GyroBias {
   double bias_radps = 0.0;
   double std_error_radps = 0.0;
 };
 std::optional<GyroBias> gyro_bias(const DrivingLog& log);
+/// It is there, by five standard errors or more, and is no matter of units or signs.
+bool has_gyro_bias(const DrivingLog& log);
 
 }  // namespace awmr
