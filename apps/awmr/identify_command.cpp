@@ -27,6 +27,7 @@ std::vector<fs::path> inputs_of(const IdentifyCommand& command) {
 Result<Provenance> provenance_of(const IdentifyCommand& command) {
   Provenance provenance{"identify", described(command.identify), {}};
   provenance.options.emplace_back("prefer", name_in(kPreferenceNames, command.trials.preference));
+  if (command.trials.as_is) provenance.options.emplace_back("as-is", "true");
   if (command.steady_from_logs) provenance.options.emplace_back("steady_from_logs", "true");
   for (const ColumnMapping& mapping : command.trials.columns) {
     provenance.options.emplace_back(
@@ -140,6 +141,8 @@ void add_log_options(CLI::App& sub, IdentifyCommand& command) {
 }
 
 void add_reading_options(CLI::App& sub, IdentifyWords& words) {
+  sub.add_flag("--as-is", words.command.trials.as_is,
+               "Take logs whose units, signs or sides contradict themselves as they are");
   sub.add_option("--prefer", words.prefer,
                  "Which of two disagreeing values to use: printed (default) or timed")
       ->check(CLI::IsMember(names_in(kPreferenceNames)));

@@ -7,6 +7,7 @@
 #include "awmr/core/file.h"
 #include "awmr/model/gains_file.h"
 #include "awmr/model/model_file.h"
+#include "awmr/trials/log_consistency.h"
 #include "commands.h"
 #include "inputs.h"
 
@@ -26,12 +27,15 @@ std::string brief_of(const Validation& validation) {
 }
 
 Result<std::vector<LogValidation>> validate_logs(const ValidateCommand& command,
-                                                 const Plant<double>& plant,
+                                                 const Vehicle& vehicle, const Plant<double>& plant,
                                                  std::vector<Finding>& findings) {
   return read_each(command.logs, [&](const fs::path& path) {
-    return read_log(path, command.trials, findings).map([&](const DrivingLog& log) {
-      return validate_log(log, plant, command.horizon_s, command.log_tolerance);
-    });
+    return read_log(path, command.trials, findings)
+        .and_then([&](const DrivingLog& log) -> Result<LogValidation> {
+          AWMR_RETURN_IF_ERROR(
+              check_consistency(log, path.string(), vehicle, command.trials, findings));
+          return validate_log(log, plant, command.horizon_s, command.log_tolerance);
+        });
   });
 }
 
@@ -86,6 +90,8 @@ void add_log_options(CLI::App& sub, ValidateCommand& command, std::vector<std::s
   sub.add_option("--log-tolerance", command.log_tolerance,
                  "Largest accepted NRMSE of a channel over a window (default 0.3)")
       ->check(CLI::PositiveNumber);
+  sub.add_flag("--as-is", command.trials.as_is,
+               "Take logs whose units, signs or sides contradict themselves as they are");
   sub.add_option("--column", columns, "NAME=SOURCE[*SCALE][+OFFSET]: another column's name");
 }
 
@@ -107,7 +113,8 @@ Result<Outcome> execute(const ValidateCommand& command) {
   AWMR_ASSIGN_OR_RETURN(Validation validation, validate(model, gains, command.validate));
   std::vector<Finding> findings;
   AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, model.plant());
-  AWMR_ASSIGN_OR_RETURN(std::vector<LogValidation> logs, validate_logs(command, plant, findings));
+  AWMR_ASSIGN_OR_RETURN(std::vector<LogValidation> logs,
+                        validate_logs(command, model.vehicle, plant, findings));
   add_logs(validation, std::move(logs), command.log_tolerance);
   AWMR_ASSIGN_OR_RETURN(const Provenance provenance, provenance_of(command));
   AWMR_RETURN_IF_ERROR(write_file(command.output, validation_text(validation, provenance)));

@@ -3,6 +3,7 @@
 #include <string>
 #include <utility>
 
+#include "awmr/trials/log_consistency.h"
 #include "awmr/trials/steady.h"
 
 namespace awmr {
@@ -74,7 +75,12 @@ Result<Trials> load_trials(const TrialFiles& files) {
   }
   for (const std::filesystem::path& path : files.logs) {
     auto log = keep(read_log(path, files.options, findings), faults);
-    if (log) data.logs.push_back(std::move(*log));
+    if (!log) continue;
+    if (const auto sound = check_consistency(*log, path.string(), vehicle, files.options, findings);
+        !sound) {
+      faults.insert(faults.end(), sound.error().faults.begin(), sound.error().faults.end());
+    }
+    data.logs.push_back(std::move(*log));
   }
   if (!faults.empty()) return input_errors(std::move(faults));
   if (files.steady_from_logs) add_steady_runs(trials);

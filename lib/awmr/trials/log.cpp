@@ -8,6 +8,7 @@
 
 #include "awmr/core/csv_text.h"
 #include "awmr/core/units.h"
+#include "awmr/trials/channel_quality.h"
 #include "trial_reader.h"
 
 namespace awmr {
@@ -28,8 +29,6 @@ const CsvColumn kColumns[] = {{"t_s", true},
                               {"longitude_deg", false}};
 
 constexpr std::size_t kShortestLog = 10;
-/// More repeats than this among the rows of a moving signal mean a sensor slower than the log.
-constexpr double kHeldShare = 0.5;
 
 std::vector<double> values_of(const TrialReader& reader, std::string_view column, double scale) {
   const std::span<const double> cells = reader.table().column(column);
@@ -51,29 +50,67 @@ void unwrap(std::vector<double>& angle_rad) {
   }
 }
 
-/// Which rows bring something new. A signal that stands still (its value is one number) is taken as
-/// measured throughout.
-Measured measured_of(std::vector<double> values) {
-  Measured measured{std::move(values), {}, 0, false};
-  const std::size_t n = measured.value.size();
-  std::vector<bool> changed(n, true);
-  std::size_t repeats = 0;
-  std::size_t first_change = n;
-  std::size_t last_change = 0;
-  for (std::size_t i = 1; i < n; ++i) {
-    changed[i] = measured.value[i] != measured.value[i - 1];
-    if (!changed[i]) continue;
-    first_change = std::min(first_change, i);
-    last_change = i;
+/// The times of the first few rows, for a message.
+std::string times_of(const DrivingLog& log, const std::vector<std::size_t>& rows) {
+  constexpr std::size_t kMost = 4;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(kMost, rows.size()); ++i) {
+    text += fmt::format("{}{:.4g} s", i == 0 ? "" : ", ", log.t_s[rows[i]]);
   }
-  for (std::size_t i = first_change; i < last_change; ++i) repeats += changed[i] ? 0 : 1;
-  measured.held =
-      last_change > first_change &&
-      static_cast<double>(repeats) > kHeldShare * static_cast<double>(last_change - first_change);
-  measured.fresh = measured.held ? changed : std::vector<bool>(n, true);
-  measured.fresh_count =
-      static_cast<int>(std::count(measured.fresh.begin(), measured.fresh.end(), true));
-  return measured;
+  return rows.size() > kMost ? text + ", ..." : text;
+}
+
+void note_quality(LogChannel channel, const DrivingLog& log, const ChannelQuality& quality,
+                  std::vector<Finding>& findings) {
+  const ChannelInfo& about = info(channel);
+  const auto warn = [&](std::size_t row, const char* code, std::string message) {
+    findings.push_back({log.file, log.line[row], Severity::kWarning, code, std::move(message)});
+  };
+  if (!quality.spikes.empty()) {
+    warn(quality.spikes.front(), "spikes",
+         fmt::format("{}: {} readings jump away and back (spikes, at {}); they are set aside",
+                     about.column, quality.spikes.size(), times_of(log, quality.spikes)));
+  }
+  for (const RowSpan& span : quality.stuck) {
+    warn(span.begin, "stuck-sensor",
+         fmt::format("{} is stuck at one value from {:.4g} s to {:.4g} s while the commands "
+                     "changed; these rows are set aside",
+                     about.column, log.t_s[span.begin], log.t_s[span.end - 1]));
+  }
+  if (quality.saturated > 0) {
+    warn(0, "saturated-channel",
+         fmt::format("{} reads {:.4g} in {} rows and nothing beyond: the end of its range "
+                     "(saturated); these rows are set aside, and rows near it lean to one side",
+                     about.column, quality.saturated_at / about.to_si, quality.saturated));
+  }
+  if (quality.repeats == Repeats::kCoarse) {
+    warn(0, "quantised-samples",
+         fmt::format("{} comes in steps of {:.4g}, a coarse (quantised) sensor: every row counts, "
+                     "and the rounding counts as its error",
+                     about.column, quality.quantum / about.to_si));
+  }
+}
+
+/// What the vehicle is told to do that shows in a channel: thrust in speeds, turning in the rest.
+std::vector<double> activity_for(LogChannel channel, const DrivingLog& log) {
+  const bool turning = channel == LogChannel::kHeading || channel == LogChannel::kYawRate;
+  std::vector<double> activity(log.rows());
+  for (std::size_t i = 0; i < log.rows(); ++i) {
+    const double sum = log.force_left[i] + log.force_right[i];
+    const double apart = log.force_right[i] - log.force_left[i];
+    const double angle = log.steering_command_rad ? (*log.steering_command_rad)[i] : 0.0;
+    activity[i] = turning ? apart + sum * angle : sum;
+  }
+  return activity;
+}
+
+Measured measured_of(LogChannel channel, const DrivingLog& log, std::vector<double> values,
+                     std::vector<Finding>& findings) {
+  ChannelQuality quality = channel_quality(log.t_s, values, activity_for(channel, log));
+  note_quality(channel, log, quality, findings);
+  const auto fresh = static_cast<int>(std::count(quality.fresh.begin(), quality.fresh.end(), true));
+  return {std::move(values), std::move(quality.fresh), fresh, quality.repeats == Repeats::kSlow,
+          quality.repeats == Repeats::kCoarse ? quality.quantum : 0.0};
 }
 
 void check_columns(TrialReader& reader) {
@@ -107,7 +144,7 @@ void check_time(TrialReader& reader) {
 }
 
 /// East and north of the first row, by the library's local tangent plane.
-void add_geographic(TrialReader& reader, DrivingLog& log) {
+void add_geographic(TrialReader& reader, DrivingLog& log, std::vector<Finding>& findings) {
   const std::vector<double> latitude = values_of(reader, "latitude_deg", 1.0);
   const std::vector<double> longitude = values_of(reader, "longitude_deg", 1.0);
   for (std::size_t i = 0; i < latitude.size(); ++i) {
@@ -126,8 +163,8 @@ void add_geographic(TrialReader& reader, DrivingLog& log) {
     double up = 0.0;
     plane.Forward(latitude[i], longitude[i], 0.0, east[i], north[i], up);
   }
-  log[LogChannel::kX] = measured_of(std::move(east));
-  log[LogChannel::kY] = measured_of(std::move(north));
+  log[LogChannel::kX] = measured_of(LogChannel::kX, log, std::move(east), findings);
+  log[LogChannel::kY] = measured_of(LogChannel::kY, log, std::move(north), findings);
 }
 
 /// A receiver gives x and y together: a repeat of one alone is chance.
@@ -138,7 +175,11 @@ void join_position(DrivingLog& log) {
   x.held = y.held = x.held || y.held;
   if (!x.held) return;
   for (std::size_t i = 1; i < log.rows(); ++i) {
-    x.fresh[i] = y.fresh[i] = x.value[i] != x.value[i - 1] || y.value[i] != y.value[i - 1];
+    const bool new_x = x.value[i] != x.value[i - 1];
+    const bool new_y = y.value[i] != y.value[i - 1];
+    // A new value that does not count was set aside, and its partner goes with it.
+    const bool set_aside = (new_x && !x.fresh[i]) || (new_y && !y.fresh[i]);
+    x.fresh[i] = y.fresh[i] = (new_x || new_y) && !set_aside;
   }
   x.fresh_count = y.fresh_count =
       static_cast<int>(std::count(x.fresh.begin(), x.fresh.end(), true));
@@ -198,7 +239,6 @@ Result<DrivingLog> read_log(const std::filesystem::path& path, const TrialOption
   check_columns(reader);
   check_time(reader);
   DrivingLog log;
-  if (reader.faults().empty() && reader.has("latitude_deg")) add_geographic(reader, log);
   if (!reader.faults().empty()) return input_errors(std::move(reader.faults()));
 
   log.file = finding_file(reader.table());
@@ -211,12 +251,14 @@ Result<DrivingLog> read_log(const std::filesystem::path& path, const TrialOption
     log.steering_command_rad =
         values_of(reader, "steering_cmd_deg", info(LogChannel::kSteering).to_si);
   }
+  if (reader.has("latitude_deg")) add_geographic(reader, log, findings);
+  if (!reader.faults().empty()) return input_errors(std::move(reader.faults()));
   for (const LogChannel channel : kChannels) {
     const ChannelInfo& about = info(channel);
     if (!reader.has(about.column)) continue;
     std::vector<double> values = values_of(reader, about.column, about.to_si);
     if (channel == LogChannel::kHeading) unwrap(values);
-    log[channel] = measured_of(std::move(values));
+    log[channel] = measured_of(channel, log, std::move(values), findings);
   }
   join_position(log);
   note_held(log, findings);

@@ -29,12 +29,14 @@ struct ChannelInfo {
 const ChannelInfo& info(LogChannel channel);
 
 /// A measured channel. A sensor slower than the log repeats its last value: only the row where a
-/// value is new counts as measured.
+/// value is new counts as measured. Of a coarse one every row counts. Readings that jump away and
+/// back, that are stuck or at the end of the sensor's range do not: see channel_quality.h.
 struct Measured {
   std::vector<double> value;  ///< by row, SI; heading unwrapped
   std::vector<bool> fresh;    ///< by row
   int fresh_count = 0;        ///< rows that count as measured
-  bool held = false;          ///< repeats were found and set aside
+  bool held = false;          ///< slower than the log: repeats were found and set aside
+  double quantum = 0.0;       ///< step of a coarse sensor, SI; 0: none was found
 };
 
 /// One log. Every vector has an entry for each row.

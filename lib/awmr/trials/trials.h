@@ -80,6 +80,9 @@ inline constexpr NameTable<Preference, 2> kPreferenceNames{
 struct TrialOptions {
   std::vector<ColumnMapping> columns;
   Preference preference = Preference::kPrinted;
+  /// Logs that contradict themselves (log_consistency.h) are taken as they are, with a warning. For
+  /// when a vehicle really is as odd as its log.
+  bool as_is = false;
 };
 
 /// Readers. Findings added: `speed-mismatch`, `yaw-rate-mismatch`, `tau-turn-mismatch`,

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "awmr/core/index.h"
@@ -10,6 +11,7 @@
 #include "awmr/identify/logs/agreement.h"
 #include "awmr/identify/logs/cross_validation.h"
 #include "awmr/identify/logs/initial_guess.h"
+#include "awmr/trials/log_consistency.h"
 
 namespace awmr {
 namespace {
@@ -23,23 +25,79 @@ void append(std::vector<T>& to, const std::vector<T>& more) {
   to.insert(to.end(), more.begin(), more.end());
 }
 
+bool has_position(const DrivingLog& log) { return log[LogChannel::kX] && log[LogChannel::kY]; }
+
+/// The heading, its rate, or positions from which it follows.
+bool shows_yaw(const DrivingLog& log) {
+  return log[LogChannel::kYawRate] || log[LogChannel::kHeading] || has_position(log);
+}
+
+/// Something in the commands turns the vehicle: more than a hundredth of what drives it.
+bool is_turned(const DrivingLog& log) {
+  constexpr double kNotable = 0.01;
+  const std::vector<double>& angle =
+      log.steering_command_rad ? *log.steering_command_rad : log[LogChannel::kSteering]->value;
+  double angle_rad = 0.0;
+  double apart = 0.0;
+  double thrust = 0.0;
+  for (std::size_t i = 0; i < log.rows(); ++i) {
+    angle_rad = std::max(angle_rad, std::abs(angle[i]));
+    apart = std::max(apart, std::abs(log.force_right[i] - log.force_left[i]));
+    thrust = std::max(thrust, std::abs(log.force_right[i] + log.force_left[i]));
+  }
+  return angle_rad > kNotable || apart > kNotable * thrust;
+}
+
+bool is_of_yaw(ParameterId id) {
+  return id == ParameterId::kYawAlpha || id == ParameterId::kYawBeta ||
+         id == ParameterId::kInertiaNorm;
+}
+
 /// Why no channel or command of the logs could show a parameter, before any search; empty: one
-/// might.
+/// might. A weak coupling (the yaw rate through m' r v in the speed) is no evidence.
 std::string cannot_show(const std::vector<DrivingLog>& logs, ParameterId id) {
-  const bool any_servo = std::any_of(logs.begin(), logs.end(), [](const DrivingLog& log) {
-    return log.steering_command_rad.has_value();
-  });
-  if (id == ParameterId::kSteeringTimeConstant && !any_servo) {
+  const auto any = [&logs](const auto& shows) {
+    return std::any_of(logs.begin(), logs.end(), shows);
+  };
+  const bool servo = id == ParameterId::kSteeringTimeConstant;
+  if (servo && !any([](const DrivingLog& log) { return log.steering_command_rad.has_value(); })) {
     return "the logs hold the steering angle as it was, not its command";
+  }
+  const bool sway = id == ParameterId::kSwayAlpha;
+  if (!is_of_yaw(id) && !sway && !servo) return {};
+  const bool angle =
+      servo && any([](const DrivingLog& log) { return log[LogChannel::kSteering].has_value(); });
+  if (!any(is_turned)) {
+    return "the logs drive straight on; record one that steers, or that drives its sides apart";
+  }
+  if (sway && !any([](const DrivingLog& log) {
+        return log[LogChannel::kSway].has_value() || has_position(log);
+      })) {
+    return "no channel of the logs shows sway; record sway_mps, or x_m and y_m";
+  }
+  if (!angle && !any(shows_yaw)) {
+    return "no channel of the logs shows how the vehicle turns; record yaw_rate_radps, "
+           "heading_deg, or x_m and y_m";
   }
   return {};
 }
 
-LogFitOptions fit_options(const Vehicle& vehicle, const IdentifyOptions& options) {
+/// Channels with an offset: those asked for, and a yaw rate whose bias the heading shows.
+std::vector<LogChannel> biased_channels(const std::vector<DrivingLog>& logs,
+                                        std::vector<LogChannel> asked) {
+  const bool known = std::find(asked.begin(), asked.end(), LogChannel::kYawRate) != asked.end();
+  if (!known && std::any_of(logs.begin(), logs.end(), has_gyro_bias)) {
+    asked.push_back(LogChannel::kYawRate);
+  }
+  return asked;
+}
+
+LogFitOptions fit_options(const Vehicle& vehicle, const std::vector<DrivingLog>& logs,
+                          const IdentifyOptions& options) {
   LogFitOptions fit;
   fit.vehicle = vehicle;
   fit.delay = options.fit_input_delay;
-  fit.biases = options.biases;
+  fit.biases = biased_channels(logs, options.biases);
   fit.loss = options.loss;
   fit.seed = options.seed;
   fit.multistart = options.starts;
@@ -133,7 +191,7 @@ LogStage run_log_stage(const Vehicle& vehicle, const std::vector<DrivingLog>& lo
                        const IdentifyOptions& options, const std::vector<ParameterId>& asked,
                        const Model& model, bool overrule) {
   LogStage stage;
-  LogFitOptions power_law = fit_options(vehicle, options);
+  LogFitOptions power_law = fit_options(vehicle, logs, options);
   power_law.initial_guess = guess_from_logs(logs, vehicle);
   free_parameters(power_law, logs, asked, model, stage.reasons);
   const FamilyFit chosen = fit_families(logs, power_law, options, stage);

@@ -1,0 +1,201 @@
+#include "awmr/trials/channel_quality.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "awmr/trials/robust_ratio.h"
+
+namespace awmr {
+namespace {
+
+/// More repeats than this among the rows of a moving signal are no chance.
+constexpr double kRepeatedShare = 0.5;
+
+double quantile(std::vector<double> values, double share) {
+  const auto place =
+      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
+}
+
+/// The rows at which the value changes, and by how much.
+struct Changes {
+  std::vector<std::size_t> row;
+  std::vector<double> step;  ///< absolute
+};
+
+Changes changes_of(std::span<const double> value) {
+  Changes changes;
+  for (std::size_t i = 1; i < value.size(); ++i) {
+    if (value[i] == value[i - 1]) continue;
+    changes.row.push_back(i);
+    changes.step.push_back(std::abs(value[i] - value[i - 1]));
+  }
+  return changes;
+}
+
+/// The smallest step, if the changes are mostly one or two of it and all of them multiples.
+double quantum_of(const Changes& changes) {
+  const double smallest = *std::min_element(changes.step.begin(), changes.step.end());
+  std::size_t on_grid = 0;
+  std::vector<double> steps;
+  for (const double step : changes.step) {
+    const double times = step / smallest;
+    steps.push_back(times);
+    // A number written with few digits misses its multiple by rounding.
+    if (std::abs(times - std::round(times)) < 0.05 + 1e-6 * times) ++on_grid;
+  }
+  const bool grid = static_cast<double>(on_grid) > 0.98 * static_cast<double>(steps.size());
+  constexpr double kMostlySteps = 2.5;
+  return grid && median(steps) < kMostlySteps ? smallest : 0.0;
+}
+
+/// Rows between changes, from the first change to the last.
+std::vector<double> gaps_of(const Changes& changes) {
+  std::vector<double> gaps;
+  for (std::size_t i = 1; i < changes.row.size(); ++i) {
+    gaps.push_back(static_cast<double>(changes.row[i] - changes.row[i - 1]));
+  }
+  return gaps;
+}
+
+/// Readings of a slow sensor: its changes, and where it repeated a value, one every usual gap.
+std::vector<bool> slow_readings(const Changes& changes, std::size_t rows) {
+  std::vector<bool> fresh(rows, false);
+  fresh[0] = true;
+  const std::vector<double> gaps = gaps_of(changes);
+  const auto usual = static_cast<std::size_t>(std::max(1.0, median(gaps)));
+  for (std::size_t k = 0; k < changes.row.size(); ++k) {
+    const std::size_t end = k + 1 < changes.row.size() ? changes.row[k + 1] : rows;
+    for (std::size_t i = changes.row[k]; i + usual / 2 < end || i == changes.row[k]; i += usual) {
+      fresh[i] = true;
+    }
+  }
+  return fresh;
+}
+
+void judge_repeats(std::span<const double> value, ChannelQuality& quality) {
+  const Changes changes = changes_of(value);
+  quality.fresh.assign(value.size(), true);
+  constexpr std::size_t kFewestChanges = 8;
+  if (changes.row.size() < kFewestChanges) return;
+  const double moving = static_cast<double>(changes.row.back() - changes.row.front());
+  const double repeated = moving - static_cast<double>(changes.row.size() - 1);
+  const double quantum = quantum_of(changes);
+  const bool often = repeated > kRepeatedShare * moving;
+  // Two rows at least between nearly all changes: the sensor has a rate of its own.
+  const bool own_rate = often && quantile(gaps_of(changes), 0.05) >= 2.0;
+  if (own_rate) {
+    quality.repeats = Repeats::kSlow;
+    quality.fresh = slow_readings(changes, value.size());
+  } else if (often || quantum > 0.0) {
+    quality.repeats = quantum > 0.0 ? Repeats::kCoarse : Repeats::kNone;
+  }
+  quality.quantum = quantum;
+}
+
+/// Each reading against the middle of itself and its two neighbours on either side: an edge of the
+/// signal passes, a jump away and back of up to two readings does not.
+void find_spikes(std::span<const double> value, ChannelQuality& quality) {
+  std::vector<std::size_t> rows;
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    if (quality.fresh[i]) rows.push_back(i);
+  }
+  if (rows.size() < 20) return;
+  std::vector<double> off;
+  std::vector<double> size;
+  std::vector<double> all;
+  for (std::size_t k = 2; k + 2 < rows.size(); ++k) {
+    std::array<double, 5> five{};
+    for (std::size_t j = 0; j < 5; ++j) five[j] = value[rows[k + j - 2]];
+    std::nth_element(five.begin(), five.begin() + 2, five.end());
+    off.push_back(value[rows[k]] - five[2]);
+    size.push_back(std::abs(off.back()));
+    all.push_back(value[rows[k]]);
+  }
+  const double noise = 1.4826 * median(size);
+  const double range = quantile(all, 0.98) - quantile(all, 0.02);
+  const double limit = std::max({8.0 * noise, 0.1 * range, 3.0 * quality.quantum});
+  for (std::size_t k = 0; k < off.size(); ++k) {
+    if (size[k] <= limit || !(limit > 0.0)) continue;
+    quality.spikes.push_back(rows[k + 2]);
+    quality.fresh[rows[k + 2]] = false;
+  }
+}
+
+/// One value for a second and more, far longer than this sensor otherwise repeats one, while the
+/// vehicle was told something else at least 0.3 s before the end of it. Exactly zero is rest.
+void find_stuck(std::span<const double> t_s, std::span<const double> value,
+                std::span<const double> activity, ChannelQuality& quality) {
+  std::vector<RowSpan> runs;
+  std::vector<double> lengths;
+  for (std::size_t i = 0; i < value.size();) {
+    std::size_t end = i + 1;
+    while (end < value.size() && value[end] == value[i]) ++end;
+    runs.push_back({i, end});
+    lengths.push_back(static_cast<double>(end - i));
+    i = end;
+  }
+  const double usual = quantile(lengths, 0.9);
+  const auto [low, high] = std::minmax_element(activity.begin(), activity.end());
+  const double notable = 0.2 * (*high - *low);
+  for (const RowSpan& run : runs) {
+    const double long_rows = 8.0 * usual;
+    const double span_s = t_s[run.end - 1] - t_s[run.begin];
+    if (value[run.begin] == 0.0 || span_s < 1.0) continue;
+    if (static_cast<double>(run.end - run.begin) < long_rows) continue;
+    bool told = false;
+    for (std::size_t i = run.begin; i < run.end && t_s[i] < t_s[run.end - 1] - 0.3; ++i) {
+      told = told || std::abs(activity[i] - activity[run.begin]) > notable;
+    }
+    if (!told || !(notable > 0.0)) continue;
+    quality.stuck.push_back(run);
+    // The first reading was still one.
+    for (std::size_t i = run.begin + 1; i < run.end; ++i) quality.fresh[i] = false;
+  }
+}
+
+/// Rows that all read the largest (or the smallest) value of a signal that otherwise hardly repeats
+/// one exactly.
+void find_saturation(std::span<const double> value, ChannelQuality& quality) {
+  const auto [low, high] = std::minmax_element(value.begin(), value.end());
+  std::vector<double> sorted(value.begin(), value.end());
+  std::sort(sorted.begin(), sorted.end());
+  std::size_t most_elsewhere = 0;
+  for (std::size_t i = 0; i < sorted.size();) {
+    std::size_t end = i;
+    while (end < sorted.size() && sorted[end] == sorted[i]) ++end;
+    if (sorted[i] != *low && sorted[i] != *high && sorted[i] != 0.0) {
+      most_elsewhere = std::max(most_elsewhere, end - i);
+    }
+    i = end;
+  }
+  for (const double bound : {*high, *low}) {
+    if (bound == 0.0) continue;
+    const auto count = static_cast<std::size_t>(std::count(value.begin(), value.end(), bound));
+    if (count < std::max<std::size_t>(8, value.size() / 200)) continue;
+    if (count < 4 * most_elsewhere) continue;
+    if (quality.stuck.empty() || count > quality.saturated) {
+      quality.saturated = count;
+      quality.saturated_at = bound;
+    }
+    for (std::size_t i = 0; i < value.size(); ++i) {
+      if (value[i] == bound) quality.fresh[i] = false;
+    }
+  }
+}
+
+}  // namespace
+
+ChannelQuality channel_quality(std::span<const double> t_s, std::span<const double> value,
+                               std::span<const double> activity) {
+  ChannelQuality quality;
+  judge_repeats(value, quality);
+  find_spikes(value, quality);
+  find_stuck(t_s, value, activity, quality);
+  if (quality.repeats == Repeats::kNone && quality.stuck.empty()) find_saturation(value, quality);
+  return quality;
+}
+
+}  // namespace awmr

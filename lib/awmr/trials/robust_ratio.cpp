@@ -1,0 +1,38 @@
+#include "awmr/trials/robust_ratio.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace awmr {
+namespace {
+
+constexpr int kFewestPairs = 10;
+constexpr double kLargestSpread = 0.6;
+
+}  // namespace
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+std::optional<RobustRatio> robust_ratio(std::span<const double> x, std::span<const double> y) {
+  std::vector<double> sizes;
+  for (const double value : x) sizes.push_back(std::abs(value));
+  if (sizes.empty()) return std::nullopt;
+  const double half = median(sizes);
+  std::vector<double> ratios;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (sizes[i] >= half && sizes[i] > 0.0) ratios.push_back(y[i] / x[i]);
+  }
+  if (static_cast<int>(ratios.size()) < kFewestPairs) return std::nullopt;
+  const double ratio = median(ratios);
+  std::vector<double> deviations;
+  for (const double r : ratios) deviations.push_back(std::abs(r - ratio));
+  const double spread = median(deviations) / std::abs(ratio);
+  if (!std::isfinite(spread) || spread > kLargestSpread) return std::nullopt;
+  return RobustRatio{ratio, spread, static_cast<int>(ratios.size())};
+}
+
+}  // namespace awmr

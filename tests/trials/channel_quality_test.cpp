@@ -1,0 +1,134 @@
+/// Slow against coarse sensors, spikes, stuck and saturated channels: judged on signals whose defect
+/// is known.
+#include "awmr/trials/channel_quality.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "awmr/core/random.h"
+
+namespace awmr {
+namespace {
+
+constexpr double kRate_hz = 50.0;
+constexpr std::size_t kRows = 2000;
+
+std::vector<double> times() {
+  std::vector<double> t_s;
+  for (std::size_t i = 0; i < kRows; ++i) t_s.push_back(static_cast<double>(i) / kRate_hz);
+  return t_s;
+}
+
+/// A command that changes every 1.2 s, and a speed that follows it within 0.3 s.
+struct Drive {
+  std::vector<double> command;
+  std::vector<double> speed;
+};
+
+Drive drive(std::uint64_t seed, double noise) {
+  Random random(seed, 1);
+  Drive d;
+  double level = 0.5;
+  double speed = 0.5;
+  for (std::size_t i = 0; i < kRows; ++i) {
+    if (i % 60 == 0) level = 0.2 + random.uniform();
+    speed += (level - speed) / (0.3 * kRate_hz);
+    d.command.push_back(level);
+    d.speed.push_back(speed + noise * random.normal());
+  }
+  return d;
+}
+
+ChannelQuality judged(const Drive& d) { return channel_quality(times(), d.speed, d.command); }
+
+std::size_t fresh_rows(const ChannelQuality& q) {
+  return static_cast<std::size_t>(std::count(q.fresh.begin(), q.fresh.end(), true));
+}
+
+TEST(ChannelQuality, ASoundSensorCountsInEveryRow) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const ChannelQuality q = judged(drive(seed, 0.02));
+    EXPECT_EQ(q.repeats, Repeats::kNone);
+    EXPECT_EQ(fresh_rows(q), kRows);
+    EXPECT_TRUE(q.spikes.empty() && q.stuck.empty());
+    EXPECT_EQ(q.saturated, 0U);
+  }
+}
+
+TEST(ChannelQuality, ACoarseEncoderCountsInEveryRow) {
+  for (const double quantum : {0.02, 0.05, 0.2}) {
+    Drive d = drive(3, 0.01);
+    for (double& u : d.speed) u = quantum * std::round(u / quantum);
+    const ChannelQuality q = judged(d);
+    EXPECT_EQ(q.repeats, Repeats::kCoarse) << quantum;
+    EXPECT_NEAR(q.quantum, quantum, 1e-9);
+    EXPECT_EQ(fresh_rows(q), kRows) << quantum;
+  }
+}
+
+TEST(ChannelQuality, ASlowSensorCountsAtItsOwnRate) {
+  for (const std::size_t every : {4U, 5U, 10U}) {
+    Drive d = drive(4, 0.02);
+    for (std::size_t i = 0; i < kRows; ++i) d.speed[i] = d.speed[i / every * every];
+    const ChannelQuality q = judged(d);
+    EXPECT_EQ(q.repeats, Repeats::kSlow) << every;
+    EXPECT_NEAR(static_cast<double>(fresh_rows(q)), kRows / static_cast<double>(every), 2.0);
+  }
+}
+
+TEST(ChannelQuality, ASlowAndCoarseSensorCountsWhereItRepeatsToo) {
+  Drive d = drive(5, 0.0);
+  for (std::size_t i = 0; i < kRows; ++i) {
+    d.speed[i] = 0.02 * std::round(d.speed[i / 5 * 5] / 0.02);
+  }
+  const ChannelQuality q = judged(d);
+  EXPECT_EQ(q.repeats, Repeats::kSlow);
+  // A reading every 5 rows, give or take those next to long repeats.
+  EXPECT_NEAR(static_cast<double>(fresh_rows(q)), kRows / 5.0, kRows / 50.0);
+}
+
+TEST(ChannelQuality, SpikesAreFoundAndNothingElseIs) {
+  Drive d = drive(6, 0.02);
+  const std::vector<std::size_t> wild = {100, 333, 334, 1500};
+  for (const std::size_t i : wild) d.speed[i] += 3.0;
+  const ChannelQuality q = judged(d);
+  EXPECT_EQ(q.spikes, wild);
+  EXPECT_EQ(fresh_rows(q), kRows - wild.size());
+}
+
+TEST(ChannelQuality, AnEdgeOfTheSignalIsNoSpike) {
+  Drive d = drive(7, 0.001);
+  for (std::size_t i = 1000; i < kRows; ++i) d.speed[i] += 5.0;
+  EXPECT_TRUE(judged(d).spikes.empty());
+}
+
+TEST(ChannelQuality, AStuckSensorIsSetAsideAfterItsFirstReading) {
+  Drive d = drive(8, 0.02);
+  for (std::size_t i = 701; i < 1000; ++i) d.speed[i] = d.speed[700];
+  const ChannelQuality q = judged(d);
+  ASSERT_EQ(q.stuck.size(), 1U);
+  EXPECT_EQ(q.stuck[0].begin, 700U);
+  EXPECT_EQ(q.stuck[0].end, 1000U);
+  EXPECT_EQ(fresh_rows(q), kRows - 299);
+}
+
+TEST(ChannelQuality, RestIsNotStuck) {
+  Drive d = drive(9, 0.02);
+  for (std::size_t i = 700; i < 1000; ++i) d.speed[i] = 0.0;
+  EXPECT_TRUE(judged(d).stuck.empty());
+}
+
+TEST(ChannelQuality, TheEndOfASensorsRangeIsSetAside) {
+  Drive d = drive(10, 0.02);
+  const double top = 0.8 * *std::max_element(d.speed.begin(), d.speed.end());
+  for (double& u : d.speed) u = std::min(u, top);
+  const ChannelQuality q = judged(d);
+  EXPECT_GT(q.saturated, 20U);
+  EXPECT_EQ(q.saturated_at, top);
+}
+
+}  // namespace
+}  // namespace awmr

@@ -1,0 +1,210 @@
+/// Wrong units, signs and sides are found before any fit, each by its factor, and good logs raise no
+/// alarm. The logs come from first-order responses with noise, which share nothing with the model
+/// that is fitted.
+#include "awmr/trials/log_consistency.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <string>
+
+#include "awmr/core/random.h"
+#include "awmr/core/units.h"
+#include "support/paper_vehicle.h"
+
+namespace awmr {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr double kStep_s = 0.02;
+constexpr std::size_t kRows = 2000;
+
+/// What one log is made of; the defaults are a sound one.
+struct Making {
+  bool position = true;
+  bool heading = true;
+  bool yaw_rate = true;
+  bool sides_apart = true;
+  double noise = 1.0;
+  double gyro_bias_radps = 0.0;
+};
+
+Measured measured(std::vector<double> values) {
+  const auto rows = values.size();
+  return {std::move(values), std::vector<bool>(rows, true), static_cast<int>(rows), false, 0.0};
+}
+
+/// Speed follows thrust in 0.3 s, yaw rate follows steering and sides in 0.15 s.
+DrivingLog sound_log(std::uint64_t seed, const Making& making = {}) {
+  Random random(seed, 11);
+  DrivingLog log;
+  log.file = "log.csv";
+  log.steering_command_rad.emplace();
+  std::array<std::vector<double>, kChannelCount> values;
+  const auto& push = [&values](LogChannel c, double v) {
+    values[static_cast<std::size_t>(c)].push_back(v);
+  };
+  double level = 0.3, apart = 0.0, angle = 0.0, u = 0.0, r = 0.0, psi = 0.0, x = 0.0, y = 0.0;
+  for (std::size_t i = 0; i < kRows; ++i) {
+    if (i % 70 == 0) {
+      level = 0.15 + 0.4 * random.uniform();
+      apart = making.sides_apart ? 0.1 * (random.uniform() - 0.5) : 0.0;
+      angle = radians(30.0) * (random.uniform() - 0.5);
+    }
+    log.t_s.push_back(kStep_s * static_cast<double>(i));
+    log.line.push_back(static_cast<int>(i) + 2);
+    log.force_left.push_back(level - apart);
+    log.force_right.push_back(level + apart);
+    log.steering_command_rad->push_back(angle);
+    const double n = making.noise;
+    push(LogChannel::kX, x + n * 0.02 * random.normal());
+    push(LogChannel::kY, y + n * 0.02 * random.normal());
+    push(LogChannel::kHeading, psi + n * 0.01 * random.normal());
+    push(LogChannel::kSpeed, u + n * 0.03 * random.normal());
+    push(LogChannel::kYawRate, r + n * 0.02 * random.normal() + making.gyro_bias_radps);
+    u += kStep_s / 0.3 * (3.0 * level - u);
+    r += kStep_s / 0.15 * (u * std::tan(angle) / 0.5 + 3.0 * apart - r);
+    psi += kStep_s * r;
+    x += kStep_s * u * std::cos(psi);
+    y += kStep_s * u * std::sin(psi);
+  }
+  const auto keep = [&](LogChannel c) {
+    log[c] = measured(std::move(values[static_cast<std::size_t>(c)]));
+  };
+  keep(LogChannel::kSpeed);
+  if (making.position) keep(LogChannel::kX);
+  if (making.position) keep(LogChannel::kY);
+  if (making.heading) keep(LogChannel::kHeading);
+  if (making.yaw_rate) keep(LogChannel::kYawRate);
+  return log;
+}
+
+Vehicle vehicle() {
+  Vehicle vehicle = testing::paper_vehicle();
+  vehicle.sample_time_s = kStep_s;
+  return vehicle;
+}
+
+void scale(std::vector<double>& values, double factor) {
+  for (double& value : values) value *= factor;
+}
+
+TEST(LogConsistency, AHundredGoodLogsRaiseNoAlarm) {
+  const Making kinds[] = {
+      {}, {.position = false}, {.heading = false}, {.sides_apart = false}, {.noise = 3.0}};
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    for (const Making& making : kinds) {
+      const auto found = contradictions(sound_log(seed, making), vehicle(), {});
+      EXPECT_TRUE(found.empty()) << seed << ": " << found.front().column << ": "
+                                 << found.front().message;
+    }
+  }
+}
+
+struct WrongTurn {
+  std::string name;
+  std::function<void(DrivingLog&)> make;
+  std::string column;
+  std::string words;
+};
+
+std::ostream& operator<<(std::ostream& out, const WrongTurn& turn) { return out << turn.name; }
+
+class AWrongTurn : public ::testing::TestWithParam<WrongTurn> {};
+
+TEST_P(AWrongTurn, IsNamedInEveryLog) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    DrivingLog log = sound_log(seed);
+    GetParam().make(log);
+    const auto found = contradictions(log, vehicle(), {});
+    ASSERT_FALSE(found.empty()) << seed;
+    EXPECT_EQ(found.front().column, GetParam().column) << seed << found.front().message;
+    EXPECT_THAT(found.front().message + found.front().mapping, HasSubstr(GetParam().words));
+  }
+}
+
+std::vector<double>& channel(DrivingLog& log, LogChannel c) { return log[c]->value; }
+
+INSTANTIATE_TEST_SUITE_P(
+    LogConsistency, AWrongTurn,
+    ::testing::Values(
+        WrongTurn{"KilometresPerHour",
+                  [](DrivingLog& l) { scale(channel(l, LogChannel::kSpeed), 3.6); }, "speed_mps",
+                  "km/h"},
+        WrongTurn{
+            "DegreesPerSecond",
+            [](DrivingLog& l) { scale(channel(l, LogChannel::kYawRate), 180.0 / pi<double>()); },
+            "yaw_rate_radps", "0.01745329"},
+        WrongTurn{"Milliseconds", [](DrivingLog& l) { scale(l.t_s, 1000.0); }, "t_s", "0.001"},
+        WrongTurn{"Percent",
+                  [](DrivingLog& l) {
+                    scale(l.force_left, 150.0);
+                    scale(l.force_right, 150.0);
+                  },
+                  "force_left", "percent"},
+        WrongTurn{"PwmOf255",
+                  [](DrivingLog& l) {
+                    scale(l.force_left, 255.0);
+                    scale(l.force_right, 255.0);
+                  },
+                  "force_left", "0.003921569"},
+        WrongTurn{"SidesSwapped", [](DrivingLog& l) { std::swap(l.force_left, l.force_right); },
+                  "force_left", "force_left=\"force_right\""},
+        WrongTurn{"SteeringReversed", [](DrivingLog& l) { scale(*l.steering_command_rad, -1.0); },
+                  "steering_cmd_deg", "*-1"},
+        WrongTurn{"YawRateReversed",
+                  [](DrivingLog& l) { scale(channel(l, LogChannel::kYawRate), -1.0); },
+                  "yaw_rate_radps", "*-1"},
+        WrongTurn{"YMirrored", [](DrivingLog& l) { scale(channel(l, LogChannel::kY), -1.0); },
+                  "y_m", "mirror"},
+        WrongTurn{"SteeringInRadians",
+                  [](DrivingLog& l) { scale(*l.steering_command_rad, pi<double>() / 180.0); },
+                  "steering_cmd_deg", "57.29578"},
+        WrongTurn{"PositionsInMillimetres",
+                  [](DrivingLog& l) {
+                    scale(channel(l, LogChannel::kX), 1000.0);
+                    scale(channel(l, LogChannel::kY), 1000.0);
+                  },
+                  "x_m", "mm"}),
+    [](const auto& turn) { return turn.param.name; });
+
+TEST(LogConsistency, TheRemedyStartsFromTheFilesOwnColumn) {
+  DrivingLog log = sound_log(1);
+  scale(channel(log, LogChannel::kSpeed), 3.6);
+  const ColumnMapping mappings[] = {{"speed_mps", "V (wheel)", 2.0, 0.0}};
+  const auto found = contradictions(log, vehicle(), mappings);
+  ASSERT_FALSE(found.empty());
+  EXPECT_EQ(found.front().mapping, "speed_mps=\"V (wheel)\"*0.5555556");
+}
+
+TEST(LogConsistency, AGyroBiasIsMeasuredAgainstTheHeading) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    const DrivingLog biased = sound_log(seed, {.gyro_bias_radps = 0.05});
+    EXPECT_TRUE(has_gyro_bias(biased));
+    const auto bias = gyro_bias(biased);
+    ASSERT_TRUE(bias);
+    EXPECT_NEAR(bias->bias_radps, 0.05, 5.0 * bias->std_error_radps);
+    EXPECT_FALSE(has_gyro_bias(sound_log(seed)));
+  }
+}
+
+TEST(LogConsistency, ARefusalNamesEachColumnWithItsRemedyAndAsIsTurnsItIntoAWarning) {
+  DrivingLog log = sound_log(2);
+  scale(*log.steering_command_rad, -1.0);
+  std::vector<Finding> findings;
+  const Status refused = check_consistency(log, "drive.csv", vehicle(), {}, findings);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().kind, ErrorKind::kInput);
+  EXPECT_EQ(refused.error().faults.front().place, "drive.csv");
+  EXPECT_THAT(refused.error().faults.front().message, HasSubstr("steering_cmd_deg"));
+  EXPECT_TRUE(
+      check_consistency(log, "drive.csv", vehicle(), {.columns = {}, .as_is = true}, findings));
+  ASSERT_EQ(findings.size(), 1U);
+  EXPECT_EQ(findings.front().code, "log-contradiction");
+}
+
+}  // namespace
+}  // namespace awmr
