@@ -204,8 +204,8 @@ TEST(Bounds, AHeadingManyTurnsAwayTakesNoLongerThanAnyOther) {
   const auto start = std::chrono::steady_clock::now();
   const Plant<double> plant = paper_plant();
   const awmr::Run run =
-      simulate(plant, make_controller(plant, paper_vehicle(), {{3, 50, 12}, {2, 0.5}}),
-               scenario, YawMode::kCombined, {});
+      simulate(plant, make_controller(plant, paper_vehicle(), {{3, 50, 12}, {2, 0.5}}), scenario,
+               YawMode::kCombined, {});
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
   EXPECT_EQ(run.end, RunEnd::kDuration);
   EXPECT_LT(taken.count(), 10.0);  // it took over 50 s
