@@ -96,6 +96,21 @@ void delay(std::uint32_t by_ms, InputTimes& times) {
   times.command_ms += by_ms;
 }
 
+/// Moves the simulated vehicle on by a sample under the chip's command.
+Status drive(Physics& physics, double t_s, const Allocation<float>& command,
+             const std::string& scenario) {
+  physics.disturb(t_s);
+  physics.step(t_s,
+               {static_cast<double>(command.force.left), static_cast<double>(command.force.right)},
+               static_cast<double>(command.steering_rad));
+  if (physics.resolved()) return {};
+  return input_error(
+      fmt::format("scenario '{}'", scenario),
+      fmt::format("the simulated vehicle cannot go on after {:g} s: resistance is too stiff there "
+                  "for any step, or a number is no longer finite",
+                  t_s));
+}
+
 }  // namespace
 
 Status check_scenario(const Scenario& scenario, const std::string& file) {
@@ -190,19 +205,7 @@ Result<std::vector<LoopRow>> run_loop(const LoopSetup& setup, Executor& executor
     const bool ended =
         course != nullptr ? step->output.arrived : order.finished || order.no_passage;
     if (ended || k == samples) break;
-    physics.disturb(row.t_s);
-    const Allocation<float>& command = step->output.command;
-    physics.step(
-        row.t_s,
-        {static_cast<double>(command.force.left), static_cast<double>(command.force.right)},
-        static_cast<double>(command.steering_rad));
-    if (!physics.resolved()) {
-      return input_error(fmt::format("scenario '{}'", setup.scenario.name),
-                         fmt::format("the simulated vehicle cannot go on after {:g} s: resistance "
-                                     "is too stiff there for any step, or a number is no longer "
-                                     "finite",
-                                     row.t_s));
-    }
+    AWMR_RETURN_IF_ERROR(drive(physics, row.t_s, step->output.command, setup.scenario.name));
   }
   return rows;
 }

@@ -112,14 +112,33 @@ Result<std::unique_ptr<Chip>> port_link(const std::filesystem::path& port, unsig
                     parameters_crc);
 }
 
-Status serve_terminal(const std::filesystem::path& elf) {
-  auto emulator = Emulator::load(elf);
-  if (!emulator) return tl::unexpected(emulator.error());
+namespace {
+
+Result<int> open_terminal() {
   const int terminal = ::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
   if (terminal < 0 || ::grantpt(terminal) != 0 || ::unlockpt(terminal) != 0 ||
       !make_raw(terminal, B500000)) {
     return program_fault("no pseudo-terminal can be made");
   }
+  return terminal;
+}
+
+/// Writes as much as the other side takes.
+void write_to(int terminal, const std::string& bytes) {
+  std::size_t sent = 0;
+  while (sent < bytes.size()) {
+    const ssize_t count = ::write(terminal, bytes.data() + sent, bytes.size() - sent);
+    if (count <= 0) break;
+    sent += static_cast<std::size_t>(count);
+  }
+}
+
+}  // namespace
+
+Status serve_terminal(const std::filesystem::path& elf) {
+  auto emulator = Emulator::load(elf);
+  if (!emulator) return tl::unexpected(emulator.error());
+  AWMR_ASSIGN_OR_RETURN(const int terminal, open_terminal());
   std::string answer;
   (*emulator)->on_uart_output([&](std::uint8_t byte) { answer += static_cast<char>(byte); });
   (*emulator)->connect_uart();
@@ -147,12 +166,7 @@ Status serve_terminal(const std::filesystem::path& elf) {
         !ran) {
       return ran;
     }
-    std::size_t sent = 0;
-    while (sent < answer.size()) {
-      const ssize_t count = ::write(terminal, answer.data() + sent, answer.size() - sent);
-      if (count <= 0) break;
-      sent += static_cast<std::size_t>(count);
-    }
+    write_to(terminal, answer);
     answer.clear();
   }
   ::close(terminal);

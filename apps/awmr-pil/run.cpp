@@ -8,17 +8,15 @@
 #include <filesystem>
 
 #include "awmr/core/file.h"
-#include "awmr/core/input_file.h"
-#include "awmr/core/json.h"
 #include "awmr/model/gains_file.h"
 #include "awmr/model/model_file.h"
 #include "awmr/simulate/scenario_file.h"
-#include "comparison.h"
 #include "emit_options.h"
 #include "emulator.h"
 #include "executor.h"
 #include "firmware_build.h"
 #include "loop.h"
+#include "report.h"
 #include "work_folder.h"
 
 namespace awmr::pil {
@@ -93,13 +91,6 @@ Result<std::unique_ptr<Chip>> connect(const PilOptions& options, const Inputs& i
   return memory_link(elf, damage);
 }
 
-struct ChipRun {
-  std::vector<LoopRow> rows;
-  ChipFigures figures;
-  std::uint8_t start_fault = 0;
-  double real_time_factor = 0.0;
-};
-
 /// Of this process's processor time, which is what emulation takes on one core; with a real board
 /// of the clock's.
 double elapsed_s(bool emulated) {
@@ -149,27 +140,6 @@ Result<std::vector<LoopRow>> run_host(const Inputs& in, ResistanceForm form,
   return run_loop(in.setup, *host);
 }
 
-/// One thing to be held against its bound.
-struct Check {
-  std::string name;
-  double value = 0.0;
-  double bound = 0.0;
-  bool passed = false;
-  std::string unit;
-};
-
-Check at_most(std::string name, double value, double bound, std::string unit) {
-  return {std::move(name), value, bound, value <= bound, std::move(unit)};
-}
-
-/// What an injected fault did.
-struct Injected {
-  std::uint8_t expected = 0;
-  std::uint8_t seen = 0xFF;  ///< bits that were set on every sample of the window
-  bool safe = true;          ///< forces 0 and wheels straight over the whole window
-  bool quiet = true;         ///< no fault outside the window
-};
-
 Injected injected_of(const LoopSetup& setup, const std::vector<LoopRow>& rows) {
   Injected result;
   result.expected = expected_fault(setup.injection);
@@ -188,21 +158,6 @@ Injected injected_of(const LoopSetup& setup, const std::vector<LoopRow>& rows) {
   }
   return result;
 }
-
-struct Report {
-  ChipRun chip;
-  Cycles cycles;
-  Difference from_float;
-  std::optional<Difference> from_double;  ///< absent with an injection
-  std::optional<Difference> by_float32;   ///< float by powf against double
-  std::optional<Difference> by_table;     ///< float by table against float by powf
-  std::optional<Injected> injected;
-  std::vector<Check> checks;
-
-  bool passed() const {
-    return std::all_of(checks.begin(), checks.end(), [](const Check& c) { return c.passed; });
-  }
-};
 
 Status compare_runs(const PilOptions& options, const Inputs& in, Report& report) {
   const auto twin = run_host(in, options.emit.resistance, options.emit);
@@ -228,127 +183,6 @@ Status compare_runs(const PilOptions& options, const Inputs& in, Report& report)
   return {};
 }
 
-void judge(const PilOptions& options, Report& report) {
-  const bool by_table = options.emit.resistance == ResistanceForm::kTable;
-  const bool by_memory = options.link == cli::PilLink::kMemory;
-  const ChipFigures& figures = report.chip.figures;
-  std::vector<Check>& checks = report.checks;
-  checks.push_back(at_most("cycles", report.cycles.max,
-                           options.cycles_max.value_or(by_table ? 12000 : 24000), "cycles"));
-  checks.push_back(at_most("flash", figures.flash_bytes,
-                           options.flash_max.value_or(by_memory ? 8192 : 9216), "bytes"));
-  checks.push_back(at_most("ram", figures.ram_bytes, options.ram_max, "bytes"));
-  checks.push_back(at_most("difference from the host's float run", report.from_float.largest(),
-                           options.difference_max.value_or(by_table ? 0.0 : 1e-6), ""));
-  checks.push_back({"rows as in the host's float run", report.from_float.same_length ? 0.0 : 1.0,
-                    0.0, report.from_float.same_length, ""});
-  if (report.from_double) {
-    checks.push_back(at_most("heading from the host's double run",
-                             report.from_double->of("heading_deg"), options.heading_max_deg,
-                             "deg"));
-  }
-  if (const auto& injected = report.injected) {
-    const bool raised = (injected->seen & injected->expected) != 0;
-    checks.push_back({"injected fault raised", raised ? 0.0 : 1.0, 0.0, raised, ""});
-    checks.push_back({"safe command given", injected->safe ? 0.0 : 1.0, 0.0, injected->safe, ""});
-    checks.push_back({"no other fault", injected->quiet ? 0.0 : 1.0, 0.0, injected->quiet, ""});
-  } else {
-    const bool clean = report.chip.start_fault == kFaultNone &&
-                       std::all_of(report.chip.rows.begin(), report.chip.rows.end(),
-                                   [](const LoopRow& row) { return row.step.output.fault == 0; });
-    checks.push_back({"no fault", clean ? 0.0 : 1.0, 0.0, clean, ""});
-  }
-}
-
-Json json_of(const Difference& difference) {
-  Json json = Json::object();
-  for (const auto& [name, value] : difference.signals) {
-    if (std::isfinite(value)) {
-      json[name] = value;
-    } else {
-      json[name] = nullptr;
-    }
-  }
-  return json;
-}
-
-Json json_of(const Check& check) {
-  return {{"check", check.name},
-          {"value", std::isfinite(check.value) ? Json(check.value) : Json(nullptr)},
-          {"bound", check.bound},
-          {"passed", check.passed}};
-}
-
-std::string mode_name(const PilOptions& options) { return std::string(name_of(options.mode)); }
-
-Result<Provenance> provenance_of(const PilOptions& options) {
-  Provenance provenance;
-  provenance.command = "pil";
-  const bool by_table = options.emit.resistance == ResistanceForm::kTable;
-  provenance.options = {{"mode", mode_name(options)},
-                        {"link", options.link == cli::PilLink::kMemory ? "memory" : "uart"},
-                        {"resistance", by_table ? "table" : "powf"},
-                        {"table-error", fmt::format("{:g}", options.emit.table_error)}};
-  for (const fs::path& path : {options.model, options.gains, options.scenario}) {
-    const auto input = input_file(path);
-    if (!input) return tl::unexpected(input.error());
-    provenance.inputs.push_back(*input);
-  }
-  return provenance;
-}
-
-Result<std::string> text_of(const PilOptions& options, const Inputs& in, const Report& report) {
-  Json json;
-  json["schema"] = "awmr.pil/1";
-  const auto provenance = provenance_of(options);
-  if (!provenance) return tl::unexpected(provenance.error());
-  put_provenance(json, *provenance);
-  json["scenario"] = in.setup.scenario.name;
-  json["mode"] = mode_name(options);
-  json["samples"] = report.chip.rows.size();
-  json["difference"] = json_of(report.from_float);
-  if (report.from_double) json["difference_double"] = json_of(*report.from_double);
-  if (report.by_float32) json["effect"]["float32"] = json_of(*report.by_float32);
-  if (report.by_table) json["effect"]["table"] = json_of(*report.by_table);
-  json["cycles"] = {
-      {"min", report.cycles.min}, {"mean", report.cycles.mean}, {"max", report.cycles.max}};
-  json["period_share"] = report.cycles.max / (in.setup.sample_time_s * kClockHz);
-  json["flash_bytes"] = report.chip.figures.flash_bytes;
-  json["ram_bytes"] = report.chip.figures.ram_bytes;
-  const auto& stack = report.chip.figures.stack_bytes;
-  json["stack_bytes"] = stack ? Json(*stack) : Json(nullptr);
-  if (const auto& injected = report.injected) {
-    json["injected"] = {{"expected_fault", injected->expected},
-                        {"fault", injected->seen},
-                        {"start_fault", report.chip.start_fault},
-                        {"safe", injected->safe}};
-  }
-  json["checks"] = Json::array();
-  for (const Check& check : report.checks) json["checks"].push_back(json_of(check));
-  json["verdict"] = report.passed() ? "passed" : "failed";
-  return to_text(json);
-}
-
-std::string summary_of(const PilOptions& options, const Inputs& in, const Report& report) {
-  const ChipFigures& figures = report.chip.figures;
-  std::string text = fmt::format(
-      "{}, {}, {} samples on an ATmega2560 at 16 MHz\n"
-      "  cycles per step: min {}, mean {:.0f}, max {} ({:.1f} % of the sample time)\n"
-      "  flash {} bytes, RAM {} bytes, stack {}; {:.0f} times real time\n",
-      in.setup.scenario.name, mode_name(options), report.chip.rows.size(), report.cycles.min,
-      report.cycles.mean, report.cycles.max,
-      100.0 * report.cycles.max / (in.setup.sample_time_s * kClockHz), figures.flash_bytes,
-      figures.ram_bytes,
-      figures.stack_bytes ? fmt::format("{} bytes", *figures.stack_bytes) : "unknown",
-      report.chip.real_time_factor);
-  for (const Check& check : report.checks) {
-    text += fmt::format("  {}: {} {:.3g}, at most {:.6g}{}{}\n", check.passed ? "passed" : "FAILED",
-                        check.name, check.value, check.bound, check.unit.empty() ? "" : " ",
-                        check.unit);
-  }
-  return text + fmt::format("wrote {}\n", options.output.string());
-}
-
 }  // namespace
 
 Result<Outcome> run_pil(const PilOptions& options) {
@@ -363,12 +197,12 @@ Result<Outcome> run_pil(const PilOptions& options) {
     return tl::unexpected(compared.error());
   }
   judge(options, report);
-  const auto text = text_of(options, *in, report);
+  const auto text = report_text(options, in->setup, report);
   if (!text) return tl::unexpected(text.error());
   if (auto written = write_file(options.output, *text); !written) {
     return tl::unexpected(written.error());
   }
-  return Outcome{summary_of(options, *in, report), report.passed()};
+  return Outcome{report_summary(options, in->setup, report), report.passed()};
 }
 
 }  // namespace awmr::pil

@@ -40,10 +40,7 @@ int report(const Result<Outcome>& result, bool quiet) {
 }
 
 std::string origin(const Estimate& estimate) {
-  const char* source = estimate.source == Source::kGiven     ? "given"
-                       : estimate.source == Source::kDerived ? "derived"
-                                                             : "fitted";
-  return fmt::format("{}, {}", source, estimate.method);
+  return fmt::format("{}, {}", name_in(kSourceNames, estimate.source), estimate.method);
 }
 
 }  // namespace

@@ -20,12 +20,10 @@ Status add_family(std::string_view text, IdentifyOptions& options) {
   const std::string_view name = equals == std::string_view::npos ? text : text.substr(equals + 1);
   FamilyChoice choice{std::nullopt};
   if (name != "auto") {
-    choice.family = family_by_name(name);
+    choice.family = value_in(kFamilyNames, name);
     if (!choice.family) {
-      std::vector<std::string_view> names;
-      for (const Family family : kFamilies) names.push_back(name_of(family));
       return input_error("--family", fmt::format("no family is called '{}'; the names are {}, auto",
-                                                 name, fmt::join(names, ", ")));
+                                                 name, fmt::join(names_in(kFamilyNames), ", ")));
     }
   }
   if (subject.empty()) {

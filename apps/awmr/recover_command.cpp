@@ -17,10 +17,10 @@ namespace {
 
 constexpr NameTable<RecoverPlan, 3> kPlans{
     {{"tables", RecoverPlan::kTables}, {"curve", RecoverPlan::kCurve}, {"log", RecoverPlan::kLog}}};
-constexpr NameTable<RowError, 4> kErrors{{{"log-force", RowError::kLogForce},
-                                          {"force", RowError::kForce},
-                                          {"speed", RowError::kSpeed},
-                                          {"time", RowError::kTime}}};
+constexpr NameTable<ErrorModel, 4> kErrors{{{"log-force", ErrorModel::kLogForce},
+                                            {"force", ErrorModel::kForce},
+                                            {"speed", ErrorModel::kSpeed},
+                                            {"time", ErrorModel::kTime}}};
 
 std::string table_of(const Recovery& recovery) {
   std::string text = fmt::format("{} runs, {} of them with something refused; noise {}\n",

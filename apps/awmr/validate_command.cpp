@@ -119,7 +119,9 @@ Result<Outcome> execute(const ValidateCommand& command) {
   AWMR_ASSIGN_OR_RETURN(const Provenance provenance, provenance_of(command));
   AWMR_RETURN_IF_ERROR(write_file(command.output, validation_text(validation, provenance)));
   if (command.claims_table) {
-    AWMR_RETURN_IF_ERROR(write_file(*command.claims_table, claims_markdown(validation.claims)));
+    const std::string table = claims_markdown(
+        validation.claims, "awmr validate --model MODEL --claims --claims-table FILE");
+    AWMR_RETURN_IF_ERROR(write_file(*command.claims_table, table));
   }
   return Outcome{.summary = summary_of(command, validation),
                  .brief = brief_of(validation),

@@ -14,18 +14,22 @@ using ::testing::HasSubstr;
 using ::testing::SizeIs;
 using ::testing::StartsWith;
 
+using StopTimes = TrialSet<StopTimeRow>;
+using Curves = std::vector<CoastCurve>;
+
 TEST(CoastdownTrial, ReadsARowPerRun) {
   const auto read =
       accepted(read_coastdown, "initial_speed_mps\tstop_time_s\n1.66\t0.573\n1.2\t0.4\n");
-  ASSERT_THAT(read.set.rows, SizeIs(2));
-  EXPECT_EQ(read.set.rows[1].line, 3);
-  EXPECT_EQ(read.set.rows[1].initial_speed_mps, 1.2);
-  EXPECT_EQ(read.set.rows[1].stop_time_s, 0.4);
+  const auto& rows = std::get<StopTimes>(read.set).rows;
+  ASSERT_THAT(rows, SizeIs(2));
+  EXPECT_EQ(rows[1].line, 3);
+  EXPECT_EQ(rows[1].initial_speed_mps, 1.2);
+  EXPECT_EQ(rows[1].stop_time_s, 0.4);
 }
 
 TEST(CoastdownTrial, SetsARunFromRestAside) {
   const auto read = accepted(read_coastdown, "initial_speed_mps,stop_time_s\n0,0\n1.66,0.573\n");
-  EXPECT_EQ(read.set.set_aside, 1);
+  EXPECT_EQ(std::get<StopTimes>(read.set).set_aside, 1);
   EXPECT_THAT(codes_of(read.findings), ElementsAre("rows-set-aside@2"));
 }
 
@@ -33,10 +37,11 @@ TEST(CoastdownTrial, ReadsCurvesByRun) {
   const auto read = accepted(read_coastdown,
                              "run,t_s,speed_mps\n1,0,1.6\n1,0.1,1.2\n1,0.2,0.8\n1,0.3,0.5\n1,0.4,"
                              "0.2\n2,0,1.5\n2,0.1,1.1\n2,0.2,0.7\n2,0.3,0.4\n2,0.4,-0.01\n");
-  EXPECT_TRUE(read.set.rows.empty());
-  ASSERT_THAT(read.set.curves, SizeIs(2));
-  EXPECT_EQ(read.set.curves[1].line, 7);
-  EXPECT_THAT(read.set.curves[1].speed_mps, ElementsAre(1.5, 1.1, 0.7, 0.4, -0.01));
+  ASSERT_TRUE(std::holds_alternative<Curves>(read.set));
+  const auto& curves = std::get<Curves>(read.set);
+  ASSERT_THAT(curves, SizeIs(2));
+  EXPECT_EQ(curves[1].line, 7);
+  EXPECT_THAT(curves[1].speed_mps, ElementsAre(1.5, 1.1, 0.7, 0.4, -0.01));
 }
 
 TEST(CoastdownTrial, RefusesACurveWhoseTimeDoesNotRiseOrThatIsTooShort) {
@@ -56,14 +61,12 @@ TEST(CoastdownTrial, RefusesBothFormsInOneFile) {
 
 TEST(CoastdownTrial, KnowsHowWellATimeIsKnownFromHowItIsWritten) {
   // A stop watch: 0.1 s. An automatic time to the millisecond: its rounding, 1 ms / sqrt 12.
-  EXPECT_EQ(accepted(read_coastdown, "initial_speed_mps,stop_time_s\n1.66,0.57\n")
-                .set.rows[0]
-                .timing_std_s,
-            0.1);
-  EXPECT_NEAR(accepted(read_coastdown, "initial_speed_mps,stop_time_s\n1.66,0.573\n")
-                  .set.rows[0]
-                  .timing_std_s,
-              1e-3 / std::sqrt(12.0), 1e-9);
+  const auto timing_std_s = [](const std::string& row) {
+    const auto read = accepted(read_coastdown, "initial_speed_mps,stop_time_s\n" + row + "\n");
+    return std::get<StopTimes>(read.set).rows[0].timing_std_s;
+  };
+  EXPECT_EQ(timing_std_s("1.66,0.57"), 0.1);
+  EXPECT_NEAR(timing_std_s("1.66,0.573"), 1e-3 / std::sqrt(12.0), 1e-9);
 }
 
 TEST(CoastdownTrial, NeedsItsColumns) {

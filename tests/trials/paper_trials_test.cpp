@@ -92,13 +92,14 @@ TEST(PaperCoastdown, HasTheStopTimeComputedBack) {
   std::vector<Finding> findings;
   const auto set = read_coastdown(kPaper / "coastdown.csv", {}, findings);
   ASSERT_TRUE(set) << to_text(set.error());
-  ASSERT_EQ(set->rows.size(), 1u);
-  EXPECT_EQ(set->rows[0].initial_speed_mps, 1.66);
+  const auto& rows = std::get<TrialSet<StopTimeRow>>(*set).rows;
+  ASSERT_EQ(rows.size(), 1u);
+  EXPECT_EQ(rows[0].initial_speed_mps, 1.66);
   // m' = (1-b1) a1 t_a/u_max^(1-b1)                                                 [paper (60)]
   // printed as 0.0768; 0.573 s to half a millisecond is 0.09 % of it: 7e-5, plus 5e-5 of rounding.
   const double a1 = 1.3268;
   const double b1 = 0.8933;
-  const double mass_norm = (1.0 - b1) * a1 * set->rows[0].stop_time_s / std::pow(1.66, 1.0 - b1);
+  const double mass_norm = (1.0 - b1) * a1 * rows[0].stop_time_s / std::pow(1.66, 1.0 - b1);
   EXPECT_NEAR(mass_norm, 0.0768, 1.2e-4);
   EXPECT_TRUE(findings.empty());
 }

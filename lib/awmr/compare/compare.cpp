@@ -63,7 +63,7 @@ struct Layout {
   std::size_t scenarios, gains, samples;
 
   std::size_t count() const { return scenarios * gains * kModeCount * samples; }
-  /// Rows stand by scenario, gains, mode, sample.
+  /// The place of a row in the output, which is sorted by scenario, gains, mode and sample.
   std::size_t row(const Place& p) const {
     return ((p.scenario * gains + p.gains) * kModeCount + p.mode) * samples + p.sample;
   }
@@ -77,7 +77,7 @@ struct Layout {
   }
 };
 
-/// The rows, each once it is finished.
+/// A place for each row of the output, empty until its run is finished.
 using Slots = std::vector<std::optional<ComparisonRow>>;
 
 template <class Items, class Same>

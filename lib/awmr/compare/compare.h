@@ -27,20 +27,25 @@ struct NamedGains {
 struct ComparisonRow {
   std::string scenario;
   YawMode mode{};
-  int sample = 0;  ///< 0: the model's own values
+  int sample = 0;  ///< >= 0; 0: the model's own values
   Metrics metrics;
   std::string gains = {};  ///< NamedGains::name
 };
 
 struct CompareOptions {
-  int samples = 0;  ///< Monte-Carlo samples beside the nominal model (sample 0), >= 0
+  /// Monte-Carlo samples beside the nominal model (sample 0), >= 0. More tell smaller differences
+  /// apart; 0 compares the model's own values alone, without intervals or tests.
+  int samples = 0;
+  /// Of the draws, the noise and the bootstrap. Another one shows what a verdict owes to chance.
   std::uint64_t seed = 1;
-  int threads = 0;  ///< 0: one per core; results do not depend on it
-  /// Rows that are there already, from a comparison of the same inputs and seed.
+  /// >= 0; 0: one per core. Fewer leave cores to other work; results do not depend on it.
+  int threads = 0;
+  /// Rows that are there already, from a comparison of the same inputs and seed: to go on with one
+  /// that was stopped.
   std::vector<ComparisonRow> finished = {};
-  /// Told of the runs done and of all, from the thread that called compare().
+  /// Told of the runs done and of all, from the thread that called compare(): for a progress bar.
   std::function<void(std::size_t done, std::size_t total)> progress = {};
-  /// Once true, no further run is begun.
+  /// Once true, no further run is begun: for an interrupt. Null: never.
   const std::atomic<bool>* stop = nullptr;
 };
 
@@ -72,8 +77,8 @@ std::string comparison_text(const Comparison& comparison, const CompareOptions& 
                             const Provenance& provenance);
 
 /// The rows of a comparison.csv written before, and a check that its comparison.json is of the same
-/// inputs and options (`--samples` and `--threads` may differ). Errors (input): the files are
-/// missing, malformed or of another comparison.
+/// inputs and options; the numbers of samples and threads may differ. Errors (input): the files
+/// are missing, malformed or of another comparison.
 Result<std::vector<ComparisonRow>> read_finished(const std::filesystem::path& directory,
                                                  const Provenance& provenance);
 

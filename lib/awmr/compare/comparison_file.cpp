@@ -129,16 +129,17 @@ Json statistics_json(int samples) {
   json["over"] = samples > 0 ? "samples 1 and up" : "the nominal run alone";
   json["paired_differences"] = "first minus second, by sample";
   json["ci95"] = samples >= 2 ? "of the mean, percentile bootstrap over samples"
-                              : "null: an interval needs at least 2 samples (--samples)";
+                              : "null: an interval needs at least 2 samples (option samples)";
   json["p"] = samples >= 2 ? "two-sided, paired t test of the mean difference"
-                           : "null: a test needs at least 2 samples (--samples)";
+                           : "null: a test needs at least 2 samples (option samples)";
   json["p_holm"] = samples >= 2 ? "p corrected for all differences of the scenario (Holm)"
-                                : "null: a test needs at least 2 samples (--samples)";
-  json["completed_ci95"] = samples >= 2 ? "of the share, exact (Clopper-Pearson)"
-                                        : "null: an interval needs at least 2 samples (--samples)";
+                                : "null: a test needs at least 2 samples (option samples)";
+  json["completed_ci95"] = samples >= 2
+                               ? "of the share, exact (Clopper-Pearson)"
+                               : "null: an interval needs at least 2 samples (option samples)";
   json["resamples"] = samples >= 2 ? Json(kResamples) : Json(nullptr);
   json["quantiles"] = samples >= 2 ? "5, 50 and 95 %, linear between order statistics"
-                                   : "null: quantiles need at least 2 samples (--samples)";
+                                   : "null: quantiles need at least 2 samples (option samples)";
   return json;
 }
 

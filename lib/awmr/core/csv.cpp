@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <utility>
 
@@ -13,6 +11,7 @@
 #include "awmr/core/csv_text.h"
 #include "awmr/core/input_file.h"
 #include "awmr/core/nearest.h"
+#include "awmr/core/option_text.h"
 #include "awmr/core/text.h"
 
 namespace awmr {
@@ -43,22 +42,6 @@ std::string listed(std::span<const std::string> names) {
 }
 
 }  // namespace
-
-bool CsvTable::has(std::string_view column) const {
-  return columns_.find(column) != columns_.end();
-}
-
-std::span<const double> CsvTable::column(std::string_view column) const {
-  return columns_.find(column)->second.values;
-}
-
-std::string CsvTable::place(std::size_t row, std::string_view column) const {
-  const auto found = columns_.find(column);
-  const int character = found == columns_.end() ? 1 : found->second.character[row];
-  return fmt::format("{}:{}:{}", file_, lines_[row], character);
-}
-
-std::string CsvTable::header_place() const { return fmt::format("{}:{}:1", file_, header_line_); }
 
 /// Header, then rows, gathering faults until there are too many to be of use.
 class CsvParser {
@@ -244,8 +227,8 @@ void CsvParser::report_missing(const std::string& name, const std::string& sourc
   if (const std::string near = nearest(source, header_); !near.empty()) {
     message += fmt::format("; did you mean \"{}\"?", near);
   } else {
-    message += fmt::format("; the header has {}; rename one or map it with --column {}=SOURCE",
-                           listed(header_), name);
+    message += fmt::format("; the header has {}; rename one or map it with {}", listed(header_),
+                           option_text(fmt::format("column {}=SOURCE", name)));
   }
   fault(table_.header_line_, 1, std::move(message));
 }
@@ -306,16 +289,6 @@ Result<CsvTable> read_csv(const std::filesystem::path& path, std::span<const Csv
                           std::span<const ColumnMapping> mappings) {
   AWMR_ASSIGN_OR_RETURN(const std::string bytes, read_input(path));
   return read_csv_text(bytes, path.string(), columns, mappings);
-}
-
-std::string finding_file(const CsvTable& table) {
-  return std::filesystem::path(table.file()).filename().string();
-}
-
-std::string format_number(double value) {
-  std::array<char, 32> text{};
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
-  return {text.data(), end};
 }
 
 }  // namespace awmr

@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <charconv>
 #include <cmath>
 
+#include "awmr/core/csv.h"
 #include "awmr/core/text.h"
 
 namespace awmr {
@@ -120,6 +122,12 @@ std::vector<std::string> take_text_record(std::string_view& csv) {
     if (cell.starts_with('\'')) cell.erase(0, 1);
   }
   return cells;
+}
+
+std::string format_number(double value) {
+  std::array<char, 32> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+  return {text.data(), end};
 }
 
 }  // namespace awmr

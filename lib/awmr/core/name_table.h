@@ -43,6 +43,14 @@ constexpr std::optional<T> value_in(const NameTable<T, N>& table, std::string_vi
   return std::nullopt;
 }
 
+/// All values, in the order of the table.
+template <class T, std::size_t N>
+std::vector<T> values_in(const NameTable<T, N>& table) {
+  std::vector<T> values;
+  for (const Named<T>& entry : table) values.push_back(entry.value);
+  return values;
+}
+
 /// All names, in the order of the table.
 template <class T, std::size_t N>
 std::vector<std::string> names_in(const NameTable<T, N>& table) {

@@ -1,8 +1,11 @@
+#include <fmt/format.h>
+
 #include <cmath>
 #include <string>
 #include <utility>
 
 #include "awmr/control/allocation.h"
+#include "awmr/core/option_text.h"
 #include "awmr/core/units.h"
 #include "awmr/emit/emit.h"
 #include "macros.h"
@@ -67,19 +70,23 @@ ParameterBlock block_of(const Plant<double>& plant, const Model& model, const Ga
 Status check_family(const Model& model, const Plant<double>& plant, ResistanceForm form) {
   const std::string file = file_name(model);
   if (plant.wheel_dead_zone > 0.0) {
-    return input_error(file + ":/wheel/dead_zone",
-                       "the firmware does not make up for a dead zone of the wheels; emit the "
-                       "header alone (--header-only) and add AWMR_WHEEL_DEAD_ZONE where the motors "
-                       "are written, or identify a family without it");
+    return input_error(
+        file + ":/wheel/dead_zone",
+        fmt::format("the firmware does not make up for a dead zone of the wheels; emit the "
+                    "header alone ({}) and add AWMR_WHEEL_DEAD_ZONE where the motors are "
+                    "written, or identify a family without it",
+                    option_text("header-only")));
   }
   if (plant.surge.coulomb > 0.0 || plant.yaw.coulomb > 0.0) {
-    return input_error(file + (plant.surge.coulomb > 0.0 ? ":/surge/coulomb" : ":/yaw/coulomb"),
-                       "the firmware does not make up for friction at rest, as the simulated "
-                       "controller does; emit the header alone (--header-only), or identify a "
-                       "family without it");
+    return input_error(
+        file + (plant.surge.coulomb > 0.0 ? ":/surge/coulomb" : ":/yaw/coulomb"),
+        fmt::format("the firmware does not make up for friction at rest, as the simulated "
+                    "controller does; emit the header alone ({}), or identify a family "
+                    "without it",
+                    option_text("header-only")));
   }
   if (form == ResistanceForm::kPowf && (plant.surge.quadratic > 0.0 || plant.yaw.quadratic > 0.0)) {
-    return input_error("--resistance",
+    return input_error(option_text("resistance"),
                        "powf knows the power law alone; this model's family needs the table");
   }
   return {};

@@ -13,18 +13,6 @@
 namespace awmr {
 namespace {
 
-constexpr std::string_view source_name(Source source) {
-  switch (source) {
-    case Source::kGiven:
-      return "given";
-    case Source::kDerived:
-      return "derived";
-    case Source::kFitted:
-      break;
-  }
-  return "fitted";
-}
-
 Macro parameter_macro(std::string name, const Model& model, ParameterId id, MacroRange range,
                       const std::string& file) {
   const ParameterInfo& parameter = info(id);
@@ -33,9 +21,9 @@ Macro parameter_macro(std::string name, const Model& model, ParameterId id, Macr
       estimate.std_error ? fmt::format("std error {:.2g}", *estimate.std_error) : "no std error";
   return {.name = std::move(name),
           .value = *estimate.value,
-          .comment =
-              fmt::format("{}, {}: {}; {}, {}, {}", parameter.symbol, parameter.unit,
-                          parameter.meaning, source_name(estimate.source), estimate.method, error),
+          .comment = fmt::format("{}, {}: {}; {}, {}, {}", parameter.symbol, parameter.unit,
+                                 parameter.meaning, name_in(kSourceNames, estimate.source),
+                                 estimate.method, error),
           .place = fmt::format("{}:{}/value", file, parameter.pointer),
           .range = range};
 }

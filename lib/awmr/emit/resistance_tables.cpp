@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "awmr/core/option_text.h"
+
 namespace awmr {
 namespace {
 
@@ -97,10 +99,10 @@ Result<EmittedTable> resistance_table(const std::string& name, const ResistanceL
   }
   if (!best.values.empty()) return best;
   return refusal(
-      fmt::format("the {} resistance has no table of at most {} entries with an error below "
-                  "--table-error {:g}; "
-                  "the best has {:.2g}: allow a larger --table-error, or use --resistance powf",
-                  name, kMaxEntries, error_share, least_share));
+      fmt::format("the {} resistance has no table of at most {} entries with an error below {}; "
+                  "the best has {:.2g}: allow a larger {}, or use {}",
+                  name, kMaxEntries, option_text(fmt::format("table-error {:g}", error_share)),
+                  least_share, option_text("table-error"), option_text("resistance powf")));
 }
 
 }  // namespace awmr

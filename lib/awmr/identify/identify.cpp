@@ -47,7 +47,7 @@ Method method_of(const TrialData& data, const IdentifyOptions& options) {
                                                    : Method::kTrajectory);
 }
 
-/// Tables go by what suits them where the logs have the last word.
+/// Where the logs fill the main values, the tables are still fitted, with the method that suits them.
 SubjectOptions subject_options(const IdentifyOptions& options, Method method,
                                const FamilyChoice& family) {
   return {method == Method::kTrajectory ? method_of_tables(options) : method, options.noise, family,

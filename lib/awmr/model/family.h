@@ -1,9 +1,9 @@
 /// The families of resistance, each a choice of the terms of resistance.h that are free.
 #pragma once
 
-#include <array>
-#include <optional>
 #include <string_view>
+
+#include "awmr/core/name_table.h"
 
 namespace awmr {
 
@@ -14,9 +14,13 @@ enum class Family {
   kCoulombPower,            ///< c + alpha w^beta
   kDeadZone,                ///< alpha w^beta against a command that loses a dead zone; surge only
 };
-inline constexpr std::array<Family, 5> kFamilies{Family::kPower, Family::kCoulombLinear,
-                                                 Family::kCoulombLinearQuadratic,
-                                                 Family::kCoulombPower, Family::kDeadZone};
+inline constexpr NameTable<Family, 5> kFamilyNames{
+    {{"power", Family::kPower},
+     {"coulomb-linear", Family::kCoulombLinear},
+     {"coulomb-linear-quadratic", Family::kCoulombLinearQuadratic},
+     {"coulomb-power", Family::kCoulombPower},
+     {"dead-zone", Family::kDeadZone}}};
+constexpr std::string_view name_of(Family family) { return name_in(kFamilyNames, family); }
 
 /// Which of the curve's numbers a family leaves free; beta is 1 where it is not, the rest 0.
 struct FamilyTerms {
@@ -26,9 +30,5 @@ struct FamilyTerms {
   bool dead_zone = false;
 };
 FamilyTerms terms_of(Family family);
-
-/// "power", "coulomb-linear", "coulomb-linear-quadratic", "coulomb-power", "dead-zone".
-std::string_view name_of(Family family);
-std::optional<Family> family_by_name(std::string_view name);
 
 }  // namespace awmr

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "awmr/core/interval.h"
+#include "awmr/core/name_table.h"
 #include "awmr/core/result.h"
 #include "awmr/model/dynamics.h"
 #include "awmr/model/family.h"
@@ -23,6 +24,8 @@ enum class Source {
   kDerived,  ///< computed from other numbers of the model, such as I'z from m' and Iz
   kFitted,   ///< estimated from trials
 };
+inline constexpr NameTable<Source, 3> kSourceNames{
+    {{"given", Source::kGiven}, {"derived", Source::kDerived}, {"fitted", Source::kFitted}}};
 
 /// One identified number with its uncertainty and its origin.
 struct Estimate {

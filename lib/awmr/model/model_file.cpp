@@ -14,7 +14,6 @@ namespace awmr {
 namespace {
 
 constexpr std::string_view kSchema = "awmr.model/1";
-const std::string kSources[] = {"given", "derived", "fitted"};
 
 /// The values of a parameter with which the equations of motion make sense: dynamics.h and
 /// resistance.h have the bounds at their fields.
@@ -31,7 +30,7 @@ Json estimate_to_json(const Estimate& estimate, const ParameterInfo& parameter) 
   json["std_error"] = number_or_null(estimate.std_error);
   json["ci95"] = interval_or_null(estimate.ci95);
   json["unit"] = parameter.unit;
-  json["source"] = kSources[static_cast<std::size_t>(estimate.source)];
+  json["source"] = name_in(kSourceNames, estimate.source);
   json["method"] = estimate.method;
   return json;
 }
@@ -43,7 +42,7 @@ Estimate estimate_from_json(JsonObject json, const ParameterInfo& parameter) {
   estimate.ci95 = json.nullable_interval("ci95");
   const std::string unit[] = {std::string(parameter.unit)};
   json.choice("unit", unit);
-  estimate.source = static_cast<Source>(json.choice("source", kSources));
+  estimate.source = json.choice("source", kSourceNames);
   estimate.method = json.string("method");
   json.reject_unknown_keys();
   return estimate;
@@ -79,13 +78,8 @@ void estimates_from_json(JsonObject& root, Model& model) {
         estimate_from_json(place->second.object(path.substr(slash + 1)), parameter);
   }
   const auto family = [&groups](const std::string& group) {
-    static const std::array<std::string, kFamilies.size()> kNames = [] {
-      std::array<std::string, kFamilies.size()> names;
-      for (const Family f : kFamilies) names[static_cast<std::size_t>(f)] = name_of(f);
-      return names;
-    }();
     JsonObject& json = groups.at(group);
-    return json.has("family") ? kFamilies[json.choice("family", kNames)] : Family::kPower;
+    return json.has("family") ? json.choice("family", kFamilyNames) : Family::kPower;
   };
   model.surge_family = family("surge");
   model.yaw_family = family("yaw");

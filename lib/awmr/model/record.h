@@ -85,7 +85,7 @@ struct LeaveOneOut {
   std::vector<double> values;  ///< as EstimatorReport::parameters
 };
 
-/// One of the starts of a search.
+/// One initial guess of a multistart search, and where the search from it ended.
 struct SearchStart {
   std::vector<double> values;  ///< as EstimatorReport::parameters
   double cost = 0.0;           ///< after the search, half the sum of squared standardised residuals

@@ -6,11 +6,23 @@
 
 namespace awmr {
 
+/// The value of a scalar; a type that carries derivatives has its own overload beside it.
+inline double value_of(double x) { return x; }
+
+/// The curve without the derivatives of its numbers.
+template <class T>
+Resistance<double> value_of(const Resistance<T>& law) {
+  return {value_of(law.alpha), value_of(law.beta), value_of(law.rest_speed), value_of(law.coulomb),
+          value_of(law.quadratic)};
+}
+
 /// The plant whose resistances have the chord at rest that Runge-Kutta steps of step_s seconds
-/// need: see rest_speed().
-inline Plant<double> resolved_at_rest(Plant<double> plant, double step_s) {
-  plant.surge.rest_speed = rest_speed(plant.surge, plant.mass_norm, step_s);
-  plant.yaw.rest_speed = rest_speed(plant.yaw, plant.inertia_norm, step_s);
+/// need: see rest_speed(). Where the chord begins is a matter of the steps, not of the motion: it
+/// carries no derivatives.
+template <class T>
+Plant<T> resolved_at_rest(Plant<T> plant, double step_s) {
+  plant.surge.rest_speed = T(rest_speed(value_of(plant.surge), value_of(plant.mass_norm), step_s));
+  plant.yaw.rest_speed = T(rest_speed(value_of(plant.yaw), value_of(plant.inertia_norm), step_s));
   return plant;
 }
 

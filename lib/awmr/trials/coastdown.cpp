@@ -2,6 +2,7 @@
 
 #include "agreement.h"
 #include "awmr/core/csv_text.h"
+#include "awmr/core/option_text.h"
 #include "trial_reader.h"
 
 namespace awmr {
@@ -24,8 +25,9 @@ bool is_stop_time(const TrialReader& reader) {
 void check_columns(TrialReader& reader) {
   if (is_curve(reader) && is_stop_time(reader)) {
     reader.header_fault(
-        "both a curve (t_s, speed_mps) and stop times (initial_speed_mps, stop_time_s): give "
-        "two files, --coastdown twice");
+        fmt::format("both a curve (t_s, speed_mps) and stop times (initial_speed_mps, "
+                    "stop_time_s): give two files, {} twice",
+                    option_text("coastdown")));
     return;
   }
   if (is_curve(reader) || is_stop_time(reader)) return;
@@ -41,7 +43,8 @@ void check_columns(TrialReader& reader) {
   }
 }
 
-void read_stop_times(TrialReader& reader, CoastdownSet& set, std::vector<Finding>& findings) {
+TrialSet<StopTimeRow> read_stop_times(TrialReader& reader, std::vector<Finding>& findings) {
+  TrialSet<StopTimeRow> set{.file = finding_file(reader.table()), .rows = {}};
   std::vector<std::size_t> set_aside;
   const double timing_s = timing_std_s(reader.last_place("stop_time_s"));
   for (std::size_t i = 0; i < reader.table().rows(); ++i) {
@@ -61,14 +64,16 @@ void read_stop_times(TrialReader& reader, CoastdownSet& set, std::vector<Finding
   set.set_aside = static_cast<int>(set_aside.size());
   note_rows_set_aside(reader, set_aside, "a coast-down that begins at rest shows nothing of m'",
                       findings);
+  return set;
 }
 
 /// A run is what has one value of `run`, in one piece; without that column the file is one run.
-void read_curves(TrialReader& reader, CoastdownSet& set) {
+std::vector<CoastCurve> read_curves(TrialReader& reader) {
+  std::vector<CoastCurve> curves;
   std::optional<double> run;
   const auto close = [&] {
-    if (set.curves.empty() || set.curves.back().t_s.size() >= kShortestCurve) return;
-    const CoastCurve& curve = set.curves.back();
+    if (curves.empty() || curves.back().t_s.size() >= kShortestCurve) return;
+    const CoastCurve& curve = curves.back();
     reader.faults().push_back({fmt::format("{}:{}:1", reader.table().file(), curve.line),
                                fmt::format("this coast-down has {} rows; record at least {}",
                                            curve.t_s.size(), kShortestCurve)});
@@ -78,18 +83,19 @@ void read_curves(TrialReader& reader, CoastdownSet& set) {
     const double this_run = reader.cell(i, "run").value_or(0.0);
     if (run != this_run) {
       close();
-      set.curves.push_back({finding_file(reader.table()), reader.table().line(i), {}, {}});
+      curves.push_back({finding_file(reader.table()), reader.table().line(i), {}, {}});
       run = this_run;
-    } else if (!(t_s > set.curves.back().t_s.back())) {
+    } else if (!(t_s > curves.back().t_s.back())) {
       reader.fault(i, "t_s",
                    fmt::format("found {} after {}: time has to rise within a run; number several "
                                "runs in a column run",
-                               t_s, set.curves.back().t_s.back()));
+                               t_s, curves.back().t_s.back()));
     }
-    set.curves.back().t_s.push_back(t_s);
-    set.curves.back().speed_mps.push_back(*reader.cell(i, "speed_mps"));
+    curves.back().t_s.push_back(t_s);
+    curves.back().speed_mps.push_back(*reader.cell(i, "speed_mps"));
   }
   close();
+  return curves;
 }
 
 }  // namespace
@@ -103,11 +109,10 @@ Result<CoastdownSet> read_coastdown(const std::filesystem::path& path, const Tri
   if (!reader.faults().empty()) return input_errors(std::move(reader.faults()));
 
   CoastdownSet set;
-  set.file = finding_file(reader.table());
   if (is_curve(reader)) {
-    read_curves(reader, set);
+    set = read_curves(reader);
   } else {
-    read_stop_times(reader, set, findings);
+    set = read_stop_times(reader, findings);
   }
   if (!reader.faults().empty()) return input_errors(std::move(reader.faults()));
   return set;

@@ -20,13 +20,13 @@ std::optional<Read> keep(Result<Read> read, std::vector<Fault>& faults) {
 /// Curves of several files add up; stop times come in one file.
 void add_coastdown(const std::filesystem::path& path, CoastdownSet set, TrialData& data,
                    std::vector<Fault>& faults) {
-  data.curves.insert(data.curves.end(), set.curves.begin(), set.curves.end());
-  if (!set.curves.empty()) return;
-  if (data.coastdown) {
+  if (const auto* curves = std::get_if<std::vector<CoastCurve>>(&set)) {
+    data.curves.insert(data.curves.end(), curves->begin(), curves->end());
+  } else if (data.coastdown) {
     faults.push_back({path.string(), "a second file of stop times; put all rows into one"});
-    return;
+  } else {
+    data.coastdown = std::get<TrialSet<StopTimeRow>>(std::move(set));
   }
-  data.coastdown = std::move(set);
 }
 
 template <class Row>

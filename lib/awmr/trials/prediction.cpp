@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "awmr/core/index.h"
-#include "awmr/model/steady.h"
+#include "awmr/model/rest.h"
 #include "awmr/trials/replay.h"
 
 namespace awmr {
@@ -28,11 +28,9 @@ struct Predictor {
   double delay_s;
 };
 
-Predictor predictor(const DrivingLog& log, Plant<double> plant, double delay_s) {
+Predictor predictor(const DrivingLog& log, const Plant<double>& plant, double delay_s) {
   const double step_s = replay_step_s(plant);
-  plant.surge.rest_speed = rest_speed(plant.surge, plant.mass_norm, step_s);
-  plant.yaw.rest_speed = rest_speed(plant.yaw, plant.inertia_norm, step_s);
-  return {LogSignals(log), plant, step_s, delay_s};
+  return {LogSignals(log), resolved_at_rest(plant, step_s), step_s, delay_s};
 }
 
 template <class Visit>

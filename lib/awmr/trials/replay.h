@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "awmr/model/rest.h"
 #include "awmr/model/runge_kutta.h"
 #include "awmr/trials/log.h"
 
@@ -47,9 +48,6 @@ struct LogSignals {
   HeldSignal right;
   HeldSignal steering;  ///< the command, or the angle where only that was logged
 };
-
-/// The value of a scalar; a type that carries derivatives has its own overload beside it.
-inline double value_of(double x) { return x; }
 
 /// Mean of a command over [t, t + h] as it arrives `delay_s` later.
 template <class T>

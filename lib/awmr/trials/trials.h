@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "awmr/core/csv.h"
@@ -66,10 +67,8 @@ struct TrialSet {
   int set_aside = 0;  ///< how many rows the file had beside `rows`
 };
 
-/// A coast-down file is either of the two.
-struct CoastdownSet : TrialSet<StopTimeRow> {
-  std::vector<CoastCurve> curves;
-};
+/// A coast-down file has a row per run, or the curves of its runs.
+using CoastdownSet = std::variant<TrialSet<StopTimeRow>, std::vector<CoastCurve>>;
 
 /// Which value is used where a row gives a speed or yaw rate both as printed and through its
 /// timing.

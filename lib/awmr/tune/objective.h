@@ -19,7 +19,7 @@
 
 namespace awmr {
 
-/// One x_i.
+/// One figure x_i of the objective, with its weight and its floor.
 struct ObjectiveTerm {
   const char* name;                  ///< of its weight in tune.json and gains.json
   double ObjectiveWeights::*weight;  ///< w_i

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "awmr/core/interval.h"
+#include "awmr/core/name_table.h"
 #include "awmr/core/provenance.h"
 #include "awmr/core/result.h"
 #include "awmr/model/gains.h"
@@ -17,8 +18,13 @@
 
 namespace awmr {
 
-/// T2 = eps/(2 mu) as the paper has it, or the decay of S itself, 2 T2.
-enum class ReachingForm { kPaper, kStrict };
+/// The time constant that has to be below T1.
+enum class ReachingForm {
+  kPaper,   ///< T2 = eps/(2 mu), of V = S^2/2                                          [paper (95)]
+  kStrict,  ///< eps/mu = 2 T2, of S itself
+};
+inline constexpr NameTable<ReachingForm, 2> kReachingFormNames{
+    {{"paper", ReachingForm::kPaper}, {"strict", ReachingForm::kStrict}}};
 
 /// Weights of the objective's terms, >= 0 and not all 0; each term is over its value with the
 /// baseline gains in the same mode and scenario (see objective.h).
@@ -42,19 +48,25 @@ struct GainBounds {
 };
 
 struct TuneOptions {
+  /// kPaper where the paper's own condition is to be kept; it admits twice the eps/mu.
   ReachingForm form = ReachingForm::kStrict;
-  double margin = 0.8;  ///< reaching time constant <= margin T1, in (0, 1)
+  /// Reaching time constant <= margin T1, in (0, 1). A smaller one parts the two phases further.
+  double margin = 0.8;
   ObjectiveWeights weights;
+  /// >= 1. More where a search is refused although its gains come near to the baseline's objective.
   int global_evaluations = 300;
+  /// >= 0, of the local searches together; 0: the best of the global search is the answer.
   int local_evaluations = 150;
+  /// Of the global search. Another one shows how far the objective is flat.
   std::uint64_t seed = 1;
-  std::vector<Scenario> scenarios;  ///< empty: the heading scenario 30 then -30 deg at 1 m/s
+  /// Each has to hold headings, under a name of its own; empty: 30 then -30 deg at 1 m/s.
+  std::vector<Scenario> scenarios;
   GainBounds bounds;
   /// The files `scenarios` came from, for the output's list of inputs; empty for the default.
   std::vector<std::filesystem::path> scenario_files;
 };
 
-/// tune.json (`awmr.tune/1`, --config), strict, every key optional:
+/// tune.json (`awmr.tune/1`), strict, every key optional:
 ///   schema, form ("paper" | "strict"), margin, weights {itae, overshoot, control_variation,
 ///   effort, speed_itae}, bounds {lambda, mu, epsilon, speed_mu, speed_epsilon: [lo, hi]},
 ///   global_evaluations, local_evaluations, seed, scenarios [path relative to the file, ...].
@@ -75,8 +87,7 @@ struct ModeScore {
   std::string scenario;
   YawMode mode{};
   Metrics metrics{};
-  double objective =
-      0.0;  ///< weighted mean of the normalised terms; 1 for the baseline by definition
+  double objective = 0.0;  ///< weighted mean of the normalised terms; 1 for the baseline itself
   double speed_itae_m_s = 0.0;  ///< integral of t |u_d - u|, m s
 };
 

@@ -11,8 +11,6 @@
 namespace awmr {
 namespace {
 
-constexpr NameTable<ReachingForm, 2> kReachingFormNames{
-    {{"paper", ReachingForm::kPaper}, {"strict", ReachingForm::kStrict}}};
 constexpr double kGainLimit = 1e6;
 constexpr long kEvaluationLimit = 1'000'000;
 

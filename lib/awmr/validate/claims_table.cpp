@@ -35,14 +35,13 @@ std::string claims_table(const std::vector<Claim>& claims) {
   return text + fmt::format("{} of {} claims reproduced\n", reproduced, claims.size());
 }
 
-std::string claims_markdown(const std::vector<Claim>& claims) {
-  std::string text =
+std::string claims_markdown(const std::vector<Claim>& claims, std::string_view made_by) {
+  std::string text = fmt::format(
       "# The paper's claims, simulated\n\n"
-      "Made by `awmr validate --model MODEL --claims --claims-table FILE` with the model "
-      "identified "
-      "from the paper's tables\nand the paper's gains; the runs are those of "
-      "`configs/paper/scenarios`.\n\n"
-      "| claim | verdict | found | counts as reproduced | why |\n|---|---|---|---|---|\n";
+      "Made by `{}` with the model identified from the paper's tables\n"
+      "and the paper's gains; the runs are those of `configs/paper/scenarios`.\n\n"
+      "| claim | verdict | found | counts as reproduced | why |\n|---|---|---|---|---|\n",
+      made_by);
   for (const Claim& claim : claims) {
     text +=
         fmt::format("| {}: {} | {} | {} | {} | {} |\n", claim.id, cell(claim.statement),

@@ -18,7 +18,7 @@ constexpr double kOnTheLineShare = 0.01;
 constexpr double kAlikeShare = 0.10;
 /// "Well followed": a twentieth of the path's width of 20 m, about what a figure shows.
 constexpr double kPathTolerance_m = 1.0;
-/// Figures nearer than this to the best are as good.
+/// A figure counts as equal to the best one if it differs by less than this share.
 constexpr double kAsGoodShare = 0.01;
 
 double largest_steering_deg(const ModeRun& run) {

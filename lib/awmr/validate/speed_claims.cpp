@@ -15,7 +15,7 @@ namespace {
 constexpr double kNoSpeedError = 0.01;  ///< of u_d
 constexpr double kSlightDrop = 0.20;    ///< of u_d: more is not "slight"
 
-/// Extremes of u from `from_s` up to `to_s`.
+/// The least and the greatest speed u between `from_s` and `to_s`.
 Interval speed_range(const ModeRun& run, double from_s, double to_s) {
   Interval range{1e300, -1e300};
   for (const RunRow& row : run.run.rows) {

@@ -18,7 +18,7 @@ std::string unit_of(TrialKind kind) {
   return "s";
 }
 
-/// Trials that no model could be held against.
+/// A fault for each trial whose numbers cannot be compared with a model.
 std::vector<Fault> trial_faults(const Model& model) {
   std::vector<Fault> faults;
   for (std::size_t i = 0; i < model.record.trials.size(); ++i) {

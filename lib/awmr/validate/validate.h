@@ -77,7 +77,7 @@ std::string validation_table(const Validation& validation);
 
 /// Every claim with verdict, figure, tolerance and why, for a terminal.
 std::string claims_table(const std::vector<Claim>& claims);
-/// The same as a Markdown table, for the documentation.
-std::string claims_markdown(const std::vector<Claim>& claims);
+/// The same as a Markdown table, for the documentation. made_by: the command that makes it again.
+std::string claims_markdown(const std::vector<Claim>& claims, std::string_view made_by);
 
 }  // namespace awmr

@@ -172,7 +172,6 @@ void CoastProblem::step(const std::vector<TransformedParameter>& free, const Eig
   }
 }
 
-/// Deceleration at the start of the curves against g1 there: m' ~ g(u) dt/du.
 double guess_log_mass(const std::vector<CoastCurve>& curves, const Resistance<double>& law) {
   for (const CoastCurve& curve : curves) {
     const double top = *std::max_element(curve.speed_mps.begin(), curve.speed_mps.end());

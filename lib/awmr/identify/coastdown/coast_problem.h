@@ -57,7 +57,8 @@ class CoastProblem {
   ceres::Solver::Summary summary_;
 };
 
-/// Deceleration at the start of the curves against g1 there: m' ~ g(u) dt/du.
+/// An initial guess of ln m' from the deceleration at the beginning of the curves and g1 there:
+///   m' ~ g(u) dt/du
 double guess_log_mass(const std::vector<CoastCurve>& curves, const Resistance<double>& law);
 
 }  // namespace awmr

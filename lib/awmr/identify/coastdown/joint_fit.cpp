@@ -11,7 +11,8 @@ namespace awmr {
 namespace {
 
 constexpr int kMaximumRounds = 200;
-/// Of a step, in standard errors, and of the noise levels, relative.
+/// The fit has converged where the last step is shorter than this, in standard errors, and where the
+/// noise levels change by less, relative to themselves.
 constexpr double kTolerance = 1e-8;
 
 /// A number for each of the two sets of rows.
@@ -27,7 +28,7 @@ struct SharedColumns {
   std::vector<Eigen::Index> of_surge;  ///< by block but the last: its column among the surge rows
 };
 
-/// Both sets of rows, residuals and jacobians, at one place.
+/// Residuals and jacobians of both sets of rows, at one set of parameters.
 struct Rows {
   SteadyRows surge;
   Eigen::VectorXd coast_residuals;
@@ -139,22 +140,22 @@ void keep(const Stacked& s, const Rows& rows, CoastProblem& problem, const BySet
 
 }  // namespace
 
-JointFit fit_joint(const SteadyProblem& surge, const SteadyFit& start,
+JointFit fit_joint(const SteadyProblem& surge, const SteadyFit& alone,
                    const std::vector<CoastCurve>& curves) {
   JointFit joint;
-  joint.surge = start;
+  joint.surge = alone;
   const FamilyTerms terms = terms_of(surge.family);
-  CoastProblem problem(curves, start.theta, fit_coast(curves, start).log_mass_norm,
+  CoastProblem problem(curves, alone.theta, fit_coast(curves, alone).log_mass_norm,
                        terms.coulomb || terms.quadratic);
   problem.solve();  // each run's initial state
-  const SharedColumns shared = shared_columns(problem, start.free);
-  BySet variance{start.residual_std * start.residual_std, mean_square(problem.residuals())};
+  const SharedColumns shared = shared_columns(problem, alone.free);
+  BySet variance{alone.residual_std * alone.residual_std, mean_square(problem.residuals())};
   joint.coast.stop_reason = "not converged: the step is still above 1e-8 standard errors";
   // The noise levels are those of the last step's residuals; both settle together.
   for (int round = 0; round < kMaximumRounds && !joint.coast.usable; ++round) {
     joint.surge.theta = problem.theta();
     const Eigen::MatrixXd coast_jacobian = problem.jacobian(shared.blocks);
-    const Rows rows{steady_rows(surge, joint.surge.theta, start.free), problem.residuals(),
+    const Rows rows{steady_rows(surge, joint.surge.theta, alone.free), problem.residuals(),
                     coast_jacobian};
     const Stacked s = stack(rows, shared, variance);
     const Eigen::VectorXd step = gauss_newton_step(s, rows, variance);
@@ -167,7 +168,7 @@ JointFit fit_joint(const SteadyProblem& surge, const SteadyFit& start,
       joint.surge.residual_std = std::sqrt(next.surge);
       joint.surge.residuals = rows.surge.residuals;
     } else {
-      problem.step(start.free, step);
+      problem.step(alone.free, step);
     }
     variance = next;
   }

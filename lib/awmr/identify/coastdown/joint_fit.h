@@ -17,8 +17,8 @@ struct JointFit {
   CoastFit coast;              ///< its residuals, noise, stop reason, and whether it is usable
 };
 
-/// `start`: the fit of the surge rows alone, the initial guess.
-JointFit fit_joint(const SteadyProblem& surge, const SteadyFit& start,
+/// `alone`: the fit of the surge rows alone, which is the initial guess of the joint one.
+JointFit fit_joint(const SteadyProblem& surge, const SteadyFit& alone,
                    const std::vector<CoastCurve>& curves);
 
 }  // namespace awmr

@@ -16,7 +16,8 @@ namespace {
 /// A curve whose speed falls by less than this many deviations of its noise shows no deceleration.
 constexpr double kMinimumFall = 5.0;
 
-/// Speeds that only wander about one level.
+/// False for a curve whose speeds only wander about one level: its mean of the last fifth is not
+/// below that of the first by more than noise explains.
 bool falls(const CoastCurve& curve) {
   const std::size_t part = std::max<std::size_t>(2, curve.speed_mps.size() / 5);
   const auto mean = [&](std::size_t begin) {
@@ -34,7 +35,7 @@ bool falls(const CoastCurve& curve) {
   return fall > kMinimumFall * noise / std::sqrt(static_cast<double>(part)) && fall > 0.0;
 }
 
-/// The curves that fall, the others as findings of `result`.
+/// Returns the curves that fall, and adds a finding to `result` for each of the others.
 std::vector<CoastCurve> falling(const std::vector<CoastCurve>& curves, MassResult& result) {
   std::vector<CoastCurve> kept;
   for (const CoastCurve& curve : curves) {
@@ -110,7 +111,8 @@ MassResult without_surge(const std::vector<CoastCurve>& curves, const Vehicle& v
   return result;
 }
 
-/// With its report; the reason in `result` where there is none.
+/// m' from the stop times, whose report goes into `result`. Where they give none, `result` has the
+/// reason.
 std::optional<MassEstimate> by_stop_time(const SteadyFit& surge,
                                          const std::optional<TrialSet<StopTimeRow>>& stops,
                                          MassResult& result) {
@@ -129,7 +131,8 @@ std::optional<MassEstimate> by_stop_time(const SteadyFit& surge,
   return estimate;
 }
 
-/// With its report; the reason in `result` where there is none.
+/// m' from the curves, whose report goes into `result`. Where they give none, `result` has the
+/// reason.
 std::optional<MassEstimate> by_curves(const SteadyFit& surge, const std::vector<CoastCurve>& curves,
                                       MassResult& result) {
   if (curves.empty()) {

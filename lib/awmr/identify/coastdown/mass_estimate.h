@@ -20,7 +20,7 @@ struct MassEstimate {
   double own_dof = 1e9;       ///< degrees of freedom of that variance; 1e9: known, not estimated
   std::string method;         ///< "stop time", "coast-down curve", "stop time and coast-down curve"
 
-  /// Of ln m'; none where the surge fit has no covariance.
+  /// The variance of ln m'; none where the surge fit has no covariance.
   std::optional<double> variance(const SteadyFit& surge) const;
   /// Satterthwaite: V^2 / (V_surge^2/dof_surge + V_own^2/dof_own)
   double dof(const SteadyFit& surge) const;

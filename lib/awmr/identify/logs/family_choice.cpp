@@ -11,7 +11,7 @@
 namespace awmr {
 namespace {
 
-/// A family without an exponent is linear.
+/// In a family without a free exponent the curve is linear: beta is held at 1.
 void hold_exponent(LogFitOptions& options, ParameterId beta) {
   std::erase(options.free, beta);
   options.initial_guess[at(beta)] = 1.0;
@@ -56,12 +56,12 @@ FamilyFit fit_family(const std::vector<DrivingLog>& logs, const LogFitOptions& p
 BestFamily best_family(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                        Family yaw) {
   constexpr double kPlainlyBetter = 10.0;
-  static_assert(kFamilies.front() == Family::kPower);
   BestFamily result;
-  result.best = fit_family(logs, power_law, kFamilies.front(), yaw);
+  result.best = fit_family(logs, power_law, Family::kPower, yaw);
   const double power_aic = result.best.fit.aic;
-  for (std::size_t i = 1; i < kFamilies.size(); ++i) {
-    FamilyFit rival = fit_family(logs, power_law, kFamilies[i], yaw);
+  for (const Family family : values_in(kFamilyNames)) {
+    if (family == Family::kPower) continue;
+    FamilyFit rival = fit_family(logs, power_law, family, yaw);
     const LogFit& best = result.best.fit;
     const bool better = rival.fit.usable && (!best.usable || rival.fit.aic < best.aic);
     if (better) std::swap(result.best, rival);

@@ -19,7 +19,7 @@ namespace {
 /// factor of 2.7 either way at 95 % for a logarithm, 1 for an exponent.
 constexpr double kUnknown = 0.5;
 
-/// `std` over the large change.
+/// In words, how little is known of a quantity; `std` is its standard error over its large change.
 std::string how_open(double std) {
   if (!std::isfinite(std) || std > 1e3) return "nothing measured depends on it";
   return fmt::format("its standard error is {:.2g} times what would be of use", std / kUnknown);

@@ -52,7 +52,7 @@ Magnitudes mean_magnitudes(const std::vector<DrivingLog>& logs, const Vehicle& v
   return mean;
 }
 
-/// A log at rest has no magnitude.
+/// A log without motion has a magnitude of 0, which no guess can be made from: `otherwise` then.
 double or_else(double value, double otherwise) {
   return value > 1e-6 && std::isfinite(value) ? value : otherwise;
 }

@@ -24,7 +24,7 @@ LogFit without_solution(std::string why, std::vector<SearchStart> starts) {
   return fit;
 }
 
-/// Empty where no bootstrap was asked for.
+/// A 95 % interval for each quantity; empty where no bootstrap was asked for.
 std::vector<Interval> bootstrap_intervals(const LogProblem& problem,
                                           const std::vector<double>& coordinates,
                                           const std::vector<WindowResiduals>& residuals,

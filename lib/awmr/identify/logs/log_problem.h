@@ -26,7 +26,7 @@ struct LogProblem {
   }
 };
 
-/// Where a search stands.
+/// The numbers that a search moves.
 struct SearchPoint {
   std::vector<double> coordinates;     ///< by quantity
   std::vector<double> initial_states;  ///< by window, then by component
@@ -39,7 +39,8 @@ LogProblem log_problem(const std::vector<DrivingLog>& logs, const LogFitOptions&
 /// The coordinates with every window's initial state as it was measured.
 SearchPoint from_measured(const LogProblem& problem, std::vector<double> coordinates);
 
-/// Rough searches integrate with steps this much longer.
+/// Searches from the initial guesses only have to tell good ones from bad ones: they integrate with
+/// steps that are longer by this factor.
 inline constexpr double kRoughStep = 2.0;
 
 /// By window: in parallel, each on its own, so that the result does not depend on the number of

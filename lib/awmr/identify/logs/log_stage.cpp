@@ -140,6 +140,7 @@ FamilyFit fit_families(const std::vector<DrivingLog>& logs, const LogFitOptions&
     chosen = std::move(found.best);
   }
   stage.surge_family = chosen.surge;
+  stage.chosen_report = stage.reports.size();
   stage.reports.push_back(chosen.fit.report);
   append(stage.findings, autocorrelation_findings(chosen.fit, logs.front().file));
   const bool try_families = options.surge_family.family == Family::kPower;
@@ -203,7 +204,7 @@ LogStage run_log_stage(const Vehicle& vehicle, const std::vector<DrivingLog>& lo
   take(chosen.fit, model, overrule, file, stage);
   if (options.cross_validate && logs.size() > 1) {
     const CrossValidation held_out = leave_one_log_out(logs, chosen.options);
-    append(stage.reports.front().leave_one_out, held_out.leave_one_out);
+    append(stage.reports[stage.chosen_report].leave_one_out, held_out.leave_one_out);
     append(stage.findings, held_out.findings);
   }
   return stage;

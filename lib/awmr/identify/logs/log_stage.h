@@ -24,7 +24,8 @@ struct LogStage {
   Family surge_family = Family::kPower;        ///< of the fit
   Eigen::MatrixXd block;                       ///< covariance of the fit's coordinates
   std::map<ParameterId, std::string> reasons;  ///< free in the fit, but not identifiable
-  std::vector<EstimatorReport> reports;
+  std::vector<EstimatorReport> reports;        ///< of every family that was tried
+  std::size_t chosen_report = 0;               ///< in `reports`: of the fit that fills `main`
   std::vector<Finding> findings;
 };
 

@@ -26,7 +26,7 @@ struct FreeQuantity {
   double jacobian(double coordinate) const;  ///< d value / d coordinate
 };
 
-/// The parameters, then the delay, then the biases.
+/// What a fit is free to move, in this order: the parameters, the delay, the biases.
 std::vector<FreeQuantity> free_quantities(const LogFitOptions& options);
 
 /// By quantity: the coordinate at the initial guess; a delay and a bias begin at zero.

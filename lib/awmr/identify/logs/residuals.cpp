@@ -7,16 +7,10 @@
 
 #include "awmr/core/index.h"
 #include "awmr/identify/ceres_solve.h"
-#include "awmr/model/steady.h"
+#include "awmr/model/rest.h"
 
 namespace awmr {
 namespace {
-
-template <class T>
-Resistance<double> plain(const Resistance<T>& law) {
-  return {value_of(law.alpha), value_of(law.beta), 0.0, value_of(law.coulomb),
-          value_of(law.quadratic)};
-}
 
 /// The numbers of one evaluation as T, each with its own derivative where T has them.
 template <class T>
@@ -63,10 +57,8 @@ Unpacked<T> unpack(const LogModel& model, const FitWindow& window, const double*
 /// Model + bias - measured of every sample, in order.
 template <class T>
 std::vector<T> raw_residuals(const LogModel& model, const Unpacked<T>& u, const FitWindow& window) {
-  Plant<T> plant = plant_of(model.vehicle, u.values);
   const double h = model.longest_step_s;
-  plant.surge.rest_speed = T(rest_speed(plain(plant.surge), value_of(plant.mass_norm), h));
-  plant.yaw.rest_speed = T(rest_speed(plain(plant.yaw), value_of(plant.inertia_norm), h));
+  const Plant<T> plant = resolved_at_rest(plant_of(model.vehicle, u.values), h);
   std::vector<T> residuals;
   residuals.reserve(window.samples.size());
   const DrivingLog& log = *window.rows.log;

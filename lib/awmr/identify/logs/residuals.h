@@ -12,7 +12,7 @@
 
 namespace awmr {
 
-/// What every window shares.
+/// What all windows have in common: the plant, the free quantities and the noise.
 struct LogModel {
   Vehicle vehicle;
   ParameterValues<double> held;  ///< all parameters; those among the quantities are overridden
@@ -31,7 +31,8 @@ struct WindowResiduals {
   bool finite = false;  ///< false where the model leaves the finite numbers
 };
 
-/// `coordinates` by quantity, `initial_state` by component.
+/// The residuals of one window, with their jacobian if asked for. `coordinates` has a number for each
+/// free quantity, `initial_state` one for each free component.
 WindowResiduals evaluate(const LogModel& model, const FitWindow& window, const double* coordinates,
                          const double* initial_state, bool with_jacobian);
 

@@ -15,32 +15,16 @@
 namespace awmr {
 namespace {
 
-/// As in EstimatorReport::noise.
-constexpr NameTable<RowError, 4> kRowErrorNames{{{"log force", RowError::kLogForce},
-                                                 {"force", RowError::kForce},
-                                                 {"speed", RowError::kSpeed},
-                                                 {"time", RowError::kTime}}};
-
 /// Where the estimator under test assumes the error of a row.
-RowError error_of(const IdentifyOptions& options) {
-  if (options.method != Method::kNonlinear) return RowError::kLogForce;
-  switch (options.noise.value_or(ErrorModel::kTime)) {
-    case ErrorModel::kForce:
-      return RowError::kForce;
-    case ErrorModel::kSpeed:
-      return RowError::kSpeed;
-    case ErrorModel::kTime:
-      return RowError::kTime;
-    case ErrorModel::kLogForce:
-      break;
-  }
-  return RowError::kLogForce;
+ErrorModel error_of(const IdentifyOptions& options) {
+  if (options.method != Method::kNonlinear) return ErrorModel::kLogForce;
+  return options.noise.value_or(ErrorModel::kTime);
 }
 
 /// The residual scatter that the model's own fit of this subject left, in the unit of the error.
-double scatter(const Model& model, FitSubject subject, RowError error) {
+double scatter(const Model& model, FitSubject subject, ErrorModel error) {
   for (const EstimatorReport& report : model.record.reports) {
-    if (report.subject == subject && report.noise == name_in(kRowErrorNames, error) &&
+    if (report.subject == subject && report.noise == name_of(error) &&
         (report.family.empty() || report.family == name_of(Family::kPower))) {
       return report.residual_std;
     }
@@ -81,7 +65,7 @@ double top_speed_mps(const Model& model) {
 }
 
 RowNoise noise_of(const Model& model, const RecoverOptions& options) {
-  const RowError error = options.error.value_or(error_of(options.identify));
+  const ErrorModel error = options.error.value_or(error_of(options.identify));
   constexpr double kStopWatch_s = 0.02;
   return {.error = error,
           .surge = scatter(model, FitSubject::kSurge, error),
@@ -195,8 +179,7 @@ std::string noise_in_words(const RowNoise& rows, const RecoverOptions& options) 
         s.correlation_s);
   }
   return fmt::format("on {}: surge {:.3g}, turning {:.3g}; stop time {:g} s; curve {:g} m/s",
-                     name_in(kRowErrorNames, rows.error), rows.surge, rows.turning,
-                     rows.stop_time_s, s.speed_mps);
+                     name_of(rows.error), rows.surge, rows.turning, rows.stop_time_s, s.speed_mps);
 }
 
 }  // namespace

@@ -19,24 +19,33 @@ enum class RecoverPlan {
 };
 
 struct RecoverOptions {
+  /// The trials that are to be recorded, or were.
   RecoverPlan plan = RecoverPlan::kTables;
+  /// >= 2. The coverage errs by 0.22/sqrt(runs): 200 tell 95 % to 1.5 %.
   int runs = 200;
   std::uint64_t seed = 1;
-  int threads = 0;           ///< 0: all; the result does not depend on it
-  IdentifyOptions identify;  ///< the estimator under test
-  /// Where the simulated error lies; absent: where the estimator assumes it.
-  std::optional<RowError> error;
-  SensorNoise sensors;  ///< of curves and logs
+  /// >= 0; 0: one per core. Fewer leave cores to other work; the result does not depend on it.
+  int threads = 0;
+  /// The estimator under test.
+  IdentifyOptions identify;
+  /// Where the simulated error lies; absent: where the estimator assumes it. Another place shows
+  /// what a wrong assumption costs.
+  std::optional<ErrorModel> error;
+  /// Of curves and logs. Give the robot's own where they are known.
+  SensorNoise sensors;
+  /// Length and rate of a coast-down curve, > 0.
   double curve_s = 2.0;
   double curve_rate_hz = 100.0;
+  /// The commands of a log; each run drives others.
   DrivePlan drive;
 };
 
+/// truth, bias, rmse and mean_std_error are in the parameter's unit.
 struct RecoveredParameter {
   ParameterId id = ParameterId::kMassNorm;
   double truth = 0.0;
-  double bias = 0.0;
-  double rmse = 0.0;
+  double bias = 0.0;            ///< mean of estimate - truth
+  double rmse = 0.0;            ///< root mean square of that
   double mean_std_error = 0.0;  ///< what the fits said of themselves
   double coverage95 = 0.0;      ///< share of runs whose interval holds the truth
   double worst_error = 0.0;     ///< largest |estimate/truth - 1|
@@ -51,8 +60,9 @@ struct Recovery {
   int failed = 0;  ///< runs in which something asked for was refused
 };
 
-/// `progress` is called with the runs done so far, from any thread, one at a time. Errors (input):
-/// the model lacks a parameter, or has no trials for the plan; fewer than 2 runs.
+/// `progress` is called with the runs done so far, on the thread that called recover(), and last
+/// with all of them. Errors (input): the model lacks a parameter, or has no trials for the plan;
+/// fewer than 2 runs.
 Result<Recovery> recover(const Model& model, const RecoverOptions& options,
                          const std::function<void(int)>& progress);
 

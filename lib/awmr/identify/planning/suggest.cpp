@@ -46,10 +46,10 @@ Uncertainty uncertainty_of(const Model& model) {
   for (std::size_t i = known.size(); i < ids.size(); ++i) {
     covariance(eigen_index(i), eigen_index(i)) = kUnknownStd * kUnknownStd;
   }
-  // m' and I'z from one coast-down are one number: a hair of independent error keeps C
-  // invertible, and a measured I'z able to part them.
-  constexpr double kHair = 1e-4;
-  covariance.diagonal().array() += kHair * kHair;
+  // From one coast-down, I'z is m' times a constant, and C would be singular. A small independent
+  // error of each keeps C invertible, and lets a trial that measures I'z tell the two apart.
+  constexpr double kIndependentStd = 1e-4;
+  covariance.diagonal().array() += kIndependentStd * kIndependentStd;
   return {std::move(ids), std::move(covariance)};
 }
 

@@ -10,7 +10,7 @@
 
 namespace awmr {
 
-/// What one number of the model should become surer of.
+/// A number that should become surer.
 struct SuggestTarget {
   std::string name;  ///< a parameter, or a closed-loop metric
   /// Its value at a plant. Its variance is grad^T C grad with the gradient by differences.
@@ -18,22 +18,28 @@ struct SuggestTarget {
 };
 
 struct SuggestOptions {
-  std::string parameter =
-      {};  ///< to be ranked by; empty: A-optimal, the sum of squared relative errors
-  SensorNoise sensors = {};                 ///< of curves and logs to come
-  int repeats = 3;                          ///< runs of one candidate
-  std::vector<SuggestTarget> metrics = {};  ///< closed-loop figures, worked out by the caller
+  /// What the trials are ranked by: the name of a parameter or of one of `metrics`, where that is
+  /// what has to become surer. Empty: A-optimal, the root sum of the squared relative errors of all
+  /// parameters (an exponent's error as it is, a family's term relative to the whole resistance at
+  /// 1 m/s or 1 rad/s).
+  std::string parameter = {};
+  /// Of the curves and logs to come. Give the robot's own where they are known.
+  SensorNoise sensors = {};
+  /// Runs of one candidate, >= 1: as many as there is time for in the field.
+  int repeats = 3;
+  /// Closed-loop figures, worked out by the caller, where a figure matters rather than a parameter.
+  std::vector<SuggestTarget> metrics = {};
 };
 
 /// A trial that could be recorded.
 struct SuggestedTrial {
   TrialKind kind = TrialKind::kSurge;
   std::string settings;                                 ///< in words, for the field sheet
-  std::vector<std::pair<std::string, double>> numbers;  ///< the same, for scripts
+  std::vector<std::pair<std::string, double>> numbers;  ///< the same, units in the names
   std::string parameter = {};                           ///< what it is ranked by
-  double std_error_before = 0.0;
-  double std_error_after = 0.0;
-  double d_gain = 0.0;  ///< ln det C before - after: bits of information, D-optimality
+  double std_error_before = 0.0;                        ///< of that, in its unit, >= 0
+  double std_error_after = 0.0;  ///< of that, in its unit, in [0, std_error_before]
+  double d_gain = 0.0;           ///< ln det C before - after, >= 0: D-optimality
 };
 
 struct Suggestion {
@@ -42,9 +48,11 @@ struct Suggestion {
   std::vector<std::string> assumptions;
 };
 
-/// Information adds up: C_after = (C^-1 + J^T W J)^-1 with J the derivatives of what the candidate
-/// would measure. Errors (input): the model lacks a parameter or any covariance; an unknown
-/// parameter name.
+/// Information adds up:
+///   C_after = (C^-1 + J^T W J)^-1
+/// with J the derivatives of what the candidate would measure by the parameters' coordinates
+/// (model/transform.h) and W the inverse variances of its errors. Errors (input): the model lacks a
+/// parameter or any covariance; an unknown parameter name.
 Result<Suggestion> suggest(const Model& model, const SuggestOptions& options);
 
 /// The bytes of suggest.json.

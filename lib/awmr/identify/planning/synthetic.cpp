@@ -40,22 +40,22 @@ struct NoisyRow {
   double elapsed_s;
 };
 
-NoisyRow noisy(double force, double rate, double travel, RowError error, double std,
+NoisyRow noisy(double force, double rate, double travel, ErrorModel error, double std,
                Random& random) {
   const double e = std * random.normal();
   NoisyRow row{force, rate, travel / rate};
   switch (error) {
-    case RowError::kLogForce:
+    case ErrorModel::kLogForce:
       row.force = force * std::exp(e);
       break;
-    case RowError::kForce:
+    case ErrorModel::kForce:
       row.force = force + e;
       break;
-    case RowError::kSpeed:
+    case ErrorModel::kSpeed:
       row.rate = rate + e;
       row.elapsed_s = travel / row.rate;
       break;
-    case RowError::kTime:
+    case ErrorModel::kTime:
       row.elapsed_s = travel / rate + e;
       row.rate = travel / row.elapsed_s;
       break;

@@ -9,32 +9,31 @@
 
 namespace awmr {
 
-/// What a log's sensors do to the truth.
+/// What a log's sensors do to the truth: standard deviations, all >= 0.
 struct SensorNoise {
-  double speed_mps = 0.02;
-  double yaw_rate_radps = 0.00873;  ///< 0.5 deg/s
-  double heading_rad = 0.01745;     ///< 1 deg
-  double position_m = 0.05;
-  double position_rate_hz = 10.0;  ///< the receiver's; held between
-  double correlation_s = 0.0;      ///< of every sensor's error; 0: white
+  double speed_mps = 0.02;          ///< of wheel encoders
+  double yaw_rate_radps = 0.00873;  ///< 0.5 deg/s, of a gyroscope
+  double heading_rad = 0.01745;     ///< 1 deg, of a compass
+  double position_m = 0.05;         ///< of each of x and y, of a receiver with corrections
+  double position_rate_hz = 10.0;   ///< > 0: the receiver's; its position is held between
+  double correlation_s = 0.0;       ///< of every sensor's error; 0: white
 };
 
 /// The runs of a table: what was set, in order.
 struct TablePlan {
-  std::vector<double> surge_tau_speed;
-  std::vector<double> turning_steering_rad;
-  double turning_wheel_force = 0.1;
-  double surge_distance_m = 10.0;
-  std::vector<double> stop_from_mps;
+  std::vector<double> surge_tau_speed;       ///< dimensionless, > 0
+  std::vector<double> turning_steering_rad;  ///< d_r, > 0: to the left
+  double turning_wheel_force = 0.1;          ///< F' of every wheel, > 0
+  double surge_distance_m = 10.0;            ///< timed in each surge run, > 0
+  std::vector<double> stop_from_mps;         ///< initial speeds of the coast-downs, > 0
 };
 
-/// Where the error of a table's rows lies, and its standard deviation in that unit.
-enum class RowError { kLogForce, kForce, kSpeed, kTime };
+/// Where the error of a table's rows lies, and its standard deviations in that unit, all >= 0.
 struct RowNoise {
-  RowError error = RowError::kLogForce;
-  double surge = 0.0;
-  double turning = 0.0;
-  double stop_time_s = 0.0;
+  ErrorModel error = ErrorModel::kLogForce;
+  double surge = 0.0;        ///< by `error`: 1 (of ln tau_speed), tau_speed, m/s or s
+  double turning = 0.0;      ///< by `error`: 1 (of ln tau_turn), m, rad/s or s
+  double stop_time_s = 0.0;  ///< of the stop watch, whatever `error` is
 };
 
 /// Rows at the plant's own steady rates. Rows whose force does not move the vehicle are left out.
@@ -49,13 +48,14 @@ CoastCurve simulate_coastdown(const Plant<double>& plant, double speed_mps, doub
 /// A drive that shows everything: thrust and steering change every `hold_s` to levels drawn from
 /// the vehicle's limits, the two sides apart at times. `drive` seeds the commands alone.
 struct DrivePlan {
-  double duration_s = 60.0;
-  double rate_hz = 100.0;
-  double hold_s = 1.5;
-  bool straight = false;  ///< no steering, both sides alike
-  bool servo_measured = false;
-  std::uint64_t drive = 1;
+  double duration_s = 60.0;     ///< > 0
+  double rate_hz = 100.0;       ///< > 0, of the log's rows
+  double hold_s = 1.5;          ///< > 0
+  bool straight = false;        ///< no steering, both sides alike: a drive that shows surge alone
+  bool servo_measured = false;  ///< the steering angle is logged beside its command
+  std::uint64_t drive = 1;      ///< another number is another drive
 };
+/// From rest at the origin. The log has x, y, heading, speed and yaw rate, each with its noise.
 DrivingLog simulate_log(const Plant<double>& plant, const Vehicle& vehicle, const DrivePlan& plan,
                         const SensorNoise& noise, Random& random);
 

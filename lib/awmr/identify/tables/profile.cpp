@@ -10,7 +10,7 @@
 namespace awmr {
 namespace {
 
-/// A place on the profile and zeta there.
+/// A value x of the coordinate, and zeta(x).
 struct Place {
   double x = 0.0;
   double zeta = 0.0;
@@ -30,7 +30,7 @@ struct Profile {
   }
 };
 
-/// zeta(x) = t between `near`, below it, and `far`, above it.
+/// Solves zeta(x) = t between `near`, where zeta is below t, and `far`, where it is above.
 double crossing(const Profile& profile, Place near, Place far, double t, double std_error) {
   for (int i = 0; i < 60 && std::abs(far.x - near.x) > 1e-9 * std_error; ++i) {
     // Regula falsi kept away from the ends, so that the bracket always shrinks.

@@ -25,7 +25,7 @@ struct SteadyPoint {
   int line = 0;                     ///< of the file
 };
 
-/// What is asked of a fit.
+/// What is fitted: the points, the family of the curve, and where the error lies.
 struct SteadyProblem {
   std::vector<SteadyPoint> points;  ///< at least one
   Family family = Family::kPower;
@@ -53,7 +53,7 @@ struct SteadyFit {
   double& operator[](TransformedParameter c) { return theta[at(c)]; }
   bool has_covariance() const { return covariance.size() > 0; }
   bool held_by_bound(TransformedParameter c) const;
-  /// Of a coordinate: none without degrees of freedom or at a bound.
+  /// The standard error of a coordinate; none without degrees of freedom or at a bound.
   std::optional<double> std_error(TransformedParameter c) const;
   /// The curve without the dead zone, which belongs to the command.
   Resistance<double> law() const;
@@ -71,7 +71,7 @@ SteadyFit fit_log_linear(const std::vector<SteadyPoint>& points);
 /// beta is kept in its range, c, q and z at 0 or more. A robust loss takes its scale from the
 /// median absolute residual. Precondition: every point is timed where the noise is kTime.
 SteadyFit fit_steady(const SteadyProblem& problem, const TransformedParameters& initial_guess);
-/// As fit_steady(), from an initial guess that needs no other fit.
+/// The same from an initial guess that is worked out of the points alone.
 SteadyFit fit_steady(const SteadyProblem& problem);
 
 /// Residuals, unweighted, and their derivatives by the coordinates named, anywhere.

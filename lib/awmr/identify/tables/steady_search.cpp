@@ -20,8 +20,7 @@ constexpr double kMinimumInvertibleBeta = 1e-3;
 /// Newton step from the root in double carries the derivatives of an implicit function exactly.
 template <class T>
 T inverse(const Resistance<T>& law, const T& force) {
-  const Resistance<double> plain{value_of(law.alpha), value_of(law.beta), 0.0,
-                                 value_of(law.coulomb), value_of(law.quadratic)};
+  const Resistance<double> plain = value_of(law);
   const std::optional<double> root = steady_rate(plain, value_of(force));
   if (!root) return T(0.0);
   const double jacobian =
@@ -29,7 +28,7 @@ T inverse(const Resistance<T>& law, const T& force) {
   return T(*root) - (law.at(T(*root)) - force) / jacobian;
 }
 
-/// The residual of one run over the five coordinates.
+/// The residual of one run as a function of the five coordinates.
 struct SteadyResidual {
   SteadyPoint point;
   ErrorModel noise;

@@ -20,7 +20,7 @@ std::vector<SteadyPoint> surge_points(const std::vector<SurgeRow>& rows) {
 
 Subject surge_subject(const Vehicle& vehicle, const TrialSet<SurgeRow>& runs) {
   return {.name = FitSubject::kSurge,
-          .families = {kFamilies.begin(), kFamilies.end()},
+          .families = values_in(kFamilyNames),
           .beta_range = vehicle.surge_beta_range,
           .file = runs.file,
           .points = surge_points(runs.rows)};

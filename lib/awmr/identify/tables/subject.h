@@ -35,7 +35,7 @@ Subject yaw_subject(const Vehicle& vehicle, const TrialSet<TurningRow>& runs, do
 /// left out: they turned nothing.
 std::vector<SteadyPoint> turning_points(const std::vector<TurningRow>& rows, double dead_zone);
 
-/// The parameter that a coordinate of a fit is.
+/// The parameter of the model that a coordinate of the fit belongs to.
 ParameterId parameter_of(const Subject& subject, TransformedParameter c);
 
 /// Value, standard error and 95 % interval of one coordinate: Student's t, or the given interval.

@@ -20,7 +20,7 @@ enum class TransformedParameter {
   kDeadZone,   ///< z = 4 F'0, the tau_speed that the dead zones of four wheels take, >= 0
 };
 inline constexpr std::size_t kTransformedParameterCount = 5;
-/// By TransformedParameter.
+/// One number for each TransformedParameter, in its order.
 using TransformedParameters = std::array<double, kTransformedParameterCount>;
 
 /// Those that a family frees, in the order of TransformedParameter.
@@ -29,7 +29,7 @@ std::vector<TransformedParameter> coordinates_of(Family family);
 /// The parameter's value: alpha from its logarithm, F'0 = z/4, the others as they are.
 double value_from(TransformedParameter c, double coordinate);
 Interval values_from(TransformedParameter c, const Interval& coordinate);
-/// d value / d coordinate.
+/// The derivative of the value by the coordinate.
 double jacobian_of(TransformedParameter c, double coordinate);
 
 }  // namespace awmr

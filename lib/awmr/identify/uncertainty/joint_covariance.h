@@ -14,12 +14,12 @@ namespace awmr {
 /// fit, a timing error, ...): C = G B G^T with B the blocks on the diagonal and G the gradients.
 class JointCovariance {
  public:
-  /// A gradient: derivative by element of the base.
+  /// The derivatives of a parameter by the elements of the blocks; absent ones are 0.
   using Gradient = std::map<Eigen::Index, double>;
 
-  /// Returns the place of the block's first element in the base.
+  /// Puts a block after those before it and returns the place of its first element.
   Eigen::Index add_block(const Eigen::MatrixXd& covariance);
-  /// A parameter set again replaces what was set before.
+  /// Says how a parameter depends on the blocks; setting it again replaces what was set before.
   void set(ParameterId id, Gradient gradient) { gradients_[id] = std::move(gradient); }
   bool has(ParameterId id) const { return gradients_.contains(id); }
   double variance(const Gradient& gradient) const;

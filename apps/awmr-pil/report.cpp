@@ -1,0 +1,147 @@
+#include "report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "awmr/core/input_file.h"
+#include "awmr/core/json.h"
+
+namespace awmr::pil {
+namespace {
+
+namespace fs = std::filesystem;
+using cli::PilOptions;
+
+Check at_most(std::string name, double value, double bound, std::string unit) {
+  return {std::move(name), value, bound, value <= bound, std::move(unit)};
+}
+
+Json json_of(const Difference& difference) {
+  Json json = Json::object();
+  for (const auto& [name, value] : difference.signals) {
+    if (std::isfinite(value)) {
+      json[name] = value;
+    } else {
+      json[name] = nullptr;
+    }
+  }
+  return json;
+}
+
+Json json_of(const Check& check) {
+  return {{"check", check.name},
+          {"value", std::isfinite(check.value) ? Json(check.value) : Json(nullptr)},
+          {"bound", check.bound},
+          {"passed", check.passed}};
+}
+
+std::string mode_name(const PilOptions& options) { return std::string(name_of(options.mode)); }
+
+Result<Provenance> provenance_of(const PilOptions& options) {
+  Provenance provenance;
+  provenance.command = "pil";
+  const bool by_table = options.emit.resistance == ResistanceForm::kTable;
+  provenance.options = {{"mode", mode_name(options)},
+                        {"link", options.link == cli::PilLink::kMemory ? "memory" : "uart"},
+                        {"resistance", by_table ? "table" : "powf"},
+                        {"table-error", fmt::format("{:g}", options.emit.table_error)}};
+  for (const fs::path& path : {options.model, options.gains, options.scenario}) {
+    const auto input = input_file(path);
+    if (!input) return tl::unexpected(input.error());
+    provenance.inputs.push_back(*input);
+  }
+  return provenance;
+}
+
+}  // namespace
+
+void judge(const PilOptions& options, Report& report) {
+  const bool by_table = options.emit.resistance == ResistanceForm::kTable;
+  const bool by_memory = options.link == cli::PilLink::kMemory;
+  const ChipFigures& figures = report.chip.figures;
+  std::vector<Check>& checks = report.checks;
+  checks.push_back(at_most("cycles", report.cycles.max,
+                           options.cycles_max.value_or(by_table ? 12000 : 24000), "cycles"));
+  checks.push_back(at_most("flash", figures.flash_bytes,
+                           options.flash_max.value_or(by_memory ? 8192 : 9216), "bytes"));
+  checks.push_back(at_most("ram", figures.ram_bytes, options.ram_max, "bytes"));
+  checks.push_back(at_most("difference from the host's float run", report.from_float.largest(),
+                           options.difference_max.value_or(by_table ? 0.0 : 1e-6), ""));
+  checks.push_back({"rows as in the host's float run", report.from_float.same_length ? 0.0 : 1.0,
+                    0.0, report.from_float.same_length, ""});
+  if (report.from_double) {
+    checks.push_back(at_most("heading from the host's double run",
+                             report.from_double->of("heading_deg"), options.heading_max_deg,
+                             "deg"));
+  }
+  if (const auto& injected = report.injected) {
+    const bool raised = (injected->seen & injected->expected) != 0;
+    checks.push_back({"injected fault raised", raised ? 0.0 : 1.0, 0.0, raised, ""});
+    checks.push_back({"safe command given", injected->safe ? 0.0 : 1.0, 0.0, injected->safe, ""});
+    checks.push_back({"no other fault", injected->quiet ? 0.0 : 1.0, 0.0, injected->quiet, ""});
+  } else {
+    const bool clean = report.chip.start_fault == kFaultNone &&
+                       std::all_of(report.chip.rows.begin(), report.chip.rows.end(),
+                                   [](const LoopRow& row) { return row.step.output.fault == 0; });
+    checks.push_back({"no fault", clean ? 0.0 : 1.0, 0.0, clean, ""});
+  }
+}
+
+Result<std::string> report_text(const PilOptions& options, const LoopSetup& setup,
+                                const Report& report) {
+  Json json;
+  json["schema"] = "awmr.pil/1";
+  const auto provenance = provenance_of(options);
+  if (!provenance) return tl::unexpected(provenance.error());
+  put_provenance(json, *provenance);
+  json["scenario"] = setup.scenario.name;
+  json["mode"] = mode_name(options);
+  json["samples"] = report.chip.rows.size();
+  json["difference"] = json_of(report.from_float);
+  if (report.from_double) json["difference_double"] = json_of(*report.from_double);
+  if (report.by_float32) json["effect"]["float32"] = json_of(*report.by_float32);
+  if (report.by_table) json["effect"]["table"] = json_of(*report.by_table);
+  json["cycles"] = {
+      {"min", report.cycles.min}, {"mean", report.cycles.mean}, {"max", report.cycles.max}};
+  json["period_share"] = report.cycles.max / (setup.sample_time_s * kClockHz);
+  json["flash_bytes"] = report.chip.figures.flash_bytes;
+  json["ram_bytes"] = report.chip.figures.ram_bytes;
+  const auto& stack = report.chip.figures.stack_bytes;
+  json["stack_bytes"] = stack ? Json(*stack) : Json(nullptr);
+  if (const auto& injected = report.injected) {
+    json["injected"] = {{"expected_fault", injected->expected},
+                        {"fault", injected->seen},
+                        {"start_fault", report.chip.start_fault},
+                        {"safe", injected->safe}};
+  }
+  json["checks"] = Json::array();
+  for (const Check& check : report.checks) json["checks"].push_back(json_of(check));
+  json["verdict"] = report.passed() ? "passed" : "failed";
+  return to_text(json);
+}
+
+std::string report_summary(const PilOptions& options, const LoopSetup& setup,
+                           const Report& report) {
+  const ChipFigures& figures = report.chip.figures;
+  std::string text = fmt::format(
+      "{}, {}, {} samples on an ATmega2560 at 16 MHz\n"
+      "  cycles per step: min {}, mean {:.0f}, max {} ({:.1f} % of the sample time)\n"
+      "  flash {} bytes, RAM {} bytes, stack {}; {:.0f} times real time\n",
+      setup.scenario.name, mode_name(options), report.chip.rows.size(), report.cycles.min,
+      report.cycles.mean, report.cycles.max,
+      100.0 * report.cycles.max / (setup.sample_time_s * kClockHz), figures.flash_bytes,
+      figures.ram_bytes,
+      figures.stack_bytes ? fmt::format("{} bytes", *figures.stack_bytes) : "unknown",
+      report.chip.real_time_factor);
+  for (const Check& check : report.checks) {
+    text += fmt::format("  {}: {} {:.3g}, at most {:.6g}{}{}\n", check.passed ? "passed" : "FAILED",
+                        check.name, check.value, check.bound, check.unit.empty() ? "" : " ",
+                        check.unit);
+  }
+  return text + fmt::format("wrote {}\n", options.output.string());
+}
+
+}  // namespace awmr::pil

@@ -1,0 +1,42 @@
+#include <string>
+
+#include "awmr/core/json.h"
+#include "awmr/core/provenance.h"
+
+namespace awmr {
+
+void put_provenance(Json& json, const Provenance& provenance) {
+  json["command"] = provenance.command;
+  json["version"] = version();
+  Json options = Json::object();
+  for (const auto& [name, value] : provenance.options) {
+    if (!options.contains(name)) {
+      options[name] = value;
+    } else {  // an option given several times
+      options[name] = options[name].get<std::string>() + ", " + value;
+    }
+  }
+  json["options"] = options;
+  json["inputs"] = Json::array();
+  for (const InputFile& input : provenance.inputs) {
+    json["inputs"].push_back({{"name", input.name}, {"sha256", input.sha256}});
+  }
+}
+
+Provenance read_provenance(JsonObject& json) {
+  Provenance provenance;
+  provenance.command = json.optional_string("command").value_or("");
+  json.ignore("version");
+  if (auto options = json.optional_object("options")) {
+    for (const std::string& name : options->keys()) {
+      provenance.options.emplace_back(name, options->string(name));
+    }
+  }
+  for (JsonObject& input : json.optional_objects("inputs")) {
+    provenance.inputs.push_back({input.string("name"), input.string("sha256")});
+    input.reject_unknown_keys();
+  }
+  return provenance;
+}
+
+}  // namespace awmr
