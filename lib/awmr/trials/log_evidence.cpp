@@ -1,0 +1,135 @@
+#include "awmr/trials/log_evidence.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace awmr {
+namespace {
+
+/// A response follows its command by about this much; commands are averaged that much earlier.
+constexpr double kResponse_s = 0.2;
+/// Commands as they acted on the window: averaged over the same length, a little earlier.
+void add_commands(const DrivingLog& log, const Vehicle& vehicle, const LogWindow& window,
+                  WindowSums& sums) {
+  const double delay_s = log.steering_command_rad ? kResponse_s : 0.0;
+  const auto row_at = [&](double t_s) {
+    const auto at = std::lower_bound(log.t_s.begin(), log.t_s.end(), t_s - delay_s);
+    return std::min(log.rows() - 1, static_cast<std::size_t>(at - log.t_s.begin()));
+  };
+  const std::size_t begin = row_at(log.t_s[window.begin]);
+  const std::size_t end = std::max(begin + 1, row_at(log.t_s[window.end - 1]) + 1);
+  const std::vector<double>& steering = steering_of(log);
+  const double n = static_cast<double>(end - begin);
+  for (std::size_t i = begin; i < end; ++i) {
+    const double both = log.force_left[i] + log.force_right[i];
+    const double apart = log.force_right[i] - log.force_left[i];
+    sums.thrust += both / n;
+    sums.steering_rad += steering[i] / n;
+    sums.tau_steering_m += vehicle.front_axle_m * both * std::sin(steering[i]) / n;
+    sums.tau_diff_m += vehicle.half_track_m * apart * (std::cos(steering[i]) + 1.0) / n;
+  }
+}
+
+WindowSums sums_of(const DrivingLog& log, const Vehicle& vehicle, const LogWindow& window) {
+  WindowSums sums;
+  const std::size_t last = window.end - 1;
+  sums.span_s = log.t_s[last] - log.t_s[window.begin];
+  if (const auto& heading = log[LogChannel::kHeading]) {
+    sums.turned_rad = heading->value[last] - heading->value[window.begin];
+    sums.heading_rad = heading->value[(window.begin + last) / 2];
+  }
+  if (log[LogChannel::kYawRate]) sums.rate_rad = integral_of(log, LogChannel::kYawRate, window);
+  if (log[LogChannel::kX] && log[LogChannel::kY]) {
+    const double dx = log[LogChannel::kX]->value[last] - log[LogChannel::kX]->value[window.begin];
+    const double dy = log[LogChannel::kY]->value[last] - log[LogChannel::kY]->value[window.begin];
+    sums.moved_m = std::hypot(dx, dy);
+    sums.course_rad = std::atan2(dy, dx);
+  }
+  if (log[LogChannel::kSpeed]) sums.driven_m = integral_of(log, LogChannel::kSpeed, window);
+  add_commands(log, vehicle, window, sums);
+  return sums;
+}
+
+}  // namespace
+
+double integral_of(const DrivingLog& log, LogChannel channel, const LogWindow& window) {
+  const std::vector<double>& value = log[channel]->value;
+  double sum = 0.0;
+  for (std::size_t i = window.begin; i + 1 < window.end; ++i) {
+    sum += 0.5 * (value[i] + value[i + 1]) * (log.t_s[i + 1] - log.t_s[i]);
+  }
+  return sum;
+}
+
+const std::vector<double>& steering_of(const DrivingLog& log) {
+  return log.steering_command_rad ? *log.steering_command_rad : log[LogChannel::kSteering]->value;
+}
+
+Evidence evidence_of(const DrivingLog& log, const Vehicle& vehicle,
+                     std::span<const ColumnMapping> mappings) {
+  Evidence evidence{log, vehicle, mappings, {}};
+  for (const LogWindow& window : windows_of(log, kEvidenceWindow_s)) {
+    evidence.windows.push_back(sums_of(log, vehicle, window));
+  }
+  return evidence;
+}
+
+MomentShares moment_shares(const std::vector<WindowSums>& windows,
+                           double (*rate)(const WindowSums&)) {
+  double ss = 0.0, sd = 0.0, dd = 0.0, sr = 0.0, dr = 0.0, rr = 0.0;
+  for (const WindowSums& w : windows) {
+    const double y = rate(w) / w.span_s;
+    ss += w.tau_steering_m * w.tau_steering_m;
+    sd += w.tau_steering_m * w.tau_diff_m;
+    dd += w.tau_diff_m * w.tau_diff_m;
+    sr += w.tau_steering_m * y;
+    dr += w.tau_diff_m * y;
+    rr += y * y;
+  }
+  const double n = static_cast<double>(windows.size());
+  const double determinant = ss * dd - sd * sd;
+  const bool steering_only = dd < 1e-6 * ss;
+  const bool sides_only = ss < 1e-6 * dd;
+  const bool apart = determinant > 1e-3 * ss * dd && !steering_only && !sides_only;
+  if (n < 10.0 || rr <= 0.0) return {};
+  constexpr double kSignificant = 5.0;  // standard errors
+  const auto shown = [&](double coefficient, double variance_factor, double explained) {
+    const double noise = std::max(0.0, rr - explained) / std::max(1.0, n - 2.0);
+    return std::abs(coefficient) > kSignificant * std::sqrt(noise * variance_factor) ? coefficient
+                                                                                     : 0.0;
+  };
+  if (steering_only) return {shown(sr / ss, 1.0 / ss, sr * sr / ss), 0};
+  if (sides_only) return {0.0, shown(dr / dd, 1.0 / dd, dr * dr / dd)};
+  if (!apart) return {};
+  const double bs = (sr * dd - dr * sd) / determinant;
+  const double bd = (dr * ss - sr * sd) / determinant;
+  const double explained = bs * sr + bd * dr;
+  return {shown(bs, dd / determinant, explained), shown(bd, ss / determinant, explained)};
+}
+
+std::string scaled_mapping(const Evidence& evidence, std::string_view column, double factor) {
+  std::string source(column);
+  double scale = factor;
+  for (const ColumnMapping& mapping : evidence.mappings) {
+    if (mapping.name != column) continue;
+    source = mapping.source;
+    scale *= mapping.scale;
+  }
+  return fmt::format("{}=\"{}\"*{:.7g}", column, source, scale);
+}
+
+std::string swapped_mapping(const Evidence& evidence) {
+  const auto source = [&](std::string_view column) {
+    for (const ColumnMapping& mapping : evidence.mappings) {
+      if (mapping.name == column)
+        return fmt::format("\"{}\"*{:.7g}", mapping.source, mapping.scale);
+    }
+    return fmt::format("\"{}\"", column);
+  };
+  return fmt::format("force_left={}' and column 'force_right={}", source("force_right"),
+                     source("force_left"));
+}
+
+}  // namespace awmr

@@ -1,0 +1,155 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+
+#include "awmr/trials/log_evidence.h"
+#include "awmr/trials/robust_ratio.h"
+
+namespace awmr {
+namespace {
+
+/// Columns whose sign may be wrong, and what that would mean.
+enum class Signed { kSteering, kSides, kYawRate, kHeading, kY };
+constexpr std::size_t kSignedCount = 5;
+
+/// Two columns that agree (+1) or contradict each other (-1).
+struct SignRelation {
+  Signed a;
+  Signed b;
+  int sign;
+};
+
+/// +1: positions move where the heading points; -1: where its mirror image does; 0: cannot be told.
+int course_sign(const std::vector<WindowSums>& windows) {
+  std::vector<double> moved = series(windows, [](const WindowSums& w) { return w.moved_m; });
+  const double far = median(moved);
+  std::complex<double> same = 0.0, mirrored = 0.0, headings = 0.0;
+  double n = 0.0;
+  for (const WindowSums& w : windows) {
+    if (w.moved_m < far || w.moved_m <= 0.0 || std::abs(w.turned_rad) > 1.0) continue;
+    same += std::polar(1.0, w.course_rad - w.heading_rad);
+    mirrored += std::polar(1.0, w.course_rad + w.heading_rad);
+    headings += std::polar(1.0, 2.0 * w.heading_rad);
+    n += 1.0;
+  }
+  // On a straight drive the two cannot be told apart.
+  if (n < 10.0 || std::abs(headings) / n > 0.9) return 0;
+  if (std::abs(same) / n > 0.7 && std::abs(same) > 1.5 * std::abs(mirrored)) return 1;
+  if (std::abs(mirrored) / n > 0.7 && std::abs(mirrored) > 1.5 * std::abs(same)) return -1;
+  return 0;
+}
+
+int sign_of(double value) { return value > 0.0 ? 1 : (value < 0.0 ? -1 : 0); }
+
+std::vector<SignRelation> sign_relations(const Evidence& evidence) {
+  std::vector<SignRelation> relations;
+  const auto add = [&](Signed a, Signed b, int sign) {
+    if (sign != 0) relations.push_back({a, b, sign});
+  };
+  const auto rate = [](const WindowSums& w) { return w.rate_rad; };
+  const auto turn = [](const WindowSums& w) { return w.turned_rad; };
+  if (evidence.has(LogChannel::kYawRate)) {
+    const MomentShares shares = moment_shares(evidence.windows, rate);
+    add(Signed::kSteering, Signed::kYawRate, sign_of(shares.steering));
+    add(Signed::kSides, Signed::kYawRate, sign_of(shares.sides));
+  }
+  if (!evidence.has(LogChannel::kHeading)) return relations;
+  const MomentShares shares = moment_shares(evidence.windows, turn);
+  add(Signed::kSteering, Signed::kHeading, sign_of(shares.steering));
+  add(Signed::kSides, Signed::kHeading, sign_of(shares.sides));
+  if (evidence.has(LogChannel::kYawRate)) {
+    const auto ratio = robust_ratio(series(evidence.windows, rate), series(evidence.windows, turn));
+    if (ratio) add(Signed::kYawRate, Signed::kHeading, ratio->ratio > 0.0 ? 1 : -1);
+  }
+  if (evidence.has(LogChannel::kX) && evidence.has(LogChannel::kY)) {
+    add(Signed::kHeading, Signed::kY, course_sign(evidence.windows));
+  }
+  return relations;
+}
+
+/// The smallest sets of columns whose signs, turned, make all relations agree.
+std::vector<unsigned> smallest_flips(const std::vector<SignRelation>& relations) {
+  std::vector<unsigned> best;
+  std::size_t least = kSignedCount + 1;
+  for (unsigned flips = 0; flips < (1U << kSignedCount); ++flips) {
+    const auto flipped = [flips](Signed s) { return (flips >> static_cast<unsigned>(s)) & 1U; };
+    const bool agrees = std::all_of(relations.begin(), relations.end(), [&](const SignRelation& r) {
+      return (flipped(r.a) != flipped(r.b)) == (r.sign < 0);
+    });
+    const auto size = static_cast<std::size_t>(__builtin_popcount(flips));
+    if (!agrees || size > least) continue;
+    if (size < least) best.clear();
+    least = size;
+    best.push_back(flips);
+  }
+  return best;
+}
+
+Contradiction sign_contradiction(const Evidence& evidence, Signed which) {
+  const std::string steering =
+      evidence.log.steering_command_rad ? "steering_cmd_deg" : "steering_deg";
+  switch (which) {
+    case Signed::kSteering:
+      return {steering, "the vehicle turns against its steering: positive is to the left",
+              scaled_mapping(evidence, steering, -1.0)};
+    case Signed::kSides:
+      return {"force_left",
+              "the vehicle turns towards the side that pushes harder: force_left and force_right "
+              "look swapped",
+              swapped_mapping(evidence)};
+    case Signed::kYawRate:
+      return {"yaw_rate_radps",
+              "its sign is against the other channels: positive is counter-clockwise",
+              scaled_mapping(evidence, "yaw_rate_radps", -1.0)};
+    case Signed::kHeading:
+      return {"heading_deg",
+              "its sign is against the other channels: positive is counter-clockwise (a compass "
+              "counts clockwise)",
+              scaled_mapping(evidence, "heading_deg", -1.0)};
+    case Signed::kY:
+      break;
+  }
+  return {"y_m",
+          "the positions move along the mirror image of the heading: y_m has the wrong sign (left "
+          "is positive), or x_m and y_m are swapped",
+          scaled_mapping(evidence, "y_m", -1.0)};
+}
+
+std::vector<Contradiction> judge_signs(const Evidence& evidence) {
+  const std::vector<unsigned> solutions = smallest_flips(sign_relations(evidence));
+  if (solutions.empty() || solutions.front() == 0U) return {};
+  std::vector<Contradiction> found;
+  for (std::size_t s = 0; s < kSignedCount; ++s) {
+    const bool blamed = std::any_of(solutions.begin(), solutions.end(),
+                                    [s](unsigned flips) { return ((flips >> s) & 1U) != 0U; });
+    if (!blamed) continue;
+    found.push_back(sign_contradiction(evidence, static_cast<Signed>(s)));
+    if (solutions.size() > 1) found.back().message += " (or the other one named here is turned)";
+  }
+  return found;
+}
+
+/// Thrust forward and motion backward.
+std::optional<Contradiction> judge_direction(const Evidence& evidence) {
+  if (!evidence.has(LogChannel::kSpeed)) return std::nullopt;
+  const auto ratio =
+      robust_ratio(series(evidence.windows, [](const WindowSums& w) { return w.thrust; }),
+                   series(evidence.windows, [](const WindowSums& w) { return w.driven_m; }));
+  if (!ratio || ratio->ratio > 0.0) return std::nullopt;
+  return Contradiction{"speed_mps",
+                       "the speed is negative where both forces push forward: speed or forces have "
+                       "the wrong sign",
+                       scaled_mapping(evidence, "speed_mps", -1.0)};
+}
+
+}  // namespace
+
+std::vector<Contradiction> sign_contradictions(const Evidence& evidence) {
+  std::vector<Contradiction> found;
+  if (auto direction = judge_direction(evidence)) found.push_back(*direction);
+  for (Contradiction& one : judge_signs(evidence)) found.push_back(std::move(one));
+  return found;
+}
+
+}  // namespace awmr

@@ -1,0 +1,245 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "awmr/core/units.h"
+#include "awmr/trials/log_evidence.h"
+#include "awmr/trials/robust_ratio.h"
+
+namespace awmr {
+namespace {
+
+/// Ratios within these are calibration, slip or noise; beyond them a unit is wrong.
+constexpr double kLowestAgreement = 0.6;
+constexpr double kHighestAgreement = 1.6;
+
+/// A factor that a wrong unit makes, and what it is called.
+struct UnitFactor {
+  double factor;
+  std::string_view words;
+};
+
+/// The known factor nearest to `ratio` (by its logarithm, within 20 %), if any.
+template <std::size_t N>
+std::optional<UnitFactor> known_factor(double ratio, const std::array<UnitFactor, N>& factors) {
+  std::optional<UnitFactor> best;
+  double least = std::log(1.2);
+  for (const UnitFactor& candidate : factors) {
+    const double apart = std::abs(std::log(std::abs(ratio) / candidate.factor));
+    if (apart < least) {
+      least = apart;
+      best = candidate;
+    }
+  }
+  return best;
+}
+
+std::optional<Contradiction> judge_time(const Evidence& evidence) {
+  static constexpr std::array<UnitFactor, 3> kFactors{
+      {{1e3, "milliseconds"}, {1e6, "microseconds"}, {1e9, "nanoseconds"}}};
+  const double step_s = evidence.log.median_step_s();
+  const double ratio = step_s / evidence.vehicle.sample_time_s;
+  for (const UnitFactor& unit : kFactors) {
+    if (ratio < 0.3 * unit.factor || ratio > 30.0 * unit.factor) continue;
+    return Contradiction{
+        "t_s",
+        fmt::format("rows are {:.4g} apart in t_s, {:.3g} times sample_time_s = {:g} s: the time "
+                    "looks like {}",
+                    step_s, ratio, evidence.vehicle.sample_time_s, unit.words),
+        scaled_mapping(evidence, "t_s", 1.0 / unit.factor)};
+  }
+  return std::nullopt;
+}
+
+std::optional<Contradiction> judge_force(const Evidence& evidence, std::string_view column,
+                                         const std::vector<double>& values,
+                                         double largest_of_both) {
+  static constexpr std::array<UnitFactor, 5> kFullScale{{{100.0, "percent"},
+                                                         {255.0, "8-bit PWM counts"},
+                                                         {1000.0, "per mille"},
+                                                         {1023.0, "10-bit PWM counts"},
+                                                         {4095.0, "12-bit PWM counts"}}};
+  const Interval& limit = evidence.vehicle.wheel_force;
+  constexpr double kRounding = 1.01;
+  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  const double above = limit.hi * kRounding;
+  const double below = limit.lo < 0.0 ? limit.lo * kRounding : -0.01 * limit.hi;
+  if (*most <= above && *least >= below) return std::nullopt;
+  const double worst = *most > above ? *most : *least;
+  std::string words = "give the force over F_max, the largest force of one motor";
+  double factor = limit.hi / largest_of_both;
+  for (const UnitFactor& unit : kFullScale) {
+    if (largest_of_both > unit.factor * 1.005 || largest_of_both <= 1.05 * limit.hi) continue;
+    words = fmt::format("the forces look like {}", unit.words);
+    factor = 1.0 / unit.factor;
+    break;
+  }
+  return Contradiction{
+      std::string(column),
+      fmt::format("reaches {:.4g}, beyond wheel_force [{:g}, {:g}] of the vehicle: "
+                  "{}",
+                  worst, limit.lo, limit.hi, words),
+      scaled_mapping(evidence, column, factor)};
+}
+
+std::vector<Contradiction> judge_forces(const Evidence& evidence) {
+  double largest = 0.0;
+  for (const auto* values : {&evidence.log.force_left, &evidence.log.force_right}) {
+    for (const double value : *values) largest = std::max(largest, std::abs(value));
+  }
+  std::vector<Contradiction> found;
+  for (const auto& [column, values] : {std::pair{"force_left", &evidence.log.force_left},
+                                       std::pair{"force_right", &evidence.log.force_right}}) {
+    if (auto one = judge_force(evidence, column, *values, largest)) found.push_back(*one);
+  }
+  return found;
+}
+
+/// The numbers of the heading column all lie within one turn counted in radians, +-3.15 or 0 to 6.3.
+/// A vehicle that turns by less than 6 degrees in a whole log has shown nothing of its yaw anyway.
+bool heading_spans_radians(const DrivingLog& log) {
+  double least = 360.0;
+  double most = -360.0;
+  for (const double value : log[LogChannel::kHeading]->value) {
+    const double wrapped_deg = degrees(std::remainder(value, 2.0 * pi<double>()));
+    least = std::min(least, wrapped_deg);
+    most = std::max(most, wrapped_deg);
+  }
+  return most - least < 2.0 * pi<double>() + 0.1;
+}
+
+std::optional<Contradiction> judge_rates(const Evidence& evidence) {
+  if (!evidence.has(LogChannel::kHeading) || !evidence.has(LogChannel::kYawRate)) return {};
+  const auto ratio =
+      robust_ratio(series(evidence.windows, [](const WindowSums& w) { return w.rate_rad; }),
+                   series(evidence.windows, [](const WindowSums& w) { return w.turned_rad; }));
+  if (!ratio) return std::nullopt;
+  const double size = std::abs(ratio->ratio);
+  if (size >= kLowestAgreement && size <= kHighestAgreement) return std::nullopt;
+  const double degree = 180.0 / pi<double>();
+  static constexpr std::array<UnitFactor, 3> kUnits{
+      {{57.29578, ""}, {1.0 / 57.29578, ""}, {1e-3, "milliseconds"}}};
+  const auto unit = known_factor(size, kUnits);
+  const std::string compared =
+      fmt::format("the heading turns {:.4g} times as far as the yaw rate says", size);
+  if (unit && unit->factor < 0.1 && unit->factor > 0.01) {
+    if (heading_spans_radians(evidence.log)) {
+      return Contradiction{"heading_deg", compared + ": the heading looks like radians",
+                           scaled_mapping(evidence, "heading_deg", degree)};
+    }
+    return Contradiction{"yaw_rate_radps",
+                         compared + ": the yaw rate looks like degrees per second",
+                         scaled_mapping(evidence, "yaw_rate_radps", 1.0 / degree)};
+  }
+  return Contradiction{"yaw_rate_radps",
+                       compared + ": one of yaw_rate_radps, heading_deg and t_s has another unit",
+                       scaled_mapping(evidence, "yaw_rate_radps", size)};
+}
+
+std::optional<Contradiction> judge_speed(const Evidence& evidence) {
+  const bool position = evidence.has(LogChannel::kX) && evidence.has(LogChannel::kY);
+  if (!position || !evidence.has(LogChannel::kSpeed)) return std::nullopt;
+  const auto ratio = robust_ratio(
+      series(evidence.windows, [](const WindowSums& w) { return std::abs(w.driven_m); }),
+      series(evidence.windows, [](const WindowSums& w) { return w.moved_m; }));
+  if (!ratio) return std::nullopt;
+  if (ratio->ratio >= kLowestAgreement && ratio->ratio <= kHighestAgreement) return std::nullopt;
+  static constexpr std::array<UnitFactor, 6> kSpeedUnits{{{1.0 / 3.6, "km/h"},
+                                                          {0.44704, "miles per hour"},
+                                                          {0.01, "cm/s"},
+                                                          {1e-3, "mm/s"},
+                                                          {0.51444, "knots"},
+                                                          {0.3048, "ft/s"}}};
+  static constexpr std::array<UnitFactor, 2> kPositionUnits{{{1e3, "mm"}, {100.0, "cm"}}};
+  const std::string compared =
+      fmt::format("the positions move {:.4g} times as far as the speed says", ratio->ratio);
+  if (const auto unit = known_factor(ratio->ratio, kPositionUnits)) {
+    return Contradiction{"x_m", compared + fmt::format(": the positions look like {}", unit->words),
+                         scaled_mapping(evidence, "x_m", 1.0 / unit->factor) + "' and column '" +
+                             scaled_mapping(evidence, "y_m", 1.0 / unit->factor)};
+  }
+  const auto unit = known_factor(ratio->ratio, kSpeedUnits);
+  const double factor = unit ? unit->factor : ratio->ratio;
+  return Contradiction{"speed_mps",
+                       compared + (unit ? fmt::format(": the speed looks like {}", unit->words)
+                                        : ": speed, position or time has another unit"),
+                       scaled_mapping(evidence, "speed_mps", factor)};
+}
+
+/// How sharply the vehicle turns for its steering angle, over what its front axle allows:
+/// (r/u)/(tan d_r/l_f), at most about 1 for a vehicle that steers by its front axle. The angle is
+/// taken times `factor`; windows in which the sides would then turn the vehicle more than its
+/// steering are left out.
+std::optional<double> sharpness(const Evidence& evidence, double factor) {
+  const bool heading = evidence.has(LogChannel::kHeading);
+  if (!evidence.has(LogChannel::kSpeed)) return std::nullopt;
+  if (!heading && !evidence.has(LogChannel::kYawRate)) return std::nullopt;
+  std::vector<double> pointed;
+  std::vector<double> turned;
+  for (const WindowSums& w : evidence.windows) {
+    if (std::abs(w.tau_diff_m) > factor * std::abs(w.tau_steering_m)) continue;
+    pointed.push_back(std::tan(factor * w.steering_rad) * w.driven_m /
+                      evidence.vehicle.front_axle_m);
+    turned.push_back(heading ? w.turned_rad : w.rate_rad);
+  }
+  const auto ratio = robust_ratio(pointed, turned);
+  if (!ratio) return std::nullopt;
+  return std::abs(ratio->ratio);
+}
+
+std::optional<Contradiction> judge_steering_unit(const Evidence& evidence) {
+  const std::vector<double>& angle = steering_of(evidence.log);
+  double largest_deg = 0.0;
+  for (const double value : angle) largest_deg = std::max(largest_deg, std::abs(degrees(value)));
+  const std::string column =
+      evidence.log.steering_command_rad ? "steering_cmd_deg" : "steering_deg";
+  const double stop_deg = evidence.vehicle.steering_max_deg;
+  if (largest_deg > 3.0 * stop_deg) {
+    return Contradiction{column,
+                         fmt::format("reaches {:.4g} deg, where the stop is at {:g} deg: it looks "
+                                     "like counts, microseconds or percent of the stop",
+                                     largest_deg, stop_deg),
+                         scaled_mapping(evidence, column, stop_deg / largest_deg)};
+  }
+  // In radians the stop itself would read as 1.7 % of what it is in degrees.
+  if (largest_deg > 0.025 * stop_deg) return std::nullopt;
+  const double degree = 180.0 / pi<double>();
+  // As radians it turns no more sharply than its axle points, as degrees 57 times more; and a
+  // moment by steering turns it about as well as the same moment by the sides.
+  constexpr double kImpossible = 8.0;
+  const MomentShares shares = moment_shares(
+      evidence.windows, evidence.has(LogChannel::kHeading)
+                            ? [](const WindowSums& w) { return w.turned_rad; }
+                            : [](const WindowSums& w) { return w.rate_rad; });
+  const auto sharp = sharpness(evidence, degree);
+  const double times = sharp                 ? *sharp * degree
+                       : shares.sides != 0.0 ? std::abs(shares.steering / shares.sides)
+                                             : 0.0;
+  if (times < kImpossible) return std::nullopt;
+  return Contradiction{
+      column,
+      fmt::format("the vehicle turns {:.3g} times as sharply as its front axle points, whose "
+                  "largest angle is {:.3g} % of the stop: the angle looks like radians",
+                  times, 100.0 * largest_deg / stop_deg),
+      scaled_mapping(evidence, column, degree)};
+}
+
+}  // namespace
+
+std::vector<Contradiction> unit_contradictions(const Evidence& evidence) {
+  std::vector<Contradiction> found = judge_forces(evidence);
+  // Windows of a second mean nothing before the time is right.
+  if (auto time = judge_time(evidence)) {
+    found.insert(found.begin(), *time);
+    return found;
+  }
+  for (const auto& judged :
+       {judge_steering_unit(evidence), judge_rates(evidence), judge_speed(evidence)}) {
+    if (judged) found.push_back(*judged);
+  }
+  return found;
+}
+
+}  // namespace awmr
