@@ -8,6 +8,7 @@
 
 #include "awmr/core/input_file.h"
 #include "awmr/core/json.h"
+#include "emulator.h"
 
 namespace awmr::pil {
 namespace {
