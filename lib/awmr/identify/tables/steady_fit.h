@@ -25,6 +25,10 @@ struct SteadyPoint {
   int line = 0;                     ///< of the file
 };
 
+/// Tables of more rows are fitted in time and memory that grow with the rows alone: leaving one out
+/// is then one step of the fit, not another fit, and an interval comes from the standard error.
+inline constexpr Eigen::Index kExactRows = 200;
+
 /// What is asked of a fit.
 struct SteadyProblem {
   std::vector<SteadyPoint> points;  ///< at least one
@@ -74,13 +78,18 @@ SteadyFit fit_steady(const SteadyProblem& problem, const TransformedParameters& 
 /// As fit_steady(), from an initial guess that needs no other fit.
 SteadyFit fit_steady(const SteadyProblem& problem);
 
+/// Every number of the law is finite, and alpha is more than nothing.
+bool is_physical(const Resistance<double>& law);
+
 /// Residuals, unweighted, and their derivatives by the coordinates named, anywhere.
 struct SteadyRows {
   Eigen::VectorXd residuals;  ///< by point
   Eigen::MatrixXd jacobian;   ///< points x coordinates
 };
-SteadyRows steady_rows(const SteadyProblem& problem, const TransformedParameters& theta,
-                       const std::vector<TransformedParameter>& by);
+/// None where the curve or a derivative is not finite.
+std::optional<SteadyRows> steady_rows(const SteadyProblem& problem,
+                                      const TransformedParameters& theta,
+                                      const std::vector<TransformedParameter>& by);
 
 /// The bounds of a search over one coordinate; infinite where there is none.
 Interval bounds_of(const SteadyProblem& problem, TransformedParameter c);
