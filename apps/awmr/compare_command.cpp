@@ -13,6 +13,7 @@
 #include "awmr/simulate/scenario_file.h"
 #include "commands.h"
 #include "inputs.h"
+#include "numbers.h"
 #include "progress.h"
 
 namespace awmr::cli {
@@ -142,10 +143,11 @@ void add_compare(CLI::App& app, Session& session) {
   sub->add_option("--samples", command->compare.samples,
                   "Draws of the parameters from the model's covariance, and of noise and "
                   "disturbances (default 0: nominal only)")
-      ->check(CLI::Range(0, 1000000));
-  sub->add_option("--seed", command->compare.seed, "Seed of the draws (default 1)");
+      ->check(within(0, 1000000));
+  sub->add_option("--seed", command->compare.seed, "Seed of the draws (default 1)")
+      ->check(within<std::uint64_t>(0, kAnySeed));
   sub->add_option("--threads", command->compare.threads, "0 (default): one per core")
-      ->check(CLI::Range(0, 1024));
+      ->check(within(0, 1024));
   sub->add_flag("--resume", command->resume,
                 "Go on from what lies in the directory: after Ctrl-C, or with more samples");
   sub->get_option("--quiet")->each([command](const std::string&) { command->quiet = true; });

@@ -6,6 +6,7 @@
 
 #include "awmr/core/input_file.h"
 #include "awmr/core/provenance.h"
+#include "numbers.h"
 
 namespace awmr::cli {
 
@@ -21,11 +22,11 @@ void add_emit_options(CLI::App& command, EmitOptions& options) {
       .add_option("--table-error", options.table_error,
                   "Largest error of a table, as a share of the resistance or of a tenth of the "
                   "largest force")
-      ->check(CLI::Range(1e-7, 0.1))
+      ->check(within(1e-7, 0.1))
       ->capture_default_str();
   const auto timeout = [&](const char* name, std::uint32_t& value, const char* meaning) {
     command.add_option(name, value, meaning)
-        ->check(CLI::Range(1U, 3600000U))
+        ->check(within<std::uint32_t>(1, 3600000))
         ->capture_default_str();
   };
   timeout("--heading-timeout-ms", options.heading_timeout_ms, "Oldest heading to steer by");
@@ -34,7 +35,7 @@ void add_emit_options(CLI::App& command, EmitOptions& options) {
   command
       .add_option("--step-timeout-ms", options.step_timeout_ms,
                   "Longest time between steps [three sample times]")
-      ->check(CLI::Range(1U, 3600000U));
+      ->check(within<std::uint32_t>(1, 3600000));
 }
 
 Result<EmitInputs> emit_inputs(const std::filesystem::path& model,

@@ -11,6 +11,7 @@
 #include "commands.h"
 #include "identify_options.h"
 #include "inputs.h"
+#include "numbers.h"
 
 namespace awmr::cli {
 namespace {
@@ -128,16 +129,17 @@ void add_log_options(CLI::App& sub, IdentifyCommand& command) {
                "Take steady stretches of the logs as surge and turning runs");
   sub.add_option("--starts", command.identify.starts,
                  "Random starts of a fit of logs without tables (default 6)")
-      ->check(CLI::Range(0, 1000));
+      ->check(within(0, 1000));
   sub.add_option("--bootstrap", command.identify.bootstrap,
                  "Intervals of a fit of logs from this many block bootstrap resamples")
-      ->check(CLI::Range(0, 1000000));
+      ->check(within(0, 1000000));
   sub.add_flag("--cross-validate", command.identify.cross_validate,
                "Leave each log out once and predict it from the others");
-  sub.add_option("--seed", command.identify.seed, "Of starts and bootstrap (default 1)");
+  sub.add_option("--seed", command.identify.seed, "Of starts and bootstrap (default 1)")
+      ->check(within<std::uint64_t>(0, kAnySeed));
   sub.add_option("--threads", command.identify.threads,
                  "Default: all; the result does not depend on it")
-      ->check(CLI::Range(1, 1024));
+      ->check(within(1, 1024));
 }
 
 void add_reading_options(CLI::App& sub, IdentifyWords& words) {

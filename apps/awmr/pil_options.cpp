@@ -1,11 +1,12 @@
 #include "pil_options.h"
 
 #include <CLI/CLI.hpp>
-#include <cmath>
+#include <limits>
 #include <map>
 #include <string>
 
 #include "emit_options.h"
+#include "numbers.h"
 
 namespace awmr::cli {
 namespace {
@@ -25,50 +26,29 @@ const std::map<std::string, Injection> kInjections{{"none", Injection::kNone},
                                                    {"step-late", Injection::kStepLate},
                                                    {"parameters", Injection::kParameters}};
 
-/// CLI::Range and CLI::NonNegativeNumber let "nan" pass, which no bound is above or below.
-CLI::Validator finite_from_zero() {
-  return {[](std::string& text) -> std::string {
-            double value = -1.0;
-            const bool number = CLI::detail::lexical_cast(text, value);
-            if (number && std::isfinite(value) && value >= 0.0) return {};
-            return "must be a finite number of at least 0, found " + text;
-          },
-          "FLOAT >= 0"};
-}
-
-/// A whole number from 1 on; CLI11 takes "-1" for the largest one.
-CLI::Validator whole_number() {
-  return {[](std::string& text) -> std::string {
-            double value = 0.0;
-            const bool digits = text.find_first_not_of("0123456789") == std::string::npos;
-            const bool number = digits && CLI::detail::lexical_cast(text, value);
-            if (number && value >= 1.0 && value <= 4294967295.0) return {};
-            return "must be a whole number from 1 to 4294967295, found " + text;
-          },
-          "UINT >= 1"};
-}
+constexpr unsigned kAnyCount = std::numeric_limits<unsigned>::max();
 
 void add_bounds(CLI::App& command, PilOptions& options) {
   command
       .add_option("--cycles-max", options.cycles_max,
                   "Most cycles of a step [12000 by table, 24000 by powf]")
-      ->check(whole_number());
+      ->check(within(1U, kAnyCount));
   command
       .add_option("--flash-max", options.flash_max,
                   "Most bytes of flash [8192, with --link uart 9216]")
-      ->check(whole_number());
+      ->check(within(1U, kAnyCount));
   command.add_option("--ram-max", options.ram_max, "Most bytes of RAM, without the stack")
-      ->check(whole_number())
+      ->check(within(1U, kAnyCount))
       ->capture_default_str();
   command
       .add_option("--difference-max", options.difference_max,
                   "Largest difference of any signal from the host's float run [0 by table, 1e-6 by "
                   "powf]")
-      ->check(finite_from_zero());
+      ->check(within(0.0, 1e9));
   command
       .add_option("--heading-max-deg", options.heading_max_deg,
                   "Largest difference of the heading from the host's double run")
-      ->check(finite_from_zero())
+      ->check(within(0.0, 360.0))
       ->capture_default_str();
 }
 
@@ -89,7 +69,9 @@ void add_pil_options(CLI::App& command, PilOptions& options) {
   command.add_option("--port", options.port,
                      "Serial port of a real board, flashed with DIR/pil_uart.elf of --build-dir; "
                      "with --link uart");
-  command.add_option("--baud", options.baud, "Of --port")->capture_default_str();
+  command.add_option("--baud", options.baud, "Of --port")
+      ->check(within(300U, 4000000U))
+      ->capture_default_str();
   add_emit_options(command, options.emit);
   add_bounds(command, options);
   command

@@ -10,6 +10,7 @@
 #include "commands.h"
 #include "identify_options.h"
 #include "inputs.h"
+#include "numbers.h"
 #include "progress.h"
 
 namespace awmr::cli {
@@ -71,11 +72,12 @@ Result<RecoverCommand> command_of(const RecoverWords& words) {
 void add_runs(CLI::App& sub, RecoverCommand& command) {
   sub.add_option("--model", command.model, "model.json from identify")->required();
   sub.add_option("--runs", command.recover.runs, "Simulated data sets (default 200)")
-      ->check(CLI::Range(2, 1000000));
-  sub.add_option("--seed", command.recover.seed, "Default 1");
+      ->check(within(2, 1000000));
+  sub.add_option("--seed", command.recover.seed, "Default 1")
+      ->check(within<std::uint64_t>(0, kAnySeed));
   sub.add_option("--threads", command.recover.threads,
                  "Default: all; the result does not depend on it")
-      ->check(CLI::Range(1, 1024));
+      ->check(within(1, 1024));
 }
 
 void add_estimator(CLI::App& sub, RecoverWords& words) {
@@ -97,14 +99,14 @@ void add_estimator(CLI::App& sub, RecoverWords& words) {
 
 void add_simulated_trials(CLI::App& sub, RecoverOptions& options) {
   sub.add_option("--speed-noise", options.sensors.speed_mps, "m/s (default 0.02)")
-      ->check(CLI::NonNegativeNumber);
+      ->check(within(0.0, 100.0));
   sub.add_option("--correlation", options.sensors.correlation_s,
                  "Correlation time of every sensor's error, s (default 0: white)")
-      ->check(CLI::NonNegativeNumber);
+      ->check(within(0.0, 1e4));
   sub.add_option("--duration", options.drive.duration_s, "Of a log, s (default 60)")
-      ->check(CLI::PositiveNumber);
+      ->check(within(1.0, 3600.0));
   sub.add_option("--rate", options.drive.rate_hz, "Of a log, Hz (default 100)")
-      ->check(CLI::PositiveNumber);
+      ->check(within(1.0, 1000.0));
 }
 
 }  // namespace

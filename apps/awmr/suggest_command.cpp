@@ -12,6 +12,7 @@
 #include "awmr/simulate/simulate.h"
 #include "commands.h"
 #include "inputs.h"
+#include "numbers.h"
 
 namespace awmr::cli {
 namespace {
@@ -107,9 +108,9 @@ void add_suggest(CLI::App& app, Session& session) {
   sub->add_option("--mode", raw->mode, "differential, steering or combined (default)")
       ->check(CLI::IsMember({"differential", "steering", "combined"}));
   sub->add_option("--repeats", command.repeats, "Runs of each trial (default 3)")
-      ->check(CLI::Range(1, 1000));
+      ->check(within(1, 1000));
   sub->add_option("--most", command.most, "Trials on the sheet (default 8; the file has all)")
-      ->check(CLI::Range(1, 1000));
+      ->check(within(1, 1000));
   sub->add_option("-o,--output", command.output, "suggest.json to write");
 }
 

@@ -10,6 +10,7 @@
 #include "awmr/trials/log_consistency.h"
 #include "commands.h"
 #include "inputs.h"
+#include "numbers.h"
 
 namespace awmr::cli {
 namespace {
@@ -77,7 +78,7 @@ void add_model_options(CLI::App& sub, ValidateCommand& command) {
   sub.add_option("--gains", command.gains, "gains.json: also run the closed-loop claims");
   sub.add_option("--tolerance", command.validate.tolerance,
                  "Largest accepted RMS relative error of a kind of trial (default 0.15)")
-      ->check(CLI::PositiveNumber);
+      ->check(within(1e-9, 1e6));
 }
 
 void add_log_options(CLI::App& sub, ValidateCommand& command, std::vector<std::string>& columns) {
@@ -86,10 +87,10 @@ void add_log_options(CLI::App& sub, ValidateCommand& command, std::vector<std::s
       "CSV of a driving log, best one that the model was not fitted to; may be repeated");
   sub.add_option("--horizon", command.horizon_s,
                  "Length of the windows that a log is predicted over, s (default 10)")
-      ->check(CLI::PositiveNumber);
+      ->check(within(0.01, 1e6));
   sub.add_option("--log-tolerance", command.log_tolerance,
                  "Largest accepted NRMSE of a channel over a window (default 0.3)")
-      ->check(CLI::PositiveNumber);
+      ->check(within(1e-9, 1e6));
   sub.add_flag("--as-is", command.trials.as_is,
                "Take logs whose units, signs or sides contradict themselves as they are");
   sub.add_option("--column", columns, "NAME=SOURCE[*SCALE][+OFFSET]: another column's name");

@@ -5,7 +5,10 @@
 #include <glog/logging.h>
 
 #include <Eigen/Core>
+#include <cmath>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "awmr/core/index.h"
 #include "awmr/trials/replay.h"
@@ -39,16 +42,37 @@ inline std::string stop_reason(const ceres::Solver::Summary& summary) {
   }
 }
 
-/// A Jacobian as Ceres hands it out, with its zeros.
-inline Eigen::MatrixXd dense(const ceres::CRSMatrix& rows) {
+/// The residuals where the problem stands. None where one of them cannot be computed there or is
+/// not finite: Ceres then hands out nothing, or a part.
+inline std::optional<Eigen::VectorXd> evaluated_residuals(
+    ceres::Problem& problem, const ceres::Problem::EvaluateOptions& options) {
+  std::vector<double> values;
+  if (!problem.Evaluate(options, nullptr, &values, nullptr, nullptr)) return std::nullopt;
+  if (eigen_index(values.size()) != problem.NumResiduals()) return std::nullopt;
+  const Eigen::VectorXd residuals = Eigen::Map<Eigen::VectorXd>(values.data(), rows_of(values));
+  if (!residuals.allFinite()) return std::nullopt;
+  return residuals;
+}
+
+/// The Jacobian where the problem stands, with its zeros. None as in evaluated_residuals().
+inline std::optional<Eigen::MatrixXd> evaluated_jacobian(
+    ceres::Problem& problem, const ceres::Problem::EvaluateOptions& options) {
+  ceres::CRSMatrix rows;
+  if (!problem.Evaluate(options, nullptr, nullptr, nullptr, &rows)) return std::nullopt;
+  if (rows.num_rows != problem.NumResiduals()) return std::nullopt;
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(rows.num_rows, rows.num_cols);
   for (int i = 0; i < rows.num_rows; ++i) {
     for (std::size_t k = at(rows.rows[at(i)]); k < at(rows.rows[at(i + 1)]); ++k) {
       matrix(i, rows.cols[k]) = rows.values[k];
     }
   }
+  if (!matrix.allFinite()) return std::nullopt;
   return matrix;
 }
+
+/// Why a fit that ended is no fit: its curve or its derivatives overflow there.
+inline constexpr const char* kNotFinite =
+    "failed: the curve or its derivatives are not finite where the search ended";
 
 inline bool converged(const ceres::Solver::Summary& summary) {
   return summary.IsSolutionUsable() && summary.termination_type == ceres::CONVERGENCE;

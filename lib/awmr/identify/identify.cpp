@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "awmr/core/option_text.h"
+#include "awmr/identify/admissible.h"
 #include "awmr/identify/main_values.h"
 #include "awmr/identify/refusals.h"
 #include "awmr/identify/trials_as_used.h"
@@ -117,6 +118,7 @@ Result<Identification> identify(const Vehicle& vehicle, const TrialData& data,
     reasons.logs = std::move(logs.reasons);
   }
   model.covariance = values.covariance.covariance();
+  reasons.inadmissible = take_out_inadmissible(model);
   model.record.trials = trials_as_used(data, model);
   result.refused = refuse_what_is_missing(data, reasons, asked, model);
   return result;

@@ -71,8 +71,11 @@ std::vector<ParameterId> refuse_what_is_missing(const TrialData& data, const Rea
       estimate.method = "none";
     }
     if (wanted) refused.push_back(parameter.id);
-    const std::string why =
-        logged != reasons.logs.end() ? logged->second : table_reason(parameter.id, data, reasons);
+    const auto inadmissible = reasons.inadmissible.find(parameter.id);
+    const std::string why = inadmissible != reasons.inadmissible.end() ? inadmissible->second
+                            : logged != reasons.logs.end()
+                                ? logged->second
+                                : table_reason(parameter.id, data, reasons);
     const std::string kept =
         held ? fmt::format(" (the given {:.4g} is kept)", *estimate.value) : std::string();
     model.record.findings.push_back(

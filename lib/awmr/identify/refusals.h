@@ -16,8 +16,10 @@ std::vector<ParameterId> asked_for(const TrialData& data, const IdentifyOptions&
 
 /// Why a parameter has no value, beyond what the presence of trials says.
 struct Reasons {
-  std::string mass;                         ///< why the coast-downs give no m'
-  bool curve_alone = false;                 ///< curves without a surge law: `mass` tells of a1 too
+  std::string mass;          ///< why the coast-downs give no m'
+  bool curve_alone = false;  ///< curves without a surge law: `mass` tells of a1 too
+  /// Fitted, but not finite or outside of what a model can hold.
+  std::map<ParameterId, std::string> inadmissible;
   std::map<ParameterId, std::string> logs;  ///< free in the fit of the logs, but not identifiable
 };
 

@@ -15,15 +15,6 @@ namespace {
 
 constexpr std::string_view kSchema = "awmr.model/1";
 
-/// The values of a parameter with which the equations of motion make sense: dynamics.h and
-/// resistance.h have the bounds at their fields.
-NumberRule rule_of(ParameterId id) {
-  if (info(id).term) return kTerm;
-  if (id == ParameterId::kSteeringTimeConstant) return kServoTime_s;
-  const bool is_exponent = id == ParameterId::kSurgeBeta || id == ParameterId::kYawBeta;
-  return is_exponent ? kExponent : kCoefficient;
-}
-
 Json estimate_to_json(const Estimate& estimate, const ParameterInfo& parameter) {
   Json json;
   json["value"] = number_or_null(estimate.value);
@@ -112,6 +103,13 @@ auto list_from_json(JsonObject& root, std::string_view key, FromJson from_json) 
 }
 
 }  // namespace
+
+NumberRule rule_of(ParameterId id) {
+  if (info(id).term) return kTerm;
+  if (id == ParameterId::kSteeringTimeConstant) return kServoTime_s;
+  const bool is_exponent = id == ParameterId::kSurgeBeta || id == ParameterId::kYawBeta;
+  return is_exponent ? kExponent : kCoefficient;
+}
 
 std::string model_text(const Model& model) {
   Json json;

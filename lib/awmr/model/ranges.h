@@ -4,6 +4,7 @@
 #pragma once
 
 #include "awmr/core/json.h"
+#include "awmr/model/parameters.h"
 
 namespace awmr {
 
@@ -18,5 +19,9 @@ inline constexpr NumberRule kCoefficient{.min = 1e-9, .max = 1e9};
 inline constexpr NumberRule kTerm{.min = 0.0, .max = 1e9};
 inline constexpr NumberRule kExponent{.min = 0.0, .max = 20.0};
 inline constexpr NumberRule kGain{.min = 1e-9, .max = 1e9};
+
+/// The values of a parameter with which the equations of motion make sense: dynamics.h and
+/// resistance.h have the bounds at their fields.
+NumberRule rule_of(ParameterId id);
 
 }  // namespace awmr

@@ -41,6 +41,9 @@ T coast_step(const Resistance<T>& law, const T& mass, const T& u, const T& h) {
   return next > T(0.0) ? next : T(0.0);
 }
 
+/// Between two samples: half an hour in steps of 2 ms. A search that runs off in time ends there.
+constexpr double kMaximumSteps = 1e6;
+
 /// The residuals of one curve over (ln a, b, c, q, ln m', (u0, t0)).
 struct CoastResidual {
   const CoastCurve* curve;
@@ -63,7 +66,9 @@ struct CoastResidual {
         if (closed) {
           u = coasted(initial[0], *beta, k, T(T(t_s) - initial[1]));
         } else {
-          const int steps = 1 + static_cast<int>((t_s - value_of(at_s)) / longest_step_s);
+          const double count = (t_s - value_of(at_s)) / longest_step_s;
+          if (!(count < kMaximumSteps)) return false;  // not a place to look at
+          const int steps = 1 + static_cast<int>(count);
           const T h = (T(t_s) - at_s) / static_cast<double>(steps);
           for (int n = 0; n < steps; ++n) u = coast_step(law, mass, u, h);
           at_s = T(t_s);
@@ -146,20 +151,16 @@ void CoastProblem::solve() {
   if (again) ceres::Solve(exact_options(), &problem_, &summary_);
 }
 
-Eigen::VectorXd CoastProblem::residuals() {
-  std::vector<double> values;
-  problem_.Evaluate({}, nullptr, &values, nullptr, nullptr);
-  return Eigen::Map<Eigen::VectorXd>(values.data(), rows_of(values));
+std::optional<Eigen::VectorXd> CoastProblem::residuals() {
+  return evaluated_residuals(problem_, {});
 }
 
-Eigen::MatrixXd CoastProblem::jacobian(const std::vector<double*>& first) {
+std::optional<Eigen::MatrixXd> CoastProblem::jacobian(const std::vector<double*>& first) {
   ceres::Problem::EvaluateOptions options;
   options.parameter_blocks = first;
   for (CoastInitialState& initial : initial_) options.parameter_blocks.push_back(initial.block);
   for (double* block : first) problem_.SetParameterBlockVariable(block);
-  ceres::CRSMatrix rows;
-  problem_.Evaluate(options, nullptr, nullptr, nullptr, &rows);
-  return dense(rows);
+  return evaluated_jacobian(problem_, options);
 }
 
 void CoastProblem::step(const std::vector<TransformedParameter>& free, const Eigen::VectorXd& by) {

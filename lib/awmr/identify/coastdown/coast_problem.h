@@ -4,6 +4,7 @@
 #include <ceres/ceres.h>
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "awmr/core/index.h"
@@ -38,9 +39,11 @@ class CoastProblem {
   void solve();
   const ceres::Solver::Summary& summary() const { return summary_; }
 
-  Eigen::VectorXd residuals();  ///< m/s, by sample
+  /// m/s, by sample; none where one is not finite.
+  std::optional<Eigen::VectorXd> residuals();
   /// Samples by columns: `first` in order, then each run's initial state (u0, and t0 where free).
-  Eigen::MatrixXd jacobian(const std::vector<double*>& first);
+  /// None where a derivative is not finite.
+  std::optional<Eigen::MatrixXd> jacobian(const std::vector<double*>& first);
 
   /// Moves theta, ln m' and each run's initial state, in that order.
   void step(const std::vector<TransformedParameter>& free, const Eigen::VectorXd& by);

@@ -3,7 +3,10 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
+#include "awmr/identify/ceres_solve.h"
 #include "awmr/identify/coastdown/coast_noise.h"
 #include "awmr/identify/coastdown/coast_problem.h"
 
@@ -138,6 +141,26 @@ void keep(const Stacked& s, const Rows& rows, CoastProblem& problem, const BySet
   joint.surge.covariance = joint.covariance.topLeftCorner(count - 1, count - 1);
 }
 
+/// None where a curve or a derivative is not finite at theta.
+std::optional<Rows> rows_at(const SteadyProblem& surge, const TransformedParameters& theta,
+                            const std::vector<TransformedParameter>& free,
+                            const SharedColumns& shared, CoastProblem& problem) {
+  std::optional<Eigen::MatrixXd> jacobian = problem.jacobian(shared.blocks);
+  std::optional<Eigen::VectorXd> residuals = problem.residuals();
+  std::optional<SteadyRows> surge_rows = steady_rows(surge, theta, free);
+  if (!jacobian || !residuals || !surge_rows) return std::nullopt;
+  return Rows{std::move(*surge_rows), std::move(*residuals), std::move(*jacobian)};
+}
+
+/// The fit as one that cannot be used and whose covariance says nothing.
+JointFit not_finite(JointFit joint) {
+  joint.coast.usable = false;
+  joint.coast.stop_reason = kNotFinite;
+  joint.surge.stop_reason = kNotFinite;
+  joint.covariance.resize(0, 0);
+  return joint;
+}
+
 }  // namespace
 
 JointFit fit_joint(const SteadyProblem& surge, const SteadyFit& alone,
@@ -149,17 +172,20 @@ JointFit fit_joint(const SteadyProblem& surge, const SteadyFit& alone,
                        terms.coulomb || terms.quadratic);
   problem.solve();  // each run's initial state
   const SharedColumns shared = shared_columns(problem, alone.free);
-  BySet variance{alone.residual_std * alone.residual_std, mean_square(problem.residuals())};
+  const std::optional<Eigen::VectorXd> initial = problem.residuals();
+  BySet variance{alone.residual_std * alone.residual_std, initial ? mean_square(*initial) : 0.0};
   joint.coast.stop_reason = "not converged: the step is still above 1e-8 standard errors";
   // The noise levels are those of the last step's residuals; both settle together.
   for (int round = 0; round < kMaximumRounds && !joint.coast.usable; ++round) {
     joint.surge.theta = problem.theta();
-    const Eigen::MatrixXd coast_jacobian = problem.jacobian(shared.blocks);
-    const Rows rows{steady_rows(surge, joint.surge.theta, alone.free), problem.residuals(),
-                    coast_jacobian};
+    const std::optional<Rows> evaluated =
+        rows_at(surge, joint.surge.theta, alone.free, shared, problem);
+    if (!evaluated) return not_finite(std::move(joint));
+    const Rows& rows = *evaluated;
     const Stacked s = stack(rows, shared, variance);
     const Eigen::VectorXd step = gauss_newton_step(s, rows, variance);
     const BySet dof = degrees_of_freedom(s, rows, variance);
+    if (!s.covariance.allFinite() || !step.allFinite()) return not_finite(std::move(joint));
     keep(s, rows, problem, variance, dof, joint);
     const BySet next = variance_components(rows, dof);
     if (length(step, s) < kTolerance && change(variance, next) < kTolerance) {

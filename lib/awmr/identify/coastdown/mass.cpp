@@ -220,8 +220,16 @@ MassResult estimate_mass(const SubjectFit* surge, const std::optional<TrialSet<S
   }
   if (joint && !curves.empty()) {
     JointFit fit = fit_joint(surge->problem, law, curves);
-    result.reports.push_back(report_of(fit, surge->problem.points.size()));
-    if (fit.coast.usable) result.joint = std::move(fit);
+    if (fit.covariance.size() > 0) {
+      result.reports.push_back(report_of(fit, surge->problem.points.size()));
+    }
+    if (fit.coast.usable) {
+      result.joint = std::move(fit);
+    } else {
+      result.findings.push_back(
+          {curves.front().file, 0, Severity::kWarning, "not-converged",
+           "the joint fit of the surge runs and the coast-down failed: " + fit.coast.stop_reason});
+    }
   }
   check(law, stops, !curves.empty(), vehicle, result);
   return result;

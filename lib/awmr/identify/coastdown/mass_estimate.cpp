@@ -55,6 +55,7 @@ std::vector<Finding> disagreement(const MassEstimate& a, const MassEstimate& b,
   const Eigen::VectorXd d = a.by_surge - b.by_surge;
   const double deviation = std::sqrt(d.dot(surge.covariance * d) + a.own_variance + b.own_variance);
   const double z = std::abs(a.log_mass_norm - b.log_mass_norm) / deviation;
+  if (!std::isfinite(z)) return {};
   const double p = 2.0 * boost::math::cdf(boost::math::complement(boost::math::normal(), z));
   if (p >= kDisagreement) return {};
   return {{file, 0, Severity::kWarning, "estimates-disagree",

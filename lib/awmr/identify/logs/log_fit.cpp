@@ -58,6 +58,10 @@ LogFit fit_logs(const std::vector<DrivingLog>& logs, const LogFitOptions& option
   const std::vector<double>& coordinates = solved.point.coordinates;
   const std::vector<WindowResiduals> residuals = evaluate_all(problem, solved.point, true);
 
+  if (!all_finite(residuals)) {
+    return without_solution("failed: the logs cannot be replayed where the search ended",
+                            search.starts);
+  }
   const Eigen::Index n = rows_of(quantities);
   const Identifiability found =
       without_stopped(identifiability(information(residuals, n), quantities), problem, coordinates);

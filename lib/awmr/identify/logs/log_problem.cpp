@@ -1,5 +1,6 @@
 #include "awmr/identify/logs/log_problem.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "awmr/core/parallel.h"
@@ -24,6 +25,10 @@ LogProblem log_problem(const std::vector<DrivingLog>& logs, const LogFitOptions&
 
 SearchPoint from_measured(const LogProblem& problem, std::vector<double> coordinates) {
   return {std::move(coordinates), measured_initial_states(problem.windows, problem.model.initial)};
+}
+
+bool all_finite(const std::vector<WindowResiduals>& residuals) {
+  return std::ranges::all_of(residuals, [](const WindowResiduals& w) { return w.finite; });
 }
 
 std::vector<WindowResiduals> evaluate_all(const LogProblem& problem, const SearchPoint& point,

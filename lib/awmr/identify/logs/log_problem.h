@@ -43,6 +43,9 @@ SearchPoint from_measured(const LogProblem& problem, std::vector<double> coordin
 /// steps that are longer by this factor.
 inline constexpr double kRoughStep = 2.0;
 
+/// False where a window's simulation left the finite numbers: its residuals are then no residuals.
+bool all_finite(const std::vector<WindowResiduals>& residuals);
+
 /// By window: in parallel, each on its own, so that the result does not depend on the number of
 /// threads.
 std::vector<WindowResiduals> evaluate_all(const LogProblem& problem, const SearchPoint& point,

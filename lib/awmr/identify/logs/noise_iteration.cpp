@@ -134,6 +134,7 @@ NoiseIteration settle_noise(LogProblem problem, SearchPoint point, Loss loss) {
     point = solve(problem, std::move(point), kMiddling).point;
     problem.model.longest_step_s = fine_step_s;
     const std::vector<WindowResiduals> residuals = evaluate_all(problem, point, false);
+    if (!all_finite(residuals)) break;  // fit_logs() refuses
     const NoiseLevels levels = noise_levels(problem, residuals, loss);
     const double change = largest_change(problem.model.noise, levels);
     problem.model.noise = levels;

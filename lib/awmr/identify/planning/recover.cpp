@@ -182,12 +182,25 @@ std::string noise_in_words(const RowNoise& rows, const RecoverOptions& options) 
                      name_of(rows.error), rows.surge, rows.turning, rows.stop_time_s, s.speed_mps);
 }
 
+/// A drive that has a row to fit to, and an end. Errors (input): it has not.
+Status check_drive(const DrivePlan& drive) {
+  constexpr double kFewest = 20.0;
+  constexpr double kMost = 1e7;
+  const double rows = drive.duration_s * drive.rate_hz;
+  if (drive.rate_hz > 0.0 && rows >= kFewest && rows <= kMost) return {};
+  return input_error(option_text("duration"),
+                     fmt::format("{:g} s at {:g} Hz make {:.3g} rows; a log to be simulated has "
+                                 "{:g} to {:g}",
+                                 drive.duration_s, drive.rate_hz, rows, kFewest, kMost));
+}
+
 }  // namespace
 
 Result<Recovery> recover(const Model& model, const RecoverOptions& options,
                          const std::function<void(int)>& progress) {
   AWMR_ASSIGN_OR_RETURN(const Plant<double> truth, model.plant());
   if (options.runs < 2) return input_error(option_text("runs"), "at least 2 are needed");
+  if (options.plan == RecoverPlan::kLog) AWMR_RETURN_IF_ERROR(check_drive(options.drive));
   if (options.plan != RecoverPlan::kLog && model.record.trials.empty()) {
     return input_error(
         model.file + ":/trials",

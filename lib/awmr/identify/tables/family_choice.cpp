@@ -9,6 +9,10 @@
 namespace awmr {
 namespace {
 
+/// So many runs show the curvature of the cost at its minimum, and the profile tells nothing more;
+/// it costs some hundred fits.
+constexpr Eigen::Index kMaximumProfileRows = 1000;
+
 /// The profile's interval of every coordinate that has a standard error, in the parameter's scale.
 void add_profiles(Candidate& candidate) {
   const std::vector<TransformedParameter> coordinates = coordinates_of(candidate.problem.family);
@@ -33,7 +37,12 @@ Candidate fit_candidate(const Subject& subject, const SteadyProblem& problem, Er
   if (!squared) candidate.report.noise += ", " + title_of(problem.loss);
   candidate.report.aicc = squared ? aicc(fit) : std::nullopt;
   if (problem.noise == wanted && squared && fit.has_covariance() && fit.usable) {
-    add_profiles(candidate);
+    if (rows_of(problem.points) > kMaximumProfileRows) {
+      candidate.report.stop_reason +=
+          fmt::format("; no profile intervals above {} rows", kMaximumProfileRows);
+    } else {
+      add_profiles(candidate);
+    }
   }
   return candidate;
 }

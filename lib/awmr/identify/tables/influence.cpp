@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "awmr/core/index.h"
 
@@ -13,26 +15,78 @@ namespace {
 /// A row is influential where leaving it out moves a parameter by this many standard errors.
 constexpr double kInfluential = 1.0;
 
-SteadyFit refit_without(std::size_t row, const Subject& subject, const SteadyProblem& problem,
-                        bool log_linear, const SteadyFit& fit) {
+/// Theta of the rest; none where the rest shows no curve.
+std::optional<TransformedParameters> refit_without(std::size_t row, const Subject& subject,
+                                                   const SteadyProblem& problem, bool log_linear,
+                                                   const SteadyFit& fit) {
   std::vector<SteadyPoint> points = subject.points;
   points.erase(points.begin() + eigen_index(row));
-  if (!has_two_forces(points)) return {};
-  if (log_linear) return fit_log_linear(points);
-  SteadyProblem rest = problem;
-  rest.points = std::move(points);
-  return fit_steady(rest, fit.theta);
+  if (!has_two_forces(points)) return std::nullopt;
+  SteadyFit without;
+  if (log_linear) {
+    without = fit_log_linear(points);
+  } else {
+    SteadyProblem rest = problem;
+    rest.points = std::move(points);
+    without = fit_steady(rest, fit.theta);
+  }
+  if (!without.usable) return std::nullopt;
+  return without.theta;
 }
+
+/// Theta without each run in turn, by one Gauss-Newton step from the whole fit:
+///   theta_(i) = theta + (J^T J)^-1 j_i e_i/(1 - h_i),   e = curve - measured
+/// which is exact where the curve is linear in theta, as in the logarithms.    [Cook 1977]
+class OneStep {
+ public:
+  OneStep(const SteadyProblem& problem, bool log_linear, const SteadyFit& fit)
+      : problem_(problem), fit_(fit) {
+    const double variance = fit.residual_std * fit.residual_std;
+    // A robust loss weighs the runs, which this step does not know.
+    if (!fit.has_covariance() || !(variance > 0.0) || problem.loss != Loss::kSquared) return;
+    inverse_ = fit.covariance / variance;
+    if (log_linear) {
+      jacobian_.resize(rows_of(problem.points), 2);
+      for (Eigen::Index i = 0; i < jacobian_.rows(); ++i) {
+        jacobian_.row(i) << 1.0, std::log(problem.points[at(i)].rate);
+      }
+    } else if (std::optional<SteadyRows> rows = steady_rows(problem, fit.theta, fit.free)) {
+      jacobian_ = std::move(rows->jacobian);
+    }
+  }
+
+  /// None where the run alone shows a parameter, or nothing is known of the fit.
+  std::optional<TransformedParameters> without(std::size_t row) const {
+    constexpr double kAlone = 1e-12;
+    const Eigen::Index i = eigen_index(row);
+    if (jacobian_.rows() == 0 || !(1.0 - fit_.leverages(i) > kAlone)) return std::nullopt;
+    const Eigen::VectorXd step =
+        inverse_ * jacobian_.row(i).transpose() * (fit_.residuals(i) / (1.0 - fit_.leverages(i)));
+    TransformedParameters theta = fit_.theta;
+    for (std::size_t k = 0; k < fit_.free.size(); ++k) {
+      const TransformedParameter c = fit_.free[k];
+      const Interval bounds = bounds_of(problem_, c);
+      theta[at(c)] = std::clamp(theta[at(c)] + step(eigen_index(k)), bounds.lo, bounds.hi);
+    }
+    return theta;
+  }
+
+ private:
+  const SteadyProblem& problem_;
+  const SteadyFit& fit_;
+  Eigen::MatrixXd inverse_;   ///< (J^T J)^-1, free x free
+  Eigen::MatrixXd jacobian_;  ///< runs x free; empty where nothing is known
+};
 
 /// "surge.alpha becomes 0.3 (from 0.25), ..."; empty where nothing moves by much.
 std::string what_moves(const Subject& subject, const std::vector<TransformedParameter>& coordinates,
-                       const SteadyFit& without, const SteadyFit& fit) {
+                       const TransformedParameters& without, const SteadyFit& fit) {
   std::string moved;
   for (const TransformedParameter c : coordinates) {
     const auto error = fit.std_error(c);
-    if (!error || std::abs(without[c] - fit[c]) <= kInfluential * *error) continue;
+    if (!error || std::abs(without[at(c)] - fit[c]) <= kInfluential * *error) continue;
     moved += fmt::format("{}{} becomes {:.4g} (from {:.4g})", moved.empty() ? "" : ", ",
-                         info(parameter_of(subject, c)).name, value_from(c, without[c]),
+                         info(parameter_of(subject, c)).name, value_from(c, without[at(c)]),
                          value_from(c, fit[c]));
   }
   return moved;
@@ -44,13 +98,19 @@ Influence leave_one_out(const Subject& subject, const SteadyProblem& problem, bo
                         const SteadyFit& fit) {
   Influence influence;
   const std::vector<TransformedParameter> coordinates = coordinates_of(problem.family);
+  const bool refit = rows_of(subject.points) <= kExactRows;
+  const std::optional<OneStep> one_step =
+      refit ? std::nullopt : std::optional<OneStep>(std::in_place, problem, log_linear, fit);
   for (std::size_t i = 0; i < subject.points.size(); ++i) {
-    const SteadyFit without = refit_without(i, subject, problem, log_linear, fit);
-    if (!without.usable) continue;
+    const std::optional<TransformedParameters> rest =
+        refit ? refit_without(i, subject, problem, log_linear, fit) : one_step->without(i);
+    if (!rest) continue;
+    const TransformedParameters& without = *rest;
     LeaveOneOut entry{subject.file, subject.points[i].line, {}};
     for (const TransformedParameter c : coordinates) {
-      entry.values.push_back(value_from(c, without[c]));
+      entry.values.push_back(value_from(c, without[at(c)]));
     }
+    if (!std::ranges::all_of(entry.values, [](double x) { return std::isfinite(x); })) continue;
     const std::string moved = what_moves(subject, coordinates, without, fit);
     if (!moved.empty()) {
       influence.findings.push_back({subject.file, entry.line, Severity::kNote, "influential-row",

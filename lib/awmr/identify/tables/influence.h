@@ -13,7 +13,8 @@ struct Influence {
 };
 
 /// Every run left out once, the curve fitted to the others by the same method: through the
-/// logarithms where `log_linear`, else as `problem` from the whole fit.
+/// logarithms where `log_linear`, else as `problem` from the whole fit. Above kExactRows by one step
+/// from the whole fit, exact for a log-linear one; there not under a robust loss.
 /// Precondition: two degrees of freedom, so that the others have one.
 Influence leave_one_out(const Subject& subject, const SteadyProblem& problem, bool log_linear,
                         const SteadyFit& fit);

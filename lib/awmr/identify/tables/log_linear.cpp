@@ -6,6 +6,19 @@
 #include "awmr/identify/tables/steady_fit.h"
 
 namespace awmr {
+namespace {
+
+/// The diagonal of Q Q^T. For a long table Q is made as two columns, not as a square matrix.
+Eigen::VectorXd leverages_of(const Eigen::ColPivHouseholderQR<Eigen::MatrixX2d>& qr) {
+  if (qr.rows() <= kExactRows) {
+    const Eigen::MatrixXd q = Eigen::MatrixXd(qr.householderQ()).leftCols(2);
+    return q.rowwise().squaredNorm();
+  }
+  const Eigen::MatrixXd q = qr.householderQ() * Eigen::MatrixXd::Identity(qr.rows(), 2);
+  return q.rowwise().squaredNorm();
+}
+
+}  // namespace
 
 SteadyFit fit_log_linear(const std::vector<SteadyPoint>& points) {
   const Eigen::Index n = rows_of(points);
@@ -28,10 +41,13 @@ SteadyFit fit_log_linear(const std::vector<SteadyPoint>& points) {
   const Eigen::Vector2d theta = qr.solve(observed);
   fit[TransformedParameter::kLogAlpha] = theta(0);
   fit[TransformedParameter::kBeta] = theta(1);
-  fit.usable = true;
+  fit.usable = is_physical(fit.law());
+  if (!fit.usable) {
+    fit.stop_reason = "failed: the curve through the logarithms is not finite";
+    return fit;
+  }
   fit.residuals = design * theta - observed;
-  const Eigen::MatrixXd q = Eigen::MatrixXd(qr.householderQ()).leftCols(2);
-  fit.leverages = q.rowwise().squaredNorm();
+  fit.leverages = leverages_of(qr);
   fit.degrees_of_freedom = static_cast<int>(n) - 2;
   if (fit.degrees_of_freedom > 0) {
     const double variance = fit.residuals.squaredNorm() / fit.degrees_of_freedom;

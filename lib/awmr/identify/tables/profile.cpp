@@ -70,7 +70,8 @@ double profile_cost(const SteadyProblem& problem, const TransformedParameters& i
   SteadySearch search(problem, from, held);
   search.solve();
   if (!search.summary().IsSolutionUsable()) return std::numeric_limits<double>::infinity();
-  return search.residuals().squaredNorm();
+  const std::optional<Eigen::VectorXd> e = search.residuals();
+  return e ? e->squaredNorm() : std::numeric_limits<double>::infinity();
 }
 
 Interval profile_interval(const SteadyProblem& problem, const SteadyFit& fit,
@@ -85,7 +86,7 @@ std::optional<double> aicc(const SteadyFit& fit) {
   const double k = static_cast<double>(fit.free.size() + fit.at_bound.size()) + 1.0;
   if (n <= k + 1.0) return std::nullopt;
   const double sse = fit.residuals.squaredNorm();
-  if (!(sse > 0.0)) return std::nullopt;
+  if (!(sse > 0.0) || !std::isfinite(sse)) return std::nullopt;
   return n * std::log(sse / n) + 2.0 * k + 2.0 * k * (k + 1.0) / (n - k - 1.0);
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "awmr/core/index.h"
 #include "awmr/identify/ceres_solve.h"
@@ -21,30 +22,66 @@ bool is_at(double bound, double value) {
   return std::isfinite(bound) && std::abs(value - bound) <= kAtBound;
 }
 
-/// Residuals and Jacobian at the solution -> rank, condition, leverages, covariance.
-void add_uncertainty(const SteadyProblem& problem, SteadySearch& search, SteadyFit& fit) {
+/// The diagonal of Q Q^T over the columns of J. For a long table Q is made column by column: as a
+/// square matrix it would grow with the square of the rows.
+Eigen::VectorXd leverages_of(const Eigen::ColPivHouseholderQR<Eigen::MatrixXd>& qr) {
+  const Eigen::Index n = qr.rows();
+  const Eigen::Index p = qr.cols();
+  if (n <= kExactRows)
+    return Eigen::MatrixXd(qr.householderQ()).leftCols(p).rowwise().squaredNorm();
+  const Eigen::MatrixXd thin = qr.householderQ() * Eigen::MatrixXd::Identity(n, p);
+  return thin.rowwise().squaredNorm();
+}
+
+/// (J^T J)^-1, from the pseudo-inverse J^+: J^+ J^+T; for a long table from the factor R alone:
+///   (J^T J)^-1 = Pi R^-1 R^-T Pi^T,   J Pi = Q R
+Eigen::MatrixXd inverse_information(const Eigen::ColPivHouseholderQR<Eigen::MatrixXd>& qr) {
+  const Eigen::Index n = qr.rows();
+  const Eigen::Index p = qr.cols();
+  if (n <= kExactRows) {
+    const Eigen::MatrixXd inverse = qr.solve(Eigen::MatrixXd::Identity(n, n));
+    return inverse * inverse.transpose();
+  }
+  const Eigen::MatrixXd r = qr.matrixR().topRows(p).triangularView<Eigen::Upper>();
+  const Eigen::MatrixXd r_inverse =
+      r.triangularView<Eigen::Upper>().solve(Eigen::MatrixXd::Identity(p, p));
+  const Eigen::MatrixXd permutation = qr.colsPermutation();
+  return permutation * r_inverse * r_inverse.transpose() * permutation.transpose();
+}
+
+/// Singular values of J, the largest over the least; infinite where the rank lacks.
+double condition_of(const Eigen::MatrixXd& jacobian) {
+  const Eigen::VectorXd singular = Eigen::JacobiSVD<Eigen::MatrixXd>(jacobian).singularValues();
+  const double least = jacobian.rows() >= jacobian.cols() ? singular(singular.size() - 1) : 0.0;
+  return least > 0.0 ? singular(0) / least : kInfinity;
+}
+
+/// Residuals and Jacobian at the solution -> rank, condition, leverages, covariance. False where
+/// one of them is not finite.
+bool add_uncertainty(const SteadyProblem& problem, SteadySearch& search, SteadyFit& fit) {
   const Eigen::Index n = rows_of(problem.points);
-  const Eigen::MatrixXd all = search.jacobian(coordinates_of(problem.family));
-  const Eigen::VectorXd singular = Eigen::JacobiSVD<Eigen::MatrixXd>(all).singularValues();
-  const double least = n >= all.cols() ? singular(singular.size() - 1) : 0.0;
-  fit.condition_number = least > 0.0 ? singular(0) / least : kInfinity;
-  fit.residuals = search.residuals();
-  const Eigen::MatrixXd used = search.jacobian(fit.free);
+  fit.condition_number = kInfinity;
+  fit.degrees_of_freedom = static_cast<int>(n - rows_of(fit.free));
+  const std::optional<Eigen::MatrixXd> all = search.jacobian(coordinates_of(problem.family));
+  std::optional<Eigen::VectorXd> residuals = search.residuals();
+  const std::optional<Eigen::MatrixXd> of_free = search.jacobian(fit.free);
+  if (!all || !residuals || !of_free) return false;
+  fit.condition_number = condition_of(*all);
+  fit.residuals = std::move(*residuals);
+  const Eigen::MatrixXd& used = *of_free;
   const auto p = used.cols();
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(used);
   fit.rank = static_cast<int>(qr.rank());
-  fit.degrees_of_freedom = static_cast<int>(n - p);
-  if (fit.rank < p) return;
-  fit.leverages = Eigen::MatrixXd(qr.householderQ()).leftCols(p).rowwise().squaredNorm();
-  if (fit.degrees_of_freedom <= 0) return;
+  if (fit.rank < p) return true;
+  fit.leverages = leverages_of(qr);
+  if (fit.degrees_of_freedom <= 0) return fit.leverages.allFinite();
   const bool robust = problem.loss != Loss::kSquared;
   const double variance =
       robust ? m_estimate_variance(search.loss(), fit.residuals, static_cast<int>(p))
              : fit.residuals.squaredNorm() / fit.degrees_of_freedom;
   fit.residual_std = std::sqrt(variance);
-  // sigma^2 (J^T J)^-1, from the pseudo-inverse J^+: J^+ J^+T
-  const Eigen::MatrixXd inverse = qr.solve(Eigen::MatrixXd::Identity(n, n));
-  fit.covariance = variance * inverse * inverse.transpose();
+  fit.covariance = variance * inverse_information(qr);
+  return std::isfinite(variance) && fit.covariance.allFinite() && fit.leverages.allFinite();
 }
 
 /// Without another fit: the power law by QR, then a share of the minimum force for each new term.
@@ -83,6 +120,11 @@ Resistance<double> SteadyFit::law() const {
           .quadratic = (*this)[TransformedParameter::kQuadratic]};
 }
 
+bool is_physical(const Resistance<double>& law) {
+  return std::isnormal(law.alpha) && std::isfinite(law.beta) && std::isfinite(law.coulomb) &&
+         std::isfinite(law.quadratic);
+}
+
 SteadyFit fit_steady(const SteadyProblem& problem) {
   return fit_steady(problem, initial_guess_of(problem));
 }
@@ -99,15 +141,25 @@ SteadyFit fit_steady(const SteadyProblem& problem, const TransformedParameters& 
     const bool held = is_at(bounds.lo, fit[c]) || is_at(bounds.hi, fit[c]);
     (held ? fit.at_bound : fit.free).push_back(c);
   }
-  add_uncertainty(problem, search, fit);
-  fit.usable = converged(search.summary()) && fit.rank == static_cast<int>(fit.free.size());
+  const bool finite = add_uncertainty(problem, search, fit) && is_physical(fit.law());
+  if (!finite) {
+    fit.covariance.resize(0, 0);
+    fit.residual_std = 0.0;
+    if (converged(search.summary())) fit.stop_reason = kNotFinite;
+  }
+  fit.usable =
+      finite && converged(search.summary()) && fit.rank == static_cast<int>(fit.free.size());
   return fit;
 }
 
-SteadyRows steady_rows(const SteadyProblem& problem, const TransformedParameters& theta,
-                       const std::vector<TransformedParameter>& by) {
+std::optional<SteadyRows> steady_rows(const SteadyProblem& problem,
+                                      const TransformedParameters& theta,
+                                      const std::vector<TransformedParameter>& by) {
   SteadySearch search(problem, theta, std::nullopt);
-  return {search.residuals(), search.jacobian(by)};
+  std::optional<Eigen::VectorXd> residuals = search.residuals();
+  std::optional<Eigen::MatrixXd> jacobian = search.jacobian(by);
+  if (!residuals || !jacobian) return std::nullopt;
+  return SteadyRows{std::move(*residuals), std::move(*jacobian)};
 }
 
 }  // namespace awmr

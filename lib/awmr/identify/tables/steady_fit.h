@@ -25,6 +25,10 @@ struct SteadyPoint {
   int line = 0;                     ///< of the file
 };
 
+/// Tables of more rows are fitted in time and memory that grow with the rows alone: leaving one out
+/// is then one step of the fit, not another fit, and an interval comes from the standard error.
+inline constexpr Eigen::Index kExactRows = 200;
+
 /// What is fitted: the points, the family of the curve, and where the error lies.
 struct SteadyProblem {
   std::vector<SteadyPoint> points;  ///< at least one
@@ -74,13 +78,18 @@ SteadyFit fit_steady(const SteadyProblem& problem, const TransformedParameters& 
 /// The same from an initial guess that is worked out of the points alone.
 SteadyFit fit_steady(const SteadyProblem& problem);
 
+/// Every number of the law is finite, and alpha is more than nothing.
+bool is_physical(const Resistance<double>& law);
+
 /// Residuals, unweighted, and their derivatives by the coordinates named, anywhere.
 struct SteadyRows {
   Eigen::VectorXd residuals;  ///< by point
   Eigen::MatrixXd jacobian;   ///< points x coordinates
 };
-SteadyRows steady_rows(const SteadyProblem& problem, const TransformedParameters& theta,
-                       const std::vector<TransformedParameter>& by);
+/// None where the curve or a derivative is not finite.
+std::optional<SteadyRows> steady_rows(const SteadyProblem& problem,
+                                      const TransformedParameters& theta,
+                                      const std::vector<TransformedParameter>& by);
 
 /// The bounds of a search over one coordinate; infinite where there is none.
 Interval bounds_of(const SteadyProblem& problem, TransformedParameter c);

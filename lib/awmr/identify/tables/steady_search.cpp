@@ -109,7 +109,9 @@ void SteadySearch::solve() { ceres::Solve(exact_options(), ceres_.get(), &summar
 
 void SteadySearch::solve_robustly() {
   for (int round = 0; round < 20; ++round) {
-    const double scale = median_scale(residuals());
+    const std::optional<Eigen::VectorXd> e = residuals();
+    if (!e) return;  // the search failed, its summary says why
+    const double scale = median_scale(*e);
     if (!(scale > 0.0)) return;  // over half of the points fit exactly: nothing to weigh down
     loss_.Reset(make_loss(problem_.loss, scale).release(), ceres::TAKE_OWNERSHIP);
     const TransformedParameters before = theta_;
@@ -122,21 +124,18 @@ void SteadySearch::solve_robustly() {
   }
 }
 
-Eigen::VectorXd SteadySearch::residuals() {
-  std::vector<double> values;
+std::optional<Eigen::VectorXd> SteadySearch::residuals() {
   ceres::Problem::EvaluateOptions options;
   options.apply_loss_function = false;
-  ceres_->Evaluate(options, nullptr, &values, nullptr, nullptr);
-  return Eigen::Map<Eigen::VectorXd>(values.data(), rows_of(values));
+  return evaluated_residuals(*ceres_, options);
 }
 
-Eigen::MatrixXd SteadySearch::jacobian(const std::vector<TransformedParameter>& columns) {
+std::optional<Eigen::MatrixXd> SteadySearch::jacobian(
+    const std::vector<TransformedParameter>& columns) {
   ceres::Problem::EvaluateOptions options;
   options.apply_loss_function = false;
   for (const TransformedParameter c : columns) options.parameter_blocks.push_back(block(c));
-  ceres::CRSMatrix rows;
-  ceres_->Evaluate(options, nullptr, nullptr, nullptr, &rows);
-  return dense(rows);
+  return evaluated_jacobian(*ceres_, options);
 }
 
 }  // namespace awmr

@@ -26,10 +26,10 @@ class SteadySearch {
   /// The loss takes its scale from the residuals, which it changes: a few rounds settle both.
   void solve_robustly();
 
-  /// By point, in the unit of the noise, without the loss.
-  Eigen::VectorXd residuals();
-  /// Points by columns, without the loss.
-  Eigen::MatrixXd jacobian(const std::vector<TransformedParameter>& columns);
+  /// By point, in the unit of the noise, without the loss. None where the curve cannot be evaluated.
+  std::optional<Eigen::VectorXd> residuals();
+  /// Points by columns, without the loss. None where a derivative is not finite.
+  std::optional<Eigen::MatrixXd> jacobian(const std::vector<TransformedParameter>& columns);
 
   const TransformedParameters& theta() const { return theta_; }
   const ceres::Solver::Summary& summary() const { return summary_; }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iterator>
 #include <utility>
 
@@ -60,6 +61,15 @@ Choice choose_nonlinear(const Subject& subject, const SubjectOptions& options, E
   const Candidate* chosen = options.family.family
                                 ? candidate_of(candidates, *options.family.family, wanted)
                                 : best_candidate(candidates, wanted);
+  const bool tried = std::ranges::any_of(
+      candidates, [&](const Candidate& c) { return c.problem.noise == wanted; });
+  if (!chosen && tried && !options.family.family) {
+    choice.findings.push_back(
+        about(subject, Severity::kError, "not-converged",
+              fmt::format("no family's fit of {} converged with more runs than its numbers",
+                          name_in(kFitSubjectNames, subject.name))));
+    return choice;
+  }
   if (!chosen) {
     choice.findings.push_back(
         about(subject, Severity::kError, "too-few-rows",
@@ -111,6 +121,11 @@ void judge(const Subject& subject, std::size_t report, SubjectFit& result) {
     Influence influence = leave_one_out(subject, result.problem, result.log_linear, fit);
     chosen.leave_one_out = std::move(influence.without);
     append(std::move(influence.findings), result.findings);
+    if (rows_of(subject.points) > kExactRows) {
+      chosen.stop_reason += chosen.leave_one_out.empty()
+                                ? "; too many rows to leave each out once"
+                                : "; each row left out by one step from the whole fit";
+    }
   }
 }
 
@@ -120,7 +135,15 @@ SubjectFit fit_subject(const Subject& subject, const SubjectOptions& options) {
   SubjectFit result;
   if (!has_two_forces(subject.points)) return result;
   const SteadyFit line = fit_log_linear(subject.points);
-  if (!line.usable) return result;
+  if (!line.usable) {
+    if (line.rank == 2) {
+      result.findings.push_back(
+          about(subject, Severity::kError, "not-converged",
+                fmt::format("the log-linear fit of {}: {}", name_in(kFitSubjectNames, subject.name),
+                            line.stop_reason)));
+    }
+    return result;
+  }
   result.reports.push_back(report_of(subject, line, Family::kPower, Estimator::kLogLinear,
                                      name_of(ErrorModel::kLogForce)));
   const ErrorModel wanted = wanted_noise(subject, options);

@@ -46,7 +46,7 @@ std::optional<Diagnostic> normality(std::span<const double> residuals) {
   double squares = 0.0;
   for (const double e : x) squares += (e - mean) * (e - mean);
   const double sd = std::sqrt(squares / static_cast<double>(n - 1));
-  if (!(sd > 0.0)) return std::nullopt;
+  if (!(sd > 0.0) || !std::isfinite(sd)) return std::nullopt;
   const boost::math::normal standard;
   const double size = static_cast<double>(n);
   double sum = 0.0;
@@ -72,7 +72,7 @@ std::optional<Diagnostic> whiteness(std::span<const double> residuals, int lags)
   const double mean = mean_of(residuals);
   double variance = 0.0;
   for (const double e : residuals) variance += (e - mean) * (e - mean);
-  if (!(variance > 0.0)) return std::nullopt;
+  if (!(variance > 0.0) || !std::isfinite(variance)) return std::nullopt;
   double q = 0.0;
   for (int k = 1; k <= lags; ++k) {
     double sum = 0.0;
@@ -107,7 +107,7 @@ std::optional<Diagnostic> curvature(std::span<const double> forces,
     const double step = e - residuals(eigen_index(order[i - 1]));
     steps += step * step;
   }
-  if (!(squares > 0.0)) return std::nullopt;
+  if (!(squares > 0.0) || !std::isfinite(squares) || !std::isfinite(steps)) return std::nullopt;
   const double size = static_cast<double>(n);
   const double ratio = steps / squares;  // 2 for white noise
   const double deviation = std::sqrt(4.0 * (size - 2.0) / (size * size - 1.0));
@@ -134,6 +134,7 @@ std::optional<Diagnostic> lack_of_fit(std::span<const double> forces,
   const double between_dof = static_cast<double>(groups.size()) - parameters;
   if (pure_dof < 1.0 || between_dof < 1.0 || !(pure > 0.0)) return std::nullopt;
   const double f = (between / between_dof) / (pure / pure_dof);
+  if (!std::isfinite(f)) return std::nullopt;
   const double p =
       boost::math::cdf(boost::math::complement(boost::math::fisher_f(between_dof, pure_dof), f));
   return Diagnostic{"lack of fit", f, p,
@@ -151,7 +152,8 @@ Eigen::VectorXd studentised(const Eigen::VectorXd& residuals, const Eigen::Vecto
     const double e = residuals(i);
     const double without = (sse - e * e / free) / (degrees_of_freedom - 1.0);
     // A point that alone decides a parameter has no residual to judge.
-    t(i) = free > 1e-12 && without > 0.0 ? e / std::sqrt(without * free) : 0.0;
+    const double judged = free > 1e-12 && without > 0.0 ? e / std::sqrt(without * free) : 0.0;
+    t(i) = std::isfinite(judged) ? judged : 0.0;
   }
   return t;
 }

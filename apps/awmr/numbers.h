@@ -1,0 +1,41 @@
+/// The check of every number of the command line.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <system_error>
+#include <type_traits>
+
+#include <fmt/format.h>
+
+namespace awmr::cli {
+
+/// Any start of a sequence of random numbers.
+inline constexpr std::uint64_t kAnySeed = std::numeric_limits<std::uint64_t>::max();
+
+/// A finite number from `min` to `max`, of the option's own type: whole for an integer, without a
+/// minus sign for an unsigned one. Nothing may stand behind the number, and it has to fit its type:
+/// CLI11 itself makes 2^64 - 1 of -1 and of 10^23, and lets nan pass every range.
+template <class Number>
+CLI::Validator within(Number min, Number max) {
+  static_assert(std::is_arithmetic_v<Number>);
+  const auto check = [min, max](const std::string& text) -> std::string {
+    const std::size_t sign = !text.empty() && text.front() == '+' ? 1 : 0;
+    const char* const end = text.data() + text.size();
+    Number value{};
+    const auto [stop, fault] = std::from_chars(text.data() + sign, end, value);
+    bool good = fault == std::errc() && stop == end && value >= min && value <= max;
+    if constexpr (std::is_floating_point_v<Number>) good = good && std::isfinite(value);
+    if (good) return {};
+    const char* const kind = std::is_integral_v<Number> ? "whole number" : "number";
+    return fmt::format("must be a {} from {} to {}, found {}", kind, min, max,
+                       text.empty() ? "nothing" : text);
+  };
+  return {check, fmt::format("in [{}, {}]", min, max), ""};
+}
+
+}  // namespace awmr::cli

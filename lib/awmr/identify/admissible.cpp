@@ -1,0 +1,96 @@
+#include "awmr/identify/admissible.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "awmr/core/index.h"
+#include "awmr/model/ranges.h"
+
+namespace awmr {
+namespace {
+
+using Reasons = std::map<ParameterId, std::string>;
+
+void take_out(ParameterId id, std::string why, Model& model, Reasons& reasons) {
+  Estimate& estimate = model[id];
+  if (!estimate.value || estimate.source == Source::kGiven) return;
+  estimate.value.reset();
+  estimate.std_error.reset();
+  estimate.ci95.reset();
+  reasons.emplace(id, std::move(why));
+}
+
+/// The reason why a value cannot stand in a model; empty where it can.
+std::string why_not(double value, const NumberRule& rule) {
+  if (!std::isfinite(value)) return "the fit left the finite numbers";
+  if (value >= rule.min && value <= rule.max) return {};
+  return fmt::format("the fit gives {:.4g}, outside of what a model can hold, [{:g}, {:g}]", value,
+                     rule.min, rule.max);
+}
+
+/// What cannot be said without the parameters that went.
+void take_out_what_hangs_on_it(Model& model, Reasons& reasons) {
+  const auto follow = [&](ParameterId first, ParameterId second) {
+    if (!reasons.contains(first)) return;
+    take_out(second, fmt::format("{} is open: {}", info(first).name, reasons.at(first)), model,
+             reasons);
+  };
+  follow(ParameterId::kSurgeAlpha, ParameterId::kSurgeBeta);
+  follow(ParameterId::kSurgeBeta, ParameterId::kSurgeAlpha);
+  follow(ParameterId::kYawAlpha, ParameterId::kYawBeta);
+  follow(ParameterId::kYawBeta, ParameterId::kYawAlpha);
+  follow(ParameterId::kSurgeAlpha, ParameterId::kMassNorm);
+  follow(ParameterId::kMassNorm, ParameterId::kInertiaNorm);
+  follow(ParameterId::kInertiaNorm, ParameterId::kMassNorm);
+}
+
+/// The covariance over the parameters that still have a value and finite variances.
+Covariance kept(const Covariance& all, const Model& model) {
+  std::vector<std::size_t> places;
+  for (std::size_t i = 0; i < all.parameters.size(); ++i) {
+    const Estimate& estimate = model[all.parameters[i]];
+    const bool finite =
+        std::ranges::all_of(all.matrix[i], [](double x) { return std::isfinite(x); });
+    const bool positive = all.matrix[i][i] >= 0.0;
+    if (estimate.value && estimate.std_error && finite && positive) places.push_back(i);
+  }
+  if (places.size() == all.parameters.size()) return all;
+  Covariance rest;
+  for (const std::size_t i : places) {
+    rest.parameters.push_back(all.parameters[i]);
+    std::vector<double>& row = rest.matrix.emplace_back();
+    for (const std::size_t j : places) row.push_back(all.matrix[i][j]);
+  }
+  return rest;
+}
+
+}  // namespace
+
+Reasons take_out_inadmissible(Model& model) {
+  Reasons reasons;
+  for (const ParameterInfo& parameter : parameter_table()) {
+    Estimate& estimate = model[parameter.id];
+    if (!estimate.value || estimate.source == Source::kGiven) continue;
+    std::string why = why_not(*estimate.value, rule_of(parameter.id));
+    if (!why.empty()) take_out(parameter.id, std::move(why), model, reasons);
+    const bool error = !estimate.std_error || std::isfinite(*estimate.std_error);
+    const bool interval =
+        !estimate.ci95 || (std::isfinite(estimate.ci95->lo) && std::isfinite(estimate.ci95->hi));
+    if (error && interval) continue;
+    estimate.std_error.reset();
+    estimate.ci95.reset();
+    model.record.findings.push_back(
+        {"", 0, Severity::kWarning, "no-interval",
+         fmt::format("the standard error of {} is not finite: nothing is said about how well it is "
+                     "known",
+                     parameter.name)});
+  }
+  take_out_what_hangs_on_it(model, reasons);
+  model.covariance = kept(model.covariance, model);
+  return reasons;
+}
+
+}  // namespace awmr

@@ -1,0 +1,91 @@
+/// Every numeric option with what is no number of its range: exit code 2, the option's name, and no
+/// crash.
+#include <gmock/gmock.h>
+
+#include <string>
+#include <vector>
+
+#include "cli/program.h"
+
+namespace awmr::testing {
+namespace {
+
+using ::testing::HasSubstr;
+
+struct NumericOption {
+  const char* command;
+  const char* option;
+  bool whole;
+};
+
+constexpr NumericOption kOptions[] = {
+    {"identify", "--starts", true},
+    {"identify", "--bootstrap", true},
+    {"identify", "--seed", true},
+    {"identify", "--threads", true},
+    {"recover", "--runs", true},
+    {"recover", "--seed", true},
+    {"recover", "--threads", true},
+    {"recover", "--speed-noise", false},
+    {"recover", "--correlation", false},
+    {"recover", "--duration", false},
+    {"recover", "--rate", false},
+    {"suggest", "--repeats", true},
+    {"suggest", "--most", true},
+    {"validate", "--tolerance", false},
+    {"validate", "--horizon", false},
+    {"validate", "--log-tolerance", false},
+    {"compare", "--samples", true},
+    {"compare", "--seed", true},
+    {"compare", "--threads", true},
+    {"emit", "--table-error", false},
+    {"emit", "--heading-timeout-ms", true},
+    {"emit", "--speed-timeout-ms", true},
+    {"emit", "--command-timeout-ms", true},
+    {"emit", "--step-timeout-ms", true},
+    {"pil", "--cycles-max", true},
+    {"pil", "--flash-max", true},
+    {"pil", "--ram-max", true},
+    {"pil", "--baud", true},
+    {"pil", "--difference-max", false},
+    {"pil", "--heading-max-deg", false},
+};
+
+TEST(BadNumber, IsRefusedByEveryNumericOption) {
+  for (const NumericOption& option : kOptions) {
+    std::vector<std::string> texts{"nan", "inf",   "-inf", "''",
+                                   "1x",  "1e300", "-1",   "100000000000000000000000"};
+    if (option.whole) texts.insert(texts.end(), {"1.5", "1e2"});
+    for (const std::string& text : texts) {
+      const ProcessResult result =
+          awmr(std::string(option.command) + " " + option.option + "=" + text);
+      EXPECT_EQ(result.exit_code, 2) << option.command << " " << option.option << "=" << text;
+      EXPECT_THAT(result.err, HasSubstr(option.option)) << option.command << " " << text;
+    }
+  }
+}
+
+TEST(BadNumber, TheHelpShowsTheRange) {
+  EXPECT_THAT(awmr("recover --help").out, HasSubstr("in [2, 1000000]"));
+  EXPECT_THAT(awmr("pil --help").out, HasSubstr("in [0, 360]"));
+}
+
+TEST(BadNumber, ALogOfNoRowsOrWithoutEndIsNotSimulated) {
+  TemporaryDirectory directory;
+  const std::string model = (directory.path() / "model.json").string();
+  ASSERT_EQ(awmr("identify --vehicle configs/paper/vehicle.json --surge datasets/paper/surge.csv "
+                 "--coastdown datasets/paper/coastdown.csv --turning datasets/paper/turning.csv "
+                 "-o " +
+                 model)
+                .exit_code,
+            0);
+  for (const char* drive : {"--duration 1e-9", "--duration 1e300", "--rate nan", "--rate 1e300",
+                            "--duration 1 --rate 1", "--rate 1e-300"}) {
+    const ProcessResult result = awmr("recover --plan log --runs 2 --model " + model + " " + drive);
+    EXPECT_EQ(result.exit_code, 2) << drive;
+    EXPECT_THAT(result.err, HasSubstr("error:")) << drive;
+  }
+}
+
+}  // namespace
+}  // namespace awmr::testing
