@@ -61,7 +61,7 @@ std::vector<IdentifyOptions> ways() {
     options.noise = noise;
     all.push_back(options);
   }
-  for (const Family family : kFamilies) {
+  for (const Family family : values_in(kFamilyNames)) {
     IdentifyOptions options;
     options.surge_family.family = family;
     options.yaw_family.family = family;
