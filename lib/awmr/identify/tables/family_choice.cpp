@@ -11,7 +11,7 @@ namespace {
 
 /// So many runs show the curvature of the cost at its minimum, and the profile tells nothing more;
 /// it costs some hundred fits.
-constexpr Eigen::Index kMaximumProfileRows = 1000;
+constexpr Eigen::Index kMaximumProfileRows = kExactRows;
 
 /// The profile's interval of every coordinate that has a standard error, in the parameter's scale.
 void add_profiles(Candidate& candidate) {
