@@ -11,6 +11,8 @@ namespace {
 
 /// More repeats than this among the rows of a moving signal are no chance.
 constexpr double kRepeatedShare = 0.5;
+/// A grid that is finer than what the signal does from row to row is only how it was written.
+constexpr double kSomeRepeats = 0.2;
 
 double quantile(std::vector<double> values, double share) {
   const auto place =
@@ -89,10 +91,11 @@ void judge_repeats(std::span<const double> value, ChannelQuality& quality) {
   if (own_rate) {
     quality.repeats = Repeats::kSlow;
     quality.fresh = slow_readings(changes, value.size());
-  } else if (often || quantum > 0.0) {
-    quality.repeats = quantum > 0.0 ? Repeats::kCoarse : Repeats::kNone;
+    quality.quantum = quantum;
+  } else if (quantum > 0.0 && repeated > kSomeRepeats * moving) {
+    quality.repeats = Repeats::kCoarse;
+    quality.quantum = quantum;
   }
-  quality.quantum = quantum;
 }
 
 /// Each reading against the middle of itself and its two neighbours on either side: an edge of the
@@ -163,14 +166,19 @@ void find_saturation(std::span<const double> value, ChannelQuality& quality) {
   std::vector<double> sorted(value.begin(), value.end());
   std::sort(sorted.begin(), sorted.end());
   std::size_t most_elsewhere = 0;
+  std::size_t levels = 0;
   for (std::size_t i = 0; i < sorted.size();) {
     std::size_t end = i;
     while (end < sorted.size() && sorted[end] == sorted[i]) ++end;
+    ++levels;
     if (sorted[i] != *low && sorted[i] != *high && sorted[i] != 0.0) {
       most_elsewhere = std::max(most_elsewhere, end - i);
     }
     i = end;
   }
+  // A signal of a few values has no range to end.
+  constexpr std::size_t kFewestLevels = 20;
+  if (levels < kFewestLevels) return;
   for (const double bound : {*high, *low}) {
     if (bound == 0.0) continue;
     const auto count = static_cast<std::size_t>(std::count(value.begin(), value.end(), bound));
