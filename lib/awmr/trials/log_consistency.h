@@ -6,7 +6,7 @@
 ///     change of heading      against   integral of the yaw rate
 ///     distance of positions  against   integral of the speed
 ///     course of positions    against   heading
-///     yaw rate               against   tau_steering and tau_diff of the commands       [paper (41)]
+///     yaw rate               against   tau_steering and tau_diff of the commands (allocation.h)
 ///     curvature r/u          against   tan(d_r)/l_f: no vehicle turns far more sharply than its
 ///                                      front axle points
 ///

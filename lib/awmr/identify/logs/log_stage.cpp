@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "awmr/core/index.h"
@@ -25,59 +24,14 @@ void append(std::vector<T>& to, const std::vector<T>& more) {
   to.insert(to.end(), more.begin(), more.end());
 }
 
-bool has_position(const DrivingLog& log) { return log[LogChannel::kX] && log[LogChannel::kY]; }
-
-/// The heading, its rate, or positions from which it follows.
-bool shows_yaw(const DrivingLog& log) {
-  return log[LogChannel::kYawRate] || log[LogChannel::kHeading] || has_position(log);
-}
-
-/// Something in the commands turns the vehicle: more than a hundredth of what drives it.
-bool is_turned(const DrivingLog& log) {
-  constexpr double kNotable = 0.01;
-  const std::vector<double>& angle =
-      log.steering_command_rad ? *log.steering_command_rad : log[LogChannel::kSteering]->value;
-  double angle_rad = 0.0;
-  double apart = 0.0;
-  double thrust = 0.0;
-  for (std::size_t i = 0; i < log.rows(); ++i) {
-    angle_rad = std::max(angle_rad, std::abs(angle[i]));
-    apart = std::max(apart, std::abs(log.force_right[i] - log.force_left[i]));
-    thrust = std::max(thrust, std::abs(log.force_right[i] + log.force_left[i]));
-  }
-  return angle_rad > kNotable || apart > kNotable * thrust;
-}
-
-bool is_of_yaw(ParameterId id) {
-  return id == ParameterId::kYawAlpha || id == ParameterId::kYawBeta ||
-         id == ParameterId::kInertiaNorm;
-}
-
 /// Why no channel or command of the logs could show a parameter, before any search; empty: one
-/// might. A weak coupling (the yaw rate through m' r v in the speed) is no evidence.
+/// might.
 std::string cannot_show(const std::vector<DrivingLog>& logs, ParameterId id) {
-  const auto any = [&logs](const auto& shows) {
-    return std::any_of(logs.begin(), logs.end(), shows);
-  };
-  const bool servo = id == ParameterId::kSteeringTimeConstant;
-  if (servo && !any([](const DrivingLog& log) { return log.steering_command_rad.has_value(); })) {
+  const bool any_servo = std::any_of(logs.begin(), logs.end(), [](const DrivingLog& log) {
+    return log.steering_command_rad.has_value();
+  });
+  if (id == ParameterId::kSteeringTimeConstant && !any_servo) {
     return "the logs hold the steering angle as it was, not its command";
-  }
-  const bool sway = id == ParameterId::kSwayAlpha;
-  if (!is_of_yaw(id) && !sway && !servo) return {};
-  const bool angle =
-      servo && any([](const DrivingLog& log) { return log[LogChannel::kSteering].has_value(); });
-  if (!any(is_turned)) {
-    return "the logs drive straight on; record one that steers, or that drives its sides apart";
-  }
-  if (sway && !any([](const DrivingLog& log) {
-        return log[LogChannel::kSway].has_value() || has_position(log);
-      })) {
-    return "no channel of the logs shows sway; record sway_mps, or x_m and y_m";
-  }
-  if (!angle && !any(shows_yaw)) {
-    return "no channel of the logs shows how the vehicle turns; record yaw_rate_radps, "
-           "heading_deg, or x_m and y_m";
   }
   return {};
 }
