@@ -234,7 +234,7 @@ TEST(Log, CrossValidationIsReportedWithTheFamilyThatWasChosen) {
   IdentifyOptions options;
   options.surge_family = {std::nullopt};
   options.cross_validate = true;
-  options.starts = 0;
+  options.starts = 3;
   const auto result = identify(robot(), data, options, {});
   ASSERT_TRUE(result);
   const auto& reports = result->model.record.reports;
