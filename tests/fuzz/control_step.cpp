@@ -1,0 +1,74 @@
+/// The emitted controller, compiled for this machine, with arbitrary bits in its input: every
+/// command is a number within its limits, and a fault gives the safe command.
+#include <cmath>
+#include <cstring>
+
+#include "awmr.h"
+#include "fuzz/target.h"
+
+using awmr::fuzz::require;
+
+namespace {
+
+bool is_between(float value, float lo, float hi) { return value >= lo && value <= hi; }
+
+void check(const awmr_output& out, bool is_following) {
+  require(is_between(out.force_left, AWMR_WHEEL_FORCE_MIN, AWMR_WHEEL_FORCE_MAX), "left force");
+  require(is_between(out.force_right, AWMR_WHEEL_FORCE_MIN, AWMR_WHEEL_FORCE_MAX), "right force");
+  require(std::fabs(out.steering_rad) <= AWMR_STEERING_MAX_RAD, "steering angle");
+  require(std::isfinite(out.tau_speed) && std::isfinite(out.tau_turn_m), "what the laws asked for");
+  require(std::isfinite(out.psi_ref_rad), "the heading");
+  // What is checked beforehand never leads to a command outside of its limits; points are the
+  // sketch's own, and not checked.
+  require(is_following || (out.fault & AWMR_FAULT_OUTPUT) == 0, "the last gate has nothing to do");
+  if (out.fault == AWMR_FAULT_NONE) return;
+  require(out.force_left == 0.0F && out.force_right == 0.0F && out.steering_rad == 0.0F,
+          "a fault gives the safe command");
+}
+
+/// Fresh at this step, so that what the bytes say of the motion decides.
+void renew(awmr_input& in) { in.now_ms = in.heading_ms = in.speed_ms = in.command_ms; }
+
+/// Starts it once: reading the parameters takes longer than a hundred steps. From then on a good
+/// step at this time, without points to follow, makes every input begin alike.
+void start_at(uint32_t now_ms) {
+  static const bool kIsGood = awmr_init() == AWMR_FAULT_NONE;
+  require(kIsGood, "the parameters are as they were emitted");
+  awmr_input rest{};
+  rest.now_ms = rest.heading_ms = rest.speed_ms = rest.command_ms = now_ms;
+  awmr_output out;
+  awmr_follow(nullptr, 0, 1.0F);
+  awmr_step(&rest, &out);
+}
+
+}  // namespace
+
+/// Bytes: one whose bits tell how to use the rest, then an awmr_input as it lies in memory, then
+/// points to follow.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size == 0) return 0;
+  const unsigned use = *data++;
+  --size;
+  awmr_input in{};
+  const std::size_t taken = size < sizeof in ? size : sizeof in;
+  std::memcpy(&in, data, taken);
+  data += taken;
+  size -= taken;
+  if ((use & 1U) != 0) renew(in);
+  if ((use & 2U) != 0) in.mode = static_cast<std::uint8_t>(in.mode % 3);
+
+  start_at(in.now_ms - ((use & 8U) != 0 ? 1000U : 10U));
+  awmr_point points[4];
+  const std::size_t count = size / sizeof *points < 4 ? size / sizeof *points : 4;
+  if (count > 0) std::memcpy(points, data, count * sizeof *points);
+  const bool is_following = (use & 4U) != 0 && count > 0;
+  if (is_following) awmr_follow(points, static_cast<int16_t>(count), 1.0F);
+  awmr_output out;
+  for (unsigned step = 0; step < 2; ++step) {
+    awmr_step(&in, &out);
+    check(out, is_following);
+    in.now_ms += 10;
+    if ((use & 1U) != 0) in.heading_ms = in.speed_ms = in.command_ms = in.now_ms;
+  }
+  return 0;
+}

@@ -1,0 +1,34 @@
+/// A fuzz target's bytes as a file, for readers that take a path: one file in memory, written anew
+/// for every input.
+#pragma once
+
+#include <fcntl.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <string>
+
+#include "fuzz/target.h"
+
+namespace awmr::fuzz {
+
+/// The path of a file of these bytes. It lies in a directory of its own, so that a relative path in
+/// the bytes leads nowhere.
+inline const std::filesystem::path& file_of_bytes(const std::uint8_t* data, std::size_t size) {
+  static const std::filesystem::path kPath = [] {
+    const char* memory = ::access("/dev/shm", W_OK) == 0 ? "/dev/shm" : "/tmp";
+    std::string directory = std::string(memory) + "/awmr-fuzz-XXXXXX";
+    require(::mkdtemp(directory.data()) != nullptr, "a directory for the input is made");
+    static std::string kept = directory;
+    (void)std::atexit([] { std::filesystem::remove_all(kept); });
+    return std::filesystem::path(directory) / "input";
+  }();
+  const int file = ::open(kPath.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
+  require(
+      file >= 0 && ::write(file, data, size) == static_cast<ssize_t>(size) && ::close(file) == 0,
+      "the input is written");
+  return kPath;
+}
+
+}  // namespace awmr::fuzz

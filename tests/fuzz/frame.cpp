@@ -1,0 +1,77 @@
+/// Whatever bytes come over the line: a frame is taken whole and with the right check sum only, and
+/// a conversation with a chip that answers them ends.
+#include "firmware/frame.h"
+
+#include <algorithm>
+#include <memory>
+#include <span>
+
+#include "frame_link.h"
+#include "fuzz/target.h"
+
+using awmr::fuzz::require;
+
+namespace {
+
+/// A chip that says these bytes whatever it is asked, and then no more.
+class Recording : public awmr::pil::Line {
+ public:
+  explicit Recording(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
+  awmr::Status open() override { return {}; }
+  awmr::Status send(std::span<const std::uint8_t> bytes) override {
+    require(bytes.size() <= pil::kMaxPayload + 5U, "a request fits the chip's buffer");
+    return {};
+  }
+  awmr::Result<std::uint8_t> receive() override {
+    if (at_ == bytes_.size()) return awmr::program_fault("the line is silent");
+    return bytes_[at_++];
+  }
+  awmr::pil::ChipFigures figures() const override { return {}; }
+
+ private:
+  std::span<const std::uint8_t> bytes_;
+  std::size_t at_ = 0;
+};
+
+/// Frames end where their own check sum says so, and nowhere else.
+void check_reader(std::span<const std::uint8_t> bytes) {
+  pil::FrameReader reader{};
+  for (const std::uint8_t byte : bytes) {
+    if (!reader.take(byte)) continue;
+    require(reader.length <= pil::kMaxPayload, "a payload fits its buffer");
+    std::uint16_t crc = awmr::crc16_with(awmr::kCrc16Start, reader.type);
+    crc = awmr::crc16_with(crc, reader.length);
+    for (std::uint8_t i = 0; i < reader.length; ++i) crc = awmr::crc16_with(crc, reader.payload[i]);
+    require(byte == crc >> 8U, "a frame has its own check sum");
+  }
+}
+
+/// The same frame as it is written: it is read whatever stood on the line before it.
+void check_written(std::span<const std::uint8_t> bytes) {
+  const auto length = static_cast<std::uint8_t>(std::min<std::size_t>(bytes.size(), 140));
+  pil::FrameReader reader{};
+  reader.take(pil::kFrameStart);
+  reader.take(pil::kStep);
+  reader.take(length);
+  std::uint16_t crc = awmr::crc16_with(awmr::crc16_with(awmr::kCrc16Start, pil::kStep), length);
+  for (std::size_t i = 0; i < length; ++i) {
+    reader.take(bytes[i]);
+    crc = awmr::crc16_with(crc, bytes[i]);
+  }
+  require(!reader.take(static_cast<std::uint8_t>(crc & 0xFFU)), "a frame has two bytes of sum");
+  require(reader.take(static_cast<std::uint8_t>(crc >> 8U)), "a whole frame is taken");
+  require(std::equal(reader.payload, reader.payload + length, bytes.begin()), "as it was sent");
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::span<const std::uint8_t> bytes(data, size);
+  check_reader(bytes);
+  check_written(bytes);
+  const auto chip = awmr::pil::frame_link(std::make_unique<Recording>(bytes), 0x12345678U);
+  (void)chip->start();
+  (void)chip->follow({.points_m = {{1.0F, 2.0F}}, .acceptance_m = 1.0F});
+  (void)chip->step({});
+  return 0;
+}

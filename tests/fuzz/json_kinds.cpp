@@ -1,0 +1,54 @@
+/// Each kind of JSON file is read with values in range, or refused by name; what is written of what
+/// was read reads back.
+#include "awmr/model/gains_file.h"
+#include "awmr/model/model_file.h"
+#include "awmr/model/vehicle_file.h"
+#include "awmr/simulate/scenario_file.h"
+#include "awmr/tune/tune.h"
+#include "fuzz/file_of_bytes.h"
+#include "fuzz/target.h"
+#include "project.h"
+
+using awmr::fuzz::require;
+
+namespace {
+
+template <class T>
+bool is_refused(const awmr::Result<T>& read) {
+  if (read) return false;
+  require(!read.error().faults.empty(), "an error names a fault");
+  require(read.error().kind == awmr::ErrorKind::kInput, "a file is bad input, not a fault");
+  require(awmr::to_text(read.error()).size() < 100'000, "an error can be read");
+  return true;
+}
+
+void check_model(const std::filesystem::path& path) {
+  const auto model = awmr::read_model(path);
+  if (is_refused(model)) return;
+  (void)is_refused(model->plant());
+  const std::string text = awmr::model_text(*model);
+  const auto* bytes = reinterpret_cast<const std::uint8_t*>(text.data());
+  const auto again = awmr::read_model(awmr::fuzz::file_of_bytes(bytes, text.size()));
+  require(again.has_value(), "a model that was written reads back");
+  require(awmr::model_text(*again) == text, "and is written the same");
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::filesystem::path& path = awmr::fuzz::file_of_bytes(data, size);
+  if (const auto vehicle = awmr::read_vehicle(path); !is_refused(vehicle)) {
+    require(vehicle->mass_kg > 0.0 && vehicle->front_axle_m > 0.0, "sizes are above 0");
+    require(vehicle->wheel_force.lo < vehicle->wheel_force.hi, "there is a range of forces");
+  }
+  if (const auto gains = awmr::read_gains(path); !is_refused(gains)) {
+    require(gains->heading.lambda > 0.0 && gains->speed.epsilon > 0.0, "gains are above 0");
+  }
+  if (const auto options = awmr::read_tune_options(path); !is_refused(options)) {
+    require(options->margin > 0.0 && options->margin < 1.0, "there is a margin");
+  }
+  (void)is_refused(awmr::read_scenario(path));
+  (void)is_refused(awmr::cli::read_project(path));
+  check_model(path);
+  return 0;
+}
