@@ -117,5 +117,38 @@ TEST(Allocation, RedistributionNeverDeliversLessOfTheMomentThanTheFixedHalf) {
   }));
 }
 
+TEST(Allocation, WhatClippedForcesLeaveOfTheMomentGoesToTheSteering) {
+  // tau_speed 3.6 leaves each force 0.1 of room: less than half of the moment asks for. Steering
+  // has room for the rest, to either side.
+  for (const double tau_turn_m : {0.3, -0.3}) {
+    const Allocation<double> a = allocate(YawMode::kCombined, 3.6, tau_turn_m, limits());
+    EXPECT_TRUE(a.force_limited);
+    EXPECT_FALSE(a.steering_limited);
+    // The rest is worked out at the angle before, whose 1 + cos d_r is 0.3 % off.
+    EXPECT_NEAR(moment(a), tau_turn_m, 5e-3 * std::abs(tau_turn_m));
+  }
+}
+
+TEST(Allocation, FloatIsClippedAsEveryScalarIs) {
+  struct Range {
+    float lo, hi;
+  };
+  // Forces that reverse, that do not, and that never stop; and a range on the other side.
+  for (const Range range : {Range{-1.0F, 1.0F}, Range{-0.25F, 1.0F}, Range{-1.0F, 0.25F},
+                            Range{0.0F, 1.0F}, Range{0.1F, 1.0F}, Range{-1.0F, -0.1F}}) {
+    for (const float x : {0.0F, -0.0F, 0.05F, -0.05F, 0.1F, -0.1F, 0.25F, -0.25F, 0.5F, -0.5F, 1.0F,
+                          -1.0F, 2.0F, -2.0F, HUGE_VALF, -HUGE_VALF}) {
+      bool limited = false;
+      bool expected_limited = false;
+      const double expected = detail::clipped<double>(x, range.lo, range.hi, expected_limited);
+      EXPECT_EQ(static_cast<double>(detail::clipped(x, range.lo, range.hi, limited)), expected)
+          << x << " in [" << range.lo << ", " << range.hi << "]";
+      EXPECT_EQ(limited, expected_limited) << x;
+    }
+    bool limited = false;
+    EXPECT_TRUE(std::isnan(detail::clipped(std::nanf(""), range.lo, range.hi, limited)));
+  }
+}
+
 }  // namespace
 }  // namespace awmr::testing

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <complex>
 
@@ -166,6 +168,68 @@ TEST(SampledLoop, LosesDampingWithLambdaPlusKTimesTheLag) {
   EXPECT_NEAR(damping_at(1.0 / 1.96), 0.7, 0.01);
   EXPECT_NEAR(damping_at(2.0 / 1.96), 0.7 / std::sqrt(2.0), 0.01);
   EXPECT_GT(damping_at(0.5 / 1.96), 0.98);
+}
+
+TEST(Constraints, TakeTheWorstDampingOfAllModesAndYawRates) {
+  // The worst is that of steering (direct share 0), at k = 190 that of the differential mode (1); the
+  // combined mode lies between them.
+  const ConstraintContext context = paper_context(ReachingForm::kStrict, 0.8);
+  for (const double k : {2.0, 10.0, 40.0, 120.0, 190.0}) {
+    const Gains<double> gains{{3.0, k, 1.0}, {5.0, 1.2}};
+    double worst = 1.0;
+    for (const double rate_degps : {1.0, 5.0, 20.0, 60.0}) {
+      const double rate = rate_degps * std::acos(-1.0) / 180.0;
+      const double slope = 0.3028 * 0.825 * std::pow(rate, 0.825 - 1.0);
+      for (const double share : {1.0, 0.5, 0.0}) {
+        worst = std::min(worst, damping_ratio({.lambda = 3.0,
+                                               .reaching_rate = k,
+                                               .resistance_rate = slope / 0.0128,
+                                               .servo_time_constant_s = 0.02,
+                                               .sample_time_s = 0.01,
+                                               .direct_share = share}));
+      }
+    }
+    EXPECT_NEAR(named(constraints_of(gains, context), "heading damping").limit, worst, 1e-9) << k;
+  }
+}
+
+/// A sample of the loop from one state to the next, by a thousand Euler-Heun steps.
+Eigen::Vector3d after_a_sample(const SampledHeadingLoop& loop, Eigen::Vector3d x) {
+  const double w = (loop.resistance_rate - loop.lambda - loop.reaching_rate) * x(1) -
+                   loop.lambda * loop.reaching_rate * x(0);
+  const auto rates = [&](const Eigen::Vector3d& s) {
+    return Eigen::Vector3d(
+        s(1),
+        -loop.resistance_rate * s(1) + loop.direct_share * w + (1.0 - loop.direct_share) * s(2),
+        (w - s(2)) / loop.servo_time_constant_s);
+  };
+  constexpr int kSteps = 1000;
+  const double h = loop.sample_time_s / kSteps;
+  for (int i = 0; i < kSteps; ++i) {
+    const Eigen::Vector3d first = rates(x);
+    x += 0.5 * h * (first + rates(x + h * first));
+  }
+  return x;
+}
+
+TEST(SampledLoop, IsTheEquationsOfItsHeaderWhateverTheDirectShare) {
+  for (const double share : {0.0, 0.25, 0.5, 1.0}) {
+    const SampledHeadingLoop loop{.lambda = 3.0,
+                                  .reaching_rate = 20.0,
+                                  .resistance_rate = 25.0,
+                                  .servo_time_constant_s = 0.03,
+                                  .sample_time_s = 0.01,
+                                  .direct_share = share};
+    Eigen::Matrix3d closed;
+    for (int i = 0; i < 3; ++i) closed.col(i) = after_a_sample(loop, Eigen::Vector3d::Unit(i));
+    double worst = 1.0;
+    for (const std::complex<double> z : closed.eigenvalues()) {
+      const std::complex<double> s = std::log(z);
+      worst = std::min(worst, -s.real() / std::abs(s));
+    }
+    // Heun's error is h^2 a^2/6 of the motion in T_s, h = 1e-5 s and a up to 33/s: below 1e-7.
+    EXPECT_NEAR(damping_ratio(loop), worst, 1e-5) << share;
+  }
 }
 
 }  // namespace
