@@ -10,6 +10,20 @@
 
 namespace {
 
+/// What CLI11 says of the command line; of a command that there is not, its name, which CLI11 leaves
+/// out.
+std::string what_is_wrong(const CLI::App& app, const CLI::ParseError& error, int argc,
+                          char** argv) {
+  const std::string first = argc > 1 ? argv[1] : "";
+  if (app.get_subcommands().empty() && !first.empty() && first.front() != '-') {
+    return "no command is called '" + awmr::shortened(first) + "'";
+  }
+  if (app.get_subcommands().empty() && !first.empty()) {
+    return "'" + awmr::shortened(first) + "' stands before any command";
+  }
+  return awmr::shortened(error.what());
+}
+
 int run(int argc, char** argv) {
   CLI::App app{
       "awmr: from trial CSVs to tuned gains on the robot.\n"
@@ -40,7 +54,7 @@ int run(int argc, char** argv) {
       app.exit(error);
       return std::cout.flush() ? 0 : 2;
     }
-    const std::string what = awmr::printable(awmr::shortened(error.what()));
+    const std::string what = awmr::printable(what_is_wrong(app, error, argc, argv));
     std::fprintf(stderr, "error: %s\nRun `awmr --help` or `awmr COMMAND --help`.\n", what.c_str());
     return 2;
   }

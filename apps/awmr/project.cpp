@@ -36,6 +36,10 @@ void read_trials(JsonObject json, const fs::path& path, Project& project) {
   json.reject_unknown_keys();
 }
 
+bool has_trials(const Project& project) {
+  return project.surge || project.turning || !project.coastdowns.empty() || !project.logs.empty();
+}
+
 void read_columns(JsonObject json, Project& project) {
   for (const std::string& name : json.keys()) {
     const std::string source = json.string(name);
@@ -77,9 +81,10 @@ void read_identify(JsonObject json, Project& project) {
 }
 
 void read_compare(JsonObject json, const fs::path& path, Project& project) {
-  for (const std::string& name : json.strings("scenarios")) {
-    project.scenarios.push_back(resolved(path, name));
-  }
+  const std::vector<std::string> names = json.strings("scenarios");
+  for (const std::string& name : names) project.scenarios.push_back(resolved(path, name));
+  if (json.has("scenarios") && names.empty())
+    json.fault("scenarios", "none given; name at least one");
   project.compare.samples =
       static_cast<int>(json.optional_integer("samples", 0, 1000000).value_or(0));
   project.compare.seed =
@@ -97,6 +102,9 @@ Result<Project> read_project(const fs::path& path) {
   json.schema("awmr.project/1");
   project.vehicle = resolved(path, json.string("vehicle"));
   read_trials(json.object("trials"), path, project);
+  if (faults.empty() && !has_trials(project)) {
+    json.fault("trials", "no trials: give at least one of surge, coastdown, turning, logs");
+  }
   if (auto columns = json.optional_object("columns")) read_columns(*columns, project);
   if (auto identify = json.optional_object("identify")) read_identify(*identify, project);
   if (const auto tune = json.optional_string("tune")) project.tune = resolved(path, *tune);

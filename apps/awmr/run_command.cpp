@@ -7,7 +7,9 @@
 #include "awmr/core/file.h"
 #include "awmr/model/gains_file.h"
 #include "awmr/model/model_file.h"
+#include "awmr/model/vehicle_file.h"
 #include "awmr/simulate/scenario_file.h"
+#include "awmr/trials/load.h"
 #include "commands.h"
 #include "project.h"
 
@@ -87,15 +89,33 @@ std::vector<std::string> outputs_of(const Project& project) {
   return outputs;
 }
 
-/// What is wrong with the project's files as a whole, found before the first step: a broken
-/// scenario, two scenarios whose runs would have one name, an output that is an input.
+Result<Trials> read_trials(const Project& project) {
+  AWMR_ASSIGN_OR_RETURN(Vehicle vehicle, read_vehicle(project.vehicle));
+  return load_trials({.vehicle = std::move(vehicle),
+                      .surge = project.surge,
+                      .turning = project.turning,
+                      .coastdowns = project.coastdowns,
+                      .logs = project.logs,
+                      .steady_from_logs = project.steady_from_logs,
+                      .options = project.trials});
+}
+
+template <class T>
+void add_faults(const Result<T>& read, std::vector<Fault>& faults) {
+  if (read) return;
+  faults.insert(faults.end(), read.error().faults.begin(), read.error().faults.end());
+}
+
+/// What is wrong with the project's files as a whole, found before the first step and before
+/// anything is written: a broken file, two scenarios whose runs would have one name, an output that
+/// is an input.
 Status check(const RunCommand& command, const Project& project) {
   std::vector<Fault> faults;
+  add_faults(read_trials(project), faults);
+  if (project.tune) add_faults(read_tune_options(*project.tune), faults);
   std::set<std::string> stems;
   for (const fs::path& path : project.scenarios) {
-    if (const auto scenario = read_scenario(path); !scenario) {
-      faults.insert(faults.end(), scenario.error().faults.begin(), scenario.error().faults.end());
-    }
+    add_faults(read_scenario(path), faults);
     if (stems.insert(path.stem().string()).second) continue;
     faults.push_back({command.project.string() + ":/compare/scenarios",
                       fmt::format("two scenarios have the file name {}, by which their runs are "

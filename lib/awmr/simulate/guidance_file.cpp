@@ -92,12 +92,25 @@ WaypointCourse read_waypoints(JsonObject& json, const Json& document) {
   return course;
 }
 
+/// A segment without length has no direction to follow.
+void check_segments(JsonObject& json, const char* key,
+                    const std::vector<Position<double>>& points_m) {
+  for (std::size_t i = 1; i < points_m.size(); ++i) {
+    if (points_m[i].x_m != points_m[i - 1].x_m || points_m[i].y_m != points_m[i - 1].y_m) continue;
+    json.fault(key, fmt::format("the points {} and {} are the same, [{}, {}]: a line needs two "
+                                "different ones",
+                                i - 1, i, points_m[i].x_m, points_m[i].y_m));
+  }
+}
+
 LineCourse read_line(JsonObject& json, const Json& document) {
   LineCourse course;
   if (json.has("points_m")) {
     course.points_m = read_points(json, document, "points_m", 2);
+    check_segments(json, "points_m", course.points_m);
   } else {
     course.points_m = {read_point(json, "from_m"), read_point(json, "to_m")};
+    if (json.has("from_m") && json.has("to_m")) check_segments(json, "to_m", course.points_m);
   }
   course.law.delta_rad = radians(json.number("delta_deg", kApproachAngle));
   course.law.width_m = json.number("width_m", kLength_m);
