@@ -19,6 +19,48 @@ TEST(Steady, TheRateIsTheRootOfTheCurve) {
   }
 }
 
+/// Halves a bracket until nothing lies between its ends: slow, and right for any rising curve.
+double by_bisection(const Resistance<double>& law, double force) {
+  double lo = 1e-300;
+  double hi = 1e9;
+  for (int i = 0; i < 2000 && std::nextafter(lo, hi) < hi; ++i) {
+    // By ratios at first, since the ends are hundreds of powers of ten apart.
+    const double middle = hi > 2.0 * lo ? std::sqrt(lo) * std::sqrt(hi) : 0.5 * (lo + hi);
+    (law.at(middle) < force ? lo : hi) = middle;
+  }
+  return 0.5 * (lo + hi);
+}
+
+TEST(Steady, NewtonFindsWhatBisectionDoes) {
+  for (const double alpha : {1e-6, 0.3, 1.2, 1e3}) {
+    for (const double beta : {1e-3, 0.1, 0.5, 1.0, 2.0, 4.0}) {
+      for (const double quadratic : {0.0, 1e-9, 0.05, 10.0}) {
+        for (const double coulomb : {0.0, 0.1, 5.0}) {
+          for (const double excess : {1e-9, 1e-3, 0.7, 4.0, 1e3}) {
+            const Resistance<double> law{.alpha = alpha,
+                                         .beta = beta,
+                                         .rest_speed = 0.0,
+                                         .coulomb = coulomb,
+                                         .quadratic = quadratic};
+            const double force = coulomb + excess;
+            const double truth = by_bisection(law, force);
+            if (truth > 1e8 || truth < 1e-290) continue;
+            const auto rate = steady_rate(law, force);
+            ASSERT_TRUE(rate) << alpha << ' ' << beta << ' ' << quadratic << ' ' << coulomb << ' '
+                              << excess;
+            // A rounding of g, which holds c too, moves the root by g/(w g') times as much; 8 of
+            // them, for the few operations of either way.
+            const double slope =
+                (beta * alpha * std::pow(truth, beta) + 2.0 * quadratic * truth * truth) / force;
+            EXPECT_NEAR(*rate, truth, 8.0 * 2.3e-16 / slope * truth)
+                << alpha << ' ' << beta << ' ' << quadratic << ' ' << coulomb << ' ' << excess;
+          }
+        }
+      }
+    }
+  }
+}
+
 TEST(Steady, AForceThatDoesNotOvercomeFrictionHasNone) {
   const Resistance<double> law{.alpha = 1.2, .beta = 0.8, .rest_speed = 0.0, .coulomb = 0.1};
   EXPECT_FALSE(steady_rate(law, 0.1).has_value());

@@ -1,5 +1,6 @@
 #include "awmr/model/steady.h"
 
+#include <algorithm>
 #include <boost/math/quadrature/tanh_sinh.hpp>
 #include <cmath>
 
@@ -12,6 +13,31 @@ std::optional<double> finite(double value) {
   return std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
+/// The w at which alpha w^beta + q w^2 = excess, by Newton's method on
+///   h(s) = ln((alpha e^(s beta) + q e^(2 s))/excess),   w = e^s
+/// h rises and is convex, as a logarithm of a sum of exponentials: the steps from above the root
+/// come down to it and never pass, so they have ended where rounding alone would turn them back.
+std::optional<double> rate_above_coulomb(const Resistance<double>& law, double excess) {
+  constexpr double kFastest = 1e9;
+  constexpr double kSlowest = 1e-300;
+  constexpr int kMostSteps = 200;
+  if (!(excess > 0.0) || !std::isfinite(excess)) return std::nullopt;
+  // Either term alone holds the force at a speed above the root.
+  double w =
+      std::min(std::pow(excess / law.alpha, 1.0 / law.beta), std::sqrt(excess / law.quadratic));
+  for (int i = 0; i < kMostSteps && w > kSlowest && w <= kFastest; ++i) {
+    const double power = law.alpha * std::pow(w, law.beta);
+    const double square = law.quadratic * w * w;
+    const double h = std::log1p((power + square - excess) / excess);
+    const double slope = (law.beta * power + 2.0 * square) / (power + square);
+    const double next = w * std::exp(-h / slope);
+    if (!(next < w)) return finite(next);
+    w = next;
+  }
+  // Beyond any vehicle, or a curve that jumps at rest (beta = 0) by more than the force.
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<double> steady_rate(const Resistance<double>& law, double force) {
@@ -20,22 +46,7 @@ std::optional<double> steady_rate(const Resistance<double>& law, double force) {
     if (!(force > 0.0) || !(law.beta > 0.0)) return std::nullopt;
     return finite(std::pow(force / law.alpha, 1.0 / law.beta));
   }
-  if (!(force > law.coulomb) || !std::isfinite(force)) return std::nullopt;
-  constexpr double kFastest = 1e9;
-  constexpr double kSlowest = 1e-300;
-  double hi = 1.0;
-  while (law.at(hi) < force && hi <= kFastest) hi *= 2.0;
-  if (!(hi <= kFastest && law.at(hi) >= force)) return std::nullopt;
-  // A curve that jumps at rest by more than c (beta = 0) never comes down to a force in between.
-  double lo = hi;
-  while (law.at(lo) > force && lo >= kSlowest) lo /= 2.0;
-  if (!(law.at(lo) <= force)) return std::nullopt;
-  // g rises, so halving the bracket finds the root to the last bit.
-  for (int i = 0; i < 200 && std::nextafter(lo, hi) < hi; ++i) {
-    const double middle = 0.5 * (lo + hi);
-    (law.at(middle) < force ? lo : hi) = middle;
-  }
-  return 0.5 * (lo + hi);
+  return rate_above_coulomb(law, force - law.coulomb);
 }
 
 std::optional<double> stop_time_s(const Resistance<double>& law, double mass_norm,
