@@ -33,14 +33,18 @@ function(awmr_library name)
   set_property(GLOBAL APPEND PROPERTY AWMR_LIBRARIES ${target})
 endfunction()
 
-# awmr_test(NAME SOURCES file... [LINK target...]): one GoogleTest executable; properties with a fixed seed.
+# awmr_test(NAME SOURCES file... [LINK target...] [CASES n]): one GoogleTest executable; properties with a fixed
+# seed, each over n cases, 100 by default.
 function(awmr_test name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
+  cmake_parse_arguments(ARG "" "CASES" "SOURCES;LINK" ${ARGN})
+  if(NOT ARG_CASES)
+    set(ARG_CASES 100)
+  endif()
   add_executable(${name} ${ARG_SOURCES})
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
   target_compile_options(${name} PRIVATE -ffp-contract=off)
   target_link_libraries(${name} PRIVATE ${ARG_LINK} GTest::gmock GTest::gtest_main awmr_warnings)
   target_compile_definitions(${name} PRIVATE AWMR_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300
-    ENVIRONMENT "RC_PARAMS=seed=20260117")
+    ENVIRONMENT "RC_PARAMS=seed=20260117 max_success=${ARG_CASES}")
 endfunction()

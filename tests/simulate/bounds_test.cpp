@@ -8,37 +8,12 @@
 
 #include "awmr/simulate/physics.h"
 #include "simulate/paper_plant.h"
+#include "support/any_robot.h"
 
 namespace awmr::testing {
 namespace {
 
 using ::testing::HasSubstr;
-
-double between(double lo, double hi) {
-  return lo + (hi - lo) * *rc::gen::inRange(0, 1000001) / 1e6;
-}
-
-/// From one to the other in equal ratios, both > 0.
-double ratio_between(double lo, double hi) {
-  return lo * std::pow(hi / lo, *rc::gen::inRange(0, 1000001) / 1e6);
-}
-
-/// The box of vehicles from a toy to a tractor; `beyond` 10: ten times past either end.
-Plant<double> any_plant(double beyond) {
-  return {.surge = {.alpha = ratio_between(0.1 / beyond, 5.0 * beyond),
-                    .beta = between(0.0, 1.0 + 0.3 * beyond),
-                    .quadratic = between(0.0, 0.1 * beyond)},
-          .yaw = {.alpha = ratio_between(0.05 / beyond, 2.0 * beyond),
-                  .beta = between(0.0, 4.0 + 0.4 * beyond)},
-          .sway_alpha = ratio_between(0.5 / beyond, 12.0 * beyond),
-          .mass_norm = ratio_between(0.02 / beyond, 2.0 * beyond),
-          .inertia_norm = ratio_between(0.005 / beyond, 1.0 * beyond),
-          .front_axle_m = 0.35,
-          .half_track_m = 0.36,
-          .steering_max_rad = radians(between(5.0, 60.0)),
-          .steering_max_rate_radps = radians(ratio_between(30.0 / beyond, 600.0 * beyond)),
-          .steering_time_constant_s = ratio_between(0.01 / beyond, 0.5 * beyond)};
-}
 
 DisturbanceTerm constant(double value, double from_s = 0.0) {
   DisturbanceTerm term;
