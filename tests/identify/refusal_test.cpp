@@ -9,7 +9,9 @@ namespace awmr::testing {
 namespace {
 
 using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 bool has_finding(const Model& model, const std::string& code) {
   return std::any_of(model.record.findings.begin(), model.record.findings.end(),
@@ -86,6 +88,30 @@ TEST(Refusal, TimeNoiseWithoutTimesIsRefused) {
   ASSERT_TRUE(result);
   EXPECT_THAT(result->refused, ElementsAre(ParameterId::kSurgeAlpha, ParameterId::kSurgeBeta));
   EXPECT_TRUE(has_finding(result->model, "not-timed"));
+  // It said that the rows do not hold two different forces, which they do.
+  for (const Finding& f : result->model.record.findings) {
+    if (f.code != "not-identifiable" || f.severity != Severity::kError) continue;
+    EXPECT_THAT(f.message, HasSubstr("elapsed_s in every row"));
+    EXPECT_THAT(f.message, Not(HasSubstr("do not hold two different")));
+  }
+}
+
+TEST(Refusal, AFitThatDidNotConvergeIsTheReason) {
+  TrialData data = synthetic(kTruths[0], 0.0, 1);
+  data.turning.reset();
+  data.coastdown.reset();
+  data.surge->rows.resize(3);
+  IdentifyOptions options;
+  options.method = Method::kNonlinear;
+  options.surge_family = {Family::kCoulombLinearQuadratic};
+  data.surge->rows[2].speed_mps = 1e-300;
+  const auto result = identify(vehicle(), data, options, {});
+  ASSERT_TRUE(result);
+  ASSERT_FALSE(result->refused.empty());
+  for (const Finding& f : result->model.record.findings) {
+    if (f.code != "not-identifiable" || f.severity != Severity::kError) continue;
+    EXPECT_THAT(f.message, Not(HasSubstr("do not hold two different"))) << f.message;
+  }
 }
 
 }  // namespace

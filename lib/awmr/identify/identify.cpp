@@ -76,47 +76,68 @@ SubjectFit identify_law(const Subject& subject, const SubjectOptions& options, M
   return fit;
 }
 
+/// Surge and yaw laws from the tables. Returns the surge fit, which coast-downs build on.
+SubjectFit identify_laws(const Vehicle& vehicle, const TrialData& data,
+                         const IdentifyOptions& options, MainValues& values, Reasons& reasons) {
+  const Method method = method_of(data, options);
+  SubjectFit surge;
+  if (data.surge) {
+    surge = identify_law(surge_subject(vehicle, *data.surge),
+                         subject_options(options, method, options.surge_family), values);
+    reasons.surge = surge.why_not;
+  }
+  if (data.turning) {
+    const double dead_zone = *values.model[ParameterId::kWheelDeadZone].value;
+    reasons.turning = identify_law(yaw_subject(vehicle, *data.turning, dead_zone),
+                                   subject_options(options, method, yaw_family(options)), values)
+                          .why_not;
+  }
+  return surge;
+}
+
+/// m' and I'z from coast-downs, where there are any.
+void identify_mass(const Vehicle& vehicle, const TrialData& data, const IdentifyOptions& options,
+                   const SubjectFit& surge, MainValues& values, Reasons& reasons) {
+  if ((!data.coastdown || data.coastdown->rows.empty()) && data.curves.empty()) return;
+  MassResult mass = estimate_mass(surge.chosen ? &surge : nullptr, data.coastdown, data.curves,
+                                  vehicle, options.joint);
+  record(mass, values.model);
+  set_mass(mass, surge.chosen, values);
+  reasons.mass = mass.reason;
+  reasons.curve_alone = mass.alone.has_value();
+}
+
+/// What the driving logs show, where there are any.
+void identify_from_logs(const Vehicle& vehicle, const TrialData& data,
+                        const IdentifyOptions& options, const std::vector<ParameterId>& asked,
+                        MainValues& values, Reasons& reasons) {
+  if (data.logs.empty()) return;
+  LogStage logs = run_log_stage(vehicle, data.logs, options, asked, values.model,
+                                method_of(data, options) == Method::kTrajectory);
+  record(logs, values.model);
+  set_logs(logs, options.yaw_family.family.value_or(Family::kPower), values);
+  reasons.logs = std::move(logs.reasons);
+}
+
 }  // namespace
 
 Result<Identification> identify(const Vehicle& vehicle, const TrialData& data,
                                 const IdentifyOptions& options, std::vector<Finding> findings) {
   AWMR_RETURN_IF_ERROR(check_options(data, options));
-  const Method method = method_of(data, options);
   const std::vector<ParameterId> asked = asked_for(data, options);
   Identification result;
   Model& model = result.model;
   model.vehicle = vehicle;
   model.record.findings = std::move(findings);
   MainValues values{model};
+  Reasons reasons;
   set_given(vehicle, model);
   check_inertia(vehicle, model.record.findings);
 
-  SubjectFit surge;
-  if (data.surge) {
-    surge = identify_law(surge_subject(vehicle, *data.surge),
-                         subject_options(options, method, options.surge_family), values);
-  }
-  if (data.turning) {
-    const double dead_zone = *model[ParameterId::kWheelDeadZone].value;
-    identify_law(yaw_subject(vehicle, *data.turning, dead_zone),
-                 subject_options(options, method, yaw_family(options)), values);
-  }
-  Reasons reasons;
-  if ((data.coastdown && !data.coastdown->rows.empty()) || !data.curves.empty()) {
-    MassResult mass = estimate_mass(surge.chosen ? &surge : nullptr, data.coastdown, data.curves,
-                                    vehicle, options.joint);
-    record(mass, model);
-    set_mass(mass, surge.chosen, values);
-    reasons.mass = mass.reason;
-    reasons.curve_alone = mass.alone.has_value();
-  }
-  if (!data.logs.empty()) {
-    LogStage logs =
-        run_log_stage(vehicle, data.logs, options, asked, model, method == Method::kTrajectory);
-    record(logs, model);
-    set_logs(logs, options.yaw_family.family.value_or(Family::kPower), values);
-    reasons.logs = std::move(logs.reasons);
-  }
+  const SubjectFit surge = identify_laws(vehicle, data, options, values, reasons);
+  identify_mass(vehicle, data, options, surge, values, reasons);
+  identify_from_logs(vehicle, data, options, asked, values, reasons);
+
   model.covariance = values.covariance.covariance();
   reasons.inadmissible = take_out_inadmissible(model);
   model.record.trials = trials_as_used(data, model);

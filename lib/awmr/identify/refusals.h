@@ -16,6 +16,8 @@ std::vector<ParameterId> asked_for(const TrialData& data, const IdentifyOptions&
 
 /// Why a parameter has no value, beyond what the presence of trials says.
 struct Reasons {
+  std::string surge;         ///< why no fit of the surge rows will do, although they show a law
+  std::string turning;       ///< the same of the turning rows
   std::string mass;          ///< why the coast-downs give no m'
   bool curve_alone = false;  ///< curves without a surge law: `mass` tells of a1 too
   /// Fitted, but not finite or outside of what a model can hold.

@@ -18,6 +18,16 @@ Eigen::VectorXd leverages_of(const Eigen::ColPivHouseholderQR<Eigen::MatrixX2d>&
   return q.rowwise().squaredNorm();
 }
 
+/// s^2 (P^T P)^-1 = s^2 Pi R^-1 R^-T Pi^T, from the factors of P Pi = Q R.
+Eigen::Matrix2d covariance_of(const Eigen::ColPivHouseholderQR<Eigen::MatrixX2d>& qr,
+                              double variance) {
+  const Eigen::Matrix2d r = qr.matrixR().topRows<2>().triangularView<Eigen::Upper>();
+  const Eigen::Matrix2d r_inverse =
+      r.triangularView<Eigen::Upper>().solve(Eigen::Matrix2d::Identity());
+  const Eigen::Matrix2d p = qr.colsPermutation();
+  return variance * (p * r_inverse * r_inverse.transpose() * p.transpose());
+}
+
 }  // namespace
 
 SteadyFit fit_log_linear(const std::vector<SteadyPoint>& points) {
@@ -52,12 +62,7 @@ SteadyFit fit_log_linear(const std::vector<SteadyPoint>& points) {
   if (fit.degrees_of_freedom > 0) {
     const double variance = fit.residuals.squaredNorm() / fit.degrees_of_freedom;
     fit.residual_std = std::sqrt(variance);
-    // (P^T P)^-1 = Pi R^-1 R^-T Pi^T, from the factors of P Pi = Q R
-    const Eigen::Matrix2d r = qr.matrixR().topRows<2>().triangularView<Eigen::Upper>();
-    const Eigen::Matrix2d r_inverse =
-        r.triangularView<Eigen::Upper>().solve(Eigen::Matrix2d::Identity());
-    const Eigen::Matrix2d p = qr.colsPermutation();
-    fit.covariance = variance * (p * r_inverse * r_inverse.transpose() * p.transpose());
+    fit.covariance = covariance_of(qr, variance);
   }
   return fit;
 }

@@ -129,44 +129,60 @@ void judge(const Subject& subject, std::size_t report, SubjectFit& result) {
   }
 }
 
+/// What stands in the way of any fit although the rows show a law.
+std::optional<Finding> obstacle(const Subject& subject, const SubjectOptions& options,
+                                ErrorModel wanted, const SteadyFit& line) {
+  if (!line.usable) {
+    return about(subject, Severity::kError, "not-converged",
+                 fmt::format("the log-linear fit of {}: {}",
+                             name_in(kFitSubjectNames, subject.name), line.stop_reason));
+  }
+  const bool by_time = options.method != Method::kLogLinear && wanted == ErrorModel::kTime;
+  if (by_time && !all_timed(subject.points)) {
+    return about(subject, Severity::kError, "not-timed",
+                 fmt::format("{} needs a distance or turns and elapsed_s in every row",
+                             option_text("noise time")));
+  }
+  return std::nullopt;
+}
+
+/// Takes what was chosen into the result, with what is doubtful about it.
+void take(const Subject& subject, Choice choice, SubjectFit& result) {
+  result.method = std::move(choice.method);
+  if (!choice.fit) result.why_not = choice.findings.back().message;
+  append(std::move(choice.findings), result.findings);
+  if (!choice.fit) return;
+  result.chosen = std::move(choice.fit);
+  result.problem = std::move(choice.problem);
+  append(bound_findings(subject, *result.chosen, result.problem.family), result.findings);
+}
+
 }  // namespace
 
 SubjectFit fit_subject(const Subject& subject, const SubjectOptions& options) {
   SubjectFit result;
   if (!has_two_forces(subject.points)) return result;
   const SteadyFit line = fit_log_linear(subject.points);
-  if (!line.usable) {
-    if (line.rank == 2) {
-      result.findings.push_back(
-          about(subject, Severity::kError, "not-converged",
-                fmt::format("the log-linear fit of {}: {}", name_in(kFitSubjectNames, subject.name),
-                            line.stop_reason)));
-    }
-    return result;
+  if (line.rank < 2) return result;
+  if (line.usable) {
+    result.reports.push_back(report_of(subject, line, Family::kPower, Estimator::kLogLinear,
+                                       name_of(ErrorModel::kLogForce)));
   }
-  result.reports.push_back(report_of(subject, line, Family::kPower, Estimator::kLogLinear,
-                                     name_of(ErrorModel::kLogForce)));
   const ErrorModel wanted = wanted_noise(subject, options);
   result.log_linear = options.method == Method::kLogLinear;
-  if (!result.log_linear && wanted == ErrorModel::kTime && !all_timed(subject.points)) {
-    result.findings.push_back(
-        about(subject, Severity::kError, "not-timed",
-              fmt::format("{} needs a distance or turns and elapsed_s in every row",
-                          option_text("noise time"))));
+  if (auto finding = obstacle(subject, options, wanted, line)) {
+    result.why_not = finding->message;
+    result.findings.push_back(*std::move(finding));
     return result;
   }
   const std::vector<Candidate> candidates = fit_candidates(subject, options, wanted, line);
   for (const Candidate& candidate : candidates) result.reports.push_back(candidate.report);
   Choice choice = result.log_linear ? choose_log_linear(subject, options, line)
                                     : choose_nonlinear(subject, options, wanted, candidates);
-  result.method = std::move(choice.method);
-  append(std::move(choice.findings), result.findings);
-  if (!choice.fit) return result;
-  result.chosen = std::move(choice.fit);
-  result.problem = std::move(choice.problem);
-  append(bound_findings(subject, *result.chosen, result.problem.family), result.findings);
-  if (!options.side_by_side) return result;
-  judge(subject, choice.report, result);
+  const std::size_t report = choice.report;
+  take(subject, std::move(choice), result);
+  if (!result.chosen || !options.side_by_side) return result;
+  judge(subject, report, result);
   if (options.loss == Loss::kSquared) {
     append(power_law_findings(subject, wanted, candidates, result.problem.family), result.findings);
   }

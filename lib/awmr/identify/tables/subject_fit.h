@@ -10,7 +10,8 @@
 namespace awmr {
 
 struct SubjectFit {
-  std::optional<SteadyFit> chosen;  ///< none: the rows cannot show the law
+  std::optional<SteadyFit> chosen;  ///< none: the rows cannot show the law, or no fit will do
+  std::string why_not;              ///< why none will do; empty where the rows cannot show the law
   SteadyProblem problem;            ///< of the chosen fit
   bool log_linear = false;          ///< how it was made
   std::string method;               ///< in words
