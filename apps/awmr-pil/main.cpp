@@ -14,7 +14,7 @@ namespace {
 
 int report(const awmr::Error& error) {
   awmr::pil::end_if_told_to();
-  std::fputs(awmr::spell_options(awmr::to_text(error), "--").c_str(), stderr);
+  std::fputs(awmr::to_text(error, "--").c_str(), stderr);
   return awmr::exit_code(error);
 }
 

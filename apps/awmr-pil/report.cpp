@@ -8,6 +8,7 @@
 
 #include "awmr/core/input_file.h"
 #include "awmr/core/json.h"
+#include "awmr/core/name_table.h"
 #include "emulator.h"
 
 namespace awmr::pil {
@@ -44,11 +45,11 @@ std::string mode_name(const PilOptions& options) { return std::string(name_of(op
 Result<Provenance> provenance_of(const PilOptions& options) {
   Provenance provenance;
   provenance.command = "pil";
-  const bool by_table = options.emit.resistance == ResistanceForm::kTable;
-  provenance.options = {{"mode", mode_name(options)},
-                        {"link", options.link == cli::PilLink::kMemory ? "memory" : "uart"},
-                        {"resistance", by_table ? "table" : "powf"},
-                        {"table-error", fmt::format("{:g}", options.emit.table_error)}};
+  provenance.options = {
+      {"mode", mode_name(options)},
+      {"link", std::string(name_in(cli::kPilLinkNames, options.link))},
+      {"resistance", std::string(name_in(kResistanceFormNames, options.emit.resistance))},
+      {"table-error", fmt::format("{:g}", options.emit.table_error)}};
   for (const fs::path& path : {options.model, options.gains, options.scenario}) {
     const auto input = input_file(path);
     if (!input) return tl::unexpected(input.error());
@@ -93,11 +94,8 @@ void judge(const PilOptions& options, Report& report) {
 
 Result<std::string> report_text(const PilOptions& options, const LoopSetup& setup,
                                 const Report& report) {
-  Json json;
-  json["schema"] = "awmr.pil/1";
-  const auto provenance = provenance_of(options);
-  if (!provenance) return tl::unexpected(provenance.error());
-  put_provenance(json, *provenance);
+  AWMR_ASSIGN_OR_RETURN(const Provenance provenance, provenance_of(options));
+  Json json = output_document("awmr.pil/1", provenance);
   json["scenario"] = setup.scenario.name;
   json["mode"] = mode_name(options);
   json["samples"] = report.chip.rows.size();

@@ -186,6 +186,8 @@ Status compare_runs(const PilOptions& options, const Inputs& in, Report& report)
 }  // namespace
 
 Result<Outcome> run_pil(const PilOptions& options) {
+  const std::vector<fs::path> inputs{options.model, options.gains, options.scenario};
+  AWMR_RETURN_IF_ERROR(check_output(options.output, inputs));
   const auto in = read_inputs(options);
   if (!in) return tl::unexpected(in.error());
   Report report;

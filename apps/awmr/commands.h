@@ -11,9 +11,11 @@
 #include "awmr/emit/emit.h"
 #include "awmr/identify/identify.h"
 #include "awmr/identify/planning/recover.h"
+#include "awmr/trials/read_trials.h"
 #include "awmr/tune/tune.h"
 #include "awmr/validate/validate.h"
 #include "console.h"
+#include "inputs.h"
 
 namespace awmr::cli {
 
@@ -29,6 +31,7 @@ struct IdentifyCommand {
   IdentifyOptions identify;
   TrialOptions trials;
   fs::path output;
+  InputNames names = {};  ///< of its inputs, in `run`; here and below
 };
 Result<Outcome> execute(const IdentifyCommand& command);
 void add_identify(CLI::App& app, Session& session);
@@ -58,6 +61,7 @@ struct TuneCommand {
   fs::path model;
   std::optional<fs::path> config;
   fs::path output;
+  InputNames names = {};
 };
 Result<Outcome> execute(const TuneCommand& command);
 void add_tune(CLI::App& app, Session& session);
@@ -73,6 +77,7 @@ struct ValidateCommand {
   double log_tolerance = 0.3;
   bool claims = false;                        ///< all fourteen, each with tolerance and reason
   std::optional<fs::path> claims_table = {};  ///< Markdown
+  InputNames names = {};
 };
 Result<Outcome> execute(const ValidateCommand& command);
 void add_validate(CLI::App& app, Session& session);
@@ -95,6 +100,7 @@ struct CompareCommand {
   fs::path output;
   bool resume = false;  ///< go on from the output directory
   bool quiet = false;   ///< no progress bar
+  InputNames names = {};
 };
 Result<Outcome> execute(const CompareCommand& command);
 void add_compare(CLI::App& app, Session& session);

@@ -7,6 +7,7 @@
 #include <memory>
 #include <set>
 
+#include "awmr/compare/resume.h"
 #include "awmr/core/file.h"
 #include "awmr/model/gains_file.h"
 #include "awmr/model/model_file.h"
@@ -61,7 +62,8 @@ std::vector<fs::path> inputs_of(const CompareCommand& command) {
 }
 
 Result<Provenance> provenance_of(const CompareCommand& command) {
-  AWMR_ASSIGN_OR_RETURN(std::vector<InputFile> inputs, input_files(inputs_of(command)));
+  AWMR_ASSIGN_OR_RETURN(std::vector<InputFile> inputs,
+                        input_files(inputs_of(command), command.names));
   return Provenance{"compare",
                     {{"samples", std::to_string(command.compare.samples)},
                      {"seed", std::to_string(command.compare.seed)}},

@@ -24,7 +24,7 @@ bool print(std::FILE* stream, const std::string& text) {
 
 int report(const Result<Outcome>& result, bool quiet) {
   if (!result) {
-    print(stderr, spell_options(awmr::to_text(result.error()), "--"));
+    print(stderr, awmr::to_text(result.error(), "--"));
     return exit_code(result.error());
   }
   for (const Finding& finding : result->findings) {

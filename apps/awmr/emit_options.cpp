@@ -1,22 +1,18 @@
 #include "emit_options.h"
 
 #include <CLI/CLI.hpp>
-#include <map>
 #include <string>
 
 #include "awmr/core/input_file.h"
 #include "awmr/core/provenance.h"
+#include "choices.h"
 #include "numbers.h"
 
 namespace awmr::cli {
 
 void add_emit_options(CLI::App& command, EmitOptions& options) {
-  static const std::map<std::string, ResistanceForm> forms{{"table", ResistanceForm::kTable},
-                                                           {"powf", ResistanceForm::kPowf}};
-  command
-      .add_option("--resistance", options.resistance,
-                  "table (interpolated, in flash; the default) or powf")
-      ->transform(CLI::CheckedTransformer(forms))
+  add_choice(command, "--resistance", options.resistance, kResistanceFormNames,
+             "By an interpolated table in flash, or by the C library's powf")
       ->default_str("table");
   command
       .add_option("--table-error", options.table_error,

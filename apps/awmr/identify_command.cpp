@@ -35,7 +35,7 @@ Result<Provenance> provenance_of(const IdentifyCommand& command) {
         "column", fmt::format("{}={}*{}+{}", mapping.name, mapping.source,
                               format_number(mapping.scale), format_number(mapping.offset)));
   }
-  AWMR_ASSIGN_OR_RETURN(provenance.inputs, input_files(inputs_of(command)));
+  AWMR_ASSIGN_OR_RETURN(provenance.inputs, input_files(inputs_of(command), command.names));
   return provenance;
 }
 

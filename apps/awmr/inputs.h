@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,8 +14,17 @@
 
 namespace awmr::cli {
 
-/// Name and hash of each file, in this order. Errors: as input_file(), for the first that fails.
-Result<std::vector<InputFile>> input_files(const std::vector<std::filesystem::path>& paths);
+/// What outputs call their inputs, by path.
+using InputNames = std::map<std::filesystem::path, std::string>;
+
+/// The paths relative to the project file, as it names them itself.
+InputNames names_in_project(const std::vector<std::filesystem::path>& paths,
+                            const std::filesystem::path& project);
+
+/// Name and hash of each file, in this order. A file that is not in `names` is called by its own
+/// name, without its directory. Errors: as input_file(), for the first that fails.
+Result<std::vector<InputFile>> input_files(const std::vector<std::filesystem::path>& paths,
+                                           const InputNames& names = {});
 
 /// The mappings that `--column` gave. Errors: as parse_column_mapping(), for the first that fails.
 Result<std::vector<ColumnMapping>> column_mappings(const std::vector<std::string>& texts);

@@ -2,29 +2,15 @@
 
 #include <CLI/CLI.hpp>
 #include <limits>
-#include <map>
 #include <string>
 
+#include "awmr/simulate/scenario.h"
+#include "choices.h"
 #include "emit_options.h"
 #include "numbers.h"
 
 namespace awmr::cli {
 namespace {
-
-const std::map<std::string, YawMode> kModes{{"differential", YawMode::kDifferential},
-                                            {"steering", YawMode::kSteering},
-                                            {"combined", YawMode::kCombined}};
-const std::map<std::string, PilLink> kLinks{{"memory", PilLink::kMemory}, {"uart", PilLink::kUart}};
-const std::map<std::string, Injection> kInjections{{"none", Injection::kNone},
-                                                   {"nan", Injection::kNaN},
-                                                   {"infinite", Injection::kInfinite},
-                                                   {"range", Injection::kRange},
-                                                   {"mode", Injection::kMode},
-                                                   {"heading-stale", Injection::kHeadingStale},
-                                                   {"speed-stale", Injection::kSpeedStale},
-                                                   {"command-timeout", Injection::kCommandTimeout},
-                                                   {"step-late", Injection::kStepLate},
-                                                   {"parameters", Injection::kParameters}};
 
 constexpr unsigned kAnyCount = std::numeric_limits<unsigned>::max();
 
@@ -58,13 +44,10 @@ void add_pil_options(CLI::App& command, PilOptions& options) {
   command.add_option("--model", options.model, "model.json from identify")->required();
   command.add_option("--gains", options.gains, "gains.json from tune")->required();
   command.add_option("--scenario", options.scenario, "scenario.json")->required();
-  command.add_option("--mode", options.mode, "differential, steering or combined")
-      ->required()
-      ->transform(CLI::CheckedTransformer(kModes));
-  command
-      .add_option("--link", options.link,
-                  "memory (through the chip's RAM, fast; the default) or uart (framed bytes)")
-      ->transform(CLI::CheckedTransformer(kLinks))
+  add_choice(command, "--mode", options.mode, kYawModeNames, "Which makes the yaw moment")
+      ->required();
+  add_choice(command, "--link", options.link, kPilLinkNames,
+             "Through the chip's RAM, fast, or through its UART in frames")
       ->default_str("memory");
   command.add_option("--port", options.port,
                      "Serial port of a real board, flashed with DIR/pil_uart.elf of --build-dir; "
@@ -74,11 +57,7 @@ void add_pil_options(CLI::App& command, PilOptions& options) {
       ->capture_default_str();
   add_emit_options(command, options.emit);
   add_bounds(command, options);
-  command
-      .add_option("--inject", options.injection,
-                  "A fault to inject half-way: nan, infinite, range, mode, heading-stale, "
-                  "speed-stale, command-timeout, step-late, parameters")
-      ->transform(CLI::CheckedTransformer(kInjections))
+  add_choice(command, "--inject", options.injection, kInjectionNames, "A fault to inject half-way")
       ->default_str("none");
   command.add_option("--build-dir", options.build_directory, "Keep the firmware in this directory");
 }

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "awmr/control/yaw_mode.h"
+#include "awmr/core/name_table.h"
 #include "awmr/emit/emit.h"
 
 namespace CLI {
@@ -16,6 +17,8 @@ class App;
 namespace awmr::cli {
 
 enum class PilLink { kMemory, kUart };
+inline constexpr NameTable<PilLink, 2> kPilLinkNames{
+    {{"memory", PilLink::kMemory}, {"uart", PilLink::kUart}}};
 
 /// What can be done to the controller's inputs, or to its parameters, on purpose.
 enum class Injection {
@@ -30,6 +33,17 @@ enum class Injection {
   kStepLate,        ///< a pause before a step
   kParameters       ///< a bit of the parameters in flash, before the start
 };
+inline constexpr NameTable<Injection, 10> kInjectionNames{
+    {{"none", Injection::kNone},
+     {"nan", Injection::kNaN},
+     {"infinite", Injection::kInfinite},
+     {"range", Injection::kRange},
+     {"mode", Injection::kMode},
+     {"heading-stale", Injection::kHeadingStale},
+     {"speed-stale", Injection::kSpeedStale},
+     {"command-timeout", Injection::kCommandTimeout},
+     {"step-late", Injection::kStepLate},
+     {"parameters", Injection::kParameters}}};
 
 struct PilOptions {
   std::filesystem::path model;

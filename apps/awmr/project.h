@@ -8,7 +8,7 @@
 #include "awmr/compare/compare.h"
 #include "awmr/core/result.h"
 #include "awmr/identify/identify.h"
-#include "awmr/trials/trials.h"
+#include "awmr/trials/read_trials.h"
 
 namespace awmr::cli {
 

@@ -10,6 +10,7 @@
 #include "awmr/model/vehicle_file.h"
 #include "awmr/simulate/scenario_file.h"
 #include "awmr/trials/load.h"
+#include "awmr/tune/tune_file.h"
 #include "commands.h"
 #include "project.h"
 
@@ -45,7 +46,8 @@ void add_step(Outcome& total, const char* title, Outcome step) {
   total.refused = total.refused || step.refused;
 }
 
-Result<Outcome> identify_step(const Project& project, const fs::path& model) {
+Result<Outcome> identify_step(const Project& project, const InputNames& names,
+                              const fs::path& model) {
   return execute(IdentifyCommand{.vehicle = project.vehicle,
                                  .surge = project.surge,
                                  .coastdowns = project.coastdowns,
@@ -54,24 +56,30 @@ Result<Outcome> identify_step(const Project& project, const fs::path& model) {
                                  .steady_from_logs = project.steady_from_logs,
                                  .identify = project.identify,
                                  .trials = project.trials,
-                                 .output = model});
+                                 .output = model,
+                                 .names = names});
 }
 
-Result<Outcome> validate_step(const Project& project, const fs::path& directory) {
+Result<Outcome> validate_step(const Project& project, const InputNames& names,
+                              const fs::path& directory) {
   return execute(ValidateCommand{.model = directory / "model.json",
                                  .gains = directory / "gains.json",
                                  .validate = {},
                                  .output = directory / "validation.json",
                                  .logs = project.logs,
-                                 .trials = project.trials});
+                                 .trials = project.trials,
+                                 .names = names});
 }
 
-std::vector<fs::path> inputs_of(const RunCommand& command, const Project& project) {
+/// Every file that the project names, itself included.
+std::vector<fs::path> inputs_of(const RunCommand& command, const Project& project,
+                                const TuneConfig& tune) {
   std::vector<fs::path> inputs{command.project, project.vehicle};
   for (const auto& path : {project.surge, project.turning, project.tune}) {
     if (path) inputs.push_back(*path);
   }
-  for (const auto* paths : {&project.coastdowns, &project.logs, &project.scenarios}) {
+  for (const auto* paths :
+       {&project.coastdowns, &project.logs, &project.scenarios, &tune.scenario_files}) {
     inputs.insert(inputs.end(), paths->begin(), paths->end());
   }
   return inputs;
@@ -106,13 +114,17 @@ void add_faults(const Result<T>& read, std::vector<Fault>& faults) {
   faults.insert(faults.end(), read.error().faults.begin(), read.error().faults.end());
 }
 
-/// What is wrong with the project's files as a whole, found before the first step and before
-/// anything is written: a broken file, two scenarios whose runs would have one name, an output that
-/// is an input.
-Status check(const RunCommand& command, const Project& project) {
+/// Every file that goes in. Errors, found before the first step and before anything is written: a
+/// broken file, two scenarios whose runs would have one name, an output that is an input.
+Result<std::vector<fs::path>> checked_inputs(const RunCommand& command, const Project& project) {
+  TuneConfig tune;
   std::vector<Fault> faults;
   add_faults(read_trials(project), faults);
-  if (project.tune) add_faults(read_tune_options(*project.tune), faults);
+  if (project.tune) {
+    auto read = read_tune_config(*project.tune);
+    add_faults(read, faults);
+    if (read) tune = *std::move(read);
+  }
   std::set<std::string> stems;
   for (const fs::path& path : project.scenarios) {
     add_faults(read_scenario(path), faults);
@@ -123,34 +135,40 @@ Status check(const RunCommand& command, const Project& project) {
                                   path.filename().string())});
   }
   if (!faults.empty()) return input_errors(std::move(faults));
-  return check_outputs(command.output, outputs_of(project), inputs_of(command, project));
+  std::vector<fs::path> inputs = inputs_of(command, project, tune);
+  AWMR_RETURN_IF_ERROR(check_outputs(command.output, outputs_of(project), inputs));
+  return inputs;
 }
 
 }  // namespace
 
 Result<Outcome> execute(const RunCommand& command) {
   AWMR_ASSIGN_OR_RETURN(const Project project, read_project(command.project));
-  AWMR_RETURN_IF_ERROR(check(command, project));
+  AWMR_ASSIGN_OR_RETURN(const std::vector<fs::path> inputs, checked_inputs(command, project));
   AWMR_RETURN_IF_ERROR(make_directory(command.output));
   const fs::path model = command.output / "model.json";
   const fs::path gains = command.output / "gains.json";
+  const InputNames names = names_in_project(inputs, command.project);
 
   Outcome total;
-  AWMR_ASSIGN_OR_RETURN(Outcome identified, identify_step(project, model));
+  AWMR_ASSIGN_OR_RETURN(Outcome identified, identify_step(project, names, model));
   add_step(total, "identify", std::move(identified));
   if (total.refused) {
     total.summary += "stopped: the steps that follow need what could not be identified\n";
     return total;
   }
-  AWMR_ASSIGN_OR_RETURN(Outcome tuned, execute(TuneCommand{model, project.tune, gains}));
+  AWMR_ASSIGN_OR_RETURN(Outcome tuned, execute(TuneCommand{model, project.tune, gains, names}));
   add_step(total, "tune", std::move(tuned));
-  AWMR_ASSIGN_OR_RETURN(Outcome validated, validate_step(project, command.output));
+  AWMR_ASSIGN_OR_RETURN(Outcome validated, validate_step(project, names, command.output));
   add_step(total, "validate", std::move(validated));
   AWMR_RETURN_IF_ERROR(execute(
       EmitCommand{.model = model, .gains = gains, .output = command.output, .header_only = true}));
-  AWMR_ASSIGN_OR_RETURN(
-      Outcome compared,
-      execute(CompareCommand{model, {gains}, project.scenarios, project.compare, command.output}));
+  AWMR_ASSIGN_OR_RETURN(Outcome compared, execute(CompareCommand{.model = model,
+                                                                 .gains = {gains},
+                                                                 .scenarios = project.scenarios,
+                                                                 .compare = project.compare,
+                                                                 .output = command.output,
+                                                                 .names = names}));
   add_step(total, "compare", std::move(compared));
   AWMR_RETURN_IF_ERROR(write_runs(project, command.output));
   AWMR_RETURN_IF_ERROR(execute(ReportCommand{command.output}));

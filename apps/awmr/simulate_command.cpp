@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <map>
 #include <memory>
 
 #include "awmr/core/file.h"
@@ -11,6 +10,7 @@
 #include "awmr/model/model_file.h"
 #include "awmr/simulate/metrics.h"
 #include "awmr/simulate/scenario_file.h"
+#include "choices.h"
 #include "commands.h"
 
 namespace awmr::cli {
@@ -77,9 +77,6 @@ Result<Outcome> execute(const SimulateCommand& command) {
 }
 
 void add_simulate(CLI::App& app, Session& session) {
-  static const std::map<std::string, YawMode> modes{{"differential", YawMode::kDifferential},
-                                                    {"steering", YawMode::kSteering},
-                                                    {"combined", YawMode::kCombined}};
   auto command = std::make_shared<SimulateCommand>();
   CLI::App* sub =
       add_command(app, session, "simulate", "Run one scenario in one yaw-control mode",
@@ -89,9 +86,8 @@ void add_simulate(CLI::App& app, Session& session) {
   sub->add_option("--model", command->model, "model.json from identify")->required();
   sub->add_option("--gains", command->gains, "gains.json; not needed in open loop");
   sub->add_option("--scenario", command->scenario, "scenario.json")->required();
-  sub->add_option("--mode", command->mode, "differential, steering or combined")
-      ->required()
-      ->transform(CLI::CheckedTransformer(modes));
+  add_choice(*sub, "--mode", command->mode, kYawModeNames, "Which makes the yaw moment")
+      ->required();
   add_output(*sub, command->output, "run.csv to write");
 }
 

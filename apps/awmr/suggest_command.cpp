@@ -10,6 +10,7 @@
 #include "awmr/simulate/metrics.h"
 #include "awmr/simulate/scenario_file.h"
 #include "awmr/simulate/simulate.h"
+#include "choices.h"
 #include "commands.h"
 #include "inputs.h"
 #include "numbers.h"
@@ -87,26 +88,19 @@ Result<Outcome> execute(const SuggestCommand& command) {
 }
 
 void add_suggest(CLI::App& app, Session& session) {
-  struct Raw {
-    SuggestCommand command;
-    std::string mode = "combined";
-  };
-  auto raw = std::make_shared<Raw>();
+  auto held = std::make_shared<SuggestCommand>();
   CLI::App* sub = add_command(
       app, session, "suggest", "Rank the trials that could be recorded next, as a field sheet",
-      "awmr suggest --model model.json --parameter mass_norm -o suggest.json", [raw] {
-        raw->command.mode = *yaw_mode_by_name(raw->mode);
-        return execute(raw->command);
-      });
-  SuggestCommand& command = raw->command;
+      "awmr suggest --model model.json --parameter mass_norm -o suggest.json",
+      [held] { return execute(*held); });
+  SuggestCommand& command = *held;
   sub->add_option("--model", command.model, "model.json from identify")->required();
   sub->add_option("--parameter", command.parameter,
                   "What is to become surer: a parameter, or with --gains and --scenario one of "
                   "heading_iae_degs, overshoot_deg, speed_drop_mps (default: all, A-optimal)");
   sub->add_option("--gains", command.gains, "gains.json of the closed loop");
   sub->add_option("--scenario", command.scenario, "scenario.json of the closed loop");
-  sub->add_option("--mode", raw->mode, "differential, steering or combined (default)")
-      ->check(CLI::IsMember({"differential", "steering", "combined"}));
+  add_choice(*sub, "--mode", command.mode, kYawModeNames, "Of the scenario (default combined)");
   sub->add_option("--repeats", command.repeats, "Runs of each trial (default 3)")
       ->check(within(1, 1000));
   sub->add_option("--most", command.most, "Trials on the sheet (default 8; the file has all)")

@@ -5,6 +5,7 @@
 
 #include "awmr/core/file.h"
 #include "awmr/model/model_file.h"
+#include "awmr/tune/tune_file.h"
 #include "commands.h"
 #include "inputs.h"
 
@@ -44,12 +45,13 @@ std::string summary_of(const TuneCommand& command, const Tuning& tuning) {
   return text + fmt::format("wrote {}\n", command.output.string());
 }
 
-Result<Provenance> provenance_of(const TuneCommand& command, const TuneOptions& options) {
+Result<Provenance> provenance_of(const TuneCommand& command,
+                                 const std::vector<fs::path>& scenario_files) {
   std::vector<fs::path> paths{command.model};
   if (command.config) paths.push_back(*command.config);
-  paths.insert(paths.end(), options.scenario_files.begin(), options.scenario_files.end());
+  paths.insert(paths.end(), scenario_files.begin(), scenario_files.end());
   AWMR_RETURN_IF_ERROR(check_output(command.output, paths));
-  AWMR_ASSIGN_OR_RETURN(std::vector<InputFile> inputs, input_files(paths));
+  AWMR_ASSIGN_OR_RETURN(std::vector<InputFile> inputs, input_files(paths, command.names));
   return Provenance{"tune", {}, std::move(inputs)};
 }
 
@@ -57,13 +59,13 @@ Result<Provenance> provenance_of(const TuneCommand& command, const TuneOptions& 
 
 Result<Outcome> execute(const TuneCommand& command) {
   AWMR_ASSIGN_OR_RETURN(const Model model, read_model(command.model));
-  TuneOptions options;
+  TuneConfig config;
   if (command.config) {
-    AWMR_ASSIGN_OR_RETURN(options, read_tune_options(*command.config));
+    AWMR_ASSIGN_OR_RETURN(config, read_tune_config(*command.config));
   }
-  AWMR_ASSIGN_OR_RETURN(const Provenance provenance, provenance_of(command, options));
-  AWMR_ASSIGN_OR_RETURN(const Tuning tuning, tune(model, options));
-  AWMR_RETURN_IF_ERROR(write_file(command.output, gains_text(tuning, options, provenance)));
+  AWMR_ASSIGN_OR_RETURN(const Provenance provenance, provenance_of(command, config.scenario_files));
+  AWMR_ASSIGN_OR_RETURN(const Tuning tuning, tune(model, config.options));
+  AWMR_RETURN_IF_ERROR(write_file(command.output, gains_text(tuning, config.options, provenance)));
   return Outcome{.summary = summary_of(command, tuning), .brief = gains_table(tuning)};
 }
 

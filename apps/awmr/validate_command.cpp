@@ -61,7 +61,8 @@ Status check_outputs(const ValidateCommand& command) {
 }
 
 Result<Provenance> provenance_of(const ValidateCommand& command) {
-  AWMR_ASSIGN_OR_RETURN(std::vector<InputFile> inputs, input_files(inputs_of(command)));
+  AWMR_ASSIGN_OR_RETURN(std::vector<InputFile> inputs,
+                        input_files(inputs_of(command), command.names));
   return Provenance{
       "validate", {{"tolerance", format_number(command.validate.tolerance)}}, std::move(inputs)};
 }

@@ -5,10 +5,10 @@
 ///     fit a model to them                identify/identify.h
 ///     ask which trial to record next     identify/planning/suggest.h
 ///     ask how well a fit can be          identify/planning/recover.h
-///     search gains                       tune/tune.h
+///     search gains                       tune/tune.h, tune/tune_file.h
 ///     run the closed loop, judge a run   simulate/simulate.h, simulate/metrics.h
 ///     hold a model against its trials    validate/validate.h
-///     compare the yaw-control modes      compare/compare.h
+///     compare the yaw-control modes      compare/compare.h, compare/resume.h
 ///     make firmware                      emit/emit.h
 ///     make the report                    report/report.h
 ///
@@ -16,6 +16,7 @@
 #pragma once
 
 #include "awmr/compare/compare.h"
+#include "awmr/compare/resume.h"
 #include "awmr/core/result.h"
 #include "awmr/emit/emit.h"
 #include "awmr/identify/identify.h"
@@ -30,4 +31,5 @@
 #include "awmr/simulate/simulate.h"
 #include "awmr/trials/load.h"
 #include "awmr/tune/tune.h"
+#include "awmr/tune/tune_file.h"
 #include "awmr/validate/validate.h"

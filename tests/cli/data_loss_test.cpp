@@ -144,5 +144,18 @@ TEST_F(DataLoss, TwoScenariosWithOneFileNameOverwroteEachOther) {
   EXPECT_FALSE(fs::exists(path("out")));
 }
 
+TEST_F(DataLoss, ABrokenTuneFileWasFoundAfterIdentifying) {
+  fs::copy(std::string(AWMR_SOURCE_DIR) + "/configs/paper/scenarios/c3_heading_steps.json",
+           path("s.json"));
+  write_all(path("tune.json"), R"({"scenarios": ["missing.json"]})");
+  write_all(path("project.json"),
+            R"({"vehicle": "vehicle.json", "trials": {"surge": "surge.csv"}, "tune": "tune.json",
+                "compare": {"scenarios": ["s.json"]}})");
+  const ProcessResult result = awmr(fmt::format("run {} -o {}", path("project.json"), path("out")));
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("missing.json"));
+  EXPECT_FALSE(fs::exists(path("out")));
+}
+
 }  // namespace
 }  // namespace awmr::testing

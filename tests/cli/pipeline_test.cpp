@@ -45,6 +45,19 @@ TEST_F(Pipeline, EndsWellAndLeavesEveryFile) {
   }
 }
 
+TEST_F(Pipeline, NamesItsInputsRelativeToTheProjectAndItsOwnFilesByTheirNames) {
+  const auto names = [](const std::string& file) {
+    const Json document = json(file);
+    std::vector<std::string> found;
+    for (const Json& input : document.at("inputs")) found.push_back(input.at("name"));
+    return found;
+  };
+  EXPECT_THAT(names("model.json"),
+              ::testing::IsSupersetOf({"vehicle.json", "../../datasets/paper/surge.csv"}));
+  EXPECT_EQ(names("gains.json").front(), "model.json");
+  EXPECT_THAT(names("comparison.json"), ::testing::Contains("scenarios/c3_heading_steps.json"));
+}
+
 TEST_F(Pipeline, ReproducesTheReferenceFitsOfTables2And3) {
   // Recomputed from the printed tables to the digits given: half a unit in the last place.
   const Json model = json("model.json");

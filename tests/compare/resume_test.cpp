@@ -2,10 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "awmr/compare/compare.h"
+#include "awmr/compare/resume.h"
 #include "awmr/core/file.h"
 #include "awmr/core/json.h"
-#include "awmr/core/option_text.h"
 #include "awmr/model/gains_file.h"
 #include "compare/uncertain_model.h"
 #include "support/process.h"
@@ -84,7 +83,7 @@ TEST(Resume, RefusesAnotherComparisonsFiles) {
   Provenance more_samples = kProvenance;
   more_samples.options[0].second = "60";
   EXPECT_THAT(to_text(read_finished(directory.path(), other_seed).error()),
-              HasSubstr(option_text("seed")));
+              HasSubstr("other options (seed)"));
   EXPECT_THAT(to_text(read_finished(directory.path(), other_model).error()),
               HasSubstr("other inputs"));
   EXPECT_TRUE(read_finished(directory.path(), more_samples));
@@ -96,6 +95,20 @@ TEST(Resume, RefusesAnotherComparisonsFiles) {
   write_all(directory.path() / "comparison.json", to_text(of_version_1));
   EXPECT_THAT(to_text(read_finished(directory.path(), kProvenance).error()),
               HasSubstr("comparison.csv:2:1"));
+}
+
+TEST(Resume, RowsOfAnotherVersionWereTakenForFinishedRuns) {
+  const TemporaryDirectory directory;
+  const Comparison c = compared({.samples = 1, .seed = 3, .threads = 1});
+  write_all(directory.path() / "comparison.csv", comparison_csv(c));
+  Json json = Json::parse(comparison_text(c, kWhole, kProvenance));
+  for (const char* other : {"0.0.1", ""}) {
+    json["version"] = other;
+    write_all(directory.path() / "comparison.json", to_text(json));
+    const auto finished = read_finished(directory.path(), kProvenance);
+    ASSERT_FALSE(finished) << other;
+    EXPECT_THAT(to_text(finished.error()), HasSubstr("written by version"));
+  }
 }
 
 TEST(Resume, EditedRowsWereTakenForFinishedRuns) {

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "awmr/core/file.h"
+#include "core/directory_test.h"
 #include "core/faults.h"
 #include "support/process.h"
 
@@ -22,18 +23,7 @@ using ::testing::UnorderedElementsAre;
 
 namespace fs = std::filesystem;
 
-class FileLoss : public ::testing::Test {
- protected:
-  fs::path path(const std::string& name) const { return directory_.path() / name; }
-  std::vector<std::string> names() const {
-    std::vector<std::string> found;
-    for (const auto& entry : fs::directory_iterator(directory_.path())) {
-      found.push_back(entry.path().filename().string());
-    }
-    return found;
-  }
-  TemporaryDirectory directory_;
-};
+using FileLoss = DirectoryTest;
 
 TEST_F(FileLoss, AnOutputThatWasAnInputWasDestroyed) {
   ASSERT_TRUE(write_file(path("a.json"), "precious"));

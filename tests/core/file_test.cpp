@@ -9,6 +9,7 @@
 #include <csignal>
 #include <thread>
 
+#include "core/directory_test.h"
 #include "core/faults.h"
 #include "support/process.h"
 
@@ -21,18 +22,7 @@ using ::testing::IsEmpty;
 
 namespace fs = std::filesystem;
 
-class FileTest : public ::testing::Test {
- protected:
-  fs::path path(const char* name) const { return directory_.path() / name; }
-  std::vector<std::string> names() const {
-    std::vector<std::string> found;
-    for (const auto& entry : fs::directory_iterator(directory_.path())) {
-      found.push_back(entry.path().filename().string());
-    }
-    return found;
-  }
-  TemporaryDirectory directory_;
-};
+using FileTest = DirectoryTest;
 
 /// While it lives no file can grow beyond `bytes`: writing fails as on a full disk.
 class FileSizeLimit {

@@ -11,6 +11,12 @@ TEST(OptionText, IsSpeltAsTheCallerSpellsOptions) {
   EXPECT_EQ(plain_text(message), "use loss huber, or joint");
 }
 
+TEST(OptionText, AnErrorIsPlainForALibrarysUserAndSpeltForACommands) {
+  const Error error{ErrorKind::kInput, {{option_text("method"), "use " + option_text("log")}}};
+  EXPECT_EQ(to_text(error), "error: method: use log\n");
+  EXPECT_EQ(to_text(error, "--"), "error: --method: use --log\n");
+}
+
 TEST(OptionText, LeavesOtherBracesAlone) {
   EXPECT_EQ(plain_text("{} {a} {option:"), "{} {a} {option:");
   EXPECT_EQ(plain_text(""), "");

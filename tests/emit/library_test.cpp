@@ -6,7 +6,6 @@
 #include <cmath>
 #include <set>
 
-#include "awmr/core/option_text.h"
 #include "emit/paper_robot.h"
 #include "support/toolchain.h"
 
@@ -181,7 +180,7 @@ TEST(ResistanceTables, AreRefusedWhereNoTableIsGoodEnough) {
       autopilot_parameters(paper_robot(), kPaperGains, paper_inputs(), {.table_error = 1e-7});
   ASSERT_FALSE(p);
   EXPECT_EQ(exit_code(p.error()), 1);
-  EXPECT_THAT(to_text(p.error()), HasSubstr(option_text("table-error")));
+  EXPECT_THAT(to_text(p.error()), HasSubstr("table-error"));
 }
 
 TEST(Crc, GivesItsCatalogueValues) {

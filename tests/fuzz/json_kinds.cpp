@@ -4,7 +4,7 @@
 #include "awmr/model/model_file.h"
 #include "awmr/model/vehicle_file.h"
 #include "awmr/simulate/scenario_file.h"
-#include "awmr/tune/tune.h"
+#include "awmr/tune/tune_file.h"
 #include "fuzz/file_of_bytes.h"
 #include "fuzz/target.h"
 #include "project.h"
@@ -44,8 +44,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (const auto gains = awmr::read_gains(path); !is_refused(gains)) {
     require(gains->heading.lambda > 0.0 && gains->speed.epsilon > 0.0, "gains are above 0");
   }
-  if (const auto options = awmr::read_tune_options(path); !is_refused(options)) {
-    require(options->margin > 0.0 && options->margin < 1.0, "there is a margin");
+  if (const auto config = awmr::read_tune_config(path); !is_refused(config)) {
+    require(config->options.margin > 0.0 && config->options.margin < 1.0, "there is a margin");
   }
   (void)is_refused(awmr::read_scenario(path));
   (void)is_refused(awmr::cli::read_project(path));

@@ -2,9 +2,8 @@
 #include <cmath>
 #include <vector>
 
-#include "awmr/trials/log.h"
 #include "awmr/trials/log_consistency.h"
-#include "awmr/trials/trials.h"
+#include "awmr/trials/read_trials.h"
 #include "fuzz/file_of_bytes.h"
 #include "fuzz/target.h"
 

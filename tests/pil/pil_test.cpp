@@ -104,6 +104,14 @@ INSTANTIATE_TEST_SUITE_P(
       return file.substr(slash, file.find('_') - slash) + "_" + test.param.second;
     });
 
+TEST_F(Pil, AnOutputThatWasAnInputWasDestroyed) {
+  const std::string model = read_all(path("model.json"));
+  const ProcessResult run = pil(kC13, "combined", "", "model.json");
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("it is the input"));
+  EXPECT_EQ(read_all(path("model.json")), model);
+}
+
 TEST_F(Pil, ByPowfItIsWithinTwoMillionths) {
   // The two libraries' powf differ by up to 2.4e-7, which the steering's division by tau_speed
   // raises (1.3e-6 measured with these gains, 9e-7 and less with those of awmr tune to every

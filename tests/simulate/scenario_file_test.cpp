@@ -70,8 +70,8 @@ TEST(ScenarioFile, EveryShippedScenarioReads) {
 }
 
 TEST(YawModeNames, GoBothWays) {
-  for (const YawMode mode : kYawModes) EXPECT_EQ(yaw_mode_by_name(name_of(mode)), mode);
-  EXPECT_FALSE(yaw_mode_by_name("sideways"));
+  for (const YawMode mode : kYawModes) EXPECT_EQ(value_in(kYawModeNames, name_of(mode)), mode);
+  EXPECT_FALSE(value_in(kYawModeNames, "sideways"));
 }
 
 const std::string kFull = R"({

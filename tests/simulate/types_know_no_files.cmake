@@ -5,13 +5,16 @@ foreach(source
     model/parameters.cpp model/model.cpp control/controller.h control/autopilot.h
     simulate/scenario.h simulate/world.h simulate/simulate.h simulate/metrics.h
     simulate/scenario.cpp simulate/passage.cpp simulate/disturbance.cpp simulate/sensing.cpp
-    simulate/physics.cpp simulate/pilot.cpp simulate/simulate.cpp simulate/metrics.cpp)
+    simulate/physics.cpp simulate/pilot.cpp simulate/simulate.cpp simulate/metrics.cpp
+    trials/trials.h trials/log.h trials/trial_data.h trials/steady.h trials/replay.h trials/prediction.h
+    trials/steady.cpp trials/replay.cpp trials/prediction.cpp identify/options.h identify/identify.h
+    tune/tune.h tune/tune.cpp compare/compare.h compare/compare.cpp)
   execute_process(COMMAND ${COMPILER} -std=c++20 -I${LIB} -x c++ -M ${LIB}/awmr/${source}
     OUTPUT_VARIABLE included RESULT_VARIABLE result)
   if(NOT result EQUAL 0)
     message(FATAL_ERROR "${source} cannot be preprocessed")
   endif()
-  if(included MATCHES "/(filesystem|fstream)[ \n\\\\]|core/(file|json|csv|input_file)\\.h|_file\\.h")
+  if(included MATCHES "/(filesystem|fstream)[ \n\\\\]|core/(file|json|csv|input_file)\\.h|_file\\.h|read_trials\\.h")
     message(SEND_ERROR "${source} includes ${CMAKE_MATCH_0}")
   endif()
 endforeach()

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "awmr/trials/trials.h"
+#include "awmr/trials/read_trials.h"
 #include "support/paper_vehicle.h"
 #include "support/scratch_file.h"
 

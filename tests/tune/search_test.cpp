@@ -215,6 +215,16 @@ TEST(Tune, NamesAllUnfitOptionsAtOnce) {
   EXPECT_EQ(tuning.error().faults.size(), 5U) << to_text(tuning.error());
 }
 
+TEST(Tune, AMillionEvaluationsOfLongScenariosHadNoEnd) {
+  TuneOptions options = short_options();
+  options.global_evaluations = 1'000'000;
+  options.scenarios.front().duration_s = 2000.0;
+  const Result<Tuning> tuning = tune(paper_model(), options);
+  ASSERT_FALSE(tuning);
+  EXPECT_EQ(tuning.error().kind, ErrorKind::kInput);
+  EXPECT_THAT(to_text(tuning.error()), ::testing::HasSubstr("give at most"));
+}
+
 TEST(Tune, PassesOnThatTheModelLacksAParameter) {
   Model model = paper_model();
   model[ParameterId::kMassNorm].value.reset();

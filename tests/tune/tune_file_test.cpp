@@ -6,7 +6,7 @@
 
 #include "awmr/core/json.h"
 #include "awmr/model/gains_file.h"
-#include "awmr/tune/tune.h"
+#include "awmr/tune/tune_file.h"
 #include "tune/paper_model.h"
 
 namespace awmr::testing {
@@ -30,25 +30,25 @@ class TuneFile : public ::testing::Test {
     std::ofstream(directory_ / name) << text;
     return directory_ / name;
   }
-  Result<TuneOptions> read(const std::string& text) const {
-    return read_tune_options(write("tune.json", text));
+  Result<TuneConfig> read(const std::string& text) const {
+    return read_tune_config(write("tune.json", text));
   }
   std::string fault(const std::string& text) const {
-    const Result<TuneOptions> options = read(text);
-    return options ? "accepted" : to_text(options.error());
+    const Result<TuneConfig> config = read(text);
+    return config ? "accepted" : to_text(config.error());
   }
 
   std::filesystem::path directory_;
 };
 
 TEST_F(TuneFile, GivesTheDefaultsForAnEmptyObject) {
-  const Result<TuneOptions> options = read("{}");
-  ASSERT_TRUE(options) << to_text(options.error());
-  EXPECT_EQ(options->form, ReachingForm::kStrict);
-  EXPECT_EQ(options->margin, TuneOptions{}.margin);
-  EXPECT_EQ(options->weights.itae, ObjectiveWeights{}.itae);
-  EXPECT_EQ(options->global_evaluations, TuneOptions{}.global_evaluations);
-  EXPECT_TRUE(options->scenarios.empty());
+  const Result<TuneConfig> config = read("{}");
+  ASSERT_TRUE(config) << to_text(config.error());
+  EXPECT_EQ(config->options.form, ReachingForm::kStrict);
+  EXPECT_EQ(config->options.margin, TuneOptions{}.margin);
+  EXPECT_EQ(config->options.weights.itae, ObjectiveWeights{}.itae);
+  EXPECT_EQ(config->options.global_evaluations, TuneOptions{}.global_evaluations);
+  EXPECT_TRUE(config->options.scenarios.empty());
 }
 
 TEST_F(TuneFile, TakesEveryDocumentedKey) {
@@ -56,7 +56,7 @@ TEST_F(TuneFile, TakesEveryDocumentedKey) {
         R"({"name": "turn", "duration_s": 5, "initial": {"x_m": 0, "y_m": 0, "psi_deg": 0,
             "u_mps": 0, "v_mps": 0, "r_degps": 0}, "speed_mps": 1,
             "guidance": {"type": "heading", "steps": [{"t_s": 0, "psi_deg": 20}]}})");
-  const Result<TuneOptions> options = read(
+  const Result<TuneConfig> config = read(
       R"({"schema": "awmr.tune/1", "form": "paper", "margin": 0.5,
           "weights": {"itae": 2, "overshoot": 0, "control_variation": 1, "effort": 3,
                       "speed_itae": 4},
@@ -64,19 +64,19 @@ TEST_F(TuneFile, TakesEveryDocumentedKey) {
                      "speed_epsilon": [9, 10]},
           "global_evaluations": 11, "local_evaluations": 12, "seed": 13,
           "scenarios": ["turn.json"]})");
-  ASSERT_TRUE(options) << to_text(options.error());
-  EXPECT_EQ(options->form, ReachingForm::kPaper);
-  EXPECT_EQ(options->margin, 0.5);
-  EXPECT_EQ(options->weights.effort, 3.0);
-  EXPECT_EQ(options->weights.speed_itae, 4.0);
-  EXPECT_EQ(options->bounds.speed_epsilon.hi, 10.0);
-  EXPECT_EQ(options->global_evaluations, 11);
-  EXPECT_EQ(options->local_evaluations, 12);
-  EXPECT_EQ(options->seed, 13U);
-  ASSERT_EQ(options->scenarios.size(), 1U);
-  EXPECT_EQ(options->scenarios.front().name, "turn");
-  ASSERT_EQ(options->scenario_files.size(), 1U);
-  EXPECT_EQ(options->scenario_files.front(), directory_ / "turn.json");
+  ASSERT_TRUE(config) << to_text(config.error());
+  EXPECT_EQ(config->options.form, ReachingForm::kPaper);
+  EXPECT_EQ(config->options.margin, 0.5);
+  EXPECT_EQ(config->options.weights.effort, 3.0);
+  EXPECT_EQ(config->options.weights.speed_itae, 4.0);
+  EXPECT_EQ(config->options.bounds.speed_epsilon.hi, 10.0);
+  EXPECT_EQ(config->options.global_evaluations, 11);
+  EXPECT_EQ(config->options.local_evaluations, 12);
+  EXPECT_EQ(config->options.seed, 13U);
+  ASSERT_EQ(config->options.scenarios.size(), 1U);
+  EXPECT_EQ(config->options.scenarios.front().name, "turn");
+  ASSERT_EQ(config->scenario_files.size(), 1U);
+  EXPECT_EQ(config->scenario_files.front(), directory_ / "turn.json");
 }
 
 TEST_F(TuneFile, NamesAnUnknownKeyAndItsNearest) {
@@ -95,17 +95,17 @@ TEST_F(TuneFile, RefusesValuesOutOfRange) {
         R"({"bounds": {"mu": [0, 1]}})", R"({"bounds": {"mu": [2, 1]}})",
         R"({"bounds": {"mu": 3}})", R"({"schema": "awmr.gains/1"})", R"({"scenarios": []})",
         R"({"scenarios": ["absent.json"]})", R"([])", "{", ""}) {
-    const Result<TuneOptions> options = read(text);
-    ASSERT_FALSE(options) << text;
-    EXPECT_EQ(options.error().kind, ErrorKind::kInput) << text;
+    const Result<TuneConfig> config = read(text);
+    ASSERT_FALSE(config) << text;
+    EXPECT_EQ(config.error().kind, ErrorKind::kInput) << text;
   }
 }
 
 TEST_F(TuneFile, ReportsEveryFaultAtOnce) {
-  const Result<TuneOptions> options =
+  const Result<TuneConfig> config =
       read(R"({"margin": 2, "seed": -1, "unknown": 1, "scenarios": ["absent.json"]})");
-  ASSERT_FALSE(options);
-  EXPECT_EQ(options.error().faults.size(), 4U) << to_text(options.error());
+  ASSERT_FALSE(config);
+  EXPECT_EQ(config.error().faults.size(), 4U) << to_text(config.error());
 }
 
 TEST_F(TuneFile, WritesGainsThatReadBackBitForBit) {

@@ -4,7 +4,6 @@
 
 #include <atomic>
 #include <cstdint>
-#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
@@ -75,12 +74,6 @@ std::string comparison_csv(const Comparison& comparison);
 /// The bytes of comparison.json.
 std::string comparison_text(const Comparison& comparison, const CompareOptions& options,
                             const Provenance& provenance);
-
-/// The rows of a comparison.csv written before, and a check that its comparison.json is of the same
-/// inputs and options; the numbers of samples and threads may differ. Errors (input): the files
-/// are missing, malformed or of another comparison.
-Result<std::vector<ComparisonRow>> read_finished(const std::filesystem::path& directory,
-                                                 const Provenance& provenance);
 
 /// Figures by scenario and mode, the ranking and a verdict in a sentence, for a terminal.
 std::string comparison_table(const Comparison& comparison, std::uint64_t seed = 1);

@@ -1,4 +1,4 @@
-// A comparison that was stopped, read back.
+#include "awmr/compare/resume.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,6 @@
 #include <optional>
 #include <set>
 
-#include "awmr/compare/compare.h"
 #include "awmr/compare/metric_columns.h"
 #include "awmr/core/csv_cell.h"
 #include "awmr/core/file.h"
@@ -33,7 +32,7 @@ std::optional<ComparisonRow> row_of(const std::vector<std::string>& cells, bool 
   if (cells.size() != kFirst + kMetricColumns.size() + (with_gains ? 1 : 0)) return std::nullopt;
   ComparisonRow row;
   row.scenario = cells[0];
-  const auto mode = yaw_mode_by_name(cells[1]);
+  const auto mode = value_in(kYawModeNames, cells[1]);
   if (!mode || !read_number(cells[2], row.sample) || (cells[3] != "0" && cells[3] != "1")) {
     return std::nullopt;
   }
@@ -50,8 +49,15 @@ std::optional<ComparisonRow> row_of(const std::vector<std::string>& cells, bool 
 }
 
 /// Two comparisons have the same rows when their inputs and options are the same, but for the free
-/// ones.
-Status same_origin(const Provenance& before, const Provenance& now, const std::string& file) {
+/// ones, and the same version of the program works them out.
+Status same_origin(const Provenance& before, const std::string& written_by, const Provenance& now,
+                   const std::string& file) {
+  if (written_by != version()) {
+    return input_error(file, fmt::format("was written by version {} of the program, whose runs may "
+                                         "differ from those of version {}; compare into another "
+                                         "directory",
+                                         written_by, version()));
+  }
   const auto fixed = [](const Provenance& p) {
     std::vector<std::pair<std::string, std::string>> options;
     for (const auto& option : p.options) {
@@ -80,6 +86,7 @@ Status same_origin(const Provenance& before, const Provenance& now, const std::s
 /// What comparison.json says of itself and of its rows.
 struct Origin {
   Provenance provenance;
+  std::string version;                    ///< of the program that wrote it
   std::optional<std::string> csv_sha256;  ///< none in files of earlier versions
 };
 
@@ -87,7 +94,8 @@ Result<Origin> read_origin(const std::filesystem::path& path) {
   AWMR_ASSIGN_OR_RETURN(const Json document, read_json_file(path));
   std::vector<Fault> faults;
   JsonObject json(document, path.string(), "", faults);
-  Origin origin{read_provenance(json), json.optional_string("csv_sha256")};
+  const std::string written_by = json.optional_string("version").value_or("unknown");
+  Origin origin{read_provenance(json), written_by, json.optional_string("csv_sha256")};
   if (!faults.empty()) return input_errors(std::move(faults));
   return origin;
 }
@@ -122,7 +130,7 @@ Result<std::vector<ComparisonRow>> read_finished(const std::filesystem::path& di
                                                  const Provenance& provenance) {
   const std::filesystem::path json = directory / "comparison.json";
   AWMR_ASSIGN_OR_RETURN(const Origin before, read_origin(json));
-  AWMR_RETURN_IF_ERROR(same_origin(before.provenance, provenance, json.string()));
+  AWMR_RETURN_IF_ERROR(same_origin(before.provenance, before.version, provenance, json.string()));
   return read_rows(directory / "comparison.csv", before.csv_sha256);
 }
 

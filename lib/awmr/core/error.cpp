@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "awmr/core/option_text.h"
 #include "awmr/core/result.h"
 #include "awmr/core/text.h"
 
@@ -26,14 +27,16 @@ tl::unexpected<Error> input_errors(std::vector<Fault> faults) {
   return tl::unexpected(Error{ErrorKind::kInput, std::move(faults)});
 }
 
-std::string to_text(const Error& error) {
+std::string to_text(const Error& error) { return to_text(error, ""); }
+
+std::string to_text(const Error& error, std::string_view prefix) {
   std::string text;
   std::size_t shown = 0;
   for (const Fault& fault : error.faults) {
     if (shown == kMaxFaultsShown) break;
     ++shown;
-    const std::string message = printable(shortened(fault.message));
-    const std::string place = printable(shortened(fault.place));
+    const std::string message = printable(shortened(spell_options(fault.message, prefix)));
+    const std::string place = printable(shortened(spell_options(fault.place, prefix)));
     text += place.empty() ? fmt::format("error: {}\n", message)
                           : fmt::format("error: {}: {}\n", place, message);
   }

@@ -94,6 +94,8 @@ class JsonObject {
 
 /// `{"command", "version", "options", "inputs"}`, the contract's keys of origin, put into `json`.
 void put_provenance(Json& json, const Provenance& provenance);
+/// How an output begins: its schema, and where it comes from.
+Json output_document(std::string_view schema, const Provenance& provenance);
 /// Reads them back.
 Provenance read_provenance(JsonObject& json);
 

@@ -9,6 +9,8 @@
 #include <string>
 #include <string_view>
 
+#include "awmr/core/result.h"
+
 namespace awmr {
 
 /// `name` is the option's, as in model.json's provenance, with its value where one is meant.
@@ -19,5 +21,8 @@ std::string spell_options(std::string_view message, std::string_view prefix);
 
 /// The message with the options' names as they are.
 std::string plain_text(std::string_view message);
+
+/// to_text(error) with every option's name after `prefix`; to_text() itself gives them as they are.
+std::string to_text(const Error& error, std::string_view prefix);
 
 }  // namespace awmr

@@ -23,6 +23,13 @@ void put_provenance(Json& json, const Provenance& provenance) {
   }
 }
 
+Json output_document(std::string_view schema, const Provenance& provenance) {
+  Json json;
+  json["schema"] = schema;
+  put_provenance(json, provenance);
+  return json;
+}
+
 Provenance read_provenance(JsonObject& json) {
   Provenance provenance;
   provenance.command = json.optional_string("command").value_or("");

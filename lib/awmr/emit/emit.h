@@ -8,6 +8,7 @@
 
 #include "awmr/control/parameters_block.h"
 #include "awmr/control/resistance_table.h"
+#include "awmr/core/name_table.h"
 #include "awmr/core/result.h"
 #include "awmr/model/gains.h"
 #include "awmr/model/model.h"
@@ -37,6 +38,8 @@ enum class ResistanceForm {
   kTable,  ///< an interpolated table in flash: the faster by far
   kPowf    ///< the power law by the C library's powf
 };
+inline constexpr NameTable<ResistanceForm, 2> kResistanceFormNames{
+    {{"table", ResistanceForm::kTable}, {"powf", ResistanceForm::kPowf}}};
 
 /// How the firmware is made.
 struct EmitOptions {

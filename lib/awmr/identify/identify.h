@@ -6,7 +6,6 @@
 #include "awmr/core/result.h"
 #include "awmr/identify/options.h"
 #include "awmr/model/model.h"
-#include "awmr/trials/load.h"
 #include "awmr/trials/trial_data.h"
 
 namespace awmr {

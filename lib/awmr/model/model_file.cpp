@@ -112,9 +112,7 @@ NumberRule rule_of(ParameterId id) {
 }
 
 std::string model_text(const Model& model) {
-  Json json;
-  json["schema"] = kSchema;
-  put_provenance(json, model.record.provenance);
+  Json json = output_document(kSchema, model.record.provenance);
   json["vehicle"] = vehicle_to_json(model.vehicle);
   put_estimates(json, model);
   json["estimates"] = list_to_json(model.record.reports, report_to_json);

@@ -65,6 +65,11 @@ RunSeed seed_of(const Scenario& scenario, const SimulateOptions& options) {
   return run_seed(scenario.seed, options.seed, options.sample);
 }
 
+/// Steps of a sample; with room for rounding, so that a sample of exactly n steps takes n.
+double steps_of_sample(const Plant<double>& plant, double sample_time_s) {
+  return std::max(1.0, std::ceil(sample_time_s / step_limit(plant).step_s - 1e-9));
+}
+
 }  // namespace
 
 /// h <= T/6 for the time constants that do not depend on speed, m'/a_s of sway and T of the servo;
@@ -85,10 +90,12 @@ StepLimit step_limit(const Plant<double>& plant) {
 }
 
 int substeps_for(const Plant<double>& plant, double sample_time_s) {
-  // Room for rounding, so that a sample of exactly n steps takes n.
-  const double count = std::ceil(sample_time_s / step_limit(plant).step_s - 1e-9);
-  if (!(count >= 1.0)) return 1;
+  const double count = steps_of_sample(plant, sample_time_s);
   return count < kMostSubsteps ? static_cast<int>(count) : kMostSubsteps;
+}
+
+double steps_of_run(const Plant<double>& plant, double duration_s, double sample_time_s) {
+  return (duration_s / sample_time_s + 1.0) * steps_of_sample(plant, sample_time_s);
 }
 
 Physics::Physics(const Plant<double>& plant, double force_max, const Scenario& scenario,

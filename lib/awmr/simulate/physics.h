@@ -59,4 +59,7 @@ struct StepLimit {
 };
 StepLimit step_limit(const Plant<double>& plant);
 
+/// RK4 steps of a run from start to end, with those of its last row.
+double steps_of_run(const Plant<double>& plant, double duration_s, double sample_time_s);
+
 }  // namespace awmr

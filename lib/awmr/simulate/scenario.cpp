@@ -68,23 +68,4 @@ Result<Plant<double>> plant_for(const Scenario& scenario, const Model& model) {
   return plant;
 }
 
-std::string_view name_of(YawMode mode) {
-  switch (mode) {
-    case YawMode::kDifferential:
-      return "differential";
-    case YawMode::kSteering:
-      return "steering";
-    case YawMode::kCombined:
-      return "combined";
-  }
-  return "";
-}
-
-std::optional<YawMode> yaw_mode_by_name(std::string_view name) {
-  for (const YawMode mode : kYawModes) {
-    if (name_of(mode) == name) return mode;
-  }
-  return std::nullopt;
-}
-
 }  // namespace awmr

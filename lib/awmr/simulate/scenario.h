@@ -13,6 +13,7 @@
 #include "awmr/control/guidance_path.h"
 #include "awmr/control/guidance_shaping.h"
 #include "awmr/control/yaw_mode.h"
+#include "awmr/core/name_table.h"
 #include "awmr/core/result.h"
 #include "awmr/model/model.h"
 #include "awmr/model/state.h"
@@ -109,9 +110,10 @@ Result<Model> model_at_corner(Model model, const Scenario& scenario);
 /// simulate.h).
 Result<Plant<double>> plant_for(const Scenario& scenario, const Model& model);
 
-/// "differential", "steering", "combined".
-std::string_view name_of(YawMode mode);
-std::optional<YawMode> yaw_mode_by_name(std::string_view name);
+inline constexpr NameTable<YawMode, 3> kYawModeNames{{{"differential", YawMode::kDifferential},
+                                                      {"steering", YawMode::kSteering},
+                                                      {"combined", YawMode::kCombined}}};
+constexpr std::string_view name_of(YawMode mode) { return name_in(kYawModeNames, mode); }
 inline constexpr YawMode kYawModes[] = {YawMode::kDifferential, YawMode::kSteering,
                                         YawMode::kCombined};
 

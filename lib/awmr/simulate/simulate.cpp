@@ -76,6 +76,11 @@ class Autopilot {
   ObserverState<double> yaw_state_{}, surge_state_{};
 };
 
+/// F' of a wheel at the most, over F_max: what overcomes the dead zone, and the zone.
+double largest_force(const Controller<double>& controller) {
+  return controller.limits.force_max + controller.limits.dead_zone;
+}
+
 /// To the nearest step of the servo and count of the PWM.
 void quantise(const Actuators& actuators, double force_max, RunRow& row) {
   if (actuators.steering_quantum_rad > 0.0) {
@@ -159,6 +164,20 @@ RunEnd follow_guidance(Pilot& pilot, Autopilot& autopilot, const Sensed& sensed,
   return order.finished ? RunEnd::kFinished : RunEnd::kDuration;
 }
 
+/// What is commanded at this row, as far as the actuators can. Returns how the run ends here.
+RunEnd command(const Scenario& scenario, const Controller<double>& controller, const Sensed& sensed,
+               Pilot& pilot, Autopilot& autopilot, RunRow& row) {
+  const double dead_zone = controller.limits.dead_zone;
+  RunEnd end = RunEnd::kDuration;
+  if (const auto* open = std::get_if<OpenLoop>(&scenario.guidance)) {
+    fill(row, autopilot.open_loop(*open), dead_zone);
+  } else {
+    end = follow_guidance(pilot, autopilot, sensed, dead_zone, row);
+  }
+  if (scenario.actuators) quantise(*scenario.actuators, largest_force(controller), row);
+  return end;
+}
+
 }  // namespace
 
 Controller<double> make_controller(const Plant<double>& plant, const Vehicle& vehicle,
@@ -191,9 +210,9 @@ Status check_work(const Plant<double>& plant, const std::string& model_file,
                     scenario.duration_s, sample_time_s, rows, kMostRows,
                     (kMostRows - 1.0) * sample_time_s));
   }
-  const StepLimit limit = step_limit(plant);
-  const double steps = rows * std::max(1.0, std::ceil(sample_time_s / limit.step_s - 1e-9));
+  const double steps = steps_of_run(plant, scenario.duration_s, sample_time_s);
   if (!(steps <= kMostSteps)) {
+    const StepLimit limit = step_limit(plant);
     const ParameterInfo& parameter = info(limit.parameter);
     return input_error(
         model_file + ":" + std::string(parameter.pointer),
@@ -223,14 +242,12 @@ Run simulate(const Plant<double>& plant, const Controller<double>& controller,
   const double sample_s = options.sample_time_s;
   const bool too_much = !check_work(plant, "", scenario, sample_s) && !options.substeps.has_value();
   const auto samples = too_much ? std::size_t{0} : samples_in(scenario.duration_s, sample_s);
-  const double force_max = controller.limits.force_max + controller.limits.dead_zone;
-  Physics physics(plant, force_max, scenario, options);
+  Physics physics(plant, largest_force(controller), scenario, options);
   Sensing sensing(scenario.sensors, sample_s,
                   run_seed(scenario.seed, options.seed, options.sample));
   Sensed sensed = sensing.at(0, physics.state());
   Pilot pilot(scenario, sample_s, sensed);
   Autopilot autopilot(controller, scenario, mode, sample_s, sensed.motion);
-  const auto* open = std::get_if<OpenLoop>(&scenario.guidance);
 
   Run run;
   run.substeps = physics.substeps();
@@ -243,12 +260,7 @@ Run simulate(const Plant<double>& plant, const Controller<double>& controller,
     row.measured = sensed.motion;
     row.measured_position_m = sensed.position_m;
     if (!scenario.obstacles.empty()) row.clearance_m = clearance_m(scenario, row.state);
-    if (open) {
-      fill(row, autopilot.open_loop(*open), controller.limits.dead_zone);
-    } else {
-      run.end = follow_guidance(pilot, autopilot, sensed, controller.limits.dead_zone, row);
-    }
-    if (scenario.actuators) quantise(*scenario.actuators, force_max, row);
+    run.end = command(scenario, controller, sensed, pilot, autopilot, row);
     row.disturbance = physics.disturb(row.t_s);
     if (!is_finite(row)) {
       if (k > 0) run.rows.pop_back();

@@ -117,7 +117,7 @@ void find_spikes(std::span<const double> value, ChannelQuality& quality) {
     size.push_back(std::abs(off.back()));
     all.push_back(value[rows[k]]);
   }
-  const double noise = 1.4826 * median(size);
+  const double noise = kStdPerMad * median(size);
   const double range = quantile(all, 0.98) - quantile(all, 0.02);
   const double limit = std::max({8.0 * noise, 0.1 * range, 3.0 * quality.quantum});
   for (std::size_t k = 0; k < off.size(); ++k) {

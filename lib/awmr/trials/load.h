@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "awmr/core/result.h"
+#include "awmr/model/vehicle.h"
+#include "awmr/trials/read_trials.h"
 #include "awmr/trials/trial_data.h"
 
 namespace awmr {
@@ -28,13 +30,6 @@ struct TrialFiles {
   bool steady_from_logs = false;
   /// Names of the columns, and which of two values of one quantity counts; of every file.
   TrialOptions options = {};
-};
-
-/// Trials as read, with what is doubtful about them.
-struct Trials {
-  Vehicle vehicle;
-  TrialData data;
-  std::vector<Finding> findings;  ///< in the order of TrialFiles: surge, turning, coastdowns, logs
 };
 
 /// Reads and joins them. Errors (input): no file at all; as read_surge(), read_turning(),

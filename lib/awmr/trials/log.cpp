@@ -9,6 +9,8 @@
 #include "awmr/core/csv_text.h"
 #include "awmr/core/units.h"
 #include "awmr/trials/channel_quality.h"
+#include "awmr/trials/read_trials.h"
+#include "awmr/trials/robust_ratio.h"
 #include "trial_reader.h"
 
 namespace awmr {
@@ -227,9 +229,11 @@ const ChannelInfo& info(LogChannel channel) {
 double DrivingLog::median_step_s() const {
   std::vector<double> steps;
   for (std::size_t i = 1; i < t_s.size(); ++i) steps.push_back(t_s[i] - t_s[i - 1]);
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return *middle;
+  return median(std::move(steps));
+}
+
+const std::vector<double>& DrivingLog::driving_steering_rad() const {
+  return steering_command_rad ? *steering_command_rad : (*this)[LogChannel::kSteering]->value;
 }
 
 Result<DrivingLog> read_log(const std::filesystem::path& path, const TrialOptions& options,

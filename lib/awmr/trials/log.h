@@ -1,8 +1,7 @@
-/// Driving logs: commands and whatever was measured, by time.
+/// Driving logs: commands and whatever was measured, by time. read_log() in read_trials.h reads them.
 #pragma once
 
 #include <array>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -59,16 +58,16 @@ struct DrivingLog {
     return measured[static_cast<std::size_t>(c)];
   }
   double median_step_s() const;
+  /// d_r that drives the model, rad, left positive: the servo's command, or its angle where only
+  /// that was logged.
+  const std::vector<double>& driving_steering_rad() const;
+  /// The column that it came from.
+  std::string_view steering_column() const {
+    return steering_command_rad ? "steering_cmd_deg" : "steering_deg";
+  }
 };
 
 /// Rows further apart than this many median steps are a gap: what was commanded between is unknown.
 inline constexpr double kGapSteps = 10.0;
-
-/// Columns t_s, force_left, force_right, steering_cmd_deg or steering_deg, and any of the channels;
-/// latitude_deg and longitude_deg stand in for x_m and y_m (local tangent plane at the first row).
-/// Findings: `held-samples`, `log-gap`. Errors: as read_csv; time that does not rise; nothing
-/// measured; fewer than 10 rows.
-Result<DrivingLog> read_log(const std::filesystem::path& path, const TrialOptions& options,
-                            std::vector<Finding>& findings);
 
 }  // namespace awmr

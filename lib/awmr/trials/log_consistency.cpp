@@ -31,18 +31,20 @@ std::optional<GyroBias> gyro_bias(const DrivingLog& log) {
   }
   if (offsets.size() < 10) return std::nullopt;
   const double bias = median(offsets);
-  std::vector<double> deviations;
-  for (const double offset : offsets) deviations.push_back(std::abs(offset - bias));
-  // 1.4826 MAD is a normal's deviation; a median has 1.2533 times a mean's standard error.
-  const double error =
-      1.2533 * 1.4826 * median(deviations) / std::sqrt(static_cast<double>(offsets.size()));
+  // A median has sqrt(pi/2) = 1.2533 times a mean's standard error.
+  const double error = 1.2533 * kStdPerMad * median_absolute_deviation(offsets, bias) /
+                       std::sqrt(static_cast<double>(offsets.size()));
   return GyroBias{bias, error};
 }
 
+bool GyroBias::significant() const {
+  constexpr double kStandardErrors = 5.0;
+  return std::abs(bias_radps) > kStandardErrors * std_error_radps;
+}
+
 bool has_gyro_bias(const DrivingLog& log) {
-  constexpr double kPlain = 5.0;  // standard errors
   const auto bias = gyro_bias(log);
-  return bias && std::abs(bias->bias_radps) > kPlain * bias->std_error_radps;
+  return bias && bias->significant();
 }
 
 Status check_consistency(const DrivingLog& log, const std::string& place, const Vehicle& vehicle,
@@ -62,7 +64,7 @@ Status check_consistency(const DrivingLog& log, const std::string& place, const 
   if (!faults.empty()) return input_errors(std::move(faults));
   if (!found.empty()) return {};
   const auto bias = gyro_bias(log);
-  if (has_gyro_bias(log)) {
+  if (bias && bias->significant()) {
     findings.push_back(
         {log.file, 0, Severity::kWarning, "gyro-bias",
          fmt::format("yaw_rate_radps stands {:.3g} +- {:.2g} rad/s off the heading's own rate: a "

@@ -21,6 +21,7 @@
 
 #include "awmr/model/vehicle.h"
 #include "awmr/trials/log.h"
+#include "awmr/trials/read_trials.h"
 
 namespace awmr {
 
@@ -47,9 +48,11 @@ Status check_consistency(const DrivingLog& log, const std::string& place, const 
 struct GyroBias {
   double bias_radps = 0.0;
   double std_error_radps = 0.0;
+  /// It is there, by five standard errors or more.
+  bool significant() const;
 };
 std::optional<GyroBias> gyro_bias(const DrivingLog& log);
-/// It is there, by five standard errors or more, and is no matter of units or signs.
+/// The log shows a significant one.
 bool has_gyro_bias(const DrivingLog& log);
 
 }  // namespace awmr

@@ -20,7 +20,7 @@ void add_commands(const DrivingLog& log, const Vehicle& vehicle, const LogWindow
   };
   const std::size_t begin = row_at(log.t_s[window.begin]);
   const std::size_t end = std::max(begin + 1, row_at(log.t_s[window.end - 1]) + 1);
-  const std::vector<double>& steering = steering_of(log);
+  const std::vector<double>& steering = log.driving_steering_rad();
   const double n = static_cast<double>(end - begin);
   for (std::size_t i = begin; i < end; ++i) {
     const double both = log.force_left[i] + log.force_right[i];
@@ -61,10 +61,6 @@ double integral_of(const DrivingLog& log, LogChannel channel, const LogWindow& w
     sum += 0.5 * (value[i] + value[i + 1]) * (log.t_s[i + 1] - log.t_s[i]);
   }
   return sum;
-}
-
-const std::vector<double>& steering_of(const DrivingLog& log) {
-  return log.steering_command_rad ? *log.steering_command_rad : log[LogChannel::kSteering]->value;
 }
 
 Evidence evidence_of(const DrivingLog& log, const Vehicle& vehicle,

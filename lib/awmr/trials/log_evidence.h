@@ -48,9 +48,6 @@ Evidence evidence_of(const DrivingLog& log, const Vehicle& vehicle,
 /// The integral of a channel over a window, by trapezoids.
 double integral_of(const DrivingLog& log, LogChannel channel, const LogWindow& window);
 
-/// The servo's command, or its angle where only that was logged.
-const std::vector<double>& steering_of(const DrivingLog& log);
-
 /// One number of every window.
 template <class Member>
 std::vector<double> series(const std::vector<WindowSums>& windows, Member member) {

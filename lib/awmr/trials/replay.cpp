@@ -83,9 +83,7 @@ LogSignals::LogSignals(const DrivingLog& driving_log)
     : log(&driving_log),
       left(driving_log.t_s, driving_log.force_left),
       right(driving_log.t_s, driving_log.force_right),
-      steering(driving_log.t_s, driving_log.steering_command_rad
-                                    ? *driving_log.steering_command_rad
-                                    : driving_log[LogChannel::kSteering]->value) {}
+      steering(driving_log.t_s, driving_log.driving_steering_rad()) {}
 
 bool is_measurement(const DrivingLog& log, LogChannel channel, std::size_t row) {
   if (!log[channel] || !log[channel]->fresh[row]) return false;

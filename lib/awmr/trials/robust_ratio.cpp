@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace awmr {
 namespace {
@@ -17,6 +18,13 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
+double median_absolute_deviation(std::span<const double> values, double middle) {
+  std::vector<double> deviations;
+  deviations.reserve(values.size());
+  for (const double value : values) deviations.push_back(std::abs(value - middle));
+  return median(std::move(deviations));
+}
+
 std::optional<RobustRatio> robust_ratio(std::span<const double> x, std::span<const double> y) {
   std::vector<double> sizes;
   for (const double value : x) sizes.push_back(std::abs(value));
@@ -28,9 +36,7 @@ std::optional<RobustRatio> robust_ratio(std::span<const double> x, std::span<con
   }
   if (static_cast<int>(ratios.size()) < kFewestPairs) return std::nullopt;
   const double ratio = median(ratios);
-  std::vector<double> deviations;
-  for (const double r : ratios) deviations.push_back(std::abs(r - ratio));
-  const double spread = median(deviations) / std::abs(ratio);
+  const double spread = median_absolute_deviation(ratios, ratio) / std::abs(ratio);
   if (!std::isfinite(spread) || spread > kLargestSpread) return std::nullopt;
   return RobustRatio{ratio, spread, static_cast<int>(ratios.size())};
 }

@@ -1,4 +1,5 @@
-/// How many times one signal is another, by medians: a tenth of wild pairs does not move it.
+/// Medians, and how many times one signal is another by them: a tenth of wild pairs does not move
+/// it.
 #pragma once
 
 #include <optional>
@@ -9,6 +10,11 @@ namespace awmr {
 
 /// Precondition: not empty. The upper of the two middle values where their number is even.
 double median(std::vector<double> values);
+
+/// The median of |value - middle|, `middle` being the values' own median. Precondition: not empty.
+double median_absolute_deviation(std::span<const double> values, double middle);
+/// The standard deviation of normal values over their median absolute deviation.
+inline constexpr double kStdPerMad = 1.4826;
 
 struct RobustRatio {
   double ratio = 0.0;

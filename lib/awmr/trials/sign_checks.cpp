@@ -87,8 +87,7 @@ std::vector<unsigned> smallest_flips(const std::vector<SignRelation>& relations)
 }
 
 Contradiction sign_contradiction(const Evidence& evidence, Signed which) {
-  const std::string steering =
-      evidence.log.steering_command_rad ? "steering_cmd_deg" : "steering_deg";
+  const std::string steering(evidence.log.steering_column());
   switch (which) {
     case Signed::kSteering:
       return {steering, "the vehicle turns against its steering: positive is to the left",

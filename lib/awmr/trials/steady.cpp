@@ -15,17 +15,14 @@ struct Stretch {
   std::size_t end = 0;
 };
 
-const std::vector<double>& steering_of(const DrivingLog& log) {
+/// The angle as it was measured, or else as it was commanded.
+const std::vector<double>& steering_angle_of(const DrivingLog& log) {
   return log[LogChannel::kSteering] ? log[LogChannel::kSteering]->value : *log.steering_command_rad;
 }
 
-/// The command, not the angle, tells where it changed; the angle's noise would.
-const std::vector<double>& steering_command_of(const DrivingLog& log) {
-  return log.steering_command_rad ? *log.steering_command_rad : log[LogChannel::kSteering]->value;
-}
-
 std::vector<Stretch> constant_commands(const DrivingLog& log, double same) {
-  const std::vector<double>& steering = steering_command_of(log);
+  // The command, not the angle, tells where it changed: the angle's noise would end every stretch.
+  const std::vector<double>& steering = log.driving_steering_rad();
   const double gap_s = kGapSteps * log.median_step_s();
   std::vector<Stretch> stretches;
   Stretch stretch{0, 1};
@@ -122,7 +119,7 @@ std::optional<SteadyRun> steady_run(const DrivingLog& log, const SteadyRule& rul
                                     Stretch stretch) {
   const double left = mean_of(log.force_left, stretch);
   const double right = mean_of(log.force_right, stretch);
-  const double steering_rad = mean_of(steering_of(log), stretch);
+  const double steering_rad = mean_of(steering_angle_of(log), stretch);
   const bool turning = std::abs(steering_rad) > rule.straight_rad;
   const auto& rate = log[turning ? LogChannel::kYawRate : LogChannel::kSpeed];
   if (!rate || !(left > 0.0) || std::abs(left - right) > rule.same) return std::nullopt;

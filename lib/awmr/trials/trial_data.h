@@ -4,6 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include "awmr/model/record.h"
+#include "awmr/model/vehicle.h"
 #include "awmr/trials/log.h"
 #include "awmr/trials/trials.h"
 
@@ -16,6 +18,13 @@ struct TrialData {
   std::optional<TrialSet<StopTimeRow>> coastdown = {};  ///< coast-downs that were timed
   std::vector<CoastCurve> curves = {};                  ///< coast-downs that were recorded
   std::vector<DrivingLog> logs = {};
+};
+
+/// Trials as read, with what is doubtful about them.
+struct Trials {
+  Vehicle vehicle;
+  TrialData data;
+  std::vector<Finding> findings;  ///< in this order: surge, turning, coast-downs, logs
 };
 
 }  // namespace awmr

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "awmr/trials/trials.h"
+#include "awmr/trials/read_trials.h"
 
 namespace awmr {
 

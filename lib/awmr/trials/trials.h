@@ -1,16 +1,11 @@
-/// Trial CSVs -> typed trials in SI units, with what is doubtful about them. See the contract's
-/// columns in the README.
+/// Trials that have a row per run, and coast-downs, in SI units. read_trials.h reads them.
 #pragma once
 
-#include <filesystem>
 #include <optional>
-#include <span>
 #include <string>
 #include <variant>
 #include <vector>
 
-#include "awmr/core/csv.h"
-#include "awmr/core/name_table.h"
 #include "awmr/core/result.h"
 #include "awmr/model/model.h"
 #include "awmr/model/vehicle.h"
@@ -69,30 +64,5 @@ struct TrialSet {
 
 /// A coast-down file has a row per run, or the curves of its runs.
 using CoastdownSet = std::variant<TrialSet<StopTimeRow>, std::vector<CoastCurve>>;
-
-/// Which value is used where a row gives a speed or yaw rate both as printed and through its
-/// timing.
-enum class Preference { kPrinted, kTimed };
-inline constexpr NameTable<Preference, 2> kPreferenceNames{
-    {{"printed", Preference::kPrinted}, {"timed", Preference::kTimed}}};
-
-struct TrialOptions {
-  std::vector<ColumnMapping> columns;
-  Preference preference = Preference::kPrinted;
-  /// Logs that contradict themselves (log_consistency.h) are taken as they are, with a warning. For
-  /// when a vehicle really is as odd as its log.
-  bool as_is = false;
-};
-
-/// Readers. Findings added: `speed-mismatch`, `yaw-rate-mismatch`, `tau-turn-mismatch`,
-/// `steering-stop`, `rows-set-aside`. Errors: as read_csv; missing column combinations; negative
-/// speed, time or distance; a curve whose time does not rise or that is too short.
-Result<TrialSet<SurgeRow>> read_surge(const std::filesystem::path& path,
-                                      const TrialOptions& options, std::vector<Finding>& findings);
-Result<TrialSet<TurningRow>> read_turning(const std::filesystem::path& path, const Vehicle& vehicle,
-                                          const TrialOptions& options,
-                                          std::vector<Finding>& findings);
-Result<CoastdownSet> read_coastdown(const std::filesystem::path& path, const TrialOptions& options,
-                                    std::vector<Finding>& findings);
 
 }  // namespace awmr

@@ -190,11 +190,10 @@ std::optional<double> sharpness(const Evidence& evidence, double factor) {
 }
 
 std::optional<Contradiction> judge_steering_unit(const Evidence& evidence) {
-  const std::vector<double>& angle = steering_of(evidence.log);
+  const std::vector<double>& angle = evidence.log.driving_steering_rad();
   double largest_deg = 0.0;
   for (const double value : angle) largest_deg = std::max(largest_deg, std::abs(degrees(value)));
-  const std::string column =
-      evidence.log.steering_command_rad ? "steering_cmd_deg" : "steering_deg";
+  const std::string column(evidence.log.steering_column());
   const double stop_deg = evidence.vehicle.steering_max_deg;
   if (largest_deg > 3.0 * stop_deg) {
     return Contradiction{column,

@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <set>
 #include <utility>
 #include <variant>
 
 #include "awmr/core/units.h"
 #include "awmr/model/paper_gains.h"
+#include "awmr/simulate/physics.h"
 #include "awmr/simulate/simulate.h"
 #include "awmr/tune/constraints.h"
 #include "awmr/tune/objective.h"
@@ -69,6 +71,30 @@ Status check(const TuneOptions& options) {
   check_scenarios(options.scenarios, faults);
   if (!faults.empty()) return input_errors(std::move(faults));
   return {};
+}
+
+/// RK4 steps of a search at the most: some hours.
+constexpr double kMostSearchSteps = 1e11;
+
+/// Each run's work is bounded, and so is that of all evaluations together.
+Status check_work(const TuneOptions& options, const std::vector<Scenario>& scenarios,
+                  const Plant<double>& plant, const Model& model) {
+  const double sample_time_s = model.vehicle.sample_time_s;
+  double steps = 0.0;  // of one evaluation
+  for (const Scenario& scenario : scenarios) {
+    AWMR_RETURN_IF_ERROR(check_work(plant, model.file, scenario, sample_time_s));
+    steps += static_cast<double>(std::size(kYawModes)) *
+             steps_of_run(plant, scenario.duration_s, sample_time_s);
+  }
+  const double evaluations =
+      static_cast<double>(options.global_evaluations) + options.local_evaluations;
+  if (evaluations * steps <= kMostSearchSteps) return {};
+  return input_error(
+      "", fmt::format("evaluations: {:g} of {:.3g} RK4 steps each ({} scenarios in every mode) are "
+                      "more than the {:g} steps that a search may take: give at most {:.0f} "
+                      "evaluations, global and local together, or shorter scenarios",
+                      evaluations, steps, scenarios.size(), kMostSearchSteps,
+                      std::floor(kMostSearchSteps / steps)));
 }
 
 std::string in_words(const Gains<double>& g) {
@@ -138,9 +164,7 @@ Result<Tuning> tune(const Model& model, const TuneOptions& options) {
 
   std::vector<Scenario> scenarios = options.scenarios;
   if (scenarios.empty()) scenarios.push_back(default_tuning_scenario());
-  for (const Scenario& scenario : scenarios) {
-    AWMR_RETURN_IF_ERROR(check_work(plant, model.file, scenario, model.vehicle.sample_time_s));
-  }
+  AWMR_RETURN_IF_ERROR(check_work(options, scenarios, plant, model));
   const ConstraintContext context = context_of(options, plant, model.vehicle, scenarios);
   const Candidate start = feasible_start(options, context, kPaperGains);
   if (start.violation > 0.0) return infeasible(start, context);

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -62,16 +61,7 @@ struct TuneOptions {
   /// Each has to hold headings, under a name of its own; empty: 30 then -30 deg at 1 m/s.
   std::vector<Scenario> scenarios;
   GainBounds bounds;
-  /// The files `scenarios` came from, for the output's list of inputs; empty for the default.
-  std::vector<std::filesystem::path> scenario_files;
 };
-
-/// tune.json (`awmr.tune/1`), strict, every key optional:
-///   schema, form ("paper" | "strict"), margin, weights {itae, overshoot, control_variation,
-///   effort, speed_itae}, bounds {lambda, mu, epsilon, speed_mu, speed_epsilon: [lo, hi]},
-///   global_evaluations, local_evaluations, seed, scenarios [path relative to the file, ...].
-/// Errors (input): as read_json_file and read_scenario; unknown keys, values out of range.
-Result<TuneOptions> read_tune_options(const std::filesystem::path& path);
 
 struct ConstraintReport {
   std::string name;     ///< "T2 < T1 (strict)", ...
@@ -119,7 +109,8 @@ Scenario held_out_scenario();
 /// cores. Errors (refused): no gains within the bounds meet the constraints (the tightest one is
 /// named), or none that does beats the baseline in every mode; the baseline itself is then not
 /// returned as if it had been found. Errors (input): the model lacks a parameter; margin, weights,
-/// bounds or scenarios are unfit.
+/// bounds or scenarios are unfit; all evaluations together would take more than 1e11 RK4 steps, some
+/// hours.
 Result<Tuning> tune(const Model& model, const TuneOptions& options);
 
 /// The bytes of gains.json.

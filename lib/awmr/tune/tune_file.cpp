@@ -1,4 +1,5 @@
 // tune.json in, gains.json out.
+#include "awmr/tune/tune_file.h"
 
 #include <utility>
 
@@ -6,7 +7,6 @@
 #include "awmr/model/gains_json.h"
 #include "awmr/simulate/scenario_file.h"
 #include "awmr/tune/objective.h"
-#include "awmr/tune/tune.h"
 
 namespace awmr {
 namespace {
@@ -61,7 +61,7 @@ void read_numbers(JsonObject& json, TuneOptions& options) {
 }
 
 /// Paths relative to the config file; a broken scenario's faults join the config's.
-void read_scenarios(JsonObject& json, const std::filesystem::path& directory, TuneOptions& options,
+void read_scenarios(JsonObject& json, const std::filesystem::path& directory, TuneConfig& config,
                     std::vector<Fault>& faults) {
   if (!json.has("scenarios")) return;
   const std::vector<std::string> names = json.strings("scenarios");
@@ -73,8 +73,8 @@ void read_scenarios(JsonObject& json, const std::filesystem::path& directory, Tu
       faults.insert(faults.end(), more.begin(), more.end());
       continue;
     }
-    options.scenarios.push_back(std::move(*scenario));
-    options.scenario_files.push_back(path);
+    config.options.scenarios.push_back(std::move(*scenario));
+    config.scenario_files.push_back(path);
   }
   if (names.empty()) {
     json.fault("scenarios", "an empty list; leave the key out for the default scenario");
@@ -140,19 +140,21 @@ Json objective_json(const Tuning& tuning, const ObjectiveWeights& weights) {
 
 }  // namespace
 
-Result<TuneOptions> read_tune_options(const std::filesystem::path& path) {
+Result<TuneConfig> read_tune_config(const std::filesystem::path& path) {
   AWMR_ASSIGN_OR_RETURN(const Json json, read_json_file(path));
   std::vector<Fault> faults;
   JsonObject object(json, path.string(), "", faults);
-  TuneOptions options;
+  TuneConfig config;
   object.schema("awmr.tune/1");
-  read_numbers(object, options);
-  if (auto weights = object.optional_object("weights")) read_weights(*weights, options.weights);
-  if (auto bounds = object.optional_object("bounds")) read_bounds(*bounds, options.bounds);
-  read_scenarios(object, path.parent_path(), options, faults);
+  read_numbers(object, config.options);
+  if (auto weights = object.optional_object("weights")) {
+    read_weights(*weights, config.options.weights);
+  }
+  if (auto bounds = object.optional_object("bounds")) read_bounds(*bounds, config.options.bounds);
+  read_scenarios(object, path.parent_path(), config, faults);
   object.reject_unknown_keys();
   if (!faults.empty()) return input_errors(std::move(faults));
-  return options;
+  return config;
 }
 
 std::string gains_text(const Tuning& tuning, const TuneOptions& options,

@@ -48,9 +48,7 @@ Json claim_json(const Claim& claim) {
 }  // namespace
 
 std::string validation_text(const Validation& validation, const Provenance& provenance) {
-  Json json;
-  json["schema"] = "awmr.validation/1";
-  put_provenance(json, provenance);
+  Json json = output_document("awmr.validation/1", provenance);
   json["passed"] = validation.passed;
   json["verdict"] = validation.verdict;
   json["rms_relative_error"] = {

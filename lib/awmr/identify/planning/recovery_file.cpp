@@ -4,9 +4,7 @@
 namespace awmr {
 
 std::string recovery_text(const Recovery& recovery, const Provenance& provenance) {
-  Json json;
-  json["schema"] = "awmr.recover/1";
-  put_provenance(json, provenance);
+  Json json = output_document("awmr.recover/1", provenance);
   json["runs"] = recovery.runs;
   json["refused_runs"] = recovery.failed;
   json["noise"] = recovery.noise_text;

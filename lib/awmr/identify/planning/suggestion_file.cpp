@@ -8,9 +8,7 @@
 namespace awmr {
 
 std::string suggestion_text(const Suggestion& suggestion, const Provenance& provenance) {
-  Json json;
-  json["schema"] = "awmr.suggest/1";
-  put_provenance(json, provenance);
+  Json json = output_document("awmr.suggest/1", provenance);
   json["criterion"] = suggestion.criterion;
   json["assumptions"] = suggestion.assumptions;
   json["trials"] = Json::array();

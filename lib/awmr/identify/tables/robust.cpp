@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "awmr/core/index.h"
+#include "awmr/trials/robust_ratio.h"
 
 namespace awmr {
 
@@ -28,7 +29,7 @@ double median_scale(const Eigen::VectorXd& residuals) {
   std::sort(sizes.begin(), sizes.end());
   const std::size_t half = sizes.size() / 2;
   const double median = sizes.size() % 2 == 1 ? sizes[half] : 0.5 * (sizes[half - 1] + sizes[half]);
-  return 1.4826 * median;
+  return kStdPerMad * median;
 }
 
 double m_estimate_variance(const ceres::LossFunction& loss, const Eigen::VectorXd& residuals,

@@ -1,0 +1,50 @@
+/// Trial CSVs -> typed trials in SI units, with what is doubtful about them. See the contract's
+/// columns in the README.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "awmr/core/csv.h"
+#include "awmr/core/name_table.h"
+#include "awmr/core/result.h"
+#include "awmr/model/record.h"
+#include "awmr/model/vehicle.h"
+#include "awmr/trials/log.h"
+#include "awmr/trials/trials.h"
+
+namespace awmr {
+
+/// Which value is used where a row gives a speed or yaw rate both as printed and through its
+/// timing.
+enum class Preference { kPrinted, kTimed };
+inline constexpr NameTable<Preference, 2> kPreferenceNames{
+    {{"printed", Preference::kPrinted}, {"timed", Preference::kTimed}}};
+
+struct TrialOptions {
+  std::vector<ColumnMapping> columns;
+  Preference preference = Preference::kPrinted;
+  /// Logs that contradict themselves (log_consistency.h) are taken as they are, with a warning. For
+  /// when a vehicle really is as odd as its log.
+  bool as_is = false;
+};
+
+/// Findings added: `speed-mismatch`, `yaw-rate-mismatch`, `tau-turn-mismatch`, `steering-stop`,
+/// `rows-set-aside`. Errors: as read_csv; missing column combinations; negative speed, time or
+/// distance; a curve whose time does not rise or that is too short.
+Result<TrialSet<SurgeRow>> read_surge(const std::filesystem::path& path,
+                                      const TrialOptions& options, std::vector<Finding>& findings);
+Result<TrialSet<TurningRow>> read_turning(const std::filesystem::path& path, const Vehicle& vehicle,
+                                          const TrialOptions& options,
+                                          std::vector<Finding>& findings);
+Result<CoastdownSet> read_coastdown(const std::filesystem::path& path, const TrialOptions& options,
+                                    std::vector<Finding>& findings);
+
+/// Columns t_s, force_left, force_right, steering_cmd_deg or steering_deg, and any of the channels;
+/// latitude_deg and longitude_deg stand in for x_m and y_m (local tangent plane at the first row).
+/// Findings: `held-samples`, `log-gap`, and those of channel_quality.h. Errors: as read_csv; time
+/// that does not rise; nothing measured; fewer than 10 rows.
+Result<DrivingLog> read_log(const std::filesystem::path& path, const TrialOptions& options,
+                            std::vector<Finding>& findings);
+
+}  // namespace awmr

@@ -1,0 +1,25 @@
+/// tune.json: what the search is to do.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "awmr/core/result.h"
+#include "awmr/tune/tune.h"
+
+namespace awmr {
+
+struct TuneConfig {
+  TuneOptions options;
+  /// The files that `options.scenarios` came from, for an output's list of inputs.
+  std::vector<std::filesystem::path> scenario_files;
+};
+
+/// tune.json (`awmr.tune/1`), strict, every key optional:
+///   schema, form ("paper" | "strict"), margin, weights {itae, overshoot, control_variation,
+///   effort, speed_itae}, bounds {lambda, mu, epsilon, speed_mu, speed_epsilon: [lo, hi]},
+///   global_evaluations, local_evaluations, seed, scenarios [path relative to the file, ...].
+/// Errors (input): as read_json_file and read_scenario; unknown keys, values out of range.
+Result<TuneConfig> read_tune_config(const std::filesystem::path& path);
+
+}  // namespace awmr
