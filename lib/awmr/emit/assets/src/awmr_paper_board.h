@@ -10,6 +10,7 @@
 #include <Wire.h>
 
 #include "awmr.h"
+#include "awmr/model/float_math.h"
 
 namespace awmr_board {
 
@@ -71,10 +72,7 @@ class Imu {
   void lean(float measured_rad, float share) {
     if (!has_heading_) psi_rad = measured_rad;
     has_heading_ = true;
-    float error = measured_rad - psi_rad;
-    while (error > 3.14159265f) error -= 6.28318531f;
-    while (error < -3.14159265f) error += 6.28318531f;
-    psi_rad += share * error;
+    psi_rad += share * awmr::float_math::wrapped(measured_rad - psi_rad);
   }
   /* At rest for a second: the gyroscope's mean is its bias. */
   void calibrate() {
