@@ -12,18 +12,20 @@ namespace {
 
 bool is_between(float value, float lo, float hi) { return value >= lo && value <= hi; }
 
+/// Points are the sketch's own and not checked: one that is no number shows in what the laws ask
+/// for, and in the last gate, but never in a command.
 void check(const awmr_output& out, bool is_following) {
   require(is_between(out.force_left, AWMR_WHEEL_FORCE_MIN, AWMR_WHEEL_FORCE_MAX), "left force");
   require(is_between(out.force_right, AWMR_WHEEL_FORCE_MIN, AWMR_WHEEL_FORCE_MAX), "right force");
   require(std::fabs(out.steering_rad) <= AWMR_STEERING_MAX_RAD, "steering angle");
+  if (out.fault != AWMR_FAULT_NONE) {
+    require(out.force_left == 0.0F && out.force_right == 0.0F && out.steering_rad == 0.0F,
+            "a fault gives the safe command");
+  }
+  if (is_following) return;
   require(std::isfinite(out.tau_speed) && std::isfinite(out.tau_turn_m), "what the laws asked for");
   require(std::isfinite(out.psi_ref_rad), "the heading");
-  // What is checked beforehand never leads to a command outside of its limits; points are the
-  // sketch's own, and not checked.
-  require(is_following || (out.fault & AWMR_FAULT_OUTPUT) == 0, "the last gate has nothing to do");
-  if (out.fault == AWMR_FAULT_NONE) return;
-  require(out.force_left == 0.0F && out.force_right == 0.0F && out.steering_rad == 0.0F,
-          "a fault gives the safe command");
+  require((out.fault & AWMR_FAULT_OUTPUT) == 0, "the last gate has nothing to do");
 }
 
 /// Fresh at this step, so that what the bytes say of the motion decides.
