@@ -72,7 +72,8 @@ struct ValidateCommand {
   ValidateOptions validate;
   fs::path output;
   std::vector<fs::path> logs = {};
-  TrialOptions trials = {};  ///< columns of the logs
+  TrialOptions trials = {};    ///< columns of the logs
+  bool other_columns = false;  ///< some of them may be for files that are not read here
   double horizon_s = 10.0;
   double log_tolerance = 0.3;
   bool claims = false;                        ///< all fourteen, each with tolerance and reason
@@ -116,6 +117,13 @@ Result<Outcome> execute(const EmitCommand& command);
 void add_emit(CLI::App& app, Session& session);
 
 void add_pil(CLI::App& app, Session& session);
+
+struct MapCommand {
+  fs::path file;
+  std::optional<fs::path> output;
+};
+Result<Outcome> execute(const MapCommand& command);
+void add_map(CLI::App& app, Session& session);
 
 struct ReportCommand {
   fs::path directory;

@@ -31,9 +31,7 @@ Result<Provenance> provenance_of(const IdentifyCommand& command) {
   if (command.trials.as_is) provenance.options.emplace_back("as-is", "true");
   if (command.steady_from_logs) provenance.options.emplace_back("steady_from_logs", "true");
   for (const ColumnMapping& mapping : command.trials.columns) {
-    provenance.options.emplace_back(
-        "column", fmt::format("{}={}*{}+{}", mapping.name, mapping.source,
-                              format_number(mapping.scale), format_number(mapping.offset)));
+    provenance.options.emplace_back("column", text_of(mapping));
   }
   AWMR_ASSIGN_OR_RETURN(provenance.inputs, input_files(inputs_of(command), command.names));
   return provenance;
@@ -65,7 +63,7 @@ std::string summary_of(const IdentifyCommand& command, const Model& model) {
 /// The command and what the command line says of it in words.
 struct IdentifyWords {
   IdentifyCommand command;
-  std::vector<std::string> columns;
+  ColumnWords columns;
   std::vector<std::string> asked;
   std::vector<std::string> families;
   std::string method;
@@ -148,7 +146,8 @@ void add_reading_options(CLI::App& sub, IdentifyWords& words) {
   sub.add_option("--prefer", words.prefer,
                  "Which of two disagreeing values to use: printed (default) or timed")
       ->check(CLI::IsMember(names_in(kPreferenceNames)));
-  sub.add_option("--column", words.columns, "NAME=SOURCE[*SCALE][+OFFSET]: another column's name");
+  sub.add_option("--column", words.columns.columns, kColumnHelp);
+  sub.add_option("--columns-file", words.columns.file, kColumnsFileHelp);
 }
 
 }  // namespace

@@ -1,6 +1,10 @@
 #include "inputs.h"
 
+#include <algorithm>
+
 #include "awmr/core/input_file.h"
+#include "awmr/core/json.h"
+#include "awmr/trials/log_files.h"
 
 namespace awmr::cli {
 
@@ -20,18 +24,54 @@ Result<std::vector<InputFile>> input_files(const std::vector<std::filesystem::pa
                                            const InputNames& names) {
   std::vector<InputFile> files;
   for (const std::filesystem::path& path : paths) {
-    AWMR_ASSIGN_OR_RETURN(InputFile file, input_file(path));
-    if (const auto name = names.find(path); name != names.end()) file.name = name->second;
-    files.push_back(std::move(file));
+    AWMR_ASSIGN_OR_RETURN(const std::vector<std::filesystem::path> parts, files_of(path));
+    for (const std::filesystem::path& part : parts) {
+      AWMR_ASSIGN_OR_RETURN(InputFile file, input_file(part));
+      if (const auto name = names.find(part); name != names.end()) file.name = name->second;
+      files.push_back(std::move(file));
+    }
   }
   return files;
 }
 
-Result<std::vector<ColumnMapping>> column_mappings(const std::vector<std::string>& texts) {
+Result<std::vector<ColumnMapping>> columns_of_file(const std::filesystem::path& path) {
+  AWMR_ASSIGN_OR_RETURN(const Json document, read_json_file(path));
+  std::vector<Fault> faults;
+  JsonObject json(document, path.string(), "", faults);
+  json.schema(kColumnsSchema);
+  // What `awmr map` wrote for a person is not read back.
+  for (const char* key : {"guesses", "open", "names", "command", "version", "options", "inputs"}) {
+    json.ignore(key);
+  }
   std::vector<ColumnMapping> mappings;
-  for (const std::string& text : texts) {
-    AWMR_ASSIGN_OR_RETURN(ColumnMapping mapping, parse_column_mapping(text));
+  JsonObject columns = json.object("columns");
+  for (const std::string& name : columns.keys()) {
+    const std::string expression = columns.string(name);
+    if (expression.empty()) continue;
+    if (auto mapping = parse_column(name + "=" + expression)) {
+      mappings.push_back(*std::move(mapping));
+    } else {
+      columns.fault(name, mapping.error().faults.front().message);
+    }
+  }
+  json.reject_unknown_keys();
+  if (!faults.empty()) return input_errors(std::move(faults));
+  return mappings;
+}
+
+Result<std::vector<ColumnMapping>> column_mappings(const ColumnWords& words) {
+  std::vector<ColumnMapping> mappings;
+  for (const std::string& text : words.columns) {
+    AWMR_ASSIGN_OR_RETURN(ColumnMapping mapping, parse_column(text));
     mappings.push_back(std::move(mapping));
+  }
+  if (!words.file) return mappings;
+  AWMR_ASSIGN_OR_RETURN(std::vector<ColumnMapping> more, columns_of_file(*words.file));
+  for (ColumnMapping& mapping : more) {
+    const bool given = std::any_of(mappings.begin(), mappings.end(), [&](const auto& other) {
+      return other.name == mapping.name && other.file.empty();
+    });
+    if (!given) mappings.push_back(std::move(mapping));
   }
   return mappings;
 }

@@ -4,7 +4,9 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -14,6 +16,12 @@
 
 namespace awmr::cli {
 
+/// What `--column` takes, in words.
+inline constexpr const char* kColumnHelp =
+    "[FILE:]NAME=EXPRESSION: where a column comes from: another name (speed_mps=V), scaled "
+    "(V*0.2778), arithmetic over columns ((left + right)/2*0.1; odd names in backticks) or a "
+    "constant (steering_deg=0); may be repeated";
+
 /// What outputs call their inputs, by path.
 using InputNames = std::map<std::filesystem::path, std::string>;
 
@@ -21,13 +29,25 @@ using InputNames = std::map<std::filesystem::path, std::string>;
 InputNames names_in_project(const std::vector<std::filesystem::path>& paths,
                             const std::filesystem::path& project);
 
-/// Name and hash of each file, in this order. A file that is not in `names` is called by its own
-/// name, without its directory. Errors: as input_file(), for the first that fails.
+/// Name and hash of each file, in this order; of a directory those of the log's files in it. A file
+/// that is not in `names` is called by its own name, without its directory. Errors: as input_file()
+/// and files_of(), for the first that fails.
 Result<std::vector<InputFile>> input_files(const std::vector<std::filesystem::path>& paths,
                                            const InputNames& names = {});
 
-/// The mappings that `--column` gave. Errors: as parse_column_mapping(), for the first that fails.
-Result<std::vector<ColumnMapping>> column_mappings(const std::vector<std::string>& texts);
+inline constexpr const char* kColumnsFileHelp =
+    "JSON with an object `columns` of the same (awmr map writes it); --column comes before it";
+inline constexpr std::string_view kColumnsSchema = "awmr.columns/1";
+
+/// Where mappings come from.
+struct ColumnWords {
+  std::vector<std::string> columns = {};           ///< as `--column` gave them
+  std::optional<std::filesystem::path> file = {};  ///< `--columns-file`
+};
+
+/// The mappings of both; of a column that `--column` maps for every file, that of the file is left
+/// out. Errors: as parse_column(), for the first that fails; as read_json_file(), unknown keys.
+Result<std::vector<ColumnMapping>> column_mappings(const ColumnWords& words);
 
 /// What `read(path)` makes of each file, in this order; the faults of all files come together.
 template <class Read>

@@ -47,6 +47,7 @@ int run(int argc, char** argv) {
   awmr::cli::add_report(app, session);
   awmr::cli::add_suggest(app, session);
   awmr::cli::add_recover(app, session);
+  awmr::cli::add_map(app, session);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -15,6 +15,20 @@ fs::path resolved(const fs::path& project, const std::string& name) {
   return (project.parent_path() / name).lexically_normal();
 }
 
+/// Mappings for one file, or with an empty name for every file.
+void read_columns(JsonObject json, const std::string& file, Project& project) {
+  for (const std::string& name : json.keys()) {
+    const std::string expression = json.string(name);
+    if (expression.empty()) continue;
+    if (auto mapping = parse_column(name + "=" + expression)) {
+      if (!file.empty()) mapping->file = file;
+      project.trials.columns.push_back(*mapping);
+    } else {
+      json.fault(name, mapping.error().faults.front().message);
+    }
+  }
+}
+
 void read_trials(JsonObject json, const fs::path& path, Project& project) {
   const auto optional_path = [&](const char* key) -> std::optional<fs::path> {
     if (const auto name = json.optional_string(key)) return resolved(path, *name);
@@ -33,23 +47,16 @@ void read_trials(JsonObject json, const fs::path& path, Project& project) {
       project.logs.push_back(resolved(path, name));
     }
   }
+  if (auto files = json.optional_object("columns")) {
+    for (const std::string& name : files->keys()) {
+      read_columns(files->object(name), resolved(path, name).string(), project);
+    }
+  }
   json.reject_unknown_keys();
 }
 
 bool has_trials(const Project& project) {
   return project.surge || project.turning || !project.coastdowns.empty() || !project.logs.empty();
-}
-
-void read_columns(JsonObject json, Project& project) {
-  for (const std::string& name : json.keys()) {
-    const std::string source = json.string(name);
-    if (source.empty()) continue;
-    if (auto mapping = parse_column_mapping(name + "=" + source)) {
-      project.trials.columns.push_back(*mapping);
-    } else {
-      json.fault(name, mapping.error().faults.front().message);
-    }
-  }
 }
 
 void read_identify(JsonObject json, Project& project) {
@@ -105,7 +112,7 @@ Result<Project> read_project(const fs::path& path) {
   if (faults.empty() && !has_trials(project)) {
     json.fault("trials", "no trials: give at least one of surge, coastdown, turning, logs");
   }
-  if (auto columns = json.optional_object("columns")) read_columns(*columns, project);
+  if (auto columns = json.optional_object("columns")) read_columns(*columns, "", project);
   if (auto identify = json.optional_object("identify")) read_identify(*identify, project);
   if (const auto tune = json.optional_string("tune")) project.tune = resolved(path, *tune);
   read_compare(json.object("compare"), path, project);

@@ -68,6 +68,7 @@ Result<Outcome> validate_step(const Project& project, const InputNames& names,
                                  .output = directory / "validation.json",
                                  .logs = project.logs,
                                  .trials = project.trials,
+                                 .other_columns = true,
                                  .names = names});
 }
 

@@ -8,6 +8,7 @@
 #include "awmr/model/gains_file.h"
 #include "awmr/model/model_file.h"
 #include "awmr/trials/log_consistency.h"
+#include "awmr/trials/trial_columns.h"
 #include "commands.h"
 #include "inputs.h"
 #include "numbers.h"
@@ -30,14 +31,23 @@ std::string brief_of(const Validation& validation) {
 Result<std::vector<LogValidation>> validate_logs(const ValidateCommand& command,
                                                  const Vehicle& vehicle, const Plant<double>& plant,
                                                  std::vector<Finding>& findings) {
-  return read_each(command.logs, [&](const fs::path& path) {
-    return read_log(path, command.trials, findings)
-        .and_then([&](const DrivingLog& log) -> Result<LogValidation> {
-          AWMR_RETURN_IF_ERROR(
-              check_consistency(log, path.string(), vehicle, command.trials, findings));
-          return validate_log(log, plant, command.horizon_s, command.log_tolerance);
-        });
-  });
+  AWMR_ASSIGN_OR_RETURN(const TrialOptions options, with_vehicle_columns(command.trials, vehicle));
+  std::vector<std::size_t> used;
+  const auto validate_runs = [&](const fs::path& path) -> Result<std::vector<LogValidation>> {
+    AWMR_ASSIGN_OR_RETURN(const std::vector<DrivingLog> runs, read_logs(path, options, findings));
+    std::vector<LogValidation> validated;
+    for (const DrivingLog& log : runs) {
+      used.insert(used.end(), log.mapped.begin(), log.mapped.end());
+      AWMR_RETURN_IF_ERROR(check_consistency(log, path.string(), vehicle, options, findings));
+      validated.push_back(validate_log(log, plant, command.horizon_s, command.log_tolerance));
+    }
+    return validated;
+  };
+  AWMR_ASSIGN_OR_RETURN(const auto by_file, read_each(command.logs, validate_runs));
+  if (!command.other_columns) AWMR_RETURN_IF_ERROR(check_mappings(options, used));
+  std::vector<LogValidation> all;
+  for (const auto& runs : by_file) all.insert(all.end(), runs.begin(), runs.end());
+  return all;
 }
 
 /// Those of the file; without one, the paper's for its claims.
@@ -82,7 +92,7 @@ void add_model_options(CLI::App& sub, ValidateCommand& command) {
       ->check(within(1e-9, 1e6));
 }
 
-void add_log_options(CLI::App& sub, ValidateCommand& command, std::vector<std::string>& columns) {
+void add_log_options(CLI::App& sub, ValidateCommand& command, ColumnWords& columns) {
   sub.add_option(
       "--log", command.logs,
       "CSV of a driving log, best one that the model was not fitted to; may be repeated");
@@ -94,7 +104,8 @@ void add_log_options(CLI::App& sub, ValidateCommand& command, std::vector<std::s
       ->check(within(1e-9, 1e6));
   sub.add_flag("--as-is", command.trials.as_is,
                "Take logs whose units, signs or sides contradict themselves as they are");
-  sub.add_option("--column", columns, "NAME=SOURCE[*SCALE][+OFFSET]: another column's name");
+  sub.add_option("--column", columns.columns, kColumnHelp);
+  sub.add_option("--columns-file", columns.file, kColumnsFileHelp);
 }
 
 void add_claims_options(CLI::App& sub, ValidateCommand& command) {
@@ -133,7 +144,7 @@ Result<Outcome> execute(const ValidateCommand& command) {
 
 void add_validate(CLI::App& app, Session& session) {
   auto command = std::make_shared<ValidateCommand>();
-  auto columns = std::make_shared<std::vector<std::string>>();
+  auto columns = std::make_shared<ColumnWords>();
   CLI::App* sub = add_command(
       app, session, "validate", "Hold the model against its trials and the paper's claims",
       "awmr validate --model model.json --gains gains.json -o validation.json",

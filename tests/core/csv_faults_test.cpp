@@ -96,11 +96,20 @@ TEST(CsvFaults, DecimalCommasInACommaFile) {
   EXPECT_THAT(faults("tau_speed,speed_mps\n0,5,1,25\n"), ElementsAre(HasSubstr("decimal commas")));
 }
 
-TEST(CsvFaults, DecimalCommaInASemicolonFile) {
-  EXPECT_THAT(cell_faults("1,25", ';'),
-              ElementsAre(AllOf(StartsWith("a.csv:2:3: "), HasSubstr("\"1,25\""),
-                                HasSubstr("decimal comma; write 1.25 with a point"))));
+TEST(CsvFaults, DecimalCommaInAQuotedCellOfACommaFile) {
   EXPECT_THAT(cell_faults("\"-1,25e3\""), ElementsAre(HasSubstr("write -1.25e3 with a point")));
+}
+
+TEST(CsvFaults, DecimalCommasAndPointsInOneFile) {
+  EXPECT_THAT(faults("tau_speed;speed_mps\n1;1,25\n1.5;2\n"),
+              ElementsAre(AllOf(StartsWith("a.csv:2:3: "), HasSubstr("\"1,25\""),
+                                HasSubstr("\"1.5\" with a point in line 3"))));
+}
+
+TEST(CsvFaults, CommasThatMayPartThousands) {
+  EXPECT_THAT(faults("tau_speed;speed_mps\n1;1,250\n2;-12,500\n"),
+              ElementsAre(AllOf(StartsWith("a.csv:2:3: "), HasSubstr("part thousands"))));
+  EXPECT_THAT(cell_faults("1,2,5", ';'), ElementsAre(HasSubstr("expected a number")));
 }
 
 TEST(CsvFaults, EmptyCells) {

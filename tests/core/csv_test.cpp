@@ -10,6 +10,7 @@ namespace {
 
 using ::testing::ElementsAre;
 using ::testing::EndsWith;
+using ::testing::HasSubstr;
 
 const std::vector<CsvColumn> kSurge = {{"tau_speed"}, {"speed_mps"}};
 
@@ -48,6 +49,52 @@ TEST(Csv, ReadsWindowsAndOldMacintoshLineEnds) {
 
 TEST(Csv, ReadsALastLineWithoutAnEnd) {
   expect_two_rows(read_text("tau_speed,speed_mps\n0.5,0.25\n2,1.66", kSurge));
+}
+
+/// `CODE@LINE` of each note of a table, and what the last one says.
+std::string notes_of(const Result<CsvTable>& table) {
+  std::string text;
+  for (const CsvNote& note : table->notes()) {
+    text += note.code + "@" + std::to_string(note.line) + ": " + note.message + "\n";
+  }
+  return text;
+}
+
+TEST(Csv, ReadsDecimalCommasBetweenSemicolonsAndTabsAndSaysSo) {
+  for (const std::string d : {";", "\t"}) {
+    const auto table =
+        read_text("tau_speed" + d + "speed_mps\n0,5" + d + "2,5e-1\n2" + d + "+1,66\n", kSurge);
+    expect_two_rows(table);
+    EXPECT_THAT(notes_of(table), HasSubstr("decimal commas"));
+  }
+}
+
+TEST(Csv, ThreeDecimalsAreDecimalsWhereAnotherCellTells) {
+  const auto table = read_text("tau_speed;speed_mps\n0,500;0,250\n2,000;1,660\n", kSurge);
+  expect_two_rows(table);
+}
+
+TEST(Csv, SaysNothingOfAPlainFile) {
+  EXPECT_EQ(notes_of(read_text("\xEF\xBB\xBFtau_speed,speed_mps\r\n1,2\r\n", kSurge)), "");
+}
+
+TEST(Csv, ReadsAHeaderBehindAHash) {
+  for (const std::string header :
+       {"# tau_speed,speed_mps\n", "# run of May\n#tau_speed,speed_mps\n",
+        "## tau_speed , speed_mps\n\n"}) {
+    const auto table = read_text(header + "0.5,0.25\n2,1.66\n", kSurge);
+    expect_two_rows(table);
+    EXPECT_THAT(notes_of(table), HasSubstr("names behind #"));
+  }
+  const auto commas = read_text("# tau_speed;speed_mps\n0,5;0,25\n2;1,66\n", kSurge);
+  expect_two_rows(commas);
+  EXPECT_THAT(commas->header_place(), EndsWith("a.csv:1:1"));
+  EXPECT_EQ(commas->line(0), 2);
+}
+
+TEST(Csv, ACommentAboveAHeaderIsOnlyAComment) {
+  expect_two_rows(
+      read_text("# speed_mps,tau_speed\ntau_speed,speed_mps\n0.5,0.25\n2,1.66\n", kSurge));
 }
 
 TEST(Csv, SkipsAByteOrderMarkAndDoesNotCountIt) {

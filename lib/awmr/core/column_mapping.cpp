@@ -1,9 +1,13 @@
+#include "awmr/core/column_mapping.h"
+
 #include <fmt/format.h>
 
 #include <charconv>
 #include <cmath>
+#include <optional>
 #include <utility>
 
+#include "awmr/core/column_expression.h"
 #include "awmr/core/csv.h"
 #include "awmr/core/csv_cell.h"
 #include "awmr/core/text.h"
@@ -12,6 +16,8 @@ namespace awmr {
 namespace {
 
 constexpr std::string_view kForm = "expected NAME=SOURCE[*SCALE][+OFFSET]";
+constexpr std::string_view kExpressionForm =
+    "expected NAME=EXPRESSION, for example speed_mps=(left + right)/2*0.1";
 
 /// Takes a number off the front of `text`; nothing where none is there.
 std::optional<double> take_number(std::string_view& text) {
@@ -54,8 +60,8 @@ std::optional<std::string> take_scale_and_offset(std::string_view rest, ColumnMa
     rest.remove_prefix(1);
     const auto scale = take_number(rest);
     if (!scale) return "the scale is no finite number";
-    if (*scale == 0.0) return "a scale of 0 would make all values the same";
     mapping.scale = *scale;
+    if (*scale == 0.0) return "a scale of 0 would make all values the same";
   }
   if (!rest.empty() && (rest[0] == '+' || rest[0] == '-')) {
     if (rest[0] == '+') rest.remove_prefix(1);
@@ -68,25 +74,85 @@ std::optional<std::string> take_scale_and_offset(std::string_view rest, ColumnMa
   return std::nullopt;
 }
 
+/// Reads `SOURCE[*SCALE][+OFFSET]`; says what is wrong with it.
+std::optional<std::string> take_body(std::string_view body, ColumnMapping& mapping) {
+  auto source = take_source(body);
+  if (!source) return "the quote is not closed";
+  if (source->empty()) return "the SOURCE is empty";
+  mapping.source = std::move(*source);
+  return take_scale_and_offset(body, mapping);
+}
+
+/// `NAME=BODY` cut in two.
+struct Halves {
+  std::string_view name;
+  std::string_view body;
+};
+
+tl::expected<Halves, std::string> halves_of(std::string_view text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string_view::npos) return tl::unexpected(std::string("there is no '='"));
+  const std::string_view name = trimmed(text.substr(0, equals));
+  if (name.empty()) return tl::unexpected(std::string("the NAME is empty"));
+  return Halves{name, trimmed(text.substr(equals + 1))};
+}
+
+tl::unexpected<Error> wrong(std::string_view text, std::string_view why, std::string_view form) {
+  return input_error("",
+                     fmt::format("column mapping \"{}\": {}; {}", shortened(text, 100), why, form));
+}
+
 }  // namespace
 
 Result<ColumnMapping> parse_column_mapping(std::string_view text) {
-  const auto wrong = [&](std::string_view why) {
-    return input_error(
-        "", fmt::format("column mapping \"{}\": {}; {}", shortened(text, 100), why, kForm));
-  };
-  const std::size_t equals = text.find('=');
-  if (equals == std::string_view::npos) return wrong("there is no '='");
-  ColumnMapping mapping;
-  mapping.name = trimmed(text.substr(0, equals));
-  if (mapping.name.empty()) return wrong("the NAME is empty");
-  std::string_view rest = trimmed(text.substr(equals + 1));
-  auto source = take_source(rest);
-  if (!source) return wrong("the quote is not closed");
-  if (source->empty()) return wrong("the SOURCE is empty");
-  mapping.source = std::move(*source);
-  if (const auto fault = take_scale_and_offset(rest, mapping)) return wrong(*fault);
+  const auto halves = halves_of(text);
+  if (!halves) return wrong(text, halves.error(), kForm);
+  ColumnMapping mapping{.name = std::string(halves->name), .source = {}};
+  if (const auto fault = take_body(halves->body, mapping)) return wrong(text, *fault, kForm);
   return mapping;
+}
+
+Result<ColumnMapping> parse_column(std::string_view text) {
+  const auto halves = halves_of(text);
+  if (!halves) return wrong(text, halves.error(), kExpressionForm);
+  const std::size_t colon = halves->name.rfind(':');
+  const bool per_file = colon != std::string_view::npos;
+  ColumnMapping mapping{.name = std::string(trimmed(halves->name.substr(per_file ? colon + 1 : 0))),
+                        .source = {}};
+  if (per_file) mapping.file = trimmed(halves->name.substr(0, colon));
+  if (mapping.name.empty()) return wrong(text, "the NAME is empty", kExpressionForm);
+  if (per_file && mapping.file.empty()) return wrong(text, "the FILE is empty", kExpressionForm);
+  if (halves->body.empty()) return wrong(text, "the EXPRESSION is empty", kExpressionForm);
+  mapping.expression = halves->body;
+  const auto fault = take_body(halves->body, mapping);
+  if (!fault) return mapping;
+  if (mapping.scale == 0.0) return wrong(text, *fault, kExpressionForm);
+  mapping = {
+      .name = mapping.name, .source = {}, .expression = mapping.expression, .file = mapping.file};
+  if (const auto expression = ColumnExpression::parse(mapping.expression); !expression) {
+    return wrong(text, expression.error(), kExpressionForm);
+  }
+  return mapping;
+}
+
+std::string text_of(const ColumnMapping& mapping) {
+  const std::string name =
+      mapping.file.empty() ? mapping.name : fmt::format("{}:{}", mapping.file, mapping.name);
+  // A constant is of both forms.
+  const bool scaled = !mapping.source.empty() && !number_from_text(mapping.expression);
+  if (!scaled) return fmt::format("{}={}", name, mapping.expression);
+  return fmt::format("{}={}*{}+{}", name, mapping.source, format_number(mapping.scale),
+                     format_number(mapping.offset));
+}
+
+std::string scaled_expression(const ColumnMapping& mapping, double factor) {
+  const bool has_operator = mapping.source.find_first_of("+-*/^(") != std::string::npos;
+  const bool is_quoted = mapping.expression.starts_with('"');
+  const bool is_formula =
+      mapping.source.empty() || (has_operator && !is_quoted && !mapping.expression.empty() &&
+                                 ColumnExpression::parse(mapping.expression).has_value());
+  if (is_formula) return fmt::format("({})*{:.7g}", mapping.expression, factor);
+  return fmt::format("\"{}\"*{:.7g}", mapping.source, factor * mapping.scale);
 }
 
 }  // namespace awmr

@@ -8,60 +8,84 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "awmr/core/column_mapping.h"
 #include "awmr/core/result.h"
 
 namespace awmr {
 
+/// What an empty cell means in a table whose columns have values at times of their own.
+enum class EmptyCells {
+  kFault,   ///< it is one: a value belongs into every row
+  kHeld,    ///< a command: the previous value still holds
+  kAbsent,  ///< a measurement: there was none in this row
+};
+
 struct CsvColumn {
   std::string name;
   bool required = true;
+  EmptyCells empty = EmptyCells::kFault;
 };
 
-/// `NAME=SOURCE[*SCALE][+OFFSET]`: column NAME is the file's SOURCE, times SCALE, plus OFFSET.
-struct ColumnMapping {
-  std::string name;
-  std::string source;
-  double scale = 1.0;
-  double offset = 0.0;
+/// What a reader has to tell of how it took a file; never silent, never a fault.
+struct CsvNote {
+  int line = 0;  ///< 0: the file as a whole
+  std::string code;
+  std::string message;
 };
-
-/// A SOURCE may be quoted, and must be where it holds '*' or '+'; after a scale or a quoted SOURCE,
-/// `-OFFSET` is taken as well. Errors: not of that form, a scale or offset that is no finite
-/// number, a scale of 0.
-Result<ColumnMapping> parse_column_mapping(std::string_view text);
 
 /// The numeric columns that were asked for, and where each cell stood.
 class CsvTable {
  public:
-  const std::string& file() const { return file_; }
-  std::size_t rows() const { return lines_.size(); }
+  struct Column {
+    std::vector<double> values;
+    std::vector<int> character;      ///< column in the file, from 1, by row; empty: 1
+    std::vector<bool> present = {};  ///< by row: has a value of its own; empty: all have
+  };
+  struct Parts {
+    std::string file;
+    int header_line = 1;
+    std::vector<int> lines = {};
+    std::map<std::string, Column, std::less<>> columns = {};
+    std::vector<CsvNote> notes = {};
+    std::vector<std::size_t> mapped = {};
+    double clock_s = 0.0;
+  };
+  /// Precondition: every column has a value for every line.
+  explicit CsvTable(Parts parts) : parts_(std::move(parts)) {}
+
+  const std::string& file() const { return parts_.file; }
+  std::size_t rows() const { return parts_.lines.size(); }
   bool has(std::string_view column) const;
   /// Values by row. Precondition: has(column).
   std::span<const double> column(std::string_view column) const;
+  /// By row: the value was written there, not held from a row before. Empty: all were.
+  /// Precondition: has(column).
+  const std::vector<bool>& present(std::string_view column) const;
   /// Line in the file, from 1.
-  int line(std::size_t row) const { return lines_[row]; }
+  int line(std::size_t row) const { return parts_.lines[row]; }
   /// `FILE:LINE:COLUMN` of a cell; a column that is absent gives `FILE:LINE:1`.
   std::string place(std::size_t row, std::string_view column) const;
   /// `FILE:LINE:1` of the header.
   std::string header_place() const;
+  const std::vector<CsvNote>& notes() const { return parts_.notes; }
+  /// What a clock's time had taken off so that t_s counts from the first row, s.
+  double clock_s() const { return parts_.clock_s; }
+  /// The mappings that gave a column: indices into those that the table was read with.
+  const std::vector<std::size_t>& mapped() const { return parts_.mapped; }
 
  private:
-  friend class CsvParser;
-  struct Column {
-    std::vector<double> values;
-    std::vector<int> character;  ///< column in the file, from 1, by row
-  };
-  std::string file_;
-  int header_line_ = 1;
-  std::vector<int> lines_;
-  std::map<std::string, Column, std::less<>> columns_;
+  Parts parts_;
 };
 
-/// Reads the columns asked for. Every fault of the file at once: missing required or duplicate
-/// columns, ragged rows, cells that are empty, not numbers, NaN or infinite, an unterminated quote,
-/// no rows.
+/// Reads the columns asked for. Where at least one of them is empty in a quarter of its rows or
+/// more, the file holds signals of different rates: the empty cells of columns that may have some
+/// mean what EmptyCells says, and rows without a value of any column are left out.
+/// Every fault of the file at once: missing required or duplicate columns, ragged rows, cells that
+/// are empty, not numbers, NaN or infinite, an unterminated quote, no rows, a formula whose value
+/// is infinite or NaN.
 Result<CsvTable> read_csv(const std::filesystem::path& path, std::span<const CsvColumn> columns,
                           std::span<const ColumnMapping> mappings = {});
 

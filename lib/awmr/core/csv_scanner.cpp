@@ -25,6 +25,10 @@ std::string_view CsvScanner::peek_line() {
     const std::string_view text = rest_.substr(0, rest_.find_first_of("\r\n"));
     const std::size_t first = text.find_first_not_of(blanks(delimiter_));
     if (first != std::string_view::npos && text[first] != '#') return text;
+    if (first != std::string_view::npos) {
+      comment_ = text.substr(std::min(text.find_first_not_of('#', first), text.size()));
+      comment_line_ = line_;
+    }
     rest_.remove_prefix(text.size());
     end_line();
   }

@@ -26,6 +26,9 @@ class CsvScanner {
   /// Skips comments and blank lines, up to the line that comes next, whose number is line().
   std::string_view peek_line();
   int line() const { return line_; }
+  /// The last comment that was skipped, without its '#', and its line; 0: there was none.
+  std::string_view comment() const { return comment_; }
+  int comment_line() const { return comment_line_; }
 
   /// The next record. On a fault the last cell is where it is.
   Outcome next(std::vector<CsvCell>& cells);
@@ -41,6 +44,8 @@ class CsvScanner {
   Outcome quoted_cell(std::vector<CsvCell>& cells);
 
   std::string_view rest_;
+  std::string_view comment_ = {};
+  int comment_line_ = 0;
   char delimiter_ = ',';
   int line_ = 1;
   int character_ = 1;

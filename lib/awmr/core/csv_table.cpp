@@ -8,20 +8,26 @@
 namespace awmr {
 
 bool CsvTable::has(std::string_view column) const {
-  return columns_.find(column) != columns_.end();
+  return parts_.columns.find(column) != parts_.columns.end();
 }
 
 std::span<const double> CsvTable::column(std::string_view column) const {
-  return columns_.find(column)->second.values;
+  return parts_.columns.find(column)->second.values;
+}
+
+const std::vector<bool>& CsvTable::present(std::string_view column) const {
+  return parts_.columns.find(column)->second.present;
 }
 
 std::string CsvTable::place(std::size_t row, std::string_view column) const {
-  const auto found = columns_.find(column);
-  const int character = found == columns_.end() ? 1 : found->second.character[row];
-  return fmt::format("{}:{}:{}", file_, lines_[row], character);
+  const auto found = parts_.columns.find(column);
+  const bool placed = found != parts_.columns.end() && !found->second.character.empty();
+  return fmt::format("{}:{}:{}", parts_.file, line(row), placed ? found->second.character[row] : 1);
 }
 
-std::string CsvTable::header_place() const { return fmt::format("{}:{}:1", file_, header_line_); }
+std::string CsvTable::header_place() const {
+  return fmt::format("{}:{}:1", parts_.file, parts_.header_line);
+}
 
 std::string finding_file(const CsvTable& table) {
   return std::filesystem::path(table.file()).filename().string();

@@ -1,6 +1,7 @@
 /// What is known of the vehicle before any trial. Its file: vehicle_file.h.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 
@@ -25,6 +26,9 @@ struct Vehicle {
   std::optional<double> sway_alpha;        ///< a_s of g2, s/m, > 0; absent: a log has to show it
   Interval surge_beta_range{0.0, 1.0};     ///< where a fit may put b1, 0 <= lo < hi
   Interval yaw_beta_range{0.0, 4.0};       ///< where a fit may put b3, 0 <= lo < hi
+
+  /// How this vehicle's files name what is asked for: column -> expression (core/column_mapping.h).
+  std::map<std::string, std::string> columns = {};
 
   /// Yaw inertia about the centre of gravity, kg m^2: the measured Iz where there is one, else that
   /// of a uniform box,

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "awmr/core/column_mapping.h"
 #include "awmr/core/units.h"
 #include "awmr/model/ranges.h"
 #include "vehicle_json.h"
@@ -50,6 +51,18 @@ void steering_from_json(JsonObject json, Vehicle& vehicle) {
   json.reject_unknown_keys();
 }
 
+/// The mappings are kept as texts; whether a file has their columns is seen when it is read.
+void columns_from_json(JsonObject json, Vehicle& vehicle) {
+  for (const std::string& name : json.keys()) {
+    const std::string expression = json.string(name);
+    if (expression.empty()) continue;
+    if (const auto mapping = parse_column(name + "=" + expression); !mapping) {
+      json.fault(name, mapping.error().faults.front().message);
+    }
+    vehicle.columns[name] = expression;
+  }
+}
+
 }  // namespace
 
 Vehicle vehicle_from_json(JsonObject& json) {
@@ -69,6 +82,7 @@ Vehicle vehicle_from_json(JsonObject& json) {
   vehicle.surge_beta_range =
       beta_range_from_json(json, "surge_beta_range", vehicle.surge_beta_range);
   vehicle.yaw_beta_range = beta_range_from_json(json, "yaw_beta_range", vehicle.yaw_beta_range);
+  if (auto columns = json.optional_object("columns")) columns_from_json(*columns, vehicle);
   json.reject_unknown_keys();
   return vehicle;
 }
@@ -92,6 +106,7 @@ Json vehicle_to_json(const Vehicle& vehicle) {
   if (vehicle.sway_alpha) json["sway_alpha"] = *vehicle.sway_alpha;
   json["surge_beta_range"] = {vehicle.surge_beta_range.lo, vehicle.surge_beta_range.hi};
   json["yaw_beta_range"] = {vehicle.yaw_beta_range.lo, vehicle.yaw_beta_range.hi};
+  for (const auto& [name, expression] : vehicle.columns) json["columns"][name] = expression;
   return json;
 }
 

@@ -31,8 +31,9 @@ double last_place(const CsvTable& table, std::string_view column,
                   std::span<const ColumnMapping> mappings) {
   double scale = 1.0;
   double offset = 0.0;
-  for (const ColumnMapping& mapping : mappings) {
-    if (mapping.name != column || mapping.scale == 0.0) continue;
+  for (const std::size_t used : table.mapped()) {
+    const ColumnMapping& mapping = mappings[used];
+    if (mapping.name != column) continue;
     scale = mapping.scale;
     offset = mapping.offset;
   }

@@ -24,6 +24,7 @@
 namespace awmr {
 
 /// One unit in the last decimal place of a column as the file writes it, in the column's own unit.
+/// `mappings` are those that the table was read with; a formula counts by its own values.
 double last_place(const CsvTable& table, std::string_view column,
                   std::span<const ColumnMapping> mappings);
 

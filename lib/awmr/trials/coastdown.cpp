@@ -3,16 +3,11 @@
 #include "agreement.h"
 #include "awmr/core/csv_text.h"
 #include "awmr/core/option_text.h"
+#include "read_table.h"
 #include "trial_reader.h"
 
 namespace awmr {
 namespace {
-
-const CsvColumn kColumns[] = {{"initial_speed_mps", false},
-                              {"stop_time_s", false},
-                              {"t_s", false},
-                              {"speed_mps", false},
-                              {"run", false}};
 
 /// Two parameters of the curve, its initial speed and something left to judge them by.
 constexpr std::size_t kShortestCurve = 5;
@@ -44,7 +39,8 @@ void check_columns(TrialReader& reader) {
 }
 
 TrialSet<StopTimeRow> read_stop_times(TrialReader& reader, std::vector<Finding>& findings) {
-  TrialSet<StopTimeRow> set{.file = finding_file(reader.table()), .rows = {}};
+  TrialSet<StopTimeRow> set{
+      .file = finding_file(reader.table()), .rows = {}, .mapped = reader.table().mapped()};
   std::vector<std::size_t> set_aside;
   const double timing_s = timing_std_s(reader.last_place("stop_time_s"));
   for (std::size_t i = 0; i < reader.table().rows(); ++i) {
@@ -83,7 +79,11 @@ std::vector<CoastCurve> read_curves(TrialReader& reader) {
     const double this_run = reader.cell(i, "run").value_or(0.0);
     if (run != this_run) {
       close();
-      curves.push_back({finding_file(reader.table()), reader.table().line(i), {}, {}});
+      curves.push_back({.file = finding_file(reader.table()),
+                        .line = reader.table().line(i),
+                        .t_s = {},
+                        .speed_mps = {},
+                        .mapped = reader.table().mapped()});
       run = this_run;
     } else if (!(t_s > curves.back().t_s.back())) {
       reader.fault(i, "t_s",
@@ -102,12 +102,13 @@ std::vector<CoastCurve> read_curves(TrialReader& reader) {
 
 Result<CoastdownSet> read_coastdown(const std::filesystem::path& path, const TrialOptions& options,
                                     std::vector<Finding>& findings) {
-  auto table = read_csv(path, kColumns, options.columns);
+  auto table = read_table(path, TrialKind::kCoastdown, options);
   if (!table) return tl::unexpected(table.error());
   TrialReader reader(std::move(*table), options);
   check_columns(reader);
   if (!reader.faults().empty()) return input_errors(std::move(reader.faults()));
 
+  note_format(reader, findings);
   CoastdownSet set;
   if (is_curve(reader)) {
     set = read_curves(reader);

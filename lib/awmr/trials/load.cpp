@@ -5,6 +5,7 @@
 
 #include "awmr/trials/log_consistency.h"
 #include "awmr/trials/steady.h"
+#include "awmr/trials/trial_columns.h"
 
 namespace awmr {
 namespace {
@@ -48,6 +49,34 @@ void add_steady_runs(Trials& trials) {
   }
 }
 
+/// The runs of one file, each where it is sound in itself.
+void add_logs(const std::filesystem::path& path, std::vector<DrivingLog> logs,
+              const TrialOptions& options, Trials& trials, std::vector<Fault>& faults) {
+  for (DrivingLog& log : logs) {
+    const std::string place =
+        logs.size() == 1 ? path.string() : path.string() + ":" + std::to_string(log.line.front());
+    if (const auto sound = check_consistency(log, place, trials.vehicle, options, trials.findings);
+        !sound) {
+      faults.insert(faults.end(), sound.error().faults.begin(), sound.error().faults.end());
+    }
+    trials.data.logs.push_back(std::move(log));
+  }
+}
+
+/// The indices of all mappings that gave a column.
+std::vector<std::size_t> mappings_used(const TrialData& data) {
+  std::vector<std::size_t> used;
+  const auto add = [&](const std::vector<std::size_t>& more) {
+    used.insert(used.end(), more.begin(), more.end());
+  };
+  if (data.surge) add(data.surge->mapped);
+  if (data.turning) add(data.turning->mapped);
+  if (data.coastdown) add(data.coastdown->mapped);
+  for (const CoastCurve& curve : data.curves) add(curve.mapped);
+  for (const DrivingLog& log : data.logs) add(log.mapped);
+  return used;
+}
+
 Status check(const TrialFiles& files) {
   if (!files.surge && !files.turning && files.coastdowns.empty() && files.logs.empty()) {
     return input_error("", "no trials: give at least one surge, turning, coast-down or log file");
@@ -62,27 +91,25 @@ Status check(const TrialFiles& files) {
 
 Result<Trials> load_trials(const TrialFiles& files) {
   AWMR_RETURN_IF_ERROR(check(files));
+  AWMR_ASSIGN_OR_RETURN(const TrialOptions options,
+                        with_vehicle_columns(files.options, files.vehicle));
   Trials trials{.vehicle = files.vehicle, .data = {}, .findings = {}};
   auto& [vehicle, data, findings] = trials;
   std::vector<Fault> faults;
-  if (files.surge) data.surge = keep(read_surge(*files.surge, files.options, findings), faults);
+  if (files.surge) data.surge = keep(read_surge(*files.surge, options, findings), faults);
   if (files.turning) {
-    data.turning = keep(read_turning(*files.turning, vehicle, files.options, findings), faults);
+    data.turning = keep(read_turning(*files.turning, vehicle, options, findings), faults);
   }
   for (const std::filesystem::path& path : files.coastdowns) {
-    auto set = keep(read_coastdown(path, files.options, findings), faults);
+    auto set = keep(read_coastdown(path, options, findings), faults);
     if (set) add_coastdown(path, std::move(*set), data, faults);
   }
   for (const std::filesystem::path& path : files.logs) {
-    auto log = keep(read_log(path, files.options, findings), faults);
-    if (!log) continue;
-    if (const auto sound = check_consistency(*log, path.string(), vehicle, files.options, findings);
-        !sound) {
-      faults.insert(faults.end(), sound.error().faults.begin(), sound.error().faults.end());
-    }
-    data.logs.push_back(std::move(*log));
+    auto logs = keep(read_logs(path, options, findings), faults);
+    if (logs) add_logs(path, std::move(*logs), options, trials, faults);
   }
   if (!faults.empty()) return input_errors(std::move(faults));
+  AWMR_RETURN_IF_ERROR(check_mappings(options, mappings_used(data)));
   if (files.steady_from_logs) add_steady_runs(trials);
   return trials;
 }

@@ -11,32 +11,34 @@
 #include "awmr/trials/channel_quality.h"
 #include "awmr/trials/read_trials.h"
 #include "awmr/trials/robust_ratio.h"
+#include "awmr/trials/trial_columns.h"
+#include "log_channels.h"
+#include "read_table.h"
 #include "trial_reader.h"
 
 namespace awmr {
 namespace {
 
-const CsvColumn kColumns[] = {{"t_s", true},
-                              {"force_left", true},
-                              {"force_right", true},
-                              {"x_m", false},
-                              {"y_m", false},
-                              {"heading_deg", false},
-                              {"speed_mps", false},
-                              {"sway_mps", false},
-                              {"yaw_rate_radps", false},
-                              {"steering_deg", false},
-                              {"steering_cmd_deg", false},
-                              {"latitude_deg", false},
-                              {"longitude_deg", false}};
-
 constexpr std::size_t kShortestLog = 10;
 
-std::vector<double> values_of(const TrialReader& reader, std::string_view column, double scale) {
-  const std::span<const double> cells = reader.table().column(column);
+std::vector<double> values_of(const TrialReader& reader, RowSpan rows, std::string_view column,
+                              double scale) {
+  const std::span<const double> cells =
+      reader.table().column(column).subspan(rows.begin, rows.end - rows.begin);
   std::vector<double> values(cells.begin(), cells.end());
   for (double& value : values) value *= scale;
   return values;
+}
+
+/// The rows, counted from the run's first, in which the column has a value of its own.
+std::vector<std::size_t> rows_present(const TrialReader& reader, RowSpan rows,
+                                      std::string_view column) {
+  const std::vector<bool>& present = reader.table().present(column);
+  std::vector<std::size_t> found;
+  for (std::size_t row = rows.begin; row < rows.end; ++row) {
+    if (present.empty() || present[row]) found.push_back(row - rows.begin);
+  }
+  return found;
 }
 
 /// Adds whole turns so that no step is larger than half of one.
@@ -50,69 +52,6 @@ void unwrap(std::vector<double>& angle_rad) {
     previous = raw;
     angle = raw + turn * turns;
   }
-}
-
-/// The times of the first few rows, for a message.
-std::string times_of(const DrivingLog& log, const std::vector<std::size_t>& rows) {
-  constexpr std::size_t kMost = 4;
-  std::string text;
-  for (std::size_t i = 0; i < std::min(kMost, rows.size()); ++i) {
-    text += fmt::format("{}{:.4g} s", i == 0 ? "" : ", ", log.t_s[rows[i]]);
-  }
-  return rows.size() > kMost ? text + ", ..." : text;
-}
-
-void note_quality(LogChannel channel, const DrivingLog& log, const ChannelQuality& quality,
-                  std::vector<Finding>& findings) {
-  const ChannelInfo& about = info(channel);
-  const auto warn = [&](std::size_t row, const char* code, std::string message) {
-    findings.push_back({log.file, log.line[row], Severity::kWarning, code, std::move(message)});
-  };
-  if (!quality.spikes.empty()) {
-    warn(quality.spikes.front(), "spikes",
-         fmt::format("{}: {} readings jump away and back (spikes, at {}); they are set aside",
-                     about.column, quality.spikes.size(), times_of(log, quality.spikes)));
-  }
-  for (const RowSpan& span : quality.stuck) {
-    warn(span.begin, "stuck-sensor",
-         fmt::format("{} is stuck at one value from {:.4g} s to {:.4g} s while the commands "
-                     "changed; these rows are set aside",
-                     about.column, log.t_s[span.begin], log.t_s[span.end - 1]));
-  }
-  if (quality.saturated > 0) {
-    warn(0, "saturated-channel",
-         fmt::format("{} reads {:.4g} in {} rows and nothing beyond: the end of its range "
-                     "(saturated); these rows are set aside, and rows near it lean to one side",
-                     about.column, quality.saturated_at / about.to_si, quality.saturated));
-  }
-  if (quality.repeats == Repeats::kCoarse) {
-    warn(0, "quantised-samples",
-         fmt::format("{} comes in steps of {:.4g}, a coarse (quantised) sensor: every row counts, "
-                     "and the rounding counts as its error",
-                     about.column, quality.quantum / about.to_si));
-  }
-}
-
-/// What the vehicle is told to do that shows in a channel: thrust in speeds, turning in the rest.
-std::vector<double> activity_for(LogChannel channel, const DrivingLog& log) {
-  const bool turning = channel == LogChannel::kHeading || channel == LogChannel::kYawRate;
-  std::vector<double> activity(log.rows());
-  for (std::size_t i = 0; i < log.rows(); ++i) {
-    const double sum = log.force_left[i] + log.force_right[i];
-    const double apart = log.force_right[i] - log.force_left[i];
-    const double angle = log.steering_command_rad ? (*log.steering_command_rad)[i] : 0.0;
-    activity[i] = turning ? apart + sum * angle : sum;
-  }
-  return activity;
-}
-
-Measured measured_of(LogChannel channel, const DrivingLog& log, std::vector<double> values,
-                     std::vector<Finding>& findings) {
-  ChannelQuality quality = channel_quality(log.t_s, values, activity_for(channel, log));
-  note_quality(channel, log, quality, findings);
-  const auto fresh = static_cast<int>(std::count(quality.fresh.begin(), quality.fresh.end(), true));
-  return {std::move(values), std::move(quality.fresh), fresh, quality.repeats == Repeats::kSlow,
-          quality.repeats == Repeats::kCoarse ? quality.quantum : 0.0};
 }
 
 void check_columns(TrialReader& reader) {
@@ -133,28 +72,60 @@ void check_columns(TrialReader& reader) {
   }
 }
 
-void check_time(TrialReader& reader) {
+/// The rows of each run: those with one value of `run`, in one piece; without that column the file
+/// is one run.
+std::vector<RowSpan> runs_of(const TrialReader& reader) {
+  const std::size_t rows = reader.table().rows();
+  std::vector<RowSpan> runs;
+  for (std::size_t row = 0; row < rows; ++row) {
+    const bool same = row > 0 && reader.cell(row, "run") == reader.cell(row - 1, "run");
+    if (!same) runs.push_back({row, row});
+    runs.back().end = row + 1;
+  }
+  return runs;
+}
+
+/// The angle drives the model where no command was logged: it has to be known then.
+RowSpan from_known_steering(const TrialReader& reader, RowSpan run) {
+  if (reader.has("steering_cmd_deg") || !reader.has("steering_deg")) return run;
+  const std::vector<std::size_t> known = rows_present(reader, run, "steering_deg");
+  run.begin = known.empty() ? run.end : run.begin + known.front();
+  return run;
+}
+
+void check_time(TrialReader& reader, RowSpan run) {
   const std::span<const double> t_s = reader.table().column("t_s");
-  for (std::size_t i = 1; i < t_s.size(); ++i) {
+  for (std::size_t i = run.begin + 1; i < run.end; ++i) {
     if (t_s[i] > t_s[i - 1]) continue;
-    reader.fault(i, "t_s", fmt::format("found {} after {}: time has to rise", t_s[i], t_s[i - 1]));
+    reader.fault(i, "t_s",
+                 fmt::format("found {} after {}: time has to rise{}", t_s[i], t_s[i - 1],
+                             t_s[i] < t_s[i - 1] && !reader.has("run")
+                                 ? "; several runs in one file are told apart by a column run"
+                                 : ""));
   }
-  if (t_s.size() < kShortestLog) {
-    reader.header_fault(
-        fmt::format("this log has {} rows; at least {} are needed", t_s.size(), kShortestLog));
-  }
+  const std::size_t rows = run.end - run.begin;
+  if (rows >= kShortestLog) return;
+  const bool whole = rows == reader.table().rows();
+  reader.header_fault(
+      whole ? fmt::format("this log has {} rows; at least {} are needed", rows, kShortestLog)
+            : fmt::format("the run from line {} has {} rows; at least {} are needed",
+                          reader.table().line(std::min(run.begin, reader.table().rows() - 1)), rows,
+                          kShortestLog));
 }
 
 /// East and north of the first row, by the library's local tangent plane.
-void add_geographic(TrialReader& reader, DrivingLog& log, std::vector<Finding>& findings) {
-  const std::vector<double> latitude = values_of(reader, "latitude_deg", 1.0);
-  const std::vector<double> longitude = values_of(reader, "longitude_deg", 1.0);
+void add_geographic(TrialReader& reader, RowSpan rows, DrivingLog& log,
+                    std::vector<Finding>& findings) {
+  const std::vector<double> latitude = values_of(reader, rows, "latitude_deg", 1.0);
+  const std::vector<double> longitude = values_of(reader, rows, "longitude_deg", 1.0);
   for (std::size_t i = 0; i < latitude.size(); ++i) {
     if (std::abs(latitude[i]) > 90.0) {
-      reader.fault(i, "latitude_deg", fmt::format("found {}, outside [-90, 90]", latitude[i]));
+      reader.fault(rows.begin + i, "latitude_deg",
+                   fmt::format("found {}, outside [-90, 90]", latitude[i]));
     }
     if (std::abs(longitude[i]) > 360.0) {
-      reader.fault(i, "longitude_deg", fmt::format("found {}, outside [-360, 360]", longitude[i]));
+      reader.fault(rows.begin + i, "longitude_deg",
+                   fmt::format("found {}, outside [-360, 360]", longitude[i]));
     }
   }
   if (!reader.faults().empty()) return;
@@ -165,50 +136,9 @@ void add_geographic(TrialReader& reader, DrivingLog& log, std::vector<Finding>& 
     double up = 0.0;
     plane.Forward(latitude[i], longitude[i], 0.0, east[i], north[i], up);
   }
-  log[LogChannel::kX] = measured_of(LogChannel::kX, log, std::move(east), findings);
-  log[LogChannel::kY] = measured_of(LogChannel::kY, log, std::move(north), findings);
-}
-
-/// A receiver gives x and y together: a repeat of one alone is chance.
-void join_position(DrivingLog& log) {
-  if (!log[LogChannel::kX] || !log[LogChannel::kY]) return;
-  Measured& x = *log[LogChannel::kX];
-  Measured& y = *log[LogChannel::kY];
-  x.held = y.held = x.held || y.held;
-  if (!x.held) return;
-  for (std::size_t i = 1; i < log.rows(); ++i) {
-    const bool new_x = x.value[i] != x.value[i - 1];
-    const bool new_y = y.value[i] != y.value[i - 1];
-    // A new value that does not count was set aside, and its partner goes with it.
-    const bool set_aside = (new_x && !x.fresh[i]) || (new_y && !y.fresh[i]);
-    x.fresh[i] = y.fresh[i] = (new_x || new_y) && !set_aside;
-  }
-  x.fresh_count = y.fresh_count =
-      static_cast<int>(std::count(x.fresh.begin(), x.fresh.end(), true));
-}
-
-void note_held(const DrivingLog& log, std::vector<Finding>& findings) {
-  const double duration_s = log.t_s.back() - log.t_s.front();
-  for (const LogChannel channel : kChannels) {
-    if (!log[channel] || !log[channel]->held) continue;
-    findings.push_back(
-        {log.file, 0, Severity::kNote, "held-samples",
-         fmt::format("{} repeats its value between updates: the {} new values ({:.3g} Hz) are used",
-                     info(channel).column, log[channel]->fresh_count,
-                     log[channel]->fresh_count / duration_s)});
-  }
-}
-
-void note_gaps(const DrivingLog& log, std::vector<Finding>& findings) {
-  const double longest_s = kGapSteps * log.median_step_s();
-  for (std::size_t i = 1; i < log.rows(); ++i) {
-    const double step_s = log.t_s[i] - log.t_s[i - 1];
-    if (step_s <= longest_s) continue;
-    findings.push_back({log.file, log.line[i], Severity::kNote, "log-gap",
-                        fmt::format("nothing logged for {:.3g} s before this row: what was "
-                                    "commanded then is unknown, and the fit starts anew here",
-                                    step_s)});
-  }
+  const std::vector<std::size_t> present = rows_present(reader, rows, "latitude_deg");
+  log[LogChannel::kX] = measured_of(LogChannel::kX, log, present, std::move(east), findings);
+  log[LogChannel::kY] = measured_of(LogChannel::kY, log, present, std::move(north), findings);
 }
 
 }  // namespace
@@ -229,45 +159,97 @@ const ChannelInfo& info(LogChannel channel) {
 double DrivingLog::median_step_s() const {
   std::vector<double> steps;
   for (std::size_t i = 1; i < t_s.size(); ++i) steps.push_back(t_s[i] - t_s[i - 1]);
-  return median(std::move(steps));
+  if (!joined) return median(std::move(steps));
+  // Rows of two signals may come in pairs, close together; by time the short steps count little.
+  std::sort(steps.begin(), steps.end());
+  double left_s = 0.5 * (t_s.back() - t_s.front());
+  for (const double step_s : steps) {
+    left_s -= step_s;
+    if (left_s <= 0.0) return step_s;
+  }
+  return steps.back();
 }
 
 const std::vector<double>& DrivingLog::driving_steering_rad() const {
   return steering_command_rad ? *steering_command_rad : (*this)[LogChannel::kSteering]->value;
 }
 
-Result<DrivingLog> read_log(const std::filesystem::path& path, const TrialOptions& options,
-                            std::vector<Finding>& findings) {
-  AWMR_ASSIGN_OR_RETURN(CsvTable table, read_csv(path, kColumns, options.columns));
-  TrialReader reader(std::move(table), options);
-  check_columns(reader);
-  check_time(reader);
-  DrivingLog log;
-  if (!reader.faults().empty()) return input_errors(std::move(reader.faults()));
+namespace {
 
-  log.file = finding_file(reader.table());
-  for (std::size_t i = 0; i < reader.table().rows(); ++i)
-    log.line.push_back(reader.table().line(i));
-  log.t_s = values_of(reader, "t_s", 1.0);
-  log.force_left = values_of(reader, "force_left", 1.0);
-  log.force_right = values_of(reader, "force_right", 1.0);
+bool is_joined(const CsvTable& table) {
+  for (const CsvColumn& column : columns_of(TrialKind::kLog)) {
+    if (table.has(column.name) && !table.present(column.name).empty()) return true;
+  }
+  return false;
+}
+
+/// Time and commands of one run.
+DrivingLog commands_of(const TrialReader& reader, RowSpan rows) {
+  const CsvTable& table = reader.table();
+  DrivingLog log;
+  log.file = finding_file(table);
+  log.mapped = table.mapped();
+  log.joined = is_joined(table);
+  for (std::size_t row = rows.begin; row < rows.end; ++row) log.line.push_back(table.line(row));
+  log.t_s = values_of(reader, rows, "t_s", 1.0);
+  log.force_left = values_of(reader, rows, "force_left", 1.0);
+  log.force_right = values_of(reader, rows, "force_right", 1.0);
   if (reader.has("steering_cmd_deg")) {
     log.steering_command_rad =
-        values_of(reader, "steering_cmd_deg", info(LogChannel::kSteering).to_si);
+        values_of(reader, rows, "steering_cmd_deg", info(LogChannel::kSteering).to_si);
   }
-  if (reader.has("latitude_deg")) add_geographic(reader, log, findings);
-  if (!reader.faults().empty()) return input_errors(std::move(reader.faults()));
+  return log;
+}
+
+DrivingLog log_of(TrialReader& reader, RowSpan rows, std::vector<Finding>& findings) {
+  DrivingLog log = commands_of(reader, rows);
+  if (reader.has("latitude_deg")) add_geographic(reader, rows, log, findings);
+  if (!reader.faults().empty()) return log;
   for (const LogChannel channel : kChannels) {
     const ChannelInfo& about = info(channel);
     if (!reader.has(about.column)) continue;
-    std::vector<double> values = values_of(reader, about.column, about.to_si);
+    std::vector<double> values = values_of(reader, rows, about.column, about.to_si);
     if (channel == LogChannel::kHeading) unwrap(values);
-    log[channel] = measured_of(channel, log, std::move(values), findings);
+    log[channel] = measured_of(channel, log, rows_present(reader, rows, about.column),
+                               std::move(values), findings);
   }
   join_position(log);
   note_held(log, findings);
+  for (const char* column : {"force_left", "force_right", "steering_cmd_deg"}) {
+    if (reader.has(column)) {
+      note_stale_command(column, log, rows_present(reader, rows, column), findings);
+    }
+  }
   note_gaps(log, findings);
   return log;
+}
+
+}  // namespace
+
+Result<std::vector<DrivingLog>> read_logs(const std::filesystem::path& path,
+                                          const TrialOptions& options,
+                                          std::vector<Finding>& findings) {
+  AWMR_ASSIGN_OR_RETURN(CsvTable table, read_table(path, TrialKind::kLog, options));
+  TrialReader reader(std::move(table), options);
+  check_columns(reader);
+  std::vector<RowSpan> runs = runs_of(reader);
+  for (RowSpan& run : runs) run = from_known_steering(reader, run);
+  for (const RowSpan run : runs) check_time(reader, run);
+  if (!reader.faults().empty()) return input_errors(std::move(reader.faults()));
+
+  note_format(reader, findings);
+  std::vector<DrivingLog> logs;
+  for (const RowSpan run : runs) logs.push_back(log_of(reader, run, findings));
+  if (!reader.faults().empty()) return input_errors(std::move(reader.faults()));
+  return logs;
+}
+
+Result<DrivingLog> read_log(const std::filesystem::path& path, const TrialOptions& options,
+                            std::vector<Finding>& findings) {
+  AWMR_ASSIGN_OR_RETURN(std::vector<DrivingLog> logs, read_logs(path, options, findings));
+  if (logs.size() == 1) return std::move(logs.front());
+  return input_error(path.string(),
+                     fmt::format("this file has {} runs; one was asked for", logs.size()));
 }
 
 }  // namespace awmr

@@ -42,6 +42,8 @@ struct Measured {
 struct DrivingLog {
   std::string file;
   std::vector<int> line;            ///< of the file
+  std::vector<std::size_t> mapped;  ///< indices of the TrialOptions' mappings that were used
+  bool joined = false;              ///< of signals with times of their own: rows are uneven
   std::vector<double> t_s;          ///< s, strictly rising
   std::vector<double> force_left;   ///< F'L of each left wheel, over F_max, forward positive
   std::vector<double> force_right;  ///< F'R of each right wheel, over F_max, forward positive
@@ -57,6 +59,7 @@ struct DrivingLog {
   std::optional<Measured>& operator[](LogChannel c) {
     return measured[static_cast<std::size_t>(c)];
   }
+  /// The step between rows; of a joined log that which half of its time is made of.
   double median_step_s() const;
   /// d_r that drives the model, rad, left positive: the servo's command, or its angle where only
   /// that was logged.

@@ -105,22 +105,27 @@ MomentShares moment_shares(const std::vector<WindowSums>& windows,
   return {shown(bs, dd / determinant, explained), shown(bd, ss / determinant, explained)};
 }
 
-std::string scaled_mapping(const Evidence& evidence, std::string_view column, double factor) {
-  std::string source(column);
-  double scale = factor;
+namespace {
+
+/// What a column was read from, times a factor.
+std::string scaled_source(const Evidence& evidence, std::string_view column, double factor) {
+  ColumnMapping used{std::string(column), std::string(column)};
   for (const ColumnMapping& mapping : evidence.mappings) {
-    if (mapping.name != column) continue;
-    source = mapping.source;
-    scale *= mapping.scale;
+    if (mapping.name == column) used = mapping;
   }
-  return fmt::format("{}=\"{}\"*{:.7g}", column, source, scale);
+  return scaled_expression(used, factor);
+}
+
+}  // namespace
+
+std::string scaled_mapping(const Evidence& evidence, std::string_view column, double factor) {
+  return fmt::format("{}={}", column, scaled_source(evidence, column, factor));
 }
 
 std::string swapped_mapping(const Evidence& evidence) {
   const auto source = [&](std::string_view column) {
     for (const ColumnMapping& mapping : evidence.mappings) {
-      if (mapping.name == column)
-        return fmt::format("\"{}\"*{:.7g}", mapping.source, mapping.scale);
+      if (mapping.name == column) return scaled_expression(mapping, 1.0);
     }
     return fmt::format("\"{}\"", column);
   };

@@ -43,8 +43,13 @@ Result<CoastdownSet> read_coastdown(const std::filesystem::path& path, const Tri
 /// Columns t_s, force_left, force_right, steering_cmd_deg or steering_deg, and any of the channels;
 /// latitude_deg and longitude_deg stand in for x_m and y_m (local tangent plane at the first row).
 /// Findings: `held-samples`, `log-gap`, and those of channel_quality.h. Errors: as read_csv; time
-/// that does not rise; nothing measured; fewer than 10 rows.
+/// that does not rise; nothing measured; fewer than 10 rows; more than one run.
 Result<DrivingLog> read_log(const std::filesystem::path& path, const TrialOptions& options,
                             std::vector<Finding>& findings);
+
+/// As read_log(), of a file with one run or several, told apart by a column `run`: a log for each.
+Result<std::vector<DrivingLog>> read_logs(const std::filesystem::path& path,
+                                          const TrialOptions& options,
+                                          std::vector<Finding>& findings);
 
 }  // namespace awmr

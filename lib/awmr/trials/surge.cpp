@@ -3,16 +3,11 @@
 #include <cmath>
 
 #include "awmr/core/csv_text.h"
+#include "read_table.h"
 #include "trial_reader.h"
 
 namespace awmr {
 namespace {
-
-const CsvColumn kColumns[] = {{"tau_speed", false},
-                              {"wheel_force", false},
-                              {"speed_mps", false},
-                              {"distance_m", false},
-                              {"elapsed_s", false}};
 
 const Rate kSpeed{.printed_column = "speed_mps",
                   .amount_column = "distance_m",
@@ -52,12 +47,13 @@ double tau_speed_of(TrialReader& reader, std::size_t row, std::vector<Finding>& 
 
 Result<TrialSet<SurgeRow>> read_surge(const std::filesystem::path& path,
                                       const TrialOptions& options, std::vector<Finding>& findings) {
-  AWMR_ASSIGN_OR_RETURN(CsvTable table, read_csv(path, kColumns, options.columns));
+  AWMR_ASSIGN_OR_RETURN(CsvTable table, read_table(path, TrialKind::kSurge, options));
   TrialReader reader(std::move(table), options);
   check_columns(reader);
   if (!reader.faults().empty()) return input_errors(std::move(reader.faults()));
 
-  TrialSet<SurgeRow> set{finding_file(reader.table()), {}, 0};
+  TrialSet<SurgeRow> set{finding_file(reader.table()), {}, 0, reader.table().mapped()};
+  note_format(reader, findings);
   std::vector<std::size_t> set_aside;
   for (std::size_t i = 0; i < reader.table().rows(); ++i) {
     const double tau_speed = tau_speed_of(reader, i, findings);

@@ -96,6 +96,13 @@ std::optional<RateInRow> rate_of(TrialReader& reader, std::size_t row, const Rat
   return RateInRow{preference == Preference::kPrinted ? *printed : timed, amount, elapsed_s};
 }
 
+void note_format(const TrialReader& reader, std::vector<Finding>& findings) {
+  for (const CsvNote& note : reader.table().notes()) {
+    findings.push_back(
+        {finding_file(reader.table()), note.line, Severity::kNote, note.code, note.message});
+  }
+}
+
 void note_rows_set_aside(const TrialReader& reader, std::span<const std::size_t> rows,
                          std::string_view why, std::vector<Finding>& findings) {
   if (rows.empty()) return;

@@ -50,6 +50,7 @@ struct CoastCurve {
   int line = 0;  ///< of its first row
   std::vector<double> t_s;
   std::vector<double> speed_mps;
+  std::vector<std::size_t> mapped = {};  ///< indices of the TrialOptions' mappings that were used
 };
 
 /// The rows of one file. A row at rest or without force carries no information for a power law,
@@ -59,7 +60,8 @@ template <class Row>
 struct TrialSet {
   std::string file;
   std::vector<Row> rows;
-  int set_aside = 0;  ///< how many rows the file had beside `rows`
+  int set_aside = 0;                     ///< how many rows the file had beside `rows`
+  std::vector<std::size_t> mapped = {};  ///< indices of the TrialOptions' mappings that were used
 };
 
 /// A coast-down file has a row per run, or the curves of its runs.

@@ -4,14 +4,11 @@
 
 #include "awmr/core/csv_text.h"
 #include "awmr/core/units.h"
+#include "read_table.h"
 #include "trial_reader.h"
 
 namespace awmr {
 namespace {
-
-const CsvColumn kColumns[] = {{"steering_deg", true},    {"wheel_force", true},
-                              {"yaw_rate_radps", false}, {"turns", false},
-                              {"elapsed_s", false},      {"tau_turn", false}};
 
 const Rate kYawRate{.printed_column = "yaw_rate_radps",
                     .amount_column = "turns",
@@ -108,12 +105,13 @@ std::optional<TurningRow> read_row(TrialReader& reader, std::size_t row, const V
 Result<TrialSet<TurningRow>> read_turning(const std::filesystem::path& path, const Vehicle& vehicle,
                                           const TrialOptions& options,
                                           std::vector<Finding>& findings) {
-  AWMR_ASSIGN_OR_RETURN(CsvTable table, read_csv(path, kColumns, options.columns));
+  AWMR_ASSIGN_OR_RETURN(CsvTable table, read_table(path, TrialKind::kTurning, options));
   TrialReader reader(std::move(table), options);
   check_columns(reader);
   if (!reader.faults().empty()) return input_errors(std::move(reader.faults()));
 
-  TrialSet<TurningRow> set{finding_file(reader.table()), {}, 0};
+  TrialSet<TurningRow> set{finding_file(reader.table()), {}, 0, reader.table().mapped()};
+  note_format(reader, findings);
   std::vector<std::size_t> set_aside;
   for (std::size_t i = 0; i < reader.table().rows(); ++i) {
     const auto row = read_row(reader, i, vehicle, options.preference, findings);

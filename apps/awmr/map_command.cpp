@@ -1,0 +1,123 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <set>
+
+#include "awmr/core/file.h"
+#include "awmr/core/json.h"
+#include "awmr/trials/column_guess.h"
+#include "awmr/trials/log_files.h"
+#include "awmr/trials/trial_columns.h"
+#include "commands.h"
+#include "inputs.h"
+
+namespace awmr::cli {
+namespace {
+
+/// What is used where the file is given back: the first guess of a column, if it is not unsure.
+std::vector<ColumnGuess> taken(const std::vector<ColumnGuess>& guesses) {
+  std::vector<ColumnGuess> first;
+  for (const ColumnGuess& guess : guesses) {
+    const bool is_new = std::none_of(first.begin(), first.end(), [&](const ColumnGuess& other) {
+      return other.column == guess.column;
+    });
+    if (is_new && guess.confidence != Confidence::kUnsure) first.push_back(guess);
+  }
+  return first;
+}
+
+/// The columns that every log needs and that nothing was taken for.
+std::vector<std::string> open_columns(const std::vector<ColumnGuess>& guesses) {
+  std::set<std::string> found;
+  for (const ColumnGuess& guess : guesses) found.insert(guess.column);
+  std::vector<std::string> open;
+  for (const char* name : {"t_s", "force_left", "force_right"}) {
+    if (found.count(name) == 0) open.emplace_back(name);
+  }
+  if (found.count("steering_cmd_deg") + found.count("steering_deg") == 0) {
+    open.emplace_back("steering_cmd_deg");
+  }
+  return open;
+}
+
+Json to_json(const ColumnGuess& guess) {
+  Json json;
+  json["column"] = guess.column;
+  json["expression"] = guess.expression;
+  json["confidence"] = name_in(kConfidenceNames, guess.confidence);
+  json["why"] = guess.why;
+  json["samples"] = Json::array();
+  for (const double sample : guess.samples) {
+    if (std::isfinite(sample)) json["samples"].push_back(sample);
+  }
+  return json;
+}
+
+std::string text_of(const std::vector<ColumnGuess>& guesses, const FileSample& sample,
+                    const Provenance& provenance) {
+  Json json;
+  json["schema"] = kColumnsSchema;
+  put_provenance(json, provenance);
+  const std::vector<ColumnGuess> used = taken(guesses);
+  json["columns"] = Json::object();
+  for (const ColumnGuess& guess : used) {
+    // A column that is called as it is asked for needs no mapping.
+    if (guess.expression != guess.column) json["columns"][guess.column] = guess.expression;
+  }
+  json["open"] = open_columns(used);
+  json["guesses"] = Json::array();
+  for (const ColumnGuess& guess : guesses) json["guesses"].push_back(to_json(guess));
+  json["names"] = sample.names;
+  return awmr::to_text(json);
+}
+
+std::string summary_of(const MapCommand& command, const std::vector<ColumnGuess>& guesses) {
+  std::string text = fmt::format("{}: guesses, to be confirmed\n", command.file.string());
+  for (const ColumnGuess& guess : guesses) {
+    text += fmt::format("  {:<6} {:<17} {}  ({})\n", name_in(kConfidenceNames, guess.confidence),
+                        guess.column, guess.expression, guess.why);
+  }
+  const std::vector<std::string> open = open_columns(taken(guesses));
+  for (const std::string& name : open) {
+    text +=
+        fmt::format("  open   {:<17} nothing is sure enough: --column {}=EXPRESSION\n", name, name);
+  }
+  if (command.output) {
+    text += fmt::format("wrote {}: read it, correct it, give it back as --columns-file\n",
+                        command.output->string());
+  }
+  return text;
+}
+
+}  // namespace
+
+Result<Outcome> execute(const MapCommand& command) {
+  AWMR_ASSIGN_OR_RETURN(const std::vector<fs::path> files, files_of(command.file));
+  if (command.output) AWMR_RETURN_IF_ERROR(check_output(*command.output, files));
+  AWMR_ASSIGN_OR_RETURN(const FileSample sample, sample_of(command.file));
+  const std::vector<ColumnGuess> guesses = guess_columns(sample);
+  if (command.output) {
+    AWMR_ASSIGN_OR_RETURN(std::vector<InputFile> inputs, input_files({command.file}));
+    const Provenance provenance{"map", {}, std::move(inputs)};
+    AWMR_RETURN_IF_ERROR(write_file(*command.output, text_of(guesses, sample, provenance)));
+  }
+  return Outcome{.summary = summary_of(command, guesses)};
+}
+
+void add_map(CLI::App& app, Session& session) {
+  auto command = std::make_shared<MapCommand>();
+  CLI::App* sub =
+      add_command(app, session, "map", "Guess what the columns of a log are, each with the reason",
+                  "awmr map datasets/synthetic/drive_1.csv -o map.json",
+                  [command] { return execute(*command); });
+  sub->add_option("FILE", command->file,
+                  "A log: CSV, ULog, DataFlash, a ROS 2 bag, or a directory of tables")
+      ->required();
+  sub->add_option("-o,--output", command->output,
+                  "JSON to write, for --columns-file or a vehicle's columns");
+}
+
+}  // namespace awmr::cli

@@ -1,0 +1,298 @@
+#include "awmr/core/raw_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "awmr/core/option_text.h"
+#include "awmr/core/text.h"
+
+namespace awmr {
+namespace {
+
+/// With this share of empty cells a column has a rate of its own; a stray empty cell is a fault.
+constexpr double kSparseShare = 0.25;
+
+bool is_empty(double value) { return std::isnan(value); }
+bool has_value(double value) { return std::isfinite(value); }
+
+std::size_t count_of_values(const RawColumn& column) {
+  return static_cast<std::size_t>(
+      std::count_if(column.value.begin(), column.value.end(), has_value));
+}
+
+bool is_sparse(const RawTable& raw, const ColumnSources& sources) {
+  if (raw.joined) return true;
+  const double rows = static_cast<double>(raw.lines.size());
+  for (const ColumnSource& source : sources.found) {
+    if (source.column.empty == EmptyCells::kFault) continue;
+    for (const std::size_t index : source.indices) {
+      const std::vector<double>& value = raw.columns[index].value;
+      const auto empty = std::count_if(value.begin(), value.end(), is_empty);
+      if (static_cast<double>(empty) >= kSparseShare * rows && empty > 0) return true;
+    }
+  }
+  return false;
+}
+
+int character_of(const RawTable& raw, const ColumnSource& source, std::size_t row) {
+  if (source.indices.empty()) return 1;
+  const std::vector<int>& character = raw.columns[source.indices.front()].character;
+  return character.empty() ? 1 : character[row];
+}
+
+/// Gathers faults with their places, up to kMaxFaults.
+struct FaultList {
+  const RawTable& raw;
+  std::vector<Fault>& faults;
+
+  bool full() const { return faults.size() >= kMaxFaults; }
+  void add(std::size_t row, int character, std::string message) {
+    if (full()) return;
+    faults.push_back(
+        {fmt::format("{}:{}:{}", raw.file, raw.lines[row], character), std::move(message)});
+  }
+};
+
+/// What is wrong with the value of a row: nothing, or its formula's result.
+void check_value(double value, const ColumnSource& source, std::span<const double> inputs,
+                 std::size_t row, FaultList& faults) {
+  if (std::isfinite(value)) return;
+  if (!source.expression) {
+    faults.add(row, character_of(faults.raw, source, row),
+               fmt::format("column {}: out of range once scaled", source.column.name));
+    return;
+  }
+  std::string at;
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    at += fmt::format("{}{} = {}", i == 0 ? " with " : ", ",
+                      shortened(source.expression->names()[i], 60), inputs[i]);
+  }
+  faults.add(row, character_of(faults.raw, source, row),
+             fmt::format("column {}: {} is {}{}", source.column.name,
+                         shortened(source.mapping != nullptr ? source.mapping->expression
+                                                             : source.time->expression,
+                                   200),
+                         std::isnan(value) ? "not a number" : "infinite", at));
+}
+
+/// The column that decides in which rows a formula has a value: the one with the most values. The
+/// others keep their previous value.
+std::size_t fastest(const RawTable& raw, const ColumnSource& source) {
+  std::size_t best = 0;
+  std::size_t most = 0;
+  for (std::size_t i = 0; i < source.indices.size(); ++i) {
+    const std::size_t count = count_of_values(raw.columns[source.indices[i]]);
+    if (count > most) {
+      most = count;
+      best = i;
+    }
+  }
+  return best;
+}
+
+/// Fills in what a row without a value holds: the value before it, or the first one.
+void hold(CsvTable::Column& column) {
+  const auto first = std::find(column.present.begin(), column.present.end(), true);
+  if (first == column.present.end()) return;
+  double held = column.values[static_cast<std::size_t>(first - column.present.begin())];
+  for (std::size_t row = 0; row < column.values.size(); ++row) {
+    if (column.present[row]) held = column.values[row];
+    column.values[row] = held;
+  }
+}
+
+double value_of(ColumnSource& source, std::span<const double> inputs) {
+  if (source.expression) return (*source.expression)(inputs);
+  return source.mapping == nullptr ? inputs.front() : inputs.front() * source.scale + source.offset;
+}
+
+/// Of seconds with nanoseconds: both are what they are taken for.
+void check_pair(const ColumnSource& source, std::span<const double> inputs, std::size_t row,
+                FaultList& faults) {
+  if (!source.time || !source.time->is_pair) return;
+  if (inputs[0] == std::floor(inputs[0]) && inputs[1] >= 0.0 && inputs[1] < 1e9) return;
+  faults.add(row, character_of(faults.raw, source, row),
+             fmt::format("{}: expected whole seconds and nanoseconds below 1e9, found {} and {}; "
+                         "say what the time is: {}",
+                         source.time->meaning, inputs[0], inputs[1],
+                         option_text("column t_s=EXPRESSION")));
+}
+
+CsvTable::Column column_of(ColumnSource& source, const RawTable& raw, bool sparse,
+                           FaultList& faults) {
+  const std::size_t rows = raw.lines.size();
+  CsvTable::Column column;
+  column.values.resize(rows);
+  if (!source.indices.empty()) column.character = raw.columns[source.indices.front()].character;
+  if (sparse) column.present.resize(rows, true);
+  const std::size_t driver = sparse ? fastest(raw, source) : 0;
+  std::vector<double> inputs(source.indices.size(), kEmptyCell);
+  for (std::size_t row = 0; row < rows && !faults.full(); ++row) {
+    bool driven = true;
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+      const double value = raw.columns[source.indices[i]].value[row];
+      if (!sparse || has_value(value)) inputs[i] = value;
+      if (sparse && i == driver) driven = has_value(value);
+    }
+    if (driven && std::all_of(inputs.begin(), inputs.end(), has_value)) {
+      column.values[row] = value_of(source, inputs);
+      check_value(column.values[row], source, inputs, row, faults);
+      check_pair(source, inputs, row, faults);
+    } else if (sparse) {
+      column.present[row] = false;
+    }
+  }
+  if (!sparse) return column;
+  hold(column);
+  if (std::all_of(column.present.begin(), column.present.end(), [](bool p) { return p; })) {
+    column.present.clear();
+  }
+  return column;
+}
+
+/// A clock's time counts from the first row; says what the time was taken from.
+void settle_time(const ColumnSource& source, CsvTable::Parts& parts) {
+  if (!source.time) return;
+  std::vector<double>& t_s = parts.columns.at(source.column.name).values;
+  const double first = t_s.empty() ? 0.0 : t_s.front();
+  const bool is_clock = std::abs(first) >= kClockTime_s || source.time->is_date;
+  if (is_clock) {
+    for (double& t : t_s) t -= first;
+    parts.clock_s = first;
+  }
+  parts.notes.push_back({0, "time-column",
+                         fmt::format("t_s is taken from {}{}", source.time->meaning,
+                                     is_clock ? ", counted from the first row" : "")});
+}
+
+/// Of a column that may have no empty cell; or of one that may, in a table that is not sparse.
+void find_empty_cells(const ColumnSource& source, FaultList& faults) {
+  for (const std::size_t index : source.indices) {
+    const RawColumn& column = faults.raw.columns[index];
+    for (std::size_t row = 0; row < column.value.size() && !faults.full(); ++row) {
+      if (!is_empty(column.value[row])) continue;
+      faults.add(
+          row, column.character.empty() ? 1 : column.character[row],
+          fmt::format("column {}: the cell is empty; expected a number", source.column.name));
+    }
+  }
+}
+
+/// The rows that count: from where every command is known, those with a value of some column.
+std::vector<bool> rows_that_count(const CsvTable::Parts& parts, const ColumnSources& sources) {
+  const std::size_t rows = parts.lines.size();
+  std::vector<bool> counts(rows, false);
+  std::size_t known = 0;
+  for (const ColumnSource& source : sources.found) {
+    if (source.column.empty == EmptyCells::kFault || source.indices.empty()) continue;
+    const std::vector<bool>& present = parts.columns.at(source.column.name).present;
+    for (std::size_t row = 0; row < rows; ++row) {
+      if (present.empty() || present[row]) counts[row] = true;
+    }
+    if (source.column.empty != EmptyCells::kHeld || present.empty()) continue;
+    const auto first = std::find(present.begin(), present.end(), true) - present.begin();
+    known = std::max(known, static_cast<std::size_t>(first));
+  }
+  std::fill_n(counts.begin(), known, false);
+  return counts;
+}
+
+template <class Values>
+void keep(Values& values, const std::vector<bool>& kept) {
+  if (values.empty()) return;
+  std::size_t end = 0;
+  for (std::size_t row = 0; row < kept.size(); ++row) {
+    if (kept[row]) values[end++] = values[row];
+  }
+  values.resize(end);
+}
+
+/// How many of its own values each column has, for a person.
+std::string rates_of(const CsvTable::Parts& parts) {
+  std::string text;
+  for (const auto& [name, column] : parts.columns) {
+    if (column.present.empty()) continue;
+    text += fmt::format("{}{} in {}", text.empty() ? "" : ", ", name,
+                        std::count(column.present.begin(), column.present.end(), true));
+  }
+  return text;
+}
+
+void drop_rows(CsvTable::Parts& parts, const ColumnSources& sources) {
+  const std::vector<bool> kept = rows_that_count(parts, sources);
+  const std::size_t before = parts.lines.size();
+  keep(parts.lines, kept);
+  for (auto& [name, column] : parts.columns) {
+    keep(column.values, kept);
+    keep(column.character, kept);
+    keep(column.present, kept);
+  }
+  parts.notes.push_back(
+      {0, "joined-by-time",
+       fmt::format("signals of different rates, of {} rows with values of their own: {}; commands "
+                   "keep their previous value, measurements count in their own rows, a formula "
+                   "where the fastest of its columns has a value; {} rows without any, or before "
+                   "every command is known, are left out",
+                   parts.lines.size(), rates_of(parts), before - parts.lines.size())});
+}
+
+void refuse_void_columns(const CsvTable::Parts& parts, const ColumnSources& sources,
+                         std::vector<Fault>& faults) {
+  const auto is_void = [&](const ColumnSource& source) {
+    const std::vector<bool>& present = parts.columns.at(source.column.name).present;
+    return !present.empty() && std::find(present.begin(), present.end(), true) == present.end();
+  };
+  for (const ColumnSource& source : sources.found) {
+    if (!is_void(source)) continue;
+    faults.push_back({fmt::format("{}:{}:1", parts.file, parts.header_line),
+                      fmt::format("the column {} has no value in any row", source.column.name)});
+  }
+}
+
+}  // namespace
+
+Result<CsvTable> table_of(RawTable raw, ColumnSources sources,
+                          std::span<const ColumnMapping> mappings, std::vector<Fault> faults) {
+  const bool sparse = is_sparse(raw, sources);
+  FaultList list{raw, faults};
+  CsvTable::Parts parts{
+      .file = raw.file, .header_line = raw.header_line, .mapped = std::move(raw.mapped)};
+  const auto may_be_empty = [sparse](const ColumnSource& source) {
+    return sparse && source.column.empty != EmptyCells::kFault;
+  };
+  for (ColumnSource& source : sources.found) {
+    if (!may_be_empty(source)) find_empty_cells(source, list);
+    if (source.mapping != nullptr) {
+      parts.mapped.push_back(static_cast<std::size_t>(source.mapping - mappings.data()));
+    } else if (!may_be_empty(source) && !source.expression) {
+      continue;
+    }
+    parts.columns.emplace(source.column.name, column_of(source, raw, may_be_empty(source), list));
+  }
+  // What is taken as it stands is moved, once nothing else is made from it.
+  for (const ColumnSource& source : sources.found) {
+    if (source.mapping != nullptr || source.expression || may_be_empty(source)) continue;
+    RawColumn& column = raw.columns[source.indices.front()];
+    parts.columns.emplace(source.column.name,
+                          CsvTable::Column{std::move(column.value), std::move(column.character)});
+  }
+  parts.lines = std::move(raw.lines);
+  parts.notes = std::move(raw.notes);
+  for (const ColumnSource& source : sources.found) {
+    settle_time(source, parts);
+  }
+  if (sparse) refuse_void_columns(parts, sources, faults);
+  if (sparse && faults.empty()) drop_rows(parts, sources);
+  if (faults.empty() && parts.lines.empty()) {
+    faults.push_back({fmt::format("{}:{}:1", parts.file, parts.header_line),
+                      sparse ? "no row has all commands known and a measurement"
+                             : "there are no rows below the header"});
+  }
+  if (!faults.empty()) return input_errors(std::move(faults));
+  return CsvTable(std::move(parts));
+}
+
+}  // namespace awmr

@@ -1,0 +1,42 @@
+/// The numbers of a file as they stand in it, before names and units: what every format is read
+/// into, and what the table of the columns asked for is made from. Private to the library.
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "awmr/core/column_sources.h"
+#include "awmr/core/csv.h"
+
+namespace awmr {
+
+/// Stands for a cell without a value, and for one whose fault is known already. Neither can be read
+/// from a file: values are finite.
+inline constexpr double kEmptyCell = std::numeric_limits<double>::quiet_NaN();
+inline constexpr double kFaultyCell = std::numeric_limits<double>::infinity();
+
+struct RawColumn {
+  std::vector<double> value = {};
+  std::vector<int> character = {};  ///< place in the line, from 1; may be empty
+};
+
+struct RawTable {
+  std::string file;
+  int header_line = 1;
+  std::vector<int> lines = {};
+  std::vector<RawColumn> columns = {};  ///< as in the header; those that are not wanted are empty
+  std::vector<CsvNote> notes = {};
+  std::vector<std::size_t> mapped = {};  ///< mappings that were used to read it
+  bool joined = false;  ///< made of signals with times of their own: cells may be empty
+};
+
+/// Faults beyond this many are not gathered.
+inline constexpr std::size_t kMaxFaults = 100;
+
+/// The columns that were asked for. `faults` are those found so far; `mappings` those that `sources`
+/// were found with. Errors: as read_csv().
+Result<CsvTable> table_of(RawTable raw, ColumnSources sources,
+                          std::span<const ColumnMapping> mappings, std::vector<Fault> faults);
+
+}  // namespace awmr

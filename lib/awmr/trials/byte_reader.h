@@ -1,0 +1,57 @@
+/// Takes numbers off the front of bytes that nobody vouches for: every taking may fail. Private to
+/// this folder.
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <optional>
+#include <string_view>
+#include <type_traits>
+
+namespace awmr {
+
+/// The first sizeof(T) bytes as a number; `big`: the most significant one first.
+template <class T>
+T number_in(std::string_view bytes, bool big = false) {
+  using Bits = std::conditional_t<
+      sizeof(T) == 8, std::uint64_t,
+      std::conditional_t<sizeof(T) == 4, std::uint32_t,
+                         std::conditional_t<sizeof(T) == 2, std::uint16_t, std::uint8_t>>>;
+  std::uint64_t bits = 0;
+  for (std::size_t i = 0; i < sizeof(T); ++i) {
+    const std::size_t at = big ? i : sizeof(T) - 1 - i;
+    bits = (bits << 8U) | static_cast<unsigned char>(bytes[at]);
+  }
+  return std::bit_cast<T>(static_cast<Bits>(bits));
+}
+
+/// Bytes with a place in them.
+class ByteReader {
+ public:
+  explicit ByteReader(std::string_view bytes) : bytes_(bytes) {}
+
+  std::size_t offset() const { return offset_; }
+  std::size_t left() const { return bytes_.size() - offset_; }
+  /// The next `size` bytes; nothing, and no step, where there are fewer.
+  std::optional<std::string_view> take(std::size_t size) {
+    if (left() < size) return std::nullopt;
+    const std::string_view taken = bytes_.substr(offset_, size);
+    offset_ += size;
+    return taken;
+  }
+  template <class T>
+  std::optional<T> number(bool big = false) {
+    const auto taken = take(sizeof(T));
+    return taken ? std::optional<T>(number_in<T>(*taken, big)) : std::nullopt;
+  }
+  /// Steps to an offset, at most the end.
+  void seek(std::size_t offset) { offset_ = offset < bytes_.size() ? offset : bytes_.size(); }
+
+ private:
+  std::string_view bytes_;
+  std::size_t offset_ = 0;
+};
+
+}  // namespace awmr

@@ -1,0 +1,174 @@
+#include "csv_topics.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "awmr/core/csv_text.h"
+#include "awmr/core/input_file.h"
+#include "awmr/core/time_column.h"
+
+namespace awmr {
+namespace {
+
+/// One file, read once.
+struct File {
+  std::string path;
+  std::string stem;
+  std::string bytes;
+  std::vector<std::string> header;
+};
+
+/// The mappings of the time, with their places among all.
+struct TimeMappings {
+  std::vector<ColumnMapping> mappings = {};
+  std::vector<std::size_t> places = {};
+};
+
+TimeMappings time_mappings(std::span<const ColumnMapping> mappings) {
+  TimeMappings times;
+  for (std::size_t i = 0; i < mappings.size(); ++i) {
+    if (mappings[i].name != kTimeName) continue;
+    times.mappings.push_back(mappings[i]);
+    times.places.push_back(i);
+  }
+  return times;
+}
+
+const CsvColumn kTime{std::string(kTimeName), true};
+
+Result<std::vector<File>> read_files(std::span<const std::filesystem::path> paths,
+                                     const TimeMappings& times) {
+  std::vector<File> files;
+  for (const std::filesystem::path& path : paths) {
+    File file{.path = path.string(), .stem = path.stem().string(), .bytes = {}, .header = {}};
+    AWMR_ASSIGN_OR_RETURN(file.bytes, read_input(path));
+    AWMR_ASSIGN_OR_RETURN(CsvHead head,
+                          csv_head(file.bytes, file.path, std::span(&kTime, 1), times.mappings, 0));
+    file.header = std::move(head.names);
+    files.push_back(std::move(file));
+  }
+  return files;
+}
+
+/// How many files have a column of each name.
+std::map<std::string, int> counts_of(const std::vector<File>& files) {
+  std::map<std::string, int> counts;
+  for (const File& file : files) {
+    for (const std::string& name : file.header) ++counts[name];
+  }
+  return counts;
+}
+
+/// From when to when a file has rows, s.
+struct Span {
+  const File* file = nullptr;
+  double begin_s = 0.0;
+  double end_s = 0.0;
+};
+
+/// Errors: no time that all files share.
+Status check_spans(const std::vector<Span>& spans) {
+  if (spans.empty()) return {};
+  const auto last = std::max_element(spans.begin(), spans.end(), [](const Span& a, const Span& b) {
+    return a.begin_s < b.begin_s;
+  });
+  const auto first = std::min_element(
+      spans.begin(), spans.end(), [](const Span& a, const Span& b) { return a.end_s < b.end_s; });
+  if (last->begin_s <= first->end_s) return {};
+  return input_error(
+      last->file->path,
+      fmt::format("begins at {:.9g} s, after {} has ended at {:.9g} s: files that are joined have "
+                  "one clock",
+                  last->begin_s, first->file->path, first->end_s));
+}
+
+void note_zero_starts(const std::vector<Span>& spans, std::vector<CsvNote>& notes) {
+  const bool all_at_zero =
+      spans.size() > 1 &&
+      std::all_of(spans.begin(), spans.end(), [](const Span& span) { return span.begin_s == 0.0; });
+  if (!all_at_zero) return;
+  notes.push_back({0, "one-clock",
+                   "the time of every file begins at exactly 0: they are taken to have one clock; "
+                   "where each counts from its own first row they are shifted"});
+}
+
+/// The rows of a table in which the column has a value, as a topic of its own.
+Topic topic_of(const CsvTable& table, const std::string& column, std::size_t place) {
+  Topic topic{.name = column, .columns = {place}, .values = {{}}};
+  const std::vector<bool>& present = table.present(column);
+  const std::span<const double> t_s = table.column(kTimeName);
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    if (!present.empty() && !present[row]) continue;
+    topic.time_ns.push_back(std::llround(1e9 * (t_s[row] + table.clock_s())));
+    topic.values[0].push_back(table.column(column)[row]);
+  }
+  return topic;
+}
+
+/// Nanoseconds since 1970 fit into 64 bits until 2262.
+Status check_time(const CsvTable& table) {
+  constexpr double kMost_s = 9e9;
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    if (std::abs(table.column(kTimeName)[row] + table.clock_s()) > kMost_s) {
+      return input_error(table.place(row, kTimeName), "this time cannot be in seconds");
+    }
+  }
+  return {};
+}
+
+/// Adds the wanted columns of one file.
+Status add_file(const File& file, const std::map<std::string, int>& counts,
+                const TimeMappings& times, const Wanted& wanted, CsvTopics& topics,
+                std::vector<Span>& spans) {
+  std::vector<CsvColumn> asked{kTime};
+  std::vector<std::size_t> places;
+  for (const std::string& name : file.header) {
+    if (name == kTimeName) continue;
+    std::vector<std::string> called{file.stem + "." + name};
+    if (counts.at(name) == 1) called.push_back(name);
+    for (std::string& one : called) {
+      topics.signals.header.push_back(std::move(one));
+      if (!wanted(topics.signals.header.back())) continue;
+      asked.push_back({name, true, EmptyCells::kAbsent});
+      places.push_back(topics.signals.header.size() - 1);
+    }
+  }
+  if (places.empty()) return {};
+  AWMR_ASSIGN_OR_RETURN(const CsvTable table,
+                        read_csv_text(file.bytes, file.path, asked, times.mappings));
+  AWMR_RETURN_IF_ERROR(check_time(table));
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    topics.signals.topics.push_back(topic_of(table, asked[i + 1].name, places[i]));
+  }
+  for (const std::size_t used : table.mapped()) topics.mapped.push_back(times.places[used]);
+  for (const CsvNote& note : table.notes()) {
+    if (note.code == "joined-by-time") continue;
+    topics.signals.notes.push_back({note.line, note.code, file.stem + ": " + note.message});
+  }
+  const std::span<const double> t_s = table.column(kTimeName);
+  spans.push_back({&file, t_s.front() + table.clock_s(), t_s.back() + table.clock_s()});
+  return {};
+}
+
+}  // namespace
+
+Result<CsvTopics> read_csv_topics(std::span<const std::filesystem::path> paths,
+                                  std::span<const ColumnMapping> mappings, const Wanted& wanted) {
+  const TimeMappings times = time_mappings(mappings);
+  AWMR_ASSIGN_OR_RETURN(const std::vector<File> files, read_files(paths, times));
+  const std::map<std::string, int> counts = counts_of(files);
+  CsvTopics topics;
+  std::vector<Span> spans;
+  for (const File& file : files) {
+    AWMR_RETURN_IF_ERROR(add_file(file, counts, times, wanted, topics, spans));
+  }
+  AWMR_RETURN_IF_ERROR(check_spans(spans));
+  note_zero_starts(spans, topics.signals.notes);
+  return topics;
+}
+
+}  // namespace awmr

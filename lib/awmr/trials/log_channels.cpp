@@ -1,0 +1,166 @@
+#include "log_channels.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "awmr/trials/channel_quality.h"
+
+namespace awmr {
+namespace {
+
+/// The times of the first few rows, for a message.
+std::string times_of(const DrivingLog& log, const std::vector<std::size_t>& rows) {
+  constexpr std::size_t kMost = 4;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(kMost, rows.size()); ++i) {
+    text += fmt::format("{}{:.4g} s", i == 0 ? "" : ", ", log.t_s[rows[i]]);
+  }
+  return rows.size() > kMost ? text + ", ..." : text;
+}
+
+void note_quality(LogChannel channel, const DrivingLog& log, const ChannelQuality& quality,
+                  std::vector<Finding>& findings) {
+  const ChannelInfo& about = info(channel);
+  const auto warn = [&](std::size_t row, const char* code, std::string message) {
+    findings.push_back({log.file, log.line[row], Severity::kWarning, code, std::move(message)});
+  };
+  if (!quality.spikes.empty()) {
+    warn(quality.spikes.front(), "spikes",
+         fmt::format("{}: {} readings jump away and back (spikes, at {}); they are set aside",
+                     about.column, quality.spikes.size(), times_of(log, quality.spikes)));
+  }
+  for (const RowSpan& span : quality.stuck) {
+    warn(span.begin, "stuck-sensor",
+         fmt::format("{} is stuck at one value from {:.4g} s to {:.4g} s while the commands "
+                     "changed; these rows are set aside",
+                     about.column, log.t_s[span.begin], log.t_s[span.end - 1]));
+  }
+  if (quality.saturated > 0) {
+    warn(0, "saturated-channel",
+         fmt::format("{} reads {:.4g} in {} rows and nothing beyond: the end of its range "
+                     "(saturated); these rows are set aside, and rows near it lean to one side",
+                     about.column, quality.saturated_at / about.to_si, quality.saturated));
+  }
+  if (quality.repeats == Repeats::kCoarse) {
+    warn(0, "quantised-samples",
+         fmt::format("{} comes in steps of {:.4g}, a coarse (quantised) sensor: every row counts, "
+                     "and the rounding counts as its error",
+                     about.column, quality.quantum / about.to_si));
+  }
+}
+
+/// What the vehicle is told to do that shows in a channel: thrust in speeds, turning in the rest.
+std::vector<double> activity_for(LogChannel channel, const DrivingLog& log) {
+  const bool turning = channel == LogChannel::kHeading || channel == LogChannel::kYawRate;
+  std::vector<double> activity(log.rows());
+  for (std::size_t i = 0; i < log.rows(); ++i) {
+    const double sum = log.force_left[i] + log.force_right[i];
+    const double apart = log.force_right[i] - log.force_left[i];
+    const double angle = log.steering_command_rad ? (*log.steering_command_rad)[i] : 0.0;
+    activity[i] = turning ? apart + sum * angle : sum;
+  }
+  return activity;
+}
+
+std::vector<double> picked(const std::vector<double>& values,
+                           const std::vector<std::size_t>& rows) {
+  std::vector<double> some;
+  for (const std::size_t row : rows) some.push_back(values[row]);
+  return some;
+}
+
+/// The quality of the readings in `rows`, said of the rows of the log. A row without a reading
+/// does not count as measured.
+ChannelQuality quality_in(const std::vector<std::size_t>& rows, LogChannel channel,
+                          const DrivingLog& log, const std::vector<double>& values) {
+  const std::vector<double> activity = activity_for(channel, log);
+  if (rows.size() == log.rows()) return channel_quality(log.t_s, values, activity);
+  ChannelQuality quality =
+      channel_quality(picked(log.t_s, rows), picked(values, rows), picked(activity, rows));
+  std::vector<bool> fresh(log.rows(), false);
+  for (std::size_t i = 0; i < rows.size(); ++i) fresh[rows[i]] = quality.fresh[i];
+  quality.fresh = std::move(fresh);
+  for (std::size_t& spike : quality.spikes) spike = rows[spike];
+  for (RowSpan& span : quality.stuck) span = {rows[span.begin], rows[span.end - 1] + 1};
+  return quality;
+}
+
+}  // namespace
+
+Measured measured_of(LogChannel channel, const DrivingLog& log,
+                     const std::vector<std::size_t>& rows, std::vector<double> values,
+                     std::vector<Finding>& findings) {
+  ChannelQuality quality = quality_in(rows, channel, log, values);
+  note_quality(channel, log, quality, findings);
+  const auto fresh = static_cast<int>(std::count(quality.fresh.begin(), quality.fresh.end(), true));
+  return {std::move(values), std::move(quality.fresh), fresh, quality.repeats == Repeats::kSlow,
+          quality.repeats == Repeats::kCoarse ? quality.quantum : 0.0};
+}
+
+void join_position(DrivingLog& log) {
+  if (!log[LogChannel::kX] || !log[LogChannel::kY]) return;
+  Measured& x = *log[LogChannel::kX];
+  Measured& y = *log[LogChannel::kY];
+  x.held = y.held = x.held || y.held;
+  if (!x.held) return;
+  for (std::size_t i = 1; i < log.rows(); ++i) {
+    const bool new_x = x.value[i] != x.value[i - 1];
+    const bool new_y = y.value[i] != y.value[i - 1];
+    // A new value that does not count was set aside, and its partner goes with it.
+    const bool set_aside = (new_x && !x.fresh[i]) || (new_y && !y.fresh[i]);
+    x.fresh[i] = y.fresh[i] = (new_x || new_y) && !set_aside;
+  }
+  x.fresh_count = y.fresh_count =
+      static_cast<int>(std::count(x.fresh.begin(), x.fresh.end(), true));
+}
+
+void note_held(const DrivingLog& log, std::vector<Finding>& findings) {
+  const double duration_s = log.t_s.back() - log.t_s.front();
+  for (const LogChannel channel : kChannels) {
+    if (!log[channel] || !log[channel]->held) continue;
+    findings.push_back(
+        {log.file, 0, Severity::kNote, "held-samples",
+         fmt::format("{} repeats its value between updates: the {} new values ({:.3g} Hz) are used",
+                     info(channel).column, log[channel]->fresh_count,
+                     log[channel]->fresh_count / duration_s)});
+  }
+}
+
+void note_stale_command(std::string_view column, const DrivingLog& log,
+                        const std::vector<std::size_t>& rows, std::vector<Finding>& findings) {
+  constexpr double kLong_s = 1.0;
+  if (rows.size() == log.rows()) return;
+  std::vector<double> t_s = picked(log.t_s, rows);
+  t_s.push_back(log.t_s.back());
+  double longest_s = 0.0;
+  double since_s = 0.0;
+  for (std::size_t i = 1; i < t_s.size(); ++i) {
+    if (t_s[i] - t_s[i - 1] <= longest_s) continue;
+    longest_s = t_s[i] - t_s[i - 1];
+    since_s = t_s[i - 1];
+  }
+  const double mean_s = (t_s.back() - t_s.front()) / static_cast<double>(t_s.size());
+  if (longest_s < std::max(kLong_s, kGapSteps * mean_s)) return;
+  findings.push_back(
+      {log.file, 0, Severity::kWarning, "command-held",
+       fmt::format("{} is not renewed for {:.3g} s from {:.4g} s on: its last value is taken to "
+                   "act all the while; cut the log there if the vehicle drops it by itself",
+                   column, longest_s, since_s)});
+}
+
+void note_gaps(const DrivingLog& log, std::vector<Finding>& findings) {
+  const double longest_s = kGapSteps * log.median_step_s();
+  for (std::size_t i = 1; i < log.rows(); ++i) {
+    const double step_s = log.t_s[i] - log.t_s[i - 1];
+    if (step_s <= longest_s) continue;
+    findings.push_back({log.file, log.line[i], Severity::kNote, "log-gap",
+                        fmt::format("nothing logged for {:.3g} s before this row: what was "
+                                    "commanded then is unknown, and the fit starts anew here",
+                                    step_s)});
+  }
+}
+
+}  // namespace awmr

@@ -1,0 +1,111 @@
+#include "read_table.h"
+
+#include <algorithm>
+#include <optional>
+#include <set>
+#include <system_error>
+#include <utility>
+
+#include "awmr/core/column_sources.h"
+#include "awmr/core/csv_text.h"
+#include "awmr/core/input_file.h"
+#include "awmr/core/raw_table.h"
+#include "awmr/core/time_column.h"
+#include "awmr/trials/log_files.h"
+#include "awmr/trials/trial_columns.h"
+#include "csv_topics.h"
+#include "dataflash.h"
+#include "rosbag.h"
+#include "ulog.h"
+
+namespace awmr {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The table of signals that have times of their own.
+Result<CsvTable> table_of_signals(CsvTopics topics, const std::string& file,
+                                  std::span<const CsvColumn> columns,
+                                  std::span<const ColumnMapping> mappings) {
+  std::vector<std::string> header{std::string(kTimeName)};
+  header.insert(header.end(), topics.signals.header.begin(), topics.signals.header.end());
+  AWMR_ASSIGN_OR_RETURN(RawTable raw, join(std::move(topics.signals), file));
+  raw.mapped = std::move(topics.mapped);
+  ColumnSources sources = find_columns(header, {}, columns, mappings, file);
+  std::vector<Fault> faults;
+  for (HeaderFault& fault : sources.faults) faults.push_back({file, std::move(fault.message)});
+  return table_of(std::move(raw), std::move(sources), mappings, std::move(faults));
+}
+
+/// A bag may be cut into several files: its topics go on from one to the next.
+void append(Signals part, Signals& all) {
+  std::vector<std::size_t> places;
+  for (const std::string& name : part.header) {
+    const auto found = std::find(all.header.begin(), all.header.end(), name);
+    places.push_back(static_cast<std::size_t>(found - all.header.begin()));
+    if (found == all.header.end()) all.header.push_back(name);
+  }
+  for (Topic& topic : part.topics) {
+    for (std::size_t& column : topic.columns) column = places[column];
+    const auto known = std::find_if(all.topics.begin(), all.topics.end(), [&](const Topic& other) {
+      return other.name == topic.name && other.columns == topic.columns;
+    });
+    if (known == all.topics.end()) {
+      all.topics.push_back(std::move(topic));
+      continue;
+    }
+    known->time_ns.insert(known->time_ns.end(), topic.time_ns.begin(), topic.time_ns.end());
+    for (std::size_t c = 0; c < topic.values.size(); ++c) {
+      known->values[c].insert(known->values[c].end(), topic.values[c].begin(),
+                              topic.values[c].end());
+    }
+  }
+  all.notes.insert(all.notes.end(), part.notes.begin(), part.notes.end());
+}
+
+Result<Signals> read_bags(std::span<const fs::path> paths, const Wanted& wanted) {
+  Signals all;
+  for (const fs::path& path : paths) {
+    AWMR_ASSIGN_OR_RETURN(const std::string bytes, read_input(path));
+    AWMR_ASSIGN_OR_RETURN(Signals part, read_rosbag(bytes, path.string(), wanted));
+    append(std::move(part), all);
+  }
+  return all;
+}
+
+}  // namespace
+
+std::optional<Result<Signals>> read_signals(std::string_view bytes, const std::string& file,
+                                            const Wanted& wanted) {
+  if (is_ulog(bytes)) return read_ulog(bytes, file, wanted);
+  if (is_dataflash(bytes)) return read_dataflash(bytes, file, wanted);
+  if (is_rosbag(bytes)) return read_rosbag(bytes, file, wanted);
+  return std::nullopt;
+}
+
+Result<CsvTable> read_table(const fs::path& path, TrialKind kind, const TrialOptions& options) {
+  const std::span<const CsvColumn> columns = columns_of(kind);
+  const std::string file = path.string();
+  const Wanted wanted = [names = wanted_names(columns, options.columns)](const std::string& name) {
+    return names.count(name) != 0;
+  };
+  std::error_code error;
+  if (fs::is_directory(path, error)) {
+    AWMR_ASSIGN_OR_RETURN(const std::vector<fs::path> paths, files_of(path));
+    CsvTopics topics;
+    if (paths.front().extension() == ".db3") {
+      AWMR_ASSIGN_OR_RETURN(topics.signals, read_bags(paths, wanted));
+    } else {
+      AWMR_ASSIGN_OR_RETURN(topics, read_csv_topics(paths, options.columns, wanted));
+    }
+    return table_of_signals(std::move(topics), file, columns, options.columns);
+  }
+  AWMR_ASSIGN_OR_RETURN(const std::string bytes, read_input(path));
+  auto signals = read_signals(bytes, file, wanted);
+  if (!signals) return read_csv_text(bytes, file, columns, options.columns);
+  if (!*signals) return tl::unexpected(std::move(*signals).error());
+  return table_of_signals({.signals = std::move(**signals), .mapped = {}}, file, columns,
+                          options.columns);
+}
+
+}  // namespace awmr

@@ -1,0 +1,174 @@
+#include "ros_message.h"
+
+#include <array>
+#include <cmath>
+
+#include "byte_reader.h"
+
+namespace awmr {
+namespace {
+
+/// What a message is made of, in the order of its definition.
+enum class Part { kHeader, kText, kFloat32, kFloat64, kSkipped9, kSkipped36 };
+
+struct Piece {
+  Part part;
+  std::string_view name;  ///< of a number
+};
+
+struct MessageType {
+  std::string_view name;
+  std::vector<Piece> pieces;
+};
+
+constexpr Part kD = Part::kFloat64;
+
+/// After the public message definitions. Covariances are passed over.
+const std::array<MessageType, 7>& types() {
+  static const std::array<MessageType, 7> kTypes{
+      {{"std_msgs/msg/Float32", {{Part::kFloat32, "data"}}},
+       {"std_msgs/msg/Float64", {{kD, "data"}}},
+       {"geometry_msgs/msg/Twist",
+        {{kD, "linear.x"},
+         {kD, "linear.y"},
+         {kD, "linear.z"},
+         {kD, "angular.x"},
+         {kD, "angular.y"},
+         {kD, "angular.z"}}},
+       {"geometry_msgs/msg/TwistStamped",
+        {{Part::kHeader, ""},
+         {kD, "twist.linear.x"},
+         {kD, "twist.linear.y"},
+         {kD, "twist.linear.z"},
+         {kD, "twist.angular.x"},
+         {kD, "twist.angular.y"},
+         {kD, "twist.angular.z"}}},
+       {"ackermann_msgs/msg/AckermannDriveStamped",
+        {{Part::kHeader, ""},
+         {Part::kFloat32, "drive.steering_angle"},
+         {Part::kFloat32, "drive.steering_angle_velocity"},
+         {Part::kFloat32, "drive.speed"},
+         {Part::kFloat32, "drive.acceleration"},
+         {Part::kFloat32, "drive.jerk"}}},
+       {"sensor_msgs/msg/Imu",
+        {{Part::kHeader, ""},
+         {kD, "orientation.x"},
+         {kD, "orientation.y"},
+         {kD, "orientation.z"},
+         {kD, "orientation.w"},
+         {Part::kSkipped9, ""},
+         {kD, "angular_velocity.x"},
+         {kD, "angular_velocity.y"},
+         {kD, "angular_velocity.z"},
+         {Part::kSkipped9, ""},
+         {kD, "linear_acceleration.x"},
+         {kD, "linear_acceleration.y"},
+         {kD, "linear_acceleration.z"},
+         {Part::kSkipped9, ""}}},
+       {"nav_msgs/msg/Odometry",
+        {{Part::kHeader, ""},
+         {Part::kText, ""},
+         {kD, "pose.pose.position.x"},
+         {kD, "pose.pose.position.y"},
+         {kD, "pose.pose.position.z"},
+         {kD, "pose.pose.orientation.x"},
+         {kD, "pose.pose.orientation.y"},
+         {kD, "pose.pose.orientation.z"},
+         {kD, "pose.pose.orientation.w"},
+         {Part::kSkipped36, ""},
+         {kD, "twist.twist.linear.x"},
+         {kD, "twist.twist.linear.y"},
+         {kD, "twist.twist.linear.z"},
+         {kD, "twist.twist.angular.x"},
+         {kD, "twist.twist.angular.y"},
+         {kD, "twist.twist.angular.z"},
+         {Part::kSkipped36, ""}}}}};
+  return kTypes;
+}
+
+const MessageType* type_of(std::string_view name) {
+  for (const MessageType& type : types()) {
+    if (type.name == name) return &type;
+  }
+  return nullptr;
+}
+
+/// A number is aligned to its size, counted from behind the four bytes that say how it is encoded.
+class CdrReader {
+ public:
+  /// Precondition: at least four bytes.
+  explicit CdrReader(std::string_view cdr) : big_(cdr[1] == 0), body_(cdr.substr(4)) {}
+
+  template <class T>
+  std::optional<T> number() {
+    const std::size_t padding = (sizeof(T) - body_.offset() % sizeof(T)) % sizeof(T);
+    if (!body_.take(padding)) return std::nullopt;
+    return body_.number<T>(big_);
+  }
+  bool skip_text() {
+    const auto length = number<std::uint32_t>();
+    return length && body_.take(*length).has_value();
+  }
+  bool skip_doubles(std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+      if (!number<double>()) return false;
+    }
+    return true;
+  }
+  /// Seconds, nanoseconds, frame.
+  bool skip_header() { return number<std::int32_t>() && number<std::uint32_t>() && skip_text(); }
+
+ private:
+  bool big_;
+  ByteReader body_;
+};
+
+/// Takes one piece; false where the bytes end. A number goes into `values`.
+bool take(const Piece& piece, CdrReader& reader, std::vector<double>& values) {
+  switch (piece.part) {
+    case Part::kHeader:
+      return reader.skip_header();
+    case Part::kText:
+      return reader.skip_text();
+    case Part::kSkipped9:
+      return reader.skip_doubles(9);
+    case Part::kSkipped36:
+      return reader.skip_doubles(36);
+    case Part::kFloat32: {
+      const auto value = reader.number<float>();
+      values.push_back(static_cast<double>(value.value_or(0.0F)));
+      return value.has_value();
+    }
+    case Part::kFloat64: {
+      const auto value = reader.number<double>();
+      values.push_back(value.value_or(0.0));
+      return value.has_value();
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+std::optional<std::vector<std::string>> ros_fields(std::string_view type) {
+  const MessageType* found = type_of(type);
+  if (found == nullptr) return std::nullopt;
+  std::vector<std::string> names;
+  for (const Piece& piece : found->pieces) {
+    if (!piece.name.empty()) names.emplace_back(piece.name);
+  }
+  return names;
+}
+
+std::optional<std::vector<double>> ros_values(std::string_view type, std::string_view cdr) {
+  const bool is_plain_cdr = cdr.size() >= 4 && cdr[0] == 0 && (cdr[1] == 0 || cdr[1] == 1);
+  if (!is_plain_cdr) return std::nullopt;
+  CdrReader reader(cdr);
+  std::vector<double> values;
+  for (const Piece& piece : type_of(type)->pieces) {
+    if (!take(piece, reader, values)) return std::nullopt;
+  }
+  return values;
+}
+
+}  // namespace awmr

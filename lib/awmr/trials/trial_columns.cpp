@@ -1,0 +1,108 @@
+#include "awmr/trials/trial_columns.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "awmr/core/nearest.h"
+#include "awmr/core/text.h"
+
+namespace awmr {
+namespace {
+
+const CsvColumn kSurgeColumns[] = {{"tau_speed", false},
+                                   {"wheel_force", false},
+                                   {"speed_mps", false},
+                                   {"distance_m", false},
+                                   {"elapsed_s", false}};
+
+const CsvColumn kTurningColumns[] = {{"steering_deg", true},    {"wheel_force", true},
+                                     {"yaw_rate_radps", false}, {"turns", false},
+                                     {"elapsed_s", false},      {"tau_turn", false}};
+
+const CsvColumn kCoastdownColumns[] = {{"initial_speed_mps", false},
+                                       {"stop_time_s", false},
+                                       {"t_s", false},
+                                       {"speed_mps", false, EmptyCells::kAbsent},
+                                       {"run", false}};
+
+const CsvColumn kLogColumns[] = {{"t_s", true},
+                                 {"force_left", true, EmptyCells::kHeld},
+                                 {"force_right", true, EmptyCells::kHeld},
+                                 {"x_m", false, EmptyCells::kAbsent},
+                                 {"y_m", false, EmptyCells::kAbsent},
+                                 {"heading_deg", false, EmptyCells::kAbsent},
+                                 {"speed_mps", false, EmptyCells::kAbsent},
+                                 {"sway_mps", false, EmptyCells::kAbsent},
+                                 {"yaw_rate_radps", false, EmptyCells::kAbsent},
+                                 {"steering_deg", false, EmptyCells::kAbsent},
+                                 {"steering_cmd_deg", false, EmptyCells::kHeld},
+                                 {"latitude_deg", false, EmptyCells::kAbsent},
+                                 {"longitude_deg", false, EmptyCells::kAbsent},
+                                 {"run", false}};
+
+/// Every column that some trial has, each once.
+std::vector<std::string> all_columns() {
+  std::set<std::string> names;
+  for (const TrialKind kind : values_in(kTrialKindNames)) {
+    for (const CsvColumn& column : columns_of(kind)) names.insert(column.name);
+  }
+  return {names.begin(), names.end()};
+}
+
+std::optional<std::string> unknown_target(const ColumnMapping& mapping) {
+  const std::vector<std::string> names = all_columns();
+  if (std::find(names.begin(), names.end(), mapping.name) != names.end()) return std::nullopt;
+  const std::string near = nearest(mapping.name, names);
+  return fmt::format("no trial has a column {}; {}", mapping.name,
+                     near.empty() ? fmt::format("there are {}", fmt::join(names, ", "))
+                                  : fmt::format("did you mean {}?", near));
+}
+
+}  // namespace
+
+std::span<const CsvColumn> columns_of(TrialKind kind) {
+  switch (kind) {
+    case TrialKind::kSurge:
+      return kSurgeColumns;
+    case TrialKind::kTurning:
+      return kTurningColumns;
+    case TrialKind::kCoastdown:
+      return kCoastdownColumns;
+    case TrialKind::kLog:
+      return kLogColumns;
+  }
+  return {};
+}
+
+Result<TrialOptions> with_vehicle_columns(TrialOptions options, const Vehicle& vehicle) {
+  for (const auto& [name, expression] : vehicle.columns) {
+    AWMR_ASSIGN_OR_RETURN(ColumnMapping mapping, parse_column(name + "=" + expression));
+    mapping.standing = true;
+    options.columns.push_back(std::move(mapping));
+  }
+  return options;
+}
+
+Status check_mappings(const TrialOptions& options, std::span<const std::size_t> used) {
+  std::vector<Fault> faults;
+  for (std::size_t i = 0; i < options.columns.size(); ++i) {
+    const ColumnMapping& mapping = options.columns[i];
+    const std::string place =
+        fmt::format("column mapping \"{}\"", shortened(text_of(mapping), 100));
+    if (auto unknown = unknown_target(mapping)) {
+      faults.push_back({place, *std::move(unknown)});
+    } else if (!mapping.standing && std::find(used.begin(), used.end(), i) == used.end()) {
+      faults.push_back({place,
+                        "unused: no file that was read asks for this column and has what it "
+                        "is made from; correct it or leave it out"});
+    }
+  }
+  if (!faults.empty()) return input_errors(std::move(faults));
+  return {};
+}
+
+}  // namespace awmr

@@ -1,0 +1,37 @@
+/// What holds of the signals of any file.
+#pragma once
+
+#include <cmath>
+
+#include "awmr/trials/signals.h"
+#include "fuzz/target.h"
+
+namespace awmr::fuzz {
+
+/// Every column has a value by message, and there are no more values than bytes; the signals become
+/// a table or are refused.
+inline void check(Result<Signals> signals, std::size_t bytes) {
+  if (!signals) {
+    require(!signals.error().faults.empty(), "an error names a fault");
+    require(to_text(signals.error()).size() < 100'000, "an error can be read");
+    return;
+  }
+  std::size_t values = 0;
+  for (const Topic& topic : signals->topics) {
+    require(topic.columns.size() == topic.values.size(), "a column has its values");
+    for (std::size_t c = 0; c < topic.columns.size(); ++c) {
+      require(topic.columns[c] < signals->header.size(), "a column has a name");
+      require(topic.values[c].size() == topic.time_ns.size(), "a value has its time");
+      values += topic.values[c].size();
+    }
+  }
+  require(values <= bytes, "a value takes a byte at least");
+  if (values > 10'000) return;
+  const auto table = join(*std::move(signals), "a");
+  if (!table) return;
+  for (std::size_t row = 1; row < table->lines.size(); ++row) {
+    require(table->columns[0].value[row] > table->columns[0].value[row - 1], "time rises");
+  }
+}
+
+}  // namespace awmr::fuzz

@@ -1,0 +1,10 @@
+/// A ULog is read with what its topics say, or refused; either way in bounded memory.
+#include "awmr/trials/ulog.h"
+
+#include "fuzz/signals.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const auto all = [](const std::string&) { return true; };
+  awmr::fuzz::check(awmr::read_ulog(awmr::fuzz::text_of(data, size), "a.ulg", all), size);
+  return 0;
+}

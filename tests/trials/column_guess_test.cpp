@@ -1,0 +1,88 @@
+/// Guesses of what the columns of a file are: what is sure, what stays open, and why.
+#include "awmr/trials/column_guess.h"
+
+#include <gmock/gmock.h>
+
+#include "awmr/core/column_mapping.h"
+#include "support/scratch_file.h"
+
+namespace awmr::testing {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+/// `CONFIDENCE COLUMN=EXPRESSION` of each guess.
+std::vector<std::string> guesses_of(const std::string& text) {
+  const ScratchFile file("a.csv", text);
+  const auto sample = sample_of(file.path());
+  if (!sample) return {to_text(sample.error())};
+  std::vector<std::string> all;
+  for (const ColumnGuess& guess : guess_columns(*sample)) {
+    all.push_back(std::string(name_in(kConfidenceNames, guess.confidence)) + " " + guess.column +
+                  "=" + guess.expression);
+    EXPECT_FALSE(guess.why.empty());
+    if (!guess.expression.empty() && guess.column != guess.expression) {
+      EXPECT_TRUE(parse_column(guess.column + "=" + guess.expression)) << guess.expression;
+    }
+  }
+  return all;
+}
+
+TEST(GuessColumns, TakesTheNamesThatAreAskedFor) {
+  EXPECT_THAT(
+      guesses_of("t_s,force_left,speed_mps\n0,0.1,1\n"),
+      ElementsAre("sure t_s=t_s", "sure force_left=force_left", "sure speed_mps=speed_mps"));
+}
+
+TEST(GuessColumns, ReadsUnitsInNames) {
+  EXPECT_THAT(guesses_of("time_ms,Speed (km/h),gyro_z_dps,heading_rad\n0,1,2,3\n"),
+              ElementsAre("likely t_s=`time_ms`*0.001", "likely heading_deg=heading_rad*57.29578",
+                          "likely speed_mps=`Speed (km/h)`*0.2777778",
+                          "likely yaw_rate_radps=gyro_z_dps*0.01745329"));
+}
+
+TEST(GuessColumns, LeavesOpenWhatTheNameDoesNotSay) {
+  EXPECT_THAT(guesses_of("v,yaw_rate,steering\n1,0.1,0.2\n"),
+              ElementsAre("unsure speed_mps=v", "unsure yaw_rate_radps=yaw_rate",
+                          "unsure steering_deg=steering"));
+}
+
+TEST(GuessColumns, ReadsUnitsInWhatTheValuesCanBe) {
+  EXPECT_THAT(guesses_of("heading\n170\n-20\n"), ElementsAre("likely heading_deg=heading"));
+  EXPECT_THAT(guesses_of("duty_left,duty_right\n0.5,-0.2\n"),
+              ElementsAre("likely force_left=duty_left", "likely force_right=duty_right"));
+  EXPECT_THAT(guesses_of("pwm_left\n80\n"), ElementsAre("unsure force_left=pwm_left/100"));
+  EXPECT_THAT(guesses_of("pwm_left\n200\n"), ElementsAre("unsure force_left=pwm_left/255"));
+  EXPECT_THAT(guesses_of("pwm_left\n1500\n1900\n"),
+              ElementsAre("unsure force_left=(pwm_left - 1500)/500"));
+}
+
+TEST(GuessColumns, TwoThatFitAreBothUnsure) {
+  EXPECT_THAT(
+      guesses_of("speed_kmh,gps_speed_mps\n1,2\n"),
+      ElementsAre("unsure speed_mps=speed_kmh*0.2777778", "unsure speed_mps=gps_speed_mps"));
+}
+
+TEST(GuessColumns, TakesTheHeadingFromAQuaternion) {
+  const auto guesses = guesses_of(
+      "odom.pose.pose.orientation.x,odom.pose.pose.orientation.y,odom.pose.pose.orientation.z,"
+      "odom.pose.pose.orientation.w,odom.twist.twist.linear.x,odom.twist.twist.angular.z\n"
+      "0,0,0,1,2,3\n");
+  ASSERT_EQ(guesses.size(), 3U);
+  EXPECT_THAT(guesses[0], HasSubstr("likely heading_deg=atan2("));
+  EXPECT_EQ(guesses[1], "likely speed_mps=odom.twist.twist.linear.x");
+  EXPECT_EQ(guesses[2], "likely yaw_rate_radps=odom.twist.twist.angular.z");
+}
+
+TEST(GuessColumns, NothingIsGuessedFromNothing) {
+  EXPECT_THAT(guesses_of("a,b,accel_x,voltage\n1,2,3,4\n"), IsEmpty());
+}
+
+TEST(GuessColumns, TwoTimesStayOpen) {
+  EXPECT_THAT(guesses_of("time_ms,gps_timestamp_us\n1,2\n"), ElementsAre("unsure t_s="));
+}
+
+}  // namespace
+}  // namespace awmr::testing
