@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "awmr/core/column_expression.h"
 #include "awmr/core/nearest.h"
 #include "awmr/core/text.h"
 
@@ -62,6 +63,22 @@ std::optional<std::string> unknown_target(const ColumnMapping& mapping) {
                                   : fmt::format("did you mean {}?", near));
 }
 
+std::string place_of(const ColumnMapping& mapping) {
+  return fmt::format("column mapping \"{}\"", shortened(text_of(mapping), 100));
+}
+
+/// Why no file used a mapping, as far as it can be told.
+std::string unused(const ColumnMapping& mapping) {
+  std::string message =
+      "unused: no file that was read asks for this column and has what it is made from; correct it "
+      "or leave it out";
+  const auto expression = ColumnExpression::parse(mapping.expression);
+  if (!mapping.expression.empty() && !expression) {
+    message += fmt::format(" (as arithmetic: {})", expression.error());
+  }
+  return message;
+}
+
 }  // namespace
 
 std::span<const CsvColumn> columns_of(TrialKind kind) {
@@ -84,6 +101,13 @@ Result<TrialOptions> with_vehicle_columns(TrialOptions options, const Vehicle& v
     mapping.standing = true;
     options.columns.push_back(std::move(mapping));
   }
+  std::vector<Fault> faults;
+  for (const ColumnMapping& mapping : options.columns) {
+    if (auto unknown = unknown_target(mapping)) {
+      faults.push_back({place_of(mapping), *std::move(unknown)});
+    }
+  }
+  if (!faults.empty()) return input_errors(std::move(faults));
   return options;
 }
 
@@ -91,15 +115,8 @@ Status check_mappings(const TrialOptions& options, std::span<const std::size_t> 
   std::vector<Fault> faults;
   for (std::size_t i = 0; i < options.columns.size(); ++i) {
     const ColumnMapping& mapping = options.columns[i];
-    const std::string place =
-        fmt::format("column mapping \"{}\"", shortened(text_of(mapping), 100));
-    if (auto unknown = unknown_target(mapping)) {
-      faults.push_back({place, *std::move(unknown)});
-    } else if (!mapping.standing && std::find(used.begin(), used.end(), i) == used.end()) {
-      faults.push_back({place,
-                        "unused: no file that was read asks for this column and has what it "
-                        "is made from; correct it or leave it out"});
-    }
+    if (mapping.standing || std::find(used.begin(), used.end(), i) != used.end()) continue;
+    faults.push_back({place_of(mapping), unused(mapping)});
   }
   if (!faults.empty()) return input_errors(std::move(faults));
   return {};

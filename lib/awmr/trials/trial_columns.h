@@ -14,11 +14,12 @@ namespace awmr {
 /// What is read of a file of this kind; see the contract's columns in the README.
 std::span<const CsvColumn> columns_of(TrialKind kind);
 
-/// The options with the vehicle's own mappings behind their own. Errors: as parse_column().
+/// The options with the vehicle's own mappings behind their own. Errors: as parse_column(); a mapping
+/// of a column that no trial has, with the nearest one.
 Result<TrialOptions> with_vehicle_columns(TrialOptions options, const Vehicle& vehicle);
 
-/// Errors: a mapping of a column that no trial has, with the nearest one; a mapping that none of
-/// the files used. `used` are indices into the options' mappings. The vehicle's may be unused.
+/// Errors: a mapping that none of the files used. `used` are indices into the options' mappings. The
+/// vehicle's may be unused.
 Status check_mappings(const TrialOptions& options, std::span<const std::size_t> used);
 
 }  // namespace awmr
