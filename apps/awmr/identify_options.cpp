@@ -18,7 +18,7 @@ Status add_family(std::string_view text, IdentifyOptions& options) {
   const std::size_t equals = text.find('=');
   const std::string_view subject = equals == std::string_view::npos ? "" : text.substr(0, equals);
   const std::string_view name = equals == std::string_view::npos ? text : text.substr(equals + 1);
-  FamilyChoice choice{std::nullopt};
+  FamilyChoice choice{.family = std::nullopt, .asked = true};
   if (name != "auto") {
     choice.family = value_in(kFamilyNames, name);
     if (!choice.family) {

@@ -115,7 +115,7 @@ void identify_from_logs(const Vehicle& vehicle, const TrialData& data,
   LogStage logs = run_log_stage(vehicle, data.logs, options, asked, values.model,
                                 method_of(data, options) == Method::kTrajectory);
   record(logs, values.model);
-  set_logs(logs, options.yaw_family.family.value_or(Family::kPower), values);
+  set_logs(logs, values);
   reasons.logs = std::move(logs.reasons);
 }
 

@@ -97,15 +97,23 @@ void set_joint(const JointFit& joint, MainValues& values) {
 }
 
 /// Terms that the logs' families do not have are gone, whatever the tables' had.
-void set_families_of_logs(Family surge, Family yaw, Model& model) {
+void set_surge_family_of_logs(Family surge, Model& model) {
   model.surge_family = surge;
-  model.yaw_family = yaw;
   const Estimate none = given(0.0, "not in the family");
   const FamilyTerms terms = terms_of(surge);
   if (!terms.coulomb) model[ParameterId::kSurgeCoulomb] = none;
   if (!terms.quadratic) model[ParameterId::kSurgeQuadratic] = none;
   if (!terms.dead_zone) model[ParameterId::kWheelDeadZone] = none;
   if (!terms.beta) model[ParameterId::kSurgeBeta] = exponent_of_family(surge);
+}
+
+void set_yaw_family_of_logs(Family yaw, Model& model) {
+  model.yaw_family = yaw;
+  const Estimate none = given(0.0, "not in the family");
+  const FamilyTerms terms = terms_of(yaw);
+  if (!terms.coulomb) model[ParameterId::kYawCoulomb] = none;
+  if (!terms.quadratic) model[ParameterId::kYawQuadratic] = none;
+  if (!terms.beta) model[ParameterId::kYawBeta] = exponent_of_family(yaw);
 }
 
 }  // namespace
@@ -147,13 +155,15 @@ void set_mass(const MassResult& mass, const std::optional<SteadyFit>& surge, Mai
   }
 }
 
-void set_logs(const LogStage& logs, Family yaw_family, MainValues& values) {
+void set_logs(const LogStage& logs, MainValues& values) {
   if (logs.block.size() == 0) return;
   const Eigen::Index first = values.covariance.add_block(logs.block);
-  const bool fills_surge =
-      std::any_of(logs.main.begin(), logs.main.end(),
-                  [](const LogStage::Main& main) { return main.id == ParameterId::kSurgeAlpha; });
-  if (fills_surge) set_families_of_logs(logs.surge_family, yaw_family, values.model);
+  const auto fills = [&](ParameterId id) {
+    return std::ranges::any_of(logs.main,
+                               [&](const LogStage::Main& main) { return main.id == id; });
+  };
+  if (fills(ParameterId::kSurgeAlpha)) set_surge_family_of_logs(logs.surge_family, values.model);
+  if (fills(ParameterId::kYawAlpha)) set_yaw_family_of_logs(logs.yaw_family, values.model);
   for (const LogStage::Main& main : logs.main) {
     values.model[main.id] = main.estimate;
     values.covariance.set(main.id, {{first + main.place, main.jacobian}});

@@ -30,6 +30,6 @@ void set_law(const Subject& subject, const SubjectFit& fit, MainValues& values);
 void set_mass(const MassResult& mass, const std::optional<SteadyFit>& surge, MainValues& values);
 
 /// What the logs fill. `yaw_family`: of the logs' fit.
-void set_logs(const LogStage& logs, Family yaw_family, MainValues& values);
+void set_logs(const LogStage& logs, MainValues& values);
 
 }  // namespace awmr

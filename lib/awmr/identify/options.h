@@ -61,6 +61,9 @@ inline std::string title_of(Loss loss) {
 /// with the minimum AICc, where the data are to say.
 struct FamilyChoice {
   std::optional<Family> family = Family::kPower;
+  /// Somebody chose it. Where nobody did, logs are held against every family, and one that is plainly
+  /// better than the power law is taken.
+  bool asked = false;
 };
 
 struct IdentifyOptions {

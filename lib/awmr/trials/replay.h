@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <vector>
 
 #include "awmr/model/rest.h"
 #include "awmr/model/runge_kutta.h"
@@ -99,6 +100,32 @@ void replay(const LogSignals& signals, std::size_t begin, std::size_t end, Plant
                        [&](const State<T>& at) { return state_rates(plant, at, force, steering); });
     }
   }
+}
+
+/// The state delay_s >= 0 before the last of `states`, the states at the rows from `begin` on: so
+/// many Runge-Kutta steps from the row before. Their length carries the derivative by the delay.
+/// Before the first row the rates there hold.
+template <class T>
+State<T> earlier_state(const LogSignals& signals, std::size_t begin,
+                       const std::vector<State<T>>& states, Plant<T> plant, const T& delay_s,
+                       double longest_step_s) {
+  const DrivingLog& log = *signals.log;
+  const double now_s = log.t_s[begin + states.size() - 1];
+  const double then_s = now_s - value_of(delay_s);
+  std::size_t row = begin + states.size() - 1;
+  while (row > begin && log.t_s[row] > then_s) --row;
+  const bool servo = log.steering_command_rad.has_value();
+  if (!servo) plant.steering_max_rad = T(10.0);
+  State<T> state = states[row - begin];
+  const SideForces<T> force{T(log.force_left[row]), T(log.force_right[row])};
+  const T steering = servo ? T((*log.steering_command_rad)[row]) : state.steering_rad;
+  const auto rates = [&](const State<T>& s) { return state_rates(plant, s, force, steering); };
+  const T span_s = T(now_s - log.t_s[row]) - delay_s;
+  if (value_of(span_s) < 0.0) return moved(state, rates(state), span_s);
+  const int steps =
+      std::max(1, static_cast<int>(std::ceil(value_of(span_s) / longest_step_s - 1e-9)));
+  for (int i = 0; i < steps; ++i) state = rk4_step(state, T(span_s / double(steps)), rates);
+  return state;
 }
 
 /// The component of the state that a channel reads.

@@ -12,9 +12,9 @@ namespace {
 /// Adds what the other families of surge resistance make of the logs; returns the advice, if any.
 std::optional<std::string> try_rivals(BestFamily rivals, double aic, Adequacy& adequacy) {
   for (EstimatorReport& report : rivals.others) adequacy.rivals.push_back(std::move(report));
-  adequacy.rivals.push_back(rivals.best.fit.report);
-  if (rivals.finding) adequacy.findings.push_back(*rivals.finding);
+  for (Finding& finding : rivals.findings) adequacy.findings.push_back(std::move(finding));
   if (rivals.best.surge == Family::kPower) return std::nullopt;
+  adequacy.rivals.push_back(rivals.best.fit.report);
   return fmt::format("a power law does not describe these logs; {} does better by {:.0f} of AIC",
                      option_text(fmt::format("family surge={}", name_of(rivals.best.surge))),
                      aic - rivals.best.fit.aic);
@@ -24,34 +24,37 @@ std::optional<std::string> try_rivals(BestFamily rivals, double aic, Adequacy& a
 
 std::vector<Finding> autocorrelation_findings(const LogFit& fit, const std::string& file) {
   constexpr double kSignificant = 1e-3;
+  constexpr double kMuch = 1.5;
   std::vector<Finding> findings;
   for (const Diagnostic& test : fit.report.diagnostics) {
     if (test.p_value >= kSignificant || !test.name.starts_with("whiteness")) continue;
     findings.push_back(
-        {file, 0, Severity::kNote, "coloured-residuals",
-         fmt::format("{}: the residuals stay correlated (p = {:.2g}) beyond what a first-order "
-                     "process explains: the model misses something, and the intervals are too "
-                     "narrow by some factor; {} gives wider ones",
-                     test.name, test.p_value, option_text("bootstrap 1000"))});
+        {file, 0, fit.widened >= kMuch ? Severity::kWarning : Severity::kNote, "coloured-residuals",
+         fmt::format("{}: the residuals stay correlated (p = {:.2g}) beyond what their noise model "
+                     "explains: the model misses something; standard errors are widened by up to "
+                     "{:.2g} times to what blocks of the logs scatter by",
+                     test.name, test.p_value, fit.widened)});
   }
   return findings;
 }
 
 Adequacy judge_adequacy(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
-                        const LogFit& fit, Family yaw, bool try_families) {
+                        const FamilyFit& chosen, bool try_families) {
   Adequacy adequacy;
-  for (const auto& [channel, noise] : fit.noise) {
+  for (const auto& [channel, noise] : chosen.fit.noise) {
     if (!noise.of_the_model()) continue;
     std::string advice = "something that the model does not know acts on the vehicle";
     if (channel == LogChannel::kSpeed && try_families) {
-      advice = try_rivals(best_family(logs, power_law, yaw), fit.aic, adequacy).value_or(advice);
+      advice = try_rivals(best_family(logs, power_law, chosen, {.only_suspects = false}),
+                          chosen.fit.aic, adequacy)
+                   .value_or(advice);
     }
     adequacy.findings.push_back(
         {logs.front().file, 0, Severity::kWarning, "model-inadequate",
          fmt::format("the model misses {} by {:.3g} {} over {:.2g} s at a time, where the sensor's "
                      "own noise is {:.2g}: {}. The intervals hold for the model as it is, not for "
                      "the vehicle",
-                     info(channel).name, noise.std, info(channel).unit, noise.correlation_s,
+                     info(channel).name, noise.drift_std, info(channel).unit, noise.correlation_s,
                      noise.sensor_std, advice)});
   }
   return adequacy;

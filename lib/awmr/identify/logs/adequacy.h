@@ -7,7 +7,8 @@
 
 namespace awmr {
 
-/// `coloured-residuals` for every channel whose residuals stay correlated after the whitening.
+/// `coloured-residuals` for every channel whose residuals stay correlated after the whitening: a
+/// warning where the standard errors had to be widened by half or more for it.
 std::vector<Finding> autocorrelation_findings(const LogFit& fit, const std::string& file);
 
 struct Adequacy {
@@ -18,6 +19,6 @@ struct Adequacy {
 /// `model-inadequate` for every channel whose errors are the model's own, not the sensor's. Where
 /// that is the speed and `try_families`, the other families of surge resistance are fitted too.
 Adequacy judge_adequacy(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
-                        const LogFit& fit, Family yaw, bool try_families);
+                        const FamilyFit& chosen, bool try_families);
 
 }  // namespace awmr

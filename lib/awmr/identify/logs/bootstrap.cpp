@@ -30,26 +30,35 @@ double percentile(const std::vector<double>& sorted, double share) {
   return sorted[at(std::lround(share * static_cast<double>(sorted.size() - 1)))];
 }
 
+/// The factor that takes the draws' standard deviation to `std`; 1 where they do not vary.
+double scale_to(double std, const std::vector<double>& draws) {
+  double squares = 0.0;
+  for (const double draw : draws) squares += draw * draw;
+  return squares > 0.0 ? std / std::sqrt(squares / static_cast<double>(draws.size())) : 1.0;
+}
+
 }  // namespace
 
 std::vector<Interval> block_bootstrap(const BootstrapInput& input,
                                       const BootstrapOptions& options) {
+  if (options.resamples <= 0) return {};
   const std::size_t n = input.quantities.size();
-  std::vector<std::vector<double>> draws(n);
+  std::vector<std::vector<double>> draws(n);  // by quantity: the coordinate's change
   Random random(options.seed, 2);
   const Eigen::VectorXd mean = mean_of(input.scores, eigen_index(n));
   for (int b = 0; b < options.resamples; ++b) {
     const Eigen::VectorXd step = input.covariance * drawn_sum(input.scores, mean, random);
-    for (std::size_t i = 0; i < n; ++i) {
-      draws[i].push_back(input.coordinates[i] + step(eigen_index(i)));
-    }
+    for (std::size_t i = 0; i < n; ++i) draws[i].push_back(step(eigen_index(i)));
   }
   std::vector<Interval> intervals;
   for (std::size_t i = 0; i < n; ++i) {
     std::sort(draws[i].begin(), draws[i].end());
     const FreeQuantity& q = input.quantities[i];
-    intervals.push_back(
-        {q.value(percentile(draws[i], 0.025)), q.value(percentile(draws[i], 0.975))});
+    const double x = input.coordinates[i];
+    const double std = std::sqrt(input.covariance(eigen_index(i), eigen_index(i)));
+    const double scale = scale_to(std, draws[i]);
+    intervals.push_back({q.value(x + scale * percentile(draws[i], 0.025)),
+                         q.value(x + scale * percentile(draws[i], 0.975))});
   }
   return intervals;
 }

@@ -23,7 +23,9 @@ struct BootstrapInput {
 };
 
 /// Block bootstrap: blocks drawn with replacement, one Gauss-Newton step from the solution for each
-/// draw; the 2.5 % and 97.5 % percentiles of every quantity's value.
+/// draw, scaled to the covariance's standard error; the 2.5 % and 97.5 % percentiles of every
+/// quantity's value. The percentiles bring the shape, which need not be normal. Empty where no
+/// resamples are asked for.
 std::vector<Interval> block_bootstrap(const BootstrapInput& input, const BootstrapOptions& options);
 
 }  // namespace awmr

@@ -12,9 +12,6 @@ namespace {
 
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// Standard deviation of the pull to the initial guess, over the quantity's large change.
-constexpr double kPriorStd = 5.0;
-
 /// Evaluates every window before Ceres asks for any. The point is the one that Ceres moves.
 class Evaluator : public ceres::EvaluationCallback {
  public:

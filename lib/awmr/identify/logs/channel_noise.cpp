@@ -1,8 +1,9 @@
 #include "awmr/identify/logs/channel_noise.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
+#include <boost/math/tools/minima.hpp>
+#include <limits>
+#include <utility>
 
 #include "awmr/core/index.h"
 
@@ -23,6 +24,114 @@ void add_second_differences(const std::vector<double>& values, Roughness& roughn
   }
 }
 
+/// -2 ln L of errors with a noise, and the factor on both variances that makes it least:
+///
+///     -2 ln L = sum ln S_k + nu_k^2 / S_k,   factor = (1/n) sum nu_k^2 / S_k
+struct Likelihood {
+  double cost = 0.0;    ///< at the best factor, but for a constant
+  double factor = 1.0;  ///< on sigma_w^2 and sigma_d^2
+};
+
+Likelihood likelihood(std::span<const ErrorSeries> series, const ChannelNoise& noise) {
+  double squares = 0.0;
+  double log_variances = 0.0;
+  double product = 1.0;  // of variances: one logarithm for many of them
+  double n = 0.0;
+  for (const ErrorSeries& part : series) {
+    Whitener<double> whitener(noise);
+    for (std::size_t k = 0; k < part.error.size(); ++k) {
+      const auto [nu, variance] = whitener.next(part.error[k], part.since_s[k]);
+      squares += nu * nu / variance;
+      product *= variance;
+      if (product > 1e150 || product < 1e-150) {
+        log_variances += std::log(product);
+        product = 1.0;
+      }
+    }
+    n += static_cast<double>(part.error.size());
+  }
+  const double factor = std::max(squares / n, kMinimumStd * kMinimumStd);
+  return {n * std::log(factor) + log_variances + std::log(product), factor};
+}
+
+/// Unit variance, of which e^x / (1 + e^x) is the drift's.
+ChannelNoise unit_noise(double logit, double correlation_s) {
+  const double share = 1.0 / (1.0 + std::exp(-logit));
+  return {.white_std = std::sqrt(1.0 - share),
+          .drift_std = std::sqrt(share),
+          .correlation_s = correlation_s};
+}
+
+/// At most about this many errors of a channel, whole windows spread over the logs: they tell the
+/// levels to a hundredth.
+std::vector<ErrorSeries> some_of(std::span<const ErrorSeries> series) {
+  constexpr std::size_t kEnough = 20'000;
+  std::size_t total = 0;
+  for (const ErrorSeries& part : series) total += part.error.size();
+  const std::size_t every = std::max<std::size_t>(1, total / kEnough);
+  std::vector<ErrorSeries> some;
+  for (std::size_t i = 0; i < series.size(); i += every) some.push_back(series[i]);
+  return some;
+}
+
+double median_step_s(std::span<const ErrorSeries> series) {
+  std::vector<double> steps;
+  for (const ErrorSeries& part : series) {
+    for (const double s : part.since_s) {
+      if (s > 0.0) steps.push_back(s);
+    }
+  }
+  if (steps.empty()) return 0.0;
+  const auto middle = steps.begin() + eigen_index(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  return *middle;
+}
+
+struct Drift {
+  ChannelNoise noise;  ///< of unit variance
+  double cost = std::numeric_limits<double>::infinity();
+};
+
+/// The likeliest share of a drift with this memory.
+Drift likeliest_share(std::span<const ErrorSeries> series, double correlation_s) {
+  constexpr int kBits = 10;
+  std::uintmax_t evaluations = 24;
+  const auto cost = [&](double logit) {
+    return likelihood(series, unit_noise(logit, correlation_s)).cost;
+  };
+  const auto [logit, least] =
+      boost::math::tools::brent_find_minima(cost, -6.0, 9.0, kBits, evaluations);
+  return {unit_noise(logit, correlation_s), least};
+}
+
+/// The likeliest drift with a memory from a step of the samples to the length of a window: a coarse
+/// grid of memories, then a search around the best.
+Drift likeliest_drift(std::span<const ErrorSeries> series, double step_s) {
+  constexpr int kGrid = 7;
+  constexpr int kBits = 8;
+  const double shortest = std::log(0.5 * step_s);
+  const double longest = std::log(std::max(kWindow_s, 2.0 * step_s));
+  const double spacing = (longest - shortest) / (kGrid - 1);
+  Drift best;
+  double best_log = shortest;
+  for (int i = 0; i < kGrid; ++i) {
+    const double log_s = shortest + i * spacing;
+    Drift drift = likeliest_share(series, std::exp(log_s));
+    if (!(drift.cost < best.cost)) continue;
+    best = drift;
+    best_log = log_s;
+  }
+  std::uintmax_t evaluations = 12;
+  const double refined =
+      boost::math::tools::brent_find_minima(
+          [&](double log_s) { return likeliest_share(series, std::exp(log_s)).cost; },
+          std::max(shortest, best_log - spacing), std::min(longest, best_log + spacing), kBits,
+          evaluations)
+          .first;
+  Drift drift = likeliest_share(series, std::exp(refined));
+  return drift.cost < best.cost ? drift : best;
+}
+
 }  // namespace
 
 NoiseLevels sensor_noise(const std::vector<FitWindow>& windows) {
@@ -40,10 +149,31 @@ NoiseLevels sensor_noise(const std::vector<FitWindow>& windows) {
   }
   for (auto& [channel, noise] : levels) {
     const auto& [squares, count] = roughness[channel];
-    noise.std = std::max(count > 0 ? std::sqrt(squares / (6.0 * count)) : 1.0, kMinimumStd);
-    noise.sensor_std = noise.std;
+    noise.white_std = std::max(count > 0 ? std::sqrt(squares / (6.0 * count)) : 1.0, kMinimumStd);
+    noise.sensor_std = noise.white_std;
   }
   return levels;
+}
+
+ChannelNoise likeliest_noise(std::span<const ErrorSeries> series, double free_share,
+                             const ChannelNoise& before) {
+  constexpr double kPlainly = 10.0;  // of -2 ln L for two more numbers: p = 0.007
+  ChannelNoise noise{.white_std = 1.0};
+  const std::vector<ErrorSeries> some = some_of(series);
+  const double step_s = median_step_s(some);
+  if (step_s > 0.0) {
+    const double white_cost = likelihood(some, noise).cost;
+    const Drift drift = likeliest_drift(some, step_s);
+    if (drift.cost < white_cost - kPlainly) noise = drift.noise;
+  }
+  const Likelihood scale = likelihood(series, noise);
+  const double std = std::max(std::sqrt(scale.factor / free_share), kMinimumStd);
+  noise.white_std *= std;
+  noise.drift_std *= std;
+  noise.sensor_std = before.sensor_std;
+  noise.count = before.count;
+  noise.cost = scale.cost;
+  return noise;
 }
 
 }  // namespace awmr

@@ -16,14 +16,12 @@ std::vector<DrivingLog> without(std::vector<DrivingLog> logs, std::size_t out) {
 /// "speed_mps 4.2 %, yaw_rate_radps 11.0 %": errors of the fit's prediction of a log.
 std::string prediction_errors(const DrivingLog& log, const LogFitOptions& options,
                               const LogFit& fit) {
-  ParameterValues<double> values = options.initial_guess;
   double delay_s = 0.0;
   for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
     const FreeQuantity& q = fit.quantities[i];
-    const double value = q.value(fit.coordinates[i]);
-    if (q.kind == FreeQuantity::Kind::kParameter) values[at(q.id)] = value;
-    if (q.kind == FreeQuantity::Kind::kDelay) delay_s = value;
+    if (q.kind == FreeQuantity::Kind::kDelay) delay_s = q.value(fit.coordinates[i]);
   }
+  const ParameterValues<double> values = fitted_values(options, fit);
   std::string text;
   for (const ChannelPrediction& prediction : predict_log(
            log, plant_of(options.vehicle, values), {.horizon_s = kWindow_s, .delay_s = delay_s})) {

@@ -42,38 +42,158 @@ LogFitOptions with_families(LogFitOptions options, Family surge_family, Family y
   return options;
 }
 
-}  // namespace
-
-FamilyFit fit_family(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
-                     Family surge, Family yaw) {
-  FamilyFit result{surge, with_families(power_law, surge, yaw), {}};
+FamilyFit fit_with(const std::vector<DrivingLog>& logs, LogFitOptions options, Family surge,
+                   Family yaw) {
+  FamilyFit result{surge, yaw, std::move(options), {}};
   result.fit = fit_logs(logs, result.options);
-  result.fit.report.family = name_of(surge);
+  result.fit.report.family = families_in_words(surge, yaw);
   if (std::isfinite(result.fit.aic)) result.fit.report.aicc = result.fit.aic;
   return result;
 }
 
+/// The fit of other families from the optimum of `inner`: with a little of each new term, with none of
+/// it, and from the initial guess of the power law.
+FamilyFit fit_from(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
+                   const FamilyFit& inner, Family surge, Family yaw) {
+  LogFitOptions at_optimum = power_law;
+  at_optimum.initial_guess = fitted_values(inner.options, inner.fit);
+  at_optimum.sensor_delays = sensor_delays_of(inner.fit);
+  at_optimum.guessed.clear();
+  at_optimum.suspects.clear();
+  LogFitOptions options = with_families(at_optimum, surge, yaw);
+  options.also_from = {at_optimum.initial_guess,
+                       with_families(power_law, surge, yaw).initial_guess};
+  return fit_with(logs, std::move(options), surge, yaw);
+}
+
+bool is_of_yaw(ParameterId term) {
+  return term == ParameterId::kYawCoulomb || term == ParameterId::kYawQuadratic;
+}
+
+/// Whether a family with more terms may do better: a suspect that a score test finds worth freeing, or
+/// errors with a memory, behind which a missing term can hide.
+bool suspicious(const LogFit& fit, const std::vector<ParameterId>& suspects, bool of_yaw) {
+  constexpr double kWorthATry = 4.0;  // of -2 ln L
+  if (!fit.usable) return true;
+  for (std::size_t i = 0; i < suspects.size(); ++i) {
+    if (is_of_yaw(suspects[i]) == of_yaw && fit.suspect_gain[i] > kWorthATry) return true;
+  }
+  const LogChannel channel = of_yaw ? LogChannel::kYawRate : LogChannel::kSpeed;
+  const auto noise = fit.noise.find(channel);
+  return noise != fit.noise.end() && noise->second.drift_std > noise->second.sensor_std;
+}
+
+/// By how many joint standard errors the parameter that differs most does, with its name.
+std::pair<double, std::string> largest_difference(const LogFit& a, const LogFit& b) {
+  std::pair<double, std::string> largest{0.0, ""};
+  for (std::size_t i = 0; i < a.quantities.size(); ++i) {
+    const EstimatorParameter& mine = a.report.parameters[i];
+    for (const EstimatorParameter& other : b.report.parameters) {
+      if (other.name != mine.name || !mine.std_error || !other.std_error) continue;
+      const double size =
+          std::abs(mine.value - other.value) / std::hypot(*mine.std_error, *other.std_error);
+      if (size > largest.first) largest = {size, mine.name};
+    }
+  }
+  return largest;
+}
+
+Finding taken(const std::string& file, const FamilyFit& best, double gain) {
+  return {file, 0, Severity::kWarning, "power-law-inadequate",
+          fmt::format("a power law does not describe these logs: {} is better by {:.0f} of AIC",
+                      families_in_words(best.surge, best.yaw), gain)};
+}
+
+/// A rival ahead of the family taken, though not plainly, under which a parameter is another.
+std::optional<Finding> undecided(const std::string& file, const FamilyFit& best,
+                                 const FamilyFit& rival) {
+  constexpr double kApart = 2.0;
+  const double gain = best.fit.aic - rival.fit.aic;
+  const auto [apart, name] = largest_difference(best.fit, rival.fit);
+  if (!rival.fit.usable || !(gain > 0.0) || !(apart > kApart)) return std::nullopt;
+  return Finding{
+      file, 0, Severity::kWarning, "family-undecided",
+      fmt::format("these logs do not decide between {} and {} (better by {:.1f} of AIC, "
+                  "too little to take it): under it {} is {:.1f} standard errors away; the "
+                  "intervals hold for {} only",
+                  families_in_words(best.surge, best.yaw),
+                  families_in_words(rival.surge, rival.yaw), gain, name, apart,
+                  families_in_words(best.surge, best.yaw))};
+}
+
+struct Contender {
+  Family surge;
+  Family yaw;
+};
+
+/// The other families of surge for this yaw, or of yaw for this surge.
+std::vector<Contender> contenders(const FamilyFit& first, bool of_yaw) {
+  std::vector<Contender> found;
+  for (const Family family : values_in(kFamilyNames)) {
+    if (of_yaw && family == Family::kDeadZone) continue;  // a dead zone belongs to the wheels
+    const Contender c = of_yaw ? Contender{first.surge, family} : Contender{family, first.yaw};
+    if (c.surge != first.surge || c.yaw != first.yaw) found.push_back(c);
+  }
+  return found;
+}
+
+/// Fits the contenders and leaves the best of them and of `result.best` there.
+void compete(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
+             const std::vector<Contender>& others, double lead, BestFamily& result) {
+  const FamilyFit first = result.best;
+  std::optional<FamilyFit> best_rival;
+  for (const Contender& other : others) {
+    FamilyFit rival =
+        fit_from(logs, power_law, best_rival ? *best_rival : first, other.surge, other.yaw);
+    result.others.push_back(rival.fit.report);
+    if (!rival.fit.usable) continue;
+    if (!best_rival || rival.fit.aic < best_rival->fit.aic) best_rival = std::move(rival);
+  }
+  if (!best_rival) return;
+  if (!first.fit.usable || best_rival->fit.aic < first.fit.aic - lead) {
+    const auto same = [&](const EstimatorReport& r) {
+      return r.family == best_rival->fit.report.family;
+    };
+    std::erase_if(result.others, same);
+    result.others.push_back(first.fit.report);
+    result.best = std::move(*best_rival);
+  } else if (const auto finding = undecided(logs.front().file, first, *best_rival)) {
+    result.findings.push_back(*finding);
+  }
+}
+
+}  // namespace
+
+std::string families_in_words(Family surge, Family yaw) {
+  if (yaw == Family::kPower) return std::string(name_of(surge));
+  return fmt::format("{}, yaw {}", name_of(surge), name_of(yaw));
+}
+
+FamilyFit fit_family(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
+                     Family surge, Family yaw) {
+  return fit_with(logs, with_families(power_law, surge, yaw), surge, yaw);
+}
+
 BestFamily best_family(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
-                       Family yaw) {
+                       FamilyFit first, const FamilyContest& contest) {
   constexpr double kPlainlyBetter = 10.0;
   BestFamily result;
-  result.best = fit_family(logs, power_law, Family::kPower, yaw);
-  const double power_aic = result.best.fit.aic;
-  for (const Family family : values_in(kFamilyNames)) {
-    if (family == Family::kPower) continue;
-    FamilyFit rival = fit_family(logs, power_law, family, yaw);
-    const LogFit& best = result.best.fit;
-    const bool better = rival.fit.usable && (!best.usable || rival.fit.aic < best.aic);
-    if (better) std::swap(result.best, rival);
-    result.others.push_back(rival.fit.report);
+  const double first_aic = first.fit.aic;
+  const LogFit judged = first.fit;
+  result.best = std::move(first);
+  const auto open = [&](bool of_yaw) {
+    return !contest.only_suspects || suspicious(judged, power_law.suspects, of_yaw);
+  };
+  if (contest.surge && open(false)) {
+    compete(logs, power_law, contenders(result.best, false), contest.lead, result);
   }
-  result.gain = power_aic - result.best.fit.aic;
-  if (result.best.surge != Family::kPower && result.gain > kPlainlyBetter) {
-    result.finding =
-        Finding{logs.front().file, 0, Severity::kNote, "power-law-inadequate",
-                fmt::format("a power law does not describe these logs: {} is better by {:.0f} of "
-                            "AIC",
-                            name_of(result.best.surge), result.gain)};
+  if (contest.yaw && open(true)) {
+    compete(logs, power_law, contenders(result.best, true), contest.lead, result);
+  }
+  result.gain = first_aic - result.best.fit.aic;
+  const bool other = result.best.surge != Family::kPower || result.best.yaw != Family::kPower;
+  if (other && result.gain > kPlainlyBetter) {
+    result.findings.push_back(taken(logs.front().file, result.best, result.gain));
   }
   return result;
 }

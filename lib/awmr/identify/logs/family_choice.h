@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "awmr/identify/logs/log_fit.h"
@@ -10,6 +11,7 @@ namespace awmr {
 
 struct FamilyFit {
   Family surge = Family::kPower;
+  Family yaw = Family::kPower;
   LogFitOptions options;  ///< with the terms of the families
   LogFit fit;
 };
@@ -18,15 +20,28 @@ struct FamilyFit {
 FamilyFit fit_family(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                      Family surge, Family yaw);
 
+/// How families are compared.
+struct FamilyContest {
+  bool surge = true;  ///< every family of surge resistance, otherwise power
+  bool yaw = false;   ///< and of yaw resistance, given the best of surge
+  double lead = 0.0;  ///< by which a family's AIC has to be below the power law's to be taken
+  bool only_suspects = true;  ///< where no term would help the power law, it stands uncontested
+};
+
 struct BestFamily {
   FamilyFit best;
   std::vector<EstimatorReport> others;
-  double gain = 0.0;               ///< the power law's AIC less that of the best
-  std::optional<Finding> finding;  ///< `power-law-inadequate`: another family is plainly better
+  double gain = 0.0;              ///< the power law's AIC less that of the best
+  std::vector<Finding> findings;  ///< `power-law-inadequate`, `family-undecided`
 };
 
-/// Every family of surge resistance in turn: the least AIC of those that converged.
+/// The families in turn, each from the optimum of the best so far, so that a richer one does not end
+/// above what it holds: the least AIC of those that converged. `first`: the power law's fit, or that
+/// of the families to begin with.
 BestFamily best_family(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
-                       Family yaw);
+                       FamilyFit first, const FamilyContest& contest);
+
+/// "coulomb-linear", or "power, yaw coulomb-linear" where yaw has one of its own.
+std::string families_in_words(Family surge, Family yaw);
 
 }  // namespace awmr

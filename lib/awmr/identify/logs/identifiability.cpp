@@ -53,41 +53,96 @@ std::optional<std::size_t> place_of(const std::vector<FreeQuantity>& quantities,
 
 /// A delay and a family's term may be zero, the end of their range.
 bool stopped(const FreeQuantity& q, double coordinate, const Interval& bounds) {
-  if (q.kind == FreeQuantity::Kind::kDelay) return false;
+  if (q.is_delay()) return coordinate >= bounds.hi;
   const bool term = q.kind == FreeQuantity::Kind::kParameter && info(q.id).term;
   if (term && coordinate == bounds.lo) return false;
   return coordinate <= bounds.lo || coordinate >= bounds.hi;
 }
 
+/// The variances of the coordinates by the scatter of the blocks' scores: the diagonal of
+/// m/(m - 1) C (sum s_b s_b^T) C.
+Eigen::VectorXd variances_by_scatter(const Eigen::MatrixXd& covariance,
+                                     const std::vector<Eigen::VectorXd>& scores) {
+  Eigen::VectorXd variances = Eigen::VectorXd::Zero(covariance.rows());
+  for (const Eigen::VectorXd& score : scores) variances += (covariance * score).cwiseAbs2();
+  const double m = static_cast<double>(scores.size());
+  return m / (m - 1.0) * variances;
+}
+
+/// Widens the standard errors to what the blocks' scatter demands.
+void widen(const std::vector<Eigen::VectorXd>& scores, Identifiability& found) {
+  constexpr double kManyDegrees = 1e6;  // normal
+  const Eigen::Index n = found.covariance.rows();
+  found.degrees_of_freedom.assign(at(n), kManyDegrees);
+  if (scores.size() < 2) return;
+  const Eigen::VectorXd scatter = variances_by_scatter(found.covariance, scores);
+  Eigen::VectorXd factor = Eigen::VectorXd::Ones(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    if (!(scatter(i) > found.covariance(i, i))) continue;
+    factor(i) = std::sqrt(scatter(i) / found.covariance(i, i));
+    found.degrees_of_freedom[at(i)] = static_cast<double>(scores.size() - 1);
+  }
+  found.widened = factor.maxCoeff();
+  found.covariance = factor.asDiagonal() * found.covariance * factor.asDiagonal();
+}
+
+/// Refuses what is correlated with a refused coordinate that was stopped.
+void refuse_what_hangs_on(Eigen::Index stopped, const std::vector<FreeQuantity>& quantities,
+                          Identifiability& found) {
+  constexpr double kHangs = 0.3;  // of a correlation
+  const Eigen::MatrixXd& c = found.covariance;
+  for (Eigen::Index i = 0; i < c.rows(); ++i) {
+    const double correlation = c(i, stopped) / std::sqrt(c(i, i) * c(stopped, stopped));
+    if (i == stopped || !found.why_not[at(i)].empty() || !(std::abs(correlation) > kHangs))
+      continue;
+    found.why_not[at(i)] = fmt::format(
+        "it hangs on {} (correlation {:.2f}), which the search left at the end of its "
+        "range",
+        quantities[at(stopped)].name(), correlation);
+  }
+}
+
+std::string why_stopped(const FreeQuantity& q, double coordinate) {
+  std::string why =
+      fmt::format("the search ended at the end of its range, {:.4g}", q.value(coordinate));
+  if (q.is(ParameterId::kSurgeBeta)) why += "; surge_beta_range in the vehicle file widens it";
+  if (q.is(ParameterId::kYawBeta)) why += "; yaw_beta_range in the vehicle file widens it";
+  return why;
+}
+
 }  // namespace
 
 Identifiability identifiability(const Eigen::MatrixXd& information,
+                                const std::vector<Eigen::VectorXd>& scores,
                                 const std::vector<FreeQuantity>& quantities) {
+  // The prior of the search: a coordinate is within ten large changes of its initial guess.
+  constexpr double kPrior = 1.0 / (kPriorStd * kPriorStd);
+  constexpr double kNull = 1e-12;
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const Eigen::Index n = rows_of(quantities);
   Eigen::VectorXd scale(n);
   for (Eigen::Index i = 0; i < n; ++i) scale(i) = quantities[at(i)].large_change;
   const Eigen::MatrixXd scaled = scale.asDiagonal() * information * scale.asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled);
   const Eigen::VectorXd& values = eigen.eigenvalues();
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  constexpr double kNull = 1e-12;
   const double largest = values(n - 1);
   Identifiability found;
   found.condition_number = values(0) > 0.0 ? std::sqrt(largest / values(0)) : kInfinity;
   found.why_not.resize(at(n));
   Eigen::MatrixXd inverse = Eigen::MatrixXd::Zero(n, n);
   for (Eigen::Index d = 0; d < n; ++d) {
-    const bool null = !(values(d) > kNull * largest);
-    const double std = null ? kInfinity : 1.0 / std::sqrt(values(d));
+    const double shown = values(d) > kNull * largest ? values(d) : 0.0;
     const Eigen::VectorXd direction = eigen.eigenvectors().col(d);
+    inverse += direction * direction.transpose() / (shown + kPrior);
+    const double std = 1.0 / std::sqrt(shown);
     if (std < kUnknown) {
-      inverse += direction * direction.transpose() / values(d);
       ++found.rank;
     } else {
       refuse_direction(direction, std, quantities, found.why_not);
     }
   }
   found.covariance = scale.asDiagonal() * inverse * scale.asDiagonal();
+  widen(scores, found);
   for (Eigen::Index i = 0; i < n; ++i) {
     const double std = std::sqrt(found.covariance(i, i)) / scale(i);
     std::string& why_not = found.why_not[at(i)];
@@ -101,8 +156,8 @@ Identifiability without_stopped(Identifiability found, const LogProblem& problem
   const std::vector<FreeQuantity>& quantities = problem.model.quantities;
   for (std::size_t i = 0; i < quantities.size(); ++i) {
     if (!stopped(quantities[i], coordinates[i], problem.bounds[i])) continue;
-    found.why_not[i] = fmt::format("the search ended at the end of its range, {:.4g}",
-                                   quantities[i].value(coordinates[i]));
+    found.why_not[i] = why_stopped(quantities[i], coordinates[i]);
+    refuse_what_hangs_on(eigen_index(i), quantities, found);
   }
   for (const auto& [alpha, beta] : {std::pair(ParameterId::kSurgeAlpha, ParameterId::kSurgeBeta),
                                     std::pair(ParameterId::kYawAlpha, ParameterId::kYawBeta)}) {

@@ -1,4 +1,4 @@
-/// Which quantities the logs show, and why not the others. Private to identify/.
+/// Which quantities the logs show, how well, and why not the others. Private to identify/.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,20 +10,33 @@
 namespace awmr {
 
 struct Identifiability {
-  Eigen::MatrixXd covariance;        ///< n x n, of the coordinates; 0 along open directions
-  std::vector<std::string> why_not;  ///< by quantity; empty where the logs show it
-  int rank = 0;                      ///< directions that the logs show
-  double condition_number = 0.0;     ///< of the Jacobian, coordinates over their large changes
+  /// n x n, of the coordinates. What is open has a large variance here and a part in the variance of
+  /// all that hangs on it: nothing is taken as known that the logs do not show.
+  Eigen::MatrixXd covariance;
+  std::vector<double> degrees_of_freedom;  ///< of the standard errors, by quantity
+  std::vector<std::string> why_not;        ///< by quantity; empty where the logs show it
+  int rank = 0;                            ///< directions that the logs show
+  double condition_number = 0.0;  ///< of the Jacobian, coordinates over their large changes
+  /// Largest factor on a standard error by which blocks of residuals scatter more than their noise
+  /// model says; 1: none do.
+  double widened = 1.0;
 };
 
-/// Directions v of the coordinates over their large changes, from the information's eigenvectors. A
-/// direction is shown where its standard error is below a half; an open one takes along every
-/// quantity that has a tenth or more of its squared length. A quantity may be open on its own too.
+/// The covariance from the information H (n x n) and, as a judge of its noise model, the scores s_b
+/// of m blocks of residuals. With coordinates over their large changes and a weak prior P,
+///
+///     C = (H + P)^-1,   V = m/(m - 1) C (sum s_b s_b^T) C,   covariance = D C D,
+///     D_ii^2 = max(1, V_ii / C_ii)
+///
+/// A quantity is refused where its standard error is half its large change or more, or where it has
+/// a tenth or more of the squared length of a direction that the logs leave open.
 Identifiability identifiability(const Eigen::MatrixXd& information,
+                                const std::vector<Eigen::VectorXd>& scores,
                                 const std::vector<FreeQuantity>& quantities);
 
-/// A coordinate that the search left at an end of its range was stopped there, not found; and an
-/// exponent without its factor says nothing.
+/// Refuses a coordinate that the search left at an end of its range: it was stopped there, not found.
+/// What is correlated with it hangs on it and is refused too; and an exponent without its factor says
+/// nothing.
 Identifiability without_stopped(Identifiability found, const LogProblem& problem,
                                 const std::vector<double>& coordinates);
 

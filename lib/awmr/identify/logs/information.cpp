@@ -54,15 +54,13 @@ std::vector<Eigen::VectorXd> block_scores(const std::vector<FitWindow>& windows,
 double block_length_s(const NoiseLevels& noise) {
   double longest_s = 0.0;
   for (const auto& [channel, level] : noise) longest_s = std::max(longest_s, level.correlation_s);
-  return std::max(1.0, 5.0 * longest_s);
+  return std::clamp(5.0 * longest_s, 1.0, kWindow_s);
 }
 
 double akaike(const NoiseLevels& noise, Eigen::Index n) {
   double aic = 2.0 * static_cast<double>(n);
   for (const auto& [channel, level] : noise) {
-    const double phi =
-        level.correlation_s > 0.0 ? std::exp(-level.step_s / level.correlation_s) : 0.0;
-    aic += level.count * std::log(level.std * level.std * (1.0 - phi * phi));
+    aic += level.cost + 2.0 * (level.drift_std > 0.0 ? 3.0 : 1.0);
   }
   return aic;
 }

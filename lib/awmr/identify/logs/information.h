@@ -15,17 +15,17 @@ namespace awmr {
 Eigen::MatrixXd information(const std::vector<WindowResiduals>& residuals, Eigen::Index n);
 
 /// The scores (n: the projected Jacobian's rows times their residuals, summed) of blocks of about
-/// `block_s` within each window, for the bootstrap.
+/// `block_s` within each window. How they scatter tells how much the fit can be off, whatever the
+/// noise is.
 std::vector<Eigen::VectorXd> block_scores(const std::vector<FitWindow>& windows,
                                           const std::vector<WindowResiduals>& residuals,
                                           Eigen::Index n, double block_s);
 
-/// Long enough for the blocks to be nearly independent: five times the longest correlation.
+/// Long enough for the blocks to be nearly independent: five times the longest correlation, within
+/// a window.
 double block_length_s(const NoiseLevels& noise);
 
-/// -2 ln L + 2 n with the noise at its estimate; L of first-order processes:
-///
-///     AIC = 2 n + sum over the channels of  count ln(sigma^2 (1 - phi^2)),   phi = e^(-dt/tau)
+/// Akaike's criterion, -2 ln L + 2 (n + numbers of the noise), but for a constant of the logs.
 double akaike(const NoiseLevels& noise, Eigen::Index n);
 
 }  // namespace awmr

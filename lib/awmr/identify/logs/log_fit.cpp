@@ -5,9 +5,11 @@
 #include "awmr/core/index.h"
 #include "awmr/identify/logs/bootstrap.h"
 #include "awmr/identify/logs/information.h"
+#include "awmr/identify/logs/late_sensors.h"
 #include "awmr/identify/logs/log_report.h"
 #include "awmr/identify/logs/multistart.h"
 #include "awmr/identify/logs/noise_iteration.h"
+#include "awmr/identify/logs/score_test.h"
 
 namespace awmr {
 namespace {
@@ -24,17 +26,17 @@ LogFit without_solution(std::string why, std::vector<SearchStart> starts) {
   return fit;
 }
 
-/// A 95 % interval for each quantity; empty where no bootstrap was asked for.
-std::vector<Interval> bootstrap_intervals(const LogProblem& problem,
-                                          const std::vector<double>& coordinates,
-                                          const std::vector<WindowResiduals>& residuals,
-                                          const Eigen::MatrixXd& covariance,
-                                          const LogFitOptions& options) {
-  if (options.bootstrap <= 0) return {};
-  const double block_s = block_length_s(problem.model.noise);
-  const auto scores = block_scores(problem.windows, residuals, covariance.rows(), block_s);
-  return block_bootstrap({problem.model.quantities, coordinates, covariance, scores},
-                         {.resamples = options.bootstrap, .seed = options.seed});
+/// By how much -2 ln L would fall with each suspect free.
+std::vector<double> suspect_gains(const LogProblem& problem, const SearchPoint& point,
+                                  const std::vector<ParameterId>& suspects) {
+  std::vector<FreeQuantity> terms;
+  for (const ParameterId id : suspects) terms.push_back(free_parameter(id));
+  std::vector<double> gains;
+  for (const ScoreTest& test : score_test(problem, point, terms)) {
+    // A term is not negative: where it would have to be, it brings nothing.
+    gains.push_back(test.value > 0.0 ? test.gain : 0.0);
+  }
+  return gains;
 }
 
 }  // namespace
@@ -50,34 +52,57 @@ LogFit fit_logs(const std::vector<DrivingLog>& logs, const LogFitOptions& option
                             search.starts);
   }
 
-  const NoiseIteration settled =
-      settle_noise(guess, from_measured(guess, search.coordinates), options.loss);
+  const NoiseIteration settled = allow_for_late_sensors(
+      settle_noise(guess, from_measured(guess, search.coordinates), options.loss), options.loss);
   const LogProblem& problem = settled.problem;
-  const std::vector<FreeQuantity>& quantities = problem.model.quantities;
   const Solved solved = solve(problem, settled.point, kFine);
-  const std::vector<double>& coordinates = solved.point.coordinates;
   const std::vector<WindowResiduals> residuals = evaluate_all(problem, solved.point, true);
-
   if (!all_finite(residuals)) {
     return without_solution("failed: the logs cannot be replayed where the search ended",
                             search.starts);
   }
-  const Eigen::Index n = rows_of(quantities);
-  const Identifiability found =
-      without_stopped(identifiability(information(residuals, n), quantities), problem, coordinates);
-  const std::vector<Interval> bootstrap95 =
-      bootstrap_intervals(problem, coordinates, residuals, found.covariance, options);
 
-  EstimatorReport report = log_report({problem, solved, residuals, found, bootstrap95});
-  report.starts = search.starts;
-  return {quantities,
-          coordinates,
-          found.covariance,
-          found.why_not,
-          problem.model.noise,
-          akaike(problem.model.noise, n),
-          report,
-          solved.usable && solved.converged};
+  const std::vector<FreeQuantity>& quantities = problem.model.quantities;
+  const std::vector<double>& coordinates = solved.point.coordinates;
+  const Eigen::Index n = rows_of(quantities);
+  const auto scores =
+      block_scores(problem.windows, residuals, n, block_length_s(problem.model.noise));
+  const Identifiability found = without_stopped(
+      identifiability(information(residuals, n), scores, quantities), problem, coordinates);
+  const std::vector<Interval> bootstrap95 =
+      block_bootstrap({quantities, coordinates, found.covariance, scores},
+                      {.resamples = options.bootstrap, .seed = options.seed});
+
+  LogFit fit{.quantities = quantities,
+             .coordinates = coordinates,
+             .covariance = found.covariance,
+             .why_not = found.why_not,
+             .noise = problem.model.noise,
+             .suspect_gain = suspect_gains(problem, solved.point, options.suspects),
+             .aic = akaike(problem.model.noise, n),
+             .widened = found.widened,
+             .report = log_report({problem, solved, residuals, found, bootstrap95}),
+             .usable = solved.usable && solved.converged};
+  fit.report.starts = search.starts;
+  return fit;
+}
+
+std::vector<SensorDelay> sensor_delays_of(const LogFit& fit) {
+  std::vector<SensorDelay> delays;
+  for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
+    if (fit.quantities[i].kind != FreeQuantity::Kind::kSensorDelay) continue;
+    delays.push_back({fit.quantities[i].channel, fit.coordinates[i]});
+  }
+  return delays;
+}
+
+ParameterValues<double> fitted_values(const LogFitOptions& options, const LogFit& fit) {
+  ParameterValues<double> values = options.initial_guess;
+  for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
+    const FreeQuantity& q = fit.quantities[i];
+    if (q.kind == FreeQuantity::Kind::kParameter) values[at(q.id)] = q.value(fit.coordinates[i]);
+  }
+  return values;
 }
 
 }  // namespace awmr

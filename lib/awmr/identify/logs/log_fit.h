@@ -18,10 +18,13 @@ namespace awmr {
 struct LogFit {
   std::vector<FreeQuantity> quantities;
   std::vector<double> coordinates;   ///< by quantity
-  Eigen::MatrixXd covariance;        ///< of the coordinates; directions that nothing shows left out
+  Eigen::MatrixXd covariance;        ///< of the coordinates; what is open has a large variance
   std::vector<std::string> why_not;  ///< by quantity; empty where the logs show it
   NoiseLevels noise;
+  /// By suspect of the options: by how much -2 ln L would fall with the term free (a score test).
+  std::vector<double> suspect_gain;
   double aic = 0.0;        ///< Akaike's criterion; less is better, of the same logs only
+  double widened = 1.0;    ///< see Identifiability
   EstimatorReport report;  ///< parameters by quantity
   bool usable = false;     ///< the search converged
 };
@@ -30,5 +33,11 @@ struct LogFit {
 /// Where nothing is measured, nothing is free or no search leads anywhere, the fit is not usable,
 /// has no quantities, and its report says why.
 LogFit fit_logs(const std::vector<DrivingLog>& logs, const LogFitOptions& options);
+
+/// The sensors that the fit found late, with their delays.
+std::vector<SensorDelay> sensor_delays_of(const LogFit& fit);
+
+/// All parameters as the fit leaves them: the free ones fitted, the rest as they were held.
+ParameterValues<double> fitted_values(const LogFitOptions& options, const LogFit& fit);
 
 }  // namespace awmr

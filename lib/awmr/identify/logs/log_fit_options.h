@@ -10,6 +10,12 @@
 
 namespace awmr {
 
+/// A channel that is read late: what it shows at t was so at t - delay_s.
+struct SensorDelay {
+  LogChannel channel = LogChannel::kSpeed;  ///< kX: the position
+  double delay_s = 0.0;
+};
+
 struct LogFitOptions {
   Vehicle vehicle;
   /// By ParameterId: where the search begins, and what a parameter that is not free is held at.
@@ -18,13 +24,20 @@ struct LogFitOptions {
   /// Empty where other trials gave every initial guess, and one search is enough.
   std::vector<ParameterId> guessed;
   std::vector<ParameterId> free;
+  /// Terms held at 0 whose worth the fit estimates without freeing them.
+  std::vector<ParameterId> suspects;
   bool delay = false;              ///< one input delay of all commands is free
   std::vector<LogChannel> biases;  ///< channels whose constant offset is free
-  Loss loss = Loss::kSquared;      ///< a robust one where a sensor has outliers
-  std::uint64_t seed = 1;          ///< of the multistart and of the bootstrap
-  int multistart = 6;              ///< random initial guesses beside the given one
-  int bootstrap = 0;               ///< resamples of the block bootstrap; 0: none
-  int threads = 0;                 ///< 0: every core; the result does not depend on it
+  /// Sensor delays that are free, with where the search begins. The fit adds those that its residuals
+  /// show.
+  std::vector<SensorDelay> sensor_delays;
+  /// Further places to search from, beside the initial guess: the optimum of a family inside this one.
+  std::vector<ParameterValues<double>> also_from;
+  Loss loss = Loss::kSquared;  ///< a robust one where a sensor has outliers
+  std::uint64_t seed = 1;      ///< of the multistart and of the bootstrap
+  int multistart = 6;          ///< random initial guesses beside the given one
+  int bootstrap = 0;           ///< resamples of the block bootstrap; 0: none
+  int threads = 0;             ///< 0: every core; the result does not depend on it
 };
 
 }  // namespace awmr

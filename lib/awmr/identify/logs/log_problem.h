@@ -7,10 +7,13 @@
 
 namespace awmr {
 
+/// Standard deviation of the pull to the initial guess, over the quantity's large change.
+inline constexpr double kPriorStd = 5.0;
+
 /// Half the sum of squares of: every window's residuals, and a pull of every coordinate to its
 /// initial guess,
 ///
-///     (x_i - initial_i) / (5 large_change_i)
+///     (x_i - initial_i) / (kPriorStd large_change_i)
 ///
 /// so weak that data of any use outweigh it, and what no data show stays put.
 struct LogProblem {

@@ -13,14 +13,15 @@
 namespace awmr {
 namespace {
 
-/// "speed_mps 0.012 m/s correlated over 0.4 s, yaw_rate_radps 0.03 rad/s"
+/// "speed_mps 0.012 m/s, 0.004 of it correlated over 0.4 s; yaw_rate_radps 0.03 rad/s"
 std::string in_words(const NoiseLevels& levels) {
   std::string text;
   for (const auto& [channel, noise] : levels) {
-    text += fmt::format("{}{} {:.3g} {}", text.empty() ? "" : ", ", info(channel).name, noise.std,
+    text += fmt::format("{}{} {:.3g} {}", text.empty() ? "" : "; ", info(channel).name, noise.std(),
                         info(channel).unit);
-    if (noise.correlation_s > 0.0) {
-      text += fmt::format(" correlated over {:.3g} s", noise.correlation_s);
+    if (noise.drift_std > 0.0) {
+      text += fmt::format(", {:.3g} of it correlated over {:.3g} s", noise.drift_std,
+                          noise.correlation_s);
     }
   }
   return text;
@@ -29,13 +30,12 @@ std::string in_words(const NoiseLevels& levels) {
 /// The i-th quantity with its interval: the bootstrap's where there is one, else normal in the
 /// coordinate.
 EstimatorParameter parameter_of(const LogReportInput& input, std::size_t i) {
-  constexpr double kManyDegrees = 1e6;  // of freedom: normal
   const FreeQuantity& q = input.problem.model.quantities[i];
   const double x = input.solved.point.coordinates[i];
   EstimatorParameter parameter{q.name(), q.value(x), {}, {}, {}};
   if (!input.found.why_not[i].empty()) return parameter;
   const double error = std::sqrt(input.found.covariance(eigen_index(i), eigen_index(i)));
-  const double half = t_quantile_95(kManyDegrees) * error;
+  const double half = t_quantile_95(input.found.degrees_of_freedom[i]) * error;
   parameter.std_error = q.jacobian(x) * error;
   parameter.ci95 = input.bootstrap95.empty() ? Interval{q.value(x - half), q.value(x + half)}
                                              : input.bootstrap95[i];

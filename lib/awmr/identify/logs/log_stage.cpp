@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <initializer_list>
 #include <utility>
 
 #include "awmr/core/index.h"
@@ -24,16 +26,55 @@ void append(std::vector<T>& to, const std::vector<T>& more) {
   to.insert(to.end(), more.begin(), more.end());
 }
 
-/// Why no channel or command of the logs could show a parameter, before any search; empty: one
-/// might.
-std::string cannot_show(const std::vector<DrivingLog>& logs, ParameterId id) {
-  const bool any_servo = std::any_of(logs.begin(), logs.end(), [](const DrivingLog& log) {
-    return log.steering_command_rad.has_value();
+bool any_has(const std::vector<DrivingLog>& logs, std::initializer_list<LogChannel> channels) {
+  return std::ranges::any_of(logs, [&](const DrivingLog& log) {
+    return std::ranges::any_of(channels, [&](LogChannel c) { return log[c].has_value(); });
   });
-  if (id == ParameterId::kSteeringTimeConstant && !any_servo) {
-    return "the logs hold the steering angle as it was, not its command";
+}
+
+/// Why no channel or command of the logs could show a parameter, before any search; empty: one
+/// might. What is merely coupled to a channel, as yaw is to speed, is not shown by it.
+std::string cannot_show(const std::vector<DrivingLog>& logs, ParameterId id) {
+  switch (id) {
+    case ParameterId::kSteeringTimeConstant: {
+      const bool any_servo = std::ranges::any_of(
+          logs, [](const DrivingLog& log) { return log.steering_command_rad.has_value(); });
+      return any_servo ? "" : "the logs hold the steering angle as it was, not its command";
+    }
+    case ParameterId::kSurgeAlpha:
+    case ParameterId::kSurgeBeta:
+    case ParameterId::kMassNorm:
+      return any_has(logs, {LogChannel::kSpeed, LogChannel::kX, LogChannel::kY})
+                 ? ""
+                 : "no channel shows how fast the vehicle drives (speed_mps or a position)";
+    case ParameterId::kYawAlpha:
+    case ParameterId::kYawBeta:
+    case ParameterId::kInertiaNorm:
+      return any_has(logs,
+                     {LogChannel::kYawRate, LogChannel::kHeading, LogChannel::kX, LogChannel::kY})
+                 ? ""
+                 : "no channel shows the vehicle turn (yaw_rate_radps, heading_deg or a position)";
+    case ParameterId::kSwayAlpha:
+      return any_has(logs, {LogChannel::kSway, LogChannel::kX, LogChannel::kY})
+                 ? ""
+                 : "no channel shows the vehicle slide sideways (sway_mps or a position)";
+    default:
+      return {};
   }
-  return {};
+}
+
+/// Whether the vehicle is told to turn anywhere in the logs.
+bool turns(const std::vector<DrivingLog>& logs) {
+  constexpr double kMuch = 0.01;  // of the largest force, and rad
+  return std::ranges::any_of(logs, [](const DrivingLog& log) {
+    const std::vector<double>& steering =
+        log.steering_command_rad ? *log.steering_command_rad : log[LogChannel::kSteering]->value;
+    for (std::size_t i = 0; i < log.rows(); ++i) {
+      const double difference = std::abs(log.force_right[i] - log.force_left[i]);
+      if (std::abs(steering[i]) > kMuch || difference > kMuch) return true;
+    }
+    return false;
+  });
 }
 
 /// Channels with an offset: those asked for, and a yaw rate whose bias the heading shows.
@@ -51,6 +92,9 @@ LogFitOptions fit_options(const Vehicle& vehicle, const std::vector<DrivingLog>&
   LogFitOptions fit;
   fit.vehicle = vehicle;
   fit.delay = options.fit_input_delay;
+  fit.suspects = {ParameterId::kSurgeCoulomb, ParameterId::kSurgeQuadratic,
+                  ParameterId::kWheelDeadZone, ParameterId::kYawCoulomb,
+                  ParameterId::kYawQuadratic};
   fit.biases = biased_channels(logs, options.biases);
   fit.loss = options.loss;
   fit.seed = options.seed;
@@ -65,40 +109,54 @@ LogFitOptions fit_options(const Vehicle& vehicle, const std::vector<DrivingLog>&
 void free_parameters(LogFitOptions& fit, const std::vector<DrivingLog>& logs,
                      const std::vector<ParameterId>& asked, const Model& model,
                      std::map<ParameterId, std::string>& reasons) {
+  const bool turning = turns(logs);
   for (const ParameterInfo& parameter : parameter_table()) {
     const Estimate& known = model[parameter.id];
     if (known.value) fit.initial_guess[at(parameter.id)] = *known.value;
     const bool wanted = contains(asked, parameter.id) || !known.value;
     if (parameter.term || !wanted) continue;
     const std::string why = cannot_show(logs, parameter.id);
-    if (!why.empty()) {
-      reasons[parameter.id] = why;
-      continue;
-    }
+    if (!why.empty()) reasons[parameter.id] = why;
+    // In a turn, what is not shown still acts on what is: it stays free, and is refused.
+    if (!why.empty() && !turning) continue;
     fit.free.push_back(parameter.id);
     if (!known.value) fit.guessed.push_back(parameter.id);
   }
 }
 
-/// The family that was asked for, or the best one. Also fits what is reported only: rivals.
+bool is_open(const FamilyChoice& choice) {
+  return !choice.family || (!choice.asked && choice.family == Family::kPower);
+}
+
+/// The families that were asked for, or the best ones. Also fits what is reported only: rivals.
 FamilyFit fit_families(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                        const IdentifyOptions& options, LogStage& stage) {
-  const Family yaw = options.yaw_family.family.value_or(Family::kPower);
-  FamilyFit chosen;
-  if (options.surge_family.family) {
-    chosen = fit_family(logs, power_law, *options.surge_family.family, yaw);
-  } else {
-    BestFamily found = best_family(logs, power_law, yaw);
+  constexpr double kPlainlyBetter = 10.0;
+  const FamilyChoice& surge = options.surge_family;
+  const FamilyChoice& yaw = options.yaw_family;
+  const bool surge_open = is_open(surge);
+  const bool yaw_open = is_open(yaw) && contains(power_law.free, ParameterId::kYawAlpha);
+  FamilyFit chosen = fit_family(logs, power_law, surge.family.value_or(Family::kPower),
+                                yaw.family.value_or(Family::kPower));
+  if (surge_open || yaw_open) {
+    BestFamily found =
+        best_family(logs, power_law, std::move(chosen),
+                    {.surge = surge_open,
+                     .yaw = yaw_open,
+                     // Nobody asked: another family than the paper's has to be plainly better.
+                     .lead = surge.asked || yaw.asked ? 0.0 : kPlainlyBetter,
+                     .only_suspects = surge.asked ? surge.family.has_value() : true});
     append(stage.reports, found.others);
-    if (found.finding) stage.findings.push_back(*found.finding);
+    append(stage.findings, found.findings);
     chosen = std::move(found.best);
   }
   stage.surge_family = chosen.surge;
+  stage.yaw_family = chosen.yaw;
   stage.chosen_report = stage.reports.size();
   stage.reports.push_back(chosen.fit.report);
   append(stage.findings, autocorrelation_findings(chosen.fit, logs.front().file));
-  const bool try_families = options.surge_family.family == Family::kPower;
-  const Adequacy adequacy = judge_adequacy(logs, power_law, chosen.fit, yaw, try_families);
+  const bool try_families = surge.asked && surge.family == Family::kPower;
+  const Adequacy adequacy = judge_adequacy(logs, power_law, chosen, try_families);
   append(stage.reports, adequacy.rivals);
   append(stage.findings, adequacy.findings);
   return chosen;
@@ -113,10 +171,29 @@ void refuse_all(const FamilyFit& chosen, const std::string& file, LogStage& stag
   }
 }
 
+/// `sensor-delay` for every sensor that the fit found late.
+std::vector<Finding> delay_findings(const LogFit& fit, const std::string& file) {
+  std::vector<Finding> findings;
+  for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
+    if (fit.quantities[i].kind != FreeQuantity::Kind::kSensorDelay) continue;
+    const double error_s = std::sqrt(fit.covariance(eigen_index(i), eigen_index(i)));
+    const LogChannel channel = fit.quantities[i].channel;
+    findings.push_back(
+        {file, 0, Severity::kWarning, "sensor-delay",
+         fmt::format(
+             "{} {} late by {:.3f} +- {:.3f} s against the commands; the fit allows for it, a "
+             "controller that reads it has to as well",
+             channel == LogChannel::kX ? "the position" : info(channel).name,
+             channel == LogChannel::kX ? "comes" : "is read", fit.coordinates[i], error_s)});
+  }
+  return findings;
+}
+
 /// Fills the parameters that the fit shows and that no other trial gave, unless overruled.
 void take(const LogFit& fit, const Model& model, bool overrule, const std::string& file,
           LogStage& stage) {
   stage.block = fit.covariance;
+  append(stage.findings, delay_findings(fit, file));
   for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
     const FreeQuantity& q = fit.quantities[i];
     const bool parameter = q.kind == FreeQuantity::Kind::kParameter;
@@ -128,7 +205,7 @@ void take(const LogFit& fit, const Model& model, bool overrule, const std::strin
       }
       continue;
     }
-    if (!parameter) continue;
+    if (!parameter || stage.reasons.contains(q.id)) continue;
     const Estimate& known = model[q.id];
     if (const auto finding = disagreement(fit, i, known, file)) stage.findings.push_back(*finding);
     const bool other_trial = known.value && known.source != Source::kGiven;

@@ -21,7 +21,8 @@ struct LogStage {
     double jacobian;     ///< d value / d coordinate
   };
   std::vector<Main> main;
-  Family surge_family = Family::kPower;        ///< of the fit
+  Family surge_family = Family::kPower;  ///< of the fit
+  Family yaw_family = Family::kPower;
   Eigen::MatrixXd block;                       ///< covariance of the fit's coordinates
   std::map<ParameterId, std::string> reasons;  ///< free in the fit, but not identifiable
   std::vector<EstimatorReport> reports;        ///< of every family that was tried
@@ -33,7 +34,7 @@ struct LogStage {
 /// value, or free as well where they have none. `overrule`: the logs also fill what other trials
 /// did.
 /// Findings: `estimates-disagree` (logs against tables, p < 0.01), `coloured-residuals`,
-/// `model-inadequate`, `power-law-inadequate`, `not-identifiable`, `not-converged`, `held-out-log`
+/// `model-inadequate`, `power-law-inadequate`, `family-undecided`, `sensor-delay`, `not-identifiable`, `not-converged`, `held-out-log`
 /// (each log predicted by the others).
 LogStage run_log_stage(const Vehicle& vehicle, const std::vector<DrivingLog>& logs,
                        const IdentifyOptions& options, const std::vector<ParameterId>& asked,

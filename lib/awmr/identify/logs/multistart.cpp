@@ -44,26 +44,40 @@ std::vector<double> drawn(const LogProblem& problem, const std::vector<Parameter
   return coordinates;
 }
 
+/// The initial guess, the other places given, then the random ones, as coordinates.
+std::vector<std::vector<double>> places(const LogProblem& problem, const LogFitOptions& options) {
+  std::vector<std::vector<double>> from{problem.initial};
+  for (const ParameterValues<double>& values : options.also_from) {
+    LogFitOptions other = options;
+    other.initial_guess = values;
+    from.push_back(initial_coordinates(problem.model.quantities, other));
+  }
+  if (options.guessed.empty()) return from;
+  Random random(options.seed, 1);
+  for (int i = 0; i < options.multistart; ++i) {
+    from.push_back(drawn(problem, options.guessed, random));
+  }
+  return from;
+}
+
 }  // namespace
 
 Multistart multistart(const LogProblem& problem, const LogFitOptions& options) {
+  constexpr double kRough = 1e-4;
+  constexpr std::size_t kReasonLength = 60;
   const std::vector<FreeQuantity>& quantities = problem.model.quantities;
-  if (options.guessed.empty()) {
+  const std::vector<std::vector<double>> from = places(problem, options);
+  if (from.size() == 1 && options.guessed.empty()) {
     return {problem.initial,
             {{values_at(quantities, problem.initial), 0.0, true, "from the other trials"}}};
   }
-  constexpr double kRough = 1e-4;
-  constexpr std::size_t kReasonLength = 60;
   const LogProblem rough = rough_problem(problem);
-  Random random(options.seed, 1);
   Multistart result;
   double least = std::numeric_limits<double>::infinity();
   std::size_t chosen = 0;
-  for (int i = 0; i <= options.multistart; ++i) {
-    const std::vector<double> from =
-        i == 0 ? problem.initial : drawn(problem, options.guessed, random);
-    const Solved solved = solve(rough, from_measured(rough, from), kRough);
-    result.starts.push_back({values_at(quantities, from), solved.cost, false,
+  for (const std::vector<double>& coordinates : from) {
+    const Solved solved = solve(rough, from_measured(rough, coordinates), kRough);
+    result.starts.push_back({values_at(quantities, coordinates), solved.cost, false,
                              solved.stop_reason.substr(0, kReasonLength)});
     if (!solved.usable || !(solved.cost < least)) continue;
     least = solved.cost;

@@ -13,79 +13,62 @@
 namespace awmr {
 namespace {
 
-/// The raw residuals of one channel over all windows, and their sums over neighbours.
-struct ChannelResiduals {
-  std::vector<double> e;
-  double products = 0.0;  ///< sum e_k e_{k-1}
-  double squares = 0.0;   ///< sum (e_k^2 + e_{k-1}^2)/2
-  double span_s = 0.0;    ///< sum of the times between
-};
-
-std::map<LogChannel, ChannelResiduals> by_channel(const std::vector<FitWindow>& windows,
-                                                  const std::vector<WindowResiduals>& residuals) {
-  std::map<LogChannel, ChannelResiduals> channels;
+std::map<LogChannel, std::vector<ErrorSeries>> by_channel(
+    const std::vector<FitWindow>& windows, const std::vector<WindowResiduals>& residuals) {
+  std::map<LogChannel, std::vector<ErrorSeries>> channels;
   for (std::size_t w = 0; w < windows.size(); ++w) {
-    std::map<LogChannel, std::optional<double>> previous;
+    std::map<LogChannel, ErrorSeries> series;
     for (std::size_t i = 0; i < windows[w].samples.size(); ++i) {
       const Sample& sample = windows[w].samples[i];
-      const double e = residuals[w].raw(eigen_index(i));
-      ChannelResiduals& channel = channels[sample.channel];
-      channel.e.push_back(e);
-      std::optional<double>& before = previous[sample.channel];
-      if (before) {
-        channel.products += e * *before;
-        channel.squares += 0.5 * (e * e + *before * *before);
-        channel.span_s += sample.since_s;
-      }
-      before = e;
+      series[sample.channel].error.push_back(residuals[w].raw(eigen_index(i)));
+      series[sample.channel].since_s.push_back(sample.since_s);
     }
+    for (auto& [channel, part] : series) channels[channel].push_back(std::move(part));
   }
   return channels;
 }
 
-/// Standard deviation from n residuals of which `free_share` are free (by the median under a robust
-/// loss), correlation from the first lag:
-///
-///     rho = sum e_k e_{k-1} / sum (e_k^2 + e_{k-1}^2)/2,   tau = -dt / ln rho
-ChannelNoise with_levels(ChannelNoise noise, const ChannelResiduals& channel, double free_share,
-                         Loss loss) {
-  const Eigen::Map<const Eigen::VectorXd> e(channel.e.data(), rows_of(channel.e));
-  const double n = static_cast<double>(channel.e.size());
-  const double free = n * free_share;
-  noise.std = loss == Loss::kSquared ? std::sqrt(e.squaredNorm() / free) : median_scale(e);
-  noise.std = std::max(noise.std, kMinimumStd);
-  const double rho = channel.squares > 0.0 ? channel.products / channel.squares : 0.0;
-  // Correlation of no consequence (below a tenth) is left alone.
-  const bool autocorrelated = rho * std::sqrt(n) > kNormalQuantile995 && rho > 0.1;
-  noise.step_s = channel.span_s / n;
-  noise.correlation_s =
-      autocorrelated ? -(channel.span_s / n) / std::log(std::min(rho, 0.999)) : 0.0;
-  return noise;
+/// Under a robust loss an error counts up to three standard deviations, by the median: outliers
+/// shall not pass for noise.
+void clip(std::vector<ErrorSeries>& channel) {
+  std::vector<double> all;
+  for (const ErrorSeries& part : channel) {
+    all.insert(all.end(), part.error.begin(), part.error.end());
+  }
+  const Eigen::Map<const Eigen::VectorXd> errors(all.data(), rows_of(all));
+  const double limit = 3.0 * median_scale(errors);
+  for (ErrorSeries& part : channel) {
+    for (double& e : part.error) e = std::clamp(e, -limit, limit);
+  }
 }
 
 NoiseLevels noise_levels(const LogProblem& problem, const std::vector<WindowResiduals>& residuals,
                          Loss loss) {
-  const auto channels = by_channel(problem.windows, residuals);
+  auto channels = by_channel(problem.windows, residuals);
   double total = 0.0;
-  for (const auto& [name, channel] : channels) total += static_cast<double>(channel.e.size());
+  for (const auto& [name, noise] : problem.model.noise) total += noise.count;
   const double spent = static_cast<double>(problem.unknowns());
   const double free_share = std::max(0.1, 1.0 - spent / total);
   NoiseLevels levels;
   for (const auto& [name, noise] : problem.model.noise) {
-    levels[name] = with_levels(noise, channels.at(name), free_share, loss);
+    std::vector<ErrorSeries>& channel = channels.at(name);
+    if (loss != Loss::kSquared) clip(channel);
+    levels[name] = likeliest_noise(channel, free_share, noise);
   }
   return levels;
 }
 
-/// The largest change of a level or of a correlation time, relative.
+/// The largest change of a level, over the channel's standard deviation, or of the memory of a drift
+/// that counts, relative.
 double largest_change(const NoiseLevels& before, const NoiseLevels& after) {
   double change = 0.0;
   for (const auto& [channel, noise] : after) {
     const ChannelNoise& old = before.at(channel);
-    change = std::max(change, std::abs(noise.std / old.std - 1.0));
-    const double longer_s = std::max(noise.correlation_s, old.correlation_s);
-    if (longer_s > 0.0) {
-      change = std::max(change, std::abs(noise.correlation_s - old.correlation_s) / longer_s);
+    const double std = noise.std();
+    change = std::max(
+        {change, std::abs(std / old.std() - 1.0), std::abs(noise.drift_std - old.drift_std) / std});
+    if (noise.drift_std > 0.1 * std && old.drift_std > 0.1 * old.std()) {
+      change = std::max(change, 0.1 * std::abs(std::log(noise.correlation_s / old.correlation_s)));
     }
   }
   return change;
@@ -116,7 +99,7 @@ void weigh(LogProblem& problem, const std::vector<WindowResiduals>& residuals, L
   for (std::size_t w = 0; w < problem.windows.size(); ++w) {
     for (std::size_t i = 0; i < problem.windows[w].samples.size(); ++i) {
       Sample& sample = problem.windows[w].samples[i];
-      const double std = problem.model.noise.at(sample.channel).std;
+      const double std = problem.model.noise.at(sample.channel).std();
       sample.weight = sqrt_weight(loss, residuals[w].raw(eigen_index(i)) / std);
     }
   }

@@ -3,12 +3,13 @@
 #include <fmt/format.h>
 
 #include "awmr/core/index.h"
+#include "awmr/model/sensor_delay_name.h"
 
 namespace awmr {
 namespace {
 
 Interval bounds_of(const FreeQuantity& quantity, double initial, const Vehicle& vehicle) {
-  if (quantity.kind == FreeQuantity::Kind::kDelay) return {0.0, 1.0};
+  if (quantity.is_delay()) return {0.0, 1.0};
   if (quantity.kind == FreeQuantity::Kind::kBias) return {-1e6, 1e6};
   if (quantity.id == ParameterId::kSurgeBeta) {
     return {vehicle.surge_beta_range.lo, vehicle.surge_beta_range.hi};
@@ -28,6 +29,8 @@ std::string FreeQuantity::name() const {
       return std::string(info(id).name);
     case Kind::kDelay:
       return std::string(kInputDelayName);
+    case Kind::kSensorDelay:
+      return fmt::format("{}{}", kSensorDelayPrefix, info(channel).name);
     case Kind::kBias:
       return fmt::format("{}{}", kBiasPrefix, info(channel).name);
   }
@@ -40,29 +43,39 @@ double FreeQuantity::jacobian(double coordinate) const {
   return awmr::jacobian(scale, value(coordinate));
 }
 
+FreeQuantity free_parameter(ParameterId id) {
+  // A term is measured against the force that it is a part of.
+  return {.id = id, .scale = scale_of(id), .large_change = info(id).term ? 0.2 : 1.0};
+}
+
+FreeQuantity sensor_delay_of(LogChannel channel) {
+  return {.kind = FreeQuantity::Kind::kSensorDelay, .channel = channel, .large_change = 0.1};
+}
+
 std::vector<FreeQuantity> free_quantities(const LogFitOptions& options) {
   std::vector<FreeQuantity> quantities;
-  for (const ParameterId id : options.free) {
-    // A term is measured against the force that it is a part of.
-    quantities.push_back(
-        {.id = id, .scale = scale_of(id), .large_change = info(id).term ? 0.2 : 1.0});
-  }
+  for (const ParameterId id : options.free) quantities.push_back(free_parameter(id));
   if (options.delay) {
     quantities.push_back({.kind = FreeQuantity::Kind::kDelay, .large_change = 0.1});
   }
   for (const LogChannel channel : options.biases) {
     quantities.push_back({.kind = FreeQuantity::Kind::kBias, .channel = channel});
   }
+  for (const SensorDelay& late : options.sensor_delays) {
+    quantities.push_back(sensor_delay_of(late.channel));
+  }
   return quantities;
 }
 
 std::vector<double> initial_coordinates(const std::vector<FreeQuantity>& quantities,
-                                        const ParameterValues<double>& initial_guess) {
+                                        const LogFitOptions& options) {
   std::vector<double> coordinates;
   for (const FreeQuantity& q : quantities) {
     const bool parameter = q.kind == FreeQuantity::Kind::kParameter;
-    coordinates.push_back(parameter ? to_coordinate(q.id, initial_guess[at(q.id)]) : 0.0);
+    coordinates.push_back(parameter ? to_coordinate(q.id, options.initial_guess[at(q.id)]) : 0.0);
   }
+  std::size_t next = quantities.size() - options.sensor_delays.size();
+  for (const SensorDelay& late : options.sensor_delays) coordinates[next++] = late.delay_s;
   return coordinates;
 }
 

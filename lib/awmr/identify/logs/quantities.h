@@ -12,26 +12,34 @@ namespace awmr {
 
 /// One free number. The search moves its coordinate, which is the value or its logarithm.
 struct FreeQuantity {
-  enum class Kind { kParameter, kDelay, kBias };
+  enum class Kind { kParameter, kDelay, kSensorDelay, kBias };
   Kind kind = Kind::kParameter;
   ParameterId id = ParameterId::kMassNorm;  ///< of kParameter
-  LogChannel channel = LogChannel::kX;      ///< of kBias
+  LogChannel channel = LogChannel::kX;      ///< of kSensorDelay (kX: of the position) and kBias
   Scale scale = Scale::kLinear;
   /// A change of the coordinate that would be large: a factor e for a logarithm, 1 for an exponent.
   double large_change = 1.0;
 
   bool is(ParameterId parameter) const { return kind == Kind::kParameter && id == parameter; }
+  bool is_delay() const { return kind == Kind::kDelay || kind == Kind::kSensorDelay; }
   std::string name() const;
   double value(double coordinate) const;
   double jacobian(double coordinate) const;  ///< d value / d coordinate
 };
 
-/// What a fit is free to move, in this order: the parameters, the delay, the biases.
+/// A parameter with its scale.
+FreeQuantity free_parameter(ParameterId id);
+
+/// The time by which a channel is read late, s.
+FreeQuantity sensor_delay_of(LogChannel channel);
+
+/// What a fit is free to move, in this order: the parameters, the input delay, the biases, the
+/// sensors' delays.
 std::vector<FreeQuantity> free_quantities(const LogFitOptions& options);
 
-/// By quantity: the coordinate at the initial guess; a delay and a bias begin at zero.
+/// By quantity: the coordinate at the initial guess; an input delay and a bias begin at zero.
 std::vector<double> initial_coordinates(const std::vector<FreeQuantity>& quantities,
-                                        const ParameterValues<double>& initial_guess);
+                                        const LogFitOptions& options);
 
 /// By quantity: where the search may move the coordinate from its initial guess.
 std::vector<Interval> coordinate_bounds(const std::vector<FreeQuantity>& quantities,

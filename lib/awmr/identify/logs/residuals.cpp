@@ -2,8 +2,10 @@
 
 #include <ceres/jet.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "awmr/core/index.h"
 #include "awmr/identify/ceres_solve.h"
@@ -19,6 +21,7 @@ struct Unpacked {
   T delay = T(0.0);
   bool delayed = false;
   std::array<T, kChannelCount> bias{};
+  std::array<std::optional<T>, kChannelCount> sensor_delay{};
   State<T> initial{};
 };
 
@@ -40,6 +43,10 @@ Unpacked<T> unpack(const LogModel& model, const FitWindow& window, const double*
         u.delay = number;
         u.delayed = true;
         break;
+      case FreeQuantity::Kind::kSensorDelay:
+        u.sensor_delay[at(quantity.channel)] = number;
+        if (quantity.channel == LogChannel::kX) u.sensor_delay[at(LogChannel::kY)] = number;
+        break;
       case FreeQuantity::Kind::kBias:
         u.bias[at(quantity.channel)] = number;
         break;
@@ -54,7 +61,8 @@ Unpacked<T> unpack(const LogModel& model, const FitWindow& window, const double*
   return u;
 }
 
-/// Model + bias - measured of every sample, in order.
+/// Model + bias - measured of every sample, in order; a late sensor is compared with what was so its
+/// delay before.
 template <class T>
 std::vector<T> raw_residuals(const LogModel& model, const Unpacked<T>& u, const FitWindow& window) {
   const double h = model.longest_step_s;
@@ -62,37 +70,40 @@ std::vector<T> raw_residuals(const LogModel& model, const Unpacked<T>& u, const 
   std::vector<T> residuals;
   residuals.reserve(window.samples.size());
   const DrivingLog& log = *window.rows.log;
+  const bool any_late =
+      std::ranges::any_of(u.sensor_delay, [](const auto& d) { return d.has_value(); });
+  std::vector<State<T>> states;  // by row, where a sensor is late
   std::size_t next = 0;
   replay(*window.signals, window.rows.begin, window.rows.end, plant, u.delayed ? &u.delay : nullptr,
          h, u.initial, [&](std::size_t row, const State<T>& state) {
+           if (any_late) states.push_back(state);
            for (; next < window.samples.size() && window.samples[next].row == row; ++next) {
              const LogChannel c = window.samples[next].channel;
-             residuals.push_back(channel_of(state, c) + u.bias[at(c)] - log[c]->value[row]);
+             const std::optional<T>& late = u.sensor_delay[at(c)];
+             const T is = late ? channel_of(earlier_state(*window.signals, window.rows.begin,
+                                                          states, plant, *late, h),
+                                            c)
+                               : channel_of(state, c);
+             residuals.push_back(is + u.bias[at(c)] - log[c]->value[row]);
            }
          });
   return residuals;
 }
 
-/// White for a first-order process:
-///
-///     (e_k - phi e_{k-1}) / (sigma sqrt(1 - phi^2)),   phi = e^(-dt/tau)
-///
-/// and e/sigma for the first sample of a channel and for white noise.
+/// What is new in each residual over its standard deviation: white where the noise is as the model
+/// of the channel says.
 template <class T>
 std::vector<T> standardised(const LogModel& model, const FitWindow& window,
                             const std::vector<T>& raw) {
-  std::array<const T*, kChannelCount> previous{};
+  std::array<std::optional<Whitener<T>>, kChannelCount> whiteners;
   std::vector<T> out;
   out.reserve(raw.size());
   for (std::size_t i = 0; i < raw.size(); ++i) {
     const Sample& sample = window.samples[i];
-    const ChannelNoise& noise = model.noise.at(sample.channel);
-    const T*& before = previous[at(sample.channel)];
-    const double phi =
-        before && noise.correlation_s > 0.0 ? std::exp(-sample.since_s / noise.correlation_s) : 0.0;
-    const double weight = sample.weight / (noise.std * std::sqrt(1.0 - phi * phi));
-    out.push_back(phi > 0.0 ? T(weight * (raw[i] - phi * *before)) : T(weight * raw[i]));
-    before = &raw[i];
+    auto& whitener = whiteners[at(sample.channel)];
+    if (!whitener) whitener.emplace(model.noise.at(sample.channel));
+    const auto [value, variance] = whitener->next(raw[i], sample.since_s);
+    out.push_back(T((sample.weight / std::sqrt(variance)) * value));
   }
   return out;
 }
@@ -160,9 +171,11 @@ WindowResiduals evaluate(const LogModel& model, const FitWindow& window, const d
   if (numbers <= 12) return evaluate_jacobian<12>(model, window, coordinates, initial_state);
   if (numbers <= 16) return evaluate_jacobian<16>(model, window, coordinates, initial_state);
   if (numbers <= 20) return evaluate_jacobian<20>(model, window, coordinates, initial_state);
-  // 13 parameters, a delay, 7 biases and 7 components of the initial state are the most there are.
-  static_assert(kParameterCount + 1 + kChannelCount + kChannelCount <= 28);
-  return evaluate_jacobian<28>(model, window, coordinates, initial_state);
+  if (numbers <= 28) return evaluate_jacobian<28>(model, window, coordinates, initial_state);
+  // 13 parameters, a delay, 7 biases, 6 late sensors and 7 components of the initial state are the
+  // most there are.
+  static_assert(kParameterCount + 1 + 3 * kChannelCount <= 36);
+  return evaluate_jacobian<36>(model, window, coordinates, initial_state);
 }
 
 }  // namespace awmr

@@ -1,7 +1,7 @@
 /// The residuals of one window of a log and their derivatives. Private to identify/.
 ///
 /// The model is driven by the logged commands and compared with everything that was measured. Where
-/// a channel's errors are correlated, they are taken as a first-order process and whitened.
+/// a channel's errors are correlated, they are whitened.
 #pragma once
 
 #include <Eigen/Core>

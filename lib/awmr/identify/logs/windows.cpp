@@ -40,10 +40,12 @@ std::vector<FitWindow> fit_windows(const std::vector<DrivingLog>& logs) {
 std::vector<InitialComponent> initial_components(const std::vector<DrivingLog>& logs) {
   bool position = false;
   bool heading = false;
+  bool turning = false;
   bool servo = false;
   for (const DrivingLog& log : logs) {
     position = position || log[LogChannel::kX] || log[LogChannel::kY];
     heading = heading || log[LogChannel::kHeading];
+    turning = turning || log[LogChannel::kYawRate] || log[LogChannel::kSway];
     servo = servo || log.steering_command_rad;
   }
   std::vector<InitialComponent> components;
@@ -53,8 +55,10 @@ std::vector<InitialComponent> initial_components(const std::vector<DrivingLog>& 
   }
   if (position || heading) components.push_back({LogChannel::kHeading, 10.0});
   components.push_back({LogChannel::kSpeed, 1.0});
-  components.push_back({LogChannel::kSway, 1.0});
-  components.push_back({LogChannel::kYawRate, 1.0});
+  if (position || heading || turning) {
+    components.push_back({LogChannel::kSway, 1.0});
+    components.push_back({LogChannel::kYawRate, 1.0});
+  }
   if (servo) components.push_back({LogChannel::kSteering, 0.2});
   return components;
 }

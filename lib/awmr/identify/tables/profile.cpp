@@ -83,7 +83,8 @@ Interval profile_interval(const SteadyProblem& problem, const SteadyFit& fit,
 
 std::optional<double> aicc(const SteadyFit& fit) {
   const auto n = static_cast<double>(fit.residuals.size());
-  const double k = static_cast<double>(fit.free.size() + fit.at_bound.size()) + 1.0;
+  const bool held_exponent = fit.held_by_bound(TransformedParameter::kBeta);
+  const double k = static_cast<double>(fit.free.size()) + (held_exponent ? 2.0 : 1.0);
   if (n <= k + 1.0) return std::nullopt;
   const double sse = fit.residuals.squaredNorm();
   if (!(sse > 0.0) || !std::isfinite(sse)) return std::nullopt;

@@ -14,16 +14,32 @@ namespace {
 
 constexpr double kOutlierLevel = 0.05;  ///< for the whole table (Bonferroni)
 
-Finding exponent_at_bound(const Subject& subject, double beta, bool held) {
+Finding outside_range(const Subject& subject, double beta) {
   const Interval& range = subject.beta_range;
-  return {subject.file, 0, Severity::kWarning, "exponent-at-bound",
-          fmt::format("the exponent {} = {:.4g} is {} the accepted range [{:g}, {:g}]: a power law "
-                      "of this range may not describe these runs",
-                      info(subject.beta).name, beta, held ? "at the end of" : "outside", range.lo,
-                      range.hi)};
+  return {
+      subject.file, 0, Severity::kWarning, "exponent-at-bound",
+      fmt::format("the exponent {} = {:.4g} is outside the accepted range [{:g}, {:g}]: a power "
+                  "law of this range may not describe these runs",
+                  info(subject.beta).name, beta, range.lo, range.hi)};
 }
 
 }  // namespace
+
+Finding held_exponent(const Subject& subject, const SteadyFit& fit) {
+  const Interval& range = subject.beta_range;
+  const double beta = fit[TransformedParameter::kBeta];
+  const bool surge = subject.beta == ParameterId::kSurgeBeta;
+  const std::string remedy =
+      beta >= range.hi
+          ? fmt::format("\"{}\": [{:g}, {:g}] in the vehicle file lets it rise",
+                        surge ? "surge_beta_range" : "yaw_beta_range", range.lo, 2.0 * range.hi)
+          : std::string("a family with Coulomb friction has a force at rest without it");
+  return {
+      subject.file, 0, Severity::kError, "exponent-at-bound",
+      fmt::format("the search for {} ended at {:.4g}, the end of the accepted range [{:g}, {:g}]: "
+                  "that is the range's value, not the runs', and the others hang on it; {}",
+                  info(subject.beta).name, beta, range.lo, range.hi, remedy)};
+}
 
 std::vector<Finding> bound_findings(const Subject& subject, const SteadyFit& fit, Family family) {
   std::vector<Finding> findings;
@@ -36,9 +52,8 @@ std::vector<Finding> bound_findings(const Subject& subject, const SteadyFit& fit
                      name_in(kFitSubjectNames, subject.name))});
   }
   const double beta = fit[TransformedParameter::kBeta];
-  const bool held = fit.held_by_bound(TransformedParameter::kBeta);
-  if (terms_of(family).beta && (held || !subject.beta_range.contains(beta))) {
-    findings.push_back(exponent_at_bound(subject, beta, held));
+  if (terms_of(family).beta && !subject.beta_range.contains(beta)) {
+    findings.push_back(outside_range(subject, beta));
   }
   for (const TransformedParameter c : fit.at_bound) {
     if (c == TransformedParameter::kBeta) continue;

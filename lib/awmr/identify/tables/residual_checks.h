@@ -9,6 +9,10 @@
 namespace awmr {
 
 /// `no-degrees-of-freedom`, `exponent-at-bound`, `term-at-zero`.
+/// Why a fit whose exponent was held at the end of its range gives no value, and the range to give:
+/// `exponent-at-bound`, an error.
+Finding held_exponent(const Subject& subject, const SteadyFit& fit);
+
 std::vector<Finding> bound_findings(const Subject& subject, const SteadyFit& fit, Family family);
 
 /// Normality, curvature and lack of fit of the residuals, those that the number of runs allows.

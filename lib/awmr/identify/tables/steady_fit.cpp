@@ -84,6 +84,22 @@ bool add_uncertainty(const SteadyProblem& problem, SteadySearch& search, SteadyF
   return std::isfinite(variance) && fit.covariance.allFinite() && fit.leverages.allFinite();
 }
 
+/// The families that are this one with a term at 0 or the exponent at 1.
+std::vector<Family> families_inside(Family family) {
+  switch (family) {
+    case Family::kPower:
+    case Family::kCoulombLinear:
+      return {};
+    case Family::kCoulombLinearQuadratic:
+      return {Family::kCoulombLinear};
+    case Family::kCoulombPower:
+      return {Family::kPower, Family::kCoulombLinear};
+    case Family::kDeadZone:
+      return {Family::kPower};
+  }
+  return {};
+}
+
 /// Without another fit: the power law by QR, then a share of the minimum force for each new term.
 TransformedParameters initial_guess_of(const SteadyProblem& problem) {
   const SteadyFit line = fit_log_linear(problem.points);
@@ -126,7 +142,15 @@ bool is_physical(const Resistance<double>& law) {
 }
 
 SteadyFit fit_steady(const SteadyProblem& problem) {
-  return fit_steady(problem, initial_guess_of(problem));
+  SteadyFit best = fit_steady(problem, initial_guess_of(problem));
+  for (const Family inner : families_inside(problem.family)) {
+    SteadyProblem simpler = problem;
+    simpler.family = inner;
+    SteadyFit fit = fit_steady(problem, fit_steady(simpler).theta);
+    const bool better = fit.residuals.squaredNorm() < best.residuals.squaredNorm();
+    if (fit.usable && (!best.usable || better)) best = std::move(fit);
+  }
+  return best;
 }
 
 SteadyFit fit_steady(const SteadyProblem& problem, const TransformedParameters& initial_guess) {
@@ -139,7 +163,8 @@ SteadyFit fit_steady(const SteadyProblem& problem, const TransformedParameters& 
   for (const TransformedParameter c : coordinates_of(problem.family)) {
     const Interval bounds = bounds_of(problem, c);
     const bool held = is_at(bounds.lo, fit[c]) || is_at(bounds.hi, fit[c]);
-    (held ? fit.at_bound : fit.free).push_back(c);
+    if (held) fit.at_bound.push_back(c);
+    if (!held || c != TransformedParameter::kBeta) fit.free.push_back(c);
   }
   const bool finite = add_uncertainty(problem, search, fit) && is_physical(fit.law());
   if (!finite) {

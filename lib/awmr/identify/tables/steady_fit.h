@@ -40,8 +40,11 @@ struct SteadyProblem {
 
 /// A fitted curve. Unit of the noise: that of force, rate or time, or 1 for the log force.
 struct SteadyFit {
-  TransformedParameters theta{};           ///< those that the family does not free are 0, beta 1
-  std::vector<TransformedParameter> free;  ///< in the family and not held by a bound
+  TransformedParameters theta{};  ///< those that the family does not free are 0, beta 1
+  /// In the family. A term that came out as 0, the end of its range, is among them: the others are
+  /// no better known than if it had come out as a little more. An exponent at the end of its range
+  /// is not.
+  std::vector<TransformedParameter> free;
   std::vector<TransformedParameter> at_bound;
   Eigen::MatrixXd covariance;  ///< free x free, positive definite; 0 x 0 without degrees of freedom
   Eigen::VectorXd residuals;   ///< curve - measured, by point, in the unit of the noise
@@ -57,7 +60,7 @@ struct SteadyFit {
   double& operator[](TransformedParameter c) { return theta[at(c)]; }
   bool has_covariance() const { return covariance.size() > 0; }
   bool held_by_bound(TransformedParameter c) const;
-  /// The standard error of a coordinate; none without degrees of freedom or at a bound.
+  /// The standard error of a coordinate; none without degrees of freedom or for a held exponent.
   std::optional<double> std_error(TransformedParameter c) const;
   /// The curve without the dead zone, which belongs to the command.
   Resistance<double> law() const;
@@ -75,7 +78,8 @@ SteadyFit fit_log_linear(const std::vector<SteadyPoint>& points);
 /// beta is kept in its range, c, q and z at 0 or more. A robust loss takes its scale from the
 /// median absolute residual. Precondition: every point is timed where the noise is kTime.
 SteadyFit fit_steady(const SteadyProblem& problem, const TransformedParameters& initial_guess);
-/// The same from an initial guess that is worked out of the points alone.
+/// The same from initial guesses that are worked out of the points alone: one of the family's own, and
+/// the optimum of each family inside this one, so that a richer family never fits worse.
 SteadyFit fit_steady(const SteadyProblem& problem);
 
 /// Every number of the law is finite, and alpha is more than nothing.

@@ -1,6 +1,7 @@
 #include "awmr/identify/tables/subject.h"
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "awmr/identify/uncertainty/quantiles.h"
@@ -91,7 +92,8 @@ EstimatorReport report_of(const Subject& subject, const SteadyFit& fit, Family f
     report.parameters.push_back({std::string(info(parameter_of(subject, c)).name), *estimate.value,
                                  estimate.std_error, estimate.ci95});
   }
-  report.residual_std = fit.residual_std;
+  report.residual_std =
+      fit.degrees_of_freedom > 0 ? fit.residual_std : std::numeric_limits<double>::quiet_NaN();
   report.rows_used = static_cast<int>(subject.points.size());
   report.degrees_of_freedom = fit.degrees_of_freedom;
   report.rank = fit.rank;

@@ -84,6 +84,10 @@ Choice choose_nonlinear(const Subject& subject, const SubjectOptions& options, E
                           name_in(kFitSubjectNames, subject.name), chosen->fit.stop_reason)));
     return choice;
   }
+  if (chosen->fit.held_by_bound(TransformedParameter::kBeta)) {
+    choice.findings.push_back(held_exponent(subject, chosen->fit));
+    return choice;
+  }
   choice.fit = chosen->fit;
   choice.problem = chosen->problem;
   choice.report = 1 + at(chosen - candidates.data());

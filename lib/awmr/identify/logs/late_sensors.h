@@ -1,0 +1,15 @@
+/// Sensors that are read late. Private to identify/.
+#pragma once
+
+#include <vector>
+
+#include "awmr/identify/logs/noise_iteration.h"
+
+namespace awmr {
+
+/// Frees the delay of every channel whose residuals say that it is late (a score test, four standard
+/// errors) and settles the noise again, until no other channel is: a late speed would otherwise pass
+/// for a heavy vehicle. With an input delay free, which moves all channels alike, it is left alone.
+NoiseIteration allow_for_late_sensors(NoiseIteration settled, Loss loss);
+
+}  // namespace awmr

@@ -1,0 +1,69 @@
+#include "awmr/identify/logs/score_test.h"
+
+#include <Eigen/Cholesky>
+#include <cmath>
+#include <utility>
+
+#include "awmr/core/index.h"
+#include "awmr/identify/logs/information.h"
+
+namespace awmr {
+namespace {
+
+/// One candidate, whose row and column stand last but for the other candidates: at `c` of `h`.
+ScoreTest test_one(const Eigen::MatrixXd& h, const std::vector<Eigen::VectorXd>& scores,
+                   Eigen::Index n, Eigen::Index c) {
+  // The weak prior of the search keeps what no data show from making H_tt singular.
+  Eigen::MatrixXd inner = h.topLeftCorner(n, n);
+  inner.diagonal().array() += 1.0 / (kPriorStd * kPriorStd);
+  const Eigen::VectorXd by_others = inner.ldlt().solve(h.block(0, c, n, 1));
+  const double information = h(c, c) - h.block(0, c, n, 1).col(0).dot(by_others);
+  ScoreTest test;
+  if (!(information > 1e-12 * h(c, c)) || !(h(c, c) > 0.0)) return test;
+  double sum = 0.0;
+  double squares = 0.0;
+  for (const Eigen::VectorXd& score : scores) {
+    const double own = score(c) - by_others.dot(score.head(n));
+    sum += own;
+    squares += own * own;
+  }
+  test.value = -sum / information;
+  test.std_error = std::sqrt(std::max(1.0 / information, squares / (information * information)));
+  test.gain = std::pow(test.value / test.std_error, 2);
+  return test;
+}
+
+}  // namespace
+
+Extended extended(LogProblem problem, SearchPoint point, const std::vector<FreeQuantity>& more,
+                  const std::vector<double>& begin) {
+  const std::vector<Interval> bounds = coordinate_bounds(more, begin, problem.model.vehicle);
+  for (std::size_t i = 0; i < more.size(); ++i) {
+    problem.model.quantities.push_back(more[i]);
+    problem.initial.push_back(begin[i]);
+    problem.bounds.push_back(bounds[i]);
+    point.coordinates.push_back(begin[i]);
+  }
+  return {std::move(problem), std::move(point)};
+}
+
+std::vector<ScoreTest> score_test(const LogProblem& problem, const SearchPoint& point,
+                                  const std::vector<FreeQuantity>& candidates) {
+  std::vector<ScoreTest> tests(candidates.size());
+  if (candidates.empty()) return tests;
+  const Extended with =
+      extended(problem, point, candidates, std::vector<double>(candidates.size(), 0.0));
+  const std::vector<WindowResiduals> residuals = evaluate_all(with.problem, with.point, true);
+  if (!all_finite(residuals)) return tests;
+  const Eigen::Index n = rows_of(problem.model.quantities);
+  const Eigen::Index all = rows_of(with.problem.model.quantities);
+  const Eigen::MatrixXd h = information(residuals, all);
+  const auto scores =
+      block_scores(with.problem.windows, residuals, all, block_length_s(problem.model.noise));
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    tests[i] = test_one(h, scores, n, n + eigen_index(i));
+  }
+  return tests;
+}
+
+}  // namespace awmr

@@ -1,0 +1,33 @@
+/// What a further free number would be worth to a fit, without fitting it. Private to identify/.
+#pragma once
+
+#include <vector>
+
+#include "awmr/identify/logs/log_problem.h"
+
+namespace awmr {
+
+struct ScoreTest {
+  double value = 0.0;      ///< where one step of Gauss-Newton from 0 would put it
+  double std_error = 0.0;  ///< of the value, by the noise model or the blocks' scatter: the larger
+  double gain = 0.0;       ///< of -2 ln L: (value / std_error)^2
+};
+
+/// Rao's score test of each candidate at 0, all others of the problem free and the other candidates
+/// held at 0. With the information H and the scores g of the coordinates t and a candidate c,
+///
+///     value = -(g_c - H_ct H_tt^-1 g_t) / (H_cc - H_ct H_tt^-1 H_tc)
+///
+/// `point`: the solution without the candidates. Precondition: candidates are linear quantities.
+std::vector<ScoreTest> score_test(const LogProblem& problem, const SearchPoint& point,
+                                  const std::vector<FreeQuantity>& candidates);
+
+/// The problem with further free quantities, where they begin, and the point with them there.
+struct Extended {
+  LogProblem problem;
+  SearchPoint point;
+};
+Extended extended(LogProblem problem, SearchPoint point, const std::vector<FreeQuantity>& more,
+                  const std::vector<double>& begin);
+
+}  // namespace awmr
