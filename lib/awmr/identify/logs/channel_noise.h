@@ -23,8 +23,11 @@ struct ChannelNoise {
   double cost = 0.0;           ///< -2 ln L of the channel's errors, but for a constant
 
   double std() const { return std::hypot(white_std, drift_std); }
-  /// Errors far above the sensor's that stay for a second or more are the model's.
-  bool of_the_model() const { return drift_std > 3.0 * sensor_std && correlation_s >= 1.0; }
+  /// Errors above the sensor's that stay for half a second or more are the model's, or a sensor's that
+  /// wanders.
+  bool of_the_model() const { return drift_std > sensor_std && correlation_s >= 0.5; }
+  /// A drift that a missing term of the model may be behind.
+  bool has_slow_drift() const { return drift_std > 0.25 * sensor_std && correlation_s > 0.2; }
 };
 
 using NoiseLevels = std::map<LogChannel, ChannelNoise>;

@@ -78,9 +78,12 @@ bool suspicious(const LogFit& fit, const std::vector<ParameterId>& suspects, boo
   for (std::size_t i = 0; i < suspects.size(); ++i) {
     if (is_of_yaw(suspects[i]) == of_yaw && fit.suspect_gain[i] > kWorthATry) return true;
   }
-  const LogChannel channel = of_yaw ? LogChannel::kYawRate : LogChannel::kSpeed;
-  const auto noise = fit.noise.find(channel);
-  return noise != fit.noise.end() && noise->second.drift_std > noise->second.sensor_std;
+  const auto drifts = [&](LogChannel channel) {
+    const auto noise = fit.noise.find(channel);
+    return noise != fit.noise.end() && noise->second.has_slow_drift();
+  };
+  return of_yaw ? drifts(LogChannel::kYawRate) || drifts(LogChannel::kHeading)
+                : drifts(LogChannel::kSpeed) || drifts(LogChannel::kX);
 }
 
 /// By how many joint standard errors the parameter that differs most does, with its name.

@@ -74,6 +74,7 @@ void widen(const std::vector<Eigen::VectorXd>& scores, Identifiability& found) {
   constexpr double kManyDegrees = 1e6;  // normal
   const Eigen::Index n = found.covariance.rows();
   found.degrees_of_freedom.assign(at(n), kManyDegrees);
+  found.factor.assign(at(n), 1.0);
   if (scores.size() < 2) return;
   const Eigen::VectorXd scatter = variances_by_scatter(found.covariance, scores);
   Eigen::VectorXd factor = Eigen::VectorXd::Ones(n);
@@ -82,7 +83,7 @@ void widen(const std::vector<Eigen::VectorXd>& scores, Identifiability& found) {
     factor(i) = std::sqrt(scatter(i) / found.covariance(i, i));
     found.degrees_of_freedom[at(i)] = static_cast<double>(scores.size() - 1);
   }
-  found.widened = factor.maxCoeff();
+  for (Eigen::Index i = 0; i < n; ++i) found.factor[at(i)] = factor(i);
   found.covariance = factor.asDiagonal() * found.covariance * factor.asDiagonal();
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -17,9 +18,11 @@ struct Identifiability {
   std::vector<std::string> why_not;        ///< by quantity; empty where the logs show it
   int rank = 0;                            ///< directions that the logs show
   double condition_number = 0.0;  ///< of the Jacobian, coordinates over their large changes
-  /// Largest factor on a standard error by which blocks of residuals scatter more than their noise
-  /// model says; 1: none do.
-  double widened = 1.0;
+  /// By quantity: the factor on the standard error by which blocks of residuals scatter more than
+  /// their noise model says; 1: they do not.
+  std::vector<double> factor;
+
+  double widened() const { return factor.empty() ? 1.0 : std::ranges::max(factor); }
 };
 
 /// The covariance from the information H (n x n) and, as a judge of its noise model, the scores s_b

@@ -67,8 +67,11 @@ LogFit fit_logs(const std::vector<DrivingLog>& logs, const LogFitOptions& option
   const Eigen::Index n = rows_of(quantities);
   const auto scores =
       block_scores(problem.windows, residuals, n, block_length_s(problem.model.noise));
-  const Identifiability found = without_stopped(
+  const Identifiability of_one_vehicle = without_stopped(
       identifiability(information(residuals, n), scores, quantities), problem, coordinates);
+  const std::vector<LogDisagreement> disagreements =
+      log_disagreements(problem, residuals, coordinates, of_one_vehicle);
+  const Identifiability found = with_disagreements(of_one_vehicle, disagreements);
   const std::vector<Interval> bootstrap95 =
       block_bootstrap({quantities, coordinates, found.covariance, scores},
                       {.resamples = options.bootstrap, .seed = options.seed});
@@ -80,7 +83,8 @@ LogFit fit_logs(const std::vector<DrivingLog>& logs, const LogFitOptions& option
              .noise = problem.model.noise,
              .suspect_gain = suspect_gains(problem, solved.point, options.suspects),
              .aic = akaike(problem.model.noise, n),
-             .widened = found.widened,
+             .widened = found.widened(),
+             .disagreements = disagreements,
              .report = log_report({problem, solved, residuals, found, bootstrap95}),
              .usable = solved.usable && solved.converged};
   fit.report.starts = search.starts;

@@ -189,11 +189,32 @@ std::vector<Finding> delay_findings(const LogFit& fit, const std::string& file) 
   return findings;
 }
 
+/// `logs-disagree` for everything that is not the same in every log.
+std::vector<Finding> disagreement_findings(const LogFit& fit) {
+  std::vector<Finding> findings;
+  for (const LogDisagreement& one : fit.disagreements) {
+    const FreeQuantity& q = fit.quantities[one.quantity];
+    std::string each;
+    for (std::size_t l = 0; l < one.files.size(); ++l) {
+      each += fmt::format("{}{:.4g} by {}", l == 0 ? "" : ", ", q.value(one.coordinates[l]),
+                          one.files[l]);
+    }
+    findings.push_back(
+        {one.files.front(), 0, Severity::kWarning, "logs-disagree",
+         fmt::format("the logs disagree on {}: about {} (p = {:.2g} for one vehicle, surface and "
+                     "battery); its interval is widened to hold for the mean of such logs, not for "
+                     "any one of them",
+                     q.name(), each, one.p_value)});
+  }
+  return findings;
+}
+
 /// Fills the parameters that the fit shows and that no other trial gave, unless overruled.
 void take(const LogFit& fit, const Model& model, bool overrule, const std::string& file,
           LogStage& stage) {
   stage.block = fit.covariance;
   append(stage.findings, delay_findings(fit, file));
+  append(stage.findings, disagreement_findings(fit));
   for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
     const FreeQuantity& q = fit.quantities[i];
     const bool parameter = q.kind == FreeQuantity::Kind::kParameter;

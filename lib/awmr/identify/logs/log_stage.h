@@ -34,7 +34,7 @@ struct LogStage {
 /// value, or free as well where they have none. `overrule`: the logs also fill what other trials
 /// did.
 /// Findings: `estimates-disagree` (logs against tables, p < 0.01), `coloured-residuals`,
-/// `model-inadequate`, `power-law-inadequate`, `family-undecided`, `sensor-delay`, `not-identifiable`, `not-converged`, `held-out-log`
+/// `model-inadequate`, `power-law-inadequate`, `family-undecided`, `sensor-delay`, `logs-disagree`, `not-identifiable`, `not-converged`, `held-out-log`
 /// (each log predicted by the others).
 LogStage run_log_stage(const Vehicle& vehicle, const std::vector<DrivingLog>& logs,
                        const IdentifyOptions& options, const std::vector<ParameterId>& asked,
