@@ -108,12 +108,15 @@ ceres::Solver::Options solver_options(double function_tolerance) {
   silence_ceres();
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_SCHUR;
-  options.max_num_iterations = 100;
+  options.max_num_iterations = 60;
   options.function_tolerance = function_tolerance;
   options.gradient_tolerance = 1e-12;
   options.parameter_tolerance = 1e-9;
   options.logging_type = ceres::SILENT;
   options.num_threads = 1;
+  // Steps are cut at the bounds. The line search along them that Ceres adds for bounds evaluates
+  // every jacobian twice.
+  options.max_num_line_search_step_size_iterations = 0;
   return options;
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -39,6 +40,9 @@ EstimatorParameter parameter_of(const LogReportInput& input, std::size_t i) {
   parameter.std_error = q.jacobian(x) * error;
   parameter.ci95 = input.bootstrap95.empty() ? Interval{q.value(x - half), q.value(x + half)}
                                              : input.bootstrap95[i];
+  // A term of a family is not negative.
+  const bool term = q.kind == FreeQuantity::Kind::kParameter && info(q.id).term;
+  if (term) parameter.ci95->lo = std::max(0.0, parameter.ci95->lo);
   return parameter;
 }
 

@@ -139,13 +139,13 @@ FamilyFit fit_families(const std::vector<DrivingLog>& logs, const LogFitOptions&
   FamilyFit chosen = fit_family(logs, power_law, surge.family.value_or(Family::kPower),
                                 yaw.family.value_or(Family::kPower));
   if (surge_open || yaw_open) {
-    BestFamily found =
-        best_family(logs, power_law, std::move(chosen),
-                    {.surge = surge_open,
-                     .yaw = yaw_open,
-                     // Nobody asked: another family than the paper's has to be plainly better.
-                     .lead = surge.asked || yaw.asked ? 0.0 : kPlainlyBetter,
-                     .only_suspects = surge.asked ? surge.family.has_value() : true});
+    // Where nobody asked, another family than the paper's has to be plainly better.
+    const bool somebody_asked = !surge.family || !yaw.family;
+    BestFamily found = best_family(logs, power_law, std::move(chosen),
+                                   {.surge = surge_open,
+                                    .yaw = yaw_open,
+                                    .lead = somebody_asked ? 0.0 : kPlainlyBetter,
+                                    .only_suspects = !somebody_asked});
     append(stage.reports, found.others);
     append(stage.findings, found.findings);
     chosen = std::move(found.best);
