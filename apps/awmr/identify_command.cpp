@@ -108,9 +108,11 @@ void add_fit_options(CLI::App& sub, IdentifyWords& words) {
                  "Where the nonlinear fit puts the error: force, speed or time (default: on what "
                  "was measured)")
       ->check(CLI::IsMember(names_in(kErrorModelNames)));
-  sub.add_option("--family", words.families,
-                 "Resistance: power (default), coulomb-linear, coulomb-linear-quadratic, "
-                 "coulomb-power, dead-zone, or auto (least AICc); surge=NAME, yaw=NAME for one")
+  sub.add_option(
+         "--family", words.families,
+         "Resistance: power (default; logs take another where it is plainly better), "
+         "coulomb-linear, coulomb-linear-quadratic, coulomb-power, dead-zone, or auto (least "
+         "AICc); surge=NAME, yaw=NAME for one")
       ->delimiter(',');
   sub.add_option("--loss", words.loss, "squares (default), huber, cauchy or tukey")
       ->check(CLI::IsMember(names_in(kLossNames)));
@@ -129,8 +131,12 @@ void add_log_options(CLI::App& sub, IdentifyCommand& command) {
                  "Random starts of a fit of logs without tables (default 6)")
       ->check(within(0, 1000));
   sub.add_option("--bootstrap", command.identify.bootstrap,
-                 "Intervals of a fit of logs from this many block bootstrap resamples")
+                 "Shape of the intervals of a fit of logs from this many block bootstrap resamples")
       ->check(within(0, 1000000));
+  sub.add_option("--time-limit", command.identify.time_limit_s,
+                 "Seconds after which the searches in logs stop; what has not converged by then is "
+                 "refused (default: none)")
+      ->check(within(0.1, 1e6));
   sub.add_flag("--cross-validate", command.identify.cross_validate,
                "Leave each log out once and predict it from the others");
   sub.add_option("--seed", command.identify.seed, "Of starts and bootstrap (default 1)")

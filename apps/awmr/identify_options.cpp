@@ -94,6 +94,9 @@ std::vector<std::pair<std::string, std::string>> described(const IdentifyOptions
   }
   words.emplace_back("seed", std::to_string(options.seed));
   words.emplace_back("starts", std::to_string(options.starts));
+  if (options.time_limit_s > 0.0) {
+    words.emplace_back("time_limit_s", fmt::format("{:g}", options.time_limit_s));
+  }
   words.emplace_back("bootstrap", std::to_string(options.bootstrap));
   return words;
 }

@@ -84,6 +84,9 @@ struct IdentifyOptions {
   std::uint64_t seed = 1;               ///< of the multistart and of the bootstrap
   int starts = 6;     ///< logs: random initial guesses where no trial gives one; >= 0
   int bootstrap = 0;  ///< logs: resamples, some 1000 where errors stay correlated; 0: none
+  /// Logs: seconds after which every search stops where it is; what has not converged by then is
+  /// refused. 0: none; the number of steps is bounded in any case. Where an answer is due.
+  double time_limit_s = 0.0;
   bool cross_validate = false;  ///< logs: leave one out, predict it; where there are two or more
   int threads = 0;              ///< 0: all; the result does not depend on it
   bool side_by_side = true;     ///< false: the asked estimator alone, without its rivals and tests

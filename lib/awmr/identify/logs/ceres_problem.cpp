@@ -104,6 +104,12 @@ void bound(ceres::Problem& problem, const std::vector<Interval>& bounds,
   }
 }
 
+/// At least a millisecond: Ceres takes no other.
+double seconds_until(std::chrono::steady_clock::time_point deadline) {
+  const std::chrono::duration<double> left = deadline - std::chrono::steady_clock::now();
+  return std::max(1e-3, left.count());
+}
+
 ceres::Solver::Options solver_options(double function_tolerance) {
   silence_ceres();
   ceres::Solver::Options options;
@@ -144,6 +150,7 @@ Solved solve(const LogProblem& problem, SearchPoint from, double function_tolera
   bound(search, problem.bounds, point.coordinates);
   ceres::Solver::Options options = solver_options(function_tolerance);
   options.linear_solver_ordering = ordering;
+  if (problem.deadline) options.max_solver_time_in_seconds = seconds_until(*problem.deadline);
   ceres::Solver::Summary summary;
   ceres::Solve(options, &search, &summary);
   solved.cost = summary.final_cost;

@@ -1,7 +1,9 @@
 /// What a caller of fit_logs() can ask for. Private to identify/.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "awmr/identify/options.h"
@@ -38,6 +40,8 @@ struct LogFitOptions {
   int multistart = 6;          ///< random initial guesses beside the given one
   int bootstrap = 0;           ///< resamples of the block bootstrap; 0: none
   int threads = 0;             ///< 0: every core; the result does not depend on it
+  /// When every search stops where it is.
+  std::optional<std::chrono::steady_clock::time_point> deadline;
 };
 
 }  // namespace awmr

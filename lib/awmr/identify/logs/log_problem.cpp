@@ -20,6 +20,7 @@ LogProblem log_problem(const std::vector<DrivingLog>& logs, const LogFitOptions&
   problem.initial = initial_coordinates(problem.model.quantities, options);
   problem.bounds = coordinate_bounds(problem.model.quantities, problem.initial, options.vehicle);
   problem.threads = options.threads;
+  problem.deadline = options.deadline;
   return problem;
 }
 

@@ -1,6 +1,8 @@
 /// The least-squares problem of a fit of logs. Private to identify/.
 #pragma once
 
+#include <chrono>
+#include <optional>
 #include <vector>
 
 #include "awmr/identify/logs/residuals.h"
@@ -22,6 +24,7 @@ struct LogProblem {
   std::vector<double> initial;   ///< coordinate of the initial guess, by quantity
   std::vector<Interval> bounds;  ///< of the coordinate, by quantity
   int threads = 0;               ///< 0: every core
+  std::optional<std::chrono::steady_clock::time_point> deadline;  ///< of every search
 
   /// Free numbers: the quantities, and an initial state for every window.
   std::size_t unknowns() const {

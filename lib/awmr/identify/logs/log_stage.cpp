@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <initializer_list>
 #include <utility>
@@ -101,6 +102,11 @@ LogFitOptions fit_options(const Vehicle& vehicle, const std::vector<DrivingLog>&
   fit.multistart = options.starts;
   fit.bootstrap = options.bootstrap;
   fit.threads = options.threads;
+  if (options.time_limit_s > 0.0) {
+    fit.deadline = std::chrono::steady_clock::now() +
+                   std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+                       std::chrono::duration<double>(options.time_limit_s));
+  }
   return fit;
 }
 
