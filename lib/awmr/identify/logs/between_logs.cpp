@@ -1,126 +1,121 @@
 #include "awmr/identify/logs/between_logs.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <optional>
 
 #include "awmr/core/index.h"
-#include "awmr/identify/logs/information.h"
+#include "awmr/identify/uncertainty/quantiles.h"
 
 namespace awmr {
 namespace {
 
-/// What one log says on its own.
-struct OneLog {
-  std::string file;
-  Eigen::VectorXd step;      ///< from the common coordinates to its own
-  Eigen::VectorXd variance;  ///< of its own coordinates
+/// One quantity as single logs show it.
+struct ByLog {
+  std::vector<std::string> files;
+  std::vector<double> coordinates;
+  std::vector<double> weights;  ///< 1/variance
 };
 
-OneLog one_log(const std::string& file, const std::vector<FitWindow>& windows,
-               const std::vector<WindowResiduals>& residuals, const Eigen::VectorXd& scale) {
-  const Eigen::Index n = scale.size();
-  Eigen::MatrixXd scaled = scale.asDiagonal() * information(residuals, n) * scale.asDiagonal();
-  scaled.diagonal().array() += 1.0 / (kPriorStd * kPriorStd);
-  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(n);
-  for (const Eigen::VectorXd& score : block_scores(windows, residuals, n, kWindow_s)) {
-    gradient += scale.cwiseProduct(score);
+/// Where a fit has a quantity that it shows.
+std::optional<std::size_t> place_in(const LogFit& fit, const std::string& name) {
+  for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
+    if (fit.quantities[i].name() == name && fit.why_not[i].empty()) return i;
   }
-  const Eigen::MatrixXd inverse = scaled.ldlt().solve(Eigen::MatrixXd::Identity(n, n));
-  return {file, -scale.cwiseProduct(inverse * gradient),
-          scale.cwiseAbs2().cwiseProduct(inverse.diagonal())};
+  return std::nullopt;
 }
 
-std::vector<OneLog> by_log(const LogProblem& problem, const std::vector<WindowResiduals>& residuals,
-                           const Eigen::VectorXd& scale) {
-  std::vector<OneLog> logs;
-  for (std::size_t begin = 0; begin < problem.windows.size();) {
-    const DrivingLog* const log = problem.windows[begin].rows.log;
-    std::size_t end = begin;
-    while (end < problem.windows.size() && problem.windows[end].rows.log == log) ++end;
-    const auto from = eigen_index(begin);
-    const auto to = eigen_index(end);
-    logs.push_back(one_log(log->file,
-                           {problem.windows.begin() + from, problem.windows.begin() + to},
-                           {residuals.begin() + from, residuals.begin() + to}, scale));
-    begin = end;
+ByLog collect(const std::vector<DrivingLog>& logs, const std::vector<LogFit>& fits,
+              const std::string& name) {
+  ByLog found;
+  for (std::size_t l = 0; l < fits.size(); ++l) {
+    const auto place = fits[l].usable ? place_in(fits[l], name) : std::nullopt;
+    if (!place) continue;
+    const Eigen::Index i = eigen_index(*place);
+    found.files.push_back(logs[l].file);
+    found.coordinates.push_back(fits[l].coordinates[*place]);
+    found.weights.push_back(1.0 / fits[l].covariance(i, i));
   }
-  return logs;
+  return found;
 }
 
-/// Quantity i over the logs that show it; none where fewer than two do or they agree.
-std::optional<LogDisagreement> disagreement_of(const std::vector<OneLog>& logs, Eigen::Index i,
-                                               double scale, double coordinate, double widened,
-                                               double level) {
-  constexpr double kShown = 0.5;  // of the large change, as for all logs together
-  LogDisagreement found;
-  found.quantity = at(i);
+/// What the logs' values of one quantity say of its being one.
+struct Heterogeneity {
+  double p_value = 1.0;
+  double widening = 1.0;  ///< of the standard error, for the mean of such vehicles
+};
+
+Heterogeneity heterogeneity(const ByLog& by_log) {
   double sum = 0.0;
   double squares = 0.0;
   double mean = 0.0;
-  std::vector<double> weights;
-  for (const OneLog& log : logs) {
-    const double variance = widened * widened * log.variance(i);
-    if (!(std::sqrt(variance) < kShown * scale)) continue;
-    found.files.push_back(log.file);
-    found.coordinates.push_back(coordinate + log.step(i));
-    weights.push_back(1.0 / variance);
-    sum += weights.back();
-    squares += weights.back() * weights.back();
-    mean += weights.back() * found.coordinates.back();
+  for (std::size_t l = 0; l < by_log.weights.size(); ++l) {
+    sum += by_log.weights[l];
+    squares += by_log.weights[l] * by_log.weights[l];
+    mean += by_log.weights[l] * by_log.coordinates[l];
   }
-  if (weights.size() < 2) return std::nullopt;
   mean /= sum;
   double q = 0.0;
-  for (std::size_t l = 0; l < weights.size(); ++l) {
-    q += weights[l] * std::pow(found.coordinates[l] - mean, 2);
+  for (std::size_t l = 0; l < by_log.weights.size(); ++l) {
+    q += by_log.weights[l] * std::pow(by_log.coordinates[l] - mean, 2);
   }
-  const double degrees = static_cast<double>(weights.size()) - 1.0;
-  found.p_value = boost::math::cdf(boost::math::complement(boost::math::chi_squared(degrees), q));
-  if (!(found.p_value < level)) return std::nullopt;
+  const double degrees = static_cast<double>(by_log.weights.size()) - 1.0;
   const double between = std::max(0.0, (q - degrees) / (sum - squares / sum));
-  found.between_std = std::sqrt(between);
-  found.widening = std::sqrt(1.0 + between * squares / sum);
-  return found;
+  return {boost::math::cdf(boost::math::complement(boost::math::chi_squared(degrees), q)),
+          std::sqrt(1.0 + between * squares / sum)};
+}
+
+/// Widens the i-th quantity of the common fit, known from this many logs.
+void widen(std::size_t i, double by, std::size_t logs, LogFit& fit) {
+  const Eigen::Index row = eigen_index(i);
+  fit.covariance.row(row) *= by;
+  fit.covariance.col(row) *= by;
+  const FreeQuantity& q = fit.quantities[i];
+  const double x = fit.coordinates[i];
+  const double error = std::sqrt(fit.covariance(row, row));
+  const double half = t_quantile_95(static_cast<double>(logs) - 1.0) * error;
+  EstimatorParameter& parameter = fit.report.parameters[i];
+  parameter.std_error = q.jacobian(x) * error;
+  parameter.ci95 = Interval{q.value(x - half), q.value(x + half)};
+}
+
+/// The common optimum as the only place to search from.
+LogFitOptions from_optimum(const FamilyFit& common) {
+  LogFitOptions options = common.options;
+  options.initial_guess = fitted_values(common.options, common.fit);
+  options.sensor_delays = sensor_delays_of(common.fit);
+  options.guessed.clear();
+  options.also_from.clear();
+  options.suspects.clear();
+  options.bootstrap = 0;
+  return options;
 }
 
 }  // namespace
 
-std::vector<LogDisagreement> log_disagreements(const LogProblem& problem,
-                                               const std::vector<WindowResiduals>& residuals,
-                                               const std::vector<double>& coordinates,
-                                               const Identifiability& found) {
+std::vector<LogDisagreement> hold_against_each_other(const std::vector<DrivingLog>& logs,
+                                                     FamilyFit& common) {
   constexpr double kLevel = 0.001;
   std::vector<LogDisagreement> disagreements;
-  const std::vector<FreeQuantity>& quantities = problem.model.quantities;
-  const Eigen::Index n = rows_of(quantities);
-  Eigen::VectorXd scale(n);
-  for (Eigen::Index i = 0; i < n; ++i) scale(i) = quantities[at(i)].large_change;
-  const std::vector<OneLog> logs = by_log(problem, residuals, scale);
-  if (logs.size() < 2) return disagreements;
-  for (Eigen::Index i = 0; i < n; ++i) {
-    // A sensor's bias may be another in every log.
-    if (quantities[at(i)].kind == FreeQuantity::Kind::kBias || !found.why_not[at(i)].empty())
-      continue;
-    const auto one = disagreement_of(logs, i, scale(i), coordinates[at(i)], found.factor[at(i)],
-                                     kLevel / static_cast<double>(n));
-    if (one) disagreements.push_back(*one);
+  if (logs.size() < 2 || !common.fit.usable) return disagreements;
+  const LogFitOptions options = from_optimum(common);
+  std::vector<LogFit> fits;
+  for (const DrivingLog& log : logs) fits.push_back(fit_logs({log}, options));
+  const double level = kLevel / static_cast<double>(common.fit.quantities.size());
+  for (std::size_t i = 0; i < common.fit.quantities.size(); ++i) {
+    const FreeQuantity& q = common.fit.quantities[i];
+    if (q.kind == FreeQuantity::Kind::kBias || !common.fit.why_not[i].empty()) continue;
+    const ByLog by_log = collect(logs, fits, q.name());
+    if (by_log.files.size() < 2) continue;
+    const Heterogeneity between = heterogeneity(by_log);
+    if (!(between.p_value < level)) continue;
+    widen(i, between.widening, by_log.files.size(), common.fit);
+    LogDisagreement one{q.name(), between.p_value, by_log.files, {}};
+    for (const double x : by_log.coordinates) one.values.push_back(q.value(x));
+    disagreements.push_back(one);
   }
   return disagreements;
-}
-
-Identifiability with_disagreements(Identifiability found,
-                                   const std::vector<LogDisagreement>& disagreements) {
-  for (const LogDisagreement& one : disagreements) {
-    const Eigen::Index i = eigen_index(one.quantity);
-    found.covariance.row(i) *= one.widening;
-    found.covariance.col(i) *= one.widening;
-    found.degrees_of_freedom[one.quantity] = std::min(found.degrees_of_freedom[one.quantity],
-                                                      static_cast<double>(one.files.size()) - 1.0);
-  }
-  return found;
 }
 
 }  // namespace awmr

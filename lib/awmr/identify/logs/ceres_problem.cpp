@@ -120,15 +120,20 @@ ceres::Solver::Options solver_options(double function_tolerance) {
   options.parameter_tolerance = 1e-9;
   options.logging_type = ceres::SILENT;
   options.num_threads = 1;
-  // Steps are cut at the bounds. The line search along them that Ceres adds for bounds evaluates
-  // every jacobian twice.
-  options.max_num_line_search_step_size_iterations = 0;
+  options.max_num_consecutive_invalid_steps = 30;
   return options;
 }
 
-}  // namespace
+/// Where a step would leave the finite numbers.
+enum class LineSearch {
+  /// Steps are cut at the bounds and halved where they cannot be simulated. Evaluates a jacobian a step.
+  kOff,
+  /// Ceres looks along every step for a point with finite derivatives: two jacobians a step.
+  kOn,
+};
 
-Solved solve(const LogProblem& problem, SearchPoint from, double function_tolerance) {
+Solved search_from(const LogProblem& problem, SearchPoint from, double function_tolerance,
+                   LineSearch line_search) {
   Solved solved;
   solved.point = std::move(from);
   SearchPoint& point = solved.point;
@@ -150,6 +155,7 @@ Solved solve(const LogProblem& problem, SearchPoint from, double function_tolera
   bound(search, problem.bounds, point.coordinates);
   ceres::Solver::Options options = solver_options(function_tolerance);
   options.linear_solver_ordering = ordering;
+  if (line_search == LineSearch::kOff) options.max_num_line_search_step_size_iterations = 0;
   if (problem.deadline) options.max_solver_time_in_seconds = seconds_until(*problem.deadline);
   ceres::Solver::Summary summary;
   ceres::Solve(options, &search, &summary);
@@ -158,6 +164,14 @@ Solved solve(const LogProblem& problem, SearchPoint from, double function_tolera
   solved.usable = summary.IsSolutionUsable();
   solved.stop_reason = stop_reason(summary);
   return solved;
+}
+
+}  // namespace
+
+Solved solve(const LogProblem& problem, SearchPoint from, double function_tolerance) {
+  Solved quick = search_from(problem, from, function_tolerance, LineSearch::kOff);
+  if (quick.usable) return quick;
+  return search_from(problem, std::move(from), function_tolerance, LineSearch::kOn);
 }
 
 }  // namespace awmr

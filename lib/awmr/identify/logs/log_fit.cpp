@@ -67,11 +67,8 @@ LogFit fit_logs(const std::vector<DrivingLog>& logs, const LogFitOptions& option
   const Eigen::Index n = rows_of(quantities);
   const auto scores =
       block_scores(problem.windows, residuals, n, block_length_s(problem.model.noise));
-  const Identifiability of_one_vehicle = without_stopped(
+  const Identifiability found = without_stopped(
       identifiability(information(residuals, n), scores, quantities), problem, coordinates);
-  const std::vector<LogDisagreement> disagreements =
-      log_disagreements(problem, residuals, coordinates, of_one_vehicle);
-  const Identifiability found = with_disagreements(of_one_vehicle, disagreements);
   const std::vector<Interval> bootstrap95 =
       block_bootstrap({quantities, coordinates, found.covariance, scores},
                       {.resamples = options.bootstrap, .seed = options.seed});
@@ -84,7 +81,6 @@ LogFit fit_logs(const std::vector<DrivingLog>& logs, const LogFitOptions& option
              .suspect_gain = suspect_gains(problem, solved.point, options.suspects),
              .aic = akaike(problem.model.noise, n),
              .widened = found.widened(),
-             .disagreements = disagreements,
              .report = log_report({problem, solved, residuals, found, bootstrap95}),
              .usable = solved.usable && solved.converged};
   fit.report.starts = search.starts;

@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "awmr/identify/logs/between_logs.h"
 #include "awmr/identify/logs/channel_noise.h"
 #include "awmr/identify/logs/quantities.h"
 #include "awmr/model/record.h"
@@ -24,11 +23,10 @@ struct LogFit {
   NoiseLevels noise;
   /// By suspect of the options: by how much -2 ln L would fall with the term free (a score test).
   std::vector<double> suspect_gain;
-  double aic = 0.0;      ///< Akaike's criterion; less is better, of the same logs only
-  double widened = 1.0;  ///< largest of Identifiability's factors
-  std::vector<LogDisagreement> disagreements;  ///< between the logs
-  EstimatorReport report;                      ///< parameters by quantity
-  bool usable = false;                         ///< the search converged
+  double aic = 0.0;        ///< Akaike's criterion; less is better, of the same logs only
+  double widened = 1.0;    ///< largest of Identifiability's factors
+  EstimatorReport report;  ///< parameters by quantity
+  bool usable = false;     ///< the search converged
 };
 
 /// Precondition: an initial guess for every parameter.

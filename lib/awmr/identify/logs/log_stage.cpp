@@ -11,6 +11,7 @@
 #include "awmr/core/index.h"
 #include "awmr/identify/logs/adequacy.h"
 #include "awmr/identify/logs/agreement.h"
+#include "awmr/identify/logs/between_logs.h"
 #include "awmr/identify/logs/cross_validation.h"
 #include "awmr/identify/logs/initial_guess.h"
 #include "awmr/trials/log_consistency.h"
@@ -196,21 +197,20 @@ std::vector<Finding> delay_findings(const LogFit& fit, const std::string& file) 
 }
 
 /// `logs-disagree` for everything that is not the same in every log.
-std::vector<Finding> disagreement_findings(const LogFit& fit) {
+std::vector<Finding> in_words(const std::vector<LogDisagreement>& disagreements) {
   std::vector<Finding> findings;
-  for (const LogDisagreement& one : fit.disagreements) {
-    const FreeQuantity& q = fit.quantities[one.quantity];
+  for (const LogDisagreement& one : disagreements) {
     std::string each;
     for (std::size_t l = 0; l < one.files.size(); ++l) {
-      each += fmt::format("{}{:.4g} by {}", l == 0 ? "" : ", ", q.value(one.coordinates[l]),
-                          one.files[l]);
+      each += fmt::format("{}{:.4g} by {}", l == 0 ? "" : ", ", one.values[l], one.files[l]);
     }
     findings.push_back(
         {one.files.front(), 0, Severity::kWarning, "logs-disagree",
-         fmt::format("the logs disagree on {}: about {} (p = {:.2g} for one vehicle, surface and "
-                     "battery); its interval is widened to hold for the mean of such logs, not for "
-                     "any one of them",
-                     q.name(), each, one.p_value)});
+         fmt::format(
+             "the logs disagree on {}: {} (p = {:.2g} for one vehicle, surface and battery); "
+             "its interval is widened to hold for the mean of such logs, not for any one of "
+             "them",
+             one.name, each, one.p_value)});
   }
   return findings;
 }
@@ -220,7 +220,6 @@ void take(const LogFit& fit, const Model& model, bool overrule, const std::strin
           LogStage& stage) {
   stage.block = fit.covariance;
   append(stage.findings, delay_findings(fit, file));
-  append(stage.findings, disagreement_findings(fit));
   for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
     const FreeQuantity& q = fit.quantities[i];
     const bool parameter = q.kind == FreeQuantity::Kind::kParameter;
@@ -253,7 +252,9 @@ LogStage run_log_stage(const Vehicle& vehicle, const std::vector<DrivingLog>& lo
   LogFitOptions power_law = fit_options(vehicle, logs, options);
   power_law.initial_guess = guess_from_logs(logs, vehicle);
   free_parameters(power_law, logs, asked, model, stage.reasons);
-  const FamilyFit chosen = fit_families(logs, power_law, options, stage);
+  FamilyFit chosen = fit_families(logs, power_law, options, stage);
+  append(stage.findings, in_words(hold_against_each_other(logs, chosen)));
+  stage.reports[stage.chosen_report] = chosen.fit.report;
   const std::string& file = logs.front().file;
   if (!chosen.fit.usable) {
     refuse_all(chosen, file, stage);
