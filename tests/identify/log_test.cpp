@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "awmr/identify/logs/channel_noise.h"
 #include "awmr/identify/planning/recover.h"
 #include "awmr/identify/planning/synthetic.h"
 #include "awmr/model/model_file.h"
@@ -243,6 +244,92 @@ TEST(Log, CrossValidationIsReportedWithTheFamilyThatWasChosen) {
     const bool chosen = report.family == name_of(result->model.surge_family);
     EXPECT_EQ(report.leave_one_out.size(), chosen ? 2u : 0u) << report.family;
   }
+}
+
+bool has_finding(const Identification& result, const std::string& code, const std::string& words) {
+  return std::ranges::any_of(result.model.record.findings, [&](const Finding& f) {
+    return f.code == code && f.message.find(words) != std::string::npos;
+  });
+}
+
+TEST(Log, ALateSpeedIsFoundAndAllowedFor) {
+  const Truth& t = kTruths[0];
+  constexpr std::size_t kLate = 10;  // rows of 10 ms
+  TrialData data;
+  data.logs = {drive(t, 21, {.duration_s = 40.0})};
+  std::vector<double>& speed = data.logs[0][LogChannel::kSpeed]->value;
+  std::rotate(speed.rbegin(), speed.rbegin() + kLate, speed.rend());
+  std::fill(speed.begin(), speed.begin() + kLate, speed[kLate]);
+  const auto result = identify(robot(), data, {}, {});
+  ASSERT_TRUE(result);
+  EXPECT_TRUE(has_finding(*result, "sensor-delay", "speed_mps"));
+  expect_recovered(*result, ParameterId::kMassNorm, t.mass_norm, 4.5);
+  for (const EstimatorParameter& p : result->model.record.reports.back().parameters) {
+    if (p.name == "delay.speed_mps") {
+      EXPECT_NEAR(p.value, 0.1, 4.5 * *p.std_error);
+    }
+  }
+}
+
+TEST(Log, FrictionOfAnotherFamilyIsTakenAndSaid) {
+  const Truth& t = kTruths[0];
+  Plant<double> braked = plant(t);
+  braked.surge = {.alpha = 0.74, .beta = 1.0, .coulomb = 0.15};
+  Random random(22, 5);
+  TrialData data;
+  data.logs = {simulate_log(braked, robot(), {.duration_s = 40.0, .drive = 22}, {}, random)};
+  const auto result = identify(robot(), data, {}, {});
+  ASSERT_TRUE(result);
+  EXPECT_TRUE(terms_of(result->model.surge_family).coulomb);
+  EXPECT_TRUE(has_finding(*result, "power-law-inadequate", "AIC"));
+  expect_recovered(*result, ParameterId::kMassNorm, t.mass_norm, 4.5);
+  expect_recovered(*result, ParameterId::kSurgeCoulomb, 0.15, 4.5);
+}
+
+TEST(Log, AnotherMassOnTheSecondDayIsToldAndWidensTheInterval) {
+  Truth heavy = kTruths[0];
+  heavy.mass_norm *= 1.2;
+  TrialData data;
+  data.logs = {drive(kTruths[0], 23, {.duration_s = 40.0}), drive(heavy, 24, {.duration_s = 40.0})};
+  const auto result = identify(robot(), data, {}, {});
+  ASSERT_TRUE(result);
+  EXPECT_TRUE(has_finding(*result, "logs-disagree", "mass_norm"));
+  const Estimate& mass = result->model[ParameterId::kMassNorm];
+  ASSERT_TRUE(mass.ci95);
+  EXPECT_LT(mass.ci95->lo, kTruths[0].mass_norm);
+  EXPECT_GT(mass.ci95->hi, heavy.mass_norm);
+}
+
+TEST(Log, LogsOfOneVehicleAgree) {
+  TrialData data;
+  data.logs = {drive(kTruths[0], 25, {.duration_s = 20.0}),
+               drive(kTruths[0], 26, {.duration_s = 20.0})};
+  const auto result = identify(robot(), data, {}, {});
+  ASSERT_TRUE(result);
+  EXPECT_FALSE(has_finding(*result, "logs-disagree", ""));
+  EXPECT_FALSE(has_finding(*result, "sensor-delay", ""));
+  EXPECT_FALSE(has_finding(*result, "power-law-inadequate", ""));
+}
+
+TEST(Log, AnErrorThatWandersBesidesTheWhiteOneIsTakenApart) {
+  ChannelNoise truth{.white_std = 0.02, .drift_std = 0.03, .correlation_s = 0.5};
+  Random random(7, 3);
+  std::vector<ErrorSeries> series(10);
+  for (ErrorSeries& part : series) {
+    double drift = truth.drift_std * random.normal();
+    for (int k = 0; k < 1000; ++k) {
+      const double phi = std::exp(-0.01 / truth.correlation_s);
+      if (k > 0)
+        drift = phi * drift + truth.drift_std * std::sqrt(1.0 - phi * phi) * random.normal();
+      part.error.push_back(drift + truth.white_std * random.normal());
+      part.since_s.push_back(k == 0 ? 0.0 : 0.01);
+    }
+  }
+  const ChannelNoise found = likeliest_noise(series, 1.0, {});
+  // 200 memories long: the drift's level and memory are known to about a tenth.
+  EXPECT_NEAR(found.white_std, truth.white_std, 0.05 * truth.white_std);
+  EXPECT_NEAR(found.drift_std, truth.drift_std, 0.3 * truth.drift_std);
+  EXPECT_NEAR(std::log(found.correlation_s / truth.correlation_s), 0.0, 0.6);
 }
 
 TEST(Recover, TellsBiasAndCoverageOfTables) {

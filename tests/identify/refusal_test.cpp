@@ -103,8 +103,8 @@ TEST(Refusal, AFitThatDidNotConvergeIsTheReason) {
   data.surge->rows.resize(3);
   IdentifyOptions options;
   options.method = Method::kNonlinear;
-  options.surge_family = {Family::kCoulombLinearQuadratic};
-  data.surge->rows[2].speed_mps = 1e-300;
+  options.surge_family = {Family::kPower};
+  data.surge->rows[2].speed_mps = 1e300;
   const auto result = identify(vehicle(), data, options, {});
   ASSERT_TRUE(result);
   ASSERT_FALSE(result->refused.empty());

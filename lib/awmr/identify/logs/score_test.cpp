@@ -35,6 +35,15 @@ ScoreTest test_one(const Eigen::MatrixXd& h, const std::vector<Eigen::VectorXd>&
 
 }  // namespace
 
+LogProblem with_white_noise(LogProblem problem) {
+  for (auto& [channel, noise] : problem.model.noise) {
+    noise.white_std = noise.std();
+    noise.drift_std = 0.0;
+    noise.correlation_s = 0.0;
+  }
+  return problem;
+}
+
 Extended extended(LogProblem problem, SearchPoint point, const std::vector<FreeQuantity>& more,
                   const std::vector<double>& begin) {
   const std::vector<Interval> bounds = coordinate_bounds(more, begin, problem.model.vehicle);
@@ -51,8 +60,8 @@ std::vector<ScoreTest> score_test(const LogProblem& problem, const SearchPoint& 
                                   const std::vector<FreeQuantity>& candidates) {
   std::vector<ScoreTest> tests(candidates.size());
   if (candidates.empty()) return tests;
-  const Extended with =
-      extended(problem, point, candidates, std::vector<double>(candidates.size(), 0.0));
+  const Extended with = extended(with_white_noise(problem), point, candidates,
+                                 std::vector<double>(candidates.size(), 0.0));
   const std::vector<WindowResiduals> residuals = evaluate_all(with.problem, with.point, true);
   if (!all_finite(residuals)) return tests;
   const Eigen::Index n = rows_of(problem.model.quantities);

@@ -18,9 +18,15 @@ struct ScoreTest {
 ///
 ///     value = -(g_c - H_ct H_tt^-1 g_t) / (H_cc - H_ct H_tt^-1 H_tc)
 ///
-/// `point`: the solution without the candidates. Precondition: candidates are linear quantities.
+/// Drifts are taken as white noise of the same size: what a candidate would explain must not pass for
+/// a drift. The blocks' scatter then makes the standard error. `point`: the solution without the
+/// candidates. Precondition: candidates are linear quantities.
 std::vector<ScoreTest> score_test(const LogProblem& problem, const SearchPoint& point,
                                   const std::vector<FreeQuantity>& candidates);
+
+/// The problem with every channel's noise white, of the same standard deviation: for a search that is
+/// to explain what passed for a drift.
+LogProblem with_white_noise(LogProblem problem);
 
 /// The problem with further free quantities, where they begin, and the point with them there.
 struct Extended {
