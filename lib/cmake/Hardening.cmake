@@ -1,5 +1,5 @@
-# What the compiler and the linker offer against memory errors, on by default for this project's own builds: canaries on the
-# stack, checked string functions, position independence, and a table of addresses that is read-only at run time.
+# What the compiler and the linker offer against memory errors, on by default for this project's own builds: canaries on
+# the stack, checked string functions, position independence, and a table of addresses that is read-only at run time.
 option(AWMR_HARDENING "Build with stack protector, FORTIFY, PIE and RELRO" ${PROJECT_IS_TOP_LEVEL})
 if(AWMR_HARDENING)
   include(CheckPIESupported)
