@@ -179,7 +179,6 @@ FamilyFit fit_family(const std::vector<DrivingLog>& logs, const LogFitOptions& p
 
 BestFamily best_family(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                        FamilyFit first, const FamilyContest& contest) {
-  constexpr double kPlainlyBetter = 10.0;
   BestFamily result;
   const double first_aic = first.fit.aic;
   const LogFit judged = first.fit;

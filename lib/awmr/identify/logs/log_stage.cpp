@@ -138,7 +138,6 @@ bool is_open(const FamilyChoice& choice) {
 /// The families that were asked for, or the best ones. Also fits what is reported only: rivals.
 FamilyFit fit_families(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                        const IdentifyOptions& options, LogStage& stage) {
-  constexpr double kPlainlyBetter = 10.0;
   const FamilyChoice& surge = options.surge_family;
   const FamilyChoice& yaw = options.yaw_family;
   const bool surge_open = is_open(surge);
