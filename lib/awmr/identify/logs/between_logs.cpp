@@ -80,18 +80,6 @@ void widen(std::size_t i, double by, std::size_t logs, LogFit& fit) {
   parameter.ci95 = Interval{q.value(x - half), q.value(x + half)};
 }
 
-/// The common optimum as the only place to search from.
-LogFitOptions from_optimum(const FamilyFit& common) {
-  LogFitOptions options = common.options;
-  options.initial_guess = fitted_values(common.options, common.fit);
-  options.sensor_delays = sensor_delays_of(common.fit);
-  options.guessed.clear();
-  options.also_from.clear();
-  options.suspects.clear();
-  options.bootstrap = 0;
-  return options;
-}
-
 }  // namespace
 
 std::vector<LogDisagreement> hold_against_each_other(const std::vector<DrivingLog>& logs,
@@ -99,7 +87,8 @@ std::vector<LogDisagreement> hold_against_each_other(const std::vector<DrivingLo
   constexpr double kLevel = 0.001;
   std::vector<LogDisagreement> disagreements;
   if (logs.size() < 2 || !common.fit.usable) return disagreements;
-  const LogFitOptions options = from_optimum(common);
+  LogFitOptions options = from_optimum(common.options, common);
+  options.bootstrap = 0;
   std::vector<LogFit> fits;
   for (const DrivingLog& log : logs) fits.push_back(fit_logs({log}, options));
   const double level = kLevel / static_cast<double>(common.fit.quantities.size());

@@ -55,11 +55,7 @@ FamilyFit fit_with(const std::vector<DrivingLog>& logs, LogFitOptions options, F
 /// it, and from the initial guess of the power law.
 FamilyFit fit_from(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                    const FamilyFit& inner, Family surge, Family yaw) {
-  LogFitOptions at_optimum = power_law;
-  at_optimum.initial_guess = fitted_values(inner.options, inner.fit);
-  at_optimum.sensor_delays = sensor_delays_of(inner.fit);
-  at_optimum.guessed.clear();
-  at_optimum.suspects.clear();
+  const LogFitOptions at_optimum = from_optimum(power_law, inner);
   LogFitOptions options = with_families(at_optimum, surge, yaw);
   options.also_from = {at_optimum.initial_guess,
                        with_families(power_law, surge, yaw).initial_guess};
@@ -143,7 +139,7 @@ std::vector<Contender> contenders(const FamilyFit& first, bool of_yaw) {
 /// Fits the contenders and leaves the best of them and of `result.best` there.
 void compete(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
              const std::vector<Contender>& others, double lead, BestFamily& result) {
-  const FamilyFit first = result.best;
+  const FamilyFit& first = result.best;
   std::optional<FamilyFit> best_rival;
   for (const Contender& other : others) {
     FamilyFit rival =
@@ -172,6 +168,15 @@ std::string families_in_words(Family surge, Family yaw) {
   return fmt::format("{}, yaw {}", name_of(surge), name_of(yaw));
 }
 
+LogFitOptions from_optimum(LogFitOptions options, const FamilyFit& fit) {
+  options.initial_guess = fitted_values(fit.options, fit.fit);
+  options.sensor_delays = sensor_delays_of(fit.fit);
+  options.guessed.clear();
+  options.also_from.clear();
+  options.suspects.clear();
+  return options;
+}
+
 FamilyFit fit_family(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                      Family surge, Family yaw) {
   return fit_with(logs, with_families(power_law, surge, yaw), surge, yaw);
@@ -179,23 +184,24 @@ FamilyFit fit_family(const std::vector<DrivingLog>& logs, const LogFitOptions& p
 
 BestFamily best_family(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                        FamilyFit first, const FamilyContest& contest) {
-  BestFamily result;
-  const double first_aic = first.fit.aic;
-  const LogFit judged = first.fit;
-  result.best = std::move(first);
   const auto open = [&](bool of_yaw) {
-    return !contest.only_suspects || suspicious(judged, power_law.suspects, of_yaw);
+    return !contest.only_suspects || suspicious(first.fit, power_law.suspects, of_yaw);
   };
-  if (contest.surge && open(false)) {
+  const bool surge = contest.surge && open(false);
+  const bool yaw = contest.yaw && open(true);
+  const double first_aic = first.fit.aic;
+  BestFamily result;
+  result.best = std::move(first);
+  if (surge) {
     compete(logs, power_law, contenders(result.best, false), contest.lead, result);
   }
-  if (contest.yaw && open(true)) {
+  if (yaw) {
     compete(logs, power_law, contenders(result.best, true), contest.lead, result);
   }
-  result.gain = first_aic - result.best.fit.aic;
+  const double gain = first_aic - result.best.fit.aic;
   const bool other = result.best.surge != Family::kPower || result.best.yaw != Family::kPower;
-  if (other && result.gain > kPlainlyBetter) {
-    result.findings.push_back(taken(logs.front().file, result.best, result.gain));
+  if (other && gain > kPlainlyBetter) {
+    result.findings.push_back(taken(logs.front().file, result.best, gain));
   }
   return result;
 }

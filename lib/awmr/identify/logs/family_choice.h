@@ -16,6 +16,9 @@ struct FamilyFit {
   LogFit fit;
 };
 
+/// The options with the optimum of `fit` as the only place to search from, and nothing suspected.
+LogFitOptions from_optimum(LogFitOptions options, const FamilyFit& fit);
+
 /// The fit with the families' terms free. `power_law`: the options for a power law in both motions.
 FamilyFit fit_family(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                      Family surge, Family yaw);
@@ -35,7 +38,6 @@ struct FamilyContest {
 struct BestFamily {
   FamilyFit best;
   std::vector<EstimatorReport> others;
-  double gain = 0.0;              ///< the power law's AIC less that of the best
   std::vector<Finding> findings;  ///< `power-law-inadequate`, `family-undecided`
 };
 

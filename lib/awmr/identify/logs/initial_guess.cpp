@@ -28,8 +28,7 @@ Magnitudes magnitudes(const DrivingLog& log, const Vehicle& vehicle) {
   for (std::size_t i = 0; i < log.rows(); ++i) {
     difference.push_back(log.force_right[i] - log.force_left[i]);
   }
-  const double steering =
-      rms(log.steering_command_rad ? *log.steering_command_rad : log[LogChannel::kSteering]->value);
+  const double steering = rms(log.driving_steering_rad());
   const auto& speed = log[LogChannel::kSpeed];
   const auto& yaw_rate = log[LogChannel::kYawRate];
   return {.thrust = 2.0 * (left + right),

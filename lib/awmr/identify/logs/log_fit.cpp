@@ -39,6 +39,31 @@ std::vector<double> suspect_gains(const LogProblem& problem, const SearchPoint& 
   return gains;
 }
 
+/// What a search that ended at `solved` amounts to; `residuals` are those there, all finite.
+LogFit fit_at(const LogProblem& problem, const Solved& solved,
+              const std::vector<WindowResiduals>& residuals, const LogFitOptions& options) {
+  const std::vector<FreeQuantity>& quantities = problem.model.quantities;
+  const std::vector<double>& coordinates = solved.point.coordinates;
+  const Eigen::Index n = rows_of(quantities);
+  const auto scores =
+      block_scores(problem.windows, residuals, n, block_length_s(problem.model.noise));
+  const Identifiability found = without_stopped(
+      identifiability(information(residuals, n), scores, quantities), problem, coordinates);
+  const std::vector<Interval> bootstrap95 =
+      block_bootstrap({quantities, coordinates, found.covariance, scores},
+                      {.resamples = options.bootstrap, .seed = options.seed});
+  return {.quantities = quantities,
+          .coordinates = coordinates,
+          .covariance = found.covariance,
+          .why_not = found.why_not,
+          .noise = problem.model.noise,
+          .suspect_gain = suspect_gains(problem, solved.point, options.suspects),
+          .aic = akaike(problem.model.noise, n),
+          .widened = found.widened(),
+          .report = log_report({problem, solved, residuals, found, bootstrap95}),
+          .usable = solved.usable && solved.converged};
+}
+
 }  // namespace
 
 LogFit fit_logs(const std::vector<DrivingLog>& logs, const LogFitOptions& options) {
@@ -54,35 +79,14 @@ LogFit fit_logs(const std::vector<DrivingLog>& logs, const LogFitOptions& option
 
   const NoiseIteration settled = allow_for_late_sensors(
       settle_noise(guess, from_measured(guess, search.coordinates), options.loss), options.loss);
-  const LogProblem& problem = settled.problem;
-  const Solved solved = solve(problem, settled.point, kFine);
-  const std::vector<WindowResiduals> residuals = evaluate_all(problem, solved.point, true);
+  const Solved solved = solve(settled.problem, settled.point, kFine);
+  const std::vector<WindowResiduals> residuals = evaluate_all(settled.problem, solved.point, true);
   if (!all_finite(residuals)) {
     return without_solution("failed: the logs cannot be replayed where the search ended",
                             search.starts);
   }
 
-  const std::vector<FreeQuantity>& quantities = problem.model.quantities;
-  const std::vector<double>& coordinates = solved.point.coordinates;
-  const Eigen::Index n = rows_of(quantities);
-  const auto scores =
-      block_scores(problem.windows, residuals, n, block_length_s(problem.model.noise));
-  const Identifiability found = without_stopped(
-      identifiability(information(residuals, n), scores, quantities), problem, coordinates);
-  const std::vector<Interval> bootstrap95 =
-      block_bootstrap({quantities, coordinates, found.covariance, scores},
-                      {.resamples = options.bootstrap, .seed = options.seed});
-
-  LogFit fit{.quantities = quantities,
-             .coordinates = coordinates,
-             .covariance = found.covariance,
-             .why_not = found.why_not,
-             .noise = problem.model.noise,
-             .suspect_gain = suspect_gains(problem, solved.point, options.suspects),
-             .aic = akaike(problem.model.noise, n),
-             .widened = found.widened(),
-             .report = log_report({problem, solved, residuals, found, bootstrap95}),
-             .usable = solved.usable && solved.converged};
+  LogFit fit = fit_at(settled.problem, solved, residuals, options);
   fit.report.starts = search.starts;
   return fit;
 }

@@ -69,8 +69,7 @@ std::string cannot_show(const std::vector<DrivingLog>& logs, ParameterId id) {
 bool turns(const std::vector<DrivingLog>& logs) {
   constexpr double kMuch = 0.01;  // of the largest force, and rad
   return std::ranges::any_of(logs, [](const DrivingLog& log) {
-    const std::vector<double>& steering =
-        log.steering_command_rad ? *log.steering_command_rad : log[LogChannel::kSteering]->value;
+    const std::vector<double>& steering = log.driving_steering_rad();
     for (std::size_t i = 0; i < log.rows(); ++i) {
       const double difference = std::abs(log.force_right[i] - log.force_left[i]);
       if (std::abs(steering[i]) > kMuch || difference > kMuch) return true;

@@ -10,14 +10,11 @@
 namespace awmr {
 namespace {
 
-/// One candidate, whose row and column stand last but for the other candidates: at `c` of `h`.
+/// The candidate at row and column `c` of `h`; `by_others` is H_tt^-1 H_tc.
 ScoreTest test_one(const Eigen::MatrixXd& h, const std::vector<Eigen::VectorXd>& scores,
-                   Eigen::Index n, Eigen::Index c) {
-  // The weak prior of the search keeps what no data show from making H_tt singular.
-  Eigen::MatrixXd inner = h.topLeftCorner(n, n);
-  inner.diagonal().array() += 1.0 / (kPriorStd * kPriorStd);
-  const Eigen::VectorXd by_others = inner.ldlt().solve(h.block(0, c, n, 1));
-  const double information = h(c, c) - h.block(0, c, n, 1).col(0).dot(by_others);
+                   const Eigen::VectorXd& by_others, Eigen::Index c) {
+  const Eigen::Index n = by_others.size();
+  const double information = h(c, c) - h.col(c).head(n).dot(by_others);
   ScoreTest test;
   if (!(information > 1e-12 * h(c, c)) || !(h(c, c) > 0.0)) return test;
   double sum = 0.0;
@@ -69,8 +66,12 @@ std::vector<ScoreTest> score_test(const LogProblem& problem, const SearchPoint& 
   const Eigen::MatrixXd h = information(residuals, all);
   const auto scores =
       block_scores(with.problem.windows, residuals, all, block_length_s(problem.model.noise));
+  // The weak prior of the search keeps what no data show from making H_tt singular.
+  Eigen::MatrixXd of_others = h.topLeftCorner(n, n);
+  of_others.diagonal().array() += 1.0 / (kPriorStd * kPriorStd);
+  const Eigen::MatrixXd by_others = of_others.ldlt().solve(h.topRightCorner(n, all - n));
   for (std::size_t i = 0; i < candidates.size(); ++i) {
-    tests[i] = test_one(h, scores, n, n + eigen_index(i));
+    tests[i] = test_one(h, scores, by_others.col(eigen_index(i)), n + eigen_index(i));
   }
   return tests;
 }
