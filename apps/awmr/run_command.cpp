@@ -137,7 +137,7 @@ Result<std::vector<fs::path>> checked_inputs(const RunCommand& command, const Pr
   }
   if (!faults.empty()) return input_errors(std::move(faults));
   std::vector<fs::path> inputs = inputs_of(command, project, tune);
-  AWMR_RETURN_IF_ERROR(check_outputs(command.output, outputs_of(project), inputs));
+  AWMR_RETURN_IF_ERROR(cli::check_outputs(command.output, outputs_of(project), inputs));
   return inputs;
 }
 

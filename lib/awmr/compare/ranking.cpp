@@ -21,13 +21,13 @@ bool has_a_goal(const ScenarioRows& scenario) {
 }
 
 /// The metrics that rank this scenario's modes, with their scales.
-struct Scale {
+struct MetricScale {
   const MetricColumn* metric;
   double scale;
 };
 
-std::vector<Scale> scales_of(const ScenarioRows& scenario) {
-  std::vector<Scale> scales;
+std::vector<MetricScale> scales_of(const ScenarioRows& scenario) {
+  std::vector<MetricScale> scales;
   for (const MetricColumn& metric : kMetricColumns) {
     if (metric.ranked() && any_has(scenario, metric)) {
       scales.push_back({&metric, ranking_scale(scenario, metric)});
@@ -37,9 +37,9 @@ std::vector<Scale> scales_of(const ScenarioRows& scenario) {
 }
 
 /// Mean of one mode's metric over its runs, over the scale; 1 where it has none.
-double score_of(const ModeRows& rows, const std::vector<Scale>& scales) {
+double score_of(const ModeRows& rows, const std::vector<MetricScale>& scales) {
   double sum = 0.0;
-  for (const Scale& scale : scales) {
+  for (const MetricScale& scale : scales) {
     const auto mean = summarise(rows, *scale.metric).mean;
     sum += mean ? *mean / scale.scale : 1.0;
   }
@@ -47,9 +47,9 @@ double score_of(const ModeRows& rows, const std::vector<Scale>& scales) {
 }
 
 /// One run's score on the same scales.
-double score_of(const Metrics& metrics, const std::vector<Scale>& scales) {
+double score_of(const Metrics& metrics, const std::vector<MetricScale>& scales) {
   double sum = 0.0;
-  for (const Scale& scale : scales) {
+  for (const MetricScale& scale : scales) {
     const auto value = scale.metric->value(metrics);
     sum += value ? *value / scale.scale : 1.0;
   }
@@ -57,8 +57,8 @@ double score_of(const Metrics& metrics, const std::vector<Scale>& scales) {
 }
 
 /// 95 % interval of the mean of a's score minus b's, sample by sample.
-Interval score_difference(const ModeRows& a, const ModeRows& b, const std::vector<Scale>& scales,
-                          Random random) {
+Interval score_difference(const ModeRows& a, const ModeRows& b,
+                          const std::vector<MetricScale>& scales, Random random) {
   const auto first = a.counted();
   const auto second = b.counted();
   std::vector<double> by_sample;
@@ -100,7 +100,7 @@ const ModeRows& runs_of(const ScenarioRows& scenario, const RankedMode& ranked) 
 
 /// Best first, ranks not yet given.
 std::vector<RankedMode> sorted_modes(const ScenarioRows& scenario,
-                                     const std::vector<Scale>& scales) {
+                                     const std::vector<MetricScale>& scales) {
   std::vector<RankedMode> ranked;
   for (const ModeRows& rows : scenario.modes) {
     ranked.push_back({.rank = 0,
@@ -131,7 +131,7 @@ double ranking_scale(const ScenarioRows& scenario, const MetricColumn& metric) {
 std::vector<RankedMode> rank(const ScenarioRows& scenario, std::uint64_t seed,
                              std::uint64_t stream) {
   if (!has_a_goal(scenario)) return {};
-  const std::vector<Scale> scales = scales_of(scenario);
+  const std::vector<MetricScale> scales = scales_of(scenario);
   std::vector<RankedMode> ranked = sorted_modes(scenario, scales);
   std::size_t leader = 0;  // the best of the current rank
   for (std::size_t i = 0; i < ranked.size(); ++i) {

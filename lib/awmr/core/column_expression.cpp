@@ -22,8 +22,6 @@ constexpr std::array<std::string_view, 15> kFunctions{"sin",  "cos",   "tan",  "
                                                       "atan", "atan2", "sqrt", "abs",   "min",
                                                       "max",  "exp",   "ln",   "log10", "sign"};
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-
 /// What a bare name begins with; bytes above 0x7F are those of other alphabets in UTF-8.
 bool begins_name(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' ||

@@ -16,8 +16,6 @@ namespace {
 
 constexpr std::size_t kLongestCell = 40;  ///< shown in a message
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-
 std::string lower(std::string_view text) {
   std::string result(text);
   std::transform(result.begin(), result.end(), result.begin(), [](char c) {

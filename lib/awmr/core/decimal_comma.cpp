@@ -10,8 +10,6 @@
 namespace awmr {
 namespace {
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-
 /// 1,250 or -12,500: a comma that may part thousands.
 bool may_be_thousands(std::string_view text) {
   if (text.starts_with('+') || text.starts_with('-')) text.remove_prefix(1);

@@ -6,8 +6,6 @@
 
 namespace awmr {
 
-inline constexpr std::size_t kMaxFaults = 100;  ///< of a file; more are of no use
-
 /// A key inside a JSON pointer. [RFC 6901, section 3]
 inline std::string pointer_token(std::string_view key) {
   std::string text;

@@ -31,9 +31,6 @@ struct RawTable {
   bool joined = false;  ///< made of signals with times of their own: cells may be empty
 };
 
-/// Faults beyond this many are not gathered.
-inline constexpr std::size_t kMaxFaults = 100;
-
 /// The columns that were asked for. `faults` are those found so far; `mappings` those that `sources`
 /// were found with. Errors: as read_csv().
 Result<CsvTable> table_of(RawTable raw, ColumnSources sources,

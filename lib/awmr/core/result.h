@@ -2,6 +2,7 @@
 /// was wrong and what to do; a broken invariant of the program asserts.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <tl/expected.hpp>
@@ -15,6 +16,9 @@ struct Fault {
   std::string place;    ///< `FILE:LINE:COLUMN`, `FILE:/json/pointer`, `FILE`, or empty
   std::string message;  ///< what is wrong, what was found, what to do
 };
+
+/// More faults than this are not gathered from a file.
+inline constexpr std::size_t kMaxFaults = 100;
 
 /// Each kind has one exit code.
 enum class ErrorKind {

@@ -12,6 +12,9 @@ inline bool continues_character(char byte) {
   return (static_cast<unsigned char>(byte) & 0xC0U) == 0x80U;
 }
 
+/// Whatever the language of the system.
+inline bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
 /// The first `longest` bytes of a text, or fewer: it is never cut inside a UTF-8 character.
 std::string_view first_characters(std::string_view text, std::size_t longest);
 

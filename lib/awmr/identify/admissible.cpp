@@ -12,9 +12,8 @@
 namespace awmr {
 namespace {
 
-using Reasons = std::map<ParameterId, std::string>;
-
-void take_out(ParameterId id, std::string why, Model& model, Reasons& reasons) {
+void take_out(ParameterId id, std::string why, Model& model,
+              std::map<ParameterId, std::string>& reasons) {
   Estimate& estimate = model[id];
   if (!estimate.value || estimate.source == Source::kGiven) return;
   estimate.value.reset();
@@ -32,7 +31,7 @@ std::string why_not(double value, const NumberRule& rule) {
 }
 
 /// What cannot be said without the parameters that went.
-void take_out_what_hangs_on_it(Model& model, Reasons& reasons) {
+void take_out_what_hangs_on_it(Model& model, std::map<ParameterId, std::string>& reasons) {
   const auto follow = [&](ParameterId first, ParameterId second) {
     if (!reasons.contains(first)) return;
     take_out(second, fmt::format("{} is open: {}", info(first).name, reasons.at(first)), model,
@@ -69,8 +68,8 @@ Covariance kept(const Covariance& all, const Model& model) {
 
 }  // namespace
 
-Reasons take_out_inadmissible(Model& model) {
-  Reasons reasons;
+std::map<ParameterId, std::string> take_out_inadmissible(Model& model) {
+  std::map<ParameterId, std::string> reasons;
   for (const ParameterInfo& parameter : parameter_table()) {
     Estimate& estimate = model[parameter.id];
     if (!estimate.value || estimate.source == Source::kGiven) continue;

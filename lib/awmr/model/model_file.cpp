@@ -13,7 +13,7 @@
 namespace awmr {
 namespace {
 
-constexpr std::string_view kSchema = "awmr.model/1";
+constexpr std::string_view kModelSchema = "awmr.model/1";
 
 Json estimate_to_json(const Estimate& estimate, const ParameterInfo& parameter) {
   Json json;
@@ -112,7 +112,7 @@ NumberRule rule_of(ParameterId id) {
 }
 
 std::string model_text(const Model& model) {
-  Json json = output_document(kSchema, model.record.provenance);
+  Json json = output_document(kModelSchema, model.record.provenance);
   json["vehicle"] = vehicle_to_json(model.vehicle);
   put_estimates(json, model);
   json["estimates"] = list_to_json(model.record.reports, report_to_json);
@@ -126,7 +126,7 @@ Result<Model> read_model(const std::filesystem::path& path) {
   AWMR_ASSIGN_OR_RETURN(const Json json, read_json_file(path));
   std::vector<Fault> faults;
   JsonObject root(json, path.string(), "", faults);
-  root.schema(kSchema);
+  root.schema(kModelSchema);
 
   Model model;
   model.file = path.string();

@@ -10,7 +10,7 @@
 namespace awmr {
 namespace {
 
-constexpr std::string_view kSchema = "awmr.vehicle/1";
+constexpr std::string_view kVehicleSchema = "awmr.vehicle/1";
 
 /// F' is over the largest force of one motor, so it lies within [-1, 1]; forward thrust must exist.
 Interval wheel_force_from_json(JsonObject json) {
@@ -67,7 +67,7 @@ void columns_from_json(JsonObject json, Vehicle& vehicle) {
 
 Vehicle vehicle_from_json(JsonObject& json) {
   Vehicle vehicle;
-  json.schema(kSchema);
+  json.schema(kVehicleSchema);
   vehicle.name = json.string("name");
   vehicle.mass_kg = json.number("mass_kg", kMass_kg);
   vehicle.length_m = json.number("length_m", kSize_m);
@@ -89,7 +89,7 @@ Vehicle vehicle_from_json(JsonObject& json) {
 
 Json vehicle_to_json(const Vehicle& vehicle) {
   Json json;
-  json["schema"] = kSchema;
+  json["schema"] = kVehicleSchema;
   json["name"] = vehicle.name;
   json["mass_kg"] = vehicle.mass_kg;
   json["length_m"] = vehicle.length_m;

@@ -17,7 +17,7 @@ bool is_stop_time(const TrialReader& reader) {
   return reader.has("initial_speed_mps") && reader.has("stop_time_s");
 }
 
-void check_columns(TrialReader& reader) {
+void check_coastdown_columns(TrialReader& reader) {
   if (is_curve(reader) && is_stop_time(reader)) {
     reader.header_fault(
         fmt::format("both a curve (t_s, speed_mps) and stop times (initial_speed_mps, "
@@ -105,7 +105,7 @@ Result<CoastdownSet> read_coastdown(const std::filesystem::path& path, const Tri
   auto table = read_table(path, TrialKind::kCoastdown, options);
   if (!table) return tl::unexpected(table.error());
   TrialReader reader(std::move(*table), options);
-  check_columns(reader);
+  check_coastdown_columns(reader);
   if (!reader.faults().empty()) return input_errors(std::move(reader.faults()));
 
   note_format(reader, findings);

@@ -54,7 +54,7 @@ void unwrap(std::vector<double>& angle_rad) {
   }
 }
 
-void check_columns(TrialReader& reader) {
+void check_log_columns(TrialReader& reader) {
   if (!reader.has("steering_cmd_deg") && !reader.has("steering_deg")) {
     reader.header_fault("no steering: add a column steering_cmd_deg or steering_deg");
   }
@@ -231,7 +231,7 @@ Result<std::vector<DrivingLog>> read_logs(const std::filesystem::path& path,
                                           std::vector<Finding>& findings) {
   AWMR_ASSIGN_OR_RETURN(CsvTable table, read_table(path, TrialKind::kLog, options));
   TrialReader reader(std::move(table), options);
-  check_columns(reader);
+  check_log_columns(reader);
   std::vector<RowSpan> runs = runs_of(reader);
   for (RowSpan& run : runs) run = from_known_steering(reader, run);
   for (const RowSpan run : runs) check_time(reader, run);

@@ -14,7 +14,7 @@ const Rate kSpeed{.printed_column = "speed_mps",
                   .per_amount = 1.0,
                   .code = "speed-mismatch"};
 
-void check_columns(TrialReader& reader) {
+void check_surge_columns(TrialReader& reader) {
   if (!reader.has("tau_speed") && !reader.has("wheel_force")) {
     reader.header_fault("no thrust: add a column tau_speed, or wheel_force (tau_speed = 4 F')");
   }
@@ -49,7 +49,7 @@ Result<TrialSet<SurgeRow>> read_surge(const std::filesystem::path& path,
                                       const TrialOptions& options, std::vector<Finding>& findings) {
   AWMR_ASSIGN_OR_RETURN(CsvTable table, read_table(path, TrialKind::kSurge, options));
   TrialReader reader(std::move(table), options);
-  check_columns(reader);
+  check_surge_columns(reader);
   if (!reader.faults().empty()) return input_errors(std::move(reader.faults()));
 
   TrialSet<SurgeRow> set{finding_file(reader.table()), {}, 0, reader.table().mapped()};

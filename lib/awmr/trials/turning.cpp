@@ -10,15 +10,15 @@
 namespace awmr {
 namespace {
 
-const Rate kYawRate{.printed_column = "yaw_rate_radps",
-                    .amount_column = "turns",
-                    .per_amount = 2.0 * pi<double>(),
-                    .code = "yaw-rate-mismatch"};
+const Rate kTurningRate{.printed_column = "yaw_rate_radps",
+                        .amount_column = "turns",
+                        .per_amount = 2.0 * pi<double>(),
+                        .code = "yaw-rate-mismatch"};
 
 /// l_f and the steering angle are set up to about 1 %; F' is set exactly.
 constexpr double kGeometryError = 0.01;
 
-void check_columns(TrialReader& reader) {
+void check_turning_columns(TrialReader& reader) {
   if (!reader.has("yaw_rate_radps") && !(reader.has("turns") && reader.has("elapsed_s"))) {
     reader.header_fault("no yaw rate: add a column yaw_rate_radps, or turns and elapsed_s");
   }
@@ -86,7 +86,7 @@ std::optional<TurningRow> read_row(TrialReader& reader, std::size_t row, const V
   }
   const double wheel_force = *reader.non_negative(row, "wheel_force");
   const auto printed = printed_yaw_rate(reader, row, steering_deg);
-  const auto yaw_rate = rate_of(reader, row, kYawRate, printed, preference, findings);
+  const auto yaw_rate = rate_of(reader, row, kTurningRate, printed, preference, findings);
   if (!yaw_rate) return std::nullopt;
   check_stop(reader, row, vehicle, steering_deg, findings);
   const double steering_rad = radians(std::abs(steering_deg));
@@ -107,7 +107,7 @@ Result<TrialSet<TurningRow>> read_turning(const std::filesystem::path& path, con
                                           std::vector<Finding>& findings) {
   AWMR_ASSIGN_OR_RETURN(CsvTable table, read_table(path, TrialKind::kTurning, options));
   TrialReader reader(std::move(table), options);
-  check_columns(reader);
+  check_turning_columns(reader);
   if (!reader.faults().empty()) return input_errors(std::move(reader.faults()));
 
   TrialSet<TurningRow> set{finding_file(reader.table()), {}, 0, reader.table().mapped()};

@@ -5,7 +5,7 @@
 namespace awmr {
 namespace {
 
-constexpr double kSpeed_mps = 1.0;  ///< [paper 5.1]
+constexpr double kCourseSpeed_mps = 1.0;  ///< [paper 5.1]
 /// Not printed: the paper names neither acceptance radius nor lane nor Delta, and its figure of the
 /// obstacles is lost.
 constexpr double kAcceptance_m = 1.0;
@@ -42,7 +42,7 @@ Scenario waypoint_scenario() {
   return {.name = "C8 waypoints by line of sight",
           .duration_s = 180.0,
           .initial = at(80.0, 0.0, 0.0),
-          .speed_mps = kSpeed_mps,
+          .speed_mps = kCourseSpeed_mps,
           .guidance = course};
 }
 
@@ -51,7 +51,7 @@ Scenario line_scenario() {
       .name = "C9 line following",
       .duration_s = 120.0,
       .initial = at(0.0, 10.0, 0.0),
-      .speed_mps = kSpeed_mps,
+      .speed_mps = kCourseSpeed_mps,
       .guidance = LineCourse{
           .points_m = {{0, 0}, {50, 25}}, .law = lane(5.0), .corner_m = 0.0, .slow_down_m = {}}};
 }
@@ -61,7 +61,7 @@ Scenario obstacle_on_line_scenario() {
       .name = "C10 obstacle on a line",
       .duration_s = 120.0,
       .initial = {},
-      .speed_mps = kSpeed_mps,
+      .speed_mps = kCourseSpeed_mps,
       .guidance =
           LineCourse{
               .points_m = {{0, 0}, {60, 0}}, .law = lane(5.0), .corner_m = 0.0, .slow_down_m = {}},
@@ -93,7 +93,7 @@ Scenario polyline_scenario() {
   return {.name = "C12 polyline",
           .duration_s = 150.0,
           .initial = at(80.0, 0.0, 0.0),
-          .speed_mps = kSpeed_mps,
+          .speed_mps = kCourseSpeed_mps,
           .guidance = LineCourse{.points_m = {{80, 0}, {90, 20}, {80, 40}, {70, 20}, {80, 0}},
                                  .law = lane(3.0),
                                  .corner_m = 2.0,

@@ -82,7 +82,7 @@ struct CoastResidual {
   bool derivative_wanted = false;  ///< by c or q, which the closed form does not know
 };
 
-using Cost = ceres::AutoDiffCostFunction<CoastResidual, ceres::DYNAMIC, 1, 1, 1, 1, 1, 2>;
+using CoastCost = ceres::AutoDiffCostFunction<CoastResidual, ceres::DYNAMIC, 1, 1, 1, 1, 1, 2>;
 
 /// RK4 at this step errs by (h/T)^4/120 a time constant, below 1e-6 of the speed for T > 0.05 s.
 constexpr double kLongestStep_s = 2e-3;
@@ -121,7 +121,7 @@ CoastProblem::CoastProblem(const std::vector<CoastCurve>& curves,
   initial_.reserve(curves.size());
   for (const CoastCurve& curve : curves) {
     initial_.push_back(initial_state_of(curve));
-    auto* cost = new Cost(
+    auto* cost = new CoastCost(
         new CoastResidual{
             .curve = &curve, .longest_step_s = kLongestStep_s, .derivative_wanted = terms_free},
         static_cast<int>(curve.t_s.size()));

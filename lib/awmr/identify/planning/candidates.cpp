@@ -31,7 +31,7 @@ double relative_scatter(const Model& model, TrialKind kind) {
 }
 
 /// Steady speed u under tau_speed: ln u, whose error is the relative scatter over sqrt(runs).
-Candidate surge_candidate(double wheel_force, double scatter, double runs) {
+CandidateTrial surge_candidate(double wheel_force, double scatter, double runs) {
   const double tau = 4.0 * wheel_force;
   return {
       .trial = {.kind = TrialKind::kSurge,
@@ -46,7 +46,8 @@ Candidate surge_candidate(double wheel_force, double scatter, double runs) {
 }
 
 /// Steady yaw rate r under tau_turn = 2 l_f F' sin d_r: ln r, as for surge.
-Candidate turning_candidate(double steering_rad, double wheel_force, double scatter, double runs) {
+CandidateTrial turning_candidate(double steering_rad, double wheel_force, double scatter,
+                                 double runs) {
   return {.trial = {.kind = TrialKind::kTurning,
                     .settings = fmt::format("steering {:.3g} deg, F' = {:.3g}, {:g} full turns",
                                             degrees(steering_rad), wheel_force, runs),
@@ -62,7 +63,8 @@ Candidate turning_candidate(double steering_rad, double wheel_force, double scat
 }
 
 /// Every speed of the curve, from motors off to rest.
-Candidate coastdown_candidate(double from_mps, double duration_s, double noise_mps, double runs) {
+CandidateTrial coastdown_candidate(double from_mps, double duration_s, double noise_mps,
+                                   double runs) {
   return {.trial = {.kind = TrialKind::kCoastdown,
                     .settings = fmt::format("motors off from {:.3g} m/s, speed recorded at 100 Hz "
                                             "to rest ({:.2g} s), {:g} runs",
@@ -81,8 +83,8 @@ Candidate coastdown_candidate(double from_mps, double duration_s, double noise_m
 }
 
 /// Every speed, yaw rate and heading of a log.
-Candidate log_candidate(const std::string& what, const Vehicle& vehicle, const DrivePlan& plan,
-                        const SensorNoise& sensors) {
+CandidateTrial log_candidate(const std::string& what, const Vehicle& vehicle, const DrivePlan& plan,
+                             const SensorNoise& sensors) {
   return {.trial = {.kind = TrialKind::kLog,
                     .settings = fmt::format("{}, new levels every {:g} s, {:g} s logged at 100 Hz",
                                             what, plan.hold_s, plan.duration_s),
@@ -108,7 +110,7 @@ Candidate log_candidate(const std::string& what, const Vehicle& vehicle, const D
 }
 
 void add_coastdowns(const Vehicle& vehicle, const Plant<double>& plant,
-                    const SuggestOptions& options, std::vector<Candidate>& candidates) {
+                    const SuggestOptions& options, std::vector<CandidateTrial>& candidates) {
   const double top =
       steady_rate(plant.surge, 4.0 * (vehicle.wheel_force.hi - plant.wheel_dead_zone))
           .value_or(1.0);
@@ -121,7 +123,7 @@ void add_coastdowns(const Vehicle& vehicle, const Plant<double>& plant,
 }
 
 void add_logs(const Vehicle& vehicle, const SensorNoise& sensors,
-              std::vector<Candidate>& candidates) {
+              std::vector<CandidateTrial>& candidates) {
   constexpr const char* kSteps = "thrust and steering steps, both sides apart at times";
   candidates.push_back(log_candidate("straight starts and stops", vehicle,
                                      {.duration_s = 30.0, .straight = true}, sensors));
@@ -131,11 +133,11 @@ void add_logs(const Vehicle& vehicle, const SensorNoise& sensors,
 
 }  // namespace
 
-std::vector<Candidate> candidates_of(const Model& model, const Plant<double>& plant,
-                                     const SuggestOptions& options) {
+std::vector<CandidateTrial> candidates_of(const Model& model, const Plant<double>& plant,
+                                          const SuggestOptions& options) {
   const Vehicle& vehicle = model.vehicle;
   const double most = vehicle.wheel_force.hi;
-  std::vector<Candidate> candidates;
+  std::vector<CandidateTrial> candidates;
   const double surge_scatter = relative_scatter(model, TrialKind::kSurge);
   for (const double share : {0.05, 0.1, 0.2, 0.35, 0.5, 0.75, 1.0}) {
     candidates.push_back(surge_candidate(most * share, surge_scatter, options.repeats));

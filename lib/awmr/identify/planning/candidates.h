@@ -9,15 +9,15 @@
 
 namespace awmr {
 
-struct Candidate {
+struct CandidateTrial {
   SuggestedTrial trial;  ///< kind, settings and numbers; its standard errors are still to be found
   /// What the trial would measure on a plant, each number over the standard deviation of its error:
   /// as many numbers for every plant.
   std::function<std::vector<double>(const Plant<double>&)> standardised;
 };
 
-std::vector<Candidate> candidates_of(const Model& model, const Plant<double>& plant,
-                                     const SuggestOptions& options);
+std::vector<CandidateTrial> candidates_of(const Model& model, const Plant<double>& plant,
+                                          const SuggestOptions& options);
 
 /// What is assumed of the errors of the candidates' measurements, in words.
 std::vector<std::string> assumptions_of(const Model& model, const SuggestOptions& options);

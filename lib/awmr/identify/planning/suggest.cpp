@@ -156,7 +156,7 @@ double log_determinant(const Eigen::MatrixXd& covariance) {
 
 /// C_after = (C^-1 + J^T J)^-1, J what the trial would measure by the coordinates, in units of its
 /// noise.
-SuggestedTrial judged(const Candidate& candidate, const Model& model,
+SuggestedTrial judged(const CandidateTrial& candidate, const Model& model,
                       const Uncertainty& uncertainty, const Target& target) {
   const Eigen::MatrixXd j = jacobian_of(model, uncertainty.parameters, candidate.standardised);
   const Eigen::MatrixXd& before = uncertainty.covariance;
@@ -195,7 +195,7 @@ Result<Suggestion> suggest(const Model& model, const SuggestOptions& options) {
                         target_of(model, plant, uncertainty.parameters, options));
   Suggestion suggestion{
       .criterion = target.criterion, .trials = {}, .assumptions = assumptions_of(model, options)};
-  for (const Candidate& candidate : candidates_of(model, plant, options)) {
+  for (const CandidateTrial& candidate : candidates_of(model, plant, options)) {
     suggestion.trials.push_back(judged(candidate, model, uncertainty, target));
   }
   sort_by_promise(suggestion.trials);

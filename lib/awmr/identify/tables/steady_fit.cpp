@@ -15,7 +15,6 @@
 namespace awmr {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kAtBound = 1e-9;
 
 bool is_at(double bound, double value) {
@@ -53,14 +52,14 @@ Eigen::MatrixXd inverse_information(const Eigen::ColPivHouseholderQR<Eigen::Matr
 double condition_of(const Eigen::MatrixXd& jacobian) {
   const Eigen::VectorXd singular = Eigen::JacobiSVD<Eigen::MatrixXd>(jacobian).singularValues();
   const double least = jacobian.rows() >= jacobian.cols() ? singular(singular.size() - 1) : 0.0;
-  return least > 0.0 ? singular(0) / least : kInfinity;
+  return least > 0.0 ? singular(0) / least : std::numeric_limits<double>::infinity();
 }
 
 /// Residuals and Jacobian at the solution -> rank, condition, leverages, covariance. False where
 /// one of them is not finite.
 bool add_uncertainty(const SteadyProblem& problem, SteadySearch& search, SteadyFit& fit) {
   const Eigen::Index n = rows_of(problem.points);
-  fit.condition_number = kInfinity;
+  fit.condition_number = std::numeric_limits<double>::infinity();
   fit.degrees_of_freedom = static_cast<int>(n - rows_of(fit.free));
   const std::optional<Eigen::MatrixXd> all = search.jacobian(coordinates_of(problem.family));
   std::optional<Eigen::VectorXd> residuals = search.residuals();
@@ -106,7 +105,7 @@ TransformedParameters initial_guess_of(const SteadyProblem& problem) {
   TransformedParameters guess{line[TransformedParameter::kLogAlpha], 1.0, 0.0, 0.0, 0.0};
   const FamilyTerms terms = terms_of(problem.family);
   if (terms.beta) guess[at(TransformedParameter::kBeta)] = line[TransformedParameter::kBeta];
-  double minimum_force = kInfinity;
+  double minimum_force = std::numeric_limits<double>::infinity();
   for (const SteadyPoint& point : problem.points) {
     minimum_force = std::min(minimum_force, point.force);
   }

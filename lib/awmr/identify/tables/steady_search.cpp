@@ -12,7 +12,6 @@
 namespace awmr {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// beta has to stay above 0 where the curve is inverted.
 constexpr double kMinimumInvertibleBeta = 1e-3;
 
@@ -60,13 +59,14 @@ struct SteadyResidual {
   }
 };
 
-using Cost = ceres::AutoDiffCostFunction<SteadyResidual, 1, 1, 1, 1, 1, 1>;
+using SteadyCost = ceres::AutoDiffCostFunction<SteadyResidual, 1, 1, 1, 1, 1, 1>;
 
 }  // namespace
 
 Interval bounds_of(const SteadyProblem& problem, TransformedParameter c) {
-  if (c == TransformedParameter::kLogAlpha) return {-kInfinity, kInfinity};
-  if (c != TransformedParameter::kBeta) return {0.0, kInfinity};
+  if (c == TransformedParameter::kLogAlpha)
+    return {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  if (c != TransformedParameter::kBeta) return {0.0, std::numeric_limits<double>::infinity()};
   const bool inverted = problem.noise == ErrorModel::kSpeed || problem.noise == ErrorModel::kTime;
   const double lowest =
       inverted ? std::max(problem.beta_range.lo, kMinimumInvertibleBeta) : problem.beta_range.lo;
@@ -81,7 +81,7 @@ SteadySearch::SteadySearch(const SteadyProblem& problem, const TransformedParame
   ceres_ = std::make_unique<ceres::Problem>(options);
   for (const SteadyPoint& point : problem.points) {
     ceres_->AddResidualBlock(
-        new Cost(new SteadyResidual{point, problem.noise}), &loss_,
+        new SteadyCost(new SteadyResidual{point, problem.noise}), &loss_,
         block(TransformedParameter::kLogAlpha), block(TransformedParameter::kBeta),
         block(TransformedParameter::kCoulomb), block(TransformedParameter::kQuadratic),
         block(TransformedParameter::kDeadZone));

@@ -17,7 +17,7 @@ namespace {
 
 /// Another family is plainly better from this difference of AICc on: the power law then has less
 /// than e^-5 of its support.
-constexpr double kPlainlyBetter = 10.0;
+constexpr double kTablesPlainlyBetter = 10.0;
 
 /// Which fit is used, and its entry among the reports; no fit where none will do.
 struct Choice {
@@ -101,7 +101,7 @@ std::vector<Finding> power_law_findings(const Subject& subject, ErrorModel wante
   const Candidate* best = best_candidate(candidates, wanted);
   if (!power || !best || !aicc(power->fit) || best->problem.family == Family::kPower) return {};
   const double difference = *aicc(power->fit) - *aicc(best->fit);
-  if (difference < kPlainlyBetter) return {};
+  if (difference < kTablesPlainlyBetter) return {};
   const bool power_used = used == Family::kPower;
   const std::string_view better = name_of(best->problem.family);
   return {about(subject, power_used ? Severity::kWarning : Severity::kNote, "power-law-inadequate",
