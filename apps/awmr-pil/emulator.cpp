@@ -18,6 +18,9 @@ namespace {
 
 constexpr std::uint32_t kRamOffset = 0x800000;  ///< of RAM addresses in an ELF file
 constexpr std::uint8_t kPaint = 0xC5;
+/// Cycles that simavr runs a call where nothing is due before; unset, it returns after every
+/// instruction. Timers and interrupts stay exact: the run ends where one is due.
+constexpr avr_cycle_count_t kRunCycles = 1000;
 
 /// simavr's callbacks have no place for an object in this version: the one emulator.
 Emulator* the_emulator = nullptr;
@@ -39,6 +42,7 @@ Result<std::unique_ptr<Emulator>> Emulator::load(const std::filesystem::path& el
   avr_t* avr = emulator->avr_;
   avr_init(avr);
   avr->log = LOG_NONE;
+  avr->run_cycle_limit = kRunCycles;
   avr->frequency = static_cast<std::uint32_t>(kClockHz);
   avr_load_firmware(avr, &firmware);
   avr->sleep = [](avr_t* chip, avr_cycle_count_t cycles) { Emulator::sleep(chip, cycles); };
