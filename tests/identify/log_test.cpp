@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "awmr/identify/logs/channel_noise.h"
+#include "awmr/identify/logs/whitener.h"
 #include "awmr/identify/planning/recover.h"
 #include "awmr/identify/planning/synthetic.h"
 #include "awmr/model/model_file.h"
@@ -330,6 +331,72 @@ TEST(Log, AnErrorThatWandersBesidesTheWhiteOneIsTakenApart) {
   EXPECT_NEAR(found.white_std, truth.white_std, 0.05 * truth.white_std);
   EXPECT_NEAR(found.drift_std, truth.drift_std, 0.3 * truth.drift_std);
   EXPECT_NEAR(std::log(found.correlation_s / truth.correlation_s), 0.0, 0.6);
+}
+
+/// Errors that swing, d'' = -2 zeta omega d' - omega^2 d + noise, by small steps of their own, with
+/// white noise on top; standard deviation of the swings 1.
+std::vector<ErrorSeries> swinging(double omega, double zeta, double white_std, double step_s) {
+  constexpr int kSteps = 50;
+  const double h = step_s / kSteps;
+  // Var d = q/(4 zeta omega^3) for a noise of the density q.
+  const double push = std::sqrt(4.0 * zeta * omega * omega * omega * h);
+  Random random(11, 4);
+  std::vector<ErrorSeries> series(10);
+  for (ErrorSeries& part : series) {
+    double d = random.normal();
+    double rate = omega * random.normal();
+    for (int k = 0; k < 1000; ++k) {
+      part.error.push_back(d + white_std * random.normal());
+      part.since_s.push_back(k == 0 ? 0.0 : step_s);
+      for (int i = 0; i < kSteps; ++i) {
+        rate += h * (-2.0 * zeta * omega * rate - omega * omega * d) + push * random.normal();
+        d += h * rate;
+      }
+    }
+  }
+  return series;
+}
+
+TEST(Log, AnErrorThatSwingsIsOfSecondOrder) {
+  for (const double zeta : {0.2, 0.5, 1.0, 2.0}) {
+    for (const double white_std : {0.0, 0.3}) {
+      SCOPED_TRACE(::testing::Message() << "zeta " << zeta << ", white " << white_std);
+      const auto series = swinging(9.4, zeta, white_std, 0.01);
+      const ChannelNoise found = likeliest_noise(series, 1.0, {});
+      EXPECT_TRUE(found.second_order());
+      // A hundred seconds hold some 150 swings: the frequency is known to a few hundredths, the
+      // damping and the level to a tenth; three of those, and twice that where the slow one of two
+      // time constants, 4 zeta/omega long, hides the other.
+      const double loose = zeta > 1.0 ? 2.0 : 1.0;
+      EXPECT_NEAR(std::log(found.frequency_radps / 9.4), 0.0, 0.2 * loose);
+      EXPECT_NEAR(std::log(found.damping / zeta), 0.0, 0.35 * loose);
+      EXPECT_NEAR(std::log(found.drift_std), 0.0, 0.3);
+      EXPECT_NEAR(found.white_std, white_std, 0.03);
+    }
+  }
+}
+
+TEST(Log, WhatIsNewInASwingingErrorIsWhiteAndAsLargeAsSaid) {
+  const ChannelNoise noise{
+      .white_std = 0.1, .drift_std = 1.0, .frequency_radps = 9.4, .damping = 0.5};
+  double squares = 0.0;
+  double products = 0.0;
+  double count = 0.0;
+  for (const ErrorSeries& part : swinging(9.4, 0.5, 0.1, 0.01)) {
+    Whitener<double> whitener(noise);
+    double before = 0.0;
+    for (std::size_t k = 0; k < part.error.size(); ++k) {
+      const auto [value, variance] = whitener.next(part.error[k], part.since_s[k]);
+      const double z = value / std::sqrt(variance);
+      squares += z * z;
+      products += z * before;
+      before = z;
+      count += 1.0;
+    }
+  }
+  // Four standard errors of a mean square, and of a mean product, of 10,000 normal numbers.
+  EXPECT_NEAR(squares / count, 1.0, 4.0 * std::sqrt(2.0 / count));
+  EXPECT_NEAR(products / count, 0.0, 4.0 / std::sqrt(count));
 }
 
 TEST(Recover, TellsBiasAndCoverageOfTables) {

@@ -90,6 +90,7 @@ std::vector<LogDisagreement> hold_against_each_other(const std::vector<DrivingLo
   LogFitOptions options = from_optimum(common.options, common);
   options.bootstrap = 0;
   std::vector<LogFit> fits;
+  fits.reserve(logs.size());
   for (const DrivingLog& log : logs) fits.push_back(fit_logs({log}, options));
   const double level = kLevel / static_cast<double>(common.fit.quantities.size());
   for (std::size_t i = 0; i < common.fit.quantities.size(); ++i) {

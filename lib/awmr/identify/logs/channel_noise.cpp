@@ -1,11 +1,17 @@
 #include "awmr/identify/logs/channel_noise.h"
 
+#include <nlopt.h>
+
 #include <algorithm>
+#include <array>
 #include <boost/math/tools/minima.hpp>
 #include <limits>
+#include <memory>
+#include <numbers>
 #include <utility>
 
-#include "awmr/core/index.h"
+#include "awmr/identify/logs/whitener.h"
+#include "awmr/trials/robust_ratio.h"
 
 namespace awmr {
 namespace {
@@ -81,15 +87,17 @@ double median_step_s(std::span<const ErrorSeries> series) {
       if (s > 0.0) steps.push_back(s);
     }
   }
-  if (steps.empty()) return 0.0;
-  const auto middle = steps.begin() + eigen_index(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return *middle;
+  return steps.empty() ? 0.0 : median(std::move(steps));
 }
 
 struct Drift {
   ChannelNoise noise;  ///< of unit variance
   double cost = std::numeric_limits<double>::infinity();
+
+  bool plainly_better_than(double other) const {
+    constexpr double kPlainly = 10.0;  // of -2 ln L for two more numbers: p = 0.007
+    return cost < other - kPlainly;
+  }
 };
 
 /// The likeliest share of a drift with this memory.
@@ -132,6 +140,111 @@ Drift likeliest_drift(std::span<const ErrorSeries> series, double step_s) {
   return drift.cost < best.cost ? drift : best;
 }
 
+/// Share, frequency and damping of a drift of second order, as they are searched.
+struct SecondOrder {
+  double logit = 0.0;
+  double log_radps = 0.0;
+  double log_damping = 0.0;
+
+  std::array<double, 3> as_array() const { return {logit, log_radps, log_damping}; }
+  ChannelNoise noise() const {
+    ChannelNoise unit = unit_noise(logit, 0.0);
+    unit.frequency_radps = std::exp(log_radps);
+    unit.damping = std::exp(log_damping);
+    // The slower of the two exponentials that the drift is made of.
+    const double over = std::sqrt(std::max(0.0, unit.damping * unit.damping - 1.0));
+    unit.correlation_s = 1.0 / (unit.frequency_radps * (unit.damping - over));
+    return unit;
+  }
+};
+
+/// Where the search for a drift of second order may go: swings from two windows to two samples long,
+/// and almost no white noise.
+struct SecondOrderRange {
+  SecondOrder lowest;
+  SecondOrder highest;
+
+  explicit SecondOrderRange(double step_s)
+      : lowest{-6.0, std::log(std::numbers::pi / kWindow_s), std::log(0.02)},
+        highest{18.0, std::log(std::max(std::numbers::pi / step_s, std::numbers::pi)),
+                std::log(20.0)} {}
+};
+
+Drift as_drift(std::span<const ErrorSeries> series, const SecondOrder& s) {
+  const ChannelNoise noise = s.noise();
+  return {noise, likelihood(series, noise).cost};
+}
+
+/// The best of a coarse grid of frequencies and shares.
+SecondOrder likeliest_of_grid(std::span<const ErrorSeries> series, const SecondOrderRange& range) {
+  constexpr int kFrequencies = 8;
+  SecondOrder best;
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < kFrequencies; ++i) {
+    const double part = (i + 0.5) / kFrequencies;
+    const double log_radps = std::lerp(range.lowest.log_radps, range.highest.log_radps, part);
+    for (const double logit : {0.0, 4.0, 10.0}) {
+      const SecondOrder s{logit, log_radps, std::log(0.7)};
+      const double cost = as_drift(series, s).cost;
+      if (!(cost < least)) continue;
+      least = cost;
+      best = s;
+    }
+  }
+  return best;
+}
+
+/// What the search hands on through NLopt, and the best of what it tried.
+struct SecondOrderSearch {
+  std::span<const ErrorSeries> series;
+  Drift best = {};
+};
+
+double second_order_cost(unsigned, const double* x, double*, void* data) {
+  auto& search = *static_cast<SecondOrderSearch*>(data);
+  const Drift drift = as_drift(search.series, {x[0], x[1], x[2]});
+  if (!std::isfinite(drift.cost)) return std::numeric_limits<double>::max();
+  if (drift.cost < search.best.cost) search.best = drift;
+  return drift.cost;
+}
+
+/// Nelder and Mead's simplex from there. Where it fails, the best of what it tried, if any, is what
+/// there is: it is held against the other noises in any case. [NLopt, LN_NELDERMEAD]
+Drift likeliest_from(std::span<const ErrorSeries> series, const SecondOrder& from,
+                     const SecondOrderRange& range) {
+  constexpr int kMostEvaluations = 150;
+  constexpr double kFine = 0.02;  // of -2 ln L
+  constexpr double kFirstStep = 0.5;
+  const std::array<double, 3> lowest = range.lowest.as_array();
+  const std::array<double, 3> highest = range.highest.as_array();
+  std::array<double, 3> x = from.as_array();
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] = std::clamp(x[i], lowest[i], highest[i]);
+  SecondOrderSearch search{series};
+  const std::unique_ptr<nlopt_opt_s, decltype(&nlopt_destroy)> opt(
+      nlopt_create(NLOPT_LN_NELDERMEAD, 3), &nlopt_destroy);
+  nlopt_set_lower_bounds(opt.get(), lowest.data());
+  nlopt_set_upper_bounds(opt.get(), highest.data());
+  nlopt_set_min_objective(opt.get(), second_order_cost, &search);
+  nlopt_set_initial_step1(opt.get(), kFirstStep);
+  nlopt_set_ftol_abs(opt.get(), kFine);
+  nlopt_set_maxeval(opt.get(), kMostEvaluations);
+  double least = 0.0;
+  nlopt_optimize(opt.get(), x.data(), &least);
+  return search.best;
+}
+
+/// The likeliest drift of second order; from that of `before`, where there is one.
+Drift likeliest_second_order(std::span<const ErrorSeries> series, double step_s,
+                             const ChannelNoise& before) {
+  const SecondOrderRange range(step_s);
+  if (!before.second_order())
+    return likeliest_from(series, likeliest_of_grid(series, range), range);
+  const double share = std::pow(before.drift_std / before.std(), 2);
+  const double logit = std::log(share / std::max(1.0 - share, 1e-9));
+  return likeliest_from(series, {logit, std::log(before.frequency_radps), std::log(before.damping)},
+                        range);
+}
+
 }  // namespace
 
 NoiseLevels sensor_noise(const std::vector<FitWindow>& windows) {
@@ -157,14 +270,16 @@ NoiseLevels sensor_noise(const std::vector<FitWindow>& windows) {
 
 ChannelNoise likeliest_noise(std::span<const ErrorSeries> series, double free_share,
                              const ChannelNoise& before) {
-  constexpr double kPlainly = 10.0;  // of -2 ln L for two more numbers: p = 0.007
   ChannelNoise noise{.white_std = 1.0};
   const std::vector<ErrorSeries> some = some_of(series);
   const double step_s = median_step_s(some);
   if (step_s > 0.0) {
     const double white_cost = likelihood(some, noise).cost;
     const Drift drift = likeliest_drift(some, step_s);
-    if (drift.cost < white_cost - kPlainly) noise = drift.noise;
+    if (drift.plainly_better_than(white_cost)) {
+      const Drift second = likeliest_second_order(some, step_s, before);
+      noise = second.plainly_better_than(drift.cost) ? second.noise : drift.noise;
+    }
   }
   const Likelihood scale = likelihood(series, noise);
   const double std = std::max(std::sqrt(scale.factor / free_share), kMinimumStd);

@@ -60,7 +60,7 @@ double block_length_s(const NoiseLevels& noise) {
 double akaike(const NoiseLevels& noise, Eigen::Index n) {
   double aic = 2.0 * static_cast<double>(n);
   for (const auto& [channel, level] : noise) {
-    aic += level.cost + 2.0 * (level.drift_std > 0.0 ? 3.0 : 1.0);
+    aic += level.cost + 2.0 * level.numbers();
   }
   return aic;
 }

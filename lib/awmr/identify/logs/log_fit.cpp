@@ -30,6 +30,7 @@ LogFit without_solution(std::string why, std::vector<SearchStart> starts) {
 std::vector<double> suspect_gains(const LogProblem& problem, const SearchPoint& point,
                                   const std::vector<ParameterId>& suspects) {
   std::vector<FreeQuantity> terms;
+  terms.reserve(suspects.size());
   for (const ParameterId id : suspects) terms.push_back(free_parameter(id));
   std::vector<double> gains;
   for (const ScoreTest& test : score_test(problem, point, terms)) {

@@ -24,6 +24,10 @@ std::string in_words(const NoiseLevels& levels) {
       text += fmt::format(", {:.3g} of it correlated over {:.3g} s", noise.drift_std,
                           noise.correlation_s);
     }
+    if (noise.second_order()) {
+      text += fmt::format(" (second order, {:.3g} rad/s, damping {:.2g})", noise.frequency_radps,
+                          noise.damping);
+    }
   }
   return text;
 }

@@ -9,6 +9,7 @@
 
 #include "awmr/core/index.h"
 #include "awmr/identify/ceres_solve.h"
+#include "awmr/identify/logs/whitener.h"
 #include "awmr/model/rest.h"
 
 namespace awmr {

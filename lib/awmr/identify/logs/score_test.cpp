@@ -36,7 +36,7 @@ LogProblem with_white_noise(LogProblem problem) {
   for (auto& [channel, noise] : problem.model.noise) {
     noise.white_std = noise.std();
     noise.drift_std = 0.0;
-    noise.correlation_s = 0.0;
+    noise.correlation_s = noise.frequency_radps = noise.damping = 0.0;
   }
   return problem;
 }

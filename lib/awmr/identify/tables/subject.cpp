@@ -11,6 +11,7 @@ namespace {
 
 std::vector<SteadyPoint> surge_points(const std::vector<SurgeRow>& rows) {
   std::vector<SteadyPoint> points;
+  points.reserve(rows.size());
   for (const SurgeRow& row : rows) {
     points.push_back({row.tau_speed, row.speed_mps, row.distance_m, row.elapsed_s, row.line});
   }

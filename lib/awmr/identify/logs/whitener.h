@@ -1,0 +1,128 @@
+/// What is new in the errors of a channel. Private to identify/.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "awmr/identify/logs/channel_noise.h"
+
+namespace awmr {
+
+/// How a drift goes on over a time h: x <- F x + noise with the covariance (P - F P F^T), where
+/// x = (d, d'/omega) and P = sigma_d^2 I is what it has in the long run, so that F = e^(-h/tau) for
+/// the first order, of which only f[0][0] counts, and for the second, with s = zeta omega and
+/// nu = omega sqrt(1 - zeta^2),
+///
+///     F = e^(-s h) ( cos(nu h) + (s/nu) sin(nu h)        (omega/nu) sin(nu h)
+///                    -(omega/nu) sin(nu h)               cos(nu h) - (s/nu) sin(nu h) )
+///
+/// and cosh, sinh for zeta > 1.
+struct DriftStep {
+  double f[2][2] = {{0.0, 0.0}, {0.0, 0.0}};
+
+  DriftStep() = default;
+  DriftStep(const ChannelNoise& noise, double h_s) {
+    if (!noise.second_order()) {
+      f[0][0] = std::exp(-h_s / noise.correlation_s);
+      return;
+    }
+    const double omega = noise.frequency_radps;
+    const double s = noise.damping * omega;
+    const double nu = omega * std::sqrt(std::abs(1.0 - noise.damping * noise.damping));
+    double cosine = 0.0;        // e^(-s h) cos(nu h)
+    double sine_over_nu = 0.0;  // e^(-s h) sin(nu h)/nu
+    if (nu * h_s < 1e-6) {
+      cosine = std::exp(-s * h_s);
+      sine_over_nu = h_s * cosine;
+    } else if (noise.damping < 1.0) {
+      cosine = std::exp(-s * h_s) * std::cos(nu * h_s);
+      sine_over_nu = std::exp(-s * h_s) * std::sin(nu * h_s) / nu;
+    } else {
+      const double slow = std::exp(-(s - nu) * h_s);
+      const double fast = std::exp(-(s + nu) * h_s);
+      cosine = 0.5 * (slow + fast);
+      sine_over_nu = 0.5 * (slow - fast) / nu;
+    }
+    f[0][0] = cosine + s * sine_over_nu;
+    f[0][1] = omega * sine_over_nu;
+    f[1][0] = -omega * sine_over_nu;
+    f[1][1] = cosine - s * sine_over_nu;
+  }
+};
+
+/// What is new in each error of a channel, after all that the errors before it told of the drift: a
+/// Kalman filter of one state or two,
+///
+///     x = F x,   P = F P F^T + sigma_d^2 (I - F F^T)
+///     nu = e - x_0,   S = P_00 + sigma_w^2,   x += (P_.0/S) nu,   P -= P_.0 P_.0^T/S
+///
+/// so that the nu/sqrt(S) are white where e is as ChannelNoise says. T carries derivatives; the
+/// gains depend on the times alone.
+template <class T>
+class Whitener {
+ public:
+  /// `noise` must outlive it.
+  explicit Whitener(const ChannelNoise& noise)
+      : noise_(noise), p00_(noise.drift_std * noise.drift_std), p11_(p00_) {}
+
+  struct Innovation {
+    T value;          ///< nu
+    double variance;  ///< S
+  };
+  /// The next error, `since_s` after the one before it; 0 for the first.
+  Innovation next(const T& error, double since_s) {
+    const double white = noise_.white_std * noise_.white_std;
+    if (!(noise_.drift_std > 0.0)) return {error, white};
+    if (since_s > 0.0) predict(since_s);
+    Innovation innovation{error - x0_, p00_ + white};
+    const double gain0 = p00_ / innovation.variance;
+    const double gain1 = p01_ / innovation.variance;
+    x0_ += gain0 * innovation.value;
+    if (noise_.second_order()) x1_ += gain1 * innovation.value;
+    p11_ -= gain1 * p01_;
+    p01_ -= gain0 * p01_;
+    p00_ -= gain0 * p00_;
+    return innovation;
+  }
+
+ private:
+  void predict(double since_s) {
+    if (std::abs(since_s - since_s_) > 1e-6 * since_s) {
+      since_s_ = since_s;
+      step_ = DriftStep(noise_, since_s);
+    }
+    const auto& f = step_.f;
+    const double drift = noise_.drift_std * noise_.drift_std;
+    if (!noise_.second_order()) {
+      x0_ = f[0][0] * x0_;
+      p00_ = f[0][0] * f[0][0] * p00_ + (1.0 - f[0][0] * f[0][0]) * drift;
+      return;
+    }
+    const T x0 = x0_;
+    x0_ = f[0][0] * x0 + f[0][1] * x1_;
+    x1_ = f[1][0] * x0 + f[1][1] * x1_;
+    // F P F^T + drift (I - F F^T) = drift I + F (P - drift I) F^T
+    const double q00 = p00_ - drift;
+    const double q11 = p11_ - drift;
+    const double a0 = f[0][0] * q00 + f[0][1] * p01_;
+    const double a1 = f[0][0] * p01_ + f[0][1] * q11;
+    const double b0 = f[1][0] * q00 + f[1][1] * p01_;
+    const double b1 = f[1][0] * p01_ + f[1][1] * q11;
+    // What is left of the drift is never below 0 but for rounding.
+    p00_ = std::max(drift + a0 * f[0][0] + a1 * f[0][1], 0.0);
+    p01_ = a0 * f[1][0] + a1 * f[1][1];
+    p11_ = std::max(drift + b0 * f[1][0] + b1 * f[1][1], 0.0);
+  }
+
+  const ChannelNoise& noise_;
+  T x0_ = T(0.0);
+  T x1_ = T(0.0);
+  double p00_;
+  double p01_ = 0.0;
+  double p11_;
+  double since_s_ = 0.0;
+  DriftStep step_;
+};
+
+}  // namespace awmr
