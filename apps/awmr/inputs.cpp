@@ -48,7 +48,7 @@ Result<std::vector<ColumnMapping>> columns_of_file(const std::filesystem::path& 
   for (const std::string& name : columns.keys()) {
     const std::string expression = columns.string(name);
     if (expression.empty()) continue;
-    if (auto mapping = parse_column(name + "=" + expression)) {
+    if (auto mapping = parse_column(name, expression)) {
       mappings.push_back(*std::move(mapping));
     } else {
       columns.fault(name, mapping.error().faults.front().message);

@@ -44,6 +44,7 @@ Result<Outcome> become_awmr_pil(std::vector<std::string> arguments) {
   if (program) {
     arguments.insert(arguments.begin(), {"awmr-pil", "run"});
     std::vector<char*> argv;
+    argv.reserve(arguments.size() + 1);
     for (std::string& argument : arguments) argv.push_back(argument.data());
     argv.push_back(nullptr);
     ::execv(program->c_str(), argv.data());

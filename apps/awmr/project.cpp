@@ -20,7 +20,7 @@ void read_columns(JsonObject json, const std::string& file, Project& project) {
   for (const std::string& name : json.keys()) {
     const std::string expression = json.string(name);
     if (expression.empty()) continue;
-    if (auto mapping = parse_column(name + "=" + expression)) {
+    if (auto mapping = parse_column(name, expression)) {
       if (!file.empty()) mapping->file = file;
       project.trials.columns.push_back(*mapping);
     } else {

@@ -112,6 +112,10 @@ Result<ColumnMapping> parse_column_mapping(std::string_view text) {
   return mapping;
 }
 
+Result<ColumnMapping> parse_column(std::string_view name, std::string_view expression) {
+  return parse_column(fmt::format("{}={}", name, expression));
+}
+
 Result<ColumnMapping> parse_column(std::string_view text) {
   const auto halves = halves_of(text);
   if (!halves) return wrong(text, halves.error(), kExpressionForm);

@@ -31,6 +31,8 @@ Result<ColumnMapping> parse_column_mapping(std::string_view text);
 /// `[FILE:]NAME=EXPRESSION`: the form above, arithmetic over columns (column_expression.h) or a
 /// constant. Errors: neither of them, a scale of 0.
 Result<ColumnMapping> parse_column(std::string_view text);
+/// The same with `[FILE:]NAME` and EXPRESSION apart, as JSON has them.
+Result<ColumnMapping> parse_column(std::string_view name, std::string_view expression);
 
 /// The mapping as it was given, `NAME=EXPRESSION`: what an output names as its option.
 std::string text_of(const ColumnMapping& mapping);

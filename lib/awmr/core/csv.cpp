@@ -201,6 +201,7 @@ std::vector<std::string> CsvParser::samples() const {
   std::vector<CsvCell> cells;
   copy.next(cells);
   std::vector<std::string> texts;
+  texts.reserve(cells.size());
   for (const CsvCell& cell : cells) texts.emplace_back(cell.text);
   return texts;
 }

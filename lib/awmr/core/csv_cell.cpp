@@ -45,7 +45,7 @@ bool is_decimal_comma(std::string_view text) {
 std::string why_not_a_number(std::string_view text, std::size_t read) {
   const std::size_t sign = text.find_first_not_of("+-");
   const std::string word = sign == std::string_view::npos ? "" : lower(text.substr(sign));
-  const std::string found = fmt::format("expected a number, found {}", shown(text));
+  std::string found = fmt::format("expected a number, found {}", shown(text));
   if (word.rfind("nan", 0) == 0) return found + "; leave out rows without a measured value";
   if (word == "inf" || word == "infinity") {
     return found + "; a measured value is finite: leave out the row";

@@ -16,8 +16,8 @@ std::string spell_options(std::string_view message, std::string_view prefix) {
   std::string text;
   while (true) {
     const std::size_t open = message.find(kOpen);
-    const std::size_t close = open == message.npos ? open : message.find(kClose, open);
-    if (close == message.npos) return text.append(message);
+    const std::size_t close = open == std::string_view::npos ? open : message.find(kClose, open);
+    if (close == std::string_view::npos) return text.append(message);
     const std::size_t name = open + kOpen.size();
     text.append(message.substr(0, open)).append(prefix).append(message.substr(name, close - name));
     message.remove_prefix(close + kClose.size());

@@ -56,7 +56,7 @@ void columns_from_json(JsonObject json, Vehicle& vehicle) {
   for (const std::string& name : json.keys()) {
     const std::string expression = json.string(name);
     if (expression.empty()) continue;
-    if (const auto mapping = parse_column(name + "=" + expression); !mapping) {
+    if (const auto mapping = parse_column(name, expression); !mapping) {
       json.fault(name, mapping.error().faults.front().message);
     }
     vehicle.columns[name] = expression;

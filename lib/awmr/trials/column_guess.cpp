@@ -138,7 +138,7 @@ std::string times(const std::string& name, double factor) {
 std::optional<Scale> by_unit_in_name(const std::string& quoted, const Words& words,
                                      Dimension dimension) {
   if (words.size() < 2) return std::nullopt;
-  const std::string last = words.back();
+  const std::string& last = words.back();
   const std::string last_two = words[words.size() - 2] + " " + last;
   for (const Unit& unit : units()) {
     if (unit.dimension != dimension) continue;

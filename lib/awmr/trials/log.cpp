@@ -239,6 +239,7 @@ Result<std::vector<DrivingLog>> read_logs(const std::filesystem::path& path,
 
   note_format(reader, findings);
   std::vector<DrivingLog> logs;
+  logs.reserve(runs.size());
   for (const RowSpan run : runs) logs.push_back(log_of(reader, run, findings));
   if (!reader.faults().empty()) return input_errors(std::move(reader.faults()));
   return logs;

@@ -68,6 +68,7 @@ std::vector<double> activity_for(LogChannel channel, const DrivingLog& log) {
 std::vector<double> picked(const std::vector<double>& values,
                            const std::vector<std::size_t>& rows) {
   std::vector<double> some;
+  some.reserve(rows.size());
   for (const std::size_t row : rows) some.push_back(values[row]);
   return some;
 }

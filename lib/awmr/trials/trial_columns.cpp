@@ -97,7 +97,7 @@ std::span<const CsvColumn> columns_of(TrialKind kind) {
 
 Result<TrialOptions> with_vehicle_columns(TrialOptions options, const Vehicle& vehicle) {
   for (const auto& [name, expression] : vehicle.columns) {
-    AWMR_ASSIGN_OR_RETURN(ColumnMapping mapping, parse_column(name + "=" + expression));
+    AWMR_ASSIGN_OR_RETURN(ColumnMapping mapping, parse_column(name, expression));
     mapping.standing = true;
     options.columns.push_back(std::move(mapping));
   }

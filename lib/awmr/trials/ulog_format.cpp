@@ -80,7 +80,7 @@ tl::expected<void, std::string> lay_out(std::string_view format, const std::stri
       const std::string name =
           prefix + field.name + (field.is_array ? fmt::format("[{}]", i) : std::string());
       if (!basic) {
-        const auto inner = lay_out(field.type, name + ".", depth + 1, formats, layout);
+        auto inner = lay_out(field.type, name + ".", depth + 1, formats, layout);
         if (!inner) return inner;
       } else {
         const bool is_number = *basic != Basic::kChar && !is_padding;

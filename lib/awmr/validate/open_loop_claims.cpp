@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <ranges>
 #include <vector>
 
 #include "awmr/model/paper_gains.h"
@@ -57,9 +58,9 @@ std::vector<Point> last_turn(const Run& run) {
   const double end_rad = run.rows.back().state.psi_rad;
   if (std::abs(end_rad) < 4.0 * std::numbers::pi) return {};
   std::vector<Point> points;
-  for (auto row = run.rows.rbegin(); row != run.rows.rend(); ++row) {
-    if (std::abs(end_rad - row->state.psi_rad) > 2.0 * std::numbers::pi) break;
-    points.push_back({row->state.x_m, row->state.y_m});
+  for (const RunRow& row : std::views::reverse(run.rows)) {
+    if (std::abs(end_rad - row.state.psi_rad) > 2.0 * std::numbers::pi) break;
+    points.push_back({row.state.x_m, row.state.y_m});
   }
   return points;
 }
