@@ -28,9 +28,9 @@ std::string brief_of(const Validation& validation) {
                      others.empty() ? "none" : fmt::format("{}", fmt::join(others, " ")));
 }
 
-Result<std::vector<LogValidation>> validate_logs(const ValidateCommand& command,
-                                                 const Vehicle& vehicle, const Plant<double>& plant,
+Result<std::vector<LogValidation>> validate_logs(const ValidateCommand& command, const Model& model,
                                                  std::vector<Finding>& findings) {
+  const Vehicle& vehicle = model.vehicle;
   AWMR_ASSIGN_OR_RETURN(const TrialOptions options, with_vehicle_columns(command.trials, vehicle));
   std::vector<std::size_t> used;
   const auto validate_runs = [&](const fs::path& path) -> Result<std::vector<LogValidation>> {
@@ -39,7 +39,9 @@ Result<std::vector<LogValidation>> validate_logs(const ValidateCommand& command,
     for (const DrivingLog& log : runs) {
       used.insert(used.end(), log.mapped.begin(), log.mapped.end());
       AWMR_RETURN_IF_ERROR(check_consistency(log, path.string(), vehicle, options, findings));
-      validated.push_back(validate_log(log, plant, command.horizon_s, command.log_tolerance));
+      AWMR_ASSIGN_OR_RETURN(LogValidation one,
+                            validate_log(log, model, command.horizon_s, command.log_tolerance));
+      validated.push_back(std::move(one));
     }
     return validated;
   };
@@ -125,9 +127,7 @@ Result<Outcome> execute(const ValidateCommand& command) {
   AWMR_RETURN_IF_ERROR(check_outputs(command));
   AWMR_ASSIGN_OR_RETURN(Validation validation, validate(model, gains, command.validate));
   std::vector<Finding> findings;
-  AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, model.plant());
-  AWMR_ASSIGN_OR_RETURN(std::vector<LogValidation> logs,
-                        validate_logs(command, model.vehicle, plant, findings));
+  AWMR_ASSIGN_OR_RETURN(std::vector<LogValidation> logs, validate_logs(command, model, findings));
   add_logs(validation, std::move(logs), command.log_tolerance);
   AWMR_ASSIGN_OR_RETURN(const Provenance provenance, provenance_of(command));
   AWMR_RETURN_IF_ERROR(write_file(command.output, validation_text(validation, provenance)));

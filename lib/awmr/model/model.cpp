@@ -2,9 +2,43 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "awmr/model/plant_of.h"
 
 namespace awmr {
+namespace {
+
+/// What stands for a parameter that is not known and not taken: see Model::plant_as_known().
+double none_of(ParameterId id) {
+  switch (id) {
+    case ParameterId::kSurgeBeta:
+    case ParameterId::kYawBeta:
+    case ParameterId::kMassNorm:
+    case ParameterId::kInertiaNorm:
+    case ParameterId::kSteeringTimeConstant:
+      return 1.0;
+    default:
+      return 0.0;
+  }
+}
+
+/// The model's plant. Errors (input): a parameter that is needed has no value.
+template <class IsNeeded>
+Result<Plant<double>> plant_with(const Model& model, IsNeeded is_needed) {
+  std::vector<Fault> faults;
+  for (const ParameterInfo& parameter : parameter_table()) {
+    if (model[parameter.id].value || !is_needed(parameter.id)) continue;
+    faults.push_back(
+        {fmt::format("{}:{}", model.file, parameter.pointer),
+         fmt::format("no value for {} ({}, {}), which this needs; identify again with {}",
+                     parameter.name, parameter.symbol, parameter.meaning, parameter.trial)});
+  }
+  if (!faults.empty()) return input_errors(std::move(faults));
+  return model.plant_as_known();
+}
+
+}  // namespace
 
 double max_wheel_force_n(double mass_kg, double mass_norm) { return mass_kg / mass_norm; }
 
@@ -14,20 +48,69 @@ Model::Model() {
   }
 }
 
-Result<Plant<double>> Model::plant() const {
-  std::vector<Fault> faults;
-  for (const ParameterInfo& parameter : parameter_table()) {
-    if ((*this)[parameter.id].value) continue;
-    faults.push_back(
-        {fmt::format("{}:{}", file, parameter.pointer),
-         fmt::format("no value for {} ({}, {}), which this needs; identify again with {}",
-                     parameter.name, parameter.symbol, parameter.meaning, parameter.trial)});
+bool takes(Motion motion, ParameterId id) {
+  switch (id) {
+    case ParameterId::kSurgeAlpha:
+    case ParameterId::kSurgeBeta:
+    case ParameterId::kSurgeCoulomb:
+    case ParameterId::kSurgeQuadratic:
+      return motion != Motion::kSteadyTurn;
+    case ParameterId::kYawAlpha:
+    case ParameterId::kYawBeta:
+    case ParameterId::kYawCoulomb:
+    case ParameterId::kYawQuadratic:
+      return motion == Motion::kSteadyTurn || motion == Motion::kPlanar;
+    case ParameterId::kWheelDeadZone:
+      return true;
+    case ParameterId::kMassNorm:
+      return motion == Motion::kStraight || motion == Motion::kPlanar;
+    case ParameterId::kSwayAlpha:
+    case ParameterId::kInertiaNorm:
+    case ParameterId::kSteeringTimeConstant:
+      break;
   }
-  if (!faults.empty()) return input_errors(std::move(faults));
+  return motion == Motion::kPlanar;
+}
 
+Motion motion_of(TrialKind kind) {
+  switch (kind) {
+    case TrialKind::kSurge:
+      return Motion::kSteadySurge;
+    case TrialKind::kTurning:
+      return Motion::kSteadyTurn;
+    case TrialKind::kCoastdown:
+      return Motion::kStraight;
+    case TrialKind::kLog:
+      break;
+  }
+  return Motion::kPlanar;
+}
+
+Result<Plant<double>> Model::plant(Motion motion) const {
+  return plant_with(*this, [motion](ParameterId id) { return takes(motion, id); });
+}
+
+Result<Plant<double>> Model::plant_of_trials() const {
+  return plant_with(*this, [this](ParameterId id) {
+    return std::any_of(record.trials.begin(), record.trials.end(),
+                       [id](const TrialPoint& trial) { return takes(motion_of(trial.kind), id); });
+  });
+}
+
+Plant<double> Model::plant_as_known() const {
   ParameterValues<double> values{};
-  for (std::size_t i = 0; i < values.size(); ++i) values[i] = *estimates[i].value;
+  for (const ParameterInfo& parameter : parameter_table()) {
+    values[static_cast<std::size_t>(parameter.id)] =
+        (*this)[parameter.id].value.value_or(none_of(parameter.id));
+  }
   return plant_of(vehicle, values);
+}
+
+Motion Model::simulated_motion() const {
+  const bool whole = std::all_of(estimates.begin(), estimates.end(), [](const Estimate& estimate) {
+    return estimate.value.has_value();
+  });
+  return whole ? Motion::kPlanar : Motion::kStraight;
 }
 
 }  // namespace awmr

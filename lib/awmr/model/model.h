@@ -42,6 +42,18 @@ struct Covariance {
   std::vector<std::vector<double>> matrix;  ///< square, symmetric, over `parameters`
 };
 
+/// Motions by what the equations of each take of a model.
+enum class Motion {
+  kSteadySurge,  ///< straight ahead at constant speed: g1
+  kSteadyTurn,   ///< a constant yaw rate: g3
+  kStraight,     ///< straight ahead, wheels straight, v = r = 0: g1 and m'
+  kPlanar,       ///< any: every parameter
+};
+/// True where the motion's equations have the parameter in them.
+bool takes(Motion motion, ParameterId id);
+/// The motion that a trial of the kind is a measurement of.
+Motion motion_of(TrialKind kind);
+
 /// The vehicle as identified: what is known beforehand, the resistance families, every quantity
 /// with its uncertainty.
 struct Model {
@@ -62,9 +74,21 @@ struct Model {
     return estimates[static_cast<std::size_t>(id)];
   }
 
-  /// The plant that the estimates and the vehicle make, for simulation and control.
-  /// Errors (input): a parameter has no value; each is named with the trial that would show it.
-  Result<Plant<double>> plant() const;
+  /// The plant that the estimates and the vehicle make, for simulation and control, in this motion.
+  /// Errors (input): a parameter that the motion takes has no value; each is named with the trial
+  /// that would show it.
+  Result<Plant<double>> plant(Motion motion = Motion::kPlanar) const;
+
+  /// The same for all that the trials in the record are measurements of.
+  Result<Plant<double>> plant_of_trials() const;
+
+  /// The same, unchecked. A parameter without a value stands for none of it: no resistance, an
+  /// inertia and a time constant of 1. In a motion that does not take it, it multiplies zeros.
+  Plant<double> plant_as_known() const;
+
+  /// The richest motion that the model could be simulated in: kStraight where something of turning
+  /// is not known.
+  Motion simulated_motion() const;
 };
 
 /// The largest force of one motor, N:

@@ -61,9 +61,9 @@ Result<Model> model_at_corner(Model model, const Scenario& scenario) {
   return model;
 }
 
-Result<Plant<double>> plant_for(const Scenario& scenario, const Model& model) {
-  AWMR_ASSIGN_OR_RETURN(const Plant<double> plant,
-                        model_at_corner(model, scenario).and_then(&Model::plant));
+Result<Plant<double>> plant_for(const Scenario& scenario, const Model& model, Motion motion) {
+  AWMR_ASSIGN_OR_RETURN(const Model corner, model_at_corner(model, scenario));
+  AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, corner.plant(motion));
   AWMR_RETURN_IF_ERROR(check_work(plant, model.file, scenario, model.vehicle.sample_time_s));
   return plant;
 }

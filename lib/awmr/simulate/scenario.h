@@ -108,7 +108,8 @@ Scenario heading_steps(const std::vector<double>& headings_deg,
 Result<Model> model_at_corner(Model model, const Scenario& scenario);
 /// The plant of model_at_corner(). Errors (input): as there, as Model::plant and as check_work (in
 /// simulate.h).
-Result<Plant<double>> plant_for(const Scenario& scenario, const Model& model);
+Result<Plant<double>> plant_for(const Scenario& scenario, const Model& model,
+                                Motion motion = Motion::kPlanar);
 
 inline constexpr NameTable<YawMode, 3> kYawModeNames{{{"differential", YawMode::kDifferential},
                                                       {"steering", YawMode::kSteering},

@@ -12,6 +12,7 @@
 #include "awmr/simulate/physics.h"
 #include "awmr/simulate/pilot.h"
 #include "awmr/simulate/sensing.h"
+#include "awmr/simulate/straight.h"
 
 namespace awmr {
 namespace {
@@ -277,16 +278,18 @@ Run simulate(const Plant<double>& plant, const Controller<double>& controller,
 }
 
 Result<Controller<double>> controller_for(const Model& model, const Gains<double>& gains) {
-  AWMR_ASSIGN_OR_RETURN(const Plant<double> nominal, model.plant());
+  AWMR_ASSIGN_OR_RETURN(const Plant<double> nominal, model.plant(model.simulated_motion()));
   return make_controller(nominal, model.vehicle, gains);
 }
 
 Result<Run> simulate(const Model& model, const Gains<double>& gains, const Scenario& scenario,
                      YawMode mode) {
-  AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, plant_for(scenario, model));
+  const Motion motion = model.simulated_motion();
+  AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, plant_for(scenario, model, motion));
   AWMR_ASSIGN_OR_RETURN(const Controller<double> controller, controller_for(model, gains));
   Run run = simulate(plant, controller, scenario, mode,
                      {.sample_time_s = model.vehicle.sample_time_s, .substeps = {}});
+  if (motion == Motion::kStraight) AWMR_RETURN_IF_ERROR(check_straight(run, scenario, model));
   AWMR_RETURN_IF_ERROR(failure_of(run, scenario));
   return run;
 }

@@ -85,13 +85,16 @@ Controller<double> make_controller(const Plant<double>& plant, const Vehicle& ve
                                    const Gains<double>& gains,
                                    CombinedSplit split = CombinedSplit::kRedistribute);
 
-/// The controller that knows the model's own values, not a corner of their intervals.
+/// The controller that knows the model's own values, not a corner of their intervals; where they
+/// are those of straight motion alone, it is one for straight motion.
 /// Errors (input): as Model::plant.
 Result<Controller<double>> controller_for(const Model& model, const Gains<double>& gains);
 
 /// One run of the model under its own controller, at the vehicle's sample time: the scenario's
-/// corner moves the plant, and the controller does not know.
-/// Errors (input): as plant_for, Model::plant and failure_of.
+/// corner moves the plant, and the controller does not know. A model that knows nothing of turning
+/// (Model::simulated_motion) drives straight.
+/// Errors (input): as plant_for, Model::plant and failure_of; the run turns and the model knows
+/// nothing of turning: where it turns, and what is missing by name.
 Result<Run> simulate(const Model& model, const Gains<double>& gains, const Scenario& scenario,
                      YawMode mode);
 

@@ -1,8 +1,47 @@
 #include "awmr/validate/logs.h"
 
+#include <fmt/format.h>
+
+#include <cmath>
 #include <utility>
 
 namespace awmr {
+namespace {
+
+/// The first row that steers, or drives the sides apart.
+std::optional<std::size_t> first_turning_row(const DrivingLog& log) {
+  for (std::size_t row = 0; row < log.rows(); ++row) {
+    const bool straight =
+        log.driving_steering_rad()[row] == 0.0 && log.force_left[row] == log.force_right[row];
+    if (!straight) return row;
+  }
+  return std::nullopt;
+}
+
+/// The log's commands and its speed, which is all that straight motion predicts.
+/// Errors (input): the log turns; it has no speed.
+Result<DrivingLog> straight_part(const DrivingLog& log, const Model& model) {
+  if (const auto row = first_turning_row(log)) {
+    Error error = model.plant().error();
+    error.faults.insert(error.faults.begin(),
+                        Fault{fmt::format("{}:{}", log.file, log.line[*row]),
+                              "the log turns from here, and the model knows straight motion alone; "
+                              "give a log that drives straight on, or the trials named below"});
+    return tl::unexpected(std::move(error));
+  }
+  if (!log[LogChannel::kSpeed]) {
+    return input_error(log.file,
+                       "there is no speed_mps, and the model, which knows straight motion alone, "
+                       "predicts nothing else; map the column");
+  }
+  DrivingLog part = log;
+  for (const LogChannel channel : kChannels) {
+    if (channel != LogChannel::kSpeed) part[channel].reset();
+  }
+  return part;
+}
+
+}  // namespace
 
 LogValidation validate_log(const DrivingLog& log, const Plant<double>& plant, double horizon_s,
                            double tolerance) {
@@ -16,6 +55,15 @@ LogValidation validate_log(const DrivingLog& log, const Plant<double>& plant, do
   }
   validation.passed = validation.passed && !validation.channels.empty();
   return validation;
+}
+
+Result<LogValidation> validate_log(const DrivingLog& log, const Model& model, double horizon_s,
+                                   double tolerance) {
+  const Motion motion = model.simulated_motion();
+  AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, model.plant(motion));
+  if (motion == Motion::kPlanar) return validate_log(log, plant, horizon_s, tolerance);
+  AWMR_ASSIGN_OR_RETURN(const DrivingLog part, straight_part(log, model));
+  return validate_log(part, plant, horizon_s, tolerance);
 }
 
 }  // namespace awmr

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "awmr/core/result.h"
+#include "awmr/model/model.h"
 #include "awmr/trials/prediction.h"
 
 namespace awmr {
@@ -26,5 +28,12 @@ struct LogValidation {
 /// A channel that does not vary (a log at rest) has no NRMSE and is left out.
 LogValidation validate_log(const DrivingLog& log, const Plant<double>& plant, double horizon_s,
                            double tolerance);
+
+/// The same with what the model knows. Where that is straight motion alone (simulated_motion() of
+/// model/model.h), the log has to drive straight on, and its speed is predicted.
+/// Errors (input): g1 or m' is missing; the log turns, or has no speed_mps, and the model knows
+/// straight motion alone: where it turns, and what is missing by name.
+Result<LogValidation> validate_log(const DrivingLog& log, const Model& model, double horizon_s,
+                                   double tolerance);
 
 }  // namespace awmr

@@ -61,8 +61,10 @@ struct ValidateOptions {
 std::optional<double> predicted_measurement(const Plant<double>& plant, const TrialPoint& trial);
 
 /// The claims never decide `passed`: a claim that is not reproduced is a finding about the paper.
-/// Errors (input): the model lacks a parameter; a trial in it is of no known kind or not positive;
-/// the tolerance is not positive. Without gains, only the claims that need none are run.
+/// Without gains, only the claims that need none are run, and those only that what is known of the
+/// model allows; the verdict names the others.
+/// Errors (input): the model lacks a parameter that its trials are measurements of, with gains any;
+/// a trial in it is of no known kind or not positive; the tolerance is not positive.
 Result<Validation> validate(const Model& model, const std::optional<Gains<double>>& gains,
                             const ValidateOptions& options);
 

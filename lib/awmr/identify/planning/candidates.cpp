@@ -122,35 +122,48 @@ void add_coastdowns(const Vehicle& vehicle, const Plant<double>& plant,
   }
 }
 
-void add_logs(const Vehicle& vehicle, const SensorNoise& sensors,
+void add_logs(const Vehicle& vehicle, Motion motion, const SensorNoise& sensors,
               std::vector<CandidateTrial>& candidates) {
   constexpr const char* kSteps = "thrust and steering steps, both sides apart at times";
   candidates.push_back(log_candidate("straight starts and stops", vehicle,
                                      {.duration_s = 30.0, .straight = true}, sensors));
+  if (motion != Motion::kPlanar) return;
   candidates.push_back(log_candidate(kSteps, vehicle, {.duration_s = 30.0}, sensors));
   candidates.push_back(log_candidate(kSteps, vehicle, {.duration_s = 120.0}, sensors));
 }
 
-}  // namespace
-
-std::vector<CandidateTrial> candidates_of(const Model& model, const Plant<double>& plant,
-                                          const SuggestOptions& options) {
-  const Vehicle& vehicle = model.vehicle;
-  const double most = vehicle.wheel_force.hi;
-  std::vector<CandidateTrial> candidates;
-  const double surge_scatter = relative_scatter(model, TrialKind::kSurge);
+void add_surge_runs(const Model& model, const SuggestOptions& options,
+                    std::vector<CandidateTrial>& candidates) {
+  const double scatter = relative_scatter(model, TrialKind::kSurge);
   for (const double share : {0.05, 0.1, 0.2, 0.35, 0.5, 0.75, 1.0}) {
-    candidates.push_back(surge_candidate(most * share, surge_scatter, options.repeats));
+    candidates.push_back(
+        surge_candidate(model.vehicle.wheel_force.hi * share, scatter, options.repeats));
   }
-  const double turning_scatter = relative_scatter(model, TrialKind::kTurning);
+}
+
+void add_turning_runs(const Model& model, const SuggestOptions& options,
+                      std::vector<CandidateTrial>& candidates) {
+  const Vehicle& vehicle = model.vehicle;
+  const double scatter = relative_scatter(model, TrialKind::kTurning);
   for (const double angle_share : {0.25, 0.5, 1.0}) {
     for (const double force_share : {0.2, 0.5, 1.0}) {
       candidates.push_back(turning_candidate(radians(vehicle.steering_max_deg) * angle_share,
-                                             most * force_share, turning_scatter, options.repeats));
+                                             vehicle.wheel_force.hi * force_share, scatter,
+                                             options.repeats));
     }
   }
-  add_coastdowns(vehicle, plant, options, candidates);
-  add_logs(vehicle, options.sensors, candidates);
+}
+
+}  // namespace
+
+std::vector<CandidateTrial> candidates_of(const Model& model, const SuggestOptions& options) {
+  std::vector<CandidateTrial> candidates;
+  if (model.plant(Motion::kSteadySurge)) add_surge_runs(model, options, candidates);
+  if (model.plant(Motion::kSteadyTurn)) add_turning_runs(model, options, candidates);
+  if (const auto plant = model.plant(Motion::kStraight)) {
+    add_coastdowns(model.vehicle, *plant, options, candidates);
+    add_logs(model.vehicle, model.simulated_motion(), options.sensors, candidates);
+  }
   return candidates;
 }
 

@@ -16,8 +16,8 @@ struct CandidateTrial {
   std::function<std::vector<double>(const Plant<double>&)> standardised;
 };
 
-std::vector<CandidateTrial> candidates_of(const Model& model, const Plant<double>& plant,
-                                          const SuggestOptions& options);
+/// Those whose motion the model knows; a log of one that knows straight motion alone drives straight.
+std::vector<CandidateTrial> candidates_of(const Model& model, const SuggestOptions& options);
 
 /// What is assumed of the errors of the candidates' measurements, in words.
 std::vector<std::string> assumptions_of(const Model& model, const SuggestOptions& options);

@@ -194,11 +194,30 @@ Status check_drive(const DrivePlan& drive) {
                                  drive.duration_s, drive.rate_hz, rows, kFewest, kMost));
 }
 
+/// A model that knows straight motion alone is driven straight, and asked for what that shows.
+RecoverOptions options_for(const Model& model, RecoverOptions options) {
+  if (model.simulated_motion() == Motion::kPlanar) return options;
+  options.drive.straight = true;
+  if (options.plan == RecoverPlan::kLog && options.identify.asked.empty()) {
+    options.identify.asked = {ParameterId::kSurgeAlpha, ParameterId::kSurgeBeta,
+                              ParameterId::kMassNorm};
+  }
+  return options;
+}
+
+/// The vehicle of the runs. Errors (input): the model lacks a parameter that a trial needs.
+Result<Plant<double>> truth_of(const Model& model, RecoverPlan plan) {
+  if (plan == RecoverPlan::kLog) return model.plant(model.simulated_motion());
+  if (plan == RecoverPlan::kCurve) AWMR_RETURN_IF_ERROR(model.plant(Motion::kStraight));
+  return model.plant_of_trials();
+}
+
 }  // namespace
 
-Result<Recovery> recover(const Model& model, const RecoverOptions& options,
+Result<Recovery> recover(const Model& model, const RecoverOptions& given,
                          const std::function<void(int)>& progress) {
-  AWMR_ASSIGN_OR_RETURN(const Plant<double> truth, model.plant());
+  const RecoverOptions options = options_for(model, given);
+  AWMR_ASSIGN_OR_RETURN(const Plant<double> truth, truth_of(model, options.plan));
   if (options.runs < 2) return input_error(option_text("runs"), "at least 2 are needed");
   if (options.plan == RecoverPlan::kLog) AWMR_RETURN_IF_ERROR(check_drive(options.drive));
   if (options.plan != RecoverPlan::kLog && model.record.trials.empty()) {
@@ -220,6 +239,7 @@ Result<Recovery> recover(const Model& model, const RecoverOptions& options,
   recovery.failed = static_cast<int>(
       std::count_if(runs.begin(), runs.end(), [](const OneRun& run) { return run.failed; }));
   for (const ParameterInfo& parameter : parameter_table()) {
+    if (!model[parameter.id].value) continue;
     const RecoveredParameter p = judged(parameter.id, *model[parameter.id].value, runs);
     if (p.runs > 0) recovery.parameters.push_back(p);
   }

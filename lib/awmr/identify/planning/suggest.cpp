@@ -31,7 +31,8 @@ Uncertainty uncertainty_of(const Model& model) {
   const std::vector<ParameterId>& known = model.covariance.parameters;
   std::vector<ParameterId> ids = known;
   for (const ParameterInfo& parameter : parameter_table()) {
-    if (parameter.term || model[parameter.id].source == Source::kGiven) continue;
+    const Estimate& estimate = model[parameter.id];
+    if (parameter.term || !estimate.value || estimate.source == Source::kGiven) continue;
     const bool listed = std::find(known.begin(), known.end(), parameter.id) != known.end();
     if (!listed) ids.push_back(parameter.id);
   }
@@ -53,11 +54,20 @@ Uncertainty uncertainty_of(const Model& model) {
   return {std::move(ids), std::move(covariance)};
 }
 
+/// What the model has no value of.
+std::vector<ParameterId> missing_of(const Model& model) {
+  std::vector<ParameterId> ids;
+  for (const ParameterInfo& parameter : parameter_table()) {
+    if (!model[parameter.id].value) ids.push_back(parameter.id);
+  }
+  return ids;
+}
+
 /// The model's plant with one coordinate moved by `step`.
 Plant<double> moved(Model model, ParameterId id, double step) {
   double& value = *model[id].value;
   value = scale_of(id) == Scale::kLinear ? value + step : value * std::exp(step);
-  return *model.plant();
+  return model.plant_as_known();
 }
 
 /// d values / d z by differences, a row per value, a column per parameter. Central, but for a term
@@ -135,6 +145,11 @@ Result<Target> target_of(const Model& model, const Plant<double>& plant,
         .criterion = fmt::format("standard error of the closed loop's {}", metric.name)};
   }
   const auto id = parameter_by_name(options.parameter);
+  if (id && !model[*id].value) {
+    return input_error(fmt::format("{}:{}", model.file, info(*id).pointer),
+                       fmt::format("no value for {} yet, so there is nothing to rank by; record {}",
+                                   options.parameter, info(*id).trial));
+  }
   const auto place = id ? std::find(ids.begin(), ids.end(), *id) : ids.end();
   if (place == ids.end()) return unknown_target(ids, options);
   Target target{.gradient = Eigen::MatrixXd::Zero(1, rows_of(ids)),
@@ -185,17 +200,20 @@ void sort_by_promise(std::vector<SuggestedTrial>& trials) {
 }  // namespace
 
 Result<Suggestion> suggest(const Model& model, const SuggestOptions& options) {
-  AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, model.plant());
   const Uncertainty uncertainty = uncertainty_of(model);
-  if (uncertainty.parameters.empty()) {
+  std::vector<ParameterId> missing = missing_of(model);
+  if (uncertainty.parameters.empty() && missing.empty()) {
     return input_error(model.file + ":/covariance",
                        "no parameter has an uncertainty that a trial could shrink");
   }
   AWMR_ASSIGN_OR_RETURN(const Target target,
-                        target_of(model, plant, uncertainty.parameters, options));
-  Suggestion suggestion{
-      .criterion = target.criterion, .trials = {}, .assumptions = assumptions_of(model, options)};
-  for (const CandidateTrial& candidate : candidates_of(model, plant, options)) {
+                        target_of(model, model.plant_as_known(), uncertainty.parameters, options));
+  Suggestion suggestion{.criterion = target.criterion,
+                        .missing = std::move(missing),
+                        .trials = {},
+                        .assumptions = assumptions_of(model, options)};
+  if (uncertainty.parameters.empty()) return suggestion;
+  for (const CandidateTrial& candidate : candidates_of(model, options)) {
     suggestion.trials.push_back(judged(candidate, model, uncertainty, target));
   }
   sort_by_promise(suggestion.trials);

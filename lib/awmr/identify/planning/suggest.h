@@ -44,6 +44,7 @@ struct SuggestedTrial {
 
 struct Suggestion {
   std::string criterion;               ///< in words
+  std::vector<ParameterId> missing;    ///< no value at all: their trials come before any other
   std::vector<SuggestedTrial> trials;  ///< best first
   std::vector<std::string> assumptions;
 };
@@ -51,8 +52,10 @@ struct Suggestion {
 /// Information adds up:
 ///   C_after = (C^-1 + J^T W J)^-1
 /// with J the derivatives of what the candidate would measure by the parameters' coordinates
-/// (model/transform.h) and W the inverse variances of its errors. Errors (input): the model lacks a
-/// parameter or any covariance; an unknown parameter name.
+/// (model/transform.h) and W the inverse variances of its errors. What the model has no value of
+/// cannot be varied: it is told as missing, and candidates that measure it are not judged.
+/// Errors (input): the model has a value of everything but no covariance; an unknown parameter
+/// name, or one without a value.
 Result<Suggestion> suggest(const Model& model, const SuggestOptions& options);
 
 /// The bytes of suggest.json.

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "awmr/core/json.h"
 #include "awmr/identify/planning/suggest.h"
 
@@ -11,6 +13,9 @@ std::string suggestion_text(const Suggestion& suggestion, const Provenance& prov
   Json json = output_document("awmr.suggest/1", provenance);
   json["criterion"] = suggestion.criterion;
   json["assumptions"] = suggestion.assumptions;
+  for (const ParameterId id : suggestion.missing) {
+    json["missing"].push_back({{"parameter", info(id).name}, {"trial", info(id).trial}});
+  }
   json["trials"] = Json::array();
   for (const SuggestedTrial& trial : suggestion.trials) {
     Json settings;
@@ -26,12 +31,34 @@ std::string suggestion_text(const Suggestion& suggestion, const Provenance& prov
   return to_text(json);
 }
 
+namespace {
+
+/// The trials that the model has not had, each with the parameters that it shows.
+std::string missing_sheet(const std::vector<ParameterId>& missing) {
+  std::string text;
+  for (auto id = missing.begin(); id != missing.end(); ++id) {
+    const auto has_its_trial = [id](ParameterId other) {
+      return info(other).trial == info(*id).trial;
+    };
+    if (std::find_if(missing.begin(), id, has_its_trial) != id) continue;  // told already
+    std::string names;
+    for (auto other = id; other != missing.end(); ++other) {
+      if (!has_its_trial(*other)) continue;
+      names += fmt::format("{}{}", names.empty() ? "" : ", ", info(*other).name);
+    }
+    text += fmt::format("[ ] for {}, of no value yet:\n       {}\n", names, info(*id).trial);
+  }
+  return text;
+}
+
+}  // namespace
+
 std::string field_sheet(const Suggestion& suggestion, std::size_t most) {
   std::string text = fmt::format("FIELD SHEET    ranked by: {}\n", suggestion.criterion);
   for (const std::string& assumption : suggestion.assumptions) {
     text += fmt::format("  assumed: {}\n", assumption);
   }
-  text += '\n';
+  text += '\n' + missing_sheet(suggestion.missing);
   std::size_t number = 1;
   for (const SuggestedTrial& trial : suggestion.trials) {
     if (number > most) break;

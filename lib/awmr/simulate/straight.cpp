@@ -1,0 +1,40 @@
+#include "awmr/simulate/straight.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+namespace awmr {
+namespace {
+
+/// True where nothing moves the vehicle out of its straight line. What is below this is rounding:
+/// a sine of pi, a bearing by atan2. The motion that it is part of has no resistance to yaw and
+/// sway, so that with any resistance there would be less of it.
+bool is_straight(const RunRow& row) {
+  constexpr double kRounding = 1e-9;  // m/s, rad/s, rad, m
+  const double turning[] = {row.state.v_mps,        row.state.r_radps,
+                            row.state.steering_rad, row.steering_command_rad,
+                            row.tau_turn_m,         row.force.right - row.force.left};
+  return std::all_of(std::begin(turning), std::end(turning),
+                     [](double number) { return std::abs(number) <= kRounding; });
+}
+
+}  // namespace
+
+Status check_straight(const Run& run, const Scenario& scenario, const Model& model) {
+  const auto turned = std::find_if_not(run.rows.begin(), run.rows.end(), is_straight);
+  if (turned == run.rows.end()) return {};
+  Error error = model.plant(Motion::kPlanar).error();
+  error.faults.insert(
+      error.faults.begin(),
+      Fault{fmt::format("scenario '{}'", scenario.name),
+            fmt::format("the run turns at {:g} s, and the model knows straight motion alone; give "
+                        "a scenario that drives straight on, or the trials named below",
+                        turned->t_s)});
+  return tl::unexpected(std::move(error));
+}
+
+}  // namespace awmr
