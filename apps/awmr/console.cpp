@@ -12,6 +12,7 @@
 #include "awmr/core/file.h"
 #include "awmr/core/option_text.h"
 #include "awmr/core/text.h"
+#include "awmr/model/si_units.h"
 
 namespace awmr::cli {
 namespace {
@@ -41,6 +42,18 @@ int report(const Result<Outcome>& result, bool quiet) {
 
 std::string origin(const Estimate& estimate) {
   return fmt::format("{}, {}", name_in(kSourceNames, estimate.source), estimate.method);
+}
+
+std::string table_row(std::string_view name, const Estimate& estimate, std::string_view unit) {
+  const std::string value =
+      estimate.value ? fmt::format("{:.5g}", *estimate.value) : std::string("unknown");
+  const std::string error =
+      estimate.std_error ? fmt::format("{:.2g}", *estimate.std_error) : std::string("-");
+  const std::string interval =
+      estimate.ci95 ? fmt::format("[{:.4g}, {:.4g}]", estimate.ci95->lo, estimate.ci95->hi)
+                    : std::string("-");
+  return fmt::format("  {:<24} {:>10} {:>10}  {:<24} {:<12} {}\n", name, value, error, interval,
+                     unit, origin(estimate));
 }
 
 }  // namespace
@@ -91,17 +104,17 @@ std::string parameter_table_text(const Model& model) {
   for (const ParameterInfo& parameter : parameter_table()) {
     const Estimate& estimate = model[parameter.id];
     if (parameter.term && estimate.source == Source::kGiven && estimate.value == 0.0) continue;
-    const std::string value =
-        estimate.value ? fmt::format("{:.5g}", *estimate.value) : std::string("unknown");
-    const std::string error =
-        estimate.std_error ? fmt::format("{:.2g}", *estimate.std_error) : std::string("-");
-    const std::string interval =
-        estimate.ci95 ? fmt::format("[{:.4g}, {:.4g}]", estimate.ci95->lo, estimate.ci95->hi)
-                      : std::string("-");
-    text += fmt::format("  {:<24} {:>10} {:>10}  {:<24} {:<12} {}\n", parameter.name, value, error,
-                        interval, parameter.unit, origin(estimate));
+    text += table_row(parameter.name, estimate, parameter.unit);
   }
   return text;
+}
+
+std::string si_table_text(const Model& model) {
+  std::string text;
+  for (const SiQuantity& quantity : si_quantities(model)) {
+    text += table_row(quantity.name, quantity.estimate, quantity.unit);
+  }
+  return text.empty() ? text : "  in SI units, with F_max = m/m' of a wheel:\n" + text;
 }
 
 }  // namespace awmr::cli

@@ -47,5 +47,7 @@ std::string to_text(const Finding& finding);
 
 /// One line per identified quantity: value, standard error, 95 % interval, unit, origin.
 std::string parameter_table_text(const Model& model);
+/// The same in newtons, newton metres and kilograms; empty where m' is not known.
+std::string si_table_text(const Model& model);
 
 }  // namespace awmr::cli

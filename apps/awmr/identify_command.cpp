@@ -45,7 +45,7 @@ std::string names_of(const EstimatorReport& report) {
 std::string summary_of(const IdentifyCommand& command, const Model& model) {
   std::string text =
       fmt::format("{}: {} trial rows\n", model.vehicle.name, model.record.trials.size());
-  text += parameter_table_text(model);
+  text += parameter_table_text(model) + si_table_text(model);
   text += "  estimators side by side:\n";
   for (const EstimatorReport& report : model.record.reports) {
     std::string values;

@@ -19,10 +19,10 @@ class PartialModelCommands : public ::testing::Test {
                                       "speed": {"mu": 5, "epsilon": 1.2}})");
     write_all(path("straight.json"), scenario(0.0));
     write_all(path("turn.json"), scenario(0.1));
-    const ProcessResult identified =
-        awmr("identify --vehicle configs/paper/vehicle.json --surge datasets/paper/surge.csv "
-             "--coastdown datasets/paper/coastdown.csv -o " +
-             path("model.json"));
+    const ProcessResult identified = awmr(
+        "identify --vehicle configs/paper/vehicle.json --surge datasets/paper/surge.csv "
+        "--coastdown datasets/paper/coastdown.csv -o " +
+        path("model.json"));
     if (identified.exit_code != 0) throw std::runtime_error(identified.err);
   }
   std::string path(const std::string& name) const { return (directory_.path() / name).string(); }

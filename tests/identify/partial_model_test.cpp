@@ -35,8 +35,8 @@ Model partial_model(bool coastdown) {
 TEST(PartialModel, SuggestsFirstWhatItHasNoValueOfAndRanksStraightTrials) {
   const auto suggestion = suggest(partial_model(true), {});
   ASSERT_TRUE(suggestion) << to_text(suggestion.error());
-  EXPECT_THAT(suggestion->missing, ElementsAre(ParameterId::kYawAlpha, ParameterId::kYawBeta,
-                                               ParameterId::kSwayAlpha));
+  EXPECT_THAT(suggestion->missing,
+              ElementsAre(ParameterId::kYawAlpha, ParameterId::kYawBeta, ParameterId::kSwayAlpha));
   ASSERT_FALSE(suggestion->trials.empty());
   for (const SuggestedTrial& trial : suggestion->trials) {
     EXPECT_NE(trial.kind, TrialKind::kTurning);
@@ -102,8 +102,7 @@ TEST(PartialModel, IsNotRecoveredFromTrialsOfWhatItDoesNotKnow) {
   const auto turning = recover(model, runs_of(RecoverPlan::kTables, 2), nullptr);
   ASSERT_FALSE(turning);
   EXPECT_THAT(to_text(turning.error()), HasSubstr("no value for yaw.alpha"));
-  const auto curve =
-      recover(partial_model(false), runs_of(RecoverPlan::kCurve, 2), nullptr);
+  const auto curve = recover(partial_model(false), runs_of(RecoverPlan::kCurve, 2), nullptr);
   ASSERT_FALSE(curve);
   EXPECT_THAT(to_text(curve.error()), HasSubstr("no value for mass_norm"));
 }

@@ -7,6 +7,7 @@
 
 #include "awmr/core/file.h"
 #include "awmr/model/ranges.h"
+#include "awmr/model/si_units.h"
 #include "model_json.h"
 #include "vehicle_json.h"
 
@@ -15,12 +16,12 @@ namespace {
 
 constexpr std::string_view kModelSchema = "awmr.model/1";
 
-Json estimate_to_json(const Estimate& estimate, const ParameterInfo& parameter) {
+Json estimate_to_json(const Estimate& estimate, std::string_view unit) {
   Json json;
   json["value"] = number_or_null(estimate.value);
   json["std_error"] = number_or_null(estimate.std_error);
   json["ci95"] = interval_or_null(estimate.ci95);
-  json["unit"] = parameter.unit;
+  json["unit"] = unit;
   json["source"] = name_in(kSourceNames, estimate.source);
   json["method"] = estimate.method;
   return json;
@@ -80,12 +81,20 @@ void estimates_from_json(JsonObject& root, Model& model) {
 void put_estimates(Json& json, const Model& model) {
   for (const ParameterInfo& parameter : parameter_table()) {
     const Estimate& estimate = model[parameter.id];
-    if (parameter.term && estimate.source == Source::kGiven && estimate.value == 0.0) continue;
+    if (is_absent_term(model, parameter.id)) continue;
     json[Json::json_pointer(std::string(parameter.pointer))] =
-        estimate_to_json(estimate, parameter);
+        estimate_to_json(estimate, parameter.unit);
   }
   if (model.surge_family != Family::kPower) json["surge"]["family"] = name_of(model.surge_family);
   if (model.yaw_family != Family::kPower) json["yaw"]["family"] = name_of(model.yaw_family);
+}
+
+/// /si: what is worked out of the rest of the file, for who reads it. It is not read back.
+void put_si(Json& json, const Model& model) {
+  for (const SiQuantity& quantity : si_quantities(model)) {
+    json["si"][Json::json_pointer(quantity.pointer)] =
+        estimate_to_json(quantity.estimate, quantity.unit);
+  }
 }
 
 template <class Item, class ToJson>
@@ -117,6 +126,7 @@ std::string model_text(const Model& model) {
   put_estimates(json, model);
   json["estimates"] = list_to_json(model.record.reports, report_to_json);
   json["covariance"] = covariance_to_json(model.covariance);
+  put_si(json, model);
   json["findings"] = list_to_json(model.record.findings, finding_to_json);
   json["trials"] = list_to_json(model.record.trials, trial_to_json);
   return to_text(json);
@@ -136,6 +146,7 @@ Result<Model> read_model(const std::filesystem::path& path) {
   estimates_from_json(root, model);
   model.record.reports = list_from_json(root, "estimates", report_from_json);
   model.covariance = covariance_from_json(root.object("covariance"), json);
+  root.optional_object("si");
   model.record.findings = list_from_json(root, "findings", finding_from_json);
   model.record.trials = list_from_json(root, "trials", trial_from_json);
   root.reject_unknown_keys();

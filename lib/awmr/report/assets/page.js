@@ -102,9 +102,16 @@ if (model.trials.length) {
 const quantities = [["surge.alpha", model.surge.alpha], ["surge.beta", model.surge.beta], ["yaw.alpha", model.yaw.alpha],
   ["yaw.beta", model.yaw.beta], ["sway.alpha", model.sway.alpha], ["mass_norm", model.mass_norm],
   ["inertia_norm", model.inertia_norm], ["steering.time_constant_s", model.steering.time_constant_s]];
-table(section("Parameters"), ["", "value", "std error", "95 % interval", "unit", "origin"],
-  quantities.map(([name, e]) => [name, digits(e.value, 5), digits(e.std_error, 2),
+const estimates = (where, rows) => table(where, ["", "value", "std error", "95 % interval", "unit", "origin"],
+  rows.map(([name, e]) => [name, digits(e.value, 5), digits(e.std_error, 2),
     e.ci95 ? `[${digits(e.ci95[0])}, ${digits(e.ci95[1])}]` : "–", e.unit, `${e.source}, ${e.method}`]), [1, 2]);
+estimates(section("Parameters"), quantities);
+if (model.si) {
+  const leaves = (entry, name) => ("value" in entry ? [[name, entry]]
+    : Object.entries(entry).flatMap(([key, below]) => leaves(below, name ? `${name}.${key}` : key)));
+  estimates(section("In SI units", "What the equations divide by F_max = m/m', the largest force of a wheel, times it again."),
+    leaves(model.si, ""));
+}
 table(section("Estimators side by side", "The paper's log-linear fit puts the error on the logarithm of the force, which is set exactly; what is measured is time."),
   ["", "estimator", "noise on", "estimates", "AICc", "residual std", "rows", "stopped because"],
   model.estimates.map((r) => [r.subject, [r.estimator, r.family].filter(Boolean).join(", "), r.noise,
