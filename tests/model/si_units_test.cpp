@@ -30,9 +30,9 @@ Model uncertain_model() {
   const double m = *model[ParameterId::kMassNorm].value;
   const double factor = model.vehicle.inertia_kgm2() / model.vehicle.mass_kg;
   model[ParameterId::kInertiaNorm].value = factor * m;
-  for (const auto& [id, share] : {std::pair{ParameterId::kSurgeAlpha, 0.05},
-                                  std::pair{ParameterId::kMassNorm, 0.1},
-                                  std::pair{ParameterId::kInertiaNorm, 0.1}}) {
+  for (const auto& [id, share] :
+       {std::pair{ParameterId::kSurgeAlpha, 0.05}, std::pair{ParameterId::kMassNorm, 0.1},
+        std::pair{ParameterId::kInertiaNorm, 0.1}}) {
     Estimate& e = model[id];
     e.std_error = share * *e.value;
     e.ci95 = Interval{*e.value * std::exp(-2.0 * share), *e.value * std::exp(2.0 * share)};
@@ -41,9 +41,10 @@ Model uncertain_model() {
   const double aa = 0.05 * 0.05 * a * a;
   const double am = -0.6 * 0.05 * 0.1 * a * m;
   const double mm = 0.1 * 0.1 * m * m;
-  model.covariance = {
-      {ParameterId::kSurgeAlpha, ParameterId::kMassNorm, ParameterId::kInertiaNorm},
-      {{aa, am, factor * am}, {am, mm, factor * mm}, {factor * am, factor * mm, factor * factor * mm}}};
+  model.covariance = {{ParameterId::kSurgeAlpha, ParameterId::kMassNorm, ParameterId::kInertiaNorm},
+                      {{aa, am, factor * am},
+                       {am, mm, factor * mm},
+                       {factor * am, factor * mm, factor * factor * mm}}};
   return model;
 }
 

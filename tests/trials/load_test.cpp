@@ -24,6 +24,39 @@ TrialFiles paper_files() {
           .coastdowns = {kPaper / "coastdown.csv"}};
 }
 
+/// The faults of a surge or turning table with these rows.
+std::string refusal_of(const std::string& name, const std::string& text, bool as_is = false) {
+  const ScratchFile file(name, text);
+  TrialFiles files{.vehicle = paper_vehicle(), .options = {.columns = {}, .as_is = as_is}};
+  (name == "surge.csv" ? files.surge : files.turning) = file.path();
+  const auto trials = load_trials(files);
+  if (!trials) return to_text(trials.error());
+  for (const Finding& finding : trials->findings) {
+    if (finding.code == "table-contradiction") return "warned: " + finding.message;
+  }
+  return "";
+}
+
+TEST(LoadTrials, ForcesBeyondTheVehiclesAreRefusedWithTheLikelyUnit) {
+  EXPECT_THAT(refusal_of("surge.csv", "tau_speed,speed_mps\n4,0.5\n80,0.9\n100,1.2\n"),
+              AllOf(HasSubstr(":3"), HasSubstr("beyond 4 F'max = 4"), HasSubstr("percent"),
+                    HasSubstr("tau_speed=\"tau_speed\"*0.01")));
+  EXPECT_THAT(refusal_of("surge.csv", "wheel_force,speed_mps\n90,0.5\n180,0.9\n255,1.2\n"),
+              AllOf(HasSubstr(":2"), HasSubstr("8-bit PWM"), HasSubstr("wheel_force=")));
+  EXPECT_THAT(
+      refusal_of("turning.csv", "steering_deg,wheel_force,yaw_rate_radps\n10,35,0.1\n20,35,0.2\n"),
+      AllOf(HasSubstr("percent"), HasSubstr("wheel_force=\"wheel_force\"*0.01")));
+  EXPECT_EQ(refusal_of("surge.csv", "tau_speed,speed_mps\n1,0.5\n2,0.9\n4,1.2\n"), "");
+  EXPECT_THAT(refusal_of("surge.csv", "tau_speed,speed_mps\n4,0.5\n80,0.9\n100,1.2\n", true),
+              HasSubstr("warned"));
+}
+
+TEST(LoadTrials, SteeringInRadiansIsRefused) {
+  EXPECT_THAT(refusal_of("turning.csv",
+                         "steering_deg,wheel_force,yaw_rate_radps\n0.17,0.35,0.1\n0.35,0.35,0.2\n"),
+              AllOf(HasSubstr("radians"), HasSubstr("steering_deg=\"steering_deg\"*57.29")));
+}
+
 TEST(LoadTrials, ReadsWhatThereIsAndKeepsFindingsInOrder) {
   const auto trials = load_trials(paper_files());
   ASSERT_TRUE(trials) << to_text(trials.error());

@@ -50,8 +50,7 @@ Estimate times_max_force(const Model& model, ParameterId id) {
   const auto c_mm = covariance_of(model, ParameterId::kMassNorm, ParameterId::kMassNorm);
   if (!c_pp || !c_pm || !c_mm) return q;
   const double ratio = p / mass_norm;
-  const double variance =
-      force_n * force_n * (*c_pp - 2.0 * ratio * *c_pm + ratio * ratio * *c_mm);
+  const double variance = force_n * force_n * (*c_pp - 2.0 * ratio * *c_pm + ratio * ratio * *c_mm);
   if (!(variance > kExact * *q.value * *q.value)) return q;
   q.std_error = std::sqrt(variance);
   const auto k_p = quantile_of(model, id);

@@ -6,6 +6,7 @@
 #include "awmr/trials/log_consistency.h"
 #include "awmr/trials/steady.h"
 #include "awmr/trials/trial_columns.h"
+#include "table_consistency.h"
 
 namespace awmr {
 namespace {
@@ -96,9 +97,15 @@ Result<Trials> load_trials(const TrialFiles& files) {
   Trials trials{.vehicle = files.vehicle, .data = {}, .findings = {}};
   auto& [vehicle, data, findings] = trials;
   std::vector<Fault> faults;
-  if (files.surge) data.surge = keep(read_surge(*files.surge, options, findings), faults);
+  if (files.surge) {
+    data.surge = keep(read_surge(*files.surge, options, findings), faults);
+    if (data.surge)
+      check_consistency(*data.surge, *files.surge, vehicle, options, findings, faults);
+  }
   if (files.turning) {
     data.turning = keep(read_turning(*files.turning, vehicle, options, findings), faults);
+    if (data.turning)
+      check_consistency(*data.turning, *files.turning, vehicle, options, findings, faults);
   }
   for (const std::filesystem::path& path : files.coastdowns) {
     auto set = keep(read_coastdown(path, options, findings), faults);

@@ -33,7 +33,8 @@ struct TrialFiles {
 };
 
 /// Reads and joins them. Errors (input): no file at all; as read_surge(), read_turning(),
-/// read_coastdown() and read_log(), the faults of all files together; a second file of stop times;
+/// read_coastdown() and read_log(), the faults of all files together; tables and logs that contradict
+/// themselves or the vehicle (table_consistency.h, log_consistency.h); a second file of stop times;
 /// steady stretches asked for without a log; a mapping that is unknown or unused.
 Result<Trials> load_trials(const TrialFiles& files);
 

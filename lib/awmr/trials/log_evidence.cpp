@@ -108,9 +108,10 @@ MomentShares moment_shares(const std::vector<WindowSums>& windows,
 namespace {
 
 /// What a column was read from, times a factor.
-std::string scaled_source(const Evidence& evidence, std::string_view column, double factor) {
+std::string scaled_source(std::span<const ColumnMapping> mappings, std::string_view column,
+                          double factor) {
   ColumnMapping used{std::string(column), std::string(column)};
-  for (const ColumnMapping& mapping : evidence.mappings) {
+  for (const ColumnMapping& mapping : mappings) {
     if (mapping.name == column) used = mapping;
   }
   return scaled_expression(used, factor);
@@ -118,8 +119,13 @@ std::string scaled_source(const Evidence& evidence, std::string_view column, dou
 
 }  // namespace
 
+std::string scaled_mapping(std::span<const ColumnMapping> mappings, std::string_view column,
+                           double factor) {
+  return fmt::format("{}={}", column, scaled_source(mappings, column, factor));
+}
+
 std::string scaled_mapping(const Evidence& evidence, std::string_view column, double factor) {
-  return fmt::format("{}={}", column, scaled_source(evidence, column, factor));
+  return scaled_mapping(evidence.mappings, column, factor);
 }
 
 std::string swapped_mapping(const Evidence& evidence) {

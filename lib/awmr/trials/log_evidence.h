@@ -67,6 +67,8 @@ MomentShares moment_shares(const std::vector<WindowSums>& windows,
                            double (*rate)(const WindowSums&));
 
 /// `NAME="SOURCE"*FACTOR`, from the column that NAME was read from.
+std::string scaled_mapping(std::span<const ColumnMapping> mappings, std::string_view column,
+                           double factor);
 std::string scaled_mapping(const Evidence& evidence, std::string_view column, double factor);
 /// The two forces, each from the other's column.
 std::string swapped_mapping(const Evidence& evidence);

@@ -24,8 +24,8 @@ inline constexpr NameTable<Preference, 2> kPreferenceNames{
 struct TrialOptions {
   std::vector<ColumnMapping> columns;
   Preference preference = Preference::kPrinted;
-  /// Logs that contradict themselves (log_consistency.h) are taken as they are, with a warning. For
-  /// when a vehicle really is as odd as its log.
+  /// Trials that contradict themselves or the vehicle (log_consistency.h, table_consistency.h) are
+  /// taken as they are, with a warning. For when a vehicle really is as odd as they are.
   bool as_is = false;
 };
 

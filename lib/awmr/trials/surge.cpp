@@ -53,6 +53,7 @@ Result<TrialSet<SurgeRow>> read_surge(const std::filesystem::path& path,
   if (!reader.faults().empty()) return input_errors(std::move(reader.faults()));
 
   TrialSet<SurgeRow> set{finding_file(reader.table()), {}, 0, reader.table().mapped()};
+  set.force_column = reader.has("tau_speed") ? "tau_speed" : "wheel_force";
   note_format(reader, findings);
   std::vector<std::size_t> set_aside;
   for (std::size_t i = 0; i < reader.table().rows(); ++i) {

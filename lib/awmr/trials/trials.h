@@ -62,6 +62,7 @@ struct TrialSet {
   std::vector<Row> rows;
   int set_aside = 0;                     ///< how many rows the file had beside `rows`
   std::vector<std::size_t> mapped = {};  ///< indices of the TrialOptions' mappings that were used
+  std::string force_column = {};         ///< that gave the force of a surge or turning run
 };
 
 /// A coast-down file has a row per run, or the curves of its runs.

@@ -111,6 +111,7 @@ Result<TrialSet<TurningRow>> read_turning(const std::filesystem::path& path, con
   if (!reader.faults().empty()) return input_errors(std::move(reader.faults()));
 
   TrialSet<TurningRow> set{finding_file(reader.table()), {}, 0, reader.table().mapped()};
+  set.force_column = "wheel_force";
   note_format(reader, findings);
   std::vector<std::size_t> set_aside;
   for (std::size_t i = 0; i < reader.table().rows(); ++i) {

@@ -7,6 +7,7 @@
 #include "awmr/core/units.h"
 #include "awmr/trials/log_evidence.h"
 #include "awmr/trials/robust_ratio.h"
+#include "full_scale.h"
 
 namespace awmr {
 namespace {
@@ -56,11 +57,6 @@ std::optional<Contradiction> judge_time(const Evidence& evidence) {
 std::optional<Contradiction> judge_force(const Evidence& evidence, std::string_view column,
                                          const std::vector<double>& values,
                                          double largest_of_both) {
-  static constexpr std::array<UnitFactor, 5> kFullScale{{{100.0, "percent"},
-                                                         {255.0, "8-bit PWM counts"},
-                                                         {1000.0, "per mille"},
-                                                         {1023.0, "10-bit PWM counts"},
-                                                         {4095.0, "12-bit PWM counts"}}};
   const Interval& limit = evidence.vehicle.wheel_force;
   constexpr double kRounding = 1.01;
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
@@ -68,14 +64,7 @@ std::optional<Contradiction> judge_force(const Evidence& evidence, std::string_v
   const double below = limit.lo < 0.0 ? limit.lo * kRounding : -0.01 * limit.hi;
   if (*most <= above && *least >= below) return std::nullopt;
   const double worst = *most > above ? *most : *least;
-  std::string words = "give the force over F_max, the largest force of one motor";
-  double factor = limit.hi / largest_of_both;
-  for (const UnitFactor& unit : kFullScale) {
-    if (largest_of_both > unit.factor * 1.005 || largest_of_both <= 1.05 * limit.hi) continue;
-    words = fmt::format("the forces look like {}", unit.words);
-    factor = 1.0 / unit.factor;
-    break;
-  }
+  const auto [words, factor] = full_scale_of(largest_of_both, limit.hi);
   return Contradiction{
       std::string(column),
       fmt::format("reaches {:.4g}, beyond wheel_force [{:g}, {:g}] of the vehicle: "

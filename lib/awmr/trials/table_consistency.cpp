@@ -1,0 +1,97 @@
+#include "table_consistency.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+
+#include "awmr/core/option_text.h"
+#include "awmr/core/units.h"
+#include "awmr/trials/log_evidence.h"
+#include "full_scale.h"
+
+namespace awmr {
+namespace {
+
+/// Where the file and its findings are named, and what becomes of a contradiction.
+struct Table {
+  const std::filesystem::path& path;
+  const std::string& file;
+  const TrialOptions& options;
+  std::vector<Finding>& findings;
+  std::vector<Fault>& faults;
+
+  void tell(int line, const std::string& message, std::string_view column, double factor) const {
+    if (options.as_is) {
+      findings.push_back({file, line, Severity::kWarning, "table-contradiction", message});
+      return;
+    }
+    const std::string mapping = scaled_mapping(options.columns, column, factor);
+    faults.push_back({fmt::format("{}:{}", path.string(), line),
+                      fmt::format("{}; map it by {}, or take it {}", message,
+                                  option_text("column '" + mapping + "'"), option_text("as-is"))});
+  }
+};
+
+/// The first row whose number is above `limit`, the largest number being `largest`.
+template <class Row>
+struct Beyond {
+  const Row* first = nullptr;
+  double largest = 0.0;
+};
+
+template <class Row>
+Beyond<Row> beyond(const std::vector<Row>& rows, double Row::*member, double limit) {
+  constexpr double kRounding = 1.01;
+  Beyond<Row> found;
+  for (const Row& row : rows) {
+    found.largest = std::max(found.largest, row.*member);
+    if (found.first == nullptr && row.*member > limit * kRounding) found.first = &row;
+  }
+  return found;
+}
+
+}  // namespace
+
+void check_consistency(const TrialSet<SurgeRow>& surge, const std::filesystem::path& path,
+                       const Vehicle& vehicle, const TrialOptions& options,
+                       std::vector<Finding>& findings, std::vector<Fault>& faults) {
+  // tau_speed = 4 F' with the wheels straight                                    [paper (41)]
+  const double limit = 4.0 * vehicle.wheel_force.hi;
+  const auto [first, largest] = beyond(surge.rows, &SurgeRow::tau_speed, limit);
+  if (first == nullptr) return;
+  const auto [words, factor] = full_scale_of(largest / 4.0, vehicle.wheel_force.hi);
+  Table{path, surge.file, options, findings, faults}.tell(
+      first->line,
+      fmt::format("tau_speed is {:.4g}, beyond 4 F'max = {:g} (wheel_force [{:g}, {:g}] of the "
+                  "vehicle), and reaches {:.4g}: {}",
+                  first->tau_speed, limit, vehicle.wheel_force.lo, vehicle.wheel_force.hi, largest,
+                  words),
+      surge.force_column, factor);
+}
+
+void check_consistency(const TrialSet<TurningRow>& turning, const std::filesystem::path& path,
+                       const Vehicle& vehicle, const TrialOptions& options,
+                       std::vector<Finding>& findings, std::vector<Fault>& faults) {
+  const Table table{path, turning.file, options, findings, faults};
+  const double limit = vehicle.wheel_force.hi;
+  if (const auto [first, largest] = beyond(turning.rows, &TurningRow::wheel_force, limit); first) {
+    const auto [words, factor] = full_scale_of(largest, limit);
+    table.tell(first->line,
+               fmt::format("wheel_force is {:.4g}, beyond wheel_force [{:g}, {:g}] of the vehicle, "
+                           "and reaches {:.4g}: {}",
+                           first->wheel_force, vehicle.wheel_force.lo, limit, largest, words),
+               turning.force_column, factor);
+  }
+  constexpr double kSmall = 0.02;  // of the stop: what a degree is in radians
+  const double steepest_deg = degrees(
+      beyond(turning.rows, &TurningRow::steering_rad, radians(vehicle.steering_max_deg)).largest);
+  if (turning.rows.empty() || steepest_deg >= kSmall * vehicle.steering_max_deg) return;
+  table.tell(turning.rows.front().line,
+             fmt::format("steering_deg is at most {:.4g} in all runs, below 2 % of the stop at {:g}: "
+                         "the angles look like radians",
+                         steepest_deg, vehicle.steering_max_deg),
+             "steering_deg", degrees(1.0));
+}
+
+}  // namespace awmr
