@@ -11,8 +11,8 @@ class HostExecutor : public Executor {
   Result<std::uint8_t> start() override {
     const AutopilotParameters& p = *parameters_;
     const bool good =
-        start_autopilot(autopilot_, &p.block, p.surge.values.data(), p.surge.values.size(),
-                        p.yaw.values.data(), p.yaw.values.size(), p.crc);
+        start_autopilot(autopilot_, &p.block, p.surge.lines.data(), p.surge.lines.size(),
+                        p.yaw.lines.data(), p.yaw.lines.size(), p.crc);
     return std::uint8_t{good ? kFaultNone : kFaultParameters};
   }
 

@@ -49,6 +49,7 @@ Result<Provenance> provenance_of(const PilOptions& options) {
       {"mode", mode_name(options)},
       {"link", std::string(name_in(cli::kPilLinkNames, options.link))},
       {"resistance", std::string(name_in(kResistanceFormNames, options.emit.resistance))},
+      {"optimize", std::string(name_in(cli::kOptimizeNames, options.optimize))},
       {"table-error", fmt::format("{:g}", options.emit.table_error)}};
   for (const fs::path& path : {options.model, options.gains, options.scenario}) {
     const auto input = input_file(path);
@@ -62,13 +63,11 @@ Result<Provenance> provenance_of(const PilOptions& options) {
 
 void judge(const PilOptions& options, Report& report) {
   const bool by_table = options.emit.resistance == ResistanceForm::kTable;
-  const bool by_memory = options.link == cli::PilLink::kMemory;
   const ChipFigures& figures = report.chip.figures;
   std::vector<Check>& checks = report.checks;
   checks.push_back(at_most("cycles", report.cycles.max,
                            options.cycles_max.value_or(by_table ? 12000 : 24000), "cycles"));
-  checks.push_back(at_most("flash", figures.flash_bytes,
-                           options.flash_max.value_or(by_memory ? 8192 : 9216), "bytes"));
+  checks.push_back(at_most("flash", figures.flash_bytes, options.flash_max, "bytes"));
   checks.push_back(at_most("ram", figures.ram_bytes, options.ram_max, "bytes"));
   checks.push_back(at_most("difference from the host's float run", report.from_float.largest(),
                            options.difference_max.value_or(by_table ? 0.0 : 1e-6), ""));

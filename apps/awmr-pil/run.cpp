@@ -104,9 +104,10 @@ Result<ChipRun> run_chip(const PilOptions& options, const Inputs& in) {
   AWMR_ASSIGN_OR_RETURN(const auto folder, WorkFolder::make());
   const auto library = firmware_library(in.model, in.gains, in.names, options.emit);
   if (!library) return tl::unexpected(library.error());
-  const auto elf =
-      build_firmware(folder->path(), *library,
-                     options.link == cli::PilLink::kMemory ? LinkKind::kMemory : LinkKind::kUart);
+  const auto elf = build_firmware(
+      folder->path(), *library,
+      {.link = options.link == cli::PilLink::kMemory ? LinkKind::kMemory : LinkKind::kUart,
+       .optimize = options.optimize});
   if (!elf) return tl::unexpected(elf.error());
   if (options.build_directory) {
     AWMR_RETURN_IF_ERROR(keep_firmware(folder->path(), *options.build_directory));

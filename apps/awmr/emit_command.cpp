@@ -29,9 +29,9 @@ Status write_emitted(const EmitCommand& command, const std::vector<EmittedFile>&
 
 std::string table_line(const char* name, const EmittedTable& table) {
   return fmt::format(
-      "  {} table: {} values up to {:g}, worst error {:.1e} below {:g}, {:.1e} of it "
+      "  {} table: {} lines up to {:g}, worst error {:.1e} below {:g}, {:.1e} of it "
       "above\n",
-      name, table.values.size(), table.top_speed, table.worst_error, table.split,
+      name, table.lines.size(), table.top_speed, table.worst_error, table.split,
       table.worst_relative_error);
 }
 

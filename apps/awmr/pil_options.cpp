@@ -19,10 +19,9 @@ void add_bounds(CLI::App& command, PilOptions& options) {
       .add_option("--cycles-max", options.cycles_max,
                   "Most cycles of a step [12000 by table, 24000 by powf]")
       ->check(within(1U, kAnyCount));
-  command
-      .add_option("--flash-max", options.flash_max,
-                  "Most bytes of flash [8192, with --link uart 9216]")
-      ->check(within(1U, kAnyCount));
+  command.add_option("--flash-max", options.flash_max, "Most bytes of flash")
+      ->check(within(1U, kAnyCount))
+      ->capture_default_str();
   command.add_option("--ram-max", options.ram_max, "Most bytes of RAM, without the stack")
       ->check(within(1U, kAnyCount))
       ->capture_default_str();
@@ -56,6 +55,9 @@ void add_pil_options(CLI::App& command, PilOptions& options) {
       ->check(within(300U, 4000000U))
       ->capture_default_str();
   add_emit_options(command, options.emit);
+  add_choice(command, "--optimize", options.optimize, kOptimizeNames,
+             "Compile the firmware for few cycles or for little flash")
+      ->default_str("speed");
   add_bounds(command, options);
   add_choice(command, "--inject", options.injection, kInjectionNames, "A fault to inject half-way")
       ->default_str("none");

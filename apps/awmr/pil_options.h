@@ -20,6 +20,11 @@ enum class PilLink { kMemory, kUart };
 inline constexpr NameTable<PilLink, 2> kPilLinkNames{
     {{"memory", PilLink::kMemory}, {"uart", PilLink::kUart}}};
 
+/// What the firmware is compiled for.
+enum class Optimize { kSpeed, kSize };
+inline constexpr NameTable<Optimize, 2> kOptimizeNames{
+    {{"speed", Optimize::kSpeed}, {"size", Optimize::kSize}}};
+
 /// What can be done to the controller's inputs, or to its parameters, on purpose.
 enum class Injection {
   kNone,
@@ -54,8 +59,9 @@ struct PilOptions {
   std::optional<std::filesystem::path> port;  ///< a real board's, with kUart
   unsigned baud = 500000;
   EmitOptions emit;
+  Optimize optimize = Optimize::kSpeed;
   std::optional<unsigned> cycles_max;    ///< absent: 12,000 by table, 24,000 by powf
-  std::optional<unsigned> flash_max;     ///< bytes; absent: 8192, and 9216 with kUart's framing
+  unsigned flash_max = 16384;            ///< bytes
   unsigned ram_max = 512;                ///< bytes, without the stack
   std::optional<double> difference_max;  ///< from the host's float run; absent: 0 and 1e-6
   double heading_max_deg = 0.05;         ///< from the host's double run

@@ -45,6 +45,20 @@ TEST(Laws, HeadingLawBySubstitution) {
               0.3028 * std::pow(0.4, 0.825) + 0.01212 * (0.7 + 3.0 * (0.1 - 0.4) + 2.5), 1e-15);
 }
 
+TEST(Laws, TheChipsConstantsGiveTheSameCommands) {
+  // The same equations with m' and I'z multiplied in: a dozen roundings of values of order 1.
+  const Controller<double> c = paper_controller_of<double>();
+  const PreparedController<double> chip = prepared(c);
+  for (const double rate : {0.0, 0.3}) {
+    for (const double psi : {-2.9, -0.1, 0.0, 0.2, 3.0}) {
+      const Measurement<double> m{0.4, 0.8, 0.05, -0.6};
+      const Reference<double> ref{psi, rate, 2.0 * rate, 1.1, 0.5 * rate};
+      EXPECT_NEAR(heading_law(chip, m, ref), heading_law(c, m, ref), 1e-14);
+      EXPECT_NEAR(speed_law(chip, m, ref), speed_law(c, m, ref), 1e-14);
+    }
+  }
+}
+
 TEST(Laws, TheLayersConditionIsOnTheSurfaceNotOnTheError) {
   // e = 3 rad < eps = 4, yet S = 9 > 4: the correction saturates at mu.
   Controller<double> c = paper_controller_of<double>();

@@ -1,4 +1,4 @@
-/// The chip's table by hand: its entries, the chords between them, its two ends.
+/// The chip's table by hand: the ends of its cells, the chords between them, what is beyond.
 #include "awmr/control/resistance_table.h"
 
 #include <gtest/gtest.h>
@@ -9,15 +9,13 @@
 namespace awmr::testing {
 namespace {
 
-/// Two entries an octave from 1 on: at 1, 1.5, 2, 3 and 4.
-constexpr float kValues[] = {10.0F, 11.0F, 13.0F, 17.0F, 25.0F};
-const ResistanceTable kTable{.values = kValues,
-                             .count = 5,
-                             .first = ResistanceTable::cell_of(bits_of(1.0F), 1),
-                             .mantissa_bits = 1,
-                             .slope_at_rest = 10.0F};
+/// Two cells an octave from 1 on: 10 at 1, 11 at 1.5, 13 at 2, 17 at 3 and 25 at 4.
+constexpr ResistanceLine kLines[] = {
+    {10.0F, 0.0F}, {2.0F, 8.0F}, {4.0F, 5.0F}, {4.0F, 5.0F}, {8.0F, -7.0F}};
+const ResistanceTable kTable{
+    .lines = kLines, .count = 5, .first = ResistanceTable::cell_of(1.0F, 1), .mantissa_bits = 1};
 
-TEST(ResistanceTable, HoldsItsEntries) {
+TEST(ResistanceTable, HoldsTheEndsOfItsCells) {
   EXPECT_EQ(kTable(1.0F), 10.0F);
   EXPECT_EQ(kTable(1.5F), 11.0F);
   EXPECT_EQ(kTable(2.0F), 13.0F);
@@ -41,7 +39,7 @@ TEST(ResistanceTable, IsOdd) {
   for (const float speed : {0.25F, 1.0F, 1.25F, 3.5F}) EXPECT_EQ(kTable(-speed), -kTable(speed));
 }
 
-TEST(ResistanceTable, IsNoNumberFromTheLastEntryOn) {
+TEST(ResistanceTable, IsNoNumberFromTheLastCellOn) {
   EXPECT_FALSE(std::isnan(kTable(std::nextafterf(4.0F, 0.0F))));
   for (const float speed : {4.0F, 5.0F, std::numeric_limits<float>::infinity(), std::nanf("")}) {
     EXPECT_TRUE(std::isnan(kTable(speed))) << speed;

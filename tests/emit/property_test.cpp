@@ -27,8 +27,8 @@ AutopilotInput any_input(const SafetyLimits& limits) {
 template <class G>
 void steps_stay_within_limits(const AutopilotParameters& p) {
   Autopilot<G> autopilot{};
-  RC_ASSERT(start_autopilot(autopilot, &p.block, p.surge.values.data(), p.surge.values.size(),
-                            p.yaw.values.data(), p.yaw.values.size(), p.crc));
+  RC_ASSERT(start_autopilot(autopilot, &p.block, p.surge.lines.data(), p.surge.lines.size(),
+                            p.yaw.lines.data(), p.yaw.lines.size(), p.crc));
   for (int i = 0; i < 50; ++i) {
     AutopilotOutput out{};
     autopilot_step(autopilot, any_input(p.block.safety), out);

@@ -1,5 +1,6 @@
 /// float_math.h against double's functions of the C library, whose error (1e-16) does not count.
 #include "awmr/model/float_math.h"
+#include "awmr/model/float_bearing.h"
 
 #include <gtest/gtest.h>
 
@@ -74,6 +75,45 @@ TEST(FloatMath, AngleOfAVectorKeepsItsStatedErrorInEveryDirection) {
   EXPECT_LT(worst, 5e-7);
 }
 
+TEST(FloatMath, BearingKeepsItsStatedErrorInEveryDirectionAndAtEveryLength) {
+  double worst = 0.0;
+  for (int i = 0; i < 400000; ++i) {
+    const double direction = -3.14159 + 6.28318 * i / 400000.0;
+    const double length = std::exp2(i % 227 - 99);  // 2^-99 is 1.6e-30
+    const auto x = static_cast<float>(length * std::cos(direction));
+    const auto y = static_cast<float>(length * std::sin(direction));
+    const double exact = std::atan2(static_cast<double>(y), static_cast<double>(x));
+    const auto bearing = static_cast<double>(float_math::bearing(y, x));
+    ASSERT_TRUE(bearing > -3.14159266 && bearing < 3.14159266) << direction;
+    worst = std::max(worst, std::abs(std::remainder(bearing - exact, 2.0 * std::acos(-1.0))));
+  }
+  EXPECT_LT(worst, 4.1e-5);
+}
+
+TEST(FloatMath, BearingAtTheAxesAndTheDiagonalsIsWithinItsLastPlace) {
+  // In units of 2^-17 rad, half a unit off by rounding; pi is rounded down.
+  constexpr double kUnit = 1.0 / 131072.0;
+  constexpr double kQuarter = 1.5707963267948966;
+  EXPECT_EQ(float_math::bearing(0.0F, 2.0F), 0.0F);
+  EXPECT_NEAR(float_math::bearing(3.0F, 0.0F), kQuarter, 0.5 * kUnit);
+  EXPECT_NEAR(float_math::bearing(-3.0F, 0.0F), -kQuarter, 0.5 * kUnit);
+  EXPECT_NEAR(float_math::bearing(0.0F, -1.0F), 2.0 * kQuarter, kUnit);
+  // A ratio of 1 is held as 1 - 2^-16, and the polynomial adds 1.2e-5.
+  EXPECT_NEAR(float_math::bearing(1.0F, 1.0F), 0.5 * kQuarter, 2.5e-5);
+  EXPECT_NEAR(float_math::bearing(-1.0F, -1.0F), -1.5 * kQuarter, 3e-5);
+}
+
+TEST(FloatMath, BearingOfWhatIsNotFiniteIsNaN) {
+  const float infinity = std::numeric_limits<float>::infinity();
+  for (const float x : {infinity, -infinity, std::nanf("")}) {
+    EXPECT_TRUE(std::isnan(float_math::bearing(x, 1.0F)));
+    EXPECT_TRUE(std::isnan(float_math::bearing(1.0F, x)));
+    EXPECT_TRUE(std::isnan(float_math::bearing(x, x)));
+  }
+  const float largest = std::numeric_limits<float>::max();
+  EXPECT_NEAR(float_math::bearing(largest, largest), 0.78539816, 2.5e-5);
+}
+
 TEST(FloatMath, AnglesOfTheAxesAndOfTheOriginAreExact) {
   EXPECT_EQ(float_math::atan2(0.0F, 0.0F), 0.0F);
   EXPECT_EQ(float_math::atan2(0.0F, 2.0F), 0.0F);
@@ -84,7 +124,7 @@ TEST(FloatMath, AnglesOfTheAxesAndOfTheOriginAreExact) {
 }
 
 TEST(FloatMath, SteeringAngleKeepsItsStatedError) {
-  const auto angle = [](float h) { return float_math::twice_atan_of_twice(h); };
+  const auto angle = [](float h) { return float_math::twice_atan_of_twice(h, h * h); };
   const auto exact = [](double h) { return 2.0 * std::atan(2.0 * h); };
   EXPECT_LT(worst_error(kLeast, 0.1F, angle, exact).relative, 5e-7);
   EXPECT_LT(worst_error(0.1F, 0.5F, angle, exact).relative, 9e-7);

@@ -80,6 +80,7 @@ struct AllocationConstants {
   T axle_half_inverse;     ///< 1/(2 l_f), 1/m
   T steering_max_rad;      ///< d_max, rad
   T h_max;                 ///< tan(d_max/2)/2
+  T h2_max;                ///< h_max^2
 };
 
 /// The constants of these limits.
@@ -96,7 +97,8 @@ AllocationConstants<T> prepared(const AllocationLimits<T>& limits) {
           T(0.25) / limits.front_axle_m,
           T(0.5) / limits.front_axle_m,
           limits.steering_max_rad,
-          T(0.5) * limits.steering_max_tan_half};
+          T(0.5) * limits.steering_max_tan_half,
+          T(0.5) * limits.steering_max_tan_half * (T(0.5) * limits.steering_max_tan_half)};
 }
 
 namespace detail {
@@ -115,24 +117,28 @@ T clipped(const T& x, const T& lo, const T& hi, bool& limited) {
   return x;
 }
 
-/// The same for float. Where lo <= 0 <= hi and |x| is below both magnitudes, it does without a
-/// comparison of floats, which costs the chip more than one of bits.
-AWMR_SHARED inline float clipped(float x, float lo, float hi, bool& limited) {
-  const uint32_t magnitude = float_math::magnitude_bits(x);
-  if (magnitude <= bits_of(hi) && magnitude <= bits_of(-lo) &&
-      (bits_of(hi) | bits_of(-lo)) >> 31U == 0) {
-    return x;
-  }
-  return clipped<float>(x, lo, hi, limited);
+/// The same for float, by the order of whole numbers, which costs the chip less than comparing
+/// floats. NaN stays NaN.
+AWMR_SHARED inline float clipped_at_edge(float x, float lo, float hi, bool& limited) {
+  const int32_t order = float_math::order_of(x);
+  const bool above = order > float_math::order_of(hi);
+  if (!above && order >= float_math::order_of(lo)) return x;
+  if (float_math::is_nan(x)) return x;
+  limited = true;
+  return above ? hi : lo;
+}
+/// The same, most often by the leading halves alone.
+inline float clipped(float x, float lo, float hi, bool& limited) {
+  return float_math::is_inside(x, lo, hi) ? x : clipped_at_edge(x, lo, hi, limited);
 }
 
-/// The steering angle of an h, rad: d_r = 2 atan q = 2 atan(2 h).
+/// The steering angle of an h, rad: d_r = 2 atan q = 2 atan(2 h). `h2` is h^2.
 template <class T>
-T angle_of_h(const T& h) {
+T angle_of_h(const T& h, const T& /*h2*/) {
   using math::atan;
   return T(2.0) * atan(T(2.0) * h);
 }
-inline float angle_of_h(float h) { return float_math::twice_atan_of_twice(h); }
+inline float angle_of_h(float h, float h2) { return float_math::twice_atan_of_twice(h, h2); }
 
 /// The h of the angle that makes a yaw moment at tau_speed, clipped to |h| <= h_max:
 ///   h = q/2 = moment/(2 l_f tau_speed)
@@ -140,7 +146,7 @@ inline float angle_of_h(float h) { return float_math::twice_atan_of_twice(h); }
 template <class T>
 T steering_for(const AllocationConstants<T>& c, const T& tau_speed, const T& half_ratio,
                Allocation<T>& a) {
-  if (!(tau_speed > steering_authority_min<T>())) {
+  if (!math::is_above(tau_speed, steering_authority_min<T>())) {
     a.steering_powerless = true;
     return T(0.0);
   }
@@ -149,17 +155,20 @@ T steering_for(const AllocationConstants<T>& c, const T& tau_speed, const T& hal
 
 /// The steering angle that is commanded for h, rad; exactly +-d_max where h was clipped.
 template <class T>
-T angle_of(const AllocationConstants<T>& c, const T& h, const Allocation<T>& a) {
-  if (a.steering_limited) return h > T(0.0) ? c.steering_max_rad : -c.steering_max_rad;
-  return math::saturate(angle_of_h(h), c.steering_max_rad);
+AWMR_INLINE T angle_of(const AllocationConstants<T>& c, const T& h, const T& h2,
+                       const Allocation<T>& a) {
+  if (a.steering_limited) {
+    return math::is_above(h, T(0.0)) ? c.steering_max_rad : -c.steering_max_rad;
+  }
+  return math::saturate(angle_of_h(h, h2), c.steering_max_rad);
 }
 
 /// Puts the side forces into `a`, each clipped to [F'min, F'max]:
 ///   F'R,L = (tau_speed +- moment/d)/(2 (1 + cos d_r)) = (tau_speed +- moment/d) (1/4 + h^2)
 /// `moment_over_track` is moment/d, `quarter` is 1/4 + h^2.
 template <class T>
-void forces_for(const AllocationConstants<T>& c, const T& tau_speed, const T& moment_over_track,
-                const T& quarter, Allocation<T>& a) {
+AWMR_INLINE void forces_for(const AllocationConstants<T>& c, const T& tau_speed,
+                            const T& moment_over_track, const T& quarter, Allocation<T>& a) {
   const T mean = tau_speed * quarter;
   const T half_difference = moment_over_track * quarter;
   a.force.left = clipped(mean - half_difference, c.force_min, c.force_max, a.force_limited);
@@ -201,19 +210,21 @@ T give_back(const AllocationConstants<T>& c, const T& tau_turn_m, const T& quart
 /// `split` is for the combined mode: with kRedistribute, what the limits take away from one path
 /// goes to the other. The result is finite for finite input.
 template <class T>
-void allocate(YawMode mode, const T& tau_speed, const T& tau_turn_m,
-              const AllocationConstants<T>& c, CombinedSplit split, Allocation<T>& a) {
+AWMR_INLINE void allocate(YawMode mode, const T& tau_speed, const T& tau_turn_m,
+                          const AllocationConstants<T>& c, CombinedSplit split, Allocation<T>& a) {
   a = Allocation<T>{};
   const T speed = detail::clipped(tau_speed, c.tau_speed_min, c.tau_speed_max, a.speed_limited);
   const bool combined = mode == YawMode::kCombined;
   const bool redistribute = combined && split == CombinedSplit::kRedistribute;
   T h = T(0.0);
+  T h2 = T(0.0);
   T quarter = T(0.25);
   if (mode != YawMode::kDifferential) {
     // The combined mode steers for half of tau_turn: its constant is half of steering's.
     h = detail::steering_for(
         c, speed, tau_turn_m * (combined ? c.axle_quarter_inverse : c.axle_half_inverse), a);
-    quarter = T(0.25) + h * h;
+    h2 = a.steering_limited ? c.h2_max : T(h * h);
+    quarter = T(0.25) + h2;
   }
   const bool lost = a.steering_limited || a.steering_powerless;
   T over_track = T(0.0);  // the forces' share of the moment over d
@@ -226,8 +237,9 @@ void allocate(YawMode mode, const T& tau_speed, const T& tau_turn_m,
   detail::forces_for(c, speed, over_track, quarter, a);
   if (redistribute && a.force_limited && !lost) {
     h = detail::give_back(c, tau_turn_m, quarter, a);
+    h2 = a.steering_limited ? c.h2_max : T(h * h);
   }
-  if (mode != YawMode::kDifferential) a.steering_rad = detail::angle_of(c, h, a);
+  if (mode != YawMode::kDifferential) a.steering_rad = detail::angle_of(c, h, h2, a);
 }
 
 /// The same from the limits themselves, where the time of a step does not matter.

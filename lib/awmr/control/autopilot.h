@@ -37,6 +37,7 @@ struct Autopilot {
   PreparedController<float, G> controller;
   SafetyLimits limits;
   Waypoints<float> waypoints;        ///< count 0: none to follow
+  float acceptance_m2;               ///< the square of waypoints.acceptance_m
   WaypointProgress<float> progress;  ///< valid once is_leg_started
   uint32_t last_step_ms;             ///< valid once has_stepped
   bool has_stepped;                  ///< a step was made since the start
@@ -47,17 +48,16 @@ struct Autopilot {
 /// The resistance in the form that the firmware was compiled for: from the block's table, or from
 /// the block's alpha and beta.
 inline void set_resistance(const TableShape* shape, const float* /*alpha_beta*/,
-                           const float* values, ResistanceTable& table) {
+                           const ResistanceLine* lines, ResistanceTable& table) {
   TableShape read;
   read_flash(shape, read);
-  table.values = values;
+  table.lines = lines;
   table.count = static_cast<uint16_t>(read.count);
   table.first = static_cast<uint16_t>(read.first);
   table.mantissa_bits = static_cast<uint8_t>(read.mantissa_bits);
-  table.slope_at_rest = read.slope_at_rest;
 }
 inline void set_resistance(const TableShape* /*shape*/, const float* alpha_beta,
-                           const float* /*values*/, Resistance<float>& law) {
+                           const ResistanceLine* /*lines*/, Resistance<float>& law) {
   law.alpha = flash_float(alpha_beta);
   law.beta = flash_float(alpha_beta + 1);
   law.rest_speed = 0.0F;
@@ -65,19 +65,20 @@ inline void set_resistance(const TableShape* /*shape*/, const float* alpha_beta,
 
 /// Reads the parameters and checks them against `crc`, the check sum that they were emitted with.
 /// Where they differ it returns false, and every step from then on gives the safe command only. On
-/// an AVR the block and the values lie in flash.
+/// an AVR the block and the lines lie in flash.
 template <class G>
-bool start_autopilot(Autopilot<G>& a, const ParameterBlock* block, const float* surge_values,
-                     size_t surge_count, const float* yaw_values, size_t yaw_count, uint32_t crc) {
+bool start_autopilot(Autopilot<G>& a, const ParameterBlock* block,
+                     const ResistanceLine* surge_lines, size_t surge_count,
+                     const ResistanceLine* yaw_lines, size_t yaw_count, uint32_t crc) {
   PreparedController<float, G>& c = a.controller;
   read_flash(&block->constants, c.constants);
-  set_resistance(&block->surge_table, block->surge_alpha_beta, surge_values, c.surge);
-  set_resistance(&block->yaw_table, block->yaw_alpha_beta, yaw_values, c.yaw);
+  set_resistance(&block->surge_table, block->surge_alpha_beta, surge_lines, c.surge);
+  set_resistance(&block->yaw_table, block->yaw_alpha_beta, yaw_lines, c.yaw);
   read_flash(&block->safety, a.limits);
   a.waypoints.count = 0;
   a.has_stepped = false;
   a.are_parameters_good =
-      crc32_of_parameters(block, surge_values, surge_count, yaw_values, yaw_count) == crc;
+      crc32_of_parameters(block, surge_lines, surge_count, yaw_lines, yaw_count) == crc;
   return a.are_parameters_good;
 }
 
@@ -86,6 +87,7 @@ bool start_autopilot(Autopilot<G>& a, const ParameterBlock* block, const float* 
 template <class G>
 void follow_waypoints(Autopilot<G>& a, const Waypoints<float>& waypoints) {
   a.waypoints = waypoints;
+  a.acceptance_m2 = waypoints.acceptance_m * waypoints.acceptance_m;
   a.is_leg_started = false;
 }
 
@@ -96,7 +98,7 @@ constexpr float kPositionMax = 1e6F;
 
 /// kFaultStepLate where the step before was too long ago; the first step has none before it.
 template <class G>
-uint8_t check_period(Autopilot<G>& a, uint32_t now_ms) {
+AWMR_INLINE uint8_t check_period(Autopilot<G>& a, uint32_t now_ms) {
   const bool late = a.has_stepped && is_older(now_ms, a.last_step_ms, a.limits.step_timeout_ms);
   a.last_step_ms = now_ms;
   a.has_stepped = true;
@@ -105,7 +107,7 @@ uint8_t check_period(Autopilot<G>& a, uint32_t now_ms) {
 
 /// The faults of one step's input.
 template <class G>
-uint8_t check_input(Autopilot<G>& a, const AutopilotInput& in) {
+AWMR_INLINE uint8_t check_input(Autopilot<G>& a, const AutopilotInput& in) {
   unsigned fault = a.are_parameters_good ? kFaultNone : kFaultParameters;
   if (in.mode > static_cast<uint8_t>(YawMode::kCombined)) fault |= kFaultRange;
   fault |= check_measurement(a.limits, in.measured);
@@ -119,22 +121,23 @@ uint8_t check_input(Autopilot<G>& a, const AutopilotInput& in) {
   return static_cast<uint8_t>(fault);
 }
 
-/// The reference with the heading that the waypoints lead to.
+/// The heading that the waypoints lead to.
 template <class G>
-Reference<float> led(Autopilot<G>& a, const AutopilotInput& in, bool& arrived) {
+AWMR_INLINE float led(Autopilot<G>& a, const AutopilotInput& in, bool& arrived) {
   if (!a.is_leg_started) {
     a.progress = start_waypoints(in.position_m, in.measured.psi_rad);
     a.is_leg_started = true;
   }
-  const WaypointGuidance<float> guidance = guide(a.waypoints, in.position_m, a.progress);
+  const WaypointGuidance<float> guidance =
+      guide(a.waypoints, a.acceptance_m2, in.position_m, a.progress);
   arrived = guidance.finished;
-  return {guidance.psi_rad, 0.0F, 0.0F, in.reference.speed_mps, in.reference.accel_mps2};
+  return guidance.psi_rad;
 }
 
 /// The laws and the allocation for a reference.
 template <class G>
-void control(Autopilot<G>& a, const AutopilotInput& in, const Reference<float>& ref,
-             AutopilotOutput& out) {
+AWMR_INLINE void control(Autopilot<G>& a, const AutopilotInput& in, const Reference<float>& ref,
+                         AutopilotOutput& out) {
   out.psi_ref_rad = ref.psi_rad;
   out.tau_speed = speed_law(a.controller, in.measured, ref);
   out.tau_turn_m = heading_law(a.controller, in.measured, ref);
@@ -151,11 +154,13 @@ void autopilot_step(Autopilot<G>& a, const AutopilotInput& in, AutopilotOutput& 
   out.arrived = false;
   out.fault = detail::check_input(a, in);
   if (out.fault == kFaultNone) {
+    Reference<float> ref = in.reference;
     if (a.waypoints.count > 0) {
-      detail::control(a, in, detail::led(a, in, out.arrived), out);
-    } else {
-      detail::control(a, in, in.reference, out);
+      ref.psi_rad = detail::led(a, in, out.arrived);
+      ref.psi_rate_radps = 0.0F;
+      ref.psi_accel_radps2 = 0.0F;
     }
+    detail::control(a, in, ref, out);
     if (is_within_limits(a.controller.constants.allocation, out.command)) return;
     out.fault = kFaultOutput;
   }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "awmr/control/allocation.h"
+#include "awmr/control/flash.h"
 #include "awmr/control/yaw_mode.h"
 #include "awmr/core/units.h"
 #include "awmr/model/gains.h"
@@ -75,17 +76,19 @@ inline float wrap_angle(float angle_rad) {
   return float_math::wrapped(angle_rad);
 }
 
-/// What the laws and the allocation need of model, gains and limits, computed once. It has members
-/// of type T only, so that it has no padding and a check sum can go over it.
+/// What the laws and the allocation need of model, gains and limits, computed once, with m' and I'z
+/// multiplied in. It has members of type T only, so that it has no padding and a check sum can go
+/// over it.
 template <class T>
 struct ControlConstants {
   T mass_norm;      ///< m', s^2/m
   T inertia_norm;   ///< I'z, s^2 m
   T lambda;         ///< lambda, 1/s
-  T heading_mu;     ///< mu, rad/s^2
-  T heading_slope;  ///< mu/epsilon, 1/s
-  T speed_mu;       ///< mu_s, m/s^2
-  T speed_slope;    ///< mu_s/eps_s, 1/s
+  T heading_rate;   ///< I'z lambda, s m
+  T heading_slope;  ///< I'z mu/epsilon, s m
+  T heading_limit;  ///< I'z mu, m
+  T speed_slope;    ///< m' mu_s/eps_s, s/m
+  T speed_limit;    ///< m' mu_s, dimensionless
   AllocationConstants<T> allocation;
 };
 
@@ -100,11 +103,14 @@ struct PreparedController {
 /// The controller with its constants computed.
 template <class T, class G>
 PreparedController<T, G> prepared(const Controller<T, G>& c) {
-  return {c.surge,
-          c.yaw,
-          {c.mass_norm, c.inertia_norm, c.gains.heading.lambda, c.gains.heading.mu,
-           c.gains.heading.mu / c.gains.heading.epsilon, c.gains.speed.mu,
-           c.gains.speed.mu / c.gains.speed.epsilon, prepared(c.limits)}};
+  return {
+      c.surge,
+      c.yaw,
+      {c.mass_norm, c.inertia_norm, c.gains.heading.lambda, c.inertia_norm * c.gains.heading.lambda,
+       c.inertia_norm * (c.gains.heading.mu / c.gains.heading.epsilon),
+       c.inertia_norm * c.gains.heading.mu,
+       c.mass_norm * (c.gains.speed.mu / c.gains.speed.epsilon), c.mass_norm * c.gains.speed.mu,
+       prepared(c.limits)}};
 }
 
 /// The resistance that a law adds to its command, at the speed w:
@@ -142,19 +148,28 @@ T sliding_surface(const HeadingGains<T>& gains, const Measurement<T>& m, const R
 /// printed law also subtracts the disturbance, which nobody knows: it drops out, and mu has to
 /// dominate it.
 template <class T, class G>
-T heading_law(const PreparedController<T, G>& c, const Measurement<T>& m, const Reference<T>& ref) {
-  const ControlConstants<T>& k = c.constants;
-  const T error_rate = ref.psi_rate_radps - m.r_radps;
-  const T s = error_rate + k.lambda * wrap_angle(ref.psi_rad - m.psi_rad);
-  // mu sat(S/eps) = sat(S mu/eps, mu)
-  const T correction = math::saturate(k.heading_slope * s, k.heading_mu);
-  return fed_forward(c.yaw, m.r_radps, s) +
-         k.inertia_norm * (ref.psi_accel_radps2 + k.lambda * error_rate + correction);
-}
-/// The same from the controller itself, where the time of a step does not matter.
-template <class T, class G>
 T heading_law(const Controller<T, G>& c, const Measurement<T>& m, const Reference<T>& ref) {
-  return heading_law(prepared(c), m, ref);
+  const HeadingGains<T>& gains = c.gains.heading;
+  const T error_rate = ref.psi_rate_radps - m.r_radps;
+  const T s = error_rate + gains.lambda * wrap_angle(ref.psi_rad - m.psi_rad);
+  // mu sat(S/eps) = sat(S mu/eps, mu)
+  const T correction = math::saturate(T(gains.mu / gains.epsilon * s), gains.mu);
+  return fed_forward(c.yaw, m.r_radps, s) +
+         c.inertia_norm * (ref.psi_accel_radps2 + gains.lambda * error_rate + correction);
+}
+
+/// The same by the constants of the chip, where each operation counts:
+///   tau_turn = g3(r) + I'z lambda (psi_d_dot - r) + sat(S I'z mu/eps, I'z mu) + I'z psi_d_ddot
+/// without those that a heading that is held does not need.
+template <class T, class G>
+AWMR_INLINE T heading_law(const PreparedController<T, G>& c, const Measurement<T>& m,
+                          const Reference<T>& ref) {
+  const ControlConstants<T>& k = c.constants;
+  const T error_rate = math::difference(ref.psi_rate_radps, m.r_radps);
+  const T s = error_rate + k.lambda * wrap_angle(ref.psi_rad - m.psi_rad);
+  const T correction = math::saturate(T(k.heading_slope * s), k.heading_limit);
+  const T held = fed_forward(c.yaw, m.r_radps, s) + (k.heading_rate * error_rate + correction);
+  return math::plus_product(held, k.inertia_norm, ref.psi_accel_radps2);
 }
 
 /// The speed law, dimensionless:
@@ -163,30 +178,35 @@ T heading_law(const Controller<T, G>& c, const Measurement<T>& m, const Referenc
 /// Corrected: (100)-(102) are printed without u_d_dot, which (99) has; the disturbance drops out as
 /// in the heading law.
 template <class T, class G>
-T speed_law(const PreparedController<T, G>& c, const Measurement<T>& m, const Reference<T>& ref) {
+T speed_law(const Controller<T, G>& c, const Measurement<T>& m, const Reference<T>& ref) {
+  const SpeedGains<T>& gains = c.gains.speed;
+  const T error = ref.speed_mps - m.u_mps;
+  const T correction = math::saturate(T(gains.mu / gains.epsilon * error), gains.mu);
+  return fed_forward(c.surge, m.u_mps, error) +
+         c.mass_norm * (ref.accel_mps2 + correction - m.r_radps * m.v_mps);
+}
+
+/// The same by the constants of the chip:
+///   tau_speed = g1(u) + m' (u_d_dot - r v) + sat(e_u m' mu_s/eps_s, m' mu_s)
+template <class T, class G>
+AWMR_INLINE T speed_law(const PreparedController<T, G>& c, const Measurement<T>& m,
+                        const Reference<T>& ref) {
   const ControlConstants<T>& k = c.constants;
   const T error = ref.speed_mps - m.u_mps;
-  const T correction = math::saturate(k.speed_slope * error, k.speed_mu);
-  return fed_forward(c.surge, m.u_mps, error) +
-         k.mass_norm * (ref.accel_mps2 + correction - m.r_radps * m.v_mps);
-}
-/// The same from the controller itself, where the time of a step does not matter.
-template <class T, class G>
-T speed_law(const Controller<T, G>& c, const Measurement<T>& m, const Reference<T>& ref) {
-  return speed_law(prepared(c), m, ref);
+  const T correction = math::saturate(T(k.speed_slope * error), k.speed_limit);
+  const T accel_mps2 = math::difference(ref.accel_mps2, T(m.r_radps * m.v_mps));
+  return fed_forward(c.surge, m.u_mps, error) + (k.mass_norm * accel_mps2 + correction);
 }
 
 /// Both laws and the allocation, for one sample.
 template <class T, class G>
 Command<T> control_step(const Controller<T, G>& c, YawMode mode, const Measurement<T>& m,
                         const Reference<T>& ref) {
-  const PreparedController<T, G> ready = prepared(c);
   Command<T> command{};
-  command.tau_speed = speed_law(ready, m, ref);
-  command.tau_turn_m = heading_law(ready, m, ref);
+  command.tau_speed = speed_law(c, m, ref);
+  command.tau_turn_m = heading_law(c, m, ref);
   command.sliding_radps = sliding_surface(c.gains.heading, m, ref);
-  allocate(mode, command.tau_speed, command.tau_turn_m, ready.constants.allocation, c.limits.split,
-           command.allocation);
+  command.allocation = allocate(mode, command.tau_speed, command.tau_turn_m, c.limits);
   return command;
 }
 

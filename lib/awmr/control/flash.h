@@ -6,14 +6,17 @@
 #include <string.h>
 
 /// AWMR_IN_FLASH: a constant that takes no RAM. AWMR_SHARED: a function called from several places
-/// that is not to be copied into each.
+/// that is not to be copied into each. AWMR_INLINE: a template called from one place only, which
+/// the compiler would call all the same, as another file might instantiate it too.
 #ifdef __AVR__
 #include <avr/pgmspace.h>
 #define AWMR_IN_FLASH PROGMEM
 #define AWMR_SHARED __attribute__((noinline))
+#define AWMR_INLINE inline __attribute__((always_inline))
 #else
 #define AWMR_IN_FLASH
 #define AWMR_SHARED
+#define AWMR_INLINE inline
 #endif
 
 namespace awmr {

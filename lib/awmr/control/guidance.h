@@ -4,6 +4,7 @@
 /// guidance_obstacles.h, heading reference shaping in guidance_shaping.h.
 #pragma once
 
+#include "awmr/control/flash.h"
 #include "awmr/core/units.h"
 #include "awmr/model/scalar_math.h"
 
@@ -31,13 +32,34 @@ T distance_m(const Position<T>& a, const Position<T>& b) {
   return sqrt(squared_distance_m2(a, b));
 }
 
-/// The direction from `from` to `to`, in (-pi, pi]; `otherwise_rad` where the points coincide and
-/// have none.
+/// Points that are nearer than this to each other, m, have no direction between them.
 template <class T>
-T direction_rad(const Position<T>& from, const Position<T>& to, const T& otherwise_rad) {
-  using math::atan2;
-  if (!(squared_distance_m2(from, to) > T(0.0))) return otherwise_rad;
-  return atan2(to.y_m - from.y_m, to.x_m - from.x_m);
+constexpr T coincident_m() {
+  return T(1e-20);
+}
+
+/// Where a point lies as seen from another one, both along the world's axes.
+template <class T>
+Position<T> seen_from(const Position<T>& from, const Position<T>& point) {
+  return {point.x_m - from.x_m, point.y_m - from.y_m};
+}
+
+/// True where a point at `away_m` is not farther than `radius_m`, whose square is `radius_m2`.
+/// Outside of the square around the circle no product is needed.
+template <class T>
+AWMR_INLINE bool is_reached(const Position<T>& away_m, const T& radius_m, const T& radius_m2) {
+  if (math::is_beyond(away_m.x_m, radius_m) || math::is_beyond(away_m.y_m, radius_m)) return false;
+  return !math::is_above(T(away_m.x_m * away_m.x_m + away_m.y_m * away_m.y_m), radius_m2);
+}
+
+/// The direction to a point at `away_m`, in (-pi, pi]; `otherwise_rad` where it is here.
+template <class T>
+AWMR_INLINE T direction_rad(const Position<T>& away_m, const T& otherwise_rad) {
+  const T here = coincident_m<T>();
+  if (!math::is_beyond(away_m.x_m, here) && !math::is_beyond(away_m.y_m, here)) {
+    return otherwise_rad;
+  }
+  return math::bearing(away_m.y_m, away_m.x_m);
 }
 
 /// Points to go to, one after the other.
@@ -89,24 +111,34 @@ bool is_past(const Position<T>& position_m, const Position<T>& leg_start_m,
 /// Corrected: the printed differences point from the waypoint to the vehicle.
 ///
 /// Points that coincide, or lie within the acceptance radius of each other, are reached in the same
-/// step. With no points the guidance is finished at once and the heading held.
+/// step. With no points the guidance is finished at once and the heading held. `acceptance_m2` is
+/// the square of Waypoints::acceptance_m.
 template <class T>
-WaypointGuidance<T> guide(const Waypoints<T>& waypoints, const Position<T>& position_m,
-                          WaypointProgress<T>& progress) {
-  const T acceptance_m2 = waypoints.acceptance_m * waypoints.acceptance_m;
+AWMR_INLINE WaypointGuidance<T> guide(const Waypoints<T>& waypoints, const T& acceptance_m2,
+                                      const Position<T>& position_m,
+                                      WaypointProgress<T>& progress) {
   while (progress.next < waypoints.count) {
     const Position<T>& target = waypoints.points_m[progress.next];
-    const bool reached = !(squared_distance_m2(position_m, target) > acceptance_m2);
+    const Position<T> away_m = seen_from(position_m, target);
+    const bool reached = is_reached(away_m, waypoints.acceptance_m, acceptance_m2);
     const bool missed =
         !reached && waypoints.skip_passed && is_past(position_m, progress.leg_start_m, target);
-    if (!reached && !missed) break;
+    if (!reached && !missed) {
+      progress.psi_rad = direction_rad(away_m, progress.psi_rad);
+      return {progress.psi_rad, false};
+    }
     if (missed) ++progress.missed;
     progress.leg_start_m = target;
     ++progress.next;
   }
-  if (progress.next >= waypoints.count) return {progress.psi_rad, true};
-  progress.psi_rad = direction_rad(position_m, waypoints.points_m[progress.next], progress.psi_rad);
-  return {progress.psi_rad, false};
+  return {progress.psi_rad, true};
+}
+/// The same, where the time of a step does not matter.
+template <class T>
+WaypointGuidance<T> guide(const Waypoints<T>& waypoints, const Position<T>& position_m,
+                          WaypointProgress<T>& progress) {
+  const T acceptance_m2 = waypoints.acceptance_m * waypoints.acceptance_m;
+  return guide(waypoints, acceptance_m2, position_m, progress);
 }
 
 }  // namespace awmr

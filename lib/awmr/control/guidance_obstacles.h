@@ -141,7 +141,7 @@ struct Surroundings {
     if (!counts) return {T(0.0), T(0.0), false};
     const T inside = math::clamp((mmd_m - free_m) / mmd_m, T(0.0), T(1.0));
     const T tangent = free_m > T(0.0) ? arc_sine(grown_m / centre_m) : pi<T>() / T(2.0);
-    return {direction_rad(position_m, obstacle.centre_m, psi_rad),
+    return {direction_rad(seen_from(position_m, obstacle.centre_m), psi_rad),
             tangent + avoidance.sigma_rad * inside, true};
   }
 
@@ -177,7 +177,7 @@ struct Surroundings {
       const T grown_m =
           obstacles[i].radius_m + avoidance.vehicle_radius_m + avoidance.clearance_m / T(2.0);
       const T centre_m = distance_m(position_m, obstacles[i].centre_m);
-      const T off = direction_rad(position_m, obstacles[i].centre_m, psi_rad) - psi_rad;
+      const T off = direction_rad(seen_from(position_m, obstacles[i].centre_m), psi_rad) - psi_rad;
       const T along_m = centre_m * cos(off);
       const T beside_m = centre_m * sin(off);
       if (!(along_m > T(0.0)) || !(beside_m * beside_m < grown_m * grown_m)) continue;

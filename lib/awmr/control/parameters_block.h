@@ -7,16 +7,16 @@
 #include "awmr/control/controller.h"
 #include "awmr/control/crc.h"
 #include "awmr/control/flash.h"
+#include "awmr/control/resistance_table.h"
 #include "awmr/control/safety.h"
 
 namespace awmr {
 
-/// Where the entries of a ResistanceTable lie; its members say what each of these is.
+/// Where the cells of a ResistanceTable lie; its members say what each of these is.
 struct TableShape {
-  uint32_t count;          ///< entries; 0: there is no table, the power law is computed by powf
+  uint32_t count;          ///< lines; 0: there is no table, the power law is computed by powf
   uint32_t first;          ///< ResistanceTable::first
   uint32_t mantissa_bits;  ///< ResistanceTable::mantissa_bits
-  float slope_at_rest;     ///< ResistanceTable::slope_at_rest
 };
 
 /// All parameters of the firmware. It has 32-bit members only and so no padding: its bytes, and the
@@ -37,13 +37,14 @@ inline uint32_t crc32_of_flash(uint32_t crc, const void* address, size_t size) {
   return crc;
 }
 
-/// The check sum of the firmware's parameters: CRC-32 of the block, the surge table's values and
-/// the yaw table's, in this order.
-inline uint32_t crc32_of_parameters(const ParameterBlock* block, const float* surge_values,
-                                    size_t surge_count, const float* yaw_values, size_t yaw_count) {
+/// The check sum of the firmware's parameters: CRC-32 of the block, the surge table's lines and the
+/// yaw table's, in this order.
+inline uint32_t crc32_of_parameters(const ParameterBlock* block, const ResistanceLine* surge_lines,
+                                    size_t surge_count, const ResistanceLine* yaw_lines,
+                                    size_t yaw_count) {
   uint32_t crc = crc32_of_flash(kCrc32Start, block, sizeof *block);
-  crc = crc32_of_flash(crc, surge_values, surge_count * sizeof(float));
-  return ~crc32_of_flash(crc, yaw_values, yaw_count * sizeof(float));
+  crc = crc32_of_flash(crc, surge_lines, surge_count * sizeof(ResistanceLine));
+  return ~crc32_of_flash(crc, yaw_lines, yaw_count * sizeof(ResistanceLine));
 }
 
 }  // namespace awmr

@@ -1,9 +1,10 @@
 /// A resistance as a table: what the chip uses instead of powf. Freestanding C++14.
 ///
-/// The entries lie at the speeds that a float's exponent and its leading m mantissa bits name: 2^m
-/// of them to an octave, evenly spaced in it. So the error follows the curve's own scale, and an
-/// index is a shift of the float's bits, without a logarithm. Between two entries the curve is
-/// their chord, and below the first entry the chord to the origin. It is odd: g(-w) = -g(w).
+/// A cell holds the speeds that share a float's exponent and its leading m mantissa bits: 2^m cells
+/// to an octave, evenly spaced in it. So the error follows the curve's own scale, and an index is a
+/// shift of the float's bits, without a logarithm. In a cell the curve is the chord between its two
+/// ends, held as a line: one multiplication and one addition. Below the first cell it is the chord
+/// to the origin. It is odd: g(-w) = -g(w).
 #pragma once
 
 #include <stdint.h>
@@ -13,35 +14,36 @@
 
 namespace awmr {
 
-/// A view of a table: the values are not owned.
-struct ResistanceTable {
-  const float* values;    ///< g at the entries, in its own unit, ascending; in flash on an AVR
-  uint16_t count;         ///< of entries, >= 2
-  uint16_t first;         ///< cell_of() of the first entry's speed
-  uint8_t mantissa_bits;  ///< m, in [0, 7]
-  float slope_at_rest;    ///< g(w)/w at the first entry
+/// g(w) = offset + slope w for the speeds w >= 0 of a cell. It has no padding: a check sum can go
+/// over it.
+struct ResistanceLine {
+  float slope;   ///< in the unit of g over that of w
+  float offset;  ///< in the unit of g
+};
 
-  /// The exponent and the leading mantissa bits of a magnitude, as one number.
-  static uint16_t cell_of(uint32_t magnitude_bits, uint8_t mantissa_bits) {
-    return static_cast<uint16_t>(static_cast<uint16_t>(magnitude_bits >> 16U) >>
-                                 (7U - mantissa_bits));
+/// A view of a table: the lines are not owned.
+struct ResistanceTable {
+  /// In flash on an AVR. The first is the chord to the origin, below all cells; then one for each
+  /// cell, ascending.
+  const ResistanceLine* lines;
+  uint16_t count;         ///< of lines, >= 2
+  uint16_t first;         ///< cell_of() of the speeds of lines[1]
+  uint8_t mantissa_bits;  ///< m, in [0, 7]
+
+  /// The exponent and the leading mantissa bits of a speed, as one number.
+  static uint16_t cell_of(float speed, uint8_t mantissa_bits) {
+    return static_cast<uint16_t>(float_math::leading_bits(speed) >> (7U - mantissa_bits));
   }
 
-  /// g(speed), speed in m/s or rad/s. Beyond the last entry and for NaN the result is NaN: a caller
+  /// g(speed), speed in m/s or rad/s. Beyond the last cell and for NaN the result is NaN: a caller
   /// checks the range first.
   float operator()(const float& speed) const {
-    const uint32_t magnitude = float_math::magnitude_bits(speed);
-    const uint16_t cell = cell_of(magnitude, mantissa_bits);
-    if (cell < first) return slope_at_rest * speed;
-    const uint16_t index = static_cast<uint16_t>(cell - first);
-    if (index + 1 >= count) return float_math::not_a_number();
-    const float low = flash_float(values + index);
-    const float high = flash_float(values + index + 1);
-    // The mantissa's other bits tell the place t in [0, 1) inside the cell; as the mantissa of a
-    // float between 1 and 2 they make 1 + t, without rounding.
-    const float one_plus_t = float_of(((magnitude << mantissa_bits) & 0x007FFFFFUL) | 0x3F800000UL);
-    const float value = low + (one_plus_t - 1.0F) * (high - low);
-    return bits_of(speed) >> 31U != 0 ? -value : value;
+    const uint16_t cell = cell_of(speed, mantissa_bits);
+    const uint16_t index = cell < first ? 0U : static_cast<uint16_t>(cell - first + 1U);
+    if (index >= count) return float_math::not_a_number();
+    const float slope = flash_float(&lines[index].slope);
+    const float offset = flash_float(&lines[index].offset);
+    return slope * speed + (bits_of(speed) >> 31U != 0 ? -offset : offset);
   }
 };
 

@@ -55,10 +55,15 @@ namespace detail {
 /// kFaultNotFinite where the value is infinite or NaN, kFaultRange where |value| > largest, else
 /// kFaultNone. It compares bits, which order as the magnitudes do; on the chip that costs a tenth
 /// of a comparison of floats.
-AWMR_SHARED inline uint8_t check_magnitude(float value, float largest) {
+AWMR_SHARED inline uint8_t check_magnitude_at_edge(float value, float largest) {
   const uint32_t magnitude = float_math::magnitude_bits(value);
   if (magnitude >= float_math::kInfinityBits) return kFaultNotFinite;
   return magnitude > bits_of(largest) ? kFaultRange : kFaultNone;
+}
+/// The same, most often by the leading halves alone.
+inline uint8_t check_magnitude(float value, float largest) {
+  if (float_math::leading_bits(value) < float_math::leading_bits(largest)) return kFaultNone;
+  return check_magnitude_at_edge(value, largest);
 }
 
 /// True where `then_ms` lies more than `limit_ms` before `now_ms`; the difference is right across
@@ -109,6 +114,7 @@ inline uint8_t check_times(const SafetyLimits& limits, const InputTimes& times) 
 namespace detail {
 /// lo <= value <= hi; false for NaN.
 inline bool is_between(float value, float lo, float hi) {
+  if (float_math::is_inside(value, lo, hi)) return true;
   const int32_t order = float_math::order_of(value);
   return !float_math::is_nan(value) && order >= float_math::order_of(lo) &&
          order <= float_math::order_of(hi);

@@ -28,19 +28,18 @@ constexpr std::string_view kIntro =
 #define AWMR_SPEED_TIMEOUT_MS {}UL
 #define AWMR_COMMAND_TIMEOUT_MS {}UL
 #define AWMR_STEP_TIMEOUT_MS {}UL
-/* CRC-32 of the parameter block and the tables' values, as they lie in flash */
+/* CRC-32 of the parameter block and the tables' lines, as they lie in flash */
 #define AWMR_PARAMETERS_CRC32 0x{:08X}UL
 )";
 
 constexpr std::string_view kTable = R"(
-/* {} resistance: {} values, {} to an octave from {:g} to {:g} {}, the chord to the origin below.
+/* {} resistance: {} lines as slope, offset: the chord to the origin, then {} to an octave from {:g} to {:g} {}.
    Worst error, measured in float32 at 64 places of each cell: {:.2e} {} where the resistance is below
    {:g} (bound {:.2e}), a share of {:.2e} of it above (bound {:.2e}). */
 #define {}_COUNT {}
 #define {}_FIRST {}
 #define {}_MANTISSA_BITS {}
-#define {}_SLOPE_AT_REST {}
-#define {}_VALUES {{ \
+#define {}_LINES {{ \
 )";
 
 struct TableText {
@@ -53,15 +52,15 @@ struct TableText {
 std::string table_text(const EmittedTable& table, const TableText& names, double error_share) {
   const std::string_view macro = names.macro;
   std::string text = fmt::format(
-      kTable, names.title, table.values.size(), 1 << table.mantissa_bits, table.lowest_speed,
+      kTable, names.title, table.lines.size(), 1 << table.mantissa_bits, table.lowest_speed,
       table.top_speed, names.speed_unit, table.worst_error, names.unit, table.split,
-      error_share * table.split, table.worst_relative_error, error_share, macro,
-      table.values.size(), macro, table.first, macro, table.mantissa_bits, macro,
-      float_literal(static_cast<double>(table.slope_at_rest)), macro);
-  for (std::size_t i = 0; i < table.values.size(); ++i) {
-    const bool last = i + 1 == table.values.size();
-    text += fmt::format("  {}{} \\\n", float_literal(static_cast<double>(table.values[i])),
-                        last ? "" : ",");
+      error_share * table.split, table.worst_relative_error, error_share, macro, table.lines.size(),
+      macro, table.first, macro, table.mantissa_bits, macro);
+  for (std::size_t i = 0; i < table.lines.size(); ++i) {
+    const bool last = i + 1 == table.lines.size();
+    text +=
+        fmt::format("  {{{}, {}}}{} \\\n", float_literal(static_cast<double>(table.lines[i].slope)),
+                    float_literal(static_cast<double>(table.lines[i].offset)), last ? "" : ",");
   }
   return text + "}\n";
 }

@@ -20,8 +20,7 @@ std::uint32_t default_step_timeout_ms(double sample_time_s) {
 }
 
 TableShape shape_of(const EmittedTable& table) {
-  return {static_cast<std::uint32_t>(table.values.size()), table.first, table.mantissa_bits,
-          table.slope_at_rest};
+  return {static_cast<std::uint32_t>(table.lines.size()), table.first, table.mantissa_bits};
 }
 
 /// The value as a float of the chip; -0 becomes 0.
@@ -144,9 +143,9 @@ Result<AutopilotParameters> autopilot_parameters(const Model& model, const Gains
   if (options.resistance == ResistanceForm::kTable) {
     AWMR_RETURN_IF_ERROR(add_tables(surge, yaw, parameters));
   }
-  parameters.crc = crc32_of_parameters(&parameters.block, parameters.surge.values.data(),
-                                       parameters.surge.values.size(), parameters.yaw.values.data(),
-                                       parameters.yaw.values.size());
+  parameters.crc = crc32_of_parameters(&parameters.block, parameters.surge.lines.data(),
+                                       parameters.surge.lines.size(), parameters.yaw.lines.data(),
+                                       parameters.yaw.lines.size());
   return parameters;
 }
 

@@ -62,17 +62,16 @@ struct EmitOptions {
 
 /// A resistance table and how far it is from the law. Speeds are in m/s for g1, in rad/s for g3.
 struct EmittedTable {
-  std::vector<float> values;          ///< ResistanceTable::values
+  std::vector<ResistanceLine> lines;  ///< ResistanceTable::lines
   std::uint16_t first = 0;            ///< ResistanceTable::first
   std::uint8_t mantissa_bits = 0;     ///< ResistanceTable::mantissa_bits
-  float slope_at_rest = 0.0F;         ///< ResistanceTable::slope_at_rest
-  double lowest_speed = 0.0;          ///< of the first entry; below it the chord to the origin
-  double top_speed = 0.0;             ///< of the last entry
+  double lowest_speed = 0.0;          ///< of the first cell; below it the chord to the origin
+  double top_speed = 0.0;             ///< at the end of the last cell
   double split = 0.0;                 ///< a tenth of the largest force or moment, in the unit of g
   double worst_error = 0.0;           ///< where g is below `split`: absolute, in the unit of g
   double worst_relative_error = 0.0;  ///< where g is above `split`: a share of g
 
-  /// The table as the chip reads it. It refers to this object's values.
+  /// The table as the chip reads it. It refers to this object's lines.
   ResistanceTable view() const;
 };
 
@@ -80,8 +79,8 @@ struct EmittedTable {
 struct AutopilotParameters {
   ParameterBlock block{};
   float steering_max_tan_half = 0.0F;                  ///< tan(d_max/2)
-  EmittedTable surge;                                  ///< of g1; without values for kPowf
-  EmittedTable yaw;                                    ///< of g3; without values for kPowf
+  EmittedTable surge;                                  ///< of g1; without lines for kPowf
+  EmittedTable yaw;                                    ///< of g3; without lines for kPowf
   ResistanceForm resistance = ResistanceForm::kTable;  ///< as in EmitOptions
   double table_error = 0.0;                            ///< as in EmitOptions
   std::uint32_t crc = 0;                               ///< crc32_of_parameters() of all of it

@@ -14,25 +14,33 @@ namespace {
 
 constexpr int kMaxMantissaBits = 7;
 constexpr int kLowestExponent = -20;  ///< first entry at 2^-20 = 1e-6 m/s or rad/s or above
-constexpr int kMaxEntries = 1024;     ///< 4 KiB of flash
+constexpr int kMaxLines = 1024;       ///< 8 KiB of flash
 constexpr int kSamplesPerCell = 64;
+
+/// The line through the law at two speeds; g(0) = 0.
+ResistanceLine chord(const ResistanceLaw& law, double from, double to) {
+  const double start = from > 0.0 ? law(from) : 0.0;
+  const double slope = (law(to) - start) / (to - from);
+  return {static_cast<float>(slope), static_cast<float>(start - slope * from) + 0.0F};
+}
 
 EmittedTable table_between(const ResistanceLaw& law, int lowest_exponent, int top_exponent,
                            int mantissa_bits) {
   EmittedTable table;
   table.mantissa_bits = static_cast<std::uint8_t>(mantissa_bits);
   const int per_octave = 1 << mantissa_bits;
-  const int count = (top_exponent - lowest_exponent) * per_octave + 1;
-  for (int i = 0; i < count; ++i) {
-    const double speed = std::ldexp(1.0 + static_cast<double>(i % per_octave) / per_octave,
-                                    lowest_exponent + i / per_octave);
-    table.values.push_back(static_cast<float>(law(speed)));
+  const int cells = (top_exponent - lowest_exponent) * per_octave;
+  double from = 0.0;
+  for (int i = 0; i <= cells; ++i) {
+    const double to = std::ldexp(1.0 + static_cast<double>(i % per_octave) / per_octave,
+                                 lowest_exponent + i / per_octave);
+    table.lines.push_back(chord(law, from, to));
+    from = to;
   }
   table.lowest_speed = std::ldexp(1.0, lowest_exponent);
   table.top_speed = std::ldexp(1.0, top_exponent);
-  const auto lowest = static_cast<float>(table.lowest_speed);
-  table.first = ResistanceTable::cell_of(bits_of(lowest), table.mantissa_bits);
-  table.slope_at_rest = table.values.front() / lowest;
+  table.first =
+      ResistanceTable::cell_of(static_cast<float>(table.lowest_speed), table.mantissa_bits);
   return table;
 }
 
@@ -70,8 +78,7 @@ double worst_share(const EmittedTable& table) {
 }  // namespace
 
 ResistanceTable EmittedTable::view() const {
-  return {values.data(), static_cast<std::uint16_t>(values.size()), first, mantissa_bits,
-          slope_at_rest};
+  return {lines.data(), static_cast<std::uint16_t>(lines.size()), first, mantissa_bits};
 }
 
 double table_top(const ResistanceLaw& law, double full_scale) {
@@ -87,9 +94,9 @@ Result<EmittedTable> resistance_table(const std::string& name, const ResistanceL
   double least_share = HUGE_VAL;
   for (int bits = 0; bits <= kMaxMantissaBits; ++bits) {
     for (int lowest = top_exponent - 1; lowest >= kLowestExponent; --lowest) {
-      const int entries = (top_exponent - lowest) * (1 << bits) + 1;
-      if (entries > kMaxEntries) break;
-      if (!best.values.empty() && entries >= static_cast<int>(best.values.size())) break;
+      const int lines = (top_exponent - lowest) * (1 << bits) + 1;
+      if (lines > kMaxLines) break;
+      if (!best.lines.empty() && lines >= static_cast<int>(best.lines.size())) break;
       EmittedTable table = table_between(law, lowest, top_exponent, bits);
       table.split = 0.1 * full_scale;
       measure_all(law, table);
@@ -97,11 +104,11 @@ Result<EmittedTable> resistance_table(const std::string& name, const ResistanceL
       if (worst_share(table) <= error_share) best = std::move(table);
     }
   }
-  if (!best.values.empty()) return best;
+  if (!best.lines.empty()) return best;
   return refusal(
-      fmt::format("the {} resistance has no table of at most {} entries with an error below {}; "
+      fmt::format("the {} resistance has no table of at most {} lines with an error below {}; "
                   "the best has {:.2g}: allow a larger {}, or use {}",
-                  name, kMaxEntries, option_text(fmt::format("table-error {:g}", error_share)),
+                  name, kMaxLines, option_text(fmt::format("table-error {:g}", error_share)),
                   least_share, option_text("table-error"), option_text("resistance powf")));
 }
 

@@ -44,6 +44,22 @@ inline int32_t order_of(float x) {
 }
 inline bool is_nan(float x) { return magnitude_bits(x) > kInfinityBits; }
 
+/// The leading half of |x|: sign-free exponent and seven bits of mantissa. Where those of two
+/// magnitudes differ they order as the magnitudes do, for half the cycles.
+inline uint16_t leading_bits(float x) {
+  return static_cast<uint16_t>(bits_of(x) >> 16U) & static_cast<uint16_t>(0x7FFFU);
+}
+/// The same for order_of.
+inline int16_t leading_order_of(float x) {
+  const int16_t magnitude = static_cast<int16_t>(leading_bits(x));
+  return (bits_of(x) & 0x80000000UL) != 0 ? static_cast<int16_t>(-magnitude) : magnitude;
+}
+/// lo < x < hi, and their leading halves tell. False at the ends, near them, and for NaN.
+inline bool is_inside(float x, float lo, float hi) {
+  const int16_t order = leading_order_of(x);
+  return order > leading_order_of(lo) && order < leading_order_of(hi);
+}
+
 /// The largest angle, rad, that these functions take.
 constexpr float kAngleMax = 8192.0F;
 
@@ -152,10 +168,9 @@ inline float atan2(float y, float x) {
 /// atan x. Worst error 9e-7 of the value.
 inline float atan(float x) { return atan2(x, 1.0F); }
 
-/// 2 atan(2 h), the angle with tan(angle/2) = 2 h. Worst error 5e-7 of the value to 22.6 deg, 9e-7
-/// beyond.
-inline float twice_atan_of_twice(float h) {
-  const float z = h * h;
+/// 2 atan(2 h), the angle with tan(angle/2) = 2 h, of h and z = h^2. Worst error 5e-7 of the value
+/// to 22.6 deg, 9e-7 beyond.
+inline float twice_atan_of_twice(float h, float z) {
   // 0.1^2: |angle| <= 22.6 deg. h (4 + z P(z)) is within 3.4e-7 of the value before rounding.
   if (magnitude_bits(z) <= magnitude_bits(0.01F)) {
     return h * (4.0F + z * (-5.33182905F + z * 12.3080583F));
@@ -172,16 +187,17 @@ inline float wrapped(float x) {
   float rest = x;
   if (magnitude < bits_of(9.42477F)) {
     // Below 3 pi: one turn, the common case of a heading that is not wrapped itself.
-    rest = x > 0.0F ? x - 2.0F * kPi : x + 2.0F * kPi;
+    rest = bits_of(x) >> 31U == 0 ? x - 2.0F * kPi : x + 2.0F * kPi;
   } else {
     if (!(magnitude <= bits_of(kAngleMax))) return not_a_number();
     const float turns = static_cast<float>(nearest(x * 0.159154943F));
     // 2 pi in three parts, as in detail::reduced.
     rest = ((x - turns * 6.28125F) - turns * 1.93500518798828125e-3F) - turns * 3.01991598e-7F;
   }
-  if (rest > kPi) rest -= 2.0F * kPi;
-  if (!(rest > -kPi)) rest += 2.0F * kPi;
-  return rest;
+  // The rounding of the above may leave it a little outside.
+  if (magnitude_bits(rest) < bits_of(kPi)) return rest;
+  if (bits_of(rest) >> 31U != 0) return rest + 2.0F * kPi;
+  return magnitude_bits(rest) == bits_of(kPi) ? rest : rest - 2.0F * kPi;
 }
 
 }  // namespace float_math

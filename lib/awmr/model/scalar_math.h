@@ -7,6 +7,7 @@
 
 #include <math.h>
 
+#include "awmr/model/float_bearing.h"
 #include "awmr/model/float_math.h"
 
 namespace awmr {
@@ -41,6 +42,51 @@ inline float saturate(float x, float limit) {
   if (magnitude <= float_math::magnitude_bits(limit) || float_math::is_nan(x)) return x;
   return bits_of(x) >> 31U != 0 ? -limit : limit;
 }
+
+/// a - b. For float without the subtraction where a is 0, as it is of a reference that is held.
+template <class T>
+T difference(const T& a, const T& b) {
+  return a - b;
+}
+inline float difference(float a, float b) {
+  return float_math::magnitude_bits(a) == 0 ? -b : a - b;
+}
+
+/// a + b c. For float it is a where c is 0.
+template <class T>
+T plus_product(const T& a, const T& b, const T& c) {
+  return a + b * c;
+}
+inline float plus_product(float a, float b, float c) {
+  return float_math::magnitude_bits(c) == 0 ? a : a + b * c;
+}
+
+/// x > y. For float by the order of whole numbers, a third of the chip's cycles.
+template <class T>
+bool is_above(const T& x, const T& y) {
+  return x > y;
+}
+inline bool is_above(float x, float y) {
+  return float_math::order_of(x) > float_math::order_of(y) && !float_math::is_nan(x) &&
+         !float_math::is_nan(y);
+}
+
+/// |x| > limit, limit >= 0. For float by comparing bits, by which NaN lies beyond every limit.
+template <class T>
+bool is_beyond(const T& x, const T& limit) {
+  return x > limit || -x > limit;
+}
+inline bool is_beyond(float x, float limit) {
+  return float_math::magnitude_bits(x) > bits_of(limit);
+}
+
+/// The angle of (x, y) in (-pi, pi], for directions to steer by: atan2, and for float the bearing
+/// that costs the chip a third of it and is within 4.1e-5 rad.
+template <class T>
+T bearing(const T& y, const T& x) {
+  return atan2(y, x);
+}
+inline float bearing(float y, float x) { return float_math::bearing(y, x); }
 
 /// x inside [lo, hi], the nearer end outside; lo <= hi.
 template <class T>

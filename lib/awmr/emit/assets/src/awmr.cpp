@@ -9,20 +9,20 @@ namespace {
 
 #if AWMR_RESISTANCE_TABLE
 typedef awmr::ResistanceTable Resistance;
-const float kSurgeValues[] AWMR_IN_FLASH = AWMR_SURGE_TABLE_VALUES;
-const float kYawValues[] AWMR_IN_FLASH = AWMR_YAW_TABLE_VALUES;
+const awmr::ResistanceLine kSurgeLines[] AWMR_IN_FLASH = AWMR_SURGE_TABLE_LINES;
+const awmr::ResistanceLine kYawLines[] AWMR_IN_FLASH = AWMR_YAW_TABLE_LINES;
 const size_t kSurgeCount = AWMR_SURGE_TABLE_COUNT;
 const size_t kYawCount = AWMR_YAW_TABLE_COUNT;
 #define AWMR_TABLE_SHAPE(name) \
-  { name##_COUNT, name##_FIRST, name##_MANTISSA_BITS, name##_SLOPE_AT_REST }
+  { name##_COUNT, name##_FIRST, name##_MANTISSA_BITS }
 #else
 typedef awmr::Resistance<float> Resistance;
-const float* const kSurgeValues = 0;
-const float* const kYawValues = 0;
+const awmr::ResistanceLine* const kSurgeLines = 0;
+const awmr::ResistanceLine* const kYawLines = 0;
 const size_t kSurgeCount = 0;
 const size_t kYawCount = 0;
 #define AWMR_TABLE_SHAPE(name) \
-  { 0, 0, 0, 0.0f }
+  { 0, 0, 0 }
 #endif
 
 }  // namespace
@@ -35,13 +35,16 @@ const awmr::ParameterBlock awmr_parameters AWMR_IN_FLASH = {
     {AWMR_MASS_NORM,
      AWMR_INERTIA_NORM,
      AWMR_HEADING_LAMBDA,
-     AWMR_HEADING_MU,
-     AWMR_HEADING_MU / AWMR_HEADING_EPSILON,
-     AWMR_SPEED_MU,
-     AWMR_SPEED_MU / AWMR_SPEED_EPSILON,
+     AWMR_INERTIA_NORM * AWMR_HEADING_LAMBDA,
+     AWMR_INERTIA_NORM * (AWMR_HEADING_MU / AWMR_HEADING_EPSILON),
+     AWMR_INERTIA_NORM * AWMR_HEADING_MU,
+     AWMR_MASS_NORM * (AWMR_SPEED_MU / AWMR_SPEED_EPSILON),
+     AWMR_MASS_NORM * AWMR_SPEED_MU,
      {4.0f * AWMR_WHEEL_FORCE_MIN, 4.0f * AWMR_WHEEL_FORCE_MAX, AWMR_WHEEL_FORCE_MIN,
       AWMR_WHEEL_FORCE_MAX, AWMR_HALF_TRACK_M, 0.5f / AWMR_HALF_TRACK_M, 1.0f / AWMR_HALF_TRACK_M,
-      2.0f * AWMR_FRONT_AXLE_M, 0.25f / AWMR_FRONT_AXLE_M, 0.5f / AWMR_FRONT_AXLE_M, AWMR_STEERING_MAX_RAD, 0.5f * AWMR_STEERING_MAX_TAN_HALF}},
+      2.0f * AWMR_FRONT_AXLE_M, 0.25f / AWMR_FRONT_AXLE_M, 0.5f / AWMR_FRONT_AXLE_M, AWMR_STEERING_MAX_RAD,
+      0.5f * AWMR_STEERING_MAX_TAN_HALF,
+      0.5f * AWMR_STEERING_MAX_TAN_HALF * (0.5f * AWMR_STEERING_MAX_TAN_HALF)}},
     {AWMR_SPEED_MAX_MPS, AWMR_YAW_RATE_MAX_RADPS, AWMR_HEADING_TIMEOUT_MS, AWMR_SPEED_TIMEOUT_MS,
      AWMR_COMMAND_TIMEOUT_MS, AWMR_STEP_TIMEOUT_MS},
     AWMR_TABLE_SHAPE(AWMR_SURGE_TABLE),
@@ -55,7 +58,7 @@ awmr::Autopilot<Resistance> autopilot;
 
 uint8_t awmr_init(void) {
   const bool good =
-      awmr::start_autopilot(autopilot, &awmr_parameters, kSurgeValues, kSurgeCount, kYawValues,
+      awmr::start_autopilot(autopilot, &awmr_parameters, kSurgeLines, kSurgeCount, kYawLines,
                             kYawCount, AWMR_PARAMETERS_CRC32);
   return good ? AWMR_FAULT_NONE : AWMR_FAULT_PARAMETERS;
 }
