@@ -113,6 +113,8 @@ Status drive(Physics& physics, double t_s, const Allocation<float>& command,
 
 }  // namespace
 
+bool chip_leads(const Scenario& scenario) { return course_for_chip(scenario) != nullptr; }
+
 Status check_scenario(const Scenario& scenario, const std::string& file) {
   std::vector<Fault> faults;
   if (std::holds_alternative<OpenLoop>(scenario.guidance)) {

@@ -25,6 +25,10 @@ struct LoopRow {
   Step step;
 };
 
+/// True where the chip goes to the scenario's waypoints itself; else the host leads, and the chip
+/// gets a heading.
+bool chip_leads(const Scenario& scenario);
+
 /// Errors (input): the scenario asks for what the firmware does not do.
 Status check_scenario(const Scenario& scenario, const std::string& file);
 

@@ -61,12 +61,20 @@ Result<Provenance> provenance_of(const PilOptions& options) {
 
 }  // namespace
 
-void judge(const PilOptions& options, Report& report) {
+void judge(const PilOptions& options, double period_cycles, Report& report) {
   const bool by_table = options.emit.resistance == ResistanceForm::kTable;
   const ChipFigures& figures = report.chip.figures;
   std::vector<Check>& checks = report.checks;
   checks.push_back(at_most("cycles", report.cycles.max,
                            options.cycles_max.value_or(by_table ? 12000 : 24000), "cycles"));
+  if (const auto& hostile = report.chip.hostile) {
+    checks.push_back(
+        at_most("cycles from hostile inputs", hostile->cycles, period_cycles, "cycles"));
+    if (by_table) {
+      checks.push_back(at_most("differences from the host on hostile inputs",
+                               static_cast<double>(hostile->differing), 0.0, ""));
+    }
+  }
   checks.push_back(at_most("flash", figures.flash_bytes, options.flash_max, "bytes"));
   checks.push_back(at_most("ram", figures.ram_bytes, options.ram_max, "bytes"));
   checks.push_back(at_most("difference from the host's float run", report.from_float.largest(),
@@ -104,6 +112,10 @@ Result<std::string> report_text(const PilOptions& options, const LoopSetup& setu
   if (report.by_table) json["effect"]["table"] = json_of(*report.by_table);
   json["cycles"] = {
       {"min", report.cycles.min}, {"mean", report.cycles.mean}, {"max", report.cycles.max}};
+  const auto& hostile = report.chip.hostile;
+  json["cycles_bound"] =
+      hostile ? Json(std::max(hostile->cycles, report.cycles.max)) : Json(nullptr);
+  if (hostile) json["hostile"] = {{"steps", hostile->steps}, {"differing", hostile->differing}};
   json["period_share"] = report.cycles.max / (setup.sample_time_s * kClockHz);
   json["flash_bytes"] = report.chip.figures.flash_bytes;
   json["ram_bytes"] = report.chip.figures.ram_bytes;
@@ -134,6 +146,11 @@ std::string report_summary(const PilOptions& options, const LoopSetup& setup,
       figures.ram_bytes,
       figures.stack_bytes ? fmt::format("{} bytes", *figures.stack_bytes) : "unknown",
       report.chip.real_time_factor);
+  if (const auto& hostile = report.chip.hostile) {
+    text +=
+        fmt::format("  {} steps with hostile inputs: at most {} cycles, {} differ from the host\n",
+                    hostile->steps, hostile->cycles, hostile->differing);
+  }
   for (const Check& check : report.checks) {
     text += fmt::format("  {}: {} {:.3g}, at most {:.6g}{}{}\n", check.passed ? "passed" : "FAILED",
                         check.name, check.value, check.bound, check.unit.empty() ? "" : " ",

@@ -9,6 +9,7 @@
 #include "awmr/core/result.h"
 #include "comparison.h"
 #include "executor.h"
+#include "hostile.h"
 #include "loop.h"
 #include "pil_options.h"
 
@@ -18,6 +19,7 @@ namespace awmr::pil {
 struct ChipRun {
   std::vector<LoopRow> rows;
   ChipFigures figures;
+  std::optional<Hostile> hostile;  ///< absent with an injection and of a real board
   std::uint8_t start_fault = 0;
   double real_time_factor = 0.0;  ///< simulated time over the time that it took
 };
@@ -56,7 +58,8 @@ struct Report {
 };
 
 /// Adds the checks to the report: cycles, memory, differences and faults, each with its bound.
-void judge(const cli::PilOptions& options, Report& report);
+/// `period_cycles` is the sample time in cycles of the chip's clock.
+void judge(const cli::PilOptions& options, double period_cycles, Report& report);
 
 /// The bytes of pil.json. Errors (input): an input cannot be read again.
 Result<std::string> report_text(const cli::PilOptions& options, const LoopSetup& setup,

@@ -91,6 +91,16 @@ Result<std::unique_ptr<Chip>> connect(const PilOptions& options, const Inputs& i
   return memory_link(elf, damage);
 }
 
+/// The longest step of an emulated chip, whose run is over.
+Result<std::optional<Hostile>> hostile_of(const PilOptions& options, const Inputs& in, Chip& chip) {
+  if (options.port || options.injection != Injection::kNone) return std::optional<Hostile>();
+  const auto host = host_executor(in.parameters);
+  if (const auto started = host->start(); !started) return tl::unexpected(started.error());
+  AWMR_ASSIGN_OR_RETURN(const Hostile hostile, provoke(chip, *host, in.parameters.block.safety,
+                                                       chip_leads(in.setup.scenario)));
+  return std::optional(hostile);
+}
+
 /// Of this process's processor time, which is what emulation takes on one core; with a real board
 /// of the clock's.
 double elapsed_s(bool emulated) {
@@ -123,6 +133,7 @@ Result<ChipRun> run_chip(const PilOptions& options, const Inputs& in) {
   ChipRun run;
   run.real_time_factor = static_cast<double>(rows->size()) * in.setup.sample_time_s / taken_s;
   run.rows = std::move(*rows);
+  AWMR_ASSIGN_OR_RETURN(run.hostile, hostile_of(options, in, **chip));
   run.figures = (*chip)->figures();
   run.start_fault = *started;
   return run;
@@ -199,7 +210,7 @@ Result<Outcome> run_pil(const PilOptions& options) {
   if (auto compared = compare_runs(options, *in, report); !compared) {
     return tl::unexpected(compared.error());
   }
-  judge(options, report);
+  judge(options, in->setup.sample_time_s * kClockHz, report);
   const auto text = report_text(options, in->setup, report);
   if (!text) return tl::unexpected(text.error());
   if (auto written = write_file(options.output, *text); !written) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -69,6 +70,17 @@ class Pil : public ::testing::Test {
   static inline TemporaryDirectory* directory_ = nullptr;
 };
 
+/// The line of the README's table for a run, made of its pil.json.
+std::string readme_line(const std::string& name, const Json& json) {
+  char line[200];
+  std::snprintf(line, sizeof line, "| %s | %d / %.0f / %d | %.1f %% | %d | %.3f deg |",
+                name.c_str(), json["cycles"]["min"].get<int>(),
+                json["cycles"]["mean"].get<double>(), json["cycles"]["max"].get<int>(),
+                100.0 * json["period_share"].get<double>(), json["cycles_bound"].get<int>(),
+                json["difference_double"]["heading_deg"].get<double>());
+  return line;
+}
+
 class PilScenario : public Pil,
                     public ::testing::WithParamInterface<std::pair<const char*, const char*>> {};
 
@@ -86,6 +98,17 @@ TEST_P(PilScenario, RunsBitForBitAsOnTheHostAndWithinItsBudgets) {
   EXPECT_LE(json["cycles"]["max"].get<int>(), cycles_max);
   EXPECT_LT(json["cycles"]["min"].get<int>(), json["cycles"]["max"].get<int>());
   EXPECT_EQ(json["verdict"], "passed");
+  // With hostile inputs it is the host's bits as well, and never longer than the sample time.
+  EXPECT_EQ(json["hostile"]["differing"].get<int>(), 0);
+  EXPECT_GE(json["hostile"]["steps"].get<int>(), 6000);
+  EXPECT_GT(json["cycles_bound"].get<int>(), json["cycles"]["max"].get<int>());
+  EXPECT_LT(json["cycles_bound"].get<int>(), 160000);
+  const bool in_readme = std::string(scenario) != kC13;
+  const std::string name = std::string(scenario) == kC3 ? "C3 " : "C8 ";
+  if (in_readme) {
+    EXPECT_THAT(read_all(std::string(AWMR_SOURCE_DIR) + "/README.md"),
+                HasSubstr(readme_line(name + mode, json)));
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -142,6 +165,7 @@ TEST_P(PilFault, GivesTheSafeCommandAndItsCodeAndRecovers) {
   const int expected = injected["expected_fault"];
   EXPECT_NE(expected, 0);
   EXPECT_EQ(injected["fault"].get<int>(), expected);
+  EXPECT_TRUE(result()["cycles_bound"].is_null());
   EXPECT_EQ(injected["start_fault"].get<int>() != 0, GetParam() == std::string("parameters"));
 }
 
@@ -345,6 +369,7 @@ TEST_F(Pil, SpeaksToABoardOnASerialPort) {
   ASSERT_EQ(run.exit_code, 0) << run.out << run.err;
   EXPECT_EQ(largest(result("port.json")["difference"]), 0.0);
   EXPECT_TRUE(result("port.json")["stack_bytes"].is_null());
+  EXPECT_TRUE(result("port.json")["cycles_bound"].is_null());
 }
 
 }  // namespace

@@ -1,0 +1,152 @@
+#include "hostile.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+#include "awmr/core/random.h"
+
+namespace awmr::pil {
+namespace {
+
+constexpr std::size_t kStepsPerMode = 2000;
+constexpr int kFields = 11;  ///< floats of an AutopilotInput
+constexpr std::size_t kPoints = 16;
+constexpr float kAcceptance_m = 1.0F;
+
+/// One step's input and the points that are followed from it on.
+struct Attack {
+  AutopilotInput input{};
+  Points points;
+};
+
+float& field_of(AutopilotInput& in, int field) {
+  float* const fields[kFields] = {
+      &in.measured.psi_rad,    &in.measured.u_mps,           &in.measured.v_mps,
+      &in.measured.r_radps,    &in.position_m.x_m,           &in.position_m.y_m,
+      &in.reference.psi_rad,   &in.reference.psi_rate_radps, &in.reference.psi_accel_radps2,
+      &in.reference.speed_mps, &in.reference.accel_mps2};
+  return *fields[field];
+}
+
+/// The largest magnitude that the safety checks let pass.
+float largest_of(const SafetyLimits& limits, int field) {
+  constexpr float kHeading = 0.5F * float_math::kAngleMax;
+  const float largest[kFields] = {kHeading,
+                                  limits.speed_max_mps,
+                                  limits.speed_max_mps,
+                                  limits.yaw_rate_max_radps,
+                                  detail::kPositionMax,
+                                  detail::kPositionMax,
+                                  kHeading,
+                                  kReferenceMax,
+                                  kReferenceMax,
+                                  limits.speed_max_mps,
+                                  kReferenceMax};
+  return largest[field];
+}
+
+/// Of all sizes up to `largest`, with a turn for the ends, for what is subnormal and for any bits.
+float hostile_value(Random& random, float largest) {
+  const float sign = (random.bits() & 1U) != 0 ? -1.0F : 1.0F;
+  switch (random.bits() % 32) {
+    case 0:
+      return sign * 0.0F;
+    case 1:
+      return sign * largest;
+    case 2:
+      return std::bit_cast<float>(random.bits() & 0x807FFFFFU);
+    case 3:
+      return std::bit_cast<float>(random.bits());
+    default:
+      // Evenly spread in the exponent, eight decades downwards.
+      return sign * largest * static_cast<float>(std::pow(10.0, -8.0 * random.uniform()));
+  }
+}
+
+/// Most often within a metre of the vehicle, where the next one is looked at as well.
+Position<float> hostile_point(Random& random, const Position<float>& vehicle_m) {
+  const float reach_m = random.bits() % 8 == 0 ? 1000.0F : kAcceptance_m;
+  const auto off = [&] { return reach_m * static_cast<float>(2.0 * random.uniform() - 1.0); };
+  return {vehicle_m.x_m + off(), vehicle_m.y_m + off()};
+}
+
+/// `best` with a few of its numbers drawn anew; now and then with all.
+Attack changed(const Attack& best, const SafetyLimits& limits, Random& random) {
+  Attack attack = best;
+  const std::uint32_t changes = random.bits() % 8 == 0 ? kFields : 1 + random.bits() % 3;
+  for (std::uint32_t i = 0; i < changes; ++i) {
+    const int field =
+        changes == kFields ? static_cast<int>(i) : static_cast<int>(random.bits() % kFields);
+    field_of(attack.input, field) = hostile_value(random, largest_of(limits, field));
+  }
+  for (Position<float>& point : attack.points.points_m) {
+    if (changes == kFields || random.bits() % 8 == 0) {
+      point = hostile_point(random, attack.input.position_m);
+    }
+  }
+  return attack;
+}
+
+bool same(float a, float b) {
+  return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b) ||
+         (std::isnan(a) && std::isnan(b));
+}
+
+bool same(const AutopilotOutput& a, const AutopilotOutput& b) {
+  return same(a.command.force.left, b.command.force.left) &&
+         same(a.command.force.right, b.command.force.right) &&
+         same(a.command.steering_rad, b.command.steering_rad) && same(a.tau_speed, b.tau_speed) &&
+         same(a.tau_turn_m, b.tau_turn_m) && same(a.psi_ref_rad, b.psi_ref_rad) &&
+         a.arrived == b.arrived && a.fault == b.fault &&
+         a.command.speed_limited == b.command.speed_limited &&
+         a.command.steering_limited == b.command.steering_limited &&
+         a.command.force_limited == b.command.force_limited &&
+         a.command.steering_powerless == b.command.steering_powerless;
+}
+
+/// One step of both. Returns the chip's cycles and counts into `found`.
+Result<unsigned> tried(Executor& chip, Executor& host, const Attack& attack, Hostile& found) {
+  if (!attack.points.points_m.empty()) {
+    AWMR_RETURN_IF_ERROR(chip.follow(attack.points));
+    AWMR_RETURN_IF_ERROR(host.follow(attack.points));
+  }
+  AWMR_ASSIGN_OR_RETURN(const Step on_chip, chip.step(attack.input));
+  AWMR_ASSIGN_OR_RETURN(const Step on_host, host.step(attack.input));
+  ++found.steps;
+  if (!same(on_chip.output, on_host.output)) ++found.differing;
+  const unsigned cycles = on_chip.cycles.value_or(0);
+  found.cycles = std::max(found.cycles, cycles);
+  return cycles;
+}
+
+}  // namespace
+
+Result<Hostile> provoke(Executor& chip, Executor& host, const SafetyLimits& limits,
+                        bool following) {
+  Hostile found;
+  // Every step is at time 0; the first one, late after whatever was before it, is not looked at.
+  AWMR_RETURN_IF_ERROR(chip.step({}));
+  AWMR_RETURN_IF_ERROR(host.step({}));
+  for (std::uint8_t mode = 0; mode <= static_cast<std::uint8_t>(YawMode::kCombined); ++mode) {
+    Random random(1, mode);
+    Attack best;
+    best.input.mode = mode;
+    if (following) {
+      best.points.points_m.resize(kPoints);
+      best.points.acceptance_m = kAcceptance_m;
+    }
+    unsigned most = 0;
+    for (std::size_t i = 0; i < kStepsPerMode; ++i) {
+      const Attack attack = changed(best, limits, random);
+      AWMR_ASSIGN_OR_RETURN(const unsigned cycles, tried(chip, host, attack, found));
+      if (cycles < most) continue;
+      most = cycles;
+      best = attack;
+    }
+  }
+  return found;
+}
+
+}  // namespace awmr::pil
