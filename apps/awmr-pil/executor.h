@@ -36,7 +36,8 @@ class Executor {
 struct ChipFigures {
   unsigned flash_bytes = 0;
   unsigned ram_bytes = 0;
-  std::optional<unsigned> stack_bytes;  ///< unknown of a real board
+  std::optional<unsigned> stack_bytes = {};  ///< unknown of a real board
+  std::optional<std::size_t> repeats = {};   ///< requests sent again; absent without a line
 };
 
 class Chip : public Executor {
@@ -49,9 +50,10 @@ std::unique_ptr<Executor> host_executor(const AutopilotParameters& parameters);
 
 /// Through the RAM of an emulated chip. `damage_parameters`: flips a bit of them in flash first.
 Result<std::unique_ptr<Chip>> memory_link(const std::filesystem::path& elf, bool damage_parameters);
-/// Through the USART of an emulated chip.
+/// Through the USART of an emulated chip, over a line that flips a share `noise` of the bits and
+/// loses the same share of the bytes, both ways.
 Result<std::unique_ptr<Chip>> uart_link(const std::filesystem::path& elf, bool damage_parameters,
-                                        std::uint32_t parameters_crc);
+                                        std::uint32_t parameters_crc, double noise);
 /// Through a serial port. `elf` is what the board is to have been flashed with.
 Result<std::unique_ptr<Chip>> port_link(const std::filesystem::path& port, unsigned baud,
                                         const std::filesystem::path& elf,

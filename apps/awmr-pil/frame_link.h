@@ -3,20 +3,24 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "executor.h"
 
 namespace awmr::pil {
 
-/// Bytes to and from a chip, emulated or real.
+/// How long to wait for a byte: for a chip that checks its parameters first, or for an answer.
+enum class Patience { kStart, kAnswer };
+
+/// Bytes to and from a chip, emulated or real. They may be damaged or lost on the way.
 class Line {
  public:
   virtual ~Line() = default;
   virtual Status open() = 0;
   virtual Status send(std::span<const std::uint8_t> bytes) = 0;
-  /// Errors (fault): none came in time.
-  virtual Result<std::uint8_t> receive() = 0;
+  /// The next byte; none where the line stays silent. Errors: the chip or the line is gone.
+  virtual Result<std::optional<std::uint8_t>> receive(Patience patience) = 0;
   virtual ChipFigures figures() const = 0;
 };
 

@@ -55,7 +55,9 @@ class MemoryLink : public Chip {
   }
 
   ChipFigures figures() const override {
-    return {emulator_->flash_bytes(), emulator_->ram_bytes(), emulator_->stack_bytes()};
+    return {.flash_bytes = emulator_->flash_bytes(),
+            .ram_bytes = emulator_->ram_bytes(),
+            .stack_bytes = emulator_->stack_bytes()};
   }
 
  private:

@@ -16,7 +16,8 @@
 namespace awmr::pil {
 namespace {
 
-constexpr int kAnswerTimeout_ms = 2000;
+constexpr int kStartTimeout_ms = 500;   ///< the check of the parameters takes 50
+constexpr int kAnswerTimeout_ms = 300;  ///< 140 bytes take 146 ms at 9600 baud
 /// A Mega 2560 restarts when its port is opened, and its boot loader waits.
 constexpr int kBootTime_ms = 2000;
 
@@ -61,23 +62,22 @@ class Port : public Line {
     return {};
   }
 
-  Result<std::uint8_t> receive() override {
+  Result<std::optional<std::uint8_t>> receive(Patience patience) override {
     if (at_ == count_) {
       pollfd waiting{.fd = file_, .events = POLLIN, .revents = 0};
-      if (::poll(&waiting, 1, kAnswerTimeout_ms) <= 0) {
-        return input_error(path_.string(), fmt::format("gave no answer within {} ms: is the board "
-                                                       "flashed with pil_uart.elf, the baud right?",
-                                                       kAnswerTimeout_ms));
-      }
+      const int timeout_ms = patience == Patience::kStart ? kStartTimeout_ms : kAnswerTimeout_ms;
+      if (::poll(&waiting, 1, timeout_ms) <= 0) return std::optional<std::uint8_t>();
       const ssize_t count = ::read(file_, buffer_, sizeof buffer_);
       if (count <= 0) return input_error(path_.string(), "was closed");
       at_ = 0;
       count_ = static_cast<std::size_t>(count);
     }
-    return buffer_[at_++];
+    return std::optional(buffer_[at_++]);
   }
 
-  ChipFigures figures() const override { return {flash_bytes_, ram_bytes_, {}}; }
+  ChipFigures figures() const override {
+    return {.flash_bytes = flash_bytes_, .ram_bytes = ram_bytes_};
+  }
 
  private:
   std::filesystem::path path_;

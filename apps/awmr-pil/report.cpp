@@ -50,7 +50,8 @@ Result<Provenance> provenance_of(const PilOptions& options) {
       {"link", std::string(name_in(cli::kPilLinkNames, options.link))},
       {"resistance", std::string(name_in(kResistanceFormNames, options.emit.resistance))},
       {"optimize", std::string(name_in(cli::kOptimizeNames, options.optimize))},
-      {"table-error", fmt::format("{:g}", options.emit.table_error)}};
+      {"table-error", fmt::format("{:g}", options.emit.table_error)},
+      {"line-noise", fmt::format("{:g}", options.line_noise)}};
   for (const fs::path& path : {options.model, options.gains, options.scenario}) {
     const auto input = input_file(path);
     if (!input) return tl::unexpected(input.error());
@@ -119,6 +120,7 @@ Result<std::string> report_text(const PilOptions& options, const LoopSetup& setu
   json["period_share"] = report.cycles.max / (setup.sample_time_s * kClockHz);
   json["flash_bytes"] = report.chip.figures.flash_bytes;
   json["ram_bytes"] = report.chip.figures.ram_bytes;
+  if (const auto& repeats = report.chip.figures.repeats) json["repeats"] = *repeats;
   const auto& stack = report.chip.figures.stack_bytes;
   json["stack_bytes"] = stack ? Json(*stack) : Json(nullptr);
   if (const auto& injected = report.injected) {
@@ -146,6 +148,7 @@ std::string report_summary(const PilOptions& options, const LoopSetup& setup,
       figures.ram_bytes,
       figures.stack_bytes ? fmt::format("{} bytes", *figures.stack_bytes) : "unknown",
       report.chip.real_time_factor);
+  if (figures.repeats) text += fmt::format("  {} requests sent again\n", *figures.repeats);
   if (const auto& hostile = report.chip.hostile) {
     text +=
         fmt::format("  {} steps with hostile inputs: at most {} cycles, {} differ from the host\n",

@@ -80,6 +80,9 @@ Result<Inputs> read_inputs(const PilOptions& options) {
 Result<std::unique_ptr<Chip>> connect(const PilOptions& options, const Inputs& in,
                                       const fs::path& elf) {
   const bool damage = options.injection == Injection::kParameters;
+  if (options.line_noise > 0.0 && (options.port || options.link != cli::PilLink::kUart)) {
+    return input_error("--line-noise", "is for --link uart on the emulated chip");
+  }
   if (options.port) {
     if (options.link != cli::PilLink::kUart) {
       return input_error("--port", "is for --link uart: memory is the emulated chip's only");
@@ -87,7 +90,8 @@ Result<std::unique_ptr<Chip>> connect(const PilOptions& options, const Inputs& i
     if (damage) return input_error("--inject", "parameters: only on the emulated chip");
     return port_link(*options.port, options.baud, elf, in.parameters.crc);
   }
-  if (options.link == cli::PilLink::kUart) return uart_link(elf, damage, in.parameters.crc);
+  if (options.link == cli::PilLink::kUart)
+    return uart_link(elf, damage, in.parameters.crc, options.line_noise);
   return memory_link(elf, damage);
 }
 

@@ -1,48 +1,85 @@
 #include <fmt/format.h>
 
+#include <optional>
+
+#include "awmr/core/random.h"
 #include "emulator.h"
 #include "frame_link.h"
 
 namespace awmr::pil {
 namespace {
 
-/// A request at 500 kbit/s takes 25,000 cycles, a step 24,000, an answer 12,000; ten times that.
-constexpr std::uint64_t kAnswerCycles = 16'000'000;
+/// Ten times what the check of the parameters takes.
+constexpr std::uint64_t kLineStartCycles = 16'000'000;
+/// 30 ms: a request, its step and its answer take 3, and after 20 the chip gives up a frame that
+/// was begun.
+constexpr std::uint64_t kLineAnswerCycles = 480'000;
+
+/// Damages bytes on their way: the same ones every time.
+class Noise {
+ public:
+  explicit Noise(double share) : share_(share) {}
+
+  /// The byte that arrives, if one does.
+  std::optional<std::uint8_t> after(std::uint8_t byte) {
+    if (share_ <= 0.0) return byte;
+    if (random_.uniform() < share_) return std::nullopt;
+    for (unsigned bit = 0; bit < 8; ++bit) {
+      if (random_.uniform() < share_) byte = static_cast<std::uint8_t>(byte ^ (1U << bit));
+    }
+    return byte;
+  }
+
+ private:
+  double share_;
+  Random random_{1, 0};
+};
 
 class EmulatedLine : public Line {
  public:
-  explicit EmulatedLine(std::unique_ptr<Emulator> emulator) : emulator_(std::move(emulator)) {
-    emulator_->on_uart_output([this](std::uint8_t byte) { received_.push_back(byte); });
+  EmulatedLine(std::unique_ptr<Emulator> emulator, double noise)
+      : emulator_(std::move(emulator)), noise_(noise) {
+    emulator_->on_uart_output([this](std::uint8_t byte) {
+      if (const auto arrived = noise_.after(byte)) received_.push_back(*arrived);
+    });
     emulator_->connect_uart();
   }
 
   Status open() override {
-    if (auto asleep = emulator_->run_to_sleep(kAnswerCycles); !asleep) return asleep;
+    AWMR_RETURN_IF_ERROR(emulator_->run_to_sleep(kLineStartCycles));
     emulator_->paint_stack();
     return {};
   }
   Status send(std::span<const std::uint8_t> bytes) override {
-    emulator_->send_to_uart(bytes);
+    std::vector<std::uint8_t> arriving;
+    for (const std::uint8_t byte : bytes) {
+      if (const auto arrived = noise_.after(byte)) arriving.push_back(*arrived);
+    }
+    emulator_->send_to_uart(arriving);
     return {};
   }
-  Result<std::uint8_t> receive() override {
-    if (auto ran = emulator_->run_until([this] { return at_ < received_.size(); }, kAnswerCycles);
-        !ran) {
-      return tl::unexpected(ran.error());
-    }
+  Result<std::optional<std::uint8_t>> receive(Patience patience) override {
+    const std::uint64_t end =
+        emulator_->cycles() + (patience == Patience::kStart ? kLineStartCycles : kLineAnswerCycles);
+    const auto done = [&] { return at_ < received_.size() || emulator_->cycles() >= end; };
+    AWMR_RETURN_IF_ERROR(emulator_->run_until(done, 2 * kLineStartCycles));
+    if (at_ == received_.size()) return std::optional<std::uint8_t>();
     const std::uint8_t byte = received_[at_++];
     if (at_ == received_.size()) {
       received_.clear();
       at_ = 0;
     }
-    return byte;
+    return std::optional(byte);
   }
   ChipFigures figures() const override {
-    return {emulator_->flash_bytes(), emulator_->ram_bytes(), emulator_->stack_bytes()};
+    return {.flash_bytes = emulator_->flash_bytes(),
+            .ram_bytes = emulator_->ram_bytes(),
+            .stack_bytes = emulator_->stack_bytes()};
   }
 
  private:
   std::unique_ptr<Emulator> emulator_;
+  Noise noise_;
   std::vector<std::uint8_t> received_;
   std::size_t at_ = 0;
 };
@@ -50,11 +87,11 @@ class EmulatedLine : public Line {
 }  // namespace
 
 Result<std::unique_ptr<Chip>> uart_link(const std::filesystem::path& elf, bool damage_parameters,
-                                        std::uint32_t parameters_crc) {
+                                        std::uint32_t parameters_crc, double noise) {
   auto emulator = Emulator::load(elf);
   if (!emulator) return tl::unexpected(emulator.error());
   if (damage_parameters) (*emulator)->flash("awmr_parameters", 1)[0] ^= 0x01U;
-  return frame_link(std::make_unique<EmulatedLine>(std::move(*emulator)), parameters_crc);
+  return frame_link(std::make_unique<EmulatedLine>(std::move(*emulator), noise), parameters_crc);
 }
 
 }  // namespace awmr::pil

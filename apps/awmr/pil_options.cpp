@@ -61,6 +61,11 @@ void add_pil_options(CLI::App& command, PilOptions& options) {
   add_bounds(command, options);
   add_choice(command, "--inject", options.injection, kInjectionNames, "A fault to inject half-way")
       ->default_str("none");
+  command
+      .add_option("--line-noise", options.line_noise,
+                  "Share of bits flipped and of bytes lost on the emulated UART")
+      ->check(within(0.0, 0.5))
+      ->capture_default_str();
   command.add_option("--build-dir", options.build_directory, "Keep the firmware in this directory");
 }
 

@@ -66,6 +66,7 @@ struct PilOptions {
   std::optional<double> difference_max;  ///< from the host's float run; absent: 0 and 1e-6
   double heading_max_deg = 0.05;         ///< from the host's double run
   Injection injection = Injection::kNone;
+  double line_noise = 0.0;  ///< share of bits flipped and of bytes lost, with kUart and no port
   std::optional<std::filesystem::path> build_directory;  ///< kept; absent: one that goes away
   std::filesystem::path output;
 };

@@ -19,12 +19,12 @@ class Recording : public awmr::pil::Line {
   explicit Recording(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
   awmr::Status open() override { return {}; }
   awmr::Status send(std::span<const std::uint8_t> bytes) override {
-    require(bytes.size() <= pil::kMaxPayload + 5U, "a request fits the chip's buffer");
+    require(bytes.size() <= pil::kMaxFrame + 1U, "a request fits the chip's buffer");
     return {};
   }
-  awmr::Result<std::uint8_t> receive() override {
-    if (at_ == bytes_.size()) return awmr::program_fault("the line is silent");
-    return bytes_[at_++];
+  awmr::Result<std::optional<std::uint8_t>> receive(awmr::pil::Patience) override {
+    if (at_ == bytes_.size()) return std::optional<std::uint8_t>();
+    return std::optional(bytes_[at_++]);
   }
   awmr::pil::ChipFigures figures() const override { return {}; }
 
@@ -38,11 +38,11 @@ void check_reader(std::span<const std::uint8_t> bytes) {
   pil::FrameReader reader{};
   for (const std::uint8_t byte : bytes) {
     if (!reader.take(byte)) continue;
-    require(reader.length <= pil::kMaxPayload, "a payload fits its buffer");
-    std::uint16_t crc = awmr::crc16_with(awmr::kCrc16Start, reader.type);
-    crc = awmr::crc16_with(crc, reader.length);
-    for (std::uint8_t i = 0; i < reader.length; ++i) crc = awmr::crc16_with(crc, reader.payload[i]);
-    require(byte == crc >> 8U, "a frame has its own check sum");
+    require(reader.length() <= pil::kMaxPayload, "a payload fits its buffer");
+    const std::size_t covered = pil::kHeadBytes + reader.length();
+    const std::uint16_t crc = awmr::crc16_of(reader.bytes, covered);
+    require(reader.bytes[covered] == (crc & 0xFFU) && reader.bytes[covered + 1] == crc >> 8U,
+            "a frame has its own check sum");
   }
 }
 
@@ -51,16 +51,18 @@ void check_written(std::span<const std::uint8_t> bytes) {
   const auto length = static_cast<std::uint8_t>(std::min<std::size_t>(bytes.size(), 140));
   pil::FrameReader reader{};
   reader.take(pil::kFrameStart);
-  reader.take(pil::kStep);
-  reader.take(length);
-  std::uint16_t crc = awmr::crc16_with(awmr::crc16_with(awmr::kCrc16Start, pil::kStep), length);
-  for (std::size_t i = 0; i < length; ++i) {
-    reader.take(bytes[i]);
-    crc = awmr::crc16_with(crc, bytes[i]);
-  }
+  std::uint16_t crc = awmr::kCrc16Start;
+  const auto take = [&](std::uint8_t byte) {
+    require(!reader.take(byte), "a frame ends with its sum");
+    crc = awmr::crc16_with(crc, byte);
+  };
+  take(pil::kStep);
+  take(7);
+  take(length);
+  for (std::size_t i = 0; i < length; ++i) take(bytes[i]);
   require(!reader.take(static_cast<std::uint8_t>(crc & 0xFFU)), "a frame has two bytes of sum");
   require(reader.take(static_cast<std::uint8_t>(crc >> 8U)), "a whole frame is taken");
-  require(std::equal(reader.payload, reader.payload + length, bytes.begin()), "as it was sent");
+  require(std::equal(reader.payload(), reader.payload() + length, bytes.begin()), "as it was sent");
 }
 
 }  // namespace

@@ -207,6 +207,28 @@ TEST_F(Pil, OverTheUartItIsTheSameRun) {
   EXPECT_EQ(result("uart.json")["difference_double"], result("memory.json")["difference_double"]);
 }
 
+TEST_F(Pil, OverALineThatFlipsAThousandthOfTheBitsAndLosesBytesItIsTheSameRun) {
+  ASSERT_EQ(pil(kC3, "combined", "--link uart", "quiet.json").exit_code, 0);
+  const ProcessResult run = pil(kC3, "combined", "--link uart --line-noise 1e-3", "noisy.json");
+  ASSERT_EQ(run.exit_code, 0) << run.out << run.err;
+  const Json quiet = result("quiet.json"), noisy = result("noisy.json");
+  EXPECT_EQ(quiet["repeats"].get<int>(), 0);
+  EXPECT_GT(noisy["repeats"].get<int>(), 1000);
+  for (const char* what : {"difference", "difference_double", "cycles", "samples", "checks"}) {
+    EXPECT_EQ(quiet[what], noisy[what]) << what;
+  }
+}
+
+TEST_F(Pil, OverALineThatFlipsAHundredthOfTheBitsItEndsWithWords) {
+  const ProcessResult run = pil(kC13, "combined", "--link uart --line-noise 1e-2", "none.json");
+  EXPECT_EQ(run.exit_code, 1) << run.out;
+  EXPECT_THAT(run.err, HasSubstr("the line too noisy"));
+  EXPECT_FALSE(exists("none.json"));
+  EXPECT_EQ(pil(kC13, "combined", "--line-noise 1e-3", "none.json").exit_code, 2);
+  EXPECT_EQ(pil(kC13, "combined", "--link uart --line-noise nan", "none.json").exit_code, 2);
+  EXPECT_EQ(pil(kC13, "combined", "--link uart --line-noise 0.6", "none.json").exit_code, 2);
+}
+
 TEST_F(Pil, OptionsAreNotUsedAfterTheyAreFreed) {
   // Freed memory is overwritten at once, so that options that CLI11 still writes to are garbage.
   const ProcessResult run =

@@ -1,59 +1,82 @@
 // The frames that host and chip exchange over a serial line; both compile this file.
-//   start, type, length, payload of `length` bytes, CRC-16 of type, length and payload (low byte first)
-// The host asks, the chip answers each request once. A frame that is damaged is not answered.
+//   start, type, sequence, length, payload of `length` bytes, CRC-16 of all after the start (low byte
+//   first)
+// The host asks, the chip answers each request once, with its type and its sequence number. A
+// request that comes again, as its answer was lost, is answered again and not done again. A frame
+// that is damaged is not answered: the host asks again when the line has been silent.
 #pragma once
 
 #include <stdint.h>
+#include <string.h>
 
 #include "awmr/control/crc.h"
 
 namespace pil {
 
 constexpr uint8_t kFrameStart = 0xA5;
+constexpr uint8_t kHeadBytes = 3;  // type, sequence, length
 constexpr uint8_t kMaxPayload = 140;
+constexpr uint8_t kMaxFrame = kHeadBytes + kMaxPayload + 2;  // after the start
 
 // Requests and what is in them; the answer has the same type.
 constexpr uint8_t kHello = 'H';   // nothing -> awmr_init()'s fault, AWMR_PARAMETERS_CRC32
 constexpr uint8_t kFollow = 'F';  // acceptance_m, points as x_m, y_m -> nothing
 constexpr uint8_t kStep = 'S';    // awmr_input -> awmr_output, cycles (16 bit)
 
-/// Takes bytes as they come; true when the last one completed a whole frame.
+/// Takes bytes as they come; true when the last one completed a whole frame, which stays until the
+/// next byte. In a frame that turns out to be damaged it looks for the start of another one.
 struct FrameReader {
-  uint8_t type;
-  uint8_t length;
-  uint8_t payload[kMaxPayload];
-  uint8_t count;  // bytes seen of this frame: 0 waits for the start
-  uint16_t crc;
+  uint8_t bytes[kMaxFrame];  // of this frame, after its start
+  uint8_t count;             // of them
+  bool is_inside;            // a start was seen
+
+  uint8_t type() const { return bytes[0]; }
+  uint8_t sequence() const { return bytes[1]; }
+  uint8_t length() const { return bytes[2]; }
+  const uint8_t* payload() const { return bytes + kHeadBytes; }
+
+  /// Forgets a frame that was begun: to be called after a silence.
+  void reset() {
+    is_inside = false;
+    count = 0;
+  }
 
   bool take(uint8_t byte) {
-    if (count == 0) {
-      if (byte == kFrameStart) begin();
+    if (!is_inside) {
+      count = 0;
+      is_inside = byte == kFrameStart;
       return false;
     }
-    const uint8_t place = count++;
-    if (place == 1) {
-      type = byte;
-      crc = awmr::crc16_with(crc, byte);
-    } else if (place == 2) {
-      length = byte;
-      crc = awmr::crc16_with(crc, byte);
-      if (length > kMaxPayload) count = 0;
-    } else if (place < 3 + length) {
-      payload[place - 3] = byte;
-      crc = awmr::crc16_with(crc, byte);
-    } else if (place == 3 + length) {
-      if (byte != static_cast<uint8_t>(crc & 0xFFU)) count = 0;
-    } else {
-      count = 0;
-      return byte == static_cast<uint8_t>(crc >> 8U);
+    bytes[count++] = byte;
+    while (is_inside && !is_incomplete()) {
+      if (is_whole()) {
+        is_inside = false;
+        return true;
+      }
+      go_to_next_start();
     }
     return false;
   }
 
  private:
-  void begin() {
-    count = 1;
-    crc = awmr::kCrc16Start;
+  bool is_incomplete() const {
+    if (count < kHeadBytes) return true;
+    return length() <= kMaxPayload && count < kHeadBytes + length() + 2;
+  }
+  /// What came after a whole frame, which only a damaged one before it can bring about, is lost.
+  bool is_whole() const {
+    if (length() > kMaxPayload) return false;
+    const uint8_t covered = static_cast<uint8_t>(kHeadBytes + length());
+    const uint16_t crc = awmr::crc16_of(bytes, covered);
+    return bytes[covered] == static_cast<uint8_t>(crc & 0xFFU) &&
+           bytes[covered + 1] == static_cast<uint8_t>(crc >> 8U);
+  }
+  void go_to_next_start() {
+    uint8_t start = 0;
+    while (start < count && bytes[start] != kFrameStart) ++start;
+    is_inside = start < count;
+    count = is_inside ? static_cast<uint8_t>(count - start - 1) : static_cast<uint8_t>(0);
+    memmove(bytes, bytes + start + 1, count);
   }
 };
 

@@ -14,13 +14,28 @@
 
 namespace {
 
-const uint8_t kRingMask = 63;
-volatile uint8_t ring[kRingMask + 1];  // the main loop takes each byte before 64 more have come
+const uint8_t kRingMask = 31;
+volatile uint8_t ring[kRingMask + 1];  // the main loop takes each byte before 32 more have come
 volatile uint8_t ring_head;
 uint8_t ring_tail;
 
+// Timer 3 counts F_CPU/64. After a pause of 20 ms and 20 bytes' time a frame that was begun is
+// given up. USB makes shorter pauses inside a frame; the host waits longer before it asks again.
+const uint16_t kPause =
+    static_cast<uint16_t>(F_CPU / 64UL / 50UL + 20UL * 10UL * (F_CPU / 64UL) / PIL_BAUD);
+
 pil::FrameReader reader;
 awmr_point points[16];
+
+/// The last answer, to be given again to a request that comes again.
+struct {
+  uint8_t type;
+  uint8_t sequence;
+  uint8_t length;
+  uint8_t payload[sizeof(awmr_output) + sizeof(uint16_t)];
+} reply;
+bool is_answered;  // `reply` is the answer to a request
+bool is_greeted;   // since the reset: before, nothing but a hello is answered
 
 void send(uint8_t byte) {
   while ((UCSR0A & _BV(UDRE0)) == 0) {
@@ -28,16 +43,11 @@ void send(uint8_t byte) {
   UDR0 = byte;
 }
 
-void answer(uint8_t type, const void* payload, uint8_t length) {
-  const uint8_t* bytes = static_cast<const uint8_t*>(payload);
+void send_reply() {
+  const uint8_t* bytes = &reply.type;
   uint16_t crc = awmr::kCrc16Start;
   send(pil::kFrameStart);
-  const uint8_t head[2] = {type, length};
-  for (uint8_t i = 0; i < 2; ++i) {
-    crc = awmr::crc16_with(crc, head[i]);
-    send(head[i]);
-  }
-  for (uint8_t i = 0; i < length; ++i) {
+  for (uint8_t i = 0; i < pil::kHeadBytes + reply.length; ++i) {
     crc = awmr::crc16_with(crc, bytes[i]);
     send(bytes[i]);
   }
@@ -45,23 +55,33 @@ void answer(uint8_t type, const void* payload, uint8_t length) {
   send(static_cast<uint8_t>(crc >> 8U));
 }
 
+void answer(const void* payload, uint8_t length) {
+  reply.type = reader.type();
+  reply.sequence = reader.sequence();
+  reply.length = length;
+  memcpy(reply.payload, payload, length);
+  is_answered = reply.type != pil::kHello;  // a hello starts anew each time
+  send_reply();
+}
+
 void hello() {
   struct {
     uint8_t fault;
     uint32_t crc;
-  } reply = {awmr_init(), AWMR_PARAMETERS_CRC32};
-  answer(pil::kHello, &reply, sizeof reply);
+  } found = {awmr_init(), AWMR_PARAMETERS_CRC32};
+  is_greeted = true;
+  answer(&found, sizeof found);
 }
 
 void follow() {
   float acceptance_m;
-  if (reader.length < sizeof acceptance_m) return;
-  const uint8_t bytes = static_cast<uint8_t>(reader.length - sizeof acceptance_m);
+  if (reader.length() < sizeof acceptance_m) return;
+  const uint8_t bytes = static_cast<uint8_t>(reader.length() - sizeof acceptance_m);
   if (bytes > sizeof points || bytes % sizeof points[0] != 0) return;
-  memcpy(&acceptance_m, reader.payload, sizeof acceptance_m);
-  memcpy(points, reader.payload + sizeof acceptance_m, bytes);
+  memcpy(&acceptance_m, reader.payload(), sizeof acceptance_m);
+  memcpy(points, reader.payload() + sizeof acceptance_m, bytes);
   awmr_follow(points, static_cast<int16_t>(bytes / sizeof points[0]), acceptance_m);
-  answer(pil::kFollow, 0, 0);
+  answer(points, 0);
 }
 
 // Timer 1 runs at the clock's own rate: a step of up to 65535 cycles is counted.
@@ -70,17 +90,22 @@ void step() {
   struct {
     awmr_output output;
     uint16_t cycles;
-  } reply;
-  if (reader.length != sizeof input) return;
-  memcpy(&input, reader.payload, sizeof input);
+  } done;
+  if (reader.length() != sizeof input) return;
+  memcpy(&input, reader.payload(), sizeof input);
   const uint16_t start = TCNT1;
-  awmr_step(&input, &reply.output);
-  reply.cycles = static_cast<uint16_t>(TCNT1 - start);
-  answer(pil::kStep, &reply, sizeof reply);
+  awmr_step(&input, &done.output);
+  done.cycles = static_cast<uint16_t>(TCNT1 - start);
+  answer(&done, sizeof done);
 }
 
 void serve() {
-  switch (reader.type) {
+  if (!is_greeted && reader.type() != pil::kHello) return;
+  if (is_answered && reader.type() == reply.type && reader.sequence() == reply.sequence) {
+    send_reply();
+    return;
+  }
+  switch (reader.type()) {
     case pil::kHello:
       hello();
       break;
@@ -95,6 +120,17 @@ void serve() {
   }
 }
 
+/// One byte of the line.
+void take(uint8_t byte) {
+  static uint16_t last;
+  const uint16_t now = TCNT3;
+  if (static_cast<uint16_t>(now - last) > kPause) reader.reset();
+  last = now;
+  if (!reader.take(byte)) return;
+  serve();
+  last = TCNT3;
+}
+
 }  // namespace
 
 ISR(USART0_RX_vect) {
@@ -106,6 +142,7 @@ ISR(USART0_RX_vect) {
 int main() {
   awmr_init();
   TCCR1B = _BV(CS10);
+  TCCR3B = _BV(CS31) | _BV(CS30);
   UCSR0A = _BV(U2X0);
   UBRR0 = static_cast<uint16_t>(F_CPU / 8 / PIL_BAUD - 1);
   UCSR0C = _BV(UCSZ01) | _BV(UCSZ00);
@@ -122,6 +159,6 @@ int main() {
     sei();
     const uint8_t byte = ring[ring_tail];
     ring_tail = static_cast<uint8_t>((ring_tail + 1) & kRingMask);
-    if (reader.take(byte)) serve();
+    take(byte);
   }
 }
