@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <string>
 
+#include "awmr/core/result.h"
 #include "fuzz/target.h"
 
 namespace awmr::fuzz {
@@ -29,6 +30,16 @@ inline const std::filesystem::path& file_of_bytes(const std::uint8_t* data, std:
       file >= 0 && ::write(file, data, size) == static_cast<ssize_t>(size) && ::close(file) == 0,
       "the input is written");
   return kPath;
+}
+
+/// Whether a reader refused the file; a refusal is bad input that names a fault in words one can read.
+template <class T>
+bool is_refused(const Result<T>& read) {
+  if (read) return false;
+  require(!read.error().faults.empty(), "an error names a fault");
+  require(read.error().kind == ErrorKind::kInput, "a file is bad input, not a fault");
+  require(to_text(read.error()).size() < 100'000, "an error can be read");
+  return true;
 }
 
 }  // namespace awmr::fuzz

@@ -9,18 +9,10 @@
 #include "fuzz/target.h"
 #include "project.h"
 
+using awmr::fuzz::is_refused;
 using awmr::fuzz::require;
 
 namespace {
-
-template <class T>
-bool is_refused(const awmr::Result<T>& read) {
-  if (read) return false;
-  require(!read.error().faults.empty(), "an error names a fault");
-  require(read.error().kind == awmr::ErrorKind::kInput, "a file is bad input, not a fault");
-  require(awmr::to_text(read.error()).size() < 100'000, "an error can be read");
-  return true;
-}
 
 void check_model(const std::filesystem::path& path) {
   const auto model = awmr::read_model(path);

@@ -7,6 +7,7 @@
 #include "fuzz/file_of_bytes.h"
 #include "fuzz/target.h"
 
+using awmr::fuzz::is_refused;
 using awmr::fuzz::require;
 
 namespace {
@@ -26,15 +27,6 @@ awmr::Vehicle vehicle() {
   v.steering_time_constant_s = 0.02;
   v.sample_time_s = 0.01;
   return v;
-}
-
-template <class T>
-bool is_refused(const awmr::Result<T>& read) {
-  if (read) return false;
-  require(!read.error().faults.empty(), "an error names a fault");
-  require(read.error().kind == awmr::ErrorKind::kInput, "a file is bad input, not a fault");
-  require(awmr::to_text(read.error()).size() < 100'000, "an error can be read");
-  return true;
 }
 
 void check(const std::vector<awmr::Finding>& findings) {

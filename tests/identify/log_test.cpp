@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "awmr/identify/logs/channel_noise.h"
+#include "awmr/identify/logs/identifiability.h"
 #include "awmr/identify/logs/whitener.h"
 #include "awmr/identify/planning/recover.h"
 #include "awmr/identify/planning/synthetic.h"
@@ -331,6 +332,31 @@ TEST(Log, AnErrorThatWandersBesidesTheWhiteOneIsTakenApart) {
   EXPECT_NEAR(found.white_std, truth.white_std, 0.05 * truth.white_std);
   EXPECT_NEAR(found.drift_std, truth.drift_std, 0.3 * truth.drift_std);
   EXPECT_NEAR(std::log(found.correlation_s / truth.correlation_s), 0.0, 0.6);
+}
+
+/// Scores of `logs` logs, in turns above and below what the information says they scatter by.
+Scores scattered(int logs, double times, double information) {
+  Scores scores;
+  const double size = times * std::sqrt(information / logs);
+  for (int i = 0; i < logs; ++i) {
+    scores.logs.push_back(Eigen::VectorXd::Constant(1, i % 2 == 0 ? size : -size));
+  }
+  return scores;
+}
+
+TEST(Log, WholeLogsThatScatterBeyondChanceWidenTheIntervals) {
+  const double information = 1e4;
+  const auto factor = [&](int logs, double times) {
+    return identifiability(Eigen::MatrixXd::Constant(1, 1, information),
+                           scattered(logs, times, information),
+                           {free_parameter(ParameterId::kSurgeAlpha)})
+        .factor.front();
+  };
+  // V/C = m/(m - 1) times^2; by chance it stays below chi^2_0.95/5 = 2.21 of six logs. The prior's
+  // share is 4e-6.
+  EXPECT_NEAR(factor(6, 3.0), std::sqrt(1.2) * 3.0, 1e-4);
+  EXPECT_EQ(factor(6, 1.3), 1.0);
+  EXPECT_EQ(factor(2, 5.0), 1.0) << "two logs do not tell";
 }
 
 /// Errors that swing, d'' = -2 zeta omega d' - omega^2 d + noise, by small steps of their own, with

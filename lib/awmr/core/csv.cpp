@@ -303,10 +303,6 @@ void CsvParser::read_cells() {
   }
 }
 
-}  // namespace
-
-namespace {
-
 /// The text without its byte order mark. Errors: it is empty or no text.
 Result<std::string_view> text_of(std::string_view bytes, const std::string& file) {
   if (bytes.empty()) {

@@ -87,11 +87,12 @@ void check_consistency(const TrialSet<TurningRow>& turning, const std::filesyste
   const double steepest_deg = degrees(
       beyond(turning.rows, &TurningRow::steering_rad, radians(vehicle.steering_max_deg)).largest);
   if (turning.rows.empty() || steepest_deg >= kSmall * vehicle.steering_max_deg) return;
-  table.tell(turning.rows.front().line,
-             fmt::format("steering_deg is at most {:.4g} in all runs, below 2 % of the stop at {:g}: "
-                         "the angles look like radians",
-                         steepest_deg, vehicle.steering_max_deg),
-             "steering_deg", degrees(1.0));
+  table.tell(
+      turning.rows.front().line,
+      fmt::format("steering_deg is at most {:.4g} in all runs, below 2 % of the stop at {:g}: "
+                  "the angles look like radians",
+                  steepest_deg, vehicle.steering_max_deg),
+      "steering_deg", degrees(1.0));
 }
 
 }  // namespace awmr

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "awmr/core/index.h"
+#include "awmr/identify/uncertainty/quantiles.h"
 
 namespace awmr {
 namespace {
@@ -69,21 +70,32 @@ Eigen::VectorXd variances_by_scatter(const Eigen::MatrixXd& covariance,
   return m / (m - 1.0) * variances;
 }
 
-/// Widens the standard errors to what the blocks' scatter demands.
-void widen(const std::vector<Eigen::VectorXd>& scores, Identifiability& found) {
-  constexpr double kManyDegrees = 1e6;  // normal
-  const Eigen::Index n = found.covariance.rows();
-  found.degrees_of_freedom.assign(at(n), kManyDegrees);
-  found.factor.assign(at(n), 1.0);
+/// Notes the factor that the scatter of these parts demands, where it is above what chance allows
+/// and above what is noted already.
+void note_scatter(const std::vector<Eigen::VectorXd>& scores, double allowed,
+                  Identifiability& found) {
   if (scores.size() < 2) return;
   const Eigen::VectorXd scatter = variances_by_scatter(found.covariance, scores);
-  Eigen::VectorXd factor = Eigen::VectorXd::Ones(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    if (!(scatter(i) > found.covariance(i, i))) continue;
-    factor(i) = std::sqrt(scatter(i) / found.covariance(i, i));
+  for (Eigen::Index i = 0; i < scatter.size(); ++i) {
+    const double ratio = scatter(i) / found.covariance(i, i);
+    if (!(ratio > allowed) || !(std::sqrt(ratio) > found.factor[at(i)])) continue;
+    found.factor[at(i)] = std::sqrt(ratio);
     found.degrees_of_freedom[at(i)] = static_cast<double>(scores.size() - 1);
   }
-  for (Eigen::Index i = 0; i < n; ++i) found.factor[at(i)] = factor(i);
+}
+
+/// Widens the standard errors to what the scatter of blocks and of logs demands.
+void widen(const Scores& scores, Identifiability& found) {
+  constexpr double kManyDegrees = 1e6;  // normal
+  constexpr std::size_t kEnoughLogs = 3;
+  found.degrees_of_freedom.assign(at(found.covariance.rows()), kManyDegrees);
+  found.factor.assign(at(found.covariance.rows()), 1.0);
+  note_scatter(scores.blocks, 1.0, found);
+  if (scores.logs.size() >= kEnoughLogs) {
+    const double degrees = static_cast<double>(scores.logs.size() - 1);
+    note_scatter(scores.logs, chi_squared_quantile_95(degrees) / degrees, found);
+  }
+  const Eigen::Map<const Eigen::VectorXd> factor(found.factor.data(), rows_of(found.factor));
   found.covariance = factor.asDiagonal() * found.covariance * factor.asDiagonal();
 }
 
@@ -113,8 +125,7 @@ std::string why_stopped(const FreeQuantity& q, double coordinate) {
 
 }  // namespace
 
-Identifiability identifiability(const Eigen::MatrixXd& information,
-                                const std::vector<Eigen::VectorXd>& scores,
+Identifiability identifiability(const Eigen::MatrixXd& information, const Scores& scores,
                                 const std::vector<FreeQuantity>& quantities) {
   // The prior of the search: a coordinate is within ten large changes of its initial guess.
   constexpr double kPrior = 1.0 / (kPriorStd * kPriorStd);

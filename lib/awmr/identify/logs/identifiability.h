@@ -25,16 +25,23 @@ struct Identifiability {
   double widened() const { return factor.empty() ? 1.0 : std::ranges::max(factor); }
 };
 
+/// The scores of parts of the logs.
+struct Scores {
+  std::vector<Eigen::VectorXd> blocks;  ///< of some seconds each
+  std::vector<Eigen::VectorXd> logs;    ///< of whole logs
+};
+
 /// The covariance from the information H (n x n) and, as a judge of its noise model, the scores s_b
-/// of m blocks of residuals. With coordinates over their large changes and a weak prior P,
+/// of m parts of the logs. With coordinates over their large changes and a weak prior P,
 ///
 ///     C = (H + P)^-1,   V = m/(m - 1) C (sum s_b s_b^T) C,   covariance = D C D,
 ///     D_ii^2 = max(1, V_ii / C_ii)
 ///
+/// The parts are blocks; and whole logs where there are three or more and these scatter more than
+/// chance would have them at 5 %, as they do where the model errs in every log in another way.
 /// A quantity is refused where its standard error is half its large change or more, or where it has
 /// a tenth or more of the squared length of a direction that the logs leave open.
-Identifiability identifiability(const Eigen::MatrixXd& information,
-                                const std::vector<Eigen::VectorXd>& scores,
+Identifiability identifiability(const Eigen::MatrixXd& information, const Scores& scores,
                                 const std::vector<FreeQuantity>& quantities);
 
 /// Refuses a coordinate that the search left at an end of its range: it was stopped there, not found.

@@ -51,6 +51,21 @@ std::vector<Eigen::VectorXd> block_scores(const std::vector<FitWindow>& windows,
   return scores;
 }
 
+std::vector<Eigen::VectorXd> log_scores(const std::vector<FitWindow>& windows,
+                                        const std::vector<WindowResiduals>& residuals,
+                                        Eigen::Index n) {
+  std::vector<Eigen::VectorXd> scores;
+  const DrivingLog* log = nullptr;
+  for (std::size_t w = 0; w < windows.size(); ++w) {
+    if (windows[w].rows.log != log) scores.push_back(Eigen::VectorXd::Zero(n));
+    log = windows[w].rows.log;
+    const Eigen::Index samples = rows_of(windows[w].samples);
+    scores.back() += projected(residuals[w], n).topRows(samples).transpose() *
+                     residuals[w].residuals.head(samples);
+  }
+  return scores;
+}
+
 double block_length_s(const NoiseLevels& noise) {
   double longest_s = 0.0;
   for (const auto& [channel, level] : noise) longest_s = std::max(longest_s, level.correlation_s);

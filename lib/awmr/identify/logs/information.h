@@ -21,6 +21,11 @@ std::vector<Eigen::VectorXd> block_scores(const std::vector<FitWindow>& windows,
                                           const std::vector<WindowResiduals>& residuals,
                                           Eigen::Index n, double block_s);
 
+/// The same, summed over each log.
+std::vector<Eigen::VectorXd> log_scores(const std::vector<FitWindow>& windows,
+                                        const std::vector<WindowResiduals>& residuals,
+                                        Eigen::Index n);
+
 /// Long enough for the blocks to be nearly independent: five times the longest correlation, within
 /// a window.
 double block_length_s(const NoiseLevels& noise);

@@ -9,4 +9,7 @@ inline constexpr double kNormalQuantile995 = 2.576;  ///< two-sided 99 % of the 
 /// Precondition: degrees_of_freedom > 0.
 double t_quantile_95(double degrees_of_freedom);
 
+/// What a chi-squared variable stays below 19 times in 20. Precondition: degrees_of_freedom > 0.
+double chi_squared_quantile_95(double degrees_of_freedom);
+
 }  // namespace awmr
