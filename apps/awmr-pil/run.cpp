@@ -58,6 +58,7 @@ Result<Inputs> read_inputs(const PilOptions& options) {
   if (!scenario) return tl::unexpected(scenario.error());
   AWMR_RETURN_IF_ERROR(check_scenario(*scenario, options.scenario.string()));
   if (options.link == cli::PilLink::kMemory) AWMR_RETURN_IF_ERROR(check_sample_time(*model));
+  AWMR_RETURN_IF_ERROR(check_mode(model->vehicle, options.mode));
   const auto plant = plant_for(*scenario, *model);
   if (!plant) return tl::unexpected(plant.error());
   const auto names = cli::emit_inputs(options.model, options.gains);

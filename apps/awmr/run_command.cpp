@@ -28,7 +28,7 @@ Status write_runs(const Project& project, const fs::path& directory) {
   const std::pair<const char*, Gains<double>> sets[] = {{"tuned", tuned}, {"paper", kPaperGains}};
   for (const fs::path& path : project.scenarios) {
     AWMR_ASSIGN_OR_RETURN(const Scenario scenario, read_scenario(path));
-    for (const YawMode mode : kYawModes) {
+    for (const YawMode mode : yaw_modes(model.vehicle)) {
       for (const auto& [name, gains] : sets) {
         AWMR_ASSIGN_OR_RETURN(const Run run, simulate(model, gains, scenario, mode));
         AWMR_RETURN_IF_ERROR(

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "awmr/core/option_text.h"
+#include "awmr/identify/tables/subject.h"
 #include "awmr/model/steady.h"
 #include "identify/synthetic.h"
 
@@ -196,6 +197,21 @@ TEST(Options, ThatContradictEachOtherAreRefused) {
   options = {};
   options.joint = true;
   EXPECT_FALSE(identify(vehicle(), data, options, {}));
+}
+
+TEST(Tables, ADeadZoneTakesFromEachSideWhatItCommands) {
+  TurningRow row;
+  row.tau_turn_m = 0.4;
+  row.yaw_rate_radps = 0.5;
+  const auto moment = [&](double left, double right) {
+    row.sides = SideForces<double>{left, right};
+    const auto points = turning_points({row}, 0.05);
+    return points.empty() ? 0.0 : points[0].force;
+  };
+  EXPECT_DOUBLE_EQ(moment(-0.1, 0.3), 0.4 * 0.3 / 0.4);  // 0.25 and -0.05 are left
+  EXPECT_DOUBLE_EQ(moment(0.1, 0.3), 0.4);               // both lose the same
+  EXPECT_DOUBLE_EQ(moment(0.0, 0.2), 0.4 * 0.15 / 0.2);  // the left one has nothing to lose
+  EXPECT_EQ(moment(-0.04, 0.04), 0.0);                   // nothing moves
 }
 
 }  // namespace

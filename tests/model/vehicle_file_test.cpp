@@ -51,6 +51,28 @@ TEST(VehicleFile, ReadsTheForwardOnlyVehicle) {
   EXPECT_EQ(vehicle->wheel_force.hi, 0.5);
 }
 
+TEST(VehicleFile, ReadsAVehicleWithoutSteering) {
+  Json json = Json::parse(paper_text());
+  json["drive"] = "differential";
+  json.erase("steering");
+  json.erase("front_axle_m");
+  const ScratchFile file("vehicle.json", json.dump());
+  const auto vehicle = read_vehicle(file.path());
+  ASSERT_TRUE(vehicle) << to_text(vehicle.error());
+  EXPECT_FALSE(vehicle->has_steering());
+  EXPECT_EQ(vehicle->steering_max_deg, 0.0);
+  EXPECT_EQ(vehicle->front_axle_m, vehicle->half_track_m);
+  EXPECT_TRUE(read_vehicle(kConfigs / "vehicle.json")->has_steering());
+}
+
+TEST(VehicleFile, RefusesADriveThatContradictsItsSteering) {
+  EXPECT_THAT(faults_after({"/drive", "differential"}),
+              ElementsAre(StartsWith("/steering: a vehicle of drive")));
+  EXPECT_THAT(faults_after({"/drive", "front_wheel"}),
+              ElementsAre(StartsWith("/drive: expected one of")));
+  EXPECT_THAT(faults_after({"/steering", {}, true}), ElementsAre(StartsWith("/steering")));
+}
+
 TEST(VehicleFile, TakesTheBoxFormulaWhereNoInertiaIsGiven) {
   const ScratchFile file("vehicle.json", edited(paper_text(), {"/yaw_inertia_kgm2", {}, true}));
   const auto vehicle = read_vehicle(file.path());

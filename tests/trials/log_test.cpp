@@ -149,5 +149,30 @@ TEST(SteadyRuns, AreFoundWithTheirSpansAndNotWhereTheSpeedStillRises) {
   EXPECT_NEAR(runs.segments[0].end_s, 7.9, 1e-9);
 }
 
+TEST(SteadyRunsOfALog, TurnByTheSidesWhereThereIsNoSteering) {
+  Vehicle vehicle = paper_vehicle();
+  vehicle.drive = Drive::kDifferential;
+  std::string text = "t_s,force_left,force_right,speed_mps,yaw_rate_radps\n";
+  for (int i = 0; i < 120; ++i) {
+    const bool turn = i >= 60;  // to the right, on the spot
+    const double wiggle = i % 2 == 0 ? 1e-3 : -1e-3;
+    text += std::to_string(0.1 * i) + (turn ? ",0.2,-0.2," : ",0.3,0.3,") +
+            std::to_string((turn ? 0.0 : 1.0) + wiggle) + "," +
+            std::to_string((turn ? -0.4 : 0.0) + wiggle) + "\n";
+  }
+  TrialOptions options;
+  options.has_steering = false;
+  const auto read = accepted(read_log, text, options);
+  std::vector<Finding> findings;
+  const SteadyRuns runs = steady_runs(read.set, vehicle, {}, findings);
+  ASSERT_THAT(runs.surge.rows, SizeIs(1));
+  EXPECT_NEAR(runs.surge.rows[0].tau_speed, 1.2, 1e-9);
+  ASSERT_THAT(runs.turning.rows, SizeIs(1));
+  EXPECT_NEAR(runs.turning.rows[0].yaw_rate_radps, 0.4, 1e-3);
+  // 2 d (F'R - F'L)                                                                 [paper (41)]
+  EXPECT_NEAR(runs.turning.rows[0].tau_turn_m, 2.0 * vehicle.half_track_m * 0.4, 1e-12);
+  EXPECT_THAT(findings.back().message, HasSubstr("F'L = 0.2, F'R = -0.2"));
+}
+
 }  // namespace
 }  // namespace awmr::testing

@@ -13,6 +13,7 @@ using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 using ::testing::SizeIs;
 using ::testing::StartsWith;
 
@@ -108,6 +109,51 @@ TEST(TurningTrial, RefusesNegativeAndImpossibleCellsAllAtOnce) {
           "10,0.35,-1,71,0.088\n10,0.35,1,-71,0.088\n10,0.35,1,0,0.088\n90,0.35,1,71,0.088\n"),
       ElementsAre(StartsWith("2:4: "), StartsWith("3:9: "), StartsWith("4:11: "),
                   StartsWith("5:11: "), StartsWith("6:1: ")));
+}
+
+/// A vehicle without steering of half_track_m 0.36.
+const auto kReadSides = [](const std::filesystem::path& path, const TrialOptions& options,
+                           std::vector<Finding>& findings) {
+  Vehicle vehicle = paper_vehicle();
+  vehicle.drive = Drive::kDifferential;
+  return read_turning(path, vehicle, options, findings);
+};
+
+TEST(TurningTrialOfSides, ComputesTheYawMomentAndMirrorsATurnToTheRight) {
+  const auto read = accepted(kReadSides,
+                             "force_left,force_right,yaw_rate_radps\n"
+                             "-0.1,0.2,0.5\n0.2,-0.1,-0.5\n0.1,0.1,0\n");
+  ASSERT_THAT(read.set.rows, SizeIs(2));
+  for (const TurningRow& row : read.set.rows) {
+    // 2 d (F'R - F'L)                                                               [paper (41)]
+    EXPECT_DOUBLE_EQ(row.tau_turn_m, 2.0 * 0.36 * 0.3);
+    EXPECT_EQ(row.yaw_rate_radps, 0.5);
+    EXPECT_EQ(row.sides->left, -0.1);
+    EXPECT_EQ(row.sides->right, 0.2);
+    EXPECT_EQ(row.steering_rad, 0.0);
+  }
+  EXPECT_EQ(read.set.set_aside, 1);
+}
+
+TEST(TurningTrialOfSides, TellsAPrintedMomentThatTheTrackContradicts) {
+  const auto read = accepted(kReadSides,
+                             "force_left,force_right,turns,elapsed_s,tau_turn\n"
+                             "-0.1,0.1,1,10,0.288\n");
+  ASSERT_THAT(codes_of(read.findings), ElementsAre("tau-turn-mismatch@2"));
+  EXPECT_THAT(read.findings[0].message, HasSubstr("it implies a half_track_m of 0.720"));
+  EXPECT_EQ(read.set.rows[0].tau_turn_m, 0.288);
+}
+
+TEST(TurningTrialOfSides, RefusesSignsThatDisagreeAndOtherColumns) {
+  EXPECT_THAT(faults_of(kReadSides, "force_left,force_right,yaw_rate_radps\n0.1,-0.1,0.5\n"),
+              ElementsAre(AllOf(StartsWith("2:10"), HasSubstr("signs must agree"))));
+  EXPECT_THAT(
+      faults_of(kReadSides, "force_left,force_right,yaw_rate_radps,tau_turn\n-0.1,0.1,0.5,-0.1\n"),
+      ElementsAre(AllOf(StartsWith("2:14"), HasSubstr("signs must agree"))));
+  EXPECT_THAT(faults_of(kReadSides, "steering_deg,wheel_force,yaw_rate_radps\n10,0.35,0.1\n"),
+              Not(IsEmpty()));
+  EXPECT_THAT(faults_of(kReadSides, "force_left,force_right\n-0.1,0.1\n"),
+              ElementsAre(HasSubstr("no yaw rate")));
 }
 
 }  // namespace

@@ -17,8 +17,6 @@
 namespace awmr {
 namespace {
 
-constexpr std::size_t kModeCount = std::size(kYawModes);
-
 std::vector<Fault> option_faults(const std::vector<NamedGains>& gains,
                                  const std::vector<Scenario>& scenarios,
                                  const CompareOptions& options) {
@@ -60,20 +58,20 @@ struct Place {
 };
 
 struct Layout {
-  std::size_t scenarios, gains, samples;
+  std::size_t scenarios, gains, modes, samples;
 
-  std::size_t count() const { return scenarios * gains * kModeCount * samples; }
+  std::size_t count() const { return scenarios * gains * modes * samples; }
   /// The place of a row in the output, which is sorted by scenario, gains, mode and sample.
   std::size_t row(const Place& p) const {
-    return ((p.scenario * gains + p.gains) * kModeCount + p.mode) * samples + p.sample;
+    return ((p.scenario * gains + p.gains) * modes + p.mode) * samples + p.sample;
   }
   /// Runs are begun by sample, scenario, gains, mode: a comparison that is stopped has whole
   /// samples.
   Place in_running_order(std::size_t i) const {
-    return {.scenario = i / (gains * kModeCount) % scenarios,
-            .gains = i / kModeCount % gains,
-            .mode = i % kModeCount,
-            .sample = i / (scenarios * gains * kModeCount)};
+    return {.scenario = i / (gains * modes) % scenarios,
+            .gains = i / modes % gains,
+            .mode = i % modes,
+            .sample = i / (scenarios * gains * modes)};
   }
 };
 
@@ -95,7 +93,7 @@ Status take_finished(const std::vector<Scenario>& scenarios, const std::vector<N
     const auto set =
         position_of(gains, [&](const NamedGains& other) { return other.name == row.gains; });
     const auto mode = position_of(kYawModes, [&](YawMode other) { return other == row.mode; });
-    if (!scenario || !set || !mode || row.sample < 0) {
+    if (!scenario || !set || !mode || *mode >= layout.modes || row.sample < 0) {
       return input_error(option_text("resume"),
                          fmt::format("the finished run of '{}' in sample {} is none of this "
                                      "comparison's; compare into another directory",
@@ -150,7 +148,8 @@ Result<Comparison> compare(const Model& model, const std::vector<NamedGains>& ga
   if (!faults.empty()) return input_errors(std::move(faults));
   AWMR_ASSIGN_OR_RETURN(const Fleet fleet, fleet_of(model, scenarios, options));
 
-  const Layout layout{scenarios.size(), gains.size(), at(options.samples) + 1};
+  const Layout layout{scenarios.size(), gains.size(), yaw_modes(model.vehicle).size(),
+                      at(options.samples) + 1};
   Slots slots(layout.count());
   AWMR_RETURN_IF_ERROR(take_finished(scenarios, gains, options, layout, slots));
 

@@ -65,7 +65,10 @@ void add_vehicle(std::vector<Macro>& macros, const Vehicle& vehicle, const std::
   add("AWMR_WHEEL_FORCE_MAX", vehicle.wheel_force.hi,
       "F'max, 1: largest force of one wheel over F_max", "wheel_force/max");
   add("AWMR_STEERING_MAX_RAD", radians(vehicle.steering_max_deg),
-      "d_max, rad: stop of the front wheels, either side", "steering/max_deg");
+      vehicle.has_steering() ? "d_max, rad: stop of the front wheels, either side"
+                             : "d_max, rad: there is no steering",
+      "steering/max_deg",
+      vehicle.has_steering() ? MacroRange::kPositive : MacroRange::kNotNegative);
   add("AWMR_SAMPLE_TIME_S", vehicle.sample_time_s, "T_s, s: sample time of the controller",
       "sample_time_s");
 }

@@ -19,7 +19,14 @@ bool asks_for_other_family(const IdentifyOptions& options) {
          options.yaw_family.family != Family::kPower;
 }
 
-Status check_options(const TrialData& data, const IdentifyOptions& options) {
+Status check_options(const Vehicle& vehicle, const TrialData& data,
+                     const IdentifyOptions& options) {
+  for (const ParameterId id : options.asked) {
+    if (has(vehicle, id)) continue;
+    return input_error(option_text("fit"),
+                       fmt::format("a vehicle of drive \"{}\" has no steering, and with it no {}",
+                                   name_in(kDriveNames, vehicle.drive), info(id).name));
+  }
   const bool other_family = asks_for_other_family(options);
   if (options.method == Method::kLogLinear && (other_family || options.loss != Loss::kSquared)) {
     return input_error(option_text("method"),
@@ -123,8 +130,8 @@ void identify_from_logs(const Vehicle& vehicle, const TrialData& data,
 
 Result<Identification> identify(const Vehicle& vehicle, const TrialData& data,
                                 const IdentifyOptions& options, std::vector<Finding> findings) {
-  AWMR_RETURN_IF_ERROR(check_options(data, options));
-  const std::vector<ParameterId> asked = asked_for(data, options);
+  AWMR_RETURN_IF_ERROR(check_options(vehicle, data, options));
+  const std::vector<ParameterId> asked = asked_for(vehicle, data, options);
   Identification result;
   Model& model = result.model;
   model.vehicle = vehicle;

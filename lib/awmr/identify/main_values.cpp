@@ -122,8 +122,11 @@ void set_given(const Vehicle& vehicle, Model& model) {
   if (vehicle.sway_alpha) {
     model[ParameterId::kSwayAlpha] = given(*vehicle.sway_alpha, "vehicle");
   }
-  model[ParameterId::kSteeringTimeConstant] = {
-      vehicle.steering_time_constant_s, {}, {}, Source::kGiven, "vehicle"};
+  // Wheels that stay straight have no lag. It is held at any value until the fits are done, so that
+  // none of them looks for it.
+  constexpr double kAny_s = 1.0;
+  model[ParameterId::kSteeringTimeConstant] =
+      given(vehicle.has_steering() ? vehicle.steering_time_constant_s : kAny_s, "vehicle");
 }
 
 void set_law(const Subject& subject, const SubjectFit& fit, MainValues& values) {

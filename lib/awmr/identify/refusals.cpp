@@ -41,7 +41,8 @@ std::string table_reason(ParameterId id, const TrialData& data, const Reasons& r
 
 }  // namespace
 
-std::vector<ParameterId> asked_for(const TrialData& data, const IdentifyOptions& options) {
+std::vector<ParameterId> asked_for(const Vehicle& vehicle, const TrialData& data,
+                                   const IdentifyOptions& options) {
   if (!options.asked.empty()) return options.asked;
   std::vector<ParameterId> ids;
   if (data.surge) ids.insert(ids.end(), {ParameterId::kSurgeAlpha, ParameterId::kSurgeBeta});
@@ -51,7 +52,7 @@ std::vector<ParameterId> asked_for(const TrialData& data, const IdentifyOptions&
   }
   if (!data.logs.empty()) {
     for (const ParameterInfo& parameter : parameter_table()) {
-      if (!parameter.term) ids.push_back(parameter.id);
+      if (!parameter.term && has(vehicle, parameter.id)) ids.push_back(parameter.id);
     }
   }
   return ids;
@@ -63,6 +64,10 @@ std::vector<ParameterId> refuse_what_is_missing(const TrialData& data, const Rea
   std::vector<ParameterId> refused;
   for (const ParameterInfo& parameter : parameter_table()) {
     Estimate& estimate = model[parameter.id];
+    if (!has(model.vehicle, parameter.id)) {
+      estimate = {{}, {}, {}, Source::kGiven, "no steering"};
+      continue;
+    }
     const bool wanted = std::find(asked.begin(), asked.end(), parameter.id) != asked.end();
     const auto logged = reasons.logs.find(parameter.id);
     const bool held = estimate.value && logged != reasons.logs.end() && wanted &&
@@ -83,7 +88,7 @@ std::vector<ParameterId> refuse_what_is_missing(const TrialData& data, const Rea
     model.record.findings.push_back(
         {"", 0, wanted ? Severity::kError : Severity::kNote, "not-identifiable",
          fmt::format("{} ({}) cannot be identified: {}; {}{}", parameter.name, parameter.meaning,
-                     why, parameter.trial, kept)});
+                     why, trial_of(model.vehicle, parameter.id), kept)});
   }
   return refused;
 }

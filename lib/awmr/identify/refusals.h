@@ -12,7 +12,8 @@
 namespace awmr {
 
 /// The parameters asked for: those named, else those that the given trials exist for.
-std::vector<ParameterId> asked_for(const TrialData& data, const IdentifyOptions& options);
+std::vector<ParameterId> asked_for(const Vehicle& vehicle, const TrialData& data,
+                                   const IdentifyOptions& options);
 
 /// Why a parameter has no value, beyond what the presence of trials says.
 struct Reasons {
@@ -26,7 +27,8 @@ struct Reasons {
 };
 
 /// Marks what has no value as not identified and says why, what is asked for as an error
-/// (`not-identifiable`). A given value stands, but where a log was to show it, that it does not is
+/// (`not-identifiable`); what the vehicle does not have has no value, and nothing is said. A given
+/// value stands, but where a log was to show it, that it does not is
 /// said. Returns what was asked for and refused.
 std::vector<ParameterId> refuse_what_is_missing(const TrialData& data, const Reasons& reasons,
                                                 const std::vector<ParameterId>& asked,

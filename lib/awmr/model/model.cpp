@@ -29,10 +29,12 @@ Result<Plant<double>> plant_with(const Model& model, IsNeeded is_needed) {
   std::vector<Fault> faults;
   for (const ParameterInfo& parameter : parameter_table()) {
     if (model[parameter.id].value || !is_needed(parameter.id)) continue;
+    if (!has(model.vehicle, parameter.id)) continue;
     faults.push_back(
         {fmt::format("{}:{}", model.file, parameter.pointer),
          fmt::format("no value for {} ({}, {}), which this needs; identify again with {}",
-                     parameter.name, parameter.symbol, parameter.meaning, parameter.trial)});
+                     parameter.name, parameter.symbol, parameter.meaning,
+                     trial_of(model.vehicle, parameter.id))});
   }
   if (!faults.empty()) return input_errors(std::move(faults));
   return model.plant_as_known();
@@ -46,6 +48,17 @@ Model::Model() {
   for (const ParameterInfo& parameter : parameter_table()) {
     if (parameter.term) (*this)[parameter.id] = {0.0, {}, {}, Source::kGiven, "not in the family"};
   }
+}
+
+bool has(const Vehicle& vehicle, ParameterId id) {
+  return vehicle.has_steering() || id != ParameterId::kSteeringTimeConstant;
+}
+
+std::string_view trial_of(const Vehicle& vehicle, ParameterId id) {
+  const bool turning = takes(Motion::kSteadyTurn, id) && id != ParameterId::kWheelDeadZone;
+  if (!turning || vehicle.has_steering()) return info(id).trial;
+  return "a turning trial: runs at two or more constant differences of force_right and force_left, "
+         "each with its steady yaw rate";
 }
 
 bool takes(Motion motion, ParameterId id) {
@@ -106,11 +119,6 @@ Plant<double> Model::plant_as_known() const {
   return plant_of(vehicle, values);
 }
 
-Motion Model::simulated_motion() const {
-  const bool whole = std::all_of(estimates.begin(), estimates.end(), [](const Estimate& estimate) {
-    return estimate.value.has_value();
-  });
-  return whole ? Motion::kPlanar : Motion::kStraight;
-}
+Motion Model::simulated_motion() const { return plant() ? Motion::kPlanar : Motion::kStraight; }
 
 }  // namespace awmr

@@ -42,6 +42,11 @@ struct Covariance {
   std::vector<std::vector<double>> matrix;  ///< square, symmetric, over `parameters`
 };
 
+/// False for what the vehicle does not have: the servo of one without steering.
+bool has(const Vehicle& vehicle, ParameterId id);
+/// The trial that shows a parameter of this vehicle, in words for a refusal.
+std::string_view trial_of(const Vehicle& vehicle, ParameterId id);
+
 /// Motions by what the equations of each take of a model.
 enum class Motion {
   kSteadySurge,  ///< straight ahead at constant speed: g1

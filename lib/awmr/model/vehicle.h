@@ -6,8 +6,17 @@
 #include <string>
 
 #include "awmr/core/interval.h"
+#include "awmr/core/name_table.h"
 
 namespace awmr {
+
+/// Which wheels drive the vehicle, and what turns it.
+enum class Drive {
+  kFourWheel,     ///< four driven wheels, the front ones steered: the paper's
+  kDifferential,  ///< no steering (d_r = 0): the forces of the sides alone turn it
+};
+inline constexpr NameTable<Drive, 2> kDriveNames{
+    {{"four_wheel", Drive::kFourWheel}, {"differential", Drive::kDifferential}}};
 
 /// What the user measures on the vehicle or reads in its data sheets.
 struct Vehicle {
@@ -15,6 +24,7 @@ struct Vehicle {
   double mass_kg = 0.0;                    ///< m, kg, > 0: as it drives, batteries included
   double length_m = 0.0;                   ///< b of the box formula, m, > 0: along the body's x
   double width_m = 0.0;                    ///< a of the box formula, m, > 0: along the body's y
+  Drive drive = Drive::kFourWheel;         ///< without steering, the steering_ fields are 0
   double front_axle_m = 0.0;               ///< l_f, m, > 0: centre of gravity to front axle
   double half_track_m = 0.0;               ///< d, m, > 0: centre line to the middle of a wheel
   Interval wheel_force;                    ///< F' of one wheel: -1 <= min < max, 0 < max <= 1
@@ -29,6 +39,8 @@ struct Vehicle {
 
   /// How this vehicle's files name what is asked for: column -> expression (core/column_mapping.h).
   std::map<std::string, std::string> columns = {};
+
+  bool has_steering() const { return drive != Drive::kDifferential; }
 
   /// Yaw inertia about the centre of gravity, kg m^2: the measured Iz where there is one, else that
   /// of a uniform box,

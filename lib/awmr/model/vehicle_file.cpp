@@ -72,10 +72,20 @@ Vehicle vehicle_from_json(JsonObject& json) {
   vehicle.mass_kg = json.number("mass_kg", kMass_kg);
   vehicle.length_m = json.number("length_m", kSize_m);
   vehicle.width_m = json.number("width_m", kSize_m);
-  vehicle.front_axle_m = json.number("front_axle_m", kSize_m);
+  if (json.has("drive")) vehicle.drive = json.choice("drive", kDriveNames);
   vehicle.half_track_m = json.number("half_track_m", kSize_m);
+  // Without steering, l_f only says where the front wheels touch the ground.
+  vehicle.front_axle_m = vehicle.has_steering() || json.has("front_axle_m")
+                             ? json.number("front_axle_m", kSize_m)
+                             : vehicle.half_track_m;
   vehicle.wheel_force = wheel_force_from_json(json.object("wheel_force"));
-  steering_from_json(json.object("steering"), vehicle);
+  if (vehicle.has_steering()) {
+    steering_from_json(json.object("steering"), vehicle);
+  } else if (json.has("steering")) {
+    json.fault("steering",
+               "a vehicle of drive \"differential\" has none; take it out, or take "
+               "another drive");
+  }
   vehicle.sample_time_s = json.number("sample_time_s", kSampleTime_s);
   vehicle.yaw_inertia_kgm2 = json.optional_number("yaw_inertia_kgm2", kYawInertia_kgm2);
   vehicle.sway_alpha = json.optional_number("sway_alpha", kCoefficient);
@@ -94,13 +104,16 @@ Json vehicle_to_json(const Vehicle& vehicle) {
   json["mass_kg"] = vehicle.mass_kg;
   json["length_m"] = vehicle.length_m;
   json["width_m"] = vehicle.width_m;
+  if (vehicle.drive != Drive::kFourWheel) json["drive"] = name_in(kDriveNames, vehicle.drive);
   json["front_axle_m"] = vehicle.front_axle_m;
   json["half_track_m"] = vehicle.half_track_m;
   json["wheel_force"]["min"] = vehicle.wheel_force.lo;
   json["wheel_force"]["max"] = vehicle.wheel_force.hi;
-  json["steering"]["max_deg"] = vehicle.steering_max_deg;
-  json["steering"]["max_rate_degps"] = vehicle.steering_max_rate_degps;
-  json["steering"]["time_constant_s"] = vehicle.steering_time_constant_s;
+  if (vehicle.has_steering()) {
+    json["steering"]["max_deg"] = vehicle.steering_max_deg;
+    json["steering"]["max_rate_degps"] = vehicle.steering_max_rate_degps;
+    json["steering"]["time_constant_s"] = vehicle.steering_time_constant_s;
+  }
   json["sample_time_s"] = vehicle.sample_time_s;
   if (vehicle.yaw_inertia_kgm2) json["yaw_inertia_kgm2"] = *vehicle.yaw_inertia_kgm2;
   if (vehicle.sway_alpha) json["sway_alpha"] = *vehicle.sway_alpha;

@@ -85,6 +85,11 @@ std::optional<double> speed_drop(const Run& run, double speed_mps) {
   return std::max(0.0, speed_mps - *least);
 }
 
+/// A commanded angle over the largest; 0 where the vehicle has no steering.
+double share_of_stop(double steering_rad, double steering_max_rad) {
+  return steering_max_rad > 0.0 ? steering_rad / steering_max_rad : 0.0;
+}
+
 void motion_metrics(const Run& run, const Controller<double>& controller, Metrics& m) {
   const auto& limits = controller.limits;
   double variation = 0.0;
@@ -92,7 +97,7 @@ void motion_metrics(const Run& run, const Controller<double>& controller, Metric
   for (std::size_t i = 0; i < run.rows.size(); ++i) {
     const RunRow& row = run.rows[i];
     const State<double>& s = row.state;
-    const double steering = row.steering_command_rad / limits.steering_max_rad;
+    const double steering = share_of_stop(row.steering_command_rad, limits.steering_max_rad);
     effort +=
         row.force.left * row.force.left + row.force.right * row.force.right + steering * steering;
     if (std::hypot(s.u_mps, s.v_mps) > kMovingMps) {
@@ -103,11 +108,11 @@ void motion_metrics(const Run& run, const Controller<double>& controller, Metric
     if (i == 0) continue;
     const RunRow& before = run.rows[i - 1];
     m.path_length_m += std::hypot(s.x_m - before.state.x_m, s.y_m - before.state.y_m);
-    variation +=
-        std::abs(row.steering_command_rad - before.steering_command_rad) / limits.steering_max_rad +
-        (std::abs(row.force.left - before.force.left) +
-         std::abs(row.force.right - before.force.right)) /
-            limits.force_max;
+    variation += share_of_stop(std::abs(row.steering_command_rad - before.steering_command_rad),
+                               limits.steering_max_rad) +
+                 (std::abs(row.force.left - before.force.left) +
+                  std::abs(row.force.right - before.force.right)) /
+                     limits.force_max;
   }
   const double duration_s = run.rows.back().t_s - run.rows.front().t_s;
   m.control_variation = duration_s > 0.0 ? variation / duration_s : 0.0;

@@ -1,8 +1,11 @@
 #include "awmr/simulate/scenario.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
+#include "awmr/core/option_text.h"
 #include "awmr/core/units.h"
 #include "awmr/simulate/simulate.h"
 
@@ -42,6 +45,21 @@ Scenario heading_steps(const std::vector<double>& headings_deg,
           .initial = {},
           .speed_mps = options.speed_mps,
           .guidance = std::move(guidance)};
+}
+
+std::span<const YawMode> yaw_modes(const Vehicle& vehicle) {
+  const std::span<const YawMode> all(kYawModes);
+  return vehicle.has_steering() ? all : all.first(1);
+}
+
+Status check_mode(const Vehicle& vehicle, YawMode mode) {
+  const auto modes = yaw_modes(vehicle);
+  if (std::find(modes.begin(), modes.end(), mode) != modes.end()) return {};
+  return input_error(
+      option_text("mode"),
+      fmt::format("the vehicle's drive is \"{}\": it has no steering, which {} is "
+                  "made with; its mode is {}",
+                  name_in(kDriveNames, vehicle.drive), name_of(mode), name_of(modes.front())));
 }
 
 Result<Model> model_at_corner(Model model, const Scenario& scenario) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -117,5 +118,9 @@ inline constexpr NameTable<YawMode, 3> kYawModeNames{{{"differential", YawMode::
 constexpr std::string_view name_of(YawMode mode) { return name_in(kYawModeNames, mode); }
 inline constexpr YawMode kYawModes[] = {YawMode::kDifferential, YawMode::kSteering,
                                         YawMode::kCombined};
+/// Those that the vehicle has, in the order of kYawModes: without steering, differential alone.
+std::span<const YawMode> yaw_modes(const Vehicle& vehicle);
+/// Errors (input): the vehicle has no steering, which the mode is made with.
+Status check_mode(const Vehicle& vehicle, YawMode mode);
 
 }  // namespace awmr

@@ -284,6 +284,7 @@ Result<Controller<double>> controller_for(const Model& model, const Gains<double
 
 Result<Run> simulate(const Model& model, const Gains<double>& gains, const Scenario& scenario,
                      YawMode mode) {
+  AWMR_RETURN_IF_ERROR(check_mode(model.vehicle, mode));
   const Motion motion = model.simulated_motion();
   AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, plant_for(scenario, model, motion));
   AWMR_ASSIGN_OR_RETURN(const Controller<double> controller, controller_for(model, gains));

@@ -93,8 +93,8 @@ Result<Controller<double>> controller_for(const Model& model, const Gains<double
 /// One run of the model under its own controller, at the vehicle's sample time: the scenario's
 /// corner moves the plant, and the controller does not know. A model that knows nothing of turning
 /// (Model::simulated_motion) drives straight.
-/// Errors (input): as plant_for, Model::plant and failure_of; the run turns and the model knows
-/// nothing of turning: where it turns, and what is missing by name.
+/// Errors (input): as plant_for, Model::plant, check_mode and failure_of; the run turns and the
+/// model knows nothing of turning: where it turns, and what is missing by name.
 Result<Run> simulate(const Model& model, const Gains<double>& gains, const Scenario& scenario,
                      YawMode mode);
 

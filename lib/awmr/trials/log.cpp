@@ -54,8 +54,8 @@ void unwrap(std::vector<double>& angle_rad) {
   }
 }
 
-void check_log_columns(TrialReader& reader) {
-  if (!reader.has("steering_cmd_deg") && !reader.has("steering_deg")) {
+void check_log_columns(TrialReader& reader, bool has_steering) {
+  if (has_steering && !reader.has("steering_cmd_deg") && !reader.has("steering_deg")) {
     reader.header_fault("no steering: add a column steering_cmd_deg or steering_deg");
   }
   if (reader.has("latitude_deg") != reader.has("longitude_deg")) {
@@ -197,6 +197,8 @@ DrivingLog commands_of(const TrialReader& reader, RowSpan rows) {
   if (reader.has("steering_cmd_deg")) {
     log.steering_command_rad =
         values_of(reader, rows, "steering_cmd_deg", info(LogChannel::kSteering).to_si);
+  } else if (!reader.has("steering_deg")) {
+    log.steering_command_rad.emplace(log.t_s.size(), 0.0);  // a vehicle without steering
   }
   return log;
 }
@@ -231,7 +233,7 @@ Result<std::vector<DrivingLog>> read_logs(const std::filesystem::path& path,
                                           std::vector<Finding>& findings) {
   AWMR_ASSIGN_OR_RETURN(CsvTable table, read_table(path, TrialKind::kLog, options));
   TrialReader reader(std::move(table), options);
-  check_log_columns(reader);
+  check_log_columns(reader, options.has_steering);
   std::vector<RowSpan> runs = runs_of(reader);
   for (RowSpan& run : runs) run = from_known_steering(reader, run);
   for (const RowSpan run : runs) check_time(reader, run);

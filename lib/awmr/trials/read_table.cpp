@@ -84,7 +84,11 @@ std::optional<Result<Signals>> read_signals(std::string_view bytes, const std::s
 }
 
 Result<CsvTable> read_table(const fs::path& path, TrialKind kind, const TrialOptions& options) {
-  const std::span<const CsvColumn> columns = columns_of(kind);
+  return read_table(path, columns_of(kind), options);
+}
+
+Result<CsvTable> read_table(const fs::path& path, std::span<const CsvColumn> columns,
+                            const TrialOptions& options) {
   const std::string file = path.string();
   const Wanted wanted = [names = wanted_names(columns, options.columns)](const std::string& name) {
     return names.count(name) != 0;

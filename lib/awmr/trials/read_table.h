@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -18,6 +19,8 @@ std::optional<Result<Signals>> read_signals(std::string_view bytes, const std::s
 
 /// The format is known by the first bytes: ULog, DataFlash, a bag of ROS 2 in SQLite, else text. Of a
 /// directory the files are joined by time. Errors: as read_csv(); those of the formats.
+Result<CsvTable> read_table(const std::filesystem::path& path, std::span<const CsvColumn> columns,
+                            const TrialOptions& options);
 Result<CsvTable> read_table(const std::filesystem::path& path, TrialKind kind,
                             const TrialOptions& options);
 

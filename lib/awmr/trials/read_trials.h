@@ -27,6 +27,8 @@ struct TrialOptions {
   /// Trials that contradict themselves or the vehicle (log_consistency.h, table_consistency.h) are
   /// taken as they are, with a warning. For when a vehicle really is as odd as they are.
   bool as_is = false;
+  /// False: the vehicle has no steering, and a log without a column of it drives wheels straight.
+  bool has_steering = true;
 };
 
 /// Findings added: `speed-mismatch`, `yaw-rate-mismatch`, `tau-turn-mismatch`, `steering-stop`,
@@ -40,7 +42,8 @@ Result<TrialSet<TurningRow>> read_turning(const std::filesystem::path& path, con
 Result<CoastdownSet> read_coastdown(const std::filesystem::path& path, const TrialOptions& options,
                                     std::vector<Finding>& findings);
 
-/// Columns t_s, force_left, force_right, steering_cmd_deg or steering_deg, and any of the channels;
+/// Columns t_s, force_left, force_right, steering_cmd_deg or steering_deg (for a vehicle that has
+/// steering), and any of the channels;
 /// latitude_deg and longitude_deg stand in for x_m and y_m (local tangent plane at the first row).
 /// Findings: `held-samples`, `log-gap`, and those of channel_quality.h. Errors: as read_csv; time
 /// that does not rise; nothing measured; fewer than 10 rows; more than one run.

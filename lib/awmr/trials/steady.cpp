@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "awmr/core/units.h"
@@ -109,32 +110,51 @@ double mean_of(const std::vector<double>& signal, Stretch s) {
 /// A steady run as it was driven.
 struct SteadyRun {
   SteadySegment segment;
-  double wheel_force = 0.0;   ///< F' of each wheel
+  double wheel_force = 0.0;   ///< F' of each wheel, the mean of the sides
   double steering_rad = 0.0;  ///< signed
+  SideForces<double> sides{};
 };
 
 /// The run in a stretch of constant commands, or nothing where it shows no resistance: driven
-/// backward or unevenly, never steady, at rest, or turning against its steering.
-std::optional<SteadyRun> steady_run(const DrivingLog& log, const SteadyRule& rule,
-                                    Stretch stretch) {
+/// backward or, with steering, unevenly, never steady, at rest, or turning against its command.
+/// Without steering the difference of the sides turns the vehicle.
+std::optional<SteadyRun> steady_run(const DrivingLog& log, const Vehicle& vehicle,
+                                    const SteadyRule& rule, Stretch stretch) {
   const double left = mean_of(log.force_left, stretch);
   const double right = mean_of(log.force_right, stretch);
   const double steering_rad = mean_of(steering_angle_of(log), stretch);
-  const bool turning = std::abs(steering_rad) > rule.straight_rad;
+  const bool uneven = std::abs(left - right) > rule.same;
+  const bool turning = vehicle.has_steering() ? std::abs(steering_rad) > rule.straight_rad : uneven;
   const auto& rate = log[turning ? LogChannel::kYawRate : LogChannel::kSpeed];
-  if (!rate || !(left > 0.0) || std::abs(left - right) > rule.same) return std::nullopt;
+  const bool by_sides = turning && !vehicle.has_steering();
+  if (!rate || (!by_sides && (!(left > 0.0) || uneven))) return std::nullopt;
   const auto line = steady_rest(log, *rate, rule, stretch);
   if (!line) return std::nullopt;
   // At rest within the scatter: no information for a resistance curve.
   if (!(std::abs(line->mean) > 3.0 * line->mean_error) || line->mean == 0.0) return std::nullopt;
-  if (turning ? line->mean * steering_rad < 0.0 : line->mean < 0.0) return std::nullopt;
+  const double left_turn = by_sides ? right - left : steering_rad;
+  if (turning ? line->mean * left_turn < 0.0 : line->mean < 0.0) return std::nullopt;
   return SteadyRun{{log.t_s[stretch.begin], log.t_s[stretch.end - 1], log.line[stretch.begin],
                     turning, std::abs(line->mean), line->mean_error},
                    0.5 * (left + right),
-                   steering_rad};
+                   steering_rad,
+                   {left, right}};
+}
+
+/// A run without steering:
+///   tau_turn = 2 d (F'R - F'L)                                                        [paper (41)]
+TurningRow sides_turning_row(const SteadyRun& run, const Vehicle& vehicle) {
+  const auto [least, most] = std::minmax(run.sides.left, run.sides.right);
+  return {.line = run.segment.line,
+          .tau_turn_m = 2.0 * vehicle.half_track_m * (most - least),
+          .yaw_rate_radps = run.segment.mean_rate,
+          .turns = {},
+          .elapsed_s = {},
+          .sides = SideForces<double>{least, most}};
 }
 
 TurningRow turning_row(const SteadyRun& run, const Vehicle& vehicle) {
+  if (!vehicle.has_steering()) return sides_turning_row(run, vehicle);
   const double angle = std::abs(run.steering_rad);
   // tau_turn = 2 l_f F' sin d_r                                                        [paper (62)]
   return {.line = run.segment.line,
@@ -146,15 +166,18 @@ TurningRow turning_row(const SteadyRun& run, const Vehicle& vehicle) {
           .elapsed_s = {}};
 }
 
-Finding note_of(const SteadyRun& run, const std::string& file) {
+Finding note_of(const SteadyRun& run, const Vehicle& vehicle, const std::string& file) {
   const SteadySegment& segment = run.segment;
+  const bool by_sides = segment.turning && !vehicle.has_steering();
   return {file, segment.line, Severity::kNote, "steady-segment",
-          fmt::format("steady from {:.3f} to {:.3f} s: {} run, F' = {:.4g}, steering {:.3g} deg, "
-                      "{} {:.4g} +- {:.2g} {}",
-                      segment.begin_s, segment.end_s, segment.turning ? "turning" : "surge",
-                      run.wheel_force, degrees(run.steering_rad),
-                      segment.turning ? "yaw rate" : "speed", segment.mean_rate, segment.std_error,
-                      segment.turning ? "rad/s" : "m/s")};
+          fmt::format(
+              "steady from {:.3f} to {:.3f} s: {} run, {}, {} {:.4g} +- {:.2g} {}", segment.begin_s,
+              segment.end_s, segment.turning ? "turning" : "surge",
+              by_sides ? fmt::format("F'L = {:.4g}, F'R = {:.4g}", run.sides.left, run.sides.right)
+                       : fmt::format("F' = {:.4g}, steering {:.3g} deg", run.wheel_force,
+                                     degrees(run.steering_rad)),
+              segment.turning ? "yaw rate" : "speed", segment.mean_rate, segment.std_error,
+              segment.turning ? "rad/s" : "m/s")};
 }
 
 }  // namespace
@@ -164,7 +187,7 @@ SteadyRuns steady_runs(const DrivingLog& log, const Vehicle& vehicle, const Stea
   SteadyRuns runs;
   runs.surge.file = runs.turning.file = log.file;
   for (const Stretch stretch : constant_commands(log, rule.same)) {
-    const auto run = steady_run(log, rule, stretch);
+    const auto run = steady_run(log, vehicle, rule, stretch);
     if (!run) continue;
     if (run->segment.turning) {
       runs.turning.rows.push_back(turning_row(*run, vehicle));
@@ -173,7 +196,7 @@ SteadyRuns steady_runs(const DrivingLog& log, const Vehicle& vehicle, const Stea
           {run->segment.line, 4.0 * run->wheel_force, run->segment.mean_rate, {}, {}});
     }
     runs.segments.push_back(run->segment);
-    findings.push_back(note_of(*run, log.file));
+    findings.push_back(note_of(*run, vehicle, log.file));
   }
   return runs;
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "awmr/core/option_text.h"
@@ -51,6 +52,29 @@ Beyond<Row> beyond(const std::vector<Row>& rows, double Row::*member, double lim
   return found;
 }
 
+/// Without steering the sides have a force each.
+void check_sides(const Table& table, const std::vector<TurningRow>& rows, const Interval& force) {
+  constexpr double kRounding = 1.01;
+  const double limit = std::max(force.hi, -force.lo);
+  const TurningRow* first = nullptr;
+  double largest = 0.0;
+  for (const TurningRow& row : rows) {
+    if (!row.sides) continue;
+    const double most = std::max(std::abs(row.sides->left), std::abs(row.sides->right));
+    largest = std::max(largest, most);
+    if (first == nullptr && most > limit * kRounding) first = &row;
+  }
+  if (first == nullptr) return;
+  const auto [words, factor] = full_scale_of(largest, limit);
+  for (const char* column : {"force_left", "force_right"}) {
+    table.tell(first->line,
+               fmt::format("the forces of the sides go beyond wheel_force [{:g}, {:g}] of the "
+                           "vehicle, and reach {:.4g}: {}",
+                           force.lo, force.hi, largest, words),
+               column, factor);
+  }
+}
+
 }  // namespace
 
 void check_consistency(const TrialSet<SurgeRow>& surge, const std::filesystem::path& path,
@@ -74,6 +98,7 @@ void check_consistency(const TrialSet<TurningRow>& turning, const std::filesyste
                        const Vehicle& vehicle, const TrialOptions& options,
                        std::vector<Finding>& findings, std::vector<Fault>& faults) {
   const Table table{path, turning.file, options, findings, faults};
+  if (!vehicle.has_steering()) return check_sides(table, turning.rows, vehicle.wheel_force);
   const double limit = vehicle.wheel_force.hi;
   if (const auto [first, largest] = beyond(turning.rows, &TurningRow::wheel_force, limit); first) {
     const auto [words, factor] = full_scale_of(largest, limit);

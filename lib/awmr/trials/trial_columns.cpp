@@ -24,6 +24,11 @@ const CsvColumn kTurningColumns[] = {{"steering_deg", true},    {"wheel_force", 
                                      {"yaw_rate_radps", false}, {"turns", false},
                                      {"elapsed_s", false},      {"tau_turn", false}};
 
+/// Of a vehicle without steering.
+const CsvColumn kSidesTurningColumns[] = {{"force_left", true},      {"force_right", true},
+                                          {"yaw_rate_radps", false}, {"turns", false},
+                                          {"elapsed_s", false},      {"tau_turn", false}};
+
 const CsvColumn kCoastdownColumns[] = {{"initial_speed_mps", false},
                                        {"stop_time_s", false},
                                        {"t_s", false},
@@ -95,7 +100,13 @@ std::span<const CsvColumn> columns_of(TrialKind kind) {
   return {};
 }
 
+std::span<const CsvColumn> turning_columns(const Vehicle& vehicle) {
+  if (vehicle.has_steering()) return kTurningColumns;
+  return kSidesTurningColumns;
+}
+
 Result<TrialOptions> with_vehicle_columns(TrialOptions options, const Vehicle& vehicle) {
+  options.has_steering = vehicle.has_steering();
   for (const auto& [name, expression] : vehicle.columns) {
     AWMR_ASSIGN_OR_RETURN(ColumnMapping mapping, parse_column(name, expression));
     mapping.standing = true;

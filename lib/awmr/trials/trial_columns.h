@@ -13,9 +13,11 @@ namespace awmr {
 
 /// What is read of a file of this kind; see the contract's columns in the README.
 std::span<const CsvColumn> columns_of(TrialKind kind);
+/// Of a turning table of this vehicle: without steering the sides have a force each.
+std::span<const CsvColumn> turning_columns(const Vehicle& vehicle);
 
-/// The options with the vehicle's own mappings behind their own. Errors: as parse_column(); a mapping
-/// of a column that no trial has, with the nearest one.
+/// The options with the vehicle's own mappings behind their own, and without steering where it has
+/// none. Errors: as parse_column(); a mapping of a column that no trial has, with the nearest one.
 Result<TrialOptions> with_vehicle_columns(TrialOptions options, const Vehicle& vehicle);
 
 /// Errors: a mapping that none of the files used. `used` are indices into the options' mappings. The

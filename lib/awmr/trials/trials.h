@@ -8,6 +8,7 @@
 
 #include "awmr/core/result.h"
 #include "awmr/model/model.h"
+#include "awmr/model/state.h"
 #include "awmr/model/vehicle.h"
 
 namespace awmr {
@@ -25,14 +26,19 @@ struct SurgeRow {
 /// A run with the same F' on every wheel and a constant d_r, to the steady yaw rate r at which
 ///   2 l_f F' sin d_r = g3(r)                                                     [paper (61)-(62)]
 /// All are magnitudes: g3 is odd, so a turn to the right is taken as its mirror image.
+///
+/// A vehicle without steering turns by its sides, at d_r = 0:
+///   2 d (F'R - F'L) = g3(r)                                                           [paper (41)]
 struct TurningRow {
   int line = 0;                     ///< of the file
-  double steering_rad = 0.0;        ///< d_r, rad, > 0
-  double wheel_force = 0.0;         ///< F' of each wheel, over F_max, > 0
-  double tau_turn_m = 0.0;          ///< m, > 0: printed where given, else 2 l_f F' sin d_r
+  double steering_rad = 0.0;        ///< d_r, rad, > 0; 0 without steering
+  double wheel_force = 0.0;         ///< F' of each wheel, over F_max, > 0; 0 without steering
+  double tau_turn_m = 0.0;          ///< m, > 0: printed where given, else by the forces
   double yaw_rate_radps = 0.0;      ///< r, rad/s, > 0: printed or timed, as preferred
   std::optional<double> turns;      ///< full turns, > 0; with elapsed_s where the run was timed
   std::optional<double> elapsed_s;  ///< s, > 0
+  /// Without steering: F' of each left and each right wheel, over F_max, the right one larger.
+  std::optional<SideForces<double>> sides = {};
 };
 
 /// A coast-down that was timed: motors off at initial_speed_mps = u_max, at rest after

@@ -1,9 +1,11 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "awmr/core/csv_text.h"
 #include "awmr/core/units.h"
+#include "awmr/trials/trial_columns.h"
 #include "read_table.h"
 #include "trial_reader.h"
 
@@ -24,16 +26,31 @@ void check_turning_columns(TrialReader& reader) {
   }
 }
 
-/// The yaw rate's magnitude. Its sign has to be the steering's: counted turns have none.
-std::optional<double> printed_yaw_rate(TrialReader& reader, std::size_t row, double steering_deg) {
+/// What turns the vehicle in a row, as the file has it.
+struct Turn {
+  double left = 0.0;        ///< its sign is that of a turn to the left
+  std::string in_words;     ///< "steering_deg 5", for messages
+  double computed_m = 0.0;  ///< tau_turn by the forces, m, >= 0
+  std::string equation;     ///< by which it was computed
+  std::string parameter;    ///< the vehicle's that it hangs on: "front_axle_m"
+  double length_m = 0.0;    ///< the parameter's value
+};
+
+/// A faulty cell where its sign is not that of the turn: counted turns have none.
+void check_side(TrialReader& reader, std::size_t row, const char* column, double value,
+                const Turn& turn) {
+  if (value * turn.left >= 0.0) return;
+  reader.fault(row, column,
+               fmt::format("found {} with {}: both are positive to the left, so their signs must "
+                           "agree",
+                           value, turn.in_words));
+}
+
+/// The yaw rate's magnitude.
+std::optional<double> printed_yaw_rate(TrialReader& reader, std::size_t row, const Turn& turn) {
   const auto rate = reader.cell(row, "yaw_rate_radps");
   if (!rate) return std::nullopt;
-  if (*rate * steering_deg < 0.0) {
-    reader.fault(row, "yaw_rate_radps",
-                 fmt::format("found {} with steering_deg {}: both are positive to the left, so "
-                             "their signs must agree",
-                             *rate, steering_deg));
-  }
+  check_side(reader, row, "yaw_rate_radps", *rate, turn);
   return std::abs(*rate);
 }
 
@@ -46,38 +63,47 @@ void check_stop(const TrialReader& reader, std::size_t row, const Vehicle& vehic
                   steering_deg, vehicle.steering_max_deg)));
 }
 
-/// tau_turn as printed, else 2 l_f F' sin d_r                                          [paper (62)]
-/// The paper heads its column N m; over F_max, as everywhere here, it is in m.
-double tau_turn_of(TrialReader& reader, std::size_t row, double computed, const Vehicle& vehicle,
+/// tau_turn as printed, else as computed. The paper heads its column N m; over F_max, as everywhere
+/// here, it is in m.
+double tau_turn_of(TrialReader& reader, std::size_t row, const Turn& turn,
                    std::vector<Finding>& findings) {
   const auto cell = reader.cell(row, "tau_turn");
-  if (!cell) return computed;
-  if (*cell * *reader.cell(row, "steering_deg") < 0.0) {
-    reader.fault(row, "tau_turn",
-                 fmt::format("found {} with steering_deg {}: both are positive to the left, so "
-                             "their signs must agree",
-                             *cell, *reader.cell(row, "steering_deg")));
-  }
+  if (!cell) return turn.computed_m;
+  check_side(reader, row, "tau_turn", *cell, turn);
   const double printed = std::abs(*cell);
-  const double tolerance = reader.rounding_error(printed, "tau_turn") + kGeometryError * computed;
-  if (std::abs(printed - computed) > tolerance) {
-    const std::string implied = computed > 0.0
-                                    ? fmt::format(" (it implies a front_axle_m of {:.3f})",
-                                                  vehicle.front_axle_m * printed / computed)
+  const double tolerance =
+      reader.rounding_error(printed, "tau_turn") + kGeometryError * turn.computed_m;
+  if (std::abs(printed - turn.computed_m) > tolerance) {
+    const std::string implied = turn.computed_m > 0.0
+                                    ? fmt::format(" (it implies a {} of {:.3f})", turn.parameter,
+                                                  turn.length_m * printed / turn.computed_m)
                                     : std::string();
     findings.push_back(reader.finding(
         row, Severity::kWarning, "tau-turn-mismatch",
-        fmt::format("tau_turn is {}, but 2 l_f F' sin(steering) with front_axle_m {} makes {:.4g}; "
-                    "the printed value {} is used{}",
-                    printed, vehicle.front_axle_m, computed, printed, implied)));
+        fmt::format(
+            "tau_turn is {}, but {} with {} {} makes {:.4g}; the printed value {} is used{}",
+            printed, turn.equation, turn.parameter, turn.length_m, turn.computed_m, printed,
+            implied)));
   }
   return printed;
 }
 
-/// One row, or nothing where it is faulty; a row that carries no information has no tau_turn or
-/// rate. g3 is odd, so a turn to the right is taken as its mirror image to the left.
-std::optional<TurningRow> read_row(TrialReader& reader, std::size_t row, const Vehicle& vehicle,
-                                   Preference preference, std::vector<Finding>& findings) {
+/// The row with its moment and its yaw rate, both magnitudes: g3 is odd, so a turn to the right is
+/// taken as its mirror image to the left.
+TurningRow with_rate(TrialReader& reader, std::size_t row, const Turn& turn, const RateInRow& rate,
+                     TurningRow turning, std::vector<Finding>& findings) {
+  turning.line = reader.table().line(row);
+  turning.tau_turn_m = tau_turn_of(reader, row, turn, findings);
+  turning.yaw_rate_radps = rate.used;
+  turning.turns = rate.amount;
+  turning.elapsed_s = rate.elapsed_s;
+  return turning;
+}
+
+/// A run that turns by its steering:
+///   tau_turn = 2 l_f F' sin d_r                                                       [paper (62)]
+std::optional<TurningRow> steered_row(TrialReader& reader, std::size_t row, const Vehicle& vehicle,
+                                      Preference preference, std::vector<Finding>& findings) {
   const double steering_deg = *reader.cell(row, "steering_deg");
   if (std::abs(steering_deg) >= 90.0) {
     reader.fault(row, "steering_deg",
@@ -85,19 +111,43 @@ std::optional<TurningRow> read_row(TrialReader& reader, std::size_t row, const V
     return std::nullopt;
   }
   const double wheel_force = *reader.non_negative(row, "wheel_force");
-  const auto printed = printed_yaw_rate(reader, row, steering_deg);
-  const auto yaw_rate = rate_of(reader, row, kTurningRate, printed, preference, findings);
-  if (!yaw_rate) return std::nullopt;
-  check_stop(reader, row, vehicle, steering_deg, findings);
   const double steering_rad = radians(std::abs(steering_deg));
-  const double computed = 2.0 * vehicle.front_axle_m * wheel_force * std::sin(steering_rad);
-  return TurningRow{.line = reader.table().line(row),
-                    .steering_rad = steering_rad,
-                    .wheel_force = wheel_force,
-                    .tau_turn_m = tau_turn_of(reader, row, computed, vehicle, findings),
-                    .yaw_rate_radps = yaw_rate->used,
-                    .turns = yaw_rate->amount,
-                    .elapsed_s = yaw_rate->elapsed_s};
+  const Turn turn{.left = steering_deg,
+                  .in_words = fmt::format("steering_deg {}", steering_deg),
+                  .computed_m = 2.0 * vehicle.front_axle_m * wheel_force * std::sin(steering_rad),
+                  .equation = "2 l_f F' sin(steering)",
+                  .parameter = "front_axle_m",
+                  .length_m = vehicle.front_axle_m};
+  const auto printed = printed_yaw_rate(reader, row, turn);
+  const auto rate = rate_of(reader, row, kTurningRate, printed, preference, findings);
+  if (!rate) return std::nullopt;
+  check_stop(reader, row, vehicle, steering_deg, findings);
+  return with_rate(
+      reader, row, turn, *rate,
+      {.steering_rad = steering_rad, .wheel_force = wheel_force, .turns = {}, .elapsed_s = {}},
+      findings);
+}
+
+/// A run that turns by its sides, without steering:
+///   tau_turn = 2 d (F'R - F'L)                                                        [paper (41)]
+std::optional<TurningRow> sides_row(TrialReader& reader, std::size_t row, const Vehicle& vehicle,
+                                    Preference preference, std::vector<Finding>& findings) {
+  const double left = *reader.cell(row, "force_left");
+  const double right = *reader.cell(row, "force_right");
+  const Turn turn{.left = right - left,
+                  .in_words = fmt::format("force_right - force_left {}", right - left),
+                  .computed_m = 2.0 * vehicle.half_track_m * std::abs(right - left),
+                  .equation = "2 d (F'R - F'L)",
+                  .parameter = "half_track_m",
+                  .length_m = vehicle.half_track_m};
+  const auto printed = printed_yaw_rate(reader, row, turn);
+  const auto rate = rate_of(reader, row, kTurningRate, printed, preference, findings);
+  if (!rate) return std::nullopt;
+  return with_rate(reader, row, turn, *rate,
+                   {.turns = {},
+                    .elapsed_s = {},
+                    .sides = SideForces<double>{std::min(left, right), std::max(left, right)}},
+                   findings);
 }
 
 }  // namespace
@@ -105,7 +155,7 @@ std::optional<TurningRow> read_row(TrialReader& reader, std::size_t row, const V
 Result<TrialSet<TurningRow>> read_turning(const std::filesystem::path& path, const Vehicle& vehicle,
                                           const TrialOptions& options,
                                           std::vector<Finding>& findings) {
-  AWMR_ASSIGN_OR_RETURN(CsvTable table, read_table(path, TrialKind::kTurning, options));
+  AWMR_ASSIGN_OR_RETURN(CsvTable table, read_table(path, turning_columns(vehicle), options));
   TrialReader reader(std::move(table), options);
   check_turning_columns(reader);
   if (!reader.faults().empty()) return input_errors(std::move(reader.faults()));
@@ -115,7 +165,9 @@ Result<TrialSet<TurningRow>> read_turning(const std::filesystem::path& path, con
   note_format(reader, findings);
   std::vector<std::size_t> set_aside;
   for (std::size_t i = 0; i < reader.table().rows(); ++i) {
-    const auto row = read_row(reader, i, vehicle, options.preference, findings);
+    const auto row = vehicle.has_steering()
+                         ? steered_row(reader, i, vehicle, options.preference, findings)
+                         : sides_row(reader, i, vehicle, options.preference, findings);
     if (!row) continue;
     if (row->tau_turn_m == 0.0 || row->yaw_rate_radps == 0.0) {
       set_aside.push_back(i);

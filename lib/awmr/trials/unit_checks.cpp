@@ -184,6 +184,14 @@ std::optional<Contradiction> judge_steering_unit(const Evidence& evidence) {
   for (const double value : angle) largest_deg = std::max(largest_deg, std::abs(degrees(value)));
   const std::string column(evidence.log.steering_column());
   const double stop_deg = evidence.vehicle.steering_max_deg;
+  if (!evidence.vehicle.has_steering()) {
+    if (!(largest_deg > 0.0)) return std::nullopt;
+    return Contradiction{column,
+                         fmt::format("reaches {:.4g} deg, but the vehicle's drive is "
+                                     "\"differential\", which has no steering",
+                                     largest_deg),
+                         column + "=0"};
+  }
   if (largest_deg > 3.0 * stop_deg) {
     return Contradiction{column,
                          fmt::format("reaches {:.4g} deg, where the stop is at {:g} deg: it looks "

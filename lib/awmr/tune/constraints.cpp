@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "awmr/core/units.h"
@@ -22,12 +23,15 @@ ConstraintReport report(std::string name, double value, double limit, std::strin
 
 /// The worst of the three modes and of the yaw rates met on the way.
 double heading_damping(const Gains<double>& gains, const ConstraintContext& context) {
+  // The shares of the moment that the sides make at once, the rest of it by the servo.
+  constexpr double kShares[] = {1.0, 0.5, 0.0};
+  const auto shares = std::span(kShares).first(context.has_steering ? 3 : 1);
   double worst = 1.0;
   for (const double rate_degps : {1.0, 5.0, 20.0, 60.0}) {
     // g3'(r) = a3 b3 r^(b3 - 1)
     const Resistance<double>& g3 = context.plant.yaw;
     const double slope = g3.alpha * g3.beta * std::pow(radians(rate_degps), g3.beta - 1.0);
-    for (const double direct_share : {1.0, 0.5, 0.0}) {
+    for (const double direct_share : shares) {
       worst = std::min(
           worst, damping_ratio({.lambda = gains.heading.lambda,
                                 .reaching_rate = gains.heading.mu / gains.heading.epsilon,
@@ -60,7 +64,8 @@ std::vector<ConstraintReport> constraints_of(const Gains<double>& gains,
   const double sliding_s = gains.heading.sliding_time_constant_s();
   const double reaching_s = gains.heading.reaching_time_constant_s();
   const double speed_rate = gains.speed.mu / gains.speed.epsilon;
-  const double lag_s = plant.steering_time_constant_s + context.sample_time_s / 2.0;
+  const double servo_s = context.has_steering ? plant.steering_time_constant_s : 0.0;
+  const double lag_s = servo_s + context.sample_time_s / 2.0;
   const bool strict = context.form == ReachingForm::kStrict;
   return {
       report("T2 < T1 (paper)", reaching_s, context.margin * sliding_s,

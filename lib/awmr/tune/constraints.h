@@ -29,6 +29,7 @@ struct ConstraintContext {
   ReachingForm form = ReachingForm::kStrict;  ///< the form of T2 < T1 that is required
   double margin = 0.8;                        ///< reaching time constant <= margin T1, in (0, 1)
   Plant<double> plant{};                      ///< the model's own values
+  bool has_steering = true;                   ///< false: the sides alone turn the vehicle
   double sample_time_s = 0.01;                ///< T_s, > 0
   double speed_mps = 1.0;                     ///< largest u_d of the scenarios, >= 0
   Interval wheel_force{-1.0, 1.0};            ///< F' of one wheel over F_max
@@ -52,15 +53,16 @@ double turning_authority_m(const ConstraintContext& context);
 ///
 /// T2 < T1: one of the two forms is required, both are given.
 ///
-/// Heading damping is that of the worst of the three modes' actuation and of yaw rates of 1, 5, 20
-/// and 60 deg/s, since the slope of g3 depends on the rate.
+/// Heading damping is that of the worst of the vehicle's modes' actuation and of yaw rates of 1, 5,
+/// 20 and 60 deg/s, since the slope of g3 depends on the rate.
 ///
 /// Speed gain: with g1 cancelled with the hold's delay the loop's pole is
 ///   z = 1 - k_s (1 - exp(-a T_s))/a,   k_s = mu_s/eps_s,   a = g1'/m' >= 0,
 /// so z is in [1 - k_s T_s, 1).
 ///
 /// Speed lag: k_s/(s (1 + tau s)) closes to tau s^2 + s + k_s, so zeta = 1/(2 sqrt(k_s tau)). The
-/// motors' lag is not in the model; the servo's T stands in for it.
+/// motors' lag is not in the model; the servo's T stands in for it, and where there is no servo
+/// nothing does: T = 0.
 ///
 /// Noise gain is the law's gain from psi to tau_turn: beyond the limit the noise of a compass alone
 /// drives the actuators to their stops.

@@ -1,6 +1,7 @@
 #include "awmr/tune/objective.h"
 
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "awmr/core/parallel.h"
@@ -76,11 +77,11 @@ std::vector<ModeScore> Objective::run(const Gains<double>& gains, YawMode mode) 
 }
 
 Evaluation Objective::simulate_all(const Gains<double>& gains) const {
-  constexpr std::size_t kModeCount = std::size(kYawModes);
-  std::array<std::vector<ModeScore>, kModeCount> by_mode;
+  const std::span<const YawMode> modes = yaw_modes(vehicle_);
+  std::vector<std::vector<ModeScore>> by_mode(modes.size());
   // A thread per mode, also on fewer cores: they take about as long as each other.
-  parallel_for(kModeCount, static_cast<int>(kModeCount),
-               [&](std::size_t m) { by_mode[m] = run(gains, kYawModes[m]); });
+  parallel_for(modes.size(), static_cast<int>(modes.size()),
+               [&](std::size_t m) { by_mode[m] = run(gains, modes[m]); });
   Evaluation evaluation;
   for (std::vector<ModeScore>& scores : by_mode) {
     for (ModeScore& one : scores) evaluation.scores.push_back(std::move(one));
@@ -90,6 +91,7 @@ Evaluation Objective::simulate_all(const Gains<double>& gains) const {
 
 void Objective::score(Evaluation& evaluation, const Evaluation& baseline) const {
   evaluation.valid = true;
+  evaluation.mode_objective.assign(yaw_modes(vehicle_).size(), 0.0);
   for (std::size_t i = 0; i < evaluation.scores.size(); ++i) {
     ModeScore& s = evaluation.scores[i];
     const ModeScore& base = baseline.scores[i];

@@ -42,9 +42,9 @@ double objective_of(const ModeScore& score, const ModeScore& baseline,
                     const ObjectiveWeights& weights);
 
 struct Evaluation {
-  std::vector<ModeScore> scores;           ///< by mode, then scenario
-  std::array<double, 3> mode_objective{};  ///< mean over the scenarios, in the order of kYawModes
-  double objective = 0.0;                  ///< mean over the modes; finite where `valid`
+  std::vector<ModeScore> scores;       ///< by mode, then scenario
+  std::vector<double> mode_objective;  ///< mean over the scenarios, in the order of yaw_modes()
+  double objective = 0.0;              ///< mean over the modes; finite where `valid`
   bool valid = false;  ///< finite, and completes each run that the baseline completes
 };
 
@@ -54,7 +54,7 @@ class Objective {
   Objective(const Plant<double>& plant, const Vehicle& vehicle, const ObjectiveWeights& weights,
             std::vector<Scenario> scenarios, const Gains<double>& baseline);
 
-  /// Simulates the three modes side by side; the result does not depend on the number of cores.
+  /// Simulates the vehicle's modes side by side; the result does not depend on the number of cores.
   Evaluation operator()(const Gains<double>& gains) const;
   const Evaluation& baseline() const { return baseline_; }
 

@@ -114,7 +114,7 @@ class Problem {
   const Objective& objective_;
   unsigned constraints_ = static_cast<unsigned>(
       awmr::residuals(constraints_of(Gains<double>{{1.0, 1.0, 1.0}, {1.0, 1.0}}, context_)).size() +
-      std::size(kYawModes));
+      objective_.baseline().mode_objective.size());
   std::optional<Point> point_;
   Candidate last_;
   std::vector<double> residuals_;

@@ -83,7 +83,7 @@ Status check_work(const TuneOptions& options, const std::vector<Scenario>& scena
   double steps = 0.0;  // of one evaluation
   for (const Scenario& scenario : scenarios) {
     AWMR_RETURN_IF_ERROR(check_work(plant, model.file, scenario, sample_time_s));
-    steps += static_cast<double>(std::size(kYawModes)) *
+    steps += static_cast<double>(yaw_modes(model.vehicle).size()) *
              steps_of_run(plant, scenario.duration_s, sample_time_s);
   }
   const double evaluations =
@@ -123,12 +123,15 @@ tl::unexpected<Error> infeasible(const Candidate& nearest, const ConstraintConte
 
 tl::unexpected<Error> not_better(const SearchResult& found, const Objective& objective) {
   const Evaluation e = objective(found.nearest.gains);
+  std::string scores;
+  for (std::size_t m = 0; m < e.mode_objective.size(); ++m) {
+    scores +=
+        fmt::format("{}{:.4f} {}", m == 0 ? "" : ", ", e.mode_objective[m], name_of(kYawModes[m]));
+  }
   return refusal(fmt::format(
-      "no gains beat the paper's in every mode (1 is theirs): the nearest of {} ({}) score {:.4f} "
-      "differential, {:.4f} steering, {:.4f} combined; give more evaluations, another seed or "
-      "other weights, or keep the paper's gains",
-      found.evaluations, in_words(found.nearest.gains), e.mode_objective[0], e.mode_objective[1],
-      e.mode_objective[2]));
+      "no gains beat the paper's in every mode (1 is theirs): the nearest of {} ({}) score {}; "
+      "give more evaluations, another seed or other weights, or keep the paper's gains",
+      found.evaluations, in_words(found.nearest.gains), scores));
 }
 
 bool beats_everywhere(const Evaluation& e) {
@@ -141,6 +144,7 @@ ConstraintContext context_of(const TuneOptions& options, const Plant<double>& pl
   ConstraintContext context{.form = options.form,
                             .margin = options.margin,
                             .plant = plant,
+                            .has_steering = vehicle.has_steering(),
                             .sample_time_s = vehicle.sample_time_s,
                             .speed_mps = 0.0,
                             .wheel_force = vehicle.wheel_force};

@@ -62,6 +62,22 @@ CandidateTrial turning_candidate(double steering_rad, double wheel_force, double
           }};
 }
 
+/// The same of a vehicle without steering, under tau_turn = 2 d (F'R - F'L).
+CandidateTrial sides_candidate(SideForces<double> force, double scatter, double runs) {
+  return {.trial = {.kind = TrialKind::kTurning,
+                    .settings = fmt::format("F'L = {:.3g}, F'R = {:.3g}, {:g} full turns",
+                                            force.left, force.right, runs),
+                    .numbers = {{"force_left", force.left},
+                                {"force_right", force.right},
+                                {"runs", runs}}},
+          .standardised = [=](const Plant<double>& p) {
+            const double effective = beyond_dead_zone(force.right, p.wheel_dead_zone) -
+                                     beyond_dead_zone(force.left, p.wheel_dead_zone);
+            const double r = steady_rate(p.yaw, 2.0 * p.half_track_m * effective).value_or(kAtRest);
+            return std::vector{std::sqrt(runs) * std::log(r) / scatter};
+          }};
+}
+
 /// Every speed of the curve, from motors off to rest.
 CandidateTrial coastdown_candidate(double from_mps, double duration_s, double noise_mps,
                                    double runs) {
@@ -124,12 +140,14 @@ void add_coastdowns(const Vehicle& vehicle, const Plant<double>& plant,
 
 void add_logs(const Vehicle& vehicle, Motion motion, const SensorNoise& sensors,
               std::vector<CandidateTrial>& candidates) {
-  constexpr const char* kSteps = "thrust and steering steps, both sides apart at times";
+  const char* steps = vehicle.has_steering()
+                          ? "thrust and steering steps, both sides apart at times"
+                          : "thrust steps, both sides apart at times";
   candidates.push_back(log_candidate("straight starts and stops", vehicle,
                                      {.duration_s = 30.0, .straight = true}, sensors));
   if (motion != Motion::kPlanar) return;
-  candidates.push_back(log_candidate(kSteps, vehicle, {.duration_s = 30.0}, sensors));
-  candidates.push_back(log_candidate(kSteps, vehicle, {.duration_s = 120.0}, sensors));
+  candidates.push_back(log_candidate(steps, vehicle, {.duration_s = 30.0}, sensors));
+  candidates.push_back(log_candidate(steps, vehicle, {.duration_s = 120.0}, sensors));
 }
 
 void add_surge_runs(const Model& model, const SuggestOptions& options,
@@ -145,6 +163,14 @@ void add_turning_runs(const Model& model, const SuggestOptions& options,
                       std::vector<CandidateTrial>& candidates) {
   const Vehicle& vehicle = model.vehicle;
   const double scatter = relative_scatter(model, TrialKind::kTurning);
+  if (!vehicle.has_steering()) {
+    for (const double share : {0.1, 0.2, 0.35, 0.5, 1.0}) {
+      const double right = share * vehicle.wheel_force.hi;
+      const double left = std::max(-right, std::min(0.0, vehicle.wheel_force.lo));
+      candidates.push_back(sides_candidate({left, right}, scatter, options.repeats));
+    }
+    return;
+  }
   for (const double angle_share : {0.25, 0.5, 1.0}) {
     for (const double force_share : {0.2, 0.5, 1.0}) {
       candidates.push_back(turning_candidate(radians(vehicle.steering_max_deg) * angle_share,

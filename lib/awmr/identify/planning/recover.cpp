@@ -32,6 +32,15 @@ double scatter(const Model& model, FitSubject subject, ErrorModel error) {
   return 0.0;
 }
 
+/// The sides' forces that make this yaw moment, m, without steering: on the spot, or with as little
+/// to the rear as the wheels can push.
+///   tau_turn = 2 d (F'R - F'L)                                                        [paper (41)]
+SideForces<double> sides_for(const Vehicle& vehicle, double tau_turn_m) {
+  const double difference = tau_turn_m / (2.0 * vehicle.half_track_m);
+  const double left = std::max(-0.5 * difference, std::min(0.0, vehicle.wheel_force.lo));
+  return {left, left + difference};
+}
+
 /// The inputs of the model's own trials.
 TablePlan plan_of(const Model& model) {
   TablePlan plan;
@@ -42,6 +51,13 @@ TablePlan plan_of(const Model& model) {
     if (trial.kind == TrialKind::kTurning) {
       most_tau_turn_m = std::max(most_tau_turn_m, trial.input);
     }
+  }
+  if (!model.vehicle.has_steering()) {
+    for (const TrialPoint& trial : model.record.trials) {
+      if (trial.kind != TrialKind::kTurning) continue;
+      plan.turning_sides.push_back(sides_for(model.vehicle, trial.input));
+    }
+    return plan;
   }
   // tau_turn = 2 l_f F' sin d_r: one F' whose largest angle is the vehicle's stop.     [paper (62)]
   const double stop_rad = radians(model.vehicle.steering_max_deg);

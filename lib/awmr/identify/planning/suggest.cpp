@@ -55,12 +55,13 @@ Uncertainty uncertainty_of(const Model& model) {
 }
 
 /// What the model has no value of.
-std::vector<ParameterId> missing_of(const Model& model) {
-  std::vector<ParameterId> ids;
+std::vector<MissingParameter> missing_of(const Model& model) {
+  std::vector<MissingParameter> missing;
   for (const ParameterInfo& parameter : parameter_table()) {
-    if (!model[parameter.id].value) ids.push_back(parameter.id);
+    if (model[parameter.id].value || !has(model.vehicle, parameter.id)) continue;
+    missing.push_back({parameter.id, std::string(trial_of(model.vehicle, parameter.id))});
   }
-  return ids;
+  return missing;
 }
 
 /// The model's plant with one coordinate moved by `step`.
@@ -148,7 +149,7 @@ Result<Target> target_of(const Model& model, const Plant<double>& plant,
   if (id && !model[*id].value) {
     return input_error(fmt::format("{}:{}", model.file, info(*id).pointer),
                        fmt::format("no value for {} yet, so there is nothing to rank by; record {}",
-                                   options.parameter, info(*id).trial));
+                                   options.parameter, trial_of(model.vehicle, *id)));
   }
   const auto place = id ? std::find(ids.begin(), ids.end(), *id) : ids.end();
   if (place == ids.end()) return unknown_target(ids, options);
@@ -201,15 +202,14 @@ void sort_by_promise(std::vector<SuggestedTrial>& trials) {
 
 Result<Suggestion> suggest(const Model& model, const SuggestOptions& options) {
   const Uncertainty uncertainty = uncertainty_of(model);
-  std::vector<ParameterId> missing = missing_of(model);
-  if (uncertainty.parameters.empty() && missing.empty()) {
+  if (uncertainty.parameters.empty() && missing_of(model).empty()) {
     return input_error(model.file + ":/covariance",
                        "no parameter has an uncertainty that a trial could shrink");
   }
   AWMR_ASSIGN_OR_RETURN(const Target target,
                         target_of(model, model.plant_as_known(), uncertainty.parameters, options));
   Suggestion suggestion{.criterion = target.criterion,
-                        .missing = std::move(missing),
+                        .missing = missing_of(model),
                         .trials = {},
                         .assumptions = assumptions_of(model, options)};
   if (uncertainty.parameters.empty()) return suggestion;

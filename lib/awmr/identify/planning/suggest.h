@@ -42,10 +42,16 @@ struct SuggestedTrial {
   double d_gain = 0.0;           ///< ln det C before - after, >= 0: D-optimality
 };
 
+/// A parameter without a value.
+struct MissingParameter {
+  ParameterId id{};
+  std::string trial;  ///< that shows it, in words
+};
+
 struct Suggestion {
-  std::string criterion;               ///< in words
-  std::vector<ParameterId> missing;    ///< no value at all: their trials come before any other
-  std::vector<SuggestedTrial> trials;  ///< best first
+  std::string criterion;                  ///< in words
+  std::vector<MissingParameter> missing;  ///< no value at all: their trials come before any other
+  std::vector<SuggestedTrial> trials;     ///< best first
   std::vector<std::string> assumptions;
 };
 

@@ -13,8 +13,8 @@ std::string suggestion_text(const Suggestion& suggestion, const Provenance& prov
   Json json = output_document("awmr.suggest/1", provenance);
   json["criterion"] = suggestion.criterion;
   json["assumptions"] = suggestion.assumptions;
-  for (const ParameterId id : suggestion.missing) {
-    json["missing"].push_back({{"parameter", info(id).name}, {"trial", info(id).trial}});
+  for (const MissingParameter& one : suggestion.missing) {
+    json["missing"].push_back({{"parameter", info(one.id).name}, {"trial", one.trial}});
   }
   json["trials"] = Json::array();
   for (const SuggestedTrial& trial : suggestion.trials) {
@@ -34,19 +34,19 @@ std::string suggestion_text(const Suggestion& suggestion, const Provenance& prov
 namespace {
 
 /// The trials that the model has not had, each with the parameters that it shows.
-std::string missing_sheet(const std::vector<ParameterId>& missing) {
+std::string missing_sheet(const std::vector<MissingParameter>& missing) {
   std::string text;
-  for (auto id = missing.begin(); id != missing.end(); ++id) {
-    const auto has_its_trial = [id](ParameterId other) {
-      return info(other).trial == info(*id).trial;
+  for (auto one = missing.begin(); one != missing.end(); ++one) {
+    const auto has_its_trial = [one](const MissingParameter& other) {
+      return other.trial == one->trial;
     };
-    if (std::find_if(missing.begin(), id, has_its_trial) != id) continue;  // told already
+    if (std::find_if(missing.begin(), one, has_its_trial) != one) continue;  // told already
     std::string names;
-    for (auto other = id; other != missing.end(); ++other) {
+    for (auto other = one; other != missing.end(); ++other) {
       if (!has_its_trial(*other)) continue;
-      names += fmt::format("{}{}", names.empty() ? "" : ", ", info(*other).name);
+      names += fmt::format("{}{}", names.empty() ? "" : ", ", info(other->id).name);
     }
-    text += fmt::format("[ ] for {}, of no value yet:\n       {}\n", names, info(*id).trial);
+    text += fmt::format("[ ] for {}, of no value yet:\n       {}\n", names, one->trial);
   }
   return text;
 }

@@ -101,6 +101,30 @@ TrialSet<TurningRow> turning_rows(const Plant<double>& plant, const TablePlan& p
   return set;
 }
 
+/// r with g3(r) = 2 d (F'R - F'L), each F' less the dead zone of a wheel.
+TrialSet<TurningRow> sides_turning_rows(const Plant<double>& plant, const TablePlan& plan,
+                                        const RowNoise& noise, Random& random) {
+  TrialSet<TurningRow> set{"simulated turning", {}, 0};
+  int line = 2;
+  for (const SideForces<double>& sides : plan.turning_sides) {
+    const double commanded = sides.right - sides.left;
+    const double effective = beyond_dead_zone(sides.right, plant.wheel_dead_zone) -
+                             beyond_dead_zone(sides.left, plant.wheel_dead_zone);
+    const double tau = 2.0 * plant.half_track_m * effective;
+    const auto rate = steady_rate(plant.yaw, tau);
+    if (!rate) continue;
+    const NoisyRow row =
+        noisy(tau, *rate, 2.0 * std::numbers::pi, noise.error, noise.turning, random);
+    set.rows.push_back({.line = line++,
+                        .tau_turn_m = row.force * commanded / effective,
+                        .yaw_rate_radps = row.rate,
+                        .turns = 1.0,
+                        .elapsed_s = row.elapsed_s,
+                        .sides = sides});
+  }
+  return set;
+}
+
 TrialSet<StopTimeRow> stop_rows(const Plant<double>& plant, const TablePlan& plan,
                                 const RowNoise& noise, Random& random) {
   TrialSet<StopTimeRow> set{"simulated coast-down", {}, 0};
@@ -121,6 +145,7 @@ TrialData simulate_tables(const Plant<double>& plant, const TablePlan& plan, con
   TrialData data;
   if (!plan.surge_tau_speed.empty()) data.surge = surge_rows(plant, plan, noise, random);
   if (!plan.turning_steering_rad.empty()) data.turning = turning_rows(plant, plan, noise, random);
+  if (!plan.turning_sides.empty()) data.turning = sides_turning_rows(plant, plan, noise, random);
   if (!plan.stop_from_mps.empty()) data.coastdown = stop_rows(plant, plan, noise, random);
   return data;
 }
@@ -228,7 +253,7 @@ DrivingLog simulate_log(const Plant<double>& plant, const Vehicle& vehicle, cons
 
   std::vector<LogChannel> channels{LogChannel::kX, LogChannel::kY, LogChannel::kHeading,
                                    LogChannel::kSpeed, LogChannel::kYawRate};
-  if (plan.servo_measured) channels.push_back(LogChannel::kSteering);
+  if (plan.servo_measured && vehicle.has_steering()) channels.push_back(LogChannel::kSteering);
   const auto every =
       static_cast<std::size_t>(std::max(1.0, std::round(plan.rate_hz / noise.position_rate_hz)));
   for (const LogChannel channel : channels) {

@@ -24,8 +24,10 @@ struct TablePlan {
   std::vector<double> surge_tau_speed;       ///< dimensionless, > 0
   std::vector<double> turning_steering_rad;  ///< d_r, > 0: to the left
   double turning_wheel_force = 0.1;          ///< F' of every wheel, > 0
-  double surge_distance_m = 10.0;            ///< timed in each surge run, > 0
-  std::vector<double> stop_from_mps;         ///< initial speeds of the coast-downs, > 0
+  /// F' of each left and each right wheel of a vehicle without steering, the right one larger.
+  std::vector<SideForces<double>> turning_sides;
+  double surge_distance_m = 10.0;     ///< timed in each surge run, > 0
+  std::vector<double> stop_from_mps;  ///< initial speeds of the coast-downs, > 0
 };
 
 /// Where the error of a table's rows lies, and its standard deviations in that unit, all >= 0.

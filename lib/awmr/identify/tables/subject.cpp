@@ -18,6 +18,16 @@ std::vector<SteadyPoint> surge_points(const std::vector<SurgeRow>& rows) {
   return points;
 }
 
+/// The share of the commanded moment that the wheels' dead zones leave of it.
+double share_beyond(const TurningRow& row, double dead_zone) {
+  if (!row.sides && !(row.wheel_force > dead_zone)) return 0.0;
+  if (!(dead_zone > 0.0)) return 1.0;
+  if (!row.sides) return 1.0 - dead_zone / row.wheel_force;
+  const double left = beyond_dead_zone(row.sides->left, dead_zone);
+  const double right = beyond_dead_zone(row.sides->right, dead_zone);
+  return (right - left) / (row.sides->right - row.sides->left);
+}
+
 }  // namespace
 
 Subject surge_subject(const Vehicle& vehicle, const TrialSet<SurgeRow>& runs) {
@@ -44,8 +54,8 @@ Subject yaw_subject(const Vehicle& vehicle, const TrialSet<TurningRow>& runs, do
 std::vector<SteadyPoint> turning_points(const std::vector<TurningRow>& rows, double dead_zone) {
   std::vector<SteadyPoint> points;
   for (const TurningRow& row : rows) {
-    if (!(row.wheel_force > dead_zone)) continue;
-    const double share = dead_zone > 0.0 ? 1.0 - dead_zone / row.wheel_force : 1.0;
+    const double share = share_beyond(row, dead_zone);
+    if (!(share > 0.0)) continue;
     SteadyPoint point{share * row.tau_turn_m, row.yaw_rate_radps, {}, row.elapsed_s, row.line};
     if (row.turns) point.travel = 2.0 * std::numbers::pi * *row.turns;
     points.push_back(point);
