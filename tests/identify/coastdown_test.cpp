@@ -142,6 +142,66 @@ TEST(CoastDown, SetsASpeedThatDoesNotFallAside) {
               ::testing::ElementsAre(ParameterId::kMassNorm, ParameterId::kInertiaNorm));
 }
 
+/// Three coast-downs of m' = 0.5 against c1 + a1 u + q1 u^2, without a surge trial.
+TrialData curves_alone(const Resistance<double>& law) {
+  Plant<double> vehicle = plant(kTruths[0]);
+  vehicle.surge = law;
+  vehicle.mass_norm = 0.5;
+  TrialData data;
+  for (std::uint64_t run = 0; run < 3; ++run) {
+    Random random(7, run);
+    data.curves.push_back(simulate_coastdown(vehicle, 1.6, 2.0, 100.0, 0.01, 0.0, random));
+  }
+  return data;
+}
+
+const EstimatorParameter* found(const Model& model, const std::string& family,
+                                const std::string& name) {
+  for (const EstimatorReport& report : model.record.reports) {
+    for (const EstimatorParameter& p : report.parameters) {
+      if (report.family == family && p.name == name) return &p;
+    }
+  }
+  return nullptr;
+}
+
+TEST(CoastDown, AloneItShowsTheTermsOfTheFamilyAskedForOverItsFirst) {
+  const TrialData data = curves_alone({.alpha = 0.8, .beta = 1.0, .coulomb = 0.4});
+  IdentifyOptions options;
+  options.surge_family = {.family = Family::kCoulombLinear, .asked = true};
+  const auto result = identify(vehicle(), data, options, {});
+  ASSERT_TRUE(result);
+  const auto* mass = found(result->model, "coulomb-linear", "mass_norm/surge.alpha");
+  const auto* coulomb = found(result->model, "coulomb-linear", "surge.coulomb/surge.alpha");
+  ASSERT_TRUE(mass && coulomb);
+  // Within four standard errors, which are some per cent.
+  EXPECT_NEAR(mass->value, 0.5 / 0.8, 4.0 * *mass->std_error);
+  EXPECT_NEAR(coulomb->value, 0.4 / 0.8, 4.0 * *coulomb->std_error);
+  EXPECT_LT(*mass->std_error, 0.1 * mass->value);
+  EXPECT_EQ(found(result->model, "coulomb-linear", "surge.beta"), nullptr);
+  EXPECT_FALSE(result->model[ParameterId::kSurgeBeta].value);
+  EXPECT_FALSE(result->model[ParameterId::kMassNorm].value);
+}
+
+TEST(CoastDown, AloneItTellsThatAPowerLawDoesNotDescribeIt) {
+  const auto inadequate = [](const Model& model) {
+    return std::any_of(model.record.findings.begin(), model.record.findings.end(),
+                       [](const Finding& f) { return f.code == "power-law-inadequate"; });
+  };
+  const TrialData coulomb = curves_alone({.alpha = 0.8, .beta = 1.0, .coulomb = 0.4});
+  EXPECT_TRUE(inadequate(identify(vehicle(), coulomb, {}, {})->model));
+  const TrialData power = curves_alone({.alpha = 1.3, .beta = 0.7});
+  const auto plain = identify(vehicle(), power, {}, {});
+  EXPECT_FALSE(inadequate(plain->model));
+  const auto* mass = found(plain->model, "power", "mass_norm/surge.alpha");
+  EXPECT_NEAR(mass->value, 0.5 / 1.3, 4.0 * *mass->std_error);
+  // `auto` takes the better one, and its numbers stand first.
+  IdentifyOptions options;
+  options.surge_family = {.family = std::nullopt, .asked = true};
+  const auto chosen = identify(vehicle(), coulomb, options, {});
+  EXPECT_TRUE(chosen->model.record.reports.front().family.starts_with("coulomb"));
+}
+
 TEST(CoastDown, TwoKindsAreWeighedTogetherAndTheirContradictionIsSaid) {
   const Truth& t = kTruths[1];
   TrialData data = surge_only(t, 0.01, 2);

@@ -199,6 +199,26 @@ TEST(Options, ThatContradictEachOtherAreRefused) {
   EXPECT_FALSE(identify(vehicle(), data, options, {}));
 }
 
+TEST(Tables, FourRowsGiveThePowerLawWithWideIntervalsWhateverTheFamilyAskedFor) {
+  TrialData data = runs_on({.alpha = 1.2, .beta = 0.8}, 0.0, 0.01, 4);
+  data.surge->rows.resize(4);
+  for (const bool by_aicc : {false, true}) {
+    IdentifyOptions options;
+    options.method = Method::kNonlinear;
+    if (by_aicc) options.surge_family = {.family = std::nullopt, .asked = true};
+    const auto result = identify(vehicle(), data, options, {});
+    ASSERT_TRUE(result);
+    EXPECT_TRUE(result->refused.empty());
+    const Estimate& alpha = result->model[ParameterId::kSurgeAlpha];
+    ASSERT_TRUE(alpha.ci95 && alpha.std_error);
+    EXPECT_TRUE(alpha.ci95->contains(1.2));
+    // Student's t of two degrees of freedom is 4.303, either side.
+    EXPECT_GT(alpha.ci95->hi - alpha.ci95->lo, 8.0 * *alpha.std_error);
+    const Finding* told = finding(result->model, "families-not-compared");
+    EXPECT_EQ(told != nullptr, by_aicc);
+  }
+}
+
 TEST(Tables, ADeadZoneTakesFromEachSideWhatItCommands) {
   TurningRow row;
   row.tau_turn_m = 0.4;

@@ -107,7 +107,7 @@ void identify_mass(const Vehicle& vehicle, const TrialData& data, const Identify
                    const SubjectFit& surge, MainValues& values, Reasons& reasons) {
   if ((!data.coastdown || data.coastdown->rows.empty()) && data.curves.empty()) return;
   MassResult mass = estimate_mass(surge.chosen ? &surge : nullptr, data.coastdown, data.curves,
-                                  vehicle, options.joint);
+                                  vehicle, options.surge_family, options.joint);
   record(mass, values.model);
   set_mass(mass, surge.chosen, values);
   reasons.mass = mass.reason;

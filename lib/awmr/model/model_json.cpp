@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "awmr/core/option_text.h"
+#include "awmr/model/ratio_names.h"
 #include "awmr/model/sensor_delay_name.h"
 
 namespace awmr {
@@ -25,6 +26,7 @@ constexpr double kSymmetryTolerance = 1e-9;
 /// True for the name of a parameter, and of what a fit estimates beside the parameters.
 bool is_estimated_name(std::string_view name) {
   return parameter_by_name(name) || name == kInputDelayName || name == kMassOverSurgeName ||
+         name == kCoulombOverSurgeName || name == kQuadraticOverSurgeName ||
          name.starts_with(kBiasPrefix) || name.starts_with(kSensorDelayPrefix);
 }
 

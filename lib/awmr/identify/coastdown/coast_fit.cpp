@@ -47,6 +47,60 @@ CoastFit not_finite(CoastFit fit, const CoastProblem& problem) {
   return fit;
 }
 
+/// The shape of g1/a1 that a family leaves free: b1, c1/a1, q1/a1.
+std::vector<TransformedParameter> shapes_of(Family family) {
+  const FamilyTerms terms = terms_of(family);
+  std::vector<TransformedParameter> shapes;
+  if (terms.beta) shapes.push_back(TransformedParameter::kBeta);
+  if (terms.coulomb) shapes.push_back(TransformedParameter::kCoulomb);
+  if (terms.quadratic) shapes.push_back(TransformedParameter::kQuadratic);
+  return shapes;
+}
+
+/// a1 = 1: the other numbers are over it. Terms begin at a tenth of it.
+TransformedParameters start_of(Family family, const Interval& beta_range) {
+  constexpr double kTermOverAlpha = 0.1;
+  const FamilyTerms terms = terms_of(family);
+  return {0.0, terms.beta ? std::clamp(0.8, beta_range.lo, beta_range.hi) : 1.0,
+          terms.coulomb ? kTermOverAlpha : 0.0, terms.quadratic ? kTermOverAlpha : 0.0, 0.0};
+}
+
+Interval range_of(TransformedParameter shape, const Interval& beta_range) {
+  constexpr double kMostOverAlpha = 1e9;
+  return shape == TransformedParameter::kBeta ? beta_range : Interval{0.0, kMostOverAlpha};
+}
+
+bool is_inside(const Interval& range, double value) {
+  constexpr double kOnTheEdge = 1e-9;
+  return value > range.lo + kOnTheEdge && value < range.hi - kOnTheEdge;
+}
+
+/// The shape's numbers and their variances, the first columns of the covariance being ln m' and
+/// those `inside` of their ranges.
+void add_shapes(CoastProblem& problem, const std::vector<TransformedParameter>& free,
+                const std::vector<TransformedParameter>& inside, const Eigen::MatrixXd& covariance,
+                CoastFit& fit) {
+  fit.variance = covariance(0, 0);
+  for (const TransformedParameter c : free) {
+    const auto place = std::find(inside.begin(), inside.end(), c);
+    const Eigen::Index column = 1 + (place - inside.begin());
+    const double variance = place == inside.end() ? 0.0 : covariance(column, column);
+    if (c == TransformedParameter::kBeta) {
+      fit.beta_variance = variance;
+    } else {
+      fit.terms.push_back({c, *problem.block(c), variance});
+    }
+  }
+}
+
+/// AICc of normal errors of unknown deviation, with `free` numbers beside it.
+std::optional<double> aicc_of(const Eigen::VectorXd& e, double free) {
+  const double n = static_cast<double>(e.size());
+  const double k = free + 1.0;
+  if (!(n - k - 1.0 > 0.0)) return std::nullopt;
+  return n * std::log(e.squaredNorm() / n) + 2.0 * k + 2.0 * k * (k + 1.0) / (n - k - 1.0);
+}
+
 }  // namespace
 
 CoastFit fit_coast(const std::vector<CoastCurve>& curves, const SteadyFit& surge) {
@@ -70,32 +124,41 @@ CoastFit fit_coast(const std::vector<CoastCurve>& curves, const SteadyFit& surge
   return fit;
 }
 
-CoastFit fit_coast_alone(const std::vector<CoastCurve>& curves, const Interval& beta_range) {
-  const TransformedParameters unit{0.0, std::clamp(0.8, beta_range.lo, beta_range.hi), 0.0, 0.0,
-                                   0.0};
-  CoastProblem problem(curves, unit, guess_log_mass(curves, {1.0, unit[1]}), false);
-  double* beta = problem.block(TransformedParameter::kBeta);
-  ceres::Problem& ceres = problem.problem();
-  ceres.SetParameterBlockVariable(beta);
-  ceres.SetParameterLowerBound(beta, 0, beta_range.lo);
-  ceres.SetParameterUpperBound(beta, 0, beta_range.hi);
+CoastFit fit_coast_alone(const std::vector<CoastCurve>& curves, const Interval& beta_range,
+                         Family family) {
+  const std::vector<TransformedParameter> free = shapes_of(family);
+  const TransformedParameters start = start_of(family, beta_range);
+  const Resistance<double> law{1.0, start[1], 0.0, start[2], start[3]};
+  const FamilyTerms terms = terms_of(family);
+  CoastProblem problem(curves, start, guess_log_mass(curves, law),
+                       terms.coulomb || terms.quadratic);
+  for (const TransformedParameter c : free) {
+    const Interval range = range_of(c, beta_range);
+    problem.problem().SetParameterBlockVariable(problem.block(c));
+    problem.problem().SetParameterLowerBound(problem.block(c), 0, range.lo);
+    problem.problem().SetParameterUpperBound(problem.block(c), 0, range.hi);
+  }
   problem.solve();
   CoastFit fit;
+  fit.family = family;
   fit.log_mass_norm = *problem.log_mass();
-  fit.beta = *beta;
+  fit.beta = *problem.block(TransformedParameter::kBeta);
   fit.stop_reason = stop_reason(problem.summary());
-  constexpr double kAtBound = 1e-9;
-  const bool at_bound =
-      fit.beta <= beta_range.lo + kAtBound || fit.beta >= beta_range.hi - kAtBound;
   std::vector<double*> blocks{problem.log_mass()};
-  if (!at_bound) blocks.push_back(beta);
+  std::vector<TransformedParameter> inside;  // of their ranges
+  for (const TransformedParameter c : free) {
+    if (!is_inside(range_of(c, beta_range), *problem.block(c))) continue;
+    blocks.push_back(problem.block(c));
+    inside.push_back(c);
+  }
   const std::optional<Eigen::MatrixXd> j = problem.jacobian(blocks);
   const std::optional<Eigen::VectorXd> e = problem.residuals();
   if (!e || !j) return not_finite(std::move(fit), problem);
   const Eigen::MatrixXd covariance = add_coast_noise(*j, *e, problem.sizes(), fit);
   if (covariance.size() == 0 || !converged(problem.summary())) return fit;
-  fit.variance = covariance(0, 0);
-  if (!at_bound) fit.beta_variance = covariance(1, 1);
+  add_shapes(problem, free, inside, covariance, fit);
+  const std::size_t on_a_bound = free.size() - inside.size();
+  fit.aicc = aicc_of(*e, static_cast<double>(j->cols()) + static_cast<double>(on_a_bound));
   if (!is_finite(fit)) return not_finite(std::move(fit), problem);
   fit.usable = true;
   return fit;

@@ -7,7 +7,7 @@
 #include <iterator>
 
 #include "awmr/core/index.h"
-#include "awmr/identify/uncertainty/diagnostics.h"
+#include "awmr/identify/coastdown/coast_alone.h"
 #include "awmr/identify/uncertainty/quantiles.h"
 
 namespace awmr {
@@ -49,66 +49,6 @@ std::vector<CoastCurve> falling(const std::vector<CoastCurve>& curves, MassResul
          "m' and is set aside"});
   }
   return kept;
-}
-
-void add_curve_figures(EstimatorReport& report, const CoastFit& fit) {
-  report.rows_used = fit.rows;
-  report.residual_std = fit.residual_std_mps;
-  report.degrees_of_freedom = static_cast<int>(fit.dof);
-  report.rank = fit.rank;
-  report.condition_number = fit.condition_number;
-  report.stop_reason = fit.stop_reason;
-  for (const std::vector<double>& run : fit.residuals) {
-    if (const auto test = whiteness(run, 10)) report.diagnostics.push_back(*test);
-    if (const auto test = normality(run)) report.diagnostics.push_back(*test);
-  }
-}
-
-/// A number known by its logarithm: its standard error and interval, `half` the t quantile.
-EstimatorParameter by_logarithm(std::string name, double value, double error, double half) {
-  return {std::move(name),
-          value,
-          value * error,
-          Interval{value * std::exp(-half * error), value * std::exp(half * error)},
-          {}};
-}
-
-/// m'/a1 and b1, which is all that curves show without a surge law.
-EstimatorReport report_of_alone(const CoastFit& fit) {
-  const double half = t_quantile_95(fit.dof);
-  const double beta_error = std::sqrt(fit.beta_variance);
-  EstimatorReport report;
-  report.subject = FitSubject::kMass;
-  report.estimator = Estimator::kCurve;
-  report.noise = "speed";
-  report.parameters = {by_logarithm(std::string(kMassOverSurgeName), std::exp(fit.log_mass_norm),
-                                    std::sqrt(fit.variance), half),
-                       {"surge.beta",
-                        fit.beta,
-                        beta_error,
-                        Interval{fit.beta - half * beta_error, fit.beta + half * beta_error},
-                        {}}};
-  add_curve_figures(report, fit);
-  return report;
-}
-
-MassResult without_surge(const std::vector<CoastCurve>& curves, const Vehicle& vehicle,
-                         MassResult result) {
-  result.reason = "a coast-down shows m' only together with a1 and b1, which are not identified";
-  if (curves.empty()) return result;
-  const CoastFit fit = fit_coast_alone(curves, vehicle.surge_beta_range);
-  if (!fit.usable) {
-    result.reason += fmt::format(" (the fit of the curve alone: {})", fit.stop_reason);
-    return result;
-  }
-  const double ratio = std::exp(fit.log_mass_norm);
-  result.reason = fmt::format(
-      "a coast-down curve fixes only the ratio m'/a1 = {:.4g} +- {:.2g} and the exponent b1 = "
-      "{:.4g}, not m' itself",
-      ratio, ratio * std::sqrt(fit.variance), fit.beta);
-  result.reports.push_back(report_of_alone(fit));
-  result.alone = fit;
-  return result;
 }
 
 /// m' from the stop times, whose report goes into `result`. Where they give none, `result` has the
@@ -203,10 +143,10 @@ void check(const SteadyFit& surge, const std::optional<TrialSet<StopTimeRow>>& s
 
 MassResult estimate_mass(const SubjectFit* surge, const std::optional<TrialSet<StopTimeRow>>& stops,
                          const std::vector<CoastCurve>& all_curves, const Vehicle& vehicle,
-                         bool joint) {
+                         const FamilyChoice& family, bool joint) {
   MassResult result;
   const std::vector<CoastCurve> curves = falling(all_curves, result);
-  if (!surge) return without_surge(curves, vehicle, std::move(result));
+  if (!surge) return without_surge(curves, vehicle, family, std::move(result));
   const SteadyFit& law = *surge->chosen;
   const std::optional<MassEstimate> stop = by_stop_time(law, stops, result);
   const std::optional<MassEstimate> curve = by_curves(law, curves, result);

@@ -19,6 +19,9 @@ namespace {
 /// than e^-5 of its support.
 constexpr double kTablesPlainlyBetter = 10.0;
 
+/// AICc divides by n - k - 2, with k free numbers beside the scatter: two in the smallest families.
+constexpr std::size_t kFewestToCompare = 5;
+
 /// Which fit is used, and its entry among the reports; no fit where none will do.
 struct Choice {
   std::optional<SteadyFit> fit;
@@ -63,6 +66,16 @@ Choice choose_nonlinear(const Subject& subject, const SubjectOptions& options, E
                                 : best_candidate(candidates, wanted);
   const bool tried = std::ranges::any_of(
       candidates, [&](const Candidate& c) { return c.problem.noise == wanted; });
+  if (!chosen && !options.family.family && subject.points.size() < kFewestToCompare) {
+    // Two free numbers, and no other family with fewer.
+    chosen = candidate_of(candidates, Family::kPower, wanted);
+    choice.findings.push_back(
+        about(subject, Severity::kWarning, "families-not-compared",
+              fmt::format("{} rows of {} are too few to compare families by AICc, which takes {}: "
+                          "the power law is taken; record another run",
+                          subject.points.size(), name_in(kFitSubjectNames, subject.name),
+                          kFewestToCompare)));
+  }
   if (!chosen && tried && !options.family.family) {
     choice.findings.push_back(
         about(subject, Severity::kError, "not-converged",
