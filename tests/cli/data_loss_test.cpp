@@ -88,7 +88,8 @@ TEST_F(DataLoss, APipeWasHashedAsAnEmptyFile) {
 
 TEST_F(DataLoss, TheSpellingOfAPathChangedTheModel) {
   fs::create_directory(path("d"));
-  const std::string disagreeing = "wheel_force,tau_speed,speed_mps\n1,4,0.5\n2,9,1.1\n3,12,1.7\n";
+  const std::string disagreeing =
+      "wheel_force,tau_speed,speed_mps\n0.25,1,0.5\n0.5,2.2,1.1\n0.75,3,1.7\n";
   write_all(path("rows.csv"), disagreeing);
   const std::string fit = "--fit surge.alpha,surge.beta";
   ASSERT_EQ(identify(path("rows.csv"), path("a.json"), "", fit).exit_code, 0);
