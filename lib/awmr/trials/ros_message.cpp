@@ -23,6 +23,35 @@ struct MessageType {
 
 constexpr Part kD = Part::kFloat64;
 
+std::vector<Piece> imu() {
+  return {
+      {Part::kHeader, ""},           {kD, "orientation.x"},         {kD, "orientation.y"},
+      {kD, "orientation.z"},         {kD, "orientation.w"},         {Part::kSkipped9, ""},
+      {kD, "angular_velocity.x"},    {kD, "angular_velocity.y"},    {kD, "angular_velocity.z"},
+      {Part::kSkipped9, ""},         {kD, "linear_acceleration.x"}, {kD, "linear_acceleration.y"},
+      {kD, "linear_acceleration.z"}, {Part::kSkipped9, ""}};
+}
+
+std::vector<Piece> odometry() {
+  return {{Part::kHeader, ""},
+          {Part::kText, ""},
+          {kD, "pose.pose.position.x"},
+          {kD, "pose.pose.position.y"},
+          {kD, "pose.pose.position.z"},
+          {kD, "pose.pose.orientation.x"},
+          {kD, "pose.pose.orientation.y"},
+          {kD, "pose.pose.orientation.z"},
+          {kD, "pose.pose.orientation.w"},
+          {Part::kSkipped36, ""},
+          {kD, "twist.twist.linear.x"},
+          {kD, "twist.twist.linear.y"},
+          {kD, "twist.twist.linear.z"},
+          {kD, "twist.twist.angular.x"},
+          {kD, "twist.twist.angular.y"},
+          {kD, "twist.twist.angular.z"},
+          {Part::kSkipped36, ""}};
+}
+
 /// After the public message definitions. Covariances are passed over.
 const std::array<MessageType, 7>& types() {
   static const std::array<MessageType, 7> kTypes{
@@ -50,39 +79,8 @@ const std::array<MessageType, 7>& types() {
          {Part::kFloat32, "drive.speed"},
          {Part::kFloat32, "drive.acceleration"},
          {Part::kFloat32, "drive.jerk"}}},
-       {"sensor_msgs/msg/Imu",
-        {{Part::kHeader, ""},
-         {kD, "orientation.x"},
-         {kD, "orientation.y"},
-         {kD, "orientation.z"},
-         {kD, "orientation.w"},
-         {Part::kSkipped9, ""},
-         {kD, "angular_velocity.x"},
-         {kD, "angular_velocity.y"},
-         {kD, "angular_velocity.z"},
-         {Part::kSkipped9, ""},
-         {kD, "linear_acceleration.x"},
-         {kD, "linear_acceleration.y"},
-         {kD, "linear_acceleration.z"},
-         {Part::kSkipped9, ""}}},
-       {"nav_msgs/msg/Odometry",
-        {{Part::kHeader, ""},
-         {Part::kText, ""},
-         {kD, "pose.pose.position.x"},
-         {kD, "pose.pose.position.y"},
-         {kD, "pose.pose.position.z"},
-         {kD, "pose.pose.orientation.x"},
-         {kD, "pose.pose.orientation.y"},
-         {kD, "pose.pose.orientation.z"},
-         {kD, "pose.pose.orientation.w"},
-         {Part::kSkipped36, ""},
-         {kD, "twist.twist.linear.x"},
-         {kD, "twist.twist.linear.y"},
-         {kD, "twist.twist.linear.z"},
-         {kD, "twist.twist.angular.x"},
-         {kD, "twist.twist.angular.y"},
-         {kD, "twist.twist.angular.z"},
-         {Part::kSkipped36, ""}}}}};
+       {"sensor_msgs/msg/Imu", imu()},
+       {"nav_msgs/msg/Odometry", odometry()}}};
   return kTypes;
 }
 

@@ -178,10 +178,16 @@ std::optional<double> sharpness(const Evidence& evidence, double factor) {
   return std::abs(ratio->ratio);
 }
 
-std::optional<Contradiction> judge_steering_unit(const Evidence& evidence) {
-  const std::vector<double>& angle = evidence.log.driving_steering_rad();
+double largest_steering_deg(const DrivingLog& log) {
   double largest_deg = 0.0;
-  for (const double value : angle) largest_deg = std::max(largest_deg, std::abs(degrees(value)));
+  for (const double angle : log.driving_steering_rad()) {
+    largest_deg = std::max(largest_deg, std::abs(degrees(angle)));
+  }
+  return largest_deg;
+}
+
+std::optional<Contradiction> judge_steering_unit(const Evidence& evidence) {
+  const double largest_deg = largest_steering_deg(evidence.log);
   const std::string column(evidence.log.steering_column());
   const double stop_deg = evidence.vehicle.steering_max_deg;
   if (!evidence.vehicle.has_steering()) {

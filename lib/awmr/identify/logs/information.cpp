@@ -57,7 +57,7 @@ std::vector<Eigen::VectorXd> log_scores(const std::vector<FitWindow>& windows,
   std::vector<Eigen::VectorXd> scores;
   const DrivingLog* log = nullptr;
   for (std::size_t w = 0; w < windows.size(); ++w) {
-    if (windows[w].rows.log != log) scores.push_back(Eigen::VectorXd::Zero(n));
+    if (windows[w].rows.log != log) scores.emplace_back(Eigen::VectorXd::Zero(n));
     log = windows[w].rows.log;
     const Eigen::Index samples = rows_of(windows[w].samples);
     scores.back() += projected(residuals[w], n).topRows(samples).transpose() *

@@ -57,6 +57,27 @@ Choice choose_log_linear(const Subject& subject, const SubjectOptions& options,
   return choice;
 }
 
+/// The power law was taken without a comparison.
+Finding not_compared(const Subject& subject) {
+  return about(subject, Severity::kWarning, "families-not-compared",
+               fmt::format("{} rows of {} are too few to compare families by AICc, which takes {}: "
+                           "the power law is taken; record another run",
+                           subject.points.size(), name_in(kFitSubjectNames, subject.name),
+                           kFewestToCompare));
+}
+
+/// Why there is no fit to choose; `tried`: there were fits.
+Finding nothing_to_choose(const Subject& subject, bool tried) {
+  if (!tried) {
+    return about(
+        subject, Severity::kError, "too-few-rows",
+        fmt::format("{} rows are too few for the family asked for", subject.points.size()));
+  }
+  return about(subject, Severity::kError, "not-converged",
+               fmt::format("no family's fit of {} converged with more runs than its numbers",
+                           name_in(kFitSubjectNames, subject.name)));
+}
+
 /// The family asked for, or the one of minimum AICc.
 Choice choose_nonlinear(const Subject& subject, const SubjectOptions& options, ErrorModel wanted,
                         const std::vector<Candidate>& candidates) {
@@ -69,24 +90,10 @@ Choice choose_nonlinear(const Subject& subject, const SubjectOptions& options, E
   if (!chosen && !options.family.family && subject.points.size() < kFewestToCompare) {
     // Two free numbers, and no other family with fewer.
     chosen = candidate_of(candidates, Family::kPower, wanted);
-    choice.findings.push_back(
-        about(subject, Severity::kWarning, "families-not-compared",
-              fmt::format("{} rows of {} are too few to compare families by AICc, which takes {}: "
-                          "the power law is taken; record another run",
-                          subject.points.size(), name_in(kFitSubjectNames, subject.name),
-                          kFewestToCompare)));
-  }
-  if (!chosen && tried && !options.family.family) {
-    choice.findings.push_back(
-        about(subject, Severity::kError, "not-converged",
-              fmt::format("no family's fit of {} converged with more runs than its numbers",
-                          name_in(kFitSubjectNames, subject.name))));
-    return choice;
+    choice.findings.push_back(not_compared(subject));
   }
   if (!chosen) {
-    choice.findings.push_back(
-        about(subject, Severity::kError, "too-few-rows",
-              fmt::format("{} rows are too few for the family asked for", subject.points.size())));
+    choice.findings.push_back(nothing_to_choose(subject, tried && !options.family.family));
     return choice;
   }
   choice.method = method_in_words(chosen->problem);
