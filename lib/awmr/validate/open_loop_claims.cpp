@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <ranges>
 #include <vector>
 
 #include "awmr/model/paper_gains.h"
@@ -58,9 +57,11 @@ std::vector<Point> last_turn(const Run& run) {
   const double end_rad = run.rows.back().state.psi_rad;
   if (std::abs(end_rad) < 4.0 * std::numbers::pi) return {};
   std::vector<Point> points;
-  for (const RunRow& row : std::views::reverse(run.rows)) {
-    if (std::abs(end_rad - row.state.psi_rad) > 2.0 * std::numbers::pi) break;
-    points.push_back({row.state.x_m, row.state.y_m});
+  // Clang 14 does not compile std::views::reverse of GCC 12's library.
+  // NOLINTNEXTLINE(modernize-loop-convert)
+  for (auto row = run.rows.rbegin(); row != run.rows.rend(); ++row) {
+    if (std::abs(end_rad - row->state.psi_rad) > 2.0 * std::numbers::pi) break;
+    points.push_back({row->state.x_m, row->state.y_m});
   }
   return points;
 }
