@@ -95,11 +95,11 @@ class Port : public Line {
 Result<std::unique_ptr<Chip>> port_link(const std::filesystem::path& port, unsigned baud,
                                         const std::filesystem::path& elf,
                                         std::uint32_t parameters_crc) {
-  static const std::map<unsigned, speed_t> speeds{{9600, B9600},     {57600, B57600},
-                                                  {115200, B115200}, {230400, B230400},
-                                                  {500000, B500000}, {1000000, B1000000}};
-  const auto speed = speeds.find(baud);
-  if (speed == speeds.end()) {
+  static const std::map<unsigned, speed_t> kSpeeds{{9600, B9600},     {57600, B57600},
+                                                   {115200, B115200}, {230400, B230400},
+                                                   {500000, B500000}, {1000000, B1000000}};
+  const auto speed = kSpeeds.find(baud);
+  if (speed == kSpeeds.end()) {
     return input_error("--baud", fmt::format("{}: one of 9600, 57600, 115200, 230400, 500000, "
                                              "1000000",
                                              baud));

@@ -103,8 +103,7 @@ std::string parameter_table_text(const Model& model) {
                                  "std error", "95 % interval", "unit", "origin");
   for (const ParameterInfo& parameter : parameter_table()) {
     const Estimate& estimate = model[parameter.id];
-    if (parameter.term && estimate.source == Source::kGiven && estimate.value == 0.0) continue;
-    if (!has(model.vehicle, parameter.id)) continue;
+    if (is_absent_term(model, parameter.id) || !has(model.vehicle, parameter.id)) continue;
     text += table_row(parameter.name, estimate, parameter.unit);
   }
   return text;

@@ -101,12 +101,12 @@ Status write_stream(const fs::path& path, std::string_view bytes) {
 
 /// What umask() takes from a new file's mode. It can only be read by setting it, so once.
 mode_t creation_mask() {
-  static const mode_t mask = [] {
+  static const mode_t kMask = [] {
     const mode_t current = ::umask(077);
     ::umask(current);
     return current;
   }();
-  return mask;
+  return kMask;
 }
 
 fs::path directory_of(const fs::path& path) {

@@ -130,6 +130,22 @@ GeneralisedForces<T> generalised_forces(const T& front_axle_m, const T& half_tra
           half_track_m * (f.right - f.left) * one_plus_cos};
 }
 
+/// tau_turn, m, of a turning trial: four wheels push alike with F' (`wheel_force`) at a steering
+/// angle d_r, rad.
+///   tau_turn = 2 l_f F' sin d_r                                                       [paper (62)]
+template <class T>
+T steering_moment_m(const T& front_axle_m, const T& wheel_force, const T& steering_rad) {
+  using math::sin;
+  return T(2.0) * front_axle_m * wheel_force * sin(steering_rad);
+}
+
+/// tau_turn, m, of a turning trial without steering; `right_less_left` = F'R - F'L.
+///   tau_turn = 2 d (F'R - F'L)                                    [paper (41), tau_diff at d_r = 0]
+template <class T>
+T differential_moment_m(const T& half_track_m, const T& right_less_left) {
+  return T(2.0) * half_track_m * right_less_left;
+}
+
 /// Rates of the state where the wheels of a side are driven alike. The last three are
 ///   u_dot = (tau_speed               + m' r v - g1(u)) / m'
 ///   v_dot = (tau_steering/l_f        - m' r u - g2(v)) / m'

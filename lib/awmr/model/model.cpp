@@ -42,6 +42,10 @@ Result<Plant<double>> plant_with(const Model& model, IsNeeded is_needed) {
 
 }  // namespace
 
+bool is_absent_term(const Model& model, ParameterId id) {
+  return info(id).term && model[id].source == Source::kGiven && model[id].value == 0.0;
+}
+
 double max_wheel_force_n(double mass_kg, double mass_norm) { return mass_kg / mass_norm; }
 
 Model::Model() {

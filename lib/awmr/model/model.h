@@ -96,6 +96,9 @@ struct Model {
   Motion simulated_motion() const;
 };
 
+/// True for a term that the model's family does not have: it is nowhere in model.json.
+bool is_absent_term(const Model& model, ParameterId id);
+
 /// The largest force of one motor, N:
 ///   F_max = m/m'                                                                      [paper (66)]
 double max_wheel_force_n(double mass_kg, double mass_norm);

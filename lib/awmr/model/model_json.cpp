@@ -141,10 +141,6 @@ Json interval_or_null(const std::optional<Interval>& interval) {
   return Json::array({interval->lo, interval->hi});
 }
 
-bool is_absent_term(const Model& model, ParameterId id) {
-  return info(id).term && model[id].source == Source::kGiven && model[id].value == 0.0;
-}
-
 Json report_to_json(const EstimatorReport& report) {
   Json json;
   json["subject"] = name_in(kFitSubjectNames, report.subject);

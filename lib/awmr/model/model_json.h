@@ -10,9 +10,6 @@ namespace awmr {
 Json number_or_null(const std::optional<double>& value);
 Json interval_or_null(const std::optional<Interval>& interval);
 
-/// True for a term that the model's family does not have: it is nowhere in model.json.
-bool is_absent_term(const Model& model, ParameterId id);
-
 Json report_to_json(const EstimatorReport& report);
 EstimatorReport report_from_json(JsonObject json);
 

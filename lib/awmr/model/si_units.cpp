@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "awmr/model/transform.h"
-#include "model_json.h"
 
 namespace awmr {
 namespace {

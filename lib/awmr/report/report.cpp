@@ -69,7 +69,7 @@ Result<Json> read_run(const fs::path& path) {
 
 /// The files `run_<scenario>_<mode>_<gains>.csv`, by name.
 Result<Json> read_runs(const fs::path& directory) {
-  static const std::regex pattern("run_(.+)_(differential|steering|combined)_(tuned|paper)\\.csv");
+  static const std::regex kPattern("run_(.+)_(differential|steering|combined)_(tuned|paper)\\.csv");
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(directory)) files.push_back(entry.path());
   std::sort(files.begin(), files.end());
@@ -77,7 +77,7 @@ Result<Json> read_runs(const fs::path& directory) {
   for (const fs::path& file : files) {
     const std::string name = file.filename().string();
     std::smatch match;
-    if (!std::regex_match(name, match, pattern)) continue;
+    if (!std::regex_match(name, match, kPattern)) continue;
     AWMR_ASSIGN_OR_RETURN(Json rows, read_run(file));
     runs.push_back({{"scenario", match[1].str()},
                     {"mode", match[2].str()},

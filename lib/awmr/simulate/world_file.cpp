@@ -74,15 +74,15 @@ Disturbance read_disturbance(JsonObject json) {
 }
 
 WheelFault read_fault(JsonObject& json) {
-  static const std::array<std::string, 6> names{"front_left", "front_right", "rear_left",
-                                                "rear_right", "left",        "right"};
-  static const std::vector<Wheel> wheels[] = {{Wheel::kFrontLeft},
-                                              {Wheel::kFrontRight},
-                                              {Wheel::kRearLeft},
-                                              {Wheel::kRearRight},
-                                              {Wheel::kFrontLeft, Wheel::kRearLeft},
-                                              {Wheel::kFrontRight, Wheel::kRearRight}};
-  WheelFault fault{.wheels = wheels[json.choice("wheel", names)],
+  static const std::array<std::string, 6> kNames{"front_left", "front_right", "rear_left",
+                                                 "rear_right", "left",        "right"};
+  static const std::vector<Wheel> kWheels[] = {{Wheel::kFrontLeft},
+                                               {Wheel::kFrontRight},
+                                               {Wheel::kRearLeft},
+                                               {Wheel::kRearRight},
+                                               {Wheel::kFrontLeft, Wheel::kRearLeft},
+                                               {Wheel::kFrontRight, Wheel::kRearRight}};
+  WheelFault fault{.wheels = kWheels[json.choice("wheel", kNames)],
                    .window = read_window(json),
                    .share = json.number("share", kShare)};
   json.reject_unknown_keys();

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "awmr/core/units.h"
+#include "awmr/model/dynamics.h"
 
 namespace awmr {
 namespace {
@@ -141,12 +142,11 @@ std::optional<SteadyRun> steady_run(const DrivingLog& log, const Vehicle& vehicl
                    {left, right}};
 }
 
-/// A run without steering:
-///   tau_turn = 2 d (F'R - F'L)                                                        [paper (41)]
+/// A run without steering.
 TurningRow sides_turning_row(const SteadyRun& run, const Vehicle& vehicle) {
   const auto [least, most] = std::minmax(run.sides.left, run.sides.right);
   return {.line = run.segment.line,
-          .tau_turn_m = 2.0 * vehicle.half_track_m * (most - least),
+          .tau_turn_m = differential_moment_m(vehicle.half_track_m, most - least),
           .yaw_rate_radps = run.segment.mean_rate,
           .turns = {},
           .elapsed_s = {},
@@ -156,11 +156,10 @@ TurningRow sides_turning_row(const SteadyRun& run, const Vehicle& vehicle) {
 TurningRow turning_row(const SteadyRun& run, const Vehicle& vehicle) {
   if (!vehicle.has_steering()) return sides_turning_row(run, vehicle);
   const double angle = std::abs(run.steering_rad);
-  // tau_turn = 2 l_f F' sin d_r                                                        [paper (62)]
   return {.line = run.segment.line,
           .steering_rad = angle,
           .wheel_force = run.wheel_force,
-          .tau_turn_m = 2.0 * vehicle.front_axle_m * run.wheel_force * std::sin(angle),
+          .tau_turn_m = steering_moment_m(vehicle.front_axle_m, run.wheel_force, angle),
           .yaw_rate_radps = run.segment.mean_rate,
           .turns = {},
           .elapsed_s = {}};

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <string>
 
 #include "awmr/core/option_text.h"
@@ -41,29 +42,28 @@ struct Beyond {
   double largest = 0.0;
 };
 
-template <class Row>
-Beyond<Row> beyond(const std::vector<Row>& rows, double Row::*member, double limit) {
+/// `number` is a member of Row, or a function of one.
+template <class Row, class Number>
+Beyond<Row> beyond(const std::vector<Row>& rows, Number number, double limit) {
   constexpr double kRounding = 1.01;
   Beyond<Row> found;
   for (const Row& row : rows) {
-    found.largest = std::max(found.largest, row.*member);
-    if (found.first == nullptr && row.*member > limit * kRounding) found.first = &row;
+    const double here = std::invoke(number, row);
+    found.largest = std::max(found.largest, here);
+    if (found.first == nullptr && here > limit * kRounding) found.first = &row;
   }
   return found;
 }
 
+double largest_side_force(const TurningRow& row) {
+  if (!row.sides) return 0.0;
+  return std::max(std::abs(row.sides->left), std::abs(row.sides->right));
+}
+
 /// Without steering the sides have a force each.
 void check_sides(const Table& table, const std::vector<TurningRow>& rows, const Interval& force) {
-  constexpr double kRounding = 1.01;
   const double limit = std::max(force.hi, -force.lo);
-  const TurningRow* first = nullptr;
-  double largest = 0.0;
-  for (const TurningRow& row : rows) {
-    if (!row.sides) continue;
-    const double most = std::max(std::abs(row.sides->left), std::abs(row.sides->right));
-    largest = std::max(largest, most);
-    if (first == nullptr && most > limit * kRounding) first = &row;
-  }
+  const auto [first, largest] = beyond(rows, largest_side_force, limit);
   if (first == nullptr) return;
   const auto [words, factor] = full_scale_of(largest, limit);
   for (const char* column : {"force_left", "force_right"}) {

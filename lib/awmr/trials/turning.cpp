@@ -5,6 +5,7 @@
 
 #include "awmr/core/csv_text.h"
 #include "awmr/core/units.h"
+#include "awmr/model/dynamics.h"
 #include "awmr/trials/trial_columns.h"
 #include "read_table.h"
 #include "trial_reader.h"
@@ -34,6 +35,10 @@ struct Turn {
   std::string equation;     ///< by which it was computed
   std::string parameter;    ///< the vehicle's that it hangs on: "front_axle_m"
   double length_m = 0.0;    ///< the parameter's value
+  // What the row keeps of it.
+  double steering_rad = 0.0;
+  double wheel_force = 0.0;
+  std::optional<SideForces<double>> sides = {};
 };
 
 /// A faulty cell where its sign is not that of the turn: counted turns have none.
@@ -88,22 +93,10 @@ double tau_turn_of(TrialReader& reader, std::size_t row, const Turn& turn,
   return printed;
 }
 
-/// The row with its moment and its yaw rate, both magnitudes: g3 is odd, so a turn to the right is
-/// taken as its mirror image to the left.
-TurningRow with_rate(TrialReader& reader, std::size_t row, const Turn& turn, const RateInRow& rate,
-                     TurningRow turning, std::vector<Finding>& findings) {
-  turning.line = reader.table().line(row);
-  turning.tau_turn_m = tau_turn_of(reader, row, turn, findings);
-  turning.yaw_rate_radps = rate.used;
-  turning.turns = rate.amount;
-  turning.elapsed_s = rate.elapsed_s;
-  return turning;
-}
-
 /// A run that turns by its steering:
 ///   tau_turn = 2 l_f F' sin d_r                                                       [paper (62)]
-std::optional<TurningRow> steered_row(TrialReader& reader, std::size_t row, const Vehicle& vehicle,
-                                      Preference preference, std::vector<Finding>& findings) {
+/// Nothing on a fault.
+std::optional<Turn> by_steering(TrialReader& reader, std::size_t row, const Vehicle& vehicle) {
   const double steering_deg = *reader.cell(row, "steering_deg");
   if (std::abs(steering_deg) >= 90.0) {
     reader.fault(row, "steering_deg",
@@ -112,42 +105,50 @@ std::optional<TurningRow> steered_row(TrialReader& reader, std::size_t row, cons
   }
   const double wheel_force = *reader.non_negative(row, "wheel_force");
   const double steering_rad = radians(std::abs(steering_deg));
-  const Turn turn{.left = steering_deg,
-                  .in_words = fmt::format("steering_deg {}", steering_deg),
-                  .computed_m = 2.0 * vehicle.front_axle_m * wheel_force * std::sin(steering_rad),
-                  .equation = "2 l_f F' sin(steering)",
-                  .parameter = "front_axle_m",
-                  .length_m = vehicle.front_axle_m};
-  const auto printed = printed_yaw_rate(reader, row, turn);
-  const auto rate = rate_of(reader, row, kTurningRate, printed, preference, findings);
-  if (!rate) return std::nullopt;
-  check_stop(reader, row, vehicle, steering_deg, findings);
-  return with_rate(
-      reader, row, turn, *rate,
-      {.steering_rad = steering_rad, .wheel_force = wheel_force, .turns = {}, .elapsed_s = {}},
-      findings);
+  return Turn{.left = steering_deg,
+              .in_words = fmt::format("steering_deg {}", steering_deg),
+              .computed_m = steering_moment_m(vehicle.front_axle_m, wheel_force, steering_rad),
+              .equation = "2 l_f F' sin(steering)",
+              .parameter = "front_axle_m",
+              .length_m = vehicle.front_axle_m,
+              .steering_rad = steering_rad,
+              .wheel_force = wheel_force};
 }
 
 /// A run that turns by its sides, without steering:
 ///   tau_turn = 2 d (F'R - F'L)                                                        [paper (41)]
-std::optional<TurningRow> sides_row(TrialReader& reader, std::size_t row, const Vehicle& vehicle,
-                                    Preference preference, std::vector<Finding>& findings) {
+Turn by_sides(const TrialReader& reader, std::size_t row, const Vehicle& vehicle) {
   const double left = *reader.cell(row, "force_left");
   const double right = *reader.cell(row, "force_right");
-  const Turn turn{.left = right - left,
-                  .in_words = fmt::format("force_right - force_left {}", right - left),
-                  .computed_m = 2.0 * vehicle.half_track_m * std::abs(right - left),
-                  .equation = "2 d (F'R - F'L)",
-                  .parameter = "half_track_m",
-                  .length_m = vehicle.half_track_m};
-  const auto printed = printed_yaw_rate(reader, row, turn);
+  const SideForces<double> sides{std::min(left, right), std::max(left, right)};
+  return {.left = right - left,
+          .in_words = fmt::format("force_right - force_left {}", right - left),
+          .computed_m = differential_moment_m(vehicle.half_track_m, sides.right - sides.left),
+          .equation = "2 d (F'R - F'L)",
+          .parameter = "half_track_m",
+          .length_m = vehicle.half_track_m,
+          .sides = sides};
+}
+
+/// The row with its moment and its yaw rate, both magnitudes: g3 is odd, so a turn to the right is
+/// taken as its mirror image to the left.
+std::optional<TurningRow> read_row(TrialReader& reader, std::size_t row, const Vehicle& vehicle,
+                                   Preference preference, std::vector<Finding>& findings) {
+  const auto turn =
+      vehicle.has_steering() ? by_steering(reader, row, vehicle) : by_sides(reader, row, vehicle);
+  if (!turn) return std::nullopt;
+  const auto printed = printed_yaw_rate(reader, row, *turn);
   const auto rate = rate_of(reader, row, kTurningRate, printed, preference, findings);
   if (!rate) return std::nullopt;
-  return with_rate(reader, row, turn, *rate,
-                   {.turns = {},
-                    .elapsed_s = {},
-                    .sides = SideForces<double>{std::min(left, right), std::max(left, right)}},
-                   findings);
+  if (vehicle.has_steering()) check_stop(reader, row, vehicle, turn->left, findings);
+  return TurningRow{.line = reader.table().line(row),
+                    .steering_rad = turn->steering_rad,
+                    .wheel_force = turn->wheel_force,
+                    .tau_turn_m = tau_turn_of(reader, row, *turn, findings),
+                    .yaw_rate_radps = rate->used,
+                    .turns = rate->amount,
+                    .elapsed_s = rate->elapsed_s,
+                    .sides = turn->sides};
 }
 
 }  // namespace
@@ -165,9 +166,7 @@ Result<TrialSet<TurningRow>> read_turning(const std::filesystem::path& path, con
   note_format(reader, findings);
   std::vector<std::size_t> set_aside;
   for (std::size_t i = 0; i < reader.table().rows(); ++i) {
-    const auto row = vehicle.has_steering()
-                         ? steered_row(reader, i, vehicle, options.preference, findings)
-                         : sides_row(reader, i, vehicle, options.preference, findings);
+    const auto row = read_row(reader, i, vehicle, options.preference, findings);
     if (!row) continue;
     if (row->tau_turn_m == 0.0 || row->yaw_rate_radps == 0.0) {
       set_aside.push_back(i);

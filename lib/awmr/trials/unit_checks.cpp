@@ -186,18 +186,21 @@ double largest_steering_deg(const DrivingLog& log) {
   return largest_deg;
 }
 
+std::optional<Contradiction> judge_absent_steering(const Evidence& evidence) {
+  const double largest_deg = largest_steering_deg(evidence.log);
+  if (!(largest_deg > 0.0)) return std::nullopt;
+  const std::string column(evidence.log.steering_column());
+  return Contradiction{column,
+                       fmt::format("reaches {:.4g} deg, but the vehicle's drive is "
+                                   "\"differential\", which has no steering",
+                                   largest_deg),
+                       column + "=0"};
+}
+
 std::optional<Contradiction> judge_steering_unit(const Evidence& evidence) {
   const double largest_deg = largest_steering_deg(evidence.log);
   const std::string column(evidence.log.steering_column());
   const double stop_deg = evidence.vehicle.steering_max_deg;
-  if (!evidence.vehicle.has_steering()) {
-    if (!(largest_deg > 0.0)) return std::nullopt;
-    return Contradiction{column,
-                         fmt::format("reaches {:.4g} deg, but the vehicle's drive is "
-                                     "\"differential\", which has no steering",
-                                     largest_deg),
-                         column + "=0"};
-  }
   if (largest_deg > 3.0 * stop_deg) {
     return Contradiction{column,
                          fmt::format("reaches {:.4g} deg, where the stop is at {:g} deg: it looks "
@@ -237,8 +240,9 @@ std::vector<Contradiction> unit_contradictions(const Evidence& evidence) {
     found.insert(found.begin(), *time);
     return found;
   }
-  for (const auto& judged :
-       {judge_steering_unit(evidence), judge_rates(evidence), judge_speed(evidence)}) {
+  const auto steering = evidence.vehicle.has_steering() ? judge_steering_unit(evidence)
+                                                        : judge_absent_steering(evidence);
+  for (const auto& judged : {steering, judge_rates(evidence), judge_speed(evidence)}) {
     if (judged) found.push_back(*judged);
   }
   return found;

@@ -12,6 +12,7 @@
 #include "awmr/core/units.h"
 #include "awmr/model/paper_gains.h"
 #include "awmr/simulate/physics.h"
+#include "awmr/simulate/scenario.h"
 #include "awmr/simulate/simulate.h"
 #include "awmr/tune/constraints.h"
 #include "awmr/tune/objective.h"
@@ -121,12 +122,13 @@ tl::unexpected<Error> infeasible(const Candidate& nearest, const ConstraintConte
       worst ? worst->limit : 0.0, worst ? worst->meaning : ""));
 }
 
-tl::unexpected<Error> not_better(const SearchResult& found, const Objective& objective) {
+tl::unexpected<Error> not_better(const SearchResult& found, const Objective& objective,
+                                 std::span<const YawMode> modes) {
   const Evaluation e = objective(found.nearest.gains);
   std::string scores;
   for (std::size_t m = 0; m < e.mode_objective.size(); ++m) {
     scores +=
-        fmt::format("{}{:.4f} {}", m == 0 ? "" : ", ", e.mode_objective[m], name_of(kYawModes[m]));
+        fmt::format("{}{:.4f} {}", m == 0 ? "" : ", ", e.mode_objective[m], name_of(modes[m]));
   }
   return refusal(fmt::format(
       "no gains beat the paper's in every mode (1 is theirs): the nearest of {} ({}) score {}; "
@@ -175,10 +177,10 @@ Result<Tuning> tune(const Model& model, const TuneOptions& options) {
 
   const Objective objective(plant, model.vehicle, options.weights, scenarios, kPaperGains);
   AWMR_ASSIGN_OR_RETURN(const SearchResult found, search(options, context, objective, start.gains));
-  if (!found.best) return not_better(found, objective);
+  if (!found.best) return not_better(found, objective, yaw_modes(model.vehicle));
   const Gains<double>& gains = found.best->gains;
   const Evaluation tuned = objective(gains);
-  if (!beats_everywhere(tuned)) return not_better(found, objective);
+  if (!beats_everywhere(tuned)) return not_better(found, objective, yaw_modes(model.vehicle));
   const Objective held_out(plant, model.vehicle, options.weights, {held_out_scenario()},
                            kPaperGains);
   const Evaluation judged = held_out(gains);

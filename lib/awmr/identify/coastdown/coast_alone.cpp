@@ -7,15 +7,13 @@
 #include <utility>
 
 #include "awmr/core/option_text.h"
+#include "awmr/identify/uncertainty/akaike.h"
 #include "awmr/identify/uncertainty/diagnostics.h"
 #include "awmr/identify/uncertainty/quantiles.h"
 #include "awmr/model/ratio_names.h"
 
 namespace awmr {
 namespace {
-
-/// As for logs, whose errors are correlated too: another family has to be better by so much.
-constexpr double kAlonePlainlyBetter = 20.0;
 
 /// Those that a curve can tell apart: motors that are off have no dead zone.
 constexpr Family kCoastFamilies[] = {Family::kPower, Family::kCoulombLinear,
@@ -92,7 +90,7 @@ void hold_against_others(const std::vector<CoastFit>& fits, const std::string& f
                          MassResult& result) {
   const CoastFit& power = fits.front();
   const CoastFit& best = best_of(fits);
-  if (!power.aicc || !best.aicc || *power.aicc - *best.aicc < kAlonePlainlyBetter) return;
+  if (!power.aicc || !best.aicc || *power.aicc - *best.aicc < kPlainlyBetter) return;
   result.findings.push_back(
       {file, 0, Severity::kWarning, "power-law-inadequate",
        fmt::format(

@@ -8,6 +8,7 @@
 #include "awmr/identify/ceres_solve.h"
 #include "awmr/identify/coastdown/coast_noise.h"
 #include "awmr/identify/coastdown/coast_problem.h"
+#include "awmr/identify/uncertainty/akaike.h"
 
 namespace awmr {
 namespace {
@@ -93,14 +94,6 @@ void add_shapes(CoastProblem& problem, const std::vector<TransformedParameter>& 
   }
 }
 
-/// AICc of normal errors of unknown deviation, with `free` numbers beside it.
-std::optional<double> aicc_of(const Eigen::VectorXd& e, double free) {
-  const double n = static_cast<double>(e.size());
-  const double k = free + 1.0;
-  if (!(n - k - 1.0 > 0.0)) return std::nullopt;
-  return n * std::log(e.squaredNorm() / n) + 2.0 * k + 2.0 * k * (k + 1.0) / (n - k - 1.0);
-}
-
 }  // namespace
 
 CoastFit fit_coast(const std::vector<CoastCurve>& curves, const SteadyFit& surge) {
@@ -158,7 +151,8 @@ CoastFit fit_coast_alone(const std::vector<CoastCurve>& curves, const Interval& 
   if (covariance.size() == 0 || !converged(problem.summary())) return fit;
   add_shapes(problem, free, inside, covariance, fit);
   const std::size_t on_a_bound = free.size() - inside.size();
-  fit.aicc = aicc_of(*e, static_cast<double>(j->cols()) + static_cast<double>(on_a_bound));
+  fit.aicc = aicc(e->squaredNorm(), static_cast<double>(e->size()),
+                  static_cast<double>(j->cols()) + static_cast<double>(on_a_bound));
   if (!is_finite(fit)) return not_finite(std::move(fit), problem);
   fit.usable = true;
   return fit;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "awmr/core/index.h"
+#include "awmr/identify/uncertainty/akaike.h"
 
 namespace awmr {
 namespace {

@@ -23,10 +23,6 @@ LogFitOptions from_optimum(LogFitOptions options, const FamilyFit& fit);
 FamilyFit fit_family(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                      Family surge, Family yaw);
 
-/// By how much AIC has to fall for another family than the paper's to be taken unasked: twice what is
-/// commonly called decisive, since the chord at rest, an approximation of every family, costs some.
-inline constexpr double kPlainlyBetter = 20.0;
-
 /// How families are compared.
 struct FamilyContest {
   bool surge = true;  ///< every family of surge resistance, otherwise power

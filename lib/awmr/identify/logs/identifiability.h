@@ -25,12 +25,6 @@ struct Identifiability {
   double widened() const { return factor.empty() ? 1.0 : std::ranges::max(factor); }
 };
 
-/// The scores of parts of the logs.
-struct Scores {
-  std::vector<Eigen::VectorXd> blocks;  ///< of some seconds each
-  std::vector<Eigen::VectorXd> logs;    ///< of whole logs
-};
-
 /// The covariance from the information H (n x n) and, as a judge of its noise model, the scores s_b
 /// of m parts of the logs. With coordinates over their large changes and a weak prior P,
 ///

@@ -17,6 +17,26 @@ Eigen::MatrixXd projected(const WindowResiduals& window, Eigen::Index n) {
   return jt - js * inner;
 }
 
+std::vector<Eigen::VectorXd> scores_in(const FitWindow& window, const WindowResiduals& residuals,
+                                       Eigen::Index n, double block_s) {
+  std::vector<Eigen::VectorXd> blocks;
+  const Eigen::MatrixXd rows = projected(residuals, n);
+  const std::vector<double>& t_s = window.rows.log->t_s;
+  double from_s = t_s[window.rows.begin];
+  Eigen::VectorXd score = Eigen::VectorXd::Zero(n);
+  for (Eigen::Index i = 0; i < rows_of(window.samples); ++i) {
+    const double now_s = t_s[window.samples[at(i)].row];
+    if (now_s - from_s >= block_s) {
+      blocks.push_back(score);
+      score.setZero();
+      from_s = now_s;
+    }
+    score += rows.row(i).transpose() * residuals.residuals(i);
+  }
+  blocks.push_back(score);
+  return blocks;
+}
+
 }  // namespace
 
 Eigen::MatrixXd information(const std::vector<WindowResiduals>& residuals, Eigen::Index n) {
@@ -28,40 +48,17 @@ Eigen::MatrixXd information(const std::vector<WindowResiduals>& residuals, Eigen
   return 0.5 * (sum + sum.transpose());
 }
 
-std::vector<Eigen::VectorXd> block_scores(const std::vector<FitWindow>& windows,
-                                          const std::vector<WindowResiduals>& residuals,
-                                          Eigen::Index n, double block_s) {
-  std::vector<Eigen::VectorXd> scores;
-  for (std::size_t w = 0; w < windows.size(); ++w) {
-    const Eigen::MatrixXd rows = projected(residuals[w], n);
-    const std::vector<double>& t_s = windows[w].rows.log->t_s;
-    double from_s = t_s[windows[w].rows.begin];
-    Eigen::VectorXd score = Eigen::VectorXd::Zero(n);
-    for (Eigen::Index i = 0; i < rows_of(windows[w].samples); ++i) {
-      const double now_s = t_s[windows[w].samples[at(i)].row];
-      if (now_s - from_s >= block_s) {
-        scores.push_back(score);
-        score.setZero();
-        from_s = now_s;
-      }
-      score += rows.row(i).transpose() * residuals[w].residuals(i);
-    }
-    scores.push_back(score);
-  }
-  return scores;
-}
-
-std::vector<Eigen::VectorXd> log_scores(const std::vector<FitWindow>& windows,
-                                        const std::vector<WindowResiduals>& residuals,
-                                        Eigen::Index n) {
-  std::vector<Eigen::VectorXd> scores;
+Scores scores_of(const std::vector<FitWindow>& windows,
+                 const std::vector<WindowResiduals>& residuals, Eigen::Index n, double block_s) {
+  Scores scores;
   const DrivingLog* log = nullptr;
   for (std::size_t w = 0; w < windows.size(); ++w) {
-    if (windows[w].rows.log != log) scores.emplace_back(Eigen::VectorXd::Zero(n));
+    if (windows[w].rows.log != log) scores.logs.emplace_back(Eigen::VectorXd::Zero(n));
     log = windows[w].rows.log;
-    const Eigen::Index samples = rows_of(windows[w].samples);
-    scores.back() += projected(residuals[w], n).topRows(samples).transpose() *
-                     residuals[w].residuals.head(samples);
+    for (Eigen::VectorXd& block : scores_in(windows[w], residuals[w], n, block_s)) {
+      scores.logs.back() += block;
+      scores.blocks.push_back(std::move(block));
+    }
   }
   return scores;
 }

@@ -14,17 +14,16 @@ namespace awmr {
 ///     H = J_t^T J_t - J_t^T J_s (J_s^T J_s)^-1 J_s^T J_t
 Eigen::MatrixXd information(const std::vector<WindowResiduals>& residuals, Eigen::Index n);
 
-/// The scores (n: the projected Jacobian's rows times their residuals, summed) of blocks of about
-/// `block_s` within each window. How they scatter tells how much the fit can be off, whatever the
-/// noise is.
-std::vector<Eigen::VectorXd> block_scores(const std::vector<FitWindow>& windows,
-                                          const std::vector<WindowResiduals>& residuals,
-                                          Eigen::Index n, double block_s);
+/// The scores (n: the projected Jacobian's rows times their residuals, summed) of parts of the logs.
+/// How they scatter tells how much the fit can be off, whatever the noise is.
+struct Scores {
+  std::vector<Eigen::VectorXd> blocks;  ///< of some seconds within a window
+  std::vector<Eigen::VectorXd> logs;    ///< of whole logs: the sums of their blocks
+};
 
-/// The same, summed over each log.
-std::vector<Eigen::VectorXd> log_scores(const std::vector<FitWindow>& windows,
-                                        const std::vector<WindowResiduals>& residuals,
-                                        Eigen::Index n);
+/// The scores of blocks of about `block_s`, and of the logs that they make.
+Scores scores_of(const std::vector<FitWindow>& windows,
+                 const std::vector<WindowResiduals>& residuals, Eigen::Index n, double block_s);
 
 /// Long enough for the blocks to be nearly independent: five times the longest correlation, within
 /// a window.

@@ -46,9 +46,8 @@ LogFit fit_at(const LogProblem& problem, const Solved& solved,
   const std::vector<FreeQuantity>& quantities = problem.model.quantities;
   const std::vector<double>& coordinates = solved.point.coordinates;
   const Eigen::Index n = rows_of(quantities);
-  const Scores scores{
-      block_scores(problem.windows, residuals, n, block_length_s(problem.model.noise)),
-      log_scores(problem.windows, residuals, n)};
+  const Scores scores =
+      scores_of(problem.windows, residuals, n, block_length_s(problem.model.noise));
   const Identifiability found = without_stopped(
       identifiability(information(residuals, n), scores, quantities), problem, coordinates);
   const std::vector<Interval> bootstrap95 =

@@ -14,6 +14,7 @@
 #include "awmr/identify/logs/between_logs.h"
 #include "awmr/identify/logs/cross_validation.h"
 #include "awmr/identify/logs/initial_guess.h"
+#include "awmr/identify/uncertainty/akaike.h"
 #include "awmr/trials/log_consistency.h"
 
 namespace awmr {

@@ -64,8 +64,8 @@ std::vector<ScoreTest> score_test(const LogProblem& problem, const SearchPoint& 
   const Eigen::Index n = rows_of(problem.model.quantities);
   const Eigen::Index all = rows_of(with.problem.model.quantities);
   const Eigen::MatrixXd h = information(residuals, all);
-  const auto scores =
-      block_scores(with.problem.windows, residuals, all, block_length_s(problem.model.noise));
+  const std::vector<Eigen::VectorXd> scores =
+      scores_of(with.problem.windows, residuals, all, block_length_s(problem.model.noise)).blocks;
   // The weak prior of the search keeps what no data show from making H_tt singular.
   Eigen::MatrixXd of_others = h.topLeftCorner(n, n);
   of_others.diagonal().array() += 1.0 / (kPriorStd * kPriorStd);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "awmr/core/units.h"
+#include "awmr/model/dynamics.h"
 #include "awmr/model/steady.h"
 
 namespace awmr {
@@ -56,7 +57,7 @@ CandidateTrial turning_candidate(double steering_rad, double wheel_force, double
                                 {"runs", runs}}},
           .standardised = [=](const Plant<double>& p) {
             const double effective = std::max(0.0, wheel_force - p.wheel_dead_zone);
-            const double tau = 2.0 * p.front_axle_m * effective * std::sin(steering_rad);
+            const double tau = steering_moment_m(p.front_axle_m, effective, steering_rad);
             const double r = steady_rate(p.yaw, tau).value_or(kAtRest);
             return std::vector{std::sqrt(runs) * std::log(r) / scatter};
           }};
@@ -73,7 +74,8 @@ CandidateTrial sides_candidate(SideForces<double> force, double scatter, double 
           .standardised = [=](const Plant<double>& p) {
             const double effective = beyond_dead_zone(force.right, p.wheel_dead_zone) -
                                      beyond_dead_zone(force.left, p.wheel_dead_zone);
-            const double r = steady_rate(p.yaw, 2.0 * p.half_track_m * effective).value_or(kAtRest);
+            const double tau = differential_moment_m(p.half_track_m, effective);
+            const double r = steady_rate(p.yaw, tau).value_or(kAtRest);
             return std::vector{std::sqrt(runs) * std::log(r) / scatter};
           }};
 }

@@ -202,14 +202,15 @@ void sort_by_promise(std::vector<SuggestedTrial>& trials) {
 
 Result<Suggestion> suggest(const Model& model, const SuggestOptions& options) {
   const Uncertainty uncertainty = uncertainty_of(model);
-  if (uncertainty.parameters.empty() && missing_of(model).empty()) {
+  std::vector<MissingParameter> missing = missing_of(model);
+  if (uncertainty.parameters.empty() && missing.empty()) {
     return input_error(model.file + ":/covariance",
                        "no parameter has an uncertainty that a trial could shrink");
   }
   AWMR_ASSIGN_OR_RETURN(const Target target,
                         target_of(model, model.plant_as_known(), uncertainty.parameters, options));
   Suggestion suggestion{.criterion = target.criterion,
-                        .missing = missing_of(model),
+                        .missing = std::move(missing),
                         .trials = {},
                         .assumptions = assumptions_of(model, options)};
   if (uncertainty.parameters.empty()) return suggestion;

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "awmr/core/units.h"
+#include "awmr/model/dynamics.h"
 #include "awmr/model/rest.h"
 #include "awmr/model/steady.h"
 #include "awmr/trials/replay.h"
@@ -85,7 +86,7 @@ TrialSet<TurningRow> turning_rows(const Plant<double>& plant, const TablePlan& p
   int line = 2;
   for (const double angle : plan.turning_steering_rad) {
     const double effective = plan.turning_wheel_force - plant.wheel_dead_zone;
-    const double tau = 2.0 * plant.front_axle_m * effective * std::sin(angle);
+    const double tau = steering_moment_m(plant.front_axle_m, effective, angle);
     const auto rate = steady_rate(plant.yaw, tau);
     if (!rate) continue;
     const NoisyRow row =
@@ -110,7 +111,7 @@ TrialSet<TurningRow> sides_turning_rows(const Plant<double>& plant, const TableP
     const double commanded = sides.right - sides.left;
     const double effective = beyond_dead_zone(sides.right, plant.wheel_dead_zone) -
                              beyond_dead_zone(sides.left, plant.wheel_dead_zone);
-    const double tau = 2.0 * plant.half_track_m * effective;
+    const double tau = differential_moment_m(plant.half_track_m, effective);
     const auto rate = steady_rate(plant.yaw, tau);
     if (!rate) continue;
     const NoisyRow row =

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "awmr/identify/tables/steady_search.h"
+#include "awmr/identify/uncertainty/akaike.h"
 #include "awmr/identify/uncertainty/quantiles.h"
 
 namespace awmr {
@@ -82,13 +83,9 @@ Interval profile_interval(const SteadyProblem& problem, const SteadyFit& fit,
 }
 
 std::optional<double> aicc(const SteadyFit& fit) {
-  const auto n = static_cast<double>(fit.residuals.size());
-  const bool held_exponent = fit.held_by_bound(TransformedParameter::kBeta);
-  const double k = static_cast<double>(fit.free.size()) + (held_exponent ? 2.0 : 1.0);
-  if (n <= k + 1.0) return std::nullopt;
-  const double sse = fit.residuals.squaredNorm();
-  if (!(sse > 0.0) || !std::isfinite(sse)) return std::nullopt;
-  return n * std::log(sse / n) + 2.0 * k + 2.0 * k * (k + 1.0) / (n - k - 1.0);
+  const double held_exponent = fit.held_by_bound(TransformedParameter::kBeta) ? 1.0 : 0.0;
+  return aicc(fit.residuals.squaredNorm(), static_cast<double>(fit.residuals.size()),
+              static_cast<double>(fit.free.size()) + held_exponent);
 }
 
 }  // namespace awmr

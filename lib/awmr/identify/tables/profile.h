@@ -18,8 +18,7 @@ double profile_cost(const SteadyProblem& problem, const TransformedParameters& i
 Interval profile_interval(const SteadyProblem& problem, const SteadyFit& fit,
                           TransformedParameter c);
 
-/// AICc = n ln(SSE/n) + 2 k + 2 k (k + 1)/(n - k - 1), k = free coordinates + 1 (the variance).
-/// None for n <= k + 1.
+/// AICc over the free coordinates, and the exponent where a bound holds it.
 std::optional<double> aicc(const SteadyFit& fit);
 
 }  // namespace awmr

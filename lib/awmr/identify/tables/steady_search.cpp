@@ -64,9 +64,9 @@ using SteadyCost = ceres::AutoDiffCostFunction<SteadyResidual, 1, 1, 1, 1, 1, 1>
 }  // namespace
 
 Interval bounds_of(const SteadyProblem& problem, TransformedParameter c) {
-  if (c == TransformedParameter::kLogAlpha)
-    return {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-  if (c != TransformedParameter::kBeta) return {0.0, std::numeric_limits<double>::infinity()};
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  if (c == TransformedParameter::kLogAlpha) return {-kInfinity, kInfinity};
+  if (c != TransformedParameter::kBeta) return {0.0, kInfinity};
   const bool inverted = problem.noise == ErrorModel::kSpeed || problem.noise == ErrorModel::kTime;
   const double lowest =
       inverted ? std::max(problem.beta_range.lo, kMinimumInvertibleBeta) : problem.beta_range.lo;

@@ -1,0 +1,28 @@
+/// Akaike's criterion, by which families of resistance are compared. Private to identify/.
+#pragma once
+
+#include <cmath>
+#include <optional>
+
+namespace awmr {
+
+/// By how much the criterion of another family than the paper's has to be below the power law's for
+/// it to be taken unasked, where errors are correlated: twice what is commonly called decisive, since
+/// the chord at rest, an approximation of every family, costs some.
+inline constexpr double kPlainlyBetter = 20.0;
+
+/// AICc of n normal errors of unknown deviation with the sum of squares SSE, `free` numbers fitted
+/// beside the deviation, k = free + 1:
+///
+///     AICc = n ln(SSE/n) + 2 k + 2 k (k + 1)/(n - k - 1)
+///
+/// Nothing where n <= k + 1, or SSE is not positive and finite.
+inline std::optional<double> aicc(double sum_of_squares, double n, double free) {
+  const double k = free + 1.0;
+  if (n <= k + 1.0 || !(sum_of_squares > 0.0) || !std::isfinite(sum_of_squares)) {
+    return std::nullopt;
+  }
+  return n * std::log(sum_of_squares / n) + 2.0 * k + 2.0 * k * (k + 1.0) / (n - k - 1.0);
+}
+
+}  // namespace awmr
