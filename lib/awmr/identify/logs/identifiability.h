@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "awmr/identify/logs/information.h"
 #include "awmr/identify/logs/log_problem.h"
 
 namespace awmr {
