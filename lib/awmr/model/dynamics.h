@@ -140,7 +140,7 @@ T steering_moment_m(const T& front_axle_m, const T& wheel_force, const T& steeri
 }
 
 /// tau_turn, m, of a turning trial without steering; `right_less_left` = F'R - F'L.
-///   tau_turn = 2 d (F'R - F'L)                                    [paper (41), tau_diff at d_r = 0]
+///   tau_turn = 2 d (F'R - F'L)                                                        [paper (41)]
 template <class T>
 T differential_moment_m(const T& half_track_m, const T& right_less_left) {
   return T(2.0) * half_track_m * right_less_left;
