@@ -126,8 +126,11 @@ Status check_scenario(const Scenario& scenario, const std::string& file) {
   if (scenario.control.observer) {
     faults.push_back({file + ":/control/observer", "the firmware has none: remove"});
   }
-  if (!scenario.control.redistribute) {
-    faults.push_back({file + ":/control/redistribute", "the firmware always does: remove"});
+  if (scenario.control.split != CombinedSplit::kRedistribute) {
+    faults.push_back({file + ":/control/combined_split", "the firmware always does: remove"});
+  }
+  if (scenario.control.allocation.value_or(AllocationForm::kExact) != AllocationForm::kExact) {
+    faults.push_back({file + ":/control/allocation", "the firmware's is exact: remove"});
   }
   const WaypointCourse* course = course_for_chip(scenario);
   if (course != nullptr && course->points_m.size() > kMaxWaypoints) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "allocation_option.h"
 #include "awmr/compare/compare.h"
 #include "awmr/emit/emit.h"
 #include "awmr/identify/identify.h"
@@ -61,6 +62,9 @@ struct TuneCommand {
   fs::path model;
   std::optional<fs::path> config;
   fs::path output;
+  AllocationChoice allocation = {};
+  bool nominal = false;
+  std::optional<int> draws = {};
   InputNames names = {};
 };
 Result<Outcome> execute(const TuneCommand& command);
@@ -71,6 +75,7 @@ struct ValidateCommand {
   std::optional<fs::path> gains;
   ValidateOptions validate;
   fs::path output;
+  AllocationChoice allocation = {};
   std::vector<fs::path> logs = {};
   TrialOptions trials = {};    ///< columns of the logs
   bool other_columns = false;  ///< some of them may be for files that are not read here
@@ -89,6 +94,7 @@ struct SimulateCommand {
   fs::path scenario;
   YawMode mode = YawMode::kCombined;
   fs::path output;
+  AllocationChoice allocation = {};
 };
 Result<Outcome> execute(const SimulateCommand& command);
 void add_simulate(CLI::App& app, Session& session);
@@ -99,6 +105,7 @@ struct CompareCommand {
   std::vector<fs::path> scenarios;
   CompareOptions compare;
   fs::path output;
+  AllocationChoice allocation = {};
   bool resume = false;  ///< go on from the output directory
   bool quiet = false;   ///< no progress bar
   InputNames names = {};

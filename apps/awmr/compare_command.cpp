@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <atomic>
 #include <csignal>
 #include <cstdio>
@@ -12,6 +13,7 @@
 #include "awmr/model/gains_file.h"
 #include "awmr/model/model_file.h"
 #include "awmr/simulate/scenario_file.h"
+#include "awmr/simulate/validity.h"
 #include "commands.h"
 #include "inputs.h"
 #include "numbers.h"
@@ -64,10 +66,10 @@ std::vector<fs::path> inputs_of(const CompareCommand& command) {
 Result<Provenance> provenance_of(const CompareCommand& command) {
   AWMR_ASSIGN_OR_RETURN(std::vector<InputFile> inputs,
                         input_files(inputs_of(command), command.names));
-  return Provenance{"compare",
-                    {{"samples", std::to_string(command.compare.samples)},
-                     {"seed", std::to_string(command.compare.seed)}},
-                    std::move(inputs)};
+  std::vector<std::pair<std::string, std::string>> options = options_of(command.allocation);
+  options.emplace_back("samples", std::to_string(command.compare.samples));
+  options.emplace_back("seed", std::to_string(command.compare.seed));
+  return Provenance{"compare", std::move(options), std::move(inputs)};
 }
 
 /// The comparison with a progress bar, until Ctrl-C.
@@ -91,6 +93,22 @@ Status write_comparison(const CompareCommand& command, const Comparison& compari
   return write_files(files);
 }
 
+/// The fastest turn of all runs, where it is beyond what was measured.
+std::vector<Finding> extrapolation(const Model& model, const Comparison& comparison) {
+  const auto fastest =
+      std::max_element(comparison.rows.begin(), comparison.rows.end(),
+                       [](const ComparisonRow& a, const ComparisonRow& b) {
+                         return a.metrics.yaw_rate_max_degps < b.metrics.yaw_rate_max_degps;
+                       });
+  std::vector<Finding> findings;
+  if (fastest == comparison.rows.end()) return findings;
+  note_extrapolation(
+      model, fastest->metrics.yaw_rate_max_degps,
+      fmt::format("{}, {}, sample {}", fastest->scenario, name_of(fastest->mode), fastest->sample),
+      findings);
+  return findings;
+}
+
 /// Says how to go on and ends the program by the signal: the caller sees what it would have seen
 /// without the handler.
 void end_interrupted(const CompareCommand& command, const Comparison& comparison) {
@@ -106,10 +124,11 @@ void end_interrupted(const CompareCommand& command, const Comparison& comparison
 }  // namespace
 
 Result<Outcome> execute(const CompareCommand& command) {
-  AWMR_ASSIGN_OR_RETURN(const Model model, read_model(command.model));
+  AWMR_ASSIGN_OR_RETURN(Model model, read_model(command.model));
   AWMR_ASSIGN_OR_RETURN(const std::vector<NamedGains> gains, read_named_gains(command.gains));
-  AWMR_ASSIGN_OR_RETURN(const std::vector<Scenario> scenarios,
+  AWMR_ASSIGN_OR_RETURN(std::vector<Scenario> scenarios,
                         read_each(command.scenarios, read_scenario));
+  choose(command.allocation, model, scenarios);
   AWMR_ASSIGN_OR_RETURN(const Provenance provenance, provenance_of(command));
   AWMR_RETURN_IF_ERROR(
       check_outputs(command.output, {"comparison.csv", "comparison.json"}, inputs_of(command)));
@@ -126,7 +145,8 @@ Result<Outcome> execute(const CompareCommand& command) {
   const std::string table = comparison_table(comparison, command.compare.seed);
   return Outcome{.summary = table + fmt::format("wrote {} and comparison.csv\n",
                                                 (command.output / "comparison.json").string()),
-                 .brief = table};
+                 .brief = table,
+                 .findings = extrapolation(model, comparison)};
 }
 
 void add_compare(CLI::App& app, Session& session) {
@@ -153,6 +173,7 @@ void add_compare(CLI::App& app, Session& session) {
   sub->add_flag("--resume", command->resume,
                 "Go on from what lies in the directory: after Ctrl-C, or with more samples");
   sub->get_option("--quiet")->each([command](const std::string&) { command->quiet = true; });
+  add_allocation(*sub, command->allocation);
   add_output(*sub, command->output, "Directory for comparison.csv and comparison.json");
 }
 

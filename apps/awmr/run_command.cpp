@@ -158,7 +158,9 @@ Result<Outcome> execute(const RunCommand& command) {
     total.summary += "stopped: the steps that follow need what could not be identified\n";
     return total;
   }
-  AWMR_ASSIGN_OR_RETURN(Outcome tuned, execute(TuneCommand{model, project.tune, gains, names}));
+  AWMR_ASSIGN_OR_RETURN(
+      Outcome tuned, execute(TuneCommand{
+                         .model = model, .config = project.tune, .output = gains, .names = names}));
   add_step(total, "tune", std::move(tuned));
   AWMR_ASSIGN_OR_RETURN(Outcome validated, validate_step(project, names, command.output));
   add_step(total, "validate", std::move(validated));

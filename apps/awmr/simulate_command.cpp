@@ -10,6 +10,7 @@
 #include "awmr/model/model_file.h"
 #include "awmr/simulate/metrics.h"
 #include "awmr/simulate/scenario_file.h"
+#include "awmr/simulate/validity.h"
 #include "choices.h"
 #include "commands.h"
 
@@ -57,8 +58,9 @@ std::string figures_of(const Metrics& metrics) {
 }  // namespace
 
 Result<Outcome> execute(const SimulateCommand& command) {
-  AWMR_ASSIGN_OR_RETURN(const Model model, read_model(command.model));
-  AWMR_ASSIGN_OR_RETURN(const Scenario scenario, read_scenario(command.scenario));
+  AWMR_ASSIGN_OR_RETURN(Model model, read_model(command.model));
+  AWMR_ASSIGN_OR_RETURN(Scenario scenario, read_scenario(command.scenario));
+  choose(command.allocation, model, std::span(&scenario, 1));
   std::vector<fs::path> inputs{command.model, command.scenario};
   if (command.gains) inputs.push_back(*command.gains);
   AWMR_RETURN_IF_ERROR(check_output(command.output, inputs));
@@ -71,9 +73,13 @@ Result<Outcome> execute(const SimulateCommand& command) {
   AWMR_ASSIGN_OR_RETURN(const Run run, simulate(model, gains, scenario, command.mode));
   AWMR_ASSIGN_OR_RETURN(const Controller<double> controller, controller_for(model, gains));
   AWMR_RETURN_IF_ERROR(write_file(command.output, run_csv(run, scenario)));
-  return Outcome{.summary = summary_of(run, scenario, command) +
-                            figures_of(metrics_of(run, scenario, controller)) +
-                            fmt::format("wrote {}\n", command.output.string())};
+  const Metrics metrics = metrics_of(run, scenario, controller);
+  std::vector<Finding> findings;
+  note_extrapolation(model, metrics.yaw_rate_max_degps,
+                     fmt::format("{}, {}", scenario.name, name_of(command.mode)), findings);
+  return Outcome{.summary = summary_of(run, scenario, command) + figures_of(metrics) +
+                            fmt::format("wrote {}\n", command.output.string()),
+                 .findings = std::move(findings)};
 }
 
 void add_simulate(CLI::App& app, Session& session) {
@@ -88,6 +94,7 @@ void add_simulate(CLI::App& app, Session& session) {
   sub->add_option("--scenario", command->scenario, "scenario.json")->required();
   add_choice(*sub, "--mode", command->mode, kYawModeNames, "Which makes the yaw moment")
       ->required();
+  add_allocation(*sub, command->allocation);
   add_output(*sub, command->output, "run.csv to write");
 }
 

@@ -1,13 +1,16 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
 
 #include "awmr/core/file.h"
 #include "awmr/model/model_file.h"
+#include "awmr/simulate/validity.h"
 #include "awmr/tune/tune_file.h"
 #include "commands.h"
 #include "inputs.h"
+#include "numbers.h"
 
 namespace awmr::cli {
 namespace {
@@ -30,6 +33,28 @@ std::string gains_table(const Tuning& tuning) {
   return text;
 }
 
+/// What the gains do on draws that they were not tuned on.
+std::string judged_table(const RobustTuning& robust) {
+  if (robust.judged.empty()) return {};
+  std::string text =
+      fmt::format("  {:<13} {:<9} {:>8} {:>10} {:>10} {:>10} {:>11}\n", "fresh draws", "gains",
+                  "settled", "settling s", "overs. deg", "IAE deg s", "steer deg/s");
+  text += fmt::format("  {:<13} {:<9} {:>8} {:>10} {:>10} {:>10} {:>11}\n", "", "", "%", "95 %",
+                      "95 %", "95 %", "RMS, 95 %");
+  for (const JudgedGains& judged : robust.judged) {
+    const auto q95 = [&](std::string_view name) {
+      const auto figure = std::find_if(judged.figures.begin(), judged.figures.end(),
+                                       [&](const JudgedFigure& f) { return f.name == name; });
+      return figure->q95;
+    };
+    text += fmt::format("  {:<13} {:<9} {:>8.0f} {:>10.2f} {:>10.2f} {:>10.1f} {:>11.1f}\n",
+                        name_of(judged.mode), judged.gains, 100.0 * judged.completed_share,
+                        q95("settling_time_s"), q95("overshoot_deg"), q95("heading_iae_degs"),
+                        q95("steering_rate_rms_degps"));
+  }
+  return text;
+}
+
 std::string summary_of(const TuneCommand& command, const Tuning& tuning) {
   std::string text = gains_table(tuning);
   for (const ModeScore& score : tuning.scores) {
@@ -40,9 +65,22 @@ std::string summary_of(const TuneCommand& command, const Tuning& tuning) {
     text += fmt::format("    {:<38} {:.4g} <= {:.4g}, margin {:.4g}\n", constraint.name,
                         constraint.value, constraint.limit, constraint.margin);
   }
+  if (tuning.robust) text += judged_table(*tuning.robust);
   text += fmt::format("  {} after {} evaluations: {}\n", tuning.algorithm, tuning.evaluations,
                       tuning.stop_reason);
   return text + fmt::format("wrote {}\n", command.output.string());
+}
+
+/// The fastest turn of the runs that the gains were scored on, where it is beyond what was measured.
+std::vector<Finding> extrapolation(const Model& model, const Tuning& tuning) {
+  std::vector<Finding> findings;
+  const auto fastest = std::max_element(
+      tuning.scores.begin(), tuning.scores.end(), [](const ModeScore& a, const ModeScore& b) {
+        return a.metrics.yaw_rate_max_degps < b.metrics.yaw_rate_max_degps;
+      });
+  note_extrapolation(model, fastest->metrics.yaw_rate_max_degps,
+                     fmt::format("{}, {}", fastest->scenario, name_of(fastest->mode)), findings);
+  return findings;
 }
 
 Result<Provenance> provenance_of(const TuneCommand& command,
@@ -52,21 +90,29 @@ Result<Provenance> provenance_of(const TuneCommand& command,
   paths.insert(paths.end(), scenario_files.begin(), scenario_files.end());
   AWMR_RETURN_IF_ERROR(check_output(command.output, paths));
   AWMR_ASSIGN_OR_RETURN(std::vector<InputFile> inputs, input_files(paths, command.names));
-  return Provenance{"tune", {}, std::move(inputs)};
+  std::vector<std::pair<std::string, std::string>> options = options_of(command.allocation);
+  if (command.nominal) options.emplace_back("nominal", "true");
+  if (command.draws) options.emplace_back("draws", std::to_string(*command.draws));
+  return Provenance{"tune", std::move(options), std::move(inputs)};
 }
 
 }  // namespace
 
 Result<Outcome> execute(const TuneCommand& command) {
-  AWMR_ASSIGN_OR_RETURN(const Model model, read_model(command.model));
+  AWMR_ASSIGN_OR_RETURN(Model model, read_model(command.model));
   TuneConfig config;
   if (command.config) {
     AWMR_ASSIGN_OR_RETURN(config, read_tune_config(*command.config));
   }
+  choose(command.allocation, model, config.options.scenarios);
+  if (command.nominal) config.options.nominal = true;
+  if (command.draws) config.options.draws = *command.draws;
   AWMR_ASSIGN_OR_RETURN(const Provenance provenance, provenance_of(command, config.scenario_files));
   AWMR_ASSIGN_OR_RETURN(const Tuning tuning, tune(model, config.options));
   AWMR_RETURN_IF_ERROR(write_file(command.output, gains_text(tuning, config.options, provenance)));
-  return Outcome{.summary = summary_of(command, tuning), .brief = gains_table(tuning)};
+  return Outcome{.summary = summary_of(command, tuning),
+                 .brief = gains_table(tuning),
+                 .findings = extrapolation(model, tuning)};
 }
 
 void add_tune(CLI::App& app, Session& session) {
@@ -77,6 +123,15 @@ void add_tune(CLI::App& app, Session& session) {
   sub->add_option("--model", command->model, "model.json from identify")->required();
   sub->add_option("--config", command->config,
                   "tune.json: form, margin, weights, evaluations, seed, scenarios");
+  auto* nominal = sub->add_flag("--nominal", command->nominal,
+                                "Tune on the model's own values alone: no draws from what is "
+                                "uncertain, no noise, no latency, no lag");
+  sub->add_option("--draws", command->draws,
+                  "Plants drawn from the model's covariance that the gains are tuned for (default "
+                  "5)")
+      ->check(within(0.0, 1000.0))
+      ->excludes(nominal);
+  add_allocation(*sub, command->allocation);
   add_output(*sub, command->output, "gains.json to write");
 }
 

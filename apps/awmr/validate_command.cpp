@@ -75,8 +75,9 @@ Status check_outputs(const ValidateCommand& command) {
 Result<Provenance> provenance_of(const ValidateCommand& command) {
   AWMR_ASSIGN_OR_RETURN(std::vector<InputFile> inputs,
                         input_files(inputs_of(command), command.names));
-  return Provenance{
-      "validate", {{"tolerance", format_number(command.validate.tolerance)}}, std::move(inputs)};
+  std::vector<std::pair<std::string, std::string>> options = options_of(command.allocation);
+  options.emplace_back("tolerance", format_number(command.validate.tolerance));
+  return Provenance{"validate", std::move(options), std::move(inputs)};
 }
 
 std::string summary_of(const ValidateCommand& command, const Validation& validation) {
@@ -113,16 +114,19 @@ void add_log_options(CLI::App& sub, ValidateCommand& command, ColumnWords& colum
 void add_claims_options(CLI::App& sub, ValidateCommand& command) {
   auto* claims = sub.add_flag("--claims", command.claims,
                               "Tell of each of the paper's fourteen claims what was found, what "
-                              "counts and why; without --gains, with the paper's gains");
+                              "counts and why, and what it hangs on over all that the paper leaves "
+                              "open; without --gains, with the paper's gains");
   sub.add_option("--claims-table", command.claims_table,
                  "Also write the claims as a Markdown table")
       ->needs(claims);
+  add_allocation(sub, command.allocation);
 }
 
 }  // namespace
 
 Result<Outcome> execute(const ValidateCommand& command) {
-  AWMR_ASSIGN_OR_RETURN(const Model model, read_model(command.model));
+  AWMR_ASSIGN_OR_RETURN(Model model, read_model(command.model));
+  choose(command.allocation, model, {});
   AWMR_ASSIGN_OR_RETURN(const std::optional<Gains<double>> gains, gains_of(command));
   AWMR_RETURN_IF_ERROR(check_outputs(command));
   AWMR_ASSIGN_OR_RETURN(Validation validation, validate(model, gains, command.validate));
@@ -150,6 +154,7 @@ void add_validate(CLI::App& app, Session& session) {
       "awmr validate --model model.json --gains gains.json -o validation.json",
       [command, columns]() -> Result<Outcome> {
         AWMR_ASSIGN_OR_RETURN(command->trials.columns, column_mappings(*columns));
+        command->validate.open_cases = command->claims;
         return execute(*command);
       });
   add_model_options(*sub, *command);

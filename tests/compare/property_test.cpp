@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "compare/uncertain_model.h"
 #include "support/any_robot.h"
+#include "support/uncertain_model.h"
 
 namespace awmr::testing {
 namespace {

@@ -6,8 +6,8 @@
 #include "awmr/core/file.h"
 #include "awmr/core/json.h"
 #include "awmr/model/gains_file.h"
-#include "compare/uncertain_model.h"
 #include "support/process.h"
+#include "support/uncertain_model.h"
 
 namespace awmr::testing {
 namespace {
@@ -144,7 +144,7 @@ TEST(SeveralGains, AreComparedWithEachOtherAndByMode) {
   const CompareOptions options{.samples = 4, .seed = 1, .threads = 2};
   const Comparison c = compared(options, {{"paper.json", kPaperGains}, {"slow.json", slow}});
   EXPECT_EQ(c.rows.size(), 2U * 6U * 5U);
-  EXPECT_THAT(comparison_csv(c), HasSubstr(",finish_time_s,gains\n"));
+  EXPECT_THAT(comparison_csv(c), HasSubstr(",tyre_work,gains\n"));
   const Json json = Json::parse(comparison_text(c, options, kProvenance));
   const Json& scenario = json["scenarios"][0];
   EXPECT_EQ(scenario["modes"].size(), 6U);

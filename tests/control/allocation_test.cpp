@@ -129,6 +129,71 @@ TEST(Allocation, WhatClippedForcesLeaveOfTheMomentGoesToTheSteering) {
   }
 }
 
+AllocationLimits<double> small_angle_limits(CombinedSplit split = CombinedSplit::kRedistribute) {
+  AllocationLimits<double> l = limits(split);
+  l.form = AllocationForm::kPaper;
+  return l;
+}
+
+/// (41) with sin d_r = d_r and cos d_r = 1.
+GeneralisedForces<double> delivered_for_small_angles(const Allocation<double>& a) {
+  const auto l = limits();
+  const double sum = a.force.left + a.force.right;
+  return {2.0 * sum, l.front_axle_m * sum * a.steering_rad,
+          2.0 * l.half_track_m * (a.force.right - a.force.left)};
+}
+
+TEST(AllocationForSmallAngles, IsThePapersEquationWithItsMisprintsCorrected) {
+  const double tau_speed = 1.2;
+  const double tau_turn_m = 0.05;
+  const Allocation<double> differential =
+      allocate(YawMode::kDifferential, tau_speed, tau_turn_m, small_angle_limits());
+  EXPECT_EQ(differential.steering_rad, 0.0);
+  EXPECT_DOUBLE_EQ(differential.force.right, tau_speed / 4.0 + tau_turn_m / (4.0 * 0.36));
+  const Allocation<double> steering =
+      allocate(YawMode::kSteering, tau_speed, tau_turn_m, small_angle_limits());
+  EXPECT_DOUBLE_EQ(steering.steering_rad, 2.0 * tau_turn_m / (0.35 * tau_speed));
+  EXPECT_DOUBLE_EQ(steering.force.left, tau_speed / 4.0);
+  EXPECT_DOUBLE_EQ(steering.force.right, tau_speed / 4.0);
+  const Allocation<double> combined =
+      allocate(YawMode::kCombined, tau_speed, tau_turn_m, small_angle_limits());
+  EXPECT_DOUBLE_EQ(combined.steering_rad, tau_turn_m / (0.35 * tau_speed));
+  EXPECT_DOUBLE_EQ(combined.force.right, tau_speed / 4.0 + tau_turn_m / (8.0 * 0.36));
+  EXPECT_DOUBLE_EQ(combined.force.left, tau_speed / 4.0 - tau_turn_m / (8.0 * 0.36));
+}
+
+TEST(AllocationForSmallAngles, GivesWhatALimitTakesFromOnePathToTheOther) {
+  // The stop, 20 deg, leaves steering l_f tau_speed d_max/2 of the moment; the sides make the rest.
+  const Allocation<double> stopped = allocate(YawMode::kCombined, 1.0, 0.4, small_angle_limits());
+  EXPECT_TRUE(stopped.steering_limited);
+  EXPECT_DOUBLE_EQ(stopped.steering_rad, radians(20.0));
+  const auto tau = delivered_for_small_angles(stopped);
+  EXPECT_NEAR(tau.tau_steering_m, 0.35 * 0.5 * radians(20.0), 1e-15);
+  EXPECT_NEAR(tau.tau_steering_m + tau.tau_diff_m, 0.4, 1e-15);
+  // At tau_speed 3.9 the sides have 0.025 of room each: steering gets what they leave.
+  const Allocation<double> forced = allocate(YawMode::kCombined, 3.9, 0.2, small_angle_limits());
+  EXPECT_TRUE(forced.force_limited);
+  const auto left = delivered_for_small_angles(forced);
+  // The clipped forces have changed tau_speed as well, for which the angle makes up.
+  EXPECT_NEAR(left.tau_steering_m + left.tau_diff_m, 0.2, 1e-12);
+}
+
+TEST(AllocationForSmallAngles, StaysInsideTheLimitsWhateverIsAskedFor) {
+  for (const YawMode mode : kModes) {
+    for (const double tau_speed : {0.0, 1e-300, -1e-7, 1.0, -4.0, 1e6, 1e300}) {
+      for (const double tau_turn_m : {0.0, -1e-300, 1e-7, -1.0, 4.0, -1e6, 1e300}) {
+        for (const CombinedSplit split :
+             {CombinedSplit::kFixedHalf, CombinedSplit::kRedistribute}) {
+          const auto l = small_angle_limits(split);
+          const Allocation<double> a = allocate(mode, tau_speed, tau_turn_m, l);
+          ASSERT_LE(std::abs(a.steering_rad), l.steering_max_rad);
+          ASSERT_TRUE(std::abs(a.force.left) <= 1.0 && std::abs(a.force.right) <= 1.0);
+        }
+      }
+    }
+  }
+}
+
 TEST(Allocation, FloatIsClippedAsEveryScalarIs) {
   struct Range {
     float lo, hi;
@@ -140,7 +205,8 @@ TEST(Allocation, FloatIsClippedAsEveryScalarIs) {
                           -1.0F, 2.0F, -2.0F, HUGE_VALF, -HUGE_VALF}) {
       bool limited = false;
       bool expected_limited = false;
-      const double expected = detail::clipped<double>(x, range.lo, range.hi, expected_limited);
+      const double expected =
+          detail::clipped<double>(double{x}, double{range.lo}, double{range.hi}, expected_limited);
       EXPECT_EQ(static_cast<double>(detail::clipped(x, range.lo, range.hi, limited)), expected)
           << x << " in [" << range.lo << ", " << range.hi << "]";
       EXPECT_EQ(limited, expected_limited) << x;

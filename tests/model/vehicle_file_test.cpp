@@ -150,7 +150,16 @@ TEST(VehicleFile, RefusesValuesThatCannotBe) {
                                 {"/surge_beta_range", Json::array({-0.1, 1})},
                                 {"/surge_beta_range", Json::array({0.5, 0.5})},
                                 {"/surge_beta_range", Json::array({0, 1, 2})},
-                                {"/yaw_beta_range", 4}};
+                                {"/yaw_beta_range", 4},
+                                {"/allocation", "small"},
+                                {"/noise", 1},
+                                {"/noise/heading_deg", -1},
+                                {"/noise/wind_mps", 1},
+                                {"/latency_s/heading", 2},
+                                {"/latency_s/speed", "fast"},
+                                {"/motor/time_constant_s", -0.1},
+                                {"/motor/poles", 2},
+                                {"/yaw_rate_max_degps", 0}};
   for (const Edit& edit : edits) {
     // One place is named, though more than one thing may be said of it.
     EXPECT_THAT(faults_after(edit), AllOf(Not(IsEmpty()), Each(StartsWith(edit.pointer + ": "))))
@@ -165,6 +174,24 @@ TEST(VehicleFile, AcceptsTheEndsOfItsRanges) {
                                             {"/surge_beta_range", Json::array({0, 2})}}) {
     EXPECT_THAT(faults_after(edit), IsEmpty()) << edit.pointer;
   }
+}
+
+TEST(VehicleFile, TakesWhatGainsAreTunedFor) {
+  Json json = Json::parse(paper_text());
+  json["allocation"] = "paper";
+  json["noise"] = {{"heading_deg", 0.5}, {"position_m", 0.01}};
+  json["latency_s"] = {{"heading", 0.03}, {"yaw_rate", 0}};
+  json["motor"] = {{"time_constant_s", 0.04}};
+  json["yaw_rate_max_degps"] = 60;
+  const ScratchFile file("vehicle.json", json.dump());
+  const auto vehicle = read_vehicle(file.path());
+  ASSERT_TRUE(vehicle) << to_text(vehicle.error());
+  EXPECT_EQ(vehicle->allocation, AllocationForm::kPaper);
+  const SensorQuality expected{
+      .heading_deg = 0.5, .position_m = 0.01, .heading_late_s = 0.03, .yaw_rate_late_s = 0.0};
+  EXPECT_TRUE(vehicle->sensors == expected);
+  EXPECT_EQ(vehicle->motor_time_constant_s, 0.04);
+  EXPECT_EQ(vehicle->yaw_rate_max_degps, 60.0);
 }
 
 TEST(VehicleFile, ReportsAllFaultsAtOnce) {

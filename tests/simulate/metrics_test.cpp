@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "awmr/core/units.h"
+#include "awmr/simulate/validity.h"
 #include "simulate/paper_plant.h"
 
 namespace awmr::testing {
@@ -66,6 +70,50 @@ TEST(Metrics, ControlVariationIsPerSecondAndOverTheLimits) {
   EXPECT_NEAR(judged(run).control_variation, (2.0 + 1.0) / 4.0, 1e-12);
 }
 
+TEST(Metrics, WorkIsForceTimesTheWheelsSpeedAndNothingComesBack) {
+  awmr::Run run = by_hand({0.0, 0.0, 0.0, 0.0, 0.0});
+  for (RunRow& row : run.rows) {
+    row.state.u_mps = 0.8;
+    row.state.r_radps = 0.5;
+    row.force = {-0.2, 0.6};
+  }
+  // d = 0.36 m: the left wheels run at 0.8 - 0.18 m/s and brake, the right ones at 0.98 m/s:
+  // 2 x 0.6 x 0.98 over 4 s.
+  const Metrics m = judged(run);
+  EXPECT_NEAR(m.energy_mech, 4.0 * 2.0 * 0.6 * 0.98, 1e-12);
+  EXPECT_NEAR(m.energy_electric, 4.0 * 2.0 * (0.04 + 0.36), 1e-12);
+  EXPECT_NEAR(m.tyre_work, 4.0 * 0.3028 * std::pow(0.5, 0.825) * 0.5, 1e-12);
+  EXPECT_EQ(m.saturation_s, 0.0);
+  EXPECT_EQ(m.steering_travel_deg, 0.0);
+}
+
+TEST(Metrics, FrontWheelsRollAlongTheirAngle) {
+  awmr::Run run = by_hand({0.0, 0.0, 0.0, 0.0, 0.0});
+  for (RunRow& row : run.rows) {
+    row.state.u_mps = 0.8;
+    row.state.v_mps = 0.1;
+    row.state.r_radps = 0.5;
+    row.state.steering_rad = radians(20.0);
+    row.force = {0.5, 0.5};
+  }
+  // Front: 0.8 cos 20 deg + (0.1 + 0.35 x 0.5) sin 20 deg, the d r of the sides cancel; rear: 0.8.
+  const double front_mps = 0.8 * std::cos(radians(20.0)) + 0.275 * std::sin(radians(20.0));
+  EXPECT_NEAR(judged(run).energy_mech, 4.0 * 2.0 * 0.5 * (front_mps + 0.8), 1e-12);
+}
+
+TEST(Metrics, TravelAndSaturationAreCountedOverTheRun) {
+  awmr::Run run = by_hand({0.0, 0.0, 0.0, 0.0, 0.0});
+  const double angles_deg[] = {0.0, 5.0, -5.0, 0.0, 0.0};
+  for (std::size_t i = 0; i < 5; ++i) run.rows[i].state.steering_rad = radians(angles_deg[i]);
+  run.rows[1].force.left = 1.0;
+  run.rows[2].force.right = -1.0;
+  run.rows[3].steering_command_rad = radians(-20.0);
+  run.rows[4].force.left = 1.0;  // held by no sample
+  const Metrics m = judged(run);
+  EXPECT_NEAR(m.steering_travel_deg, 20.0, 1e-12);
+  EXPECT_EQ(m.saturation_s, 3.0);
+}
+
 TEST(Metrics, OpenLoopHasNoHeadingMetrics) {
   const awmr::Run run = run_open_loop(paper_plant(), {}, 1.0, {1.0, 0.0});
   const Scenario open{"open", 1.0, {}, 0.0, OpenLoop{1.0, 0.0}};
@@ -74,6 +122,33 @@ TEST(Metrics, OpenLoopHasNoHeadingMetrics) {
   EXPECT_FALSE(m.overshoot_deg);
   EXPECT_FALSE(m.speed_drop_mps);
   EXPECT_GT(m.path_length_m, 0.0);
+}
+
+TEST(Validity, ATurnFasterThanTheTrialsCoveredIsTold) {
+  Model model = fitted_paper_model();
+  std::vector<Finding> findings;
+  EXPECT_FALSE(measured_yaw_rate_degps(model));
+  note_extrapolation(model, 100.0, "run", findings);
+  EXPECT_TRUE(findings.empty());  // a model of given numbers: nobody said how far they hold
+  const auto trial = [](TrialKind kind, double measured) {
+    TrialPoint point;
+    point.kind = kind;
+    point.measured = measured;
+    return point;
+  };
+  model.record.trials = {trial(TrialKind::kTurning, radians(9.0)),
+                         trial(TrialKind::kTurning, radians(15.0)), trial(TrialKind::kSurge, 1.6)};
+  EXPECT_NEAR(*measured_yaw_rate_degps(model), 15.0, 1e-12);
+  note_extrapolation(model, 17.0, "run", findings);
+  EXPECT_TRUE(findings.empty());
+  note_extrapolation(model, 77.0, "C3, combined", findings);
+  ASSERT_EQ(findings.size(), 1U);
+  EXPECT_EQ(findings[0].code, "beyond-trials");
+  EXPECT_NE(findings[0].message.find("C3, combined"), std::string::npos);
+  EXPECT_NE(findings[0].message.find("5.1 times"), std::string::npos);
+  model.vehicle.yaw_rate_max_degps = 80.0;
+  note_extrapolation(model, 77.0, "run", findings);
+  EXPECT_EQ(findings.size(), 1U);
 }
 
 }  // namespace

@@ -97,7 +97,7 @@ const std::string kFull = R"({
               "gps": {"rate_hz": 10, "latency_s": 0.1, "noise_m": 0.05, "quantum_m": 0.01,
                       "dropouts": [{"from_s": 1, "to_s": 2}]}},
   "actuators": {"servo": {"us_per_deg": 10, "step_us": 4}, "pwm_counts": 255},
-  "control": {"combined_split": "fixed_half",
+  "control": {"combined_split": "fixed_half", "allocation": "paper",
               "disturbance_observer": {"bandwidth_radps": 5, "yaw_max_m": 0.1, "surge_max": 0.2,
                                        "anti_windup": true}},
   "corner": {"mass_norm": "hi", "surge.alpha": "lo"},
@@ -125,7 +125,8 @@ TEST(ScenarioFile, ReadsTheWholeWorldInSiUnits) {
   EXPECT_FALSE(s->sensors->sway_measured);
   EXPECT_EQ(s->sensors->gps->y.quantum, 0.01);
   EXPECT_NEAR(s->actuators->steering_quantum_rad, radians(0.4), 1e-15);
-  EXPECT_FALSE(s->control.redistribute);
+  EXPECT_EQ(s->control.split, CombinedSplit::kFixedHalf);
+  EXPECT_EQ(s->control.allocation, AllocationForm::kPaper);
   EXPECT_TRUE(s->control.observer->anti_windup);
   EXPECT_EQ(s->corner[0].id, ParameterId::kMassNorm);
   EXPECT_FALSE(s->corner[1].high);

@@ -203,6 +203,57 @@ ControlOptions::Observer observer(bool anti_windup) {
   return {.bandwidth_radps = 5.0, .yaw_max_m = 0.3, .surge_max = 0.5, .anti_windup = anti_windup};
 }
 
+TEST(SensorChannels, TellWhatWasTrueAsLongAgoAsTheyAreLate) {
+  Sensors sensors;
+  sensors.heading.late_s = 0.03;
+  sensors.yaw_rate.late_s = 0.014;  // to the nearest sample: one
+  Sensing sensing(sensors, 0.01, run_seed(0, 0, 0));
+  for (int k = 0; k < 10; ++k) {
+    State<double> truth{};
+    truth.psi_rad = k;
+    truth.r_radps = 10.0 * k;
+    truth.u_mps = 100.0 * k;
+    const Sensed sensed = sensing.at(static_cast<std::size_t>(k), truth);
+    EXPECT_EQ(sensed.motion.psi_rad, std::max(0, k - 3));
+    EXPECT_EQ(sensed.motion.r_radps, 10.0 * std::max(0, k - 1));
+    EXPECT_EQ(sensed.motion.u_mps, 100.0 * k);
+  }
+}
+
+TEST(Motors, TheForceFollowsItsCommandWithTheirTimeConstant) {
+  // Straight ahead under a constant command c: u and F by Heun's method in steps of 10 us,
+  //   u_dot = (4 F - g1(u))/m',   F_dot = (c - F)/tau
+  Scenario s = straight(0.5);
+  s.initial.u_mps = 0.2;
+  s.guidance = OpenLoop{1.0, 0.0};
+  s.actuators = Actuators{.motor_time_constant_s = 0.08};
+  const awmr::Run run = run_of(s, YawMode::kDifferential);
+  const Plant<double> plant = paper_plant();
+  double u = 0.2;
+  double force = 0.0;
+  constexpr double kStep_s = 1e-5;
+  for (int i = 0; i < 50000; ++i) {
+    const auto accel = [&](double at, double f) {
+      return (4.0 * f - plant.surge(at)) / plant.mass_norm;
+    };
+    const double next = force + kStep_s * (0.25 - force) / 0.08;
+    const double first = accel(u, force);
+    u += 0.5 * kStep_s * (first + accel(u + kStep_s * first, next));
+    force = next;
+  }
+  // Held at its mean over each sample, the force is right to (T_s/tau)^2/24 of its change.
+  EXPECT_NEAR(run.rows.back().state.u_mps, u, 1e-3 * u);
+  EXPECT_LT(run.rows[5].state.u_mps, run_of(
+                                         [&] {
+                                           Scenario direct = s;
+                                           direct.actuators.reset();
+                                           return direct;
+                                         }(),
+                                         YawMode::kDifferential)
+                                         .rows[5]
+                                         .state.u_mps);
+}
+
 TEST(Observer, TakesOffTheSteadyErrorOfAConstantDisturbance) {
   Scenario s = straight();
   s.disturbance.yaw = {constant(0.01)};

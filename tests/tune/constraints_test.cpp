@@ -232,5 +232,96 @@ TEST(SampledLoop, IsTheEquationsOfItsHeaderWhateverTheDirectShare) {
   }
 }
 
+/// The largest |z| of the loop with latency and motor lag, by the growth of its free motion.
+double growth(const SampledHeadingLoop& loop) {
+  struct Motion {
+    double psi, r, servo, motor;
+  };
+  Motion x{1.0, 0.5, -0.3, 0.2};
+  std::vector<Motion> readings(static_cast<std::size_t>(loop.late_samples) + 1, x);
+  constexpr int kSamples = 4000;
+  constexpr int kSteps = 200;
+  const double h = loop.sample_time_s / kSteps;
+  double log_size = 0.0;
+  for (int k = 0; k < kSamples; ++k) {
+    readings.push_back(x);
+    readings.erase(readings.begin());
+    const Motion& late = readings.front();
+    const double w = (loop.resistance_rate - loop.lambda - loop.reaching_rate) * late.r -
+                     loop.lambda * loop.reaching_rate * late.psi;
+    for (int i = 0; i < kSteps; ++i) {
+      const auto rates = [&](const Motion& s) {
+        return Motion{s.r,
+                      -loop.resistance_rate * s.r + loop.direct_share * s.motor +
+                          (1.0 - loop.direct_share) * s.servo,
+                      (w - s.servo) / loop.servo_time_constant_s,
+                      (w - s.motor) / loop.motor_time_constant_s};
+      };
+      const Motion a = rates(x);
+      const Motion b =
+          rates({x.psi + h * a.psi, x.r + h * a.r, x.servo + h * a.servo, x.motor + h * a.motor});
+      x = {x.psi + 0.5 * h * (a.psi + b.psi), x.r + 0.5 * h * (a.r + b.r),
+           x.servo + 0.5 * h * (a.servo + b.servo), x.motor + 0.5 * h * (a.motor + b.motor)};
+    }
+    // Scaled back now and again, so that nothing over- or underflows.
+    if (k % 100 != 99) continue;
+    const double size = std::hypot(std::hypot(x.psi, x.r), std::hypot(x.servo, x.motor));
+    if (k >= kSamples / 2) log_size += std::log(size);
+    const auto scale = [size](Motion& m) {
+      m = {m.psi / size, m.r / size, m.servo / size, m.motor / size};
+    };
+    scale(x);
+    for (Motion& reading : readings) scale(reading);
+  }
+  return std::exp(log_size / (kSamples / 2));
+}
+
+TEST(SampledLoop, IsStableExactlyWhereItsLateMotionDecays) {
+  for (const int late : {0, 2, 5}) {
+    for (const double motor_s : {0.01, 0.05}) {
+      for (const double share : {0.0, 0.5, 1.0}) {
+        for (const double k : {4.0, 12.0, 30.0}) {
+          const SampledHeadingLoop loop{.lambda = 3.0,
+                                        .reaching_rate = k,
+                                        .resistance_rate = 25.0,
+                                        .servo_time_constant_s = 0.03,
+                                        .sample_time_s = 0.01,
+                                        .direct_share = share,
+                                        .motor_time_constant_s = motor_s,
+                                        .late_samples = late};
+          EXPECT_EQ(damping_ratio(loop) > 0.0, growth(loop) < 1.0)
+              << late << " " << motor_s << " " << share << " " << k;
+        }
+      }
+    }
+  }
+}
+
+TEST(Constraints, StandForThePlantThatLeavesThemTheLeast) {
+  ConstraintContext context = paper_context(ReachingForm::kStrict, 0.8);
+  const std::vector<ConstraintReport> own = constraints_of(kPaperGains, context);
+  Plant<double> heavy = context.plant;
+  heavy.yaw.alpha *= 1.5;  // asks more of mu
+  context.draws = {context.plant, heavy};
+  const std::vector<ConstraintReport> worst = constraints_of(kPaperGains, context);
+  ASSERT_EQ(worst.size(), own.size());
+  for (std::size_t i = 0; i < own.size(); ++i) EXPECT_LE(worst[i].margin, own[i].margin + 1e-15);
+  const auto mu = std::find_if(worst.begin(), worst.end(),
+                               [](const auto& c) { return c.name == "mu dominates"; });
+  const auto mu_alone =
+      std::find_if(own.begin(), own.end(), [](const auto& c) { return c.name == "mu dominates"; });
+  EXPECT_NEAR(mu->value, 1.5 * mu_alone->value, 1e-9);
+}
+
+TEST(Constraints, AskForDampingWithLatencyWhereThereIsAny) {
+  ConstraintContext context = paper_context(ReachingForm::kStrict, 0.8);
+  const std::size_t without = constraints_of(kPaperGains, context).size();
+  context.latency_s = 0.02;
+  const std::vector<ConstraintReport> late = constraints_of(kPaperGains, context);
+  ASSERT_EQ(late.size(), without + 1);
+  EXPECT_EQ(late.back().name, "late damping");
+  EXPECT_LT(late.back().limit, 0.7);
+}
+
 }  // namespace
 }  // namespace awmr::testing

@@ -62,7 +62,8 @@ TEST_F(TuneFile, TakesEveryDocumentedKey) {
                       "speed_itae": 4},
           "bounds": {"lambda": [1, 2], "mu": [3, 4], "epsilon": [5, 6], "speed_mu": [7, 8],
                      "speed_epsilon": [9, 10]},
-          "global_evaluations": 11, "local_evaluations": 12, "seed": 13,
+          "nominal": true, "draws": 14, "judged_draws": 15, "tail_share": 0.3,
+          "activity_max": 1.7, "global_evaluations": 11, "local_evaluations": 12, "seed": 13,
           "scenarios": ["turn.json"]})");
   ASSERT_TRUE(config) << to_text(config.error());
   EXPECT_EQ(config->options.form, ReachingForm::kPaper);
@@ -73,6 +74,11 @@ TEST_F(TuneFile, TakesEveryDocumentedKey) {
   EXPECT_EQ(config->options.global_evaluations, 11);
   EXPECT_EQ(config->options.local_evaluations, 12);
   EXPECT_EQ(config->options.seed, 13U);
+  EXPECT_TRUE(config->options.nominal);
+  EXPECT_EQ(config->options.draws, 14);
+  EXPECT_EQ(config->options.judged_draws, 15);
+  EXPECT_EQ(config->options.tail_share, 0.3);
+  EXPECT_EQ(config->options.activity_max, 1.7);
   ASSERT_EQ(config->options.scenarios.size(), 1U);
   EXPECT_EQ(config->options.scenarios.front().name, "turn");
   ASSERT_EQ(config->scenario_files.size(), 1U);
@@ -87,14 +93,33 @@ TEST_F(TuneFile, NamesAnUnknownKeyAndItsNearest) {
 
 TEST_F(TuneFile, RefusesValuesOutOfRange) {
   for (const char* text :
-       {R"({"margin": 0})", R"({"margin": 1})", R"({"margin": "0.5"})", R"({"form": "strickt"})",
-        R"({"global_evaluations": 0})", R"({"local_evaluations": -1})",
-        R"({"global_evaluations": 2.5})", R"({"seed": -1})", R"({"weights": {"itae": -1}})",
+       {R"({"margin": 0})",
+        R"({"margin": 1})",
+        R"({"margin": "0.5"})",
+        R"({"form": "strickt"})",
+        R"({"global_evaluations": 0})",
+        R"({"local_evaluations": -1})",
+        R"({"nominal": 1})",
+        R"({"draws": -1})",
+        R"({"draws": 1001})",
+        R"({"judged_draws": 1e9})",
+        R"({"tail_share": 0})",
+        R"({"tail_share": 1.1})",
+        R"({"activity_max": 0})",
+        R"({"global_evaluations": 2.5})",
+        R"({"seed": -1})",
+        R"({"weights": {"itae": -1}})",
         R"({"weights": {"itae": 0, "overshoot": 0, "control_variation": 0, "effort": 0,
             "speed_itae": 0}})",
-        R"({"bounds": {"mu": [0, 1]}})", R"({"bounds": {"mu": [2, 1]}})",
-        R"({"bounds": {"mu": 3}})", R"({"schema": "awmr.gains/1"})", R"({"scenarios": []})",
-        R"({"scenarios": ["absent.json"]})", R"([])", "{", ""}) {
+        R"({"bounds": {"mu": [0, 1]}})",
+        R"({"bounds": {"mu": [2, 1]}})",
+        R"({"bounds": {"mu": 3}})",
+        R"({"schema": "awmr.gains/1"})",
+        R"({"scenarios": []})",
+        R"({"scenarios": ["absent.json"]})",
+        R"([])",
+        "{",
+        ""}) {
     const Result<TuneConfig> config = read(text);
     ASSERT_FALSE(config) << text;
     EXPECT_EQ(config.error().kind, ErrorKind::kInput) << text;

@@ -18,7 +18,8 @@ using ::testing::HasSubstr;
 
 const Claim& claim_of(const std::string& id) {
   static const Model model = fitted_paper_model();
-  static const std::vector<Claim> claims = check_guidance_claims(model, kPaperGains);
+  static const Plant<double> plant = *model.plant();
+  static const std::vector<Claim> claims = check_guidance_claims({model, plant, kPaperGains});
   return *std::find_if(claims.begin(), claims.end(),
                        [&](const Claim& claim) { return claim.id == id; });
 }
@@ -43,7 +44,8 @@ TEST(GuidanceClaims, CombinedIsNotAloneAtTheTop) {
 TEST(GuidanceClaims, AVehicleThatCannotTurnFails) {
   Model model = fitted_paper_model();
   model.vehicle.steering_max_deg = 3.0;
-  const auto claims = check_guidance_claims(model, kPaperGains);
+  const Plant<double> plant = *model.plant();
+  const auto claims = check_guidance_claims({model, plant, kPaperGains});
   EXPECT_FALSE(claims.front().reproduced);
   EXPECT_THAT(claims.front().why, HasSubstr("steering turns too wide"));
 }

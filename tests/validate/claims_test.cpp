@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "awmr/model/gains_file.h"
+#include "awmr/validate/open_cases.h"
 #include "validate/paper_model.h"
 
 namespace awmr::testing {
@@ -28,6 +29,11 @@ std::vector<std::string> ids_of(const std::vector<Claim>& claims) {
   std::vector<std::string> ids;
   for (const Claim& claim : claims) ids.push_back(claim.id);
   return ids;
+}
+
+std::vector<Claim> heading_claims_of(const Model& model, const Gains<double>& gains) {
+  const Plant<double> plant = plant_of(model);
+  return check_heading_claims({model, plant, gains});
 }
 
 TEST(Claims, RunsOnlyTheOpenLoopOnesWithoutGains) {
@@ -101,7 +107,7 @@ TEST(Claims, TheTimeConstantsAreThePapers) {
 
 TEST(Claims, ThePapersGainsReproduceAllButTheSlightDrop) {
   const Model model = fitted_paper_model();
-  const auto claims = check_heading_claims(model, plant_of(model), kPaperGains);
+  const auto claims = heading_claims_of(model, kPaperGains);
   for (const char* id : {"C3", "C4", "C6", "C7", "C13"}) {
     const Claim claim = claim_of(claims, id);
     EXPECT_TRUE(claim.reproduced) << id << ": " << claim.figure;
@@ -117,7 +123,7 @@ TEST(Claims, ThePapersGainsReproduceAllButTheSlightDrop) {
 TEST(Claims, MotorsThatOnlyDriveForwardCostTheDifferentialModeItsSpeed) {
   Model model = fitted_paper_model();
   model.vehicle.wheel_force = {0.0, 0.5};
-  const Claim drop = claim_of(check_heading_claims(model, plant_of(model), kPaperGains), "C5");
+  const Claim drop = claim_of(heading_claims_of(model, kPaperGains), "C5");
   EXPECT_FALSE(drop.reproduced);
   EXPECT_THAT(drop.why, HasSubstr("a side saturates"));
 }
@@ -126,11 +132,11 @@ TEST(Claims, TheSideslipIsAlsoGivenForThePapersGains) {
   const Model model = fitted_paper_model();
   Gains<double> fast = kPaperGains;
   fast.heading = {.lambda = 6.0, .mu = 100.0, .epsilon = 6.0};
-  const Claim own = claim_of(check_heading_claims(model, plant_of(model), fast), "C6");
+  const Claim own = claim_of(heading_claims_of(model, fast), "C6");
   // At 200 deg/s sway is m' r u/a_s = 0.0768 * 3.5/3 = 0.09 m/s: 5 deg without any steering.
   EXPECT_FALSE(own.reproduced) << own.figure;
   EXPECT_THAT(own.figure, HasSubstr("with the paper's gains"));
-  const Claim paper = claim_of(check_heading_claims(model, plant_of(model), kPaperGains), "C6");
+  const Claim paper = claim_of(heading_claims_of(model, kPaperGains), "C6");
   EXPECT_THAT(paper.figure, ::testing::Not(HasSubstr("with the paper's gains")));
 }
 
@@ -139,7 +145,7 @@ TEST(Claims, AControllerThatIsTooStiffForItsSampleTimeChatters) {
   Gains<double> stiff = kPaperGains;
   // mu/eps = 1000/s against 100 samples a second: S is overshot at every sample.
   stiff.heading = {.lambda = 3.0, .mu = 200.0, .epsilon = 0.2};
-  const Claim claim = claim_of(check_heading_claims(model, plant_of(model), stiff), "C7");
+  const Claim claim = claim_of(heading_claims_of(model, stiff), "C7");
   EXPECT_FALSE(claim.reproduced) << claim.figure;
 }
 
@@ -148,7 +154,7 @@ TEST(Claims, ALazyControllerIsNotFast) {
   Gains<double> lazy = kPaperGains;
   // With eps = 300 rad/s the slow pole is mu/eps = 1/6 per s: 2 % takes 4 * 6 s.
   lazy.heading.epsilon = 300.0;
-  const Claim claim = claim_of(check_heading_claims(model, plant_of(model), lazy), "C3");
+  const Claim claim = claim_of(heading_claims_of(model, lazy), "C3");
   EXPECT_FALSE(claim.reproduced);
   EXPECT_THAT(claim.why, HasSubstr("takes longer"));
 }
@@ -174,6 +180,82 @@ TEST(AllowedSettling, AddsTheActuatorsAndTheLawsShare) {
   const double allowed =
       allowed_settling_s(plant_of(model), model.vehicle, YawMode::kSteering, 1.0, 1.0);
   EXPECT_NEAR(allowed, 1.0 / 0.202832 + 2.293333, 1e-4);
+}
+
+/// The largest drop that the mode's name is followed by in C5's figure.
+double drop_in(const Claim& claim, const std::string& mode) {
+  const std::size_t at = claim.figure.find(mode + " ") + mode.size() + 1;
+  return std::stod(claim.figure.substr(at));
+}
+
+/// With m' and I'z as they follow from the tables, for which there are independent simulations.
+Model identified_paper_model() {
+  Model model = fitted_paper_model();
+  model[ParameterId::kMassNorm].value = 0.0823643;
+  model[ParameterId::kInertiaNorm].value = 0.0130023;
+  return model;
+}
+
+TEST(OpenCases, ThePapersSmallAnglesMakeTheDropThatTheExactAllocationRemoves) {
+  // Independent simulations: 0.0001, 0.108, 0.107 m/s for small angles; exact 0.0001, 0.0028, 0.003.
+  Model model = identified_paper_model();
+  const Claim exact = claim_of(heading_claims_of(model, kPaperGains), "C5");
+  EXPECT_FALSE(exact.reproduced);
+  EXPECT_NEAR(drop_in(exact, "steering"), 0.0028, 2e-4);
+  model.vehicle.allocation = AllocationForm::kPaper;
+  const Claim paper = claim_of(heading_claims_of(model, kPaperGains), "C5");
+  EXPECT_TRUE(paper.reproduced) << paper.figure;
+  EXPECT_NEAR(drop_in(paper, "differential"), 0.0001, 1e-4);
+  EXPECT_NEAR(drop_in(paper, "steering"), 0.108, 2e-3);
+  EXPECT_NEAR(drop_in(paper, "combined"), 0.107, 2e-3);
+}
+
+TEST(OpenCases, AreAllCombinationsWithTheMassThatTyresCarry) {
+  Model model = fitted_paper_model();
+  const std::vector<ClaimCase> cases = open_cases(model);
+  ASSERT_EQ(cases.size(), 2U * 3U * 2U * 2U);
+  // 2/(0.8 g) = 0.2549, over m' = 0.0768.
+  double largest = 0.0;
+  for (const ClaimCase& open : cases) largest = std::max(largest, open.mass_factor);
+  EXPECT_NEAR(largest, 2.0 / (0.8 * 9.80665) / 0.0768, 1e-9);
+  model[ParameterId::kMassNorm].value = 0.3;
+  EXPECT_EQ(open_cases(model).size(), 12U);
+}
+
+TEST(OpenCases, ClaimsAreJudgedInEachAsTheModelThereWouldBe) {
+  const Model model = identified_paper_model();
+  std::vector<Claim> claims = check_claims(model, plant_of(model), kPaperGains);
+  add_open_cases(model, kPaperGains, claims);
+  const Claim held = claim_of(claims, "C5");
+  for (const ClaimCase& open : held.cases) {
+    // What decides, by the reference figures: small angles make the drop, and with F' up to 0.5 the
+    // differential mode drops as well.
+    EXPECT_EQ(open.reproduced,
+              open.allocation == AllocationForm::kPaper && open.wheel_force.hi > 0.5);
+  }
+  EXPECT_EQ(held.decided_by, "allocation (8 of 12), wheel_force (4 of 8)");
+  const Claim path = claim_of(claims, "C11");
+  ASSERT_EQ(path.modes.size(), 3U);
+  for (const ClaimCase& open : path.modes[1].cases) EXPECT_FALSE(open.reproduced);
+  EXPECT_EQ(path.modes[1].mode, YawMode::kSteering);
+  // Combined is best where F' is in [0, 1], the allocation exact and the moment redistributed.
+  for (const ClaimCase& open : claim_of(claims, "C12").cases) {
+    EXPECT_EQ(open.reproduced, open.allocation == AllocationForm::kExact &&
+                                   open.wheel_force.lo == 0.0 && open.wheel_force.hi == 1.0 &&
+                                   open.mass_factor == 1.0 &&
+                                   open.split == CombinedSplit::kRedistribute);
+  }
+}
+
+TEST(OpenCases, ASettingDecidesWhereItAloneTurnsTheVerdict) {
+  std::vector<ClaimCase> cases = open_cases(fitted_paper_model());
+  EXPECT_EQ(decisive_settings(cases), "");
+  for (ClaimCase& open : cases) open.reproduced = open.wheel_force.lo < 0.0;
+  EXPECT_EQ(decisive_settings(cases), "wheel_force (8 of 8)");
+  for (ClaimCase& open : cases) {
+    open.reproduced = open.wheel_force.lo < 0.0 && open.split == CombinedSplit::kFixedHalf;
+  }
+  EXPECT_EQ(decisive_settings(cases), "wheel_force (4 of 8), split (4 of 12)");
 }
 
 }  // namespace

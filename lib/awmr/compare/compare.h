@@ -56,7 +56,7 @@ struct Comparison {
   bool stopped = false;
 };
 
-/// Samples draw the fitted parameters from the model's covariance (draw.h), and the scenarios'
+/// Samples draw the fitted parameters from the model's covariance (simulate/plant_sampler.h), and the scenarios'
 /// noise and disturbances from the seeds: the same draws for all modes and gains. The controller
 /// keeps the model's own values. Samples are run one after the other, each in every scenario and
 /// mode, so that a stopped comparison is a smaller one. Errors (input): the model lacks a

@@ -59,7 +59,7 @@ std::string table_of(const ScenarioRows& scenario, const std::vector<RankedMode>
         fmt::format("  {:<{}} {:>4.0f}", rows.label(), width, 100.0 * rows.completed_share()));
   }
   for (const MetricColumn& metric : kMetricColumns) {
-    if (!any_has(scenario, metric)) continue;
+    if (metric.head.empty() || !any_has(scenario, metric)) continue;
     head += fmt::format(" {:>7}", metric.head);
     units += fmt::format(" {:>7}", metric.unit);
     for (std::size_t mode = 0; mode < lines.size(); ++mode) {

@@ -3,7 +3,7 @@
 #include <optional>
 #include <utility>
 
-#include "awmr/compare/draw.h"
+#include "awmr/simulate/plant_sampler.h"
 
 namespace awmr {
 namespace {

@@ -18,7 +18,7 @@ struct Fleet {
   }
 };
 
-/// Sample 0 is the model itself, samples 1 ... options.samples are drawn from it (draw.h), and each
+/// Sample 0 is the model itself, samples 1 ... options.samples are drawn from it (simulate/plant_sampler.h), and each
 /// scenario moves them to its corner, where it has one. Errors (input): the model lacks a
 /// parameter, a covariance to draw from, or an interval that a corner needs.
 Result<Fleet> fleet_of(const Model& model, const std::vector<Scenario>& scenarios,

@@ -24,12 +24,17 @@ enum class MetricId {
   kControlVariation,
   kClearance,
   kFinishTime,
+  kEnergyMech,
+  kEnergyElectric,
+  kSaturation,
+  kSteeringTravel,
+  kTyreWork,
 };
 
 struct MetricColumn {
   MetricId id;
   std::string_view name;  ///< in comparison.csv and comparison.json
-  std::string_view head;  ///< of the table on a terminal: at most 7 characters
+  std::string_view head;  ///< of the table on a terminal: at most 7 characters; empty: not there
   std::string_view unit;
   std::variant<double Metrics::*, std::optional<double> Metrics::*> figure;
   /// In the metric's unit, >= 0: what is too small to matter (ranking.h). Lower is better for a
@@ -46,7 +51,7 @@ struct MetricColumn {
   }
 };
 
-inline constexpr std::array<MetricColumn, 11> kMetricColumns = {{
+inline constexpr std::array<MetricColumn, 16> kMetricColumns = {{
     {MetricId::kSettlingTime, "settling_time_s", "settle", "s", &Metrics::settling_time_s, 0.1},
     {MetricId::kOvershoot, "overshoot_deg", "overs.", "deg", &Metrics::overshoot_deg, 0.5},
     {MetricId::kHeadingIae, "heading_iae_degs", "IAE", "deg s", &Metrics::heading_iae_degs, 1.0},
@@ -59,6 +64,11 @@ inline constexpr std::array<MetricColumn, 11> kMetricColumns = {{
      0.05},
     {MetricId::kClearance, "clearance_min_m", "clear", "m", &Metrics::clearance_min_m},
     {MetricId::kFinishTime, "finish_time_s", "finish", "s", &Metrics::finish_time_s, 0.1},
+    {MetricId::kEnergyMech, "energy_mech", "", "m", &Metrics::energy_mech},
+    {MetricId::kEnergyElectric, "energy_electric", "", "s", &Metrics::energy_electric},
+    {MetricId::kSaturation, "saturation_s", "", "s", &Metrics::saturation_s},
+    {MetricId::kSteeringTravel, "steering_travel_deg", "", "deg", &Metrics::steering_travel_deg},
+    {MetricId::kTyreWork, "tyre_work", "", "m", &Metrics::tyre_work},
 }};
 
 inline const MetricColumn& column_of(MetricId id) { return kMetricColumns[at(id)]; }

@@ -1,13 +1,16 @@
 /// Allocation: (tau_speed, tau_turn) -> (F'L, F'R, d_r), in three modes. Freestanding C++14.
 ///
-/// The exact inverse of generalised_forces() in model/dynamics.h, without the paper's small-angle
-/// approximation. The steering path sets q = tan(d_r/2), with which
+/// The exact inverse of generalised_forces() in model/dynamics.h; the paper's small-angle form stands
+/// beside it (AllocationForm). The exact steering path sets q = tan(d_r/2), with which
 ///   sin d_r      = 2 q/(1 + q^2)
 ///   1 + cos d_r  = 2/(1 + q^2)
 ///   tau_steering = l_f tau_speed q
 /// so that the only function needed is the arc tangent of the angle commanded. The code computes
 /// with h = q/2 = tan(d_r/2)/2, because then 1/(2 (1 + cos d_r)) = 1/4 + h^2: a steering angle
 /// costs one division, and a pair of forces none.
+///
+/// For small angles 4 h is the angle itself, and h^2 is nothing beside 1/4: AllocationForm::kPaper
+/// is the same computation with d_r = 4 h and h^2 = 0.
 ///
 /// Order of limits:
 ///   1. tau_speed is clipped to [4 F'min, 4 F'max];
@@ -17,6 +20,7 @@
 
 #include "awmr/control/flash.h"
 #include "awmr/control/yaw_mode.h"
+#include "awmr/model/allocation_form.h"
 #include "awmr/model/scalar_math.h"
 #include "awmr/model/state.h"
 
@@ -41,6 +45,8 @@ struct AllocationLimits {
   T steering_max_tan_half;  ///< tan_half(d_max): given, so that the chip need not compute it
   /// What the combined mode does with a path that saturates.
   CombinedSplit split = CombinedSplit::kRedistribute;
+  /// The chip has kExact alone.
+  AllocationForm form = AllocationForm::kExact;
   /// F'0 of every wheel, over F_max, >= 0. The forces of an allocation, and the limits above, are
   /// those beyond it; the command that goes out to a motor is with_dead_zone() of them.
   T dead_zone = T(0.0);
@@ -83,7 +89,7 @@ struct AllocationConstants {
   T h2_max;                ///< h_max^2
 };
 
-/// The constants of these limits.
+/// The constants of these limits, for the exact form.
 template <class T>
 AllocationConstants<T> prepared(const AllocationLimits<T>& limits) {
   return {T(4.0) * limits.force_min,
@@ -132,13 +138,40 @@ inline float clipped(float x, float lo, float hi, bool& limited) {
   return float_math::is_inside(x, lo, hi) ? x : clipped_at_edge(x, lo, hi, limited);
 }
 
-/// The steering angle of an h, rad: d_r = 2 atan q = 2 atan(2 h). `h2` is h^2.
+/// 2 atan(2 h). `h2` is h^2.
 template <class T>
-T angle_of_h(const T& h, const T& /*h2*/) {
+T twice_atan_of_twice(const T& h, const T& /*h2*/) {
   using math::atan;
   return T(2.0) * atan(T(2.0) * h);
 }
-inline float angle_of_h(float h, float h2) { return float_math::twice_atan_of_twice(h, h2); }
+inline float twice_atan_of_twice(float h, float h2) {
+  return float_math::twice_atan_of_twice(h, h2);
+}
+
+/// What the two forms do not have in common.
+struct ExactAngle {
+  /// The steering angle of an h, rad: d_r = 2 atan q = 2 atan(2 h). `h2` is h^2.
+  template <class T>
+  static AWMR_INLINE T of_h(const T& h, const T& h2) {
+    return twice_atan_of_twice(h, h2);
+  }
+  /// h^2, with which 1/(2 (1 + cos d_r)) = 1/4 + h^2.
+  template <class T>
+  static AWMR_INLINE T square(const T& h) {
+    return h * h;
+  }
+};
+/// sin d_r = d_r and cos d_r = 1.
+struct SmallAngle {
+  template <class T>
+  static T of_h(const T& h, const T& /*h2*/) {
+    return T(4.0) * h;
+  }
+  template <class T>
+  static T square(const T& /*h*/) {
+    return T(0.0);
+  }
+};
 
 /// The h of the angle that makes a yaw moment at tau_speed, clipped to |h| <= h_max:
 ///   h = q/2 = moment/(2 l_f tau_speed)
@@ -154,13 +187,13 @@ T steering_for(const AllocationConstants<T>& c, const T& tau_speed, const T& hal
 }
 
 /// The steering angle that is commanded for h, rad; exactly +-d_max where h was clipped.
-template <class T>
+template <class Angle, class T>
 AWMR_INLINE T angle_of(const AllocationConstants<T>& c, const T& h, const T& h2,
                        const Allocation<T>& a) {
   if (a.steering_limited) {
     return math::is_above(h, T(0.0)) ? c.steering_max_rad : -c.steering_max_rad;
   }
-  return math::saturate(angle_of_h(h, h2), c.steering_max_rad);
+  return math::saturate(Angle::of_h(h, h2), c.steering_max_rad);
 }
 
 /// Puts the side forces into `a`, each clipped to [F'min, F'max]:
@@ -190,6 +223,41 @@ T give_back(const AllocationConstants<T>& c, const T& tau_turn_m, const T& quart
   return steering_for(c, a.force.left + a.force.right, rest_m * c.axle_half_inverse, a);
 }
 
+/// allocate(), by either form.
+template <class Angle, class T>
+AWMR_INLINE void allocate_by(YawMode mode, const T& tau_speed, const T& tau_turn_m,
+                             const AllocationConstants<T>& c, CombinedSplit split,
+                             Allocation<T>& a) {
+  a = Allocation<T>{};
+  const T speed = clipped(tau_speed, c.tau_speed_min, c.tau_speed_max, a.speed_limited);
+  const bool combined = mode == YawMode::kCombined;
+  const bool redistribute = combined && split == CombinedSplit::kRedistribute;
+  T h = T(0.0);
+  T h2 = T(0.0);
+  T quarter = T(0.25);
+  if (mode != YawMode::kDifferential) {
+    // The combined mode steers for half of tau_turn: its constant is half of steering's.
+    h = steering_for(c, speed,
+                     tau_turn_m * (combined ? c.axle_quarter_inverse : c.axle_half_inverse), a);
+    h2 = a.steering_limited ? c.h2_max : Angle::square(h);
+    quarter = T(0.25) + h2;
+  }
+  const bool lost = a.steering_limited || a.steering_powerless;
+  T over_track = T(0.0);  // the forces' share of the moment over d
+  if (redistribute && lost) {
+    // The steering makes the moment l_f tau_speed q = 2 h l_f tau_speed of tau_turn.
+    over_track = (tau_turn_m - h * speed * c.axle_twice_m) * c.half_track_inverse;
+  } else if (mode != YawMode::kSteering) {
+    over_track = tau_turn_m * (combined ? c.track_inverse : c.half_track_inverse);
+  }
+  forces_for(c, speed, over_track, quarter, a);
+  if (redistribute && a.force_limited && !lost) {
+    h = give_back(c, tau_turn_m, quarter, a);
+    h2 = a.steering_limited ? c.h2_max : Angle::square(h);
+  }
+  if (mode != YawMode::kDifferential) a.steering_rad = angle_of<Angle>(c, h, h2, a);
+}
+
 }  // namespace detail
 
 /// The commands that make tau_speed (dimensionless, forward positive) and tau_turn (m,
@@ -205,49 +273,31 @@ T give_back(const AllocationConstants<T>& c, const T& tau_turn_m, const T& quart
 ///                  F'R,L = tau_speed/(2 (1 + cos d_r)) +- tau_turn/(4 d (1 + cos d_r))
 ///                                                                          [paper (42), corrected]
 /// Corrected: the paper prints the combined mode with L and R swapped against its (41), and with d
-/// where l_f belongs in d_r; its small angles, sin d_r = d_r and cos d_r = 1, are not needed.
+/// where l_f belongs in d_r; its small angles, sin d_r = d_r and cos d_r = 1, are not needed. With
+/// them (AllocationForm::kPaper) the angles are tan(d_r/2) -> d_r/2, the forces those at d_r = 0:
+/// at 20 deg they leave out 3 % of the thrust.
 ///
 /// `split` is for the combined mode: with kRedistribute, what the limits take away from one path
 /// goes to the other. The result is finite for finite input.
 template <class T>
 AWMR_INLINE void allocate(YawMode mode, const T& tau_speed, const T& tau_turn_m,
                           const AllocationConstants<T>& c, CombinedSplit split, Allocation<T>& a) {
-  a = Allocation<T>{};
-  const T speed = detail::clipped(tau_speed, c.tau_speed_min, c.tau_speed_max, a.speed_limited);
-  const bool combined = mode == YawMode::kCombined;
-  const bool redistribute = combined && split == CombinedSplit::kRedistribute;
-  T h = T(0.0);
-  T h2 = T(0.0);
-  T quarter = T(0.25);
-  if (mode != YawMode::kDifferential) {
-    // The combined mode steers for half of tau_turn: its constant is half of steering's.
-    h = detail::steering_for(
-        c, speed, tau_turn_m * (combined ? c.axle_quarter_inverse : c.axle_half_inverse), a);
-    h2 = a.steering_limited ? c.h2_max : T(h * h);
-    quarter = T(0.25) + h2;
-  }
-  const bool lost = a.steering_limited || a.steering_powerless;
-  T over_track = T(0.0);  // the forces' share of the moment over d
-  if (redistribute && lost) {
-    // The steering makes the moment l_f tau_speed q = 2 h l_f tau_speed of tau_turn.
-    over_track = (tau_turn_m - h * speed * c.axle_twice_m) * c.half_track_inverse;
-  } else if (mode != YawMode::kSteering) {
-    over_track = tau_turn_m * (combined ? c.track_inverse : c.half_track_inverse);
-  }
-  detail::forces_for(c, speed, over_track, quarter, a);
-  if (redistribute && a.force_limited && !lost) {
-    h = detail::give_back(c, tau_turn_m, quarter, a);
-    h2 = a.steering_limited ? c.h2_max : T(h * h);
-  }
-  if (mode != YawMode::kDifferential) a.steering_rad = detail::angle_of(c, h, h2, a);
+  detail::allocate_by<detail::ExactAngle>(mode, tau_speed, tau_turn_m, c, split, a);
 }
 
-/// The same from the limits themselves, where the time of a step does not matter.
+/// The same from the limits themselves, in their form, where the time of a step does not matter.
 template <class T>
 Allocation<T> allocate(YawMode mode, const T& tau_speed, const T& tau_turn_m,
                        const AllocationLimits<T>& limits) {
   Allocation<T> a{};
-  allocate(mode, tau_speed, tau_turn_m, prepared(limits), limits.split, a);
+  AllocationConstants<T> c = prepared(limits);
+  if (limits.form == AllocationForm::kExact) {
+    allocate(mode, tau_speed, tau_turn_m, c, limits.split, a);
+    return a;
+  }
+  c.h_max = T(0.25) * limits.steering_max_rad;
+  c.h2_max = T(0.0);
+  detail::allocate_by<detail::SmallAngle>(mode, tau_speed, tau_turn_m, c, limits.split, a);
   return a;
 }
 

@@ -65,7 +65,16 @@ ParameterBlock block_of(const Plant<double>& plant, const Model& model, const Ga
   return block;
 }
 
-/// Refuses what the simulated controller makes up for and the firmware does not.
+/// Refuses what the simulated controller does and the firmware does not.
+Status check_allocation(const Model& model) {
+  if (model.vehicle.allocation == AllocationForm::kExact) return {};
+  return input_error(file_name(model) + ":/vehicle/allocation",
+                     "the firmware allocates exactly, not for small angles: give \"exact\", or "
+                     "emit the header alone (" +
+                         option_text("header-only") + ")");
+}
+
+/// The same of what the simulated controller makes up for.
 Status check_family(const Model& model, const Plant<double>& plant, ResistanceForm form) {
   const std::string file = file_name(model);
   if (plant.wheel_dead_zone > 0.0) {
@@ -127,6 +136,7 @@ Result<AutopilotParameters> autopilot_parameters(const Model& model, const Gains
                                                  const EmitOptions& options) {
   AWMR_RETURN_IF_ERROR(params_header(model, gains, inputs));
   AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, model.plant());
+  AWMR_RETURN_IF_ERROR(check_allocation(model));
   AWMR_RETURN_IF_ERROR(check_family(model, plant, options.resistance));
 
   const double full_force = 4.0 * model.vehicle.wheel_force.hi;

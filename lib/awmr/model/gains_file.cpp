@@ -22,8 +22,9 @@ Result<Gains<double>> read_gains(const std::filesystem::path& path) {
   heading.reject_unknown_keys();
   speed.reject_unknown_keys();
 
-  for (const std::string_view key : {"command", "version", "options", "inputs", "time_constants",
-                                     "constraints", "objective", "metrics", "search", "baseline"}) {
+  for (const std::string_view key :
+       {"command", "version", "options", "inputs", "time_constants", "constraints", "objective",
+        "metrics", "robust", "search", "baseline"}) {
     root.ignore(key);
   }
   root.reject_unknown_keys();

@@ -14,6 +14,11 @@ inline constexpr NumberRule kYawInertia_kgm2{.min = 1e-9, .max = 1e9};
 inline constexpr NumberRule kServoRate_degps{.min = 1e-3, .max = 1e6};
 inline constexpr NumberRule kServoTime_s{.min = 1e-6, .max = 1e3};
 inline constexpr NumberRule kSampleTime_s{.min = 1e-4, .max = 1.0};
+/// Standard deviations of sensors, each in its own unit.
+inline constexpr NumberRule kSensorNoise{.min = 0.0, .max = 1e3};
+/// How late a sensor or a motor is.
+inline constexpr NumberRule kLatency_s{.min = 0.0, .max = 1.0};
+inline constexpr NumberRule kFastestTurn_degps{.min = 1e-3, .max = 1e6};
 /// Coefficients of resistance, m' and I'z, each in its own unit.
 inline constexpr NumberRule kCoefficient{.min = 1e-9, .max = 1e9};
 inline constexpr NumberRule kTerm{.min = 0.0, .max = 1e9};

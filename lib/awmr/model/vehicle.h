@@ -7,6 +7,7 @@
 
 #include "awmr/core/interval.h"
 #include "awmr/core/name_table.h"
+#include "awmr/model/allocation_form.h"
 
 namespace awmr {
 
@@ -17,6 +18,23 @@ enum class Drive {
 };
 inline constexpr NameTable<Drive, 2> kDriveNames{
     {{"four_wheel", Drive::kFourWheel}, {"differential", Drive::kDifferential}}};
+
+inline constexpr NameTable<AllocationForm, 2> kAllocationFormNames{
+    {{"exact", AllocationForm::kExact}, {"paper", AllocationForm::kPaper}}};
+
+/// What the vehicle's sensors add to what they measure: standard deviations, independent from
+/// reading to reading, and how late a reading is. Absent: not known.
+struct SensorQuality {
+  std::optional<double> heading_deg = {};      ///< deg, >= 0
+  std::optional<double> yaw_rate_degps = {};   ///< deg/s, >= 0
+  std::optional<double> speed_mps = {};        ///< m/s, >= 0
+  std::optional<double> position_m = {};       ///< m, >= 0
+  std::optional<double> heading_late_s = {};   ///< s, >= 0
+  std::optional<double> yaw_rate_late_s = {};  ///< s, >= 0
+  std::optional<double> speed_late_s = {};     ///< s, >= 0
+  std::optional<double> position_late_s = {};  ///< s, >= 0
+  bool operator==(const SensorQuality&) const = default;
+};
 
 /// What the user measures on the vehicle or reads in its data sheets.
 struct Vehicle {
@@ -36,6 +54,15 @@ struct Vehicle {
   std::optional<double> sway_alpha;        ///< a_s of g2, s/m, > 0; absent: a log has to show it
   Interval surge_beta_range{0.0, 1.0};     ///< where a fit may put b1, 0 <= lo < hi
   Interval yaw_beta_range{0.0, 4.0};       ///< where a fit may put b3, 0 <= lo < hi
+
+  /// How the simulated controller turns generalised forces into commands; the chip's is exact.
+  AllocationForm allocation = AllocationForm::kExact;
+  SensorQuality sensors = {};  ///< what gains are tuned for (tune/tune.h)
+  /// s, >= 0: first-order lag of the motors' force behind its command, which gains are tuned for.
+  std::optional<double> motor_time_constant_s;
+  /// deg/s, > 0: the fastest turn up to which yaw resistance is known; absent: the range that the
+  /// turning trials covered.
+  std::optional<double> yaw_rate_max_degps;
 
   /// How this vehicle's files name what is asked for: column -> expression (core/column_mapping.h).
   std::map<std::string, std::string> columns = {};

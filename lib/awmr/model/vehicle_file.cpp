@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <span>
+#include <string_view>
+
 #include "awmr/core/column_mapping.h"
 #include "awmr/core/units.h"
 #include "awmr/model/ranges.h"
@@ -63,6 +66,59 @@ void columns_from_json(JsonObject json, Vehicle& vehicle) {
   }
 }
 
+/// A quantity of each sensor, by its key in `noise` or `latency_s`.
+struct SensorKey {
+  std::string_view key;
+  std::optional<double> SensorQuality::*member;
+};
+constexpr SensorKey kNoiseKeys[] = {{"heading_deg", &SensorQuality::heading_deg},
+                                    {"yaw_rate_degps", &SensorQuality::yaw_rate_degps},
+                                    {"speed_mps", &SensorQuality::speed_mps},
+                                    {"position_m", &SensorQuality::position_m}};
+constexpr SensorKey kLatencyKeys[] = {{"heading", &SensorQuality::heading_late_s},
+                                      {"yaw_rate", &SensorQuality::yaw_rate_late_s},
+                                      {"speed", &SensorQuality::speed_late_s},
+                                      {"position", &SensorQuality::position_late_s}};
+
+void sensors_from_json(std::optional<JsonObject> json, std::span<const SensorKey> keys,
+                       const NumberRule& rule, SensorQuality& sensors) {
+  if (!json) return;
+  for (const SensorKey& sensor : keys) {
+    sensors.*sensor.member = json->optional_number(sensor.key, rule);
+  }
+  json->reject_unknown_keys();
+}
+
+void sensors_to_json(const SensorQuality& sensors, std::span<const SensorKey> keys,
+                     const char* object, Json& json) {
+  for (const SensorKey& sensor : keys) {
+    if (sensors.*sensor.member) json[object][std::string(sensor.key)] = *(sensors.*sensor.member);
+  }
+}
+
+void control_from_json(JsonObject& json, Vehicle& vehicle) {
+  if (json.has("allocation")) vehicle.allocation = json.choice("allocation", kAllocationFormNames);
+  sensors_from_json(json.optional_object("noise"), kNoiseKeys, kSensorNoise, vehicle.sensors);
+  sensors_from_json(json.optional_object("latency_s"), kLatencyKeys, kLatency_s, vehicle.sensors);
+  if (auto motor = json.optional_object("motor")) {
+    vehicle.motor_time_constant_s = motor->optional_number("time_constant_s", kLatency_s);
+    motor->reject_unknown_keys();
+  }
+  vehicle.yaw_rate_max_degps = json.optional_number("yaw_rate_max_degps", kFastestTurn_degps);
+}
+
+void control_to_json(const Vehicle& vehicle, Json& json) {
+  if (vehicle.allocation != AllocationForm::kExact) {
+    json["allocation"] = name_in(kAllocationFormNames, vehicle.allocation);
+  }
+  sensors_to_json(vehicle.sensors, kNoiseKeys, "noise", json);
+  sensors_to_json(vehicle.sensors, kLatencyKeys, "latency_s", json);
+  if (vehicle.motor_time_constant_s) {
+    json["motor"]["time_constant_s"] = *vehicle.motor_time_constant_s;
+  }
+  if (vehicle.yaw_rate_max_degps) json["yaw_rate_max_degps"] = *vehicle.yaw_rate_max_degps;
+}
+
 }  // namespace
 
 Vehicle vehicle_from_json(JsonObject& json) {
@@ -92,6 +148,7 @@ Vehicle vehicle_from_json(JsonObject& json) {
   vehicle.surge_beta_range =
       beta_range_from_json(json, "surge_beta_range", vehicle.surge_beta_range);
   vehicle.yaw_beta_range = beta_range_from_json(json, "yaw_beta_range", vehicle.yaw_beta_range);
+  control_from_json(json, vehicle);
   if (auto columns = json.optional_object("columns")) columns_from_json(*columns, vehicle);
   json.reject_unknown_keys();
   return vehicle;
@@ -119,6 +176,7 @@ Json vehicle_to_json(const Vehicle& vehicle) {
   if (vehicle.sway_alpha) json["sway_alpha"] = *vehicle.sway_alpha;
   json["surge_beta_range"] = {vehicle.surge_beta_range.lo, vehicle.surge_beta_range.hi};
   json["yaw_beta_range"] = {vehicle.yaw_beta_range.lo, vehicle.yaw_beta_range.hi};
+  control_to_json(vehicle, json);
   for (const auto& [name, expression] : vehicle.columns) json["columns"][name] = expression;
   return json;
 }

@@ -119,6 +119,47 @@ void motion_metrics(const Run& run, const Controller<double>& controller, Metric
   m.control_effort = effort / static_cast<double>(run.rows.size());
 }
 
+/// Power that the four wheels put into the vehicle, over F_max, m/s. The rear axle rolls ahead; the
+/// front wheels roll along d_r:
+///   w_rear  = u -+ d r
+///   w_front = (u -+ d r) cos d_r + (v + l_f r) sin d_r            upper sign: left, lower: right
+double driving_power(const RunRow& row, const AllocationLimits<double>& limits) {
+  const State<double>& s = row.state;
+  const double across_mps = (s.v_mps + limits.front_axle_m * s.r_radps) * std::sin(s.steering_rad);
+  const auto of_side = [&](double force, double side) {
+    const double rear_mps = s.u_mps - side * limits.half_track_m * s.r_radps;
+    const double front_mps = rear_mps * std::cos(s.steering_rad) + across_mps;
+    return std::max(0.0, force * rear_mps) + std::max(0.0, force * front_mps);
+  };
+  return of_side(row.force.left, 1.0) + of_side(row.force.right, -1.0);
+}
+
+bool at_a_limit(const RunRow& row, const AllocationLimits<double>& limits) {
+  const auto forced = [&](double force) {
+    return force >= with_dead_zone(limits.force_max, limits.dead_zone) ||
+           force <= with_dead_zone(limits.force_min, limits.dead_zone);
+  };
+  return forced(row.force.left) || forced(row.force.right) ||
+         (limits.steering_max_rad > 0.0 &&
+          std::abs(row.steering_command_rad) >= limits.steering_max_rad);
+}
+
+/// Energy, wear and limits; commands are held over each sample.
+void work_metrics(const Run& run, const Controller<double>& controller, Metrics& m) {
+  const auto& limits = controller.limits;
+  for (std::size_t i = 0; i + 1 < run.rows.size(); ++i) {
+    const RunRow& row = run.rows[i];
+    const RunRow& next = run.rows[i + 1];
+    const double dt_s = next.t_s - row.t_s;
+    m.energy_mech += dt_s * driving_power(row, limits);
+    m.energy_electric +=
+        dt_s * 2.0 * (row.force.left * row.force.left + row.force.right * row.force.right);
+    m.tyre_work += dt_s * controller.yaw(row.state.r_radps) * row.state.r_radps;
+    if (at_a_limit(row, limits)) m.saturation_s += dt_s;
+    m.steering_travel_deg += std::abs(degrees(next.state.steering_rad - row.state.steering_rad));
+  }
+}
+
 /// How far from the leg, line or path, root mean square over the rows from `begin` on.
 double cross_track_rms_m(const Run& run, std::size_t begin) {
   double sum = 0.0;
@@ -158,6 +199,7 @@ bool asks_for_one_speed(const Scenario& scenario) {
 Metrics metrics_of(const Run& run, const Scenario& scenario, const Controller<double>& controller) {
   Metrics m;
   motion_metrics(run, controller, m);
+  work_metrics(run, controller, m);
   const bool open = std::holds_alternative<OpenLoop>(scenario.guidance);
   if (std::holds_alternative<HeadingSteps>(scenario.guidance)) {
     heading_metrics(run, scenario, m);

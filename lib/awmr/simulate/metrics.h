@@ -34,6 +34,17 @@ struct Metrics {
   std::optional<double>
       clearance_min_m;                  ///< least distance from the vehicle's circle to an obstacle
   std::optional<double> finish_time_s;  ///< when the guidance's end was reached
+
+  /// Work that the commanded wheel forces put into the vehicle where they push it on, over F_max, m;
+  /// a braking motor gives nothing back:
+  ///   integral of sum_i max(0, F'_i w_i), w_i: the speed of wheel i in its rolling direction
+  double energy_mech = 0.0;
+  /// Copper loss of the motors over that of one motor at F_max, s: integral of sum_i F'_i^2.
+  double energy_electric = 0.0;
+  double saturation_s = 0.0;         ///< time with a command at a limit of F' or of d_r
+  double steering_travel_deg = 0.0;  ///< total variation of the angle d_r
+  /// Work against the yaw resistance, which scrubs the tyres, over F_max, m: integral of g3(r) r.
+  double tyre_work = 0.0;
 };
 
 Metrics metrics_of(const Run& run, const Scenario& scenario, const Controller<double>& controller);

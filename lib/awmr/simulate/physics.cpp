@@ -201,8 +201,21 @@ void Physics::integrate(const Forces& force, double steering_command_rad) {
   settle(state_.r_radps);
 }
 
+/// The mean over one sample of what the motors make of a command c that is held, from their force F
+/// at its start:
+///   F(t) = c + (F - c) exp(-t/tau),   mean = c + (F - c) (1 - exp(-T_s/tau)) tau/T_s
+SideForces<double> Physics::through_motors(const SideForces<double>& command) {
+  const double tau_s = scenario_->actuators ? scenario_->actuators->motor_time_constant_s : 0.0;
+  if (!(tau_s > 0.0)) return command;
+  const double left_over = std::exp(-sample_time_s_ / tau_s);
+  const double mean_share = (1.0 - left_over) * tau_s / sample_time_s_;
+  const SideForces<double> behind{motors_.left - command.left, motors_.right - command.right};
+  motors_ = {command.left + behind.left * left_over, command.right + behind.right * left_over};
+  return {command.left + behind.left * mean_share, command.right + behind.right * mean_share};
+}
+
 void Physics::step(double t_s, const SideForces<double>& commanded, double steering_command_rad) {
-  SideForces<double> force = commanded;
+  SideForces<double> force = through_motors(commanded);
   if (const auto& battery = scenario_->battery) {
     const double gone =
         math::clamp((t_s - battery->from_s) / (battery->to_s - battery->from_s), 0.0, 1.0);

@@ -28,6 +28,7 @@ class Physics {
   void step(double t_s, const SideForces<double>& force, double steering_command_rad);
 
  private:
+  SideForces<double> through_motors(const SideForces<double>& command);
   WheelForces<double> at_the_ground(double t_s, const SideForces<double>& force) const;
   template <class Forces>
   void integrate(const Forces& force, double steering_command_rad);
@@ -46,6 +47,7 @@ class Physics {
   long halves_ = 0;  ///< steps that were halved since a rate grew with the speed
   bool resolved_ = true;
   State<double> state_;
+  SideForces<double> motors_{};  ///< the forces of the motors, where they lag
   DisturbanceSource surge_, sway_, yaw_;
   BodyLoad load_;
   bool loaded_;    ///< the scenario has a disturbance or a slope

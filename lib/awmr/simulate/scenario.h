@@ -115,6 +115,8 @@ Result<Plant<double>> plant_for(const Scenario& scenario, const Model& model,
 inline constexpr NameTable<YawMode, 3> kYawModeNames{{{"differential", YawMode::kDifferential},
                                                       {"steering", YawMode::kSteering},
                                                       {"combined", YawMode::kCombined}}};
+inline constexpr NameTable<CombinedSplit, 2> kCombinedSplitNames{
+    {{"redistribute", CombinedSplit::kRedistribute}, {"fixed_half", CombinedSplit::kFixedHalf}}};
 constexpr std::string_view name_of(YawMode mode) { return name_in(kYawModeNames, mode); }
 inline constexpr YawMode kYawModes[] = {YawMode::kDifferential, YawMode::kSteering,
                                         YawMode::kCombined};

@@ -32,12 +32,19 @@ Sensing::Sensing(const std::optional<Sensors>& sensors, double sample_time_s, co
 Sensed Sensing::at(std::size_t k, const State<double>& truth) {
   Sensed sensed{{truth.psi_rad, truth.u_mps, truth.v_mps, truth.r_radps}, {truth.x_m, truth.y_m}};
   if (!sensors_) return sensed;
-  sensed.motion.psi_rad = read(sensors_->heading, truth.psi_rad, heading_);
-  sensed.motion.r_radps = read(sensors_->yaw_rate, truth.r_radps, yaw_rate_);
-  sensed.motion.u_mps = read(sensors_->speed, truth.u_mps, speed_);
+  motion_.push_back(sensed.motion);
+  sensed.motion.psi_rad = read(sensors_->heading, as_of(sensors_->heading, k).psi_rad, heading_);
+  sensed.motion.r_radps = read(sensors_->yaw_rate, as_of(sensors_->yaw_rate, k).r_radps, yaw_rate_);
+  sensed.motion.u_mps = read(sensors_->speed, as_of(sensors_->speed, k).u_mps, speed_);
   if (!sensors_->sway_measured) sensed.motion.v_mps = 0.0;
   if (sensors_->gps) sensed.position_m = navigate(k, truth, sensed.motion);
   return sensed;
+}
+
+/// The motion that a sensor tells of at the k-th sample; before the first one, that of the first.
+const Measurement<double>& Sensing::as_of(const Channel& channel, std::size_t k) const {
+  const auto late = static_cast<std::size_t>(std::lround(channel.late_s / sample_time_s_));
+  return motion_[k > late ? k - late : 0];
 }
 
 /// Dead reckoning from the measured motion; a fix that arrives at t for the time t - latency sets

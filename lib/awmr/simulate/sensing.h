@@ -28,9 +28,11 @@ class Sensing {
  private:
   Position<double> navigate(std::size_t k, const State<double>& truth,
                             const Measurement<double>& motion);
+  const Measurement<double>& as_of(const Channel& channel, std::size_t k) const;
   std::optional<Sensors> sensors_;
   double sample_time_s_;
   Random heading_, yaw_rate_, speed_, gps_;
+  std::vector<Measurement<double>> motion_;    ///< true, by sample
   std::vector<Position<double>> true_m_;       ///< by sample
   std::vector<Position<double>> travelled_m_;  ///< by sample: dead reckoning from the first
   Position<double> fix_offset_m_{};            ///< position = travelled + this

@@ -26,7 +26,10 @@ class Autopilot {
   Autopilot(const Controller<double>& controller, const Scenario& scenario, YawMode mode,
             double sample_time_s, const Measurement<double>& start)
       : controller_(controller), scenario_(&scenario), mode_(mode), sample_time_s_(sample_time_s) {
-    if (!scenario.control.redistribute) controller_.limits.split = CombinedSplit::kFixedHalf;
+    controller_.limits.form = scenario.control.allocation.value_or(controller_.limits.form);
+    if (scenario.control.split != CombinedSplit::kRedistribute) {
+      controller_.limits.split = scenario.control.split;
+    }
     if (const auto& observer = scenario.control.observer) {
       yaw_ = {observer->bandwidth_radps, observer->yaw_max_m};
       surge_ = {observer->bandwidth_radps, observer->surge_max};
@@ -197,6 +200,7 @@ Controller<double> make_controller(const Plant<double>& plant, const Vehicle& ve
                      .steering_max_rad = plant.steering_max_rad,
                      .steering_max_tan_half = tan_half(plant.steering_max_rad),
                      .split = split,
+                     .form = vehicle.allocation,
                      .dead_zone = zone}};
 }
 

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "awmr/control/guidance.h"
+#include "awmr/control/yaw_mode.h"
+#include "awmr/model/allocation_form.h"
 #include "awmr/model/parameters.h"
 
 namespace awmr {
@@ -85,6 +87,7 @@ struct Channel {
   double noise = 0.0;    ///< >= 0: standard deviation, independent from reading to reading
   double bias = 0.0;     ///< constant over a run; its sign counts
   double quantum = 0.0;  ///< >= 0: step of the reading; 0: none
+  double late_s = 0.0;   ///< >= 0: a reading is of this long ago, to the nearest sample
 };
 
 /// A receiver that gives a position at its own rate, late. Between fixes the position is carried on
@@ -106,10 +109,12 @@ struct Sensors {
   std::optional<Gps> gps;  ///< absent: the true position
 };
 
-/// The steps in which a microcontroller can put out its commands.
+/// What becomes of the commands on their way to the wheels.
 struct Actuators {
   double steering_quantum_rad = 0.0;  ///< one step of the servo's pulse; 0: any angle
   int pwm_counts = 0;                 ///< counts for the force F'max; 0: any force
+  /// First-order lag of the wheels' forces behind their commands, s, >= 0.
+  double motor_time_constant_s = 0.0;
 };
 
 /// A parameter that is put at an end of its 95 % interval.
@@ -120,7 +125,7 @@ struct CornerParameter {
 
 /// How the controller is extended, beside the laws of control/controller.h.
 struct ControlOptions {
-  bool redistribute = true;  ///< combined mode: see CombinedSplit
+  CombinedSplit split = CombinedSplit::kRedistribute;  ///< of the combined mode
   struct Observer {
     double bandwidth_radps = 0.0;  ///< of the estimate, > 0
     double yaw_max_m = 0.0;  ///< most that is taken for a disturbance: moment over F_max, m, > 0
@@ -130,6 +135,7 @@ struct ControlOptions {
     bool anti_windup = true;
   };
   std::optional<Observer> observer;
+  std::optional<AllocationForm> allocation;  ///< absent: the vehicle's
 };
 
 }  // namespace awmr

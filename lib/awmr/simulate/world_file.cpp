@@ -5,6 +5,7 @@
 
 #include "awmr/core/name_table.h"
 #include "awmr/core/units.h"
+#include "awmr/model/ranges.h"
 #include "awmr/simulate/scenario_json.h"
 
 namespace awmr {
@@ -111,7 +112,8 @@ Battery read_battery(JsonObject json) {
 Channel read_channel(JsonObject json, double unit) {
   Channel channel{.noise = unit * json.optional_number("noise", kSensorSize).value_or(0.0),
                   .bias = unit * json.optional_number("bias", kSensorBias).value_or(0.0),
-                  .quantum = unit * json.optional_number("quantum", kSensorSize).value_or(0.0)};
+                  .quantum = unit * json.optional_number("quantum", kSensorSize).value_or(0.0),
+                  .late_s = json.optional_number("latency_s", kLatency_s).value_or(0.0)};
   json.reject_unknown_keys();
   return channel;
 }
@@ -156,17 +158,19 @@ Actuators read_actuators(JsonObject json) {
   }
   actuators.pwm_counts =
       static_cast<int>(json.optional_integer("pwm_counts", 1, 65535).value_or(0));
+  if (auto motor = json.optional_object("motor")) {
+    actuators.motor_time_constant_s = motor->number("time_constant_s", kLatency_s);
+    motor->reject_unknown_keys();
+  }
   json.reject_unknown_keys();
   return actuators;
 }
 
 ControlOptions read_control(JsonObject json) {
-  static constexpr NameTable<bool, 2> kRedistributes{
-      {{"redistribute", true}, {"fixed_half", false}}};
   ControlOptions control;
-  if (json.has("combined_split")) {
-    control.redistribute = json.choice("combined_split", kRedistributes);
-  }
+  if (json.has("combined_split"))
+    control.split = json.choice("combined_split", kCombinedSplitNames);
+  if (json.has("allocation")) control.allocation = json.choice("allocation", kAllocationFormNames);
   if (auto observer = json.optional_object("disturbance_observer")) {
     control.observer =
         ControlOptions::Observer{.bandwidth_radps = observer->number("bandwidth_radps", kRate),

@@ -1,5 +1,7 @@
 #include "awmr/tune/constraints.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -22,10 +24,12 @@ ConstraintReport report(std::string name, double value, double limit, std::strin
 }
 
 /// The worst of the three modes and of the yaw rates met on the way.
-double heading_damping(const Gains<double>& gains, const ConstraintContext& context) {
+double heading_damping(const Gains<double>& gains, const ConstraintContext& context,
+                       double latency_s, double motor_time_constant_s) {
   // The shares of the moment that the sides make at once, the rest of it by the servo.
   constexpr double kShares[] = {1.0, 0.5, 0.0};
   const auto shares = std::span(kShares).first(context.has_steering ? 3 : 1);
+  const auto late_samples = static_cast<int>(std::lround(latency_s / context.sample_time_s));
   double worst = 1.0;
   for (const double rate_degps : {1.0, 5.0, 20.0, 60.0}) {
     // g3'(r) = a3 b3 r^(b3 - 1)
@@ -38,10 +42,22 @@ double heading_damping(const Gains<double>& gains, const ConstraintContext& cont
                                 .resistance_rate = slope / context.plant.inertia_norm,
                                 .servo_time_constant_s = context.plant.steering_time_constant_s,
                                 .sample_time_s = context.sample_time_s,
-                                .direct_share = direct_share}));
+                                .direct_share = direct_share,
+                                .motor_time_constant_s = motor_time_constant_s,
+                                .late_samples = late_samples}));
     }
   }
   return worst;
+}
+
+/// Every constraint of one plant.
+std::vector<ConstraintReport> constraints_with(const Gains<double>& gains,
+                                               const ConstraintContext& context);
+
+/// (value - limit) over the larger of the two: what is above 0 is broken.
+double residual(const ConstraintReport& c) {
+  const double scale = std::max({std::abs(c.value), std::abs(c.limit), 1e-12});
+  return (c.value - c.limit) / scale;
 }
 
 }  // namespace
@@ -60,25 +76,42 @@ double turning_authority_m(const ConstraintContext& context) {
 
 std::vector<ConstraintReport> constraints_of(const Gains<double>& gains,
                                              const ConstraintContext& context) {
+  std::vector<ConstraintReport> worst = constraints_with(gains, context);
+  ConstraintContext drawn = context;
+  for (const Plant<double>& plant : context.draws) {
+    drawn.plant = plant;
+    const std::vector<ConstraintReport> here = constraints_with(gains, drawn);
+    for (std::size_t i = 0; i < worst.size(); ++i) {
+      if (residual(here[i]) > residual(worst[i])) worst[i] = here[i];
+    }
+  }
+  return worst;
+}
+
+namespace {
+
+std::vector<ConstraintReport> constraints_with(const Gains<double>& gains,
+                                               const ConstraintContext& context) {
   const Plant<double>& plant = context.plant;
   const double sliding_s = gains.heading.sliding_time_constant_s();
   const double reaching_s = gains.heading.reaching_time_constant_s();
   const double speed_rate = gains.speed.mu / gains.speed.epsilon;
   const double servo_s = context.has_steering ? plant.steering_time_constant_s : 0.0;
-  const double lag_s = servo_s + context.sample_time_s / 2.0;
+  const double lag_s = std::max(servo_s, context.motor_time_constant_s) + context.latency_s +
+                       context.sample_time_s / 2.0;
   const bool strict = context.form == ReachingForm::kStrict;
-  return {
+  std::vector<ConstraintReport> constraints{
       report("T2 < T1 (paper)", reaching_s, context.margin * sliding_s,
              "epsilon/(2 mu) <= margin/lambda, s: V = S^2/2 decays before the error slides",
              !strict),
       report("T2 < T1 (strict)", 2.0 * reaching_s, context.margin * sliding_s,
              "epsilon/mu <= margin/lambda, s: S itself decays before the error slides", strict),
-      report("heading damping", kDampingRequired, heading_damping(gains, context),
+      report("heading damping", kDampingRequired, heading_damping(gains, context, 0.0, 0.0),
              "required <= smallest damping ratio of the sampled heading loop with hold and servo"),
       report("speed gain", speed_rate * context.sample_time_s, kSpeedGainPerSample,
              "(mu_s/epsilon_s) T_s <= 0.5: gain margin 4 of the sampled speed loop"),
       report("speed lag", speed_rate * lag_s, 1.0 / (4.0 * kDampingRequired * kDampingRequired),
-             "(mu_s/epsilon_s) (T + T_s/2) <= 1/(4 zeta^2), zeta = 0.7"),
+             "(mu_s/epsilon_s) (T + latency + T_s/2) <= 1/(4 zeta^2), zeta = 0.7"),
       report("mu dominates",
              kUnmodelledShare * plant.yaw(kDominatedYawRate_radps) / plant.inertia_norm,
              gains.heading.mu, "20 % of g3(60 deg/s)/I'z <= mu, rad/s^2"),
@@ -86,18 +119,27 @@ std::vector<ConstraintReport> constraints_of(const Gains<double>& gains,
              gains.speed.mu, "20 % of g1(u_d)/m' <= mu_s, m/s^2"),
       report("noise gain",
              plant.inertia_norm * gains.heading.lambda * gains.heading.mu / gains.heading.epsilon *
-                 kHeadingNoise_rad,
+                 context.heading_noise_rad,
              kNoiseShare * turning_authority_m(context),
-             "tau_turn from 1 deg of heading noise <= 25 % of the weaker mode's authority, m"),
+             fmt::format("tau_turn from {:g} deg of heading noise <= 25 % of the weaker mode's "
+                         "authority, m",
+                         degrees(context.heading_noise_rad))),
   };
+  if (context.latency_s > 0.0 || context.motor_time_constant_s > 0.0) {
+    constraints.push_back(report(
+        "late damping", kLateDampingRequired,
+        heading_damping(gains, context, context.latency_s, context.motor_time_constant_s),
+        "required <= smallest damping ratio of the loop with latency and motor lag as well"));
+  }
+  return constraints;
 }
+
+}  // namespace
 
 std::vector<double> residuals(const std::vector<ConstraintReport>& constraints) {
   std::vector<double> values;
   for (const ConstraintReport& c : constraints) {
-    if (!c.required) continue;
-    const double scale = std::max({std::abs(c.value), std::abs(c.limit), 1e-12});
-    values.push_back((c.value - c.limit) / scale);
+    if (c.required) values.push_back(residual(c));
   }
   return values;
 }

@@ -11,6 +11,9 @@ namespace awmr {
 
 /// Every required damping ratio: 0.7, an overshoot of 4.6 % for a second-order loop without zeros.
 inline constexpr double kDampingRequired = 0.7;
+/// The damping ratio that is required with latency and motor lag. The g3 that is fed forward from a
+/// late yaw rate makes a fast mode that gains hardly change: 0.32 for the paper's vehicle at 20 ms.
+inline constexpr double kLateDampingRequired = 0.25;
 /// Part of the modelled resistance that the corrective terms have to dominate: more than the model
 /// may be wrong by on its own trials (0.15 is validate's default tolerance).
 inline constexpr double kUnmodelledShare = 0.2;
@@ -19,9 +22,7 @@ inline constexpr double kDominatedYawRate_radps = radians(60.0);
 /// mu_s/eps_s T_s at most: the sampled integrator is unstable from 2 on, so the gain margin is 4.
 inline constexpr double kSpeedGainPerSample = 0.5;
 
-/// A heading error of this size, the noise of a compass, may take at most this part of the
-/// authority.
-inline constexpr double kHeadingNoise_rad = radians(1.0);
+/// The noise of a heading may take at most this part of the authority.
 inline constexpr double kNoiseShare = 0.25;
 
 /// What the constraints depend on beside the gains.
@@ -33,6 +34,10 @@ struct ConstraintContext {
   double sample_time_s = 0.01;                ///< T_s, > 0
   double speed_mps = 1.0;                     ///< largest u_d of the scenarios, >= 0
   Interval wheel_force{-1.0, 1.0};            ///< F' of one wheel over F_max
+  double heading_noise_rad = radians(1.0);    ///< standard deviation of a reading, >= 0
+  double latency_s = 0.0;                     ///< of heading and yaw rate, >= 0
+  double motor_time_constant_s = 0.0;         ///< >= 0
+  std::vector<Plant<double>> draws = {};      ///< further plants that the gains have to suit
 };
 
 /// Largest tau_turn of the weaker of steering and differential at steady speed u_d, m; one that has
@@ -45,11 +50,14 @@ double turning_authority_m(const ConstraintContext& context);
 ///   T2 < T1 (paper)    eps/(2 mu) <= margin/lambda                                    [paper (95)]
 ///   T2 < T1 (strict)   eps/mu     <= margin/lambda
 ///   heading damping    0.7 <= smallest zeta of the sampled loop
+///   late damping       0.25 <= the same with latency and motor lag, where there is any
 ///   speed gain         (mu_s/eps_s) T_s <= 0.5
 ///   speed lag          (mu_s/eps_s) (T + T_s/2) <= 1/(4 zeta^2)
 ///   mu dominates       0.2 g3(60 deg/s)/I'z <= mu                                     [paper (88)]
 ///   mu_s dominates     0.2 g1(u_d)/m' <= mu_s                                        [paper (102)]
-///   noise gain         I'z lambda (mu/eps) 1 deg <= 0.25 turning_authority_m()
+///   noise gain         I'z lambda (mu/eps) sigma <= 0.25 turning_authority_m(), sigma: heading noise
+///
+/// Each stands for the plant, out of the context's own and its draws, that leaves it the least.
 ///
 /// T2 < T1: one of the two forms is required, both are given.
 ///
@@ -61,8 +69,8 @@ double turning_authority_m(const ConstraintContext& context);
 /// so z is in [1 - k_s T_s, 1).
 ///
 /// Speed lag: k_s/(s (1 + tau s)) closes to tau s^2 + s + k_s, so zeta = 1/(2 sqrt(k_s tau)). The
-/// motors' lag is not in the model; the servo's T stands in for it, and where there is no servo
-/// nothing does: T = 0.
+/// motors' lag and the latency, where they are given, stand beside T; the servo's T stands in for the
+/// motors' where there is a servo.
 ///
 /// Noise gain is the law's gain from psi to tau_turn: beyond the limit the noise of a compass alone
 /// drives the actuators to their stops.

@@ -7,7 +7,8 @@
 ///
 /// over heading ITAE, overshoot, control variation, effort and speed ITAE. f_i is a floor in the
 /// unit of x_i, below which a difference does not matter: the baseline scores exactly 1, even where
-/// its overshoot is 0. The objective is the mean of J over modes and scenarios.
+/// its overshoot is 0. Over several plants, J of a mode and scenario is (mean + CVaR)/2, CVaR the
+/// mean over the worst share of them. The objective is the mean of J over modes and scenarios.
 #pragma once
 
 #include <array>
@@ -41,33 +42,46 @@ std::array<double, std::size(kObjectiveTerms)> figures_of(const ModeScore& score
 double objective_of(const ModeScore& score, const ModeScore& baseline,
                     const ObjectiveWeights& weights);
 
+/// What the gains are scored on.
+struct ObjectiveSetting {
+  std::vector<Plant<double>> plants;  ///< the first is what the controller knows; not empty
+  Vehicle vehicle;
+  ObjectiveWeights weights;
+  std::vector<Scenario> scenarios;  ///< each holds headings; not empty
+  double tail_share = 1.0;          ///< (0, 1]
+  std::uint64_t seed = 0;           ///< of what is random in the scenarios, another for each plant
+};
+
 struct Evaluation {
-  std::vector<ModeScore> scores;       ///< by mode, then scenario
+  std::vector<ModeScore> scores;       ///< of the first plant, by mode, then scenario
   std::vector<double> mode_objective;  ///< mean over the scenarios, in the order of yaw_modes()
+  std::vector<double> mode_activity;   ///< control variation over the baseline's, of all plants
   double objective = 0.0;              ///< mean over the modes; finite where `valid`
   bool valid = false;  ///< finite, and completes each run that the baseline completes
 };
 
 class Objective {
  public:
-  /// Precondition: every scenario holds headings; at least one.
-  Objective(const Plant<double>& plant, const Vehicle& vehicle, const ObjectiveWeights& weights,
-            std::vector<Scenario> scenarios, const Gains<double>& baseline);
+  Objective(ObjectiveSetting setting, const Gains<double>& baseline);
 
-  /// Simulates the vehicle's modes side by side; the result does not depend on the number of cores.
+  /// Simulates every mode of every plant; the result does not depend on the number of cores.
   Evaluation operator()(const Gains<double>& gains) const;
   const Evaluation& baseline() const { return baseline_; }
 
  private:
-  std::vector<ModeScore> run(const Gains<double>& gains, YawMode mode) const;
-  Evaluation simulate_all(const Gains<double>& gains) const;
-  void score(Evaluation& evaluation, const Evaluation& baseline) const;
+  std::vector<ModeScore> simulate_all(const Gains<double>& gains) const;
+  Evaluation evaluate(std::vector<ModeScore> scores) const;
 
-  Plant<double> plant_;
-  Vehicle vehicle_;
-  ObjectiveWeights weights_;
-  std::vector<Scenario> scenarios_;
+  ObjectiveSetting setting_;
+  std::vector<ModeScore> baseline_scores_;  ///< by plant, then mode, then scenario
   Evaluation baseline_;
 };
+
+/// The runs of one plant in one mode, by scenario. `plant` is the number of its noise, too.
+std::vector<ModeScore> run_scenarios(const ObjectiveSetting& setting, std::size_t plant,
+                                     const Gains<double>& gains, YawMode mode);
+
+/// (mean + mean of the largest share)/2; at least one value counts as the largest.
+double mean_and_tail(std::vector<double> values, double tail_share);
 
 }  // namespace awmr

@@ -20,24 +20,42 @@ double damping_of(const std::complex<double>& z) {
 }  // namespace
 
 double damping_ratio(const SampledHeadingLoop& loop) {
-  // [Phi Gamma; 0 1] = exp([A B; 0 0] T_s), states psi, r, w_lag and the held input w.
-  Eigen::Matrix4d continuous = Eigen::Matrix4d::Zero();
+  // [Phi Gamma; 0 1] = exp([A B; 0 0] T_s), states psi, r, w_servo, w_motor and the held input w.
+  using Matrix5 = Eigen::Matrix<double, 5, 5>;
+  const bool lag = loop.motor_time_constant_s > 0.0;
+  Matrix5 continuous = Matrix5::Zero();
   continuous(0, 1) = 1.0;
   continuous(1, 1) = -loop.resistance_rate;
   continuous(1, 2) = 1.0 - loop.direct_share;
-  continuous(1, 3) = loop.direct_share;
+  continuous(1, lag ? 3 : 4) = loop.direct_share;
   continuous(2, 2) = -1.0 / loop.servo_time_constant_s;
-  continuous(2, 3) = 1.0 / loop.servo_time_constant_s;
-  const Eigen::Matrix4d discrete = (continuous * loop.sample_time_s).exp();
+  continuous(2, 4) = 1.0 / loop.servo_time_constant_s;
+  // Without a lag nothing reads w_motor: it only has to die out.
+  const double motor_s = lag ? loop.motor_time_constant_s : loop.sample_time_s;
+  continuous(3, 3) = -1.0 / motor_s;
+  continuous(3, 4) = 1.0 / motor_s;
+  const Matrix5 discrete = (continuous * loop.sample_time_s).exp();
 
-  const Eigen::RowVector3d law(-loop.lambda * loop.reaching_rate,
-                               loop.resistance_rate - loop.lambda - loop.reaching_rate, 0.0);
-  const Eigen::Matrix3d closed =
-      discrete.topLeftCorner<3, 3>() + discrete.topRightCorner<3, 1>() * law;
-  const Eigen::Vector3cd eigenvalues =
-      Eigen::EigenSolver<Eigen::Matrix3d>(closed, false).eigenvalues();
-  return std::min(
-      {damping_of(eigenvalues(0)), damping_of(eigenvalues(1)), damping_of(eigenvalues(2))});
+  // Behind the four states, the commands still to come: w of this sample's readings enters at the
+  // last of them, or at once.
+  const Eigen::Index n = loop.late_samples;
+  Eigen::MatrixXd closed = Eigen::MatrixXd::Zero(4 + n, 4 + n);
+  closed.topLeftCorner<4, 4>() = discrete.topLeftCorner<4, 4>();
+  const Eigen::RowVector4d law(-loop.lambda * loop.reaching_rate,
+                               loop.resistance_rate - loop.lambda - loop.reaching_rate, 0.0, 0.0);
+  const Eigen::Vector4d by_command = discrete.topRightCorner<4, 1>();
+  if (n == 0) {
+    closed += by_command * law;
+  } else {
+    closed.block<4, 1>(0, 4) = by_command;
+    for (Eigen::Index i = 0; i + 1 < n; ++i) closed(4 + i, 5 + i) = 1.0;
+    closed.block<1, 4>(3 + n, 0) = law;
+  }
+  const Eigen::VectorXcd eigenvalues =
+      Eigen::EigenSolver<Eigen::MatrixXd>(closed, false).eigenvalues();
+  double worst = 1.0;
+  for (const std::complex<double>& z : eigenvalues) worst = std::min(worst, damping_of(z));
+  return worst;
 }
 
 }  // namespace awmr

@@ -7,9 +7,11 @@ namespace awmr {
 /// Linear, inside the boundary layer and at one yaw rate r0, for small psi about the command:
 ///
 ///     psi_dot = r
-///     r_dot   = -a r + s w + (1 - s) w_lag            a = g3'(r0)/I'z, the plant's own damping
-///     w_lag_dot = (w - w_lag)/T                       the steering servo
-///     w = a r_k - (lambda + k) r_k - lambda k psi_k   the law, k = mu/eps, held over T_s
+///     r_dot   = -a r + s w_motor + (1 - s) w_servo    a = g3'(r0)/I'z, the plant's own damping
+///     w_servo_dot = (w - w_servo)/T                   the steering servo
+///     w_motor_dot = (w - w_motor)/T_m                 the motors; w_motor = w where T_m = 0
+///     w = a r_j - (lambda + k) r_j - lambda k psi_j   the law, k = mu/eps, held over T_s,
+///                                                     from the readings of j = n samples ago
 ///
 /// Without hold and servo, a cancels and s^2 + (lambda + k) s + lambda k has the roots -lambda, -k.
 /// With them the cancellation comes late: a r - a r(t - tau) is about a tau r_dot, an added inertia
@@ -23,6 +25,8 @@ struct SampledHeadingLoop {
   double servo_time_constant_s = 0.0;  ///< T, > 0
   double sample_time_s = 0.0;          ///< T_s, > 0
   double direct_share = 0.0;           ///< s: 1 differential, 0 steering, 1/2 combined
+  double motor_time_constant_s = 0.0;  ///< T_m, >= 0
+  int late_samples = 0;                ///< n, 0 ... 1000: how late the readings are
 };
 
 /// Smallest damping ratio zeta = -Re(s)/|s|, s = ln(z)/T_s, over the eigenvalues z of the closed

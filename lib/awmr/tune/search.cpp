@@ -112,9 +112,12 @@ class Problem {
   const TuneOptions& options_;
   const ConstraintContext& context_;
   const Objective& objective_;
+  /// Those of the runs: a mode's objective, and unless nominal its activity.
+  std::size_t simulated_constraints_ =
+      (options_.nominal ? 1 : 2) * objective_.baseline().mode_objective.size();
   unsigned constraints_ = static_cast<unsigned>(
       awmr::residuals(constraints_of(Gains<double>{{1.0, 1.0, 1.0}, {1.0, 1.0}}, context_)).size() +
-      objective_.baseline().mode_objective.size());
+      simulated_constraints_);
   std::optional<Point> point_;
   Candidate last_;
   std::vector<double> residuals_;
@@ -135,10 +138,13 @@ void Problem::look_at(const double* x) {
     last_.simulated = true;
     last_.valid = e.valid;
     last_.objective = e.objective;
-    const std::size_t first = residuals_.size() - e.mode_objective.size();
-    for (std::size_t m = 0; m < e.mode_objective.size(); ++m) {
-      residuals_[first + m] = e.valid ? e.mode_objective[m] - 1.0 : 1.0;
-      last_.violation = std::max(last_.violation, residuals_[first + m]);
+    const std::size_t modes = e.mode_objective.size();
+    const std::size_t first = residuals_.size() - simulated_constraints_;
+    for (std::size_t i = 0; i < simulated_constraints_; ++i) {
+      const double broken = i < modes ? e.mode_objective[i] - 1.0
+                                      : e.mode_activity[i - modes] / options_.activity_max - 1.0;
+      residuals_[first + i] = e.valid ? broken : 1.0;
+      last_.violation = std::max(last_.violation, residuals_[first + i]);
     }
   }
   if (better(last_, nearest)) nearest = last_;

@@ -16,6 +16,7 @@
 #include "awmr/simulate/simulate.h"
 #include "awmr/tune/constraints.h"
 #include "awmr/tune/objective.h"
+#include "awmr/tune/robust.h"
 #include "awmr/tune/search.h"
 
 namespace awmr {
@@ -55,6 +56,22 @@ void check_scenarios(const std::vector<Scenario>& scenarios, std::vector<Fault>&
   }
 }
 
+void check_robustness(const TuneOptions& options, std::vector<Fault>& faults) {
+  if (options.draws < 0 || options.draws > 1000) {
+    faults.push_back({"", fmt::format("draws: {} is not in 0 ... 1000", options.draws)});
+  }
+  if (options.judged_draws < 0 || options.judged_draws > 100000) {
+    faults.push_back(
+        {"", fmt::format("judged_draws: {} is not in 0 ... 100000", options.judged_draws)});
+  }
+  if (!(options.tail_share > 0.0 && options.tail_share <= 1.0)) {
+    faults.push_back({"", fmt::format("tail_share: {} is not in (0, 1]", options.tail_share)});
+  }
+  if (!(options.activity_max > 0.0) || !std::isfinite(options.activity_max)) {
+    faults.push_back({"", fmt::format("activity_max: {} is not above 0", options.activity_max)});
+  }
+}
+
 Status check(const TuneOptions& options) {
   std::vector<Fault> faults;
   if (!(options.margin > 0.0 && options.margin < 1.0)) {
@@ -63,6 +80,7 @@ Status check(const TuneOptions& options) {
   if (options.global_evaluations < 1 || options.local_evaluations < 0) {
     faults.push_back({"", "evaluations: global at least 1, local at least 0"});
   }
+  check_robustness(options, faults);
   check_weights(options.weights, faults);
   check_bounds(options.bounds.lambda, "lambda", faults);
   check_bounds(options.bounds.mu, "mu", faults);
@@ -89,6 +107,7 @@ Status check_work(const TuneOptions& options, const std::vector<Scenario>& scena
   }
   const double evaluations =
       static_cast<double>(options.global_evaluations) + options.local_evaluations;
+  if (!options.nominal) steps *= 1.0 + options.draws;
   if (evaluations * steps <= kMostSearchSteps) return {};
   return input_error(
       "", fmt::format("evaluations: {:g} of {:.3g} RK4 steps each ({} scenarios in every mode) are "
@@ -154,36 +173,21 @@ ConstraintContext context_of(const TuneOptions& options, const Plant<double>& pl
   return context;
 }
 
-}  // namespace
-
-Scenario default_tuning_scenario() {
-  return heading_steps({30.0, -30.0}, {.name = "heading_30_-30"});
-}
-
-Scenario held_out_scenario() {
-  return heading_steps({60.0, 0.0}, {.speed_mps = 0.7, .name = "held_out_60_0"});
-}
-
-Result<Tuning> tune(const Model& model, const TuneOptions& options) {
-  AWMR_RETURN_IF_ERROR(check(options));
-  AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, model.plant());
-
-  std::vector<Scenario> scenarios = options.scenarios;
-  if (scenarios.empty()) scenarios.push_back(default_tuning_scenario());
-  AWMR_RETURN_IF_ERROR(check_work(options, scenarios, plant, model));
-  const ConstraintContext context = context_of(options, plant, model.vehicle, scenarios);
+/// Searches on one setting.
+Result<Tuning> tune_on(const ObjectiveSetting& setting, const ConstraintContext& context,
+                       const TuneOptions& options) {
+  const std::span<const YawMode> modes = yaw_modes(setting.vehicle);
   const Candidate start = feasible_start(options, context, kPaperGains);
   if (start.violation > 0.0) return infeasible(start, context);
-
-  const Objective objective(plant, model.vehicle, options.weights, scenarios, kPaperGains);
+  const Objective objective(setting, kPaperGains);
   AWMR_ASSIGN_OR_RETURN(const SearchResult found, search(options, context, objective, start.gains));
-  if (!found.best) return not_better(found, objective, yaw_modes(model.vehicle));
+  if (!found.best) return not_better(found, objective, modes);
   const Gains<double>& gains = found.best->gains;
   const Evaluation tuned = objective(gains);
-  if (!beats_everywhere(tuned)) return not_better(found, objective, yaw_modes(model.vehicle));
-  const Objective held_out(plant, model.vehicle, options.weights, {held_out_scenario()},
-                           kPaperGains);
-  const Evaluation judged = held_out(gains);
+  if (!beats_everywhere(tuned)) return not_better(found, objective, modes);
+  ObjectiveSetting elsewhere = setting;
+  elsewhere.scenarios = {held_out_scenario()};
+  const Evaluation judged = Objective(std::move(elsewhere), kPaperGains)(gains);
 
   return Tuning{.gains = gains,
                 .constraints = constraints_of(gains, context),
@@ -198,7 +202,70 @@ Result<Tuning> tune(const Model& model, const TuneOptions& options) {
                 .seed = options.seed,
                 .simulated = found.simulated,
                 .held_out_scores = judged.scores,
-                .held_out_objective = judged.objective};
+                .held_out_objective = judged.objective,
+                .robust = {}};
+}
+
+/// Draws to judge on are not those that were tuned on.
+constexpr std::uint64_t kJudgedSeeds = 0x6a75646765ULL;
+
+/// `setting` and `context` are those of the nominal search.
+Result<Tuning> tune_robustly(const Model& model, ObjectiveSetting setting,
+                             ConstraintContext context, const TuneOptions& options) {
+  TuneOptions nominal_options = options;
+  nominal_options.nominal = true;
+  const Result<Tuning> nominal = tune_on(setting, context, nominal_options);
+
+  RobustTuning robust{.conditions = conditions_of(model.vehicle),
+                      .from_covariance = !model.covariance.parameters.empty(),
+                      .nominal = {},
+                      .judged = {}};
+  const TuningConditions& c = robust.conditions;
+  AWMR_ASSIGN_OR_RETURN(setting.plants, plants_of(model, options.draws, options.seed));
+  setting.scenarios = under(c, std::move(setting.scenarios));
+  context.draws.assign(setting.plants.begin() + 1, setting.plants.end());
+  context.heading_noise_rad = radians(c.heading_noise_deg);
+  context.latency_s = std::max(c.heading_late_s, c.yaw_rate_late_s);
+  context.motor_time_constant_s = c.motor_time_constant_s;
+  AWMR_ASSIGN_OR_RETURN(Tuning tuning, tune_on(setting, context, options));
+
+  std::vector<NamedCandidate> candidates{{"robust", tuning.gains}, {"baseline", tuning.baseline}};
+  if (nominal) {
+    robust.nominal = nominal->gains;
+    candidates.push_back({"nominal", nominal->gains});
+  }
+  setting.seed ^= kJudgedSeeds;
+  AWMR_ASSIGN_OR_RETURN(setting.plants, plants_of(model, options.judged_draws, setting.seed));
+  if (options.judged_draws > 0) robust.judged = judge(setting, candidates);
+  tuning.robust = std::move(robust);
+  return tuning;
+}
+
+}  // namespace
+
+Scenario default_tuning_scenario() {
+  return heading_steps({30.0, -30.0}, {.name = "heading_30_-30"});
+}
+
+Scenario held_out_scenario() {
+  return heading_steps({60.0, 0.0}, {.speed_mps = 0.7, .name = "held_out_60_0"});
+}
+
+Result<Tuning> tune(const Model& model, const TuneOptions& options) {
+  AWMR_RETURN_IF_ERROR(check(options));
+  AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, model.plant());
+  std::vector<Scenario> scenarios = options.scenarios;
+  if (scenarios.empty()) scenarios.push_back(default_tuning_scenario());
+  AWMR_RETURN_IF_ERROR(check_work(options, scenarios, plant, model));
+  ObjectiveSetting setting{.plants = {plant},
+                           .vehicle = model.vehicle,
+                           .weights = options.weights,
+                           .scenarios = std::move(scenarios),
+                           .tail_share = options.tail_share,
+                           .seed = options.seed};
+  ConstraintContext context = context_of(options, plant, model.vehicle, setting.scenarios);
+  if (options.nominal) return tune_on(setting, context, options);
+  return tune_robustly(model, std::move(setting), std::move(context), options);
 }
 
 }  // namespace awmr

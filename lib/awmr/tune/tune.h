@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -46,7 +47,31 @@ struct GainBounds {
   Interval speed_epsilon{0.05, 10.0};  ///< m/s
 };
 
+/// What gains meet on a real vehicle beside the model. vehicle.json gives it (`noise`, `latency_s`,
+/// `motor`); where it does not, these: a compass, a MEMS gyro and a coarse encoder, read in the
+/// sample before, and small brushed motors.
+struct TuningConditions {
+  double heading_noise_deg = 1.0;
+  double yaw_rate_noise_degps = 0.5;
+  double speed_noise_mps = 0.02;
+  double heading_late_s = 0.02;
+  double yaw_rate_late_s = 0.02;
+  double speed_late_s = 0.02;
+  double motor_time_constant_s = 0.02;
+};
+
 struct TuneOptions {
+  /// On the model's own values, with true readings at once and motors without lag, as a simulation
+  /// alone would have it. Else robust: `draws` plants from the model's covariance beside its own,
+  /// under TuningConditions.
+  bool nominal = false;
+  int draws = 5;           ///< 0 ... 1000
+  int judged_draws = 100;  ///< fresh ones that gains are judged on afterwards, 0 ... 100000
+  /// Share of the worst draws that count as the tail: the objective is the mean of the mean over all
+  /// draws and of that over the tail (CVaR), (0, 1].
+  double tail_share = 0.2;
+  /// In every mode the commands may vary by this much of what they do with the paper's gains, > 0.
+  double activity_max = 1.5;
   /// kPaper where the paper's own condition is to be kept; it admits twice the eps/mu.
   ReachingForm form = ReachingForm::kStrict;
   /// Reaching time constant <= margin T1, in (0, 1). A smaller one parts the two phases further.
@@ -78,7 +103,32 @@ struct ModeScore {
   YawMode mode{};
   Metrics metrics{};
   double objective = 0.0;  ///< weighted mean of the normalised terms; 1 for the baseline itself
-  double speed_itae_m_s = 0.0;  ///< integral of t |u_d - u|, m s
+  double speed_itae_m_s = 0.0;           ///< integral of t |u_d - u|, m s
+  double steering_rate_rms_degps = 0.0;  ///< of the commanded angle
+};
+
+/// A figure of the runs of one set of gains in one mode, over the judged draws.
+struct JudgedFigure {
+  std::string name;  ///< "heading_iae_degs"
+  double median = 0.0;
+  double q95 = 0.0;
+  double tail_mean = 0.0;  ///< over the worst tail_share of the draws (CVaR)
+};
+
+/// One set of gains in one mode, over the judged draws.
+struct JudgedGains {
+  std::string gains;  ///< "robust", "nominal", "baseline"
+  YawMode mode{};
+  double completed_share = 0.0;  ///< settled after every step
+  std::vector<JudgedFigure> figures;
+};
+
+/// What robust gains were tuned under and how they do.
+struct RobustTuning {
+  TuningConditions conditions;
+  bool from_covariance = false;  ///< false: the model has none, so that only noise was drawn
+  std::optional<Gains<double>> nominal;  ///< those of `--nominal`; absent where there are none
+  std::vector<JudgedGains> judged;       ///< by gains, then mode
 };
 
 struct Tuning {
@@ -98,12 +148,16 @@ struct Tuning {
   /// there: for information, it decides nothing.
   std::vector<ModeScore> held_out_scores;
   double held_out_objective = 0.0;
+  std::optional<RobustTuning> robust;  ///< absent for nominal gains
 };
 
 /// The scenario tuned on when none is given: 30 then -30 deg at 1 m/s, 20 s, from rest. [paper 4.3]
 Scenario default_tuning_scenario();
 /// The scenario judged on afterwards: 60 then 0 deg at 0.7 m/s, 20 s, from rest.
 Scenario held_out_scenario();
+
+/// The vehicle's where it says, else the defaults.
+TuningConditions conditions_of(const Vehicle& vehicle);
 
 /// Deterministic: model, options and seed fix every bit of the result, whatever the number of
 /// cores. Errors (refused): no gains within the bounds meet the constraints (the tightest one is

@@ -55,6 +55,16 @@ void read_numbers(JsonObject& json, TuneOptions& options) {
   options.local_evaluations =
       static_cast<int>(json.optional_integer("local_evaluations", 0, kEvaluationLimit)
                            .value_or(options.local_evaluations));
+  options.nominal = json.optional_boolean("nominal").value_or(options.nominal);
+  options.draws = static_cast<int>(json.optional_integer("draws", 0, 1000).value_or(options.draws));
+  options.judged_draws = static_cast<int>(
+      json.optional_integer("judged_draws", 0, 100'000).value_or(options.judged_draws));
+  options.tail_share =
+      json.optional_number("tail_share", {.min = 0.0, .max = 1.0, .min_excluded = true})
+          .value_or(options.tail_share);
+  options.activity_max =
+      json.optional_number("activity_max", {.min = 0.0, .max = 1e6, .min_excluded = true})
+          .value_or(options.activity_max);
   if (const auto seed = json.optional_integer("seed", 0, 4'294'967'295L)) {
     options.seed = static_cast<std::uint64_t>(*seed);
   }
@@ -98,7 +108,8 @@ Json score_json(const ModeScore& score) {
           {"sideslip_max_deg", m.sideslip_max_deg},
           {"yaw_rate_max_degps", m.yaw_rate_max_degps},
           {"control_variation", m.control_variation},
-          {"control_effort", m.control_effort}};
+          {"control_effort", m.control_effort},
+          {"steering_rate_rms_degps", score.steering_rate_rms_degps}};
 }
 
 /// By mode, then scenario.
@@ -119,6 +130,35 @@ Json constraints_json(const std::vector<ConstraintReport>& constraints) {
                     {"limit", c.limit},
                     {"margin", c.margin},
                     {"meaning", c.meaning}});
+  }
+  return json;
+}
+
+Json robust_json(const RobustTuning& robust, const TuneOptions& options) {
+  const TuningConditions& c = robust.conditions;
+  Json json = {
+      {"draws", options.draws},
+      {"drawn_from", robust.from_covariance ? "covariance" : "noise alone"},
+      {"seed", options.seed},
+      {"tail_share", options.tail_share},
+      {"activity_max", options.activity_max},
+      {"noise",
+       {{"heading_deg", c.heading_noise_deg},
+        {"yaw_rate_degps", c.yaw_rate_noise_degps},
+        {"speed_mps", c.speed_noise_mps}}},
+      {"latency_s",
+       {{"heading", c.heading_late_s}, {"yaw_rate", c.yaw_rate_late_s}, {"speed", c.speed_late_s}}},
+      {"motor_time_constant_s", c.motor_time_constant_s},
+      {"judged_draws", options.judged_draws},
+      {"quantiles", Json::object()}};
+  if (robust.nominal) json["nominal"] = gains_to_json(*robust.nominal);
+  for (const JudgedGains& judged : robust.judged) {
+    Json& entry = json["quantiles"][std::string(name_of(judged.mode))][judged.gains];
+    entry["completed_share"] = judged.completed_share;
+    for (const JudgedFigure& figure : judged.figures) {
+      entry[figure.name] = {
+          {"median", figure.median}, {"q95", figure.q95}, {"tail_mean", figure.tail_mean}};
+    }
   }
   return json;
 }
@@ -174,6 +214,7 @@ std::string gains_text(const Tuning& tuning, const TuneOptions& options,
                     {"simulated", tuning.simulated},
                     {"seed", tuning.seed},
                     {"stop_reason", tuning.stop_reason}};
+  if (tuning.robust) json["robust"] = robust_json(*tuning.robust, options);
   Json baseline = gains_to_json(tuning.baseline);
   baseline["objective"] = tuning.baseline_objective;
   baseline["metrics"] = scores_json(tuning.baseline_scores);

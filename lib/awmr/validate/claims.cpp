@@ -77,17 +77,19 @@ int reversals(std::span<const double> signal, double band) {
 }
 
 std::vector<Claim> check_claims(const Model& model, const Plant<double>& plant,
-                                const std::optional<Gains<double>>& gains) {
+                                const std::optional<Gains<double>>& gains,
+                                const ControlOptions& control) {
   std::vector<Claim> claims;
-  claims.push_back(check_straight_run(model, plant));
-  claims.push_back(check_circle(model, plant));
+  claims.push_back(check_straight_run(model, plant, control));
+  claims.push_back(check_circle(model, plant, control));
   if (gains) {
-    for (Claim& claim : check_heading_claims(model, plant, *gains)) {
+    const ClaimSetting setting{model, plant, *gains, control};
+    for (Claim& claim : check_heading_claims(setting)) {
       claims.push_back(std::move(claim));
     }
     // C13 goes after C8 to C12.
     const auto driven = claims.end() - 1;
-    std::vector<Claim> guided = check_guidance_claims(model, *gains);
+    std::vector<Claim> guided = check_guidance_claims(setting);
     claims.insert(driven, std::make_move_iterator(guided.begin()),
                   std::make_move_iterator(guided.end()));
   }

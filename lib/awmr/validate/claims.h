@@ -5,6 +5,7 @@
 /// reproduced, with the figure that says so. Private to this folder.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <span>
@@ -19,6 +20,9 @@
 #include "awmr/validate/validate.h"
 
 namespace awmr {
+
+inline constexpr double kFullThrust =
+    2.0;  ///< the paper's largest tau_speed             [paper 3.5]
 
 /// One mode's run of a claim's scenario.
 struct ModeRun {
@@ -36,18 +40,45 @@ Run run_or_failed(const Model& model, const Gains<double>& gains, const Scenario
 /// for each of the scenario's corner.
 ModeRuns run_modes(const Model& model, const Gains<double>& gains, const Scenario& scenario);
 
+/// What the claims are simulated with.
+struct ClaimSetting {
+  const Model& model;
+  const Plant<double>& plant;  ///< the model's
+  const Gains<double>& gains;
+  ControlOptions control = {};  ///< of every scenario
+
+  ModeRuns run(Scenario scenario) const {
+    scenario.control = control;
+    return run_modes(model, gains, scenario);
+  }
+};
+
+template <class Condition>
+bool all_modes(const ModeRuns& runs, Condition condition) {
+  return std::all_of(runs.begin(), runs.end(), condition);
+}
+
+/// Where the condition that a claim makes of every mode holds.
+template <class Condition>
+std::vector<ClaimInMode> verdicts_by_mode(const ModeRuns& runs, Condition condition) {
+  std::vector<ClaimInMode> verdicts;
+  for (const ModeRun& run : runs) verdicts.push_back({run.mode, condition(run)});
+  return verdicts;
+}
+
 /// C1: at full thrust and straight ahead, u settles at u_max.                    [paper 3.5.1]
-Claim check_straight_run(const Model& model, const Plant<double>& plant);
+Claim check_straight_run(const Model& model, const Plant<double>& plant,
+                         const ControlOptions& control = {});
 /// C2: with constant thrust and turning moment the path tends to a circle.       [paper 3.5.2]
-Claim check_circle(const Model& model, const Plant<double>& plant);
+Claim check_circle(const Model& model, const Plant<double>& plant,
+                   const ControlOptions& control = {});
 /// C14: lambda 3, mu 50, eps 12 give T1 = 0.33 s and T2 = 0.12 s.                [paper 4.1]
 Claim check_time_constants(const std::optional<Gains<double>>& gains);
 /// C3 to C7 from one set of runs, then C13.                             [paper 4.3, section 6]
-std::vector<Claim> check_heading_claims(const Model& model, const Plant<double>& plant,
-                                        const Gains<double>& gains);
+std::vector<Claim> check_heading_claims(const ClaimSetting& setting);
 
 /// C8 to C12: waypoints, line, obstacles, timed path, best modes.           [paper 5, section 7]
-std::vector<Claim> check_guidance_claims(const Model& model, const Gains<double>& gains);
+std::vector<Claim> check_guidance_claims(const ClaimSetting& setting);
 
 /// Longest time that settling may take to be called fast, see C3: what the mode's largest steady
 /// yaw rate needs for the step, plus 4 (T1 + 2 T2) of the paper's gains: e^-4 = 1.8 %, within the 2
@@ -59,6 +90,7 @@ int reversals(std::span<const double> signal, double band);
 
 /// In the paper's order; with gains, all; without, those that need none.
 std::vector<Claim> check_claims(const Model& model, const Plant<double>& plant,
-                                const std::optional<Gains<double>>& gains);
+                                const std::optional<Gains<double>>& gains,
+                                const ControlOptions& control = {});
 
 }  // namespace awmr

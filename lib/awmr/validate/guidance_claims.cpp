@@ -47,12 +47,6 @@ std::string modes_without(const ModeRuns& runs, Condition condition) {
   return names;
 }
 
-struct Courses {
-  const Model& model;
-  const Gains<double>& gains;
-  ModeRuns run(const Scenario& scenario) const { return run_modes(model, gains, scenario); }
-};
-
 Claim waypoints_reached(const ModeRuns& runs) {
   const auto steering = [](const ModeRun& run) -> std::optional<double> {
     return largest_steering_deg(run);
@@ -68,7 +62,9 @@ Claim waypoints_reached(const ModeRuns& runs) {
                                     by_mode(runs, "s", finish_s), by_mode(runs, "deg", steering),
                                     by_mode(runs, "m", path_m)),
               .tolerance = "each within 1 m (the paper prints no radius); d_r at most 20 deg",
-              .why = {}};
+              .why = {},
+              .modes = verdicts_by_mode(
+                  runs, [&](const ModeRun& run) { return completed(run) && within(run); })};
   claim.why = !reached ? "not all reached in 180 s: " + modes_without(runs, completed) +
                              " turns too wide for the acceptance radius"
               : !all_within ? "the vehicle's stop of the front wheels lies beyond 20 deg"
@@ -88,9 +84,9 @@ double final_cross_track_m(const ModeRun& run) {
   return largest;
 }
 
-Claim line_followed(const Courses& courses) {
+Claim line_followed(const ClaimSetting& setting) {
   const Scenario scenario = line_scenario();
-  const ModeRuns runs = courses.run(scenario);
+  const ModeRuns runs = setting.run(scenario);
   const double accepted_m = kOnTheLineShare * std::get<LineCourse>(scenario.guidance).law.width_m;
   const auto off = [](const ModeRun& run) -> std::optional<double> {
     return final_cross_track_m(run);
@@ -108,7 +104,8 @@ Claim line_followed(const Courses& courses) {
           .why = all_on_it ? "with beta taken off, d_dot = -U sin(Delta sat(d/R)) [paper (113)] "
                              "once the heading follows"
                            : "the heading does not follow its reference closely enough in " +
-                                 modes_without(runs, on_it)};
+                                 modes_without(runs, on_it),
+          .modes = verdicts_by_mode(runs, on_it)};
 }
 
 bool alike(const ModeRuns& runs) {
@@ -121,9 +118,9 @@ bool alike(const ModeRuns& runs) {
   return most <= (1.0 + kAlikeShare) * least;
 }
 
-Claim obstacles_avoided(const Courses& courses) {
-  const ModeRuns line = courses.run(obstacle_on_line_scenario());
-  const ModeRuns points = courses.run(obstacle_between_waypoints_scenario());
+Claim obstacles_avoided(const ClaimSetting& setting) {
+  const ModeRuns line = setting.run(obstacle_on_line_scenario());
+  const ModeRuns points = setting.run(obstacle_between_waypoints_scenario());
   const bool avoided = all_modes(line, completed) && all_modes(points, completed);
   const bool same = alike(line) && alike(points);
   const auto figure = [](const ModeRuns& runs) {
@@ -164,10 +161,10 @@ double least_radius_m(const Lissajous<double>& path, double duration_s) {
   return least;
 }
 
-Claim timed_path_followed(const Courses& courses) {
+Claim timed_path_followed(const ClaimSetting& setting) {
   const Scenario open_scenario = lissajous_scenario(false);
-  const ModeRuns open = courses.run(open_scenario);
-  const ModeRuns closed = courses.run(lissajous_scenario(true));
+  const ModeRuns open = setting.run(open_scenario);
+  const ModeRuns closed = setting.run(lissajous_scenario(true));
   const auto off = [](const ModeRun& run) -> std::optional<double> { return off_path_m(run); };
   const auto followed = [&](const ModeRun& run) { return *off(run) <= kPathTolerance_m; };
   const bool all = all_modes(open, followed);
@@ -187,7 +184,8 @@ Claim timed_path_followed(const Courses& courses) {
                        "the open form here"
                      : fmt::format("the path turns with a radius down to {:.2f} m, too tight for "
                                    "{}; open in position, what is lost there stays lost",
-                                   radius_m, slow)};
+                                   radius_m, slow),
+          .modes = verdicts_by_mode(open, followed)};
 }
 
 /// Speed below u_d at most, once reached.
@@ -204,8 +202,8 @@ bool is_best(const ModeRuns& runs, YawMode mode, Value value) {
   });
 }
 
-Claim best_modes(const Courses& courses, const ModeRuns& points) {
-  const ModeRuns path = courses.run(polyline_scenario());
+Claim best_modes(const ClaimSetting& setting, const ModeRuns& points) {
+  const ModeRuns path = setting.run(polyline_scenario());
   const auto best_for = [](const ModeRuns& runs, YawMode mode) {
     return is_best(runs, mode, finish_s) && is_best(runs, mode, cross_track_m);
   };
@@ -238,11 +236,10 @@ Claim best_modes(const Courses& courses, const ModeRuns& points) {
 
 }  // namespace
 
-std::vector<Claim> check_guidance_claims(const Model& model, const Gains<double>& gains) {
-  const Courses courses{model, gains};
-  const ModeRuns points = courses.run(waypoint_scenario());
-  return {waypoints_reached(points), line_followed(courses), obstacles_avoided(courses),
-          timed_path_followed(courses), best_modes(courses, points)};
+std::vector<Claim> check_guidance_claims(const ClaimSetting& setting) {
+  const ModeRuns points = setting.run(waypoint_scenario());
+  return {waypoints_reached(points), line_followed(setting), obstacles_avoided(setting),
+          timed_path_followed(setting), best_modes(setting, points)};
 }
 
 }  // namespace awmr

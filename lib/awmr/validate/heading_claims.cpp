@@ -72,7 +72,9 @@ Claim heading_converges(const HeadingSetting& setting, const ModeRuns& runs) {
                         return setting.allowed_s(run.mode);
                       }),
               kNoOvershoot_deg),
-          .why = why_heading_converges_or_not(setting, runs, reproduced, none_over)};
+          .why = why_heading_converges_or_not(setting, runs, reproduced, none_over),
+          .modes = verdicts_by_mode(
+              runs, [&](const ModeRun& run) { return fast(run) && without_overshoot(run); })};
 }
 
 bool same_heading_gains(const HeadingGains<double>& a, const HeadingGains<double>& b) {
@@ -105,7 +107,7 @@ Claim sideslip_smallest(const HeadingSetting& setting, const ModeRuns& runs) {
                  : "sway follows (tau_steering/l_f - m' r u)/a_s: differential has no steering "
                    "force, but turns fast enough for m' r u alone to make more sway"};
   if (!same_heading_gains(setting.gains.heading, kPaperGains.heading)) {
-    const HeadingSetting paper{setting.model, setting.plant, kPaperGains};
+    const HeadingSetting paper{{setting.model, setting.plant, kPaperGains, setting.control}};
     claim.figure += "; with the paper's gains: largest " +
                     by_mode(paper.run("C6", kSimulated_deg), "deg", sideslip);
   }
@@ -132,8 +134,8 @@ Claim no_chattering(const Model& model, const ModeRuns& runs) {
   const auto rate = [&](const ModeRun& run) -> std::optional<double> {
     return reversals_per_second(model, run);
   };
-  const bool quiet =
-      all_modes(runs, [&](const ModeRun& run) { return *rate(run) <= kReversalsPerSecond; });
+  const auto rests = [&](const ModeRun& run) { return *rate(run) <= kReversalsPerSecond; };
+  const bool quiet = all_modes(runs, rests);
   return {.id = "C7",
           .statement = "no chattering",
           .reproduced = quiet,
@@ -146,7 +148,8 @@ Claim no_chattering(const Model& model, const ModeRuns& runs) {
           .why = quiet ? "inside the boundary layer the law is continuous: it moves with the steps "
                          "and then rests"
                        : "the loop is too stiff for the sample time or the servo: the commands "
-                         "reverse without a step"};
+                         "reverse without a step",
+          .modes = verdicts_by_mode(runs, rests)};
 }
 
 Claim yaw_rate_limited(const HeadingSetting& setting) {
@@ -180,9 +183,9 @@ Claim yaw_rate_limited(const HeadingSetting& setting) {
 
 }  // namespace
 
-std::vector<Claim> check_heading_claims(const Model& model, const Plant<double>& plant,
-                                        const Gains<double>& gains) {
-  const HeadingSetting setting{model, plant, gains};
+std::vector<Claim> check_heading_claims(const ClaimSetting& claim_setting) {
+  const HeadingSetting setting{claim_setting};
+  const Model& model = setting.model;
   const ModeRuns runs = setting.run("C3", kSimulated_deg);
   return {heading_converges(setting, runs), check_speed_converges(setting, runs),
           check_speed_held(setting, runs),  sideslip_smallest(setting, runs),

@@ -39,17 +39,8 @@ inline const ModeRun& in_mode(const ModeRuns& runs, YawMode mode) {
                        [mode](const ModeRun& run) { return run.mode == mode; });
 }
 
-template <class Condition>
-bool all_modes(const ModeRuns& runs, Condition condition) {
-  return std::all_of(runs.begin(), runs.end(), condition);
-}
-
 /// The loop that the heading claims run.
-struct HeadingSetting {
-  const Model& model;
-  const Plant<double>& plant;
-  const Gains<double>& gains;
-
+struct HeadingSetting : ClaimSetting {
   double allowed_s(YawMode mode) const {
     return allowed_settling_s(plant, model.vehicle, mode, radians(kLargestStep_deg), kSpeed_mps);
   }
@@ -62,7 +53,7 @@ struct HeadingSetting {
   ModeRuns run(std::string name, const std::vector<double>& headings_deg) const {
     const HeadingStepsOptions options{
         .hold_s = hold_s(), .speed_mps = kSpeed_mps, .name = std::move(name)};
-    return run_modes(model, gains, heading_steps(headings_deg, options));
+    return ClaimSetting::run(heading_steps(headings_deg, options));
   }
 };
 

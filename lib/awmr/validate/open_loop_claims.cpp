@@ -14,7 +14,6 @@
 namespace awmr {
 namespace {
 
-constexpr double kFullThrust = 2.0;  ///< the paper's largest tau_speed                 [paper 3.5]
 constexpr double kCircleTurn_m = 0.4;  ///< the paper's constant tau_turn [paper 3.5.2]
 
 /// Agreement with the steady speed solved from g1(u) = tau_speed: the run lasts long enough for
@@ -26,12 +25,14 @@ constexpr double kMeasuredTolerance = 0.05;
 /// Largest distance of the last turn from its circle, over the radius.
 constexpr double kCircleTolerance = 0.01;
 
-Run run_open_loop(const Model& model, YawMode mode, OpenLoop forces, double duration_s) {
+Run run_open_loop(const Model& model, YawMode mode, OpenLoop forces, double duration_s,
+                  const ControlOptions& control) {
   const Scenario scenario{.name = "open loop",
                           .duration_s = duration_s,
                           .initial = {},
                           .speed_mps = 0.0,
-                          .guidance = forces};
+                          .guidance = forces,
+                          .control = control};
   // Open loop needs no gains; any will do.
   return run_or_failed(model, kPaperGains, scenario, mode);
 }
@@ -66,11 +67,11 @@ std::vector<Point> last_turn(const Run& run) {
   return points;
 }
 
-Turn turn_of(const Model& model, YawMode mode) {
+Turn turn_of(const Model& model, YawMode mode, const ControlOptions& control) {
   Turn turn{.mode = mode, .circle = {}};
   // A slow vehicle needs longer for two turns.
   for (const double duration_s : {60.0, 240.0, 960.0}) {
-    const Run run = run_open_loop(model, mode, {kFullThrust, kCircleTurn_m}, duration_s);
+    const Run run = run_open_loop(model, mode, {kFullThrust, kCircleTurn_m}, duration_s, control);
     const State<double>& end = run.rows.back().state;
     turn.speed_mps = std::hypot(end.u_mps, end.v_mps);
     turn.circle = fit_circle(last_turn(run));
@@ -113,13 +114,14 @@ std::string why_not_settled(const Model& model) {
 
 }  // namespace
 
-Claim check_straight_run(const Model& model, const Plant<double>& plant) {
+Claim check_straight_run(const Model& model, const Plant<double>& plant,
+                         const ControlOptions& control) {
   Claim claim{.id = "C1",
               .statement = "tau_speed 2 without turning: the speed settles at u_max",
               .figure = {},
               .tolerance = {},
               .why = {}};
-  const Run run = run_open_loop(model, YawMode::kDifferential, {kFullThrust, 0.0}, 60.0);
+  const Run run = run_open_loop(model, YawMode::kDifferential, {kFullThrust, 0.0}, 60.0, control);
   const double settled_mps = run.rows.back().state.u_mps;
   const double steady_mps = std::pow(kFullThrust / plant.surge.alpha, 1.0 / plant.surge.beta);
   const bool settles = std::abs(settled_mps - steady_mps) <= kSteadyTolerance * steady_mps;
@@ -152,7 +154,7 @@ Claim check_straight_run(const Model& model, const Plant<double>& plant) {
   return claim;
 }
 
-Claim check_circle(const Model& model, const Plant<double>& plant) {
+Claim check_circle(const Model& model, const Plant<double>& plant, const ControlOptions& control) {
   Claim claim{.id = "C2",
               .statement = "constant tau_speed 2 and tau_turn 0.4 m: the path tends to a circle",
               .figure = {},
@@ -162,7 +164,7 @@ Claim check_circle(const Model& model, const Plant<double>& plant) {
               .why = {}};
   claim.reproduced = true;
   for (const YawMode mode : kYawModes) {
-    const Turn turn = turn_of(model, mode);
+    const Turn turn = turn_of(model, mode, control);
     claim.figure += (claim.figure.empty() ? "" : "; ") + figure_of(turn);
     claim.reproduced = claim.reproduced && turn.circle &&
                        turn.circle->deviation_m <= kCircleTolerance * turn.circle->radius_m;

@@ -43,10 +43,10 @@ Claim check_speed_converges(const HeadingSetting& setting, const ModeRuns& runs)
     return run.run.rows.back().state.u_mps - kSpeed_mps;
   };
   constexpr double kAccepted_mps = kNoSpeedError * kSpeed_mps;
-  const bool none_over =
-      all_modes(runs, [&](const ModeRun& run) { return *overshoot(run) <= kAccepted_mps; });
-  const bool no_error =
-      all_modes(runs, [&](const ModeRun& run) { return std::abs(*error(run)) <= kAccepted_mps; });
+  const auto is_over = [&](const ModeRun& run) { return *overshoot(run) > kAccepted_mps; };
+  const auto is_right = [&](const ModeRun& run) { return std::abs(*error(run)) <= kAccepted_mps; };
+  const bool none_over = all_modes(runs, [&](const ModeRun& run) { return !is_over(run); });
+  const bool no_error = all_modes(runs, is_right);
   return {.id = "C4",
           .statement = "the speed converges to u_d without overshoot and without steady error",
           .reproduced = none_over && no_error,
@@ -62,7 +62,9 @@ Claim check_speed_converges(const HeadingSetting& setting, const ModeRuns& runs)
                  : !no_error ? "the error that remains is what the force limits or a turn that is "
                                "still going on leave"
                              : "while the front wheels move, their lag and the force limits make "
-                               "the thrust differ from the one commanded"};
+                               "the thrust differ from the one commanded",
+          .modes = verdicts_by_mode(
+              runs, [&](const ModeRun& run) { return !is_over(run) && is_right(run); })};
 }
 
 namespace {
@@ -82,10 +84,9 @@ std::string speed_drop_elsewhere(const HeadingSetting& setting) {
     Model other = setting.model;
     other.vehicle.wheel_force = limits;
     // As long as the vehicle with its own limits, so that the figures are of the same run.
-    const ModeRuns runs = run_modes(
-        other, setting.gains,
-        heading_steps(kSimulated_deg,
-                      {.hold_s = setting.hold_s(), .speed_mps = kSpeed_mps, .name = "C5"}));
+    const ModeRuns runs =
+        ClaimSetting{other, setting.plant, setting.gains, setting.control}.run(heading_steps(
+            kSimulated_deg, {.hold_s = setting.hold_s(), .speed_mps = kSpeed_mps, .name = "C5"}));
     text += fmt::format("; with F' in [{}, {}]: {}", limits.lo, limits.hi,
                         by_mode(runs, "m/s", [&](const ModeRun& run) -> std::optional<double> {
                           return speed_drop(run, setting.hold_s());

@@ -9,6 +9,7 @@
 #include "awmr/core/result.h"
 #include "awmr/model/gains.h"
 #include "awmr/model/model.h"
+#include "awmr/simulate/scenario.h"
 #include "awmr/validate/logs.h"
 
 namespace awmr {
@@ -25,6 +26,22 @@ struct TrialResidual {
   std::optional<double> relative_error;  ///< (predicted - measured)/measured
 };
 
+/// A setting that the paper leaves open, and what becomes of a claim there.
+struct ClaimCase {
+  AllocationForm allocation = AllocationForm::kExact;
+  Interval wheel_force;      ///< F' of one wheel
+  double mass_factor = 1.0;  ///< of m' and I'z, > 0
+  CombinedSplit split = CombinedSplit::kRedistribute;
+  bool reproduced = false;
+};
+
+/// A claim about every mode, in one of them.
+struct ClaimInMode {
+  YawMode mode{};
+  bool reproduced = false;
+  std::vector<ClaimCase> cases = {};
+};
+
 struct Claim {
   std::string id;         ///< "C1"
   std::string statement;  ///< what the paper says
@@ -32,6 +49,10 @@ struct Claim {
   std::string figure;     ///< the numbers found
   std::string tolerance;  ///< what counts as reproduced
   std::string why;
+  std::vector<ClaimInMode> modes = {};  ///< of a claim that says the same of every mode
+  /// Over all that is open, where that was asked for (ValidateOptions::open_cases).
+  std::vector<ClaimCase> cases = {};
+  std::string decided_by = {};  ///< the settings of the cases that it hangs on, in words
 };
 
 struct Validation {
@@ -49,6 +70,8 @@ struct Validation {
 
 struct ValidateOptions {
   double tolerance = 0.15;  ///< largest accepted RMS relative error of a trial kind, > 0
+  /// Also judge every claim over what the paper leaves open (see open_cases.h), some seconds.
+  bool open_cases = false;
 };
 
 /// What the model says a trial should have measured:

@@ -36,13 +36,44 @@ Json log_json(const LogValidation& log) {
           {"channels", channels}};
 }
 
+const char* verdict_of(bool reproduced) { return reproduced ? "reproduced" : "not-reproduced"; }
+
+Json case_json(const ClaimCase& open) {
+  return {{"allocation", name_in(kAllocationFormNames, open.allocation)},
+          {"wheel_force", {open.wheel_force.lo, open.wheel_force.hi}},
+          {"mass_factor", open.mass_factor},
+          {"split", name_in(kCombinedSplitNames, open.split)},
+          {"verdict", verdict_of(open.reproduced)}};
+}
+
+/// Those of the claim, then those of each mode.
+Json cases_json(const Claim& claim) {
+  Json json = Json::array();
+  for (const ClaimCase& open : claim.cases) json.push_back(case_json(open));
+  for (const ClaimInMode& one : claim.modes) {
+    for (const ClaimCase& open : one.cases) {
+      Json entry = case_json(open);
+      entry["mode"] = name_of(one.mode);
+      json.push_back(std::move(entry));
+    }
+  }
+  return json;
+}
+
 Json claim_json(const Claim& claim) {
-  return {{"id", claim.id},
-          {"statement", claim.statement},
-          {"verdict", claim.reproduced ? "reproduced" : "not-reproduced"},
-          {"figure", claim.figure},
-          {"tolerance", claim.tolerance},
-          {"why", claim.why}};
+  Json json = {{"id", claim.id},
+               {"statement", claim.statement},
+               {"verdict", verdict_of(claim.reproduced)},
+               {"figure", claim.figure},
+               {"tolerance", claim.tolerance},
+               {"why", claim.why}};
+  for (const ClaimInMode& one : claim.modes) {
+    json["modes"][std::string(name_of(one.mode))] = verdict_of(one.reproduced);
+  }
+  if (claim.cases.empty()) return json;
+  json["cases"] = cases_json(claim);
+  json["decided_by"] = claim.decided_by;
+  return json;
 }
 
 }  // namespace

@@ -132,6 +132,19 @@ if (data.validation && data.validation.logs && data.validation.logs.length) {
 
 function missing(title, command) { section(title, `Not in this directory; \`${command}\` makes it.`); }
 
+// What nominal, robust and the paper's gains do on draws that none of them was tuned on.
+function robustTable(box, robust) {
+  if (!robust || !robust.quantiles) return;
+  const n = robust.noise, late = robust.latency_s;
+  add(box, "p", `Over ${robust.judged_draws} fresh draws (${robust.drawn_from}), heading noise ${n.heading_deg} deg, ` +
+    `yaw rate ${n.yaw_rate_degps} deg/s, speed ${n.speed_mps} m/s; readings ${late.heading} s late; motors ` +
+    `${robust.motor_time_constant_s} s behind. 95 % quantiles:`);
+  table(box, ["mode", "gains", "settled", "settling, s", "overshoot, deg", "heading IAE, deg s", "steering, deg/s RMS"],
+    Object.entries(robust.quantiles).flatMap(([mode, sets]) => Object.entries(sets).map(([name, q]) => [mode, name,
+      digits(100 * q.completed_share, 3) + " %", digits(q.settling_time_s.q95), digits(q.overshoot_deg.q95),
+      digits(q.heading_iae_degs.q95), digits(q.steering_rate_rms_degps.q95)])), [2, 3, 4, 5, 6]);
+}
+
 if (data.gains) {
   const g = data.gains;
   const box = section("Gains");
@@ -142,6 +155,7 @@ if (data.gains) {
       g.baseline && g.baseline.heading ? [row("the paper's", g.baseline.heading, g.baseline.speed, g.baseline.objective)] : []),
     [1, 2, 3, 4, 5, 6, 7, 8]);
   if (Array.isArray(g.constraints)) {
+    robustTable(box, g.robust);
     table(box, ["constraint", "value", "limit", "margin"], g.constraints.map((c) => [c.name, digits(c.value), digits(c.limit), digits(c.margin)]), [1, 2, 3]);
   }
 } else missing("Gains", "awmr tune");

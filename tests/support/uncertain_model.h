@@ -1,8 +1,8 @@
 // The paper's vehicle with a covariance over four fitted parameters.
 #pragma once
 
-#include "awmr/compare/compare.h"
 #include "awmr/core/units.h"
+#include "awmr/simulate/scenario.h"
 #include "support/paper_vehicle.h"
 
 namespace awmr::testing {

@@ -1,4 +1,4 @@
-/// Plants drawn from what the trials leave uncertain. Private to this folder.
+/// Plants drawn from what the trials leave uncertain.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include "awmr/compare/draw.h"
+#include "awmr/simulate/plant_sampler.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "compare/uncertain_model.h"
+#include "support/uncertain_model.h"
 
 namespace awmr::testing {
 namespace {

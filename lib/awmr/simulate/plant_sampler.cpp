@@ -1,4 +1,4 @@
-#include "awmr/compare/draw.h"
+#include "awmr/simulate/plant_sampler.h"
 
 #include <fmt/format.h>
 

@@ -1,0 +1,21 @@
+/// How far a run goes beyond what the trials measured.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "awmr/model/model.h"
+
+namespace awmr {
+
+/// The fastest turn, deg/s, up to which yaw resistance was measured: the vehicle's
+/// yaw_rate_max_degps, else the fastest turning trial of the record. Absent where neither says.
+std::optional<double> measured_yaw_rate_degps(const Model& model);
+
+/// Adds a warning (`beyond-trials`) where a turn of `fastest_degps`, >= 0, is clearly faster than
+/// that: what the model says there is extrapolated. `where` names the run: "C3, combined".
+void note_extrapolation(const Model& model, double fastest_degps, const std::string& where,
+                        std::vector<Finding>& findings);
+
+}  // namespace awmr

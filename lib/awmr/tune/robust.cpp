@@ -1,0 +1,140 @@
+#include "awmr/tune/robust.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numeric>
+#include <utility>
+
+#include "awmr/core/index.h"
+#include "awmr/core/parallel.h"
+#include "awmr/core/units.h"
+#include "awmr/simulate/plant_sampler.h"
+
+namespace awmr {
+namespace {
+
+/// The figures that gains are judged by, each the worse the larger.
+struct JudgedBy {
+  const char* name;
+  double (*value)(const ModeScore& score, const Scenario& scenario);
+};
+constexpr JudgedBy kJudgedBy[] = {
+    {"settling_time_s",
+     [](const ModeScore& s, const Scenario& scenario) {
+       return s.metrics.settling_time_s.value_or(scenario.duration_s);
+     }},
+    {"overshoot_deg",
+     [](const ModeScore& s, const Scenario&) { return s.metrics.overshoot_deg.value_or(0.0); }},
+    {"heading_iae_degs",
+     [](const ModeScore& s, const Scenario&) { return s.metrics.heading_iae_degs.value_or(0.0); }},
+    {"heading_itae_degs2",
+     [](const ModeScore& s, const Scenario&) {
+       return s.metrics.heading_itae_degs2.value_or(0.0);
+     }},
+    {"control_variation",
+     [](const ModeScore& s, const Scenario&) { return s.metrics.control_variation; }},
+    {"steering_rate_rms_degps",
+     [](const ModeScore& s, const Scenario&) { return s.steering_rate_rms_degps; }},
+};
+
+/// Median, 95 % quantile (the least value that as many do not exceed) and mean of the worst.
+JudgedFigure figure_of(const char* name, std::vector<double> values, double tail_share) {
+  std::sort(values.begin(), values.end());
+  const auto n = static_cast<double>(values.size());
+  const auto quantile = [&](double p) {
+    return values[std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(p * n))) - 1];
+  };
+  const auto tail = std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(tail_share * n)));
+  const double worst = std::accumulate(values.end() - eigen_index(tail), values.end(), 0.0);
+  return {name, quantile(0.5), quantile(0.95), worst / static_cast<double>(tail)};
+}
+
+/// What all draws in all scenarios make of one set of gains in one mode.
+JudgedGains judged(const ObjectiveSetting& setting, const NamedCandidate& candidate, YawMode mode,
+                   const std::vector<std::vector<ModeScore>>& by_draw) {
+  JudgedGains result{.gains = candidate.name, .mode = mode, .figures = {}};
+  std::size_t completed = 0;
+  std::size_t runs = 0;
+  for (const std::vector<ModeScore>& scores : by_draw) {
+    for (const ModeScore& score : scores) {
+      completed += score.metrics.completed ? 1 : 0;
+      ++runs;
+    }
+  }
+  result.completed_share = static_cast<double>(completed) / static_cast<double>(runs);
+  for (const JudgedBy& by : kJudgedBy) {
+    std::vector<double> values;
+    for (const std::vector<ModeScore>& scores : by_draw) {
+      for (std::size_t i = 0; i < scores.size(); ++i) {
+        values.push_back(by.value(scores[i], setting.scenarios[i]));
+      }
+    }
+    result.figures.push_back(figure_of(by.name, std::move(values), setting.tail_share));
+  }
+  return result;
+}
+
+}  // namespace
+
+TuningConditions conditions_of(const Vehicle& vehicle) {
+  const SensorQuality& sensors = vehicle.sensors;
+  TuningConditions c;
+  c.heading_noise_deg = sensors.heading_deg.value_or(c.heading_noise_deg);
+  c.yaw_rate_noise_degps = sensors.yaw_rate_degps.value_or(c.yaw_rate_noise_degps);
+  c.speed_noise_mps = sensors.speed_mps.value_or(c.speed_noise_mps);
+  c.heading_late_s = sensors.heading_late_s.value_or(c.heading_late_s);
+  c.yaw_rate_late_s = sensors.yaw_rate_late_s.value_or(c.yaw_rate_late_s);
+  c.speed_late_s = sensors.speed_late_s.value_or(c.speed_late_s);
+  c.motor_time_constant_s = vehicle.motor_time_constant_s.value_or(c.motor_time_constant_s);
+  return c;
+}
+
+Result<std::vector<Plant<double>>> plants_of(const Model& model, int draws, std::uint64_t seed) {
+  AWMR_ASSIGN_OR_RETURN(const Plant<double> own, model.plant());
+  std::vector<Plant<double>> plants(at(draws) + 1, own);
+  if (model.covariance.parameters.empty()) return plants;
+  AWMR_ASSIGN_OR_RETURN(const PlantSampler sampler, PlantSampler::make(model));
+  for (int draw = 1; draw <= draws; ++draw) {
+    AWMR_ASSIGN_OR_RETURN(plants[at(draw)], sampler.draw(seed, draw));
+  }
+  return plants;
+}
+
+std::vector<Scenario> under(const TuningConditions& c, std::vector<Scenario> scenarios) {
+  const auto channel = [](double noise, double late_s) {
+    return Channel{.noise = noise, .late_s = late_s};
+  };
+  for (Scenario& scenario : scenarios) {
+    if (!scenario.sensors) {
+      scenario.sensors =
+          Sensors{.heading = channel(radians(c.heading_noise_deg), c.heading_late_s),
+                  .yaw_rate = channel(radians(c.yaw_rate_noise_degps), c.yaw_rate_late_s),
+                  .speed = channel(c.speed_noise_mps, c.speed_late_s),
+                  .gps = {}};
+    }
+    if (!scenario.actuators) {
+      scenario.actuators = Actuators{.motor_time_constant_s = c.motor_time_constant_s};
+    }
+  }
+  return scenarios;
+}
+
+std::vector<JudgedGains> judge(const ObjectiveSetting& setting,
+                               const std::vector<NamedCandidate>& candidates) {
+  const std::span<const YawMode> modes = yaw_modes(setting.vehicle);
+  const std::size_t draws = setting.plants.size() - 1;
+  std::vector<JudgedGains> all;
+  for (const NamedCandidate& candidate : candidates) {
+    for (const YawMode mode : modes) {
+      std::vector<std::vector<ModeScore>> by_draw(draws);
+      parallel_for(draws, 0, [&](std::size_t i) {
+        by_draw[i] = run_scenarios(setting, i + 1, candidate.gains, mode);
+      });
+      all.push_back(judged(setting, candidate, mode, by_draw));
+    }
+  }
+  return all;
+}
+
+}  // namespace awmr

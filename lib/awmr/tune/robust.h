@@ -1,0 +1,31 @@
+/// Gains for more than one vehicle: plants drawn from the model's covariance, readings that are noisy
+/// and late, motors that lag; and how gains do on draws that they were not tuned on. Private to tune/.
+#pragma once
+
+#include <vector>
+
+#include "awmr/core/result.h"
+#include "awmr/tune/objective.h"
+#include "awmr/tune/tune.h"
+
+namespace awmr {
+
+/// The model's own plant, then `draws` ones from its covariance; where it has none, its own again.
+/// Errors (input): as PlantSampler's.
+Result<std::vector<Plant<double>>> plants_of(const Model& model, int draws, std::uint64_t seed);
+
+/// The scenarios under the conditions; one that has sensors or actuators of its own keeps them.
+std::vector<Scenario> under(const TuningConditions& conditions, std::vector<Scenario> scenarios);
+
+/// Gains with the name that they are judged under.
+struct NamedCandidate {
+  const char* name;
+  Gains<double> gains;
+};
+
+/// Every set of gains in every mode over all plants of the setting but the first, the model's own.
+/// A run that does not settle counts as having taken the whole scenario.
+std::vector<JudgedGains> judge(const ObjectiveSetting& setting,
+                               const std::vector<NamedCandidate>& candidates);
+
+}  // namespace awmr

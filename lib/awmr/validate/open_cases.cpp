@@ -1,0 +1,133 @@
+#include "awmr/validate/open_cases.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <string_view>
+#include <tuple>
+#include <utility>
+
+#include "awmr/core/gravity.h"
+#include "awmr/core/parallel.h"
+
+namespace awmr {
+namespace {
+
+constexpr double kTyreFriction = 0.8;  ///< of rubber on dry ground
+
+/// By how much m' has to be larger for the tyres to carry the full thrust.
+double mass_factor(const Model& model) {
+  const double least_mass_norm = kFullThrust / (kTyreFriction * kGravity_mps2);
+  return least_mass_norm / *model[ParameterId::kMassNorm].value;
+}
+
+Model model_in(const ClaimCase& open, Model model) {
+  model.vehicle.wheel_force = open.wheel_force;
+  for (const ParameterId id : {ParameterId::kMassNorm, ParameterId::kInertiaNorm}) {
+    *model[id].value *= open.mass_factor;
+  }
+  return model;
+}
+
+ControlOptions control_in(const ClaimCase& open) {
+  ControlOptions control;
+  control.split = open.split;
+  control.allocation = open.allocation;
+  return control;
+}
+
+ClaimCase judged(ClaimCase open, bool reproduced) {
+  open.reproduced = reproduced;
+  return open;
+}
+
+/// A setting as a number, and a case's other settings as one.
+using Key = std::tuple<int, double, double, double, int>;
+struct Setting {
+  std::string_view name;
+  std::function<void(ClaimCase&)> forget;  ///< makes it the same in every case
+};
+
+Key key_of(const ClaimCase& open) {
+  return {static_cast<int>(open.allocation), open.wheel_force.lo, open.wheel_force.hi,
+          open.mass_factor, static_cast<int>(open.split)};
+}
+
+/// In how many places all other settings leave the verdict to this one, and of how many.
+std::pair<int, int> places_decided(const std::vector<ClaimCase>& cases, const Setting& setting) {
+  std::map<Key, std::pair<bool, bool>> places;  // reproduced somewhere, not reproduced somewhere
+  for (const ClaimCase& open : cases) {
+    ClaimCase others = open;
+    setting.forget(others);
+    auto& [holds, fails] = places[key_of(others)];
+    (open.reproduced ? holds : fails) = true;
+  }
+  const auto decided = std::count_if(places.begin(), places.end(), [](const auto& place) {
+    return place.second.first && place.second.second;
+  });
+  return {static_cast<int>(decided), static_cast<int>(places.size())};
+}
+
+}  // namespace
+
+std::vector<ClaimCase> open_cases(const Model& model) {
+  std::vector<double> factors{1.0};
+  if (const double factor = mass_factor(model); factor > 1.0) factors.push_back(factor);
+  std::vector<ClaimCase> cases;
+  for (const AllocationForm allocation : {AllocationForm::kExact, AllocationForm::kPaper}) {
+    for (const Interval force : {Interval{-1.0, 1.0}, Interval{0.0, 1.0}, Interval{0.0, 0.5}}) {
+      for (const double factor : factors) {
+        for (const CombinedSplit split :
+             {CombinedSplit::kRedistribute, CombinedSplit::kFixedHalf}) {
+          cases.push_back({allocation, force, factor, split, false});
+        }
+      }
+    }
+  }
+  return cases;
+}
+
+void add_open_cases(const Model& model, const std::optional<Gains<double>>& gains,
+                    std::vector<Claim>& claims) {
+  const std::vector<ClaimCase> cases = open_cases(model);
+  std::vector<std::vector<Claim>> judged_in(cases.size());
+  parallel_for(cases.size(), 0, [&](std::size_t i) {
+    const Model other = model_in(cases[i], model);
+    judged_in[i] = check_claims(other, *other.plant(), gains, control_in(cases[i]));
+  });
+  for (std::size_t c = 0; c < claims.size(); ++c) {
+    Claim& claim = claims[c];
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+      const Claim& there = judged_in[i][c];
+      claim.cases.push_back(judged(cases[i], there.reproduced));
+      for (std::size_t m = 0; m < claim.modes.size(); ++m) {
+        claim.modes[m].cases.push_back(judged(cases[i], there.modes[m].reproduced));
+      }
+    }
+    claim.decided_by = decisive_settings(claim.cases);
+  }
+}
+
+std::string decisive_settings(const std::vector<ClaimCase>& cases) {
+  const Setting settings[] = {
+      {"allocation", [](ClaimCase& c) { c.allocation = AllocationForm::kExact; }},
+      {"wheel_force", [](ClaimCase& c) { c.wheel_force = {}; }},
+      {"mass_factor", [](ClaimCase& c) { c.mass_factor = 1.0; }},
+      {"split", [](ClaimCase& c) { c.split = CombinedSplit::kRedistribute; }}};
+  std::vector<std::tuple<double, std::string>> decisive;
+  for (const Setting& setting : settings) {
+    const auto [decided, places] = places_decided(cases, setting);
+    if (decided == 0) continue;
+    decisive.emplace_back(static_cast<double>(decided) / places,
+                          fmt::format("{} ({} of {})", setting.name, decided, places));
+  }
+  std::stable_sort(decisive.begin(), decisive.end(),
+                   [](const auto& a, const auto& b) { return std::get<0>(a) > std::get<0>(b); });
+  std::string text;
+  for (const auto& [share, words] : decisive) text += (text.empty() ? "" : ", ") + words;
+  return text;
+}
+
+}  // namespace awmr
