@@ -113,6 +113,13 @@ struct CompareCommand {
 Result<Outcome> execute(const CompareCommand& command);
 void add_compare(CLI::App& app, Session& session);
 
+struct MergeCommand {
+  std::vector<fs::path> parts;
+  fs::path output;
+};
+Result<Outcome> execute(const MergeCommand& command);
+void add_merge(CLI::App& app, Session& session);
+
 struct EmitCommand {
   fs::path model;
   fs::path gains;

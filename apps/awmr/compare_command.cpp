@@ -3,12 +3,14 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <atomic>
+#include <charconv>
 #include <csignal>
 #include <cstdio>
 #include <memory>
 #include <set>
 
 #include "awmr/compare/resume.h"
+#include "awmr/compare/shard.h"
 #include "awmr/core/file.h"
 #include "awmr/model/gains_file.h"
 #include "awmr/model/model_file.h"
@@ -83,14 +85,35 @@ Result<Comparison> compare_until_interrupted(const Model& model,
   return compare(model, gains, scenarios, options);
 }
 
+bool is_part(const CompareCommand& command) { return command.compare.shard.count > 1; }
+
+/// What says where the rows of comparison.csv are from, and what they come to.
+const char* json_of(const CompareCommand& command) {
+  return is_part(command) ? "shard.json" : "comparison.json";
+}
+
 Status write_comparison(const CompareCommand& command, const Comparison& comparison,
                         const Provenance& provenance) {
   AWMR_RETURN_IF_ERROR(make_directory(command.output));
+  const std::string text = is_part(command)
+                               ? shard_text(comparison, command.compare, provenance)
+                               : comparison_text(comparison, command.compare, provenance);
   // The last one names the hash of the first.
   const OutputFile files[] = {{command.output / "comparison.csv", comparison_csv(comparison)},
-                              {command.output / "comparison.json",
-                               comparison_text(comparison, command.compare, provenance)}};
+                              {command.output / json_of(command), text}};
   return write_files(files);
+}
+
+/// "I/N". Errors (input): anything else.
+Result<Shard> shard_of(const std::string& text) {
+  Shard shard;
+  const char* end = text.data() + text.size();
+  const auto [slash, first] = std::from_chars(text.data(), end, shard.index);
+  if (first == std::errc{} && slash != end && *slash == '/') {
+    const auto [rest, second] = std::from_chars(slash + 1, end, shard.count);
+    if (second == std::errc{} && rest == end) return shard;
+  }
+  return input_error("--shard", fmt::format("'{}' is no part: give I/N, as 1/4", text));
 }
 
 /// The fastest turn of all runs, where it is beyond what was measured.
@@ -114,8 +137,11 @@ std::vector<Finding> extrapolation(const Model& model, const Comparison& compari
 void end_interrupted(const CompareCommand& command, const Comparison& comparison) {
   const std::string file = (command.output / "comparison.csv").string();
   const std::string text =
-      fmt::format("stopped: {} finished runs are in {}; the same command with --resume goes on\n",
-                  comparison.rows.size(), file);
+      is_part(command)
+          ? fmt::format("stopped: a part of a comparison has to be run again as a whole\n")
+          : fmt::format(
+                "stopped: {} finished runs are in {}; the same command with --resume goes on\n",
+                comparison.rows.size(), file);
   std::fputs(text.c_str(), stderr);
   std::signal(SIGINT, SIG_DFL);
   std::raise(SIGINT);
@@ -131,7 +157,7 @@ Result<Outcome> execute(const CompareCommand& command) {
   choose(command.allocation, model, scenarios);
   AWMR_ASSIGN_OR_RETURN(const Provenance provenance, provenance_of(command));
   AWMR_RETURN_IF_ERROR(
-      check_outputs(command.output, {"comparison.csv", "comparison.json"}, inputs_of(command)));
+      check_outputs(command.output, {"comparison.csv", json_of(command)}, inputs_of(command)));
   CompareOptions options = command.compare;
   if (command.resume) {
     AWMR_ASSIGN_OR_RETURN(options.finished, read_finished(command.output, provenance));
@@ -142,6 +168,12 @@ Result<Outcome> execute(const CompareCommand& command) {
       compare_until_interrupted(model, gains, scenarios, std::move(options), command.quiet));
   AWMR_RETURN_IF_ERROR(write_comparison(command, comparison, provenance));
   if (comparison.stopped) end_interrupted(command, comparison);
+  if (is_part(command)) {
+    return Outcome{.summary = fmt::format("part {} of {}: {} runs\nwrote {} and comparison.csv\n",
+                                          command.compare.shard.index, command.compare.shard.count,
+                                          comparison.rows.size(),
+                                          (command.output / json_of(command)).string())};
+  }
   const std::string table = comparison_table(comparison, command.compare.seed);
   return Outcome{.summary = table + fmt::format("wrote {} and comparison.csv\n",
                                                 (command.output / "comparison.json").string()),
@@ -151,12 +183,18 @@ Result<Outcome> execute(const CompareCommand& command) {
 
 void add_compare(CLI::App& app, Session& session) {
   auto command = std::make_shared<CompareCommand>();
+  auto shard = std::make_shared<std::string>();
   CLI::App* sub =
       add_command(app, session, "compare",
                   "Compare the three yaw-control modes, and sets of gains, over scenarios",
                   "awmr compare --model model.json --gains gains.json --scenario "
                   "configs/paper/scenarios/c3_heading_steps.json --samples 200 -o out",
-                  [command] { return execute(*command); });
+                  [command, shard]() -> Result<Outcome> {
+                    if (!shard->empty()) {
+                      AWMR_ASSIGN_OR_RETURN(command->compare.shard, shard_of(*shard));
+                    }
+                    return execute(*command);
+                  });
   sub->add_option("--model", command->model, "model.json from identify")->required();
   sub->add_option("--gains", command->gains,
                   "gains.json from tune; several to compare them with each other")
@@ -170,8 +208,12 @@ void add_compare(CLI::App& app, Session& session) {
       ->check(within<std::uint64_t>(0, kAnySeed));
   sub->add_option("--threads", command->compare.threads, "0 (default): one per core")
       ->check(within(0, 1024));
-  sub->add_flag("--resume", command->resume,
-                "Go on from what lies in the directory: after Ctrl-C, or with more samples");
+  auto* resume =
+      sub->add_flag("--resume", command->resume,
+                    "Go on from what lies in the directory: after Ctrl-C, or with more samples");
+  sub->add_option("--shard", *shard,
+                  "I/N: part I of N, for as many machines; awmr merge puts the parts together")
+      ->excludes(resume);
   sub->get_option("--quiet")->each([command](const std::string&) { command->quiet = true; });
   add_allocation(*sub, command->allocation);
   add_output(*sub, command->output, "Directory for comparison.csv and comparison.json");

@@ -42,6 +42,7 @@ int run(int argc, char** argv) {
   awmr::cli::add_tune(app, session);
   awmr::cli::add_simulate(app, session);
   awmr::cli::add_compare(app, session);
+  awmr::cli::add_merge(app, session);
   awmr::cli::add_emit(app, session);
   awmr::cli::add_pil(app, session);
   awmr::cli::add_report(app, session);

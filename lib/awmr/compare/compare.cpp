@@ -29,6 +29,13 @@ std::vector<Fault> option_faults(const std::vector<NamedGains>& gains,
     faults.push_back(
         {option_text("threads"), fmt::format("has to be 0 or more, found {}", options.threads)});
   }
+  const Shard& shard = options.shard;
+  if (shard.index < 1 || shard.index > shard.count || shard.count > options.samples + 1L) {
+    faults.push_back({option_text("shard"),
+                      fmt::format("{}/{} is no part: I/N with 1 <= I <= N, and N at most the {} "
+                                  "samples, the nominal one included",
+                                  shard.index, shard.count, options.samples + 1L)});
+  }
   if (scenarios.empty()) {
     faults.push_back({option_text("scenario"), "none given; give at least one"});
   }
@@ -125,15 +132,16 @@ Result<ComparisonRow> run_of(const Vehicle& vehicle, const Fleet& fleet, const N
                        .gains = set.name};
 }
 
-Comparison gathered(const Layout& layout, Slots slots) {
+Comparison gathered(const Layout& layout, const Shard& shard, Slots slots) {
   Comparison comparison;
   std::size_t whole = layout.samples;
   for (std::size_t i = 0; i < slots.size(); ++i) {
     if (slots[i]) {
       comparison.rows.push_back(std::move(*slots[i]));
     } else {
-      whole = std::min(whole, i % layout.samples);
-      comparison.stopped = true;
+      const std::size_t sample = i % layout.samples;
+      whole = std::min(whole, sample);
+      if (shard.has(static_cast<int>(sample))) comparison.stopped = true;
     }
   }
   comparison.whole_samples = static_cast<int>(whole);
@@ -164,7 +172,7 @@ Result<Comparison> compare(const Model& model, const std::vector<NamedGains>& ga
       [&](std::size_t i) {
         const Place place = layout.in_running_order(i);
         const std::size_t index = layout.row(place);
-        if (!slots[index]) {
+        if (!slots[index] && options.shard.has(static_cast<int>(place.sample))) {
           auto row = run_of(model.vehicle, fleet, gains[place.gains], scenarios[place.scenario],
                             place, options.seed);
           if (row) {
@@ -177,7 +185,7 @@ Result<Comparison> compare(const Model& model, const std::vector<NamedGains>& ga
       },
       control);
   for (const Status& failure : failures) AWMR_RETURN_IF_ERROR(failure);
-  return gathered(layout, std::move(slots));
+  return gathered(layout, options.shard, std::move(slots));
 }
 
 Result<Comparison> compare(const Model& model, const Gains<double>& gains,

@@ -31,12 +31,22 @@ struct ComparisonRow {
   std::string gains = {};  ///< NamedGains::name
 };
 
+/// One of `count` parts of a comparison: every sample s with s mod count = index - 1.
+struct Shard {
+  int index = 1;  ///< 1 ... count
+  int count = 1;
+  bool has(int sample) const { return sample >= 0 && sample % count == index - 1; }
+};
+
 struct CompareOptions {
   /// Monte-Carlo samples beside the nominal model (sample 0), >= 0. More tell smaller differences
   /// apart; 0 compares the model's own values alone, without intervals or tests.
   int samples = 0;
   /// Of the draws, the noise and the bootstrap. Another one shows what a verdict owes to chance.
   std::uint64_t seed = 1;
+  /// What of the samples to run: all, or a part that merge_shards() (shard.h) puts to the others. At
+  /// most as many parts as samples, the nominal one included.
+  Shard shard = {};
   /// >= 0; 0: one per core. Fewer leave cores to other work; results do not depend on it.
   int threads = 0;
   /// Rows that are there already, from a comparison of the same inputs and seed: to go on with one
@@ -51,9 +61,9 @@ struct CompareOptions {
 struct Comparison {
   std::vector<ComparisonRow> rows;  ///< the finished ones, by scenario, gains, mode, sample
   /// Samples, the nominal one included, that every scenario, mode and set of gains has from 0 on:
-  /// what is judged. Fewer than asked for where the comparison was stopped.
+  /// what is judged. Fewer than asked for where the comparison was stopped, or is a part.
   int whole_samples = 0;
-  bool stopped = false;
+  bool stopped = false;  ///< before all of its runs were done
 };
 
 /// Samples draw the fitted parameters from the model's covariance (simulate/plant_sampler.h), and the scenarios'

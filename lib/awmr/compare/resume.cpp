@@ -100,6 +100,8 @@ Result<Origin> read_origin(const std::filesystem::path& path) {
   return origin;
 }
 
+}  // namespace
+
 Result<std::vector<ComparisonRow>> read_rows(const std::filesystem::path& path,
                                              const std::optional<std::string>& sha256) {
   AWMR_ASSIGN_OR_RETURN(const std::string text, read_file(path));
@@ -123,8 +125,6 @@ Result<std::vector<ComparisonRow>> read_rows(const std::filesystem::path& path,
   }
   return rows;
 }
-
-}  // namespace
 
 Result<std::vector<ComparisonRow>> read_finished(const std::filesystem::path& directory,
                                                  const Provenance& provenance) {

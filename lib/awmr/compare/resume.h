@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "awmr/compare/compare.h"
@@ -15,5 +17,10 @@ namespace awmr {
 /// are missing, malformed, of another comparison or of another version of the program.
 Result<std::vector<ComparisonRow>> read_finished(const std::filesystem::path& directory,
                                                  const Provenance& provenance);
+
+/// The rows of a comparison.csv. Errors (input): it is missing, no row of a comparison stands where
+/// one should, or its bytes are not those with the hash (none: not checked).
+Result<std::vector<ComparisonRow>> read_rows(const std::filesystem::path& path,
+                                             const std::optional<std::string>& sha256);
 
 }  // namespace awmr

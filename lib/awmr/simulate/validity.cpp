@@ -20,7 +20,8 @@ std::optional<double> measured_yaw_rate_degps(const Model& model) {
 
 void note_extrapolation(const Model& model, double fastest_degps, const std::string& where,
                         std::vector<Finding>& findings) {
-  constexpr double kClearly = 1.2;  // a power law that was fitted up to there holds a little further
+  constexpr double kClearly =
+      1.2;  // a power law that was fitted up to there holds a little further
   const std::optional<double> measured = measured_yaw_rate_degps(model);
   if (!measured || fastest_degps <= kClearly * *measured) return;
   findings.push_back(

@@ -1,0 +1,51 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "awmr/compare/shard.h"
+#include "awmr/core/file.h"
+#include "commands.h"
+
+namespace awmr::cli {
+namespace {
+
+/// Every part's two files, which the output must not replace.
+std::vector<fs::path> inputs_of(const MergeCommand& command) {
+  std::vector<fs::path> paths;
+  for (const fs::path& part : command.parts) {
+    paths.push_back(part / "shard.json");
+    paths.push_back(part / "comparison.csv");
+  }
+  return paths;
+}
+
+}  // namespace
+
+Result<Outcome> execute(const MergeCommand& command) {
+  AWMR_ASSIGN_OR_RETURN(const Merged merged, merge_shards(command.parts));
+  AWMR_RETURN_IF_ERROR(
+      check_outputs(command.output, {"comparison.csv", "comparison.json"}, inputs_of(command)));
+  AWMR_RETURN_IF_ERROR(make_directory(command.output));
+  const OutputFile files[] = {
+      {command.output / "comparison.csv", comparison_csv(merged.comparison)},
+      {command.output / "comparison.json",
+       comparison_text(merged.comparison, merged.options, merged.provenance)}};
+  AWMR_RETURN_IF_ERROR(write_files(files));
+  const std::string table = comparison_table(merged.comparison, merged.options.seed);
+  return Outcome{.summary = table + fmt::format("wrote {} and comparison.csv\n",
+                                                (command.output / "comparison.json").string()),
+                 .brief = table};
+}
+
+void add_merge(CLI::App& app, Session& session) {
+  auto command = std::make_shared<MergeCommand>();
+  CLI::App* sub = add_command(
+      app, session, "merge", "Put the parts of a comparison together (compare --shard I/N)",
+      "awmr merge part1 part2 part3 part4 -o out", [command] { return execute(*command); });
+  sub->add_option("DIR", command->parts, "Directories of all parts, in any order")->required();
+  add_output(*sub, command->output,
+             "Directory for comparison.csv and comparison.json, the bytes of a single run");
+}
+
+}  // namespace awmr::cli

@@ -1,0 +1,33 @@
+/// A comparison in parts, on as many machines: each runs some of the samples, merge_shards() puts
+/// them together to the bytes of a single run.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "awmr/compare/compare.h"
+#include "awmr/core/provenance.h"
+#include "awmr/core/result.h"
+
+namespace awmr {
+
+/// The bytes of shard.json, which lies beside the part's comparison.csv: where the part is from,
+/// which one it is, and the hash of its rows.
+std::string shard_text(const Comparison& part, const CompareOptions& options,
+                       const Provenance& provenance);
+
+/// A whole comparison with what its files are written from.
+struct Merged {
+  Comparison comparison;
+  CompareOptions options;  ///< samples and seed
+  Provenance provenance;
+};
+
+/// Puts the parts in the directories together, in any order. Errors (input): a directory without
+/// shard.json and comparison.csv, or with rows that are not those that shard.json was written with;
+/// parts of different comparisons (inputs, options, version of the program); a part that is missing
+/// or there twice, each by its number; one that was stopped.
+Result<Merged> merge_shards(const std::vector<std::filesystem::path>& directories);
+
+}  // namespace awmr

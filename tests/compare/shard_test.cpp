@@ -1,0 +1,104 @@
+/// Parts of a comparison, and the bytes of the whole.
+#include "awmr/compare/shard.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "awmr/core/file.h"
+#include "awmr/model/paper_gains.h"
+#include "support/process.h"
+#include "support/uncertain_model.h"
+
+namespace awmr::testing {
+namespace {
+
+using ::testing::HasSubstr;
+
+const Provenance kProvenance{"compare", {{"samples", "6"}, {"seed", "3"}}, {{"model.json", "ab"}}};
+
+class Shards : public ::testing::Test {
+ protected:
+  static CompareOptions options(Shard shard = {}) {
+    CompareOptions options;
+    options.samples = 6;
+    options.seed = 3;
+    options.shard = shard;
+    return options;
+  }
+  static Comparison run(Shard shard = {}) {
+    return compare(uncertain_model(), kPaperGains,
+                   {short_heading("one"), short_heading("another")}, options(shard))
+        .value();
+  }
+  std::filesystem::path write(Shard shard, const Comparison& part,
+                              const Provenance& provenance = kProvenance) {
+    const auto path = directory_.path() / ("part" + std::to_string(directories_++));
+    std::filesystem::create_directories(path);
+    EXPECT_TRUE(write_file(path / "comparison.csv", comparison_csv(part)));
+    EXPECT_TRUE(write_file(path / "shard.json", shard_text(part, options(shard), provenance)));
+    return path;
+  }
+  std::filesystem::path write(Shard shard) { return write(shard, run(shard)); }
+  static std::string fault(const std::vector<std::filesystem::path>& parts) {
+    const auto merged = merge_shards(parts);
+    EXPECT_FALSE(merged);
+    return merged ? "" : to_text(merged.error());
+  }
+
+  TemporaryDirectory directory_;
+  int directories_ = 0;
+};
+
+TEST_F(Shards, MergeInAnyOrderToTheBytesOfASingleRun) {
+  const Comparison whole = run();
+  for (const int count : {1, 2, 3, 7}) {
+    std::vector<std::filesystem::path> parts;
+    for (int i = count; i >= 1; --i) parts.push_back(write({i, count}));
+    const auto merged = merge_shards(parts);
+    ASSERT_TRUE(merged) << to_text(merged.error());
+    EXPECT_EQ(comparison_csv(merged->comparison), comparison_csv(whole)) << count;
+    EXPECT_EQ(comparison_text(merged->comparison, merged->options, merged->provenance),
+              comparison_text(whole, options(), kProvenance))
+        << count;
+  }
+}
+
+TEST_F(Shards, WhatIsMissingOrThereTwiceIsNamed) {
+  const auto first = write({1, 4});
+  const auto second = write({2, 4});
+  EXPECT_THAT(fault({first, second}), HasSubstr("of 4 parts, these are missing: 3, 4"));
+  EXPECT_THAT(fault({first, second, first}), HasSubstr("is part 1 of 4, which"));
+  EXPECT_THAT(fault({}), HasSubstr("no directories"));
+  EXPECT_THAT(fault({directory_.path()}), HasSubstr("shard.json"));
+}
+
+TEST_F(Shards, PartsOfDifferentComparisonsAreRefused) {
+  const auto first = write({1, 2});
+  Provenance other = kProvenance;
+  other.inputs[0].sha256 = "cd";
+  EXPECT_THAT(fault({first, write({2, 2}, run({2, 2}), other)}), HasSubstr("other inputs"));
+  other = kProvenance;
+  other.options[1].second = "4";
+  EXPECT_THAT(fault({first, write({2, 2}, run({2, 2}), other)}), HasSubstr("other options"));
+  EXPECT_THAT(fault({first, write({2, 3})}), HasSubstr("one of 3 parts"));
+}
+
+TEST_F(Shards, DamagedOrStoppedPartsAreRefused) {
+  const auto first = write({1, 2});
+  const auto second = write({2, 2});
+  const std::string csv = read_file(second / "comparison.csv").value();
+  ASSERT_TRUE(write_file(second / "comparison.csv", csv.substr(0, csv.rfind('\n', csv.size() - 2) + 1)));
+  EXPECT_THAT(fault({first, second}), HasSubstr("not as it was written"));
+  Comparison stopped = run({2, 2});
+  stopped.rows.pop_back();
+  EXPECT_THAT(fault({first, write({2, 2}, stopped)}), HasSubstr("lost rows"));
+  stopped.stopped = true;
+  EXPECT_THAT(fault({first, write({2, 2}, stopped)}), HasSubstr("run it again"));
+  // Rows of another part, under this one's name.
+  EXPECT_THAT(fault({first, write({2, 2}, run({1, 2}))}), HasSubstr("is none of part 2 of 2"));
+}
+
+}  // namespace
+}  // namespace awmr::testing
