@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "awmr/compare/compare.h"
 #include "support/any_robot.h"
 #include "support/uncertain_model.h"
 

@@ -28,8 +28,8 @@ class Shards : public ::testing::Test {
     return options;
   }
   static Comparison run(Shard shard = {}) {
-    return compare(uncertain_model(), kPaperGains,
-                   {short_heading("one"), short_heading("another")}, options(shard))
+    return compare(uncertain_model(), kPaperGains, {short_heading("one"), short_heading("another")},
+                   options(shard))
         .value();
   }
   std::filesystem::path write(Shard shard, const Comparison& part,
@@ -89,7 +89,8 @@ TEST_F(Shards, DamagedOrStoppedPartsAreRefused) {
   const auto first = write({1, 2});
   const auto second = write({2, 2});
   const std::string csv = read_file(second / "comparison.csv").value();
-  ASSERT_TRUE(write_file(second / "comparison.csv", csv.substr(0, csv.rfind('\n', csv.size() - 2) + 1)));
+  ASSERT_TRUE(
+      write_file(second / "comparison.csv", csv.substr(0, csv.rfind('\n', csv.size() - 2) + 1)));
   EXPECT_THAT(fault({first, second}), HasSubstr("not as it was written"));
   Comparison stopped = run({2, 2});
   stopped.rows.pop_back();

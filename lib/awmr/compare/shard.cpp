@@ -41,15 +41,16 @@ Result<Part> read_part(const std::filesystem::path& directory) {
   std::vector<Fault> faults;
   JsonObject json(document, path.string(), "", faults);
   json.schema(kShardSchema);
-  Part part{.directory = directory,
-            .provenance = read_provenance(json),
-            .version = json.string("version"),
-            .samples = static_cast<int>(json.integer("samples", 0, kMostSamples)),
-            .seed = static_cast<std::uint64_t>(json.integer("seed", 0, std::numeric_limits<long>::max())),
-            .shard = {.index = static_cast<int>(json.integer("shard_index", 1, kMostShards)),
-                      .count = static_cast<int>(json.integer("shard_count", 1, kMostShards))},
-            .stopped = json.boolean("stopped"),
-            .csv_sha256 = json.string("csv_sha256")};
+  Part part{
+      .directory = directory,
+      .provenance = read_provenance(json),
+      .version = json.string("version"),
+      .samples = static_cast<int>(json.integer("samples", 0, kMostSamples)),
+      .seed = static_cast<std::uint64_t>(json.integer("seed", 0, std::numeric_limits<long>::max())),
+      .shard = {.index = static_cast<int>(json.integer("shard_index", 1, kMostShards)),
+                .count = static_cast<int>(json.integer("shard_count", 1, kMostShards))},
+      .stopped = json.boolean("stopped"),
+      .csv_sha256 = json.string("csv_sha256")};
   json.ignore("command");
   json.reject_unknown_keys();
   if (!faults.empty()) return input_errors(std::move(faults));
@@ -74,8 +75,7 @@ std::string other_comparison(const Part& first, const Part& part) {
   if (a.options != b.options || part.samples != first.samples || part.seed != first.seed) {
     return fmt::format("was made with other options than {}", first.directory.string());
   }
-  if (!std::equal(a.inputs.begin(), a.inputs.end(), b.inputs.begin(), b.inputs.end(),
-                  same_input)) {
+  if (!std::equal(a.inputs.begin(), a.inputs.end(), b.inputs.begin(), b.inputs.end(), same_input)) {
     return fmt::format("was made from other inputs than {}", first.directory.string());
   }
   if (part.stopped) return "was stopped before its end: run it again";
