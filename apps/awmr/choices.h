@@ -1,13 +1,31 @@
 /// Options that take one of a table's names.
 #pragma once
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstddef>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "awmr/core/name_table.h"
+#include "command_line.h"
 
 namespace awmr::cli {
+
+/// The word is one of the names, which the help shows.
+inline CLI::Validator one_of(std::vector<std::string> names) {
+  std::string shown = fmt::format("{{{}}}", fmt::join(names, ","));
+  const auto check = [names = std::move(names)](const std::string& word) -> std::string {
+    if (std::find(names.begin(), names.end(), word) != names.end()) return {};
+    return fmt::format("'{}' is none of {}{}", word, fmt::join(names, ", "),
+                       did_you_mean(word, names));
+  };
+  return {check, std::move(shown), ""};
+}
 
 /// Sets `value` to what the name stands for in `names`, which both have to outlive `command`. Any
 /// other word is a fault of the command line, and the help shows the names.
@@ -16,7 +34,7 @@ CLI::Option* add_choice(CLI::App& command, const std::string& option, Value& val
                         const NameTable<Value, N>& names, const std::string& meaning) {
   const auto set = [&value, &names](const std::string& name) { value = *value_in(names, name); };
   return command.add_option_function<std::string>(option, set, meaning)
-      ->check(CLI::IsMember(names_in(names)));
+      ->check(one_of(names_in(names)));
 }
 
 }  // namespace awmr::cli

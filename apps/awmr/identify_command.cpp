@@ -8,6 +8,7 @@
 #include "awmr/model/model_file.h"
 #include "awmr/model/vehicle_file.h"
 #include "awmr/trials/load.h"
+#include "choices.h"
 #include "commands.h"
 #include "identify_options.h"
 #include "inputs.h"
@@ -103,11 +104,11 @@ void add_fit_options(CLI::App& sub, IdentifyWords& words) {
   sub.add_option("--method", words.method,
                  "Which estimator fills the main values: log-linear (default for tables), "
                  "nonlinear, trajectory (default with --log)")
-      ->check(CLI::IsMember(names_in(kMethodNames)));
+      ->check(one_of(names_in(kMethodNames)));
   sub.add_option("--noise", words.noise,
                  "Where the nonlinear fit puts the error: force, speed or time (default: on what "
                  "was measured)")
-      ->check(CLI::IsMember(names_in(kErrorModelNames)));
+      ->check(one_of(names_in(kErrorModelNames)));
   sub.add_option(
          "--family", words.families,
          "Resistance: power (default; logs take another where it is plainly better), "
@@ -115,7 +116,7 @@ void add_fit_options(CLI::App& sub, IdentifyWords& words) {
          "AICc); surge=NAME, yaw=NAME for one")
       ->delimiter(',');
   sub.add_option("--loss", words.loss, "squares (default), huber, cauchy or tukey")
-      ->check(CLI::IsMember(names_in(kLossNames)));
+      ->check(one_of(names_in(kLossNames)));
   sub.add_flag("--joint", words.command.identify.joint,
                "Fit a1, b1 and m' together from the surge runs and the coast-down curves");
   sub.add_option("--fit", words.asked,
@@ -151,7 +152,7 @@ void add_reading_options(CLI::App& sub, IdentifyWords& words) {
                "Take logs whose units, signs or sides contradict themselves as they are");
   sub.add_option("--prefer", words.prefer,
                  "Which of two disagreeing values to use: printed (default) or timed")
-      ->check(CLI::IsMember(names_in(kPreferenceNames)));
+      ->check(one_of(names_in(kPreferenceNames)));
   sub.add_option("--column", words.columns.columns, kColumnHelp);
   sub.add_option("--columns-file", words.columns.file, kColumnsFileHelp);
 }

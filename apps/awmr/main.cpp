@@ -6,23 +6,10 @@
 #include <string>
 
 #include "awmr/core/text.h"
+#include "command_line.h"
 #include "commands.h"
 
 namespace {
-
-/// What CLI11 says of the command line; of a command that there is not, its name, which CLI11 leaves
-/// out.
-std::string what_is_wrong(const CLI::App& app, const CLI::ParseError& error, int argc,
-                          char** argv) {
-  const std::string first = argc > 1 ? argv[1] : "";
-  if (app.get_subcommands().empty() && !first.empty() && first.front() != '-') {
-    return "no command is called '" + awmr::shortened(first) + "'";
-  }
-  if (app.get_subcommands().empty() && !first.empty()) {
-    return "'" + awmr::shortened(first) + "' stands before any command";
-  }
-  return awmr::shortened(error.what());
-}
 
 int run(int argc, char** argv) {
   CLI::App app{
@@ -56,8 +43,12 @@ int run(int argc, char** argv) {
       app.exit(error);
       return std::cout.flush() ? 0 : 2;
     }
-    const std::string what = awmr::printable(what_is_wrong(app, error, argc, argv));
-    std::fprintf(stderr, "error: %s\nRun `awmr --help` or `awmr COMMAND --help`.\n", what.c_str());
+    // Without any word the commands are shown; the exit code is that of a command line that is wrong,
+    // so that a script whose variable is empty does not pass.
+    const std::string help = argc > 1 ? "" : app.help() + "\n";
+    const std::string what = awmr::printable(awmr::cli::what_is_wrong(app, error, argc, argv));
+    std::fprintf(stderr, "%serror: %s\nRun `awmr --help` or `awmr COMMAND --help`.\n", help.c_str(),
+                 what.c_str());
     return 2;
   }
   return session.exit_code;

@@ -7,6 +7,7 @@
 #include "awmr/core/file.h"
 #include "awmr/identify/planning/recover.h"
 #include "awmr/model/model_file.h"
+#include "choices.h"
 #include "commands.h"
 #include "identify_options.h"
 #include "inputs.h"
@@ -84,15 +85,15 @@ void add_estimator(CLI::App& sub, RecoverWords& words) {
   sub.add_option("--plan", words.plan,
                  "tables (default): the model's own trials; curve: with a coast-down curve; log: a "
                  "driving log alone")
-      ->check(CLI::IsMember(names_in(kPlans)));
+      ->check(one_of(names_in(kPlans)));
   sub.add_option("--method", words.method, "Estimator under test, as in identify")
-      ->check(CLI::IsMember(names_in(kMethodNames)));
+      ->check(one_of(names_in(kMethodNames)));
   sub.add_option("--noise", words.noise, "Its noise model, as in identify")
-      ->check(CLI::IsMember(names_in(kErrorModelNames)));
+      ->check(one_of(names_in(kErrorModelNames)));
   sub.add_option("--error", words.error,
                  "Where the simulated error of table rows lies: log-force, force, speed or time "
                  "(default: where the estimator assumes it)")
-      ->check(CLI::IsMember(names_in(kErrors)));
+      ->check(one_of(names_in(kErrors)));
   sub.add_option("--fit", words.asked, "Parameters asked for, as in identify")->delimiter(',');
   sub.add_flag("--joint", words.command.recover.identify.joint, "As in identify");
 }

@@ -46,7 +46,7 @@ Result<std::vector<LogValidation>> validate_logs(const ValidateCommand& command,
     return validated;
   };
   AWMR_ASSIGN_OR_RETURN(const auto by_file, read_each(command.logs, validate_runs));
-  if (!command.other_columns) AWMR_RETURN_IF_ERROR(check_mappings(options, used));
+  if (!command.other_columns) AWMR_RETURN_IF_ERROR(check_mappings(options, used, command.logs));
   std::vector<LogValidation> all;
   for (const auto& runs : by_file) all.insert(all.end(), runs.begin(), runs.end());
   return all;

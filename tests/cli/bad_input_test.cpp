@@ -83,6 +83,13 @@ TEST_F(BadInput, UnknownOptionAndCommandExitWithTwo) {
   EXPECT_EQ(awmr("").exit_code, 2);
 }
 
+TEST_F(BadInput, WithoutAnyWordTheCommandsAreShown) {
+  const ProcessResult result = awmr("");
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("identify"));
+  EXPECT_THAT(result.err, HasSubstr("Example:"));
+}
+
 TEST_F(BadInput, ALaterStepNamesWhatTheModelLacksAndTheTrialThatShowsIt) {
   ASSERT_EQ(
       awmr("identify --vehicle configs/paper/vehicle.json --surge datasets/paper/surge.csv -o " +

@@ -38,6 +38,13 @@ TEST(TrialColumns, AMappingThatNoFileUsedIsRefused) {
   EXPECT_THAT(refusal_of({"tau_speed=tau", "other.csv:speed_mps=V/3.6"}), HasSubstr("no speed"));
 }
 
+TEST(TrialColumns, AMappingThatNoFileCanUseIsNamedBesideWhatItsAbsenceMakes) {
+  EXPECT_THAT(refusal_of({"tau_speed=tau", "speed_mps=v"}),
+              AllOf(HasSubstr("no speed"), HasSubstr("no file that was read has a column \"v\""),
+                    HasSubstr("did you mean \"V\"?")));
+  EXPECT_THAT(refusal_of({"tau_speed=tau", "surge:speed_mps=V"}), HasSubstr("is called surge;"));
+}
+
 TEST(TrialColumns, TheVehiclesMappingsServeAndMayBeUnused) {
   EXPECT_EQ(refusal_of({}, {{"tau_speed", "tau"}, {"speed_mps", "V/3.6"}, {"heading_deg", "psi"}}),
             "");

@@ -68,11 +68,6 @@ int distance(const ColumnMapping& mapping) {
   return !mapping.file.empty() ? 0 : mapping.standing ? 2 : 1;
 }
 
-bool is_for(const ColumnMapping& mapping, const std::string& file) {
-  return mapping.file.empty() || mapping.file == file ||
-         mapping.file == std::filesystem::path(file).filename().string();
-}
-
 std::string shown(const ColumnMapping& mapping) {
   return mapping.expression.empty() ? mapping.source : mapping.expression;
 }
@@ -210,6 +205,15 @@ ColumnSources find_columns(std::span<const std::string> header,
     search.finish();
   }
   return result;
+}
+
+std::vector<std::string> missing_columns(const ColumnMapping& mapping, Header header) {
+  return candidate_of({}, mapping, header).missing;
+}
+
+bool is_for(const ColumnMapping& mapping, const std::string& file) {
+  return mapping.file.empty() || mapping.file == file ||
+         mapping.file == std::filesystem::path(file).filename().string();
 }
 
 std::set<std::string> wanted_names(std::span<const CsvColumn> columns,

@@ -45,6 +45,14 @@ ColumnSources find_columns(std::span<const std::string> header,
                            std::span<const std::string> samples, std::span<const CsvColumn> columns,
                            std::span<const ColumnMapping> mappings, const std::string& file);
 
+/// The columns that a mapping is made from and that the header does not have; of several ways to
+/// read the mapping, of that which find_columns() takes. Empty: the header has all of them.
+std::vector<std::string> missing_columns(const ColumnMapping& mapping,
+                                         std::span<const std::string> header);
+
+/// The mapping is for every file, or for this one, by its path or its name.
+bool is_for(const ColumnMapping& mapping, const std::string& file);
+
 /// Every name that the columns and their mappings may look for in a header.
 std::set<std::string> wanted_names(std::span<const CsvColumn> columns,
                                    std::span<const ColumnMapping> mappings);

@@ -78,6 +78,15 @@ std::vector<std::size_t> mappings_used(const TrialData& data) {
   return used;
 }
 
+std::vector<std::filesystem::path> paths_of(const TrialFiles& files) {
+  std::vector<std::filesystem::path> paths;
+  if (files.surge) paths.push_back(*files.surge);
+  if (files.turning) paths.push_back(*files.turning);
+  paths.insert(paths.end(), files.coastdowns.begin(), files.coastdowns.end());
+  paths.insert(paths.end(), files.logs.begin(), files.logs.end());
+  return paths;
+}
+
 Status check(const TrialFiles& files) {
   if (!files.surge && !files.turning && files.coastdowns.empty() && files.logs.empty()) {
     return input_error("", "no trials: give at least one surge, turning, coast-down or log file");
@@ -115,8 +124,13 @@ Result<Trials> load_trials(const TrialFiles& files) {
     auto logs = keep(read_logs(path, options, findings), faults);
     if (logs) add_logs(path, std::move(*logs), options, trials, faults);
   }
-  if (!faults.empty()) return input_errors(std::move(faults));
-  AWMR_RETURN_IF_ERROR(check_mappings(options, mappings_used(data)));
+  const std::vector<std::filesystem::path> paths = paths_of(files);
+  if (!faults.empty()) {
+    const std::vector<Fault> unusable = unusable_mappings(options, paths);
+    faults.insert(faults.end(), unusable.begin(), unusable.end());
+    return input_errors(std::move(faults));
+  }
+  AWMR_RETURN_IF_ERROR(check_mappings(options, mappings_used(data), paths));
   if (files.steady_from_logs) add_steady_runs(trials);
   return trials;
 }

@@ -4,12 +4,18 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <optional>
 #include <set>
+#include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "awmr/core/column_expression.h"
+#include "awmr/core/column_sources.h"
+#include "awmr/core/csv_cell.h"
 #include "awmr/core/nearest.h"
 #include "awmr/core/text.h"
+#include "awmr/trials/column_guess.h"
 
 namespace awmr {
 namespace {
@@ -72,16 +78,104 @@ std::string place_of(const ColumnMapping& mapping) {
   return fmt::format("column mapping \"{}\"", shortened(text_of(mapping), 100));
 }
 
-/// Why no file used a mapping, as far as it can be told.
-std::string unused(const ColumnMapping& mapping) {
-  std::string message =
-      "unused: no file that was read asks for this column and has what it is made from; correct it "
-      "or leave it out";
-  const auto expression = ColumnExpression::parse(mapping.expression);
-  if (!mapping.expression.empty() && !expression) {
-    message += fmt::format(" (as arithmetic: {})", expression.error());
+/// A file that was given, and the names in its header.
+struct Header {
+  std::string path;
+  std::vector<std::string> names;
+};
+
+/// The names in a file's header; of a directory of tables also without the table's name. None where
+/// the header cannot be told, as where it stands in a comment.
+std::optional<Header> header_of(const std::filesystem::path& path) {
+  const auto sample = sample_of(path);
+  if (!sample) return std::nullopt;
+  Header header{path.string(), sample->names};
+  std::error_code error;
+  const bool is_directory = std::filesystem::is_directory(path, error);
+  for (const std::string& name : sample->names) {
+    if (number_from_text(name)) return std::nullopt;
+    if (is_directory) header.names.push_back(name.substr(name.find('.') + 1));
   }
-  return message;
+  return header;
+}
+
+/// Of every file; none where one of them does not tell its header.
+std::vector<Header> headers_of(std::span<const std::filesystem::path> files) {
+  std::vector<Header> headers;
+  for (const std::filesystem::path& path : files) {
+    auto header = header_of(path);
+    if (!header) return {};
+    headers.push_back(*std::move(header));
+  }
+  return headers;
+}
+
+/// "; did you mean NAME?", or what there is.
+std::string nearest_of(const std::string& name, const std::vector<std::string>& names) {
+  const std::string near = nearest(name, names);
+  return near.empty()
+             ? fmt::format("; there are {}", shortened(fmt::format("{}", fmt::join(names, ", "))))
+             : fmt::format("; did you mean \"{}\"?", near);
+}
+
+/// Why a mapping's text is no formula; empty where it is one.
+std::string why_no_formula(const ColumnMapping& mapping) {
+  const auto formula = ColumnExpression::parse(mapping.expression);
+  if (mapping.expression.empty() || formula) return "";
+  return fmt::format(" (as arithmetic: {})", formula.error());
+}
+
+/// Why none of the files can use a mapping; nothing where one can, or where no header is known.
+std::optional<std::string> unusable(const ColumnMapping& mapping,
+                                    const std::vector<Header>& headers) {
+  std::vector<std::string> files;
+  std::vector<std::string> names;
+  std::optional<std::string> missing;
+  for (const Header& header : headers) {
+    files.push_back(std::filesystem::path(header.path).filename().string());
+    if (!is_for(mapping, header.path)) continue;
+    const std::vector<std::string> absent = missing_columns(mapping, header.names);
+    if (absent.empty()) return std::nullopt;
+    if (!missing) missing = absent.front();
+    names.insert(names.end(), header.names.begin(), header.names.end());
+  }
+  if (headers.empty()) return std::nullopt;
+  if (!missing) {
+    return "no file that was read is called " + mapping.file + nearest_of(mapping.file, files);
+  }
+  return fmt::format("no file that was read has a column \"{}\"{}{}", *missing,
+                     nearest_of(*missing, names), why_no_formula(mapping));
+}
+
+/// Its absence is an error of its own, where the file is read.
+bool is_required(const std::string& column) {
+  for (const TrialKind kind : values_in(kTrialKindNames)) {
+    for (const CsvColumn& c : columns_of(kind)) {
+      if (c.name == column && c.required) return true;
+    }
+  }
+  return false;
+}
+
+/// The trials that have a column.
+std::string trials_with(const std::string& column) {
+  std::vector<std::string_view> kinds;
+  for (const TrialKind kind : values_in(kTrialKindNames)) {
+    const auto columns = columns_of(kind);
+    if (std::any_of(columns.begin(), columns.end(),
+                    [&](const CsvColumn& c) { return c.name == column; })) {
+      kinds.push_back(name_in(kTrialKindNames, kind));
+    }
+  }
+  return fmt::format("{}", fmt::join(kinds, ", "));
+}
+
+/// Why no file that could use a mapping did.
+std::string asked_of_none(const ColumnMapping& mapping) {
+  return fmt::format(
+      "no file that has what it is made from is asked for {}, which is a column of: {}; correct it "
+      "or leave it out{}",
+      mapping.name, trials_with(mapping.name), why_no_formula(mapping));
 }
 
 }  // namespace
@@ -122,15 +216,33 @@ Result<TrialOptions> with_vehicle_columns(TrialOptions options, const Vehicle& v
   return options;
 }
 
-Status check_mappings(const TrialOptions& options, std::span<const std::size_t> used) {
+Status check_mappings(const TrialOptions& options, std::span<const std::size_t> used,
+                      std::span<const std::filesystem::path> files) {
+  std::vector<Header> headers;
   std::vector<Fault> faults;
   for (std::size_t i = 0; i < options.columns.size(); ++i) {
     const ColumnMapping& mapping = options.columns[i];
     if (mapping.standing || std::find(used.begin(), used.end(), i) != used.end()) continue;
-    faults.push_back({place_of(mapping), unused(mapping)});
+    if (headers.empty()) headers = headers_of(files);
+    const std::string why = unusable(mapping, headers).value_or(asked_of_none(mapping));
+    faults.push_back({place_of(mapping), "unused: " + why});
   }
   if (!faults.empty()) return input_errors(std::move(faults));
   return {};
+}
+
+std::vector<Fault> unusable_mappings(const TrialOptions& options,
+                                     std::span<const std::filesystem::path> files) {
+  std::vector<Fault> faults;
+  if (options.columns.empty()) return faults;
+  const std::vector<Header> headers = headers_of(files);
+  for (const ColumnMapping& mapping : options.columns) {
+    if (mapping.standing || is_required(mapping.name)) continue;
+    if (auto why = unusable(mapping, headers)) {
+      faults.push_back({place_of(mapping), "unused: " + *std::move(why)});
+    }
+  }
+  return faults;
 }
 
 }  // namespace awmr

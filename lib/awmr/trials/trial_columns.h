@@ -1,6 +1,7 @@
 /// The columns of each kind of trial, and the mappings that give them.
 #pragma once
 
+#include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
@@ -20,8 +21,15 @@ std::span<const CsvColumn> turning_columns(const Vehicle& vehicle);
 /// none. Errors: as parse_column(); a mapping of a column that no trial has, with the nearest one.
 Result<TrialOptions> with_vehicle_columns(TrialOptions options, const Vehicle& vehicle);
 
-/// Errors: a mapping that none of the files used. `used` are indices into the options' mappings. The
-/// vehicle's may be unused.
-Status check_mappings(const TrialOptions& options, std::span<const std::size_t> used);
+/// Errors: a mapping that none of the files used, with the reason: no file is called so, none has
+/// the columns that it is made from (with the nearest), or none is asked for its column. `used` are
+/// indices into the options' mappings. The vehicle's may be unused.
+Status check_mappings(const TrialOptions& options, std::span<const std::size_t> used,
+                      std::span<const std::filesystem::path> files);
+
+/// The mappings that none of the files can use, where a file could not be read: a misspelt mapping
+/// is often why.
+std::vector<Fault> unusable_mappings(const TrialOptions& options,
+                                     std::span<const std::filesystem::path> files);
 
 }  // namespace awmr
