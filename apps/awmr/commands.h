@@ -22,6 +22,13 @@ namespace awmr::cli {
 
 namespace fs = std::filesystem;
 
+struct InitCommand {
+  fs::path directory;
+  Drive drive = Drive::kFourWheel;
+};
+Result<Outcome> execute(const InitCommand& command);
+void add_init(CLI::App& app, Session& session);
+
 struct IdentifyCommand {
   fs::path vehicle;
   std::optional<fs::path> surge;

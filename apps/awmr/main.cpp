@@ -23,6 +23,7 @@ int run(int argc, char** argv) {
   app.get_formatter()->column_width(36);
 
   awmr::cli::Session session;
+  awmr::cli::add_init(app, session);
   awmr::cli::add_run(app, session);
   awmr::cli::add_identify(app, session);
   awmr::cli::add_validate(app, session);

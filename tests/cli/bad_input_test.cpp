@@ -105,7 +105,7 @@ TEST_F(BadInput, ALaterStepNamesWhatTheModelLacksAndTheTrialThatShowsIt) {
 
 TEST(Help, EveryCommandHasAnExample) {
   for (const char* command :
-       {"run", "identify", "validate", "tune", "simulate", "compare", "emit", "report"}) {
+       {"init", "run", "identify", "validate", "tune", "simulate", "compare", "emit", "report"}) {
     const ProcessResult result = awmr(std::string(command) + " --help");
     EXPECT_EQ(result.exit_code, 0) << command;
     EXPECT_THAT(result.out, HasSubstr("Example:")) << command;

@@ -2,15 +2,11 @@
 /// Private to emit/.
 #pragma once
 
-#include <string_view>
 #include <vector>
 
-namespace awmr {
+#include "awmr/core/embedded_file.h"
 
-struct EmbeddedFile {
-  std::string_view path;
-  std::string_view bytes;
-};
+namespace awmr {
 
 /// In the order of their paths within each part.
 const std::vector<EmbeddedFile>& embedded_files();

@@ -54,6 +54,11 @@ void steering_from_json(JsonObject json, Vehicle& vehicle) {
   json.reject_unknown_keys();
 }
 
+/// `null` is as good as no key: it is not known.
+std::optional<double> known_number(JsonObject& json, std::string_view key, NumberRule rule) {
+  return json.has(key) ? json.nullable_number(key, rule) : std::nullopt;
+}
+
 /// The mappings are kept as texts; whether a file has their columns is seen when it is read.
 void columns_from_json(JsonObject json, Vehicle& vehicle) {
   for (const std::string& name : json.keys()) {
@@ -119,6 +124,33 @@ void control_to_json(const Vehicle& vehicle, Json& json) {
   if (vehicle.yaw_rate_max_degps) json["yaw_rate_max_degps"] = *vehicle.yaw_rate_max_degps;
 }
 
+/// A unit that a number beyond its range was likely given in.
+struct SmallerUnit {
+  std::string_view pointer;
+  NumberRule rule;
+  double factor;
+  std::string_view words;
+};
+constexpr SmallerUnit kSmallerUnits[] = {{"/length_m", kSize_m, 1e-3, "mm"},
+                                         {"/width_m", kSize_m, 1e-3, "mm"},
+                                         {"/front_axle_m", kSize_m, 1e-3, "mm"},
+                                         {"/half_track_m", kSize_m, 1e-3, "mm"},
+                                         {"/sample_time_s", kSampleTime_s, 1e-3, "ms"}};
+
+/// Tells at each fault of a number that is too large what it would be in a smaller unit.
+void name_units(const Json& document, const std::string& file, std::vector<Fault>& faults) {
+  for (Fault& fault : faults) {
+    for (const SmallerUnit& unit : kSmallerUnits) {
+      if (fault.place != fmt::format("{}:{}", file, unit.pointer)) continue;
+      const Json::json_pointer pointer{std::string(unit.pointer)};
+      if (!document.contains(pointer) || !document.at(pointer).is_number()) continue;
+      const double value = document.at(pointer).get<double>();
+      if (value <= unit.rule.max || value * unit.factor > unit.rule.max) continue;
+      fault.message += fmt::format("; it looks like {}: {:.4g}", unit.words, value * unit.factor);
+    }
+  }
+}
+
 }  // namespace
 
 Vehicle vehicle_from_json(JsonObject& json) {
@@ -143,8 +175,8 @@ Vehicle vehicle_from_json(JsonObject& json) {
                "another drive");
   }
   vehicle.sample_time_s = json.number("sample_time_s", kSampleTime_s);
-  vehicle.yaw_inertia_kgm2 = json.optional_number("yaw_inertia_kgm2", kYawInertia_kgm2);
-  vehicle.sway_alpha = json.optional_number("sway_alpha", kCoefficient);
+  vehicle.yaw_inertia_kgm2 = known_number(json, "yaw_inertia_kgm2", kYawInertia_kgm2);
+  vehicle.sway_alpha = known_number(json, "sway_alpha", kCoefficient);
   vehicle.surge_beta_range =
       beta_range_from_json(json, "surge_beta_range", vehicle.surge_beta_range);
   vehicle.yaw_beta_range = beta_range_from_json(json, "yaw_beta_range", vehicle.yaw_beta_range);
@@ -186,6 +218,7 @@ Result<Vehicle> read_vehicle(const std::filesystem::path& path) {
   std::vector<Fault> faults;
   JsonObject root(json, path.string(), "", faults);
   Vehicle vehicle = vehicle_from_json(root);
+  name_units(json, path.string(), faults);
   if (!faults.empty()) return input_errors(std::move(faults));
   return vehicle;
 }

@@ -1,0 +1,108 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <memory>
+#include <set>
+#include <system_error>
+
+#include "awmr/core/file.h"
+#include "choices.h"
+#include "commands.h"
+#include "templates.h"
+
+namespace awmr::cli {
+namespace {
+
+/// The lines of a template that are for this drive.
+std::string for_drive(std::string_view text, Drive drive) {
+  std::string lines;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size() - 1) + 1;
+    std::string_view line = text.substr(0, end);
+    text.remove_prefix(end);
+    if (line.front() == '@') {
+      const std::size_t space = line.find(' ');
+      if (line.substr(1, space - 1) != name_in(kDriveNames, drive)) continue;
+      line.remove_prefix(space + 1);
+    }
+    lines += line;
+  }
+  return lines;
+}
+
+/// Errors: each file that is there already.
+Result<std::vector<OutputFile>> files_to_write(const InitCommand& command) {
+  std::vector<OutputFile> files;
+  std::vector<Fault> faults;
+  for (const EmbeddedFile& file : project_templates()) {
+    const fs::path path = command.directory / file.path;
+    std::error_code error;
+    if (fs::symlink_status(path, error).type() != fs::file_type::not_found) {
+      faults.push_back(
+          {path.string(), "is there already; take another directory, or move it away"});
+    }
+    files.push_back({path, for_drive(file.bytes, command.drive)});
+  }
+  if (!faults.empty()) return input_errors(std::move(faults));
+  return files;
+}
+
+/// The directories of the files that are not there yet, outer ones first.
+std::vector<fs::path> new_directories(const std::vector<OutputFile>& files) {
+  std::set<fs::path> found;
+  for (const OutputFile& file : files) {
+    for (fs::path path = file.path.parent_path(); !path.empty() && !fs::exists(path);
+         path = path.parent_path()) {
+      found.insert(path);
+    }
+  }
+  return {found.begin(), found.end()};
+}
+
+/// All files or none, and no new directory without them.
+Status write_all(const std::vector<OutputFile>& files) {
+  const std::vector<fs::path> made = new_directories(files);
+  Status written;
+  for (const fs::path& directory : made) {
+    if (written) written = make_directory(directory);
+  }
+  if (written) written = write_files(files);
+  if (written) return written;
+  std::error_code ignored;  // what is not empty or was never made stays as it is
+  for (auto path = made.rbegin(); path != made.rend(); ++path) fs::remove(*path, ignored);
+  return written;
+}
+
+std::string summary_of(const InitCommand& command, const std::vector<OutputFile>& files) {
+  std::string text = "wrote\n";
+  for (const OutputFile& file : files) text += fmt::format("  {}\n", file.path.string());
+  return text + fmt::format(
+                    "next: fill in each null of vehicle.json ({} says how to measure it), print\n"
+                    "field_sheet.html, record the trials; `awmr check {}` says what is missing\n",
+                    (command.directory / "README.md").string(), command.directory.string());
+}
+
+}  // namespace
+
+Result<Outcome> execute(const InitCommand& command) {
+  AWMR_ASSIGN_OR_RETURN(const std::vector<OutputFile> files, files_to_write(command));
+  AWMR_RETURN_IF_ERROR(write_all(files));
+  return Outcome{.summary = summary_of(command, files)};
+}
+
+void add_init(CLI::App& app, Session& session) {
+  auto command = std::make_shared<InitCommand>();
+  CLI::App* sub =
+      add_command(app, session, "init",
+                  "Start with your own robot: a project to fill in, a field sheet to print",
+                  "awmr init my_rover", [command] { return execute(*command); });
+  sub->add_option("DIR", command->directory,
+                  "Directory for the project; nothing in it is overwritten")
+      ->required();
+  add_choice(*sub, "--drive", command->drive, kDriveNames,
+             "four_wheel (default): four driven wheels, steered in front; differential: without "
+             "steering");
+}
+
+}  // namespace awmr::cli
