@@ -29,6 +29,12 @@ struct InitCommand {
 Result<Outcome> execute(const InitCommand& command);
 void add_init(CLI::App& app, Session& session);
 
+struct CheckCommand {
+  fs::path project;  ///< the file, or its directory
+};
+Result<Outcome> execute(const CheckCommand& command);
+void add_check(CLI::App& app, Session& session);
+
 struct IdentifyCommand {
   fs::path vehicle;
   std::optional<fs::path> surge;

@@ -24,6 +24,7 @@ int run(int argc, char** argv) {
 
   awmr::cli::Session session;
   awmr::cli::add_init(app, session);
+  awmr::cli::add_check(app, session);
   awmr::cli::add_run(app, session);
   awmr::cli::add_identify(app, session);
   awmr::cli::add_validate(app, session);

@@ -10,6 +10,7 @@
 #include "awmr/identify/main_values.h"
 #include "awmr/identify/refusals.h"
 #include "awmr/identify/trials_as_used.h"
+#include "awmr/model/plausibility.h"
 
 namespace awmr {
 namespace {
@@ -140,6 +141,8 @@ Result<Identification> identify(const Vehicle& vehicle, const TrialData& data,
   Reasons reasons;
   set_given(vehicle, model);
   check_inertia(vehicle, model.record.findings);
+  const std::vector<Finding> implausible = plausibility_findings(vehicle, Severity::kWarning);
+  model.record.findings.insert(model.record.findings.end(), implausible.begin(), implausible.end());
 
   const SubjectFit surge = identify_laws(vehicle, data, options, values, reasons);
   identify_mass(vehicle, data, options, surge, values, reasons);

@@ -1,0 +1,217 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <functional>
+#include <memory>
+#include <system_error>
+
+#include "awmr/core/json.h"
+#include "awmr/model/model_file.h"
+#include "awmr/model/plausibility.h"
+#include "awmr/model/vehicle_file.h"
+#include "awmr/simulate/scenario_file.h"
+#include "awmr/trials/column_guess.h"
+#include "awmr/trials/load.h"
+#include "awmr/tune/tune_file.h"
+#include "commands.h"
+#include "project.h"
+
+namespace awmr::cli {
+namespace {
+
+/// What was found out about a project, in the order in which to mend it.
+struct Check {
+  std::vector<Finding> missing;      ///< values and trials that are still to come
+  std::vector<Finding> implausible;  ///< what contradicts itself or cannot be
+  std::vector<Finding> notes;        ///< what the trials' readers say of them
+  std::vector<Fault> faults;         ///< what cannot be read at all
+};
+
+void take(const Error& error, std::vector<Fault>& faults) {
+  faults.insert(faults.end(), error.faults.begin(), error.faults.end());
+}
+
+/// The document's value at a fault's place, `FILE:/json/pointer`, is null.
+bool is_null_at(const Json& document, const std::string& file, const std::string& place) {
+  if (!place.starts_with(file + ":/")) return false;
+  const Json::json_pointer pointer(place.substr(file.size() + 1));
+  return document.contains(pointer) && document.at(pointer).is_null();
+}
+
+/// Reads a JSON file of the project. A null is a value that is still to be filled in.
+template <class T>
+std::optional<T> read_filled(const fs::path& path, Result<T> (*read)(const fs::path&),
+                             Check& check) {
+  Result<T> result = read(path);
+  if (result) return std::move(*result);
+  const auto document = read_json_file(path);
+  for (const Fault& fault : result.error().faults) {
+    if (document && is_null_at(*document, path.string(), fault.place)) {
+      check.missing.push_back(
+          {fault.place, 0, Severity::kError, "missing-value", "to be filled in: it is null"});
+    } else {
+      check.faults.push_back(fault);
+    }
+  }
+  return std::nullopt;
+}
+
+/// True for a table or log with a row at least. A file that cannot be read is a fault.
+bool has_rows(const fs::path& path, Check& check) {
+  const auto sample = sample_of(path);
+  if (!sample) {
+    take(sample.error(), check.faults);
+    return false;
+  }
+  const auto is_filled = [](const auto& column) { return !column.empty(); };
+  return std::any_of(sample->values.begin(), sample->values.end(), is_filled) ||
+         std::any_of(sample->texts.begin(), sample->texts.end(), is_filled);
+}
+
+/// What each table is recorded for.
+ParameterId shown_by(TrialKind kind) {
+  switch (kind) {
+    case TrialKind::kTurning:
+      return ParameterId::kYawAlpha;
+    case TrialKind::kCoastdown:
+      return ParameterId::kMassNorm;
+    default:
+      return ParameterId::kSurgeAlpha;
+  }
+}
+
+/// The files in which something was recorded.
+TrialFiles recorded(const Project& project, const Vehicle& vehicle, Check& check) {
+  TrialFiles files{
+      .vehicle = vehicle, .steady_from_logs = project.steady_from_logs, .options = project.trials};
+  const auto is_recorded = [&](const fs::path& path, TrialKind kind) {
+    const std::size_t faults = check.faults.size();
+    if (has_rows(path, check)) return true;
+    if (check.faults.size() > faults) return false;
+    check.missing.push_back(
+        {path.string(), 0, Severity::kError, "missing-trial",
+         fmt::format("no runs yet: record {}", kind == TrialKind::kLog
+                                                   ? "a driving log"
+                                                   : trial_of(vehicle, shown_by(kind)))});
+    return false;
+  };
+  if (project.surge && is_recorded(*project.surge, TrialKind::kSurge)) files.surge = project.surge;
+  if (project.turning && is_recorded(*project.turning, TrialKind::kTurning)) {
+    files.turning = project.turning;
+  }
+  for (const fs::path& path : project.coastdowns) {
+    if (is_recorded(path, TrialKind::kCoastdown)) files.coastdowns.push_back(path);
+  }
+  for (const fs::path& path : project.logs) {
+    if (is_recorded(path, TrialKind::kLog)) files.logs.push_back(path);
+  }
+  return files;
+}
+
+/// Without a driving log each table has to be there, and the sway resistance given.
+void check_what_nothing_shows(const Project& project, const Vehicle* vehicle, Check& check) {
+  if (!project.logs.empty()) return;
+  const auto nothing_shows = [&](ParameterId id) {
+    check.missing.push_back(
+        {"", 0, Severity::kError, "missing-trial",
+         fmt::format("nothing shows {} ({}), which gains need: {}", info(id).name, info(id).meaning,
+                     vehicle ? trial_of(*vehicle, id) : info(id).trial)});
+  };
+  if (!project.surge) nothing_shows(ParameterId::kSurgeAlpha);
+  if (!project.turning) nothing_shows(ParameterId::kYawAlpha);
+  if (project.coastdowns.empty()) nothing_shows(ParameterId::kMassNorm);
+  if (vehicle == nullptr || vehicle->sway_alpha) return;
+  check.missing.push_back({project.vehicle.string() + ":/sway_alpha", 0, Severity::kError,
+                           "missing-value",
+                           fmt::format("to be filled in, as gains need it ({}), or shown by a "
+                                       "driving log with sway_mps",
+                                       info(ParameterId::kSwayAlpha).meaning)});
+}
+
+/// The trials against themselves and against the vehicle.
+void check_trials(TrialFiles files, bool complete, Check& check) {
+  const bool nothing = !files.surge && !files.turning && files.coastdowns.empty();
+  if (nothing && files.logs.empty()) return;
+  // A mapping may be for a file that has no rows yet.
+  for (ColumnMapping& mapping : files.options.columns) mapping.standing |= !complete;
+  files.steady_from_logs = files.steady_from_logs && !files.logs.empty();
+  const bool as_is = files.options.as_is;
+  files.options.as_is = true;
+  const auto trials = load_trials(files);
+  if (!trials) return take(trials.error(), check.faults);
+  const auto contradicts = [](const Finding& finding) {
+    return finding.code == "table-contradiction" || finding.code == "log-contradiction";
+  };
+  const std::vector<Finding>& found = trials->findings;
+  check.notes.insert(check.notes.end(), found.begin(), found.end());
+  if (as_is || std::none_of(found.begin(), found.end(), contradicts)) return;
+  // Read again, the contradictions are faults that name the mapping which mends them.
+  std::erase_if(check.notes, contradicts);
+  files.options.as_is = false;
+  if (const auto refused = load_trials(files); !refused) {
+    for (const Fault& fault : refused.error().faults) {
+      check.implausible.push_back(
+          {fault.place, 0, Severity::kError, "contradiction", fault.message});
+    }
+  }
+}
+
+Result<Check> check_project(const Project& project) {
+  Check check;
+  const auto vehicle = read_filled<Vehicle>(project.vehicle, read_vehicle, check);
+  const TrialFiles files = recorded(project, vehicle.value_or(Vehicle{}), check);
+  for (const fs::path& path : project.scenarios) {
+    read_filled<Scenario>(path, read_scenario, check);
+  }
+  if (project.tune) read_filled<TuneConfig>(*project.tune, read_tune_config, check);
+  check_what_nothing_shows(project, vehicle ? &*vehicle : nullptr, check);
+  if (vehicle && check.faults.empty()) {
+    check.implausible = plausibility_findings(*vehicle, Severity::kError, project.vehicle.string());
+    check_trials(files, check.missing.empty(), check);
+  }
+  if (!check.faults.empty()) return input_errors(std::move(check.faults));
+  return check;
+}
+
+std::string summary_of(const fs::path& project, const Check& check) {
+  const auto count = [&](std::string_view code) {
+    return std::count_if(check.missing.begin(), check.missing.end(),
+                         [&](const Finding& finding) { return finding.code == code; });
+  };
+  if (check.missing.empty() && check.implausible.empty()) {
+    return fmt::format("{}: nothing to mend; next: awmr run {} -o out\n", project.string(),
+                       project.string());
+  }
+  return fmt::format("{}: {} to fill in, {} to record, {} implausible\n", project.string(),
+                     count("missing-value"), count("missing-trial"), check.implausible.size());
+}
+
+}  // namespace
+
+Result<Outcome> execute(const CheckCommand& command) {
+  std::error_code error;
+  const fs::path path =
+      fs::is_directory(command.project, error) ? command.project / "project.json" : command.project;
+  AWMR_ASSIGN_OR_RETURN(const Project project, read_project(path));
+  AWMR_ASSIGN_OR_RETURN(const Check check, check_project(project));
+  Outcome outcome{.summary = summary_of(path, check)};
+  for (const auto* findings : {&check.missing, &check.implausible, &check.notes}) {
+    outcome.findings.insert(outcome.findings.end(), findings->begin(), findings->end());
+  }
+  outcome.refused = !check.missing.empty() || !check.implausible.empty();
+  return outcome;
+}
+
+void add_check(CLI::App& app, Session& session) {
+  auto command = std::make_shared<CheckCommand>();
+  CLI::App* sub = add_command(
+      app, session, "check",
+      "Say what a project still lacks and what in it cannot be, before any fit",
+      "awmr check configs/paper/project.json\n"
+      "Exit codes: 0 nothing to mend; 1 something is missing or implausible; 2 bad input",
+      [command] { return execute(*command); });
+  sub->add_option("PROJECT", command->project, "project.json, or its directory")->required();
+}
+
+}  // namespace awmr::cli

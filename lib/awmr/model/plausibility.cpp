@@ -1,0 +1,201 @@
+#include "awmr/model/plausibility.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "awmr/core/interval.h"
+#include "awmr/core/units.h"
+
+namespace awmr {
+namespace {
+
+/// What a value times `factor` would be.
+struct Guess {
+  double factor;
+  std::string_view words;
+};
+constexpr std::array<Guess, 2> kLengths{{{1e-3, "looks like mm"}, {1e-2, "looks like cm"}}};
+constexpr std::array<Guess, 3> kHalfTrack{
+    {{0.5, "looks like the whole track"}, {1e-3, "looks like mm"}, {1e-2, "looks like cm"}}};
+constexpr std::array<Guess, 3> kFrontAxle{
+    {{0.5, "looks like the wheelbase"}, {1e-3, "looks like mm"}, {1e-2, "looks like cm"}}};
+constexpr std::array<Guess, 5> kInertia{{{1e-4, "looks like kg cm^2"},
+                                         {1e-3, "looks like g m^2"},
+                                         {1e-6, "looks like kg mm^2"},
+                                         {1e-7, "looks like g cm^2"},
+                                         {1e-9, "looks like g mm^2"}}};
+
+/// The guess that brings a ratio nearest to the usual one, if it then is in the usual range.
+std::optional<Guess> likely(double ratio, std::span<const Guess> guesses, Interval range,
+                            double usual) {
+  std::optional<Guess> best;
+  for (const Guess& guess : guesses) {
+    const auto apart = [&](const Guess& g) { return std::abs(std::log(ratio * g.factor / usual)); };
+    if (!range.contains(ratio * guess.factor)) continue;
+    if (!best || apart(guess) < apart(*best)) best = guess;
+  }
+  return best;
+}
+
+/// "; it looks like mm: 0.32", or what to do.
+std::string remedy(double value, const std::optional<Guess>& guess) {
+  if (!guess) return "; measure it again";
+  return fmt::format("; it {}: {:.4g}", guess->words, value * guess->factor);
+}
+
+/// Which of the sizes and the mass are in another unit.
+struct Scale {
+  double size;
+  double mass;
+};
+
+/// By the mass over the footprint alone, where length and width fit each other: the scale that makes
+/// it most like a robot's.
+std::optional<Scale> likely_scale(double mass_per_area) {
+  static constexpr std::array<Scale, 5> kScales{
+      {{1e-3, 1.0}, {1e-2, 1.0}, {1.0, 1e-3}, {1e-3, 1e-3}, {1e-2, 1e-3}}};
+  constexpr Interval kUsual{5.0, 500.0};
+  constexpr double kMiddle = 50.0;
+  std::optional<Scale> best;
+  double least = 0.0;
+  for (const Scale& scale : kScales) {
+    const double there = mass_per_area * scale.mass / (scale.size * scale.size);
+    const double apart = std::abs(std::log(there / kMiddle));
+    if (!kUsual.contains(there) || (best && apart >= least)) continue;
+    best = scale;
+    least = apart;
+  }
+  return best;
+}
+
+/// Length against width. Corrects the one that is too large by a unit.
+void judge_shape(Vehicle& vehicle, std::vector<Implausible>& found) {
+  constexpr Interval kShape{0.2, 10.0};
+  const double ratio = vehicle.length_m / vehicle.width_m;
+  if (kShape.contains(ratio)) return;
+  const bool is_long = ratio > 1.0;
+  double& larger = is_long ? vehicle.length_m : vehicle.width_m;
+  const auto guess = likely(is_long ? ratio : 1.0 / ratio, kLengths, {0.3, 6.0}, 1.5);
+  found.push_back({is_long ? "/length_m" : "/width_m",
+                   fmt::format("length_m {:g} and width_m {:g} are {:.3g} to 1{}", vehicle.length_m,
+                               vehicle.width_m, ratio, remedy(larger, guess))});
+  if (guess) larger *= guess->factor;
+}
+
+/// Mass over the footprint. Corrects what is in another unit.
+void judge_mass(Vehicle& vehicle, std::vector<Implausible>& found) {
+  constexpr Interval kMassPerArea{1.0, 5000.0};
+  const double per_area = vehicle.mass_kg / (vehicle.length_m * vehicle.width_m);
+  if (kMassPerArea.contains(per_area)) return;
+  const std::string compared =
+      fmt::format("{:g} kg on {:g} m x {:g} m are {:.3g} kg/m^2, where robots have 5 to 500",
+                  vehicle.mass_kg, vehicle.length_m, vehicle.width_m, per_area);
+  const auto scale = likely_scale(per_area);
+  if (!scale) {
+    found.push_back({"/mass_kg", compared + "; measure mass and sizes again"});
+    return;
+  }
+  if (scale->mass != 1.0) {
+    found.push_back({"/mass_kg", fmt::format("{}; it looks like g: {:.4g}", compared,
+                                             vehicle.mass_kg * scale->mass)});
+    vehicle.mass_kg *= scale->mass;
+  }
+  if (scale->size == 1.0) return;
+  const std::string_view unit = scale->size == 1e-3 ? "mm" : "cm";
+  for (const auto& [pointer, size] :
+       {std::pair{"/length_m", &vehicle.length_m}, std::pair{"/width_m", &vehicle.width_m}}) {
+    found.push_back({pointer, fmt::format("{}; it looks like {}: {:.4g}", compared, unit,
+                                          *size * scale->size)});
+    *size *= scale->size;
+  }
+}
+
+void judge_axles(const Vehicle& vehicle, std::vector<Implausible>& found) {
+  const double track = 2.0 * vehicle.half_track_m / vehicle.width_m;
+  if (!Interval{0.2, 1.2}.contains(track)) {
+    found.push_back(
+        {"/half_track_m",
+         fmt::format("half_track_m {:g} makes a track of {:.3g} m on a vehicle of width {:.3g} m{}",
+                     vehicle.half_track_m, 2.0 * vehicle.half_track_m, vehicle.width_m,
+                     remedy(vehicle.half_track_m, likely(track, kHalfTrack, {0.3, 1.1}, 0.9)))});
+  }
+  if (!vehicle.has_steering()) return;
+  const double front = 2.0 * vehicle.front_axle_m / vehicle.length_m;
+  if (!Interval{0.02, 1.0}.contains(front)) {
+    found.push_back(
+        {"/front_axle_m",
+         fmt::format(
+             "front_axle_m {:g} is {:.3g} times half of the length {:.3g} m: the front axle, "
+             "from the centre of gravity, is nearer than the bumper{}",
+             vehicle.front_axle_m, front, vehicle.length_m,
+             remedy(vehicle.front_axle_m, likely(front, kFrontAxle, {0.1, 1.0}, 0.6)))});
+  }
+}
+
+void judge_inertia(const Vehicle& vehicle, std::vector<Implausible>& found) {
+  if (!vehicle.yaw_inertia_kgm2) return;
+  Vehicle box = vehicle;
+  box.yaw_inertia_kgm2.reset();
+  const double ratio = *vehicle.yaw_inertia_kgm2 / box.inertia_kgm2();
+  if (Interval{0.05, 3.0}.contains(ratio)) return;
+  const auto guess = likely(ratio, kInertia, {0.3, 3.0}, 1.0);
+  found.push_back(
+      {"/yaw_inertia_kgm2",
+       fmt::format("yaw_inertia_kgm2 is {:.3g} times that of a box of this mass and size, {:.4g} "
+                   "kg m^2 (all mass in the corners makes 3 times){}",
+                   ratio, box.inertia_kgm2(),
+                   guess ? remedy(*vehicle.yaw_inertia_kgm2, guess)
+                         : "; is it another vehicle's? Without this key the box is used")});
+}
+
+void judge_steering(const Vehicle& vehicle, std::vector<Implausible>& found) {
+  if (!vehicle.has_steering()) return;
+  if (vehicle.steering_max_deg < 2.0) {
+    found.push_back({"/steering/max_deg",
+                     fmt::format("a steering stop of {:g} deg; it looks like "
+                                 "radians: {:.4g}",
+                                 vehicle.steering_max_deg, degrees(vehicle.steering_max_deg))});
+  }
+  if (vehicle.steering_max_rate_degps < 8.0) {
+    found.push_back(
+        {"/steering/max_rate_degps",
+         fmt::format("a steering rate of {:g} deg/s; it looks like rad/s: {:.4g}",
+                     vehicle.steering_max_rate_degps, degrees(vehicle.steering_max_rate_degps))});
+  }
+  if (vehicle.steering_time_constant_s > 2.0) {
+    found.push_back(
+        {"/steering/time_constant_s",
+         fmt::format("a servo with a time constant of {:g} s; it looks like ms: {:.4g}",
+                     vehicle.steering_time_constant_s, 1e-3 * vehicle.steering_time_constant_s)});
+  }
+}
+
+}  // namespace
+
+std::vector<Implausible> implausible_values(const Vehicle& vehicle) {
+  std::vector<Implausible> found;
+  Vehicle mended = vehicle;
+  judge_shape(mended, found);
+  judge_mass(mended, found);
+  judge_axles(mended, found);
+  judge_inertia(mended, found);
+  judge_steering(mended, found);
+  return found;
+}
+
+std::vector<Finding> plausibility_findings(const Vehicle& vehicle, Severity severity,
+                                           const std::string& file) {
+  std::vector<Finding> findings;
+  for (const Implausible& one : implausible_values(vehicle)) {
+    const std::string place = file.empty() ? file : file + ":" + one.pointer;
+    findings.push_back({place, 0, severity, "implausible-vehicle", one.message});
+  }
+  return findings;
+}
+
+}  // namespace awmr

@@ -1,0 +1,174 @@
+/// `awmr check`: what a project still lacks and what in it cannot be, in words, before any fit.
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/program.h"
+
+namespace awmr::testing {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// A project as `awmr init` writes it, filled in for a rover of 2.1 kg.
+class Check : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_EQ(awmr("init " + project()).exit_code, 0);
+    nlohmann::ordered_json vehicle = read("vehicle.json");
+    vehicle.merge_patch(
+        {{"mass_kg", 2.1},
+         {"length_m", 0.32},
+         {"width_m", 0.22},
+         {"front_axle_m", 0.1},
+         {"half_track_m", 0.085},
+         {"wheel_force", {{"min", -1}, {"max", 1}}},
+         {"steering", {{"max_deg", 25}, {"max_rate_degps", 200}, {"time_constant_s", 0.05}}},
+         {"sample_time_s", 0.02},
+         {"sway_alpha", 5}});
+    write("vehicle.json", vehicle);
+    for (const char* scenario : {"scenarios/heading_steps.json", "scenarios/square.json"}) {
+      nlohmann::ordered_json json = read(scenario);
+      json["speed_mps"] = 0.8;
+      write(scenario, json);
+    }
+    write_all(path("surge.csv"),
+              "wheel_force,distance_m,elapsed_s\n0.2,5,12.5\n0.4,5,5.9\n0.6,5,3.8\n0.8,5,2.8\n");
+    write_all(path("turning.csv"),
+              "steering_deg,wheel_force,turns,elapsed_s\n8,0.5,2,26\n16,0.5,2,12\n25,0.5,2,7.4\n");
+    write_all(path("coastdown.csv"), "initial_speed_mps,stop_time_s\n1.2,0.9\n0.8,0.7\n");
+  }
+  std::string project() const { return (directory_.path() / "rover").string(); }
+  fs::path path(const std::string& name) const { return directory_.path() / "rover" / name; }
+  nlohmann::ordered_json read(const std::string& name) const {
+    return nlohmann::ordered_json::parse(read_all(path(name)));
+  }
+  void write(const std::string& name, const nlohmann::ordered_json& json) const {
+    write_all(path(name), json.dump(2));
+  }
+  /// Check with one value of a file set.
+  ProcessResult check_with(const std::string& name, const std::string& pointer,
+                           const nlohmann::ordered_json& value) const {
+    nlohmann::ordered_json json = read(name);
+    json[nlohmann::ordered_json::json_pointer(pointer)] = value;
+    write(name, json);
+    return awmr("check " + project());
+  }
+  TemporaryDirectory directory_;
+};
+
+TEST_F(Check, AFilledProjectHasNothingToMend) {
+  const ProcessResult result = awmr("check " + project());
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("nothing to mend; next: awmr run"));
+  EXPECT_EQ(awmr("check " + path("project.json").string()).exit_code, 0);
+}
+
+TEST_F(Check, ThePapersProjectHasNothingToMend) {
+  const ProcessResult result = awmr("check configs/paper/project.json");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("speed-mismatch")) << "its oddities are told all the same";
+}
+
+TEST_F(Check, ListsWhatIsMissingInOrder) {
+  const std::string fresh = (directory_.path() / "fresh").string();
+  ASSERT_EQ(awmr("init " + fresh).exit_code, 0);
+  const ProcessResult result = awmr("check --quiet " + fresh);
+  EXPECT_EQ(result.exit_code, 1);
+  const std::size_t mass = result.err.find("vehicle.json:/mass_kg: to be filled in");
+  const std::size_t surge = result.err.find("surge.csv: no runs yet: record a surge trial");
+  const std::size_t speed = result.err.find("square.json:/speed_mps: to be filled in");
+  EXPECT_LT(mass, surge) << result.err;
+  EXPECT_LT(surge, speed);
+  EXPECT_NE(speed, std::string::npos);
+  EXPECT_THAT(result.err, Not(HasSubstr("yaw_inertia_kgm2"))) << "optional, the box stands in";
+}
+
+TEST_F(Check, WhatGainsNeedAndNothingShowsIsNamed) {
+  EXPECT_THAT(check_with("vehicle.json", "/sway_alpha", nullptr).err,
+              HasSubstr("vehicle.json:/sway_alpha: to be filled in, as gains need it"));
+  nlohmann::ordered_json json = read("project.json");
+  json["trials"].erase("coastdown");
+  write("project.json", json);
+  const ProcessResult result = awmr("check " + project());
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, HasSubstr("nothing shows mass_norm"));
+}
+
+TEST_F(Check, WrongUnitsOfTheVehicleAreNamedWithTheValueTheyWouldBe) {
+  const std::tuple<const char*, double, const char*> cases[] = {
+      {"/mass_kg", 2100, "looks like g: 2.1"},
+      {"/length_m", 320, "looks like mm: 0.32"},
+      {"/width_m", 22, "looks like cm: 0.22"},
+      {"/half_track_m", 85, "looks like mm: 0.085"},
+      {"/half_track_m", 0.17, "looks like the whole track: 0.085"},
+      {"/front_axle_m", 0.2, "looks like the wheelbase: 0.1"},
+      {"/yaw_inertia_kgm2", 5.841, "is it another vehicle's?"},
+      {"/yaw_inertia_kgm2", 264, "looks like kg cm^2: 0.0264"},
+      {"/steering/max_deg", 0.436, "looks like radians: 24.98"},
+      {"/steering/max_rate_degps", 3.49, "looks like rad/s: 200"},
+      {"/steering/time_constant_s", 50, "looks like ms: 0.05"},
+  };
+  const nlohmann::ordered_json good = read("vehicle.json");
+  for (const auto& [pointer, value, words] : cases) {
+    const ProcessResult result = check_with("vehicle.json", pointer, value);
+    EXPECT_EQ(result.exit_code, 1) << pointer;
+    EXPECT_THAT(result.err,
+                AllOf(HasSubstr(std::string("vehicle.json:") + pointer), HasSubstr(words)));
+    EXPECT_THAT(result.out, HasSubstr("1 implausible")) << pointer << "\n" << result.err;
+    write("vehicle.json", good);
+  }
+}
+
+TEST_F(Check, NumbersBeyondEveryVehicleAreBadInputWithTheLikelyUnit) {
+  const ProcessResult length = check_with("vehicle.json", "/length_m", 1320);
+  EXPECT_EQ(length.exit_code, 2);
+  EXPECT_THAT(length.err, HasSubstr("looks like mm: 1.32"));
+  EXPECT_THAT(check_with("vehicle.json", "/sample_time_s", 20).err,
+              HasSubstr("looks like ms: 0.02"));
+}
+
+TEST_F(Check, IdentifyWarnsOfWhatCannotBe) {
+  write_all(path("odd.json"), "");
+  nlohmann::ordered_json vehicle = read("vehicle.json");
+  vehicle["half_track_m"] = 0.17;
+  write("odd.json", vehicle);
+  const ProcessResult result =
+      awmr("identify --vehicle " + path("odd.json").string() + " --surge " +
+           path("surge.csv").string() + " -o " + path("m.json").string());
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.err, AllOf(HasSubstr("warning: "), HasSubstr("[implausible-vehicle]")));
+}
+
+TEST_F(Check, ContradictionsOfTheTrialsNameTheMappingThatMends) {
+  write_all(path("surge.csv"),
+            "wheel_force,distance_m,elapsed_s\n51,5,12.5\n102,5,5.9\n153,5,3.8\n204,5,2.8\n");
+  const ProcessResult result = awmr("check " + project());
+  EXPECT_EQ(result.exit_code, 1) << result.err;
+  EXPECT_THAT(result.err,
+              AllOf(HasSubstr("surge.csv:2: tau_speed is"), HasSubstr("8-bit PWM counts"),
+                    HasSubstr("--column 'wheel_force="), HasSubstr("[contradiction]")));
+}
+
+TEST_F(Check, WhatCannotBeReadIsBadInput) {
+  write_all(path("surge.csv"), "wheel_force,distance_m,elapsed_s\n0.2,5,fast\n");
+  EXPECT_EQ(awmr("check " + project()).exit_code, 2);
+  fs::remove(path("surge.csv"));
+  const ProcessResult result = awmr("check " + project());
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("surge.csv"));
+  EXPECT_EQ(check_with("vehicle.json", "/mas_kg", 2).exit_code, 2);
+}
+
+TEST_F(Check, AMappingForATrialThatIsStillEmptyIsNoError) {
+  write_all(path("surge.csv"), "pwm,distance_m,elapsed_s\n");
+  const ProcessResult result = check_with("project.json", "/columns", {{"wheel_force", "pwm/255"}});
+  EXPECT_EQ(result.exit_code, 1) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("no runs yet"));
+}
+
+}  // namespace
+}  // namespace awmr::testing
