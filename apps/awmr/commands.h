@@ -10,6 +10,7 @@
 #include "allocation_option.h"
 #include "awmr/compare/compare.h"
 #include "awmr/emit/emit.h"
+#include "awmr/emit/export.h"
 #include "awmr/identify/identify.h"
 #include "awmr/identify/planning/recover.h"
 #include "awmr/trials/read_trials.h"
@@ -142,6 +143,15 @@ struct EmitCommand {
 };
 Result<Outcome> execute(const EmitCommand& command);
 void add_emit(CLI::App& app, Session& session);
+
+struct ExportCommand {
+  fs::path model;
+  std::optional<fs::path> gains;
+  ExportFormat format = ExportFormat::kRos2;
+  fs::path output;
+};
+Result<Outcome> execute(const ExportCommand& command);
+void add_export(CLI::App& app, Session& session);
 
 void add_pil(CLI::App& app, Session& session);
 

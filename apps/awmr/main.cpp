@@ -33,6 +33,7 @@ int run(int argc, char** argv) {
   awmr::cli::add_compare(app, session);
   awmr::cli::add_merge(app, session);
   awmr::cli::add_emit(app, session);
+  awmr::cli::add_export(app, session);
   awmr::cli::add_pil(app, session);
   awmr::cli::add_report(app, session);
   awmr::cli::add_suggest(app, session);

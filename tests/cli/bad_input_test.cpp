@@ -105,7 +105,7 @@ TEST_F(BadInput, ALaterStepNamesWhatTheModelLacksAndTheTrialThatShowsIt) {
 
 TEST(Help, EveryCommandHasAnExample) {
   for (const char* command : {"init", "check", "run", "identify", "validate", "tune", "simulate",
-                              "compare", "emit", "report"}) {
+                              "compare", "emit", "export", "report"}) {
     const ProcessResult result = awmr(std::string(command) + " --help");
     EXPECT_EQ(result.exit_code, 0) << command;
     EXPECT_THAT(result.out, HasSubstr("Example:")) << command;

@@ -6,25 +6,12 @@
 #include "awmr/core/text.h"
 #include "awmr/core/units.h"
 #include "awmr/emit/emit.h"
+#include "comment_safe.h"
 #include "literals.h"
 #include "macros.h"
 
 namespace awmr {
 namespace {
-
-/// Names from files inside a C89 comment: one line of printable ASCII, other characters as '?',
-/// that neither ends the comment nor seems to start one.
-std::string comment_safe(std::string_view text) {
-  std::string safe;
-  for (const char c : text) {
-    if (continues_character(c)) continue;
-    const bool joins =
-        !safe.empty() && ((safe.back() == '*' && c == '/') || (safe.back() == '/' && c == '*'));
-    if (joins) safe += ' ';
-    safe += c >= ' ' && c <= '~' ? c : '?';
-  }
-  return safe;
-}
 
 constexpr std::string_view kCheckMacro = R"(
 /* Checked by the compiler, after an edit by hand too. In C a condition that does not hold makes a
@@ -124,6 +111,18 @@ Status check_relations(const Model& model, const Gains<double>& gains, const Emi
 }
 
 }  // namespace
+
+std::string comment_safe(std::string_view text) {
+  std::string safe;
+  for (const char c : text) {
+    if (continues_character(c)) continue;
+    const bool joins =
+        !safe.empty() && ((safe.back() == '*' && c == '/') || (safe.back() == '/' && c == '*'));
+    if (joins) safe += ' ';
+    safe += c >= ' ' && c <= '~' ? c : '?';
+  }
+  return safe;
+}
 
 /// %.9g and `f`: nine significant digits read back to the same float. `3f` is no literal of C, so
 /// a point or an exponent is always there; a sign needs parentheses, as a macro's value has to bind

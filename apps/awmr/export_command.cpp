@@ -1,0 +1,49 @@
+#include "awmr/emit/export.h"
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "awmr/core/file.h"
+#include "awmr/model/gains_file.h"
+#include "awmr/model/model_file.h"
+#include "choices.h"
+#include "commands.h"
+
+namespace awmr::cli {
+
+Result<Outcome> execute(const ExportCommand& command) {
+  std::vector<fs::path> paths{command.model};
+  if (command.gains) paths.push_back(*command.gains);
+  AWMR_RETURN_IF_ERROR(check_output(command.output, paths));
+  AWMR_ASSIGN_OR_RETURN(const Model model, read_model(command.model));
+  ExportSource source{.model = model};
+  if (command.gains) {
+    AWMR_ASSIGN_OR_RETURN(source.gains, read_gains(*command.gains));
+  }
+  AWMR_ASSIGN_OR_RETURN(const std::vector<InputFile> inputs, input_files(paths));
+  source.inputs = inputs;
+  AWMR_ASSIGN_OR_RETURN(const std::string text, export_text(source, command.format));
+  AWMR_RETURN_IF_ERROR(write_file(command.output, text));
+  return Outcome{.summary = fmt::format("wrote {}\n", command.output.string())};
+}
+
+void add_export(CLI::App& app, Session& session) {
+  auto command = std::make_shared<ExportCommand>();
+  CLI::App* sub =
+      add_command(app, session, "export", "Write model and gains as another program's parameters",
+                  "awmr export --model model.json --gains gains.json --format px4 -o rover.params",
+                  [command] { return execute(*command); });
+  sub->add_option("--model", command->model, "model.json from identify")->required();
+  sub->add_option("--gains", command->gains,
+                  "gains.json from tune; what follows from gains is left "
+                  "out without it");
+  add_choice(*sub, "--format", command->format, kExportFormatNames,
+             "ROS 2 parameters (YAML), MATLAB script, Python module, CSV, or the parameters that "
+             "follow from the model of ArduPilot Rover or PX4's rovers, each with its derivation")
+      ->required();
+  add_output(*sub, command->output, "File to write");
+}
+
+}  // namespace awmr::cli

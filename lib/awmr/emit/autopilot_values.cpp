@@ -1,0 +1,271 @@
+/// The parameters of ArduPilot Rover and of PX4's rovers that follow from a model.
+///
+/// Their loops, in the model's terms, with throttle and steering outputs in [-1, 1] as F' is:
+///
+///     throttle = F' of every wheel                              4 F' = g1(u) at a steady speed u
+///     skid steering s: F'L = throttle + s, F'R = throttle - s   4 d s = g3(r)
+///     steered wheels:  d_r = steering times the stop            l_f g1(u) tan(d_r/2) = g3(r)
+///
+/// the last two from (41) at constant speed, turns counted positive. What they are fed with stands in
+/// ArduPilot's libraries/APM_Control/AR_AttitudeControl.cpp (get_throttle_out_speed,
+/// get_steering_out_rate) and AR_Motors/AP_MotorsUGV.cpp, and in PX4's
+/// src/lib/rover_control/RoverControl.cpp (speedControl, rateControl) and rovercontrol_params.yaml.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "awmr/core/units.h"
+#include "awmr/model/steady.h"
+#include "awmr/simulate/validity.h"
+#include "exported_values.h"
+#include "of_plant.h"
+
+namespace awmr {
+namespace {
+
+constexpr double kNever = std::numeric_limits<double>::quiet_NaN();
+
+double steady_or_never(const Resistance<double>& law, double force) {
+  return steady_rate(law, force).value_or(kNever);
+}
+
+/// g'(w), by a central difference.
+double slope(const Resistance<double>& law, double w) {
+  const double h = 1e-5 * w;
+  return (law.at(w + h) - law.at(w - h)) / (2.0 * h);
+}
+
+/// Collects an autopilot's parameters.
+struct Autopilot {
+  const ExportSource& source;
+  AutopilotValues found = {};
+
+  const Vehicle& vehicle() const { return source.model.vehicle; }
+  bool knows(ParameterId id) const { return source.model[id].value.has_value(); }
+
+  /// A positive number of the plant, with an interval that is symmetric in its logarithm. `usual` is
+  /// the range that the autopilot's documentation gives; beyond it the value stands, and it is said.
+  void add(const char* name, const char* unit, std::string derivation, const OfPlant& f,
+           std::optional<Interval> usual = {}) {
+    const double value = f(source.model.plant_as_known());
+    if (!(value > 0.0) || !std::isfinite(value)) {
+      return leave_out(name, "the thrust does not overcome the friction there");
+    }
+    if (usual && !usual->contains(value)) {
+      derivation += fmt::format(", outside of the usual [{:g}, {:g}]", usual->lo, usual->hi);
+    }
+    ExportedValue one{.name = name,
+                      .value = value,
+                      .unit = unit,
+                      .meaning = std::move(derivation),
+                      .origin = "derived",
+                      .std_error = std_error_of(source.model, f)};
+    if (one.std_error) {
+      constexpr double kNormal95 = 1.96;
+      const double factor = std::exp(kNormal95 * *one.std_error / value);
+      if (std::isfinite(value * factor)) one.ci95 = Interval{value / factor, value * factor};
+    }
+    found.values.push_back(std::move(one));
+  }
+  void leave_out(const char* name, const char* why) {
+    found.left_out.push_back(fmt::format("{}: {}", name, why));
+  }
+};
+
+constexpr const char* kNoGains = "it follows from the gains, which were not given";
+constexpr const char* kNoMass = "the model lacks mass_norm";
+constexpr const char* kNoYaw = "the model lacks the yaw law";
+
+bool knows_yaw(const Autopilot& pilot) {
+  return pilot.knows(ParameterId::kYawAlpha) && pilot.knows(ParameterId::kYawBeta);
+}
+
+/// The speed that a throttle holds: g1(u) = 4 F', less the dead zone.
+double speed_at(const Plant<double>& plant, double throttle) {
+  return steady_or_never(plant.surge, 4.0 * beyond_dead_zone(throttle, plant.wheel_dead_zone));
+}
+
+/// A PI loop on the throttle that closes with the time constant T of the speed law in its layer,
+///   T = eps_s/mu_s,   K_p = m'/(4 T),   K_i = g1'(u)/(4 T)
+/// which cancels the plant's own pole, m' du/dt = 4 dF' - g1'(u) du.
+/// [Skogestad 2003, J. Process Control 13, 291]
+void add_speed_loop(Autopilot& pilot, const char* p, const char* i, double throttle,
+                    std::optional<Interval> usual = {}) {
+  if (!pilot.source.gains || !pilot.knows(ParameterId::kMassNorm)) {
+    const char* why = pilot.source.gains ? kNoMass : kNoGains;
+    pilot.leave_out(p, why);
+    return pilot.leave_out(i, why);
+  }
+  const SpeedGains<double> gains = pilot.source.gains->speed;
+  const double closed_s = gains.epsilon / gains.mu;
+  pilot.add(
+      p, "1/(m/s)",
+      fmt::format("m'/(4 T), T = eps_s/mu_s = {:.4g} s, the time in which the loop closes",
+                  closed_s),
+      [closed_s](const Plant<double>& plant) { return plant.mass_norm / (4.0 * closed_s); }, usual);
+  pilot.add(
+      i, "1/m", fmt::format("g1'(u)/(4 T) at the speed of throttle {:g}", throttle),
+      [closed_s, throttle](const Plant<double>& plant) {
+        return slope(plant.surge, speed_at(plant, throttle)) / (4.0 * closed_s);
+      },
+      usual);
+}
+
+Status check_surge(const Model& model) {
+  AWMR_RETURN_IF_ERROR(model.plant(Motion::kSteadySurge));
+  return {};
+}
+
+/// ArduPilot's steering output over turn rate, at half of the largest output.
+void add_steering_feed_forward(Autopilot& pilot, double throttle) {
+  constexpr const char* kName = "ATC_STR_RAT_FF";
+  constexpr Interval kUsual{0.0, 3.0};
+  if (!knows_yaw(pilot)) return pilot.leave_out(kName, kNoYaw);
+  if (!pilot.vehicle().has_steering()) {
+    // s/r with 4 d s = g3(r)
+    const double s = 0.5 * pilot.vehicle().wheel_force.hi;
+    pilot.add(
+        kName, "1/(rad/s)", fmt::format("s/r with 4 d s = g3(r) at s = {:g}", s),
+        [s](const Plant<double>& plant) {
+          return s / steady_or_never(plant.yaw, 4.0 * plant.half_track_m * s);
+        },
+        kUsual);
+    return;
+  }
+  // s/r with l_f g1(u) tan(s d_max/2) = g3(r); above MOT_SPD_SCA_BASE = 1 m/s ArduPilot divides s by u
+  pilot.add(
+      kName, "1/(rad/s)",
+      "s/r with l_f g1(u) tan(s d_max/2) = g3(r) at s = 0.5 and CRUISE_SPEED, times u above "
+      "MOT_SPD_SCA_BASE = 1 m/s",
+      [throttle](const Plant<double>& plant) {
+        const double u = speed_at(plant, throttle);
+        const double moment =
+            plant.front_axle_m * plant.surge.at(u) * std::tan(0.25 * plant.steering_max_rad);
+        return 0.5 / steady_or_never(plant.yaw, moment) * std::max(1.0, u);
+      },
+      kUsual);
+}
+
+/// What full commands turn the vehicle with, held to what its yaw resistance was measured up to.
+///   skid:     g3(r) = 2 d (F'max - F'min)
+///   steered:  g3(r) = 2 l_f F'max sin d_max
+double largest_yaw_rate(const Plant<double>& plant, const Vehicle& vehicle,
+                        std::optional<double> measured_degps) {
+  const Interval& force = vehicle.wheel_force;
+  const double moment =
+      vehicle.has_steering()
+          ? steering_moment_m(plant.front_axle_m, force.hi, plant.steering_max_rad)
+          : differential_moment_m(plant.half_track_m, force.hi - force.lo);
+  const double rate = steady_or_never(plant.yaw, moment);
+  return measured_degps ? std::min(rate, radians(*measured_degps)) : rate;
+}
+
+/// The rate loop of skid steering: with T = 1/(lambda + mu/epsilon), in which the heading law closes
+/// on a yaw rate inside of its layer,
+///   K_p = I'z/(4 d T),   K_i = g3'(r)/(4 d T)
+void add_skid_rate_loop(Autopilot& pilot, const OfPlant& rate) {
+  const bool known = pilot.source.gains && pilot.knows(ParameterId::kInertiaNorm);
+  if (!known) {
+    const char* why = pilot.source.gains ? kNoMass : kNoGains;
+    pilot.leave_out("RO_YAW_RATE_P", why);
+    return pilot.leave_out("RO_YAW_RATE_I", why);
+  }
+  const HeadingGains<double> gains = pilot.source.gains->heading;
+  const double closed_s = 1.0 / (gains.lambda + gains.mu / gains.epsilon);
+  pilot.add("RO_YAW_RATE_P", "1/(rad/s)",
+            fmt::format("I'z/(4 d T), T = 1/(lambda + mu/epsilon) = {:.4g} s", closed_s),
+            [closed_s](const Plant<double>& plant) {
+              return plant.inertia_norm / (4.0 * plant.half_track_m * closed_s);
+            });
+  pilot.add("RO_YAW_RATE_I", "1/rad", "g3'(r)/(4 d T) at half of RO_YAW_RATE_LIM",
+            [closed_s, rate](const Plant<double>& plant) {
+              return slope(plant.yaw, 0.5 * rate(plant)) / (4.0 * plant.half_track_m * closed_s);
+            });
+}
+
+/// PX4 feeds s = RO_YAW_RATE_CORR r d/RO_MAX_THR_SPEED forward, where 4 d s = g3(r) is needed:
+///   RO_YAW_RATE_CORR = g3(r) u_max/(4 d^2 r)
+void add_skid(Autopilot& pilot, const OfPlant& rate) {
+  pilot.add("RD_WHEEL_TRACK", "m", "2 d",
+            [](const Plant<double>& plant) { return 2.0 * plant.half_track_m; });
+  pilot.add("RO_YAW_RATE_CORR", "1", "g3(r) RO_MAX_THR_SPEED/(4 d^2 r) at half of RO_YAW_RATE_LIM",
+            [rate](const Plant<double>& plant) {
+              const double r = 0.5 * rate(plant);
+              const double d = plant.half_track_m;
+              return plant.yaw.at(r) * speed_at(plant, 1.0) / (4.0 * d * d * r);
+            });
+  add_skid_rate_loop(pilot, rate);
+}
+
+void add_steered(Autopilot& pilot) {
+  pilot.add("RA_MAX_STR_ANG", "rad", "d_max",
+            [](const Plant<double>& plant) { return plant.steering_max_rad; });
+  pilot.add("RA_STR_RATE_LIM", "deg/s", "the steering's fastest turn",
+            [](const Plant<double>& plant) { return degrees(plant.steering_max_rate_radps); });
+  pilot.leave_out("RA_WHEEL_BASE", "the model knows the front axle alone; measure it");
+  for (const char* name : {"RO_YAW_RATE_CORR", "RO_YAW_RATE_P", "RO_YAW_RATE_I"}) {
+    pilot.leave_out(name,
+                    "it corrects an angle that PX4 takes from the wheelbase; tune it in Acro");
+  }
+}
+
+std::string extrapolated(const Model& model) {
+  double reached = 0.0;
+  for (const TrialPoint& trial : model.record.trials) {
+    if (trial.kind == TrialKind::kSurge) reached = std::max(reached, trial.input);
+  }
+  if (!(reached > 0.0) || reached >= 4.0) return "";
+  return fmt::format("; extrapolated, the trials reach tau_speed {:g}: drive it once", reached);
+}
+
+}  // namespace
+
+Result<AutopilotValues> ardupilot_values(const ExportSource& source) {
+  AWMR_RETURN_IF_ERROR(check_surge(source.model));
+  Autopilot pilot{source};
+  // CRUISE_THROTTLE takes whole percent.
+  const double percent = std::max(1.0, std::round(50.0 * pilot.vehicle().wheel_force.hi));
+  const double throttle = 0.01 * percent;
+  pilot.add("CRUISE_THROTTLE", "%", "half of the largest wheel force, in whole percent",
+            [percent](const Plant<double>&) { return percent; });
+  pilot.add("CRUISE_SPEED", "m/s", "u with g1(u) = 4 F' at CRUISE_THROTTLE",
+            [throttle](const Plant<double>& plant) { return speed_at(plant, throttle); });
+  add_speed_loop(pilot, "ATC_SPEED_P", "ATC_SPEED_I", throttle, Interval{0.0, 2.0});
+  add_steering_feed_forward(pilot, throttle);
+  pilot.leave_out("ATC_SPEED_FF",
+                  "CRUISE_THROTTLE/CRUISE_SPEED is the feed-forward; leave it at 0");
+  pilot.leave_out("ATC_STR_RAT_P, _I, _D", "they depend on filters and delays of the autopilot");
+  return std::move(pilot.found);
+}
+
+Result<AutopilotValues> px4_values(const ExportSource& source) {
+  AWMR_RETURN_IF_ERROR(check_surge(source.model));
+  Autopilot pilot{source};
+  pilot.add("RO_MAX_THR_SPEED", "m/s", "u with g1(u) = 4 F' at F' = 1" + extrapolated(source.model),
+            [](const Plant<double>& plant) { return speed_at(plant, 1.0); });
+  add_speed_loop(pilot, "RO_SPEED_P", "RO_SPEED_I", 0.5 * pilot.vehicle().wheel_force.hi);
+  if (!knows_yaw(pilot)) {
+    pilot.leave_out("RO_YAW_RATE_LIM, _CORR, _P, _I", kNoYaw);
+    return std::move(pilot.found);
+  }
+  const auto measured_degps = measured_yaw_rate_degps(source.model);
+  const OfPlant rate = [&vehicle = source.model.vehicle,
+                        measured_degps](const Plant<double>& plant) {
+    return largest_yaw_rate(plant, vehicle, measured_degps);
+  };
+  pilot.add("RO_YAW_RATE_LIM", "deg/s",
+            "r with g3(r) = the largest moment of the wheels, at most what yaw resistance was "
+            "measured up to",
+            [rate](const Plant<double>& plant) { return degrees(rate(plant)); });
+  if (pilot.vehicle().has_steering()) {
+    add_steered(pilot);
+  } else {
+    add_skid(pilot, rate);
+  }
+  return std::move(pilot.found);
+}
+
+}  // namespace awmr

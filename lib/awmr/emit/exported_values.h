@@ -1,0 +1,40 @@
+/// What is exported, whatever the format. Private to emit/.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "awmr/core/interval.h"
+#include "awmr/emit/export.h"
+
+namespace awmr {
+
+/// One number for another program.
+struct ExportedValue {
+  std::string name;  ///< an identifier in every language: "surge_alpha"
+  double value = 0.0;
+  std::string unit;
+  std::string meaning;
+  std::string origin;  ///< "fitted, log-linear"
+  std::optional<double> std_error = {};
+  std::optional<Interval> ci95 = {};
+};
+
+/// The identified quantities, also in SI units, the vehicle and the gains; none that is not known.
+std::vector<ExportedValue> exported_values(const ExportSource& source);
+
+/// The numbers of an autopilot's file, and what of it the model does not give.
+struct AutopilotValues {
+  std::vector<ExportedValue> values;  ///< `meaning` is the derivation
+  std::vector<std::string> left_out;  ///< "NAME: why"
+};
+/// Errors (input): the model lacks the surge law.
+Result<AutopilotValues> ardupilot_values(const ExportSource& source);
+Result<AutopilotValues> px4_values(const ExportSource& source);
+
+/// "std error 0.018, 95 % [1.275, 1.357]"; empty where neither is known.
+std::string uncertainty_text(const ExportedValue& value);
+
+}  // namespace awmr
