@@ -1,6 +1,7 @@
 /// Everything. A file of one's own needs only the header of its task:
 ///
 ///     read a vehicle, a model, gains     model/vehicle_file.h, model/model_file.h, model/gains_file.h
+///     judge what a vehicle's file says   model/plausibility.h
 ///     read trials                        trials/load.h
 ///     fit a model to them                identify/identify.h
 ///     ask which trial to record next     identify/planning/suggest.h
@@ -10,6 +11,7 @@
 ///     hold a model against its trials    validate/validate.h
 ///     compare the yaw-control modes      compare/compare.h, compare/resume.h
 ///     make firmware                      emit/emit.h
+///     write other programs' parameters   emit/export.h
 ///     make the report                    report/report.h
 ///
 /// Whatever can fail returns a Result (core/result.h): a value, or every fault that was found.
@@ -19,11 +21,13 @@
 #include "awmr/compare/resume.h"
 #include "awmr/core/result.h"
 #include "awmr/emit/emit.h"
+#include "awmr/emit/export.h"
 #include "awmr/identify/identify.h"
 #include "awmr/identify/planning/recover.h"
 #include "awmr/identify/planning/suggest.h"
 #include "awmr/model/gains_file.h"
 #include "awmr/model/model_file.h"
+#include "awmr/model/plausibility.h"
 #include "awmr/model/vehicle_file.h"
 #include "awmr/report/report.h"
 #include "awmr/simulate/metrics.h"
