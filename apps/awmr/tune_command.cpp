@@ -128,7 +128,7 @@ void add_tune(CLI::App& app, Session& session) {
                                 "uncertain, no noise, no latency, no lag");
   sub->add_option("--draws", command->draws,
                   "Plants drawn from the model's covariance that the gains are tuned for (default "
-                  "5)")
+                  "4)")
       ->check(within(0.0, 1000.0))
       ->excludes(nominal);
   add_allocation(*sub, command->allocation);

@@ -30,7 +30,9 @@ std::vector<Fault> option_faults(const std::vector<NamedGains>& gains,
         {option_text("threads"), fmt::format("has to be 0 or more, found {}", options.threads)});
   }
   const Shard& shard = options.shard;
-  if (shard.index < 1 || shard.index > shard.count || shard.count > options.samples + 1L) {
+  const bool is_part =
+      shard.index >= 1 && shard.index <= shard.count && shard.count <= options.samples + 1L;
+  if (options.samples >= 0 && !is_part) {
     faults.push_back({option_text("shard"),
                       fmt::format("{}/{} is no part: I/N with 1 <= I <= N, and N at most the {} "
                                   "samples, the nominal one included",

@@ -285,19 +285,22 @@ AWMR_INLINE void allocate(YawMode mode, const T& tau_speed, const T& tau_turn_m,
   detail::allocate_by<detail::ExactAngle>(mode, tau_speed, tau_turn_m, c, split, a);
 }
 
-/// The same from the limits themselves, in their form, where the time of a step does not matter.
+/// The same from the limits themselves, in their form, where the time of a step does not matter. The
+/// chip has the exact form alone.
 template <class T>
 Allocation<T> allocate(YawMode mode, const T& tau_speed, const T& tau_turn_m,
                        const AllocationLimits<T>& limits) {
   Allocation<T> a{};
   AllocationConstants<T> c = prepared(limits);
-  if (limits.form == AllocationForm::kExact) {
-    allocate(mode, tau_speed, tau_turn_m, c, limits.split, a);
+#ifndef __AVR__
+  if (limits.form == AllocationForm::kPaper) {
+    c.h_max = T(0.25) * limits.steering_max_rad;
+    c.h2_max = T(0.0);
+    detail::allocate_by<detail::SmallAngle>(mode, tau_speed, tau_turn_m, c, limits.split, a);
     return a;
   }
-  c.h_max = T(0.25) * limits.steering_max_rad;
-  c.h2_max = T(0.0);
-  detail::allocate_by<detail::SmallAngle>(mode, tau_speed, tau_turn_m, c, limits.split, a);
+#endif
+  allocate(mode, tau_speed, tau_turn_m, c, limits.split, a);
   return a;
 }
 

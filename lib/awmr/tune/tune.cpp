@@ -206,6 +206,8 @@ Result<Tuning> tune_on(const ObjectiveSetting& setting, const ConstraintContext&
                 .robust = {}};
 }
 
+int share_of(int evaluations) { return static_cast<int>(std::ceil(kRobustShare * evaluations)); }
+
 /// Draws to judge on are not those that were tuned on.
 constexpr std::uint64_t kJudgedSeeds = 0x6a75646765ULL;
 
@@ -227,7 +229,10 @@ Result<Tuning> tune_robustly(const Model& model, ObjectiveSetting setting,
   context.heading_noise_rad = radians(c.heading_noise_deg);
   context.latency_s = std::max(c.heading_late_s, c.yaw_rate_late_s);
   context.motor_time_constant_s = c.motor_time_constant_s;
-  AWMR_ASSIGN_OR_RETURN(Tuning tuning, tune_on(setting, context, options));
+  TuneOptions shorter = options;
+  shorter.global_evaluations = share_of(options.global_evaluations);
+  shorter.local_evaluations = share_of(options.local_evaluations);
+  AWMR_ASSIGN_OR_RETURN(Tuning tuning, tune_on(setting, context, shorter));
 
   std::vector<NamedCandidate> candidates{{"robust", tuning.gains}, {"baseline", tuning.baseline}};
   if (nominal) {

@@ -60,13 +60,15 @@ struct TuningConditions {
   double motor_time_constant_s = 0.02;
 };
 
+inline constexpr double kRobustShare = 0.4;
+
 struct TuneOptions {
   /// On the model's own values, with true readings at once and motors without lag, as a simulation
   /// alone would have it. Else robust: `draws` plants from the model's covariance beside its own,
   /// under TuningConditions.
   bool nominal = false;
-  int draws = 5;           ///< 0 ... 1000
-  int judged_draws = 100;  ///< fresh ones that gains are judged on afterwards, 0 ... 100000
+  int draws = 4;          ///< 0 ... 1000
+  int judged_draws = 50;  ///< fresh ones that gains are judged on afterwards, 0 ... 100000
   /// Share of the worst draws that count as the tail: the objective is the mean of the mean over all
   /// draws and of that over the tail (CVaR), (0, 1].
   double tail_share = 0.2;
@@ -78,6 +80,8 @@ struct TuneOptions {
   double margin = 0.8;
   ObjectiveWeights weights;
   /// >= 1. More where a search is refused although its gains come near to the baseline's objective.
+  /// A robust search, whose evaluations run every draw, makes kRobustShare of these and of the local
+  /// ones.
   int global_evaluations = 300;
   /// >= 0, of the local searches together; 0: the best of the global search is the answer.
   int local_evaluations = 150;
