@@ -28,18 +28,22 @@ class Check : public ::testing::Test {
          {"wheel_force", {{"min", -1}, {"max", 1}}},
          {"steering", {{"max_deg", 25}, {"max_rate_degps", 200}, {"time_constant_s", 0.05}}},
          {"sample_time_s", 0.02},
-         {"sway_alpha", 5}});
+         {"sway_alpha", 90}});
     write("vehicle.json", vehicle);
     for (const char* scenario : {"scenarios/heading_steps.json", "scenarios/square.json"}) {
       nlohmann::ordered_json json = read(scenario);
       json["speed_mps"] = 0.8;
       write(scenario, json);
     }
+    // Truth: a1 = 2.2, b1 = 0.7, a3 = 0.05, b3 = 0.8, m' = 0.9, timed to 0.01 s.
     write_all(path("surge.csv"),
-              "wheel_force,distance_m,elapsed_s\n0.2,5,12.5\n0.4,5,5.9\n0.6,5,3.8\n0.8,5,2.8\n");
+              "wheel_force,distance_m,elapsed_s\n0.2,5,21.21\n0.3,5,11.89\n0.4,5,7.88\n"
+              "0.5,5,5.73\n0.7,5,3.54\n0.9,5,2.47\n");
     write_all(path("turning.csv"),
-              "steering_deg,wheel_force,turns,elapsed_s\n8,0.5,2,26\n16,0.5,2,12\n25,0.5,2,7.4\n");
-    write_all(path("coastdown.csv"), "initial_speed_mps,stop_time_s\n1.2,0.9\n0.8,0.7\n");
+              "steering_deg,wheel_force,turns,elapsed_s\n6,0.5,2,88.90\n10,0.5,2,47.13\n"
+              "15,0.5,2,28.62\n20,0.5,2,20.20\n25,0.5,2,15.51\n");
+    write_all(path("coastdown.csv"),
+              "initial_speed_mps,stop_time_s\n0.8,1.28\n1.2,1.44\n1.6,1.57\n");
   }
   std::string project() const { return (directory_.path() / "rover").string(); }
   fs::path path(const std::string& name) const { return directory_.path() / "rover" / name; }
@@ -65,6 +69,24 @@ TEST_F(Check, AFilledProjectHasNothingToMend) {
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("nothing to mend; next: awmr run"));
   EXPECT_EQ(awmr("check " + path("project.json").string()).exit_code, 0);
+}
+
+TEST_F(Check, WhatCheckIsContentWithRunsToGainsAndAHeader) {
+  const ProcessResult result =
+      awmr("run --quiet " + path("project.json").string() + " -o " + path("out").string());
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const nlohmann::ordered_json model = read("out/model.json");
+  for (const auto& [pointer, truth] : {std::pair{"/surge/alpha", 2.2},
+                                       {"/surge/beta", 0.7},
+                                       {"/yaw/alpha", 0.05},
+                                       {"/yaw/beta", 0.8},
+                                       {"/mass_norm", 0.9}}) {
+    const auto interval = model.at(nlohmann::ordered_json::json_pointer(pointer)).at("ci95");
+    EXPECT_LE(interval[0], truth) << pointer;
+    EXPECT_GE(interval[1], truth) << pointer;
+  }
+  EXPECT_GT(read("out/gains.json")["heading"]["lambda"], 0.0);
+  EXPECT_THAT(read_all(path("out/awmr_params.h")), HasSubstr("#define AWMR_HEADING_LAMBDA"));
 }
 
 TEST_F(Check, ThePapersProjectHasNothingToMend) {
@@ -151,6 +173,18 @@ TEST_F(Check, ContradictionsOfTheTrialsNameTheMappingThatMends) {
   EXPECT_THAT(result.err,
               AllOf(HasSubstr("surge.csv:2: tau_speed is"), HasSubstr("8-bit PWM counts"),
                     HasSubstr("--column 'wheel_force="), HasSubstr("[contradiction]")));
+}
+
+TEST_F(Check, MillisecondsOfEveryTrialAreNamed) {
+  write_all(path("surge.csv"), "wheel_force,distance_m,elapsed_s\n0.2,5,12500\n0.8,5,2800\n");
+  write_all(path("turning.csv"),
+            "steering_deg,wheel_force,turns,elapsed_s\n8,0.5,2,26000\n25,0.5,2,7400\n");
+  write_all(path("coastdown.csv"), "initial_speed_mps,stop_time_s\n1.2,900\n0.8,700\n");
+  const ProcessResult result = awmr("check " + project());
+  EXPECT_EQ(result.exit_code, 1) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("3 implausible"));
+  EXPECT_THAT(result.err, AllOf(HasSubstr("surge.csv:2:"), HasSubstr("turning.csv:2:"),
+                                HasSubstr("--column 'stop_time_s=\"stop_time_s\"*0.001'")));
 }
 
 TEST_F(Check, WhatCannotBeReadIsBadInput) {

@@ -57,6 +57,60 @@ TEST(LoadTrials, SteeringInRadiansIsRefused) {
               AllOf(HasSubstr("radians"), HasSubstr("steering_deg=\"steering_deg\"*57.29")));
 }
 
+TEST(LoadTrials, SpeedsAndTimesInOtherUnitsAreRefusedWithTheMappingThatMends) {
+  // The same three runs, 0.5, 1 and 2 m/s over 10 m, as people write them.
+  const std::pair<const char*, const char*> cases[] = {
+      {"tau_speed,speed_mps,distance_m,elapsed_s\n1,1.8,10,20\n2,3.6,10,10\n4,7.2,10,5\n",
+       "speed_mps=\"speed_mps\"*0.2777778"},
+      {"tau_speed,speed_mps,distance_m,elapsed_s\n1,500,10,20\n2,1000,10,10\n4,2000,10,5\n",
+       "speed_mps=\"speed_mps\"*0.001"},
+      {"tau_speed,speed_mps,distance_m,elapsed_s\n1,0.5,10,20000\n2,1,10,10000\n4,2,10,5000\n",
+       "elapsed_s=\"elapsed_s\"*0.001"},
+      {"tau_speed,speed_mps,distance_m,elapsed_s\n1,0.5,1000,20\n2,1,1000,10\n4,2,1000,5\n",
+       "distance_m=\"distance_m\"*0.01"},
+      {"tau_speed,distance_m,elapsed_s\n1,10,20000\n2,10,10000\n4,10,5000\n",
+       "elapsed_s=\"elapsed_s\"*0.001"},
+      {"tau_speed,distance_m,elapsed_s\n1,1000,20\n2,1000,10\n4,1000,5\n",
+       "distance_m=\"distance_m\"*0.01"},
+      {"tau_speed,distance_m,elapsed_s\n1,10000,20\n2,10000,10\n4,10000,5\n",
+       "distance_m=\"distance_m\"*0.001"},
+      {"tau_speed,speed_mps\n1,50\n2,100\n4,200\n", "speed_mps=\"speed_mps\"*0.01"}};
+  for (const auto& [text, mapping] : cases) {
+    EXPECT_THAT(refusal_of("surge.csv", text), HasSubstr(mapping)) << text;
+  }
+  EXPECT_EQ(
+      refusal_of("surge.csv", "tau_speed,speed_mps,distance_m,elapsed_s\n1,0.5,10,20\n4,2,10,5\n"),
+      "");
+}
+
+TEST(LoadTrials, TurnsInOtherUnitsAreRefusedWithTheMappingThatMends) {
+  const std::string columns = "steering_deg,wheel_force,yaw_rate_radps,turns,elapsed_s\n";
+  EXPECT_EQ(refusal_of("turning.csv", columns + "10,0.3,0.1,1,62.83\n20,0.3,0.2,1,31.42\n"), "");
+  EXPECT_THAT(refusal_of("turning.csv", columns + "10,0.3,5.73,1,62.83\n20,0.3,11.46,1,31.42\n"),
+              HasSubstr("yaw_rate_radps=\"yaw_rate_radps\"*0.0174532"));
+  EXPECT_THAT(refusal_of("turning.csv", columns + "10,0.3,0.1,1,62830\n20,0.3,0.2,1,31420\n"),
+              HasSubstr("elapsed_s=\"elapsed_s\"*0.001"));
+  EXPECT_THAT(
+      refusal_of("turning.csv",
+                 "steering_deg,wheel_force,turns,elapsed_s\n10,0.3,1,62830\n20,0.3,1,31420\n"),
+      HasSubstr("milliseconds"));
+}
+
+TEST(LoadTrials, AStopInMillisecondsIsRefused) {
+  const ScratchFile file("coastdown.csv", "initial_speed_mps,stop_time_s\n1.2,900\n0.8,700\n");
+  const auto trials = load_trials({.vehicle = paper_vehicle(), .coastdowns = {file.path()}});
+  ASSERT_FALSE(trials);
+  EXPECT_THAT(to_text(trials.error()),
+              AllOf(HasSubstr("milliseconds"), HasSubstr("stop_time_s=\"stop_time_s\"*0.001")));
+}
+
+TEST(LoadTrials, AVehicleWhoseSizesCannotBeSaysNothingOfSpeeds) {
+  const ScratchFile file("surge.csv", "tau_speed,distance_m,elapsed_s\n1,10,20\n4,10,5\n");
+  TrialFiles files{.vehicle = paper_vehicle(), .surge = file.path()};
+  files.vehicle.length_m = 780.0;
+  EXPECT_TRUE(load_trials(files));
+}
+
 TEST(LoadTrials, ReadsWhatThereIsAndKeepsFindingsInOrder) {
   const auto trials = load_trials(paper_files());
   ASSERT_TRUE(trials) << to_text(trials.error());

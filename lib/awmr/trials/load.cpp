@@ -118,7 +118,11 @@ Result<Trials> load_trials(const TrialFiles& files) {
   }
   for (const std::filesystem::path& path : files.coastdowns) {
     auto set = keep(read_coastdown(path, options, findings), faults);
-    if (set) add_coastdown(path, std::move(*set), data, faults);
+    if (!set) continue;
+    if (const auto* stops = std::get_if<TrialSet<StopTimeRow>>(&*set)) {
+      check_consistency(*stops, path, vehicle, options, findings, faults);
+    }
+    add_coastdown(path, std::move(*set), data, faults);
   }
   for (const std::filesystem::path& path : files.logs) {
     auto logs = keep(read_logs(path, options, findings), faults);

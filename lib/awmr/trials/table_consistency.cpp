@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "awmr/core/option_text.h"
 #include "awmr/core/units.h"
 #include "awmr/trials/log_evidence.h"
 #include "full_scale.h"
+#include "table_units.h"
 
 namespace awmr {
 namespace {
@@ -55,6 +57,10 @@ Beyond<Row> beyond(const std::vector<Row>& rows, Number number, double limit) {
   return found;
 }
 
+void tell_unit(const Table& table, const std::optional<WrongUnit>& wrong) {
+  if (wrong) table.tell(wrong->line, wrong->message, wrong->column, wrong->factor);
+}
+
 double largest_side_force(const TurningRow& row) {
   if (!row.sides) return 0.0;
   return std::max(std::abs(row.sides->left), std::abs(row.sides->right));
@@ -80,12 +86,14 @@ void check_sides(const Table& table, const std::vector<TurningRow>& rows, const 
 void check_consistency(const TrialSet<SurgeRow>& surge, const std::filesystem::path& path,
                        const Vehicle& vehicle, const TrialOptions& options,
                        std::vector<Finding>& findings, std::vector<Fault>& faults) {
+  const Table table{path, surge.file, options, findings, faults};
+  tell_unit(table, wrong_unit(surge, vehicle));
   // tau_speed = 4 F' with the wheels straight                                    [paper (41)]
   const double limit = 4.0 * vehicle.wheel_force.hi;
   const auto [first, largest] = beyond(surge.rows, &SurgeRow::tau_speed, limit);
   if (first == nullptr) return;
   const auto [words, factor] = full_scale_of(largest / 4.0, vehicle.wheel_force.hi);
-  Table{path, surge.file, options, findings, faults}.tell(
+  table.tell(
       first->line,
       fmt::format("tau_speed is {:.4g}, beyond 4 F'max = {:g} (wheel_force [{:g}, {:g}] of the "
                   "vehicle), and reaches {:.4g}: {}",
@@ -98,6 +106,7 @@ void check_consistency(const TrialSet<TurningRow>& turning, const std::filesyste
                        const Vehicle& vehicle, const TrialOptions& options,
                        std::vector<Finding>& findings, std::vector<Fault>& faults) {
   const Table table{path, turning.file, options, findings, faults};
+  tell_unit(table, wrong_unit(turning));
   if (!vehicle.has_steering()) return check_sides(table, turning.rows, vehicle.wheel_force);
   const double limit = vehicle.wheel_force.hi;
   if (const auto [first, largest] = beyond(turning.rows, &TurningRow::wheel_force, limit); first) {
@@ -118,6 +127,12 @@ void check_consistency(const TrialSet<TurningRow>& turning, const std::filesyste
                   "the angles look like radians",
                   steepest_deg, vehicle.steering_max_deg),
       "steering_deg", degrees(1.0));
+}
+
+void check_consistency(const TrialSet<StopTimeRow>& coastdown, const std::filesystem::path& path,
+                       const Vehicle& vehicle, const TrialOptions& options,
+                       std::vector<Finding>& findings, std::vector<Fault>& faults) {
+  tell_unit({path, coastdown.file, options, findings, faults}, wrong_unit(coastdown, vehicle));
 }
 
 }  // namespace awmr

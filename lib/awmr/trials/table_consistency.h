@@ -11,12 +11,17 @@ namespace awmr {
 
 /// Faults: a tau_speed above 4 F'max, a wheel_force or a side's force above F'max, with the likely
 /// unit; steering angles that are all below 2 % of the stop, as angles in radians are. Each names
-/// the first such row, and the mapping that would mend it. With `options.as_is` they are findings
+/// the first such row, and the mapping that would mend it; speeds and times in other units
+/// (table_units.h). With `options.as_is` they are findings
 /// (`table-contradiction`, a warning) instead.
 void check_consistency(const TrialSet<SurgeRow>& surge, const std::filesystem::path& path,
                        const Vehicle& vehicle, const TrialOptions& options,
                        std::vector<Finding>& findings, std::vector<Fault>& faults);
 void check_consistency(const TrialSet<TurningRow>& turning, const std::filesystem::path& path,
+                       const Vehicle& vehicle, const TrialOptions& options,
+                       std::vector<Finding>& findings, std::vector<Fault>& faults);
+
+void check_consistency(const TrialSet<StopTimeRow>& coastdown, const std::filesystem::path& path,
                        const Vehicle& vehicle, const TrialOptions& options,
                        std::vector<Finding>& findings, std::vector<Fault>& faults);
 

@@ -1,0 +1,182 @@
+#include "table_units.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include "awmr/core/interval.h"
+#include "awmr/core/units.h"
+#include "awmr/model/plausibility.h"
+#include "awmr/trials/robust_ratio.h"
+
+namespace awmr {
+namespace {
+
+/// How many times too large a unit makes a ratio of two columns, and which of them has it.
+struct TableUnit {
+  double times;
+  std::string_view column;
+  double factor;
+  std::string_view words;
+};
+
+constexpr std::array<TableUnit, 7> kTableSpeedUnits{
+    {{3.6, "speed_mps", 1.0 / 3.6, "the speed looks like km/h"},
+     {2.23694, "speed_mps", 0.44704, "the speed looks like miles per hour"},
+     {100.0, "speed_mps", 1e-2, "the speed looks like cm/s"},
+     {1000.0, "speed_mps", 1e-3, "the speed looks like mm/s"},
+     {1000.0, "elapsed_s", 1e-3, "the time looks like milliseconds"},
+     {1e-2, "distance_m", 1e-2, "the distance looks like cm"},
+     {1e-3, "distance_m", 1e-3, "the distance looks like mm"}}};
+constexpr std::array<TableUnit, 2> kTableTurnUnits{
+    {{57.29578, "yaw_rate_radps", 1.0 / 57.29578, "the yaw rate looks like degrees per second"},
+     {1000.0, "elapsed_s", 1e-3, "the time looks like milliseconds"}}};
+
+constexpr Interval kLengthsPerSecond{0.02, 100.0};
+constexpr double kUsualLengthsPerSecond = 20.0;
+constexpr Interval kFastestTurn_radps{0.003, 25.0};
+constexpr double kLeastDeceleration_mps2 = 0.01;
+
+/// The unit whose factor all ratios have, within a tenth; none for ratios that scatter.
+template <std::size_t N>
+const TableUnit* unit_of(const std::vector<double>& ratios, const std::array<TableUnit, N>& units) {
+  for (const TableUnit& unit : units) {
+    const bool all = std::all_of(ratios.begin(), ratios.end(), [&](double ratio) {
+      return std::abs(ratio / unit.times - 1.0) < 0.1;
+    });
+    if (all && ratios.size() >= 2) return &unit;
+  }
+  return nullptr;
+}
+
+struct Smaller {
+  double factor;
+  std::string_view words;
+};
+
+/// Hundredths or thousandths, whichever brings the fastest run nearer to what is common.
+Smaller smaller_unit(double lengths_per_second, Smaller hundredth, Smaller thousandth) {
+  constexpr double kCommon = 3.0;
+  const auto apart = [&](const Smaller& unit) {
+    return std::abs(std::log(lengths_per_second * unit.factor / kCommon));
+  };
+  return apart(hundredth) <= apart(thousandth) ? hundredth : thousandth;
+}
+
+/// A vehicle whose own sizes cannot be says nothing of speeds.
+bool tells_lengths(const Vehicle& vehicle) { return implausible_values(vehicle).empty(); }
+
+template <class Row>
+double fastest(const std::vector<Row>& rows, double Row::*rate) {
+  double most = 0.0;
+  for (const Row& row : rows) most = std::max(most, row.*rate);
+  return most;
+}
+
+std::vector<double> printed_over_timed(const std::vector<SurgeRow>& rows) {
+  std::vector<double> ratios;
+  for (const SurgeRow& row : rows) {
+    if (row.distance_m && row.elapsed_s) {
+      ratios.push_back(row.speed_mps * *row.elapsed_s / *row.distance_m);
+    }
+  }
+  return ratios;
+}
+
+std::vector<double> printed_over_timed(const std::vector<TurningRow>& rows) {
+  std::vector<double> ratios;
+  for (const TurningRow& row : rows) {
+    if (row.turns && row.elapsed_s) {
+      ratios.push_back(row.yaw_rate_radps * *row.elapsed_s / (2.0 * pi<double>() * *row.turns));
+    }
+  }
+  return ratios;
+}
+
+std::string lengths_text(double speed_mps, const Vehicle& vehicle) {
+  return fmt::format("the fastest run does {:.3g} m/s, {:.3g} times the vehicle's length a second",
+                     speed_mps, speed_mps / vehicle.length_m);
+}
+
+}  // namespace
+
+std::optional<WrongUnit> wrong_unit(const TrialSet<SurgeRow>& surge, const Vehicle& vehicle) {
+  if (surge.rows.empty()) return std::nullopt;
+  const SurgeRow& first = surge.rows.front();
+  const std::vector<double> ratios = printed_over_timed(surge.rows);
+  const double speed_mps = fastest(surge.rows, &SurgeRow::speed_mps);
+  const double lengths = speed_mps / vehicle.length_m;
+  if (const TableUnit* unit = unit_of(ratios, kTableSpeedUnits)) {
+    // 1000 is either's: a speed that a vehicle of this length has is right.
+    const bool is_time = unit->times == 1000.0 && lengths <= kUsualLengthsPerSecond;
+    if (is_time) unit = &kTableSpeedUnits[4];
+    return WrongUnit{first.line, unit->column,
+                     fmt::format("speed_mps is {:.3g} times distance_m over elapsed_s: {}",
+                                 median(ratios), unit->words),
+                     unit->factor};
+  }
+  if (kLengthsPerSecond.contains(lengths) || !tells_lengths(vehicle)) return std::nullopt;
+  const bool is_timed = !ratios.empty();
+  const std::string told = lengths_text(speed_mps, vehicle);
+  if (lengths > kLengthsPerSecond.hi) {
+    const auto [factor, words] = is_timed
+                                     ? smaller_unit(lengths, {1e-2, "the distance looks like cm"},
+                                                    {1e-3, "the distance looks like mm"})
+                                     : smaller_unit(lengths, {1e-2, "the speed looks like cm/s"},
+                                                    {1e-3, "the speed looks like mm/s"});
+    return WrongUnit{first.line, is_timed ? "distance_m" : "speed_mps",
+                     fmt::format("{}: {}", told, words), factor};
+  }
+  if (!is_timed) return std::nullopt;
+  return WrongUnit{first.line, "elapsed_s", told + ": the time looks like milliseconds", 1e-3};
+}
+
+std::optional<WrongUnit> wrong_unit(const TrialSet<TurningRow>& turning) {
+  if (turning.rows.empty()) return std::nullopt;
+  const TurningRow& first = turning.rows.front();
+  const std::vector<double> ratios = printed_over_timed(turning.rows);
+  if (const TableUnit* unit = unit_of(ratios, kTableTurnUnits)) {
+    return WrongUnit{first.line, unit->column,
+                     fmt::format("yaw_rate_radps is {:.3g} times 2 pi turns over elapsed_s: {}",
+                                 median(ratios), unit->words),
+                     unit->factor};
+  }
+  const double rate_radps = fastest(turning.rows, &TurningRow::yaw_rate_radps);
+  const std::string told = fmt::format("the fastest turn does {:.3g} rad/s", rate_radps);
+  if (rate_radps > kFastestTurn_radps.hi && ratios.empty()) {
+    return WrongUnit{first.line, "yaw_rate_radps",
+                     told + ": the yaw rate looks like degrees per second", radians(1.0)};
+  }
+  if (rate_radps >= kFastestTurn_radps.lo || ratios.empty()) return std::nullopt;
+  return WrongUnit{first.line, "elapsed_s", told + ": the time looks like milliseconds", 1e-3};
+}
+
+std::optional<WrongUnit> wrong_unit(const TrialSet<StopTimeRow>& coastdown,
+                                    const Vehicle& vehicle) {
+  if (coastdown.rows.empty()) return std::nullopt;
+  const StopTimeRow& first = coastdown.rows.front();
+  const double speed_mps = fastest(coastdown.rows, &StopTimeRow::initial_speed_mps);
+  const double lengths = speed_mps / vehicle.length_m;
+  if (lengths > kLengthsPerSecond.hi && tells_lengths(vehicle)) {
+    const auto [factor, words] = smaller_unit(lengths, {1e-2, "the speed looks like cm/s"},
+                                              {1e-3, "the speed looks like mm/s"});
+    return WrongUnit{first.line, "initial_speed_mps",
+                     fmt::format("{}: {}", lengths_text(speed_mps, vehicle), words), factor};
+  }
+  double hardest_mps2 = 0.0;
+  for (const StopTimeRow& row : coastdown.rows) {
+    hardest_mps2 = std::max(hardest_mps2, row.initial_speed_mps / row.stop_time_s);
+  }
+  if (hardest_mps2 >= kLeastDeceleration_mps2) return std::nullopt;
+  return WrongUnit{first.line, "stop_time_s",
+                   fmt::format("the hardest stop loses {:.3g} m/s^2: the time looks like "
+                               "milliseconds",
+                               hardest_mps2),
+                   1e-3};
+}
+
+}  // namespace awmr
