@@ -303,6 +303,18 @@ TEST(Robust, BeatsThePapersGainsOnFreshDrawsWithinItsActivity) {
   }
 }
 
+TEST(Robust, ALatencyOfManySamplesIsRefusedBeforeItTakesForEver) {
+  TuneOptions options = short_options();
+  options.nominal = false;
+  options.judged_draws = 0;
+  Model model = paper_model();
+  model.vehicle.sensors.heading_late_s = 1.0;
+  const Result<Tuning> tuning = tune(model, options);
+  ASSERT_FALSE(tuning);
+  EXPECT_EQ(tuning.error().kind, ErrorKind::kInput);
+  EXPECT_THAT(to_text(tuning.error()), ::testing::HasSubstr("100 samples"));
+}
+
 TEST(Robust, WithoutDrawsAndWithoutACovarianceNoiseAloneIsDrawn) {
   TuneOptions options = short_options();
   options.nominal = false;

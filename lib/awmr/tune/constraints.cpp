@@ -85,6 +85,12 @@ std::vector<ConstraintReport> constraints_of(const Gains<double>& gains,
       if (residual(here[i]) > residual(worst[i])) worst[i] = here[i];
     }
   }
+  if (context.latency_s > 0.0 || context.motor_time_constant_s > 0.0) {
+    worst.push_back(report(
+        "late damping", kLateDampingRequired,
+        heading_damping(gains, context, context.latency_s, context.motor_time_constant_s),
+        "required <= smallest damping ratio of the loop with latency and motor lag as well"));
+  }
   return worst;
 }
 
@@ -100,7 +106,7 @@ std::vector<ConstraintReport> constraints_with(const Gains<double>& gains,
   const double lag_s = std::max(servo_s, context.motor_time_constant_s) + context.latency_s +
                        context.sample_time_s / 2.0;
   const bool strict = context.form == ReachingForm::kStrict;
-  std::vector<ConstraintReport> constraints{
+  return {
       report("T2 < T1 (paper)", reaching_s, context.margin * sliding_s,
              "epsilon/(2 mu) <= margin/lambda, s: V = S^2/2 decays before the error slides",
              !strict),
@@ -125,13 +131,6 @@ std::vector<ConstraintReport> constraints_with(const Gains<double>& gains,
                          "authority, m",
                          degrees(context.heading_noise_rad))),
   };
-  if (context.latency_s > 0.0 || context.motor_time_constant_s > 0.0) {
-    constraints.push_back(report(
-        "late damping", kLateDampingRequired,
-        heading_damping(gains, context, context.latency_s, context.motor_time_constant_s),
-        "required <= smallest damping ratio of the loop with latency and motor lag as well"));
-  }
-  return constraints;
 }
 
 }  // namespace

@@ -14,6 +14,8 @@ inline constexpr double kDampingRequired = 0.7;
 /// The damping ratio that is required with latency and motor lag. The g3 that is fed forward from a
 /// late yaw rate makes a fast mode that gains hardly change: 0.32 for the paper's vehicle at 20 ms.
 inline constexpr double kLateDampingRequired = 0.25;
+/// Beyond so many samples of latency it is not worked out.
+inline constexpr int kMostLateSamples = 20;
 /// Part of the modelled resistance that the corrective terms have to dominate: more than the model
 /// may be wrong by on its own trials (0.15 is validate's default tolerance).
 inline constexpr double kUnmodelledShare = 0.2;
@@ -57,7 +59,8 @@ double turning_authority_m(const ConstraintContext& context);
 ///   mu_s dominates     0.2 g1(u_d)/m' <= mu_s                                        [paper (102)]
 ///   noise gain         I'z lambda (mu/eps) sigma <= 0.25 turning_authority_m(), sigma: heading noise
 ///
-/// Each stands for the plant, out of the context's own and its draws, that leaves it the least.
+/// Each stands for the plant, out of the context's own and its draws, that leaves it the least; late
+/// damping, whose matrix grows with the latency, for the context's own.
 ///
 /// T2 < T1: one of the two forms is required, both are given.
 ///

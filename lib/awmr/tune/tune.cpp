@@ -9,6 +9,7 @@
 #include <utility>
 #include <variant>
 
+#include "awmr/core/option_text.h"
 #include "awmr/core/units.h"
 #include "awmr/model/paper_gains.h"
 #include "awmr/simulate/physics.h"
@@ -105,9 +106,12 @@ Status check_work(const TuneOptions& options, const std::vector<Scenario>& scena
     steps += static_cast<double>(yaw_modes(model.vehicle).size()) *
              steps_of_run(plant, scenario.duration_s, sample_time_s);
   }
-  const double evaluations =
-      static_cast<double>(options.global_evaluations) + options.local_evaluations;
-  if (!options.nominal) steps *= 1.0 + options.draws;
+  double evaluations = static_cast<double>(options.global_evaluations) + options.local_evaluations;
+  if (!options.nominal) {
+    steps *= 1.0 + options.draws;
+    // Three sets of gains are judged, each draw once.
+    evaluations += 3.0 * options.judged_draws / (1.0 + options.draws);
+  }
   if (evaluations * steps <= kMostSearchSteps) return {};
   return input_error(
       "", fmt::format("evaluations: {:g} of {:.3g} RK4 steps each ({} scenarios in every mode) are "
@@ -206,6 +210,18 @@ Result<Tuning> tune_on(const ObjectiveSetting& setting, const ConstraintContext&
                 .robust = {}};
 }
 
+/// The work of a constraint grows with the cube of the latency in samples.
+Status check_latency(const ConstraintContext& context, const std::string& model_file) {
+  const double samples = context.latency_s / context.sample_time_s;
+  if (samples < kMostLateSamples + 0.5) return {};
+  return input_error(
+      model_file + ":/vehicle/latency_s",
+      fmt::format("{:g} s are {:.0f} samples of {:g} s, more than the {} that gains are tuned for: "
+                  "give a longer sample_time_s, or tune without latency ({})",
+                  context.latency_s, samples, context.sample_time_s, kMostLateSamples,
+                  option_text("nominal")));
+}
+
 int share_of(int evaluations) { return static_cast<int>(std::ceil(kRobustShare * evaluations)); }
 
 /// Draws to judge on are not those that were tuned on.
@@ -229,6 +245,7 @@ Result<Tuning> tune_robustly(const Model& model, ObjectiveSetting setting,
   context.heading_noise_rad = radians(c.heading_noise_deg);
   context.latency_s = std::max(c.heading_late_s, c.yaw_rate_late_s);
   context.motor_time_constant_s = c.motor_time_constant_s;
+  AWMR_RETURN_IF_ERROR(check_latency(context, model.file));
   TuneOptions shorter = options;
   shorter.global_evaluations = share_of(options.global_evaluations);
   shorter.local_evaluations = share_of(options.local_evaluations);
