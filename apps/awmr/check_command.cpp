@@ -130,11 +130,11 @@ void check_what_nothing_shows(const Project& project, const Vehicle* vehicle, Ch
 }
 
 /// The trials against themselves and against the vehicle.
-void check_trials(TrialFiles files, bool complete, Check& check) {
+void check_trials(TrialFiles files, bool all_recorded, Check& check) {
   const bool nothing = !files.surge && !files.turning && files.coastdowns.empty();
   if (nothing && files.logs.empty()) return;
   // A mapping may be for a file that has no rows yet.
-  for (ColumnMapping& mapping : files.options.columns) mapping.standing |= !complete;
+  for (ColumnMapping& mapping : files.options.columns) mapping.standing |= !all_recorded;
   files.steady_from_logs = files.steady_from_logs && !files.logs.empty();
   const bool as_is = files.options.as_is;
   files.options.as_is = true;
@@ -168,7 +168,9 @@ Result<Check> check_project(const Project& project) {
   check_what_nothing_shows(project, vehicle ? &*vehicle : nullptr, check);
   if (vehicle && check.faults.empty()) {
     check.implausible = plausibility_findings(*vehicle, Severity::kError, project.vehicle.string());
-    check_trials(files, check.missing.empty(), check);
+    const bool all_recorded = files.surge == project.surge && files.turning == project.turning &&
+                              files.coastdowns == project.coastdowns && files.logs == project.logs;
+    check_trials(files, all_recorded, check);
   }
   if (!check.faults.empty()) return input_errors(std::move(check.faults));
   return check;

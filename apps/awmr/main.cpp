@@ -19,7 +19,9 @@ int run(int argc, char** argv) {
   app.name("awmr");
   app.set_version_flag("--version", std::string("awmr ") + awmr::version());
   app.require_subcommand(1);
-  app.footer("Example:\n  awmr run configs/paper/project.json -o out");
+  app.footer(
+      "Examples:\n  awmr run configs/paper/project.json -o out\n  awmr init my_rover        a "
+      "robot of your own");
   app.get_formatter()->column_width(36);
 
   awmr::cli::Session session;

@@ -87,7 +87,7 @@ TEST_F(BadInput, WithoutAnyWordTheCommandsAreShown) {
   const ProcessResult result = awmr("");
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_THAT(result.err, HasSubstr("identify"));
-  EXPECT_THAT(result.err, HasSubstr("Example:"));
+  EXPECT_THAT(result.err, HasSubstr("awmr init my_rover"));
 }
 
 TEST_F(BadInput, ALaterStepNamesWhatTheModelLacksAndTheTrialThatShowsIt) {

@@ -197,6 +197,15 @@ TEST_F(Check, WhatCannotBeReadIsBadInput) {
   EXPECT_EQ(check_with("vehicle.json", "/mas_kg", 2).exit_code, 2);
 }
 
+TEST_F(Check, AMistypedMappingIsNamedThoughATrialIsLackingAltogether) {
+  nlohmann::ordered_json json = read("project.json");
+  json["trials"].erase("coastdown");
+  write("project.json", json);
+  const ProcessResult result = check_with("project.json", "/columns", {{"elapsed_s", "elapsd_s"}});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("did you mean \"elapsed_s\"?"));
+}
+
 TEST_F(Check, AMappingForATrialThatIsStillEmptyIsNoError) {
   write_all(path("surge.csv"), "pwm,distance_m,elapsed_s\n");
   const ProcessResult result = check_with("project.json", "/columns", {{"wheel_force", "pwm/255"}});
