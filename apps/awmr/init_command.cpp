@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
+#include <ranges>
 #include <set>
 #include <system_error>
 
@@ -70,7 +71,7 @@ Status write_all(const std::vector<OutputFile>& files) {
   if (written) written = write_files(files);
   if (written) return written;
   std::error_code ignored;  // what is not empty or was never made stays as it is
-  for (auto path = made.rbegin(); path != made.rend(); ++path) fs::remove(*path, ignored);
+  for (const fs::path& directory : std::views::reverse(made)) fs::remove(directory, ignored);
   return written;
 }
 
