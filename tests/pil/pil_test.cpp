@@ -32,7 +32,7 @@ class Pil : public ::testing::Test {
         path("model.json"));
     ASSERT_EQ(run.exit_code, 0) << run.err;
     const ProcessResult tuned =
-        awmr("tune --quiet --model " + path("model.json") + " -o " + path("gains.json"));
+        awmr("tune --nominal --quiet --model " + path("model.json") + " -o " + path("gains.json"));
     ASSERT_EQ(tuned.exit_code, 0) << tuned.err;
   }
   static void TearDownTestSuite() { delete directory_; }
