@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
-#include <ranges>
 #include <set>
 #include <system_error>
 
@@ -71,7 +70,10 @@ Status write_all(const std::vector<OutputFile>& files) {
   if (written) written = write_files(files);
   if (written) return written;
   std::error_code ignored;  // what is not empty or was never made stays as it is
-  for (const fs::path& directory : std::views::reverse(made)) fs::remove(directory, ignored);
+  // Clang 14 does not compile std::views::reverse of GCC 12's library.
+  for (auto directory = made.rbegin(); directory != made.rend(); ++directory) {
+    fs::remove(*directory, ignored);
+  }
   return written;
 }
 

@@ -89,5 +89,16 @@ TEST(Tally, CountsTheBestAndWhatIsNotToldApart) {
   EXPECT_THAT(tallies[1].best_or_tied, ElementsAre(2, 2));
 }
 
+TEST(Tally, CountsScenariosWithTheSameRunsOnce) {
+  const Judged clear = judged(twenty(3.0, 0.1));
+  const Judged again = judged(twenty(3.0, 0.1));
+  const Judged other = judged(twenty(0.1, 2.0));
+  const std::vector<JudgedScenario> scenarios{{&clear.rows, &clear.differences},
+                                              {&other.rows, &other.differences},
+                                              {&again.rows, &again.differences}};
+  EXPECT_THAT(first_with_same_runs(scenarios), ElementsAre(0, 1, 0));
+  for (const MetricTally& one : tally(scenarios)) EXPECT_EQ(one.scenarios, 2);
+}
+
 }  // namespace
 }  // namespace awmr::testing

@@ -206,7 +206,8 @@ TEST(Allocation, FloatIsClippedAsEveryScalarIs) {
       bool limited = false;
       bool expected_limited = false;
       const double expected =
-          detail::clipped<double>(double{x}, double{range.lo}, double{range.hi}, expected_limited);
+          detail::clipped<double>(static_cast<double>(x), static_cast<double>(range.lo),
+                                  static_cast<double>(range.hi), expected_limited);
       EXPECT_EQ(static_cast<double>(detail::clipped(x, range.lo, range.hi, limited)), expected)
           << x << " in [" << range.lo << ", " << range.hi << "]";
       EXPECT_EQ(limited, expected_limited) << x;

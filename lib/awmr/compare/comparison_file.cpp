@@ -105,12 +105,28 @@ Json scenario_json(const Judged& scenario) {
   return json;
 }
 
-/// By metric and contender: in how many of the ranked scenarios it was best, or tied with the best.
-Json overall_json(const std::vector<Judged>& scenarios) {
+std::vector<JudgedScenario> ranked_of(const std::vector<Judged>& scenarios) {
   std::vector<JudgedScenario> ranked;
   for (const Judged& scenario : scenarios) {
     if (!scenario.ranking.empty()) ranked.push_back({&scenario.rows, &scenario.differences});
   }
+  return ranked;
+}
+
+/// The scenarios that another one stands for, having the same runs.
+Json counted_once_json(const std::vector<JudgedScenario>& ranked) {
+  const std::vector<std::size_t> first = first_with_same_runs(ranked);
+  Json json = Json::array();
+  for (std::size_t i = 0; i < ranked.size(); ++i) {
+    if (first[i] == i) continue;
+    json.push_back({{"scenario", ranked[i].rows->scenario},
+                    {"same_runs_as", ranked[first[i]].rows->scenario}});
+  }
+  return json;
+}
+
+/// By metric and contender: in how many of the ranked scenarios it was best, or tied with the best.
+Json overall_json(const std::vector<JudgedScenario>& ranked) {
   Json json = Json::array();
   for (const MetricTally& one : tally(ranked)) {
     Json counts = Json::object();
@@ -195,7 +211,9 @@ std::string comparison_text(const Comparison& comparison, const CompareOptions& 
   json["statistics"] = statistics_json(samples);
   json["ranking"] = ranking_json();
   const std::vector<Judged> scenarios = judge(judged, options.seed);
-  json["overall"] = overall_json(scenarios);
+  const std::vector<JudgedScenario> ranked = ranked_of(scenarios);
+  json["overall"] = overall_json(ranked);
+  json["counted_once"] = counted_once_json(ranked);
   json["scenarios"] = Json::array();
   for (const Judged& scenario : scenarios) json["scenarios"].push_back(scenario_json(scenario));
   return to_text(json);

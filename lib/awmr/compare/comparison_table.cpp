@@ -93,6 +93,12 @@ std::string overall_of(const std::vector<JudgedScenario>& scenarios) {
     }
     text += '\n';
   }
+  const std::vector<std::size_t> first = first_with_same_runs(scenarios);
+  for (std::size_t i = 0; i < scenarios.size(); ++i) {
+    if (first[i] == i) continue;
+    text += wrapped(fmt::format("counted once: '{}' has the same runs as '{}'",
+                                scenarios[i].rows->scenario, scenarios[first[i]].rows->scenario));
+  }
   return text;
 }
 

@@ -26,17 +26,46 @@ bool beats(const JudgedScenario& scenario, const MetricColumn& metric, const Mod
   return *mine - *theirs > kAlikeShare * ranking_scale(*scenario.rows, metric);
 }
 
+bool same_runs(const ModeRows& a, const ModeRows& b) {
+  if (!(a.contender == b.contender)) return false;
+  return std::equal(a.rows.begin(), a.rows.end(), b.rows.begin(), b.rows.end(),
+                    [](const ComparisonRow& one, const ComparisonRow& other) {
+                      return one.metrics.completed == other.metrics.completed &&
+                             std::all_of(kMetricColumns.begin(), kMetricColumns.end(),
+                                         [&](const MetricColumn& metric) {
+                                           return metric.value(one.metrics) ==
+                                                  metric.value(other.metrics);
+                                         });
+                    });
+}
+
 }  // namespace
+
+std::vector<std::size_t> first_with_same_runs(const std::vector<JudgedScenario>& scenarios) {
+  std::vector<std::size_t> first;
+  for (std::size_t i = 0; i < scenarios.size(); ++i) {
+    const std::vector<ModeRows>& modes = scenarios[i].rows->modes;
+    std::size_t twin = 0;
+    while (twin < i && !std::equal(modes.begin(), modes.end(), scenarios[twin].rows->modes.begin(),
+                                   scenarios[twin].rows->modes.end(), same_runs)) {
+      ++twin;
+    }
+    first.push_back(twin);
+  }
+  return first;
+}
 
 std::vector<MetricTally> tally(const std::vector<JudgedScenario>& scenarios) {
   std::vector<MetricTally> tallies;
   if (scenarios.empty()) return tallies;
   const std::size_t contenders = scenarios.front().rows->modes.size();
+  const std::vector<std::size_t> first = first_with_same_runs(scenarios);
   for (const MetricColumn& metric : kMetricColumns) {
     if (!metric.ranked()) continue;
     MetricTally one{metric.id, 0, std::vector<int>(contenders, 0)};
-    for (const JudgedScenario& scenario : scenarios) {
-      if (!any_has(*scenario.rows, metric)) continue;
+    for (std::size_t s = 0; s < scenarios.size(); ++s) {
+      const JudgedScenario& scenario = scenarios[s];
+      if (first[s] != s || !any_has(*scenario.rows, metric)) continue;
       ++one.scenarios;
       const std::vector<ModeRows>& modes = scenario.rows->modes;
       for (std::size_t i = 0; i < contenders; ++i) {

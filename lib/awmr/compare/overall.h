@@ -20,7 +20,12 @@ struct JudgedScenario {
   const std::vector<PairedDifference>* differences = nullptr;
 };
 
-/// By ranked metric, over the scenarios given: those that are ranked. A contender is beaten in a
+/// By position: the first scenario of the list with the same runs, every figure of every mode and
+/// sample equal; itself where there is none before it. Two files of one course are one course.
+std::vector<std::size_t> first_with_same_runs(const std::vector<JudgedScenario>& scenarios);
+
+/// By ranked metric, over the scenarios given: those that are ranked, of several with the same runs
+/// the first. A contender is beaten in a
 /// metric by one whose mean is lower: with samples where Holm's p says so, without where it is by
 /// more than 1 % of the metric's scale. A contender without a value is beaten by any that has one.
 std::vector<MetricTally> tally(const std::vector<JudgedScenario>& scenarios);
