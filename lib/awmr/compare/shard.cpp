@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <set>
@@ -110,11 +111,6 @@ Status check_parts(const std::vector<Part>& parts) {
   return {};
 }
 
-using Order = std::map<std::string, std::size_t, std::less<>>;
-
-/// Every name with its place among those that came before.
-void take_name(const std::string& name, Order& order) { order.emplace(name, order.size()); }
-
 /// Every scenario, mode and set of gains has every sample once, from the part that it belongs to.
 Status check_rows(const std::vector<ComparisonRow>& rows, const Part& part,
                   std::map<std::tuple<std::string, std::string, YawMode, int>, int>& seen) {
@@ -129,6 +125,45 @@ Status check_rows(const std::vector<ComparisonRow>& rows, const Part& part,
                                             row.sample, row.scenario));
     }
   }
+  return {};
+}
+
+/// The rows of all parts, each row once.
+Result<std::vector<ComparisonRow>> rows_of(const std::vector<Part>& parts) {
+  std::vector<ComparisonRow> rows;
+  std::map<std::tuple<std::string, std::string, YawMode, int>, int> seen;
+  for (const Part& part : parts) {
+    AWMR_ASSIGN_OR_RETURN(std::vector<ComparisonRow> more,
+                          read_rows(part.directory / "comparison.csv", part.csv_sha256));
+    AWMR_RETURN_IF_ERROR(check_rows(more, part, seen));
+    rows.insert(rows.end(), std::make_move_iterator(more.begin()),
+                std::make_move_iterator(more.end()));
+  }
+  return rows;
+}
+
+/// In the order of a single run: scenarios and gains as each part has them, modes, samples. Errors
+/// (input): not every one of them has `samples`, counted from 0.
+Status put_in_order(std::vector<ComparisonRow>& rows, std::size_t samples) {
+  std::map<std::string, std::size_t> scenarios;
+  std::map<std::string, std::size_t> gains;
+  std::set<YawMode> modes;
+  for (const ComparisonRow& row : rows) {
+    scenarios.emplace(row.scenario, scenarios.size());
+    gains.emplace(row.gains, gains.size());
+    modes.insert(row.mode);
+  }
+  const std::size_t runs = scenarios.size() * gains.size() * modes.size() * samples;
+  if (rows.size() != runs) {
+    return input_error("", fmt::format("the parts have {} runs, the comparison {}: one of them has "
+                                       "lost rows; run it again",
+                                       rows.size(), runs));
+  }
+  const auto key = [&](const ComparisonRow& row) {
+    return std::tuple(scenarios[row.scenario], gains[row.gains], row.mode, row.sample);
+  };
+  std::sort(rows.begin(), rows.end(),
+            [&](const ComparisonRow& a, const ComparisonRow& b) { return key(a) < key(b); });
   return {};
 }
 
@@ -157,36 +192,10 @@ Result<Merged> merge_shards(const std::vector<std::filesystem::path>& directorie
   std::sort(parts.begin(), parts.end(),
             [](const Part& a, const Part& b) { return a.shard.index < b.shard.index; });
 
-  Merged merged;
-  std::vector<ComparisonRow>& rows = merged.comparison.rows;
-  Order scenarios;
-  Order gains;
-  std::map<std::tuple<std::string, std::string, YawMode, int>, int> seen;
-  for (const Part& part : parts) {
-    AWMR_ASSIGN_OR_RETURN(std::vector<ComparisonRow> more,
-                          read_rows(part.directory / "comparison.csv", part.csv_sha256));
-    AWMR_RETURN_IF_ERROR(check_rows(more, part, seen));
-    for (ComparisonRow& row : more) {
-      take_name(row.scenario, scenarios);
-      take_name(row.gains, gains);
-      rows.push_back(std::move(row));
-    }
-  }
-  std::set<YawMode> modes;
-  for (const ComparisonRow& row : rows) modes.insert(row.mode);
-  const std::size_t runs =
-      scenarios.size() * gains.size() * modes.size() * (at(parts.front().samples) + 1);
-  if (rows.size() != runs) {
-    return input_error("", fmt::format("the parts have {} runs, the comparison {}: one of them has "
-                                       "lost rows; run it again",
-                                       rows.size(), runs));
-  }
-  const auto key = [&](const ComparisonRow& row) {
-    return std::tuple(scenarios[row.scenario], gains[row.gains], row.mode, row.sample);
-  };
-  std::sort(rows.begin(), rows.end(),
-            [&](const ComparisonRow& a, const ComparisonRow& b) { return key(a) < key(b); });
   const Part& first = parts.front();
+  Merged merged;
+  AWMR_ASSIGN_OR_RETURN(merged.comparison.rows, rows_of(parts));
+  AWMR_RETURN_IF_ERROR(put_in_order(merged.comparison.rows, at(first.samples) + 1));
   merged.comparison.whole_samples = first.samples + 1;
   merged.options.samples = first.samples;
   merged.options.seed = first.seed;
