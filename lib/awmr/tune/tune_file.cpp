@@ -136,21 +136,22 @@ Json constraints_json(const std::vector<ConstraintReport>& constraints) {
 
 Json robust_json(const RobustTuning& robust, const TuneOptions& options) {
   const TuningConditions& c = robust.conditions;
-  Json json = {
-      {"draws", options.draws},
-      {"drawn_from", robust.from_covariance ? "covariance" : "noise alone"},
-      {"seed", options.seed},
-      {"tail_share", options.tail_share},
-      {"activity_max", options.activity_max},
-      {"noise",
-       {{"heading_deg", c.heading_noise_deg},
-        {"yaw_rate_degps", c.yaw_rate_noise_degps},
-        {"speed_mps", c.speed_noise_mps}}},
-      {"latency_s",
-       {{"heading", c.heading_late_s}, {"yaw_rate", c.yaw_rate_late_s}, {"speed", c.speed_late_s}}},
-      {"motor_time_constant_s", c.motor_time_constant_s},
-      {"judged_draws", options.judged_draws},
-      {"quantiles", Json::object()}};
+  Json json = {{"draws", options.draws},
+               {"drawn_from", robust.from_covariance ? "covariance" : "noise alone"},
+               {"seed", options.seed},
+               {"tail_share", options.tail_share},
+               {"activity_max", options.activity_max},
+               {"noise",
+                {{"heading_deg", c.heading_noise_deg},
+                 {"yaw_rate_degps", c.yaw_rate_noise_degps},
+                 {"speed_mps", c.speed_noise_mps}}},
+               {"latency",
+                {{"heading_s", c.heading_late_s},
+                 {"yaw_rate_s", c.yaw_rate_late_s},
+                 {"speed_s", c.speed_late_s}}},
+               {"motor_time_constant_s", c.motor_time_constant_s},
+               {"judged_draws", options.judged_draws},
+               {"quantiles", Json::object()}};
   if (robust.nominal) json["nominal"] = gains_to_json(*robust.nominal);
   for (const JudgedGains& judged : robust.judged) {
     Json& entry = json["quantiles"][std::string(name_of(judged.mode))][judged.gains];

@@ -135,9 +135,9 @@ function missing(title, command) { section(title, `Not in this directory; \`${co
 // What nominal, robust and the paper's gains do on draws that none of them was tuned on.
 function robustTable(box, robust) {
   if (!robust || !robust.quantiles) return;
-  const n = robust.noise, late = robust.latency_s;
+  const n = robust.noise, late = robust.latency;
   add(box, "p", `Over ${robust.judged_draws} fresh draws (${robust.drawn_from}), heading noise ${n.heading_deg} deg, ` +
-    `yaw rate ${n.yaw_rate_degps} deg/s, speed ${n.speed_mps} m/s; readings ${late.heading} s late; motors ` +
+    `yaw rate ${n.yaw_rate_degps} deg/s, speed ${n.speed_mps} m/s; readings ${late.heading_s} s late; motors ` +
     `${robust.motor_time_constant_s} s behind. 95 % quantiles:`);
   table(box, ["mode", "gains", "settled", "settling, s", "overshoot, deg", "heading IAE, deg s", "steering, deg/s RMS"],
     Object.entries(robust.quantiles).flatMap(([mode, sets]) => Object.entries(sets).map(([name, q]) => [mode, name,
