@@ -10,6 +10,7 @@
 
 #include "awmr/model/model.h"
 #include "awmr/simulate/scenario.h"
+#include "choices.h"
 
 namespace awmr::cli {
 
@@ -25,7 +26,7 @@ inline void add_allocation(CLI::App& command, AllocationChoice& choice) {
           "--allocation", set,
           "Forces and angle by the exact inverse, or by the paper's small angles (default: as "
           "scenario and vehicle say, else exact)")
-      ->check(CLI::IsMember(names_in(kAllocationFormNames)));
+      ->check(one_of(names_in(kAllocationFormNames)));
 }
 
 /// For an output's options; nothing where there is no choice.
