@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <atomic>
 #include <charconv>
 #include <csignal>
@@ -116,29 +115,13 @@ Result<Shard> shard_of(const std::string& text) {
   return input_error("--shard", fmt::format("'{}' is no part: give I/N, as 1/4", text));
 }
 
-/// The fastest turn of all runs, where it is beyond what was measured.
-std::vector<Finding> extrapolation(const Model& model, const Comparison& comparison) {
-  const auto fastest =
-      std::max_element(comparison.rows.begin(), comparison.rows.end(),
-                       [](const ComparisonRow& a, const ComparisonRow& b) {
-                         return a.metrics.yaw_rate_max_degps < b.metrics.yaw_rate_max_degps;
-                       });
-  std::vector<Finding> findings;
-  if (fastest == comparison.rows.end()) return findings;
-  note_extrapolation(
-      model, fastest->metrics.yaw_rate_max_degps,
-      fmt::format("{}, {}, sample {}", fastest->scenario, name_of(fastest->mode), fastest->sample),
-      findings);
-  return findings;
-}
-
 /// Says how to go on and ends the program by the signal: the caller sees what it would have seen
 /// without the handler.
 void end_interrupted(const CompareCommand& command, const Comparison& comparison) {
   const std::string file = (command.output / "comparison.csv").string();
   const std::string text =
       is_part(command)
-          ? fmt::format("stopped: a part of a comparison has to be run again as a whole\n")
+          ? "stopped: a part of a comparison has to be run again as a whole\n"
           : fmt::format(
                 "stopped: {} finished runs are in {}; the same command with --resume goes on\n",
                 comparison.rows.size(), file);
@@ -178,7 +161,10 @@ Result<Outcome> execute(const CompareCommand& command) {
   return Outcome{.summary = table + fmt::format("wrote {} and comparison.csv\n",
                                                 (command.output / "comparison.json").string()),
                  .brief = table,
-                 .findings = extrapolation(model, comparison)};
+                 .findings = extrapolation_in(model, comparison.rows, [](const ComparisonRow& row) {
+                   return fmt::format("{}, {}, sample {}", row.scenario, name_of(row.mode),
+                                      row.sample);
+                 })};
 }
 
 void add_compare(CLI::App& app, Session& session) {

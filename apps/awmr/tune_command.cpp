@@ -71,18 +71,6 @@ std::string summary_of(const TuneCommand& command, const Tuning& tuning) {
   return text + fmt::format("wrote {}\n", command.output.string());
 }
 
-/// The fastest turn of the runs that the gains were scored on, where it is beyond what was measured.
-std::vector<Finding> extrapolation(const Model& model, const Tuning& tuning) {
-  std::vector<Finding> findings;
-  const auto fastest = std::max_element(
-      tuning.scores.begin(), tuning.scores.end(), [](const ModeScore& a, const ModeScore& b) {
-        return a.metrics.yaw_rate_max_degps < b.metrics.yaw_rate_max_degps;
-      });
-  note_extrapolation(model, fastest->metrics.yaw_rate_max_degps,
-                     fmt::format("{}, {}", fastest->scenario, name_of(fastest->mode)), findings);
-  return findings;
-}
-
 Result<Provenance> provenance_of(const TuneCommand& command,
                                  const std::vector<fs::path>& scenario_files) {
   std::vector<fs::path> paths{command.model};
@@ -112,7 +100,9 @@ Result<Outcome> execute(const TuneCommand& command) {
   AWMR_RETURN_IF_ERROR(write_file(command.output, gains_text(tuning, config.options, provenance)));
   return Outcome{.summary = summary_of(command, tuning),
                  .brief = gains_table(tuning),
-                 .findings = extrapolation(model, tuning)};
+                 .findings = extrapolation_in(model, tuning.scores, [](const ModeScore& score) {
+                   return fmt::format("{}, {}", score.scenario, name_of(score.mode));
+                 })};
 }
 
 void add_tune(CLI::App& app, Session& session) {

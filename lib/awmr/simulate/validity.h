@@ -1,6 +1,7 @@
 /// How far a run goes beyond what the trials measured.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,5 +18,18 @@ std::optional<double> measured_yaw_rate_degps(const Model& model);
 /// that: what the model says there is extrapolated. `where` names the run: "C3, combined".
 void note_extrapolation(const Model& model, double fastest_degps, const std::string& where,
                         std::vector<Finding>& findings);
+
+/// The same of the fastest of several runs, which have `metrics`; `where(run)` names one.
+template <class Runs, class Where>
+std::vector<Finding> extrapolation_in(const Model& model, const Runs& runs, const Where& where) {
+  const auto fastest = std::max_element(runs.begin(), runs.end(), [](const auto& a, const auto& b) {
+    return a.metrics.yaw_rate_max_degps < b.metrics.yaw_rate_max_degps;
+  });
+  std::vector<Finding> findings;
+  if (fastest != runs.end()) {
+    note_extrapolation(model, fastest->metrics.yaw_rate_max_degps, where(*fastest), findings);
+  }
+  return findings;
+}
 
 }  // namespace awmr
