@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <pthread.h>
+#include <semaphore.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <sys/file.h>
@@ -31,7 +32,11 @@ constexpr int kEndingSignals[] = {SIGINT,  SIGTERM, SIGHUP,    SIGQUIT, SIGALRM,
 
 /// Held by whoever makes or removes the folder, and for good by the thread that ends the program.
 std::mutex folder_mutex;
-fs::path folder;  ///< this run's; empty without one
+/// This run's; empty without one. Never destroyed: a signal may come while the program exits.
+fs::path& folder = *new fs::path;
+
+bool can_end = false;  ///< whether the thread that ends the program at a signal could be started
+sem_t not_ending;      ///< posted by that thread when it is asked and no signal came before
 
 /// `awmr-pil-NUMBER-XXXXXX`, with a process's number.
 bool is_run_folder(std::string_view name) {
@@ -92,12 +97,28 @@ sigset_t handled_signals() {
   return signals;
 }
 
+/// Asks whether the program is about to end. Of the signals sent to a process the lowest number is
+/// taken first, so this one is answered only when none of the others waits.
+int question() { return SIGRTMIN; }
+
+/// From here on nothing is told on stderr: what the main thread meets now (a killed compiler, a
+/// file that has gone) is this ending's doing. The emulator's library writes there by itself.
+void silence_errors() {
+  const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
+  if (nowhere < 0) return;
+  ::dup2(nowhere, STDERR_FILENO);
+  ::close(nowhere);
+}
+
 /// Waits for a signal, cleans up, and lets it do what it does.
 void* end_at_signal(void*) {
-  const sigset_t signals = handled_signals();
-  int number = 0;
-  while (::sigwait(&signals, &number) != 0) {
+  sigset_t signals = handled_signals();
+  ::sigaddset(&signals, question());
+  int number = question();
+  while (number == question()) {
+    if (::sigwait(&signals, &number) == 0 && number == question()) ::sem_post(&not_ending);
   }
+  silence_errors();
   folder_mutex.lock();
   end_running_programs();
   if (!folder.empty()) remove_folder(folder);
@@ -144,19 +165,23 @@ WorkFolder::~WorkFolder() {
 }
 
 void clean_up_at_signals() {
-  const sigset_t signals = handled_signals();
+  sigset_t signals = handled_signals();
+  ::sigaddset(&signals, question());
   ::pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  ::sem_init(&not_ending, 0, 0);
   pthread_t thread{};
   if (::pthread_create(&thread, nullptr, end_at_signal, nullptr) == 0) {
     ::pthread_detach(thread);
+    can_end = true;
   } else {
     ::pthread_sigmask(SIG_UNBLOCK, &signals, nullptr);
   }
 }
 
 void end_if_told_to() {
-  folder_mutex.lock();
-  folder_mutex.unlock();
+  if (!can_end || ::kill(::getpid(), question()) != 0) return;
+  while (::sem_wait(&not_ending) != 0) {
+  }
 }
 
 }  // namespace awmr::pil
