@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "awmr/core/option_text.h"
+#include "awmr/identify/tables/steady_fit.h"
 #include "awmr/identify/tables/subject.h"
 #include "awmr/model/steady.h"
 #include "identify/synthetic.h"
@@ -197,6 +199,43 @@ TEST(Options, ThatContradictEachOtherAreRefused) {
   options = {};
   options.joint = true;
   EXPECT_FALSE(identify(vehicle(), data, options, {}));
+}
+
+/// Points above a straight line, which a range of exponents up to 1 can only follow at its end.
+SteadyProblem steeper_than_its_range(Family family) {
+  SteadyProblem problem;
+  problem.family = family;
+  problem.beta_range = {0.0, 1.0};
+  for (int i = 1; i <= 40; ++i) {
+    const double speed = 0.1 * i;
+    const double force = 0.05 * std::pow(speed, 1.4) * (1.0 + 0.02 * std::sin(7.0 * i));
+    problem.points.push_back({.force = force, .rate = speed, .travel = {}, .elapsed_s = {}});
+  }
+  return problem;
+}
+
+TEST(Bounds, AFitAtTheEndOfARangeIsTheBestOfTheRemainingCoordinates) {
+  // f = alpha w: alpha = sum(f w)/sum(w^2)
+  const SteadyProblem problem = steeper_than_its_range(Family::kPower);
+  double force_rate = 0.0;
+  double rate_squared = 0.0;
+  for (const SteadyPoint& point : problem.points) {
+    force_rate += point.force * point.rate;
+    rate_squared += point.rate * point.rate;
+  }
+  const SteadyFit fit = fit_steady(problem, {std::log(0.5), 0.4, 0.0, 0.0, 0.0});
+  EXPECT_TRUE(fit.usable) << fit.stop_reason;
+  EXPECT_EQ(fit[TransformedParameter::kBeta], 1.0);
+  EXPECT_TRUE(fit.held_by_bound(TransformedParameter::kBeta));
+  EXPECT_NEAR(fit.law().alpha, force_rate / rate_squared, 1e-13);
+}
+
+TEST(Bounds, ATermThatStartsAtItsBoundLeavesItWhereTheCostFallsInwards) {
+  // Convex points are no power law below 1, but a line with a square term: q starts at 0 and rises.
+  const SteadyFit fit = fit_steady(steeper_than_its_range(Family::kCoulombLinearQuadratic),
+                                   {std::log(0.05), 1.0, 0.0, 0.0, 0.0});
+  EXPECT_TRUE(fit.usable) << fit.stop_reason;
+  EXPECT_GT(fit[TransformedParameter::kQuadratic], 0.0);
 }
 
 TEST(Tables, FourRowsGiveThePowerLawWithWideIntervalsWhateverTheFamilyAskedFor) {

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
+#include <utility>
 
 #include "awmr/identify/tables/profile.h"
 
@@ -24,13 +26,10 @@ void add_profiles(Candidate& candidate) {
   }
 }
 
-Candidate fit_candidate(const Subject& subject, const SteadyProblem& problem, ErrorModel wanted,
-                        const SteadyFit& line) {
+Candidate candidate_from(const Subject& subject, const SteadyProblem& problem, ErrorModel wanted,
+                         SteadyFit found) {
   const bool squared = problem.loss == Loss::kSquared;
-  Candidate candidate{
-      problem,
-      problem.family == Family::kPower ? fit_steady(problem, line.theta) : fit_steady(problem),
-      {}};
+  Candidate candidate{problem, std::move(found), {}};
   const SteadyFit& fit = candidate.fit;
   candidate.report =
       report_of(subject, fit, problem.family, Estimator::kNonlinear, name_of(problem.noise));
@@ -81,10 +80,14 @@ ErrorModel wanted_noise(const Subject& subject, const SubjectOptions& options) {
 std::vector<Candidate> fit_candidates(const Subject& subject, const SubjectOptions& options,
                                       ErrorModel wanted, const SteadyFit& line) {
   std::vector<Candidate> candidates;
+  std::map<ErrorModel, std::map<Family, TransformedParameters>> known;
   for (const auto& [family, noise] : plan(subject, options, wanted)) {
     if (subject.points.size() < coordinates_of(family).size()) continue;
     const SteadyProblem problem{subject.points, family, noise, options.loss, subject.beta_range};
-    candidates.push_back(fit_candidate(subject, problem, wanted, line));
+    SteadyFit fit = family == Family::kPower ? fit_steady(problem, line.theta)
+                                             : fit_steady(problem, known[noise]);
+    known[noise][family] = fit.theta;
+    candidates.push_back(candidate_from(subject, problem, wanted, std::move(fit)));
   }
   return candidates;
 }

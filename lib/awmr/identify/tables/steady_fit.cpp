@@ -140,15 +140,19 @@ bool is_physical(const Resistance<double>& law) {
          std::isfinite(law.quadratic);
 }
 
-SteadyFit fit_steady(const SteadyProblem& problem) {
+SteadyFit fit_steady(const SteadyProblem& problem, std::map<Family, TransformedParameters>& known) {
   SteadyFit best = fit_steady(problem, initial_guess_of(problem));
   for (const Family inner : families_inside(problem.family)) {
-    SteadyProblem simpler = problem;
-    simpler.family = inner;
-    SteadyFit fit = fit_steady(problem, fit_steady(simpler).theta);
+    if (!known.contains(inner)) {
+      SteadyProblem simpler = problem;
+      simpler.family = inner;
+      fit_steady(simpler, known);
+    }
+    SteadyFit fit = fit_steady(problem, known.at(inner));
     const bool better = fit.residuals.squaredNorm() < best.residuals.squaredNorm();
     if (fit.usable && (!best.usable || better)) best = std::move(fit);
   }
+  known[problem.family] = best.theta;
   return best;
 }
 

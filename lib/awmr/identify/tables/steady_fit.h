@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -79,8 +80,9 @@ SteadyFit fit_log_linear(const std::vector<SteadyPoint>& points);
 /// median absolute residual. Precondition: every point is timed where the noise is kTime.
 SteadyFit fit_steady(const SteadyProblem& problem, const TransformedParameters& initial_guess);
 /// The same from initial guesses that are worked out of the points alone: one of the family's own, and
-/// the optimum of each family inside this one, so that a richer family never fits worse.
-SteadyFit fit_steady(const SteadyProblem& problem);
+/// the optimum of each family inside this one, so that a richer family never fits worse. `known`
+/// holds optima of the same points, noise and loss by family; those that lack are added.
+SteadyFit fit_steady(const SteadyProblem& problem, std::map<Family, TransformedParameters>& known);
 
 /// Every number of the law is finite, and alpha is more than nothing.
 bool is_physical(const Resistance<double>& law);

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <iterator>
 #include <limits>
+#include <utility>
 
 #include "awmr/core/index.h"
 #include "awmr/identify/ceres_solve.h"
@@ -61,6 +64,31 @@ struct SteadyResidual {
 
 using SteadyCost = ceres::AutoDiffCostFunction<SteadyResidual, 1, 1, 1, 1, 1, 1>;
 
+/// Ends a search in which the same coordinates have stood at their bounds for some iterations.
+class StopAtBound : public ceres::IterationCallback {
+ public:
+  explicit StopAtBound(std::function<std::vector<TransformedParameter>()> at_bound)
+      : at_bound_(std::move(at_bound)) {}
+
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary&) override {
+    std::vector<TransformedParameter> now = at_bound_();
+    iterations_ = !now.empty() && now == held_ ? iterations_ + 1 : 0;
+    held_ = std::move(now);
+    return iterations_ < kIterations ? ceres::SOLVER_CONTINUE
+                                     : ceres::SOLVER_TERMINATE_SUCCESSFULLY;
+  }
+  /// The coordinates for which it ended the search; none where it did not.
+  std::vector<TransformedParameter> held() const {
+    return iterations_ < kIterations ? std::vector<TransformedParameter>() : held_;
+  }
+
+ private:
+  static constexpr int kIterations = 3;
+  std::function<std::vector<TransformedParameter>()> at_bound_;
+  std::vector<TransformedParameter> held_;
+  int iterations_ = 0;
+};
+
 }  // namespace
 
 Interval bounds_of(const SteadyProblem& problem, TransformedParameter c) {
@@ -99,13 +127,55 @@ void SteadySearch::free_or_hold(std::optional<TransformedParameter> held) {
       continue;
     }
     const Interval bounds = bounds_of(problem_, c);
+    free_.push_back(c);
     theta_[i] = std::clamp(theta_[i], bounds.lo, bounds.hi);
     if (std::isfinite(bounds.lo)) ceres_->SetParameterLowerBound(block(c), 0, bounds.lo);
     if (std::isfinite(bounds.hi)) ceres_->SetParameterUpperBound(block(c), 0, bounds.hi);
   }
 }
 
-void SteadySearch::solve() { ceres::Solve(exact_options(), ceres_.get(), &summary_); }
+bool SteadySearch::is_at_bound(TransformedParameter c) const {
+  const Interval bounds = bounds_of(problem_, c);
+  return theta_[at(c)] <= bounds.lo || theta_[at(c)] >= bounds.hi;
+}
+
+/// The coordinates that have come to rest at a bound; the search has then not ended.
+std::vector<TransformedParameter> SteadySearch::search_until_at_bound() {
+  StopAtBound stop([this] {
+    std::vector<TransformedParameter> at_bound;
+    std::copy_if(free_.begin(), free_.end(), std::back_inserter(at_bound),
+                 [this](TransformedParameter c) { return is_at_bound(c); });
+    return at_bound;
+  });
+  ceres::Solver::Options options = exact_options();
+  options.update_state_every_iteration = true;
+  options.callbacks.push_back(&stop);
+  ceres::Solve(options, ceres_.get(), &summary_);
+  return stop.held();
+}
+
+/// Whether the cost falls from the bound into the interval, so that the bound does not hold it.
+bool SteadySearch::falls_inwards(TransformedParameter c) {
+  ceres::Problem::EvaluateOptions options;
+  options.parameter_blocks = {block(c)};
+  std::vector<double> gradient;
+  if (!ceres_->Evaluate(options, nullptr, nullptr, &gradient, nullptr)) return true;
+  return theta_[at(c)] <= bounds_of(problem_, c).lo ? gradient[0] < 0.0 : gradient[0] > 0.0;
+}
+
+// Least squares alone point beyond a bound in every step, and what is cut off there keeps the other
+// coordinates from their optimum: with the bound they come nearer by a third at a time. Held at the
+// bound for good, the rest of the search is one without bounds.
+void SteadySearch::solve() {
+  const std::vector<TransformedParameter> held = search_until_at_bound();
+  if (held.empty()) return;
+  for (const TransformedParameter c : held) ceres_->SetParameterBlockConstant(block(c));
+  ceres::Solve(exact_options(), ceres_.get(), &summary_);
+  const bool wrong = std::any_of(held.begin(), held.end(),
+                                 [this](TransformedParameter c) { return falls_inwards(c); });
+  for (const TransformedParameter c : held) ceres_->SetParameterBlockVariable(block(c));
+  if (wrong) ceres::Solve(exact_options(), ceres_.get(), &summary_);
+}
 
 void SteadySearch::solve_robustly() {
   for (int round = 0; round < 20; ++round) {

@@ -22,6 +22,8 @@ class SteadySearch {
   SteadySearch(const SteadySearch&) = delete;
   SteadySearch& operator=(const SteadySearch&) = delete;
 
+  /// Down to where nothing moves any more. A coordinate that comes to rest at a bound is held there
+  /// while the others are found, and freed again if the cost falls inwards.
   void solve();
   /// The loss takes its scale from the residuals, which it changes: a few rounds settle both.
   void solve_robustly();
@@ -38,9 +40,13 @@ class SteadySearch {
  private:
   double* block(TransformedParameter c) { return &theta_[at(c)]; }
   void free_or_hold(std::optional<TransformedParameter> held);
+  bool is_at_bound(TransformedParameter c) const;
+  std::vector<TransformedParameter> search_until_at_bound();
+  bool falls_inwards(TransformedParameter c);
 
   const SteadyProblem& problem_;
   TransformedParameters theta_;
+  std::vector<TransformedParameter> free_;  ///< the coordinates searched for
   ceres::LossFunctionWrapper loss_{nullptr, ceres::TAKE_OWNERSHIP};
   std::unique_ptr<ceres::Problem> ceres_;
   ceres::Solver::Summary summary_;
