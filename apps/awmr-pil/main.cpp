@@ -6,15 +6,17 @@
 #include "awmr/core/option_text.h"
 #include "awmr/core/provenance.h"
 #include "executor.h"
+#include "json_output.h"
 #include "pil_options.h"
 #include "run.h"
 #include "work_folder.h"
 
 namespace {
 
-int report(const awmr::Error& error) {
+int report(const awmr::Error& error, bool json = false) {
   awmr::pil::end_if_told_to();
-  std::fputs(awmr::to_text(error, "--").c_str(), stderr);
+  const std::string text = json ? awmr::cli::error_text(error) : awmr::to_text(error, "--");
+  std::fputs(text.c_str(), stderr);
   return awmr::exit_code(error);
 }
 
@@ -23,6 +25,7 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", std::string("awmr ") + awmr::version());
   awmr::cli::PilOptions options;
   bool quiet = false;
+  bool json = false;
   std::string terminal_elf;
   CLI::App* serve = app.add_subcommand(
       "serve", "Emulate a board: FIRMWARE.elf's USART on a pseudo-terminal, whose name is printed");
@@ -31,6 +34,7 @@ int run(int argc, char** argv) {
   awmr::cli::add_pil_options(*pil, options);
   pil->add_option("-o,--output", options.output, "pil.json to write")->required();
   pil->add_flag("--quiet", quiet, "Print errors only");
+  pil->add_flag("--json", json, "Print the result as one JSON object");
   app.require_subcommand(1);
   try {
     app.parse(argc, argv);
@@ -44,9 +48,15 @@ int run(int argc, char** argv) {
     return served ? 0 : report(served.error());
   }
   const auto outcome = awmr::pil::run_pil(options);
-  if (!outcome) return report(outcome.error());
-  if (!quiet || !outcome->passed) std::fputs(outcome->summary.c_str(), stdout);
-  return outcome->passed ? 0 : 1;
+  if (!outcome) return report(outcome.error(), json);
+  const int exit_code = outcome->passed ? 0 : 1;
+  const std::string text = json ? awmr::cli::result_text({.command = "pil",
+                                                          .exit_code = exit_code,
+                                                          .written = {options.output},
+                                                          .document = outcome->document})
+                                : outcome->summary;
+  if (json || !quiet || !outcome->passed) std::fputs(text.c_str(), stdout);
+  return exit_code;
 }
 
 }  // namespace

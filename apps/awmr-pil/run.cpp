@@ -221,7 +221,7 @@ Result<Outcome> run_pil(const PilOptions& options) {
   if (auto written = write_file(options.output, *text); !written) {
     return tl::unexpected(written.error());
   }
-  return Outcome{report_summary(options, in->setup, report), report.passed()};
+  return Outcome{report_summary(options, in->setup, report), report.passed(), *text};
 }
 
 }  // namespace awmr::pil

@@ -11,6 +11,7 @@ namespace awmr::pil {
 struct Outcome {
   std::string summary;  ///< for stdout
   bool passed = false;
+  std::string document;  ///< the bytes of pil.json
 };
 
 /// Writes pil.json. Errors: bad input, no compiler, the chip or the link fails.

@@ -15,6 +15,7 @@
 #include "awmr/trials/load.h"
 #include "awmr/tune/tune_file.h"
 #include "commands.h"
+#include "paths.h"
 #include "project.h"
 
 namespace awmr::cli {
@@ -176,17 +177,27 @@ Result<Check> check_project(const Project& project) {
   return check;
 }
 
+std::ptrdiff_t count(const Check& check, std::string_view code) {
+  return std::count_if(check.missing.begin(), check.missing.end(),
+                       [&](const Finding& finding) { return finding.code == code; });
+}
+
+std::string document_of(const Check& check) {
+  Json json;
+  json["to_fill_in"] = count(check, "missing-value");
+  json["to_record"] = count(check, "missing-trial");
+  json["implausible"] = check.implausible.size();
+  return awmr::to_text(json);
+}
+
 std::string summary_of(const fs::path& project, const Check& check) {
-  const auto count = [&](std::string_view code) {
-    return std::count_if(check.missing.begin(), check.missing.end(),
-                         [&](const Finding& finding) { return finding.code == code; });
-  };
   if (check.missing.empty() && check.implausible.empty()) {
     return fmt::format("{}: nothing to mend; next: awmr run {} -o out\n", project.string(),
                        project.string());
   }
   return fmt::format("{}: {} to fill in, {} to record, {} implausible\n", project.string(),
-                     count("missing-value"), count("missing-trial"), check.implausible.size());
+                     count(check, "missing-value"), count(check, "missing-trial"),
+                     check.implausible.size());
 }
 
 }  // namespace
@@ -197,7 +208,7 @@ Result<Outcome> execute(const CheckCommand& command) {
       fs::is_directory(command.project, error) ? command.project / "project.json" : command.project;
   AWMR_ASSIGN_OR_RETURN(const Project project, read_project(path));
   AWMR_ASSIGN_OR_RETURN(const Check check, check_project(project));
-  Outcome outcome{.summary = summary_of(path, check)};
+  Outcome outcome{.summary = summary_of(path, check), .document = document_of(check)};
   for (const auto* findings : {&check.missing, &check.implausible, &check.notes}) {
     outcome.findings.insert(outcome.findings.end(), findings->begin(), findings->end());
   }
@@ -213,7 +224,7 @@ void add_check(CLI::App& app, Session& session) {
       "awmr check configs/paper/project.json\n"
       "Exit codes: 0 nothing to mend; 1 something is missing or implausible; 2 bad input",
       [command] { return execute(*command); });
-  sub->add_option("PROJECT", command->project, "project.json, or its directory")->required();
+  add_file(*sub, "PROJECT", command->project, "project.json, or its directory")->required();
 }
 
 }  // namespace awmr::cli

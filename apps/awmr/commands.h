@@ -175,4 +175,8 @@ struct RunCommand {
 Result<Outcome> execute(const RunCommand& command);
 void add_run(CLI::App& app, Session& session);
 
+/// What the shell and the manual know of all the commands, these included.
+void add_completion(CLI::App& app, Session& session);
+void add_man(CLI::App& app, Session& session);
+
 }  // namespace awmr::cli

@@ -18,6 +18,7 @@
 #include "commands.h"
 #include "inputs.h"
 #include "numbers.h"
+#include "paths.h"
 #include "progress.h"
 
 namespace awmr::cli {
@@ -91,12 +92,16 @@ const char* json_of(const CompareCommand& command) {
   return is_part(command) ? "shard.json" : "comparison.json";
 }
 
-Status write_comparison(const CompareCommand& command, const Comparison& comparison,
+/// The bytes of the file of that name.
+std::string document_of(const CompareCommand& command, const Comparison& comparison,
                         const Provenance& provenance) {
+  return is_part(command) ? shard_text(comparison, command.compare, provenance)
+                          : comparison_text(comparison, command.compare, provenance);
+}
+
+Status write_comparison(const CompareCommand& command, const Comparison& comparison,
+                        const std::string& text) {
   AWMR_RETURN_IF_ERROR(make_directory(command.output));
-  const std::string text = is_part(command)
-                               ? shard_text(comparison, command.compare, provenance)
-                               : comparison_text(comparison, command.compare, provenance);
   // The last one names the hash of the first.
   const OutputFile files[] = {{command.output / "comparison.csv", comparison_csv(comparison)},
                               {command.output / json_of(command), text}};
@@ -149,22 +154,31 @@ Result<Outcome> execute(const CompareCommand& command) {
   AWMR_ASSIGN_OR_RETURN(
       const Comparison comparison,
       compare_until_interrupted(model, gains, scenarios, std::move(options), command.quiet));
-  AWMR_RETURN_IF_ERROR(write_comparison(command, comparison, provenance));
+  const std::string text = document_of(command, comparison, provenance);
+  AWMR_RETURN_IF_ERROR(write_comparison(command, comparison, text));
+  const std::vector<fs::path> written{command.output / json_of(command),
+                                      command.output / "comparison.csv"};
   if (comparison.stopped) end_interrupted(command, comparison);
   if (is_part(command)) {
     return Outcome{.summary = fmt::format("part {} of {}: {} runs\nwrote {} and comparison.csv\n",
                                           command.compare.shard.index, command.compare.shard.count,
                                           comparison.rows.size(),
-                                          (command.output / json_of(command)).string())};
+                                          (command.output / json_of(command)).string()),
+                   .document = text,
+                   .written = written};
   }
   const std::string table = comparison_table(comparison, command.compare.seed);
   return Outcome{.summary = table + fmt::format("wrote {} and comparison.csv\n",
                                                 (command.output / "comparison.json").string()),
                  .brief = table,
-                 .findings = extrapolation_in(model, comparison.rows, [](const ComparisonRow& row) {
-                   return fmt::format("{}, {}, sample {}", row.scenario, name_of(row.mode),
-                                      row.sample);
-                 })};
+                 .findings = extrapolation_in(model, comparison.rows,
+                                              [](const ComparisonRow& row) {
+                                                return fmt::format("{}, {}, sample {}",
+                                                                   row.scenario, name_of(row.mode),
+                                                                   row.sample);
+                                              }),
+                 .document = text,
+                 .written = written};
 }
 
 void add_compare(CLI::App& app, Session& session) {
@@ -181,11 +195,11 @@ void add_compare(CLI::App& app, Session& session) {
                     }
                     return execute(*command);
                   });
-  sub->add_option("--model", command->model, "model.json from identify")->required();
-  sub->add_option("--gains", command->gains,
-                  "gains.json from tune; several to compare them with each other")
+  add_file(*sub, "--model", command->model, "model.json from identify")->required();
+  add_file(*sub, "--gains", command->gains,
+           "gains.json from tune; several to compare them with each other")
       ->required();
-  sub->add_option("--scenario", command->scenarios, "scenario.json, one or more")->required();
+  add_file(*sub, "--scenario", command->scenarios, "scenario.json, one or more")->required();
   sub->add_option("--samples", command->compare.samples,
                   "Draws of the parameters from the model's covariance, and of noise and "
                   "disturbances (default 0: nominal only)")
@@ -202,7 +216,7 @@ void add_compare(CLI::App& app, Session& session) {
       ->excludes(resume);
   sub->get_option("--quiet")->each([command](const std::string&) { command->quiet = true; });
   add_allocation(*sub, command->allocation);
-  add_output(*sub, command->output, "Directory for comparison.csv and comparison.json");
+  add_output_directory(*sub, command->output, "Directory for comparison.csv and comparison.json");
 }
 
 }  // namespace awmr::cli

@@ -13,6 +13,8 @@
 #include "awmr/core/option_text.h"
 #include "awmr/core/text.h"
 #include "awmr/model/si_units.h"
+#include "json_output.h"
+#include "paths.h"
 
 namespace awmr::cli {
 namespace {
@@ -23,21 +25,34 @@ bool print(std::FILE* stream, const std::string& text) {
          std::fflush(stream) == 0;
 }
 
-int report(const Result<Outcome>& result, bool quiet) {
+/// How the outcome is told.
+struct Manner {
+  bool quiet = false;
+  bool json = false;
+};
+
+int to_stdout(const std::string& text, int exit_code) {
+  if (print(stdout, text)) return exit_code;
+  print(stderr, fmt::format("error: cannot write to standard output: {}\n", std::strerror(errno)));
+  return 2;
+}
+
+int report(const std::string& command, const Result<Outcome>& result, Manner manner) {
   if (!result) {
-    print(stderr, awmr::to_text(result.error(), "--"));
+    print(stderr, manner.json ? error_text(result.error()) : awmr::to_text(result.error(), "--"));
     return exit_code(result.error());
+  }
+  const int exit_code = result->refused ? 1 : 0;
+  if (manner.json) {
+    return to_stdout(
+        result_text({command, exit_code, result->written, result->findings, result->document}),
+        exit_code);
   }
   for (const Finding& finding : result->findings) {
     const bool matters = result->refused && finding.severity == Severity::kError;
-    if (!quiet || matters) print(stderr, to_text(finding) + "\n");
+    if (!manner.quiet || matters) print(stderr, to_text(finding) + "\n");
   }
-  if (!quiet && !print(stdout, printable_lines(result->summary))) {
-    print(stderr,
-          fmt::format("error: cannot write to standard output: {}\n", std::strerror(errno)));
-    return 2;
-  }
-  return result->refused ? 1 : 0;
+  return manner.quiet ? exit_code : to_stdout(printable_lines(result->summary), exit_code);
 }
 
 std::string origin(const Estimate& estimate) {
@@ -64,17 +79,34 @@ CLI::App* add_command(CLI::App& app, Session& session, const std::string& name,
   CLI::App* command = app.add_subcommand(name, description);
   command->footer("Example:\n  " + example);
   command->set_version_flag("--version", std::string("awmr ") + version());
-  auto quiet = std::make_shared<bool>(false);
-  command->add_flag("--quiet", *quiet, "Print errors only");
-  command->callback([&session, quiet, execute = std::move(execute)] {
-    session.exit_code = report(execute(), *quiet);
+  auto manner = std::make_shared<Manner>();
+  auto* quiet = command->add_flag("--quiet", manner->quiet, "Print errors only");
+  command
+      ->add_flag("--json", manner->json,
+                 "Print the result and its findings as one JSON object, errors as one on stderr")
+      ->excludes(quiet);
+  command->callback([&session, name, manner, execute = std::move(execute)] {
+    session.exit_code = report(name, execute(), *manner);
   });
   return command;
 }
 
 CLI::Option* add_output(CLI::App& command, std::filesystem::path& path,
                         const std::string& meaning) {
-  return command.add_option("-o,--output", path, meaning)->required();
+  return add_file(command, "-o,--output", path, meaning)->required();
+}
+
+CLI::Option* add_output_directory(CLI::App& command, std::filesystem::path& path,
+                                  const std::string& meaning) {
+  return add_directory(command, "-o,--output", path, meaning)->required();
+}
+
+Status write_document(const std::optional<std::filesystem::path>& path, Outcome& outcome) {
+  if (!path) return {};
+  AWMR_RETURN_IF_ERROR(write_file(*path, outcome.document));
+  outcome.summary += fmt::format("wrote {}\n", path->string());
+  outcome.written = {*path};
+  return {};
 }
 
 Status check_outputs(const std::filesystem::path& directory, const std::vector<std::string>& names,

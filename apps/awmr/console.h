@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -23,6 +24,8 @@ struct Outcome {
   std::string brief = {};              ///< the same in a few lines, for `run`
   std::vector<Finding> findings = {};  ///< for stderr
   bool refused = false;                ///< the work ran and the answer is no: exit code 1
+  std::string document = {};           ///< for `--json`: what its file holds, or would hold
+  std::vector<std::filesystem::path> written = {};  ///< the command's files
 };
 
 /// The program's state while one command runs.
@@ -30,13 +33,19 @@ struct Session {
   int exit_code = 0;
 };
 
-/// Adds a subcommand with `--quiet`, `--version` and an example under its help; `execute` runs it.
+/// Adds a subcommand with `--quiet`, `--json`, `--version` and an example under its help; `execute` runs it.
 CLI::App* add_command(CLI::App& app, Session& session, const std::string& name,
                       const std::string& description, const std::string& example,
                       std::function<Result<Outcome>()> execute);
 
-/// `-o FILE|DIR`, required.
+/// `-o FILE`, required.
 CLI::Option* add_output(CLI::App& command, std::filesystem::path& path, const std::string& meaning);
+/// `-o DIR`, required.
+CLI::Option* add_output_directory(CLI::App& command, std::filesystem::path& path,
+                                  const std::string& meaning);
+
+/// Writes the outcome's document where a path is given, and says so in its summary.
+Status write_document(const std::optional<std::filesystem::path>& path, Outcome& outcome);
 
 /// As check_output for files of a directory, which may not be there yet; nothing is made.
 Status check_outputs(const std::filesystem::path& directory, const std::vector<std::string>& names,

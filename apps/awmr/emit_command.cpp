@@ -6,10 +6,12 @@
 #include <memory>
 
 #include "awmr/core/file.h"
+#include "awmr/core/json.h"
 #include "awmr/model/gains_file.h"
 #include "awmr/model/model_file.h"
 #include "commands.h"
 #include "emit_options.h"
+#include "paths.h"
 
 namespace awmr::cli {
 namespace {
@@ -27,6 +29,12 @@ Status write_emitted(const EmitCommand& command, const std::vector<EmittedFile>&
   return write_files(outputs);
 }
 
+std::vector<fs::path> paths_of(const EmitCommand& command, const std::vector<EmittedFile>& files) {
+  std::vector<fs::path> paths;
+  for (const EmittedFile& file : files) paths.push_back(command.output / file.path);
+  return paths;
+}
+
 std::string table_line(const char* name, const EmittedTable& table) {
   return fmt::format(
       "  {} table: {} lines up to {:g}, worst error {:.1e} below {:g}, {:.1e} of it "
@@ -35,12 +43,25 @@ std::string table_line(const char* name, const EmittedTable& table) {
       table.worst_relative_error);
 }
 
+Json table_json(const EmittedTable& table) {
+  return {{"lines", table.lines.size()},
+          {"top_speed", table.top_speed},
+          {"split", table.split},
+          {"worst_error", table.worst_error},
+          {"worst_relative_error", table.worst_relative_error}};
+}
+
 /// How well the tables of resistance hold; nothing where powf is called instead.
-Result<std::string> table_lines(const Model& model, const Gains<double>& gains,
-                                const EmitInputs& inputs, const EmitOptions& options) {
-  if (options.resistance != ResistanceForm::kTable) return std::string();
+Status add_tables(const Model& model, const Gains<double>& gains, const EmitInputs& inputs,
+                  const EmitOptions& options, Outcome& outcome) {
+  if (options.resistance != ResistanceForm::kTable) return {};
   AWMR_ASSIGN_OR_RETURN(const auto parameters, autopilot_parameters(model, gains, inputs, options));
-  return table_line("surge", parameters.surge) + table_line("yaw", parameters.yaw);
+  outcome.summary += table_line("surge", parameters.surge) + table_line("yaw", parameters.yaw);
+  Json json;
+  json["tables"]["surge"] = table_json(parameters.surge);
+  json["tables"]["yaw"] = table_json(parameters.yaw);
+  outcome.document = awmr::to_text(json);
+  return {};
 }
 
 }  // namespace
@@ -50,19 +71,20 @@ Result<Outcome> execute(const EmitCommand& command) {
   AWMR_ASSIGN_OR_RETURN(const Gains<double> gains, read_gains(command.gains));
   AWMR_ASSIGN_OR_RETURN(const EmitInputs inputs, emit_inputs(command.model, command.gains));
   std::vector<EmittedFile> files;
-  std::string tables;
+  Outcome outcome{.summary =
+                      fmt::format("wrote {}{}\n", (command.output / "awmr_params.h").string(),
+                                  command.header_only ? "" : " and the Arduino library around it")};
   if (command.header_only) {
     AWMR_ASSIGN_OR_RETURN(std::string header, params_header(model, gains, inputs));
     files.push_back({"awmr_params.h", std::move(header)});
   } else {
     AWMR_ASSIGN_OR_RETURN(files, firmware_library(model, gains, inputs, command.emit));
-    AWMR_ASSIGN_OR_RETURN(tables, table_lines(model, gains, inputs, command.emit));
+    AWMR_RETURN_IF_ERROR(add_tables(model, gains, inputs, command.emit, outcome));
   }
   AWMR_RETURN_IF_ERROR(make_directory(command.output));
   AWMR_RETURN_IF_ERROR(write_emitted(command, files));
-  return Outcome{.summary = fmt::format(
-                     "wrote {}{}\n{}", (command.output / "awmr_params.h").string(),
-                     command.header_only ? "" : " and the Arduino library around it", tables)};
+  outcome.written = paths_of(command, files);
+  return outcome;
 }
 
 void add_emit(CLI::App& app, Session& session) {
@@ -71,11 +93,11 @@ void add_emit(CLI::App& app, Session& session) {
       add_command(app, session, "emit", "Write awmr_params.h and the Arduino library around it",
                   "awmr emit --model model.json --gains gains.json -o firmware",
                   [command] { return execute(*command); });
-  sub->add_option("--model", command->model, "model.json from identify")->required();
-  sub->add_option("--gains", command->gains, "gains.json from tune")->required();
+  add_file(*sub, "--model", command->model, "model.json from identify")->required();
+  add_file(*sub, "--gains", command->gains, "gains.json from tune")->required();
   sub->add_flag("--header-only", command->header_only, "awmr_params.h alone, without the library");
   add_emit_options(*sub, command->emit);
-  add_output(*sub, command->output, "Directory for awmr_params.h and the library");
+  add_output_directory(*sub, command->output, "Directory for awmr_params.h and the library");
 }
 
 }  // namespace awmr::cli

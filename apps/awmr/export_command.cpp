@@ -10,6 +10,7 @@
 #include "awmr/model/model_file.h"
 #include "choices.h"
 #include "commands.h"
+#include "paths.h"
 
 namespace awmr::cli {
 
@@ -26,7 +27,8 @@ Result<Outcome> execute(const ExportCommand& command) {
   source.inputs = inputs;
   AWMR_ASSIGN_OR_RETURN(const std::string text, export_text(source, command.format));
   AWMR_RETURN_IF_ERROR(write_file(command.output, text));
-  return Outcome{.summary = fmt::format("wrote {}\n", command.output.string())};
+  return Outcome{.summary = fmt::format("wrote {}\n", command.output.string()),
+                 .written = {command.output}};
 }
 
 void add_export(CLI::App& app, Session& session) {
@@ -35,10 +37,10 @@ void add_export(CLI::App& app, Session& session) {
       add_command(app, session, "export", "Write model and gains as another program's parameters",
                   "awmr export --model model.json --gains gains.json --format px4 -o rover.params",
                   [command] { return execute(*command); });
-  sub->add_option("--model", command->model, "model.json from identify")->required();
-  sub->add_option("--gains", command->gains,
-                  "gains.json from tune; what follows from gains is left "
-                  "out without it");
+  add_file(*sub, "--model", command->model, "model.json from identify")->required();
+  add_file(*sub, "--gains", command->gains,
+           "gains.json from tune; what follows from gains is left "
+           "out without it");
   add_choice(*sub, "--format", command->format, kExportFormatNames,
              "ROS 2 parameters (YAML), MATLAB script, Python module, CSV, or the parameters that "
              "follow from the model of ArduPilot Rover or PX4's rovers, each with its derivation")

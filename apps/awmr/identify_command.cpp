@@ -13,6 +13,7 @@
 #include "identify_options.h"
 #include "inputs.h"
 #include "numbers.h"
+#include "paths.h"
 
 namespace awmr::cli {
 namespace {
@@ -91,13 +92,12 @@ Result<IdentifyCommand> command_of(const IdentifyWords& words) {
 }
 
 void add_trial_files(CLI::App& sub, IdentifyCommand& command) {
-  sub.add_option("--vehicle", command.vehicle, "vehicle.json: what is known beforehand")
-      ->required();
-  sub.add_option("--surge", command.surge, "CSV of runs at constant thrust, wheels straight");
-  sub.add_option("--coastdown", command.coastdowns,
-                 "CSV of coast-downs, motors off: stop times or whole curves; may be repeated");
-  sub.add_option("--turning", command.turning, "CSV of runs at constant thrust and steering");
-  sub.add_option("--log", command.logs, "CSV of a driving log; may be repeated");
+  add_file(sub, "--vehicle", command.vehicle, "vehicle.json: what is known beforehand")->required();
+  add_file(sub, "--surge", command.surge, "CSV of runs at constant thrust, wheels straight");
+  add_file(sub, "--coastdown", command.coastdowns,
+           "CSV of coast-downs, motors off: stop times or whole curves; may be repeated");
+  add_file(sub, "--turning", command.turning, "CSV of runs at constant thrust and steering");
+  add_file(sub, "--log", command.logs, "CSV of a driving log; may be repeated");
 }
 
 void add_fit_options(CLI::App& sub, IdentifyWords& words) {
@@ -154,7 +154,7 @@ void add_reading_options(CLI::App& sub, IdentifyWords& words) {
                  "Which of two disagreeing values to use: printed (default) or timed")
       ->check(one_of(names_in(kPreferenceNames)));
   sub.add_option("--column", words.columns.columns, kColumnHelp);
-  sub.add_option("--columns-file", words.columns.file, kColumnsFileHelp);
+  add_file(sub, "--columns-file", words.columns.file, kColumnsFileHelp);
 }
 
 }  // namespace
@@ -181,11 +181,14 @@ Result<Outcome> execute(const IdentifyCommand& command) {
   AWMR_ASSIGN_OR_RETURN(Identification identified, identify(trials, command.identify));
   Model& model = identified.model;
   model.record.provenance = std::move(provenance);
-  AWMR_RETURN_IF_ERROR(write_model(model, command.output));
+  std::string document = model_text(model);
+  AWMR_RETURN_IF_ERROR(write_file(command.output, document));
   return Outcome{.summary = summary_of(command, model),
                  .brief = parameter_table_text(model),
                  .findings = model.record.findings,
-                 .refused = !identified.refused.empty()};
+                 .refused = !identified.refused.empty(),
+                 .document = std::move(document),
+                 .written = {command.output}};
 }
 
 void add_identify(CLI::App& app, Session& session) {

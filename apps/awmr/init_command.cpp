@@ -9,6 +9,7 @@
 #include "awmr/core/file.h"
 #include "choices.h"
 #include "commands.h"
+#include "paths.h"
 #include "templates.h"
 
 namespace awmr::cli {
@@ -91,7 +92,9 @@ std::string summary_of(const InitCommand& command, const std::vector<OutputFile>
 Result<Outcome> execute(const InitCommand& command) {
   AWMR_ASSIGN_OR_RETURN(const std::vector<OutputFile> files, files_to_write(command));
   AWMR_RETURN_IF_ERROR(write_all(files));
-  return Outcome{.summary = summary_of(command, files)};
+  Outcome outcome{.summary = summary_of(command, files)};
+  for (const OutputFile& file : files) outcome.written.push_back(file.path);
+  return outcome;
 }
 
 void add_init(CLI::App& app, Session& session) {
@@ -100,8 +103,8 @@ void add_init(CLI::App& app, Session& session) {
       add_command(app, session, "init",
                   "Start with your own robot: a project to fill in, a field sheet to print",
                   "awmr init my_rover", [command] { return execute(*command); });
-  sub->add_option("DIR", command->directory,
-                  "Directory for the project; nothing in it is overwritten")
+  add_directory(*sub, "DIR", command->directory,
+                "Directory for the project; nothing in it is overwritten")
       ->required();
   add_choice(*sub, "--drive", command->drive, kDriveNames,
              "four_wheel (default): four driven wheels, steered in front; differential: without "

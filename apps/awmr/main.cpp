@@ -8,6 +8,7 @@
 #include "awmr/core/text.h"
 #include "command_line.h"
 #include "commands.h"
+#include "json_output.h"
 
 namespace {
 
@@ -41,6 +42,8 @@ int run(int argc, char** argv) {
   awmr::cli::add_suggest(app, session);
   awmr::cli::add_recover(app, session);
   awmr::cli::add_map(app, session);
+  awmr::cli::add_completion(app, session);
+  awmr::cli::add_man(app, session);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -50,8 +53,12 @@ int run(int argc, char** argv) {
     }
     // Without any word the commands are shown; the exit code is that of a command line that is wrong,
     // so that a script whose variable is empty does not pass.
-    const std::string help = argc > 1 ? "" : app.help() + "\n";
     const std::string what = awmr::printable(awmr::cli::what_is_wrong(app, error, argc, argv));
+    if (awmr::cli::asks_for_json(argc, argv)) {
+      std::fputs(awmr::cli::error_text(awmr::input_error("", what).value()).c_str(), stderr);
+      return 2;
+    }
+    const std::string help = argc > 1 ? "" : app.help() + "\n";
     std::fprintf(stderr, "%serror: %s\nRun `awmr --help` or `awmr COMMAND --help`.\n", help.c_str(),
                  what.c_str());
     return 2;
@@ -67,7 +74,12 @@ int main(int argc, char** argv) {
   try {
     return run(argc, argv);
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "error: a fault of the program: %s\n", error.what());
+    const std::string what = std::string("a fault of the program: ") + error.what();
+    const awmr::Error fault = awmr::program_fault(what).value();
+    std::fputs(
+        (awmr::cli::asks_for_json(argc, argv) ? awmr::cli::error_text(fault) : awmr::to_text(fault))
+            .c_str(),
+        stderr);
     return 3;
   }
 }

@@ -13,6 +13,7 @@
 #include "awmr/trials/trial_columns.h"
 #include "commands.h"
 #include "inputs.h"
+#include "paths.h"
 
 namespace awmr::cli {
 namespace {
@@ -99,12 +100,13 @@ Result<Outcome> execute(const MapCommand& command) {
   if (command.output) AWMR_RETURN_IF_ERROR(check_output(*command.output, files));
   AWMR_ASSIGN_OR_RETURN(const FileSample sample, sample_of(command.file));
   const std::vector<ColumnGuess> guesses = guess_columns(sample);
-  if (command.output) {
-    AWMR_ASSIGN_OR_RETURN(std::vector<InputFile> inputs, input_files({command.file}));
-    const Provenance provenance{"map", {}, std::move(inputs)};
-    AWMR_RETURN_IF_ERROR(write_file(*command.output, text_of(guesses, sample, provenance)));
-  }
-  return Outcome{.summary = summary_of(command, guesses)};
+  AWMR_ASSIGN_OR_RETURN(std::vector<InputFile> inputs, input_files({command.file}));
+  Outcome outcome{.summary = summary_of(command, guesses),
+                  .document = text_of(guesses, sample, {"map", {}, std::move(inputs)})};
+  if (!command.output) return outcome;
+  AWMR_RETURN_IF_ERROR(write_file(*command.output, outcome.document));
+  outcome.written = {*command.output};
+  return outcome;
 }
 
 void add_map(CLI::App& app, Session& session) {
@@ -113,11 +115,11 @@ void add_map(CLI::App& app, Session& session) {
       add_command(app, session, "map", "Guess what the columns of a log are, each with the reason",
                   "awmr map datasets/synthetic/drive_1.csv -o map.json",
                   [command] { return execute(*command); });
-  sub->add_option("FILE", command->file,
-                  "A log: CSV, ULog, DataFlash, a ROS 2 bag, or a directory of tables")
+  add_file(*sub, "FILE", command->file,
+           "A log: CSV, ULog, DataFlash, a ROS 2 bag, or a directory of tables")
       ->required();
-  sub->add_option("-o,--output", command->output,
-                  "JSON to write, for --columns-file or a vehicle's columns");
+  add_file(*sub, "-o,--output", command->output,
+           "JSON to write, for --columns-file or a vehicle's columns");
 }
 
 }  // namespace awmr::cli

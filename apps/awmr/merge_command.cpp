@@ -6,6 +6,7 @@
 #include "awmr/compare/shard.h"
 #include "awmr/core/file.h"
 #include "commands.h"
+#include "paths.h"
 
 namespace awmr::cli {
 namespace {
@@ -27,15 +28,18 @@ Result<Outcome> execute(const MergeCommand& command) {
   AWMR_RETURN_IF_ERROR(
       check_outputs(command.output, {"comparison.csv", "comparison.json"}, inputs_of(command)));
   AWMR_RETURN_IF_ERROR(make_directory(command.output));
+  const std::string document =
+      comparison_text(merged.comparison, merged.options, merged.provenance);
   const OutputFile files[] = {
       {command.output / "comparison.csv", comparison_csv(merged.comparison)},
-      {command.output / "comparison.json",
-       comparison_text(merged.comparison, merged.options, merged.provenance)}};
+      {command.output / "comparison.json", document}};
   AWMR_RETURN_IF_ERROR(write_files(files));
   const std::string table = comparison_table(merged.comparison, merged.options.seed);
   return Outcome{.summary = table + fmt::format("wrote {} and comparison.csv\n",
                                                 (command.output / "comparison.json").string()),
-                 .brief = table};
+                 .brief = table,
+                 .document = document,
+                 .written = {files[1].path, files[0].path}};
 }
 
 void add_merge(CLI::App& app, Session& session) {
@@ -43,9 +47,10 @@ void add_merge(CLI::App& app, Session& session) {
   CLI::App* sub = add_command(
       app, session, "merge", "Put the parts of a comparison together (compare --shard I/N)",
       "awmr merge part1 part2 part3 part4 -o out", [command] { return execute(*command); });
-  sub->add_option("DIR", command->parts, "Directories of all parts, in any order")->required();
-  add_output(*sub, command->output,
-             "Directory for comparison.csv and comparison.json, the bytes of a single run");
+  add_directory(*sub, "DIR", command->parts, "Directories of all parts, in any order")->required();
+  add_output_directory(
+      *sub, command->output,
+      "Directory for comparison.csv and comparison.json, the bytes of a single run");
 }
 
 }  // namespace awmr::cli

@@ -8,6 +8,7 @@
 #include "choices.h"
 #include "emit_options.h"
 #include "numbers.h"
+#include "paths.h"
 
 namespace awmr::cli {
 namespace {
@@ -40,17 +41,17 @@ void add_bounds(CLI::App& command, PilOptions& options) {
 }  // namespace
 
 void add_pil_options(CLI::App& command, PilOptions& options) {
-  command.add_option("--model", options.model, "model.json from identify")->required();
-  command.add_option("--gains", options.gains, "gains.json from tune")->required();
-  command.add_option("--scenario", options.scenario, "scenario.json")->required();
+  add_file(command, "--model", options.model, "model.json from identify")->required();
+  add_file(command, "--gains", options.gains, "gains.json from tune")->required();
+  add_file(command, "--scenario", options.scenario, "scenario.json")->required();
   add_choice(command, "--mode", options.mode, kYawModeNames, "Which makes the yaw moment")
       ->required();
   add_choice(command, "--link", options.link, kPilLinkNames,
              "Through the chip's RAM, fast, or through its UART in frames")
       ->default_str("memory");
-  command.add_option("--port", options.port,
-                     "Serial port of a real board, flashed with DIR/pil_uart.elf of --build-dir; "
-                     "with --link uart");
+  add_file(command, "--port", options.port,
+           "Serial port of a real board, flashed with DIR/pil_uart.elf of --build-dir; "
+           "with --link uart");
   command.add_option("--baud", options.baud, "Of --port")
       ->check(within(300U, 4000000U))
       ->capture_default_str();
@@ -66,7 +67,8 @@ void add_pil_options(CLI::App& command, PilOptions& options) {
                   "Share of bits flipped and of bytes lost on the emulated UART")
       ->check(within(0.0, 0.5))
       ->capture_default_str();
-  command.add_option("--build-dir", options.build_directory, "Keep the firmware in this directory");
+  add_directory(command, "--build-dir", options.build_directory,
+                "Keep the firmware in this directory");
 }
 
 }  // namespace awmr::cli

@@ -12,6 +12,7 @@
 #include "identify_options.h"
 #include "inputs.h"
 #include "numbers.h"
+#include "paths.h"
 #include "progress.h"
 
 namespace awmr::cli {
@@ -37,13 +38,13 @@ std::string table_of(const Recovery& recovery) {
   return text;
 }
 
-Status write_recovery(const RecoverCommand& command, const RecoverOptions& options,
-                      const std::vector<InputFile>& inputs, const Recovery& recovery) {
+std::string document_of(const RecoverOptions& options, const std::vector<InputFile>& inputs,
+                        const Recovery& recovery) {
   Provenance provenance{"recover", described(options.identify), inputs};
   provenance.options.emplace_back("plan", name_in(kPlans, options.plan));
   provenance.options.emplace_back("runs", std::to_string(options.runs));
   provenance.options.emplace_back("recover_seed", std::to_string(options.seed));
-  return write_file(*command.output, recovery_text(recovery, provenance));
+  return recovery_text(recovery, provenance);
 }
 
 /// The command and what the command line says of it in words.
@@ -71,7 +72,7 @@ Result<RecoverCommand> command_of(const RecoverWords& words) {
 }
 
 void add_runs(CLI::App& sub, RecoverCommand& command) {
-  sub.add_option("--model", command.model, "model.json from identify")->required();
+  add_file(sub, "--model", command.model, "model.json from identify")->required();
   sub.add_option("--runs", command.recover.runs, "Simulated data sets (default 200)")
       ->check(within(2, 1000000));
   sub.add_option("--seed", command.recover.seed, "Default 1")
@@ -127,12 +128,10 @@ Result<Outcome> execute(const RecoverCommand& command) {
   });
   bar.reset();  // cleared before anything is said
   AWMR_ASSIGN_OR_RETURN(const Recovery recovery, std::move(recovered));
-  std::string summary = table_of(recovery);
-  if (command.output) {
-    AWMR_RETURN_IF_ERROR(write_recovery(command, options, inputs, recovery));
-    summary += fmt::format("wrote {}\n", command.output->string());
-  }
-  return Outcome{.summary = summary};
+  Outcome outcome{.summary = table_of(recovery),
+                  .document = document_of(options, inputs, recovery)};
+  AWMR_RETURN_IF_ERROR(write_document(command.output, outcome));
+  return outcome;
 }
 
 void add_recover(CLI::App& app, Session& session) {
@@ -147,7 +146,7 @@ void add_recover(CLI::App& app, Session& session) {
   add_runs(*sub, words->command);
   add_estimator(*sub, *words);
   add_simulated_trials(*sub, words->command.recover);
-  sub->add_option("-o,--output", words->command.output, "recover.json to write");
+  add_file(*sub, "-o,--output", words->command.output, "recover.json to write");
 }
 
 }  // namespace awmr::cli

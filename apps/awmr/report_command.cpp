@@ -7,6 +7,7 @@
 
 #include "awmr/core/file.h"
 #include "commands.h"
+#include "paths.h"
 
 namespace awmr::cli {
 
@@ -14,14 +15,14 @@ Result<Outcome> execute(const ReportCommand& command) {
   AWMR_ASSIGN_OR_RETURN(const std::string html, report_html(command.directory));
   const fs::path path = command.directory / "report.html";
   AWMR_RETURN_IF_ERROR(write_file(path, html));
-  return Outcome{.summary = fmt::format("wrote {}\n", path.string())};
+  return Outcome{.summary = fmt::format("wrote {}\n", path.string()), .written = {path}};
 }
 
 void add_report(CLI::App& app, Session& session) {
   auto command = std::make_shared<ReportCommand>();
   CLI::App* sub = add_command(app, session, "report", "Make report.html from a results directory",
                               "awmr report out", [command] { return execute(*command); });
-  sub->add_option("DIR", command->directory, "Directory that `awmr run` filled")->required();
+  add_directory(*sub, "DIR", command->directory, "Directory that `awmr run` filled")->required();
 }
 
 }  // namespace awmr::cli

@@ -12,6 +12,8 @@
 #include "awmr/trials/load.h"
 #include "awmr/tune/tune_file.h"
 #include "commands.h"
+#include "json_output.h"
+#include "paths.h"
 #include "project.h"
 
 namespace awmr::cli {
@@ -22,7 +24,8 @@ std::string run_name(const fs::path& scenario, YawMode mode, const char* gains) 
 }
 
 /// The runs the report draws: every scenario and mode, with the tuned and with the paper's gains.
-Status write_runs(const Project& project, const fs::path& directory) {
+Result<std::vector<fs::path>> write_runs(const Project& project, const fs::path& directory) {
+  std::vector<fs::path> written;
   AWMR_ASSIGN_OR_RETURN(const Model model, read_model(directory / "model.json"));
   AWMR_ASSIGN_OR_RETURN(const Gains<double> tuned, read_gains(directory / "gains.json"));
   const std::pair<const char*, Gains<double>> sets[] = {{"tuned", tuned}, {"paper", kPaperGains}};
@@ -31,16 +34,29 @@ Status write_runs(const Project& project, const fs::path& directory) {
     for (const YawMode mode : yaw_modes(model.vehicle)) {
       for (const auto& [name, gains] : sets) {
         AWMR_ASSIGN_OR_RETURN(const Run run, simulate(model, gains, scenario, mode));
-        AWMR_RETURN_IF_ERROR(
-            write_file(directory / run_name(path, mode, name), run_csv(run, scenario)));
+        written.push_back(directory / run_name(path, mode, name));
+        AWMR_RETURN_IF_ERROR(write_file(written.back(), run_csv(run, scenario)));
       }
     }
   }
-  return {};
+  return written;
+}
+
+/// What the steps come to, and what each found out, under the name of its file.
+struct Steps {
+  Outcome total;
+  std::vector<std::pair<std::string, std::string>> documents;
+};
+
+void add_written(Outcome& total, const std::vector<fs::path>& written) {
+  total.written.insert(total.written.end(), written.begin(), written.end());
 }
 
 /// Takes a step's outcome into that of the whole, under its title.
-void add_step(Outcome& total, const char* title, Outcome step) {
+void add_step(Steps& steps, const char* title, Outcome step) {
+  Outcome& total = steps.total;
+  steps.documents.emplace_back(step.written.front().stem().string(), std::move(step.document));
+  add_written(total, step.written);
   total.summary += fmt::format("{}\n{}", title, step.brief);
   total.findings.insert(total.findings.end(), step.findings.begin(), step.findings.end());
   total.refused = total.refused || step.refused;
@@ -151,34 +167,42 @@ Result<Outcome> execute(const RunCommand& command) {
   const fs::path gains = command.output / "gains.json";
   const InputNames names = names_in_project(inputs, command.project);
 
-  Outcome total;
+  Steps steps;
+  Outcome& total = steps.total;
   AWMR_ASSIGN_OR_RETURN(Outcome identified, identify_step(project, names, model));
-  add_step(total, "identify", std::move(identified));
+  add_step(steps, "identify", std::move(identified));
   if (total.refused) {
     total.summary += "stopped: the steps that follow need what could not be identified\n";
+    total.document = joined(steps.documents);
     return total;
   }
   AWMR_ASSIGN_OR_RETURN(
       Outcome tuned, execute(TuneCommand{
                          .model = model, .config = project.tune, .output = gains, .names = names}));
-  add_step(total, "tune", std::move(tuned));
+  add_step(steps, "tune", std::move(tuned));
   AWMR_ASSIGN_OR_RETURN(Outcome validated, validate_step(project, names, command.output));
-  add_step(total, "validate", std::move(validated));
-  AWMR_RETURN_IF_ERROR(execute(
-      EmitCommand{.model = model, .gains = gains, .output = command.output, .header_only = true}));
+  add_step(steps, "validate", std::move(validated));
+  AWMR_ASSIGN_OR_RETURN(
+      const Outcome emitted,
+      execute(EmitCommand{
+          .model = model, .gains = gains, .output = command.output, .header_only = true}));
+  add_written(total, emitted.written);
   AWMR_ASSIGN_OR_RETURN(Outcome compared, execute(CompareCommand{.model = model,
                                                                  .gains = {gains},
                                                                  .scenarios = project.scenarios,
                                                                  .compare = project.compare,
                                                                  .output = command.output,
                                                                  .names = names}));
-  add_step(total, "compare", std::move(compared));
-  AWMR_RETURN_IF_ERROR(write_runs(project, command.output));
-  AWMR_RETURN_IF_ERROR(execute(ReportCommand{command.output}));
+  add_step(steps, "compare", std::move(compared));
+  AWMR_ASSIGN_OR_RETURN(const std::vector<fs::path> runs, write_runs(project, command.output));
+  add_written(total, runs);
+  AWMR_ASSIGN_OR_RETURN(const Outcome reported, execute(ReportCommand{command.output}));
+  add_written(total, reported.written);
   total.summary += fmt::format(
       "wrote model.json gains.json validation.json awmr_params.h comparison.json comparison.csv,\n"
       "the runs and report.html to {}\n",
       command.output.string());
+  total.document = joined(steps.documents);
   return total;
 }
 
@@ -187,8 +211,8 @@ void add_run(CLI::App& app, Session& session) {
   CLI::App* sub = add_command(app, session, "run", "Do every step from one project file",
                               "awmr run configs/paper/project.json -o out",
                               [command] { return execute(*command); });
-  sub->add_option("PROJECT", command->project, "project.json")->required();
-  add_output(*sub, command->output, "Directory for all results");
+  add_file(*sub, "PROJECT", command->project, "project.json")->required();
+  add_output_directory(*sub, command->output, "Directory for all results");
 }
 
 }  // namespace awmr::cli

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "awmr/core/file.h"
+#include "awmr/core/json.h"
 #include "awmr/model/gains_file.h"
 #include "awmr/model/model_file.h"
 #include "awmr/simulate/metrics.h"
@@ -13,6 +14,7 @@
 #include "awmr/simulate/validity.h"
 #include "choices.h"
 #include "commands.h"
+#include "paths.h"
 
 namespace awmr::cli {
 namespace {
@@ -55,6 +57,31 @@ std::string figures_of(const Metrics& metrics) {
   return text.empty() ? text : text + "\n";
 }
 
+constexpr NameTable<RunEnd, 4> kRunEndNames{{{"duration", RunEnd::kDuration},
+                                             {"finished", RunEnd::kFinished},
+                                             {"no-passage", RunEnd::kNoPassage},
+                                             {"failed", RunEnd::kFailed}}};
+
+/// The metrics under their names in comparison.csv, the last row under those of run.csv.
+std::string document_of(const Run& run, const Scenario& scenario, YawMode mode,
+                        const Metrics& metrics) {
+  Json json;
+  json["scenario"] = scenario.name;
+  json["mode"] = name_of(mode);
+  json["rows"] = run.rows.size();
+  json["substeps"] = run.substeps;
+  json["end"] = name_in(kRunEndNames, run.end);
+  json["missed_waypoints"] = run.missed_waypoints;
+  json["completed"] = metrics.completed;
+  for (const auto& [name, value] : named_metrics(metrics)) {
+    json["metrics"][std::string(name)] = value ? Json(*value) : Json(nullptr);
+  }
+  for (const auto& [name, value] : named_values(run.rows.back(), scenario)) {
+    json["last_row"][std::string(name)] = value;
+  }
+  return awmr::to_text(json);
+}
+
 }  // namespace
 
 Result<Outcome> execute(const SimulateCommand& command) {
@@ -79,7 +106,9 @@ Result<Outcome> execute(const SimulateCommand& command) {
                      fmt::format("{}, {}", scenario.name, name_of(command.mode)), findings);
   return Outcome{.summary = summary_of(run, scenario, command) + figures_of(metrics) +
                             fmt::format("wrote {}\n", command.output.string()),
-                 .findings = std::move(findings)};
+                 .findings = std::move(findings),
+                 .document = document_of(run, scenario, command.mode, metrics),
+                 .written = {command.output}};
 }
 
 void add_simulate(CLI::App& app, Session& session) {
@@ -89,9 +118,9 @@ void add_simulate(CLI::App& app, Session& session) {
                   "awmr simulate --model model.json --gains gains.json --scenario "
                   "configs/paper/scenarios/c3_heading_steps.json --mode combined -o run.csv",
                   [command] { return execute(*command); });
-  sub->add_option("--model", command->model, "model.json from identify")->required();
-  sub->add_option("--gains", command->gains, "gains.json; not needed in open loop");
-  sub->add_option("--scenario", command->scenario, "scenario.json")->required();
+  add_file(*sub, "--model", command->model, "model.json from identify")->required();
+  add_file(*sub, "--gains", command->gains, "gains.json; not needed in open loop");
+  add_file(*sub, "--scenario", command->scenario, "scenario.json")->required();
   add_choice(*sub, "--mode", command->mode, kYawModeNames, "Which makes the yaw moment")
       ->required();
   add_allocation(*sub, command->allocation);

@@ -14,6 +14,7 @@
 #include "commands.h"
 #include "inputs.h"
 #include "numbers.h"
+#include "paths.h"
 
 namespace awmr::cli {
 namespace {
@@ -59,13 +60,13 @@ std::vector<fs::path> inputs_of(const SuggestCommand& command) {
   return paths;
 }
 
-Status write_suggestion(const SuggestCommand& command, const Suggestion& suggestion) {
+Result<std::string> document_of(const SuggestCommand& command, const Suggestion& suggestion) {
   AWMR_ASSIGN_OR_RETURN(std::vector<InputFile> inputs, input_files(inputs_of(command)));
   const Provenance provenance{"suggest",
                               {{"parameter", command.parameter.empty() ? "all" : command.parameter},
                                {"repeats", std::to_string(command.repeats)}},
                               std::move(inputs)};
-  return write_file(*command.output, suggestion_text(suggestion, provenance));
+  return suggestion_text(suggestion, provenance);
 }
 
 }  // namespace
@@ -80,12 +81,10 @@ Result<Outcome> execute(const SuggestCommand& command) {
   options.repeats = command.repeats;
   AWMR_RETURN_IF_ERROR(add_metrics(command, model, options));
   AWMR_ASSIGN_OR_RETURN(const Suggestion suggestion, suggest(model, options));
-  std::string summary = field_sheet(suggestion, static_cast<std::size_t>(command.most));
-  if (command.output) {
-    AWMR_RETURN_IF_ERROR(write_suggestion(command, suggestion));
-    summary += fmt::format("wrote {}\n", command.output->string());
-  }
-  return Outcome{.summary = summary};
+  Outcome outcome{.summary = field_sheet(suggestion, static_cast<std::size_t>(command.most))};
+  AWMR_ASSIGN_OR_RETURN(outcome.document, document_of(command, suggestion));
+  AWMR_RETURN_IF_ERROR(write_document(command.output, outcome));
+  return outcome;
 }
 
 void add_suggest(CLI::App& app, Session& session) {
@@ -95,18 +94,18 @@ void add_suggest(CLI::App& app, Session& session) {
       "awmr suggest --model model.json --parameter mass_norm -o suggest.json",
       [held] { return execute(*held); });
   SuggestCommand& command = *held;
-  sub->add_option("--model", command.model, "model.json from identify")->required();
+  add_file(*sub, "--model", command.model, "model.json from identify")->required();
   sub->add_option("--parameter", command.parameter,
                   "What is to become surer: a parameter, or with --gains and --scenario one of "
                   "heading_iae_degs, overshoot_deg, speed_drop_mps (default: all, A-optimal)");
-  sub->add_option("--gains", command.gains, "gains.json of the closed loop");
-  sub->add_option("--scenario", command.scenario, "scenario.json of the closed loop");
+  add_file(*sub, "--gains", command.gains, "gains.json of the closed loop");
+  add_file(*sub, "--scenario", command.scenario, "scenario.json of the closed loop");
   add_choice(*sub, "--mode", command.mode, kYawModeNames, "Of the scenario (default combined)");
   sub->add_option("--repeats", command.repeats, "Runs of each trial (default 3)")
       ->check(within(1, 1000));
   sub->add_option("--most", command.most, "Trials on the sheet (default 8; the file has all)")
       ->check(within(1, 1000));
-  sub->add_option("-o,--output", command.output, "suggest.json to write");
+  add_file(*sub, "-o,--output", command.output, "suggest.json to write");
 }
 
 }  // namespace awmr::cli

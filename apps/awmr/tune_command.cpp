@@ -11,6 +11,7 @@
 #include "commands.h"
 #include "inputs.h"
 #include "numbers.h"
+#include "paths.h"
 
 namespace awmr::cli {
 namespace {
@@ -97,12 +98,17 @@ Result<Outcome> execute(const TuneCommand& command) {
   if (command.draws) config.options.draws = *command.draws;
   AWMR_ASSIGN_OR_RETURN(const Provenance provenance, provenance_of(command, config.scenario_files));
   AWMR_ASSIGN_OR_RETURN(const Tuning tuning, tune(model, config.options));
-  AWMR_RETURN_IF_ERROR(write_file(command.output, gains_text(tuning, config.options, provenance)));
+  std::string document = gains_text(tuning, config.options, provenance);
+  AWMR_RETURN_IF_ERROR(write_file(command.output, document));
   return Outcome{.summary = summary_of(command, tuning),
                  .brief = gains_table(tuning),
-                 .findings = extrapolation_in(model, tuning.scores, [](const ModeScore& score) {
-                   return fmt::format("{}, {}", score.scenario, name_of(score.mode));
-                 })};
+                 .findings = extrapolation_in(model, tuning.scores,
+                                              [](const ModeScore& score) {
+                                                return fmt::format("{}, {}", score.scenario,
+                                                                   name_of(score.mode));
+                                              }),
+                 .document = std::move(document),
+                 .written = {command.output}};
 }
 
 void add_tune(CLI::App& app, Session& session) {
@@ -110,9 +116,9 @@ void add_tune(CLI::App& app, Session& session) {
   CLI::App* sub = add_command(app, session, "tune", "Search the controller's gains under T2 < T1",
                               "awmr tune --model model.json -o gains.json",
                               [command] { return execute(*command); });
-  sub->add_option("--model", command->model, "model.json from identify")->required();
-  sub->add_option("--config", command->config,
-                  "tune.json: form, margin, weights, evaluations, seed, scenarios");
+  add_file(*sub, "--model", command->model, "model.json from identify")->required();
+  add_file(*sub, "--config", command->config,
+           "tune.json: form, margin, weights, evaluations, seed, scenarios");
   auto* nominal = sub->add_flag("--nominal", command->nominal,
                                 "Tune on the model's own values alone: no draws from what is "
                                 "uncertain, no noise, no latency, no lag");

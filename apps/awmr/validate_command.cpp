@@ -12,6 +12,7 @@
 #include "commands.h"
 #include "inputs.h"
 #include "numbers.h"
+#include "paths.h"
 
 namespace awmr::cli {
 namespace {
@@ -88,17 +89,16 @@ std::string summary_of(const ValidateCommand& command, const Validation& validat
 }
 
 void add_model_options(CLI::App& sub, ValidateCommand& command) {
-  sub.add_option("--model", command.model, "model.json from identify")->required();
-  sub.add_option("--gains", command.gains, "gains.json: also run the closed-loop claims");
+  add_file(sub, "--model", command.model, "model.json from identify")->required();
+  add_file(sub, "--gains", command.gains, "gains.json: also run the closed-loop claims");
   sub.add_option("--tolerance", command.validate.tolerance,
                  "Largest accepted RMS relative error of a kind of trial (default 0.15)")
       ->check(within(1e-9, 1e6));
 }
 
 void add_log_options(CLI::App& sub, ValidateCommand& command, ColumnWords& columns) {
-  sub.add_option(
-      "--log", command.logs,
-      "CSV of a driving log, best one that the model was not fitted to; may be repeated");
+  add_file(sub, "--log", command.logs,
+           "CSV of a driving log, best one that the model was not fitted to; may be repeated");
   sub.add_option("--horizon", command.horizon_s,
                  "Length of the windows that a log is predicted over, s (default 10)")
       ->check(within(0.01, 1e6));
@@ -108,7 +108,7 @@ void add_log_options(CLI::App& sub, ValidateCommand& command, ColumnWords& colum
   sub.add_flag("--as-is", command.trials.as_is,
                "Take logs whose units, signs or sides contradict themselves as they are");
   sub.add_option("--column", columns.columns, kColumnHelp);
-  sub.add_option("--columns-file", columns.file, kColumnsFileHelp);
+  add_file(sub, "--columns-file", columns.file, kColumnsFileHelp);
 }
 
 void add_claims_options(CLI::App& sub, ValidateCommand& command) {
@@ -116,8 +116,7 @@ void add_claims_options(CLI::App& sub, ValidateCommand& command) {
                               "Tell of each of the paper's fourteen claims what was found, what "
                               "counts and why, and what it hangs on over all that the paper leaves "
                               "open; without --gains, with the paper's gains");
-  sub.add_option("--claims-table", command.claims_table,
-                 "Also write the claims as a Markdown table")
+  add_file(sub, "--claims-table", command.claims_table, "Also write the claims as a Markdown table")
       ->needs(claims);
   add_allocation(sub, command.allocation);
 }
@@ -134,16 +133,20 @@ Result<Outcome> execute(const ValidateCommand& command) {
   AWMR_ASSIGN_OR_RETURN(std::vector<LogValidation> logs, validate_logs(command, model, findings));
   add_logs(validation, std::move(logs), command.log_tolerance);
   AWMR_ASSIGN_OR_RETURN(const Provenance provenance, provenance_of(command));
-  AWMR_RETURN_IF_ERROR(write_file(command.output, validation_text(validation, provenance)));
+  Outcome outcome{.summary = summary_of(command, validation),
+                  .brief = brief_of(validation),
+                  .findings = std::move(findings),
+                  .refused = !validation.passed,
+                  .document = validation_text(validation, provenance),
+                  .written = {command.output}};
+  AWMR_RETURN_IF_ERROR(write_file(command.output, outcome.document));
   if (command.claims_table) {
     const std::string table = claims_markdown(
         validation.claims, "awmr validate --model MODEL --claims --claims-table FILE");
     AWMR_RETURN_IF_ERROR(write_file(*command.claims_table, table));
+    outcome.written.push_back(*command.claims_table);
   }
-  return Outcome{.summary = summary_of(command, validation),
-                 .brief = brief_of(validation),
-                 .findings = std::move(findings),
-                 .refused = !validation.passed};
+  return outcome;
 }
 
 void add_validate(CLI::App& app, Session& session) {

@@ -5,7 +5,10 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "awmr/core/provenance.h"
@@ -77,6 +80,10 @@ Result<Comparison> compare(const Model& model, const std::vector<NamedGains>& ga
                            const std::vector<Scenario>& scenarios, const CompareOptions& options);
 Result<Comparison> compare(const Model& model, const Gains<double>& gains,
                            const std::vector<Scenario>& scenarios, const CompareOptions& options);
+
+/// A run's metrics under their names in comparison.csv, in its order.
+std::vector<std::pair<std::string_view, std::optional<double>>> named_metrics(
+    const Metrics& metrics);
 
 /// The bytes of comparison.csv: the contract's columns, `completed` as 1 or 0, empty cells where a
 /// metric has no meaning; with several sets of gains also `gains`.

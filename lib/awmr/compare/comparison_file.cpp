@@ -173,6 +173,15 @@ Json ranking_json() {
 
 }  // namespace
 
+std::vector<std::pair<std::string_view, std::optional<double>>> named_metrics(
+    const Metrics& metrics) {
+  std::vector<std::pair<std::string_view, std::optional<double>>> named;
+  for (const MetricColumn& metric : kMetricColumns) {
+    named.emplace_back(metric.name, metric.value(metrics));
+  }
+  return named;
+}
+
 std::string comparison_csv(const Comparison& comparison) {
   const bool several = std::any_of(comparison.rows.begin(), comparison.rows.end(),
                                    [](const ComparisonRow& row) { return !row.gains.empty(); });

@@ -154,6 +154,12 @@ Result<Model> read_model(const std::filesystem::path& path) {
   return model;
 }
 
+std::string findings_text(const std::vector<Finding>& findings) {
+  Json list = Json::array();
+  for (const Finding& finding : findings) list.push_back(finding_to_json(finding));
+  return to_text(list);
+}
+
 Status write_model(const Model& model, const std::filesystem::path& path) {
   return write_file(path, model_text(model));
 }

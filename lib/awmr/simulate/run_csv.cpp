@@ -53,9 +53,7 @@ bool has_course(const Scenario& scenario) {
          !std::holds_alternative<HeadingSteps>(scenario.guidance);
 }
 
-}  // namespace
-
-std::string run_csv(const Run& run, const Scenario& scenario) {
+std::vector<Column> columns_of(const Scenario& scenario) {
   std::vector<Column> columns(std::begin(kColumns), std::end(kColumns));
   const auto add = [&](bool wanted, const auto& more) {
     if (wanted) columns.insert(columns.end(), std::begin(more), std::end(more));
@@ -64,6 +62,22 @@ std::string run_csv(const Run& run, const Scenario& scenario) {
   add(!scenario.obstacles.empty(), kClearance);
   add(scenario.sensors.has_value(), kMeasured);
   add(scenario.disturbance.any(), kDisturbance);
+  return columns;
+}
+
+}  // namespace
+
+std::vector<std::pair<std::string_view, double>> named_values(const RunRow& row,
+                                                              const Scenario& scenario) {
+  std::vector<std::pair<std::string_view, double>> named;
+  for (const Column& column : columns_of(scenario)) {
+    named.emplace_back(column.name, column.value(row));
+  }
+  return named;
+}
+
+std::string run_csv(const Run& run, const Scenario& scenario) {
+  const std::vector<Column> columns = columns_of(scenario);
   std::string text;
   for (const Column& column : columns) {
     text += column.name;

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "awmr/control/controller.h"
@@ -114,5 +116,8 @@ Run simulate(const Plant<double>& plant, const Controller<double>& controller,
 
 /// The bytes of run.csv: the contract's columns, then those that the scenario gives a meaning.
 std::string run_csv(const Run& run, const Scenario& scenario);
+/// A row under the names of its columns in run.csv.
+std::vector<std::pair<std::string_view, double>> named_values(const RunRow& row,
+                                                              const Scenario& scenario);
 
 }  // namespace awmr

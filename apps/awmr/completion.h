@@ -1,0 +1,19 @@
+/// What the shells need to complete commands, options, choices and files.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "awmr/core/name_table.h"
+#include "command_info.h"
+
+namespace awmr::cli {
+
+enum class Shell { kBash, kZsh, kFish };
+inline constexpr NameTable<Shell, 3> kShellNames{
+    {{"bash", Shell::kBash}, {"zsh", Shell::kZsh}, {"fish", Shell::kFish}}};
+
+/// The script for the shell: `commands` as commands_of() gives them, the program itself first.
+std::string completion_text(Shell shell, const std::vector<CommandInfo>& commands);
+
+}  // namespace awmr::cli

@@ -1,0 +1,53 @@
+#include "json_output.h"
+
+#include <algorithm>
+#include <string_view>
+
+#include "awmr/core/json.h"
+#include "awmr/core/option_text.h"
+#include "awmr/core/provenance.h"
+#include "awmr/core/text.h"
+#include "awmr/model/model_file.h"
+
+namespace awmr::cli {
+
+std::string result_text(const JsonResult& result) {
+  Json json;
+  json["schema"] = kResultSchema;
+  json["command"] = result.command;
+  json["version"] = version();
+  json["exit_code"] = result.exit_code;
+  json["written"] = Json::array();
+  for (const std::filesystem::path& path : result.written) json["written"].push_back(path.string());
+  json["findings"] = Json::parse(findings_text(result.findings));
+  json["result"] = result.document.empty() ? Json(nullptr) : Json::parse(result.document);
+  return awmr::to_text(json);
+}
+
+std::string error_text(const Error& error) {
+  Json json;
+  json["schema"] = kErrorSchema;
+  json["version"] = version();
+  json["exit_code"] = exit_code(error);
+  json["errors"] = Json::array();
+  const auto plain = [](const std::string& text) { return printable(spell_options(text, "--")); };
+  for (const Fault& fault : error.faults) {
+    json["errors"].push_back({{"place", plain(fault.place)}, {"message", plain(fault.message)}});
+  }
+  return awmr::to_text(json);
+}
+
+std::string joined(const std::vector<std::pair<std::string, std::string>>& documents) {
+  Json json = Json::object();
+  for (const auto& [name, text] : documents) {
+    if (!text.empty()) json[name] = Json::parse(text);
+  }
+  return awmr::to_text(json);
+}
+
+bool asks_for_json(int argc, char** argv) {
+  return std::any_of(argv + std::min(argc, 1), argv + argc,
+                     [](const char* word) { return std::string_view(word) == "--json"; });
+}
+
+}  // namespace awmr::cli

@@ -1,0 +1,86 @@
+// `awmr completion` and `awmr man`: what the shell and the manual know of the commands.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <memory>
+
+#include "awmr/core/file.h"
+#include "awmr/core/json.h"
+#include "choices.h"
+#include "command_info.h"
+#include "commands.h"
+#include "completion.h"
+#include "man_page.h"
+#include "paths.h"
+
+namespace awmr::cli {
+namespace {
+
+constexpr const char* kGroup = "For the shell and other programs";
+
+/// A text for stdout; `--json` has it as a string.
+Outcome text_outcome(std::string text) {
+  std::string document = awmr::to_text(Json(text));
+  return Outcome{.summary = std::move(text), .document = std::move(document)};
+}
+
+/// Every page into a directory, or one to stdout.
+Result<Outcome> write_pages(const std::vector<CommandInfo>& commands, const fs::path& directory) {
+  Outcome outcome;
+  std::vector<OutputFile> files;
+  for (const CommandInfo& command : commands) {
+    files.push_back({directory / (page_name(command) + ".1"), man_page(command, commands)});
+    outcome.written.push_back(files.back().path);
+  }
+  AWMR_RETURN_IF_ERROR(make_directory(directory));
+  AWMR_RETURN_IF_ERROR(write_files(files));
+  outcome.summary = fmt::format("wrote {} pages to {}\n", files.size(), directory.string());
+  return outcome;
+}
+
+Result<Outcome> show_page(const std::vector<CommandInfo>& commands, const std::string& name) {
+  const auto found = std::find_if(commands.begin(), commands.end(),
+                                  [&](const CommandInfo& info) { return info.name == name; });
+  if (found != commands.end()) return text_outcome(man_page(*found, commands));
+  std::vector<std::string> names;
+  for (const CommandInfo& info : commands) names.push_back(info.name);
+  return input_error("",
+                     fmt::format("no command is called '{}'{}", name, did_you_mean(name, names)));
+}
+
+}  // namespace
+
+void add_completion(CLI::App& app, Session& session) {
+  auto shell = std::make_shared<Shell>(Shell::kBash);
+  CLI::App* sub = add_command(app, session, "completion",
+                              "Print the completions of commands, options and files",
+                              "source <(awmr completion bash)", [&app, shell]() -> Result<Outcome> {
+                                return text_outcome(completion_text(*shell, commands_of(app)));
+                              });
+  sub->group(kGroup);
+  add_choice(*sub, "SHELL", *shell, kShellNames, "What the completions are for")->required();
+}
+
+void add_man(CLI::App& app, Session& session) {
+  struct Words {
+    std::string command;
+    std::optional<fs::path> directory;
+  };
+  auto words = std::make_shared<Words>();
+  CLI::App* sub = add_command(app, session, "man", "Print the manual page of a command",
+                              "awmr man identify | man -l -", [&app, words]() -> Result<Outcome> {
+                                const std::vector<CommandInfo> commands = commands_of(app);
+                                if (words->directory) {
+                                  return write_pages(commands, *words->directory);
+                                }
+                                return show_page(commands, words->command);
+                              });
+  sub->group(kGroup);
+  auto* command = sub->add_option("COMMAND", words->command,
+                                  "Whose page; without it, that of the program itself");
+  add_directory(*sub, "-o,--output", words->directory, "Write the pages of all commands here")
+      ->excludes(command);
+}
+
+}  // namespace awmr::cli

@@ -1,0 +1,25 @@
+/// Options whose value is a file or a directory: help, manual and completions all see which.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+namespace awmr::cli {
+
+inline constexpr const char* kFileValue = "FILE";
+inline constexpr const char* kDirectoryValue = "DIR";
+
+/// `path` is a path, perhaps optional, or a list of them.
+template <class Path>
+CLI::Option* add_file(CLI::App& command, const std::string& option, Path& path,
+                      const std::string& meaning) {
+  return command.add_option(option, path, meaning)->type_name(kFileValue);
+}
+
+template <class Path>
+CLI::Option* add_directory(CLI::App& command, const std::string& option, Path& path,
+                           const std::string& meaning) {
+  return command.add_option(option, path, meaning)->type_name(kDirectoryValue);
+}
+
+}  // namespace awmr::cli
