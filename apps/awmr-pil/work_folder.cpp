@@ -67,22 +67,22 @@ bool is_left_over(const fs::path& path) {
   return lock >= 0;
 }
 
-void remove_left_overs(const fs::path& directory) {
-  std::error_code ignored;
-  for (fs::directory_iterator entry(directory, ignored), end; !ignored && entry != end;
-       entry.increment(ignored)) {
-    std::error_code kept;
-    if (is_left_over(entry->path())) fs::remove_all(entry->path(), kept);
-  }
-}
-
-/// Again where the main thread or the compiler was still writing into it.
+/// Again where the main thread or the compiler, which outlives a killed run, was still writing into
+/// it.
 void remove_folder(const fs::path& path) {
   for (int attempt = 0; attempt < 20; ++attempt) {
     std::error_code error;
     fs::remove_all(path, error);
     if (!error && !fs::exists(path, error)) return;
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+}
+
+void remove_left_overs(const fs::path& directory) {
+  std::error_code ignored;
+  for (fs::directory_iterator entry(directory, ignored), end; !ignored && entry != end;
+       entry.increment(ignored)) {
+    if (is_left_over(entry->path())) remove_folder(entry->path());
   }
 }
 
