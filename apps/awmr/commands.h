@@ -175,6 +175,10 @@ struct RunCommand {
 Result<Outcome> execute(const RunCommand& command);
 void add_run(CLI::App& app, Session& session);
 
+/// The heading in the help of the commands for the shell and other programs.
+inline constexpr const char* kServiceGroup = "For the shell and other programs";
+
+void add_schema(CLI::App& app, Session& session);
 /// What the shell and the manual know of all the commands, these included.
 void add_completion(CLI::App& app, Session& session);
 void add_man(CLI::App& app, Session& session);

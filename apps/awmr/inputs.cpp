@@ -34,10 +34,9 @@ Result<std::vector<InputFile>> input_files(const std::vector<std::filesystem::pa
   return files;
 }
 
-Result<std::vector<ColumnMapping>> columns_of_file(const std::filesystem::path& path) {
-  AWMR_ASSIGN_OR_RETURN(const Json document, read_json_file(path));
-  std::vector<Fault> faults;
-  JsonObject json(document, path.string(), "", faults);
+namespace {
+
+std::vector<ColumnMapping> columns_from_json(JsonObject& json) {
   json.schema(kColumnsSchema);
   // What `awmr map` wrote for a person is not read back.
   for (const char* key : {"guesses", "open", "names", "command", "version", "options", "inputs"}) {
@@ -55,8 +54,23 @@ Result<std::vector<ColumnMapping>> columns_of_file(const std::filesystem::path& 
     }
   }
   json.reject_unknown_keys();
+  return mappings;
+}
+
+Result<std::vector<ColumnMapping>> columns_of_file(const std::filesystem::path& path) {
+  AWMR_ASSIGN_OR_RETURN(const Json document, read_json_file(path));
+  std::vector<Fault> faults;
+  JsonObject json(document, path.string(), "", faults);
+  std::vector<ColumnMapping> mappings = columns_from_json(json);
   if (!faults.empty()) return input_errors(std::move(faults));
   return mappings;
+}
+
+}  // namespace
+
+std::string columns_schema() {
+  return json_schema_text(kColumnsSchema, "Where the columns of a log come from",
+                          [](JsonObject& json) { columns_from_json(json); });
 }
 
 Result<std::vector<ColumnMapping>> column_mappings(const ColumnWords& words) {

@@ -39,6 +39,9 @@ inline constexpr const char* kColumnsFileHelp =
     "JSON with an object `columns` of the same (awmr map writes it); --column comes before it";
 inline constexpr std::string_view kColumnsSchema = "awmr.columns/1";
 
+/// The JSON Schema of such a file, from what reads it.
+std::string columns_schema();
+
 /// Where mappings come from.
 struct ColumnWords {
   std::vector<std::string> columns = {};           ///< as `--column` gave them

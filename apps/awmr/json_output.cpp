@@ -7,7 +7,7 @@
 #include "awmr/core/option_text.h"
 #include "awmr/core/provenance.h"
 #include "awmr/core/text.h"
-#include "awmr/model/model_file.h"
+#include "awmr/model/findings_json.h"
 
 namespace awmr::cli {
 
@@ -19,7 +19,7 @@ std::string result_text(const JsonResult& result) {
   json["exit_code"] = result.exit_code;
   json["written"] = Json::array();
   for (const std::filesystem::path& path : result.written) json["written"].push_back(path.string());
-  json["findings"] = Json::parse(findings_text(result.findings));
+  json["findings"] = findings_to_json(result.findings);
   json["result"] = result.document.empty() ? Json(nullptr) : Json::parse(result.document);
   return awmr::to_text(json);
 }
@@ -35,6 +35,34 @@ std::string error_text(const Error& error) {
     json["errors"].push_back({{"place", plain(fault.place)}, {"message", plain(fault.message)}});
   }
   return awmr::to_text(json);
+}
+
+std::string result_schema() {
+  return json_schema_text(kResultSchema, "What a command prints with --json", [](JsonObject& json) {
+    json.schema(kResultSchema);
+    json.string("command");
+    json.string("version");
+    json.integer("exit_code", 0, 1);
+    json.strings("written");
+    describe_findings(json);
+    json.ignore("result");
+    json.reject_unknown_keys();
+  });
+}
+
+std::string error_schema() {
+  return json_schema_text(kErrorSchema, "What a command prints with --json where it fails",
+                          [](JsonObject& json) {
+                            json.schema(kErrorSchema);
+                            json.string("version");
+                            json.integer("exit_code", 1, 3);
+                            for (JsonObject& fault : json.objects("errors")) {
+                              fault.string("place");
+                              fault.string("message");
+                              fault.reject_unknown_keys();
+                            }
+                            json.reject_unknown_keys();
+                          });
 }
 
 std::string joined(const std::vector<std::pair<std::string, std::string>>& documents) {

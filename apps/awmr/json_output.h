@@ -31,6 +31,10 @@ std::string result_text(const JsonResult& result);
 /// `{"schema", "version", "exit_code", "errors": [{"place", "message"}]}` of every fault there is.
 std::string error_text(const Error& error);
 
+// Their JSON Schemas.
+std::string result_schema();
+std::string error_schema();
+
 /// One document of several, each under its name; empty ones are left out.
 std::string joined(const std::vector<std::pair<std::string, std::string>>& documents);
 

@@ -42,6 +42,7 @@ int run(int argc, char** argv) {
   awmr::cli::add_suggest(app, session);
   awmr::cli::add_recover(app, session);
   awmr::cli::add_map(app, session);
+  awmr::cli::add_schema(app, session);
   awmr::cli::add_completion(app, session);
   awmr::cli::add_man(app, session);
   try {

@@ -17,8 +17,6 @@
 namespace awmr::cli {
 namespace {
 
-constexpr const char* kGroup = "For the shell and other programs";
-
 /// A text for stdout; `--json` has it as a string.
 Outcome text_outcome(std::string text) {
   std::string document = awmr::to_text(Json(text));
@@ -58,7 +56,7 @@ void add_completion(CLI::App& app, Session& session) {
                               "source <(awmr completion bash)", [&app, shell]() -> Result<Outcome> {
                                 return text_outcome(completion_text(*shell, commands_of(app)));
                               });
-  sub->group(kGroup);
+  sub->group(kServiceGroup);
   add_choice(*sub, "SHELL", *shell, kShellNames, "What the completions are for")->required();
 }
 
@@ -76,7 +74,7 @@ void add_man(CLI::App& app, Session& session) {
                                 }
                                 return show_page(commands, words->command);
                               });
-  sub->group(kGroup);
+  sub->group(kServiceGroup);
   auto* command = sub->add_option("COMMAND", words->command,
                                   "Whose page; without it, that of the program itself");
   add_directory(*sub, "-o,--output", words->directory, "Write the pages of all commands here")

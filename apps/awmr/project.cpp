@@ -99,14 +99,13 @@ void read_compare(JsonObject json, const fs::path& path, Project& project) {
   json.reject_unknown_keys();
 }
 
-}  // namespace
+constexpr std::string_view kProjectSchema = "awmr.project/1";
 
-Result<Project> read_project(const fs::path& path) {
-  AWMR_ASSIGN_OR_RETURN(const auto document, read_json_file(path));
-  std::vector<Fault> faults;
-  JsonObject json(document, path.string(), "", faults);
+/// `path` is the file's, to which those in it are relative.
+Project project_from_json(JsonObject& json, const fs::path& path,
+                          const std::vector<Fault>& faults) {
   Project project;
-  json.schema("awmr.project/1");
+  json.schema(kProjectSchema);
   project.vehicle = resolved(path, json.string("vehicle"));
   read_trials(json.object("trials"), path, project);
   if (faults.empty() && !has_trials(project)) {
@@ -117,8 +116,23 @@ Result<Project> read_project(const fs::path& path) {
   if (const auto tune = json.optional_string("tune")) project.tune = resolved(path, *tune);
   read_compare(json.object("compare"), path, project);
   json.reject_unknown_keys();
+  return project;
+}
+
+}  // namespace
+
+Result<Project> read_project(const fs::path& path) {
+  AWMR_ASSIGN_OR_RETURN(const auto document, read_json_file(path));
+  std::vector<Fault> faults;
+  JsonObject json(document, path.string(), "", faults);
+  Project project = project_from_json(json, path, faults);
   if (!faults.empty()) return input_errors(std::move(faults));
   return project;
+}
+
+std::string project_schema() {
+  return json_schema_text(kProjectSchema, "A project: all that `awmr run` needs",
+                          [](JsonObject& json) { project_from_json(json, "", {}); });
 }
 
 }  // namespace awmr::cli

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "awmr/compare/compare.h"
@@ -29,5 +30,8 @@ struct Project {
 
 /// Errors: as read_json_file; unknown or missing keys, a malformed column mapping.
 Result<Project> read_project(const std::filesystem::path& path);
+
+/// The JSON Schema of project.json, from what reads it.
+std::string project_schema();
 
 }  // namespace awmr::cli

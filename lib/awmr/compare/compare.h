@@ -95,4 +95,7 @@ std::string comparison_text(const Comparison& comparison, const CompareOptions& 
 /// Figures by scenario and mode, the ranking and a verdict in a sentence, for a terminal.
 std::string comparison_table(const Comparison& comparison, std::uint64_t seed = 1);
 
+/// The JSON Schema of comparison.json.
+std::string comparison_schema();
+
 }  // namespace awmr

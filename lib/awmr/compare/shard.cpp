@@ -36,14 +36,10 @@ struct Part {
   std::string csv_sha256;
 };
 
-Result<Part> read_part(const std::filesystem::path& directory) {
-  const std::filesystem::path path = directory / "shard.json";
-  AWMR_ASSIGN_OR_RETURN(const Json document, read_json_file(path));
-  std::vector<Fault> faults;
-  JsonObject json(document, path.string(), "", faults);
+Part part_from_json(JsonObject& json) {
   json.schema(kShardSchema);
   Part part{
-      .directory = directory,
+      .directory = {},
       .provenance = read_provenance(json),
       .version = json.string("version"),
       .samples = static_cast<int>(json.integer("samples", 0, kMostSamples)),
@@ -54,6 +50,16 @@ Result<Part> read_part(const std::filesystem::path& directory) {
       .csv_sha256 = json.string("csv_sha256")};
   json.ignore("command");
   json.reject_unknown_keys();
+  return part;
+}
+
+Result<Part> read_part(const std::filesystem::path& directory) {
+  const std::filesystem::path path = directory / "shard.json";
+  AWMR_ASSIGN_OR_RETURN(const Json document, read_json_file(path));
+  std::vector<Fault> faults;
+  JsonObject json(document, path.string(), "", faults);
+  Part part = part_from_json(json);
+  part.directory = directory;
   if (!faults.empty()) return input_errors(std::move(faults));
   return part;
 }
@@ -179,6 +185,11 @@ std::string shard_text(const Comparison& part, const CompareOptions& options,
   json["stopped"] = part.stopped;
   json["csv_sha256"] = sha256_hex(comparison_csv(part));
   return to_text(json);
+}
+
+std::string shard_schema() {
+  return json_schema_text(kShardSchema, "A part of a comparison",
+                          [](JsonObject& json) { part_from_json(json); });
 }
 
 Result<Merged> merge_shards(const std::vector<std::filesystem::path>& directories) {

@@ -30,4 +30,7 @@ struct Merged {
 /// or there twice, each by its number; one that was stopped.
 Result<Merged> merge_shards(const std::vector<std::filesystem::path>& directories);
 
+/// The JSON Schema of shard.json, from what reads it.
+std::string shard_schema();
+
 }  // namespace awmr

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -34,12 +35,16 @@ inline constexpr NumberRule kNonNegative{.min = 0.0};
 /// Parses a file. Errors: as MappedFile::open; syntax (`FILE:LINE:COLUMN`); duplicate keys.
 Result<Json> read_json_file(const std::filesystem::path& path);
 
+class JsonShape;
+
 /// A strict view of one JSON object. Each reader notes its key as known; on a fault it adds to the
 /// shared list and returns a stand-in (NaN, empty), so that reading goes on and finds the rest.
 /// Call `reject_unknown_keys()` once all keys were asked for.
 class JsonObject {
  public:
   JsonObject(const Json& value, std::string file, std::string pointer, std::vector<Fault>& faults);
+  /// Reads nothing: what is asked for is noted in `shape`, and every read gives its stand-in.
+  JsonObject(JsonShape& shape, std::vector<Fault>& ignored) : faults_(&ignored), shape_(&shape) {}
 
   bool has(std::string_view key);
   double number(std::string_view key, NumberRule rule = kAnyNumber);
@@ -65,12 +70,17 @@ class JsonObject {
   std::optional<Interval> nullable_interval(std::string_view key);
   std::vector<double> numbers(std::string_view key, NumberRule rule = kAnyNumber);
   std::vector<std::string> strings(std::string_view key);
+  /// An array of arrays of numbers as it stands, for the caller to check; null where there is none,
+  /// which is a fault.
+  const Json* rows(std::string_view key);
   /// A missing key or a value that is no object gives an empty view whose reads are silent.
   JsonObject object(std::string_view key);
   std::optional<JsonObject> optional_object(std::string_view key);
   /// The elements of an array of objects.
   std::vector<JsonObject> objects(std::string_view key);
   std::vector<JsonObject> optional_objects(std::string_view key);
+  /// The values of an object with free keys, each an object.
+  std::vector<JsonObject> values();
   /// Accepts a key without reading it.
   void ignore(std::string_view key);
   /// The optional `schema` key: absent or `expected`.
@@ -85,12 +95,20 @@ class JsonObject {
 
  private:
   const Json* find(std::string_view key, bool required);
-  const Json* value_;  ///< null: an absent object, whose reads are silent
+  const Json* value_ = nullptr;  ///< null: an absent object, whose reads are silent
   std::string file_;
   std::string pointer_;
   std::vector<Fault>* faults_;
+  JsonShape* shape_ = nullptr;  ///< null: reads
   std::set<std::string, std::less<>> known_;
 };
+
+/// The JSON Schema (draft 2020-12) of what `read` accepts, from the keys that it asks for: `read` is
+/// run on every choice of every key, with optional keys there and not. It accepts whatever `read`
+/// does; rules that hold between keys are the reader's alone, but for the keys that go with a choice.
+/// `format` is the `schema` key's value.
+std::string json_schema_text(std::string_view format, std::string_view title,
+                             const std::function<void(JsonObject&)>& read);
 
 /// `{"command", "version", "options", "inputs"}`, the contract's keys of origin, put into `json`.
 void put_provenance(Json& json, const Provenance& provenance);

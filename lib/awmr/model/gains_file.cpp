@@ -6,12 +6,7 @@
 
 namespace awmr {
 
-Result<Gains<double>> read_gains(const std::filesystem::path& path) {
-  AWMR_ASSIGN_OR_RETURN(const Json json, read_json_file(path));
-  std::vector<Fault> faults;
-  JsonObject root(json, path.string(), "", faults);
-  root.schema(kGainsSchema);
-
+Gains<double> gains_from_json(JsonObject& root) {
   JsonObject heading = root.object("heading");
   JsonObject speed = root.object("speed");
   const Gains<double> gains{
@@ -21,7 +16,15 @@ Result<Gains<double>> read_gains(const std::filesystem::path& path) {
       .speed = {.mu = speed.number("mu", kGain), .epsilon = speed.number("epsilon", kGain)}};
   heading.reject_unknown_keys();
   speed.reject_unknown_keys();
+  return gains;
+}
 
+Result<Gains<double>> read_gains(const std::filesystem::path& path) {
+  AWMR_ASSIGN_OR_RETURN(const Json json, read_json_file(path));
+  std::vector<Fault> faults;
+  JsonObject root(json, path.string(), "", faults);
+  root.schema(kGainsSchema);
+  const Gains<double> gains = gains_from_json(root);
   for (const std::string_view key :
        {"command", "version", "options", "inputs", "time_constants", "constraints", "objective",
         "metrics", "robust", "search", "baseline"}) {

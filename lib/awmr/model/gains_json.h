@@ -17,4 +17,7 @@ inline Json gains_to_json(const Gains<double>& gains) {
           {"speed", {{"mu", gains.speed.mu}, {"epsilon", gains.speed.epsilon}}}};
 }
 
+/// Reads `heading` and `speed`.
+Gains<double> gains_from_json(JsonObject& root);
+
 }  // namespace awmr

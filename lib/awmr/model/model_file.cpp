@@ -6,6 +6,7 @@
 #include <map>
 
 #include "awmr/core/file.h"
+#include "awmr/model/findings_json.h"
 #include "awmr/model/ranges.h"
 #include "awmr/model/si_units.h"
 #include "model_json.h"
@@ -127,37 +128,44 @@ std::string model_text(const Model& model) {
   json["estimates"] = list_to_json(model.record.reports, report_to_json);
   json["covariance"] = covariance_to_json(model.covariance);
   put_si(json, model);
-  json["findings"] = list_to_json(model.record.findings, finding_to_json);
+  json["findings"] = findings_to_json(model.record.findings);
   json["trials"] = list_to_json(model.record.trials, trial_to_json);
   return to_text(json);
 }
 
-Result<Model> read_model(const std::filesystem::path& path) {
-  AWMR_ASSIGN_OR_RETURN(const Json json, read_json_file(path));
-  std::vector<Fault> faults;
-  JsonObject root(json, path.string(), "", faults);
-  root.schema(kModelSchema);
+namespace {
 
+Model model_from_json(JsonObject& root) {
   Model model;
-  model.file = path.string();
+  root.schema(kModelSchema);
   model.record.provenance = read_provenance(root);
   JsonObject vehicle = root.object("vehicle");
   model.vehicle = vehicle_from_json(vehicle);
   estimates_from_json(root, model);
   model.record.reports = list_from_json(root, "estimates", report_from_json);
-  model.covariance = covariance_from_json(root.object("covariance"), json);
+  model.covariance = covariance_from_json(root.object("covariance"));
   root.optional_object("si");
   model.record.findings = list_from_json(root, "findings", finding_from_json);
   model.record.trials = list_from_json(root, "trials", trial_from_json);
   root.reject_unknown_keys();
+  return model;
+}
+
+}  // namespace
+
+Result<Model> read_model(const std::filesystem::path& path) {
+  AWMR_ASSIGN_OR_RETURN(const Json json, read_json_file(path));
+  std::vector<Fault> faults;
+  JsonObject root(json, path.string(), "", faults);
+  Model model = model_from_json(root);
+  model.file = path.string();
   if (!faults.empty()) return input_errors(std::move(faults));
   return model;
 }
 
-std::string findings_text(const std::vector<Finding>& findings) {
-  Json list = Json::array();
-  for (const Finding& finding : findings) list.push_back(finding_to_json(finding));
-  return to_text(list);
+std::string model_schema() {
+  return json_schema_text(kModelSchema, "A model: a vehicle's parameters with their uncertainty",
+                          [](JsonObject& json) { model_from_json(json); });
 }
 
 Status write_model(const Model& model, const std::filesystem::path& path) {

@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <string>
-#include <vector>
 
 #include "awmr/core/result.h"
 #include "awmr/model/model.h"
@@ -16,10 +15,10 @@ Result<Model> read_model(const std::filesystem::path& path);
 /// The bytes of model.json.
 std::string model_text(const Model& model);
 
-/// The findings as they are under model.json's /findings.
-std::string findings_text(const std::vector<Finding>& findings);
-
 /// Errors: as write_file.
 Status write_model(const Model& model, const std::filesystem::path& path);
+
+/// The JSON Schema of model.json, from what reads it.
+std::string model_schema();
 
 }  // namespace awmr

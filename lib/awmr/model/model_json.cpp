@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "awmr/core/option_text.h"
+#include "awmr/model/findings_json.h"
 #include "awmr/model/ratio_names.h"
 #include "awmr/model/sensor_delay_name.h"
 
@@ -129,6 +130,16 @@ void read_details(JsonObject& json, EstimatorReport& report) {
   }
 }
 
+Json finding_to_json(const Finding& finding) {
+  Json json;
+  json["file"] = finding.file;
+  json["line"] = finding.line;
+  json["severity"] = kSeverities[static_cast<std::size_t>(finding.severity)];
+  json["code"] = finding.code;
+  json["message"] = plain_text(finding.message);
+  return json;
+}
+
 }  // namespace
 
 Json number_or_null(const std::optional<double>& value) {
@@ -196,7 +207,7 @@ Json covariance_to_json(const Covariance& covariance) {
   return json;
 }
 
-Covariance covariance_from_json(JsonObject json, const Json& document) {
+Covariance covariance_from_json(JsonObject json) {
   Covariance covariance;
   const std::vector<std::string> names = json.strings("parameters");
   for (const std::string& name : names) {
@@ -209,26 +220,22 @@ Covariance covariance_from_json(JsonObject json, const Json& document) {
       covariance.parameters.push_back(*id);
     }
   }
-  static const Json::json_pointer kMatrix("/covariance/matrix");
-  if (!document.contains(kMatrix)) {
-    json.fault("matrix", "missing");
-  } else {
-    covariance.matrix = matrix_from_json(json, document[kMatrix], names.size());
+  if (const Json* matrix = json.rows("matrix")) {
+    covariance.matrix = matrix_from_json(json, *matrix, names.size());
     check_covariance(json, covariance.matrix);
   }
-  json.ignore("matrix");
   json.reject_unknown_keys();
   return covariance;
 }
 
-Json finding_to_json(const Finding& finding) {
-  Json json;
-  json["file"] = finding.file;
-  json["line"] = finding.line;
-  json["severity"] = kSeverities[static_cast<std::size_t>(finding.severity)];
-  json["code"] = finding.code;
-  json["message"] = plain_text(finding.message);
-  return json;
+Json findings_to_json(const std::vector<Finding>& findings) {
+  Json list = Json::array();
+  for (const Finding& finding : findings) list.push_back(finding_to_json(finding));
+  return list;
+}
+
+void describe_findings(JsonObject& json) {
+  for (const JsonObject& finding : json.objects("findings")) finding_from_json(finding);
 }
 
 Finding finding_from_json(JsonObject json) {

@@ -16,9 +16,8 @@ EstimatorReport report_from_json(JsonObject json);
 Json covariance_to_json(const Covariance& covariance);
 /// Faults: unknown or repeated parameters; a matrix that is not square over them, not symmetric, or
 /// has a negative variance.
-Covariance covariance_from_json(JsonObject json, const Json& document);
+Covariance covariance_from_json(JsonObject json);
 
-Json finding_to_json(const Finding& finding);
 Finding finding_from_json(JsonObject json);
 
 Json trial_to_json(const TrialPoint& trial);

@@ -213,6 +213,11 @@ Json vehicle_to_json(const Vehicle& vehicle) {
   return json;
 }
 
+std::string vehicle_schema() {
+  return json_schema_text(kVehicleSchema, "A vehicle: what is known before any trial",
+                          [](JsonObject& json) { vehicle_from_json(json); });
+}
+
 Result<Vehicle> read_vehicle(const std::filesystem::path& path) {
   AWMR_ASSIGN_OR_RETURN(const Json json, read_json_file(path));
   std::vector<Fault> faults;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "awmr/core/result.h"
 #include "awmr/model/vehicle.h"
@@ -10,5 +11,8 @@ namespace awmr {
 
 /// Errors: as read_json_file; unknown, missing or impossible values.
 Result<Vehicle> read_vehicle(const std::filesystem::path& path);
+
+/// The JSON Schema of vehicle.json, from what reads it.
+std::string vehicle_schema();
 
 }  // namespace awmr

@@ -51,15 +51,15 @@ Position<double> read_point(JsonObject& json, const char* key) {
   return {};
 }
 
-/// `[[x, y], ...]`: read from the whole document, as JsonObject knows no arrays of arrays.
-std::vector<Position<double>> read_points(JsonObject& json, const Json& document, const char* key,
-                                          std::size_t least) {
+/// `[[x, y], ...]`
+std::vector<Position<double>> read_points(JsonObject& json, const char* key, std::size_t least) {
   std::vector<Position<double>> points;
   bool well_formed = true;
   bool in_range = true;
-  const Json& array = document.at(Json::json_pointer(json.pointer(key)));
-  if (array.is_array()) {
-    for (const Json& point : array) {
+  const Json* array = json.rows(key);
+  if (array == nullptr) return points;
+  if (array->is_array()) {
+    for (const Json& point : *array) {
       const bool pair =
           point.is_array() && point.size() == 2 && point[0].is_number() && point[1].is_number();
       well_formed = well_formed && pair;
@@ -79,13 +79,9 @@ std::vector<Position<double>> read_points(JsonObject& json, const Json& document
   return points;
 }
 
-WaypointCourse read_waypoints(JsonObject& json, const Json& document) {
+WaypointCourse read_waypoints(JsonObject& json) {
   WaypointCourse course;
-  if (json.has("points_m")) {
-    course.points_m = read_points(json, document, "points_m", 1);
-  } else {
-    json.fault("points_m", "missing: the points to go to, [[x, y], ...] in m");
-  }
+  course.points_m = read_points(json, "points_m", 1);
   course.acceptance_m = json.number("acceptance_m", kLength_m);
   course.skip_passed = json.optional_boolean("skip_passed").value_or(false);
   course.slow_down_m = json.optional_number("slow_down_m", kLength_m);
@@ -103,10 +99,10 @@ void check_segments(JsonObject& json, const char* key,
   }
 }
 
-LineCourse read_line(JsonObject& json, const Json& document) {
+LineCourse read_line(JsonObject& json) {
   LineCourse course;
   if (json.has("points_m")) {
-    course.points_m = read_points(json, document, "points_m", 2);
+    course.points_m = read_points(json, "points_m", 2);
     check_segments(json, "points_m", course.points_m);
   } else {
     course.points_m = {read_point(json, "from_m"), read_point(json, "to_m")};
@@ -144,7 +140,7 @@ LissajousCourse read_lissajous(JsonObject& json) {
 
 }  // namespace
 
-Guidance read_guidance(JsonObject json, const Json& document) {
+Guidance read_guidance(JsonObject json) {
   Guidance guidance;
   switch (json.choice("type", kGuidanceTypes)) {
     case GuidanceType::kOpenLoop:
@@ -154,10 +150,10 @@ Guidance read_guidance(JsonObject json, const Json& document) {
       guidance = read_heading_steps(json);
       break;
     case GuidanceType::kWaypoints:
-      guidance = read_waypoints(json, document);
+      guidance = read_waypoints(json);
       break;
     case GuidanceType::kLine:
-      guidance = read_line(json, document);
+      guidance = read_line(json);
       break;
     case GuidanceType::kLissajous:
       guidance = read_lissajous(json);

@@ -36,19 +36,16 @@ void reject_idle_keys(JsonObject& json, const Scenario& scenario) {
   }
 }
 
-}  // namespace
+constexpr std::string_view kScenarioSchema = "awmr.scenario/1";
 
-Result<Scenario> read_scenario(const std::filesystem::path& path) {
-  AWMR_ASSIGN_OR_RETURN(const Json document, read_json_file(path));
-  std::vector<Fault> faults;
-  JsonObject json(document, path.string(), "", faults);
+Scenario scenario_from_json(JsonObject& json) {
   Scenario scenario;
-  json.schema("awmr.scenario/1");
+  json.schema(kScenarioSchema);
   scenario.name = json.string("name");
   scenario.duration_s = json.number("duration_s", kDuration_s);
   scenario.initial = read_initial(json.object("initial"));
   scenario.speed_mps = json.number("speed_mps", kSpeed_mps);
-  scenario.guidance = read_guidance(json.object("guidance"), document);
+  scenario.guidance = read_guidance(json.object("guidance"));
   scenario.obstacles = read_obstacles(json);
   if (auto avoidance = json.optional_object("avoidance")) {
     scenario.avoidance = read_avoidance(*avoidance);
@@ -59,8 +56,23 @@ Result<Scenario> read_scenario(const std::filesystem::path& path) {
       static_cast<std::uint64_t>(json.optional_integer("seed", 0, 1000000000L).value_or(0));
   reject_idle_keys(json, scenario);
   json.reject_unknown_keys();
+  return scenario;
+}
+
+}  // namespace
+
+Result<Scenario> read_scenario(const std::filesystem::path& path) {
+  AWMR_ASSIGN_OR_RETURN(const Json document, read_json_file(path));
+  std::vector<Fault> faults;
+  JsonObject json(document, path.string(), "", faults);
+  Scenario scenario = scenario_from_json(json);
   if (!faults.empty()) return input_errors(std::move(faults));
   return scenario;
+}
+
+std::string scenario_schema() {
+  return json_schema_text(kScenarioSchema, "A scenario: where to drive, and in which world",
+                          [](JsonObject& json) { scenario_from_json(json); });
 }
 
 }  // namespace awmr

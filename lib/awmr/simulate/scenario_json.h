@@ -26,8 +26,7 @@ inline constexpr NumberRule kSignedRate_radps{.min = -1e3, .max = 1e3};
 inline constexpr NumberRule kSensorSize{.min = 0.0, .max = 1e6};
 inline constexpr NumberRule kSensorBias{.min = -1e6, .max = 1e6};
 
-/// `document` is the whole file, for arrays of points.
-Guidance read_guidance(JsonObject json, const Json& document);
+Guidance read_guidance(JsonObject json);
 std::vector<Obstacle<double>> read_obstacles(JsonObject& scenario);
 Avoidance<double> read_avoidance(JsonObject json);
 HeadingShaping<double> read_shaping(JsonObject json);

@@ -175,4 +175,7 @@ Result<Tuning> tune(const Model& model, const TuneOptions& options);
 std::string gains_text(const Tuning& tuning, const TuneOptions& options,
                        const Provenance& provenance);
 
+/// The JSON Schema of gains.json as gains_text() writes it.
+std::string gains_schema();
+
 }  // namespace awmr

@@ -179,23 +179,39 @@ Json objective_json(const Tuning& tuning, const ObjectiveWeights& weights) {
   return json;
 }
 
+constexpr std::string_view kTuneSchema = "awmr.tune/1";
+
+/// Scenarios are read from `directory`; their faults join those of the file.
+TuneConfig config_from_json(JsonObject& object, const std::filesystem::path& directory,
+                            std::vector<Fault>& faults) {
+  TuneConfig config;
+  object.schema(kTuneSchema);
+  read_numbers(object, config.options);
+  if (auto weights = object.optional_object("weights")) {
+    read_weights(*weights, config.options.weights);
+  }
+  if (auto bounds = object.optional_object("bounds")) read_bounds(*bounds, config.options.bounds);
+  read_scenarios(object, directory, config, faults);
+  object.reject_unknown_keys();
+  return config;
+}
+
 }  // namespace
 
 Result<TuneConfig> read_tune_config(const std::filesystem::path& path) {
   AWMR_ASSIGN_OR_RETURN(const Json json, read_json_file(path));
   std::vector<Fault> faults;
   JsonObject object(json, path.string(), "", faults);
-  TuneConfig config;
-  object.schema("awmr.tune/1");
-  read_numbers(object, config.options);
-  if (auto weights = object.optional_object("weights")) {
-    read_weights(*weights, config.options.weights);
-  }
-  if (auto bounds = object.optional_object("bounds")) read_bounds(*bounds, config.options.bounds);
-  read_scenarios(object, path.parent_path(), config, faults);
-  object.reject_unknown_keys();
+  TuneConfig config = config_from_json(object, path.parent_path(), faults);
   if (!faults.empty()) return input_errors(std::move(faults));
   return config;
+}
+
+std::string tune_schema() {
+  return json_schema_text(kTuneSchema, "What a search for gains is to do", [](JsonObject& json) {
+    std::vector<Fault> ignored;
+    config_from_json(json, "", ignored);
+  });
 }
 
 std::string gains_text(const Tuning& tuning, const TuneOptions& options,

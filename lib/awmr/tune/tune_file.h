@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "awmr/core/result.h"
@@ -22,5 +23,8 @@ struct TuneConfig {
 ///   global_evaluations, local_evaluations, seed, scenarios [path relative to the file, ...].
 /// Errors (input): as read_json_file and read_scenario; unknown keys, values out of range.
 Result<TuneConfig> read_tune_config(const std::filesystem::path& path);
+
+/// The JSON Schema of tune.json, from what reads it.
+std::string tune_schema();
 
 }  // namespace awmr

@@ -105,4 +105,7 @@ std::string claims_table(const std::vector<Claim>& claims);
 /// The same as a Markdown table, for the documentation. made_by: the command that makes it again.
 std::string claims_markdown(const std::vector<Claim>& claims, std::string_view made_by);
 
+/// The JSON Schema of validation.json.
+std::string validation_schema();
+
 }  // namespace awmr

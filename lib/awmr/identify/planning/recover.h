@@ -70,4 +70,7 @@ Result<Recovery> recover(const Model& model, const RecoverOptions& options,
 /// The bytes of recover.json.
 std::string recovery_text(const Recovery& recovery, const Provenance& provenance);
 
+/// The JSON Schema of recover.json.
+std::string recover_schema();
+
 }  // namespace awmr

@@ -69,4 +69,7 @@ std::string suggestion_text(const Suggestion& suggestion, const Provenance& prov
 /// A sheet for the field: what to set, how long, what to write down.
 std::string field_sheet(const Suggestion& suggestion, std::size_t most);
 
+/// The JSON Schema of suggest.json.
+std::string suggest_schema();
+
 }  // namespace awmr

@@ -1,0 +1,129 @@
+// comparison.json as comparison_text() writes it.
+#include <limits>
+
+#include "awmr/compare/compare.h"
+#include "awmr/compare/metric_columns.h"
+#include "awmr/core/json.h"
+
+namespace awmr {
+namespace {
+
+constexpr long kMost = std::numeric_limits<int>::max();
+constexpr NumberRule kShareOfRuns{.min = 0.0, .max = 1.0};
+
+void describe_completed(JsonObject json) {
+  json.boolean("nominal");
+  json.integer("count", 0, kMost);
+  json.integer("of", 0, kMost);
+  json.number("share", kShareOfRuns);
+  json.nullable_interval("ci95");
+  json.reject_unknown_keys();
+}
+
+void describe_metrics(JsonObject json) {
+  for (const MetricColumn& metric : kMetricColumns) {
+    JsonObject summary = json.object(metric.name);
+    summary.integer("count", 0, kMost);
+    for (const char* key : {"nominal", "mean", "q05", "q50", "q95"}) summary.nullable_number(key);
+    summary.reject_unknown_keys();
+  }
+  json.reject_unknown_keys();
+}
+
+void describe_differences(JsonObject& scenario) {
+  for (JsonObject& one : scenario.objects("paired_differences")) {
+    for (const char* key : {"first", "second", "metric"}) one.string(key);
+    one.integer("count", 0, kMost);
+    for (const char* key : {"nominal", "mean", "p", "p_holm"}) one.nullable_number(key);
+    one.nullable_interval("ci95");
+    one.reject_unknown_keys();
+  }
+}
+
+void describe_ranking(JsonObject& scenario) {
+  for (JsonObject& ranked : scenario.objects("ranking")) {
+    ranked.integer("rank", 1, kMost);
+    ranked.string("mode");
+    ranked.number("score");
+    ranked.number("completed_share", kShareOfRuns);
+    ranked.nullable_interval("behind_ci95");
+    ranked.strings("tied_with");
+    ranked.reject_unknown_keys();
+  }
+  scenario.optional_string("ranking_note");
+}
+
+void describe_scenarios(JsonObject& json) {
+  for (JsonObject& scenario : json.objects("scenarios")) {
+    scenario.string("name");
+    for (JsonObject& mode : scenario.object("modes").values()) {
+      describe_completed(mode.object("completed"));
+      describe_metrics(mode.object("metrics"));
+      mode.reject_unknown_keys();
+    }
+    describe_differences(scenario);
+    describe_ranking(scenario);
+    scenario.string("verdict");
+    scenario.reject_unknown_keys();
+  }
+}
+
+void describe_overall(JsonObject& json) {
+  for (JsonObject& tally : json.objects("overall")) {
+    tally.string("metric");
+    tally.integer("scenarios", 0, kMost);
+    JsonObject counts = tally.object("best_or_tied");
+    for (const std::string& mode : counts.keys()) counts.integer(mode, 0, kMost);
+    tally.reject_unknown_keys();
+  }
+  for (JsonObject& same : json.objects("counted_once")) {
+    same.string("scenario");
+    same.string("same_runs_as");
+    same.reject_unknown_keys();
+  }
+}
+
+void describe_how(JsonObject& json) {
+  JsonObject statistics = json.object("statistics");
+  for (const char* key :
+       {"over", "paired_differences", "ci95", "p", "p_holm", "completed_ci95", "quantiles"}) {
+    statistics.string(key);
+  }
+  statistics.nullable_number("resamples", kPositive);
+  statistics.reject_unknown_keys();
+  JsonObject ranking = json.object("ranking");
+  ranking.string("score");
+  for (JsonObject& metric : ranking.objects("metrics")) {
+    metric.string("name");
+    metric.number("floor", kPositive);
+    metric.reject_unknown_keys();
+  }
+  ranking.number("tie_margin");
+  ranking.reject_unknown_keys();
+}
+
+void describe_comparison(JsonObject& json) {
+  json.schema("awmr.comparison/1");
+  read_provenance(json);
+  json.string("csv_sha256");
+  json.integer("samples", 0, kMost);
+  if (auto stopped = json.optional_object("stopped")) {
+    stopped->integer("finished_runs", 0, kMost);
+    stopped->integer("judged_samples", 0, kMost);
+    stopped->reject_unknown_keys();
+  }
+  json.number("seed", kNonNegative);
+  describe_how(json);
+  describe_overall(json);
+  describe_scenarios(json);
+  json.reject_unknown_keys();
+}
+
+}  // namespace
+
+std::string comparison_schema() {
+  return json_schema_text("awmr.comparison/1", "The yaw-control modes over scenarios",
+                          describe_comparison);
+}
+
+}  // namespace awmr

@@ -1,0 +1,18 @@
+/// How faults of JSON are told. Private to this folder.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "awmr/core/json.h"
+
+namespace awmr {
+
+/// A value as a fault shows it, cut between characters where it is long.
+std::string describe(const Json& value);
+std::string describe(const NumberRule& rule);
+bool allows(const NumberRule& rule, double value);
+void add_fault(std::vector<Fault>& faults, const std::string& file, const std::string& pointer,
+               std::string message);
+
+}  // namespace awmr

@@ -1,0 +1,135 @@
+// Arrays in JSON, and what faults say.
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "awmr/core/csv.h"
+#include "awmr/core/json.h"
+#include "awmr/core/json_fault.h"
+#include "awmr/core/json_shape.h"
+#include "awmr/core/text.h"
+
+namespace awmr {
+
+std::string describe(const Json& value) {
+  std::string text = value.dump();
+  if (text.size() > 40) text = std::string(first_characters(text, 37)) + "...";
+  return fmt::format("{} {}", value.type_name(), text);
+}
+
+std::string describe(const NumberRule& rule) {
+  const bool below = rule.min <= kAnyNumber.min;
+  const bool above = rule.max >= kAnyNumber.max;
+  const char* relation = rule.min_excluded ? "above" : "at least";
+  if (below && above) return "a number";
+  if (above) return fmt::format("a number {} {}", relation, format_number(rule.min));
+  if (below) return fmt::format("a number at most {}", format_number(rule.max));
+  return fmt::format("a number {} {} and at most {}", relation, format_number(rule.min),
+                     format_number(rule.max));
+}
+
+bool allows(const NumberRule& rule, double value) {
+  return value <= rule.max && (rule.min_excluded ? value > rule.min : value >= rule.min);
+}
+
+void add_fault(std::vector<Fault>& faults, const std::string& file, const std::string& pointer,
+               std::string message) {
+  if (faults.size() >= kMaxFaults) return;
+  faults.push_back(
+      {pointer.empty() ? file : fmt::format("{}:{}", file, pointer), std::move(message)});
+}
+
+Interval JsonObject::interval(std::string_view key) {
+  if (shape_ != nullptr) shape_->type(key, interval_schema());
+  const Json* value = find(key, true);
+  if (value == nullptr) return {};
+  if (value->is_array() && value->size() == 2 && (*value)[0].is_number() &&
+      (*value)[1].is_number()) {
+    const Interval interval{(*value)[0].get<double>(), (*value)[1].get<double>()};
+    if (interval.lo <= interval.hi) return interval;
+  }
+  fault(key, fmt::format("expected [lo, hi] with lo <= hi, found {}", describe(*value)));
+  return {};
+}
+
+std::optional<Interval> JsonObject::optional_interval(std::string_view key) {
+  if (!has(key)) return std::nullopt;
+  return interval(key);
+}
+
+std::optional<Interval> JsonObject::nullable_interval(std::string_view key) {
+  if (shape_ != nullptr) shape_->type(key, or_null(interval_schema()));
+  const Json* value = find(key, true);
+  if (value == nullptr || value->is_null()) return std::nullopt;
+  return interval(key);
+}
+
+std::vector<double> JsonObject::numbers(std::string_view key, NumberRule rule) {
+  if (shape_ != nullptr) shape_->type(key, array_schema(schema_of(rule)));
+  const Json* value = find(key, true);
+  std::vector<double> result;
+  if (value == nullptr) return result;
+  if (!value->is_array()) {
+    fault(key, fmt::format("expected an array of numbers, found {}", describe(*value)));
+    return result;
+  }
+  for (std::size_t i = 0; i < value->size(); ++i) {
+    const Json& element = (*value)[i];
+    if (element.is_number() && allows(rule, element.get<double>())) {
+      result.push_back(element.get<double>());
+    } else {
+      add_fault(*faults_, file_, fmt::format("{}/{}", pointer(key), i),
+                fmt::format("expected {}, found {}", describe(rule), describe(element)));
+    }
+  }
+  return result;
+}
+
+std::vector<std::string> JsonObject::strings(std::string_view key) {
+  if (shape_ != nullptr) shape_->type(key, array_schema({{"type", "string"}}));
+  const Json* value = find(key, true);
+  std::vector<std::string> result;
+  if (value == nullptr) return result;
+  if (!value->is_array()) {
+    fault(key, fmt::format("expected an array of strings, found {}", describe(*value)));
+    return result;
+  }
+  for (std::size_t i = 0; i < value->size(); ++i) {
+    const Json& element = (*value)[i];
+    if (element.is_string()) {
+      result.push_back(element.get<std::string>());
+    } else {
+      add_fault(*faults_, file_, fmt::format("{}/{}", pointer(key), i),
+                fmt::format("expected a string, found {}", describe(element)));
+    }
+  }
+  return result;
+}
+
+std::vector<JsonObject> JsonObject::objects(std::string_view key) {
+  const Json* value = find(key, true);
+  if (shape_ != nullptr) return {JsonObject(shape_->element(key), *faults_)};
+  std::vector<JsonObject> result;
+  if (value == nullptr) return result;
+  if (!value->is_array()) {
+    fault(key, fmt::format("expected an array of objects, found {}", describe(*value)));
+    return result;
+  }
+  for (std::size_t i = 0; i < value->size(); ++i) {
+    result.emplace_back((*value)[i], file_, fmt::format("{}/{}", pointer(key), i), *faults_);
+  }
+  return result;
+}
+
+std::vector<JsonObject> JsonObject::optional_objects(std::string_view key) {
+  if (!has(key)) return {};
+  return objects(key);
+}
+
+const Json* JsonObject::rows(std::string_view key) {
+  if (shape_ != nullptr) shape_->type(key, array_schema(array_schema(schema_of(kAnyNumber))));
+  return find(key, true);
+}
+
+}  // namespace awmr

@@ -1,0 +1,237 @@
+#include "json_shape.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace awmr {
+namespace {
+
+/// The key that stands for any: what is read of it holds for all keys of the object.
+constexpr std::string_view kAnyKey = "*";
+
+/// True where the way takes every pick of `picks`.
+bool takes(const Way& way, const std::map<std::string, std::size_t>& picks) {
+  return std::all_of(picks.begin(), picks.end(), [&](const auto& pick) {
+    const auto taken = way.picks.find(pick.first);
+    return taken == way.picks.end() ? pick.second == 0 : taken->second == pick.second;
+  });
+}
+
+}  // namespace
+
+Json schema_of(const NumberRule& rule) {
+  Json schema{{"type", "number"}};
+  if (rule.min > kAnyNumber.min)
+    schema[rule.min_excluded ? "exclusiveMinimum" : "minimum"] = rule.min;
+  if (rule.max < kAnyNumber.max) schema["maximum"] = rule.max;
+  return schema;
+}
+
+Json schema_of(long min, long max) {
+  return {{"type", "integer"}, {"minimum", min}, {"maximum", max}};
+}
+
+Json array_schema(Json items) { return {{"type", "array"}, {"items", std::move(items)}}; }
+
+Json interval_schema() {
+  Json schema = array_schema(schema_of(kAnyNumber));
+  schema["minItems"] = 2;
+  schema["maxItems"] = 2;
+  return schema;
+}
+
+Json or_null(const Json& schema) { return {{"anyOf", {schema, {{"type", "null"}}}}}; }
+
+JsonShape::JsonShape(Exploration& exploration, std::string place)
+    : exploration_(&exploration), place_(std::move(place)) {}
+
+void JsonShape::begin() {
+  fresh_ = true;
+  for (auto& [key, property] : properties_) {
+    if (property.object) property.object->begin();
+    if (property.element) property.element->begin();
+  }
+}
+
+JsonShape::Asked& JsonShape::now() {
+  if (std::exchange(fresh_, false)) ways_.push_back({exploration_->way, {}, {}, {}});
+  return ways_.back();
+}
+
+JsonShape::Property& JsonShape::property(std::string_view key) {
+  for (auto& [name, property] : properties_) {
+    if (name == key) return property;
+  }
+  properties_.emplace_back(std::string(key), Property{});
+  return properties_.back().second;
+}
+
+void JsonShape::asked(std::string_view key, bool required) {
+  property(key);
+  Asked& asked = now();
+  asked.keys.emplace(key);
+  // What is looked for before it is read may be missing.
+  if (!required && !asked.required.contains(std::string(key))) asked.optional.emplace(key);
+  if (required && !asked.optional.contains(std::string(key))) asked.required.emplace(key);
+}
+
+bool JsonShape::has(std::string_view key) {
+  asked(key, false);
+  return exploration_->way.present;
+}
+
+void JsonShape::type(std::string_view key, const Json& schema) {
+  std::vector<Json>& types = property(key).types;
+  if (std::find(types.begin(), types.end(), schema) == types.end()) types.push_back(schema);
+}
+
+std::size_t JsonShape::choice(std::string_view key, std::span<const std::string> choices) {
+  type(key, {{"enum", std::vector<std::string>(choices.begin(), choices.end())}});
+  const std::string place = place_ + "/" + std::string(key);
+  exploration_->met.try_emplace(place, MetChoice{choices.size(), exploration_->way.picks});
+  const auto pick = exploration_->way.picks.find(place);
+  return pick == exploration_->way.picks.end() ? 0 : pick->second;
+}
+
+JsonShape& JsonShape::object(std::string_view key) {
+  std::unique_ptr<JsonShape>& object = property(key).object;
+  if (!object) {
+    object = std::make_unique<JsonShape>(*exploration_, place_ + "/" + std::string(key));
+  }
+  object->now();
+  return *object;
+}
+
+JsonShape& JsonShape::element(std::string_view key) {
+  std::unique_ptr<JsonShape>& element = property(key).element;
+  if (!element) {
+    element = std::make_unique<JsonShape>(*exploration_, place_ + "/" + std::string(key) + "/0");
+  }
+  element->now();
+  return *element;
+}
+
+Json JsonShape::property_schema(const Property& property) const {
+  std::vector<Json> kinds = property.types;
+  if (property.object) kinds.push_back(property.object->schema());
+  if (property.element) kinds.push_back({{"type", "array"}, {"items", property.element->schema()}});
+  if (kinds.empty()) return true;
+  return kinds.size() == 1 ? kinds.front() : Json{{"anyOf", kinds}};
+}
+
+/// If the choice under `key` has this name, some keys have to be there, and those of other names
+/// may not be. Empty where the name makes no difference.
+Json JsonShape::variant(const std::string& key, std::size_t pick, const Json& name) const {
+  const std::string place = place_ + "/" + key;
+  const auto& on = exploration_->met.at(place).on;
+  auto exactly = on;
+  if (pick > 0) exactly[place] = pick;
+  auto at_least = on;
+  at_least[place] = pick;
+  std::set<std::string> others;  // asked for with any name, all else being the same
+  std::set<std::string> allowed;
+  std::set<std::string> required;
+  bool first = true;
+  for (const Asked& one : ways_) {
+    auto without = one.way.picks;
+    without.erase(place);
+    if (without == on) others.insert(one.keys.begin(), one.keys.end());
+    if (!takes(one.way, at_least)) continue;
+    allowed.insert(one.keys.begin(), one.keys.end());
+    if (one.way.picks != exactly) continue;
+    if (std::exchange(first, false)) required = one.required;
+    std::erase_if(required, [&](const std::string& k) { return !one.required.contains(k); });
+  }
+  Json then = Json::object();
+  for (const std::string& other : others) {
+    if (!allowed.contains(other)) then["properties"][other] = false;
+  }
+  if (!required.empty()) then["required"] = required;
+  return {{"if", {{"properties", {{key, {{"const", name}}}}}, {"required", {key}}}},
+          {"then", then}};
+}
+
+/// If the optional choice under `key` is not made, its default decides which keys have to be there.
+Json JsonShape::variant_without(const std::string& key) const {
+  const auto& on = exploration_->met.at(place_ + "/" + key).on;
+  for (const Asked& one : ways_) {
+    if (one.way.present || one.way.picks != on || !one.optional.contains(key)) continue;
+    return {{"if", {{"not", {{"required", {key}}}}}}, {"then", {{"required", one.required}}}};
+  }
+  return Json::object();
+}
+
+/// One rule for each name of each choice that decides which keys there are.
+void JsonShape::add_variants(Json& schema) const {
+  for (const auto& [key, property] : properties_) {
+    const auto met = exploration_->met.find(place_ + "/" + key);
+    if (met == exploration_->met.end() || key == kAnyKey) continue;
+    std::vector<Json> rules;
+    const Json& names = property.types.front().at("enum");
+    for (std::size_t pick = 0; pick < met->second.count; ++pick) {
+      rules.push_back(variant(key, pick, names[pick]));
+    }
+    const bool decides = std::any_of(rules.begin(), rules.end(), [&](const Json& rule) {
+      return rule.at("then") != rules.front().at("then");
+    });
+    if (const Json absent = variant_without(key); decides && !absent.empty()) {
+      rules.push_back(absent);
+    }
+    for (const Json& rule : rules) {
+      if (decides && !rule.at("then").empty()) schema["allOf"].push_back(rule);
+    }
+  }
+}
+
+Json JsonShape::schema() const {
+  Json schema{{"type", "object"}};
+  std::set<std::string> required;
+  for (const Asked& one : ways_) {
+    if (&one == &ways_.front()) required = one.required;
+    std::erase_if(required, [&](const std::string& key) { return !one.required.contains(key); });
+  }
+  required.erase(std::string(kAnyKey));
+  if (closed_) schema["additionalProperties"] = false;
+  for (const auto& [key, property] : properties_) {
+    if (key == kAnyKey) {
+      schema["additionalProperties"] = property_schema(property);
+    } else {
+      schema["properties"][key] = property_schema(property);
+    }
+  }
+  if (!required.empty()) schema["required"] = required;
+  add_variants(schema);
+  return schema;
+}
+
+std::string json_schema_text(std::string_view format, std::string_view title,
+                             const std::function<void(JsonObject&)>& read) {
+  Exploration exploration;
+  JsonShape root(exploration, "");
+  std::vector<Way> ways{{}};
+  std::set<std::string> followed;
+  for (std::size_t i = 0; i < ways.size(); ++i) {
+    for (const bool present : {true, false}) {
+      exploration.way = {present, ways[i].picks};
+      root.begin();
+      std::vector<Fault> ignored;
+      JsonObject json(root, ignored);
+      read(json);
+    }
+    for (const auto& [place, choice] : exploration.met) {
+      if (!followed.insert(place).second) continue;
+      for (std::size_t pick = 1; pick < choice.count; ++pick) {
+        ways.push_back({true, choice.on});
+        ways.back().picks[place] = pick;
+      }
+    }
+  }
+  Json schema;
+  schema["$schema"] = "https://json-schema.org/draft/2020-12/schema";
+  schema["$id"] = format;
+  schema["title"] = title;
+  schema.update(root.schema());
+  return to_text(schema);
+}
+
+}  // namespace awmr

@@ -1,0 +1,125 @@
+// gains.json as gains_text() writes it. Who reads gains needs `heading` and `speed` alone.
+#include "awmr/core/json.h"
+#include "awmr/model/gains_json.h"
+#include "awmr/tune/objective.h"
+#include "awmr/tune/tune.h"
+
+namespace awmr {
+namespace {
+
+/// By mode, then scenario.
+void describe_scores(JsonObject json) {
+  for (JsonObject& mode : json.values()) {
+    for (JsonObject& score : mode.values()) {
+      score.boolean("completed");
+      for (const char* key :
+           {"objective", "speed_itae_m_s", "sideslip_max_deg", "yaw_rate_max_degps",
+            "control_variation", "control_effort", "steering_rate_rms_degps"}) {
+        score.number(key);
+      }
+      for (const char* key : {"settling_time_s", "overshoot_deg", "heading_iae_degs",
+                              "heading_itae_degs2", "speed_drop_mps"}) {
+        score.nullable_number(key);
+      }
+      score.reject_unknown_keys();
+    }
+  }
+}
+
+void describe_constraints(JsonObject& json) {
+  for (JsonObject& constraint : json.optional_objects("constraints")) {
+    constraint.string("name");
+    constraint.boolean("required");
+    for (const char* key : {"value", "limit", "margin"}) constraint.number(key);
+    constraint.string("meaning");
+    constraint.reject_unknown_keys();
+  }
+}
+
+void describe_objective(JsonObject json) {
+  json.number("value");
+  JsonObject weights = json.object("weights");
+  for (const ObjectiveTerm& term : kObjectiveTerms) weights.number(term.name, kNonNegative);
+  weights.reject_unknown_keys();
+  json.string("formula");
+  for (JsonObject& term : json.objects("terms")) {
+    term.string("name");
+    term.string("figure");
+    term.number("floor", kPositive);
+    term.reject_unknown_keys();
+  }
+  JsonObject held_out = json.object("held_out");
+  held_out.number("value");
+  describe_scores(held_out.object("metrics"));
+  held_out.reject_unknown_keys();
+  json.reject_unknown_keys();
+}
+
+void describe_numbers(JsonObject json, std::initializer_list<const char*> keys) {
+  for (const char* key : keys) json.number(key);
+  json.reject_unknown_keys();
+}
+
+void describe_quantiles(JsonObject json) {
+  for (JsonObject& mode : json.values()) {
+    for (JsonObject& gains : mode.values()) {
+      gains.number("completed_share", {.min = 0.0, .max = 1.0});
+      for (JsonObject& figure : gains.values()) {
+        describe_numbers(figure, {"median", "q95", "tail_mean"});
+      }
+    }
+  }
+}
+
+void describe_robust(JsonObject json) {
+  json.string("drawn_from");
+  for (const char* key :
+       {"draws", "seed", "tail_share", "activity_max", "motor_time_constant_s", "judged_draws"}) {
+    json.number(key);
+  }
+  describe_numbers(json.object("noise"), {"heading_deg", "yaw_rate_degps", "speed_mps"});
+  describe_numbers(json.object("latency"), {"heading_s", "yaw_rate_s", "speed_s"});
+  describe_quantiles(json.object("quantiles"));
+  if (auto nominal = json.optional_object("nominal")) {
+    gains_from_json(*nominal);
+    nominal->reject_unknown_keys();
+  }
+  json.reject_unknown_keys();
+}
+
+void describe_search(JsonObject json) {
+  json.string("algorithm");
+  json.string("stop_reason");
+  for (const char* key : {"evaluations", "simulated", "seed"}) json.number(key, kNonNegative);
+  json.reject_unknown_keys();
+}
+
+void describe_gains(JsonObject& json) {
+  json.schema(kGainsSchema);
+  read_provenance(json);
+  json.ignore("version");
+  gains_from_json(json);
+  if (auto times = json.optional_object("time_constants")) {
+    describe_numbers(*times, {"T1_s", "T2_s"});
+  }
+  describe_constraints(json);
+  if (auto objective = json.optional_object("objective")) describe_objective(*objective);
+  if (auto metrics = json.optional_object("metrics")) describe_scores(*metrics);
+  if (auto search = json.optional_object("search")) describe_search(*search);
+  if (auto robust = json.optional_object("robust")) describe_robust(*robust);
+  if (auto baseline = json.optional_object("baseline")) {
+    gains_from_json(*baseline);
+    baseline->number("objective");
+    describe_scores(baseline->object("metrics"));
+    baseline->reject_unknown_keys();
+  }
+  json.reject_unknown_keys();
+}
+
+}  // namespace
+
+std::string gains_schema() {
+  return json_schema_text(kGainsSchema, "Gains, and how they were found", describe_gains);
+}
+
+}  // namespace awmr

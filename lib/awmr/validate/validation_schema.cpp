@@ -1,0 +1,94 @@
+// validation.json as validation_text() writes it.
+#include <limits>
+#include <string>
+
+#include "awmr/core/json.h"
+#include "awmr/validate/validate.h"
+
+namespace awmr {
+namespace {
+
+constexpr long kMost = std::numeric_limits<int>::max();
+const std::string kVerdicts[] = {"reproduced", "not-reproduced"};
+
+void describe_trials(JsonObject& json) {
+  for (JsonObject& trial : json.objects("trials")) {
+    trial.choice("kind", kTrialKindNames);
+    trial.string("file");
+    trial.integer("line", 0, kMost);
+    trial.string("unit");
+    trial.number("measured");
+    trial.nullable_number("predicted");
+    trial.nullable_number("relative_error");
+    trial.reject_unknown_keys();
+  }
+}
+
+void describe_error(JsonObject json) {
+  for (const char* key : {"nrmse", "r2", "rmse"}) json.number(key);
+  json.reject_unknown_keys();
+}
+
+void describe_logs(JsonObject& json) {
+  for (JsonObject& log : json.objects("logs")) {
+    log.string("file");
+    log.number("horizon_s", kPositive);
+    log.boolean("passed");
+    for (JsonObject& channel : log.object("channels").values()) {
+      channel.string("unit");
+      channel.integer("samples", 0, kMost);
+      describe_error(channel.object("one_step"));
+      describe_error(channel.object("long_horizon"));
+      channel.reject_unknown_keys();
+    }
+    log.reject_unknown_keys();
+  }
+}
+
+void describe_cases(JsonObject& claim) {
+  for (JsonObject& one : claim.optional_objects("cases")) {
+    one.choice("allocation", kAllocationFormNames);
+    one.interval("wheel_force");
+    one.number("mass_factor", kPositive);
+    one.choice("split", kCombinedSplitNames);
+    one.choice("verdict", kVerdicts);
+    one.optional_string("mode");
+    one.reject_unknown_keys();
+  }
+}
+
+void describe_claims(JsonObject& json) {
+  for (JsonObject& claim : json.objects("claims")) {
+    for (const char* key : {"id", "statement", "figure", "tolerance", "why"}) claim.string(key);
+    claim.choice("verdict", kVerdicts);
+    if (auto modes = claim.optional_object("modes")) {
+      for (const std::string& mode : modes->keys()) modes->choice(mode, kVerdicts);
+    }
+    describe_cases(claim);
+    claim.optional_string("decided_by");
+    claim.reject_unknown_keys();
+  }
+}
+
+void describe_validation(JsonObject& json) {
+  json.schema("awmr.validation/1");
+  read_provenance(json);
+  json.boolean("passed");
+  json.string("verdict");
+  JsonObject errors = json.object("rms_relative_error");
+  for (const char* kind : {"surge", "turning", "coastdown"}) errors.nullable_number(kind);
+  errors.reject_unknown_keys();
+  describe_trials(json);
+  describe_logs(json);
+  describe_claims(json);
+  json.reject_unknown_keys();
+}
+
+}  // namespace
+
+std::string validation_schema() {
+  return json_schema_text("awmr.validation/1", "A model held against its trials, logs and claims",
+                          describe_validation);
+}
+
+}  // namespace awmr

@@ -1,0 +1,145 @@
+#!/usr/bin/env python3
+"""Every JSON file that the program writes, every one of configs/ and whatever --json prints is valid by the
+program's own JSON Schemas, which refuse what the program refuses. usage: schemas.py AWMR"""
+import json
+import os
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import jsonschema
+
+SOURCE = Path(__file__).resolve().parents[2]
+AWMR = str(Path(sys.argv[1]).resolve())
+
+# Faults of malformed.txt that a schema can see: what hangs on one key alone.
+BY_ONE_KEY = ("this key is missing", "expected a number", "expected one of", "expected an object",
+              "expected a whole number", "true or false", "expected a string", "unknown key")
+# A rule between two keys: a line goes from_m to_m unless it has points_m.
+BETWEEN_KEYS = ['scenario | /guidance = {"type": "line", "from_m": [0, 0], "delta_deg": 60, "width_m": 5} '
+                '| :/guidance/to_m | this key is missing']
+
+
+def awmr(words, folder, codes=(0,)):
+    run = subprocess.run([AWMR] + words.split(), cwd=folder, capture_output=True, text=True)
+    assert run.returncode in codes, f"{words}: {run.returncode}\n{run.stderr}"
+    return run
+
+
+def schemas_of(folder):
+    awmr(f"schema -o {folder}/schemas", folder)
+    found = {}
+    for path in sorted(Path(folder, "schemas").iterdir()):
+        schema = json.loads(path.read_text())
+        jsonschema.Draft202012Validator.check_schema(schema)
+        name = path.name.removesuffix(".schema.json")
+        found[name] = jsonschema.Draft202012Validator(schema)
+        assert awmr(f"schema {name}", folder).stdout == path.read_text()
+    return found
+
+
+def kind_of(document, path):
+    if "schema" in document:
+        return document["schema"].split(".")[1].split("/")[0]
+    return "scenario" if path.parent.name == "scenarios" else path.stem.split("_")[0]
+
+
+def check(validators, document, where, kind):
+    faults = list(validators[kind].iter_errors(document))
+    for fault in faults[:5]:
+        pointer = "/".join(map(str, fault.absolute_path))
+        print(f"{where}: not as {kind}.schema.json has it: /{pointer}: {fault.message[:200]}")
+    return not faults
+
+
+def pipeline(folder):
+    """Files of every format, by every command that writes one."""
+    for name in ("configs", "datasets"):
+        os.symlink(SOURCE / name, Path(folder, name))
+    c3 = "configs/paper/scenarios/c3_heading_steps.json"
+    loop = "--model out/model.json --gains out/gains.json"
+    prints = [
+        awmr("run configs/paper/project.json -o out --json", folder),
+        awmr("identify --vehicle configs/paper/vehicle.json --log datasets/synthetic/drive_1.csv "
+             "-o driven.json --json", folder),
+        awmr("validate --model driven.json --log datasets/synthetic/drive_2.csv -o logs.json --json", folder),
+        awmr(f"validate {loop} --claims -o claims.json --json", folder),
+        awmr("tune --nominal --model out/model.json -o nominal.json --json", folder),
+        awmr("suggest --model out/model.json -o suggest.json --json", folder),
+        awmr("recover --model out/model.json --runs 5 -o recover.json --json", folder),
+        awmr("map datasets/synthetic/drive_1.csv -o map.json --json", folder),
+        awmr(f"simulate {loop} --scenario {c3} --mode combined -o run.csv --json", folder),
+        awmr(f"compare {loop} --scenario {c3} --samples 2 --shard 1/2 -o part1 --json", folder),
+        awmr(f"compare {loop} --scenario {c3} --samples 2 --shard 2/2 -o part2 --json", folder),
+        awmr("merge part1 part2 -o merged --json", folder),
+        awmr(f"emit {loop} -o firmware --json", folder),
+        awmr("init rover --json", folder),
+        awmr("check rover --json", folder, (1,)),
+    ]
+    errors = [awmr("tune --model nowhere.json -o x --json", folder, (2,)), awmr("run --json", folder, (2,))]
+    if Path(AWMR).with_name("awmr-pil").exists():
+        prints.append(awmr(f"pil {loop} --scenario {c3} --mode combined -o pil.json --json", folder))
+    return [json.loads(run.stdout) for run in prints] + [json.loads(run.stderr) for run in errors]
+
+
+def edited(document, edit):
+    """As in malformed_test.cpp; None where the edit is no change of a JSON document."""
+    if edit.startswith("text"):
+        return None
+    document = json.loads(json.dumps(document))
+    pointer, value = (edit[:-5], None) if edit.endswith(" gone") else edit.split(" = ", 1)
+    keys = pointer.split("/")[1:]
+    place = document
+    for key in keys[:-1]:
+        place = place[int(key)] if isinstance(place, list) else place.setdefault(key, {})
+    last = int(keys[-1]) if isinstance(place, list) else keys[-1]
+    if value is None:
+        del place[last]
+    else:
+        place[last] = json.loads(value)
+    return document
+
+
+def malformed(validators, good):
+    """Those of malformed.txt that a schema can see are refused by it; returns how many were looked at."""
+    seen, passed = 0, []
+    for line in (SOURCE / "tests/cli/malformed.txt").read_text().splitlines():
+        fields = line.split(" | ")
+        if len(fields) != 4 or fields[0] not in good or not fields[3].startswith(BY_ONE_KEY):
+            continue
+        document = edited(good[fields[0]], fields[1])
+        if document is None:
+            continue
+        seen += 1
+        if validators[fields[0]].is_valid(document):
+            passed.append(line)
+    passed = [line for line in passed if line not in BETWEEN_KEYS]
+    for line in passed:
+        print("the schema lets pass:", line)
+    return seen, not passed
+
+
+def main():
+    with tempfile.TemporaryDirectory() as folder:
+        validators = schemas_of(folder)
+        fine = all([check(validators, document, document.get("command", "an error"), kind_of(document, Path()))
+                    for document in pipeline(folder)])
+        files = sorted(p for p in Path(folder).rglob("*.json") if "schemas" not in p.parts)
+        files = [p for p in files if "rover" not in p.parts]  # its values are still to be filled in
+        files += sorted((SOURCE / "configs").rglob("*.json"))
+        kinds = set()
+        for path in files:
+            document = json.loads(path.read_text())
+            kinds.add(kind_of(document, path))
+            fine &= check(validators, document, path, kind_of(document, path))
+        good = {"vehicle": SOURCE / "configs/paper/vehicle.json",
+                "scenario": SOURCE / "configs/paper/scenarios/c3_heading_steps.json",
+                "project": SOURCE / "configs/paper/project.json",
+                "model": Path(folder, "out/model.json"), "gains": Path(folder, "out/gains.json")}
+        seen, refused = malformed(validators, {k: json.loads(p.read_text()) for k, p in good.items()})
+        print(f"{len(files)} files of {len(kinds)} formats; {seen} malformed ones")
+        return 0 if fine and refused and seen > 100 and len(kinds) >= 10 else 1
+
+
+sys.exit(main())

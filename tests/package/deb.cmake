@@ -1,0 +1,60 @@
+# Makes the Debian package, looks at what it holds and depends on, unpacks it into WORK/root and runs the program from
+# there, in a folder of its own, on the paper's project as the package has it.
+function(run directory)
+  execute_process(COMMAND ${ARGN} WORKING_DIRECTORY ${directory} COMMAND_ECHO STDOUT
+    OUTPUT_VARIABLE output ERROR_VARIABLE output RESULT_VARIABLE result)
+  if(NOT result EQUAL 0)
+    message(FATAL_ERROR "${ARGN}\n${output}")
+  endif()
+  set(output "${output}" PARENT_SCOPE)
+endfunction()
+
+file(REMOVE_RECURSE ${WORK})
+file(MAKE_DIRECTORY ${WORK}/run)
+# Quickly: the package that is given to others is compressed well.
+run(${BUILD} ${CPACK} -G DEB -B ${WORK} -D CPACK_DEBIAN_COMPRESSION_TYPE=gzip)
+file(GLOB package ${WORK}/awmr_*.deb)
+run(${WORK} dpkg-deb --field ${package})
+message("${output}")
+foreach(field "Package: awmr" "Depends: .*libc6" "Depends: .*libnlopt0" "Depends: .*libspqr2|Depends: .*libcholmod3"
+        "Suggests: .*gcc-avr")
+  if(NOT output MATCHES "${field}")
+    message(FATAL_ERROR "the package does not say ${field}")
+  endif()
+endforeach()
+
+run(${WORK} dpkg-deb -x ${package} ${WORK}/root)
+set(usr ${WORK}/root/usr)
+foreach(path bin/awmr include/awmr/awmr.h share/awmr/configs/paper/project.json share/awmr/datasets/paper/surge.csv
+        share/awmr/schemas/vehicle.schema.json share/man/man1/awmr.1 share/man/man1/awmr-identify.1
+        share/bash-completion/completions/awmr share/zsh/vendor-completions/_awmr
+        share/fish/vendor_completions.d/awmr.fish share/doc/awmr/copyright)
+  if(NOT EXISTS ${usr}/${path})
+    message(FATAL_ERROR "the package lacks ${path}")
+  endif()
+endforeach()
+file(GLOB_RECURSE config ${usr}/lib/*/awmr-config.cmake)
+file(GLOB_RECURSE library ${usr}/lib/libawmr_model.a)
+if(NOT config OR NOT library)
+  message(FATAL_ERROR "the package lacks the library")
+endif()
+file(GLOB_RECURSE all LIST_DIRECTORIES false ${WORK}/root/*)
+foreach(path IN LISTS all)
+  if(NOT path MATCHES "^${WORK}/root/usr/")
+    message(FATAL_ERROR "${path} is outside of /usr")
+  endif()
+  if(path MATCHES "\\.(cmake|json|csv|h|1|fish|md)$")
+    file(READ ${path} text)
+    string(FIND "${text}" "${BUILD}" found)
+    if(NOT found EQUAL -1)
+      message(FATAL_ERROR "${path} names the build directory")
+    endif()
+  endif()
+endforeach()
+
+run(${WORK}/run ${usr}/bin/awmr run ${usr}/share/awmr/configs/paper/project.json -o out)
+foreach(name model.json gains.json validation.json comparison.json awmr_params.h report.html)
+  if(NOT EXISTS ${WORK}/run/out/${name})
+    message(FATAL_ERROR "the program did not write ${name}")
+  endif()
+endforeach()
