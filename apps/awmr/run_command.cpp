@@ -23,7 +23,12 @@ std::string run_name(const fs::path& scenario, YawMode mode, const char* gains) 
   return fmt::format("run_{}_{}_{}.csv", scenario.stem().string(), name_of(mode), gains);
 }
 
-/// The runs the report draws: every scenario and mode, with the tuned and with the paper's gains.
+std::string scenario_name(const fs::path& scenario) {
+  return fmt::format("scenario_{}.json", scenario.stem().string());
+}
+
+/// What the report draws: every scenario as it is, and its runs in every mode, with the tuned and
+/// with the paper's gains.
 Result<std::vector<fs::path>> write_runs(const Project& project, const fs::path& directory) {
   std::vector<fs::path> written;
   AWMR_ASSIGN_OR_RETURN(const Model model, read_model(directory / "model.json"));
@@ -31,6 +36,9 @@ Result<std::vector<fs::path>> write_runs(const Project& project, const fs::path&
   const std::pair<const char*, Gains<double>> sets[] = {{"tuned", tuned}, {"paper", kPaperGains}};
   for (const fs::path& path : project.scenarios) {
     AWMR_ASSIGN_OR_RETURN(const Scenario scenario, read_scenario(path));
+    AWMR_ASSIGN_OR_RETURN(const std::string text, read_file(path));
+    written.push_back(directory / scenario_name(path));
+    AWMR_RETURN_IF_ERROR(write_file(written.back(), text));
     for (const YawMode mode : yaw_modes(model.vehicle)) {
       for (const auto& [name, gains] : sets) {
         AWMR_ASSIGN_OR_RETURN(const Run run, simulate(model, gains, scenario, mode));
@@ -107,6 +115,7 @@ std::vector<std::string> outputs_of(const Project& project) {
                                    "awmr_params.h", "comparison.csv", "comparison.json",
                                    "report.html"};
   for (const fs::path& path : project.scenarios) {
+    outputs.push_back(scenario_name(path));
     for (const YawMode mode : kYawModes) {
       for (const char* gains : {"tuned", "paper"}) outputs.push_back(run_name(path, mode, gains));
     }

@@ -1,0 +1,158 @@
+// Charts: a description in a few words becomes a specification for Vega, which draws it as SVG. Colours are the page's
+// variables, so that a chart follows light, dark and print by itself.
+
+const allCharts = [];
+
+/// Around every plot, pixels: the same for all, so that the axes of charts below each other line up.
+const margin = {left: 62, right: 14, top: 8, bottom: 40};
+
+const style = {
+  axis: {labelColor: "var(--dim)", titleColor: "var(--dim)", gridColor: "var(--line)", domainColor: "var(--line)",
+    tickColor: "var(--line)", labelFont: "system-ui, sans-serif", titleFont: "system-ui, sans-serif", labelFontSize: 11,
+    titleFontSize: 12, titleFontWeight: "normal", labelFlush: true},
+};
+
+/// The mark of one series, shown while the signal `hidden` does not name it.
+function markOf(series, index) {
+  const x = {scale: "x", field: "0"};
+  const y = {scale: "y", field: "1"};
+  const visible = {signal: `indexof(hidden, ${index}) < 0 ? ${series.opacity || 1} : 0`};
+  const colour = {value: series.colour};
+  const mark = {clip: true, name: `series_${index}`, from: {data: `data_${index}`}, aria: true,
+    description: series.name, encode: {update: {x, y, opacity: visible}}};
+  const draw = mark.encode.update;
+  if (series.kind === "band") {
+    mark.type = "area";
+    Object.assign(draw, {y2: {scale: "y", field: "2"}, fill: colour, fillOpacity: {value: 0.18}});
+  } else if (series.kind === "points") {
+    Object.assign(mark, {type: "symbol", aria: false});
+    Object.assign(draw, {fill: colour, size: {value: series.size || 55}, shape: {value: series.shape || "circle"},
+      stroke: {value: "var(--paper)"}, strokeWidth: {value: 1}});
+  } else {
+    mark.type = "line";
+    Object.assign(draw, {stroke: colour, strokeWidth: {value: series.width || 2}, strokeDash: {value: series.dash || []},
+      strokeJoin: {value: "round"}, defined: {signal: "isValid(datum[1])"}});
+  }
+  return mark;
+}
+
+/// The circles of a chart with equal axes (obstacles), in its units.
+function circleMarks(circles) {
+  return circles.map((circle) => ({type: "arc", clip: true, description: circle.name, encode: {update: {
+    x: {scale: "x", value: circle.x}, y: {scale: "y", value: circle.y}, startAngle: {value: 0}, endAngle: {value: 2 * Math.PI},
+    outerRadius: {signal: `abs(scale('x', ${circle.radius}) - scale('x', 0))`}, fill: {value: "var(--bad)"},
+    fillOpacity: {value: 0.25}, stroke: {value: "var(--bad)"}}}}));
+}
+
+/// `chart`: {title, x, y, series: [{name, kind: "line" | "points" | "band", points: [[x, y, ...]], colour, ...}], equal, circles}
+function specification(chart) {
+  // With equal axes a metre is as long on x as on y: the view is widened on the axis that has room left.
+  const domain = (axis, length) => (chart.equal
+    ? `[mid_${axis} - unit * ${length} / 2, mid_${axis} + unit * ${length} / 2]` : `view_${axis}`);
+  const signals = [
+    {name: "view_x", value: chart.extent.x}, {name: "view_y", value: chart.extent.y},
+    {name: "hidden", value: chart.series.flatMap((s, i) => (s.hidden ? [i] : []))},
+    {name: "pointed", value: null},
+    {name: "mid_x", update: "(view_x[0] + view_x[1]) / 2"}, {name: "mid_y", update: "(view_y[0] + view_y[1]) / 2"},
+    {name: "unit", update: "max((view_x[1] - view_x[0]) / width, (view_y[1] - view_y[0]) / height)"},
+    {name: "domain_x", update: domain("x", "width")}, {name: "domain_y", update: domain("y", "height")},
+  ];
+  const scale = (name, range) => ({name, type: "linear", range, domain: {signal: `domain_${name}`}, zero: false, nice: false});
+  const axis = (name, orient, title) => ({scale: name, orient, title, grid: true, tickCount: {signal: orient === "bottom"
+    ? "ceil(width / 80)" : "ceil(height / 45)"}, labelOverlap: true, titlePadding: 4,
+    ...(orient === "left" ? {minExtent: 40, maxExtent: 40, labelLimit: 46} : {})});
+  const order = {band: 0, line: 1, points: 2};
+  const marks = chart.series.map(markOf).map((mark, i) => [order[chart.series[i].kind], mark]);
+  return {
+    description: described(chart), autosize: "none", padding: margin,
+    width: 300, height: chart.height, config: style, signals,
+    data: chart.series.map((s, i) => ({name: `data_${i}`, values: s.points})),
+    scales: [scale("x", "width"), scale("y", "height")],
+    axes: [axis("x", "bottom", chart.x), axis("y", "left", chart.y)],
+    marks: [...circleMarks(chart.circles || []), ...marks.sort((a, b) => a[0] - b[0]).map((entry) => entry[1]),
+      {type: "rule", interactive: false, aria: false, encode: {update: {x: {scale: "x", signal: "pointed"}, y: {value: 0},
+        y2: {signal: "height"}, stroke: {value: "var(--dim)"}, strokeDash: {value: [2, 2]},
+        opacity: {signal: "isNumber(pointed) && inrange(pointed, domain_x) ? 1 : 0"}}}}],
+  };
+}
+
+/// The least and the largest of both axes over the series that are drawn, with a little room.
+function extentOf(series, circles) {
+  const range = (values, room) => {
+    let low = Infinity, high = -Infinity;
+    for (const v of values) {
+      if (!isNumber(v)) continue;
+      if (v < low) low = v;
+      if (v > high) high = v;
+    }
+    if (low > high) return [0, 1];
+    const span = high - low || Math.max(1e-3, Math.abs(high) * 0.1);
+    return [low - room * span, high + room * span];
+  };
+  const around = (circles || []).flatMap((c) => [[c.x - c.radius, c.y - c.radius], [c.x + c.radius, c.y + c.radius]]);
+  const points = series.flatMap((s) => s.points);
+  return {
+    x: range([...points, ...around].map((p) => p[0]), 0.02),
+    y: range([...points, ...around].flatMap((p, i) => (i < points.length && isNumber(p[2]) ? [p[1], p[2]] : [p[1]])), 0.06),
+  };
+}
+
+/// What a screen reader says of a chart: its axes, and where each series begins and ends and how far it goes.
+function described(chart) {
+  const of = (s) => {
+    const values = s.points.map((p) => p[1]).filter(isNumber);
+    return values.length ? `${s.name}: ${plural(values.length, "point")} from ${digits(Math.min(...values), 3)} to ` +
+      `${digits(Math.max(...values), 3)}` : `${s.name}: empty`;
+  };
+  return `${chart.title}, ${chart.y} over ${chart.x}. ${chart.series.filter((s) => !s.hidden).map(of).join("; ")}.`;
+}
+
+/// Puts a chart under `parent`; it is drawn when it comes near to the screen, or before printing. Charts of one `group`
+/// share the extent of x, the cursor and what is hidden. With `legend` false the group's own legend stands elsewhere.
+function plot(parent, options) {
+  const chart = {height: 260, circles: [], ...options, series: options.series.filter((s) => s.points.length)};
+  if (!chart.series.length) return;
+  chart.extent = extentOf(chart.series, chart.circles);
+  chart.figure = add(parent, "figure");
+  const caption = add(chart.figure, "figcaption");
+  add(caption, "span", chart.title);
+  chart.reset = add(caption, "button", "whole", {class: "reset", type: "button", hidden: "", "aria-label": `show all of ${chart.title}`});
+  if (chart.legend !== false && chart.series.length > 1) legend(chart.figure, chart.series, [chart]);
+  chart.node = add(chart.figure, "div", undefined, {class: "plot", style: `min-height: ${chart.height}px`});
+  chart.specification = specification;
+  register(chart);
+  if (chart.group) chart.group.push(chart);
+  return chart;
+}
+
+/// Buttons that show and hide the series of these names in all of `charts`.
+function legend(parent, entries, charts) {
+  const box = add(parent, "div", undefined, {class: "legend", role: "group", "aria-label": "what is drawn"});
+  for (const entry of entries) {
+    const button = add(box, "button", undefined, {type: "button", "aria-pressed": String(!entry.hidden)});
+    button.appendChild(sample(entry));
+    add(button, "span", entry.name);
+    button.onclick = () => {
+      const shown = button.getAttribute("aria-pressed") !== "true";
+      button.setAttribute("aria-pressed", String(shown));
+      for (const chart of charts) {
+        for (const s of chart.series) if (s.name === entry.name) s.hidden = !shown;
+        if (chart.view) chart.view.signal("hidden", chart.series.flatMap((s, i) => (s.hidden ? [i] : []))).run();
+      }
+    };
+  }
+}
+
+/// A piece of a series as it is drawn, for the legend.
+function sample(entry) {
+  const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
+  svg.setAttribute("viewBox", "0 0 26 10");
+  svg.setAttribute("aria-hidden", "true");
+  const shape = document.createElementNS(svg.namespaceURI, entry.kind === "points" ? "circle" : entry.kind === "band" ? "rect" : "line");
+  const drawn = entry.kind === "points" ? {cx: 13, cy: 5, r: 4, fill: entry.colour}
+    : entry.kind === "band" ? {x: 0, y: 0, width: 26, height: 10, fill: entry.colour, "fill-opacity": 0.25}
+    : {x1: 0, y1: 5, x2: 26, y2: 5, stroke: entry.colour, "stroke-opacity": entry.opacity || 1, "stroke-width": entry.width || 2, "stroke-dasharray": (entry.dash || []).join(" ")};
+  for (const [name, value] of Object.entries(drawn)) shape.setAttribute(name, value);
+  svg.appendChild(shape);
+  return svg;
+}

@@ -1,0 +1,74 @@
+// The yaw-control modes: how each figure is spread over the samples, what differs for sure, and who is ahead.
+
+const longWords = {iae: "error (IAE)", rms: "RMS", mech: "at the wheels", electric: "in the motors"};
+const unitWords = {s: "s", deg: "deg", degs: "deg s", degps: "deg/s", m: "m", mps: "m/s"};
+/// "settling_time_s" as "settling time, s"
+function metricWords(name) {
+  const parts = name.split("_");
+  const unit = parts.length > 1 ? unitWords[parts[parts.length - 1]] : undefined;
+  const words = (unit ? parts.slice(0, -1) : parts).map((word) => longWords[word] || word).join(" ");
+  return unit ? `${words}, ${unit}` : words;
+}
+
+/// A mode's colour; several sets of gains make "combined with NAME".
+const colourOf = (label) => (modeStyle[label.split(" ")[0]] || {colour: "var(--dim)"}).colour;
+
+function spreadCharts(parent, scenario, samples) {
+  const names = distinct(Object.values(scenario.modes).flatMap((m) => Object.keys(m.metrics)));
+  const grid = add(parent, "div", undefined, {class: "grid small"});
+  for (const name of names) {
+    const rows = Object.entries(scenario.modes).filter(([, m]) => m.metrics[name]).map(([mode, m]) => {
+      const q = m.metrics[name];
+      const middle = isNumber(q.q50) ? q.q50 : q.nominal;
+      return {label: mode, low: q.q05, high: q.q95, middle, values: ((samples || {})[mode] || {})[name] || [], colour: colourOf(mode),
+        note: `${mode}: ${digits(middle)}` + (isNumber(q.q05) ? `\n5 to 95 %: ${digits(q.q05)} to ${digits(q.q95)}` : "") + `\nnominal: ${digits(q.nominal)}`};
+    });
+    if (rows.some((r) => isNumber(r.middle) && r.middle !== 0)) ranges(grid, {title: metricWords(name), rows});
+  }
+}
+
+/// Differences between two modes sample by sample, in percent of the larger mean, with their intervals.
+function differences(parent, scenario) {
+  const list = scenario.paired_differences.filter((d) => d.ci95);
+  if (!list.length) return;
+  const box = folded(parent, "Differences between the modes, sample by sample");
+  table(box, ["difference", "figure", "#mean", "95 % interval", "#p, corrected"], list.map((d) => [`${d.first} − ${d.second}`, metricWords(d.metric), digits(d.mean, 3), interval(d.ci95), digits(d.p_holm, 2)]));
+  const meanOf = (mode, metric) => Math.abs(((scenario.modes[mode] || {metrics: {}}).metrics[metric] || {}).mean || 0);
+  add(box, "p", "In the charts, what is grey may be chance (p, corrected, of 0.05 or more).", {class: "small"});
+  const grid = add(box, "div", undefined, {class: "grid"});
+  for (const [pair, of] of groupBy(list, (d) => `${d.first} less ${d.second}`)) {
+    const rows = of.map((d) => [d, Math.max(meanOf(d.first, d.metric), meanOf(d.second, d.metric))]).filter(([, scale]) => scale > 0)
+      .map(([d, scale]) => ({label: metricWords(d.metric), middle: 100 * d.mean / scale, low: 100 * d.ci95[0] / scale, high: 100 * d.ci95[1] / scale,
+        colour: d.p_holm < 0.05 ? "var(--one)" : "var(--dim)", note: `${metricWords(d.metric)}\n${digits(d.mean)} (${interval(d.ci95)})\np ${digits(d.p_holm, 2)}`}));
+    ranges(grid, {title: pair, x: "% of the larger mean", rows, zero: true});
+  }
+}
+
+function ranking(parent, scenario) {
+  if (!scenario.ranking.length) return;
+  table(parent, ["#rank", "mode", "#score", "behind the first by", "#completed"], scenario.ranking.map((r) => [r.rank,
+    r.mode + (r.tied_with.length ? `, level with ${r.tied_with.join(", ")}` : ""), digits(r.score, 3), interval(r.behind_ci95), percent(r.completed_share)]));
+}
+
+function comparisonSection(data) {
+  const {comparison} = data;
+  if (!comparison) return;
+  const box = section("The three yaw-control modes", comparison.samples
+    ? `${plural(comparison.samples, "sample")} of the model's uncertainty, noise and disturbances; the same for every mode.` : "The model's own values, without spread.");
+  if (comparison.overall && comparison.overall.length) {
+    const names = distinct(comparison.overall.flatMap((o) => Object.keys(o.best_or_tied)));
+    add(box, "h3", "In how many scenarios each mode is best or level with the best");
+    table(box, ["figure", "#scenarios", ...names.map((n) => `#${n}`)], comparison.overall.map((o) => [metricWords(o.metric), o.scenarios, ...names.map((n) => o.best_or_tied[n] ?? "–")]),
+      (k, i) => i > 1 && comparison.overall[k].best_or_tied[names[i - 2]] === Math.max(...Object.values(comparison.overall[k].best_or_tied)));
+  }
+  comparison.scenarios.forEach((scenario, i) => {
+    const details = add(box, "details");
+    details.open = i === 0 && innerWidth > 640;
+    add(details, "summary", scenario.name);
+    add(details, "p", scenario.verdict);
+    const inside = add(details, "div");
+    ranking(inside, scenario);
+    spreadCharts(inside, scenario, (data.samples || {})[scenario.name]);
+    differences(inside, scenario);
+  });
+}

@@ -1,0 +1,183 @@
+// Identification: the trials with the curve through them, its band, what is left over; the values; the findings.
+
+const valueOf = (entry) => (entry && isNumber(entry.value) ? entry.value : 0);
+
+/// g(w) = c + alpha w^beta + q w^2 and its derivatives by [alpha, beta, c, q].
+function resistance(law, w) {
+  const power = w > 0 ? w ** law.beta : 0;
+  return {value: law.c + law.alpha * power + law.q * w * w,
+    gradient: [power, w > 0 ? law.alpha * power * Math.log(w) : 0, 1, w * w]};
+}
+
+/// The law of "surge" or "yaw" with its part of the covariance; a surge run's tau_speed also loses 4 F'0 to the dead zone.
+function lawOf(model, axis) {
+  const entry = model[axis];
+  const deadZone = axis === "surge" ? 4 * valueOf((model.wheel || {}).dead_zone) : 0;
+  const names = [".alpha", ".beta", ".coulomb", ".quadratic"].map((part) => model.covariance.parameters.indexOf(axis + part));
+  const covariance = names.map((i) => names.map((j) => (i < 0 || j < 0 ? 0 : model.covariance.matrix[i][j])));
+  // Student's quantile that the interval of the exponent was made with; 1.96 where there is none.
+  const {std_error: error, ci95} = entry.beta;
+  const quantile = error && ci95 ? (ci95[1] - ci95[0]) / (2 * error) : 1.96;
+  return {alpha: entry.alpha.value, beta: entry.beta.value, c: valueOf(entry.coulomb) + deadZone, q: valueOf(entry.quadratic), covariance, quantile};
+}
+
+/// Half the width of the 95 % band of the curve: t sqrt(g' C g).
+function halfBand(law, gradient) {
+  const variance = gradient.reduce((sum, gi, i) => sum + gradient.reduce((part, gj, j) => part + gi * gj * law.covariance[i][j], 0), 0);
+  return law.quantile * Math.sqrt(Math.max(0, variance));
+}
+
+function fitCharts(parent, model, kind, axis, xTitle, yTitle) {
+  const rows = model.trials.filter((t) => t.kind === kind);
+  if (!rows.length) return;
+  const about = (t) => model.findings.filter((f) => f.file === t.file && f.line === t.line);
+  const note = (t) => [`${t.file}:${t.line}`, ...about(t).map((f) => f.message)].join("\n");
+  const good = rows.filter((t) => !about(t).some(isWarning)), odd = rows.filter((t) => about(t).some(isWarning));
+  const as = (list, point) => list.filter((t) => isNumber(t.measured)).map((t) => [...point(t), note(t)]);
+  const series = [];
+  const law = lawOf(model, axis);
+  if (isNumber(law.alpha) && isNumber(law.beta)) {
+    const top = 1.05 * Math.max(...rows.map((t) => t.measured));
+    const at = Array.from({length: 121}, (_, i) => top * (i / 120) ** 2).map((w) => ({w, ...resistance(law, w)}));
+    const band = at.map(({w, value, gradient}) => [w, Math.max(0, value - halfBand(law, gradient)), value + halfBand(law, gradient)]);
+    if (law.covariance.some((row) => row.some((x) => x !== 0))) series.push({name: "95 % band of the curve", kind: "band", points: band, colour: "var(--three)"});
+    const words = [law.c ? digits(law.c) : "", `${digits(law.alpha)} w^${digits(law.beta, 3)}`, law.q ? `${digits(law.q)} w²` : ""];
+    series.push({name: `fit ${words.filter(Boolean).join(" + ")}`, kind: "line", points: at.map(({w, value}) => [w, value]), colour: "var(--three)"});
+  }
+  const measured = (t) => [t.measured, t.input];
+  series.push({name: "measured", kind: "points", points: as(good, measured), colour: "var(--one)"},
+    {name: "measured, with a warning", kind: "points", shape: "diamond", size: 90, points: as(odd, measured), colour: "var(--two)"});
+  plot(parent, {title: `${kind} trials`, x: xTitle, y: yTitle, series, byPoint: true, height: 300});
+  residualChart(parent, kind, rows, xTitle, note, model.estimates.find((e) => e.subject === axis));
+}
+
+/// What is left over, in percent of the prediction, within the band that 99 of 100 rows keep if errors are normal.
+function residualChart(parent, kind, rows, xTitle, note, estimate) {
+  const left = rows.filter((t) => isNumber(t.predicted) && t.predicted !== 0)
+    .map((t) => [t.measured, 100 * (t.measured / t.predicted - 1), note(t)]);
+  if (left.length < 3) return;
+  const spread = Math.sqrt(left.reduce((sum, p) => sum + p[1] ** 2, 0) / Math.max(1, left.length - 2));
+  const ends = [Math.min(...left.map((p) => p[0])), Math.max(...left.map((p) => p[0]))];
+  const bound = 2.576 * spread;
+  plot(parent, {title: `${kind} trials: measured less predicted`, x: xTitle, y: "% of the prediction", byPoint: true, height: 300, series: [
+    {name: `99 % band, ±${digits(bound, 3)} %`, kind: "band", points: ends.map((x) => [x, -bound, bound]), colour: "var(--dim)"},
+    {name: "as predicted", kind: "line", points: ends.map((x) => [x, 0]), colour: "var(--dim)", width: 1, dash: [3, 3]},
+    {name: "left over", kind: "points", points: left, colour: "var(--one)"}]});
+}
+
+/// The coast-down: m' du/dt = -g1(u) from each initial speed, and the stops that were timed.
+function coastdownChart(parent, model) {
+  const rows = model.trials.filter((t) => t.kind === "coastdown");
+  const law = lawOf(model, "surge");
+  const mass = valueOf(model.mass_norm);
+  if (!rows.length || !mass || !isNumber(law.alpha) || !isNumber(law.beta)) return;
+  const curves = distinct(rows.map((t) => t.input)).map((start) => {
+    const end = 1.1 * Math.max(...rows.filter((t) => t.input === start).map((t) => t.predicted || t.measured));
+    const rate = (u) => (u > 0 ? -resistance({...law, c: valueOf(model.surge.coulomb)}, u).value / mass : 0);
+    const points = [[0, start]], h = end / 400;
+    for (let i = 0, u = start; i < 400; ++i) {
+      const middle = u + 0.5 * h * rate(u);
+      u = Math.max(0, u + h * rate(Math.max(0, middle)));
+      points.push([(i + 1) * h, u]);
+    }
+    return {name: `model, from ${digits(start)} m/s`, kind: "line", points, colour: "var(--three)"};
+  });
+  const stops = rows.map((t) => [t.measured, 0, `${t.file}:${t.line}: from ${digits(t.input)} m/s`]);
+  plot(parent, {title: "coast-down", x: "t, s", y: "speed, m/s", byPoint: true, height: 300,
+    series: [...curves, {name: "stop, measured", kind: "points", points: stops, colour: "var(--one)"}]});
+}
+
+function estimateRows(rows) {
+  return rows.map(([name, e]) => [name, digits(e.value, 5), digits(e.std_error, 2), interval(e.ci95), e.unit, `${e.source}, ${e.method}`]);
+}
+const estimateHead = ["quantity", "#value", "#standard error", "95 % interval", "unit", "origin"];
+/// Every quantity below `entry`, under its path.
+const leaves = (entry, path) => (entry && typeof entry === "object" ? ("value" in entry ? [[path, entry]]
+  : Object.entries(entry).flatMap(([key, below]) => leaves(below, path ? `${path}.${key}` : key))) : []);
+
+/// How far two parameters are known together only: a table, coloured by strength.
+function correlations(parent, covariance) {
+  const names = covariance.parameters.filter((_, i) => covariance.matrix[i][i] > 0);
+  if (names.length < 2) return;
+  const at = names.map((name) => covariance.parameters.indexOf(name));
+  const box = folded(parent, "Correlations");
+  add(box, "p", "Near ±1, the data show only a combination of the two.", {class: "small"});
+  const node = table(box, ["", ...names.map((name) => `#${name}`)], at.map((i, k) => [names[k], ...at.map((j) =>
+    digits(covariance.matrix[i][j] / Math.sqrt(covariance.matrix[i][i] * covariance.matrix[j][j]), 2))]));
+  for (const cell of node.querySelectorAll("td.n")) {
+    const r = Math.max(-1, Math.min(1, Number(cell.textContent) || 0));
+    cell.style.background = `color-mix(in srgb, var(${r < 0 ? "--two" : "--one"}) ${Math.round(45 * Math.abs(r))}%, transparent)`;
+  }
+}
+
+function findingsTable(parent, findings) {
+  if (!findings.length) return;
+  add(parent, "h3", "Findings");
+  const where = (f) => (f.file ? `${f.file}${f.line ? `:${f.line}` : ""}` : "");
+  const order = ["error", "warning", "note"];
+  for (const severity of order) {
+    const list = findings.filter((f) => f.severity === severity);
+    if (!list.length) continue;
+    const box = folded(parent, plural(list.length, severity));
+    box.parentNode.open = severity !== "note" && innerWidth > 640;
+    table(box, ["where", "what", "code"], list.map((f) => [where(f), f.message, f.code]));
+  }
+}
+
+function estimatorsTable(parent, estimates) {
+  const box = folded(parent, `Estimators side by side (${estimates.length})`);
+  add(box, "p", "The paper's log-linear fit puts the error on the logarithm of the force, which is set exactly; what is measured is time.", {class: "small"});
+  table(box, ["of", "estimator", "noise on", "estimates", "#AICc", "#residual std", "#rows", "stopped because"], estimates.map((r) => [r.subject,
+    [r.estimator, r.family].filter(Boolean).join(", "), r.noise, r.parameters.map((p) => `${p.name} ${digits(p.value)} ± ${digits(p.std_error, 2)}`).join("; "),
+    digits(r.aicc), digits(r.residual_std, 3), r.rows_used, r.stop_reason]));
+}
+
+/// What the main values become without each row.
+function influenceTable(parent, estimates) {
+  const left = estimates.filter((e) => Array.isArray(e.leave_one_out) && e.leave_one_out.length);
+  if (!left.length) return;
+  const box = folded(parent, "Influence: the values without each row");
+  for (const e of left) {
+    const names = e.parameters.map((p) => p.name);
+    const change = (one, name, i) => {
+      const value = (one.parameters || {})[name] ?? (one.values || [])[i];
+      return isNumber(value) ? percent(value / e.parameters[i].value - 1) : "–";
+    };
+    table(box, [`row (${e.estimator})`, ...names.map((n) => `#${n}`)], e.leave_one_out.map((one) => [
+      `${one.file || ""}${one.line ? `:${one.line}` : ""}`, ...names.map((name, i) => change(one, name, i))]));
+  }
+}
+
+function identificationSection(data) {
+  const {model} = data;
+  const box = section("Identification", model.trials.length
+    ? "Points are the trials' rows; diamonds carry a warning, which shows under the pointer." : "");
+  const charts = add(box, "div", undefined, {class: "grid"});
+  fitCharts(charts, model, "surge", "surge", "speed, m/s", "tau_speed");
+  fitCharts(charts, model, "turning", "yaw", "yaw rate, rad/s", "tau_turn, m");
+  coastdownChart(charts, model);
+  if (!charts.childElementCount) charts.remove();
+  add(box, "h3", "Parameters");
+  const parts = ["surge", "yaw", "sway", "wheel", "mass_norm", "inertia_norm", "steering"];
+  table(box, estimateHead, estimateRows(parts.flatMap((name) => leaves(model[name], name))));
+  if (model.si) {
+    const si = folded(box, "The same in SI units");
+    add(si, "p", "What the equations divide by F_max = m/m', the largest force of a wheel, times it again.", {class: "small"});
+    table(si, estimateHead, estimateRows(leaves(model.si, "")));
+  }
+  correlations(box, model.covariance);
+  influenceTable(box, model.estimates);
+  estimatorsTable(box, model.estimates);
+  findingsTable(box, model.findings);
+  logsPart(box, data.validation);
+}
+
+function logsPart(parent, validation) {
+  const logs = (validation || {}).logs || [];
+  if (!logs.length) return;
+  add(parent, "h3", "Logs, measured against predicted");
+  add(parent, "p", "Predicted from the commands alone over windows; NRMSE is the error over the signal's own deviation.", {class: "small"});
+  table(parent, ["log", "channel", "#samples", "#R², to the next row", "#R², over a window", "#NRMSE, over a window"],
+    logs.flatMap((log) => Object.entries(log.channels).map(([name, c]) => [`${log.file}, windows of ${digits(log.horizon_s)} s`, name, c.samples,
+      digits(c.one_step.r2), digits(c.long_horizon.r2), digits(c.long_horizon.nrmse, 3)])));
+}

@@ -1,0 +1,13 @@
+// The report, from top to bottom. A part whose data are not what they should be says so; the others stand.
+const report = JSON.parse(document.getElementById("data").textContent);
+document.getElementById("report").textContent = "";
+document.title = `${report.model.vehicle.name}: awmr report`;
+for (const [title, part] of [["Summary", summarySection], ["Identification", identificationSection], ["Tuning", tuningSection],
+  ["Simulations", simulationSection], ["The three yaw-control modes", comparisonSection], ["The paper's claims", claimsSection],
+  ["Firmware", firmwareSection], ["Provenance", provenanceSection]]) {
+  try {
+    part(report);
+  } catch (error) {
+    section(title, `This part cannot be shown, because a file in this directory is not as awmr writes it (${error.message}).`);
+  }
+}

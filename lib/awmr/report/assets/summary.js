@@ -1,0 +1,108 @@
+// First of all: what came out, in words; the gains; where the header is; what to do next.
+
+const isWarning = (f) => f.severity === "warning" || f.severity === "error";
+
+function verdict(list, tone, head, text) {
+  const item = add(list, "li", undefined, {class: tone});
+  add(item, "b", head);
+  add(item, "span", text);
+}
+
+/// The model against its own trials, or against logs.
+function modelVerdict(list, data) {
+  const v = data.validation;
+  if (!v) return verdict(list, "doubt", "Model", "not held against its trials yet (awmr validate)");
+  const unseen = (v.logs || []).filter((log) => !data.model.inputs.some((input) => input.name === log.file));
+  const seen = unseen.length ? "" : " These are the data that it was fitted to, so this says that the fit is sound, not how " +
+    "well another drive is predicted; a log that was not fitted would say that.";
+  verdict(list, v.passed ? "good" : "bad", v.passed ? "The model predicts its data" : "The model does not predict its data", v.verdict + "." + seen);
+}
+
+function dataVerdict(list, model) {
+  const warnings = model.findings.filter(isWarning);
+  if (!warnings.length) return verdict(list, "good", "Data", `no warnings, ${plural(model.findings.length, "note")}`);
+  const rows = distinct(warnings.filter((f) => f.line).map((f) => `${f.file}:${f.line}`));
+  verdict(list, "doubt", `Data: ${plural(warnings.length, "warning")}`,
+    (rows.length ? `about ${rows.join(", ")}; ` : "") + `each is under Identification. The first: ${warnings[0].message}`);
+}
+
+function gainsVerdict(list, gains) {
+  if (!gains) return verdict(list, "doubt", "Gains", "none yet (awmr tune)");
+  const required = (gains.constraints || []).filter((c) => c.required);
+  const broken = required.filter((c) => !(c.margin >= 0));
+  const tightest = [...required].sort((a, b) => a.margin / Math.abs(a.limit) - b.margin / Math.abs(b.limit))[0];
+  const met = broken.length ? `break ${broken.map((c) => `“${c.name}”`).join(", ")}`
+    : `meet all ${plural(required.length, "constraint")}` + (tightest ? `; the tightest is “${tightest.name}”` : "");
+  const better = gains.objective ? ` They score ${digits(gains.objective.value, 3)} where the paper's gains score ` +
+    `${digits((gains.baseline || {}).objective ?? 1, 3)}; less is better.` : "";
+  const held = gains.objective && gains.objective.held_out ? ` On manoeuvres that were not tuned on: ${digits(gains.objective.held_out.value, 3)}.` : "";
+  verdict(list, broken.length ? "bad" : "good", "Gains", `The tuned gains ${met}.${better}${held}`);
+}
+
+function comparisonVerdict(list, comparison) {
+  if (!comparison) return;
+  const wins = groupBy(comparison.scenarios.filter((s) => s.ranking.length), (s) => s.ranking.filter((r) => r.rank === 1).map((r) => r.mode).join(" and "));
+  const words = [...wins].map(([mode, where]) => `${mode} is best in ${where.map((s) => `“${s.name}”`).join(", ")}`);
+  verdict(list, comparison.samples ? "good" : "doubt", "Yaw-control modes", words.join("; ") + ". " + (comparison.samples
+    ? `Over ${plural(comparison.samples, "sample")} of the uncertain model.` : "From the nominal run alone, which shows no spread; compare with samples to see it."));
+}
+
+function firmwareVerdict(list, pil) {
+  if (!pil) return;
+  verdict(list, pil.verdict === "passed" ? "good" : "bad", "Firmware", `${pil.cycles.max} cycles a step at most in “${pil.scenario}” ` +
+    `(${percent(pil.period_share)} of the sample time), ${pil.flash_bytes} bytes of flash, ${pil.ram_bytes} of RAM; ` +
+    `heading within ${digits(pil.difference_double.heading_deg, 2)} deg of the computer's run.`);
+}
+
+function gainsTable(parent, gains) {
+  const row = (name, set, objective) => [name, digits(set.heading.lambda), digits(set.heading.mu), digits(set.heading.epsilon),
+    digits(set.speed.mu), digits(set.speed.epsilon), digits(1 / set.heading.lambda), digits(set.heading.epsilon / (2 * set.heading.mu)), digits(objective)];
+  const rows = [row("tuned", gains, (gains.objective || {}).value)];
+  if (gains.robust && gains.robust.nominal) rows.push(row("tuned without noise (nominal)", gains.robust.nominal));
+  if (gains.baseline && gains.baseline.heading) rows.push(row("the paper's", gains.baseline, gains.baseline.objective));
+  table(parent, ["gains", "#lambda, 1/s", "#mu", "#epsilon", "#mu_s", "#epsilon_s", "#T1, s", "#T2, s", "#objective"], rows,
+    (k, i) => k === 0 && i > 0 && i < 6);
+}
+
+/// What to do next, most useful first.
+function nextSteps(data) {
+  const steps = [];
+  if (data.model.findings.some((f) => f.severity === "error" || f.code === "not-identifiable")) {
+    steps.push("Record the trial that the finding “not-identifiable” names: the model is incomplete.");
+  }
+  if (data.header) steps.push("Put awmr_params.h, which lies beside this page, into your sketch; awmr emit writes the controller around it.");
+  if (!data.gains) steps.push("Tune gains: awmr tune.");
+  if (!data.pil && data.gains) steps.push("Try the firmware on the emulated chip before it drives: awmr pil, with its result as pil.json beside this page.");
+  const first = ((data.suggest || {}).trials || [])[0];
+  steps.push(first ? `Record next, for the largest gain in certainty: ${first.words}.` : "Ask which trial to record next, and what it would buy: awmr suggest.");
+  if (data.model.findings.some(isWarning)) steps.push("Check the rows with a warning against your notes before you trust the last digits.");
+  if (!(data.validation && data.validation.logs && data.validation.logs.length)) {
+    steps.push("Drive a log that the model has not seen, and hold the model against it: awmr validate.");
+  }
+  return steps;
+}
+
+function summarySection(data) {
+  const {model} = data;
+  const root = document.getElementById("report");
+  add(root, "h1", model.vehicle.name);
+  add(root, "p", `Identified, tuned and tried in simulation by awmr ${model.version}: ` +
+    `${plural(model.trials.length, "trial row")}, ${plural(model.inputs.length, "input file")}.`, {class: "lead"});
+  const list = add(root, "ul", undefined, {class: "verdicts"});
+  modelVerdict(list, data);
+  gainsVerdict(list, data.gains);
+  comparisonVerdict(list, data.comparison);
+  firmwareVerdict(list, data.pil);
+  dataVerdict(list, model);
+  if (data.gains) {
+    add(root, "h3", "Gains");
+    gainsTable(root, data.gains);
+    if (data.header) {
+      add(root, "p", "They are in awmr_params.h, beside this page:");
+      add(root, "pre", '#include "awmr_params.h"');
+    }
+  }
+  add(root, "h3", "What to do next");
+  const steps = add(root, "ol", undefined, {class: "next"});
+  for (const step of nextSteps(data)) add(steps, "li", step);
+}

@@ -1,0 +1,56 @@
+// Tuning: which constraints bind, and what the gains do on draws that none of them was tuned on.
+
+const setOrder = ["robust", "nominal", "baseline"];
+const setColour = {robust: "var(--one)", nominal: "var(--three)", baseline: "var(--two)"};
+const setWords = {robust: "tuned", nominal: "nominal", baseline: "the paper's"};
+
+function constraintsTable(parent, constraints) {
+  add(parent, "h3", "Constraints");
+  const state = (c) => (c.margin < 0 ? (c.required ? "broken" : "not kept") : c.margin < 0.01 * Math.abs(c.limit) ? "binds" : "kept");
+  table(parent, ["constraint", "", "#value", "#limit", "#margin", "meaning"], constraints.map((c) => [
+    c.name + (c.required ? "" : " (told, not asked)"), state(c), digits(c.value), digits(c.limit), digits(c.margin, 3), c.meaning]));
+}
+
+const robustFigures = [["settling_time_s", "settling time, s"], ["overshoot_deg", "overshoot, deg"], ["heading_iae_degs", "heading error, deg s"],
+  ["control_variation", "control variation, 1/s"], ["steering_rate_rms_degps", "steering rate, RMS, deg/s"]];
+
+function robustCharts(parent, robust) {
+  if (!robust || !robust.quantiles) return;
+  const n = robust.noise, late = robust.latency;
+  add(parent, "h3", "On draws that none was tuned on");
+  add(parent, "p", `${robust.judged_draws} fresh draws (${robust.drawn_from}); heading noise ${n.heading_deg} deg, yaw rate ${n.yaw_rate_degps} deg/s, ` +
+    `speed ${n.speed_mps} m/s; readings ${late.heading_s} s late; motors ${robust.motor_time_constant_s} s behind. From the median (mark) to the 95 % quantile.`, {class: "small"});
+  const grid = add(parent, "div", undefined, {class: "grid small"});
+  for (const [figure, title] of robustFigures) {
+    const rows = Object.entries(robust.quantiles).flatMap(([mode, sets]) => setOrder.filter((name) => (sets[name] || {})[figure]).map((name) => [name, sets[name]]).map(([name, q]) => {
+      const {median, q95} = q[figure];
+      return {label: `${mode}, ${setWords[name] || name}`, low: median, high: q95, middle: median, colour: setColour[name] || "var(--dim)",
+        note: `${mode}, ${setWords[name] || name}\nmedian ${digits(median)}, 95 % ${digits(q95)}\nsettled: ${percent(q.completed_share)}`};
+    }));
+    ranges(grid, {title, rows, zero: true});
+  }
+}
+
+function tuningSection(data) {
+  const {gains} = data;
+  if (!gains) return;
+  const box = section("Tuning");
+  if (gains.search) add(box, "p", `${gains.search.algorithm}: ${gains.search.evaluations} evaluations, ${gains.search.stop_reason}.`, {class: "small"});
+  if (gains.objective && gains.objective.formula) add(box, "p", `Objective: ${gains.objective.formula}.`, {class: "small"});
+  if (Array.isArray(gains.constraints)) constraintsTable(box, gains.constraints);
+  robustCharts(box, gains.robust);
+  metricsTable(box, gains);
+}
+
+/// The figures of the objective, by mode and scenario, tuned beside the paper's.
+function metricsTable(parent, gains) {
+  const base = (gains.baseline || {}).metrics || {};
+  const rows = Object.entries(gains.metrics || {}).flatMap(([mode, scenarios]) => Object.entries(scenarios).map(([name, m]) => {
+    const paper = (base[mode] || {})[name] || {};
+    const pair = (key) => `${digits(m[key], 3)} (${digits(paper[key], 3)})`;
+    return [mode, name, pair("settling_time_s"), pair("overshoot_deg"), pair("heading_iae_degs"), pair("control_variation"), pair("sideslip_max_deg")];
+  }));
+  if (!rows.length) return;
+  const box = folded(parent, "Figures by mode and manoeuvre (in brackets the paper's gains)");
+  table(box, ["mode", "manoeuvre", "#settling, s", "#overshoot, deg", "#heading error, deg s", "#variation, 1/s", "#sideslip, deg"], rows);
+}

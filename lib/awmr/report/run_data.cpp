@@ -1,0 +1,201 @@
+#include "awmr/report/run_data.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <regex>
+#include <vector>
+
+#include "awmr/core/csv.h"
+#include "awmr/core/csv_cell.h"
+#include "awmr/core/file.h"
+#include "awmr/core/units.h"
+#include "awmr/report/drawn_rows.h"
+#include "awmr/simulate/scenario_file.h"
+
+namespace awmr {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Of a signal's range: a tenth of a pixel of a chart 220 px high, a pixel when enlarged tenfold.
+constexpr double kLineTolerance = 1.0 / 2000.0;
+/// Of all runs together: a page stays below 3 MB with some 100 bytes a row.
+constexpr std::size_t kMostRows = 20000;
+constexpr std::size_t kMostRowsOfRun = 1500;
+constexpr std::size_t kFewestRowsOfRun = 100;
+/// Marks beside each other in a chart of the samples.
+constexpr std::size_t kMostSamples = 60;
+/// As in the metrics (simulate/metrics.h): at rest there is no sideslip angle.
+constexpr double kMovingMps = 0.05;
+
+/// One signal of a run: its name in the page and its values.
+struct RunSignal {
+  std::string name;
+  std::vector<double> values;
+};
+
+/// Five digits.
+double rounded(double x) { return std::strtod(fmt::format("{:.5g}", x).c_str(), nullptr); }
+
+std::vector<double> in_degrees(std::span<const double> radians) {
+  std::vector<double> values;
+  for (const double x : radians) values.push_back(degrees(x));
+  return values;
+}
+
+std::vector<double> sideslip_deg(std::span<const double> u_mps, std::span<const double> v_mps) {
+  std::vector<double> values;
+  for (std::size_t i = 0; i < u_mps.size(); ++i) {
+    const bool moving = std::hypot(u_mps[i], v_mps[i]) > kMovingMps;
+    values.push_back(moving ? degrees(std::atan2(v_mps[i], u_mps[i])) : 0.0);
+  }
+  return values;
+}
+
+std::vector<RunSignal> signals_of(const CsvTable& table) {
+  const auto as_is = [&](const char* name) {
+    const auto column = table.column(name);
+    return RunSignal{name, {column.begin(), column.end()}};
+  };
+  return {as_is("x_m"),
+          as_is("y_m"),
+          {"psi_deg", in_degrees(table.column("psi_rad"))},
+          {"psi_ref_deg", in_degrees(table.column("psi_ref_rad"))},
+          as_is("u_mps"),
+          as_is("u_ref_mps"),
+          {"r_degps", in_degrees(table.column("r_radps"))},
+          as_is("force_left"),
+          as_is("force_right"),
+          {"steering_deg", in_degrees(table.column("steering_rad"))},
+          {"sideslip_deg", sideslip_deg(table.column("u_mps"), table.column("v_mps"))}};
+}
+
+Result<CsvTable> read_run(const fs::path& path) {
+  std::vector<CsvColumn> columns;
+  for (const char* name :
+       {"t_s", "x_m", "y_m", "psi_rad", "u_mps", "v_mps", "r_radps", "force_left", "force_right",
+        "steering_rad", "psi_ref_rad", "u_ref_mps"}) {
+    columns.push_back({name});
+  }
+  AWMR_ASSIGN_OR_RETURN(CsvTable table, read_csv(path, columns));
+  const auto t = table.column("t_s");
+  const auto back = std::is_sorted_until(t.begin(), t.end());
+  if (back == t.end()) return table;
+  return input_error(table.place(static_cast<std::size_t>(back - t.begin()), "t_s"),
+                     "the time goes back; simulate the run again");
+}
+
+Json columns_of(const CsvTable& table, std::size_t most_rows) {
+  const std::vector<RunSignal> signals = signals_of(table);
+  std::vector<std::vector<double>> values;
+  for (const RunSignal& signal : signals) values.push_back(signal.values);
+  const auto t = table.column("t_s");
+  const std::vector<std::size_t> rows = drawn_rows(t, values, kLineTolerance, most_rows);
+  const auto picked = [&](const auto& column) {
+    Json list = Json::array();
+    for (const std::size_t row : rows) list.push_back(rounded(column[row]));
+    return list;
+  };
+  Json columns = {{"t_s", picked(t)}};
+  for (const RunSignal& signal : signals) columns[signal.name] = picked(signal.values);
+  return columns;
+}
+
+/// The names of a directory's files that match as a whole, in order, each with its groups.
+std::vector<std::vector<std::string>> matching_files(const fs::path& directory,
+                                                     const std::regex& pattern) {
+  std::vector<std::vector<std::string>> files;
+  for (const auto& entry : fs::directory_iterator(directory)) {
+    const std::string name = entry.path().filename().string();
+    std::smatch match;
+    if (std::regex_match(name, match, pattern)) files.emplace_back(match.begin(), match.end());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+/// At most kMostSamples of them, the least and the largest among these.
+Json at_even_ranks(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const std::size_t count = std::min(values.size(), kMostSamples);
+  Json list = Json::array();
+  for (std::size_t i = 0; i < count; ++i) {
+    list.push_back(rounded(values[i * (values.size() - 1) / std::max<std::size_t>(1, count - 1)]));
+  }
+  return list;
+}
+
+using Samples =
+    std::map<std::string, std::map<std::string, std::map<std::string, std::vector<double>>>>;
+
+Json samples_json(Samples&& samples) {
+  Json json = Json::object();
+  for (auto& [scenario, modes] : samples) {
+    for (auto& [mode, metrics] : modes) {
+      for (auto& [metric, values] : metrics) {
+        json[scenario][mode][metric] = at_even_ranks(std::move(values));
+      }
+    }
+  }
+  return json;
+}
+
+}  // namespace
+
+Result<Json> read_runs(const fs::path& directory) {
+  static const std::regex kPattern("run_(.+)_(differential|steering|combined)_(tuned|paper)\\.csv");
+  const auto files = matching_files(directory, kPattern);
+  if (files.empty()) return Json::array();
+  const std::size_t most = std::clamp(kMostRows / files.size(), kFewestRowsOfRun, kMostRowsOfRun);
+  Json runs = Json::array();
+  for (const std::vector<std::string>& file : files) {
+    AWMR_ASSIGN_OR_RETURN(const CsvTable table, read_run(directory / file[0]));
+    runs.push_back({{"scenario", file[1]},
+                    {"mode", file[2]},
+                    {"gains", file[3]},
+                    {"columns", columns_of(table, most)}});
+  }
+  return runs;
+}
+
+Result<Json> read_scenarios(const fs::path& directory) {
+  static const std::regex kPattern("scenario_(.+)\\.json");
+  Json scenarios = Json::object();
+  for (const std::vector<std::string>& file : matching_files(directory, kPattern)) {
+    AWMR_RETURN_IF_ERROR(read_scenario(directory / file[0]));
+    AWMR_ASSIGN_OR_RETURN(scenarios[file[1]], read_json_file(directory / file[0]));
+  }
+  return scenarios;
+}
+
+Result<Json> read_samples(const fs::path& path) {
+  AWMR_ASSIGN_OR_RETURN(const std::string text, read_file(path));
+  std::string_view rest = text;
+  const std::vector<std::string> names = take_text_record(rest);
+  Samples samples;
+  for (int line = 2; !rest.empty(); ++line) {
+    const std::vector<std::string> cells = take_text_record(rest);
+    if (cells.size() != names.size()) {
+      return input_error(fmt::format("{}:{}:1", path.string(), line),
+                         fmt::format("expected {} cells, found {}", names.size(), cells.size()));
+    }
+    std::map<std::string, std::string> row;
+    for (std::size_t i = 0; i < names.size(); ++i) row[names[i]] = cells[i];
+    if (row["sample"] == "0") continue;
+    const std::string mode =
+        row["gains"].empty() ? row["mode"] : row["mode"] + " with " + row["gains"];
+    for (const auto& [name, cell] : row) {
+      const auto value = number_from_text(cell);
+      if (value && name != "sample" && name != "completed") {
+        samples[row["scenario"]][mode][name].push_back(*value);
+      }
+    }
+  }
+  return samples_json(std::move(samples));
+}
+
+}  // namespace awmr

@@ -1,0 +1,23 @@
+/// The simulated runs and the compared samples, as the page needs them. Private to this folder.
+#pragma once
+
+#include <filesystem>
+
+#include "awmr/core/json.h"
+
+namespace awmr {
+
+/// The files `run_SCENARIO_MODE_GAINS.csv`, by name: [{scenario, mode, gains, columns: {t_s: [...]}}],
+/// angles in degrees, with as many rows as a chart needs (drawn_rows.h).
+/// Errors: as read_csv; a run's time goes back.
+Result<Json> read_runs(const std::filesystem::path& directory);
+
+/// The files `scenario_SCENARIO.json` as they are, by SCENARIO. Errors: as read_scenario.
+Result<Json> read_scenarios(const std::filesystem::path& directory);
+
+/// comparison.csv as {scenario: {mode: {metric: [values, ascending]}}}: the samples without the
+/// nominal run, of many those at even ranks. Errors: as read_file; a row has too few or too many
+/// cells.
+Result<Json> read_samples(const std::filesystem::path& path);
+
+}  // namespace awmr

@@ -1,0 +1,207 @@
+/// The report in a browser without a window: what a reader sees on a desk, on a phone and on paper.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <stdexcept>
+
+#include "support/process.h"
+#include "support/toolchain.h"
+
+namespace awmr::testing {
+namespace {
+
+using ::testing::IsEmpty;
+using Json = nlohmann::json;
+namespace fs = std::filesystem;
+
+constexpr const char* kGains = R"({"schema": "awmr.gains/1",
+  "heading": {"lambda": 3, "mu": 50, "epsilon": 12}, "speed": {"mu": 5, "epsilon": 1.2}})";
+/// As a file's name, and as a scenario's.
+constexpr const char* kHostileFile = "<img src=x onerror=boom()>";
+constexpr const char* kHostileName = R"(</script><script>boom()</script><svg onload=boom()>)";
+
+std::string awmr(const std::string& arguments) {
+  return std::string("'") + AWMR_PROGRAM + "' " + arguments + " --quiet";
+}
+
+std::string with(std::string text, const std::string& from, const std::string& to) {
+  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size()) {
+    text.replace(at, from.size(), to);
+  }
+  return text;
+}
+
+/// The page, with scripts that look at it, in a frame of that width: the browser's own window is
+/// never narrower than 500 px.
+std::string in_frame(std::string page, int width) {
+  const fs::path source = fs::path(AWMR_SOURCE_DIR) / "tests/report";
+  const auto script = [&](const char* name) {
+    return "<script>" + read_all(source / name) + "</script>";
+  };
+  page.insert(page.find("<head>") + 6, script("probe_begin.js"));
+  page.insert(page.rfind("</body>"), script("probe_end.js"));
+  page = with(with(page, "&", "&amp;"), "\"", "&quot;");
+  return "<!doctype html><meta charset=\"utf-8\"><iframe style=\"border:0;height:900px;width:" +
+         std::to_string(width) + "px\" srcdoc=\"" + page + "\"></iframe>";
+}
+
+std::string browser(const fs::path& profile, const std::string& arguments) {
+  return std::string("timeout 120 '") + AWMR_TOOL_CHROMIUM +
+         "' --headless --no-sandbox --disable-gpu --disable-quic --no-first-run "
+         "--hide-scrollbars --disable-background-networking --disable-component-update "
+         "--disable-sync "
+         "--virtual-time-budget=8000 --user-data-dir='" +
+         profile.string() + "' " + arguments;
+}
+
+/// What the scripts in the page found (probe_end.js).
+Json looked_at(const fs::path& report, int width) {
+  const TemporaryDirectory directory;
+  write_all(directory.path() / "framed.html", in_frame(read_all(report), width));
+  const ProcessResult result = run_process(browser(
+      directory.path() / "profile",
+      "--window-size=1400,900 --dump-dom 'file://" + directory.path().string() + "/framed.html'"));
+  const std::string mark = "data-probe=\"";
+  const std::size_t begin = result.out.find(mark);
+  if (begin == std::string::npos)
+    throw std::runtime_error("the page did not answer: " + result.out.substr(0, 500));
+  const std::size_t end = result.out.find('"', begin + mark.size());
+  const std::string text = result.out.substr(begin + mark.size(), end - begin - mark.size());
+  return Json::parse(
+      with(with(with(with(text, "&quot;", "\""), "&lt;", "<"), "&gt;", ">"), "&amp;", "&"));
+}
+
+struct Extent {
+  double low = 1e300;
+  double high = -1e300;
+};
+
+/// Of a column of a run.
+Extent extent_of(const fs::path& csv, std::size_t column) {
+  std::ifstream file(csv);
+  std::string line;
+  std::getline(file, line);
+  Extent extent;
+  while (std::getline(file, line)) {
+    std::istringstream cells(line);
+    std::string cell;
+    for (std::size_t i = 0; i <= column; ++i) std::getline(cells, cell, ',');
+    extent.low = std::min(extent.low, std::stod(cell));
+    extent.high = std::max(extent.high, std::stod(cell));
+  }
+  return extent;
+}
+
+/// Results as `awmr run` leaves them, without the search for gains: heading steps, the waypoint
+/// diamond, and a scenario whose names attack the page.
+class ReportInBrowser : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    directory_ = new TemporaryDirectory;
+    const fs::path paper = fs::path(AWMR_SOURCE_DIR) / "configs/paper";
+    const auto run = [](const std::string& line) {
+      const ProcessResult result = run_process(line, directory_->path());
+      ASSERT_LE(result.exit_code, 1) << line << result.err;
+    };
+    write_all(directory_->path() / "gains.json", kGains);
+    const fs::path data = fs::path(AWMR_SOURCE_DIR) / "datasets/paper";
+    run(awmr("identify --vehicle '" + (paper / "vehicle.json").string() + "' --surge '" +
+             (data / "surge.csv").string() + "' --coastdown '" + (data / "coastdown.csv").string() +
+             "' --turning '" + (data / "turning.csv").string() + "' -o model.json"));
+    run(awmr("validate --model model.json --gains gains.json -o validation.json"));
+    const std::string steps = read_all(paper / "scenarios/c3_heading_steps.json");
+    Json hostile = Json::parse(steps);
+    hostile["name"] = kHostileName;
+    write_all(directory_->path() / "scenario_c3_heading_steps.json", steps);
+    write_all(directory_->path() / ("scenario_" + std::string(kHostileFile) + ".json"),
+              hostile.dump());
+    write_all(directory_->path() / "scenario_c8_waypoints.json",
+              read_all(paper / "scenarios/c8_waypoints.json"));
+    for (const std::string stem : {"c3_heading_steps", "c8_waypoints", kHostileFile}) {
+      for (const std::string mode : {"differential", "steering", "combined"}) {
+        run(awmr("simulate --model model.json --gains gains.json --scenario 'scenario_" + stem +
+                 ".json' --mode " + mode + " -o 'run_" + stem + "_" + mode + "_tuned.csv'"));
+      }
+    }
+    run(
+        awmr("compare --model model.json --gains gains.json --samples 5 -o . --scenario "
+             "scenario_c3_heading_steps.json --scenario 'scenario_" +
+             std::string(kHostileFile) + ".json'"));
+    run(awmr("report ."));
+  }
+  static void TearDownTestSuite() { delete directory_; }
+  void SetUp() override { ASSERT_TRUE(found(AWMR_TOOL_CHROMIUM)); }
+  static fs::path file(const std::string& name) { return directory_->path() / name; }
+  static inline TemporaryDirectory* directory_ = nullptr;
+};
+
+TEST_F(ReportInBrowser, OnADeskAllIsDrawnWithoutErrorsOrRequestsAndNothingIsCut) {
+  const Json page = looked_at(file("report.html"), 1280);
+  EXPECT_THAT(page.at("errors"), IsEmpty()) << page.at("errors");
+  EXPECT_THAT(page.at("requests"), IsEmpty()) << page.at("requests");
+  EXPECT_GT(page.at("charts"), 30);
+  EXPECT_EQ(page.at("drawn"), page.at("charts"));
+  EXPECT_EQ(page.at("unlabelled"), 0) << "a screen reader has nothing to say of a chart";
+  EXPECT_THAT(page.at("overflowing"), IsEmpty()) << page.at("overflowing");
+  EXPECT_THAT(page.at("clipped"), IsEmpty()) << page.at("clipped");
+  EXPECT_THAT(page.at("wide_tables"), IsEmpty()) << page.at("wide_tables");
+  EXPECT_LT(fs::file_size(file("report.html")), 3'000'000u);
+}
+
+TEST_F(ReportInBrowser, OnAPhoneNothingIsWiderThanThePageAndItOpensShort) {
+  const Json page = looked_at(file("report.html"), 390);
+  EXPECT_THAT(page.at("errors"), IsEmpty()) << page.at("errors");
+  EXPECT_EQ(page.at("width"), 390);
+  EXPECT_EQ(page.at("scroll_width"), 390);
+  EXPECT_THAT(page.at("overflowing"), IsEmpty()) << page.at("overflowing");
+  EXPECT_THAT(page.at("clipped"), IsEmpty()) << page.at("clipped");
+  EXPECT_THAT(page.at("wide_tables"), IsEmpty()) << page.at("wide_tables");
+  EXPECT_LT(page.at("first_height"), 4000) << "what is closed at first takes a line each";
+}
+
+// The path turns back in x: a chart that takes its points for sorted draws a part of it only.
+TEST_F(ReportInBrowser, TheWaypointDiamondHasItsTrueExtentAtEqualAxes) {
+  const Json page = looked_at(file("report.html"), 1280);
+  const auto is_diamond = [](const Json& path) { return path.at("waypoints") == 4; };
+  const Json& paths = page.at("paths");
+  const auto path = std::find_if(paths.begin(), paths.end(), is_diamond);
+  ASSERT_NE(path, paths.end());
+  // Of a range of 40 m a line may miss 1/2000, and a corner is drawn to some hundredths of a pixel.
+  constexpr double kTolerance_m = 0.03;
+  const fs::path run = file("run_c8_waypoints_differential_tuned.csv");
+  const Extent x = extent_of(run, 1);
+  const Extent y = extent_of(run, 2);
+  EXPECT_GT(x.high - x.low, 15.0);
+  EXPECT_NEAR((*path)["x"][0], x.low, kTolerance_m);
+  EXPECT_NEAR((*path)["x"][1], x.high, kTolerance_m);
+  EXPECT_NEAR((*path)["y"][0], y.low, kTolerance_m);
+  EXPECT_NEAR((*path)["y"][1], y.high, kTolerance_m);
+  const double per_metre = (*path)["pixels_per_metre"][0];
+  EXPECT_NEAR((*path)["pixels_per_metre"][1], per_metre, 1e-6 * per_metre);
+}
+
+TEST_F(ReportInBrowser, HostileNamesAreTextOnThePage) {
+  const Json page = looked_at(file("report.html"), 1280);
+  EXPECT_EQ(page.at("foreign_elements"), 0);
+  EXPECT_EQ(page.at("booms"), 0);
+  EXPECT_TRUE(page.at("shows_hostile_name"));
+}
+
+TEST_F(ReportInBrowser, PrintsEveryPart) {
+  const TemporaryDirectory profile;
+  const ProcessResult result = run_process(browser(
+      profile.path(), "--no-pdf-header-footer --print-to-pdf='" + file("report.pdf").string() +
+                          "' 'file://" + file("report.html").string() + "'"));
+  const std::string pdf = read_all(file("report.pdf"));
+  ASSERT_TRUE(pdf.starts_with("%PDF")) << result.err;
+  std::size_t pages = 0;
+  for (std::size_t at = 0; (at = pdf.find("/Type /Page\n", at)) != std::string::npos; ++at) ++pages;
+  EXPECT_GT(pages, 8u) << "closed parts are opened for paper";
+}
+
+}  // namespace
+}  // namespace awmr::testing

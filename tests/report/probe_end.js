@@ -1,0 +1,61 @@
+// Behind the report's scripts: looks at the page as it opens, then opens and draws all of it, and leaves what it found as JSON
+// in the attribute data-probe of the outermost page.
+
+/// From the drawn shape back to the axes' units: what the eye sees of a line.
+function drawnExtent(chart, name) {
+  const index = chart.series.findIndex((s) => s.name === name);
+  const box = chart.node.querySelector(`.series_${index} path`).getBBox();
+  const at = (axis, pixel) => chart.view.scale(axis).invert(pixel);
+  return {x: [at("x", box.x), at("x", box.x + box.width)], y: [at("y", box.y + box.height), at("y", box.y)]};
+}
+
+/// Everything that reaches over the right edge, except what lies in a box that scrolls on its own.
+function overflowing() {
+  const width = document.documentElement.clientWidth;
+  return [...document.querySelectorAll("main *")].filter((node) => !node.closest(".scroll") && !node.ownerSVGElement && node.getBoundingClientRect().right > width + 1)
+    .map((node) => `${node.tagName} ${node.className.baseVal ?? node.className}`).slice(0, 5);
+}
+
+/// Texts of axes that reach over the edge of their chart.
+function clipped() {
+  return allCharts.filter((chart) => {
+    const frame = chart.node.getBoundingClientRect();
+    return [...chart.node.querySelectorAll("svg text")].some((text) => {
+      const box = text.getBoundingClientRect();
+      return box.width && (box.left < frame.left - 1 || box.right > frame.right + 1 || box.top < frame.top - 1 || box.bottom > frame.bottom + 1);
+    });
+  }).map((chart) => chart.title);
+}
+
+/// After all is opened and drawn.
+function look() {
+  probe.width = document.documentElement.clientWidth;
+  probe.scroll_width = document.documentElement.scrollWidth;
+  probe.overflowing = overflowing();
+  probe.clipped = clipped();
+  probe.wide_tables = [...document.querySelectorAll(".scroll")].filter((box) => box.scrollWidth > box.clientWidth + 1).map((box) => box.textContent.slice(0, 80));
+  probe.charts = allCharts.length;
+  probe.drawn = document.querySelectorAll(".plot svg").length;
+  probe.unlabelled = [...document.querySelectorAll(".plot svg")].filter((svg) => !svg.getAttribute("aria-label") && !svg.querySelector("[aria-label]")).length;
+  probe.paths = allCharts.filter((chart) => chart.equal).map((chart) => ({...drawnExtent(chart, chart.series[0].name), name: chart.series[0].name,
+    waypoints: (chart.series.find((s) => s.kind === "points") || {points: []}).points.length,
+    pixels_per_metre: ["x", "y"].map((axis) => Math.abs(chart.view.scale(axis)(1) - chart.view.scale(axis)(0)))}));
+  probe.foreign_elements = document.querySelectorAll("main img, main script, main iframe").length;
+  probe.shows_hostile_name = document.querySelector("main").textContent.includes("<" + "/script><script>boom()");
+}
+
+addEventListener("load", () => {
+  probe.opened_ms = performance.now();
+  probe.first_height = document.documentElement.scrollHeight;
+  probe.first_text = document.querySelector("main").innerText.slice(0, 400);
+  probe.requests = performance.getEntriesByType("resource").map((entry) => entry.name);
+  drawAll();
+  requestAnimationFrame(() => setTimeout(() => {
+    try {
+      look();
+    } catch (error) {
+      probe.errors.push(`probe: ${error.message}`);
+    }
+    top.document.documentElement.dataset.probe = JSON.stringify(probe);
+  }, 300));
+});
