@@ -71,6 +71,13 @@ Result<Provenance> provenance_of(const CompareCommand& command) {
   std::vector<std::pair<std::string, std::string>> options = options_of(command.allocation);
   options.emplace_back("samples", std::to_string(command.compare.samples));
   options.emplace_back("seed", std::to_string(command.compare.seed));
+  const Preferences& preferences = command.compare.preferences;
+  for (const auto& [name, weight] : preferences.weights) {
+    options.emplace_back("weight", fmt::format("{}={}", name, weight));
+  }
+  if (preferences.relevance != Preferences{}.relevance) {
+    options.emplace_back("relevance", fmt::format("{}", preferences.relevance));
+  }
   return Provenance{"compare", std::move(options), std::move(inputs)};
 }
 
@@ -167,7 +174,7 @@ Result<Outcome> execute(const CompareCommand& command) {
                    .document = text,
                    .written = written};
   }
-  const std::string table = comparison_table(comparison, command.compare.seed);
+  const std::string table = comparison_table(comparison, command.compare);
   return Outcome{.summary = table + fmt::format("wrote {} and comparison.csv\n",
                                                 (command.output / "comparison.json").string()),
                  .brief = table,
@@ -183,16 +190,23 @@ Result<Outcome> execute(const CompareCommand& command) {
 
 void add_compare(CLI::App& app, Session& session) {
   auto command = std::make_shared<CompareCommand>();
-  auto shard = std::make_shared<std::string>();
+  struct Texts {
+    std::string shard;
+    std::vector<std::string> weights;
+    double relevance = Preferences{}.relevance;
+  };
+  auto texts = std::make_shared<Texts>();
   CLI::App* sub =
       add_command(app, session, "compare",
                   "Compare the three yaw-control modes, and sets of gains, over scenarios",
                   "awmr compare --model model.json --gains gains.json --scenario "
                   "configs/paper/scenarios/c3_heading_steps.json --samples 200 -o out",
-                  [command, shard]() -> Result<Outcome> {
-                    if (!shard->empty()) {
-                      AWMR_ASSIGN_OR_RETURN(command->compare.shard, shard_of(*shard));
+                  [command, texts]() -> Result<Outcome> {
+                    if (!texts->shard.empty()) {
+                      AWMR_ASSIGN_OR_RETURN(command->compare.shard, shard_of(texts->shard));
                     }
+                    AWMR_ASSIGN_OR_RETURN(command->compare.preferences,
+                                          preferences_of(texts->weights, texts->relevance));
                     return execute(*command);
                   });
   add_file(*sub, "--model", command->model, "model.json from identify")->required();
@@ -211,7 +225,15 @@ void add_compare(CLI::App& app, Session& session) {
   auto* resume =
       sub->add_flag("--resume", command->resume,
                     "Go on from what lies in the directory: after Ctrl-C, or with more samples");
-  sub->add_option("--shard", *shard,
+  sub->add_option(
+      "--weight", texts->weights,
+      "NAME=WEIGHT of a metric in the ranking, 0 to 1000, may be repeated: finish_time_s=3, "
+      "energy_electric=1 (default 1 for how the course was followed, 0 for energy and wear)");
+  sub->add_option("--relevance", texts->relevance,
+                  "Share of a metric, and of the score, below which a difference does not matter "
+                  "(default 0.05)")
+      ->check(within(0.0, 1.0));
+  sub->add_option("--shard", texts->shard,
                   "I/N: part I of N, for as many machines; awmr merge puts the parts together")
       ->excludes(resume);
   sub->get_option("--quiet")->each([command](const std::string&) { command->quiet = true; });

@@ -34,7 +34,7 @@ Result<Outcome> execute(const MergeCommand& command) {
       {command.output / "comparison.csv", comparison_csv(merged.comparison)},
       {command.output / "comparison.json", document}};
   AWMR_RETURN_IF_ERROR(write_files(files));
-  const std::string table = comparison_table(merged.comparison, merged.options.seed);
+  const std::string table = comparison_table(merged.comparison, merged.options);
   return Outcome{.summary = table + fmt::format("wrote {} and comparison.csv\n",
                                                 (command.output / "comparison.json").string()),
                  .brief = table,

@@ -33,24 +33,17 @@ Comparison twenty(double behind_s, double spread_s, int failures = 0) {
 }
 
 struct Judged {
-  Comparison comparison;  // whose rows the others look at
-  ScenarioRows rows;
-  std::vector<PairedDifference> differences;
-  std::vector<RankedMode> ranking;
+  Comparison comparison;  // whose rows the other looks at
+  JudgedScenario scenario;
 };
 
 Judged judged(const Comparison& c) {
-  Judged j{c, {}, {}, {}};
-  j.rows = group(j.comparison)[0];
-  j.differences = paired_differences(j.rows, 1, 0);
-  j.ranking = rank(j.rows, 1, 0);
+  Judged j{c, {}};
+  j.scenario = judge(j.comparison, {}, 1).front();
   return j;
 }
 
-std::string verdict(const Comparison& c) {
-  const Judged j = judged(c);
-  return verdict_of(j.rows, j.ranking, j.differences);
-}
+std::string verdict(const Comparison& c) { return judged(c).scenario.verdict; }
 
 TEST(Verdict, NamesTheBestAndWhatTheOtherIsBehindIn) {
   const std::string text = verdict(twenty(3.0, 0.1));
@@ -61,8 +54,10 @@ TEST(Verdict, NamesTheBestAndWhatTheOtherIsBehindIn) {
 }
 
 TEST(Verdict, SaysThatATieIsATie) {
-  // A mean of 0.1 s with a standard error of 2/sqrt(20) = 0.45 s.
-  EXPECT_THAT(verdict(twenty(0.1, 2.0)), HasSubstr("tie: these runs do not tell them apart"));
+  // A mean of 0.1 s with a standard error of 5/sqrt(20) = 1.1 s: 11 % of 10 s, one of four metrics.
+  EXPECT_THAT(verdict(twenty(0.1, 5.0)), HasSubstr("tie: these runs do not tell them apart"));
+  // 0.4 s with 0.02 s: less than 5 %, whatever p is.
+  EXPECT_THAT(verdict(twenty(0.4, 0.1)), HasSubstr("tie: equal within 5 %"));
 }
 
 TEST(Verdict, GivesTheExactShareOfFailures) {
@@ -80,9 +75,9 @@ TEST(Verdict, DoesNotRankByAFailureThatMayBeChance) {
 TEST(Tally, CountsTheBestAndWhatIsNotToldApart) {
   const Judged clear = judged(twenty(3.0, 0.1));
   const Judged alike = judged(twenty(0.1, 2.0));
-  const auto tallies =
-      tally({{&clear.rows, &clear.differences}, {&alike.rows, &alike.differences}});
-  ASSERT_EQ(tallies.size(), 4U);  // those, and sideslip and control variation, which are 0
+  const auto tallies = tally({clear.scenario, alike.scenario});
+  // Those, and seven that every run has: sideslip, control variation, energy and wear, all 0.
+  ASSERT_EQ(tallies.size(), 9U);
   EXPECT_EQ(tallies[0].metric, MetricId::kSettlingTime);
   EXPECT_EQ(tallies[0].scenarios, 2);
   EXPECT_THAT(tallies[0].best_or_tied, ElementsAre(2, 1));
@@ -93,9 +88,7 @@ TEST(Tally, CountsScenariosWithTheSameRunsOnce) {
   const Judged clear = judged(twenty(3.0, 0.1));
   const Judged again = judged(twenty(3.0, 0.1));
   const Judged other = judged(twenty(0.1, 2.0));
-  const std::vector<JudgedScenario> scenarios{{&clear.rows, &clear.differences},
-                                              {&other.rows, &other.differences},
-                                              {&again.rows, &again.differences}};
+  const std::vector<JudgedScenario> scenarios{clear.scenario, other.scenario, again.scenario};
   EXPECT_THAT(first_with_same_runs(scenarios), ElementsAre(0, 1, 0));
   for (const MetricTally& one : tally(scenarios)) EXPECT_EQ(one.scenarios, 2);
 }

@@ -33,4 +33,13 @@ double paired_t_p(double mean, double deviation, std::size_t count) {
   return 2.0 * boost::math::cdf(boost::math::complement(t, std::abs(mean) / error));
 }
 
+double equivalence_p(double mean, double deviation, std::size_t count, double margin) {
+  const auto n = static_cast<double>(count);
+  const double error = deviation / std::sqrt(n);
+  const double inside = margin - std::abs(mean);
+  if (!(error > 1e-12 * std::abs(mean))) return inside >= 0.0 ? 0.0 : 1.0;
+  const boost::math::students_t_distribution<double> t(n - 1.0);
+  return boost::math::cdf(boost::math::complement(t, inside / error));
+}
+
 }  // namespace awmr

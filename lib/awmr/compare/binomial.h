@@ -20,4 +20,8 @@ double mcnemar_p(std::size_t only_first, std::size_t only_second);
 /// standard deviation, were the true one 0. Without any spread: 1 for mean 0, else 0.
 double paired_t_p(double mean, double deviation, std::size_t count);
 
+/// The larger p of the two one-sided t tests (TOST) of a mean beyond `margin` >= 0 on either side:
+/// below 0.05 the true one is within the margin. Without any spread: 0 within, else 1.
+double equivalence_p(double mean, double deviation, std::size_t count, double margin);
+
 }  // namespace awmr

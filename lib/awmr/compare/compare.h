@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "awmr/compare/preferences.h"
 #include "awmr/core/provenance.h"
 #include "awmr/core/result.h"
 #include "awmr/model/gains.h"
@@ -47,6 +48,8 @@ struct CompareOptions {
   int samples = 0;
   /// Of the draws, the noise and the bootstrap. Another one shows what a verdict owes to chance.
   std::uint64_t seed = 1;
+  /// What counts how much in the ranking, which the rows do not depend on.
+  Preferences preferences = {};
   /// What of the samples to run: all, or a part that merge_shards() (shard.h) puts to the others. At
   /// most as many parts as samples, the nominal one included.
   Shard shard = {};
@@ -93,7 +96,7 @@ std::string comparison_text(const Comparison& comparison, const CompareOptions& 
                             const Provenance& provenance);
 
 /// Figures by scenario and mode, the ranking and a verdict in a sentence, for a terminal.
-std::string comparison_table(const Comparison& comparison, std::uint64_t seed = 1);
+std::string comparison_table(const Comparison& comparison, const CompareOptions& options = {});
 
 /// The JSON Schema of comparison.json.
 std::string comparison_schema();

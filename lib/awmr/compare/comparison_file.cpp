@@ -5,6 +5,7 @@
 #include "awmr/compare/binomial.h"
 #include "awmr/compare/overall.h"
 #include "awmr/compare/ranking.h"
+#include "awmr/compare/scoring.h"
 #include "awmr/compare/statistics.h"
 #include "awmr/core/csv.h"
 #include "awmr/core/csv_cell.h"
@@ -46,16 +47,24 @@ Json mode_json(const ModeRows& rows) {
   return json;
 }
 
+void put_conclusion(Json& json, const char* key, const std::optional<Conclusion>& conclusion) {
+  if (conclusion) json[key] = name_in(kConclusionNames, *conclusion);
+}
+
 Json difference_json(const PairedDifference& d) {
-  return {{"first", d.first.label()},
-          {"second", d.second.label()},
-          {"metric", column_of(d.metric).name},
-          {"nominal", optional_json(d.nominal)},
-          {"count", d.count},
-          {"mean", optional_json(d.mean)},
-          {"ci95", interval_json(d.ci95)},
-          {"p", optional_json(d.p)},
-          {"p_holm", optional_json(d.p_holm)}};
+  Json json = {{"first", d.first.label()},
+               {"second", d.second.label()},
+               {"metric", column_of(d.metric).name},
+               {"nominal", optional_json(d.nominal)},
+               {"count", d.count},
+               {"mean", optional_json(d.mean)},
+               {"ci95", interval_json(d.ci95)},
+               {"p", optional_json(d.p)},
+               {"p_holm", optional_json(d.p_holm)},
+               {"margin", d.margin},
+               {"p_equivalent", optional_json(d.p_equivalent)}};
+  put_conclusion(json, "conclusion", d.conclusion);
+  return json;
 }
 
 Json ranked_json(const RankedMode& ranked) {
@@ -64,29 +73,15 @@ Json ranked_json(const RankedMode& ranked) {
                {"score", ranked.score},
                {"completed_share", ranked.completed_share},
                {"behind_ci95", interval_json(ranked.behind_ci95)},
-               {"tied_with", ranked.tied_with}};
+               {"tied_with", ranked.tied_with},
+               {"first_by_weights", ranked.first_by_weights},
+               {"first_by_samples", optional_json(ranked.first_by_samples)},
+               {"dominated_by", ranked.dominated_by}};
+  put_conclusion(json, "towards_leader", ranked.towards_leader);
   return json;
 }
 
-/// A scenario with what was found out about it.
-struct Judged {
-  ScenarioRows rows;
-  std::vector<PairedDifference> differences;
-  std::vector<RankedMode> ranking;
-};
-
-std::vector<Judged> judge(const Comparison& comparison, std::uint64_t seed) {
-  std::vector<Judged> all;
-  std::uint64_t stream = 0;
-  for (ScenarioRows& scenario : group(comparison)) {
-    auto differences = paired_differences(scenario, seed, stream);
-    auto ranking = rank(scenario, seed, stream++);
-    all.push_back({std::move(scenario), std::move(differences), std::move(ranking)});
-  }
-  return all;
-}
-
-Json scenario_json(const Judged& scenario) {
+Json scenario_json(const JudgedScenario& scenario) {
   Json json;
   json["name"] = scenario.rows.scenario;
   json["modes"] = Json::object();
@@ -99,18 +94,10 @@ Json scenario_json(const Judged& scenario) {
   json["ranking"] = Json::array();
   for (const RankedMode& ranked : scenario.ranking) json["ranking"].push_back(ranked_json(ranked));
   if (json["ranking"].empty()) {
-    json["ranking_note"] = "not ranked: the scenario gives the vehicle nothing to follow";
+    json["ranking_note"] = kNotRanked;
   }
-  json["verdict"] = verdict_of(scenario.rows, scenario.ranking, scenario.differences);
+  json["verdict"] = scenario.verdict;
   return json;
-}
-
-std::vector<JudgedScenario> ranked_of(const std::vector<Judged>& scenarios) {
-  std::vector<JudgedScenario> ranked;
-  for (const Judged& scenario : scenarios) {
-    if (!scenario.ranking.empty()) ranked.push_back({&scenario.rows, &scenario.differences});
-  }
-  return ranked;
 }
 
 /// The scenarios that another one stands for, having the same runs.
@@ -119,8 +106,8 @@ Json counted_once_json(const std::vector<JudgedScenario>& ranked) {
   Json json = Json::array();
   for (std::size_t i = 0; i < ranked.size(); ++i) {
     if (first[i] == i) continue;
-    json.push_back({{"scenario", ranked[i].rows->scenario},
-                    {"same_runs_as", ranked[first[i]].rows->scenario}});
+    json.push_back(
+        {{"scenario", ranked[i].rows.scenario}, {"same_runs_as", ranked[first[i]].rows.scenario}});
   }
   return json;
 }
@@ -131,7 +118,7 @@ Json overall_json(const std::vector<JudgedScenario>& ranked) {
   for (const MetricTally& one : tally(ranked)) {
     Json counts = Json::object();
     for (std::size_t i = 0; i < one.best_or_tied.size(); ++i) {
-      counts[ranked.front().rows->modes[i].label()] = one.best_or_tied[i];
+      counts[ranked.front().rows.modes[i].label()] = one.best_or_tied[i];
     }
     json.push_back({{"metric", column_of(one.metric).name},
                     {"scenarios", one.scenarios},
@@ -150,6 +137,12 @@ Json statistics_json(int samples) {
                            : "null: a test needs at least 2 samples (option samples)";
   json["p_holm"] = samples >= 2 ? "p corrected for all differences of the scenario (Holm)"
                                 : "null: a test needs at least 2 samples (option samples)";
+  json["margin"] =
+      "the metric's floor, or the share `relevance` of the lesser mean if that is more";
+  json["conclusion"] = samples >= 2
+                           ? "relevant: p_holm below 0.05 and ci95 beyond the margin; equivalent: "
+                             "p_equivalent (two one-sided t tests, TOST) below 0.05; else undecided"
+                           : "relevant where the difference is beyond the margin, else equivalent";
   json["completed_ci95"] = samples >= 2
                                ? "of the share, exact (Clopper-Pearson)"
                                : "null: an interval needs at least 2 samples (option samples)";
@@ -159,15 +152,20 @@ Json statistics_json(int samples) {
   return json;
 }
 
-Json ranking_json() {
+Json ranking_json(const Preferences& preferences) {
   Json json;
   json["score"] = kScoreFormula;
+  json["relevance"] = preferences.relevance;
   json["metrics"] = Json::array();
   for (const MetricColumn& metric : kMetricColumns) {
-    if (!metric.ranked()) continue;
-    json["metrics"].push_back({{"name", metric.name}, {"floor", metric.ranking_floor}});
+    if (!metric.can_rank()) continue;
+    json["metrics"].push_back({{"name", metric.name},
+                               {"floor", metric.ranking_floor},
+                               {"weight", weight_of(metric, preferences)}});
   }
-  json["tie_margin"] = kTieMargin;
+  json["first_by_weights"] =
+      "share of weights, drawn evenly from all that come to 1 over the "
+      "metrics with a weight, under which the mode has the best score";
   return json;
 }
 
@@ -218,13 +216,14 @@ std::string comparison_text(const Comparison& comparison, const CompareOptions& 
   }
   json["seed"] = options.seed;
   json["statistics"] = statistics_json(samples);
-  json["ranking"] = ranking_json();
-  const std::vector<Judged> scenarios = judge(judged, options.seed);
+  json["ranking"] = ranking_json(options.preferences);
+  const std::vector<JudgedScenario> scenarios = judge(judged, options.preferences, options.seed);
   const std::vector<JudgedScenario> ranked = ranked_of(scenarios);
   json["overall"] = overall_json(ranked);
   json["counted_once"] = counted_once_json(ranked);
   json["scenarios"] = Json::array();
-  for (const Judged& scenario : scenarios) json["scenarios"].push_back(scenario_json(scenario));
+  for (const JudgedScenario& scenario : scenarios)
+    json["scenarios"].push_back(scenario_json(scenario));
   return to_text(json);
 }
 

@@ -34,8 +34,12 @@ void describe_differences(JsonObject& scenario) {
   for (JsonObject& one : scenario.objects("paired_differences")) {
     for (const char* key : {"first", "second", "metric"}) one.string(key);
     one.integer("count", 0, kMost);
-    for (const char* key : {"nominal", "mean", "p", "p_holm"}) one.nullable_number(key);
+    for (const char* key : {"nominal", "mean", "p", "p_holm", "p_equivalent"}) {
+      one.nullable_number(key);
+    }
     one.nullable_interval("ci95");
+    one.number("margin", kNonNegative);
+    one.optional_string("conclusion");
     one.reject_unknown_keys();
   }
 }
@@ -44,10 +48,14 @@ void describe_ranking(JsonObject& scenario) {
   for (JsonObject& ranked : scenario.objects("ranking")) {
     ranked.integer("rank", 1, kMost);
     ranked.string("mode");
-    ranked.number("score");
+    ranked.number("score", kPositive);
     ranked.number("completed_share", kShareOfRuns);
     ranked.nullable_interval("behind_ci95");
+    ranked.optional_string("towards_leader");
     ranked.strings("tied_with");
+    ranked.number("first_by_weights", kShareOfRuns);
+    ranked.nullable_number("first_by_samples", kShareOfRuns);
+    ranked.strings("dominated_by");
     ranked.reject_unknown_keys();
   }
   scenario.optional_string("ranking_note");
@@ -85,8 +93,8 @@ void describe_overall(JsonObject& json) {
 
 void describe_how(JsonObject& json) {
   JsonObject statistics = json.object("statistics");
-  for (const char* key :
-       {"over", "paired_differences", "ci95", "p", "p_holm", "completed_ci95", "quantiles"}) {
+  for (const char* key : {"over", "paired_differences", "ci95", "p", "p_holm", "margin",
+                          "conclusion", "completed_ci95", "quantiles"}) {
     statistics.string(key);
   }
   statistics.nullable_number("resamples", kPositive);
@@ -96,9 +104,11 @@ void describe_how(JsonObject& json) {
   for (JsonObject& metric : ranking.objects("metrics")) {
     metric.string("name");
     metric.number("floor", kPositive);
+    metric.number("weight", {.min = 0.0, .max = kMaximumWeight});
     metric.reject_unknown_keys();
   }
-  ranking.number("tie_margin");
+  ranking.number("relevance", kShareOfRuns);
+  ranking.string("first_by_weights");
   ranking.reject_unknown_keys();
 }
 

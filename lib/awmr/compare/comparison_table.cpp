@@ -80,15 +80,16 @@ std::string overall_of(const std::vector<JudgedScenario>& scenarios) {
   if (scenarios.size() < 2) return "";
   std::string text =
       fmt::format("best or tied with the best, by metric\n  {:<20} {:>9}", "", "scenarios");
-  for (const ModeRows& rows : scenarios.front().rows->modes) {
+  for (const ModeRows& rows : scenarios.front().rows.modes) {
     text += fmt::format(" {:>12}", rows.label());
   }
   text += '\n';
   for (const MetricTally& one : tally(scenarios)) {
+    if (column_of(one.metric).head.empty()) continue;
     text += fmt::format("  {:<20} {:>9}", column_of(one.metric).name, one.scenarios);
     for (std::size_t i = 0; i < one.best_or_tied.size(); ++i) {
       const std::size_t width =
-          std::max<std::size_t>(12, scenarios.front().rows->modes[i].label().size());
+          std::max<std::size_t>(12, scenarios.front().rows.modes[i].label().size());
       text += fmt::format(" {:>{}}", one.best_or_tied[i], width);
     }
     text += '\n';
@@ -97,33 +98,26 @@ std::string overall_of(const std::vector<JudgedScenario>& scenarios) {
   for (std::size_t i = 0; i < scenarios.size(); ++i) {
     if (first[i] == i) continue;
     text += wrapped(fmt::format("counted once: '{}' has the same runs as '{}'",
-                                scenarios[i].rows->scenario, scenarios[first[i]].rows->scenario));
+                                scenarios[i].rows.scenario, scenarios[first[i]].rows.scenario));
   }
   return text;
 }
 
 }  // namespace
 
-std::string comparison_table(const Comparison& comparison, std::uint64_t seed) {
+std::string comparison_table(const Comparison& comparison, const CompareOptions& options) {
   std::string text;
-  const Comparison judged = judged_part(comparison);
-  const std::vector<ScenarioRows> scenarios = group(judged);
-  std::vector<std::vector<PairedDifference>> differences;
-  std::vector<JudgedScenario> ranked;
-  differences.reserve(scenarios.size());
-  std::uint64_t stream = 0;
-  for (const ScenarioRows& scenario : scenarios) {
-    const std::vector<RankedMode> ranking = rank(scenario, seed, stream);
-    differences.push_back(paired_differences(scenario, seed, stream++));
-    const std::size_t samples = scenario.modes.front().rows.size() - 1;
+  const Comparison part = judged_part(comparison);
+  const std::vector<JudgedScenario> scenarios = judge(part, options.preferences, options.seed);
+  for (const JudgedScenario& scenario : scenarios) {
+    const std::size_t samples = scenario.rows.modes.front().rows.size() - 1;
     text += fmt::format(
-        "{}: {}\n", scenario.scenario,
+        "{}: {}\n", scenario.rows.scenario,
         samples == 0 ? "the model's own values" : fmt::format("mean of {} sample(s)", samples));
-    text += table_of(scenario, ranking);
-    text += wrapped(verdict_of(scenario, ranking, differences.back()));
-    if (!ranking.empty()) ranked.push_back({&scenario, &differences.back()});
+    text += table_of(scenario.rows, scenario.ranking);
+    text += wrapped(scenario.verdict);
   }
-  return text + overall_of(ranked);
+  return text + overall_of(ranked_of(scenarios));
 }
 
 }  // namespace awmr

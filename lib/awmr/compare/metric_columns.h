@@ -37,11 +37,12 @@ struct MetricColumn {
   std::string_view head;  ///< of the table on a terminal: at most 7 characters; empty: not there
   std::string_view unit;
   std::variant<double Metrics::*, std::optional<double> Metrics::*> figure;
-  /// In the metric's unit, >= 0: what is too small to matter (ranking.h). Lower is better for a
-  /// metric that has one, and the ranking counts it; 0: not ranked.
+  /// In the metric's unit, >= 0: a difference that is too small to matter (scoring.h). Lower is
+  /// better for a metric that has one, and it can rank modes; 0: it cannot.
   double ranking_floor = 0.0;
+  double default_weight = 0.0;  ///< in the ranking, where the user gives none
 
-  bool ranked() const { return ranking_floor > 0.0; }
+  bool can_rank() const { return ranking_floor > 0.0; }
   /// Absent where the metric has no meaning for the run.
   std::optional<double> value(const Metrics& metrics) const {
     return std::visit([&](auto member) { return std::optional<double>(metrics.*member); }, figure);
@@ -52,23 +53,27 @@ struct MetricColumn {
 };
 
 inline constexpr std::array<MetricColumn, 16> kMetricColumns = {{
-    {MetricId::kSettlingTime, "settling_time_s", "settle", "s", &Metrics::settling_time_s, 0.1},
-    {MetricId::kOvershoot, "overshoot_deg", "overs.", "deg", &Metrics::overshoot_deg, 0.5},
-    {MetricId::kHeadingIae, "heading_iae_degs", "IAE", "deg s", &Metrics::heading_iae_degs, 1.0},
-    {MetricId::kCrossTrack, "cross_track_rms_m", "x-track", "m", &Metrics::cross_track_rms_m, 0.05},
+    {MetricId::kSettlingTime, "settling_time_s", "settle", "s", &Metrics::settling_time_s, 0.1,
+     1.0},
+    {MetricId::kOvershoot, "overshoot_deg", "overs.", "deg", &Metrics::overshoot_deg, 0.5, 1.0},
+    {MetricId::kHeadingIae, "heading_iae_degs", "IAE", "deg s", &Metrics::heading_iae_degs, 1.0,
+     1.0},
+    {MetricId::kCrossTrack, "cross_track_rms_m", "x-track", "m", &Metrics::cross_track_rms_m, 0.05,
+     1.0},
     {MetricId::kPathLength, "path_length_m", "path", "m", &Metrics::path_length_m},
-    {MetricId::kSpeedDrop, "speed_drop_mps", "drop", "m/s", &Metrics::speed_drop_mps, 0.02},
-    {MetricId::kSideslip, "sideslip_max_deg", "slip", "deg", &Metrics::sideslip_max_deg, 0.5},
+    {MetricId::kSpeedDrop, "speed_drop_mps", "drop", "m/s", &Metrics::speed_drop_mps, 0.02, 1.0},
+    {MetricId::kSideslip, "sideslip_max_deg", "slip", "deg", &Metrics::sideslip_max_deg, 0.5, 1.0},
     {MetricId::kYawRate, "yaw_rate_max_degps", "yaw", "deg/s", &Metrics::yaw_rate_max_degps},
     {MetricId::kControlVariation, "control_variation", "var.", "1/s", &Metrics::control_variation,
-     0.05},
+     0.05, 1.0},
     {MetricId::kClearance, "clearance_min_m", "clear", "m", &Metrics::clearance_min_m},
-    {MetricId::kFinishTime, "finish_time_s", "finish", "s", &Metrics::finish_time_s, 0.1},
-    {MetricId::kEnergyMech, "energy_mech", "", "m", &Metrics::energy_mech},
-    {MetricId::kEnergyElectric, "energy_electric", "", "s", &Metrics::energy_electric},
-    {MetricId::kSaturation, "saturation_s", "", "s", &Metrics::saturation_s},
-    {MetricId::kSteeringTravel, "steering_travel_deg", "", "deg", &Metrics::steering_travel_deg},
-    {MetricId::kTyreWork, "tyre_work", "", "m", &Metrics::tyre_work},
+    {MetricId::kFinishTime, "finish_time_s", "finish", "s", &Metrics::finish_time_s, 0.1, 1.0},
+    {MetricId::kEnergyMech, "energy_mech", "", "m", &Metrics::energy_mech, 0.05, 0.0},
+    {MetricId::kEnergyElectric, "energy_electric", "", "s", &Metrics::energy_electric, 0.5, 0.0},
+    {MetricId::kSaturation, "saturation_s", "", "s", &Metrics::saturation_s, 0.1, 0.0},
+    {MetricId::kSteeringTravel, "steering_travel_deg", "", "deg", &Metrics::steering_travel_deg,
+     5.0, 0.0},
+    {MetricId::kTyreWork, "tyre_work", "", "m", &Metrics::tyre_work, 0.01, 0.0},
 }};
 
 inline const MetricColumn& column_of(MetricId id) { return kMetricColumns[at(id)]; }

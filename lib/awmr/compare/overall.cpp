@@ -1,29 +1,25 @@
 #include "awmr/compare/overall.h"
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
-
-#include "awmr/compare/ranking.h"
+#include <utility>
 
 namespace awmr {
 namespace {
 
-/// A nominal difference below this share of the metric's scale decides nothing.
-constexpr double kAlikeShare = 0.01;
-
-/// Whether the runs tell that `other` is better than `own` in the metric.
+/// Whether the runs tell that `other` is better than `own` in the metric, by more than its margin.
 bool beats(const JudgedScenario& scenario, const MetricColumn& metric, const ModeRows& other,
            const ModeRows& own) {
   const auto theirs = summarise(other, metric).mean;
   const auto mine = summarise(own, metric).mean;
-  if (!theirs) return false;
-  if (!mine) return true;
+  if (!theirs || !mine) return theirs.has_value() && !mine;
   if (!(*theirs < *mine)) return false;
-  for (const PairedDifference& d : *scenario.differences) {
-    if (d.metric != metric.id || !d.p_holm) continue;
-    if (d.is_between(own.contender, other.contender)) return *d.p_holm < kSignificance;
-  }
-  return *mine - *theirs > kAlikeShare * ranking_scale(*scenario.rows, metric);
+  return std::any_of(scenario.differences.begin(), scenario.differences.end(),
+                     [&](const PairedDifference& d) {
+                       return d.metric == metric.id && d.conclusion == Conclusion::kRelevant &&
+                              d.is_between(own.contender, other.contender);
+                     });
 }
 
 bool same_runs(const ModeRows& a, const ModeRows& b) {
@@ -41,13 +37,34 @@ bool same_runs(const ModeRows& a, const ModeRows& b) {
 
 }  // namespace
 
+std::vector<JudgedScenario> judge(const Comparison& comparison, const Preferences& preferences,
+                                  std::uint64_t seed) {
+  std::vector<JudgedScenario> all;
+  std::uint64_t stream = 0;
+  for (ScenarioRows& scenario : group(comparison)) {
+    auto differences = paired_differences(scenario, preferences, seed, stream);
+    auto ranking = rank(scenario, differences, preferences, seed, stream++);
+    std::string verdict = verdict_of(scenario, ranking, differences, preferences);
+    all.push_back(
+        {std::move(scenario), std::move(differences), std::move(ranking), std::move(verdict)});
+  }
+  return all;
+}
+
+std::vector<JudgedScenario> ranked_of(const std::vector<JudgedScenario>& scenarios) {
+  std::vector<JudgedScenario> ranked;
+  std::copy_if(scenarios.begin(), scenarios.end(), std::back_inserter(ranked),
+               [](const JudgedScenario& scenario) { return !scenario.ranking.empty(); });
+  return ranked;
+}
+
 std::vector<std::size_t> first_with_same_runs(const std::vector<JudgedScenario>& scenarios) {
   std::vector<std::size_t> first;
   for (std::size_t i = 0; i < scenarios.size(); ++i) {
-    const std::vector<ModeRows>& modes = scenarios[i].rows->modes;
+    const std::vector<ModeRows>& modes = scenarios[i].rows.modes;
     std::size_t twin = 0;
-    while (twin < i && !std::equal(modes.begin(), modes.end(), scenarios[twin].rows->modes.begin(),
-                                   scenarios[twin].rows->modes.end(), same_runs)) {
+    while (twin < i && !std::equal(modes.begin(), modes.end(), scenarios[twin].rows.modes.begin(),
+                                   scenarios[twin].rows.modes.end(), same_runs)) {
       ++twin;
     }
     first.push_back(twin);
@@ -58,16 +75,16 @@ std::vector<std::size_t> first_with_same_runs(const std::vector<JudgedScenario>&
 std::vector<MetricTally> tally(const std::vector<JudgedScenario>& scenarios) {
   std::vector<MetricTally> tallies;
   if (scenarios.empty()) return tallies;
-  const std::size_t contenders = scenarios.front().rows->modes.size();
+  const std::size_t contenders = scenarios.front().rows.modes.size();
   const std::vector<std::size_t> first = first_with_same_runs(scenarios);
   for (const MetricColumn& metric : kMetricColumns) {
-    if (!metric.ranked()) continue;
+    if (!metric.can_rank()) continue;
     MetricTally one{metric.id, 0, std::vector<int>(contenders, 0)};
     for (std::size_t s = 0; s < scenarios.size(); ++s) {
       const JudgedScenario& scenario = scenarios[s];
-      if (first[s] != s || !any_has(*scenario.rows, metric)) continue;
+      if (first[s] != s || !any_has(scenario.rows, metric)) continue;
       ++one.scenarios;
-      const std::vector<ModeRows>& modes = scenario.rows->modes;
+      const std::vector<ModeRows>& modes = scenario.rows.modes;
       for (std::size_t i = 0; i < contenders; ++i) {
         const bool beaten = std::any_of(modes.begin(), modes.end(), [&](const ModeRows& other) {
           return &other != &modes[i] && beats(scenario, metric, other, modes[i]);

@@ -1,8 +1,12 @@
 /// Which mode is best for what, over all scenarios. Private to this folder.
 #pragma once
 
+#include <cstdint>
+#include <string>
 #include <vector>
 
+#include "awmr/compare/preferences.h"
+#include "awmr/compare/ranking.h"
 #include "awmr/compare/statistics.h"
 
 namespace awmr {
@@ -14,20 +18,27 @@ struct MetricTally {
   std::vector<int> best_or_tied;  ///< by contender, as ScenarioRows::modes
 };
 
-/// One scenario with its differences.
+/// One scenario with what was found out about it.
 struct JudgedScenario {
-  const ScenarioRows* rows = nullptr;
-  const std::vector<PairedDifference>* differences = nullptr;
+  ScenarioRows rows;
+  std::vector<PairedDifference> differences;
+  std::vector<RankedMode> ranking;
+  std::string verdict;
 };
+
+/// `comparison` is a judged_part(), and outlives the result, which looks at its rows.
+std::vector<JudgedScenario> judge(const Comparison& comparison, const Preferences& preferences,
+                                  std::uint64_t seed);
+/// Those that were ranked.
+std::vector<JudgedScenario> ranked_of(const std::vector<JudgedScenario>& scenarios);
 
 /// By position: the first scenario of the list with the same runs, every figure of every mode and
 /// sample equal; itself where there is none before it. Two files of one course are one course.
 std::vector<std::size_t> first_with_same_runs(const std::vector<JudgedScenario>& scenarios);
 
-/// By ranked metric, over the scenarios given: those that are ranked, of several with the same runs
-/// the first. A contender is beaten in a
-/// metric by one whose mean is lower: with samples where Holm's p says so, without where it is by
-/// more than 1 % of the metric's scale. A contender without a value is beaten by any that has one.
+/// By metric that can rank, over the scenarios given: those that are ranked, of several with the
+/// same runs the first. A contender is beaten in a metric by one whose mean is lower where the
+/// difference is a relevant one. A contender without a value is beaten by any that has one.
 std::vector<MetricTally> tally(const std::vector<JudgedScenario>& scenarios);
 
 }  // namespace awmr

@@ -1,16 +1,22 @@
 #include "awmr/compare/ranking.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "awmr/compare/binomial.h"
+#include "awmr/compare/scoring.h"
+#include "awmr/core/index.h"
 #include "awmr/core/random.h"
 
 namespace awmr {
 namespace {
 
-/// The bootstrap of scores is apart from that of differences (statistics.cpp) and from the draws.
+/// The bootstrap of scores and the draws of weights are apart from the bootstrap of differences
+/// (statistics.cpp) and from the draws of the samples.
 constexpr std::uint64_t kScoreStream = std::uint64_t{3} << 62U;
+constexpr std::uint64_t kWeightStream = std::uint64_t{5} << 61U;
+constexpr int kWeightings = 1000;
 
 /// Whether some mode was judged by how well it followed a command.
 bool has_a_goal(const ScenarioRows& scenario) {
@@ -20,62 +26,28 @@ bool has_a_goal(const ScenarioRows& scenario) {
   });
 }
 
-/// The metrics that rank this scenario's modes, with their scales.
-struct MetricScale {
-  const MetricColumn* metric;
-  double scale;
+/// A mode with the logarithms that its score is made of.
+struct Entry {
+  const ModeRows* rows = nullptr;
+  std::vector<double> log_scores;   ///< by counted run
+  std::vector<double> mean_losses;  ///< by scored metric, over the counted runs
+  bool completes = true;            ///< as often as the best, or not told apart from it
+
+  double log_score() const { return mean(log_scores); }
+
+  static double mean(const std::vector<double>& values) {
+    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+  }
 };
 
-std::vector<MetricScale> scales_of(const ScenarioRows& scenario) {
-  std::vector<MetricScale> scales;
-  for (const MetricColumn& metric : kMetricColumns) {
-    if (metric.ranked() && any_has(scenario, metric)) {
-      scales.push_back({&metric, ranking_scale(scenario, metric)});
-    }
-  }
-  return scales;
-}
-
-/// Mean of one mode's metric over its runs, over the scale; 1 where it has none.
-double score_of(const ModeRows& rows, const std::vector<MetricScale>& scales) {
-  double sum = 0.0;
-  for (const MetricScale& scale : scales) {
-    const auto mean = summarise(rows, *scale.metric).mean;
-    sum += mean ? *mean / scale.scale : 1.0;
-  }
-  return scales.empty() ? 0.0 : sum / static_cast<double>(scales.size());
-}
-
-/// One run's score on the same scales.
-double score_of(const Metrics& metrics, const std::vector<MetricScale>& scales) {
-  double sum = 0.0;
-  for (const MetricScale& scale : scales) {
-    const auto value = scale.metric->value(metrics);
-    sum += value ? *value / scale.scale : 1.0;
-  }
-  return sum / static_cast<double>(scales.size());
-}
-
-/// 95 % interval of the mean of a's score minus b's, sample by sample.
-Interval score_difference(const ModeRows& a, const ModeRows& b,
-                          const std::vector<MetricScale>& scales, Random random) {
-  const auto first = a.counted();
-  const auto second = b.counted();
-  std::vector<double> by_sample;
-  for (std::size_t i = 0; i < first.size(); ++i) {
-    by_sample.push_back(score_of(first[i].metrics, scales) - score_of(second[i].metrics, scales));
-  }
-  const auto n = static_cast<double>(by_sample.size());
-  std::vector<double> means;
-  for (int resample = 0; resample < kResamples; ++resample) {
+Entry entry_of(const ModeRows& rows, const std::vector<ScoredMetric>& scoring) {
+  Entry entry{.rows = &rows, .log_scores = log_scores(rows, scoring), .mean_losses = {}};
+  for (const ScoredMetric& scored : scoring) {
     double sum = 0.0;
-    for (std::size_t i = 0; i < by_sample.size(); ++i) {
-      sum += by_sample[static_cast<std::size_t>(random.uniform() * n)];
-    }
-    means.push_back(sum / n);
+    for (const ComparisonRow& row : rows.counted()) sum += log_loss(row.metrics, scored);
+    entry.mean_losses.push_back(sum / static_cast<double>(rows.counted().size()));
   }
-  std::sort(means.begin(), means.end());
-  return {quantile(means, 0.025), quantile(means, 0.975)};
+  return entry;
 }
 
 /// Whether the two shares of completed runs are not told apart: by the exact McNemar test, or for a
@@ -93,67 +65,165 @@ bool complete_alike(const ModeRows& a, const ModeRows& b) {
   return mcnemar_p(only_first, only_second) >= kSignificance;
 }
 
-const ModeRows& runs_of(const ScenarioRows& scenario, const RankedMode& ranked) {
-  return *std::find_if(scenario.modes.begin(), scenario.modes.end(),
-                       [&](const ModeRows& rows) { return rows.contender == ranked.contender; });
+/// Best first: those that complete as often as the best by their scores, then the others.
+std::vector<Entry> sorted_entries(const ScenarioRows& scenario,
+                                  const std::vector<ScoredMetric>& scoring) {
+  std::vector<Entry> entries;
+  for (const ModeRows& rows : scenario.modes) entries.push_back(entry_of(rows, scoring));
+  const auto most = std::max_element(scenario.modes.begin(), scenario.modes.end(),
+                                     [](const ModeRows& a, const ModeRows& b) {
+                                       return a.completed_count() < b.completed_count();
+                                     });
+  for (Entry& entry : entries) entry.completes = complete_alike(*entry.rows, *most);
+  std::stable_sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
+    if (a.completes != b.completes) return a.completes;
+    if (!a.completes && a.rows->completed_count() != b.rows->completed_count()) {
+      return a.rows->completed_count() > b.rows->completed_count();
+    }
+    return a.log_score() < b.log_score();
+  });
+  return entries;
 }
 
-/// Best first, ranks not yet given.
-std::vector<RankedMode> sorted_modes(const ScenarioRows& scenario,
-                                     const std::vector<MetricScale>& scales) {
-  std::vector<RankedMode> ranked;
-  for (const ModeRows& rows : scenario.modes) {
-    ranked.push_back({.rank = 0,
-                      .contender = rows.contender,
-                      .score = score_of(rows, scales),
-                      .completed_share = rows.completed_share(),
-                      .behind_ci95 = {},
-                      .tied_with = {}});
+/// Means of resamples of own minus leader's score, ascending.
+std::vector<double> resampled_differences(const Entry& own, const Entry& leader, Random random) {
+  const std::size_t n = own.log_scores.size();
+  std::vector<double> means;
+  for (int resample = 0; resample < kResamples; ++resample) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < n; ++i) {
+      const auto k = static_cast<std::size_t>(random.uniform() * static_cast<double>(n));
+      sum += own.log_scores[k] - leader.log_scores[k];
+    }
+    means.push_back(sum / static_cast<double>(n));
   }
-  std::stable_sort(ranked.begin(), ranked.end(), [](const RankedMode& a, const RankedMode& b) {
-    if (a.completed_share > b.completed_share) return true;
-    if (a.completed_share < b.completed_share) return false;
-    return a.score < b.score;
-  });
-  return ranked;
+  std::sort(means.begin(), means.end());
+  return means;
+}
+
+/// How far one mode's score is above another's.
+struct Behind {
+  std::optional<Interval> ratio_ci95;  ///< absent below 2 samples
+  Conclusion conclusion{};
+};
+
+Behind behind(const Entry& own, const Entry& leader, double relevance, Random random) {
+  const double margin = std::log1p(relevance);
+  if (own.log_scores.size() < 2) {
+    const bool beyond = own.log_score() - leader.log_score() > margin;
+    return {{}, beyond ? Conclusion::kRelevant : Conclusion::kEquivalent};
+  }
+  const std::vector<double> means = resampled_differences(own, leader, random);
+  const Interval ci95{quantile(means, 0.025), quantile(means, 0.975)};
+  const Interval ratio{std::exp(ci95.lo), std::exp(ci95.hi)};
+  if (ci95.lo > margin) return {ratio, Conclusion::kRelevant};
+  const bool within = quantile(means, 0.05) >= -margin && quantile(means, 0.95) <= margin;
+  return {ratio, within ? Conclusion::kEquivalent : Conclusion::kUndecided};
+}
+
+/// The position of the least value among the entries that complete as often as the best.
+template <class Value>
+std::size_t best_of(const std::vector<Entry>& entries, Value&& value) {
+  std::size_t best = 0;  // the first of the list is one of them
+  for (std::size_t i = 1; i < entries.size(); ++i) {
+    if (entries[i].completes && value(entries[i]) < value(entries[best])) best = i;
+  }
+  return best;
+}
+
+/// Shares of weights, drawn evenly from all that come to 1, under which each entry is the best.
+std::vector<double> shares_by_weights(const std::vector<Entry>& entries, Random random) {
+  std::vector<double> shares(entries.size(), 0.0);
+  std::vector<double> weights(entries.front().mean_losses.size());
+  for (int draw = 0; draw < kWeightings; ++draw) {
+    for (double& weight : weights) weight = -std::log1p(-random.uniform());  // Dirichlet(1, ..., 1)
+    const std::size_t best = best_of(entries, [&](const Entry& entry) {
+      return std::inner_product(weights.begin(), weights.end(), entry.mean_losses.begin(), 0.0);
+    });
+    ++shares[best];
+  }
+  for (double& share : shares) share /= kWeightings;
+  return shares;
+}
+
+std::vector<double> shares_by_samples(const std::vector<Entry>& entries) {
+  const std::size_t n = entries.front().log_scores.size();
+  std::vector<double> shares(entries.size(), 0.0);
+  for (std::size_t sample = 0; sample < n; ++sample) {
+    const std::size_t best =
+        best_of(entries, [&](const Entry& entry) { return entry.log_scores[sample]; });
+    ++shares[best];
+  }
+  for (double& share : shares) share /= static_cast<double>(n);
+  return shares;
+}
+
+/// Whether `other` is relevantly better in a scored metric, and in none relevantly worse.
+bool dominates(const Contender& other, const Contender& own,
+               const std::vector<ScoredMetric>& scoring,
+               const std::vector<PairedDifference>& differences) {
+  bool better = false;
+  for (const PairedDifference& d : differences) {
+    const bool scored = std::any_of(scoring.begin(), scoring.end(), [&](const ScoredMetric& s) {
+      return s.metric->id == d.metric;
+    });
+    if (!scored || !d.is_between(own, other) || d.conclusion != Conclusion::kRelevant) continue;
+    const bool first_is_worse = *d.mean > 0.0;
+    if (first_is_worse != (d.first == own)) return false;
+    better = true;
+  }
+  return better;
+}
+
+void name_ties_and_dominance(std::vector<RankedMode>& ranking,
+                             const std::vector<ScoredMetric>& scoring,
+                             const std::vector<PairedDifference>& differences) {
+  for (RankedMode& mode : ranking) {
+    for (const RankedMode& other : ranking) {
+      if (other.contender == mode.contender) continue;
+      if (other.rank == mode.rank) mode.tied_with.push_back(other.contender.label());
+      if (dominates(other.contender, mode.contender, scoring, differences)) {
+        mode.dominated_by.push_back(other.contender.label());
+      }
+    }
+  }
 }
 
 }  // namespace
 
-double ranking_scale(const ScenarioRows& scenario, const MetricColumn& metric) {
-  double worst = metric.ranking_floor;
-  for (const ModeRows& rows : scenario.modes) {
-    worst = std::max(worst, summarise(rows, metric).mean.value_or(0.0));
-  }
-  return worst;
-}
-
-std::vector<RankedMode> rank(const ScenarioRows& scenario, std::uint64_t seed,
+std::vector<RankedMode> rank(const ScenarioRows& scenario,
+                             const std::vector<PairedDifference>& differences,
+                             const Preferences& preferences, std::uint64_t seed,
                              std::uint64_t stream) {
-  if (!has_a_goal(scenario)) return {};
-  const std::vector<MetricScale> scales = scales_of(scenario);
-  std::vector<RankedMode> ranked = sorted_modes(scenario, scales);
+  const std::vector<ScoredMetric> scoring = scoring_of(scenario, preferences);
+  if (!has_a_goal(scenario) || scoring.empty()) return {};
+  const std::vector<Entry> entries = sorted_entries(scenario, scoring);
+  const std::vector<double> by_weights =
+      shares_by_weights(entries, Random(seed, kWeightStream | stream));
+  const std::vector<double> by_samples = shares_by_samples(entries);
+  std::vector<RankedMode> ranking;
   std::size_t leader = 0;  // the best of the current rank
-  for (std::size_t i = 0; i < ranked.size(); ++i) {
-    const ModeRows& own = runs_of(scenario, ranked[i]);
-    const ModeRows& best = runs_of(scenario, ranked[leader]);
-    bool near = ranked[i].score - ranked[leader].score <= kTieMargin;
-    if (i != leader && own.counted().size() >= 2) {
-      ranked[i].behind_ci95 =
-          score_difference(own, best, scales, Random(seed, kScoreStream | (stream << 8U) | i));
-      near = near || ranked[i].behind_ci95->contains(0.0);
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const Entry& own = entries[i];
+    RankedMode ranked;
+    ranked.contender = own.rows->contender;
+    ranked.score = std::exp(own.log_score() - entries.front().log_score());
+    ranked.completed_share = own.rows->completed_share();
+    ranked.first_by_weights = by_weights[i];
+    if (own.log_scores.size() >= 2) ranked.first_by_samples = by_samples[i];
+    if (i > 0) {
+      const Random random(seed, kScoreStream | (stream << 8U) | i);
+      ranked.behind_ci95 = behind(own, entries.front(), preferences.relevance, random).ratio_ci95;
+      ranked.towards_leader =
+          behind(own, entries[leader], preferences.relevance, random).conclusion;
+      const bool alike = complete_alike(*own.rows, *entries[leader].rows);
+      if (!alike || ranked.towards_leader == Conclusion::kRelevant) leader = i;
     }
-    if (!near || !complete_alike(own, best)) leader = i;
-    ranked[i].rank = static_cast<int>(leader) + 1;
+    ranked.rank = static_cast<int>(leader) + 1;
+    ranking.push_back(std::move(ranked));
   }
-  for (RankedMode& mode : ranked) {
-    for (const RankedMode& other : ranked) {
-      if (other.rank == mode.rank && other.contender != mode.contender) {
-        mode.tied_with.push_back(other.contender.label());
-      }
-    }
-  }
-  return ranked;
+  name_ties_and_dominance(ranking, scoring, differences);
+  return ranking;
 }
 
 }  // namespace awmr

@@ -1,4 +1,4 @@
-/// Which mode did best in a scenario. Private to this folder.
+/// Which mode did best in a scenario, and how sure that is. Private to this folder.
 #pragma once
 
 #include <optional>
@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "awmr/compare/preferences.h"
 #include "awmr/compare/statistics.h"
 
 namespace awmr {
@@ -13,34 +14,50 @@ namespace awmr {
 struct RankedMode {
   int rank = 0;  ///< >= 1, 1 is best; tied modes share a rank
   Contender contender;
-  double score = 0.0;            ///< in [0, 1], lower is better
-  double completed_share = 0.0;  ///< in [0, 1]
-  /// Score above that of the best of its rank's leader, sample by sample; absent for the first of a
-  /// rank and below 2 samples.
-  std::optional<Interval> behind_ci95;
+  /// Weighted geometric mean of the ranked metrics over those of the first of the list: 1.2 for 20 %
+  /// more. Below 1 where a mode has the better score and fails more often.
+  double score = 1.0;
+  double completed_share = 0.0;         ///< in [0, 1]
+  std::optional<Interval> behind_ci95;  ///< of the score; absent for the first and below 2 samples
+  /// Towards the best of the rank above, or of its own rank where it is tied (relevant: behind it);
+  /// absent for the first.
+  std::optional<Conclusion> towards_leader;
   std::vector<std::string> tied_with;  ///< labels of the others of its rank
+  /// Shares in [0, 1] in which the mode has the best score of all that complete as often as the
+  /// best does: of weights drawn at random, and of the samples (absent below 2).
+  double first_by_weights = 0.0;
+  std::optional<double> first_by_samples;
+  /// Labels of modes that are relevantly better in a ranked metric and in none relevantly worse.
+  std::vector<std::string> dominated_by;
 };
 
-/// Scores nearer than this are a tie: one metric in ten being 10 % better decides nothing.
-inline constexpr double kTieMargin = 0.01;
 inline constexpr std::string_view kScoreFormula =
-    "mean over the ranked metrics i of x_i/max(w_i, f_i): x the mode's mean, w the worst mode's, f "
-    "a floor below which the metric does not matter; a metric that the mode lacks and another has "
-    "counts 1; the larger share of completed runs ranks first, whatever the score; a tie with the "
-    "best of a rank: scores within 0.01, or with samples a bootstrap interval of their paired "
-    "difference that holds 0, and shares of completed runs that are equal, or with samples not "
-    "told apart by the exact McNemar test";
+    "weighted geometric mean over the ranked metrics of (x + f)/(x1 + f): x the mode's, x1 that of "
+    "the first mode, f the metric's floor; by sample, a metric that a run lacks counts as the "
+    "worst "
+    "run's. A mode is behind where the whole 95 % interval of its score over the leader's "
+    "(bootstrap "
+    "over samples) is above 1 + relevance; equivalent where the 90 % interval is within relevance "
+    "of 1; "
+    "else undecided, and with the leader of its rank. Modes that complete less often than the "
+    "best, by "
+    "the exact McNemar test, come after those that do not";
+
+inline constexpr std::string_view kNotRanked =
+    "not ranked: the scenario gives the vehicle nothing to follow, or none of the metrics that "
+    "have a weight";
 
 /// Best first. Empty for a scenario that has nothing to follow (open loop), where lower metrics are
-/// no better. `seed` and `stream` are those of the bootstrap.
-std::vector<RankedMode> rank(const ScenarioRows& scenario, std::uint64_t seed = 1,
+/// no better, and where no ranked metric has a weight. `differences` are paired_differences() of the
+/// same scenario; `seed` and `stream` are those of the bootstrap.
+std::vector<RankedMode> rank(const ScenarioRows& scenario,
+                             const std::vector<PairedDifference>& differences,
+                             const Preferences& preferences = {}, std::uint64_t seed = 1,
                              std::uint64_t stream = 0);
-
-/// What a metric's differences are measured in: the worst mode's mean, or the metric's floor.
-double ranking_scale(const ScenarioRows& scenario, const MetricColumn& metric);
 
 /// One sentence (or two) on who is best, by what, and how sure that is.
 std::string verdict_of(const ScenarioRows& scenario, const std::vector<RankedMode>& ranking,
-                       const std::vector<PairedDifference>& differences);
+                       const std::vector<PairedDifference>& differences,
+                       const Preferences& preferences = {});
 
 }  // namespace awmr

@@ -18,7 +18,7 @@ namespace awmr {
 namespace {
 
 /// What may change between a comparison and its continuation.
-const std::set<std::string, std::less<>> kFreeOptions{"samples"};
+const std::set<std::string, std::less<>> kFreeOptions{"samples", "weight", "relevance"};
 
 template <class Number>
 bool read_number(const std::string& text, Number& value) {

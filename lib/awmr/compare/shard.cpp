@@ -31,10 +31,21 @@ struct Part {
   std::string version;
   int samples = 0;
   std::uint64_t seed = 0;
+  Preferences preferences;
   Shard shard;
   bool stopped = false;
   std::string csv_sha256;
 };
+
+Preferences read_preferences(JsonObject& json) {
+  Preferences preferences;
+  preferences.relevance = json.number("relevance", {.min = 0.0, .max = 1.0});
+  JsonObject weights = json.object("weights");
+  for (const std::string& name : weights.keys()) {
+    preferences.weights[name] = weights.number(name, {.min = 0.0, .max = kMaximumWeight});
+  }
+  return preferences;
+}
 
 Part part_from_json(JsonObject& json) {
   json.schema(kShardSchema);
@@ -44,6 +55,7 @@ Part part_from_json(JsonObject& json) {
       .version = json.string("version"),
       .samples = static_cast<int>(json.integer("samples", 0, kMostSamples)),
       .seed = static_cast<std::uint64_t>(json.integer("seed", 0, std::numeric_limits<long>::max())),
+      .preferences = read_preferences(json),
       .shard = {.index = static_cast<int>(json.integer("shard_index", 1, kMostShards)),
                 .count = static_cast<int>(json.integer("shard_count", 1, kMostShards))},
       .stopped = json.boolean("stopped"),
@@ -79,7 +91,8 @@ std::string other_comparison(const Part& first, const Part& part) {
     return fmt::format("is one of {} parts, {} is one of {}", part.shard.count,
                        first.directory.string(), first.shard.count);
   }
-  if (a.options != b.options || part.samples != first.samples || part.seed != first.seed) {
+  if (a.options != b.options || part.samples != first.samples || part.seed != first.seed ||
+      part.preferences != first.preferences) {
     return fmt::format("was made with other options than {}", first.directory.string());
   }
   if (!std::equal(a.inputs.begin(), a.inputs.end(), b.inputs.begin(), b.inputs.end(), same_input)) {
@@ -180,6 +193,8 @@ std::string shard_text(const Comparison& part, const CompareOptions& options,
   Json json = output_document(kShardSchema, provenance);
   json["samples"] = options.samples;
   json["seed"] = options.seed;
+  json["relevance"] = options.preferences.relevance;
+  json["weights"] = options.preferences.weights;
   json["shard_index"] = options.shard.index;
   json["shard_count"] = options.shard.count;
   json["stopped"] = part.stopped;
@@ -210,6 +225,7 @@ Result<Merged> merge_shards(const std::vector<std::filesystem::path>& directorie
   merged.comparison.whole_samples = first.samples + 1;
   merged.options.samples = first.samples;
   merged.options.seed = first.seed;
+  merged.options.preferences = first.preferences;
   merged.provenance = first.provenance;
   return merged;
 }

@@ -32,8 +32,28 @@ struct Series {
   std::vector<double> resampled_means;
 };
 
-Series series_of(const ModeRows& first, const ModeRows& second, const MetricColumn& metric) {
+double margin_between(const ModeRows& a, const ModeRows& b, const MetricColumn& metric,
+                      double relevance) {
+  const double first = summarise(a, metric).mean.value_or(0.0);
+  const double second = summarise(b, metric).mean.value_or(0.0);
+  return std::max(metric.ranking_floor, relevance * std::min(std::abs(first), std::abs(second)));
+}
+
+/// Once the interval and Holm's p are there.
+std::optional<Conclusion> conclusion_of(const PairedDifference& d) {
+  if (!d.mean) return std::nullopt;
+  if (!d.ci95 || !d.p_holm || !d.p_equivalent) {
+    return std::abs(*d.mean) > d.margin ? Conclusion::kRelevant : Conclusion::kEquivalent;
+  }
+  const bool beyond = d.ci95->lo > d.margin || d.ci95->hi < -d.margin;
+  if (beyond && *d.p_holm < kSignificance) return Conclusion::kRelevant;
+  return *d.p_equivalent < kSignificance ? Conclusion::kEquivalent : Conclusion::kUndecided;
+}
+
+Series series_of(const ModeRows& first, const ModeRows& second, const MetricColumn& metric,
+                 double relevance) {
   Series series;
+  series.result.margin = margin_between(first, second, metric, relevance);
   series.result.first = first.contender;
   series.result.second = second.contender;
   series.result.metric = metric.id;
@@ -58,6 +78,8 @@ Series series_of(const ModeRows& first, const ModeRows& second, const MetricColu
   }
   const double deviation = std::sqrt(squares / static_cast<double>(series.result.count - 1));
   series.result.p = paired_t_p(mean, deviation, series.result.count);
+  series.result.p_equivalent =
+      equivalence_p(mean, deviation, series.result.count, series.result.margin);
   return series;
 }
 
@@ -76,7 +98,7 @@ void add_resample(std::span<const std::size_t> chosen, std::vector<Series>& all)
 }
 
 /// Every metric of every pair of the same gains or of the same mode.
-std::vector<Series> all_series(const ScenarioRows& scenario) {
+std::vector<Series> all_series(const ScenarioRows& scenario, double relevance) {
   std::vector<Series> all;
   for (std::size_t i = 0; i < scenario.modes.size(); ++i) {
     for (std::size_t j = i + 1; j < scenario.modes.size(); ++j) {
@@ -85,7 +107,9 @@ std::vector<Series> all_series(const ScenarioRows& scenario) {
       const bool comparable =
           a.contender.mode == b.contender.mode || a.contender.gains == b.contender.gains;
       if (!comparable) continue;
-      for (const MetricColumn& metric : kMetricColumns) all.push_back(series_of(a, b, metric));
+      for (const MetricColumn& metric : kMetricColumns) {
+        all.push_back(series_of(a, b, metric, relevance));
+      }
     }
   }
   return all;
@@ -207,9 +231,10 @@ Summary summarise(const ModeRows& rows, const MetricColumn& metric) {
   return summary;
 }
 
-std::vector<PairedDifference> paired_differences(const ScenarioRows& scenario, std::uint64_t seed,
+std::vector<PairedDifference> paired_differences(const ScenarioRows& scenario,
+                                                 const Preferences& preferences, std::uint64_t seed,
                                                  std::uint64_t stream) {
-  std::vector<Series> all = all_series(scenario);
+  std::vector<Series> all = all_series(scenario, preferences.relevance);
   resample(all, scenario.modes.front().rows.size() - 1, Random(seed, kBootstrapStream + stream));
   std::vector<PairedDifference> differences;
   for (Series& series : all) {
@@ -221,6 +246,7 @@ std::vector<PairedDifference> paired_differences(const ScenarioRows& scenario, s
     differences.push_back(series.result);
   }
   correct(differences);
+  for (PairedDifference& d : differences) d.conclusion = conclusion_of(d);
   return differences;
 }
 

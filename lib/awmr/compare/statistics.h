@@ -9,7 +9,9 @@
 
 #include "awmr/compare/compare.h"
 #include "awmr/compare/metric_columns.h"
+#include "awmr/compare/preferences.h"
 #include "awmr/core/interval.h"
+#include "awmr/core/name_table.h"
 
 namespace awmr {
 
@@ -63,6 +65,12 @@ bool any_has(const ScenarioRows& scenario, const MetricColumn& metric);
 /// Linear between order statistics (type 7 of Hyndman and Fan). `sorted` is not empty, p in [0, 1].
 double quantile(std::span<const double> sorted, double p);
 
+/// What is said of a difference, with a risk of 5 % of being wrong.
+enum class Conclusion { kRelevant, kEquivalent, kUndecided };
+inline constexpr NameTable<Conclusion, 3> kConclusionNames{{{"relevant", Conclusion::kRelevant},
+                                                            {"equivalent", Conclusion::kEquivalent},
+                                                            {"undecided", Conclusion::kUndecided}}};
+
 /// first minus second, sample by sample: the same drawn vehicle and noise in both modes.
 struct PairedDifference {
   Contender first;
@@ -76,6 +84,15 @@ struct PairedDifference {
   /// p corrected for all differences of the scenario (Holm): below 0.05 the difference is real,
   /// with at most a 5 % risk of a single wrong word in the whole scenario.
   std::optional<double> p_holm;
+  /// In the metric's unit, >= 0: a smaller difference does not matter. The metric's floor, or the
+  /// relevance's share of the lesser mean, whichever is more.
+  double margin = 0.0;
+  /// Of two one-sided t tests (TOST), in [0, 1]: below 0.05 the difference is within the margin.
+  /// Absent below 2 samples.
+  std::optional<double> p_equivalent;
+  /// Relevant where Holm's p is below 0.05 and the whole interval beyond the margin; for a single
+  /// run, whether it is beyond the margin or not. Absent where no mean is.
+  std::optional<Conclusion> conclusion;
 
   bool is_between(const Contender& a, const Contender& b) const {
     return (first == a && second == b) || (first == b && second == a);
@@ -91,7 +108,8 @@ inline constexpr int kResamples = 1000;
 /// 95 % intervals of the mean by the percentile bootstrap: whole samples are resampled, the same
 /// ones for every metric and pair. `stream` separates scenarios. Pairs are of the same gains or of
 /// the same mode.
-std::vector<PairedDifference> paired_differences(const ScenarioRows& scenario, std::uint64_t seed,
+std::vector<PairedDifference> paired_differences(const ScenarioRows& scenario,
+                                                 const Preferences& preferences, std::uint64_t seed,
                                                  std::uint64_t stream);
 
 }  // namespace awmr

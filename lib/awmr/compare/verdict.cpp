@@ -5,6 +5,7 @@
 
 #include "awmr/compare/binomial.h"
 #include "awmr/compare/ranking.h"
+#include "awmr/compare/scoring.h"
 
 namespace awmr {
 namespace {
@@ -18,20 +19,20 @@ std::string joined(const std::vector<std::string>& names) {
   return text;
 }
 
-/// The ranked metric in which `other` is furthest behind `best`, of those that are told apart.
-const PairedDifference* widest_gap(const ScenarioRows& scenario,
-                                   const std::vector<PairedDifference>& differences,
-                                   const Contender& best, const Contender& other) {
+/// The metric that counts in which `other` is furthest behind `best`, in margins, of those in which
+/// it is relevantly behind.
+const PairedDifference* widest_gap(const std::vector<PairedDifference>& differences,
+                                   const Preferences& preferences, const Contender& best,
+                                   const Contender& other) {
   const PairedDifference* widest = nullptr;
-  double widest_share = 0.0;
+  double widest_margins = 0.0;
   for (const PairedDifference& d : differences) {
-    const MetricColumn& metric = column_of(d.metric);
-    if (!d.is_between(best, other) || !d.mean || !metric.ranked()) continue;
-    if (d.p_holm && *d.p_holm >= kSignificance) continue;
-    const double behind = (d.first == best ? -*d.mean : *d.mean) / ranking_scale(scenario, metric);
-    if (behind > widest_share) {
+    if (!d.is_between(best, other) || d.conclusion != Conclusion::kRelevant) continue;
+    if (!(weight_of(column_of(d.metric), preferences) > 0.0)) continue;
+    const double behind = (d.first == best ? -*d.mean : *d.mean) / d.margin;
+    if (behind > widest_margins) {
       widest = &d;
-      widest_share = behind;
+      widest_margins = behind;
     }
   }
   return widest;
@@ -69,31 +70,60 @@ std::string completion_text(const ScenarioRows& scenario) {
   return text.empty() ? "all completed" : text;
 }
 
+/// " by 31 % (95 %: 28 to 35 %)": of the score.
+std::string share_text(const RankedMode& other) {
+  if (!(other.score > 1.0)) return "";
+  const auto percent = [](double ratio) { return 100.0 * (ratio - 1.0); };
+  std::string text = fmt::format(" by {:.3g} %", percent(other.score));
+  if (other.behind_ci95) {
+    text += fmt::format(" (95 %: {:.3g} to {:.3g} %)", percent(other.behind_ci95->lo),
+                        percent(other.behind_ci95->hi));
+  }
+  return text;
+}
+
+/// "combined is best", "combined and steering tie for the first place".
+std::string first_text(const std::vector<RankedMode>& ranking, const Preferences& preferences) {
+  const RankedMode& best = ranking.front();
+  std::vector<std::string> first{best.contender.label()};
+  first.insert(first.end(), best.tied_with.begin(), best.tied_with.end());
+  if (first.size() == 1) return first.front() + " is best";
+  if (first.size() < ranking.size()) return joined(first) + " tie for the first place";
+  const bool equal = std::all_of(ranking.begin() + 1, ranking.end(), [](const RankedMode& mode) {
+    return mode.towards_leader == Conclusion::kEquivalent;
+  });
+  if (!equal) return joined(first) + " tie: these runs do not tell them apart";
+  return fmt::format("{} tie: equal within {:g} %", joined(first), 100.0 * preferences.relevance);
+}
+
+/// "; combined is first under 83 % of all weights and in 97 % of the samples"
+std::string stability_text(const RankedMode& best) {
+  std::string text = fmt::format("; {} is first under {:.0f} % of all weights",
+                                 best.contender.label(), 100.0 * best.first_by_weights);
+  if (best.first_by_samples) {
+    text += fmt::format(" and in {:.0f} % of the samples", 100.0 * *best.first_by_samples);
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string verdict_of(const ScenarioRows& scenario, const std::vector<RankedMode>& ranking,
-                       const std::vector<PairedDifference>& differences) {
-  if (ranking.empty()) return "not ranked: the scenario gives the vehicle nothing to follow.";
+                       const std::vector<PairedDifference>& differences,
+                       const Preferences& preferences) {
+  if (ranking.empty()) return std::string(kNotRanked) + ".";
   const RankedMode& best = ranking.front();
-  std::string text;
-  if (best.completed_share <= 0.0) {
-    text = "none completed; by score ";
-  }
-  std::vector<std::string> first{best.contender.label()};
-  first.insert(first.end(), best.tied_with.begin(), best.tied_with.end());
-  if (first.size() == ranking.size() && first.size() > 1) {
-    text += joined(first) + " tie: these runs do not tell them apart";
-  } else {
-    text += joined(first) + (first.size() > 1 ? " tie for the first place" : " is best");
-    for (const RankedMode& other : ranking) {
-      if (other.rank == 1) continue;
-      const PairedDifference* gap =
-          widest_gap(scenario, differences, best.contender, other.contender);
-      text +=
-          fmt::format("; {} is behind{}", other.contender.label(), gap_text(gap, other.contender));
-    }
+  std::string text = best.completed_share > 0.0 ? "" : "none completed; by score ";
+  text += first_text(ranking, preferences);
+  for (const RankedMode& other : ranking) {
+    if (other.rank == 1) continue;
+    const PairedDifference* gap =
+        widest_gap(differences, preferences, best.contender, other.contender);
+    text += fmt::format("; {} is behind{}{}", other.contender.label(), share_text(other),
+                        gap_text(gap, other.contender));
   }
   text += "; " + completion_text(scenario);
+  if (ranking.size() > 1) text += stability_text(best);
   if (scenario.modes.front().rows.size() < 3) {
     text += "; the nominal run alone, without samples, shows no spread";
   }

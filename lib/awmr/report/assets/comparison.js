@@ -32,22 +32,23 @@ function differences(parent, scenario) {
   const list = scenario.paired_differences.filter((d) => d.ci95);
   if (!list.length) return;
   const box = folded(parent, "Differences between the modes, sample by sample");
-  table(box, ["difference", "figure", "#mean", "95 % interval", "#p, corrected"], list.map((d) => [`${d.first} − ${d.second}`, metricWords(d.metric), digits(d.mean, 3), interval(d.ci95), digits(d.p_holm, 2)]));
+  table(box, ["difference", "figure", "#mean", "95 % interval", "#p, corrected", "#what matters", ""], list.map((d) => [`${d.first} − ${d.second}`, metricWords(d.metric), digits(d.mean, 3), interval(d.ci95), digits(d.p_holm, 2), `± ${digits(d.margin, 2)}`, d.conclusion]));
   const meanOf = (mode, metric) => Math.abs(((scenario.modes[mode] || {metrics: {}}).metrics[metric] || {}).mean || 0);
-  add(box, "p", "In the charts, what is grey may be chance (p, corrected, of 0.05 or more).", {class: "small"});
+  add(box, "p", "In the charts, what is grey is not told to matter: it is within the margin, or may be chance.", {class: "small"});
   const grid = add(box, "div", undefined, {class: "grid"});
   for (const [pair, of] of groupBy(list, (d) => `${d.first} less ${d.second}`)) {
     const rows = of.map((d) => [d, Math.max(meanOf(d.first, d.metric), meanOf(d.second, d.metric))]).filter(([, scale]) => scale > 0)
       .map(([d, scale]) => ({label: metricWords(d.metric), middle: 100 * d.mean / scale, low: 100 * d.ci95[0] / scale, high: 100 * d.ci95[1] / scale,
-        colour: d.p_holm < 0.05 ? "var(--one)" : "var(--dim)", note: `${metricWords(d.metric)}\n${digits(d.mean)} (${interval(d.ci95)})\np ${digits(d.p_holm, 2)}`}));
+        colour: d.conclusion === "relevant" ? "var(--one)" : "var(--dim)", note: `${metricWords(d.metric)}\n${digits(d.mean)} (${interval(d.ci95)})\np ${digits(d.p_holm, 2)}`}));
     ranges(grid, {title: pair, x: "% of the larger mean", rows, zero: true});
   }
 }
 
 function ranking(parent, scenario) {
   if (!scenario.ranking.length) return;
-  table(parent, ["#rank", "mode", "#score", "behind the first by", "#completed"], scenario.ranking.map((r) => [r.rank,
-    r.mode + (r.tied_with.length ? `, level with ${r.tied_with.join(", ")}` : ""), digits(r.score, 3), interval(r.behind_ci95), percent(r.completed_share)]));
+  table(parent, ["#rank", "mode", "#score over the first's", "95 % interval", "#completed", "#first by weights", "#by samples"], scenario.ranking.map((r) => [r.rank,
+    r.mode + (r.tied_with.length ? `, level with ${r.tied_with.join(", ")}` : ""), digits(r.score, 3), interval(r.behind_ci95), percent(r.completed_share), percent(r.first_by_weights),
+    r.first_by_samples === null ? "" : percent(r.first_by_samples)]));
 }
 
 function comparisonSection(data) {

@@ -1,0 +1,76 @@
+#include "awmr/compare/preferences.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "awmr/compare/metric_columns.h"
+#include "awmr/compare/scoring.h"
+#include "awmr/core/nearest.h"
+#include "awmr/core/option_text.h"
+
+namespace awmr {
+namespace {
+
+Result<double> weight_in(std::string_view text, const std::string& place) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool number = error == std::errc{} && end == text.data() + text.size();
+  if (number && value >= 0.0 && value <= kMaximumWeight) return value;
+  return input_error(place,
+                     fmt::format("'{}' is no weight: a number from 0 to {}", text, kMaximumWeight));
+}
+
+Status check_metric(std::string_view name, const std::string& place) {
+  const std::vector<std::string_view> known = weighable_metrics();
+  if (std::find(known.begin(), known.end(), name) != known.end()) return {};
+  const std::string near = nearest(name, std::vector<std::string>(known.begin(), known.end()));
+  const std::string hint = near.empty() ? "" : fmt::format("; did you mean '{}'?", near);
+  return input_error(place, fmt::format("'{}' is no metric that ranks modes{}; there are {}", name,
+                                        hint, fmt::join(known, ", ")));
+}
+
+}  // namespace
+
+std::vector<std::string_view> weighable_metrics() {
+  std::vector<std::string_view> names;
+  for (const MetricColumn& metric : kMetricColumns) {
+    if (metric.can_rank()) names.push_back(metric.name);
+  }
+  return names;
+}
+
+Result<Preferences> preferences_of(const std::vector<std::string>& weights, double relevance) {
+  const std::string place = option_text("weight");
+  if (!(relevance >= 0.0 && relevance <= 1.0)) {
+    return input_error(option_text("relevance"), "is no share: a number from 0 to 1");
+  }
+  Preferences preferences;
+  preferences.relevance = relevance;
+  for (const std::string& text : weights) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos) {
+      return input_error(place, fmt::format("'{}' is no weight of a metric: give NAME=WEIGHT, as "
+                                            "finish_time_s=2",
+                                            text));
+    }
+    const std::string name = text.substr(0, equals);
+    AWMR_RETURN_IF_ERROR(check_metric(name, place));
+    AWMR_ASSIGN_OR_RETURN(const double weight,
+                          weight_in(std::string_view(text).substr(equals + 1), place));
+    if (!preferences.weights.emplace(name, weight).second) {
+      return input_error(place, fmt::format("'{}' has two weights", name));
+    }
+  }
+  if (std::none_of(kMetricColumns.begin(), kMetricColumns.end(), [&](const MetricColumn& metric) {
+        return weight_of(metric, preferences) > 0.0;
+      })) {
+    return input_error(place, "leaves no metric a weight above 0 to rank by");
+  }
+  return preferences;
+}
+
+}  // namespace awmr

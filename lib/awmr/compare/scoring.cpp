@@ -1,0 +1,57 @@
+#include "awmr/compare/scoring.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace awmr {
+namespace {
+
+double worst_of(const ScenarioRows& scenario, const MetricColumn& metric) {
+  double worst = 0.0;
+  for (const ModeRows& rows : scenario.modes) {
+    for (const ComparisonRow& row : rows.counted()) {
+      worst = std::max(worst, metric.value(row.metrics).value_or(0.0));
+    }
+  }
+  return worst;
+}
+
+}  // namespace
+
+double weight_of(const MetricColumn& metric, const Preferences& preferences) {
+  if (!metric.can_rank()) return 0.0;
+  const auto given = preferences.weights.find(metric.name);
+  return given == preferences.weights.end() ? metric.default_weight : given->second;
+}
+
+std::vector<ScoredMetric> scoring_of(const ScenarioRows& scenario, const Preferences& preferences) {
+  std::vector<ScoredMetric> scoring;
+  double sum = 0.0;
+  for (const MetricColumn& metric : kMetricColumns) {
+    const double weight = weight_of(metric, preferences);
+    if (!(weight > 0.0) || !any_has(scenario, metric)) continue;
+    scoring.push_back({&metric, weight, worst_of(scenario, metric)});
+    sum += weight;
+  }
+  for (ScoredMetric& scored : scoring) scored.weight /= sum;
+  return scoring;
+}
+
+double log_loss(const Metrics& metrics, const ScoredMetric& scored) {
+  const double value = scored.metric->value(metrics).value_or(scored.missing);
+  return std::log(std::max(value, 0.0) + scored.metric->ranking_floor);
+}
+
+double log_score(const Metrics& metrics, const std::vector<ScoredMetric>& scoring) {
+  double sum = 0.0;
+  for (const ScoredMetric& scored : scoring) sum += scored.weight * log_loss(metrics, scored);
+  return sum;
+}
+
+std::vector<double> log_scores(const ModeRows& rows, const std::vector<ScoredMetric>& scoring) {
+  std::vector<double> scores;
+  for (const ComparisonRow& row : rows.counted()) scores.push_back(log_score(row.metrics, scoring));
+  return scores;
+}
+
+}  // namespace awmr
