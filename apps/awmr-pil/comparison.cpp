@@ -46,13 +46,22 @@ constexpr std::array<Signal, 14> kSignals{{
 Sample sample_of(const LoopRow& row) {
   const AutopilotOutput& out = row.step.output;
   return {.state = row.state,
-          .force = {static_cast<double>(out.command.force.left),
-                    static_cast<double>(out.command.force.right)},
-          .steering_command_rad = static_cast<double>(out.command.steering_rad),
+          .force = row.force,
+          .steering_command_rad = row.steering_command_rad,
           .tau_speed = static_cast<double>(out.tau_speed),
           .tau_turn_m = static_cast<double>(out.tau_turn_m),
           .psi_ref_rad = static_cast<double>(out.psi_ref_rad),
           .fault = static_cast<double>(out.fault)};
+}
+
+/// The command as the chip gave it: actuators would hide a small difference.
+Sample raw_sample_of(const LoopRow& row) {
+  const Allocation<float>& command = row.step.output.command;
+  Sample sample = sample_of(row);
+  sample.force = {static_cast<double>(command.force.left),
+                  static_cast<double>(command.force.right)};
+  sample.steering_command_rad = static_cast<double>(command.steering_rad);
+  return sample;
 }
 
 Sample sample_of(const RunRow& row) {
@@ -73,20 +82,26 @@ double apart(const Signal& signal, double a, double b) {
   return std::abs(is_reference ? std::remainder(off, 2.0 * pi<double>()) : off);
 }
 
-template <class RowsA, class RowsB>
-Difference difference_of(const RowsA& a, const RowsB& b) {
+Difference difference_of(const std::vector<Sample>& a, const std::vector<Sample>& b) {
   Difference result;
   result.same_length = a.size() == b.size();
   const std::size_t rows = std::min(a.size(), b.size());
   for (const Signal& signal : kSignals) {
     double largest = 0.0;
     for (std::size_t i = 0; i < rows; ++i) {
-      largest =
-          std::max(largest, apart(signal, signal.of(sample_of(a[i])), signal.of(sample_of(b[i]))));
+      largest = std::max(largest, apart(signal, signal.of(a[i]), signal.of(b[i])));
     }
     result.signals.emplace_back(signal.name, largest);
   }
   return result;
+}
+
+template <class Row, class Of>
+std::vector<Sample> samples_of(const std::vector<Row>& rows, Of of) {
+  std::vector<Sample> samples;
+  samples.reserve(rows.size());
+  for (const Row& row : rows) samples.push_back(of(row));
+  return samples;
 }
 
 }  // namespace
@@ -108,11 +123,12 @@ double Difference::of(const std::string& signal) const {
 }
 
 Difference difference(const std::vector<LoopRow>& a, const std::vector<LoopRow>& b) {
-  return difference_of(a, b);
+  return difference_of(samples_of(a, raw_sample_of), samples_of(b, raw_sample_of));
 }
 
 Difference difference(const std::vector<LoopRow>& a, const Run& b) {
-  return difference_of(a, b.rows);
+  return difference_of(samples_of(a, [](const LoopRow& row) { return sample_of(row); }),
+                       samples_of(b.rows, [](const RunRow& row) { return sample_of(row); }));
 }
 
 Cycles cycles_of(const std::vector<LoopRow>& rows) {

@@ -10,13 +10,9 @@
 #include "awmr/control/autopilot.h"
 #include "awmr/core/result.h"
 #include "awmr/emit/emit.h"
+#include "mission.h"
 
 namespace awmr::pil {
-
-struct Points {
-  std::vector<Position<float>> points_m;
-  float acceptance_m = 0.0F;
-};
 
 struct Step {
   AutopilotOutput output{};
@@ -28,6 +24,7 @@ class Executor {
   virtual ~Executor() = default;
   /// Resets it: the fault of its start-up check. Errors: the link or the chip fails.
   virtual Result<std::uint8_t> start() = 0;
+  /// Goes to these points, or along the line through them, as the mission says.
   virtual Status follow(const Points& points) = 0;
   virtual Result<Step> step(const AutopilotInput& input) = 0;
 };
@@ -45,8 +42,9 @@ class Chip : public Executor {
   virtual ChipFigures figures() const = 0;
 };
 
-/// In float on this machine, as the chip does it; `parameters` has to outlive it.
-std::unique_ptr<Executor> host_executor(const AutopilotParameters& parameters);
+/// In float on this machine, as the chip does it; both have to outlive it.
+std::unique_ptr<Executor> host_executor(const AutopilotParameters& parameters,
+                                        const Mission& mission);
 
 /// Through the RAM of an emulated chip. `damage_parameters`: flips a bit of them in flash first.
 Result<std::unique_ptr<Chip>> memory_link(const std::filesystem::path& elf, bool damage_parameters);

@@ -77,6 +77,7 @@ Result<fs::path> build_firmware(const fs::path& directory, const std::vector<Emi
   for (const auto& [name, bytes] : firmware_sources()) {
     AWMR_RETURN_IF_ERROR(put(directory / "pil" / std::string(name), bytes));
   }
+  AWMR_RETURN_IF_ERROR(put(directory / "pil" / "mission.h", kind.mission));
   const auto compiler = find_program("avr-g++");
   if (!compiler) {
     return input_error("avr-g++",

@@ -17,6 +17,7 @@ enum class LinkKind { kMemory, kUart };
 struct FirmwareKind {
   LinkKind link = LinkKind::kMemory;
   cli::Optimize optimize = cli::Optimize::kSpeed;
+  std::string mission;  ///< mission_header()
 };
 
 /// Writes the emitted library and the link's program to `directory`, which is private and empty,

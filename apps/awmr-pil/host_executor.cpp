@@ -3,24 +3,33 @@
 namespace awmr::pil {
 namespace {
 
-template <class G>
+/// A firmware with all parts, those that the mission does not need switched off: to give the bits
+/// of one without them is what it is compared for.
+template <class G, CombinedSplit split>
 class HostExecutor : public Executor {
  public:
-  explicit HostExecutor(const AutopilotParameters& parameters) : parameters_(&parameters) {}
+  HostExecutor(const AutopilotParameters& parameters, const Mission& mission)
+      : parameters_(&parameters), mission_(&mission) {}
 
   Result<std::uint8_t> start() override {
     const AutopilotParameters& p = *parameters_;
     const bool good =
         start_autopilot(autopilot_, &p.block, p.surge.lines.data(), p.surge.lines.size(),
                         p.yaw.lines.data(), p.yaw.lines.size(), p.crc);
+    set_up();
     return std::uint8_t{good ? kFaultNone : kFaultParameters};
   }
 
   Status follow(const Points& points) override {
     points_ = points;
-    follow_waypoints(autopilot_, Waypoints<float>{points_.points_m.data(),
-                                                  static_cast<int>(points_.points_m.size()),
-                                                  points_.acceptance_m, false});
+    const int count = static_cast<int>(points_.points_m.size());
+    if (const auto& line = mission_->line) {
+      follow_line(autopilot_,
+                  Polyline<float>{points_.points_m.data(), count, line->corner_m, line->law});
+    } else {
+      follow_waypoints(autopilot_, Waypoints<float>{points_.points_m.data(), count,
+                                                    points_.acceptance_m, mission_->skip_passed});
+    }
     return {};
   }
 
@@ -31,18 +40,45 @@ class HostExecutor : public Executor {
   }
 
  private:
+  /// As pil_set_up() of the firmware's mission.h.
+  void set_up() {
+    const Mission& mission = *mission_;
+    const float sample_time_s = parameters_->sample_time_s;
+    if (mission.path) follow_path(autopilot_, mission.path->path, mission.path->gain_per_s);
+    if (mission.slow_down_m) part_of<SlowDown>(autopilot_).distance_m = *mission.slow_down_m;
+    if (mission.avoidance) {
+      sectors_.resize(mission.obstacles.size());
+      avoid_obstacles(autopilot_, *mission.avoidance, mission.obstacles.data(), sectors_.data(),
+                      static_cast<int>(mission.obstacles.size()));
+    }
+    if (mission.shaping) shape_headings(autopilot_, *mission.shaping, sample_time_s);
+    if (mission.observers) observe_disturbance(autopilot_, *mission.observers, sample_time_s);
+  }
+
   const AutopilotParameters* parameters_;
-  Autopilot<G> autopilot_{};
+  const Mission* mission_;
+  Autopilot<G, AllParts<split>> autopilot_{};
   Points points_;
+  std::vector<Sector<float>> sectors_;
 };
+
+template <class G>
+std::unique_ptr<Executor> host_executor_of(const AutopilotParameters& parameters,
+                                           const Mission& mission) {
+  if (parameters.split == CombinedSplit::kFixedHalf) {
+    return std::make_unique<HostExecutor<G, CombinedSplit::kFixedHalf>>(parameters, mission);
+  }
+  return std::make_unique<HostExecutor<G, CombinedSplit::kRedistribute>>(parameters, mission);
+}
 
 }  // namespace
 
-std::unique_ptr<Executor> host_executor(const AutopilotParameters& parameters) {
+std::unique_ptr<Executor> host_executor(const AutopilotParameters& parameters,
+                                        const Mission& mission) {
   if (parameters.resistance == ResistanceForm::kTable) {
-    return std::make_unique<HostExecutor<ResistanceTable>>(parameters);
+    return host_executor_of<ResistanceTable>(parameters, mission);
   }
-  return std::make_unique<HostExecutor<Resistance<float>>>(parameters);
+  return host_executor_of<Resistance<float>>(parameters, mission);
 }
 
 }  // namespace awmr::pil

@@ -12,7 +12,6 @@ namespace {
 
 constexpr std::size_t kStepsPerMode = 2000;
 constexpr int kFields = 11;  ///< floats of an AutopilotInput
-constexpr std::size_t kPoints = 16;
 constexpr float kAcceptance_m = 1.0F;
 
 /// One step's input and the points that are followed from it on.
@@ -124,18 +123,23 @@ Result<unsigned> tried(Executor& chip, Executor& host, const Attack& attack, Hos
 }  // namespace
 
 Result<Hostile> provoke(Executor& chip, Executor& host, const SafetyLimits& limits,
-                        bool following) {
+                        const Mission& mission) {
   Hostile found;
-  // Every step is at time 0; the first one, late after whatever was before it, is not looked at.
-  AWMR_RETURN_IF_ERROR(chip.step({}));
-  AWMR_RETURN_IF_ERROR(host.step({}));
+  // Every step is at time 0; the first one, late after whatever was before it, is not looked at. Its
+  // mode is none: after a fault both remember nothing of the motion before.
+  AutopilotInput first{};
+  first.mode = 3;
+  AWMR_RETURN_IF_ERROR(chip.step(first));
+  AWMR_RETURN_IF_ERROR(host.step(first));
   for (std::uint8_t mode = 0; mode <= static_cast<std::uint8_t>(YawMode::kCombined); ++mode) {
     Random random(1, mode);
     Attack best;
     best.input.mode = mode;
-    if (following) {
-      best.points.points_m.resize(kPoints);
-      best.points.acceptance_m = kAcceptance_m;
+    if (!mission.points.points_m.empty()) {
+      // Without parts the firmware has room for more points than the mission's.
+      best.points.points_m.resize(parts_of(mission).empty() ? kMaxPoints
+                                                            : mission.points.points_m.size());
+      if (!mission.line) best.points.acceptance_m = kAcceptance_m;
     }
     unsigned most = 0;
     for (std::size_t i = 0; i < kStepsPerMode; ++i) {

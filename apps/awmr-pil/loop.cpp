@@ -15,43 +15,25 @@ namespace {
 
 using cli::Injection;
 
-/// The firmware's pil_points.
-constexpr std::size_t kMaxWaypoints = 16;
-
 float single(double value) { return static_cast<float>(value); }
-
-/// Waypoints that the chip's own guidance goes to; else the host leads and the chip gets a heading.
-const WaypointCourse* course_for_chip(const Scenario& scenario) {
-  const auto* course = std::get_if<WaypointCourse>(&scenario.guidance);
-  const bool plain =
-      course != nullptr && !course->skip_passed && !scenario.avoidance && !scenario.shaping;
-  return plain ? course : nullptr;
-}
-
-Points points_of(const WaypointCourse& course) {
-  Points points;
-  points.acceptance_m = single(course.acceptance_m);
-  for (const Position<double>& point : course.points_m) {
-    points.points_m.push_back({single(point.x_m), single(point.y_m)});
-  }
-  return points;
-}
 
 std::size_t samples_of(const LoopSetup& setup) {
   return static_cast<std::size_t>(
       std::floor(setup.scenario.duration_s / setup.sample_time_s + 1e-9));
 }
 
+/// The chip leads, avoids and shapes by itself: it is told the heading that a scenario without any
+/// of these asks for, and to stop at the end of the course or where there is no passage.
 AutopilotInput input_of(const LoopSetup& setup, double t_s, const Sensed& sensed,
-                        const Reference<double>& reference) {
+                        const Pilot::Order& order) {
+  const bool stops = order.finished || order.no_passage;
   AutopilotInput in{};
   in.mode = static_cast<std::uint8_t>(setup.mode);
   in.measured = {single(sensed.motion.psi_rad), single(sensed.motion.u_mps),
                  single(sensed.motion.v_mps), single(sensed.motion.r_radps)};
   in.position_m = {single(sensed.position_m.x_m), single(sensed.position_m.y_m)};
-  in.reference = {single(reference.psi_rad), single(reference.psi_rate_radps),
-                  single(reference.psi_accel_radps2), single(reference.speed_mps),
-                  single(reference.accel_mps2)};
+  in.reference.psi_rad = single(order.course.psi_goal_rad);
+  in.reference.speed_mps = stops ? 0.0F : single(setup.scenario.speed_mps);
   const auto now_ms = static_cast<std::uint32_t>(std::llround(t_s * 1000.0));
   in.times = {now_ms, now_ms, now_ms, now_ms};
   return in;
@@ -96,24 +78,29 @@ void delay(std::uint32_t by_ms, InputTimes& times) {
   times.command_ms += by_ms;
 }
 
-/// Moves the simulated vehicle on by a sample under the chip's command.
-Status drive(Physics& physics, double t_s, const Allocation<float>& command,
-             const std::string& scenario) {
-  physics.disturb(t_s);
-  physics.step(t_s,
-               {static_cast<double>(command.force.left), static_cast<double>(command.force.right)},
-               static_cast<double>(command.steering_rad));
+/// What the actuators make of the chip's command.
+void command(const LoopSetup& setup, LoopRow& row) {
+  const Allocation<float>& asked = row.step.output.command;
+  row.force = {static_cast<double>(asked.force.left), static_cast<double>(asked.force.right)};
+  row.steering_command_rad = static_cast<double>(asked.steering_rad);
+  if (setup.scenario.actuators) {
+    quantise(*setup.scenario.actuators, setup.force_max, row.force, row.steering_command_rad);
+  }
+}
+
+/// Moves the simulated vehicle on by a sample under the row's command.
+Status drive(Physics& physics, const LoopRow& row, const std::string& scenario) {
+  physics.disturb(row.t_s);
+  physics.step(row.t_s, row.force, row.steering_command_rad);
   if (physics.resolved()) return {};
   return input_error(
       fmt::format("scenario '{}'", scenario),
       fmt::format("the simulated vehicle cannot go on after {:g} s: resistance is too stiff there "
                   "for any step, or a number is no longer finite",
-                  t_s));
+                  row.t_s));
 }
 
 }  // namespace
-
-bool chip_leads(const Scenario& scenario) { return course_for_chip(scenario) != nullptr; }
 
 Status check_scenario(const Scenario& scenario, const std::string& file) {
   std::vector<Fault> faults;
@@ -122,21 +109,14 @@ Status check_scenario(const Scenario& scenario, const std::string& file) {
                       "is open loop, which asks nothing of a controller: give "
                       "heading, waypoints, line or lissajous"});
   }
-  if (scenario.actuators) faults.push_back({file + ":/actuators", "the firmware has none: remove"});
-  if (scenario.control.observer) {
-    faults.push_back({file + ":/control/observer", "the firmware has none: remove"});
-  }
-  if (scenario.control.split != CombinedSplit::kRedistribute) {
-    faults.push_back({file + ":/control/combined_split", "the firmware always does: remove"});
-  }
   if (scenario.control.allocation.value_or(AllocationForm::kExact) != AllocationForm::kExact) {
     faults.push_back({file + ":/control/allocation", "the firmware's is exact: remove"});
   }
-  const WaypointCourse* course = course_for_chip(scenario);
-  if (course != nullptr && course->points_m.size() > kMaxWaypoints) {
-    faults.push_back({file + ":/guidance/points_m",
-                      fmt::format("the firmware has room for {} waypoints, there are {}",
-                                  kMaxWaypoints, course->points_m.size())});
+  const std::size_t points = mission_of(scenario).points.points_m.size();
+  if (points > kMaxPoints) {
+    faults.push_back(
+        {file + ":/guidance/points_m",
+         fmt::format("the firmware has room for {} points, there are {}", kMaxPoints, points)});
   }
   if (!faults.empty()) return input_errors(std::move(faults));
   return {};
@@ -186,11 +166,8 @@ Result<std::vector<LoopRow>> run_loop(const LoopSetup& setup, Executor& executor
   Sensing sensing(setup.scenario.sensors, setup.sample_time_s, run_seed(setup.scenario.seed, 0, 0));
   Sensed sensed = sensing.at(0, physics.state());
   Pilot pilot(setup.scenario, setup.sample_time_s, sensed);
-  const WaypointCourse* course = course_for_chip(setup.scenario);
-  if (course != nullptr) {
-    if (auto following = executor.follow(points_of(*course)); !following) {
-      return tl::unexpected(following.error());
-    }
+  if (!setup.mission.points.points_m.empty()) {
+    AWMR_RETURN_IF_ERROR(executor.follow(setup.mission.points));
   }
   const Window window = injection_window(setup);
   std::vector<LoopRow> rows;
@@ -201,16 +178,15 @@ Result<std::vector<LoopRow>> run_loop(const LoopSetup& setup, Executor& executor
     row.state = physics.state();
     if (k > 0) sensed = sensing.at(k, row.state);
     const Pilot::Order order = pilot.at(row.t_s, sensed);
-    AutopilotInput input = input_of(setup, row.t_s, sensed, order.reference);
+    AutopilotInput input = input_of(setup, row.t_s, sensed, order);
     if (k >= window.first && k < window.last) inject(setup.injection, input);
     if (setup.injection == Injection::kStepLate && k >= window.first) delay(10'000, input.times);
     auto step = executor.step(input);
     if (!step) return tl::unexpected(step.error());
     row.step = *step;
-    const bool ended =
-        course != nullptr ? step->output.arrived : order.finished || order.no_passage;
-    if (ended || k == samples) break;
-    AWMR_RETURN_IF_ERROR(drive(physics, row.t_s, step->output.command, setup.scenario.name));
+    command(setup, row);
+    if (step->output.arrived || order.no_passage || k == samples) break;
+    AWMR_RETURN_IF_ERROR(drive(physics, row, setup.scenario.name));
   }
   return rows;
 }

@@ -15,6 +15,7 @@ struct LoopSetup {
   double sample_time_s = 0.01;
   double force_max = 1.0;
   Scenario scenario;
+  Mission mission;  ///< mission_of() the scenario
   YawMode mode = YawMode::kCombined;
   cli::Injection injection = cli::Injection::kNone;
 };
@@ -23,11 +24,9 @@ struct LoopRow {
   double t_s = 0.0;
   State<double> state{};
   Step step;
+  SideForces<double> force{};         ///< the step's, as the actuators can make it
+  double steering_command_rad = 0.0;  ///< the same
 };
-
-/// True where the chip goes to the scenario's waypoints itself; else the host leads, and the chip
-/// gets a heading.
-bool chip_leads(const Scenario& scenario);
 
 /// Errors (input): the scenario asks for what the firmware does not do.
 Status check_scenario(const Scenario& scenario, const std::string& file);

@@ -9,7 +9,6 @@
 namespace awmr::pil {
 namespace {
 
-constexpr std::size_t kMaxPoints = 16;
 /// Start-up computes a check sum over the parameters: a second is ten times what it takes.
 constexpr std::uint64_t kStartCycles = 16'000'000;
 
@@ -36,7 +35,8 @@ class MemoryLink : public Chip {
     Writer writer;
     for (const Position<float>& point : points.points_m) writer.put(point.x_m).put(point.y_m);
     put("pil_points", writer);
-    put("pil_acceptance_m", Writer().put(points.acceptance_m));
+    // A line has none, and so has its firmware.
+    if (points.acceptance_m > 0.0F) put("pil_acceptance_m", Writer().put(points.acceptance_m));
     put("pil_point_count", Writer().put(static_cast<std::int16_t>(points.points_m.size())));
     return {};
   }

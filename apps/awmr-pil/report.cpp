@@ -1,6 +1,7 @@
 #include "report.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -40,6 +41,12 @@ Json json_of(const Check& check) {
           {"passed", check.passed}};
 }
 
+std::string parts_text(const EmitOptions& options) {
+  std::vector<std::string_view> names;
+  for (const FirmwarePart part : options.parts) names.push_back(name_in(kFirmwarePartNames, part));
+  return fmt::format("{}", fmt::join(names, ","));
+}
+
 std::string mode_name(const PilOptions& options) { return std::string(name_of(options.mode)); }
 
 Result<Provenance> provenance_of(const PilOptions& options) {
@@ -49,7 +56,9 @@ Result<Provenance> provenance_of(const PilOptions& options) {
       {"mode", mode_name(options)},
       {"link", std::string(name_in(cli::kPilLinkNames, options.link))},
       {"resistance", std::string(name_in(kResistanceFormNames, options.emit.resistance))},
-      {"optimize", std::string(name_in(cli::kOptimizeNames, options.optimize))},
+      {"with", parts_text(options.emit)},
+      {"split", std::string(name_in(kCombinedSplitNames, options.emit.split))},
+      {"optimize", std::string(name_in(cli::kOptimizeNames, *options.optimize))},
       {"table-error", fmt::format("{:g}", options.emit.table_error)},
       {"line-noise", fmt::format("{:g}", options.line_noise)}};
   for (const fs::path& path : {options.model, options.gains, options.scenario}) {
@@ -66,8 +75,7 @@ void judge(const PilOptions& options, double period_cycles, Report& report) {
   const bool by_table = options.emit.resistance == ResistanceForm::kTable;
   const ChipFigures& figures = report.chip.figures;
   std::vector<Check>& checks = report.checks;
-  checks.push_back(at_most("cycles", report.cycles.max,
-                           options.cycles_max.value_or(by_table ? 12000 : 24000), "cycles"));
+  checks.push_back(at_most("cycles", report.cycles.max, *options.cycles_max, "cycles"));
   if (const auto& hostile = report.chip.hostile) {
     checks.push_back(
         at_most("cycles from hostile inputs", hostile->cycles, period_cycles, "cycles"));
@@ -84,7 +92,7 @@ void judge(const PilOptions& options, double period_cycles, Report& report) {
                     0.0, report.from_float.same_length, ""});
   if (report.from_double) {
     checks.push_back(at_most("heading from the host's double run",
-                             report.from_double->of("heading_deg"), options.heading_max_deg,
+                             report.from_double->of("heading_deg"), *options.heading_max_deg,
                              "deg"));
   }
   if (const auto& injected = report.injected) {
@@ -111,6 +119,7 @@ Result<std::string> report_text(const PilOptions& options, const LoopSetup& setu
   if (report.from_double) json["difference_double"] = json_of(*report.from_double);
   if (report.by_float32) json["effect"]["float32"] = json_of(*report.by_float32);
   if (report.by_table) json["effect"]["table"] = json_of(*report.by_table);
+  json["guidance_on_chip"] = setup.mission.leads();
   json["cycles"] = {
       {"min", report.cycles.min}, {"mean", report.cycles.mean}, {"max", report.cycles.max}};
   const auto& hostile = report.chip.hostile;

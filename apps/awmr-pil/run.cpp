@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <set>
 
 #include "awmr/core/file.h"
 #include "awmr/model/gains_file.h"
@@ -29,6 +30,7 @@ using cli::PilOptions;
 /// What was read, and what follows from it.
 struct Inputs {
   Model model;
+  EmitOptions emit;  ///< as the options say, with what the scenario needs
   Gains<double> gains;
   EmitInputs names;
   LoopSetup setup;
@@ -63,12 +65,17 @@ Result<Inputs> read_inputs(const PilOptions& options) {
   if (!plant) return tl::unexpected(plant.error());
   const auto names = cli::emit_inputs(options.model, options.gains);
   if (!names) return tl::unexpected(names.error());
-  const auto parameters = autopilot_parameters(*model, *gains, *names, options.emit);
+  const Mission mission = mission_of(*scenario);
+  in.emit = options.emit;
+  in.emit.parts.merge(parts_of(mission));
+  if (scenario->control.split != CombinedSplit::kRedistribute) in.emit.split = mission.split;
+  const auto parameters = autopilot_parameters(*model, *gains, *names, in.emit);
   if (!parameters) return tl::unexpected(parameters.error());
   in.setup = {.plant = *plant,
               .sample_time_s = model->vehicle.sample_time_s,
               .force_max = model->vehicle.wheel_force.hi,
               .scenario = *scenario,
+              .mission = mission,
               .mode = options.mode,
               .injection = options.injection};
   in.model = std::move(*model);
@@ -89,20 +96,22 @@ Result<std::unique_ptr<Chip>> connect(const PilOptions& options, const Inputs& i
       return input_error("--port", "is for --link uart: memory is the emulated chip's only");
     }
     if (damage) return input_error("--inject", "parameters: only on the emulated chip");
-    return port_link(*options.port, options.baud, elf, in.parameters.crc);
+    return port_link(*options.port, options.baud, elf,
+                     in.parameters.crc ^ mission_crc(in.setup.mission));
   }
   if (options.link == cli::PilLink::kUart)
-    return uart_link(elf, damage, in.parameters.crc, options.line_noise);
+    return uart_link(elf, damage, in.parameters.crc ^ mission_crc(in.setup.mission),
+                     options.line_noise);
   return memory_link(elf, damage);
 }
 
 /// The longest step of an emulated chip, whose run is over.
 Result<std::optional<Hostile>> hostile_of(const PilOptions& options, const Inputs& in, Chip& chip) {
   if (options.port || options.injection != Injection::kNone) return std::optional<Hostile>();
-  const auto host = host_executor(in.parameters);
+  const auto host = host_executor(in.parameters, in.setup.mission);
   if (const auto started = host->start(); !started) return tl::unexpected(started.error());
-  AWMR_ASSIGN_OR_RETURN(const Hostile hostile, provoke(chip, *host, in.parameters.block.safety,
-                                                       chip_leads(in.setup.scenario)));
+  AWMR_ASSIGN_OR_RETURN(const Hostile hostile,
+                        provoke(chip, *host, in.parameters.block.safety, in.setup.mission));
   return std::optional(hostile);
 }
 
@@ -117,12 +126,13 @@ double elapsed_s(bool emulated) {
 Result<ChipRun> run_chip(const PilOptions& options, const Inputs& in) {
   if (options.build_directory) AWMR_RETURN_IF_ERROR(prepare_to_keep(*options.build_directory));
   AWMR_ASSIGN_OR_RETURN(const auto folder, WorkFolder::make());
-  const auto library = firmware_library(in.model, in.gains, in.names, options.emit);
+  const auto library = firmware_library(in.model, in.gains, in.names, in.emit);
   if (!library) return tl::unexpected(library.error());
   const auto elf = build_firmware(
       folder->path(), *library,
       {.link = options.link == cli::PilLink::kMemory ? LinkKind::kMemory : LinkKind::kUart,
-       .optimize = options.optimize});
+       .optimize = *options.optimize,
+       .mission = mission_header(in.setup.mission)});
   if (!elf) return tl::unexpected(elf.error());
   if (options.build_directory) {
     AWMR_RETURN_IF_ERROR(keep_firmware(folder->path(), *options.build_directory));
@@ -145,16 +155,36 @@ Result<ChipRun> run_chip(const PilOptions& options, const Inputs& in) {
 }
 
 /// The same loop in float on this machine.
-Result<std::vector<LoopRow>> run_host(const Inputs& in, ResistanceForm form,
-                                      const EmitOptions& emit) {
-  EmitOptions options = emit;
+Result<std::vector<LoopRow>> run_host(const Inputs& in, ResistanceForm form) {
+  EmitOptions options = in.emit;
   options.resistance = form;
   auto parameters = autopilot_parameters(in.model, in.gains, in.names, options);
   if (!parameters) return tl::unexpected(parameters.error());
   if (in.setup.injection == Injection::kParameters) parameters->crc ^= 1U;
-  const auto host = host_executor(*parameters);
+  const auto host = host_executor(*parameters, in.setup.mission);
   if (const auto started = host->start(); !started) return tl::unexpected(started.error());
   return run_loop(in.setup, *host);
+}
+
+/// With the defaults that depend on scenario and firmware.
+PilOptions resolved(PilOptions options, const Inputs& in) {
+  const std::set<FirmwarePart>& parts = in.emit.parts;
+  const bool avoids = parts.contains(FirmwarePart::kAvoidance);
+  options.emit = in.emit;
+  if (!options.optimize) {
+    const bool large = avoids || parts.contains(FirmwarePart::kPath) || parts.size() > 1;
+    options.optimize = large ? cli::Optimize::kSize : cli::Optimize::kSpeed;
+  }
+  if (!options.cycles_max) {
+    const bool by_table = in.emit.resistance == ResistanceForm::kTable;
+    const double period_cycles = in.setup.sample_time_s * kClockHz;
+    options.cycles_max =
+        parts.empty() ? (by_table ? 12000U : 24000U) : static_cast<unsigned>(0.75 * period_cycles);
+  }
+  if (!options.heading_max_deg) {
+    options.heading_max_deg = avoids || in.setup.scenario.sensors ? 2.0 : 0.05;
+  }
+  return options;
 }
 
 Injected injected_of(const LoopSetup& setup, const std::vector<LoopRow>& rows) {
@@ -177,7 +207,7 @@ Injected injected_of(const LoopSetup& setup, const std::vector<LoopRow>& rows) {
 }
 
 Status compare_runs(const PilOptions& options, const Inputs& in, Report& report) {
-  const auto twin = run_host(in, options.emit.resistance, options.emit);
+  const auto twin = run_host(in, options.emit.resistance);
   if (!twin) return tl::unexpected(twin.error());
   report.from_float = difference(report.chip.rows, *twin);
   if (options.injection != Injection::kNone) {
@@ -186,12 +216,12 @@ Status compare_runs(const PilOptions& options, const Inputs& in, Report& report)
   }
   const auto plant = in.model.plant();
   if (!plant) return tl::unexpected(plant.error());
-  const Run exact = simulate(in.setup.plant, make_controller(*plant, in.model.vehicle, in.gains),
-                             in.setup.scenario, in.setup.mode,
-                             {.sample_time_s = in.setup.sample_time_s, .substeps = {}});
+  const Run exact = simulate(
+      in.setup.plant, make_controller(*plant, in.model.vehicle, in.gains, in.emit.split),
+      in.setup.scenario, in.setup.mode, {.sample_time_s = in.setup.sample_time_s, .substeps = {}});
   AWMR_RETURN_IF_ERROR(failure_of(exact, in.setup.scenario));
   report.from_double = difference(report.chip.rows, exact);
-  const auto by_powf = run_host(in, ResistanceForm::kPowf, options.emit);
+  const auto by_powf = run_host(in, ResistanceForm::kPowf);
   if (!by_powf) return tl::unexpected(by_powf.error());
   report.by_float32 = difference(*by_powf, exact);
   if (options.emit.resistance == ResistanceForm::kTable) {
@@ -202,11 +232,12 @@ Status compare_runs(const PilOptions& options, const Inputs& in, Report& report)
 
 }  // namespace
 
-Result<Outcome> run_pil(const PilOptions& options) {
-  const std::vector<fs::path> inputs{options.model, options.gains, options.scenario};
-  AWMR_RETURN_IF_ERROR(check_output(options.output, inputs));
-  const auto in = read_inputs(options);
+Result<Outcome> run_pil(const PilOptions& asked) {
+  const std::vector<fs::path> inputs{asked.model, asked.gains, asked.scenario};
+  AWMR_RETURN_IF_ERROR(check_output(asked.output, inputs));
+  const auto in = read_inputs(asked);
   if (!in) return tl::unexpected(in.error());
+  const PilOptions options = resolved(asked, *in);
   Report report;
   auto chip = run_chip(options, *in);
   if (!chip) return tl::unexpected(chip.error());

@@ -2,9 +2,11 @@
 
 #include <CLI/CLI.hpp>
 #include <string>
+#include <vector>
 
 #include "awmr/core/input_file.h"
 #include "awmr/core/provenance.h"
+#include "awmr/simulate/scenario.h"
 #include "choices.h"
 #include "numbers.h"
 
@@ -20,6 +22,20 @@ void add_emit_options(CLI::App& command, EmitOptions& options) {
                   "largest force")
       ->check(within(1e-7, 0.1))
       ->capture_default_str();
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--with",
+          [&options](const std::vector<std::string>& names) {
+            for (const std::string& name : names) {
+              options.parts.insert(*value_in(kFirmwarePartNames, name));
+            }
+          },
+          "Parts to compile in beyond heading hold and waypoints")
+      ->delimiter(',')
+      ->check(one_of(names_in(kFirmwarePartNames)));
+  add_choice(command, "--split", options.split, kCombinedSplitNames,
+             "What a path of the combined mode cannot deliver goes to the other, or is lost")
+      ->default_str("redistribute");
   const auto timeout = [&](const char* name, std::uint32_t& value, const char* meaning) {
     command.add_option(name, value, meaning)
         ->check(within<std::uint32_t>(1, 3600000))

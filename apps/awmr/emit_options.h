@@ -12,7 +12,7 @@ class App;
 
 namespace awmr::cli {
 
-/// `--resistance`, `--table-error` and the time-outs.
+/// `--resistance`, `--table-error`, `--with`, `--split` and the time-outs.
 void add_emit_options(CLI::App& command, EmitOptions& options);
 
 /// Names and hashes of the two files.

@@ -18,7 +18,8 @@ constexpr unsigned kAnyCount = std::numeric_limits<unsigned>::max();
 void add_bounds(CLI::App& command, PilOptions& options) {
   command
       .add_option("--cycles-max", options.cycles_max,
-                  "Most cycles of a step [12000 by table, 24000 by powf]")
+                  "Most cycles of a step [12000 by table, 24000 by powf; with parts three quarters "
+                  "of the sample time]")
       ->check(within(1U, kAnyCount));
   command.add_option("--flash-max", options.flash_max, "Most bytes of flash")
       ->check(within(1U, kAnyCount))
@@ -33,9 +34,9 @@ void add_bounds(CLI::App& command, PilOptions& options) {
       ->check(within(0.0, 1e9));
   command
       .add_option("--heading-max-deg", options.heading_max_deg,
-                  "Largest difference of the heading from the host's double run")
-      ->check(within(0.0, 360.0))
-      ->capture_default_str();
+                  "Largest difference of the heading from the host's double run [0.05; 2 where "
+                  "obstacles are avoided or sensors simulated]")
+      ->check(within(0.0, 360.0));
 }
 
 }  // namespace
@@ -56,9 +57,15 @@ void add_pil_options(CLI::App& command, PilOptions& options) {
       ->check(within(300U, 4000000U))
       ->capture_default_str();
   add_emit_options(command, options.emit);
-  add_choice(command, "--optimize", options.optimize, kOptimizeNames,
-             "Compile the firmware for few cycles or for little flash")
-      ->default_str("speed");
+  command
+      .add_option_function<std::string>(
+          "--optimize",
+          [&options](const std::string& name) {
+            options.optimize = *value_in(kOptimizeNames, name);
+          },
+          "Compile the firmware for few cycles or for little flash [speed; size for paths, "
+          "obstacles, and two parts or more]")
+      ->check(one_of(names_in(kOptimizeNames)));
   add_bounds(command, options);
   add_choice(command, "--inject", options.injection, kInjectionNames, "A fault to inject half-way")
       ->default_str("none");

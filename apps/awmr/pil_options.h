@@ -59,12 +59,14 @@ struct PilOptions {
   std::optional<std::filesystem::path> port;  ///< a real board's, with kUart
   unsigned baud = 500000;
   EmitOptions emit;
-  Optimize optimize = Optimize::kSpeed;
-  std::optional<unsigned> cycles_max;    ///< absent: 12,000 by table, 24,000 by powf
-  unsigned flash_max = 16384;            ///< bytes
-  unsigned ram_max = 512;                ///< bytes, without the stack
+  std::optional<Optimize> optimize;    ///< absent: for size where obstacles are avoided, else speed
+  std::optional<unsigned> cycles_max;  ///< absent: 12,000 by table, 24,000 by powf
+  unsigned flash_max = 16384;          ///< bytes
+  unsigned ram_max = 512;              ///< bytes, without the stack
   std::optional<double> difference_max;  ///< from the host's float run; absent: 0 and 1e-6
-  double heading_max_deg = 0.05;         ///< from the host's double run
+  /// From the host's double run; absent: 0.05, and 2 where obstacles are avoided or sensors are
+  /// simulated, as what changes the course may then be noticed one of their samples apart.
+  std::optional<double> heading_max_deg;
   Injection injection = Injection::kNone;
   double line_noise = 0.0;  ///< share of bits flipped and of bytes lost, with kUart and no port
   std::optional<std::filesystem::path> build_directory;  ///< kept; absent: one that goes away

@@ -25,8 +25,9 @@ constexpr double kFar = 1e9;
 
 Avoided<double> avoided(const std::vector<O>& obstacles, double guidance_rad = 0.0,
                         double target_m = kFar, AvoidanceState state = {}) {
-  return avoid(kAvoidance, obstacles.data(), static_cast<int>(obstacles.size()), {0.0, 0.0}, 0.0,
-               1.0, guidance_rad, target_m, state);
+  std::vector<Sector<double>> sectors(obstacles.size());
+  return avoid(kAvoidance, obstacles.data(), sectors.data(), static_cast<int>(obstacles.size()),
+               {0.0, 0.0}, 0.0, 1.0, guidance_rad, target_m, state);
 }
 
 TEST(Obstacles, BeyondTheManoeuvringDistanceNothingHappens) {
@@ -113,9 +114,10 @@ TEST(Obstacles, MixNoDoubleIntoTheirScalar) {
   const Avoidance<S> avoidance{S(4.0), S(1.0), S(0.2), S(0.5), S(0.5), S(0.5), S(0.2), S(2.0)};
   const Obstacle<S> obstacle{{S(5.0), S(0.0)}, S(1.0)};
   AvoidanceState state;
-  EXPECT_TRUE(
-      avoid(avoidance, &obstacle, 1, {S(0.0), S(0.0)}, S(0.0), S(1.0), S(0.0), S(1e9), state)
-          .active);
+  Sector<S> sector{};
+  EXPECT_TRUE(avoid(avoidance, &obstacle, &sector, 1, {S(0.0), S(0.0)}, S(0.0), S(1.0), S(0.0),
+                    S(1e9), state)
+                  .active);
 }
 
 }  // namespace

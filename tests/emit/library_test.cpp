@@ -90,6 +90,75 @@ TEST_P(Library, AnEditByHandIsFoundAtStartUp) {
   EXPECT_EQ(run("./use").exit_code, 1);
 }
 
+/// Uses every part.
+constexpr const char* kUseAll = R"(#include "awmr.h"
+static const awmr_point corners[3] = {{0.0f, 0.0f}, {10.0f, 0.0f}, {20.0f, 5.0f}};
+static const awmr_obstacle obstacle[1] = {{10.0f, 0.0f, 1.0f}};
+static awmr_sector room[1];
+int main(void) {
+  const awmr_line_law law = {1.0f, 3.0f, 1.0f, 1};
+  const awmr_path path = {10.0f, 10.0f, 0.01f, 0.03f, 0.5f};
+  const awmr_avoidance avoidance = {6.0f, 1.0f, 0.2f, 0.8f, 0.5f, 0.5f, 1.5f, 1.5f};
+  const awmr_shaping shaping = {4.0f, 1.0f, 5.0f};
+  const awmr_observer observer = {5.0f, 0.1f, 0.5f, 1};
+  awmr_input in = {0};
+  awmr_output out;
+  int step;
+  if (awmr_init() != AWMR_FAULT_NONE) return 1;
+  in.mode = AWMR_COMBINED;
+  in.u_ref_mps = 1.0f;
+  awmr_slow_down(5.0f);
+  awmr_avoid(&avoidance, obstacle, room, 1);
+  awmr_shape(&shaping);
+  awmr_observe(&observer);
+  for (step = 0; step < 2000; ++step) {
+    if (step == 0) awmr_follow_line(corners, 3, &law);
+    if (step == 600) awmr_follow_path(&path);
+    if (step == 1200) awmr_follow_skipping(corners, 3, 1.0f);
+    if (step == 1500) awmr_avoid(&avoidance, obstacle, room, 0);
+    if (step == 1600) awmr_shape(0);
+    if (step == 1700) awmr_observe(0);
+    in.u_mps = 1.0f;
+    in.x_m = 0.01f * (float)step;
+    in.now_ms = in.heading_ms = in.speed_ms = in.command_ms = 10UL * (unsigned long)step;
+    awmr_step(&in, &out);
+    if (out.fault != AWMR_FAULT_NONE || out.force_left > AWMR_WHEEL_FORCE_MAX) return 2;
+    if (step == 900 && out.psi_ref_rad == 0.0f) return 3;
+    if (out.arrived && step < 1200) return 4;
+  }
+  in.x_m = 0.0f / in.u_ref_accel_mps2; /* not a number */
+  in.now_ms += 10;
+  awmr_step(&in, &out);
+  return (out.fault & AWMR_FAULT_NOT_FINITE) != 0 && out.force_left == 0.0f ? 0 : 5;
+}
+)";
+
+TEST(AllParts, CompileForTheChipAsCAndAsCxxAndRunUnderSanitizers) {
+  TemporaryDirectory directory;
+  EmitOptions options;
+  for (const FirmwarePart part : values_in(kFirmwarePartNames)) options.parts.insert(part);
+  options.split = CombinedSplit::kFixedHalf;
+  for (const EmittedFile& file : library(options)) {
+    fs::create_directories((directory.path() / file.path).parent_path());
+    write_all(directory.path() / file.path, file.bytes);
+  }
+  write_all(directory.path() / "use.c", kUseAll);
+  const auto run = [&](const std::string& line) { return run_process(line, directory.path()); };
+  const std::string chip =
+      " -mmcu=atmega2560 -Os -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion "
+      "-Werror -Isrc ";
+  EXPECT_TRUE(succeeded(run(kAvrGcc + chip + "-std=c99 -c use.c -o use.o")));
+  EXPECT_TRUE(succeeded(run(kAvrGxx + chip + "-std=c++14 -c src/awmr.cpp -o awmr.o")));
+  EXPECT_TRUE(succeeded(run(kAvrGxx + chip + "-std=c++11 -c src/awmr.cpp -o awmr11.o")));
+  EXPECT_TRUE(succeeded(run(std::string(kAvrGxx) + " -mmcu=atmega2560 use.o awmr.o -o use.elf")));
+  const std::string host =
+      " -O1 -g -Wall -Wextra -Wpedantic -Werror -ffp-contract=off -fsanitize=address,undefined "
+      "-fno-sanitize=float-divide-by-zero -fno-sanitize-recover=all -Isrc ";
+  ASSERT_TRUE(succeeded(run(kGcc + host + "-std=c99 -c use.c -o use.o")));
+  ASSERT_TRUE(succeeded(run(kGxx + host + "-std=c++14 use.o src/awmr.cpp -o use")));
+  EXPECT_EQ(run("./use").exit_code, 0);
+}
+
 class Sketches : public Library {};
 
 TEST_P(Sketches, CompileAndLinkWithDebiansArduinoCore) {

@@ -19,7 +19,8 @@ constexpr uint8_t kMaxPayload = 140;
 constexpr uint8_t kMaxFrame = kHeadBytes + kMaxPayload + 2;  // after the start
 
 // Requests and what is in them; the answer has the same type.
-constexpr uint8_t kHello = 'H';   // nothing -> awmr_init()'s fault, AWMR_PARAMETERS_CRC32
+constexpr uint8_t kHello = 'H';   // nothing -> awmr_init()'s fault, AWMR_PARAMETERS_CRC32 xor
+                                  // kPilMission
 constexpr uint8_t kFollow = 'F';  // acceptance_m, points as x_m, y_m -> nothing
 constexpr uint8_t kStep = 'S';    // awmr_input -> awmr_output, cycles (16 bit)
 

@@ -5,11 +5,12 @@
 #include <avr/sleep.h>
 
 #include "awmr.h"
+#include "mission.h"
 
 extern "C" {
 awmr_input pil_input;
 awmr_output pil_output;
-awmr_point pil_points[16];
+awmr_point pil_points[kPilPoints];
 int16_t pil_point_count;  // above 0: follow them from the next step on
 float pil_acceptance_m;
 uint8_t pil_init_fault;
@@ -27,7 +28,7 @@ static_assert(kTimerCounts >= 2 && kTimerCounts <= 65536,
 
 ISR(TIMER1_COMPA_vect) {
   if (pil_point_count > 0) {
-    awmr_follow(pil_points, pil_point_count, pil_acceptance_m);
+    pil_follow(pil_points, pil_point_count, pil_acceptance_m);
     pil_point_count = 0;
   }
   awmr_step(&pil_input, &pil_output);
@@ -36,6 +37,7 @@ ISR(TIMER1_COMPA_vect) {
 
 int main() {
   pil_init_fault = awmr_init();
+  pil_set_up();
   OCR1A = static_cast<uint16_t>(kTimerCounts - 1);
   TCCR1B = _BV(WGM12) | _BV(CS11);
   TIMSK1 = _BV(OCIE1A);

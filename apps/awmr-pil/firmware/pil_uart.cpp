@@ -7,6 +7,7 @@
 
 #include "awmr.h"
 #include "frame.h"
+#include "mission.h"
 
 #ifndef PIL_BAUD
 #define PIL_BAUD 500000UL
@@ -25,7 +26,7 @@ const uint16_t kPause =
     static_cast<uint16_t>(F_CPU / 64UL / 50UL + 20UL * 10UL * (F_CPU / 64UL) / PIL_BAUD);
 
 pil::FrameReader reader;
-awmr_point points[16];
+awmr_point points[kPilPoints];
 
 /// The last answer, to be given again to a request that comes again.
 struct {
@@ -68,7 +69,8 @@ void hello() {
   struct {
     uint8_t fault;
     uint32_t crc;
-  } found = {awmr_init(), AWMR_PARAMETERS_CRC32};
+  } found = {awmr_init(), AWMR_PARAMETERS_CRC32 ^ kPilMission};
+  pil_set_up();
   is_greeted = true;
   answer(&found, sizeof found);
 }
@@ -80,7 +82,7 @@ void follow() {
   if (bytes > sizeof points || bytes % sizeof points[0] != 0) return;
   memcpy(&acceptance_m, reader.payload(), sizeof acceptance_m);
   memcpy(points, reader.payload() + sizeof acceptance_m, bytes);
-  awmr_follow(points, static_cast<int16_t>(bytes / sizeof points[0]), acceptance_m);
+  pil_follow(points, static_cast<int16_t>(bytes / sizeof points[0]), acceptance_m);
   answer(points, 0);
 }
 

@@ -1,9 +1,11 @@
 /// One whole step of the firmware: checks, guidance, heading and speed laws, allocation, limits.
-/// Freestanding C++14. The host's float run is this source too, and gives the same bits.
+/// Its parts are in autopilot_parts.h and what they do in autopilot_guidance.h. Freestanding C++14. The host's float run is this source too, and gives the same bits.
 #pragma once
 
 #include <stdint.h>
 
+#include "awmr/control/autopilot_guidance.h"
+#include "awmr/control/autopilot_parts.h"
 #include "awmr/control/controller.h"
 #include "awmr/control/guidance.h"
 #include "awmr/control/parameters_block.h"
@@ -16,8 +18,8 @@ namespace awmr {
 struct AutopilotInput {
   uint8_t mode;                 ///< a YawMode
   Measurement<float> measured;  ///< the vehicle's motion, as the sensors say
-  Position<float> position_m;   ///< read while following waypoints only
-  Reference<float> reference;   ///< its heading is not read while following waypoints
+  Position<float> position_m;   ///< read where something leads by it only
+  Reference<float> reference;   ///< its heading is not read while something leads
   InputTimes times;             ///< how old all of this is
 };
 
@@ -27,13 +29,14 @@ struct AutopilotOutput {
   float tau_speed;            ///< asked for by the speed law, dimensionless; 0 on a fault
   float tau_turn_m;           ///< asked for by the heading law, m; 0 on a fault
   float psi_ref_rad;          ///< the heading held or led to
-  bool arrived;               ///< no waypoint is left
+  bool arrived;               ///< nothing is left to go to
   uint8_t fault;              ///< SafetyFault bits; not 0: `command` is the safe one
 };
 
-/// The autopilot between two steps. G is ResistanceTable or Resistance<float>.
-template <class G>
-struct Autopilot {
+/// The autopilot between two steps. G is the form of the resistances, as in Controller; P says which
+/// parts there are (autopilot_parts.h).
+template <class G, class P = NoParts>
+struct Autopilot : P::Line, P::Path, P::Arrival, P::Avoidance, P::Shaping, P::Observation {
   PreparedController<float, G> controller;
   SafetyLimits limits;
   Waypoints<float> waypoints;        ///< count 0: none to follow
@@ -44,6 +47,23 @@ struct Autopilot {
   bool is_leg_started;               ///< the first step towards the waypoints was made
   bool are_parameters_good;          ///< the check sum was right at the start
 };
+
+/// A part of the autopilot, or Without it: `part_of<typename P::Line>(a)`.
+template <class Part, class A>
+Part& part_of(A& a) {
+  return static_cast<Part&>(a);
+}
+
+/// Switches all parts off.
+template <class G, class P>
+void switch_parts_off(Autopilot<G, P>& a) {
+  switch_off(part_of<typename P::Line>(a));
+  switch_off(part_of<typename P::Path>(a));
+  switch_off(part_of<typename P::Arrival>(a));
+  switch_off(part_of<typename P::Avoidance>(a));
+  switch_off(part_of<typename P::Shaping>(a));
+  switch_off(part_of<typename P::Observation>(a));
+}
 
 /// The resistance in the form that the firmware was compiled for: from the block's table, or from
 /// the block's alpha and beta.
@@ -66,8 +86,8 @@ inline void set_resistance(const TableShape* /*shape*/, const float* alpha_beta,
 /// Reads the parameters and checks them against `crc`, the check sum that they were emitted with.
 /// Where they differ it returns false, and every step from then on gives the safe command only. On
 /// an AVR the block and the lines lie in flash.
-template <class G>
-bool start_autopilot(Autopilot<G>& a, const ParameterBlock* block,
+template <class G, class P>
+bool start_autopilot(Autopilot<G, P>& a, const ParameterBlock* block,
                      const ResistanceLine* surge_lines, size_t surge_count,
                      const ResistanceLine* yaw_lines, size_t yaw_count, uint32_t crc) {
   PreparedController<float, G>& c = a.controller;
@@ -76,6 +96,7 @@ bool start_autopilot(Autopilot<G>& a, const ParameterBlock* block,
   set_resistance(&block->yaw_table, block->yaw_alpha_beta, yaw_lines, c.yaw);
   read_flash(&block->safety, a.limits);
   a.waypoints.count = 0;
+  switch_parts_off(a);
   a.has_stepped = false;
   a.are_parameters_good =
       crc32_of_parameters(block, surge_lines, surge_count, yaw_lines, yaw_count) == crc;
@@ -84,11 +105,66 @@ bool start_autopilot(Autopilot<G>& a, const ParameterBlock* block,
 
 /// Follows these points from the next step on. With no points it holds the reference's heading
 /// again.
-template <class G>
-void follow_waypoints(Autopilot<G>& a, const Waypoints<float>& waypoints) {
+template <class G, class P>
+void follow_waypoints(Autopilot<G, P>& a, const Waypoints<float>& waypoints) {
   a.waypoints = waypoints;
   a.acceptance_m2 = waypoints.acceptance_m * waypoints.acceptance_m;
   a.is_leg_started = false;
+  switch_off(part_of<typename P::Line>(a));
+  switch_off(part_of<typename P::Path>(a));
+}
+
+/// Follows this line from the next step on.
+template <class G, class P>
+void follow_line(Autopilot<G, P>& a, const Polyline<float>& line) {
+  follow_waypoints(a, Waypoints<float>{0, 0, 0.0F, false});
+  LineFollower& part = part_of<LineFollower>(a);
+  part.line = line;
+  part.is_started = false;
+}
+
+/// Follows this path from the next step on, which is its t = 0.
+template <class G, class P>
+void follow_path(Autopilot<G, P>& a, const Lissajous<float>& path, float gain_per_s) {
+  follow_waypoints(a, Waypoints<float>{0, 0, 0.0F, false});
+  PathFollower& part = part_of<PathFollower>(a);
+  part.path = path;
+  part.gain_per_s = gain_per_s;
+  part.is_on = true;
+  part.is_started = false;
+}
+
+/// Steers clear of `count` obstacles from the next step on; 0: of none. `sectors` is room for as many.
+template <class G, class P>
+void avoid_obstacles(Autopilot<G, P>& a, const Avoidance<float>& avoidance,
+                     const Obstacle<float>* obstacles, Sector<float>* sectors, int count) {
+  Avoider& part = part_of<Avoider>(a);
+  part.avoidance = avoidance;
+  part.obstacles = obstacles;
+  part.sectors = sectors;
+  part.count = count;
+  part.state = AvoidanceState();
+}
+
+/// Shapes the heading from the next step on, beginning with the vehicle's.
+template <class G, class P>
+void shape_headings(Autopilot<G, P>& a, const HeadingShaping<float>& filter, float sample_time_s) {
+  Shaper& part = part_of<Shaper>(a);
+  part.filter = filter;
+  part.sample_time_s = sample_time_s;
+  part.is_on = true;
+  part.is_started = false;
+}
+
+/// Observes the disturbance from the next step on, beginning with none.
+template <class G, class P>
+void observe_disturbance(Autopilot<G, P>& a, const Observers<float>& observers,
+                         float sample_time_s) {
+  Observer& part = part_of<Observer>(a);
+  part.observers = observers;
+  part.sample_time_s = sample_time_s;
+  part.is_on = true;
+  part.is_started = false;
 }
 
 namespace detail {
@@ -97,8 +173,8 @@ namespace detail {
 constexpr float kPositionMax = 1e6F;
 
 /// kFaultStepLate where the step before was too long ago; the first step has none before it.
-template <class G>
-AWMR_INLINE uint8_t check_period(Autopilot<G>& a, uint32_t now_ms) {
+template <class G, class P>
+AWMR_INLINE uint8_t check_period(Autopilot<G, P>& a, uint32_t now_ms) {
   const bool late = a.has_stepped && is_older(now_ms, a.last_step_ms, a.limits.step_timeout_ms);
   a.last_step_ms = now_ms;
   a.has_stepped = true;
@@ -106,64 +182,87 @@ AWMR_INLINE uint8_t check_period(Autopilot<G>& a, uint32_t now_ms) {
 }
 
 /// The faults of one step's input.
-template <class G>
-AWMR_INLINE uint8_t check_input(Autopilot<G>& a, const AutopilotInput& in) {
+template <class G, class P>
+AWMR_INLINE uint8_t check_input(Autopilot<G, P>& a, const AutopilotInput& in) {
   unsigned fault = a.are_parameters_good ? kFaultNone : kFaultParameters;
   if (in.mode > static_cast<uint8_t>(YawMode::kCombined)) fault |= kFaultRange;
   fault |= check_measurement(a.limits, in.measured);
   fault |= check_reference(a.limits, in.reference);
   fault |= check_times(a.limits, in.times);
   fault |= check_period(a, in.times.now_ms);
-  if (a.waypoints.count > 0) {
+  if (a.waypoints.count > 0 || needs_position(part_of<typename P::Line>(a)) ||
+      needs_position(part_of<typename P::Path>(a)) ||
+      needs_position(part_of<typename P::Avoidance>(a))) {
     fault |= check_magnitude(in.position_m.x_m, kPositionMax);
     fault |= check_magnitude(in.position_m.y_m, kPositionMax);
   }
   return static_cast<uint8_t>(fault);
 }
 
-/// The heading that the waypoints lead to.
-template <class G>
-AWMR_INLINE float led(Autopilot<G>& a, const AutopilotInput& in, bool& arrived) {
+/// Puts the heading that the waypoints lead to into the reference.
+template <class G, class P>
+AWMR_INLINE void lead_by_waypoints(Autopilot<G, P>& a, const Whereabouts& at, Reference<float>& ref,
+                                   Goal& goal) {
   if (!a.is_leg_started) {
-    a.progress = start_waypoints(in.position_m, in.measured.psi_rad);
+    a.progress = start_waypoints(at.position_m, at.measured.psi_rad);
     a.is_leg_started = true;
   }
-  const WaypointGuidance<float> guidance =
-      guide(a.waypoints, a.acceptance_m2, in.position_m, a.progress);
-  arrived = guidance.finished;
-  return guidance.psi_rad;
+  const WaypointGuidance<float> guidance = guide_clear(
+      part_of<typename P::Avoidance>(a), a.waypoints, a.acceptance_m2, at.position_m, a.progress);
+  ref.psi_rad = guidance.psi_rad;
+  ref.psi_rate_radps = 0.0F;
+  ref.psi_accel_radps2 = 0.0F;
+  goal.arrived = guidance.finished;
+  goal.target_m = a.waypoints.points_m + (a.progress.next - (guidance.finished ? 1 : 0));
+  slow_down(
+      part_of<typename P::Arrival>(a), a.progress.next + 1 >= a.waypoints.count,
+      [&] { return distance_m(at.position_m, *goal.target_m); }, ref);
+}
+
+/// Puts where waypoints, a line or a path lead to into the reference, and the heading that keeps
+/// clear of obstacles, and shapes it. Returns true where nothing is left to go to.
+template <class G, class P>
+AWMR_INLINE bool lead_all(Autopilot<G, P>& a, const Whereabouts& at, Reference<float>& ref) {
+  Goal goal = {0, false};
+  if (a.waypoints.count > 0) {
+    lead_by_waypoints(a, at, ref, goal);
+  } else if (!lead(part_of<typename P::Line>(a), part_of<typename P::Arrival>(a), at, ref, goal)) {
+    lead(part_of<typename P::Path>(a), at, ref);
+  }
+  steer_clear(part_of<typename P::Avoidance>(a), at, goal, ref);
+  shape_heading(part_of<typename P::Shaping>(a), at, ref);
+  return goal.arrived;
 }
 
 /// The laws and the allocation for a reference.
-template <class G>
-AWMR_INLINE void control(Autopilot<G>& a, const AutopilotInput& in, const Reference<float>& ref,
+template <class G, class P>
+AWMR_INLINE void control(Autopilot<G, P>& a, const AutopilotInput& in, const Reference<float>& ref,
                          AutopilotOutput& out) {
   out.psi_ref_rad = ref.psi_rad;
   out.tau_speed = speed_law(a.controller, in.measured, ref);
   out.tau_turn_m = heading_law(a.controller, in.measured, ref);
-  allocate(static_cast<YawMode>(in.mode), out.tau_speed, out.tau_turn_m,
-           a.controller.constants.allocation, CombinedSplit::kRedistribute, out.command);
+  allocate_asked(part_of<typename P::Observation>(a), a.controller, static_cast<YawMode>(in.mode),
+                 P::kSplit, in.measured, {out.tau_speed, out.tau_turn_m, out.command});
 }
 
 }  // namespace detail
 
 /// One step, to be called once per sample time. On a fault, of the input or of the command, the
 /// motors are commanded off and the wheels straight, and `out.fault` tells why.
-template <class G>
-void autopilot_step(Autopilot<G>& a, const AutopilotInput& in, AutopilotOutput& out) {
+template <class G, class P>
+void autopilot_step(Autopilot<G, P>& a, const AutopilotInput& in, AutopilotOutput& out) {
   out.arrived = false;
   out.fault = detail::check_input(a, in);
   if (out.fault == kFaultNone) {
     Reference<float> ref = in.reference;
-    if (a.waypoints.count > 0) {
-      ref.psi_rad = detail::led(a, in, out.arrived);
-      ref.psi_rate_radps = 0.0F;
-      ref.psi_accel_radps2 = 0.0F;
-    }
+    out.arrived = detail::lead_all(a, {in.position_m, in.measured, in.times.now_ms}, ref);
     detail::control(a, in, ref, out);
     if (is_within_limits(a.controller.constants.allocation, out.command)) return;
     out.fault = kFaultOutput;
   }
+  begin_anew(part_of<typename P::Avoidance>(a));
+  begin_anew(part_of<typename P::Shaping>(a));
+  begin_anew(part_of<typename P::Observation>(a));
   out.command = safe_command<float>();
   out.tau_speed = 0.0F;
   out.tau_turn_m = 0.0F;

@@ -76,6 +76,12 @@ inline float wrap_angle(float angle_rad) {
   return float_math::wrapped(angle_rad);
 }
 
+/// The same, for guidance, where a call more does not matter.
+template <class T>
+AWMR_CALLED T called_wrap_angle(const T& angle_rad) {
+  return wrap_angle(angle_rad);
+}
+
 /// What the laws and the allocation need of model, gains and limits, computed once, with m' and I'z
 /// multiplied in. It has members of type T only, so that it has no padding and a check sum can go
 /// over it.

@@ -2,6 +2,7 @@
 /// command. Freestanding C++14.
 #pragma once
 
+#include "awmr/model/dynamics.h"
 #include "awmr/model/scalar_math.h"
 
 namespace awmr {
@@ -51,6 +52,69 @@ template <class T>
 void advance(const DisturbanceObserver<T>& observer, const T& d_hat, const T& known,
              const T& sample_time_s, ObserverState<T>& state) {
   state.z -= sample_time_s * observer.bandwidth_radps * (known + d_hat);
+}
+
+/// The observers of both axes.
+template <class T>
+struct Observers {
+  DisturbanceObserver<T> yaw;    ///< its limit in m
+  DisturbanceObserver<T> surge;  ///< its limit dimensionless
+  /// true: they are told what the limits have left of the command. false, to show what that is good
+  /// for: the command as it was asked for.
+  bool anti_windup;
+};
+
+/// What both remember.
+template <class T>
+struct ObserversState {
+  ObserverState<T> yaw;
+  ObserverState<T> surge;
+};
+
+/// A generalised force and moment, over F_max.
+template <class T>
+struct AxisForces {
+  T surge;  ///< dimensionless, forward positive
+  T yaw_m;  ///< m, counter-clockwise positive
+};
+
+/// What is known of the motion at one sample.
+template <class T>
+struct ObservedMotion {
+  AxisForces<T> momentum;    ///< m' u and I'z r
+  AxisForces<T> resistance;  ///< g1(u) and g3(r)
+  T coupling;                ///< m' r v
+};
+
+template <class T>
+ObserversState<T> start_observers(const Observers<T>& observers, const AxisForces<T>& momentum) {
+  return {start_observer(observers.yaw, momentum.yaw_m),
+          start_observer(observers.surge, momentum.surge)};
+}
+
+/// Both d_hat.
+template <class T>
+AWMR_CALLED AxisForces<T> estimate(const Observers<T>& observers, const ObservedMotion<T>& motion,
+                                   ObserversState<T>& state) {
+  return {estimate(observers.surge, motion.momentum.surge, state.surge),
+          estimate(observers.yaw, motion.momentum.yaw_m, state.yaw)};
+}
+
+/// Moves both on by one sample. `asked` is the command less d_hat, `allocated` what the allocation
+/// makes of it.
+template <class T>
+AWMR_CALLED void advance(const Observers<T>& observers, const AxisForces<T>& d_hat,
+                         const AxisForces<T>& asked, const GeneralisedForces<T>& allocated,
+                         const ObservedMotion<T>& motion, const T& sample_time_s,
+                         ObserversState<T>& state) {
+  AxisForces<T> tau = asked;
+  if (observers.anti_windup) {
+    tau = {allocated.tau_speed, allocated.tau_steering_m + allocated.tau_diff_m};
+  }
+  advance(observers.yaw, d_hat.yaw_m, T(tau.yaw_m - motion.resistance.yaw_m), sample_time_s,
+          state.yaw);
+  advance(observers.surge, d_hat.surge, T(tau.surge + motion.coupling - motion.resistance.surge),
+          sample_time_s, state.surge);
 }
 
 }  // namespace awmr

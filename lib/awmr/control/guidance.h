@@ -27,7 +27,7 @@ T squared_distance_m2(const Position<T>& a, const Position<T>& b) {
 
 /// The distance between two points, m, >= 0.
 template <class T>
-T distance_m(const Position<T>& a, const Position<T>& b) {
+AWMR_CALLED T distance_m(const Position<T>& a, const Position<T>& b) {
   using math::sqrt;
   return sqrt(squared_distance_m2(a, b));
 }
@@ -135,10 +135,23 @@ AWMR_INLINE WaypointGuidance<T> guide(const Waypoints<T>& waypoints, const T& ac
 }
 /// The same, where the time of a step does not matter.
 template <class T>
-WaypointGuidance<T> guide(const Waypoints<T>& waypoints, const Position<T>& position_m,
-                          WaypointProgress<T>& progress) {
+AWMR_CALLED WaypointGuidance<T> guide(const Waypoints<T>& waypoints, const Position<T>& position_m,
+                                      WaypointProgress<T>& progress) {
   const T acceptance_m2 = waypoints.acceptance_m * waypoints.acceptance_m;
   return guide(waypoints, acceptance_m2, position_m, progress);
+}
+
+/// What is left of the speed at the last point itself, so that it is reached.
+template <class T>
+constexpr T arrival_share_min() {
+  return T(0.1);
+}
+
+/// The share of the speed with `to_go_m` left to the last point: it falls in proportion within
+/// `slow_down_m` > 0 of it, to arrival_share_min().
+template <class T>
+T arrival_share(const T& slow_down_m, const T& to_go_m) {
+  return math::clamp(T(to_go_m / slow_down_m), arrival_share_min<T>(), T(1.0));
 }
 
 }  // namespace awmr

@@ -16,7 +16,7 @@ constexpr T sideslip_speed_min_mps() {
 ///   beta = atan2(v, u)
 /// 0 below sideslip_speed_min_mps().
 template <class T>
-T sideslip_rad(const T& u_mps, const T& v_mps) {
+AWMR_CALLED T sideslip_rad(const T& u_mps, const T& v_mps) {
   using math::atan2;
   const T least = sideslip_speed_min_mps<T>();
   if (!(u_mps * u_mps + v_mps * v_mps > least * least)) return T(0.0);
@@ -45,8 +45,8 @@ template <class T>
 T line_heading_rad(const LineLaw<T>& law, const T& psi_line_rad, const T& cross_track_m,
                    const T& sideslip) {
   const T beta = law.sideslip_compensation ? sideslip : T(0.0);
-  return wrap_angle(psi_line_rad - beta -
-                    law.delta_rad * math::saturate(cross_track_m / law.width_m, T(1.0)));
+  return called_wrap_angle(psi_line_rad - beta -
+                           law.delta_rad * math::saturate(cross_track_m / law.width_m, T(1.0)));
 }
 
 /// Corners joined by line segments, driven from the first to the last. Two corners are one line.
@@ -91,8 +91,8 @@ struct PolylineGuidance {
 /// Segments without length, whose corners coincide, are passed over; where no segment has a length
 /// the guidance is finished and the heading held.
 template <class T>
-PolylineGuidance<T> guide(const Polyline<T>& line, const Position<T>& position_m, const T& sideslip,
-                          PolylineProgress<T>& progress) {
+AWMR_CALLED PolylineGuidance<T> guide(const Polyline<T>& line, const Position<T>& position_m,
+                                      const T& sideslip, PolylineProgress<T>& progress) {
   using math::atan2;
   T cross_track_m = T(0.0);
   for (; progress.segment + 1 < line.count; ++progress.segment) {

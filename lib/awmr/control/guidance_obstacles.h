@@ -68,6 +68,14 @@ struct Avoidance {
   T brake_m;
 };
 
+/// The headings that one obstacle blocks.
+template <class T>
+struct Sector {
+  T bearing_rad;  ///< of the obstacle's centre
+  T half_rad;     ///< alpha_i
+  bool counts;    ///< false: the obstacle is too far, or beyond the target
+};
+
 /// The side to which psi_d is turned.
 enum class AvoidanceSide { kNone, kLeft, kRight };
 
@@ -94,7 +102,47 @@ bool covers(const Avoidance<T>& avoidance, const Obstacle<T>& obstacle, const Po
          obstacle.radius_m + avoidance.vehicle_radius_m + avoidance.clearance_m;
 }
 
+/// True where one of `count` obstacles covers the target.
+template <class T>
+bool is_covered(const Avoidance<T>& avoidance, const Obstacle<T>* obstacles, int count,
+                const Position<T>& target_m, const T& acceptance_m) {
+  for (int i = 0; i < count; ++i) {
+    if (covers(avoidance, obstacles[i], target_m, acceptance_m)) return true;
+  }
+  return false;
+}
+
+/// guide(), past the points that an obstacle covers: they are missed before they are gone to.
+template <class T>
+AWMR_CALLED WaypointGuidance<T> guide_past_covered(const Avoidance<T>& avoidance,
+                                                   const Obstacle<T>* obstacles, int count,
+                                                   const Waypoints<T>& waypoints,
+                                                   const Position<T>& position_m,
+                                                   WaypointProgress<T>& progress) {
+  WaypointGuidance<T> guided = guide(waypoints, position_m, progress);
+  while (!guided.finished &&
+         is_covered(avoidance, obstacles, count, waypoints.points_m[progress.next],
+                    waypoints.acceptance_m)) {
+    ++progress.missed;
+    ++progress.next;
+    guided = guide(waypoints, position_m, progress);
+  }
+  return guided;
+}
+
 namespace detail {
+
+/// Where a point lies as seen from the vehicle.
+template <class T>
+struct Sight {
+  T distance_m;
+  T bearing_rad;  ///< in the world frame; `otherwise_rad` where the two coincide
+};
+template <class T>
+AWMR_CALLED Sight<T> sight(const Position<T>& from, const Position<T>& point,
+                           const T& otherwise_rad) {
+  return {distance_m(from, point), direction_rad(seen_from(from, point), otherwise_rad)};
+}
 
 /// A heading this near to a sector's edge, rad, counts as outside the sector; above a float's
 /// rounding.
@@ -102,14 +150,6 @@ template <class T>
 constexpr T sector_tolerance_rad() {
   return T(1e-4);
 }
-
-/// The headings that one obstacle blocks.
-template <class T>
-struct Sector {
-  T bearing_rad;  ///< of the obstacle's centre
-  T half_rad;     ///< alpha_i
-  bool counts;    ///< false: the obstacle is too far, or beyond the target
-};
 
 /// asin(s) for s in [0, 1).
 template <class T>
@@ -124,6 +164,7 @@ template <class T>
 struct Surroundings {
   const Avoidance<T>& avoidance;
   const Obstacle<T>* obstacles;  ///< `count` of them
+  Sector<T>* sectors;            ///< of the obstacles
   int count;
   Position<T> position_m;  ///< p
   T psi_rad;               ///< the vehicle's heading
@@ -132,30 +173,33 @@ struct Surroundings {
   T target_m;              ///< distance to where the guidance leads
 
   /// The sector that obstacle i blocks.
-  Sector<T> sector(int i) const {
+  AWMR_CALLED Sector<T> sector(int i) const {
     const Obstacle<T>& obstacle = obstacles[i];
     const T grown_m = obstacle.radius_m + avoidance.vehicle_radius_m + avoidance.clearance_m;
-    const T centre_m = distance_m(position_m, obstacle.centre_m);
-    const T free_m = centre_m - grown_m;
+    const Sight<T> centre = sight(position_m, obstacle.centre_m, psi_rad);
+    const T free_m = centre.distance_m - grown_m;
     const bool counts = !(free_m > reach_m) && free_m < target_m;
     if (!counts) return {T(0.0), T(0.0), false};
     const T inside = math::clamp((mmd_m - free_m) / mmd_m, T(0.0), T(1.0));
-    const T tangent = free_m > T(0.0) ? arc_sine(grown_m / centre_m) : pi<T>() / T(2.0);
-    return {direction_rad(seen_from(position_m, obstacle.centre_m), psi_rad),
-            tangent + avoidance.sigma_rad * inside, true};
+    const T tangent = free_m > T(0.0) ? arc_sine(T(grown_m / centre.distance_m)) : pi<T>() / T(2.0);
+    return {centre.bearing_rad, tangent + avoidance.sigma_rad * inside, true};
+  }
+
+  void find_sectors() const {
+    for (int i = 0; i < count; ++i) sectors[i] = sector(i);
   }
 
   /// By how much `heading_rad` has to turn to leave all sectors, rad, >= 0; to the left for
   /// sign = 1, to the right for sign = -1. 2 pi or more: there is no way out.
-  T turn_out(const T& heading_rad, const T& sign) const {
+  AWMR_CALLED T turn_out(const T& heading_rad, const T& sign) const {
     const T full = T(2.0) * pi<T>();
     T turned = T(0.0);
     for (int pass = 0; pass < count; ++pass) {
       bool moved = false;
       for (int i = 0; i < count && turned < full; ++i) {
-        const Sector<T> s = sector(i);
+        const Sector<T>& s = sectors[i];
         if (!s.counts) continue;
-        const T off = wrap_angle(s.bearing_rad - heading_rad - sign * turned);
+        const T off = called_wrap_angle(s.bearing_rad - heading_rad - sign * turned);
         const T magnitude = off < T(0.0) ? -off : off;
         if (!(magnitude < s.half_rad - sector_tolerance_rad<T>())) continue;
         turned += sign * off + s.half_rad;
@@ -176,10 +220,12 @@ struct Surroundings {
     for (int i = 0; i < count; ++i) {
       const T grown_m =
           obstacles[i].radius_m + avoidance.vehicle_radius_m + avoidance.clearance_m / T(2.0);
-      const T centre_m = distance_m(position_m, obstacles[i].centre_m);
-      const T off = direction_rad(seen_from(position_m, obstacles[i].centre_m), psi_rad) - psi_rad;
-      const T along_m = centre_m * cos(off);
-      const T beside_m = centre_m * sin(off);
+      const Sight<T> centre = sight(position_m, obstacles[i].centre_m, psi_rad);
+      // The way along any heading is no shorter than the way straight to the circle.
+      if (centre.distance_m - grown_m > avoidance.brake_m) continue;
+      const T off = centre.bearing_rad - psi_rad;
+      const T along_m = centre.distance_m * cos(off);
+      const T beside_m = centre.distance_m * sin(off);
       if (!(along_m > T(0.0)) || !(beside_m * beside_m < grown_m * grown_m)) continue;
       const T free_m = along_m - sqrt(grown_m * grown_m - beside_m * beside_m);
       const T allowed = math::clamp(free_m / avoidance.brake_m, T(0.0), T(1.0));
@@ -194,26 +240,29 @@ struct Surroundings {
 /// Turns the guidance heading out of the sectors that `count` obstacles block, and cuts the speed
 /// where that is not enough. `guidance_rad` is the heading that the guidance wants and `target_m`
 /// the distance to where it leads: obstacles beyond it do not matter. It is a very large number
-/// where there is no target. `psi_rad` and `u_mps` are the vehicle's.
+/// where there is no target. `psi_rad` and `u_mps` are the vehicle's. `sectors` is room for `count`
+/// of them, so that each is computed once.
 template <class T>
-Avoided<T> avoid(const Avoidance<T>& avoidance, const Obstacle<T>* obstacles, int count,
-                 const Position<T>& position_m, const T& psi_rad, const T& u_mps,
-                 const T& guidance_rad, const T& target_m, AvoidanceState& state) {
+AWMR_CALLED Avoided<T> avoid(const Avoidance<T>& avoidance, const Obstacle<T>* obstacles,
+                             Sector<T>* sectors, int count, const Position<T>& position_m,
+                             const T& psi_rad, const T& u_mps, const T& guidance_rad,
+                             const T& target_m, AvoidanceState& state) {
   using math::abs;
   const T mmd_m = avoidance.mmd_base_m + avoidance.mmd_per_speed_s * abs(u_mps);
   const T kept_m = state.side == AvoidanceSide::kNone ? T(0.0) : avoidance.hysteresis_m;
-  const detail::Surroundings<T> around{avoidance, obstacles, count,          position_m,
+  const detail::Surroundings<T> around{avoidance, obstacles, sectors,        count,   position_m,
                                        psi_rad,   mmd_m,     mmd_m + kept_m, target_m};
+  around.find_sectors();
   const T share = around.speed_share();
   const T left = around.turn_out(guidance_rad, T(1.0));
   if (!(left > T(0.0))) {
     state.side = AvoidanceSide::kNone;
-    return {wrap_angle(guidance_rad), share, false, false};
+    return {called_wrap_angle(guidance_rad), share, false, false};
   }
   const T right = around.turn_out(guidance_rad, T(-1.0));
   const T full = T(2.0) * pi<T>();
   if (!(left < full) && !(right < full)) {
-    return {wrap_angle(guidance_rad), T(0.0), true, true};
+    return {called_wrap_angle(guidance_rad), T(0.0), true, true};
   }
   // Keeping the side taken is worth the hysteresis; of two equal sides the left is taken.
   T difference = left - right;
@@ -221,7 +270,8 @@ Avoided<T> avoid(const Avoidance<T>& avoidance, const Obstacle<T>* obstacles, in
   if (state.side == AvoidanceSide::kRight) difference += avoidance.side_hysteresis_rad;
   const bool to_right = difference > T(0.0);
   state.side = to_right ? AvoidanceSide::kRight : AvoidanceSide::kLeft;
-  return {wrap_angle(to_right ? guidance_rad - right : guidance_rad + left), share, true, false};
+  return {called_wrap_angle(to_right ? guidance_rad - right : guidance_rad + left), share, true,
+          false};
 }
 
 }  // namespace awmr

@@ -23,7 +23,7 @@ struct Lissajous {
   T rate_x_radps, rate_y_radps;    ///< w_x, w_y, rad/s: 0.01 and 0.03 in the paper
 
   /// The point of the path at the time t_s and its derivatives.
-  PathPoint<T> at(const T& t_s) const {
+  AWMR_CALLED PathPoint<T> at(const T& t_s) const {
     using math::cos;
     using math::sin;
     const T cx = amplitude_x_m * cos(rate_x_radps * t_s);
@@ -58,7 +58,7 @@ constexpr T path_speed_min_mps() {
 ///   u_d       = |p_d_dot|
 /// `held_rad` is the psi_d of the step before, for a path that stands still.
 template <class T>
-PathGuidance<T> open_path(const PathPoint<T>& path, const T& held_rad) {
+AWMR_CALLED PathGuidance<T> open_path(const PathPoint<T>& path, const T& held_rad) {
   using math::atan2;
   using math::sqrt;
   const T speed2 = path.vx_mps * path.vx_mps + path.vy_mps * path.vy_mps;
@@ -75,8 +75,9 @@ PathGuidance<T> open_path(const PathPoint<T>& path, const T& held_rad) {
 /// On the path the speed is the path's own, and behind it the vehicle catches up. `sideslip` is
 /// beta, rad, and `held_rad` as in open_path().
 template <class T>
-PathGuidance<T> closed_path(const PathPoint<T>& path, const T& gain_per_s,
-                            const Position<T>& position_m, const T& sideslip, const T& held_rad) {
+AWMR_CALLED PathGuidance<T> closed_path(const PathPoint<T>& path, const T& gain_per_s,
+                                        const Position<T>& position_m, const T& sideslip,
+                                        const T& held_rad) {
   using math::atan2;
   const PathGuidance<T> open = open_path(path, held_rad);
   const T ex = path.position_m.x_m - position_m.x_m;
@@ -88,7 +89,7 @@ PathGuidance<T> closed_path(const PathPoint<T>& path, const T& gain_per_s,
   const T along_m =
       open.speed_mps > T(0.0) ? (ex * path.vx_mps + ey * path.vy_mps) / open.speed_mps : T(0.0);
   const T speed_mps = open.speed_mps + gain_per_s * along_m;
-  return {wrap_angle(atan2(wy, wx) - sideslip), open.psi_rate_radps,
+  return {called_wrap_angle(atan2(wy, wx) - sideslip), open.psi_rate_radps,
           speed_mps > T(0.0) ? speed_mps : T(0.0)};
 }
 

@@ -42,7 +42,7 @@ ShapedHeading<T> start_shaping(const T& psi_rad) {
 template <class T>
 void shape(const HeadingShaping<T>& filter, const T& target_rad, const T& sample_time_s,
            ShapedHeading<T>& state) {
-  const T error = wrap_angle(target_rad - state.psi_rad);
+  const T error = called_wrap_angle(target_rad - state.psi_rad);
   const T rate = math::saturate(filter.omega_radps * error / T(2.0), filter.rate_max_radps);
   state.psi_accel_radps2 = math::saturate(
       T(2.0) * filter.omega_radps * (rate - state.psi_rate_radps), filter.accel_max_radps2);

@@ -1,5 +1,10 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
+#include <iterator>
+#include <string>
+
 #include "awmr/emit/emit.h"
 #include "literals.h"
 
@@ -42,6 +47,28 @@ constexpr std::string_view kTable = R"(
 #define {}_LINES {{ \
 )";
 
+constexpr std::string_view kParts = R"(
+/* 1: compiled in; awmr.h says what each is for */
+{}/* 1: in the combined mode half of the moment by each path, whatever the limits take away */
+#define AWMR_FIXED_HALF {}
+)";
+
+/// AWMR_WITH_SLOW_DOWN of slow_down.
+std::string macro_of(std::string_view part) {
+  std::string macro = "AWMR_WITH_";
+  std::transform(part.begin(), part.end(), std::back_inserter(macro),
+                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  return macro;
+}
+
+std::string parts_text(const AutopilotParameters& parameters) {
+  std::string lines;
+  for (const auto& [name, part] : kFirmwarePartNames) {
+    lines += fmt::format("#define {} {}\n", macro_of(name), parameters.parts.count(part));
+  }
+  return fmt::format(kParts, lines, parameters.split == CombinedSplit::kFixedHalf ? 1 : 0);
+}
+
 struct TableText {
   std::string_view title;
   std::string_view macro;
@@ -77,6 +104,7 @@ std::string autopilot_header(const AutopilotParameters& parameters) {
                   float_literal(static_cast<double>(block.safety.yaw_rate_max_radps)),
                   block.safety.heading_timeout_ms, block.safety.speed_timeout_ms,
                   block.safety.command_timeout_ms, block.safety.step_timeout_ms, parameters.crc);
+  text += parts_text(parameters);
   if (by_table) {
     text += table_text(parameters.surge, {"Surge", "AWMR_SURGE_TABLE", "m/s", "of F_max"},
                        parameters.table_error);

@@ -146,6 +146,9 @@ Result<AutopilotParameters> autopilot_parameters(const Model& model, const Gains
   AutopilotParameters parameters;
   parameters.resistance = options.resistance;
   parameters.table_error = options.table_error;
+  parameters.sample_time_s = single(model.vehicle.sample_time_s);
+  parameters.parts = options.parts;
+  parameters.split = options.split;
   parameters.block = block_of(plant, model, gains, options);
   parameters.steering_max_tan_half = 2.0F * parameters.block.constants.allocation.h_max;
   parameters.block.safety.speed_max_mps = largest_below(surge.top);

@@ -3,11 +3,13 @@
 #pragma once
 
 #include <cstdint>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "awmr/control/parameters_block.h"
 #include "awmr/control/resistance_table.h"
+#include "awmr/control/yaw_mode.h"
 #include "awmr/core/name_table.h"
 #include "awmr/core/result.h"
 #include "awmr/model/gains.h"
@@ -41,6 +43,23 @@ enum class ResistanceForm {
 inline constexpr NameTable<ResistanceForm, 2> kResistanceFormNames{
     {{"table", ResistanceForm::kTable}, {"powf", ResistanceForm::kPowf}}};
 
+/// What a firmware can do beyond holding a heading and going to waypoints.
+enum class FirmwarePart {
+  kLine,       ///< follow a line or polyline
+  kPath,       ///< follow a path in time
+  kSlowDown,   ///< slow down before the last point
+  kAvoidance,  ///< steer clear of obstacles
+  kShaping,    ///< limit rate and acceleration of the heading wanted
+  kObserver    ///< take the disturbance that is seen off the command
+};
+inline constexpr NameTable<FirmwarePart, 6> kFirmwarePartNames{
+    {{"line", FirmwarePart::kLine},
+     {"path", FirmwarePart::kPath},
+     {"slow_down", FirmwarePart::kSlowDown},
+     {"avoidance", FirmwarePart::kAvoidance},
+     {"shaping", FirmwarePart::kShaping},
+     {"observer", FirmwarePart::kObserver}}};
+
 /// How the firmware is made.
 struct EmitOptions {
   /// kPowf where the flash is short and the control step has time to spare; it takes a power law.
@@ -49,6 +68,10 @@ struct EmitOptions {
   /// of a tenth of the largest force (4 F'max for surge) or moment (4 d F'max for yaw). Larger: a
   /// smaller table.
   double table_error = 5e-4;
+  /// Compiled in. Each takes flash, RAM and, once it is in use, time of every step.
+  std::set<FirmwarePart> parts = {};
+  /// What the combined mode does with a path that saturates.
+  CombinedSplit split = CombinedSplit::kRedistribute;
   /// ms, > 0: oldest heading and yaw rate to steer by. Longer for a slow compass.
   std::uint32_t heading_timeout_ms = 100;
   /// ms, > 0: oldest speed and position to steer by; the default lets two fixes of a 5 Hz GPS fail.
@@ -83,6 +106,9 @@ struct AutopilotParameters {
   EmittedTable yaw;                                    ///< of g3; without lines for kPowf
   ResistanceForm resistance = ResistanceForm::kTable;  ///< as in EmitOptions
   double table_error = 0.0;                            ///< as in EmitOptions
+  float sample_time_s = 0.0F;                          ///< as in awmr_params.h
+  std::set<FirmwarePart> parts;                        ///< as in EmitOptions
+  CombinedSplit split = CombinedSplit::kRedistribute;  ///< as in EmitOptions
   std::uint32_t crc = 0;                               ///< crc32_of_parameters() of all of it
 };
 
@@ -93,8 +119,8 @@ Result<AutopilotParameters> autopilot_parameters(const Model& model, const Gains
                                                  const EmitInputs& inputs,
                                                  const EmitOptions& options);
 
-/// The bytes of awmr_autopilot_params.h: tables with their error, limits of the safety checks, the
-/// check sum over all parameters.
+/// The bytes of awmr_autopilot_params.h: the parts, tables with their error, limits of the safety
+/// checks, the check sum over all parameters.
 std::string autopilot_header(const AutopilotParameters& parameters);
 
 /// A file of the emitted library.

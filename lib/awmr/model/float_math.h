@@ -14,6 +14,14 @@
 #include <stdint.h>
 #include <string.h>
 
+/// A function that an AVR's compiler is to call and not to copy into each of its callers, and to make
+/// small: those whose time is not counted by the cycle.
+#ifdef __AVR__
+#define AWMR_CALLED __attribute__((noinline, optimize("Os")))
+#else
+#define AWMR_CALLED
+#endif
+
 namespace awmr {
 
 /// The 32 bits of a float, and back.
@@ -101,7 +109,7 @@ inline float atan_poly(float t) {
 constexpr float kTanPiBy8 = 0.414213562F;
 
 /// sin(x + quarter pi/2), so that quarter 0 is the sine and quarter 1 the cosine.
-inline float sin_from(float x, int quarter) {
+AWMR_CALLED inline float sin_from(float x, int quarter) {
   if (!(::fabsf(x) <= kAngleMax)) return not_a_number();
   const int k = nearest(x * 0.636619772F);
   const float rest = reduced(x, k);
@@ -164,6 +172,9 @@ inline float atan2(float y, float x) {
   const float angle = detail::eighths_of_turn(eighths) + (backwards ? -part : part);
   return bits_of(y) >> 31U != 0 && magnitude_bits(y) != 0 ? -angle : angle;
 }
+
+/// atan2 where a call more does not matter.
+AWMR_CALLED inline float called_atan2(float y, float x) { return atan2(y, x); }
 
 /// atan x. Worst error 9e-7 of the value.
 inline float atan(float x) { return atan2(x, 1.0F); }

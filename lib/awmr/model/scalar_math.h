@@ -23,7 +23,7 @@ inline float cos(float x) { return float_math::cos(x); }
 inline double cos(double x) { return ::cos(x); }
 inline float atan(float x) { return float_math::atan(x); }
 inline double atan(double x) { return ::atan(x); }
-inline float atan2(float y, float x) { return float_math::atan2(y, x); }
+inline float atan2(float y, float x) { return float_math::called_atan2(y, x); }
 inline double atan2(double y, double x) { return ::atan2(y, x); }
 inline float pow(float x, float y) { return ::powf(x, y); }
 inline double pow(double x, double y) { return ::pow(x, y); }

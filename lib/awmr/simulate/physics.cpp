@@ -229,4 +229,16 @@ void Physics::step(double t_s, const SideForces<double>& commanded, double steer
   }
 }
 
+void quantise(const Actuators& actuators, double force_max, SideForces<double>& force,
+              double& steering_command_rad) {
+  if (actuators.steering_quantum_rad > 0.0) {
+    steering_command_rad = actuators.steering_quantum_rad *
+                           std::round(steering_command_rad / actuators.steering_quantum_rad);
+  }
+  if (actuators.pwm_counts > 0) {
+    const double count = force_max / actuators.pwm_counts;
+    force = {count * std::round(force.left / count), count * std::round(force.right / count)};
+  }
+}
+
 }  // namespace awmr

@@ -54,6 +54,10 @@ class Physics {
   bool by_wheel_;  ///< the two wheels of a side may have different forces
 };
 
+/// A command to the nearest step of the servo and count of the PWM. `force_max` is F'max of a wheel.
+void quantise(const Actuators& actuators, double force_max, SideForces<double>& force,
+              double& steering_command_rad);
+
 /// The longest RK4 step that resolves the plant at any speed, and the parameter that asks for it.
 struct StepLimit {
   double step_s = 0.0;

@@ -10,12 +10,9 @@ namespace awmr {
 namespace {
 
 constexpr double kNoTarget_m = std::numeric_limits<double>::infinity();
-/// What is left of the speed at the last point itself, so that it is reached.
-constexpr double kLeastArrivalShare = 0.1;
 
-double arrival_share(const std::optional<double>& slow_down_m, double to_go_m) {
-  if (!slow_down_m) return 1.0;
-  return std::clamp(to_go_m / *slow_down_m, kLeastArrivalShare, 1.0);
+double share_left(const std::optional<double>& slow_down_m, double to_go_m) {
+  return slow_down_m ? arrival_share(*slow_down_m, to_go_m) : 1.0;
 }
 
 double heading_at(const HeadingSteps& guidance, double t_s) {
@@ -42,6 +39,7 @@ Pilot::Pilot(const Scenario& scenario, double sample_time_s, const Sensed& start
       sample_time_s_(sample_time_s),
       waypoints_(start_waypoints(start.position_m, start.motion.psi_rad)),
       polyline_(start_polyline(start.motion.psi_rad)),
+      sectors_(scenario.obstacles.size()),
       shaped_(start_shaping(start.motion.psi_rad)),
       held_rad_(start.motion.psi_rad) {}
 
@@ -85,21 +83,12 @@ Pilot::Order Pilot::guidance(const WaypointCourse& course, double, const Sensed&
   const Waypoints<double> waypoints{course.points_m.data(), count, course.acceptance_m,
                                     course.skip_passed};
   const Position<double>& position_m = sensed.position_m;
-  // A point that an obstacle covers cannot be reached: it is missed before it is gone to.
-  const auto covered = [&](const Position<double>& point) {
-    return scenario_->avoidance &&
-           std::any_of(scenario_->obstacles.begin(), scenario_->obstacles.end(),
-                       [&](const Obstacle<double>& obstacle) {
-                         return covers(*scenario_->avoidance, obstacle, point, course.acceptance_m);
-                       });
-  };
+  const auto guided = scenario_->avoidance
+                          ? guide_past_covered(*scenario_->avoidance, scenario_->obstacles.data(),
+                                               static_cast<int>(scenario_->obstacles.size()),
+                                               waypoints, position_m, waypoints_)
+                          : guide(waypoints, position_m, waypoints_);
   Order order;
-  auto guided = guide(waypoints, position_m, waypoints_);
-  while (!guided.finished && covered(course.points_m[static_cast<std::size_t>(waypoints_.next)])) {
-    ++waypoints_.missed;
-    ++waypoints_.next;
-    guided = guide(waypoints, position_m, waypoints_);
-  }
   order.finished = guided.finished;
   order.reference.psi_rad = guided.psi_rad;
   order.course.leg = std::min(waypoints_.next, count - 1);
@@ -110,7 +99,7 @@ Pilot::Order Pilot::guidance(const WaypointCourse& course, double, const Sensed&
   target_distance_m_ = distance_m(position_m, order.course.target_m);
   const bool last = order.course.leg == count - 1;
   order.reference.speed_mps =
-      scenario_->speed_mps * (last ? arrival_share(course.slow_down_m, target_distance_m_) : 1.0);
+      scenario_->speed_mps * (last ? share_left(course.slow_down_m, target_distance_m_) : 1.0);
   order.no_passage =
       !guided.finished && !way_is_free(position_m, order.course.target_m, waypoints_.next);
   return order;
@@ -130,7 +119,7 @@ Pilot::Order Pilot::guidance(const LineCourse& course, double, const Sensed& sen
   const bool last = order.course.leg == count - 2;
   if (last) target_distance_m_ = distance_m(sensed.position_m, order.course.target_m);
   order.reference.speed_mps =
-      scenario_->speed_mps * (last ? arrival_share(course.slow_down_m, guided.to_go_m) : 1.0);
+      scenario_->speed_mps * (last ? share_left(course.slow_down_m, guided.to_go_m) : 1.0);
   order.no_passage = !guided.finished && !way_is_free(sensed.position_m, course.points_m.back(), 0);
   return order;
 }
@@ -156,7 +145,7 @@ Pilot::Order Pilot::guidance(const LissajousCourse& course, double t_s, const Se
 
 void Pilot::steer_clear(const Sensed& sensed, Order& order) {
   const Avoided<double> avoided =
-      avoid(*scenario_->avoidance, scenario_->obstacles.data(),
+      avoid(*scenario_->avoidance, scenario_->obstacles.data(), sectors_.data(),
             static_cast<int>(scenario_->obstacles.size()), sensed.position_m, sensed.motion.psi_rad,
             sensed.motion.u_mps, order.reference.psi_rad, target_distance_m_, avoidance_);
   order.reference.speed_mps *= avoided.speed_share;

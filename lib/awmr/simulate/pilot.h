@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "awmr/control/controller.h"
 #include "awmr/simulate/scenario.h"
@@ -42,6 +43,7 @@ class Pilot {
   WaypointProgress<double> waypoints_;
   PolylineProgress<double> polyline_;
   AvoidanceState avoidance_;
+  std::vector<Sector<double>> sectors_;  ///< of the obstacles
   ShapedHeading<double> shaped_;
   double held_rad_;
   double target_distance_m_ = 0.0;  ///< to where the guidance leads, for the avoidance

@@ -31,10 +31,10 @@ class Autopilot {
       controller_.limits.split = scenario.control.split;
     }
     if (const auto& observer = scenario.control.observer) {
-      yaw_ = {observer->bandwidth_radps, observer->yaw_max_m};
-      surge_ = {observer->bandwidth_radps, observer->surge_max};
-      yaw_state_ = start_observer(yaw_, controller_.inertia_norm * start.r_radps);
-      surge_state_ = start_observer(surge_, controller_.mass_norm * start.u_mps);
+      observers_ = {{observer->bandwidth_radps, observer->yaw_max_m},
+                    {observer->bandwidth_radps, observer->surge_max},
+                    observer->anti_windup};
+      observed_ = start_observers(observers_, motion_of(start).momentum);
     }
   }
 
@@ -51,52 +51,36 @@ class Autopilot {
   }
 
  private:
+  ObservedMotion<double> motion_of(const Measurement<double>& m) const {
+    return {{controller_.mass_norm * m.u_mps, controller_.inertia_norm * m.r_radps},
+            {controller_.surge(m.u_mps), controller_.yaw(m.r_radps)},
+            controller_.mass_norm * m.r_radps * m.v_mps};
+  }
+
   void take_off_disturbance(const Measurement<double>& m, Command<double>& command) {
-    const double yaw_d = estimate(yaw_, controller_.inertia_norm * m.r_radps, yaw_state_);
-    const double surge_d = estimate(surge_, controller_.mass_norm * m.u_mps, surge_state_);
-    command.tau_turn_m -= yaw_d;
-    command.tau_speed -= surge_d;
+    const ObservedMotion<double> motion = motion_of(m);
+    const AxisForces<double> disturbance = estimate(observers_, motion, observed_);
+    command.tau_turn_m -= disturbance.yaw_m;
+    command.tau_speed -= disturbance.surge;
     command.allocation = allocate(mode_, command.tau_speed, command.tau_turn_m, controller_.limits);
-    double tau_turn_m = command.tau_turn_m;
-    double tau_speed = command.tau_speed;
-    if (scenario_->control.observer->anti_windup) {
-      const GeneralisedForces<double> tau =
-          generalised_forces(controller_.limits.front_axle_m, controller_.limits.half_track_m,
-                             command.allocation.force, command.allocation.steering_rad);
-      tau_turn_m = tau.tau_steering_m + tau.tau_diff_m;
-      tau_speed = tau.tau_speed;
-    }
-    advance(yaw_, yaw_d, tau_turn_m - controller_.yaw(m.r_radps), sample_time_s_, yaw_state_);
-    advance(surge_, surge_d,
-            tau_speed + controller_.mass_norm * m.r_radps * m.v_mps - controller_.surge(m.u_mps),
-            sample_time_s_, surge_state_);
+    const GeneralisedForces<double> allocated =
+        generalised_forces(controller_.limits.front_axle_m, controller_.limits.half_track_m,
+                           command.allocation.force, command.allocation.steering_rad);
+    advance(observers_, disturbance, {command.tau_speed, command.tau_turn_m}, allocated, motion,
+            sample_time_s_, observed_);
   }
 
   Controller<double> controller_;
   const Scenario* scenario_;
   YawMode mode_;
   double sample_time_s_;
-  DisturbanceObserver<double> yaw_{}, surge_{};
-  ObserverState<double> yaw_state_{}, surge_state_{};
+  Observers<double> observers_{};
+  ObserversState<double> observed_{};
 };
 
 /// F' of a wheel at the most, over F_max: what overcomes the dead zone, and the zone.
 double largest_force(const Controller<double>& controller) {
   return controller.limits.force_max + controller.limits.dead_zone;
-}
-
-/// To the nearest step of the servo and count of the PWM.
-void quantise(const Actuators& actuators, double force_max, RunRow& row) {
-  if (actuators.steering_quantum_rad > 0.0) {
-    row.steering_command_rad =
-        actuators.steering_quantum_rad *
-        std::round(row.steering_command_rad / actuators.steering_quantum_rad);
-  }
-  if (actuators.pwm_counts > 0) {
-    const double count = force_max / actuators.pwm_counts;
-    row.force = {count * std::round(row.force.left / count),
-                 count * std::round(row.force.right / count)};
-  }
 }
 
 double clearance_m(const Scenario& scenario, const State<double>& state) {
@@ -178,7 +162,9 @@ RunEnd command(const Scenario& scenario, const Controller<double>& controller, c
   } else {
     end = follow_guidance(pilot, autopilot, sensed, dead_zone, row);
   }
-  if (scenario.actuators) quantise(*scenario.actuators, largest_force(controller), row);
+  if (scenario.actuators) {
+    quantise(*scenario.actuators, largest_force(controller), row.force, row.steering_command_rad);
+  }
   return end;
 }
 

@@ -52,7 +52,27 @@ const awmr::ParameterBlock awmr_parameters AWMR_IN_FLASH = {
 
 namespace {
 
-awmr::Autopilot<Resistance> autopilot;
+struct Parts {
+  typedef awmr::Optional<AWMR_WITH_LINE, awmr::LineFollower>::type Line;
+  typedef awmr::Optional<AWMR_WITH_PATH, awmr::PathFollower>::type Path;
+  typedef awmr::Optional<AWMR_WITH_SLOW_DOWN, awmr::SlowDown>::type Arrival;
+  typedef awmr::Optional<AWMR_WITH_AVOIDANCE, awmr::Avoider>::type Avoidance;
+  typedef awmr::Optional<AWMR_WITH_SHAPING, awmr::Shaper>::type Shaping;
+  typedef awmr::Optional<AWMR_WITH_OBSERVER, awmr::Observer>::type Observation;
+  static constexpr awmr::CombinedSplit kSplit =
+      AWMR_FIXED_HALF ? awmr::CombinedSplit::kFixedHalf : awmr::CombinedSplit::kRedistribute;
+};
+
+awmr::Autopilot<Resistance, Parts> autopilot;
+
+// The barriers keep the compiler from moving what a caller writes before or reads after past the
+// call, whatever it knows of the two types.
+inline void follow(const awmr_point* points, int16_t count, float acceptance_m, bool skip_passed) {
+  __asm__ volatile("" ::: "memory");
+  const awmr::Waypoints<float> waypoints = {reinterpret_cast<const awmr::Position<float>*>(points),
+                                            count, acceptance_m, skip_passed};
+  awmr::follow_waypoints(autopilot, waypoints);
+}
 
 }  // namespace
 
@@ -74,8 +94,7 @@ static_assert(sizeof(awmr_output) == sizeof(awmr::AutopilotOutput), "");
 static_assert(offsetof(awmr_output, tau_speed) == offsetof(awmr::AutopilotOutput, tau_speed), "");
 static_assert(offsetof(awmr_output, arrived) == offsetof(awmr::AutopilotOutput, arrived), "");
 
-// So they are used in place; the barriers keep the compiler from moving what a caller writes before
-// or reads after past the call, whatever it knows of the two types.
+// So they are used in place.
 __attribute__((noinline)) void awmr_step(const awmr_input* input, awmr_output* output) {
   __asm__ volatile("" ::: "memory");
   awmr::autopilot_step(autopilot, *reinterpret_cast<const awmr::AutopilotInput*>(input),
@@ -85,8 +104,69 @@ __attribute__((noinline)) void awmr_step(const awmr_input* input, awmr_output* o
 
 __attribute__((noinline)) void awmr_follow(const awmr_point* points, int16_t count,
                                            float acceptance_m) {
-  __asm__ volatile("" ::: "memory");
-  const awmr::Waypoints<float> waypoints = {
-      reinterpret_cast<const awmr::Position<float>*>(points), count, acceptance_m, false};
-  awmr::follow_waypoints(autopilot, waypoints);
+  follow(points, count, acceptance_m, false);
 }
+
+__attribute__((noinline)) void awmr_follow_skipping(const awmr_point* points, int16_t count,
+                                                    float acceptance_m) {
+  follow(points, count, acceptance_m, true);
+}
+
+#if AWMR_WITH_LINE
+__attribute__((noinline)) void awmr_follow_line(const awmr_point* corners, int16_t count,
+                                                const awmr_line_law* law) {
+  __asm__ volatile("" ::: "memory");
+  const awmr::Polyline<float> line = {
+      reinterpret_cast<const awmr::Position<float>*>(corners), count, law->corner_m,
+      {law->delta_rad, law->width_m, law->sideslip_compensation != 0}};
+  awmr::follow_line(autopilot, line);
+}
+#endif
+
+#if AWMR_WITH_PATH
+void awmr_follow_path(const awmr_path* path) {
+  const awmr::Lissajous<float> figure = {path->amplitude_x_m, path->amplitude_y_m,
+                                         path->rate_x_radps, path->rate_y_radps};
+  awmr::follow_path(autopilot, figure, path->gain_per_s);
+}
+#endif
+
+#if AWMR_WITH_SLOW_DOWN
+void awmr_slow_down(float distance_m) {
+  awmr::part_of<awmr::SlowDown>(autopilot).distance_m = distance_m;
+}
+#endif
+
+#if AWMR_WITH_AVOIDANCE
+static_assert(sizeof(awmr_obstacle) == sizeof(awmr::Obstacle<float>), "");
+static_assert(sizeof(awmr_sector) == sizeof(awmr::Sector<float>), "");
+static_assert(sizeof(awmr_avoidance) == sizeof(awmr::Avoidance<float>), "");
+
+__attribute__((noinline)) void awmr_avoid(const awmr_avoidance* avoidance,
+                                          const awmr_obstacle* obstacles, awmr_sector* sectors,
+                                          int16_t count) {
+  __asm__ volatile("" ::: "memory");
+  awmr::avoid_obstacles(autopilot, *reinterpret_cast<const awmr::Avoidance<float>*>(avoidance),
+                        reinterpret_cast<const awmr::Obstacle<float>*>(obstacles),
+                        reinterpret_cast<awmr::Sector<float>*>(sectors), count);
+}
+#endif
+
+#if AWMR_WITH_SHAPING
+void awmr_shape(const awmr_shaping* shaping) {
+  if (shaping == 0) return awmr::switch_off(awmr::part_of<awmr::Shaper>(autopilot));
+  const awmr::HeadingShaping<float> filter = {shaping->omega_radps, shaping->rate_max_radps,
+                                              shaping->accel_max_radps2};
+  awmr::shape_headings(autopilot, filter, AWMR_SAMPLE_TIME_S);
+}
+#endif
+
+#if AWMR_WITH_OBSERVER
+void awmr_observe(const awmr_observer* observer) {
+  if (observer == 0) return awmr::switch_off(awmr::part_of<awmr::Observer>(autopilot));
+  const awmr::Observers<float> observers = {{observer->bandwidth_radps, observer->yaw_max_m},
+                                            {observer->bandwidth_radps, observer->surge_max},
+                                            observer->anti_windup != 0};
+  awmr::observe_disturbance(autopilot, observers, AWMR_SAMPLE_TIME_S);
+}
+#endif

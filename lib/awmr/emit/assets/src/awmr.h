@@ -15,7 +15,8 @@
 /* mode: how a yaw moment is made */
 #define AWMR_DIFFERENTIAL 0 /* by the sides' forces, wheels straight */
 #define AWMR_STEERING 1     /* by the front wheels, sides alike */
-#define AWMR_COMBINED 2     /* by both; what one cannot deliver goes to the other */
+#define AWMR_COMBINED 2     /* by both; what one cannot deliver goes to the other, unless
+                               AWMR_FIXED_HALF */
 
 /* fault: why the safe command (forces 0, wheels straight) was given. Bits, several may be set.
    AWMR_FAULT_PARAMETERS stays until reset; the others last as long as their cause. */
@@ -35,9 +36,9 @@ typedef struct awmr_input {
   float u_mps;             /* speed ahead */
   float v_mps;             /* speed to the left; 0 where it is not measured */
   float r_radps;           /* yaw rate */
-  float x_m;               /* position, read while following waypoints only */
+  float x_m;               /* position, read by what leads or avoids obstacles only */
   float y_m;
-  float psi_ref_rad;       /* heading to hold; not read while following waypoints */
+  float psi_ref_rad;       /* heading to hold; not read while something leads */
   float psi_ref_rate_radps;
   float psi_ref_accel_radps2;
   float u_ref_mps;         /* speed to hold */
@@ -59,7 +60,7 @@ typedef struct awmr_output {
   float tau_speed;         /* asked for by the speed law, before any limit */
   float tau_turn_m;        /* asked for by the heading law, m, before any limit */
   float psi_ref_rad;       /* the heading held or led to */
-  uint8_t arrived;         /* 1: no waypoint is left */
+  uint8_t arrived;         /* 1: nothing is left to go to: set u_ref_mps to 0 to stop */
   uint8_t fault;           /* AWMR_FAULT_...; not 0: the safe command */
 } awmr_output;
 
@@ -67,6 +68,69 @@ typedef struct awmr_point {
   float x_m;
   float y_m;
 } awmr_point;
+
+/* Parts beyond heading hold and waypoints: each takes flash and RAM only where awmr_autopilot_params.h
+   says that it is compiled in (awmr emit --with NAME). */
+
+#if AWMR_WITH_LINE
+typedef struct awmr_line_law {
+  float delta_rad;         /* angle at which the line is approached, in (0, pi/2] */
+  float width_m;           /* half width of the lane in which the approach flattens, > 0 */
+  float corner_m;          /* the next segment is taken up this far before a corner, >= 0 */
+  uint8_t sideslip_compensation; /* 1: the course is led and not the heading; v_mps is measured */
+} awmr_line_law;
+#endif
+
+#if AWMR_WITH_PATH
+/* x = amplitude_x_m cos(rate_x_radps t), y = amplitude_y_m sin(rate_y_radps t), t from the first step */
+typedef struct awmr_path {
+  float amplitude_x_m;
+  float amplitude_y_m;
+  float rate_x_radps;
+  float rate_y_radps;
+  float gain_per_s;        /* position fed back with this gain; 0: direction and speed alone */
+} awmr_path;
+#endif
+
+#if AWMR_WITH_AVOIDANCE
+typedef struct awmr_obstacle {
+  float x_m;
+  float y_m;
+  float radius_m;          /* > 0 */
+} awmr_obstacle;
+typedef struct awmr_sector { /* room to compute in: nothing to fill in */
+  float bearing_rad;
+  float half_rad;
+  uint8_t counts;
+} awmr_sector;
+typedef struct awmr_avoidance {
+  float mmd_base_m;        /* minimum manoeuvring distance at rest: at least the turning radius */
+  float mmd_per_speed_s;   /* more of it for each m/s, >= 0 */
+  float sigma_rad;         /* turned by more than the tangent, next to the obstacle, [0, pi/2) */
+  float vehicle_radius_m;  /* of the circle that holds the vehicle */
+  float clearance_m;       /* kept free between it and the obstacle, > 0 */
+  float hysteresis_m;      /* farther than where avoidance began, before it ends, >= 0 */
+  float side_hysteresis_rad; /* nearer on the other side, before the side is changed, >= 0 */
+  float brake_m;           /* free way ahead below which the speed is cut, > 0 */
+} awmr_avoidance;
+#endif
+
+#if AWMR_WITH_SHAPING
+typedef struct awmr_shaping {
+  float omega_radps;       /* bandwidth, > 0; at most 0.5/AWMR_SAMPLE_TIME_S */
+  float rate_max_radps;    /* > 0 */
+  float accel_max_radps2;  /* > 0 */
+} awmr_shaping;
+#endif
+
+#if AWMR_WITH_OBSERVER
+typedef struct awmr_observer {
+  float bandwidth_radps;   /* > 0, below 1/AWMR_SAMPLE_TIME_S */
+  float yaw_max_m;         /* largest moment taken off, over F_max */
+  float surge_max;         /* largest force taken off, over F_max */
+  uint8_t anti_windup;     /* 1, unless to see what it is good for */
+} awmr_observer;
+#endif
 
 #ifdef __cplusplus
 extern "C" {
@@ -82,6 +146,41 @@ void awmr_step(const awmr_input* input, awmr_output* output);
 /* Goes to `count` points one after the other from the next step on; a point is reached within
    acceptance_m. The points are not copied. count 0: back to holding psi_ref_rad. */
 void awmr_follow(const awmr_point* points, int16_t count, float acceptance_m);
+
+/* The same, but a point that was passed by is given up, for a vehicle that cannot turn back to it. */
+void awmr_follow_skipping(const awmr_point* points, int16_t count, float acceptance_m);
+
+#if AWMR_WITH_LINE
+/* Along `count` corners from the next step on, instead of waypoints. The corners are not copied. */
+void awmr_follow_line(const awmr_point* corners, int16_t count, const awmr_line_law* law);
+#endif
+
+#if AWMR_WITH_PATH
+/* Along a path in time from the next step on. With u_ref_mps 0 at the path's own speed. */
+void awmr_follow_path(const awmr_path* path);
+#endif
+
+#if AWMR_WITH_SLOW_DOWN
+/* From this distance to the last waypoint or the line's end on the speed falls, to a tenth. 0: off. */
+void awmr_slow_down(float distance_m);
+#endif
+
+#if AWMR_WITH_AVOIDANCE
+/* Steers clear of `count` obstacles, whatever leads. `sectors` is room for as many. Neither is copied.
+   0: of none. */
+void awmr_avoid(const awmr_avoidance* avoidance, const awmr_obstacle* obstacles, awmr_sector* sectors,
+                int16_t count);
+#endif
+
+#if AWMR_WITH_SHAPING
+/* Limits rate and acceleration of the heading that is held or led to. NULL: off. */
+void awmr_shape(const awmr_shaping* shaping);
+#endif
+
+#if AWMR_WITH_OBSERVER
+/* Takes the disturbance that is seen off the command. NULL: off. */
+void awmr_observe(const awmr_observer* observer);
+#endif
 
 #ifdef __cplusplus
 }
