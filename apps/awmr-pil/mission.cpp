@@ -44,8 +44,8 @@ void add(const LissajousCourse& course, Mission& mission) {
 }
 
 Avoidance<float> in_float(const Avoidance<double>& a) {
-  return {in_float(a.mmd_base_m),          in_float(a.mmd_per_speed_s),  in_float(a.sigma_rad),
-          in_float(a.vehicle_radius_m),    in_float(a.clearance_m),      in_float(a.hysteresis_m),
+  return {in_float(a.mmd_base_m),          in_float(a.mmd_per_speed_s), in_float(a.sigma_rad),
+          in_float(a.vehicle_radius_m),    in_float(a.clearance_m),     in_float(a.hysteresis_m),
           in_float(a.side_hysteresis_rad), in_float(a.brake_m)};
 }
 
@@ -71,14 +71,14 @@ void add_avoidance(const Mission& mission, SetUp& set_up) {
   const Avoidance<float>& a = *mission.avoidance;
   std::string obstacles;
   for (const Obstacle<float>& obstacle : mission.obstacles) {
-    obstacles +=
-        fmt::format("{}, ", braced({obstacle.centre_m.x_m, obstacle.centre_m.y_m, obstacle.radius_m}));
+    obstacles += fmt::format(
+        "{}, ", braced({obstacle.centre_m.x_m, obstacle.centre_m.y_m, obstacle.radius_m}));
   }
   set_up.constants += fmt::format("const awmr_obstacle pil_obstacles[] = {{{}}};\n", obstacles);
   set_up.constants += fmt::format("awmr_sector pil_sectors[{}];\n", mission.obstacles.size());
   set_up.add("awmr_avoidance", "pil_avoidance",
-             braced({a.mmd_base_m, a.mmd_per_speed_s, a.sigma_rad, a.vehicle_radius_m, a.clearance_m,
-                     a.hysteresis_m, a.side_hysteresis_rad, a.brake_m}),
+             braced({a.mmd_base_m, a.mmd_per_speed_s, a.sigma_rad, a.vehicle_radius_m,
+                     a.clearance_m, a.hysteresis_m, a.side_hysteresis_rad, a.brake_m}),
              fmt::format("awmr_avoid(&pil_avoidance, pil_obstacles, pil_sectors, {})",
                          mission.obstacles.size()));
 }
@@ -104,8 +104,8 @@ SetUp set_up_of(const Mission& mission) {
   if (const auto& observers = mission.observers) {
     const Observers<float>& o = *observers;
     set_up.add("awmr_observer", "pil_observer",
-               fmt::format("{{{:.8e}f, {:.8e}f, {:.8e}f, {:d}}}", o.yaw.bandwidth_radps, o.yaw.limit,
-                           o.surge.limit, o.anti_windup),
+               fmt::format("{{{:.8e}f, {:.8e}f, {:.8e}f, {:d}}}", o.yaw.bandwidth_radps,
+                           o.yaw.limit, o.surge.limit, o.anti_windup),
                "awmr_observe(&pil_observer)");
   }
   return set_up;
@@ -141,8 +141,9 @@ std::string header_with(const Mission& mission, std::uint32_t crc) {
     follow = "  (void)acceptance_m;\n  awmr_follow_line(points, count, &pil_line);\n";
   }
   const bool plain = parts_of(mission).empty();
-  return fmt::format(kHeader, plain ? kMaxPoints : std::max<std::size_t>(1, mission.points.points_m.size()), crc,
-                     set_up.constants, set_up.calls, follow);
+  return fmt::format(kHeader,
+                     plain ? kMaxPoints : std::max<std::size_t>(1, mission.points.points_m.size()),
+                     crc, set_up.constants, set_up.calls, follow);
 }
 
 }  // namespace

@@ -66,8 +66,8 @@ AWMR_INLINE bool lead(Without<LineFollower>&, const Arrival&, const Whereabouts&
   return false;
 }
 template <class Arrival>
-AWMR_CALLED bool lead(LineFollower& part, const Arrival& arrival, const Whereabouts& at, Reference<float>& ref,
-          Goal& goal) {
+AWMR_CALLED bool lead(LineFollower& part, const Arrival& arrival, const Whereabouts& at,
+                      Reference<float>& ref, Goal& goal) {
   if (part.line.count <= 0) return false;
   if (!part.is_started) part.progress = start_polyline(at.measured.psi_rad);
   part.is_started = true;
@@ -118,13 +118,13 @@ constexpr float kNoTarget_m = 1e30F;
 AWMR_INLINE void steer_clear(Without<Avoider>&, const Whereabouts&, const Goal&,
                              Reference<float>&) {}
 AWMR_CALLED inline void steer_clear(Avoider& part, const Whereabouts& at, const Goal& goal,
-                        Reference<float>& ref) {
+                                    Reference<float>& ref) {
   if (part.count <= 0) return;
   const float target_m =
       goal.target_m != 0 ? distance_m(at.position_m, *goal.target_m) : kNoTarget_m;
   const Avoided<float> avoided =
-      avoid(part.avoidance, part.obstacles, part.sectors, part.count, at.position_m, at.measured.psi_rad,
-            at.measured.u_mps, ref.psi_rad, target_m, part.state);
+      avoid(part.avoidance, part.obstacles, part.sectors, part.count, at.position_m,
+            at.measured.psi_rad, at.measured.u_mps, ref.psi_rad, target_m, part.state);
   ref.speed_mps *= avoided.speed_share;
   if (!avoided.active) return;
   ref.psi_rad = avoided.psi_rad;
