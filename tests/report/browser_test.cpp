@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -189,6 +190,78 @@ TEST_F(ReportInBrowser, HostileNamesAreTextOnThePage) {
   EXPECT_EQ(page.at("foreign_elements"), 0);
   EXPECT_EQ(page.at("booms"), 0);
   EXPECT_TRUE(page.at("shows_hostile_name"));
+}
+
+/// Largest difference of a run's column from what the page computed, over the column's size.
+double difference(const fs::path& csv, const Json& columns, const std::string& name) {
+  std::ifstream file(csv);
+  std::string line;
+  std::getline(file, line);
+  std::istringstream head(line);
+  std::size_t column = 0;
+  for (std::string cell; std::getline(head, cell, ',') && cell != name;) ++column;
+  const Json& page = columns.at(name);
+  std::size_t row = 0;
+  double largest = 0.0;
+  double size = 1.0;
+  for (; std::getline(file, line); ++row) {
+    std::istringstream cells(line);
+    std::string cell;
+    for (std::size_t i = 0; i <= column; ++i) std::getline(cells, cell, ',');
+    const double value = std::stod(cell);
+    largest = std::max(largest, std::abs(value - page.at(row).get<double>()));
+    size = std::max(size, std::abs(value));
+  }
+  return row == page.size() ? largest / size : 1e300;
+}
+
+// The same sources, compiled for another machine: what remains is the last bits of sin, cos and pow,
+// which a loop that settles does not let grow.
+TEST_F(ReportInBrowser, TheLivePartComputesWhatTheCommandLineDoes) {
+  if (read_all(file("report.html")).find("id=\"wasm\"></script>") != std::string::npos) {
+    GTEST_SKIP() << "built without a toolchain for WebAssembly";
+  }
+  const TemporaryDirectory tuned;
+  for (const char* name : {"model.json", "scenario_c3_heading_steps.json"}) {
+    fs::copy(file(name), tuned.path() / name);
+  }
+  for (const char* step :
+       {"tune --model model.json -o gains.json",
+        "simulate --model model.json --gains gains.json --mode combined -o run.csv "
+        "--scenario scenario_c3_heading_steps.json",
+        "compare --model model.json --gains gains.json -o . "
+        "--scenario scenario_c3_heading_steps.json",
+        "report ."}) {
+    ASSERT_TRUE(succeeded(run_process(awmr(step), tuned.path()))) << step;
+  }
+  const Json page = looked_at(tuned.path() / "report.html", 1280);
+  ASSERT_TRUE(page.contains("live")) << page.at("errors");
+  constexpr double kTolerance = 1e-9;
+  for (const char* name : {"t_s", "psi_rad", "u_mps", "steering_rad", "r_radps"}) {
+    EXPECT_LE(difference(tuned.path() / "run.csv", page["live"]["columns"], name), kTolerance)
+        << name;
+  }
+  const auto near = [](const Json& a, const Json& b) {
+    const double x = a.get<double>();
+    const double y = b.get<double>();
+    return std::abs(x - y) <= kTolerance * std::max({1.0, std::abs(x), std::abs(y)});
+  };
+  const Json gains = Json::parse(read_all(tuned.path() / "gains.json"));
+  ASSERT_EQ(page["live"]["constraints"].size(), gains["constraints"].size());
+  for (std::size_t i = 0; i < gains["constraints"].size(); ++i) {
+    const Json& here = gains["constraints"][i];
+    const Json& there = page["live"]["constraints"][i];
+    EXPECT_EQ(there["name"], here["name"]);
+    EXPECT_EQ(there["required"], here["required"]);
+    for (const char* key : {"value", "limit", "margin"}) {
+      EXPECT_TRUE(near(there[key], here[key])) << here["name"] << key;
+    }
+  }
+  const Json comparison = Json::parse(read_all(tuned.path() / "comparison.json"));
+  const Json& metrics = comparison["scenarios"][0]["modes"]["combined"]["metrics"];
+  for (const auto& [name, value] : page["live"]["metrics"].items()) {
+    EXPECT_TRUE(near(value, metrics.at(name).at("nominal"))) << name;
+  }
 }
 
 TEST_F(ReportInBrowser, PrintsEveryPart) {

@@ -24,6 +24,13 @@ Model some_model(const std::string& name) {
   return model;
 }
 
+/// Every parameter known, so that it can turn.
+Model whole_model() {
+  Model model = some_model("robot");
+  for (Estimate& estimate : model.estimates) estimate.value = estimate.value.value_or(0.5);
+  return model;
+}
+
 Result<std::string> report_of(const std::string& model_json) {
   const ScratchFile file("model.json", model_json);
   return report_html(file.path().parent_path());
@@ -74,6 +81,29 @@ TEST(Report, NeedsAModelAndRefusesABrokenCompanion) {
   const auto broken = report_html(model.path().parent_path());
   ASSERT_FALSE(broken);
   EXPECT_THAT(broken.error().faults.front().place, HasSubstr("gains.json"));
+}
+
+// What the live part takes from gains.json beside the gains.
+TEST(Report, NamesThePlaceWhereGainsDoNotSayHowTheyWereTuned) {
+  const ScratchFile model("model.json", model_text(whole_model()));
+  const std::string gains = R"({"schema": "awmr.gains/1",
+    "heading": {"lambda": 3, "mu": 50, "epsilon": 12}, "speed": {"mu": 5, "epsilon": 1.2})";
+  const auto report_with = [&](const std::string& more) {
+    std::ofstream(model.path().parent_path() / "gains.json") << gains << more << "}";
+    return report_html(model.path().parent_path());
+  };
+  ASSERT_TRUE(report_with(""));
+  if (report_with("")->find("id=\"wasm\"></script>") != std::string::npos) GTEST_SKIP();
+  for (const char* more :
+       {R"(, "robust": {"draws": "many"})", R"(, "robust": [])", R"(, "constraints": [3])",
+        R"(, "constraints": [{"name": 1, "required": true, "limit": 2}])",
+        R"(, "robust": {"draws": 2, "seed": 1, "noise": {"heading_deg": 1}, "latency":
+           {"heading_s": 1e9, "yaw_rate_s": 0}, "motor_time_constant_s": 0})"}) {
+    const auto report = report_with(more);
+    ASSERT_FALSE(report) << more;
+    EXPECT_THAT(report.error().faults.front().place, HasSubstr("gains.json:/")) << more;
+    EXPECT_EQ(exit_code(report.error()), 2);
+  }
 }
 
 }  // namespace

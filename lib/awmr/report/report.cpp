@@ -4,13 +4,16 @@
 #include <cmath>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "awmr/core/file.h"
 #include "awmr/core/json.h"
 #include "awmr/model/gains_file.h"
 #include "awmr/model/model.h"
 #include "awmr/model/model_file.h"
+#include "awmr/report/live_numbers.h"
 #include "awmr/report/run_data.h"
+#include "awmr/simulate/scenario_file.h"
 
 namespace awmr {
 
@@ -18,6 +21,7 @@ extern const std::string_view kVegaJs;
 extern const std::string_view kPageHtml;
 extern const std::string_view kPageCss;
 extern const std::string_view kPageJs;
+extern const std::string_view kLiveWasm;  ///< packed, in base 64; empty: built without it
 
 namespace {
 
@@ -47,8 +51,8 @@ bool is_vehicle_of_paper(const Vehicle& vehicle) {
 /// Each `@name@` of the page's frame, once, replaced by its part.
 std::string assembled(const Json& data) {
   const std::string json = script_safe(data);
-  const std::array<std::pair<std::string_view, std::string_view>, 4> parts{
-      {{"css", kPageCss}, {"vega", kVegaJs}, {"data", json}, {"js", kPageJs}}};
+  const std::array<std::pair<std::string_view, std::string_view>, 5> parts{
+      {{"css", kPageCss}, {"vega", kVegaJs}, {"data", json}, {"js", kPageJs}, {"wasm", kLiveWasm}}};
   std::string page;
   std::string_view rest = kPageHtml;
   while (true) {
@@ -62,6 +66,28 @@ std::string assembled(const Json& data) {
     }
     rest.remove_prefix(end + 1);
   }
+}
+
+/// What the live part of the page begins with: the first heading scenario without anything else in
+/// it, or the paper's; absent without gains, and where the model knows nothing of turning.
+Status add_live(const fs::path& directory, const Model& model, Json& data) {
+  if (kLiveWasm.empty() || !data.contains("gains")) return {};
+  Scenario scenario = heading_steps({30.0, -30.0}, {.name = "headings 30 then -30 deg"});
+  for (const auto& [stem, json] : data["scenarios"].items()) {
+    if (!is_plain_heading(json)) continue;
+    AWMR_ASSIGN_OR_RETURN(scenario, read_scenario(directory / ("scenario_" + stem + ".json")));
+    break;
+  }
+  AWMR_ASSIGN_OR_RETURN(const std::vector<double> numbers,
+                        live_numbers(model, data["gains"], scenario));
+  if (numbers.empty()) return {};
+  Json modes = Json::array();
+  for (const YawMode mode : yaw_modes(model.vehicle)) modes.push_back(name_of(mode));
+  data["live"] = {{"numbers", numbers},
+                  {"modes", std::move(modes)},
+                  {"scenario", scenario.name},
+                  {"sample_time_s", model.vehicle.sample_time_s}};
+  return {};
 }
 
 }  // namespace
@@ -86,6 +112,7 @@ Result<std::string> report_html(const fs::path& directory) {
   data["header"] = fs::exists(directory / "awmr_params.h");
   AWMR_ASSIGN_OR_RETURN(data["runs"], read_runs(directory));
   AWMR_ASSIGN_OR_RETURN(data["scenarios"], read_scenarios(directory));
+  AWMR_RETURN_IF_ERROR(add_live(directory, model, data));
   return assembled(data);
 }
 

@@ -2,7 +2,8 @@
 const report = JSON.parse(document.getElementById("data").textContent);
 document.getElementById("report").textContent = "";
 document.title = `${report.model.vehicle.name}: awmr report`;
-for (const [title, part] of [["Summary", summarySection], ["Identification", identificationSection], ["Tuning", tuningSection],
+for (const [title, part] of [["Summary", summarySection], ["Try other gains", liveSection],
+  ["Identification", identificationSection], ["Tuning", tuningSection],
   ["Simulations", simulationSection], ["The three yaw-control modes", comparisonSection], ["The paper's claims", claimsSection],
   ["Firmware", firmwareSection], ["Provenance", provenanceSection]]) {
   try {

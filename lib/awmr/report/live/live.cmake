@@ -1,0 +1,50 @@
+# The live part of the page: what simulates and judges gains, compiled to WebAssembly, packed and written as text into
+# ${AWMR_LIVE_SOURCE}. Where Debian's toolchain for it is missing, the text is empty and the page has no such part.
+set(live_directory ${CMAKE_CURRENT_BINARY_DIR}/live)
+set(AWMR_LIVE_SOURCE ${live_directory}/live_wasm.cpp)
+file(MAKE_DIRECTORY ${live_directory})
+
+find_program(AWMR_WASM_CXX clang++)
+find_program(AWMR_WASM_LD wasm-ld)
+find_program(AWMR_GZIP gzip)
+find_program(AWMR_BASE64 base64)
+set(works 1)
+if(AWMR_WASM_CXX AND AWMR_WASM_LD AND AWMR_GZIP AND AWMR_BASE64)
+  file(WRITE ${live_directory}/try.cpp "#include <cmath>\n#include <vector>\nint main() {}\n")
+  execute_process(COMMAND ${AWMR_WASM_CXX} --target=wasm32-wasi -std=c++20 try.cpp -o try.wasm
+    WORKING_DIRECTORY ${live_directory} RESULT_VARIABLE works OUTPUT_QUIET ERROR_QUIET)
+endif()
+if(NOT works EQUAL 0)
+  message(STATUS "The report's live part is left out: no toolchain for WebAssembly (scripts/setup installs it)")
+  file(WRITE ${AWMR_LIVE_SOURCE} "#include <string_view>\nnamespace awmr {\nextern const std::string_view kLiveWasm;\n"
+    "const std::string_view kLiveWasm;\n}  // namespace awmr\n")
+  return()
+endif()
+
+# One source, one object. -ffp-contract=off as everywhere; no exception leaves these sources.
+set(flags --target=wasm32-wasi -std=c++20 -Oz -ffp-contract=off -ffunction-sections -fno-exceptions -fno-rtti -DNDEBUG
+  -DFMT_HEADER_ONLY -isystem /usr/include/eigen3 -I${PROJECT_SOURCE_DIR}/lib)
+# Random123 knows no wasm32, but what it does for a small ARM holds; its arrays throw, which nothing here lets them.
+set(flags_random -fexceptions -fignore-exceptions -D__arm__)
+set(objects)
+foreach(part report/live/live core/error core/option_text core/random core/text model/family model/model
+    model/parameters model/rest_speed model/vehicle simulate/disturbance simulate/metrics simulate/passage simulate/physics
+    simulate/pilot simulate/scenario simulate/sensing simulate/simulate simulate/straight tune/constraints tune/sampled_loop)
+  string(REPLACE / _ name ${part})
+  set(object ${live_directory}/${name}.o)
+  set(more)
+  if(part STREQUAL core/random)
+    set(more ${flags_random})
+  endif()
+  add_custom_command(OUTPUT ${object} DEPENDS ${PROJECT_SOURCE_DIR}/lib/awmr/${part}.cpp DEPFILE ${object}.d
+    COMMAND ${CMAKE_CXX_COMPILER_LAUNCHER} ${AWMR_WASM_CXX} ${flags} ${more} -MD -MF ${object}.d
+      -c ${PROJECT_SOURCE_DIR}/lib/awmr/${part}.cpp -o ${object}
+    COMMENT "Compiling ${part}.cpp to WebAssembly" VERBATIM)
+  list(APPEND objects ${object})
+endforeach()
+set(wasm ${live_directory}/live.wasm)
+add_custom_command(OUTPUT ${AWMR_LIVE_SOURCE} DEPENDS ${objects} ${CMAKE_CURRENT_LIST_DIR}/embed.cmake
+  COMMAND ${AWMR_WASM_CXX} --target=wasm32-wasi -mexec-model=reactor -Wl,--gc-sections -Wl,--strip-all ${objects} -o ${wasm}
+  COMMAND ${CMAKE_COMMAND} -DWASM=${wasm} -DGZIP=${AWMR_GZIP} -DBASE64=${AWMR_BASE64} -DOUTPUT=${AWMR_LIVE_SOURCE}
+    -P ${CMAKE_CURRENT_LIST_DIR}/embed.cmake
+  COMMENT "Linking the report's live part" VERBATIM)

@@ -1,0 +1,142 @@
+/// The live part of the page, compiled to WebAssembly: one run and the constraints of gains that the
+/// reader moves. The same sources simulate and tune on the command line.
+///
+/// The page writes the setup's numbers where live_setup() says, calls live_begin(), then live_run()
+/// for each position of its sliders, and reads live_rows() rows of kColumns doubles at live_table()
+/// and live_size() bytes of JSON at live_text().
+#include <fmt/format.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "awmr/core/units.h"
+#include "awmr/report/live/setup.h"
+#include "awmr/simulate/metrics.h"
+#include "awmr/simulate/simulate.h"
+
+namespace awmr {
+namespace {
+
+struct MetricOfRun {
+  const char* name;
+  std::optional<double> value;
+};
+
+std::vector<double> numbers;
+LiveSetup setup;
+std::vector<double> table;
+std::string text;
+constexpr std::size_t kColumns = 8;
+
+Vehicle vehicle_of_setup(double sample_time_s) {
+  Vehicle vehicle;
+  vehicle.wheel_force = setup.context.wheel_force;
+  vehicle.drive = setup.context.has_steering ? Drive::kFourWheel : Drive::kDifferential;
+  vehicle.allocation = static_cast<AllocationForm>(static_cast<int>(setup.allocation_form));
+  vehicle.sample_time_s = sample_time_s;
+  return vehicle;
+}
+
+Scenario scenario_of_setup(double heading_noise_deg) {
+  Scenario scenario{.name = "live",
+                    .duration_s = setup.duration_s,
+                    .initial = setup.initial,
+                    .speed_mps = setup.context.speed_mps,
+                    .guidance = HeadingSteps{setup.steps}};
+  if (heading_noise_deg > 0.0) {
+    scenario.sensors.emplace();
+    scenario.sensors->heading.noise = radians(heading_noise_deg);
+  }
+  return scenario;
+}
+
+void fill_table(const Run& run) {
+  table.clear();
+  for (const RunRow& row : run.rows) {
+    table.insert(table.end(),
+                 {row.t_s, row.state.psi_rad, row.psi_ref_rad, row.state.u_mps, row.force.left,
+                  row.force.right, row.state.steering_rad, row.state.r_radps});
+  }
+}
+
+std::string metrics_text(const Metrics& m) {
+  std::string json;
+  for (const auto& [name, value] :
+       std::initializer_list<MetricOfRun>{{"settling_time_s", m.settling_time_s},
+                                          {"overshoot_deg", m.overshoot_deg},
+                                          {"heading_iae_degs", m.heading_iae_degs},
+                                          {"speed_drop_mps", m.speed_drop_mps},
+                                          {"sideslip_max_deg", m.sideslip_max_deg},
+                                          {"yaw_rate_max_degps", m.yaw_rate_max_degps},
+                                          {"control_variation", m.control_variation},
+                                          {"saturation_s", m.saturation_s}}) {
+    json += fmt::format("{}\"{}\":{}", json.empty() ? "" : ",", name,
+                        value ? fmt::format("{}", *value) : "null");
+  }
+  return json;
+}
+
+/// JSON has no infinity.
+std::string number(double x) { return x - x == 0.0 ? fmt::format("{}", x) : "null"; }
+
+/// The names and meanings hold neither quotes nor backslashes.
+std::string constraints_text(const std::vector<ConstraintReport>& constraints) {
+  std::string json;
+  for (const ConstraintReport& c : constraints) {
+    json += fmt::format(
+        "{}{{\"name\":\"{}\",\"value\":{},\"limit\":{},\"margin\":{},\"meaning\":\"{}\","
+        "\"required\":{}}}",
+        json.empty() ? "" : ",", c.name, number(c.value), number(c.limit), number(c.margin),
+        c.meaning, c.required);
+  }
+  return json;
+}
+
+}  // namespace
+}  // namespace awmr
+
+using namespace awmr;
+
+#define AWMR_EXPORT(name) extern "C" __attribute__((export_name(#name)))
+
+/// Room for the setup's numbers.
+AWMR_EXPORT(live_setup) double* live_setup(int count) {
+  numbers.assign(static_cast<std::size_t>(count), 0.0);
+  return numbers.data();
+}
+
+AWMR_EXPORT(live_begin) void live_begin() {
+  std::size_t next = 0;
+  visit_numbers(setup, [&](double& x) { x = numbers[next++]; });
+}
+
+/// mode: as YawMode. mass and friction: what the plant has of the model's, which the controller does
+/// not know. Returns whether the run went to its end.
+AWMR_EXPORT(live_run)
+bool live_run(double lambda, double mu, double epsilon, double speed_mu, double speed_epsilon,
+              int mode, double sample_time_s, double mass, double friction,
+              double heading_noise_deg) {
+  const Gains<double> gains{{lambda, mu, epsilon}, {speed_mu, speed_epsilon}};
+  ConstraintContext context = setup.context;
+  context.sample_time_s = sample_time_s;
+  const Vehicle vehicle = vehicle_of_setup(sample_time_s);
+  const Controller<double> controller = make_controller(context.plant, vehicle, gains);
+  Plant<double> plant = context.plant;
+  plant.mass_norm *= mass;
+  plant.inertia_norm *= mass;
+  plant.surge.alpha *= friction;
+  plant.yaw.alpha *= friction;
+  const Scenario scenario = scenario_of_setup(heading_noise_deg);
+  const Run run = simulate(plant, controller, scenario, static_cast<YawMode>(mode),
+                           {.sample_time_s = sample_time_s});
+  fill_table(run);
+  text = "{\"constraints\":[" + constraints_text(constraints_of(gains, context)) +
+         "],\"metrics\":{" + metrics_text(metrics_of(run, scenario, controller)) + "}}";
+  return run.end != RunEnd::kFailed;
+}
+
+AWMR_EXPORT(live_rows) int live_rows() { return static_cast<int>(table.size() / kColumns); }
+AWMR_EXPORT(live_table) const double* live_table() { return table.data(); }
+AWMR_EXPORT(live_text) const char* live_text() { return text.data(); }
+AWMR_EXPORT(live_size) int live_size() { return static_cast<int>(text.size()); }

@@ -1,0 +1,79 @@
+/// What the live part of the page computes with: made by the program from model.json and gains.json,
+/// read by the same code compiled to WebAssembly. Private to the report.
+#pragma once
+
+#include <vector>
+
+#include "awmr/simulate/scenario.h"
+#include "awmr/tune/constraints.h"
+
+namespace awmr {
+
+/// A model, its vehicle's limits, a heading scenario, and what the constraints depend on.
+struct LiveSetup {
+  ConstraintContext context;  ///< its plant is the model's own
+  double allocation_form = 0.0;
+  double duration_s = 0.0;
+  State<double> initial{};
+  std::vector<HeadingStep> steps;
+};
+
+template <class Visit>
+void visit_resistance(Resistance<double>& law, Visit&& visit) {
+  for (double* x : {&law.alpha, &law.beta, &law.rest_speed, &law.coulomb, &law.quadratic}) {
+    visit(*x);
+  }
+}
+
+template <class Visit>
+void visit_plant(Plant<double>& plant, Visit&& visit) {
+  visit_resistance(plant.surge, visit);
+  visit_resistance(plant.yaw, visit);
+  for (double* x : {&plant.sway_alpha, &plant.mass_norm, &plant.inertia_norm, &plant.front_axle_m,
+                    &plant.half_track_m, &plant.steering_max_rad, &plant.steering_max_rate_radps,
+                    &plant.steering_time_constant_s, &plant.wheel_dead_zone}) {
+    visit(*x);
+  }
+}
+
+/// What is no double passes as one.
+template <class T, class Visit>
+void visit_as_number(T& value, Visit&& visit) {
+  double number = static_cast<double>(value);
+  visit(number);
+  value = static_cast<T>(number);
+}
+
+/// Before its elements, how many there are.
+template <class T, class Visit, class VisitElement>
+void visit_list(std::vector<T>& list, Visit&& visit, VisitElement&& visit_element) {
+  double size = static_cast<double>(list.size());
+  visit(size);
+  list.resize(static_cast<std::size_t>(size));
+  for (T& element : list) visit_element(element, visit);
+}
+
+/// Every number of the setup in one order, for writing and for reading: visit(double&).
+template <class Visit>
+void visit_numbers(LiveSetup& setup, Visit&& visit) {
+  ConstraintContext& c = setup.context;
+  visit_as_number(c.form, visit);
+  visit(c.margin);
+  visit_plant(c.plant, visit);
+  visit_as_number(c.has_steering, visit);
+  for (double* x : {&c.sample_time_s, &c.speed_mps, &c.wheel_force.lo, &c.wheel_force.hi,
+                    &c.heading_noise_rad, &c.latency_s, &c.motor_time_constant_s}) {
+    visit(*x);
+  }
+  visit_list(c.draws, visit, [](Plant<double>& plant, auto& v) { visit_plant(plant, v); });
+  visit(setup.allocation_form);
+  visit(setup.duration_s);
+  State<double>& s = setup.initial;
+  for (double* x : {&s.x_m, &s.y_m, &s.psi_rad, &s.u_mps, &s.v_mps, &s.r_radps}) visit(*x);
+  visit_list(setup.steps, visit, [](HeadingStep& step, auto& v) {
+    v(step.t_s);
+    v(step.psi_rad);
+  });
+}
+
+}  // namespace awmr

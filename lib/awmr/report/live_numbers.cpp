@@ -1,0 +1,95 @@
+#include "awmr/report/live_numbers.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "awmr/core/units.h"
+#include "awmr/report/live/setup.h"
+#include "awmr/tune/robust.h"
+
+namespace awmr {
+namespace {
+
+/// The form of T2 < T1 that was required, and its margin: the limit is margin/lambda.
+void take_reaching(JsonObject& gains, double lambda, ConstraintContext& context) {
+  for (JsonObject& constraint : gains.optional_objects("constraints")) {
+    const bool strict = constraint.string("name") == "T2 < T1 (strict)";
+    const bool required = constraint.boolean("required");
+    const double limit = constraint.number("limit");
+    if (!strict) continue;
+    context.form = required ? ReachingForm::kStrict : ReachingForm::kPaper;
+    context.margin = limit * lambda;
+  }
+}
+
+/// How many plants were drawn beside the model's own, and from which seed.
+struct Draws {
+  int count = 0;
+  std::uint64_t seed = 1;
+};
+
+/// Noise, latency and lag that robust gains were tuned under, and on which draws.
+Draws take_conditions(JsonObject robust, ConstraintContext& context) {
+  JsonObject late = robust.object("latency");
+  const double latest_s =
+      std::max(late.number("heading_s", kNonNegative), late.number("yaw_rate_s", kNonNegative));
+  context.heading_noise_rad = radians(robust.object("noise").number("heading_deg", kNonNegative));
+  context.latency_s = latest_s;
+  context.motor_time_constant_s = robust.number("motor_time_constant_s", kNonNegative);
+  if (!(latest_s < (kMostLateSamples + 0.5) * context.sample_time_s)) {
+    robust.fault("latency", "more samples than gains are tuned for; tune again");
+  }
+  return {static_cast<int>(robust.integer("draws", 0, 1000)),
+          static_cast<std::uint64_t>(robust.integer("seed", 0, 4'294'967'295L))};
+}
+
+/// What gains.json says of how it was tuned. Errors (input): it says so in another form.
+Result<Draws> take_tuning(const Json& gains, ConstraintContext& context) {
+  std::vector<Fault> faults;
+  JsonObject json(gains, "gains.json", "", faults);
+  take_reaching(json, json.object("heading").number("lambda", kPositive), context);
+  Draws draws;
+  if (auto robust = json.optional_object("robust")) draws = take_conditions(*robust, context);
+  if (!faults.empty()) return input_errors(std::move(faults));
+  return draws;
+}
+
+}  // namespace
+
+bool is_plain_heading(const Json& scenario) {
+  constexpr std::array<std::string_view, 6> kPlain{"schema",  "name",      "duration_s",
+                                                   "initial", "speed_mps", "guidance"};
+  for (const auto& [key, value] : scenario.items()) {
+    if (std::find(kPlain.begin(), kPlain.end(), key) == kPlain.end()) return false;
+  }
+  return scenario["guidance"].value("type", "") == "heading";
+}
+
+Result<std::vector<double>> live_numbers(const Model& model, const Json& gains,
+                                         const Scenario& scenario) {
+  if (model.simulated_motion() != Motion::kPlanar) return std::vector<double>{};
+  LiveSetup setup;
+  AWMR_ASSIGN_OR_RETURN(setup.context.plant, model.plant());
+  setup.context.has_steering = model.vehicle.has_steering();
+  setup.context.sample_time_s = model.vehicle.sample_time_s;
+  setup.context.wheel_force = model.vehicle.wheel_force;
+  setup.context.speed_mps = scenario.speed_mps;
+  AWMR_ASSIGN_OR_RETURN(const Draws draws, take_tuning(gains, setup.context));
+  AWMR_ASSIGN_OR_RETURN(const std::vector<Plant<double>> plants,
+                        plants_of(model, draws.count, draws.seed));
+  setup.context.draws.assign(plants.begin() + 1, plants.end());
+  setup.allocation_form = static_cast<double>(model.vehicle.allocation);
+  setup.duration_s = scenario.duration_s;
+  setup.initial = scenario.initial;
+  setup.steps = std::get<HeadingSteps>(scenario.guidance).steps;
+
+  std::vector<double> numbers;
+  visit_numbers(setup, [&](double x) { numbers.push_back(x); });
+  return numbers;
+}
+
+}  // namespace awmr
