@@ -25,6 +25,7 @@ namespace fs = std::filesystem;
 
 struct InitCommand {
   fs::path directory;
+  bool example = false;  ///< the paper's vehicle and made-up drives instead of a project to fill in
   Drive drive = Drive::kFourWheel;
 };
 Result<Outcome> execute(const InitCommand& command);
@@ -121,7 +122,6 @@ struct CompareCommand {
   fs::path output;
   AllocationChoice allocation = {};
   bool resume = false;  ///< go on from the output directory
-  bool quiet = false;   ///< no progress bar
   InputNames names = {};
 };
 Result<Outcome> execute(const CompareCommand& command);

@@ -85,8 +85,8 @@ Result<Provenance> provenance_of(const CompareCommand& command) {
 Result<Comparison> compare_until_interrupted(const Model& model,
                                              const std::vector<NamedGains>& gains,
                                              const std::vector<Scenario>& scenarios,
-                                             CompareOptions options, bool quiet) {
-  ProgressBar bar(!quiet);
+                                             CompareOptions options) {
+  Working bar("comparing");
   options.stop = &stop_requested;
   options.progress = [&bar](std::size_t done, std::size_t total) { bar(done, total); };
   return compare(model, gains, scenarios, options);
@@ -158,9 +158,8 @@ Result<Outcome> execute(const CompareCommand& command) {
     AWMR_ASSIGN_OR_RETURN(options.finished, read_finished(command.output, provenance));
   }
   const StopOnInterrupt interrupt;
-  AWMR_ASSIGN_OR_RETURN(
-      const Comparison comparison,
-      compare_until_interrupted(model, gains, scenarios, std::move(options), command.quiet));
+  AWMR_ASSIGN_OR_RETURN(const Comparison comparison,
+                        compare_until_interrupted(model, gains, scenarios, std::move(options)));
   const std::string text = document_of(command, comparison, provenance);
   AWMR_RETURN_IF_ERROR(write_comparison(command, comparison, text));
   const std::vector<fs::path> written{command.output / json_of(command),
@@ -200,7 +199,7 @@ void add_compare(CLI::App& app, Session& session) {
       add_command(app, session, "compare",
                   "Compare the three yaw-control modes, and sets of gains, over scenarios",
                   "awmr compare --model model.json --gains gains.json --scenario "
-                  "configs/paper/scenarios/c3_heading_steps.json --samples 200 -o out",
+                  "configs/paper/scenarios/c3_heading_steps.json --samples 20 -o comparison",
                   [command, texts]() -> Result<Outcome> {
                     if (!texts->shard.empty()) {
                       AWMR_ASSIGN_OR_RETURN(command->compare.shard, shard_of(texts->shard));
@@ -236,7 +235,6 @@ void add_compare(CLI::App& app, Session& session) {
   sub->add_option("--shard", texts->shard,
                   "I/N: part I of N, for as many machines; awmr merge puts the parts together")
       ->excludes(resume);
-  sub->get_option("--quiet")->each([command](const std::string&) { command->quiet = true; });
   add_allocation(*sub, command->allocation);
   add_output_directory(*sub, command->output, "Directory for comparison.csv and comparison.json");
 }

@@ -4,17 +4,22 @@
 
 #include <CLI/CLI.hpp>
 #include <cerrno>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <memory>
+#include <sstream>
 #include <utility>
 
 #include "awmr/core/file.h"
 #include "awmr/core/option_text.h"
 #include "awmr/core/text.h"
 #include "awmr/model/si_units.h"
+#include "findings_text.h"
 #include "json_output.h"
 #include "paths.h"
+#include "progress.h"
+#include "style.h"
 
 namespace awmr::cli {
 namespace {
@@ -28,6 +33,7 @@ bool print(std::FILE* stream, const std::string& text) {
 /// How the outcome is told.
 struct Manner {
   bool quiet = false;
+  bool verbose = false;
   bool json = false;
 };
 
@@ -37,37 +43,68 @@ int to_stdout(const std::string& text, int exit_code) {
   return 2;
 }
 
+/// The summary, its titles in bold: at the margin, a word or with indented lines below it.
+std::string styled(const std::string& summary, const Style& style) {
+  std::istringstream lines(printable_lines(summary));
+  std::string text;
+  for (std::string line; std::getline(lines, line);) {
+    const bool word = line.find_first_of(" :/") == std::string::npos;
+    const bool title = !line.empty() && line.front() != ' ' && (word || lines.peek() == ' ');
+    text += (title ? style.bold(line) : line) + "\n";
+  }
+  return text;
+}
+
+/// With `--quiet`, what made the answer a no; else the findings, grouped unless all are asked for.
+void tell_findings(const Outcome& outcome, Manner manner) {
+  const Style style(stderr);
+  std::string text;
+  if (!manner.quiet && !manner.verbose) text = findings_text(outcome.findings, style);
+  for (const Finding& finding : outcome.findings) {
+    const bool matters = outcome.refused && finding.severity == Severity::kError;
+    if (manner.quiet ? matters : manner.verbose) text += to_text(finding, style) + "\n";
+  }
+  print(stderr, text);
+}
+
 int report(const std::string& command, const Result<Outcome>& result, Manner manner) {
   if (!result) {
     print(stderr, manner.json ? error_text(result.error()) : awmr::to_text(result.error(), "--"));
     return exit_code(result.error());
   }
-  const int exit_code = result->refused ? 1 : 0;
+  int exit_code = result->refused ? 1 : 0;
   if (manner.json) {
     return to_stdout(
         result_text({command, exit_code, result->written, result->findings, result->document}),
         exit_code);
   }
-  for (const Finding& finding : result->findings) {
-    const bool matters = result->refused && finding.severity == Severity::kError;
-    if (!manner.quiet || matters) print(stderr, to_text(finding) + "\n");
-  }
-  return manner.quiet ? exit_code : to_stdout(printable_lines(result->summary), exit_code);
+  // Results first, then what to know about them.
+  const std::string text =
+      result->summary + (manner.verbose ? result->details : "") + result->closing;
+  if (!manner.quiet) exit_code = to_stdout(styled(text, Style(stdout)), exit_code);
+  tell_findings(*result, manner);
+  return exit_code;
 }
 
 std::string origin(const Estimate& estimate) {
   return fmt::format("{}, {}", name_in(kSourceNames, estimate.source), estimate.method);
 }
 
+/// Two digits, as an error has no more: 0.0099, 160.
+std::string two_digits(double error) {
+  if (!(error > 0.0)) return fmt::format("{:g}", error);
+  const double digit = std::pow(10.0, std::floor(std::log10(error)) - 1.0);
+  return fmt::format("{:.6g}", std::round(error / digit) * digit);
+}
+
 std::string table_row(std::string_view name, const Estimate& estimate, std::string_view unit) {
   const std::string value =
       estimate.value ? fmt::format("{:.5g}", *estimate.value) : std::string("unknown");
-  const std::string error =
-      estimate.std_error ? fmt::format("{:.2g}", *estimate.std_error) : std::string("-");
+  const std::string error = estimate.std_error ? two_digits(*estimate.std_error) : std::string("-");
   const std::string interval =
       estimate.ci95 ? fmt::format("[{:.4g}, {:.4g}]", estimate.ci95->lo, estimate.ci95->hi)
                     : std::string("-");
-  return fmt::format("  {:<24} {:>10} {:>10}  {:<24} {:<12} {}\n", name, value, error, interval,
+  return fmt::format("  {:<24} {:>10} {:>10}  {:<24} {:<14} {}\n", name, value, error, interval,
                      unit, origin(estimate));
 }
 
@@ -77,15 +114,23 @@ CLI::App* add_command(CLI::App& app, Session& session, const std::string& name,
                       const std::string& description, const std::string& example,
                       std::function<Result<Outcome>()> execute) {
   CLI::App* command = app.add_subcommand(name, description);
-  command->footer("Example:\n  " + example);
+  const bool needs_files = example.find("configs/") != std::string::npos ||
+                           example.find("datasets/") != std::string::npos;
+  command->footer(
+      "Example:\n  " + example +
+      (needs_files ? "\n`awmr init --example .` writes the files of the examples." : ""));
   command->set_version_flag("--version", std::string("awmr ") + version());
   auto manner = std::make_shared<Manner>();
   auto* quiet = command->add_flag("--quiet", manner->quiet, "Print errors only");
+  command
+      ->add_flag("--verbose", manner->verbose, "Print every finding, and the details of the result")
+      ->excludes(quiet);
   command
       ->add_flag("--json", manner->json,
                  "Print the result and its findings as one JSON object, errors as one on stderr")
       ->excludes(quiet);
   command->callback([&session, name, manner, execute = std::move(execute)] {
+    show_progress(!manner->quiet);
     session.exit_code = report(name, execute(), *manner);
   });
   return command;
@@ -118,20 +163,8 @@ Status check_outputs(const std::filesystem::path& directory, const std::vector<s
   return {};
 }
 
-std::string to_text(const Finding& finding) {
-  const char* severity = finding.severity == Severity::kNote      ? "note"
-                         : finding.severity == Severity::kWarning ? "warning"
-                                                                  : "error";
-  std::string place;
-  if (!finding.file.empty()) place = finding.file + ":";
-  if (finding.line > 0) place += fmt::format("{}:", finding.line);
-  if (!place.empty()) place += " ";
-  return fmt::format("{}: {}{} [{}]", severity, printable(shortened(place)),
-                     printable(shortened(spell_options(finding.message, "--"))), finding.code);
-}
-
 std::string parameter_table_text(const Model& model) {
-  std::string text = fmt::format("  {:<24} {:>10} {:>10}  {:<24} {:<12} {}\n", "", "value",
+  std::string text = fmt::format("  {:<24} {:>10} {:>10}  {:<24} {:<14} {}\n", "", "value",
                                  "std error", "95 % interval", "unit", "origin");
   for (const ParameterInfo& parameter : parameter_table()) {
     const Estimate& estimate = model[parameter.id];

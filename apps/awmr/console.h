@@ -20,7 +20,9 @@ namespace awmr::cli {
 
 /// What a command leaves for the person who ran it.
 struct Outcome {
-  std::string summary = {};            ///< for stdout
+  std::string summary = {};            ///< for stdout: results first, one screen
+  std::string details = {};            ///< below it with `--verbose`; the files have them anyway
+  std::string closing = {};            ///< the last line: what was written
   std::string brief = {};              ///< the same in a few lines, for `run`
   std::vector<Finding> findings = {};  ///< for stderr
   bool refused = false;                ///< the work ran and the answer is no: exit code 1
@@ -33,7 +35,8 @@ struct Session {
   int exit_code = 0;
 };
 
-/// Adds a subcommand with `--quiet`, `--json`, `--version` and an example under its help; `execute` runs it.
+/// Adds a subcommand with `--quiet`, `--verbose`, `--json`, `--version` and an example under its
+/// help; `execute` runs it.
 CLI::App* add_command(CLI::App& app, Session& session, const std::string& name,
                       const std::string& description, const std::string& example,
                       std::function<Result<Outcome>()> execute);
@@ -50,9 +53,6 @@ Status write_document(const std::optional<std::filesystem::path>& path, Outcome&
 /// As check_output for files of a directory, which may not be there yet; nothing is made.
 Status check_outputs(const std::filesystem::path& directory, const std::vector<std::string>& names,
                      std::span<const std::filesystem::path> inputs);
-
-/// `warning: FILE:LINE: MESSAGE [CODE]`, as compilers do.
-std::string to_text(const Finding& finding);
 
 /// One line per identified quantity: value, standard error, 95 % interval, unit, origin.
 std::string parameter_table_text(const Model& model);

@@ -14,6 +14,7 @@
 #include "inputs.h"
 #include "numbers.h"
 #include "paths.h"
+#include "progress.h"
 
 namespace awmr::cli {
 namespace {
@@ -39,27 +40,35 @@ Result<Provenance> provenance_of(const IdentifyCommand& command) {
   return provenance;
 }
 
+Result<Identification> identify_with_progress(const Trials& trials, IdentifyOptions options) {
+  Working working("fitting the tables");
+  options.doing = [&](std::string_view what) { working.doing(what); };
+  return identify(trials, options);
+}
+
 std::string names_of(const EstimatorReport& report) {
   const std::string name(name_in(kEstimatorNames, report.estimator));
   return report.family.empty() ? name : name + " " + report.family;
 }
 
-std::string summary_of(const IdentifyCommand& command, const Model& model) {
-  std::string text =
-      fmt::format("{}: {} trial rows\n", model.vehicle.name, model.record.trials.size());
-  text += parameter_table_text(model) + si_table_text(model);
-  text += "  estimators side by side:\n";
+std::string summary_of(const Model& model) {
+  return fmt::format("{}: {} trial rows\n", model.vehicle.name, model.record.trials.size()) +
+         parameter_table_text(model) + si_table_text(model);
+}
+
+std::string estimators_of(const Model& model) {
+  std::string text = "estimators side by side\n";
   for (const EstimatorReport& report : model.record.reports) {
     std::string values;
     for (const EstimatorParameter& parameter : report.parameters) {
       values += fmt::format(" {}={:.4f}", parameter.name, parameter.value);
     }
     const std::string score = report.aicc ? fmt::format(" AICc {:.1f}", *report.aicc) : "";
-    text += fmt::format("    {:<6} {:<36} noise on {:<10}{}{}\n",
+    text += fmt::format("  {:<6} {:<36} noise on {:<10}{}{}\n",
                         name_in(kFitSubjectNames, report.subject), names_of(report), report.noise,
                         values, score);
   }
-  return text + fmt::format("wrote {}\n", command.output.string());
+  return text;
 }
 
 /// The command and what the command line says of it in words.
@@ -178,12 +187,15 @@ Result<Outcome> execute(const IdentifyCommand& command) {
                                      .steady_from_logs = command.steady_from_logs,
                                      .options = command.trials}));
   AWMR_ASSIGN_OR_RETURN(Provenance provenance, provenance_of(command));
-  AWMR_ASSIGN_OR_RETURN(Identification identified, identify(trials, command.identify));
+  AWMR_ASSIGN_OR_RETURN(Identification identified,
+                        identify_with_progress(trials, command.identify));
   Model& model = identified.model;
   model.record.provenance = std::move(provenance);
   std::string document = model_text(model);
   AWMR_RETURN_IF_ERROR(write_file(command.output, document));
-  return Outcome{.summary = summary_of(command, model),
+  return Outcome{.summary = summary_of(model),
+                 .details = estimators_of(model),
+                 .closing = fmt::format("wrote {}\n", command.output.string()),
                  .brief = parameter_table_text(model),
                  .findings = model.record.findings,
                  .refused = !identified.refused.empty(),
@@ -195,7 +207,11 @@ void add_identify(CLI::App& app, Session& session) {
   auto words = std::make_shared<IdentifyWords>();
   CLI::App* sub = add_command(
       app, session, "identify", "Fit the vehicle's parameters to its trials and logs",
-      "awmr identify --vehicle vehicle.json --surge surge.csv --turning turning.csv -o model.json",
+      "awmr identify --vehicle configs/paper/vehicle.json --surge datasets/paper/surge.csv "
+      "--coastdown datasets/paper/coastdown.csv --turning datasets/paper/turning.csv "
+      "-o model.json\n"
+      "  awmr identify --vehicle configs/paper/vehicle.json --log datasets/synthetic/drive_1.csv "
+      "-o driven.json",
       [words]() -> Result<Outcome> {
         AWMR_ASSIGN_OR_RETURN(const IdentifyCommand command, command_of(*words));
         return execute(command);

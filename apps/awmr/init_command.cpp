@@ -9,6 +9,7 @@
 #include "awmr/core/file.h"
 #include "choices.h"
 #include "commands.h"
+#include "example_files.h"
 #include "paths.h"
 #include "templates.h"
 
@@ -36,14 +37,15 @@ std::string for_drive(std::string_view text, Drive drive) {
 Result<std::vector<OutputFile>> files_to_write(const InitCommand& command) {
   std::vector<OutputFile> files;
   std::vector<Fault> faults;
-  for (const EmbeddedFile& file : project_templates()) {
+  for (const EmbeddedFile& file : command.example ? example_files() : project_templates()) {
     const fs::path path = command.directory / file.path;
     std::error_code error;
     if (fs::symlink_status(path, error).type() != fs::file_type::not_found) {
       faults.push_back(
           {path.string(), "is there already; take another directory, or move it away"});
     }
-    files.push_back({path, for_drive(file.bytes, command.drive)});
+    files.push_back(
+        {path, command.example ? std::string(file.bytes) : for_drive(file.bytes, command.drive)});
   }
   if (!faults.empty()) return input_errors(std::move(faults));
   return files;
@@ -78,7 +80,18 @@ Status write_all(const std::vector<OutputFile>& files) {
   return written;
 }
 
+std::string example_summary(const InitCommand& command, const std::vector<OutputFile>& files) {
+  const bool here = command.directory == ".";
+  return fmt::format(
+      "wrote {} files to {} and {}: the paper's vehicle, its tables, scenarios, made-up drives\n"
+      "next: {}awmr run configs/paper/project.json -o out\n",
+      files.size(), (command.directory / "configs").string(),
+      (command.directory / "datasets").string(),
+      here ? "" : fmt::format("cd {} && ", command.directory.string()));
+}
+
 std::string summary_of(const InitCommand& command, const std::vector<OutputFile>& files) {
+  if (command.example) return example_summary(command, files);
   std::string text = "wrote\n";
   for (const OutputFile& file : files) text += fmt::format("  {}\n", file.path.string());
   return text + fmt::format(
@@ -99,16 +112,20 @@ Result<Outcome> execute(const InitCommand& command) {
 
 void add_init(CLI::App& app, Session& session) {
   auto command = std::make_shared<InitCommand>();
-  CLI::App* sub =
-      add_command(app, session, "init",
-                  "Start with your own robot: a project to fill in, a field sheet to print",
-                  "awmr init my_rover", [command] { return execute(*command); });
+  CLI::App* sub = add_command(
+      app, session, "init",
+      "Start with your own robot: a project to fill in, a field sheet to print",
+      "awmr init my_rover\n  awmr init --example .", [command] { return execute(*command); });
   add_directory(*sub, "DIR", command->directory,
                 "Directory for the project; nothing in it is overwritten")
       ->required();
-  add_choice(*sub, "--drive", command->drive, kDriveNames,
-             "four_wheel (default): four driven wheels, steered in front; differential: without "
-             "steering");
+  auto* drive = add_choice(*sub, "--drive", command->drive, kDriveNames,
+                           "four_wheel (default): four driven wheels, steered in front; "
+                           "differential: without steering");
+  sub->add_flag("--example", command->example,
+                "Write the paper's vehicle, tables and scenarios, and made-up drives, instead: the "
+                "examples of every command's help run in DIR")
+      ->excludes(drive);
 }
 
 }  // namespace awmr::cli

@@ -21,8 +21,9 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", std::string("awmr ") + awmr::version());
   app.require_subcommand(1);
   app.footer(
-      "Examples:\n  awmr run configs/paper/project.json -o out\n  awmr init my_rover        a "
-      "robot of your own");
+      "Examples:\n  awmr init my_rover        a robot of your own\n"
+      "  awmr init --example .     the paper's robot, and then:\n"
+      "  awmr run configs/paper/project.json -o out");
   app.get_formatter()->column_width(36);
 
   awmr::cli::Session session;

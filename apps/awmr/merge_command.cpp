@@ -46,7 +46,13 @@ void add_merge(CLI::App& app, Session& session) {
   auto command = std::make_shared<MergeCommand>();
   CLI::App* sub = add_command(
       app, session, "merge", "Put the parts of a comparison together (compare --shard I/N)",
-      "awmr merge part1 part2 part3 part4 -o out", [command] { return execute(*command); });
+
+      "awmr compare --model model.json --gains gains.json --scenario "
+      "configs/paper/scenarios/c3_heading_steps.json --samples 20 --shard 1/2 -o part1\n"
+      "  awmr compare --model model.json --gains gains.json --scenario "
+      "configs/paper/scenarios/c3_heading_steps.json --samples 20 --shard 2/2 -o part2\n"
+      "  awmr merge part1 part2 -o merged",
+      [command] { return execute(*command); });
   add_directory(*sub, "DIR", command->parts, "Directories of all parts, in any order")->required();
   add_output_directory(
       *sub, command->output,

@@ -1,35 +1,88 @@
 #include "progress.h"
 
 #include <fmt/format.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstdio>
+#include <cstdlib>
+#include <utility>
 
 namespace awmr::cli {
+namespace {
 
-ProgressBar::ProgressBar(bool shown) : shown_(shown && ::isatty(STDERR_FILENO) == 1) {}
+std::atomic<bool> progress_shown = true;
 
-ProgressBar::~ProgressBar() {
-  if (drawn_) std::fputs("\r\033[K", stderr);
+bool on_terminal() {
+  const char* term = std::getenv("TERM");
+  return progress_shown && ::isatty(STDERR_FILENO) == 1 &&
+         (term == nullptr || std::string_view(term) != "dumb");
 }
 
-void ProgressBar::operator()(std::size_t done, std::size_t total) {
-  using std::chrono::duration;
-  const auto now = Clock::now();
-  if (!shown_ || duration<double>(now - drawn_at_).count() < 0.1) return;
-  const double passed_s = duration<double>(now - start_).count();
-  if (passed_s < 1.0) return;
-  drawn_at_ = now;
-  drawn_ = true;
-  const double share = static_cast<double>(done) / static_cast<double>(total);
-  const double left_s = passed_s * (1.0 - share) / std::max(share, 1e-9);
-  constexpr int kWidth = 30;
+/// Longer lines would wrap, and could not be cleared.
+std::size_t columns() {
+  winsize size{};
+  const bool known = ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+  return known ? size.ws_col : 80;
+}
+
+std::string duration_text(double seconds) {
+  return seconds < 99.5 ? fmt::format("{:.0f} s", seconds)
+                        : fmt::format("{:.0f} min", seconds / 60.0);
+}
+
+}  // namespace
+
+void show_progress(bool shown) { progress_shown = shown; }
+
+Working::Working(std::string what) : what_(std::move(what)) {
+  if (on_terminal()) drawer_ = std::thread([this] { draw_until_over(); });
+}
+
+Working::~Working() {
+  if (!drawer_.joinable()) return;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    over_ = true;
+  }
+  wake_.notify_one();
+  drawer_.join();
+}
+
+void Working::doing(std::string_view what) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  what_ = what;
+}
+
+void Working::operator()(std::size_t done, std::size_t total) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  done_ = std::min(done, total);
+  total_ = total;
+}
+
+std::string Working::line() const {
+  const double passed_s = std::chrono::duration<double>(Clock::now() - start_).count();
+  if (done_ == 0) return fmt::format("{} ... {}", what_, duration_text(passed_s));
+  constexpr int kWidth = 24;
+  const double share = static_cast<double>(done_) / static_cast<double>(total_);
   const int filled = static_cast<int>(share * kWidth);
-  std::fputs(fmt::format("\r\033[K[{:=<{}}{:<{}}] {:3.0f} %  {}/{} runs  {:.0f} s left", "", filled,
-                         "", kWidth - filled, 100.0 * share, done, total, left_s)
-                 .c_str(),
-             stderr);
+  return fmt::format("{} [{:=<{}}{:<{}}] {:.0f} %, {} left", what_, "", filled, "", kWidth - filled,
+                     100.0 * share, duration_text(passed_s * (1.0 - share) / share));
+}
+
+void Working::draw_until_over() {
+  using namespace std::chrono_literals;
+  std::unique_lock<std::mutex> lock(mutex_);
+  bool drawn = false;
+  for (auto pause = 1000ms; !wake_.wait_for(lock, pause, [this] { return over_; }); pause = 200ms) {
+    const std::string text = line().substr(0, columns() - 1);
+    std::fputs(("\r\033[K" + text).c_str(), stderr);
+    std::fflush(stderr);
+    drawn = true;
+  }
+  if (drawn) std::fputs("\r\033[K", stderr);
   std::fflush(stderr);
 }
 

@@ -1,27 +1,46 @@
-/// A bar with the time left, on a terminal and only for work over a second.
+/// What long work tells the person who waits: a line on a terminal, from the first second on.
 #pragma once
 
 #include <chrono>
+#include <condition_variable>
 #include <cstddef>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <thread>
 
 namespace awmr::cli {
 
-class ProgressBar {
- public:
-  explicit ProgressBar(bool shown = true);
-  ~ProgressBar();  ///< clears the line
-  ProgressBar(const ProgressBar&) = delete;
-  ProgressBar& operator=(const ProgressBar&) = delete;
+/// False for `--quiet`: no line is drawn from now on.
+void show_progress(bool shown);
 
-  /// Redraws at most ten times a second. Calls must not overlap.
+/// While it lives, the terminal's last line says what is being done and for how long, and once parts
+/// are told, the share done and the time left. Nothing is drawn where stderr is no terminal. One at
+/// a time.
+class Working {
+ public:
+  explicit Working(std::string what);
+  ~Working();  ///< clears the line
+  Working(const Working&) = delete;
+  Working& operator=(const Working&) = delete;
+
+  /// What is done now.
+  void doing(std::string_view what);
   void operator()(std::size_t done, std::size_t total);
 
  private:
   using Clock = std::chrono::steady_clock;
-  bool shown_;
-  bool drawn_ = false;
+  void draw_until_over();
+  std::string line() const;
+
+  std::string what_;
+  std::size_t done_ = 0;
+  std::size_t total_ = 0;
   Clock::time_point start_ = Clock::now();
-  Clock::time_point drawn_at_ = start_;
+  bool over_ = false;
+  std::mutex mutex_;
+  std::condition_variable wake_;
+  std::thread drawer_;
 };
 
 }  // namespace awmr::cli

@@ -122,7 +122,7 @@ Result<Outcome> execute(const RecoverCommand& command) {
   RecoverOptions options = command.recover;
   options.identify.surge_family.family = model.surge_family;
   options.identify.yaw_family.family = model.yaw_family;
-  auto bar = std::make_unique<ProgressBar>();
+  auto bar = std::make_unique<Working>("simulating and fitting");
   auto recovered = recover(model, options, [&](int done) {
     (*bar)(static_cast<std::size_t>(done), static_cast<std::size_t>(options.runs));
   });
@@ -139,7 +139,7 @@ void add_recover(CLI::App& app, Session& session) {
   CLI::App* sub = add_command(
       app, session, "recover",
       "Simulate trials at the model's values, identify them, compare: bias and coverage",
-      "awmr recover --model model.json --runs 1000 -o recover.json", [words]() -> Result<Outcome> {
+      "awmr recover --model model.json --runs 200 -o recover.json", [words]() -> Result<Outcome> {
         AWMR_ASSIGN_OR_RETURN(const RecoverCommand command, command_of(*words));
         return execute(command);
       });

@@ -15,6 +15,7 @@
 #include "inputs.h"
 #include "numbers.h"
 #include "paths.h"
+#include "progress.h"
 
 namespace awmr::cli {
 namespace {
@@ -53,6 +54,11 @@ Status add_metrics(const SuggestCommand& command, const Model& model, SuggestOpt
   return {};
 }
 
+Result<Suggestion> suggest_with_progress(const Model& model, const SuggestOptions& options) {
+  const Working working("weighing trials");
+  return suggest(model, options);
+}
+
 std::vector<fs::path> inputs_of(const SuggestCommand& command) {
   std::vector<fs::path> paths{command.model};
   if (command.gains) paths.push_back(*command.gains);
@@ -80,7 +86,7 @@ Result<Outcome> execute(const SuggestCommand& command) {
   options.parameter = command.parameter;
   options.repeats = command.repeats;
   AWMR_RETURN_IF_ERROR(add_metrics(command, model, options));
-  AWMR_ASSIGN_OR_RETURN(const Suggestion suggestion, suggest(model, options));
+  AWMR_ASSIGN_OR_RETURN(const Suggestion suggestion, suggest_with_progress(model, options));
   Outcome outcome{.summary = field_sheet(suggestion, static_cast<std::size_t>(command.most))};
   AWMR_ASSIGN_OR_RETURN(outcome.document, document_of(command, suggestion));
   AWMR_RETURN_IF_ERROR(write_document(command.output, outcome));

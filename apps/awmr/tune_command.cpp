@@ -12,6 +12,7 @@
 #include "inputs.h"
 #include "numbers.h"
 #include "paths.h"
+#include "progress.h"
 
 namespace awmr::cli {
 namespace {
@@ -56,20 +57,31 @@ std::string judged_table(const RobustTuning& robust) {
   return text;
 }
 
-std::string summary_of(const TuneCommand& command, const Tuning& tuning) {
+std::string summary_of(const Tuning& tuning) {
   std::string text = gains_table(tuning);
+  if (tuning.robust) text += judged_table(*tuning.robust);
+  return text;
+}
+
+std::string details_of(const Tuning& tuning) {
+  std::string text = "objective by scenario and mode\n";
   for (const ModeScore& score : tuning.scores) {
-    text += fmt::format("    {:<22} {:<13} {:.4f} of the paper's gains'\n", score.scenario,
+    text += fmt::format("  {:<22} {:<13} {:.4f} of the paper's gains'\n", score.scenario,
                         name_of(score.mode), score.objective);
   }
+  text += "constraints\n";
   for (const ConstraintReport& constraint : tuning.constraints) {
-    text += fmt::format("    {:<38} {:.4g} <= {:.4g}, margin {:.4g}\n", constraint.name,
+    text += fmt::format("  {:<38} {:.4g} <= {:.4g}, margin {:.4g}\n", constraint.name,
                         constraint.value, constraint.limit, constraint.margin);
   }
-  if (tuning.robust) text += judged_table(*tuning.robust);
-  text += fmt::format("  {} after {} evaluations: {}\n", tuning.algorithm, tuning.evaluations,
-                      tuning.stop_reason);
-  return text + fmt::format("wrote {}\n", command.output.string());
+  return text + fmt::format("search\n  {} after {} evaluations: {}\n", tuning.algorithm,
+                            tuning.evaluations, tuning.stop_reason);
+}
+
+Result<Tuning> tune_with_progress(const Model& model, TuneOptions options) {
+  Working working("searching for gains");
+  options.progress = [&](std::size_t done, std::size_t total) { working(done, total); };
+  return tune(model, options);
 }
 
 Result<Provenance> provenance_of(const TuneCommand& command,
@@ -97,10 +109,12 @@ Result<Outcome> execute(const TuneCommand& command) {
   if (command.nominal) config.options.nominal = true;
   if (command.draws) config.options.draws = *command.draws;
   AWMR_ASSIGN_OR_RETURN(const Provenance provenance, provenance_of(command, config.scenario_files));
-  AWMR_ASSIGN_OR_RETURN(const Tuning tuning, tune(model, config.options));
+  AWMR_ASSIGN_OR_RETURN(const Tuning tuning, tune_with_progress(model, config.options));
   std::string document = gains_text(tuning, config.options, provenance);
   AWMR_RETURN_IF_ERROR(write_file(command.output, document));
-  return Outcome{.summary = summary_of(command, tuning),
+  return Outcome{.summary = summary_of(tuning),
+                 .details = details_of(tuning),
+                 .closing = fmt::format("wrote {}\n", command.output.string()),
                  .brief = gains_table(tuning),
                  .findings = extrapolation_in(model, tuning.scores,
                                               [](const ModeScore& score) {

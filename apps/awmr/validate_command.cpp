@@ -13,9 +13,18 @@
 #include "inputs.h"
 #include "numbers.h"
 #include "paths.h"
+#include "progress.h"
 
 namespace awmr::cli {
 namespace {
+
+Result<Validation> validate_with_progress(const Model& model,
+                                          const std::optional<Gains<double>>& gains,
+                                          ValidateOptions options) {
+  Working working("checking the claims");
+  options.progress = [&](std::size_t done, std::size_t total) { working(done, total); };
+  return validate(model, gains, options);
+}
 
 /// The verdict, and the claims by what became of them.
 std::string brief_of(const Validation& validation) {
@@ -81,11 +90,12 @@ Result<Provenance> provenance_of(const ValidateCommand& command) {
   return Provenance{"validate", std::move(options), std::move(inputs)};
 }
 
+/// The claims where they are asked for; else the verdict, and how each log is predicted.
 std::string summary_of(const ValidateCommand& command, const Validation& validation) {
-  const std::string table = command.claims
-                                ? claims_table(validation.claims) + validation.verdict + '\n'
-                                : validation_table(validation);
-  return table + fmt::format("wrote {}\n", command.output.string());
+  if (command.claims) return claims_table(validation.claims) + validation.verdict + '\n';
+  const char* const title =
+      validation.trials.empty() ? "" : "in sample, on the rows that the model was fitted to\n";
+  return title + brief_of(validation) + logs_table(validation);
 }
 
 void add_model_options(CLI::App& sub, ValidateCommand& command) {
@@ -128,12 +138,15 @@ Result<Outcome> execute(const ValidateCommand& command) {
   choose(command.allocation, model, {});
   AWMR_ASSIGN_OR_RETURN(const std::optional<Gains<double>> gains, gains_of(command));
   AWMR_RETURN_IF_ERROR(check_outputs(command));
-  AWMR_ASSIGN_OR_RETURN(Validation validation, validate(model, gains, command.validate));
+  AWMR_ASSIGN_OR_RETURN(Validation validation,
+                        validate_with_progress(model, gains, command.validate));
   std::vector<Finding> findings;
   AWMR_ASSIGN_OR_RETURN(std::vector<LogValidation> logs, validate_logs(command, model, findings));
   add_logs(validation, std::move(logs), command.log_tolerance);
   AWMR_ASSIGN_OR_RETURN(const Provenance provenance, provenance_of(command));
   Outcome outcome{.summary = summary_of(command, validation),
+                  .details = command.claims ? "" : validation_table(validation),
+                  .closing = fmt::format("wrote {}\n", command.output.string()),
                   .brief = brief_of(validation),
                   .findings = std::move(findings),
                   .refused = !validation.passed,

@@ -37,5 +37,31 @@ TEST(Readme, EveryExampleRuns) {
   }
 }
 
+/// The lines of a command's help that are examples.
+std::vector<std::string> examples_of(const std::string& command) {
+  std::istringstream help(awmr(command + " --help").out);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(help, line);) {
+    if (line.starts_with("  awmr ")) lines.push_back(line.substr(2));
+  }
+  return lines;
+}
+
+TEST(Help, EveryExampleRunsWhereInitWroteTheirFiles) {
+  const TemporaryDirectory directory;
+  // Each after those whose files it takes.
+  for (const char* command :
+       {"init", "check", "run", "identify", "tune", "validate", "simulate", "compare", "merge",
+        "emit", "export", "report", "suggest", "recover", "map", "schema", "completion", "man"}) {
+    const std::vector<std::string> lines = examples_of(command);
+    EXPECT_FALSE(std::string(command) != "completion" && lines.empty()) << command;
+    for (const std::string& line : lines) {
+      const ProcessResult result =
+          run_process(AWMR_PROGRAM + line.substr(4, line.find('|') - 4), directory.path());
+      EXPECT_EQ(result.exit_code, 0) << line << "\n" << result.err;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace awmr::testing

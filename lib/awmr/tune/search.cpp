@@ -98,6 +98,11 @@ class Problem {
   double objective(const double* x) {
     look_at(x);
     ++evaluations;
+    if (options_.progress) {
+      options_.progress(static_cast<std::size_t>(evaluations),
+                        static_cast<std::size_t>(options_.global_evaluations) +
+                            static_cast<std::size_t>(options_.local_evaluations));
+    }
     return last_.simulated && last_.valid ? last_.objective : kRejected + last_.violation;
   }
 

@@ -227,11 +227,25 @@ int share_of(int evaluations) { return static_cast<int>(std::ceil(kRobustShare *
 /// Draws to judge on are not those that were tuned on.
 constexpr std::uint64_t kJudgedSeeds = 0x6a75646765ULL;
 
+/// The progress of a search whose evaluations count `weight` each, behind `before` of `total`.
+Progress part_of(const Progress& progress, std::size_t before, std::size_t weight,
+                 std::size_t total) {
+  if (!progress) return {};
+  return [=](std::size_t done, std::size_t) { progress(before + weight * done, total); };
+}
+
 /// `setting` and `context` are those of the nominal search.
 Result<Tuning> tune_robustly(const Model& model, ObjectiveSetting setting,
                              ConstraintContext context, const TuneOptions& options) {
   TuneOptions nominal_options = options;
   nominal_options.nominal = true;
+  const auto plants = static_cast<std::size_t>(options.draws) + 1;
+  const auto evaluations =
+      static_cast<std::size_t>(options.global_evaluations + options.local_evaluations);
+  const auto robust_evaluations = static_cast<std::size_t>(share_of(options.global_evaluations) +
+                                                           share_of(options.local_evaluations));
+  const std::size_t total = evaluations + plants * robust_evaluations;
+  nominal_options.progress = part_of(options.progress, 0, 1, total);
   const Result<Tuning> nominal = tune_on(setting, context, nominal_options);
 
   RobustTuning robust{.conditions = conditions_of(model.vehicle),
@@ -249,6 +263,7 @@ Result<Tuning> tune_robustly(const Model& model, ObjectiveSetting setting,
   TuneOptions shorter = options;
   shorter.global_evaluations = share_of(options.global_evaluations);
   shorter.local_evaluations = share_of(options.local_evaluations);
+  shorter.progress = part_of(options.progress, evaluations, plants, total);
   AWMR_ASSIGN_OR_RETURN(Tuning tuning, tune_on(setting, context, shorter));
 
   std::vector<NamedCandidate> candidates{{"robust", tuning.gains}, {"baseline", tuning.baseline}};

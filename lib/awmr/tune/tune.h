@@ -9,6 +9,7 @@
 
 #include "awmr/core/interval.h"
 #include "awmr/core/name_table.h"
+#include "awmr/core/progress.h"
 #include "awmr/core/provenance.h"
 #include "awmr/core/result.h"
 #include "awmr/model/gains.h"
@@ -90,6 +91,7 @@ struct TuneOptions {
   /// Each has to hold headings, under a name of its own; empty: 30 then -30 deg at 1 m/s.
   std::vector<Scenario> scenarios;
   GainBounds bounds;
+  Progress progress = {};  ///< by runs of the search, each plant's counted
 };
 
 struct ConstraintReport {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <functional>
 #include <map>
 #include <string_view>
@@ -90,13 +91,18 @@ std::vector<ClaimCase> open_cases(const Model& model) {
 }
 
 void add_open_cases(const Model& model, const std::optional<Gains<double>>& gains,
-                    std::vector<Claim>& claims) {
+                    std::vector<Claim>& claims, const Progress& progress) {
   const std::vector<ClaimCase> cases = open_cases(model);
   std::vector<std::vector<Claim>> judged_in(cases.size());
-  parallel_for(cases.size(), 0, [&](std::size_t i) {
+  std::atomic<std::size_t> done = 0;
+  LoopControl control;
+  if (progress) control.progress = [&] { progress(done, cases.size()); };
+  const auto judge = [&](std::size_t i) {
     const Model other = model_in(cases[i], model);
     judged_in[i] = check_claims(other, *other.plant(), gains, control_in(cases[i]));
-  });
+    ++done;
+  };
+  parallel_for(cases.size(), 0, judge, control);
   for (std::size_t c = 0; c < claims.size(); ++c) {
     Claim& claim = claims[c];
     for (std::size_t i = 0; i < cases.size(); ++i) {

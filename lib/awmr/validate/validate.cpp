@@ -100,13 +100,13 @@ void judge(Validation& validation, double tolerance) {
 /// The claims that vehicle and model allow to check. All but C1 and C14 compare the three modes;
 /// without gains, C2 takes a model that turns, C1 one that drives straight.
 /// Errors (input): with gains, the model lacks a parameter.
-Status add_claims(const Model& model, const std::optional<Gains<double>>& gains, bool open,
-                  Validation& validation) {
+Status add_claims(const Model& model, const std::optional<Gains<double>>& gains,
+                  const ValidateOptions& options, Validation& validation) {
   const auto whole = model.plant();
   const bool all_modes = model.vehicle.has_steering();
   if (whole && all_modes) {
     validation.claims = check_claims(model, *whole, gains);
-    if (open) add_open_cases(model, gains, validation.claims);
+    if (options.open_cases) add_open_cases(model, gains, validation.claims, options.progress);
     return {};
   }
   if (!whole && gains) return tl::unexpected(whole.error());
@@ -168,7 +168,7 @@ Result<Validation> validate(const Model& model, const std::optional<Gains<double
   validation.coastdown_rms_relative_error =
       rms_relative_error(validation.trials, TrialKind::kCoastdown);
   judge(validation, options.tolerance);
-  AWMR_RETURN_IF_ERROR(add_claims(model, gains, options.open_cases, validation));
+  AWMR_RETURN_IF_ERROR(add_claims(model, gains, options, validation));
   return validation;
 }
 

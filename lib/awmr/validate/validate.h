@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "awmr/core/progress.h"
 #include "awmr/core/provenance.h"
 #include "awmr/core/result.h"
 #include "awmr/model/gains.h"
@@ -72,6 +73,7 @@ struct ValidateOptions {
   double tolerance = 0.15;  ///< largest accepted RMS relative error of a trial kind, > 0
   /// Also judge every claim over what the paper leaves open (see open_cases.h), some seconds.
   bool open_cases = false;
+  Progress progress = {};  ///< by those cases, from the thread that called validate()
 };
 
 /// What the model says a trial should have measured:
@@ -97,6 +99,8 @@ void add_logs(Validation& validation, std::vector<LogValidation> logs, double to
 /// The bytes of validation.json.
 std::string validation_text(const Validation& validation, const Provenance& provenance);
 
+/// How each log is predicted, channel by channel, for a terminal; empty without logs.
+std::string logs_table(const Validation& validation);
 /// The residuals and the claims as a table for a terminal.
 std::string validation_table(const Validation& validation);
 

@@ -38,6 +38,19 @@ std::string wrapped(const std::string& text, std::size_t indent) {
   return out + '\n';
 }
 
+std::string logs_table(const Validation& validation) {
+  std::string text;
+  for (const LogValidation& log : validation.logs) {
+    text += fmt::format("{}\n  {:<16} {:>9} {:>13} {:>13} {:>13}\n", log.file, "channel", "samples",
+                        "one-step R2", "long R2", "long NRMSE");
+    for (const ChannelValidation& c : log.channels) {
+      text += fmt::format("  {:<16} {:>9} {:>13.4f} {:>13.4f} {:>13.4f}\n", c.channel, c.samples,
+                          c.one_step.r2, c.long_horizon.r2, c.long_horizon.nrmse);
+    }
+  }
+  return text;
+}
+
 std::string validation_table(const Validation& validation) {
   std::string text = fmt::format("{:<10} {:>5} {:>10} {:>10} {:<6} {:>9}\n", "trial", "line",
                                  "measured", "predicted", "unit", "error");
@@ -49,14 +62,7 @@ std::string validation_table(const Validation& validation) {
                         number_or_dash(trial.predicted, "{:.4g}"), trial.unit,
                         number_or_dash(percent, "{:+.1f} %"));
   }
-  for (const LogValidation& log : validation.logs) {
-    text += fmt::format("{}\n  {:<16} {:>9} {:>13} {:>13} {:>13}\n", log.file, "channel", "samples",
-                        "one-step R2", "long R2", "long NRMSE");
-    for (const ChannelValidation& c : log.channels) {
-      text += fmt::format("  {:<16} {:>9} {:>13.4f} {:>13.4f} {:>13.4f}\n", c.channel, c.samples,
-                          c.one_step.r2, c.long_horizon.r2, c.long_horizon.nrmse);
-    }
-  }
+  text += logs_table(validation);
   text += wrapped(validation.verdict, 0);
   text += "\nclaims of the paper, simulated with this model\n";
   for (const Claim& claim : validation.claims) {

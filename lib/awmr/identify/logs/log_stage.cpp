@@ -135,6 +135,10 @@ bool is_open(const FamilyChoice& choice) {
   return !choice.family || (!choice.asked && choice.family == Family::kPower);
 }
 
+void tell(const IdentifyOptions& options, std::string_view what) {
+  if (options.doing) options.doing(what);
+}
+
 /// The families that were asked for, or the best ones. Also fits what is reported only: rivals.
 FamilyFit fit_families(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                        const IdentifyOptions& options, LogStage& stage) {
@@ -142,10 +146,12 @@ FamilyFit fit_families(const std::vector<DrivingLog>& logs, const LogFitOptions&
   const FamilyChoice& yaw = options.yaw_family;
   const bool surge_open = is_open(surge);
   const bool yaw_open = is_open(yaw) && contains(power_law.free, ParameterId::kYawAlpha);
+  tell(options, "fitting the logs");
   FamilyFit chosen = fit_family(logs, power_law, surge.family.value_or(Family::kPower),
                                 yaw.family.value_or(Family::kPower));
   if (surge_open || yaw_open) {
     // Where nobody asked, another family than the paper's has to be plainly better.
+    tell(options, "trying families of resistance");
     const bool somebody_asked = !surge.family || !yaw.family;
     BestFamily found = best_family(logs, power_law, std::move(chosen),
                                    {.surge = surge_open,
@@ -161,6 +167,7 @@ FamilyFit fit_families(const std::vector<DrivingLog>& logs, const LogFitOptions&
   stage.chosen_report = stage.reports.size();
   stage.reports.push_back(chosen.fit.report);
   append(stage.findings, autocorrelation_findings(chosen.fit, logs.front().file));
+  tell(options, "judging the fit");
   const bool try_families = surge.asked && surge.family == Family::kPower;
   const Adequacy adequacy = judge_adequacy(logs, power_law, chosen, try_families);
   append(stage.reports, adequacy.rivals);
@@ -252,6 +259,7 @@ LogStage run_log_stage(const Vehicle& vehicle, const std::vector<DrivingLog>& lo
   power_law.initial_guess = guess_from_logs(logs, vehicle);
   free_parameters(power_law, logs, asked, model, stage.reasons);
   FamilyFit chosen = fit_families(logs, power_law, options, stage);
+  tell(options, "holding the logs against each other");
   append(stage.findings, in_words(hold_against_each_other(logs, chosen)));
   stage.reports[stage.chosen_report] = chosen.fit.report;
   const std::string& file = logs.front().file;
@@ -261,6 +269,7 @@ LogStage run_log_stage(const Vehicle& vehicle, const std::vector<DrivingLog>& lo
   }
   take(chosen.fit, model, overrule, file, stage);
   if (options.cross_validate && logs.size() > 1) {
+    tell(options, "predicting each log from the others");
     const CrossValidation held_out = leave_one_log_out(logs, chosen.options);
     append(stage.reports[stage.chosen_report].leave_one_out, held_out.leave_one_out);
     append(stage.findings, held_out.findings);

@@ -1,0 +1,22 @@
+#include "style.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdlib>
+
+namespace awmr::cli {
+
+Style::Style(std::FILE* stream) {
+  const char* no_colour = std::getenv("NO_COLOR");
+  const char* term = std::getenv("TERM");
+  const bool unwanted = no_colour != nullptr && *no_colour != '\0';
+  const bool dumb = term != nullptr && std::string_view(term) == "dumb";
+  on_ = !unwanted && !dumb && ::isatty(::fileno(stream)) == 1;
+}
+
+std::string Style::in(std::string_view code, std::string_view text) const {
+  return on_ ? fmt::format("\033[{}m{}\033[0m", code, text) : std::string(text);
+}
+
+}  // namespace awmr::cli

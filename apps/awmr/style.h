@@ -1,0 +1,27 @@
+/// Colours on a terminal.
+#pragma once
+
+#include <cstdio>
+#include <string>
+#include <string_view>
+
+namespace awmr::cli {
+
+/// Colours for what is written to a stream: none where it is no terminal, where NO_COLOR is set
+/// [no-color.org] or where the terminal is called dumb.
+class Style {
+ public:
+  explicit Style(std::FILE* stream);
+
+  std::string bold(std::string_view text) const { return in("1", text); }
+  std::string error(std::string_view text) const { return in("1;31", text); }
+  std::string warning(std::string_view text) const { return in("1;33", text); }
+  std::string note(std::string_view text) const { return in("36", text); }
+  std::string faint(std::string_view text) const { return in("2", text); }
+
+ private:
+  std::string in(std::string_view code, std::string_view text) const;
+  bool on_ = false;
+};
+
+}  // namespace awmr::cli

@@ -1,0 +1,73 @@
+/// What a person sees: few findings, colours and progress on a terminal only.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <string>
+
+#include "cli/program.h"
+
+namespace awmr::testing {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class Terminal : public ::testing::Test {
+ protected:
+  std::string path(const std::string& name) const { return (directory_.path() / name).string(); }
+  std::string identify() const {
+    return "identify --vehicle configs/paper/vehicle.json --surge datasets/paper/surge.csv "
+           "--coastdown datasets/paper/coastdown.csv --turning datasets/paper/turning.csv -o " +
+           path("model.json");
+  }
+  /// In a terminal of its own, stdout and stderr in one.
+  static std::string on_terminal(const std::string& environment, const std::string& arguments) {
+    return run_process("TERM=xterm " + environment + " script -qec '" + AWMR_PROGRAM + " " +
+                           arguments + "' /dev/null",
+                       AWMR_SOURCE_DIR)
+        .out;
+  }
+
+  const TemporaryDirectory directory_;
+};
+
+std::ptrdiff_t lines_of(const std::string& text) {
+  return std::count(text.begin(), text.end(), '\n');
+}
+
+TEST_F(Terminal, ShowsTheWorstFindingsAndCountsTheRest) {
+  const ProcessResult few = awmr(identify());
+  EXPECT_EQ(lines_of(few.err), 4) << few.err;
+  EXPECT_THAT(few.err, AllOf(HasSubstr("[fragile-mass]"), HasSubstr("more (--verbose): "),
+                             HasSubstr(" tau-turn-mismatch"), HasSubstr("1 single-stop-time")));
+  const ProcessResult all = awmr(identify() + " --verbose");
+  EXPECT_GT(lines_of(all.err), 10);
+  EXPECT_THAT(all.out, HasSubstr("estimators side by side"));
+  EXPECT_LE(lines_of(few.out), 22) << "one screen";
+  EXPECT_EQ(awmr(identify() + " --quiet").err, "");
+}
+
+TEST_F(Terminal, HasColoursWhereNothingSaysOtherwise) {
+  const char* const coloured = "\033[1;33mwarning:\033[0m";
+  EXPECT_THAT(on_terminal("", identify()), HasSubstr(coloured));
+  EXPECT_THAT(on_terminal("NO_COLOR=1", identify()), Not(HasSubstr("\033[1")));
+  EXPECT_THAT(on_terminal("TERM=dumb", identify()), Not(HasSubstr("\033")));
+  EXPECT_THAT(awmr(identify()).err, Not(HasSubstr("\033")));
+}
+
+TEST_F(Terminal, ShowsHowFarLongWorkIs) {
+  ASSERT_EQ(awmr(identify()).exit_code, 0);
+  const std::string tune = "tune --model " + path("model.json") + " -o " + path("gains.json");
+  EXPECT_THAT(on_terminal("", tune), AllOf(HasSubstr("searching for gains ["), HasSubstr(" left")));
+  EXPECT_THAT(on_terminal("", tune + " --quiet"), Not(HasSubstr("searching")));
+  EXPECT_THAT(on_terminal("",
+                          "identify --vehicle configs/paper/vehicle.json --log "
+                          "datasets/synthetic/drive_1.csv -o " +
+                              path("driven.json")),
+              HasSubstr(" ... 1 s"));
+  EXPECT_THAT(awmr(tune).err, Not(HasSubstr("searching")));
+}
+
+}  // namespace
+}  // namespace awmr::testing
