@@ -57,6 +57,7 @@ void describe_pil(JsonObject& json) {
   json.string("scenario");
   json.string("mode");
   json.integer("samples", 0, kAnyCount);
+  json.boolean("guidance_on_chip");
   describe_difference(json.object("difference"));
   if (auto exact = json.optional_object("difference_double")) describe_difference(*exact);
   if (auto effect = json.optional_object("effect")) {
