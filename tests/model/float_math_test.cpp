@@ -121,6 +121,11 @@ TEST(FloatMath, AnglesOfTheAxesAndOfTheOriginAreExact) {
   EXPECT_EQ(float_math::atan2(-3.0F, 0.0F), -float_math::kPiBy2);
   EXPECT_EQ(float_math::atan2(0.0F, -1.0F), float_math::kPi);
   EXPECT_EQ(float_math::atan2(-0.0F, -1.0F), float_math::kPi);
+  // Half a turn has one sign, however little below the axis the vector lies.
+  for (const float hair : {-1e-45F, -1e-30F, -1e-8F}) {
+    EXPECT_EQ(float_math::atan2(hair, -1.0F), float_math::kPi) << hair;
+    EXPECT_GT(float_math::bearing(hair, -1.0F), -float_math::kPi) << hair;
+  }
 }
 
 TEST(FloatMath, SteeringAngleKeepsItsStatedError) {

@@ -170,7 +170,9 @@ inline float atan2(float y, float x) {
   }
   const float part = detail::atan_poly(ratio);
   const float angle = detail::eighths_of_turn(eighths) + (backwards ? -part : part);
-  return bits_of(y) >> 31U != 0 && magnitude_bits(y) != 0 ? -angle : angle;
+  if (bits_of(y) >> 31U == 0 || magnitude_bits(y) == 0) return angle;
+  // A hair below the negative x axis the angle rounds to half a turn, whose one sign is positive.
+  return eighths == 4 && magnitude_bits(angle) == bits_of(kPi) ? angle : -angle;
 }
 
 /// atan2 where a call more does not matter.
