@@ -15,7 +15,7 @@ class HostExecutor : public Executor {
     const AutopilotParameters& p = *parameters_;
     const bool good =
         start_autopilot(autopilot_, &p.block, p.surge.lines.data(), p.surge.lines.size(),
-                        p.yaw.lines.data(), p.yaw.lines.size(), p.crc);
+                        p.yaw.lines.data(), p.yaw.lines.size(), p.crc, p.rest ? &*p.rest : nullptr);
     set_up();
     return std::uint8_t{good ? kFaultNone : kFaultParameters};
   }
@@ -75,6 +75,9 @@ std::unique_ptr<Executor> host_executor_of(const AutopilotParameters& parameters
 
 std::unique_ptr<Executor> host_executor(const AutopilotParameters& parameters,
                                         const Mission& mission) {
+  if (parameters.resistance == ResistanceForm::kTable && parameters.rest) {
+    return host_executor_of<RestingTable>(parameters, mission);
+  }
   if (parameters.resistance == ResistanceForm::kTable) {
     return host_executor_of<ResistanceTable>(parameters, mission);
   }

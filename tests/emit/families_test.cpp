@@ -2,6 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "emit/paper_robot.h"
 
 namespace awmr::testing {
@@ -46,15 +49,48 @@ TEST(Families, AreRefusedWhereTheFirmwareDoesNotKnowThem) {
   const auto powf = autopilot_parameters(quadratic_robot(), kPaperGains, paper_inputs(), by_powf);
   ASSERT_FALSE(powf);
   EXPECT_THAT(to_text(powf.error()), HasSubstr("needs the table"));
-  const auto friction = autopilot_parameters(coulomb_robot(), kPaperGains, paper_inputs(), {});
+  const auto friction = autopilot_parameters(coulomb_robot(), kPaperGains, paper_inputs(), by_powf);
   ASSERT_FALSE(friction);
-  EXPECT_THAT(to_text(friction.error()), HasSubstr("/surge/coulomb"));
+  EXPECT_THAT(to_text(friction.error()), HasSubstr("needs the table"));
+}
+
+TEST(Families, WithFrictionAtRestHaveATableFromTheRestSpeedOnAndTheValueThere) {
+  const auto p = autopilot_parameters(coulomb_robot(), kPaperGains, paper_inputs(), {});
+  ASSERT_TRUE(p) << to_text(p.error());
+  const Plant<double> plant = coulomb_robot().plant().value();
+  ASSERT_TRUE(p->rest);
+  EXPECT_EQ(p->rest->surge_rest_speed, 0.02F);
+  EXPECT_EQ(p->rest->surge_at_rest, static_cast<float>(plant.surge.at(0.02)));
+  EXPECT_EQ(p->rest->yaw_rest_speed, 0.0F);
+  EXPECT_EQ(p->rest->dead_zone, 0.0F);
+  // As the simulated controller feeds it forward, with the sign of the error at rest, within 5e-4.
+  const RestingTable chip{p->surge.view(), p->rest->surge_rest_speed, p->rest->surge_at_rest};
+  const Resistance<double> law = feed_forward(plant.surge);
+  for (const float speed :
+       {-3.0F, -0.021F, -0.019F, -0.001F, 0.0F, 0.004F, 0.0199F, 0.0201F, 2.0F}) {
+    for (const float error : {-1.0F, -0.003F, 0.0F, 0.01F, 0.5F}) {
+      const double exact = fed_forward(law, static_cast<double>(speed), static_cast<double>(error));
+      EXPECT_NEAR(static_cast<double>(fed_forward(chip, speed, error)), exact,
+                  5e-4 * std::max(std::abs(exact), 0.2) + 1e-6)
+          << speed << " " << error;
+    }
+    EXPECT_EQ(chip(-speed), -chip(speed));
+  }
+  EXPECT_TRUE(std::isnan(chip(std::nanf(""))));
+  EXPECT_FALSE(autopilot_parameters(paper_robot(), kPaperGains, paper_inputs(), {})->rest);
+}
+
+TEST(Families, WithADeadZoneAllocateWhatIsLeftBeyondIt) {
   Model zone = paper_robot();
   zone.surge_family = Family::kDeadZone;
   zone[ParameterId::kWheelDeadZone] = {0.05, 0.01, {}, Source::kFitted, "nonlinear"};
-  const auto refused = autopilot_parameters(zone, kPaperGains, paper_inputs(), {});
-  ASSERT_FALSE(refused);
-  EXPECT_THAT(to_text(refused.error()), HasSubstr("/wheel/dead_zone"));
+  const auto p = autopilot_parameters(zone, kPaperGains, paper_inputs(), {});
+  ASSERT_TRUE(p) << to_text(p.error());
+  EXPECT_EQ(p->rest->dead_zone, 0.05F);
+  EXPECT_EQ(p->block.constants.allocation.force_max,
+            static_cast<float>(zone.vehicle.wheel_force.hi - 0.05));
+  EXPECT_THAT(autopilot_header(*p), HasSubstr("#define AWMR_DEAD_ZONE 0.0500000007f"));
+  EXPECT_NE(p->crc, autopilot_parameters(paper_robot(), kPaperGains, paper_inputs(), {})->crc);
 }
 
 }  // namespace

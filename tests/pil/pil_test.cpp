@@ -160,6 +160,32 @@ INSTANTIATE_TEST_SUITE_P(
       return file.substr(file.rfind('/') + 1);
     });
 
+TEST_F(Pil, FrictionAtRestAndADeadZoneAreMadeUpForAsInTheSimulator) {
+  const auto given = [](double value, const char* unit) {
+    return Json{{"value", value}, {"std_error", nullptr}, {"ci95", nullptr},
+                {"unit", unit},   {"source", "given"},    {"method", "by hand"}};
+  };
+  Json friction = Json::parse(read_all(path("model.json")));
+  friction["surge"]["family"] = "coulomb-power";
+  friction["surge"]["coulomb"] = given(0.2, "1");
+  friction["yaw"]["family"] = "coulomb-power";
+  friction["yaw"]["coulomb"] = given(0.02, "m");
+  Json zone = Json::parse(read_all(path("model.json")));
+  zone["surge"]["family"] = "dead-zone";
+  zone["wheel"]["dead_zone"] = given(0.05, "1");
+  for (const Json& model : {friction, zone}) {
+    write_all(path("rest.json"), model.dump());
+    const ProcessResult run =
+        awmr("pil --model " + path("rest.json") + " --gains " + path("gains.json") +
+             " --scenario " + kC3 + " --mode combined -o " + path("pil.json"));
+    ASSERT_EQ(run.exit_code, 0) << run.out << run.err;
+    EXPECT_EQ(largest(result()["difference"]), 0.0);
+    EXPECT_LE(result()["difference_double"]["heading_deg"].get<double>(), 0.05);
+    EXPECT_EQ(result()["hostile"]["differing"].get<int>(), 0);
+    EXPECT_LE(result()["flash_bytes"].get<int>(), 16384);
+  }
+}
+
 TEST_F(Pil, ALineOverTheUartIsTheSameRun) {
   const std::string line = "configs/paper/scenarios/c9_line.json";
   ASSERT_EQ(pil(line, "combined", "", "memory.json").exit_code, 0);

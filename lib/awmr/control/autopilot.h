@@ -36,7 +36,13 @@ struct AutopilotOutput {
 /// The autopilot between two steps. G is the form of the resistances, as in Controller; P says which
 /// parts there are (autopilot_parts.h).
 template <class G, class P = NoParts>
-struct Autopilot : P::Line, P::Path, P::Arrival, P::Avoidance, P::Shaping, P::Observation {
+struct Autopilot : P::Line,
+                   P::Path,
+                   P::Arrival,
+                   P::Avoidance,
+                   P::Shaping,
+                   P::Observation,
+                   P::Motors {
   PreparedController<float, G> controller;
   SafetyLimits limits;
   Waypoints<float> waypoints;        ///< count 0: none to follow
@@ -83,23 +89,46 @@ inline void set_resistance(const TableShape* /*shape*/, const float* alpha_beta,
   law.rest_speed = 0.0F;
 }
 
+inline void set_resistance(const TableShape* shape, const float* alpha_beta,
+                           const ResistanceLine* lines, RestingTable& law) {
+  set_resistance(shape, alpha_beta, lines, law.table);
+}
+
+/// What happens at rest, where the firmware was compiled for it.
+template <class G>
+void set_rest(const float* /*rest_speed*/, const float* /*at_rest*/, G&) {}
+inline void set_rest(const float* rest_speed, const float* at_rest, RestingTable& law) {
+  law.rest_speed = flash_float(rest_speed);
+  law.at_rest = flash_float(at_rest);
+}
+inline void set_dead_zone(const RestBlock*, Without<DeadZone>&) {}
+inline void set_dead_zone(const RestBlock* rest, DeadZone& part) {
+  part.dead_zone = rest != 0 ? flash_float(&rest->dead_zone) : 0.0F;
+}
+
 /// Reads the parameters and checks them against `crc`, the check sum that they were emitted with.
 /// Where they differ it returns false, and every step from then on gives the safe command only. On
-/// an AVR the block and the lines lie in flash.
+/// an AVR the block, the lines and `rest` lie in flash. `rest` is for RestingTable and DeadZone.
 template <class G, class P>
 bool start_autopilot(Autopilot<G, P>& a, const ParameterBlock* block,
                      const ResistanceLine* surge_lines, size_t surge_count,
-                     const ResistanceLine* yaw_lines, size_t yaw_count, uint32_t crc) {
+                     const ResistanceLine* yaw_lines, size_t yaw_count, uint32_t crc,
+                     const RestBlock* rest = 0) {
   PreparedController<float, G>& c = a.controller;
   read_flash(&block->constants, c.constants);
   set_resistance(&block->surge_table, block->surge_alpha_beta, surge_lines, c.surge);
   set_resistance(&block->yaw_table, block->yaw_alpha_beta, yaw_lines, c.yaw);
+  if (rest != 0) {
+    set_rest(&rest->surge_rest_speed, &rest->surge_at_rest, c.surge);
+    set_rest(&rest->yaw_rest_speed, &rest->yaw_at_rest, c.yaw);
+  }
+  set_dead_zone(rest, part_of<typename P::Motors>(a));
   read_flash(&block->safety, a.limits);
   a.waypoints.count = 0;
   switch_parts_off(a);
   a.has_stepped = false;
   a.are_parameters_good =
-      crc32_of_parameters(block, surge_lines, surge_count, yaw_lines, yaw_count) == crc;
+      crc32_of_parameters(block, surge_lines, surge_count, yaw_lines, yaw_count, rest) == crc;
   return a.are_parameters_good;
 }
 
@@ -257,7 +286,10 @@ void autopilot_step(Autopilot<G, P>& a, const AutopilotInput& in, AutopilotOutpu
     Reference<float> ref = in.reference;
     out.arrived = detail::lead_all(a, {in.position_m, in.measured, in.times.now_ms}, ref);
     detail::control(a, in, ref, out);
-    if (is_within_limits(a.controller.constants.allocation, out.command)) return;
+    if (is_within_limits(a.controller.constants.allocation, out.command)) {
+      make_up(part_of<typename P::Motors>(a), out.command.force);
+      return;
+    }
     out.fault = kFaultOutput;
   }
   begin_anew(part_of<typename P::Avoidance>(a));

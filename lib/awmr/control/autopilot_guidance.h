@@ -145,6 +145,13 @@ AWMR_CALLED inline void shape_heading(Shaper& part, const Whereabouts& at, Refer
   ref.psi_accel_radps2 = part.state.psi_accel_radps2;
 }
 
+/// The command of which motors with a dead zone make the forces.
+AWMR_INLINE void make_up(const Without<DeadZone>&, SideForces<float>&) {}
+inline void make_up(const DeadZone& part, SideForces<float>& force) {
+  force.left = with_dead_zone(force.left, part.dead_zone);
+  force.right = with_dead_zone(force.right, part.dead_zone);
+}
+
 /// What the laws ask for, and the command that they come to.
 struct Asked {
   float& tau_speed;

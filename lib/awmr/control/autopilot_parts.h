@@ -63,6 +63,11 @@ struct Observer {
   bool is_started;
 };
 
+/// Makes up for the dead zone of the motors.
+struct DeadZone {
+  float dead_zone;  ///< F'0 of a wheel, over F_max; 0: none
+};
+
 /// In the place of a part that was left out: it is empty, and whatever is done with it is nothing.
 template <class Part>
 struct Without {};
@@ -85,6 +90,7 @@ struct NoParts {
   typedef Without<Avoider> Avoidance;
   typedef Without<Shaper> Shaping;
   typedef Without<Observer> Observation;
+  typedef Without<DeadZone> Motors;
   static constexpr CombinedSplit kSplit = CombinedSplit::kRedistribute;
 };
 
@@ -97,6 +103,7 @@ struct AllParts {
   typedef Avoider Avoidance;
   typedef Shaper Shaping;
   typedef Observer Observation;
+  typedef DeadZone Motors;
   static constexpr CombinedSplit kSplit = split;
 };
 

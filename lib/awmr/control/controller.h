@@ -4,6 +4,7 @@
 
 #include "awmr/control/allocation.h"
 #include "awmr/control/flash.h"
+#include "awmr/control/resistance_table.h"
 #include "awmr/control/yaw_mode.h"
 #include "awmr/core/units.h"
 #include "awmr/model/gains.h"
@@ -131,7 +132,12 @@ T fed_forward(const Resistance<T>& law, const T& speed, const T& intent) {
   if (!(abs(speed) < law.rest_speed)) return law(speed);
   return law.at(law.rest_speed) * math::saturate(T((speed + intent) / law.rest_speed), T(1.0));
 }
-/// A table has no jump at rest, so it needs no intent.
+/// The same of a table.
+inline float fed_forward(const RestingTable& law, const float& speed, const float& intent) {
+  if (!law.is_resting(speed)) return law.table(speed);
+  return law.at_rest * math::saturate((speed + intent) / law.rest_speed, 1.0F);
+}
+/// A table that has no jump at rest needs no intent.
 template <class T, class G>
 T fed_forward(const G& table, const T& speed, const T&) {
   return table(speed);

@@ -30,6 +30,16 @@ struct ParameterBlock {
   TableShape yaw_table;    ///< of g3
 };
 
+/// What a firmware for motors with a dead zone, or for friction that does not go away at rest, knows
+/// beside the block. It has 32-bit members only too.
+struct RestBlock {
+  float dead_zone;         ///< F'0 of a wheel, over F_max; 0: none
+  float surge_rest_speed;  ///< RestingTable::rest_speed of g1, m/s
+  float surge_at_rest;     ///< RestingTable::at_rest of g1
+  float yaw_rest_speed;    ///< of g3, rad/s
+  float yaw_at_rest;       ///< of g3, m
+};
+
 /// The CRC-32 that goes on from `crc` over `size` bytes, which lie in flash on an AVR.
 inline uint32_t crc32_of_flash(uint32_t crc, const void* address, size_t size) {
   const uint8_t* bytes = static_cast<const uint8_t*>(address);
@@ -38,13 +48,14 @@ inline uint32_t crc32_of_flash(uint32_t crc, const void* address, size_t size) {
 }
 
 /// The check sum of the firmware's parameters: CRC-32 of the block, the surge table's lines and the
-/// yaw table's, in this order.
+/// yaw table's, and `rest` where there is one, in this order.
 inline uint32_t crc32_of_parameters(const ParameterBlock* block, const ResistanceLine* surge_lines,
                                     size_t surge_count, const ResistanceLine* yaw_lines,
-                                    size_t yaw_count) {
+                                    size_t yaw_count, const RestBlock* rest = 0) {
   uint32_t crc = crc32_of_flash(kCrc32Start, block, sizeof *block);
   crc = crc32_of_flash(crc, surge_lines, surge_count * sizeof(ResistanceLine));
-  return ~crc32_of_flash(crc, yaw_lines, yaw_count * sizeof(ResistanceLine));
+  crc = crc32_of_flash(crc, yaw_lines, yaw_count * sizeof(ResistanceLine));
+  return ~(rest != 0 ? crc32_of_flash(crc, rest, sizeof *rest) : crc);
 }
 
 }  // namespace awmr

@@ -47,4 +47,19 @@ struct ResistanceTable {
   }
 };
 
+/// A resistance that jumps at rest: a table from `rest_speed` on, below it the chord to the origin.
+struct RestingTable {
+  ResistanceTable table;
+  float rest_speed;  ///< m/s or rad/s; 0: it does not jump
+  float at_rest;     ///< g(rest_speed)
+
+  float operator()(const float& speed) const {
+    return is_resting(speed) ? at_rest / rest_speed * speed : table(speed);
+  }
+  /// False for NaN.
+  bool is_resting(float speed) const {
+    return float_math::magnitude_bits(speed) < bits_of(rest_speed);
+  }
+};
+
 }  // namespace awmr

@@ -69,6 +69,37 @@ std::string parts_text(const AutopilotParameters& parameters) {
   return fmt::format(kParts, lines, parameters.split == CombinedSplit::kFixedHalf ? 1 : 0);
 }
 
+constexpr std::string_view kRest = R"(
+/* Friction at rest or a dead zone of the motors is made up for. Below the speeds at rest, m/s and
+   rad/s, resistance is the chord from the origin to its value there. Forces are what the motors make
+   beyond the dead zone. */
+#define AWMR_FRICTION_AT_REST 1
+#define AWMR_DEAD_ZONE {}
+#define AWMR_SURGE_REST_SPEED {}
+#define AWMR_SURGE_AT_REST {}
+#define AWMR_YAW_REST_SPEED {}
+#define AWMR_YAW_AT_REST {}
+#define AWMR_ALLOCATED_FORCE_MIN {}
+#define AWMR_ALLOCATED_FORCE_MAX {}
+)";
+constexpr std::string_view kNoRest = R"(
+/* 1: friction at rest or a dead zone of the motors is made up for */
+#define AWMR_FRICTION_AT_REST 0
+#define AWMR_ALLOCATED_FORCE_MIN AWMR_WHEEL_FORCE_MIN
+#define AWMR_ALLOCATED_FORCE_MAX AWMR_WHEEL_FORCE_MAX
+)";
+
+std::string rest_text(const AutopilotParameters& parameters) {
+  if (!parameters.rest) return std::string(kNoRest);
+  const auto literal = [](float value) { return float_literal(static_cast<double>(value)); };
+  const RestBlock& rest = *parameters.rest;
+  const AllocationConstants<float>& allocation = parameters.block.constants.allocation;
+  return fmt::format(kRest, literal(rest.dead_zone), literal(rest.surge_rest_speed),
+                     literal(rest.surge_at_rest), literal(rest.yaw_rest_speed),
+                     literal(rest.yaw_at_rest), literal(allocation.force_min),
+                     literal(allocation.force_max));
+}
+
 struct TableText {
   std::string_view title;
   std::string_view macro;
@@ -105,6 +136,7 @@ std::string autopilot_header(const AutopilotParameters& parameters) {
                   block.safety.heading_timeout_ms, block.safety.speed_timeout_ms,
                   block.safety.command_timeout_ms, block.safety.step_timeout_ms, parameters.crc);
   text += parts_text(parameters);
+  text += rest_text(parameters);
   if (by_table) {
     text += table_text(parameters.surge, {"Surge", "AWMR_SURGE_TABLE", "m/s", "of F_max"},
                        parameters.table_error);

@@ -8,6 +8,7 @@
 #include "awmr/core/option_text.h"
 #include "awmr/core/units.h"
 #include "awmr/emit/emit.h"
+#include "awmr/simulate/simulate.h"
 #include "macros.h"
 #include "resistance_tables.h"
 
@@ -26,6 +27,34 @@ TableShape shape_of(const EmittedTable& table) {
 /// The value as a float of the chip; -0 becomes 0.
 float single(double value) { return static_cast<float>(value) + 0.0F; }
 
+/// The forces that the allocation may ask of a wheel: what is left of its limits beyond the zone in
+/// which the motor does not move, as in make_controller().
+Interval force_beyond_dead_zone(const Plant<double>& plant, const Vehicle& vehicle) {
+  const Controller<double> controller = make_controller(plant, vehicle, {});
+  return {controller.limits.force_min, controller.limits.force_max};
+}
+
+bool is_power_law(const Plant<double>& plant) {
+  const auto has_terms = [](const Resistance<double>& law) {
+    return law.coulomb > 0.0 || law.quadratic > 0.0;
+  };
+  return !has_terms(plant.surge) && !has_terms(plant.yaw);
+}
+
+/// What the firmware needs at rest; none for a law without friction there and motors without a dead
+/// zone.
+std::optional<RestBlock> rest_of(const Plant<double>& plant) {
+  const bool jumps = plant.surge.coulomb > 0.0 || plant.yaw.coulomb > 0.0;
+  if (!jumps && !(plant.wheel_dead_zone > 0.0)) return {};
+  const auto at_rest = [](const Resistance<double>& law) {
+    const double speed = feed_forward(law).rest_speed;
+    return speed > 0.0 ? single(law.at(speed)) : 0.0F;
+  };
+  return RestBlock{single(plant.wheel_dead_zone), single(feed_forward(plant.surge).rest_speed),
+                   at_rest(plant.surge), single(feed_forward(plant.yaw).rest_speed),
+                   at_rest(plant.yaw)};
+}
+
 /// The controller in float. What is computed from it is computed in float too, as the compiler of
 /// the firmware folds the expressions of awmr.cpp.
 Controller<float> float_controller(const Plant<double>& plant, const Model& model,
@@ -39,8 +68,9 @@ Controller<float> float_controller(const Plant<double>& plant, const Model& mode
   const double steering_max_rad = radians(model.vehicle.steering_max_deg);
   controller.limits.front_axle_m = single(plant.front_axle_m);
   controller.limits.half_track_m = single(plant.half_track_m);
-  controller.limits.force_min = single(model.vehicle.wheel_force.lo);
-  controller.limits.force_max = single(model.vehicle.wheel_force.hi);
+  const Interval force = force_beyond_dead_zone(plant, model.vehicle);
+  controller.limits.force_min = single(force.lo);
+  controller.limits.force_max = single(force.hi);
   controller.limits.steering_max_rad = single(steering_max_rad);
   controller.limits.steering_max_tan_half = single(tan_half(steering_max_rad));
   return controller;
@@ -74,26 +104,9 @@ Status check_allocation(const Model& model) {
                          option_text("header-only") + ")");
 }
 
-/// The same of what the simulated controller makes up for.
-Status check_family(const Model& model, const Plant<double>& plant, ResistanceForm form) {
-  const std::string file = file_name(model);
-  if (plant.wheel_dead_zone > 0.0) {
-    return input_error(
-        file + ":/wheel/dead_zone",
-        fmt::format("the firmware does not make up for a dead zone of the wheels; emit the "
-                    "header alone ({}) and add AWMR_WHEEL_DEAD_ZONE where the motors are "
-                    "written, or identify a family without it",
-                    option_text("header-only")));
-  }
-  if (plant.surge.coulomb > 0.0 || plant.yaw.coulomb > 0.0) {
-    return input_error(
-        file + (plant.surge.coulomb > 0.0 ? ":/surge/coulomb" : ":/yaw/coulomb"),
-        fmt::format("the firmware does not make up for friction at rest, as the simulated "
-                    "controller does; emit the header alone ({}), or identify a family "
-                    "without it",
-                    option_text("header-only")));
-  }
-  if (form == ResistanceForm::kPowf && (plant.surge.quadratic > 0.0 || plant.yaw.quadratic > 0.0)) {
+/// powf knows the power law alone.
+Status check_family(const Plant<double>& plant, ResistanceForm form) {
+  if (form == ResistanceForm::kPowf && !is_power_law(plant)) {
     return input_error(option_text("resistance"),
                        "powf knows the power law alone; this model's family needs the table");
   }
@@ -106,10 +119,12 @@ struct ChipLaw {
   ResistanceLaw law;  ///< g1, dimensionless, or g3, m
   double full_scale;  ///< the largest force or moment there is, in the unit of g
   double top;         ///< m/s or rad/s: beyond every speed that the vehicle can drive at
+  double rest_speed;  ///< m/s or rad/s: below it the table is not read
 };
 
 ChipLaw chip_law(std::string name, const Resistance<double>& law, double full_scale) {
-  ChipLaw chip{std::move(name), [law](double speed) { return law(speed); }, full_scale, 0.0};
+  ChipLaw chip{std::move(name), [law](double speed) { return law(speed); }, full_scale, 0.0,
+               feed_forward(law).rest_speed};
   chip.top = table_top(chip.law, full_scale);
   return chip;
 }
@@ -120,7 +135,8 @@ float largest_below(double top) { return std::nextafter(static_cast<float>(top),
 /// Puts both tables into the parameters. Errors (refused): no table is within the bound.
 Status add_tables(const ChipLaw& surge, const ChipLaw& yaw, AutopilotParameters& parameters) {
   const auto table = [&](const ChipLaw& chip) {
-    return resistance_table(chip.name, chip.law, chip.full_scale, chip.top, parameters.table_error);
+    return resistance_table(chip.name, chip.law, chip.full_scale, chip.top, parameters.table_error,
+                            chip.rest_speed);
   };
   AWMR_ASSIGN_OR_RETURN(parameters.surge, table(surge));
   AWMR_ASSIGN_OR_RETURN(parameters.yaw, table(yaw));
@@ -137,9 +153,9 @@ Result<AutopilotParameters> autopilot_parameters(const Model& model, const Gains
   AWMR_RETURN_IF_ERROR(params_header(model, gains, inputs));
   AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, model.plant());
   AWMR_RETURN_IF_ERROR(check_allocation(model));
-  AWMR_RETURN_IF_ERROR(check_family(model, plant, options.resistance));
+  AWMR_RETURN_IF_ERROR(check_family(plant, options.resistance));
 
-  const double full_force = 4.0 * model.vehicle.wheel_force.hi;
+  const double full_force = 4.0 * force_beyond_dead_zone(plant, model.vehicle).hi;
   const ChipLaw surge = chip_law("surge", plant.surge, full_force);
   const ChipLaw yaw = chip_law("yaw", plant.yaw, full_force * plant.half_track_m);
 
@@ -156,9 +172,11 @@ Result<AutopilotParameters> autopilot_parameters(const Model& model, const Gains
   if (options.resistance == ResistanceForm::kTable) {
     AWMR_RETURN_IF_ERROR(add_tables(surge, yaw, parameters));
   }
+  parameters.rest = rest_of(plant);
   parameters.crc = crc32_of_parameters(&parameters.block, parameters.surge.lines.data(),
                                        parameters.surge.lines.size(), parameters.yaw.lines.data(),
-                                       parameters.yaw.lines.size());
+                                       parameters.yaw.lines.size(),
+                                       parameters.rest ? &*parameters.rest : nullptr);
   return parameters;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -101,6 +102,8 @@ struct EmittedTable {
 /// The numbers of the firmware as the chip holds them.
 struct AutopilotParameters {
   ParameterBlock block{};
+  /// For a model with friction at rest or a dead zone; absent: the firmware is without.
+  std::optional<RestBlock> rest;
   float steering_max_tan_half = 0.0F;                  ///< tan(d_max/2)
   EmittedTable surge;                                  ///< of g1; without lines for kPowf
   EmittedTable yaw;                                    ///< of g3; without lines for kPowf

@@ -44,11 +44,13 @@ EmittedTable table_between(const ResistanceLaw& law, int lowest_exponent, int to
   return table;
 }
 
-/// Compares the table with the law at `samples` places of [lo, hi).
-void measure(const ResistanceLaw& law, double lo, double hi, int samples, EmittedTable& table) {
+/// Compares the table with the law at `samples` places of [lo, hi), from `rest_speed` on.
+void measure(const ResistanceLaw& law, double lo, double hi, int samples, double rest_speed,
+             EmittedTable& table) {
   const ResistanceTable view = table.view();
   for (int i = 0; i < samples; ++i) {
     const auto speed = static_cast<float>(lo + (hi - lo) * i / samples);
+    if (static_cast<double>(speed) < rest_speed) continue;
     const double exact = law(static_cast<double>(speed));
     const double error = std::abs(static_cast<double>(view(speed)) - exact);
     if (exact < table.split) {
@@ -59,14 +61,14 @@ void measure(const ResistanceLaw& law, double lo, double hi, int samples, Emitte
   }
 }
 
-void measure_all(const ResistanceLaw& law, EmittedTable& table) {
+void measure_all(const ResistanceLaw& law, double rest_speed, EmittedTable& table) {
   // Below the first entry as well, octave by octave: the law may be steepest at rest.
   for (double hi = table.lowest_speed; hi > 1e-9; hi /= 2.0) {
-    measure(law, hi / 2.0, hi, kSamplesPerCell, table);
+    measure(law, hi / 2.0, hi, kSamplesPerCell, rest_speed, table);
   }
   const int per_octave = 1 << table.mantissa_bits;
   for (double lo = table.lowest_speed; lo < table.top_speed; lo *= 2.0) {
-    measure(law, lo, 2.0 * lo, kSamplesPerCell * per_octave, table);
+    measure(law, lo, 2.0 * lo, kSamplesPerCell * per_octave, rest_speed, table);
   }
 }
 
@@ -88,7 +90,8 @@ double table_top(const ResistanceLaw& law, double full_scale) {
 }
 
 Result<EmittedTable> resistance_table(const std::string& name, const ResistanceLaw& law,
-                                      double full_scale, double top, double error_share) {
+                                      double full_scale, double top, double error_share,
+                                      double rest_speed) {
   const int top_exponent = std::ilogb(top);
   EmittedTable best;
   double least_share = HUGE_VAL;
@@ -99,7 +102,7 @@ Result<EmittedTable> resistance_table(const std::string& name, const ResistanceL
       if (!best.lines.empty() && lines >= static_cast<int>(best.lines.size())) break;
       EmittedTable table = table_between(law, lowest, top_exponent, bits);
       table.split = 0.1 * full_scale;
-      measure_all(law, table);
+      measure_all(law, rest_speed, table);
       least_share = std::min(least_share, worst_share(table));
       if (worst_share(table) <= error_share) best = std::move(table);
     }

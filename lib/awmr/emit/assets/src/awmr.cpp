@@ -8,7 +8,11 @@
 namespace {
 
 #if AWMR_RESISTANCE_TABLE
+#if AWMR_FRICTION_AT_REST
+typedef awmr::RestingTable Resistance;
+#else
 typedef awmr::ResistanceTable Resistance;
+#endif
 const awmr::ResistanceLine kSurgeLines[] AWMR_IN_FLASH = AWMR_SURGE_TABLE_LINES;
 const awmr::ResistanceLine kYawLines[] AWMR_IN_FLASH = AWMR_YAW_TABLE_LINES;
 const size_t kSurgeCount = AWMR_SURGE_TABLE_COUNT;
@@ -40,8 +44,8 @@ const awmr::ParameterBlock awmr_parameters AWMR_IN_FLASH = {
      AWMR_INERTIA_NORM * AWMR_HEADING_MU,
      AWMR_MASS_NORM * (AWMR_SPEED_MU / AWMR_SPEED_EPSILON),
      AWMR_MASS_NORM * AWMR_SPEED_MU,
-     {4.0f * AWMR_WHEEL_FORCE_MIN, 4.0f * AWMR_WHEEL_FORCE_MAX, AWMR_WHEEL_FORCE_MIN,
-      AWMR_WHEEL_FORCE_MAX, AWMR_HALF_TRACK_M, 0.5f / AWMR_HALF_TRACK_M, 1.0f / AWMR_HALF_TRACK_M,
+     {4.0f * AWMR_ALLOCATED_FORCE_MIN, 4.0f * AWMR_ALLOCATED_FORCE_MAX, AWMR_ALLOCATED_FORCE_MIN,
+      AWMR_ALLOCATED_FORCE_MAX, AWMR_HALF_TRACK_M, 0.5f / AWMR_HALF_TRACK_M, 1.0f / AWMR_HALF_TRACK_M,
       2.0f * AWMR_FRONT_AXLE_M, 0.25f / AWMR_FRONT_AXLE_M, 0.5f / AWMR_FRONT_AXLE_M, AWMR_STEERING_MAX_RAD,
       0.5f * AWMR_STEERING_MAX_TAN_HALF,
       0.5f * AWMR_STEERING_MAX_TAN_HALF * (0.5f * AWMR_STEERING_MAX_TAN_HALF)}},
@@ -49,6 +53,16 @@ const awmr::ParameterBlock awmr_parameters AWMR_IN_FLASH = {
      AWMR_COMMAND_TIMEOUT_MS, AWMR_STEP_TIMEOUT_MS},
     AWMR_TABLE_SHAPE(AWMR_SURGE_TABLE),
     AWMR_TABLE_SHAPE(AWMR_YAW_TABLE)};
+
+#if AWMR_FRICTION_AT_REST
+extern const awmr::RestBlock awmr_rest;
+const awmr::RestBlock awmr_rest AWMR_IN_FLASH = {AWMR_DEAD_ZONE, AWMR_SURGE_REST_SPEED,
+                                                 AWMR_SURGE_AT_REST, AWMR_YAW_REST_SPEED,
+                                                 AWMR_YAW_AT_REST};
+#define AWMR_REST &awmr_rest
+#else
+#define AWMR_REST 0
+#endif
 
 namespace {
 
@@ -59,6 +73,7 @@ struct Parts {
   typedef awmr::Optional<AWMR_WITH_AVOIDANCE, awmr::Avoider>::type Avoidance;
   typedef awmr::Optional<AWMR_WITH_SHAPING, awmr::Shaper>::type Shaping;
   typedef awmr::Optional<AWMR_WITH_OBSERVER, awmr::Observer>::type Observation;
+  typedef awmr::Optional<AWMR_FRICTION_AT_REST, awmr::DeadZone>::type Motors;
   static constexpr awmr::CombinedSplit kSplit =
       AWMR_FIXED_HALF ? awmr::CombinedSplit::kFixedHalf : awmr::CombinedSplit::kRedistribute;
 };
@@ -79,7 +94,7 @@ inline void follow(const awmr_point* points, int16_t count, float acceptance_m, 
 uint8_t awmr_init(void) {
   const bool good =
       awmr::start_autopilot(autopilot, &awmr_parameters, kSurgeLines, kSurgeCount, kYawLines,
-                            kYawCount, AWMR_PARAMETERS_CRC32);
+                            kYawCount, AWMR_PARAMETERS_CRC32, AWMR_REST);
   return good ? AWMR_FAULT_NONE : AWMR_FAULT_PARAMETERS;
 }
 

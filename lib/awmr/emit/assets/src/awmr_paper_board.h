@@ -25,9 +25,12 @@ const float kServoUsPerRad = 573.0f; /* 10 us per degree of the wheels: measure 
 /* ---- MPU9250: gyroscope about z, magnetometer in x and y ---------------------------------- */
 class Imu {
  public:
-  float psi_rad = 0.0f;
+  float psi_rad = 0.0f; /* from north once has_heading() */
   float r_radps = 0.0f;
-  uint32_t time_ms = 0; /* of the last good reading */
+  uint32_t time_ms = 0; /* of the last good reading; 0: there was no heading yet */
+
+  /* The magnetometer has given one: until then the heading is old, and the motors stay off. */
+  bool has_heading() const { return has_heading_; }
 
   void begin() {
     Wire.begin();
@@ -50,7 +53,7 @@ class Imu {
         !(bytes[6] & 0x08)) {
       lean(magnetic_heading(bytes), dt_s / 2.0f);
     }
-    time_ms = millis();
+    if (has_heading_) time_ms = millis();
   }
 
  private:

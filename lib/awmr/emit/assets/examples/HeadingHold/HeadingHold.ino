@@ -1,5 +1,6 @@
-// Heading and speed hold on the source paper's hardware. Serial, 115200 baud: "H 30" heads 30 deg, "S 1.0"
-// drives at 1 m/s, "M 2" takes the combined mode; silence for AWMR_COMMAND_TIMEOUT_MS stops.
+// Heading and speed hold on the source paper's hardware. Serial, 115200 baud: "H 30" heads 30 deg (before the
+// first one: as it stands at the start), "S 1.0" drives at 1 m/s, "M 2" takes the combined mode; silence for
+// AWMR_COMMAND_TIMEOUT_MS stops.
 #include <SD.h>
 #include <SPI.h>
 #include <Wire.h>
@@ -11,6 +12,7 @@ awmr_board::Gps gps;
 awmr_board::Log card;
 awmr_input input;
 uint32_t next_step_us;
+bool has_reference = false;
 
 const uint32_t kStepUs = static_cast<uint32_t>(AWMR_SAMPLE_TIME_S * 1e6f);
 
@@ -22,7 +24,6 @@ void setup() {
   if (!card.begin()) Serial.println(F("no SD card: no log"));
   if (awmr_init() != AWMR_FAULT_NONE) Serial.println(F("parameters damaged: flash again"));
   input.mode = AWMR_COMBINED;
-  input.psi_ref_rad = imu.psi_rad;
   next_step_us = micros() + kStepUs;
 }
 
@@ -31,7 +32,10 @@ void read_command() {
   const int letter = Serial.read();
   if (letter != 'H' && letter != 'S' && letter != 'M') return;
   const float value = Serial.parseFloat();
-  if (letter == 'H') input.psi_ref_rad = value * 0.0174532925f;
+  if (letter == 'H') {
+    input.psi_ref_rad = value * 0.0174532925f;
+    has_reference = true;
+  }
   if (letter == 'S') input.u_ref_mps = value;
   if (letter == 'M') input.mode = static_cast<uint8_t>(value);
   input.command_ms = millis();
@@ -44,6 +48,10 @@ void loop() {
   next_step_us += kStepUs;
 
   imu.read(AWMR_SAMPLE_TIME_S);
+  if (!has_reference && imu.has_heading()) {
+    input.psi_ref_rad = imu.psi_rad;
+    has_reference = true;
+  }
   input.psi_rad = imu.psi_rad;
   input.r_radps = imu.r_radps;
   input.heading_ms = imu.time_ms;
