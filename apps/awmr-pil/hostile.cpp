@@ -125,8 +125,8 @@ Result<unsigned> tried(Executor& chip, Executor& host, const Attack& attack, Hos
 Result<Hostile> provoke(Executor& chip, Executor& host, const SafetyLimits& limits,
                         const Mission& mission) {
   Hostile found;
-  // Every step is at time 0; the first one, late after whatever was before it, is not looked at. Its
-  // mode is none: after a fault both remember nothing of the motion before.
+  // Every step is at time 0; the first one, late after whatever was before it, is not looked at.
+  // Its mode is none: after a fault both remember nothing of the motion before.
   AutopilotInput first{};
   first.mode = 3;
   AWMR_RETURN_IF_ERROR(chip.step(first));

@@ -15,9 +15,9 @@ struct Hostile {
 };
 
 /// Looks for the inputs that take the chip longest: at and beyond the limits, tiny, subnormal, no
-/// numbers, headings of many turns, references that move; where the mission has
-/// points, others that lie on the vehicle or anywhere. What took longest so far is changed a little, again and again. The
-/// same steps every time. Errors: the executors'.
+/// numbers, headings of many turns, references that move; where the mission has points, others that
+/// lie on the vehicle or anywhere. What took longest so far is changed a little, again and again.
+/// The same steps every time. Errors: the executors'.
 Result<Hostile> provoke(Executor& chip, Executor& host, const SafetyLimits& limits,
                         const Mission& mission);
 

@@ -1,5 +1,6 @@
 /// One whole step of the firmware: checks, guidance, heading and speed laws, allocation, limits.
-/// Its parts are in autopilot_parts.h and what they do in autopilot_guidance.h. Freestanding C++14. The host's float run is this source too, and gives the same bits.
+/// Its parts are in autopilot_parts.h and what they do in autopilot_guidance.h. Freestanding C++14.
+/// The host's float run is this source too, and gives the same bits.
 #pragma once
 
 #include <stdint.h>
@@ -33,8 +34,8 @@ struct AutopilotOutput {
   uint8_t fault;              ///< SafetyFault bits; not 0: `command` is the safe one
 };
 
-/// The autopilot between two steps. G is the form of the resistances, as in Controller; P says which
-/// parts there are (autopilot_parts.h).
+/// The autopilot between two steps. G is the form of the resistances, as in Controller; P says
+/// which parts there are (autopilot_parts.h).
 template <class G, class P = NoParts>
 struct Autopilot : P::Line,
                    P::Path,
@@ -71,36 +72,7 @@ void switch_parts_off(Autopilot<G, P>& a) {
   switch_off(part_of<typename P::Observation>(a));
 }
 
-/// The resistance in the form that the firmware was compiled for: from the block's table, or from
-/// the block's alpha and beta.
-inline void set_resistance(const TableShape* shape, const float* /*alpha_beta*/,
-                           const ResistanceLine* lines, ResistanceTable& table) {
-  TableShape read;
-  read_flash(shape, read);
-  table.lines = lines;
-  table.count = static_cast<uint16_t>(read.count);
-  table.first = static_cast<uint16_t>(read.first);
-  table.mantissa_bits = static_cast<uint8_t>(read.mantissa_bits);
-}
-inline void set_resistance(const TableShape* /*shape*/, const float* alpha_beta,
-                           const ResistanceLine* /*lines*/, Resistance<float>& law) {
-  law.alpha = flash_float(alpha_beta);
-  law.beta = flash_float(alpha_beta + 1);
-  law.rest_speed = 0.0F;
-}
-
-inline void set_resistance(const TableShape* shape, const float* alpha_beta,
-                           const ResistanceLine* lines, RestingTable& law) {
-  set_resistance(shape, alpha_beta, lines, law.table);
-}
-
-/// What happens at rest, where the firmware was compiled for it.
-template <class G>
-void set_rest(const float* /*rest_speed*/, const float* /*at_rest*/, G&) {}
-inline void set_rest(const float* rest_speed, const float* at_rest, RestingTable& law) {
-  law.rest_speed = flash_float(rest_speed);
-  law.at_rest = flash_float(at_rest);
-}
+/// The dead zone, where the firmware was compiled for it.
 inline void set_dead_zone(const RestBlock*, Without<DeadZone>&) {}
 inline void set_dead_zone(const RestBlock* rest, DeadZone& part) {
   part.dead_zone = rest != 0 ? flash_float(&rest->dead_zone) : 0.0F;
@@ -163,7 +135,8 @@ void follow_path(Autopilot<G, P>& a, const Lissajous<float>& path, float gain_pe
   part.is_started = false;
 }
 
-/// Steers clear of `count` obstacles from the next step on; 0: of none. `sectors` is room for as many.
+/// Steers clear of `count` obstacles from the next step on; 0: of none. `sectors` is room for as
+/// many.
 template <class G, class P>
 void avoid_obstacles(Autopilot<G, P>& a, const Avoidance<float>& avoidance,
                      const Obstacle<float>* obstacles, Sector<float>* sectors, int count) {

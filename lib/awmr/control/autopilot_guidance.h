@@ -84,7 +84,7 @@ AWMR_CALLED bool lead(LineFollower& part, const Arrival& arrival, const Whereabo
   return true;
 }
 
-/// Puts heading and speed of the path into the reference; a speed that is asked for, above 0, stays.
+/// Puts heading and speed of the path into the reference; a speed above 0 that is asked for stays.
 /// False: there is no path to follow.
 AWMR_INLINE bool lead(Without<PathFollower>&, const Whereabouts&, Reference<float>&) {
   return false;

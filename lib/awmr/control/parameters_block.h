@@ -30,8 +30,8 @@ struct ParameterBlock {
   TableShape yaw_table;    ///< of g3
 };
 
-/// What a firmware for motors with a dead zone, or for friction that does not go away at rest, knows
-/// beside the block. It has 32-bit members only too.
+/// What a firmware for motors with a dead zone, or for friction that does not go away at rest,
+/// knows beside the block. It has 32-bit members only too.
 struct RestBlock {
   float dead_zone;         ///< F'0 of a wheel, over F_max; 0: none
   float surge_rest_speed;  ///< RestingTable::rest_speed of g1, m/s
@@ -56,6 +56,37 @@ inline uint32_t crc32_of_parameters(const ParameterBlock* block, const Resistanc
   crc = crc32_of_flash(crc, surge_lines, surge_count * sizeof(ResistanceLine));
   crc = crc32_of_flash(crc, yaw_lines, yaw_count * sizeof(ResistanceLine));
   return ~(rest != 0 ? crc32_of_flash(crc, rest, sizeof *rest) : crc);
+}
+
+/// The resistance in the form that the firmware was compiled for: from the block's table, or from
+/// the block's alpha and beta.
+inline void set_resistance(const TableShape* shape, const float* /*alpha_beta*/,
+                           const ResistanceLine* lines, ResistanceTable& table) {
+  TableShape read;
+  read_flash(shape, read);
+  table.lines = lines;
+  table.count = static_cast<uint16_t>(read.count);
+  table.first = static_cast<uint16_t>(read.first);
+  table.mantissa_bits = static_cast<uint8_t>(read.mantissa_bits);
+}
+inline void set_resistance(const TableShape* /*shape*/, const float* alpha_beta,
+                           const ResistanceLine* /*lines*/, Resistance<float>& law) {
+  law.alpha = flash_float(alpha_beta);
+  law.beta = flash_float(alpha_beta + 1);
+  law.rest_speed = 0.0F;
+}
+
+inline void set_resistance(const TableShape* shape, const float* alpha_beta,
+                           const ResistanceLine* lines, RestingTable& law) {
+  set_resistance(shape, alpha_beta, lines, law.table);
+}
+
+/// What happens at rest, where the firmware was compiled for it.
+template <class G>
+void set_rest(const float* /*rest_speed*/, const float* /*at_rest*/, G&) {}
+inline void set_rest(const float* rest_speed, const float* at_rest, RestingTable& law) {
+  law.rest_speed = flash_float(rest_speed);
+  law.at_rest = flash_float(at_rest);
 }
 
 }  // namespace awmr
