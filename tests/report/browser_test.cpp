@@ -257,6 +257,16 @@ TEST_F(ReportInBrowser, TheLivePartComputesWhatTheCommandLineDoes) {
       EXPECT_TRUE(near(there[key], here[key])) << here["name"] << key;
     }
   }
+  // A slider moved, the gains copied, and taken by the command line.
+  const Json& moved = page.at("moved");
+  EXPECT_NE(moved["gains"]["heading"]["lambda"], gains["heading"]["lambda"]);
+  write_all(tuned.path() / "moved.json", moved["gains"].dump());
+  ASSERT_TRUE(succeeded(run_process(
+      awmr("simulate --model model.json --gains moved.json --mode combined -o moved.csv "
+           "--scenario scenario_c3_heading_steps.json"),
+      tuned.path())));
+  EXPECT_LE(difference(tuned.path() / "moved.csv", moved["columns"], "psi_rad"), kTolerance);
+
   const Json comparison = Json::parse(read_all(tuned.path() / "comparison.json"));
   const Json& metrics = comparison["scenarios"][0]["modes"]["combined"]["metrics"];
   for (const auto& [name, value] : page["live"]["metrics"].items()) {

@@ -32,6 +32,17 @@ function look_at_live() {
   const {columns, metrics, constraints} = awmrLive.run({...awmrLive.tuned, mode: "combined"});
   const {t_s, psi_rad, u_mps, steering_rad, r_radps} = columns;
   probe.live = {metrics, constraints, columns: {t_s, psi_rad, u_mps, steering_rad, r_radps}};
+  const slider = document.querySelector(".controls input");  // lambda
+  slider.value = 700;
+  slider.dispatchEvent(new Event("input"));
+}
+
+/// What the button copies after the slider has moved, and the run that the page makes of it.
+function look_at_moved() {
+  const gains = JSON.parse(document.querySelector(".live pre").textContent);
+  const {heading, speed} = gains;
+  const run = awmrLive.run({...awmrLive.tuned, ...heading, speed_mu: speed.mu, speed_epsilon: speed.epsilon, mode: "combined"});
+  probe.moved = {gains, columns: {psi_rad: run.columns.psi_rad}};
 }
 
 /// Calls `then` once the live part has come, or will not. It is unpacked in another thread, for which the browser's
@@ -70,6 +81,7 @@ addEventListener("load", () => {
     if (window.awmrLive) look_at_live();
     requestAnimationFrame(() => setTimeout(() => {
       try {
+        if (window.awmrLive) look_at_moved();
         look();
       } catch (error) {
         probe.errors.push(`probe: ${error.message}`);
