@@ -50,7 +50,7 @@ TEST_F(Map, WritesGuessesThatIdentifyTakesBack) {
   EXPECT_THAT(mapped.out, Not(HasSubstr("open")));
   const std::string identify = "identify --vehicle configs/paper/vehicle.json --log ";
   const ProcessResult foreign = awmr(identify + path("foreign.csv") + " --columns-file " +
-                                     path("map.json") + " -o " + path("foreign.json"));
+                                     path("map.json") + " --verbose -o " + path("foreign.json"));
   EXPECT_EQ(foreign.exit_code, 0) << foreign.err;
   EXPECT_THAT(foreign.err, HasSubstr("decimal commas"));
   EXPECT_THAT(read_all(path("foreign.json")), HasSubstr("speed_mps=`v (km/h)`*0.2777778"));

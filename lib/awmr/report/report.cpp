@@ -40,7 +40,7 @@ std::string script_safe(const Json& json) {
   return text;
 }
 
-/// The paper's claims are about its vehicle: mass, box, axle and track of [paper Table 1].
+/// The paper's claims are about its vehicle: mass, box, axle and track, its Table 1.
 bool is_vehicle_of_paper(const Vehicle& vehicle) {
   const auto near = [](double a, double b) { return std::abs(a - b) <= 1e-9 * b; };
   return near(vehicle.mass_kg, 37.0) && near(vehicle.length_m, 1.32) &&
