@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <atomic>
@@ -72,8 +73,12 @@ Result<Provenance> provenance_of(const CompareCommand& command) {
   options.emplace_back("samples", std::to_string(command.compare.samples));
   options.emplace_back("seed", std::to_string(command.compare.seed));
   const Preferences& preferences = command.compare.preferences;
-  for (const auto& [name, weight] : preferences.weights) {
-    options.emplace_back("weight", fmt::format("{}={}", name, weight));
+  if (!preferences.weights.empty()) {
+    std::vector<std::string> weights;
+    for (const auto& [name, weight] : preferences.weights) {
+      weights.push_back(fmt::format("{}={}", name, weight));
+    }
+    options.emplace_back("weight", fmt::format("{}", fmt::join(weights, ", ")));
   }
   if (preferences.relevance != Preferences{}.relevance) {
     options.emplace_back("relevance", fmt::format("{}", preferences.relevance));
@@ -142,6 +147,33 @@ void end_interrupted(const CompareCommand& command, const Comparison& comparison
   std::raise(SIGINT);
 }
 
+/// Options as they were typed, until the command runs.
+struct Texts {
+  std::string shard;
+  std::vector<std::string> weights;
+  double relevance = Preferences{}.relevance;
+};
+
+Status read_texts(const Texts& texts, CompareOptions& options) {
+  if (!texts.shard.empty()) {
+    AWMR_ASSIGN_OR_RETURN(options.shard, shard_of(texts.shard));
+  }
+  AWMR_ASSIGN_OR_RETURN(options.preferences, preferences_of(texts.weights, texts.relevance));
+  return {};
+}
+
+void add_preferences(CLI::App& command, Texts& texts) {
+  command.add_option(
+      "--weight", texts.weights,
+      "NAME=WEIGHT of a metric in the ranking, 0 to 1000, may be repeated: finish_time_s=3, "
+      "energy_electric=1 (default 1 for how the course was followed, 0 for energy and wear)");
+  command
+      .add_option("--relevance", texts.relevance,
+                  "Share of a metric, and of the score, below which a difference does not matter "
+                  "(default 0.05)")
+      ->check(within(0.0, 1.0));
+}
+
 }  // namespace
 
 Result<Outcome> execute(const CompareCommand& command) {
@@ -189,11 +221,6 @@ Result<Outcome> execute(const CompareCommand& command) {
 
 void add_compare(CLI::App& app, Session& session) {
   auto command = std::make_shared<CompareCommand>();
-  struct Texts {
-    std::string shard;
-    std::vector<std::string> weights;
-    double relevance = Preferences{}.relevance;
-  };
   auto texts = std::make_shared<Texts>();
   CLI::App* sub =
       add_command(app, session, "compare",
@@ -201,11 +228,7 @@ void add_compare(CLI::App& app, Session& session) {
                   "awmr compare --model model.json --gains gains.json --scenario "
                   "configs/paper/scenarios/c3_heading_steps.json --samples 20 -o comparison",
                   [command, texts]() -> Result<Outcome> {
-                    if (!texts->shard.empty()) {
-                      AWMR_ASSIGN_OR_RETURN(command->compare.shard, shard_of(texts->shard));
-                    }
-                    AWMR_ASSIGN_OR_RETURN(command->compare.preferences,
-                                          preferences_of(texts->weights, texts->relevance));
+                    AWMR_RETURN_IF_ERROR(read_texts(*texts, command->compare));
                     return execute(*command);
                   });
   add_file(*sub, "--model", command->model, "model.json from identify")->required();
@@ -224,14 +247,7 @@ void add_compare(CLI::App& app, Session& session) {
   auto* resume =
       sub->add_flag("--resume", command->resume,
                     "Go on from what lies in the directory: after Ctrl-C, or with more samples");
-  sub->add_option(
-      "--weight", texts->weights,
-      "NAME=WEIGHT of a metric in the ranking, 0 to 1000, may be repeated: finish_time_s=3, "
-      "energy_electric=1 (default 1 for how the course was followed, 0 for energy and wear)");
-  sub->add_option("--relevance", texts->relevance,
-                  "Share of a metric, and of the score, below which a difference does not matter "
-                  "(default 0.05)")
-      ->check(within(0.0, 1.0));
+  add_preferences(*sub, *texts);
   sub->add_option("--shard", texts->shard,
                   "I/N: part I of N, for as many machines; awmr merge puts the parts together")
       ->excludes(resume);

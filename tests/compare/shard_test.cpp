@@ -24,6 +24,8 @@ class Shards : public ::testing::Test {
     CompareOptions options;
     options.samples = 6;
     options.seed = 3;
+    options.preferences = {.weights = {{"tyre_work", 2.0}, {"finish_time_s", 0.0}},
+                           .relevance = 0.02};
     options.shard = shard;
     return options;
   }
