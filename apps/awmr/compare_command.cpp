@@ -174,6 +174,24 @@ void add_preferences(CLI::App& command, Texts& texts) {
       ->check(within(0.0, 1.0));
 }
 
+Outcome outcome_of_part(const CompareCommand& command, const Comparison& part) {
+  return {.summary = fmt::format("part {} of {}: {} runs\nwrote {} and comparison.csv\n",
+                                 command.compare.shard.index, command.compare.shard.count,
+                                 part.rows.size(), (command.output / json_of(command)).string())};
+}
+
+Outcome outcome_of_whole(const CompareCommand& command, const Comparison& comparison,
+                         const Model& model) {
+  const std::string table = comparison_table(comparison, command.compare);
+  const auto run_of = [](const ComparisonRow& row) {
+    return fmt::format("{}, {}, sample {}", row.scenario, name_of(row.mode), row.sample);
+  };
+  return {.summary = table + fmt::format("wrote {} and comparison.csv\n",
+                                         (command.output / json_of(command)).string()),
+          .brief = table,
+          .findings = extrapolation_in(model, comparison.rows, run_of)};
+}
+
 }  // namespace
 
 Result<Outcome> execute(const CompareCommand& command) {
@@ -194,29 +212,12 @@ Result<Outcome> execute(const CompareCommand& command) {
                         compare_until_interrupted(model, gains, scenarios, std::move(options)));
   const std::string text = document_of(command, comparison, provenance);
   AWMR_RETURN_IF_ERROR(write_comparison(command, comparison, text));
-  const std::vector<fs::path> written{command.output / json_of(command),
-                                      command.output / "comparison.csv"};
   if (comparison.stopped) end_interrupted(command, comparison);
-  if (is_part(command)) {
-    return Outcome{.summary = fmt::format("part {} of {}: {} runs\nwrote {} and comparison.csv\n",
-                                          command.compare.shard.index, command.compare.shard.count,
-                                          comparison.rows.size(),
-                                          (command.output / json_of(command)).string()),
-                   .document = text,
-                   .written = written};
-  }
-  const std::string table = comparison_table(comparison, command.compare);
-  return Outcome{.summary = table + fmt::format("wrote {} and comparison.csv\n",
-                                                (command.output / "comparison.json").string()),
-                 .brief = table,
-                 .findings = extrapolation_in(model, comparison.rows,
-                                              [](const ComparisonRow& row) {
-                                                return fmt::format("{}, {}, sample {}",
-                                                                   row.scenario, name_of(row.mode),
-                                                                   row.sample);
-                                              }),
-                 .document = text,
-                 .written = written};
+  Outcome outcome = is_part(command) ? outcome_of_part(command, comparison)
+                                     : outcome_of_whole(command, comparison, model);
+  outcome.document = text;
+  outcome.written = {command.output / json_of(command), command.output / "comparison.csv"};
+  return outcome;
 }
 
 void add_compare(CLI::App& app, Session& session) {

@@ -12,11 +12,7 @@
 
 namespace {
 
-int run(int argc, char** argv) {
-  CLI::App app{
-      "awmr: from trial CSVs to tuned gains on the robot.\n"
-      "trial CSVs + vehicle.json -> identify -> model.json -> tune -> gains.json -> validate,\n"
-      "compare, emit; `awmr run PROJECT.json -o DIR` does all of it."};
+void describe(CLI::App& app) {
   app.name("awmr");
   app.set_version_flag("--version", std::string("awmr ") + awmr::version());
   app.require_subcommand(1);
@@ -25,8 +21,9 @@ int run(int argc, char** argv) {
       "  awmr init --example .     the paper's robot, and then:\n"
       "  awmr run configs/paper/project.json -o out");
   app.get_formatter()->column_width(36);
+}
 
-  awmr::cli::Session session;
+void add_commands(CLI::App& app, awmr::cli::Session& session) {
   awmr::cli::add_init(app, session);
   awmr::cli::add_check(app, session);
   awmr::cli::add_run(app, session);
@@ -46,24 +43,39 @@ int run(int argc, char** argv) {
   awmr::cli::add_schema(app, session);
   awmr::cli::add_completion(app, session);
   awmr::cli::add_man(app, session);
+}
+
+/// What CLI11 did not parse, or was asked to show; the exit code.
+int end_of_parsing(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
+  if (error.get_exit_code() == 0) {
+    app.exit(error);
+    return std::cout.flush() ? 0 : 2;
+  }
+  // Without any word the commands are shown; the exit code is that of a command line that is wrong,
+  // so that a script whose variable is empty does not pass.
+  const std::string what = awmr::printable(awmr::cli::what_is_wrong(app, error, argc, argv));
+  if (awmr::cli::asks_for_json(argc, argv)) {
+    std::fputs(awmr::cli::error_text(awmr::input_error("", what).value()).c_str(), stderr);
+    return 2;
+  }
+  const std::string help = argc > 1 ? "" : app.help() + "\n";
+  std::fprintf(stderr, "%serror: %s\nRun `awmr --help` or `awmr COMMAND --help`.\n", help.c_str(),
+               what.c_str());
+  return 2;
+}
+
+int run(int argc, char** argv) {
+  CLI::App app{
+      "awmr: from trial CSVs to tuned gains on the robot.\n"
+      "trial CSVs + vehicle.json -> identify -> model.json -> tune -> gains.json -> validate,\n"
+      "compare, emit; `awmr run PROJECT.json -o DIR` does all of it."};
+  describe(app);
+  awmr::cli::Session session;
+  add_commands(app, session);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) {
-      app.exit(error);
-      return std::cout.flush() ? 0 : 2;
-    }
-    // Without any word the commands are shown; the exit code is that of a command line that is wrong,
-    // so that a script whose variable is empty does not pass.
-    const std::string what = awmr::printable(awmr::cli::what_is_wrong(app, error, argc, argv));
-    if (awmr::cli::asks_for_json(argc, argv)) {
-      std::fputs(awmr::cli::error_text(awmr::input_error("", what).value()).c_str(), stderr);
-      return 2;
-    }
-    const std::string help = argc > 1 ? "" : app.help() + "\n";
-    std::fprintf(stderr, "%serror: %s\nRun `awmr --help` or `awmr COMMAND --help`.\n", help.c_str(),
-                 what.c_str());
-    return 2;
+    return end_of_parsing(app, error, argc, argv);
   }
   return session.exit_code;
 }
