@@ -213,9 +213,11 @@ std::vector<RankedMode> rank(const ScenarioRows& scenario,
     if (own.log_scores.size() >= 2) ranked.first_by_samples = by_samples[i];
     if (i > 0) {
       const Random random(seed, kScoreStream | (stream << 8U) | i);
-      ranked.behind_ci95 = behind(own, entries.front(), preferences.relevance, random).ratio_ci95;
+      const Behind first = behind(own, entries.front(), preferences.relevance, random);
+      ranked.behind_ci95 = first.ratio_ci95;
       ranked.towards_leader =
-          behind(own, entries[leader], preferences.relevance, random).conclusion;
+          leader == 0 ? first.conclusion
+                      : behind(own, entries[leader], preferences.relevance, random).conclusion;
       const bool alike = complete_alike(*own.rows, *entries[leader].rows);
       if (!alike || ranked.towards_leader == Conclusion::kRelevant) leader = i;
     }
