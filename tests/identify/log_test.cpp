@@ -409,7 +409,7 @@ TEST(Log, WhatIsNewInASwingingErrorIsWhiteAndAsLargeAsSaid) {
   double products = 0.0;
   double count = 0.0;
   for (const ErrorSeries& part : swinging(9.4, 0.5, 0.1, 0.01)) {
-    Whitener<double> whitener(noise);
+    Whitener whitener(noise);
     double before = 0.0;
     for (std::size_t k = 0; k < part.error.size(); ++k) {
       const auto [value, variance] = whitener.next(part.error[k], part.since_s[k]);

@@ -6,35 +6,43 @@
 
 #include "awmr/core/index.h"
 #include "awmr/identify/ceres_solve.h"
+#include "awmr/identify/logs/product_sums.h"
 
 namespace awmr {
 namespace {
 
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// Evaluates every window before Ceres asks for any. The point is the one that Ceres moves.
+/// Evaluates every window before Ceres asks for any. The point is the one that Ceres moves. Derivatives
+/// are made at once: they cost little more than the residuals, and Ceres asks for them at every point
+/// that it keeps.
 class Evaluator : public ceres::EvaluationCallback {
  public:
   Evaluator(const LogProblem& problem, const SearchPoint& point)
       : problem_(problem), point_(point) {}
 
-  void PrepareForEvaluation(bool jacobians, bool new_point) final {
-    if (!new_point && (!jacobians || has_jacobians_)) return;
-    has_jacobians_ = jacobians;
-    residuals_ = evaluate_all(problem_, point_, jacobians);
+  void PrepareForEvaluation(bool, bool new_point) final {
+    if (!new_point && !sums_.empty()) return;
+    sums_ = sums_at(problem_, point_);
+    triangles_.clear();
+    for (const WindowSums& sums : sums_) {
+      triangles_.push_back(sums.finite ? triangle_of(sums.products) : Triangle{});
+    }
   }
 
   const LogProblem& problem() const { return problem_; }
-  const WindowResiduals& residuals(std::size_t window) const { return residuals_[window]; }
+  bool finite(std::size_t window) const { return sums_[window].finite; }
+  const Triangle& triangle(std::size_t window) const { return triangles_[window]; }
 
  private:
   const LogProblem& problem_;
   const SearchPoint& point_;
-  bool has_jacobians_ = false;
-  std::vector<WindowResiduals> residuals_;
+  std::vector<WindowSums> sums_;
+  std::vector<Triangle> triangles_;
 };
 
-/// Hands Ceres what the Evaluator made of one window: blocks coordinates, initial state.
+/// Hands Ceres what the Evaluator made of one window, a few rows in place of many: blocks coordinates,
+/// initial state.
 class WindowCost : public ceres::CostFunction {
  public:
   WindowCost(const Evaluator& evaluator, std::size_t window)
@@ -44,26 +52,29 @@ class WindowCost : public ceres::CostFunction {
         initial_(static_cast<int>(evaluator.problem().model.initial.size())) {
     mutable_parameter_block_sizes()->push_back(quantities_);
     mutable_parameter_block_sizes()->push_back(initial_);
-    const std::size_t samples = evaluator.problem().windows[window].samples.size();
-    set_num_residuals(static_cast<int>(samples) + initial_);
+    set_num_residuals(quantities_ + initial_ + 1);
   }
 
   bool Evaluate(double const* const*, double* residuals, double** jacobians) const final {
-    const WindowResiduals& window = evaluator_.residuals(window_);
-    if (!window.finite) return false;
-    const Eigen::Index rows = window.residuals.size();
-    Eigen::Map<Eigen::VectorXd>(residuals, rows) = window.residuals;
+    if (!evaluator_.finite(window_)) return false;
+    const Triangle& triangle = evaluator_.triangle(window_);
+    const Eigen::Index rows = triangle.z.size();
+    Eigen::Map<Eigen::VectorXd>(residuals, rows) = triangle.z;
+    residuals[rows] = triangle.rest;
     if (!jacobians) return true;
-    if (jacobians[0]) {
-      Eigen::Map<RowMajor>(jacobians[0], rows, quantities_) = window.jacobian.leftCols(quantities_);
-    }
-    if (jacobians[1]) {
-      Eigen::Map<RowMajor>(jacobians[1], rows, initial_) = window.jacobian.rightCols(initial_);
-    }
+    if (jacobians[0]) fill(triangle.r.leftCols(quantities_), jacobians[0]);
+    if (jacobians[1]) fill(triangle.r.rightCols(initial_), jacobians[1]);
     return true;
   }
 
  private:
+  template <class Columns>
+  static void fill(const Columns& columns, double* jacobian) {
+    Eigen::Map<RowMajor> all(jacobian, columns.rows() + 1, columns.cols());
+    all.topRows(columns.rows()) = columns;
+    all.bottomRows(1).setZero();
+  }
+
   const Evaluator& evaluator_;
   std::size_t window_;
   int quantities_;

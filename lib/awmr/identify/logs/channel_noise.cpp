@@ -44,7 +44,7 @@ Likelihood likelihood(std::span<const ErrorSeries> series, const ChannelNoise& n
   double product = 1.0;  // of variances: one logarithm for many of them
   double n = 0.0;
   for (const ErrorSeries& part : series) {
-    Whitener<double> whitener(noise);
+    Whitener whitener(noise);
     for (std::size_t k = 0; k < part.error.size(); ++k) {
       const auto [nu, variance] = whitener.next(part.error[k], part.since_s[k]);
       squares += nu * nu / variance;
@@ -252,7 +252,7 @@ NoiseLevels sensor_noise(const std::vector<FitWindow>& windows) {
   std::map<LogChannel, Roughness> roughness;
   for (const FitWindow& window : windows) {
     std::map<LogChannel, std::vector<double>> values;
-    for (const Sample& sample : window.samples) {
+    for (const Sample& sample : window.samples()) {
       values[sample.channel].push_back((*window.rows.log)[sample.channel]->value[sample.row]);
       ++levels[sample.channel].count;
     }

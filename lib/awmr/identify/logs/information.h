@@ -12,18 +12,18 @@ namespace awmr {
 /// initial state eliminated. With the Jacobian's parts J_t by coordinate and J_s by initial state:
 ///
 ///     H = J_t^T J_t - J_t^T J_s (J_s^T J_s)^-1 J_s^T J_t
-Eigen::MatrixXd information(const std::vector<WindowResiduals>& residuals, Eigen::Index n);
+Eigen::MatrixXd information(const std::vector<WindowSums>& sums, Eigen::Index n);
 
-/// The scores (n: the projected Jacobian's rows times their residuals, summed) of parts of the logs.
+/// The scores of parts b of the logs (n: g_t - J_t^T J_s (J_s^T J_s)^-1 g_s of the gradients g = J_b^T r_b).
 /// How they scatter tells how much the fit can be off, whatever the noise is.
 struct Scores {
   std::vector<Eigen::VectorXd> blocks;  ///< of some seconds within a window
   std::vector<Eigen::VectorXd> logs;    ///< of whole logs: the sums of their blocks
 };
 
-/// The scores of blocks of about `block_s`, and of the logs that they make.
-Scores scores_of(const std::vector<FitWindow>& windows,
-                 const std::vector<WindowResiduals>& residuals, Eigen::Index n, double block_s);
+/// The scores of the blocks that were summed up, and of the logs that they make.
+Scores scores_of(const std::vector<FitWindow>& windows, const std::vector<WindowSums>& sums,
+                 Eigen::Index n);
 
 /// Long enough for the blocks to be nearly independent: five times the longest correlation, within
 /// a window.

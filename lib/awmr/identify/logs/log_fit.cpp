@@ -40,16 +40,15 @@ std::vector<double> suspect_gains(const LogProblem& problem, const SearchPoint& 
   return gains;
 }
 
-/// What a search that ended at `solved` amounts to; `residuals` are those there, all finite.
-LogFit fit_at(const LogProblem& problem, const Solved& solved,
-              const std::vector<WindowResiduals>& residuals, const LogFitOptions& options) {
+/// What a search that ended at `solved` amounts to; `sums` are those there, all finite.
+LogFit fit_at(const LogProblem& problem, const Solved& solved, const std::vector<WindowSums>& sums,
+              const LogFitOptions& options) {
   const std::vector<FreeQuantity>& quantities = problem.model.quantities;
   const std::vector<double>& coordinates = solved.point.coordinates;
   const Eigen::Index n = rows_of(quantities);
-  const Scores scores =
-      scores_of(problem.windows, residuals, n, block_length_s(problem.model.noise));
+  const Scores scores = scores_of(problem.windows, sums, n);
   const Identifiability found = without_stopped(
-      identifiability(information(residuals, n), scores, quantities), problem, coordinates);
+      identifiability(information(sums, n), scores, quantities), problem, coordinates);
   const std::vector<Interval> bootstrap95 =
       block_bootstrap({quantities, coordinates, found.covariance, scores.blocks},
                       {.resamples = options.bootstrap, .seed = options.seed});
@@ -61,7 +60,7 @@ LogFit fit_at(const LogProblem& problem, const Solved& solved,
           .suspect_gain = suspect_gains(problem, solved.point, options.suspects),
           .aic = akaike(problem.model.noise, n),
           .widened = found.widened(),
-          .report = log_report({problem, solved, residuals, found, bootstrap95}),
+          .report = log_report({problem, solved, found, bootstrap95}),
           .usable = solved.usable && solved.converged};
 }
 
@@ -81,13 +80,14 @@ LogFit fit_logs(const std::vector<DrivingLog>& logs, const LogFitOptions& option
   const NoiseIteration settled = allow_for_late_sensors(
       settle_noise(guess, from_measured(guess, search.coordinates), options.loss), options.loss);
   const Solved solved = solve(settled.problem, settled.point, kFine);
-  const std::vector<WindowResiduals> residuals = evaluate_all(settled.problem, solved.point, true);
-  if (!all_finite(residuals)) {
+  const std::vector<WindowSums> sums =
+      sums_at(settled.problem, solved.point, block_length_s(settled.problem.model.noise));
+  if (!all_finite(sums)) {
     return without_solution("failed: the logs cannot be replayed where the search ended",
                             search.starts);
   }
 
-  LogFit fit = fit_at(settled.problem, solved, residuals, options);
+  LogFit fit = fit_at(settled.problem, solved, sums, options);
   fit.report.starts = search.starts;
   return fit;
 }

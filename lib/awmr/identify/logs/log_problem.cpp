@@ -28,19 +28,32 @@ SearchPoint from_measured(const LogProblem& problem, std::vector<double> coordin
   return {std::move(coordinates), measured_initial_states(problem.windows, problem.model.initial)};
 }
 
-bool all_finite(const std::vector<WindowResiduals>& residuals) {
-  return std::ranges::all_of(residuals, [](const WindowResiduals& w) { return w.finite; });
-}
-
-std::vector<WindowResiduals> evaluate_all(const LogProblem& problem, const SearchPoint& point,
-                                          bool with_jacobian) {
-  std::vector<WindowResiduals> residuals(problem.windows.size());
+std::vector<WindowErrors> errors_at(const LogProblem& problem, const SearchPoint& point) {
+  std::vector<WindowErrors> errors(problem.windows.size());
   const std::size_t k = problem.model.initial.size();
   parallel_for(problem.windows.size(), problem.threads, [&](std::size_t i) {
-    residuals[i] = evaluate(problem.model, problem.windows[i], point.coordinates.data(),
-                            point.initial_states.data() + i * k, with_jacobian);
+    errors[i] = errors_of(problem.model, problem.windows[i], point.coordinates.data(),
+                          point.initial_states.data() + i * k);
   });
-  return residuals;
+  return errors;
+}
+
+std::vector<WindowSums> sums_at(const LogProblem& problem, const SearchPoint& point,
+                                double block_s) {
+  std::vector<WindowSums> sums(problem.windows.size());
+  const std::size_t k = problem.model.initial.size();
+  parallel_for(problem.windows.size(), problem.threads, [&](std::size_t i) {
+    sums[i] = sums_of(problem.model, problem.windows[i], point.coordinates.data(),
+                      point.initial_states.data() + i * k, block_s);
+  });
+  return sums;
+}
+
+bool all_finite(const std::vector<WindowErrors>& errors) {
+  return std::ranges::all_of(errors, &WindowErrors::finite);
+}
+bool all_finite(const std::vector<WindowSums>& sums) {
+  return std::ranges::all_of(sums, &WindowSums::finite);
 }
 
 }  // namespace awmr

@@ -49,12 +49,14 @@ SearchPoint from_measured(const LogProblem& problem, std::vector<double> coordin
 /// steps that are longer by this factor.
 inline constexpr double kRoughStep = 2.0;
 
-/// False where a window's simulation left the finite numbers: its residuals are then no residuals.
-bool all_finite(const std::vector<WindowResiduals>& residuals);
+/// The errors and the sums of every window, in parallel, each on its own, so that the result does not
+/// depend on the number of threads. `block_s`: of sums_of().
+std::vector<WindowErrors> errors_at(const LogProblem& problem, const SearchPoint& point);
+std::vector<WindowSums> sums_at(const LogProblem& problem, const SearchPoint& point,
+                                double block_s = 0.0);
 
-/// By window: in parallel, each on its own, so that the result does not depend on the number of
-/// threads.
-std::vector<WindowResiduals> evaluate_all(const LogProblem& problem, const SearchPoint& point,
-                                          bool with_jacobian);
+/// False where a window's simulation left the finite numbers: its errors are then no errors.
+bool all_finite(const std::vector<WindowErrors>& errors);
+bool all_finite(const std::vector<WindowSums>& sums);
 
 }  // namespace awmr

@@ -51,13 +51,14 @@ EstimatorParameter parameter_of(const LogReportInput& input, std::size_t i) {
 }
 
 /// The standardised residuals of one channel, window after window.
-std::vector<double> series_of(const LogReportInput& input, LogChannel channel) {
+std::vector<double> series_of(const LogReportInput& input, const std::vector<WindowErrors>& errors,
+                              LogChannel channel) {
   std::vector<double> series;
-  for (std::size_t w = 0; w < input.residuals.size(); ++w) {
-    const std::vector<Sample>& samples = input.problem.windows[w].samples;
+  for (std::size_t w = 0; w < errors.size(); ++w) {
+    const std::vector<Sample>& samples = input.problem.windows[w].samples();
     for (std::size_t i = 0; i < samples.size(); ++i) {
       if (samples[i].channel != channel) continue;
-      series.push_back(input.residuals[w].residuals(eigen_index(i)));
+      series.push_back(errors[w].standardised(eigen_index(i)));
     }
   }
   return series;
@@ -66,9 +67,10 @@ std::vector<double> series_of(const LogReportInput& input, LogChannel channel) {
 /// Whiteness, then normality of each channel; the name says which channel.
 std::vector<Diagnostic> residual_tests(const LogReportInput& input) {
   constexpr int kLags = 10;
+  const std::vector<WindowErrors> errors = errors_at(input.problem, input.solved.point);
   std::vector<Diagnostic> tests;
   for (const auto& [channel, noise] : input.problem.model.noise) {
-    const std::vector<double> series = series_of(input, channel);
+    const std::vector<double> series = series_of(input, errors, channel);
     for (auto& test : {whiteness(series, kLags), normality(series)}) {
       if (!test) continue;
       tests.push_back(*test);

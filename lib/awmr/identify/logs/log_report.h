@@ -13,7 +13,6 @@ namespace awmr {
 struct LogReportInput {
   const LogProblem& problem;
   const Solved& solved;
-  const std::vector<WindowResiduals>& residuals;  ///< at the solution
   const Identifiability& found;
   const std::vector<Interval>& bootstrap95;  ///< of the value, by quantity; empty: not asked for
 };

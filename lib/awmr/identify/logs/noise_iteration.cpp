@@ -13,14 +13,15 @@
 namespace awmr {
 namespace {
 
-std::map<LogChannel, std::vector<ErrorSeries>> by_channel(
-    const std::vector<FitWindow>& windows, const std::vector<WindowResiduals>& residuals) {
+std::map<LogChannel, std::vector<ErrorSeries>> by_channel(const std::vector<FitWindow>& windows,
+                                                          const std::vector<WindowErrors>& errors) {
   std::map<LogChannel, std::vector<ErrorSeries>> channels;
   for (std::size_t w = 0; w < windows.size(); ++w) {
     std::map<LogChannel, ErrorSeries> series;
-    for (std::size_t i = 0; i < windows[w].samples.size(); ++i) {
-      const Sample& sample = windows[w].samples[i];
-      series[sample.channel].error.push_back(residuals[w].raw(eigen_index(i)));
+    const std::vector<Sample>& samples = windows[w].samples();
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      const Sample& sample = samples[i];
+      series[sample.channel].error.push_back(errors[w].raw(eigen_index(i)));
       series[sample.channel].since_s.push_back(sample.since_s);
     }
     for (auto& [channel, part] : series) channels[channel].push_back(std::move(part));
@@ -42,9 +43,9 @@ void clip(std::vector<ErrorSeries>& channel) {
   }
 }
 
-NoiseLevels noise_levels(const LogProblem& problem, const std::vector<WindowResiduals>& residuals,
+NoiseLevels noise_levels(const LogProblem& problem, const std::vector<WindowErrors>& errors,
                          Loss loss) {
-  auto channels = by_channel(problem.windows, residuals);
+  auto channels = by_channel(problem.windows, errors);
   double total = 0.0;
   for (const auto& [name, noise] : problem.model.noise) total += noise.count;
   const double spent = static_cast<double>(problem.unknowns());
@@ -94,13 +95,14 @@ double sqrt_weight(Loss loss, double r) {
   return 1.0;
 }
 
-void weigh(LogProblem& problem, const std::vector<WindowResiduals>& residuals, Loss loss) {
+void weigh(LogProblem& problem, const std::vector<WindowErrors>& errors, Loss loss) {
   if (loss == Loss::kSquared) return;
   for (std::size_t w = 0; w < problem.windows.size(); ++w) {
-    for (std::size_t i = 0; i < problem.windows[w].samples.size(); ++i) {
-      Sample& sample = problem.windows[w].samples[i];
-      const double std = problem.model.noise.at(sample.channel).std();
-      sample.weight = sqrt_weight(loss, residuals[w].raw(eigen_index(i)) / std);
+    FitWindow& window = problem.windows[w];
+    window.weights.clear();
+    for (std::size_t i = 0; i < window.samples().size(); ++i) {
+      const double std = problem.model.noise.at(window.samples()[i].channel).std();
+      window.weights.push_back(sqrt_weight(loss, errors[w].raw(eigen_index(i)) / std));
     }
   }
 }
@@ -116,12 +118,12 @@ NoiseIteration settle_noise(LogProblem problem, SearchPoint point, Loss loss) {
     problem.model.longest_step_s = round == 0 ? kRoughStep * fine_step_s : fine_step_s;
     point = solve(problem, std::move(point), kMiddling).point;
     problem.model.longest_step_s = fine_step_s;
-    const std::vector<WindowResiduals> residuals = evaluate_all(problem, point, false);
-    if (!all_finite(residuals)) break;  // fit_logs() refuses
-    const NoiseLevels levels = noise_levels(problem, residuals, loss);
+    const std::vector<WindowErrors> errors = errors_at(problem, point);
+    if (!all_finite(errors)) break;  // fit_logs() refuses
+    const NoiseLevels levels = noise_levels(problem, errors, loss);
     const double change = largest_change(problem.model.noise, levels);
     problem.model.noise = levels;
-    weigh(problem, residuals, loss);
+    weigh(problem, errors, loss);
     if (change < kSettled && round > 0) break;
   }
   return {std::move(problem), std::move(point)};

@@ -1,112 +1,116 @@
 #include "awmr/identify/logs/residuals.h"
 
-#include <ceres/jet.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "awmr/core/index.h"
-#include "awmr/identify/ceres_solve.h"
+#include "awmr/identify/logs/linear_replay.h"
+#include "awmr/identify/logs/product_sums.h"
 #include "awmr/identify/logs/whitener.h"
 #include "awmr/model/rest.h"
 
 namespace awmr {
 namespace {
 
-/// The numbers of one evaluation as T, each with its own derivative where T has them.
-template <class T>
+/// The numbers of one evaluation, and the columns of those that are free.
 struct Unpacked {
-  ParameterValues<T> values{};
-  T delay = T(0.0);
-  bool delayed = false;
-  std::array<T, kChannelCount> bias{};
-  std::array<std::optional<T>, kChannelCount> sensor_delay{};
-  State<T> initial{};
+  Plant<double> plant;
+  std::vector<ParameterColumn> parameters;
+  std::optional<DelayColumn> delay;
+  std::array<double, kChannelCount> bias{};
+  std::array<std::optional<std::size_t>, kChannelCount> bias_column{};
+  std::array<std::optional<DelayColumn>, kChannelCount> sensor_delay{};
+  State<double> initial{};
+
+  bool any_late() const {
+    return std::ranges::any_of(sensor_delay, [](const auto& d) { return d.has_value(); });
+  }
 };
 
-/// `seed(i, x)` makes the i-th number of the evaluation: coordinates, then the initial state.
-template <class T, class Seed>
-Unpacked<T> unpack(const LogModel& model, const FitWindow& window, const double* coordinates,
-                   const double* initial_state, Seed seed) {
-  Unpacked<T> u{};
-  for (std::size_t i = 0; i < kParameterCount; ++i) u.values[i] = T(model.held[i]);
-  const std::size_t n = model.quantities.size();
-  for (std::size_t i = 0; i < n; ++i) {
+Unpacked unpack(const LogModel& model, const FitWindow& window, const double* coordinates,
+                const double* initial_state) {
+  Unpacked u{};
+  ParameterValues<double> values = model.held;
+  for (std::size_t i = 0; i < model.quantities.size(); ++i) {
     const FreeQuantity& quantity = model.quantities[i];
-    const T number = from_coordinate<T>(quantity.scale, seed(i, coordinates[i]));
+    const double number = quantity.value(coordinates[i]);
     switch (quantity.kind) {
       case FreeQuantity::Kind::kParameter:
-        u.values[at(quantity.id)] = number;
+        values[at(quantity.id)] = number;
+        u.parameters.push_back({quantity.id, i, quantity.jacobian(coordinates[i])});
         break;
       case FreeQuantity::Kind::kDelay:
-        u.delay = number;
-        u.delayed = true;
+        u.delay = {number, i};
         break;
       case FreeQuantity::Kind::kSensorDelay:
-        u.sensor_delay[at(quantity.channel)] = number;
-        if (quantity.channel == LogChannel::kX) u.sensor_delay[at(LogChannel::kY)] = number;
+        u.sensor_delay[at(quantity.channel)] = {number, i};
+        if (quantity.channel == LogChannel::kX) u.sensor_delay[at(LogChannel::kY)] = {number, i};
         break;
       case FreeQuantity::Kind::kBias:
         u.bias[at(quantity.channel)] = number;
+        u.bias_column[at(quantity.channel)] = i;
         break;
     }
   }
-  for (const LogChannel channel : kChannels) {
-    channel_of(u.initial, channel) = T(channel_of(window.measured, channel));
-  }
+  u.plant = resolved_at_rest(plant_of(model.vehicle, values), model.longest_step_s);
+  // A logged angle is what it is: no stop, no lag.
+  if (!window.rows.log->steering_command_rad) u.plant.steering_max_rad = 10.0;
+  u.initial = window.measured;
   for (std::size_t i = 0; i < model.initial.size(); ++i) {
-    channel_of(u.initial, model.initial[i].channel) = seed(n + i, initial_state[i]);
+    channel_of(u.initial, model.initial[i].channel) = initial_state[i];
   }
   return u;
 }
 
-/// Model + bias - measured of every sample, in order; a late sensor is compared with what was so its
-/// delay before.
-template <class T>
-std::vector<T> raw_residuals(const LogModel& model, const Unpacked<T>& u, const FitWindow& window) {
-  const double h = model.longest_step_s;
-  const Plant<T> plant = resolved_at_rest(plant_of(model.vehicle, u.values), h);
-  std::vector<T> residuals;
-  residuals.reserve(window.samples.size());
-  const DrivingLog& log = *window.rows.log;
-  const bool any_late =
-      std::ranges::any_of(u.sensor_delay, [](const auto& d) { return d.has_value(); });
-  std::vector<State<T>> states;  // by row, where a sensor is late
-  std::size_t next = 0;
-  replay(*window.signals, window.rows.begin, window.rows.end, plant, u.delayed ? &u.delay : nullptr,
-         h, u.initial, [&](std::size_t row, const State<T>& state) {
-           if (any_late) states.push_back(state);
-           for (; next < window.samples.size() && window.samples[next].row == row; ++next) {
-             const LogChannel c = window.samples[next].channel;
-             const std::optional<T>& late = u.sensor_delay[at(c)];
-             const T is = late ? channel_of(earlier_state(*window.signals, window.rows.begin,
-                                                          states, plant, *late, h),
-                                            c)
-                               : channel_of(state, c);
-             residuals.push_back(is + u.bias[at(c)] - log[c]->value[row]);
-           }
-         });
-  return residuals;
+/// Where the derivatives by the initial state begin: 1 for the component itself.
+LinearMotion first_motion(const LogModel& model, const Unpacked& u, std::size_t columns) {
+  LinearMotion motion{u.initial, std::vector<double>(kStateSize * columns, 0.0)};
+  for (std::size_t i = 0; columns > 0 && i < model.initial.size(); ++i) {
+    motion.row(model.initial[i].channel, columns)[model.quantities.size() + i] = 1.0;
+  }
+  return motion;
 }
 
-/// What is new in each residual over its standard deviation: white where the noise is as the model
-/// of the channel says.
-template <class T>
-std::vector<T> standardised(const LogModel& model, const FitWindow& window,
-                            const std::vector<T>& raw) {
-  std::array<std::optional<Whitener<T>>, kChannelCount> whiteners;
-  std::vector<T> out;
-  out.reserve(raw.size());
-  for (std::size_t i = 0; i < raw.size(); ++i) {
-    const Sample& sample = window.samples[i];
-    auto& whitener = whiteners[at(sample.channel)];
-    if (!whitener) whitener.emplace(model.noise.at(sample.channel));
-    const auto [value, variance] = whitener->next(raw[i], sample.since_s);
-    out.push_back(T((sample.weight / std::sqrt(variance)) * value));
-  }
-  return out;
+/// Calls visit(i, error, row) for every sample, in order: model + bias - measured, and its derivatives
+/// by column (null without columns). A late sensor is compared with what was so its delay before.
+template <class Visit>
+void for_each_error(const LogModel& model, const FitWindow& window, const Unpacked& u,
+                    std::size_t columns, Visit visit) {
+  const DrivingLog& log = *window.rows.log;
+  const std::vector<Sample>& samples = window.samples();
+  const double h = model.longest_step_s;
+  LinearStepper stepper(u.plant, columns, u.parameters, u.delay);
+  LinearStepper back(u.plant, columns, u.parameters, u.delay);
+  const bool any_late = u.any_late();
+  std::vector<LinearMotion> motions;  // by row, where a sensor is late
+  std::vector<double> row(columns);
+  std::size_t next = 0;
+  const auto compare = [&](const LinearMotion& motion, const Sample& sample) {
+    const LogChannel c = sample.channel;
+    const double error = channel_of(motion.state, c) + u.bias[at(c)] - log[c]->value[sample.row];
+    if (columns > 0) {
+      std::copy_n(motion.row(c, columns), columns, row.begin());
+      if (u.bias_column[at(c)]) row[*u.bias_column[at(c)]] += 1.0;
+    }
+    visit(next, error, row.data());
+  };
+  replay_linear(*window.signals, window.rows.begin, window.rows.end, stepper, h,
+                first_motion(model, u, columns), [&](std::size_t at_row, const LinearMotion& now) {
+                  if (any_late) motions.push_back(now);
+                  for (; next < samples.size() && samples[next].row == at_row; ++next) {
+                    const auto& late = u.sensor_delay[at(samples[next].channel)];
+                    if (!late) {
+                      compare(now, samples[next]);
+                      continue;
+                    }
+                    compare(
+                        earlier_motion(*window.signals, window.rows.begin, motions, back, *late, h),
+                        samples[next]);
+                  }
+                });
 }
 
 /// The weak pull of a component of the initial state to what was measured.
@@ -114,69 +118,97 @@ double pull(const InitialComponent& component, const FitWindow& window, double i
   return (initial - channel_of(window.measured, component.channel)) / component.prior_std;
 }
 
-WindowResiduals evaluate_values(const LogModel& model, const FitWindow& window,
-                                const double* coordinates, const double* initial_state) {
-  const auto u = unpack<double>(model, window, coordinates, initial_state,
-                                [](std::size_t, double x) { return x; });
-  const std::vector<double> raw = raw_residuals(model, u, window);
-  const std::vector<double> out = standardised(model, window, raw);
-  const Eigen::Index n = rows_of(raw);
-  const Eigen::Index k = rows_of(model.initial);
-  WindowResiduals result;
-  result.raw = Eigen::Map<const Eigen::VectorXd>(raw.data(), n);
-  result.residuals.resize(n + k);
-  result.residuals.head(n) = Eigen::Map<const Eigen::VectorXd>(out.data(), n);
-  for (Eigen::Index i = 0; i < k; ++i) {
-    result.residuals(n + i) = pull(model.initial[at(i)], window, initial_state[i]);
-  }
-  result.finite = result.residuals.allFinite();
-  return result;
-}
+/// The filter of one channel's rows: of the errors and of each of their derivatives.
+struct RowWhitener {
+  RowWhitener(const ChannelNoise& noise, std::size_t columns)
+      : gains(noise), states(noise.drift_std > 0.0 ? columns : 0) {}
 
-template <int N>
-WindowResiduals evaluate_jacobian(const LogModel& model, const FitWindow& window,
-                                  const double* coordinates, const double* initial_state) {
-  using Jet = ceres::Jet<double, N>;
-  const auto u = unpack<Jet>(model, window, coordinates, initial_state,
-                             [](std::size_t i, double x) { return Jet(x, static_cast<int>(i)); });
-  const std::vector<Jet> raw = raw_residuals(model, u, window);
-  const std::vector<Jet> out = standardised(model, window, raw);
-  const Eigen::Index n = rows_of(raw);
-  const Eigen::Index k = rows_of(model.initial);
-  const Eigen::Index columns = rows_of(model.quantities) + k;
-  WindowResiduals result;
-  result.raw.resize(n);
-  result.residuals.resize(n + k);
-  result.jacobian.resize(n + k, columns);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    result.raw(i) = raw[at(i)].a;
-    result.residuals(i) = out[at(i)].a;
-    result.jacobian.row(i) = out[at(i)].v.head(columns).transpose();
+  /// The row's innovation over its standard deviation, times `weight`; in place.
+  void next(double since_s, double weight, std::vector<double>& row) {
+    const WhitenerGains::Step step = gains.next(since_s);
+    const double scale = weight / std::sqrt(step.variance);
+    for (std::size_t c = 0; c < states.size(); ++c) row[c] = states[c].next(row[c], gains, step);
+    for (double& x : row) x *= scale;
   }
-  result.jacobian.bottomRows(k).setZero();
-  for (Eigen::Index i = 0; i < k; ++i) {
-    result.residuals(n + i) = pull(model.initial[at(i)], window, initial_state[i]);
-    result.jacobian(n + i, columns - k + i) = 1.0 / model.initial[at(i)].prior_std;
+
+  WhitenerGains gains;
+  std::vector<WhitenerState> states;
+};
+
+/// Ends a block of samples where it is about `block_s` long.
+class Blocks {
+ public:
+  Blocks(const FitWindow& window, double block_s)
+      : t_s_(window.rows.log->t_s), from_s_(t_s_[window.rows.begin]), block_s_(block_s) {}
+  bool ends_before(const Sample& sample) {
+    if (!(block_s_ > 0.0) || t_s_[sample.row] - from_s_ < block_s_) return false;
+    from_s_ = t_s_[sample.row];
+    return true;
   }
-  result.finite = result.residuals.allFinite() && result.jacobian.allFinite();
-  return result;
-}
+
+ private:
+  const std::vector<double>& t_s_;
+  double from_s_;
+  double block_s_;
+};
 
 }  // namespace
 
-WindowResiduals evaluate(const LogModel& model, const FitWindow& window, const double* coordinates,
-                         const double* initial_state, bool with_jacobian) {
-  if (!with_jacobian) return evaluate_values(model, window, coordinates, initial_state);
-  // A jet of a fixed size costs as much as all its derivatives: the smallest that holds them.
-  const std::size_t numbers = model.quantities.size() + model.initial.size();
-  if (numbers <= 12) return evaluate_jacobian<12>(model, window, coordinates, initial_state);
-  if (numbers <= 16) return evaluate_jacobian<16>(model, window, coordinates, initial_state);
-  if (numbers <= 20) return evaluate_jacobian<20>(model, window, coordinates, initial_state);
-  if (numbers <= 28) return evaluate_jacobian<28>(model, window, coordinates, initial_state);
-  // 13 parameters, a delay, 7 biases, 6 late sensors and 7 components of the initial state are the
-  // most there are.
-  static_assert(kParameterCount + 1 + 3 * kChannelCount <= 36);
-  return evaluate_jacobian<36>(model, window, coordinates, initial_state);
+WindowErrors errors_of(const LogModel& model, const FitWindow& window, const double* coordinates,
+                       const double* initial_state) {
+  const std::vector<Sample>& samples = window.samples();
+  WindowErrors result;
+  result.raw.resize(rows_of(samples));
+  result.standardised.resize(rows_of(samples));
+  std::array<std::optional<Whitener>, kChannelCount> whiteners;
+  for_each_error(model, window, unpack(model, window, coordinates, initial_state), 0,
+                 [&](std::size_t i, double error, const double*) {
+                   auto& whitener = whiteners[at(samples[i].channel)];
+                   if (!whitener) whitener.emplace(model.noise.at(samples[i].channel));
+                   const auto [value, variance] = whitener->next(error, samples[i].since_s);
+                   result.raw(eigen_index(i)) = error;
+                   result.standardised(eigen_index(i)) =
+                       window.weight(i) / std::sqrt(variance) * value;
+                 });
+  result.finite = result.standardised.allFinite();
+  return result;
+}
+
+WindowSums sums_of(const LogModel& model, const FitWindow& window, const double* coordinates,
+                   const double* initial_state, double block_s) {
+  const std::size_t q = model.quantities.size();
+  const std::size_t k = model.initial.size();
+  const std::vector<Sample>& samples = window.samples();
+  ProductSums sums(q + k + 1);
+  Blocks blocks(window, block_s);
+  WindowSums result;
+  std::array<std::optional<RowWhitener>, kChannelCount> whiteners;
+  std::vector<double> row(sums.columns());
+  for_each_error(model, window, unpack(model, window, coordinates, initial_state), sums.columns(),
+                 [&](std::size_t i, double error, const double* by_column) {
+                   const Sample& sample = samples[i];
+                   if (blocks.ends_before(sample)) {
+                     result.block_gradients.push_back(sums.take_gradient());
+                   }
+                   auto& whitener = whiteners[at(sample.channel)];
+                   if (!whitener) {
+                     whitener.emplace(model.noise.at(sample.channel), sums.columns());
+                   }
+                   std::copy_n(by_column, sums.columns(), row.begin());
+                   row[q + k] = error;
+                   whitener->next(sample.since_s, window.weight(i), row);
+                   sums.add(row.data());
+                 });
+  if (block_s > 0.0) result.block_gradients.push_back(sums.take_gradient());
+  for (std::size_t i = 0; i < k; ++i) {
+    std::ranges::fill(row, 0.0);
+    row[q + i] = 1.0 / model.initial[i].prior_std;
+    row[q + k] = pull(model.initial[i], window, initial_state[i]);
+    sums.add(row.data());
+  }
+  result.products = sums.products();
+  result.finite = result.products.allFinite();
+  return result;
 }
 
 }  // namespace awmr

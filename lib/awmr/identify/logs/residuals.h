@@ -1,7 +1,9 @@
-/// The residuals of one window of a log and their derivatives. Private to identify/.
+/// The residuals of one window of a log and what a search needs of their derivatives. Private to
+/// identify/.
 ///
 /// The model is driven by the logged commands and compared with everything that was measured. Where
-/// a channel's errors are correlated, they are whitened.
+/// a channel's errors are correlated, they are whitened. The Jacobian, which has a row for every
+/// sample, is summed up as it is made: memory does not grow with it.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,18 +24,33 @@ struct LogModel {
   double longest_step_s = 0.01;  ///< of the integration
 };
 
-/// A window with n samples under q quantities and k components of the initial state.
-struct WindowResiduals {
-  Eigen::VectorXd raw;        ///< n: model + bias - measured, SI
-  Eigen::VectorXd residuals;  ///< n + k: standardised, whitened and weighed; the pulls to measured
-  /// (n + k) x (q + k): by coordinate, then by component; empty unless asked for.
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> jacobian;
-  bool finite = false;  ///< false where the model leaves the finite numbers
+/// The errors of a window's n samples.
+struct WindowErrors {
+  Eigen::VectorXd raw;           ///< n: model + bias - measured, SI
+  Eigen::VectorXd standardised;  ///< n: whitened, over their standard deviation, and weighed
+  bool finite = false;           ///< false where the model leaves the finite numbers
 };
 
-/// The residuals of one window, with their jacobian if asked for. `coordinates` has a number for each
-/// free quantity, `initial_state` one for each free component.
-WindowResiduals evaluate(const LogModel& model, const FitWindow& window, const double* coordinates,
-                         const double* initial_state, bool with_jacobian);
+/// The errors of one window. `coordinates` has a number for each free quantity, `initial_state` one
+/// for each free component.
+WindowErrors errors_of(const LogModel& model, const FitWindow& window, const double* coordinates,
+                       const double* initial_state);
+
+/// A window's residuals r, the standardised errors and then the pulls of its initial state to what
+/// was measured, and their Jacobian J, summed over all rows. Columns: the q quantities, then the k
+/// components of the initial state.
+struct WindowSums {
+  Eigen::MatrixXd products;  ///< (q + k + 1) square: [J r]^T [J r]
+  /// q + k each: J^T r of the samples of each block, without the pulls; none unless asked for.
+  std::vector<Eigen::VectorXd> block_gradients;
+  bool finite = false;  ///< false where the model or its derivatives leave the finite numbers
+
+  /// Half the sum of squares.
+  double cost() const { return 0.5 * products(products.rows() - 1, products.rows() - 1); }
+};
+
+/// The sums of one window, with blocks of about `block_s` where that is above 0.
+WindowSums sums_of(const LogModel& model, const FitWindow& window, const double* coordinates,
+                   const double* initial_state, double block_s = 0.0);
 
 }  // namespace awmr

@@ -59,13 +59,13 @@ std::vector<ScoreTest> score_test(const LogProblem& problem, const SearchPoint& 
   if (candidates.empty()) return tests;
   const Extended with = extended(with_white_noise(problem), point, candidates,
                                  std::vector<double>(candidates.size(), 0.0));
-  const std::vector<WindowResiduals> residuals = evaluate_all(with.problem, with.point, true);
-  if (!all_finite(residuals)) return tests;
+  const double block_s = block_length_s(problem.model.noise);
+  const std::vector<WindowSums> sums = sums_at(with.problem, with.point, block_s);
+  if (!all_finite(sums)) return tests;
   const Eigen::Index n = rows_of(problem.model.quantities);
   const Eigen::Index all = rows_of(with.problem.model.quantities);
-  const Eigen::MatrixXd h = information(residuals, all);
-  const std::vector<Eigen::VectorXd> scores =
-      scores_of(with.problem.windows, residuals, all, block_length_s(problem.model.noise)).blocks;
+  const Eigen::MatrixXd h = information(sums, all);
+  const std::vector<Eigen::VectorXd> scores = scores_of(with.problem.windows, sums, all).blocks;
   // The weak prior of the search keeps what no data show from making H_tt singular.
   Eigen::MatrixXd of_others = h.topLeftCorner(n, n);
   of_others.diagonal().array() += 1.0 / (kPriorStd * kPriorStd);

@@ -57,34 +57,36 @@ struct DriftStep {
 ///     x = F x,   P = F P F^T + sigma_d^2 (I - F F^T)
 ///     nu = e - x_0,   S = P_00 + sigma_w^2,   x += (P_.0/S) nu,   P -= P_.0 P_.0^T/S
 ///
-/// so that the nu/sqrt(S) are white where e is as ChannelNoise says. T carries derivatives; the
-/// gains depend on the times alone.
-template <class T>
-class Whitener {
+/// so that the nu/sqrt(S) are white where e is as ChannelNoise says. F, S and the gains P_.0/S depend
+/// on the times alone: this is what they are.
+class WhitenerGains {
  public:
   /// `noise` must outlive it.
-  explicit Whitener(const ChannelNoise& noise)
+  explicit WhitenerGains(const ChannelNoise& noise)
       : noise_(noise), p00_(noise.drift_std * noise.drift_std), p11_(p00_) {}
 
-  struct Innovation {
-    T value;          ///< nu
-    double variance;  ///< S
+  struct Step {
+    bool predicts = false;  ///< x = F x comes first
+    double gain0 = 0.0;
+    double gain1 = 0.0;
+    double variance = 0.0;  ///< S
   };
-  /// The next error, `since_s` after the one before it; 0 for the first.
-  Innovation next(const T& error, double since_s) {
+  /// For the next error, `since_s` after the one before it; 0 for the first.
+  Step next(double since_s) {
     const double white = noise_.white_std * noise_.white_std;
-    if (!(noise_.drift_std > 0.0)) return {error, white};
-    if (since_s > 0.0) predict(since_s);
-    Innovation innovation{error - x0_, p00_ + white};
-    const double gain0 = p00_ / innovation.variance;
-    const double gain1 = p01_ / innovation.variance;
-    x0_ += gain0 * innovation.value;
-    if (noise_.second_order()) x1_ += gain1 * innovation.value;
-    p11_ -= gain1 * p01_;
-    p01_ -= gain0 * p01_;
-    p00_ -= gain0 * p00_;
-    return innovation;
+    if (!(noise_.drift_std > 0.0)) return {.variance = white};
+    const bool predicts = since_s > 0.0;
+    if (predicts) predict(since_s);
+    const double variance = p00_ + white;
+    const Step step{predicts, p00_ / variance, p01_ / variance, variance};
+    p11_ -= step.gain1 * p01_;
+    p01_ -= step.gain0 * p01_;
+    p00_ -= step.gain0 * p00_;
+    return step;
   }
+  const DriftStep& drift_step() const { return step_; }
+  bool has_drift() const { return noise_.drift_std > 0.0; }
+  bool second_order() const { return noise_.second_order(); }
 
  private:
   void predict(double since_s) {
@@ -95,13 +97,9 @@ class Whitener {
     const auto& f = step_.f;
     const double drift = noise_.drift_std * noise_.drift_std;
     if (!noise_.second_order()) {
-      x0_ = f[0][0] * x0_;
       p00_ = f[0][0] * f[0][0] * p00_ + (1.0 - f[0][0] * f[0][0]) * drift;
       return;
     }
-    const T x0 = x0_;
-    x0_ = f[0][0] * x0 + f[0][1] * x1_;
-    x1_ = f[1][0] * x0 + f[1][1] * x1_;
     // F P F^T + drift (I - F F^T) = drift I + F (P - drift I) F^T
     const double q00 = p00_ - drift;
     const double q11 = p11_ - drift;
@@ -116,13 +114,54 @@ class Whitener {
   }
 
   const ChannelNoise& noise_;
-  T x0_ = T(0.0);
-  T x1_ = T(0.0);
   double p00_;
   double p01_ = 0.0;
   double p11_;
   double since_s_ = 0.0;
   DriftStep step_;
+};
+
+/// The filter's state of one number: of an error, or of one of its derivatives.
+struct WhitenerState {
+  double x0 = 0.0;
+  double x1 = 0.0;
+
+  /// nu of the next value.
+  double next(double value, const WhitenerGains& gains, const WhitenerGains::Step& step) {
+    const auto& f = gains.drift_step().f;
+    if (step.predicts && !gains.second_order()) x0 = f[0][0] * x0;
+    if (step.predicts && gains.second_order()) {
+      const double before = x0;
+      x0 = f[0][0] * before + f[0][1] * x1;
+      x1 = f[1][0] * before + f[1][1] * x1;
+    }
+    const double innovation = value - x0;
+    x0 += step.gain0 * innovation;
+    if (gains.second_order()) x1 += step.gain1 * innovation;
+    return innovation;
+  }
+};
+
+/// The errors of one channel, one after the other.
+class Whitener {
+ public:
+  /// `noise` must outlive it.
+  explicit Whitener(const ChannelNoise& noise) : gains_(noise) {}
+
+  struct Innovation {
+    double value;     ///< nu
+    double variance;  ///< S
+  };
+  /// The next error, `since_s` after the one before it; 0 for the first.
+  Innovation next(double error, double since_s) {
+    const WhitenerGains::Step step = gains_.next(since_s);
+    if (!gains_.has_drift()) return {error, step.variance};
+    return {state_.next(error, gains_, step), step.variance};
+  }
+
+ private:
+  WhitenerGains gains_;
+  WhitenerState state_;
 };
 
 }  // namespace awmr

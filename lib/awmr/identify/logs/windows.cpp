@@ -16,10 +16,12 @@ std::vector<Sample> samples_of(const LogWindow& window) {
     for (const LogChannel channel : kChannels) {
       if (!is_measurement(log, channel, row)) continue;
       auto& before_s = previous_s[at(channel)];
-      samples.push_back({row, channel, 1.0, before_s ? log.t_s[row] - *before_s : 0.0});
+      samples.push_back(
+          {static_cast<std::uint32_t>(row), channel, before_s ? log.t_s[row] - *before_s : 0.0});
       before_s = log.t_s[row];
     }
   }
+  samples.shrink_to_fit();
   return samples;
 }
 
@@ -30,8 +32,9 @@ std::vector<FitWindow> fit_windows(const std::vector<DrivingLog>& logs) {
   for (const DrivingLog& log : logs) {
     const auto signals = std::make_shared<const LogSignals>(log);
     for (const LogWindow& rows : windows_of(log, kWindow_s)) {
-      FitWindow window{rows, signals, samples_of(rows), measured_initial_state(rows)};
-      if (!window.samples.empty()) windows.push_back(std::move(window));
+      auto samples = std::make_shared<const std::vector<Sample>>(samples_of(rows));
+      if (samples->empty()) continue;
+      windows.push_back({rows, signals, std::move(samples), measured_initial_state(rows), {}});
     }
   }
   return windows;

@@ -3,6 +3,7 @@
 /// rest). Private to identify/.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -13,19 +14,22 @@ namespace awmr {
 /// The length of a window.
 inline constexpr double kWindow_s = 10.0;
 
-/// One measured value: where it stands, and how it is weighed.
+/// One measured value: where it stands. Long logs have millions.
 struct Sample {
-  std::size_t row;
+  std::uint32_t row;
   LogChannel channel;
-  double weight = 1.0;   ///< square root of a robust loss's weight
   double since_s = 0.0;  ///< time since the window's previous sample of this channel; 0: the first
 };
 
 struct FitWindow {
   LogWindow rows;
-  std::shared_ptr<const LogSignals> signals;  ///< the log's commands
-  std::vector<Sample> samples;                ///< in order of rows, never empty
-  State<double> measured{};                   ///< the initial state, as far as it was measured
+  std::shared_ptr<const LogSignals> signals;               ///< the log's commands
+  std::shared_ptr<const std::vector<Sample>> all_samples;  ///< in order of rows, never empty
+  State<double> measured{};     ///< the initial state, as far as it was measured
+  std::vector<double> weights;  ///< by sample, square roots of a robust loss's; empty: all are 1
+
+  const std::vector<Sample>& samples() const { return *all_samples; }
+  double weight(std::size_t sample) const { return weights.empty() ? 1.0 : weights[sample]; }
 };
 
 /// The windows of all logs, which must outlive them; those without a sample are left out.

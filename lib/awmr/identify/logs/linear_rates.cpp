@@ -1,0 +1,162 @@
+#include "awmr/identify/logs/linear_rates.h"
+
+#include <cmath>
+
+#include "awmr/core/index.h"
+
+namespace awmr {
+namespace {
+
+/// A wheel's force beyond its dead zone, and its derivatives.
+struct WheelForce {
+  double value;
+  double by_command;
+  double by_dead_zone;
+};
+
+WheelForce wheel_force(double command, double zone) {
+  if (command > zone) return {command - zone, 1.0, -1.0};
+  if (command < -zone) return {command + zone, 1.0, 1.0};
+  return {0.0, 0.0, 0.0};
+}
+
+/// The rates of u, v and r by forces whose sum changes by `sum` and whose difference, right less left,
+/// by `difference`.
+DrivenSlopes by_forces(const Plant<double>& p, double sum, double difference, double sin_d,
+                       double one_plus_cos_d) {
+  return {.u = sum * one_plus_cos_d / p.mass_norm,
+          .v = sum * sin_d / p.mass_norm,
+          .r = (p.front_axle_m * sum * sin_d + p.half_track_m * difference * one_plus_cos_d) /
+               p.inertia_norm};
+}
+
+/// Servo: d_r_dot = sat((target - d_r)/T, d_rate_max), flat where a limit holds.
+void add_servo(const Plant<double>& p, const State<double>& s, double command_rad,
+               LinearRates& out) {
+  const double target = math::saturate(command_rad, p.steering_max_rad);
+  const double lag = 1.0 / p.steering_time_constant_s;
+  const double wanted = (target - s.steering_rad) * lag;
+  out.rates.steering_rad = math::saturate(wanted, p.steering_max_rate_radps);
+  const bool free = std::abs(wanted) <= p.steering_max_rate_radps;
+  out.by_state.steering_steering = free ? -lag : 0.0;
+  out.by_parameter[at(ParameterId::kSteeringTimeConstant)].steering = free ? -wanted * lag : 0.0;
+  const bool follows = free && std::abs(command_rad) <= p.steering_max_rad;
+  out.by_steering_command.steering = follows ? lag : 0.0;
+}
+
+/// Position and heading.
+void add_kinematics(const State<double>& s, LinearRates& out) {
+  const double c = std::cos(s.psi_rad);
+  const double d = std::sin(s.psi_rad);
+  out.rates.x_m = s.u_mps * c - s.v_mps * d;
+  out.rates.y_m = s.u_mps * d + s.v_mps * c;
+  out.rates.psi_rad = s.r_radps;
+  out.by_state.x_psi = -out.rates.y_m;
+  out.by_state.x_u = c;
+  out.by_state.x_v = -d;
+  out.by_state.y_psi = out.rates.x_m;
+  out.by_state.y_u = d;
+  out.by_state.y_v = c;
+}
+
+/// The rates' derivatives by the numbers of a resistance: -(dg/d number)/inertia.
+template <double DrivenSlopes::*kRate>
+void add_resistance(const ResistanceSlopes& g, double per_inertia, ParameterId alpha,
+                    ParameterId beta, ParameterId coulomb, ParameterId quadratic,
+                    LinearRates& out) {
+  out.by_parameter[at(alpha)].*kRate = -g.by_alpha * per_inertia;
+  out.by_parameter[at(beta)].*kRate = -g.by_beta * per_inertia;
+  out.by_parameter[at(coulomb)].*kRate = -g.by_coulomb * per_inertia;
+  out.by_parameter[at(quadratic)].*kRate = -g.by_quadratic * per_inertia;
+}
+
+}  // namespace
+
+LinearResistance::LinearResistance(const Resistance<double>& law) : law_(law) {
+  if (law.rest_speed > 0.0) at_rest_speed_ = at(law.rest_speed);
+}
+
+ResistanceSlopes LinearResistance::at(double magnitude) const {
+  const double log_magnitude = std::log(magnitude);
+  const double power = std::exp(law_.beta * log_magnitude);
+  const double square = magnitude * magnitude;
+  return {.value = law_.coulomb + law_.alpha * power + law_.quadratic * square,
+          .by_speed = law_.alpha * law_.beta * power / magnitude + 2.0 * law_.quadratic * magnitude,
+          .by_alpha = power,
+          .by_beta = law_.alpha * power * log_magnitude,
+          .by_coulomb = 1.0,
+          .by_quadratic = square};
+}
+
+ResistanceSlopes LinearResistance::operator()(double speed) const {
+  const double magnitude = std::abs(speed);
+  const bool chord = magnitude < law_.rest_speed;
+  if (!chord && !(magnitude > 0.0)) return {};
+  ResistanceSlopes g = chord ? at_rest_speed_ : at(magnitude);
+  const double factor = chord ? speed / law_.rest_speed : std::copysign(1.0, speed);
+  if (chord) g.by_speed = g.value / law_.rest_speed;
+  g.value *= factor;
+  g.by_alpha *= factor;
+  g.by_beta *= factor;
+  g.by_coulomb *= factor;
+  g.by_quadratic *= factor;
+  return g;
+}
+
+void linear_rates(const LinearPlant& plant, const State<double>& s, const Command& command,
+                  LinearRates& out) {
+  const Plant<double>& p = plant.plant;
+  const double per_mass = 1.0 / p.mass_norm;
+  const double per_inertia = 1.0 / p.inertia_norm;
+  const double sin_d = std::sin(s.steering_rad);
+  const double cos_d = std::cos(s.steering_rad);
+  const double one_plus_cos_d = cos_d + 1.0;
+  const WheelForce left = wheel_force(command.force.left, p.wheel_dead_zone);
+  const WheelForce right = wheel_force(command.force.right, p.wheel_dead_zone);
+  const double sum = left.value + right.value;
+  const double difference = right.value - left.value;
+  const ResistanceSlopes g1 = plant.surge(s.u_mps);
+  const ResistanceSlopes g3 = plant.yaw(s.r_radps);
+
+  add_kinematics(s, out);
+  add_servo(p, s, command.steering_rad, out);
+
+  // u_dot = (sum (1 + cos d_r) - g1(u))/m' + r v
+  out.rates.u_mps = (sum * one_plus_cos_d - g1.value) * per_mass + s.r_radps * s.v_mps;
+  out.by_state.u_u = -g1.by_speed * per_mass;
+  out.by_state.u_v = s.r_radps;
+  out.by_state.u_r = s.v_mps;
+  out.by_state.u_steering = -sum * sin_d * per_mass;
+
+  // v_dot = (sum sin d_r - a_s v)/m' - r u
+  out.rates.v_mps = (sum * sin_d - p.sway_alpha * s.v_mps) * per_mass - s.r_radps * s.u_mps;
+  out.by_state.v_u = -s.r_radps;
+  out.by_state.v_v = -p.sway_alpha * per_mass;
+  out.by_state.v_r = -s.u_mps;
+  out.by_state.v_steering = sum * cos_d * per_mass;
+
+  // r_dot = (l_f sum sin d_r + d difference (1 + cos d_r) - g3(r))/I'z
+  out.rates.r_radps =
+      (p.front_axle_m * sum * sin_d + p.half_track_m * difference * one_plus_cos_d - g3.value) *
+      per_inertia;
+  out.by_state.r_r = -g3.by_speed * per_inertia;
+  out.by_state.r_steering =
+      (p.front_axle_m * sum * cos_d - p.half_track_m * difference * sin_d) * per_inertia;
+
+  auto& by = out.by_parameter;
+  add_resistance<&DrivenSlopes::u>(g1, per_mass, ParameterId::kSurgeAlpha, ParameterId::kSurgeBeta,
+                                   ParameterId::kSurgeCoulomb, ParameterId::kSurgeQuadratic, out);
+  add_resistance<&DrivenSlopes::r>(g3, per_inertia, ParameterId::kYawAlpha, ParameterId::kYawBeta,
+                                   ParameterId::kYawCoulomb, ParameterId::kYawQuadratic, out);
+  by[at(ParameterId::kSwayAlpha)].v = -s.v_mps * per_mass;
+  by[at(ParameterId::kMassNorm)].u = -(out.rates.u_mps - s.r_radps * s.v_mps) * per_mass;
+  by[at(ParameterId::kMassNorm)].v = -(out.rates.v_mps + s.r_radps * s.u_mps) * per_mass;
+  by[at(ParameterId::kInertiaNorm)].r = -out.rates.r_radps * per_inertia;
+  by[at(ParameterId::kWheelDeadZone)] =
+      by_forces(p, left.by_dead_zone + right.by_dead_zone, right.by_dead_zone - left.by_dead_zone,
+                sin_d, one_plus_cos_d);
+  out.by_force_left = by_forces(p, left.by_command, -left.by_command, sin_d, one_plus_cos_d);
+  out.by_force_right = by_forces(p, right.by_command, right.by_command, sin_d, one_plus_cos_d);
+}
+
+}  // namespace awmr

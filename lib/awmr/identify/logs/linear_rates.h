@@ -1,0 +1,88 @@
+/// The rates of the state with their partial derivatives. Private to identify/.
+///
+/// The equations are those of model/dynamics.h for two side forces; here they are differentiated by
+/// hand, which costs a tenth of what a number with derivatives costs. A test holds both together.
+#pragma once
+
+#include <array>
+
+#include "awmr/model/dynamics.h"
+#include "awmr/model/parameters.h"
+
+namespace awmr {
+
+/// g(w) and its partial derivatives at one speed.
+struct ResistanceSlopes {
+  double value = 0.0;
+  double by_speed = 0.0;
+  double by_alpha = 0.0;
+  double by_beta = 0.0;
+  double by_coulomb = 0.0;
+  double by_quadratic = 0.0;
+};
+
+/// A resistance with what its chord at rest is made of.
+class LinearResistance {
+ public:
+  explicit LinearResistance(const Resistance<double>& law);
+  /// With L = ln |w| and the sign of w on everything but by_speed,
+  ///
+  ///     g = c + alpha e^(beta L) + q w^2,   dg/dw = (alpha beta e^(beta L))/|w| + 2 q |w|
+  ///
+  /// and below the law's rest_speed, at rest too, the chord: all of it at rest_speed, times
+  /// w/rest_speed. Where a chord begins is a matter of the steps and has no derivative.
+  ResistanceSlopes operator()(double speed) const;
+
+ private:
+  ResistanceSlopes at(double magnitude) const;
+  Resistance<double> law_;
+  ResistanceSlopes at_rest_speed_;
+};
+
+/// The plant whose rates are asked for again and again.
+struct LinearPlant {
+  explicit LinearPlant(const Plant<double>& p) : plant(p), surge(p.surge), yaw(p.yaw) {}
+  Plant<double> plant;
+  LinearResistance surge;
+  LinearResistance yaw;
+};
+
+/// What drives the vehicle at a moment.
+struct Command {
+  SideForces<double> force{};
+  double steering_rad = 0.0;
+};
+
+/// Partial derivatives of the rates by the state, those that are not 0: `u_psi` would be d u_dot / d psi.
+/// Also psi_r = 1.
+struct StateSlopes {
+  double x_psi, x_u, x_v;
+  double y_psi, y_u, y_v;
+  double u_u, u_v, u_r, u_steering;
+  double v_u, v_v, v_r, v_steering;
+  double r_r, r_steering;
+  double steering_steering;
+};
+
+/// Partial derivatives of the rates of u, v, r and of the steering angle by one number.
+struct DrivenSlopes {
+  double u = 0.0;
+  double v = 0.0;
+  double r = 0.0;
+  double steering = 0.0;
+};
+
+struct LinearRates {
+  State<double> rates{};
+  StateSlopes by_state{};
+  std::array<DrivenSlopes, kParameterCount> by_parameter{};
+  DrivenSlopes by_force_left;
+  DrivenSlopes by_force_right;
+  DrivenSlopes by_steering_command;
+};
+
+/// The rates at `s`. What is 0 at all times stays as it is in `out`: it begins as LinearRates{}.
+void linear_rates(const LinearPlant& p, const State<double>& s, const Command& command,
+                  LinearRates& out);
+
+}  // namespace awmr

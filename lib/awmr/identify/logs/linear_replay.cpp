@@ -1,0 +1,199 @@
+#include "awmr/identify/logs/linear_replay.h"
+
+#include "awmr/core/index.h"
+
+namespace awmr {
+namespace {
+
+struct RateOfParameter {
+  ParameterId id;
+  double DrivenSlopes::*rate;
+};
+
+/// Which rates a parameter acts on.
+constexpr RateOfParameter kActs[] = {
+    {ParameterId::kSurgeAlpha, &DrivenSlopes::u},
+    {ParameterId::kSurgeBeta, &DrivenSlopes::u},
+    {ParameterId::kSurgeCoulomb, &DrivenSlopes::u},
+    {ParameterId::kSurgeQuadratic, &DrivenSlopes::u},
+    {ParameterId::kYawAlpha, &DrivenSlopes::r},
+    {ParameterId::kYawBeta, &DrivenSlopes::r},
+    {ParameterId::kYawCoulomb, &DrivenSlopes::r},
+    {ParameterId::kYawQuadratic, &DrivenSlopes::r},
+    {ParameterId::kSwayAlpha, &DrivenSlopes::v},
+    {ParameterId::kMassNorm, &DrivenSlopes::u},
+    {ParameterId::kMassNorm, &DrivenSlopes::v},
+    {ParameterId::kInertiaNorm, &DrivenSlopes::r},
+    {ParameterId::kSteeringTimeConstant, &DrivenSlopes::steering},
+    {ParameterId::kWheelDeadZone, &DrivenSlopes::u},
+    {ParameterId::kWheelDeadZone, &DrivenSlopes::v},
+    {ParameterId::kWheelDeadZone, &DrivenSlopes::r},
+};
+
+constexpr double DrivenSlopes::*kDriven[kDrivenSize] = {&DrivenSlopes::u, &DrivenSlopes::v,
+                                                        &DrivenSlopes::r, &DrivenSlopes::steering};
+
+/// The place of a component of State among those of its derivatives.
+std::size_t place_of(LogChannel channel) {
+  switch (channel) {
+    case LogChannel::kX:
+      return 0;
+    case LogChannel::kY:
+      return 1;
+    case LogChannel::kHeading:
+      return 2;
+    case LogChannel::kSpeed:
+      return 3;
+    case LogChannel::kSway:
+      return 4;
+    case LogChannel::kYawRate:
+      return 5;
+    case LogChannel::kSteering:
+      break;
+  }
+  return 6;
+}
+
+/// d mean / d delay of a command over [t, t + h].
+double slope_by_delay(const HeldSignal& signal, double t_s, double h_s, double delay_s) {
+  return -(signal.at(t_s + h_s - delay_s) - signal.at(t_s - delay_s)) / h_s;
+}
+
+/// By column, [kStateSize]: the rate of the derivatives at one moment.
+std::array<double, kStateSize> rate_of_column(const StateSlopes& a, const double* b,
+                                              std::size_t columns, const double* s) {
+  const double psi = s[2 * columns];
+  const double u = s[3 * columns];
+  const double v = s[4 * columns];
+  const double r = s[5 * columns];
+  const double steering = s[6 * columns];
+  return {a.x_psi * psi + a.x_u * u + a.x_v * v,
+          a.y_psi * psi + a.y_u * u + a.y_v * v,
+          r,
+          a.u_u * u + a.u_v * v + a.u_r * r + a.u_steering * steering + b[0],
+          a.v_u * u + a.v_v * v + a.v_r * r + a.v_steering * steering + b[columns],
+          a.r_r * r + a.r_steering * steering + b[2 * columns],
+          a.steering_steering * steering + b[3 * columns]};
+}
+
+}  // namespace
+
+const double* LinearMotion::row(LogChannel channel, std::size_t columns) const {
+  return by_column.data() + place_of(channel) * columns;
+}
+double* LinearMotion::row(LogChannel channel, std::size_t columns) {
+  return by_column.data() + place_of(channel) * columns;
+}
+
+LinearStepper::LinearStepper(const Plant<double>& plant, std::size_t columns,
+                             const std::vector<ParameterColumn>& parameters,
+                             const std::optional<DelayColumn>& delay)
+    : plant_(plant),
+      columns_(columns),
+      delay_(delay),
+      driven_(kStages * kDrivenSize * columns, 0.0) {
+  if (columns == 0) return;
+  for (const ParameterColumn& p : parameters) {
+    for (const RateOfParameter& acts : kActs) {
+      if (acts.id != p.id) continue;
+      const auto rate = std::find(std::begin(kDriven), std::end(kDriven), acts.rate);
+      const std::size_t place = at(rate - std::begin(kDriven)) * columns + p.column;
+      terms_.push_back({at(p.id), acts.rate, place, p.factor});
+    }
+  }
+}
+
+void LinearStepper::note_driven(const DelayedCommand& command, double* driven) const {
+  for (const Term& t : terms_) {
+    driven[t.place] = rates_.by_parameter[t.parameter].*t.rate * t.factor;
+  }
+  if (!delay_) return;
+  const Command& by_delay = command.by_delay;
+  for (std::size_t i = 0; i < kDrivenSize; ++i) {
+    const auto rate = kDriven[i];
+    driven[i * columns_ + delay_->column] =
+        by_delay.force.left * rates_.by_force_left.*rate +
+        by_delay.force.right * rates_.by_force_right.*rate +
+        by_delay.steering_rad * rates_.by_steering_command.*rate;
+  }
+}
+
+void LinearStepper::step(const DelayedCommand& command, double h, LinearMotion& motion) {
+  // As rk4_step() does.
+  constexpr double kToNext[kStages] = {0.5, 0.5, 1.0, 0.0};
+  constexpr double kShare[kStages] = {6.0, 3.0, 3.0, 6.0};
+  State<double> at_stage = motion.state;
+  State<double> next = motion.state;
+  for (std::size_t i = 0; i < kStages; ++i) {
+    linear_rates(plant_, at_stage, command.command, rates_);
+    next = moved(next, rates_.rates, h / kShare[i]);
+    at_stage = moved(motion.state, rates_.rates, kToNext[i] * h);
+    if (columns_ == 0) continue;
+    slopes_[i] = rates_.by_state;
+    note_driven(command, driven_.data() + i * kDrivenSize * columns_);
+  }
+  motion.state = next;
+  if (columns_ > 0) {
+    step_sensitivities(slopes_, driven_.data(), h, columns_, motion.by_column.data());
+  }
+}
+
+State<double> LinearStepper::step_along_tangent(const DelayedCommand& command, double h,
+                                                LinearMotion& motion) {
+  linear_rates(plant_, motion.state, command.command, rates_);
+  motion.state = moved(motion.state, rates_.rates, h);
+  if (columns_ > 0) note_driven(command, driven_.data());
+  for (std::size_t c = 0; c < columns_; ++c) {
+    double* const s = motion.by_column.data() + c;
+    const auto rate = rate_of_column(rates_.by_state, driven_.data() + c, columns_, s);
+    for (std::size_t i = 0; i < kStateSize; ++i) s[i * columns_] += h * rate[i];
+  }
+  return rates_.rates;
+}
+
+State<double> LinearStepper::rates(const DelayedCommand& command, const LinearMotion& motion) {
+  linear_rates(plant_, motion.state, command.command, rates_);
+  return rates_.rates;
+}
+
+DelayedCommand command_at(const LogSignals& signals, std::size_t row, double t_s, double h_s,
+                          const std::optional<DelayColumn>& delay) {
+  const DrivingLog& log = *signals.log;
+  const std::vector<double>& steering = log.driving_steering_rad();
+  if (!delay) return {{{log.force_left[row], log.force_right[row]}, steering[row]}};
+  const double d = delay->delay_s;
+  return {{{delayed_mean(signals.left, t_s, h_s, d), delayed_mean(signals.right, t_s, h_s, d)},
+           delayed_mean(signals.steering, t_s, h_s, d)},
+          {{slope_by_delay(signals.left, t_s, h_s, d), slope_by_delay(signals.right, t_s, h_s, d)},
+           slope_by_delay(signals.steering, t_s, h_s, d)}};
+}
+
+LinearMotion earlier_motion(const LogSignals& signals, std::size_t begin,
+                            const std::vector<LinearMotion>& motions, LinearStepper& stepper,
+                            const DelayColumn& delay, double longest_step_s) {
+  const DrivingLog& log = *signals.log;
+  const double now_s = log.t_s[begin + motions.size() - 1];
+  const double then_s = now_s - delay.delay_s;
+  std::size_t row = begin + motions.size() - 1;
+  while (row > begin && log.t_s[row] > then_s) --row;
+  LinearMotion motion = motions[row - begin];
+  DelayedCommand command = command_at(signals, row, log.t_s[row], 1.0, std::nullopt);
+  if (!log.steering_command_rad) command.command.steering_rad = motion.state.steering_rad;
+  const double span_s = now_s - log.t_s[row] - delay.delay_s;
+  State<double> rates{};
+  if (span_s < 0.0) {
+    rates = stepper.step_along_tangent(command, span_s, motion);
+  } else {
+    const int steps = std::max(1, static_cast<int>(std::ceil(span_s / longest_step_s - 1e-9)));
+    for (int i = 0; i < steps; ++i) stepper.step(command, span_s / steps, motion);
+    rates = stepper.rates(command, motion);
+  }
+  // A longer delay looks at an earlier moment.
+  if (stepper.columns() == 0) return motion;
+  for (const LogChannel channel : kChannels) {
+    motion.row(channel, stepper.columns())[delay.column] -= channel_of(rates, channel);
+  }
+  return motion;
+}
+
+}  // namespace awmr

@@ -1,0 +1,126 @@
+/// replay() with the derivatives of the motion by the free numbers of a fit. Private to identify/.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "awmr/identify/logs/linear_rates.h"
+#include "awmr/identify/logs/sensitivity_kernel.h"
+#include "awmr/trials/replay.h"
+
+namespace awmr {
+
+/// The state at a moment and its derivatives by the columns of a fit, [kStateSize][columns]; none of
+/// them where only the state is asked for.
+struct LinearMotion {
+  State<double> state{};
+  std::vector<double> by_column;
+
+  const double* row(LogChannel channel, std::size_t columns) const;
+  double* row(LogChannel channel, std::size_t columns);
+};
+
+/// A parameter whose derivatives fill a column.
+struct ParameterColumn {
+  ParameterId id;
+  std::size_t column;
+  double factor;  ///< d parameter / d coordinate
+};
+
+/// A delay of all commands, whose derivatives fill a column.
+struct DelayColumn {
+  double delay_s;
+  std::size_t column;
+};
+
+/// What drives the vehicle, and how that changes with the delay.
+struct DelayedCommand {
+  Command command;
+  Command by_delay{};
+};
+
+/// Moves the state and its derivatives on.
+class LinearStepper {
+ public:
+  /// `columns`: 0 for the state alone.
+  LinearStepper(const Plant<double>& plant, std::size_t columns,
+                const std::vector<ParameterColumn>& parameters,
+                const std::optional<DelayColumn>& delay);
+  /// One classical Runge-Kutta step of h seconds.
+  void step(const DelayedCommand& command, double h_s, LinearMotion& motion);
+  /// One step along the rates where it stands, which are returned; h of either sign.
+  State<double> step_along_tangent(const DelayedCommand& command, double h_s, LinearMotion& motion);
+  /// The state's rates there.
+  State<double> rates(const DelayedCommand& command, const LinearMotion& motion);
+
+  std::size_t columns() const { return columns_; }
+  const std::optional<DelayColumn>& delay() const { return delay_; }
+
+ private:
+  /// A derivative of rates_ that counts, and where it goes.
+  struct Term {
+    std::size_t parameter;
+    double DrivenSlopes::*rate;
+    std::size_t place;  ///< [kDrivenSize][columns]
+    double factor;
+  };
+  void note_driven(const DelayedCommand& command, double* driven) const;
+
+  LinearPlant plant_;
+  std::size_t columns_;
+  std::optional<DelayColumn> delay_;
+  std::vector<Term> terms_;
+  LinearRates rates_;
+  std::array<StateSlopes, kStages> slopes_{};
+  std::vector<double> driven_;  ///< [kStages][kDrivenSize][columns]
+};
+
+/// The command over [t, t + h].
+DelayedCommand command_at(const LogSignals& signals, std::size_t row, double t_s, double h_s,
+                          const std::optional<DelayColumn>& delay);
+
+/// Runs the model over rows [begin, end) from `motion` and calls visit(row, motion) at every row, as
+/// replay() does.
+template <class Visit>
+void replay_linear(const LogSignals& signals, std::size_t begin, std::size_t end,
+                   LinearStepper& stepper, double longest_step_s, LinearMotion motion,
+                   Visit visit) {
+  const DrivingLog& log = *signals.log;
+  const bool servo = log.steering_command_rad.has_value();
+  const std::size_t columns = stepper.columns();
+  // A logged angle is what it is, whatever the parameters are.
+  const auto steer = [&](std::size_t row, double share) {
+    const std::vector<double>& angle = log[LogChannel::kSteering]->value;
+    motion.state.steering_rad =
+        angle[row] + share * (angle[std::min(row + 1, log.rows() - 1)] - angle[row]);
+    double* const by_column = motion.row(LogChannel::kSteering, columns);
+    std::fill(by_column, by_column + columns, 0.0);
+  };
+  for (std::size_t row = begin; row < end; ++row) {
+    if (!servo) steer(row, 0.0);
+    visit(row, motion);
+    if (row + 1 == end) return;
+    const double span_s = log.t_s[row + 1] - log.t_s[row];
+    const int steps = std::max(1, static_cast<int>(std::ceil(span_s / longest_step_s - 1e-9)));
+    const double h = span_s / steps;
+    for (int i = 0; i < steps; ++i) {
+      DelayedCommand command = command_at(signals, row, log.t_s[row] + i * h, h, stepper.delay());
+      if (!servo) {
+        steer(row, (i + 0.5) / steps);
+        command.command.steering_rad = motion.state.steering_rad;
+        command.by_delay.steering_rad = 0.0;
+      }
+      stepper.step(command, h, motion);
+    }
+  }
+}
+
+/// The motion delay.delay_s >= 0 before the last of `motions`, the motions at the rows from `begin`
+/// on: so many Runge-Kutta steps from the row before. Before the first row the rates there hold.
+LinearMotion earlier_motion(const LogSignals& signals, std::size_t begin,
+                            const std::vector<LinearMotion>& motions, LinearStepper& stepper,
+                            const DelayColumn& delay, double longest_step_s);
+
+}  // namespace awmr
