@@ -16,7 +16,11 @@
 namespace awmr {
 
 /// Ceres says on stderr why it stopped, through its logging library; here that is in the result.
-inline void silence_ceres() { FLAGS_minloglevel = google::GLOG_FATAL; }
+inline void silence_ceres() {
+  static const int level = FLAGS_minloglevel =
+      google::GLOG_FATAL;  // once, whichever thread is first
+  static_cast<void>(level);
+}
 
 /// Runs until nothing moves any more: the data are few, the digits cheap.
 inline ceres::Solver::Options exact_options() {

@@ -113,8 +113,10 @@ Drift likeliest_share(std::span<const ErrorSeries> series, double correlation_s)
 }
 
 /// The likeliest drift with a memory from a step of the samples to the length of a window: a coarse
-/// grid of memories, then a search around the best.
-Drift likeliest_drift(std::span<const ErrorSeries> series, double step_s) {
+/// grid of memories, then a search around the best. `white_cost`: without a drift. Where the grid is
+/// hardly better than that, a search on half its spacing cannot make it plainly better.
+Drift likeliest_drift(std::span<const ErrorSeries> series, double step_s, double white_cost) {
+  constexpr double kWorthASearch = 4.0;  // of -2 ln L
   constexpr int kGrid = 7;
   constexpr int kBits = 8;
   const double shortest = std::log(0.5 * step_s);
@@ -129,6 +131,7 @@ Drift likeliest_drift(std::span<const ErrorSeries> series, double step_s) {
     best = drift;
     best_log = log_s;
   }
+  if (!(best.cost < white_cost - kWorthASearch)) return best;
   std::uintmax_t evaluations = 12;
   const double refined =
       boost::math::tools::brent_find_minima(
@@ -275,7 +278,7 @@ ChannelNoise likeliest_noise(std::span<const ErrorSeries> series, double free_sh
   const double step_s = median_step_s(some);
   if (step_s > 0.0) {
     const double white_cost = likelihood(some, noise).cost;
-    const Drift drift = likeliest_drift(some, step_s);
+    const Drift drift = likeliest_drift(some, step_s, white_cost);
     if (drift.plainly_better_than(white_cost)) {
       const Drift second = likeliest_second_order(some, step_s, before);
       noise = second.plainly_better_than(drift.cost) ? second.noise : drift.noise;

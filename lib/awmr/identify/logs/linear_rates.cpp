@@ -20,28 +20,29 @@ WheelForce wheel_force(double command, double zone) {
   return {0.0, 0.0, 0.0};
 }
 
-/// The rates of u, v and r by forces whose sum changes by `sum` and whose difference, right less left,
-/// by `difference`.
-DrivenSlopes by_forces(const Plant<double>& p, double sum, double difference, double sin_d,
-                       double one_plus_cos_d) {
-  return {.u = sum * one_plus_cos_d / p.mass_norm,
-          .v = sum * sin_d / p.mass_norm,
-          .r = (p.front_axle_m * sum * sin_d + p.half_track_m * difference * one_plus_cos_d) /
-               p.inertia_norm};
-}
+/// The rates of u, v and r by the sum of the forces, and of r by their difference, right less left.
+struct ByForces {
+  DrivenSlopes sum;
+  double difference;
+
+  DrivenSlopes of(double change_of_sum, double change_of_difference) const {
+    return {.u = change_of_sum * sum.u,
+            .v = change_of_sum * sum.v,
+            .r = change_of_sum * sum.r + change_of_difference * difference};
+  }
+};
 
 /// Servo: d_r_dot = sat((target - d_r)/T, d_rate_max), flat where a limit holds.
-void add_servo(const Plant<double>& p, const State<double>& s, double command_rad,
+void add_servo(const LinearPlant& plant, const State<double>& s, double command_rad,
                LinearRates& out) {
+  const Plant<double>& p = plant.plant;
   const double target = math::saturate(command_rad, p.steering_max_rad);
-  const double lag = 1.0 / p.steering_time_constant_s;
-  const double wanted = (target - s.steering_rad) * lag;
+  const double wanted = (target - s.steering_rad) * plant.per_lag;
   out.rates.steering_rad = math::saturate(wanted, p.steering_max_rate_radps);
-  const bool free = std::abs(wanted) <= p.steering_max_rate_radps;
-  out.by_state.steering_steering = free ? -lag : 0.0;
-  out.by_parameter[at(ParameterId::kSteeringTimeConstant)].steering = free ? -wanted * lag : 0.0;
-  const bool follows = free && std::abs(command_rad) <= p.steering_max_rad;
-  out.by_steering_command.steering = follows ? lag : 0.0;
+  const double free = std::abs(wanted) <= p.steering_max_rate_radps ? plant.per_lag : 0.0;
+  out.by_state.steering_steering = -free;
+  out.by_parameter[at(ParameterId::kSteeringTimeConstant)].steering = -wanted * free;
+  out.steering_by_command = std::abs(command_rad) <= p.steering_max_rad ? free : 0.0;
 }
 
 /// Position and heading.
@@ -106,8 +107,6 @@ ResistanceSlopes LinearResistance::operator()(double speed) const {
 void linear_rates(const LinearPlant& plant, const State<double>& s, const Command& command,
                   LinearRates& out) {
   const Plant<double>& p = plant.plant;
-  const double per_mass = 1.0 / p.mass_norm;
-  const double per_inertia = 1.0 / p.inertia_norm;
   const double sin_d = std::sin(s.steering_rad);
   const double cos_d = std::cos(s.steering_rad);
   const double one_plus_cos_d = cos_d + 1.0;
@@ -119,44 +118,52 @@ void linear_rates(const LinearPlant& plant, const State<double>& s, const Comman
   const ResistanceSlopes g3 = plant.yaw(s.r_radps);
 
   add_kinematics(s, out);
-  add_servo(p, s, command.steering_rad, out);
+  add_servo(plant, s, command.steering_rad, out);
 
   // u_dot = (sum (1 + cos d_r) - g1(u))/m' + r v
-  out.rates.u_mps = (sum * one_plus_cos_d - g1.value) * per_mass + s.r_radps * s.v_mps;
-  out.by_state.u_u = -g1.by_speed * per_mass;
+  const double surge = (sum * one_plus_cos_d - g1.value) * plant.per_mass;
+  out.rates.u_mps = surge + s.r_radps * s.v_mps;
+  out.by_state.u_u = -g1.by_speed * plant.per_mass;
   out.by_state.u_v = s.r_radps;
   out.by_state.u_r = s.v_mps;
-  out.by_state.u_steering = -sum * sin_d * per_mass;
+  out.by_state.u_steering = -sum * sin_d * plant.per_mass;
 
   // v_dot = (sum sin d_r - a_s v)/m' - r u
-  out.rates.v_mps = (sum * sin_d - p.sway_alpha * s.v_mps) * per_mass - s.r_radps * s.u_mps;
+  const double sway = (sum * sin_d - p.sway_alpha * s.v_mps) * plant.per_mass;
+  out.rates.v_mps = sway - s.r_radps * s.u_mps;
   out.by_state.v_u = -s.r_radps;
-  out.by_state.v_v = -p.sway_alpha * per_mass;
+  out.by_state.v_v = -p.sway_alpha * plant.per_mass;
   out.by_state.v_r = -s.u_mps;
-  out.by_state.v_steering = sum * cos_d * per_mass;
+  out.by_state.v_steering = sum * cos_d * plant.per_mass;
 
   // r_dot = (l_f sum sin d_r + d difference (1 + cos d_r) - g3(r))/I'z
   out.rates.r_radps =
       (p.front_axle_m * sum * sin_d + p.half_track_m * difference * one_plus_cos_d - g3.value) *
-      per_inertia;
-  out.by_state.r_r = -g3.by_speed * per_inertia;
+      plant.per_inertia;
+  out.by_state.r_r = -g3.by_speed * plant.per_inertia;
   out.by_state.r_steering =
-      (p.front_axle_m * sum * cos_d - p.half_track_m * difference * sin_d) * per_inertia;
+      (p.front_axle_m * sum * cos_d - p.half_track_m * difference * sin_d) * plant.per_inertia;
 
   auto& by = out.by_parameter;
-  add_resistance<&DrivenSlopes::u>(g1, per_mass, ParameterId::kSurgeAlpha, ParameterId::kSurgeBeta,
-                                   ParameterId::kSurgeCoulomb, ParameterId::kSurgeQuadratic, out);
-  add_resistance<&DrivenSlopes::r>(g3, per_inertia, ParameterId::kYawAlpha, ParameterId::kYawBeta,
-                                   ParameterId::kYawCoulomb, ParameterId::kYawQuadratic, out);
-  by[at(ParameterId::kSwayAlpha)].v = -s.v_mps * per_mass;
-  by[at(ParameterId::kMassNorm)].u = -(out.rates.u_mps - s.r_radps * s.v_mps) * per_mass;
-  by[at(ParameterId::kMassNorm)].v = -(out.rates.v_mps + s.r_radps * s.u_mps) * per_mass;
-  by[at(ParameterId::kInertiaNorm)].r = -out.rates.r_radps * per_inertia;
+  add_resistance<&DrivenSlopes::u>(g1, plant.per_mass, ParameterId::kSurgeAlpha,
+                                   ParameterId::kSurgeBeta, ParameterId::kSurgeCoulomb,
+                                   ParameterId::kSurgeQuadratic, out);
+  add_resistance<&DrivenSlopes::r>(g3, plant.per_inertia, ParameterId::kYawAlpha,
+                                   ParameterId::kYawBeta, ParameterId::kYawCoulomb,
+                                   ParameterId::kYawQuadratic, out);
+  by[at(ParameterId::kSwayAlpha)].v = -s.v_mps * plant.per_mass;
+  by[at(ParameterId::kMassNorm)].u = -surge * plant.per_mass;
+  by[at(ParameterId::kMassNorm)].v = -sway * plant.per_mass;
+  by[at(ParameterId::kInertiaNorm)].r = -out.rates.r_radps * plant.per_inertia;
+
+  const ByForces forces{{.u = one_plus_cos_d * plant.per_mass,
+                         .v = sin_d * plant.per_mass,
+                         .r = p.front_axle_m * sin_d * plant.per_inertia},
+                        p.half_track_m * one_plus_cos_d * plant.per_inertia};
   by[at(ParameterId::kWheelDeadZone)] =
-      by_forces(p, left.by_dead_zone + right.by_dead_zone, right.by_dead_zone - left.by_dead_zone,
-                sin_d, one_plus_cos_d);
-  out.by_force_left = by_forces(p, left.by_command, -left.by_command, sin_d, one_plus_cos_d);
-  out.by_force_right = by_forces(p, right.by_command, right.by_command, sin_d, one_plus_cos_d);
+      forces.of(left.by_dead_zone + right.by_dead_zone, right.by_dead_zone - left.by_dead_zone);
+  out.by_force_left = forces.of(left.by_command, -left.by_command);
+  out.by_force_right = forces.of(right.by_command, right.by_command);
 }
 
 }  // namespace awmr

@@ -39,12 +39,21 @@ class LinearResistance {
   ResistanceSlopes at_rest_speed_;
 };
 
-/// The plant whose rates are asked for again and again.
+/// The plant whose rates are asked for again and again, with the reciprocals that they need.
 struct LinearPlant {
-  explicit LinearPlant(const Plant<double>& p) : plant(p), surge(p.surge), yaw(p.yaw) {}
+  explicit LinearPlant(const Plant<double>& p)
+      : plant(p),
+        surge(p.surge),
+        yaw(p.yaw),
+        per_mass(1.0 / p.mass_norm),
+        per_inertia(1.0 / p.inertia_norm),
+        per_lag(1.0 / p.steering_time_constant_s) {}
   Plant<double> plant;
   LinearResistance surge;
   LinearResistance yaw;
+  double per_mass;
+  double per_inertia;
+  double per_lag;
 };
 
 /// What drives the vehicle at a moment.
@@ -78,7 +87,7 @@ struct LinearRates {
   std::array<DrivenSlopes, kParameterCount> by_parameter{};
   DrivenSlopes by_force_left;
   DrivenSlopes by_force_right;
-  DrivenSlopes by_steering_command;
+  double steering_by_command = 0.0;
 };
 
 /// The rates at `s`. What is 0 at all times stays as it is in `out`: it begins as LinearRates{}.

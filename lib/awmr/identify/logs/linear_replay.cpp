@@ -111,11 +111,11 @@ void LinearStepper::note_driven(const DelayedCommand& command, double* driven) c
   const Command& by_delay = command.by_delay;
   for (std::size_t i = 0; i < kDrivenSize; ++i) {
     const auto rate = kDriven[i];
-    driven[i * columns_ + delay_->column] =
-        by_delay.force.left * rates_.by_force_left.*rate +
-        by_delay.force.right * rates_.by_force_right.*rate +
-        by_delay.steering_rad * rates_.by_steering_command.*rate;
+    driven[i * columns_ + delay_->column] = by_delay.force.left * rates_.by_force_left.*rate +
+                                            by_delay.force.right * rates_.by_force_right.*rate;
   }
+  driven[(kDrivenSize - 1) * columns_ + delay_->column] =
+      by_delay.steering_rad * rates_.steering_by_command;
 }
 
 void LinearStepper::step(const DelayedCommand& command, double h, LinearMotion& motion) {
@@ -181,7 +181,9 @@ LinearMotion earlier_motion(const LogSignals& signals, std::size_t begin,
   if (!log.steering_command_rad) command.command.steering_rad = motion.state.steering_rad;
   const double span_s = now_s - log.t_s[row] - delay.delay_s;
   State<double> rates{};
-  if (span_s < 0.0) {
+  if (span_s == 0.0) {
+    rates = stepper.rates(command, motion);
+  } else if (span_s < 0.0) {
     rates = stepper.step_along_tangent(command, span_s, motion);
   } else {
     const int steps = std::max(1, static_cast<int>(std::ceil(span_s / longest_step_s - 1e-9)));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "awmr/core/parallel.h"
 #include "awmr/core/random.h"
 #include "awmr/identify/logs/ceres_problem.h"
 
@@ -15,6 +16,7 @@ LogProblem rough_problem(const LogProblem& problem) {
   constexpr std::size_t kMaximumWindows = 3;
   LogProblem rough = problem;
   rough.model.longest_step_s = kRoughStep * problem.model.longest_step_s;
+  rough.threads = 1;  // the searches run side by side
   rough.windows.clear();
   const std::size_t count = std::min(kMaximumWindows, problem.windows.size());
   for (std::size_t i = 0; i < count; ++i) {
@@ -75,8 +77,13 @@ Multistart multistart(const LogProblem& problem, const LogFitOptions& options) {
   Multistart result;
   double least = std::numeric_limits<double>::infinity();
   std::size_t chosen = 0;
-  for (const std::vector<double>& coordinates : from) {
-    const Solved solved = solve(rough, from_measured(rough, coordinates), kRough);
+  std::vector<Solved> ends(from.size());
+  parallel_for(from.size(), problem.threads, [&](std::size_t i) {
+    ends[i] = solve(rough, from_measured(rough, from[i]), kRough);
+  });
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    const std::vector<double>& coordinates = from[i];
+    const Solved& solved = ends[i];
     result.starts.push_back({values_at(quantities, coordinates), solved.cost, false,
                              solved.stop_reason.substr(0, kReasonLength)});
     if (!solved.usable || !(solved.cost < least)) continue;

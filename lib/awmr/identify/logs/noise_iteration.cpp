@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "awmr/core/index.h"
+#include "awmr/core/parallel.h"
 #include "awmr/identify/logs/ceres_problem.h"
 #include "awmr/identify/tables/robust.h"
 #include "awmr/identify/uncertainty/quantiles.h"
@@ -50,12 +51,16 @@ NoiseLevels noise_levels(const LogProblem& problem, const std::vector<WindowErro
   for (const auto& [name, noise] : problem.model.noise) total += noise.count;
   const double spent = static_cast<double>(problem.unknowns());
   const double free_share = std::max(0.1, 1.0 - spent / total);
-  NoiseLevels levels;
-  for (const auto& [name, noise] : problem.model.noise) {
-    std::vector<ErrorSeries>& channel = channels.at(name);
+  const std::vector<std::pair<LogChannel, ChannelNoise>> before(problem.model.noise.begin(),
+                                                                problem.model.noise.end());
+  std::vector<ChannelNoise> after(before.size());
+  parallel_for(before.size(), problem.threads, [&](std::size_t i) {
+    std::vector<ErrorSeries>& channel = channels.at(before[i].first);
     if (loss != Loss::kSquared) clip(channel);
-    levels[name] = likeliest_noise(channel, free_share, noise);
-  }
+    after[i] = likeliest_noise(channel, free_share, before[i].second);
+  });
+  NoiseLevels levels;
+  for (std::size_t i = 0; i < before.size(); ++i) levels[before[i].first] = after[i];
   return levels;
 }
 

@@ -10,14 +10,13 @@
 namespace awmr {
 namespace {
 
-constexpr std::size_t kVector = 4;    // columns of a row come in whole vectors
 constexpr std::size_t kWaiting = 32;  // rows summed up together
 
 }  // namespace
 
 ProductSums::ProductSums(std::size_t size)
     : size_(size),
-      columns_((size + kVector - 1) / kVector * kVector),
+      columns_((size + kRowVector - 1) / kRowVector * kRowVector),
       rows_(kWaiting * columns_),
       sums_(columns_ * columns_, 0.0),
       gradient_(Eigen::VectorXd::Zero(eigen_index(size - 1))) {}

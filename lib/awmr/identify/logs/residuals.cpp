@@ -75,7 +75,7 @@ LinearMotion first_motion(const LogModel& model, const Unpacked& u, std::size_t 
 }
 
 /// Calls visit(i, error, row) for every sample, in order: model + bias - measured, and its derivatives
-/// by column (null without columns). A late sensor is compared with what was so its delay before.
+/// by column, a vector for the visitor to use; empty without columns. A late sensor is compared with what was so its delay before.
 template <class Visit>
 void for_each_error(const LogModel& model, const FitWindow& window, const Unpacked& u,
                     std::size_t columns, Visit visit) {
@@ -95,7 +95,7 @@ void for_each_error(const LogModel& model, const FitWindow& window, const Unpack
       std::copy_n(motion.row(c, columns), columns, row.begin());
       if (u.bias_column[at(c)]) row[*u.bias_column[at(c)]] += 1.0;
     }
-    visit(next, error, row.data());
+    visit(next, error, row);
   };
   replay_linear(*window.signals, window.rows.begin, window.rows.end, stepper, h,
                 first_motion(model, u, columns), [&](std::size_t at_row, const LinearMotion& now) {
@@ -125,7 +125,7 @@ struct RowWhitener {
 
   /// The row's innovation over its standard deviation, times `weight`; in place.
   void next(double since_s, double weight, std::vector<double>& row) {
-    const WhitenerGains::Step step = gains.next(since_s);
+    const WhitenerGains::Step& step = gains.next(since_s);
     const double scale = weight / std::sqrt(step.variance);
     for (std::size_t c = 0; c < states.size(); ++c) row[c] = states[c].next(row[c], gains, step);
     for (double& x : row) x *= scale;
@@ -162,7 +162,7 @@ WindowErrors errors_of(const LogModel& model, const FitWindow& window, const dou
   result.standardised.resize(rows_of(samples));
   std::array<std::optional<Whitener>, kChannelCount> whiteners;
   for_each_error(model, window, unpack(model, window, coordinates, initial_state), 0,
-                 [&](std::size_t i, double error, const double*) {
+                 [&](std::size_t i, double error, const std::vector<double>&) {
                    auto& whitener = whiteners[at(samples[i].channel)];
                    if (!whitener) whitener.emplace(model.noise.at(samples[i].channel));
                    const auto [value, variance] = whitener->next(error, samples[i].since_s);
@@ -183,9 +183,8 @@ WindowSums sums_of(const LogModel& model, const FitWindow& window, const double*
   Blocks blocks(window, block_s);
   WindowSums result;
   std::array<std::optional<RowWhitener>, kChannelCount> whiteners;
-  std::vector<double> row(sums.columns());
   for_each_error(model, window, unpack(model, window, coordinates, initial_state), sums.columns(),
-                 [&](std::size_t i, double error, const double* by_column) {
+                 [&](std::size_t i, double error, std::vector<double>& row) {
                    const Sample& sample = samples[i];
                    if (blocks.ends_before(sample)) {
                      result.block_gradients.push_back(sums.take_gradient());
@@ -194,14 +193,13 @@ WindowSums sums_of(const LogModel& model, const FitWindow& window, const double*
                    if (!whitener) {
                      whitener.emplace(model.noise.at(sample.channel), sums.columns());
                    }
-                   std::copy_n(by_column, sums.columns(), row.begin());
                    row[q + k] = error;
                    whitener->next(sample.since_s, window.weight(i), row);
                    sums.add(row.data());
                  });
   if (block_s > 0.0) result.block_gradients.push_back(sums.take_gradient());
   for (std::size_t i = 0; i < k; ++i) {
-    std::ranges::fill(row, 0.0);
+    std::vector<double> row(sums.columns(), 0.0);
     row[q + i] = 1.0 / model.initial[i].prior_std;
     row[q + k] = pull(model.initial[i], window, initial_state[i]);
     sums.add(row.data());

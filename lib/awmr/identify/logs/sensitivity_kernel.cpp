@@ -64,26 +64,23 @@ AWMR_INLINE void step_columns(const StateSlopes* __restrict a, const double* __r
   }
 }
 
+/// Squares of kTile by kTile sums, each kept in registers over all rows.
 AWMR_INLINE void add_rows(const double* __restrict rows, std::size_t count, std::size_t columns,
                           double* __restrict sums) {
-  std::size_t k = 0;
-  for (; k + 4 <= count; k += 4) {
-    const double* const r0 = rows + k * columns;
-    const double* const r1 = r0 + columns;
-    const double* const r2 = r1 + columns;
-    const double* const r3 = r2 + columns;
-    for (std::size_t i = 0; i < columns; ++i) {
-      double* const sum = sums + i * columns;
-      const double f0 = r0[i], f1 = r1[i], f2 = r2[i], f3 = r3[i];
-      for (std::size_t c = i / 4 * 4; c < columns; ++c) {
-        sum[c] += (f0 * r0[c] + f1 * r1[c]) + (f2 * r2[c] + f3 * r3[c]);
+  constexpr std::size_t kTile = kRowVector;
+  for (std::size_t i = 0; i < columns; i += kTile) {
+    for (std::size_t j = i; j < columns; j += kTile) {
+      double tile[kTile][kTile] = {};
+      for (std::size_t k = 0; k < count; ++k) {
+        const double* const left = rows + k * columns + i;
+        const double* const right = rows + k * columns + j;
+        for (std::size_t a = 0; a < kTile; ++a) {
+          for (std::size_t b = 0; b < kTile; ++b) tile[a][b] += left[a] * right[b];
+        }
       }
-    }
-  }
-  for (; k < count; ++k) {
-    const double* const r = rows + k * columns;
-    for (std::size_t i = 0; i < columns; ++i) {
-      for (std::size_t c = i / 4 * 4; c < columns; ++c) sums[i * columns + c] += r[i] * r[c];
+      for (std::size_t a = 0; a < kTile; ++a) {
+        for (std::size_t b = 0; b < kTile; ++b) sums[(i + a) * columns + j + b] += tile[a][b];
+      }
     }
   }
 }

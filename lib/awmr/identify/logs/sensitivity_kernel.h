@@ -29,8 +29,11 @@ inline constexpr std::size_t kStages = 4;
 void step_sensitivities(const std::array<StateSlopes, kStages>& stages, const double* driven,
                         double h_s, std::size_t columns, double* s);
 
+/// Rows to sum up come in whole vectors of so many columns.
+inline constexpr std::size_t kRowVector = 4;
+
 /// sums += rows^T rows, where it stands on or above the diagonal. `rows`: [count][columns]; `sums`:
-/// [columns][columns].
+/// [columns][columns]; columns is a multiple of kRowVector.
 void add_products(const double* rows, std::size_t count, std::size_t columns, double* sums);
 
 }  // namespace awmr

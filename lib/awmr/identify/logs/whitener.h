@@ -71,26 +71,39 @@ class WhitenerGains {
     double gain1 = 0.0;
     double variance = 0.0;  ///< S
   };
-  /// For the next error, `since_s` after the one before it; 0 for the first.
-  Step next(double since_s) {
+  /// For the next error, `since_s` after the one before it; 0 for the first. Errors at even times soon
+  /// have the gains of the one before them, up to rounding: these are kept then.
+  const Step& next(double since_s) {
+    if (settled_ && same_step(since_s)) return last_;
     const double white = noise_.white_std * noise_.white_std;
-    if (!(noise_.drift_std > 0.0)) return {.variance = white};
-    const bool predicts = since_s > 0.0;
-    if (predicts) predict(since_s);
-    const double variance = p00_ + white;
-    const Step step{predicts, p00_ / variance, p01_ / variance, variance};
-    p11_ -= step.gain1 * p01_;
-    p01_ -= step.gain0 * p01_;
-    p00_ -= step.gain0 * p00_;
-    return step;
+    if (!(noise_.drift_std > 0.0)) {
+      last_.variance = white;
+      return last_;
+    }
+    const Step before = last_;
+    last_.predicts = since_s > 0.0;
+    if (last_.predicts) predict(since_s);
+    last_.variance = p00_ + white;
+    last_.gain0 = p00_ / last_.variance;
+    last_.gain1 = p01_ / last_.variance;
+    settled_ = last_.predicts && before.predicts && near(last_.variance, before.variance) &&
+               near(last_.gain0, before.gain0) && near(last_.gain1, before.gain1);
+    p11_ -= last_.gain1 * p01_;
+    p01_ -= last_.gain0 * p01_;
+    p00_ -= last_.gain0 * p00_;
+    return last_;
   }
   const DriftStep& drift_step() const { return step_; }
   bool has_drift() const { return noise_.drift_std > 0.0; }
   bool second_order() const { return noise_.second_order(); }
 
  private:
+  static bool near(double a, double b) { return std::abs(a - b) <= 1e-14 * std::abs(b); }
+
+  bool same_step(double since_s) const { return std::abs(since_s - since_s_) <= 1e-6 * since_s; }
+
   void predict(double since_s) {
-    if (std::abs(since_s - since_s_) > 1e-6 * since_s) {
+    if (!same_step(since_s)) {
       since_s_ = since_s;
       step_ = DriftStep(noise_, since_s);
     }
@@ -119,6 +132,8 @@ class WhitenerGains {
   double p11_;
   double since_s_ = 0.0;
   DriftStep step_;
+  Step last_;
+  bool settled_ = false;
 };
 
 /// The filter's state of one number: of an error, or of one of its derivatives.
@@ -154,7 +169,7 @@ class Whitener {
   };
   /// The next error, `since_s` after the one before it; 0 for the first.
   Innovation next(double error, double since_s) {
-    const WhitenerGains::Step step = gains_.next(since_s);
+    const WhitenerGains::Step& step = gains_.next(since_s);
     if (!gains_.has_drift()) return {error, step.variance};
     return {state_.next(error, gains_, step), step.variance};
   }
