@@ -1,9 +1,11 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <functional>
 #include <memory>
+#include <set>
 #include <system_error>
 
 #include "awmr/core/json.h"
@@ -130,6 +132,41 @@ void check_what_nothing_shows(const Project& project, const Vehicle* vehicle, Ch
                                        info(ParameterId::kSwayAlpha).meaning)});
 }
 
+/// What the columns of a file that could not be read may be, by their names: the mapping to paste.
+void add_mapping_hint(const fs::path& path, TrialKind kind, const TrialOptions& options,
+                      std::vector<Fault>& faults) {
+  const std::string place = path.string() + ":";
+  if (std::none_of(faults.begin(), faults.end(),
+                   [&](const Fault& fault) { return fault.place.starts_with(place); })) {
+    return;
+  }
+  const auto sample = sample_of(path);
+  if (!sample) return;
+  std::set<std::string> known(sample->names.begin(), sample->names.end());
+  for (const ColumnMapping& mapping : options.columns) known.insert(mapping.name);
+  std::vector<std::string> pairs;
+  for (const ColumnGuess& guess : guess_columns(*sample, kind)) {
+    if (guess.expression.empty() || !known.insert(guess.column).second) continue;
+    pairs.push_back(fmt::format("\"{}\": \"{}\"", guess.column, guess.expression));
+  }
+  if (pairs.empty()) return;
+  faults.push_back({path.string() + ":1:1",
+                    fmt::format("by their names its columns may be, for project.json's trials, "
+                                "\"columns\": {{\"{}\": {{{}}}}}; awmr map {} --trial {} says why",
+                                path.filename().string(), fmt::join(pairs, ", "), path.string(),
+                                name_in(kTrialKindNames, kind))});
+}
+
+void add_mapping_hints(const TrialFiles& files, std::vector<Fault>& faults) {
+  const auto add = [&](const fs::path& path, TrialKind kind) {
+    add_mapping_hint(path, kind, files.options, faults);
+  };
+  if (files.surge) add(*files.surge, TrialKind::kSurge);
+  if (files.turning) add(*files.turning, TrialKind::kTurning);
+  for (const fs::path& path : files.coastdowns) add(path, TrialKind::kCoastdown);
+  for (const fs::path& path : files.logs) add(path, TrialKind::kLog);
+}
+
 /// The trials against themselves and against the vehicle.
 void check_trials(TrialFiles files, bool all_recorded, Check& check) {
   const bool nothing = !files.surge && !files.turning && files.coastdowns.empty();
@@ -140,7 +177,10 @@ void check_trials(TrialFiles files, bool all_recorded, Check& check) {
   const bool as_is = files.options.as_is;
   files.options.as_is = true;
   const auto trials = load_trials(files);
-  if (!trials) return take(trials.error(), check.faults);
+  if (!trials) {
+    take(trials.error(), check.faults);
+    return add_mapping_hints(files, check.faults);
+  }
   const auto contradicts = [](const Finding& finding) {
     return finding.code == "table-contradiction" || finding.code == "log-contradiction";
   };

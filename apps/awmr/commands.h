@@ -157,6 +157,7 @@ void add_pil(CLI::App& app, Session& session);
 
 struct MapCommand {
   fs::path file;
+  TrialKind trial = TrialKind::kLog;
   std::optional<fs::path> output;
 };
 Result<Outcome> execute(const MapCommand& command);

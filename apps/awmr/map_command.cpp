@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <set>
 
 #include "awmr/core/file.h"
@@ -11,6 +12,7 @@
 #include "awmr/trials/column_guess.h"
 #include "awmr/trials/log_files.h"
 #include "awmr/trials/trial_columns.h"
+#include "choices.h"
 #include "commands.h"
 #include "inputs.h"
 #include "paths.h"
@@ -18,28 +20,41 @@
 namespace awmr::cli {
 namespace {
 
-/// What is used where the file is given back: the first guess of a column, if it is not unsure.
-std::vector<ColumnGuess> taken(const std::vector<ColumnGuess>& guesses) {
-  std::vector<ColumnGuess> first;
-  for (const ColumnGuess& guess : guesses) {
-    const bool is_new = std::none_of(first.begin(), first.end(), [&](const ColumnGuess& other) {
-      return other.column == guess.column;
-    });
-    if (is_new && guess.confidence != Confidence::kUnsure) first.push_back(guess);
+/// The ways to give what a trial needs: of each, columns that do together.
+using Ways = std::vector<std::vector<const char*>>;
+std::vector<Ways> needs_of(TrialKind kind) {
+  const Ways speed{{"speed_mps"}, {"distance_m", "elapsed_s"}};
+  const Ways turn{{"yaw_rate_radps"}, {"turns", "elapsed_s"}};
+  switch (kind) {
+    case TrialKind::kSurge:
+      return {{{"wheel_force"}, {"tau_speed"}}, speed};
+    case TrialKind::kTurning:
+      return {{{"steering_deg", "wheel_force"}, {"force_left", "force_right"}}, turn};
+    case TrialKind::kCoastdown:
+      return {{{"t_s", "speed_mps"}, {"initial_speed_mps", "stop_time_s"}}};
+    case TrialKind::kLog:
+      return {
+          {{"t_s"}}, {{"force_left"}}, {{"force_right"}}, {{"steering_cmd_deg"}, {"steering_deg"}}};
   }
-  return first;
+  return {};
 }
 
-/// The columns that every log needs and that nothing was taken for.
-std::vector<std::string> open_columns(const std::vector<ColumnGuess>& guesses) {
+/// The columns that the trial needs and that nothing was taken for: of several ways to give them
+/// those of the way that lacks fewest.
+std::vector<std::string> open_columns(const std::vector<ColumnGuess>& guesses, TrialKind kind) {
   std::set<std::string> found;
   for (const ColumnGuess& guess : guesses) found.insert(guess.column);
   std::vector<std::string> open;
-  for (const char* name : {"t_s", "force_left", "force_right"}) {
-    if (found.count(name) == 0) open.emplace_back(name);
-  }
-  if (found.count("steering_cmd_deg") + found.count("steering_deg") == 0) {
-    open.emplace_back("steering_cmd_deg");
+  for (const Ways& ways : needs_of(kind)) {
+    std::optional<std::vector<std::string>> fewest;
+    for (const auto& way : ways) {
+      std::vector<std::string> lacking;
+      for (const char* name : way) {
+        if (found.count(name) == 0) lacking.emplace_back(name);
+      }
+      if (!fewest || lacking.size() < fewest->size()) fewest = std::move(lacking);
+    }
+    open.insert(open.end(), fewest->begin(), fewest->end());
   }
   return open;
 }
@@ -57,18 +72,18 @@ Json to_json(const ColumnGuess& guess) {
   return json;
 }
 
-std::string text_of(const std::vector<ColumnGuess>& guesses, const FileSample& sample,
-                    const Provenance& provenance) {
+std::string text_of(const MapCommand& command, const std::vector<ColumnGuess>& guesses,
+                    const FileSample& sample, const Provenance& provenance) {
   Json json;
   json["schema"] = kColumnsSchema;
   put_provenance(json, provenance);
-  const std::vector<ColumnGuess> used = taken(guesses);
+  const std::vector<ColumnGuess> used = likely_columns(guesses);
   json["columns"] = Json::object();
   for (const ColumnGuess& guess : used) {
     // A column that is called as it is asked for needs no mapping.
     if (guess.expression != guess.column) json["columns"][guess.column] = guess.expression;
   }
-  json["open"] = open_columns(used);
+  json["open"] = open_columns(used, command.trial);
   json["guesses"] = Json::array();
   for (const ColumnGuess& guess : guesses) json["guesses"].push_back(to_json(guess));
   json["names"] = sample.names;
@@ -81,7 +96,7 @@ std::string summary_of(const MapCommand& command, const std::vector<ColumnGuess>
     text += fmt::format("  {:<6} {:<17} {}  ({})\n", name_in(kConfidenceNames, guess.confidence),
                         guess.column, guess.expression, guess.why);
   }
-  const std::vector<std::string> open = open_columns(taken(guesses));
+  const std::vector<std::string> open = open_columns(likely_columns(guesses), command.trial);
   for (const std::string& name : open) {
     text +=
         fmt::format("  open   {:<17} nothing is sure enough: --column {}=EXPRESSION\n", name, name);
@@ -99,10 +114,13 @@ Result<Outcome> execute(const MapCommand& command) {
   AWMR_ASSIGN_OR_RETURN(const std::vector<fs::path> files, files_of(command.file));
   if (command.output) AWMR_RETURN_IF_ERROR(check_output(*command.output, files));
   AWMR_ASSIGN_OR_RETURN(const FileSample sample, sample_of(command.file));
-  const std::vector<ColumnGuess> guesses = guess_columns(sample);
+  const std::vector<ColumnGuess> guesses = guess_columns(sample, command.trial);
   AWMR_ASSIGN_OR_RETURN(std::vector<InputFile> inputs, input_files({command.file}));
+  std::vector<std::pair<std::string, std::string>> options{
+      {"trial", std::string(name_in(kTrialKindNames, command.trial))}};
   Outcome outcome{.summary = summary_of(command, guesses),
-                  .document = text_of(guesses, sample, {"map", {}, std::move(inputs)})};
+                  .document = text_of(command, guesses, sample,
+                                      {"map", std::move(options), std::move(inputs)})};
   if (!command.output) return outcome;
   AWMR_RETURN_IF_ERROR(write_file(*command.output, outcome.document));
   outcome.written = {*command.output};
@@ -111,13 +129,15 @@ Result<Outcome> execute(const MapCommand& command) {
 
 void add_map(CLI::App& app, Session& session) {
   auto command = std::make_shared<MapCommand>();
-  CLI::App* sub =
-      add_command(app, session, "map", "Guess what the columns of a log are, each with the reason",
-                  "awmr map datasets/synthetic/drive_1.csv -o map.json",
-                  [command] { return execute(*command); });
+  CLI::App* sub = add_command(
+      app, session, "map", "Guess what the columns of a log or a table are, each with the reason",
+      "awmr map datasets/synthetic/drive_1.csv -o map.json",
+      [command] { return execute(*command); });
   add_file(*sub, "FILE", command->file,
            "A log: CSV, ULog, DataFlash, a ROS 2 bag, or a directory of tables")
       ->required();
+  add_choice(*sub, "--trial", command->trial, kTrialKindNames,
+             "What the file is: log (default), or a table with a row a run");
   add_file(*sub, "-o,--output", command->output,
            "JSON to write, for --columns-file or a vehicle's columns");
 }

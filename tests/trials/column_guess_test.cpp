@@ -14,12 +14,12 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 /// `CONFIDENCE COLUMN=EXPRESSION` of each guess.
-std::vector<std::string> guesses_of(const std::string& text) {
+std::vector<std::string> guesses_of(const std::string& text, TrialKind kind = TrialKind::kLog) {
   const ScratchFile file("a.csv", text);
   const auto sample = sample_of(file.path());
   if (!sample) return {to_text(sample.error())};
   std::vector<std::string> all;
-  for (const ColumnGuess& guess : guess_columns(*sample)) {
+  for (const ColumnGuess& guess : guess_columns(*sample, kind)) {
     all.push_back(std::string(name_in(kConfidenceNames, guess.confidence)) + " " + guess.column +
                   "=" + guess.expression);
     EXPECT_FALSE(guess.why.empty());
@@ -41,6 +41,27 @@ TEST(GuessColumns, ReadsUnitsInNames) {
               ElementsAre("likely t_s=`time_ms`*0.001", "likely heading_deg=heading_rad*57.29578",
                           "likely speed_mps=`Speed (km/h)`*0.2777778",
                           "likely yaw_rate_radps=gyro_z_dps*0.01745329"));
+}
+
+TEST(GuessColumns, ReadsColumnsThatAreCalledByTheirUnit) {
+  EXPECT_THAT(guesses_of("ms,kmh,gyro_dps,servo_deg\n0,1,2,3\n20,1,2,3\n"),
+              ElementsAre("likely t_s=ms*0.001", "likely speed_mps=kmh*0.2777778",
+                          "likely yaw_rate_radps=gyro_dps*0.01745329",
+                          "likely steering_cmd_deg=servo_deg"));
+  // Metres per second, perhaps: they do not grow from row to row.
+  EXPECT_THAT(guesses_of("ms\n1\n1.2\n0.9\n"), IsEmpty());
+}
+
+TEST(GuessColumns, ReadsTheTablesAsWell) {
+  EXPECT_THAT(guesses_of("pwm,dist_cm,ms\n200,500,3100\n", TrialKind::kSurge),
+              ElementsAre("unsure wheel_force=pwm/255", "likely distance_m=dist_cm*0.01",
+                          "likely elapsed_s=ms*0.001"));
+  EXPECT_THAT(guesses_of("angle_deg,throttle,laps,time_min\n20,0.5,3,0.5\n", TrialKind::kTurning),
+              ElementsAre("likely steering_deg=angle_deg", "likely wheel_force=throttle",
+                          "likely turns=laps", "likely elapsed_s=time_min*60"));
+  EXPECT_THAT(guesses_of("start_speed_kmh,stop_ms\n5,900\n", TrialKind::kCoastdown),
+              ElementsAre("likely initial_speed_mps=start_speed_kmh*0.2777778",
+                          "likely stop_time_s=stop_ms*0.001"));
 }
 
 TEST(GuessColumns, LeavesOpenWhatTheNameDoesNotSay) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <set>
 #include <utility>
@@ -12,117 +13,11 @@
 #include "awmr/core/csv.h"
 #include "awmr/core/time_column.h"
 #include "awmr/core/units.h"
+#include "awmr/trials/column_words.h"
 #include "awmr/trials/trial_columns.h"
 
 namespace awmr {
 namespace {
-
-using Words = std::vector<std::string>;
-
-/// A name in its words, lower case: `IMU.GyrZ` is imu, gyr, z.
-Words words_of(std::string_view name) {
-  Words words(1);
-  char before = ' ';
-  for (const char c : name) {
-    const auto byte = static_cast<unsigned char>(c);
-    const bool begins =
-        std::isupper(byte) != 0 && std::islower(static_cast<unsigned char>(before)) != 0;
-    if ((begins || std::isalnum(byte) == 0) && !words.back().empty()) words.emplace_back();
-    if (std::isalnum(byte) != 0) words.back() += static_cast<char>(std::tolower(byte));
-    before = c;
-  }
-  if (words.size() > 1 && words.back().empty()) words.pop_back();
-  return words;
-}
-
-bool has_any(const Words& words, const std::set<std::string>& any) {
-  return std::any_of(words.begin(), words.end(),
-                     [&](const std::string& word) { return any.count(word) != 0; });
-}
-
-enum class Dimension { kForce, kAngle, kAngularRate, kSpeed, kLength, kGeographic };
-
-/// What the words of a name have to be for a column: one of each of `all`, none of `none`.
-struct Rule {
-  const char* column;
-  std::vector<std::set<std::string>> all;
-  std::set<std::string> none;
-  Dimension dimension;
-};
-
-const std::vector<Rule>& rules() {
-  static const std::set<std::string> kCommand{"cmd",     "command", "setpoint", "sp",
-                                              "desired", "target",  "ref",      "reference"};
-  static const std::set<std::string> kThrust{"force", "duty",   "pwm",    "throttle", "thrust",
-                                             "motor", "effort", "torque", "power"};
-  static const std::set<std::string> kSteer{"steer", "steering", "delta", "servo"};
-  static const std::set<std::string> kAcceleration{"acc",  "accel", "acceleration",
-                                                   "jerk", "time",  "covariance"};
-  static const std::set<std::string> kNoPosition{
-      "orientation", "linear", "angular", "velocity", "vel", "gyr", "gyro", "mag", "q"};
-  static const std::vector<Rule> kRules{
-      {"force_left", {{"left", "l"}, kThrust}, {"speed", "vel", "rpm"}, Dimension::kForce},
-      {"force_right", {{"right", "r"}, kThrust}, {"speed", "vel", "rpm"}, Dimension::kForce},
-      {"x_m", {{"x", "px", "east"}}, kNoPosition, Dimension::kLength},
-      {"y_m", {{"y", "py", "north"}}, kNoPosition, Dimension::kLength},
-      {"heading_deg",
-       {{"heading", "yaw", "psi", "course", "hdg"}},
-       {"rate", "speed", "dot"},
-       Dimension::kAngle},
-      {"speed_mps",
-       {{"speed", "velocity", "vel", "v", "vx", "spd", "linear"}},
-       {"y", "z", "vy", "vz", "angular", "yaw", "wheel", "left", "right", "motor", "angle"},
-       Dimension::kSpeed},
-      {"sway_mps", {{"vy", "sway"}}, {}, Dimension::kSpeed},
-      {"sway_mps", {{"velocity", "vel", "linear"}, {"y"}}, {"angular"}, Dimension::kSpeed},
-      {"yaw_rate_radps", {{"yawrate", "omega", "wz"}}, {}, Dimension::kAngularRate},
-      {"yaw_rate_radps", {{"yaw"}, {"rate", "speed", "dot"}}, {}, Dimension::kAngularRate},
-      {"yaw_rate_radps", {{"gyr", "gyro", "angular"}, {"z"}}, {}, Dimension::kAngularRate},
-      {"steering_deg", {kSteer}, kCommand, Dimension::kAngle},
-      {"steering_cmd_deg", {kSteer, kCommand}, {}, Dimension::kAngle},
-      {"latitude_deg", {{"lat", "latitude"}}, {}, Dimension::kGeographic},
-      {"longitude_deg", {{"lon", "lng", "long", "longitude"}}, {}, Dimension::kGeographic}};
-  // What accelerates or is a time or a covariance is none of them.
-  static const std::vector<Rule> kAll = [] {
-    std::vector<Rule> all = kRules;
-    for (Rule& rule : all) rule.none.insert(kAcceleration.begin(), kAcceleration.end());
-    return all;
-  }();
-  return kAll;
-}
-
-bool fits(const Rule& rule, const Words& words) {
-  return !has_any(words, rule.none) &&
-         std::all_of(rule.all.begin(), rule.all.end(),
-                     [&](const std::set<std::string>& any) { return has_any(words, any); });
-}
-
-/// A unit that a name ends in, by its last word or its last two (`m/s` is m, s).
-struct Unit {
-  Dimension dimension;
-  std::vector<std::string_view> spellings;
-  double factor;  ///< to the unit that is asked for
-};
-
-const std::vector<Unit>& units() {
-  static const double kDegree = degrees(1.0);
-  static const std::vector<Unit> kUnits{
-      {Dimension::kSpeed, {"mps", "m s"}, 1.0},
-      {Dimension::kSpeed, {"kmh", "kph", "km h"}, 1.0 / 3.6},
-      {Dimension::kSpeed, {"mph"}, 0.44704},
-      {Dimension::kSpeed, {"cmps", "cm s"}, 0.01},
-      {Dimension::kSpeed, {"mmps", "mm s"}, 0.001},
-      {Dimension::kAngularRate, {"radps", "rad s", "rads"}, 1.0},
-      {Dimension::kAngularRate, {"degps", "dps", "deg s", "degs"}, 1.0 / kDegree},
-      {Dimension::kAngle, {"deg", "degrees"}, 1.0},
-      {Dimension::kAngle, {"rad", "radians"}, kDegree},
-      {Dimension::kLength, {"m", "metres", "meters"}, 1.0},
-      {Dimension::kLength, {"cm"}, 0.01},
-      {Dimension::kLength, {"mm"}, 0.001},
-      {Dimension::kGeographic, {"deg", "degrees"}, 1.0},
-      {Dimension::kForce, {"percent", "pct"}, 0.01}};
-  return kUnits;
-}
 
 /// What a guess of the unit comes to.
 struct Scale {
@@ -137,18 +32,10 @@ std::string times(const std::string& name, double factor) {
 
 std::optional<Scale> by_unit_in_name(const std::string& quoted, const Words& words,
                                      Dimension dimension) {
-  if (words.size() < 2) return std::nullopt;
-  const std::string& last = words.back();
-  const std::string last_two = words[words.size() - 2] + " " + last;
-  for (const Unit& unit : units()) {
-    if (unit.dimension != dimension) continue;
-    for (const std::string_view spelling : unit.spellings) {
-      if (spelling != last && spelling != last_two) continue;
-      return Scale{times(quoted, unit.factor), Confidence::kLikely,
-                   fmt::format("the name ends in the unit {}", spelling)};
-    }
-  }
-  return std::nullopt;
+  const auto unit = unit_in(words, dimension);
+  if (!unit) return std::nullopt;
+  return Scale{times(quoted, unit->factor), Confidence::kLikely,
+               fmt::format("the name ends in the unit {}", unit->spelling)};
 }
 
 /// ROS 2 messages are in SI units by their convention, and ArduPilot's gyros in rad/s.
@@ -186,6 +73,7 @@ Scale scale_of(const std::string& quoted, const Words& words, Dimension dimensio
                const std::vector<double>& values) {
   if (auto unit = by_unit_in_name(quoted, words, dimension)) return *std::move(unit);
   if (dimension == Dimension::kForce) return force_scale(quoted, values);
+  if (dimension == Dimension::kCount) return {quoted, Confidence::kLikely, "a number without unit"};
   if (dimension == Dimension::kGeographic) {
     return {quoted, Confidence::kLikely, "positions on the Earth are given in degrees"};
   }
@@ -234,6 +122,11 @@ void add_quaternions(const FileSample& sample, std::vector<ColumnGuess>& guesses
   }
 }
 
+bool increases(const std::vector<double>& values) {
+  return values.size() > 1 &&
+         std::adjacent_find(values.begin(), values.end(), std::greater_equal<>()) == values.end();
+}
+
 void add_time(const FileSample& sample, std::vector<ColumnGuess>& guesses) {
   const auto time = find_time(sample.names, sample.texts);
   if (!time) {
@@ -241,6 +134,16 @@ void add_time(const FileSample& sample, std::vector<ColumnGuess>& guesses) {
   } else if (*time) {
     guesses.push_back({std::string(kTimeName), (*time)->expression, Confidence::kLikely,
                        (*time)->meaning + "; it is taken without a mapping as well"});
+  }
+  if (!guesses.empty()) return;
+  // `ms`, `millis`: by its name it may be metres per second, but those do not grow from row to row.
+  for (std::size_t i = 0; i < sample.names.size(); ++i) {
+    const Words words = words_of(sample.names[i]);
+    const auto unit = unit_in(words, Dimension::kTime);
+    if (!unit || words.size() > 1 || !increases(sample.values[i])) continue;
+    guesses.push_back({std::string(kTimeName), times(quoted(sample.names[i]), unit->factor),
+                       Confidence::kLikely, "the name is a unit of time, and the values grow",
+                       first_of(sample.values[i])});
   }
 }
 
@@ -258,38 +161,50 @@ void settle(std::vector<ColumnGuess>& guesses) {
   }
 }
 
+/// What the columns of the sample may be of one column that is asked for.
+std::vector<ColumnGuess> guesses_of(const std::string& column, const FileSample& sample,
+                                    TrialKind kind) {
+  std::vector<ColumnGuess> guesses;
+  for (std::size_t i = 0; i < sample.names.size(); ++i) {
+    const std::string& name = sample.names[i];
+    if (name == column) {
+      guesses.push_back(
+          {column, name, Confidence::kSure, "it has this name", first_of(sample.values[i])});
+      continue;
+    }
+    const Words words = words_of(name);
+    const auto dimension = dimension_as(kind, column, words);
+    if (!dimension) continue;
+    Scale scale = scale_of(quoted(name), words, *dimension, sample.values[i]);
+    guesses.push_back({column, std::move(scale.expression), scale.confidence, std::move(scale.why),
+                       first_of(sample.values[i])});
+  }
+  if (column == "heading_deg") add_quaternions(sample, guesses);
+  if (column == kTimeName && guesses.empty()) add_time(sample, guesses);
+  settle(guesses);
+  return guesses;
+}
+
 }  // namespace
 
-std::vector<ColumnGuess> guess_columns(const FileSample& sample) {
+std::vector<ColumnGuess> guess_columns(const FileSample& sample, TrialKind kind) {
   std::vector<ColumnGuess> all;
-  std::vector<ColumnGuess> quaternions;
-  add_quaternions(sample, quaternions);
-  for (const CsvColumn& column : columns_of(TrialKind::kLog)) {
-    std::vector<ColumnGuess> guesses;
-    for (std::size_t i = 0; i < sample.names.size(); ++i) {
-      const std::string& name = sample.names[i];
-      if (name == column.name) {
-        guesses.push_back(
-            {column.name, name, Confidence::kSure, "it has this name", first_of(sample.values[i])});
-        continue;
-      }
-      const Words words = words_of(name);
-      const auto rule = std::find_if(rules().begin(), rules().end(), [&](const Rule& one) {
-        return one.column == column.name && fits(one, words);
-      });
-      if (rule == rules().end()) continue;
-      Scale scale = scale_of(quoted(name), words, rule->dimension, sample.values[i]);
-      guesses.push_back({column.name, std::move(scale.expression), scale.confidence,
-                         std::move(scale.why), first_of(sample.values[i])});
-    }
-    if (column.name == "heading_deg") {
-      guesses.insert(guesses.end(), quaternions.begin(), quaternions.end());
-    }
-    if (column.name == kTimeName && guesses.empty()) add_time(sample, guesses);
-    settle(guesses);
+  for (const CsvColumn& column : columns_of(kind)) {
+    const std::vector<ColumnGuess> guesses = guesses_of(column.name, sample, kind);
     all.insert(all.end(), guesses.begin(), guesses.end());
   }
   return all;
+}
+
+std::vector<ColumnGuess> likely_columns(const std::vector<ColumnGuess>& guesses) {
+  std::vector<ColumnGuess> first;
+  for (const ColumnGuess& guess : guesses) {
+    const bool is_new = std::none_of(first.begin(), first.end(), [&](const ColumnGuess& other) {
+      return other.column == guess.column;
+    });
+    if (is_new && guess.confidence != Confidence::kUnsure) first.push_back(guess);
+  }
+  return first;
 }
 
 }  // namespace awmr

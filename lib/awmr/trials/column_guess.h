@@ -8,6 +8,7 @@
 
 #include "awmr/core/name_table.h"
 #include "awmr/core/result.h"
+#include "awmr/trials/trials.h"
 
 namespace awmr {
 
@@ -33,15 +34,18 @@ inline constexpr NameTable<Confidence, 3> kConfidenceNames{{{"sure", Confidence:
                                                             {"unsure", Confidence::kUnsure}}};
 
 struct ColumnGuess {
-  std::string column;      ///< of a log: "speed_mps"
+  std::string column;      ///< of the trial: "speed_mps"
   std::string expression;  ///< as parse_column() takes it
   Confidence confidence = Confidence::kUnsure;
   std::string why;
   std::vector<double> samples = {};  ///< the first few values of what it is made from
 };
 
-/// The guesses for the columns of a log, in the order of columns_of(TrialKind::kLog), the surest of a
-/// column first. Names are read for words (steer, yaw, gyro, left) and units (kmh, degps, rad).
-std::vector<ColumnGuess> guess_columns(const FileSample& sample);
+/// The guesses for the columns of a trial, in the order of columns_of(kind), the surest of a column
+/// first. Names are read for words and units: column_words.h.
+std::vector<ColumnGuess> guess_columns(const FileSample& sample, TrialKind kind);
+
+/// Of these, what may be used unseen: the first guess of each column that is not unsure.
+std::vector<ColumnGuess> likely_columns(const std::vector<ColumnGuess>& guesses);
 
 }  // namespace awmr

@@ -1,0 +1,183 @@
+#include "awmr/trials/column_words.h"
+
+#include <algorithm>
+#include <cctype>
+
+#include "awmr/core/units.h"
+
+namespace awmr {
+namespace {
+
+/// What the words of a name have to be for a column: one of each of `all`, none of `none`.
+struct Rule {
+  const char* column;
+  std::vector<std::set<std::string>> all;
+  std::set<std::string> none;
+  Dimension dimension;
+};
+
+const std::set<std::string> kThrustWords{"force", "duty",   "pwm",    "throttle", "thrust",
+                                         "motor", "effort", "torque", "power"};
+const std::set<std::string> kSteerWords{"steer", "steering", "delta"};
+const std::set<std::string> kSideWords{"left", "l", "right", "r"};
+const std::set<std::string> kSpeedWords{"speed", "velocity", "vel", "v", "vx", "spd", "linear"};
+const std::set<std::string> kClockWords{"t", "time", "elapsed", "duration", "clock"};
+
+std::vector<Rule> log_rules() {
+  static const std::set<std::string> kCommand{"cmd",     "command", "setpoint", "sp",
+                                              "desired", "target",  "ref",      "reference"};
+  static const std::set<std::string> kAcceleration{"acc",  "accel", "acceleration",
+                                                   "jerk", "time",  "covariance"};
+  static const std::set<std::string> kNoPosition{
+      "orientation", "linear", "angular", "velocity", "vel", "gyr", "gyro", "mag", "q"};
+  std::vector<Rule> rules{
+      {"force_left", {{"left", "l"}, kThrustWords}, {"speed", "vel", "rpm"}, Dimension::kForce},
+      {"force_right", {{"right", "r"}, kThrustWords}, {"speed", "vel", "rpm"}, Dimension::kForce},
+      {"x_m", {{"x", "px", "east"}}, kNoPosition, Dimension::kLength},
+      {"y_m", {{"y", "py", "north"}}, kNoPosition, Dimension::kLength},
+      {"heading_deg",
+       {{"heading", "yaw", "psi", "course", "hdg"}},
+       {"rate", "speed", "dot"},
+       Dimension::kAngle},
+      {"speed_mps",
+       {kSpeedWords},
+       {"y", "z", "vy", "vz", "angular", "yaw", "wheel", "left", "right", "motor", "angle"},
+       Dimension::kSpeed},
+      {"sway_mps", {{"vy", "sway"}}, {}, Dimension::kSpeed},
+      {"sway_mps", {{"velocity", "vel", "linear"}, {"y"}}, {"angular"}, Dimension::kSpeed},
+      {"yaw_rate_radps", {{"yawrate", "omega", "wz"}}, {}, Dimension::kAngularRate},
+      {"yaw_rate_radps", {{"yaw"}, {"rate", "speed", "dot"}}, {}, Dimension::kAngularRate},
+      {"yaw_rate_radps", {{"gyr", "gyro", "angular"}, {"z"}}, {}, Dimension::kAngularRate},
+      {"yaw_rate_radps", {{"gyr", "gyro"}}, {"x", "y", "z", "temp"}, Dimension::kAngularRate},
+      {"steering_deg", {kSteerWords}, kCommand, Dimension::kAngle},
+      {"steering_cmd_deg", {kSteerWords, kCommand}, {}, Dimension::kAngle},
+      // What a program tells its servo.
+      {"steering_cmd_deg", {{"servo"}}, {"feedback", "measured", "actual"}, Dimension::kAngle},
+      {"latitude_deg", {{"lat", "latitude"}}, {}, Dimension::kGeographic},
+      {"longitude_deg", {{"lon", "lng", "long", "longitude"}}, {}, Dimension::kGeographic}};
+  // What accelerates or is a time or a covariance is none of them.
+  for (Rule& rule : rules) rule.none.insert(kAcceleration.begin(), kAcceleration.end());
+  return rules;
+}
+
+/// Of the tables: a row a run.
+std::vector<Rule> table_rules() {
+  static const std::set<std::string> kInitial{"initial", "start", "from", "v0", "u0"};
+  static const std::set<std::string> kStop{"stop", "stopping", "rest"};
+  static const std::set<std::string> kTurn{"yaw", "turn", "turning", "angular", "gyro"};
+  std::set<std::string> no_wheel_speed = kSideWords;
+  no_wheel_speed.insert(kTurn.begin(), kTurn.end());
+  std::set<std::string> not_one_speed = no_wheel_speed;
+  not_one_speed.insert(kInitial.begin(), kInitial.end());
+  return {
+      {"wheel_force", {kThrustWords}, kSideWords, Dimension::kForce},
+      {"force_left", {{"left", "l"}, kThrustWords}, {}, Dimension::kForce},
+      {"force_right", {{"right", "r"}, kThrustWords}, {}, Dimension::kForce},
+      {"speed_mps", {kSpeedWords}, not_one_speed, Dimension::kSpeed},
+      {"initial_speed_mps", {kSpeedWords, kInitial}, no_wheel_speed, Dimension::kSpeed},
+      {"distance_m", {{"distance", "dist", "length", "way"}}, {}, Dimension::kLength},
+      {"elapsed_s", {kClockWords}, kStop, Dimension::kTime},
+      {"stop_time_s", {kStop}, {"distance", "speed"}, Dimension::kTime},
+      {"t_s", {kClockWords}, kStop, Dimension::kTime},
+      {"turns", {{"turns", "laps", "circles", "rounds", "revolutions"}}, {}, Dimension::kCount},
+      {"steering_deg", {{"steer", "steering", "delta", "servo", "angle"}}, {}, Dimension::kAngle},
+      {"yaw_rate_radps", {{"yawrate", "omega", "wz", "gyro"}}, {}, Dimension::kAngularRate},
+      {"yaw_rate_radps", {{"yaw", "turning"}, {"rate", "speed"}}, {}, Dimension::kAngularRate}};
+}
+
+const std::vector<Rule>& rules_of(TrialKind kind) {
+  static const std::vector<Rule> kLog = log_rules();
+  static const std::vector<Rule> kTable = table_rules();
+  return kind == TrialKind::kLog ? kLog : kTable;
+}
+
+bool fits(const Rule& rule, const Words& words) {
+  return !has_any(words, rule.none) &&
+         std::all_of(rule.all.begin(), rule.all.end(),
+                     [&](const std::set<std::string>& any) { return has_any(words, any); });
+}
+
+struct Unit {
+  Dimension dimension;
+  std::vector<std::string_view> spellings;
+  double factor;
+};
+
+const std::vector<Unit>& units() {
+  static const double kDegree = degrees(1.0);
+  static const std::vector<Unit> kUnits{
+      {Dimension::kSpeed, {"mps", "m s"}, 1.0},
+      {Dimension::kSpeed, {"kmh", "kph", "km h"}, 1.0 / 3.6},
+      {Dimension::kSpeed, {"mph"}, 0.44704},
+      {Dimension::kSpeed, {"cmps", "cm s"}, 0.01},
+      {Dimension::kSpeed, {"mmps", "mm s"}, 0.001},
+      {Dimension::kAngularRate, {"radps", "rad s", "rads"}, 1.0},
+      {Dimension::kAngularRate, {"degps", "dps", "deg s", "degs"}, 1.0 / kDegree},
+      {Dimension::kAngle, {"deg", "degrees"}, 1.0},
+      {Dimension::kAngle, {"rad", "radians"}, kDegree},
+      {Dimension::kLength, {"m", "metres", "meters"}, 1.0},
+      {Dimension::kLength, {"cm"}, 0.01},
+      {Dimension::kLength, {"mm"}, 0.001},
+      {Dimension::kGeographic, {"deg", "degrees"}, 1.0},
+      {Dimension::kTime, {"s", "sec", "secs", "seconds"}, 1.0},
+      {Dimension::kTime, {"ms", "msec", "millis", "milliseconds"}, 0.001},
+      {Dimension::kTime, {"us", "usec", "micros", "microseconds"}, 1e-6},
+      {Dimension::kTime, {"min", "minutes"}, 60.0},
+      {Dimension::kForce, {"percent", "pct"}, 0.01}};
+  return kUnits;
+}
+
+/// `kmh`, `km/h`, `dps`: a unit that only one quantity of a vehicle has, and no word beside it.
+bool is_unit_alone(const Rule& rule, const Words& words) {
+  static const std::set<std::string> kOnlyOne{"speed_mps", "yaw_rate_radps", "elapsed_s", "t_s"};
+  if (kOnlyOne.count(rule.column) == 0 || words.size() > 2) return false;
+  const auto unit = unit_in(words, rule.dimension);
+  const std::string name = words.size() == 2 ? words[0] + " " + words[1] : words[0];
+  return unit && unit->spelling == name;
+}
+
+}  // namespace
+
+Words words_of(std::string_view name) {
+  Words words(1);
+  char before = ' ';
+  for (const char c : name) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool begins =
+        std::isupper(byte) != 0 && std::islower(static_cast<unsigned char>(before)) != 0;
+    if ((begins || std::isalnum(byte) == 0) && !words.back().empty()) words.emplace_back();
+    if (std::isalnum(byte) != 0) words.back() += static_cast<char>(std::tolower(byte));
+    before = c;
+  }
+  if (words.size() > 1 && words.back().empty()) words.pop_back();
+  return words;
+}
+
+bool has_any(const Words& words, const std::set<std::string>& any) {
+  return std::any_of(words.begin(), words.end(),
+                     [&](const std::string& word) { return any.count(word) != 0; });
+}
+
+std::optional<NamedUnit> unit_in(const Words& words, Dimension dimension) {
+  const std::string& last = words.back();
+  const std::string last_two = words.size() > 1 ? words[words.size() - 2] + " " + last : last;
+  for (const Unit& unit : units()) {
+    if (unit.dimension != dimension) continue;
+    for (const std::string_view spelling : unit.spellings) {
+      if (spelling == last || spelling == last_two) return NamedUnit{spelling, unit.factor};
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<Dimension> dimension_as(TrialKind kind, const std::string& column,
+                                      const Words& words) {
+  for (const Rule& rule : rules_of(kind)) {
+    if (rule.column != column) continue;
+    // A column that is called by its unit alone, as `kmh` or `ms`.
+    if (is_unit_alone(rule, words) || fits(rule, words)) return rule.dimension;
+  }
+  return std::nullopt;
+}
+
+}  // namespace awmr
