@@ -3,12 +3,16 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <type_traits>
+#include <utility>
 
 #include "awmr/core/file.h"
 #include "awmr/model/gains_file.h"
 #include "awmr/model/model_file.h"
+#include "awmr/simulate/scenario_file.h"
 #include "awmr/trials/log_consistency.h"
 #include "awmr/trials/trial_columns.h"
+#include "choices.h"
 #include "commands.h"
 #include "inputs.h"
 #include "numbers.h"
@@ -38,28 +42,52 @@ std::string brief_of(const Validation& validation) {
                      others.empty() ? "none" : fmt::format("{}", fmt::join(others, " ")));
 }
 
-Result<std::vector<LogValidation>> validate_logs(const ValidateCommand& command, const Model& model,
-                                                 std::vector<Finding>& findings) {
-  const Vehicle& vehicle = model.vehicle;
+/// What `judge` makes of each log.
+template <class Judge>
+auto judge_logs(const ValidateCommand& command, const Vehicle& vehicle, const Judge& judge,
+                std::vector<Finding>& findings)
+    -> Result<
+        std::vector<typename decltype(judge(std::declval<const DrivingLog&>()))::value_type>> {
+  using Judged = typename decltype(judge(std::declval<const DrivingLog&>()))::value_type;
   AWMR_ASSIGN_OR_RETURN(const TrialOptions options, with_vehicle_columns(command.trials, vehicle));
   std::vector<std::size_t> used;
-  const auto validate_runs = [&](const fs::path& path) -> Result<std::vector<LogValidation>> {
+  const auto judge_runs = [&](const fs::path& path) -> Result<std::vector<Judged>> {
     AWMR_ASSIGN_OR_RETURN(const std::vector<DrivingLog> runs, read_logs(path, options, findings));
-    std::vector<LogValidation> validated;
+    std::vector<Judged> judged;
     for (const DrivingLog& log : runs) {
       used.insert(used.end(), log.mapped.begin(), log.mapped.end());
       AWMR_RETURN_IF_ERROR(check_consistency(log, path.string(), vehicle, options, findings));
-      AWMR_ASSIGN_OR_RETURN(LogValidation one,
-                            validate_log(log, model, command.horizon_s, command.log_tolerance));
-      validated.push_back(std::move(one));
+      AWMR_ASSIGN_OR_RETURN(Judged one, judge(log));
+      judged.push_back(std::move(one));
     }
-    return validated;
+    return judged;
   };
-  AWMR_ASSIGN_OR_RETURN(const auto by_file, read_each(command.logs, validate_runs));
+  AWMR_ASSIGN_OR_RETURN(const auto by_file, read_each(command.logs, judge_runs));
   if (!command.other_columns) AWMR_RETURN_IF_ERROR(check_mappings(options, used, command.logs));
-  std::vector<LogValidation> all;
+  std::vector<Judged> all;
   for (const auto& runs : by_file) all.insert(all.end(), runs.begin(), runs.end());
   return all;
+}
+
+/// The logs by the model alone, or, of a scenario, as drives under the controller.
+Status add_judged_logs(const ValidateCommand& command, const Model& model,
+                       const std::optional<Gains<double>>& gains, Validation& validation,
+                       std::vector<Finding>& findings) {
+  if (!command.scenario) {
+    const auto by_model = [&](const DrivingLog& log) {
+      return validate_log(log, model, command.horizon_s, command.log_tolerance);
+    };
+    AWMR_ASSIGN_OR_RETURN(auto logs, judge_logs(command, model.vehicle, by_model, findings));
+    add_logs(validation, std::move(logs), command.log_tolerance);
+    return {};
+  }
+  AWMR_ASSIGN_OR_RETURN(const Scenario scenario, read_scenario(*command.scenario));
+  const auto under_control = [&](const DrivingLog& log) {
+    return accept_drive(log, model, *gains, scenario, command.acceptance);
+  };
+  AWMR_ASSIGN_OR_RETURN(auto drives, judge_logs(command, model.vehicle, under_control, findings));
+  add_drives(validation, std::move(drives));
+  return {};
 }
 
 /// Those of the file; without one, the paper's for its claims.
@@ -73,6 +101,7 @@ std::vector<fs::path> inputs_of(const ValidateCommand& command) {
   std::vector<fs::path> paths{command.model};
   if (command.gains) paths.push_back(*command.gains);
   paths.insert(paths.end(), command.logs.begin(), command.logs.end());
+  if (command.scenario) paths.push_back(*command.scenario);
   return paths;
 }
 
@@ -87,6 +116,11 @@ Result<Provenance> provenance_of(const ValidateCommand& command) {
                         input_files(inputs_of(command), command.names));
   std::vector<std::pair<std::string, std::string>> options = options_of(command.allocation);
   options.emplace_back("tolerance", format_number(command.validate.tolerance));
+  if (command.scenario) {
+    options.emplace_back("mode", std::string(name_of(command.acceptance.mode)));
+    options.emplace_back("draws", std::to_string(command.acceptance.draws));
+    options.emplace_back("seed", std::to_string(command.acceptance.seed));
+  }
   return Provenance{"validate", std::move(options), std::move(inputs)};
 }
 
@@ -95,7 +129,9 @@ std::string summary_of(const ValidateCommand& command, const Validation& validat
   if (command.claims) return claims_table(validation.claims) + validation.verdict + '\n';
   const char* const title =
       validation.trials.empty() ? "" : "in sample, on the rows that the model was fitted to\n";
-  return title + brief_of(validation) + logs_table(validation);
+  std::string text = title + brief_of(validation) + logs_table(validation);
+  for (const Acceptance& drive : validation.drives) text += acceptance_table(drive);
+  return text;
 }
 
 void add_model_options(CLI::App& sub, ValidateCommand& command) {
@@ -121,6 +157,27 @@ void add_log_options(CLI::App& sub, ValidateCommand& command, ColumnWords& colum
   add_file(sub, "--columns-file", columns.file, kColumnsFileHelp);
 }
 
+void add_drive_options(CLI::App& sub, ValidateCommand& command) {
+  auto* scenario = add_file(sub, "--scenario", command.scenario,
+                            "The logs are drives of this scenario under the gains: held against "
+                            "what the model's uncertainty, noise and lags foretell");
+  scenario->needs("--log")->needs("--gains");
+  add_choice(sub, "--mode", command.acceptance.mode, kYawModeNames,
+             "How they turned (default combined)")
+      ->needs(scenario);
+  sub.add_option("--draws", command.acceptance.draws, "Foretold drives (default 200)")
+      ->check(within(39, 10000))
+      ->needs(scenario);
+  sub.add_option("--seed", command.acceptance.seed, "Of the draws (default 1)")
+      ->check(within<std::uint64_t>(0, kAnySeed))
+      ->needs(scenario);
+  sub.add_option("--from", command.acceptance.from_s,
+                 "Time in the log at which the scenario begins, s (default: the first row that "
+                 "commands anything)")
+      ->check(within(-1e12, 1e12))
+      ->needs(scenario);
+}
+
 void add_claims_options(CLI::App& sub, ValidateCommand& command) {
   auto* claims = sub.add_flag("--claims", command.claims,
                               "Tell of each of the paper's fourteen claims what was found, what "
@@ -138,11 +195,11 @@ Result<Outcome> execute(const ValidateCommand& command) {
   choose(command.allocation, model, {});
   AWMR_ASSIGN_OR_RETURN(const std::optional<Gains<double>> gains, gains_of(command));
   AWMR_RETURN_IF_ERROR(check_outputs(command));
-  AWMR_ASSIGN_OR_RETURN(Validation validation,
-                        validate_with_progress(model, gains, command.validate));
+  AWMR_ASSIGN_OR_RETURN(
+      Validation validation,
+      validate_with_progress(model, command.scenario ? std::nullopt : gains, command.validate));
   std::vector<Finding> findings;
-  AWMR_ASSIGN_OR_RETURN(std::vector<LogValidation> logs, validate_logs(command, model, findings));
-  add_logs(validation, std::move(logs), command.log_tolerance);
+  AWMR_RETURN_IF_ERROR(add_judged_logs(command, model, gains, validation, findings));
   AWMR_ASSIGN_OR_RETURN(const Provenance provenance, provenance_of(command));
   Outcome outcome{.summary = summary_of(command, validation),
                   .details = command.claims ? "" : validation_table(validation),
@@ -175,6 +232,7 @@ void add_validate(CLI::App& app, Session& session) {
       });
   add_model_options(*sub, *command);
   add_log_options(*sub, *command, *columns);
+  add_drive_options(*sub, *command);
   add_claims_options(*sub, *command);
   add_output(*sub, command->output, "validation.json to write");
 }

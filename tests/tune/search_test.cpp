@@ -249,21 +249,21 @@ TEST(MeanAndTail, IsTheMeanOfAllAndOfTheWorst) {
 
 TEST(Conditions, AreTheVehiclesWhereItSaysAndTheDefaultsElse) {
   Vehicle vehicle = paper_vehicle();
-  EXPECT_EQ(conditions_of(vehicle).heading_noise_deg, TuningConditions{}.heading_noise_deg);
+  EXPECT_EQ(conditions_of(vehicle).heading_noise_deg, LoopConditions{}.heading_noise_deg);
   vehicle.sensors = {.heading_deg = 0.3, .speed_late_s = 0.05};
   vehicle.motor_time_constant_s = 0.0;
-  const TuningConditions c = conditions_of(vehicle);
+  const LoopConditions c = conditions_of(vehicle);
   EXPECT_EQ(c.heading_noise_deg, 0.3);
   EXPECT_EQ(c.speed_late_s, 0.05);
-  EXPECT_EQ(c.heading_late_s, TuningConditions{}.heading_late_s);
+  EXPECT_EQ(c.heading_late_s, LoopConditions{}.heading_late_s);
   EXPECT_EQ(c.motor_time_constant_s, 0.0);
-  const std::vector<Scenario> under_them = under(c, {default_tuning_scenario()});
-  EXPECT_DOUBLE_EQ(under_them[0].sensors->heading.noise, radians(0.3));
-  EXPECT_EQ(under_them[0].sensors->speed.late_s, 0.05);
+  const Scenario under_them = under(c, default_tuning_scenario());
+  EXPECT_DOUBLE_EQ(under_them.sensors->heading.noise, radians(0.3));
+  EXPECT_EQ(under_them.sensors->speed.late_s, 0.05);
   // What a scenario says of its own sensors stands.
   Scenario own = default_tuning_scenario();
   own.sensors = Sensors{};
-  EXPECT_EQ(under(c, {own})[0].sensors->heading.noise, 0.0);
+  EXPECT_EQ(under(c, own).sensors->heading.noise, 0.0);
 }
 
 TEST(Robust, BeatsThePapersGainsOnFreshDrawsWithinItsActivity) {

@@ -77,19 +77,6 @@ JudgedGains judged(const ObjectiveSetting& setting, const NamedCandidate& candid
 
 }  // namespace
 
-TuningConditions conditions_of(const Vehicle& vehicle) {
-  const SensorQuality& sensors = vehicle.sensors;
-  TuningConditions c;
-  c.heading_noise_deg = sensors.heading_deg.value_or(c.heading_noise_deg);
-  c.yaw_rate_noise_degps = sensors.yaw_rate_degps.value_or(c.yaw_rate_noise_degps);
-  c.speed_noise_mps = sensors.speed_mps.value_or(c.speed_noise_mps);
-  c.heading_late_s = sensors.heading_late_s.value_or(c.heading_late_s);
-  c.yaw_rate_late_s = sensors.yaw_rate_late_s.value_or(c.yaw_rate_late_s);
-  c.speed_late_s = sensors.speed_late_s.value_or(c.speed_late_s);
-  c.motor_time_constant_s = vehicle.motor_time_constant_s.value_or(c.motor_time_constant_s);
-  return c;
-}
-
 Result<std::vector<Plant<double>>> plants_of(const Model& model, int draws, std::uint64_t seed) {
   AWMR_ASSIGN_OR_RETURN(const Plant<double> own, model.plant());
   std::vector<Plant<double>> plants(at(draws) + 1, own);
@@ -99,25 +86,6 @@ Result<std::vector<Plant<double>>> plants_of(const Model& model, int draws, std:
     AWMR_ASSIGN_OR_RETURN(plants[at(draw)], sampler.draw(seed, draw));
   }
   return plants;
-}
-
-std::vector<Scenario> under(const TuningConditions& c, std::vector<Scenario> scenarios) {
-  const auto channel = [](double noise, double late_s) {
-    return Channel{.noise = noise, .late_s = late_s};
-  };
-  for (Scenario& scenario : scenarios) {
-    if (!scenario.sensors) {
-      scenario.sensors =
-          Sensors{.heading = channel(radians(c.heading_noise_deg), c.heading_late_s),
-                  .yaw_rate = channel(radians(c.yaw_rate_noise_degps), c.yaw_rate_late_s),
-                  .speed = channel(c.speed_noise_mps, c.speed_late_s),
-                  .gps = {}};
-    }
-    if (!scenario.actuators) {
-      scenario.actuators = Actuators{.motor_time_constant_s = c.motor_time_constant_s};
-    }
-  }
-  return scenarios;
 }
 
 std::vector<JudgedGains> judge(const ObjectiveSetting& setting,

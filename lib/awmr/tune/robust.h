@@ -14,9 +14,6 @@ namespace awmr {
 /// Errors (input): as PlantSampler's.
 Result<std::vector<Plant<double>>> plants_of(const Model& model, int draws, std::uint64_t seed);
 
-/// The scenarios under the conditions; one that has sensors or actuators of its own keeps them.
-std::vector<Scenario> under(const TuningConditions& conditions, std::vector<Scenario> scenarios);
-
 /// Gains with the name that they are judged under.
 struct NamedCandidate {
   const char* name;

@@ -252,9 +252,9 @@ Result<Tuning> tune_robustly(const Model& model, ObjectiveSetting setting,
                       .from_covariance = !model.covariance.parameters.empty(),
                       .nominal = {},
                       .judged = {}};
-  const TuningConditions& c = robust.conditions;
+  const LoopConditions& c = robust.conditions;
   AWMR_ASSIGN_OR_RETURN(setting.plants, plants_of(model, options.draws, options.seed));
-  setting.scenarios = under(c, std::move(setting.scenarios));
+  for (Scenario& scenario : setting.scenarios) scenario = under(c, std::move(scenario));
   context.draws.assign(setting.plants.begin() + 1, setting.plants.end());
   context.heading_noise_rad = radians(c.heading_noise_deg);
   context.latency_s = std::max(c.heading_late_s, c.yaw_rate_late_s);

@@ -14,6 +14,7 @@
 #include "awmr/core/result.h"
 #include "awmr/model/gains.h"
 #include "awmr/model/model.h"
+#include "awmr/simulate/conditions.h"
 #include "awmr/simulate/metrics.h"
 #include "awmr/simulate/scenario.h"
 
@@ -48,25 +49,12 @@ struct GainBounds {
   Interval speed_epsilon{0.05, 10.0};  ///< m/s
 };
 
-/// What gains meet on a real vehicle beside the model. vehicle.json gives it (`noise`, `latency_s`,
-/// `motor`); where it does not, these: a compass, a MEMS gyro and a coarse encoder, read in the
-/// sample before, and small brushed motors.
-struct TuningConditions {
-  double heading_noise_deg = 1.0;
-  double yaw_rate_noise_degps = 0.5;
-  double speed_noise_mps = 0.02;
-  double heading_late_s = 0.02;
-  double yaw_rate_late_s = 0.02;
-  double speed_late_s = 0.02;
-  double motor_time_constant_s = 0.02;
-};
-
 inline constexpr double kRobustShare = 0.4;
 
 struct TuneOptions {
   /// On the model's own values, with true readings at once and motors without lag, as a simulation
   /// alone would have it. Else robust: `draws` plants from the model's covariance beside its own,
-  /// under TuningConditions.
+  /// under LoopConditions.
   bool nominal = false;
   int draws = 4;          ///< 0 ... 1000
   int judged_draws = 50;  ///< fresh ones that gains are judged on afterwards, 0 ... 100000
@@ -131,7 +119,7 @@ struct JudgedGains {
 
 /// What robust gains were tuned under and how they do.
 struct RobustTuning {
-  TuningConditions conditions;
+  LoopConditions conditions;
   bool from_covariance = false;  ///< false: the model has none, so that only noise was drawn
   std::optional<Gains<double>> nominal;  ///< those of `--nominal`; absent where there are none
   std::vector<JudgedGains> judged;       ///< by gains, then mode
@@ -161,9 +149,6 @@ struct Tuning {
 Scenario default_tuning_scenario();
 /// The scenario judged on afterwards: 60 then 0 deg at 0.7 m/s, 20 s, from rest.
 Scenario held_out_scenario();
-
-/// The vehicle's where it says, else the defaults.
-TuningConditions conditions_of(const Vehicle& vehicle);
 
 /// Deterministic: model, options and seed fix every bit of the result, whatever the number of
 /// cores. Errors (refused): no gains within the bounds meet the constraints (the tightest one is

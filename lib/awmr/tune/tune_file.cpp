@@ -135,7 +135,7 @@ Json constraints_json(const std::vector<ConstraintReport>& constraints) {
 }
 
 Json robust_json(const RobustTuning& robust, const TuneOptions& options) {
-  const TuningConditions& c = robust.conditions;
+  const LoopConditions& c = robust.conditions;
   Json json = {{"draws", options.draws},
                {"drawn_from", robust.from_covariance ? "covariance" : "noise alone"},
                {"seed", options.seed},

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "awmr/core/index.h"
 #include "awmr/model/steady.h"
 #include "awmr/validate/claims.h"
 #include "awmr/validate/open_cases.h"
@@ -120,6 +121,13 @@ Status add_claims(const Model& model, const std::optional<Gains<double>>& gains,
   return {};
 }
 
+/// What was found of logs, as a further sentence of the verdict.
+void take_into_verdict(Validation& validation, bool passed, const std::string& sentence) {
+  const bool first = validation.trials.empty() && validation.logs.empty();
+  validation.passed = first ? passed : validation.passed && passed;
+  validation.verdict = first ? sentence : fmt::format("{}; {}", validation.verdict, sentence);
+}
+
 }  // namespace
 
 void add_logs(Validation& validation, std::vector<LogValidation> logs, double tolerance) {
@@ -131,10 +139,18 @@ void add_logs(Validation& validation, std::vector<LogValidation> logs, double to
       "{} of {} logs are predicted over {:g} s with an NRMSE of at most {:g} in every "
       "channel",
       predicted, logs.size(), logs.front().horizon_s, tolerance);
-  validation.passed = validation.trials.empty() ? all : validation.passed && all;
-  validation.verdict =
-      validation.trials.empty() ? sentence : fmt::format("{}; {}", validation.verdict, sentence);
+  take_into_verdict(validation, all, sentence);
   validation.logs = std::move(logs);
+}
+
+void add_drives(Validation& validation, std::vector<Acceptance> drives) {
+  if (drives.empty()) return;
+  const auto inside = std::count_if(drives.begin(), drives.end(),
+                                    [](const Acceptance& drive) { return drive.inside; });
+  take_into_verdict(validation, inside == eigen_index(drives.size()),
+                    fmt::format("{} of {} drives of '{}' are as the model foretells", inside,
+                                drives.size(), drives.front().scenario));
+  validation.drives = std::move(drives);
 }
 
 std::optional<double> predicted_measurement(const Plant<double>& plant, const TrialPoint& trial) {

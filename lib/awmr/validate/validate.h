@@ -11,6 +11,7 @@
 #include "awmr/model/gains.h"
 #include "awmr/model/model.h"
 #include "awmr/simulate/scenario.h"
+#include "awmr/validate/acceptance.h"
 #include "awmr/validate/logs.h"
 
 namespace awmr {
@@ -63,8 +64,10 @@ struct Validation {
   std::optional<double> turning_rms_relative_error;
   std::optional<double> coastdown_rms_relative_error;
   std::vector<LogValidation> logs;
+  std::vector<Acceptance> drives;  ///< of logs of a scenario under the controller
   std::vector<Claim> claims;
-  /// Every kind of trial, and every log, is predicted within its tolerance; and there is one.
+  /// Every kind of trial, and every log, is predicted within its tolerance, every drive of a
+  /// scenario is as foretold; and there is one of them.
   bool passed = false;
   std::string verdict;  ///< one sentence
 };
@@ -95,6 +98,9 @@ Result<Validation> validate(const Model& model, const std::optional<Gains<double
 
 /// Adds the logs' figures and takes them into the verdict.
 void add_logs(Validation& validation, std::vector<LogValidation> logs, double tolerance);
+
+/// Adds the drives of a scenario and takes them into the verdict.
+void add_drives(Validation& validation, std::vector<Acceptance> drives);
 
 /// The bytes of validation.json.
 std::string validation_text(const Validation& validation, const Provenance& provenance);

@@ -36,6 +36,33 @@ Json log_json(const LogValidation& log) {
           {"channels", channels}};
 }
 
+Json drive_json(const Acceptance& drive) {
+  Json channels = Json::object();
+  for (const ChannelAcceptance& one : drive.channels) {
+    channels[one.channel] = {{"unit", one.unit},
+                             {"samples", one.samples},
+                             {"noise", one.noise},
+                             {"noise_from_log", one.noise_from_log},
+                             {"distance", one.distance},
+                             {"allowed", one.allowed},
+                             {"inside", one.inside},
+                             {"outside_since_s", optional_json(one.outside_since_s)},
+                             {"difference", one.difference}};
+  }
+  Json suspects = Json::array();
+  for (const Suspect& one : drive.suspects) {
+    suspects.push_back({{"what", one.what},
+                        {"value", one.value},
+                        {"unit", one.unit},
+                        {"explained", one.explained}});
+  }
+  return {
+      {"file", drive.file},       {"scenario", drive.scenario},     {"mode", name_of(drive.mode)},
+      {"from_s", drive.from_s},   {"duration_s", drive.duration_s}, {"draws", drive.draws},
+      {"p_value", drive.p_value}, {"inside", drive.inside},         {"channels", channels},
+      {"suspects", suspects}};
+}
+
 const char* verdict_of(bool reproduced) { return reproduced ? "reproduced" : "not-reproduced"; }
 
 Json case_json(const ClaimCase& open) {
@@ -90,6 +117,10 @@ std::string validation_text(const Validation& validation, const Provenance& prov
   for (const TrialResidual& trial : validation.trials) json["trials"].push_back(trial_json(trial));
   json["logs"] = Json::array();
   for (const LogValidation& log : validation.logs) json["logs"].push_back(log_json(log));
+  if (!validation.drives.empty()) {
+    json["drives"] = Json::array();
+    for (const Acceptance& drive : validation.drives) json["drives"].push_back(drive_json(drive));
+  }
   json["claims"] = Json::array();
   for (const Claim& claim : validation.claims) json["claims"].push_back(claim_json(claim));
   return to_text(json);

@@ -45,6 +45,37 @@ void describe_logs(JsonObject& json) {
   }
 }
 
+void describe_drives(JsonObject& json) {
+  for (JsonObject& drive : json.optional_objects("drives")) {
+    drive.string("file");
+    drive.string("scenario");
+    drive.choice("mode", kYawModeNames);
+    drive.number("from_s");
+    drive.number("duration_s", kPositive);
+    drive.integer("draws", 39, 10000);
+    drive.number("p_value", {.min = 0.0, .max = 1.0});
+    drive.boolean("inside");
+    for (JsonObject& channel : drive.object("channels").values()) {
+      channel.string("unit");
+      channel.integer("samples", 1, kMost);
+      channel.number("noise");
+      channel.boolean("noise_from_log");
+      for (const char* key : {"distance", "allowed", "difference"}) channel.number(key);
+      channel.boolean("inside");
+      channel.nullable_number("outside_since_s");
+      channel.reject_unknown_keys();
+    }
+    for (JsonObject& suspect : drive.objects("suspects")) {
+      suspect.string("what");
+      suspect.number("value");
+      suspect.string("unit");
+      suspect.number("explained", {.min = 0.0, .max = 1.0});
+      suspect.reject_unknown_keys();
+    }
+    drive.reject_unknown_keys();
+  }
+}
+
 void describe_cases(JsonObject& claim) {
   for (JsonObject& one : claim.optional_objects("cases")) {
     one.choice("allocation", kAllocationFormNames);
@@ -80,6 +111,7 @@ void describe_validation(JsonObject& json) {
   errors.reject_unknown_keys();
   describe_trials(json);
   describe_logs(json);
+  describe_drives(json);
   describe_claims(json);
   json.reject_unknown_keys();
 }

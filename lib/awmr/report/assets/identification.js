@@ -170,6 +170,23 @@ function identificationSection(data) {
   estimatorsTable(box, model.estimates);
   findingsTable(box, model.findings);
   logsPart(box, data.validation);
+  drivesPart(box, data.validation);
+}
+
+/// Drives under the controller against what is foretold of them.
+function drivesPart(parent, validation) {
+  for (const drive of (validation || {}).drives || []) {
+    add(parent, "h3", `The drive ${drive.file} against “${drive.scenario}”, ${drive.mode}: ${drive.inside ? "as foretold" : "not as foretold"}`);
+    add(parent, "p", `${digits(drive.duration_s)} s against ${drive.draws} foretold drives; as far off as this one or farther: ` +
+      `${percent(drive.p_value)} of them. Distances are those of half seconds, over the spread of the foretold.`, {class: "small"});
+    table(parent, ["channel", "#samples", "#distance", "#allowed", "#outside since, s", "#measured less foretold"],
+      Object.entries(drive.channels).map(([name, c]) => [name, c.samples, digits(c.distance, 3), digits(c.allowed, 3),
+        c.outside_since_s === null ? "" : digits(c.outside_since_s), `${digits(c.difference, 3)} ${c.unit}`]));
+    if (drive.suspects.length) {
+      table(parent, ["what would explain it, alone", "#value", "#explains"],
+        drive.suspects.map((s) => [s.what, `${digits(s.value, 3)} ${s.unit}`, percent(s.explained)]));
+    }
+  }
 }
 
 function logsPart(parent, validation) {

@@ -1,0 +1,37 @@
+#include "awmr/simulate/conditions.h"
+
+#include "awmr/core/units.h"
+
+namespace awmr {
+
+LoopConditions conditions_of(const Vehicle& vehicle) {
+  const SensorQuality& sensors = vehicle.sensors;
+  LoopConditions c;
+  c.heading_noise_deg = sensors.heading_deg.value_or(c.heading_noise_deg);
+  c.yaw_rate_noise_degps = sensors.yaw_rate_degps.value_or(c.yaw_rate_noise_degps);
+  c.speed_noise_mps = sensors.speed_mps.value_or(c.speed_noise_mps);
+  c.heading_late_s = sensors.heading_late_s.value_or(c.heading_late_s);
+  c.yaw_rate_late_s = sensors.yaw_rate_late_s.value_or(c.yaw_rate_late_s);
+  c.speed_late_s = sensors.speed_late_s.value_or(c.speed_late_s);
+  c.motor_time_constant_s = vehicle.motor_time_constant_s.value_or(c.motor_time_constant_s);
+  return c;
+}
+
+Scenario under(const LoopConditions& c, Scenario scenario) {
+  const auto channel = [](double noise, double late_s) {
+    return Channel{.noise = noise, .late_s = late_s};
+  };
+  if (!scenario.sensors) {
+    scenario.sensors =
+        Sensors{.heading = channel(radians(c.heading_noise_deg), c.heading_late_s),
+                .yaw_rate = channel(radians(c.yaw_rate_noise_degps), c.yaw_rate_late_s),
+                .speed = channel(c.speed_noise_mps, c.speed_late_s),
+                .gps = {}};
+  }
+  if (!scenario.actuators) {
+    scenario.actuators = Actuators{.motor_time_constant_s = c.motor_time_constant_s};
+  }
+  return scenario;
+}
+
+}  // namespace awmr

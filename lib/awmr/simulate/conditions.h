@@ -1,0 +1,28 @@
+/// What a controller meets on a real vehicle beside the model of it.
+#pragma once
+
+#include "awmr/model/vehicle.h"
+#include "awmr/simulate/scenario.h"
+
+namespace awmr {
+
+/// Noise and lateness of the sensors, lag of the motors. vehicle.json gives them (`noise`,
+/// `latency_s`, `motor`); where it does not, these: a compass, a MEMS gyro and a coarse encoder, read
+/// in the sample before, and small brushed motors.
+struct LoopConditions {
+  double heading_noise_deg = 1.0;
+  double yaw_rate_noise_degps = 0.5;
+  double speed_noise_mps = 0.02;
+  double heading_late_s = 0.02;
+  double yaw_rate_late_s = 0.02;
+  double speed_late_s = 0.02;
+  double motor_time_constant_s = 0.02;
+};
+
+/// The vehicle's, with the values above where it gives none.
+LoopConditions conditions_of(const Vehicle& vehicle);
+
+/// The scenario under these conditions; sensors and actuators of its own stay as they are.
+Scenario under(const LoopConditions& conditions, Scenario scenario);
+
+}  // namespace awmr

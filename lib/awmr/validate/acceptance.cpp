@@ -1,0 +1,262 @@
+#include "awmr/validate/acceptance.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "awmr/core/index.h"
+#include "awmr/core/parallel.h"
+#include "awmr/core/units.h"
+#include "awmr/simulate/conditions.h"
+#include "awmr/simulate/plant_sampler.h"
+#include "awmr/simulate/simulate.h"
+#include "awmr/trials/replay.h"
+#include "awmr/validate/drive_series.h"
+#include "awmr/validate/suspects.h"
+
+namespace awmr {
+namespace {
+
+constexpr double kLevel = 0.95;
+constexpr double kShortest_s = 2.0;
+/// The stream of the noise that is added to a draw's readings, apart from those of the simulator.
+constexpr std::uint64_t kReadingsStream = std::uint64_t{1} << 40;
+
+Status check_options(const AcceptanceOptions& options) {
+  if (options.draws >= 39 && options.draws <= 10000) return {};
+  return input_error("draws", fmt::format("expected 39 to 10000, got {}", options.draws));
+}
+
+/// The least value that `share` of the values do not exceed.
+double quantile_of(std::vector<double> values, double share) {
+  std::sort(values.begin(), values.end());
+  const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(values.size())));
+  return values[std::max<std::size_t>(rank, 1) - 1];
+}
+
+State<double> moved_by(State<double> state, const State<double>& error, Random& random) {
+  for (const LogChannel which : kChannels) {
+    channel_of(state, which) += channel_of(error, which) * random.normal();
+  }
+  return state;
+}
+
+/// The drives that are foretold, before anything is compared.
+Result<std::vector<Run>> foretold_runs(const Model& model, const Controller<double>& controller,
+                                       const Scenario& scenario, const DriveStart& start,
+                                       const AcceptanceOptions& options) {
+  std::optional<PlantSampler> sampler;
+  if (!model.covariance.parameters.empty()) {
+    AWMR_ASSIGN_OR_RETURN(sampler, PlantSampler::make(model));
+  }
+  std::vector<Run> runs(at(options.draws));
+  std::vector<Status> ended(runs.size());
+  parallel_for(runs.size(), options.threads, [&](std::size_t i) {
+    const auto sample = static_cast<int>(i) + 1;
+    const auto plant = sampler ? sampler->draw(options.seed, sample) : model.plant();
+    if (!plant) {
+      ended[i] = tl::unexpected(plant.error());
+      return;
+    }
+    Random random(options.seed, kReadingsStream + 2 * i);
+    Scenario drawn = scenario;
+    drawn.initial = moved_by(start.state, start.error, random);
+    runs[i] = simulate(*plant, controller, drawn, options.mode,
+                       {.sample_time_s = model.vehicle.sample_time_s,
+                        .substeps = {},
+                        .seed = options.seed,
+                        .sample = static_cast<std::uint64_t>(sample)});
+    ended[i] = failure_of(runs[i], drawn);
+  });
+  for (Status& status : ended) AWMR_RETURN_IF_ERROR(std::move(status));
+  return runs;
+}
+
+/// Mean and standard deviation of the foretold window means of a channel.
+ForetoldSeries foretold_of(const DriveChannel& channel, const std::vector<WindowMeans>& draws) {
+  const std::size_t windows = draws.front().mean.size();
+  const auto n = static_cast<double>(draws.size());
+  ForetoldSeries series{std::vector<double>(windows), std::vector<double>(windows)};
+  for (std::size_t w = 0; w < windows; ++w) {
+    for (const WindowMeans& draw : draws) series.mean[w] += draw.mean[w] / n;
+    double squares = 0.0;
+    for (const WindowMeans& draw : draws) squares += std::pow(draw.mean[w] - series.mean[w], 2);
+    series.spread[w] = std::sqrt(squares / (n - 1.0));
+  }
+  // Where all draws agree to rounding, as a command at its limit does, the distance is still finite.
+  const double most = *std::max_element(series.spread.begin(), series.spread.end());
+  double size = channel.noise;
+  for (const double mean : series.mean) size = std::max(size, std::abs(mean));
+  const double least = std::max(1e-3 * most, 1e-6 * size + 1e-12);
+  for (double& spread : series.spread) spread = std::max(spread, least);
+  return series;
+}
+
+/// The distances of a series from what is foretold, by window; 0 where nothing was measured.
+std::vector<double> distances(const WindowMeans& windows, const ForetoldSeries& foretold) {
+  std::vector<double> all(windows.mean.size());
+  for (std::size_t w = 0; w < all.size(); ++w) {
+    if (windows.rows[w] > 0) {
+      all[w] = std::abs(windows.mean[w] - foretold.mean[w]) / foretold.spread[w];
+    }
+  }
+  return all;
+}
+
+double largest_distance(const WindowMeans& windows, const ForetoldSeries& foretold) {
+  const std::vector<double> all = distances(windows, foretold);
+  return *std::max_element(all.begin(), all.end());
+}
+
+/// A channel of the drive, of all foretold drives, and what they scatter.
+struct Compared {
+  DriveChannel channel;
+  WindowMeans measured;
+  ForetoldSeries foretold;
+  std::vector<double> largest;  ///< by draw
+  double usual = 0.0;           ///< what 95 % of the draws keep to in this channel
+};
+
+Compared compare_channel(DriveChannel channel, std::size_t number, const std::vector<Run>& runs,
+                         double sample_time_s, double duration_s,
+                         const AcceptanceOptions& options) {
+  Compared one{.channel = std::move(channel), .measured = {}, .foretold = {}, .largest = {}};
+  one.measured = means_of(one.channel, duration_s);
+  std::vector<WindowMeans> draws(runs.size());
+  parallel_for(runs.size(), options.threads, [&](std::size_t i) {
+    Random random(options.seed, kReadingsStream + 2 * (runs.size() * (number + 1) + i) + 1);
+    draws[i] = means_of(one.channel, runs[i], sample_time_s, duration_s, &random);
+  });
+  one.foretold = foretold_of(one.channel, draws);
+  for (const WindowMeans& draw : draws) one.largest.push_back(largest_distance(draw, one.foretold));
+  one.usual = quantile_of(one.largest, kLevel);
+  return one;
+}
+
+/// Over all channels: the factor of its usual distance that a drive reaches, by draw.
+std::vector<double> factors_of_draws(const std::vector<Compared>& channels, std::size_t draws) {
+  std::vector<double> factors(draws);
+  for (const Compared& one : channels) {
+    for (std::size_t i = 0; i < draws; ++i) {
+      factors[i] = std::max(factors[i], one.largest[i] / one.usual);
+    }
+  }
+  return factors;
+}
+
+ChannelAcceptance judged(const Compared& one, double factor) {
+  ChannelAcceptance result{.channel = one.channel.name,
+                           .unit = one.channel.unit,
+                           .samples = static_cast<int>(one.channel.t_s.size()),
+                           .noise = one.channel.noise,
+                           .noise_from_log = one.channel.noise_from_log,
+                           .allowed = factor * one.usual};
+  const std::vector<double> all = distances(one.measured, one.foretold);
+  const auto farthest = std::max_element(all.begin(), all.end());
+  const auto w = static_cast<std::size_t>(farthest - all.begin());
+  result.distance = *farthest;
+  result.difference = one.measured.mean[w] - one.foretold.mean[w];
+  result.inside = result.distance <= result.allowed;
+  for (std::size_t k = 0; k < all.size() && !result.outside_since_s; ++k) {
+    if (all[k] > result.allowed) result.outside_since_s = kWindow_s * static_cast<double>(k);
+  }
+  return result;
+}
+
+/// To the end of the log, of the scenario and of every run.
+double compared_s(const DrivingLog& log, std::size_t first, const std::vector<Run>& runs) {
+  double end_s = log.t_s.back() - log.t_s[first];
+  for (const Run& run : runs) end_s = std::min(end_s, run.rows.back().t_s);
+  return end_s;
+}
+
+}  // namespace
+
+Result<Acceptance> accept_drive(const DrivingLog& log, const Model& model,
+                                const Gains<double>& gains, const Scenario& as_given,
+                                const AcceptanceOptions& options) {
+  AWMR_RETURN_IF_ERROR(check_options(options));
+  AWMR_RETURN_IF_ERROR(check_mode(model.vehicle, options.mode));
+  AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, model.plant());
+  AWMR_RETURN_IF_ERROR(check_work(plant, model.file, as_given, model.vehicle.sample_time_s));
+  AWMR_ASSIGN_OR_RETURN(const Controller<double> controller, controller_for(model, gains));
+  AWMR_ASSIGN_OR_RETURN(const std::size_t first, first_row_of(log, options.from_s));
+  Scenario scenario = under(conditions_of(model.vehicle), as_given);
+  const DriveStart start =
+      start_of(log, first, channels_of(log, first, scenario.duration_s, scenario), scenario);
+  scenario.initial = start.state;
+  AWMR_ASSIGN_OR_RETURN(const std::vector<Run> runs,
+                        foretold_runs(model, controller, scenario, start, options));
+
+  Acceptance result{.file = log.file,
+                    .scenario = scenario.name,
+                    .mode = options.mode,
+                    .from_s = log.t_s[first],
+                    .duration_s = compared_s(log, first, runs),
+                    .draws = options.draws};
+  if (result.duration_s < kShortest_s) {
+    return input_error(
+        log.file, fmt::format("only {:.3g} s of it can be held against scenario '{}': at least "
+                              "{:g} s are needed",
+                              result.duration_s, scenario.name, kShortest_s));
+  }
+  std::vector<Compared> channels;
+  for (DriveChannel& channel : channels_of(log, first, result.duration_s, scenario)) {
+    channels.push_back(compare_channel(std::move(channel), channels.size(), runs,
+                                       model.vehicle.sample_time_s, result.duration_s, options));
+  }
+  const std::vector<double> factors = factors_of_draws(channels, runs.size());
+  const double allowed = quantile_of(factors, kLevel);
+  double reached = 0.0;
+  for (const Compared& one : channels) {
+    result.channels.push_back(judged(one, allowed));
+    reached = std::max(reached, result.channels.back().distance / one.usual);
+  }
+  // The drive counts among those that are as far off: of n + 1 alike, each place is as likely.
+  const auto as_far = std::count_if(factors.begin(), factors.end(),
+                                    [&](double factor) { return factor >= reached; });
+  result.p_value = static_cast<double>(as_far + 1) / static_cast<double>(factors.size() + 1);
+  result.inside = result.p_value > 1.0 - kLevel;
+  if (result.inside) return result;
+
+  std::vector<SuspectChannel> evidence;
+  for (const Compared& one : channels) {
+    evidence.push_back({&one.channel, &one.measured, &one.foretold});
+  }
+  result.suspects = suspects_of(model, controller, scenario, options, result.duration_s, evidence);
+  return result;
+}
+
+std::string acceptance_table(const Acceptance& acceptance) {
+  std::string text = fmt::format(
+      "{} against scenario '{}', {}, {:.4g} s from {:g} s on: {} what the model foretells (p "
+      "{:.3g} "
+      "of {} draws)\n",
+      acceptance.file, acceptance.scenario, name_of(acceptance.mode), acceptance.duration_s,
+      acceptance.from_s, acceptance.inside ? "within" : "outside of", acceptance.p_value,
+      acceptance.draws);
+  text += fmt::format("  {:<18} {:>8} {:>10} {:>9} {:>9}  {}\n", "channel", "samples", "noise",
+                      "distance", "allowed", "outside since, by");
+  for (const ChannelAcceptance& one : acceptance.channels) {
+    const std::string since =
+        one.inside ? "-"
+                   : fmt::format("{:.1f} s, {:+.3g} {}", one.outside_since_s.value_or(0.0),
+                                 one.difference, one.unit);
+    text += fmt::format("  {:<18} {:>8} {:>10} {:>9.3g} {:>9.3g}  {}\n", one.channel, one.samples,
+                        fmt::format("{:.3g}{}", one.noise, one.noise_from_log ? "*" : ""),
+                        one.distance, one.allowed, since);
+  }
+  text += "  * estimated from the log\n";
+  if (acceptance.inside) return text;
+  text += acceptance.suspects.empty() ? "  no single change of the model explains it\n"
+                                      : "  what would explain it best, one at a time:\n";
+  for (const Suspect& suspect : acceptance.suspects) {
+    text += fmt::format("    {:<28} {:>9.3g} {:<6} explains {:.0f} %\n", suspect.what,
+                        suspect.value, suspect.unit, 100.0 * suspect.explained);
+  }
+  return text;
+}
+
+}  // namespace awmr

@@ -1,0 +1,65 @@
+/// A drive and the runs that foretell it as series of window means, channel by channel. Private to
+/// this folder.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "awmr/core/random.h"
+#include "awmr/simulate/scenario.h"
+#include "awmr/simulate/simulate.h"
+#include "awmr/trials/log.h"
+
+namespace awmr {
+
+/// One channel of a drive, from where the scenario begins.
+struct DriveChannel {
+  std::string name;
+  std::string unit;
+  /// What a run's row says of it: what the controller was told, where it is told this at all.
+  std::function<double(const RunRow& row)> of_run;
+  double noise = 0.0;           ///< standard deviation of a reading
+  bool noise_from_log = false;  ///< the run's rows are without it
+  std::vector<double> t_s;      ///< of the scenario, by row that was measured
+  std::vector<double> measured;
+};
+
+/// The means of half seconds, and how many rows each is of.
+struct WindowMeans {
+  std::vector<double> mean;
+  std::vector<int> rows;
+};
+inline constexpr double kWindow_s = 0.5;
+
+/// Where the scenario begins in the log, and in which state.
+struct DriveStart {
+  std::size_t row = 0;
+  State<double> state{};
+  State<double> error{};  ///< standard deviation of what was read of it
+};
+
+/// The first row that commands anything, or that at or after from_s.
+/// Errors (input): there is none.
+Result<std::size_t> first_row_of(const DrivingLog& log, const std::optional<double>& from_s);
+
+/// The channels that the log has, over duration_s from its row `first`. Noise is that of the
+/// scenario's sensors, which it has to have; where they give none, or know no such channel, the
+/// log's own.
+std::vector<DriveChannel> channels_of(const DrivingLog& log, std::size_t first, double duration_s,
+                                      const Scenario& scenario);
+
+/// The readings up to the first row, of half a second at most, in place of the scenario's initial
+/// state where there are any.
+DriveStart start_of(const DrivingLog& log, std::size_t first,
+                    const std::vector<DriveChannel>& channels, const Scenario& scenario);
+
+/// Only windows that end by duration_s.
+WindowMeans means_of(const DriveChannel& channel, double duration_s);
+/// What would have been recorded of the run at the same times. random: for the noise that its rows
+/// are without; nullptr for none.
+WindowMeans means_of(const DriveChannel& channel, const Run& run, double sample_time_s,
+                     double duration_s, Random* random);
+
+}  // namespace awmr

@@ -1,0 +1,194 @@
+#include "awmr/validate/suspects.h"
+
+#include <algorithm>
+#include <boost/math/tools/minima.hpp>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <utility>
+
+#include "awmr/core/index.h"
+#include "awmr/core/parallel.h"
+#include "awmr/core/units.h"
+
+namespace awmr {
+namespace {
+
+/// A vehicle in its world, which a suspect changes.
+struct Altered {
+  Model model;
+  Scenario scenario;
+};
+
+/// One thing that may differ.
+struct Change {
+  std::string what;
+  std::string unit;
+  Interval range;  ///< of the value; of a factor above 0, searched in its logarithm
+  double none;     ///< the value that changes nothing
+  std::function<void(Altered&, double value)> apply;
+  bool is_factor() const { return unit == "times"; }
+};
+
+constexpr Interval kFactor{0.25, 4.0};
+constexpr int kGrid = 9;
+constexpr int kBits = 10;
+constexpr double kWorthNaming = 0.3;
+constexpr std::size_t kMostNamed = 4;
+
+void add_parameters(const Model& model, std::vector<Change>& changes) {
+  for (const ParameterInfo& parameter : parameter_table()) {
+    const ParameterId id = parameter.id;
+    // An exponent and its coefficient bend one curve; the coefficient stands for both.
+    const bool exponent = id == ParameterId::kSurgeBeta || id == ParameterId::kYawBeta;
+    if (exponent || !model[id].value || *model[id].value <= 0.0) continue;
+    changes.push_back({std::string(parameter.name), "times", kFactor, 1.0,
+                       [id](Altered& v, double f) { *v.model[id].value *= f; }});
+  }
+}
+
+WheelFault all_the_time(std::vector<Wheel> wheels, double share) {
+  return {.wheels = std::move(wheels), .window = {}, .share = share};
+}
+
+void add_motors(std::vector<Change>& changes) {
+  const auto add = [&](const char* what, std::vector<Wheel> wheels) {
+    changes.push_back({what, "times", {0.3, 1.5}, 1.0, [wheels](Altered& v, double share) {
+                         v.scenario.faults.push_back(all_the_time(wheels, share));
+                       }});
+  };
+  add("force of all motors",
+      {Wheel::kFrontLeft, Wheel::kFrontRight, Wheel::kRearLeft, Wheel::kRearRight});
+  add("force of the left motors", {Wheel::kFrontLeft, Wheel::kRearLeft});
+  add("force of the right motors", {Wheel::kFrontRight, Wheel::kRearRight});
+  changes.push_back({"lag of the motors", "s", {0.0, 0.5}, 0.0, [](Altered& v, double lag_s) {
+                       if (lag_s > 0.0) v.scenario.actuators->motor_time_constant_s = lag_s;
+                     }});
+}
+
+void add_sensors(std::vector<Change>& changes) {
+  const auto add = [&](const char* sensor, Channel Sensors::*which, const char* unit,
+                       double to_unit, double most) {
+    changes.push_back(
+        {std::string("bias of the ") + sensor,
+         unit,
+         {-most, most},
+         0.0,
+         [=](Altered& v, double bias) { ((*v.scenario.sensors).*which).bias += bias / to_unit; }});
+    changes.push_back({std::string("lateness of the ") + sensor,
+                       "s",
+                       {0.0, 0.5},
+                       0.0,
+                       [=](Altered& v, double late_s) {
+                         if (late_s > 0.0) ((*v.scenario.sensors).*which).late_s = late_s;
+                       }});
+  };
+  add("heading", &Sensors::heading, "deg", degrees(1.0), 30.0);
+  add("yaw rate", &Sensors::yaw_rate, "deg/s", degrees(1.0), 20.0);
+  add("speed", &Sensors::speed, "m/s", 1.0, 0.5);
+}
+
+void add_pushes(const Model& model, std::vector<Change>& changes) {
+  changes.push_back(
+      {"push along the vehicle", "F_max", {-1.0, 1.0}, 0.0, [](Altered& v, double value) {
+         v.scenario.disturbance.surge.push_back({.value = value, .window = {}, .phase_rad = {}});
+       }});
+  const double most_m = model.vehicle.half_track_m;
+  changes.push_back(
+      {"moment that turns it", "m", {-most_m, most_m}, 0.0, [](Altered& v, double value) {
+         v.scenario.disturbance.yaw.push_back({.value = value, .window = {}, .phase_rad = {}});
+       }});
+}
+
+std::vector<Change> changes_of(const Model& model) {
+  std::vector<Change> changes;
+  add_parameters(model, changes);
+  add_motors(changes);
+  add_sensors(changes);
+  add_pushes(model, changes);
+  return changes;
+}
+
+Scenario without_noise(Scenario scenario) {
+  for (const auto which : {&Sensors::heading, &Sensors::yaw_rate, &Sensors::speed}) {
+    ((*scenario.sensors).*which).noise = 0.0;
+    ((*scenario.sensors).*which).quantum = 0.0;
+  }
+  return scenario;
+}
+
+/// The search for one change's value; everything that stays the same is here.
+struct Search {
+  const Model& model;
+  const Controller<double>& controller;
+  Scenario scenario;  ///< without noise
+  const AcceptanceOptions& options;
+  double duration_s;
+  const std::vector<SuspectChannel>& evidence;
+
+  /// The sum over channels of the mean squared distance of the drive from the changed vehicle's run.
+  double distance(const Change& change, double value) const {
+    constexpr double kNever = std::numeric_limits<double>::max();
+    Altered changed{model, scenario};
+    change.apply(changed, value);
+    const auto plant = changed.model.plant();
+    if (!plant) return kNever;
+    const double sample_s = model.vehicle.sample_time_s;
+    const Run run = simulate(*plant, controller, changed.scenario, options.mode,
+                             {.sample_time_s = sample_s, .substeps = {}, .seed = options.seed});
+    if (run.end == RunEnd::kFailed) return kNever;
+    double sum = 0.0;
+    for (const SuspectChannel& one : evidence) {
+      const WindowMeans windows = means_of(*one.channel, run, sample_s, duration_s, nullptr);
+      for (std::size_t w = 0; w < windows.mean.size(); ++w) {
+        if (windows.rows[w] == 0) continue;
+        const double apart = one.measured->mean[w] - windows.mean[w];
+        sum +=
+            std::pow(apart / one.foretold->spread[w], 2) / static_cast<double>(windows.mean.size());
+      }
+    }
+    return std::isfinite(sum) ? sum : kNever;
+  }
+
+  /// The best value: on a grid first, as there may be several valleys, then between its neighbours.
+  Suspect best(const Change& change, double unchanged) const {
+    const auto to = [&](double value) { return change.is_factor() ? std::log(value) : value; };
+    const auto from = [&](double z) { return change.is_factor() ? std::exp(z) : z; };
+    const double lo = to(change.range.lo);
+    const double step = (to(change.range.hi) - lo) / (kGrid - 1);
+    const auto cost = [&](double z) { return distance(change, from(z)); };
+    int nearest = 0;
+    double least = std::numeric_limits<double>::max();
+    for (int i = 0; i < kGrid; ++i) {
+      if (const double here = cost(lo + i * step); here < least) {
+        least = here;
+        nearest = i;
+      }
+    }
+    std::uintmax_t evaluations = 20;
+    const auto [z, found] = boost::math::tools::brent_find_minima(
+        cost, lo + std::max(0, nearest - 1) * step, lo + std::min(kGrid - 1, nearest + 1) * step,
+        kBits, evaluations);
+    return {change.what, from(z), change.unit, 1.0 - std::min(found, unchanged) / unchanged};
+  }
+};
+
+}  // namespace
+
+std::vector<Suspect> suspects_of(const Model& model, const Controller<double>& controller,
+                                 const Scenario& scenario, const AcceptanceOptions& options,
+                                 double duration_s, const std::vector<SuspectChannel>& evidence) {
+  const Search search{model, controller, without_noise(scenario), options, duration_s, evidence};
+  const std::vector<Change> changes = changes_of(model);
+  const double unchanged = search.distance(changes.front(), changes.front().none);
+  std::vector<Suspect> suspects(changes.size());
+  parallel_for(changes.size(), options.threads,
+               [&](std::size_t i) { suspects[i] = search.best(changes[i], unchanged); });
+  std::stable_sort(suspects.begin(), suspects.end(),
+                   [](const Suspect& a, const Suspect& b) { return a.explained > b.explained; });
+  std::erase_if(suspects, [](const Suspect& one) { return one.explained < kWorthNaming; });
+  if (suspects.size() > kMostNamed) suspects.resize(kMostNamed);
+  return suspects;
+}
+
+}  // namespace awmr
