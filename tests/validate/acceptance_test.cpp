@@ -99,7 +99,17 @@ TEST(Acceptance, BeginsWhereTheLogFirstCommandsAnything) {
   EXPECT_DOUBLE_EQ(acceptance.from_s, 2.0);
   EXPECT_NEAR(acceptance.duration_s, 8.0, 1e-9);
   EXPECT_EQ(acceptance.channels.size(), 6u);
-  for (const ChannelAcceptance& one : acceptance.channels) EXPECT_FALSE(one.noise_from_log);
+  for (const ChannelAcceptance& one : acceptance.channels) {
+    const bool read = one.channel == "heading_rad" || one.channel == "yaw_rate_radps" ||
+                      one.channel == "speed_mps";
+    EXPECT_EQ(one.noise_from_log, read) << one.channel;
+    // The recorded readings have the default noise: 1 deg, 0.5 deg/s, 0.02 m/s.
+    if (one.channel == "heading_rad") {
+      EXPECT_NEAR(one.noise, radians(1.0), radians(0.2));
+    } else if (one.channel == "speed_mps") {
+      EXPECT_NEAR(one.noise, 0.02, 0.004);
+    }
+  }
 }
 
 TEST(Acceptance, NamesAHeavierVehicle) {

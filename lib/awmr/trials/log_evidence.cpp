@@ -88,7 +88,9 @@ MomentShares moment_shares(const std::vector<WindowSums>& windows,
   const double determinant = ss * dd - sd * sd;
   const bool steering_only = dd < 1e-6 * ss;
   const bool sides_only = ss < 1e-6 * dd;
-  const bool apart = determinant > 1e-3 * ss * dd && !steering_only && !sides_only;
+  // A controller that steers and drives the sides apart together leaves but one moment to be seen:
+  // beyond a correlation of 0.9 the shares are those of what this line leaves out, inertia first.
+  const bool apart = determinant > 0.19 * ss * dd && !steering_only && !sides_only;
   if (n < 10.0 || rr <= 0.0) return {};
   constexpr double kSignificant = 5.0;  // standard errors
   const auto shown = [&](double coefficient, double variance_factor, double explained) {

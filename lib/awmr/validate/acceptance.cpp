@@ -43,10 +43,24 @@ State<double> moved_by(State<double> state, const State<double>& error, Random& 
   return state;
 }
 
+/// A lateness or a lag that the vehicle does not give lies anywhere between none and twice what is
+/// usual.
+LoopConditions drawn(LoopConditions c, const Vehicle& vehicle, Random& random) {
+  const auto draw = [&](const std::optional<double>& given, double& value) {
+    const double share = 2.0 * random.uniform();
+    if (!given) value *= share;
+  };
+  draw(vehicle.sensors.heading_late_s, c.heading_late_s);
+  draw(vehicle.sensors.yaw_rate_late_s, c.yaw_rate_late_s);
+  draw(vehicle.sensors.speed_late_s, c.speed_late_s);
+  draw(vehicle.motor_time_constant_s, c.motor_time_constant_s);
+  return c;
+}
+
 /// The drives that are foretold, before anything is compared.
 Result<std::vector<Run>> foretold_runs(const Model& model, const Controller<double>& controller,
-                                       const Scenario& scenario, const DriveStart& start,
-                                       const AcceptanceOptions& options) {
+                                       const Scenario& scenario, const LoopConditions& conditions,
+                                       const DriveStart& start, const AcceptanceOptions& options) {
   std::optional<PlantSampler> sampler;
   if (!model.covariance.parameters.empty()) {
     AWMR_ASSIGN_OR_RETURN(sampler, PlantSampler::make(model));
@@ -61,14 +75,14 @@ Result<std::vector<Run>> foretold_runs(const Model& model, const Controller<doub
       return;
     }
     Random random(options.seed, kReadingsStream + 2 * i);
-    Scenario drawn = scenario;
-    drawn.initial = moved_by(start.state, start.error, random);
-    runs[i] = simulate(*plant, controller, drawn, options.mode,
+    Scenario world = under(drawn(conditions, model.vehicle, random), scenario);
+    world.initial = moved_by(start.state, start.error, random);
+    runs[i] = simulate(*plant, controller, world, options.mode,
                        {.sample_time_s = model.vehicle.sample_time_s,
                         .substeps = {},
                         .seed = options.seed,
                         .sample = static_cast<std::uint64_t>(sample)});
-    ended[i] = failure_of(runs[i], drawn);
+    ended[i] = failure_of(runs[i], world);
   });
   for (Status& status : ended) AWMR_RETURN_IF_ERROR(std::move(status));
   return runs;
@@ -165,6 +179,13 @@ ChannelAcceptance judged(const Compared& one, double factor) {
   return result;
 }
 
+/// Whether the vehicle says how noisy a sensor of the controller's is.
+bool is_given(const std::string& channel, const SensorQuality& sensors) {
+  if (channel == info(LogChannel::kHeading).name) return sensors.heading_deg.has_value();
+  if (channel == info(LogChannel::kYawRate).name) return sensors.yaw_rate_degps.has_value();
+  return sensors.speed_mps.has_value();
+}
+
 /// To the end of the log, of the scenario and of every run.
 double compared_s(const DrivingLog& log, std::size_t first, const std::vector<Run>& runs) {
   double end_s = log.t_s.back() - log.t_s[first];
@@ -183,12 +204,13 @@ Result<Acceptance> accept_drive(const DrivingLog& log, const Model& model,
   AWMR_RETURN_IF_ERROR(check_work(plant, model.file, as_given, model.vehicle.sample_time_s));
   AWMR_ASSIGN_OR_RETURN(const Controller<double> controller, controller_for(model, gains));
   AWMR_ASSIGN_OR_RETURN(const std::size_t first, first_row_of(log, options.from_s));
-  Scenario scenario = under(conditions_of(model.vehicle), as_given);
+  const LoopConditions conditions = conditions_in(log, first, model.vehicle);
+  Scenario scenario = under(conditions, as_given);
   const DriveStart start =
       start_of(log, first, channels_of(log, first, scenario.duration_s, scenario), scenario);
   scenario.initial = start.state;
   AWMR_ASSIGN_OR_RETURN(const std::vector<Run> runs,
-                        foretold_runs(model, controller, scenario, start, options));
+                        foretold_runs(model, controller, as_given, conditions, start, options));
 
   Acceptance result{.file = log.file,
                     .scenario = scenario.name,
@@ -204,6 +226,8 @@ Result<Acceptance> accept_drive(const DrivingLog& log, const Model& model,
   }
   std::vector<Compared> channels;
   for (DriveChannel& channel : channels_of(log, first, result.duration_s, scenario)) {
+    channel.noise_from_log |=
+        channel.noise_in_run && !as_given.sensors && !is_given(channel.name, model.vehicle.sensors);
     channels.push_back(compare_channel(std::move(channel), channels.size(), runs,
                                        model.vehicle.sample_time_s, result.duration_s, options));
   }

@@ -67,8 +67,9 @@ struct Acceptance {
 };
 
 /// Simulates the scenario for draws of the model's covariance (model alone where it has none), with
-/// the sensors' noise and lateness and the motors' lag of scenario, vehicle or LoopConditions, from
-/// the state in which the log begins.
+/// the sensors' noise and lateness and the motors' lag of scenario or vehicle, from the state in
+/// which the log begins. Of what neither gives, noise is the log's own, and lateness and lags are
+/// drawn between 0 and twice those of LoopConditions.
 /// Errors (input): as simulate() and PlantSampler; the log commands nothing, or is compared over less
 /// than 2 s; nothing was measured; from_s is not within the log; options out of range.
 Result<Acceptance> accept_drive(const DrivingLog& log, const Model& model,

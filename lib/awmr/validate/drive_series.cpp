@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "awmr/core/index.h"
+#include "awmr/core/units.h"
 #include "awmr/trials/replay.h"
 #include "awmr/trials/robust_ratio.h"
 
@@ -104,9 +105,11 @@ DriveChannel measured_channel(const DrivingLog& log, LogChannel which, std::size
     channel.of_run = [read = sensor->reading](const RunRow& row) { return row.measured.*read; };
     const Channel& errors = *scenario.sensors.*(sensor->errors);
     channel.noise = std::hypot(errors.noise, errors.quantum / std::sqrt(12.0));
+    channel.noise_in_run = true;
+  } else {
+    channel.noise = noise_in(log, which, first);
+    channel.noise_from_log = true;
   }
-  channel.noise_from_log = channel.noise == 0.0;
-  if (channel.noise_from_log) channel.noise = white_noise(channel.measured, readings.quantum);
   return channel;
 }
 
@@ -121,6 +124,27 @@ Result<std::size_t> first_row_of(const DrivingLog& log, const std::optional<doub
   return input_error(
       log.file, from_s ? fmt::format("ends before {:g} s, where the scenario is to begin", *from_s)
                        : "commands nothing: every force and steering command is 0");
+}
+
+double noise_in(const DrivingLog& log, LogChannel which, std::size_t first) {
+  std::vector<double> values;
+  for (std::size_t row = first; row < log.rows(); ++row) {
+    if (log[which]->fresh[row]) values.push_back(log[which]->value[row]);
+  }
+  return white_noise(values, log[which]->quantum);
+}
+
+LoopConditions conditions_in(const DrivingLog& log, std::size_t first, const Vehicle& vehicle) {
+  LoopConditions c = conditions_of(vehicle);
+  const SensorQuality& given = vehicle.sensors;
+  const auto take = [&](LogChannel which, bool is_given, double to_unit, double& noise) {
+    if (!is_given && log[which]) noise = noise_in(log, which, first) * to_unit;
+  };
+  take(LogChannel::kHeading, given.heading_deg.has_value(), degrees(1.0), c.heading_noise_deg);
+  take(LogChannel::kYawRate, given.yaw_rate_degps.has_value(), degrees(1.0),
+       c.yaw_rate_noise_degps);
+  take(LogChannel::kSpeed, given.speed_mps.has_value(), 1.0, c.speed_noise_mps);
+  return c;
 }
 
 std::vector<DriveChannel> channels_of(const DrivingLog& log, std::size_t first, double duration_s,
@@ -185,7 +209,7 @@ WindowMeans means_of(const DriveChannel& channel, const Run& run, double sample_
   WindowMeans windows = means(channel, duration_s, [&](std::size_t i) {
     return at_time(channel, run, sample_time_s, channel.t_s[i]);
   });
-  if (random == nullptr || !channel.noise_from_log) return windows;
+  if (random == nullptr || channel.noise_in_run) return windows;
   for (std::size_t w = 0; w < windows.mean.size(); ++w) {
     // The mean of n readings with independent noise sigma has sigma/sqrt(n).
     const double noise = channel.noise * random->normal();

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "awmr/core/random.h"
+#include "awmr/simulate/conditions.h"
 #include "awmr/simulate/scenario.h"
 #include "awmr/simulate/simulate.h"
 #include "awmr/trials/log.h"
@@ -21,7 +22,8 @@ struct DriveChannel {
   /// What a run's row says of it: what the controller was told, where it is told this at all.
   std::function<double(const RunRow& row)> of_run;
   double noise = 0.0;           ///< standard deviation of a reading
-  bool noise_from_log = false;  ///< the run's rows are without it
+  bool noise_from_log = false;  ///< estimated, as nobody gives it
+  bool noise_in_run = false;    ///< the rows of a run have it already
   std::vector<double> t_s;      ///< of the scenario, by row that was measured
   std::vector<double> measured;
 };
@@ -44,9 +46,15 @@ struct DriveStart {
 /// Errors (input): there is none.
 Result<std::size_t> first_row_of(const DrivingLog& log, const std::optional<double>& from_s);
 
-/// The channels that the log has, over duration_s from its row `first`. Noise is that of the
-/// scenario's sensors, which it has to have; where they give none, or know no such channel, the
-/// log's own.
+/// The noise of a channel's readings from row `first` on, taken to be white.
+/// Precondition: the log has the channel.
+double noise_in(const DrivingLog& log, LogChannel which, std::size_t first);
+
+/// The vehicle's conditions; noise that it does not give is that of the log's readings.
+LoopConditions conditions_in(const DrivingLog& log, std::size_t first, const Vehicle& vehicle);
+
+/// The channels that the log has, over duration_s from its row `first`. Noise of the
+/// controller's sensors is the scenario's, which has to have them, that of others the log's own.
 std::vector<DriveChannel> channels_of(const DrivingLog& log, std::size_t first, double duration_s,
                                       const Scenario& scenario);
 
