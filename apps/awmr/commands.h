@@ -98,7 +98,7 @@ struct ValidateCommand {
   double log_tolerance = 0.3;
   bool claims = false;                        ///< all fourteen, each with tolerance and reason
   std::optional<fs::path> claims_table = {};  ///< Markdown
-  std::optional<fs::path> scenario = {};  ///< that the logs are drives of
+  std::optional<fs::path> scenario = {};      ///< that the logs are drives of
   AcceptanceOptions acceptance = {};
   InputNames names = {};
 };
