@@ -13,8 +13,17 @@ namespace {
 
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// Evaluates every window before Ceres asks for any. The point is the one that Ceres moves. Derivatives
-/// are made at once: they cost little more than the residuals, and Ceres asks for them at every point
+double prior_std(const LogProblem& problem, std::size_t i) {
+  return kPriorStd * problem.model.quantities[i].large_change;
+}
+/// (x_i - initial_i) / std_i
+double prior_residual(const LogProblem& problem, std::size_t i, double x) {
+  return (x - problem.initial[i]) / prior_std(problem, i);
+}
+
+/// Evaluates every window before Ceres asks for any. The point is the one that Ceres moves. A coordinate
+/// at the end of its range that the cost would push beyond it is held there, by derivatives of 0: a
+/// step that is cut at the bound would leave the others where they belong without it. Derivatives are made at once: they cost little more than the residuals, and Ceres asks for them at every point
 /// that it keeps.
 class Evaluator : public ceres::EvaluationCallback {
  public:
@@ -28,17 +37,38 @@ class Evaluator : public ceres::EvaluationCallback {
     for (const WindowSums& sums : sums_) {
       triangles_.push_back(sums.finite ? triangle_of(sums.products) : Triangle{});
     }
+    hold_at_bounds();
   }
 
   const LogProblem& problem() const { return problem_; }
   bool finite(std::size_t window) const { return sums_[window].finite; }
   const Triangle& triangle(std::size_t window) const { return triangles_[window]; }
+  bool is_held(std::size_t coordinate) const { return held_[coordinate]; }
 
  private:
+  void hold_at_bounds() {
+    held_.assign(problem_.bounds.size(), false);
+    for (std::size_t i = 0; i < held_.size(); ++i) {
+      const double x = point_.coordinates[i];
+      double slope = prior_residual(problem_, i, x) / prior_std(problem_, i);
+      for (const WindowSums& sums : sums_) {
+        slope += sums.products(eigen_index(i), sums.products.cols() - 1);
+      }
+      held_[i] = (x <= problem_.bounds[i].lo && slope > 0.0) ||
+                 (x >= problem_.bounds[i].hi && slope < 0.0);
+    }
+    for (Triangle& triangle : triangles_) {
+      for (Eigen::Index i = 0; i < rows_of(held_) && triangle.r.size() > 0; ++i) {
+        if (held_[at(i)]) triangle.r.col(i).setZero();
+      }
+    }
+  }
+
   const LogProblem& problem_;
   const SearchPoint& point_;
   std::vector<WindowSums> sums_;
   std::vector<Triangle> triangles_;
+  std::vector<bool> held_;  ///< by coordinate
 };
 
 /// Hands Ceres what the Evaluator made of one window, a few rows in place of many: blocks coordinates,
@@ -81,29 +111,28 @@ class WindowCost : public ceres::CostFunction {
   int initial_;
 };
 
-/// (x_i - initial_i) / std_i
+/// The weak pull of every coordinate to its initial guess.
 class PriorCost : public ceres::CostFunction {
  public:
-  explicit PriorCost(const LogProblem& problem) : initial_(problem.initial) {
-    for (const FreeQuantity& q : problem.model.quantities) {
-      std_.push_back(kPriorStd * q.large_change);
-    }
-    mutable_parameter_block_sizes()->push_back(static_cast<int>(initial_.size()));
-    set_num_residuals(static_cast<int>(initial_.size()));
+  explicit PriorCost(const Evaluator& evaluator) : evaluator_(evaluator) {
+    const int n = static_cast<int>(evaluator.problem().initial.size());
+    mutable_parameter_block_sizes()->push_back(n);
+    set_num_residuals(n);
   }
   bool Evaluate(double const* const* x, double* residuals, double** jacobians) const final {
-    const std::size_t n = initial_.size();
+    const LogProblem& problem = evaluator_.problem();
+    const std::size_t n = problem.initial.size();
+    if (jacobians && jacobians[0]) std::fill_n(jacobians[0], n * n, 0.0);
     for (std::size_t i = 0; i < n; ++i) {
-      residuals[i] = (x[0][i] - initial_[i]) / std_[i];
-      if (!jacobians || !jacobians[0]) continue;
-      for (std::size_t j = 0; j < n; ++j) jacobians[0][i * n + j] = i == j ? 1.0 / std_[i] : 0.0;
+      residuals[i] = prior_residual(problem, i, x[0][i]);
+      if (!jacobians || !jacobians[0] || evaluator_.is_held(i)) continue;
+      jacobians[0][i * n + i] = 1.0 / prior_std(problem, i);
     }
     return true;
   }
 
  private:
-  std::vector<double> initial_;
-  std::vector<double> std_;
+  const Evaluator& evaluator_;
 };
 
 void bound(ceres::Problem& problem, const std::vector<Interval>& bounds,
@@ -191,7 +220,7 @@ Solved search_from(const LogProblem& problem, SearchPoint from, double function_
     ordering->AddElementToGroup(initial_state, 0);
   }
   ordering->AddElementToGroup(coordinates, 1);
-  search.AddResidualBlock(new PriorCost(problem), nullptr, coordinates);
+  search.AddResidualBlock(new PriorCost(evaluator), nullptr, coordinates);
   bound(search, problem.bounds, point.coordinates);
   ceres::Solver::Options options = solver_options(function_tolerance);
   options.linear_solver_ordering = ordering;
