@@ -55,12 +55,13 @@ struct AllocationLimits {
 /// The commands, and which limits they met.
 template <class T>
 struct Allocation {
-  SideForces<T> force;      ///< F' of each wheel of a side, in [F'min, F'max]
-  T steering_rad;           ///< the commanded d_r, rad, left positive, |d_r| <= d_max
-  bool speed_limited;       ///< tau_speed was clipped
-  bool steering_limited;    ///< d_r was clipped
-  bool force_limited;       ///< an F' was clipped
-  bool steering_powerless;  ///< steering was asked for, but tau_speed is too small to steer with
+  SideForces<T> force;       ///< F' of each wheel of a side, in [F'min, F'max]
+  T steering_rad;            ///< the commanded d_r, rad, left positive, |d_r| <= d_max
+  Mask<T> speed_limited;     ///< tau_speed was clipped
+  Mask<T> steering_limited;  ///< d_r was clipped
+  Mask<T> force_limited;     ///< an F' was clipped
+  /// Steering was asked for, but tau_speed is too small to steer with.
+  Mask<T> steering_powerless;
 };
 
 /// Below this tau_speed the front wheels push too little to turn the vehicle, and d_r is commanded
@@ -111,16 +112,12 @@ namespace detail {
 
 /// x, or the end of [lo, hi] that it lies beyond; `limited` is then set. NaN stays NaN.
 template <class T>
-T clipped(const T& x, const T& lo, const T& hi, bool& limited) {
-  if (x > hi) {
-    limited = true;
-    return hi;
-  }
-  if (x < lo) {
-    limited = true;
-    return lo;
-  }
-  return x;
+T clipped(const T& x, const T& lo, const T& hi, Mask<T>& limited) {
+  using math::select;
+  const Mask<T> above = x > hi;
+  const Mask<T> below = x < lo;
+  limited = limited || above || below;
+  return select(above, hi, select(below, lo, x));
 }
 
 /// The same for float, by the order of whole numbers, which costs the chip less than comparing
@@ -179,21 +176,32 @@ struct SmallAngle {
 template <class T>
 T steering_for(const AllocationConstants<T>& c, const T& tau_speed, const T& half_ratio,
                Allocation<T>& a) {
-  if (!math::is_above(tau_speed, steering_authority_min<T>())) {
-    a.steering_powerless = true;
-    return T(0.0);
+  using math::all;
+  using math::any;
+  using math::select;
+  const Mask<T> powerless = !math::is_above(tau_speed, steering_authority_min<T>());
+  if (any(powerless)) {
+    a.steering_powerless = a.steering_powerless || powerless;
+    if (all(powerless)) return T(0.0);
   }
-  return clipped(half_ratio / tau_speed, -c.h_max, c.h_max, a.steering_limited);
+  const T h = select(powerless, T(0.0), T(half_ratio / tau_speed));
+  return clipped(h, T(-c.h_max), c.h_max, a.steering_limited);
 }
 
 /// The steering angle that is commanded for h, rad; exactly +-d_max where h was clipped.
 template <class Angle, class T>
 AWMR_INLINE T angle_of(const AllocationConstants<T>& c, const T& h, const T& h2,
                        const Allocation<T>& a) {
-  if (a.steering_limited) {
-    return math::is_above(h, T(0.0)) ? c.steering_max_rad : -c.steering_max_rad;
+  using math::all;
+  using math::any;
+  using math::select;
+  T stop_rad = T(0.0);
+  if (any(a.steering_limited)) {
+    stop_rad = select(math::is_above(h, T(0.0)), c.steering_max_rad, T(-c.steering_max_rad));
+    if (all(a.steering_limited)) return stop_rad;
   }
-  return math::saturate(Angle::of_h(h, h2), c.steering_max_rad);
+  return select(a.steering_limited, stop_rad,
+                math::saturate(Angle::of_h(h, h2), c.steering_max_rad));
 }
 
 /// Puts the side forces into `a`, each clipped to [F'min, F'max]:
@@ -228,6 +236,9 @@ template <class Angle, class T>
 AWMR_INLINE void allocate_by(YawMode mode, const T& tau_speed, const T& tau_turn_m,
                              const AllocationConstants<T>& c, CombinedSplit split,
                              Allocation<T>& a) {
+  using math::all;
+  using math::any;
+  using math::select;
   a = Allocation<T>{};
   const T speed = clipped(tau_speed, c.tau_speed_min, c.tau_speed_max, a.speed_limited);
   const bool combined = mode == YawMode::kCombined;
@@ -239,21 +250,27 @@ AWMR_INLINE void allocate_by(YawMode mode, const T& tau_speed, const T& tau_turn
     // The combined mode steers for half of tau_turn: its constant is half of steering's.
     h = steering_for(c, speed,
                      tau_turn_m * (combined ? c.axle_quarter_inverse : c.axle_half_inverse), a);
-    h2 = a.steering_limited ? c.h2_max : Angle::square(h);
+    h2 = select(a.steering_limited, c.h2_max, Angle::square(h));
     quarter = T(0.25) + h2;
   }
-  const bool lost = a.steering_limited || a.steering_powerless;
+  const Mask<T> lost = a.steering_limited || a.steering_powerless;
   T over_track = T(0.0);  // the forces' share of the moment over d
-  if (redistribute && lost) {
-    // The steering makes the moment l_f tau_speed q = 2 h l_f tau_speed of tau_turn.
-    over_track = (tau_turn_m - h * speed * c.axle_twice_m) * c.half_track_inverse;
-  } else if (mode != YawMode::kSteering) {
+  if (mode != YawMode::kSteering && !(redistribute && all(lost))) {
     over_track = tau_turn_m * (combined ? c.track_inverse : c.half_track_inverse);
   }
+  if (redistribute && any(lost)) {
+    // The steering makes the moment l_f tau_speed q = 2 h l_f tau_speed of tau_turn.
+    over_track = select(lost, T((tau_turn_m - h * speed * c.axle_twice_m) * c.half_track_inverse),
+                        over_track);
+  }
   forces_for(c, speed, over_track, quarter, a);
-  if (redistribute && a.force_limited && !lost) {
-    h = give_back(c, tau_turn_m, quarter, a);
-    h2 = a.steering_limited ? c.h2_max : Angle::square(h);
+  if (redistribute && any(a.force_limited && !lost)) {
+    const Mask<T> gives = a.force_limited && !lost;
+    const Allocation<T> kept = a;
+    h = select(gives, give_back(c, tau_turn_m, quarter, a), h);
+    a.steering_limited = select(gives, a.steering_limited, kept.steering_limited);
+    a.steering_powerless = select(gives, a.steering_powerless, kept.steering_powerless);
+    h2 = select(a.steering_limited, c.h2_max, Angle::square(h));
   }
   if (mode != YawMode::kDifferential) a.steering_rad = angle_of<Angle>(c, h, h2, a);
 }
@@ -285,18 +302,26 @@ AWMR_INLINE void allocate(YawMode mode, const T& tau_speed, const T& tau_turn_m,
   detail::allocate_by<detail::ExactAngle>(mode, tau_speed, tau_turn_m, c, split, a);
 }
 
+/// The constants of the small-angle form, AllocationForm::kPaper, where those of the exact one are
+/// `c`.
+template <class T>
+AllocationConstants<T> small_angle_form(AllocationConstants<T> c) {
+  c.h_max = T(0.25) * c.steering_max_rad;
+  c.h2_max = T(0.0);
+  return c;
+}
+
 /// The same from the limits themselves, in their form, where the time of a step does not matter. The
 /// chip has the exact form alone.
 template <class T>
 Allocation<T> allocate(YawMode mode, const T& tau_speed, const T& tau_turn_m,
                        const AllocationLimits<T>& limits) {
   Allocation<T> a{};
-  AllocationConstants<T> c = prepared(limits);
+  const AllocationConstants<T> c = prepared(limits);
 #ifndef __AVR__
   if (limits.form == AllocationForm::kPaper) {
-    c.h_max = T(0.25) * limits.steering_max_rad;
-    c.h2_max = T(0.0);
-    detail::allocate_by<detail::SmallAngle>(mode, tau_speed, tau_turn_m, c, limits.split, a);
+    detail::allocate_by<detail::SmallAngle>(mode, tau_speed, tau_turn_m, small_angle_form(c),
+                                            limits.split, a);
     return a;
   }
 #endif

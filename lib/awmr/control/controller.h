@@ -129,8 +129,15 @@ PreparedController<T, G> prepared(const Controller<T, G>& c) {
 template <class T>
 T fed_forward(const Resistance<T>& law, const T& speed, const T& intent) {
   using math::abs;
-  if (!(abs(speed) < law.rest_speed)) return law(speed);
-  return law.at(law.rest_speed) * math::saturate(T((speed + intent) / law.rest_speed), T(1.0));
+  using math::all;
+  using math::any;
+  using math::select;
+  const Mask<T> rests = abs(speed) < law.rest_speed;
+  if (!any(rests)) return law(speed);
+  const T held =
+      law.at(law.rest_speed) * math::saturate(T((speed + intent) / law.rest_speed), T(1.0));
+  if (all(rests)) return held;
+  return select(rests, held, law(speed));
 }
 /// The same of a table.
 inline float fed_forward(const RestingTable& law, const float& speed, const float& intent) {

@@ -38,10 +38,22 @@ struct Resistance {
   /// g(speed) with sign and chord, for any speed; 0 at 0.
   T operator()(const T& speed) const {
     using math::abs;
+    using math::all;
+    using math::any;
+    using math::select;
     const T magnitude = abs(speed);
-    if (!(magnitude > T(0.0))) return T(0.0);
-    if (magnitude < rest_speed) return at(rest_speed) / rest_speed * speed;
-    return speed > T(0.0) ? at(magnitude) : -at(magnitude);
+    const Mask<T> moves = magnitude > T(0.0);
+    if (!any(moves)) return T(0.0);
+    const Mask<T> on_chord = magnitude < rest_speed;
+    // Lanes at rest compute with a speed of 1, which is then left out.
+    const T resists = at(select(on_chord, rest_speed, select(moves, magnitude, T(1.0))));
+    T signed_resistance = select(speed > T(0.0), resists, T(-resists));
+    if (any(on_chord)) {
+      const T chord = resists / select(on_chord, rest_speed, T(1.0)) * speed;
+      if (all(on_chord)) return chord;
+      signed_resistance = select(on_chord, chord, signed_resistance);
+    }
+    return select(moves, signed_resistance, T(0.0));
   }
 };
 
@@ -62,18 +74,17 @@ Resistance<T> feed_forward(Resistance<T> law) {
 /// zone = F'0 >= 0. The inverse of beyond_dead_zone() for every force but 0.
 template <class T>
 T with_dead_zone(const T& force, const T& zone) {
-  if (force > T(0.0)) return force + zone;
-  if (force < T(0.0)) return force - zone;
-  return force;
+  using math::select;
+  return select(force > T(0.0), T(force + zone), select(force < T(0.0), T(force - zone), force));
 }
 
 /// The force that a motor with a dead zone makes of `command`: none while |command| <= zone, and
 /// beyond that the command less the zone. Both are over F_max, and zone = F'0 >= 0.
 template <class T>
 T beyond_dead_zone(const T& command, const T& zone) {
-  if (command > zone) return command - zone;
-  if (command < -zone) return command + zone;
-  return T(0.0);
+  using math::select;
+  return select(command > zone, T(command - zone),
+                select(command < -zone, T(command + zone), T(0.0)));
 }
 
 }  // namespace awmr

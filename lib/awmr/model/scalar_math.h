@@ -10,8 +10,40 @@
 #include "awmr/model/float_bearing.h"
 #include "awmr/model/float_math.h"
 
+/// A helper that is to leave no trace in the code of a chip.
+#ifdef __AVR__
+#define AWMR_NO_CALL inline __attribute__((always_inline))
+#else
+#define AWMR_NO_CALL inline
+#endif
+
+/// A template that is rarely called, and not to be copied into its callers.
+#define AWMR_COLD __attribute__((noinline, cold))
+
 namespace awmr {
+
+/// What a comparison of two T says: bool. A batch, whose lanes may differ, has its own mask with
+/// any(), all(), select(), !, && and || (simulate/lanes/lanes.h).
+///
+/// A branch that lanes may take apart is written as
+///   if (any(m)) { if (all(m)) return a;  x = select(m, a, x); }
+/// which for bool is the branch itself, without the work of the other side.
+template <class T>
+struct MaskOf {
+  using Type = bool;
+};
+template <class T>
+using Mask = typename MaskOf<T>::Type;
+
 namespace math {
+
+AWMR_NO_CALL bool any(bool mask) { return mask; }
+AWMR_NO_CALL bool all(bool mask) { return mask; }
+/// `chosen` where the mask holds, else `other`.
+template <class T>
+AWMR_NO_CALL T select(bool mask, const T& chosen, const T& other) {
+  return mask ? chosen : other;
+}
 
 inline float abs(float x) { return ::fabsf(x); }
 inline double abs(double x) { return ::fabs(x); }
@@ -25,15 +57,15 @@ inline float atan(float x) { return float_math::atan(x); }
 inline double atan(double x) { return ::atan(x); }
 inline float atan2(float y, float x) { return float_math::called_atan2(y, x); }
 inline double atan2(double y, double x) { return ::atan2(y, x); }
+inline double hypot(double x, double y) { return ::hypot(x, y); }
 inline float pow(float x, float y) { return ::powf(x, y); }
 inline double pow(double x, double y) { return ::pow(x, y); }
 
 /// sat(x, limit): x inside [-limit, limit], the nearer end outside.
 template <class T>
 T saturate(const T& x, const T& limit) {
-  if (x > limit) return limit;
-  if (x < -limit) return -limit;
-  return x;
+  using math::select;
+  return select(x > limit, limit, select(x < -limit, T(-limit), x));
 }
 
 /// The same for float, limit >= 0, by comparing bits, which costs the chip less. NaN stays NaN.
@@ -63,7 +95,7 @@ inline float plus_product(float a, float b, float c) {
 
 /// x > y. For float by the order of whole numbers, a third of the chip's cycles.
 template <class T>
-bool is_above(const T& x, const T& y) {
+Mask<T> is_above(const T& x, const T& y) {
   return x > y;
 }
 inline bool is_above(float x, float y) {
@@ -73,7 +105,7 @@ inline bool is_above(float x, float y) {
 
 /// |x| > limit, limit >= 0. For float by comparing bits, by which NaN lies beyond every limit.
 template <class T>
-bool is_beyond(const T& x, const T& limit) {
+Mask<T> is_beyond(const T& x, const T& limit) {
   return x > limit || -x > limit;
 }
 inline bool is_beyond(float x, float limit) {
@@ -91,9 +123,8 @@ inline float bearing(float y, float x) { return float_math::bearing(y, x); }
 /// x inside [lo, hi], the nearer end outside; lo <= hi.
 template <class T>
 T clamp(const T& x, const T& lo, const T& hi) {
-  if (x > hi) return hi;
-  if (x < lo) return lo;
-  return x;
+  using math::select;
+  return select(x > hi, hi, select(x < lo, lo, x));
 }
 
 }  // namespace math
