@@ -16,7 +16,8 @@ using ::testing::HasSubstr;
 
 const std::vector<Scenario> kScenarios = {short_heading("a"),
                                           short_heading("=b, \"quoted\"\nline")};
-const Provenance kProvenance{"compare", {{"samples", "6"}, {"seed", "3"}}, {{"model.json", "abc"}}};
+const Provenance kProvenance{
+    "compare", {{"samples", "39"}, {"seed", "3"}}, {{"model.json", "abc"}}};
 
 Comparison compared(const CompareOptions& options,
                     const std::vector<NamedGains>& gains = {{"", kPaperGains}}) {
@@ -28,23 +29,24 @@ Comparison compared(const CompareOptions& options,
 /// Stopped once `runs` runs are done.
 Comparison stopped_after(std::size_t runs) {
   std::atomic<bool> stop = false;
-  CompareOptions options{.samples = 6, .seed = 3, .threads = 1};
+  CompareOptions options{.samples = 39, .seed = 3, .threads = 1};
   options.stop = &stop;
   options.progress = [&](std::size_t done, std::size_t) { stop = done >= runs; };
   return compared(options);
 }
 
-const CompareOptions kWhole{.samples = 6, .seed = 3, .threads = 2};
+const CompareOptions kWhole{.samples = 39, .seed = 3, .threads = 2};
 
 TEST(Resume, AStoppedComparisonIsASmallerOne) {
-  const Comparison c = stopped_after(20);  // 6 runs a sample: 3 whole samples and 2 runs
+  // Sixteen samples at a time, 6 runs a sample: 16 whole samples and two modes of the next 16.
+  const Comparison c = stopped_after(16 * 6 + 20);
   EXPECT_TRUE(c.stopped);
-  EXPECT_EQ(c.rows.size(), 20U);
-  EXPECT_EQ(c.whole_samples, 3);
+  EXPECT_EQ(c.rows.size(), 128U);
+  EXPECT_EQ(c.whole_samples, 16);
   const Json json = Json::parse(comparison_text(c, kWhole, kProvenance));
-  EXPECT_EQ(json["stopped"]["finished_runs"], 20);
-  EXPECT_EQ(json["stopped"]["judged_samples"], 2);
-  EXPECT_EQ(json["scenarios"][0]["modes"]["steering"]["completed"]["of"], 2);
+  EXPECT_EQ(json["stopped"]["finished_runs"], 128);
+  EXPECT_EQ(json["stopped"]["judged_samples"], 15);
+  EXPECT_EQ(json["scenarios"][0]["modes"]["steering"]["completed"]["of"], 15);
 }
 
 TEST(Resume, StoppedBeforeTheFirstSampleNothingIsJudged) {
@@ -56,12 +58,12 @@ TEST(Resume, StoppedBeforeTheFirstSampleNothingIsJudged) {
 
 TEST(Resume, GoingOnEndsInTheSameBytes) {
   const TemporaryDirectory directory;
-  const Comparison part = stopped_after(20);
+  const Comparison part = stopped_after(16 * 6 + 20);
   write_all(directory.path() / "comparison.csv", comparison_csv(part));
   write_all(directory.path() / "comparison.json", comparison_text(part, kWhole, kProvenance));
   const auto finished = read_finished(directory.path(), kProvenance);
   ASSERT_TRUE(finished) << to_text(finished.error());
-  EXPECT_EQ(finished->size(), 20U);
+  EXPECT_EQ(finished->size(), 128U);
   CompareOptions options = kWhole;
   options.finished = *finished;
   const Comparison resumed = compared(options);
@@ -108,6 +110,20 @@ TEST(Resume, RowsOfAnotherVersionWereTakenForFinishedRuns) {
     const auto finished = read_finished(directory.path(), kProvenance);
     ASSERT_FALSE(finished) << other;
     EXPECT_THAT(to_text(finished.error()), HasSubstr("written by version"));
+  }
+}
+
+TEST(Resume, RowsOfAnotherArithmeticAreRefused) {
+  const TemporaryDirectory directory;
+  const Comparison c = compared({.samples = 1, .seed = 3, .threads = 1});
+  write_all(directory.path() / "comparison.csv", comparison_csv(c));
+  Json json = Json::parse(comparison_text(c, kWhole, kProvenance));
+  for (const char* other : {"rounded otherwise", ""}) {
+    json["arithmetic"] = other;
+    write_all(directory.path() / "comparison.json", to_text(json));
+    const auto finished = read_finished(directory.path(), kProvenance);
+    ASSERT_FALSE(finished) << other;
+    EXPECT_THAT(to_text(finished.error()), HasSubstr("arithmetic"));
   }
 }
 

@@ -53,6 +53,13 @@ class Shards : public ::testing::Test {
   int directories_ = 0;
 };
 
+TEST_F(Shards, OfDifferentArithmeticAreNotMixed) {
+  Comparison second = run({2, 2});
+  second.arithmetic = "other";
+  EXPECT_THAT(fault({write({1, 2}), write({2, 2}, second)}),
+              HasSubstr("was computed in other arithmetic"));
+}
+
 TEST_F(Shards, MergeInAnyOrderToTheBytesOfASingleRun) {
   const Comparison whole = run();
   for (const int count : {1, 2, 3, 7}) {

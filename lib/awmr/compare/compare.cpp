@@ -12,6 +12,7 @@
 #include "awmr/core/index.h"
 #include "awmr/core/option_text.h"
 #include "awmr/core/parallel.h"
+#include "awmr/simulate/batch.h"
 #include "awmr/simulate/simulate.h"
 
 namespace awmr {
@@ -78,14 +79,6 @@ struct Layout {
   std::size_t row(const Place& p) const {
     return ((p.scenario * gains + p.gains) * modes + p.mode) * samples + p.sample;
   }
-  /// Runs are begun by sample, scenario, gains, mode: a comparison that is stopped has whole
-  /// samples.
-  Place in_running_order(std::size_t i) const {
-    return {.scenario = i / (gains * modes) % scenarios,
-            .gains = i / modes % gains,
-            .mode = i % modes,
-            .sample = i / (scenarios * gains * modes)};
-  }
 };
 
 /// A place for each row of the output, empty until its run is finished.
@@ -118,24 +111,55 @@ Status take_finished(const std::vector<Scenario>& scenarios, const std::vector<N
   return {};
 }
 
-/// Errors (input): as failure_of.
-Result<ComparisonRow> run_of(const Vehicle& vehicle, const Fleet& fleet, const NamedGains& set,
-                             const Scenario& scenario, const Place& place, std::uint64_t seed) {
-  // The controller knows the model's own values, not the drawn ones.
-  const Controller<double> controller = make_controller(fleet.nominal, vehicle, set.gains);
-  const YawMode mode = kYawModes[place.mode];
-  // Sample 0 is the run of `awmr simulate`: the scenario's seed alone.
-  const Run run = simulate(fleet.vehicle(place.scenario, place.sample), controller, scenario, mode,
-                           {.sample_time_s = vehicle.sample_time_s,
-                            .substeps = {},
-                            .seed = place.sample == 0 ? 0 : seed,
-                            .sample = place.sample});
-  AWMR_RETURN_IF_ERROR(failure_of(run, scenario));
-  return ComparisonRow{.scenario = scenario.name,
-                       .mode = mode,
-                       .sample = static_cast<int>(place.sample),
-                       .metrics = metrics_of(run, scenario, controller),
-                       .gains = set.name};
+/// A scenario, gains and a mode, in those samples that are to be run and are driven together.
+struct Block {
+  std::size_t scenario, gains, mode;
+  std::vector<std::size_t> samples;
+
+  Place place(std::size_t i) const { return {scenario, gains, mode, samples[i]}; }
+};
+
+/// The samples of this part, as many at a time as fill the registers: block by block, each in all
+/// scenarios, gains and modes, so that a comparison that is stopped has whole samples.
+std::vector<Block> blocks_of(const Layout& layout, const Shard& shard, const Slots& slots) {
+  std::vector<std::size_t> samples;
+  for (std::size_t sample = 0; sample < layout.samples; ++sample) {
+    if (shard.has(static_cast<int>(sample))) samples.push_back(sample);
+  }
+  std::vector<Block> blocks;
+  const std::size_t apart = layout.scenarios * layout.gains * layout.modes;
+  for (std::size_t first = 0; first < samples.size(); first += kBatchRuns) {
+    const std::size_t end = std::min(first + kBatchRuns, samples.size());
+    for (std::size_t i = 0; i < apart; ++i) {
+      Block block{.scenario = i / (layout.gains * layout.modes),
+                  .gains = i / layout.modes % layout.gains,
+                  .mode = i % layout.modes,
+                  .samples = {}};
+      for (std::size_t s = first; s < end; ++s) {
+        if (!slots[layout.row({block.scenario, block.gains, block.mode, samples[s]})]) {
+          block.samples.push_back(samples[s]);
+        }
+      }
+      if (!block.samples.empty()) blocks.push_back(std::move(block));
+    }
+  }
+  return blocks;
+}
+
+std::vector<BatchRun> runs_of(const Fleet& fleet, const Controller<double>& controller,
+                              const Block& block, std::uint64_t seed) {
+  std::vector<BatchRun> runs;
+  for (const std::size_t sample : block.samples) {
+    // Sample 0 is the run of `awmr simulate`: the scenario's seed alone.
+    runs.push_back({fleet.vehicle(block.scenario, sample), controller, sample == 0 ? 0 : seed,
+                    static_cast<std::uint64_t>(sample)});
+  }
+  return runs;
+}
+
+std::size_t finished_count(const Slots& slots) {
+  return at(
+      std::count_if(slots.begin(), slots.end(), [](const auto& slot) { return slot.has_value(); }));
 }
 
 Comparison gathered(const Layout& layout, const Shard& shard, Slots slots) {
@@ -160,6 +184,7 @@ Result<Comparison> compare(const Model& model, const std::vector<NamedGains>& ga
                            const std::vector<Scenario>& scenarios, const CompareOptions& options) {
   std::vector<Fault> faults = option_faults(gains, scenarios, options);
   if (!faults.empty()) return input_errors(std::move(faults));
+  AWMR_ASSIGN_OR_RETURN(const BatchArithmetic arithmetic, batch_arithmetic());
   AWMR_ASSIGN_OR_RETURN(const Fleet fleet, fleet_of(model, scenarios, options));
 
   const Layout layout{scenarios.size(), gains.size(), yaw_modes(model.vehicle).size(),
@@ -167,31 +192,44 @@ Result<Comparison> compare(const Model& model, const std::vector<NamedGains>& ga
   Slots slots(layout.count());
   AWMR_RETURN_IF_ERROR(take_finished(scenarios, gains, options, layout, slots));
 
+  const std::vector<Block> blocks = blocks_of(layout, options.shard, slots);
   std::vector<Status> failures(layout.count());
-  std::atomic<std::size_t> done = 0;
+  std::atomic<std::size_t> done = finished_count(slots);
   LoopControl control;
   if (options.stop != nullptr) control.stop = [&] { return options.stop->load(); };
   if (options.progress) control.progress = [&] { options.progress(done, layout.count()); };
   // Each run owns one slot, so the order in which threads take them leaves no trace.
   parallel_for(
-      layout.count(), options.threads,
-      [&](std::size_t i) {
-        const Place place = layout.in_running_order(i);
-        const std::size_t index = layout.row(place);
-        if (!slots[index] && options.shard.has(static_cast<int>(place.sample))) {
-          auto row = run_of(model.vehicle, fleet, gains[place.gains], scenarios[place.scenario],
-                            place, options.seed);
-          if (row) {
-            slots[index] = std::move(*row);
+      blocks.size(), options.threads,
+      [&](std::size_t b) {
+        const Block& block = blocks[b];
+        const Scenario& scenario = scenarios[block.scenario];
+        const NamedGains& set = gains[block.gains];
+        // The controller knows the model's own values, not the drawn ones.
+        const auto controller = make_controller(fleet.nominal, model.vehicle, set.gains);
+        const YawMode mode = kYawModes[block.mode];
+        const auto metrics =
+            simulate_batch(runs_of(fleet, controller, block, options.seed), scenario, mode,
+                           model.vehicle.sample_time_s, arithmetic);
+        for (std::size_t i = 0; i < metrics.size(); ++i) {
+          const std::size_t index = layout.row(block.place(i));
+          if (metrics[i]) {
+            slots[index] = ComparisonRow{.scenario = scenario.name,
+                                         .mode = mode,
+                                         .sample = static_cast<int>(block.samples[i]),
+                                         .metrics = *metrics[i],
+                                         .gains = set.name};
           } else {
-            failures[index] = tl::unexpected(row.error());
+            failures[index] = tl::unexpected(metrics[i].error());
           }
         }
-        ++done;
+        done += metrics.size();
       },
       control);
   for (const Status& failure : failures) AWMR_RETURN_IF_ERROR(failure);
-  return gathered(layout, options.shard, std::move(slots));
+  Comparison comparison = gathered(layout, options.shard, std::move(slots));
+  comparison.arithmetic = arithmetic.rounding;
+  return comparison;
 }
 
 Result<Comparison> compare(const Model& model, const Gains<double>& gains,

@@ -70,12 +70,14 @@ struct Comparison {
   /// what is judged. Fewer than asked for where the comparison was stopped, or is a part.
   int whole_samples = 0;
   bool stopped = false;  ///< before all of its runs were done
+  /// How the runs were rounded (BatchArithmetic::rounding): rows of different ones are not mixed.
+  std::string arithmetic = {};
 };
 
 /// Samples draw the fitted parameters from the model's covariance (simulate/plant_sampler.h), and the scenarios'
 /// noise and disturbances from the seeds: the same draws for all modes and gains. The controller
-/// keeps the model's own values. Samples are run one after the other, each in every scenario and
-/// mode, so that a stopped comparison is a smaller one. Errors (input): the model lacks a
+/// keeps the model's own values. Samples are run kBatchRuns at a time (simulate/batch.h), each
+/// of these blocks in every scenario and mode, so that a stopped comparison is a smaller one. Errors (input): the model lacks a
 /// parameter, or, with samples, a covariance to draw from, or an interval that a scenario's corner
 /// needs; no scenario, or two of the same name; a negative number of samples or threads; a finished
 /// row that is none of this comparison's.

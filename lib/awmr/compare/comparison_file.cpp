@@ -207,6 +207,7 @@ std::string comparison_csv(const Comparison& comparison) {
 std::string comparison_text(const Comparison& comparison, const CompareOptions& options,
                             const Provenance& provenance) {
   Json json = output_document("awmr.comparison/1", provenance);
+  json["arithmetic"] = comparison.arithmetic;
   json["csv_sha256"] = sha256_hex(comparison_csv(comparison));  // says which rows belong to it
   const Comparison judged = judged_part(comparison);
   const int samples = comparison.stopped ? std::max(0, judged.whole_samples - 1) : options.samples;

@@ -13,6 +13,7 @@
 #include "awmr/core/hash.h"
 #include "awmr/core/json.h"
 #include "awmr/core/option_text.h"
+#include "awmr/simulate/batch.h"
 
 namespace awmr {
 namespace {
@@ -87,6 +88,7 @@ Status same_origin(const Provenance& before, const std::string& written_by, cons
 struct Origin {
   Provenance provenance;
   std::string version;                    ///< of the program that wrote it
+  std::string arithmetic;                 ///< of its rows; "scalar" where nothing is said
   std::optional<std::string> csv_sha256;  ///< none in files of earlier versions
 };
 
@@ -95,7 +97,9 @@ Result<Origin> read_origin(const std::filesystem::path& path) {
   std::vector<Fault> faults;
   JsonObject json(document, path.string(), "", faults);
   const std::string written_by = json.optional_string("version").value_or("unknown");
-  Origin origin{read_provenance(json), written_by, json.optional_string("csv_sha256")};
+  Origin origin{read_provenance(json), written_by,
+                json.optional_string("arithmetic").value_or("scalar"),
+                json.optional_string("csv_sha256")};
   if (!faults.empty()) return input_errors(std::move(faults));
   return origin;
 }
@@ -131,6 +135,13 @@ Result<std::vector<ComparisonRow>> read_finished(const std::filesystem::path& di
   const std::filesystem::path json = directory / "comparison.json";
   AWMR_ASSIGN_OR_RETURN(const Origin before, read_origin(json));
   AWMR_RETURN_IF_ERROR(same_origin(before.provenance, before.version, provenance, json.string()));
+  AWMR_ASSIGN_OR_RETURN(const BatchArithmetic arithmetic, batch_arithmetic());
+  if (before.arithmetic != arithmetic.rounding) {
+    return input_error(json.string(),
+                       fmt::format("was computed in {} arithmetic, this processor rounds {}; "
+                                   "compare into another directory",
+                                   before.arithmetic, arithmetic.rounding));
+  }
   return read_rows(directory / "comparison.csv", before.csv_sha256);
 }
 

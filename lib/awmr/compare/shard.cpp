@@ -34,6 +34,7 @@ struct Part {
   Preferences preferences;
   Shard shard;
   bool stopped = false;
+  std::string arithmetic;
   std::string csv_sha256;
 };
 
@@ -59,6 +60,7 @@ Part part_from_json(JsonObject& json) {
       .shard = {.index = static_cast<int>(json.integer("shard_index", 1, kMostShards)),
                 .count = static_cast<int>(json.integer("shard_count", 1, kMostShards))},
       .stopped = json.boolean("stopped"),
+      .arithmetic = json.string("arithmetic"),
       .csv_sha256 = json.string("csv_sha256")};
   json.ignore("command");
   json.reject_unknown_keys();
@@ -97,6 +99,13 @@ std::string other_comparison(const Part& first, const Part& part) {
   }
   if (!std::equal(a.inputs.begin(), a.inputs.end(), b.inputs.begin(), b.inputs.end(), same_input)) {
     return fmt::format("was made from other inputs than {}", first.directory.string());
+  }
+  if (part.arithmetic != first.arithmetic) {
+    return fmt::format(
+        "was computed in {} arithmetic, {} in {}: their processors round "
+        "differently; run one of them again, all with AWMR_INSTRUCTIONS=sse2 or all "
+        "on processors with fused multiply-add",
+        part.arithmetic, first.directory.string(), first.arithmetic);
   }
   if (part.stopped) return "was stopped before its end: run it again";
   return {};
@@ -198,6 +207,7 @@ std::string shard_text(const Comparison& part, const CompareOptions& options,
   json["shard_index"] = options.shard.index;
   json["shard_count"] = options.shard.count;
   json["stopped"] = part.stopped;
+  json["arithmetic"] = part.arithmetic;
   json["csv_sha256"] = sha256_hex(comparison_csv(part));
   return to_text(json);
 }
@@ -223,6 +233,7 @@ Result<Merged> merge_shards(const std::vector<std::filesystem::path>& directorie
   AWMR_ASSIGN_OR_RETURN(merged.comparison.rows, rows_of(parts));
   AWMR_RETURN_IF_ERROR(put_in_order(merged.comparison.rows, at(first.samples) + 1));
   merged.comparison.whole_samples = first.samples + 1;
+  merged.comparison.arithmetic = first.arithmetic;
   merged.options.samples = first.samples;
   merged.options.seed = first.seed;
   merged.options.preferences = first.preferences;

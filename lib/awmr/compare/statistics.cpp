@@ -160,8 +160,10 @@ std::string Contender::label() const {
 }
 
 Comparison judged_part(const Comparison& comparison) {
-  Comparison part{
-      .rows = {}, .whole_samples = comparison.whole_samples, .stopped = comparison.stopped};
+  Comparison part{.rows = {},
+                  .whole_samples = comparison.whole_samples,
+                  .stopped = comparison.stopped,
+                  .arithmetic = comparison.arithmetic};
   for (const ComparisonRow& row : comparison.rows) {
     if (row.sample < comparison.whole_samples) part.rows.push_back(row);
   }

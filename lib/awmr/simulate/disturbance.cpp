@@ -5,6 +5,14 @@
 #include "awmr/core/units.h"
 
 namespace awmr {
+namespace {
+
+/// Streams of RunSeed::random: at most 200 terms an axis.
+constexpr std::uint64_t kSurgeUse = 100;
+constexpr std::uint64_t kSwayUse = 300;
+constexpr std::uint64_t kYawUse = 500;
+
+}  // namespace
 
 DisturbanceSource::DisturbanceSource(const std::vector<DisturbanceTerm>& terms,
                                      double sample_time_s, const RunSeed& seed,
@@ -41,5 +49,11 @@ double DisturbanceSource::next(double t_s) {
   }
   return sum;
 }
+
+RunDisturbance::RunDisturbance(const Disturbance& disturbance, double sample_time_s,
+                               const RunSeed& seed)
+    : surge_(disturbance.surge, sample_time_s, seed, kSurgeUse),
+      sway_(disturbance.sway, sample_time_s, seed, kSwayUse),
+      yaw_(disturbance.yaw, sample_time_s, seed, kYawUse) {}
 
 }  // namespace awmr

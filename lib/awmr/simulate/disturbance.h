@@ -45,4 +45,16 @@ class DisturbanceSource {
   std::vector<Running> terms_;
 };
 
+/// The disturbance of a run along all axes.
+class RunDisturbance {
+ public:
+  RunDisturbance(const Disturbance& disturbance, double sample_time_s, const RunSeed& seed);
+  /// Over the sample that begins at `t_s`, without the slope's share; to be asked once per sample, in
+  /// order.
+  BodyLoad next(double t_s) { return {surge_.next(t_s), sway_.next(t_s), yaw_.next(t_s)}; }
+
+ private:
+  DisturbanceSource surge_, sway_, yaw_;
+};
+
 }  // namespace awmr

@@ -5,6 +5,7 @@
 #include "awmr/model/dynamics.h"
 #include "awmr/model/parameters.h"
 #include "awmr/simulate/disturbance.h"
+#include "awmr/simulate/motion.h"
 #include "awmr/simulate/scenario.h"
 
 namespace awmr {
@@ -19,7 +20,7 @@ class Physics {
 
   const State<double>& state() const { return state_; }
   int substeps() const { return substeps_; }
-  bool resolved() const { return resolved_; }
+  bool resolved() const { return resolution_.resolved; }
   /// The disturbance over the sample that begins at `t_s`, without the slope's share; to be asked
   /// once per sample, before step().
   const BodyLoad& disturb(double t_s);
@@ -28,31 +29,40 @@ class Physics {
   void step(double t_s, const SideForces<double>& force, double steering_command_rad);
 
  private:
-  SideForces<double> through_motors(const SideForces<double>& command);
-  WheelForces<double> at_the_ground(double t_s, const SideForces<double>& force) const;
   template <class Forces>
-  void integrate(const Forces& force, double steering_command_rad);
-  double fastest_rate(const State<double>& at) const;
-  template <class Rates>
-  State<double> advance(const State<double>& from, double h, const Rates& rates, int halvings);
-  template <class Forces>
-  State<double> rates(const State<double>& at, const Forces& force,
-                      double steering_command_rad) const;
+  void move(const Forces& force, double steering_command_rad);
 
   Plant<double> plant_;  ///< with its chord at rest
   double force_max_;
   const Scenario* scenario_;
   double sample_time_s_;
   int substeps_;
-  long halves_ = 0;  ///< steps that were halved since a rate grew with the speed
-  bool resolved_ = true;
+  Resolution<double> resolution_;
   State<double> state_;
+  MotorLag lag_;
   SideForces<double> motors_{};  ///< the forces of the motors, where they lag
-  DisturbanceSource surge_, sway_, yaw_;
+  RunDisturbance disturbance_;
   BodyLoad load_;
-  bool loaded_;    ///< the scenario has a disturbance or a slope
-  bool by_wheel_;  ///< the two wheels of a side may have different forces
+  bool by_wheel_;
 };
+
+/// True where the two wheels of a side may have different forces.
+bool forces_differ_by_wheel(const Scenario& scenario);
+
+/// What of each wheel's force arrives: the motor's fault, and the ground under it. The rear axle is
+/// taken as far behind the centre of gravity as the front one is before it.
+WheelForces<double> at_the_ground(const Scenario& scenario, const Plant<double>& plant,
+                                  const State<double>& state, double t_s,
+                                  const SideForces<double>& force);
+
+/// The lag of the motors; none without actuators.
+MotorLag motor_lag(const std::optional<Actuators>& actuators, double sample_time_s);
+
+/// The share of the largest force that is left at `t_s`.
+double battery_share(const Battery& battery, double t_s);
+
+/// What pushes the vehicle while the disturbance's terms come to `load`.
+Push<double> push_of(const Disturbance& disturbance, const BodyLoad& load);
 
 /// A command to the nearest step of the servo and count of the PWM. `force_max` is F'max of a wheel.
 void quantise(const Actuators& actuators, double force_max, SideForces<double>& force,

@@ -15,14 +15,6 @@ double share_left(const std::optional<double>& slow_down_m, double to_go_m) {
   return slow_down_m ? arrival_share(*slow_down_m, to_go_m) : 1.0;
 }
 
-double heading_at(const HeadingSteps& guidance, double t_s) {
-  double psi_rad = guidance.steps.front().psi_rad;
-  for (const HeadingStep& step : guidance.steps) {
-    if (step.t_s <= t_s) psi_rad = step.psi_rad;
-  }
-  return psi_rad;
-}
-
 /// Distance of p from the line through a and b, left of its direction positive; from a where the
 /// two coincide.
 double from_line_m(const Position<double>& a, const Position<double>& b,
@@ -33,6 +25,14 @@ double from_line_m(const Position<double>& a, const Position<double>& b,
 }
 
 }  // namespace
+
+double heading_at(const HeadingSteps& guidance, double t_s) {
+  double psi_rad = guidance.steps.front().psi_rad;
+  for (const HeadingStep& step : guidance.steps) {
+    if (step.t_s <= t_s) psi_rad = step.psi_rad;
+  }
+  return psi_rad;
+}
 
 Pilot::Pilot(const Scenario& scenario, double sample_time_s, const Sensed& start)
     : scenario_(&scenario),

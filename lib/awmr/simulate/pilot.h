@@ -12,6 +12,9 @@
 
 namespace awmr {
 
+/// The heading that is to be held at `t_s`.
+double heading_at(const HeadingSteps& guidance, double t_s);
+
 /// The guidance of one run, with what it remembers from sample to sample.
 class Pilot {
  public:

@@ -7,8 +7,8 @@
 #include <iterator>
 #include <limits>
 
-#include "awmr/control/disturbance_observer.h"
 #include "awmr/core/units.h"
+#include "awmr/simulate/one_run.h"
 #include "awmr/simulate/physics.h"
 #include "awmr/simulate/pilot.h"
 #include "awmr/simulate/sensing.h"
@@ -17,23 +17,17 @@
 namespace awmr {
 namespace {
 
-/// Below this speed a vehicle that was told to stop counts as stopped.
-constexpr double kStopped_mps = 1e-3;
-
 /// The laws, and what the scenario adds to them.
 class Autopilot {
  public:
   Autopilot(const Controller<double>& controller, const Scenario& scenario, YawMode mode,
             double sample_time_s, const Measurement<double>& start)
-      : controller_(controller), scenario_(&scenario), mode_(mode), sample_time_s_(sample_time_s) {
-    controller_.limits.form = scenario.control.allocation.value_or(controller_.limits.form);
-    if (scenario.control.split != CombinedSplit::kRedistribute) {
-      controller_.limits.split = scenario.control.split;
-    }
-    if (const auto& observer = scenario.control.observer) {
-      observers_ = {{observer->bandwidth_radps, observer->yaw_max_m},
-                    {observer->bandwidth_radps, observer->surge_max},
-                    observer->anti_windup};
+      : controller_(controller_in(scenario, controller)),
+        scenario_(&scenario),
+        mode_(mode),
+        sample_time_s_(sample_time_s) {
+    if (scenario.control.observer) {
+      observers_ = observers_of(*scenario.control.observer);
       observed_ = start_observers(observers_, motion_of(start).momentum);
     }
   }
@@ -77,26 +71,6 @@ class Autopilot {
   Observers<double> observers_{};
   ObserversState<double> observed_{};
 };
-
-/// F' of a wheel at the most, over F_max: what overcomes the dead zone, and the zone.
-double largest_force(const Controller<double>& controller) {
-  return controller.limits.force_max + controller.limits.dead_zone;
-}
-
-double clearance_m(const Scenario& scenario, const State<double>& state) {
-  const double vehicle_m = scenario.avoidance ? scenario.avoidance->vehicle_radius_m : 0.0;
-  double least_m = std::numeric_limits<double>::max();
-  for (const Obstacle<double>& obstacle : scenario.obstacles) {
-    least_m = std::min(least_m, distance_m(obstacle.centre_m, {state.x_m, state.y_m}) -
-                                    obstacle.radius_m - vehicle_m);
-  }
-  return least_m;
-}
-
-/// The last sample at or before the duration, with room for rounding.
-std::size_t samples_in(double duration_s, double sample_time_s) {
-  return static_cast<std::size_t>(std::floor(duration_s / sample_time_s + 1e-9));
-}
 
 bool is_finite(const RunRow& row) {
   const double numbers[] = {row.state.x_m,
@@ -169,6 +143,38 @@ RunEnd command(const Scenario& scenario, const Controller<double>& controller, c
 }
 
 }  // namespace
+
+Controller<double> controller_in(const Scenario& scenario, Controller<double> controller) {
+  controller.limits.form = scenario.control.allocation.value_or(controller.limits.form);
+  if (scenario.control.split != CombinedSplit::kRedistribute) {
+    controller.limits.split = scenario.control.split;
+  }
+  return controller;
+}
+
+Observers<double> observers_of(const ControlOptions::Observer& observer) {
+  return {{observer.bandwidth_radps, observer.yaw_max_m},
+          {observer.bandwidth_radps, observer.surge_max},
+          observer.anti_windup};
+}
+
+double largest_force(const Controller<double>& controller) {
+  return controller.limits.force_max + controller.limits.dead_zone;
+}
+
+double clearance_m(const Scenario& scenario, const State<double>& state) {
+  const double vehicle_m = scenario.avoidance ? scenario.avoidance->vehicle_radius_m : 0.0;
+  double least_m = std::numeric_limits<double>::max();
+  for (const Obstacle<double>& obstacle : scenario.obstacles) {
+    least_m = std::min(least_m, distance_m(obstacle.centre_m, {state.x_m, state.y_m}) -
+                                    obstacle.radius_m - vehicle_m);
+  }
+  return least_m;
+}
+
+std::size_t samples_in(double duration_s, double sample_time_s) {
+  return static_cast<std::size_t>(std::floor(duration_s / sample_time_s + 1e-9));
+}
 
 Controller<double> make_controller(const Plant<double>& plant, const Vehicle& vehicle,
                                    const Gains<double>& gains, CombinedSplit split) {

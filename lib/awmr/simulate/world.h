@@ -15,11 +15,13 @@
 namespace awmr {
 
 /// A force and a moment on the vehicle, in the body frame, over F_max.
-struct BodyLoad {
-  double surge = 0.0;  ///< dimensionless, forward positive
-  double sway = 0.0;   ///< dimensionless, left positive
-  double yaw_m = 0.0;  ///< m, counter-clockwise positive
+template <class T>
+struct BodyLoadOf {
+  T surge = T(0.0);  ///< dimensionless, forward positive
+  T sway = T(0.0);   ///< dimensionless, left positive
+  T yaw_m = T(0.0);  ///< m, counter-clockwise positive
 };
+using BodyLoad = BodyLoadOf<double>;
 
 /// A span of time: from `from_s` on, up to but not including `to_s`.
 struct Window {

@@ -1,0 +1,349 @@
+#include "awmr/simulate/batch.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+#include <optional>
+
+#include "awmr/model/rest.h"
+#include "awmr/simulate/lanes/kernels.h"
+#include "awmr/simulate/metering.h"
+#include "awmr/simulate/one_run.h"
+#include "awmr/simulate/physics.h"
+#include "awmr/simulate/pilot.h"
+#include "awmr/simulate/sensing.h"
+
+namespace awmr {
+namespace {
+
+using lanes::Block;
+using lanes::Kernel;
+using lanes::kLanes;
+using lanes::Row;
+
+static_assert(kBatchRuns == kLanes);
+
+/// A struct of numbers alone, out of one of rows, and into it: the numbers of one lane.
+template <class Numbers, class Rows>
+Numbers lane_of(const Rows& rows, std::size_t lane) {
+  static_assert(sizeof(Numbers) / sizeof(double) == sizeof(Rows) / sizeof(Row));
+  double values[sizeof(Numbers) / sizeof(double)];
+  for (std::size_t i = 0; i < std::size(values); ++i) {
+    std::memcpy(&values[i],
+                reinterpret_cast<const char*>(&rows) + i * sizeof(Row) + lane * sizeof(double),
+                sizeof(double));
+  }
+  Numbers numbers;
+  std::memcpy(&numbers, values, sizeof numbers);
+  return numbers;
+}
+template <class Numbers, class Rows>
+void put(const Numbers& numbers, std::size_t lane, Rows& rows) {
+  static_assert(sizeof(Numbers) / sizeof(double) == sizeof(Rows) / sizeof(Row));
+  for (std::size_t i = 0; i < sizeof(Numbers) / sizeof(double); ++i) {
+    std::memcpy(reinterpret_cast<char*>(&rows) + i * sizeof(Row) + lane * sizeof(double),
+                reinterpret_cast<const char*>(&numbers) + i * sizeof(double), sizeof(double));
+  }
+}
+
+/// What goes on by itself in a lane.
+struct LaneParts {
+  Sensing sensing;
+  RunDisturbance disturbance;
+  Sensed sensed = {};
+  std::optional<Pilot> pilot = {};  ///< once the first sample is sensed
+  RunEnd ordered =
+      RunEnd::kDuration;  ///< how the present sample ends the run; kDuration: it goes on
+};
+
+/// Up to kLanes runs of a scenario, driven together.
+struct Batch {
+  const Scenario& scenario;
+  double sample_time_s;
+  const Kernel& kernel;
+  std::unique_ptr<Block> block = std::make_unique<Block>();
+  std::vector<LaneParts> parts = {};             ///< by run
+  std::vector<std::optional<Ending>> ends = {};  ///< by run; none: it goes on, or it failed
+  double goal_before_rad = 0.0;
+
+  bool is_active(std::size_t lane) const { return block->active.lane[lane] > 0.0; }
+};
+
+template <class Body>
+void for_active(const Batch& batch, const Body& body) {
+  for (std::size_t lane = 0; lane < batch.parts.size(); ++lane) {
+    if (batch.is_active(lane)) body(lane);
+  }
+}
+
+/// Where the guidance is the same for all runs, none of them has a pilot of its own.
+bool has_pilots(const Scenario& scenario) {
+  const bool leads_alike = std::holds_alternative<OpenLoop>(scenario.guidance) ||
+                           std::holds_alternative<HeadingSteps>(scenario.guidance);
+  return !leads_alike || scenario.avoidance || scenario.shaping;
+}
+
+void set_up_lane(Batch& batch, const BatchRun& run, std::size_t lane) {
+  Block& block = *batch.block;
+  const Controller<double> controller = controller_in(batch.scenario, run.controller);
+  const int substeps = substeps_for(run.plant, batch.sample_time_s);
+  const double step_s = batch.sample_time_s / substeps;
+  put(resolved_at_rest(run.plant, step_s), lane, block.plant);
+  put(step_s, lane, block.step_s);
+  put(static_cast<double>(substeps), lane, block.substeps);
+  put(prepared(controller), lane, block.controller);
+  put(controller.limits.dead_zone, lane, block.dead_zone);
+  put(largest_force(controller), lane, block.force_most);
+  put(metered_vehicle(controller.limits), lane, block.metered);
+  put(batch.scenario.initial, lane, block.state);
+  if (const auto* open = std::get_if<OpenLoop>(&batch.scenario.guidance)) {
+    put(open->tau_speed, lane, block.tau_speed);
+    put(open->tau_turn_m, lane, block.tau_turn_m);
+  }
+}
+
+/// All of a block. A lane without a run is a copy of the first, so that its numbers are harmless.
+Batch set_up(std::span<const BatchRun> runs, const Scenario& scenario, YawMode mode,
+             double sample_time_s, const Kernel& kernel) {
+  Batch batch{scenario, sample_time_s, kernel};
+  Block& block = *batch.block;
+  const Controller<double> controller = controller_in(scenario, runs.front().controller);
+  block.setup.mode = mode;
+  block.setup.split = controller.limits.split;
+  block.setup.form = controller.limits.form;
+  block.setup.is_open_loop = std::holds_alternative<OpenLoop>(scenario.guidance);
+  block.setup.is_observed = scenario.control.observer && !block.setup.is_open_loop;
+  if (scenario.control.observer) block.setup.observers = observers_of(*scenario.control.observer);
+  block.setup.sample_time_s = sample_time_s;
+  block.setup.lag = motor_lag(scenario.actuators, sample_time_s);
+  block.setup.is_by_wheel = forces_differ_by_wheel(scenario);
+  block.setup.course = metered_course(scenario);
+  for (std::size_t lane = 0; lane < kBatchRuns; ++lane) {
+    const bool has_run = lane < runs.size();
+    set_up_lane(batch, has_run ? runs[lane] : runs.front(), lane);
+    put(has_run ? 1.0 : 0.0, lane, block.active);
+  }
+  for (const BatchRun& run : runs) {
+    const RunSeed seed = run_seed(scenario.seed, run.seed, run.sample);
+    batch.parts.push_back({Sensing(scenario.sensors, sample_time_s, seed),
+                           RunDisturbance(scenario.disturbance, sample_time_s, seed)});
+  }
+  batch.ends.resize(runs.size());
+  return batch;
+}
+
+/// What the controllers are told.
+void sense(Batch& batch, std::size_t k) {
+  Block& block = *batch.block;
+  if (!batch.scenario.sensors) {
+    block.measured = {block.state.psi_rad, block.state.u_mps, block.state.v_mps,
+                      block.state.r_radps};
+    if (!has_pilots(batch.scenario)) return;
+  }
+  for_active(batch, [&](std::size_t lane) {
+    LaneParts& parts = batch.parts[lane];
+    parts.sensed = parts.sensing.at(k, lane_of<State<double>>(block.state, lane));
+    put(parts.sensed.motion, lane, block.measured);
+  });
+}
+
+/// d_hat = 0 for what the sensors say first.
+void start_observing(Block& block) {
+  for (std::size_t lane = 0; lane < kBatchRuns; ++lane) {
+    const auto controller = lane_of<PreparedController<double>>(block.controller, lane);
+    const auto measured = lane_of<Measurement<double>>(block.measured, lane);
+    put(start_observers(block.setup.observers,
+                        {controller.constants.mass_norm * measured.u_mps,
+                         controller.constants.inertia_norm * measured.r_radps}),
+        lane, block.observed);
+  }
+}
+
+void follow(Batch& batch, std::size_t lane, const Pilot::Order& order) {
+  Block& block = *batch.block;
+  const auto state = lane_of<State<double>>(block.state, lane);
+  put(order.reference, lane, block.reference);
+  put(order.course.psi_goal_rad, lane, block.goal_rad);
+  put(order.course.cross_track_m, lane, block.cross_track_m);
+  put(distance_m(order.course.target_m, {state.x_m, state.y_m}), lane, block.off_target_m);
+  RunEnd& ordered = batch.parts[lane].ordered;
+  if (order.no_passage && std::abs(state.u_mps) < kStopped_mps) {
+    ordered = RunEnd::kNoPassage;
+  } else if (order.finished) {
+    ordered = RunEnd::kFinished;
+  }
+}
+
+/// What the laws are asked to follow.
+void guide(Batch& batch, std::size_t k, double t_s) {
+  Block& block = *batch.block;
+  if (has_pilots(batch.scenario)) {
+    for_active(batch, [&](std::size_t lane) {
+      LaneParts& parts = batch.parts[lane];
+      if (k == 0) parts.pilot.emplace(batch.scenario, batch.sample_time_s, parts.sensed);
+      follow(batch, lane, parts.pilot->at(t_s, parts.sensed));
+    });
+  } else if (const auto* steps = std::get_if<HeadingSteps>(&batch.scenario.guidance)) {
+    block.goal_rad = Row(heading_at(*steps, t_s));
+    block.reference.psi_rad = block.goal_rad;
+    block.reference.speed_mps = Row(batch.scenario.speed_mps);
+  }
+}
+
+void quantise_commands(Batch& batch) {
+  Block& block = *batch.block;
+  if (!batch.scenario.actuators) return;
+  for_active(batch, [&](std::size_t lane) {
+    auto force = lane_of<SideForces<double>>(block.force, lane);
+    quantise(*batch.scenario.actuators, block.force_most.lane[lane], force,
+             block.steering_command_rad.lane[lane]);
+    put(force, lane, block.force);
+  });
+}
+
+/// Takes the sample into the metrics, and ends the runs that it ends.
+void meter_sample(Batch& batch, std::size_t k, std::size_t samples, double t_s) {
+  Block& block = *batch.block;
+  const Scenario& scenario = batch.scenario;
+  if (!scenario.obstacles.empty()) {
+    for_active(batch, [&](std::size_t lane) {
+      put(clearance_m(scenario, lane_of<State<double>>(block.state, lane)), lane,
+          block.clearance_m);
+    });
+  }
+  const auto* steps = std::get_if<HeadingSteps>(&scenario.guidance);
+  const double goal_rad = steps ? heading_at(*steps, t_s) : 0.0;
+  block.sample.time = {
+      .t_s = t_s,
+      .since_last_s = k == 0 ? 0.0 : t_s - static_cast<double>(k - 1) * batch.sample_time_s,
+      .is_first = k == 0,
+      .starts_step = k == 0 || goal_rad < batch.goal_before_rad || goal_rad > batch.goal_before_rad,
+      .is_in_second_half =
+          std::holds_alternative<LissajousCourse>(scenario.guidance) && k >= (samples + 1) / 2};
+  batch.goal_before_rad = goal_rad;
+  batch.kernel.measure(block);
+  for_active(batch, [&](std::size_t lane) {
+    const LaneParts& parts = batch.parts[lane];
+    if (parts.ordered == RunEnd::kDuration && k < samples) return;
+    batch.ends[lane] = {parts.ordered, t_s, parts.pilot ? parts.pilot->missed() : 0};
+    put(0.0, lane, block.active);
+  });
+}
+
+/// Over the sample that begins at `t_s`, with the commands held.
+void move(Batch& batch, double t_s) {
+  Block& block = *batch.block;
+  const Scenario& scenario = batch.scenario;
+  const Push<double> push = push_of(scenario.disturbance, {});
+  block.sample.is_loaded = push.is_loaded;
+  block.sample.is_sloped = push.is_sloped;
+  block.sample.slope_accel_mps2 = push.slope_accel_mps2;
+  block.sample.slope_downhill_rad = push.slope_downhill_rad;
+  block.sample.has_battery = scenario.battery.has_value();
+  if (scenario.battery) block.sample.battery_share = battery_share(*scenario.battery, t_s);
+  if (push.is_loaded) {
+    for_active(batch, [&](std::size_t lane) {
+      put(batch.parts[lane].disturbance.next(t_s), lane, block.load);
+    });
+  }
+  batch.kernel.drive(block);
+  if (block.setup.is_by_wheel) {
+    for_active(batch, [&](std::size_t lane) {
+      put(at_the_ground(scenario, lane_of<Plant<double>>(block.plant, lane),
+                        lane_of<State<double>>(block.state, lane), t_s,
+                        lane_of<SideForces<double>>(block.arriving, lane)),
+          lane, block.wheels);
+    });
+  }
+  batch.kernel.move(block);
+}
+
+bool is_finite(const MeterSums<double>& sums) {
+  double values[sizeof(MeterSums<double>) / sizeof(double)];
+  std::memcpy(values, &sums, sizeof sums);
+  return std::all_of(std::begin(values), std::end(values),
+                     [](double value) { return std::isfinite(value); });
+}
+
+/// The metrics of each run; none where it failed.
+std::vector<std::optional<Metrics>> drive(Batch batch) {
+  Block& block = *batch.block;
+  const std::size_t samples = samples_in(batch.scenario.duration_s, batch.sample_time_s);
+  const auto goes_on = [&] {
+    return std::any_of(std::begin(block.active.lane), std::end(block.active.lane),
+                       [](double active) { return active > 0.0; });
+  };
+  for (std::size_t k = 0; k <= samples && goes_on(); ++k) {
+    const double t_s = static_cast<double>(k) * batch.sample_time_s;
+    sense(batch, k);
+    if (k == 0 && block.setup.is_observed) start_observing(block);
+    guide(batch, k, t_s);
+    batch.kernel.control(block);
+    quantise_commands(batch);
+    meter_sample(batch, k, samples, t_s);
+    move(batch, t_s);
+  }
+  std::vector<std::optional<Metrics>> metrics;
+  for (std::size_t lane = 0; lane < batch.ends.size(); ++lane) {
+    const auto sums = lane_of<MeterSums<double>>(block.sums, lane);
+    const auto& end = batch.ends[lane];
+    metrics.emplace_back();
+    if (end && is_finite(sums)) metrics.back() = metrics_of(sums, *end, batch.scenario);
+  }
+  return metrics;
+}
+
+/// Errors (input): as failure_of().
+Result<Metrics> one_by_one(const BatchRun& run, const Scenario& scenario, YawMode mode,
+                           double sample_time_s) {
+  const Run driven = simulate(
+      run.plant, run.controller, scenario, mode,
+      {.sample_time_s = sample_time_s, .substeps = {}, .seed = run.seed, .sample = run.sample});
+  AWMR_RETURN_IF_ERROR(failure_of(driven, scenario));
+  return metrics_of(driven, scenario, run.controller);
+}
+
+}  // namespace
+
+Result<BatchArithmetic> batch_arithmetic() {
+  const char* asked = std::getenv("AWMR_INSTRUCTIONS");
+  const auto kernels = lanes::supported_kernels();
+  const std::string_view name = asked ? asked : kernels.empty() ? "scalar" : kernels.front()->name;
+  if (name == "scalar") return BatchArithmetic{"scalar", "scalar"};
+  std::string known = "scalar";
+  for (const Kernel* kernel : kernels) {
+    if (name == kernel->name) return BatchArithmetic{kernel->name, kernel->rounding};
+    known += fmt::format(", {}", kernel->name);
+  }
+  return input_error(
+      "AWMR_INSTRUCTIONS",
+      fmt::format("'{}' is none that this processor and program have: {}", name, known));
+}
+
+std::vector<Result<Metrics>> simulate_batch(std::span<const BatchRun> runs,
+                                            const Scenario& scenario, YawMode mode,
+                                            double sample_time_s,
+                                            const BatchArithmetic& arithmetic) {
+  const Kernel* kernel = nullptr;
+  for (const Kernel* one : lanes::supported_kernels()) {
+    if (one->name == arithmetic.instructions) kernel = one;
+  }
+  std::vector<Result<Metrics>> results;
+  for (std::size_t first = 0; first < runs.size(); first += kBatchRuns) {
+    const auto block = runs.subspan(first, std::min(kBatchRuns, runs.size() - first));
+    std::vector<std::optional<Metrics>> metrics(block.size());
+    if (kernel) metrics = drive(set_up(block, scenario, mode, sample_time_s, *kernel));
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      // A run that failed is told of by simulate(), or saved by it.
+      results.push_back(metrics[i] ? Result<Metrics>(*metrics[i])
+                                   : one_by_one(block[i], scenario, mode, sample_time_s));
+    }
+  }
+  return results;
+}
+
+}  // namespace awmr

@@ -1,0 +1,50 @@
+/// Many runs at once, a lane of the processor's vector registers each. Guidance, sensors and events
+/// go on lane by lane; the laws, the allocation, the motion and the metrics are those of simulate(),
+/// the same templates on batches of numbers.
+///
+/// A run's numbers do not depend on the runs beside it, nor on its place among them. They are those of
+/// simulate() but for rounding: powers and angles are computed by other polynomials.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "awmr/core/result.h"
+#include "awmr/simulate/metrics.h"
+#include "awmr/simulate/simulate.h"
+
+namespace awmr {
+
+/// One of the runs: its vehicle, the controller, and where its random numbers come from.
+struct BatchRun {
+  Plant<double> plant;
+  Controller<double> controller;
+  std::uint64_t seed = 0;    ///< as in SimulateOptions
+  std::uint64_t sample = 0;  ///< as in SimulateOptions
+};
+
+/// By which instructions batches are computed.
+struct BatchArithmetic {
+  std::string_view instructions;  ///< "avx512", "avx2", "sse2"; "scalar": by simulate(), one by one
+  /// What results of different machines have to have in common to be the same bytes: "fused" where
+  /// a b + c is rounded once, whatever the instructions; "unfused"; or "scalar".
+  std::string_view rounding;
+};
+
+/// How many runs fill the registers: a multiple of it leaves no lane idle.
+inline constexpr std::size_t kBatchRuns = 16;
+
+/// The widest instructions that this processor has, or those named by the environment variable
+/// AWMR_INSTRUCTIONS, for tests. Errors (input): it names none that the processor has.
+Result<BatchArithmetic> batch_arithmetic();
+
+/// The metrics of each run, in order. Errors (input) of a run: as failure_of(). All controllers have
+/// the same allocation, split and form.
+std::vector<Result<Metrics>> simulate_batch(std::span<const BatchRun> runs,
+                                            const Scenario& scenario, YawMode mode,
+                                            double sample_time_s,
+                                            const BatchArithmetic& arithmetic);
+
+}  // namespace awmr

@@ -1,0 +1,103 @@
+/// The numbers of a block of runs that are driven together, a lane each, and what the kernels do
+/// with them. Plain data: the kernels are compiled for other instruction sets than the rest of the
+/// program, and share no code with it.
+#pragma once
+
+#include "awmr/control/controller.h"
+#include "awmr/control/disturbance_observer.h"
+#include "awmr/simulate/meter.h"
+#include "awmr/simulate/motion.h"
+
+namespace awmr {
+namespace lanes {
+
+/// Runs of a block, whatever the instruction set: two, four or eight steps of a kernel.
+constexpr int kLanes = 16;
+
+/// A number of each run.
+struct alignas(64) Row {
+  double lane[kLanes];
+  Row() = default;
+  explicit Row(double all) {
+    for (double& one : lane) one = all;
+  }
+};
+
+/// What the runs of a block have in common, over all of it.
+struct BlockSetup {
+  YawMode mode = YawMode::kDifferential;
+  CombinedSplit split = CombinedSplit::kRedistribute;
+  AllocationForm form = AllocationForm::kExact;
+  bool is_open_loop = false;  ///< tau_speed and tau_turn stand in the block, and no law asks
+  bool is_observed = false;
+  Observers<double> observers{};
+  double sample_time_s = 0.0;
+  MotorLag lag;
+  bool is_by_wheel = false;  ///< each wheel has a force of its own
+  MeteredCourse course;
+};
+
+/// What they have in common over one sample.
+struct BlockSample {
+  MeteredTime time;
+  bool has_battery = false;
+  double battery_share = 1.0;  ///< of the largest force
+  bool is_loaded = false;      ///< as in Push
+  bool is_sloped = false;
+  double slope_accel_mps2 = 0.0;
+  double slope_downhill_rad = 0.0;
+};
+
+struct Block {
+  BlockSetup setup;
+  BlockSample sample;
+
+  Row active;  ///< 1; 0 once the run has ended, or where the lane has none
+
+  // Constant over a run.
+  Plant<Row> plant;  ///< with its chord at rest
+  Row step_s;        ///< h
+  Row substeps;
+  PreparedController<Row> controller;
+  Row dead_zone;   ///< F'0, as the controller knows it
+  Row force_most;  ///< F' of a wheel at the most, with the zone
+  MeteredVehicle<Row> metered;
+
+  // As a run goes on.
+  State<Row> state;
+  ObserversState<Row> observed;
+  SideForces<Row> motors;
+  Row halves;  ///< see Resolution
+  MeterSums<Row> sums;
+
+  // Of the present sample: what the controller is told and asked, and what it answers.
+  Measurement<Row> measured;
+  Reference<Row> reference;
+  Row tau_speed, tau_turn_m;
+  SideForces<Row> force;
+  Row steering_command_rad;
+  // What of it arrives at the ground, by side or by wheel.
+  SideForces<Row> arriving;
+  WheelForces<Row> wheels;
+  BodyLoadOf<Row> load;
+  // What the meter is told.
+  Row goal_rad, cross_track_m, off_target_m, clearance_m;
+};
+
+/// The three steps of a sample, in this order, for one instruction set.
+struct Kernel {
+  const char* name;
+  const char* rounding;  ///< "fused": a b + c is rounded once; "unfused"
+  /// From `measured` and `reference` to the commands.
+  void (*control)(Block& block);
+  /// Takes the sample into the sums of the active lanes.
+  void (*measure)(Block& block);
+  /// From `force` to `arriving`, through motors and battery.
+  void (*drive)(Block& block);
+  /// Moves the states of the active lanes on; a lane that no step can follow, or whose numbers are no
+  /// longer finite, stays, and is no longer active.
+  void (*move)(Block& block);
+};
+
+}  // namespace lanes
+}  // namespace awmr

@@ -1,0 +1,21 @@
+#include "awmr/simulate/lanes/kernels.h"
+
+namespace awmr {
+namespace lanes {
+
+std::vector<const Kernel*> supported_kernels() {
+  std::vector<const Kernel*> kernels;
+#ifdef __x86_64__
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("fma")) {
+    kernels.push_back(&awmr_lanes_avx512);
+  }
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) {
+    kernels.push_back(&awmr_lanes_avx2);
+  }
+  kernels.push_back(&awmr_lanes_sse2);
+#endif
+  return kernels;
+}
+
+}  // namespace lanes
+}  // namespace awmr

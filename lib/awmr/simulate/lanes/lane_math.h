@@ -1,0 +1,213 @@
+/// pow, sin, cos, atan, atan2 and the wrap of an angle for lanes. Polynomials are Chebyshev fits on
+/// the reduced interval, their error below 1e-17 of the result. Where an argument is out of the range
+/// that a reduction is made for, its lane asks the C library. The worst errors, over these ranges:
+/// tests/simulate/lanes_test.cpp.
+#pragma once
+
+#include <math.h>
+
+#include <cstdint>
+
+#include "awmr/core/units.h"
+#include "awmr/simulate/lanes/lanes.h"
+
+namespace awmr {
+namespace lanes {
+namespace AWMR_LANES {
+
+using Bits = xsimd::batch<std::uint64_t, xsimd::AWMR_LANES_ARCH>;
+
+/// The same function of the C library, lane by lane, where `asked`.
+template <class Function>
+__attribute__((noinline, cold)) Lanes by_library(Function function, LaneMask asked, Lanes x,
+                                                 Lanes y, Lanes otherwise) {
+  double xs[Lanes::kCount];
+  double ys[Lanes::kCount];
+  double results[Lanes::kCount];
+  x.store(xs);
+  y.store(ys);
+  for (int i = 0; i < Lanes::kCount; ++i) results[i] = function(xs[i], ys[i]);
+  return select(asked, Lanes::load(results), otherwise);
+}
+
+/// c[0] + c[1] x + ... by Horner's rule.
+template <int N>
+AWMR_LANE_INLINE Lanes polynomial(const double (&c)[N], const Lanes& x) {
+  Lanes sum(c[N - 1]);
+#pragma GCC unroll 16
+  for (int i = N - 2; i >= 0; --i) sum = fma(sum, x, Lanes(c[i]));
+  return sum;
+}
+
+/// x + 1.5 2^52 has the whole number nearest to x in its last bits, for |x| < 2^51.
+constexpr double kRounder = 0x1.8p52;
+
+/// x = m 2^k, m in [sqrt(1/2), sqrt 2), for x in the normal range.
+struct Split {
+  Lanes m, k;
+};
+AWMR_LANE_INLINE Split split(const Lanes& x) {
+  constexpr std::uint64_t kRootHalf = 0x3FE6A09E667F3BCDULL;
+  constexpr std::uint64_t kOne = 0x3FF0000000000000ULL;
+  Split result;
+  for (int i = 0; i < kRegisters; ++i) {
+    const Bits bits = xsimd::bitwise_cast<Bits>(x.part[i]);
+    // The biased exponent of x/sqrt(1/2), and below it what its mantissa would be.
+    const Bits biased = (bits + Bits(kOne - kRootHalf)) >> 52;
+    // A whole number n < 2^52 in the mantissa of 2^52 is 2^52 + n.
+    result.k.part[i] = xsimd::bitwise_cast<Register>(biased | Bits(0x4330000000000000ULL)) -
+                       Register(0x1p52 + 1023.0);
+    result.m.part[i] = xsimd::bitwise_cast<Register>(bits - ((biased << 52) - Bits(kOne)));
+  }
+  return result;
+}
+
+/// log2(x) for x in the normal range. With s = (m - 1)/(m + 1),
+///   log2(x) = k + 2/ln 2 (s + s^3/3 + s^5/5 + ...)
+AWMR_LANE_INLINE Lanes log2_of_normal(const Lanes& x) {
+  constexpr double kSeries[] = {0x1.5555555555558p-2, 0x1.99999999952e2p-3, 0x1.2492492df148dp-3,
+                                0x1.c71c62e5800a1p-4, 0x1.7462b4ab2ef6bp-4, 0x1.39fe606542ddep-4,
+                                0x1.2b584aae78a57p-4};
+  constexpr double kTwoOverLn2 = 0x1.71547652b82fep+1;
+  const Split x_is = split(x);
+  const Lanes s = (x_is.m - Lanes(1.0)) / (x_is.m + Lanes(1.0));
+  const Lanes z = s * s;
+  const Lanes ln_half = fma(s * z, polynomial(kSeries, z), s);
+  return fma(ln_half, Lanes(kTwoOverLn2), x_is.k);
+}
+
+/// 2^y for |y| < 1000.
+AWMR_LANE_INLINE Lanes exp2_of_normal(const Lanes& y) {
+  constexpr double kSeries[] = {
+      0x1.0000000000000p+0,  0x1.62e42fefa39efp-1,  0x1.ebfbdff82c5aep-3,  0x1.c6b08d704a0c6p-5,
+      0x1.3b2ab6fb9f1a5p-7,  0x1.5d87fe78a3f9cp-10, 0x1.430913112c61bp-13, 0x1.ffcbfc6da6ed1p-17,
+      0x1.62bfc2c86d700p-20, 0x1.b524ebd13a55fp-24, 0x1.e6228acd1c6e5p-28, 0x1.e9ec1fcb69a7fp-32};
+  const Lanes rounded = y + Lanes(kRounder);
+  const Lanes fraction = y - (rounded - Lanes(kRounder));
+  const Lanes p = polynomial(kSeries, fraction);
+  return by_register(
+      [](const Register& value, const Register& power) {
+        return xsimd::bitwise_cast<Register>(xsimd::bitwise_cast<Bits>(value) +
+                                             (xsimd::bitwise_cast<Bits>(power) << 52));
+      },
+      p, rounded);
+}
+
+/// x^y for x >= 0.
+AWMR_LANE_INLINE Lanes pow(const Lanes& x, const Lanes& y) {
+  const Lanes power = y * log2_of_normal(x);
+  const LaneMask easy = x >= Lanes(0x1p-1022) && x < Lanes(0x1p1023) && abs(power) < Lanes(1000.0);
+  const Lanes result = exp2_of_normal(power);
+  if (all(easy)) [[likely]]
+    return result;
+  return by_library([](double a, double b) { return ::pow(a, b); }, !easy, x, y, result);
+}
+
+struct SinCos {
+  Lanes sin, cos;
+};
+
+/// The reduction to |r| <= pi/4 has three parts of pi/2, of which the first two have 33 bits, so
+/// that their products with a quadrant up to 2^20 are exact also without a fused multiplication.
+constexpr double kLargestAngle = 0x1p20;
+
+AWMR_LANE_INLINE SinCos sin_cos_in_range(const Lanes& x) {
+  constexpr double kSin[] = {-0x1.5555555555555p-3, 0x1.1111111110babp-7,   -0x1.a01a019e820aep-13,
+                             0x1.71de37946ed6dp-19, -0x1.ae6008d114485p-26, 0x1.5e0a4fc16be59p-33};
+  constexpr double kCos[] = {0x1.5555555555555p-5,  -0x1.6c16c16c16963p-10,
+                             0x1.a01a019f4ddfdp-16, -0x1.27e4fa16cc2d1p-22,
+                             0x1.1eeb67d026ec6p-29, -0x1.907cd8ff5ede7p-37};
+  const Lanes rounded = fma(x, Lanes(0x1.45f306dc9c883p-1), Lanes(kRounder));  // 2/pi
+  const Lanes quadrant = rounded - Lanes(kRounder);
+  Lanes r = fma(quadrant, Lanes(-0x1.921fb54400000p+0), x);
+  r = fma(quadrant, Lanes(-0x1.0b4611a600000p-34), r);
+  r = fma(quadrant, Lanes(-0x1.3198a2e037073p-69), r);
+  const Lanes z = r * r;
+  const Lanes s = fma(r * z, polynomial(kSin, z), r);
+  const Lanes c = fma(z * z, polynomial(kCos, z), fma(z, Lanes(-0.5), Lanes(1.0)));
+  // Odd quadrants swap the two: their last bit is put where it makes the number 2. The second bit is
+  // the sign of the sine, and of the cosine one quadrant on: it is put where the sign is.
+  const LaneMask swapped = by_register<LaneMask>(
+      [](const Register& whole) {
+        const Bits odd = (xsimd::bitwise_cast<Bits>(whole) & Bits(std::uint64_t{1})) << 62;
+        return xsimd::bitwise_cast<Register>(odd) > Register(1.0);
+      },
+      rounded);
+  const auto with_sign = [&rounded](const Lanes& value, std::uint64_t quadrants_on) {
+    return by_register(
+        [quadrants_on](const Register& one, const Register& whole) {
+          const Bits at = xsimd::bitwise_cast<Bits>(whole) + Bits(quadrants_on);
+          const Bits sign = (at & Bits(std::uint64_t{2})) << 62;
+          return xsimd::bitwise_cast<Register>(xsimd::bitwise_cast<Bits>(one) ^ sign);
+        },
+        value, rounded);
+  };
+  return {with_sign(select(swapped, c, s), 0), with_sign(select(swapped, s, c), 1)};
+}
+
+AWMR_LANE_INLINE Lanes sin(const Lanes& x) {
+  const Lanes result = sin_cos_in_range(x).sin;
+  const LaneMask easy = abs(x) < Lanes(kLargestAngle);
+  if (all(easy)) [[likely]]
+    return result;
+  return by_library([](double a, double) { return ::sin(a); }, !easy, x, x, result);
+}
+AWMR_LANE_INLINE Lanes cos(const Lanes& x) {
+  const Lanes result = sin_cos_in_range(x).cos;
+  const LaneMask easy = abs(x) < Lanes(kLargestAngle);
+  if (all(easy)) [[likely]]
+    return result;
+  return by_library([](double a, double) { return ::cos(a); }, !easy, x, x, result);
+}
+
+/// The angle of (x, y), x >= 0, in [-pi/2, pi/2]: with t = tan(pi/8), a = |y|,
+///   a <= t x           atan(a/x)
+///   t x < a <= x/t     pi/4 + atan((a - x)/(a + x))
+///   a > x/t            pi/2 - atan(x/a)
+AWMR_LANE_INLINE Lanes angle_ahead(const Lanes& y, const Lanes& x) {
+  constexpr double kAtan[] = {-0x1.5555555555555p-2, 0x1.999999999933dp-3,  -0x1.24924924355d5p-3,
+                              0x1.c71c7184c32bfp-4,  -0x1.745d0b153ffadp-4, 0x1.3b126143b5cbcp-4,
+                              -0x1.10fa5ee9ab25cp-4, 0x1.dfe49b2919c4ep-5,  -0x1.a090d1950d2b4p-5,
+                              0x1.41495cefb6c73p-5,  -0x1.39f38ad451ea6p-6};
+  constexpr double kTanEighth = 0x1.a827999fcef32p-2;
+  const Lanes a = abs(y);
+  const LaneMask low = a <= x * Lanes(kTanEighth);
+  const LaneMask high = x < a * Lanes(kTanEighth);
+  const Lanes above = select(low, a, select(high, -x, a - x));
+  const Lanes below = select(low, x, select(high, a, a + x));
+  // Both 0: 0/1.
+  const Lanes t = above / select(below > Lanes(0.0), below, Lanes(1.0));
+  const Lanes z = t * t;
+  const Lanes base =
+      select(low, Lanes(0.0), select(high, Lanes(pi<double>() / 2.0), Lanes(pi<double>() / 4.0)));
+  const Lanes angle = base + fma(t * z, polynomial(kAtan, z), t);
+  return select(y < Lanes(0.0), -angle, angle);
+}
+
+AWMR_LANE_INLINE Lanes atan(const Lanes& x) { return angle_ahead(x, Lanes(1.0)); }
+
+/// In (-pi, pi]; 0 for (0, 0).
+AWMR_LANE_INLINE Lanes atan2(const Lanes& y, const Lanes& x) {
+  const Lanes ahead = angle_ahead(y, abs(x));
+  const Lanes half_turn = select(y < Lanes(0.0), Lanes(-pi<double>()), Lanes(pi<double>()));
+  return select(x < Lanes(0.0), half_turn - ahead, ahead);
+}
+
+AWMR_LANE_INLINE Lanes hypot(const Lanes& x, const Lanes& y) { return sqrt(x * x + y * y); }
+
+/// wrap_angle() of control/controller.h without its loops: |n| turns of 2 pi at once.
+AWMR_LANE_INLINE Lanes wrap_angle(const Lanes& angle_rad) {
+  constexpr double kTurn = 0x1.921fb54442d18p+2;
+  constexpr double kTurnRest = 0x1.1a62633145c07p-52;
+  const Lanes rounded = fma(angle_rad, Lanes(0x1.45f306dc9c883p-3), Lanes(kRounder));  // 1/(2 pi)
+  const Lanes turns = rounded - Lanes(kRounder);
+  Lanes wrapped = fma(turns, Lanes(-kTurn), angle_rad);
+  const LaneMask many = abs(turns) > Lanes(64.0);
+  if (any(many)) wrapped = select(many, fma(turns, Lanes(-kTurnRest), wrapped), wrapped);
+  wrapped = select(wrapped > Lanes(pi<double>()), wrapped - Lanes(kTurn), wrapped);
+  return select(wrapped > Lanes(-pi<double>()), wrapped, wrapped + Lanes(kTurn));
+}
+
+}  // namespace AWMR_LANES
+}  // namespace lanes
+}  // namespace awmr

@@ -1,0 +1,140 @@
+/// A batch of doubles, a lane per trajectory: the scalar with which the templates of model/ and
+/// control/ run several vehicles at once. For kernel files alone: see kernel.h.
+///
+/// A kernel file defines AWMR_LANES, the name of its instruction set, before it includes this. The
+/// name is part of every type here and so of every template made with one: the linker takes the
+/// first of two functions of the same name, and that may be one for a newer processor.
+#pragma once
+
+#include <xsimd/xsimd.hpp>
+
+#include "awmr/model/scalar_math.h"
+
+#ifndef AWMR_LANES
+#error "lanes.h is for kernel files, which define AWMR_LANES"
+#endif
+#define AWMR_LANE_INLINE inline __attribute__((always_inline))
+/// All that is called is copied in: lanes live in registers, which a call would spill.
+#define AWMR_WHOLE __attribute__((flatten))
+
+namespace awmr {
+namespace lanes {
+namespace AWMR_LANES {
+
+using Register = xsimd::batch<double, xsimd::AWMR_LANES_ARCH>;
+using RegisterMask = xsimd::batch_bool<double, xsimd::AWMR_LANES_ARCH>;
+
+/// Registers of a batch. With two of them one computes while the other waits for its last result; it
+/// takes a processor with 32 registers not to run out of them.
+constexpr int kRegisters = AWMR_LANES_REGISTERS;
+
+/// Truth by lane.
+struct LaneMask {
+  RegisterMask part[kRegisters];
+  LaneMask() = default;
+  AWMR_LANE_INLINE explicit LaneMask(bool everywhere) {
+    for (RegisterMask& one : part) one = Register(everywhere ? 1.0 : 0.0) > Register(0.0);
+  }
+};
+
+/// Numbers by lane. Converts from double as a scalar would.
+struct Lanes {
+  Register part[kRegisters];
+  Lanes() = default;
+  AWMR_LANE_INLINE Lanes(double everywhere) {
+    for (Register& one : part) one = Register(everywhere);
+  }
+
+  static constexpr int kWidth = static_cast<int>(Register::size);
+  static constexpr int kCount = kRegisters * kWidth;
+  static AWMR_LANE_INLINE Lanes load(const double* from) {
+    Lanes lanes;
+    for (int i = 0; i < kRegisters; ++i)
+      lanes.part[i] = Register::load_unaligned(from + i * kWidth);
+    return lanes;
+  }
+  AWMR_LANE_INLINE void store(double* to) const {
+    for (int i = 0; i < kRegisters; ++i) part[i].store_unaligned(to + i * kWidth);
+  }
+};
+
+/// f of the registers of each place.
+template <class Result = Lanes, class F, class... Operands>
+AWMR_LANE_INLINE Result by_register(const F& f, const Operands&... operands) {
+  Result result;
+  for (int i = 0; i < kRegisters; ++i) result.part[i] = f(operands.part[i]...);
+  return result;
+}
+
+}  // namespace AWMR_LANES
+}  // namespace lanes
+
+template <>
+struct MaskOf<lanes::AWMR_LANES::Lanes> {
+  using Type = lanes::AWMR_LANES::LaneMask;
+};
+
+namespace lanes {
+namespace AWMR_LANES {
+
+#define AWMR_LANES_OPERATOR(Result, Operand, op, part_op)                                       \
+  AWMR_LANE_INLINE Result operator op(const Operand& a, const Operand& b) {                     \
+    return by_register<Result>([](const auto& x, const auto& y) { return x part_op y; }, a, b); \
+  }
+AWMR_LANES_OPERATOR(Lanes, Lanes, +, +)
+AWMR_LANES_OPERATOR(Lanes, Lanes, -, -)
+AWMR_LANES_OPERATOR(Lanes, Lanes, *, *)
+AWMR_LANES_OPERATOR(Lanes, Lanes, /, /)
+AWMR_LANES_OPERATOR(LaneMask, Lanes, <, <)
+AWMR_LANES_OPERATOR(LaneMask, Lanes, <=, <=)
+AWMR_LANES_OPERATOR(LaneMask, Lanes, >, >)
+AWMR_LANES_OPERATOR(LaneMask, Lanes, >=, >=)
+AWMR_LANES_OPERATOR(LaneMask, LaneMask, &&, &)
+AWMR_LANES_OPERATOR(LaneMask, LaneMask, ||, |)
+#undef AWMR_LANES_OPERATOR
+
+AWMR_LANE_INLINE Lanes operator-(const Lanes& a) {
+  return by_register([](const Register& x) { return -x; }, a);
+}
+AWMR_LANE_INLINE Lanes& operator+=(Lanes& a, const Lanes& b) { return a = a + b; }
+AWMR_LANE_INLINE Lanes& operator-=(Lanes& a, const Lanes& b) { return a = a - b; }
+
+AWMR_LANE_INLINE LaneMask operator!(const LaneMask& a) {
+  return by_register<LaneMask>([](const RegisterMask& x) { return !x; }, a);
+}
+AWMR_LANE_INLINE bool any(const LaneMask& a) {
+  RegisterMask joined = a.part[0];
+  for (int i = 1; i < kRegisters; ++i) joined = joined | a.part[i];
+  return xsimd::any(joined);
+}
+AWMR_LANE_INLINE bool all(const LaneMask& a) {
+  RegisterMask joined = a.part[0];
+  for (int i = 1; i < kRegisters; ++i) joined = joined & a.part[i];
+  return xsimd::all(joined);
+}
+
+AWMR_LANE_INLINE Lanes select(const LaneMask& m, const Lanes& a, const Lanes& b) {
+  return by_register([](const auto& mask, const Register& x,
+                        const Register& y) { return xsimd::select(mask, x, y); },
+                     m, a, b);
+}
+AWMR_LANE_INLINE LaneMask select(const LaneMask& m, const LaneMask& a, const LaneMask& b) {
+  return (m && a) || (!m && b);
+}
+
+/// a b + c, rounded once where the processor can.
+AWMR_LANE_INLINE Lanes fma(const Lanes& a, const Lanes& b, const Lanes& c) {
+  return by_register(
+      [](const Register& x, const Register& y, const Register& z) { return xsimd::fma(x, y, z); },
+      a, b, c);
+}
+AWMR_LANE_INLINE Lanes abs(const Lanes& a) {
+  return by_register([](const Register& x) { return xsimd::abs(x); }, a);
+}
+AWMR_LANE_INLINE Lanes sqrt(const Lanes& a) {
+  return by_register([](const Register& x) { return xsimd::sqrt(x); }, a);
+}
+
+}  // namespace AWMR_LANES
+}  // namespace lanes
+}  // namespace awmr

@@ -1,0 +1,272 @@
+/// The metrics of a run, row by row as it is driven: no row needs to be kept. Templates on the
+/// scalar: a double, or a batch with a run per lane. Private to this folder.
+#pragma once
+
+#include "awmr/control/controller.h"
+#include "awmr/core/units.h"
+#include "awmr/model/resistance.h"
+#include "awmr/model/state.h"
+
+namespace awmr {
+
+/// What the meter has to know of the vehicle: of its controller's limits and law.
+template <class T>
+struct MeteredVehicle {
+  T front_axle_m;      ///< l_f
+  T half_track_m;      ///< d
+  T force_max;         ///< F'max of one wheel, beyond the dead zone
+  T command_max;       ///< the command that makes it
+  T command_min;       ///< the command that makes F'min
+  T steering_max_rad;  ///< d_max; 0: no steering
+};
+
+/// What of the course counts; the same for all lanes.
+struct MeteredCourse {
+  bool has_headings = false;  ///< steps of the heading, each to be settled on
+  double speed_mps = 0.0;     ///< the speed that a drop is counted from
+  /// Of a timed path: how far from its point the vehicle may be in the second half of the run.
+  double tolerance_m = 0.0;
+};
+
+/// What a row tells the meter.
+template <class T>
+struct MeteredRow {
+  State<T> state;
+  SideForces<T> force;     ///< commanded
+  T steering_command_rad;  ///< d_ro
+  T yaw_resistance_m;      ///< g3(r), as the controller knows it
+  T goal_rad;              ///< the heading commanded by the guidance
+  T cross_track_m;         ///< from the present leg, line or path
+  T off_target_m;          ///< from the point gone to
+  T clearance_m;           ///< to the nearest obstacle; 0 without obstacles
+};
+
+/// When a row is; the same for all lanes.
+struct MeteredTime {
+  double t_s = 0.0;
+  double since_last_s = 0.0;  ///< from the row before; not of the first row
+  bool is_first = false;
+  bool starts_step = false;  ///< the commanded heading is not that of the row before
+  bool is_in_second_half = false;
+};
+
+/// Sums over the rows so far, of T alone. Flags are 0 or 1.
+template <class T>
+struct MeterSums {
+  T rows = T(0.0);
+  T effort = T(0.0);
+  T sideslip_max_deg = T(0.0);
+  T yaw_rate_max_degps = T(0.0);
+  T path_length_m = T(0.0);
+  T variation = T(0.0);
+  T energy_mech = T(0.0);
+  T energy_electric = T(0.0);
+  T tyre_work = T(0.0);
+  T saturation_s = T(0.0);
+  T steering_travel_deg = T(0.0);
+  T cross_track_m2 = T(0.0);
+  T strayed = T(0.0);  ///< flag: beyond the tolerance in the second half
+  T clearance_min_m = T(0.0);
+  T speed_reached = T(0.0);  ///< flag
+  T speed_least_mps = T(0.0);
+  // Of the headings: sums over all steps, then those of the present step.
+  T settling_s = T(0.0);
+  T never_settled = T(0.0);  ///< flag: at the end of a step
+  T overshoot_deg = T(0.0);
+  T iae_degs = T(0.0);
+  T itae_degs2 = T(0.0);
+  T step_start_s = T(0.0);
+  T step_deg = T(0.0);
+  T out_of_band = T(0.0);  ///< flag
+  T settled_s = T(0.0);    ///< from the step's start
+  // Of the row before.
+  T error_deg = T(0.0);
+  T t_s = T(0.0);
+  T power_mps = T(0.0);
+  T copper = T(0.0);
+  T yaw_resistance_m = T(0.0), r_radps = T(0.0);
+  T limited = T(0.0);  ///< flag
+  T x_m = T(0.0), y_m = T(0.0), steering_rad = T(0.0);
+  T steering_command_rad = T(0.0), left = T(0.0), right = T(0.0);
+};
+
+namespace meter {
+
+constexpr double kReachedShare = 0.001;   ///< of the commanded speed
+constexpr double kSettledShare = 0.02;    ///< of the step's size
+constexpr double kSettledLeastDeg = 0.5;  ///< band of the smallest steps
+constexpr double kMovingMps = 0.05;       ///< below it the sideslip angle has no meaning
+
+/// The larger; `a` where they are equal or `b` is not a number.
+template <class T>
+T larger(const T& a, const T& b) {
+  using math::select;
+  return select(a < b, b, a);
+}
+
+/// Power that the four wheels put into the vehicle, over F_max, m/s. The rear axle rolls ahead; the
+/// front wheels roll along d_r:
+///   w_rear  = u -+ d r
+///   w_front = (u -+ d r) cos d_r + (v + l_f r) sin d_r            upper sign: left, lower: right
+template <class T>
+T driving_power(const MeteredRow<T>& row, const MeteredVehicle<T>& vehicle) {
+  using math::cos;
+  using math::sin;
+  const State<T>& s = row.state;
+  const T across_mps = (s.v_mps + vehicle.front_axle_m * s.r_radps) * sin(s.steering_rad);
+  const T cos_d = cos(s.steering_rad);
+  const auto of_side = [&](const T& force, const T& side) {
+    const T rear_mps = s.u_mps - side * vehicle.half_track_m * s.r_radps;
+    const T front_mps = rear_mps * cos_d + across_mps;
+    return larger(T(0.0), T(force * rear_mps)) + larger(T(0.0), T(force * front_mps));
+  };
+  return of_side(row.force.left, T(1.0)) + of_side(row.force.right, T(-1.0));
+}
+
+template <class T>
+Mask<T> at_a_limit(const MeteredRow<T>& row, const MeteredVehicle<T>& vehicle) {
+  using math::abs;
+  const auto forced = [&](const T& command) {
+    return command >= vehicle.command_max || command <= vehicle.command_min;
+  };
+  return forced(row.force.left) || forced(row.force.right) ||
+         (vehicle.steering_max_rad > T(0.0) &&
+          abs(row.steering_command_rad) >= vehicle.steering_max_rad);
+}
+
+/// A commanded angle over the largest; 0 where the vehicle has no steering.
+template <class T>
+T share_of_stop(const T& steering_rad, const T& steering_max_rad) {
+  using math::select;
+  const Mask<T> steers = steering_max_rad > T(0.0);
+  return select(steers, T(steering_rad / select(steers, steering_max_rad, T(1.0))), T(0.0));
+}
+
+/// The step that the rows so far were of is over.
+template <class T>
+void close_step(MeterSums<T>& m) {
+  using math::select;
+  const Mask<T> settled = !(m.out_of_band > T(0.0));
+  m.never_settled = select(settled, m.never_settled, T(1.0));
+  m.settling_s = select(settled, larger(m.settling_s, m.settled_s), m.settling_s);
+}
+
+/// Settling, overshoot, IAE and ITAE.
+template <class T>
+void measure_heading(const MeteredRow<T>& row, const MeteredTime& time, MeterSums<T>& m) {
+  using math::abs;
+  using math::select;
+  const T error_deg = degrees(wrap_angle(T(row.goal_rad - row.state.psi_rad)));
+  if (!time.is_first) {
+    const T dt_s = T(time.since_last_s);
+    m.iae_degs += abs(m.error_deg) * dt_s;
+    m.itae_degs2 += (m.t_s - m.step_start_s) * abs(m.error_deg) * dt_s;
+  }
+  if (time.starts_step) {
+    if (!time.is_first) close_step(m);
+    m.step_start_s = T(time.t_s);
+    m.step_deg = error_deg;
+    m.out_of_band = T(0.0);
+    m.settled_s = T(0.0);
+  }
+  const T band_deg = larger(T(T(kSettledShare) * abs(m.step_deg)), T(kSettledLeastDeg));
+  const Mask<T> out = abs(error_deg) > band_deg;
+  const Mask<T> enters = !out && m.out_of_band > T(0.0);
+  m.settled_s = select(enters, T(T(time.t_s) - m.step_start_s), m.settled_s);
+  m.out_of_band = select(out, T(1.0), T(0.0));
+  m.overshoot_deg = larger(m.overshoot_deg, select(m.step_deg > T(0.0), T(-error_deg), error_deg));
+  m.error_deg = error_deg;
+}
+
+/// The least speed after the commanded one was first reached within 0.1 %.
+template <class T>
+void measure_speed(const T& u_mps, const MeteredCourse& course, MeterSums<T>& m) {
+  using math::select;
+  const Mask<T> was = m.speed_reached > T(0.0);
+  const Mask<T> counts = was || u_mps >= T((1.0 - kReachedShare) * course.speed_mps);
+  const T least = select(was && !(u_mps < m.speed_least_mps), m.speed_least_mps, u_mps);
+  m.speed_least_mps = select(counts, least, m.speed_least_mps);
+  m.speed_reached = select(counts, T(1.0), T(0.0));
+}
+
+/// Motion, and what the commands vary.
+template <class T>
+void measure_motion(const MeteredRow<T>& row, const MeteredVehicle<T>& vehicle, bool is_first,
+                    MeterSums<T>& m) {
+  using math::abs;
+  using math::any;
+  using math::atan2;
+  using math::hypot;
+  using math::select;
+  const State<T>& s = row.state;
+  const T steering = share_of_stop(row.steering_command_rad, vehicle.steering_max_rad);
+  m.effort +=
+      row.force.left * row.force.left + row.force.right * row.force.right + steering * steering;
+  const Mask<T> moves = hypot(s.u_mps, s.v_mps) > T(kMovingMps);
+  if (any(moves)) {
+    const T sideslip_deg = abs(degrees(atan2(s.v_mps, s.u_mps)));
+    m.sideslip_max_deg =
+        select(moves, larger(m.sideslip_max_deg, sideslip_deg), m.sideslip_max_deg);
+  }
+  m.yaw_rate_max_degps = larger(m.yaw_rate_max_degps, abs(degrees(s.r_radps)));
+  if (is_first) return;
+  m.path_length_m += hypot(T(s.x_m - m.x_m), T(s.y_m - m.y_m));
+  m.variation +=
+      share_of_stop(abs(row.steering_command_rad - m.steering_command_rad),
+                    vehicle.steering_max_rad) +
+      (abs(row.force.left - m.left) + abs(row.force.right - m.right)) / vehicle.force_max;
+}
+
+/// Energy, wear and limits of the sample that ends here: commands are held over each.
+template <class T>
+void measure_work(const MeteredRow<T>& row, double dt_s, MeterSums<T>& m) {
+  using math::abs;
+  using math::select;
+  m.energy_mech += T(dt_s) * m.power_mps;
+  m.energy_electric += T(dt_s) * T(2.0) * m.copper;
+  m.tyre_work += T(dt_s) * m.yaw_resistance_m * m.r_radps;
+  m.saturation_s = select(m.limited > T(0.0), T(m.saturation_s + T(dt_s)), m.saturation_s);
+  m.steering_travel_deg += abs(degrees(row.state.steering_rad - m.steering_rad));
+}
+
+/// Keeps what the next row asks of this one.
+template <class T>
+void remember(const MeteredRow<T>& row, const MeteredVehicle<T>& vehicle, double t_s,
+              MeterSums<T>& m) {
+  using math::select;
+  m.t_s = T(t_s);
+  m.power_mps = driving_power(row, vehicle);
+  m.copper = row.force.left * row.force.left + row.force.right * row.force.right;
+  m.yaw_resistance_m = row.yaw_resistance_m;
+  m.r_radps = row.state.r_radps;
+  m.limited = select(at_a_limit(row, vehicle), T(1.0), T(0.0));
+  m.x_m = row.state.x_m;
+  m.y_m = row.state.y_m;
+  m.steering_rad = row.state.steering_rad;
+  m.steering_command_rad = row.steering_command_rad;
+  m.left = row.force.left;
+  m.right = row.force.right;
+}
+
+}  // namespace meter
+
+/// Takes a row into the sums; in order, from the first.
+template <class T>
+void measure(const MeteredRow<T>& row, const MeteredVehicle<T>& vehicle,
+             const MeteredCourse& course, const MeteredTime& time, MeterSums<T>& m) {
+  using math::select;
+  m.rows += T(1.0);
+  if (course.has_headings) meter::measure_heading(row, time, m);
+  meter::measure_motion(row, vehicle, time.is_first, m);
+  if (!time.is_first) meter::measure_work(row, time.since_last_s, m);
+  meter::measure_speed(row.state.u_mps, course, m);
+  m.cross_track_m2 += row.cross_track_m * row.cross_track_m;
+  if (time.is_in_second_half) {
+    m.strayed = select(row.off_target_m <= T(course.tolerance_m), m.strayed, T(1.0));
+  }
+  m.clearance_min_m = select(Mask<T>(time.is_first) || row.clearance_m < m.clearance_min_m,
+                             row.clearance_m, m.clearance_min_m);
+  meter::remember(row, vehicle, time.t_s, m);
+}
+
+}  // namespace awmr

@@ -1,0 +1,29 @@
+/// What the loop of one run and that of a batch have in common. Private to this folder.
+#pragma once
+
+#include <cstddef>
+
+#include "awmr/control/disturbance_observer.h"
+#include "awmr/simulate/scenario.h"
+#include "awmr/simulate/simulate.h"
+
+namespace awmr {
+
+/// Below this speed a vehicle that was told to stop counts as stopped.
+inline constexpr double kStopped_mps = 1e-3;
+
+/// The controller with what the scenario changes of it.
+Controller<double> controller_in(const Scenario& scenario, Controller<double> controller);
+
+Observers<double> observers_of(const ControlOptions::Observer& observer);
+
+/// F' of a wheel at the most, over F_max: what overcomes the dead zone, and the zone.
+double largest_force(const Controller<double>& controller);
+
+/// From the vehicle's circle to the nearest obstacle, < 0 inside of it.
+double clearance_m(const Scenario& scenario, const State<double>& state);
+
+/// The last sample at or before the duration, with room for rounding.
+std::size_t samples_in(double duration_s, double sample_time_s);
+
+}  // namespace awmr

@@ -1,0 +1,230 @@
+/// Batches against simulate(), which is the judge.
+#include "awmr/simulate/batch.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "awmr/core/random.h"
+#include "awmr/model/paper_gains.h"
+#include "awmr/simulate/scenario_file.h"
+#include "simulate/paper_plant.h"
+
+namespace awmr::testing {
+namespace {
+
+constexpr double kSampleTime_s = 0.01;
+
+std::vector<Scenario> shipped_scenarios() {
+  std::vector<Scenario> scenarios;
+  for (const char* folder : {"/configs/paper/scenarios", "/configs/scenarios"}) {
+    for (const auto& file :
+         std::filesystem::directory_iterator(std::string(AWMR_SOURCE_DIR) + folder)) {
+      scenarios.push_back(*read_scenario(file.path()));
+    }
+  }
+  return scenarios;
+}
+
+Controller<double> paper_controller() {
+  return make_controller(paper_plant(), paper_vehicle(), kPaperGains);
+}
+
+/// The paper's plant with every number times exp(x), x uniform in [-spread, spread].
+Plant<double> drawn_plant(std::uint64_t sample, double spread) {
+  Random random(7, sample);
+  const auto draw = [&](double value) {
+    return value * std::exp(spread * (2.0 * random.uniform() - 1.0));
+  };
+  Plant<double> plant = paper_plant();
+  for (double* number :
+       {&plant.surge.alpha, &plant.surge.beta, &plant.yaw.alpha, &plant.yaw.beta, &plant.sway_alpha,
+        &plant.mass_norm, &plant.inertia_norm, &plant.steering_time_constant_s}) {
+    *number = draw(*number);
+  }
+  return plant;
+}
+
+/// Every instruction set that this processor has; and AWMR_INSTRUCTIONS, as it was, afterwards.
+std::vector<BatchArithmetic> all_arithmetics() {
+  std::vector<BatchArithmetic> all;
+  for (const char* name : {"sse2", "avx2", "avx512"}) {
+    ::setenv("AWMR_INSTRUCTIONS", name, 1);
+    if (const auto arithmetic = batch_arithmetic()) all.push_back(*arithmetic);
+  }
+  ::unsetenv("AWMR_INSTRUCTIONS");
+  return all;
+}
+
+std::vector<BatchRun> drawn_runs(std::size_t count, double spread) {
+  std::vector<BatchRun> runs;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Plant<double> plant = i == 0 ? paper_plant() : drawn_plant(i, spread);
+    runs.push_back({plant, paper_controller(), i == 0 ? 0U : 5U, i});
+  }
+  return runs;
+}
+
+std::vector<std::optional<double>> numbers_of(const Metrics& m) {
+  return {m.completed ? 1.0 : 0.0, m.settling_time_s,     m.overshoot_deg,     m.heading_iae_degs,
+          m.heading_itae_degs2,    m.cross_track_rms_m,   m.path_length_m,     m.speed_drop_mps,
+          m.sideslip_max_deg,      m.yaw_rate_max_degps,  m.control_variation, m.control_effort,
+          m.clearance_min_m,       m.finish_time_s,       m.energy_mech,       m.energy_electric,
+          m.saturation_s,          m.steering_travel_deg, m.tyre_work};
+}
+
+Metrics judged(const BatchRun& run, const Scenario& scenario, YawMode mode) {
+  return metrics_of(
+      simulate(
+          run.plant, run.controller, scenario, mode,
+          {.sample_time_s = kSampleTime_s, .substeps = {}, .seed = run.seed, .sample = run.sample}),
+      scenario, run.controller);
+}
+
+/// Rounding leaves 1e-13 or so of a run that does not itself amplify it. What a run amplifies is seen
+/// by a change of its mass by 1e-12: some of the vehicles are unstable under gains that are not theirs.
+void expect_near(const Metrics& batch, const BatchRun& run, const Scenario& scenario, YawMode mode,
+                 const std::string& where) {
+  BatchRun moved = run;
+  moved.plant.mass_norm *= 1.0 + 1e-12;
+  const Metrics scalar_metrics = judged(run, scenario, mode);
+  const auto a = numbers_of(batch);
+  const auto scalar = numbers_of(scalar_metrics);
+  const auto c = numbers_of(judged(moved, scenario, mode));
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if (scalar[i].has_value() != c[i].has_value()) continue;
+    ASSERT_EQ(a[i].has_value(), scalar[i].has_value()) << where << ", number " << i;
+    if (!a[i]) continue;
+    const double bound =
+        1e-9 * std::max(1.0, std::abs(*scalar[i])) + 100.0 * std::abs(*c[i] - *scalar[i]);
+    EXPECT_NEAR(*a[i], *scalar[i], bound) << where << ", number " << i;
+  }
+}
+
+void expect_same(const Metrics& a, const Metrics& b, const std::string& where) {
+  EXPECT_EQ(numbers_of(a), numbers_of(b)) << where;
+}
+
+TEST(Batch, IsTheRunOfSimulateInEveryShippedScenarioAndMode) {
+  const std::vector<BatchRun> runs = drawn_runs(2, 0.2);
+  const BatchArithmetic arithmetic = batch_arithmetic().value();
+  for (const Scenario& scenario : shipped_scenarios()) {
+    for (const YawMode mode : kYawModes) {
+      const auto batch = simulate_batch(runs, scenario, mode, kSampleTime_s, arithmetic);
+      for (std::size_t i = 0; i < runs.size(); ++i) {
+        expect_near(
+            batch[i].value(), runs[i], scenario, mode,
+            scenario.name + ", " + std::string(name_of(mode)) + ", run " + std::to_string(i));
+      }
+    }
+  }
+}
+
+TEST(Batch, EventsHappenAtTheSampleOfSimulate) {
+  const std::vector<BatchRun> runs = drawn_runs(1, 0.0);
+  for (const Scenario& scenario : shipped_scenarios()) {
+    if (scenario.duration_s > 200.0) continue;
+    const Metrics scalar = judged(runs[0], scenario, YawMode::kCombined);
+    for (const BatchArithmetic& arithmetic : all_arithmetics()) {
+      const auto batch =
+          simulate_batch(runs, scenario, YawMode::kCombined, kSampleTime_s, arithmetic);
+      EXPECT_EQ(batch[0]->settling_time_s, scalar.settling_time_s) << scenario.name;
+      EXPECT_EQ(batch[0]->finish_time_s, scalar.finish_time_s) << scenario.name;
+    }
+  }
+}
+
+/// Numbers up to ten times the paper's, and a tenth: exponents far above 1, whose steps are halved.
+TEST(Batch, IsTheRunOfSimulateFarBeyondThePapersVehicle) {
+  const std::vector<BatchRun> runs = drawn_runs(16, std::log(10.0));
+  const Scenario open{"open", 3.0, {}, 0.0, OpenLoop{1.0, 0.05}};
+  const Scenario heading{"heading", 2.0, {}, 1.0, HeadingSteps{{{0.0, 0.5}, {1.0, -0.5}}}};
+  for (const BatchArithmetic& arithmetic : all_arithmetics()) {
+    for (const Scenario& scenario : {open, heading}) {
+      const auto batch =
+          simulate_batch(runs, scenario, YawMode::kCombined, kSampleTime_s, arithmetic);
+      for (std::size_t i = 0; i < runs.size(); ++i) {
+        expect_near(batch[i].value(), runs[i], scenario, YawMode::kCombined,
+                    scenario.name + ", run " + std::to_string(i));
+      }
+    }
+  }
+}
+
+TEST(Batch, DoesNotDependOnTheRunsBesideNorOnThePlaceAmongThem) {
+  const std::vector<BatchRun> runs = drawn_runs(37, 0.2);
+  const Scenario scenario =
+      *read_scenario(std::string(AWMR_SOURCE_DIR) + "/configs/scenarios/noisy_sensors.json");
+  std::vector<BatchRun> reversed(runs.rbegin(), runs.rend());
+  for (const BatchArithmetic& arithmetic : all_arithmetics()) {
+    const auto whole =
+        simulate_batch(runs, scenario, YawMode::kCombined, kSampleTime_s, arithmetic);
+    const auto backwards =
+        simulate_batch(reversed, scenario, YawMode::kCombined, kSampleTime_s, arithmetic);
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      expect_same(*whole[i], *backwards[runs.size() - 1 - i], "run " + std::to_string(i));
+    }
+    const auto alone = simulate_batch(std::span(runs).subspan(20, 1), scenario, YawMode::kCombined,
+                                      kSampleTime_s, arithmetic);
+    expect_same(*whole[20], *alone[0], "alone");
+  }
+}
+
+TEST(Batch, HasTheSameBitsOnAllInstructionsThatRoundAlike) {
+  const std::vector<BatchRun> runs = drawn_runs(20, 0.2);
+  const auto arithmetics = all_arithmetics();
+  for (const Scenario& scenario : shipped_scenarios()) {
+    if (scenario.duration_s > 150.0) continue;
+    std::vector<std::pair<std::string_view, std::vector<Result<Metrics>>>> by_rounding;
+    for (const BatchArithmetic& arithmetic : arithmetics) {
+      auto metrics = simulate_batch(runs, scenario, YawMode::kCombined, kSampleTime_s, arithmetic);
+      for (const auto& [rounding, first] : by_rounding) {
+        if (rounding != arithmetic.rounding) continue;
+        for (std::size_t i = 0; i < runs.size(); ++i) {
+          expect_same(*first[i], *metrics[i], scenario.name);
+        }
+      }
+      by_rounding.emplace_back(arithmetic.rounding, std::move(metrics));
+    }
+  }
+}
+
+/// Resistance so stiff at the initial speed that no step follows it: simulate() says so.
+TEST(Batch, ARunThatFailsIsToldOfBySimulateAndTheOthersGoOn) {
+  std::vector<BatchRun> runs = drawn_runs(3, 0.2);
+  runs[1].plant.surge.beta = 20.0;
+  Scenario scenario{"fast", 1.0, {}, 0.0, OpenLoop{1.0, 0.0}};
+  scenario.initial.u_mps = 1000.0;
+  for (const BatchArithmetic& arithmetic : all_arithmetics()) {
+    const auto metrics =
+        simulate_batch(runs, scenario, YawMode::kDifferential, kSampleTime_s, arithmetic);
+    EXPECT_TRUE(metrics[0].has_value());
+    EXPECT_FALSE(metrics[1].has_value());
+    EXPECT_TRUE(metrics[2].has_value());
+  }
+}
+
+TEST(Batch, InstructionsThatTheProcessorHasNotAreRefusedByName) {
+  ::setenv("AWMR_INSTRUCTIONS", "mmx", 1);
+  const auto arithmetic = batch_arithmetic();
+  ::unsetenv("AWMR_INSTRUCTIONS");
+  ASSERT_FALSE(arithmetic);
+  EXPECT_NE(arithmetic.error().faults.front().message.find("'mmx' is none"), std::string::npos);
+}
+
+TEST(Batch, AskedForScalarIsSimulateItself) {
+  const std::vector<BatchRun> runs = drawn_runs(2, 0.2);
+  const Scenario scenario = heading_steps({30.0, -30.0});
+  const auto metrics =
+      simulate_batch(runs, scenario, YawMode::kSteering, kSampleTime_s, {"scalar", "scalar"});
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    expect_same(*metrics[i], judged(runs[i], scenario, YawMode::kSteering), "scalar");
+  }
+}
+
+}  // namespace
+}  // namespace awmr::testing

@@ -1,0 +1,162 @@
+// Lanes' elementary functions against the C library's long double ones. Built for each instruction set;
+// where the processor has not the instructions, nothing is run.
+#if defined(__AVX512F__)
+#define AWMR_LANES avx512
+#define AWMR_LANES_ARCH avx512f
+#elif defined(__AVX2__)
+#define AWMR_LANES avx2
+#define AWMR_LANES_ARCH fma3<xsimd::avx2>
+#else
+#define AWMR_LANES sse2
+#define AWMR_LANES_ARCH sse2
+#endif
+#define AWMR_LANES_REGISTERS 2
+
+#include "awmr/simulate/lanes/lane_math.h"
+
+#include <cstdint>
+#include <cstdio>
+
+namespace {
+
+using namespace awmr::lanes::AWMR_LANES;
+
+bool has_instructions() {
+#if defined(__AVX512F__)
+  return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("fma");
+#elif defined(__AVX2__)
+  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+#else
+  return true;
+#endif
+}
+
+constexpr double kInfinity = __builtin_inf();
+const double kNaN = __builtin_nan("");
+
+/// Numbers in (0, 1), the same on every machine.
+double next_uniform() {
+  static std::uint64_t state = 88172645463325252ULL;
+  state ^= state << 13U;
+  state ^= state >> 7U;
+  state ^= state << 17U;
+  return (static_cast<double>(state >> 12U) + 0.5) * 0x1p-52;
+}
+double between(double lo, double hi) { return lo + (hi - lo) * next_uniform(); }
+
+/// Off in units of the last place of the larger of the result and `least`.
+double ulps(double result, long double exact, double least) {
+  const double scale = fmax(static_cast<double>(fabsl(exact)), least);
+  return static_cast<double>(fabsl(result - exact)) / (nextafter(scale, kInfinity) - scale);
+}
+
+int failures = 0;
+
+/// The worst error of f over the arguments that draw() gives, held against `most`.
+template <class F, class Exact, class Draw>
+void check(const char* name, const F& f, const Exact& exact, const Draw& draw, double least,
+           double most) {
+  double worst = 0.0;
+  for (int block = 0; block < 20000; ++block) {
+    double x[Lanes::kCount];
+    double y[Lanes::kCount];
+    double result[Lanes::kCount];
+    for (int i = 0; i < Lanes::kCount; ++i) draw(x[i], y[i]);
+    f(Lanes::load(x), Lanes::load(y)).store(result);
+    for (int i = 0; i < Lanes::kCount; ++i) {
+      worst = fmax(worst, ulps(result[i], exact(x[i], y[i]), least));
+    }
+  }
+  const bool holds = worst <= most;
+  printf("%-26s worst %6.2f ulp, at most %g%s\n", name, worst, most, holds ? "" : "  FAILED");
+  if (!holds) ++failures;
+}
+
+bool same(double a, double b) { return a == b || (isnan(a) && isnan(b)); }
+
+/// What is not in the range of a polynomial is the C library's.
+template <class F, class Library>
+void check_edge(const char* name, const F& f, const Library& library, double x, double y) {
+  double result[Lanes::kCount];
+  f(Lanes(x), Lanes(y)).store(result);
+  if (same(result[0], library(x, y))) return;
+  printf("%s(%g, %g) is %g and not %g  FAILED\n", name, x, y, result[0], library(x, y));
+  ++failures;
+}
+
+}  // namespace
+
+int main() {
+  if (!has_instructions()) {
+    printf("this processor has not the instructions\n");
+    return 0;
+  }
+  const auto raise = [](const Lanes& x, const Lanes& y) { return pow(x, y); };
+  const auto raised = [](long double x, long double y) { return powl(x, y); };
+  // The error of log2(x) counts y times: 2 ulp of |y log2 x| < 20.
+  check(
+      "pow, speeds", raise, raised,
+      [](double& x, double& y) {
+        x = exp(between(-10.0, 5.0));
+        y = between(0.0, 2.0);
+      },
+      0.0, 24.0);
+  check(
+      "pow, everywhere", raise, raised,
+      [](double& x, double& y) {
+        x = exp(between(-300.0, 300.0));
+        y = between(-1.0, 1.0);
+      },
+      0.0, 600.0);
+  const auto one = [](double& x, double& y, double most) {
+    x = between(-most, most);
+    y = 0.0;
+  };
+  const auto sine = [](const Lanes& x, const Lanes&) { return sin(x); };
+  const auto cosine = [](const Lanes& x, const Lanes&) { return cos(x); };
+  for (const double most : {1.0, 100.0, 1e6}) {
+    // Near a root the error is that of 1.
+    check(
+        "sin", sine, [](long double x, long double) { return sinl(x); },
+        [&](double& x, double& y) { one(x, y, most); }, 1.0, 1.5);
+    check(
+        "cos", cosine, [](long double x, long double) { return cosl(x); },
+        [&](double& x, double& y) { one(x, y, most); }, 1.0, 1.5);
+  }
+  check(
+      "atan", [](const Lanes& x, const Lanes&) { return atan(x); },
+      [](long double x, long double) { return atanl(x); },
+      [&](double& x, double& y) { one(x, y, 20.0); }, 0.0, 3.0);
+  check(
+      "atan2", [](const Lanes& y, const Lanes& x) { return atan2(y, x); },
+      [](long double y, long double x) { return atan2l(y, x); },
+      [](double& y, double& x) {
+        y = between(-1.0, 1.0);
+        x = between(-1.0, 1.0);
+      },
+      0.0, 3.0);
+
+  const auto library_pow = [](double x, double y) { return ::pow(x, y); };
+  for (const double x : {0.0, 5e-324, 1e-310, kInfinity, kNaN}) {
+    for (const double y : {0.0, 0.5, 1.0, 20.0}) check_edge("pow", raise, library_pow, x, y);
+  }
+  check_edge("pow", raise, library_pow, 1e200, 20.0);
+  check_edge("pow", raise, library_pow, 1e-200, 20.0);
+  for (const double x : {1e7, -1e12, kInfinity, kNaN}) {
+    check_edge(
+        "sin", sine, [](double a, double) { return ::sin(a); }, x, 0.0);
+    check_edge(
+        "cos", cosine, [](double a, double) { return ::cos(a); }, x, 0.0);
+  }
+  // Within half a turn, with the sign of the C library's remainder, as wrap_angle() of the laws.
+  for (double x = -40.0; x < 40.0; x += 0.37) {
+    double result[Lanes::kCount];
+    wrap_angle(Lanes(x)).store(result);
+    const double exact = x - 2.0 * M_PI * ceil(x / (2.0 * M_PI) - 0.5);
+    if (fabs(result[0] - exact) > 1e-14) {
+      printf("wrap_angle(%g) is %.17g and not %.17g  FAILED\n", x, result[0], exact);
+      ++failures;
+    }
+  }
+  return failures == 0 ? 0 : 1;
+}
