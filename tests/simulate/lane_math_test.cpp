@@ -72,15 +72,13 @@ void check(const char* name, const F& f, const Exact& exact, const Draw& draw, d
   if (!holds) ++failures;
 }
 
-bool same(double a, double b) { return a == b || (isnan(a) && isnan(b)); }
-
-/// What is not in the range of a polynomial is the C library's.
-template <class F, class Library>
-void check_edge(const char* name, const F& f, const Library& library, double x, double y) {
+/// Out of the range of a polynomial the result is NaN.
+template <class F>
+void check_out_of_range(const char* name, const F& f, double x, double y) {
   double result[Lanes::kCount];
   f(Lanes(x), Lanes(y)).store(result);
-  if (same(result[0], library(x, y))) return;
-  printf("%s(%g, %g) is %g and not %g  FAILED\n", name, x, y, result[0], library(x, y));
+  if (isnan(result[0])) return;
+  printf("%s(%g, %g) is %g and not NaN  FAILED\n", name, x, y, result[0]);
   ++failures;
 }
 
@@ -136,17 +134,19 @@ int main() {
       },
       0.0, 3.0);
 
-  const auto library_pow = [](double x, double y) { return ::pow(x, y); };
-  for (const double x : {0.0, 5e-324, 1e-310, kInfinity, kNaN}) {
-    for (const double y : {0.0, 0.5, 1.0, 20.0}) check_edge("pow", raise, library_pow, x, y);
+  for (const double x : {0.0, 5e-324, 1e-310, -1.0, kNaN}) check_out_of_range("pow", raise, x, 0.5);
+  check_out_of_range("pow", raise, 1e200, 20.0);
+  check_out_of_range("pow", raise, 1.0, kNaN);
+  for (const double x : {1.1e6, -1e12, kInfinity, kNaN}) {
+    check_out_of_range("sin", sine, x, 0.0);
+    check_out_of_range("cos", cosine, x, 0.0);
   }
-  check_edge("pow", raise, library_pow, 1e200, 20.0);
-  check_edge("pow", raise, library_pow, 1e-200, 20.0);
-  for (const double x : {1e7, -1e12, kInfinity, kNaN}) {
-    check_edge(
-        "sin", sine, [](double a, double) { return ::sin(a); }, x, 0.0);
-    check_edge(
-        "cos", cosine, [](double a, double) { return ::cos(a); }, x, 0.0);
+  // Less than anything that it is added to counts as 2^-1000.
+  double least[Lanes::kCount];
+  pow(Lanes(1e-200), Lanes(20.0)).store(least);
+  if (!(least[0] < 1e-300)) {
+    printf("pow(1e-200, 20) is %g and not next to nothing  FAILED\n", least[0]);
+    ++failures;
   }
   // Within half a turn, with the sign of the C library's remainder, as wrap_angle() of the laws.
   for (double x = -40.0; x < 40.0; x += 0.37) {

@@ -189,12 +189,14 @@ T settled(const T& speed) {
 template <class T, class Rates>
 void integrate(const Plant<T>& plant, const T& h, const T& substeps, const Rates& rates,
                const Mask<T>& asked, State<T>& state, Resolution<T>& resolution) {
+  using math::all;
   using math::any;
   State<T> moved = state;
   for (int i = 0;; ++i) {
     const Mask<T> steps = asked && resolution.resolved && T(i) < substeps;
     if (!any(steps)) break;
-    moved = blend(steps, advance(plant, moved, h, rates, steps, 0, resolution), moved);
+    const State<T> next = advance(plant, moved, h, rates, steps, 0, resolution);
+    moved = all(steps) ? next : blend(steps, next, moved);
   }
   resolution.resolved = resolution.resolved && (is_finite(moved) || !asked);
   moved.u_mps = settled(moved.u_mps);

@@ -4,8 +4,6 @@
 /// tests/simulate/lanes_test.cpp.
 #pragma once
 
-#include <math.h>
-
 #include <cstdint>
 
 #include "awmr/core/units.h"
@@ -17,17 +15,9 @@ namespace AWMR_LANES {
 
 using Bits = xsimd::batch<std::uint64_t, xsimd::AWMR_LANES_ARCH>;
 
-/// The same function of the C library, lane by lane, where `asked`.
-template <class Function>
-__attribute__((noinline, cold)) Lanes by_library(Function function, LaneMask asked, Lanes x,
-                                                 Lanes y, Lanes otherwise) {
-  double xs[Lanes::kCount];
-  double ys[Lanes::kCount];
-  double results[Lanes::kCount];
-  x.store(xs);
-  y.store(ys);
-  for (int i = 0; i < Lanes::kCount; ++i) results[i] = function(xs[i], ys[i]);
-  return select(asked, Lanes::load(results), otherwise);
+/// NaN where `in_range` does not hold.
+AWMR_LANE_INLINE Lanes only_where(const LaneMask& in_range, const Lanes& result) {
+  return select(in_range, result, Lanes(__builtin_nan("")));
 }
 
 /// c[0] + c[1] x + ... by Horner's rule.
@@ -93,14 +83,11 @@ AWMR_LANE_INLINE Lanes exp2_of_normal(const Lanes& y) {
       p, rounded);
 }
 
-/// x^y for x >= 0.
+/// x^y for x in the normal range; what is below 2^-1000 counts as that, what is above 2^1000 is NaN.
 AWMR_LANE_INLINE Lanes pow(const Lanes& x, const Lanes& y) {
   const Lanes power = y * log2_of_normal(x);
-  const LaneMask easy = x >= Lanes(0x1p-1022) && x < Lanes(0x1p1023) && abs(power) < Lanes(1000.0);
-  const Lanes result = exp2_of_normal(power);
-  if (all(easy)) [[likely]]
-    return result;
-  return by_library([](double a, double b) { return ::pow(a, b); }, !easy, x, y, result);
+  const Lanes at_least = select(power < Lanes(-1000.0), Lanes(-1000.0), power);
+  return only_where(x >= Lanes(0x1p-1022) && power < Lanes(1000.0), exp2_of_normal(at_least));
 }
 
 struct SinCos {
@@ -145,19 +132,12 @@ AWMR_LANE_INLINE SinCos sin_cos_in_range(const Lanes& x) {
   return {with_sign(select(swapped, c, s), 0), with_sign(select(swapped, s, c), 1)};
 }
 
+/// NaN beyond kLargestAngle either way.
 AWMR_LANE_INLINE Lanes sin(const Lanes& x) {
-  const Lanes result = sin_cos_in_range(x).sin;
-  const LaneMask easy = abs(x) < Lanes(kLargestAngle);
-  if (all(easy)) [[likely]]
-    return result;
-  return by_library([](double a, double) { return ::sin(a); }, !easy, x, x, result);
+  return only_where(abs(x) < Lanes(kLargestAngle), sin_cos_in_range(x).sin);
 }
 AWMR_LANE_INLINE Lanes cos(const Lanes& x) {
-  const Lanes result = sin_cos_in_range(x).cos;
-  const LaneMask easy = abs(x) < Lanes(kLargestAngle);
-  if (all(easy)) [[likely]]
-    return result;
-  return by_library([](double a, double) { return ::cos(a); }, !easy, x, x, result);
+  return only_where(abs(x) < Lanes(kLargestAngle), sin_cos_in_range(x).cos);
 }
 
 /// The angle of (x, y), x >= 0, in [-pi/2, pi/2]: with t = tan(pi/8), a = |y|,
