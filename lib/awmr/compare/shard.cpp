@@ -34,7 +34,7 @@ struct Part {
   Preferences preferences;
   Shard shard;
   bool stopped = false;
-  std::string arithmetic;
+  std::string arithmetic;  ///< Comparison::arithmetic; "scalar" in files of earlier versions
   std::string csv_sha256;
 };
 
@@ -60,7 +60,7 @@ Part part_from_json(JsonObject& json) {
       .shard = {.index = static_cast<int>(json.integer("shard_index", 1, kMostShards)),
                 .count = static_cast<int>(json.integer("shard_count", 1, kMostShards))},
       .stopped = json.boolean("stopped"),
-      .arithmetic = json.string("arithmetic"),
+      .arithmetic = json.optional_string("arithmetic").value_or("scalar"),
       .csv_sha256 = json.string("csv_sha256")};
   json.ignore("command");
   json.reject_unknown_keys();

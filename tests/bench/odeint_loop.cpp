@@ -1,0 +1,83 @@
+// The loop that one would write by hand: Boost.odeint's runge_kutta4 around the same model, laws and
+// metrics, a run after the other, as many steps as `awmr compare` takes. What scripts/bench holds
+// batches against. usage: odeint_loop MODEL.json GAINS.json SCENARIO.json SAMPLES
+#include <array>
+#include <boost/numeric/odeint/stepper/runge_kutta4.hpp>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+#include "awmr/model/gains_file.h"
+#include "awmr/model/model_file.h"
+#include "awmr/model/rest.h"
+#include "awmr/simulate/metering.h"
+#include "awmr/simulate/physics.h"
+#include "awmr/simulate/pilot.h"
+#include "awmr/simulate/plant_sampler.h"
+#include "awmr/simulate/scenario_file.h"
+
+namespace {
+
+using namespace awmr;
+using Numbers = std::array<double, 7>;
+
+State<double> state_of(const Numbers& x) { return {x[0], x[1], x[2], x[3], x[4], x[5], x[6]}; }
+
+/// A run of the heading scenario; its metrics.
+Metrics driven(Plant<double> plant, const Controller<double>& controller, const Scenario& scenario,
+               YawMode mode, double sample_time_s) {
+  const auto& headings = std::get<HeadingSteps>(scenario.guidance);
+  const int substeps = substeps_for(plant, sample_time_s);
+  const double step_s = sample_time_s / substeps;
+  plant = resolved_at_rest(plant, step_s);
+  const auto vehicle = metered_vehicle(controller.limits);
+  const auto course = metered_course(scenario);
+  boost::numeric::odeint::runge_kutta4<Numbers> stepper;
+  MeterSums<double> sums;
+  Numbers x{};
+  double goal_before_rad = 0.0;
+  const int samples = static_cast<int>(scenario.duration_s / sample_time_s + 1e-9);
+  for (int k = 0; k <= samples; ++k) {
+    const double t_s = k * sample_time_s;
+    const State<double> s = state_of(x);
+    const double goal_rad = heading_at(headings, t_s);
+    const Command<double> command =
+        control_step(controller, mode, {s.psi_rad, s.u_mps, s.v_mps, s.r_radps},
+                     {goal_rad, 0.0, 0.0, scenario.speed_mps, 0.0});
+    const Allocation<double>& a = command.allocation;
+    measure<double>(
+        {s, a.force, a.steering_rad, controller.yaw(s.r_radps), goal_rad, 0, 0, 0}, vehicle, course,
+        {t_s, sample_time_s, k == 0, k == 0 || std::abs(goal_rad - goal_before_rad) > 0.0, false},
+        sums);
+    goal_before_rad = goal_rad;
+    const auto system = [&](const Numbers& at, Numbers& rates, double) {
+      const State<double> d = state_rates(plant, state_of(at), a.force, a.steering_rad);
+      rates = {d.x_m, d.y_m, d.psi_rad, d.u_mps, d.v_mps, d.r_radps, d.steering_rad};
+    };
+    for (int i = 0; i < substeps; ++i) stepper.do_step(system, x, t_s + i * step_s, step_s);
+  }
+  return metrics_of(sums, {RunEnd::kDuration, samples * sample_time_s, 0}, scenario);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 5) return 2;
+  const auto model = read_model(argv[1]);
+  const auto gains = read_gains(argv[2]);
+  const auto scenario = read_scenario(argv[3]);
+  if (!model || !gains || !scenario) return 2;
+  const auto nominal = model->plant();
+  const auto sampler = PlantSampler::make(*model);
+  if (!nominal || !sampler) return 2;
+  const auto controller = make_controller(*nominal, model->vehicle, *gains);
+  double sum = 0.0;
+  for (int sample = 0; sample <= std::atoi(argv[4]); ++sample) {
+    const auto plant = sample == 0 ? nominal : sampler->draw(1, sample);
+    for (const YawMode mode : kYawModes) {
+      sum +=
+          driven(*plant, controller, *scenario, mode, model->vehicle.sample_time_s).path_length_m;
+    }
+  }
+  std::printf("%.17g\n", sum);
+}
