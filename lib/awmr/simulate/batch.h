@@ -37,7 +37,8 @@ struct BatchArithmetic {
 inline constexpr std::size_t kBatchRuns = 16;
 
 /// The widest instructions that this processor has, or those named by the environment variable
-/// AWMR_INSTRUCTIONS, for tests. Errors (input): it names none that the processor has.
+/// AWMR_INSTRUCTIONS, for tests; AVX-512 only by it.
+/// Errors (input): it names none that the processor has.
 Result<BatchArithmetic> batch_arithmetic();
 
 /// The metrics of each run, in order. Errors (input) of a run: as failure_of(). All controllers have
