@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <numeric>
 
 #include "awmr/core/index.h"
 #include "awmr/core/parallel.h"
@@ -57,35 +57,56 @@ LoopConditions drawn(LoopConditions c, const Vehicle& vehicle, Random& random) {
   return c;
 }
 
-/// The drives that are foretold, before anything is compared.
-Result<std::vector<Run>> foretold_runs(const Model& model, const Controller<double>& controller,
-                                       const Scenario& scenario, const LoopConditions& conditions,
-                                       const DriveStart& start, const AcceptanceOptions& options) {
+/// A drive that is foretold, as far as it is compared.
+struct Foretold {
+  double end_s = 0.0;                ///< of the run; windows beyond it mean nothing
+  std::vector<WindowMeans> windows;  ///< by channel
+};
+
+Foretold foretold_from(const Run& run, const std::vector<DriveChannel>& channels,
+                       double sample_time_s, double duration_s, Random& random) {
+  Foretold drive{.end_s = run.rows.back().t_s, .windows = {}};
+  for (const DriveChannel& channel : channels) {
+    drive.windows.push_back(means_of(channel, run, sample_time_s, duration_s, &random));
+  }
+  return drive;
+}
+
+/// The drives that are foretold.
+Result<std::vector<Foretold>> foretold_drives(const Model& model,
+                                              const Controller<double>& controller,
+                                              const Scenario& scenario,
+                                              const LoopConditions& conditions,
+                                              const DriveStart& start,
+                                              const std::vector<DriveChannel>& channels,
+                                              double duration_s, const AcceptanceOptions& options) {
   std::optional<PlantSampler> sampler;
   if (!model.covariance.parameters.empty()) {
     AWMR_ASSIGN_OR_RETURN(sampler, PlantSampler::make(model));
   }
-  std::vector<Run> runs(at(options.draws));
-  std::vector<Status> ended(runs.size());
-  parallel_for(runs.size(), options.threads, [&](std::size_t i) {
+  const double sample_s = model.vehicle.sample_time_s;
+  std::vector<Foretold> drives(at(options.draws));
+  std::vector<Status> ended(drives.size());
+  parallel_for(drives.size(), options.threads, [&](std::size_t i) {
     const auto sample = static_cast<int>(i) + 1;
     const auto plant = sampler ? sampler->draw(options.seed, sample) : model.plant();
     if (!plant) {
       ended[i] = tl::unexpected(plant.error());
       return;
     }
-    Random random(options.seed, kReadingsStream + 2 * i);
+    Random random(options.seed, kReadingsStream + i);
     Scenario world = under(drawn(conditions, model.vehicle, random), scenario);
     world.initial = moved_by(start.state, start.error, random);
-    runs[i] = simulate(*plant, controller, world, options.mode,
-                       {.sample_time_s = model.vehicle.sample_time_s,
-                        .substeps = {},
-                        .seed = options.seed,
-                        .sample = static_cast<std::uint64_t>(sample)});
-    ended[i] = failure_of(runs[i], world);
+    const Run run = simulate(*plant, controller, world, options.mode,
+                             {.sample_time_s = sample_s,
+                              .substeps = {},
+                              .seed = options.seed,
+                              .sample = static_cast<std::uint64_t>(sample)});
+    ended[i] = failure_of(run, world);
+    if (ended[i]) drives[i] = foretold_from(run, channels, sample_s, duration_s, random);
   });
   for (Status& status : ended) AWMR_RETURN_IF_ERROR(std::move(status));
-  return runs;
+  return drives;
 }
 
 /// Mean and standard deviation of the foretold window means of a channel.
@@ -124,6 +145,10 @@ double largest_distance(const WindowMeans& windows, const ForetoldSeries& foreto
   return *std::max_element(all.begin(), all.end());
 }
 
+int samples_in(const WindowMeans& windows) {
+  return std::accumulate(windows.rows.begin(), windows.rows.end(), 0);
+}
+
 /// A channel of the drive, of all foretold drives, and what they scatter.
 struct Compared {
   DriveChannel channel;
@@ -133,17 +158,15 @@ struct Compared {
   double usual = 0.0;           ///< what 95 % of the draws keep to in this channel
 };
 
-Compared compare_channel(DriveChannel channel, std::size_t number, const std::vector<Run>& runs,
-                         double sample_time_s, double duration_s,
-                         const AcceptanceOptions& options) {
-  Compared one{.channel = std::move(channel), .measured = {}, .foretold = {}, .largest = {}};
-  one.measured = means_of(one.channel, duration_s);
-  std::vector<WindowMeans> draws(runs.size());
-  parallel_for(runs.size(), options.threads, [&](std::size_t i) {
-    Random random(options.seed, kReadingsStream + 2 * (runs.size() * (number + 1) + i) + 1);
-    draws[i] = means_of(one.channel, runs[i], sample_time_s, duration_s, &random);
-  });
-  one.foretold = foretold_of(one.channel, draws);
+Compared compare_channel(const DriveChannel& channel, std::vector<WindowMeans> draws,
+                         double duration_s) {
+  Compared one{
+      .channel = channel, .measured = means_of(channel, duration_s), .foretold = {}, .largest = {}};
+  for (WindowMeans& draw : draws) {
+    draw.mean.resize(one.measured.mean.size());
+    draw.rows.resize(one.measured.rows.size());
+  }
+  one.foretold = foretold_of(channel, draws);
   for (const WindowMeans& draw : draws) one.largest.push_back(largest_distance(draw, one.foretold));
   one.usual = quantile_of(one.largest, kLevel);
   return one;
@@ -161,12 +184,13 @@ std::vector<double> factors_of_draws(const std::vector<Compared>& channels, std:
 }
 
 ChannelAcceptance judged(const Compared& one, double factor) {
-  ChannelAcceptance result{.channel = one.channel.name,
-                           .unit = one.channel.unit,
-                           .samples = static_cast<int>(one.channel.t_s.size()),
-                           .noise = one.channel.noise,
-                           .noise_from_log = one.channel.noise_from_log,
-                           .allowed = factor * one.usual};
+  ChannelAcceptance result{
+      .channel = one.channel.name,
+      .unit = one.channel.unit,
+      .samples = std::accumulate(one.measured.rows.begin(), one.measured.rows.end(), 0),
+      .noise = one.channel.noise,
+      .noise_from_log = one.channel.noise_from_log,
+      .allowed = factor * one.usual};
   const std::vector<double> all = distances(one.measured, one.foretold);
   const auto farthest = std::max_element(all.begin(), all.end());
   const auto w = static_cast<std::size_t>(farthest - all.begin());
@@ -186,11 +210,40 @@ bool is_given(const std::string& channel, const SensorQuality& sensors) {
   return sensors.speed_mps.has_value();
 }
 
-/// To the end of the log, of the scenario and of every run.
-double compared_s(const DrivingLog& log, std::size_t first, const std::vector<Run>& runs) {
-  double end_s = log.t_s.back() - log.t_s[first];
-  for (const Run& run : runs) end_s = std::min(end_s, run.rows.back().t_s);
-  return end_s;
+std::vector<Compared> compare(const std::vector<DriveChannel>& channels,
+                              const std::vector<Foretold>& drives, double duration_s) {
+  std::vector<Compared> all;
+  for (std::size_t c = 0; c < channels.size(); ++c) {
+    std::vector<WindowMeans> draws;
+    for (const Foretold& drive : drives) draws.push_back(drive.windows[c]);
+    all.push_back(compare_channel(channels[c], std::move(draws), duration_s));
+    if (samples_in(all.back().measured) == 0) all.pop_back();
+  }
+  return all;
+}
+
+/// The channels, each with what it is allowed, and the place of the drive among the foretold ones.
+void take_verdict(const std::vector<Compared>& channels, Acceptance& result) {
+  const std::vector<double> factors = factors_of_draws(channels, at(result.draws));
+  const double allowed = quantile_of(factors, kLevel);
+  double reached = 0.0;
+  for (const Compared& one : channels) {
+    result.channels.push_back(judged(one, allowed));
+    reached = std::max(reached, result.channels.back().distance / one.usual);
+  }
+  // The drive counts among those that are as far off: of n + 1 alike, each place is as likely.
+  const auto as_far = std::count_if(factors.begin(), factors.end(),
+                                    [&](double factor) { return factor >= reached; });
+  result.p_value = static_cast<double>(as_far + 1) / static_cast<double>(factors.size() + 1);
+  result.inside = result.p_value > 1.0 - kLevel;
+}
+
+std::vector<SuspectChannel> evidence_of(const std::vector<Compared>& channels) {
+  std::vector<SuspectChannel> evidence;
+  for (const Compared& one : channels) {
+    evidence.push_back({&one.channel, &one.measured, &one.foretold});
+  }
+  return evidence;
 }
 
 }  // namespace
@@ -206,50 +259,36 @@ Result<Acceptance> accept_drive(const DrivingLog& log, const Model& model,
   AWMR_ASSIGN_OR_RETURN(const std::size_t first, first_row_of(log, options.from_s));
   const LoopConditions conditions = conditions_in(log, first, model.vehicle);
   Scenario scenario = under(conditions, as_given);
-  const DriveStart start =
-      start_of(log, first, channels_of(log, first, scenario.duration_s, scenario), scenario);
+  const double most_s = std::min(scenario.duration_s, log.t_s.back() - log.t_s[first]);
+  std::vector<DriveChannel> drive = channels_of(log, first, most_s, scenario);
+  for (DriveChannel& channel : drive) {
+    channel.noise_from_log |=
+        channel.noise_in_run && !as_given.sensors && !is_given(channel.name, model.vehicle.sensors);
+  }
+  const DriveStart start = start_of(log, first, drive, scenario);
   scenario.initial = start.state;
-  AWMR_ASSIGN_OR_RETURN(const std::vector<Run> runs,
-                        foretold_runs(model, controller, as_given, conditions, start, options));
-
+  AWMR_ASSIGN_OR_RETURN(
+      const std::vector<Foretold> foretold,
+      foretold_drives(model, controller, as_given, conditions, start, drive, most_s, options));
   Acceptance result{.file = log.file,
                     .scenario = scenario.name,
                     .mode = options.mode,
                     .from_s = log.t_s[first],
-                    .duration_s = compared_s(log, first, runs),
+                    .duration_s = most_s,
                     .draws = options.draws};
+  for (const Foretold& one : foretold) result.duration_s = std::min(result.duration_s, one.end_s);
   if (result.duration_s < kShortest_s) {
     return input_error(
         log.file, fmt::format("only {:.3g} s of it can be held against scenario '{}': at least "
                               "{:g} s are needed",
                               result.duration_s, scenario.name, kShortest_s));
   }
-  std::vector<Compared> channels;
-  for (DriveChannel& channel : channels_of(log, first, result.duration_s, scenario)) {
-    channel.noise_from_log |=
-        channel.noise_in_run && !as_given.sensors && !is_given(channel.name, model.vehicle.sensors);
-    channels.push_back(compare_channel(std::move(channel), channels.size(), runs,
-                                       model.vehicle.sample_time_s, result.duration_s, options));
+  const std::vector<Compared> channels = compare(drive, foretold, result.duration_s);
+  take_verdict(channels, result);
+  if (!result.inside) {
+    result.suspects =
+        suspects_of(model, controller, scenario, options, result.duration_s, evidence_of(channels));
   }
-  const std::vector<double> factors = factors_of_draws(channels, runs.size());
-  const double allowed = quantile_of(factors, kLevel);
-  double reached = 0.0;
-  for (const Compared& one : channels) {
-    result.channels.push_back(judged(one, allowed));
-    reached = std::max(reached, result.channels.back().distance / one.usual);
-  }
-  // The drive counts among those that are as far off: of n + 1 alike, each place is as likely.
-  const auto as_far = std::count_if(factors.begin(), factors.end(),
-                                    [&](double factor) { return factor >= reached; });
-  result.p_value = static_cast<double>(as_far + 1) / static_cast<double>(factors.size() + 1);
-  result.inside = result.p_value > 1.0 - kLevel;
-  if (result.inside) return result;
-
-  std::vector<SuspectChannel> evidence;
-  for (const Compared& one : channels) {
-    evidence.push_back({&one.channel, &one.measured, &one.foretold});
-  }
-  result.suspects = suspects_of(model, controller, scenario, options, result.duration_s, evidence);
   return result;
 }
 

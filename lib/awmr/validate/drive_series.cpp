@@ -53,7 +53,7 @@ std::size_t window_of(double t_s) {
 
 std::size_t windows_in(double duration_s) { return window_of(duration_s); }
 
-/// In the run's row that is nearest in time.
+/// In the run's row that is nearest in time; after its end the last.
 double at_time(const DriveChannel& channel, const Run& run, double sample_time_s, double t_s) {
   const auto row = static_cast<std::size_t>(t_s / sample_time_s + 0.5);
   return channel.of_run(run.rows[std::min(row, run.rows.size() - 1)]);
@@ -105,11 +105,10 @@ DriveChannel measured_channel(const DrivingLog& log, LogChannel which, std::size
     channel.of_run = [read = sensor->reading](const RunRow& row) { return row.measured.*read; };
     const Channel& errors = *scenario.sensors.*(sensor->errors);
     channel.noise = std::hypot(errors.noise, errors.quantum / std::sqrt(12.0));
-    channel.noise_in_run = true;
-  } else {
-    channel.noise = noise_in(log, which, first);
-    channel.noise_from_log = true;
+    channel.noise_in_run = channel.noise > 0.0;
   }
+  channel.noise_from_log = !channel.noise_in_run;
+  if (channel.noise_from_log) channel.noise = noise_in(log, which, first);
   return channel;
 }
 
