@@ -179,12 +179,15 @@ T steering_for(const AllocationConstants<T>& c, const T& tau_speed, const T& hal
   using math::all;
   using math::any;
   using math::select;
-  const Mask<T> powerless = !math::is_above(tau_speed, steering_authority_min<T>());
-  if (any(powerless)) {
-    a.steering_powerless = a.steering_powerless || powerless;
-    if (all(powerless)) return T(0.0);
+  const Mask<T> able = math::is_above(tau_speed, steering_authority_min<T>());
+  if (!any(able)) {
+    a.steering_powerless = !able;
+    return T(0.0);
   }
-  const T h = select(powerless, T(0.0), T(half_ratio / tau_speed));
+  if (MaskOf<T>::kOneLane || all(able))
+    return clipped(T(half_ratio / tau_speed), T(-c.h_max), c.h_max, a.steering_limited);
+  a.steering_powerless = a.steering_powerless || !able;
+  const T h = select(able, T(half_ratio / tau_speed), T(0.0));
   return clipped(h, T(-c.h_max), c.h_max, a.steering_limited);
 }
 
@@ -195,11 +198,9 @@ AWMR_INLINE T angle_of(const AllocationConstants<T>& c, const T& h, const T& h2,
   using math::all;
   using math::any;
   using math::select;
-  T stop_rad = T(0.0);
-  if (any(a.steering_limited)) {
-    stop_rad = select(math::is_above(h, T(0.0)), c.steering_max_rad, T(-c.steering_max_rad));
-    if (all(a.steering_limited)) return stop_rad;
-  }
+  if (!any(a.steering_limited)) return math::saturate(Angle::of_h(h, h2), c.steering_max_rad);
+  const T stop_rad = select(math::is_above(h, T(0.0)), c.steering_max_rad, T(-c.steering_max_rad));
+  if (MaskOf<T>::kOneLane || all(a.steering_limited)) return stop_rad;
   return select(a.steering_limited, stop_rad,
                 math::saturate(Angle::of_h(h, h2), c.steering_max_rad));
 }
@@ -255,21 +256,27 @@ AWMR_INLINE void allocate_by(YawMode mode, const T& tau_speed, const T& tau_turn
   }
   const Mask<T> lost = a.steering_limited || a.steering_powerless;
   T over_track = T(0.0);  // the forces' share of the moment over d
-  if (mode != YawMode::kSteering && !(redistribute && all(lost))) {
-    over_track = tau_turn_m * (combined ? c.track_inverse : c.half_track_inverse);
-  }
   if (redistribute && any(lost)) {
     // The steering makes the moment l_f tau_speed q = 2 h l_f tau_speed of tau_turn.
-    over_track = select(lost, T((tau_turn_m - h * speed * c.axle_twice_m) * c.half_track_inverse),
-                        over_track);
+    over_track = (tau_turn_m - h * speed * c.axle_twice_m) * c.half_track_inverse;
+    if (!MaskOf<T>::kOneLane) {
+      over_track = select(lost, over_track,
+                          T(tau_turn_m * (combined ? c.track_inverse : c.half_track_inverse)));
+    }
+  } else if (mode != YawMode::kSteering) {
+    over_track = tau_turn_m * (combined ? c.track_inverse : c.half_track_inverse);
   }
   forces_for(c, speed, over_track, quarter, a);
   if (redistribute && any(a.force_limited && !lost)) {
     const Mask<T> gives = a.force_limited && !lost;
     const Allocation<T> kept = a;
-    h = select(gives, give_back(c, tau_turn_m, quarter, a), h);
-    a.steering_limited = select(gives, a.steering_limited, kept.steering_limited);
-    a.steering_powerless = select(gives, a.steering_powerless, kept.steering_powerless);
+    const T kept_h = h;
+    h = give_back(c, tau_turn_m, quarter, a);
+    if (!MaskOf<T>::kOneLane) {
+      h = select(gives, h, kept_h);
+      a.steering_limited = select(gives, a.steering_limited, kept.steering_limited);
+      a.steering_powerless = select(gives, a.steering_powerless, kept.steering_powerless);
+    }
     h2 = select(a.steering_limited, c.h2_max, Angle::square(h));
   }
   if (mode != YawMode::kDifferential) a.steering_rad = angle_of<Angle>(c, h, h2, a);

@@ -136,7 +136,7 @@ T fed_forward(const Resistance<T>& law, const T& speed, const T& intent) {
   if (!any(rests)) return law(speed);
   const T held =
       law.at(law.rest_speed) * math::saturate(T((speed + intent) / law.rest_speed), T(1.0));
-  if (all(rests)) return held;
+  if (MaskOf<T>::kOneLane || all(rests)) return held;
   return select(rests, held, law(speed));
 }
 /// The same of a table.

@@ -45,15 +45,20 @@ struct Resistance {
     const Mask<T> moves = magnitude > T(0.0);
     if (!any(moves)) return T(0.0);
     const Mask<T> on_chord = magnitude < rest_speed;
-    // Lanes at rest compute with a speed of 1, which is then left out.
-    const T resists = at(select(on_chord, rest_speed, select(moves, magnitude, T(1.0))));
+    if (any(on_chord) && (MaskOf<T>::kOneLane || all(on_chord)))
+      return at(rest_speed) / rest_speed * speed;
+    // From here on a bool moves and is beyond the chord. Lanes on the chord compute with its end,
+    // those at rest with a speed of 1, which is then left out.
+    T reached = magnitude;
+    if (!MaskOf<T>::kOneLane) reached = select(on_chord, rest_speed, reached);
+    if (!MaskOf<T>::kOneLane) reached = select(moves, reached, T(1.0));
+    const T resists = at(reached);
     T signed_resistance = select(speed > T(0.0), resists, T(-resists));
-    if (any(on_chord)) {
-      const T chord = resists / select(on_chord, rest_speed, T(1.0)) * speed;
-      if (all(on_chord)) return chord;
-      signed_resistance = select(on_chord, chord, signed_resistance);
+    if (!MaskOf<T>::kOneLane && any(on_chord)) {
+      signed_resistance = select(on_chord, T(resists / reached * speed), signed_resistance);
     }
-    return select(moves, signed_resistance, T(0.0));
+    if (!MaskOf<T>::kOneLane) signed_resistance = select(moves, signed_resistance, T(0.0));
+    return signed_resistance;
   }
 };
 

@@ -26,11 +26,13 @@ namespace awmr {
 /// any(), all(), select(), !, && and || (simulate/lanes/lanes.h).
 ///
 /// A branch that lanes may take apart is written as
-///   if (any(m)) { if (all(m)) return a;  x = select(m, a, x); }
-/// which for bool is the branch itself, without the work of the other side.
+///   if (any(m)) { if (MaskOf<T>::kOneLane || all(m)) return a;  x = select(m, a, x); }
+/// which for bool is the branch itself, without the work of the other side. The constant says so
+/// before the compiler weighs what to copy into its callers, which the chip's flash hangs on.
 template <class T>
 struct MaskOf {
   using Type = bool;
+  static constexpr bool kOneLane = true;
 };
 template <class T>
 using Mask = typename MaskOf<T>::Type;

@@ -72,6 +72,7 @@ AWMR_LANE_INLINE Result by_register(const F& f, const Operands&... operands) {
 template <>
 struct MaskOf<lanes::AWMR_LANES::Lanes> {
   using Type = lanes::AWMR_LANES::LaneMask;
+  static constexpr bool kOneLane = false;
 };
 
 namespace lanes {
