@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
 #include "awmr/core/index.h"
@@ -51,8 +50,6 @@ std::size_t window_of(double t_s) {
   return static_cast<std::size_t>(std::floor(t_s / kWindow_s + 1e-9));
 }
 
-std::size_t windows_in(double duration_s) { return window_of(duration_s); }
-
 /// In the run's row that is nearest in time; after its end the last.
 double at_time(const DriveChannel& channel, const Run& run, double sample_time_s, double t_s) {
   const auto row = static_cast<std::size_t>(t_s / sample_time_s + 0.5);
@@ -62,7 +59,7 @@ double at_time(const DriveChannel& channel, const Run& run, double sample_time_s
 template <class Value>
 WindowMeans means(const DriveChannel& channel, double duration_s, const Value& value) {
   WindowMeans windows;
-  windows.mean.resize(windows_in(duration_s));
+  windows.mean.resize(window_of(duration_s));
   windows.rows.resize(windows.mean.size());
   for (std::size_t i = 0; i < channel.t_s.size(); ++i) {
     const std::size_t window = window_of(channel.t_s[i]);
@@ -177,7 +174,7 @@ std::vector<DriveChannel> channels_of(const DrivingLog& log, std::size_t first, 
 
 DriveStart start_of(const DrivingLog& log, std::size_t first,
                     const std::vector<DriveChannel>& channels, const Scenario& scenario) {
-  DriveStart start{.row = first, .state = scenario.initial};
+  DriveStart start{.state = scenario.initial};
   for (const LogChannel which : kChannels) {
     if (!log[which]) continue;
     double sum = 0.0;

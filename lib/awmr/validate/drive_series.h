@@ -35,9 +35,8 @@ struct WindowMeans {
 };
 inline constexpr double kWindow_s = 0.5;
 
-/// Where the scenario begins in the log, and in which state.
+/// The state in which the drive begins.
 struct DriveStart {
-  std::size_t row = 0;
   State<double> state{};
   State<double> error{};  ///< standard deviation of what was read of it
 };
