@@ -61,6 +61,11 @@ T delayed_mean(const HeldSignal& signal, double t_s, double h_s, const T& delay_
   return T(mean) + slope * (delay_s - T(d));
 }
 
+/// The equal steps that a span is taken in, none longer than `longest_step_s` but for rounding.
+inline int steps_in(double span_s, double longest_step_s) {
+  return std::max(1, static_cast<int>(std::ceil(span_s / longest_step_s - 1e-9)));
+}
+
 /// Runs the model over rows [begin, end) from the initial state `state` and calls visit(row, state)
 /// at every row. Steps are at most `longest_step_s`. `delay_s` null: none.
 template <class T, class Visit>
@@ -79,7 +84,7 @@ void replay(const LogSignals& signals, std::size_t begin, std::size_t end, Plant
     visit(row, state);
     if (row + 1 == end) return;
     const double span_s = log.t_s[row + 1] - log.t_s[row];
-    const int steps = std::max(1, static_cast<int>(std::ceil(span_s / longest_step_s - 1e-9)));
+    const int steps = steps_in(span_s, longest_step_s);
     const double h = span_s / steps;
     for (int i = 0; i < steps; ++i) {
       const double at_s = log.t_s[row] + i * h;
@@ -122,8 +127,7 @@ State<T> earlier_state(const LogSignals& signals, std::size_t begin,
   const auto rates = [&](const State<T>& s) { return state_rates(plant, s, force, steering); };
   const T span_s = T(now_s - log.t_s[row]) - delay_s;
   if (value_of(span_s) < 0.0) return moved(state, rates(state), span_s);
-  const int steps =
-      std::max(1, static_cast<int>(std::ceil(value_of(span_s) / longest_step_s - 1e-9)));
+  const int steps = steps_in(value_of(span_s), longest_step_s);
   for (int i = 0; i < steps; ++i) state = rk4_step(state, T(span_s / double(steps)), rates);
   return state;
 }

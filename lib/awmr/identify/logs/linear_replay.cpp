@@ -186,7 +186,7 @@ LinearMotion earlier_motion(const LogSignals& signals, std::size_t begin,
   } else if (span_s < 0.0) {
     rates = stepper.step_along_tangent(command, span_s, motion);
   } else {
-    const int steps = std::max(1, static_cast<int>(std::ceil(span_s / longest_step_s - 1e-9)));
+    const int steps = steps_in(span_s, longest_step_s);
     for (int i = 0; i < steps; ++i) stepper.step(command, span_s / steps, motion);
     rates = stepper.rates(command, motion);
   }

@@ -103,7 +103,7 @@ void replay_linear(const LogSignals& signals, std::size_t begin, std::size_t end
     visit(row, motion);
     if (row + 1 == end) return;
     const double span_s = log.t_s[row + 1] - log.t_s[row];
-    const int steps = std::max(1, static_cast<int>(std::ceil(span_s / longest_step_s - 1e-9)));
+    const int steps = steps_in(span_s, longest_step_s);
     const double h = span_s / steps;
     for (int i = 0; i < steps; ++i) {
       DelayedCommand command = command_at(signals, row, log.t_s[row] + i * h, h, stepper.delay());
