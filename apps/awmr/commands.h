@@ -165,6 +165,13 @@ struct MapCommand {
 Result<Outcome> execute(const MapCommand& command);
 void add_map(CLI::App& app, Session& session);
 
+struct LogCommand {
+  fs::path file;
+  fs::path output;
+};
+Result<Outcome> execute(const LogCommand& command);
+void add_log(CLI::App& app, Session& session);
+
 struct ReportCommand {
   fs::path directory;
 };

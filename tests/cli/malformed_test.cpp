@@ -123,6 +123,7 @@ const Kind kKinds[] = {{"vehicle", ".json", "identify --vehicle @ --surge SURGE 
                        {"turning", ".csv", "identify --vehicle VEHICLE --turning @ -o OUT"},
                        {"coastdown", ".csv", "identify --vehicle VEHICLE --coastdown @ -o OUT"},
                        {"log", ".csv", "identify --vehicle VEHICLE --log @ -o OUT"},
+                       {"awl", ".awl", "log @ -o OUT"},
                        {"command", "", ""}};
 
 class Malformed : public ::testing::TestWithParam<Kind> {

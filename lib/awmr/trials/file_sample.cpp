@@ -5,6 +5,7 @@
 #include "awmr/core/csv_cell.h"
 #include "awmr/core/csv_text.h"
 #include "awmr/core/input_file.h"
+#include "awmr/trials/awl.h"
 #include "awmr/trials/column_guess.h"
 #include "awmr/trials/log_files.h"
 #include "awmr/trials/trial_columns.h"
@@ -45,6 +46,15 @@ FileSample sample_of_signals(const Signals& signals) {
   return sample;
 }
 
+FileSample sample_of_awl(AwlLog log) {
+  FileSample sample{.names = std::move(log.header), .values = std::move(log.columns), .texts = {}};
+  sample.texts.resize(sample.names.size());
+  for (std::vector<double>& values : sample.values) {
+    values.resize(std::min(values.size(), kSampleRows));
+  }
+  return sample;
+}
+
 /// Tables with a topic each: a column by its own name where no other file has it.
 Result<FileSample> sample_of_tables(const std::vector<fs::path>& paths) {
   FileSample all;
@@ -70,6 +80,10 @@ Result<FileSample> sample_of(const fs::path& path) {
     return sample_of_tables(paths);
   }
   AWMR_ASSIGN_OR_RETURN(const std::string bytes, read_input(paths.front()));
+  if (is_awl(bytes)) {
+    AWMR_ASSIGN_OR_RETURN(AwlLog log, read_awl(bytes, paths.front().string()));
+    return sample_of_awl(std::move(log));
+  }
   const auto signals = read_signals(bytes, paths.front().string(), all);
   if (!signals) return sample_of_text(bytes, path.string());
   if (!*signals) return tl::unexpected(signals->error());

@@ -19,8 +19,6 @@
 namespace awmr {
 namespace {
 
-constexpr std::size_t kShortestLog = 10;
-
 std::vector<double> values_of(const TrialReader& reader, RowSpan rows, std::string_view column,
                               double scale) {
   const std::span<const double> cells =

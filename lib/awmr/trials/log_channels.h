@@ -2,12 +2,16 @@
 /// folder.
 #pragma once
 
+#include <cstddef>
 #include <string_view>
 #include <vector>
 
 #include "awmr/trials/log.h"
 
 namespace awmr {
+
+/// Fewer rows are no log.
+inline constexpr std::size_t kShortestLog = 10;
 
 /// A channel from its values by row, SI; `rows` are those in which it has a reading. The log's times
 /// and commands have to be there. Findings: `spikes`, `stuck-sensor`, `saturated-channel`,

@@ -11,6 +11,7 @@
 #include "awmr/core/input_file.h"
 #include "awmr/core/raw_table.h"
 #include "awmr/core/time_column.h"
+#include "awmr/trials/awl.h"
 #include "awmr/trials/log_files.h"
 #include "awmr/trials/trial_columns.h"
 #include "csv_topics.h"
@@ -32,6 +33,23 @@ Result<CsvTable> table_of_signals(CsvTopics topics, const std::string& file,
   AWMR_ASSIGN_OR_RETURN(RawTable raw, join(std::move(topics.signals), file));
   raw.mapped = std::move(topics.mapped);
   ColumnSources sources = find_columns(header, {}, columns, mappings, file);
+  std::vector<Fault> faults;
+  for (HeaderFault& fault : sources.faults) faults.push_back({file, std::move(fault.message)});
+  return table_of(std::move(raw), std::move(sources), mappings, std::move(faults));
+}
+
+/// The rows of an on-board log.
+Result<CsvTable> table_of_awl(std::string_view bytes, const std::string& file,
+                              std::span<const CsvColumn> columns,
+                              std::span<const ColumnMapping> mappings) {
+  AWMR_ASSIGN_OR_RETURN(AwlLog log, read_awl(bytes, file));
+  RawTable raw{.file = file};
+  for (std::size_t row = 0; row < log.rows(); ++row) raw.lines.push_back(static_cast<int>(row) + 1);
+  for (std::vector<double>& column : log.columns) raw.columns.push_back({std::move(column)});
+  for (Finding& finding : log.findings) {
+    raw.notes.push_back({finding.line, std::move(finding.code), std::move(finding.message)});
+  }
+  ColumnSources sources = find_columns(log.header, {}, columns, mappings, file);
   std::vector<Fault> faults;
   for (HeaderFault& fault : sources.faults) faults.push_back({file, std::move(fault.message)});
   return table_of(std::move(raw), std::move(sources), mappings, std::move(faults));
@@ -105,6 +123,7 @@ Result<CsvTable> read_table(const fs::path& path, std::span<const CsvColumn> col
     return table_of_signals(std::move(topics), file, columns, options.columns);
   }
   AWMR_ASSIGN_OR_RETURN(const std::string bytes, read_input(path));
+  if (is_awl(bytes)) return table_of_awl(bytes, file, columns, options.columns);
   auto signals = read_signals(bytes, file, wanted);
   if (!signals) return read_csv_text(bytes, file, columns, options.columns);
   if (!*signals) return tl::unexpected(std::move(*signals).error());

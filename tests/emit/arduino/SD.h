@@ -5,6 +5,8 @@
 class File : public Print {
  public:
   size_t write(uint8_t byte) override { return Serial.write(byte); }
+  size_t write(const uint8_t* bytes, size_t size) override { return Serial.write(bytes, size); }
+  void close() {}
   void flush() {}
   operator bool() const { return true; }
 };

@@ -1,6 +1,6 @@
 // Drives along waypoints on the source paper's hardware, in m north and west of the first GPS fix, and stops at
-// the last. Send any character over Serial (115200 baud) at least every AWMR_COMMAND_TIMEOUT_MS to
-// keep it going: letting go is the dead man's switch.
+// the last. Over Serial (115200 baud) the line "G" starts it, also after a reset; any character at least every
+// AWMR_COMMAND_TIMEOUT_MS keeps it going: letting go is the dead man's switch.
 #include <SD.h>
 #include <SPI.h>
 #include <Wire.h>
@@ -14,42 +14,22 @@ const float kSpeedMps = 1.0f;
 awmr_board::Imu imu;
 awmr_board::Gps gps;
 awmr_board::Log card;
+awmr_board::Command command;
 awmr_input input;
-uint32_t next_step_us;
+bool is_told_to_go = false;
 bool is_under_way = false;
 
-const uint32_t kStepUs = static_cast<uint32_t>(AWMR_SAMPLE_TIME_S * 1e6f);
-
-void setup() {
-  Serial.begin(115200);
-  awmr_board::begin_actuators();
-  imu.begin();
-  gps.begin();
-  if (!card.begin()) Serial.println(F("no SD card: no log"));
-  if (awmr_init() != AWMR_FAULT_NONE) Serial.println(F("parameters damaged: flash again"));
-  input.mode = AWMR_COMBINED;
-  next_step_us = micros() + kStepUs;
-}
-
-void loop() {
-  while (Serial.available() > 0) {
-    Serial.read();
-    input.command_ms = millis();
+void step() {
+  while (command.read()) {
+    if (command.letter == 'G') is_told_to_go = true;
   }
   gps.read();
-  if (static_cast<int32_t>(micros() - next_step_us) < 0) return;
-  next_step_us += kStepUs;
-
   imu.read(AWMR_SAMPLE_TIME_S);
-  input.psi_rad = imu.psi_rad;
-  input.r_radps = imu.r_radps;
-  input.heading_ms = imu.time_ms;
-  input.u_mps = gps.speed_mps;
-  input.x_m = gps.x_m;
-  input.y_m = gps.y_m;
-  input.speed_ms = gps.time_ms;
-  input.now_ms = millis();
-  if (!is_under_way && gps.time_ms != 0) {
+  awmr_board::measure(imu, gps, input);
+  // Before it is told to go nobody has commanded anything, and the motors are off.
+  input.command_ms =
+      is_told_to_go ? command.heard_ms : input.now_ms - AWMR_COMMAND_TIMEOUT_MS - 1;
+  if (is_told_to_go && !is_under_way && gps.time_ms != 0) {
     awmr_follow(kPoints, sizeof kPoints / sizeof kPoints[0], kAcceptanceM);
     input.u_ref_mps = kSpeedMps;
     is_under_way = true;
@@ -59,5 +39,20 @@ void loop() {
   awmr_step(&input, &output);
   if (output.arrived) input.u_ref_mps = 0.0f;
   awmr_board::drive(output);
-  card.write(input, output);
+  card.put(input, output);
 }
+
+void setup() {
+  Serial.begin(115200);
+  awmr_board::begin_actuators();
+  imu.begin();
+  gps.begin();
+  if (gps.has_origin()) Serial.println(F("GPS origin as before the reset"));
+  if (!AWMR_COMPASS_CALIBRATED) Serial.println(F("compass not calibrated: see CompassCalibration"));
+  if (!card.begin()) Serial.println(F("no SD card: no log"));
+  if (awmr_init() != AWMR_FAULT_NONE) Serial.println(F("parameters damaged: flash again"));
+  input.mode = AWMR_COMBINED;
+  awmr_board::begin_steps(step);
+}
+
+void loop() { card.drain(); }

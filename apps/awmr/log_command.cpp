@@ -1,0 +1,64 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "awmr/core/file.h"
+#include "awmr/core/json.h"
+#include "awmr/trials/awl.h"
+#include "commands.h"
+#include "inputs.h"
+#include "paths.h"
+
+namespace awmr::cli {
+namespace {
+
+std::string summary_of(const AwlLog& log, const LogCommand& command) {
+  return fmt::format("{}: {} rows in {} run(s), from {:.6g} s to {:.6g} s\n",
+                     command.output.string(), log.rows(), log.runs, log.columns[0].front(),
+                     log.columns[0].back()) +
+         fmt::format("  {} rows missing, {} bytes damaged\n  firmware of the parameters {}\n",
+                     log.lost, log.damaged_bytes, log.parameters_sha256);
+}
+
+std::string document_of(const AwlLog& log) {
+  Json json;
+  json["rows"] = log.rows();
+  json["runs"] = log.runs;
+  json["rows_missing"] = log.lost;
+  json["bytes_damaged"] = log.damaged_bytes;
+  json["parameters_sha256"] = log.parameters_sha256;
+  return awmr::to_text(json);
+}
+
+/// Where the table comes from, as a comment above it.
+std::string origin_of(const AwlLog& log, const InputFile& input) {
+  return fmt::format("# awmr {} log: {} SHA-256 {}, firmware of the parameters {}\n", version(),
+                     input.name, input.sha256, log.parameters_sha256);
+}
+
+}  // namespace
+
+Result<Outcome> execute(const LogCommand& command) {
+  AWMR_RETURN_IF_ERROR(check_output(command.output, {{command.file}}));
+  AWMR_ASSIGN_OR_RETURN(const AwlLog log, read_awl_file(command.file));
+  AWMR_ASSIGN_OR_RETURN(const auto inputs, input_files({command.file}));
+  AWMR_RETURN_IF_ERROR(write_file(command.output, origin_of(log, inputs.front()) + log_csv(log)));
+  return Outcome{.summary = summary_of(log, command),
+                 .findings = log.findings,
+                 .document = document_of(log),
+                 .written = {command.output}};
+}
+
+void add_log(CLI::App& app, Session& session) {
+  auto command = std::make_shared<LogCommand>();
+  CLI::App* sub =
+      add_command(app, session, "log", "Turn the log of the emitted sketches into the CSV of a log",
+                  "awmr log LOG00.AWL -o log.csv", [command] { return execute(*command); });
+  add_file(*sub, "FILE", command->file,
+           "The on-board log; `identify --log` and `validate --log` read it as it is, too")
+      ->required();
+  add_output(*sub, command->output, "CSV to write; rows that are lost or damaged are told");
+}
+
+}  // namespace awmr::cli

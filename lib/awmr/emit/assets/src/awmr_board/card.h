@@ -1,0 +1,54 @@
+/* The log on the card: LOG00.AWL and on, for `awmr log` and `awmr identify --log`. */
+#ifndef AWMR_BOARD_CARD_H
+#define AWMR_BOARD_CARD_H
+
+#include "../awmr_log.h"
+#include "steps.h"
+
+namespace awmr_board {
+
+/* Opens the first of NAME00 to NAME99 that is not there yet; no file where all are. */
+inline File next_file(const char* name_and_extension) {
+  char name[13];
+  strncpy(name, name_and_extension, sizeof name - 1);
+  name[sizeof name - 1] = '\0';
+  char* digits = strchr(name, '0');
+  for (uint8_t i = 0; i < 100 && digits != 0; ++i) {
+    digits[0] = static_cast<char>('0' + i / 10);
+    digits[1] = static_cast<char>('0' + i % 10);
+    if (!SD.exists(name)) return SD.open(name, FILE_WRITE);
+  }
+  return File();
+}
+
+class Log {
+ public:
+  /* In setup(). False: there is no card, or no name is left. */
+  bool begin() {
+    if (!SD.begin(kSdSelectPin)) return false;
+    file_ = next_file("LOG00.AWL");
+    return file_ && awmr_log::write_header(file_) && awmr_log::write_header(file_);
+  }
+
+  /* In the step: never waits. */
+  void put(const awmr_input& in, const awmr_output& out) {
+    awmr_log::put(ring_, in, out, step_number(), reset_cause());
+  }
+
+  /* In loop(): waits as long as the card does. Every second what was written so far is made safe
+     against the battery's being unplugged. */
+  void drain() {
+    if (!file_ || awmr_log::drain(ring_, file_) != awmr_log::kWritten) return;
+    if (++blocks_ % kBlocksPerFlush == 0) file_.flush();
+  }
+
+ private:
+  static const uint8_t kBlocksPerFlush = 16;
+  awmr_log::Ring ring_;
+  File file_;
+  uint16_t blocks_ = 0;
+};
+
+}  // namespace awmr_board
+
+#endif /* AWMR_BOARD_CARD_H */

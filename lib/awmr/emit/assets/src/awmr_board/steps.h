@@ -1,0 +1,62 @@
+/* When a step is due, what happens if it does not end, and why the chip began. */
+#ifndef AWMR_BOARD_STEPS_H
+#define AWMR_BOARD_STEPS_H
+
+#include <avr/interrupt.h>
+#include <avr/wdt.h>
+
+namespace awmr_board {
+
+/* Bits of reset_cause(), those of MCUSR. 0: the bootloader took them. */
+const uint8_t kSwitchedOn = 1, kResetButton = 2, kBrownOut = 4, kWatchdog = 8;
+
+static uint8_t kept_reset_cause __attribute__((section(".noinit")));
+
+/* Before main() and before RAM is cleared; a watchdog that bit goes on, and would bite again. */
+static void keep_reset_cause() __attribute__((naked, used, section(".init3")));
+static void keep_reset_cause() {
+  kept_reset_cause = MCUSR;
+  MCUSR = 0;
+  wdt_disable();
+}
+
+inline uint8_t reset_cause() { return kept_reset_cause; }
+
+typedef void (*Step)();
+static Step the_step;
+static volatile bool is_in_step;
+static volatile uint32_t sample_time_count; /* sample times since begin_steps() */
+
+/* Calls `step` every AWMR_SAMPLE_TIME_S from timer 3's interrupt, other interrupts allowed: the bus
+   of the sensors, the serial lines and millis() need theirs. A step that is not over when the next
+   one is due goes on, and that one is left out. The watchdog resets a chip on which no step ends. */
+inline void begin_steps(Step step) {
+  const float counts = AWMR_SAMPLE_TIME_S * (F_CPU / 8);
+  const bool slow = counts > 65536.0f;
+  the_step = step;
+  TCCR3A = 0;
+  TCCR3B = 0;
+  TCNT3 = 0;
+  OCR3A = static_cast<uint16_t>((slow ? counts / 32 : counts) - 0.5f);
+  TCCR3B = static_cast<uint8_t>(_BV(WGM32) | (slow ? _BV(CS32) : _BV(CS31))); /* clock/256, /8 */
+  TIMSK3 = _BV(OCIE3A);
+  wdt_enable(AWMR_SAMPLE_TIME_S < 0.05f ? WDTO_250MS : WDTO_4S);
+}
+
+/* The number of the step that runs. */
+inline uint32_t step_number() { return sample_time_count; }
+
+}  // namespace awmr_board
+
+ISR(TIMER3_COMPA_vect) {
+  ++awmr_board::sample_time_count;
+  if (awmr_board::is_in_step) return;
+  awmr_board::is_in_step = true;
+  sei();
+  awmr_board::the_step();
+  wdt_reset();
+  cli();
+  awmr_board::is_in_step = false;
+}
+
+#endif /* AWMR_BOARD_STEPS_H */

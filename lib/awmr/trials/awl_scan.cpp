@@ -1,0 +1,134 @@
+#include "awl_scan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "awmr/control/log_row.h"
+#include "byte_reader.h"
+
+namespace awmr::awl {
+namespace {
+
+const std::string_view kMagic(reinterpret_cast<const char*>(kLogMagic), sizeof kLogMagic);
+const std::string_view kSync(reinterpret_cast<const char*>(kLogSync), sizeof kLogSync);
+
+/// So many damaged headers are no log; the time to look at them would grow beyond that of reading.
+constexpr std::size_t kMostDamagedHeaders = 1000;
+
+/// Where a header may begin, at the latest, in a file that is one.
+constexpr std::size_t kHeaderWithin = 4 * kLogHeaderBytes;
+
+bool is_row(std::string_view bytes, std::size_t at, std::size_t row_bytes) {
+  if (bytes.size() - at < row_bytes || !bytes.substr(at).starts_with(kSync)) return false;
+  const std::string_view covered = bytes.substr(at + kLogRowCovered, row_bytes - kLogRowCovered);
+  std::uint16_t crc = kCrc16Start;
+  for (const char c : covered) crc = crc16_with(crc, static_cast<std::uint8_t>(c));
+  return crc == number_in<std::uint16_t>(bytes.substr(at + kSync.size()));
+}
+
+std::uint32_t sequence_of(std::string_view bytes, std::size_t offset) {
+  return number_in<std::uint32_t>(bytes.substr(offset + kLogRowCovered));
+}
+
+/// Notes the whole row at this place: its run, and what is lost before it. `anew`: a header stands
+/// before it.
+void add_row(std::string_view bytes, std::size_t at, bool anew, Scan& scan) {
+  const std::uint32_t sequence = sequence_of(bytes, at);
+  const double t_s = time_of(bytes, at, scan.layout);
+  std::size_t run = 1;
+  std::size_t missing = sequence;
+  std::size_t last_end = 0;
+  if (!scan.rows.empty()) {
+    const Place& last = scan.rows.back();
+    const std::uint32_t before = sequence_of(bytes, last.offset);
+    const bool goes_on =
+        !anew && sequence > before && t_s > time_of(bytes, last.offset, scan.layout);
+    run = last.run + (goes_on ? 0 : 1);
+    if (goes_on) missing = sequence - before - 1;
+    last_end = last.offset;
+  }
+  if (missing > 0) {
+    const bool is_damaged = !scan.damaged.empty() && scan.damaged.back().begin >= last_end;
+    scan.lost.push_back({missing, t_s, is_damaged});
+  }
+  scan.rows.push_back({at, run});
+}
+
+/// Passes over bytes up to where something may begin; returns that place.
+std::size_t pass_over(std::string_view bytes, std::size_t at, Scan& scan) {
+  const char starts[] = {kMagic[0], kSync[0]};
+  const std::size_t found = bytes.find_first_of(std::string_view(starts, sizeof starts), at + 1);
+  const std::size_t next = std::min(found, bytes.size());
+  if (!scan.damaged.empty() && scan.damaged.back().end == at) {
+    scan.damaged.back().end = next;
+  } else {
+    scan.damaged.push_back({at, next});
+  }
+  return next;
+}
+
+/// Takes the header in; all of a file describe the same rows.
+Status add_header(std::string_view json, std::size_t at, const std::string& file, Scan& scan) {
+  AWMR_ASSIGN_OR_RETURN(Layout layout, layout_of(json, file));
+  if (scan.layout.row_bytes > 0 && scan.layout != layout) {
+    return input_error(file, fmt::format("byte {}: a header of other rows or other parameters than "
+                                         "the one before: cut the file there",
+                                         at));
+  }
+  scan.layout = std::move(layout);
+  return {};
+}
+
+/// What is left at the end is the beginning of a row, if it is shorter than one.
+void note_end(std::string_view bytes, Scan& scan) {
+  if (scan.damaged.empty() || scan.damaged.back().end != bytes.size()) return;
+  const std::size_t size = bytes.size() - scan.damaged.back().begin;
+  if (size >= scan.layout.row_bytes) return;
+  scan.truncated = size;
+  scan.damaged.pop_back();
+}
+
+}  // namespace
+
+Result<Scan> scan_of(std::string_view bytes, const std::string& file) {
+  Scan scan;
+  bool anew = true;
+  std::size_t damaged_headers = 0;
+  for (std::size_t at = 0; at < bytes.size();) {
+    if (const auto header = header_at(bytes, at)) {
+      AWMR_RETURN_IF_ERROR(add_header(*header, at, file, scan));
+      anew = true;
+      at += kLogHeaderBytes;
+    } else if (scan.layout.row_bytes > 0 && is_row(bytes, at, scan.layout.row_bytes)) {
+      add_row(bytes, at, anew, scan);
+      anew = false;
+      at += scan.layout.row_bytes;
+    } else {
+      if (bytes.substr(at).starts_with(kMagic) && ++damaged_headers > kMostDamagedHeaders) {
+        return input_error(
+            file, fmt::format("byte {}: more than {} damaged headers", at, kMostDamagedHeaders));
+      }
+      at = pass_over(bytes, at, scan);
+    }
+  }
+  if (scan.layout.row_bytes == 0) {
+    return input_error(
+        file,
+        "no header of an awmr log is whole: is this a file that the emitted sketches "
+        "wrote (LOG00.AWL)?");
+  }
+  note_end(bytes, scan);
+  return scan;
+}
+
+double time_of(std::string_view bytes, std::size_t offset, const Layout& layout) {
+  return value_in(bytes.substr(offset, layout.row_bytes), layout.columns.front());
+}
+
+bool begins_log(std::string_view bytes) {
+  return bytes.substr(0, kHeaderWithin).find(kMagic) != bytes.npos;
+}
+
+}  // namespace awmr::awl

@@ -1,0 +1,106 @@
+/// Rows of the on-board log as the chip's own code writes them, on the emulated chip: what they cost
+/// the control step, and that they read back as they were.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <iostream>
+
+#include "awmr/trials/awl.h"
+#include "emit/paper_robot.h"
+#include "emulator.h"
+#include "support/toolchain.h"
+
+namespace awmr::testing {
+namespace {
+
+using ::testing::HasSubstr;
+
+// As in log_chip.cpp.
+constexpr std::size_t kSteps = 250;
+constexpr std::size_t kStallFrom = 60, kStallTo = 150;
+constexpr std::uint64_t kCyclesOfASecond = 16'000'000;
+
+class LogChip : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_TRUE(found(kAvrGxx));
+    const auto files = firmware_library(paper_robot(), kPaperGains, paper_inputs(), {});
+    for (const EmittedFile& file : *files) {
+      std::filesystem::create_directories((directory_.path() / file.path).parent_path());
+      write_all(directory_.path() / file.path, file.bytes);
+    }
+    ASSERT_TRUE(succeeded(
+        run_process(std::string(kAvrGxx) +
+                        " -mmcu=atmega2560 -DF_CPU=16000000UL -std=c++11 -Os -Wall -Wextra "
+                        "-Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror -Isrc "
+                        "'" AWMR_SOURCE_DIR "/tests/pil/log_chip.cpp' -o log.elf",
+                    directory_.path())));
+    auto emulator = pil::Emulator::load(directory_.path() / "log.elf");
+    ASSERT_TRUE(emulator) << to_text(emulator.error());
+    emulator_ = std::move(*emulator);
+    emulator_->on_uart_output([this](std::uint8_t byte) { file_ += static_cast<char>(byte); });
+    emulator_->connect_uart();
+    const auto done = emulator_->ram("log_done", 1);
+    const auto ran = emulator_->run_until([&] { return done[0] != 0; }, 10 * kCyclesOfASecond);
+    ASSERT_TRUE(ran) << to_text(ran.error());
+  }
+
+  TemporaryDirectory directory_;
+  std::unique_ptr<pil::Emulator> emulator_;
+  std::string file_;
+};
+
+TEST_F(LogChip, ARowTakesAFewHundredCyclesOfTheStep) {
+  const auto bytes = emulator_->ram("log_cycles_max", 2);
+  const unsigned cycles = bytes[0] + 256U * bytes[1];
+  std::cout << "a row of the log: " << cycles << " cycles at most, " << emulator_->ram_bytes()
+            << " bytes of RAM with the ring\n";
+  RecordProperty("cycles", std::to_string(cycles));
+  EXPECT_GT(cycles, 100U);  // 56 bytes at two cycles each at the least
+  EXPECT_LT(cycles, 600U);
+}
+
+TEST_F(LogChip, RowsReadBackAsTheyWereAndThoseOfAStallAreCounted) {
+  const auto log = read_awl(file_, "a.awl");
+  ASSERT_TRUE(log) << to_text(log.error());
+  EXPECT_EQ(log->parameters_sha256, params_sha256(paper_inputs()));
+  // Of the 90 sample times of the stall the ring bridges 64 less the part of a block that was in it
+  // already; the block after the stall takes one sample time to be written.
+  EXPECT_GE(log->lost, kStallTo - kStallFrom - 64);
+  EXPECT_LE(log->lost, kStallTo - kStallFrom - 56 + 1);
+  EXPECT_EQ(log->rows(), kSteps - log->lost);
+  EXPECT_EQ(log->damaged_bytes, 0U);
+  ASSERT_EQ(log->findings.size(), 1U);
+  EXPECT_EQ(log->findings[0].code, "rows-lost");
+  EXPECT_THAT(log->findings[0].message, HasSubstr("no room"));
+
+  const auto column = [&](const std::string& name) -> const std::vector<double>& {
+    const auto at = std::find(log->header.begin(), log->header.end(), name);
+    return log->columns.at(static_cast<std::size_t>(at - log->header.begin()));
+  };
+  const double degree = 180.0 / std::acos(-1.0);
+  for (std::size_t row = 0; row < log->rows(); ++row) {
+    const double step = std::round(column("t_s")[row] * 100.0);
+    const auto number = [&](int i) { return 0.125 * step + i; };  // exact in float
+    ASSERT_EQ(column("force_left")[row], number(1));
+    ASSERT_EQ(column("force_right")[row], -number(2));
+    ASSERT_DOUBLE_EQ(column("steering_cmd_deg")[row], number(3) * degree);
+    ASSERT_EQ(column("x_m")[row], number(4));
+    ASSERT_EQ(column("y_m")[row], number(5));
+    ASSERT_DOUBLE_EQ(column("heading_deg")[row], number(6) * degree);
+    ASSERT_EQ(column("speed_mps")[row], number(7));
+    ASSERT_EQ(column("yaw_rate_radps")[row], number(8));
+    ASSERT_DOUBLE_EQ(column("heading_ref_deg")[row], number(9) * degree);
+    ASSERT_EQ(column("speed_ref_mps")[row], number(10));
+    ASSERT_EQ(column("tau_speed")[row], number(11));
+    ASSERT_EQ(column("tau_turn_m")[row], number(12));
+    ASSERT_EQ(column("mode")[row], std::fmod(step, 3.0));
+    ASSERT_EQ(column("limits")[row], 4.0 * std::fmod(step, 2.0));
+    ASSERT_EQ(column("reset_cause")[row], 1.0);
+    ASSERT_EQ(column("run")[row], 1.0);
+  }
+}
+
+}  // namespace
+}  // namespace awmr::testing
