@@ -273,6 +273,30 @@ TEST(Log, ALateSpeedIsFoundAndAllowedFor) {
   }
 }
 
+TEST(Log, AServoTooFastForALogIsNamed) {
+  TrialData data;
+  data.logs = {drive(kTruths[0], 3)};
+  Vehicle fast = robot();
+  fast.steering_time_constant_s = 1e-5;
+  const auto result = identify(fast, data, {}, {});
+  ASSERT_FALSE(result);
+  EXPECT_THAT(to_text(result.error()),
+              ::testing::HasSubstr("steering.time_constant_s is 1e-05 s, too fast"));
+}
+
+TEST(Log, AFitWhoseTimeIsOverEndsAndShowsNothingWrong) {
+  TrialData data;
+  const Truth& t = kTruths[0];
+  data.logs = {drive(t, 3, {.duration_s = 4.0})};
+  for (const double limit_s : {1e-6, 0.02, 0.1, 0.3}) {
+    const auto result = identify(robot(), data, {.time_limit_s = limit_s}, {});
+    ASSERT_TRUE(result);
+    const Estimate& mass = result->model[ParameterId::kMassNorm];
+    if (mass.value) expect_recovered(*result, ParameterId::kMassNorm, t.mass_norm, 4.0);
+    EXPECT_EQ(mass.value.has_value(), !refused(*result, ParameterId::kMassNorm));
+  }
+}
+
 TEST(Log, FrictionOfAnotherFamilyIsTakenAndSaid) {
   const Truth& t = kTruths[0];
   Plant<double> braked = plant(t);

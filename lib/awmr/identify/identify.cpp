@@ -116,15 +116,18 @@ void identify_mass(const Vehicle& vehicle, const TrialData& data, const Identify
 }
 
 /// What the driving logs show, where there are any.
-void identify_from_logs(const Vehicle& vehicle, const TrialData& data,
-                        const IdentifyOptions& options, const std::vector<ParameterId>& asked,
-                        MainValues& values, Reasons& reasons) {
-  if (data.logs.empty()) return;
-  LogStage logs = run_log_stage(vehicle, data.logs, options, asked, values.model,
-                                method_of(data, options) == Method::kTrajectory);
+Result<void> identify_from_logs(const Vehicle& vehicle, const TrialData& data,
+                                const IdentifyOptions& options,
+                                const std::vector<ParameterId>& asked, MainValues& values,
+                                Reasons& reasons) {
+  if (data.logs.empty()) return {};
+  AWMR_ASSIGN_OR_RETURN(LogStage logs,
+                        run_log_stage(vehicle, data.logs, options, asked, values.model,
+                                      method_of(data, options) == Method::kTrajectory));
   record(logs, values.model);
   set_logs(logs, values);
   reasons.logs = std::move(logs.reasons);
+  return {};
 }
 
 }  // namespace
@@ -146,7 +149,7 @@ Result<Identification> identify(const Vehicle& vehicle, const TrialData& data,
 
   const SubjectFit surge = identify_laws(vehicle, data, options, values, reasons);
   identify_mass(vehicle, data, options, surge, values, reasons);
-  identify_from_logs(vehicle, data, options, asked, values, reasons);
+  AWMR_RETURN_IF_ERROR(identify_from_logs(vehicle, data, options, asked, values, reasons));
 
   model.covariance = values.covariance.covariance();
   reasons.inadmissible = take_out_inadmissible(model);

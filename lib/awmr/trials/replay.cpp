@@ -1,5 +1,7 @@
 #include "awmr/trials/replay.h"
 
+#include <fmt/format.h>
+
 #include <limits>
 #include <optional>
 
@@ -118,6 +120,19 @@ double replay_step_s(const Plant<double>& plant) {
   double fastest_s = plant.steering_time_constant_s;
   if (plant.sway_alpha > 0.0) fastest_s = std::min(fastest_s, plant.mass_norm / plant.sway_alpha);
   return 0.25 * fastest_s;
+}
+
+Result<void> check_replay(const Plant<double>& plant, const std::string& file) {
+  const double step_s = replay_step_s(plant);
+  if (step_s >= kShortestReplayStep_s) return {};
+  const bool servo = step_s == 0.25 * plant.steering_time_constant_s;
+  const std::string what =
+      servo ? fmt::format("steering.time_constant_s is {:g} s", plant.steering_time_constant_s)
+            : fmt::format("m'/sway_alpha is {:g}/{:g} s", plant.mass_norm, plant.sway_alpha);
+  return input_error(file,
+                     fmt::format("{}, too fast to be followed through a log, whose motion is "
+                                 "computed in steps of a quarter of it; {:g} s or more can be",
+                                 what, 4.0 * kShortestReplayStep_s));
 }
 
 }  // namespace awmr

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <string>
 #include <vector>
 
+#include "awmr/core/result.h"
 #include "awmr/model/rest.h"
 #include "awmr/model/runge_kutta.h"
 #include "awmr/trials/log.h"
@@ -177,5 +179,13 @@ State<double> measured_initial_state(const LogWindow& window);
 /// the servo's or sway's. A Runge-Kutta step of that length errs by 3e-5 of an excursion in each
 /// time constant.
 double replay_step_s(const Plant<double>& plant);
+
+/// The shortest step with which a log is worth following: no log shows what is over in 0.4 ms, and a
+/// replay would not end.
+inline constexpr double kShortestReplayStep_s = 1e-4;
+
+/// Whether a log of this plant can be replayed. Errors (input): a time constant asks for steps below
+/// kShortestReplayStep_s; the fault names it, in the file `file`.
+Result<void> check_replay(const Plant<double>& plant, const std::string& file);
 
 }  // namespace awmr

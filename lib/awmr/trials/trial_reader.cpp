@@ -86,6 +86,12 @@ std::optional<RateInRow> rate_of(TrialReader& reader, std::size_t row, const Rat
     return RateInRow{};
   }
   const double timed = rate.per_amount * *amount / *elapsed_s;
+  if (!std::isfinite(timed) || (timed == 0.0 && *amount > 0.0)) {
+    reader.fault(row, "elapsed_s",
+                 fmt::format("{} {} in elapsed_s {} make {}: no vehicle moves like this",
+                             rate.amount_column, *amount, *elapsed_s, timed));
+    return std::nullopt;
+  }
   if (!printed) return RateInRow{timed, amount, elapsed_s};
 
   const double tolerance = reader.rounding_error(*printed, rate.printed_column) +

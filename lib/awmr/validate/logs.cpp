@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "awmr/trials/replay.h"
+
 namespace awmr {
 namespace {
 
@@ -61,6 +63,7 @@ Result<LogValidation> validate_log(const DrivingLog& log, const Model& model, do
                                    double tolerance) {
   const Motion motion = model.simulated_motion();
   AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, model.plant(motion));
+  AWMR_RETURN_IF_ERROR(check_replay(plant, model.file));
   if (motion == Motion::kPlanar) return validate_log(log, plant, horizon_s, tolerance);
   AWMR_ASSIGN_OR_RETURN(const DrivingLog part, straight_part(log, model));
   return validate_log(part, plant, horizon_s, tolerance);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <utility>
 
@@ -52,10 +53,11 @@ FamilyFit fit_with(const std::vector<DrivingLog>& logs, LogFitOptions options, F
   return result;
 }
 
-/// The fit of other families from the optimum of `inner`: with a little of each new term, with none of
-/// it, and from the initial guess of the power law.
+/// The fit of other families from the optimum of `inner`, if it has one: with a little of each new
+/// term, with none of it, and from the initial guess of the power law.
 FamilyFit fit_from(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                    const FamilyFit& inner, Family surge, Family yaw) {
+  if (!inner.fit.usable) return fit_family(logs, power_law, surge, yaw);
   const LogFitOptions at_optimum = from_optimum(power_law, inner);
   LogFitOptions options = with_families(at_optimum, surge, yaw);
   options.also_from = {at_optimum.initial_guess,
@@ -121,6 +123,17 @@ std::optional<Finding> undecided(const std::string& file, const FamilyFit& best,
                   families_in_words(best.surge, best.yaw))};
 }
 
+bool is_over(const std::optional<std::chrono::steady_clock::time_point>& deadline) {
+  return deadline && std::chrono::steady_clock::now() >= *deadline;
+}
+
+Finding not_compared(const std::string& file, const FamilyFit& first) {
+  return {file, 0, Severity::kWarning, "families-not-compared",
+          fmt::format("the time given to the fit was over before every other family of resistance "
+                      "had been tried beside {}; give it more, or name the family",
+                      families_in_words(first.surge, first.yaw))};
+}
+
 struct Contender {
   Family surge;
   Family yaw;
@@ -142,12 +155,18 @@ void compete(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law
              const std::vector<Contender>& others, double lead, BestFamily& result) {
   const FamilyFit& first = result.best;
   std::optional<FamilyFit> best_rival;
+  bool all_tried = true;
   for (const Contender& other : others) {
+    all_tried = !is_over(power_law.deadline);
+    if (!all_tried) break;
     FamilyFit rival =
         fit_from(logs, power_law, best_rival ? *best_rival : first, other.surge, other.yaw);
     result.others.push_back(rival.fit.report);
     if (!rival.fit.usable) continue;
     if (!best_rival || rival.fit.aic < best_rival->fit.aic) best_rival = std::move(rival);
+  }
+  if (!all_tried && first.fit.usable) {
+    result.findings.push_back(not_compared(logs.front().file, first));
   }
   if (!best_rival) return;
   if (!first.fit.usable || best_rival->fit.aic < first.fit.aic - lead) {

@@ -16,7 +16,9 @@ LogProblem log_problem(const std::vector<DrivingLog>& logs, const LogFitOptions&
       .quantities = free_quantities(options),
       .initial = initial_components(logs),
       .noise = sensor_noise(problem.windows),
-      .longest_step_s = replay_step_s(plant_of(options.vehicle, options.initial_guess))};
+      // A guess may be faster than any vehicle.
+      .longest_step_s = std::max(kShortestReplayStep_s,
+                                 replay_step_s(plant_of(options.vehicle, options.initial_guess)))};
   problem.initial = initial_coordinates(problem.model.quantities, options);
   problem.bounds = coordinate_bounds(problem.model.quantities, problem.initial, options.vehicle);
   problem.threads = options.threads;

@@ -251,13 +251,15 @@ void take(const LogFit& fit, const Model& model, bool overrule, const std::strin
 
 }  // namespace
 
-LogStage run_log_stage(const Vehicle& vehicle, const std::vector<DrivingLog>& logs,
-                       const IdentifyOptions& options, const std::vector<ParameterId>& asked,
-                       const Model& model, bool overrule) {
+Result<LogStage> run_log_stage(const Vehicle& vehicle, const std::vector<DrivingLog>& logs,
+                               const IdentifyOptions& options,
+                               const std::vector<ParameterId>& asked, const Model& model,
+                               bool overrule) {
   LogStage stage;
   LogFitOptions power_law = fit_options(vehicle, logs, options);
   power_law.initial_guess = guess_from_logs(logs, vehicle);
   free_parameters(power_law, logs, asked, model, stage.reasons);
+  AWMR_RETURN_IF_ERROR(check_replay(plant_of(vehicle, power_law.initial_guess), logs.front().file));
   FamilyFit chosen = fit_families(logs, power_law, options, stage);
   tell(options, "holding the logs against each other");
   append(stage.findings, in_words(hold_against_each_other(logs, chosen)));

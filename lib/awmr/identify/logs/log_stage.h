@@ -35,9 +35,11 @@ struct LogStage {
 /// did.
 /// Findings: `estimates-disagree` (logs against tables, p < 0.01), `coloured-residuals`,
 /// `model-inadequate`, `power-law-inadequate`, `family-undecided`, `sensor-delay`, `logs-disagree`, `not-identifiable`, `not-converged`, `held-out-log`
-/// (each log predicted by the others).
-LogStage run_log_stage(const Vehicle& vehicle, const std::vector<DrivingLog>& logs,
-                       const IdentifyOptions& options, const std::vector<ParameterId>& asked,
-                       const Model& model, bool overrule);
+/// (each log predicted by the others), `families-not-compared` (the time was over).
+/// Errors (input): a given time constant is too fast for a log.
+Result<LogStage> run_log_stage(const Vehicle& vehicle, const std::vector<DrivingLog>& logs,
+                               const IdentifyOptions& options,
+                               const std::vector<ParameterId>& asked, const Model& model,
+                               bool overrule);
 
 }  // namespace awmr

@@ -11,6 +11,7 @@
 #include "awmr/core/parallel.h"
 #include "awmr/core/units.h"
 #include "awmr/model/family.h"
+#include "awmr/trials/replay.h"
 
 namespace awmr {
 namespace {
@@ -235,7 +236,10 @@ Result<Recovery> recover(const Model& model, const RecoverOptions& given,
   const RecoverOptions options = options_for(model, given);
   AWMR_ASSIGN_OR_RETURN(const Plant<double> truth, truth_of(model, options.plan));
   if (options.runs < 2) return input_error(option_text("runs"), "at least 2 are needed");
-  if (options.plan == RecoverPlan::kLog) AWMR_RETURN_IF_ERROR(check_drive(options.drive));
+  if (options.plan == RecoverPlan::kLog) {
+    AWMR_RETURN_IF_ERROR(check_drive(options.drive));
+    AWMR_RETURN_IF_ERROR(check_replay(truth, model.file));
+  }
   if (options.plan != RecoverPlan::kLog && model.record.trials.empty()) {
     return input_error(
         model.file + ":/trials",
