@@ -1,5 +1,4 @@
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <poll.h>
 #include <stdlib.h>
 #include <termios.h>
@@ -8,8 +7,9 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <map>
+#include <optional>
 
+#include "awmr/core/serial_port.h"
 #include "emulator.h"
 #include "frame_link.h"
 
@@ -21,41 +21,23 @@ constexpr int kAnswerTimeout_ms = 300;  ///< 140 bytes take 146 ms at 9600 baud
 /// A Mega 2560 restarts when its port is opened, and its boot loader waits.
 constexpr int kBootTime_ms = 2000;
 
-/// Bytes as they are, nothing echoed.
-bool make_raw(int file, speed_t speed) {
-  termios settings{};
-  if (::tcgetattr(file, &settings) != 0) return false;
-  ::cfmakeraw(&settings);
-  settings.c_cflag |= CLOCAL | CREAD;
-  ::cfsetspeed(&settings, speed);
-  return ::tcsetattr(file, TCSANOW, &settings) == 0;
-}
-
 class Port : public Line {
  public:
-  Port(std::filesystem::path path, speed_t speed, unsigned flash_bytes, unsigned ram_bytes)
-      : path_(std::move(path)), speed_(speed), flash_bytes_(flash_bytes), ram_bytes_(ram_bytes) {}
-  ~Port() override {
-    if (file_ >= 0) ::close(file_);
-  }
-  Port(const Port&) = delete;
-  Port& operator=(const Port&) = delete;
+  Port(std::filesystem::path path, unsigned baud, unsigned flash_bytes, unsigned ram_bytes)
+      : path_(std::move(path)), baud_(baud), flash_bytes_(flash_bytes), ram_bytes_(ram_bytes) {}
 
   Status open() override {
-    // Without O_NONBLOCK a modem port may wait for its carrier without end.
-    file_ = ::open(path_.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC | O_NONBLOCK);
-    if (file_ < 0) return input_error(path_.string(), std::strerror(errno));
-    ::fcntl(file_, F_SETFL, ::fcntl(file_, F_GETFL) & ~O_NONBLOCK);
-    if (!make_raw(file_, speed_)) return input_error(path_.string(), "is no serial port");
+    AWMR_ASSIGN_OR_RETURN(Descriptor file, open_serial_port(path_, baud_));
+    file_.emplace(std::move(file));
     const bool is_terminal = path_.string().starts_with("/dev/pts/");
     if (!is_terminal) ::usleep(kBootTime_ms * 1000);
-    ::tcflush(file_, TCIOFLUSH);
+    ::tcflush(file_->number(), TCIOFLUSH);
     return {};
   }
 
   Status send(std::span<const std::uint8_t> bytes) override {
     while (!bytes.empty()) {
-      const ssize_t count = ::write(file_, bytes.data(), bytes.size());
+      const ssize_t count = ::write(file_->number(), bytes.data(), bytes.size());
       if (count < 0 && errno != EINTR) return input_error(path_.string(), std::strerror(errno));
       if (count > 0) bytes = bytes.subspan(static_cast<std::size_t>(count));
     }
@@ -64,10 +46,10 @@ class Port : public Line {
 
   Result<std::optional<std::uint8_t>> receive(Patience patience) override {
     if (at_ == count_) {
-      pollfd waiting{.fd = file_, .events = POLLIN, .revents = 0};
+      pollfd waiting{.fd = file_->number(), .events = POLLIN, .revents = 0};
       const int timeout_ms = patience == Patience::kStart ? kStartTimeout_ms : kAnswerTimeout_ms;
       if (::poll(&waiting, 1, timeout_ms) <= 0) return std::optional<std::uint8_t>();
-      const ssize_t count = ::read(file_, buffer_, sizeof buffer_);
+      const ssize_t count = ::read(file_->number(), buffer_, sizeof buffer_);
       if (count <= 0) return input_error(path_.string(), "was closed");
       at_ = 0;
       count_ = static_cast<std::size_t>(count);
@@ -81,10 +63,10 @@ class Port : public Line {
 
  private:
   std::filesystem::path path_;
-  speed_t speed_;
+  unsigned baud_;
   unsigned flash_bytes_;
   unsigned ram_bytes_;
-  int file_ = -1;
+  std::optional<Descriptor> file_;
   std::uint8_t buffer_[256] = {};
   std::size_t at_ = 0;
   std::size_t count_ = 0;
@@ -95,21 +77,12 @@ class Port : public Line {
 Result<std::unique_ptr<Chip>> port_link(const std::filesystem::path& port, unsigned baud,
                                         const std::filesystem::path& elf,
                                         std::uint32_t parameters_crc) {
-  static const std::map<unsigned, speed_t> kSpeeds{{9600, B9600},     {57600, B57600},
-                                                   {115200, B115200}, {230400, B230400},
-                                                   {500000, B500000}, {1000000, B1000000}};
-  const auto speed = kSpeeds.find(baud);
-  if (speed == kSpeeds.end()) {
-    return input_error("--baud", fmt::format("{}: one of 9600, 57600, 115200, 230400, 500000, "
-                                             "1000000",
-                                             baud));
-  }
   // The file tells what the board's flash and RAM hold.
   const auto emulator = Emulator::load(elf);
   if (!emulator) return tl::unexpected(emulator.error());
-  return frame_link(std::make_unique<Port>(port, speed->second, (*emulator)->flash_bytes(),
-                                           (*emulator)->ram_bytes()),
-                    parameters_crc);
+  return frame_link(
+      std::make_unique<Port>(port, baud, (*emulator)->flash_bytes(), (*emulator)->ram_bytes()),
+      parameters_crc);
 }
 
 namespace {
@@ -117,7 +90,7 @@ namespace {
 Result<int> open_terminal() {
   const int terminal = ::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
   if (terminal < 0 || ::grantpt(terminal) != 0 || ::unlockpt(terminal) != 0 ||
-      !make_raw(terminal, B500000)) {
+      !make_raw(terminal, 500000).value_or(false)) {
     return program_fault("no pseudo-terminal can be made");
   }
   return terminal;

@@ -18,6 +18,7 @@
 #include "awmr/validate/validate.h"
 #include "console.h"
 #include "inputs.h"
+#include "live_stream.h"
 
 namespace awmr::cli {
 
@@ -51,6 +52,21 @@ struct IdentifyCommand {
 };
 Result<Outcome> execute(const IdentifyCommand& command);
 void add_identify(CLI::App& app, Session& session);
+
+/// A drive that is recorded, checked and fitted as it comes in, and at its end identified.
+struct LiveCommand {
+  IdentifyCommand identify;  ///< of the recording; its `logs` are set by execute()
+  StreamSource source = {};
+  std::optional<fs::path> record = {};  ///< default: beside the model
+  double every_s = 5.0;                 ///< between two looks at the recording, > 0
+  double budget_s = 5.0;                ///< that a search may take while the drive goes on, > 0
+  double enough = 0.1;                  ///< half width that is enough, see precision.h, > 0
+  bool until_enough = false;            ///< end there
+  double duration_s = 0.0;              ///< end after that; 0: never
+  double idle_s = 0.0;                  ///< end where nothing came for that long; 0: never
+};
+Result<Outcome> execute(const LiveCommand& command);
+void add_live(CLI::App& app, Session& session);
 
 struct RecoverCommand {
   fs::path model;

@@ -130,7 +130,7 @@ CLI::App* add_command(CLI::App& app, Session& session, const std::string& name,
                  "Print the result and its findings as one JSON object, errors as one on stderr")
       ->excludes(quiet);
   command->callback([&session, name, manner, execute = std::move(execute)] {
-    show_progress(!manner->quiet);
+    show_progress({.on_terminal = !manner->quiet, .in_lines = !manner->quiet && !manner->json});
     session.exit_code = report(name, execute(), *manner);
   });
   return command;

@@ -28,6 +28,7 @@ void add_commands(CLI::App& app, awmr::cli::Session& session) {
   awmr::cli::add_check(app, session);
   awmr::cli::add_run(app, session);
   awmr::cli::add_identify(app, session);
+  awmr::cli::add_live(app, session);
   awmr::cli::add_validate(app, session);
   awmr::cli::add_tune(app, session);
   awmr::cli::add_simulate(app, session);

@@ -13,19 +13,12 @@
 namespace awmr::cli {
 namespace {
 
-std::atomic<bool> progress_shown = true;
+std::atomic<bool> drawn_on_terminal = true;
+std::atomic<bool> told_in_lines = true;
 
-bool on_terminal() {
+bool is_terminal() {
   const char* term = std::getenv("TERM");
-  return progress_shown && ::isatty(STDERR_FILENO) == 1 &&
-         (term == nullptr || std::string_view(term) != "dumb");
-}
-
-/// Longer lines would wrap, and could not be cleared.
-std::size_t columns() {
-  winsize size{};
-  const bool known = ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
-  return known ? size.ws_col : 80;
+  return ::isatty(STDERR_FILENO) == 1 && (term == nullptr || std::string_view(term) != "dumb");
 }
 
 std::string duration_text(double seconds) {
@@ -35,10 +28,22 @@ std::string duration_text(double seconds) {
 
 }  // namespace
 
-void show_progress(bool shown) { progress_shown = shown; }
+void show_progress(ProgressManner manner) {
+  drawn_on_terminal = manner.on_terminal;
+  told_in_lines = manner.in_lines;
+}
+
+bool draws_progress() { return drawn_on_terminal && is_terminal(); }
+bool tells_progress_in_lines() { return told_in_lines && !is_terminal(); }
+
+std::size_t terminal_columns() {
+  winsize size{};
+  const bool known = ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+  return known ? size.ws_col : 80;
+}
 
 Working::Working(std::string what) : what_(std::move(what)) {
-  if (on_terminal()) drawer_ = std::thread([this] { draw_until_over(); });
+  if (draws_progress()) drawer_ = std::thread([this] { draw_until_over(); });
 }
 
 Working::~Working() {
@@ -77,7 +82,7 @@ void Working::draw_until_over() {
   std::unique_lock<std::mutex> lock(mutex_);
   bool drawn = false;
   for (auto pause = 1000ms; !wake_.wait_for(lock, pause, [this] { return over_; }); pause = 200ms) {
-    const std::string text = line().substr(0, columns() - 1);
+    const std::string text = line().substr(0, terminal_columns() - 1);
     std::fputs(("\r\033[K" + text).c_str(), stderr);
     std::fflush(stderr);
     drawn = true;

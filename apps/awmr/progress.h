@@ -11,8 +11,18 @@
 
 namespace awmr::cli {
 
-/// False for `--quiet`: no line is drawn from now on.
-void show_progress(bool shown);
+/// Who is told how the work goes, from now on.
+struct ProgressManner {
+  bool on_terminal = true;  ///< lines that are drawn and drawn again; not with `--quiet`
+  bool in_lines = true;     ///< where there is no terminal, of `live`; not with `--json` either
+};
+void show_progress(ProgressManner manner);
+
+/// What was asked for, where stderr can be drawn on, and where it cannot.
+bool draws_progress();
+bool tells_progress_in_lines();
+/// Of the terminal; longer lines would wrap, and could not be drawn again.
+std::size_t terminal_columns();
 
 /// While it lives, the terminal's last line says what is being done and for how long, and once parts
 /// are told, the share done and the time left. Nothing is drawn where stderr is no terminal. One at

@@ -6,22 +6,10 @@
 #include <filesystem>
 #include <optional>
 #include <string_view>
-#include <utility>
+
+#include "awmr/core/descriptor.h"
 
 namespace awmr {
-
-/// Closes a descriptor at the end of its scope.
-class Descriptor {
- public:
-  explicit Descriptor(int number) : number_(number) {}
-  ~Descriptor();
-  Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
-  Descriptor& operator=(Descriptor&&) = delete;
-  int number() const { return number_; }
-
- private:
-  int number_;
-};
 
 /// False where writing fails; errno says why.
 bool write_all(int descriptor, std::string_view bytes);

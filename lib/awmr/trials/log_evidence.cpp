@@ -52,6 +52,24 @@ WindowSums sums_of(const DrivingLog& log, const Vehicle& vehicle, const LogWindo
   return sums;
 }
 
+/// Between two windows that follow each other, two more that take a part of both; none where there
+/// are windows enough.
+std::vector<LogWindow> windows_between(const std::vector<LogWindow>& windows) {
+  constexpr std::size_t kEnough = 20;
+  constexpr std::size_t kParts = 3;
+  std::vector<LogWindow> between;
+  if (windows.size() >= kEnough) return between;
+  for (std::size_t i = 1; i < windows.size(); ++i) {
+    const auto& [log, begin, middle] = windows[i - 1];
+    if (windows[i].begin != middle) continue;
+    for (std::size_t part = 1; part < kParts; ++part) {
+      between.push_back({log, begin + (middle - begin) * part / kParts,
+                         middle + (windows[i].end - middle) * part / kParts});
+    }
+  }
+  return between;
+}
+
 }  // namespace
 
 double integral_of(const DrivingLog& log, LogChannel channel, const LogWindow& window) {
@@ -65,9 +83,14 @@ double integral_of(const DrivingLog& log, LogChannel channel, const LogWindow& w
 
 Evidence evidence_of(const DrivingLog& log, const Vehicle& vehicle,
                      std::span<const ColumnMapping> mappings) {
-  Evidence evidence{log, vehicle, mappings, {}};
-  for (const LogWindow& window : windows_of(log, kEvidenceWindow_s)) {
+  Evidence evidence{log, vehicle, mappings, {}, {}};
+  const std::vector<LogWindow> windows = windows_of(log, kEvidenceWindow_s);
+  for (const LogWindow& window : windows) {
     evidence.windows.push_back(sums_of(log, vehicle, window));
+  }
+  evidence.overlapping = evidence.windows;
+  for (const LogWindow& window : windows_between(windows)) {
+    evidence.overlapping.push_back(sums_of(log, vehicle, window));
   }
   return evidence;
 }

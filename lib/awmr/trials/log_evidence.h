@@ -36,7 +36,10 @@ struct Evidence {
   const DrivingLog& log;
   const Vehicle& vehicle;
   std::span<const ColumnMapping> mappings;
-  std::vector<WindowSums> windows;
+  std::vector<WindowSums> windows;  ///< side by side
+  /// For medians, which need twenty: those of a shorter log overlap by two thirds, so that ten
+  /// seconds are enough to tell a wrong unit.
+  std::vector<WindowSums> overlapping;
 
   bool has(LogChannel channel) const { return log[channel].has_value(); }
 };

@@ -59,11 +59,12 @@ std::vector<SignRelation> sign_relations(const Evidence& evidence) {
   add(Signed::kSteering, Signed::kHeading, sign_of(shares.steering));
   add(Signed::kSides, Signed::kHeading, sign_of(shares.sides));
   if (evidence.has(LogChannel::kYawRate)) {
-    const auto ratio = robust_ratio(series(evidence.windows, rate), series(evidence.windows, turn));
+    const auto ratio =
+        robust_ratio(series(evidence.overlapping, rate), series(evidence.overlapping, turn));
     if (ratio) add(Signed::kYawRate, Signed::kHeading, ratio->ratio > 0.0 ? 1 : -1);
   }
   if (evidence.has(LogChannel::kX) && evidence.has(LogChannel::kY)) {
-    add(Signed::kHeading, Signed::kY, course_sign(evidence.windows));
+    add(Signed::kHeading, Signed::kY, course_sign(evidence.overlapping));
   }
   return relations;
 }
@@ -133,8 +134,8 @@ std::vector<Contradiction> judge_signs(const Evidence& evidence) {
 std::optional<Contradiction> judge_direction(const Evidence& evidence) {
   if (!evidence.has(LogChannel::kSpeed)) return std::nullopt;
   const auto ratio =
-      robust_ratio(series(evidence.windows, [](const WindowSums& w) { return w.thrust; }),
-                   series(evidence.windows, [](const WindowSums& w) { return w.driven_m; }));
+      robust_ratio(series(evidence.overlapping, [](const WindowSums& w) { return w.thrust; }),
+                   series(evidence.overlapping, [](const WindowSums& w) { return w.driven_m; }));
   if (!ratio || ratio->ratio > 0.0) return std::nullopt;
   return Contradiction{"speed_mps",
                        "the speed is negative where both forces push forward: speed or forces have "

@@ -1,0 +1,93 @@
+#include "identify_words.h"
+
+#include <CLI/CLI.hpp>
+
+#include "choices.h"
+#include "identify_options.h"
+#include "numbers.h"
+#include "paths.h"
+
+namespace awmr::cli {
+
+Result<IdentifyCommand> command_of(const IdentifyWords& words) {
+  IdentifyCommand command = words.command;
+  AWMR_ASSIGN_OR_RETURN(command.trials.columns, column_mappings(words.columns));
+  for (const std::string& name : words.asked) {
+    AWMR_RETURN_IF_ERROR(add_asked(name, command.identify));
+  }
+  for (const std::string& name : words.families) {
+    AWMR_RETURN_IF_ERROR(add_family(name, command.identify));
+  }
+  if (!words.method.empty()) command.identify.method = value_in(kMethodNames, words.method);
+  if (!words.noise.empty()) command.identify.noise = value_in(kErrorModelNames, words.noise);
+  command.identify.loss = *value_in(kLossNames, words.loss);
+  command.trials.preference = *value_in(kPreferenceNames, words.prefer);
+  return command;
+}
+
+void add_table_files(CLI::App& sub, IdentifyCommand& command) {
+  add_file(sub, "--vehicle", command.vehicle, "vehicle.json: what is known beforehand")->required();
+  add_file(sub, "--surge", command.surge, "CSV of runs at constant thrust, wheels straight");
+  add_file(sub, "--coastdown", command.coastdowns,
+           "CSV of coast-downs, motors off: stop times or whole curves; may be repeated");
+  add_file(sub, "--turning", command.turning, "CSV of runs at constant thrust and steering");
+}
+
+void add_fit_options(CLI::App& sub, IdentifyWords& words) {
+  sub.add_option("--method", words.method,
+                 "Which estimator fills the main values: log-linear (default for tables), "
+                 "nonlinear, trajectory (default with --log)")
+      ->check(one_of(names_in(kMethodNames)));
+  sub.add_option("--noise", words.noise,
+                 "Where the nonlinear fit puts the error: force, speed or time (default: on what "
+                 "was measured)")
+      ->check(one_of(names_in(kErrorModelNames)));
+  sub.add_option(
+         "--family", words.families,
+         "Resistance: power (default; logs take another where it is plainly better), "
+         "coulomb-linear, coulomb-linear-quadratic, coulomb-power, dead-zone, or auto (least "
+         "AICc); surge=NAME, yaw=NAME for one")
+      ->delimiter(',');
+  sub.add_option("--loss", words.loss, "squares (default), huber, cauchy or tukey")
+      ->check(one_of(names_in(kLossNames)));
+  sub.add_flag("--joint", words.command.identify.joint,
+               "Fit a1, b1 and m' together from the surge runs and the coast-down curves");
+  sub.add_option("--fit", words.asked,
+                 "What is asked for, e.g. surge.alpha,mass_norm; for logs also all, "
+                 "input_delay_s, bias.yaw_rate_radps, ...")
+      ->delimiter(',');
+}
+
+void add_log_options(CLI::App& sub, IdentifyCommand& command) {
+  sub.add_flag("--steady-from-log", command.steady_from_logs,
+               "Take steady stretches of the logs as surge and turning runs");
+  sub.add_option("--starts", command.identify.starts,
+                 "Random starts of a fit of logs without tables (default 6)")
+      ->check(within(0, 1000));
+  sub.add_option("--bootstrap", command.identify.bootstrap,
+                 "Shape of the intervals of a fit of logs from this many block bootstrap resamples")
+      ->check(within(0, 1000000));
+  sub.add_option("--time-limit", command.identify.time_limit_s,
+                 "Seconds after which the searches in logs stop; what has not converged by then is "
+                 "refused (default: none)")
+      ->check(within(0.1, 1e6));
+  sub.add_flag("--cross-validate", command.identify.cross_validate,
+               "Leave each log out once and predict it from the others");
+  sub.add_option("--seed", command.identify.seed, "Of starts and bootstrap (default 1)")
+      ->check(within<std::uint64_t>(0, kAnySeed));
+  sub.add_option("--threads", command.identify.threads,
+                 "Default: all; the result does not depend on it")
+      ->check(within(1, 1024));
+}
+
+void add_reading_options(CLI::App& sub, IdentifyWords& words) {
+  sub.add_flag("--as-is", words.command.trials.as_is,
+               "Take logs whose units, signs or sides contradict themselves as they are");
+  sub.add_option("--prefer", words.prefer,
+                 "Which of two disagreeing values to use: printed (default) or timed")
+      ->check(one_of(names_in(kPreferenceNames)));
+  sub.add_option("--column", words.columns.columns, kColumnHelp);
+  add_file(sub, "--columns-file", words.columns.file, kColumnsFileHelp);
+}
+
+}  // namespace awmr::cli

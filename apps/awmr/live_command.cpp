@@ -1,0 +1,313 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <system_error>
+#include <utility>
+
+#include "awmr/core/file.h"
+#include "awmr/core/name_table.h"
+#include "awmr/identify/planning/precision.h"
+#include "awmr/identify/planning/suggest.h"
+#include "awmr/model/model_file.h"
+#include "awmr/model/vehicle_file.h"
+#include "awmr/trials/load.h"
+#include "awmr/trials/recording.h"
+#include "awmr/trials/trial_columns.h"
+#include "commands.h"
+#include "identify_words.h"
+#include "live_screen.h"
+#include "numbers.h"
+#include "paths.h"
+
+namespace awmr::cli {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Seconds = std::chrono::duration<double>;
+
+/// Why the recording ended.
+enum class LiveEnd { kStream, kInterrupted, kDuration, kIdle, kEnough, kFull };
+constexpr NameTable<LiveEnd, 6> kLiveEndWords{{{"the stream ended", LiveEnd::kStream},
+                                               {"interrupted", LiveEnd::kInterrupted},
+                                               {"the duration is over", LiveEnd::kDuration},
+                                               {"nothing more came", LiveEnd::kIdle},
+                                               {"enough was recorded", LiveEnd::kEnough},
+                                               {"the recording is full", LiveEnd::kFull}}};
+
+/// A wrong unit is told while the vehicle has hardly left: updates come each second at first.
+constexpr double kAtFirst_s = 20.0;
+
+std::vector<fs::path> inputs_of(const LiveCommand& command) {
+  std::vector<fs::path> paths{command.identify.vehicle};
+  if (command.source.log && *command.source.log != "-") paths.push_back(*command.source.log);
+  if (command.identify.surge) paths.push_back(*command.identify.surge);
+  for (const fs::path& path : command.identify.coastdowns) paths.push_back(path);
+  if (command.identify.turning) paths.push_back(*command.identify.turning);
+  return paths;
+}
+
+/// The recording's file: what was asked for, or beside the model, where no other one is lost by it.
+Result<fs::path> record_of(const LiveCommand& command) {
+  fs::path record =
+      command.record.value_or(fs::path(command.identify.output).replace_extension("csv"));
+  std::error_code error;
+  if (!command.record && fs::exists(record, error)) {
+    return input_error(record.string(),
+                       "there is a recording already; name another with --record FILE");
+  }
+  if (record.lexically_normal() == command.identify.output.lexically_normal()) {
+    return input_error("--record", "it is the model's file; give another name");
+  }
+  return record;
+}
+
+Status check(const LiveCommand& command) {
+  if (command.source.port.has_value() == command.source.log.has_value()) {
+    return input_error("",
+                       "give one of --port PORT, --log FILE, --log -: where the log comes from");
+  }
+  return check_output(command.identify.output, inputs_of(command));
+}
+
+/// The manoeuvre that would help most, in words; none where nothing can be said.
+std::string next_manoeuvre(const Model& model) {
+  const auto suggestion = suggest(model, {.repeats = 1});
+  if (!suggestion) return {};
+  if (!suggestion->missing.empty()) {
+    const MissingParameter& first = suggestion->missing.front();
+    return fmt::format("for {}: {}", info(first.id).name, first.trial);
+  }
+  if (suggestion->trials.empty()) return {};
+  return suggestion->trials.front().settings;
+}
+
+/// The recording so far, checked and fitted within the budget: what `identify` would make of it.
+class LiveFit {
+ public:
+  LiveFit(const LiveCommand& command, Vehicle vehicle)
+      : files_{.vehicle = std::move(vehicle),
+               .surge = command.identify.surge,
+               .turning = command.identify.turning,
+               .coastdowns = command.identify.coastdowns,
+               .logs = command.identify.logs,
+               .steady_from_logs = command.identify.steady_from_logs,
+               .options = command.identify.trials},
+        options_(command.identify.identify),
+        enough_(command.enough) {
+    // What says nothing of the values is left to the last fit.
+    options_.time_limit_s = command.budget_s;
+    options_.bootstrap = 0;
+    options_.cross_validate = false;
+    options_.side_by_side = false;
+  }
+
+  /// Writes the recording first: whatever ends this program, the file stays.
+  LiveUpdate update(const Recording& recording) const {
+    LiveUpdate update{.rows = recording.rows(),
+                      .set_aside = recording.set_aside(),
+                      .enough = enough_,
+                      .asked = options_.asked};
+    if (const Status written = write_file(files_.logs.front(), recording.text()); !written) {
+      update.faults = written.error().faults;
+      return update;
+    }
+    if (!recording.has_header() || recording.rows() < kFewestRows) return update;
+    fit(update);
+    return update;
+  }
+
+ private:
+  static constexpr std::size_t kFewestRows = 10;
+
+  void fit(LiveUpdate& update) const {
+    const auto trials = load_trials(files_);
+    if (!trials) {
+      update.faults = trials.error().faults;
+      return;
+    }
+    const DrivingLog& log = trials->data.logs.back();
+    update.span_s = log.t_s.back() - trials->data.logs.front().t_s.front();
+    auto identified = identify(*trials, options_);
+    if (!identified) {
+      update.faults = identified.error().faults;
+      return;
+    }
+    update.next = next_manoeuvre(identified->model);
+    update.model = std::move(identified->model);
+  }
+
+  TrialFiles files_;
+  IdentifyOptions options_;
+  double enough_;
+};
+
+bool has_enough(const LiveUpdate& update) {
+  return update.model && update.faults.empty() &&
+         is_enough(precision_of(*update.model, update.asked), update.enough);
+}
+
+/// When to look at the recording again: not before the last look's own time has passed once more,
+/// so that looking takes at most half of the time.
+Clock::time_point next_look(Clock::time_point begin, Clock::time_point looked, double every_s) {
+  const Clock::time_point now = Clock::now();
+  const bool early = Seconds(now - begin).count() < kAtFirst_s;
+  const double pause_s =
+      std::max(early ? std::min(1.0, every_s) : every_s, Seconds(now - looked).count());
+  return now + std::chrono::duration_cast<Clock::duration>(Seconds(pause_s));
+}
+
+struct Followed {
+  Recording recording;
+  LiveUpdate last;
+  LiveEnd end = LiveEnd::kStream;
+};
+
+/// Records and tells until something ends it.
+Followed follow(const LiveCommand& command, const LiveFit& fit, OpenStream source,
+                Recording recording, LiveScreen& screen) {
+  const Interruption interruption;
+  RecorderStream stream(std::move(source));
+  Followed followed{.recording = std::move(recording), .last = {}};
+  const Clock::time_point begin = Clock::now();
+  Clock::time_point last_byte = begin;
+  Clock::time_point look = begin;
+  bool is_new = false;
+  const auto over = [&]() -> std::optional<LiveEnd> {
+    const Clock::time_point now = Clock::now();
+    const auto passed = [now](Clock::time_point since, double limit_s) {
+      return limit_s > 0.0 && Seconds(now - since).count() >= limit_s;
+    };
+    if (Interruption::came()) return LiveEnd::kInterrupted;
+    if (followed.recording.full()) return LiveEnd::kFull;
+    if (stream.is_over()) return LiveEnd::kStream;
+    if (passed(begin, command.duration_s)) return LiveEnd::kDuration;
+    if (passed(last_byte, command.idle_s)) return LiveEnd::kIdle;
+    if (command.until_enough && has_enough(followed.last)) return LiveEnd::kEnough;
+    return std::nullopt;
+  };
+  std::optional<LiveEnd> end;
+  while (!end) {
+    // What came during a look counts, whatever ends the recording now.
+    const std::string bytes = stream.take(std::chrono::milliseconds(100));
+    followed.recording.add(bytes);
+    if (!bytes.empty()) last_byte = Clock::now();
+    is_new = is_new || !bytes.empty();
+    end = over();
+    if (end || !is_new || Clock::now() < look) continue;
+    const Clock::time_point looked = Clock::now();
+    followed.last = fit.update(followed.recording);
+    screen.show(followed.last);
+    look = next_look(begin, looked, command.every_s);
+    is_new = false;
+  }
+  followed.end = *end;
+  followed.recording.finish();
+  return followed;
+}
+
+/// The recording as it stays, and the model that `identify` makes of it.
+Result<Outcome> finished(const LiveCommand& command, const Followed& followed) {
+  const fs::path& record = command.identify.logs.front();
+  AWMR_RETURN_IF_ERROR(write_file(record, followed.recording.text()));
+  AWMR_ASSIGN_OR_RETURN(Outcome outcome, execute(command.identify));
+  outcome.summary += fmt::format("{}: {} rows recorded\n", name_in(kLiveEndWords, followed.end),
+                                 followed.recording.rows());
+  LiveUpdate last{.enough = command.enough, .asked = command.identify.identify.asked};
+  if (auto model = read_model(command.identify.output)) last.model = std::move(*model);
+  if (last.model) {
+    last.next = next_manoeuvre(*last.model);
+    outcome.summary += verdict_text(last) + "\n";
+  }
+  outcome.closing = fmt::format("wrote {}\n", record.string()) + outcome.closing;
+  outcome.written.insert(outcome.written.begin(), record);
+  const std::vector<Finding> damaged = followed.recording.findings(record.filename().string());
+  outcome.findings.insert(outcome.findings.end(), damaged.begin(), damaged.end());
+  if (command.until_enough && !has_enough(last)) {
+    outcome.refused = true;
+    outcome.findings.push_back({"", 0, Severity::kError, "not-enough",
+                                fmt::format("{} before every half interval was within {:g} %: {}",
+                                            name_in(kLiveEndWords, followed.end),
+                                            100.0 * command.enough, widths_text(last))});
+  }
+  return outcome;
+}
+
+}  // namespace
+
+Result<Outcome> execute(const LiveCommand& asked) {
+  AWMR_RETURN_IF_ERROR(check(asked));
+  LiveCommand command = asked;
+  AWMR_ASSIGN_OR_RETURN(const fs::path record, record_of(command));
+  AWMR_RETURN_IF_ERROR(check_output(record, inputs_of(command)));
+  command.identify.logs = {record};
+  AWMR_ASSIGN_OR_RETURN(Vehicle vehicle, read_vehicle(command.identify.vehicle));
+  AWMR_ASSIGN_OR_RETURN(const TrialOptions options,
+                        with_vehicle_columns(command.identify.trials, vehicle));
+  AWMR_ASSIGN_OR_RETURN(OpenStream source, open_stream(command.source));
+  LiveScreen screen("recording " + record.string());
+  const LiveFit fit(command, std::move(vehicle));
+  const Followed followed =
+      follow(command, fit, std::move(source), Recording(options.columns), screen);
+  if (followed.recording.text().empty()) {
+    return input_error(
+        command.source.port.value_or(command.source.log.value_or("")).string(),
+        fmt::format("{} before anything came", name_in(kLiveEndWords, followed.end)));
+  }
+  screen.say(fmt::format("{}: {} rows are in {}; fitting all of it",
+                         name_in(kLiveEndWords, followed.end), followed.recording.rows(),
+                         record.string()));
+  return finished(command, followed);
+}
+
+void add_live(CLI::App& app, Session& session) {
+  struct Words {
+    IdentifyWords identify;
+    LiveCommand live;
+  };
+  auto words = std::make_shared<Words>();
+  CLI::App* sub = add_command(
+      app, session, "live", "Record a drive, check it at once and fit it while it goes on",
+      "awmr live --vehicle configs/paper/vehicle.json --log - -o live.json "
+      "< datasets/synthetic/drive_1.csv",
+      [words]() -> Result<Outcome> {
+        LiveCommand command = words->live;
+        AWMR_ASSIGN_OR_RETURN(command.identify, command_of(words->identify));
+        return execute(command);
+      });
+  LiveCommand& live = words->live;
+  add_table_files(*sub, words->identify.command);
+  add_file(*sub, "--port", live.source.port, "Serial port of the recorder, such as /dev/ttyUSB0");
+  sub->add_option("--baud", live.source.baud, "Of --port (default 115200)")
+      ->check(within(300U, 4000000U));
+  add_file(*sub, "--log", live.source.log,
+           "CSV of the driving log as it is written; - for standard input");
+  add_file(*sub, "--record", live.record,
+           "CSV to write: all that came (default: the model's name with .csv, where there is none "
+           "yet)");
+  sub->add_option("--every", live.every_s,
+                  "Seconds between two looks at the recording (default 5; 1 in the first 20 s)")
+      ->check(within(0.05, 3600.0));
+  sub->add_option("--budget", live.budget_s,
+                  "Seconds that a fit may search while the drive goes on (default 5)")
+      ->check(within(0.1, 3600.0));
+  sub->add_option("--enough", live.enough,
+                  "Half of the 95 % interval over the value (of an exponent itself) that is enough "
+                  "for every parameter asked for (default 0.1)")
+      ->check(within(1e-6, 1.0));
+  sub->add_flag("--until-enough", live.until_enough,
+                "End there; exit code 1 where it is not reached");
+  sub->add_option("--duration", live.duration_s, "End after so many seconds (default: never)")
+      ->check(within(0.1, 1e6));
+  sub->add_option("--idle", live.idle_s,
+                  "End where nothing came for so many seconds (default: never)")
+      ->check(within(0.1, 1e6));
+  add_fit_options(*sub, words->identify);
+  add_log_options(*sub, words->identify.command);
+  add_reading_options(*sub, words->identify);
+  add_output(*sub, words->identify.command.output, "model.json to write");
+}
+
+}  // namespace awmr::cli

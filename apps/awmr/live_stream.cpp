@@ -1,0 +1,133 @@
+#include "live_stream.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <utility>
+
+#include "awmr/core/serial_port.h"
+
+namespace awmr::cli {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// How soon the reader notices that it is to stop, and that a file has grown.
+constexpr int kPause_ms = 50;
+/// More is not read ahead: a pipe's writer then waits.
+constexpr std::size_t kMaxAhead = std::size_t{1} << 24U;
+
+bool is_regular(int file) {
+  struct stat status {};
+  return ::fstat(file, &status) == 0 && S_ISREG(status.st_mode);
+}
+
+/// Another program has begun the file anew.
+bool became_shorter(int file) {
+  struct stat status {};
+  return ::fstat(file, &status) == 0 && status.st_size < ::lseek(file, 0, SEEK_CUR);
+}
+
+std::atomic<bool> interrupted = false;
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may set it");
+extern "C" void note_interruption(int) { interrupted = true; }
+
+void handle_interruptions(void (*handler)(int)) {
+  struct sigaction action {};
+  action.sa_handler = handler;
+  sigemptyset(&action.sa_mask);
+  for (const int signal : {SIGINT, SIGTERM}) ::sigaction(signal, &action, nullptr);
+}
+
+}  // namespace
+
+Result<OpenStream> open_stream(const StreamSource& source) {
+  if (source.port) {
+    AWMR_ASSIGN_OR_RETURN(Descriptor port, open_serial_port(*source.port, source.baud));
+    return OpenStream{std::move(port)};
+  }
+  const std::string name = source.log->string();
+  if (name == "-") return OpenStream{Descriptor(::fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 0))};
+  Descriptor file(::open(name.c_str(), O_RDONLY | O_CLOEXEC));
+  if (file.number() < 0) {
+    return input_error(name, std::string("cannot open the file: ") + std::strerror(errno));
+  }
+  if (std::filesystem::is_directory(name)) {
+    return input_error(name, "this is a directory; give the file that the recorder writes");
+  }
+  const bool may_grow = is_regular(file.number());
+  return OpenStream{std::move(file), may_grow};
+}
+
+RecorderStream::RecorderStream(OpenStream source)
+    : source_(std::move(source)), reader_([this] { read_until_over(); }) {}
+
+RecorderStream::~RecorderStream() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    stop_ = true;
+  }
+  changed_.notify_all();
+  reader_.join();
+}
+
+std::string RecorderStream::take(std::chrono::milliseconds longest) {
+  std::unique_lock<std::mutex> lock(mutex_);
+  changed_.wait_for(lock, longest, [this] { return !bytes_.empty() || over_; });
+  std::string taken = std::exchange(bytes_, {});
+  lock.unlock();
+  changed_.notify_all();
+  return taken;
+}
+
+bool RecorderStream::is_over() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return over_ && bytes_.empty();
+}
+
+void RecorderStream::hand_over(std::string_view bytes) {
+  std::unique_lock<std::mutex> lock(mutex_);
+  changed_.wait(lock, [this] { return bytes_.size() < kMaxAhead || stop_; });
+  bytes_.append(bytes);
+  lock.unlock();
+  changed_.notify_all();
+}
+
+void RecorderStream::read_until_over() {
+  const int file = source_.file.number();
+  char buffer[1 << 14];
+  while (!stop_) {
+    pollfd waiting{.fd = file, .events = POLLIN, .revents = 0};
+    const int ready = ::poll(&waiting, 1, kPause_ms);
+    if (ready == 0 || (ready < 0 && errno == EINTR)) continue;
+    const ssize_t count = ready < 0 ? -1 : ::read(file, buffer, sizeof buffer);
+    if (count > 0) {
+      hand_over({buffer, static_cast<std::size_t>(count)});
+    } else if (count < 0 && (errno == EINTR || errno == EAGAIN)) {
+      continue;
+    } else if (count == 0 && source_.may_grow && !became_shorter(file)) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(kPause_ms));
+    } else {
+      break;
+    }
+  }
+  const std::lock_guard<std::mutex> lock(mutex_);
+  over_ = true;
+  changed_.notify_all();
+}
+
+Interruption::Interruption() {
+  interrupted = false;
+  handle_interruptions(note_interruption);
+}
+
+Interruption::~Interruption() { handle_interruptions(SIG_DFL); }
+
+bool Interruption::came() { return interrupted; }
+
+}  // namespace awmr::cli

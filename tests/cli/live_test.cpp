@@ -1,0 +1,262 @@
+/// `awmr live`: a drive that comes in pieces, through a pipe, a growing file and a serial line, ends
+/// in an ordinary log and in the model that `identify` makes of it.
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <stdlib.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "cli/program.h"
+
+namespace awmr::testing {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+const std::string kDrive = std::string(AWMR_SOURCE_DIR) + "/datasets/synthetic/drive_1.csv";
+const std::string kVehicle = " --vehicle configs/paper/vehicle.json";
+
+/// Behind `{ COMMAND`: a recorder that sends empty lines for as long as somebody reads them.
+const std::string kOnAndOn = "; while echo; do sleep 0.1; done 2>/dev/null; }";
+
+class Live : public ::testing::Test {
+ protected:
+  std::string path(const std::string& name) const { return (directory_.path() / name).string(); }
+  std::string live(const std::string& options) const {
+    return std::string(AWMR_PROGRAM) + " live" + kVehicle + " -o " + path("live.json") + " " +
+           options;
+  }
+  /// Runs a shell's words from the source directory.
+  static ProcessResult shell(const std::string& words) {
+    return run_process(words, AWMR_SOURCE_DIR);
+  }
+  /// What `identify` makes of the recording, with the same options.
+  std::string identified(const std::string& options = "") const {
+    const ProcessResult run = awmr("identify" + kVehicle + " --quiet --log " + path("live.csv") +
+                                   " -o " + path("again.json") + " " + options);
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    return read_all(path("again.json"));
+  }
+  /// Writes the drive's rows with one column changed, and gives its path.
+  std::string drive_with(const std::string& column, double factor) const {
+    std::istringstream lines(read_all(kDrive));
+    std::string text;
+    std::size_t place = 0;
+    for (std::string line; std::getline(lines, line);) {
+      if (line.starts_with("#")) continue;
+      std::vector<std::string> cells;
+      std::istringstream row(line);
+      for (std::string cell; std::getline(row, cell, ',');) cells.push_back(cell);
+      if (text.empty()) {
+        place =
+            static_cast<std::size_t>(std::find(cells.begin(), cells.end(), column) - cells.begin());
+      } else {
+        cells.at(place) = std::to_string(factor * std::stod(cells.at(place)));
+      }
+      for (std::size_t i = 0; i < cells.size(); ++i) text += (i ? "," : "") + cells[i];
+      text += "\n";
+    }
+    write_all(path("changed.csv"), text);
+    return path("changed.csv");
+  }
+
+  TemporaryDirectory directory_;
+};
+
+TEST_F(Live, APipeInPiecesEndsInTheLogAndItsModel) {
+  // Cut within lines and numbers.
+  const ProcessResult run = shell("{ head -c 20011 " + kDrive + "; sleep 0.4; tail -c +20012 " +
+                                  kDrive + " | head -c 30000; sleep 0.4; tail -c +50012 " + kDrive +
+                                  "; } | " + live("--log - --every 0.1"));
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(read_all(path("live.csv")), read_all(kDrive));
+  EXPECT_EQ(read_all(path("live.json")), identified());
+  EXPECT_THAT(run.out, AllOf(HasSubstr("surge.alpha"), HasSubstr("the stream ended: 1501 rows"),
+                             HasSubstr("next: "), HasSubstr("wrote " + path("live.csv"))));
+  EXPECT_THAT(run.err, AllOf(HasSubstr(" rows: surge.alpha +-"), HasSubstr("%; next: ")));
+  EXPECT_THAT(run.err, Not(HasSubstr("\033"))) << "lines, not a screen";
+}
+
+TEST_F(Live, IsToldOnceInJson) {
+  const ProcessResult run = shell("cat " + kDrive + " | " + live("--log - --json --every 0.1"));
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.err, IsEmpty());
+  const auto json = nlohmann::json::parse(run.out);
+  EXPECT_EQ(json.at("command"), "live");
+  EXPECT_EQ(json.at("result"), nlohmann::json::parse(read_all(path("live.json"))));
+  EXPECT_EQ(json.at("written"), nlohmann::json::array({path("live.csv"), path("live.json")}));
+}
+
+TEST_F(Live, AWrongUnitIsToldWhileTheDriveGoesOn) {
+  const std::string drive = drive_with("speed_mps", 3.6);
+  // Ten seconds of the drive, then nothing until it is told.
+  const ProcessResult run =
+      shell("{ head -n 1001 " + drive + "; for i in $(seq 200); do grep -q km/h " + path("said") +
+            " && break; sleep 0.1; done; } | " + live("--log - --every 0.1") + " 2> " +
+            path("said") + "; code=$?; cat " + path("said") + " >&2; exit $code");
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, AllOf(HasSubstr("map it by --column 'speed_mps="), HasSubstr("km/h")));
+  EXPECT_LT(run.err.find("speed looks like km/h"), run.err.find("rows are in")) << run.err;
+  EXPECT_FALSE(fs::exists(path("live.json")));
+  // The recording is there, and the mapping that was told makes a model of it.
+  EXPECT_EQ(read_all(path("live.csv")).size(), [&] {
+    std::istringstream lines(read_all(drive));
+    std::size_t bytes = 0;
+    std::string line;
+    for (int i = 0; i < 1001 && std::getline(lines, line); ++i) bytes += line.size() + 1;
+    return bytes;
+  }());
+  identified("--column 'speed_mps=speed_mps*0.2777778'");
+}
+
+TEST_F(Live, AGrowingFileIsFollowedUntilNothingMoreComes) {
+  const ProcessResult run =
+      shell("head -n 700 " + kDrive + " > " + path("growing.csv") + "; { sleep 0.5; tail -n +701 " +
+            kDrive + " >> " + path("growing.csv") + "; } & " +
+            live("--log " + path("growing.csv") + " --idle 2 --every 0.2"));
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(read_all(path("live.csv")), read_all(kDrive));
+  EXPECT_THAT(run.out, HasSubstr("nothing more came: 1501 rows"));
+}
+
+TEST_F(Live, EndsAtADurationWithWhatItHas) {
+  const ProcessResult run =
+      shell("{ head -n 900 " + kDrive + kOnAndOn + " | " + live("--log - --duration 1.5"));
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("the duration is over: 898 rows"));
+  EXPECT_EQ(read_all(path("live.json")), identified());
+}
+
+TEST_F(Live, AnInterruptionKeepsWhatItHas) {
+  for (const std::string signal : {"INT", "TERM"}) {
+    fs::remove(path("live.csv"));
+    const ProcessResult run =
+        shell("mkfifo " + path(signal) + "; { head -n 900 " + kDrive + kOnAndOn + " > " +
+              path(signal) + " & set -m; " + live("--log " + path(signal)) +
+              " & sleep 1.5; kill -" + signal + " $!; wait $!");
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_THAT(run.out, HasSubstr("interrupted: 898 rows"));
+    EXPECT_EQ(read_all(path("live.json")), identified());
+  }
+}
+
+TEST_F(Live, EndsWhereItIsEnoughOrSaysThatItIsNot) {
+  const std::string fit = " --fit surge.alpha --enough 0.05 --until-enough --every 0.1";
+  const ProcessResult enough =
+      shell("{ head -n 900 " + kDrive + kOnAndOn + " | " + live("--log -" + fit));
+  ASSERT_EQ(enough.exit_code, 0) << enough.err;
+  EXPECT_THAT(enough.out, AllOf(HasSubstr("enough was recorded: "),
+                                HasSubstr("enough: every half interval is within 5 %")));
+  EXPECT_EQ(read_all(path("live.json")), identified("--fit surge.alpha"));
+  fs::remove(path("live.csv"));
+  const ProcessResult too_few =
+      shell("head -n 900 " + kDrive + " | " + live("--log - --enough 1e-6 --until-enough"));
+  EXPECT_EQ(too_few.exit_code, 1);
+  EXPECT_THAT(too_few.err, AllOf(HasSubstr("[not-enough]"), HasSubstr("surge.alpha +-")));
+}
+
+TEST_F(Live, DamagedLinesAreSetAsideAndTold) {
+  const ProcessResult run =
+      shell("{ echo boot; head -n 700 " + kDrive + "; echo 7.1,0.2; tail -n +701 " + kDrive +
+            "; printf 15.1,0.2,0; } | " + live("--log -"));
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.err, AllOf(HasSubstr("live.csv:1: 3 of "), HasSubstr("[lines-set-aside]")));
+  EXPECT_THAT(read_all(path("live.csv")), AllOf(HasSubstr("# boot\n"), HasSubstr("\n# 7.1,0.2\n"),
+                                                HasSubstr("\n# 15.1,0.2,0\n")));
+  EXPECT_EQ(read_all(path("live.json")), identified());
+}
+
+TEST_F(Live, ASerialLineIsRead) {
+  const int terminal = ::posix_openpt(O_RDWR | O_NOCTTY);
+  ASSERT_GE(terminal, 0);
+  ASSERT_EQ(::grantpt(terminal), 0);
+  ASSERT_EQ(::unlockpt(terminal), 0);
+  termios settings{};
+  ::tcgetattr(terminal, &settings);
+  ::cfmakeraw(&settings);
+  ::tcsetattr(terminal, TCSANOW, &settings);
+  const std::string port = ::ptsname(terminal);
+  std::thread board([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(700));
+    const std::string bytes = read_all(kDrive);
+    for (std::size_t sent = 0; sent < bytes.size();) {
+      const ssize_t count =
+          ::write(terminal, bytes.data() + sent, std::min<std::size_t>(1000, bytes.size() - sent));
+      if (count <= 0) break;
+      sent += static_cast<std::size_t>(count);
+    }
+  });
+  const ProcessResult run = shell(live("--port " + port + " --baud 115200 --idle 2.5"));
+  board.join();
+  ::close(terminal);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(read_all(path("live.csv")), read_all(kDrive));
+}
+
+TEST_F(Live, ATerminalShowsOneScreen) {
+  const ProcessResult run =
+      shell("TERM=xterm script -qec '{ head -n 900 " + kDrive + "; sleep 1.2; tail -n +901 " +
+            kDrive + "; sleep 1; } | " + live("--log - --every 0.2") + "' /dev/null");
+  EXPECT_THAT(run.out, AllOf(HasSubstr("recording " + path("live.csv")), HasSubstr("Ctrl-C ends"),
+                             HasSubstr("\033[J"), HasSubstr("A"), HasSubstr("[#"),
+                             HasSubstr("[          ]")));
+}
+
+TEST_F(Live, RefusesWhatItCannotRecord) {
+  struct Case {
+    std::string words;
+    std::string error;
+  };
+  write_all(path("there.csv"), "a recording");
+  const Case cases[] = {
+      {live("--log /dev/null"), "the stream ended before anything came"},
+      {live("--log nowhere.csv"), "nowhere.csv: cannot open the file"},
+      {live("--log " + path("")), "this is a directory"},
+      {live("--port /dev/null"), "is no serial port"},
+      {live("--port nowhere"), "nowhere: No such file"},
+      {live("--port /dev/null --baud 12345"), "--baud: 12345: one of 9600"},
+      {live(""), "give one of --port"},
+      {live("--log - --port /dev/null"), "give one of --port"},
+      {live("--log - --record " + path("live.json")), "it is the model's file"},
+      {live("--log " + path("there.csv") + " --record " + path("there.csv")), "it is the input"},
+      {live("--log - --column speed_mps=V") + " < " + kDrive, "V"}};
+  for (const Case& c : cases) {
+    SCOPED_TRACE(c.words);
+    const ProcessResult run = shell(c.words);
+    EXPECT_EQ(run.exit_code, 2) << run.err;
+    EXPECT_THAT(run.err, HasSubstr(c.error));
+    EXPECT_FALSE(fs::exists(path("live.json")));
+  }
+  EXPECT_EQ(read_all(path("there.csv")), "a recording");
+  // A second recording does not take the place of the first one unasked.
+  const ProcessResult again = shell(live("--log -") + " < " + kDrive);
+  EXPECT_EQ(again.exit_code, 2);
+  EXPECT_THAT(again.err, HasSubstr("there is a recording already"));
+}
+
+TEST_F(Live, HostileStreamsEndWithinBounds) {
+  for (const std::string source :
+       {"head -c 30000000 /dev/zero", "head -c 3000000 /dev/urandom", "yes | head -c 3000000",
+        "echo t_s,speed_mps", "printf 'x%.0s' $(seq 200000)"}) {
+    fs::remove(path("live.csv"));
+    const ProcessResult run =
+        shell("ulimit -v 2097152; ulimit -t 20; " + source + " | " + live("--log - --every 0.2"));
+    EXPECT_EQ(run.exit_code, 2) << source << run.err.substr(0, 1000);
+    EXPECT_LT(run.err.size(), 100'000U) << source;
+  }
+}
+
+}  // namespace
+}  // namespace awmr::testing
