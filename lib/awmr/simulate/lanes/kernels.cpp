@@ -5,7 +5,7 @@ namespace lanes {
 
 std::vector<const Kernel*> supported_kernels() {
   std::vector<const Kernel*> kernels;
-#ifdef __x86_64__
+#ifdef AWMR_HAS_LANES
   if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("fma")) {
     kernels.push_back(&awmr_lanes_avx512);
   }
