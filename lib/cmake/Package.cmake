@@ -27,9 +27,9 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
-# What `find_package(awmr)` looks for, and what `awmr pil` compiles firmware with.
+# What `find_package(awmr)` looks for, what `awmr pil` compiles firmware with, and what the Python module gives rows as.
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "cmake, libceres-dev, libeigen3-dev, nlohmann-json3-dev, libfmt-dev, libmuparser-dev, \
-libexpected-dev, libssl-dev, libnlopt-dev, libnlopt-cxx-dev, libsqlite3-dev, libgeographiclib-dev, gcc-avr, avr-libc")
+libexpected-dev, libssl-dev, libnlopt-dev, libnlopt-cxx-dev, libsqlite3-dev, libgeographiclib-dev, gcc-avr, avr-libc, python3-numpy")
 # Everything, and what is for Debian alone.
 set(CPACK_INSTALL_CMAKE_PROJECTS "${CMAKE_BINARY_DIR};awmr;ALL;/;${CMAKE_BINARY_DIR};awmr;debian;/")
 if(PROJECT_IS_TOP_LEVEL)

@@ -1,0 +1,72 @@
+/// What the parts of the Python module share.
+#pragma once
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <exception>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "awmr/core/name_table.h"
+#include "awmr/core/result.h"
+
+namespace awmr::python {
+
+namespace py = pybind11;
+
+/// Carries an Error out of a binding; errors.cpp makes a Python exception of it.
+class Raised : public std::exception {
+ public:
+  explicit Raised(Error error) : error_(std::move(error)) {}
+  const char* what() const noexcept override { return "an error of awmr"; }
+  const Error& error() const { return error_; }
+
+ private:
+  Error error_;
+};
+
+/// The value; without one the error is raised.
+template <class T>
+T value_or_raise(Result<T> result) {
+  if (!result) throw Raised(std::move(result).error());
+  if constexpr (!std::is_void_v<T>) return std::move(*result);
+}
+
+/// What a name stands for. Raises InputError for any other, with the names there are.
+template <class Value, std::size_t N>
+Value value_of(const NameTable<Value, N>& names, const std::string& name, const char* what) {
+  if (const auto value = value_in(names, name)) return *value;
+  std::string known;
+  for (const auto& one : names_in(names)) known += " " + std::string(one);
+  throw Raised(input_error(what, "'" + name + "' is none of" + known).value());
+}
+
+/// The numbers as a NumPy array of their own.
+template <class T>
+py::array_t<T> to_array(const std::vector<T>& values) {
+  return py::array_t<T>(static_cast<py::ssize_t>(values.size()), values.data());
+}
+
+/// A field of every row, as an array.
+template <class Row, class Member>
+py::array to_column(const std::vector<Row>& rows, Member member) {
+  using T = decltype(member(rows.front()));
+  std::vector<T> values;
+  values.reserve(rows.size());
+  for (const Row& row : rows) values.push_back(member(row));
+  return to_array(values);
+}
+
+void bind_errors(py::module_& module);
+void bind_model(py::module_& module);
+void bind_trials(py::module_& module);
+void bind_identify(py::module_& module);
+void bind_tune(py::module_& module);
+void bind_simulate(py::module_& module);
+void bind_compare(py::module_& module);
+
+}  // namespace awmr::python

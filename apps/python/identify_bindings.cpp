@@ -1,0 +1,96 @@
+#include <pybind11/functional.h>
+
+#include "awmr/identify/identify.h"
+#include "awmr/identify/planning/suggest.h"
+#include "bindings.h"
+#include "identify_options.h"
+
+namespace awmr::python {
+namespace {
+
+using Words = std::vector<std::string>;
+
+Identification fit(const Trials& trials, const std::optional<std::string>& method,
+                   const std::optional<std::string>& noise, const Words& family,
+                   const std::string& loss, bool joint, const Words& asked, std::uint64_t seed,
+                   int starts, int bootstrap, double time_limit_s, bool cross_validate,
+                   int threads) {
+  IdentifyOptions options;
+  if (method) options.method = value_of(kMethodNames, *method, "method");
+  if (noise) options.noise = value_of(kErrorModelNames, *noise, "noise");
+  for (const std::string& name : family) value_or_raise(cli::add_family(name, options));
+  for (const std::string& name : asked) value_or_raise(cli::add_asked(name, options));
+  options.loss = value_of(kLossNames, loss, "loss");
+  options.joint = joint;
+  options.seed = seed;
+  options.starts = starts;
+  options.bootstrap = bootstrap;
+  options.time_limit_s = time_limit_s;
+  options.cross_validate = cross_validate;
+  options.threads = threads;
+  if (starts < 0 || bootstrap < 0 || threads < 0 || !(time_limit_s >= 0.0)) {
+    throw Raised(
+        input_error("", "starts, bootstrap, threads and time_limit_s are at least 0").value());
+  }
+  const py::gil_scoped_release released;
+  return value_or_raise(identify(trials, options));
+}
+
+py::list refused_names(const Identification& identification) {
+  py::list names;
+  for (const ParameterId id : identification.refused) names.append(info(id).name);
+  return names;
+}
+
+py::list suggested(const Model& model, const std::string& parameter, int repeats) {
+  if (repeats < 1) throw Raised(input_error("repeats", "at least 1").value());
+  const Suggestion suggestion =
+      value_or_raise(suggest(model, {.parameter = parameter, .repeats = repeats}));
+  py::list trials;
+  for (const MissingParameter& missing : suggestion.missing) {
+    py::dict trial;
+    trial["parameter"] = info(missing.id).name;
+    trial["settings"] = missing.trial;
+    trials.append(trial);
+  }
+  for (const SuggestedTrial& one : suggestion.trials) {
+    py::dict trial;
+    trial["kind"] = name_in(kTrialKindNames, one.kind);
+    trial["settings"] = one.settings;
+    py::dict numbers;
+    for (const auto& [name, value] : one.numbers) numbers[py::str(name)] = value;
+    trial["numbers"] = numbers;
+    trial["parameter"] = one.parameter;
+    trial["std_error_before"] = one.std_error_before;
+    trial["std_error_after"] = one.std_error_after;
+    trials.append(trial);
+  }
+  return trials;
+}
+
+}  // namespace
+
+void bind_identify(py::module_& module) {
+  py::class_<Identification>(module, "Identification", "A model, and what was refused.")
+      .def_readonly("model", &Identification::model)
+      .def_property_readonly("refused", refused_names,
+                             "names that were asked for but that the data cannot show: the command "
+                             "line's exit code 1; model.findings say why");
+  module.def(
+      "identify", fit, py::arg("trials"), py::kw_only(), py::arg("method") = py::none(),
+      py::arg("noise") = py::none(), py::arg("family") = Words{}, py::arg("loss") = "squares",
+      py::arg("joint") = false, py::arg("fit") = Words{}, py::arg("seed") = 1,
+      py::arg("starts") = 6, py::arg("bootstrap") = 0, py::arg("time_limit_s") = 0.0,
+      py::arg("cross_validate") = false, py::arg("threads") = 0,
+      "Fits the vehicle's parameters. `method`: \"log-linear\", \"nonlinear\" or \"trajectory\" "
+      "(None: by the data); `noise`: \"force\", \"speed\" or \"time\"; `family`, `fit`: lists of "
+      "names, as --family and --fit have them; `time_limit_s` in s, 0: none; `threads` 0: all. The "
+      "numbers are those of `awmr identify`, whatever the threads. Raises InputError.");
+  module.def("suggest", suggested, py::arg("model"), py::kw_only(), py::arg("parameter") = "",
+             py::arg("repeats") = 3,
+             "The trials to record next, best first: dicts with `settings` in words, `numbers` and "
+             "the standard errors of `parameter` before and after, in its unit; first those that "
+             "show what has no value yet.");
+}
+
+}  // namespace awmr::python

@@ -1,0 +1,191 @@
+#include <fmt/format.h>
+
+#include "awmr/model/gains_file.h"
+#include "awmr/model/model_file.h"
+#include "awmr/model/vehicle_file.h"
+#include "bindings.h"
+
+namespace awmr::python {
+namespace {
+
+ParameterId parameter_of(const std::string& name) {
+  if (const auto id = parameter_by_name(name)) return *id;
+  throw py::key_error(name);
+}
+
+py::object interval_of(const std::optional<Interval>& interval) {
+  if (!interval) return py::none();
+  return py::make_tuple(interval->lo, interval->hi);
+}
+
+void bind_findings(py::module_& module) {
+  py::class_<Finding>(module, "Finding",
+                      "Something to know about the data or the result: `severity` is \"note\", "
+                      "\"warning\" or \"error\", `code` stable for scripts, `line` 0 where it is "
+                      "about no line.")
+      .def_readonly("file", &Finding::file)
+      .def_readonly("line", &Finding::line)
+      .def_readonly("code", &Finding::code)
+      .def_readonly("message", &Finding::message)
+      .def_property_readonly("severity",
+                             [](const Finding& finding) {
+                               return finding.severity == Severity::kError     ? "error"
+                                      : finding.severity == Severity::kWarning ? "warning"
+                                                                               : "note";
+                             })
+      .def("__repr__", [](const Finding& finding) {
+        return fmt::format("<Finding {} {}:{}: {}>", finding.code, finding.file, finding.line,
+                           finding.message);
+      });
+}
+
+void bind_vehicle(py::module_& module) {
+  py::class_<Vehicle>(module, "Vehicle", "What is known of the vehicle before any trial.")
+      .def_readonly("name", &Vehicle::name)
+      .def_readonly("mass_kg", &Vehicle::mass_kg, "m, kg")
+      .def_readonly("length_m", &Vehicle::length_m, "along the body's x, m")
+      .def_readonly("width_m", &Vehicle::width_m, "along the body's y, m")
+      .def_readonly("front_axle_m", &Vehicle::front_axle_m, "l_f, centre of gravity to axle, m")
+      .def_readonly("half_track_m", &Vehicle::half_track_m, "d, centre line to a wheel's middle, m")
+      .def_readonly("steering_max_deg", &Vehicle::steering_max_deg, "stop, deg")
+      .def_readonly("steering_max_rate_degps", &Vehicle::steering_max_rate_degps, "deg/s")
+      .def_readonly("steering_time_constant_s", &Vehicle::steering_time_constant_s, "s")
+      .def_readonly("sample_time_s", &Vehicle::sample_time_s, "T_s, s")
+      .def_property_readonly(
+          "wheel_force",
+          [](const Vehicle& v) { return py::make_tuple(v.wheel_force.lo, v.wheel_force.hi); },
+          "least and largest F' of a wheel, over F_max")
+      .def_property_readonly("drive",
+                             [](const Vehicle& v) { return name_in(kDriveNames, v.drive); })
+      .def_property_readonly("inertia_kgm2", &Vehicle::inertia_kgm2, "Iz, kg m^2");
+  module.def(
+      "read_vehicle",
+      [](const std::filesystem::path& path) { return value_or_raise(read_vehicle(path)); },
+      py::arg("path"), "vehicle.json. Raises InputError.");
+}
+
+void bind_estimate(py::module_& module) {
+  py::class_<Estimate>(module, "Estimate",
+                       "One identified number. `value` is None where the data cannot show it, "
+                       "`std_error` and `ci95` (lo, hi) where there is no uncertainty; all in the "
+                       "parameter's unit (`awmr.units`).")
+      .def_readonly("value", &Estimate::value)
+      .def_readonly("std_error", &Estimate::std_error)
+      .def_property_readonly("ci95", [](const Estimate& e) { return interval_of(e.ci95); })
+      .def_property_readonly("source",
+                             [](const Estimate& e) { return name_in(kSourceNames, e.source); })
+      .def_readonly("method", &Estimate::method)
+      .def("__repr__", [](const Estimate& e) {
+        return e.value ? fmt::format("<Estimate {} ({})>", *e.value, e.method)
+                       : std::string("<Estimate unknown>");
+      });
+}
+
+py::tuple covariance_of(const Model& model) {
+  py::list names;
+  for (const ParameterId id : model.covariance.parameters) names.append(info(id).name);
+  const auto size = static_cast<py::ssize_t>(model.covariance.parameters.size());
+  py::array_t<double> matrix({size, size});
+  auto cells = matrix.mutable_unchecked<2>();
+  for (py::ssize_t i = 0; i < size; ++i) {
+    for (py::ssize_t j = 0; j < size; ++j) {
+      cells(i, j) =
+          model.covariance.matrix[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
+    }
+  }
+  return py::make_tuple(names, matrix);
+}
+
+py::list names_of(const Model& model) {
+  py::list names;
+  for (const ParameterInfo& parameter : parameter_table()) {
+    if (is_absent_term(model, parameter.id) || !has(model.vehicle, parameter.id)) continue;
+    names.append(parameter.name);
+  }
+  return names;
+}
+
+void bind_model_class(py::module_& module) {
+  py::class_<Model>(module, "Model",
+                    "The identified vehicle: model[\"surge.alpha\"] is an Estimate, "
+                    "model.keys() the names.")
+      .def("__getitem__",
+           [](const Model& model, const std::string& name) { return model[parameter_of(name)]; })
+      .def("keys", names_of, "the parameters that this model has")
+      .def("__iter__", [](const Model& model) { return py::iter(names_of(model)); })
+      .def("__len__", [](const Model& model) { return py::len(names_of(model)); })
+      .def_readonly("vehicle", &Model::vehicle)
+      .def_property_readonly("surge_family", [](const Model& m) { return name_of(m.surge_family); })
+      .def_property_readonly("yaw_family", [](const Model& m) { return name_of(m.yaw_family); })
+      .def_property_readonly("covariance", covariance_of,
+                             "(names, matrix) of the fitted parameters, in the products of their "
+                             "units")
+      .def_property_readonly("findings", [](const Model& m) { return m.record.findings; })
+      .def("text", model_text, "the bytes of model.json");
+  module.def(
+      "read_model",
+      [](const std::filesystem::path& path) { return value_or_raise(read_model(path)); },
+      py::arg("path"), "model.json. Raises InputError.");
+  module.def(
+      "write_model",
+      [](const Model& model, const std::filesystem::path& path) {
+        value_or_raise(write_model(model, path));
+      },
+      py::arg("model"), py::arg("path"), "Writes model.json, whole or not at all.");
+}
+
+void bind_gains(py::module_& module) {
+  using G = Gains<double>;
+  py::class_<G>(module, "Gains",
+                "Of the heading law: slope lambda_ (1/s), mu (rad/s^2), epsilon (rad/s); of the "
+                "speed law speed_mu (m/s^2), speed_epsilon (m/s). All > 0.")
+      .def(py::init(
+               [](double lambda, double mu, double epsilon, double speed_mu, double speed_epsilon) {
+                 for (const double gain : {lambda, mu, epsilon, speed_mu, speed_epsilon}) {
+                   if (gain > 0.0 && gain < 1e9) continue;
+                   throw Raised(
+                       input_error("gains", fmt::format("expected numbers above 0, found {}", gain))
+                           .value());
+                 }
+                 return G{{lambda, mu, epsilon}, {speed_mu, speed_epsilon}};
+               }),
+           py::kw_only(), py::arg("lambda_"), py::arg("mu"), py::arg("epsilon"),
+           py::arg("speed_mu"), py::arg("speed_epsilon"))
+      .def_property_readonly(
+          "lambda_", [](const G& g) { return g.heading.lambda; }, "1/s")
+      .def_property_readonly(
+          "mu", [](const G& g) { return g.heading.mu; }, "rad/s^2")
+      .def_property_readonly(
+          "epsilon", [](const G& g) { return g.heading.epsilon; }, "rad/s")
+      .def_property_readonly(
+          "speed_mu", [](const G& g) { return g.speed.mu; }, "m/s^2")
+      .def_property_readonly(
+          "speed_epsilon", [](const G& g) { return g.speed.epsilon; }, "m/s");
+  module.def(
+      "read_gains",
+      [](const std::filesystem::path& path) { return value_or_raise(read_gains(path)); },
+      py::arg("path"), "gains.json. Raises InputError.");
+  module.def(
+      "write_gains",
+      [](const G& gains, const std::filesystem::path& path) {
+        value_or_raise(write_gains(gains, path));
+      },
+      py::arg("gains"), py::arg("path"), "Writes gains.json, without how they were found.");
+}
+
+}  // namespace
+
+void bind_model(py::module_& module) {
+  bind_findings(module);
+  bind_vehicle(module);
+  bind_estimate(module);
+  bind_model_class(module);
+  bind_gains(module);
+  py::dict units;
+  for (const ParameterInfo& parameter : parameter_table()) {
+    units[py::str(std::string(parameter.name))] = parameter.unit;
+  }
+  module.attr("units") = units;
+}
+
+}  // namespace awmr::python

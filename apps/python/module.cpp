@@ -1,0 +1,19 @@
+/// The Python module `awmr`: the library's functions under their own names.
+#include "awmr/core/provenance.h"
+#include "bindings.h"
+
+PYBIND11_MODULE(awmr, module) {
+  module.doc() =
+      "From trials to gains: read_vehicle, load_trials, identify, tune, simulate, compare.\n\n"
+      "Units stand in the names: _m, _s, _rad, _deg, _mps, _radps, _kg. Forces are over F_max, the "
+      "largest force of one motor. Angles and yaw rates count counter-clockwise, left is positive. "
+      "Rows are NumPy arrays, what is doubtful is a list of Finding, what fails raises Error.";
+  module.attr("__version__") = awmr::version();
+  awmr::python::bind_errors(module);
+  awmr::python::bind_model(module);
+  awmr::python::bind_trials(module);
+  awmr::python::bind_identify(module);
+  awmr::python::bind_simulate(module);
+  awmr::python::bind_tune(module);
+  awmr::python::bind_compare(module);
+}

@@ -1,0 +1,95 @@
+#include "awmr/compare/compare.h"
+#include "awmr/simulate/metrics.h"
+#include "awmr/simulate/scenario_file.h"
+#include "awmr/simulate/simulate.h"
+#include "bindings.h"
+
+namespace awmr::python {
+namespace {
+
+constexpr NameTable<RunEnd, 4> kRunEnds{{{"duration", RunEnd::kDuration},
+                                         {"finished", RunEnd::kFinished},
+                                         {"no-passage", RunEnd::kNoPassage},
+                                         {"failed", RunEnd::kFailed}}};
+
+/// A run with what it takes to judge it.
+struct JudgedRun {
+  Run run;
+  Scenario scenario;
+  Metrics metrics;
+};
+
+JudgedRun simulated(const Model& model, const Gains<double>& gains, const Scenario& scenario,
+                    const std::string& mode_name) {
+  const YawMode mode = value_of(kYawModeNames, mode_name, "mode");
+  const py::gil_scoped_release released;
+  JudgedRun judged{.run = value_or_raise(simulate(model, gains, scenario, mode)),
+                   .scenario = scenario,
+                   .metrics = {}};
+  judged.metrics = metrics_of(judged.run, scenario, value_or_raise(controller_for(model, gains)));
+  return judged;
+}
+
+/// run.csv's columns.
+py::dict run_columns(const JudgedRun& judged) {
+  const std::vector<RunRow>& rows = judged.run.rows;
+  std::vector<std::string_view> names;
+  std::vector<std::vector<double>> columns;
+  for (const RunRow& row : rows) {
+    const auto values = named_values(row, judged.scenario);
+    if (names.empty()) {
+      for (const auto& [name, value] : values) names.push_back(name);
+      columns.resize(names.size());
+      for (auto& column : columns) column.reserve(rows.size());
+    }
+    for (std::size_t i = 0; i < values.size(); ++i) columns[i].push_back(values[i].second);
+  }
+  py::dict arrays;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    arrays[py::str(std::string(names[i]))] = to_array(columns[i]);
+  }
+  return arrays;
+}
+
+py::dict metrics_dict(const Metrics& metrics) {
+  py::dict values;
+  for (const auto& [name, value] : named_metrics(metrics)) {
+    values[py::str(std::string(name))] = value;
+  }
+  return values;
+}
+
+}  // namespace
+
+void bind_simulate(py::module_& module) {
+  py::class_<Scenario>(module, "Scenario", "A course with its obstacles, disturbances and noise.")
+      .def_readonly("name", &Scenario::name)
+      .def_readonly("duration_s", &Scenario::duration_s, "s");
+  module.def(
+      "read_scenario",
+      [](const std::filesystem::path& path) { return value_or_raise(read_scenario(path)); },
+      py::arg("path"), "scenario.json. Raises InputError.");
+  py::class_<JudgedRun>(module, "Run", "One simulated run.")
+      .def_property_readonly(
+          "columns", run_columns,
+          "run.csv as a dict of NumPy arrays, units in the names: t_s, x_m, y_m, "
+          "psi_rad (unwrapped), u_mps, v_mps, r_radps, force_left, force_right "
+          "(over F_max), steering_rad, ...; the row at t has the command that "
+          "holds until the next")
+      .def_property_readonly(
+          "metrics", [](const JudgedRun& judged) { return metrics_dict(judged.metrics); },
+          "as in comparison.csv, units in the names; None where one has no meaning")
+      .def_property_readonly("completed",
+                             [](const JudgedRun& judged) { return judged.metrics.completed; })
+      .def_property_readonly(
+          "end", [](const JudgedRun& judged) { return name_in(kRunEnds, judged.run.end); })
+      .def(
+          "csv", [](const JudgedRun& judged) { return run_csv(judged.run, judged.scenario); },
+          "the bytes of run.csv");
+  module.def("simulate", simulated, py::arg("model"), py::arg("gains"), py::arg("scenario"),
+             py::kw_only(), py::arg("mode") = "combined",
+             "One run of the model under its own controller. `mode`: \"differential\", "
+             "\"steering\" or \"combined\". Raises InputError where the model lacks a parameter.");
+}
+
+}  // namespace awmr::python

@@ -1,0 +1,157 @@
+#include <fmt/format.h>
+
+#include "awmr/core/column_mapping.h"
+#include "awmr/trials/load.h"
+#include "bindings.h"
+
+namespace awmr::python {
+namespace {
+
+/// Files by path or none; one path or several for what may come in several.
+using Path = std::optional<std::filesystem::path>;
+using Paths =
+    std::variant<std::monostate, std::filesystem::path, std::vector<std::filesystem::path>>;
+
+std::vector<std::filesystem::path> all_of(const Paths& paths) {
+  if (const auto* one = std::get_if<std::filesystem::path>(&paths)) return {*one};
+  if (const auto* many = std::get_if<std::vector<std::filesystem::path>>(&paths)) return *many;
+  return {};
+}
+
+/// NaN stands for what was not given.
+template <class Row>
+py::array optional_column(const std::vector<Row>& rows, std::optional<double> Row::*field) {
+  return to_column(rows, [field](const Row& row) {
+    return (row.*field).value_or(std::numeric_limits<double>::quiet_NaN());
+  });
+}
+
+template <class Row>
+py::array column(const std::vector<Row>& rows, double Row::*field) {
+  return to_column(rows, [field](const Row& row) { return row.*field; });
+}
+
+template <class Row>
+py::array lines(const std::vector<Row>& rows) {
+  return to_column(rows, [](const Row& row) { return row.line; });
+}
+
+py::object surge_of(const Trials& trials) {
+  if (!trials.data.surge) return py::none();
+  const auto& rows = trials.data.surge->rows;
+  py::dict columns;
+  columns["line"] = lines(rows);
+  columns["tau_speed"] = column(rows, &SurgeRow::tau_speed);
+  columns["speed_mps"] = column(rows, &SurgeRow::speed_mps);
+  columns["distance_m"] = optional_column(rows, &SurgeRow::distance_m);
+  columns["elapsed_s"] = optional_column(rows, &SurgeRow::elapsed_s);
+  return columns;
+}
+
+py::object turning_of(const Trials& trials) {
+  if (!trials.data.turning) return py::none();
+  const auto& rows = trials.data.turning->rows;
+  py::dict columns;
+  columns["line"] = lines(rows);
+  columns["steering_rad"] = column(rows, &TurningRow::steering_rad);
+  columns["wheel_force"] = column(rows, &TurningRow::wheel_force);
+  columns["tau_turn_m"] = column(rows, &TurningRow::tau_turn_m);
+  columns["yaw_rate_radps"] = column(rows, &TurningRow::yaw_rate_radps);
+  columns["turns"] = optional_column(rows, &TurningRow::turns);
+  columns["elapsed_s"] = optional_column(rows, &TurningRow::elapsed_s);
+  return columns;
+}
+
+py::object stop_times_of(const Trials& trials) {
+  if (!trials.data.coastdown) return py::none();
+  const auto& rows = trials.data.coastdown->rows;
+  py::dict columns;
+  columns["line"] = lines(rows);
+  columns["initial_speed_mps"] = column(rows, &StopTimeRow::initial_speed_mps);
+  columns["stop_time_s"] = column(rows, &StopTimeRow::stop_time_s);
+  return columns;
+}
+
+py::list curves_of(const Trials& trials) {
+  py::list all;
+  for (const CoastCurve& curve : trials.data.curves) {
+    py::dict columns;
+    columns["t_s"] = to_array(curve.t_s);
+    columns["speed_mps"] = to_array(curve.speed_mps);
+    all.append(columns);
+  }
+  return all;
+}
+
+/// Time, commands and channels in SI units; of a channel NaN in the rows where it was not measured.
+py::dict columns_of(const DrivingLog& log) {
+  py::dict columns;
+  columns["line"] = to_array(log.line);
+  columns["t_s"] = to_array(log.t_s);
+  columns["force_left"] = to_array(log.force_left);
+  columns["force_right"] = to_array(log.force_right);
+  if (log.steering_command_rad) {
+    columns["steering_cmd_rad"] = to_array(*log.steering_command_rad);
+  }
+  for (const LogChannel channel : kChannels) {
+    if (!log[channel]) continue;
+    std::vector<double> values = log[channel]->value;
+    for (std::size_t row = 0; row < values.size(); ++row) {
+      if (!log[channel]->fresh[row]) values[row] = std::numeric_limits<double>::quiet_NaN();
+    }
+    columns[py::str(std::string(info(channel).name))] = to_array(values);
+  }
+  return columns;
+}
+
+py::list logs_of(const Trials& trials) {
+  py::list all;
+  for (const DrivingLog& log : trials.data.logs) all.append(columns_of(log));
+  return all;
+}
+
+Trials load(const Vehicle& vehicle, const Path& surge, const Path& turning, const Paths& coastdown,
+            const Paths& log, const std::vector<std::string>& columns, const std::string& prefer,
+            bool as_is, bool steady_from_logs) {
+  TrialOptions options{
+      .columns = {}, .preference = value_of(kPreferenceNames, prefer, "prefer"), .as_is = as_is};
+  for (const std::string& text : columns) {
+    options.columns.push_back(value_or_raise(parse_column(text)));
+  }
+  return value_or_raise(load_trials({.vehicle = vehicle,
+                                     .surge = surge,
+                                     .turning = turning,
+                                     .coastdowns = all_of(coastdown),
+                                     .logs = all_of(log),
+                                     .steady_from_logs = steady_from_logs,
+                                     .options = std::move(options)}));
+}
+
+}  // namespace
+
+void bind_trials(py::module_& module) {
+  py::class_<Trials>(module, "Trials",
+                     "Trials in SI units. A table is a dict of NumPy arrays by column, `line` the "
+                     "rows' lines in the file, NaN where a cell was not given; None without it.")
+      .def_readonly("vehicle", &Trials::vehicle)
+      .def_readonly("findings", &Trials::findings)
+      .def_property_readonly("surge", surge_of, "tau_speed = 4 F' (1), speed_mps (m/s), ...")
+      .def_property_readonly("turning", turning_of,
+                             "steering_rad, wheel_force (over F_max), yaw_rate_radps (rad/s), ...")
+      .def_property_readonly("coastdown", stop_times_of, "initial_speed_mps (m/s), stop_time_s (s)")
+      .def_property_readonly("curves", curves_of, "list of coast-down curves: t_s (s), speed_mps")
+      .def_property_readonly("logs", logs_of,
+                             "list of logs: t_s (s), force_left, force_right (over F_max), "
+                             "steering_cmd_rad, and the channels, NaN where not measured");
+  module.def(
+      "load_trials", load, py::arg("vehicle"), py::kw_only(), py::arg("surge") = py::none(),
+      py::arg("turning") = py::none(), py::arg("coastdown") = std::monostate{},
+      py::arg("log") = std::monostate{}, py::arg("columns") = std::vector<std::string>{},
+      py::arg("prefer") = "printed", py::arg("as_is") = false, py::arg("steady_from_logs") = false,
+      "Reads and joins the trial files of one vehicle: paths; `coastdown` and `log` one or a "
+      "list. `columns`: mappings such as \"speed_mps=V*0.2778\", as --column has them. "
+      "`prefer`: \"printed\" or \"timed\", where a row gives a speed twice. Raises "
+      "InputError with every fault of every file.");
+}
+
+}  // namespace awmr::python
