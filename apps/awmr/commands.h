@@ -188,6 +188,15 @@ struct LogCommand {
 Result<Outcome> execute(const LogCommand& command);
 void add_log(CLI::App& app, Session& session);
 
+struct CompassCommand {
+  fs::path file;
+  double declination_deg = 0.0;
+  ColumnWords columns = {};
+  fs::path output;
+};
+Result<Outcome> execute(const CompassCommand& command);
+void add_compass(CLI::App& app, Session& session);
+
 struct ReportCommand {
   fs::path directory;
 };

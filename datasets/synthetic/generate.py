@@ -72,6 +72,23 @@ def coast(name, seed):
     (HERE / name).write_text("\n".join(lines) + "\n")
 
 
+def field(name, seed):
+    """Two turns in a field of 130 counts, with magnets (centre) and iron (gain, det 1) that turn along."""
+    chance = random.Random(seed)
+    lines = ["# synthetic, see README.md", "t_s,field_ahead,field_left,yaw_rate_radps"]
+    ahead_0, left_0, gain, cross = 42.0, -67.0, 1.1, 0.06
+    other = (1 + cross * cross) / gain
+    psi = 0.3
+    for k in range(400):
+        rate = 4 * math.pi / 40 * (1 + 0.3 * math.sin(0.05 * k))
+        c, d = 130 * math.cos(psi), -130 * math.sin(psi)
+        lines.append(f"{k / 10:.1f},{ahead_0 + other * c - cross * d + chance.gauss(0, 1):.1f},"
+                     f"{left_0 - cross * c + gain * d + chance.gauss(0, 1):.1f},{rate + chance.gauss(0, 0.005):.4f}")
+        psi += rate / 10
+    (HERE / name).write_text("\n".join(lines) + "\n")
+
+
 drive("drive_1.csv", 15, 1)
 drive("drive_2.csv", 15, 2)
 coast("coastdown.csv", 3)
+field("field.csv", 4)

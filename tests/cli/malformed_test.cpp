@@ -124,6 +124,7 @@ const Kind kKinds[] = {{"vehicle", ".json", "identify --vehicle @ --surge SURGE 
                        {"coastdown", ".csv", "identify --vehicle VEHICLE --coastdown @ -o OUT"},
                        {"log", ".csv", "identify --vehicle VEHICLE --log @ -o OUT"},
                        {"awl", ".awl", "log @ -o OUT"},
+                       {"field", ".csv", "compass @ -o OUT"},
                        {"command", "", ""}};
 
 class Malformed : public ::testing::TestWithParam<Kind> {

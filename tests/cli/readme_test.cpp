@@ -50,9 +50,10 @@ std::vector<std::string> examples_of(const std::string& command) {
 TEST(Help, EveryExampleRunsWhereInitWroteTheirFiles) {
   const TemporaryDirectory directory;
   // Each after those whose files it takes.
-  for (const char* command : {"init", "check", "run", "identify", "live", "tune", "validate",
-                              "simulate", "compare", "merge", "emit", "export", "report", "suggest",
-                              "recover", "map", "schema", "completion", "man"}) {
+  for (const char* command :
+       {"init",     "check",   "run",     "identify", "live",       "tune",   "validate",
+        "simulate", "compare", "merge",   "emit",     "export",     "report", "suggest",
+        "recover",  "map",     "compass", "schema",   "completion", "man"}) {
     const std::vector<std::string> lines = examples_of(command);
     EXPECT_FALSE(std::string(command) != "completion" && lines.empty()) << command;
     for (const std::string& line : lines) {

@@ -183,8 +183,9 @@ TEST_P(Sketches, CompileAndLinkWithDebiansArduinoCore) {
       kAvrGcc + "' -std=gnu11 -w" + flags + "-I../src -c $f || exit 1; done && for f in " + core +
       "/*.cpp " + wire + "/*.cpp; do " + cxx + "-w -DDECIMAL_DIG=9 -I../src -c $f || exit 1; done");
   ASSERT_TRUE(succeeded(built));
-  for (const char* name : {"HeadingHold", "WaypointFollowing"}) {
-    const std::string sketch = std::string("examples/") + name + "/" + name + ".ino";
+  for (const auto& example : fs::directory_iterator(directory_.path() / "examples")) {
+    const std::string name = example.path().filename().string();
+    const std::string sketch = "examples/" + name + "/" + name + ".ino";
     EXPECT_TRUE(succeeded(run(cxx + "-Wall -Wextra -Werror -x c++ -include Arduino.h -c " + sketch +
                               " -o sketch.o && " + cxx +
                               "-Wall -Wextra -Werror -c src/awmr.cpp -o "

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 
@@ -21,9 +22,10 @@ constexpr std::size_t kSteps = 250;
 constexpr std::size_t kStallFrom = 60, kStallTo = 150;
 constexpr std::uint64_t kCyclesOfASecond = 16'000'000;
 
-class LogChip : public ::testing::Test {
+class Chip : public ::testing::Test {
  protected:
-  void SetUp() override {
+  /// Builds tests/pil/PROGRAM.cpp with the emitted library and runs it until it sets log_done.
+  void run_chip(const std::string& program) {
     ASSERT_TRUE(found(kAvrGxx));
     const auto files = firmware_library(paper_robot(), kPaperGains, paper_inputs(), {});
     for (const EmittedFile& file : *files) {
@@ -34,7 +36,8 @@ class LogChip : public ::testing::Test {
         run_process(std::string(kAvrGxx) +
                         " -mmcu=atmega2560 -DF_CPU=16000000UL -std=c++11 -Os -Wall -Wextra "
                         "-Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror -Isrc "
-                        "'" AWMR_SOURCE_DIR "/tests/pil/log_chip.cpp' -o log.elf",
+                        "'" AWMR_SOURCE_DIR "/tests/pil/" +
+                        program + ".cpp' -o log.elf",
                     directory_.path())));
     auto emulator = pil::Emulator::load(directory_.path() / "log.elf");
     ASSERT_TRUE(emulator) << to_text(emulator.error());
@@ -50,6 +53,35 @@ class LogChip : public ::testing::Test {
   std::unique_ptr<pil::Emulator> emulator_;
   std::string file_;
 };
+
+class LogChip : public Chip {
+ protected:
+  void SetUp() override { run_chip("log_chip"); }
+};
+
+class StepChip : public Chip {
+ protected:
+  void SetUp() override { run_chip("step_chip"); }
+};
+
+TEST_F(StepChip, AStepThatDoesNotEndResetsTheChipAndTheLogSaysSo) {
+  const auto log = read_awl(file_, "a.awl");
+  ASSERT_TRUE(log) << to_text(log.error());
+  EXPECT_EQ(log->runs, 2U);
+  const auto& cause = log->columns[log->columns.size() - 2];
+  const auto& run = log->columns.back();
+  // Whole blocks of eight rows were written before the hundredth step.
+  const auto first = static_cast<std::size_t>(std::count(run.begin(), run.end(), 1.0));
+  EXPECT_EQ(first, 96U);
+  for (std::size_t row = 0; row < log->rows(); ++row) {
+    ASSERT_EQ(cause[row], run[row] == 1.0 ? 1.0 : 8.0);  // switched on, watchdog
+    // Steps are numbered from 1, each sample time one.
+    ASSERT_NEAR(log->columns[0][row],
+                0.01 * static_cast<double>((row < first ? row : row - first) + 1), 1e-12);
+  }
+  ASSERT_EQ(log->findings.size(), 1U);
+  EXPECT_EQ(log->findings[0].code, "chip-reset");
+}
 
 TEST_F(LogChip, ARowTakesAFewHundredCyclesOfTheStep) {
   const auto bytes = emulator_->ram("log_cycles_max", 2);

@@ -35,16 +35,22 @@ const float kServoUsPerRad = 573.0f; /* 10 us per degree of the wheels: measure 
 
 namespace awmr_board {
 
-/* What the sensors know, with its times. */
-inline void measure(const Imu& imu, const Gps& gps, awmr_input& input) {
+/* A time that was never taken is too old, however soon after the start. */
+inline uint32_t time_or_old(uint32_t time_ms, uint32_t now_ms, uint32_t timeout_ms) {
+  return time_ms != 0 ? time_ms : now_ms - timeout_ms - 1;
+}
+
+/* What the sensors know and when somebody commanded, with the times. */
+inline void measure(const Imu& imu, const Gps& gps, const Command& command, awmr_input& input) {
+  input.now_ms = millis();
   input.psi_rad = imu.psi_rad;
   input.r_radps = imu.r_radps;
-  input.heading_ms = imu.time_ms;
+  input.heading_ms = time_or_old(imu.time_ms, input.now_ms, AWMR_HEADING_TIMEOUT_MS);
   input.u_mps = gps.speed_mps;
   input.x_m = gps.x_m;
   input.y_m = gps.y_m;
-  input.speed_ms = gps.time_ms;
-  input.now_ms = millis();
+  input.speed_ms = time_or_old(gps.time_ms, input.now_ms, AWMR_SPEED_TIMEOUT_MS);
+  input.command_ms = time_or_old(command.heard_ms, input.now_ms, AWMR_COMMAND_TIMEOUT_MS);
 }
 
 }  // namespace awmr_board

@@ -31,8 +31,7 @@ void step() {
     input.psi_ref_rad = imu.psi_rad;
     has_reference = true;
   }
-  awmr_board::measure(imu, gps, input);
-  input.command_ms = command.heard_ms;
+  awmr_board::measure(imu, gps, command, input);
 
   awmr_output output;
   awmr_step(&input, &output);

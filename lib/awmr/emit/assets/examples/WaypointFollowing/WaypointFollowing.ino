@@ -25,10 +25,9 @@ void step() {
   }
   gps.read();
   imu.read(AWMR_SAMPLE_TIME_S);
-  awmr_board::measure(imu, gps, input);
+  awmr_board::measure(imu, gps, command, input);
   // Before it is told to go nobody has commanded anything, and the motors are off.
-  input.command_ms =
-      is_told_to_go ? command.heard_ms : input.now_ms - AWMR_COMMAND_TIMEOUT_MS - 1;
+  if (!is_told_to_go) input.command_ms = input.now_ms - AWMR_COMMAND_TIMEOUT_MS - 1;
   if (is_told_to_go && !is_under_way && gps.time_ms != 0) {
     awmr_follow(kPoints, sizeof kPoints / sizeof kPoints[0], kAcceptanceM);
     input.u_ref_mps = kSpeedMps;

@@ -10,7 +10,7 @@ class Command {
  public:
   char letter = '\0';
   float value = 0.0f;    /* 0 where there is none */
-  uint32_t heard_ms = 0; /* when the last character came */
+  uint32_t heard_ms = 0; /* when the last character came; 0: none yet */
 
   /* True: a line is complete. Never waits. */
   bool read() {

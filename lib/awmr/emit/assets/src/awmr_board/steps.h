@@ -5,6 +5,8 @@
 #include <avr/interrupt.h>
 #include <avr/wdt.h>
 
+#include "../awmr_params.h"
+
 namespace awmr_board {
 
 /* Bits of reset_cause(), those of MCUSR. 0: the bootloader took them. */
@@ -26,6 +28,7 @@ typedef void (*Step)();
 static Step the_step;
 static volatile bool is_in_step;
 static volatile uint32_t sample_time_count; /* sample times since begin_steps() */
+static volatile uint32_t the_step_number;
 
 /* Calls `step` every AWMR_SAMPLE_TIME_S from timer 3's interrupt, other interrupts allowed: the bus
    of the sensors, the serial lines and millis() need theirs. A step that is not over when the next
@@ -43,8 +46,8 @@ inline void begin_steps(Step step) {
   wdt_enable(AWMR_SAMPLE_TIME_S < 0.05f ? WDTO_250MS : WDTO_4S);
 }
 
-/* The number of the step that runs. */
-inline uint32_t step_number() { return sample_time_count; }
+/* The sample time, from 1, at which the step that runs began. To be asked for in the step. */
+inline uint32_t step_number() { return the_step_number; }
 
 }  // namespace awmr_board
 
@@ -52,6 +55,7 @@ ISR(TIMER3_COMPA_vect) {
   ++awmr_board::sample_time_count;
   if (awmr_board::is_in_step) return;
   awmr_board::is_in_step = true;
+  awmr_board::the_step_number = awmr_board::sample_time_count;
   sei();
   awmr_board::the_step();
   wdt_reset();

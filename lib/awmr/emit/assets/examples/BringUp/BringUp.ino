@@ -1,0 +1,178 @@
+// Walks through the bring-up list of README.md after a first flash. Wheels off the ground. Over Serial (115200
+// baud) it says what it is going to do; the line "y" is yes, anything else is no. The first no ends it, motors off
+// until a reset: mend what was wrong and begin anew. Forces are at most kForce, a motion lasts two seconds, and any
+// character meanwhile ends it too.
+#include <SD.h>
+#include <SPI.h>
+#include <Wire.h>
+#include <awmr.h>
+#include <awmr_paper_board.h>
+
+const float kForce = 0.2f * AWMR_WHEEL_FORCE_MAX;
+const float kAngleRad = 0.5f * AWMR_STEERING_MAX_RAD;
+
+awmr_board::Imu imu;
+awmr_board::Gps gps;
+awmr_board::Command command;
+awmr_input input;
+
+// What the step commands, set by loop(): a float is four bytes, so with interrupts off.
+struct Wanted {
+  float left, right, steering_rad;
+  bool by_autopilot; // it holds the heading that it had, forces cut to kForce
+};
+Wanted wanted;
+awmr_output output;
+volatile bool shall_hang = false;
+float turned_rad = 0.0f; // by the gyroscope since it was set to 0
+
+float cut(float force) { return constrain(force, -kForce, kForce); }
+
+void step() {
+  gps.read();
+  imu.read(AWMR_SAMPLE_TIME_S);
+  turned_rad += imu.r_radps * AWMR_SAMPLE_TIME_S;
+  while (shall_hang) {
+  }
+  if (wanted.by_autopilot) {
+    awmr_board::measure(imu, gps, command, input);
+    input.u_mps = 0.0f; // on a box, and without a fix
+    input.speed_ms = input.command_ms = input.now_ms;
+    awmr_step(&input, &output);
+    output.force_left = cut(output.force_left);
+    output.force_right = cut(output.force_right);
+  } else {
+    output = awmr_output();
+    output.force_left = wanted.left;
+    output.force_right = wanted.right;
+    output.steering_rad = wanted.steering_rad;
+  }
+  awmr_board::drive(output);
+}
+
+void want(float left, float right, float steering_rad, bool by_autopilot = false) {
+  const Wanted next = {left, right, steering_rad, by_autopilot};
+  noInterrupts();
+  wanted = next;
+  interrupts();
+}
+
+float atomically(const float& value) {
+  noInterrupts();
+  const float copy = value;
+  interrupts();
+  return copy;
+}
+
+void end(const __FlashStringHelper* why) {
+  want(0.0f, 0.0f, 0.0f);
+  Serial.print(F("ENDED: "));
+  Serial.println(why);
+  for (;;) {
+  }
+}
+
+void ask(const __FlashStringHelper* question) {
+  Serial.print(question);
+  Serial.println(F("  y?"));
+  while (!command.read()) {
+  }
+  if (command.letter != 'y') end(question);
+}
+
+// The stop rule: waits, but for no longer than until a character comes.
+void wait_ms(uint32_t limit_ms) {
+  const uint32_t start_ms = millis();
+  while (Serial.available() > 0) Serial.read(); // the end of the last line
+  while (millis() - start_ms < limit_ms) {
+    if (Serial.available() > 0) end(F("stopped"));
+  }
+}
+
+// Turns something for two seconds, then asks what was seen.
+void show(float left, float right, float steering_rad, const __FlashStringHelper* warning,
+          const __FlashStringHelper* question) {
+  ask(warning);
+  want(left, right, steering_rad);
+  wait_ms(2000);
+  want(0.0f, 0.0f, 0.0f);
+  ask(question);
+}
+
+void check_turn() {
+  ask(F("2. Next: lift it and turn it by hand to the LEFT by a quarter turn, within 20 s."));
+  if (!imu.has_heading()) end(F("no heading: magnetometer or its wiring"));
+  const float before = atomically(imu.psi_rad);
+  noInterrupts();
+  turned_rad = 0.0f;
+  interrupts();
+  const uint32_t start_ms = millis();
+  while (fabs(atomically(turned_rad)) < 1.2f) {
+    if (millis() - start_ms > 20000) end(F("no turn was seen: gyroscope or its wiring"));
+  }
+  if (atomically(turned_rad) < 0.0f) end(F("the gyroscope turns the other way: it lies upside down"));
+  delay(6000); // three of the compass's time constants
+  const float turned = awmr::float_math::wrapped(atomically(imu.psi_rad) - before);
+  Serial.print(F("turned by the compass, deg: "));
+  Serial.println(turned * 57.2957795f, 0);
+  if (turned < 0.8f) end(F("compass and gyroscope differ: axes, or calibrate it (CompassCalibration)"));
+}
+
+void check_autopilot() {
+  ask(F("8. The autopilot holds the heading, wheels in the air; then turn it by hand 30 deg to the LEFT. Next?"));
+  noInterrupts();
+  input.mode = AWMR_COMBINED;
+  input.psi_ref_rad = imu.psi_rad;
+  turned_rad = 0.0f;
+  wanted.by_autopilot = true;
+  interrupts();
+  for (uint8_t i = 0; i < 100 && atomically(turned_rad) < 0.35f; ++i) wait_ms(200);
+  noInterrupts();
+  const awmr_output seen = output;
+  const float turned = turned_rad;
+  interrupts();
+  want(0.0f, 0.0f, 0.0f);
+  if (turned < 0.35f) end(F("no turn was seen"));
+  if (seen.fault != AWMR_FAULT_NONE) end(F("the autopilot reports a fault: awmr.h"));
+  const bool turns_right = seen.steering_rad < 0.0f || seen.force_right < seen.force_left;
+  if (!turns_right) end(F("the autopilot does not turn back: signs"));
+}
+
+void walk() {
+  ask(F("1. Wheels off the ground, a hand at the battery's plug, nobody near the wheels."));
+  check_turn();
+  show(0.0f, 0.0f, kAngleRad, F("3. Next: the front wheels turn LEFT."), F("   Did they turn left, by half of the stop?"));
+  show(0.0f, 0.0f, -kAngleRad, F("   Next: RIGHT."), F("   Right?"));
+  show(kForce, 0.0f, 0.0f, F("4. Next: the LEFT wheels turn forward."), F("   The left ones, and forward?"));
+  show(0.0f, kForce, 0.0f, F("5. Next: the RIGHT wheels turn forward."), F("   The right ones, and forward?"));
+  if (AWMR_WHEEL_FORCE_MIN < 0.0f) {
+    show(-kForce, -kForce, 0.0f, F("   Next: all wheels turn BACKWARD."), F("   All, and backward?"));
+  }
+  ask(F("6. GPS: under the open sky. Is its light on?"));
+  const uint32_t start_ms = millis();
+  while (gps.time_ms == 0 && millis() - start_ms < 60000) {
+  }
+  if (gps.time_ms == 0) end(F("no fix within a minute"));
+  if (!SD.begin(awmr_board::kSdSelectPin)) end(F("7. no SD card"));
+  check_autopilot();
+  ask(F("9. Next: wheels turn, the step hangs. The motors have to stop within a second and this sketch to begin anew."));
+  want(kForce, kForce, 0.0f);
+  wait_ms(1000);
+  shall_hang = true;
+  delay(3000);
+  end(F("the watchdog did not bite"));
+}
+
+void setup() {
+  Serial.begin(115200);
+  awmr_board::begin_actuators();
+  imu.begin();
+  gps.begin();
+  const bool has_bitten = (awmr_board::reset_cause() & awmr_board::kWatchdog) != 0;
+  if (awmr_init() != AWMR_FAULT_NONE) Serial.println(F("parameters damaged: flash again"));
+  awmr_board::begin_steps(step);
+  if (has_bitten) Serial.println(F("9. The watchdog works. Bring-up is done; once more from the start:"));
+  walk();
+}
+
+void loop() {}

@@ -1,0 +1,155 @@
+// Steps through the field sheet by itself and writes its tables: SURGE00.CSV, TURN00.CSV and COAST00.CSV for
+// `awmr identify --surge --turning --coastdown`. Level, dry ground, half of the runs in each direction, room of
+// settle_s + measure_s at the run's speed. Over Serial (115200 baud): the line "G" drives the run that was
+// announced, "S" leaves it out; any character at least once a second keeps it going, letting go stops it and the
+// run waits again. Wheels straight is not steered: let go when it runs out of its lane.
+#include <SD.h>
+#include <SPI.h>
+#include <Wire.h>
+#include <awmr.h>
+#include <awmr_paper_board.h>
+#include <awmr_trials.h>
+
+using namespace awmr_trials;
+
+const float kMost = AWMR_WHEEL_FORCE_MAX;
+const float kStop = AWMR_STEERING_MAX_RAD;
+const Trial kRuns[] = {
+    {kSurge, 0.25f * kMost, 0.0f}, {kSurge, 0.25f * kMost, 0.0f}, {kSurge, 0.40f * kMost, 0.0f},
+    {kSurge, 0.40f * kMost, 0.0f}, {kSurge, 0.55f * kMost, 0.0f}, {kSurge, 0.55f * kMost, 0.0f},
+    {kSurge, 0.70f * kMost, 0.0f}, {kSurge, 0.70f * kMost, 0.0f}, {kSurge, 0.85f * kMost, 0.0f},
+    {kSurge, 0.85f * kMost, 0.0f}, {kSurge, kMost, 0.0f}, {kSurge, kMost, 0.0f},
+    {kTurning, 0.5f * kMost, 0.25f * kStop}, {kTurning, 0.5f * kMost, -0.25f * kStop},
+    {kTurning, 0.5f * kMost, 0.45f * kStop}, {kTurning, 0.5f * kMost, -0.45f * kStop},
+    {kTurning, 0.5f * kMost, 0.65f * kStop}, {kTurning, 0.5f * kMost, -0.65f * kStop},
+    {kTurning, 0.5f * kMost, 0.85f * kStop}, {kTurning, 0.5f * kMost, -0.85f * kStop},
+    {kTurning, 0.5f * kMost, kStop}, {kTurning, 0.5f * kMost, -kStop},
+    {kCoastdown, 0.4f * kMost, 0.0f}, {kCoastdown, 0.4f * kMost, 0.0f}, {kCoastdown, 0.7f * kMost, 0.0f},
+    {kCoastdown, 0.7f * kMost, 0.0f}, {kCoastdown, kMost, 0.0f}, {kCoastdown, kMost, 0.0f}};
+const uint8_t kCount = sizeof kRuns / sizeof kRuns[0];
+const Settings kSettings = {3.0f, 3.0f, 15.0f, 0.05f, 0.05f};
+
+awmr_board::Imu imu;
+awmr_board::Gps gps;
+awmr_board::Command command;
+Recorder recorder(kRuns, kCount, kSettings);
+File surge, turning, coastdown;
+
+struct Told {
+  Event event;
+  uint8_t number;
+  Row row;
+};
+Told told;                  // by the step, for loop() to write
+volatile bool has_told = false;
+uint16_t rows_lost = 0;
+
+void step() {
+  while (command.read()) {
+    if (command.letter == 'G') recorder.go();
+    if (command.letter == 'S') recorder.skip();
+  }
+  gps.read();
+  imu.read(AWMR_SAMPLE_TIME_S);
+  const uint32_t now_ms = millis();
+  const bool is_held = command.heard_ms != 0 && now_ms - command.heard_ms < 1000;
+  const uint8_t number = recorder.number();
+  const Measured measured = {now_ms, gps.speed_mps, gps.time_ms, imu.r_radps, is_held};
+  const Event event = recorder.step(measured);
+
+  awmr_output output = awmr_output();
+  output.force_left = recorder.force();
+  output.force_right = recorder.force();
+  output.steering_rad = recorder.steering_rad();
+  awmr_board::drive(output);
+
+  if (event == kNothing) return;
+  if (has_told) {
+    ++rows_lost;
+    return;
+  }
+  told.event = event;
+  told.number = number;
+  told.row = recorder.row();
+  has_told = true;
+}
+
+File table(const char* name, const __FlashStringHelper* header) {
+  File file = awmr_board::next_file(name);
+  file.println(header);
+  file.flush();
+  return file;
+}
+
+void announce() {
+  if (recorder.state() == kDone) {
+    Serial.println(F("all runs are done"));
+    return;
+  }
+  static const char* const kNames[] = {"surge", "turning", "coast-down"};
+  const Trial& run = recorder.trial();
+  Serial.print(F("run "));
+  Serial.print(recorder.number() + 1);
+  Serial.print(F(", "));
+  Serial.print(kNames[run.kind]);
+  Serial.print(F(", F' "));
+  Serial.print(run.force, 3);
+  Serial.print(F(", steering "));
+  Serial.print(run.steering_rad * 57.2957795f, 1);
+  Serial.println(F(" deg: G drives, S leaves out"));
+}
+
+void setup() {
+  Serial.begin(115200);
+  awmr_board::begin_actuators();
+  imu.begin();
+  gps.begin();
+  if (SD.begin(awmr_board::kSdSelectPin)) {
+    surge = table("SURGE00.CSV", F("wheel_force,speed_mps"));
+    turning = table("TURN00.CSV", F("steering_deg,wheel_force,yaw_rate_radps"));
+    coastdown = table("COAST00.CSV", F("run,t_s,speed_mps"));
+  }
+  if (!surge || !turning || !coastdown) Serial.println(F("no SD card: nothing is recorded"));
+  announce();
+  awmr_board::begin_steps(step);
+}
+
+void print_cells(Print& to, float first, float second) {
+  to.print(first, 4);
+  to.print(',');
+  to.println(second, 4);
+}
+
+void write_row(Print& to) {
+  const Trial& run = kRuns[told.number];
+  if (told.event == kCurveRow) {
+    to.print(told.number + 1);
+    to.print(',');
+    print_cells(to, told.row.t_s, told.row.value);
+  } else if (run.kind == kTurning) {
+    to.print(told.row.steering_rad * 57.2957795f, 4);
+    to.print(',');
+    print_cells(to, told.row.force, told.row.value);
+  } else {
+    print_cells(to, told.row.force, told.row.value);
+  }
+}
+
+void loop() {
+  if (!has_told) return;
+  const Event event = told.event;
+  File& file = event == kCurveRow || event == kCoasted ? coastdown
+               : kRuns[told.number].kind == kTurning   ? turning
+                                                       : surge;
+  if (event == kRow || event == kCurveRow) {
+    write_row(Serial);
+    write_row(file);
+  }
+  if (event == kNotSteady) Serial.println(F("not steady, or no GPS: a longer run-up, once more"));
+  if (event == kLetGo) Serial.println(F("let go: once more"));
+  if (event != kCurveRow) file.flush();
+  has_told = false;
+  if (rows_lost > 0) Serial.println(F("the card was too slow for a row: record this run again"));
+  rows_lost = 0;
+  if (event != kCurveRow) announce();
+}

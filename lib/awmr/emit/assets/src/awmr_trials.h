@@ -1,0 +1,164 @@
+/* Records the trials of the field sheet: drives each run of a list, measures where it is steady,
+   and gives the rows of the tables that `awmr identify` reads. C++11, without Arduino. */
+#ifndef AWMR_TRIALS_H
+#define AWMR_TRIALS_H
+
+#include <stdint.h>
+
+namespace awmr_trials {
+
+enum Kind { kSurge, kTurning, kCoastdown };
+
+struct Trial {
+  Kind kind;
+  float force;        /* of every wheel, over F_max */
+  float steering_rad; /* of the front wheels, left positive */
+};
+
+struct Settings {
+  float settle_s;       /* drives so long before it measures */
+  float measure_s;      /* and takes means over so long */
+  float coast_s;        /* a coast-down ends after so long at the latest, */
+  float rest_mps;       /* or below this speed, once there are rows enough for a curve */
+  float steady_share;   /* the means of the window's halves agree within this share of themselves */
+};
+
+enum State { kWaiting, kSettling, kMeasuring, kCoasting, kDone };
+
+/* What a step has to tell. After kNotSteady and kLetGo the same run waits to be driven again. */
+enum Event {
+  kNothing,
+  kRow,       /* a row of a surge or turning run, which is over */
+  kCurveRow,  /* a row of a coast-down */
+  kCoasted,   /* a coast-down is over */
+  kNotSteady, /* the window's halves differ, or there were too few fixes in one */
+  kLetGo      /* nobody holds it any more */
+};
+
+struct Measured {
+  uint32_t now_ms;
+  float speed_mps;
+  uint32_t speed_ms; /* when it was measured: a new one counts once */
+  float yaw_rate_radps;
+  bool is_held;      /* somebody holds the dead man's switch */
+};
+
+/* Of kRow: force, steering_rad and value, the mean speed or yaw rate. Of kCurveRow: t_s since
+   motors-off and value, the speed. */
+struct Row {
+  float force;
+  float steering_rad;
+  float t_s;
+  float value;
+};
+
+class Recorder {
+ public:
+  Recorder(const Trial* runs, uint8_t count, const Settings& settings)
+      : runs_(runs), settings_(settings), count_(count) {}
+
+  /* The next run, or the one that was given up, begins with the next step. */
+  void go() {
+    if (state_ == kWaiting) state_ = kSettling, is_new_ = true;
+  }
+  /* Leaves out the run that waits. */
+  void skip() {
+    if (state_ == kWaiting) next();
+  }
+
+  Event step(const Measured& m) {
+    if (is_new_) {
+      since_ms_ = m.now_ms;
+      is_new_ = false;
+    }
+    if (state_ == kWaiting || state_ == kDone) return kNothing;
+    if (!m.is_held && state_ != kCoasting) return give_up(kLetGo); /* coasting, motors are off */
+    const float t_s = static_cast<float>(m.now_ms - since_ms_) * 1e-3f;
+    const bool is_fresh = m.speed_ms != speed_ms_;
+    speed_ms_ = m.speed_ms;
+    if (state_ == kSettling) {
+      if (t_s >= settings_.settle_s) begin_window(m.now_ms);
+      return kNothing;
+    }
+    return state_ == kMeasuring ? measure(m, t_s, is_fresh) : coast(m, t_s, is_fresh);
+  }
+
+  State state() const { return state_; }
+  uint8_t number() const { return number_; } /* of the run, from 0; the count when all are done */
+  const Trial& trial() const { return runs_[number_]; }
+  const Row& row() const { return row_; }
+  /* To be commanded until the next step: motors off unless it drives. */
+  float force() const { return state_ == kSettling || state_ == kMeasuring ? trial().force : 0.0f; }
+  float steering_rad() const { return state_ == kWaiting || state_ == kDone ? 0.0f : trial().steering_rad; }
+
+ private:
+  const Trial* runs_;
+  Settings settings_;
+  uint8_t count_;
+  uint8_t number_ = 0;
+  State state_ = kWaiting;
+  bool is_new_ = false;
+  uint32_t since_ms_ = 0; /* the state began */
+  uint32_t speed_ms_ = 0;
+  float sum_[2] = {0.0f, 0.0f}; /* of the halves of the window */
+  uint16_t samples_[2] = {0, 0};
+  uint8_t curve_rows_ = 0;
+  Row row_ = {0.0f, 0.0f, 0.0f, 0.0f};
+
+  static const uint8_t kFewest = 3;      /* fixes in half a window */
+  static const uint8_t kCurveRows = 8;   /* of a coast-down, at rest if need be */
+
+  void begin_window(uint32_t now_ms) {
+    state_ = kMeasuring;
+    since_ms_ = now_ms;
+    for (uint8_t i = 0; i < 2; ++i) sum_[i] = 0.0f, samples_[i] = 0;
+  }
+  void next() {
+    ++number_;
+    state_ = number_ < count_ ? kWaiting : kDone;
+  }
+  Event give_up(Event why) {
+    state_ = kWaiting;
+    return why;
+  }
+  Event measure(const Measured& m, float t_s, bool is_fresh) {
+    const bool turns = trial().kind == kTurning;
+    if (t_s < settings_.measure_s) {
+      const uint8_t half = t_s < 0.5f * settings_.measure_s ? 0 : 1;
+      if (turns || is_fresh) {
+        sum_[half] += turns ? m.yaw_rate_radps : m.speed_mps;
+        ++samples_[half];
+      }
+      return kNothing;
+    }
+    if (samples_[0] < kFewest || samples_[1] < kFewest) return give_up(kNotSteady);
+    const float mean = (sum_[0] + sum_[1]) / static_cast<float>(samples_[0] + samples_[1]);
+    const float apart = sum_[1] / samples_[1] - sum_[0] / samples_[0];
+    const float most = settings_.steady_share * (mean < 0.0f ? -mean : mean);
+    if (!(apart <= most && -apart <= most)) return give_up(kNotSteady);
+    if (trial().kind == kCoastdown) {
+      state_ = kCoasting;
+      since_ms_ = m.now_ms;
+      curve_rows_ = 0;
+      return kNothing;
+    }
+    row_ = {trial().force, trial().steering_rad, 0.0f, mean};
+    next();
+    return kRow;
+  }
+  Event coast(const Measured& m, float t_s, bool is_fresh) {
+    const bool rests = is_fresh && m.speed_mps < settings_.rest_mps && curve_rows_ >= kCurveRows;
+    if (t_s > settings_.coast_s || rests) {
+      next();
+      return kCoasted;
+    }
+    if (!is_fresh) return kNothing;
+    if (curve_rows_ < kCurveRows) ++curve_rows_;
+    row_ = {0.0f, 0.0f, t_s, m.speed_mps};
+    return kCurveRow;
+  }
+};
+
+}  // namespace awmr_trials
+
+#endif /* AWMR_TRIALS_H */

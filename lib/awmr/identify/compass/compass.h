@@ -1,0 +1,25 @@
+/// Hard and soft iron of a compass from a record of its field over whole turns.
+#pragma once
+
+#include <vector>
+
+#include "awmr/core/result.h"
+#include "awmr/model/compass.h"
+#include "awmr/model/record.h"
+#include "awmr/trials/field.h"
+
+namespace awmr {
+
+struct CompassFit {
+  CompassCalibration calibration;
+  std::vector<Finding> findings = {};
+};
+
+/// The ellipse of least squares of its distances, over its size. Intervals allow for residuals that
+/// go together within 10 degrees of the turn. Findings: `compass-residual` (the field is no ellipse
+/// within 5 %), `compass-gyro` (compass and gyroscope turn by different amounts),
+/// `turn-not-checked` (no yaw rate). Errors (refused): the turn leaves more than 30 degrees out; the
+/// field is no ellipse; (input) the compass turns against the gyroscope.
+Result<CompassFit> fit_compass(const FieldRecord& record, double declination_deg);
+
+}  // namespace awmr

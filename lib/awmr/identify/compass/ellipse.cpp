@@ -1,0 +1,103 @@
+#include "ellipse.h"
+
+#include <ceres/tiny_solver.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <cmath>
+
+namespace awmr::compass {
+namespace {
+
+Ellipse ellipse_of(const Eigen::Vector2d& centre, const Eigen::Matrix2d& gain) {
+  Ellipse ellipse;
+  ellipse.p << centre, gain(0, 0), gain(0, 1), gain(1, 1);
+  return ellipse;
+}
+
+/// The conic A x^2 + B x y + C y^2 + D x + E y = 1 of least squares:
+///     (f - o)' M (f - o) = k,  M = (A, B/2; B/2, C),  o = -M^-1 (D, E)/2,  k = 1 + o' M o,
+/// which is |S (f - o)| = 1 with S = (M/k)^(1/2), where M/k is positive definite.
+std::optional<Ellipse> conic(const Points& points) {
+  Eigen::Matrix<double, Eigen::Dynamic, 5> terms(points.rows(), 5);
+  const auto x = points.col(0).array();
+  const auto y = points.col(1).array();
+  terms << x * x, x * y, y * y, x, y;
+  const auto qr = terms.colPivHouseholderQr();
+  if (qr.rank() < 5) return std::nullopt;
+  const Parameters q = qr.solve(Eigen::VectorXd::Ones(points.rows()));
+  Eigen::Matrix2d m;
+  m << q[0], q[1] / 2, q[1] / 2, q[2];
+  if (!(m.determinant() > 0.0)) return std::nullopt;
+  const Eigen::Vector2d centre = -0.5 * m.inverse() * q.tail<2>();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> shape(m / (1.0 + centre.dot(m * centre)));
+  if (!(shape.eigenvalues().minCoeff() > 0.0)) return std::nullopt;
+  return ellipse_of(centre, shape.operatorSqrt());
+}
+
+/// For ceres::TinySolver: the residuals of all points and their derivatives, column by column.
+struct Distances {
+  using Scalar = double;
+  enum { NUM_RESIDUALS = Eigen::Dynamic, NUM_PARAMETERS = 5 };
+  const Points& points;
+
+  int NumResiduals() const { return static_cast<int>(points.rows()); }
+  bool operator()(const double* p, double* residuals, double* jacobian) const {
+    const Ellipse ellipse{Eigen::Map<const Parameters>(p)};
+    const Eigen::Index rows = points.rows();
+    for (Eigen::Index i = 0; i < rows; ++i) {
+      residuals[i] = residual(ellipse, points.row(i));
+      if (jacobian == nullptr) continue;
+      const auto row = residual_gradient(ellipse, points.row(i));
+      for (Eigen::Index k = 0; k < 5; ++k) jacobian[k * rows + i] = row[k];
+    }
+    return true;
+  }
+};
+
+}  // namespace
+
+Eigen::Matrix2d Ellipse::gain() const {
+  Eigen::Matrix2d gain;
+  gain << p[2], p[3], p[3], p[4];
+  return gain;
+}
+
+Eigen::Vector2d Ellipse::on_circle(const Eigen::Vector2d& f) const {
+  return gain() * (f - centre());
+}
+
+double residual(const Ellipse& ellipse, const Eigen::Vector2d& f) {
+  return ellipse.on_circle(f).norm() - 1.0;
+}
+
+Eigen::Matrix<double, 2, 5> circle_gradient(const Ellipse& ellipse, const Eigen::Vector2d& f) {
+  const Eigen::Vector2d d = f - ellipse.centre();
+  Eigen::Matrix<double, 2, 5> gradient;
+  gradient.leftCols<2>() = -ellipse.gain();
+  gradient.rightCols<3>() << d[0], d[1], 0.0, 0.0, d[0], d[1];
+  return gradient;
+}
+
+Eigen::Matrix<double, 1, 5> residual_gradient(const Ellipse& ellipse, const Eigen::Vector2d& f) {
+  return ellipse.on_circle(f).normalized().transpose() * circle_gradient(ellipse, f);
+}
+
+std::optional<Ellipse> fit_ellipse(const Points& points) {
+  // About their mean and over their size all terms of the conic have the same magnitude.
+  const Eigen::RowVector2d mean = points.colwise().mean();
+  const double size =
+      std::sqrt((points.rowwise() - mean).squaredNorm() / static_cast<double>(points.rows()));
+  if (!(size > 0.0)) return std::nullopt;
+  const Points scaled = (points.rowwise() - mean) / size;
+  std::optional<Ellipse> ellipse = conic(scaled);
+  if (!ellipse) return std::nullopt;
+  ceres::TinySolver<Distances> solver;
+  solver.Solve(Distances{scaled}, &ellipse->p);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> shape(ellipse->gain());
+  if (!(shape.eigenvalues().minCoeff() > 0.0)) return std::nullopt;
+  return ellipse_of(mean.transpose() + size * ellipse->centre(), ellipse->gain() / size);
+}
+
+}  // namespace awmr::compass

@@ -1,0 +1,71 @@
+#include "awmr/trials/field.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "awmr/core/csv.h"
+#include "awmr/core/option_text.h"
+#include "awmr/trials/trial_columns.h"
+
+namespace awmr {
+namespace {
+
+constexpr std::size_t kShortestField = 30;
+
+std::vector<double> values_of(const CsvTable& table, std::string_view name) {
+  if (!table.has(name)) return {};
+  const std::span<const double> column = table.column(name);
+  return {column.begin(), column.end()};
+}
+
+const std::vector<CsvColumn>& field_columns() {
+  static const std::vector<CsvColumn> columns{
+      {"t_s"}, {"field_ahead"}, {"field_left"}, {"yaw_rate_radps", false}};
+  return columns;
+}
+
+/// Mappings are of columns that there are.
+Status check_names(const std::vector<ColumnMapping>& mappings) {
+  std::vector<Fault> faults;
+  for (const ColumnMapping& mapping : mappings) {
+    const bool is_known =
+        std::any_of(field_columns().begin(), field_columns().end(),
+                    [&](const CsvColumn& column) { return column.name == mapping.name; });
+    if (is_known) continue;
+    faults.push_back({fmt::format("{} {}", option_text("column"), mapping.name),
+                      "no such column; a record of the field has t_s, field_ahead, field_left and "
+                      "yaw_rate_radps"});
+  }
+  if (!faults.empty()) return input_errors(std::move(faults));
+  return {};
+}
+
+}  // namespace
+
+Result<FieldRecord> read_field(const std::filesystem::path& path,
+                               const std::vector<ColumnMapping>& mappings) {
+  AWMR_RETURN_IF_ERROR(check_names(mappings));
+  AWMR_ASSIGN_OR_RETURN(const CsvTable table, read_csv(path, field_columns(), mappings));
+  AWMR_RETURN_IF_ERROR(check_mappings({.columns = mappings}, table.mapped(), {{path}}));
+  FieldRecord record{.file = path.filename().string(),
+                     .t_s = values_of(table, "t_s"),
+                     .ahead = values_of(table, "field_ahead"),
+                     .left = values_of(table, "field_left"),
+                     .yaw_rate_radps = values_of(table, "yaw_rate_radps")};
+  std::vector<Fault> faults;
+  for (std::size_t i = 1; i < record.t_s.size() && faults.size() < kMaxFaults; ++i) {
+    if (record.t_s[i] > record.t_s[i - 1]) continue;
+    faults.push_back({table.place(i, "t_s"), fmt::format("found {} after {}: time has to rise",
+                                                         record.t_s[i], record.t_s[i - 1])});
+  }
+  if (table.rows() < kShortestField) {
+    faults.push_back({table.header_place(), fmt::format("{} rows; at least {} are needed",
+                                                        table.rows(), kShortestField)});
+  }
+  if (!faults.empty()) return input_errors(std::move(faults));
+  return record;
+}
+
+}  // namespace awmr
