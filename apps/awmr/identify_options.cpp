@@ -56,7 +56,7 @@ Status add_asked(std::string_view name, IdentifyOptions& options) {
   }
   std::vector<std::string> names;
   for (const ParameterInfo& p : parameter_table()) {
-    if (!p.term) names.emplace_back(p.name);
+    if (can_be_asked(p)) names.emplace_back(p.name);
   }
   names.emplace_back("all");
   names.emplace_back(kInputDelayName);
@@ -69,7 +69,7 @@ Status add_asked(std::string_view name, IdentifyOptions& options) {
     names.push_back(bias);
   }
   const auto id = parameter_by_name(name);
-  if (!id || info(*id).term) {
+  if (!id || !can_be_asked(info(*id))) {
     return input_error("--fit", fmt::format("no parameter is called '{}'; the names are {}", name,
                                             fmt::join(names, ", ")));
   }

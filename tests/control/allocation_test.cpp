@@ -217,5 +217,24 @@ TEST(Allocation, FloatIsClippedAsEveryScalarIs) {
   }
 }
 
+/// Inside the limits the motors' forces at the speed of their wheels are those that were allocated.
+TEST(Allocation, MotorsWithBackEmfMakeTheForcesOfTheAllocation) {
+  EXPECT_TRUE(rc::check([] {
+    AllocationLimits<double> l = limits();
+    l.back_emf_s_per_m = 0.3;
+    const double u = drawn(-1.5, 1.5);
+    const double r = drawn(-0.5, 0.5);
+    const Allocation<double> a = allocate(YawMode::kDifferential, drawn(-9, 9), drawn(-1, 1), l, u);
+    RC_ASSERT(a.force.left >= l.force_min - 0.3 * u - 1e-15);
+    RC_ASSERT(a.force.right <= l.force_max - 0.3 * u + 1e-15);
+    const SideForces<double> c = motor_commands(a.force, prepared(l), 0.0, 0.3, u, r);
+    RC_ASSERT(c.left >= l.force_min && c.left <= l.force_max);
+    RC_ASSERT(c.right >= l.force_min && c.right <= l.force_max);
+    const bool inside = c.left > l.force_min && c.left < l.force_max;
+    const double made = c.left - 0.3 * (u - l.half_track_m * r);
+    RC_ASSERT(!inside || std::abs(made - a.force.left) < 1e-14);
+  }));
+}
+
 }  // namespace
 }  // namespace awmr::testing

@@ -52,6 +52,15 @@ std::map<std::string, double> parameters_of(const std::string& text) {
 // Printed with six decimals, so a product of two is off by some 1e-6 of its larger factor.
 constexpr double kPrinted = 2e-5;
 
+TEST(Export, OfMotorsWithBackEmfIsNotWorkedOutForAutopilots) {
+  Model model = paper_robot();
+  model[ParameterId::kBackEmf] = {0.25, 0.01, {}, Source::kFitted, "trajectory"};
+  for (const ExportFormat format : {ExportFormat::kArduPilot, ExportFormat::kPx4}) {
+    EXPECT_THAT(text_of(model, format), HasSubstr("/motor/back_emf_s_per_m"));
+  }
+  EXPECT_THAT(text_of(model, ExportFormat::kPython), HasSubstr("MOTOR_BACK_EMF_S_PER_M = 0.25"));
+}
+
 TEST(Export, ArduPilotsCruiseHoldsItsSpeedAtItsThrottle) {
   const Model model = paper_robot();
   const auto values = parameters_of(text_of(model, ExportFormat::kArduPilot));

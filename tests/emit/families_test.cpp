@@ -43,6 +43,18 @@ TEST(Families, GoToTheChipAsTheirTable) {
   EXPECT_NEAR(static_cast<double>(at_one), 0.21 + 1.3268, 5e-4 * 1.54);
 }
 
+TEST(BackEmf, IsInTheHeaderAndRefusedByTheFirmwareThatWouldLeaveItOut) {
+  Model model = paper_robot();
+  model[ParameterId::kBackEmf] = {0.25, 0.01, {}, Source::kFitted, "trajectory"};
+  const auto header = params_header(model, kPaperGains, paper_inputs());
+  ASSERT_TRUE(header);
+  EXPECT_THAT(*header, HasSubstr("#define AWMR_MOTOR_BACK_EMF 0.25f"));
+  const auto firmware = autopilot_parameters(model, kPaperGains, paper_inputs(), {});
+  ASSERT_FALSE(firmware);
+  EXPECT_THAT(to_text(firmware.error()), HasSubstr("/motor/back_emf_s_per_m"));
+  EXPECT_THAT(to_text(firmware.error()), HasSubstr("header-only"));
+}
+
 TEST(Families, AreRefusedWhereTheFirmwareDoesNotKnowThem) {
   EmitOptions by_powf;
   by_powf.resistance = ResistanceForm::kPowf;

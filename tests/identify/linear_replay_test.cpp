@@ -24,8 +24,8 @@ constexpr std::size_t kFirstState = kParameterCount + 2;
 using Jet = ceres::Jet<double, kColumns>;
 
 /// A family of everything at once, b1 below 1 so that there is a chord at rest.
-constexpr ParameterValues<double> kValues{0.9,  0.75, 0.06, 1.1,  4.0,   0.3,  0.0066,
-                                          0.06, 0.05, 0.02, 0.01, 0.003, 0.015};
+constexpr ParameterValues<double> kValues{0.9,  0.75, 0.06, 1.1,  4.0,   0.3,   0.0066,
+                                          0.06, 0.05, 0.02, 0.01, 0.003, 0.015, 0.12};
 
 Vehicle robot() {
   Vehicle v;

@@ -312,6 +312,81 @@ TEST(Log, FrictionOfAnotherFamilyIsTakenAndSaid) {
   expect_recovered(*result, ParameterId::kSurgeCoulomb, 0.15, 4.5);
 }
 
+constexpr double kBackEmf = 0.2;
+
+/// A drive of motors with back-EMF.
+DrivingLog geared_drive(const Truth& t, std::uint64_t seed, double duration_s = 20.0) {
+  Plant<double> geared = plant(t);
+  geared.back_emf_s_per_m = kBackEmf;
+  Random random(seed, 5);
+  return simulate_log(geared, robot(), {.duration_s = duration_s, .drive = seed}, {}, random);
+}
+
+TEST(BackEmf, IsRecoveredFromDrivingAndCoastingAndSaid) {
+  const Truth& t = kTruths[0];
+  int covered = 0;
+  constexpr int kSeeds = 3;
+  for (int seed = 1; seed <= kSeeds; ++seed) {
+    TrialData data;
+    data.logs = {geared_drive(t, 100 + static_cast<std::uint64_t>(seed))};
+    const auto result = identify(robot(), data, {}, {});
+    ASSERT_TRUE(result);
+    EXPECT_TRUE(has_finding(*result, "back-emf", "AIC")) << seed;
+    // Three parameters, three seeds: 4.5 deviations make a chance of 6e-5 for the test to fail.
+    expect_recovered(*result, ParameterId::kBackEmf, kBackEmf, 4.5);
+    expect_recovered(*result, ParameterId::kSurgeAlpha, t.a1, 4.5);
+    expect_recovered(*result, ParameterId::kMassNorm, t.mass_norm, 4.5);
+    const auto& ci95 = result->model[ParameterId::kBackEmf].ci95;
+    ASSERT_TRUE(ci95);
+    covered += ci95->contains(kBackEmf) ? 1 : 0;
+  }
+  // Three misses of three at 5 % each have a chance of 1.3e-4.
+  EXPECT_GE(covered, 1);
+}
+
+TEST(BackEmf, OfIdealMotorsIsNotFoundAndRefusedNoBetterThanZero) {
+  TrialData data;
+  data.logs = {drive(kTruths[0], 31, {.duration_s = 40.0})};
+  const auto by_itself = identify(robot(), data, {}, {});
+  ASSERT_TRUE(by_itself);
+  EXPECT_FALSE(has_finding(*by_itself, "back-emf", ""));
+  EXPECT_EQ(by_itself->model[ParameterId::kBackEmf].value, 0.0);
+  const auto asked = identify(robot(), data, {.asked = {ParameterId::kBackEmf}}, {});
+  ASSERT_TRUE(asked);
+  const Estimate& estimate = asked->model[ParameterId::kBackEmf];
+  ASSERT_TRUE(estimate.value && estimate.std_error);
+  EXPECT_NEAR(*estimate.value, 0.0, 4.5 * *estimate.std_error);
+}
+
+TEST(BackEmf, WithoutCoastingIsRefusedWithTheTrialThatShowsIt) {
+  TrialData data;
+  data.logs = {geared_drive(kTruths[0], 41)};
+  DrivingLog& log = data.logs[0];
+  for (std::size_t row = 0; row < log.rows(); ++row) {
+    if (log.force_left[row] == 0.0) log.force_left[row] = log.force_right[row] = 1e-3;
+  }
+  const auto asked = identify(robot(), data, {.asked = {ParameterId::kBackEmf}}, {});
+  ASSERT_TRUE(asked);
+  EXPECT_TRUE(refused(*asked, ParameterId::kBackEmf));
+  EXPECT_EQ(asked->model[ParameterId::kBackEmf].value, 0.0);
+  EXPECT_TRUE(has_finding(*asked, "not-identifiable", "coasting with the motors off"));
+}
+
+TEST(BackEmf, OfTheDataSheetIsHeldAndKeepsTablesOut) {
+  Vehicle geared = robot();
+  geared.back_emf_s_per_m = kBackEmf;
+  TrialData data;
+  data.logs = {geared_drive(kTruths[0], 51)};
+  const auto result = identify(geared, data, {}, {});
+  ASSERT_TRUE(result);
+  EXPECT_EQ(result->model[ParameterId::kBackEmf].value, kBackEmf);
+  EXPECT_EQ(result->model[ParameterId::kBackEmf].source, Source::kGiven);
+  expect_recovered(*result, ParameterId::kSurgeAlpha, kTruths[0].a1, 4.5);
+  const auto tables = identify(geared, synthetic(kTruths[0], 0.02, 1), {}, {});
+  ASSERT_FALSE(tables);
+  EXPECT_THAT(to_text(tables.error()), ::testing::HasSubstr("identify this vehicle from logs"));
+}
+
 TEST(Log, AnotherMassOnTheSecondDayIsToldAndWidensTheInterval) {
   Truth heavy = kTruths[0];
   heavy.mass_norm *= 1.2;

@@ -120,5 +120,59 @@ TEST(Resistance, IsOddZeroAtRestAndLinearBelowItsChord) {
   EXPECT_DOUBLE_EQ(chord(-0.005), -exact(0.01) / 2.0);
 }
 
+Plant<double> with_back_emf() {
+  Plant<double> plant = paper_plant_of<double>();
+  plant.back_emf_s_per_m = 0.3;
+  return plant;
+}
+
+/// 4 (F' - k_e u) = g1(u) + m' du/dt.
+TEST(BackEmf, StraightAheadEveryMotorLosesWithTheSpeed) {
+  const Plant<double> plant = with_back_emf();
+  State<double> s{};
+  s.u_mps = 0.8;
+  const State<double> d = state_rates(plant, s, SideForces<double>{0.5, 0.5}, 0.0);
+  EXPECT_NEAR(d.u_mps, (4.0 * (0.5 - 0.3 * 0.8) - plant.surge(0.8)) / plant.mass_norm, 1e-13);
+  // Backwards under a forward command it adds to the force.
+  s.u_mps = -0.8;
+  const State<double> back = state_rates(plant, s, SideForces<double>{0.5, 0.5}, 0.0);
+  EXPECT_NEAR(back.u_mps, (4.0 * (0.5 + 0.3 * 0.8) + plant.surge(0.8)) / plant.mass_norm, 1e-13);
+}
+
+TEST(BackEmf, OfMotorsThatAreOffThereIsNone) {
+  EXPECT_TRUE(rc::check([] {
+    const State<double> s = drawn_state();
+    const SideForces<double> off{0.0, 0.0};
+    expect_same(state_rates(with_back_emf(), s, off, 0.1),
+                state_rates(paper_plant_of<double>(), s, off, 0.1));
+    Plant<double> zone = with_back_emf();
+    zone.wheel_dead_zone = 0.1;
+    Plant<double> ideal = zone;
+    ideal.back_emf_s_per_m = 0.0;
+    const SideForces<double> within{0.09, -0.1};
+    expect_same(state_rates(zone, s, within, 0.1), state_rates(ideal, s, within, 0.1));
+  }));
+}
+
+/// A wheel pushes along the direction in which it rolls, so back-EMF takes the power k_e w^2 of each
+/// wheel out of the motion: sum m' u u_dot + m' v v_dot + I'z r r_dot.
+TEST(BackEmf, TakesItsPowerOutOfTheMotionOfEveryWheel) {
+  EXPECT_TRUE(rc::check([] {
+    const Plant<double> plant = with_back_emf();
+    const State<double> s = drawn_state();
+    const WheelForces<double> f{drawn(0.01, 1), drawn(-1, -0.01), drawn(0.01, 1), drawn(-1, -0.01)};
+    const auto power = [&](const Plant<double>& p) {
+      const State<double> d = state_rates(p, s, f, 0.1);
+      return p.mass_norm * (s.u_mps * d.u_mps + s.v_mps * d.v_mps) +
+             p.inertia_norm * s.r_radps * d.r_radps;
+    };
+    const WheelSpeeds<double> w = wheel_speeds(plant.front_axle_m, plant.half_track_m, s);
+    const double lost = 0.3 * (w.front_left * w.front_left + w.front_right * w.front_right +
+                               w.rear_left * w.rear_left + w.rear_right * w.rear_right);
+    // Powers of up to some 20, with the rounding of a few tens of operations.
+    RC_ASSERT(std::abs(power(paper_plant_of<double>()) - power(plant) - lost) < 1e-12);
+  }));
+}
+
 }  // namespace
 }  // namespace awmr::testing

@@ -18,11 +18,11 @@ TEST(Parameters, AreInTheOrderOfTheirIds) {
 TEST(Parameters, HaveThePlacesOfTheContract) {
   std::vector<std::string> pointers;
   for (const ParameterInfo& parameter : parameter_table()) pointers.emplace_back(parameter.pointer);
-  EXPECT_EQ(pointers,
-            (std::vector<std::string>{
-                "/surge/alpha", "/surge/beta", "/yaw/alpha", "/yaw/beta", "/sway/alpha",
-                "/mass_norm", "/inertia_norm", "/steering/time_constant_s", "/surge/coulomb",
-                "/surge/quadratic", "/yaw/coulomb", "/yaw/quadratic", "/wheel/dead_zone"}));
+  EXPECT_EQ(pointers, (std::vector<std::string>{
+                          "/surge/alpha", "/surge/beta", "/yaw/alpha", "/yaw/beta", "/sway/alpha",
+                          "/mass_norm", "/inertia_norm", "/steering/time_constant_s",
+                          "/surge/coulomb", "/surge/quadratic", "/yaw/coulomb", "/yaw/quadratic",
+                          "/wheel/dead_zone", "/motor/back_emf_s_per_m"}));
 }
 
 TEST(Parameters, AreNamedAsTheirPlaceWithDots) {

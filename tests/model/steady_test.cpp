@@ -19,6 +19,19 @@ TEST(Steady, TheRateIsTheRootOfTheCurve) {
   }
 }
 
+TEST(Steady, WhatMotorsLoseAddsToTheCurve) {
+  const Resistance<double> power{.alpha = 1.2, .beta = 0.8};
+  const Resistance<double> every{
+      .alpha = 1.2, .beta = 0.8, .rest_speed = 0.0, .coulomb = 0.1, .quadratic = 0.05};
+  for (const Resistance<double>& law : {power, every}) {
+    for (const double force : {0.1001, 0.2, 1.0, 50.0}) {
+      const auto rate = steady_rate(law, force, 1.6);
+      ASSERT_TRUE(rate.has_value()) << force;
+      EXPECT_NEAR(law.at(*rate) + 1.6 * *rate, force, 1e-12 * force);
+    }
+  }
+}
+
 /// Halves a bracket until nothing lies between its ends: slow, and right for any rising curve.
 double by_bisection(const Resistance<double>& law, double force) {
   double lo = 1e-300;

@@ -159,6 +159,7 @@ TEST(VehicleFile, RefusesValuesThatCannotBe) {
                                 {"/latency_s/speed", "fast"},
                                 {"/motor/time_constant_s", -0.1},
                                 {"/motor/poles", 2},
+                                {"/motor/back_emf_s_per_m", -0.1},
                                 {"/yaw_rate_max_degps", 0}};
   for (const Edit& edit : edits) {
     // One place is named, though more than one thing may be said of it.
@@ -181,7 +182,7 @@ TEST(VehicleFile, TakesWhatGainsAreTunedFor) {
   json["allocation"] = "paper";
   json["noise"] = {{"heading_deg", 0.5}, {"position_m", 0.01}};
   json["latency_s"] = {{"heading", 0.03}, {"yaw_rate", 0}};
-  json["motor"] = {{"time_constant_s", 0.04}};
+  json["motor"] = {{"time_constant_s", 0.04}, {"back_emf_s_per_m", 0.3}};
   json["yaw_rate_max_degps"] = 60;
   const ScratchFile file("vehicle.json", json.dump());
   const auto vehicle = read_vehicle(file.path());
@@ -191,6 +192,7 @@ TEST(VehicleFile, TakesWhatGainsAreTunedFor) {
       .heading_deg = 0.5, .position_m = 0.01, .heading_late_s = 0.03, .yaw_rate_late_s = 0.0};
   EXPECT_TRUE(vehicle->sensors == expected);
   EXPECT_EQ(vehicle->motor_time_constant_s, 0.04);
+  EXPECT_EQ(vehicle->back_emf_s_per_m, 0.3);
   EXPECT_EQ(vehicle->yaw_rate_max_degps, 60.0);
 }
 

@@ -155,6 +155,26 @@ TEST(Batch, IsTheRunOfSimulateFarBeyondThePapersVehicle) {
   }
 }
 
+/// With back-EMF of its own in every vehicle, and in none of one of them.
+TEST(Batch, IsTheRunOfSimulateWithBackEmf) {
+  std::vector<BatchRun> runs = drawn_runs(3, 0.2);
+  for (std::size_t i = 1; i < runs.size(); ++i) {
+    runs[i].plant.back_emf_s_per_m = 0.2 * static_cast<double>(i);
+    runs[i].controller = make_controller(runs[i].plant, paper_vehicle(), kPaperGains);
+  }
+  for (const Scenario& scenario : shipped_scenarios()) {
+    if (scenario.duration_s > 40.0) continue;
+    for (const BatchArithmetic& arithmetic : all_arithmetics()) {
+      const auto batch =
+          simulate_batch(runs, scenario, YawMode::kCombined, kSampleTime_s, arithmetic);
+      for (std::size_t i = 0; i < runs.size(); ++i) {
+        expect_near(batch[i].value(), runs[i], scenario, YawMode::kCombined,
+                    scenario.name + ", run " + std::to_string(i));
+      }
+    }
+  }
+}
+
 TEST(Batch, DoesNotDependOnTheRunsBesideNorOnThePlaceAmongThem) {
   const std::vector<BatchRun> runs = drawn_runs(37, 0.2);
   const Scenario scenario =

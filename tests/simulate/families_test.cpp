@@ -45,6 +45,70 @@ TEST(Families, SettleAtTheSpeedThatTheLawAndTheDeadZoneLeave) {
   }
 }
 
+Plant<double> geared(double back_emf_s_per_m, const Resistance<double>& surge) {
+  Plant<double> plant = plant_of(surge, 0.0);
+  plant.back_emf_s_per_m = back_emf_s_per_m;
+  return plant;
+}
+
+TEST(BackEmf, SettlesAtTheSpeedThatItLeaves) {
+  for (const auto& c : kCases) {
+    if (c.dead_zone > 0.0) continue;
+    const Plant<double> plant = geared(0.25, c.surge);
+    const awmr::Run run = run_open_loop(plant, {}, 5.0, {1.2, 0.0});
+    EXPECT_NEAR(run.rows.back().state.u_mps, *steady_rate(c.surge, 1.2, 4.0 * 0.25), 1e-9)
+        << c.name;
+  }
+}
+
+TEST(BackEmf, IsMadeUpForByTheController) {
+  const Plant<double> plant = geared(0.25, {.alpha = 1.3157, .beta = 0.8841});
+  const Controller<double> controller = make_controller(plant, paper_vehicle(), kPaperGains);
+  const Scenario scenario{"heading", 8.0, {}, 0.8, HeadingSteps{{{0.0, 0.5}}}};
+  for (const YawMode mode : kYawModes) {
+    const awmr::Run run =
+        simulate(plant, controller, scenario, mode, {.sample_time_s = 0.01, .substeps = {}});
+    const RunRow& last = run.rows.back();
+    // As with ideal motors: see TheControllerHoldsSpeedAndHeadingWithEveryOne.
+    EXPECT_NEAR(last.state.u_mps, 0.8, 1e-3);
+    EXPECT_NEAR(last.state.psi_rad, 0.5, 1e-3);
+    EXPECT_NEAR(last.force.left, plant.surge(0.8) / 4.0 + 0.25 * 0.8, 1e-3);
+    for (const RunRow& row : run.rows) {
+      EXPECT_LE(std::abs(row.force.left), 1.0);
+      EXPECT_LE(std::abs(row.force.right), 1.0);
+    }
+  }
+}
+
+/// Where a speed asks for more than full voltage gives, the vehicle goes as fast as that lets it.
+TEST(BackEmf, AtFullVoltageEndsAtTheNoLoadSpeedLessWhatResists) {
+  const Resistance<double> surge{.alpha = 1.3157, .beta = 0.8841};
+  const Plant<double> plant = geared(0.8, surge);
+  const Controller<double> controller = make_controller(plant, paper_vehicle(), kPaperGains);
+  const Scenario scenario{"fast", 8.0, {}, 1.5, HeadingSteps{{{0.0, 0.0}}}};
+  const awmr::Run run = simulate(plant, controller, scenario, YawMode::kCombined,
+                                 {.sample_time_s = 0.01, .substeps = {}});
+  EXPECT_NEAR(run.rows.back().state.u_mps, *steady_rate(surge, 4.0, 4.0 * 0.8), 1e-6);
+  EXPECT_EQ(run.rows.back().force.left, 1.0);
+}
+
+/// Motors that are off brake with nothing: the stop time is that of the law, with a lag as well.
+TEST(BackEmf, IsGoneWhereTheMotorsAreOff) {
+  const Plant<double> ideal = geared(0.0, {.alpha = 1.3157, .beta = 0.8841});
+  const Plant<double> plant = geared(0.5, {.alpha = 1.3157, .beta = 0.8841});
+  State<double> start{};
+  start.u_mps = 1.5;
+  Scenario scenario{"coast", 1.0, start, 0.0, OpenLoop{0.0, 0.0}};
+  scenario.actuators = Actuators{.motor_time_constant_s = 0.1};
+  const auto end_of = [&](const Plant<double>& p) {
+    return simulate(p, make_controller(p, paper_vehicle(), kPaperGains), scenario,
+                    YawMode::kDifferential, {.sample_time_s = 0.01, .substeps = 20})
+        .rows.back()
+        .state.u_mps;
+  };
+  EXPECT_EQ(end_of(plant), end_of(ideal));
+}
+
 TEST(Families, AtRestAForceBelowCoulombFrictionMovesNothingMuch) {
   const Plant<double> plant = plant_of({.alpha = 1.0, .beta = 1.0, .coulomb = 0.3}, 0.0);
   const awmr::Run run = run_open_loop(plant, {}, 5.0, {0.25, 0.0});

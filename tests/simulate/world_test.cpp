@@ -6,6 +6,7 @@
 
 #include "awmr/model/gains_file.h"
 #include "awmr/simulate/metrics.h"
+#include "awmr/simulate/physics.h"
 #include "awmr/simulate/sensing.h"
 #include "simulate/paper_plant.h"
 
@@ -117,6 +118,24 @@ TEST(Wheels, ASlipperyPatchUnderTheLeftWheelsTurnsLeftOnlyThere) {
   EXPECT_GT(run_of(s, YawMode::kDifferential).rows.back().state.psi_rad, 0.1);
   s.patches[0].centre_m = {0.0, 50.0};
   EXPECT_EQ(run_of(s, YawMode::kDifferential).rows.back().state.psi_rad, 0.0);
+}
+
+/// A wheel on ice passes on no more than the ice lets it, however its motor makes its force.
+TEST(Wheels, OnASlipperyPatchBackEmfBrakesNoMoreThanTheGroundHolds) {
+  Scenario s = straight(1.0);
+  s.patches = {{.centre_m = {0.0, 0.0}, .radius_m = 5.0, .force_max = 0.1}};
+  Plant<double> plant = paper_plant();
+  plant.back_emf_s_per_m = 0.5;
+  State<double> state{};
+  for (const double u : {-1.5, 0.0, 1.5}) {
+    for (const double command : {-0.9, -0.05, 0.02, 0.9}) {
+      state.u_mps = u;
+      const WheelForces<double> arriving = at_the_ground(s, plant, state, 0.0, {command, command});
+      const double force = motor_force(arriving.rear_left, 0.5, u);
+      const double wanted = motor_force(command, 0.5, u);
+      EXPECT_NEAR(force, math::saturate(wanted, 0.1), 1e-15) << u << ' ' << command;
+    }
+  }
 }
 
 TEST(Battery, TheSpeedFallsToWhatTheForceLeft) {

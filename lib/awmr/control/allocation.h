@@ -21,6 +21,7 @@
 #include "awmr/control/flash.h"
 #include "awmr/control/yaw_mode.h"
 #include "awmr/model/allocation_form.h"
+#include "awmr/model/resistance.h"
 #include "awmr/model/scalar_math.h"
 #include "awmr/model/state.h"
 
@@ -50,6 +51,9 @@ struct AllocationLimits {
   /// F'0 of every wheel, over F_max, >= 0. The forces of an allocation, and the limits above, are
   /// those beyond it; the command that goes out to a motor is with_dead_zone() of them.
   T dead_zone = T(0.0);
+  /// k_e of every motor, s/m, >= 0 (motor_force() in model/dynamics.h): a wheel that rolls at u m/s
+  /// makes forces in [F'min - k_e u, F'max - k_e u]. The chip has none.
+  T back_emf_s_per_m = T(0.0);
 };
 
 /// The commands, and which limits they met.
@@ -106,6 +110,40 @@ AllocationConstants<T> prepared(const AllocationLimits<T>& limits) {
           limits.steering_max_rad,
           T(0.5) * limits.steering_max_tan_half,
           T(0.5) * limits.steering_max_tan_half * (T(0.5) * limits.steering_max_tan_half)};
+}
+
+/// The constants at the speed u, m/s, where the motors have back-EMF: k_e u is gone from the forces.
+/// The turn's share of a wheel's speed, +- d r, is left to motor_commands().
+template <class T>
+AllocationConstants<T> at_speed(AllocationConstants<T> c, const T& back_emf_s_per_m,
+                                const T& u_mps) {
+  const T lost = back_emf_s_per_m * u_mps;
+  c.tau_speed_min = c.tau_speed_min - T(4.0) * lost;
+  c.tau_speed_max = c.tau_speed_max - T(4.0) * lost;
+  c.force_min = c.force_min - lost;
+  c.force_max = c.force_max - lost;
+  return c;
+}
+
+/// What the motors are commanded to make these forces at the speed u, m/s, and yaw rate r, rad/s:
+///   e = sat(F' + k_e w, [F'min, F'max]),   w = u -+ d r           upper sign: left, lower: right
+/// and the dead zone on top. w is how fast a rear wheel rolls, and a front one up to d_r^2/2 of it
+/// and l_f r d_r. A command of 0 switches the motor off: a vehicle that cannot reverse its motors
+/// (F'min = 0) brakes by its back-EMF as long as a command is left, and rolls freely beyond.
+template <class T>
+SideForces<T> motor_commands(const SideForces<T>& force, const AllocationConstants<T>& c,
+                             const T& dead_zone, const T& back_emf_s_per_m, const T& u_mps,
+                             const T& r_radps) {
+  using math::any;
+  SideForces<T> drive = force;
+  if (any(back_emf_s_per_m > T(0.0))) {
+    const T turn_mps = c.half_track_m * r_radps;
+    drive.left = math::clamp(T(force.left + back_emf_s_per_m * (u_mps - turn_mps)), c.force_min,
+                             c.force_max);
+    drive.right = math::clamp(T(force.right + back_emf_s_per_m * (u_mps + turn_mps)), c.force_min,
+                              c.force_max);
+  }
+  return {with_dead_zone(drive.left, dead_zone), with_dead_zone(drive.right, dead_zone)};
 }
 
 namespace detail {
@@ -318,14 +356,16 @@ AllocationConstants<T> small_angle_form(AllocationConstants<T> c) {
   return c;
 }
 
-/// The same from the limits themselves, in their form, where the time of a step does not matter. The
-/// chip has the exact form alone.
+/// The same from the limits themselves, in their form, where the time of a step does not matter, and
+/// at the speed u, m/s, which the limits depend on where the motors have back-EMF. The chip has the
+/// exact form alone, and motors without.
 template <class T>
 Allocation<T> allocate(YawMode mode, const T& tau_speed, const T& tau_turn_m,
-                       const AllocationLimits<T>& limits) {
+                       const AllocationLimits<T>& limits, const T& u_mps = T(0.0)) {
   Allocation<T> a{};
-  const AllocationConstants<T> c = prepared(limits);
+  AllocationConstants<T> c = prepared(limits);
 #ifndef __AVR__
+  if (limits.back_emf_s_per_m > T(0.0)) c = at_speed(c, limits.back_emf_s_per_m, u_mps);
   if (limits.form == AllocationForm::kPaper) {
     detail::allocate_by<detail::SmallAngle>(mode, tau_speed, tau_turn_m, small_angle_form(c),
                                             limits.split, a);

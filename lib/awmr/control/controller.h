@@ -225,7 +225,7 @@ Command<T> control_step(const Controller<T, G>& c, YawMode mode, const Measureme
   command.tau_speed = speed_law(c, m, ref);
   command.tau_turn_m = heading_law(c, m, ref);
   command.sliding_radps = sliding_surface(c.gains.heading, m, ref);
-  command.allocation = allocate(mode, command.tau_speed, command.tau_turn_m, c.limits);
+  command.allocation = allocate(mode, command.tau_speed, command.tau_turn_m, c.limits, m.u_mps);
   return command;
 }
 

@@ -104,6 +104,16 @@ Status check_allocation(const Model& model) {
                          option_text("header-only") + ")");
 }
 
+Status check_motors(const Plant<double>& plant, const Model& model) {
+  if (!(plant.back_emf_s_per_m > 0.0)) return {};
+  return input_error(
+      fmt::format("{}:{}", file_name(model), info(ParameterId::kBackEmf).pointer),
+      fmt::format("the firmware takes motors for ideal sources of force and would leave out their "
+                  "back-EMF of {:.3g} s/m: emit the header alone ({}), which has it as "
+                  "AWMR_MOTOR_BACK_EMF",
+                  plant.back_emf_s_per_m, option_text("header-only")));
+}
+
 /// powf knows the power law alone.
 Status check_family(const Plant<double>& plant, ResistanceForm form) {
   if (form == ResistanceForm::kPowf && !is_power_law(plant)) {
@@ -153,6 +163,7 @@ Result<AutopilotParameters> autopilot_parameters(const Model& model, const Gains
   AWMR_RETURN_IF_ERROR(params_header(model, gains, inputs));
   AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, model.plant());
   AWMR_RETURN_IF_ERROR(check_allocation(model));
+  AWMR_RETURN_IF_ERROR(check_motors(plant, model));
   AWMR_RETURN_IF_ERROR(check_family(plant, options.resistance));
 
   const double full_force = 4.0 * force_beyond_dead_zone(plant, model.vehicle).hi;

@@ -116,7 +116,14 @@ void add_speed_loop(Autopilot& pilot, const char* p, const char* i, double throt
 
 Status check_surge(const Model& model) {
   AWMR_RETURN_IF_ERROR(model.plant(Motion::kSteadySurge));
-  return {};
+  const double back_emf = model[ParameterId::kBackEmf].value.value_or(0.0);
+  if (!(back_emf > 0.0)) return {};
+  return input_error(
+      fmt::format("{}:{}", model.file, info(ParameterId::kBackEmf).pointer),
+      fmt::format(
+          "an autopilot's values are worked out for ideal sources of force, and would leave "
+          "out the motors' back-EMF of {:.3g} s/m; the other formats have it",
+          back_emf));
 }
 
 /// ArduPilot's steering output over turn rate, at half of the largest output.

@@ -45,7 +45,8 @@ void add_parameters(std::vector<Macro>& macros, const Model& model, const std::s
       {"AWMR_SURGE_QUADRATIC", ParameterId::kSurgeQuadratic},
       {"AWMR_YAW_COULOMB", ParameterId::kYawCoulomb},
       {"AWMR_YAW_QUADRATIC", ParameterId::kYawQuadratic},
-      {"AWMR_WHEEL_DEAD_ZONE", ParameterId::kWheelDeadZone}};
+      {"AWMR_WHEEL_DEAD_ZONE", ParameterId::kWheelDeadZone},
+      {"AWMR_MOTOR_BACK_EMF", ParameterId::kBackEmf}};
   for (const auto& [name, id] : terms) {
     if (model[id].value != 0.0) add(name, id, MacroRange::kPositive);
   }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iterator>
 #include <utility>
 
@@ -20,6 +21,23 @@ bool asks_for_other_family(const IdentifyOptions& options) {
          options.yaw_family.family != Family::kPower;
 }
 
+/// Steady runs of motors with back-EMF hold its loss and the resistance in one.
+Status check_back_emf(const Vehicle& vehicle, const TrialData& data,
+                      const IdentifyOptions& options) {
+  const bool is_asked =
+      std::ranges::find(options.asked, ParameterId::kBackEmf) != options.asked.end();
+  if (!is_asked && !(vehicle.back_emf_s_per_m.value_or(0.0) > 0.0)) return {};
+  if (!data.surge && !data.turning) return {};
+  return input_error(
+      data.surge ? data.surge->file : data.turning->file,
+      fmt::format("a table of steady runs does not tell what motors with back-EMF ({}) lose from "
+                  "what resists: identify this vehicle from logs ({}) that drive and coast",
+                  is_asked ? option_text(fmt::format("fit {}", info(ParameterId::kBackEmf).name))
+                           : fmt::format("back_emf_s_per_m {:g} in the vehicle file",
+                                         *vehicle.back_emf_s_per_m),
+                  option_text("log")));
+}
+
 Status check_options(const Vehicle& vehicle, const TrialData& data,
                      const IdentifyOptions& options) {
   for (const ParameterId id : options.asked) {
@@ -28,6 +46,7 @@ Status check_options(const Vehicle& vehicle, const TrialData& data,
                        fmt::format("a vehicle of drive \"{}\" has no steering, and with it no {}",
                                    name_in(kDriveNames, vehicle.drive), info(id).name));
   }
+  AWMR_RETURN_IF_ERROR(check_back_emf(vehicle, data, options));
   const bool other_family = asks_for_other_family(options);
   if (options.method == Method::kLogLinear && (other_family || options.loss != Loss::kSquared)) {
     return input_error(option_text("method"),

@@ -122,6 +122,9 @@ void set_given(const Vehicle& vehicle, Model& model) {
   if (vehicle.sway_alpha) {
     model[ParameterId::kSwayAlpha] = given(*vehicle.sway_alpha, "vehicle");
   }
+  if (vehicle.back_emf_s_per_m) {
+    model[ParameterId::kBackEmf] = given(*vehicle.back_emf_s_per_m, "vehicle");
+  }
   // Wheels that stay straight have no lag. It is held at any value until the fits are done, so that
   // none of them looks for it.
   constexpr double kAny_s = 1.0;
@@ -162,6 +165,7 @@ void set_mass(const MassResult& mass, const std::optional<SteadyFit>& surge, Mai
 
 void set_logs(const LogStage& logs, MainValues& values) {
   if (logs.block.size() == 0) return;
+  if (logs.is_back_emf_open) values.model[ParameterId::kBackEmf] = {};
   const Eigen::Index first = values.covariance.add_block(logs.block);
   const auto fills = [&](ParameterId id) {
     return std::ranges::any_of(logs.main,

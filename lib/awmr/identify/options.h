@@ -67,6 +67,11 @@ struct FamilyChoice {
   bool asked = false;
 };
 
+/// Whether a fit can be asked for it by name: a term comes with its family, back-EMF is in none.
+inline bool can_be_asked(const ParameterInfo& parameter) {
+  return !parameter.term || parameter.id == ParameterId::kBackEmf;
+}
+
 struct IdentifyOptions {
   /// Default: the trajectory fit where there are logs, else log-linear, the paper's; nonlinear
   /// where a family or a loss is asked for that log-linear least squares does not know.

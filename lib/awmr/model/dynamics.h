@@ -38,7 +38,53 @@ struct Plant {
   /// F'0, over F_max, >= 0: the part of each wheel's force command that moves nothing. 0: none, as
   /// in the paper; another value comes from the dead-zone family of resistances.
   T wheel_dead_zone = T(0.0);
+  /// k_e, s/m, >= 0: the force over F_max that a motor loses per m/s at its wheel (back-EMF). 0: an
+  /// ideal source of force, as in the paper. Data sheet, or a log of driven stretches and coasting.
+  T back_emf_s_per_m = T(0.0);
 };
+
+/// How fast each wheel rolls: m/s along the wheel, forward positive.
+template <class T>
+struct WheelSpeeds {
+  T front_left;
+  T front_right;
+  T rear_left;
+  T rear_right;
+};
+
+/// The rear wheels roll ahead, the front ones along d_r:
+///   w_rear  =  u -+ d r                              upper sign: left, lower: right
+///   w_front = (u -+ d r) cos d_r + (v + l_f r) sin d_r
+template <class T>
+WheelSpeeds<T> wheel_speeds(const T& front_axle_m, const T& half_track_m, const State<T>& s) {
+  using math::cos;
+  using math::sin;
+  const T across_mps = (s.v_mps + front_axle_m * s.r_radps) * sin(s.steering_rad);
+  const T cos_d = cos(s.steering_rad);
+  const T left_mps = s.u_mps - half_track_m * s.r_radps;
+  const T right_mps = s.u_mps + half_track_m * s.r_radps;
+  return {left_mps * cos_d + across_mps, right_mps * cos_d + across_mps, left_mps, right_mps};
+}
+
+/// F' of a motor whose wheel rolls at w m/s, over F_max. `drive` is e, its command beyond the dead
+/// zone: the voltage over that at which the motor makes F_max at a standstill.
+///   F' = e - k_e w    for e != 0: the voltage that the turning motor makes is taken off
+///   F' = 0            for e  = 0: the motor is off and its wheel rolls freely
+template <class T>
+T motor_force(const T& drive, const T& back_emf_s_per_m, const T& wheel_mps) {
+  using math::select;
+  return select(drive > T(0.0) || drive < T(0.0), T(drive - back_emf_s_per_m * wheel_mps), T(0.0));
+}
+
+/// The fastest rate at which back-EMF brakes, 1/s: of the surge, 4 k_e/m', or at most of the yaw rate,
+/// k_e (4 d^2 + 2 l_f^2)/I'z. 0 without it.
+inline double back_emf_rate(const Plant<double>& p) {
+  const double surge = 4.0 / p.mass_norm;
+  const double yaw =
+      (4.0 * p.half_track_m * p.half_track_m + 2.0 * p.front_axle_m * p.front_axle_m) /
+      p.inertia_norm;
+  return p.back_emf_s_per_m * (surge > yaw ? surge : yaw);
+}
 
 namespace detail {
 
@@ -68,6 +114,18 @@ State<T> rates(const Plant<T>& p, const State<T>& s, const T& surge_force, const
   return d;
 }
 
+/// What each wheel pushes with at the speed at which it rolls.
+template <class T>
+AWMR_COLD WheelForces<T> motor_forces(const Plant<T>& p, const State<T>& s,
+                                      const WheelForces<T>& drive) {
+  const WheelSpeeds<T> w = wheel_speeds(p.front_axle_m, p.half_track_m, s);
+  const T& k = p.back_emf_s_per_m;
+  return {motor_force(drive.front_left, k, w.front_left),
+          motor_force(drive.front_right, k, w.front_right),
+          motor_force(drive.rear_left, k, w.rear_left),
+          motor_force(drive.rear_right, k, w.rear_right)};
+}
+
 }  // namespace detail
 
 /// The servo, rad/s: a first-order lag whose target and whose rate are limited.
@@ -80,7 +138,7 @@ T steering_rate(const Plant<T>& p, const T& steering_rad, const T& steering_comm
                         p.steering_max_rate_radps);
 }
 
-/// Rates of the state where each wheel has a force of its own. With S_f = F'FL + F'FR and
+/// Rates of the state where each wheel has a force of its own, F' = motor_force(). With S_f = F'FL + F'FR and
 /// S_r = F'RL + F'RR, the last three are
 ///   u_dot = (S_f cos d_r + S_r + m' r v - g1(u)) / m'
 ///   v_dot = (S_f sin d_r       - m' r u - g2(v)) / m'
@@ -90,14 +148,16 @@ T steering_rate(const Plant<T>& p, const T& steering_rad, const T& steering_comm
 template <class T>
 State<T> state_rates(const Plant<T>& p, const State<T>& s, const WheelForces<T>& f,
                      const T& steering_command_rad) {
+  using math::any;
   using math::cos;
   using math::sin;
   const T cos_d = cos(s.steering_rad);
   const T sin_d = sin(s.steering_rad);
-  const WheelForces<T> e{beyond_dead_zone(f.front_left, p.wheel_dead_zone),
-                         beyond_dead_zone(f.front_right, p.wheel_dead_zone),
-                         beyond_dead_zone(f.rear_left, p.wheel_dead_zone),
-                         beyond_dead_zone(f.rear_right, p.wheel_dead_zone)};
+  WheelForces<T> e{beyond_dead_zone(f.front_left, p.wheel_dead_zone),
+                   beyond_dead_zone(f.front_right, p.wheel_dead_zone),
+                   beyond_dead_zone(f.rear_left, p.wheel_dead_zone),
+                   beyond_dead_zone(f.rear_right, p.wheel_dead_zone)};
+  if (any(p.back_emf_s_per_m > T(0.0))) e = detail::motor_forces(p, s, e);
   const T front = e.front_left + e.front_right;
   const T rear = e.rear_left + e.rear_right;
   const T moment = p.front_axle_m * front * sin_d +
@@ -151,9 +211,15 @@ T differential_moment_m(const T& half_track_m, const T& right_less_left) {
 ///   v_dot = (tau_steering/l_f        - m' r u - g2(v)) / m'
 ///   r_dot = (tau_steering + tau_diff          - g3(r)) / I'z                          [paper (40)]
 /// with tau_turn = tau_steering + tau_diff, and the first three those of detail::rates.
+/// With back-EMF the front wheels of a side push otherwise than the rear ones: each by itself.
 template <class T>
 State<T> state_rates(const Plant<T>& p, const State<T>& s, const SideForces<T>& f,
                      const T& steering_command_rad) {
+  using math::any;
+  if (any(p.back_emf_s_per_m > T(0.0))) {
+    return state_rates(p, s, WheelForces<T>{f.left, f.right, f.left, f.right},
+                       steering_command_rad);
+  }
   const SideForces<T> effective{beyond_dead_zone(f.left, p.wheel_dead_zone),
                                 beyond_dead_zone(f.right, p.wheel_dead_zone)};
   const GeneralisedForces<T> tau =

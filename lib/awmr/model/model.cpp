@@ -59,7 +59,7 @@ bool has(const Vehicle& vehicle, ParameterId id) {
 }
 
 std::string_view trial_of(const Vehicle& vehicle, ParameterId id) {
-  const bool turning = takes(Motion::kSteadyTurn, id) && id != ParameterId::kWheelDeadZone;
+  const bool turning = takes(Motion::kSteadyTurn, id) && !takes(Motion::kSteadySurge, id);
   if (!turning || vehicle.has_steering()) return info(id).trial;
   return "a turning trial: runs at two or more constant differences of force_right and force_left, "
          "each with its steady yaw rate";
@@ -78,6 +78,7 @@ bool takes(Motion motion, ParameterId id) {
     case ParameterId::kYawQuadratic:
       return motion == Motion::kSteadyTurn || motion == Motion::kPlanar;
     case ParameterId::kWheelDeadZone:
+    case ParameterId::kBackEmf:
       return true;
     case ParameterId::kMassNorm:
       return motion == Motion::kStraight || motion == Motion::kPlanar;

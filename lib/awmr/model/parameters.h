@@ -23,8 +23,9 @@ enum class ParameterId {
   kYawCoulomb,
   kYawQuadratic,
   kWheelDeadZone,
+  kBackEmf,  ///< of the motors; in no family: see README.md
 };
-inline constexpr std::size_t kParameterCount = 13;
+inline constexpr std::size_t kParameterCount = 14;
 
 /// What is known of a parameter before any trial.
 struct ParameterInfo {
@@ -35,7 +36,7 @@ struct ParameterInfo {
   std::string_view unit;     ///< "1" where dimensionless
   std::string_view meaning;  ///< what it is, in words for messages
   std::string_view trial;    ///< the trial that shows it, in words for a refusal
-  bool term = false;         ///< 0 and absent from model.json unless the family has it
+  bool term = false;         ///< 0 and absent from model.json unless the vehicle has it
 };
 
 /// What a fit of logs can estimate beside the parameters; in /estimates only.

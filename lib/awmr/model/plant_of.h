@@ -35,7 +35,8 @@ Plant<T> plant_of(const Vehicle& vehicle, const ParameterValues<T>& values) {
           .steering_max_rad = T(radians(vehicle.steering_max_deg)),
           .steering_max_rate_radps = T(radians(vehicle.steering_max_rate_degps)),
           .steering_time_constant_s = value(ParameterId::kSteeringTimeConstant),
-          .wheel_dead_zone = value(ParameterId::kWheelDeadZone)};
+          .wheel_dead_zone = value(ParameterId::kWheelDeadZone),
+          .back_emf_s_per_m = value(ParameterId::kBackEmf)};
 }
 
 }  // namespace awmr

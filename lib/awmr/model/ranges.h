@@ -18,6 +18,8 @@ inline constexpr NumberRule kSampleTime_s{.min = 1e-4, .max = 1.0};
 inline constexpr NumberRule kSensorNoise{.min = 0.0, .max = 1e3};
 /// How late a sensor or a motor is.
 inline constexpr NumberRule kLatency_s{.min = 0.0, .max = 1.0};
+/// 1/k_e is the speed at which a motor under full voltage has no force left: 1 mm/s at the least.
+inline constexpr NumberRule kBackEmf_s_per_m{.min = 0.0, .max = 1e3};
 inline constexpr NumberRule kFastestTurn_degps{.min = 1e-3, .max = 1e6};
 /// Coefficients of resistance, m' and I'z, each in its own unit.
 inline constexpr NumberRule kCoefficient{.min = 1e-9, .max = 1e9};

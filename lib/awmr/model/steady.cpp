@@ -13,23 +13,25 @@ std::optional<double> finite(double value) {
   return std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
-/// The w at which alpha w^beta + q w^2 = excess, by Newton's method on
-///   h(s) = ln((alpha e^(s beta) + q e^(2 s))/excess),   w = e^s
+/// The w at which alpha w^beta + v w + q w^2 = excess, v = `viscous`, by Newton's method on
+///   h(s) = ln((alpha e^(s beta) + v e^s + q e^(2 s))/excess),   w = e^s
 /// h rises and is convex, as a logarithm of a sum of exponentials: the steps from above the root
 /// come down to it and never pass, so they have ended where rounding alone would turn them back.
-std::optional<double> rate_above_coulomb(const Resistance<double>& law, double excess) {
+std::optional<double> rate_above_coulomb(const Resistance<double>& law, double excess,
+                                         double viscous) {
   constexpr double kFastest = 1e9;
   constexpr double kSlowest = 1e-300;
   constexpr int kMostSteps = 200;
   if (!(excess > 0.0) || !std::isfinite(excess)) return std::nullopt;
-  // Either term alone holds the force at a speed above the root.
-  double w =
-      std::min(std::pow(excess / law.alpha, 1.0 / law.beta), std::sqrt(excess / law.quadratic));
+  // Each term alone holds the force at a speed above the root.
+  double w = std::min({std::pow(excess / law.alpha, 1.0 / law.beta),
+                       std::sqrt(excess / law.quadratic), excess / viscous});
   for (int i = 0; i < kMostSteps && w > kSlowest && w <= kFastest; ++i) {
     const double power = law.alpha * std::pow(w, law.beta);
     const double square = law.quadratic * w * w;
-    const double h = std::log1p((power + square - excess) / excess);
-    const double slope = (law.beta * power + 2.0 * square) / (power + square);
+    const double linear = viscous * w;
+    const double h = std::log1p((power + square + linear - excess) / excess);
+    const double slope = (law.beta * power + 2.0 * square + linear) / (power + square + linear);
     const double next = w * std::exp(-h / slope);
     if (!(next < w)) return finite(next);
     w = next;
@@ -40,13 +42,13 @@ std::optional<double> rate_above_coulomb(const Resistance<double>& law, double e
 
 }  // namespace
 
-std::optional<double> steady_rate(const Resistance<double>& law, double force) {
+std::optional<double> steady_rate(const Resistance<double>& law, double force, double viscous) {
   // force = alpha w^beta  =>  w = (force/alpha)^(1/beta)               [paper (46)-(47), (62)-(63)]
-  if (is_power(law)) {
+  if (is_power(law) && !(viscous > 0.0)) {
     if (!(force > 0.0) || !(law.beta > 0.0)) return std::nullopt;
     return finite(std::pow(force / law.alpha, 1.0 / law.beta));
   }
-  return rate_above_coulomb(law, force - law.coulomb);
+  return rate_above_coulomb(law, force - law.coulomb, viscous);
 }
 
 std::optional<double> stop_time_s(const Resistance<double>& law, double mass_norm,

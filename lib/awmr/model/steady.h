@@ -9,8 +9,11 @@ namespace awmr {
 
 /// The w > 0 at which the resistance holds a force: g(w) = force. For g1 and force = tau_speed it
 /// is the steady speed in m/s, for g3 and force = tau_turn in m the steady yaw rate in rad/s.
+/// With `viscous` > 0, in the unit of g over that of w: g(w) + viscous w = force, as motors with
+/// back-EMF leave of tau_speed at u with viscous = 4 k_e.
 /// None where the force does not overcome Coulomb friction c, or the curve never reaches it.
-std::optional<double> steady_rate(const Resistance<double>& law, double force);
+std::optional<double> steady_rate(const Resistance<double>& law, double force,
+                                  double viscous = 0.0);
 
 /// Time from motors off at speed_mps = u > 0 to rest, s:
 ///   t_a = m' int_0^u dw/g(w)

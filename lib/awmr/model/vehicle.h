@@ -60,6 +60,9 @@ struct Vehicle {
   SensorQuality sensors = {};  ///< what gains are tuned for (tune/tune.h)
   /// s, >= 0: first-order lag of the motors' force behind its command, which gains are tuned for.
   std::optional<double> motor_time_constant_s;
+  /// k_e, s/m, >= 0: force over F_max that a motor loses per m/s at its wheel, by its data sheet;
+  /// absent: none, unless a log shows it.
+  std::optional<double> back_emf_s_per_m;
   /// deg/s, > 0: the fastest turn up to which yaw resistance is known; absent: the range that the
   /// turning trials covered.
   std::optional<double> yaw_rate_max_degps;

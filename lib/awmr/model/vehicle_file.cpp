@@ -107,6 +107,7 @@ void control_from_json(JsonObject& json, Vehicle& vehicle) {
   sensors_from_json(json.optional_object("latency_s"), kLatencyKeys, kLatency_s, vehicle.sensors);
   if (auto motor = json.optional_object("motor")) {
     vehicle.motor_time_constant_s = motor->optional_number("time_constant_s", kLatency_s);
+    vehicle.back_emf_s_per_m = motor->optional_number("back_emf_s_per_m", kBackEmf_s_per_m);
     motor->reject_unknown_keys();
   }
   vehicle.yaw_rate_max_degps = json.optional_number("yaw_rate_max_degps", kFastestTurn_degps);
@@ -121,6 +122,7 @@ void control_to_json(const Vehicle& vehicle, Json& json) {
   if (vehicle.motor_time_constant_s) {
     json["motor"]["time_constant_s"] = *vehicle.motor_time_constant_s;
   }
+  if (vehicle.back_emf_s_per_m) json["motor"]["back_emf_s_per_m"] = *vehicle.back_emf_s_per_m;
   if (vehicle.yaw_rate_max_degps) json["yaw_rate_max_degps"] = *vehicle.yaw_rate_max_degps;
 }
 

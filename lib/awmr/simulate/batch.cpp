@@ -97,6 +97,9 @@ void set_up_lane(Batch& batch, const BatchRun& run, std::size_t lane) {
   put(static_cast<double>(substeps), lane, block.substeps);
   put(prepared(controller), lane, block.controller);
   put(controller.limits.dead_zone, lane, block.dead_zone);
+  put(controller.limits.back_emf_s_per_m, lane, block.back_emf);
+  block.setup.has_back_emf = block.setup.has_back_emf || run.plant.back_emf_s_per_m > 0.0 ||
+                             controller.limits.back_emf_s_per_m > 0.0;
   put(largest_force(controller), lane, block.force_most);
   put(metered_vehicle(controller.limits), lane, block.metered);
   put(batch.scenario.initial, lane, block.state);

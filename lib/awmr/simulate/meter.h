@@ -4,6 +4,7 @@
 
 #include "awmr/control/controller.h"
 #include "awmr/core/units.h"
+#include "awmr/model/dynamics.h"
 #include "awmr/model/resistance.h"
 #include "awmr/model/state.h"
 
@@ -18,6 +19,8 @@ struct MeteredVehicle {
   T command_max;       ///< the command that makes it
   T command_min;       ///< the command that makes F'min
   T steering_max_rad;  ///< d_max; 0: no steering
+  T dead_zone;         ///< F'0 of the motors
+  T back_emf_s_per_m;  ///< k_e of the motors
 };
 
 /// What of the course counts; the same for all lanes.
@@ -104,23 +107,39 @@ T larger(const T& a, const T& b) {
   return select(a < b, b, a);
 }
 
-/// Power that the four wheels put into the vehicle, over F_max, m/s. The rear axle rolls ahead; the
-/// front wheels roll along d_r:
-///   w_rear  = u -+ d r
-///   w_front = (u -+ d r) cos d_r + (v + l_f r) sin d_r            upper sign: left, lower: right
+/// What the motors do at one moment.
 template <class T>
-T driving_power(const MeteredRow<T>& row, const MeteredVehicle<T>& vehicle) {
-  using math::cos;
-  using math::sin;
-  const State<T>& s = row.state;
-  const T across_mps = (s.v_mps + vehicle.front_axle_m * s.r_radps) * sin(s.steering_rad);
-  const T cos_d = cos(s.steering_rad);
-  const auto of_side = [&](const T& force, const T& side) {
-    const T rear_mps = s.u_mps - side * vehicle.half_track_m * s.r_radps;
-    const T front_mps = rear_mps * cos_d + across_mps;
-    return larger(T(0.0), T(force * rear_mps)) + larger(T(0.0), T(force * front_mps));
+struct MotorWork {
+  T power_mps;  ///< that the four wheels put into the vehicle, over F_max: sum of F' w above 0
+  T copper;     ///< half the sum of the wheels' F'^2
+};
+
+template <class T>
+MotorWork<T> motor_work(const MeteredRow<T>& row, const MeteredVehicle<T>& vehicle) {
+  using math::any;
+  const WheelSpeeds<T> w = wheel_speeds(vehicle.front_axle_m, vehicle.half_track_m, row.state);
+  const T& left = row.force.left;
+  const T& right = row.force.right;
+  const auto power = [](const T& force, const T& wheel_mps) {
+    return larger(T(0.0), T(force * wheel_mps));
   };
-  return of_side(row.force.left, T(1.0)) + of_side(row.force.right, T(-1.0));
+  if (!any(vehicle.back_emf_s_per_m > T(0.0))) {
+    return {(power(left, w.rear_left) + power(left, w.front_left)) +
+                (power(right, w.rear_right) + power(right, w.front_right)),
+            left * left + right * right};
+  }
+  MotorWork<T> work{T(0.0), T(0.0)};
+  const auto add = [&](const T& command, const T& wheel_mps) {
+    const T drive = beyond_dead_zone(command, vehicle.dead_zone);
+    const T force = motor_force(drive, vehicle.back_emf_s_per_m, wheel_mps);
+    work.power_mps += power(force, wheel_mps);
+    work.copper += T(0.5) * force * force;
+  };
+  add(left, w.front_left);
+  add(right, w.front_right);
+  add(left, w.rear_left);
+  add(right, w.rear_right);
+  return work;
 }
 
 template <class T>
@@ -235,8 +254,9 @@ void remember(const MeteredRow<T>& row, const MeteredVehicle<T>& vehicle, double
               MeterSums<T>& m) {
   using math::select;
   m.t_s = T(t_s);
-  m.power_mps = driving_power(row, vehicle);
-  m.copper = row.force.left * row.force.left + row.force.right * row.force.right;
+  const MotorWork<T> work = motor_work(row, vehicle);
+  m.power_mps = work.power_mps;
+  m.copper = work.copper;
   m.yaw_resistance_m = row.yaw_resistance_m;
   m.r_radps = row.state.r_radps;
   m.limited = select(at_a_limit(row, vehicle), T(1.0), T(0.0));

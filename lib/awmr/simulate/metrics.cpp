@@ -31,7 +31,9 @@ MeteredVehicle<double> metered_vehicle(const AllocationLimits<double>& limits) {
           .force_max = limits.force_max,
           .command_max = with_dead_zone(limits.force_max, limits.dead_zone),
           .command_min = with_dead_zone(limits.force_min, limits.dead_zone),
-          .steering_max_rad = limits.steering_max_rad};
+          .steering_max_rad = limits.steering_max_rad,
+          .dead_zone = limits.dead_zone,
+          .back_emf_s_per_m = limits.back_emf_s_per_m};
 }
 
 MeteredCourse metered_course(const Scenario& scenario) {

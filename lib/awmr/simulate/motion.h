@@ -47,6 +47,18 @@ SideForces<T> through_motors(const MotorLag& lag, const SideForces<T>& command,
   return {command.left + behind.left * mean_share, command.right + behind.right * mean_share};
 }
 
+/// What arrives of commands at motors with back-EMF: one that is commanded 0 is off at once, as it
+/// would brake for as long as a lag leaves it anything (motor_force() in dynamics.h).
+template <class T>
+SideForces<T> switched_off(const T& back_emf_s_per_m, const SideForces<T>& command,
+                           const SideForces<T>& arriving) {
+  using math::abs;
+  using math::select;
+  const Mask<T> ideal = !(back_emf_s_per_m > T(0.0));
+  return {select(ideal || abs(command.left) > T(0.0), arriving.left, T(0.0)),
+          select(ideal || abs(command.right) > T(0.0), arriving.right, T(0.0))};
+}
+
 /// Both forces, no larger than `most` either way.
 template <class T>
 SideForces<T> up_to(const SideForces<T>& force, const T& most) {

@@ -28,6 +28,17 @@ RunSeed seed_of(const Scenario& scenario, const SimulateOptions& options) {
   return run_seed(scenario.seed, options.seed, options.sample);
 }
 
+/// The command of which a wheel's force is no larger than `most`. With back-EMF that depends on the
+/// speed at which the wheel rolls: by F' = e - k_e w, the command is that of e = F' + k_e w.
+double slipping(const Plant<double>& plant, double command, double wheel_mps, double most) {
+  const double k = plant.back_emf_s_per_m;
+  if (!(k > 0.0)) return math::saturate(command, most);
+  const double drive = beyond_dead_zone(command, plant.wheel_dead_zone);
+  const double force = motor_force(drive, k, wheel_mps);
+  if (std::abs(force) <= most) return command;
+  return with_dead_zone(math::saturate(force, most) + k * wheel_mps, plant.wheel_dead_zone);
+}
+
 /// Steps of a sample; with room for rounding, so that a sample of exactly n steps takes n.
 double steps_of_sample(const Plant<double>& plant, double sample_time_s) {
   return std::max(1.0, std::ceil(sample_time_s / step_limit(plant).step_s - 1e-9));
@@ -35,8 +46,8 @@ double steps_of_sample(const Plant<double>& plant, double sample_time_s) {
 
 }  // namespace
 
-/// h <= T/6 for the time constants that do not depend on speed, m'/a_s of sway and T of the servo;
-/// and h such that resistance is its chord only below kChordSpeed (rest_speed() solved for h):
+/// h <= T/6 for the time constants that do not depend on speed, m'/a_s of sway, T of the servo and
+/// that by which back-EMF brakes; and h such that resistance is its chord only below kChordSpeed (rest_speed() solved for h):
 ///   h <= inertia kChordSpeed / g(kChordSpeed)
 StepLimit step_limit(const Plant<double>& plant) {
   StepLimit limit{plant.steering_time_constant_s / kStepsPerTimeConstant,
@@ -46,6 +57,9 @@ StepLimit step_limit(const Plant<double>& plant) {
   };
   if (plant.sway_alpha > 0.0) {
     at_most(plant.mass_norm / plant.sway_alpha / kStepsPerTimeConstant, ParameterId::kSwayAlpha);
+  }
+  if (const double rate = back_emf_rate(plant); rate > 0.0) {
+    at_most(1.0 / rate / kStepsPerTimeConstant, ParameterId::kBackEmf);
   }
   at_most(step_for_chord(plant.surge, plant.mass_norm), ParameterId::kSurgeBeta);
   at_most(step_for_chord(plant.yaw, plant.inertia_norm), ParameterId::kYawBeta);
@@ -101,6 +115,8 @@ WheelForces<double> at_the_ground(const Scenario& scenario, const Plant<double>&
     if (!fault.window.holds(t_s)) continue;
     for (const Wheel wheel : fault.wheels) wheels[static_cast<int>(wheel)] *= fault.share;
   }
+  const WheelSpeeds<double> w = wheel_speeds(plant.front_axle_m, plant.half_track_m, state);
+  const double rolling[] = {w.front_left, w.front_right, w.rear_left, w.rear_right};
   const double cos_psi = std::cos(state.psi_rad);
   const double sin_psi = std::sin(state.psi_rad);
   for (const SlipperyPatch& patch : scenario.patches) {
@@ -110,7 +126,7 @@ WheelForces<double> at_the_ground(const Scenario& scenario, const Plant<double>&
       const Position<double> at{state.x_m + ahead_m * cos_psi - left_m * sin_psi,
                                 state.y_m + ahead_m * sin_psi + left_m * cos_psi};
       if (squared_distance_m2(at, patch.centre_m) > patch.radius_m * patch.radius_m) continue;
-      wheels[wheel] = math::saturate(wheels[wheel], patch.force_max);
+      wheels[wheel] = slipping(plant, wheels[wheel], rolling[wheel], patch.force_max);
     }
   }
   return {wheels[0], wheels[1], wheels[2], wheels[3]};
@@ -143,6 +159,7 @@ double battery_share(const Battery& battery, double t_s) {
 
 void Physics::step(double t_s, const SideForces<double>& commanded, double steering_command_rad) {
   SideForces<double> force = through_motors(lag_, commanded, motors_);
+  force = switched_off(plant_.back_emf_s_per_m, commanded, force);
   if (const auto& battery = scenario_->battery) {
     force = up_to(force, force_max_ * battery_share(*battery, t_s));
   }

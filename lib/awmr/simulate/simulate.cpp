@@ -56,7 +56,8 @@ class Autopilot {
     const AxisForces<double> disturbance = estimate(observers_, motion, observed_);
     command.tau_turn_m -= disturbance.yaw_m;
     command.tau_speed -= disturbance.surge;
-    command.allocation = allocate(mode_, command.tau_speed, command.tau_turn_m, controller_.limits);
+    command.allocation =
+        allocate(mode_, command.tau_speed, command.tau_turn_m, controller_.limits, m.u_mps);
     const GeneralisedForces<double> allocated =
         generalised_forces(controller_.limits.front_axle_m, controller_.limits.half_track_m,
                            command.allocation.force, command.allocation.steering_rad);
@@ -105,23 +106,25 @@ bool is_finite(const RunRow& row) {
                      [](double number) { return std::isfinite(number); });
 }
 
-void fill(RunRow& row, const Command<double>& command, double dead_zone) {
+/// `motion`: what the motors are told of it; at rest in open loop, which measures nothing.
+void fill(RunRow& row, const Command<double>& command, const AllocationLimits<double>& limits,
+          const Measurement<double>& motion) {
   row.tau_speed = command.tau_speed;
   row.tau_turn_m = command.tau_turn_m;
-  row.force = {with_dead_zone(command.allocation.force.left, dead_zone),
-               with_dead_zone(command.allocation.force.right, dead_zone)};
+  row.force = motor_commands(command.allocation.force, prepared(limits), limits.dead_zone,
+                             limits.back_emf_s_per_m, motion.u_mps, motion.r_radps);
   row.steering_command_rad = command.allocation.steering_rad;
 }
 
 /// What the guidance orders at this row and what the laws make of it. Returns how the run ends
 /// here; kDuration: it goes on.
-RunEnd follow_guidance(Pilot& pilot, Autopilot& autopilot, const Sensed& sensed, double dead_zone,
-                       RunRow& row) {
+RunEnd follow_guidance(Pilot& pilot, Autopilot& autopilot, const Sensed& sensed,
+                       const AllocationLimits<double>& limits, RunRow& row) {
   const Pilot::Order order = pilot.at(row.t_s, sensed);
   row.course = order.course;
   row.psi_ref_rad = order.reference.psi_rad;
   row.u_ref_mps = order.reference.speed_mps;
-  fill(row, autopilot.follow(sensed.motion, order.reference), dead_zone);
+  fill(row, autopilot.follow(sensed.motion, order.reference), limits, sensed.motion);
   if (order.no_passage && std::abs(row.state.u_mps) < kStopped_mps) return RunEnd::kNoPassage;
   return order.finished ? RunEnd::kFinished : RunEnd::kDuration;
 }
@@ -129,12 +132,11 @@ RunEnd follow_guidance(Pilot& pilot, Autopilot& autopilot, const Sensed& sensed,
 /// What is commanded at this row, as far as the actuators can. Returns how the run ends here.
 RunEnd command(const Scenario& scenario, const Controller<double>& controller, const Sensed& sensed,
                Pilot& pilot, Autopilot& autopilot, RunRow& row) {
-  const double dead_zone = controller.limits.dead_zone;
   RunEnd end = RunEnd::kDuration;
   if (const auto* open = std::get_if<OpenLoop>(&scenario.guidance)) {
-    fill(row, autopilot.open_loop(*open), dead_zone);
+    fill(row, autopilot.open_loop(*open), controller.limits, {});
   } else {
-    end = follow_guidance(pilot, autopilot, sensed, dead_zone, row);
+    end = follow_guidance(pilot, autopilot, sensed, controller.limits, row);
   }
   if (scenario.actuators) {
     quantise(*scenario.actuators, largest_force(controller), row.force, row.steering_command_rad);
@@ -193,7 +195,8 @@ Controller<double> make_controller(const Plant<double>& plant, const Vehicle& ve
                      .steering_max_tan_half = tan_half(plant.steering_max_rad),
                      .split = split,
                      .form = vehicle.allocation,
-                     .dead_zone = zone}};
+                     .dead_zone = zone,
+                     .back_emf_s_per_m = plant.back_emf_s_per_m}};
 }
 
 Status check_work(const Plant<double>& plant, const std::string& model_file,

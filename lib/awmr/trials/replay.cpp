@@ -119,6 +119,9 @@ State<double> measured_initial_state(const LogWindow& window) {
 double replay_step_s(const Plant<double>& plant) {
   double fastest_s = plant.steering_time_constant_s;
   if (plant.sway_alpha > 0.0) fastest_s = std::min(fastest_s, plant.mass_norm / plant.sway_alpha);
+  if (const double rate = back_emf_rate(plant); rate > 0.0) {
+    fastest_s = std::min(fastest_s, 1.0 / rate);
+  }
   return 0.25 * fastest_s;
 }
 
@@ -126,9 +129,13 @@ Result<void> check_replay(const Plant<double>& plant, const std::string& file) {
   const double step_s = replay_step_s(plant);
   if (step_s >= kShortestReplayStep_s) return {};
   const bool servo = step_s == 0.25 * plant.steering_time_constant_s;
+  const double braking = back_emf_rate(plant);
+  const bool motors = braking > 0.0 && step_s == 0.25 * (1.0 / braking);
   const std::string what =
-      servo ? fmt::format("steering.time_constant_s is {:g} s", plant.steering_time_constant_s)
-            : fmt::format("m'/sway_alpha is {:g}/{:g} s", plant.mass_norm, plant.sway_alpha);
+      servo    ? fmt::format("steering.time_constant_s is {:g} s", plant.steering_time_constant_s)
+      : motors ? fmt::format("motors of back_emf_s_per_m {:g} brake within {:g} s",
+                             plant.back_emf_s_per_m, 1.0 / braking)
+               : fmt::format("m'/sway_alpha is {:g}/{:g} s", plant.mass_norm, plant.sway_alpha);
   return input_error(file,
                      fmt::format("{}, too fast to be followed through a log, whose motion is "
                                  "computed in steps of a quarter of it; {:g} s or more can be",

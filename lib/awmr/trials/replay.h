@@ -176,7 +176,7 @@ bool is_measurement(const DrivingLog& log, LogChannel channel, std::size_t row);
 State<double> measured_initial_state(const LogWindow& window);
 
 /// The longest step of replay() for this plant, s: a quarter of its fastest fixed time constant,
-/// the servo's or sway's. A Runge-Kutta step of that length errs by 3e-5 of an excursion in each
+/// the servo's, sway's or that by which back-EMF brakes. A Runge-Kutta step of that length errs by 3e-5 of an excursion in each
 /// time constant.
 double replay_step_s(const Plant<double>& plant);
 

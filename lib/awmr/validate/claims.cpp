@@ -15,7 +15,8 @@ namespace {
 double largest_yaw_rate_radps(const Plant<double>& plant, const AllocationLimits<double>& limits,
                               YawMode mode, double speed_mps) {
   constexpr double kMoreThanAnyMoment_m = 1e3;
-  const Allocation<double> a = allocate(mode, plant.surge(speed_mps), kMoreThanAnyMoment_m, limits);
+  const Allocation<double> a =
+      allocate(mode, plant.surge(speed_mps), kMoreThanAnyMoment_m, limits, speed_mps);
   const GeneralisedForces<double> tau =
       generalised_forces(plant.front_axle_m, plant.half_track_m, a.force, a.steering_rad);
   const double moment_m = std::max(0.0, tau.tau_steering_m + tau.tau_diff_m);

@@ -49,6 +49,9 @@ FamilyFit fit_with(const std::vector<DrivingLog>& logs, LogFitOptions options, F
   FamilyFit result{surge, yaw, std::move(options), {}};
   result.fit = fit_logs(logs, result.options);
   result.fit.report.family = families_in_words(surge, yaw);
+  const bool back_emf =
+      std::ranges::find(result.options.free, ParameterId::kBackEmf) != result.options.free.end();
+  if (back_emf) result.fit.report.family += ", back-EMF";
   if (std::isfinite(result.fit.aic)) result.fit.report.aicc = result.fit.aic;
   return result;
 }
@@ -75,6 +78,7 @@ bool suspicious(const LogFit& fit, const std::vector<ParameterId>& suspects, boo
   constexpr double kWorthATry = 4.0;  // of -2 ln L
   if (!fit.usable) return true;
   for (std::size_t i = 0; i < suspects.size(); ++i) {
+    if (suspects[i] == ParameterId::kBackEmf) continue;  // no family has it
     if (is_of_yaw(suspects[i]) == of_yaw && fit.suspect_gain[i] > kWorthATry) return true;
   }
   const auto drifts = [&](LogChannel channel) {

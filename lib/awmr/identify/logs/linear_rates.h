@@ -41,19 +41,22 @@ class LinearResistance {
 
 /// The plant whose rates are asked for again and again, with the reciprocals that they need.
 struct LinearPlant {
-  explicit LinearPlant(const Plant<double>& p)
+  /// `by_back_emf`: its derivatives are asked for, even where the motors have none.
+  explicit LinearPlant(const Plant<double>& p, bool by_back_emf = false)
       : plant(p),
         surge(p.surge),
         yaw(p.yaw),
         per_mass(1.0 / p.mass_norm),
         per_inertia(1.0 / p.inertia_norm),
-        per_lag(1.0 / p.steering_time_constant_s) {}
+        per_lag(1.0 / p.steering_time_constant_s),
+        has_back_emf(by_back_emf || p.back_emf_s_per_m > 0.0) {}
   Plant<double> plant;
   LinearResistance surge;
   LinearResistance yaw;
   double per_mass;
   double per_inertia;
   double per_lag;
+  bool has_back_emf;
 };
 
 /// What drives the vehicle at a moment.
@@ -69,7 +72,7 @@ struct StateSlopes {
   double y_psi, y_u, y_v;
   double u_u, u_v, u_r, u_steering;
   double v_u, v_v, v_r, v_steering;
-  double r_r, r_steering;
+  double r_u, r_v, r_r, r_steering;
   double steering_steering;
 };
 

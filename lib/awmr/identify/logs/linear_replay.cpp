@@ -28,6 +28,9 @@ constexpr RateOfParameter kActs[] = {
     {ParameterId::kWheelDeadZone, &DrivenSlopes::u},
     {ParameterId::kWheelDeadZone, &DrivenSlopes::v},
     {ParameterId::kWheelDeadZone, &DrivenSlopes::r},
+    {ParameterId::kBackEmf, &DrivenSlopes::u},
+    {ParameterId::kBackEmf, &DrivenSlopes::v},
+    {ParameterId::kBackEmf, &DrivenSlopes::r},
 };
 
 constexpr double DrivenSlopes::*kDriven[kDrivenSize] = {&DrivenSlopes::u, &DrivenSlopes::v,
@@ -72,7 +75,7 @@ std::array<double, kStateSize> rate_of_column(const StateSlopes& a, const double
           r,
           a.u_u * u + a.u_v * v + a.u_r * r + a.u_steering * steering + b[0],
           a.v_u * u + a.v_v * v + a.v_r * r + a.v_steering * steering + b[columns],
-          a.r_r * r + a.r_steering * steering + b[2 * columns],
+          a.r_u * u + a.r_v * v + a.r_r * r + a.r_steering * steering + b[2 * columns],
           a.steering_steering * steering + b[3 * columns]};
 }
 
@@ -88,7 +91,9 @@ double* LinearMotion::row(LogChannel channel, std::size_t columns) {
 LinearStepper::LinearStepper(const Plant<double>& plant, std::size_t columns,
                              const std::vector<ParameterColumn>& parameters,
                              const std::optional<DelayColumn>& delay)
-    : plant_(plant),
+    : plant_(plant, std::ranges::any_of(
+                        parameters,
+                        [](const ParameterColumn& p) { return p.id == ParameterId::kBackEmf; })),
       columns_(columns),
       delay_(delay),
       driven_(kStages * kDrivenSize * columns, 0.0) {

@@ -11,6 +11,7 @@
 #include "awmr/core/index.h"
 #include "awmr/identify/logs/adequacy.h"
 #include "awmr/identify/logs/agreement.h"
+#include "awmr/identify/logs/back_emf.h"
 #include "awmr/identify/logs/between_logs.h"
 #include "awmr/identify/logs/cross_validation.h"
 #include "awmr/identify/logs/initial_guess.h"
@@ -61,6 +62,8 @@ std::string cannot_show(const std::vector<DrivingLog>& logs, ParameterId id) {
       return any_has(logs, {LogChannel::kSway, LogChannel::kX, LogChannel::kY})
                  ? ""
                  : "no channel shows the vehicle slide sideways (sway_mps or a position)";
+    case ParameterId::kBackEmf:
+      return why_no_back_emf(logs);
     default:
       return {};
   }
@@ -121,14 +124,25 @@ void free_parameters(LogFitOptions& fit, const std::vector<DrivingLog>& logs,
     const Estimate& known = model[parameter.id];
     if (known.value) fit.initial_guess[at(parameter.id)] = *known.value;
     const bool wanted = contains(asked, parameter.id) || !known.value;
-    if (parameter.term || !wanted) continue;
+    const bool back_emf = parameter.id == ParameterId::kBackEmf;
+    if (!can_be_asked(parameter) || !wanted) continue;
     const std::string why = cannot_show(logs, parameter.id);
     if (!why.empty()) reasons[parameter.id] = why;
     // In a turn, what is not shown still acts on what is: it stays free, and is refused.
-    if (!why.empty() && !turning) continue;
+    if (!why.empty() && (!turning || back_emf)) continue;
     fit.free.push_back(parameter.id);
     if (!known.value) fit.guessed.push_back(parameter.id);
   }
+  if (frees_back_emf(fit)) fit = with_back_emf(std::move(fit));
+}
+
+/// Back-EMF is looked for where nobody speaks of it, nor of what to fit, and no table has put what it
+/// takes into the resistance already.
+bool looks_for_back_emf(const Vehicle& vehicle, const std::vector<DrivingLog>& logs,
+                        const IdentifyOptions& options, const Model& model) {
+  return options.asked.empty() && !vehicle.back_emf_s_per_m &&
+         !model[ParameterId::kSurgeAlpha].value && !model[ParameterId::kYawAlpha].value &&
+         why_no_back_emf(logs).empty();
 }
 
 bool is_open(const FamilyChoice& choice) {
@@ -139,29 +153,71 @@ void tell(const IdentifyOptions& options, std::string_view what) {
   if (options.doing) options.doing(what);
 }
 
-/// The families that were asked for, or the best ones. Also fits what is reported only: rivals.
-FamilyFit fit_families(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
-                       const IdentifyOptions& options, LogStage& stage) {
+/// The families that were asked for, or the best ones.
+struct Chosen {
+  BestFamily found;
+  bool may_have_back_emf = false;  ///< by the fit of the first family
+};
+
+Chosen choose_families(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
+                       const IdentifyOptions& options) {
   const FamilyChoice& surge = options.surge_family;
   const FamilyChoice& yaw = options.yaw_family;
   const bool surge_open = is_open(surge);
   const bool yaw_open = is_open(yaw) && contains(power_law.free, ParameterId::kYawAlpha);
   tell(options, "fitting the logs");
-  FamilyFit chosen = fit_family(logs, power_law, surge.family.value_or(Family::kPower),
-                                yaw.family.value_or(Family::kPower));
-  if (surge_open || yaw_open) {
-    // Where nobody asked, another family than the paper's has to be plainly better.
-    tell(options, "trying families of resistance");
-    const bool somebody_asked = !surge.family || !yaw.family;
-    BestFamily found = best_family(logs, power_law, std::move(chosen),
-                                   {.surge = surge_open,
-                                    .yaw = yaw_open,
-                                    .lead = somebody_asked ? 0.0 : kPlainlyBetter,
-                                    .only_suspects = !somebody_asked});
-    append(stage.reports, found.others);
-    append(stage.findings, found.findings);
-    chosen = std::move(found.best);
+  Chosen chosen{{.best = fit_family(logs, power_law, surge.family.value_or(Family::kPower),
+                                    yaw.family.value_or(Family::kPower)),
+                 .others = {},
+                 .findings = {}}};
+  chosen.may_have_back_emf = suspects_back_emf(chosen.found.best.fit, power_law.suspects);
+  if (!surge_open && !yaw_open) return chosen;
+  // Where nobody asked, another family than the paper's has to be plainly better.
+  tell(options, "trying families of resistance");
+  const bool somebody_asked = !surge.family || !yaw.family;
+  chosen.found = best_family(logs, power_law, std::move(chosen.found.best),
+                             {.surge = surge_open,
+                              .yaw = yaw_open,
+                              .lead = somebody_asked ? 0.0 : kPlainlyBetter,
+                              .only_suspects = !somebody_asked});
+  return chosen;
+}
+
+/// The best families with back-EMF where those without, in `ideal`, are plainly better with it; what
+/// was not taken is reported.
+BestFamily or_with_back_emf(const std::vector<DrivingLog>& logs, LogFitOptions& power_law,
+                            const IdentifyOptions& options, BestFamily ideal) {
+  tell(options, "trying back-EMF of the motors");
+  LogFitOptions freed = with_back_emf(power_law);
+  std::erase(freed.suspects, ParameterId::kBackEmf);
+  const FamilyFit same = fit_family(logs, freed, ideal.best.surge, ideal.best.yaw);
+  if (!shows_back_emf(same, ideal.best)) {
+    if (!same.fit.usable) {
+      ideal.findings.push_back({logs.front().file, 0, Severity::kWarning, "families-not-compared",
+                                "these logs were not held against motors with back-EMF: " +
+                                    same.fit.report.stop_reason});
+    }
+    ideal.others.push_back(same.fit.report);
+    return ideal;
   }
+  BestFamily braked = choose_families(logs, freed, options).found;
+  if (!shows_back_emf(braked.best, ideal.best)) braked.best = same;
+  braked.findings.push_back(back_emf_finding(logs.front().file, braked.best, ideal.best));
+  braked.others.push_back(ideal.best.fit.report);
+  power_law = std::move(freed);
+  return braked;
+}
+
+/// The families that were asked for, or the best ones, and back-EMF where the logs show it. Also fits
+/// what is reported only: rivals.
+FamilyFit fit_families(const std::vector<DrivingLog>& logs, LogFitOptions power_law,
+                       const IdentifyOptions& options, LogStage& stage) {
+  const FamilyChoice& surge = options.surge_family;
+  auto [found, may_have_back_emf] = choose_families(logs, power_law, options);
+  if (may_have_back_emf) found = or_with_back_emf(logs, power_law, options, std::move(found));
+  append(stage.reports, found.others);
+  append(stage.findings, found.findings);
+  FamilyFit chosen = std::move(found.best);
   stage.surge_family = chosen.surge;
   stage.yaw_family = chosen.yaw;
   stage.chosen_report = stage.reports.size();
@@ -231,6 +287,7 @@ void take(const LogFit& fit, const Model& model, bool overrule, const std::strin
     const bool parameter = q.kind == FreeQuantity::Kind::kParameter;
     if (!fit.why_not[i].empty()) {
       if (parameter) stage.reasons[q.id] = fit.why_not[i];
+      if (q.is(ParameterId::kBackEmf)) stage.is_back_emf_open = true;
       if (!parameter) {
         stage.findings.push_back({file, 0, Severity::kWarning, "not-identifiable",
                                   fmt::format("{}: {}", q.name(), fit.why_not[i])});
@@ -260,6 +317,9 @@ Result<LogStage> run_log_stage(const Vehicle& vehicle, const std::vector<Driving
   power_law.initial_guess = guess_from_logs(logs, vehicle);
   free_parameters(power_law, logs, asked, model, stage.reasons);
   AWMR_RETURN_IF_ERROR(check_replay(plant_of(vehicle, power_law.initial_guess), logs.front().file));
+  if (looks_for_back_emf(vehicle, logs, options, model)) {
+    power_law.suspects.push_back(ParameterId::kBackEmf);
+  }
   FamilyFit chosen = fit_families(logs, power_law, options, stage);
   tell(options, "holding the logs against each other");
   append(stage.findings, in_words(hold_against_each_other(logs, chosen)));

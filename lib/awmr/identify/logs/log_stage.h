@@ -25,8 +25,10 @@ struct LogStage {
   Family yaw_family = Family::kPower;
   Eigen::MatrixXd block;                       ///< covariance of the fit's coordinates
   std::map<ParameterId, std::string> reasons;  ///< free in the fit, but not identifiable
-  std::vector<EstimatorReport> reports;        ///< of every family that was tried
-  std::size_t chosen_report = 0;               ///< in `reports`: of the fit that fills `main`
+  /// k_e was free in the fit and is not identifiable: no value would go with the others.
+  bool is_back_emf_open = false;
+  std::vector<EstimatorReport> reports;  ///< of every family that was tried
+  std::size_t chosen_report = 0;         ///< in `reports`: of the fit that fills `main`
   std::vector<Finding> findings;
 };
 
@@ -34,7 +36,7 @@ struct LogStage {
 /// value, or free as well where they have none. `overrule`: the logs also fill what other trials
 /// did.
 /// Findings: `estimates-disagree` (logs against tables, p < 0.01), `coloured-residuals`,
-/// `model-inadequate`, `power-law-inadequate`, `family-undecided`, `sensor-delay`, `logs-disagree`, `not-identifiable`, `not-converged`, `held-out-log`
+/// `model-inadequate`, `power-law-inadequate`, `family-undecided`, `back-emf`, `sensor-delay`, `logs-disagree`, `not-identifiable`, `not-converged`, `held-out-log`
 /// (each log predicted by the others), `families-not-compared` (the time was over).
 /// Errors (input): a given time constant is too fast for a log.
 Result<LogStage> run_log_stage(const Vehicle& vehicle, const std::vector<DrivingLog>& logs,

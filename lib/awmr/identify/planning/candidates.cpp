@@ -130,7 +130,8 @@ CandidateTrial log_candidate(const std::string& what, const Vehicle& vehicle, co
 void add_coastdowns(const Vehicle& vehicle, const Plant<double>& plant,
                     const SuggestOptions& options, std::vector<CandidateTrial>& candidates) {
   const double top =
-      steady_rate(plant.surge, 4.0 * (vehicle.wheel_force.hi - plant.wheel_dead_zone))
+      steady_rate(plant.surge, 4.0 * (vehicle.wheel_force.hi - plant.wheel_dead_zone),
+                  4.0 * plant.back_emf_s_per_m)
           .value_or(1.0);
   for (const double share : {0.5, 1.0}) {
     const double from = share * top;
@@ -186,8 +187,10 @@ void add_turning_runs(const Model& model, const SuggestOptions& options,
 
 std::vector<CandidateTrial> candidates_of(const Model& model, const SuggestOptions& options) {
   std::vector<CandidateTrial> candidates;
-  if (model.plant(Motion::kSteadySurge)) add_surge_runs(model, options, candidates);
-  if (model.plant(Motion::kSteadyTurn)) add_turning_runs(model, options, candidates);
+  // Of motors with back-EMF steady runs show no more than the sum of its loss and resistance.
+  const bool tables = !(model[ParameterId::kBackEmf].value.value_or(0.0) > 0.0);
+  if (tables && model.plant(Motion::kSteadySurge)) add_surge_runs(model, options, candidates);
+  if (tables && model.plant(Motion::kSteadyTurn)) add_turning_runs(model, options, candidates);
   if (const auto plant = model.plant(Motion::kStraight)) {
     add_coastdowns(model.vehicle, *plant, options, candidates);
     add_logs(model.vehicle, model.simulated_motion(), options.sensors, candidates);

@@ -24,7 +24,7 @@ std::vector<Precision> precision_of(const Model& model, std::span<const Paramete
   for (const ParameterInfo& parameter : parameter_table()) {
     const bool named = std::find(asked.begin(), asked.end(), parameter.id) != asked.end();
     const bool is_given = model[parameter.id].source == Source::kGiven;
-    if (parameter.term || !has(model.vehicle, parameter.id)) continue;
+    if ((parameter.term && !named) || !has(model.vehicle, parameter.id)) continue;
     if (asked.empty() ? is_given : !named) continue;
     precisions.push_back({parameter.id, half_width_of(model, parameter.id)});
   }

@@ -212,7 +212,18 @@ Status check_drive(const DrivePlan& drive) {
 }
 
 /// A model that knows straight motion alone is driven straight, and asked for what that shows.
+/// Back-EMF that was fitted is asked for again.
 RecoverOptions options_for(const Model& model, RecoverOptions options) {
+  const bool log = options.plan == RecoverPlan::kLog;
+  if (log && options.identify.asked.empty() && !is_absent_term(model, ParameterId::kBackEmf) &&
+      model[ParameterId::kBackEmf].source != Source::kGiven) {
+    for (const ParameterInfo& parameter : parameter_table()) {
+      if (!can_be_asked(parameter) || !has(model.vehicle, parameter.id)) continue;
+      if (model[parameter.id].source != Source::kGiven) {
+        options.identify.asked.push_back(parameter.id);
+      }
+    }
+  }
   if (model.simulated_motion() == Motion::kPlanar) return options;
   options.drive.straight = true;
   if (options.plan == RecoverPlan::kLog && options.identify.asked.empty()) {

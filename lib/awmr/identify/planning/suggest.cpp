@@ -107,7 +107,8 @@ struct Target {
 /// may be 0 and has no error relative to itself.
 double whole_of(ParameterId id, const Plant<double>& plant) {
   if (id == ParameterId::kYawCoulomb || id == ParameterId::kYawQuadratic) return plant.yaw(1.0);
-  return plant.surge(1.0) / (id == ParameterId::kWheelDeadZone ? 4.0 : 1.0);
+  const bool of_a_wheel = id == ParameterId::kWheelDeadZone || id == ParameterId::kBackEmf;
+  return plant.surge(1.0) / (of_a_wheel ? 4.0 : 1.0);
 }
 
 /// A-optimality: all parameters alike. An error in a logarithm is relative already, that of an

@@ -33,7 +33,8 @@ struct BlockSetup {
   Observers<double> observers{};
   double sample_time_s = 0.0;
   MotorLag lag;
-  bool is_by_wheel = false;  ///< each wheel has a force of its own
+  bool is_by_wheel = false;   ///< each wheel has a force of its own
+  bool has_back_emf = false;  ///< a vehicle of the block, or what its controller knows of it
   MeteredCourse course;
 };
 
@@ -60,6 +61,7 @@ struct Block {
   Row substeps;
   PreparedController<Row> controller;
   Row dead_zone;   ///< F'0, as the controller knows it
+  Row back_emf;    ///< k_e, as the controller knows it
   Row force_most;  ///< F' of a wheel at the most, with the zone
   MeteredVehicle<Row> metered;
 

@@ -1,0 +1,94 @@
+#include "awmr/identify/logs/back_emf.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "awmr/core/index.h"
+#include "awmr/identify/uncertainty/akaike.h"
+
+namespace awmr {
+namespace {
+
+/// For how long the motors are off and the vehicle can still be rolling: no gap, and no longer than
+/// kRolls_s after they drove it.
+double coasting_s(const DrivingLog& log) {
+  constexpr double kRolls_s = 3.0;
+  const double gap_s = kGapSteps * log.median_step_s();
+  double coasts_s = 0.0;
+  double off_since_s = -kRolls_s;
+  bool was_driven = false;
+  for (std::size_t row = 0; row + 1 < log.rows(); ++row) {
+    const double step_s = log.t_s[row + 1] - log.t_s[row];
+    const bool off = !(log.force_left[row] != 0.0 || log.force_right[row] != 0.0);
+    if (was_driven && off) off_since_s = log.t_s[row];
+    if (off && log.t_s[row] - off_since_s < kRolls_s && step_s <= gap_s) coasts_s += step_s;
+    was_driven = !off;
+  }
+  return coasts_s;
+}
+
+double fitted_back_emf(const FamilyFit& with, double& std_error) {
+  for (std::size_t i = 0; i < with.fit.quantities.size(); ++i) {
+    if (!with.fit.quantities[i].is(ParameterId::kBackEmf)) continue;
+    std_error = with.fit.report.parameters[i].std_error.value_or(0.0);
+    return with.fit.report.parameters[i].value;
+  }
+  return 0.0;
+}
+
+}  // namespace
+
+std::string why_no_back_emf(const std::vector<DrivingLog>& logs) {
+  constexpr double kEnough_s = 1.0;
+  double coasts_s = 0.0;
+  for (const DrivingLog& log : logs) coasts_s += coasting_s(log);
+  if (coasts_s >= kEnough_s) return {};
+  return fmt::format(
+      "the motors are off (both forces 0) for {:.2g} s of rolling, and while they drive a linear "
+      "part of the resistance looks the same",
+      coasts_s);
+}
+
+LogFitOptions with_back_emf(LogFitOptions options) {
+  constexpr double kShare = 0.1;  // of the resistance at 1 m/s
+  double& guess = options.initial_guess[at(ParameterId::kBackEmf)];
+  if (!(guess > 0.0)) guess = kShare * options.initial_guess[at(ParameterId::kSurgeAlpha)] / 4.0;
+  if (!frees_back_emf(options)) options.free.push_back(ParameterId::kBackEmf);
+  return options;
+}
+
+bool frees_back_emf(const LogFitOptions& options) {
+  return std::ranges::find(options.free, ParameterId::kBackEmf) != options.free.end();
+}
+
+bool suspects_back_emf(const LogFit& fit, const std::vector<ParameterId>& suspects) {
+  constexpr double kWorthATry = 4.0;  // of -2 ln L
+  const auto suspect = std::ranges::find(suspects, ParameterId::kBackEmf);
+  if (suspect == suspects.end()) return false;
+  if (!fit.usable || fit.suspect_gain[at(suspect - suspects.begin())] > kWorthATry) return true;
+  return std::ranges::any_of(fit.noise,
+                             [](const auto& channel) { return channel.second.has_slow_drift(); });
+}
+
+bool shows_back_emf(const FamilyFit& with, const FamilyFit& without) {
+  if (!with.fit.usable) return false;
+  for (std::size_t i = 0; i < with.fit.quantities.size(); ++i) {
+    const bool is_open = !with.fit.why_not[i].empty();
+    if (with.fit.quantities[i].is(ParameterId::kBackEmf) && is_open) return false;
+  }
+  return !without.fit.usable || with.fit.aic < without.fit.aic - kPlainlyBetter;
+}
+
+Finding back_emf_finding(const std::string& file, const FamilyFit& with, const FamilyFit& without) {
+  double std_error = 0.0;
+  const double k = fitted_back_emf(with, std_error);
+  return {file, 0, Severity::kWarning, "back-emf",
+          fmt::format("motors that are ideal sources of force do not describe these logs: with "
+                      "back-EMF, {:.3g} +- {:.2g} of their largest force lost per m/s, the fit is "
+                      "better by {:.0f} of AIC, and it is taken; what a motor gives falls with its "
+                      "wheel's speed, and resistance is what coasting shows",
+                      k, std_error, without.fit.aic - with.fit.aic)};
+}
+
+}  // namespace awmr
