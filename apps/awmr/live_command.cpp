@@ -130,11 +130,15 @@ class LiveFit {
     }
     const DrivingLog& log = trials->data.logs.back();
     update.span_s = log.t_s.back() - trials->data.logs.front().t_s.front();
+    const Clock::time_point begin = Clock::now();
     auto identified = identify(*trials, options_);
     if (!identified) {
       update.faults = identified.error().faults;
       return;
     }
+    const double took_s = Seconds(Clock::now() - begin).count();
+    update.out_of_time = !identified->refused.empty() && took_s >= options_.time_limit_s;
+    if (update.out_of_time) return;
     update.next = next_manoeuvre(identified->model);
     update.model = std::move(identified->model);
   }
@@ -198,7 +202,12 @@ Followed follow(const LiveCommand& command, const LiveFit& fit, OpenStream sourc
     end = over();
     if (end || !is_new || Clock::now() < look) continue;
     const Clock::time_point looked = Clock::now();
-    followed.last = fit.update(followed.recording);
+    LiveUpdate update = fit.update(followed.recording);
+    if (update.out_of_time) {
+      update.model = std::move(followed.last.model);
+      update.next = std::move(followed.last.next);
+    }
+    followed.last = std::move(update);
     screen.show(followed.last);
     look = next_look(begin, looked, command.every_s);
     is_new = false;

@@ -19,8 +19,9 @@ struct LiveUpdate {
   std::size_t set_aside = 0;
   std::vector<Fault> faults = {};   ///< why the log could not be used as it is now
   std::optional<Model> model = {};  ///< of the last fit
-  std::string next = {};            ///< the manoeuvre that would help most
-  double enough = 0.1;              ///< the half width that is enough
+  bool out_of_time = false;  ///< the fit did not end in its budget: `model` is of the one before
+  std::string next = {};     ///< the manoeuvre that would help most
+  double enough = 0.1;       ///< the half width that is enough
   std::vector<ParameterId> asked = {};
 };
 
