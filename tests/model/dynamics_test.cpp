@@ -101,6 +101,11 @@ TEST(Dynamics, EachEquationBySubstitution) {
   EXPECT_DOUBLE_EQ(d.steering_rad, (0.25 - 0.2) / 0.02);
 }
 
+TEST(Dynamics, TheFrontWheelsTurnWithTheirForceAcross) {
+  // Two wheels, each with 0.3 sin 30 deg across, 0.4 m ahead of the centre of gravity.
+  EXPECT_DOUBLE_EQ(steering_moment_m(0.4, 0.3, pi<double>() / 6.0), 0.12);
+}
+
 TEST(Servo, SaturatesTheTargetAndTheRate) {
   const Plant<double> p = paper_plant_of<double>();
   EXPECT_DOUBLE_EQ(steering_rate(p, p.steering_max_rad, 2.0), 0.0);

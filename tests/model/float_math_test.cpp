@@ -1,6 +1,7 @@
 /// float_math.h against double's functions of the C library, whose error (1e-16) does not count.
 #include "awmr/model/float_math.h"
 #include "awmr/model/float_bearing.h"
+#include "awmr/model/scalar_math.h"
 
 #include <gtest/gtest.h>
 
@@ -152,6 +153,50 @@ TEST(FloatMath, WrapsIntoMinusPiToPiAndChangesNothingThere) {
     }
   }
   EXPECT_LT(worst, 5e-7);
+}
+
+TEST(FloatMath, WrapsAtEveryOddMultipleOfPi) {
+  // Where rounding may leave the reduced angle on either side of pi.
+  for (int turns = 1; turns <= 2607; turns += 2) {
+    float x = static_cast<float>(turns * 3.14159265358979323846);
+    for (int i = 0; i < 8; ++i) x = std::nextafter(x, 0.0F);
+    for (int i = 0; i < 16; ++i, x = std::nextafter(x, 1e4F)) {
+      for (const float angle : {x, -x}) {
+        if (!(std::abs(angle) <= float_math::kAngleMax)) continue;
+        const float wrapped = float_math::wrapped(angle);
+        ASSERT_TRUE(wrapped > -float_math::kPi && wrapped <= float_math::kPi) << angle;
+        ASSERT_LT(std::abs(std::remainder(static_cast<double>(wrapped) - static_cast<double>(angle),
+                                          2.0 * 3.14159265358979323846)),
+                  5e-7)
+            << angle;
+      }
+    }
+  }
+}
+
+TEST(FloatMath, OrdersAsTheOperatorsDo) {
+  const float nan = std::nanf("");
+  const float inf = std::numeric_limits<float>::infinity();
+  for (const float x : {-inf, -2.0F, -1e-40F, -0.0F, 0.0F, 1e-40F, 2.0F, inf, nan}) {
+    for (const float y : {-inf, -2.0F, -1e-40F, -0.0F, 0.0F, 1e-40F, 2.0F, inf, nan}) {
+      EXPECT_EQ(math::is_above(x, y), x > y) << x << " > " << y;
+    }
+  }
+}
+
+TEST(FloatMath, RatioIsToTheNearestOfSixteenBits) {
+  // Of the leading 16 bits of each mantissa, whatever lies between the exponents.
+  for (std::uint32_t i = 0; i < 200'000; ++i) {
+    const std::uint32_t hash = i * 2654435761U;
+    const std::uint32_t apart = hash % 19U;
+    const std::uint32_t large = (100U << 23U) | ((hash >> 7U) & 0x7FFF00U);
+    const std::uint32_t small = ((100U - apart) << 23U) | ((i * 40503U) & 0x7FFF00U);
+    if (small > large) continue;
+    const double exact = static_cast<double>(std::bit_cast<float>(small)) /
+                         static_cast<double>(std::bit_cast<float>(large)) * 65536.0;
+    const double nearest = apart > 16 ? 0.0 : std::min(std::floor(exact + 0.5), 65535.0);
+    ASSERT_EQ(float_math::detail::ratio16(small, large), nearest) << apart;
+  }
 }
 
 TEST(FloatMath, WhatIsNoAngleGivesNaN) {

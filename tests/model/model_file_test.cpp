@@ -229,6 +229,7 @@ TEST(ModelFile, RefusesValuesThatCannotBe) {
                                 {"/covariance/matrix", 1},
                                 {"/covariance/matrix/0", {1}},
                                 {"/covariance/matrix/1/1", nullptr},
+                                {"/covariance/matrix/0/0", -2.5e-4},
                                 {"/covariance/matrix/1/1", -2.5e-4},
                                 {"/covariance/matrix/0/1", 1e-5},
                                 {"/findings/0/severity", "fatal"},

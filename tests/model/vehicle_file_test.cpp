@@ -196,6 +196,17 @@ TEST(VehicleFile, TakesWhatGainsAreTunedFor) {
   EXPECT_EQ(vehicle->yaw_rate_max_degps, 60.0);
 }
 
+TEST(VehicleFile, KeepsTheMappingsOfItsLogs) {
+  Json json = Json::parse(paper_text());
+  json["columns"] = {{"speed_mps", "V*0.277778"}};
+  const ScratchFile file("vehicle.json", json.dump());
+  const auto vehicle = read_vehicle(file.path());
+  ASSERT_TRUE(vehicle);
+  EXPECT_EQ(vehicle->columns.at("speed_mps"), "V*0.277778");
+  EXPECT_THAT(faults_after({"/columns", {{"speed_mps", "V*("}}}), SizeIs(1));
+  EXPECT_THAT(faults_after({"/columns", {{"speed_mps", ""}}}), SizeIs(1));
+}
+
 TEST(VehicleFile, ReportsAllFaultsAtOnce) {
   Json json = Json::parse(paper_text());
   json["mass_kg"] = -1;

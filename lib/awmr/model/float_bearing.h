@@ -18,7 +18,8 @@ inline uint16_t mantissa16(uint32_t bits) {
 }
 
 /// small/large times 2^16, to the nearest, of two magnitudes' bits, small <= large:
-/// long division of the mantissas, a bit shorter for each power of two between the exponents.
+/// long division of the mantissas, a bit shorter for each power of two between the exponents; 0 where
+/// these are more than 16 apart.
 inline uint16_t ratio16(uint32_t small, uint32_t large) {
   const uint16_t divisor = mantissa16(large);
   uint16_t rest = mantissa16(small);
