@@ -63,7 +63,6 @@ std::optional<double> known_number(JsonObject& json, std::string_view key, Numbe
 void columns_from_json(JsonObject json, Vehicle& vehicle) {
   for (const std::string& name : json.keys()) {
     const std::string expression = json.string(name);
-    if (expression.empty()) continue;
     if (const auto mapping = parse_column(name, expression); !mapping) {
       json.fault(name, mapping.error().faults.front().message);
     }
