@@ -19,7 +19,6 @@ fs::path resolved(const fs::path& project, const std::string& name) {
 void read_columns(JsonObject json, const std::string& file, Project& project) {
   for (const std::string& name : json.keys()) {
     const std::string expression = json.string(name);
-    if (expression.empty()) continue;
     if (auto mapping = parse_column(name, expression)) {
       if (!file.empty()) mapping->file = file;
       project.trials.columns.push_back(*mapping);
