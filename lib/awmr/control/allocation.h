@@ -361,8 +361,7 @@ AllocationConstants<T> small_angle_form(AllocationConstants<T> c) {
 /// exact form alone, and motors without.
 template <class T>
 Allocation<T> allocate(YawMode mode, const T& tau_speed, const T& tau_turn_m,
-                       const AllocationLimits<T>& limits,
-                       [[maybe_unused]] const T& u_mps = T(0.0)) {
+                       const AllocationLimits<T>& limits, const T& u_mps = T(0.0)) {
   Allocation<T> a{};
   AllocationConstants<T> c = prepared(limits);
 #ifndef __AVR__
@@ -372,6 +371,8 @@ Allocation<T> allocate(YawMode mode, const T& tau_speed, const T& tau_turn_m,
                                             limits.split, a);
     return a;
   }
+#else
+  static_cast<void>(u_mps);
 #endif
   allocate(mode, tau_speed, tau_turn_m, c, limits.split, a);
   return a;
