@@ -9,15 +9,12 @@
 
 #include "awmr/core/file.h"
 #include "awmr/core/name_table.h"
-#include "awmr/identify/planning/precision.h"
-#include "awmr/identify/planning/suggest.h"
 #include "awmr/model/model_file.h"
 #include "awmr/model/vehicle_file.h"
-#include "awmr/trials/load.h"
-#include "awmr/trials/recording.h"
 #include "awmr/trials/trial_columns.h"
 #include "commands.h"
 #include "identify_words.h"
+#include "live_fit.h"
 #include "live_screen.h"
 #include "numbers.h"
 #include "paths.h"
@@ -70,87 +67,6 @@ Status check(const LiveCommand& command) {
                        "give one of --port PORT, --log FILE, --log -: where the log comes from");
   }
   return check_output(command.identify.output, inputs_of(command));
-}
-
-/// The manoeuvre that would help most, in words; none where nothing can be said.
-std::string next_manoeuvre(const Model& model) {
-  const auto suggestion = suggest(model, {.repeats = 1});
-  if (!suggestion) return {};
-  if (!suggestion->missing.empty()) {
-    const MissingParameter& first = suggestion->missing.front();
-    return fmt::format("for {}: {}", info(first.id).name, first.trial);
-  }
-  if (suggestion->trials.empty()) return {};
-  return suggestion->trials.front().settings;
-}
-
-/// The recording so far, checked and fitted within the budget: what `identify` would make of it.
-class LiveFit {
- public:
-  LiveFit(const LiveCommand& command, Vehicle vehicle)
-      : files_{.vehicle = std::move(vehicle),
-               .surge = command.identify.surge,
-               .turning = command.identify.turning,
-               .coastdowns = command.identify.coastdowns,
-               .logs = command.identify.logs,
-               .steady_from_logs = command.identify.steady_from_logs,
-               .options = command.identify.trials},
-        options_(command.identify.identify),
-        enough_(command.enough) {
-    // What says nothing of the values is left to the last fit.
-    options_.time_limit_s = command.budget_s;
-    options_.bootstrap = 0;
-    options_.cross_validate = false;
-    options_.side_by_side = false;
-  }
-
-  /// Writes the recording first: whatever ends this program, the file stays.
-  LiveUpdate update(const Recording& recording) const {
-    LiveUpdate update{.rows = recording.rows(),
-                      .set_aside = recording.set_aside(),
-                      .enough = enough_,
-                      .asked = options_.asked};
-    if (const Status written = write_file(files_.logs.front(), recording.text()); !written) {
-      update.faults = written.error().faults;
-      return update;
-    }
-    if (!recording.has_header() || recording.rows() < kFewestRows) return update;
-    fit(update);
-    return update;
-  }
-
- private:
-  static constexpr std::size_t kFewestRows = 10;
-
-  void fit(LiveUpdate& update) const {
-    const auto trials = load_trials(files_);
-    if (!trials) {
-      update.faults = trials.error().faults;
-      return;
-    }
-    const DrivingLog& log = trials->data.logs.back();
-    update.span_s = log.t_s.back() - trials->data.logs.front().t_s.front();
-    const Clock::time_point begin = Clock::now();
-    auto identified = identify(*trials, options_);
-    if (!identified) {
-      update.faults = identified.error().faults;
-      return;
-    }
-    const double took_s = Seconds(Clock::now() - begin).count();
-    update.out_of_time = !identified->refused.empty() && took_s >= options_.time_limit_s;
-    if (update.out_of_time) return;
-    update.next = next_manoeuvre(identified->model);
-    update.model = std::move(identified->model);
-  }
-
-  TrialFiles files_;
-  IdentifyOptions options_;
-  double enough_;
-};
-
-bool has_enough(const LiveUpdate& update) {
-  return update.model && update.faults.empty() &&
-         is_enough(precision_of(*update.model, update.asked), update.enough);
 }
 
 /// When to look at the recording again: not before the last look's own time has passed once more,

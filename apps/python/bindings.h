@@ -61,6 +61,14 @@ py::array to_column(const std::vector<Row>& rows, Member member) {
   return to_array(values);
 }
 
+/// module.read_NAME(path), which raises InputError. `read` is read_NAME of the library.
+template <class Read>
+void bind_read(py::module_& module, const char* name, Read read, const char* text) {
+  module.def(
+      name, [read](const std::filesystem::path& path) { return value_or_raise(read(path)); },
+      py::arg("path"), text);
+}
+
 void bind_errors(py::module_& module);
 void bind_model(py::module_& module);
 void bind_trials(py::module_& module);

@@ -27,12 +27,9 @@ void bind_findings(py::module_& module) {
       .def_readonly("line", &Finding::line)
       .def_readonly("code", &Finding::code)
       .def_readonly("message", &Finding::message)
-      .def_property_readonly("severity",
-                             [](const Finding& finding) {
-                               return finding.severity == Severity::kError     ? "error"
-                                      : finding.severity == Severity::kWarning ? "warning"
-                                                                               : "note";
-                             })
+      .def_property_readonly(
+          "severity",
+          [](const Finding& finding) { return name_in(kSeverityNames, finding.severity); })
       .def("__repr__", [](const Finding& finding) {
         return fmt::format("<Finding {} {}:{}: {}>", finding.code, finding.file, finding.line,
                            finding.message);
@@ -58,10 +55,9 @@ void bind_vehicle(py::module_& module) {
       .def_property_readonly("drive",
                              [](const Vehicle& v) { return name_in(kDriveNames, v.drive); })
       .def_property_readonly("inertia_kgm2", &Vehicle::inertia_kgm2, "Iz, kg m^2");
-  module.def(
-      "read_vehicle",
-      [](const std::filesystem::path& path) { return value_or_raise(read_vehicle(path)); },
-      py::arg("path"), "vehicle.json. Raises InputError.");
+  bind_read(
+      module, "read_vehicle", [](const auto& path) { return read_vehicle(path); },
+      "vehicle.json. Raises InputError.");
 }
 
 void bind_estimate(py::module_& module) {
@@ -122,10 +118,9 @@ void bind_model_class(py::module_& module) {
                              "units")
       .def_property_readonly("findings", [](const Model& m) { return m.record.findings; })
       .def("text", model_text, "the bytes of model.json");
-  module.def(
-      "read_model",
-      [](const std::filesystem::path& path) { return value_or_raise(read_model(path)); },
-      py::arg("path"), "model.json. Raises InputError.");
+  bind_read(
+      module, "read_model", [](const auto& path) { return read_model(path); },
+      "model.json. Raises InputError.");
   module.def(
       "write_model",
       [](const Model& model, const std::filesystem::path& path) {
@@ -161,10 +156,9 @@ void bind_gains(py::module_& module) {
           "speed_mu", [](const G& g) { return g.speed.mu; }, "m/s^2")
       .def_property_readonly(
           "speed_epsilon", [](const G& g) { return g.speed.epsilon; }, "m/s");
-  module.def(
-      "read_gains",
-      [](const std::filesystem::path& path) { return value_or_raise(read_gains(path)); },
-      py::arg("path"), "gains.json. Raises InputError.");
+  bind_read(
+      module, "read_gains", [](const auto& path) { return read_gains(path); },
+      "gains.json. Raises InputError.");
   module.def(
       "write_gains",
       [](const G& gains, const std::filesystem::path& path) {

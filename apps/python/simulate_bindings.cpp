@@ -65,10 +65,9 @@ void bind_simulate(py::module_& module) {
   py::class_<Scenario>(module, "Scenario", "A course with its obstacles, disturbances and noise.")
       .def_readonly("name", &Scenario::name)
       .def_readonly("duration_s", &Scenario::duration_s, "s");
-  module.def(
-      "read_scenario",
-      [](const std::filesystem::path& path) { return value_or_raise(read_scenario(path)); },
-      py::arg("path"), "scenario.json. Raises InputError.");
+  bind_read(
+      module, "read_scenario", [](const auto& path) { return read_scenario(path); },
+      "scenario.json. Raises InputError.");
   py::class_<JudgedRun>(module, "Run", "One simulated run.")
       .def_property_readonly(
           "columns", run_columns,

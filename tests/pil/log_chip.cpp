@@ -5,6 +5,7 @@
 #include <avr/sleep.h>
 
 #include "awmr_log.h"
+#include "chip_uart.h"
 
 namespace {
 
@@ -13,17 +14,7 @@ awmr_input input;
 awmr_output output;
 volatile uint8_t step;
 
-/// The card: it takes what it is given, or nothing for a while.
-struct Uart {
-  size_t write(const uint8_t* bytes, size_t size) {
-    for (size_t i = 0; i < size; ++i) {
-      while ((UCSR0A & _BV(UDRE0)) == 0) {
-      }
-      UDR0 = bytes[i];
-    }
-    return size;
-  }
-} uart;
+Uart uart;
 
 const uint8_t kSteps = 250;
 const uint8_t kStallFrom = 60, kStallTo = 150;  // longer than the 56 rows that the ring bridges
@@ -62,10 +53,7 @@ ISR(TIMER3_COMPA_vect) {
 }
 
 int main() {
-  UCSR0A = _BV(U2X0);
-  UBRR0 = 3;  // 500,000 baud
-  UCSR0C = _BV(UCSZ01) | _BV(UCSZ00);
-  UCSR0B = _BV(TXEN0);
+  uart.begin();
   TCCR1B = _BV(CS10);
   awmr_log::write_header(uart);
   awmr_log::write_header(uart);

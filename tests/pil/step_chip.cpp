@@ -2,11 +2,10 @@
 // not end, once after the chip was switched on. For log_chip_test.cpp.
 #include <avr/io.h>
 #include <avr/sleep.h>
-#include <stddef.h>
-#include <stdint.h>
 
 #include "awmr_board/steps.h"
 #include "awmr_log.h"
+#include "chip_uart.h"
 
 namespace {
 
@@ -14,16 +13,7 @@ awmr_log::Ring ring;
 awmr_input input;
 awmr_output output;
 
-struct Uart {
-  size_t write(const uint8_t* bytes, size_t size) {
-    for (size_t i = 0; i < size; ++i) {
-      while ((UCSR0A & _BV(UDRE0)) == 0) {
-      }
-      UDR0 = bytes[i];
-    }
-    return size;
-  }
-} uart;
+Uart uart;
 
 void step() {
   const bool has_to_hang = awmr_board::reset_cause() == awmr_board::kSwitchedOn;
@@ -39,10 +29,7 @@ volatile uint8_t log_done;
 }
 
 int main() {
-  UCSR0A = _BV(U2X0);
-  UBRR0 = 3;  // 500,000 baud
-  UCSR0C = _BV(UCSZ01) | _BV(UCSZ00);
-  UCSR0B = _BV(TXEN0);
+  uart.begin();
   awmr_log::write_header(uart);
   awmr_log::write_header(uart);
   awmr_board::begin_steps(step);

@@ -14,7 +14,6 @@
 namespace awmr {
 namespace {
 
-const std::string kSeverities[] = {"note", "warning", "error"};
 /// The kinds of trial that /trials may name: those that are tables. A log has no rows there.
 constexpr NameTable<TrialKind, 3> kTableNames{
     {kTrialKindNames[0], kTrialKindNames[1], kTrialKindNames[2]}};
@@ -134,7 +133,7 @@ Json finding_to_json(const Finding& finding) {
   Json json;
   json["file"] = finding.file;
   json["line"] = finding.line;
-  json["severity"] = kSeverities[static_cast<std::size_t>(finding.severity)];
+  json["severity"] = name_in(kSeverityNames, finding.severity);
   json["code"] = finding.code;
   json["message"] = plain_text(finding.message);
   return json;
@@ -242,7 +241,7 @@ Finding finding_from_json(JsonObject json) {
   Finding finding;
   finding.file = json.string("file");
   finding.line = count(json, "line");
-  finding.severity = static_cast<Severity>(json.choice("severity", kSeverities));
+  finding.severity = json.choice("severity", kSeverityNames);
   finding.code = json.string("code");
   finding.message = json.string("message");
   json.reject_unknown_keys();

@@ -17,6 +17,8 @@ enum class Severity {
   kWarning,  ///< doubtful: the result may be off
   kError,    ///< something that was asked for could not be done
 };
+inline constexpr NameTable<Severity, 3> kSeverityNames{
+    {{"note", Severity::kNote}, {"warning", Severity::kWarning}, {"error", Severity::kError}}};
 
 /// Something the user should know about the data or the result.
 struct Finding {

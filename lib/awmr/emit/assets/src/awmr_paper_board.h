@@ -40,6 +40,18 @@ inline uint32_t time_or_old(uint32_t time_ms, uint32_t now_ms, uint32_t timeout_
   return time_ms != 0 ? time_ms : now_ms - timeout_ms - 1;
 }
 
+/* In setup() of a sketch that steers by the autopilot: starts everything but the steps, and says
+   over Serial (115200 baud) what is missing. */
+inline void begin(Imu& imu, Gps& gps, Log& card) {
+  Serial.begin(115200);
+  begin_actuators();
+  imu.begin();
+  gps.begin();
+  if (!AWMR_COMPASS_CALIBRATED) Serial.println(F("compass not calibrated: see CompassCalibration"));
+  if (!card.begin()) Serial.println(F("no SD card: no log"));
+  if (awmr_init() != AWMR_FAULT_NONE) Serial.println(F("parameters damaged: flash again"));
+}
+
 /* What the sensors know and when somebody commanded, with the times. */
 inline void measure(const Imu& imu, const Gps& gps, const Command& command, awmr_input& input) {
   input.now_ms = millis();

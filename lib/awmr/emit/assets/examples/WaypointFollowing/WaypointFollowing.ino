@@ -42,14 +42,8 @@ void step() {
 }
 
 void setup() {
-  Serial.begin(115200);
-  awmr_board::begin_actuators();
-  imu.begin();
-  gps.begin();
+  awmr_board::begin(imu, gps, card);
   if (gps.has_origin()) Serial.println(F("GPS origin as before the reset"));
-  if (!AWMR_COMPASS_CALIBRATED) Serial.println(F("compass not calibrated: see CompassCalibration"));
-  if (!card.begin()) Serial.println(F("no SD card: no log"));
-  if (awmr_init() != AWMR_FAULT_NONE) Serial.println(F("parameters damaged: flash again"));
   input.mode = AWMR_COMBINED;
   awmr_board::begin_steps(step);
 }

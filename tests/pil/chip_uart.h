@@ -1,0 +1,23 @@
+#pragma once
+// USART0 of the chip in place of a card, for the programs of log_chip_test.cpp.
+#include <avr/io.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/// Waits until every byte is on its way.
+struct Uart {
+  void begin() {
+    UCSR0A = _BV(U2X0);
+    UBRR0 = 3;  // 500,000 baud
+    UCSR0C = _BV(UCSZ01) | _BV(UCSZ00);
+    UCSR0B = _BV(TXEN0);
+  }
+  size_t write(const uint8_t* bytes, size_t size) {
+    for (size_t i = 0; i < size; ++i) {
+      while ((UCSR0A & _BV(UDRE0)) == 0) {
+      }
+      UDR0 = bytes[i];
+    }
+    return size;
+  }
+};
