@@ -5,8 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "awmr/control/autopilot.h"
-#include "support/paper_vehicle.h"
+#include "paper_autopilot.h"
 
 namespace awmr::testing {
 namespace {
@@ -16,13 +15,6 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 float above(float x) { return std::nextafterf(x, kInfinity); }
 float below(float x) { return std::nextafterf(x, -kInfinity); }
-
-constexpr SafetyLimits kLimits{.speed_max_mps = 3.0F,
-                               .yaw_rate_max_radps = 8.0F,
-                               .heading_timeout_ms = 100,
-                               .speed_timeout_ms = 600,
-                               .command_timeout_ms = 1000,
-                               .step_timeout_ms = 30};
 
 /// Limits that differ in size, so that none stands in for another.
 AllocationConstants<float> constants() {
@@ -91,19 +83,8 @@ TEST(Times, AreOldOneMillisecondBeyondTheirLimit) {
   }
 }
 
-/// An autopilot that holds kLimits and the paper's robot.
-class AutopilotFaults : public ::testing::Test {
+class AutopilotFaults : public PaperAutopilot {
  protected:
-  AutopilotFaults() {
-    const Controller<float> controller = paper_controller_of<float>();
-    block_.surge_alpha_beta[0] = controller.surge.alpha;
-    block_.surge_alpha_beta[1] = controller.surge.beta;
-    block_.yaw_alpha_beta[0] = controller.yaw.alpha;
-    block_.yaw_alpha_beta[1] = controller.yaw.beta;
-    block_.constants = prepared(controller).constants;
-    block_.safety = kLimits;
-    crc_ = crc32_of_parameters(&block_, nullptr, 0, nullptr, 0);
-  }
   /// The output of a first step.
   AutopilotOutput step(const AutopilotInput& in) {
     Autopilot<Resistance<float>> autopilot{};
@@ -122,17 +103,7 @@ class AutopilotFaults : public ::testing::Test {
     EXPECT_EQ(out.tau_speed, 0.0F);
     EXPECT_EQ(out.tau_turn_m, 0.0F);
   }
-  static AutopilotInput good() {
-    return {.mode = 2,
-            .measured = {0.1F, 1.0F, 0.01F, 0.2F},
-            .position_m = {1.0F, 2.0F},
-            .reference = {0.3F, 0.0F, 0.0F, 1.5F, 0.0F},
-            .times = {1000, 1000, 1000, 1000}};
-  }
 
-  static constexpr Position<float> kPoints[] = {{5.0F, 5.0F}, {10.0F, 0.0F}};
-  ParameterBlock block_{};
-  std::uint32_t crc_ = 0;
   int points_ = 0;
 };
 

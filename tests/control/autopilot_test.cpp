@@ -1,0 +1,312 @@
+/// What leads in a whole step of the autopilot, against the functions of guidance called one by one.
+#include "awmr/control/autopilot.h"
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "paper_autopilot.h"
+
+namespace awmr::testing {
+namespace {
+
+constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+constexpr float kSampleTime_s = 0.03F;
+
+class AutopilotLeads : public PaperAutopilot {
+ protected:
+  using Whole = Autopilot<Resistance<float>, AllParts<>>;
+
+  AutopilotLeads() { start_autopilot(autopilot_, &block_, nullptr, 0, nullptr, 0, crc_); }
+
+  /// The output of the next step, at a place.
+  AutopilotOutput step_at(const Position<float>& position_m) {
+    in_.position_m = position_m;
+    const std::uint32_t now_ms = in_.times.now_ms + 30;
+    in_.times = {now_ms, now_ms, now_ms, now_ms};
+    AutopilotOutput out{};
+    autopilot_step(autopilot_, in_, out);
+    EXPECT_EQ(out.fault, kFaultNone);
+    return out;
+  }
+  /// The laws' answer to a reference, as they are without any part.
+  void expect_reference(const AutopilotOutput& out, const Reference<float>& ref) const {
+    EXPECT_EQ(out.psi_ref_rad, ref.psi_rad);
+    EXPECT_EQ(out.tau_speed, speed_law(autopilot_.controller, in_.measured, ref));
+    EXPECT_EQ(out.tau_turn_m, heading_law(autopilot_.controller, in_.measured, ref));
+  }
+  Reference<float> led_to(float psi_rad, float speed_share = 1.0F) const {
+    return {psi_rad, 0.0F, 0.0F, in_.reference.speed_mps * speed_share, in_.reference.accel_mps2};
+  }
+  /// The fault of a first step whose position is no number.
+  std::uint8_t fault_without_position() {
+    AutopilotInput in = good();
+    in.position_m.x_m = kNaN;
+    AutopilotOutput out{};
+    autopilot_.has_stepped = false;
+    autopilot_step(autopilot_, in, out);
+    return out.fault;
+  }
+
+  Whole autopilot_{};
+  AutopilotInput in_ = good();
+};
+
+/// A drive from the origin past (5, 5) to (10, 0) and on.
+std::vector<Position<float>> drive() {
+  std::vector<Position<float>> places;
+  for (int i = 0; i <= 50; ++i) {
+    const float x = 0.22F * static_cast<float>(i);
+    places.push_back({x, x < 5.0F ? 0.9F * x : 0.95F * (10.0F - x)});
+  }
+  return places;
+}
+
+TEST_F(AutopilotLeads, ByWaypointsUntilTheLastIsReached) {
+  const Waypoints<float> waypoints{kPoints, 2, 3.0F, false};
+  follow_waypoints(autopilot_, waypoints);
+  in_.reference.psi_rate_radps = 0.4F;  // not of a heading that leads
+  in_.reference.psi_accel_radps2 = 0.5F;
+  auto progress = start_waypoints(Position<float>{0.0F, 0.0F}, in_.measured.psi_rad);
+  bool has_arrived = false;
+  for (const Position<float>& place : drive()) {
+    const AutopilotOutput out = step_at(place);
+    const auto guided = guide(waypoints, place, progress);
+    expect_reference(out, led_to(guided.psi_rad));
+    EXPECT_EQ(out.arrived, guided.finished);
+    has_arrived = has_arrived || out.arrived;
+  }
+  EXPECT_TRUE(has_arrived);
+}
+
+TEST_F(AutopilotLeads, SlowerOnTheLastLegAlone) {
+  const Waypoints<float> waypoints{kPoints, 2, 0.8F, false};
+  follow_waypoints(autopilot_, waypoints);
+  part_of<SlowDown>(autopilot_).distance_m = 4.0F;
+  auto progress = start_waypoints(Position<float>{0.0F, 0.0F}, in_.measured.psi_rad);
+  int slower = 0;
+  for (const Position<float>& place : drive()) {
+    const AutopilotOutput out = step_at(place);
+    const auto guided = guide(waypoints, place, progress);
+    const bool is_last = progress.next >= 1;
+    const float share = is_last ? arrival_share(4.0F, distance_m(place, kPoints[1])) : 1.0F;
+    expect_reference(out, led_to(guided.psi_rad, share));
+    slower += share < 1.0F ? 1 : 0;
+  }
+  EXPECT_GT(slower, 10);
+  EXPECT_LT(slower, 25);
+}
+
+TEST_F(AutopilotLeads, AlongALineToItsEnd) {
+  const Position<float> corners[] = {{0.0F, 0.0F}, {5.0F, 5.0F}, {10.0F, 0.0F}};
+  const Polyline<float> line{corners, 3, 1.0F, {1.0F, 2.0F, true}};
+  follow_waypoints(autopilot_, {kPoints, 2, 3.0F, false});
+  follow_line(autopilot_, line);
+  part_of<SlowDown>(autopilot_).distance_m = 3.0F;
+  auto progress = start_polyline(in_.measured.psi_rad);
+  const float sideslip = sideslip_rad(in_.measured.u_mps, in_.measured.v_mps);
+  bool has_arrived = false, was_slower = false;
+  for (const Position<float>& place : drive()) {
+    const AutopilotOutput out = step_at(place);
+    const auto guided = guide(line, place, sideslip, progress);
+    const float share = progress.segment >= 1 ? arrival_share(3.0F, guided.to_go_m) : 1.0F;
+    expect_reference(out, led_to(guided.psi_rad, share));
+    EXPECT_EQ(out.arrived, guided.finished);
+    has_arrived = has_arrived || out.arrived;
+    was_slower = was_slower || share < 1.0F;
+  }
+  EXPECT_TRUE(has_arrived && was_slower);
+}
+
+TEST_F(AutopilotLeads, AlongAPathFromTheFirstStepOn) {
+  const Lissajous<float> path{10.0F, 8.0F, 0.1F, 0.3F};
+  const float sideslip = sideslip_rad(in_.measured.u_mps, in_.measured.v_mps);
+  for (const float gain_per_s : {0.0F, 0.5F}) {
+    for (const float speed_mps : {0.0F, 1.2F}) {
+      follow_path(autopilot_, path, gain_per_s);
+      in_.reference.speed_mps = speed_mps;
+      float held_rad = in_.measured.psi_rad;
+      for (int i = 0; i < 40; ++i) {
+        const Position<float> place{9.0F - 0.1F * static_cast<float>(i), 0.5F};
+        const AutopilotOutput out = step_at(place);
+        const auto point = path.at(0.001F * static_cast<float>(30 * i));
+        const auto guided = gain_per_s > 0.0F
+                                ? closed_path(point, gain_per_s, place, sideslip, held_rad)
+                                : open_path(point, held_rad);
+        held_rad = guided.psi_rad;
+        expect_reference(out, {guided.psi_rad, guided.psi_rate_radps, 0.0F,
+                               speed_mps > 0.0F ? speed_mps : guided.speed_mps, 0.0F});
+        EXPECT_FALSE(out.arrived);
+      }
+    }
+  }
+}
+
+TEST_F(AutopilotLeads, PastObstaclesThatAreNotBehindTheGoal) {
+  const Avoidance<float> avoidance{.mmd_base_m = 2.0F,
+                                   .mmd_per_speed_s = 1.0F,
+                                   .sigma_rad = 0.2F,
+                                   .vehicle_radius_m = 0.3F,
+                                   .clearance_m = 0.2F,
+                                   .hysteresis_m = 0.3F,
+                                   .side_hysteresis_rad = 0.2F,
+                                   .brake_m = 1.0F};
+  const Obstacle<float> obstacles[] = {{{3.0F, 2.9F}, 0.5F}, {{11.5F, -0.5F}, 0.4F}};
+  Sector<float> sectors[2], expected_sectors[2];
+  const Waypoints<float> waypoints{kPoints, 2, 0.8F, false};
+  for (const bool has_goal : {true, false}) {
+    follow_waypoints(autopilot_, has_goal ? waypoints : Waypoints<float>{nullptr, 0, 0.0F, false});
+    avoid_obstacles(autopilot_, avoidance, obstacles, sectors, 2);
+    in_.reference.psi_rad = -0.7F;
+    in_.reference.psi_rate_radps = 0.2F;
+    auto progress = start_waypoints(Position<float>{0.0F, 0.0F}, in_.measured.psi_rad);
+    AvoidanceState state;
+    int turned = 0;
+    for (const Position<float>& place : drive()) {
+      if (distance_m(place, obstacles[0].centre_m) < 0.9F) continue;
+      const AutopilotOutput out = step_at(place);
+      const auto guided = guide(waypoints, place, progress);
+      Reference<float> ref = has_goal ? led_to(guided.psi_rad) : in_.reference;
+      const int target = guided.finished ? 1 : progress.next;
+      const float target_m = has_goal ? distance_m(place, kPoints[target]) : 1e30F;
+      const auto avoided =
+          avoid(avoidance, obstacles, expected_sectors, 2, place, in_.measured.psi_rad,
+                in_.measured.u_mps, ref.psi_rad, target_m, state);
+      ref.speed_mps *= avoided.speed_share;
+      if (avoided.active) {
+        ref.psi_rad = avoided.psi_rad;
+        ref.psi_rate_radps = 0.0F;
+        ++turned;
+      }
+      expect_reference(out, ref);
+    }
+    EXPECT_GT(turned, 2);
+    EXPECT_LT(turned, 48);
+  }
+}
+
+TEST_F(AutopilotLeads, PastAPointThatAnObstacleCovers) {
+  const Avoidance<float> avoidance{2.0F, 1.0F, 0.2F, 0.3F, 0.2F, 0.3F, 0.2F, 1.0F};
+  const Obstacle<float> obstacles[] = {{kPoints[0], 2.0F}};
+  Sector<float> sectors[1];
+  follow_waypoints(autopilot_, {kPoints, 2, 0.8F, false});
+  avoid_obstacles(autopilot_, avoidance, obstacles, sectors, 1);
+  EXPECT_NEAR(step_at({0.0F, -9.0F}).psi_ref_rad, std::atan2(9.0F, 10.0F), 1e-4F);
+}
+
+TEST_F(AutopilotLeads, WithAShapedHeadingThatBeginsAnewAfterAFault) {
+  const HeadingShaping<float> filter{4.0F, 0.5F, 2.0F};
+  shape_headings(autopilot_, filter, kSampleTime_s);
+  in_.measured.psi_rad = 3.0F;
+  in_.reference.psi_rad = -2.5F;  // the short way is over the cut
+  auto state = start_shaping(in_.measured.psi_rad);
+  const auto expect_shaped = [&](int steps) {
+    for (int i = 0; i < steps; ++i) {
+      const AutopilotOutput out = step_at({0.0F, 0.0F});
+      shape(filter, -2.5F, kSampleTime_s, state);
+      state.psi_rad = called_wrap_angle(state.psi_rad);
+      expect_reference(out, {state.psi_rad, state.psi_rate_radps, state.psi_accel_radps2,
+                             in_.reference.speed_mps, 0.0F});
+    }
+  };
+  expect_shaped(60);
+  EXPECT_LT(state.psi_rad, 0.0F);
+  AutopilotInput bad = in_;
+  bad.mode = 7;
+  AutopilotOutput out{};
+  autopilot_step(autopilot_, bad, out);
+  EXPECT_EQ(out.fault, kFaultRange);
+  state = start_shaping(in_.measured.psi_rad);
+  expect_shaped(5);
+}
+
+TEST_F(AutopilotLeads, LessTheDisturbanceThatTheObserverSees) {
+  const Observers<float> observers{{3.0F, 0.2F}, {4.0F, 0.3F}, true};
+  observe_disturbance(autopilot_, observers, kSampleTime_s);
+  const auto& c = autopilot_.controller;
+  const ControlConstants<float>& k = c.constants;
+  ObserversState<float> state{};
+  for (int i = 0; i < 40; ++i) {
+    in_.measured.u_mps = 1.0F + 0.01F * static_cast<float>(i);
+    in_.measured.r_radps = 0.2F - 0.02F * static_cast<float>(i);
+    const Measurement<float>& m = in_.measured;
+    const AutopilotOutput out = step_at({0.0F, 0.0F});
+    const ObservedMotion<float> motion{{k.mass_norm * m.u_mps, k.inertia_norm * m.r_radps},
+                                       {c.surge(m.u_mps), c.yaw(m.r_radps)},
+                                       k.mass_norm * m.r_radps * m.v_mps};
+    if (i == 0) state = start_observers(observers, motion.momentum);
+    const AxisForces<float> seen = estimate(observers, motion, state);
+    const float tau_speed = speed_law(c, m, in_.reference) - seen.surge;
+    const float tau_turn_m = heading_law(c, m, in_.reference) - seen.yaw_m;
+    EXPECT_EQ(out.tau_speed, tau_speed);
+    EXPECT_EQ(out.tau_turn_m, tau_turn_m);
+    Allocation<float> command{};
+    allocate(YawMode::kCombined, tau_speed, tau_turn_m, k.allocation, CombinedSplit::kRedistribute,
+             command);
+    EXPECT_EQ(out.command.force.left, command.force.left);
+    EXPECT_EQ(out.command.steering_rad, command.steering_rad);
+    const auto allocated =
+        generalised_forces(0.5F * k.allocation.axle_twice_m, k.allocation.half_track_m,
+                           command.force, command.steering_rad);
+    advance(observers, seen, {tau_speed, tau_turn_m}, allocated, motion, kSampleTime_s, state);
+    if (i > 0) {
+      EXPECT_NE(seen.surge, 0.0F);
+    }
+  }
+}
+
+TEST_F(AutopilotLeads, WithForcesThatMakeUpForADeadZone) {
+  const RestBlock rest{.dead_zone = 0.1F,
+                       .surge_rest_speed = 0.0F,
+                       .surge_at_rest = 0.0F,
+                       .yaw_rest_speed = 0.0F,
+                       .yaw_at_rest = 0.0F};
+  const AutopilotOutput plain = step_at({0.0F, 0.0F});
+  const std::uint32_t crc = crc32_of_parameters(&block_, nullptr, 0, nullptr, 0, &rest);
+  ASSERT_TRUE(start_autopilot(autopilot_, &block_, nullptr, 0, nullptr, 0, crc, &rest));
+  const AutopilotOutput out = step_at({0.0F, 0.0F});
+  EXPECT_EQ(out.command.force.left, with_dead_zone(plain.command.force.left, 0.1F));
+  EXPECT_EQ(out.command.force.right, with_dead_zone(plain.command.force.right, 0.1F));
+  EXPECT_NE(out.command.force.left, plain.command.force.left);
+  EXPECT_FALSE(start_autopilot(autopilot_, &block_, nullptr, 0, nullptr, 0, crc_, &rest))
+      << "the check sum is also over what is known of rest";
+}
+
+TEST_F(AutopilotLeads, AskingForAPositionWhereSomethingLeadsByIt) {
+  EXPECT_EQ(fault_without_position(), kFaultNone);
+  const Position<float> corners[] = {{0.0F, 0.0F}, {5.0F, 5.0F}};
+  follow_line(autopilot_, {corners, 2, 0.0F, {1.0F, 1.0F, false}});
+  EXPECT_EQ(fault_without_position(), kFaultNotFinite);
+  follow_path(autopilot_, {10.0F, 10.0F, 0.1F, 0.3F}, 0.0F);
+  EXPECT_EQ(fault_without_position(), kFaultNone) << "an open path is one of time alone";
+  follow_path(autopilot_, {10.0F, 10.0F, 0.1F, 0.3F}, 0.5F);
+  EXPECT_EQ(fault_without_position(), kFaultNotFinite);
+  follow_waypoints(autopilot_, {nullptr, 0, 0.0F, false});
+  EXPECT_EQ(fault_without_position(), kFaultNone);
+  const Obstacle<float> obstacles[] = {{{50.0F, 0.0F}, 1.0F}};
+  Sector<float> sectors[1];
+  const Avoidance<float> avoidance{2.0F, 1.0F, 0.2F, 0.3F, 0.2F, 0.3F, 0.2F, 1.0F};
+  avoid_obstacles(autopilot_, avoidance, obstacles, sectors, 1);
+  EXPECT_EQ(fault_without_position(), kFaultNotFinite);
+  avoid_obstacles(autopilot_, avoidance, obstacles, sectors, 0);
+  EXPECT_EQ(fault_without_position(), kFaultNone);
+}
+
+TEST_F(AutopilotLeads, ByWhatWasAskedForLast) {
+  const Position<float> corners[] = {{0.0F, 0.0F}, {0.0F, 5.0F}};
+  const auto heading = [this] { return step_at({0.0F, 0.0F}).psi_ref_rad; };
+  EXPECT_EQ(heading(), 0.3F);
+  follow_waypoints(autopilot_, {kPoints, 2, 0.5F, false});
+  EXPECT_NEAR(heading(), std::atan2(5.0F, 5.0F), 1e-4F);
+  follow_line(autopilot_, {corners, 2, 0.0F, {1.0F, 1.0F, false}});
+  EXPECT_NEAR(heading(), std::atan2(5.0F, 0.0F), 1e-4F);
+  follow_path(autopilot_, {10.0F, 10.0F, 0.0F, 0.3F}, 0.0F);
+  EXPECT_NEAR(heading(), std::atan2(3.0F, 0.0F), 1e-4F);
+  follow_waypoints(autopilot_, {kPoints + 1, 1, 0.5F, false});
+  EXPECT_EQ(heading(), 0.0F);
+  follow_waypoints(autopilot_, {nullptr, 0, 0.0F, false});
+  EXPECT_EQ(heading(), 0.3F);
+}
+
+}  // namespace
+}  // namespace awmr::testing
