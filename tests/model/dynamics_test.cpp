@@ -132,6 +132,15 @@ Plant<double> with_back_emf() {
 }
 
 /// 4 (F' - k_e u) = g1(u) + m' du/dt.
+TEST(Resistance, IsFedForwardWithAChordAtRestWhereItWouldJump) {
+  Resistance<double> law = paper_plant().surge;
+  EXPECT_EQ(feed_forward(law).rest_speed, law.rest_speed);
+  law.coulomb = 0.05;
+  law = feed_forward(law);
+  EXPECT_EQ(law.rest_speed, 0.02);
+  EXPECT_DOUBLE_EQ(law(0.01), 0.5 * law(0.02));
+}
+
 TEST(BackEmf, StraightAheadEveryMotorLosesWithTheSpeed) {
   const Plant<double> plant = with_back_emf();
   State<double> s{};

@@ -235,6 +235,8 @@ TEST(ModelFile, RefusesValuesThatCannotBe) {
                                 {"/findings/0/severity", "fatal"},
                                 {"/findings/0/line", -1},
                                 {"/trials/0/kind", "parking"},
+                                {"/trials/0/kind", "log"},
+                                {"/trials/0/kind", ""},
                                 {"/trials/0/input", nullptr},
                                 {"/trials", Json::object()}};
   for (const Edit& edit : edits) {

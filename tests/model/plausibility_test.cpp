@@ -69,7 +69,14 @@ TEST(Plausibility, MillimetresAndGramsTogetherAreNamed) {
   const Vehicle v = vehicle(2100.0, 320.0, 220.0, 100.0, 85.0);
   EXPECT_THAT(pointers(v),
               ElementsAre("/mass_kg", "/length_m", "/width_m", "/half_track_m", "/front_axle_m"));
-  EXPECT_THAT(words(v), HasSubstr("looks like g: 2.1"));
+  EXPECT_THAT(words(v), HasSubstr("looks like g: 2.1\n"));
+}
+
+TEST(Plausibility, LengthAndWidthFitEachOther) {
+  EXPECT_THAT(pointers(vehicle(20.0, 0.3, 1.2, 0.1, 0.5)), IsEmpty());
+  EXPECT_THAT(pointers(vehicle(20.0, 0.3, 2.0, 0.1, 0.8)), ElementsAre("/width_m"));
+  EXPECT_THAT(pointers(vehicle(20.0, 2.0, 0.22, 0.8, 0.09)), IsEmpty());
+  EXPECT_THAT(pointers(vehicle(20.0, 2.0, 0.15, 0.8, 0.07)), ElementsAre("/length_m"));
 }
 
 TEST(Plausibility, TheInertiaOfAnotherVehicleIsNamedAndAMeasuredOneIsNot) {

@@ -81,6 +81,12 @@ TEST(SiUnits, TurnTheIntervalOfTheMassOver) {
   EXPECT_NEAR(*force.std_error, 0.1 * *force.value, 1e-12 * *force.value);
 }
 
+TEST(SiUnits, LeaveAnIntervalOutThatWouldBeEndless) {
+  Model model = uncertain_model();
+  model[ParameterId::kMassNorm].ci95 = Interval{0.0, 0.2};
+  EXPECT_FALSE(quantity(model, "/max_wheel_force").estimate.ci95);
+}
+
 TEST(SiUnits, GiveTheInertiaThatWasGivenAsExact) {
   const Model model = uncertain_model();
   const Estimate inertia = quantity(model, "/yaw_inertia").estimate;
