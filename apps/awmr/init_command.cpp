@@ -16,6 +16,12 @@
 namespace awmr::cli {
 namespace {
 
+/// "@four_wheel " before a line: it is for this drive alone; "@steered ": for those with steering.
+bool is_for(std::string_view mark, Drive drive) {
+  if (mark == "steered") return drive != Drive::kDifferential;
+  return mark == name_in(kDriveNames, drive);
+}
+
 /// The lines of a template that are for this drive.
 std::string for_drive(std::string_view text, Drive drive) {
   std::string lines;
@@ -25,7 +31,7 @@ std::string for_drive(std::string_view text, Drive drive) {
     text.remove_prefix(end);
     if (line.front() == '@') {
       const std::size_t space = line.find(' ');
-      if (line.substr(1, space - 1) != name_in(kDriveNames, drive)) continue;
+      if (!is_for(line.substr(1, space - 1), drive)) continue;
       line.remove_prefix(space + 1);
     }
     lines += line;
@@ -121,7 +127,8 @@ void add_init(CLI::App& app, Session& session) {
       ->required();
   auto* drive = add_choice(*sub, "--drive", command->drive, kDriveNames,
                            "four_wheel (default): four driven wheels, steered in front; "
-                           "differential: without steering");
+                           "differential: without steering; front_wheel: the front wheels alone "
+                           "are driven, and steered");
   sub->add_flag("--example", command->example,
                 "Write the paper's vehicle, tables and scenarios, and made-up drives, instead: the "
                 "examples of every command's help run in DIR")

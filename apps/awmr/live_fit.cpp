@@ -69,15 +69,15 @@ void LiveFit::fit(LiveUpdate& update) const {
     update.faults = trials.error().faults;
     return;
   }
-  const DrivingLog& log = trials->data.logs.back();
-  update.span_s = log.t_s.back() - trials->data.logs.front().t_s.front();
+  for (const DrivingLog& run : trials->data.logs) update.span_s += run.t_s.back() - run.t_s.front();
   const auto begin = std::chrono::steady_clock::now();
   auto identified = identify(*trials, options_);
   if (!identified) {
     update.faults = identified.error().faults;
     return;
   }
-  const double took_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  const double took_s =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   update.out_of_time = !identified->refused.empty() && took_s >= options_.time_limit_s;
   if (update.out_of_time) return;
   update.next = next_manoeuvre(identified->model);

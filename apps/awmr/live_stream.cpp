@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <system_error>
 #include <utility>
 
 #include "awmr/core/serial_port.h"
@@ -52,12 +53,17 @@ Result<OpenStream> open_stream(const StreamSource& source) {
     return OpenStream{std::move(port)};
   }
   const std::string name = source.log->string();
-  if (name == "-") return OpenStream{Descriptor(::fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 0))};
+  if (name == "-") {
+    Descriptor input(::fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 0));
+    if (input.number() < 0) return input_error("--log -", "standard input is closed");
+    return OpenStream{std::move(input)};
+  }
   Descriptor file(::open(name.c_str(), O_RDONLY | O_CLOEXEC));
   if (file.number() < 0) {
     return input_error(name, std::string("cannot open the file: ") + std::strerror(errno));
   }
-  if (std::filesystem::is_directory(name)) {
+  std::error_code error;
+  if (std::filesystem::is_directory(name, error)) {
     return input_error(name, "this is a directory; give the file that the recorder writes");
   }
   const bool may_grow = is_regular(file.number());

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <pybind11/functional.h>
 
 #include "awmr/identify/identify.h"
@@ -9,6 +10,14 @@ namespace awmr::python {
 namespace {
 
 using Words = std::vector<std::string>;
+
+/// Raises InputError beyond the range that the command line's option has.
+void check_within(const char* name, double value, double least, double most) {
+  if (value >= least && value <= most) return;
+  throw Raised(
+      input_error(name, fmt::format("expected {:g} to {:g}, found {:g}", least, most, value))
+          .value());
+}
 
 Identification fit(const Trials& trials, const std::optional<std::string>& method,
                    const std::optional<std::string>& noise, const Words& family,
@@ -28,10 +37,10 @@ Identification fit(const Trials& trials, const std::optional<std::string>& metho
   options.time_limit_s = time_limit_s;
   options.cross_validate = cross_validate;
   options.threads = threads;
-  if (starts < 0 || bootstrap < 0 || threads < 0 || !(time_limit_s >= 0.0)) {
-    throw Raised(
-        input_error("", "starts, bootstrap, threads and time_limit_s are at least 0").value());
-  }
+  check_within("starts", starts, 0, 1000);
+  check_within("bootstrap", bootstrap, 0, 1000000);
+  check_within("threads", threads, 0, 1024);
+  check_within("time_limit_s", time_limit_s, 0, 1e6);
   const py::gil_scoped_release released;
   return value_or_raise(identify(trials, options));
 }
@@ -43,7 +52,7 @@ py::list refused_names(const Identification& identification) {
 }
 
 py::list suggested(const Model& model, const std::string& parameter, int repeats) {
-  if (repeats < 1) throw Raised(input_error("repeats", "at least 1").value());
+  check_within("repeats", repeats, 1, 1000);
   const Suggestion suggestion =
       value_or_raise(suggest(model, {.parameter = parameter, .repeats = repeats}));
   py::list trials;

@@ -41,7 +41,8 @@ TEST_F(Init, WritesAProjectOfWhichEveryMeasuredValueIsOpen) {
 }
 
 TEST_F(Init, ExplainsEveryKeyThatItLeavesOpen) {
-  for (const char* drive : {" --drive four_wheel", " --drive differential"}) {
+  for (const char* drive :
+       {" --drive four_wheel", " --drive differential", " --drive front_wheel"}) {
     ASSERT_EQ(init(drive).exit_code, 0);
     const std::string readme = read_all(path("README.md"));
     const nlohmann::json vehicle = json("vehicle.json").flatten();
@@ -53,8 +54,8 @@ TEST_F(Init, ExplainsEveryKeyThatItLeavesOpen) {
     }
     for (const auto& entry : fs::recursive_directory_iterator(path(""))) {
       if (entry.is_regular_file()) {
-        EXPECT_THAT(read_all(entry.path()),
-                    AllOf(Not(HasSubstr("@four")), Not(HasSubstr("@diff"))));
+        EXPECT_THAT(read_all(entry.path()), AllOf(Not(HasSubstr("@steer")), Not(HasSubstr("@diff")),
+                                                  Not(HasSubstr("@front"))));
       }
     }
     fs::remove_all(path(""));
@@ -67,6 +68,13 @@ TEST_F(Init, ARobotWithoutSteeringIsAskedForNone) {
   EXPECT_EQ(json("vehicle.json").count("steering"), 0U);
   EXPECT_EQ(read_all(path("turning.csv")), "force_left,force_right,turns,elapsed_s\n");
   EXPECT_THAT(read_all(path("README.md")), Not(HasSubstr("steering.max_deg")));
+}
+
+TEST_F(Init, ARobotOfFrontWheelDriveIsAskedForItsSteering) {
+  ASSERT_EQ(init(" --drive front_wheel").exit_code, 0);
+  EXPECT_EQ(json("vehicle.json")["drive"], "front_wheel");
+  EXPECT_EQ(json("vehicle.json").count("steering"), 1U);
+  EXPECT_EQ(read_all(path("turning.csv")), "steering_deg,wheel_force,turns,elapsed_s\n");
 }
 
 TEST_F(Init, OverwritesNothingAndThenWritesNothing) {

@@ -222,6 +222,7 @@ TEST_F(Live, RefusesWhatItCannotRecord) {
   write_all(path("there.csv"), "a recording");
   const Case cases[] = {
       {live("--log /dev/null"), "the stream ended before anything came"},
+      {live("--log - <&-"), "standard input is closed"},
       {live("--log nowhere.csv"), "nowhere.csv: cannot open the file"},
       {live("--log " + path("")), "this is a directory"},
       {live("--port /dev/null"), "is no serial port"},

@@ -236,5 +236,69 @@ TEST(Allocation, MotorsWithBackEmfMakeTheForcesOfTheAllocation) {
   }));
 }
 
+AllocationLimits<double> front_limits() {
+  AllocationLimits<double> l = limits();
+  l.is_rear_driven = false;
+  return l;
+}
+
+GeneralisedForces<double> by_front_wheels(const Allocation<double>& a) {
+  const auto l = front_limits();
+  return front_wheel_forces(l.front_axle_m, l.half_track_m, a.force, a.steering_rad);
+}
+
+TEST(FrontWheelAllocation, DeliversExactlyWhatIsAskedForInsideTheLimits) {
+  EXPECT_TRUE(rc::check([] {
+    const double tau_speed = drawn(0.1, 1.5);
+    // |d_r| < 20 deg needs |tau_turn| < l_f tau_speed tan(20 deg) = 0.13 tau_speed; the forces, at most
+    // (1.5 + 0.19/0.36)/(2 cos 20 deg) = 1.08 by the sides alone, stay inside for half of that.
+    const double tau_turn_m = drawn(-1, 1) * 0.5 * 0.35 * tau_speed * std::tan(radians(20.0));
+    for (const YawMode mode : kModes) {
+      const Allocation<double> a = allocate(mode, tau_speed, tau_turn_m, front_limits());
+      RC_ASSERT(!a.speed_limited && !a.steering_limited && !a.force_limited &&
+                !a.steering_powerless);
+      const GeneralisedForces<double> tau = by_front_wheels(a);
+      RC_ASSERT(std::abs(tau.tau_speed - tau_speed) < 1e-14);
+      RC_ASSERT(std::abs(tau.tau_steering_m + tau.tau_diff_m - tau_turn_m) < 1e-14);
+    }
+  }));
+}
+
+TEST(FrontWheelAllocation, StaysInsideTheLimitsAndGivesBackWhatTheyTake) {
+  EXPECT_TRUE(rc::check([] {
+    const AllocationLimits<double> l = front_limits();
+    const double tau_speed = drawn(-3, 3);
+    const double tau_turn_m = drawn(-2, 2);
+    for (const YawMode mode : kModes) {
+      const Allocation<double> a = allocate(mode, tau_speed, tau_turn_m, l);
+      RC_ASSERT(a.force.left >= l.force_min && a.force.left <= l.force_max);
+      RC_ASSERT(a.force.right >= l.force_min && a.force.right <= l.force_max);
+      RC_ASSERT(std::abs(a.steering_rad) <= l.steering_max_rad);
+      RC_ASSERT(a.speed_limited == (std::abs(tau_speed) > 2.0));
+    }
+    // With the stop reached, the sides make the rest of the moment.
+    const Allocation<double> a = allocate(YawMode::kCombined, 0.5, 0.4 * drawn(-1, 1), l);
+    const GeneralisedForces<double> tau = by_front_wheels(a);
+    RC_ASSERT(a.force_limited || std::abs(tau.tau_speed - 0.5) < 1e-14);
+  }));
+  const Allocation<double> a = allocate(YawMode::kCombined, 0.5, 0.3, front_limits());
+  ASSERT_TRUE(a.steering_limited && !a.force_limited);
+  const GeneralisedForces<double> tau = by_front_wheels(a);
+  EXPECT_NEAR(tau.tau_steering_m + tau.tau_diff_m, 0.3, 1e-14);
+}
+
+/// The small-angle form is the exact one where angles are small: it errs by their squares.
+TEST(FrontWheelAllocation, OfThePaperIsTheExactOneForSmallAngles) {
+  AllocationLimits<double> small = front_limits();
+  small.form = AllocationForm::kPaper;
+  for (const YawMode mode : kModes) {
+    const Allocation<double> exact = allocate(mode, 1.0, 0.001, front_limits());
+    const Allocation<double> paper = allocate(mode, 1.0, 0.001, small);
+    EXPECT_NEAR(paper.steering_rad, exact.steering_rad, 1e-8);
+    EXPECT_NEAR(paper.force.left, exact.force.left, 1e-5);
+    EXPECT_NEAR(paper.force.right, exact.force.right, 1e-5);
+  }
+}
+
 }  // namespace
 }  // namespace awmr::testing

@@ -61,6 +61,14 @@ TEST(Export, OfMotorsWithBackEmfIsNotWorkedOutForAutopilots) {
   EXPECT_THAT(text_of(model, ExportFormat::kPython), HasSubstr("MOTOR_BACK_EMF_S_PER_M = 0.25"));
 }
 
+TEST(Export, OfFrontWheelDriveIsNotWorkedOutForAutopilots) {
+  Model model = paper_robot();
+  model.vehicle.drive = Drive::kFrontWheel;
+  for (const ExportFormat format : {ExportFormat::kArduPilot, ExportFormat::kPx4}) {
+    EXPECT_THAT(text_of(model, format), HasSubstr("/vehicle/drive"));
+  }
+}
+
 TEST(Export, ArduPilotsCruiseHoldsItsSpeedAtItsThrottle) {
   const Model model = paper_robot();
   const auto values = parameters_of(text_of(model, ExportFormat::kArduPilot));

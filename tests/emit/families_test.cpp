@@ -55,6 +55,15 @@ TEST(BackEmf, IsInTheHeaderAndRefusedByTheFirmwareThatWouldLeaveItOut) {
   EXPECT_THAT(to_text(firmware.error()), HasSubstr("header-only"));
 }
 
+TEST(FrontWheelDrive, IsRefusedByTheFirmwareAndHasAHeader) {
+  Model model = paper_robot();
+  model.vehicle.drive = Drive::kFrontWheel;
+  EXPECT_TRUE(params_header(model, kPaperGains, paper_inputs()));
+  const auto firmware = autopilot_parameters(model, kPaperGains, paper_inputs(), {});
+  ASSERT_FALSE(firmware);
+  EXPECT_THAT(to_text(firmware.error()), HasSubstr("/vehicle/drive"));
+}
+
 TEST(Families, AreRefusedWhereTheFirmwareDoesNotKnowThem) {
   EmitOptions by_powf;
   by_powf.resistance = ResistanceForm::kPowf;

@@ -27,8 +27,9 @@ using Jet = ceres::Jet<double, kColumns>;
 constexpr ParameterValues<double> kValues{0.9,  0.75, 0.06, 1.1,  4.0,   0.3,   0.0066,
                                           0.06, 0.05, 0.02, 0.01, 0.003, 0.015, 0.12};
 
-Vehicle robot() {
+Vehicle robot(Drive drive = Drive::kFourWheel) {
   Vehicle v;
+  v.drive = drive;
   v.front_axle_m = 0.16;
   v.half_track_m = 0.12;
   v.steering_max_deg = 25.0;
@@ -79,20 +80,21 @@ struct ByHand {
 constexpr double kInputDelay_s = 0.033;
 constexpr double kSpeedDelay_s = 0.047;
 
-Plant<double> plant_by_hand(bool servo, double step_s) {
-  Plant<double> plant = resolved_at_rest(plant_of(robot(), kValues), step_s);
+Plant<double> plant_by_hand(bool servo, double step_s, Drive drive) {
+  Plant<double> plant = resolved_at_rest(plant_of(robot(drive), kValues), step_s);
   if (!servo) plant.steering_max_rad = 10.0;
   return plant;
 }
 
-ByHand by_hand(const DrivingLog& log, double step_s, double late_s = kSpeedDelay_s) {
+ByHand by_hand(const DrivingLog& log, double step_s, double late_s = kSpeedDelay_s,
+               Drive drive = Drive::kFourWheel) {
   const LogSignals signals(log);
   std::vector<ParameterColumn> parameters;
   for (std::size_t i = 0; i < kParameterCount; ++i) {
     parameters.push_back({static_cast<ParameterId>(i), i, 1.0});
   }
   const DelayColumn input{kInputDelay_s, kInputDelay};
-  const Plant<double> plant = plant_by_hand(log.steering_command_rad.has_value(), step_s);
+  const Plant<double> plant = plant_by_hand(log.steering_command_rad.has_value(), step_s, drive);
   LinearStepper stepper(plant, kColumns, parameters, input);
   LinearMotion first{first_state<double>([](std::size_t, double x) { return x; }),
                      std::vector<double>(kStateSize * kColumns, 0.0)};
@@ -115,13 +117,13 @@ struct ByJets {
   std::vector<State<Jet>> earlier;
 };
 
-ByJets by_jets(const DrivingLog& log, double step_s) {
+ByJets by_jets(const DrivingLog& log, double step_s, Drive drive = Drive::kFourWheel) {
   const LogSignals signals(log);
   ParameterValues<Jet> values;
   for (std::size_t i = 0; i < kParameterCount; ++i) {
     values[i] = Jet(kValues[i], static_cast<int>(i));
   }
-  const Plant<Jet> plant = resolved_at_rest(plant_of(robot(), values), step_s);
+  const Plant<Jet> plant = resolved_at_rest(plant_of(robot(drive), values), step_s);
   const Jet input(kInputDelay_s, kInputDelay);
   const Jet late(kSpeedDelay_s, kSpeedDelay);
   const auto first = first_state<Jet>(
@@ -166,6 +168,13 @@ TEST(LinearReplay, HasTheStatesAndTheDerivativesOfJets) {
     const DrivingLog log = commands(servo);
     expect_equal(by_jets(log, 0.004).states, by_hand(log, 0.004).motions, kRounding);
   }
+}
+
+TEST(LinearReplay, OfFrontWheelDriveHasTheDerivativesOfJets) {
+  const DrivingLog log = commands(true);
+  const Drive drive = Drive::kFrontWheel;
+  expect_equal(by_jets(log, 0.004, drive).states, by_hand(log, 0.004, kSpeedDelay_s, drive).motions,
+               kRounding);
 }
 
 TEST(LinearReplay, LooksBackAsJetsDo) {

@@ -387,6 +387,23 @@ TEST(BackEmf, OfTheDataSheetIsHeldAndKeepsTablesOut) {
   EXPECT_THAT(to_text(tables.error()), ::testing::HasSubstr("identify this vehicle from logs"));
 }
 
+TEST(FrontWheelDrive, GivesEveryParameterOfALog) {
+  const Truth& t = kTruths[0];
+  Vehicle vehicle = robot();
+  vehicle.drive = Drive::kFrontWheel;
+  Plant<double> pulled = plant(t);
+  pulled.rear_driven = 0.0;
+  Random random(61, 5);
+  TrialData data;
+  data.logs = {simulate_log(pulled, vehicle, {.duration_s = 20.0, .drive = 61}, {}, random)};
+  const auto result = identify(vehicle, data, {}, {});
+  ASSERT_TRUE(result);
+  expect_recovered(*result, ParameterId::kSurgeAlpha, t.a1, 4.5);
+  expect_recovered(*result, ParameterId::kYawAlpha, t.a3, 4.5);
+  expect_recovered(*result, ParameterId::kMassNorm, t.mass_norm, 4.5);
+  expect_recovered(*result, ParameterId::kInertiaNorm, 0.16 * t.mass_norm, 4.5);
+}
+
 TEST(Log, AnotherMassOnTheSecondDayIsToldAndWidensTheInterval) {
   Truth heavy = kTruths[0];
   heavy.mass_norm *= 1.2;

@@ -188,5 +188,25 @@ TEST(BackEmf, TakesItsPowerOutOfTheMotionOfEveryWheel) {
   }));
 }
 
+/// The equations by wheel with nothing at the rear, and those of the sides' generalised forces.
+TEST(FrontWheelDrive, PushesWithTheFrontWheelsAlone) {
+  EXPECT_TRUE(rc::check([] {
+    const Plant<double> all = paper_plant_of<double>();
+    Plant<double> plant = all;
+    plant.rear_driven = 0.0;
+    const State<double> s = drawn_state();
+    const SideForces<double> f{drawn(-1, 1), drawn(-1, 1)};
+    const State<double> d = state_rates(plant, s, f, 0.1);
+    expect_same(d, state_rates(all, s, WheelForces<double>{f.left, f.right, 0.0, 0.0}, 0.1));
+    const GeneralisedForces<double> tau =
+        front_wheel_forces(plant.front_axle_m, plant.half_track_m, f, s.steering_rad);
+    const State<double> none = state_rates(all, s, SideForces<double>{0.0, 0.0}, 0.1);
+    // Rates of up to 1e3, with the rounding of ten operations.
+    RC_ASSERT(std::abs(d.u_mps - none.u_mps - tau.tau_speed / all.mass_norm) < 3e-12);
+    RC_ASSERT(std::abs(d.r_radps - none.r_radps -
+                       (tau.tau_steering_m + tau.tau_diff_m) / all.inertia_norm) < 3e-12);
+  }));
+}
+
 }  // namespace
 }  // namespace awmr::testing

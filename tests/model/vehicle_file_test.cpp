@@ -68,7 +68,7 @@ TEST(VehicleFile, ReadsAVehicleWithoutSteering) {
 TEST(VehicleFile, RefusesADriveThatContradictsItsSteering) {
   EXPECT_THAT(faults_after({"/drive", "differential"}),
               ElementsAre(StartsWith("/steering: a vehicle of drive")));
-  EXPECT_THAT(faults_after({"/drive", "front_wheel"}),
+  EXPECT_THAT(faults_after({"/drive", "rear_wheel"}),
               ElementsAre(StartsWith("/drive: expected one of")));
   EXPECT_THAT(faults_after({"/steering", {}, true}), ElementsAre(StartsWith("/steering")));
 }

@@ -182,7 +182,7 @@ class Module(unittest.TestCase):
         self.assertTrue(issubclass(awmr.Refused, awmr.Error))
         trials = awmr.load_trials(self.vehicle, **tables())
         for options in ({"method": "guess"}, {"fit": ["mass"]}, {"family": ["odd"]},
-                        {"starts": -1}, {"loss": "none"}):
+                        {"starts": -1}, {"starts": 1001}, {"time_limit_s": float("nan")}, {"loss": "none"}):
             with self.assertRaises(awmr.InputError):
                 awmr.identify(trials, **options)
         for call in (lambda: awmr.load_trials(self.vehicle),

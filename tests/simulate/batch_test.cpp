@@ -175,6 +175,22 @@ TEST(Batch, IsTheRunOfSimulateWithBackEmf) {
   }
 }
 
+/// The lanes allocate to four wheels: simulate() takes vehicles of front-wheel drive, and their bits.
+TEST(Batch, LeavesFrontWheelDriveToSimulate) {
+  std::vector<BatchRun> runs = drawn_runs(2, 0.2);
+  for (BatchRun& run : runs) {
+    run.plant.rear_driven = 0.0;
+    run.controller = make_controller(run.plant, paper_vehicle(), kPaperGains);
+  }
+  const Scenario heading{"heading", 2.0, {}, 0.6, HeadingSteps{{{0.0, 0.5}, {1.0, -0.5}}}};
+  for (const BatchArithmetic& arithmetic : all_arithmetics()) {
+    const auto batch = simulate_batch(runs, heading, YawMode::kCombined, kSampleTime_s, arithmetic);
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      expect_same(*batch[i], judged(runs[i], heading, YawMode::kCombined), "front-wheel drive");
+    }
+  }
+}
+
 TEST(Batch, DoesNotDependOnTheRunsBesideNorOnThePlaceAmongThem) {
   const std::vector<BatchRun> runs = drawn_runs(37, 0.2);
   const Scenario scenario =

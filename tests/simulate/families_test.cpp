@@ -109,6 +109,24 @@ TEST(BackEmf, IsGoneWhereTheMotorsAreOff) {
   EXPECT_EQ(end_of(plant), end_of(ideal));
 }
 
+TEST(FrontWheelDrive, HoldsSpeedAndHeadingInEveryModeWithAndWithoutBackEmf) {
+  for (const double back_emf : {0.0, 0.25}) {
+    Plant<double> plant = geared(back_emf, {.alpha = 1.3157, .beta = 0.8841});
+    plant.rear_driven = 0.0;
+    const Controller<double> controller = make_controller(plant, paper_vehicle(), kPaperGains);
+    const Scenario scenario{"heading", 8.0, {}, 0.6, HeadingSteps{{{0.0, 0.5}}}};
+    for (const YawMode mode : kYawModes) {
+      const RunRow last =
+          simulate(plant, controller, scenario, mode, {.sample_time_s = 0.01, .substeps = {}})
+              .rows.back();
+      // As of four wheels: see TheControllerHoldsSpeedAndHeadingWithEveryOne.
+      EXPECT_NEAR(last.state.u_mps, 0.6, 1e-3) << name_of(mode) << back_emf;
+      EXPECT_NEAR(last.state.psi_rad, 0.5, 1e-3) << name_of(mode) << back_emf;
+      EXPECT_NEAR(last.force.left, plant.surge(0.6) / 2.0 + back_emf * 0.6, 1e-3);
+    }
+  }
+}
+
 TEST(Families, AtRestAForceBelowCoulombFrictionMovesNothingMuch) {
   const Plant<double> plant = plant_of({.alpha = 1.0, .beta = 1.0, .coulomb = 0.3}, 0.0);
   const awmr::Run run = run_open_loop(plant, {}, 5.0, {0.25, 0.0});

@@ -189,6 +189,8 @@ TEST(Awl, RefusesHeadersThatLie) {
       {replaced("\"t_s\"", "\"time\""), "has to be t_s"},
       {replaced("\"x_m\"", "\"y_m\""), "a second column"},
       {replaced("\"x_m\"", "\"run\""), "not 'run'"},
+      {replaced("\"x_m\"", "\"x,m\""), "letters, digits and _"},
+      {replaced("\"x_m\"", "\"=1\\n\""), "letters, digits and _"},
       {replaced("\"x_m\"", "\"\""), "expected 1 to"},
       {replaced("f32", "f64"), "f64"},
       {replaced("0.01", "0"), "/columns/0/scale"},

@@ -20,6 +20,14 @@ TEST(SurgeTrial, TakesFourWheelForcesAsTauSpeed) {
   EXPECT_THAT(read.findings, IsEmpty());
 }
 
+TEST(SurgeTrial, TakesTwoWheelForcesOfFrontWheelDriveAsTauSpeed) {
+  TrialOptions options;
+  options.driven_wheels = 2;
+  const auto read = accepted(read_surge, "wheel_force,speed_mps\n0.35,1.03\n", options);
+  ASSERT_THAT(read.set.rows, SizeIs(1));
+  EXPECT_DOUBLE_EQ(read.set.rows[0].tau_speed, 0.7);
+}
+
 TEST(SurgeTrial, TakesDistanceOverTimeWhereNoSpeedIsPrinted) {
   const auto read = accepted(read_surge, "tau_speed;distance_m;elapsed_s\r\n1.4;10;8\r\n");
   ASSERT_THAT(read.set.rows, SizeIs(1));

@@ -83,6 +83,17 @@ TEST(Constraints, KeepCompassNoiseBelowAQuarterOfTheWeakerAuthority) {
   EXPECT_NEAR(named(all, "noise gain").limit, turning_authority_m(context) / 4.0, kRounding);
 }
 
+TEST(Constraints, KnowTheAuthorityOfFrontWheelDriveAndOfMotorsWithBackEmf) {
+  ConstraintContext context = paper_context(ReachingForm::kStrict, 0.8);
+  context.plant.rear_driven = 0.0;
+  // Steering: l_f g1 tan(20 deg) = 0.169 m; differential: 2 0.36 (1 - 1.3268/2) = 0.242 m.
+  EXPECT_NEAR(turning_authority_m(context), 0.35 * 1.3268 * std::tan(std::acos(-1.0) / 9.0),
+              kRounding);
+  context.plant.back_emf_s_per_m = 0.2;
+  // Of the voltage 0.2 more is taken by 1 m/s.
+  EXPECT_NEAR(turning_authority_m(context), 2.0 * 0.36 * (1.0 - 1.3268 / 2.0 - 0.2), kRounding);
+}
+
 TEST(Constraints, PassOverTheModeThatHasNoAuthority) {
   // At rest steering has none; with F' at its upper limit the differential mode has none.
   ConstraintContext context = paper_context(ReachingForm::kStrict, 0.8);

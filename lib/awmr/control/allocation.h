@@ -54,6 +54,8 @@ struct AllocationLimits {
   /// k_e of every motor, s/m, >= 0 (motor_force() in model/dynamics.h): a wheel that rolls at u m/s
   /// makes forces in [F'min - k_e u, F'max - k_e u]. The chip has none.
   T back_emf_s_per_m = T(0.0);
+  /// False: the front wheels alone are driven. The chip knows all four alone.
+  bool is_rear_driven = true;
 };
 
 /// The commands, and which limits they met.
@@ -185,6 +187,11 @@ inline float twice_atan_of_twice(float h, float h2) {
 
 /// What the two forms do not have in common.
 struct ExactAngle {
+  /// 1/(2 (1 + cos d_r)) at d_r = 0.
+  template <class T>
+  static AWMR_INLINE T straight() {
+    return T(0.25);
+  }
   /// The steering angle of an h, rad: d_r = 2 atan q = 2 atan(2 h). `h2` is h^2.
   template <class T>
   static AWMR_INLINE T of_h(const T& h, const T& h2) {
@@ -199,12 +206,52 @@ struct ExactAngle {
 /// sin d_r = d_r and cos d_r = 1.
 struct SmallAngle {
   template <class T>
+  static AWMR_INLINE T straight() {
+    return T(0.25);
+  }
+  template <class T>
   static T of_h(const T& h, const T& /*h2*/) {
     return T(4.0) * h;
   }
   template <class T>
   static T square(const T& /*h*/) {
     return T(0.0);
+  }
+};
+
+/// The front wheels alone are driven: with t = tan d_r,
+///   tau_steering = l_f tau_speed t,   1/(2 cos d_r) = sqrt(1 + t^2)/2
+/// which is the same computation with h = t/2 in place of q/2, d_r = atan(2 h), and
+/// sqrt(1 + 4 h^2)/2 in place of 1/4 + h^2.
+struct FrontAngle {
+  template <class T>
+  static T straight() {
+    return T(0.5);
+  }
+  template <class T>
+  static T of_h(const T& h, const T& /*h2*/) {
+    using math::atan;
+    return atan(T(2.0) * h);
+  }
+  template <class T>
+  static T square(const T& h) {
+    using math::sqrt;
+    return T(0.5) * sqrt(T(1.0) + T(4.0) * h * h) - T(0.25);
+  }
+};
+/// The same for sin d_r = d_r and cos d_r = 1.
+struct FrontSmallAngle {
+  template <class T>
+  static T straight() {
+    return T(0.5);
+  }
+  template <class T>
+  static T of_h(const T& h, const T& /*h2*/) {
+    return T(2.0) * h;
+  }
+  template <class T>
+  static T square(const T& /*h*/) {
+    return T(0.25);
   }
 };
 
@@ -284,7 +331,7 @@ AWMR_INLINE void allocate_by(YawMode mode, const T& tau_speed, const T& tau_turn
   const bool redistribute = combined && split == CombinedSplit::kRedistribute;
   T h = T(0.0);
   T h2 = T(0.0);
-  T quarter = T(0.25);
+  T quarter = Angle::template straight<T>();
   if (mode != YawMode::kDifferential) {
     // The combined mode steers for half of tau_turn: its constant is half of steering's.
     h = steering_for(c, speed,
@@ -356,9 +403,41 @@ AllocationConstants<T> small_angle_form(AllocationConstants<T> c) {
   return c;
 }
 
+/// allocate() where the front wheels alone are driven, from the constants of all four:
+///
+///   differential   d_r   = 0
+///                  F'R,L = tau_speed/2 +- tau_turn/(2 d)
+///
+///   steering       d_r   = atan(tau_turn/(l_f tau_speed))
+///                  F'R,L = tau_speed/(2 cos d_r)
+///
+///   combined       d_r   = atan(tau_turn/(2 l_f tau_speed))
+///                  F'R,L = tau_speed/(2 cos d_r) +- tau_turn/(4 d cos d_r)
+///
+/// the inverse of front_wheel_forces() in model/dynamics.h; `form` kPaper: for small angles.
+template <class T>
+void allocate_to_front(YawMode mode, const T& tau_speed, const T& tau_turn_m,
+                       AllocationConstants<T> c, CombinedSplit split, AllocationForm form,
+                       Allocation<T>& a) {
+  using math::cos;
+  using math::sin;
+  c.tau_speed_min = T(0.5) * c.tau_speed_min;
+  c.tau_speed_max = T(0.5) * c.tau_speed_max;
+  const T stop_rad = c.steering_max_rad;
+  if (form == AllocationForm::kPaper) {
+    c.h_max = T(0.5) * stop_rad;
+    c.h2_max = detail::FrontSmallAngle::square(c.h_max);
+    detail::allocate_by<detail::FrontSmallAngle>(mode, tau_speed, tau_turn_m, c, split, a);
+  } else {
+    c.h_max = T(0.5) * sin(stop_rad) / cos(stop_rad);
+    c.h2_max = detail::FrontAngle::square(c.h_max);
+    detail::allocate_by<detail::FrontAngle>(mode, tau_speed, tau_turn_m, c, split, a);
+  }
+}
+
 /// The same from the limits themselves, in their form, where the time of a step does not matter, and
 /// at the speed u, m/s, which the limits depend on where the motors have back-EMF. The chip has the
-/// exact form alone, and motors without.
+/// exact form alone, motors without, and four of them.
 template <class T>
 Allocation<T> allocate(YawMode mode, const T& tau_speed, const T& tau_turn_m,
                        const AllocationLimits<T>& limits, const T& u_mps = T(0.0)) {
@@ -366,6 +445,10 @@ Allocation<T> allocate(YawMode mode, const T& tau_speed, const T& tau_turn_m,
   AllocationConstants<T> c = prepared(limits);
 #ifndef __AVR__
   if (limits.back_emf_s_per_m > T(0.0)) c = at_speed(c, limits.back_emf_s_per_m, u_mps);
+  if (!limits.is_rear_driven) {
+    allocate_to_front(mode, tau_speed, tau_turn_m, c, limits.split, limits.form, a);
+    return a;
+  }
   if (limits.form == AllocationForm::kPaper) {
     detail::allocate_by<detail::SmallAngle>(mode, tau_speed, tau_turn_m, small_angle_form(c),
                                             limits.split, a);

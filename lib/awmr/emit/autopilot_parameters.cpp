@@ -105,6 +105,12 @@ Status check_allocation(const Model& model) {
 }
 
 Status check_motors(const Plant<double>& plant, const Model& model) {
+  if (!(plant.rear_driven > 0.0)) {
+    return input_error(file_name(model) + ":/vehicle/drive",
+                       "the firmware allocates to four driven wheels, not to the front ones alone: "
+                       "emit the header alone (" +
+                           option_text("header-only") + ")");
+  }
   if (!(plant.back_emf_s_per_m > 0.0)) return {};
   return input_error(
       fmt::format("{}:{}", file_name(model), info(ParameterId::kBackEmf).pointer),

@@ -47,6 +47,13 @@ Status check_options(const Vehicle& vehicle, const TrialData& data,
                                    name_in(kDriveNames, vehicle.drive), info(id).name));
   }
   AWMR_RETURN_IF_ERROR(check_back_emf(vehicle, data, options));
+  if (data.surge && vehicle.driven_wheels() != 4 &&
+      options.surge_family.family == Family::kDeadZone) {
+    return input_error(option_text("family"),
+                       fmt::format("a surge table of a vehicle of drive \"{}\" is not fitted with "
+                                   "dead-zone, which is that of four driven wheels",
+                                   name_in(kDriveNames, vehicle.drive)));
+  }
   const bool other_family = asks_for_other_family(options);
   if (options.method == Method::kLogLinear && (other_family || options.loss != Loss::kSquared)) {
     return input_error(option_text("method"),

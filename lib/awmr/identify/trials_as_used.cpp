@@ -26,7 +26,8 @@ std::optional<double> predicted(const Model& model, TrialKind kind, double input
   const auto yaw = law_of(model, ParameterId::kYawAlpha, ParameterId::kYawBeta,
                           ParameterId::kYawCoulomb, ParameterId::kYawQuadratic);
   if (kind == TrialKind::kSurge && surge) {
-    return steady_rate(*surge, input - 4.0 * *model[ParameterId::kWheelDeadZone].value);
+    const double zone = *model[ParameterId::kWheelDeadZone].value;
+    return steady_rate(*surge, input - model.vehicle.driven_wheels() * zone);
   }
   if (kind == TrialKind::kTurning && yaw) return steady_rate(*yaw, input);
   if (kind == TrialKind::kCoastdown && surge && model[ParameterId::kMassNorm].value) {

@@ -41,7 +41,15 @@ struct Plant {
   /// k_e, s/m, >= 0: the force over F_max that a motor loses per m/s at its wheel (back-EMF). 0: an
   /// ideal source of force, as in the paper. Data sheet, or a log of driven stretches and coasting.
   T back_emf_s_per_m = T(0.0);
+  /// 1: all four wheels are driven, as the paper's are; 0: the front ones alone. Given.
+  T rear_driven = T(1.0);
 };
+
+/// n, of which tau_speed = n F' straight ahead.
+template <class T>
+T driven_wheels(const Plant<T>& p) {
+  return T(2.0) + T(2.0) * p.rear_driven;
+}
 
 /// How fast each wheel rolls: m/s along the wheel, forward positive.
 template <class T>
@@ -190,7 +198,22 @@ GeneralisedForces<T> generalised_forces(const T& front_axle_m, const T& half_tra
           half_track_m * (f.right - f.left) * one_plus_cos};
 }
 
-/// tau_turn, m, of a turning trial: four wheels push alike with F' (`wheel_force`) at a steering
+/// The same where the front wheels alone are driven: the rear ones' 1 is gone from (41).
+///   tau_speed    =     (F'L + F'R) cos d_r
+///   tau_steering = l_f (F'L + F'R) sin d_r
+///   tau_diff     = d   (F'R - F'L) cos d_r
+template <class T>
+GeneralisedForces<T> front_wheel_forces(const T& front_axle_m, const T& half_track_m,
+                                        const SideForces<T>& f, const T& steering_rad) {
+  using math::cos;
+  using math::sin;
+  const T sum = f.left + f.right;
+  const T cos_d = cos(steering_rad);
+  return {sum * cos_d, front_axle_m * sum * sin(steering_rad),
+          half_track_m * (f.right - f.left) * cos_d};
+}
+
+/// tau_turn, m, of a turning trial: the wheels push alike with F' (`wheel_force`) at a steering
 /// angle d_r, rad.
 ///   tau_turn = 2 l_f F' sin d_r                                                       [paper (62)]
 template <class T>
@@ -211,14 +234,16 @@ T differential_moment_m(const T& half_track_m, const T& right_less_left) {
 ///   v_dot = (tau_steering/l_f        - m' r u - g2(v)) / m'
 ///   r_dot = (tau_steering + tau_diff          - g3(r)) / I'z                          [paper (40)]
 /// with tau_turn = tau_steering + tau_diff, and the first three those of detail::rates.
-/// With back-EMF the front wheels of a side push otherwise than the rear ones: each by itself.
+/// With back-EMF, or where the rear wheels are not driven, those push otherwise than the front ones of
+/// their side: each by itself.
 template <class T>
 State<T> state_rates(const Plant<T>& p, const State<T>& s, const SideForces<T>& f,
                      const T& steering_command_rad) {
   using math::any;
-  if (any(p.back_emf_s_per_m > T(0.0))) {
-    return state_rates(p, s, WheelForces<T>{f.left, f.right, f.left, f.right},
-                       steering_command_rad);
+  if (any(p.back_emf_s_per_m > T(0.0) || p.rear_driven < T(1.0))) {
+    return state_rates(
+        p, s, WheelForces<T>{f.left, f.right, p.rear_driven * f.left, p.rear_driven * f.right},
+        steering_command_rad);
   }
   const SideForces<T> effective{beyond_dead_zone(f.left, p.wheel_dead_zone),
                                 beyond_dead_zone(f.right, p.wheel_dead_zone)};

@@ -36,7 +36,8 @@ Plant<T> plant_of(const Vehicle& vehicle, const ParameterValues<T>& values) {
           .steering_max_rate_radps = T(radians(vehicle.steering_max_rate_degps)),
           .steering_time_constant_s = value(ParameterId::kSteeringTimeConstant),
           .wheel_dead_zone = value(ParameterId::kWheelDeadZone),
-          .back_emf_s_per_m = value(ParameterId::kBackEmf)};
+          .back_emf_s_per_m = value(ParameterId::kBackEmf),
+          .rear_driven = T(vehicle.drive == Drive::kFrontWheel ? 0.0 : 1.0)};
 }
 
 }  // namespace awmr

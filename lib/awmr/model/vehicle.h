@@ -15,9 +15,11 @@ namespace awmr {
 enum class Drive {
   kFourWheel,     ///< four driven wheels, the front ones steered: the paper's
   kDifferential,  ///< no steering (d_r = 0): the forces of the sides alone turn it
+  kFrontWheel,    ///< the front wheels alone are driven, and steered
 };
-inline constexpr NameTable<Drive, 2> kDriveNames{
-    {{"four_wheel", Drive::kFourWheel}, {"differential", Drive::kDifferential}}};
+inline constexpr NameTable<Drive, 3> kDriveNames{{{"four_wheel", Drive::kFourWheel},
+                                                  {"differential", Drive::kDifferential},
+                                                  {"front_wheel", Drive::kFrontWheel}}};
 
 inline constexpr NameTable<AllocationForm, 2> kAllocationFormNames{
     {{"exact", AllocationForm::kExact}, {"paper", AllocationForm::kPaper}}};
@@ -71,6 +73,8 @@ struct Vehicle {
   std::map<std::string, std::string> columns = {};
 
   bool has_steering() const { return drive != Drive::kDifferential; }
+  /// n: straight ahead, tau_speed = n F'.
+  int driven_wheels() const { return drive == Drive::kFrontWheel ? 2 : 4; }
 
   /// Yaw inertia about the centre of gravity, kg m^2: the measured Iz where there is one, else that
   /// of a uniform box,

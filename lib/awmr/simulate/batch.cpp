@@ -300,6 +300,12 @@ std::vector<std::optional<Metrics>> drive(Batch batch) {
   return metrics;
 }
 
+/// The lanes know no other allocation.
+bool all_wheels_driven(std::span<const BatchRun> runs) {
+  return std::ranges::all_of(
+      runs, [](const BatchRun& run) { return run.controller.limits.is_rear_driven; });
+}
+
 constexpr std::string_view kUnproven = "avx512";
 
 /// Errors (input): as failure_of().
@@ -347,7 +353,8 @@ std::vector<Result<Metrics>> simulate_batch(std::span<const BatchRun> runs,
   for (std::size_t first = 0; first < runs.size(); first += kBatchRuns) {
     const auto block = runs.subspan(first, std::min(kBatchRuns, runs.size() - first));
     std::vector<std::optional<Metrics>> metrics(block.size());
-    if (kernel) metrics = drive(set_up(block, scenario, mode, sample_time_s, *kernel));
+    if (kernel && all_wheels_driven(block))
+      metrics = drive(set_up(block, scenario, mode, sample_time_s, *kernel));
     for (std::size_t i = 0; i < block.size(); ++i) {
       // A run that failed is told of by simulate(), or saved by it.
       results.push_back(metrics[i] ? Result<Metrics>(*metrics[i])

@@ -21,6 +21,7 @@ struct MeteredVehicle {
   T steering_max_rad;  ///< d_max; 0: no steering
   T dead_zone;         ///< F'0 of the motors
   T back_emf_s_per_m;  ///< k_e of the motors
+  T rear_driven;       ///< 1; 0 where the front wheels alone are driven
 };
 
 /// What of the course counts; the same for all lanes.
@@ -123,7 +124,7 @@ MotorWork<T> motor_work(const MeteredRow<T>& row, const MeteredVehicle<T>& vehic
   const auto power = [](const T& force, const T& wheel_mps) {
     return larger(T(0.0), T(force * wheel_mps));
   };
-  if (!any(vehicle.back_emf_s_per_m > T(0.0))) {
+  if (!any(vehicle.back_emf_s_per_m > T(0.0) || vehicle.rear_driven < T(1.0))) {
     return {(power(left, w.rear_left) + power(left, w.front_left)) +
                 (power(right, w.rear_right) + power(right, w.front_right)),
             left * left + right * right};
@@ -137,8 +138,8 @@ MotorWork<T> motor_work(const MeteredRow<T>& row, const MeteredVehicle<T>& vehic
   };
   add(left, w.front_left);
   add(right, w.front_right);
-  add(left, w.rear_left);
-  add(right, w.rear_right);
+  add(vehicle.rear_driven * left, w.rear_left);
+  add(vehicle.rear_driven * right, w.rear_right);
   return work;
 }
 

@@ -33,7 +33,8 @@ MeteredVehicle<double> metered_vehicle(const AllocationLimits<double>& limits) {
           .command_min = with_dead_zone(limits.force_min, limits.dead_zone),
           .steering_max_rad = limits.steering_max_rad,
           .dead_zone = limits.dead_zone,
-          .back_emf_s_per_m = limits.back_emf_s_per_m};
+          .back_emf_s_per_m = limits.back_emf_s_per_m,
+          .rear_driven = limits.is_rear_driven ? 1.0 : 0.0};
 }
 
 MeteredCourse metered_course(const Scenario& scenario) {

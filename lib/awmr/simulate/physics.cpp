@@ -110,7 +110,8 @@ bool forces_differ_by_wheel(const Scenario& scenario) {
 WheelForces<double> at_the_ground(const Scenario& scenario, const Plant<double>& plant,
                                   const State<double>& state, double t_s,
                                   const SideForces<double>& force) {
-  double wheels[] = {force.left, force.right, force.left, force.right};  // by Wheel
+  const double rear = plant.rear_driven;
+  double wheels[] = {force.left, force.right, rear * force.left, rear * force.right};  // by Wheel
   for (const WheelFault& fault : scenario.faults) {
     if (!fault.window.holds(t_s)) continue;
     for (const Wheel wheel : fault.wheels) wheels[static_cast<int>(wheel)] *= fault.share;

@@ -58,9 +58,8 @@ class Autopilot {
     command.tau_speed -= disturbance.surge;
     command.allocation =
         allocate(mode_, command.tau_speed, command.tau_turn_m, controller_.limits, m.u_mps);
-    const GeneralisedForces<double> allocated =
-        generalised_forces(controller_.limits.front_axle_m, controller_.limits.half_track_m,
-                           command.allocation.force, command.allocation.steering_rad);
+    const GeneralisedForces<double> allocated = delivered_forces(
+        controller_.limits, command.allocation.force, command.allocation.steering_rad);
     advance(observers_, disturbance, {command.tau_speed, command.tau_turn_m}, allocated, motion,
             sample_time_s_, observed_);
   }
@@ -146,6 +145,13 @@ RunEnd command(const Scenario& scenario, const Controller<double>& controller, c
 
 }  // namespace
 
+GeneralisedForces<double> delivered_forces(const AllocationLimits<double>& limits,
+                                           const SideForces<double>& force, double steering_rad) {
+  return limits.is_rear_driven
+             ? generalised_forces(limits.front_axle_m, limits.half_track_m, force, steering_rad)
+             : front_wheel_forces(limits.front_axle_m, limits.half_track_m, force, steering_rad);
+}
+
 Controller<double> controller_in(const Scenario& scenario, Controller<double> controller) {
   controller.limits.form = scenario.control.allocation.value_or(controller.limits.form);
   if (scenario.control.split != CombinedSplit::kRedistribute) {
@@ -196,7 +202,8 @@ Controller<double> make_controller(const Plant<double>& plant, const Vehicle& ve
                      .split = split,
                      .form = vehicle.allocation,
                      .dead_zone = zone,
-                     .back_emf_s_per_m = plant.back_emf_s_per_m}};
+                     .back_emf_s_per_m = plant.back_emf_s_per_m,
+                     .is_rear_driven = plant.rear_driven > 0.0}};
 }
 
 Status check_work(const Plant<double>& plant, const std::string& model_file,

@@ -82,6 +82,10 @@ inline constexpr int kMostSubsteps = 100'000'000;
 /// does not depend on speed (see physics.cpp), at most kMostSubsteps.
 int substeps_for(const Plant<double>& plant, double sample_time_s);
 
+/// What side forces and a steering angle amount to on the vehicle of these limits.
+GeneralisedForces<double> delivered_forces(const AllocationLimits<double>& limits,
+                                           const SideForces<double>& force, double steering_rad);
+
 /// The plant's controller with these gains and the vehicle's limits.
 Controller<double> make_controller(const Plant<double>& plant, const Vehicle& vehicle,
                                    const Gains<double>& gains,

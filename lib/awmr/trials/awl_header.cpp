@@ -19,6 +19,13 @@ constexpr long kLargestRow = 512;
 constexpr std::size_t kLongestName = 64;
 const NumberRule kScaleRule{.min = 1e-12, .max = 1e12};
 
+/// A name becomes a cell of the CSV's first line: letters, digits and _ alone.
+bool is_plain(std::string_view name) {
+  constexpr std::string_view kAllowed =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_";
+  return name.find_first_not_of(kAllowed) == name.npos;
+}
+
 std::size_t bytes_of(Kind kind) { return kind == Kind::kByte ? 1 : 4; }
 
 /// The columns, one behind the other.
@@ -33,8 +40,10 @@ std::vector<Column> columns_in(JsonObject& header) {
                   .offset = offset};
     entry.reject_unknown_keys();
     offset += bytes_of(column.kind);
-    if (column.name.empty() || column.name.size() > kLongestName || column.name == "run") {
-      entry.fault("name", fmt::format("expected 1 to {} bytes, and not 'run'", kLongestName));
+    if (column.name.empty() || column.name.size() > kLongestName || !is_plain(column.name) ||
+        column.name == "run") {
+      entry.fault("name", fmt::format("expected 1 to {} letters, digits and _, and not 'run'",
+                                      kLongestName));
     } else if (!names.insert(column.name).second) {
       entry.fault("name", "a second column of this name");
     }

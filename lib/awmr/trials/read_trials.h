@@ -29,6 +29,8 @@ struct TrialOptions {
   bool as_is = false;
   /// False: the vehicle has no steering, and a log without a column of it drives wheels straight.
   bool has_steering = true;
+  /// n of the vehicle: tau_speed = n F' of a surge row.
+  int driven_wheels = 4;
 };
 
 /// Findings added: `speed-mismatch`, `yaw-rate-mismatch`, `tau-turn-mismatch`, `steering-stop`,

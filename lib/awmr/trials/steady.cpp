@@ -191,8 +191,11 @@ SteadyRuns steady_runs(const DrivingLog& log, const Vehicle& vehicle, const Stea
     if (run->segment.turning) {
       runs.turning.rows.push_back(turning_row(*run, vehicle));
     } else {
-      runs.surge.rows.push_back(
-          {run->segment.line, 4.0 * run->wheel_force, run->segment.mean_rate, {}, {}});
+      runs.surge.rows.push_back({run->segment.line,
+                                 vehicle.driven_wheels() * run->wheel_force,
+                                 run->segment.mean_rate,
+                                 {},
+                                 {}});
     }
     runs.segments.push_back(run->segment);
     findings.push_back(note_of(*run, vehicle, log.file));

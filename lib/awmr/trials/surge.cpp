@@ -24,21 +24,22 @@ void check_surge_columns(TrialReader& reader) {
 }
 
 /// tau_speed as printed, else from the force of one wheel.
-double tau_speed_of(TrialReader& reader, std::size_t row, std::vector<Finding>& findings) {
+double tau_speed_of(TrialReader& reader, std::size_t row, int driven_wheels,
+                    std::vector<Finding>& findings) {
   const auto printed = reader.non_negative(row, "tau_speed");
   const auto wheel_force = reader.non_negative(row, "wheel_force");
   if (!wheel_force) return *printed;
-  // tau_speed = (F'L + F'R)(cos d_r + 1) = 4 F' at d_r = 0                             [paper (41)]
-  const double from_wheels = 4.0 * *wheel_force;
+  // tau_speed = (F'L + F'R)(cos d_r + 1) = 4 F' at d_r = 0, and 2 F' by two wheels     [paper (41)]
+  const double from_wheels = driven_wheels * *wheel_force;
   if (!printed) return from_wheels;
   const double tolerance = reader.rounding_error(*printed, "tau_speed") +
-                           4.0 * reader.rounding_error(*wheel_force, "wheel_force");
+                           driven_wheels * reader.rounding_error(*wheel_force, "wheel_force");
   if (std::abs(*printed - from_wheels) > tolerance) {
     findings.push_back(
         reader.finding(row, Severity::kWarning, "tau-speed-mismatch",
-                       fmt::format("tau_speed is {}, but 4 x wheel_force {} makes {:.4g}; the "
+                       fmt::format("tau_speed is {}, but {} x wheel_force {} makes {:.4g}; the "
                                    "printed value {} is used",
-                                   *printed, *wheel_force, from_wheels, *printed)));
+                                   *printed, driven_wheels, *wheel_force, from_wheels, *printed)));
   }
   return *printed;
 }
@@ -57,7 +58,7 @@ Result<TrialSet<SurgeRow>> read_surge(const std::filesystem::path& path,
   note_format(reader, findings);
   std::vector<std::size_t> set_aside;
   for (std::size_t i = 0; i < reader.table().rows(); ++i) {
-    const double tau_speed = tau_speed_of(reader, i, findings);
+    const double tau_speed = tau_speed_of(reader, i, options.driven_wheels, findings);
     const auto printed = reader.non_negative(i, "speed_mps");
     const auto speed = rate_of(reader, i, kSpeed, printed, options.preference, findings);
     if (!speed) continue;

@@ -89,16 +89,17 @@ void check_consistency(const TrialSet<SurgeRow>& surge, const std::filesystem::p
   const Table table{path, surge.file, options, findings, faults};
   tell_unit(table, wrong_unit(surge, vehicle));
   // tau_speed = 4 F' with the wheels straight                                    [paper (41)]
-  const double limit = 4.0 * vehicle.wheel_force.hi;
+  const int wheels = vehicle.driven_wheels();
+  const double limit = wheels * vehicle.wheel_force.hi;
   const auto [first, largest] = beyond(surge.rows, &SurgeRow::tau_speed, limit);
   if (first == nullptr) return;
-  const auto [words, factor] = full_scale_of(largest / 4.0, vehicle.wheel_force.hi);
+  const auto [words, factor] = full_scale_of(largest / wheels, vehicle.wheel_force.hi);
   table.tell(
       first->line,
-      fmt::format("tau_speed is {:.4g}, beyond 4 F'max = {:g} (wheel_force [{:g}, {:g}] of the "
+      fmt::format("tau_speed is {:.4g}, beyond {} F'max = {:g} (wheel_force [{:g}, {:g}] of the "
                   "vehicle), and reaches {:.4g}: {}",
-                  first->tau_speed, limit, vehicle.wheel_force.lo, vehicle.wheel_force.hi, largest,
-                  words),
+                  first->tau_speed, wheels, limit, vehicle.wheel_force.lo, vehicle.wheel_force.hi,
+                  largest, words),
       surge.force_column, factor);
 }
 

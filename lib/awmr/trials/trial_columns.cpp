@@ -201,6 +201,7 @@ std::span<const CsvColumn> turning_columns(const Vehicle& vehicle) {
 
 Result<TrialOptions> with_vehicle_columns(TrialOptions options, const Vehicle& vehicle) {
   options.has_steering = vehicle.has_steering();
+  options.driven_wheels = vehicle.driven_wheels();
   for (const auto& [name, expression] : vehicle.columns) {
     AWMR_ASSIGN_OR_RETURN(ColumnMapping mapping, parse_column(name, expression));
     mapping.standing = true;

@@ -65,11 +65,13 @@ double residual(const ConstraintReport& c) {
 double turning_authority_m(const ConstraintContext& context) {
   const Plant<double>& plant = context.plant;
   const double tau_speed = plant.surge(context.speed_mps);
-  const double steering = plant.front_axle_m * tau_speed * std::tan(plant.steering_max_rad / 2.0);
+  const double wheels = driven_wheels(plant);
+  const double steering = plant.front_axle_m * tau_speed *
+                          std::tan(plant.steering_max_rad / (plant.rear_driven > 0.0 ? 2.0 : 1.0));
   // What a wheel is commanded to hold the speed, its back-EMF made up for.
-  const double held = tau_speed / 4.0 + plant.back_emf_s_per_m * context.speed_mps;
+  const double held = tau_speed / wheels + plant.back_emf_s_per_m * context.speed_mps;
   const double differential =
-      4.0 * plant.half_track_m *
+      wheels * plant.half_track_m *
       std::min(context.wheel_force.hi - held, held - context.wheel_force.lo);
   if (!(steering > 0.0)) return differential;
   if (!(differential > 0.0)) return steering;

@@ -46,6 +46,7 @@ struct ConstraintContext {
 /// none there (steering at rest) is passed over:
 ///   steering      l_f g1(u_d) tan(d_max/2)
 ///   differential  4 d min(F'max - g1/4, g1/4 - F'min)
+/// Front-wheel drive: tan(d_max), and 2 for 4. Back-EMF: g1/4 + k_e u_d for g1/4.
 double turning_authority_m(const ConstraintContext& context);
 
 /// Every constraint as value <= limit:

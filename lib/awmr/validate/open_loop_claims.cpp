@@ -107,7 +107,7 @@ namespace {
 
 /// Why the speed does not come to where g1(u) = tau_speed.
 std::string why_not_settled(const Model& model) {
-  return 4.0 * model.vehicle.wheel_force.hi < kFullThrust
+  return model.vehicle.driven_wheels() * model.vehicle.wheel_force.hi < kFullThrust
              ? "the force limits keep tau_speed 2 from the wheels"
              : "the speed has not settled within 60 s";
 }

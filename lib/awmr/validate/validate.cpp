@@ -104,7 +104,7 @@ void judge(Validation& validation, double tolerance) {
 Status add_claims(const Model& model, const std::optional<Gains<double>>& gains,
                   const ValidateOptions& options, Validation& validation) {
   const auto whole = model.plant();
-  const bool all_modes = model.vehicle.has_steering();
+  const bool all_modes = model.vehicle.drive == Drive::kFourWheel;
   if (whole && all_modes) {
     validation.claims = check_claims(model, *whole, gains);
     if (options.open_cases) add_open_cases(model, gains, validation.claims, options.progress);
@@ -114,10 +114,16 @@ Status add_claims(const Model& model, const std::optional<Gains<double>>& gains,
   const auto straight = model.plant(Motion::kStraight);
   if (straight) validation.claims.push_back(check_straight_run(model, *straight));
   validation.claims.push_back(check_time_constants(gains));
-  validation.verdict +=
-      !all_modes ? "; claims that compare modes are left out, as this vehicle has one (C2 to C13)"
-                 : fmt::format("; claims that need what the model lacks are left out ({})",
-                               straight ? "C2" : "C1, C2");
+  if (!model.vehicle.has_steering()) {
+    validation.verdict +=
+        "; claims that compare modes are left out, as this vehicle has one (C2 to C13)";
+  } else if (!all_modes) {
+    validation.verdict +=
+        "; claims that compare the modes of four driven wheels are left out (C2 to C13)";
+  } else {
+    validation.verdict += fmt::format("; claims that need what the model lacks are left out ({})",
+                                      straight ? "C2" : "C1, C2");
+  }
   return {};
 }
 
@@ -156,7 +162,7 @@ void add_drives(Validation& validation, std::vector<Acceptance> drives) {
 std::optional<double> predicted_measurement(const Plant<double>& plant, const TrialPoint& trial) {
   // tau_speed = 4 F' at d_r = 0, of which the dead zone takes 4 F'0               [paper (41)]
   if (trial.kind == TrialKind::kSurge) {
-    return steady_rate(plant.surge, trial.input - 4.0 * plant.wheel_dead_zone);
+    return steady_rate(plant.surge, trial.input - driven_wheels(plant) * plant.wheel_dead_zone);
   }
   if (trial.kind == TrialKind::kTurning) return steady_rate(plant.yaw, trial.input);
   if (trial.kind == TrialKind::kCoastdown)

@@ -31,9 +31,10 @@ Magnitudes magnitudes(const DrivingLog& log, const Vehicle& vehicle) {
   const double steering = rms(log.driving_steering_rad());
   const auto& speed = log[LogChannel::kSpeed];
   const auto& yaw_rate = log[LogChannel::kYawRate];
-  return {.thrust = 2.0 * (left + right),
+  const double of_a_side = 0.5 * vehicle.driven_wheels();
+  return {.thrust = of_a_side * (left + right),
           .speed = speed ? rms(speed->value) : 1.0,
-          .moment = 2.0 * vehicle.half_track_m * rms(difference) +
+          .moment = of_a_side * vehicle.half_track_m * rms(difference) +
                     vehicle.front_axle_m * (left + right) * steering,
           .yaw_rate = yaw_rate ? rms(yaw_rate->value) : 0.2};
 }

@@ -94,7 +94,7 @@ void add_side(const Plant<double>& p, double left_m, double sin_d, double cos_d,
   const Vector3 rear{1.0, 0.0, -left_m};
   const Vector3 front{cos_d, sin_d, p.front_axle_m * sin_d - left_m * cos_d};
   const Vector3 turned{-sin_d, cos_d, p.front_axle_m * cos_d + left_m * sin_d};
-  add_product(1.0, rear, rear, braking.by_motion);
+  add_product(p.rear_driven, rear, rear, braking.by_motion);
   add_product(1.0, front, front, braking.by_motion);
   add_product(1.0, turned, front, braking.by_steering);
   add_product(1.0, front, turned, braking.by_steering);
@@ -180,7 +180,7 @@ void linear_rates(const LinearPlant& plant, const State<double>& s, const Comman
   const Plant<double>& p = plant.plant;
   const double sin_d = std::sin(s.steering_rad);
   const double cos_d = std::cos(s.steering_rad);
-  const double one_plus_cos_d = cos_d + 1.0;
+  const double reach = cos_d + p.rear_driven;  // of the sides' forces: front and rear wheel
   const WheelForce left = wheel_force(command.force.left, p.wheel_dead_zone);
   const WheelForce right = wheel_force(command.force.right, p.wheel_dead_zone);
   const double sum = left.value + right.value;
@@ -191,8 +191,8 @@ void linear_rates(const LinearPlant& plant, const State<double>& s, const Comman
   add_kinematics(s, out);
   add_servo(plant, s, command.steering_rad, out);
 
-  // u_dot = (sum (1 + cos d_r) - g1(u))/m' + r v
-  const double surge = (sum * one_plus_cos_d - g1.value) * plant.per_mass;
+  // u_dot = (sum (rho + cos d_r) - g1(u))/m' + r v,   rho: 1 with driven rear wheels, else 0
+  const double surge = (sum * reach - g1.value) * plant.per_mass;
   out.rates.u_mps = surge + s.r_radps * s.v_mps;
   out.by_state.u_u = -g1.by_speed * plant.per_mass;
   out.by_state.u_v = s.r_radps;
@@ -207,9 +207,9 @@ void linear_rates(const LinearPlant& plant, const State<double>& s, const Comman
   out.by_state.v_r = -s.u_mps;
   out.by_state.v_steering = sum * cos_d * plant.per_mass;
 
-  // r_dot = (l_f sum sin d_r + d difference (1 + cos d_r) - g3(r))/I'z
+  // r_dot = (l_f sum sin d_r + d difference (rho + cos d_r) - g3(r))/I'z
   out.rates.r_radps =
-      (p.front_axle_m * sum * sin_d + p.half_track_m * difference * one_plus_cos_d - g3.value) *
+      (p.front_axle_m * sum * sin_d + p.half_track_m * difference * reach - g3.value) *
       plant.per_inertia;
   out.by_state.r_r = -g3.by_speed * plant.per_inertia;
   out.by_state.r_steering =
@@ -227,10 +227,10 @@ void linear_rates(const LinearPlant& plant, const State<double>& s, const Comman
   by[at(ParameterId::kMassNorm)].v = -sway * plant.per_mass;
   by[at(ParameterId::kInertiaNorm)].r = -out.rates.r_radps * plant.per_inertia;
 
-  const ByForces forces{{.u = one_plus_cos_d * plant.per_mass,
+  const ByForces forces{{.u = reach * plant.per_mass,
                          .v = sin_d * plant.per_mass,
                          .r = p.front_axle_m * sin_d * plant.per_inertia},
-                        p.half_track_m * one_plus_cos_d * plant.per_inertia};
+                        p.half_track_m * reach * plant.per_inertia};
   by[at(ParameterId::kWheelDeadZone)] =
       forces.of(left.by_dead_zone + right.by_dead_zone, right.by_dead_zone - left.by_dead_zone);
   out.by_force_left = forces.of(left.by_command, -left.by_command);

@@ -32,8 +32,7 @@ double relative_scatter(const Model& model, TrialKind kind) {
 }
 
 /// Steady speed u under tau_speed: ln u, whose error is the relative scatter over sqrt(runs).
-CandidateTrial surge_candidate(double wheel_force, double scatter, double runs) {
-  const double tau = 4.0 * wheel_force;
+CandidateTrial surge_candidate(double tau, double wheel_force, double scatter, double runs) {
   return {
       .trial = {.kind = TrialKind::kSurge,
                 .settings = fmt::format("straight, tau_speed {:.3g} (F' = {:.3g}), {:g} runs over "
@@ -41,7 +40,8 @@ CandidateTrial surge_candidate(double wheel_force, double scatter, double runs) 
                                         tau, wheel_force, runs),
                 .numbers = {{"tau_speed", tau}, {"runs", runs}}},
       .standardised = [=](const Plant<double>& p) {
-        const double u = steady_rate(p.surge, tau - 4.0 * p.wheel_dead_zone).value_or(kAtRest);
+        const double u =
+            steady_rate(p.surge, tau - driven_wheels(p) * p.wheel_dead_zone).value_or(kAtRest);
         return std::vector{std::sqrt(runs) * std::log(u) / scatter};
       }};
 }
@@ -130,8 +130,9 @@ CandidateTrial log_candidate(const std::string& what, const Vehicle& vehicle, co
 void add_coastdowns(const Vehicle& vehicle, const Plant<double>& plant,
                     const SuggestOptions& options, std::vector<CandidateTrial>& candidates) {
   const double top =
-      steady_rate(plant.surge, 4.0 * (vehicle.wheel_force.hi - plant.wheel_dead_zone),
-                  4.0 * plant.back_emf_s_per_m)
+      steady_rate(plant.surge,
+                  driven_wheels(plant) * (vehicle.wheel_force.hi - plant.wheel_dead_zone),
+                  driven_wheels(plant) * plant.back_emf_s_per_m)
           .value_or(1.0);
   for (const double share : {0.5, 1.0}) {
     const double from = share * top;
@@ -157,8 +158,9 @@ void add_surge_runs(const Model& model, const SuggestOptions& options,
                     std::vector<CandidateTrial>& candidates) {
   const double scatter = relative_scatter(model, TrialKind::kSurge);
   for (const double share : {0.05, 0.1, 0.2, 0.35, 0.5, 0.75, 1.0}) {
-    candidates.push_back(
-        surge_candidate(model.vehicle.wheel_force.hi * share, scatter, options.repeats));
+    const double wheel_force = model.vehicle.wheel_force.hi * share;
+    candidates.push_back(surge_candidate(model.vehicle.driven_wheels() * wheel_force, wheel_force,
+                                         scatter, options.repeats));
   }
 }
 

@@ -64,13 +64,13 @@ NoisyRow noisy(double force, double rate, double travel, ErrorModel error, doubl
   return row;
 }
 
-/// u with g1(u) = tau_speed, less what the dead zones of the four wheels take.
+/// u with g1(u) = tau_speed, less what the dead zones of the driven wheels take.
 TrialSet<SurgeRow> surge_rows(const Plant<double>& plant, const TablePlan& plan,
                               const RowNoise& noise, Random& random) {
   TrialSet<SurgeRow> set{"simulated surge", {}, 0};
   int line = 2;
   for (const double tau : plan.surge_tau_speed) {
-    const auto speed = steady_rate(plant.surge, tau - 4.0 * plant.wheel_dead_zone);
+    const auto speed = steady_rate(plant.surge, tau - driven_wheels(plant) * plant.wheel_dead_zone);
     if (!speed) continue;
     const NoisyRow row =
         noisy(tau, *speed, plan.surge_distance_m, noise.error, noise.surge, random);

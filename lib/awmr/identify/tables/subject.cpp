@@ -28,11 +28,19 @@ double share_beyond(const TurningRow& row, double dead_zone) {
   return (right - left) / (row.sides->right - row.sides->left);
 }
 
+/// The dead zone of a table is that of four driven wheels.
+std::vector<Family> surge_families(const Vehicle& vehicle) {
+  const auto all = values_in(kFamilyNames);
+  std::vector<Family> families(all.begin(), all.end());
+  if (vehicle.driven_wheels() != 4) std::erase(families, Family::kDeadZone);
+  return families;
+}
+
 }  // namespace
 
 Subject surge_subject(const Vehicle& vehicle, const TrialSet<SurgeRow>& runs) {
   return {.name = FitSubject::kSurge,
-          .families = values_in(kFamilyNames),
+          .families = surge_families(vehicle),
           .beta_range = vehicle.surge_beta_range,
           .file = runs.file,
           .points = surge_points(runs.rows)};

@@ -29,10 +29,10 @@ template <class Visit>
 void visit_plant(Plant<double>& plant, Visit&& visit) {
   visit_resistance(plant.surge, visit);
   visit_resistance(plant.yaw, visit);
-  for (double* x :
-       {&plant.sway_alpha, &plant.mass_norm, &plant.inertia_norm, &plant.front_axle_m,
-        &plant.half_track_m, &plant.steering_max_rad, &plant.steering_max_rate_radps,
-        &plant.steering_time_constant_s, &plant.wheel_dead_zone, &plant.back_emf_s_per_m}) {
+  for (double* x : {&plant.sway_alpha, &plant.mass_norm, &plant.inertia_norm, &plant.front_axle_m,
+                    &plant.half_track_m, &plant.steering_max_rad, &plant.steering_max_rate_radps,
+                    &plant.steering_time_constant_s, &plant.wheel_dead_zone,
+                    &plant.back_emf_s_per_m, &plant.rear_driven}) {
     visit(*x);
   }
 }
