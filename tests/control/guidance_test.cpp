@@ -143,8 +143,12 @@ TEST(LissajousPath, DerivativesAreThoseOfThePosition) {
 
 TEST(LissajousPath, WhereItStandsStillTheHeadingIsHeld) {
   const Lissajous<double> point{0.0, 0.0, 1.0, 1.0};
-  EXPECT_EQ(open_path(point.at(1.0), 0.9).psi_rad, 0.9);
-  EXPECT_EQ(closed_path(point.at(1.0), 0.5, {0.0, 0.0}, 0.0, 0.9).psi_rad, 0.9);
+  for (const PathGuidance<double>& held :
+       {open_path(point.at(1.0), 0.9), closed_path(point.at(1.0), 0.5, {0.0, 0.0}, 0.0, 0.9)}) {
+    EXPECT_EQ(held.psi_rad, 0.9);
+    EXPECT_EQ(held.psi_rate_radps, 0.0);
+    EXPECT_EQ(held.speed_mps, 0.0);
+  }
 }
 
 TEST(LissajousPath, OnThePathTheClosedFormIsTheOpenOne) {

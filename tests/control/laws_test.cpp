@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "awmr/control/disturbance_observer.h"
 #include "support/paper_vehicle.h"
 #include "support/strict_scalar.h"
 
@@ -81,6 +82,27 @@ TEST(Laws, SpeedLawBySubstitution) {
   EXPECT_NEAR(speed_law(c, {0.0, 0.7, 0.05, 0.2}, {0.0, 0.0, 0.0, 1.0, 0.1}),
               1.3157 * std::pow(0.7, 0.8841) - 0.0768 * 0.2 * 0.05 + 0.0768 * (0.1 + 5.0 * 0.25),
               1e-15);
+}
+
+TEST(DisturbanceObservers, SeeWhatTheCommandAndTheResistanceLeaveOut) {
+  // In a steady turn the momentum does not change, so d = -(tau + m' r v - g1) and -(tau_turn - g3).
+  const Observers<double> observers{{3.0, 5.0}, {4.0, 5.0}, true};
+  const ObservedMotion<double> motion{
+      .momentum = {0.08, 0.01}, .resistance = {0.9, 0.2}, .coupling = 0.15};
+  const GeneralisedForces<double> allocated{
+      .tau_speed = 0.7, .tau_steering_m = 0.04, .tau_diff_m = 0.03};
+  for (const bool anti_windup : {true, false}) {
+    Observers<double> told = observers;
+    told.anti_windup = anti_windup;
+    ObserversState<double> state = start_observers(told, motion.momentum);
+    AxisForces<double> seen{};
+    for (int i = 0; i < 2000; ++i) {
+      seen = estimate(told, motion, state);
+      advance(told, seen, {1.1, 0.3}, allocated, motion, 0.01, state);
+    }
+    EXPECT_NEAR(seen.surge, -((anti_windup ? 0.7 : 1.1) + 0.15 - 0.9), 1e-12);
+    EXPECT_NEAR(seen.yaw_m, -((anti_windup ? 0.07 : 0.3) - 0.2), 1e-12);
+  }
 }
 
 TEST(Laws, OnTheModelItselfTheSurfaceDecaysAtItsStatedRate) {

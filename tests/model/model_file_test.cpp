@@ -307,6 +307,26 @@ TEST(Model, BecomesAPlantOfAMotionThatTakesNoMoreThanIsKnown) {
   EXPECT_EQ(rates.u_mps, state_rates(*some_model().plant(), state, force, 0.0).u_mps);
 }
 
+TEST(Model, KnowsWhichParametersAMotionTakes) {
+  struct Takers {
+    ParameterId id;
+    bool steady_surge, steady_turn, straight;
+  };
+  const Takers all[] = {{ParameterId::kSurgeAlpha, true, false, true},
+                        {ParameterId::kYawBeta, false, true, false},
+                        {ParameterId::kWheelDeadZone, true, true, true},
+                        {ParameterId::kMassNorm, false, false, true},
+                        {ParameterId::kInertiaNorm, false, false, false},
+                        {ParameterId::kSwayAlpha, false, false, false}};
+  for (const Takers& expected : all) {
+    SCOPED_TRACE(info(expected.id).name);
+    EXPECT_EQ(takes(Motion::kSteadySurge, expected.id), expected.steady_surge);
+    EXPECT_EQ(takes(Motion::kSteadyTurn, expected.id), expected.steady_turn);
+    EXPECT_EQ(takes(Motion::kStraight, expected.id), expected.straight);
+    EXPECT_TRUE(takes(Motion::kPlanar, expected.id));
+  }
+}
+
 TEST(Model, HasThePapersLargestWheelForce) {
   // 37/0.0768 = 481.77 N                                                            [paper (66)]
   EXPECT_NEAR(max_wheel_force_n(37.0, 0.0768), 481.77, 0.005);

@@ -57,6 +57,13 @@ TEST(Plausibility, EverySizeInMillimetresIsNamed) {
   EXPECT_THAT(pointers(v), ElementsAre("/length_m", "/width_m", "/half_track_m", "/front_axle_m"));
   EXPECT_THAT(words(v), HasSubstr("looks like mm: 0.085"));
   EXPECT_THAT(words(v), HasSubstr("looks like mm: 0.1\n"));
+  EXPECT_THAT(words(v), HasSubstr("looks like mm: 0.32\n"));
+  EXPECT_THAT(words(v), HasSubstr("looks like mm: 0.22\n"));
+}
+
+TEST(Plausibility, ASingleSizeInMillimetresIsNamed) {
+  EXPECT_THAT(words(vehicle(2.1, 0.32, 220.0, 0.1, 0.085)), HasSubstr("looks like mm: 0.22\n"));
+  EXPECT_THAT(words(vehicle(2.1, 320.0, 0.22, 0.1, 0.085)), HasSubstr("looks like mm: 0.32\n"));
 }
 
 TEST(Plausibility, EverySizeInCentimetresIsNamed) {

@@ -79,6 +79,16 @@ TEST(Steady, AForceThatDoesNotOvercomeFrictionHasNone) {
   EXPECT_FALSE(steady_rate(law, 0.1).has_value());
   EXPECT_FALSE(steady_rate(law, 0.05).has_value());
   EXPECT_FALSE(steady_rate(law, -1.0).has_value());
+  EXPECT_FALSE(steady_rate({.alpha = 1.2, .beta = 0.8}, 0.0).has_value());
+}
+
+TEST(Steady, TheTimeToRestIsTheIntegralDownToRest) {
+  // m' du/dt = -(c + a u):  t = (m'/a) ln(1 + a u0/c);  m' du/dt = -a u^b:  m' u0^(1 - b)/((1 - b) a)
+  const Resistance<double> linear{.alpha = 0.8, .beta = 1.0, .rest_speed = 0.0, .coulomb = 0.1};
+  EXPECT_NEAR(*stop_time_s(linear, 0.5, 2.0), 0.5 / 0.8 * std::log(1.0 + 0.8 * 2.0 / 0.1), 1e-9);
+  const Resistance<double> power{.alpha = 0.8, .beta = 0.5};
+  EXPECT_NEAR(*stop_time_s(power, 0.5, 2.0), 0.5 * std::sqrt(2.0) / (0.5 * 0.8), 1e-12);
+  EXPECT_FALSE(stop_time_s({.alpha = 0.8, .beta = 1.0}, 0.5, 2.0).has_value());
 }
 
 TEST(Steady, TheSearchEndsWhereTheCurveJumpsAtRest) {

@@ -44,6 +44,12 @@ TEST(VehicleFile, ReadsThePapersVehicle) {
   EXPECT_EQ(vehicle->inertia_kgm2(), 5.841);
 }
 
+TEST(VehicleFile, ASizeBeyondAnyVehicleIsNamedInItsUnit) {
+  EXPECT_THAT(faults_after({"/length_m", 1320}), ElementsAre(::testing::HasSubstr("mm: 1.32")));
+  EXPECT_THAT(faults_after({"/length_m", "1320"}),
+              ElementsAre(::testing::Not(::testing::HasSubstr("mm"))));
+}
+
 TEST(VehicleFile, ReadsTheForwardOnlyVehicle) {
   const auto vehicle = read_vehicle(kConfigs / "vehicle_forward_only.json");
   ASSERT_TRUE(vehicle) << to_text(vehicle.error());

@@ -7,7 +7,7 @@
 //   a < b   a < awmr_mutation::Order{7} < b         mutant 7 is <=
 //   a && b  a && awmr_mutation::kept(7) && b        mutant 7 is false
 //   0.5     awmr_mutation::number(7, 0.5, 1.0)      mutant 7 is 1.0
-//   if (c)  if (awmr_mutation::chosen(7) != (c))    mutant 7 is !c
+//   if (c)  if (awmr_mutation::chosen(7) != bool(c)) mutant 7 is !c
 //
 // Nothing changes in what the compiler works out itself: there the program stays as it is.
 
