@@ -144,7 +144,8 @@ TEST(LissajousPath, DerivativesAreThoseOfThePosition) {
 TEST(LissajousPath, WhereItStandsStillTheHeadingIsHeld) {
   const Lissajous<double> point{0.0, 0.0, 1.0, 1.0};
   for (const PathGuidance<double>& held :
-       {open_path(point.at(1.0), 0.9), closed_path(point.at(1.0), 0.5, {0.0, 0.0}, 0.0, 0.9)}) {
+       {open_path(point.at(1.0), 0.9), closed_path(point.at(1.0), 0.5, {0.0, 0.0}, 0.0, 0.9),
+        closed_path(point.at(1.0), 0.5, {1e-5, -1e-5}, 0.0, 0.9)}) {
     EXPECT_EQ(held.psi_rad, 0.9);
     EXPECT_EQ(held.psi_rate_radps, 0.0);
     EXPECT_EQ(held.speed_mps, 0.0);

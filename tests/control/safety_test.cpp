@@ -205,6 +205,24 @@ TEST_F(AutopilotFaults, AStepIsLateAfterItsTimeoutAndTheNextOneIsNot) {
   EXPECT_EQ(fault_at(1091), kFaultNone);
 }
 
+TEST_F(AutopilotFaults, TheCheckSumIsOverTheLastByteOfEveryTable) {
+  ResistanceLine surge[3] = {}, yaw[2] = {};
+  RestBlock rest{};
+  const auto crc = [&] { return crc32_of_parameters(&block_, surge, 3, yaw, 2, &rest); };
+  const std::uint32_t undamaged = crc();
+  const auto expect_seen = [&](auto& last) {
+    auto* bytes = reinterpret_cast<unsigned char*>(&last);
+    bytes[sizeof last - 1] ^= 1U;
+    EXPECT_NE(crc(), undamaged);
+    bytes[sizeof last - 1] ^= 1U;
+  };
+  expect_seen(block_);
+  expect_seen(surge[2]);
+  expect_seen(yaw[1]);
+  expect_seen(rest);
+  EXPECT_EQ(crc(), undamaged);
+}
+
 TEST_F(AutopilotFaults, DamagedParametersGiveTheSafeCommandForGood) {
   crc_ ^= 1U;
   expect_fault(good(), kFaultParameters, "check sum");
