@@ -98,10 +98,13 @@ TEST(Allocation, ClipsTauSpeedFirstThenSteeringThenForces) {
   EXPECT_TRUE(fast.speed_limited);
   EXPECT_DOUBLE_EQ(fast.force.left, 1.0);
   // At d_max the forces follow from the clipped angle: F' = tau_speed/(2 (1 + cos d_max)).
-  const Allocation<double> turning = allocate(YawMode::kSteering, 1.0, 5.0, limits());
-  EXPECT_TRUE(turning.steering_limited);
-  EXPECT_DOUBLE_EQ(turning.steering_rad, radians(20.0));
-  EXPECT_DOUBLE_EQ(turning.force.left, 1.0 / (2.0 * (1.0 + std::cos(radians(20.0)))));
+  // The stop makes 0.35 m tan(10 deg) = 0.0617 m: 0.08 is a little beyond, 5 far.
+  for (const double tau_turn_m : {0.08, 5.0}) {
+    const Allocation<double> turning = allocate(YawMode::kSteering, 1.0, tau_turn_m, limits());
+    EXPECT_TRUE(turning.steering_limited);
+    EXPECT_DOUBLE_EQ(turning.steering_rad, radians(20.0));
+    EXPECT_DOUBLE_EQ(turning.force.left, 1.0 / (2.0 * (1.0 + std::cos(radians(20.0)))));
+  }
 }
 
 TEST(Allocation, RedistributionNeverDeliversLessOfTheMomentThanTheFixedHalf) {
@@ -234,6 +237,15 @@ TEST(Allocation, MotorsWithBackEmfMakeTheForcesOfTheAllocation) {
     const double made = c.left - 0.3 * (u - l.half_track_m * r);
     RC_ASSERT(!inside || std::abs(made - a.force.left) < 1e-14);
   }));
+}
+
+TEST(Allocation, IsThatAtRestWhereNoSpeedIsSaid) {
+  AllocationLimits<double> l = limits();
+  l.back_emf_s_per_m = 0.3;
+  const Allocation<double> unsaid = allocate(YawMode::kCombined, 3.9, 0.1, l);
+  const Allocation<double> at_rest = allocate(YawMode::kCombined, 3.9, 0.1, l, 0.0);
+  EXPECT_EQ(unsaid.force.left, at_rest.force.left);
+  EXPECT_NE(unsaid.force.left, allocate(YawMode::kCombined, 3.9, 0.1, l, 1.0).force.left);
 }
 
 AllocationLimits<double> front_limits() {

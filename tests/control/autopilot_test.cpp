@@ -292,6 +292,38 @@ TEST_F(AutopilotLeads, AskingForAPositionWhereSomethingLeadsByIt) {
   EXPECT_EQ(fault_without_position(), kFaultNone);
 }
 
+TEST_F(AutopilotLeads, ByNothingOnceItIsStartedAgain) {
+  const Position<float> corners[] = {{0.0F, 0.0F}, {5.0F, 5.0F}};
+  const Obstacle<float> obstacles[] = {{{1.5F, 0.0F}, 0.5F}};
+  Sector<float> sectors[1];
+  const AutopilotOutput plain = step_at({0.0F, 0.0F});
+  const auto start = [this] {
+    ASSERT_TRUE(start_autopilot(autopilot_, &block_, nullptr, 0, nullptr, 0, crc_));
+  };
+  const auto expect_plain = [&] {
+    start();
+    const AutopilotOutput out = step_at({0.0F, 0.0F});
+    EXPECT_EQ(out.psi_ref_rad, plain.psi_ref_rad);
+    EXPECT_EQ(out.tau_speed, plain.tau_speed);
+    EXPECT_EQ(out.tau_turn_m, plain.tau_turn_m);
+    start();
+    EXPECT_EQ(fault_without_position(), kFaultNone);
+  };
+  follow_line(autopilot_, {corners, 2, 0.0F, {1.0F, 1.0F, false}});
+  expect_plain();
+  follow_path(autopilot_, {10.0F, 10.0F, 0.1F, 0.3F}, 0.5F);
+  expect_plain();
+  avoid_obstacles(autopilot_, {2.0F, 1.0F, 0.2F, 0.3F, 0.2F, 0.3F, 0.2F, 1.0F}, obstacles, sectors,
+                  1);
+  expect_plain();
+  shape_headings(autopilot_, {4.0F, 0.5F, 2.0F}, kSampleTime_s);
+  expect_plain();
+  start();
+  observe_disturbance(autopilot_, {{3.0F, 0.2F}, {4.0F, 0.3F}, true}, kSampleTime_s);
+  step_at({0.0F, 0.0F});
+  expect_plain();
+}
+
 TEST_F(AutopilotLeads, ByWhatWasAskedForLast) {
   const Position<float> corners[] = {{0.0F, 0.0F}, {0.0F, 5.0F}};
   const auto heading = [this] { return step_at({0.0F, 0.0F}).psi_ref_rad; };

@@ -114,7 +114,9 @@ TEST(Polyline, PassesOnAtTheEndOfASegmentAndFinishesAtTheLast) {
   EXPECT_NEAR(turned.cross_track_m, 1.0, 1e-15);
   EXPECT_NEAR(turned.psi_rad, kPi / 2.0 - 1.0, 1e-15);
   EXPECT_FALSE(guide(line, {10.0, 9.5}, 0.0, progress).finished);
-  EXPECT_TRUE(guide(line, {10.2, 10.0}, 0.0, progress).finished);
+  const auto at_end = guide(line, {10.2, 10.0}, 0.0, progress);
+  EXPECT_TRUE(at_end.finished);
+  EXPECT_EQ(at_end.to_go_m, 0.0);
 }
 
 TEST(Polyline, WithoutAnyLengthItIsFinishedAndTheHeadingHeld) {

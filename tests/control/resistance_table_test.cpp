@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "awmr/control/controller.h"
+
 namespace awmr::testing {
 namespace {
 
@@ -37,6 +39,17 @@ TEST(ResistanceTable, IsTheChordToTheOriginBelowTheFirst) {
 
 TEST(ResistanceTable, IsOdd) {
   for (const float speed : {0.25F, 1.0F, 1.25F, 3.5F}) EXPECT_EQ(kTable(-speed), -kTable(speed));
+}
+
+TEST(RestingTable, IsFedForwardAsMuchAsTheSpeedAndTheIntentAsk) {
+  const RestingTable table{kTable, 0.5F, 5.0F};
+  EXPECT_EQ(table(0.25F), 2.5F);
+  EXPECT_EQ(table(1.25F), kTable(1.25F));
+  EXPECT_EQ(fed_forward(table, 0.1F, 0.1F), 2.0F);  // 5 (0.1 + 0.1)/0.5
+  EXPECT_FLOAT_EQ(fed_forward(table, -0.1F, 0.3F), 2.0F);
+  EXPECT_EQ(fed_forward(table, 0.1F, 9.0F), 5.0F);
+  EXPECT_EQ(fed_forward(table, -0.1F, -9.0F), -5.0F);
+  EXPECT_EQ(fed_forward(table, 1.25F, -9.0F), kTable(1.25F));
 }
 
 TEST(ResistanceTable, IsNoNumberFromTheLastCellOn) {

@@ -68,6 +68,9 @@ TEST(Metrics, ControlVariationIsPerSecondAndOverTheLimits) {
       radians(20.0);             // there and back: twice the full range of one side
   run.rows[2].force.left = 0.5;  // there and back at F'max = 1
   EXPECT_NEAR(judged(run).control_variation, (2.0 + 1.0) / 4.0, 1e-12);
+  Controller<double> weak = make_controller(paper_plant(), paper_vehicle(), {});
+  weak.limits.force_max = 0.5;
+  EXPECT_NEAR(metrics_of(run, kSteps, weak).control_variation, (2.0 + 2.0) / 4.0, 1e-12);
 }
 
 TEST(Metrics, WorkIsForceTimesTheWheelsSpeedAndNothingComesBack) {
@@ -122,6 +125,28 @@ TEST(Metrics, OpenLoopHasNoHeadingMetrics) {
   EXPECT_FALSE(m.overshoot_deg);
   EXPECT_FALSE(m.speed_drop_mps);
   EXPECT_GT(m.path_length_m, 0.0);
+}
+
+TEST(Validity, OfSeveralRunsTheFastestIsTold) {
+  struct Judged {
+    Metrics metrics;
+    std::string name;
+  };
+  Model model = fitted_paper_model();
+  TrialPoint turn;
+  turn.kind = TrialKind::kTurning;
+  turn.measured = radians(15.0);
+  model.record.trials = {turn};
+  std::vector<Judged> runs(3);
+  const auto where = [](const Judged& run) { return run.name; };
+  EXPECT_TRUE(extrapolation_in(model, runs, where).empty());
+  runs[1].metrics.yaw_rate_max_degps = 90.0;
+  runs[1].name = "the fastest";
+  runs[2].metrics.yaw_rate_max_degps = 40.0;
+  const std::vector<Finding> findings = extrapolation_in(model, runs, where);
+  ASSERT_EQ(findings.size(), 1U);
+  EXPECT_NE(findings[0].message.find("the fastest"), std::string::npos);
+  EXPECT_TRUE(extrapolation_in(model, std::vector<Judged>{}, where).empty());
 }
 
 TEST(Validity, ATurnFasterThanTheTrialsCoveredIsTold) {

@@ -249,7 +249,7 @@ TEST(MeanAndTail, IsTheMeanOfAllAndOfTheWorst) {
 
 TEST(Conditions, AreTheVehiclesWhereItSaysAndTheDefaultsElse) {
   Vehicle vehicle = paper_vehicle();
-  EXPECT_EQ(conditions_of(vehicle).heading_noise_deg, LoopConditions{}.heading_noise_deg);
+  EXPECT_EQ(conditions_of(vehicle).heading_noise_deg, 1.0);
   vehicle.sensors = {.heading_deg = 0.3, .speed_late_s = 0.05};
   vehicle.motor_time_constant_s = 0.0;
   const LoopConditions c = conditions_of(vehicle);
