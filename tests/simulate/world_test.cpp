@@ -138,6 +138,17 @@ TEST(Wheels, OnASlipperyPatchBackEmfBrakesNoMoreThanTheGroundHolds) {
   }
 }
 
+TEST(Wheels, ASlipperyPatchLimitsTheForceOfAMotorWithADeadZoneAndNotItsCommand) {
+  Plant<double> plant = paper_plant();
+  plant.wheel_dead_zone = 0.1;
+  Scenario s;
+  s.patches = {{.centre_m = {0.0, 0.0}, .radius_m = 5.0, .force_max = 0.2}};
+  const WheelForces<double> wheels = at_the_ground(s, plant, {}, 0.0, {0.25, -0.9});
+  EXPECT_EQ(wheels.front_left, 0.25);  // of which 0.15 reach the ground
+  EXPECT_NEAR(beyond_dead_zone(wheels.front_right, 0.1), -0.2, 1e-15);
+  EXPECT_NEAR(beyond_dead_zone(wheels.rear_right, 0.1), -0.2, 1e-15);
+}
+
 TEST(Battery, TheSpeedFallsToWhatTheForceLeft) {
   Scenario s = straight(60.0);
   s.battery = Battery{.from_s = 5.0, .to_s = 20.0, .share_end = 0.2};

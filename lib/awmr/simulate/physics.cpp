@@ -28,11 +28,11 @@ RunSeed seed_of(const Scenario& scenario, const SimulateOptions& options) {
   return run_seed(scenario.seed, options.seed, options.sample);
 }
 
-/// The command of which a wheel's force is no larger than `most`. With back-EMF that depends on the
-/// speed at which the wheel rolls: by F' = e - k_e w, the command is that of e = F' + k_e w.
+/// The command of which a wheel's force, beyond the dead zone, is no larger than `most`. With back-EMF
+/// that depends on the speed at which the wheel rolls: by F' = e - k_e w, the command is that of
+/// e = F' + k_e w.
 double slipping(const Plant<double>& plant, double command, double wheel_mps, double most) {
   const double k = plant.back_emf_s_per_m;
-  if (!(k > 0.0)) return math::saturate(command, most);
   const double drive = beyond_dead_zone(command, plant.wheel_dead_zone);
   const double force = motor_force(drive, k, wheel_mps);
   if (std::abs(force) <= most) return command;
