@@ -88,6 +88,15 @@ TEST(Metrics, WorkIsForceTimesTheWheelsSpeedAndNothingComesBack) {
   EXPECT_NEAR(m.tyre_work, 4.0 * 0.3028 * std::pow(0.5, 0.825) * 0.5, 1e-12);
   EXPECT_EQ(m.saturation_s, 0.0);
   EXPECT_EQ(m.steering_travel_deg, 0.0);
+  // Wheel by wheel the same, of motors that lose next to nothing.
+  Controller<double> real = make_controller(paper_plant(), paper_vehicle(), {});
+  real.limits.back_emf_s_per_m = 1e-12;
+  EXPECT_NEAR(metrics_of(run, kSteps, real).energy_mech, m.energy_mech, 1e-9);
+  EXPECT_NEAR(metrics_of(run, kSteps, real).energy_electric, m.energy_electric, 1e-9);
+  // Two wheels do half of both.
+  real.limits.is_rear_driven = false;
+  EXPECT_NEAR(metrics_of(run, kSteps, real).energy_mech, 0.5 * m.energy_mech, 1e-9);
+  EXPECT_NEAR(metrics_of(run, kSteps, real).energy_electric, 0.5 * m.energy_electric, 1e-9);
 }
 
 TEST(Metrics, FrontWheelsRollAlongTheirAngle) {

@@ -138,6 +138,25 @@ TEST(Wheels, OnASlipperyPatchBackEmfBrakesNoMoreThanTheGroundHolds) {
   }
 }
 
+TEST(Wheels, EachIsWhereTheVehiclesHeadingPutsIt) {
+  const Plant<double> plant = paper_plant();
+  Scenario s;
+  State<double> state{};
+  state.x_m = 3.0;
+  state.y_m = -2.0;
+  state.psi_rad = radians(90.0);  // forward is +y, left is -x
+  const double l = plant.front_axle_m;
+  const double d = plant.half_track_m;
+  const Position<double> places[] = {
+      {3.0 - d, -2.0 + l}, {3.0 + d, -2.0 + l}, {3.0 - d, -2.0 - l}, {3.0 + d, -2.0 - l}};
+  for (int slips = 0; slips < 4; ++slips) {
+    s.patches = {{.centre_m = places[slips], .radius_m = 0.1, .force_max = 0.2}};
+    const WheelForces<double> w = at_the_ground(s, plant, state, 0.0, {0.5, 0.6});
+    const double forces[] = {w.front_left, w.front_right, w.rear_left, w.rear_right};
+    for (int i = 0; i < 4; ++i) EXPECT_EQ(forces[i], i == slips ? 0.2 : i % 2 == 0 ? 0.5 : 0.6);
+  }
+}
+
 TEST(Wheels, ASlipperyPatchLimitsTheForceOfAMotorWithADeadZoneAndNotItsCommand) {
   Plant<double> plant = paper_plant();
   plant.wheel_dead_zone = 0.1;

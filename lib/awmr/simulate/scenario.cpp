@@ -22,7 +22,7 @@ bool is_random(const std::vector<DisturbanceTerm>& terms) {
                      [](const DisturbanceTerm& term) { return is_random(term); });
 }
 
-bool has_noise(const Channel& channel) { return channel.noise > 0.0 || channel.noise < 0.0; }
+bool has_noise(const Channel& channel) { return channel.noise > 0.0; }
 
 }  // namespace
 

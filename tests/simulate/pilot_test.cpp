@@ -1,0 +1,124 @@
+/// Where a scenario's course leads from sample to sample, by hand.
+#include "awmr/simulate/pilot.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "awmr/simulate/one_run.h"
+#include "awmr/simulate/physics.h"
+#include "awmr/simulate/simulate.h"
+#include "simulate/paper_plant.h"
+
+namespace awmr::testing {
+namespace {
+
+/// At a place, at 1 m/s along x.
+Sensed at(double x_m, double y_m) { return {{0.0, 1.0, 0.0, 0.0}, {x_m, y_m}}; }
+
+Scenario along(Guidance guidance) {
+  Scenario scenario;
+  scenario.speed_mps = 2.0;
+  scenario.guidance = std::move(guidance);
+  return scenario;
+}
+
+TEST(Pilot, HoldsTheHeadingOfTheLastStepThatHasCome) {
+  const HeadingSteps steps{{{0.0, 0.1}, {2.0, 0.2}, {5.0, 0.3}}};
+  EXPECT_EQ(heading_at(steps, 0.0), 0.1);
+  EXPECT_EQ(heading_at(steps, 1.99), 0.1);
+  EXPECT_EQ(heading_at(steps, 2.0), 0.2);
+  EXPECT_EQ(heading_at(steps, 5.0), 0.3);
+  EXPECT_EQ(heading_at(steps, 9.0), 0.3);
+}
+
+TEST(Pilot, GoesToOnePointAfterTheOtherAndSlowsDownBeforeTheLast) {
+  const Scenario scenario = along(WaypointCourse{
+      .points_m = {{10.0, 0.0}, {10.0, 10.0}}, .acceptance_m = 1.0, .slow_down_m = 4.0});
+  Pilot pilot(scenario, 0.01, at(0.0, 0.0));
+  const Pilot::Order first = pilot.at(0.0, at(7.5, 0.5));  // within 4 m, but not of the last
+  EXPECT_EQ(first.course.leg, 0);
+  EXPECT_EQ(first.course.target_m.x_m, 10.0);
+  EXPECT_EQ(first.course.target_m.y_m, 0.0);
+  EXPECT_NEAR(first.course.cross_track_m, 0.5, 1e-12);
+  EXPECT_EQ(first.reference.speed_mps, 2.0);
+  const Pilot::Order last = pilot.at(0.01, at(10.0, 0.5));
+  EXPECT_EQ(last.course.leg, 1);
+  EXPECT_EQ(last.course.target_m.y_m, 10.0);
+  EXPECT_EQ(last.reference.speed_mps, 2.0);
+  EXPECT_NEAR(pilot.at(0.02, at(10.0, 8.0)).reference.speed_mps, 1.0, 1e-12);  // 2 of 4 m
+  const Pilot::Order there = pilot.at(0.03, at(10.0, 9.5));
+  EXPECT_TRUE(there.finished);
+  EXPECT_EQ(there.reference.speed_mps, 0.0);
+  EXPECT_EQ(there.course.leg, 1);
+  EXPECT_EQ(there.course.cross_track_m, 0.0);
+}
+
+TEST(Pilot, FollowsALineToItsEndAndSlowsDownBeforeIt) {
+  const Scenario scenario = along(LineCourse{.points_m = {{0.0, 0.0}, {10.0, 0.0}, {10.0, 10.0}},
+                                             .law = {1.0, 1.0, false},
+                                             .slow_down_m = 4.0});
+  Pilot pilot(scenario, 0.01, at(0.0, 0.0));
+  const Pilot::Order first = pilot.at(0.0, at(7.0, 0.2));
+  EXPECT_EQ(first.course.leg, 0);
+  EXPECT_EQ(first.course.target_m.x_m, 10.0);
+  EXPECT_EQ(first.course.target_m.y_m, 0.0);
+  EXPECT_NEAR(first.course.cross_track_m, 0.2, 1e-12);
+  EXPECT_EQ(first.reference.speed_mps, 2.0);
+  const Pilot::Order last = pilot.at(0.01, at(10.2, 7.0));
+  EXPECT_EQ(last.course.leg, 1);
+  EXPECT_EQ(last.course.target_m.y_m, 10.0);
+  EXPECT_NEAR(last.course.cross_track_m, -0.2, 1e-12);
+  EXPECT_NEAR(last.reference.speed_mps, 2.0 * 3.0 / 4.0, 1e-12);
+  const Pilot::Order there = pilot.at(0.02, at(10.0, 10.1));
+  EXPECT_TRUE(there.finished);
+  EXPECT_EQ(there.course.leg, 1);
+  EXPECT_EQ(there.reference.speed_mps, 0.0);
+}
+
+TEST(Pilot, FollowsAPathAtItsSpeedOrAtTheScenarios) {
+  LissajousCourse course;
+  course.path = {10.0, 8.0, 0.1, 0.3};
+  Scenario scenario = along(course);
+  scenario.speed_mps = 0.0;
+  Pilot pilot(scenario, 0.01, at(10.0, 0.0));
+  const PathPoint<double> point = course.path.at(3.0);
+  const Pilot::Order order = pilot.at(3.0, at(point.position_m.x_m, point.position_m.y_m));
+  EXPECT_NEAR(order.reference.psi_rad, std::atan2(point.vy_mps, point.vx_mps), 1e-12);
+  EXPECT_NEAR(order.reference.speed_mps, std::hypot(point.vx_mps, point.vy_mps), 1e-12);
+  EXPECT_EQ(order.course.target_m.x_m, point.position_m.x_m);
+  EXPECT_NEAR(order.course.cross_track_m, 0.0, 1e-12);
+  scenario.speed_mps = 1.5;
+  EXPECT_EQ(Pilot(scenario, 0.01, at(10.0, 0.0)).at(3.0, at(0.0, 0.0)).reference.speed_mps, 1.5);
+}
+
+TEST(Clearance, IsBetweenTheCircles) {
+  Scenario scenario;
+  scenario.obstacles = {{{3.0, 4.0}, 1.0}, {{50.0, 0.0}, 1.0}};
+  EXPECT_NEAR(clearance_m(scenario, {}), 4.0, 1e-15);
+  scenario.avoidance.emplace();
+  scenario.avoidance->vehicle_radius_m = 0.5;
+  EXPECT_NEAR(clearance_m(scenario, {}), 3.5, 1e-15);
+}
+
+TEST(Battery, FallsFromItsFirstTimeToItsLast) {
+  const Battery battery{.from_s = 5.0, .to_s = 20.0, .share_end = 0.2};
+  EXPECT_EQ(battery_share(battery, 5.0), 1.0);
+  EXPECT_NEAR(battery_share(battery, 12.5), 0.6, 1e-15);
+  EXPECT_NEAR(battery_share(battery, 20.0), 0.2, 1e-15);
+  EXPECT_NEAR(battery_share(battery, 99.0), 0.2, 1e-15);
+}
+
+TEST(ControllerInAScenario, HasItsSplitAndItsForm) {
+  const Controller<double> own = make_controller(paper_plant(), paper_vehicle(), {});
+  Scenario scenario;
+  EXPECT_EQ(controller_in(scenario, own).limits.split, own.limits.split);
+  EXPECT_EQ(controller_in(scenario, own).limits.form, own.limits.form);
+  scenario.control.split = CombinedSplit::kFixedHalf;
+  scenario.control.allocation = AllocationForm::kPaper;
+  EXPECT_EQ(controller_in(scenario, own).limits.split, CombinedSplit::kFixedHalf);
+  EXPECT_EQ(controller_in(scenario, own).limits.form, AllocationForm::kPaper);
+}
+
+}  // namespace
+}  // namespace awmr::testing
