@@ -46,6 +46,14 @@ TEST(PairedT, HasTheTablesQuantiles) {
   EXPECT_EQ(paired_t_p(1.0, 0.0, 5), 0.0);
 }
 
+TEST(Equivalence, IsTheOneSidedTestAgainstTheMargin) {
+  // The mean is 1 of its standard errors inside: with 2 degrees p = (1 - 1/sqrt 3)/2.
+  EXPECT_NEAR(equivalence_p(-0.5, 0.5 * std::sqrt(3.0), 3, 1.0), 0.5 - 0.5 / std::sqrt(3.0), 1e-12);
+  EXPECT_NEAR(equivalence_p(1.5, 0.5 * std::sqrt(3.0), 3, 1.0), 0.5 + 0.5 / std::sqrt(3.0), 1e-12);
+  EXPECT_EQ(equivalence_p(1.0, 0.0, 3, 1.0), 0.0);
+  EXPECT_EQ(equivalence_p(1.1, 0.0, 3, 1.0), 1.0);
+}
+
 TEST(Holm, StepsDownAndKeepsTheOrder) {
   // 4 * 0.01, 3 * 0.02, then 2 * 0.03 and 0.2 no smaller than what came before.
   const std::vector<double> p = {0.03, 0.01, 0.2, 0.02};

@@ -43,7 +43,9 @@ TEST(Summary, LeavesTheNominalRunOutOfTheSamples) {
   EXPECT_EQ(s.nominal, 100.0);
   EXPECT_EQ(s.count, 4U);
   EXPECT_EQ(s.mean, 2.5);
+  EXPECT_NEAR(*s.q05, 1.15, 1e-15);
   EXPECT_EQ(s.q50, 2.5);
+  EXPECT_NEAR(*s.q95, 3.85, 1e-15);
   EXPECT_FALSE(summarise(groups[0].modes[0], column_of(MetricId::kClearance)).mean);
 }
 
@@ -97,6 +99,25 @@ TEST(PairedDifferences, HaveTheWidthOfTheMeansStandardError) {
   // 2 * 1.96 * 0.5/sqrt(400) = 0.098; the sample's own deviation is known to 1/sqrt(800) = 3.5 %
   // and the ends of 1000 resamples to 4 % each: 20 % is more than three of all together.
   EXPECT_NEAR(d.ci95->hi - d.ci95->lo, 0.098, 0.2 * 0.098);
+}
+
+TEST(PairedDifferences, HaveStudentsP) {
+  Comparison c;
+  const double extra[] = {9.0, 1.0, 2.0, 4.0};
+  for (const YawMode mode : {YawMode::kDifferential, YawMode::kSteering}) {
+    for (int i = 0; i <= 3; ++i) {
+      c.rows.push_back(row(mode, i, mode == YawMode::kSteering ? 50.0 : 50.0 + extra[i]));
+    }
+  }
+  const PairedDifference d = iae_difference(c, 1);
+  EXPECT_EQ(*d.nominal, 9.0);
+  EXPECT_NEAR(*d.mean, 7.0 / 3.0, 1e-14);
+  // s^2 = 7/3, so t = (7/3)/sqrt(7/9) = sqrt 7; with 2 degrees p = 1 - t/sqrt(2 + t^2).
+  EXPECT_NEAR(*d.p, 1.0 - std::sqrt(7.0) / 3.0, 1e-12);
+  // The margin is 5 % of 50: t = (2.5 - 7/3)/sqrt(7/9), one-sided.
+  const double t = (2.5 - 7.0 / 3.0) / std::sqrt(7.0 / 9.0);
+  EXPECT_EQ(d.margin, 2.5);
+  EXPECT_NEAR(*d.p_equivalent, 0.5 * (1.0 - t / std::sqrt(2.0 + t * t)), 1e-12);
 }
 
 TEST(PairedDifferences, HaveNoIntervalBelowTwoSamples) {
@@ -235,6 +256,9 @@ TEST(Preferences, RefuseWhatIsNoWeight) {
   }
   EXPECT_FALSE(preferences_of({"tyre_work=1", "tyre_work=2"}, 0.05));
   EXPECT_FALSE(preferences_of({}, std::nan("")));
+  for (const char* text : {"finish_time_s=0", "finish_time_s=1000"}) {
+    EXPECT_TRUE(preferences_of({text}, 0.05)) << text;
+  }
   const auto mistyped = preferences_of({"finish_tme_s=2"}, 0.05);
   ASSERT_FALSE(mistyped);
   EXPECT_THAT(to_text(mistyped.error()), HasSubstr("did you mean 'finish_time_s'?"));

@@ -53,6 +53,15 @@ TEST(Verdict, NamesTheBestAndWhatTheOtherIsBehindIn) {
   EXPECT_THAT(text, HasSubstr("all completed"));
 }
 
+TEST(Verdict, GivesTheGapAsWhatTheOtherTakesMoreWhicheverComesFirst) {
+  for (const double behind_s : {3.0, -3.0}) {
+    const std::string text = verdict(twenty(behind_s, 0.1));
+    EXPECT_THAT(text, HasSubstr(behind_s > 0.0 ? "steering is behind" : "differential is behind"));
+    EXPECT_THAT(text, ::testing::ContainsRegex(
+                          "settling_time_s: [23][0-9.]* s more \\(95 %: 2[0-9.]* to 3"));
+  }
+}
+
 TEST(Verdict, SaysThatATieIsATie) {
   // A mean of 0.1 s with a standard error of 5/sqrt(20) = 1.1 s: 11 % of 10 s, one of four metrics.
   EXPECT_THAT(verdict(twenty(0.1, 5.0)), HasSubstr("tie: these runs do not tell them apart"));
@@ -65,6 +74,18 @@ TEST(Verdict, GivesTheExactShareOfFailures) {
   const std::string text = verdict(twenty(0.0, 0.0, 10));
   EXPECT_THAT(text, HasSubstr("differential is best"));
   EXPECT_THAT(text, HasSubstr("steering completed 10 of 20 (95 %: 27 to 73 %)"));
+}
+
+TEST(Verdict, GivesAnIntervalOfFailuresFromTwoRunsOn) {
+  Comparison c = twenty(0.0, 0.0, 1);
+  const auto keep = [&](int samples) {
+    Comparison kept = c;
+    std::erase_if(kept.rows, [&](const ComparisonRow& row) { return row.sample > samples; });
+    return verdict(kept);
+  };
+  EXPECT_THAT(keep(2), HasSubstr("steering completed 1 of 2 (95 %: 1 to 99 %)"));
+  EXPECT_THAT(keep(1), HasSubstr("steering completed 0 of 1"));
+  EXPECT_THAT(keep(1), Not(HasSubstr("95 %")));
 }
 
 TEST(Verdict, DoesNotRankByAFailureThatMayBeChance) {
@@ -82,6 +103,18 @@ TEST(Tally, CountsTheBestAndWhatIsNotToldApart) {
   EXPECT_EQ(tallies[0].scenarios, 2);
   EXPECT_THAT(tallies[0].best_or_tied, ElementsAre(2, 1));
   EXPECT_THAT(tallies[1].best_or_tied, ElementsAre(2, 2));
+}
+
+TEST(Tally, AModeWithoutTheMetricIsBeatenByOneThatHasIt) {
+  Comparison c = twenty(-3.0, 0.1);
+  for (ComparisonRow& row : c.rows) {
+    if (row.mode == YawMode::kSteering) row.metrics.settling_time_s.reset();
+  }
+  const Judged one = judged(c);
+  const auto tallies = tally({one.scenario});
+  EXPECT_EQ(tallies[0].metric, MetricId::kSettlingTime);
+  EXPECT_THAT(tallies[0].best_or_tied, ElementsAre(1, 0));
+  for (const MetricTally& tally : tallies) EXPECT_EQ(tally.scenarios, 1);
 }
 
 TEST(Tally, CountsScenariosWithTheSameRunsOnce) {
