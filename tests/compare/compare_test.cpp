@@ -201,6 +201,34 @@ TEST(ComparisonJson, WithoutSamplesSaysWhyThereAreNoIntervals) {
   EXPECT_TRUE(iae["q05"].is_null());
   for (const Json& d : scenario["paired_differences"]) EXPECT_TRUE(d["ci95"].is_null());
   EXPECT_EQ(scenario["ranking"].size(), 3U);
+  EXPECT_TRUE(json["statistics"]["resamples"].is_null());
+  EXPECT_THAT(json["statistics"]["quantiles"].get<std::string>(), HasSubstr("at least 2 samples"));
+}
+
+TEST(ComparisonJson, FromTwoSamplesOnSaysHowItsIntervalsAreMade) {
+  const CompareOptions options{.samples = 2, .seed = 1, .threads = 1};
+  const Json json = Json::parse(comparison_text(compared(options), options, kProvenance));
+  const Json& how = json["statistics"];
+  EXPECT_TRUE(how["resamples"].is_number());
+  for (const char* key : {"ci95", "conclusion", "completed_ci95", "quantiles"}) {
+    EXPECT_THAT(how[key].get<std::string>(), ::testing::Not(HasSubstr("at least 2"))) << key;
+  }
+  EXPECT_THAT(how["quantiles"].get<std::string>(), HasSubstr("5, 50 and 95 %"));
+}
+
+TEST(ComparisonJson, ScenariosWithTheSameRunsAreCountedOnce) {
+  const CompareOptions options{.samples = 0, .seed = 1, .threads = 1};
+  Scenario other = short_heading("other");
+  other.speed_mps *= 0.5;
+  const Comparison c = compared(options, {short_heading("one"), other, short_heading("again")});
+  const std::string table = comparison_table(c, options);
+  EXPECT_THAT(table, HasSubstr("counted once: 'again' has the same runs as 'one'"));
+  EXPECT_THAT(table, ::testing::Not(HasSubstr("as 'other'")));
+  EXPECT_THAT(table, ::testing::Not(HasSubstr("as 'again'")));
+  const std::string text = comparison_text(c, options, kProvenance);
+  EXPECT_THAT(text, HasSubstr("\"same_runs_as\": \"one\""));
+  EXPECT_THAT(text, ::testing::Not(HasSubstr("\"same_runs_as\": \"other\"")));
+  EXPECT_THAT(text, ::testing::Not(HasSubstr("\"same_runs_as\": \"again\"")));
 }
 
 TEST(ComparisonJson, WithSamplesHasIntervalsAroundTheMeans) {
@@ -240,6 +268,12 @@ TEST(ComparisonTable, HasUnitsAndAlignedRows) {
   EXPECT_EQ(lines[4].size(), lines[5].size());
   EXPECT_THAT(lines[6], HasSubstr("is best"));  // the verdict
   for (const std::string& line : lines) EXPECT_LE(line.size(), 100U);
+  for (std::size_t i = 6; i < lines.size(); ++i) {
+    EXPECT_EQ(lines[i].find_first_not_of(' '), 2U) << lines[i];
+  }
+  EXPECT_THAT(lines[0], HasSubstr("the model's own values"));
+  EXPECT_THAT(comparison_table(compared({.samples = 2, .seed = 1, .threads = 1})),
+              HasSubstr("mean of 2 sample(s)"));
 }
 
 }  // namespace

@@ -107,6 +107,9 @@ TEST_F(Shards, DamagedOrStoppedPartsAreRefused) {
   EXPECT_THAT(fault({first, write({2, 2}, stopped)}), HasSubstr("lost rows"));
   stopped.stopped = true;
   EXPECT_THAT(fault({first, write({2, 2}, stopped)}), HasSubstr("run it again"));
+  Comparison twice = run({2, 2});
+  twice.rows.push_back(twice.rows.back());
+  EXPECT_THAT(fault({first, write({2, 2}, twice)}), HasSubstr("stands there twice"));
   // Rows of another part, under this one's name.
   EXPECT_THAT(fault({first, write({2, 2}, run({1, 2}))}), HasSubstr("is none of part 2 of 2"));
 }

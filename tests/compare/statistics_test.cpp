@@ -49,6 +49,12 @@ TEST(Summary, LeavesTheNominalRunOutOfTheSamples) {
   EXPECT_FALSE(summarise(groups[0].modes[0], column_of(MetricId::kClearance)).mean);
 }
 
+TEST(Summary, CountsTheSamplesThatWereCompleted) {
+  Comparison c;
+  for (int i = 0; i <= 4; ++i) c.rows.push_back(row(YawMode::kSteering, i, 3.0, i == 2));
+  EXPECT_EQ(group(c)[0].modes[0].completed_share(), 0.25);
+}
+
 TEST(Summary, WithoutSamplesHasTheNominalMeanAndNoQuantiles) {
   Comparison c;
   c.rows.push_back(row(YawMode::kSteering, 0, 3.0));
@@ -123,7 +129,9 @@ TEST(PairedDifferences, HaveStudentsP) {
 TEST(PairedDifferences, HaveNoIntervalBelowTwoSamples) {
   EXPECT_FALSE(iae_difference(paired(0, 0.5), 1).ci95);
   EXPECT_FALSE(iae_difference(paired(1, 0.5), 1).ci95);
+  EXPECT_FALSE(iae_difference(paired(1, 0.5), 1).p);
   EXPECT_TRUE(iae_difference(paired(2, 0.5), 1).ci95);
+  EXPECT_TRUE(iae_difference(paired(2, 0.5), 1).p);
 }
 
 TEST(PairedDifferences, DependOnTheSeedAlone) {

@@ -88,6 +88,15 @@ TEST(Verdict, GivesAnIntervalOfFailuresFromTwoRunsOn) {
   EXPECT_THAT(keep(1), Not(HasSubstr("95 %")));
 }
 
+TEST(Verdict, SaysWhereNoneCompleted) {
+  Comparison c = twenty(3.0, 0.1);
+  EXPECT_THAT(verdict(c), Not(HasSubstr("none completed")));
+  for (ComparisonRow& row : c.rows) row.metrics.completed = row.sample == 1;
+  EXPECT_THAT(verdict(c), Not(HasSubstr("none completed")));
+  for (ComparisonRow& row : c.rows) row.metrics.completed = false;
+  EXPECT_THAT(verdict(c), ::testing::StartsWith("none completed; by score "));
+}
+
 TEST(Verdict, DoesNotRankByAFailureThatMayBeChance) {
   // One of 20: p = 1.
   EXPECT_THAT(verdict(twenty(0.0, 0.0, 1)), HasSubstr("tie"));
