@@ -1,0 +1,132 @@
+/// What gains are scored and judged by, each figure worked out a second time from the runs.
+#include "awmr/tune/objective.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "awmr/core/units.h"
+#include "awmr/model/gains_file.h"
+#include "awmr/simulate/simulate.h"
+#include "awmr/tune/robust.h"
+#include "tune/paper_model.h"
+
+namespace awmr::testing {
+namespace {
+
+Scenario short_turn() {
+  Scenario scenario;
+  scenario.name = "turn";
+  scenario.duration_s = 4.0;
+  scenario.speed_mps = 1.0;
+  scenario.guidance = HeadingSteps{{{0.0, radians(20.0)}}};
+  return scenario;
+}
+
+/// Plants whose mass grows from one to the next; the first is the model's own.
+ObjectiveSetting setting_of(int plants, double tail_share = 1.0) {
+  const Model model = paper_model();
+  ObjectiveSetting setting{.plants = {},
+                           .vehicle = model.vehicle,
+                           .weights = {},
+                           .scenarios = {short_turn()},
+                           .tail_share = tail_share};
+  for (int i = 0; i < plants; ++i) {
+    setting.plants.push_back(model.plant().value());
+    setting.plants.back().mass_norm *= 1.0 + 0.2 * i;
+    setting.plants.back().inertia_norm *= 1.0 + 0.2 * i;
+  }
+  return setting;
+}
+
+TEST(ModeScores, AreThoseOfTheRun) {
+  const ObjectiveSetting setting = setting_of(2);
+  const Controller<double> controller =
+      make_controller(setting.plants[0], setting.vehicle, kPaperGains);
+  const auto scores = run_scenarios(setting, 1, kPaperGains, YawMode::kSteering);
+  ASSERT_EQ(scores.size(), 1U);
+  const awmr::Run run =
+      simulate(setting.plants[1], controller, setting.scenarios[0], YawMode::kSteering,
+               {.sample_time_s = setting.vehicle.sample_time_s, .substeps = {}, .sample = 1});
+  double squares = 0.0;
+  double itae = 0.0;
+  for (std::size_t i = 1; i < run.rows.size(); ++i) {
+    const RunRow& a = run.rows[i - 1];
+    const RunRow& b = run.rows[i];
+    const double rate =
+        degrees(b.steering_command_rad - a.steering_command_rad) / setting.vehicle.sample_time_s;
+    squares += rate * rate;
+    itae += 0.5 * setting.vehicle.sample_time_s *
+            (a.t_s * std::abs(a.u_ref_mps - a.state.u_mps) +
+             b.t_s * std::abs(b.u_ref_mps - b.state.u_mps));
+  }
+  const double rms = std::sqrt(squares / static_cast<double>(run.rows.size() - 1));
+  EXPECT_GT(rms, 1.0);
+  EXPECT_NEAR(scores[0].steering_rate_rms_degps, rms, 1e-6 * rms);
+  EXPECT_NEAR(scores[0].speed_itae_m_s, itae, 1e-6 * itae);
+  EXPECT_EQ(*scores[0].metrics.heading_iae_degs,
+            *metrics_of(run, setting.scenarios[0], controller).heading_iae_degs);
+}
+
+TEST(ObjectiveTerms, AreRatiosAboveTheirFloors) {
+  ModeScore score;
+  ModeScore baseline;
+  score.metrics.heading_itae_degs2 = 0.5;
+  score.metrics.overshoot_deg = 1.5;
+  score.metrics.control_variation = 0.05;
+  score.metrics.control_effort = 0.004;
+  score.speed_itae_m_s = 0.009;
+  const auto by = [&](double ObjectiveWeights::*weight) {
+    ObjectiveWeights weights{
+        .itae = 0.0, .overshoot = 0.0, .control_variation = 0.0, .effort = 0.0, .speed_itae = 0.0};
+    weights.*weight = 3.0;
+    return objective_of(score, baseline, weights);
+  };
+  EXPECT_NEAR(by(&ObjectiveWeights::itae), (0.5 + 0.1) / 0.1, 1e-12);
+  EXPECT_NEAR(by(&ObjectiveWeights::overshoot), (1.5 + 0.5) / 0.5, 1e-12);
+  EXPECT_NEAR(by(&ObjectiveWeights::control_variation), (0.05 + 0.01) / 0.01, 1e-12);
+  EXPECT_NEAR(by(&ObjectiveWeights::effort), (0.004 + 0.001) / 0.001, 1e-12);
+  EXPECT_NEAR(by(&ObjectiveWeights::speed_itae), (0.009 + 0.001) / 0.001, 1e-12);
+}
+
+TEST(Objective, ARunThatTheBaselineCompletesHasToBeCompleted) {
+  const Objective objective(setting_of(1), kPaperGains);
+  ASSERT_TRUE(objective.baseline().scores[0].metrics.completed);
+  Gains<double> dull = kPaperGains;
+  dull.heading.lambda *= 0.02;
+  const Evaluation evaluation = objective(dull);
+  EXPECT_FALSE(evaluation.scores[0].metrics.completed);
+  EXPECT_FALSE(evaluation.valid);
+  EXPECT_THAT(objective.baseline().mode_activity, ::testing::Each(1.0));
+}
+
+TEST(Judged, AreTheOrderStatisticsOfAllPlantsButTheFirst) {
+  const ObjectiveSetting setting = setting_of(6, 0.4);
+  const auto judged = judge(setting, {{"paper", kPaperGains}});
+  ASSERT_EQ(judged.size(), std::size(kYawModes));
+  for (const JudgedGains& one : judged) {
+    std::vector<double> iae, variation;
+    int completed = 0;
+    for (std::size_t plant = 1; plant < 6; ++plant) {
+      const ModeScore score = run_scenarios(setting, plant, kPaperGains, one.mode).front();
+      iae.push_back(*score.metrics.heading_iae_degs);
+      variation.push_back(score.metrics.control_variation);
+      completed += score.metrics.completed ? 1 : 0;
+    }
+    EXPECT_EQ(one.completed_share, completed / 5.0);
+    for (const JudgedFigure& figure : one.figures) {
+      if (figure.name != "heading_iae_degs" && figure.name != "control_variation") continue;
+      std::vector<double>& values = figure.name == "heading_iae_degs" ? iae : variation;
+      std::sort(values.begin(), values.end());
+      EXPECT_EQ(figure.median, values[2]);
+      EXPECT_EQ(figure.q95, values[4]);
+      EXPECT_DOUBLE_EQ(figure.tail_mean, 0.5 * (values[3] + values[4]));  // the worst 40 % of five
+    }
+  }
+}
+
+}  // namespace
+}  // namespace awmr::testing
