@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "awmr/core/json.h"
+#include "awmr/core/units.h"
 #include "awmr/model/gains_file.h"
 #include "awmr/simulate/simulate.h"
 #include "support/uncertain_model.h"
@@ -88,6 +89,16 @@ TEST(Compare, SampleZeroIsTheModelItself) {
     EXPECT_NEAR(*c.rows[4 * i].metrics.heading_iae_degs, judge, 1e-9 * judge);
     EXPECT_EQ(nominal.rows[i].metrics.heading_iae_degs, c.rows[4 * i].metrics.heading_iae_degs);
   }
+}
+
+TEST(Compare, TheNoiseOfSampleZeroDoesNotHangOnTheSeed) {
+  Scenario noisy = short_heading();
+  noisy.sensors.emplace();
+  noisy.sensors->heading.noise = radians(1.0);
+  const Comparison one = compared({.samples = 1, .seed = 1, .threads = 1}, {noisy});
+  const Comparison two = compared({.samples = 1, .seed = 2, .threads = 1}, {noisy});
+  EXPECT_EQ(one.rows[0].metrics.heading_iae_degs, two.rows[0].metrics.heading_iae_degs);
+  EXPECT_NE(one.rows[1].metrics.heading_iae_degs, two.rows[1].metrics.heading_iae_degs);
 }
 
 TEST(Compare, ASampleIsTheSameVehicleInEveryScenarioAndMode) {

@@ -175,6 +175,9 @@ TEST(Validity, ATurnFasterThanTheTrialsCoveredIsTold) {
   EXPECT_NEAR(*measured_yaw_rate_degps(model), 15.0, 1e-12);
   note_extrapolation(model, 17.0, "run", findings);
   EXPECT_TRUE(findings.empty());
+  note_extrapolation(model, 18.1, "run", findings);  // more than 1.2 times 15
+  EXPECT_EQ(findings.size(), 1U);
+  findings.clear();
   note_extrapolation(model, 77.0, "C3, combined", findings);
   ASSERT_EQ(findings.size(), 1U);
   EXPECT_EQ(findings[0].code, "beyond-trials");
