@@ -12,7 +12,7 @@ namespace {
 constexpr double kResponse_s = 0.2;
 /// Commands as they acted on the window: averaged over the same length, a little earlier.
 void add_commands(const DrivingLog& log, const Vehicle& vehicle, const LogWindow& window,
-                  WindowSums& sums) {
+                  EvidenceWindow& sums) {
   const double delay_s = log.steering_command_rad ? kResponse_s : 0.0;
   const auto row_at = [&](double t_s) {
     const auto at = std::lower_bound(log.t_s.begin(), log.t_s.end(), t_s - delay_s);
@@ -32,8 +32,8 @@ void add_commands(const DrivingLog& log, const Vehicle& vehicle, const LogWindow
   }
 }
 
-WindowSums sums_of(const DrivingLog& log, const Vehicle& vehicle, const LogWindow& window) {
-  WindowSums sums;
+EvidenceWindow sums_of(const DrivingLog& log, const Vehicle& vehicle, const LogWindow& window) {
+  EvidenceWindow sums;
   const std::size_t last = window.end - 1;
   sums.span_s = log.t_s[last] - log.t_s[window.begin];
   if (const auto& heading = log[LogChannel::kHeading]) {
@@ -95,10 +95,10 @@ Evidence evidence_of(const DrivingLog& log, const Vehicle& vehicle,
   return evidence;
 }
 
-MomentShares moment_shares(const std::vector<WindowSums>& windows,
-                           double (*rate)(const WindowSums&)) {
+MomentShares moment_shares(const std::vector<EvidenceWindow>& windows,
+                           double (*rate)(const EvidenceWindow&)) {
   double ss = 0.0, sd = 0.0, dd = 0.0, sr = 0.0, dr = 0.0, rr = 0.0;
-  for (const WindowSums& w : windows) {
+  for (const EvidenceWindow& w : windows) {
     const double y = rate(w) / w.span_s;
     ss += w.tau_steering_m * w.tau_steering_m;
     sd += w.tau_steering_m * w.tau_diff_m;

@@ -17,7 +17,7 @@ namespace awmr {
 inline constexpr double kEvidenceWindow_s = 1.0;
 
 /// What one window says of each signal; sums over the window, so that noise averages out.
-struct WindowSums {
+struct EvidenceWindow {
   double turned_rad = 0.0;      ///< change of heading
   double rate_rad = 0.0;        ///< integral of the yaw rate
   double moved_m = 0.0;         ///< distance between the first and the last position
@@ -36,10 +36,10 @@ struct Evidence {
   const DrivingLog& log;
   const Vehicle& vehicle;
   std::span<const ColumnMapping> mappings;
-  std::vector<WindowSums> windows;  ///< side by side
+  std::vector<EvidenceWindow> windows;  ///< side by side
   /// For medians, which need twenty: those of a shorter log overlap by two thirds, so that ten
   /// seconds are enough to tell a wrong unit.
-  std::vector<WindowSums> overlapping;
+  std::vector<EvidenceWindow> overlapping;
 
   bool has(LogChannel channel) const { return log[channel].has_value(); }
 };
@@ -53,10 +53,10 @@ double integral_of(const DrivingLog& log, LogChannel channel, const LogWindow& w
 
 /// One number of every window.
 template <class Member>
-std::vector<double> series(const std::vector<WindowSums>& windows, Member member) {
+std::vector<double> series(const std::vector<EvidenceWindow>& windows, Member member) {
   std::vector<double> values;
   values.reserve(windows.size());
-  for (const WindowSums& w : windows) values.push_back(member(w));
+  for (const EvidenceWindow& w : windows) values.push_back(member(w));
   return values;
 }
 
@@ -66,8 +66,8 @@ struct MomentShares {
   double sides = 0.0;
 };
 
-MomentShares moment_shares(const std::vector<WindowSums>& windows,
-                           double (*rate)(const WindowSums&));
+MomentShares moment_shares(const std::vector<EvidenceWindow>& windows,
+                           double (*rate)(const EvidenceWindow&));
 
 /// `NAME="SOURCE"*FACTOR`, from the column that NAME was read from.
 std::string scaled_mapping(std::span<const ColumnMapping> mappings, std::string_view column,

@@ -21,12 +21,12 @@ struct SignRelation {
 };
 
 /// +1: positions move where the heading points; -1: where its mirror image does; 0: cannot be told.
-int course_sign(const std::vector<WindowSums>& windows) {
-  std::vector<double> moved = series(windows, [](const WindowSums& w) { return w.moved_m; });
+int course_sign(const std::vector<EvidenceWindow>& windows) {
+  std::vector<double> moved = series(windows, [](const EvidenceWindow& w) { return w.moved_m; });
   const double far = median(moved);
   std::complex<double> same = 0.0, mirrored = 0.0, headings = 0.0;
   double n = 0.0;
-  for (const WindowSums& w : windows) {
+  for (const EvidenceWindow& w : windows) {
     if (w.moved_m < far || w.moved_m <= 0.0 || std::abs(w.turned_rad) > 1.0) continue;
     same += std::polar(1.0, w.course_rad - w.heading_rad);
     mirrored += std::polar(1.0, w.course_rad + w.heading_rad);
@@ -47,8 +47,8 @@ std::vector<SignRelation> sign_relations(const Evidence& evidence) {
   const auto add = [&](Signed a, Signed b, int sign) {
     if (sign != 0) relations.push_back({a, b, sign});
   };
-  const auto rate = [](const WindowSums& w) { return w.rate_rad; };
-  const auto turn = [](const WindowSums& w) { return w.turned_rad; };
+  const auto rate = [](const EvidenceWindow& w) { return w.rate_rad; };
+  const auto turn = [](const EvidenceWindow& w) { return w.turned_rad; };
   if (evidence.has(LogChannel::kYawRate)) {
     const MomentShares shares = moment_shares(evidence.windows, rate);
     add(Signed::kSteering, Signed::kYawRate, sign_of(shares.steering));
@@ -133,9 +133,9 @@ std::vector<Contradiction> judge_signs(const Evidence& evidence) {
 /// Thrust forward and motion backward.
 std::optional<Contradiction> judge_direction(const Evidence& evidence) {
   if (!evidence.has(LogChannel::kSpeed)) return std::nullopt;
-  const auto ratio =
-      robust_ratio(series(evidence.overlapping, [](const WindowSums& w) { return w.thrust; }),
-                   series(evidence.overlapping, [](const WindowSums& w) { return w.driven_m; }));
+  const auto ratio = robust_ratio(
+      series(evidence.overlapping, [](const EvidenceWindow& w) { return w.thrust; }),
+      series(evidence.overlapping, [](const EvidenceWindow& w) { return w.driven_m; }));
   if (!ratio || ratio->ratio > 0.0) return std::nullopt;
   return Contradiction{"speed_mps",
                        "the speed is negative where both forces push forward: speed or forces have "

@@ -101,9 +101,9 @@ bool heading_spans_radians(const DrivingLog& log) {
 
 std::optional<Contradiction> judge_rates(const Evidence& evidence) {
   if (!evidence.has(LogChannel::kHeading) || !evidence.has(LogChannel::kYawRate)) return {};
-  const auto ratio =
-      robust_ratio(series(evidence.overlapping, [](const WindowSums& w) { return w.rate_rad; }),
-                   series(evidence.overlapping, [](const WindowSums& w) { return w.turned_rad; }));
+  const auto ratio = robust_ratio(
+      series(evidence.overlapping, [](const EvidenceWindow& w) { return w.rate_rad; }),
+      series(evidence.overlapping, [](const EvidenceWindow& w) { return w.turned_rad; }));
   if (!ratio) return std::nullopt;
   const double size = std::abs(ratio->ratio);
   if (size >= kLowestAgreement && size <= kHighestAgreement) return std::nullopt;
@@ -131,8 +131,8 @@ std::optional<Contradiction> judge_speed(const Evidence& evidence) {
   const bool position = evidence.has(LogChannel::kX) && evidence.has(LogChannel::kY);
   if (!position || !evidence.has(LogChannel::kSpeed)) return std::nullopt;
   const auto ratio = robust_ratio(
-      series(evidence.overlapping, [](const WindowSums& w) { return std::abs(w.driven_m); }),
-      series(evidence.overlapping, [](const WindowSums& w) { return w.moved_m; }));
+      series(evidence.overlapping, [](const EvidenceWindow& w) { return std::abs(w.driven_m); }),
+      series(evidence.overlapping, [](const EvidenceWindow& w) { return w.moved_m; }));
   if (!ratio) return std::nullopt;
   if (ratio->ratio >= kLowestAgreement && ratio->ratio <= kHighestAgreement) return std::nullopt;
   static constexpr std::array<UnitFactor, 6> kSpeedUnits{{{1.0 / 3.6, "km/h"},
@@ -167,7 +167,7 @@ std::optional<double> sharpness(const Evidence& evidence, double factor) {
   if (!heading && !evidence.has(LogChannel::kYawRate)) return std::nullopt;
   std::vector<double> pointed;
   std::vector<double> turned;
-  for (const WindowSums& w : evidence.overlapping) {
+  for (const EvidenceWindow& w : evidence.overlapping) {
     if (std::abs(w.tau_diff_m) > factor * std::abs(w.tau_steering_m)) continue;
     pointed.push_back(std::tan(factor * w.steering_rad) * w.driven_m /
                       evidence.vehicle.front_axle_m);
@@ -216,8 +216,8 @@ std::optional<Contradiction> judge_steering_unit(const Evidence& evidence) {
   constexpr double kImpossible = 8.0;
   const MomentShares shares = moment_shares(
       evidence.windows, evidence.has(LogChannel::kHeading)
-                            ? [](const WindowSums& w) { return w.turned_rad; }
-                            : [](const WindowSums& w) { return w.rate_rad; });
+                            ? [](const EvidenceWindow& w) { return w.turned_rad; }
+                            : [](const EvidenceWindow& w) { return w.rate_rad; });
   const auto sharp = sharpness(evidence, degree);
   const double times = sharp                 ? *sharp * degree
                        : shares.sides != 0.0 ? std::abs(shares.steering / shares.sides)

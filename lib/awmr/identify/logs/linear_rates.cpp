@@ -175,7 +175,7 @@ ResistanceSlopes LinearResistance::operator()(double speed) const {
   return g;
 }
 
-void linear_rates(const LinearPlant& plant, const State<double>& s, const Command& command,
+void linear_rates(const LinearPlant& plant, const State<double>& s, const HeldCommand& command,
                   LinearRates& out) {
   const Plant<double>& p = plant.plant;
   const double sin_d = std::sin(s.steering_rad);

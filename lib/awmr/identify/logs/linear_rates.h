@@ -60,7 +60,7 @@ struct LinearPlant {
 };
 
 /// What drives the vehicle at a moment.
-struct Command {
+struct HeldCommand {
   SideForces<double> force{};
   double steering_rad = 0.0;
 };
@@ -94,7 +94,7 @@ struct LinearRates {
 };
 
 /// The rates at `s`. What is 0 at all times stays as it is in `out`: it begins as LinearRates{}.
-void linear_rates(const LinearPlant& p, const State<double>& s, const Command& command,
+void linear_rates(const LinearPlant& p, const State<double>& s, const HeldCommand& command,
                   LinearRates& out);
 
 }  // namespace awmr

@@ -113,7 +113,7 @@ void LinearStepper::note_driven(const DelayedCommand& command, double* driven) c
     driven[t.place] = rates_.by_parameter[t.parameter].*t.rate * t.factor;
   }
   if (!delay_) return;
-  const Command& by_delay = command.by_delay;
+  const HeldCommand& by_delay = command.by_delay;
   for (std::size_t i = 0; i < kDrivenSize; ++i) {
     const auto rate = kDriven[i];
     driven[i * columns_ + delay_->column] = by_delay.force.left * rates_.by_force_left.*rate +

@@ -37,8 +37,8 @@ struct DelayColumn {
 
 /// What drives the vehicle, and how that changes with the delay.
 struct DelayedCommand {
-  Command command;
-  Command by_delay{};
+  HeldCommand command;
+  HeldCommand by_delay{};
 };
 
 /// Moves the state and its derivatives on.

@@ -16,7 +16,7 @@ namespace {
 constexpr Eigen::Index kMaximumProfileRows = kExactRows;
 
 /// The profile's interval of every coordinate that has a standard error, in the parameter's scale.
-void add_profiles(Candidate& candidate) {
+void add_profiles(FamilyCandidate& candidate) {
   const std::vector<TransformedParameter> coordinates = coordinates_of(candidate.problem.family);
   for (std::size_t i = 0; i < candidate.report.parameters.size(); ++i) {
     const TransformedParameter c = coordinates[i];
@@ -26,10 +26,10 @@ void add_profiles(Candidate& candidate) {
   }
 }
 
-Candidate candidate_from(const Subject& subject, const SteadyProblem& problem, ErrorModel wanted,
-                         SteadyFit found) {
+FamilyCandidate candidate_from(const Subject& subject, const SteadyProblem& problem,
+                               ErrorModel wanted, SteadyFit found) {
   const bool squared = problem.loss == Loss::kSquared;
-  Candidate candidate{problem, std::move(found), {}};
+  FamilyCandidate candidate{problem, std::move(found), {}};
   const SteadyFit& fit = candidate.fit;
   candidate.report =
       report_of(subject, fit, problem.family, Estimator::kNonlinear, name_of(problem.noise));
@@ -77,9 +77,9 @@ ErrorModel wanted_noise(const Subject& subject, const SubjectOptions& options) {
   return options.noise.value_or(all_timed(subject.points) ? ErrorModel::kTime : ErrorModel::kSpeed);
 }
 
-std::vector<Candidate> fit_candidates(const Subject& subject, const SubjectOptions& options,
-                                      ErrorModel wanted, const SteadyFit& line) {
-  std::vector<Candidate> candidates;
+std::vector<FamilyCandidate> fit_candidates(const Subject& subject, const SubjectOptions& options,
+                                            ErrorModel wanted, const SteadyFit& line) {
+  std::vector<FamilyCandidate> candidates;
   std::map<ErrorModel, std::map<Family, TransformedParameters>> known;
   for (const auto& [family, noise] : plan(subject, options, wanted)) {
     if (subject.points.size() < coordinates_of(family).size()) continue;
@@ -92,17 +92,18 @@ std::vector<Candidate> fit_candidates(const Subject& subject, const SubjectOptio
   return candidates;
 }
 
-const Candidate* candidate_of(const std::vector<Candidate>& candidates, Family family,
-                              ErrorModel noise) {
-  for (const Candidate& c : candidates) {
+const FamilyCandidate* candidate_of(const std::vector<FamilyCandidate>& candidates, Family family,
+                                    ErrorModel noise) {
+  for (const FamilyCandidate& c : candidates) {
     if (c.problem.family == family && c.problem.noise == noise) return &c;
   }
   return nullptr;
 }
 
-const Candidate* best_candidate(const std::vector<Candidate>& candidates, ErrorModel noise) {
-  const Candidate* best = nullptr;
-  for (const Candidate& c : candidates) {
+const FamilyCandidate* best_candidate(const std::vector<FamilyCandidate>& candidates,
+                                      ErrorModel noise) {
+  const FamilyCandidate* best = nullptr;
+  for (const FamilyCandidate& c : candidates) {
     if (c.problem.noise != noise || !c.fit.usable || !aicc(c.fit)) continue;
     if (!best || *aicc(c.fit) < *aicc(best->fit)) best = &c;
   }

@@ -18,7 +18,7 @@ struct SubjectOptions {
 };
 
 /// A nonlinear fit of one family under one noise model, and its entry of /estimates.
-struct Candidate {
+struct FamilyCandidate {
   SteadyProblem problem;
   SteadyFit fit;
   EstimatorReport report;
@@ -32,16 +32,17 @@ ErrorModel wanted_noise(const Subject& subject, const SubjectOptions& options);
 /// Side by side: the power law under every noise model, the other families under the wanted one.
 /// Else only what may be chosen. Families with more numbers than there are runs are left out.
 /// `line`: the fit of the power law through the logarithms, their initial guess.
-std::vector<Candidate> fit_candidates(const Subject& subject, const SubjectOptions& options,
-                                      ErrorModel wanted, const SteadyFit& line);
+std::vector<FamilyCandidate> fit_candidates(const Subject& subject, const SubjectOptions& options,
+                                            ErrorModel wanted, const SteadyFit& line);
 
 /// The fit of a family under a noise model; null where there is none.
-const Candidate* candidate_of(const std::vector<Candidate>& candidates, Family family,
-                              ErrorModel noise);
+const FamilyCandidate* candidate_of(const std::vector<FamilyCandidate>& candidates, Family family,
+                                    ErrorModel noise);
 
 /// Minimum AICc among the fits that converged; the family with fewer terms where two are equal.
 /// Null where no fit has one.
-const Candidate* best_candidate(const std::vector<Candidate>& candidates, ErrorModel noise);
+const FamilyCandidate* best_candidate(const std::vector<FamilyCandidate>& candidates,
+                                      ErrorModel noise);
 
 /// A fit in words, by noise, family and loss: "nonlinear, noise on time, coulomb-power, Huber".
 std::string method_in_words(const SteadyProblem& problem);

@@ -80,13 +80,13 @@ Finding nothing_to_choose(const Subject& subject, bool tried) {
 
 /// The family asked for, or the one of minimum AICc.
 Choice choose_nonlinear(const Subject& subject, const SubjectOptions& options, ErrorModel wanted,
-                        const std::vector<Candidate>& candidates) {
+                        const std::vector<FamilyCandidate>& candidates) {
   Choice choice;
-  const Candidate* chosen = options.family.family
-                                ? candidate_of(candidates, *options.family.family, wanted)
-                                : best_candidate(candidates, wanted);
+  const FamilyCandidate* chosen = options.family.family
+                                      ? candidate_of(candidates, *options.family.family, wanted)
+                                      : best_candidate(candidates, wanted);
   const bool tried = std::ranges::any_of(
-      candidates, [&](const Candidate& c) { return c.problem.noise == wanted; });
+      candidates, [&](const FamilyCandidate& c) { return c.problem.noise == wanted; });
   if (!chosen && !options.family.family && subject.points.size() < kFewestToCompare) {
     // Two free numbers, and no other family with fewer.
     chosen = candidate_of(candidates, Family::kPower, wanted);
@@ -116,9 +116,10 @@ Choice choose_nonlinear(const Subject& subject, const SubjectOptions& options, E
 
 /// `power-law-inadequate`, where another family has plainly less AICc.
 std::vector<Finding> power_law_findings(const Subject& subject, ErrorModel wanted,
-                                        const std::vector<Candidate>& candidates, Family used) {
-  const Candidate* power = candidate_of(candidates, Family::kPower, wanted);
-  const Candidate* best = best_candidate(candidates, wanted);
+                                        const std::vector<FamilyCandidate>& candidates,
+                                        Family used) {
+  const FamilyCandidate* power = candidate_of(candidates, Family::kPower, wanted);
+  const FamilyCandidate* best = best_candidate(candidates, wanted);
   if (!power || !best || !aicc(power->fit) || best->problem.family == Family::kPower) return {};
   const double difference = *aicc(power->fit) - *aicc(best->fit);
   if (difference < kTablesPlainlyBetter) return {};
@@ -199,8 +200,8 @@ SubjectFit fit_subject(const Subject& subject, const SubjectOptions& options) {
     result.findings.push_back(*std::move(finding));
     return result;
   }
-  const std::vector<Candidate> candidates = fit_candidates(subject, options, wanted, line);
-  for (const Candidate& candidate : candidates) result.reports.push_back(candidate.report);
+  const std::vector<FamilyCandidate> candidates = fit_candidates(subject, options, wanted, line);
+  for (const FamilyCandidate& candidate : candidates) result.reports.push_back(candidate.report);
   Choice choice = result.log_linear ? choose_log_linear(subject, options, line)
                                     : choose_nonlinear(subject, options, wanted, candidates);
   const std::size_t report = choice.report;

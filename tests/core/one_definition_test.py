@@ -1,0 +1,65 @@
+#!/usr/bin/env python3
+"""No two types, and no two inline functions or templates of one signature, have the same name in one namespace.
+
+The linker keeps one of both for the whole program, and the program then takes one for the other: without a word, and
+only where the compiler did not inline what they have in common. So awmr::WindowSums of the trials and of the log fits
+crashed programs that were compiled without optimisation. usage: one_definition_test.py
+"""
+import collections
+import pathlib
+import re
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+NAMESPACE = re.compile(r"namespace\s*([\w:]*)\s*\{")
+TYPE = re.compile(r"(?:template\s*<.*>\s*)?(?:struct|class|enum class|union)\s+(\w+)\s*(?:final\s*)?(?::[^:{][^{]*)?\{")
+FUNCTION = re.compile(r"(?:template\s*<|inline\b|constexpr\b|AWMR_\w+)[^=;{]*?\b(\w+\([^{;]*\))[^;]*\{")
+
+
+def code_of(path):
+    """The text without comments, strings and what follows a #; a definition's head on one line."""
+    text = re.sub(r"//[^\n]*|/\*.*?\*/|^\s*#[^\n]*", "", path.read_text(errors="replace"), flags=re.DOTALL | re.MULTILINE)
+    text = re.sub(r'R"(\w*)\(.*?\)\1"', '""', text, flags=re.DOTALL)
+    text = re.sub(r'"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])\'', '""', text)
+    return re.sub(r"\s+", " ", text)
+
+
+def definitions(path):
+    """(namespace, what is defined) of all types and inline functions outside of anonymous namespaces."""
+    code = code_of(path)
+    depth, open_at, names, start = 0, [], [], 0
+    for m in re.finditer(r"[{};]", code):
+        head = code[start:m.end()].strip()
+        start = m.end()
+        if m[0] == "}":
+            depth -= 1
+            if open_at and open_at[-1] == depth:
+                open_at.pop()
+                names.pop()
+        elif m[0] == "{":
+            space = NAMESPACE.search(head)
+            if space and depth == len(open_at):
+                open_at.append(depth)
+                names.append(space[1] or "anonymous")
+            elif depth == len(open_at) and "anonymous" not in names:
+                defined = TYPE.match(head) or FUNCTION.match(head)
+                if defined:
+                    yield "::".join(names), re.sub(r"\s+", " ", defined[1])
+            depth += 1
+
+
+def main():
+    where = collections.defaultdict(set)
+    files = [p for folder in ("lib", "apps") for p in (ROOT / folder).rglob("*")
+             if p.suffix in (".h", ".cpp") and "assets" not in p.parts]
+    for path in files:
+        for name in definitions(path):
+            where[name].add(str(path.relative_to(ROOT)))
+    twice = {name: places for name, places in where.items() if len(places) > 1}
+    for (space, name), places in sorted(twice.items()):
+        print(f"{space}::{name} is defined in {', '.join(sorted(places))}")
+    print(f"{len(where)} definitions in {len(files)} files, {len(twice)} of one name")
+    return 1 if twice or len(where) < 500 else 0
+
+
+sys.exit(main())
