@@ -13,6 +13,16 @@ namespace {
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 constexpr float kSampleTime_s = 0.03F;
 
+/// Wide enough for the obstacles of these tests to matter.
+constexpr Avoidance<float> kAvoidance{.mmd_base_m = 2.0F,
+                                      .mmd_per_speed_s = 1.0F,
+                                      .sigma_rad = 0.2F,
+                                      .vehicle_radius_m = 0.3F,
+                                      .clearance_m = 0.2F,
+                                      .hysteresis_m = 0.3F,
+                                      .side_hysteresis_rad = 0.2F,
+                                      .brake_m = 1.0F};
+
 class AutopilotLeads : public PaperAutopilot {
  protected:
   using Whole = Autopilot<Resistance<float>, AllParts<>>;
@@ -143,20 +153,12 @@ TEST_F(AutopilotLeads, AlongAPathFromTheFirstStepOn) {
 }
 
 TEST_F(AutopilotLeads, PastObstaclesThatAreNotBehindTheGoal) {
-  const Avoidance<float> avoidance{.mmd_base_m = 2.0F,
-                                   .mmd_per_speed_s = 1.0F,
-                                   .sigma_rad = 0.2F,
-                                   .vehicle_radius_m = 0.3F,
-                                   .clearance_m = 0.2F,
-                                   .hysteresis_m = 0.3F,
-                                   .side_hysteresis_rad = 0.2F,
-                                   .brake_m = 1.0F};
   const Obstacle<float> obstacles[] = {{{3.0F, 2.9F}, 0.5F}, {{11.5F, -0.5F}, 0.4F}};
   Sector<float> sectors[2], expected_sectors[2];
   const Waypoints<float> waypoints{kPoints, 2, 0.8F, false};
   for (const bool has_goal : {true, false}) {
     follow_waypoints(autopilot_, has_goal ? waypoints : Waypoints<float>{nullptr, 0, 0.0F, false});
-    avoid_obstacles(autopilot_, avoidance, obstacles, sectors, 2);
+    avoid_obstacles(autopilot_, kAvoidance, obstacles, sectors, 2);
     in_.reference.psi_rad = -0.7F;
     in_.reference.psi_rate_radps = 0.2F;
     auto progress = start_waypoints(Position<float>{0.0F, 0.0F}, in_.measured.psi_rad);
@@ -170,7 +172,7 @@ TEST_F(AutopilotLeads, PastObstaclesThatAreNotBehindTheGoal) {
       const int target = guided.finished ? 1 : progress.next;
       const float target_m = has_goal ? distance_m(place, kPoints[target]) : 1e30F;
       const auto avoided =
-          avoid(avoidance, obstacles, expected_sectors, 2, place, in_.measured.psi_rad,
+          avoid(kAvoidance, obstacles, expected_sectors, 2, place, in_.measured.psi_rad,
                 in_.measured.u_mps, ref.psi_rad, target_m, state);
       ref.speed_mps *= avoided.speed_share;
       if (avoided.active) {
@@ -186,11 +188,10 @@ TEST_F(AutopilotLeads, PastObstaclesThatAreNotBehindTheGoal) {
 }
 
 TEST_F(AutopilotLeads, PastAPointThatAnObstacleCovers) {
-  const Avoidance<float> avoidance{2.0F, 1.0F, 0.2F, 0.3F, 0.2F, 0.3F, 0.2F, 1.0F};
   const Obstacle<float> obstacles[] = {{kPoints[0], 2.0F}};
   Sector<float> sectors[1];
   follow_waypoints(autopilot_, {kPoints, 2, 0.8F, false});
-  avoid_obstacles(autopilot_, avoidance, obstacles, sectors, 1);
+  avoid_obstacles(autopilot_, kAvoidance, obstacles, sectors, 1);
   EXPECT_NEAR(step_at({0.0F, -9.0F}).psi_ref_rad, std::atan2(9.0F, 10.0F), 1e-4F);
 }
 
@@ -285,10 +286,9 @@ TEST_F(AutopilotLeads, AskingForAPositionWhereSomethingLeadsByIt) {
   EXPECT_EQ(fault_without_position(), kFaultNone);
   const Obstacle<float> obstacles[] = {{{50.0F, 0.0F}, 1.0F}};
   Sector<float> sectors[1];
-  const Avoidance<float> avoidance{2.0F, 1.0F, 0.2F, 0.3F, 0.2F, 0.3F, 0.2F, 1.0F};
-  avoid_obstacles(autopilot_, avoidance, obstacles, sectors, 1);
+  avoid_obstacles(autopilot_, kAvoidance, obstacles, sectors, 1);
   EXPECT_EQ(fault_without_position(), kFaultNotFinite);
-  avoid_obstacles(autopilot_, avoidance, obstacles, sectors, 0);
+  avoid_obstacles(autopilot_, kAvoidance, obstacles, sectors, 0);
   EXPECT_EQ(fault_without_position(), kFaultNone);
 }
 
@@ -313,8 +313,7 @@ TEST_F(AutopilotLeads, ByNothingOnceItIsStartedAgain) {
   expect_plain();
   follow_path(autopilot_, {10.0F, 10.0F, 0.1F, 0.3F}, 0.5F);
   expect_plain();
-  avoid_obstacles(autopilot_, {2.0F, 1.0F, 0.2F, 0.3F, 0.2F, 0.3F, 0.2F, 1.0F}, obstacles, sectors,
-                  1);
+  avoid_obstacles(autopilot_, kAvoidance, obstacles, sectors, 1);
   expect_plain();
   shape_headings(autopilot_, {4.0F, 0.5F, 2.0F}, kSampleTime_s);
   expect_plain();
