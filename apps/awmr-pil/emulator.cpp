@@ -109,6 +109,15 @@ Status Emulator::run_until(const std::function<bool()>& done, std::uint64_t cycl
   return {};
 }
 
+void Emulator::reset() {
+  avr_reset(avr_);
+  asleep_ = false;
+  entered_at_ = 0;
+  to_send_.clear();
+  sent_ = 0;
+  uart_ready_ = true;
+}
+
 Status Emulator::run_to_sleep(std::uint64_t cycle_limit) {
   asleep_ = false;
   return run_until([this] { return asleep_; }, cycle_limit);

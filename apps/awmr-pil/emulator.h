@@ -38,6 +38,8 @@ class Emulator {
   /// A constant in flash by its symbol.
   std::span<std::uint8_t> flash(const std::string& symbol, std::size_t size);
 
+  /// Resets the chip, as its reset pin does: RAM keeps its bytes, the time goes on.
+  void reset();
   /// Runs until the chip goes to sleep. Errors (fault): it crashed, or is awake after
   /// `cycle_limit`.
   Status run_to_sleep(std::uint64_t cycle_limit);

@@ -17,13 +17,16 @@ namespace awmr::pil {
 struct Step {
   AutopilotOutput output{};
   std::optional<unsigned> cycles;  ///< absent on the host
+  bool restarted = false;          ///< the chip had been reset, and was started anew before it
 };
 
 class Executor {
  public:
   virtual ~Executor() = default;
-  /// Resets it: the fault of its start-up check. Errors: the link or the chip fails.
+  /// Starts it: the fault of its start-up check. Errors: the link or the chip fails.
   virtual Result<std::uint8_t> start() = 0;
+  /// Resets the chip in mid-run; the next step starts it anew, with the same points.
+  virtual Status reset() = 0;
   /// Goes to these points, or along the line through them, as the mission says.
   virtual Status follow(const Points& points) = 0;
   virtual Result<Step> step(const AutopilotInput& input) = 0;

@@ -31,10 +31,49 @@ class FrameLink : public Chip {
       : line_(std::move(line)), parameters_crc_(parameters_crc) {}
 
   Result<std::uint8_t> start() override {
-    if (auto open = line_->open(); !open) return tl::unexpected(open.error());
-    if (auto answered = exchange(::pil::kHello, {}, 5); !answered) {
-      return tl::unexpected(answered.error());
+    AWMR_RETURN_IF_ERROR(line_->open());
+    return greet();
+  }
+
+  Status reset() override { return line_->reset(); }
+
+  Status follow(const Points& points) override {
+    points_ = points;
+    Writer writer;
+    writer.put(points.acceptance_m);
+    for (const Position<float>& point : points.points_m) writer.put(point.x_m).put(point.y_m);
+    if (writer.bytes().size() > 4 + 16 * 8) {
+      return input_error("", fmt::format("the firmware has room for 16 waypoints, there are {}",
+                                         points.points_m.size()));
     }
+    return ask(::pil::kFollow, writer.bytes(), 0);
+  }
+
+  /// A chip that was reset answers nothing but a new start: where it is silent, it gets one.
+  Result<Step> step(const AutopilotInput& input) override {
+    const std::vector<std::uint8_t> request = pack(input);
+    AWMR_ASSIGN_OR_RETURN(const bool answered, exchange(::pil::kStep, request, kStepBytes));
+    if (!answered) {
+      AWMR_RETURN_IF_ERROR(greet());
+      if (!points_.points_m.empty()) AWMR_RETURN_IF_ERROR(follow(points_));
+      AWMR_RETURN_IF_ERROR(ask(::pil::kStep, request, kStepBytes));
+    }
+    Reader cycles(payload().subspan(kOutputBytes));
+    return Step{unpack(payload()), cycles.get<std::uint16_t>(), !answered};
+  }
+
+  ChipFigures figures() const override {
+    ChipFigures figures = line_->figures();
+    figures.repeats = repeats_;
+    return figures;
+  }
+
+ private:
+  static constexpr std::size_t kStepBytes = kOutputBytes + 2;
+
+  /// Starts the chip: the fault of its start-up check.
+  Result<std::uint8_t> greet() {
+    AWMR_RETURN_IF_ERROR(ask(::pil::kHello, {}, 5));
     Reader reader(payload());
     const auto fault = reader.get<std::uint8_t>();
     const auto crc = reader.get<std::uint32_t>();
@@ -48,49 +87,34 @@ class FrameLink : public Chip {
     return fault;
   }
 
-  Status follow(const Points& points) override {
-    Writer writer;
-    writer.put(points.acceptance_m);
-    for (const Position<float>& point : points.points_m) writer.put(point.x_m).put(point.y_m);
-    if (writer.bytes().size() > 4 + 16 * 8) {
-      return input_error("", fmt::format("the firmware has room for 16 waypoints, there are {}",
-                                         points.points_m.size()));
-    }
-    return exchange(::pil::kFollow, writer.bytes(), 0);
-  }
-
-  Result<Step> step(const AutopilotInput& input) override {
-    if (auto answered = exchange(::pil::kStep, pack(input), kOutputBytes + 2); !answered) {
-      return tl::unexpected(answered.error());
-    }
-    Reader cycles(payload().subspan(kOutputBytes));
-    return Step{unpack(payload()), cycles.get<std::uint16_t>()};
-  }
-
-  ChipFigures figures() const override {
-    ChipFigures figures = line_->figures();
-    figures.repeats = repeats_;
-    return figures;
-  }
-
- private:
   std::span<const std::uint8_t> payload() const { return {reader_.payload(), reader_.length()}; }
 
-  /// Sends a request, again where the line stays silent, and waits for the answer of `length`
-  /// bytes.
-  Status exchange(std::uint8_t type, std::span<const std::uint8_t> bytes, std::size_t length) {
-    const std::vector<std::uint8_t> request = framed(type, ++sequence_, bytes);
-    const int attempts = type == ::pil::kHello ? kStartAttempts : kAttempts;
-    for (int i = 0; i < attempts; ++i) {
-      if (i > 0) ++repeats_;
-      AWMR_RETURN_IF_ERROR(line_->send(request));
-      AWMR_ASSIGN_OR_RETURN(const bool answered, is_answered(type, length));
-      if (answered) return {};
-    }
+  static int attempts_for(std::uint8_t type) {
+    return type == ::pil::kHello ? kStartAttempts : kAttempts;
+  }
+
+  /// An exchange that has to succeed.
+  Status ask(std::uint8_t type, std::span<const std::uint8_t> bytes, std::size_t length) {
+    AWMR_ASSIGN_OR_RETURN(const bool answered, exchange(type, bytes, length));
+    if (answered) return {};
     return refusal(
         fmt::format("the chip gave no whole answer to {} requests '{}' in a row: is it "
                     "flashed with this firmware, the baud right, the line too noisy?",
-                    attempts, static_cast<char>(type)));
+                    attempts_for(type), static_cast<char>(type)));
+  }
+
+  /// Sends a request, again where the line stays silent, and waits for the answer of `length`
+  /// bytes; false: there was none.
+  Result<bool> exchange(std::uint8_t type, std::span<const std::uint8_t> bytes,
+                        std::size_t length) {
+    const std::vector<std::uint8_t> request = framed(type, ++sequence_, bytes);
+    for (int i = 0; i < attempts_for(type); ++i) {
+      if (i > 0) ++repeats_;
+      AWMR_RETURN_IF_ERROR(line_->send(request));
+      AWMR_ASSIGN_OR_RETURN(const bool answered, is_answered(type, length));
+      if (answered) return true;
+    }
+    return false;
   }
 
   /// Reads until the answer to the present request is there; false: the line fell silent before.
@@ -111,6 +135,7 @@ class FrameLink : public Chip {
 
   std::unique_ptr<Line> line_;
   std::uint32_t parameters_crc_;
+  Points points_;
   std::uint8_t sequence_ = 0;
   std::size_t repeats_ = 0;
   ::pil::FrameReader reader_{};

@@ -18,6 +18,8 @@ class Line {
  public:
   virtual ~Line() = default;
   virtual Status open() = 0;
+  /// Resets the chip at its other end. Errors (input): it cannot.
+  virtual Status reset() = 0;
   virtual Status send(std::span<const std::uint8_t> bytes) = 0;
   /// The next byte; none where the line stays silent. Errors: the chip or the line is gone.
   virtual Result<std::optional<std::uint8_t>> receive(Patience patience) = 0;

@@ -1,3 +1,5 @@
+#include <utility>
+
 #include "executor.h"
 
 namespace awmr::pil {
@@ -20,6 +22,13 @@ class HostExecutor : public Executor {
     return std::uint8_t{good ? kFaultNone : kFaultParameters};
   }
 
+  Status reset() override {
+    AWMR_RETURN_IF_ERROR(start());
+    if (!points_.points_m.empty()) AWMR_RETURN_IF_ERROR(follow(points_));
+    is_reset_ = true;
+    return {};
+  }
+
   Status follow(const Points& points) override {
     points_ = points;
     const int count = static_cast<int>(points_.points_m.size());
@@ -35,6 +44,7 @@ class HostExecutor : public Executor {
 
   Result<Step> step(const AutopilotInput& input) override {
     Step step;
+    step.restarted = std::exchange(is_reset_, false);
     autopilot_step(autopilot_, input, step.output);
     return step;
   }
@@ -59,6 +69,7 @@ class HostExecutor : public Executor {
   const Mission* mission_;
   Autopilot<G, AllParts<split>> autopilot_{};
   Points points_;
+  bool is_reset_ = false;
   std::vector<Sector<float>> sectors_;
 };
 

@@ -65,6 +65,7 @@ void inject(Injection injection, AutopilotInput& in) {
       break;
     case Injection::kStepLate:
     case Injection::kParameters:
+    case Injection::kReset:
     case Injection::kNone:
       break;
   }
@@ -123,16 +124,16 @@ Status check_scenario(const Scenario& scenario, const std::string& file) {
 }
 
 Window injection_window(const LoopSetup& setup) {
-  const std::size_t middle = samples_of(setup) / 2;
   switch (setup.injection) {
     case Injection::kNone:
+    case Injection::kReset:
       return {0, 0};
     case Injection::kParameters:
       return {0, samples_of(setup) + 1};
     case Injection::kStepLate:
-      return {middle, middle + 1};
+      return {setup.middle, setup.middle + 1};
     default:
-      return {middle, middle + 20};
+      return {setup.middle, setup.middle + 20};
   }
 }
 
@@ -154,6 +155,7 @@ std::uint8_t expected_fault(Injection injection) {
       return kFaultStepLate;
     case Injection::kParameters:
       return kFaultParameters;
+    case Injection::kReset:
     case Injection::kNone:
       break;
   }
@@ -181,6 +183,9 @@ Result<std::vector<LoopRow>> run_loop(const LoopSetup& setup, Executor& executor
     AutopilotInput input = input_of(setup, row.t_s, sensed, order);
     if (k >= window.first && k < window.last) inject(setup.injection, input);
     if (setup.injection == Injection::kStepLate && k >= window.first) delay(10'000, input.times);
+    if (std::binary_search(setup.resets.begin(), setup.resets.end(), k)) {
+      AWMR_RETURN_IF_ERROR(executor.reset());
+    }
     auto step = executor.step(input);
     if (!step) return tl::unexpected(step.error());
     row.step = *step;

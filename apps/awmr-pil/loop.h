@@ -18,6 +18,8 @@ struct LoopSetup {
   Mission mission;  ///< mission_of() the scenario
   YawMode mode = YawMode::kCombined;
   cli::Injection injection = cli::Injection::kNone;
+  std::size_t middle = 0;                ///< the sample from which on the injection works
+  std::vector<std::size_t> resets = {};  ///< samples before whose step the executor is reset
 };
 
 struct LoopRow {

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "emulator.h"
 #include "executor.h"
@@ -17,14 +18,20 @@ class MemoryLink : public Chip {
   explicit MemoryLink(std::unique_ptr<Emulator> emulator) : emulator_(std::move(emulator)) {}
 
   Result<std::uint8_t> start() override {
-    if (auto asleep = emulator_->run_to_sleep(kStartCycles); !asleep) {
-      return tl::unexpected(asleep.error());
-    }
+    AWMR_ASSIGN_OR_RETURN(const std::uint8_t fault, boot());
     emulator_->paint_stack();
     input_ = emulator_->ram("pil_input", kInputBytes);
     output_ = emulator_->ram("pil_output", kOutputBytes);
     steps_ = emulator_->ram("pil_steps", 1);
-    return emulator_->ram("pil_init_fault", 1)[0];
+    return fault;
+  }
+
+  Status reset() override {
+    emulator_->reset();
+    AWMR_RETURN_IF_ERROR(boot());
+    if (!points_.points_m.empty()) AWMR_RETURN_IF_ERROR(follow(points_));
+    is_reset_ = true;
+    return {};
   }
 
   Status follow(const Points& points) override {
@@ -38,6 +45,7 @@ class MemoryLink : public Chip {
     // A line has none, and so has its firmware.
     if (points.acceptance_m > 0.0F) put("pil_acceptance_m", Writer().put(points.acceptance_m));
     put("pil_point_count", Writer().put(static_cast<std::int16_t>(points.points_m.size())));
+    points_ = points;
     return {};
   }
 
@@ -51,7 +59,8 @@ class MemoryLink : public Chip {
         return tl::unexpected(asleep.error());
       }
     }
-    return Step{unpack(output_), emulator_->last_interrupt_cycles()};
+    return Step{unpack(output_), emulator_->last_interrupt_cycles(),
+                std::exchange(is_reset_, false)};
   }
 
   ChipFigures figures() const override {
@@ -61,6 +70,12 @@ class MemoryLink : public Chip {
   }
 
  private:
+  /// Runs to the first sleep: the fault of the start-up check.
+  Result<std::uint8_t> boot() {
+    AWMR_RETURN_IF_ERROR(emulator_->run_to_sleep(kStartCycles));
+    return emulator_->ram("pil_init_fault", 1)[0];
+  }
+
   void put(const std::string& symbol, const Writer& writer) {
     std::copy(writer.bytes().begin(), writer.bytes().end(),
               emulator_->ram(symbol, writer.bytes().size()).begin());
@@ -70,6 +85,8 @@ class MemoryLink : public Chip {
   std::span<std::uint8_t> input_;
   std::span<std::uint8_t> output_;
   std::span<std::uint8_t> steps_;
+  Points points_;
+  bool is_reset_ = false;
 };
 
 }  // namespace

@@ -35,6 +35,10 @@ class Port : public Line {
     return {};
   }
 
+  Status reset() override {
+    return input_error("--inject", "reset: only on the emulated chip; press the board's button");
+  }
+
   Status send(std::span<const std::uint8_t> bytes) override {
     while (!bytes.empty()) {
       const ssize_t count = ::write(file_->number(), bytes.data(), bytes.size());

@@ -96,8 +96,9 @@ void judge(const PilOptions& options, double period_cycles, Report& report) {
                              "deg"));
   }
   if (const auto& injected = report.injected) {
-    const bool raised = (injected->seen & injected->expected) != 0;
-    checks.push_back({"injected fault raised", raised ? 0.0 : 1.0, 0.0, raised, ""});
+    const bool reset = options.injection == cli::Injection::kReset;
+    checks.push_back({reset ? "taken up after the reset" : "injected fault raised",
+                      injected->worked ? 0.0 : 1.0, 0.0, injected->worked, ""});
     checks.push_back({"safe command given", injected->safe ? 0.0 : 1.0, 0.0, injected->safe, ""});
     checks.push_back({"no other fault", injected->quiet ? 0.0 : 1.0, 0.0, injected->quiet, ""});
   } else {
@@ -130,6 +131,7 @@ Result<std::string> report_text(const PilOptions& options, const LoopSetup& setu
   json["flash_bytes"] = report.chip.figures.flash_bytes;
   json["ram_bytes"] = report.chip.figures.ram_bytes;
   if (const auto& repeats = report.chip.figures.repeats) json["repeats"] = *repeats;
+  json["restarts"] = report.restarts.size();
   const auto& stack = report.chip.figures.stack_bytes;
   json["stack_bytes"] = stack ? Json(*stack) : Json(nullptr);
   if (const auto& injected = report.injected) {
@@ -158,6 +160,9 @@ std::string report_summary(const PilOptions& options, const LoopSetup& setup,
       figures.stack_bytes ? fmt::format("{} bytes", *figures.stack_bytes) : "unknown",
       report.chip.real_time_factor);
   if (figures.repeats) text += fmt::format("  {} requests sent again\n", *figures.repeats);
+  if (!report.restarts.empty()) {
+    text += fmt::format("  reset in mid-run, and started anew: {} times\n", report.restarts.size());
+  }
   if (const auto& hostile = report.chip.hostile) {
     text +=
         fmt::format("  {} steps with hostile inputs: at most {} cycles, {} differ from the host\n",

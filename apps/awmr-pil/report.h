@@ -36,15 +36,17 @@ struct Check {
 /// What an injected fault did.
 struct Injected {
   std::uint8_t expected = 0;
-  std::uint8_t seen = 0xFF;  ///< bits that were set on every sample of the window
-  bool safe = true;          ///< forces 0 and wheels straight over the whole window
-  bool quiet = true;         ///< no fault outside the window
+  std::uint8_t seen = 0;  ///< bits that were set on every sample of the window
+  bool worked = false;    ///< the fault was raised, or the chip was taken up after its reset
+  bool safe = true;       ///< forces 0 and wheels straight over the whole window
+  bool quiet = true;      ///< no fault outside the window
 };
 
 /// All that is known of a run, and the checks that it has to pass.
 struct Report {
   ChipRun chip;
   Cycles cycles;
+  std::vector<std::size_t> restarts;  ///< samples before which the chip was started anew
   Difference from_float;
   std::optional<Difference> from_double;  ///< absent with an injection
   std::optional<Difference> by_float32;   ///< float by powf against double

@@ -85,6 +85,40 @@ Result<Inputs> read_inputs(const PilOptions& options) {
   return in;
 }
 
+/// The samples before which the chip was started anew.
+std::vector<std::size_t> restarts_of(const std::vector<LoopRow>& rows) {
+  std::vector<std::size_t> restarts;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    if (rows[k].step.restarted) restarts.push_back(k);
+  }
+  return restarts;
+}
+
+/// The same loop in float on this machine, reset where the chip was.
+Result<std::vector<LoopRow>> run_host(const Inputs& in, ResistanceForm form,
+                                      const std::vector<std::size_t>& resets = {}) {
+  EmitOptions options = in.emit;
+  options.resistance = form;
+  auto parameters = autopilot_parameters(in.model, in.gains, in.names, options);
+  if (!parameters) return tl::unexpected(parameters.error());
+  if (in.setup.injection == Injection::kParameters) parameters->crc ^= 1U;
+  const auto host = host_executor(*parameters, in.setup.mission);
+  if (const auto started = host->start(); !started) return tl::unexpected(started.error());
+  LoopSetup setup = in.setup;
+  setup.resets = resets;
+  return run_loop(setup, *host);
+}
+
+/// Puts what is injected into the middle of the run as it is without it.
+Status place_injection(Inputs& in) {
+  Inputs undisturbed = in;
+  undisturbed.setup.injection = Injection::kNone;
+  AWMR_ASSIGN_OR_RETURN(const auto rows, run_host(undisturbed, in.emit.resistance));
+  in.setup.middle = rows.size() / 2;
+  if (in.setup.injection == Injection::kReset) in.setup.resets = {in.setup.middle};
+  return {};
+}
+
 Result<std::unique_ptr<Chip>> connect(const PilOptions& options, const Inputs& in,
                                       const fs::path& elf) {
   const bool damage = options.injection == Injection::kParameters;
@@ -154,18 +188,6 @@ Result<ChipRun> run_chip(const PilOptions& options, const Inputs& in) {
   return run;
 }
 
-/// The same loop in float on this machine.
-Result<std::vector<LoopRow>> run_host(const Inputs& in, ResistanceForm form) {
-  EmitOptions options = in.emit;
-  options.resistance = form;
-  auto parameters = autopilot_parameters(in.model, in.gains, in.names, options);
-  if (!parameters) return tl::unexpected(parameters.error());
-  if (in.setup.injection == Injection::kParameters) parameters->crc ^= 1U;
-  const auto host = host_executor(*parameters, in.setup.mission);
-  if (const auto started = host->start(); !started) return tl::unexpected(started.error());
-  return run_loop(in.setup, *host);
-}
-
 /// With the defaults that depend on scenario and firmware.
 PilOptions resolved(PilOptions options, const Inputs& in) {
   const std::set<FirmwarePart>& parts = in.emit.parts;
@@ -191,6 +213,7 @@ Injected injected_of(const LoopSetup& setup, const std::vector<LoopRow>& rows) {
   Injected result;
   result.expected = expected_fault(setup.injection);
   const Window window = injection_window(setup);
+  result.seen = window.first < window.last ? 0xFF : 0;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const AutopilotOutput& out = rows[i].step.output;
     if (i < window.first || i >= window.last) {
@@ -203,11 +226,14 @@ Injected injected_of(const LoopSetup& setup, const std::vector<LoopRow>& rows) {
                   std::abs(out.command.steering_rad)}) <= 0.0F;
     result.safe = result.safe && still;
   }
+  result.worked = setup.injection == Injection::kReset ? restarts_of(rows) == setup.resets
+                                                       : (result.seen & result.expected) != 0;
   return result;
 }
 
 Status compare_runs(const PilOptions& options, const Inputs& in, Report& report) {
-  const auto twin = run_host(in, options.emit.resistance);
+  report.restarts = restarts_of(report.chip.rows);
+  const auto twin = run_host(in, options.emit.resistance, report.restarts);
   if (!twin) return tl::unexpected(twin.error());
   report.from_float = difference(report.chip.rows, *twin);
   if (options.injection != Injection::kNone) {
@@ -237,8 +263,9 @@ Status compare_runs(const PilOptions& options, const Inputs& in, Report& report)
 Result<Outcome> run_pil(const PilOptions& asked) {
   const std::vector<fs::path> inputs{asked.model, asked.gains, asked.scenario};
   AWMR_RETURN_IF_ERROR(check_output(asked.output, inputs));
-  const auto in = read_inputs(asked);
+  auto in = read_inputs(asked);
   if (!in) return tl::unexpected(in.error());
+  if (asked.injection != Injection::kNone) AWMR_RETURN_IF_ERROR(place_injection(*in));
   const PilOptions options = resolved(asked, *in);
   Report report;
   auto chip = run_chip(options, *in);

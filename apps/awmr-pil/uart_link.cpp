@@ -50,6 +50,12 @@ class EmulatedLine : public Line {
     emulator_->paint_stack();
     return {};
   }
+  Status reset() override {
+    emulator_->reset();
+    received_.clear();
+    at_ = 0;
+    return {};
+  }
   Status send(std::span<const std::uint8_t> bytes) override {
     std::vector<std::uint8_t> arriving;
     for (const std::uint8_t byte : bytes) {

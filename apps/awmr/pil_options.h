@@ -36,9 +36,10 @@ enum class Injection {
   kSpeedStale,      ///< speed no longer renewed
   kCommandTimeout,  ///< reference no longer renewed
   kStepLate,        ///< a pause before a step
-  kParameters       ///< a bit of the parameters in flash, before the start
+  kParameters,      ///< a bit of the parameters in flash, before the start
+  kReset            ///< the chip itself, as when the supply breaks in; it goes on from the start
 };
-inline constexpr NameTable<Injection, 10> kInjectionNames{
+inline constexpr NameTable<Injection, 11> kInjectionNames{
     {{"none", Injection::kNone},
      {"nan", Injection::kNaN},
      {"infinite", Injection::kInfinite},
@@ -48,7 +49,8 @@ inline constexpr NameTable<Injection, 10> kInjectionNames{
      {"speed-stale", Injection::kSpeedStale},
      {"command-timeout", Injection::kCommandTimeout},
      {"step-late", Injection::kStepLate},
-     {"parameters", Injection::kParameters}}};
+     {"parameters", Injection::kParameters},
+     {"reset", Injection::kReset}}};
 
 struct PilOptions {
   std::filesystem::path model;

@@ -29,6 +29,7 @@ void describe_chip(JsonObject& json) {
   json.integer("flash_bytes", 0, kAnyCount);
   json.integer("ram_bytes", 0, kAnyCount);
   json.optional_integer("repeats", 0, kAnyCount);
+  json.optional_integer("restarts", 0, kAnyCount);
   json.nullable_number("stack_bytes", kNonNegative);
 }
 

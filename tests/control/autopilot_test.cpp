@@ -257,11 +257,8 @@ TEST_F(AutopilotLeads, LessTheDisturbanceThatTheObserverSees) {
 }
 
 TEST_F(AutopilotLeads, WithForcesThatMakeUpForADeadZone) {
-  const RestBlock rest{.dead_zone = 0.1F,
-                       .surge_rest_speed = 0.0F,
-                       .surge_at_rest = 0.0F,
-                       .yaw_rest_speed = 0.0F,
-                       .yaw_at_rest = 0.0F};
+  RestBlock rest{};
+  rest.dead_zone = 0.1F;
   const AutopilotOutput plain = step_at({0.0F, 0.0F});
   const std::uint32_t crc = crc32_of_parameters(&block_, nullptr, 0, nullptr, 0, &rest);
   ASSERT_TRUE(start_autopilot(autopilot_, &block_, nullptr, 0, nullptr, 0, crc, &rest));
@@ -271,6 +268,31 @@ TEST_F(AutopilotLeads, WithForcesThatMakeUpForADeadZone) {
   EXPECT_NE(out.command.force.left, plain.command.force.left);
   EXPECT_FALSE(start_autopilot(autopilot_, &block_, nullptr, 0, nullptr, 0, crc_, &rest))
       << "the check sum is also over what is known of rest";
+}
+
+TEST_F(AutopilotLeads, WithDrivesThatMakeUpForBackEmfAndForcesThatItLeaves) {
+  RestBlock rest{};
+  rest.dead_zone = 0.1F;
+  rest.back_emf_s_per_m = 0.2F;
+  const std::uint32_t crc = crc32_of_parameters(&block_, nullptr, 0, nullptr, 0, &rest);
+  ASSERT_TRUE(start_autopilot(autopilot_, &block_, nullptr, 0, nullptr, 0, crc, &rest));
+  const AllocationConstants<float>& at_rest = block_.constants.allocation;
+  for (const float u_mps : {-0.4F, 0.0F, 0.5F, 1.4F}) {
+    for (const float r_radps : {-0.8F, 0.0F, 2.0F}) {
+      in_.measured.u_mps = u_mps;
+      in_.measured.r_radps = r_radps;
+      const AutopilotOutput out = step_at({0.0F, 0.0F});
+      Allocation<float> made{};
+      allocate(YawMode::kCombined, out.tau_speed, out.tau_turn_m, at_speed(at_rest, 0.2F, u_mps),
+               CombinedSplit::kRedistribute, made);
+      const SideForces<float> command =
+          motor_commands(made.force, at_rest, 0.1F, 0.2F, u_mps, r_radps);
+      EXPECT_EQ(out.command.force.left, command.left) << u_mps << " " << r_radps;
+      EXPECT_EQ(out.command.force.right, command.right) << u_mps << " " << r_radps;
+      EXPECT_EQ(out.command.steering_rad, made.steering_rad) << u_mps << " " << r_radps;
+      EXPECT_LE(out.command.force.right, at_rest.force_max + 0.1F);
+    }
+  }
 }
 
 TEST_F(AutopilotLeads, AskingForAPositionWhereSomethingLeadsByIt) {

@@ -43,16 +43,21 @@ TEST(Families, GoToTheChipAsTheirTable) {
   EXPECT_NEAR(static_cast<double>(at_one), 0.21 + 1.3268, 5e-4 * 1.54);
 }
 
-TEST(BackEmf, IsInTheHeaderAndRefusedByTheFirmwareThatWouldLeaveItOut) {
+TEST(BackEmf, IsInTheHeaderAndOnTheChip) {
   Model model = paper_robot();
   model[ParameterId::kBackEmf] = {0.25, 0.01, {}, Source::kFitted, "trajectory"};
   const auto header = params_header(model, kPaperGains, paper_inputs());
   ASSERT_TRUE(header);
   EXPECT_THAT(*header, HasSubstr("#define AWMR_MOTOR_BACK_EMF 0.25f"));
   const auto firmware = autopilot_parameters(model, kPaperGains, paper_inputs(), {});
-  ASSERT_FALSE(firmware);
-  EXPECT_THAT(to_text(firmware.error()), HasSubstr("/motor/back_emf_s_per_m"));
-  EXPECT_THAT(to_text(firmware.error()), HasSubstr("header-only"));
+  ASSERT_TRUE(firmware) << to_text(firmware.error());
+  ASSERT_TRUE(firmware->rest);
+  EXPECT_EQ(firmware->rest->back_emf_s_per_m, 0.25F);
+  EXPECT_EQ(firmware->rest->dead_zone, 0.0F);
+  EXPECT_EQ(firmware->rest->surge_rest_speed, 0.0F);
+  EXPECT_EQ(firmware->block.constants.allocation.force_max,
+            static_cast<float>(model.vehicle.wheel_force.hi));
+  EXPECT_THAT(autopilot_header(*firmware), HasSubstr("#define AWMR_BACK_EMF_S_PER_M 0.25f"));
 }
 
 TEST(FrontWheelDrive, IsRefusedByTheFirmwareAndHasAHeader) {

@@ -18,6 +18,7 @@ class Recording : public awmr::pil::Line {
  public:
   explicit Recording(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
   awmr::Status open() override { return {}; }
+  awmr::Status reset() override { return {}; }
   awmr::Status send(std::span<const std::uint8_t> bytes) override {
     require(bytes.size() <= pil::kMaxFrame + 1U, "a request fits the chip's buffer");
     return {};
@@ -74,6 +75,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto chip = awmr::pil::frame_link(std::make_unique<Recording>(bytes), 0x12345678U);
   (void)chip->start();
   (void)chip->follow({.points_m = {{1.0F, 2.0F}}, .acceptance_m = 1.0F});
+  (void)chip->step({});
+  (void)chip->reset();
   (void)chip->step({});
   return 0;
 }

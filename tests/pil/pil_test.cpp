@@ -160,7 +160,7 @@ INSTANTIATE_TEST_SUITE_P(
       return file.substr(file.rfind('/') + 1);
     });
 
-TEST_F(Pil, FrictionAtRestAndADeadZoneAreMadeUpForAsInTheSimulator) {
+TEST_F(Pil, FrictionAtRestADeadZoneAndBackEmfAreMadeUpForAsInTheSimulator) {
   const auto given = [](double value, const char* unit) {
     return Json{{"value", value}, {"std_error", nullptr}, {"ci95", nullptr},
                 {"unit", unit},   {"source", "given"},    {"method", "by hand"}};
@@ -173,7 +173,9 @@ TEST_F(Pil, FrictionAtRestAndADeadZoneAreMadeUpForAsInTheSimulator) {
   Json zone = Json::parse(read_all(path("model.json")));
   zone["surge"]["family"] = "dead-zone";
   zone["wheel"]["dead_zone"] = given(0.05, "1");
-  for (const Json& model : {friction, zone}) {
+  Json geared = zone;
+  geared["motor"]["back_emf_s_per_m"] = given(0.15, "s/m");
+  for (const Json& model : {friction, zone, geared}) {
     write_all(path("rest.json"), model.dump());
     const ProcessResult run =
         awmr("pil --model " + path("rest.json") + " --gains " + path("gains.json") +
@@ -262,6 +264,23 @@ INSTANTIATE_TEST_SUITE_P(, PilFault,
                            std::replace(name.begin(), name.end(), '-', '_');
                            return name;
                          });
+
+TEST_F(Pil, AChipThatIsResetInMidRunIsStartedAnewAndGoesOnAsItsTwin) {
+  const std::string line = "configs/paper/scenarios/c9_line.json";
+  for (const auto& [scenario, link] : {std::pair{std::string(kC8), "--link memory"},
+                                       {line, "--link memory"},
+                                       {line, "--link uart --line-noise 1e-4"}}) {
+    const ProcessResult run =
+        pil(scenario, "combined", std::string("--inject reset ") + link, "reset.json");
+    ASSERT_EQ(run.exit_code, 0) << scenario << link << run.out << run.err;
+    const Json json = result("reset.json");
+    EXPECT_EQ(json["restarts"].get<int>(), 1) << scenario << link;
+    EXPECT_EQ(largest(json["difference"]), 0.0) << scenario << link;
+    EXPECT_EQ(json["injected"]["fault"].get<int>(), 0) << scenario << link;
+  }
+  EXPECT_EQ(pil(kC3, "combined", "", "plain.json").exit_code, 0);
+  EXPECT_EQ(result("plain.json")["restarts"].get<int>(), 0);
+}
 
 TEST_F(Pil, OverABudgetItFailsAndSaysWhich) {
   const ProcessResult run = pil(kC3, "steering", "--cycles-max 100 --ram-max 100 --flash-max 100");

@@ -52,7 +52,7 @@ struct AllocationLimits {
   /// those beyond it; the command that goes out to a motor is with_dead_zone() of them.
   T dead_zone = T(0.0);
   /// k_e of every motor, s/m, >= 0 (motor_force() in model/dynamics.h): a wheel that rolls at u m/s
-  /// makes forces in [F'min - k_e u, F'max - k_e u]. The chip has none.
+  /// makes forces in [F'min - k_e u, F'max - k_e u].
   T back_emf_s_per_m = T(0.0);
   /// False: the front wheels alone are driven. The chip knows all four alone.
   bool is_rear_driven = true;
@@ -127,25 +127,35 @@ AllocationConstants<T> at_speed(AllocationConstants<T> c, const T& back_emf_s_pe
   return c;
 }
 
-/// What the motors are commanded to make these forces at the speed u, m/s, and yaw rate r, rad/s:
+/// The drives e of the motors that make these forces at the speed u, m/s, and yaw rate r, rad/s:
 ///   e = sat(F' + k_e w, [F'min, F'max]),   w = u -+ d r           upper sign: left, lower: right
-/// and the dead zone on top. w is how fast a rear wheel rolls, and a front one up to d_r^2/2 of it
-/// and l_f r d_r. A command of 0 switches the motor off: a vehicle that cannot reverse its motors
-/// (F'min = 0) brakes by its back-EMF as long as a command is left, and rolls freely beyond.
+/// w is how fast a rear wheel rolls, and a front one up to d_r^2/2 of it and l_f r d_r. A drive of 0
+/// switches the motor off: a vehicle that cannot reverse its motors (F'min = 0) brakes by its
+/// back-EMF as long as a drive is left, and rolls freely beyond. NaN stays NaN.
+template <class T>
+SideForces<T> motor_drives(const SideForces<T>& force, const AllocationConstants<T>& c,
+                           const T& back_emf_s_per_m, const T& u_mps, const T& r_radps) {
+  using math::any;
+  if (!any(back_emf_s_per_m > T(0.0))) return force;
+  const T turn_mps = c.half_track_m * r_radps;
+  return {
+      math::clamp(T(force.left + back_emf_s_per_m * (u_mps - turn_mps)), c.force_min, c.force_max),
+      math::clamp(T(force.right + back_emf_s_per_m * (u_mps + turn_mps)), c.force_min,
+                  c.force_max)};
+}
+
+/// The commands of which motors with a dead zone make these drives.
+template <class T>
+SideForces<T> with_dead_zone(const SideForces<T>& drive, const T& dead_zone) {
+  return {with_dead_zone(drive.left, dead_zone), with_dead_zone(drive.right, dead_zone)};
+}
+
+/// What the motors are commanded to make these forces: both of the above.
 template <class T>
 SideForces<T> motor_commands(const SideForces<T>& force, const AllocationConstants<T>& c,
                              const T& dead_zone, const T& back_emf_s_per_m, const T& u_mps,
                              const T& r_radps) {
-  using math::any;
-  SideForces<T> drive = force;
-  if (any(back_emf_s_per_m > T(0.0))) {
-    const T turn_mps = c.half_track_m * r_radps;
-    drive.left = math::clamp(T(force.left + back_emf_s_per_m * (u_mps - turn_mps)), c.force_min,
-                             c.force_max);
-    drive.right = math::clamp(T(force.right + back_emf_s_per_m * (u_mps + turn_mps)), c.force_min,
-                              c.force_max);
-  }
-  return {with_dead_zone(drive.left, dead_zone), with_dead_zone(drive.right, dead_zone)};
+  return with_dead_zone(motor_drives(force, c, back_emf_s_per_m, u_mps, r_radps), dead_zone);
 }
 
 namespace detail {
@@ -437,7 +447,7 @@ void allocate_to_front(YawMode mode, const T& tau_speed, const T& tau_turn_m,
 
 /// The same from the limits themselves, in their form, where the time of a step does not matter, and
 /// at the speed u, m/s, which the limits depend on where the motors have back-EMF. The chip has the
-/// exact form alone, motors without, and four of them.
+/// exact form alone, and four motors.
 template <class T>
 Allocation<T> allocate(YawMode mode, const T& tau_speed, const T& tau_turn_m,
                        const AllocationLimits<T>& limits, const T& u_mps = T(0.0)) {

@@ -72,15 +72,16 @@ void switch_parts_off(Autopilot<G, P>& a) {
   switch_off(part_of<typename P::Observation>(a));
 }
 
-/// The dead zone, where the firmware was compiled for it.
-inline void set_dead_zone(const RestBlock*, Without<DeadZone>&) {}
-inline void set_dead_zone(const RestBlock* rest, DeadZone& part) {
+/// The motors' curve, where the firmware was compiled for it.
+inline void set_motors(const RestBlock*, Without<MotorCurve>&) {}
+inline void set_motors(const RestBlock* rest, MotorCurve& part) {
   part.dead_zone = rest != 0 ? flash_float(&rest->dead_zone) : 0.0F;
+  part.back_emf_s_per_m = rest != 0 ? flash_float(&rest->back_emf_s_per_m) : 0.0F;
 }
 
 /// Reads the parameters and checks them against `crc`, the check sum that they were emitted with.
 /// Where they differ it returns false, and every step from then on gives the safe command only. On
-/// an AVR the block, the lines and `rest` lie in flash. `rest` is for RestingTable and DeadZone.
+/// an AVR the block, the lines and `rest` lie in flash. `rest` is for RestingTable and MotorCurve.
 template <class G, class P>
 bool start_autopilot(Autopilot<G, P>& a, const ParameterBlock* block,
                      const ResistanceLine* surge_lines, size_t surge_count,
@@ -94,7 +95,7 @@ bool start_autopilot(Autopilot<G, P>& a, const ParameterBlock* block,
     set_rest(&rest->surge_rest_speed, &rest->surge_at_rest, c.surge);
     set_rest(&rest->yaw_rest_speed, &rest->yaw_at_rest, c.yaw);
   }
-  set_dead_zone(rest, part_of<typename P::Motors>(a));
+  set_motors(rest, part_of<typename P::Motors>(a));
   read_flash(&block->safety, a.limits);
   a.waypoints.count = 0;
   switch_parts_off(a);
@@ -236,15 +237,19 @@ AWMR_INLINE bool lead_all(Autopilot<G, P>& a, const Whereabouts& at, Reference<f
   return goal.arrived;
 }
 
-/// The laws and the allocation for a reference.
+/// The laws for a reference, the allocation, and the drives of the motors.
 template <class G, class P>
 AWMR_INLINE void control(Autopilot<G, P>& a, const AutopilotInput& in, const Reference<float>& ref,
                          AutopilotOutput& out) {
   out.psi_ref_rad = ref.psi_rad;
   out.tau_speed = speed_law(a.controller, in.measured, ref);
   out.tau_turn_m = heading_law(a.controller, in.measured, ref);
+  const auto& motors = part_of<typename P::Motors>(a);
+  const AllocationConstants<float>& at_rest = a.controller.constants.allocation;
+  const AllocationConstants<float>& limits = limits_at(motors, at_rest, in.measured.u_mps);
   allocate_asked(part_of<typename P::Observation>(a), a.controller, static_cast<YawMode>(in.mode),
-                 P::kSplit, in.measured, {out.tau_speed, out.tau_turn_m, out.command});
+                 P::kSplit, in.measured, {limits, out.tau_speed, out.tau_turn_m, out.command});
+  make_up_back_emf(motors, at_rest, in.measured, out.command.force);
 }
 
 }  // namespace detail
@@ -260,7 +265,7 @@ void autopilot_step(Autopilot<G, P>& a, const AutopilotInput& in, AutopilotOutpu
     out.arrived = detail::lead_all(a, {in.position_m, in.measured, in.times.now_ms}, ref);
     detail::control(a, in, ref, out);
     if (is_within_limits(a.controller.constants.allocation, out.command)) {
-      make_up(part_of<typename P::Motors>(a), out.command.force);
+      make_up_dead_zone(part_of<typename P::Motors>(a), out.command.force);
       return;
     }
     out.fault = kFaultOutput;

@@ -146,14 +146,34 @@ AWMR_CALLED inline void shape_heading(Shaper& part, const Whereabouts& at, Refer
 }
 
 /// The command of which motors with a dead zone make the forces.
-AWMR_INLINE void make_up(const Without<DeadZone>&, SideForces<float>&) {}
-inline void make_up(const DeadZone& part, SideForces<float>& force) {
-  force.left = with_dead_zone(force.left, part.dead_zone);
-  force.right = with_dead_zone(force.right, part.dead_zone);
+AWMR_INLINE void make_up_dead_zone(const Without<MotorCurve>&, SideForces<float>&) {}
+inline void make_up_dead_zone(const MotorCurve& part, SideForces<float>& force) {
+  force = with_dead_zone(force, part.dead_zone);
 }
 
-/// What the laws ask for, and the command that they come to.
+/// What can be allocated at the speed u, m/s.
+AWMR_INLINE const AllocationConstants<float>& limits_at(const Without<MotorCurve>&,
+                                                        const AllocationConstants<float>& c,
+                                                        const float& /*u_mps*/) {
+  return c;
+}
+inline AllocationConstants<float> limits_at(const MotorCurve& part,
+                                            const AllocationConstants<float>& c,
+                                            const float& u_mps) {
+  return at_speed(c, part.back_emf_s_per_m, u_mps);
+}
+
+/// The drives of which motors with back-EMF make the forces.
+AWMR_INLINE void make_up_back_emf(const Without<MotorCurve>&, const AllocationConstants<float>&,
+                                  const Measurement<float>&, SideForces<float>&) {}
+inline void make_up_back_emf(const MotorCurve& part, const AllocationConstants<float>& c,
+                             const Measurement<float>& m, SideForces<float>& force) {
+  force = motor_drives(force, c, part.back_emf_s_per_m, m.u_mps, m.r_radps);
+}
+
+/// What the laws ask for, what can be allocated, and the command that it comes to.
 struct Asked {
+  const AllocationConstants<float>& limits;
   float& tau_speed;
   float& tau_turn_m;
   Allocation<float>& command;
@@ -161,10 +181,10 @@ struct Asked {
 
 /// The allocation of what the laws ask for.
 template <class G>
-AWMR_INLINE void allocate_asked(Without<Observer>&, const PreparedController<float, G>& c,
+AWMR_INLINE void allocate_asked(Without<Observer>&, const PreparedController<float, G>&,
                                 YawMode mode, CombinedSplit split, const Measurement<float>&,
                                 const Asked& asked) {
-  allocate(mode, asked.tau_speed, asked.tau_turn_m, c.constants.allocation, split, asked.command);
+  allocate(mode, asked.tau_speed, asked.tau_turn_m, asked.limits, split, asked.command);
 }
 
 /// The same, less the disturbance that the observer sees.
@@ -184,10 +204,10 @@ void allocate_asked(Observer& part, const PreparedController<float, G>& c, YawMo
     asked.tau_turn_m -= disturbance.yaw_m;
     asked.tau_speed -= disturbance.surge;
   }
-  allocate(mode, asked.tau_speed, asked.tau_turn_m, k.allocation, split, asked.command);
+  allocate(mode, asked.tau_speed, asked.tau_turn_m, asked.limits, split, asked.command);
   if (!part.is_on) return;
   const GeneralisedForces<float> allocated =
-      generalised_forces(0.5F * k.allocation.axle_twice_m, k.allocation.half_track_m,
+      generalised_forces(0.5F * asked.limits.axle_twice_m, asked.limits.half_track_m,
                          asked.command.force, asked.command.steering_rad);
   advance(part.observers, disturbance, {asked.tau_speed, asked.tau_turn_m}, allocated, motion,
           part.sample_time_s, part.state);

@@ -63,9 +63,10 @@ struct Observer {
   bool is_started;
 };
 
-/// Makes up for the dead zone of the motors.
-struct DeadZone {
-  float dead_zone;  ///< F'0 of a wheel, over F_max; 0: none
+/// Makes up for what the motors do not make of a command: the dead zone and the back-EMF.
+struct MotorCurve {
+  float dead_zone;         ///< F'0 of a wheel, over F_max; 0: none
+  float back_emf_s_per_m;  ///< k_e of a motor, s/m; 0: none
 };
 
 /// In the place of a part that was left out: it is empty, and whatever is done with it is nothing.
@@ -90,7 +91,7 @@ struct NoParts {
   typedef Without<Avoider> Avoidance;
   typedef Without<Shaper> Shaping;
   typedef Without<Observer> Observation;
-  typedef Without<DeadZone> Motors;
+  typedef Without<MotorCurve> Motors;
   static constexpr CombinedSplit kSplit = CombinedSplit::kRedistribute;
 };
 
@@ -103,7 +104,7 @@ struct AllParts {
   typedef Avoider Avoidance;
   typedef Shaper Shaping;
   typedef Observer Observation;
-  typedef DeadZone Motors;
+  typedef MotorCurve Motors;
   static constexpr CombinedSplit kSplit = split;
 };
 

@@ -30,14 +30,15 @@ struct ParameterBlock {
   TableShape yaw_table;    ///< of g3
 };
 
-/// What a firmware for motors with a dead zone, or for friction that does not go away at rest,
-/// knows beside the block. It has 32-bit members only too.
+/// What a firmware for motors with a dead zone or back-EMF, or for friction that does not go away at
+/// rest, knows beside the block. It has 32-bit members only too.
 struct RestBlock {
   float dead_zone;         ///< F'0 of a wheel, over F_max; 0: none
   float surge_rest_speed;  ///< RestingTable::rest_speed of g1, m/s
   float surge_at_rest;     ///< RestingTable::at_rest of g1
   float yaw_rest_speed;    ///< of g3, rad/s
   float yaw_at_rest;       ///< of g3, m
+  float back_emf_s_per_m;  ///< k_e of a motor, s/m; 0: none
 };
 
 /// The CRC-32 that goes on from `crc` over `size` bytes, which lie in flash on an AVR.

@@ -72,20 +72,21 @@ std::string parts_text(const AutopilotParameters& parameters) {
 }
 
 constexpr std::string_view kRest = R"(
-/* Friction at rest or a dead zone of the motors is made up for. Below the speeds at rest, m/s and
-   rad/s, resistance is the chord from the origin to its value there. Forces are what the motors make
-   beyond the dead zone. */
+/* Friction at rest, a dead zone or the back-EMF of the motors is made up for. Below the speeds at
+   rest, m/s and rad/s, resistance is the chord from the origin to its value there. Forces are what
+   the motors make at rest beyond the dead zone. */
 #define AWMR_FRICTION_AT_REST 1
 #define AWMR_DEAD_ZONE {}
 #define AWMR_SURGE_REST_SPEED {}
 #define AWMR_SURGE_AT_REST {}
 #define AWMR_YAW_REST_SPEED {}
 #define AWMR_YAW_AT_REST {}
+#define AWMR_BACK_EMF_S_PER_M {}
 #define AWMR_ALLOCATED_FORCE_MIN {}
 #define AWMR_ALLOCATED_FORCE_MAX {}
 )";
 constexpr std::string_view kNoRest = R"(
-/* 1: friction at rest or a dead zone of the motors is made up for */
+/* 1: friction at rest, a dead zone or the back-EMF of the motors is made up for */
 #define AWMR_FRICTION_AT_REST 0
 #define AWMR_ALLOCATED_FORCE_MIN AWMR_WHEEL_FORCE_MIN
 #define AWMR_ALLOCATED_FORCE_MAX AWMR_WHEEL_FORCE_MAX
@@ -98,8 +99,8 @@ std::string rest_text(const AutopilotParameters& parameters) {
   const AllocationConstants<float>& allocation = parameters.block.constants.allocation;
   return fmt::format(kRest, literal(rest.dead_zone), literal(rest.surge_rest_speed),
                      literal(rest.surge_at_rest), literal(rest.yaw_rest_speed),
-                     literal(rest.yaw_at_rest), literal(allocation.force_min),
-                     literal(allocation.force_max));
+                     literal(rest.yaw_at_rest), literal(rest.back_emf_s_per_m),
+                     literal(allocation.force_min), literal(allocation.force_max));
 }
 
 struct TableText {

@@ -41,18 +41,21 @@ bool is_power_law(const Plant<double>& plant) {
   return !has_terms(plant.surge) && !has_terms(plant.yaw);
 }
 
-/// What the firmware needs at rest; none for a law without friction there and motors without a dead
-/// zone.
+/// What the firmware needs at rest and of the motors; none for a law without friction there and
+/// motors without a dead zone or back-EMF.
 std::optional<RestBlock> rest_of(const Plant<double>& plant) {
   const bool jumps = plant.surge.coulomb > 0.0 || plant.yaw.coulomb > 0.0;
-  if (!jumps && !(plant.wheel_dead_zone > 0.0)) return {};
+  if (!jumps && !(plant.wheel_dead_zone > 0.0) && !(plant.back_emf_s_per_m > 0.0)) return {};
   const auto at_rest = [](const Resistance<double>& law) {
     const double speed = feed_forward(law).rest_speed;
     return speed > 0.0 ? single(law.at(speed)) : 0.0F;
   };
-  return RestBlock{single(plant.wheel_dead_zone), single(feed_forward(plant.surge).rest_speed),
-                   at_rest(plant.surge), single(feed_forward(plant.yaw).rest_speed),
-                   at_rest(plant.yaw)};
+  return RestBlock{single(plant.wheel_dead_zone),
+                   single(feed_forward(plant.surge).rest_speed),
+                   at_rest(plant.surge),
+                   single(feed_forward(plant.yaw).rest_speed),
+                   at_rest(plant.yaw),
+                   single(plant.back_emf_s_per_m)};
 }
 
 /// The controller in float. What is computed from it is computed in float too, as the compiler of
@@ -104,20 +107,12 @@ Status check_allocation(const Model& model) {
                          option_text("header-only") + ")");
 }
 
-Status check_motors(const Plant<double>& plant, const Model& model) {
-  if (!(plant.rear_driven > 0.0)) {
-    return input_error(file_name(model) + ":/vehicle/drive",
-                       "the firmware allocates to four driven wheels, not to the front ones alone: "
-                       "emit the header alone (" +
-                           option_text("header-only") + ")");
-  }
-  if (!(plant.back_emf_s_per_m > 0.0)) return {};
-  return input_error(
-      fmt::format("{}:{}", file_name(model), info(ParameterId::kBackEmf).pointer),
-      fmt::format("the firmware takes motors for ideal sources of force and would leave out their "
-                  "back-EMF of {:.3g} s/m: emit the header alone ({}), which has it as "
-                  "AWMR_MOTOR_BACK_EMF",
-                  plant.back_emf_s_per_m, option_text("header-only")));
+Status check_drive(const Plant<double>& plant, const Model& model) {
+  if (plant.rear_driven > 0.0) return {};
+  return input_error(file_name(model) + ":/vehicle/drive",
+                     "the firmware allocates to four driven wheels, not to the front ones alone: "
+                     "emit the header alone (" +
+                         option_text("header-only") + ")");
 }
 
 /// powf knows the power law alone.
@@ -169,7 +164,7 @@ Result<AutopilotParameters> autopilot_parameters(const Model& model, const Gains
   AWMR_RETURN_IF_ERROR(params_header(model, gains, inputs));
   AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, model.plant());
   AWMR_RETURN_IF_ERROR(check_allocation(model));
-  AWMR_RETURN_IF_ERROR(check_motors(plant, model));
+  AWMR_RETURN_IF_ERROR(check_drive(plant, model));
   AWMR_RETURN_IF_ERROR(check_family(plant, options.resistance));
 
   const double full_force = 4.0 * force_beyond_dead_zone(plant, model.vehicle).hi;

@@ -102,7 +102,7 @@ struct EmittedTable {
 /// The numbers of the firmware as the chip holds them.
 struct AutopilotParameters {
   ParameterBlock block{};
-  /// For a model with friction at rest or a dead zone; absent: the firmware is without.
+  /// For a model with friction at rest, a dead zone or back-EMF; absent: the firmware is without.
   std::optional<RestBlock> rest;
   float steering_max_tan_half = 0.0F;                  ///< tan(d_max/2)
   EmittedTable surge;                                  ///< of g1; without lines for kPowf
