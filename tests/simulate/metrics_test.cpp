@@ -62,6 +62,42 @@ TEST(Metrics, SpeedDropCountsFromWhereTheSpeedWasReached) {
   EXPECT_FALSE(judged(run).speed_drop_mps);
 }
 
+TEST(Metrics, ACourseThatSlowsDownAtItsEndHasNoSpeedDrop) {
+  awmr::Run run = by_hand({0.0, 0.0, 0.0, 0.0, 0.0});
+  run.rows[3].state.u_mps = 0.4;
+  const auto drop = [&](const Guidance& guidance) {
+    const Scenario scenario{"course", 4.0, {}, 1.0, guidance};
+    return metrics_of(run, scenario, make_controller(paper_plant(), paper_vehicle(), {}))
+        .speed_drop_mps;
+  };
+  WaypointCourse waypoints{{{4.0, 0.0}}, 0.5, false, {}};
+  LineCourse line{{{0.0, 0.0}, {4.0, 0.0}}, {1.0, 1.0, false}, 0.0, {}};
+  EXPECT_NEAR(*drop(waypoints), 0.6, 1e-12);
+  EXPECT_NEAR(*drop(line), 0.6, 1e-12);
+  waypoints.slow_down_m = 1.0;
+  line.slow_down_m = 1.0;
+  EXPECT_FALSE(drop(waypoints));
+  EXPECT_FALSE(drop(line));
+  EXPECT_FALSE(drop(LissajousCourse{}));
+}
+
+TEST(Metrics, ATimedPathIsCompletedWhereItStaysWithinTheToleranceInTheSecondHalf) {
+  awmr::Run run = by_hand({0.0, 0.0, 0.0, 0.0, 0.0});
+  const double off_m[] = {9.0, 9.0, 0.2, 0.3, 0.1};
+  for (std::size_t i = 0; i < 5; ++i) {
+    run.rows[i].course.target_m = {run.rows[i].state.x_m, off_m[i]};
+  }
+  const auto completed = [&](double tolerance_m) {
+    LissajousCourse course;
+    course.tolerance_m = tolerance_m;
+    const Scenario scenario{"path", 4.0, {}, 1.0, course};
+    return metrics_of(run, scenario, make_controller(paper_plant(), paper_vehicle(), {})).completed;
+  };
+  EXPECT_TRUE(completed(0.3));
+  EXPECT_FALSE(completed(0.29));
+  EXPECT_TRUE(completed(LissajousCourse{}.tolerance_m));
+}
+
 TEST(Metrics, ControlVariationIsPerSecondAndOverTheLimits) {
   awmr::Run run = by_hand({0.0, 10.0, 10.0, 10.0, 10.0});
   run.rows[1].steering_command_rad =

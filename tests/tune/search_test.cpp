@@ -3,9 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
+#include <vector>
 
 #include "awmr/core/units.h"
 #include "awmr/model/gains_file.h"
@@ -155,6 +157,22 @@ TEST(Tune, GivesTheSameBytesForTheSameSeed) {
   const std::string first = text_of(options);
   EXPECT_EQ(first, text_of(options));
   EXPECT_THAT(first, ::testing::HasSubstr("\"awmr.gains/1\""));
+}
+
+TEST(Tune, TellsItsProgressThatGrowsUpToItsEnd) {
+  TuneOptions options = short_options();
+  std::vector<std::size_t> done;
+  std::size_t total = 0;
+  options.progress = [&](std::size_t now, std::size_t of) {
+    done.push_back(now);
+    total = of;
+  };
+  ASSERT_FALSE(text_of(options).empty());
+  ASSERT_FALSE(done.empty());
+  EXPECT_TRUE(std::is_sorted(done.begin(), done.end()));
+  EXPECT_EQ(done.front(), 1U);
+  EXPECT_LE(done.back(), total);
+  EXPECT_GT(done.back(), total / 4) << "the total is what the search may take at most";
 }
 
 TEST(Tune, ReportsBothMarginsOfT2BelowT1WhicheverIsRequired) {

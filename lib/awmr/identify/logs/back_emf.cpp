@@ -85,10 +85,13 @@ Finding back_emf_finding(const std::string& file, const FamilyFit& with, const F
   const double k = fitted_back_emf(with, std_error);
   return {file, 0, Severity::kWarning, "back-emf",
           fmt::format("motors that are ideal sources of force do not describe these logs: with "
-                      "back-EMF, {:.3g} +- {:.2g} of their largest force lost per m/s, the fit is "
-                      "better by {:.0f} of AIC, and it is taken; what a motor gives falls with its "
-                      "wheel's speed, and resistance is what coasting shows",
-                      k, std_error, without.fit.aic - with.fit.aic)};
+                      "back-EMF, {:.3g} +- {:.2g} of their largest force lost per m/s, the fit {}, "
+                      "and it is taken; what a motor gives falls with its wheel's speed, and "
+                      "resistance is what coasting shows",
+                      k, std_error,
+                      without.fit.usable ? fmt::format("is better by {:.0f} of AIC",
+                                                       without.fit.aic - with.fit.aic)
+                                         : "converges, as it does not without")};
 }
 
 }  // namespace awmr

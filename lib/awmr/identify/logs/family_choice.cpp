@@ -56,16 +56,20 @@ FamilyFit fit_with(const std::vector<DrivingLog>& logs, LogFitOptions options, F
   return result;
 }
 
-/// The fit of other families from the optimum of `inner`, if it has one: with a little of each new
-/// term, with none of it, and from the initial guess of the power law.
-FamilyFit fit_from(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
-                   const FamilyFit& inner, Family surge, Family yaw) {
-  if (!inner.fit.usable) return fit_family(logs, power_law, surge, yaw);
-  const LogFitOptions at_optimum = from_optimum(power_law, inner);
-  LogFitOptions options = with_families(at_optimum, surge, yaw);
-  options.also_from = {at_optimum.initial_guess,
-                       with_families(power_law, surge, yaw).initial_guess};
-  return fit_with(logs, std::move(options), surge, yaw);
+/// The optimum of `inner` as a place to begin from for other families: a term that these do not have
+/// is what it is for a power law, and one that was 0 begins from its guess.
+LogFitOptions without_terms(const LogFitOptions& power_law, const FamilyFit& inner, Family surge,
+                            Family yaw) {
+  LogFitOptions options = from_optimum(power_law, inner);
+  const std::vector<ParameterId> free = with_families(options, surge, yaw).free;
+  for (const ParameterInfo& parameter : parameter_table()) {
+    const bool is_free = std::ranges::find(free, parameter.id) != free.end();
+    double& value = options.initial_guess[at(parameter.id)];
+    if (parameter.term && !(is_free && value > 0.0)) {
+      value = power_law.initial_guess[at(parameter.id)];
+    }
+  }
+  return options;
 }
 
 bool is_of_yaw(ParameterId term) {
@@ -104,10 +108,15 @@ std::pair<double, std::string> largest_difference(const LogFit& a, const LogFit&
   return largest;
 }
 
-Finding taken(const std::string& file, const FamilyFit& best, double gain) {
+/// `power_law_aic`: none where a power law has no fit.
+Finding taken(const std::string& file, const FamilyFit& best, std::optional<double> power_law_aic) {
+  const std::string families = families_in_words(best.surge, best.yaw);
+  const std::string why =
+      power_law_aic
+          ? fmt::format("{} is better by {:.0f} of AIC", families, *power_law_aic - best.fit.aic)
+          : fmt::format("its fit did not converge, and that of {} did", families);
   return {file, 0, Severity::kWarning, "power-law-inadequate",
-          fmt::format("a power law does not describe these logs: {} is better by {:.0f} of AIC",
-                      families_in_words(best.surge, best.yaw), gain)};
+          "a power law does not describe these logs: " + why};
 }
 
 /// A rival ahead of the family taken, though not plainly, under which a parameter is another.
@@ -154,10 +163,16 @@ std::vector<Contender> contenders(const FamilyFit& first, bool of_yaw) {
   return found;
 }
 
-/// Fits the contenders and leaves the best of them and of `result.best` there.
-void compete(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
-             const std::vector<Contender>& others, double lead, BestFamily& result) {
-  const FamilyFit& first = result.best;
+std::optional<double> aic_of(const FamilyFit& family) {
+  return family.fit.usable ? std::optional(family.fit.aic) : std::nullopt;
+}
+
+/// Fits the contenders and leaves the best of them and of `result.best` there. A rival that is ahead
+/// shows where the first families may have to be searched from. Returns their AIC, none where they have no fit.
+std::optional<double> compete(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
+                              const std::vector<Contender>& others, double lead,
+                              BestFamily& result) {
+  FamilyFit& first = result.best;
   std::optional<FamilyFit> best_rival;
   bool all_tried = true;
   for (const Contender& other : others) {
@@ -172,7 +187,9 @@ void compete(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law
   if (!all_tried && first.fit.usable) {
     result.findings.push_back(not_compared(logs.front().file, first));
   }
-  if (!best_rival) return;
+  if (!best_rival) return aic_of(first);
+  first = searched_again(logs, power_law, std::move(first), *best_rival);
+  const std::optional<double> first_aic = aic_of(first);
   if (!first.fit.usable || best_rival->fit.aic < first.fit.aic - lead) {
     const auto same = [&](const EstimatorReport& r) {
       return r.family == best_rival->fit.report.family;
@@ -183,6 +200,7 @@ void compete(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law
   } else if (const auto finding = undecided(logs.front().file, first, *best_rival)) {
     result.findings.push_back(*finding);
   }
+  return first_aic;
 }
 
 }  // namespace
@@ -206,6 +224,26 @@ FamilyFit fit_family(const std::vector<DrivingLog>& logs, const LogFitOptions& p
   return fit_with(logs, with_families(power_law, surge, yaw), surge, yaw);
 }
 
+FamilyFit fit_from(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
+                   const FamilyFit& inner, Family surge, Family yaw) {
+  if (!inner.fit.usable) return fit_family(logs, power_law, surge, yaw);
+  const LogFitOptions at_optimum = without_terms(power_law, inner, surge, yaw);
+  LogFitOptions options = with_families(at_optimum, surge, yaw);
+  options.also_from = {at_optimum.initial_guess,
+                       with_families(power_law, surge, yaw).initial_guess};
+  return fit_with(logs, std::move(options), surge, yaw);
+}
+
+FamilyFit searched_again(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
+                         FamilyFit first, const FamilyFit& rival) {
+  const auto is_behind = [&](const FamilyFit& other) {
+    return other.fit.usable && (!first.fit.usable || other.fit.aic < first.fit.aic);
+  };
+  if (!is_behind(rival)) return first;
+  FamilyFit again = fit_from(logs, power_law, rival, first.surge, first.yaw);
+  return is_behind(again) ? std::move(again) : std::move(first);
+}
+
 BestFamily best_family(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                        FamilyFit first, const FamilyContest& contest) {
   const auto open = [&](bool of_yaw) {
@@ -213,19 +251,21 @@ BestFamily best_family(const std::vector<DrivingLog>& logs, const LogFitOptions&
   };
   const bool surge = contest.surge && open(false);
   const bool yaw = contest.yaw && open(true);
-  const double first_aic = first.fit.aic;
+  std::optional<double> first_aic = aic_of(first);
+  const auto [first_surge, first_yaw] = std::pair(first.surge, first.yaw);
   BestFamily result;
   result.best = std::move(first);
   if (surge) {
-    compete(logs, power_law, contenders(result.best, false), contest.lead, result);
+    first_aic = compete(logs, power_law, contenders(result.best, false), contest.lead, result);
   }
   if (yaw) {
-    compete(logs, power_law, contenders(result.best, true), contest.lead, result);
+    const bool is_first = result.best.surge == first_surge && result.best.yaw == first_yaw;
+    const auto aic = compete(logs, power_law, contenders(result.best, true), contest.lead, result);
+    if (is_first) first_aic = aic;
   }
-  const double gain = first_aic - result.best.fit.aic;
   const bool other = result.best.surge != Family::kPower || result.best.yaw != Family::kPower;
-  if (other && gain > kPlainlyBetter) {
-    result.findings.push_back(taken(logs.front().file, result.best, gain));
+  if (other && (!first_aic || *first_aic - result.best.fit.aic > kPlainlyBetter)) {
+    result.findings.push_back(taken(logs.front().file, result.best, first_aic));
   }
   return result;
 }

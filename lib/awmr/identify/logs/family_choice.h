@@ -23,6 +23,16 @@ LogFitOptions from_optimum(LogFitOptions options, const FamilyFit& fit);
 FamilyFit fit_family(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                      Family surge, Family yaw);
 
+/// The fit of families from the optimum of `inner`, if it has one: with a little of each term that
+/// this one lacks, with none of it, and from the initial guess of the power law.
+FamilyFit fit_from(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
+                   const FamilyFit& inner, Family surge, Family yaw);
+
+/// `first`, or where `rival` is ahead of it and shows where to search from, what another search for
+/// the families of `first` finds there: no family is to win by another's bad luck.
+FamilyFit searched_again(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
+                         FamilyFit first, const FamilyFit& rival);
+
 /// How families are compared.
 struct FamilyContest {
   bool surge = true;  ///< every family of surge resistance, otherwise power

@@ -1,5 +1,7 @@
 #include "awmr/identify/logs/log_fit.h"
 
+#include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "awmr/core/index.h"
@@ -18,6 +20,10 @@ namespace {
 /// half the number of samples, and a step of d standard errors changes it by d^2/2: with 100 000
 /// samples, the last step is shorter than a hundredth of a standard error.
 constexpr double kFine = 1e-9;
+
+/// So many of the places that the rough searches ended at are tried, until the logs can be replayed
+/// where the fit from there ends.
+constexpr std::size_t kTries = 3;
 
 LogFit without_solution(std::string why, std::vector<SearchStart> starts) {
   LogFit fit;
@@ -64,6 +70,19 @@ LogFit fit_at(const LogProblem& problem, const Solved& solved, const std::vector
           .usable = solved.usable && solved.converged};
 }
 
+/// The fit that a search from these coordinates leads to; none where the logs cannot be replayed at
+/// its end.
+std::optional<LogFit> fit_from(const LogProblem& guess, const std::vector<double>& coordinates,
+                               const LogFitOptions& options) {
+  const NoiseIteration settled = allow_for_late_sensors(
+      settle_noise(guess, from_measured(guess, coordinates), options.loss), options.loss);
+  const Solved solved = solve(settled.problem, settled.point, kFine);
+  const std::vector<WindowSums> sums =
+      sums_at(settled.problem, solved.point, block_length_s(settled.problem.model.noise));
+  if (!all_finite(sums)) return std::nullopt;
+  return fit_at(settled.problem, solved, sums, options);
+}
+
 }  // namespace
 
 LogFit fit_logs(const std::vector<DrivingLog>& logs, const LogFitOptions& options) {
@@ -71,25 +90,21 @@ LogFit fit_logs(const std::vector<DrivingLog>& logs, const LogFitOptions& option
   if (guess.windows.empty() || guess.initial.empty()) {
     return without_solution("nothing measured, or nothing asked for", {});
   }
-  const Multistart search = multistart(guess, options);
-  if (search.coordinates.empty()) {
+  Multistart search = multistart(guess, options);
+  if (search.ends.empty()) {
     return without_solution("no start led anywhere: every one left the finite numbers",
                             search.starts);
   }
-
-  const NoiseIteration settled = allow_for_late_sensors(
-      settle_noise(guess, from_measured(guess, search.coordinates), options.loss), options.loss);
-  const Solved solved = solve(settled.problem, settled.point, kFine);
-  const std::vector<WindowSums> sums =
-      sums_at(settled.problem, solved.point, block_length_s(settled.problem.model.noise));
-  if (!all_finite(sums)) {
+  std::optional<LogFit> fit;
+  for (std::size_t i = 0; i < std::min(kTries, search.ends.size()) && !fit; ++i) {
+    fit = fit_from(guess, search.ends[i], options);
+  }
+  if (!fit) {
     return without_solution("failed: the logs cannot be replayed where the search ended",
                             search.starts);
   }
-
-  LogFit fit = fit_at(settled.problem, solved, sums, options);
-  fit.report.starts = search.starts;
-  return fit;
+  fit->report.starts = std::move(search.starts);
+  return *std::move(fit);
 }
 
 std::vector<SensorDelay> sensor_delays_of(const LogFit& fit) {

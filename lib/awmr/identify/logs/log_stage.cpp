@@ -190,7 +190,10 @@ BestFamily or_with_back_emf(const std::vector<DrivingLog>& logs, LogFitOptions& 
   tell(options, "trying back-EMF of the motors");
   LogFitOptions freed = with_back_emf(power_law);
   std::erase(freed.suspects, ParameterId::kBackEmf);
-  const FamilyFit same = fit_family(logs, freed, ideal.best.surge, ideal.best.yaw);
+  const FamilyFit same = fit_from(logs, freed, ideal.best, ideal.best.surge, ideal.best.yaw);
+  if (shows_back_emf(same, ideal.best)) {
+    ideal.best = searched_again(logs, power_law, std::move(ideal.best), same);
+  }
   if (!shows_back_emf(same, ideal.best)) {
     if (!same.fit.usable) {
       ideal.findings.push_back({logs.front().file, 0, Severity::kWarning, "families-not-compared",

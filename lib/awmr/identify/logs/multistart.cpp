@@ -1,7 +1,7 @@
 #include "awmr/identify/logs/multistart.h"
 
 #include <algorithm>
-#include <limits>
+#include <iterator>
 
 #include "awmr/core/parallel.h"
 #include "awmr/core/random.h"
@@ -10,18 +10,27 @@
 namespace awmr {
 namespace {
 
-/// At most half a minute's worth of windows, spread over all logs: enough to tell a good initial
-/// guess from a bad one. Steps are long.
+/// `count` of them or all, spread evenly.
+std::vector<FitWindow> spread(const std::vector<FitWindow>& windows, std::size_t count) {
+  std::vector<FitWindow> some;
+  count = std::min(count, windows.size());
+  for (std::size_t i = 0; i < count; ++i) some.push_back(windows[i * windows.size() / count]);
+  return some;
+}
+
+/// At most half a minute, spread over all logs: enough to tell a good initial guess from a bad one.
+/// Steps are long.
 LogProblem rough_problem(const LogProblem& problem) {
-  constexpr std::size_t kMaximumWindows = 3;
+  constexpr std::size_t kParts = 12;
+  constexpr double kPart_s = 2.5;
   LogProblem rough = problem;
   rough.model.longest_step_s = kRoughStep * problem.model.longest_step_s;
   rough.threads = 1;  // the searches run side by side
-  rough.windows.clear();
-  const std::size_t count = std::min(kMaximumWindows, problem.windows.size());
-  for (std::size_t i = 0; i < count; ++i) {
-    rough.windows.push_back(problem.windows[i * problem.windows.size() / count]);
+  std::vector<FitWindow> parts;
+  for (const FitWindow& window : spread(problem.windows, kParts)) {
+    std::ranges::move(parts_of(window, kPart_s), std::back_inserter(parts));
   }
+  rough.windows = spread(parts, kParts);
   return rough;
 }
 
@@ -70,28 +79,24 @@ Multistart multistart(const LogProblem& problem, const LogFitOptions& options) {
   const std::vector<FreeQuantity>& quantities = problem.model.quantities;
   const std::vector<std::vector<double>> from = places(problem, options);
   if (from.size() == 1 && options.guessed.empty()) {
-    return {problem.initial,
+    return {{problem.initial},
             {{values_at(quantities, problem.initial), 0.0, true, "from the other trials"}}};
   }
   const LogProblem rough = rough_problem(problem);
-  Multistart result;
-  double least = std::numeric_limits<double>::infinity();
-  std::size_t chosen = 0;
-  std::vector<Solved> ends(from.size());
+  std::vector<Solved> solved(from.size());
   parallel_for(from.size(), problem.threads, [&](std::size_t i) {
-    ends[i] = solve(rough, from_measured(rough, from[i]), kRough);
+    solved[i] = solve(rough, from_measured(rough, from[i]), kRough);
   });
+  Multistart result;
+  std::vector<std::size_t> led;  // somewhere
   for (std::size_t i = 0; i < from.size(); ++i) {
-    const std::vector<double>& coordinates = from[i];
-    const Solved& solved = ends[i];
-    result.starts.push_back({values_at(quantities, coordinates), solved.cost, false,
-                             solved.stop_reason.substr(0, kReasonLength)});
-    if (!solved.usable || !(solved.cost < least)) continue;
-    least = solved.cost;
-    result.coordinates = solved.point.coordinates;
-    chosen = result.starts.size() - 1;
+    result.starts.push_back({values_at(quantities, from[i]), solved[i].cost, false,
+                             solved[i].stop_reason.substr(0, kReasonLength)});
+    if (solved[i].usable) led.push_back(i);
   }
-  if (!result.coordinates.empty()) result.starts[chosen].chosen = true;
+  std::ranges::stable_sort(led, {}, [&](std::size_t i) { return solved[i].cost; });
+  for (const std::size_t i : led) result.ends.push_back(solved[i].point.coordinates);
+  if (!led.empty()) result.starts[led.front()].chosen = true;
   return result;
 }
 

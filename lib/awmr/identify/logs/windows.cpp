@@ -1,7 +1,10 @@
 #include "awmr/identify/logs/windows.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
+#include <utility>
 
 #include "awmr/core/index.h"
 
@@ -38,6 +41,23 @@ std::vector<FitWindow> fit_windows(const std::vector<DrivingLog>& logs) {
     }
   }
   return windows;
+}
+
+std::vector<FitWindow> parts_of(const FitWindow& window, double longest_s) {
+  constexpr double kShortestRows = 3.0;
+  const auto [log, begin, end] = window.rows;
+  const double span_s = log->t_s[end - 1] - log->t_s[begin];
+  const double most = std::max(1.0, std::floor(static_cast<double>(end - begin) / kShortestRows));
+  const auto count = static_cast<std::size_t>(std::clamp(std::ceil(span_s / longest_s), 1.0, most));
+  std::vector<FitWindow> parts;
+  for (std::size_t part = 0; part < count; ++part) {
+    const LogWindow rows{log, begin + (end - begin) * part / count,
+                         begin + (end - begin) * (part + 1) / count};
+    auto samples = std::make_shared<const std::vector<Sample>>(samples_of(rows));
+    if (samples->empty()) continue;
+    parts.push_back({rows, window.signals, std::move(samples), measured_initial_state(rows), {}});
+  }
+  return parts;
 }
 
 std::vector<InitialComponent> initial_components(const std::vector<DrivingLog>& logs) {

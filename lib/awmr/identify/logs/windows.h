@@ -35,6 +35,9 @@ struct FitWindow {
 /// The windows of all logs, which must outlive them; those without a sample are left out.
 std::vector<FitWindow> fit_windows(const std::vector<DrivingLog>& logs);
 
+/// The window in equal parts of at most `longest_s`, each with an initial state of its own.
+std::vector<FitWindow> parts_of(const FitWindow& window, double longest_s);
+
 /// A component of the initial state that is free in every window, by the channel that reads it.
 struct InitialComponent {
   LogChannel channel;
