@@ -9,36 +9,11 @@
 #include "awmr/identify/logs/identifiability.h"
 #include "awmr/identify/logs/whitener.h"
 #include "awmr/identify/planning/recover.h"
-#include "awmr/identify/planning/synthetic.h"
 #include "awmr/model/model_file.h"
-#include "identify/synthetic.h"
-#include "support/paper_vehicle.h"
+#include "identify/synthetic_log.h"
 
 namespace awmr::testing {
 namespace {
-
-Vehicle robot() {
-  Vehicle v = paper_vehicle();
-  v.name = "synthetic";
-  v.yaw_inertia_kgm2.reset();  // the box formula
-  v.sway_alpha.reset();        // asked of the log
-  return v;
-}
-
-Plant<double> plant(const Truth& t) {
-  Plant<double> plant = paper_plant();
-  plant.surge = {.alpha = t.a1, .beta = t.b1};
-  plant.yaw = {.alpha = t.a3, .beta = t.b3};
-  plant.mass_norm = t.mass_norm;
-  plant.inertia_norm = 0.16 * t.mass_norm;
-  return plant;
-}
-
-DrivingLog drive(const Truth& t, std::uint64_t seed, DrivePlan plan = {.duration_s = 20.0}) {
-  Random random(seed, 5);
-  plan.drive = seed;
-  return simulate_log(plant(t), robot(), plan, {}, random);
-}
 
 bool refused(const Identification& result, ParameterId id) {
   return std::find(result.refused.begin(), result.refused.end(), id) != result.refused.end();

@@ -1,0 +1,115 @@
+/// Where the search for a fit of logs begins, and that families of resistance are compared at their
+/// own optima.
+#include "awmr/identify/logs/family_choice.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "awmr/core/index.h"
+#include "awmr/identify/logs/initial_guess.h"
+#include "awmr/identify/logs/log_problem.h"
+#include "awmr/identify/logs/multistart.h"
+#include "identify/synthetic_log.h"
+
+namespace awmr::testing {
+namespace {
+
+/// All that a log can show is free, and guessed from nothing but the log.
+LogFitOptions from_nothing(const std::vector<DrivingLog>& logs) {
+  LogFitOptions options;
+  options.vehicle = robot();
+  options.initial_guess = guess_from_logs(logs, options.vehicle);
+  options.free = {ParameterId::kSurgeAlpha,  ParameterId::kSurgeBeta,
+                  ParameterId::kYawAlpha,    ParameterId::kYawBeta,
+                  ParameterId::kSwayAlpha,   ParameterId::kMassNorm,
+                  ParameterId::kInertiaNorm, ParameterId::kSteeringTimeConstant};
+  options.guessed = options.free;
+  return options;
+}
+
+std::vector<DrivingLog> with_coulomb_friction(double coulomb) {
+  Plant<double> rubbing = plant(kTruths[1]);
+  rubbing.surge.coulomb = coulomb;
+  Random random(8, 5);
+  return {simulate_log(rubbing, robot(), {.duration_s = 20.0, .drive = 8}, {}, random)};
+}
+
+TEST(Multistart, MostStartsLeadToTheOptimum) {
+  std::size_t all = 0, there = 0;
+  for (const Truth& truth : kTruths) {
+    for (const std::uint64_t seed : {11, 12, 13}) {
+      const std::vector<DrivingLog> logs{drive(truth, seed)};
+      const LogFitOptions options = from_nothing(logs);
+      const Multistart search = multistart(log_problem(logs, options), options);
+      ASSERT_FALSE(search.ends.empty());
+      const auto chosen = std::ranges::find_if(search.starts, &SearchStart::chosen);
+      ASSERT_NE(chosen, search.starts.end());
+      for (const SearchStart& start : search.starts) {
+        EXPECT_GE(start.cost, chosen->cost);
+        ++all;
+        if (start.cost < 1.01 * chosen->cost) ++there;
+      }
+    }
+  }
+  // Over whole windows of 10 s it was one of seven.
+  EXPECT_GT(there, 2 * all / 3) << there << " of " << all;
+}
+
+TEST(Families, AreFittedWithoutATermThatTheFamilyBeforeThemHad) {
+  const std::vector<DrivingLog> logs = with_coulomb_friction(0.2);
+  const LogFitOptions options = from_nothing(logs);
+  const FamilyFit rubbing = fit_family(logs, options, Family::kCoulombPower, Family::kPower);
+  ASSERT_TRUE(rubbing.fit.usable);
+  ASSERT_GT(fitted_values(rubbing.options, rubbing.fit)[at(ParameterId::kSurgeCoulomb)], 0.1);
+  for (const Family other : {Family::kDeadZone, Family::kPower}) {
+    const FamilyFit fit = fit_from(logs, options, rubbing, other, Family::kPower);
+    EXPECT_EQ(fitted_values(fit.options, fit.fit)[at(ParameterId::kSurgeCoulomb)], 0.0)
+        << "held at the other family's, it is in the fit and not in the model";
+    EXPECT_GT(fit.fit.aic, rubbing.fit.aic + 10.0);
+  }
+}
+
+TEST(Families, AFitWithBadLuckIsSearchedAgainFromTheRivalThatIsAhead) {
+  const std::vector<DrivingLog> logs{drive(kTruths[0], 9)};
+  const LogFitOptions options = from_nothing(logs);
+  const FamilyFit rival = fit_family(logs, options, Family::kCoulombPower, Family::kPower);
+  ASSERT_TRUE(rival.fit.usable);
+  FamilyFit unlucky{Family::kPower, Family::kPower, options, {}};
+  const FamilyFit again = searched_again(logs, options, unlucky, rival);
+  ASSERT_TRUE(again.fit.usable);
+  EXPECT_EQ(again.surge, Family::kPower);
+  EXPECT_LT(again.fit.aic, rival.fit.aic + 10.0);
+  const FamilyFit kept = searched_again(logs, options, again, unlucky);
+  EXPECT_EQ(kept.fit.coordinates, again.fit.coordinates) << "a rival without a fit is no rival";
+}
+
+TEST(Families, AreComparedAtTheirOwnOptimaWhateverTheFirstSearchFound) {
+  const std::vector<DrivingLog> logs{drive(kTruths[0], 10)};
+  const LogFitOptions options = from_nothing(logs);
+  FamilyFit unlucky{Family::kPower, Family::kPower, options, {}};
+  const BestFamily found = best_family(logs, options, unlucky, {.lead = 20.0});
+  EXPECT_TRUE(found.best.fit.usable);
+  EXPECT_EQ(found.best.surge, Family::kPower);
+  EXPECT_TRUE(found.findings.empty()) << found.findings.front().message;
+}
+
+TEST(Windows, InPartsHoldEverySampleOnce) {
+  const std::vector<DrivingLog> logs{drive(kTruths[0], 4)};
+  for (const FitWindow& window : fit_windows(logs)) {
+    std::size_t samples = 0, next = window.rows.begin;
+    for (const FitWindow& part : parts_of(window, 2.5)) {
+      EXPECT_EQ(part.rows.begin, next);
+      next = part.rows.end;
+      EXPECT_LE(logs[0].t_s[part.rows.end - 1] - logs[0].t_s[part.rows.begin], 2.5);
+      EXPECT_EQ(part.samples().front().since_s, 0.0);
+      samples += part.samples().size();
+    }
+    EXPECT_EQ(next, window.rows.end);
+    EXPECT_EQ(samples, window.samples().size());
+    EXPECT_EQ(parts_of(window, 100.0).size(), 1U);
+  }
+}
+
+}  // namespace
+}  // namespace awmr::testing
