@@ -39,8 +39,16 @@ Result<Provenance> provenance_of(const IdentifyCommand& command) {
   return provenance;
 }
 
+/// A minute, and 20 ms for every second of log, twenty times what a log takes that the model describes.
+double time_limit_s(const std::vector<DrivingLog>& logs) {
+  double limit_s = 60.0;
+  for (const DrivingLog& log : logs) limit_s += 0.02 * (log.t_s.back() - log.t_s.front());
+  return limit_s;
+}
+
 Result<Identification> identify_with_progress(const Trials& trials, IdentifyOptions options) {
   Working working("fitting the tables");
+  if (!(options.time_limit_s > 0.0)) options.time_limit_s = time_limit_s(trials.data.logs);
   options.doing = [&](std::string_view what) { working.doing(what); };
   return identify(trials, options);
 }

@@ -26,6 +26,13 @@ Status add_family(std::string_view text, IdentifyOptions& options) {
                                                  name, fmt::join(names_in(kFamilyNames), ", ")));
     }
   }
+  const bool again = (subject != "yaw" && options.surge_family.asked) ||
+                     (subject != "surge" && options.yaw_family.asked);
+  if (again) {
+    return input_error("--family", fmt::format("'{}' gives a family a second time; give each of "
+                                               "surge and yaw one",
+                                               text));
+  }
   if (subject.empty()) {
     options.surge_family = options.yaw_family = choice;
   } else if (subject == "surge") {
@@ -45,6 +52,7 @@ Status add_family(std::string_view text, IdentifyOptions& options) {
 
 Status add_asked(std::string_view name, IdentifyOptions& options) {
   if (name == "all") {
+    options.asked_all = true;
     for (const ParameterInfo& parameter : parameter_table()) {
       if (!parameter.term) options.asked.push_back(parameter.id);
     }

@@ -55,6 +55,11 @@ Result<fs::path> record_of(const LiveCommand& command) {
     return input_error(record.string(),
                        "there is a recording already; name another with --record FILE");
   }
+  if (fs::exists(record, error) && !fs::is_regular_file(record, error)) {
+    return input_error("--record", record.string() +
+                                       " is no ordinary file, from which the recording could be "
+                                       "read back; name another");
+  }
   if (record.lexically_normal() == command.identify.output.lexically_normal()) {
     return input_error("--record", "it is the model's file; give another name");
   }

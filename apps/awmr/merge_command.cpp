@@ -27,9 +27,9 @@ Result<Outcome> execute(const MergeCommand& command) {
   AWMR_ASSIGN_OR_RETURN(const Merged merged, merge_shards(command.parts));
   AWMR_RETURN_IF_ERROR(
       check_outputs(command.output, {"comparison.csv", "comparison.json"}, inputs_of(command)));
-  AWMR_RETURN_IF_ERROR(make_directory(command.output));
   const std::string document =
       comparison_text(merged.comparison, merged.options, merged.provenance);
+  AWMR_RETURN_IF_ERROR(make_directory(command.output));
   const OutputFile files[] = {
       {command.output / "comparison.csv", comparison_csv(merged.comparison)},
       {command.output / "comparison.json", document}};

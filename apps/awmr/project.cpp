@@ -1,5 +1,7 @@
 #include "project.h"
 
+#include <algorithm>
+#include <iterator>
 #include <string>
 #include <utility>
 
@@ -15,6 +17,37 @@ fs::path resolved(const fs::path& project, const std::string& name) {
   return (project.parent_path() / name).lexically_normal();
 }
 
+/// Reads the names of files, each relative to the project's. `faults` are those of the whole file.
+class FileNames {
+ public:
+  FileNames(const fs::path& project, const std::vector<Fault>& faults)
+      : project_(project), faults_(faults) {}
+
+  fs::path at(JsonObject& json, const char* key) const {
+    const std::size_t before = faults_.size();
+    const std::string name = json.string(key);
+    if (name.empty() && faults_.size() == before) json.fault(key, "is empty: give a file");
+    return resolved(project_, name);
+  }
+  std::optional<fs::path> maybe_at(JsonObject& json, const char* key) const {
+    return json.has(key) ? std::optional(at(json, key)) : std::nullopt;
+  }
+  std::vector<fs::path> all_at(JsonObject& json, const char* key) const {
+    std::vector<fs::path> paths;
+    for (const std::string& name : json.strings(key)) {
+      if (name.empty()) json.fault(key, "has an empty name: give files");
+      if (name.find('\0') != std::string::npos) json.fault(key, "has a name with a NUL: remove it");
+      paths.push_back(resolved(project_, name));
+    }
+    return paths;
+  }
+  fs::path of(const std::string& name) const { return resolved(project_, name); }
+
+ private:
+  const fs::path& project_;
+  const std::vector<Fault>& faults_;
+};
+
 /// Mappings for one file, or with an empty name for every file.
 void read_columns(JsonObject json, const std::string& file, Project& project) {
   for (const std::string& name : json.keys()) {
@@ -28,27 +61,17 @@ void read_columns(JsonObject json, const std::string& file, Project& project) {
   }
 }
 
-void read_trials(JsonObject json, const fs::path& path, Project& project) {
-  const auto optional_path = [&](const char* key) -> std::optional<fs::path> {
-    if (const auto name = json.optional_string(key)) return resolved(path, *name);
-    return std::nullopt;
-  };
-  project.surge = optional_path("surge");
-  if (const auto coastdown = optional_path("coastdown")) project.coastdowns.push_back(*coastdown);
-  project.turning = optional_path("turning");
+void read_trials(JsonObject json, const FileNames& files, Project& project) {
+  project.surge = files.maybe_at(json, "surge");
+  if (const auto one = files.maybe_at(json, "coastdown")) project.coastdowns.push_back(*one);
+  project.turning = files.maybe_at(json, "turning");
   if (json.has("coastdowns")) {
-    for (const std::string& name : json.strings("coastdowns")) {
-      project.coastdowns.push_back(resolved(path, name));
-    }
+    std::ranges::move(files.all_at(json, "coastdowns"), std::back_inserter(project.coastdowns));
   }
-  if (json.has("logs")) {
-    for (const std::string& name : json.strings("logs")) {
-      project.logs.push_back(resolved(path, name));
-    }
-  }
-  if (auto files = json.optional_object("columns")) {
-    for (const std::string& name : files->keys()) {
-      read_columns(files->object(name), resolved(path, name).string(), project);
+  if (json.has("logs")) project.logs = files.all_at(json, "logs");
+  if (auto columns = json.optional_object("columns")) {
+    for (const std::string& name : columns->keys()) {
+      read_columns(columns->object(name), files.of(name).string(), project);
     }
   }
   json.reject_unknown_keys();
@@ -86,10 +109,9 @@ void read_identify(JsonObject json, Project& project) {
   json.reject_unknown_keys();
 }
 
-void read_compare(JsonObject json, const fs::path& path, Project& project) {
-  const std::vector<std::string> names = json.strings("scenarios");
-  for (const std::string& name : names) project.scenarios.push_back(resolved(path, name));
-  if (json.has("scenarios") && names.empty())
+void read_compare(JsonObject json, const FileNames& files, Project& project) {
+  project.scenarios = files.all_at(json, "scenarios");
+  if (json.has("scenarios") && project.scenarios.empty())
     json.fault("scenarios", "none given; name at least one");
   project.compare.samples =
       static_cast<int>(json.optional_integer("samples", 0, 1000000).value_or(0));
@@ -105,15 +127,16 @@ Project project_from_json(JsonObject& json, const fs::path& path,
                           const std::vector<Fault>& faults) {
   Project project;
   json.schema(kProjectSchema);
-  project.vehicle = resolved(path, json.string("vehicle"));
-  read_trials(json.object("trials"), path, project);
+  const FileNames files(path, faults);
+  project.vehicle = files.at(json, "vehicle");
+  read_trials(json.object("trials"), files, project);
   if (faults.empty() && !has_trials(project)) {
     json.fault("trials", "no trials: give at least one of surge, coastdown, turning, logs");
   }
   if (auto columns = json.optional_object("columns")) read_columns(*columns, "", project);
   if (auto identify = json.optional_object("identify")) read_identify(*identify, project);
-  if (const auto tune = json.optional_string("tune")) project.tune = resolved(path, *tune);
-  read_compare(json.object("compare"), path, project);
+  project.tune = files.maybe_at(json, "tune");
+  read_compare(json.object("compare"), files, project);
   json.reject_unknown_keys();
   return project;
 }

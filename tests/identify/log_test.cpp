@@ -248,6 +248,41 @@ TEST(Log, ALateSpeedIsFoundAndAllowedFor) {
   }
 }
 
+/// Commands that reach the motors later than the log says.
+DrivingLog commanded_early(DrivingLog log, std::size_t rows) {
+  const auto earlier = [rows](std::vector<double>& values) {
+    std::rotate(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(rows), values.end());
+  };
+  earlier(log.force_left);
+  earlier(log.force_right);
+  earlier(*log.steering_command_rad);
+  return log;
+}
+
+TEST(Log, WhereEverySensorSeemsLateTheActuatorsAreNamed) {
+  TrialData data;
+  data.logs = {commanded_early(drive(kTruths[0], 22, {.duration_s = 40.0}), 6)};
+  const auto result = identify(robot(), data, {}, {});
+  ASSERT_TRUE(result);
+  EXPECT_TRUE(has_finding(*result, "actuator-lag", "every sensor seems late"));
+  IdentifyOptions with_delay;
+  with_delay.fit_input_delay = true;
+  const auto delayed = identify(robot(), data, with_delay, {});
+  ASSERT_TRUE(delayed);
+  EXPECT_TRUE(has_finding(*delayed, "actuator-lag", "s after its commands"));
+  data.logs = {drive(kTruths[0], 22, {.duration_s = 40.0})};
+  EXPECT_FALSE(has_finding(*identify(robot(), data, {}, {}), "actuator-lag", ""));
+}
+
+TEST(Log, AServoThatIsNeverToldToMoveIsRefused) {
+  TrialData data;
+  data.logs = {drive(kTruths[1], 23)};
+  std::ranges::fill(*data.logs[0].steering_command_rad, 0.0);
+  const auto result = identify(robot(), data, {}, {});
+  ASSERT_TRUE(result);
+  EXPECT_TRUE(refused(*result, ParameterId::kSteeringTimeConstant));
+}
+
 TEST(Log, AServoTooFastForALogIsNamed) {
   TrialData data;
   data.logs = {drive(kTruths[0], 3)};

@@ -41,6 +41,9 @@ Model some_model() {
     model[parameter.id] = {value, value / 7.0, Interval{value / 3.0, value * 3.0}, Source::kFitted,
                            "log-linear"};
   }
+  // As the covariance below has them.
+  model[ParameterId::kSurgeAlpha].std_error = std::sqrt(1e-4);
+  model[ParameterId::kSurgeBeta].std_error = std::sqrt(2.5e-4);
   model[ParameterId::kMassNorm].source = Source::kDerived;
   model[ParameterId::kSwayAlpha] = {3.0, {}, {}, Source::kGiven, "vehicle.json"};
   model.record.reports = {{.subject = FitSubject::kSurge,
@@ -118,6 +121,7 @@ TEST(ModelFile, RoundTripsArbitraryNumbersAndGaps) {
   Random random(7, 0);
   for (int i = 0; i < 200; ++i) {
     Model model = some_model();
+    model.covariance = {};
     for (Estimate& estimate : model.estimates) {
       // Magnitudes over all that the reader takes (ranges.h); a third of the values unknown.
       const auto id = static_cast<ParameterId>(&estimate - model.estimates.data());

@@ -104,6 +104,31 @@ TEST(LogConsistency, AHundredGoodLogsRaiseNoAlarm) {
   }
 }
 
+/// The same drive with its second half pushed and driven backwards.
+DrivingLog reversing_log(std::uint64_t seed, bool is_signed) {
+  DrivingLog log = sound_log(seed);
+  std::vector<double>& speed = log[LogChannel::kSpeed]->value;
+  for (std::size_t i = kRows / 2; i < kRows; ++i) {
+    const double mean = 0.5 * (log.force_left[i] + log.force_right[i]);
+    log.force_left[i] -= 2.0 * mean;
+    log.force_right[i] -= 2.0 * mean;
+    if (is_signed) speed[i] = -speed[i];
+  }
+  return log;
+}
+
+TEST(LogConsistency, ASpeedWithoutASignIsNamedAndOneWithASignIsNot) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const auto is_named = [&](const DrivingLog& log) {
+      return std::ranges::any_of(contradictions(log, vehicle(), {}), [](const Contradiction& c) {
+        return c.column == "speed_mps" && c.message.find("tells no direction") < c.message.size();
+      });
+    };
+    EXPECT_TRUE(is_named(reversing_log(seed, false))) << seed;
+    EXPECT_FALSE(is_named(reversing_log(seed, true))) << seed;
+  }
+}
+
 /// The first ten seconds of a drive.
 constexpr std::size_t kFirstRows = 500;
 

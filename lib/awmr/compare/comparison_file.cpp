@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "awmr/compare/binomial.h"
+#include "awmr/compare/metric_columns.h"
 #include "awmr/compare/overall.h"
 #include "awmr/compare/ranking.h"
 #include "awmr/compare/scoring.h"
@@ -180,15 +181,17 @@ std::vector<std::pair<std::string_view, std::optional<double>>> named_metrics(
   return named;
 }
 
+std::vector<std::string> comparison_columns(bool with_gains) {
+  std::vector<std::string> names{"scenario", "mode", "sample", "completed"};
+  for (const MetricColumn& metric : kMetricColumns) names.emplace_back(metric.name);
+  if (with_gains) names.emplace_back("gains");
+  return names;
+}
+
 std::string comparison_csv(const Comparison& comparison) {
   const bool several = std::any_of(comparison.rows.begin(), comparison.rows.end(),
                                    [](const ComparisonRow& row) { return !row.gains.empty(); });
-  std::string text = "scenario,mode,sample,completed";
-  for (const MetricColumn& metric : kMetricColumns) {
-    text += ',';
-    text += metric.name;
-  }
-  text += several ? ",gains\n" : "\n";
+  std::string text = fmt::format("{}\n", fmt::join(comparison_columns(several), ","));
   for (const ComparisonRow& row : comparison.rows) {
     text += cell_of_text(row.scenario);
     text += ',';

@@ -3,8 +3,10 @@
 
 #include <array>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 #include "awmr/core/index.h"
 #include "awmr/simulate/metrics.h"
@@ -75,6 +77,9 @@ inline constexpr std::array<MetricColumn, 16> kMetricColumns = {{
      5.0, 0.0},
     {MetricId::kTyreWork, "tyre_work", "", "m", &Metrics::tyre_work, 0.01, 0.0},
 }};
+
+/// The columns of comparison.csv; with several sets of gains their name is the last.
+std::vector<std::string> comparison_columns(bool with_gains);
 
 inline const MetricColumn& column_of(MetricId id) { return kMetricColumns[at(id)]; }
 

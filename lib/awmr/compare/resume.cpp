@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <optional>
 #include <set>
 
@@ -20,6 +21,9 @@ namespace {
 
 /// What may change between a comparison and its continuation.
 const std::set<std::string, std::less<>> kFreeOptions{"samples", "weight", "relevance"};
+
+/// No metric of a run is larger; sums over samples and their squares stay finite.
+constexpr double kLargest = 1e100;
 
 template <class Number>
 bool read_number(const std::string& text, Number& value) {
@@ -42,7 +46,9 @@ std::optional<ComparisonRow> row_of(const std::vector<std::string>& cells, bool 
   for (std::size_t i = 0; i < kMetricColumns.size(); ++i) {
     if (cells[kFirst + i].empty()) continue;
     double value = 0.0;
-    if (!read_number(cells[kFirst + i], value)) return std::nullopt;
+    if (!read_number(cells[kFirst + i], value) || !(std::abs(value) <= kLargest)) {
+      return std::nullopt;
+    }
     kMetricColumns[i].set(row.metrics, value);
   }
   if (with_gains) row.gains = cells.back();
@@ -116,7 +122,11 @@ Result<std::vector<ComparisonRow>> read_rows(const std::filesystem::path& path,
   }
   std::vector<ComparisonRow> rows;
   std::string_view rest = text;
-  const bool with_gains = take_text_record(rest).back() == "gains";
+  const std::vector<std::string> head = take_text_record(rest);
+  const bool with_gains = head.back() == "gains";
+  if (head != comparison_columns(with_gains)) {
+    return input_error(path.string() + ":1:1", "these are not the columns of a comparison");
+  }
   while (!rest.empty()) {
     const std::string_view before = std::string_view(text).substr(0, text.size() - rest.size());
     auto row = row_of(take_text_record(rest), with_gains);

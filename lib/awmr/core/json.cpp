@@ -122,6 +122,10 @@ std::string JsonObject::string(std::string_view key) {
     fault(key, fmt::format("expected a string, found {}", describe(*value)));
     return {};
   }
+  if (value->get_ref<const std::string&>().find('\0') != std::string::npos) {
+    fault(key, "holds a NUL (\\u0000), at which the system cuts a name off: remove it");
+    return {};
+  }
   return value->get<std::string>();
 }
 

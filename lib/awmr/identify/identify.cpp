@@ -41,7 +41,7 @@ Status check_back_emf(const Vehicle& vehicle, const TrialData& data,
 Status check_options(const Vehicle& vehicle, const TrialData& data,
                      const IdentifyOptions& options) {
   for (const ParameterId id : options.asked) {
-    if (has(vehicle, id)) continue;
+    if (has(vehicle, id) || options.asked_all) continue;
     return input_error(option_text("fit"),
                        fmt::format("a vehicle of drive \"{}\" has no steering, and with it no {}",
                                    name_in(kDriveNames, vehicle.drive), info(id).name));

@@ -43,7 +43,11 @@ std::string table_reason(ParameterId id, const TrialData& data, const Reasons& r
 
 std::vector<ParameterId> asked_for(const Vehicle& vehicle, const TrialData& data,
                                    const IdentifyOptions& options) {
-  if (!options.asked.empty()) return options.asked;
+  if (!options.asked.empty()) {
+    std::vector<ParameterId> asked = options.asked;
+    std::erase_if(asked, [&](ParameterId id) { return !has(vehicle, id); });
+    return asked;
+  }
   std::vector<ParameterId> ids;
   if (data.surge) ids.insert(ids.end(), {ParameterId::kSurgeAlpha, ParameterId::kSurgeBeta});
   if (data.turning) ids.insert(ids.end(), {ParameterId::kYawAlpha, ParameterId::kYawBeta});

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 #include <map>
 
 #include "awmr/core/file.h"
@@ -153,12 +154,45 @@ Model model_from_json(JsonObject& root) {
 
 }  // namespace
 
+namespace {
+
+/// What a file edited by hand may say against itself: a value outside of its interval, a standard
+/// error that is not the covariance's.
+std::vector<Fault> self_contradictions(const Model& model) {
+  constexpr double kTolerance = 0.01;
+  std::vector<Fault> faults;
+  for (const ParameterInfo& parameter : parameter_table()) {
+    const Estimate& estimate = model[parameter.id];
+    if (!estimate.value || !estimate.ci95 || estimate.ci95->contains(*estimate.value)) continue;
+    faults.push_back({fmt::format("{}:{}/ci95", model.file, parameter.pointer),
+                      fmt::format("[{:g}, {:g}] does not hold the value {:g}; null is no interval",
+                                  estimate.ci95->lo, estimate.ci95->hi, *estimate.value)});
+  }
+  const Covariance& covariance = model.covariance;
+  for (std::size_t i = 0; i < covariance.parameters.size(); ++i) {
+    const ParameterInfo& parameter = info(covariance.parameters[i]);
+    const std::optional<double>& std_error = model[parameter.id].std_error;
+    const double variance = covariance.matrix[i][i];
+    if (!std_error || std::abs(std::sqrt(variance) - *std_error) <= kTolerance * *std_error) {
+      continue;
+    }
+    faults.push_back({model.file + ":/covariance",
+                      fmt::format("the variance of {} is {:g}, which is not the square of its "
+                                  "std_error {:g}",
+                                  parameter.name, variance, *std_error)});
+  }
+  return faults;
+}
+
+}  // namespace
+
 Result<Model> read_model(const std::filesystem::path& path) {
   AWMR_ASSIGN_OR_RETURN(const Json json, read_json_file(path));
   std::vector<Fault> faults;
   JsonObject root(json, path.string(), "", faults);
   Model model = model_from_json(root);
   model.file = path.string();
+  if (faults.empty()) faults = self_contradictions(model);
   if (!faults.empty()) return input_errors(std::move(faults));
   return model;
 }

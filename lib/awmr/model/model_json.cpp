@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "awmr/core/index.h"
 #include "awmr/core/option_text.h"
 #include "awmr/model/findings_json.h"
 #include "awmr/model/ratio_names.h"
@@ -53,7 +55,25 @@ std::vector<std::vector<double>> matrix_from_json(JsonObject& json, const Json& 
   return rows;
 }
 
-/// A covariance is symmetric with variances >= 0 on its diagonal.
+/// False where correlations contradict each other: a correlation matrix has no eigenvalue below 0.
+bool are_correlations(const std::vector<std::vector<double>>& m) {
+  constexpr double kRounding = 1e-6;
+  const auto n = static_cast<Eigen::Index>(m.size());
+  Eigen::MatrixXd correlation = Eigen::MatrixXd::Identity(n, n);
+  for (std::size_t i = 0; i < m.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const double scale = std::sqrt(m[i][i]) * std::sqrt(m[j][j]);
+      correlation(eigen_index(i), eigen_index(j)) = scale > 0.0 ? m[i][j] / scale : m[i][j];
+    }
+  }
+  if (n == 0 || !correlation.allFinite()) return n == 0;
+  // The solver reads the lower triangle alone.
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(correlation, Eigen::EigenvaluesOnly)
+             .eigenvalues()
+             .minCoeff() > -kRounding;
+}
+
+/// A covariance is symmetric with variances >= 0 on its diagonal and correlations that go together.
 void check_covariance(JsonObject& json, const std::vector<std::vector<double>>& m) {
   for (std::size_t i = 0; i < m.size(); ++i) {
     if (!(m[i][i] >= 0.0)) {
@@ -68,6 +88,11 @@ void check_covariance(JsonObject& json, const std::vector<std::vector<double>>& 
                                          i, j, m[i][j], m[j][i]));
       }
     }
+  }
+  const bool variances = std::ranges::all_of(
+      m, [&](const std::vector<double>& row) { return row[at(&row - m.data())] >= 0.0; });
+  if (variances && !are_correlations(m)) {
+    json.fault("matrix", "is no covariance: its correlations contradict each other");
   }
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "awmr/core/file.h"
+#include "awmr/core/hash.h"
 #include "awmr/core/json.h"
 #include "awmr/model/gains_file.h"
 #include "awmr/model/model.h"
@@ -90,6 +91,23 @@ Status add_live(const fs::path& directory, const Model& model, Json& data) {
   return {};
 }
 
+/// Errors (input): a result was made from another model.json or gains.json than the one beside it.
+Status check_same_inputs(const fs::path& directory, const std::string& result, const Json& json) {
+  if (!json.contains("inputs")) return {};
+  for (const Json& input : json["inputs"]) {
+    const fs::path name = fs::path(input.value("name", "")).filename();
+    const bool is_here = name == "model.json" || name == "gains.json";
+    if (!is_here || name == result || !fs::exists(directory / name)) continue;
+    AWMR_ASSIGN_OR_RETURN(const std::string bytes, read_file(directory / name));
+    if (sha256_hex(bytes) == input.value("sha256", "")) continue;
+    return input_error((directory / result).string() + ":/inputs",
+                       "was made from another " + name.string() +
+                           " than the one beside it: make it again, or take it out of the "
+                           "directory");
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<std::string> report_html(const fs::path& directory) {
@@ -105,6 +123,7 @@ Result<std::string> report_html(const fs::path& directory) {
     const fs::path path = directory / (std::string(name) + ".json");
     if (!fs::exists(path)) continue;
     AWMR_ASSIGN_OR_RETURN(data[name], read_json_file(path));
+    AWMR_RETURN_IF_ERROR(check_same_inputs(directory, path.filename().string(), data[name]));
   }
   if (const fs::path path = directory / "comparison.csv"; fs::exists(path)) {
     AWMR_ASSIGN_OR_RETURN(data["samples"], read_samples(path));

@@ -57,9 +57,11 @@ Status check_consistency(const DrivingLog& log, const std::string& place, const 
                           fmt::format("{}: {}", one.column, one.message)});
       continue;
     }
-    faults.push_back(
-        {place, fmt::format("{}: {}; map it by {}, or take it {}", one.column, one.message,
-                            option_text("column '" + one.mapping + "'"), option_text("as-is"))});
+    const std::string remedy =
+        one.mapping.empty() ? ""
+                            : "map it by " + option_text("column '" + one.mapping + "'") + ", or ";
+    faults.push_back({place, fmt::format("{}: {}; {}take it {}", one.column, one.message, remedy,
+                                         option_text("as-is"))});
   }
   if (!faults.empty()) return input_errors(std::move(faults));
   if (!found.empty()) return {};

@@ -7,6 +7,7 @@
 ///     distance of positions  against   integral of the speed
 ///     course of positions    against   heading
 ///     yaw rate               against   tau_steering and tau_diff of the commands (allocation.h)
+///     sign of the speed      against   thrust to the rear that speeds the vehicle up
 ///     curvature r/u          against   tan(d_r)/l_f: no vehicle turns far more sharply than its
 ///                                      front axle points
 ///
@@ -29,7 +30,7 @@ namespace awmr {
 struct Contradiction {
   std::string column;   ///< "yaw_rate_radps"
   std::string message;  ///< what was compared, what was found, the likely cause
-  std::string mapping;  ///< `NAME=SOURCE*FACTOR`, to be given as a column mapping; may be two
+  std::string mapping;  ///< `NAME=SOURCE*FACTOR`, to be given as a column mapping; may be two, or none
 };
 
 /// Empty for a log whose channels agree. `mappings`: those that the log was read with, so that the

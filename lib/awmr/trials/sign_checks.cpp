@@ -1,7 +1,10 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <complex>
+#include <limits>
 
 #include "awmr/trials/log_evidence.h"
 #include "awmr/trials/robust_ratio.h"
@@ -143,10 +146,62 @@ std::optional<Contradiction> judge_direction(const Evidence& evidence) {
                        scaled_mapping(evidence, "speed_mps", -1.0)};
 }
 
+/// How much speed the vehicle gathers, m/s, over all spans in which it is pushed backwards: the rise of
+/// means of a quarter of a second above the least before them in the span. The first half second does
+/// not count, in which motors and sensors may lag.
+double gathered_backwards_mps(const DrivingLog& log) {
+  constexpr double kPushes = 0.1;  // of the largest thrust
+  constexpr double kLag_s = 0.5;
+  constexpr double kMean_s = 0.25;
+  const std::vector<double>& speed = log[LogChannel::kSpeed]->value;
+  const auto thrust = [&](std::size_t row) { return log.force_left[row] + log.force_right[row]; };
+  double most = 0.0;
+  for (std::size_t row = 0; row < log.rows(); ++row) most = std::max(most, std::abs(thrust(row)));
+  double gathered = 0.0;
+  for (std::size_t begin = 0; begin < log.rows();) {
+    std::size_t end = begin;
+    while (end < log.rows() && thrust(end) < -kPushes * most) ++end;
+    double least = std::numeric_limits<double>::infinity(), rise = 0.0;
+    std::size_t row = begin;
+    while (row < end && log.t_s[row] < log.t_s[begin] + kLag_s) ++row;
+    while (row < end && log.t_s[end - 1] - log.t_s[row] >= kMean_s) {
+      const double until_s = log.t_s[row] + kMean_s;
+      double sum = 0.0, n = 0.0;
+      for (; row < end && log.t_s[row] < until_s; ++row, n += 1.0) sum += speed[row];
+      least = std::min(least, sum / n);
+      rise = std::max(rise, sum / n - least);
+    }
+    gathered += rise;
+    begin = std::max(end, begin + 1);
+  }
+  return gathered;
+}
+
+/// A speed without a sign: it is never negative, though the vehicle gathers speed while it is pushed
+/// backwards. Whatever it resists, thrust to the rear brakes a vehicle that drives forward.
+std::optional<Contradiction> judge_unsigned(const Evidence& evidence) {
+  constexpr double kNegative = 0.05;  // of the largest speed
+  constexpr double kMuch = 0.15;
+  if (!evidence.has(LogChannel::kSpeed)) return std::nullopt;
+  const auto [slowest, fastest] = std::ranges::minmax(evidence.log[LogChannel::kSpeed]->value);
+  if (!(fastest > 0.0) || slowest < -kNegative * fastest) return std::nullopt;
+  const double gathered_mps = gathered_backwards_mps(evidence.log);
+  if (gathered_mps < kMuch * fastest) return std::nullopt;
+  return Contradiction{
+      "speed_mps",
+      fmt::format(
+          "it is never negative, though the vehicle gathers {:.3g} m/s while its wheels push "
+          "backwards: the sensor tells no direction. Give the speed its sign, leave the "
+          "column out where positions are measured, or record forward driving alone",
+          gathered_mps),
+      ""};
+}
+
 }  // namespace
 
 std::vector<Contradiction> sign_contradictions(const Evidence& evidence) {
   std::vector<Contradiction> found;
+  if (auto is_unsigned = judge_unsigned(evidence)) found.push_back(*is_unsigned);
   if (auto direction = judge_direction(evidence)) found.push_back(*direction);
   for (Contradiction& one : judge_signs(evidence)) found.push_back(std::move(one));
   return found;

@@ -112,6 +112,11 @@ DriveChannel measured_channel(const DrivingLog& log, LogChannel which, std::size
 }  // namespace
 
 Result<std::size_t> first_row_of(const DrivingLog& log, const std::optional<double>& from_s) {
+  if (from_s && *from_s < log.t_s.front()) {
+    return input_error(log.file, fmt::format("begins at {:g} s, after the {:g} s at which the "
+                                             "scenario is to begin",
+                                             log.t_s.front(), *from_s));
+  }
   for (std::size_t row = 0; row < log.rows(); ++row) {
     const bool commands = log.force_left[row] != 0.0 || log.force_right[row] != 0.0 ||
                           (log.steering_command_rad && (*log.steering_command_rad)[row] != 0.0);

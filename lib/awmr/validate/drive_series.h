@@ -41,7 +41,7 @@ struct DriveStart {
   State<double> error{};  ///< standard deviation of what was read of it
 };
 
-/// The first row that commands anything, or that at or after from_s.
+/// The first row that commands anything, or that at or after from_s, which is no time before the log.
 /// Errors (input): there is none.
 Result<std::size_t> first_row_of(const DrivingLog& log, const std::optional<double>& from_s);
 

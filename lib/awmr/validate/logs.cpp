@@ -64,9 +64,15 @@ Result<LogValidation> validate_log(const DrivingLog& log, const Model& model, do
   const Motion motion = model.simulated_motion();
   AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, model.plant(motion));
   AWMR_RETURN_IF_ERROR(check_replay(plant, model.file));
-  if (motion == Motion::kPlanar) return validate_log(log, plant, horizon_s, tolerance);
-  AWMR_ASSIGN_OR_RETURN(const DrivingLog part, straight_part(log, model));
-  return validate_log(part, plant, horizon_s, tolerance);
+  std::optional<DrivingLog> part;
+  if (motion != Motion::kPlanar) {
+    AWMR_ASSIGN_OR_RETURN(part, straight_part(log, model));
+  }
+  LogValidation validation = validate_log(part ? *part : log, plant, horizon_s, tolerance);
+  if (!validation.channels.empty()) return validation;
+  return input_error(log.file, fmt::format("no channel has readings to be predicted within a "
+                                           "horizon of {:g} s: give a longer one",
+                                           horizon_s));
 }
 
 }  // namespace awmr

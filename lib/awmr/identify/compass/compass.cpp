@@ -190,6 +190,33 @@ Status check_turn(const FieldRecord& record, double turned, std::vector<Finding>
   return {};
 }
 
+/// Errors (refused): the vehicle's float cannot hold the centre against the field, or the field is so
+/// much weaker one way than the other that noise decides on the heading.
+Status check_usable(const std::string& file, const CompassCalibration& c) {
+  constexpr double kRounding = 1e-3;  // of the field: 0.06 deg
+  constexpr double kRoundest = 10.0;  // longer axis over the shorter one
+  const double field = c.field.value;
+  for (const double centre : {c.centre_ahead.value, c.centre_left.value}) {
+    const double rounded = static_cast<double>(static_cast<float>(centre));
+    if (std::abs(rounded - centre) <= kRounding * field) continue;
+    return refusal(
+        fmt::format("{}: the centre {:.9g} is too large beside the field {:.4g} for the "
+                    "vehicle's numbers of 24 bits: take the offset off the readings, or "
+                    "move the magnet away",
+                    file, centre, field));
+  }
+  // S has the eigenvalues 1/a and 1/b of the axes, and a determinant of 1.
+  const double mean = 0.5 * (c.gain_ahead.value + c.gain_left.value);
+  const double apart =
+      std::hypot(0.5 * (c.gain_ahead.value - c.gain_left.value), c.gain_cross.value);
+  const double ratio = (mean + apart) / (mean - apart);
+  if (ratio > 0.0 && ratio <= kRoundest) return {};
+  return refusal(
+      fmt::format("{}: the field is {:.3g} times weaker one way than the other: one axis "
+                  "of the compass is dead, or iron is too near",
+                  file, ratio));
+}
+
 /// det S = 1: |c| is then the field, in the unit of f.
 CompassCalibration calibration_of(const Known& known) {
   const auto root = [](const Ellipse& e) { return std::sqrt(e.gain().determinant()); };
@@ -233,6 +260,7 @@ Result<CompassFit> fit_compass(const FieldRecord& record, double declination_deg
                     record.file, 100.0 * fit.residual));
   }
   CompassFit result{.calibration = calibration_of(fit)};
+  AWMR_RETURN_IF_ERROR(check_usable(record.file, result.calibration));
   result.calibration.turned_deg = degrees(turned_rad(headings));
   result.calibration.largest_gap_deg = degrees(gap);
   result.calibration.declination_deg = declination_deg;

@@ -43,7 +43,10 @@ Adequacy judge_adequacy(const std::vector<DrivingLog>& logs, const LogFitOptions
   Adequacy adequacy;
   for (const auto& [channel, noise] : chosen.fit.noise) {
     if (!noise.of_the_model()) continue;
-    std::string advice = "something that the model does not know acts on the vehicle";
+    std::string advice =
+        "something that the model does not know acts on the vehicle (a side that pulls, a slope, "
+        "tyres "
+        "that give way), or the sensor wanders";
     if (channel == LogChannel::kSpeed && try_families) {
       advice = try_rivals(best_family(logs, power_law, chosen, {.only_suspects = false}),
                           chosen.fit.aic, adequacy)

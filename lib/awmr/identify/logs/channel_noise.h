@@ -34,9 +34,9 @@ struct ChannelNoise {
   bool second_order() const { return frequency_radps > 0.0; }
   /// Numbers that were estimated: sigma_w, and of the drift sigma_d with its memory.
   int numbers() const { return drift_std > 0.0 ? (second_order() ? 4 : 3) : 1; }
-  /// Errors above the sensor's that stay for half a second or more are the model's, or a sensor's that
-  /// wanders.
-  bool of_the_model() const { return drift_std > sensor_std && correlation_s >= 0.5; }
+  /// Errors of more than half of the sensor's that stay for half a second or more are the model's, or
+  /// a sensor's that wanders.
+  bool of_the_model() const { return drift_std > 0.5 * sensor_std && correlation_s >= 0.5; }
   /// A drift that a missing term of the model may be behind.
   bool has_slow_drift() const { return drift_std > 0.25 * sensor_std && correlation_s > 0.2; }
 };

@@ -6,6 +6,8 @@
 #include <chrono>
 #include <cmath>
 #include <initializer_list>
+#include <set>
+#include <string_view>
 #include <utility>
 
 #include "awmr/core/index.h"
@@ -36,6 +38,14 @@ bool any_has(const std::vector<DrivingLog>& logs, std::initializer_list<LogChann
   });
 }
 
+/// Whether the servo is told to go anywhere.
+bool moves_steering(const DrivingLog& log) {
+  constexpr double kLittle_rad = 1e-3;
+  if (!log.steering_command_rad) return false;
+  const auto [least, most] = std::ranges::minmax(*log.steering_command_rad);
+  return most - least > kLittle_rad;
+}
+
 /// Why no channel or command of the logs could show a parameter, before any search; empty: one
 /// might. What is merely coupled to a channel, as yaw is to speed, is not shown by it.
 std::string cannot_show(const std::vector<DrivingLog>& logs, ParameterId id) {
@@ -43,7 +53,8 @@ std::string cannot_show(const std::vector<DrivingLog>& logs, ParameterId id) {
     case ParameterId::kSteeringTimeConstant: {
       const bool any_servo = std::ranges::any_of(
           logs, [](const DrivingLog& log) { return log.steering_command_rad.has_value(); });
-      return any_servo ? "" : "the logs hold the steering angle as it was, not its command";
+      if (!any_servo) return "the logs hold the steering angle as it was, not its command";
+      return std::ranges::any_of(logs, moves_steering) ? "" : "the steering command never changes";
     }
     case ParameterId::kSurgeAlpha:
     case ParameterId::kSurgeBeta:
@@ -243,20 +254,67 @@ void refuse_all(const FamilyFit& chosen, const std::string& file, LogStage& stag
   }
 }
 
+/// A delay that the fit found, and its standard error.
+struct FoundDelay {
+  FreeQuantity quantity;
+  double value_s;
+  double error_s;
+};
+
+/// The delays, of sensors or of the commands, that are more than chance and a millisecond.
+std::vector<FoundDelay> found_delays(const LogFit& fit, FreeQuantity::Kind kind) {
+  constexpr double kShortest_s = 1e-3;
+  std::vector<FoundDelay> found;
+  for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
+    if (fit.quantities[i].kind != kind || !fit.why_not[i].empty()) continue;
+    const double error_s = std::sqrt(fit.covariance(eigen_index(i), eigen_index(i)));
+    if (fit.coordinates[i] < std::max(kShortest_s, 2.0 * error_s)) continue;
+    found.push_back({fit.quantities[i], fit.coordinates[i], error_s});
+  }
+  return found;
+}
+
+/// Two or more channels that show the motion at once, and all of them late: a cause that they share.
+/// With `--fit input_delay_s` the commands are late, by a dead time or a lag.
+std::vector<Finding> actuator_findings(const LogFit& fit, const std::string& file) {
+  constexpr std::string_view kWhy =
+      "motors that lag, commands that arrive late or pass a ramp before they arrive. The fit takes "
+      "a "
+      "lag for a dead time, and m', I'z and the sway resistance take a part of it: their intervals "
+      "do not hold. Give the motors' lag in the vehicle file (motor.time_constant_s) to the "
+      "simulator, log what reaches the motors, or record slower steps";
+  const std::vector<FoundDelay> input = found_delays(fit, FreeQuantity::Kind::kDelay);
+  if (!input.empty()) {
+    return {{file, 0, Severity::kWarning, "actuator-lag",
+             fmt::format("the vehicle answers {:.3f} +- {:.3f} s after its commands: {}",
+                         input.front().value_s, input.front().error_s, kWhy)}};
+  }
+  const std::vector<FoundDelay> late = found_delays(fit, FreeQuantity::Kind::kSensorDelay);
+  std::set<LogChannel> channels;
+  for (const auto& [channel, noise] : fit.noise) {
+    channels.insert(channel == LogChannel::kY ? LogChannel::kX : channel);
+  }
+  if (channels.size() < 2 || late.size() < channels.size()) return {};
+  const auto [least, most] = std::ranges::minmax(late, {}, &FoundDelay::value_s);
+  return {{file, 0, Severity::kWarning, "actuator-lag",
+           fmt::format("every sensor seems late, by {:.3f} to {:.3f} s, which is rather one cause "
+                       "than many: {}",
+                       least.value_s, most.value_s, kWhy)}};
+}
+
 /// `sensor-delay` for every sensor that the fit found late.
 std::vector<Finding> delay_findings(const LogFit& fit, const std::string& file) {
   std::vector<Finding> findings;
-  for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
-    if (fit.quantities[i].kind != FreeQuantity::Kind::kSensorDelay) continue;
-    const double error_s = std::sqrt(fit.covariance(eigen_index(i), eigen_index(i)));
-    const LogChannel channel = fit.quantities[i].channel;
+  for (const auto& [quantity, value_s, error_s] :
+       found_delays(fit, FreeQuantity::Kind::kSensorDelay)) {
+    const LogChannel channel = quantity.channel;
     findings.push_back(
         {file, 0, Severity::kWarning, "sensor-delay",
          fmt::format(
              "{} {} late by {:.3f} +- {:.3f} s against the commands; the fit allows for it, a "
              "controller that reads it has to as well",
              channel == LogChannel::kX ? "the position" : info(channel).name,
-             channel == LogChannel::kX ? "comes" : "is read", fit.coordinates[i], error_s)});
+             channel == LogChannel::kX ? "comes" : "is read", value_s, error_s)});
   }
   return findings;
 }
@@ -285,6 +343,7 @@ void take(const LogFit& fit, const Model& model, bool overrule, const std::strin
           LogStage& stage) {
   stage.block = fit.covariance;
   append(stage.findings, delay_findings(fit, file));
+  append(stage.findings, actuator_findings(fit, file));
   for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
     const FreeQuantity& q = fit.quantities[i];
     const bool parameter = q.kind == FreeQuantity::Kind::kParameter;

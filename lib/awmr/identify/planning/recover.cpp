@@ -1,6 +1,7 @@
 #include "awmr/identify/planning/recover.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <atomic>
@@ -127,14 +128,21 @@ TrialData simulated_trials(const Experiment& experiment, const RecoverOptions& o
 struct OneRun {
   std::vector<std::optional<Estimate>> estimates;  ///< by ParameterId; empty after an error
   bool failed = false;                             ///< something asked for was refused
+  std::string why;                                 ///< the first of what was refused
+  std::optional<Error> error;                      ///< why the run gave no model at all
 };
 
 OneRun identified_again(const Vehicle& vehicle, const TrialData& data, IdentifyOptions options) {
   options.threads = 1;
   options.side_by_side = false;
   const auto identified = identify(vehicle, data, options, {});
-  if (!identified) return {.estimates = {}, .failed = true};
-  OneRun run{.estimates = {}, .failed = !identified->refused.empty()};
+  if (!identified) {
+    return {.estimates = {}, .failed = true, .why = {}, .error = identified.error()};
+  }
+  OneRun run{.estimates = {}, .failed = !identified->refused.empty(), .why = {}, .error = {}};
+  for (const Finding& finding : identified->model.record.findings) {
+    if (finding.severity == Severity::kError && run.why.empty()) run.why = finding.message;
+  }
   for (const Estimate& estimate : identified->model.estimates) {
     const bool fitted = estimate.value && estimate.ci95 && estimate.source != Source::kGiven;
     run.estimates.push_back(fitted ? std::optional(estimate) : std::nullopt);
@@ -202,7 +210,7 @@ std::string noise_in_words(const RowNoise& rows, const RecoverOptions& options) 
 /// A drive that has a row to fit to, and an end. Errors (input): it has not.
 Status check_drive(const DrivePlan& drive) {
   constexpr double kFewest = 20.0;
-  constexpr double kMost = 1e7;
+  constexpr double kMost = 1e6;
   const double rows = drive.duration_s * drive.rate_hz;
   if (drive.rate_hz > 0.0 && rows >= kFewest && rows <= kMost) return {};
   return input_error(option_text("duration"),
@@ -231,6 +239,26 @@ RecoverOptions options_for(const Model& model, RecoverOptions options) {
                               ParameterId::kMassNorm};
   }
   return options;
+}
+
+/// Errors: that of the runs, where all have one; (refused) no run gave anything, or nothing that was
+/// asked for.
+Status check_recovered(const Recovery& recovery, const std::vector<ParameterId>& asked,
+                       const std::vector<OneRun>& runs) {
+  if (std::ranges::all_of(runs, [](const OneRun& run) { return run.error.has_value(); })) {
+    return tl::unexpected(*runs.front().error);
+  }
+  std::vector<std::string_view> missing;
+  for (const ParameterId id : asked) {
+    const auto is_it = [&](const RecoveredParameter& p) { return p.id == id; };
+    if (std::ranges::none_of(recovery.parameters, is_it)) missing.push_back(info(id).name);
+  }
+  if (!recovery.parameters.empty() && missing.empty()) return {};
+  const auto told = std::ranges::find_if(runs, [](const OneRun& run) { return !run.why.empty(); });
+  return refusal(fmt::format(
+      "of {} runs none gave {}{}", recovery.runs,
+      missing.empty() ? "an interval" : fmt::format("{}", fmt::join(missing, ", ")),
+      told == runs.end() ? ", as this plan's trials do not show it" : ": " + told->why));
 }
 
 /// The vehicle of the runs. Errors (input): the model lacks a parameter that a trial needs.
@@ -269,11 +297,14 @@ Result<Recovery> recover(const Model& model, const RecoverOptions& given,
                     .runs = options.runs};
   recovery.failed = static_cast<int>(
       std::count_if(runs.begin(), runs.end(), [](const OneRun& run) { return run.failed; }));
+  const std::vector<ParameterId>& asked = given.identify.asked;
   for (const ParameterInfo& parameter : parameter_table()) {
-    if (!model[parameter.id].value) continue;
+    const bool is_asked = std::ranges::find(asked, parameter.id) != asked.end();
+    if (!model[parameter.id].value || !(asked.empty() || is_asked)) continue;
     const RecoveredParameter p = judged(parameter.id, *model[parameter.id].value, runs);
     if (p.runs > 0) recovery.parameters.push_back(p);
   }
+  AWMR_RETURN_IF_ERROR(check_recovered(recovery, asked, runs));
   return recovery;
 }
 

@@ -63,7 +63,8 @@ struct Recovery {
 /// `progress` is called with the runs done so far, on the thread that called recover(), and last
 /// with all of them. A log of a model that knows straight motion alone drives straight, and is asked
 /// for what that shows. Errors (input): the model lacks a parameter that a trial of the plan needs,
-/// or has no trials for the plan; fewer than 2 runs.
+/// or has no trials for the plan; fewer than 2 runs. (refused): no run gives what is asked for, or
+/// anything.
 Result<Recovery> recover(const Model& model, const RecoverOptions& options,
                          const std::function<void(int)>& progress);
 

@@ -11,6 +11,7 @@
 #include "awmr/core/option_text.h"
 #include "awmr/identify/planning/candidates.h"
 #include "awmr/model/transform.h"
+#include "awmr/trials/replay.h"
 
 namespace awmr {
 namespace {
@@ -215,8 +216,20 @@ Result<Suggestion> suggest(const Model& model, const SuggestOptions& options) {
                         .trials = {},
                         .assumptions = assumptions_of(model, options)};
   if (uncertainty.parameters.empty()) return suggestion;
+  if (model.simulated_motion() == Motion::kPlanar) {
+    AWMR_RETURN_IF_ERROR(check_replay(model.plant_as_known(), model.file));
+  }
   for (const CandidateTrial& candidate : candidates_of(model, options)) {
     suggestion.trials.push_back(judged(candidate, model, uncertainty, target));
+    const SuggestedTrial& trial = suggestion.trials.back();
+    if (std::isfinite(trial.std_error_before) && std::isfinite(trial.std_error_after) &&
+        std::isfinite(trial.d_gain)) {
+      continue;
+    }
+    return input_error(model.file,
+                       fmt::format("what '{}' would show is no finite number at this model's "
+                                   "values: an exponent, a mass or a resistance of it is extreme",
+                                   trial.settings));
   }
   sort_by_promise(suggestion.trials);
   return suggestion;
