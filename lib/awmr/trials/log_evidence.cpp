@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace awmr {
 namespace {
@@ -47,7 +48,12 @@ EvidenceWindow sums_of(const DrivingLog& log, const Vehicle& vehicle, const LogW
     sums.moved_m = std::hypot(dx, dy);
     sums.course_rad = std::atan2(dy, dx);
   }
-  if (log[LogChannel::kSpeed]) sums.driven_m = integral_of(log, LogChannel::kSpeed, window);
+  if (const auto& speed = log[LogChannel::kSpeed]) {
+    sums.driven_m = integral_of(log, LogChannel::kSpeed, window);
+    const auto [least, most] = std::ranges::minmax(
+        std::span(speed->value).subspan(window.begin, window.end - window.begin));
+    sums.has_stuck_speed = !(least < most) && least != 0.0;
+  }
   add_commands(log, vehicle, window, sums);
   return sums;
 }

@@ -18,16 +18,17 @@ inline constexpr double kEvidenceWindow_s = 1.0;
 
 /// What one window says of each signal; sums over the window, so that noise averages out.
 struct EvidenceWindow {
-  double turned_rad = 0.0;      ///< change of heading
-  double rate_rad = 0.0;        ///< integral of the yaw rate
-  double moved_m = 0.0;         ///< distance between the first and the last position
-  double course_rad = 0.0;      ///< its direction
-  double heading_rad = 0.0;     ///< in the middle
-  double driven_m = 0.0;        ///< integral of the speed
-  double thrust = 0.0;          ///< mean of F'L + F'R
-  double steering_rad = 0.0;    ///< mean command
-  double tau_steering_m = 0.0;  ///< l_f (F'L + F'R) sin d_r, as in allocation.h
-  double tau_diff_m = 0.0;      ///< d (F'R - F'L)(cos d_r + 1), as in allocation.h
+  double turned_rad = 0.0;       ///< change of heading
+  double rate_rad = 0.0;         ///< integral of the yaw rate
+  double moved_m = 0.0;          ///< distance between the first and the last position
+  double course_rad = 0.0;       ///< its direction
+  double heading_rad = 0.0;      ///< in the middle
+  double driven_m = 0.0;         ///< integral of the speed
+  bool has_stuck_speed = false;  ///< every reading of the speed is the same, and not 0
+  double thrust = 0.0;           ///< mean of F'L + F'R
+  double steering_rad = 0.0;     ///< mean command
+  double tau_steering_m = 0.0;   ///< l_f (F'L + F'R) sin d_r, as in allocation.h
+  double tau_diff_m = 0.0;       ///< d (F'R - F'L)(cos d_r + 1), as in allocation.h
   double span_s = 0.0;
 };
 

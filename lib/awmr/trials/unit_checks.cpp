@@ -130,9 +130,12 @@ std::optional<Contradiction> judge_rates(const Evidence& evidence) {
 std::optional<Contradiction> judge_speed(const Evidence& evidence) {
   const bool position = evidence.has(LogChannel::kX) && evidence.has(LogChannel::kY);
   if (!position || !evidence.has(LogChannel::kSpeed)) return std::nullopt;
-  const auto ratio = robust_ratio(
-      series(evidence.overlapping, [](const EvidenceWindow& w) { return std::abs(w.driven_m); }),
-      series(evidence.overlapping, [](const EvidenceWindow& w) { return w.moved_m; }));
+  // A sensor that is stuck has no unit.
+  std::vector<EvidenceWindow> windows = evidence.overlapping;
+  std::erase_if(windows, [](const EvidenceWindow& w) { return w.has_stuck_speed; });
+  const auto ratio =
+      robust_ratio(series(windows, [](const EvidenceWindow& w) { return std::abs(w.driven_m); }),
+                   series(windows, [](const EvidenceWindow& w) { return w.moved_m; }));
   if (!ratio) return std::nullopt;
   if (ratio->ratio >= kLowestAgreement && ratio->ratio <= kHighestAgreement) return std::nullopt;
   static constexpr std::array<UnitFactor, 6> kSpeedUnits{{{1.0 / 3.6, "km/h"},
