@@ -85,7 +85,8 @@ struct IdentifyOptions {
   /// too, where it is believed as much as the rows.
   bool joint = false;
   std::vector<ParameterId> asked = {};  ///< empty: those the given trials exist for
-  bool asked_all = false;  ///< `asked` has them all: those that the vehicle has none of are left out
+  bool asked_all =
+      false;  ///< `asked` has them all: those that the vehicle has none of are left out
   bool fit_input_delay = false;         ///< logs: one delay of all commands, s, where it is unknown
   std::vector<LogChannel> biases = {};  ///< logs: channels with an unknown constant offset
   std::uint64_t seed = 1;               ///< of the multistart and of the bootstrap

@@ -30,7 +30,8 @@ namespace awmr {
 struct Contradiction {
   std::string column;   ///< "yaw_rate_radps"
   std::string message;  ///< what was compared, what was found, the likely cause
-  std::string mapping;  ///< `NAME=SOURCE*FACTOR`, to be given as a column mapping; may be two, or none
+  std::string
+      mapping;  ///< `NAME=SOURCE*FACTOR`, to be given as a column mapping; may be two, or none
 };
 
 /// Empty for a log whose channels agree. `mappings`: those that the log was read with, so that the
