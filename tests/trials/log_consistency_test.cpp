@@ -246,6 +246,29 @@ TEST(LogConsistency, AGyroBiasIsMeasuredAgainstTheHeading) {
   }
 }
 
+TEST(LogConsistency, ALargeGyroBiasIsNoOtherUnit) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    for (const double bias_radps : {-0.4, 0.2, 0.6}) {
+      const DrivingLog biased = sound_log(seed, {.gyro_bias_radps = bias_radps});
+      for (const Contradiction& c : contradictions(biased, vehicle(), {})) {
+        EXPECT_NE(c.column, "yaw_rate_radps") << seed << " " << bias_radps << ": " << c.message;
+      }
+    }
+  }
+}
+
+TEST(LogConsistency, ASpeedThatIsStuckForHalfOfTheLogHasNoOtherUnit) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    DrivingLog log = sound_log(seed);
+    std::vector<double>& speed = log[LogChannel::kSpeed]->value;
+    const std::size_t begin = 10 * seed;
+    std::fill_n(speed.begin() + static_cast<std::ptrdiff_t>(begin), kRows / 2, speed[begin]);
+    for (const Contradiction& c : contradictions(log, vehicle(), {})) {
+      EXPECT_NE(c.column, "speed_mps") << seed << ": " << c.message;
+    }
+  }
+}
+
 TEST(LogConsistency, ARefusalNamesEachColumnWithItsRemedyAndAsIsTurnsItIntoAWarning) {
   DrivingLog log = sound_log(2);
   scale(*log.steering_command_rad, -1.0);

@@ -99,14 +99,28 @@ bool heading_spans_radians(const DrivingLog& log) {
   return most - least < 2.0 * pi<double>() + 0.1;
 }
 
+bool agree(double ratio) { return ratio >= kLowestAgreement && ratio <= kHighestAgreement; }
+
+/// The values less their median.
+std::vector<double> centred(std::vector<double> values) {
+  const double middle = median(values);
+  for (double& value : values) value -= middle;
+  return values;
+}
+
 std::optional<Contradiction> judge_rates(const Evidence& evidence) {
   if (!evidence.has(LogChannel::kHeading) || !evidence.has(LogChannel::kYawRate)) return {};
-  const auto ratio = robust_ratio(
-      series(evidence.overlapping, [](const EvidenceWindow& w) { return w.rate_rad; }),
-      series(evidence.overlapping, [](const EvidenceWindow& w) { return w.turned_rad; }));
+  const std::vector<double> rate =
+      series(evidence.overlapping, [](const EvidenceWindow& w) { return w.rate_rad; });
+  const std::vector<double> turned =
+      series(evidence.overlapping, [](const EvidenceWindow& w) { return w.turned_rad; });
+  const auto ratio = robust_ratio(rate, turned);
   if (!ratio) return std::nullopt;
   const double size = std::abs(ratio->ratio);
-  if (size >= kLowestAgreement && size <= kHighestAgreement) return std::nullopt;
+  if (agree(size)) return std::nullopt;
+  // A large bias of the gyro looks like another unit until it is taken off.
+  const auto without_bias = robust_ratio(centred(rate), centred(turned));
+  if (without_bias && agree(without_bias->ratio)) return std::nullopt;
   const double degree = 180.0 / pi<double>();
   static constexpr std::array<UnitFactor, 3> kUnits{
       {{57.29578, ""}, {1.0 / 57.29578, ""}, {1e-3, "milliseconds"}}};
