@@ -39,16 +39,16 @@ const awmr::ParameterBlock awmr_parameters AWMR_IN_FLASH = {
     {AWMR_MASS_NORM,
      AWMR_INERTIA_NORM,
      AWMR_HEADING_LAMBDA,
-     AWMR_INERTIA_NORM* AWMR_HEADING_LAMBDA,
-     AWMR_INERTIA_NORM*(AWMR_HEADING_MU / AWMR_HEADING_EPSILON),
-     AWMR_INERTIA_NORM* AWMR_HEADING_MU,
-     AWMR_MASS_NORM*(AWMR_SPEED_MU / AWMR_SPEED_EPSILON),
-     AWMR_MASS_NORM* AWMR_SPEED_MU,
+     AWMR_INERTIA_NORM * AWMR_HEADING_LAMBDA,
+     AWMR_INERTIA_NORM * (AWMR_HEADING_MU / AWMR_HEADING_EPSILON),
+     AWMR_INERTIA_NORM * AWMR_HEADING_MU,
+     AWMR_MASS_NORM * (AWMR_SPEED_MU / AWMR_SPEED_EPSILON),
+     AWMR_MASS_NORM * AWMR_SPEED_MU,
      {4.0f * AWMR_ALLOCATED_FORCE_MIN, 4.0f * AWMR_ALLOCATED_FORCE_MAX, AWMR_ALLOCATED_FORCE_MIN,
-      AWMR_ALLOCATED_FORCE_MAX, AWMR_HALF_TRACK_M, 0.5f / AWMR_HALF_TRACK_M,
-      1.0f / AWMR_HALF_TRACK_M, 2.0f * AWMR_FRONT_AXLE_M, 0.25f / AWMR_FRONT_AXLE_M,
-      0.5f / AWMR_FRONT_AXLE_M, AWMR_STEERING_MAX_RAD, 0.5f * AWMR_STEERING_MAX_TAN_HALF,
-      0.5f * AWMR_STEERING_MAX_TAN_HALF*(0.5f * AWMR_STEERING_MAX_TAN_HALF)}},
+      AWMR_ALLOCATED_FORCE_MAX, AWMR_HALF_TRACK_M, 0.5f / AWMR_HALF_TRACK_M, 1.0f / AWMR_HALF_TRACK_M,
+      2.0f * AWMR_FRONT_AXLE_M, 0.25f / AWMR_FRONT_AXLE_M, 0.5f / AWMR_FRONT_AXLE_M, AWMR_STEERING_MAX_RAD,
+      0.5f * AWMR_STEERING_MAX_TAN_HALF,
+      0.5f * AWMR_STEERING_MAX_TAN_HALF * (0.5f * AWMR_STEERING_MAX_TAN_HALF)}},
     {AWMR_SPEED_MAX_MPS, AWMR_YAW_RATE_MAX_RADPS, AWMR_HEADING_TIMEOUT_MS, AWMR_SPEED_TIMEOUT_MS,
      AWMR_COMMAND_TIMEOUT_MS, AWMR_STEP_TIMEOUT_MS},
     AWMR_TABLE_SHAPE(AWMR_SURGE_TABLE),
@@ -56,9 +56,9 @@ const awmr::ParameterBlock awmr_parameters AWMR_IN_FLASH = {
 
 #if AWMR_FRICTION_AT_REST
 extern const awmr::RestBlock awmr_rest;
-const awmr::RestBlock awmr_rest AWMR_IN_FLASH = {AWMR_DEAD_ZONE,     AWMR_SURGE_REST_SPEED,
+const awmr::RestBlock awmr_rest AWMR_IN_FLASH = {AWMR_DEAD_ZONE, AWMR_SURGE_REST_SPEED,
                                                  AWMR_SURGE_AT_REST, AWMR_YAW_REST_SPEED,
-                                                 AWMR_YAW_AT_REST,   AWMR_BACK_EMF_S_PER_M};
+                                                 AWMR_YAW_AT_REST, AWMR_BACK_EMF_S_PER_M};
 #define AWMR_REST &awmr_rest
 #else
 #define AWMR_REST 0
@@ -92,8 +92,9 @@ inline void follow(const awmr_point* points, int16_t count, float acceptance_m, 
 }  // namespace
 
 uint8_t awmr_init(void) {
-  const bool good = awmr::start_autopilot(autopilot, &awmr_parameters, kSurgeLines, kSurgeCount,
-                                          kYawLines, kYawCount, AWMR_PARAMETERS_CRC32, AWMR_REST);
+  const bool good =
+      awmr::start_autopilot(autopilot, &awmr_parameters, kSurgeLines, kSurgeCount, kYawLines,
+                            kYawCount, AWMR_PARAMETERS_CRC32, AWMR_REST);
   return good ? AWMR_FAULT_NONE : AWMR_FAULT_PARAMETERS;
 }
 
@@ -131,9 +132,7 @@ __attribute__((noinline)) void awmr_follow_line(const awmr_point* corners, int16
                                                 const awmr_line_law* law) {
   __asm__ volatile("" ::: "memory");
   const awmr::Polyline<float> line = {
-      reinterpret_cast<const awmr::Position<float>*>(corners),
-      count,
-      law->corner_m,
+      reinterpret_cast<const awmr::Position<float>*>(corners), count, law->corner_m,
       {law->delta_rad, law->width_m, law->sideslip_compensation != 0}};
   awmr::follow_line(autopilot, line);
 }
