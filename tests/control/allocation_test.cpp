@@ -5,6 +5,7 @@
 #include <rapidcheck.h>
 
 #include <cmath>
+#include <utility>
 
 #include "support/paper_vehicle.h"
 
@@ -91,6 +92,60 @@ TEST(Allocation, SaysWhenSteeringHasNoAuthority) {
     EXPECT_NEAR(moment(combined), 0.1, 1e-15);  // all of it by the forces
   }
   EXPECT_FALSE(allocate(YawMode::kSteering, 0.5, 0.1, limits()).steering_powerless);
+}
+
+/// Without its taper the steering command jumps by the stop's 20 degrees where tau_speed crosses 0.
+TEST(Allocation, TheSteeringCommandHasNoJumpWhereThrustCrossesZero) {
+  for (const AllocationForm form : {AllocationForm::kExact, AllocationForm::kPaper}) {
+    for (const bool is_rear_driven : {true, false}) {
+      for (const YawMode mode : {YawMode::kSteering, YawMode::kCombined}) {
+        for (const double tau_turn_m : {0.001, -0.02, 0.3}) {
+          AllocationLimits<double> l = limits();
+          l.form = form;
+          l.is_rear_driven = is_rear_driven;
+          const double step = 1e-4;
+          double before_rad = 0.0;
+          for (double tau_speed = -0.01; tau_speed < 0.2; tau_speed += step) {
+            const double now_rad = allocate(mode, tau_speed, tau_turn_m, l).steering_rad;
+            // The limit rises by 20 degrees over 0.1 of tau_speed, and by 2 % faster than its mean at first.
+            ASSERT_LE(std::abs(now_rad - before_rad), 1.1 * radians(20.0) * step / 0.1)
+                << "tau_speed " << tau_speed << ", tau_turn " << tau_turn_m;
+            before_rad = now_rad;
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(Allocation, TheSteeringsLimitRisesWithTheThrustAndCombinedMakesUpForIt) {
+  const double quarter = 0.25 * 0.5 * std::tan(radians(10.0));
+  const Allocation<double> weak = allocate(YawMode::kSteering, 0.025, 1.0, limits());
+  EXPECT_TRUE(weak.steering_limited);
+  EXPECT_NEAR(weak.steering_rad, 2.0 * std::atan(2.0 * quarter), 1e-15);
+  EXPECT_NEAR(delivered(weak).tau_speed, 0.025, 1e-15);
+  const Allocation<double> both = allocate(YawMode::kCombined, 0.025, 0.5, limits());
+  EXPECT_NEAR(both.steering_rad, 2.0 * std::atan(2.0 * quarter), 1e-15);
+  EXPECT_NEAR(moment(both), 0.5, 1e-14);
+  EXPECT_NEAR(delivered(both).tau_speed, 0.025, 1e-14);
+}
+
+/// An AVR rounds subnormal quotients otherwise than a host, so that there may be none.
+TEST(Allocation, OfFloatsMakesNoSubnormalCommand) {
+  const AllocationLimits<float> l = paper_controller_of<float>().limits;
+  for (const YawMode mode : kModes) {
+    for (int exponent = -149; exponent < 0; ++exponent) {
+      for (const float sign : {1.0F, -1.0F}) {
+        const float tiny = sign * std::ldexp(1.0F, exponent);
+        for (const auto& asked :
+             {std::pair{0.3F, tiny}, std::pair{tiny, 0.01F}, std::pair{tiny, tiny}}) {
+          const Allocation<float> a = allocate(mode, asked.first, asked.second, l);
+          for (const float command : {a.steering_rad, a.force.left, a.force.right})
+            ASSERT_NE(std::fpclassify(command), FP_SUBNORMAL) << asked.first << " " << asked.second;
+        }
+      }
+    }
+  }
 }
 
 TEST(Allocation, ClipsTauSpeedFirstThenSteeringThenForces) {

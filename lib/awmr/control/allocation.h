@@ -16,6 +16,7 @@
 ///   1. tau_speed is clipped to [4 F'min, 4 F'max];
 ///   2. d_r is clipped to |d_r| <= d_max, and the F' follow from the clipped, commanded d_r;
 ///   3. each F' is clipped to [F'min, F'max].
+/// Where tau_speed is small, d_r has a limit below d_max: steering_limit().
 #pragma once
 
 #include "awmr/control/flash.h"
@@ -76,6 +77,11 @@ template <class T>
 constexpr T steering_authority_min() {
   return T(1e-6);
 }
+/// From this tau_speed on, a fortieth of what four motors have, d_r may go to its stop.
+template <class T>
+constexpr T steering_authority_full() {
+  return T(0.1);
+}
 
 /// What the allocation needs of the limits, computed once. It has members of type T only, so that
 /// it has no padding and a check sum can go over it.
@@ -93,7 +99,6 @@ struct AllocationConstants {
   T axle_half_inverse;     ///< 1/(2 l_f), 1/m
   T steering_max_rad;      ///< d_max, rad
   T h_max;                 ///< tan(d_max/2)/2
-  T h2_max;                ///< h_max^2
 };
 
 /// The constants of these limits, for the exact form.
@@ -110,8 +115,7 @@ AllocationConstants<T> prepared(const AllocationLimits<T>& limits) {
           T(0.25) / limits.front_axle_m,
           T(0.5) / limits.front_axle_m,
           limits.steering_max_rad,
-          T(0.5) * limits.steering_max_tan_half,
-          T(0.5) * limits.steering_max_tan_half * (T(0.5) * limits.steering_max_tan_half)};
+          T(0.5) * limits.steering_max_tan_half};
 }
 
 /// The constants at the speed u, m/s, where the motors have back-EMF: k_e u is gone from the forces.
@@ -265,12 +269,26 @@ struct FrontSmallAngle {
   }
 };
 
-/// The h of the angle that makes a yaw moment at tau_speed, clipped to |h| <= h_max:
+/// The largest |h| at tau_speed: h_max sat(tau_speed/0.1, [0, 1]). The angle for a moment grows as
+/// 1/tau_speed, and behind tau_speed = 0 it is 0: with one limit for all tau_speed it would jump there
+/// from the stop to straight. What the lower limit takes away is at most 1/160 of the moment that the
+/// steering has at full thrust.
+template <class T>
+T steering_limit(const AllocationConstants<T>& c, const T& tau_speed) {
+  using math::any;
+  using math::select;
+  const Mask<T> weak = math::is_above(steering_authority_full<T>(), tau_speed);
+  if (!any(weak)) return c.h_max;
+  const T share =
+      math::clamp(T(tau_speed * (T(1.0) / steering_authority_full<T>())), T(0.0), T(1.0));
+  return select(weak, T(c.h_max * share), c.h_max);
+}
+
+/// The h of the angle that makes a yaw moment at tau_speed, clipped to |h| <= limit:
 ///   h = q/2 = moment/(2 l_f tau_speed)
 /// `half_ratio` is moment/(2 l_f). Sets steering_limited or steering_powerless in `a`.
 template <class T>
-T steering_for(const AllocationConstants<T>& c, const T& tau_speed, const T& half_ratio,
-               Allocation<T>& a) {
+T steering_for(const T& limit, const T& tau_speed, const T& half_ratio, Allocation<T>& a) {
   using math::all;
   using math::any;
   using math::select;
@@ -280,13 +298,13 @@ T steering_for(const AllocationConstants<T>& c, const T& tau_speed, const T& hal
     return T(0.0);
   }
   if (MaskOf<T>::kOneLane || all(able))
-    return clipped(T(half_ratio / tau_speed), T(-c.h_max), c.h_max, a.steering_limited);
+    return clipped(T(half_ratio / tau_speed), T(-limit), limit, a.steering_limited);
   a.steering_powerless = a.steering_powerless || !able;
   const T h = select(able, T(half_ratio / tau_speed), T(0.0));
-  return clipped(h, T(-c.h_max), c.h_max, a.steering_limited);
+  return clipped(h, T(-limit), limit, a.steering_limited);
 }
 
-/// The steering angle that is commanded for h, rad; exactly +-d_max where h was clipped.
+/// The steering angle that is commanded for h, rad; exactly +-d_max where h is +-h_max.
 template <class Angle, class T>
 AWMR_INLINE T angle_of(const AllocationConstants<T>& c, const T& h, const T& h2,
                        const Allocation<T>& a) {
@@ -295,9 +313,9 @@ AWMR_INLINE T angle_of(const AllocationConstants<T>& c, const T& h, const T& h2,
   using math::select;
   if (!any(a.steering_limited)) return math::saturate(Angle::of_h(h, h2), c.steering_max_rad);
   const T stop_rad = select(math::is_above(h, T(0.0)), c.steering_max_rad, T(-c.steering_max_rad));
-  if (MaskOf<T>::kOneLane || all(a.steering_limited)) return stop_rad;
-  return select(a.steering_limited, stop_rad,
-                math::saturate(Angle::of_h(h, h2), c.steering_max_rad));
+  const Mask<T> stopped = h >= c.h_max || h <= T(-c.h_max);
+  if (all(stopped)) return stop_rad;
+  return select(stopped, stop_rad, math::saturate(Angle::of_h(h, h2), c.steering_max_rad));
 }
 
 /// Puts the side forces into `a`, each clipped to [F'min, F'max]:
@@ -320,33 +338,37 @@ AWMR_INLINE void forces_for(const AllocationConstants<T>& c, const T& tau_speed,
 ///   h = (tau_turn - tau_diff)/(2 l_f tau_speed)
 ///     = (2 quarter tau_turn - d (F'R - F'L))/(2 l_f (F'L + F'R))
 template <class T>
-T give_back(const AllocationConstants<T>& c, const T& tau_turn_m, const T& quarter,
+T give_back(const AllocationConstants<T>& c, const T& limit, const T& tau_turn_m, const T& quarter,
             Allocation<T>& a) {
   const T rest_m =
       (quarter + quarter) * tau_turn_m - c.half_track_m * (a.force.right - a.force.left);
-  return steering_for(c, a.force.left + a.force.right, rest_m * c.axle_half_inverse, a);
+  return steering_for(limit, T(a.force.left + a.force.right), T(rest_m * c.axle_half_inverse), a);
 }
 
 /// allocate(), by either form.
 template <class Angle, class T>
-AWMR_INLINE void allocate_by(YawMode mode, const T& tau_speed, const T& tau_turn_m,
+AWMR_INLINE void allocate_by(YawMode mode, const T& tau_speed_asked, const T& tau_turn_asked_m,
                              const AllocationConstants<T>& c, CombinedSplit split,
                              Allocation<T>& a) {
   using math::all;
   using math::any;
   using math::select;
   a = Allocation<T>{};
-  const T speed = clipped(tau_speed, c.tau_speed_min, c.tau_speed_max, a.speed_limited);
+  const T speed =
+      clipped(math::flushed(tau_speed_asked), c.tau_speed_min, c.tau_speed_max, a.speed_limited);
+  const T tau_turn_m = math::flushed(tau_turn_asked_m);
   const bool combined = mode == YawMode::kCombined;
   const bool redistribute = combined && split == CombinedSplit::kRedistribute;
   T h = T(0.0);
   T h2 = T(0.0);
+  T limit = T(0.0);
   T quarter = Angle::template straight<T>();
   if (mode != YawMode::kDifferential) {
     // The combined mode steers for half of tau_turn: its constant is half of steering's.
-    h = steering_for(c, speed,
-                     tau_turn_m * (combined ? c.axle_quarter_inverse : c.axle_half_inverse), a);
-    h2 = select(a.steering_limited, c.h2_max, Angle::square(h));
+    limit = steering_limit(c, speed);
+    h = steering_for(limit, speed,
+                     T(tau_turn_m * (combined ? c.axle_quarter_inverse : c.axle_half_inverse)), a);
+    h2 = Angle::square(h);
     quarter = T(0.25) + h2;
   }
   const Mask<T> lost = a.steering_limited || a.steering_powerless;
@@ -366,13 +388,13 @@ AWMR_INLINE void allocate_by(YawMode mode, const T& tau_speed, const T& tau_turn
     const Mask<T> gives = a.force_limited && !lost;
     const Allocation<T> kept = a;
     const T kept_h = h;
-    h = give_back(c, tau_turn_m, quarter, a);
+    h = give_back(c, limit, tau_turn_m, quarter, a);
     if (!MaskOf<T>::kOneLane) {
       h = select(gives, h, kept_h);
       a.steering_limited = select(gives, a.steering_limited, kept.steering_limited);
       a.steering_powerless = select(gives, a.steering_powerless, kept.steering_powerless);
     }
-    h2 = select(a.steering_limited, c.h2_max, Angle::square(h));
+    h2 = Angle::square(h);
   }
   if (mode != YawMode::kDifferential) a.steering_rad = angle_of<Angle>(c, h, h2, a);
 }
@@ -409,7 +431,6 @@ AWMR_INLINE void allocate(YawMode mode, const T& tau_speed, const T& tau_turn_m,
 template <class T>
 AllocationConstants<T> small_angle_form(AllocationConstants<T> c) {
   c.h_max = T(0.25) * c.steering_max_rad;
-  c.h2_max = T(0.0);
   return c;
 }
 
@@ -436,11 +457,9 @@ void allocate_to_front(YawMode mode, const T& tau_speed, const T& tau_turn_m,
   const T stop_rad = c.steering_max_rad;
   if (form == AllocationForm::kPaper) {
     c.h_max = T(0.5) * stop_rad;
-    c.h2_max = detail::FrontSmallAngle::square(c.h_max);
     detail::allocate_by<detail::FrontSmallAngle>(mode, tau_speed, tau_turn_m, c, split, a);
   } else {
     c.h_max = T(0.5) * sin(stop_rad) / cos(stop_rad);
-    c.h2_max = detail::FrontAngle::square(c.h_max);
     detail::allocate_by<detail::FrontAngle>(mode, tau_speed, tau_turn_m, c, split, a);
   }
 }

@@ -77,6 +77,14 @@ inline float saturate(float x, float limit) {
   return bits_of(x) >> 31U != 0 ? -limit : limit;
 }
 
+/// x. For float 0 where |x| < 2^-90, so that no quotient of it by a force or a length, nor a difference
+/// of such, is subnormal: an AVR rounds those otherwise than a host.
+template <class T>
+T flushed(const T& x) {
+  return x;
+}
+inline float flushed(float x) { return float_math::leading_bits(x) < 0x1280U ? 0.0F : x; }
+
 /// a - b. For float without the subtraction where a is 0, as it is of a reference that is held.
 template <class T>
 T difference(const T& a, const T& b) {
