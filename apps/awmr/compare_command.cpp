@@ -72,6 +72,7 @@ Result<Provenance> provenance_of(const CompareCommand& command) {
   std::vector<std::pair<std::string, std::string>> options = options_of(command.allocation);
   options.emplace_back("samples", std::to_string(command.compare.samples));
   options.emplace_back("seed", std::to_string(command.compare.seed));
+  if (command.compare.break_even) options.emplace_back("break_even", "true");
   const Preferences& preferences = command.compare.preferences;
   if (!preferences.weights.empty()) {
     std::vector<std::string> weights;
@@ -249,6 +250,10 @@ void add_compare(CLI::App& app, Session& session) {
       sub->add_flag("--resume", command->resume,
                     "Go on from what lies in the directory: after Ctrl-C, or with more samples");
   add_preferences(*sub, *texts);
+  sub->add_flag(
+      "--break-even", command->compare.break_even,
+      "Also how much more yaw resistance turns by the sides' forces could meet before a mode "
+      "that steers is better");
   sub->add_option("--shard", texts->shard,
                   "I/N: part I of N, for as many machines; awmr merge puts the parts together")
       ->excludes(resume);

@@ -1,5 +1,5 @@
-/// The emitted library as compilers see it: for the chip as C and C++, in the sketches with
-/// Arduino's core, on the host under sanitizers; the same bytes every time.
+/// The emitted library as compilers see it: for the chip as C and C++, on the host under sanitizers;
+/// the same bytes every time. Sketches and other chips: boards_test.cpp.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -14,8 +14,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
-
-constexpr const char* kArduino = "/usr/share/arduino/hardware/arduino/avr";
 
 std::vector<EmittedFile> library(EmitOptions options = {}) {
   return firmware_library(paper_robot(), kPaperGains, paper_inputs(), options).value();
@@ -159,50 +157,11 @@ TEST(AllParts, CompileForTheChipAsCAndAsCxxAndRunUnderSanitizers) {
   EXPECT_EQ(run("./use").exit_code, 0);
 }
 
-class Sketches : public Library {};
-
-TEST_P(Sketches, CompileAndLinkWithDebiansArduinoCore) {
-  ASSERT_TRUE(fs::exists(kArduino)) << "scripts/setup installs arduino-core-avr";
-  const std::string core = std::string(kArduino) + "/cores/arduino";
-  const std::string wire = std::string(kArduino) + "/libraries/Wire/src";
-  const std::string spi = std::string(kArduino) + "/libraries/SPI/src";
-  // Arduino's own options (platform.txt); its core has warnings of its own, and WString.cpp needs a
-  // macro that avr-gcc 5.4 gives to C only.
-  const std::string flags =
-      " -mmcu=atmega2560 -DF_CPU=16000000L -DARDUINO=10819 "
-      "-DARDUINO_AVR_MEGA2560 -DARDUINO_ARCH_AVR -Os -ffunction-sections "
-      "-fdata-sections -I" +
-      core + " -I" + kArduino + "/variants/mega -I" + wire + " -I" + spi +
-      " -I" AWMR_SOURCE_DIR "/tests/emit/arduino -Isrc ";
-  const std::string cxx = std::string("'") + kAvrGxx +
-                          "' -std=gnu++11 -fpermissive -fno-exceptions "
-                          "-fno-threadsafe-statics" +
-                          flags;
-  const ProcessResult built = run(
-      "mkdir -p core && cd core && for f in " + core + "/*.c " + wire + "/utility/*.c; do '" +
-      kAvrGcc + "' -std=gnu11 -w" + flags + "-I../src -c $f || exit 1; done && for f in " + core +
-      "/*.cpp " + wire + "/*.cpp; do " + cxx + "-w -DDECIMAL_DIG=9 -I../src -c $f || exit 1; done");
-  ASSERT_TRUE(succeeded(built));
-  for (const auto& example : fs::directory_iterator(directory_.path() / "examples")) {
-    const std::string name = example.path().filename().string();
-    const std::string sketch = "examples/" + name + "/" + name + ".ino";
-    EXPECT_TRUE(succeeded(run(cxx + "-Wall -Wextra -Werror -x c++ -include Arduino.h -c " + sketch +
-                              " -o sketch.o && " + cxx +
-                              "-Wall -Wextra -Werror -c src/awmr.cpp -o "
-                              "awmr.o && '" +
-                              kAvrGxx +
-                              "' -mmcu=atmega2560 -Os -Wl,--gc-sections "
-                              "sketch.o awmr.o core/*.o -lm -o sketch.elf")))
-        << name;
-  }
-}
-
 constexpr auto kForm = [](const auto& test) {
   return std::string(test.param == ResistanceForm::kTable ? "Table" : "Powf");
 };
 INSTANTIATE_TEST_SUITE_P(, Library,
                          ::testing::Values(ResistanceForm::kTable, ResistanceForm::kPowf), kForm);
-INSTANTIATE_TEST_SUITE_P(, Sketches, ::testing::Values(ResistanceForm::kTable), kForm);
 
 TEST(LibraryFiles, AreTheSameBytesWhenMadeAgainAndHoldTheControlSourcesAsTheyAre) {
   const auto once = library();
@@ -217,8 +176,9 @@ TEST(LibraryFiles, AreTheSameBytesWhenMadeAgainAndHoldTheControlSourcesAsTheyAre
       EXPECT_EQ(once[i].bytes, read_all(AWMR_SOURCE_DIR "/lib/" + once[i].path.substr(4)));
     }
   }
-  for (const char* path : {"awmr_params.h", "library.properties", "src/awmr.h", "src/awmr.cpp",
-                           "src/awmr/control/controller.h", "LICENSE"}) {
+  for (const char* path :
+       {"awmr_params.h", "library.properties", "library.json", "keywords.txt", "src/awmr.h",
+        "src/awmr.cpp", "src/awmr/control/controller.h", "LICENSE"}) {
     EXPECT_TRUE(paths.contains(path)) << path;
   }
 }

@@ -21,6 +21,8 @@ class Strict {
   Strict& operator-=(Strict b) { return *this = *this - b; }
   friend bool operator<(Strict a, Strict b) { return a.value_ < b.value_; }
   friend bool operator>(Strict a, Strict b) { return a.value_ > b.value_; }
+  friend bool operator<=(Strict a, Strict b) { return a.value_ <= b.value_; }
+  friend bool operator>=(Strict a, Strict b) { return a.value_ >= b.value_; }
 
   friend Strict abs(Strict a) { return Strict(std::abs(a.value_)); }
   friend Strict sin(Strict a) { return Strict(std::sin(a.value_)); }

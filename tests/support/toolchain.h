@@ -20,6 +20,10 @@ inline constexpr const char* kAvrGcc = AWMR_TOOL_AVR_GCC;
 inline constexpr const char* kAvrGxx = AWMR_TOOL_AVR_GXX;
 inline constexpr const char* kAvrObjcopy = AWMR_TOOL_AVR_OBJCOPY;
 inline constexpr const char* kAvrSize = AWMR_TOOL_AVR_SIZE;
+inline constexpr const char* kAvrAr = AWMR_TOOL_AVR_AR;
+inline constexpr const char* kArmGcc = AWMR_TOOL_ARM_NONE_EABI_GCC;
+inline constexpr const char* kArmGxx = AWMR_TOOL_ARM_NONE_EABI_GXX;
+inline constexpr const char* kQemuArm = AWMR_TOOL_QEMU_SYSTEM_ARM;
 
 /// For ASSERT_TRUE: was the program found when the build was configured?
 inline ::testing::AssertionResult found(std::string_view program) {

@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "awmr/compare/break_even.h"
 #include "awmr/compare/fleet.h"
 #include "awmr/core/index.h"
 #include "awmr/core/option_text.h"
@@ -61,6 +62,13 @@ std::vector<Fault> option_faults(const std::vector<NamedGains>& gains,
       faults.push_back(
           {option_text("gains"), fmt::format("two sets of gains are named '{}'", set.name)});
     }
+  }
+  if (options.break_even && (gains.size() > 1 || options.shard.count > 1)) {
+    faults.push_back(
+        {option_text("break_even"),
+         fmt::format("needs one set of gains and a whole comparison: leave out the other "
+                     "sets, and {}",
+                     option_text("shard"))});
   }
   if (gains.empty()) faults.push_back({option_text("gains"), "none given; give at least one"});
   return faults;
@@ -229,6 +237,10 @@ Result<Comparison> compare(const Model& model, const std::vector<NamedGains>& ga
   for (const Status& failure : failures) AWMR_RETURN_IF_ERROR(failure);
   Comparison comparison = gathered(layout, options.shard, std::move(slots));
   comparison.arithmetic = arithmetic.rounding;
+  if (options.break_even && !comparison.stopped) {
+    AWMR_ASSIGN_OR_RETURN(comparison.break_even, break_even_of(model, gains.front().gains,
+                                                               scenarios, comparison, options));
+  }
   return comparison;
 }
 

@@ -50,6 +50,8 @@ struct CompareOptions {
   std::uint64_t seed = 1;
   /// What counts how much in the ranking, which the rows do not depend on.
   Preferences preferences = {};
+  /// Also Comparison::break_even; with one set of gains only.
+  bool break_even = false;
   /// What of the samples to run: all, or a part that merge_shards() (shard.h) puts to the others. At
   /// most as many parts as samples, the nominal one included.
   Shard shard = {};
@@ -64,6 +66,21 @@ struct CompareOptions {
   const std::atomic<bool>* stop = nullptr;
 };
 
+/// How much more yaw resistance a mode's turns could meet before another mode is better: straight wheels
+/// that are turned by the sides' forces scrub, which a model fitted to steered turns does not know.
+struct BreakEven {
+  std::string scenario;
+  YawMode mode{};  ///< differential or combined: it has the better score on the model's own values
+  YawMode against{};  ///< a mode that turns less by the sides' forces
+  /// The Coulomb yaw moment over F_max, m, > 0, to within 1.2 % of itself or 7e-6 of most_m, beside the
+  /// model's own, with which the lead is gone; absent where it lasts up to most_m.
+  std::optional<double> yaw_coulomb_m;
+  double most_m = 0.0;  ///< the largest yaw moment that the sides' forces make, m
+  /// What four tyres that slide sideways on a friction of 0.8 would make, 0.8 g m' l_f, m: no scrub is
+  /// more, where the centre of gravity is half-way between the axles.
+  double sliding_m = 0.0;
+};
+
 struct Comparison {
   std::vector<ComparisonRow> rows;  ///< the finished ones, by scenario, gains, mode, sample
   /// Samples, the nominal one included, that every scenario, mode and set of gains has from 0 on:
@@ -72,6 +89,8 @@ struct Comparison {
   bool stopped = false;  ///< before all of its runs were done
   /// How the runs were rounded (BatchArithmetic::rounding): rows of different ones are not mixed.
   std::string arithmetic = {};
+  /// By break_even_of() (break_even.h); absent where nobody asked.
+  std::optional<std::vector<BreakEven>> break_even = {};
 };
 
 /// Samples draw the fitted parameters from the model's covariance (simulate/plant_sampler.h), and the scenarios'

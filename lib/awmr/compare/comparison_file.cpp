@@ -1,5 +1,8 @@
 // comparison.csv and comparison.json.
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 
 #include "awmr/compare/binomial.h"
@@ -128,6 +131,19 @@ Json overall_json(const std::vector<JudgedScenario>& ranked) {
   return json;
 }
 
+Json break_even_json(const std::vector<BreakEven>& entries) {
+  Json json = Json::array();
+  for (const BreakEven& entry : entries) {
+    json.push_back({{"scenario", entry.scenario},
+                    {"mode", name_of(entry.mode)},
+                    {"against", name_of(entry.against)},
+                    {"yaw_coulomb_m", optional_json(entry.yaw_coulomb_m)},
+                    {"most_m", entry.most_m},
+                    {"sliding_m", entry.sliding_m}});
+  }
+  return json;
+}
+
 Json statistics_json(int samples) {
   Json json;
   json["over"] = samples > 0 ? "samples 1 and up" : "the nominal run alone";
@@ -225,6 +241,7 @@ std::string comparison_text(const Comparison& comparison, const CompareOptions& 
   const std::vector<JudgedScenario> ranked = ranked_of(scenarios);
   json["overall"] = overall_json(ranked);
   json["counted_once"] = counted_once_json(ranked);
+  if (comparison.break_even) json["break_even"] = break_even_json(*comparison.break_even);
   json["scenarios"] = Json::array();
   for (const JudgedScenario& scenario : scenarios)
     json["scenarios"].push_back(scenario_json(scenario));

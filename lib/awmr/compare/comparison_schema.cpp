@@ -91,6 +91,18 @@ void describe_overall(JsonObject& json) {
   }
 }
 
+void describe_break_even(JsonObject& json) {
+  for (JsonObject& entry : json.optional_objects("break_even")) {
+    entry.string("scenario");
+    entry.choice("mode", kYawModeNames);
+    entry.choice("against", kYawModeNames);
+    entry.nullable_number("yaw_coulomb_m", kPositive);
+    entry.number("most_m", kPositive);
+    entry.number("sliding_m", kPositive);
+    entry.reject_unknown_keys();
+  }
+}
+
 void describe_how(JsonObject& json) {
   JsonObject statistics = json.object("statistics");
   for (const char* key : {"over", "paired_differences", "ci95", "p", "p_holm", "margin",
@@ -126,6 +138,7 @@ void describe_comparison(JsonObject& json) {
   json.number("seed", kNonNegative);
   describe_how(json);
   describe_overall(json);
+  describe_break_even(json);
   describe_scenarios(json);
   json.reject_unknown_keys();
 }

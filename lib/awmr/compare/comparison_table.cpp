@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "awmr/compare/break_even.h"
 #include "awmr/compare/overall.h"
 #include "awmr/compare/ranking.h"
 #include "awmr/compare/statistics.h"
@@ -117,7 +118,9 @@ std::string comparison_table(const Comparison& comparison, const CompareOptions&
     text += table_of(scenario.rows, scenario.ranking);
     text += wrapped(scenario.verdict);
   }
-  return text + overall_of(ranked_of(scenarios));
+  text += overall_of(ranked_of(scenarios));
+  if (comparison.break_even) text += break_even_table(*comparison.break_even);
+  return text;
 }
 
 }  // namespace awmr

@@ -18,14 +18,6 @@ constexpr std::uint64_t kScoreStream = std::uint64_t{3} << 62U;
 constexpr std::uint64_t kWeightStream = std::uint64_t{5} << 61U;
 constexpr int kWeightings = 1000;
 
-/// Whether some mode was judged by how well it followed a command.
-bool has_a_goal(const ScenarioRows& scenario) {
-  return std::any_of(scenario.modes.begin(), scenario.modes.end(), [](const ModeRows& rows) {
-    const Metrics& m = rows.nominal();
-    return m.heading_iae_degs || m.cross_track_rms_m || m.finish_time_s;
-  });
-}
-
 /// A mode with the logarithms that its score is made of.
 struct Entry {
   const ModeRows* rows = nullptr;
@@ -190,6 +182,13 @@ void name_ties_and_dominance(std::vector<RankedMode>& ranking,
 }
 
 }  // namespace
+
+bool has_a_goal(const ScenarioRows& scenario) {
+  return std::any_of(scenario.modes.begin(), scenario.modes.end(), [](const ModeRows& rows) {
+    const Metrics& m = rows.nominal();
+    return m.heading_iae_degs || m.cross_track_rms_m || m.finish_time_s;
+  });
+}
 
 std::vector<RankedMode> rank(const ScenarioRows& scenario,
                              const std::vector<PairedDifference>& differences,

@@ -47,6 +47,9 @@ inline constexpr std::string_view kNotRanked =
     "not ranked: the scenario gives the vehicle nothing to follow, or none of the metrics that "
     "have a weight";
 
+/// Whether some mode was judged by how well it followed a command.
+bool has_a_goal(const ScenarioRows& scenario);
+
 /// Best first. Empty for a scenario that has nothing to follow (open loop), where lower metrics are
 /// no better, and where no ranked metric has a weight. `differences` are paired_differences() of the
 /// same scenario; `seed` and `stream` are those of the bootstrap.

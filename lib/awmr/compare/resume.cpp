@@ -20,7 +20,8 @@ namespace awmr {
 namespace {
 
 /// What may change between a comparison and its continuation.
-const std::set<std::string, std::less<>> kFreeOptions{"samples", "weight", "relevance"};
+const std::set<std::string, std::less<>> kFreeOptions{"samples", "weight", "relevance",
+                                                      "break_even"};
 
 /// No metric of a run is larger; sums over samples and their squares stay finite.
 constexpr double kLargest = 1e100;

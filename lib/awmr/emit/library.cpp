@@ -6,7 +6,7 @@
 namespace awmr {
 namespace {
 
-/// The Arduino library specification's metadata; PlatformIO reads it too.
+/// The Arduino library specification's metadata.
 constexpr std::string_view kProperties = R"(name=awmr
 version={}
 author=awmr
@@ -14,9 +14,22 @@ maintainer=awmr
 sentence=Heading, speed and waypoint control of a four-wheel robot, tuned for one vehicle.
 paragraph=Written by awmr emit from an identified model and tuned gains. Parameters SHA-256 {}.
 category=Device Control
-url=
 architectures=*
 includes=awmr.h
+)";
+
+/// The same for PlatformIO, which would else look for an Arduino: the library runs on any chip.
+constexpr std::string_view kLibraryJson = R"({{
+  "name": "awmr",
+  "version": "{}",
+  "description": "Heading, speed and waypoint control of a four-wheel robot, tuned for one vehicle. Parameters SHA-256 {}.",
+  "keywords": ["robot", "rover", "autopilot", "sliding mode control"],
+  "license": "BSD-3-Clause",
+  "frameworks": "*",
+  "platforms": "*",
+  "headers": "awmr.h",
+  "examples": ["examples/*/*.ino"]
+}}
 )";
 
 }  // namespace
@@ -30,6 +43,7 @@ Result<std::vector<EmittedFile>> firmware_library(const Model& model, const Gain
   std::vector<EmittedFile> files{
       {"awmr_params.h", std::move(header)},
       {"library.properties", fmt::format(kProperties, version(), params_sha256(inputs))},
+      {"library.json", fmt::format(kLibraryJson, version(), params_sha256(inputs))},
       {"src/awmr_autopilot_params.h", autopilot_header(parameters)}};
   for (const EmbeddedFile& file : embedded_files()) {
     files.push_back({std::string(file.path), std::string(file.bytes)});

@@ -1,4 +1,15 @@
 // The C interface over awmr/control/, which is the source that was simulated and tuned.
+
+// A chip that rounds a b + c once in place of twice would give other bits than the host that tuned:
+// products and sums stay apart, whatever the compiler's default is.
+#if defined(__FAST_MATH__)
+#error "awmr: compile without -ffast-math; infinities and NaN have to be seen, and bits be the host's"
+#elif defined(__clang__)
+#pragma clang fp contract(off)
+#elif !defined(__AVR__)
+#pragma GCC optimize("fp-contract=off")
+#endif
+
 #include "awmr.h"
 
 #include <stddef.h>
@@ -47,8 +58,7 @@ const awmr::ParameterBlock awmr_parameters AWMR_IN_FLASH = {
      {4.0f * AWMR_ALLOCATED_FORCE_MIN, 4.0f * AWMR_ALLOCATED_FORCE_MAX, AWMR_ALLOCATED_FORCE_MIN,
       AWMR_ALLOCATED_FORCE_MAX, AWMR_HALF_TRACK_M, 0.5f / AWMR_HALF_TRACK_M, 1.0f / AWMR_HALF_TRACK_M,
       2.0f * AWMR_FRONT_AXLE_M, 0.25f / AWMR_FRONT_AXLE_M, 0.5f / AWMR_FRONT_AXLE_M, AWMR_STEERING_MAX_RAD,
-      0.5f * AWMR_STEERING_MAX_TAN_HALF,
-      0.5f * AWMR_STEERING_MAX_TAN_HALF * (0.5f * AWMR_STEERING_MAX_TAN_HALF)}},
+      0.5f * AWMR_STEERING_MAX_TAN_HALF}},
     {AWMR_SPEED_MAX_MPS, AWMR_YAW_RATE_MAX_RADPS, AWMR_HEADING_TIMEOUT_MS, AWMR_SPEED_TIMEOUT_MS,
      AWMR_COMMAND_TIMEOUT_MS, AWMR_STEP_TIMEOUT_MS},
     AWMR_TABLE_SHAPE(AWMR_SURGE_TABLE),

@@ -1,7 +1,7 @@
 /* The source paper's hardware for the example sketches: MPU9250 for heading and yaw rate, GPS for speed and
-   position, a servo, two motor drivers, a log on an SD card. Arduino Mega 2560; header-only, so that
-   the library itself needs neither Wire nor SD; to be included by the sketch alone. Axes: x north,
-   y west, z up; heading counter-clockwise from north.
+   position, a servo, two motor drivers, a log on an SD card. Arduino Mega 2560, or an Uno without the
+   card; header-only, so that the library itself needs neither Wire nor SD; to be included by the
+   sketch alone. Axes: x north, y west, z up; heading counter-clockwise from north.
 
    Everything that drives runs in a timer interrupt (begin_steps); loop() has nothing to do but the
    card, which may make it wait. */
@@ -9,18 +9,24 @@
 #define AWMR_PAPER_BOARD_H
 
 #include <Arduino.h>
-#include <SD.h>
 #include <Wire.h>
 
 #include "awmr.h"
 
+#if defined(__AVR_ATmega2560__)
+#include "awmr_board/mega2560.h"
+#elif defined(__AVR_ATmega328P__)
+#include "awmr_board/uno.h"
+#else
+#error "The examples know two boards, Mega 2560 and Uno. For another one write the functions of \
+awmr_board/uno.h for it, or call awmr_step() of awmr.h, which runs anywhere, from a sketch of your own."
+#endif
+#if AWMR_BOARD_HAS_CARD
+#include <SD.h>
+#endif
+
 namespace awmr_board {
 
-/* Wiring */
-const uint8_t kServoPin = 6;  /* OC4A: 50 Hz by timer 4 */
-const uint8_t kLeftPwmPin = 44, kLeftDirectionPin = 22;   /* OC5C, by timer 5 */
-const uint8_t kRightPwmPin = 45, kRightDirectionPin = 23; /* OC5B */
-const uint8_t kSdSelectPin = 53;
 const uint16_t kServoCentreUs = 1500;
 const float kServoUsPerRad = 573.0f; /* 10 us per degree of the wheels: measure yours */
 

@@ -2,8 +2,6 @@
 // baud) it says what it is going to do; the line "y" is yes, anything else is no. The first no ends it, motors off
 // until a reset: mend what was wrong and begin anew. Forces are at most kForce, a motion lasts two seconds, and any
 // character meanwhile ends it too.
-#include <SD.h>
-#include <SPI.h>
 #include <Wire.h>
 #include <awmr.h>
 #include <awmr_paper_board.h>
@@ -153,7 +151,9 @@ void walk() {
   while (gps.time_ms == 0 && millis() - start_ms < 60000) {
   }
   if (gps.time_ms == 0) end(F("no fix within a minute"));
+#if AWMR_BOARD_HAS_CARD
   if (!SD.begin(awmr_board::kSdSelectPin)) end(F("7. no SD card"));
+#endif
   check_autopilot();
   ask(F("9. Next: wheels turn, the step hangs. The motors have to stop within a second and this sketch to begin anew."));
   want(kForce, kForce, 0.0f);

@@ -7,6 +7,9 @@
 #include <Wire.h>
 #include <awmr.h>
 #include <awmr_paper_board.h>
+#if !AWMR_BOARD_HAS_CARD
+#error "This sketch writes the field to a card, which an Uno has no RAM for: record with a Mega 2560."
+#endif
 
 struct Row {
   float t_s, ahead, left, yaw_rate_radps;

@@ -1,8 +1,6 @@
 // Heading and speed hold on the source paper's hardware. Serial, 115200 baud, a line each: "H 30" heads 30 deg
 // (before the first one: as it stands at the start), "S 1.0" drives at 1 m/s, "M 2" takes the combined mode;
 // silence for AWMR_COMMAND_TIMEOUT_MS stops.
-#include <SD.h>
-#include <SPI.h>
 #include <Wire.h>
 #include <awmr.h>
 #include <awmr_paper_board.h>

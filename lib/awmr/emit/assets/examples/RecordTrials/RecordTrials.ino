@@ -8,6 +8,9 @@
 #include <Wire.h>
 #include <awmr.h>
 #include <awmr_paper_board.h>
+#if !AWMR_BOARD_HAS_CARD
+#error "This sketch writes the trials to a card, which an Uno has no RAM for: record with a Mega 2560."
+#endif
 #include <awmr_trials.h>
 
 using namespace awmr_trials;

@@ -1,8 +1,6 @@
 // Drives along waypoints on the source paper's hardware, in m north and west of the first GPS fix, and stops at
 // the last. Over Serial (115200 baud) the line "G" starts it, also after a reset; any character at least every
 // AWMR_COMMAND_TIMEOUT_MS keeps it going: letting go is the dead man's switch.
-#include <SD.h>
-#include <SPI.h>
 #include <Wire.h>
 #include <awmr.h>
 #include <awmr_paper_board.h>

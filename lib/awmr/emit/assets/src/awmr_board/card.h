@@ -1,12 +1,16 @@
-/* The log on the card: LOG00.AWL and on, for `awmr log` and `awmr identify --log`. */
+/* The log on the card: LOG00.AWL and on, for `awmr log` and `awmr identify --log`. A board without a
+   card says at its start that there is no log. */
 #ifndef AWMR_BOARD_CARD_H
 #define AWMR_BOARD_CARD_H
 
-#include "../awmr_log.h"
 #include "steps.h"
+#if AWMR_BOARD_HAS_CARD
+#include "../awmr_log.h"
+#endif
 
 namespace awmr_board {
 
+#if AWMR_BOARD_HAS_CARD
 /* Opens the first of NAME00 to NAME99 that is not there yet; no file where all are. */
 inline File next_file(const char* name_and_extension) {
   char name[13];
@@ -48,6 +52,14 @@ class Log {
   File file_;
   uint16_t blocks_ = 0;
 };
+#else
+class Log {
+ public:
+  bool begin() { return false; }
+  void put(const awmr_input&, const awmr_output&) {}
+  void drain() {}
+};
+#endif
 
 }  // namespace awmr_board
 

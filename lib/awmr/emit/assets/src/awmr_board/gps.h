@@ -1,4 +1,4 @@
-/* GPS: $--RMC sentences on Serial1, 5 Hz or more. */
+/* GPS: $--RMC sentences on the board's port, 5 Hz or more (an Uno's port is slow: RMC alone). */
 #ifndef AWMR_BOARD_GPS_H
 #define AWMR_BOARD_GPS_H
 
@@ -29,15 +29,15 @@ class Gps {
 
   /* x and y go on from the origin of before a reset, unless the board was switched off. */
   void begin() {
-    Serial1.begin(38400);
+    port_ = &begin_gps_port();
     if ((reset_cause() & kSwitchedOn) != 0 || !is_kept()) forget_origin();
   }
   bool has_origin() const { return is_kept(); }
   void forget_origin() { kept_origin.crc = static_cast<uint16_t>(~crc_of_origin()); }
 
   void read() {
-    while (Serial1.available() > 0) {
-      const char c = static_cast<char>(Serial1.read());
+    while (port_->available() > 0) {
+      const char c = static_cast<char>(port_->read());
       if (c == '$') length_ = 0;
       if (length_ < sizeof line_ - 1) line_[length_++] = c;
       if (c == '\n') {
@@ -49,6 +49,7 @@ class Gps {
   }
 
  private:
+  Stream* port_ = 0;
   char line_[96];
   uint8_t length_ = 0;
 

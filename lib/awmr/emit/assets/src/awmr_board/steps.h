@@ -29,20 +29,18 @@ static Step the_step;
 static volatile bool is_in_step;
 static volatile uint32_t sample_time_count; /* sample times since begin_steps() */
 static volatile uint32_t the_step_number;
+static uint16_t ticks_left; /* of the board's timer, until the next sample time */
+static uint16_t ticks_per_step;
 
-/* Calls `step` every AWMR_SAMPLE_TIME_S from timer 3's interrupt, other interrupts allowed: the bus
-   of the sensors, the serial lines and millis() need theirs. A step that is not over when the next
-   one is due goes on, and that one is left out. The watchdog resets a chip on which no step ends. */
+/* Calls `step` every AWMR_SAMPLE_TIME_S from the interrupt of the board's timer, other interrupts
+   allowed: the bus of the sensors, the serial lines and millis() need theirs. A step that is not
+   over when the next one is due goes on, and that one is left out. The watchdog resets a chip on
+   which no step ends. */
 inline void begin_steps(Step step) {
-  const float counts = AWMR_SAMPLE_TIME_S * (F_CPU / 8);
-  const bool slow = counts > 65536.0f;
   the_step = step;
-  TCCR3A = 0;
-  TCCR3B = 0;
-  TCNT3 = 0;
-  OCR3A = static_cast<uint16_t>((slow ? counts / 32 : counts) - 0.5f);
-  TCCR3B = static_cast<uint8_t>(_BV(WGM32) | (slow ? _BV(CS32) : _BV(CS31))); /* clock/256, /8 */
-  TIMSK3 = _BV(OCIE3A);
+  noInterrupts();
+  ticks_left = ticks_per_step = begin_ticks(AWMR_SAMPLE_TIME_S);
+  interrupts();
   wdt_enable(AWMR_SAMPLE_TIME_S < 0.05f ? WDTO_250MS : WDTO_4S);
 }
 
@@ -51,7 +49,9 @@ inline uint32_t step_number() { return the_step_number; }
 
 }  // namespace awmr_board
 
-ISR(TIMER3_COMPA_vect) {
+ISR(AWMR_BOARD_TICK) {
+  if (--awmr_board::ticks_left > 0) return;
+  awmr_board::ticks_left = awmr_board::ticks_per_step;
   ++awmr_board::sample_time_count;
   if (awmr_board::is_in_step) return;
   awmr_board::is_in_step = true;

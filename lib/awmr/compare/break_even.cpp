@@ -1,0 +1,223 @@
+#include "awmr/compare/break_even.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "awmr/compare/ranking.h"
+#include "awmr/compare/scoring.h"
+#include "awmr/core/gravity.h"
+#include "awmr/core/index.h"
+#include "awmr/core/parallel.h"
+#include "awmr/simulate/batch.h"
+
+namespace awmr {
+namespace {
+
+/// Moments are tried from this share of the largest one up, a decade at a time: the larger a moment, the
+/// shorter the steps that a run takes.
+constexpr double kLeast = 1e-4;
+/// Of rubber on a dry floor or road.
+constexpr double kTyreFriction = 0.8;
+
+/// A scenario with the mode that scrubs, on the model's own values.
+struct Course {
+  const Scenario* scenario;
+  YawMode mode;
+  Plant<double> plant;
+  Controller<double> controller;
+  double sample_time_s;
+  BatchArithmetic arithmetic;
+};
+
+/// By moment: the metrics of the course where the plant's yaw resistance has so much more Coulomb
+/// friction. A run that fails has none.
+std::vector<std::optional<Metrics>> driven_with(const Course& course,
+                                                const std::vector<double>& moments_m) {
+  std::vector<BatchRun> runs;
+  for (const double moment_m : moments_m) {
+    Plant<double> plant = course.plant;
+    plant.yaw.coulomb += moment_m;
+    runs.push_back({plant, course.controller, 0, 0});
+  }
+  std::vector<std::optional<Metrics>> driven;
+  for (const Result<Metrics>& metrics :
+       simulate_batch(runs, *course.scenario, course.mode, course.sample_time_s, course.arithmetic)) {
+    driven.push_back(metrics ? std::optional(*metrics) : std::nullopt);
+  }
+  return driven;
+}
+
+/// Whether a run still does what the other mode does, and scores no worse. What it lost of the metrics
+/// that it had without scrub (it settles no more, it does not arrive) it is behind for.
+bool is_ahead(const std::optional<Metrics>& run, const Metrics& without, const Metrics& other,
+              const std::vector<ScoredMetric>& scoring) {
+  if (!run || (without.completed && !run->completed)) return false;
+  const bool lost = std::any_of(scoring.begin(), scoring.end(), [&](const ScoredMetric& scored) {
+    return scored.metric->value(without) && !scored.metric->value(*run);
+  });
+  return !lost && log_score(*run, scoring) <= log_score(other, scoring);
+}
+
+/// From `lo` to `hi`, both with, as many as fill a batch.
+std::vector<double> evenly_between(double lo, double hi) {
+  std::vector<double> values;
+  for (std::size_t i = 0; i < kBatchRuns; ++i) {
+    values.push_back(lo + (hi - lo) * static_cast<double>(i) / (kBatchRuns - 1));
+  }
+  return values;
+}
+/// The same in equal ratios.
+std::vector<double> in_ratios_between(double lo, double hi) {
+  std::vector<double> values = evenly_between(std::log(lo), std::log(hi));
+  std::transform(values.begin(), values.end(), values.begin(),
+                 [](double value) { return std::exp(value); });
+  return values;
+}
+
+std::optional<std::size_t> first_false(const std::vector<bool>& all) {
+  const auto found = std::find(all.begin(), all.end(), false);
+  if (found == all.end()) return std::nullopt;
+  return at(found - all.begin());
+}
+
+/// The least moment that ends a lead, to 1 % of itself; absent where none does up to `most_m`. `ahead`
+/// says of each moment of a batch whether the mode still leads.
+template <class Ahead>
+std::optional<double> least_that_ends(double most_m, const Ahead& ahead) {
+  for (double share = kLeast; share < 0.99; share *= 10.0) {
+    const std::vector<double> decade_m = in_ratios_between(share * most_m, 10.0 * share * most_m);
+    const auto first = first_false(ahead(decade_m));
+    if (!first) continue;
+    const double kept_m = *first > 0 ? decade_m[*first - 1] : 0.0;
+    const std::vector<double> between_m = evenly_between(kept_m, decade_m[*first]);
+    return between_m[first_false(ahead(between_m)).value_or(between_m.size() - 1)];
+  }
+  return std::nullopt;
+}
+
+/// The modes' runs of sample 0, as scoring_of() reads them.
+ScenarioRows nominal_rows(const Comparison& comparison, const std::string& scenario) {
+  ScenarioRows rows{scenario, {}};
+  for (const ComparisonRow& row : comparison.rows) {
+    if (row.sample == 0 && row.scenario == scenario) rows.modes.push_back({{row.mode, ""}, {&row, 1}});
+  }
+  return rows;
+}
+
+/// The entry of a pair of modes without its answer, and what the answer follows from.
+struct Question {
+  Course course;
+  std::vector<ScoredMetric> scoring;
+  Metrics own, other;
+  BreakEven entry;
+};
+
+/// Of a mode and those that turn less by the sides' forces, `rows` being those of sample 0.
+std::vector<Question> questions_of(const Course& course, const ScenarioRows& rows,
+                                   const std::vector<ScoredMetric>& scoring, BreakEven entry) {
+  std::vector<Question> questions;
+  const auto row_of = [&](YawMode mode) {
+    return std::find_if(rows.modes.begin(), rows.modes.end(),
+                        [&](const ModeRows& one) { return one.contender.mode == mode; });
+  };
+  const Metrics& own = row_of(course.mode)->nominal();
+  for (const YawMode less : {YawMode::kCombined, YawMode::kSteering}) {
+    const auto other = row_of(less);
+    if (less == course.mode || other == rows.modes.end()) continue;
+    if (other->nominal().completed > own.completed) continue;
+    if (!(log_score(own, scoring) < log_score(other->nominal(), scoring))) continue;
+    entry.scenario = rows.scenario;
+    entry.mode = course.mode;
+    entry.against = less;
+    questions.push_back({course, scoring, own, other->nominal(), entry});
+  }
+  return questions;
+}
+
+void answer(Question& question) {
+  question.entry.yaw_coulomb_m =
+      least_that_ends(question.entry.most_m, [&](const std::vector<double>& moments_m) {
+        std::vector<bool> ahead;
+        for (const auto& run : driven_with(question.course, moments_m)) {
+          ahead.push_back(is_ahead(run, question.own, question.other, question.scoring));
+        }
+        return ahead;
+      });
+}
+
+}  // namespace
+
+Result<std::vector<BreakEven>> break_even_of(const Model& model, const Gains<double>& gains,
+                                             const std::vector<Scenario>& scenarios,
+                                             const Comparison& comparison,
+                                             const CompareOptions& options) {
+  AWMR_ASSIGN_OR_RETURN(const BatchArithmetic arithmetic, batch_arithmetic());
+  AWMR_ASSIGN_OR_RETURN(const Plant<double> nominal, model.plant());
+  const Interval force = model.vehicle.wheel_force;
+  BreakEven entry;
+  // 2 d (F'R - F'L), at the ends of the forces' range.
+  entry.most_m = 2.0 * nominal.half_track_m * (force.hi - force.lo);
+  entry.sliding_m = kTyreFriction * kGravity_mps2 * nominal.mass_norm * nominal.front_axle_m;
+  std::vector<Question> questions;
+  for (const Scenario& scenario : scenarios) {
+    AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, plant_for(scenario, model));
+    const ScenarioRows rows = nominal_rows(comparison, scenario.name);
+    const std::vector<ScoredMetric> scoring = scoring_of(rows, options.preferences);
+    if (!has_a_goal(rows) || scoring.empty()) continue;
+    for (const ModeRows& one : rows.modes) {
+      if (one.contender.mode == YawMode::kSteering) continue;
+      const Course course{&scenario,
+                          one.contender.mode,
+                          plant,
+                          make_controller(nominal, model.vehicle, gains),
+                          model.vehicle.sample_time_s,
+                          arithmetic};
+      for (Question& question : questions_of(course, rows, scoring, entry)) {
+        questions.push_back(std::move(question));
+      }
+    }
+  }
+  parallel_for(questions.size(), options.threads, [&](std::size_t i) { answer(questions[i]); });
+  std::vector<BreakEven> answers;
+  for (Question& question : questions) answers.push_back(std::move(question.entry));
+  return answers;
+}
+
+std::string break_even_table(const std::vector<BreakEven>& entries) {
+  std::string text =
+      "break-even: how much Coulomb yaw moment of turns by the sides' forces, beside the model's\n"
+      "own, ends a lead\n";
+  if (entries.empty()) return text + "  no mode that turns by the sides' forces leads\n";
+  std::map<std::pair<YawMode, YawMode>, std::vector<const BreakEven*>> pairs;
+  for (const BreakEven& entry : entries) pairs[{entry.mode, entry.against}].push_back(&entry);
+  for (const auto& [modes, all] : pairs) {
+    const auto least = std::min_element(all.begin(), all.end(), [](const auto* a, const auto* b) {
+      return a->yaw_coulomb_m.value_or(a->most_m) < b->yaw_coulomb_m.value_or(b->most_m);
+    });
+    const auto lasting = std::count_if(all.begin(), all.end(), [](const BreakEven* entry) {
+      return !entry->yaw_coulomb_m.has_value();
+    });
+    text += fmt::format("  {} ahead of {} in {}: ", name_of(modes.first), name_of(modes.second),
+                        all.size());
+    if ((*least)->yaw_coulomb_m) {
+      text += fmt::format("in the first of them until {:.3g} m ({})", *(*least)->yaw_coulomb_m,
+                          (*least)->scenario);
+    }
+    if (lasting > 0) {
+      text += fmt::format("{}in {} whatever the moment, up to {:.3g} m",
+                          (*least)->yaw_coulomb_m ? "; " : "", lasting, (*least)->most_m);
+    }
+    text += '\n';
+  }
+  return text +
+         fmt::format(
+             "  tyres that slide sideways on a friction of 0.8 make {:.3g} m; yours: identify a log of turns by\n"
+             "  the sides' forces alone, wheels straight, and compare its yaw resistance with the model's\n",
+             entries.front().sliding_m);
+}
+
+}  // namespace awmr

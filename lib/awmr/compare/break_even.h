@@ -1,0 +1,24 @@
+/// How much more a mode's turns would have to cost before another mode is better. Private to this
+/// folder.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "awmr/compare/compare.h"
+
+namespace awmr {
+
+/// For each scenario, and each pair of a mode that turns by the sides' forces and one that does so less
+/// (differential, combined, steering) of which the first has the better score on the model's own values:
+/// the yaw moment of Coulomb friction that takes its lead away. The controller knows nothing of it.
+/// `comparison` holds the rows of sample 0 with one set of gains. Errors (input): as fleet_of().
+Result<std::vector<BreakEven>> break_even_of(const Model& model, const Gains<double>& gains,
+                                             const std::vector<Scenario>& scenarios,
+                                             const Comparison& comparison,
+                                             const CompareOptions& options);
+
+/// A line for each pair of modes over all scenarios, and how to measure what it hangs on.
+std::string break_even_table(const std::vector<BreakEven>& entries);
+
+}  // namespace awmr

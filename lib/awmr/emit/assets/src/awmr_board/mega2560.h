@@ -1,0 +1,47 @@
+/* What is the Arduino Mega 2560's own: pins, timers, serial port, a card. */
+#ifndef AWMR_BOARD_MEGA2560_H
+#define AWMR_BOARD_MEGA2560_H
+
+#define AWMR_BOARD_HAS_CARD 1
+#define AWMR_BOARD_TICK TIMER3_COMPA_vect
+
+namespace awmr_board {
+
+const uint8_t kServoPin = 6;  /* OC4A: 50 Hz by timer 4 */
+const uint8_t kLeftPwmPin = 44, kLeftDirectionPin = 22;   /* OC5C, by timer 5 */
+const uint8_t kRightPwmPin = 45, kRightDirectionPin = 23; /* OC5B */
+const uint8_t kSdSelectPin = 53;
+
+/* The GPS sends to RX1, pin 19. */
+inline Stream& begin_gps_port() {
+  Serial1.begin(38400);
+  return Serial1;
+}
+
+inline void set_servo(uint16_t half_us) { OCR4A = half_us; }
+
+/* Timer 4, fast PWM to ICR4, clock/8: half a microsecond a count, 20 ms a period. */
+inline void begin_servo(uint16_t half_us) {
+  pinMode(kServoPin, OUTPUT);
+  TCCR4A = _BV(COM4A1) | _BV(WGM41);
+  TCCR4B = _BV(WGM43) | _BV(WGM42) | _BV(CS41);
+  ICR4 = 39999;
+  set_servo(half_us);
+}
+
+/* Starts timer 3, whose interrupt is AWMR_BOARD_TICK. Ticks in a sample time: one. */
+inline uint16_t begin_ticks(float sample_time_s) {
+  const float counts = sample_time_s * (F_CPU / 8);
+  const bool slow = counts > 65536.0f;
+  TCCR3A = 0;
+  TCCR3B = 0;
+  TCNT3 = 0;
+  OCR3A = static_cast<uint16_t>((slow ? counts / 32 : counts) - 0.5f);
+  TCCR3B = static_cast<uint8_t>(_BV(WGM32) | (slow ? _BV(CS32) : _BV(CS31))); /* clock/256, /8 */
+  TIMSK3 = _BV(OCIE3A);
+  return 1;
+}
+
+}  // namespace awmr_board
+
+#endif /* AWMR_BOARD_MEGA2560_H */

@@ -1,0 +1,110 @@
+/// How much scrub ends a mode's lead, held against simulate() on either side of the answer.
+#include "awmr/compare/break_even.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "awmr/compare/scoring.h"
+#include "awmr/core/json.h"
+#include "awmr/core/units.h"
+#include "awmr/model/gains_file.h"
+#include "awmr/simulate/simulate.h"
+#include "support/uncertain_model.h"
+
+namespace awmr::testing {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+Scenario turn(double heading_deg) {
+  Scenario scenario = short_heading("turn");
+  scenario.duration_s = 8.0;
+  scenario.guidance = HeadingSteps{{{0.0, radians(heading_deg)}}};
+  return scenario;
+}
+
+Result<Comparison> compared(const Scenario& scenario, CompareOptions options = {}) {
+  options.break_even = true;
+  return compare(uncertain_model(), kPaperGains, {scenario}, options);
+}
+
+/// By simulate(): whether the mode, with so much more Coulomb friction, settles and scores no worse.
+bool leads(const Scenario& scenario, const Comparison& comparison, const BreakEven& entry,
+           double moment_m) {
+  const Model model = uncertain_model();
+  const auto controller = controller_for(model, kPaperGains).value();
+  SimulateOptions options;
+  options.sample_time_s = model.vehicle.sample_time_s;
+  const auto metrics_with = [&](YawMode mode, double scrub_m) {
+    Plant<double> plant = model.plant().value();
+    plant.yaw.coulomb += scrub_m;
+    return metrics_of(simulate(plant, controller, scenario, mode, options), scenario, controller);
+  };
+  const Metrics own = metrics_with(entry.mode, moment_m);
+  const auto scoring = scoring_of(group(comparison).front(), {});
+  return own.settling_time_s &&
+         log_score(own, scoring) <= log_score(metrics_with(entry.against, 0.0), scoring);
+}
+
+TEST(BreakEven, IsWhereTheLeadEnds) {
+  const Scenario scenario = turn(60.0);
+  const auto comparison = compared(scenario);
+  ASSERT_TRUE(comparison) << to_text(comparison.error());
+  ASSERT_TRUE(comparison->break_even);
+  ASSERT_FALSE(comparison->break_even->empty());
+  bool some_ends = false;
+  for (const BreakEven& entry : *comparison->break_even) {
+    EXPECT_EQ(entry.scenario, "turn");
+    EXPECT_NE(entry.mode, YawMode::kSteering);
+    EXPECT_TRUE(leads(scenario, *comparison, entry, 0.0));
+    EXPECT_DOUBLE_EQ(entry.most_m, 2.0 * 0.36 * 2.0);
+    if (!entry.yaw_coulomb_m) continue;
+    some_ends = true;
+    EXPECT_TRUE(leads(scenario, *comparison, entry, 0.98 * *entry.yaw_coulomb_m));
+    EXPECT_FALSE(leads(scenario, *comparison, entry, 1.02 * *entry.yaw_coulomb_m));
+  }
+  EXPECT_TRUE(some_ends);
+}
+
+TEST(BreakEven, DoesNotDependOnThreadsAndStandsInTheFileOnlyWhenAskedFor) {
+  const Provenance provenance{"compare", {}, {{"model.json", "abc"}}};
+  const CompareOptions one{.samples = 2, .seed = 3, .threads = 1};
+  const auto first = compared(turn(60.0), one);
+  CompareOptions many = one;
+  many.threads = 3;
+  const auto second = compared(turn(60.0), many);
+  ASSERT_TRUE(first && second);
+  const std::string text = comparison_text(*first, one, provenance);
+  EXPECT_EQ(text, comparison_text(*second, one, provenance));
+  EXPECT_THAT(text, HasSubstr("\"break_even\""));
+  EXPECT_THAT(comparison_table(*first), HasSubstr("differential ahead of steering in 1: "));
+  Comparison without = *first;
+  without.break_even.reset();
+  EXPECT_THAT(comparison_text(without, one, provenance), Not(HasSubstr("break_even")));
+  EXPECT_THAT(comparison_table(without), Not(HasSubstr("break-even")));
+}
+
+TEST(BreakEven, IsEmptyWhereNothingIsFollowed) {
+  const auto comparison = compared(short_open_loop());
+  ASSERT_TRUE(comparison);
+  EXPECT_TRUE(comparison->break_even->empty());
+  EXPECT_THAT(comparison_table(*comparison), HasSubstr("no mode that turns by the sides' forces leads"));
+}
+
+TEST(BreakEven, IsRefusedForPartsAndSeveralSetsOfGains) {
+  const auto part = compared(turn(60.0), {.samples = 3, .shard = {1, 2}});
+  ASSERT_FALSE(part);
+  EXPECT_THAT(to_text(part.error()), HasSubstr("needs one set of gains and a whole comparison"));
+  CompareOptions options;
+  options.break_even = true;
+  const auto sets = compare(uncertain_model(), {{"a", kPaperGains}, {"b", kPaperGains}},
+                            {turn(60.0)}, options);
+  ASSERT_FALSE(sets);
+  EXPECT_EQ(exit_code(sets.error()), 2);
+}
+
+}  // namespace
+}  // namespace awmr::testing
