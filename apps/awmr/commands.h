@@ -17,6 +17,7 @@
 #include "awmr/tune/tune.h"
 #include "awmr/validate/validate.h"
 #include "console.h"
+#include "heading_rate_option.h"
 #include "inputs.h"
 #include "live_stream.h"
 
@@ -128,6 +129,7 @@ struct SimulateCommand {
   YawMode mode = YawMode::kCombined;
   fs::path output;
   AllocationChoice allocation = {};
+  HeadingRateChoice heading_rate_limit = {};
 };
 Result<Outcome> execute(const SimulateCommand& command);
 void add_simulate(CLI::App& app, Session& session);
@@ -139,6 +141,7 @@ struct CompareCommand {
   CompareOptions compare;
   fs::path output;
   AllocationChoice allocation = {};
+  HeadingRateChoice heading_rate_limit = {};
   bool resume = false;  ///< go on from the output directory
   InputNames names = {};
 };

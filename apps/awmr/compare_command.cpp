@@ -72,6 +72,9 @@ Result<Provenance> provenance_of(const CompareCommand& command) {
   std::vector<std::pair<std::string, std::string>> options = options_of(command.allocation);
   options.emplace_back("samples", std::to_string(command.compare.samples));
   options.emplace_back("seed", std::to_string(command.compare.seed));
+  for (auto& option : options_of_rate(command.heading_rate_limit)) {
+    options.push_back(std::move(option));
+  }
   if (command.compare.break_even) options.emplace_back("break_even", "true");
   const Preferences& preferences = command.compare.preferences;
   if (!preferences.weights.empty()) {
@@ -201,6 +204,7 @@ Result<Outcome> execute(const CompareCommand& command) {
   AWMR_ASSIGN_OR_RETURN(std::vector<Scenario> scenarios,
                         read_each(command.scenarios, read_scenario));
   choose(command.allocation, model, scenarios);
+  AWMR_RETURN_IF_ERROR(limit_heading_rate(command.heading_rate_limit, model, scenarios));
   AWMR_ASSIGN_OR_RETURN(const Provenance provenance, provenance_of(command));
   AWMR_RETURN_IF_ERROR(
       check_outputs(command.output, {"comparison.csv", json_of(command)}, inputs_of(command)));
@@ -258,6 +262,7 @@ void add_compare(CLI::App& app, Session& session) {
                   "I/N: part I of N, for as many machines; awmr merge puts the parts together")
       ->excludes(resume);
   add_allocation(*sub, command->allocation);
+  add_heading_rate_limit(*sub, command->heading_rate_limit);
   add_output_directory(*sub, command->output, "Directory for comparison.csv and comparison.json");
 }
 

@@ -39,9 +39,9 @@ Result<Provenance> provenance_of(const IdentifyCommand& command) {
   return provenance;
 }
 
-/// A minute, and 20 ms for every second of log, twenty times what a log takes that the model describes.
+/// 40 s, and 20 ms for every second of log, twenty times what a log takes that the model describes.
 double time_limit_s(const std::vector<DrivingLog>& logs) {
-  double limit_s = 60.0;
+  double limit_s = 40.0;
   for (const DrivingLog& log : logs) limit_s += 0.02 * (log.t_s.back() - log.t_s.front());
   return limit_s;
 }

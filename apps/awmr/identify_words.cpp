@@ -69,7 +69,7 @@ void add_log_options(CLI::App& sub, IdentifyCommand& command) {
       ->check(within(0, 1000000));
   sub.add_option("--time-limit", command.identify.time_limit_s,
                  "Seconds after which the searches in logs stop; what has not converged by then is "
-                 "refused, and families that were not tried are told (default: a minute, and 20 ms "
+                 "refused, and families that were not tried are told (default: 40 s, and 20 ms "
                  "for every second of log)")
       ->check(within(0.1, 1e6));
   sub.add_flag("--cross-validate", command.identify.cross_validate,

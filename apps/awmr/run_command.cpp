@@ -5,6 +5,7 @@
 #include <set>
 
 #include "awmr/core/file.h"
+#include "awmr/core/option_text.h"
 #include "awmr/model/gains_file.h"
 #include "awmr/model/model_file.h"
 #include "awmr/model/vehicle_file.h"
@@ -166,6 +167,19 @@ Result<std::vector<fs::path>> checked_inputs(const RunCommand& command, const Pr
   return inputs;
 }
 
+constexpr const char* kLibrary = "firmware";
+
+/// The Arduino library. A vehicle that the chip does not carry has none, which is told.
+void emit_library(const fs::path& model, const fs::path& gains, const fs::path& output,
+                  Outcome& total) {
+  const Result<Outcome> emitted =
+      execute(EmitCommand{.model = model, .gains = gains, .output = output});
+  if (emitted) return add_written(total, emitted->written);
+  total.findings.push_back({model.filename().string(), 0, Severity::kWarning, "no-library",
+                            "there is no Arduino library for this vehicle: " +
+                                plain_text(awmr::to_text(emitted.error()))});
+}
+
 }  // namespace
 
 Result<Outcome> execute(const RunCommand& command) {
@@ -196,6 +210,7 @@ Result<Outcome> execute(const RunCommand& command) {
       execute(EmitCommand{
           .model = model, .gains = gains, .output = command.output, .header_only = true}));
   add_written(total, emitted.written);
+  emit_library(model, gains, command.output / kLibrary, total);
   AWMR_ASSIGN_OR_RETURN(Outcome compared, execute(CompareCommand{.model = model,
                                                                  .gains = {gains},
                                                                  .scenarios = project.scenarios,
@@ -209,8 +224,8 @@ Result<Outcome> execute(const RunCommand& command) {
   add_written(total, reported.written);
   total.summary += fmt::format(
       "wrote model.json gains.json validation.json awmr_params.h comparison.json comparison.csv,\n"
-      "the runs and report.html to {}\n",
-      command.output.string());
+      "the runs, the Arduino library ({}) and report.html to {}\n",
+      kLibrary, command.output.string());
   total.document = joined(steps.documents);
   return total;
 }

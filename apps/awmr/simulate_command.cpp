@@ -88,6 +88,8 @@ Result<Outcome> execute(const SimulateCommand& command) {
   AWMR_ASSIGN_OR_RETURN(Model model, read_model(command.model));
   AWMR_ASSIGN_OR_RETURN(Scenario scenario, read_scenario(command.scenario));
   choose(command.allocation, model, std::span(&scenario, 1));
+  AWMR_RETURN_IF_ERROR(
+      limit_heading_rate(command.heading_rate_limit, model, std::span(&scenario, 1)));
   std::vector<fs::path> inputs{command.model, command.scenario};
   if (command.gains) inputs.push_back(*command.gains);
   AWMR_RETURN_IF_ERROR(check_output(command.output, inputs));
@@ -124,6 +126,7 @@ void add_simulate(CLI::App& app, Session& session) {
   add_choice(*sub, "--mode", command->mode, kYawModeNames, "Which makes the yaw moment")
       ->required();
   add_allocation(*sub, command->allocation);
+  add_heading_rate_limit(*sub, command->heading_rate_limit);
   add_output(*sub, command->output, "run.csv to write");
 }
 

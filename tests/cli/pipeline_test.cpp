@@ -39,8 +39,9 @@ class Pipeline : public ::testing::Test {
 
 TEST_F(Pipeline, EndsWellAndLeavesEveryFile) {
   ASSERT_EQ(result_.exit_code, 0) << result_.err;
-  for (const char* name : {"model.json", "gains.json", "validation.json", "awmr_params.h",
-                           "comparison.csv", "comparison.json", "report.html"}) {
+  for (const char* name :
+       {"model.json", "gains.json", "validation.json", "awmr_params.h", "comparison.csv",
+        "comparison.json", "report.html", "firmware/src/awmr.cpp", "firmware/library.properties"}) {
     EXPECT_GT(read_all(directory_->path() / name).size(), 100u) << name;
   }
 }

@@ -127,6 +127,7 @@ def main():
                     for document in pipeline(folder)])
         files = sorted(p for p in Path(folder).rglob("*.json") if "schemas" not in p.parts)
         files = [p for p in files if "rover" not in p.parts]  # its values are still to be filled in
+        files = [p for p in files if p.name != "library.json"]  # PlatformIO's format
         files += sorted((SOURCE / "configs").rglob("*.json"))
         kinds = set()
         for path in files:

@@ -91,7 +91,8 @@ TEST(BreakEven, IsEmptyWhereNothingIsFollowed) {
   const auto comparison = compared(short_open_loop());
   ASSERT_TRUE(comparison);
   EXPECT_TRUE(comparison->break_even->empty());
-  EXPECT_THAT(comparison_table(*comparison), HasSubstr("no mode that turns by the sides' forces leads"));
+  EXPECT_THAT(comparison_table(*comparison),
+              HasSubstr("no mode that turns by the sides' forces leads"));
 }
 
 TEST(BreakEven, IsRefusedForPartsAndSeveralSetsOfGains) {
@@ -100,8 +101,8 @@ TEST(BreakEven, IsRefusedForPartsAndSeveralSetsOfGains) {
   EXPECT_THAT(to_text(part.error()), HasSubstr("needs one set of gains and a whole comparison"));
   CompareOptions options;
   options.break_even = true;
-  const auto sets = compare(uncertain_model(), {{"a", kPaperGains}, {"b", kPaperGains}},
-                            {turn(60.0)}, options);
+  const auto sets =
+      compare(uncertain_model(), {{"a", kPaperGains}, {"b", kPaperGains}}, {turn(60.0)}, options);
   ASSERT_FALSE(sets);
   EXPECT_EQ(exit_code(sets.error()), 2);
 }

@@ -107,8 +107,8 @@ TEST(Allocation, TheSteeringCommandHasNoJumpWhereThrustCrossesZero) {
           double before_rad = 0.0;
           for (double tau_speed = -0.01; tau_speed < 0.2; tau_speed += step) {
             const double now_rad = allocate(mode, tau_speed, tau_turn_m, l).steering_rad;
-            // The limit rises by 20 degrees over 0.1 of tau_speed, and by 2 % faster than its mean at first.
-            ASSERT_LE(std::abs(now_rad - before_rad), 1.1 * radians(20.0) * step / 0.1)
+            // The limit rises by 20 degrees over 1/16 of tau_speed, and by 2 % faster than its mean at first.
+            ASSERT_LE(std::abs(now_rad - before_rad), 1.1 * radians(20.0) * step / 0.0625)
                 << "tau_speed " << tau_speed << ", tau_turn " << tau_turn_m;
             before_rad = now_rad;
           }
@@ -120,14 +120,14 @@ TEST(Allocation, TheSteeringCommandHasNoJumpWhereThrustCrossesZero) {
 
 TEST(Allocation, TheSteeringsLimitRisesWithTheThrustAndCombinedMakesUpForIt) {
   const double quarter = 0.25 * 0.5 * std::tan(radians(10.0));
-  const Allocation<double> weak = allocate(YawMode::kSteering, 0.025, 1.0, limits());
+  const Allocation<double> weak = allocate(YawMode::kSteering, 0.015625, 1.0, limits());
   EXPECT_TRUE(weak.steering_limited);
   EXPECT_NEAR(weak.steering_rad, 2.0 * std::atan(2.0 * quarter), 1e-15);
-  EXPECT_NEAR(delivered(weak).tau_speed, 0.025, 1e-15);
-  const Allocation<double> both = allocate(YawMode::kCombined, 0.025, 0.5, limits());
+  EXPECT_NEAR(delivered(weak).tau_speed, 0.015625, 1e-15);
+  const Allocation<double> both = allocate(YawMode::kCombined, 0.015625, 0.5, limits());
   EXPECT_NEAR(both.steering_rad, 2.0 * std::atan(2.0 * quarter), 1e-15);
   EXPECT_NEAR(moment(both), 0.5, 1e-14);
-  EXPECT_NEAR(delivered(both).tau_speed, 0.025, 1e-14);
+  EXPECT_NEAR(delivered(both).tau_speed, 0.015625, 1e-14);
 }
 
 /// An AVR rounds subnormal quotients otherwise than a host, so that there may be none.

@@ -45,11 +45,16 @@ struct Board {
   int flash_bytes;  ///< beside the bootloader
   int ram_bytes;    ///< for variables: a quarter is left to the stack
 };
-const Board kMega{"atmega2560", "AVR_MEGA2560", "mega",
-                  {"BringUp", "CompassCalibration", "HeadingHold", "RecordTrials", "WaypointFollowing"},
-                  253952, 6144};
-const Board kUno{"atmega328p", "AVR_UNO", "standard",
-                 {"BringUp", "HeadingHold", "WaypointFollowing"}, 32256, 1536};
+const Board kMega{
+    "atmega2560",
+    "AVR_MEGA2560",
+    "mega",
+    {"BringUp", "CompassCalibration", "HeadingHold", "RecordTrials", "WaypointFollowing"},
+    253952,
+    6144};
+const Board kUno{"atmega328p", "AVR_UNO",
+                 "standard",   {"BringUp", "HeadingHold", "WaypointFollowing"},
+                 32256,        1536};
 
 class Sketches : public Boards, public ::testing::WithParamInterface<const Board*> {
  protected:
@@ -89,9 +94,9 @@ TEST_P(Sketches, CompileLinkAndFit) {
     const std::string sketch = fmt::format("examples/{}/{}.ino", name, name);
     ASSERT_TRUE(succeeded(run(cxx() + "-Wall -Wextra -Werror -x c++ -include Arduino.h -c " +
                               sketch + " -o sketch.o")));
-    ASSERT_TRUE(succeeded(run(fmt::format(
-        "'{}' -mmcu={} -Os -Wl,--gc-sections sketch.o awmr.o core.a -lm -o sketch.elf", kAvrGxx,
-        GetParam()->chip))));
+    ASSERT_TRUE(succeeded(run(
+        fmt::format("'{}' -mmcu={} -Os -Wl,--gc-sections sketch.o awmr.o core.a -lm -o sketch.elf",
+                    kAvrGxx, GetParam()->chip))));
     const ProcessResult size = run(std::string("'") + kAvrSize + "' sketch.elf | tail -1");
     std::istringstream numbers(size.out);
     int text = 0;
@@ -102,9 +107,8 @@ TEST_P(Sketches, CompileLinkAndFit) {
     EXPECT_LE(data + bss, GetParam()->ram_bytes);
   }
 }
-INSTANTIATE_TEST_SUITE_P(, Sketches, ::testing::Values(&kMega, &kUno), [](const auto& test) {
-  return std::string(test.param->variant);
-});
+INSTANTIATE_TEST_SUITE_P(, Sketches, ::testing::Values(&kMega, &kUno),
+                         [](const auto& test) { return std::string(test.param->variant); });
 
 using SketchesOnUno = Sketches;
 TEST_P(SketchesOnUno, ThatNeedACardSayThatThereIsNone) {
@@ -210,10 +214,11 @@ class OtherProcessors : public Boards {
     write_all(directory_.path() / "start.c", kArmStart);
   }
   std::string on_host(const std::string& flags) const {
-    const ProcessResult built = run(fmt::format(
-        "'{}' -O2 -ffp-contract=off -std=c99 -Isrc -c driven.c -o driven.o && '{}' -O2 {} -std=c++14 "
-        "-Isrc driven.o src/awmr.cpp -o driven",
-        kGcc, kGxx, flags));
+    const ProcessResult built =
+        run(fmt::format("'{}' -O2 -ffp-contract=off -std=c99 -Isrc -c driven.c -o driven.o && '{}' "
+                        "-O2 {} -std=c++14 "
+                        "-Isrc driven.o src/awmr.cpp -o driven",
+                        kGcc, kGxx, flags));
     EXPECT_TRUE(succeeded(built));
     const ProcessResult result = run("./driven");
     EXPECT_TRUE(succeeded(result));
@@ -221,8 +226,7 @@ class OtherProcessors : public Boards {
   }
   std::string on_arm(const std::string& cpu, const std::string& machine) const {
     const std::string cxx_flags =
-        cpu +
-        " -O2 -Wall -Wextra -Wpedantic -Werror -std=c++14 -fno-exceptions -fno-rtti -Isrc ";
+        cpu + " -O2 -Wall -Wextra -Wpedantic -Werror -std=c++14 -fno-exceptions -fno-rtti -Isrc ";
     const ProcessResult built = run(fmt::format(
         "'{0}' {1} -O2 -ffp-contract=off -std=c99 -Isrc -c driven.c start.c && '{2}' {3} -c "
         "src/awmr.cpp -o awmr.o && '{0}' {1} --specs=rdimon.specs -Wl,--section-start=.vectors=0 "
@@ -244,7 +248,8 @@ TEST_F(OtherProcessors, GiveTheHostsBitsWithAndWithoutAnFpu) {
   const std::string host = on_host("-ffp-contract=off");
   EXPECT_THAT(host, HasSubstr("6 "));
   EXPECT_EQ(on_arm("-mcpu=cortex-m3 -mthumb", "mps2-an385"), host);
-  EXPECT_EQ(on_arm("-mcpu=cortex-m4 -mthumb -mfloat-abi=hard -mfpu=fpv4-sp-d16", "mps2-an386"), host);
+  EXPECT_EQ(on_arm("-mcpu=cortex-m4 -mthumb -mfloat-abi=hard -mfpu=fpv4-sp-d16", "mps2-an386"),
+            host);
   EXPECT_EQ(on_arm("-mcpu=cortex-m7 -mthumb -mfloat-abi=hard -mfpu=fpv5-d16", "mps2-an500"), host);
 #if defined(__x86_64__)
   if (__builtin_cpu_supports("fma") != 0) {
@@ -264,13 +269,14 @@ TEST_F(Boards, TheMetadataAreWhatArduinoAndPlatformIoRead) {
   emit();
   const std::string properties = text("library.properties");
   EXPECT_THAT(properties, HasSubstr("name=awmr\nversion="));
-  for (const char* key : {"author", "maintainer", "sentence", "paragraph", "category",
-                                  "architectures", "includes"}) {
+  for (const char* key :
+       {"author", "maintainer", "sentence", "paragraph", "category", "architectures", "includes"}) {
     EXPECT_TRUE(std::regex_search(properties, std::regex(std::string(key) + "=.+\n"))) << key;
   }
   const auto json = nlohmann::json::parse(text("library.json"));
   EXPECT_EQ(json["name"], "awmr");
-  EXPECT_TRUE(std::regex_match(json["version"].get<std::string>(), std::regex("\\d+\\.\\d+\\.\\d+")));
+  EXPECT_TRUE(
+      std::regex_match(json["version"].get<std::string>(), std::regex("\\d+\\.\\d+\\.\\d+")));
   EXPECT_THAT(properties, HasSubstr("version=" + json["version"].get<std::string>()));
   // keywords.txt holds each function and type of awmr.h, after a tab what it is.
   std::set<std::string> keywords;

@@ -11,8 +11,8 @@
 namespace awmr::testing {
 namespace {
 
-constexpr long kFlashBytesMax = 8192;  // of 262144: the controller alone, room for the rest
-constexpr long kRamBytesMax = 512;     // of 8192, without the stack
+constexpr long kFlashBytesMax = 16384;  // of 262144, as awmr pil asks
+constexpr long kRamBytesMax = 512;      // of 8192, without the stack
 
 class Firmware : public ::testing::Test {
  protected:

@@ -160,6 +160,15 @@ INSTANTIATE_TEST_SUITE_P(
       return file.substr(file.rfind('/') + 1);
     });
 
+/// With nothing to follow but a heading that is reached, the commands decay as far as numbers go.
+TEST_F(Pil, AHeadingThatDecaysToNothingIsTheHostsBitsInEveryMode) {
+  for (const char* mode : {"differential", "steering"}) {
+    const ProcessResult run = pil("configs/scenarios/low_battery.json", mode, "");
+    ASSERT_EQ(run.exit_code, 0) << run.out << run.err;
+    EXPECT_EQ(largest(result()["difference"]), 0.0) << mode;
+  }
+}
+
 TEST_F(Pil, FrictionAtRestADeadZoneAndBackEmfAreMadeUpForAsInTheSimulator) {
   const auto given = [](double value, const char* unit) {
     return Json{{"value", value}, {"std_error", nullptr}, {"ci95", nullptr},

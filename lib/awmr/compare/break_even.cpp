@@ -44,8 +44,8 @@ std::vector<std::optional<Metrics>> driven_with(const Course& course,
     runs.push_back({plant, course.controller, 0, 0});
   }
   std::vector<std::optional<Metrics>> driven;
-  for (const Result<Metrics>& metrics :
-       simulate_batch(runs, *course.scenario, course.mode, course.sample_time_s, course.arithmetic)) {
+  for (const Result<Metrics>& metrics : simulate_batch(runs, *course.scenario, course.mode,
+                                                       course.sample_time_s, course.arithmetic)) {
     driven.push_back(metrics ? std::optional(*metrics) : std::nullopt);
   }
   return driven;
@@ -103,7 +103,8 @@ std::optional<double> least_that_ends(double most_m, const Ahead& ahead) {
 ScenarioRows nominal_rows(const Comparison& comparison, const std::string& scenario) {
   ScenarioRows rows{scenario, {}};
   for (const ComparisonRow& row : comparison.rows) {
-    if (row.sample == 0 && row.scenario == scenario) rows.modes.push_back({{row.mode, ""}, {&row, 1}});
+    if (row.sample == 0 && row.scenario == scenario)
+      rows.modes.push_back({{row.mode, ""}, {&row, 1}});
   }
   return rows;
 }
@@ -213,11 +214,12 @@ std::string break_even_table(const std::vector<BreakEven>& entries) {
     }
     text += '\n';
   }
-  return text +
-         fmt::format(
-             "  tyres that slide sideways on a friction of 0.8 make {:.3g} m; yours: identify a log of turns by\n"
-             "  the sides' forces alone, wheels straight, and compare its yaw resistance with the model's\n",
-             entries.front().sliding_m);
+  return text + fmt::format(
+                    "  tyres that slide sideways on a friction of 0.8 make {:.3g} m; yours: "
+                    "identify a log of turns by\n"
+                    "  the sides' forces alone, wheels straight, and compare its yaw resistance "
+                    "with the model's\n",
+                    entries.front().sliding_m);
 }
 
 }  // namespace awmr

@@ -77,10 +77,10 @@ template <class T>
 constexpr T steering_authority_min() {
   return T(1e-6);
 }
-/// From this tau_speed on, a fortieth of what four motors have, d_r may go to its stop.
+/// From this tau_speed on, a 64th of what four motors have, d_r may go to its stop.
 template <class T>
 constexpr T steering_authority_full() {
-  return T(0.1);
+  return T(0.0625);
 }
 
 /// What the allocation needs of the limits, computed once. It has members of type T only, so that
@@ -269,19 +269,37 @@ struct FrontSmallAngle {
   }
 };
 
-/// The largest |h| at tau_speed: h_max sat(tau_speed/0.1, [0, 1]). The angle for a moment grows as
-/// 1/tau_speed, and behind tau_speed = 0 it is 0: with one limit for all tau_speed it would jump there
-/// from the stop to straight. What the lower limit takes away is at most 1/160 of the moment that the
-/// steering has at full thrust.
+/// tau_speed < 1/16. For float by the leading half alone: that of 1/16 has nothing behind it.
 template <class T>
-T steering_limit(const AllocationConstants<T>& c, const T& tau_speed) {
+Mask<T> is_weak(const T& tau_speed) {
+  return tau_speed < steering_authority_full<T>();
+}
+inline bool is_weak(float tau_speed) {
+  return float_math::leading_order_of(tau_speed) < static_cast<int16_t>(0x3D80);
+}
+
+/// The largest |h| at tau_speed: h_max sat(16 tau_speed, [0, 1]). The angle for a moment grows as
+/// 1/tau_speed, and behind tau_speed = 0 it is 0: with one limit for all tau_speed it would jump there
+/// from the stop to straight. What the lower limit takes away is at most 1/256 of the moment that the
+/// steering has at full thrust. In one lane it is not read where steering_for() is powerless.
+template <class T>
+AWMR_INLINE T steering_limit(const AllocationConstants<T>& c, const T& tau_speed) {
   using math::any;
   using math::select;
-  const Mask<T> weak = math::is_above(steering_authority_full<T>(), tau_speed);
+  const Mask<T> weak = is_weak(tau_speed);
   if (!any(weak)) return c.h_max;
-  const T share =
-      math::clamp(T(tau_speed * (T(1.0) / steering_authority_full<T>())), T(0.0), T(1.0));
-  return select(weak, T(c.h_max * share), c.h_max);
+  T tapered = c.h_max * (tau_speed * T(16.0));
+  if (!MaskOf<T>::kOneLane) tapered = select(tapered > T(0.0), tapered, T(0.0));
+  return select(weak, tapered, c.h_max);
+}
+
+/// |h| >= h_max, to which h is clipped. For float by the bits.
+template <class T>
+Mask<T> is_at_stop(const T& h, const T& h_max) {
+  return h >= h_max || h <= T(-h_max);
+}
+inline bool is_at_stop(float h, float h_max) {
+  return float_math::magnitude_bits(h) == bits_of(h_max);
 }
 
 /// The h of the angle that makes a yaw moment at tau_speed, clipped to |h| <= limit:
@@ -306,15 +324,14 @@ T steering_for(const T& limit, const T& tau_speed, const T& half_ratio, Allocati
 
 /// The steering angle that is commanded for h, rad; exactly +-d_max where h is +-h_max.
 template <class Angle, class T>
-AWMR_INLINE T angle_of(const AllocationConstants<T>& c, const T& h, const T& h2,
-                       const Allocation<T>& a) {
+AWMR_INLINE T angle_of(const AllocationConstants<T>& c, const T& h, const T& h2) {
   using math::all;
   using math::any;
   using math::select;
-  if (!any(a.steering_limited)) return math::saturate(Angle::of_h(h, h2), c.steering_max_rad);
+  const Mask<T> stopped = is_at_stop(h, c.h_max);
+  if (!any(stopped)) return math::saturate(Angle::of_h(h, h2), c.steering_max_rad);
   const T stop_rad = select(math::is_above(h, T(0.0)), c.steering_max_rad, T(-c.steering_max_rad));
-  const Mask<T> stopped = h >= c.h_max || h <= T(-c.h_max);
-  if (all(stopped)) return stop_rad;
+  if (MaskOf<T>::kOneLane || all(stopped)) return stop_rad;
   return select(stopped, stop_rad, math::saturate(Angle::of_h(h, h2), c.steering_max_rad));
 }
 
@@ -396,7 +413,7 @@ AWMR_INLINE void allocate_by(YawMode mode, const T& tau_speed_asked, const T& ta
     }
     h2 = Angle::square(h);
   }
-  if (mode != YawMode::kDifferential) a.steering_rad = angle_of<Angle>(c, h, h2, a);
+  if (mode != YawMode::kDifferential) a.steering_rad = angle_of<Angle>(c, h, h2);
 }
 
 }  // namespace detail

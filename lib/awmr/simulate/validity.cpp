@@ -18,6 +18,20 @@ std::optional<double> measured_yaw_rate_degps(const Model& model) {
   return fastest;
 }
 
+void limit_heading_rate(double limit_degps, Scenario& scenario) {
+  if (std::holds_alternative<OpenLoop>(scenario.guidance)) return;
+  const double limit_radps = radians(limit_degps);
+  if (scenario.shaping) {
+    scenario.shaping->rate_max_radps = std::min(scenario.shaping->rate_max_radps, limit_radps);
+    return;
+  }
+  // The limit is reached within a time constant of the filter.
+  scenario.shaping =
+      HeadingShaping<double>{.omega_radps = kShapingBandwidth_radps,
+                             .rate_max_radps = limit_radps,
+                             .accel_max_radps2 = kShapingBandwidth_radps * limit_radps};
+}
+
 void note_extrapolation(const Model& model, double fastest_degps, const std::string& where,
                         std::vector<Finding>& findings) {
   constexpr double kClearly =
@@ -28,8 +42,9 @@ void note_extrapolation(const Model& model, double fastest_degps, const std::str
       {model.file, 0, Severity::kWarning, "beyond-trials",
        fmt::format("{}: the vehicle turns at up to {:.3g} deg/s, {:.2g} times as fast as yaw "
                    "resistance was measured (up to {:.3g} deg/s): beyond it the model is "
-                   "extrapolated. Record faster turning trials, or limit the heading's rate in the "
-                   "scenario (shaping)",
+                   "extrapolated. Record faster turning trials, or limit the heading's rate "
+                   "(shaping in the "
+                   "scenario; simulate and compare take --heading-rate-limit measured)",
                    where, fastest_degps, fastest_degps / *measured, *measured)});
 }
 

@@ -7,12 +7,19 @@
 #include <vector>
 
 #include "awmr/model/model.h"
+#include "awmr/simulate/scenario.h"
 
 namespace awmr {
 
 /// The fastest turn, deg/s, up to which yaw resistance was measured: the vehicle's
 /// yaw_rate_max_degps, else the fastest turning trial of the record. Absent where neither says.
 std::optional<double> measured_yaw_rate_degps(const Model& model);
+
+/// Lets the heading that is held or led to turn by at most `limit_degps`, > 0, by a filter of
+/// kShapingBandwidth_radps where the scenario has none (control/guidance_shaping.h); one that it has
+/// keeps its bandwidth and the lesser limit. In open loop there is no heading to limit.
+void limit_heading_rate(double limit_degps, Scenario& scenario);
+inline constexpr double kShapingBandwidth_radps = 4.0;
 
 /// Adds a warning (`beyond-trials`) where a turn of `fastest_degps`, >= 0, is clearly faster than
 /// that: what the model says there is extrapolated. `where` names the run: "C3, combined".

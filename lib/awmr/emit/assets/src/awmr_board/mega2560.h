@@ -1,9 +1,8 @@
-/* What is the Arduino Mega 2560's own: pins, timers, serial port, a card. */
+/* What is the Arduino Mega 2560's own: pins, the servo's timer, a serial port, a card. */
 #ifndef AWMR_BOARD_MEGA2560_H
 #define AWMR_BOARD_MEGA2560_H
 
 #define AWMR_BOARD_HAS_CARD 1
-#define AWMR_BOARD_TICK TIMER3_COMPA_vect
 
 namespace awmr_board {
 
@@ -27,19 +26,6 @@ inline void begin_servo(uint16_t half_us) {
   TCCR4B = _BV(WGM43) | _BV(WGM42) | _BV(CS41);
   ICR4 = 39999;
   set_servo(half_us);
-}
-
-/* Starts timer 3, whose interrupt is AWMR_BOARD_TICK. Ticks in a sample time: one. */
-inline uint16_t begin_ticks(float sample_time_s) {
-  const float counts = sample_time_s * (F_CPU / 8);
-  const bool slow = counts > 65536.0f;
-  TCCR3A = 0;
-  TCCR3B = 0;
-  TCNT3 = 0;
-  OCR3A = static_cast<uint16_t>((slow ? counts / 32 : counts) - 0.5f);
-  TCCR3B = static_cast<uint8_t>(_BV(WGM32) | (slow ? _BV(CS32) : _BV(CS31))); /* clock/256, /8 */
-  TIMSK3 = _BV(OCIE3A);
-  return 1;
 }
 
 }  // namespace awmr_board

@@ -6,6 +6,7 @@
 #include <avr/wdt.h>
 
 #include "../awmr_params.h"
+#include "ticks.h"
 
 namespace awmr_board {
 
@@ -38,9 +39,9 @@ static uint16_t ticks_per_step;
    which no step ends. */
 inline void begin_steps(Step step) {
   the_step = step;
-  noInterrupts();
+  cli();
   ticks_left = ticks_per_step = begin_ticks(AWMR_SAMPLE_TIME_S);
-  interrupts();
+  sei();
   wdt_enable(AWMR_SAMPLE_TIME_S < 0.05f ? WDTO_250MS : WDTO_4S);
 }
 

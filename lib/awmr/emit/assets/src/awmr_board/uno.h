@@ -1,4 +1,4 @@
-/* What is the Arduino Uno's own (ATmega328P): pins, timers, the GPS's serial port. It has 2 KiB of RAM,
+/* What is the Arduino Uno's own (ATmega328P): pins, the servo's timer, the GPS's port. It has 2 KiB of RAM,
    which the log's ring and the card's library would not leave anything of. */
 #ifndef AWMR_BOARD_UNO_H
 #define AWMR_BOARD_UNO_H
@@ -6,7 +6,6 @@
 #include <SoftwareSerial.h>
 
 #define AWMR_BOARD_HAS_CARD 0
-#define AWMR_BOARD_TICK TIMER2_COMPA_vect
 
 namespace awmr_board {
 
@@ -32,19 +31,6 @@ inline void begin_servo(uint16_t half_us) {
   TCCR1B = _BV(WGM13) | _BV(WGM12) | _BV(CS11);
   ICR1 = 39999;
   set_servo(half_us);
-}
-
-/* Starts timer 2, whose interrupt is AWMR_BOARD_TICK: at most 256 counts of clock/64, 1.024 ms. Returns
-   how many ticks a sample time has. */
-inline uint16_t begin_ticks(float sample_time_s) {
-  const float counts = sample_time_s * (F_CPU / 64);
-  const uint16_t ticks = static_cast<uint16_t>(counts / 256.0f + 0.999f);
-  TCCR2A = _BV(WGM21);
-  TCCR2B = _BV(CS22);
-  TCNT2 = 0;
-  OCR2A = static_cast<uint8_t>(counts / ticks - 0.5f);
-  TIMSK2 = _BV(OCIE2A);
-  return ticks;
 }
 
 }  // namespace awmr_board

@@ -1,0 +1,44 @@
+/* The timer that calls the step: its interrupt AWMR_BOARD_TICK, and how it is started. */
+#ifndef AWMR_BOARD_TICKS_H
+#define AWMR_BOARD_TICKS_H
+
+#include <avr/io.h>
+#include <stdint.h>
+
+namespace awmr_board {
+
+#if defined(__AVR_ATmega2560__)
+#define AWMR_BOARD_TICK TIMER3_COMPA_vect
+
+/* Starts timer 3. Ticks in a sample time: one. */
+inline uint16_t begin_ticks(float sample_time_s) {
+  const float counts = sample_time_s * (F_CPU / 8);
+  const bool slow = counts > 65536.0f;
+  TCCR3A = 0;
+  TCCR3B = 0;
+  TCNT3 = 0;
+  OCR3A = static_cast<uint16_t>((slow ? counts / 32 : counts) - 0.5f);
+  TCCR3B = static_cast<uint8_t>(_BV(WGM32) | (slow ? _BV(CS32) : _BV(CS31))); /* clock/256, /8 */
+  TIMSK3 = _BV(OCIE3A);
+  return 1;
+}
+
+#elif defined(__AVR_ATmega328P__)
+#define AWMR_BOARD_TICK TIMER2_COMPA_vect
+
+/* Starts timer 2: at most 256 counts of clock/64, 1.024 ms. Returns how many ticks a sample time has. */
+inline uint16_t begin_ticks(float sample_time_s) {
+  const float counts = sample_time_s * (F_CPU / 64);
+  const uint16_t ticks = static_cast<uint16_t>(counts / 256.0f + 0.999f);
+  TCCR2A = _BV(WGM21);
+  TCCR2B = _BV(CS22);
+  TCNT2 = 0;
+  OCR2A = static_cast<uint8_t>(counts / ticks - 0.5f);
+  TIMSK2 = _BV(OCIE2A);
+  return ticks;
+}
+#endif
+
+}  // namespace awmr_board
+
+#endif /* AWMR_BOARD_TICKS_H */
