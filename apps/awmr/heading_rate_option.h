@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "awmr/core/error.h"
+#include "awmr/core/result.h"
 #include "awmr/simulate/validity.h"
 #include "numbers.h"
 

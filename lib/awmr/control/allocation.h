@@ -306,29 +306,31 @@ inline bool is_at_stop(float h, float h_max) {
 ///   h = q/2 = moment/(2 l_f tau_speed)
 /// `half_ratio` is moment/(2 l_f). Sets steering_limited or steering_powerless in `a`.
 template <class T>
-T steering_for(const T& limit, const T& tau_speed, const T& half_ratio, Allocation<T>& a) {
+AWMR_INLINE T steering_for(T limit, const T& tau_speed, const T& half_ratio, Allocation<T>& a) {
   using math::all;
   using math::any;
   using math::select;
-  const Mask<T> able = math::is_above(tau_speed, steering_authority_min<T>());
+  const Mask<T> able =
+      !is_weak(tau_speed) || math::is_above(tau_speed, steering_authority_min<T>());
   if (!any(able)) {
     a.steering_powerless = !able;
     return T(0.0);
   }
   if (MaskOf<T>::kOneLane || all(able))
-    return clipped(T(half_ratio / tau_speed), T(-limit), limit, a.steering_limited);
+    return clipped(T(math::flushed(half_ratio) / tau_speed), T(-limit), limit, a.steering_limited);
   a.steering_powerless = a.steering_powerless || !able;
   const T h = select(able, T(half_ratio / tau_speed), T(0.0));
   return clipped(h, T(-limit), limit, a.steering_limited);
 }
 
-/// The steering angle that is commanded for h, rad; exactly +-d_max where h is +-h_max.
+/// The steering angle that is commanded for h, rad; exactly +-d_max where h was clipped to +-h_max.
 template <class Angle, class T>
-AWMR_INLINE T angle_of(const AllocationConstants<T>& c, const T& h, const T& h2) {
+AWMR_INLINE T angle_of(const AllocationConstants<T>& c, const T& h, const T& h2,
+                       Mask<T> is_limited) {
   using math::all;
   using math::any;
   using math::select;
-  const Mask<T> stopped = is_at_stop(h, c.h_max);
+  const Mask<T> stopped = is_limited && is_at_stop(h, c.h_max);
   if (!any(stopped)) return math::saturate(Angle::of_h(h, h2), c.steering_max_rad);
   const T stop_rad = select(math::is_above(h, T(0.0)), c.steering_max_rad, T(-c.steering_max_rad));
   if (MaskOf<T>::kOneLane || all(stopped)) return stop_rad;
@@ -355,7 +357,7 @@ AWMR_INLINE void forces_for(const AllocationConstants<T>& c, const T& tau_speed,
 ///   h = (tau_turn - tau_diff)/(2 l_f tau_speed)
 ///     = (2 quarter tau_turn - d (F'R - F'L))/(2 l_f (F'L + F'R))
 template <class T>
-T give_back(const AllocationConstants<T>& c, const T& limit, const T& tau_turn_m, const T& quarter,
+T give_back(const AllocationConstants<T>& c, T limit, const T& tau_turn_m, const T& quarter,
             Allocation<T>& a) {
   const T rest_m =
       (quarter + quarter) * tau_turn_m - c.half_track_m * (a.force.right - a.force.left);
@@ -364,26 +366,22 @@ T give_back(const AllocationConstants<T>& c, const T& limit, const T& tau_turn_m
 
 /// allocate(), by either form.
 template <class Angle, class T>
-AWMR_INLINE void allocate_by(YawMode mode, const T& tau_speed_asked, const T& tau_turn_asked_m,
+AWMR_INLINE void allocate_by(YawMode mode, const T& tau_speed, const T& tau_turn_m,
                              const AllocationConstants<T>& c, CombinedSplit split,
                              Allocation<T>& a) {
   using math::all;
   using math::any;
   using math::select;
   a = Allocation<T>{};
-  const T speed =
-      clipped(math::flushed(tau_speed_asked), c.tau_speed_min, c.tau_speed_max, a.speed_limited);
-  const T tau_turn_m = math::flushed(tau_turn_asked_m);
+  const T speed = clipped(tau_speed, c.tau_speed_min, c.tau_speed_max, a.speed_limited);
   const bool combined = mode == YawMode::kCombined;
   const bool redistribute = combined && split == CombinedSplit::kRedistribute;
   T h = T(0.0);
   T h2 = T(0.0);
-  T limit = T(0.0);
   T quarter = Angle::template straight<T>();
   if (mode != YawMode::kDifferential) {
     // The combined mode steers for half of tau_turn: its constant is half of steering's.
-    limit = steering_limit(c, speed);
-    h = steering_for(limit, speed,
+    h = steering_for(steering_limit(c, speed), speed,
                      T(tau_turn_m * (combined ? c.axle_quarter_inverse : c.axle_half_inverse)), a);
     h2 = Angle::square(h);
     quarter = T(0.25) + h2;
@@ -405,7 +403,7 @@ AWMR_INLINE void allocate_by(YawMode mode, const T& tau_speed_asked, const T& ta
     const Mask<T> gives = a.force_limited && !lost;
     const Allocation<T> kept = a;
     const T kept_h = h;
-    h = give_back(c, limit, tau_turn_m, quarter, a);
+    h = give_back(c, steering_limit(c, speed), tau_turn_m, quarter, a);
     if (!MaskOf<T>::kOneLane) {
       h = select(gives, h, kept_h);
       a.steering_limited = select(gives, a.steering_limited, kept.steering_limited);
@@ -413,7 +411,8 @@ AWMR_INLINE void allocate_by(YawMode mode, const T& tau_speed_asked, const T& ta
     }
     h2 = Angle::square(h);
   }
-  if (mode != YawMode::kDifferential) a.steering_rad = angle_of<Angle>(c, h, h2);
+  if (mode != YawMode::kDifferential)
+    a.steering_rad = angle_of<Angle>(c, h, h2, a.steering_limited);
 }
 
 }  // namespace detail

@@ -77,8 +77,8 @@ inline float saturate(float x, float limit) {
   return bits_of(x) >> 31U != 0 ? -limit : limit;
 }
 
-/// x. For float 0 where |x| < 2^-90, so that no quotient of it by a force or a length, nor a difference
-/// of such, is subnormal: an AVR rounds those otherwise than a host.
+/// x. For float 0 where |x| < 2^-90, so that no quotient of it by a force is subnormal: an AVR rounds
+/// those otherwise than a host.
 template <class T>
 T flushed(const T& x) {
   return x;

@@ -51,6 +51,15 @@ function ranking(parent, scenario) {
     r.first_by_samples === null ? "" : percent(r.first_by_samples)]));
 }
 
+function breakEven(parent, entries) {
+  if (!entries || !entries.length) return;
+  add(parent, "h3", "How much scrub a lead stands");
+  add(parent, "p", "Wheels that are turned by the sides' forces scrub. With this Coulomb yaw moment more than the model has, a lead is gone. Tyres that slide "
+    + `sideways on a friction of 0.8 make ${digits(entries[0].sliding_m, 3)} m.`);
+  table(parent, ["scenario", "mode", "ahead of", "#until, m"], entries.map((e) => [e.scenario, e.mode, e.against,
+    e.yaw_coulomb_m === null ? `beyond ${digits(e.most_m, 3)}` : digits(e.yaw_coulomb_m, 3)]));
+}
+
 function comparisonSection(data) {
   const {comparison} = data;
   if (!comparison) return;
@@ -62,6 +71,7 @@ function comparisonSection(data) {
     table(box, ["figure", "#scenarios", ...names.map((n) => `#${n}`)], comparison.overall.map((o) => [metricWords(o.metric), o.scenarios, ...names.map((n) => o.best_or_tied[n] ?? "–")]),
       (k, i) => i > 1 && comparison.overall[k].best_or_tied[names[i - 2]] === Math.max(...Object.values(comparison.overall[k].best_or_tied)));
   }
+  breakEven(box, comparison.break_even);
   comparison.scenarios.forEach((scenario, i) => {
     const details = add(box, "details");
     details.open = i === 0 && innerWidth > 640;
