@@ -147,6 +147,9 @@ struct Texts {
 Status read_texts(const Texts& texts, CompareCommand& command) {
   AWMR_ASSIGN_OR_RETURN(command.shard, shard_of(texts.shard));
   command.compare.shard = command.shard.value_or(Shard{});
+  if (command.shard && command.compare.break_even) {
+    return input_error("--break-even", "needs a whole comparison: leave out --shard");
+  }
   AWMR_ASSIGN_OR_RETURN(command.compare.preferences,
                         preferences_of(texts.weights, texts.relevance));
   return {};
@@ -244,11 +247,11 @@ void add_compare(CLI::App& app, Session& session) {
                 "Go on from what lies in the directory: after Ctrl-C, or with more samples; with "
                 "--shard, leave a part that is finished as it is");
   add_preferences(*sub, *texts);
-  auto* break_even = sub->add_flag(
+  sub->add_flag(
       "--break-even", command->compare.break_even,
       "Also how much more yaw resistance turns by the sides' forces could meet before a mode "
       "that steers is better");
-  add_shard(*sub, texts->shard)->excludes(break_even);
+  add_shard(*sub, texts->shard);
   add_allocation(*sub, command->allocation);
   add_heading_rate_limit(*sub, command->heading_rate_limit);
   add_output_directory(*sub, command->output, "Directory for comparison.csv and comparison.json");
