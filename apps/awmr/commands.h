@@ -20,6 +20,7 @@
 #include "heading_rate_option.h"
 #include "inputs.h"
 #include "live_stream.h"
+#include "shard_option.h"
 
 namespace awmr::cli {
 
@@ -72,7 +73,9 @@ void add_live(CLI::App& app, Session& session);
 struct RecoverCommand {
   fs::path model;
   RecoverOptions recover;
-  std::optional<fs::path> output;
+  ShardChoice shard = {};
+  bool resume = false;                  ///< leave a part that is finished as it is
+  std::optional<fs::path> output = {};  ///< recover.json; of a part, its directory
 };
 Result<Outcome> execute(const RecoverCommand& command);
 void add_recover(CLI::App& app, Session& session);
@@ -142,7 +145,8 @@ struct CompareCommand {
   fs::path output;
   AllocationChoice allocation = {};
   HeadingRateChoice heading_rate_limit = {};
-  bool resume = false;  ///< go on from the output directory
+  bool resume = false;     ///< go on from the output directory
+  ShardChoice shard = {};  ///< as in `compare`
   InputNames names = {};
 };
 Result<Outcome> execute(const CompareCommand& command);

@@ -3,7 +3,6 @@
 
 #include <CLI/CLI.hpp>
 #include <atomic>
-#include <charconv>
 #include <csignal>
 #include <cstdio>
 #include <memory>
@@ -21,6 +20,7 @@
 #include "numbers.h"
 #include "paths.h"
 #include "progress.h"
+#include "shard_option.h"
 
 namespace awmr::cli {
 namespace {
@@ -101,18 +101,16 @@ Result<Comparison> compare_until_interrupted(const Model& model,
   return compare(model, gains, scenarios, options);
 }
 
-bool is_part(const CompareCommand& command) { return command.compare.shard.count > 1; }
-
 /// What says where the rows of comparison.csv are from, and what they come to.
 const char* json_of(const CompareCommand& command) {
-  return is_part(command) ? "shard.json" : "comparison.json";
+  return command.shard ? "shard.json" : "comparison.json";
 }
 
 /// The bytes of the file of that name.
 std::string document_of(const CompareCommand& command, const Comparison& comparison,
                         const Provenance& provenance) {
-  return is_part(command) ? shard_text(comparison, command.compare, provenance)
-                          : comparison_text(comparison, command.compare, provenance);
+  return command.shard ? shard_text(comparison, command.compare, provenance)
+                       : comparison_text(comparison, command.compare, provenance);
 }
 
 Status write_comparison(const CompareCommand& command, const Comparison& comparison,
@@ -124,24 +122,12 @@ Status write_comparison(const CompareCommand& command, const Comparison& compari
   return write_files(files);
 }
 
-/// "I/N". Errors (input): anything else.
-Result<Shard> shard_of(const std::string& text) {
-  Shard shard;
-  const char* end = text.data() + text.size();
-  const auto [slash, first] = std::from_chars(text.data(), end, shard.index);
-  if (first == std::errc{} && slash != end && *slash == '/') {
-    const auto [rest, second] = std::from_chars(slash + 1, end, shard.count);
-    if (second == std::errc{} && rest == end) return shard;
-  }
-  return input_error("--shard", fmt::format("'{}' is no part: give I/N, as 1/4", text));
-}
-
 /// Says how to go on and ends the program by the signal: the caller sees what it would have seen
 /// without the handler.
 void end_interrupted(const CompareCommand& command, const Comparison& comparison) {
   const std::string file = (command.output / "comparison.csv").string();
   const std::string text =
-      is_part(command)
+      command.shard
           ? "stopped: a part of a comparison has to be run again as a whole\n"
           : fmt::format(
                 "stopped: {} finished runs are in {}; the same command with --resume goes on\n",
@@ -153,16 +139,19 @@ void end_interrupted(const CompareCommand& command, const Comparison& comparison
 
 /// Options as they were typed, until the command runs.
 struct Texts {
-  std::string shard;
+  std::optional<std::string> shard;
   std::vector<std::string> weights;
   double relevance = Preferences{}.relevance;
 };
 
-Status read_texts(const Texts& texts, CompareOptions& options) {
-  if (!texts.shard.empty()) {
-    AWMR_ASSIGN_OR_RETURN(options.shard, shard_of(texts.shard));
+Status read_texts(const Texts& texts, CompareCommand& command) {
+  AWMR_ASSIGN_OR_RETURN(command.shard, shard_of(texts.shard));
+  command.compare.shard = command.shard.value_or(Shard{});
+  if (command.shard && command.compare.break_even) {
+    return input_error("--break-even", "needs a whole comparison: leave out --shard");
   }
-  AWMR_ASSIGN_OR_RETURN(options.preferences, preferences_of(texts.weights, texts.relevance));
+  AWMR_ASSIGN_OR_RETURN(command.compare.preferences,
+                        preferences_of(texts.weights, texts.relevance));
   return {};
 }
 
@@ -209,7 +198,11 @@ Result<Outcome> execute(const CompareCommand& command) {
   AWMR_RETURN_IF_ERROR(
       check_outputs(command.output, {"comparison.csv", json_of(command)}, inputs_of(command)));
   CompareOptions options = command.compare;
-  if (command.resume) {
+  if (command.resume && command.shard) {
+    if (is_finished_shard(command.output, options, provenance)) {
+      return finished_part(*command.shard, command.output);
+    }
+  } else if (command.resume) {
     AWMR_ASSIGN_OR_RETURN(options.finished, read_finished(command.output, provenance));
   }
   const StopOnInterrupt interrupt;
@@ -218,8 +211,8 @@ Result<Outcome> execute(const CompareCommand& command) {
   const std::string text = document_of(command, comparison, provenance);
   AWMR_RETURN_IF_ERROR(write_comparison(command, comparison, text));
   if (comparison.stopped) end_interrupted(command, comparison);
-  Outcome outcome = is_part(command) ? outcome_of_part(command, comparison)
-                                     : outcome_of_whole(command, comparison, model);
+  Outcome outcome = command.shard ? outcome_of_part(command, comparison)
+                                  : outcome_of_whole(command, comparison, model);
   outcome.document = text;
   outcome.written = {command.output / json_of(command), command.output / "comparison.csv"};
   return outcome;
@@ -234,7 +227,7 @@ void add_compare(CLI::App& app, Session& session) {
                   "awmr compare --model model.json --gains gains.json --scenario "
                   "configs/paper/scenarios/c3_heading_steps.json --samples 20 -o comparison",
                   [command, texts]() -> Result<Outcome> {
-                    AWMR_RETURN_IF_ERROR(read_texts(*texts, command->compare));
+                    AWMR_RETURN_IF_ERROR(read_texts(*texts, *command));
                     return execute(*command);
                   });
   add_file(*sub, "--model", command->model, "model.json from identify")->required();
@@ -250,17 +243,15 @@ void add_compare(CLI::App& app, Session& session) {
       ->check(within<std::uint64_t>(0, kAnySeed));
   sub->add_option("--threads", command->compare.threads, "0 (default): one per core")
       ->check(within(0, 1024));
-  auto* resume =
-      sub->add_flag("--resume", command->resume,
-                    "Go on from what lies in the directory: after Ctrl-C, or with more samples");
+  sub->add_flag("--resume", command->resume,
+                "Go on from what lies in the directory: after Ctrl-C, or with more samples; with "
+                "--shard, leave a part that is finished as it is");
   add_preferences(*sub, *texts);
   sub->add_flag(
       "--break-even", command->compare.break_even,
       "Also how much more yaw resistance turns by the sides' forces could meet before a mode "
       "that steers is better");
-  sub->add_option("--shard", texts->shard,
-                  "I/N: part I of N, for as many machines; awmr merge puts the parts together")
-      ->excludes(resume);
+  add_shard(*sub, texts->shard);
   add_allocation(*sub, command->allocation);
   add_heading_rate_limit(*sub, command->heading_rate_limit);
   add_output_directory(*sub, command->output, "Directory for comparison.csv and comparison.json");

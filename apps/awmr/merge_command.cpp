@@ -2,9 +2,12 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <utility>
 
 #include "awmr/compare/shard.h"
 #include "awmr/core/file.h"
+#include "awmr/core/shard_file.h"
+#include "awmr/identify/planning/recover_shard.h"
 #include "commands.h"
 #include "paths.h"
 
@@ -12,21 +15,19 @@ namespace awmr::cli {
 namespace {
 
 /// Every part's two files, which the output must not replace.
-std::vector<fs::path> inputs_of(const MergeCommand& command) {
+std::vector<fs::path> files_of(const MergeCommand& command, const char* table) {
   std::vector<fs::path> paths;
   for (const fs::path& part : command.parts) {
-    paths.push_back(part / "shard.json");
-    paths.push_back(part / "comparison.csv");
+    paths.push_back(part / kShardFile);
+    paths.push_back(part / table);
   }
   return paths;
 }
 
-}  // namespace
-
-Result<Outcome> execute(const MergeCommand& command) {
+Result<Outcome> merge_comparison(const MergeCommand& command) {
   AWMR_ASSIGN_OR_RETURN(const Merged merged, merge_shards(command.parts));
-  AWMR_RETURN_IF_ERROR(
-      check_outputs(command.output, {"comparison.csv", "comparison.json"}, inputs_of(command)));
+  AWMR_RETURN_IF_ERROR(check_outputs(command.output, {"comparison.csv", "comparison.json"},
+                                     files_of(command, "comparison.csv")));
   const std::string document =
       comparison_text(merged.comparison, merged.options, merged.provenance);
   AWMR_RETURN_IF_ERROR(make_directory(command.output));
@@ -42,10 +43,29 @@ Result<Outcome> execute(const MergeCommand& command) {
                  .written = {files[1].path, files[0].path}};
 }
 
+Result<Outcome> merge_recovery(const MergeCommand& command) {
+  AWMR_ASSIGN_OR_RETURN(const MergedRecovery merged, merge_recover_shards(command.parts));
+  AWMR_RETURN_IF_ERROR(
+      check_outputs(command.output, {"recover.json"}, files_of(command, kRecoverTable)));
+  AWMR_ASSIGN_OR_RETURN(const Recovery recovery, recovery_of(merged.whole));
+  AWMR_RETURN_IF_ERROR(make_directory(command.output));
+  Outcome outcome{.summary = recovery_table(recovery),
+                  .document = recovery_text(recovery, merged.provenance)};
+  AWMR_RETURN_IF_ERROR(write_document(command.output / "recover.json", outcome));
+  return outcome;
+}
+
+}  // namespace
+
+Result<Outcome> execute(const MergeCommand& command) {
+  AWMR_ASSIGN_OR_RETURN(const std::string schema, schema_of_part(command.parts.front()));
+  return schema == kRecoverShardSchema ? merge_recovery(command) : merge_comparison(command);
+}
+
 void add_merge(CLI::App& app, Session& session) {
   auto command = std::make_shared<MergeCommand>();
   CLI::App* sub = add_command(
-      app, session, "merge", "Put the parts of a comparison together (compare --shard I/N)",
+      app, session, "merge", "Put the parts of a compare or a recover together (--shard I/N)",
 
       "awmr compare --model model.json --gains gains.json --scenario "
       "configs/paper/scenarios/c3_heading_steps.json --samples 20 --shard 1/2 -o part1\n"
@@ -54,9 +74,9 @@ void add_merge(CLI::App& app, Session& session) {
       "  awmr merge part1 part2 -o merged",
       [command] { return execute(*command); });
   add_directory(*sub, "DIR", command->parts, "Directories of all parts, in any order")->required();
-  add_output_directory(
-      *sub, command->output,
-      "Directory for comparison.csv and comparison.json, the bytes of a single run");
+  add_output_directory(*sub, command->output,
+                       "Directory for comparison.csv and comparison.json, or recover.json: the "
+                       "bytes of a single run");
 }
 
 }  // namespace awmr::cli

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "awmr/core/file.h"
-#include "awmr/identify/planning/recover.h"
+#include "awmr/identify/planning/recover_shard.h"
 #include "awmr/model/model_file.h"
 #include "choices.h"
 #include "commands.h"
@@ -25,26 +25,59 @@ constexpr NameTable<ErrorModel, 4> kErrors{{{"log-force", ErrorModel::kLogForce}
                                             {"speed", ErrorModel::kSpeed},
                                             {"time", ErrorModel::kTime}}};
 
-std::string table_of(const Recovery& recovery) {
-  std::string text = fmt::format("{} runs, {} of them with something refused; noise {}\n",
-                                 recovery.runs, recovery.failed, recovery.noise_text);
-  text += fmt::format("  {:<24} {:>10} {:>11} {:>10} {:>10} {:>9} {:>6}\n", "", "truth", "bias",
-                      "rmse", "std error", "coverage", "runs");
-  for (const RecoveredParameter& p : recovery.parameters) {
-    text += fmt::format("  {:<24} {:>10.5g} {:>+11.2g} {:>10.2g} {:>10.2g} {:>7.1f} % {:>6}\n",
-                        info(p.id).name, p.truth, p.bias, p.rmse, p.mean_std_error,
-                        100.0 * p.coverage95, p.runs);
-  }
-  return text;
+Provenance provenance_of(const RecoverOptions& options, const std::vector<InputFile>& inputs) {
+  Provenance provenance{"recover", described(options.identify), inputs};
+  auto& words = provenance.options;
+  words.emplace_back("plan", name_in(kPlans, options.plan));
+  words.emplace_back("runs", std::to_string(options.runs));
+  words.emplace_back("recover_seed", std::to_string(options.seed));
+  words.emplace_back("error", options.error ? name_in(kErrors, *options.error) : "as assumed");
+  words.emplace_back("speed_noise_mps", fmt::format("{}", options.sensors.speed_mps));
+  words.emplace_back("correlation_s", fmt::format("{}", options.sensors.correlation_s));
+  words.emplace_back("duration_s", fmt::format("{}", options.drive.duration_s));
+  words.emplace_back("rate_hz", fmt::format("{}", options.drive.rate_hz));
+  return provenance;
 }
 
-std::string document_of(const RecoverOptions& options, const std::vector<InputFile>& inputs,
-                        const Recovery& recovery) {
-  Provenance provenance{"recover", described(options.identify), inputs};
-  provenance.options.emplace_back("plan", name_in(kPlans, options.plan));
-  provenance.options.emplace_back("runs", std::to_string(options.runs));
-  provenance.options.emplace_back("recover_seed", std::to_string(options.seed));
-  return recovery_text(recovery, provenance);
+/// The runs of a part, or all of them, with a progress bar.
+Result<RecoverPart> recovered(const Model& model, const RecoverOptions& options,
+                              const Shard& shard) {
+  Working bar("simulating and fitting");
+  return recover_part(model, options, shard, [&](int done) {
+    bar(static_cast<std::size_t>(done), static_cast<std::size_t>(shard.share_of(options.runs)));
+  });
+}
+
+Result<Outcome> whole_outcome(const RecoverCommand& command, const RecoverPart& whole,
+                              const Provenance& provenance) {
+  AWMR_ASSIGN_OR_RETURN(const Recovery recovery, recovery_of(whole));
+  Outcome outcome{.summary = recovery_table(recovery),
+                  .document = recovery_text(recovery, provenance)};
+  AWMR_RETURN_IF_ERROR(write_document(command.output, outcome));
+  return outcome;
+}
+
+Result<Outcome> part_outcome(const RecoverCommand& command, const RecoverPart& part,
+                             const Provenance& provenance) {
+  AWMR_RETURN_IF_ERROR(make_directory(*command.output));
+  // The last one names the hash of the first.
+  const OutputFile files[] = {
+      {*command.output / kRecoverTable, recover_csv(part)},
+      {*command.output / kShardFile, recover_shard_text(part, *command.shard, provenance)}};
+  AWMR_RETURN_IF_ERROR(write_files(files));
+  return Outcome{.summary = fmt::format("part {} of {}: {} runs\nwrote {} and {}\n",
+                                        command.shard->index, command.shard->count,
+                                        part.runs.size(), files[1].path.string(), kRecoverTable),
+                 .document = files[1].bytes,
+                 .written = {files[1].path, files[0].path}};
+}
+
+/// Whether what the command writes can be written, before the work begins.
+Status check_output_of(const RecoverCommand& command) {
+  if (!command.output) return {};
+  const std::span inputs(&command.model, 1);
+  return command.shard ? check_outputs(*command.output, {kRecoverTable, kShardFile}, inputs)
+                       : check_output(*command.output, inputs);
 }
 
 /// The command and what the command line says of it in words.
@@ -54,10 +87,11 @@ struct RecoverWords {
   std::string method;
   std::string noise;
   std::string error;
+  std::optional<std::string> shard;
   std::vector<std::string> asked;
 };
 
-/// Errors: an unknown parameter.
+/// Errors (input): an unknown parameter, no such part.
 Result<RecoverCommand> command_of(const RecoverWords& words) {
   RecoverCommand command = words.command;
   RecoverOptions& options = command.recover;
@@ -68,6 +102,7 @@ Result<RecoverCommand> command_of(const RecoverWords& words) {
   for (const std::string& name : words.asked) {
     AWMR_RETURN_IF_ERROR(add_asked(name, options.identify));
   }
+  AWMR_ASSIGN_OR_RETURN(command.shard, shard_of(words.shard));
   return command;
 }
 
@@ -116,22 +151,18 @@ void add_simulated_trials(CLI::App& sub, RecoverOptions& options) {
 Result<Outcome> execute(const RecoverCommand& command) {
   AWMR_ASSIGN_OR_RETURN(const Model model, read_model(command.model));
   AWMR_ASSIGN_OR_RETURN(const std::vector<InputFile> inputs, input_files({command.model}));
-  if (command.output) {
-    AWMR_RETURN_IF_ERROR(check_output(*command.output, std::span(&command.model, 1)));
-  }
+  AWMR_RETURN_IF_ERROR(check_output_of(command));
   RecoverOptions options = command.recover;
   options.identify.surge_family.family = model.surge_family;
   options.identify.yaw_family.family = model.yaw_family;
-  auto bar = std::make_unique<Working>("simulating and fitting");
-  auto recovered = recover(model, options, [&](int done) {
-    (*bar)(static_cast<std::size_t>(done), static_cast<std::size_t>(options.runs));
-  });
-  bar.reset();  // cleared before anything is said
-  AWMR_ASSIGN_OR_RETURN(const Recovery recovery, std::move(recovered));
-  Outcome outcome{.summary = table_of(recovery),
-                  .document = document_of(options, inputs, recovery)};
-  AWMR_RETURN_IF_ERROR(write_document(command.output, outcome));
-  return outcome;
+  const Shard shard = command.shard.value_or(Shard{});
+  const Provenance provenance = provenance_of(options, inputs);
+  if (command.resume && is_finished_recover_shard(*command.output, shard, provenance)) {
+    return finished_part(shard, *command.output);
+  }
+  AWMR_ASSIGN_OR_RETURN(const RecoverPart part, recovered(model, options, shard));
+  return command.shard ? part_outcome(command, part, provenance)
+                       : whole_outcome(command, part, provenance);
 }
 
 void add_recover(CLI::App& app, Session& session) {
@@ -146,7 +177,11 @@ void add_recover(CLI::App& app, Session& session) {
   add_runs(*sub, words->command);
   add_estimator(*sub, *words);
   add_simulated_trials(*sub, words->command.recover);
-  add_file(*sub, "-o,--output", words->command.output, "recover.json to write");
+  auto* output = add_file(*sub, "-o,--output", words->command.output,
+                          "recover.json to write; with --shard, the directory of the part");
+  auto* shard = add_shard(*sub, words->shard)->needs(output);
+  sub->add_flag("--resume", words->command.resume, "Leave a part that is finished as it is")
+      ->needs(shard);
 }
 
 }  // namespace awmr::cli

@@ -7,6 +7,7 @@
 
 #include "awmr/compare/shard.h"
 #include "awmr/core/file.h"
+#include "awmr/identify/planning/recover_shard.h"
 #include "awmr/identify/planning/suggest.h"
 #include "awmr/model/model_file.h"
 #include "awmr/model/vehicle_file.h"
@@ -57,6 +58,7 @@ const std::vector<Schema>& schemas() {
                                        {"model", model_schema},
                                        {"suggest", suggest_schema},
                                        {"recover", recover_schema},
+                                       {"recover_shard", recover_shard_schema},
                                        {"tune", tune_schema},
                                        {"gains", gains_schema},
                                        {"scenario", scenario_schema},

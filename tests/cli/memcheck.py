@@ -31,7 +31,6 @@ def commands(at, files):
     for name in ("identify-log", "live"):
         words[name] += ["--time-limit", "1"]  # fifty times slower than they are, they would take minutes
     both = ["--model", f"{at}/model.json", "--gains", f"{at}/gains.json"]
-    words["merge"] = ["merge", f"{at}", f"{at}/part2", "-o", f"{at}/merged"]
     words.update({
         "init": ["init", f"{at}/rover"],
         "report": ["report", f"{at}/results"],
@@ -60,8 +59,6 @@ def main():
         files.good_files(at, AWMR)
         short = (at / "scenario.json").read_text().replace('"duration_s": 2', '"duration_s": 0.2')
         (at / "short.json").write_text(short)
-        second = [word if word != "1/2" else "2/2" for word in files.command_of("shard", at, at / "part2")]
-        subprocess.run([AWMR, *second], check=True, capture_output=True)
         subprocess.run([AWMR, *files.command_of("run", at, at / "results")], capture_output=True)
         todo = commands(at, files)
         forgotten = names_of_help() - {words[0] for words in todo.values()}

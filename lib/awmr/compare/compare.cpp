@@ -19,18 +19,6 @@
 namespace awmr {
 namespace {
 
-void check_shard(const CompareOptions& options, std::vector<Fault>& faults) {
-  const Shard& shard = options.shard;
-  const bool is_part =
-      shard.index >= 1 && shard.index <= shard.count && shard.count <= options.samples + 1L;
-  if (options.samples >= 0 && !is_part) {
-    faults.push_back({option_text("shard"),
-                      fmt::format("{}/{} is no part: I/N with 1 <= I <= N, and N at most the {} "
-                                  "samples, the nominal one included",
-                                  shard.index, shard.count, options.samples + 1L)});
-  }
-}
-
 std::vector<Fault> option_faults(const std::vector<NamedGains>& gains,
                                  const std::vector<Scenario>& scenarios,
                                  const CompareOptions& options) {
@@ -43,7 +31,11 @@ std::vector<Fault> option_faults(const std::vector<NamedGains>& gains,
     faults.push_back(
         {option_text("threads"), fmt::format("has to be 0 or more, found {}", options.threads)});
   }
-  check_shard(options, faults);
+  if (options.samples >= 0) {
+    auto fault =
+        shard_fault(options.shard, options.samples + 1L, "samples, the nominal one included");
+    if (fault) faults.push_back(std::move(*fault));
+  }
   if (scenarios.empty()) {
     faults.push_back({option_text("scenario"), "none given; give at least one"});
   }

@@ -14,6 +14,7 @@
 #include "awmr/compare/preferences.h"
 #include "awmr/core/provenance.h"
 #include "awmr/core/result.h"
+#include "awmr/core/shard.h"
 #include "awmr/model/gains.h"
 #include "awmr/model/model.h"
 #include "awmr/simulate/metrics.h"
@@ -33,13 +34,6 @@ struct ComparisonRow {
   int sample = 0;  ///< >= 0; 0: the model's own values
   Metrics metrics;
   std::string gains = {};  ///< NamedGains::name
-};
-
-/// One of `count` parts of a comparison: every sample s with s mod count = index - 1.
-struct Shard {
-  int index = 1;  ///< 1 ... count
-  int count = 1;
-  bool has(int sample) const { return sample >= 0 && sample % count == index - 1; }
 };
 
 struct CompareOptions {

@@ -17,6 +17,11 @@ namespace awmr {
 std::string shard_text(const Comparison& part, const CompareOptions& options,
                        const Provenance& provenance);
 
+/// Whether the directory holds this part already, finished, from the same inputs and options, and as
+/// it was written.
+bool is_finished_shard(const std::filesystem::path& directory, const CompareOptions& options,
+                       const Provenance& provenance);
+
 /// A whole comparison with what its files are written from.
 struct Merged {
   Comparison comparison;

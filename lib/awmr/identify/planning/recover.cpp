@@ -1,7 +1,5 @@
-#include "awmr/identify/planning/recover.h"
-
+// The runs of a recovery: trials are simulated at the model's values and identified.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <atomic>
@@ -11,6 +9,7 @@
 #include "awmr/core/option_text.h"
 #include "awmr/core/parallel.h"
 #include "awmr/core/units.h"
+#include "awmr/identify/planning/recover_part.h"
 #include "awmr/model/family.h"
 #include "awmr/trials/replay.h"
 
@@ -124,36 +123,47 @@ TrialData simulated_trials(const Experiment& experiment, const RecoverOptions& o
   return data;
 }
 
-/// What one run found.
+/// What one run found, and said.
 struct OneRun {
-  std::vector<std::optional<Estimate>> estimates;  ///< by ParameterId; empty after an error
-  bool failed = false;                             ///< something asked for was refused
-  std::string why;                                 ///< the first of what was refused
-  std::optional<Error> error;                      ///< why the run gave no model at all
+  RecoverRun found;
+  std::string why;             ///< the first of what was refused
+  std::optional<Error> error;  ///< why the run gave no model at all
 };
 
-OneRun identified_again(const Vehicle& vehicle, const TrialData& data, IdentifyOptions options) {
+/// What is shown of a parameter that was fitted, with its interval; of no other.
+std::optional<RecoverEstimate> interval_of(const Estimate& estimate) {
+  if (!estimate.value || !estimate.ci95 || estimate.source == Source::kGiven) return std::nullopt;
+  return RecoverEstimate{*estimate.value, estimate.std_error, *estimate.ci95};
+}
+
+OneRun identified_again(const Vehicle& vehicle, const TrialData& data, IdentifyOptions options,
+                        const std::vector<RecoverTruth>& truths) {
   options.threads = 1;
   options.side_by_side = false;
+  OneRun run;
+  run.found.estimates.resize(truths.size());
   const auto identified = identify(vehicle, data, options, {});
   if (!identified) {
-    return {.estimates = {}, .failed = true, .why = {}, .error = identified.error()};
+    run.found.refused = true;
+    run.error = identified.error();
+    return run;
   }
-  OneRun run{.estimates = {}, .failed = !identified->refused.empty(), .why = {}, .error = {}};
+  run.found.refused = !identified->refused.empty();
   for (const Finding& finding : identified->model.record.findings) {
     if (finding.severity == Severity::kError && run.why.empty()) run.why = finding.message;
   }
-  for (const Estimate& estimate : identified->model.estimates) {
-    const bool fitted = estimate.value && estimate.ci95 && estimate.source != Source::kGiven;
-    run.estimates.push_back(fitted ? std::optional(estimate) : std::nullopt);
+  for (std::size_t i = 0; i < truths.size(); ++i) {
+    run.found.estimates[i] = interval_of(identified->model[truths[i].id]);
   }
   return run;
 }
 
-/// All runs, in order. Progress is told on this thread; its last call has them all.
-std::vector<OneRun> all_runs(const Experiment& experiment, const RecoverOptions& options,
-                             const std::function<void(int)>& progress) {
-  std::vector<OneRun> runs(at(options.runs));
+/// Those of a part, in order. Progress is told on this thread; its last call has them all.
+std::vector<OneRun> simulated_runs(const Experiment& experiment, const RecoverOptions& options,
+                                   const Shard& shard, const std::vector<RecoverTruth>& truths,
+                                   const std::function<void(int)>& progress) {
+  const int count = shard.share_of(options.runs);
+  std::vector<OneRun> runs(at(count));
   std::atomic<int> done = 0;
   int told = 0;
   LoopControl control;
@@ -161,37 +171,38 @@ std::vector<OneRun> all_runs(const Experiment& experiment, const RecoverOptions&
   parallel_for(
       runs.size(), options.threads,
       [&](std::size_t i) {
-        runs[i] = identified_again(experiment.vehicle, simulated_trials(experiment, options, i),
-                                   options.identify);
+        const int index = shard.item(static_cast<int>(i));
+        runs[i] =
+            identified_again(experiment.vehicle, simulated_trials(experiment, options, at(index)),
+                             options.identify, truths);
+        runs[i].found.index = index;
         ++done;
       },
       control);
-  if (progress && told < options.runs) progress(options.runs);
+  if (progress && told < count) progress(count);
   return runs;
 }
 
-/// Sums are taken in the order of the runs, so that threads do not matter.
-RecoveredParameter judged(ParameterId id, double truth, const std::vector<OneRun>& runs) {
-  RecoveredParameter p{.id = id, .truth = truth};
-  int covered = 0;
-  for (const OneRun& run : runs) {
-    if (at(id) >= run.estimates.size() || !run.estimates[at(id)]) continue;
-    const Estimate& estimate = *run.estimates[at(id)];
-    const double error = *estimate.value - truth;
-    p.bias += error;
-    p.rmse += error * error;
-    p.mean_std_error += estimate.std_error.value_or(0.0);
-    p.worst_error = std::max(p.worst_error, std::abs(error / truth));
-    covered += estimate.ci95->contains(truth) ? 1 : 0;
-    ++p.runs;
+/// The parameters that are judged: those asked for, or all, where the model has a value.
+std::vector<RecoverTruth> truths_of(const Model& model, const std::vector<ParameterId>& asked) {
+  std::vector<RecoverTruth> truths;
+  for (const ParameterInfo& parameter : parameter_table()) {
+    const bool is_asked = std::ranges::find(asked, parameter.id) != asked.end();
+    const std::optional<double>& value = model[parameter.id].value;
+    if (value && (asked.empty() || is_asked)) truths.push_back({parameter.id, *value});
   }
-  if (p.runs == 0) return p;
-  const double n = p.runs;
-  p.bias /= n;
-  p.rmse = std::sqrt(p.rmse / n);
-  p.mean_std_error /= n;
-  p.coverage95 = covered / n;
-  return p;
+  return truths;
+}
+
+/// Puts the runs into the part, with the first of what they said.
+void put_runs(std::vector<OneRun> runs, RecoverPart& part) {
+  if (std::ranges::all_of(runs, [](const OneRun& run) { return run.error.has_value(); })) {
+    part.error = runs.front().error;
+  }
+  for (OneRun& run : runs) {
+    if (!run.why.empty() && !part.refusal) part.refusal = {run.found.index, run.why};
+    part.runs.push_back(std::move(run.found));
+  }
 }
 
 std::string noise_in_words(const RowNoise& rows, const RecoverOptions& options) {
@@ -241,26 +252,6 @@ RecoverOptions options_for(const Model& model, RecoverOptions options) {
   return options;
 }
 
-/// Errors: that of the runs, where all have one; (refused) no run gave anything, or nothing that was
-/// asked for.
-Status check_recovered(const Recovery& recovery, const std::vector<ParameterId>& asked,
-                       const std::vector<OneRun>& runs) {
-  if (std::ranges::all_of(runs, [](const OneRun& run) { return run.error.has_value(); })) {
-    return tl::unexpected(*runs.front().error);
-  }
-  std::vector<std::string_view> missing;
-  for (const ParameterId id : asked) {
-    const auto is_it = [&](const RecoveredParameter& p) { return p.id == id; };
-    if (std::ranges::none_of(recovery.parameters, is_it)) missing.push_back(info(id).name);
-  }
-  if (!recovery.parameters.empty() && missing.empty()) return {};
-  const auto told = std::ranges::find_if(runs, [](const OneRun& run) { return !run.why.empty(); });
-  return refusal(fmt::format(
-      "of {} runs none gave {}{}", recovery.runs,
-      missing.empty() ? "an interval" : fmt::format("{}", fmt::join(missing, ", ")),
-      told == runs.end() ? ", as this plan's trials do not show it" : ": " + told->why));
-}
-
 /// The vehicle of the runs. Errors (input): the model lacks a parameter that a trial needs.
 Result<Plant<double>> truth_of(const Model& model, RecoverPlan plan) {
   if (plan == RecoverPlan::kLog) return model.plant(model.simulated_motion());
@@ -268,44 +259,41 @@ Result<Plant<double>> truth_of(const Model& model, RecoverPlan plan) {
   return model.plant_of_trials();
 }
 
-}  // namespace
-
-Result<Recovery> recover(const Model& model, const RecoverOptions& given,
-                         const std::function<void(int)>& progress) {
-  const RecoverOptions options = options_for(model, given);
-  AWMR_ASSIGN_OR_RETURN(const Plant<double> truth, truth_of(model, options.plan));
+/// Errors (input): runs, a drive or trials that cannot be simulated.
+Status check_plan(const Model& model, const Plant<double>& truth, const RecoverOptions& options) {
   if (options.runs < 2) return input_error(option_text("runs"), "at least 2 are needed");
   if (options.plan == RecoverPlan::kLog) {
     AWMR_RETURN_IF_ERROR(check_drive(options.drive));
-    AWMR_RETURN_IF_ERROR(check_replay(truth, model.file));
+    return check_replay(truth, model.file);
   }
-  if (options.plan != RecoverPlan::kLog && model.record.trials.empty()) {
-    return input_error(
-        model.file + ":/trials",
-        "holds no trials whose inputs could be simulated again; use " + option_text("plan log"));
-  }
+  if (!model.record.trials.empty()) return {};
+  return input_error(
+      model.file + ":/trials",
+      "holds no trials whose inputs could be simulated again; use " + option_text("plan log"));
+}
+
+}  // namespace
+
+Result<RecoverPart> recover_part(const Model& model, const RecoverOptions& given,
+                                 const Shard& shard, const std::function<void(int)>& progress) {
+  const RecoverOptions options = options_for(model, given);
+  AWMR_ASSIGN_OR_RETURN(const Plant<double> truth, truth_of(model, options.plan));
+  AWMR_RETURN_IF_ERROR(check_plan(model, truth, options));
+  if (auto fault = shard_fault(shard, options.runs, "runs")) return input_errors({*fault});
   const Experiment experiment{.truth = truth,
                               .vehicle = model.vehicle,
                               .tables = plan_of(model),
                               .noise = noise_of(model, options),
                               .coast_from_mps = top_speed_mps(model)};
-  const std::vector<OneRun> runs = all_runs(experiment, options, progress);
-
-  Recovery recovery{.parameters = {},
-                    .noise = experiment.noise,
-                    .noise_text = noise_in_words(experiment.noise, options),
-                    .runs = options.runs};
-  recovery.failed = static_cast<int>(
-      std::count_if(runs.begin(), runs.end(), [](const OneRun& run) { return run.failed; }));
-  const std::vector<ParameterId>& asked = given.identify.asked;
-  for (const ParameterInfo& parameter : parameter_table()) {
-    const bool is_asked = std::ranges::find(asked, parameter.id) != asked.end();
-    if (!model[parameter.id].value || !(asked.empty() || is_asked)) continue;
-    const RecoveredParameter p = judged(parameter.id, *model[parameter.id].value, runs);
-    if (p.runs > 0) recovery.parameters.push_back(p);
-  }
-  AWMR_RETURN_IF_ERROR(check_recovered(recovery, asked, runs));
-  return recovery;
+  RecoverPart part{.all_runs = options.runs,
+                   .noise_text = noise_in_words(experiment.noise, options),
+                   .asked = given.identify.asked,
+                   .truths = truths_of(model, given.identify.asked),
+                   .runs = {},
+                   .refusal = {},
+                   .error = {}};
+  put_runs(simulated_runs(experiment, options, shard, part.truths, progress), part);
+  return part;
 }
 
 }  // namespace awmr

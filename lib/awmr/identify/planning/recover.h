@@ -48,14 +48,13 @@ struct RecoveredParameter {
   double rmse = 0.0;            ///< root mean square of that
   double mean_std_error = 0.0;  ///< what the fits said of themselves
   double coverage95 = 0.0;      ///< share of runs whose interval holds the truth
-  double worst_error = 0.0;     ///< largest |estimate/truth - 1|
+  double worst_error = 0.0;     ///< largest |estimate/truth - 1|; 0 where the truth is 0
   int runs = 0;                 ///< that gave an estimate with an interval
 };
 
 struct Recovery {
   std::vector<RecoveredParameter> parameters;
-  RowNoise noise;  ///< as simulated
-  std::string noise_text;
+  std::string noise_text;  ///< as simulated
   int runs = 0;
   int failed = 0;  ///< runs in which something asked for was refused
 };
@@ -70,6 +69,9 @@ Result<Recovery> recover(const Model& model, const RecoverOptions& options,
 
 /// The bytes of recover.json.
 std::string recovery_text(const Recovery& recovery, const Provenance& provenance);
+
+/// The same in a line for each parameter, for a terminal.
+std::string recovery_table(const Recovery& recovery);
 
 /// The JSON Schema of recover.json.
 std::string recover_schema();

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include "awmr/core/json.h"
 #include "awmr/identify/planning/recover.h"
 
@@ -19,6 +21,19 @@ std::string recovery_text(const Recovery& recovery, const Provenance& provenance
                                                         {"runs", p.runs}};
   }
   return to_text(json);
+}
+
+std::string recovery_table(const Recovery& recovery) {
+  std::string text = fmt::format("{} runs, {} of them with something refused; noise {}\n",
+                                 recovery.runs, recovery.failed, recovery.noise_text);
+  text += fmt::format("  {:<24} {:>10} {:>11} {:>10} {:>10} {:>9} {:>6}\n", "", "truth", "bias",
+                      "rmse", "std error", "coverage", "runs");
+  for (const RecoveredParameter& p : recovery.parameters) {
+    text += fmt::format("  {:<24} {:>10.5g} {:>+11.2g} {:>10.2g} {:>10.2g} {:>7.1f} % {:>6}\n",
+                        info(p.id).name, p.truth, p.bias, p.rmse, p.mean_std_error,
+                        100.0 * p.coverage95, p.runs);
+  }
+  return text;
 }
 
 }  // namespace awmr

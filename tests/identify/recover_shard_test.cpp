@@ -1,0 +1,244 @@
+/// Parts of a recovery, and the bytes of the whole.
+#include "awmr/identify/planning/recover_shard.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "awmr/core/file.h"
+#include "awmr/core/hash.h"
+#include "awmr/core/rounding.h"
+#include "identify/synthetic.h"
+#include "support/paper_vehicle.h"
+#include "support/process.h"
+
+namespace awmr::testing {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+const Provenance kProvenance{
+    "recover", {{"runs", "7"}, {"recover_seed", "1"}}, {{"model.json", "ab"}}};
+
+/// A model and its runs, the same for all tests.
+const Model& model() {
+  static const Model fitted = [] {
+    Model made = identify(paper_vehicle(), synthetic(kTruths[0], 0.02, 1), {}, {})->model;
+    made[ParameterId::kSwayAlpha].value = 3.0;
+    return made;
+  }();
+  return fitted;
+}
+
+RecoverOptions seven_runs() {
+  RecoverOptions options;
+  options.runs = 7;
+  options.threads = 1;
+  return options;
+}
+
+std::string bytes_of(const Recovery& recovery) { return recovery_text(recovery, kProvenance); }
+
+class RecoverShards : public ::testing::Test {
+ protected:
+  static RecoverPart part(Shard shard) {
+    return recover_part(model(), seven_runs(), shard, {}).value();
+  }
+  fs::path write(Shard shard, const RecoverPart& part, const Provenance& provenance = kProvenance) {
+    const fs::path path = directory_.path() / ("part" + std::to_string(directories_++));
+    fs::create_directories(path);
+    write_all(path / kRecoverTable, recover_csv(part));
+    write_all(path / kShardFile, recover_shard_text(part, shard, provenance));
+    return path;
+  }
+  fs::path write(Shard shard) { return write(shard, part(shard)); }
+  /// The part in the directory with a table that was made up, and its hash.
+  static void change(const fs::path& path, const std::string& table) {
+    std::string shard = read_all(path / kShardFile);
+    const std::string before = sha256_hex(read_all(path / kRecoverTable));
+    shard.replace(shard.find(before), before.size(), sha256_hex(table));
+    write_all(path / kShardFile, shard);
+    write_all(path / kRecoverTable, table);
+  }
+  static std::string fault(const std::vector<fs::path>& parts) {
+    const auto merged = merge_recover_shards(parts);
+    EXPECT_FALSE(merged);
+    return merged ? "" : to_text(merged.error());
+  }
+
+  TemporaryDirectory directory_;
+  int directories_ = 0;
+};
+
+TEST_F(RecoverShards, MergeInAnyOrderToTheBytesOfASingleRun) {
+  const std::string whole = bytes_of(recover(model(), seven_runs(), {}).value());
+  for (const int count : {1, 2, 3, 7}) {
+    std::vector<fs::path> parts;
+    for (int i = count; i >= 1; --i) parts.push_back(write({i, count}));
+    const auto merged = merge_recover_shards(parts);
+    ASSERT_TRUE(merged) << to_text(merged.error());
+    EXPECT_EQ(recovery_text(recovery_of(merged->whole).value(), merged->provenance), whole)
+        << count;
+  }
+}
+
+TEST_F(RecoverShards, OfLogsMergeToTheBytesOfASingleRun) {
+  RecoverOptions options = seven_runs();
+  options.runs = 3;
+  options.plan = RecoverPlan::kLog;
+  options.drive.duration_s = 20.0;
+  const auto whole = recover(model(), options, {});
+  ASSERT_TRUE(whole) << to_text(whole.error());
+  std::vector<fs::path> parts;
+  for (const int i : {1, 2}) {
+    parts.push_back(write({i, 2}, recover_part(model(), options, {i, 2}, {}).value()));
+  }
+  const auto merged = merge_recover_shards(parts);
+  ASSERT_TRUE(merged) << to_text(merged.error());
+  EXPECT_EQ(bytes_of(recovery_of(merged->whole).value()), bytes_of(*whole));
+}
+
+TEST_F(RecoverShards, WhatIsRefusedAsAWholeIsRefusedAlikeInParts) {
+  // The model's tables show nothing of the servo: no run gives its time constant.
+  RecoverOptions options = seven_runs();
+  options.identify.asked = {ParameterId::kSteeringTimeConstant};
+  const auto whole = recover(model(), options, {});
+  ASSERT_FALSE(whole);
+  std::vector<fs::path> parts;
+  for (const int i : {1, 2, 3}) {
+    const auto part = recover_part(model(), options, {i, 3}, {});
+    ASSERT_TRUE(part) << "a part does not know of the others";
+    parts.push_back(write({i, 3}, *part));
+  }
+  const auto merged = merge_recover_shards(parts);
+  ASSERT_TRUE(merged) << to_text(merged.error());
+  const auto recovery = recovery_of(merged->whole);
+  ASSERT_FALSE(recovery);
+  EXPECT_EQ(to_text(recovery.error()), to_text(whole.error()));
+  EXPECT_EQ(exit_code(recovery.error()), 1);
+}
+
+TEST_F(RecoverShards, AnErrorOfAllRunsIsThatOfTheFirst) {
+  RecoverPart one = part({1, 2});
+  RecoverPart two = part({2, 2});
+  for (RecoverPart* failed : {&one, &two}) {
+    for (RecoverRun& run : failed->runs)
+      run = {run.index, true, std::vector(run.estimates.size(), std::optional<RecoverEstimate>())};
+  }
+  one.error = input_error("here", "the first\nrun").value();
+  EXPECT_THAT(
+      to_text(recovery_of(merge_recover_shards({write({1, 2}, one), write({2, 2}, two)})->whole)
+                  .error()),
+      HasSubstr("none gave an interval"));
+  two.error = refusal("another").value();
+  const auto recovery =
+      recovery_of(merge_recover_shards({write({2, 2}, two), write({1, 2}, one)})->whole);
+  ASSERT_FALSE(recovery);
+  EXPECT_EQ(to_text(recovery.error()), to_text(*one.error));
+}
+
+TEST_F(RecoverShards, TheRefusalThatIsToldIsThatOfTheSmallestRun) {
+  RecoverPart one = part({1, 2});
+  RecoverPart two = part({2, 2});
+  one.refusal = {4, "later"};
+  two.refusal = {1, "first"};
+  EXPECT_EQ(merge_recover_shards({write({1, 2}, one), write({2, 2}, two)})->whole.refusal->message,
+            "first");
+}
+
+TEST_F(RecoverShards, WhatIsMissingOrThereTwiceIsNamed) {
+  const auto first = write({1, 4});
+  const auto second = write({2, 4});
+  EXPECT_THAT(fault({first, second}), HasSubstr("of 4 parts, these are missing: 3, 4"));
+  EXPECT_THAT(fault({first, second, first}), HasSubstr("is part 1 of 4, which"));
+  EXPECT_THAT(fault({}), HasSubstr("no directories"));
+  EXPECT_THAT(fault({directory_.path()}), HasSubstr("shard.json"));
+}
+
+TEST_F(RecoverShards, PartsThatWouldBeEmptyOrAreNoneAreRefused) {
+  for (const Shard shard : {Shard{0, 2}, Shard{3, 2}, Shard{1, 0}, Shard{-1, -1}, Shard{1, 8}}) {
+    const auto part = recover_part(model(), seven_runs(), shard, {});
+    ASSERT_FALSE(part);
+    EXPECT_THAT(to_text(part.error()), HasSubstr("at most the 7 runs"));
+  }
+}
+
+TEST_F(RecoverShards, PartsOfDifferentRecoveriesAreRefused) {
+  const auto first = write({1, 2});
+  Provenance other = kProvenance;
+  other.inputs[0].sha256 = "cd";
+  EXPECT_THAT(fault({first, write({2, 2}, part({2, 2}), other)}), HasSubstr("other inputs"));
+  other = kProvenance;
+  other.options[1].second = "4";
+  EXPECT_THAT(fault({first, write({2, 2}, part({2, 2}), other)}), HasSubstr("other options"));
+  EXPECT_THAT(fault({first, write({2, 3})}), HasSubstr("one of 3 parts"));
+  RecoverPart second = part({2, 2});
+  second.truths[0].value *= 2.0;
+  EXPECT_THAT(fault({first, write({2, 2}, second)}), HasSubstr("other options"));
+}
+
+TEST_F(RecoverShards, OfMachinesThatRoundDifferentlyAreNotMixed) {
+  const auto first = write({1, 2});
+  const auto second = write({2, 2});
+  std::string shard = read_all(second / kShardFile);
+  shard.replace(shard.find(rounding_of_functions()), 4, "none");
+  write_all(second / kShardFile, shard);
+  EXPECT_THAT(fault({first, second}), HasSubstr("their processors round differently"));
+}
+
+TEST_F(RecoverShards, DamagedTablesAreNamed) {
+  const auto first = write({1, 2});
+  const auto second = write({2, 2});
+  const std::string table = read_all(second / kRecoverTable);
+  const std::string last = table.substr(0, table.rfind('\n', table.size() - 2) + 1);
+  write_all(second / kRecoverTable, last);
+  EXPECT_THAT(fault({first, second}), HasSubstr("is not as it was written with shard.json"));
+  write_all(second / kRecoverTable, table);
+  const auto expect = [&](const std::string& changed, const std::string& words) {
+    change(second, changed);
+    EXPECT_THAT(fault({first, second}), HasSubstr(words)) << changed.substr(0, 200);
+  };
+  const std::size_t row = table.find('\n') + 1;  // "1,0,VALUE,..."
+  const std::size_t value = row + 4;
+  const auto with = [&](const std::string& cell) {
+    return table.substr(0, value) + cell + table.substr(table.find(',', value));
+  };
+  expect(last, "has 2 runs, part 2 of 2 of 7 runs has 3");
+  expect(table + table.substr(row, table.find('\n', row) + 1 - row), "run 1 stands behind run 5");
+  const auto commas = std::count(table.begin(), table.begin() + std::ptrdiff_t(row), ',');
+  expect(table + "7,0" + std::string(std::size_t(commas) - 1, ',') + "\n",
+         "run 7 is none of part 2 of 2");
+  expect(table.substr(0, row) + "2" + table.substr(row + 1), "run 2 is none of part 2 of 2");
+  expect(table.substr(0, row) + "-1" + table.substr(row + 1), "run -1 is none of part 2 of 2");
+  for (const char* cell : {"nan", "inf", "1e308", "", "x", "0x1"}) {
+    expect(with(cell), "recovery.csv:2:1: is no run of a recovery");
+  }
+  expect(table.substr(0, row + 2) + "2" + table.substr(row + 3), "recovery.csv:2:1: is no run");
+  expect("sum" + table.substr(3), "recovery.csv:1:1: these are not the columns");
+  expect("", "recovery.csv:1:1: these are not the columns");
+  change(second, table);
+  EXPECT_TRUE(merge_recover_shards({first, second}));
+}
+
+TEST_F(RecoverShards, AFinishedPartIsKnownByItsBytesAndWhatItIsMadeFrom) {
+  const Shard shard{1, 2};
+  const auto first = write(shard);
+  EXPECT_TRUE(is_finished_recover_shard(first, shard, kProvenance));
+  EXPECT_FALSE(is_finished_recover_shard(first, {2, 2}, kProvenance));
+  EXPECT_FALSE(is_finished_recover_shard(first, {1, 3}, kProvenance));
+  EXPECT_FALSE(is_finished_recover_shard(directory_.path(), shard, kProvenance));
+  Provenance other = kProvenance;
+  other.inputs[0].sha256 = "cd";
+  EXPECT_FALSE(is_finished_recover_shard(first, shard, other));
+  other = kProvenance;
+  other.options.pop_back();
+  EXPECT_FALSE(is_finished_recover_shard(first, shard, other));
+  write_all(first / kRecoverTable, read_all(first / kRecoverTable) + "\n");
+  EXPECT_FALSE(is_finished_recover_shard(first, shard, kProvenance));
+}
+
+}  // namespace
+}  // namespace awmr::testing
