@@ -25,6 +25,7 @@ std::size_t count_of_values(const RawColumn& column) {
 
 bool is_sparse(const RawTable& raw, const ColumnSources& sources) {
   if (raw.joined) return true;
+  if (!raw.may_have_empty) return false;
   const double rows = static_cast<double>(raw.lines.size());
   for (const ColumnSource& source : sources.found) {
     if (source.column.empty == EmptyCells::kFault) continue;
@@ -126,7 +127,10 @@ CsvTable::Column column_of(ColumnSource& source, const RawTable& raw, bool spars
   const std::size_t rows = raw.lines.size();
   CsvTable::Column column;
   column.values.resize(rows);
-  if (!source.indices.empty()) column.character = raw.columns[source.indices.front()].character;
+  if (!source.indices.empty()) {
+    column.cell = source.indices.front();
+    column.character = raw.columns[*column.cell].character;
+  }
   if (sparse) column.present.resize(rows, true);
   const std::size_t driver = sparse ? fastest(raw, source) : 0;
   std::vector<double> inputs(source.indices.size(), kEmptyCell);
@@ -170,6 +174,7 @@ void settle_time(const ColumnSource& source, CsvTable::Parts& parts) {
 
 /// Of a column that may have no empty cell; or of one that may, in a table that is not sparse.
 void find_empty_cells(const ColumnSource& source, FaultList& faults) {
+  if (!faults.raw.may_have_empty) return;
   for (const std::size_t index : source.indices) {
     const RawColumn& column = faults.raw.columns[index];
     for (std::size_t row = 0; row < column.value.size() && !faults.full(); ++row) {
@@ -200,6 +205,14 @@ std::vector<bool> rows_that_count(const CsvTable::Parts& parts, const ColumnSour
   return counts;
 }
 
+RowLines kept_lines(const RowLines& lines, const std::vector<bool>& kept) {
+  RowLines left;
+  for (std::size_t row = 0; row < kept.size(); ++row) {
+    if (kept[row]) left.push_back(lines[row]);
+  }
+  return left;
+}
+
 template <class Values>
 void keep(Values& values, const std::vector<bool>& kept) {
   if (values.empty()) return;
@@ -224,7 +237,7 @@ std::string rates_of(const CsvTable::Parts& parts) {
 void drop_rows(CsvTable::Parts& parts, const ColumnSources& sources) {
   const std::vector<bool> kept = rows_that_count(parts, sources);
   const std::size_t before = parts.lines.size();
-  keep(parts.lines, kept);
+  parts.lines = kept_lines(parts.lines, kept);
   for (auto& [name, column] : parts.columns) {
     keep(column.values, kept);
     keep(column.character, kept);
@@ -277,10 +290,13 @@ Result<CsvTable> table_of(RawTable raw, ColumnSources sources,
     if (source.mapping != nullptr || source.expression || may_be_empty(source)) continue;
     RawColumn& column = raw.columns[source.indices.front()];
     parts.columns.emplace(source.column.name,
-                          CsvTable::Column{std::move(column.value), std::move(column.character)});
+                          CsvTable::Column{.values = std::move(column.value),
+                                           .character = std::move(column.character),
+                                           .cell = source.indices.front()});
   }
   parts.lines = std::move(raw.lines);
   parts.notes = std::move(raw.notes);
+  parts.places = std::move(raw.places);
   for (const ColumnSource& source : sources.found) {
     settle_time(source, parts);
   }
