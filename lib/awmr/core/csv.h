@@ -68,6 +68,8 @@ class CsvTable {
   bool has(std::string_view column) const;
   /// Values by row. Precondition: has(column).
   std::span<const double> column(std::string_view column) const;
+  /// The same, moved out of the table, whose column is empty then. Precondition: has(column).
+  std::vector<double> take(std::string_view column);
   /// By row: the value was written there, not held from a row before. Empty: all were.
   /// Precondition: has(column).
   const std::vector<bool>& present(std::string_view column) const;

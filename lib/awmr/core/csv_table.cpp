@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <utility>
 
 #include "awmr/core/cell_places.h"
 #include "awmr/core/csv.h"
@@ -14,6 +15,10 @@ bool CsvTable::has(std::string_view column) const {
 
 std::span<const double> CsvTable::column(std::string_view column) const {
   return parts_.columns.find(column)->second.values;
+}
+
+std::vector<double> CsvTable::take(std::string_view column) {
+  return std::exchange(parts_.columns.find(column)->second.values, {});
 }
 
 const std::vector<bool>& CsvTable::present(std::string_view column) const {

@@ -122,32 +122,58 @@ void check_pair(const ColumnSource& source, std::span<const double> inputs, std:
                          option_text("column t_s=EXPRESSION")));
 }
 
-CsvTable::Column column_of(ColumnSource& source, const RawTable& raw, bool sparse,
-                           FaultList& faults) {
+/// How many of the columns that were asked for are still to be made from each one of the file.
+std::vector<int> uses_of(const RawTable& raw, const ColumnSources& sources) {
+  std::vector<int> uses(raw.columns.size(), 0);
+  for (const ColumnSource& source : sources.found) {
+    for (const std::size_t index : source.indices) ++uses[index];
+  }
+  return uses;
+}
+
+/// Values to be written row by row: those of a column of the file that nothing else is made from, or
+/// others where there is none. So a column that is made from another takes no memory of its own.
+std::vector<double> storage_for(const ColumnSource& source, const std::vector<int>& uses,
+                                RawTable& raw) {
+  for (const std::size_t index : source.indices) {
+    if (uses[index] == 0) return std::move(raw.columns[index].value);
+  }
+  return std::vector<double>(raw.lines.size());
+}
+
+/// Makes a column. `uses` are those of the columns that are still to be made.
+CsvTable::Column column_of(ColumnSource& source, const std::vector<int>& uses, bool sparse,
+                           RawTable& raw, FaultList& faults) {
   const std::size_t rows = raw.lines.size();
   CsvTable::Column column;
-  column.values.resize(rows);
   if (!source.indices.empty()) {
     column.cell = source.indices.front();
     column.character = raw.columns[*column.cell].character;
   }
   if (sparse) column.present.resize(rows, true);
   const std::size_t driver = sparse ? fastest(raw, source) : 0;
+  std::vector<std::span<const double>> cells;
+  for (const std::size_t index : source.indices) cells.emplace_back(raw.columns[index].value);
+  column.values = storage_for(source, uses, raw);
   std::vector<double> inputs(source.indices.size(), kEmptyCell);
   for (std::size_t row = 0; row < rows && !faults.full(); ++row) {
     bool driven = true;
     for (std::size_t i = 0; i < inputs.size(); ++i) {
-      const double value = raw.columns[source.indices[i]].value[row];
+      const double value = cells[i][row];
       if (!sparse || has_value(value)) inputs[i] = value;
       if (sparse && i == driver) driven = has_value(value);
     }
-    if (driven && std::all_of(inputs.begin(), inputs.end(), has_value)) {
-      column.values[row] = value_of(source, inputs);
+    const bool has_all = driven && std::all_of(inputs.begin(), inputs.end(), has_value);
+    column.values[row] = has_all ? value_of(source, inputs) : 0.0;
+    if (has_all) {
       check_value(column.values[row], source, inputs, row, faults);
       check_pair(source, inputs, row, faults);
     } else if (sparse) {
       column.present[row] = false;
     }
+  }
+  for (const std::size_t index : source.indices) {
+    if (uses[index] == 0) raw.columns[index].value = {};
   }
   if (!sparse) return column;
   hold(column);
@@ -276,6 +302,7 @@ Result<CsvTable> table_of(RawTable raw, ColumnSources sources,
   const auto may_be_empty = [sparse](const ColumnSource& source) {
     return sparse && source.column.empty != EmptyCells::kFault;
   };
+  std::vector<int> uses = uses_of(raw, sources);
   for (ColumnSource& source : sources.found) {
     if (!may_be_empty(source)) find_empty_cells(source, list);
     if (source.mapping != nullptr) {
@@ -283,7 +310,9 @@ Result<CsvTable> table_of(RawTable raw, ColumnSources sources,
     } else if (!may_be_empty(source) && !source.expression) {
       continue;
     }
-    parts.columns.emplace(source.column.name, column_of(source, raw, may_be_empty(source), list));
+    for (const std::size_t index : source.indices) --uses[index];
+    parts.columns.emplace(source.column.name,
+                          column_of(source, uses, may_be_empty(source), raw, list));
   }
   // What is taken as it stands is moved, once nothing else is made from it.
   for (const ColumnSource& source : sources.found) {

@@ -26,7 +26,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kFormatBytes = 64;
+/// Of these a file's format is known; is_awl() looks at most of them.
+constexpr std::size_t kFormatBytes = std::size_t{1} << 14U;
 
 /// The table of signals that have times of their own.
 Result<CsvTable> table_of_signals(CsvTopics topics, const std::string& file,
@@ -48,7 +49,7 @@ Result<CsvTable> table_of_awl(std::string_view bytes, const std::string& file,
                               std::span<const ColumnMapping> mappings) {
   AWMR_ASSIGN_OR_RETURN(AwlLog log, read_awl(bytes, file));
   RawTable raw{.file = file};
-  for (std::size_t row = 0; row < log.rows(); ++row) raw.lines.push_back(static_cast<int>(row) + 1);
+  raw.lines.append(1, log.rows());
   for (std::vector<double>& column : log.columns) raw.columns.push_back({std::move(column)});
   for (Finding& finding : log.findings) {
     raw.notes.push_back({finding.line, std::move(finding.code), std::move(finding.message)});
