@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -13,6 +14,7 @@
 
 #include "awmr/core/column_mapping.h"
 #include "awmr/core/result.h"
+#include "awmr/core/row_lines.h"
 
 namespace awmr {
 
@@ -36,22 +38,27 @@ struct CsvNote {
   std::string message;
 };
 
+/// Finds again where a cell stands in the file.
+class CellPlaces;
+
 /// The numeric columns that were asked for, and where each cell stood.
 class CsvTable {
  public:
   struct Column {
     std::vector<double> values;
-    std::vector<int> character;      ///< column in the file, from 1, by row; empty: 1
+    std::vector<int> character;      ///< column in the file, from 1, by row; empty: see `cell`
     std::vector<bool> present = {};  ///< by row: has a value of its own; empty: all have
+    std::optional<std::size_t> cell = {};  ///< of a row, from 0, whose place `places` finds
   };
   struct Parts {
     std::string file;
     int header_line = 1;
-    std::vector<int> lines = {};
+    RowLines lines = {};
     std::map<std::string, Column, std::less<>> columns = {};
     std::vector<CsvNote> notes = {};
     std::vector<std::size_t> mapped = {};
     double clock_s = 0.0;
+    std::shared_ptr<const CellPlaces> places = {};  ///< null: where `character` is not known, 1
   };
   /// Precondition: every column has a value for every line.
   explicit CsvTable(Parts parts) : parts_(std::move(parts)) {}
@@ -61,6 +68,8 @@ class CsvTable {
   bool has(std::string_view column) const;
   /// Values by row. Precondition: has(column).
   std::span<const double> column(std::string_view column) const;
+  /// The same, moved out of the table, whose column is empty then. Precondition: has(column).
+  std::vector<double> take(std::string_view column);
   /// By row: the value was written there, not held from a row before. Empty: all were.
   /// Precondition: has(column).
   const std::vector<bool>& present(std::string_view column) const;

@@ -90,7 +90,8 @@ CsvScanner::Outcome CsvScanner::quoted_cell(std::vector<CsvCell>& cells) {
   while (end != std::string_view::npos && rest_.substr(end, 2) == "\"\"") {
     end = rest_.find('"', end + 2);
   }
-  if (end == std::string_view::npos) return Outcome::kOpenQuote;
+  has_open_quote_ = end == std::string_view::npos;
+  if (has_open_quote_) return Outcome::kOpenQuote;
   const std::string_view text = rest_.substr(0, end);
   cells.back().text = trimmed(text);
   advance(end + 1);

@@ -36,6 +36,11 @@ class CsvScanner {
   /// Drops what is left of the line after a fault.
   void skip_line();
 
+  /// Bytes that were not scanned yet.
+  std::size_t left() const { return rest_.size(); }
+  /// All bytes were looked at: the last record might go on where there were more.
+  bool ran_out() const { return has_open_quote_ || rest_.empty(); }
+
  private:
   void advance(std::size_t bytes);
   void skip_spaces();
@@ -49,6 +54,7 @@ class CsvScanner {
   char delimiter_ = ',';
   int line_ = 1;
   int character_ = 1;
+  bool has_open_quote_ = false;
 };
 
 }  // namespace awmr

@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <utility>
 
+#include "awmr/core/cell_places.h"
 #include "awmr/core/csv.h"
 #include "awmr/core/csv_text.h"
 
@@ -15,14 +17,23 @@ std::span<const double> CsvTable::column(std::string_view column) const {
   return parts_.columns.find(column)->second.values;
 }
 
+std::vector<double> CsvTable::take(std::string_view column) {
+  return std::exchange(parts_.columns.find(column)->second.values, {});
+}
+
 const std::vector<bool>& CsvTable::present(std::string_view column) const {
   return parts_.columns.find(column)->second.present;
 }
 
 std::string CsvTable::place(std::size_t row, std::string_view column) const {
   const auto found = parts_.columns.find(column);
-  const bool placed = found != parts_.columns.end() && !found->second.character.empty();
-  return fmt::format("{}:{}:{}", parts_.file, line(row), placed ? found->second.character[row] : 1);
+  int character = 1;
+  if (found != parts_.columns.end() && !found->second.character.empty()) {
+    character = found->second.character[row];
+  } else if (found != parts_.columns.end() && found->second.cell && parts_.places) {
+    character = parts_.places->character(line(row), *found->second.cell);
+  }
+  return fmt::format("{}:{}:{}", parts_.file, line(row), character);
 }
 
 std::string CsvTable::header_place() const {

@@ -1,14 +1,24 @@
-/// CSV that is in memory already.
+/// CSV that is open or in memory already.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "awmr/core/csv.h"
+#include "awmr/core/input_bytes.h"
 
 namespace awmr {
+
+/// UTF-8's, which some programs put at the beginning of a file.
+inline constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+
+/// As read_csv, of an input that is open.
+Result<CsvTable> read_csv(std::shared_ptr<const InputBytes> bytes,
+                          std::span<const CsvColumn> columns,
+                          std::span<const ColumnMapping> mappings = {});
 
 /// As read_csv, from a text; `file` names it in errors.
 Result<CsvTable> read_csv_text(std::string_view bytes, const std::string& file,

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "awmr/core/opened_file.h"
 #include "awmr/core/temporary_file.h"
 
 namespace awmr {
@@ -25,12 +26,6 @@ std::string reason() { return std::strerror(errno); }
 
 tl::unexpected<Error> write_error(const fs::path& path, const std::string& why) {
   return input_error(path.string(), "cannot write the file: " + why);
-}
-
-std::string size_text(std::size_t bytes) {
-  constexpr std::size_t kMebibyte = std::size_t{1} << 20U;
-  return bytes < kMebibyte ? fmt::format("{} bytes", bytes)
-                           : fmt::format("{} MiB", bytes / kMebibyte);
 }
 
 /// Appends up to the end, at most one byte more than `max_bytes`; false where reading fails.
@@ -157,28 +152,17 @@ Status finish(std::vector<Staged> files) {
 }  // namespace
 
 Result<std::string> read_file(const fs::path& path, std::size_t max_bytes) {
-  const std::string name = path.string();
-  const Descriptor file(::open(name.c_str(), O_RDONLY | O_CLOEXEC));
-  if (file.number() < 0) return input_error(name, "cannot open the file: " + reason());
-  struct stat status {};
-  if (::fstat(file.number(), &status) != 0) {
-    return input_error(name, "cannot read the file: " + reason());
-  }
-  if (S_ISDIR(status.st_mode)) return input_error(name, "this is a directory; give a file");
-  const auto size = static_cast<std::size_t>(S_ISREG(status.st_mode) ? status.st_size : 0);
+  AWMR_ASSIGN_OR_RETURN(const OpenedFile file, OpenedFile::open(path));
   std::string bytes;
-  bytes.reserve(std::min(size, max_bytes) + 1);
-  if (size <= max_bytes && !read_all(file.number(), max_bytes, bytes)) {
-    return input_error(name, "cannot read the file: " + reason());
+  bytes.reserve(std::min(file.size(), max_bytes) + 1);
+  if (file.size() <= max_bytes && !read_all(file.descriptor(), max_bytes, bytes)) {
+    return input_error(file.name(), "cannot read the file: " + reason());
   }
-  if (std::max(size, bytes.size()) > max_bytes) {
-    return input_error(name, fmt::format("it is longer than {}, the most that is read of such a "
-                                         "file; is it the right one?",
-                                         size_text(max_bytes)));
+  if (std::max(file.size(), bytes.size()) > max_bytes) {
+    return too_long_error(file.name(), max_bytes);
   }
-  if (bytes.size() < size) {
-    return input_error(name, "it became shorter while it was read; wait until it is written");
-  }
+  AWMR_RETURN_IF_ERROR(file.check_unchanged());
+  if (bytes.size() < file.size()) return became_shorter_error(file.name());
   return bytes;
 }
 

@@ -14,8 +14,8 @@ namespace awmr {
 /// The most that is read of one file or pipe: 1 GiB, ten million rows of a log.
 inline constexpr std::size_t kMaxFileBytes = std::size_t{1} << 30U;
 
-/// Errors: the file is missing, a directory, unreadable, longer than `max_bytes` or shorter at its
-/// end than when it was opened (another program writes it).
+/// Errors: the file is missing, a directory, unreadable, longer than `max_bytes` or no longer what it
+/// was when it was opened (another program writes it).
 Result<std::string> read_file(const std::filesystem::path& path,
                               std::size_t max_bytes = kMaxFileBytes);
 

@@ -2,12 +2,25 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 
 #include "awmr/core/result.h"
 
 namespace awmr {
+
+/// Of bytes that come in pieces.
+class Sha256 {
+ public:
+  Sha256();
+  void add(std::string_view bytes);
+  /// As sha256_hex(), of all that was added. Once.
+  std::string hex();
+
+ private:
+  std::shared_ptr<void> context_;
+};
 
 /// 64 lower-case hexadecimal digits.
 std::string sha256_hex(std::string_view bytes);

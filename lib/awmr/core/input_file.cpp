@@ -3,6 +3,7 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <utility>
 
 #include "awmr/core/hash.h"
 
@@ -38,6 +39,10 @@ Result<std::string> read_input(const std::filesystem::path& path, std::size_t ma
   AWMR_ASSIGN_OR_RETURN(std::string bytes, read_file(path, max_bytes));
   notes().put(path.string(), sha256_hex(bytes));
   return bytes;
+}
+
+void note_input(const std::filesystem::path& path, std::string sha256) {
+  notes().put(path.string(), std::move(sha256));
 }
 
 Result<InputFile> input_file(const std::filesystem::path& path) {

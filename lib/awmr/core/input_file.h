@@ -17,6 +17,9 @@ namespace awmr {
 Result<std::string> read_input(const std::filesystem::path& path,
                                std::size_t max_bytes = kMaxFileBytes);
 
+/// Notes the hash of what was read otherwise, in pieces.
+void note_input(const std::filesystem::path& path, std::string sha256);
+
 /// The file's name, and the hash of what was last read of it; reads it if nothing was. Errors: as
 /// read_file.
 Result<InputFile> input_file(const std::filesystem::path& path);

@@ -25,6 +25,7 @@ std::size_t count_of_values(const RawColumn& column) {
 
 bool is_sparse(const RawTable& raw, const ColumnSources& sources) {
   if (raw.joined) return true;
+  if (!raw.may_have_empty) return false;
   const double rows = static_cast<double>(raw.lines.size());
   for (const ColumnSource& source : sources.found) {
     if (source.column.empty == EmptyCells::kFault) continue;
@@ -121,29 +122,58 @@ void check_pair(const ColumnSource& source, std::span<const double> inputs, std:
                          option_text("column t_s=EXPRESSION")));
 }
 
-CsvTable::Column column_of(ColumnSource& source, const RawTable& raw, bool sparse,
-                           FaultList& faults) {
+/// How many of the columns that were asked for are still to be made from each one of the file.
+std::vector<int> uses_of(const RawTable& raw, const ColumnSources& sources) {
+  std::vector<int> uses(raw.columns.size(), 0);
+  for (const ColumnSource& source : sources.found) {
+    for (const std::size_t index : source.indices) ++uses[index];
+  }
+  return uses;
+}
+
+/// Values to be written row by row: those of a column of the file that nothing else is made from, or
+/// others where there is none. So a column that is made from another takes no memory of its own.
+std::vector<double> storage_for(const ColumnSource& source, const std::vector<int>& uses,
+                                RawTable& raw) {
+  for (const std::size_t index : source.indices) {
+    if (uses[index] == 0) return std::move(raw.columns[index].value);
+  }
+  return std::vector<double>(raw.lines.size());
+}
+
+/// Makes a column. `uses` are those of the columns that are still to be made.
+CsvTable::Column column_of(ColumnSource& source, const std::vector<int>& uses, bool sparse,
+                           RawTable& raw, FaultList& faults) {
   const std::size_t rows = raw.lines.size();
   CsvTable::Column column;
-  column.values.resize(rows);
-  if (!source.indices.empty()) column.character = raw.columns[source.indices.front()].character;
+  if (!source.indices.empty()) {
+    column.cell = source.indices.front();
+    column.character = raw.columns[*column.cell].character;
+  }
   if (sparse) column.present.resize(rows, true);
   const std::size_t driver = sparse ? fastest(raw, source) : 0;
+  std::vector<std::span<const double>> cells;
+  for (const std::size_t index : source.indices) cells.emplace_back(raw.columns[index].value);
+  column.values = storage_for(source, uses, raw);
   std::vector<double> inputs(source.indices.size(), kEmptyCell);
   for (std::size_t row = 0; row < rows && !faults.full(); ++row) {
     bool driven = true;
     for (std::size_t i = 0; i < inputs.size(); ++i) {
-      const double value = raw.columns[source.indices[i]].value[row];
+      const double value = cells[i][row];
       if (!sparse || has_value(value)) inputs[i] = value;
       if (sparse && i == driver) driven = has_value(value);
     }
-    if (driven && std::all_of(inputs.begin(), inputs.end(), has_value)) {
-      column.values[row] = value_of(source, inputs);
+    const bool has_all = driven && std::all_of(inputs.begin(), inputs.end(), has_value);
+    column.values[row] = has_all ? value_of(source, inputs) : 0.0;
+    if (has_all) {
       check_value(column.values[row], source, inputs, row, faults);
       check_pair(source, inputs, row, faults);
     } else if (sparse) {
       column.present[row] = false;
     }
+  }
+  for (const std::size_t index : source.indices) {
+    if (uses[index] == 0) raw.columns[index].value = {};
   }
   if (!sparse) return column;
   hold(column);
@@ -170,6 +200,7 @@ void settle_time(const ColumnSource& source, CsvTable::Parts& parts) {
 
 /// Of a column that may have no empty cell; or of one that may, in a table that is not sparse.
 void find_empty_cells(const ColumnSource& source, FaultList& faults) {
+  if (!faults.raw.may_have_empty) return;
   for (const std::size_t index : source.indices) {
     const RawColumn& column = faults.raw.columns[index];
     for (std::size_t row = 0; row < column.value.size() && !faults.full(); ++row) {
@@ -200,6 +231,14 @@ std::vector<bool> rows_that_count(const CsvTable::Parts& parts, const ColumnSour
   return counts;
 }
 
+RowLines kept_lines(const RowLines& lines, const std::vector<bool>& kept) {
+  RowLines left;
+  for (std::size_t row = 0; row < kept.size(); ++row) {
+    if (kept[row]) left.push_back(lines[row]);
+  }
+  return left;
+}
+
 template <class Values>
 void keep(Values& values, const std::vector<bool>& kept) {
   if (values.empty()) return;
@@ -224,7 +263,7 @@ std::string rates_of(const CsvTable::Parts& parts) {
 void drop_rows(CsvTable::Parts& parts, const ColumnSources& sources) {
   const std::vector<bool> kept = rows_that_count(parts, sources);
   const std::size_t before = parts.lines.size();
-  keep(parts.lines, kept);
+  parts.lines = kept_lines(parts.lines, kept);
   for (auto& [name, column] : parts.columns) {
     keep(column.values, kept);
     keep(column.character, kept);
@@ -263,6 +302,7 @@ Result<CsvTable> table_of(RawTable raw, ColumnSources sources,
   const auto may_be_empty = [sparse](const ColumnSource& source) {
     return sparse && source.column.empty != EmptyCells::kFault;
   };
+  std::vector<int> uses = uses_of(raw, sources);
   for (ColumnSource& source : sources.found) {
     if (!may_be_empty(source)) find_empty_cells(source, list);
     if (source.mapping != nullptr) {
@@ -270,17 +310,22 @@ Result<CsvTable> table_of(RawTable raw, ColumnSources sources,
     } else if (!may_be_empty(source) && !source.expression) {
       continue;
     }
-    parts.columns.emplace(source.column.name, column_of(source, raw, may_be_empty(source), list));
+    for (const std::size_t index : source.indices) --uses[index];
+    parts.columns.emplace(source.column.name,
+                          column_of(source, uses, may_be_empty(source), raw, list));
   }
   // What is taken as it stands is moved, once nothing else is made from it.
   for (const ColumnSource& source : sources.found) {
     if (source.mapping != nullptr || source.expression || may_be_empty(source)) continue;
     RawColumn& column = raw.columns[source.indices.front()];
     parts.columns.emplace(source.column.name,
-                          CsvTable::Column{std::move(column.value), std::move(column.character)});
+                          CsvTable::Column{.values = std::move(column.value),
+                                           .character = std::move(column.character),
+                                           .cell = source.indices.front()});
   }
   parts.lines = std::move(raw.lines);
   parts.notes = std::move(raw.notes);
+  parts.places = std::move(raw.places);
   for (const ColumnSource& source : sources.found) {
     settle_time(source, parts);
   }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -18,16 +19,18 @@ inline constexpr double kFaultyCell = std::numeric_limits<double>::infinity();
 
 struct RawColumn {
   std::vector<double> value = {};
-  std::vector<int> character = {};  ///< place in the line, from 1; may be empty
+  std::vector<int> character = {};  ///< place in the line, from 1; empty: not kept
 };
 
 struct RawTable {
   std::string file;
   int header_line = 1;
-  std::vector<int> lines = {};
+  RowLines lines = {};
   std::vector<RawColumn> columns = {};  ///< as in the header; those that are not wanted are empty
   std::vector<CsvNote> notes = {};
-  std::vector<std::size_t> mapped = {};  ///< mappings that were used to read it
+  std::vector<std::size_t> mapped = {};           ///< mappings that were used to read it
+  std::shared_ptr<const CellPlaces> places = {};  ///< where they are not kept but can be found
+  bool may_have_empty = true;                     ///< false: every cell has a value
   bool joined = false;  ///< made of signals with times of their own: cells may be empty
 };
 

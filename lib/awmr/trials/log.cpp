@@ -19,11 +19,15 @@
 namespace awmr {
 namespace {
 
-std::vector<double> values_of(const TrialReader& reader, RowSpan rows, std::string_view column,
+/// The values of a column that is asked for once: of the only run they are moved out of the table.
+std::vector<double> values_of(TrialReader& reader, RowSpan rows, std::string_view column,
                               double scale) {
-  const std::span<const double> cells =
-      reader.table().column(column).subspan(rows.begin, rows.end - rows.begin);
-  std::vector<double> values(cells.begin(), cells.end());
+  const std::span<const double> cells = reader.table().column(column);
+  const bool are_all = rows.end - rows.begin == cells.size();
+  std::vector<double> values =
+      are_all ? reader.take(column)
+              : std::vector<double>(cells.begin() + static_cast<std::ptrdiff_t>(rows.begin),
+                                    cells.begin() + static_cast<std::ptrdiff_t>(rows.end));
   for (double& value : values) value *= scale;
   return values;
 }
@@ -182,12 +186,13 @@ bool is_joined(const CsvTable& table) {
 }
 
 /// Time and commands of one run.
-DrivingLog commands_of(const TrialReader& reader, RowSpan rows) {
+DrivingLog commands_of(TrialReader& reader, RowSpan rows) {
   const CsvTable& table = reader.table();
   DrivingLog log;
   log.file = finding_file(table);
   log.mapped = table.mapped();
   log.joined = is_joined(table);
+  log.line.reserve(rows.end - rows.begin);
   for (std::size_t row = rows.begin; row < rows.end; ++row) log.line.push_back(table.line(row));
   log.t_s = values_of(reader, rows, "t_s", 1.0);
   log.force_left = values_of(reader, rows, "force_left", 1.0);

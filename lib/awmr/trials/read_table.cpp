@@ -1,6 +1,7 @@
 #include "read_table.h"
 
 #include <algorithm>
+#include <memory>
 #include <optional>
 #include <set>
 #include <system_error>
@@ -8,6 +9,7 @@
 
 #include "awmr/core/column_sources.h"
 #include "awmr/core/csv_text.h"
+#include "awmr/core/input_bytes.h"
 #include "awmr/core/input_file.h"
 #include "awmr/core/raw_table.h"
 #include "awmr/core/time_column.h"
@@ -23,6 +25,9 @@ namespace awmr {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// Of these a file's format is known; is_awl() looks at most of them.
+constexpr std::size_t kFormatBytes = std::size_t{1} << 14U;
 
 /// The table of signals that have times of their own.
 Result<CsvTable> table_of_signals(CsvTopics topics, const std::string& file,
@@ -44,7 +49,7 @@ Result<CsvTable> table_of_awl(std::string_view bytes, const std::string& file,
                               std::span<const ColumnMapping> mappings) {
   AWMR_ASSIGN_OR_RETURN(AwlLog log, read_awl(bytes, file));
   RawTable raw{.file = file};
-  for (std::size_t row = 0; row < log.rows(); ++row) raw.lines.push_back(static_cast<int>(row) + 1);
+  raw.lines.append(1, log.rows());
   for (std::vector<double>& column : log.columns) raw.columns.push_back({std::move(column)});
   for (Finding& finding : log.findings) {
     raw.notes.push_back({finding.line, std::move(finding.code), std::move(finding.message)});
@@ -91,6 +96,13 @@ Result<Signals> read_bags(std::span<const fs::path> paths, const Wanted& wanted)
   return all;
 }
 
+/// The file is of none of the binary formats, each of which is known by its first bytes.
+Result<bool> begins_as_text(const InputBytes& file) {
+  std::string first(std::min(kFormatBytes, file.size()), '\0');
+  AWMR_RETURN_IF_ERROR(file.read(0, first));
+  return !is_awl(first) && !is_ulog(first) && !is_dataflash(first) && !is_rosbag(first);
+}
+
 }  // namespace
 
 std::optional<Result<Signals>> read_signals(std::string_view bytes, const std::string& file,
@@ -122,10 +134,13 @@ Result<CsvTable> read_table(const fs::path& path, std::span<const CsvColumn> col
     }
     return table_of_signals(std::move(topics), file, columns, options.columns);
   }
-  AWMR_ASSIGN_OR_RETURN(const std::string bytes, read_input(path));
-  if (is_awl(bytes)) return table_of_awl(bytes, file, columns, options.columns);
-  auto signals = read_signals(bytes, file, wanted);
-  if (!signals) return read_csv_text(bytes, file, columns, options.columns);
+  AWMR_ASSIGN_OR_RETURN(std::shared_ptr<const InputBytes> bytes, InputBytes::open(path));
+  AWMR_ASSIGN_OR_RETURN(const bool is_text, begins_as_text(*bytes));
+  if (is_text) return read_csv(std::move(bytes), columns, options.columns);
+  AWMR_ASSIGN_OR_RETURN(const std::shared_ptr<const std::string> whole, bytes->whole());
+  if (is_awl(*whole)) return table_of_awl(*whole, file, columns, options.columns);
+  auto signals = read_signals(*whole, file, wanted);
+  if (!signals) return read_csv_text(*whole, file, columns, options.columns);
   if (!*signals) return tl::unexpected(std::move(*signals).error());
   return table_of_signals({.signals = std::move(**signals), .mapped = {}}, file, columns,
                           options.columns);

@@ -88,8 +88,8 @@ Result<RawTable> join(Signals signals, const std::string& file) {
     note_missing(topic, signals, raw.notes);
   }
   const std::vector<std::int64_t> times = times_of(signals.topics);
+  raw.lines.append(1, times.size());
   for (std::size_t row = 0; row < times.size(); ++row) {
-    raw.lines.push_back(static_cast<int>(row) + 1);
     // In unsigned arithmetic the difference of two times in order cannot overflow.
     const std::uint64_t since =
         static_cast<std::uint64_t>(times[row]) - static_cast<std::uint64_t>(times[0]);

@@ -19,6 +19,8 @@ class TrialReader {
 
   const CsvTable& table() const { return table_; }
   bool has(std::string_view column) const { return table_.has(column); }
+  /// As CsvTable::take().
+  std::vector<double> take(std::string_view column) { return table_.take(column); }
   /// The cell, or nothing where the file has no such column.
   std::optional<double> cell(std::size_t row, std::string_view column) const;
   /// As cell(); a negative value is a fault.

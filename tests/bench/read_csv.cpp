@@ -1,0 +1,68 @@
+/// Reads the columns of a CSV file and says how long that took; for scripts/bench_csv.
+/// usage: read_csv FILE THREADS [nohash]
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "awmr/core/csv_blocks.h"
+#include "awmr/core/csv_text.h"
+
+namespace {
+
+double processor_s() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+double peak_mb() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1000.0;
+}
+
+/// All columns of the header.
+awmr::Result<std::vector<awmr::CsvColumn>> columns_of(const awmr::InputBytes& file) {
+  std::string beginning(std::min<std::size_t>(file.size(), 4096), '\0');
+  AWMR_RETURN_IF_ERROR(file.read(0, beginning));
+  AWMR_ASSIGN_OR_RETURN(const awmr::CsvHead head,
+                        awmr::csv_head(beginning, file.name(), {}, {}, 0));
+  std::vector<awmr::CsvColumn> columns;
+  for (const std::string& name : head.names) columns.push_back({name});
+  return columns;
+}
+
+awmr::Status run(const std::string& path, int threads, bool hash) {
+  AWMR_ASSIGN_OR_RETURN(const auto file, awmr::InputBytes::open(path));
+  AWMR_ASSIGN_OR_RETURN(const std::vector<awmr::CsvColumn> columns, columns_of(*file));
+  const double before_mb = peak_mb();
+  const double before_s = processor_s();
+  const auto begin = std::chrono::steady_clock::now();
+  AWMR_ASSIGN_OR_RETURN(
+      const auto table,
+      awmr::read_csv_blocks(file, columns, {}, {.threads = threads, .hash = hash}));
+  if (!table) return awmr::refusal("this file is read whole");
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
+  const double kept_mb = static_cast<double>(table->rows() * columns.size()) * 8e-6;
+  fmt::print(
+      "{{\"rows\": {}, \"wall_s\": {:.4f}, \"processor_s\": {:.4f}, \"kept_mb\": {:.1f}, "
+      "\"peak_mb\": {:.1f}}}\n",
+      table->rows(), wall.count(), processor_s() - before_s, kept_mb, peak_mb() - before_mb);
+  return {};
+}
+
+}  // namespace
+
+int main(int count, char** words) {
+  if (count < 3) return 2;
+  const auto done = run(words[1], std::atoi(words[2]), count < 4);
+  if (!done) fmt::print(stderr, "{}", awmr::to_text(done.error()));
+  return done ? 0 : 1;
+}
