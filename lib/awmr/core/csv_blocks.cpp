@@ -95,8 +95,7 @@ void take(const CsvBlock& block, std::span<const CsvUsedColumn> used, double sha
 
 int threads_for(const InputBytes& file, const CsvBlocks& blocks) {
   constexpr std::size_t kSmallFile = std::size_t{1} << 23U;
-  constexpr unsigned kMostThreads =
-      4;  // the hash, which one at a time works on, keeps no more busy
+  constexpr unsigned kMostThreads = 4;  // the hash, block after block, keeps no more busy
   if (blocks.threads > 0) return blocks.threads;
   if (file.size() < kSmallFile) return 1;
   return static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, kMostThreads));

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "awmr/core/joined_rows.h"
 #include "awmr/core/option_text.h"
 #include "awmr/core/text.h"
 
@@ -209,85 +210,6 @@ void find_empty_cells(const ColumnSource& source, FaultList& faults) {
           row, column.character.empty() ? 1 : column.character[row],
           fmt::format("column {}: the cell is empty; expected a number", source.column.name));
     }
-  }
-}
-
-/// The rows that count: from where every command is known, those with a value of some column.
-std::vector<bool> rows_that_count(const CsvTable::Parts& parts, const ColumnSources& sources) {
-  const std::size_t rows = parts.lines.size();
-  std::vector<bool> counts(rows, false);
-  std::size_t known = 0;
-  for (const ColumnSource& source : sources.found) {
-    if (source.column.empty == EmptyCells::kFault || source.indices.empty()) continue;
-    const std::vector<bool>& present = parts.columns.at(source.column.name).present;
-    for (std::size_t row = 0; row < rows; ++row) {
-      if (present.empty() || present[row]) counts[row] = true;
-    }
-    if (source.column.empty != EmptyCells::kHeld || present.empty()) continue;
-    const auto first = std::find(present.begin(), present.end(), true) - present.begin();
-    known = std::max(known, static_cast<std::size_t>(first));
-  }
-  std::fill_n(counts.begin(), known, false);
-  return counts;
-}
-
-RowLines kept_lines(const RowLines& lines, const std::vector<bool>& kept) {
-  RowLines left;
-  for (std::size_t row = 0; row < kept.size(); ++row) {
-    if (kept[row]) left.push_back(lines[row]);
-  }
-  return left;
-}
-
-template <class Values>
-void keep(Values& values, const std::vector<bool>& kept) {
-  if (values.empty()) return;
-  std::size_t end = 0;
-  for (std::size_t row = 0; row < kept.size(); ++row) {
-    if (kept[row]) values[end++] = values[row];
-  }
-  values.resize(end);
-}
-
-/// How many of its own values each column has, for a person.
-std::string rates_of(const CsvTable::Parts& parts) {
-  std::string text;
-  for (const auto& [name, column] : parts.columns) {
-    if (column.present.empty()) continue;
-    text += fmt::format("{}{} in {}", text.empty() ? "" : ", ", name,
-                        std::count(column.present.begin(), column.present.end(), true));
-  }
-  return text;
-}
-
-void drop_rows(CsvTable::Parts& parts, const ColumnSources& sources) {
-  const std::vector<bool> kept = rows_that_count(parts, sources);
-  const std::size_t before = parts.lines.size();
-  parts.lines = kept_lines(parts.lines, kept);
-  for (auto& [name, column] : parts.columns) {
-    keep(column.values, kept);
-    keep(column.character, kept);
-    keep(column.present, kept);
-  }
-  parts.notes.push_back(
-      {0, "joined-by-time",
-       fmt::format("signals of different rates, of {} rows with values of their own: {}; commands "
-                   "keep their previous value, measurements count in their own rows, a formula "
-                   "where the fastest of its columns has a value; {} rows without any, or before "
-                   "every command is known, are left out",
-                   parts.lines.size(), rates_of(parts), before - parts.lines.size())});
-}
-
-void refuse_void_columns(const CsvTable::Parts& parts, const ColumnSources& sources,
-                         std::vector<Fault>& faults) {
-  const auto is_void = [&](const ColumnSource& source) {
-    const std::vector<bool>& present = parts.columns.at(source.column.name).present;
-    return !present.empty() && std::find(present.begin(), present.end(), true) == present.end();
-  };
-  for (const ColumnSource& source : sources.found) {
-    if (!is_void(source)) continue;
-    faults.push_back({fmt::format("{}:{}:1", parts.file, parts.header_line),
-                      fmt::format("the column {} has no value in any row", source.column.name)});
   }
 }
 
