@@ -23,13 +23,7 @@ constexpr const char* kArduino = "/usr/share/arduino/hardware/arduino/avr";
 
 class Boards : public ::testing::Test {
  protected:
-  void emit(const EmitOptions& options = {}) {
-    const auto files = firmware_library(paper_robot(), kPaperGains, paper_inputs(), options);
-    for (const EmittedFile& file : files.value()) {
-      fs::create_directories((directory_.path() / file.path).parent_path());
-      write_all(directory_.path() / file.path, file.bytes);
-    }
-  }
+  void emit(const EmitOptions& options = {}) { write_library(directory_.path(), options); }
   std::string text(const char* path) const { return read_all(directory_.path() / path); }
   ProcessResult run(const std::string& line) const { return run_process(line, directory_.path()); }
 

@@ -12,21 +12,15 @@
 namespace awmr::testing {
 namespace {
 
-namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
-std::vector<EmittedFile> library(EmitOptions options = {}) {
-  return firmware_library(paper_robot(), kPaperGains, paper_inputs(), options).value();
+std::vector<EmittedFile> library() {
+  return firmware_library(paper_robot(), kPaperGains, paper_inputs(), {}).value();
 }
 
 class Library : public ::testing::TestWithParam<ResistanceForm> {
  protected:
-  void SetUp() override {
-    for (const EmittedFile& file : library({.resistance = GetParam()})) {
-      fs::create_directories((directory_.path() / file.path).parent_path());
-      write_all(directory_.path() / file.path, file.bytes);
-    }
-  }
+  void SetUp() override { write_library(directory_.path(), {.resistance = GetParam()}); }
   ProcessResult run(const std::string& line) const { return run_process(line, directory_.path()); }
 
   TemporaryDirectory directory_;
@@ -136,10 +130,7 @@ TEST(AllParts, CompileForTheChipAsCAndAsCxxAndRunUnderSanitizers) {
   EmitOptions options;
   for (const FirmwarePart part : values_in(kFirmwarePartNames)) options.parts.insert(part);
   options.split = CombinedSplit::kFixedHalf;
-  for (const EmittedFile& file : library(options)) {
-    fs::create_directories((directory.path() / file.path).parent_path());
-    write_all(directory.path() / file.path, file.bytes);
-  }
+  write_library(directory.path(), options);
   write_all(directory.path() / "use.c", kUseAll);
   const auto run = [&](const std::string& line) { return run_process(line, directory.path()); };
   const std::string chip =

@@ -1,6 +1,7 @@
 /// A model and gains as identify and tune would make them from the paper's tables, by hand.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "awmr/emit/emit.h"
 #include "awmr/model/gains_file.h"
 #include "support/paper_vehicle.h"
+#include "support/process.h"
 
 namespace awmr::testing {
 
@@ -38,6 +40,15 @@ inline EmitInputs paper_inputs() {
   return {.model_sha256 = std::string(64, 'a'),
           .gains_sha256 = std::string(64, 'b'),
           .gains_file = "gains.json"};
+}
+
+/// The library that is emitted for it, as files.
+inline void write_library(const std::filesystem::path& directory, const EmitOptions& options = {}) {
+  const auto files = firmware_library(paper_robot(), kPaperGains, paper_inputs(), options);
+  for (const EmittedFile& file : files.value()) {
+    std::filesystem::create_directories((directory / file.path).parent_path());
+    write_all(directory / file.path, file.bytes);
+  }
 }
 
 /// The contract's macros with the values they have to have, by name.

@@ -27,11 +27,7 @@ class Chip : public ::testing::Test {
   /// Builds tests/pil/PROGRAM.cpp with the emitted library and runs it until it sets log_done.
   void run_chip(const std::string& program) {
     ASSERT_TRUE(found(kAvrGxx));
-    const auto files = firmware_library(paper_robot(), kPaperGains, paper_inputs(), {});
-    for (const EmittedFile& file : *files) {
-      std::filesystem::create_directories((directory_.path() / file.path).parent_path());
-      write_all(directory_.path() / file.path, file.bytes);
-    }
+    write_library(directory_.path());
     ASSERT_TRUE(succeeded(
         run_process(std::string(kAvrGxx) +
                         " -mmcu=atmega2560 -DF_CPU=16000000UL -std=c++11 -Os -Wall -Wextra "

@@ -12,6 +12,7 @@
 #include "awmr/core/gravity.h"
 #include "awmr/core/index.h"
 #include "awmr/core/parallel.h"
+#include "awmr/core/tyre_friction.h"
 #include "awmr/simulate/batch.h"
 
 namespace awmr {
@@ -20,8 +21,6 @@ namespace {
 /// Moments are tried from this share of the largest one up, a decade at a time: the larger a moment, the
 /// shorter the steps that a run takes.
 constexpr double kLeast = 1e-4;
-/// Of rubber on a dry floor or road.
-constexpr double kTyreFriction = 0.8;
 
 /// A scenario with the mode that scrubs, on the model's own values.
 struct Course {

@@ -12,11 +12,10 @@
 
 #include "awmr/core/gravity.h"
 #include "awmr/core/parallel.h"
+#include "awmr/core/tyre_friction.h"
 
 namespace awmr {
 namespace {
-
-constexpr double kTyreFriction = 0.8;  ///< of rubber on dry ground
 
 /// By how much m' has to be larger for the tyres to carry the full thrust.
 double mass_factor(const Model& model) {
