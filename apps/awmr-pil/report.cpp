@@ -59,7 +59,7 @@ Result<Provenance> provenance_of(const PilOptions& options) {
       {"with", parts_text(options.emit)},
       {"split", std::string(name_in(kCombinedSplitNames, options.emit.split))},
       {"optimize", std::string(name_in(cli::kOptimizeNames, *options.optimize))},
-      {"table-error", fmt::format("{:g}", options.emit.table_error)},
+      {"table-error", fmt::format("{:g}", options.emit.table_error.value_or(kTableError))},
       {"line-noise", fmt::format("{:g}", options.line_noise)}};
   for (const fs::path& path : {options.model, options.gains, options.scenario}) {
     const auto input = input_file(path);

@@ -51,11 +51,25 @@ Json table_json(const EmittedTable& table) {
           {"worst_relative_error", table.worst_relative_error}};
 }
 
+/// Told where the table that was chosen is not as good as one should be.
+void add_coarse(const char* name, const EmittedTable& table, const EmitCommand& command,
+                Outcome& outcome) {
+  if (command.emit.table_error || table.worst_share() <= kTableError) return;
+  outcome.findings.push_back(
+      {command.model.filename().string(), 0, Severity::kWarning, "coarse-table",
+       fmt::format("the {} resistance is so steep at low speed that its best table is off by up to "
+                   "{:.2g} % of it, where {:g} % is usual: the chip's feed-forward is off by that",
+                   name, 100.0 * table.worst_share(), 100.0 * kTableError)});
+}
+
 /// How well the tables of resistance hold; nothing where powf is called instead.
 Status add_tables(const Model& model, const Gains<double>& gains, const EmitInputs& inputs,
-                  const EmitOptions& options, Outcome& outcome) {
-  if (options.resistance != ResistanceForm::kTable) return {};
-  AWMR_ASSIGN_OR_RETURN(const auto parameters, autopilot_parameters(model, gains, inputs, options));
+                  const EmitCommand& command, Outcome& outcome) {
+  if (command.emit.resistance != ResistanceForm::kTable) return {};
+  AWMR_ASSIGN_OR_RETURN(const auto parameters,
+                        autopilot_parameters(model, gains, inputs, command.emit));
+  add_coarse("surge", parameters.surge, command, outcome);
+  add_coarse("yaw", parameters.yaw, command, outcome);
   outcome.summary += table_line("surge", parameters.surge) + table_line("yaw", parameters.yaw);
   Json json;
   json["tables"]["surge"] = table_json(parameters.surge);
@@ -79,7 +93,7 @@ Result<Outcome> execute(const EmitCommand& command) {
     files.push_back({"awmr_params.h", std::move(header)});
   } else {
     AWMR_ASSIGN_OR_RETURN(files, firmware_library(model, gains, inputs, command.emit));
-    AWMR_RETURN_IF_ERROR(add_tables(model, gains, inputs, command.emit, outcome));
+    AWMR_RETURN_IF_ERROR(add_tables(model, gains, inputs, command, outcome));
   }
   AWMR_RETURN_IF_ERROR(make_directory(command.output));
   AWMR_RETURN_IF_ERROR(write_emitted(command, files));

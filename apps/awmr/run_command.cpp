@@ -174,7 +174,10 @@ void emit_library(const fs::path& model, const fs::path& gains, const fs::path& 
                   Outcome& total) {
   const Result<Outcome> emitted =
       execute(EmitCommand{.model = model, .gains = gains, .output = output});
-  if (emitted) return add_written(total, emitted->written);
+  if (emitted) {
+    total.findings.insert(total.findings.end(), emitted->findings.begin(), emitted->findings.end());
+    return add_written(total, emitted->written);
+  }
   total.findings.push_back({model.filename().string(), 0, Severity::kWarning, "no-library",
                             "there is no Arduino library for this vehicle: " +
                                 plain_text(awmr::to_text(emitted.error()))});

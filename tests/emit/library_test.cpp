@@ -204,5 +204,27 @@ TEST(ResistanceTables, AreRefusedWhereNoTableIsGoodEnough) {
   EXPECT_THAT(to_text(p.error()), HasSubstr("table-error"));
 }
 
+/// So steep at rest that a chord is far off it, down to the lowest speed that a table knows.
+Model steep_robot() {
+  Model model = paper_robot();
+  model[ParameterId::kSurgeBeta].value = 0.05;
+  return model;
+}
+
+TEST(ResistanceTables, AreTheBestThereIsWhereNoBoundIsGiven) {
+  const auto best = autopilot_parameters(steep_robot(), kPaperGains, paper_inputs(), {});
+  ASSERT_TRUE(best);
+  const double reached = best->surge.worst_share();
+  EXPECT_GT(reached, kTableError);
+  EXPECT_EQ(best->table_error, reached);
+  EXPECT_LE(best->yaw.worst_share(), kTableError) << "the other one is no worse for it";
+  const auto asked = [&](double bound) {
+    return autopilot_parameters(steep_robot(), kPaperGains, paper_inputs(), {.table_error = bound});
+  };
+  EXPECT_FALSE(asked(kTableError));
+  EXPECT_FALSE(asked(0.99 * reached)) << "there is a better one";
+  EXPECT_TRUE(asked(reached));
+}
+
 }  // namespace
 }  // namespace awmr::testing

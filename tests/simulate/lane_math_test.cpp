@@ -1,35 +1,14 @@
 // Lanes' elementary functions against the C library's long double ones. Built for each instruction set;
 // where the processor has not the instructions, nothing is run.
-#if defined(__AVX512F__)
-#define AWMR_LANES avx512
-#define AWMR_LANES_ARCH avx512f
-#elif defined(__AVX2__)
-#define AWMR_LANES avx2
-#define AWMR_LANES_ARCH fma3<xsimd::avx2>
-#else
-#define AWMR_LANES sse2
-#define AWMR_LANES_ARCH sse2
-#endif
-#define AWMR_LANES_REGISTERS 2
-
-#include "awmr/simulate/lanes/lane_math.h"
-
 #include <cstdint>
 #include <cstdio>
+
+#include "simulate/lanes_here.h"
 
 namespace {
 
 using namespace awmr::lanes::AWMR_LANES;
-
-bool has_instructions() {
-#if defined(__AVX512F__)
-  return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("fma");
-#elif defined(__AVX2__)
-  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-#else
-  return true;
-#endif
-}
+using awmr::testing::has_instructions;
 
 constexpr double kInfinity = __builtin_inf();
 const double kNaN = __builtin_nan("");

@@ -1,43 +1,51 @@
 #include "awmr/compare/fleet.h"
 
 #include <optional>
-#include <utility>
 
+#include "awmr/core/index.h"
 #include "awmr/simulate/plant_sampler.h"
 
 namespace awmr {
 namespace {
 
-/// The model by sample: as it is, then drawn.
-Result<std::vector<Model>> models_by_sample(const Model& model, const CompareOptions& options) {
-  std::vector<Model> models{model};
-  if (options.samples == 0) return models;
-  AWMR_ASSIGN_OR_RETURN(const PlantSampler sampler, PlantSampler::make(model));
-  for (int sample = 1; sample <= options.samples; ++sample) {
-    AWMR_ASSIGN_OR_RETURN(Model drawn, sampler.draw_model(options.seed, sample));
-    models.push_back(std::move(drawn));
+/// The scenarios that have vehicles of their own, and in `first` where those of each scenario begin:
+/// all without a corner share theirs.
+std::vector<const Scenario*> apart(const std::vector<Scenario>& scenarios, std::size_t samples,
+                                   std::vector<std::size_t>& first) {
+  std::vector<const Scenario*> own;
+  std::optional<std::size_t> without_corner;
+  for (const Scenario& scenario : scenarios) {
+    if (scenario.corner.empty() && without_corner) {
+      first.push_back(*without_corner);
+      continue;
+    }
+    first.push_back(own.size() * samples);
+    if (scenario.corner.empty()) without_corner = first.back();
+    own.push_back(&scenario);
   }
-  return models;
+  return own;
 }
 
 }  // namespace
 
 Result<Fleet> fleet_of(const Model& model, const std::vector<Scenario>& scenarios,
                        const CompareOptions& options) {
+  const std::size_t samples = at(options.samples) + 1;
   Fleet fleet;
   AWMR_ASSIGN_OR_RETURN(fleet.nominal, model.plant());
-  AWMR_ASSIGN_OR_RETURN(const std::vector<Model> models, models_by_sample(model, options));
-  std::optional<std::size_t> without_corner;  // all scenarios without a corner share their vehicles
-  for (const Scenario& scenario : scenarios) {
-    if (scenario.corner.empty() && without_corner) {
-      fleet.first.push_back(*without_corner);
-      continue;
+  const std::vector<const Scenario*> own = apart(scenarios, samples, fleet.first);
+  fleet.vehicles.resize(own.size() * samples);
+  std::optional<PlantSampler> sampler;
+  if (options.samples > 0) {
+    AWMR_ASSIGN_OR_RETURN(sampler, PlantSampler::make(model));
+  }
+  for (std::size_t sample = 0; sample < samples; ++sample) {
+    Model drawn = model;
+    if (sample > 0) {
+      AWMR_ASSIGN_OR_RETURN(drawn, sampler->draw_model(options.seed, static_cast<int>(sample)));
     }
-    fleet.first.push_back(fleet.vehicles.size());
-    if (scenario.corner.empty()) without_corner = fleet.first.back();
-    for (const Model& one : models) {
-      AWMR_ASSIGN_OR_RETURN(const Plant<double> vehicle, plant_for(scenario, one));
-      fleet.vehicles.push_back(vehicle);
+    for (std::size_t i = 0; i < own.size(); ++i) {
+      AWMR_ASSIGN_OR_RETURN(fleet.vehicles[i * samples + sample], plant_for(*own[i], drawn));
     }
   }
   return fleet;

@@ -288,7 +288,7 @@ AWMR_INLINE T steering_limit(const AllocationConstants<T>& c, const T& tau_speed
   using math::select;
   const Mask<T> weak = is_weak(tau_speed);
   if (!any(weak)) return c.h_max;
-  T tapered = c.h_max * (tau_speed * T(16.0));
+  T tapered = c.h_max * (tau_speed * (T(1.0) / steering_authority_full<T>()));
   if (!MaskOf<T>::kOneLane) tapered = select(tapered > T(0.0), tapered, T(0.0));
   return select(weak, tapered, c.h_max);
 }

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -144,15 +146,18 @@ ChipLaw chip_law(std::string name, const Resistance<double>& law, double full_sc
 float largest_below(double top) { return std::nextafter(static_cast<float>(top), 0.0F); }
 
 /// Puts both tables into the parameters. Errors (refused): no table is within the bound.
-Status add_tables(const ChipLaw& surge, const ChipLaw& yaw, AutopilotParameters& parameters) {
+Status add_tables(const ChipLaw& surge, const ChipLaw& yaw, std::optional<double> table_error,
+                  AutopilotParameters& parameters) {
   const auto table = [&](const ChipLaw& chip) {
-    return resistance_table(chip.name, chip.law, chip.full_scale, chip.top, parameters.table_error,
+    return resistance_table(chip.name, chip.law, chip.full_scale, chip.top, table_error,
                             chip.rest_speed);
   };
   AWMR_ASSIGN_OR_RETURN(parameters.surge, table(surge));
   AWMR_ASSIGN_OR_RETURN(parameters.yaw, table(yaw));
   parameters.block.surge_table = shape_of(parameters.surge);
   parameters.block.yaw_table = shape_of(parameters.yaw);
+  parameters.table_error = std::max({table_error.value_or(kTableError),
+                                     parameters.surge.worst_share(), parameters.yaw.worst_share()});
   return {};
 }
 
@@ -173,7 +178,6 @@ Result<AutopilotParameters> autopilot_parameters(const Model& model, const Gains
 
   AutopilotParameters parameters;
   parameters.resistance = options.resistance;
-  parameters.table_error = options.table_error;
   parameters.sample_time_s = single(model.vehicle.sample_time_s);
   parameters.parts = options.parts;
   parameters.split = options.split;
@@ -182,7 +186,7 @@ Result<AutopilotParameters> autopilot_parameters(const Model& model, const Gains
   parameters.block.safety.speed_max_mps = largest_below(surge.top);
   parameters.block.safety.yaw_rate_max_radps = largest_below(yaw.top);
   if (options.resistance == ResistanceForm::kTable) {
-    AWMR_RETURN_IF_ERROR(add_tables(surge, yaw, parameters));
+    AWMR_RETURN_IF_ERROR(add_tables(surge, yaw, options.table_error, parameters));
   }
   parameters.rest = rest_of(plant);
   parameters.crc = crc32_of_parameters(&parameters.block, parameters.surge.lines.data(),

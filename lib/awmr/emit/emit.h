@@ -61,14 +61,17 @@ inline constexpr NameTable<FirmwarePart, 6> kFirmwarePartNames{
      {"shaping", FirmwarePart::kShaping},
      {"observer", FirmwarePart::kObserver}}};
 
+/// The error of a table that is small beside what a model knows of its vehicle.
+inline constexpr double kTableError = 5e-4;
+
 /// How the firmware is made.
 struct EmitOptions {
   /// kPowf where the flash is short and the control step has time to spare; it takes a power law.
   ResistanceForm resistance = ResistanceForm::kTable;
   /// > 0: the largest error of a table, as a share of the resistance itself or, where that is less,
   /// of a tenth of the largest force (4 F'max for surge) or moment (4 d F'max for yaw). Larger: a
-  /// smaller table.
-  double table_error = 5e-4;
+  /// smaller table. Absent: kTableError or, where no table is as good, that of the best one.
+  std::optional<double> table_error = {};
   /// Compiled in. Each takes flash, RAM and, once it is in use, time of every step.
   std::set<FirmwarePart> parts = {};
   /// What the combined mode does with a path that saturates.
@@ -95,6 +98,8 @@ struct EmittedTable {
   double worst_error = 0.0;           ///< where g is below `split`: absolute, in the unit of g
   double worst_relative_error = 0.0;  ///< where g is above `split`: a share of g
 
+  /// The worst error as a share of g, or of `split` where g is below it.
+  double worst_share() const;
   /// The table as the chip reads it. It refers to this object's lines.
   ResistanceTable view() const;
 };
@@ -108,7 +113,7 @@ struct AutopilotParameters {
   EmittedTable surge;                                  ///< of g1; without lines for kPowf
   EmittedTable yaw;                                    ///< of g3; without lines for kPowf
   ResistanceForm resistance = ResistanceForm::kTable;  ///< as in EmitOptions
-  double table_error = 0.0;                            ///< as in EmitOptions
+  double table_error = 0.0;                            ///< that both tables keep to
   float sample_time_s = 0.0F;                          ///< as in awmr_params.h
   std::set<FirmwarePart> parts;                        ///< as in EmitOptions
   CombinedSplit split = CombinedSplit::kRedistribute;  ///< as in EmitOptions

@@ -72,15 +72,14 @@ void measure_all(const ResistanceLaw& law, double rest_speed, EmittedTable& tabl
   }
 }
 
-/// The table's worst error as a share of g, or of `split` where g is below it.
-double worst_share(const EmittedTable& table) {
-  return std::max(table.worst_error / table.split, table.worst_relative_error);
-}
-
 }  // namespace
 
 ResistanceTable EmittedTable::view() const {
   return {lines.data(), static_cast<std::uint16_t>(lines.size()), first, mantissa_bits};
+}
+
+double EmittedTable::worst_share() const {
+  return std::max(worst_error / split, worst_relative_error);
 }
 
 double table_top(const ResistanceLaw& law, double full_scale) {
@@ -90,11 +89,11 @@ double table_top(const ResistanceLaw& law, double full_scale) {
 }
 
 Result<EmittedTable> resistance_table(const std::string& name, const ResistanceLaw& law,
-                                      double full_scale, double top, double error_share,
-                                      double rest_speed) {
+                                      double full_scale, double top,
+                                      std::optional<double> error_share, double rest_speed) {
   const int top_exponent = std::ilogb(top);
-  EmittedTable best;
-  double least_share = HUGE_VAL;
+  EmittedTable best;     // the smallest within the bound
+  EmittedTable closest;  // that with the least error
   for (int bits = 0; bits <= kMaxMantissaBits; ++bits) {
     for (int lowest = top_exponent - 1; lowest >= kLowestExponent; --lowest) {
       const int lines = (top_exponent - lowest) * (1 << bits) + 1;
@@ -103,16 +102,17 @@ Result<EmittedTable> resistance_table(const std::string& name, const ResistanceL
       EmittedTable table = table_between(law, lowest, top_exponent, bits);
       table.split = 0.1 * full_scale;
       measure_all(law, rest_speed, table);
-      least_share = std::min(least_share, worst_share(table));
-      if (worst_share(table) <= error_share) best = std::move(table);
+      if (closest.lines.empty() || table.worst_share() < closest.worst_share()) closest = table;
+      if (table.worst_share() <= error_share.value_or(kTableError)) best = std::move(table);
     }
   }
   if (!best.lines.empty()) return best;
-  return refusal(
-      fmt::format("the {} resistance has no table of at most {} lines with an error below {}; "
-                  "the best has {:.2g}: allow a larger {}, or use {}",
-                  name, kMaxLines, option_text(fmt::format("table-error {:g}", error_share)),
-                  least_share, option_text("table-error"), option_text("resistance powf")));
+  if (!error_share) return closest;
+  return refusal(fmt::format(
+      "the {} resistance has no table of at most {} lines with an error below {}; "
+      "the best has {:.2g}: allow a larger {}, or use {}",
+      name, kMaxLines, option_text(fmt::format("table-error {:g}", *error_share)),
+      closest.worst_share(), option_text("table-error"), option_text("resistance powf")));
 }
 
 }  // namespace awmr

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,11 +21,12 @@ using ResistanceLaw = std::function<double(double)>;
 double table_top(const ResistanceLaw& law, double full_scale);
 
 /// The smallest table of `law` up to `top` whose error, in the chip's own arithmetic, stays below
-/// `error_share` of the law or, where that is less, of a tenth of `full_scale`. Below `rest_speed` it is
+/// `error_share` of the law or, where that is less, of a tenth of `full_scale`; without `error_share`
+/// that of kTableError or, where there is none, the one with the least error. Below `rest_speed` it is
 /// not read, and may be as far off as it likes. `name` is for the message.
 /// Errors (refused): not even the largest table does.
 Result<EmittedTable> resistance_table(const std::string& name, const ResistanceLaw& law,
-                                      double full_scale, double top, double error_share,
-                                      double rest_speed);
+                                      double full_scale, double top,
+                                      std::optional<double> error_share, double rest_speed);
 
 }  // namespace awmr

@@ -229,13 +229,30 @@ T differential_moment_m(const T& half_track_m, const T& right_less_left) {
   return T(2.0) * half_track_m * right_less_left;
 }
 
-/// Rates of the state where the wheels of a side are driven alike. The last three are
+/// What motors with a dead zone make of the commands of both sides.
+template <class T>
+SideForces<T> beyond_dead_zone(const SideForces<T>& command, const T& zone) {
+  return {beyond_dead_zone(command.left, zone), beyond_dead_zone(command.right, zone)};
+}
+
+/// Rates of the state where both wheels of a side push with the same force. The last
+/// three are
 ///   u_dot = (tau_speed               + m' r v - g1(u)) / m'
 ///   v_dot = (tau_steering/l_f        - m' r u - g2(v)) / m'
 ///   r_dot = (tau_steering + tau_diff          - g3(r)) / I'z                          [paper (40)]
 /// with tau_turn = tau_steering + tau_diff, and the first three those of detail::rates.
-/// With back-EMF, or where the rear wheels are not driven, those push otherwise than the front ones of
-/// their side: each by itself.
+template <class T>
+State<T> side_driven_rates(const Plant<T>& p, const State<T>& s, const SideForces<T>& f,
+                           const T& steering_command_rad) {
+  const GeneralisedForces<T> tau =
+      generalised_forces(p.front_axle_m, p.half_track_m, f, s.steering_rad);
+  return detail::rates(p, s, tau.tau_speed, tau.tau_steering_m / p.front_axle_m,
+                       tau.tau_steering_m + tau.tau_diff_m,
+                       steering_rate(p, s.steering_rad, steering_command_rad));
+}
+
+/// Rates of the state where the wheels of a side are commanded alike. With back-EMF, or where the rear
+/// wheels are not driven, those push otherwise than the front ones of their side: each by itself.
 template <class T>
 State<T> state_rates(const Plant<T>& p, const State<T>& s, const SideForces<T>& f,
                      const T& steering_command_rad) {
@@ -245,13 +262,7 @@ State<T> state_rates(const Plant<T>& p, const State<T>& s, const SideForces<T>& 
         p, s, WheelForces<T>{f.left, f.right, p.rear_driven * f.left, p.rear_driven * f.right},
         steering_command_rad);
   }
-  const SideForces<T> effective{beyond_dead_zone(f.left, p.wheel_dead_zone),
-                                beyond_dead_zone(f.right, p.wheel_dead_zone)};
-  const GeneralisedForces<T> tau =
-      generalised_forces(p.front_axle_m, p.half_track_m, effective, s.steering_rad);
-  return detail::rates(p, s, tau.tau_speed, tau.tau_steering_m / p.front_axle_m,
-                       tau.tau_steering_m + tau.tau_diff_m,
-                       steering_rate(p, s.steering_rad, steering_command_rad));
+  return side_driven_rates(p, s, beyond_dead_zone(f, p.wheel_dead_zone), steering_command_rad);
 }
 
 }  // namespace awmr

@@ -38,27 +38,20 @@ struct Resistance {
   /// g(speed) with sign and chord, for any speed; 0 at 0.
   T operator()(const T& speed) const {
     using math::abs;
-    using math::all;
     using math::any;
+    using math::larger;
     using math::select;
     const T magnitude = abs(speed);
-    const Mask<T> moves = magnitude > T(0.0);
-    if (!any(moves)) return T(0.0);
-    const Mask<T> on_chord = magnitude < rest_speed;
-    if (any(on_chord) && (MaskOf<T>::kOneLane || all(on_chord)))
-      return at(rest_speed) / rest_speed * speed;
-    // From here on a bool moves and is beyond the chord. Lanes on the chord compute with its end,
-    // those at rest with a speed of 1, which is then left out.
-    T reached = magnitude;
-    if (!MaskOf<T>::kOneLane) reached = select(on_chord, rest_speed, reached);
-    if (!MaskOf<T>::kOneLane) reached = select(moves, reached, T(1.0));
-    const T resists = at(reached);
-    T signed_resistance = select(speed > T(0.0), resists, T(-resists));
-    if (!MaskOf<T>::kOneLane && any(on_chord)) {
-      signed_resistance = select(on_chord, T(resists / reached * speed), signed_resistance);
+    if (!MaskOf<T>::kOneLane) {
+      // Without branches, which lanes would wait for: speed/reached is 1 or -1 beyond the chord, and the
+      // way along it before its end.
+      const T reached = larger(larger(magnitude, rest_speed), T(1e-30));
+      return at(reached) * (speed / reached);
     }
-    if (!MaskOf<T>::kOneLane) signed_resistance = select(moves, signed_resistance, T(0.0));
-    return signed_resistance;
+    if (!any(magnitude > T(0.0))) return T(0.0);
+    if (any(magnitude < rest_speed)) return at(rest_speed) / rest_speed * speed;
+    const T resists = at(magnitude);
+    return select(speed > T(0.0), resists, T(-resists));
   }
 };
 

@@ -77,6 +77,13 @@ inline float saturate(float x, float limit) {
   return bits_of(x) >> 31U != 0 ? -limit : limit;
 }
 
+/// The larger; x where they are equal or one is not a number.
+template <class T>
+T larger(const T& x, const T& y) {
+  using math::select;
+  return select(x < y, y, x);
+}
+
 /// x. For float 0 where |x| < 2^-90, so that no quotient of it by a force is subnormal: an AVR rounds
 /// those otherwise than a host.
 template <class T>

@@ -306,8 +306,6 @@ bool all_wheels_driven(std::span<const BatchRun> runs) {
       runs, [](const BatchRun& run) { return run.controller.limits.is_rear_driven; });
 }
 
-constexpr std::string_view kUnproven = "avx512";
-
 /// Errors (input): as failure_of().
 Result<Metrics> one_by_one(const BatchRun& run, const Scenario& scenario, YawMode mode,
                            double sample_time_s) {
@@ -323,13 +321,7 @@ Result<Metrics> one_by_one(const BatchRun& run, const Scenario& scenario, YawMod
 Result<BatchArithmetic> batch_arithmetic() {
   const char* asked = std::getenv("AWMR_INSTRUCTIONS");
   const auto kernels = lanes::supported_kernels();
-  // The AVX-512 kernel was compiled, but has not been run on any processor that has it: only who
-  // asks for it gets it.
-  const auto proven = std::find_if(kernels.begin(), kernels.end(),
-                                   [](const Kernel* one) { return one->name != kUnproven; });
-  const std::string_view name = asked                     ? asked
-                                : proven == kernels.end() ? "scalar"
-                                                          : (*proven)->name;
+  const std::string_view name = asked ? asked : kernels.empty() ? "scalar" : kernels.front()->name;
   if (name == "scalar") return BatchArithmetic{"scalar", "scalar"};
   std::string known = "scalar";
   for (const Kernel* kernel : kernels) {

@@ -27,7 +27,8 @@ struct BatchRun {
 
 /// By which instructions batches are computed.
 struct BatchArithmetic {
-  std::string_view instructions;  ///< "avx512", "avx2", "sse2"; "scalar": by simulate(), one by one
+  /// "avx512", "avx2", "sse2", "neon"; "scalar": by simulate(), one by one.
+  std::string_view instructions;
   /// What results of different machines have to have in common to be the same bytes: "fused" where
   /// a b + c is rounded once, whatever the instructions; "unfused"; or "scalar".
   std::string_view rounding;
@@ -37,7 +38,7 @@ struct BatchArithmetic {
 inline constexpr std::size_t kBatchRuns = 16;
 
 /// The widest instructions that this processor has, or those named by the environment variable
-/// AWMR_INSTRUCTIONS, for tests; AVX-512 only by it.
+/// AWMR_INSTRUCTIONS, for tests.
 /// Errors (input): it names none that the processor has.
 Result<BatchArithmetic> batch_arithmetic();
 

@@ -101,12 +101,7 @@ constexpr double kSettledShare = 0.02;    ///< of the step's size
 constexpr double kSettledLeastDeg = 0.5;  ///< band of the smallest steps
 constexpr double kMovingMps = 0.05;       ///< below it the sideslip angle has no meaning
 
-/// The larger; `a` where they are equal or `b` is not a number.
-template <class T>
-T larger(const T& a, const T& b) {
-  using math::select;
-  return select(a < b, b, a);
-}
+using math::larger;
 
 /// What the motors do at one moment.
 template <class T>

@@ -9,12 +9,13 @@ extern "C" {
 extern const awmr::lanes::Kernel awmr_lanes_sse2;
 extern const awmr::lanes::Kernel awmr_lanes_avx2;
 extern const awmr::lanes::Kernel awmr_lanes_avx512;
+extern const awmr::lanes::Kernel awmr_lanes_neon;
 }
 
 namespace awmr {
 namespace lanes {
 
-/// Those that this processor runs, the widest first; none on other processors than x86.
+/// Those that this processor runs, the widest first; none on other processors than x86 and 64-bit ARM.
 std::vector<const Kernel*> supported_kernels();
 
 }  // namespace lanes

@@ -20,13 +20,19 @@ AWMR_LANE_INLINE Lanes only_where(const LaneMask& in_range, const Lanes& result)
   return select(in_range, result, Lanes(__builtin_nan("")));
 }
 
-/// c[0] + c[1] x + ... by Horner's rule.
+/// c[0] + c[1] x + ... by two of Horner's chains, of the even and of the odd powers.
 template <int N>
 AWMR_LANE_INLINE Lanes polynomial(const double (&c)[N], const Lanes& x) {
-  Lanes sum(c[N - 1]);
+  const Lanes z = x * x;
+  Lanes last(c[N - 1]), before(c[N - 2]);
 #pragma GCC unroll 16
-  for (int i = N - 2; i >= 0; --i) sum = fma(sum, x, Lanes(c[i]));
-  return sum;
+  for (int i = N - 3; i >= 0; --i) {
+    const Lanes next = fma(last, z, Lanes(c[i]));
+    last = before;
+    before = next;
+  }
+  // before has the terms from c[0] on, last those from c[1] on.
+  return fma(last, x, before);
 }
 
 /// x + 1.5 2^52 has the whole number nearest to x in its last bits, for |x| < 2^51.

@@ -94,8 +94,9 @@ AWMR_LANES_OPERATOR(LaneMask, LaneMask, &&, &)
 AWMR_LANES_OPERATOR(LaneMask, LaneMask, ||, |)
 #undef AWMR_LANES_OPERATOR
 
+/// By the bit of the sign: xsimd 8 subtracts from 0 for AVX-512, which leaves 0 its sign.
 AWMR_LANE_INLINE Lanes operator-(const Lanes& a) {
-  return by_register([](const Register& x) { return -x; }, a);
+  return by_register([](const Register& x) { return x ^ Register(-0.0); }, a);
 }
 AWMR_LANE_INLINE Lanes& operator+=(Lanes& a, const Lanes& b) { return a = a + b; }
 AWMR_LANE_INLINE Lanes& operator-=(Lanes& a, const Lanes& b) { return a = a - b; }
@@ -123,14 +124,24 @@ AWMR_LANE_INLINE LaneMask select(const LaneMask& m, const LaneMask& a, const Lan
   return (m && a) || (!m && b);
 }
 
-/// a b + c, rounded once where the processor can.
+/// a b + c, rounded once where the processor can. (xsimd 8 has no such function for AVX-512, and
+/// rounds twice there.)
 AWMR_LANE_INLINE Lanes fma(const Lanes& a, const Lanes& b, const Lanes& c) {
   return by_register(
-      [](const Register& x, const Register& y, const Register& z) { return xsimd::fma(x, y, z); },
+      [](const Register& x, const Register& y, const Register& z) {
+#ifdef __AVX512F__
+        return Register(_mm512_fmadd_pd(x, y, z));
+#else
+        return xsimd::fma(x, y, z);
+#endif
+      },
       a, b, c);
 }
 AWMR_LANE_INLINE Lanes abs(const Lanes& a) {
   return by_register([](const Register& x) { return xsimd::abs(x); }, a);
+}
+AWMR_LANE_INLINE Lanes larger(const Lanes& a, const Lanes& b) {
+  return by_register([](const Register& x, const Register& y) { return xsimd::max(y, x); }, a, b);
 }
 AWMR_LANE_INLINE Lanes sqrt(const Lanes& a) {
   return by_register([](const Register& x) { return xsimd::sqrt(x); }, a);

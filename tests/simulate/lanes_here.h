@@ -1,0 +1,33 @@
+/// The lanes of the instruction set that a file is compiled for, and whether this processor has it. A file of
+/// which there is a program for each instruction set includes it.
+#pragma once
+
+#if defined(__AVX512F__)
+#define AWMR_LANES avx512
+#define AWMR_LANES_ARCH avx512f
+#elif defined(__AVX2__)
+#define AWMR_LANES avx2
+#define AWMR_LANES_ARCH fma3<xsimd::avx2>
+#else
+#define AWMR_LANES sse2
+#define AWMR_LANES_ARCH sse2
+#endif
+#define AWMR_LANES_REGISTERS 2
+
+#include "awmr/simulate/lanes/lane_math.h"
+
+namespace awmr {
+namespace testing {
+
+inline bool has_instructions() {
+#if defined(__AVX512F__)
+  return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("fma");
+#elif defined(__AVX2__)
+  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+#else
+  return true;
+#endif
+}
+
+}  // namespace testing
+}  // namespace awmr
