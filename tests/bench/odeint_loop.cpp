@@ -3,18 +3,16 @@
 // batches against. usage: odeint_loop MODEL.json GAINS.json SCENARIO.json SAMPLES
 #include <array>
 #include <boost/numeric/odeint/stepper/runge_kutta4.hpp>
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 
 #include "awmr/model/gains_file.h"
 #include "awmr/model/model_file.h"
 #include "awmr/model/rest.h"
-#include "awmr/simulate/metering.h"
 #include "awmr/simulate/physics.h"
-#include "awmr/simulate/pilot.h"
 #include "awmr/simulate/plant_sampler.h"
 #include "awmr/simulate/scenario_file.h"
+#include "closed_loop.h"
 
 namespace {
 
@@ -26,37 +24,25 @@ State<double> state_of(const Numbers& x) { return {x[0], x[1], x[2], x[3], x[4],
 /// A run of the heading scenario; its metrics.
 Metrics driven(Plant<double> plant, const Controller<double>& controller, const Scenario& scenario,
                YawMode mode, double sample_time_s) {
-  const auto& headings = std::get<HeadingSteps>(scenario.guidance);
   const int substeps = substeps_for(plant, sample_time_s);
   const double step_s = sample_time_s / substeps;
   plant = resolved_at_rest(plant, step_s);
-  const auto vehicle = metered_vehicle(controller.limits);
-  const auto course = metered_course(scenario);
   boost::numeric::odeint::runge_kutta4<Numbers> stepper;
-  MeterSums<double> sums;
-  Numbers x{};
-  double goal_before_rad = 0.0;
-  const int samples = static_cast<int>(scenario.duration_s / sample_time_s + 1e-9);
-  for (int k = 0; k <= samples; ++k) {
-    const double t_s = k * sample_time_s;
-    const State<double> s = state_of(x);
-    const double goal_rad = heading_at(headings, t_s);
-    const Command<double> command =
-        control_step(controller, mode, {s.psi_rad, s.u_mps, s.v_mps, s.r_radps},
-                     {goal_rad, 0.0, 0.0, scenario.speed_mps, 0.0});
-    const Allocation<double>& a = command.allocation;
-    measure<double>(
-        {s, a.force, a.steering_rad, controller.yaw(s.r_radps), goal_rad, 0, 0, 0}, vehicle, course,
-        {t_s, sample_time_s, k == 0, k == 0 || std::abs(goal_rad - goal_before_rad) > 0.0, false},
-        sums);
-    goal_before_rad = goal_rad;
+  const auto command = [&](const Measurement<double>& measured, const Reference<double>& wanted) {
+    return control_step(controller, mode, measured, wanted).allocation;
+  };
+  const auto move = [&](double t_s, const Allocation<double>& a, State<double>& s) {
     const auto system = [&](const Numbers& at, Numbers& rates, double) {
       const State<double> d = state_rates(plant, state_of(at), a.force, a.steering_rad);
       rates = {d.x_m, d.y_m, d.psi_rad, d.u_mps, d.v_mps, d.r_radps, d.steering_rad};
     };
+    Numbers x{s.x_m, s.y_m, s.psi_rad, s.u_mps, s.v_mps, s.r_radps, s.steering_rad};
     for (int i = 0; i < substeps; ++i) stepper.do_step(system, x, t_s + i * step_s, step_s);
-  }
-  return metrics_of(sums, {RunEnd::kDuration, samples * sample_time_s, 0}, scenario);
+    s = state_of(x);
+  };
+  const auto sums = bench::driven<double>(scenario, sample_time_s, controller.yaw,
+                                          metered_vehicle(controller.limits), command, move);
+  return metrics_of(sums, {RunEnd::kDuration, scenario.duration_s, 0}, scenario);
 }
 
 }  // namespace

@@ -1,0 +1,28 @@
+"""scripts/bench in small: every row of README.md comes out, and does the same work as awmr's, which the script itself checks and
+says by its exit code. How fast the rows are is no matter here. usage: bench_test.py BUILD
+"""
+import pathlib
+import re
+import subprocess
+import sys
+
+HERE = pathlib.Path(__file__).resolve().parent
+BENCH = HERE.parent.parent / "scripts/bench"
+
+
+def rows_of(text):
+    """The first cell of every row; in small, the sizes are others."""
+    return [re.sub(r"\d+", "N", line.split("|")[1].strip()) for line in text.split("\n") if line.startswith("| ")]
+
+
+def main():
+    done = subprocess.run([BENCH, "--quick", "--built", sys.argv[1]], capture_output=True, text=True)
+    if done.returncode != 0:
+        sys.exit(done.stdout + done.stderr)
+    printed, shown = rows_of(done.stdout), rows_of((HERE / "README.md").read_text())
+    if printed != shown:
+        sys.exit(f"scripts/bench --write was not run since its rows changed: {printed} are printed, README.md has {shown}")
+
+
+if __name__ == "__main__":
+    main()

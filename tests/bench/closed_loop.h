@@ -1,0 +1,41 @@
+/// A run of a heading scenario as one would write it by hand, for any scalar: who commands and who
+/// moves the vehicle is the caller's.
+#pragma once
+
+#include <cmath>
+
+#include "awmr/simulate/metering.h"
+#include "awmr/simulate/pilot.h"
+
+namespace awmr::bench {
+
+/// The run's metering. `command(measured, reference)` returns the allocation of a sample, and
+/// `move(t_s, allocation, state)` moves the state on to the next one.
+template <class T, class Command, class Move>
+MeterSums<T> driven(const Scenario& scenario, double sample_time_s, const Resistance<T>& yaw,
+                    const MeteredVehicle<T>& vehicle, const Command& command, const Move& move) {
+  const auto& headings = std::get<HeadingSteps>(scenario.guidance);
+  const auto course = metered_course(scenario);
+  const T none = T(0.0);
+  MeterSums<T> sums;
+  State<T> s{};
+  double goal_before_rad = 0.0;
+  const int samples = static_cast<int>(scenario.duration_s / sample_time_s + 1e-9);
+  for (int k = 0; k <= samples; ++k) {
+    const double t_s = k * sample_time_s;
+    const double goal_rad = heading_at(headings, t_s);
+    const Allocation<T> a =
+        command(Measurement<T>{s.psi_rad, s.u_mps, s.v_mps, s.r_radps},
+                Reference<T>{T(goal_rad), none, none, T(scenario.speed_mps), none});
+    measure<T>(
+        {s, a.force, a.steering_rad, yaw(s.r_radps), T(goal_rad), none, none, none}, vehicle,
+        course,
+        {t_s, sample_time_s, k == 0, k == 0 || std::abs(goal_rad - goal_before_rad) > 0.0, false},
+        sums);
+    goal_before_rad = goal_rad;
+    if (k < samples) move(t_s, a, s);
+  }
+  return sums;
+}
+
+}  // namespace awmr::bench
