@@ -33,7 +33,7 @@ def commands(at, files):
     both = ["--model", f"{at}/model.json", "--gains", f"{at}/gains.json"]
     words.update({
         "init": ["init", f"{at}/rover"],
-        "report": ["report", f"{at}/results"],
+        "report": ["report", f"{at}/results", "--figures", f"{at}/figures"],
         "pil": ["pil", *both, "--scenario", f"{at}/short.json", "--mode", "combined", "-o", f"{at}/pil.json"],
         "schema": ["schema", "-o", f"{at}/schemas"],
         "completion": ["completion", "bash"],

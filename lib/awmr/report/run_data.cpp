@@ -71,6 +71,7 @@ std::vector<RunSignal> signals_of(const CsvTable& table) {
           as_is("force_left"),
           as_is("force_right"),
           {"steering_deg", in_degrees(table.column("steering_rad"))},
+          {"steering_cmd_deg", in_degrees(table.column("steering_cmd_rad"))},
           {"sideslip_deg", sideslip_deg(table.column("u_mps"), table.column("v_mps"))}};
 }
 
@@ -78,7 +79,7 @@ Result<CsvTable> read_run(const fs::path& path) {
   std::vector<CsvColumn> columns;
   for (const char* name :
        {"t_s", "x_m", "y_m", "psi_rad", "u_mps", "v_mps", "r_radps", "force_left", "force_right",
-        "steering_rad", "psi_ref_rad", "u_ref_mps"}) {
+        "steering_rad", "steering_cmd_rad", "psi_ref_rad", "u_ref_mps"}) {
     columns.push_back({name});
   }
   AWMR_ASSIGN_OR_RETURN(CsvTable table, read_csv(path, columns));
