@@ -25,7 +25,7 @@ def awmr(*words, code=0):
 
 
 def results(at):
-    """What `awmr run` leaves, with given gains: identification, runs of headings and of a course, five samples."""
+    """What `awmr run` leaves, with given gains: identification, a validated log, runs of headings and of a course, five samples."""
     paper, data = SOURCE / "configs/paper", SOURCE / "datasets/paper"
     awmr("identify", "--vehicle", paper / "vehicle.json", "--surge", data / "surge.csv", "--turning", data / "turning.csv",
          "--coastdown", data / "coastdown.csv", "-o", at / "model.json")
@@ -36,6 +36,8 @@ def results(at):
         (at / f"scenario_{stem}.json").write_text(scenario.read_text())
         for mode in MODES:
             awmr("simulate", *inputs, "--scenario", scenario, "--mode", mode, "-o", at / f"run_{stem}_{mode}_tuned.csv")
+    subprocess.run([AWMR, "validate", *map(str, inputs), "--log", SOURCE / "datasets/synthetic/drive_2.csv", "-o",
+                    at / "validation.json"], capture_output=True, check=False)  # whether it passes is not asked here
     awmr("compare", *inputs, "--samples", 5, "--scenario", paper / "scenarios/c3_heading_steps.json", "-o", at)
 
 
@@ -81,6 +83,9 @@ def check_content(at):
     svg = {path.stem: check_svg(path) for path in at.glob("*.svg")}
     expect(svg["surge_resistance"], ["95 % confidence band", "fit", "measured", "measured, doubtful"], "u (m/s)", "τspeed")
     expect(svg["yaw_resistance"], ["95 % confidence band", "fit", "measured", "measured, doubtful"], "r (rad/s)", "τturn (m)")
+    panels = texts(svg["log_drive_2"]).count("t (s)")
+    assert panels == 1 and {"u (m/s)", "ψ (deg)", "x (m)"} <= set(texts(svg["log_drive_2"])), texts(svg["log_drive_2"])
+    assert set(series(svg["log_drive_2"])) == {"measured", "predicted"}, series(svg["log_drive_2"])
     expect(svg["coastdown"], ["model", "stop, measured"], "t (s)", "u (m/s)")
     expect(svg["heading_c3_heading_steps"], MODES + ["reference"], "t (s)", "ψ (deg)")
     expect(svg["speed_c3_heading_steps"], MODES + ["reference"], "u (m/s)")
@@ -121,7 +126,7 @@ def main():
         assert {path.name for path in (alone / "figures").iterdir()} == {
             f"surge_{what}.{kind}" for what in ["resistance", "residuals"] for kind in ["svg", "pdf"]}
         assert {finding["code"] for finding in told["findings"]} == {"not-drawn"}, told["findings"]
-        assert len(told["findings"]) == 4, told["findings"]
+        assert len(told["findings"]) == 5, told["findings"]
 
         # Where figures cannot be written, nothing is.
         (alone / "report.html").unlink()
@@ -129,12 +134,19 @@ def main():
             assert "error: " in awmr("report", alone, "--figures", place, code=2).stderr
             assert not (alone / "report.html").exists(), place
 
-        # A comparison that is not as awmr writes it, whatever is wrong with it.
+        # A file that is not as awmr writes it, whatever is wrong with it.
         good = json.loads((out / "comparison.json").read_text())
         for broken in [[], {**good, "scenarios": 3}, {**good, "ranking": None}, {**good, "scenarios": [{}]},
                        {**good, "scenarios": [{**good["scenarios"][0], "modes": []}]}]:
             (out / "comparison.json").write_text(json.dumps(broken))
             assert "comparison" in awmr("report", out, "--figures", at / "broken", code=2).stderr
+            assert not (at / "broken").exists()
+        (out / "comparison.json").write_text(json.dumps(good))
+        valid = json.loads((out / "validation.json").read_text())
+        for broken in [[], {**valid, "logs": 3}, {**valid, "logs": [{}]},
+                       {**valid, "logs": [{"file": "a", "channels": {"x_m": {"series": {"t_s": [0, 1], "measured": [0]}}}}]}]:
+            (out / "validation.json").write_text(json.dumps(broken))
+            assert "validation" in awmr("report", out, "--figures", at / "broken", code=2).stderr
             assert not (at / "broken").exists()
     print(f"{len(figures)} figures looked at")
 

@@ -146,6 +146,20 @@ function drivesPart(parent, validation) {
   }
 }
 
+/// Measured and predicted by channel; results of older versions have no series.
+function logCharts(parent, log) {
+  const channels = Object.entries(log.channels).filter(([, c]) => c.series);
+  if (!channels.length) return;
+  const grid = add(folded(parent, `${log.file}: measured and predicted`), "div", undefined, {class: "grid"});
+  const group = [];
+  for (const [name, {series, unit}] of channels) {
+    const points = (key) => series.t_s.map((t, i) => [t, series[key][i]]);
+    plot(grid, {title: name, x: "t, s", y: `${name.replace(/_[a-z]+$/, "").replaceAll("_", " ")}, ${unit}`, group, height: 220, series: [
+      {name: "measured", kind: "line", points: points("measured"), colour: "var(--dim)", width: 1.4},
+      {name: "predicted", kind: "line", points: points("predicted"), colour: "var(--two)", width: 1.4, dash: [6, 3]}]});
+  }
+}
+
 function logsPart(parent, validation) {
   const logs = (validation || {}).logs || [];
   if (!logs.length) return;
@@ -154,4 +168,5 @@ function logsPart(parent, validation) {
   table(parent, ["log", "channel", "#samples", "#R², to the next row", "#R², over a window", "#NRMSE, over a window"],
     logs.flatMap((log) => Object.entries(log.channels).map(([name, c]) => [`${log.file}, windows of ${digits(log.horizon_s)} s`, name, c.samples,
       digits(c.one_step.r2), digits(c.long_horizon.r2), digits(c.long_horizon.nrmse, 3)])));
+  for (const log of logs) logCharts(parent, log);
 }

@@ -13,7 +13,8 @@ namespace awmr {
 enum class Role {
   kMeasured,
   kDoubtful,  ///< measured, with a warning
-  kModel,     ///< a fit, or a prediction
+  kModel,     ///< a fit
+  kPredicted,
   kDifferential,
   kSteering,
   kCombined,

@@ -20,6 +20,18 @@ void number_equal_names(std::vector<Figure>& figures) {
   }
 }
 
+/// Errors (input): the file is not as awmr writes it.
+Status add_from_file(void (*add)(const Json&, FiguresOfResults&), const std::string& file,
+                     const Json& data, FiguresOfResults& all) {
+  try {
+    add(data, all);
+  } catch (const Json::exception& error) {
+    return input_error(
+        file, std::string("is not as awmr writes it (") + error.what() + "); make it again");
+  }
+  return {};
+}
+
 }  // namespace
 
 std::string figure_name(const std::string& kind, const std::string& name) {
@@ -34,13 +46,9 @@ std::string figure_name(const std::string& kind, const std::string& name) {
 Result<FiguresOfResults> figures_of(const ReportData& data) {
   FiguresOfResults all;
   add_identification_figures(data.model, all);
+  AWMR_RETURN_IF_ERROR(add_from_file(add_log_figures, "validation.json", data.json, all));
   add_run_figures(data.json, all);
-  try {
-    add_comparison_figures(data.json, all);
-  } catch (const Json::exception& error) {
-    return input_error("comparison.json", std::string("is not as awmr compare writes it (") +
-                                              error.what() + "); compare again");
-  }
+  AWMR_RETURN_IF_ERROR(add_from_file(add_comparison_figures, "comparison.json", data.json, all));
   number_equal_names(all.figures);
   return all;
 }

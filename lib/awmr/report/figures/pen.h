@@ -34,10 +34,11 @@ struct Pen {
 };
 
 inline const Pen& pen_of(Role role) {
-  static const std::array<Pen, 8> kPens{{
+  static const std::array<Pen, 9> kPens{{
       {.colour = kBlack, .width_pt = 1.0, .dashes_pt = {}, .band = {225, 225, 225}},
       {.colour = {213, 94, 0}, .width_pt = 1.0, .dashes_pt = {}, .marker = Marker::kDiamond},
       {.colour = {0, 114, 178}, .width_pt = 1.4, .dashes_pt = {}, .band = {204, 226, 240}},
+      {.colour = {213, 94, 0}, .width_pt = 1.2, .dashes_pt = {4.0, 1.5}},
       {.colour = {86, 180, 233}, .width_pt = 2.6, .dashes_pt = {}},
       {.colour = {213, 94, 0},
        .width_pt = 1.5,

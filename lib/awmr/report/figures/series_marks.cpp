@@ -3,15 +3,13 @@
 #include <numeric>
 #include <utility>
 
-#include "awmr/report/drawn_rows.h"
+#include "awmr/core/drawn_rows.h"
 #include "awmr/report/figures/plot.h"
 
 namespace awmr {
 namespace {
 
 constexpr std::size_t kMostMarks = 2000;
-/// Of the range: a tenth of a line's width on the page.
-constexpr double kMarkTolerance = 1.0 / 2000.0;
 constexpr double kMarkRadiusPt = 2.2;
 
 Stroke stroke_of(const Pen& pen) { return {pen.colour, pen.width_pt, pen.dashes_pt}; }
@@ -51,7 +49,7 @@ std::vector<std::size_t> drawn_points(const Series& series) {
     x.push_back(series.x[i]);
     y[0].push_back(series.y[i]);
   }
-  std::vector<std::size_t> drawn = drawn_rows(x, y, kMarkTolerance, kMostMarks);
+  std::vector<std::size_t> drawn = drawn_rows(x, y, kDrawnTolerance, kMostMarks);
   for (std::size_t& row : drawn) row = order[row];
   return drawn;
 }
@@ -147,7 +145,8 @@ std::vector<Mark> sample_of(const Series& series, PagePoint at, double width_pt)
   piece.y = {0.0, 0.0};
   piece.low = {-0.5, -0.5};
   piece.high = {0.5, 0.5};
-  if (series.shape == SeriesShape::kPoints || series.shape == SeriesShape::kRanges) piece.x = {0.5};
+  const bool is_long = series.shape == SeriesShape::kLine || series.shape == SeriesShape::kBand;
+  if (!is_long) piece.x = {0.5};
   if (series.shape == SeriesShape::kRanges) {
     piece.low = {0.0};
     piece.high = {1.0};

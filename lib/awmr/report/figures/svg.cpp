@@ -115,6 +115,7 @@ std::string drawing_svg(const Drawing& drawing) {
       in_points(drawing.width_pt), in_points(drawing.height_pt), kFontFamily,
       in_points(kTextSizePt));
   text += fmt::format("<title>{}</title>\n", escaped(drawing.meaning));
+  text += "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n";  // for dark viewers
   for (const Layer& layer : drawing.layers) text += group(layer);
   return text + "</svg>\n";
 }
