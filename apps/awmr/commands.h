@@ -206,6 +206,7 @@ void add_compass(CLI::App& app, Session& session);
 
 struct ReportCommand {
   fs::path directory;
+  std::optional<fs::path> figures = {};  ///< where the figures for print go
 };
 Result<Outcome> execute(const ReportCommand& command);
 void add_report(CLI::App& app, Session& session);
@@ -213,6 +214,7 @@ void add_report(CLI::App& app, Session& session);
 struct RunCommand {
   fs::path project;
   fs::path output;
+  bool figures = false;  ///< also the figures for print, in `figures` below the output
 };
 Result<Outcome> execute(const RunCommand& command);
 void add_run(CLI::App& app, Session& session);

@@ -1,28 +1,58 @@
 #include "awmr/report/report.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <utility>
 
 #include "awmr/core/file.h"
 #include "commands.h"
 #include "paths.h"
 
 namespace awmr::cli {
+namespace {
+
+/// All figures or none; those that there are no data for are told in a note.
+Status write_figures(FigureSet figures, const fs::path& directory, Outcome& outcome) {
+  AWMR_RETURN_IF_ERROR(make_directory(directory));
+  for (OutputFile& file : figures.files) {
+    file.path = directory / file.path;
+    outcome.written.push_back(file.path);
+  }
+  AWMR_RETURN_IF_ERROR(write_files(figures.files));
+  outcome.summary +=
+      fmt::format("wrote {} figures, each as .svg and .pdf, to {}:\n  {}\n", figures.names.size(),
+                  directory.string(), fmt::join(figures.names, "\n  "));
+  for (const std::string& lacking : figures.lacking) {
+    outcome.findings.push_back({"", 0, Severity::kNote, "not-drawn", lacking});
+  }
+  return {};
+}
+
+}  // namespace
 
 Result<Outcome> execute(const ReportCommand& command) {
   AWMR_ASSIGN_OR_RETURN(const std::string html, report_html(command.directory));
   const fs::path path = command.directory / "report.html";
+  Outcome outcome{.summary = fmt::format("wrote {}\n", path.string()), .written = {path}};
+  if (command.figures) {
+    AWMR_ASSIGN_OR_RETURN(FigureSet figures, report_figures(command.directory));
+    AWMR_RETURN_IF_ERROR(write_figures(std::move(figures), *command.figures, outcome));
+  }
   AWMR_RETURN_IF_ERROR(write_file(path, html));
-  return Outcome{.summary = fmt::format("wrote {}\n", path.string()), .written = {path}};
+  return outcome;
 }
 
 void add_report(CLI::App& app, Session& session) {
   auto command = std::make_shared<ReportCommand>();
-  CLI::App* sub = add_command(app, session, "report", "Make report.html from a results directory",
-                              "awmr report out", [command] { return execute(*command); });
+  CLI::App* sub = add_command(
+      app, session, "report", "Make report.html from a results directory, and figures for print",
+      "awmr report out --figures figures", [command] { return execute(*command); });
   add_directory(*sub, "DIR", command->directory, "Directory that `awmr run` filled")->required();
+  add_directory(*sub, "--figures", command->figures,
+                "Write the main figures there too, each as SVG and PDF, 150 mm wide");
 }
 
 }  // namespace awmr::cli

@@ -167,6 +167,18 @@ Result<std::vector<fs::path>> checked_inputs(const RunCommand& command, const Pr
   return inputs;
 }
 
+constexpr const char* kFigures = "figures";
+
+/// The page and, where they are asked for, the figures.
+Status report_step(const RunCommand& command, Outcome& total) {
+  ReportCommand report{.directory = command.output};
+  if (command.figures) report.figures = command.output / kFigures;
+  AWMR_ASSIGN_OR_RETURN(const Outcome reported, execute(report));
+  add_written(total, reported.written);
+  total.findings.insert(total.findings.end(), reported.findings.begin(), reported.findings.end());
+  return {};
+}
+
 constexpr const char* kLibrary = "firmware";
 
 /// The Arduino library. A vehicle that the chip does not carry has none, which is told.
@@ -188,7 +200,8 @@ void emit_library(const fs::path& model, const fs::path& gains, const fs::path& 
 Result<Outcome> execute(const RunCommand& command) {
   AWMR_ASSIGN_OR_RETURN(const Project project, read_project(command.project));
   AWMR_ASSIGN_OR_RETURN(const std::vector<fs::path> inputs, checked_inputs(command, project));
-  AWMR_RETURN_IF_ERROR(make_directory(command.output));
+  AWMR_RETURN_IF_ERROR(
+      make_directory(command.figures ? command.output / kFigures : command.output));
   const fs::path model = command.output / "model.json";
   const fs::path gains = command.output / "gains.json";
   const InputNames names = names_in_project(inputs, command.project);
@@ -223,12 +236,12 @@ Result<Outcome> execute(const RunCommand& command) {
   add_step(steps, "compare", std::move(compared));
   AWMR_ASSIGN_OR_RETURN(const std::vector<fs::path> runs, write_runs(project, command.output));
   add_written(total, runs);
-  AWMR_ASSIGN_OR_RETURN(const Outcome reported, execute(ReportCommand{command.output}));
-  add_written(total, reported.written);
+  AWMR_RETURN_IF_ERROR(report_step(command, total));
   total.summary += fmt::format(
       "wrote model.json gains.json validation.json awmr_params.h comparison.json comparison.csv,\n"
-      "the runs, the Arduino library ({}) and report.html to {}\n",
-      kLibrary, command.output.string());
+      "the runs, the Arduino library ({}){} and report.html to {}\n",
+      kLibrary, command.figures ? fmt::format(", the figures ({})", kFigures) : "",
+      command.output.string());
   total.document = joined(steps.documents);
   return total;
 }
@@ -240,6 +253,8 @@ void add_run(CLI::App& app, Session& session) {
                               [command] { return execute(*command); });
   add_file(*sub, "PROJECT", command->project, "project.json")->required();
   add_output_directory(*sub, command->output, "Directory for all results");
+  sub->add_flag("--figures", command->figures,
+                "Write the main figures to figures/ in it too, each as SVG and PDF, 150 mm wide");
 }
 
 }  // namespace awmr::cli

@@ -6,14 +6,12 @@
 #include <utility>
 #include <vector>
 
-#include "awmr/core/file.h"
-#include "awmr/core/hash.h"
 #include "awmr/core/json.h"
-#include "awmr/model/gains_file.h"
 #include "awmr/model/model.h"
-#include "awmr/model/model_file.h"
+#include "awmr/report/figures/figures_of.h"
+#include "awmr/report/figures/layout.h"
 #include "awmr/report/live_numbers.h"
-#include "awmr/report/run_data.h"
+#include "awmr/report/report_data.h"
 #include "awmr/simulate/scenario_file.h"
 
 namespace awmr {
@@ -91,48 +89,27 @@ Status add_live(const fs::path& directory, const Model& model, Json& data) {
   return {};
 }
 
-/// Errors (input): a result was made from another model.json or gains.json than the one beside it.
-Status check_same_inputs(const fs::path& directory, const std::string& result, const Json& json) {
-  if (!json.contains("inputs")) return {};
-  for (const Json& input : json["inputs"]) {
-    const fs::path name = fs::path(input.value("name", "")).filename();
-    const bool is_here = name == "model.json" || name == "gains.json";
-    if (!is_here || name == result || !fs::exists(directory / name)) continue;
-    AWMR_ASSIGN_OR_RETURN(const std::string bytes, read_file(directory / name));
-    if (sha256_hex(bytes) == input.value("sha256", "")) continue;
-    return input_error((directory / result).string() + ":/inputs",
-                       "was made from another " + name.string() +
-                           " than the one beside it: make it again, or take it out of the "
-                           "directory");
-  }
-  return {};
-}
-
 }  // namespace
 
 Result<std::string> report_html(const fs::path& directory) {
-  Json data;
-  // Strictly first: what the page shows is a model, or the fault's place is named.
-  AWMR_ASSIGN_OR_RETURN(const Model model, read_model(directory / "model.json"));
-  data["paper_vehicle"] = is_vehicle_of_paper(model.vehicle);
-  AWMR_ASSIGN_OR_RETURN(data["model"], read_json_file(directory / "model.json"));
-  if (const fs::path path = directory / "gains.json"; fs::exists(path)) {
-    AWMR_RETURN_IF_ERROR(read_gains(path));
+  AWMR_ASSIGN_OR_RETURN(ReportData data, read_report_data(directory));
+  data.json["paper_vehicle"] = is_vehicle_of_paper(data.model.vehicle);
+  AWMR_RETURN_IF_ERROR(add_live(directory, data.model, data.json));
+  return assembled(data.json);
+}
+
+Result<FigureSet> report_figures(const fs::path& directory) {
+  AWMR_ASSIGN_OR_RETURN(const ReportData data, read_report_data(directory));
+  AWMR_ASSIGN_OR_RETURN(const FiguresOfResults figures, figures_of(data));
+  FigureSet set{.lacking = figures.lacking};
+  for (const Figure& figure : figures.figures) {
+    AWMR_ASSIGN_OR_RETURN(const Drawing drawing, layout(figure));
+    AWMR_ASSIGN_OR_RETURN(std::string pdf, drawing_pdf(drawing));
+    set.files.push_back({figure.name + ".svg", drawing_svg(drawing)});
+    set.files.push_back({figure.name + ".pdf", std::move(pdf)});
+    set.names.push_back(figure.name);
   }
-  for (const char* name : {"gains", "validation", "comparison", "pil", "suggest"}) {
-    const fs::path path = directory / (std::string(name) + ".json");
-    if (!fs::exists(path)) continue;
-    AWMR_ASSIGN_OR_RETURN(data[name], read_json_file(path));
-    AWMR_RETURN_IF_ERROR(check_same_inputs(directory, path.filename().string(), data[name]));
-  }
-  if (const fs::path path = directory / "comparison.csv"; fs::exists(path)) {
-    AWMR_ASSIGN_OR_RETURN(data["samples"], read_samples(path));
-  }
-  data["header"] = fs::exists(directory / "awmr_params.h");
-  AWMR_ASSIGN_OR_RETURN(data["runs"], read_runs(directory));
-  AWMR_ASSIGN_OR_RETURN(data["scenarios"], read_scenarios(directory));
-  AWMR_RETURN_IF_ERROR(add_live(directory, model, data));
-  return assembled(data);
+  return set;
 }
 
 }  // namespace awmr

@@ -1,9 +1,12 @@
-/// report.html: one self-contained file from what lies in a directory of results.
+/// From what lies in a directory of results: report.html, one self-contained file, and figures for
+/// print.
 #pragma once
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
+#include "awmr/core/file.h"
 #include "awmr/core/result.h"
 
 namespace awmr {
@@ -12,5 +15,16 @@ namespace awmr {
 /// pil.json, suggest.json, the scenarios `scenario_<scenario>.json` and the runs
 /// `run_<scenario>_<mode>_<tuned|paper>.csv`. Errors (input): no model.json, or a file is broken.
 Result<std::string> report_html(const std::filesystem::path& directory);
+
+/// The figures of a directory of results, each as SVG and as PDF.
+struct FigureSet {
+  std::vector<OutputFile> files = {};  ///< NAME.svg, NAME.pdf, ...: to be written below a directory
+  std::vector<std::string> names = {};    ///< without extension, in order
+  std::vector<std::string> lacking = {};  ///< what is not drawn and why, a sentence each
+};
+
+/// The same bytes from the same files. Errors: as report_html(); a figure would hold a number that is
+/// not finite or beyond 1e100.
+Result<FigureSet> report_figures(const std::filesystem::path& directory);
 
 }  // namespace awmr

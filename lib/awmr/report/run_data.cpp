@@ -4,16 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <map>
 #include <regex>
 #include <vector>
 
 #include "awmr/core/csv.h"
 #include "awmr/core/csv_cell.h"
+#include "awmr/core/drawn_rows.h"
 #include "awmr/core/file.h"
 #include "awmr/core/units.h"
-#include "awmr/report/drawn_rows.h"
 #include "awmr/simulate/scenario_file.h"
 
 namespace awmr {
@@ -21,8 +20,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Of a signal's range: a tenth of a pixel of a chart 220 px high, a pixel when enlarged tenfold.
-constexpr double kLineTolerance = 1.0 / 2000.0;
 /// Of all runs together: a page stays below 3 MB with some 100 bytes a row.
 constexpr std::size_t kMostRows = 20000;
 constexpr std::size_t kMostRowsOfRun = 1500;
@@ -37,9 +34,6 @@ struct RunSignal {
   std::string name;
   std::vector<double> values;
 };
-
-/// Five digits.
-double rounded(double x) { return std::strtod(fmt::format("{:.5g}", x).c_str(), nullptr); }
 
 std::vector<double> in_degrees(std::span<const double> radians) {
   std::vector<double> values;
@@ -71,6 +65,7 @@ std::vector<RunSignal> signals_of(const CsvTable& table) {
           as_is("force_left"),
           as_is("force_right"),
           {"steering_deg", in_degrees(table.column("steering_rad"))},
+          {"steering_cmd_deg", in_degrees(table.column("steering_cmd_rad"))},
           {"sideslip_deg", sideslip_deg(table.column("u_mps"), table.column("v_mps"))}};
 }
 
@@ -78,7 +73,7 @@ Result<CsvTable> read_run(const fs::path& path) {
   std::vector<CsvColumn> columns;
   for (const char* name :
        {"t_s", "x_m", "y_m", "psi_rad", "u_mps", "v_mps", "r_radps", "force_left", "force_right",
-        "steering_rad", "psi_ref_rad", "u_ref_mps"}) {
+        "steering_rad", "steering_cmd_rad", "psi_ref_rad", "u_ref_mps"}) {
     columns.push_back({name});
   }
   AWMR_ASSIGN_OR_RETURN(CsvTable table, read_csv(path, columns));
@@ -94,10 +89,10 @@ Json columns_of(const CsvTable& table, std::size_t most_rows) {
   std::vector<std::vector<double>> values;
   for (const RunSignal& signal : signals) values.push_back(signal.values);
   const auto t = table.column("t_s");
-  const std::vector<std::size_t> rows = drawn_rows(t, values, kLineTolerance, most_rows);
+  const std::vector<std::size_t> rows = drawn_rows(t, values, kDrawnTolerance, most_rows);
   const auto picked = [&](const auto& column) {
     Json list = Json::array();
-    for (const std::size_t row : rows) list.push_back(rounded(column[row]));
+    for (const std::size_t row : rows) list.push_back(drawn_number(column[row]));
     return list;
   };
   Json columns = {{"t_s", picked(t)}};
@@ -124,7 +119,8 @@ Json at_even_ranks(std::vector<double> values) {
   const std::size_t count = std::min(values.size(), kMostSamples);
   Json list = Json::array();
   for (std::size_t i = 0; i < count; ++i) {
-    list.push_back(rounded(values[i * (values.size() - 1) / std::max<std::size_t>(1, count - 1)]));
+    list.push_back(
+        drawn_number(values[i * (values.size() - 1) / std::max<std::size_t>(1, count - 1)]));
   }
   return list;
 }

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "awmr/core/index.h"
 #include "awmr/model/rest.h"
@@ -17,6 +18,7 @@ struct Sums {
   double measured = 0.0;
   double squares = 0.0;  ///< of what was measured
   int count = 0;
+  PredictedSeries series = {};
 };
 using ChannelSums = std::array<Sums, kChannelCount>;
 
@@ -26,11 +28,15 @@ struct Predictor {
   Plant<double> plant;
   double step_s;
   double delay_s;
+  std::size_t series_step;  ///< every so many readings of a channel go into its series; 0: none
 };
 
-Predictor predictor(const DrivingLog& log, const Plant<double>& plant, double delay_s) {
+Predictor predictor(const DrivingLog& log, const Plant<double>& plant,
+                    const PredictionOptions& options) {
   const double step_s = replay_step_s(plant);
-  return {LogSignals(log), resolved_at_rest(plant, step_s), step_s, delay_s};
+  const std::size_t most = options.most_in_series;
+  return {LogSignals(log), resolved_at_rest(plant, step_s), step_s, options.delay_s,
+          most > 0 ? log.rows() / most + 1 : 0};
 }
 
 template <class Visit>
@@ -63,12 +69,21 @@ void add_one_step(const Predictor& model, std::size_t row, State<double> state, 
   });
 }
 
+void add_to_series(const Predictor& model, double t_s, double measured, double predicted, Sums& s) {
+  if (model.series_step == 0 || static_cast<std::size_t>(s.count) % model.series_step != 0) return;
+  s.series.t_s.push_back(t_s);
+  s.series.measured.push_back(measured);
+  s.series.predicted.push_back(predicted);
+}
+
 void add_window(const Predictor& model, const LogWindow& window, ChannelSums& sums) {
   run(model, window.begin, window.end, measured_initial_state(window),
       [&](std::size_t row, const State<double>& state) {
         each_measurement(*window.log, row, [&](LogChannel channel, double measured) {
           Sums& s = sums[at(channel)];
-          const double error = channel_of(state, channel) - measured;
+          const double predicted = channel_of(state, channel);
+          add_to_series(model, window.log->t_s[row], measured, predicted, s);
+          const double error = predicted - measured;
           s.long_horizon += error * error;
           s.measured += measured;
           s.squares += measured * measured;
@@ -95,16 +110,17 @@ PredictionError error_of(double squared_errors, const Sums& sums) {
 
 std::vector<ChannelPrediction> predict_log(const DrivingLog& log, const Plant<double>& plant,
                                            const PredictionOptions& options) {
-  const Predictor model = predictor(log, plant, options.delay_s);
+  const Predictor model = predictor(log, plant, options);
   ChannelSums sums{};
   for (const LogWindow& window : windows_of(log, options.horizon_s)) {
     add_window(model, window, sums);
   }
   std::vector<ChannelPrediction> predictions;
   for (const LogChannel channel : kChannels) {
-    const Sums& s = sums[at(channel)];
+    Sums& s = sums[at(channel)];
     if (s.count < 2 || !(about_mean(s) > 0.0)) continue;
-    predictions.push_back({channel, s.count, error_of(s.one_step, s), error_of(s.long_horizon, s)});
+    predictions.push_back({channel, s.count, error_of(s.one_step, s), error_of(s.long_horizon, s),
+                           std::move(s.series)});
   }
   return predictions;
 }

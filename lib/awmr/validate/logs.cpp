@@ -4,7 +4,9 @@
 
 #include <cmath>
 #include <utility>
+#include <vector>
 
+#include "awmr/core/drawn_rows.h"
 #include "awmr/trials/replay.h"
 
 namespace awmr {
@@ -43,15 +45,34 @@ Result<DrivingLog> straight_part(const DrivingLog& log, const Model& model) {
   return part;
 }
 
+/// Of a channel's readings so many are looked at, and so many drawn.
+constexpr std::size_t kMostInSeries = 100000;
+constexpr std::size_t kMostDrawn = 1000;
+
+PredictedSeries drawn(const PredictedSeries& all) {
+  const std::vector<std::vector<double>> signals{all.measured, all.predicted};
+  PredictedSeries some;
+  for (const std::size_t row : drawn_rows(all.t_s, signals, kDrawnTolerance, kMostDrawn)) {
+    some.t_s.push_back(all.t_s[row]);
+    some.measured.push_back(all.measured[row]);
+    some.predicted.push_back(all.predicted[row]);
+  }
+  return some;
+}
+
 }  // namespace
 
 LogValidation validate_log(const DrivingLog& log, const Plant<double>& plant, double horizon_s,
                            double tolerance) {
   LogValidation validation{log.file, horizon_s, {}, true};
-  for (const ChannelPrediction& prediction : predict_log(log, plant, {.horizon_s = horizon_s})) {
+  const PredictionOptions options{.horizon_s = horizon_s, .most_in_series = kMostInSeries};
+  for (const ChannelPrediction& prediction : predict_log(log, plant, options)) {
     ChannelValidation entry{std::string(info(prediction.channel).name),
-                            std::string(info(prediction.channel).unit), prediction.samples,
-                            prediction.one_step, prediction.long_horizon};
+                            std::string(info(prediction.channel).unit),
+                            prediction.samples,
+                            prediction.one_step,
+                            prediction.long_horizon,
+                            drawn(prediction.series)};
     validation.passed = validation.passed && entry.long_horizon.nrmse <= tolerance;
     validation.channels.push_back(std::move(entry));
   }

@@ -16,6 +16,7 @@ struct ChannelValidation {
   int samples = 0;
   PredictionError one_step;      ///< from the last measured row to the next
   PredictionError long_horizon;  ///< by the commands alone over windows of `horizon_s`
+  PredictedSeries series = {};   ///< as many readings of the long horizon as a chart needs
 };
 
 struct LogValidation {

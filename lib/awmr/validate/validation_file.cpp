@@ -1,3 +1,4 @@
+#include "awmr/core/drawn_rows.h"
 #include "awmr/core/json.h"
 #include "awmr/validate/validate.h"
 
@@ -22,13 +23,26 @@ Json error_json(const PredictionError& error) {
   return {{"nrmse", error.nrmse}, {"r2", error.r2}, {"rmse", error.rmse}};
 }
 
+/// The times of a long log have more than five digits.
+Json series_json(const PredictedSeries& series) {
+  const auto numbers = [](const std::vector<double>& values) {
+    Json list = Json::array();
+    for (const double x : values) list.push_back(drawn_number(x));
+    return list;
+  };
+  return {{"t_s", series.t_s},
+          {"measured", numbers(series.measured)},
+          {"predicted", numbers(series.predicted)}};
+}
+
 Json log_json(const LogValidation& log) {
   Json channels = Json::object();
   for (const ChannelValidation& channel : log.channels) {
     channels[channel.channel] = {{"unit", channel.unit},
                                  {"samples", channel.samples},
                                  {"one_step", error_json(channel.one_step)},
-                                 {"long_horizon", error_json(channel.long_horizon)}};
+                                 {"long_horizon", error_json(channel.long_horizon)},
+                                 {"series", series_json(channel.series)}};
   }
   return {{"file", log.file},
           {"horizon_s", log.horizon_s},

@@ -39,6 +39,10 @@ void describe_logs(JsonObject& json) {
       channel.integer("samples", 0, kMost);
       describe_error(channel.object("one_step"));
       describe_error(channel.object("long_horizon"));
+      if (auto series = channel.optional_object("series")) {
+        for (const char* key : {"t_s", "measured", "predicted"}) series->numbers(key);
+        series->reject_unknown_keys();
+      }
       channel.reject_unknown_keys();
     }
     log.reject_unknown_keys();

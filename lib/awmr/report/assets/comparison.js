@@ -1,14 +1,7 @@
 // The yaw-control modes: how each figure is spread over the samples, what differs for sure, and who is ahead.
 
-const longWords = {iae: "error (IAE)", rms: "RMS", mech: "at the wheels", electric: "in the motors"};
-const unitWords = {s: "s", deg: "deg", degs: "deg s", degps: "deg/s", m: "m", mps: "m/s"};
 /// "settling_time_s" as "settling time, s"
-function metricWords(name) {
-  const parts = name.split("_");
-  const unit = parts.length > 1 ? unitWords[parts[parts.length - 1]] : undefined;
-  const words = (unit ? parts.slice(0, -1) : parts).map((word) => longWords[word] || word).join(" ");
-  return unit ? `${words}, ${unit}` : words;
-}
+const metricWords = (name) => report.metric_words[name] || name;
 
 /// A mode's colour; several sets of gains make "combined with NAME".
 const colourOf = (label) => (modeStyle[label.split(" ")[0]] || {colour: "var(--dim)"}).colour;

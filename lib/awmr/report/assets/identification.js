@@ -1,64 +1,33 @@
 // Identification: the trials with the curve through them, its band, what is left over; the values; the findings.
 
-const valueOf = (entry) => (entry && isNumber(entry.value) ? entry.value : 0);
-
-/// g(w) = c + alpha w^beta + q w^2 and its derivatives by [alpha, beta, c, q].
-function resistance(law, w) {
-  const power = w > 0 ? w ** law.beta : 0;
-  return {value: law.c + law.alpha * power + law.q * w * w,
-    gradient: [power, w > 0 ? law.alpha * power * Math.log(w) : 0, 1, w * w]};
-}
-
-/// The law of "surge" or "yaw" with its part of the covariance; a surge run's tau_speed also loses 4 F'0 to the dead zone.
-function lawOf(model, axis) {
-  const entry = model[axis];
-  const deadZone = axis === "surge" ? 4 * valueOf((model.wheel || {}).dead_zone) : 0;
-  const names = [".alpha", ".beta", ".coulomb", ".quadratic"].map((part) => model.covariance.parameters.indexOf(axis + part));
-  const covariance = names.map((i) => names.map((j) => (i < 0 || j < 0 ? 0 : model.covariance.matrix[i][j])));
-  // Student's quantile that the interval of the exponent was made with; 1.96 where there is none.
-  const {std_error: error, ci95} = entry.beta;
-  const quantile = error && ci95 ? (ci95[1] - ci95[0]) / (2 * error) : 1.96;
-  return {alpha: entry.alpha.value, beta: entry.beta.value, c: valueOf(entry.coulomb) + deadZone, q: valueOf(entry.quadratic), covariance, quantile};
-}
-
-/// Half the width of the 95 % band of the curve: t sqrt(g' C g).
-function halfBand(law, gradient) {
-  const variance = gradient.reduce((sum, gi, i) => sum + gradient.reduce((part, gj, j) => part + gi * gj * law.covariance[i][j], 0), 0);
-  return law.quantile * Math.sqrt(Math.max(0, variance));
-}
-
-function fitCharts(parent, model, kind, axis, xTitle, yTitle) {
+/// Curve, band and residuals come with the data (drawn_fit.h), the same that the figures for print are made of.
+function fitCharts(parent, model, fit, kind, xTitle, yTitle) {
+  if (!fit) return;
   const rows = model.trials.filter((t) => t.kind === kind);
-  if (!rows.length) return;
   const about = (t) => model.findings.filter((f) => f.file === t.file && f.line === t.line);
   const note = (t) => [`${t.file}:${t.line}`, ...about(t).map((f) => f.message)].join("\n");
   const good = rows.filter((t) => !about(t).some(isWarning)), odd = rows.filter((t) => about(t).some(isWarning));
   const as = (list, point) => list.filter((t) => isNumber(t.measured)).map((t) => [...point(t), note(t)]);
   const series = [];
-  const law = lawOf(model, axis);
-  if (isNumber(law.alpha) && isNumber(law.beta)) {
-    const top = 1.05 * Math.max(...rows.map((t) => t.measured));
-    const at = Array.from({length: 121}, (_, i) => top * (i / 120) ** 2).map((w) => ({w, ...resistance(law, w)}));
-    const band = at.map(({w, value, gradient}) => [w, Math.max(0, value - halfBand(law, gradient)), value + halfBand(law, gradient)]);
-    if (law.covariance.some((row) => row.some((x) => x !== 0))) series.push({name: "95 % band of the curve", kind: "band", points: band, colour: "var(--three)"});
-    const words = [law.c ? digits(law.c) : "", `${digits(law.alpha)} w^${digits(law.beta, 3)}`, law.q ? `${digits(law.q)} w²` : ""];
-    series.push({name: `fit ${words.filter(Boolean).join(" + ")}`, kind: "line", points: at.map(({w, value}) => [w, value]), colour: "var(--three)"});
+  if (fit.curve.length) {
+    const {law} = fit;
+    if (fit.has_band) series.push({name: "95 % band of the curve", kind: "band", points: fit.curve.map(([w, value, half]) => [w, Math.max(0, value - half), value + half]), colour: "var(--three)"});
+    const words = [law.constant ? digits(law.constant) : "", `${digits(law.alpha)} w^${digits(law.beta, 3)}`, law.quadratic ? `${digits(law.quadratic)} w²` : ""];
+    series.push({name: `fit ${words.filter(Boolean).join(" + ")}`, kind: "line", points: fit.curve.map(([w, value]) => [w, value]), colour: "var(--three)"});
   }
   const measured = (t) => [t.measured, t.input];
   series.push({name: "measured", kind: "points", points: as(good, measured), colour: "var(--one)"},
     {name: "measured, with a warning", kind: "points", shape: "diamond", size: 90, points: as(odd, measured), colour: "var(--two)"});
   plot(parent, {title: `${kind} trials`, x: xTitle, y: yTitle, series, byPoint: true, height: 300});
-  residualChart(parent, kind, rows, xTitle, note, model.estimates.find((e) => e.subject === axis));
+  residualChart(parent, kind, fit, model.trials, xTitle, note);
 }
 
 /// What is left over, in percent of the prediction, within the band that 99 of 100 rows keep if errors are normal.
-function residualChart(parent, kind, rows, xTitle, note, estimate) {
-  const left = rows.filter((t) => isNumber(t.predicted) && t.predicted !== 0)
-    .map((t) => [t.measured, 100 * (t.measured / t.predicted - 1), note(t)]);
-  if (left.length < 3) return;
-  const spread = Math.sqrt(left.reduce((sum, p) => sum + p[1] ** 2, 0) / Math.max(1, left.length - 2));
+function residualChart(parent, kind, fit, trials, xTitle, note) {
+  const left = fit.left_over.map(([i, percentage]) => [trials[i].measured, percentage, note(trials[i])]);
+  if (!left.length) return;
   const ends = [Math.min(...left.map((p) => p[0])), Math.max(...left.map((p) => p[0]))];
-  const bound = 2.576 * spread;
+  const bound = fit.bound_percent;
   plot(parent, {title: `${kind} trials: measured less predicted`, x: xTitle, y: "% of the prediction", byPoint: true, height: 300, series: [
     {name: `99 % band, ±${digits(bound, 3)} %`, kind: "band", points: ends.map((x) => [x, -bound, bound]), colour: "var(--dim)"},
     {name: "as predicted", kind: "line", points: ends.map((x) => [x, 0]), colour: "var(--dim)", width: 1, dash: [3, 3]},
@@ -66,22 +35,10 @@ function residualChart(parent, kind, rows, xTitle, note, estimate) {
 }
 
 /// The coast-down: m' du/dt = -g1(u) from each initial speed, and the stops that were timed.
-function coastdownChart(parent, model) {
+function coastdownChart(parent, model, coasts) {
+  if (!coasts.length) return;
   const rows = model.trials.filter((t) => t.kind === "coastdown");
-  const law = lawOf(model, "surge");
-  const mass = valueOf(model.mass_norm);
-  if (!rows.length || !mass || !isNumber(law.alpha) || !isNumber(law.beta)) return;
-  const curves = distinct(rows.map((t) => t.input)).map((start) => {
-    const end = 1.1 * Math.max(...rows.filter((t) => t.input === start).map((t) => t.predicted || t.measured));
-    const rate = (u) => (u > 0 ? -resistance({...law, c: valueOf(model.surge.coulomb)}, u).value / mass : 0);
-    const points = [[0, start]], h = end / 400;
-    for (let i = 0, u = start; i < 400; ++i) {
-      const middle = u + 0.5 * h * rate(u);
-      u = Math.max(0, u + h * rate(Math.max(0, middle)));
-      points.push([(i + 1) * h, u]);
-    }
-    return {name: `model, from ${digits(start)} m/s`, kind: "line", points, colour: "var(--three)"};
-  });
+  const curves = coasts.map((coast) => ({name: `model, from ${digits(coast.initial_speed_mps)} m/s`, kind: "line", points: coast.points, colour: "var(--three)"}));
   const stops = rows.map((t) => [t.measured, 0, `${t.file}:${t.line}: from ${digits(t.input)} m/s`]);
   plot(parent, {title: "coast-down", x: "t, s", y: "speed, m/s", byPoint: true, height: 300,
     series: [...curves, {name: "stop, measured", kind: "points", points: stops, colour: "var(--one)"}]});
@@ -153,9 +110,9 @@ function identificationSection(data) {
   const box = section("Identification", model.trials.length
     ? "Points are the trials' rows; diamonds carry a warning, which shows under the pointer." : "");
   const charts = add(box, "div", undefined, {class: "grid"});
-  fitCharts(charts, model, "surge", "surge", "speed, m/s", "tau_speed");
-  fitCharts(charts, model, "turning", "yaw", "yaw rate, rad/s", "tau_turn, m");
-  coastdownChart(charts, model);
+  fitCharts(charts, model, data.fits.surge, "surge", "speed, m/s", "tau_speed");
+  fitCharts(charts, model, data.fits.turning, "turning", "yaw rate, rad/s", "tau_turn, m");
+  coastdownChart(charts, model, data.fits.coastdown);
   if (!charts.childElementCount) charts.remove();
   add(box, "h3", "Parameters");
   const parts = ["surge", "yaw", "sway", "wheel", "mass_norm", "inertia_norm", "steering"];
@@ -189,6 +146,20 @@ function drivesPart(parent, validation) {
   }
 }
 
+/// Measured and predicted by channel; results of older versions have no series.
+function logCharts(parent, log) {
+  const channels = Object.entries(log.channels).filter(([, c]) => c.series);
+  if (!channels.length) return;
+  const grid = add(folded(parent, `${log.file}: measured and predicted`), "div", undefined, {class: "grid"});
+  const group = [];
+  for (const [name, {series, unit}] of channels) {
+    const points = (key) => series.t_s.map((t, i) => [t, series[key][i]]);
+    plot(grid, {title: name, x: "t, s", y: `${name.replace(/_[a-z]+$/, "").replaceAll("_", " ")}, ${unit}`, group, height: 220, series: [
+      {name: "measured", kind: "line", points: points("measured"), colour: "var(--dim)", width: 1.4},
+      {name: "predicted", kind: "line", points: points("predicted"), colour: "var(--two)", width: 1.4, dash: [6, 3]}]});
+  }
+}
+
 function logsPart(parent, validation) {
   const logs = (validation || {}).logs || [];
   if (!logs.length) return;
@@ -197,4 +168,5 @@ function logsPart(parent, validation) {
   table(parent, ["log", "channel", "#samples", "#R², to the next row", "#R², over a window", "#NRMSE, over a window"],
     logs.flatMap((log) => Object.entries(log.channels).map(([name, c]) => [`${log.file}, windows of ${digits(log.horizon_s)} s`, name, c.samples,
       digits(c.one_step.r2), digits(c.long_horizon.r2), digits(c.long_horizon.nrmse, 3)])));
+  for (const log of logs) logCharts(parent, log);
 }

@@ -1,7 +1,10 @@
-#include "awmr/report/drawn_rows.h"
+#include "awmr/core/drawn_rows.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <utility>
 
 namespace awmr {
@@ -74,5 +77,7 @@ std::vector<std::size_t> drawn_rows(std::span<const double> t,
   }
   return rows;
 }
+
+double drawn_number(double x) { return std::strtod(fmt::format("{:.5g}", x).c_str(), nullptr); }
 
 }  // namespace awmr

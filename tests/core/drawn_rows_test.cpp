@@ -1,5 +1,5 @@
 /// Thinning keeps what an eye would see: peaks, corners, both ends.
-#include "awmr/report/drawn_rows.h"
+#include "awmr/core/drawn_rows.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

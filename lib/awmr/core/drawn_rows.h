@@ -1,4 +1,4 @@
-/// Which rows of a time series a chart needs. Private to this folder.
+/// Which rows of a time series a chart needs, and how many digits. Not installed.
 #pragma once
 
 #include <cstddef>
@@ -16,5 +16,12 @@ namespace awmr {
 std::vector<std::size_t> drawn_rows(std::span<const double> t,
                                     std::span<const std::vector<double>> signals, double tolerance,
                                     std::size_t most);
+
+/// Within 1/2000 of its range a signal is drawn as it is: a tenth of a pixel of a chart 220 px high, a
+/// pixel when enlarged tenfold.
+inline constexpr double kDrawnTolerance = 1.0 / 2000.0;
+
+/// Five digits of a finite number.
+double drawn_number(double x);
 
 }  // namespace awmr

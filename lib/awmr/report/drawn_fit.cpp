@@ -1,0 +1,225 @@
+#include "awmr/report/drawn_fit.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "awmr/model/plant_of.h"
+
+namespace awmr {
+namespace {
+
+constexpr int kCurvePoints = 120;
+constexpr int kCoastSteps = 400;
+constexpr std::size_t kMostCoastdowns = 8;
+/// Of a normal distribution: 99 of 100 are within so many standard deviations.
+constexpr double kWithin99 = 2.576;
+/// Where the exponent's interval tells no quantile of Student's.
+constexpr double kNormalQuantile95 = 1.96;
+
+/// The parameters of a law g(w) = c + z F'0 + alpha w^beta + q w^2 on z driven wheels.
+struct LawOfKind {
+  ParameterId alpha, beta, coulomb, quadratic;
+  double driven_wheels = 0.0;  ///< z; 0 where the input has no dead zone in it
+};
+
+LawOfKind law_of_kind(const Model& model, TrialKind kind) {
+  if (kind == TrialKind::kTurning) {
+    return {ParameterId::kYawAlpha, ParameterId::kYawBeta, ParameterId::kYawCoulomb,
+            ParameterId::kYawQuadratic};
+  }
+  return {ParameterId::kSurgeAlpha, ParameterId::kSurgeBeta, ParameterId::kSurgeCoulomb,
+          ParameterId::kSurgeQuadratic, static_cast<double>(model.vehicle.driven_wheels())};
+}
+
+/// A parameter of a law and how the law at one rate changes with it.
+struct ParameterSlope {
+  ParameterId id;
+  double slope = 0.0;
+};
+
+/// dg/dalpha = w^beta, dg/dbeta = alpha w^beta ln w, dg/dc = 1, dg/dq = w^2, dg/dF'0 = z
+std::array<ParameterSlope, 5> slopes_at(const LawOfKind& ids, const Resistance<double>& law,
+                                        double w) {
+  const double power = w > 0.0 ? std::pow(w, law.beta) : 0.0;
+  return {{{ids.alpha, power},
+           {ids.beta, w > 0.0 ? law.alpha * power * std::log(w) : 0.0},
+           {ids.coulomb, 1.0},
+           {ids.quadratic, w * w},
+           {ParameterId::kWheelDeadZone, ids.driven_wheels}}};
+}
+
+/// g' C g over the parameters that the covariance has.
+double variance_of(const Covariance& covariance, const std::array<ParameterSlope, 5>& slopes) {
+  const auto place = [&](ParameterId id) {
+    const auto& ids = covariance.parameters;
+    return static_cast<std::size_t>(std::find(ids.begin(), ids.end(), id) - ids.begin());
+  };
+  double variance = 0.0;
+  for (const ParameterSlope& a : slopes) {
+    for (const ParameterSlope& b : slopes) {
+      const std::size_t row = place(a.id);
+      const std::size_t column = place(b.id);
+      if (row == covariance.matrix.size() || column == covariance.matrix.size()) continue;
+      variance += a.slope * b.slope * covariance.matrix[row][column];
+    }
+  }
+  return std::max(0.0, variance);
+}
+
+/// Student's quantile that the interval of the exponent was made with.
+double quantile_of_exponent(const Estimate& beta) {
+  if (!beta.std_error || !(*beta.std_error > 0.0) || !beta.ci95) return kNormalQuantile95;
+  return (beta.ci95->hi - beta.ci95->lo) / (2.0 * *beta.std_error);
+}
+
+/// From rest to a little beyond the fastest row, denser where the curve is steep.
+void add_curve(const Model& model, TrialKind kind, DrawnFit& fit) {
+  const LawOfKind ids = law_of_kind(model, kind);
+  if (!model[ids.alpha].value || !model[ids.beta].value) return;
+  const Plant<double> plant = model.plant_as_known();
+  fit.law = kind == TrialKind::kSurge ? plant.surge : plant.yaw;
+  fit.law.coulomb += ids.driven_wheels * plant.wheel_dead_zone;
+  double fastest = 0.0;
+  for (const std::size_t i : fit.trials) {
+    fastest = std::max(fastest, model.record.trials[i].measured);
+  }
+  const double quantile = quantile_of_exponent(model[ids.beta]);
+  for (int i = 0; i <= kCurvePoints; ++i) {
+    const double share = static_cast<double>(i) / kCurvePoints;
+    const double w = 1.05 * fastest * share * share;
+    const double half =
+        quantile * std::sqrt(variance_of(model.covariance, slopes_at(ids, fit.law, w)));
+    fit.curve.push_back({w, w > 0.0 ? fit.law.at(w) : fit.law.coulomb, half});
+    fit.has_band = fit.has_band || half > 0.0;
+  }
+}
+
+void add_left_over(const Model& model, DrawnFit& fit) {
+  double squares = 0.0;
+  for (const std::size_t i : fit.trials) {
+    const TrialPoint& trial = model.record.trials[i];
+    if (!trial.predicted || *trial.predicted == 0.0) continue;
+    fit.left_over.push_back({i, 100.0 * (trial.measured / *trial.predicted - 1.0)});
+    squares += fit.left_over.back().percent * fit.left_over.back().percent;
+  }
+  if (fit.left_over.size() < 3) return fit.left_over.clear();
+  // Two parameters of the law were fitted to the rows.
+  fit.bound_percent =
+      kWithin99 * std::sqrt(squares / static_cast<double>(fit.left_over.size() - 2));
+}
+
+/// Each initial speed once, ascending, of many those at even ranks; and the longest stop from it.
+std::vector<std::pair<double, double>> coasts_of(const Model& model) {
+  std::vector<std::pair<double, double>> coasts;
+  for (const TrialPoint& trial : model.record.trials) {
+    if (trial.kind == TrialKind::kCoastdown && trial.input > 0.0) {
+      coasts.emplace_back(trial.input, std::max(trial.measured, trial.predicted.value_or(0.0)));
+    }
+  }
+  // Of each speed the longest comes first, and stays.
+  std::sort(coasts.begin(), coasts.end(), [](const auto& a, const auto& b) {
+    return a.first != b.first ? a.first < b.first : a.second > b.second;
+  });
+  coasts.erase(std::unique(coasts.begin(), coasts.end(),
+                           [](const auto& a, const auto& b) { return a.first == b.first; }),
+               coasts.end());
+  if (coasts.size() <= kMostCoastdowns) return coasts;
+  std::vector<std::pair<double, double>> some;
+  for (std::size_t i = 0; i < kMostCoastdowns; ++i) {
+    some.push_back(coasts[i * (coasts.size() - 1) / (kMostCoastdowns - 1)]);
+  }
+  return some;
+}
+
+/// By the midpoint rule; at rest it stays.
+CoastdownCurve coasted(const Resistance<double>& law, double mass_norm, double speed_mps,
+                       double end_s) {
+  CoastdownCurve curve{speed_mps, {0.0}, {speed_mps}};
+  const double h = end_s / kCoastSteps;
+  const auto rate = [&](double u) { return u > 0.0 ? -law.at(u) / mass_norm : 0.0; };
+  double u = speed_mps;
+  for (int i = 1; i <= kCoastSteps; ++i) {
+    const double middle = std::max(0.0, u + 0.5 * h * rate(u));
+    u = std::max(0.0, u + h * rate(middle));
+    curve.t_s.push_back(i * h);
+    curve.speed_mps.push_back(u);
+  }
+  return curve;
+}
+
+Json steady_json(const DrawnFit& fit) {
+  Json json = {{"law",
+                {{"constant", fit.law.coulomb},
+                 {"alpha", fit.law.alpha},
+                 {"beta", fit.law.beta},
+                 {"quadratic", fit.law.quadratic}}},
+               {"curve", Json::array()},
+               {"has_band", fit.has_band},
+               {"left_over", Json::array()},
+               {"bound_percent", fit.bound_percent}};
+  for (const CurvePoint& p : fit.curve) json["curve"].push_back({p.rate, p.value, p.half_band});
+  for (const LeftOver& one : fit.left_over) json["left_over"].push_back({one.trial, one.percent});
+  return json;
+}
+
+}  // namespace
+
+std::optional<DrawnFit> drawn_fit(const Model& model, TrialKind kind) {
+  DrawnFit fit;
+  for (std::size_t i = 0; i < model.record.trials.size(); ++i) {
+    if (model.record.trials[i].kind == kind) fit.trials.push_back(i);
+  }
+  if (fit.trials.empty()) return std::nullopt;
+  add_curve(model, kind, fit);
+  add_left_over(model, fit);
+  return fit;
+}
+
+std::vector<CoastdownCurve> coastdown_curves(const Model& model) {
+  const bool known = model[ParameterId::kSurgeAlpha].value && model[ParameterId::kSurgeBeta].value;
+  const std::optional<double>& mass_norm = model[ParameterId::kMassNorm].value;
+  std::vector<CoastdownCurve> curves;
+  if (!known || !mass_norm) return curves;
+  const Resistance<double> law = model.plant_as_known().surge;
+  for (const auto& [speed_mps, stop_s] : coasts_of(model)) {
+    curves.push_back(coasted(law, *mass_norm, speed_mps, 1.1 * stop_s));
+  }
+  return curves;
+}
+
+std::vector<bool> doubtful_trials(const Model& model) {
+  std::set<std::pair<std::string, int>> rows;
+  for (const Finding& finding : model.record.findings) {
+    if (finding.severity != Severity::kNote) rows.emplace(finding.file, finding.line);
+  }
+  std::vector<bool> doubtful;
+  for (const TrialPoint& trial : model.record.trials) {
+    doubtful.push_back(rows.count({trial.file, trial.line}) > 0);
+  }
+  return doubtful;
+}
+
+Json fits_json(const Model& model) {
+  Json json = Json::object();
+  for (const TrialKind kind : {TrialKind::kSurge, TrialKind::kTurning}) {
+    if (const auto fit = drawn_fit(model, kind)) {
+      json[std::string(name_in(kTrialKindNames, kind))] = steady_json(*fit);
+    }
+  }
+  Json curves = Json::array();
+  for (const CoastdownCurve& curve : coastdown_curves(model)) {
+    Json points = Json::array();
+    for (std::size_t i = 0; i < curve.t_s.size(); ++i) {
+      points.push_back({curve.t_s[i], curve.speed_mps[i]});
+    }
+    curves.push_back({{"initial_speed_mps", curve.initial_speed_mps}, {"points", points}});
+  }
+  json["coastdown"] = std::move(curves);
+  return json;
+}
+
+}  // namespace awmr
