@@ -50,14 +50,15 @@ T line_heading_rad(const LineLaw<T>& law, const T& psi_line_rad, const T& cross_
 }
 
 /// Corners joined by line segments, driven from the first to the last. Two corners are one line.
-template <class T>
+/// `Law` says how a segment is approached: this one, or that of guidance_ilos.h.
+template <class T, class Law = LineLaw<T>>
 struct Polyline {
   const Position<T>* points_m;  ///< the corners in the world frame, m; not owned, `count` of them
   int count;                    ///< >= 0; with fewer than two corners the line is finished at once
   /// m, >= 0: the next segment is taken up this far before the present one ends, so that a corner
   /// is rounded on its inside. The last segment is driven to its end. 0: corners are overshot.
   T corner_m;
-  LineLaw<T> law;  ///< how each segment is approached
+  Law law;  ///< how each segment is approached
 };
 
 /// How far the vehicle has come along the corners.
@@ -82,36 +83,72 @@ struct PolylineGuidance {
   bool finished;    ///< past the last segment's end: psi_d holds its last value
 };
 
-/// The heading along the present segment from A to B. With its unit vector t = (B - A)/|B - A|:
+/// A point as seen along the segment from A to B. With its unit vector t = (B - A)/|B - A|:
 ///   psi_AB = atan2(t_y, t_x)
 ///   e      = -(x - x_A) t_y + (y - y_A) t_x                         [paper (104)-(106), corrected]
 /// Corrected: (105) prints the direction from B to A. (104) and (106) print distance and direction
 /// by the line's slope, which a vertical line does not have and which is the same from B to A.
+template <class T>
+struct AlongSegment {
+  T length_m;       ///< |B - A|, m
+  T tx, ty;         ///< t; like what follows without meaning where length_m is 0
+  T along_m;        ///< m: from A, along t
+  T cross_track_m;  ///< e, m: left of the segment's line positive
+
+  T psi_rad() const {
+    using math::atan2;
+    return atan2(ty, tx);
+  }
+};
+
+/// `position_m` as seen along the segment from a to b.
+template <class T>
+AWMR_INLINE AlongSegment<T> along_segment(const Position<T>& a, const Position<T>& b,
+                                          const Position<T>& position_m) {
+  AlongSegment<T> s{};
+  s.length_m = distance_m(a, b);
+  if (!(s.length_m > T(0.0))) return s;
+  s.tx = (b.x_m - a.x_m) / s.length_m;
+  s.ty = (b.y_m - a.y_m) / s.length_m;
+  const T dx = position_m.x_m - a.x_m;
+  const T dy = position_m.y_m - a.y_m;
+  s.along_m = dx * s.tx + dy * s.ty;
+  s.cross_track_m = dy * s.tx - dx * s.ty;
+  return s;
+}
+
+/// The heading along the present segment, as `heading_rad` has it of the segment's direction and the
+/// distance from it.
 ///
 /// Segments without length, whose corners coincide, are passed over; where no segment has a length
 /// the guidance is finished and the heading held.
-template <class T>
-AWMR_CALLED PolylineGuidance<T> guide(const Polyline<T>& line, const Position<T>& position_m,
-                                      const T& sideslip, PolylineProgress<T>& progress) {
-  using math::atan2;
+template <class T, class Law, class Heading>
+AWMR_INLINE PolylineGuidance<T> guide_by(const Polyline<T, Law>& line,
+                                         const Position<T>& position_m, const Heading& heading_rad,
+                                         PolylineProgress<T>& progress) {
   T cross_track_m = T(0.0);
   for (; progress.segment + 1 < line.count; ++progress.segment) {
-    const Position<T>& a = line.points_m[progress.segment];
-    const Position<T>& b = line.points_m[progress.segment + 1];
-    const T length_m = distance_m(a, b);
-    if (!(length_m > T(0.0))) continue;
-    const T tx = (b.x_m - a.x_m) / length_m;
-    const T ty = (b.y_m - a.y_m) / length_m;
-    const T dx = position_m.x_m - a.x_m;
-    const T dy = position_m.y_m - a.y_m;
-    cross_track_m = dy * tx - dx * ty;
-    const T to_go_m = length_m - (dx * tx + dy * ty);
+    const AlongSegment<T> s = along_segment(line.points_m[progress.segment],
+                                            line.points_m[progress.segment + 1], position_m);
+    if (!(s.length_m > T(0.0))) continue;
+    cross_track_m = s.cross_track_m;
+    const T to_go_m = s.length_m - s.along_m;
     const bool last = progress.segment + 2 >= line.count;
     if (!(to_go_m > (last ? T(0.0) : line.corner_m))) continue;
-    progress.psi_rad = line_heading_rad(line.law, atan2(ty, tx), cross_track_m, sideslip);
+    progress.psi_rad = heading_rad(s.psi_rad(), cross_track_m);
     return {progress.psi_rad, cross_track_m, to_go_m, false};
   }
   return {progress.psi_rad, cross_track_m, T(0.0), true};
+}
+
+/// The same by the law of (107).
+template <class T>
+AWMR_CALLED PolylineGuidance<T> guide(const Polyline<T>& line, const Position<T>& position_m,
+                                      const T& sideslip, PolylineProgress<T>& progress) {
+  const auto heading_rad = [&](const T& psi_line_rad, const T& cross_track_m) {
+    return line_heading_rad(line.law, psi_line_rad, cross_track_m, sideslip);
+  };
+  return guide_by(line, position_m, heading_rad, progress);
 }
 
 }  // namespace awmr

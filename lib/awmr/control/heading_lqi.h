@@ -1,0 +1,112 @@
+/// The heading law by optimal control with an integral (LQI), a baseline beside the sliding mode of
+/// controller.h. Freestanding C++14.
+#pragma once
+
+#include "awmr/control/allocation.h"
+#include "awmr/control/controller.h"
+#include "awmr/model/dynamics.h"
+
+namespace awmr {
+
+/// What is as bad as what: the largest values that are acceptable (Bryson's rule).
+template <class T>
+struct LqiWeights {
+  T heading_rad;     ///< e_max, rad, > 0: of the heading error e
+  T yaw_rate_radps;  ///< r_max, rad/s, > 0: of its rate e_dot
+  T integral_rad_s;  ///< z_max, rad s, > 0: of its integral z
+  /// tau_max, m, > 0: of the yaw moment that is asked for beyond the resistance and the acceleration
+  /// of the reference.
+  T tau_turn_m;
+};
+
+/// What an error asks for, in yaw acceleration.
+template <class T>
+struct LqiGains {
+  T integral_per_s3;  ///< a0, 1/s^3
+  T heading_per_s2;   ///< a1, 1/s^2
+  T rate_per_s;       ///< a2, 1/s
+};
+
+/// The gains that make
+///   J = integral of (e/e_max)^2 + (e_dot/r_max)^2 + (z/z_max)^2 + (w/w_max)^2,  w_max = tau_max/I'z
+/// the least. With yaw resistance fed forward, tau_turn = g3(r) + I'z (psi_d_ddot + w), the vehicle
+/// that the law sees is linear at every yaw rate:
+///   z_dot = e,  e_ddot = -w
+/// The optimal w = a1 e + a2 e_dot + a0 z, otherwise found from the stabilising solution of the
+/// algebraic Riccati equation, follows for this chain of integrators by spectral factorisation
+/// (Kalman, When is a linear control system optimal?, 1964): p(s) = s^3 + a2 s^2 + a1 s + a0 is the
+/// stable factor of
+///   p(s) p(-s) = -s^6 + w_max^2 (s^4/r_max^2 - s^2/e_max^2 + 1/z_max^2)
+/// or, power by power,
+///   a0   = w_max/z_max
+///   a2^2 = w_max^2/r_max^2 + 2 a1
+///   a1^2 = w_max^2/e_max^2 + 2 a0 a2
+/// The last two leave one equation for a1, convex and below 0 at a1 = 0: it has one positive root,
+/// to which Newton's method falls from any point above. The point that it begins at is above, and
+/// less than three times the root, by
+///   a1^2 <= c1 + 2 a0 sqrt(c2) + 2 a0 sqrt(2 a1),  c1 = w_max^2/e_max^2,  c2 = w_max^2/r_max^2
+template <class T>
+LqiGains<T> lqi_gains(const LqiWeights<T>& weights, const T& inertia_norm) {
+  using math::pow;
+  using math::sqrt;
+  const T w_max = weights.tau_turn_m / inertia_norm;
+  const T a0 = w_max / weights.integral_rad_s;
+  const T c1 = w_max / weights.heading_rad * (w_max / weights.heading_rad);
+  const T c2 = w_max / weights.yaw_rate_radps * (w_max / weights.yaw_rate_radps);
+  T a1 = sqrt(c1) + sqrt(T(2.0) * a0 * sqrt(c2)) + pow(T(8.0) * a0 * a0, T(1.0 / 3.0));
+  for (bool falls = true; falls;) {
+    const T a2 = sqrt(c2 + T(2.0) * a1);
+    const T next = a1 - (a1 * a1 - c1 - T(2.0) * a0 * a2) / (T(2.0) * (a1 - a0 / a2));
+    falls = next < a1;
+    if (falls) a1 = next;
+  }
+  return {a0, a1, sqrt(c2 + T(2.0) * a1)};
+}
+
+/// What the law remembers from sample to sample.
+template <class T>
+struct LqiState {
+  T integral_rad_s;  ///< z, rad s
+  T error_rad;       ///< e of the present sample, rad
+};
+
+/// The heading law, m:
+///   tau_turn = g3(r) + I'z (psi_d_ddot + a1 e + a2 e_dot + a0 z)
+///   e        = wrap(psi_d - psi),  e_dot = psi_d_dot - r
+/// G as in Controller. Keeps e for integrate_error().
+template <class T, class G>
+T lqi_law(const G& yaw, const T& inertia_norm, const LqiGains<T>& gains, const Measurement<T>& m,
+          const Reference<T>& ref, LqiState<T>& state) {
+  state.error_rad = wrap_angle(T(ref.psi_rad - m.psi_rad));
+  const T error_rate = ref.psi_rate_radps - m.r_radps;
+  const T w = gains.heading_per_s2 * state.error_rad + gains.rate_per_s * error_rate +
+              gains.integral_per_s3 * state.integral_rad_s;
+  return fed_forward(yaw, m.r_radps, T(w / gains.rate_per_s)) +
+         inertia_norm * (ref.psi_accel_radps2 + w);
+}
+
+/// Moments that differ by less than this share are the same but for rounding.
+template <class T>
+constexpr T same_moment_share() {
+  return T(1e-6);
+}
+
+/// Moves z on by one sample:
+///   z_dot = e
+///   z_dot = 0 while a limit takes moment away and e asks for more of it
+/// The second line is conditional integration, without which z would wind up while a limit is met.
+/// `asked_m` is what the allocation `a` was asked for, `made` what it makes.
+template <class T>
+void integrate_error(const T& asked_m, const Allocation<T>& a, const GeneralisedForces<T>& made,
+                     const T& sample_time_s, LqiState<T>& state) {
+  using math::abs;
+  using math::select;
+  const T missing_m = asked_m - (made.tau_steering_m + made.tau_diff_m);
+  const Mask<T> limited = a.force_limited || a.steering_limited || a.steering_powerless;
+  const Mask<T> asks_for_more =
+      missing_m * state.error_rad > same_moment_share<T>() * abs(T(asked_m * state.error_rad));
+  state.integral_rad_s +=
+      select(limited && asks_for_more, T(0.0), T(sample_time_s * state.error_rad));
+}
+
+}  // namespace awmr

@@ -1,0 +1,236 @@
+/// The laws that stand beside the paper's: pure pursuit, integral line of sight, LQI.
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+
+#include "awmr/control/guidance_ilos.h"
+#include "awmr/control/guidance_pure_pursuit.h"
+#include "awmr/control/heading_lqi.h"
+#include "support/any_robot.h"
+#include "support/strict_scalar.h"
+
+namespace awmr::testing {
+namespace {
+
+using P = Position<double>;
+constexpr double kPi = pi<double>();
+
+TEST(PurePursuit, GoesToTheFartherPointOfTheLineThatIsTheLookaheadAway) {
+  const P points[] = {{0.0, 0.0}, {100.0, 0.0}};
+  const PursuedLine<double> line{points, 2, {5.0, false}};
+  auto progress = start_polyline(0.0);
+  const auto guided = guide(line, P{10.0, 3.0}, 0.0, progress);
+  EXPECT_NEAR(guided.psi_rad, std::atan2(-3.0, 4.0), 1e-15);  // to (14, 0): 3, 4, 5
+  EXPECT_NEAR(guided.cross_track_m, 3.0, 1e-15);
+  EXPECT_NEAR(guided.to_go_m, 90.0, 1e-12);
+  // Farther away than the lookahead: to the nearest point; before the line's start: to the start.
+  EXPECT_NEAR(guide(line, P{10.0, -8.0}, 0.0, progress).psi_rad, kPi / 2.0, 1e-15);
+  EXPECT_NEAR(guide(line, P{-9.0, 4.0}, 0.0, progress).psi_rad, std::atan2(-4.0, 9.0), 1e-15);
+}
+
+TEST(PurePursuit, TakesSideslipOffOnlyWhereAskedFor) {
+  const P points[] = {{0.0, 0.0}, {100.0, 0.0}};
+  auto progress = start_polyline(0.0);
+  EXPECT_NEAR(
+      guide(PursuedLine<double>{points, 2, {5.0, true}}, P{1.0, 0.0}, 0.1, progress).psi_rad, -0.1,
+      1e-15);
+  EXPECT_NEAR(
+      guide(PursuedLine<double>{points, 2, {5.0, false}}, P{1.0, 0.0}, 0.1, progress).psi_rad, 0.0,
+      1e-15);
+}
+
+TEST(PurePursuit, TheGoalTurnsTheCornerBeforeTheVehicleWithoutAJump) {
+  const P points[] = {{0, 0}, {10, 0}, {10, 0}, {10, 10}};  // one segment has no length
+  const PursuedLine<double> line{points, 4, {2.0, false}};
+  auto progress = start_polyline(0.0);
+  EXPECT_NEAR(guide(line, P{7.999, 0.0}, 0.0, progress).psi_rad, 0.0, 1e-12);
+  EXPECT_EQ(progress.segment, 0);
+  // The goal is the corner itself: 2 m ahead.
+  EXPECT_NEAR(guide(line, P{8.0, 0.0}, 0.0, progress).psi_rad, 0.0, 1e-12);
+  EXPECT_EQ(progress.segment, 2);
+  // On the way round the cross-track error is that from the nearer segment.
+  const auto inside = guide(line, P{8.8, 0.4}, 0.0, progress);
+  EXPECT_NEAR(inside.psi_rad, std::atan2(1.6, 1.2), 1e-12);  // 2 m away
+  EXPECT_NEAR(inside.cross_track_m, 1.2, 1e-12);             // the segment before has no length
+  EXPECT_FALSE(guide(line, P{10.0, 9.9}, 0.0, progress).finished);
+  EXPECT_TRUE(guide(line, P{10.1, 10.0}, 0.0, progress).finished);
+}
+
+TEST(PurePursuit, TheErrorAtACornerIsFromTheNearerSegment) {
+  const P points[] = {{0, 0}, {10, 0}, {10, 10}};
+  const PursuedLine<double> line{points, 3, {2.0, false}};
+  auto progress = start_polyline(0.0);
+  EXPECT_NEAR(guide(line, P{8.5, 0.1}, 0.0, progress).cross_track_m, 0.1, 1e-12);
+  EXPECT_EQ(progress.segment, 1);
+  EXPECT_NEAR(guide(line, P{9.5, 1.0}, 0.0, progress).cross_track_m, 0.5, 1e-12);
+}
+
+TEST(PurePursuit, WithoutAnyLengthItIsFinishedAndTheHeadingHeld) {
+  const P points[] = {{1, 1}, {1, 1}};
+  auto progress = start_polyline(0.4);
+  const auto guided = guide(PursuedLine<double>{points, 2, {1.0, true}}, P{0, 0}, 0.0, progress);
+  EXPECT_TRUE(guided.finished);
+  EXPECT_EQ(guided.psi_rad, 0.4);
+}
+
+TEST(Ilos, IsTheStatedEquation) {
+  const IntegralLos<double> law{3.0, 0.5, true};
+  double integral_s = 2.0;
+  const double psi_rad = line_heading_rad(law, 0.2, 1.5, 0.1, 0.01, integral_s);
+  const double aside_m = 1.5 + 0.5 * 2.0;
+  EXPECT_NEAR(psi_rad, 0.2 - 0.1 - std::atan(aside_m / 3.0), 1e-15);
+  EXPECT_NEAR(integral_s, 2.0 + 0.01 * 3.0 * 1.5 / (aside_m * aside_m + 9.0), 1e-15);
+}
+
+TEST(Ilos, FarFromTheLineTheIntegralHardlyGrows) {
+  const IntegralLos<double> law{3.0, 0.5, false};
+  double far_s = 0.0;
+  double near_s = 0.0;
+  line_heading_rad(law, 0.0, 1000.0, 0.0, 0.01, far_s);
+  line_heading_rad(law, 0.0, 3.0, 0.0, 0.01, near_s);
+  EXPECT_LT(far_s, 0.01 * near_s);
+}
+
+TEST(Ilos, BeginsAnewOnEachSegment) {
+  const P points[] = {{0, 0}, {10, 0}, {10, 10}};
+  const Polyline<double, IntegralLos<double>> line{points, 3, 0.0, {2.0, 0.5, false}};
+  auto progress = start_polyline(0.0);
+  auto integral = start_integral<double>();
+  for (int i = 0; i < 100; ++i) guide(line, P{5.0, 1.0}, 0.0, 0.01, progress, integral);
+  EXPECT_GT(integral.integral_s, 0.1);
+  const auto turned = guide(line, P{10.0, 0.5}, 0.0, 0.01, progress, integral);
+  EXPECT_EQ(integral.segment, 1);
+  EXPECT_NEAR(turned.psi_rad, kPi / 2.0, 1e-15);
+  EXPECT_EQ(integral.integral_s, 0.0);
+}
+
+using Real = long double;
+using Matrix3 = Eigen::Matrix<Real, 3, 3>;
+using Vector3 = Eigen::Matrix<Real, 3, 1>;
+
+/// What the gains are the optimum of: x_dot = A x + B w, x = (e, e_dot, z).
+struct LinearPlant {
+  Matrix3 a = Matrix3::Zero();
+  Vector3 b{0.0L, -1.0L, 0.0L};
+  LinearPlant() { a(0, 1) = a(2, 0) = 1.0L; }
+};
+
+/// P of A_c' P + P A_c + M = 0, by its nine linear equations.
+Matrix3 lyapunov(const Matrix3& closed, const Matrix3& m) {
+  Eigen::Matrix<Real, 9, 9> equations = Eigen::Matrix<Real, 9, 9>::Zero();
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      for (int k = 0; k < 3; ++k) {
+        equations(i + 3 * j, k + 3 * j) += closed(k, i);
+        equations(i + 3 * j, i + 3 * k) += closed(k, j);
+      }
+    }
+  }
+  const Eigen::Matrix<Real, 9, 1> right = -Eigen::Map<const Eigen::Matrix<Real, 9, 1>>(m.data());
+  const Eigen::Matrix<Real, 9, 1> p = equations.fullPivLu().solve(right);
+  return Eigen::Map<const Matrix3>(p.data());
+}
+
+LqiWeights<double> any_weights() {
+  return {ratio_between(0.01, 3.0), ratio_between(0.01, 10.0), ratio_between(0.01, 100.0),
+          ratio_between(1e-3, 3.0)};
+}
+
+/// The gains solve A'P + PA - P B R^-1 B' P + Q = 0 with P > 0, and the loop's poles are stable. P is
+/// found from the gains' own loop, whose cost it is; that B' P then gives the gains back is what makes
+/// them the optimum. The gains are right to a few roundings of double, 1e-15, which the loop's
+/// condition raises; 1e-9 of the equation's largest term leaves room for a million.
+RC_GTEST_PROP(Lqi, TheGainsSolveTheRiccatiEquationAndTheLoopIsStable, ()) {
+  const LqiWeights<double> weights = any_weights();
+  const double inertia_norm = ratio_between(1e-3, 10.0);
+  const LqiGains<double> gains = lqi_gains(weights, inertia_norm);
+  const LinearPlant plant;
+  // w = -k x
+  const Vector3 k(-Real(gains.heading_per_s2), -Real(gains.rate_per_s),
+                  -Real(gains.integral_per_s3));
+  const Vector3 largest(weights.heading_rad, weights.yaw_rate_radps, weights.integral_rad_s);
+  const Matrix3 q = largest.cwiseProduct(largest).cwiseInverse().asDiagonal();
+  const Real w_max = Real(weights.tau_turn_m) / Real(inertia_norm);
+  const Real r = 1.0L / (w_max * w_max);
+  const Matrix3 closed = plant.a - plant.b * k.transpose();
+  for (const auto& pole : closed.eigenvalues()) RC_ASSERT(pole.real() < 0.0L);
+  const Matrix3 p = lyapunov(closed, q + r * k * k.transpose());
+  RC_ASSERT(p.eigenvalues().real().minCoeff() > 0.0L);
+  const Vector3 optimal = plant.b.transpose() * p / r;
+  // In units in which every state counts alike.
+  const Vector3 off = (optimal - k).cwiseProduct(largest);
+  RC_ASSERT(off.cwiseAbs().maxCoeff() < 1e-9L * k.cwiseProduct(largest).cwiseAbs().maxCoeff());
+  const Matrix3 by_input = p * plant.b * plant.b.transpose() * p / r;
+  const Matrix3 residual = plant.a.transpose() * p + p * plant.a - by_input + q;
+  const Matrix3 scale = largest.asDiagonal();
+  RC_ASSERT((scale * residual * scale).cwiseAbs().maxCoeff() <
+            1e-9L * (scale * (by_input + q) * scale).cwiseAbs().maxCoeff());
+}
+
+/// The gains of the ends of what a scenario may ask for are finite, and solve their equations.
+TEST(Lqi, TheGainsAreFiniteAtTheEndsOfTheirRanges) {
+  for (const double heading_deg : {1e-3, 180.0}) {
+    for (const double yaw_rate_degps : {1e-3, 1e5}) {
+      for (const double integral_deg_s : {1e-3, 1e6}) {
+        for (const double w_max : {1e-9, 1e12}) {
+          const LqiGains<double> gains = lqi_gains<double>(
+              {radians(heading_deg), radians(yaw_rate_degps), radians(integral_deg_s), w_max}, 1.0);
+          const double c1 = std::pow(w_max / radians(heading_deg), 2.0);
+          const double a1_squared = c1 + 2.0 * gains.integral_per_s3 * gains.rate_per_s;
+          EXPECT_NEAR(gains.heading_per_s2 * gains.heading_per_s2 / a1_squared, 1.0, 1e-12);
+        }
+      }
+    }
+  }
+}
+
+TEST(Lqi, OnTheModelItselfTheErrorFollowsTheLinearLoop) {
+  const Resistance<double> yaw{.alpha = 0.3, .beta = 0.8};
+  const LqiGains<double> gains{1.0, 12.0, 7.0};
+  LqiState<double> state{0.05, 0.0};
+  const double tau_turn_m = lqi_law(yaw, 0.0121, gains, {0.2, 1.0, 0.0, 0.4},
+                                    Reference<double>{0.5, 0.1, 0.7, 1.0, 0.0}, state);
+  const double r_dot = (tau_turn_m - yaw(0.4)) / 0.0121;
+  EXPECT_NEAR(0.7 - r_dot, -(12.0 * 0.3 + 7.0 * (0.1 - 0.4) + 1.0 * 0.05), 1e-12);
+  EXPECT_NEAR(state.error_rad, 0.3, 1e-15);
+}
+
+TEST(Lqi, IntegratesButForWhatALimitTakesAwayOfWhatTheErrorAsksFor) {
+  const auto after = [](double error_rad, double made_m, bool limited) {
+    LqiState<double> state{1.0, error_rad};
+    Allocation<double> a{};
+    a.force_limited = limited;
+    integrate_error(0.5, a, {1.0, 0.1, made_m - 0.1}, 0.01, state);
+    return state.integral_rad_s;
+  };
+  EXPECT_NEAR(after(0.2, 0.5, false), 1.002, 1e-15);
+  EXPECT_EQ(after(0.2, 0.3, true), 1.0);
+  EXPECT_NEAR(after(-0.2, 0.3, true), 0.998, 1e-15);        // the error leads out of the limit
+  EXPECT_NEAR(after(0.2, 0.5 - 1e-9, true), 1.002, 1e-15);  // nothing was lost but by rounding
+  EXPECT_NEAR(after(0.2, 0.48, false), 1.002, 1e-15);       // small angles, no limit
+}
+
+TEST(Baselines, MixNoDoubleIntoTheirScalar) {
+  using S = Strict;
+  const Position<S> points[] = {{S(1.0), S(2.0)}, {S(3.0), S(4.0)}};
+  auto along = start_polyline(S(0.0));
+  const PursuedLine<S> pursued{points, 2, {S(1.0), true}};
+  EXPECT_FALSE(guide(pursued, points[0], S(0.1), along).finished);
+  const Polyline<S, IntegralLos<S>> line{points, 2, S(0.0), {S(1.0), S(0.2), true}};
+  auto integral = start_integral<S>();
+  EXPECT_FALSE(guide(line, points[0], S(0.1), S(0.01), along, integral).finished);
+  const LqiWeights<S> weights{S(0.2), S(0.4), S(1.0), S(0.02)};
+  const LqiGains<S> gains = lqi_gains(weights, S(0.012));
+  EXPECT_EQ(gains.rate_per_s.value(), lqi_gains<double>({0.2, 0.4, 1.0, 0.02}, 0.012).rate_per_s);
+  LqiState<S> state{S(0.0), S(0.0)};
+  const Resistance<S> yaw{S(0.3), S(0.8)};
+  const S tau_turn_m = lqi_law(yaw, S(0.012), gains, {S(0.1), S(0.8), S(0.0), S(0.3)},
+                               {S(0.6), S(0.0), S(0.0), S(1.0), S(0.0)}, state);
+  integrate_error(tau_turn_m, Allocation<S>{}, {S(0.0), S(0.0), tau_turn_m}, S(0.01), state);
+  EXPECT_NEAR(state.integral_rad_s.value(), 0.005, 1e-15);
+}
+
+}  // namespace
+}  // namespace awmr::testing
