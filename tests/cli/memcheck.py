@@ -13,7 +13,8 @@ import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 AWMR = str(pathlib.Path(sys.argv[1]).resolve())
-MEMCHECK = ["valgrind", "-q", "--error-exitcode=99", "--leak-check=full", "--errors-for-leak-kinds=definite"]
+MEMCHECK = ["valgrind", "-q", "--error-exitcode=99", "--leak-check=full", "--errors-for-leak-kinds=definite",
+            f"--suppressions={ROOT}/tests/cli/memcheck.supp"]
 
 
 def fuzz_commands():
