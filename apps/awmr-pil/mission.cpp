@@ -31,9 +31,12 @@ void add(const WaypointCourse& course, Mission& mission) {
 }
 void add(const LineCourse& course, Mission& mission) {
   mission.points = points_of(course.points_m, 0.0);
-  mission.line = LineMission{{in_float(course.law.delta_rad), in_float(course.law.width_m),
-                              course.law.sideslip_compensation},
-                             in_float(course.corner_m)};
+  // Other laws are refused before a firmware is built: check_scenario() in loop.h.
+  if (const auto* law = std::get_if<LineLaw<double>>(&course.law)) {
+    mission.line =
+        LineMission{{in_float(law->delta_rad), in_float(law->width_m), law->sideslip_compensation},
+                    in_float(course.corner_m)};
+  }
   if (course.slow_down_m) mission.slow_down_m = in_float(*course.slow_down_m);
 }
 void add(const LissajousCourse& course, Mission& mission) {

@@ -141,8 +141,8 @@ TEST_P(PilGuidance, LeadsByItselfBitForBitAsOnTheHostWithin16KiBAnd512BytesOfRam
   EXPECT_EQ(json["guidance_on_chip"].get<bool>(), !heading);
 }
 
-/// All of configs/ but those in open loop, which ask nothing of a controller, and those of
-/// PilScenario.
+/// All of configs/ but those in open loop, which ask nothing of a controller, the baselines, and those
+/// of PilScenario.
 INSTANTIATE_TEST_SUITE_P(
     , PilGuidance,
     ::testing::Values(
@@ -159,6 +159,23 @@ INSTANTIATE_TEST_SUITE_P(
       const std::string file = test.param;
       return file.substr(file.rfind('/') + 1);
     });
+
+/// The chip carries the paper's laws; what it does not carry it does not stand in for.
+TEST_F(Pil, RefusesTheBaselinesByName) {
+  const std::pair<const char*, const char*> cases[] = {
+      {"heading_steps_lqi",
+       ":/control/heading_law: the firmware's heading law is the sliding mode"},
+      {"side_slope_ilos", ":/guidance/law: the firmware follows lines by los alone"},
+      {"double_lane_change_pure_pursuit",
+       ":/guidance/law: the firmware follows lines by los alone"}};
+  for (const auto& [scenario, words] : cases) {
+    const ProcessResult run =
+        pil(std::string("configs/baselines/") + scenario + ".json", "combined", "", "refused.json");
+    EXPECT_EQ(run.exit_code, 2) << scenario;
+    EXPECT_NE(run.err.find(words), std::string::npos) << run.err;
+    EXPECT_FALSE(exists("refused.json"));
+  }
+}
 
 /// With nothing to follow but a heading that is reached, the commands decay as far as numbers go.
 TEST_F(Pil, AHeadingThatDecaysToNothingIsTheHostsBitsInEveryMode) {

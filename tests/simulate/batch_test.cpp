@@ -21,7 +21,8 @@ constexpr double kSampleTime_s = 0.01;
 
 std::vector<Scenario> shipped_scenarios() {
   std::vector<Scenario> scenarios;
-  for (const char* folder : {"/configs/paper/scenarios", "/configs/scenarios"}) {
+  for (const char* folder :
+       {"/configs/paper/scenarios", "/configs/scenarios", "/configs/baselines"}) {
     for (const auto& file :
          std::filesystem::directory_iterator(std::string(AWMR_SOURCE_DIR) + folder)) {
       scenarios.push_back(*read_scenario(file.path()));
@@ -149,8 +150,11 @@ TEST(Batch, IsTheRunOfSimulateFarBeyondThePapersVehicle) {
   const std::vector<BatchRun> runs = drawn_runs(16, std::log(10.0));
   const Scenario open{"open", 3.0, {}, 0.0, OpenLoop{1.0, 0.05}};
   const Scenario heading{"heading", 2.0, {}, 1.0, HeadingSteps{{{0.0, 0.5}, {1.0, -0.5}}}};
+  Scenario lqi = heading;
+  lqi.name = "LQI";
+  lqi.control.lqi = {0.1, 0.3, 0.3, 0.02};
   for (const BatchArithmetic& arithmetic : all_arithmetics()) {
-    for (const Scenario& scenario : {open, heading}) {
+    for (const Scenario& scenario : {open, heading, lqi}) {
       const auto batch =
           simulate_batch(runs, scenario, YawMode::kCombined, kSampleTime_s, arithmetic);
       for (std::size_t i = 0; i < runs.size(); ++i) {

@@ -23,7 +23,7 @@ DisturbanceTerm constant(double value, double from_s = 0.0) {
 }
 
 Guidance any_guidance(double beyond) {
-  switch (*rc::gen::inRange(0, 4)) {
+  switch (*rc::gen::inRange(0, 6)) {
     case 0:
       return OpenLoop{between(-4.0 * beyond, 4.0 * beyond), between(-1.0 * beyond, 1.0 * beyond)};
     case 1:
@@ -33,6 +33,17 @@ Guidance any_guidance(double beyond) {
                             .acceptance_m = 0.2,
                             .skip_passed = false,
                             .slow_down_m = {}};
+    case 3:
+      return LineCourse{.points_m = {{-1.0, 0.0}, {0.1, between(-1.0, 1.0)}, {9.0 * beyond, 1.0}},
+                        .law = PurePursuit<double>{ratio_between(1e-3, 10.0 * beyond), true},
+                        .corner_m = 0.0,
+                        .slow_down_m = {}};
+    case 4:
+      return LineCourse{.points_m = {{-1.0, between(-1.0, 1.0)}, {9.0 * beyond, 1.0}},
+                        .law = IntegralLos<double>{ratio_between(1e-3, 10.0 * beyond),
+                                                   ratio_between(1e-3, 10.0 * beyond), true},
+                        .corner_m = 0.0,
+                        .slow_down_m = {}};
     default:
       return LissajousCourse{.path = {10.0 * beyond, 10.0, 0.1 * beyond, 0.3}, .closed_loop = true};
   }
@@ -51,6 +62,10 @@ Scenario any_scenario(double beyond) {
   s.initial.r_radps = between(-3.0, 3.0) * beyond;
   s.disturbance.surge = {constant(between(-1.0, 1.0) * beyond)};
   s.disturbance.yaw = {constant(between(-0.5, 0.5) * beyond, 0.2)};
+  if (!std::holds_alternative<OpenLoop>(s.guidance) && *rc::gen::arbitrary<bool>()) {
+    s.control.lqi = {ratio_between(0.01, 3.0), ratio_between(0.01, 10.0 * beyond),
+                     ratio_between(0.01, 100.0), ratio_between(1e-3, 3.0 * beyond)};
+  }
   return s;
 }
 

@@ -56,7 +56,7 @@ TEST(Pilot, GoesToOnePointAfterTheOtherAndSlowsDownBeforeTheLast) {
 
 TEST(Pilot, FollowsALineToItsEndAndSlowsDownBeforeIt) {
   const Scenario scenario = along(LineCourse{.points_m = {{0.0, 0.0}, {10.0, 0.0}, {10.0, 10.0}},
-                                             .law = {1.0, 1.0, false},
+                                             .law = LineLaw<double>{1.0, 1.0, false},
                                              .slow_down_m = 4.0});
   Pilot pilot(scenario, 0.01, at(0.0, 0.0));
   const Pilot::Order first = pilot.at(0.0, at(7.0, 0.2));

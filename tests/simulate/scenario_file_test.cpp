@@ -98,6 +98,8 @@ const std::string kFull = R"({
                       "dropouts": [{"from_s": 1, "to_s": 2}]}},
   "actuators": {"servo": {"us_per_deg": 10, "step_us": 4}, "pwm_counts": 255},
   "control": {"combined_split": "fixed_half", "allocation": "paper",
+              "heading_law": {"type": "lqi", "heading_deg": 5, "yaw_rate_degps": 20,
+                              "integral_deg_s": 30, "tau_turn_m": 0.02},
               "disturbance_observer": {"bandwidth_radps": 5, "yaw_max_m": 0.1, "surge_max": 0.2,
                                        "anti_windup": true}},
   "corner": {"mass_norm": "hi", "surge.alpha": "lo"},
@@ -128,6 +130,10 @@ TEST(ScenarioFile, ReadsTheWholeWorldInSiUnits) {
   EXPECT_EQ(s->control.split, CombinedSplit::kFixedHalf);
   EXPECT_EQ(s->control.allocation, AllocationForm::kPaper);
   EXPECT_TRUE(s->control.observer->anti_windup);
+  EXPECT_EQ(s->control.lqi->heading_rad, radians(5.0));
+  EXPECT_EQ(s->control.lqi->yaw_rate_radps, radians(20.0));
+  EXPECT_EQ(s->control.lqi->integral_rad_s, radians(30.0));
+  EXPECT_EQ(s->control.lqi->tau_turn_m, 0.02);
   EXPECT_EQ(s->corner[0].id, ParameterId::kMassNorm);
   EXPECT_FALSE(s->corner[1].high);
   EXPECT_EQ(s->seed, 7U);
@@ -170,7 +176,25 @@ TEST(ScenarioFile, ReadsLinesAndTimedPaths) {
                                       "delta_deg": 45, "width_m": 2})"));
   ASSERT_TRUE(line) << to_text(line.error());
   EXPECT_EQ(std::get<LineCourse>(line->guidance).points_m[1].y_m, 3.0);
-  EXPECT_TRUE(std::get<LineCourse>(line->guidance).law.sideslip_compensation);
+  EXPECT_TRUE(
+      std::get<LineLaw<double>>(std::get<LineCourse>(line->guidance).law).sideslip_compensation);
+  const auto integral = read(replaced(kHeading, steps,
+                                      R"({"type": "line", "from_m": [0, 1], "to_m": [2, 3],
+                                          "law": "ilos", "lookahead_m": 3,
+                                          "integral_gain_mps": 0.4, "corner_m": 1})"));
+  ASSERT_TRUE(integral) << to_text(integral.error());
+  const auto& ilos = std::get<IntegralLos<double>>(std::get<LineCourse>(integral->guidance).law);
+  EXPECT_EQ(ilos.lookahead_m, 3.0);
+  EXPECT_EQ(ilos.integral_gain_mps, 0.4);
+  EXPECT_EQ(std::get<LineCourse>(integral->guidance).corner_m, 1.0);
+  const auto pursued = read(replaced(kHeading, steps,
+                                     R"({"type": "line", "from_m": [0, 1], "to_m": [2, 3],
+                                         "law": "pure_pursuit", "lookahead_m": 3,
+                                         "sideslip_compensation": false})"));
+  ASSERT_TRUE(pursued) << to_text(pursued.error());
+  const auto& law = std::get<PurePursuit<double>>(std::get<LineCourse>(pursued->guidance).law);
+  EXPECT_EQ(law.lookahead_m, 3.0);
+  EXPECT_FALSE(law.sideslip_compensation);
   const std::string timed = R"({"type": "lissajous", "amplitude_m": [1, 2],
                                 "rate_radps": [0.1, 0.2], "closed_loop": true})";
   const auto closed =

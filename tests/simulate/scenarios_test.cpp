@@ -19,7 +19,8 @@ namespace fs = std::filesystem;
 
 std::vector<fs::path> scenario_files() {
   std::vector<fs::path> files;
-  for (const char* folder : {"/configs/paper/scenarios", "/configs/scenarios"}) {
+  for (const char* folder :
+       {"/configs/paper/scenarios", "/configs/scenarios", "/configs/baselines"}) {
     for (const auto& entry : fs::directory_iterator(std::string(AWMR_SOURCE_DIR) + folder)) {
       files.push_back(entry.path());
     }
@@ -48,6 +49,14 @@ const std::set<std::string> kNotForAll{
     "wheel_failure",                          // steering cannot hold a line against a dead wheel
 };
 
+/// What no mode completes: the sliding mode under a constant yaw moment, which leaves it beside the heading by
+/// more than counts as settled. That is what the scenarios beside it are held against.
+const std::set<std::string> kForNone{"heading_steps_pushed"};
+
+bool is_completed(const std::string& file, YawMode mode) {
+  return kForNone.count(file) == 0 && (mode != YawMode::kSteering || kNotForAll.count(file) == 0);
+}
+
 TEST_P(ScenarioFiles, RunsInEveryMode) {
   const Scenario s = scenario();
   const Model model = model_with_intervals();
@@ -59,9 +68,9 @@ TEST_P(ScenarioFiles, RunsInEveryMode) {
                                 row.state.u_mps + row.state.v_mps + row.state.r_radps))
           << row.t_s;
     }
-    const bool expected =
-        mode != YawMode::kSteering || kNotForAll.count(GetParam().stem().string()) == 0;
-    EXPECT_EQ(metrics_of(r, s, controller).completed, expected) << name_of(mode);
+    EXPECT_EQ(metrics_of(r, s, controller).completed,
+              is_completed(GetParam().stem().string(), mode))
+        << name_of(mode);
   }
 }
 

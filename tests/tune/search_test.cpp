@@ -233,10 +233,11 @@ TEST(Tune, NamesAllUnfitOptionsAtOnce) {
   options.scenarios.push_back(options.scenarios.front());
   options.scenarios.back().name = "open";
   options.scenarios.back().guidance = OpenLoop{};
+  options.scenarios.back().control.lqi = {1.0, 1.0, 1.0, 1.0};
   const Result<Tuning> tuning = tune(paper_model(), options);
   ASSERT_FALSE(tuning);
   EXPECT_EQ(tuning.error().kind, ErrorKind::kInput);
-  EXPECT_EQ(tuning.error().faults.size(), 5U) << to_text(tuning.error());
+  EXPECT_EQ(tuning.error().faults.size(), 6U) << to_text(tuning.error());
 }
 
 TEST(Tune, AMillionEvaluationsOfLongScenariosHadNoEnd) {

@@ -96,6 +96,9 @@ void set_up_lane(Batch& batch, const BatchRun& run, std::size_t lane) {
   put(step_s, lane, block.step_s);
   put(static_cast<double>(substeps), lane, block.substeps);
   put(prepared(controller), lane, block.controller);
+  if (const auto& weights = batch.scenario.control.lqi) {
+    put(lqi_gains(*weights, controller.inertia_norm), lane, block.lqi);
+  }
   put(controller.limits.dead_zone, lane, block.dead_zone);
   put(controller.limits.back_emf_s_per_m, lane, block.back_emf);
   block.setup.has_back_emf = block.setup.has_back_emf || run.plant.back_emf_s_per_m > 0.0 ||
@@ -120,6 +123,7 @@ Batch set_up(std::span<const BatchRun> runs, const Scenario& scenario, YawMode m
   block.setup.form = controller.limits.form;
   block.setup.is_open_loop = std::holds_alternative<OpenLoop>(scenario.guidance);
   block.setup.is_observed = scenario.control.observer && !block.setup.is_open_loop;
+  block.setup.is_lqi = scenario.control.lqi.has_value();
   if (scenario.control.observer) block.setup.observers = observers_of(*scenario.control.observer);
   block.setup.sample_time_s = sample_time_s;
   block.setup.lag = motor_lag(scenario.actuators, sample_time_s);

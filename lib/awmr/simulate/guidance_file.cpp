@@ -99,6 +99,31 @@ void check_segments(JsonObject& json, const char* key,
   }
 }
 
+enum class LineLawName { kLos, kPurePursuit, kIlos };
+constexpr NameTable<LineLawName, 3> kLineLaws{{{"los", LineLawName::kLos},
+                                               {"pure_pursuit", LineLawName::kPurePursuit},
+                                               {"ilos", LineLawName::kIlos}}};
+/// From a millimetre, below which a vehicle would turn for every rounding error beside the line.
+constexpr NumberRule kLookahead_m{.min = 1e-3, .max = 1e6};
+constexpr NumberRule kIntegralGain_mps{.min = 0.0, .max = 1e3, .min_excluded = true};
+
+/// Each law with its own keys, so that those of another are unknown ones.
+AnyLineLaw read_line_law(JsonObject& json, bool sideslip_compensation) {
+  const bool is_named = json.has("law");
+  switch (is_named ? json.choice("law", kLineLaws) : LineLawName::kLos) {
+    case LineLawName::kPurePursuit:
+      return PurePursuit<double>{json.number("lookahead_m", kLookahead_m), sideslip_compensation};
+    case LineLawName::kIlos:
+      return IntegralLos<double>{json.number("lookahead_m", kLookahead_m),
+                                 json.number("integral_gain_mps", kIntegralGain_mps),
+                                 sideslip_compensation};
+    case LineLawName::kLos:
+      break;
+  }
+  return LineLaw<double>{radians(json.number("delta_deg", kApproachAngle)),
+                         json.number("width_m", kLength_m), sideslip_compensation};
+}
+
 LineCourse read_line(JsonObject& json) {
   LineCourse course;
   if (json.has("points_m")) {
@@ -108,10 +133,11 @@ LineCourse read_line(JsonObject& json) {
     course.points_m = {read_point(json, "from_m"), read_point(json, "to_m")};
     if (json.has("from_m") && json.has("to_m")) check_segments(json, "to_m", course.points_m);
   }
-  course.law.delta_rad = radians(json.number("delta_deg", kApproachAngle));
-  course.law.width_m = json.number("width_m", kLength_m);
-  course.law.sideslip_compensation = json.optional_boolean("sideslip_compensation").value_or(true);
-  course.corner_m = json.optional_number("corner_m", kLengthOrNone_m).value_or(0.0);
+  course.law = read_line_law(json, json.optional_boolean("sideslip_compensation").value_or(true));
+  // Pure pursuit rounds corners by its lookahead.
+  if (!std::holds_alternative<PurePursuit<double>>(course.law)) {
+    course.corner_m = json.optional_number("corner_m", kLengthOrNone_m).value_or(0.0);
+  }
   course.slow_down_m = json.optional_number("slow_down_m", kLength_m);
   return course;
 }

@@ -38,7 +38,7 @@ Pilot::Pilot(const Scenario& scenario, double sample_time_s, const Sensed& start
     : scenario_(&scenario),
       sample_time_s_(sample_time_s),
       waypoints_(start_waypoints(start.position_m, start.motion.psi_rad)),
-      polyline_(start_polyline(start.motion.psi_rad)),
+      line_{start_polyline(start.motion.psi_rad)},
       sectors_(scenario.obstacles.size()),
       shaped_(start_shaping(start.motion.psi_rad)),
       held_rad_(start.motion.psi_rad) {}
@@ -107,13 +107,11 @@ Pilot::Order Pilot::guidance(const WaypointCourse& course, double, const Sensed&
 
 Pilot::Order Pilot::guidance(const LineCourse& course, double, const Sensed& sensed) {
   const int count = static_cast<int>(course.points_m.size());
-  const Polyline<double> line{course.points_m.data(), count, course.corner_m, course.law};
-  const auto guided = guide(line, sensed.position_m,
-                            sideslip_rad(sensed.motion.u_mps, sensed.motion.v_mps), polyline_);
+  const auto guided = follow_line(course, sensed, sample_time_s_, line_);
   Order order;
   order.finished = guided.finished;
   order.reference.psi_rad = guided.psi_rad;
-  order.course.leg = std::min(polyline_.segment, count - 2);
+  order.course.leg = std::min(line_.along.segment, count - 2);
   order.course.target_m = course.points_m[static_cast<std::size_t>(order.course.leg) + 1];
   order.course.cross_track_m = guided.cross_track_m;
   const bool last = order.course.leg == count - 2;

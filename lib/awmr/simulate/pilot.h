@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "awmr/control/controller.h"
+#include "awmr/simulate/line_following.h"
 #include "awmr/simulate/scenario.h"
 #include "awmr/simulate/sensing.h"
 #include "awmr/simulate/simulate.h"
@@ -44,7 +45,7 @@ class Pilot {
   const Scenario* scenario_;
   double sample_time_s_;
   WaypointProgress<double> waypoints_;
-  PolylineProgress<double> polyline_;
+  LineProgress line_;
   AvoidanceState avoidance_;
   std::vector<Sector<double>> sectors_;  ///< of the obstacles
   ShapedHeading<double> shaped_;

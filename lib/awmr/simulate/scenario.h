@@ -9,9 +9,11 @@
 #include <variant>
 #include <vector>
 
+#include "awmr/control/guidance_ilos.h"
 #include "awmr/control/guidance_line.h"
 #include "awmr/control/guidance_obstacles.h"
 #include "awmr/control/guidance_path.h"
+#include "awmr/control/guidance_pure_pursuit.h"
 #include "awmr/control/guidance_shaping.h"
 #include "awmr/control/yaw_mode.h"
 #include "awmr/core/name_table.h"
@@ -49,11 +51,14 @@ struct WaypointCourse {
   std::optional<double> slow_down_m;
 };
 
+/// How a line is approached: the paper's line of sight, or a baseline.
+using AnyLineLaw = std::variant<LineLaw<double>, PurePursuit<double>, IntegralLos<double>>;
+
 /// A line or polyline to follow; the run ends past its end.
 struct LineCourse {
   std::vector<Position<double>> points_m;  ///< at least two
-  LineLaw<double> law{};
-  double corner_m = 0.0;              ///< >= 0, see Polyline::corner_m
+  AnyLineLaw law{};
+  double corner_m = 0.0;              ///< >= 0, see Polyline::corner_m; not for pure pursuit
   std::optional<double> slow_down_m;  ///< as in WaypointCourse, along the last segment
 };
 

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "awmr/core/units.h"
+#include "awmr/simulate/laws.h"
 #include "awmr/simulate/one_run.h"
 #include "awmr/simulate/physics.h"
 #include "awmr/simulate/pilot.h"
@@ -16,61 +17,6 @@
 
 namespace awmr {
 namespace {
-
-/// The laws, and what the scenario adds to them.
-class Autopilot {
- public:
-  Autopilot(const Controller<double>& controller, const Scenario& scenario, YawMode mode,
-            double sample_time_s, const Measurement<double>& start)
-      : controller_(controller_in(scenario, controller)),
-        scenario_(&scenario),
-        mode_(mode),
-        sample_time_s_(sample_time_s) {
-    if (scenario.control.observer) {
-      observers_ = observers_of(*scenario.control.observer);
-      observed_ = start_observers(observers_, motion_of(start).momentum);
-    }
-  }
-
-  Command<double> open_loop(const OpenLoop& open) const {
-    Command<double> command{open.tau_speed, open.tau_turn_m, 0.0, {}};
-    command.allocation = allocate(mode_, command.tau_speed, command.tau_turn_m, controller_.limits);
-    return command;
-  }
-
-  Command<double> follow(const Measurement<double>& m, const Reference<double>& reference) {
-    Command<double> command = control_step(controller_, mode_, m, reference);
-    if (scenario_->control.observer) take_off_disturbance(m, command);
-    return command;
-  }
-
- private:
-  ObservedMotion<double> motion_of(const Measurement<double>& m) const {
-    return {{controller_.mass_norm * m.u_mps, controller_.inertia_norm * m.r_radps},
-            {controller_.surge(m.u_mps), controller_.yaw(m.r_radps)},
-            controller_.mass_norm * m.r_radps * m.v_mps};
-  }
-
-  void take_off_disturbance(const Measurement<double>& m, Command<double>& command) {
-    const ObservedMotion<double> motion = motion_of(m);
-    const AxisForces<double> disturbance = estimate(observers_, motion, observed_);
-    command.tau_turn_m -= disturbance.yaw_m;
-    command.tau_speed -= disturbance.surge;
-    command.allocation =
-        allocate(mode_, command.tau_speed, command.tau_turn_m, controller_.limits, m.u_mps);
-    const GeneralisedForces<double> allocated = delivered_forces(
-        controller_.limits, command.allocation.force, command.allocation.steering_rad);
-    advance(observers_, disturbance, {command.tau_speed, command.tau_turn_m}, allocated, motion,
-            sample_time_s_, observed_);
-  }
-
-  Controller<double> controller_;
-  const Scenario* scenario_;
-  YawMode mode_;
-  double sample_time_s_;
-  Observers<double> observers_{};
-  ObserversState<double> observed_{};
-};
 
 bool is_finite(const RunRow& row) {
   const double numbers[] = {row.state.x_m,
@@ -117,25 +63,25 @@ void fill(RunRow& row, const Command<double>& command, const AllocationLimits<do
 
 /// What the guidance orders at this row and what the laws make of it. Returns how the run ends
 /// here; kDuration: it goes on.
-RunEnd follow_guidance(Pilot& pilot, Autopilot& autopilot, const Sensed& sensed,
+RunEnd follow_guidance(Pilot& pilot, Laws& laws, const Sensed& sensed,
                        const AllocationLimits<double>& limits, RunRow& row) {
   const Pilot::Order order = pilot.at(row.t_s, sensed);
   row.course = order.course;
   row.psi_ref_rad = order.reference.psi_rad;
   row.u_ref_mps = order.reference.speed_mps;
-  fill(row, autopilot.follow(sensed.motion, order.reference), limits, sensed.motion);
+  fill(row, laws.follow(sensed.motion, order.reference), limits, sensed.motion);
   if (order.no_passage && std::abs(row.state.u_mps) < kStopped_mps) return RunEnd::kNoPassage;
   return order.finished ? RunEnd::kFinished : RunEnd::kDuration;
 }
 
 /// What is commanded at this row, as far as the actuators can. Returns how the run ends here.
 RunEnd command(const Scenario& scenario, const Controller<double>& controller, const Sensed& sensed,
-               Pilot& pilot, Autopilot& autopilot, RunRow& row) {
+               Pilot& pilot, Laws& laws, RunRow& row) {
   RunEnd end = RunEnd::kDuration;
   if (const auto* open = std::get_if<OpenLoop>(&scenario.guidance)) {
-    fill(row, autopilot.open_loop(*open), controller.limits, {});
+    fill(row, laws.open_loop(*open), controller.limits, {});
   } else {
-    end = follow_guidance(pilot, autopilot, sensed, controller.limits, row);
+    end = follow_guidance(pilot, laws, sensed, controller.limits, row);
   }
   if (scenario.actuators) {
     quantise(*scenario.actuators, largest_force(controller), row.force, row.steering_command_rad);
@@ -254,7 +200,7 @@ Run simulate(const Plant<double>& plant, const Controller<double>& controller,
                   run_seed(scenario.seed, options.seed, options.sample));
   Sensed sensed = sensing.at(0, physics.state());
   Pilot pilot(scenario, sample_s, sensed);
-  Autopilot autopilot(controller, scenario, mode, sample_s, sensed.motion);
+  Laws laws(controller, scenario, mode, sample_s, sensed.motion);
 
   Run run;
   run.substeps = physics.substeps();
@@ -267,7 +213,7 @@ Run simulate(const Plant<double>& plant, const Controller<double>& controller,
     row.measured = sensed.motion;
     row.measured_position_m = sensed.position_m;
     if (!scenario.obstacles.empty()) row.clearance_m = clearance_m(scenario, row.state);
-    run.end = command(scenario, controller, sensed, pilot, autopilot, row);
+    run.end = command(scenario, controller, sensed, pilot, laws, row);
     row.disturbance = physics.disturb(row.t_s);
     if (!is_finite(row)) {
       if (k > 0) run.rows.pop_back();

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "awmr/control/guidance.h"
+#include "awmr/control/heading_lqi.h"
 #include "awmr/control/yaw_mode.h"
 #include "awmr/model/allocation_form.h"
 #include "awmr/model/parameters.h"
@@ -137,6 +138,7 @@ struct ControlOptions {
     bool anti_windup = true;
   };
   std::optional<Observer> observer;
+  std::optional<LqiWeights<double>> lqi;     ///< absent: the heading law is the sliding mode
   std::optional<AllocationForm> allocation;  ///< absent: the vehicle's
 };
 

@@ -166,11 +166,36 @@ Actuators read_actuators(JsonObject json) {
   return actuators;
 }
 
+enum class HeadingLaw { kSlidingMode, kLqi };
+constexpr NameTable<HeadingLaw, 2> kHeadingLaws{
+    {{"sliding_mode", HeadingLaw::kSlidingMode}, {"lqi", HeadingLaw::kLqi}}};
+
+// The largest values that are acceptable: above what a sensor tells, and within what gains stay
+// finite for.
+constexpr NumberRule kLqiHeading_deg{.min = 1e-3, .max = 180.0};
+constexpr NumberRule kLqiYawRate_degps{.min = 1e-3, .max = 1e5};
+constexpr NumberRule kLqiIntegral_deg_s{.min = 1e-3, .max = 1e6};
+constexpr NumberRule kLqiMoment_m{.min = 1e-6, .max = 1e3};
+
+/// The weights of the LQI; none for the sliding mode.
+std::optional<LqiWeights<double>> read_heading_law(JsonObject json) {
+  std::optional<LqiWeights<double>> lqi;
+  if (json.choice("type", kHeadingLaws) == HeadingLaw::kLqi) {
+    lqi = {.heading_rad = radians(json.number("heading_deg", kLqiHeading_deg)),
+           .yaw_rate_radps = radians(json.number("yaw_rate_degps", kLqiYawRate_degps)),
+           .integral_rad_s = radians(json.number("integral_deg_s", kLqiIntegral_deg_s)),
+           .tau_turn_m = json.number("tau_turn_m", kLqiMoment_m)};
+  }
+  json.reject_unknown_keys();
+  return lqi;
+}
+
 ControlOptions read_control(JsonObject json) {
   ControlOptions control;
   if (json.has("combined_split"))
     control.split = json.choice("combined_split", kCombinedSplitNames);
   if (json.has("allocation")) control.allocation = json.choice("allocation", kAllocationFormNames);
+  if (auto law = json.optional_object("heading_law")) control.lqi = read_heading_law(*law);
   if (auto observer = json.optional_object("disturbance_observer")) {
     control.observer =
         ControlOptions::Observer{.bandwidth_radps = observer->number("bandwidth_radps", kRate),

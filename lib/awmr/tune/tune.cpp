@@ -49,6 +49,11 @@ void check_scenarios(const std::vector<Scenario>& scenarios, std::vector<Fault>&
                                         "guidance of type 'heading'",
                                         scenario.name)});
     }
+    if (scenario.control.lqi) {
+      faults.push_back({"", fmt::format("scenario '{}' names the heading law lqi, which takes no "
+                                        "gains; those of the sliding mode are tuned",
+                                        scenario.name)});
+    }
     if (!names.insert(scenario.name).second) {
       faults.push_back({"", fmt::format("two scenarios are named '{}'; scores are told apart by "
                                         "name, so give each its own",

@@ -87,7 +87,8 @@ double final_cross_track_m(const ModeRun& run) {
 Claim line_followed(const ClaimSetting& setting) {
   const Scenario scenario = line_scenario();
   const ModeRuns runs = setting.run(scenario);
-  const double accepted_m = kOnTheLineShare * std::get<LineCourse>(scenario.guidance).law.width_m;
+  const auto& law = std::get<LineLaw<double>>(std::get<LineCourse>(scenario.guidance).law);
+  const double accepted_m = kOnTheLineShare * law.width_m;
   const auto off = [](const ModeRun& run) -> std::optional<double> {
     return final_cross_track_m(run);
   };

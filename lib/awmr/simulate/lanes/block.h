@@ -5,6 +5,7 @@
 
 #include "awmr/control/controller.h"
 #include "awmr/control/disturbance_observer.h"
+#include "awmr/control/heading_lqi.h"
 #include "awmr/simulate/meter.h"
 #include "awmr/simulate/motion.h"
 
@@ -30,6 +31,7 @@ struct BlockSetup {
   AllocationForm form = AllocationForm::kExact;
   bool is_open_loop = false;  ///< tau_speed and tau_turn stand in the block, and no law asks
   bool is_observed = false;
+  bool is_lqi = false;  ///< the heading law; false: the sliding mode
   Observers<double> observers{};
   double sample_time_s = 0.0;
   MotorLag lag;
@@ -60,6 +62,7 @@ struct Block {
   Row step_s;        ///< h
   Row substeps;
   PreparedController<Row> controller;
+  LqiGains<Row> lqi;
   Row dead_zone;   ///< F'0, as the controller knows it
   Row back_emf;    ///< k_e, as the controller knows it
   Row force_most;  ///< F' of a wheel at the most, with the zone
@@ -68,6 +71,7 @@ struct Block {
   // As a run goes on.
   State<Row> state;
   ObserversState<Row> observed;
+  LqiState<Row> lqi_state;
   SideForces<Row> motors;
   Row halves;  ///< see Resolution
   MeterSums<Row> sums;
