@@ -75,10 +75,12 @@ TEST(JsonSchema, TellsWhichKeysGoWithAChoiceThatIsNotMade) {
     int kind = 1;
     if (json.has("kind")) kind = json.choice("kind", kKinds);
     if (kind == 1) json.number("radius");
+    if (kind == 2) json.number("width");
   });
   const Json& absent = schema.at("allOf").back();
   EXPECT_EQ(absent.at("/if/not/required"_json_pointer), Json({"kind"}));
   EXPECT_EQ(absent.at("/then/required"_json_pointer), Json({"radius"}));
+  EXPECT_EQ(absent.at("/then/properties"_json_pointer), Json({{"width", false}}));
 }
 
 }  // namespace

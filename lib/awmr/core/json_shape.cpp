@@ -17,6 +17,15 @@ bool takes(const Way& way, const std::map<std::string, std::size_t>& picks) {
   });
 }
 
+/// What forbids those of `keys` that are not `allowed`; empty where all are.
+Json forbidding(const std::set<std::string>& keys, const std::set<std::string>& allowed) {
+  Json rule = Json::object();
+  for (const std::string& key : keys) {
+    if (!allowed.contains(key)) rule["properties"][key] = false;
+  }
+  return rule;
+}
+
 }  // namespace
 
 Json schema_of(const NumberRule& rule) {
@@ -119,46 +128,86 @@ Json JsonShape::property_schema(const Property& property) const {
   return kinds.size() == 1 ? kinds.front() : Json{{"anyOf", kinds}};
 }
 
+/// What is asked for with any name of the choice under `key`, all else being the same.
+JsonShape::Keys JsonShape::with_any_name(const std::string& key) const {
+  const std::string place = place_ + "/" + key;
+  Keys keys;
+  for (const Asked& one : ways_) {
+    auto without = one.way.picks;
+    without.erase(place);
+    if (without != exploration_->met.at(place).on) continue;
+    keys.all.insert(one.keys.begin(), one.keys.end());
+    if (!one.way.present) continue;
+    keys.present.insert(one.keys.begin(), one.keys.end());
+    keys.required.insert(one.required.begin(), one.required.end());
+  }
+  return keys;
+}
+
 /// If the choice under `key` has this name, some keys have to be there, and those of other names
 /// may not be. Empty where the name makes no difference.
 Json JsonShape::variant(const std::string& key, std::size_t pick, const Json& name) const {
   const std::string place = place_ + "/" + key;
   const auto& on = exploration_->met.at(place).on;
-  auto exactly = on;
-  if (pick > 0) exactly[place] = pick;
   auto at_least = on;
   at_least[place] = pick;
-  std::set<std::string> others;  // asked for with any name, all else being the same
   std::set<std::string> allowed;
   std::set<std::string> required;
   bool first = true;
+  const Keys keys = with_any_name(key);
   for (const Asked& one : ways_) {
-    auto without = one.way.picks;
-    without.erase(place);
-    if (without == on) others.insert(one.keys.begin(), one.keys.end());
     if (!takes(one.way, at_least)) continue;
+    if (!one.way.present && one.optional.contains(key)) {
+      // The choice is not made here; what is asked for only where other keys are missing goes with all.
+      for (const std::string& other : one.keys) {
+        if (!keys.present.contains(other)) allowed.insert(other);
+      }
+      continue;
+    }
     allowed.insert(one.keys.begin(), one.keys.end());
-    if (one.way.picks != exactly) continue;
+    // A choice that is met with this name only may do without what its first name asks for.
     if (std::exchange(first, false)) required = one.required;
     std::erase_if(required, [&](const std::string& k) { return !one.required.contains(k); });
   }
-  Json then = Json::object();
-  for (const std::string& other : others) {
-    if (!allowed.contains(other)) then["properties"][other] = false;
-  }
+  Json then = forbidding(keys.all, allowed);
   if (!required.empty()) then["required"] = required;
   return {{"if", {{"properties", {{key, {{"const", name}}}}}, {"required", {key}}}},
           {"then", then}};
 }
 
-/// If the optional choice under `key` is not made, its default decides which keys have to be there.
+/// What says that the choices of this object are made so.
+Json JsonShape::names_of(const std::map<std::string, std::size_t>& picks) const {
+  Json rule = Json::object();
+  for (const auto& [key, property] : properties_) {
+    const auto pick = picks.find(place_ + "/" + key);
+    if (pick == picks.end()) continue;
+    rule["properties"][key] = {{"const", property.types.front().at("enum")[pick->second]}};
+    rule["required"].push_back(key);
+  }
+  return rule;
+}
+
+/// If the optional choice under `key` is not made, its default decides which keys have to be there,
+/// and those of other names may not be.
 Json JsonShape::variant_without(const std::string& key) const {
   const auto& on = exploration_->met.at(place_ + "/" + key).on;
+  const Asked* absent = nullptr;
+  std::set<std::string> allowed;
   for (const Asked& one : ways_) {
-    if (one.way.present || one.way.picks != on || !one.optional.contains(key)) continue;
-    return {{"if", {{"not", {{"required", {key}}}}}}, {"then", {{"required", one.required}}}};
+    if (one.way.picks != on || !one.optional.contains(key)) continue;
+    allowed.insert(one.keys.begin(), one.keys.end());
+    if (!one.way.present && absent == nullptr) absent = &one;
   }
-  return Json::object();
+  if (absent == nullptr) return Json::object();
+  const Keys keys = with_any_name(key);
+  Json then = forbidding(keys.all, allowed);
+  std::set<std::string> required = absent->required;
+  // What is asked for only where other keys are missing does not hang on the choice.
+  std::erase_if(required, [&](const std::string& k) { return !keys.required.contains(k); });
+  then["required"] = required;
+  Json where = names_of(on);
+  where["not"] = {{"required", {key}}};
+  return {{"if", where}, {"then", then}};
 }
 
 /// One rule for each name of each choice that decides which keys there are.

@@ -63,9 +63,17 @@ class JsonShape {
     std::set<std::string> required;
     std::set<std::string> optional;
   };
+  /// What is asked for on several ways.
+  struct Keys {
+    std::set<std::string> all;
+    std::set<std::string> present;   ///< where optional keys are there
+    std::set<std::string> required;  ///< there, on one way or another
+  };
   Property& property(std::string_view key);
   Asked& now();
   Json property_schema(const Property& property) const;
+  Keys with_any_name(const std::string& key) const;
+  Json names_of(const std::map<std::string, std::size_t>& picks) const;
   Json variant(const std::string& key, std::size_t pick, const Json& name) const;
   Json variant_without(const std::string& key) const;
   void add_variants(Json& schema) const;
