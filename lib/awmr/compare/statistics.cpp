@@ -1,8 +1,10 @@
 #include "awmr/compare/statistics.h"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "awmr/compare/binomial.h"
 #include "awmr/core/index.h"
@@ -25,11 +27,11 @@ std::optional<double> difference(const MetricColumn& metric, const Metrics& a, c
   return *x - *y;
 }
 
-/// A pair's differences by sample, absent where one of the modes has no value.
-struct Series {
-  PairedDifference result;
-  std::vector<std::optional<double>> by_sample;
-  std::vector<double> resampled_means;
+/// Metrics of pairs, a row each, by sample, a column each: a resample then adds up whole columns.
+struct Differences {
+  std::vector<PairedDifference> results;
+  Eigen::ArrayXXd values;  ///< 0 where one of the pair has no value
+  Eigen::ArrayXXd counts;  ///< 0 there, else 1
 };
 
 double margin_between(const ModeRows& a, const ModeRows& b, const MetricColumn& metric,
@@ -50,81 +52,102 @@ std::optional<Conclusion> conclusion_of(const PairedDifference& d) {
   return *d.p_equivalent < kSignificance ? Conclusion::kEquivalent : Conclusion::kUndecided;
 }
 
-Series series_of(const ModeRows& first, const ModeRows& second, const MetricColumn& metric,
-                 double relevance) {
-  Series series;
-  series.result.margin = margin_between(first, second, metric, relevance);
-  series.result.first = first.contender;
-  series.result.second = second.contender;
-  series.result.metric = metric.id;
-  series.result.nominal = difference(metric, first.nominal(), second.nominal());
+/// One row: a metric's differences, with what they come to.
+PairedDifference difference_of(const ModeRows& first, const ModeRows& second,
+                               const MetricColumn& metric, double relevance,
+                               Eigen::ArrayXXd::RowXpr values, Eigen::ArrayXXd::RowXpr counts) {
+  PairedDifference result;
+  result.margin = margin_between(first, second, metric, relevance);
+  result.first = first.contender;
+  result.second = second.contender;
+  result.metric = metric.id;
+  result.nominal = difference(metric, first.nominal(), second.nominal());
   const auto a = first.counted();
   const auto b = second.counted();
   double sum = 0.0;
   for (std::size_t i = 0; i < a.size(); ++i) {
     const auto d = difference(metric, a[i].metrics, b[i].metrics);
-    series.by_sample.push_back(d);
     if (!d) continue;
+    values[eigen_index(i)] = *d;
+    counts[eigen_index(i)] = 1.0;
     sum += *d;
-    ++series.result.count;
+    ++result.count;
   }
-  if (series.result.count == 0) return series;
-  const double mean = sum / static_cast<double>(series.result.count);
-  series.result.mean = mean;
-  if (series.result.count < 2) return series;
+  if (result.count == 0) return result;
+  const double mean = sum / static_cast<double>(result.count);
+  result.mean = mean;
+  if (result.count < 2) return result;
   double squares = 0.0;
-  for (const auto& d : series.by_sample) {
-    if (d) squares += (*d - mean) * (*d - mean);
+  for (Eigen::Index i = 0; i < values.size(); ++i) {
+    if (counts[i] > 0.0) squares += (values[i] - mean) * (values[i] - mean);
   }
-  const double deviation = std::sqrt(squares / static_cast<double>(series.result.count - 1));
-  series.result.p = paired_t_p(mean, deviation, series.result.count);
-  series.result.p_equivalent =
-      equivalence_p(mean, deviation, series.result.count, series.result.margin);
-  return series;
+  const double deviation = std::sqrt(squares / static_cast<double>(result.count - 1));
+  result.p = paired_t_p(mean, deviation, result.count);
+  result.p_equivalent = equivalence_p(mean, deviation, result.count, result.margin);
+  return result;
 }
 
-/// One resample's mean of each series.
-void add_resample(std::span<const std::size_t> chosen, std::vector<Series>& all) {
-  for (Series& series : all) {
-    double sum = 0.0;
-    std::size_t count = 0;
-    for (const std::size_t i : chosen) {
-      if (!series.by_sample[i]) continue;
-      sum += *series.by_sample[i];
-      ++count;
-    }
-    if (count > 0) series.resampled_means.push_back(sum / static_cast<double>(count));
-  }
-}
-
-/// Every metric of every pair of the same gains or of the same mode.
-std::vector<Series> all_series(const ScenarioRows& scenario, double relevance) {
-  std::vector<Series> all;
+/// Of the same gains or of the same mode.
+std::vector<std::pair<const ModeRows*, const ModeRows*>> comparable_pairs(
+    const ScenarioRows& scenario) {
+  std::vector<std::pair<const ModeRows*, const ModeRows*>> pairs;
   for (std::size_t i = 0; i < scenario.modes.size(); ++i) {
     for (std::size_t j = i + 1; j < scenario.modes.size(); ++j) {
       const ModeRows& a = scenario.modes[i];
       const ModeRows& b = scenario.modes[j];
       const bool comparable =
           a.contender.mode == b.contender.mode || a.contender.gains == b.contender.gains;
-      if (!comparable) continue;
-      for (const MetricColumn& metric : kMetricColumns) {
-        all.push_back(series_of(a, b, metric, relevance));
-      }
+      if (comparable) pairs.emplace_back(&a, &b);
+    }
+  }
+  return pairs;
+}
+
+/// Every metric of every pair.
+Differences all_differences(const ScenarioRows& scenario, double relevance) {
+  const auto pairs = comparable_pairs(scenario);
+  const Eigen::Index rows = eigen_index(pairs.size() * std::size(kMetricColumns));
+  const Eigen::Index samples = eigen_index(scenario.modes.front().counted().size());
+  Differences all{{}, Eigen::ArrayXXd::Zero(rows, samples), Eigen::ArrayXXd::Zero(rows, samples)};
+  for (const auto& [first, second] : pairs) {
+    for (const MetricColumn& metric : kMetricColumns) {
+      const Eigen::Index row = eigen_index(all.results.size());
+      all.results.push_back(difference_of(*first, *second, metric, relevance, all.values.row(row),
+                                          all.counts.row(row)));
     }
   }
   return all;
 }
 
-/// The bootstrap: nothing below two samples.
-void resample(std::vector<Series>& all, std::size_t samples, Random random) {
-  if (samples < 2) return;
-  std::vector<std::size_t> chosen(samples);
-  for (int round = 0; round < kResamples; ++round) {
-    for (std::size_t& index : chosen) {
-      index = static_cast<std::size_t>(random.uniform() * static_cast<double>(samples));
+/// The bootstrap: the mean of each row in each resample, a resample in each column. NaN where a
+/// resample met no value.
+Eigen::ArrayXXd resampled_means(const Differences& all, Random random) {
+  const Eigen::Index samples = all.values.cols();
+  Eigen::ArrayXXd means(all.values.rows(), kResamples);
+  Eigen::ArrayXd counts(all.values.rows());
+  for (auto mean : means.colwise()) {
+    mean.setZero();
+    counts.setZero();
+    for (Eigen::Index i = 0; i < samples; ++i) {
+      const auto chosen =
+          static_cast<Eigen::Index>(random.uniform() * static_cast<double>(samples));
+      mean += all.values.col(chosen);
+      counts += all.counts.col(chosen);
     }
-    add_resample(chosen, all);
+    mean /= counts;
   }
+  return means;
+}
+
+/// The middle 95 % of the resampled means; none where no resample met a value.
+std::optional<Interval> interval_of(Eigen::ArrayXXd::ConstRowXpr means) {
+  std::vector<double> sorted;
+  for (const double mean : means) {
+    if (!std::isnan(mean)) sorted.push_back(mean);
+  }
+  if (sorted.empty()) return std::nullopt;
+  std::sort(sorted.begin(), sorted.end());
+  return Interval{quantile(sorted, 0.025), quantile(sorted, 0.975)};
 }
 
 Contender contender_of(const ComparisonRow& row) { return {row.mode, row.gains}; }
@@ -236,20 +259,17 @@ Summary summarise(const ModeRows& rows, const MetricColumn& metric) {
 std::vector<PairedDifference> paired_differences(const ScenarioRows& scenario,
                                                  const Preferences& preferences, std::uint64_t seed,
                                                  std::uint64_t stream) {
-  std::vector<Series> all = all_series(scenario, preferences.relevance);
-  resample(all, scenario.modes.front().rows.size() - 1, Random(seed, kBootstrapStream + stream));
-  std::vector<PairedDifference> differences;
-  for (Series& series : all) {
-    if (series.result.count >= 2 && !series.resampled_means.empty()) {
-      std::sort(series.resampled_means.begin(), series.resampled_means.end());
-      series.result.ci95 = Interval{quantile(series.resampled_means, 0.025),
-                                    quantile(series.resampled_means, 0.975)};
+  Differences all = all_differences(scenario, preferences.relevance);
+  std::vector<PairedDifference>& differences = all.results;
+  if (all.values.cols() >= 2) {
+    const Eigen::ArrayXXd means = resampled_means(all, Random(seed, kBootstrapStream + stream));
+    for (std::size_t i = 0; i < differences.size(); ++i) {
+      if (differences[i].count >= 2) differences[i].ci95 = interval_of(means.row(eigen_index(i)));
     }
-    differences.push_back(series.result);
   }
   correct(differences);
   for (PairedDifference& d : differences) d.conclusion = conclusion_of(d);
-  return differences;
+  return std::move(all.results);
 }
 
 }  // namespace awmr
