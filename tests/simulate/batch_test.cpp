@@ -61,27 +61,29 @@ std::vector<BatchArithmetic> all_arithmetics() {
   return all;
 }
 
-std::vector<BatchRun> drawn_runs(std::size_t count, double spread) {
+std::vector<BatchRun> drawn_runs(std::size_t count, double spread,
+                                 YawMode mode = YawMode::kCombined) {
   std::vector<BatchRun> runs;
   for (std::size_t i = 0; i < count; ++i) {
     const Plant<double> plant = i == 0 ? paper_plant() : drawn_plant(i, spread);
-    runs.push_back({plant, paper_controller(), i == 0 ? 0U : 5U, i});
+    runs.push_back({plant, paper_controller(), mode, i == 0 ? 0U : 5U, i});
   }
   return runs;
 }
 
 std::vector<std::optional<double>> numbers_of(const Metrics& m) {
-  return {m.completed ? 1.0 : 0.0, m.settling_time_s,     m.overshoot_deg,     m.heading_iae_degs,
-          m.heading_itae_degs2,    m.cross_track_rms_m,   m.path_length_m,     m.speed_drop_mps,
-          m.sideslip_max_deg,      m.yaw_rate_max_degps,  m.control_variation, m.control_effort,
-          m.clearance_min_m,       m.finish_time_s,       m.energy_mech,       m.energy_electric,
-          m.saturation_s,          m.steering_travel_deg, m.tyre_work};
+  return {m.completed ? 1.0 : 0.0,  m.settling_time_s,     m.overshoot_deg,     m.heading_iae_degs,
+          m.heading_itae_degs2,     m.cross_track_rms_m,   m.path_length_m,     m.speed_drop_mps,
+          m.sideslip_max_deg,       m.yaw_rate_max_degps,  m.control_variation, m.control_effort,
+          m.clearance_min_m,        m.finish_time_s,       m.energy_mech,       m.energy_electric,
+          m.saturation_s,           m.steering_travel_deg, m.tyre_work,         m.speed_itae_m_s,
+          m.steering_rate_rms_degps};
 }
 
-Metrics judged(const BatchRun& run, const Scenario& scenario, YawMode mode) {
+Metrics judged(const BatchRun& run, const Scenario& scenario) {
   return metrics_of(
       simulate(
-          run.plant, run.controller, scenario, mode,
+          run.plant, run.controller, scenario, run.mode,
           {.sample_time_s = kSampleTime_s, .substeps = {}, .seed = run.seed, .sample = run.sample}),
       scenario, run.controller);
 }
@@ -89,14 +91,14 @@ Metrics judged(const BatchRun& run, const Scenario& scenario, YawMode mode) {
 /// Rounding leaves 1e-13 or so of a run that does not itself amplify it. What a run amplifies is seen
 /// by a change of its mass by 1e-12: some of the vehicles are unstable under gains that are not theirs. It is
 /// the run that amplifies, and not one of its numbers: a time at a limit changes by whole samples, or by none.
-void expect_near(const Metrics& batch, const BatchRun& run, const Scenario& scenario, YawMode mode,
+void expect_near(const Metrics& batch, const BatchRun& run, const Scenario& scenario,
                  const std::string& where) {
   BatchRun moved = run;
   moved.plant.mass_norm *= 1.0 + 1e-12;
-  const Metrics scalar_metrics = judged(run, scenario, mode);
+  const Metrics scalar_metrics = judged(run, scenario);
   const auto a = numbers_of(batch);
   const auto scalar = numbers_of(scalar_metrics);
-  const auto c = numbers_of(judged(moved, scenario, mode));
+  const auto c = numbers_of(judged(moved, scenario));
   double amplified = 0.0;
   for (std::size_t i = 0; i < a.size(); ++i) {
     if (!scalar[i] || !c[i]) continue;
@@ -117,14 +119,14 @@ void expect_same(const Metrics& a, const Metrics& b, const std::string& where) {
 }
 
 TEST(Batch, IsTheRunOfSimulateInEveryShippedScenarioAndMode) {
-  const std::vector<BatchRun> runs = drawn_runs(2, 0.2);
   const BatchArithmetic arithmetic = batch_arithmetic().value();
   for (const Scenario& scenario : shipped_scenarios()) {
     for (const YawMode mode : kYawModes) {
-      const auto batch = simulate_batch(runs, scenario, mode, kSampleTime_s, arithmetic);
+      const std::vector<BatchRun> runs = drawn_runs(2, 0.2, mode);
+      const auto batch = simulate_batch(runs, scenario, kSampleTime_s, arithmetic);
       for (std::size_t i = 0; i < runs.size(); ++i) {
         expect_near(
-            batch[i].value(), runs[i], scenario, mode,
+            batch[i].value(), runs[i], scenario,
             scenario.name + ", " + std::string(name_of(mode)) + ", run " + std::to_string(i));
       }
     }
@@ -135,10 +137,9 @@ TEST(Batch, EventsHappenAtTheSampleOfSimulate) {
   const std::vector<BatchRun> runs = drawn_runs(1, 0.0);
   for (const Scenario& scenario : shipped_scenarios()) {
     if (scenario.duration_s > 200.0) continue;
-    const Metrics scalar = judged(runs[0], scenario, YawMode::kCombined);
+    const Metrics scalar = judged(runs[0], scenario);
     for (const BatchArithmetic& arithmetic : all_arithmetics()) {
-      const auto batch =
-          simulate_batch(runs, scenario, YawMode::kCombined, kSampleTime_s, arithmetic);
+      const auto batch = simulate_batch(runs, scenario, kSampleTime_s, arithmetic);
       EXPECT_EQ(batch[0]->settling_time_s, scalar.settling_time_s) << scenario.name;
       EXPECT_EQ(batch[0]->finish_time_s, scalar.finish_time_s) << scenario.name;
     }
@@ -155,10 +156,9 @@ TEST(Batch, IsTheRunOfSimulateFarBeyondThePapersVehicle) {
   lqi.control.lqi = {0.1, 0.3, 0.3, 0.02};
   for (const BatchArithmetic& arithmetic : all_arithmetics()) {
     for (const Scenario& scenario : {open, heading, lqi}) {
-      const auto batch =
-          simulate_batch(runs, scenario, YawMode::kCombined, kSampleTime_s, arithmetic);
+      const auto batch = simulate_batch(runs, scenario, kSampleTime_s, arithmetic);
       for (std::size_t i = 0; i < runs.size(); ++i) {
-        expect_near(batch[i].value(), runs[i], scenario, YawMode::kCombined,
+        expect_near(batch[i].value(), runs[i], scenario,
                     scenario.name + ", run " + std::to_string(i));
       }
     }
@@ -175,10 +175,9 @@ TEST(Batch, IsTheRunOfSimulateWithBackEmf) {
   for (const Scenario& scenario : shipped_scenarios()) {
     if (scenario.duration_s > 40.0) continue;
     for (const BatchArithmetic& arithmetic : all_arithmetics()) {
-      const auto batch =
-          simulate_batch(runs, scenario, YawMode::kCombined, kSampleTime_s, arithmetic);
+      const auto batch = simulate_batch(runs, scenario, kSampleTime_s, arithmetic);
       for (std::size_t i = 0; i < runs.size(); ++i) {
-        expect_near(batch[i].value(), runs[i], scenario, YawMode::kCombined,
+        expect_near(batch[i].value(), runs[i], scenario,
                     scenario.name + ", run " + std::to_string(i));
       }
     }
@@ -194,28 +193,27 @@ TEST(Batch, LeavesFrontWheelDriveToSimulate) {
   }
   const Scenario heading{"heading", 2.0, {}, 0.6, HeadingSteps{{{0.0, 0.5}, {1.0, -0.5}}}};
   for (const BatchArithmetic& arithmetic : all_arithmetics()) {
-    const auto batch = simulate_batch(runs, heading, YawMode::kCombined, kSampleTime_s, arithmetic);
+    const auto batch = simulate_batch(runs, heading, kSampleTime_s, arithmetic);
     for (std::size_t i = 0; i < runs.size(); ++i) {
-      expect_same(*batch[i], judged(runs[i], heading, YawMode::kCombined), "front-wheel drive");
+      expect_same(*batch[i], judged(runs[i], heading), "front-wheel drive");
     }
   }
 }
 
 TEST(Batch, DoesNotDependOnTheRunsBesideNorOnThePlaceAmongThem) {
-  const std::vector<BatchRun> runs = drawn_runs(37, 0.2);
+  std::vector<BatchRun> runs = drawn_runs(37, 0.2);
+  for (std::size_t i = 0; i < runs.size(); ++i) runs[i].mode = kYawModes[i % std::size(kYawModes)];
   const Scenario scenario =
       *read_scenario(std::string(AWMR_SOURCE_DIR) + "/configs/scenarios/noisy_sensors.json");
   std::vector<BatchRun> reversed(runs.rbegin(), runs.rend());
   for (const BatchArithmetic& arithmetic : all_arithmetics()) {
-    const auto whole =
-        simulate_batch(runs, scenario, YawMode::kCombined, kSampleTime_s, arithmetic);
-    const auto backwards =
-        simulate_batch(reversed, scenario, YawMode::kCombined, kSampleTime_s, arithmetic);
+    const auto whole = simulate_batch(runs, scenario, kSampleTime_s, arithmetic);
+    const auto backwards = simulate_batch(reversed, scenario, kSampleTime_s, arithmetic);
     for (std::size_t i = 0; i < runs.size(); ++i) {
       expect_same(*whole[i], *backwards[runs.size() - 1 - i], "run " + std::to_string(i));
     }
-    const auto alone = simulate_batch(std::span(runs).subspan(20, 1), scenario, YawMode::kCombined,
-                                      kSampleTime_s, arithmetic);
+    const auto alone =
+        simulate_batch(std::span(runs).subspan(20, 1), scenario, kSampleTime_s, arithmetic);
     expect_same(*whole[20], *alone[0], "alone");
   }
 }
@@ -227,7 +225,7 @@ TEST(Batch, HasTheSameBitsOnAllInstructionsThatRoundAlike) {
     if (scenario.duration_s > 150.0) continue;
     std::vector<std::pair<std::string_view, std::vector<Result<Metrics>>>> by_rounding;
     for (const BatchArithmetic& arithmetic : arithmetics) {
-      auto metrics = simulate_batch(runs, scenario, YawMode::kCombined, kSampleTime_s, arithmetic);
+      auto metrics = simulate_batch(runs, scenario, kSampleTime_s, arithmetic);
       for (const auto& [rounding, first] : by_rounding) {
         if (rounding != arithmetic.rounding) continue;
         for (std::size_t i = 0; i < runs.size(); ++i) {
@@ -241,13 +239,12 @@ TEST(Batch, HasTheSameBitsOnAllInstructionsThatRoundAlike) {
 
 /// Resistance so stiff at the initial speed that no step follows it: simulate() says so.
 TEST(Batch, ARunThatFailsIsToldOfBySimulateAndTheOthersGoOn) {
-  std::vector<BatchRun> runs = drawn_runs(3, 0.2);
+  std::vector<BatchRun> runs = drawn_runs(3, 0.2, YawMode::kDifferential);
   runs[1].plant.surge.beta = 20.0;
   Scenario scenario{"fast", 1.0, {}, 0.0, OpenLoop{1.0, 0.0}};
   scenario.initial.u_mps = 1000.0;
   for (const BatchArithmetic& arithmetic : all_arithmetics()) {
-    const auto metrics =
-        simulate_batch(runs, scenario, YawMode::kDifferential, kSampleTime_s, arithmetic);
+    const auto metrics = simulate_batch(runs, scenario, kSampleTime_s, arithmetic);
     EXPECT_TRUE(metrics[0].has_value());
     EXPECT_FALSE(metrics[1].has_value());
     EXPECT_TRUE(metrics[2].has_value());
@@ -263,12 +260,11 @@ TEST(Batch, InstructionsThatTheProcessorHasNotAreRefusedByName) {
 }
 
 TEST(Batch, AskedForScalarIsSimulateItself) {
-  const std::vector<BatchRun> runs = drawn_runs(2, 0.2);
+  const std::vector<BatchRun> runs = drawn_runs(2, 0.2, YawMode::kSteering);
   const Scenario scenario = heading_steps({30.0, -30.0});
-  const auto metrics =
-      simulate_batch(runs, scenario, YawMode::kSteering, kSampleTime_s, {"scalar", "scalar"});
+  const auto metrics = simulate_batch(runs, scenario, kSampleTime_s, {"scalar", "scalar"});
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    expect_same(*metrics[i], judged(runs[i], scenario, YawMode::kSteering), "scalar");
+    expect_same(*metrics[i], judged(runs[i], scenario), "scalar");
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include "awmr/core/units.h"
@@ -33,7 +34,8 @@ ObjectiveSetting setting_of(int plants, double tail_share = 1.0) {
                            .vehicle = model.vehicle,
                            .weights = {},
                            .scenarios = {short_turn()},
-                           .tail_share = tail_share};
+                           .tail_share = tail_share,
+                           .arithmetic = batch_arithmetic().value()};
   for (int i = 0; i < plants; ++i) {
     setting.plants.push_back(model.plant().value());
     setting.plants.back().mass_norm *= 1.0 + 0.2 * i;
@@ -42,12 +44,19 @@ ObjectiveSetting setting_of(int plants, double tail_share = 1.0) {
   return setting;
 }
 
+/// In the one scenario, with the paper's gains.
+ModeScore score_of(const ObjectiveSetting& setting, std::size_t plant, YawMode mode) {
+  const auto scores = run_all(setting, std::span(&kPaperGains, 1)).front();
+  const auto modes = yaw_modes(setting.vehicle);
+  const auto place = std::find(modes.begin(), modes.end(), mode) - modes.begin();
+  return scores.at(plant * modes.size() + static_cast<std::size_t>(place));
+}
+
 TEST(ModeScores, AreThoseOfTheRun) {
   const ObjectiveSetting setting = setting_of(2);
   const Controller<double> controller =
       make_controller(setting.plants[0], setting.vehicle, kPaperGains);
-  const auto scores = run_scenarios(setting, 1, kPaperGains, YawMode::kSteering);
-  ASSERT_EQ(scores.size(), 1U);
+  const ModeScore score = score_of(setting, 1, YawMode::kSteering);
   const awmr::Run run =
       simulate(setting.plants[1], controller, setting.scenarios[0], YawMode::kSteering,
                {.sample_time_s = setting.vehicle.sample_time_s, .substeps = {}, .sample = 1});
@@ -65,10 +74,10 @@ TEST(ModeScores, AreThoseOfTheRun) {
   }
   const double rms = std::sqrt(squares / static_cast<double>(run.rows.size() - 1));
   EXPECT_GT(rms, 1.0);
-  EXPECT_NEAR(scores[0].steering_rate_rms_degps, rms, 1e-6 * rms);
-  EXPECT_NEAR(scores[0].speed_itae_m_s, itae, 1e-6 * itae);
-  EXPECT_EQ(*scores[0].metrics.heading_iae_degs,
-            *metrics_of(run, setting.scenarios[0], controller).heading_iae_degs);
+  EXPECT_NEAR(score.metrics.steering_rate_rms_degps, rms, 1e-6 * rms);
+  EXPECT_NEAR(score.metrics.speed_itae_m_s, itae, 1e-6 * itae);
+  const double iae = *metrics_of(run, setting.scenarios[0], controller).heading_iae_degs;
+  EXPECT_NEAR(*score.metrics.heading_iae_degs, iae, 1e-9 * iae);
 }
 
 TEST(ObjectiveTerms, AreRatiosAboveTheirFloors) {
@@ -78,7 +87,7 @@ TEST(ObjectiveTerms, AreRatiosAboveTheirFloors) {
   score.metrics.overshoot_deg = 1.5;
   score.metrics.control_variation = 0.05;
   score.metrics.control_effort = 0.004;
-  score.speed_itae_m_s = 0.009;
+  score.metrics.speed_itae_m_s = 0.009;
   const auto by = [&](double ObjectiveWeights::*weight) {
     ObjectiveWeights weights{
         .itae = 0.0, .overshoot = 0.0, .control_variation = 0.0, .effort = 0.0, .speed_itae = 0.0};
@@ -103,6 +112,22 @@ TEST(Objective, ARunThatTheBaselineCompletesHasToBeCompleted) {
   EXPECT_THAT(objective.baseline().mode_activity, ::testing::Each(1.0));
 }
 
+TEST(Objective, OfSetsOfGainsTogetherIsThatOfEachAlone) {
+  const Objective objective(setting_of(3), kPaperGains);
+  std::vector<Gains<double>> gains(7, kPaperGains);
+  for (std::size_t i = 0; i < gains.size(); ++i)
+    gains[i].heading.mu *= 1.0 + 0.1 * static_cast<double>(i);
+  const std::vector<Evaluation> together = objective(gains);
+  ASSERT_EQ(together.size(), gains.size());
+  for (std::size_t i = 0; i < gains.size(); ++i) {
+    const Evaluation alone = objective(gains[i]);
+    EXPECT_EQ(together[i].objective, alone.objective);
+    EXPECT_EQ(together[i].mode_objective, alone.mode_objective);
+    EXPECT_EQ(together[i].mode_activity, alone.mode_activity);
+  }
+  EXPECT_EQ(together[0].objective, objective.baseline().objective);
+}
+
 TEST(Judged, AreTheOrderStatisticsOfAllPlantsButTheFirst) {
   const ObjectiveSetting setting = setting_of(6, 0.4);
   const auto judged = judge(setting, {{"paper", kPaperGains}});
@@ -111,7 +136,7 @@ TEST(Judged, AreTheOrderStatisticsOfAllPlantsButTheFirst) {
     std::vector<double> iae, variation;
     int completed = 0;
     for (std::size_t plant = 1; plant < 6; ++plant) {
-      const ModeScore score = run_scenarios(setting, plant, kPaperGains, one.mode).front();
+      const ModeScore score = score_of(setting, plant, one.mode);
       iae.push_back(*score.metrics.heading_iae_degs);
       variation.push_back(score.metrics.control_variation);
       completed += score.metrics.completed ? 1 : 0;

@@ -40,11 +40,11 @@ std::vector<std::optional<Metrics>> driven_with(const Course& course,
   for (const double moment_m : moments_m) {
     Plant<double> plant = course.plant;
     plant.yaw.coulomb += moment_m;
-    runs.push_back({plant, course.controller, 0, 0});
+    runs.push_back({plant, course.controller, course.mode, 0, 0});
   }
   std::vector<std::optional<Metrics>> driven;
-  for (const Result<Metrics>& metrics : simulate_batch(runs, *course.scenario, course.mode,
-                                                       course.sample_time_s, course.arithmetic)) {
+  for (const Result<Metrics>& metrics :
+       simulate_batch(runs, *course.scenario, course.sample_time_s, course.arithmetic)) {
     driven.push_back(metrics ? std::optional(*metrics) : std::nullopt);
   }
   return driven;

@@ -147,11 +147,11 @@ std::vector<Block> blocks_of(const Layout& layout, const Shard& shard, const Slo
 }
 
 std::vector<BatchRun> runs_of(const Fleet& fleet, const Controller<double>& controller,
-                              const Block& block, std::uint64_t seed) {
+                              const Block& block, YawMode mode, std::uint64_t seed) {
   std::vector<BatchRun> runs;
   for (const std::size_t sample : block.samples) {
     // Sample 0 is the run of `awmr simulate`: the scenario's seed alone.
-    runs.push_back({fleet.vehicle(block.scenario, sample), controller, sample == 0 ? 0 : seed,
+    runs.push_back({fleet.vehicle(block.scenario, sample), controller, mode, sample == 0 ? 0 : seed,
                     static_cast<std::uint64_t>(sample)});
   }
   return runs;
@@ -208,9 +208,8 @@ Result<Comparison> compare(const Model& model, const std::vector<NamedGains>& ga
         // The controller knows the model's own values, not the drawn ones.
         const auto controller = make_controller(fleet.nominal, model.vehicle, set.gains);
         const YawMode mode = kYawModes[block.mode];
-        const auto metrics =
-            simulate_batch(runs_of(fleet, controller, block, options.seed), scenario, mode,
-                           model.vehicle.sample_time_s, arithmetic);
+        const auto metrics = simulate_batch(runs_of(fleet, controller, block, mode, options.seed),
+                                            scenario, model.vehicle.sample_time_s, arithmetic);
         for (std::size_t i = 0; i < metrics.size(); ++i) {
           const std::size_t index = layout.row(block.place(i));
           if (metrics[i]) {

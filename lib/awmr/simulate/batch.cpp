@@ -92,6 +92,7 @@ void set_up_lane(Batch& batch, const BatchRun& run, std::size_t lane) {
   const Controller<double> controller = controller_in(batch.scenario, run.controller);
   const int substeps = substeps_for(run.plant, batch.sample_time_s);
   const double step_s = batch.sample_time_s / substeps;
+  put(static_cast<double>(static_cast<int>(run.mode)), lane, block.mode);
   put(resolved_at_rest(run.plant, step_s), lane, block.plant);
   put(step_s, lane, block.step_s);
   put(static_cast<double>(substeps), lane, block.substeps);
@@ -113,12 +114,11 @@ void set_up_lane(Batch& batch, const BatchRun& run, std::size_t lane) {
 }
 
 /// All of a block. A lane without a run is a copy of the first, so that its numbers are harmless.
-Batch set_up(std::span<const BatchRun> runs, const Scenario& scenario, YawMode mode,
-             double sample_time_s, const Kernel& kernel) {
+Batch set_up(std::span<const BatchRun> runs, const Scenario& scenario, double sample_time_s,
+             const Kernel& kernel) {
   Batch batch{scenario, sample_time_s, kernel};
   Block& block = *batch.block;
   const Controller<double> controller = controller_in(scenario, runs.front().controller);
-  block.setup.mode = mode;
   block.setup.split = controller.limits.split;
   block.setup.form = controller.limits.form;
   block.setup.is_open_loop = std::holds_alternative<OpenLoop>(scenario.guidance);
@@ -311,10 +311,9 @@ bool all_wheels_driven(std::span<const BatchRun> runs) {
 }
 
 /// Errors (input): as failure_of().
-Result<Metrics> one_by_one(const BatchRun& run, const Scenario& scenario, YawMode mode,
-                           double sample_time_s) {
+Result<Metrics> one_by_one(const BatchRun& run, const Scenario& scenario, double sample_time_s) {
   const Run driven = simulate(
-      run.plant, run.controller, scenario, mode,
+      run.plant, run.controller, scenario, run.mode,
       {.sample_time_s = sample_time_s, .substeps = {}, .seed = run.seed, .sample = run.sample});
   AWMR_RETURN_IF_ERROR(failure_of(driven, scenario));
   return metrics_of(driven, scenario, run.controller);
@@ -338,8 +337,7 @@ Result<BatchArithmetic> batch_arithmetic() {
 }
 
 std::vector<Result<Metrics>> simulate_batch(std::span<const BatchRun> runs,
-                                            const Scenario& scenario, YawMode mode,
-                                            double sample_time_s,
+                                            const Scenario& scenario, double sample_time_s,
                                             const BatchArithmetic& arithmetic) {
   const Kernel* kernel = nullptr;
   for (const Kernel* one : lanes::supported_kernels()) {
@@ -350,11 +348,11 @@ std::vector<Result<Metrics>> simulate_batch(std::span<const BatchRun> runs,
     const auto block = runs.subspan(first, std::min(kBatchRuns, runs.size() - first));
     std::vector<std::optional<Metrics>> metrics(block.size());
     if (kernel && all_wheels_driven(block))
-      metrics = drive(set_up(block, scenario, mode, sample_time_s, *kernel));
+      metrics = drive(set_up(block, scenario, sample_time_s, *kernel));
     for (std::size_t i = 0; i < block.size(); ++i) {
       // A run that failed is told of by simulate(), or saved by it.
       results.push_back(metrics[i] ? Result<Metrics>(*metrics[i])
-                                   : one_by_one(block[i], scenario, mode, sample_time_s));
+                                   : one_by_one(block[i], scenario, sample_time_s));
     }
   }
   return results;

@@ -17,10 +17,11 @@
 
 namespace awmr {
 
-/// One of the runs: its vehicle, the controller, and where its random numbers come from.
+/// One of the runs: its vehicle, the controller, how it turns, and where its random numbers come from.
 struct BatchRun {
   Plant<double> plant;
   Controller<double> controller;
+  YawMode mode;
   std::uint64_t seed = 0;    ///< as in SimulateOptions
   std::uint64_t sample = 0;  ///< as in SimulateOptions
 };
@@ -45,8 +46,7 @@ Result<BatchArithmetic> batch_arithmetic();
 /// The metrics of each run, in order. Errors (input) of a run: as failure_of(). All controllers have
 /// the same allocation, split and form.
 std::vector<Result<Metrics>> simulate_batch(std::span<const BatchRun> runs,
-                                            const Scenario& scenario, YawMode mode,
-                                            double sample_time_s,
+                                            const Scenario& scenario, double sample_time_s,
                                             const BatchArithmetic& arithmetic);
 
 }  // namespace awmr

@@ -43,6 +43,7 @@ struct MeteredRow {
   T cross_track_m;         ///< from the present leg, line or path
   T off_target_m;          ///< from the point gone to
   T clearance_m;           ///< to the nearest obstacle; 0 without obstacles
+  T speed_ref_mps;         ///< u_d, what the speed law is asked for
 };
 
 /// When a row is; the same for all lanes.
@@ -73,6 +74,8 @@ struct MeterSums {
   T clearance_min_m = T(0.0);
   T speed_reached = T(0.0);  ///< flag
   T speed_least_mps = T(0.0);
+  T speed_itae_m_s = T(0.0);
+  T steering_rate2_degps2 = T(0.0);  ///< squares of the commanded angle's rates
   // Of the headings: sums over all steps, then those of the present step.
   T settling_s = T(0.0);
   T never_settled = T(0.0);  ///< flag: at the end of a step
@@ -85,6 +88,7 @@ struct MeterSums {
   T settled_s = T(0.0);    ///< from the step's start
   // Of the row before.
   T error_deg = T(0.0);
+  T speed_error_m = T(0.0);  ///< t |u_d - u|
   T t_s = T(0.0);
   T power_mps = T(0.0);
   T copper = T(0.0);
@@ -204,6 +208,17 @@ void measure_speed(const T& u_mps, const MeteredCourse& course, MeterSums<T>& m)
   m.speed_reached = select(counts, T(1.0), T(0.0));
 }
 
+/// Integral of t |u_d - u|, by trapezoids.
+template <class T>
+void measure_speed_error(const MeteredRow<T>& row, const MeteredTime& time, MeterSums<T>& m) {
+  using math::abs;
+  const T error_m = T(time.t_s) * abs(row.speed_ref_mps - row.state.u_mps);
+  if (!time.is_first) {
+    m.speed_itae_m_s += T(0.5 * time.since_last_s) * (m.speed_error_m + error_m);
+  }
+  m.speed_error_m = error_m;
+}
+
 /// Motion, and what the commands vary.
 template <class T>
 void measure_motion(const MeteredRow<T>& row, const MeteredVehicle<T>& vehicle, bool is_first,
@@ -242,6 +257,8 @@ void measure_work(const MeteredRow<T>& row, double dt_s, MeterSums<T>& m) {
   m.tyre_work += T(dt_s) * m.yaw_resistance_m * m.r_radps;
   m.saturation_s = select(m.limited > T(0.0), T(m.saturation_s + T(dt_s)), m.saturation_s);
   m.steering_travel_deg += abs(degrees(row.state.steering_rad - m.steering_rad));
+  const T rate_degps = degrees(row.steering_command_rad - m.steering_command_rad) * T(1.0 / dt_s);
+  m.steering_rate2_degps2 += rate_degps * rate_degps;
 }
 
 /// Keeps what the next row asks of this one.
@@ -276,6 +293,7 @@ void measure(const MeteredRow<T>& row, const MeteredVehicle<T>& vehicle,
   meter::measure_motion(row, vehicle, time.is_first, m);
   if (!time.is_first) meter::measure_work(row, time.since_last_s, m);
   meter::measure_speed(row.state.u_mps, course, m);
+  meter::measure_speed_error(row, time, m);
   m.cross_track_m2 += row.cross_track_m * row.cross_track_m;
   if (time.is_in_second_half) {
     m.strayed = select(row.off_target_m <= T(course.tolerance_m), m.strayed, T(1.0));

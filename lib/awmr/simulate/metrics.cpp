@@ -57,6 +57,10 @@ Metrics metrics_of(MeterSums<double> sums, const Ending& ending, const Scenario&
   m.saturation_s = sums.saturation_s;
   m.steering_travel_deg = sums.steering_travel_deg;
   m.tyre_work = sums.tyre_work;
+  m.speed_itae_m_s = sums.speed_itae_m_s;
+  if (sums.rows > 1.0) {
+    m.steering_rate_rms_degps = std::sqrt(sums.steering_rate2_degps2 / (sums.rows - 1.0));
+  }
   if (std::holds_alternative<HeadingSteps>(scenario.guidance)) {
     meter::close_step(sums);
     m.completed = !(sums.never_settled > 0.0);
@@ -108,7 +112,8 @@ Metrics metrics_of(const Run& run, const Scenario& scenario, const Controller<do
              .goal_rad = goal,
              .cross_track_m = row.course.cross_track_m,
              .off_target_m = distance_m(row.course.target_m, {row.state.x_m, row.state.y_m}),
-             .clearance_m = row.clearance_m},
+             .clearance_m = row.clearance_m,
+             .speed_ref_mps = row.u_ref_mps},
             vehicle, course, time, sums);
   }
   return metrics_of(sums, {run.end, run.rows.back().t_s, run.missed_waypoints}, scenario);

@@ -90,6 +90,7 @@ void describe_robust(JsonObject json) {
 void describe_search(JsonObject json) {
   json.string("algorithm");
   json.string("stop_reason");
+  json.optional_string("arithmetic");  // how the runs were rounded: "fused", "unfused" or "scalar"
   for (const char* key : {"evaluations", "simulated", "seed"}) json.number(key, kNonNegative);
   json.reject_unknown_keys();
 }

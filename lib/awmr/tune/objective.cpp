@@ -9,37 +9,44 @@
 
 #include "awmr/core/index.h"
 #include "awmr/core/parallel.h"
-#include "awmr/core/units.h"
 #include "awmr/simulate/simulate.h"
 
 namespace awmr {
 namespace {
 
-/// Integral of t |u_d - u| over the run, m s, by trapezoids.
-double speed_itae_m_s(const Run& run) {
-  double sum = 0.0;
-  for (std::size_t i = 1; i < run.rows.size(); ++i) {
-    const RunRow& a = run.rows[i - 1];
-    const RunRow& b = run.rows[i];
-    sum += (b.t_s - a.t_s) / 2.0 *
-           (a.t_s * std::abs(a.u_ref_mps - a.state.u_mps) +
-            b.t_s * std::abs(b.u_ref_mps - b.state.u_mps));
-  }
-  return sum;
+/// Runs fill registers by fours or eights: what is shared out among threads is a multiple of four.
+constexpr std::size_t kFour = 4;
+
+/// How many runs of `count` in each of so many scenarios are driven together, so that every thread has
+/// work.
+std::size_t runs_together(std::size_t count, std::size_t scenarios) {
+  const std::size_t share = count * scenarios / thread_count(0) + 1;
+  return std::min(kBatchRuns, (share + kFour - 1) / kFour * kFour);
 }
 
-/// Of the commanded angle.
-double steering_rate_rms_degps(const Run& run) {
-  if (run.rows.size() < 2) return 0.0;
-  double sum = 0.0;
-  for (std::size_t i = 1; i < run.rows.size(); ++i) {
-    const RunRow& a = run.rows[i - 1];
-    const RunRow& b = run.rows[i];
-    const double rate_degps =
-        degrees(b.steering_command_rad - a.steering_command_rad) / (b.t_s - a.t_s);
-    sum += rate_degps * rate_degps;
+/// Of a run that failed the batch tells nothing: simulate() tells what came before.
+Metrics metrics_of_failed(const BatchRun& run, const Scenario& scenario, double sample_time_s) {
+  const Run driven = simulate(run.plant, run.controller, scenario, run.mode,
+                              {.sample_time_s = sample_time_s,
+                               .substeps = std::nullopt,
+                               .seed = run.seed,
+                               .sample = run.sample});
+  return metrics_of(driven, scenario, run.controller);
+}
+
+/// By gains, then plant, then mode.
+std::vector<BatchRun> runs_of(const ObjectiveSetting& setting,
+                              std::span<const Gains<double>> gains) {
+  std::vector<BatchRun> runs;
+  for (const Gains<double>& one : gains) {
+    const auto controller = make_controller(setting.plants.front(), setting.vehicle, one);
+    for (std::size_t plant = 0; plant < setting.plants.size(); ++plant) {
+      for (const YawMode mode : yaw_modes(setting.vehicle)) {
+        runs.push_back({setting.plants[plant], controller, mode, setting.seed, plant});
+      }
+    }
   }
-  return std::sqrt(sum / static_cast<double>(run.rows.size() - 1));
+  return runs;
 }
 
 }  // namespace
@@ -47,7 +54,7 @@ double steering_rate_rms_degps(const Run& run) {
 std::array<double, std::size(kObjectiveTerms)> figures_of(const ModeScore& score) {
   const Metrics& m = score.metrics;
   return {m.heading_itae_degs2.value_or(0.0), m.overshoot_deg.value_or(0.0), m.control_variation,
-          m.control_effort, score.speed_itae_m_s};
+          m.control_effort, m.speed_itae_m_s};
 }
 
 double objective_of(const ModeScore& score, const ModeScore& baseline,
@@ -75,47 +82,50 @@ double mean_and_tail(std::vector<double> values, double tail_share) {
   return 0.5 * (mean + worst);
 }
 
-std::vector<ModeScore> run_scenarios(const ObjectiveSetting& setting, std::size_t plant,
-                                     const Gains<double>& gains, YawMode mode) {
-  const Controller<double> controller =
-      make_controller(setting.plants.front(), setting.vehicle, gains);
-  const SimulateOptions options{.sample_time_s = setting.vehicle.sample_time_s,
-                                .substeps = std::nullopt,
-                                .seed = setting.seed,
-                                .sample = plant};
-  std::vector<ModeScore> scores;
-  for (const Scenario& scenario : setting.scenarios) {
-    const Run run = simulate(setting.plants[plant], controller, scenario, mode, options);
-    scores.push_back({.scenario = scenario.name,
-                      .mode = mode,
-                      .metrics = metrics_of(run, scenario, controller),
-                      .objective = 0.0,
-                      .speed_itae_m_s = speed_itae_m_s(run),
-                      .steering_rate_rms_degps = steering_rate_rms_degps(run)});
-  }
+std::vector<std::vector<ModeScore>> run_all(const ObjectiveSetting& setting,
+                                            std::span<const Gains<double>> gains) {
+  const std::vector<BatchRun> runs = runs_of(setting, gains);
+  const std::size_t scenarios = setting.scenarios.size();
+  const std::size_t together = runs_together(runs.size(), scenarios);
+  const std::size_t blocks = (runs.size() + together - 1) / together;
+  const std::size_t per_gains = runs.size() / gains.size();
+  std::vector<std::vector<ModeScore>> scores(gains.size(),
+                                             std::vector<ModeScore>(per_gains * scenarios));
+  parallel_for(blocks * scenarios, 0, [&](std::size_t i) {
+    const Scenario& scenario = setting.scenarios[i % scenarios];
+    const std::size_t first = i / scenarios * together;
+    const auto block = std::span(runs).subspan(first, std::min(together, runs.size() - first));
+    const double sample_time_s = setting.vehicle.sample_time_s;
+    const auto metrics = simulate_batch(block, scenario, sample_time_s, setting.arithmetic);
+    for (std::size_t j = 0; j < block.size(); ++j) {
+      const std::size_t run = first + j;
+      scores[run / per_gains][run % per_gains * scenarios + i % scenarios] = {
+          .scenario = scenario.name,
+          .mode = block[j].mode,
+          .metrics =
+              metrics[j] ? *metrics[j] : metrics_of_failed(block[j], scenario, sample_time_s)};
+    }
+  });
   return scores;
 }
 
 Objective::Objective(ObjectiveSetting setting, const Gains<double>& baseline)
-    : setting_(std::move(setting)), baseline_scores_(simulate_all(baseline)) {
+    : setting_(std::move(setting)),
+      baseline_scores_(run_all(setting_, std::span(&baseline, 1)).front()) {
   baseline_ = evaluate(baseline_scores_);
 }
 
-Evaluation Objective::operator()(const Gains<double>& gains) const {
-  return evaluate(simulate_all(gains));
+std::vector<Evaluation> Objective::operator()(std::span<const Gains<double>> gains) const {
+  std::vector<Evaluation> evaluations;
+  if (gains.empty()) return evaluations;
+  for (std::vector<ModeScore>& scores : run_all(setting_, gains)) {
+    evaluations.push_back(evaluate(std::move(scores)));
+  }
+  return evaluations;
 }
 
-std::vector<ModeScore> Objective::simulate_all(const Gains<double>& gains) const {
-  const std::span<const YawMode> modes = yaw_modes(setting_.vehicle);
-  std::vector<std::vector<ModeScore>> runs(setting_.plants.size() * modes.size());
-  parallel_for(runs.size(), 0, [&](std::size_t i) {
-    runs[i] = run_scenarios(setting_, i / modes.size(), gains, modes[i % modes.size()]);
-  });
-  std::vector<ModeScore> scores;
-  for (std::vector<ModeScore>& run : runs) {
-    for (ModeScore& one : run) scores.push_back(std::move(one));
-  }
-  return scores;
+Evaluation Objective::operator()(const Gains<double>& gains) const {
+  return (*this)(std::span(&gains, 1)).front();
 }
 
 Evaluation Objective::evaluate(std::vector<ModeScore> scores) const {

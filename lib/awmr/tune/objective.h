@@ -13,9 +13,11 @@
 
 #include <array>
 #include <iterator>
+#include <span>
 #include <vector>
 
 #include "awmr/model/dynamics.h"
+#include "awmr/simulate/batch.h"
 #include "awmr/tune/tune.h"
 
 namespace awmr {
@@ -50,6 +52,7 @@ struct ObjectiveSetting {
   std::vector<Scenario> scenarios;  ///< each holds headings; not empty
   double tail_share = 1.0;          ///< (0, 1]
   std::uint64_t seed = 0;           ///< of what is random in the scenarios, another for each plant
+  BatchArithmetic arithmetic = {};  ///< of the runs
 };
 
 struct Evaluation {
@@ -64,12 +67,13 @@ class Objective {
  public:
   Objective(ObjectiveSetting setting, const Gains<double>& baseline);
 
-  /// Simulates every mode of every plant; the result does not depend on the number of cores.
+  /// Simulates every mode of every plant for each set of gains. What is found of one depends neither
+  /// on the others nor on the number of cores.
+  std::vector<Evaluation> operator()(std::span<const Gains<double>> gains) const;
   Evaluation operator()(const Gains<double>& gains) const;
   const Evaluation& baseline() const { return baseline_; }
 
  private:
-  std::vector<ModeScore> simulate_all(const Gains<double>& gains) const;
   Evaluation evaluate(std::vector<ModeScore> scores) const;
 
   ObjectiveSetting setting_;
@@ -77,9 +81,10 @@ class Objective {
   Evaluation baseline_;
 };
 
-/// The runs of one plant in one mode, by scenario. `plant` is the number of its noise, too.
-std::vector<ModeScore> run_scenarios(const ObjectiveSetting& setting, std::size_t plant,
-                                     const Gains<double>& gains, YawMode mode);
+/// All runs of each set of gains, by plant, then mode, then scenario. The number of a plant is that of
+/// its noise, too.
+std::vector<std::vector<ModeScore>> run_all(const ObjectiveSetting& setting,
+                                            std::span<const Gains<double>> gains);
 
 /// (mean + mean of the largest share)/2; at least one value counts as the largest.
 double mean_and_tail(std::vector<double> values, double tail_share);

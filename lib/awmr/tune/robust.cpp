@@ -4,10 +4,10 @@
 #include <cmath>
 #include <functional>
 #include <numeric>
+#include <span>
 #include <utility>
 
 #include "awmr/core/index.h"
-#include "awmr/core/parallel.h"
 #include "awmr/core/units.h"
 #include "awmr/simulate/plant_sampler.h"
 
@@ -35,7 +35,7 @@ constexpr JudgedBy kJudgedBy[] = {
     {"control_variation",
      [](const ModeScore& s, const Scenario&) { return s.metrics.control_variation; }},
     {"steering_rate_rms_degps",
-     [](const ModeScore& s, const Scenario&) { return s.steering_rate_rms_degps; }},
+     [](const ModeScore& s, const Scenario&) { return s.metrics.steering_rate_rms_degps; }},
 };
 
 /// Median, 95 % quantile (the least value that as many do not exceed) and mean of the worst.
@@ -51,24 +51,23 @@ JudgedFigure figure_of(const char* name, std::vector<double> values, double tail
 }
 
 /// What all draws in all scenarios make of one set of gains in one mode.
-JudgedGains judged(const ObjectiveSetting& setting, const NamedCandidate& candidate, YawMode mode,
-                   const std::vector<std::vector<ModeScore>>& by_draw) {
-  JudgedGains result{.gains = candidate.name, .mode = mode, .figures = {}};
-  std::size_t completed = 0;
-  std::size_t runs = 0;
-  for (const std::vector<ModeScore>& scores : by_draw) {
-    for (const ModeScore& score : scores) {
-      completed += score.metrics.completed ? 1 : 0;
-      ++runs;
-    }
+JudgedGains judged(const ObjectiveSetting& setting, const char* gains, YawMode mode,
+                   std::span<const ModeScore> all) {
+  std::vector<const ModeScore*> scores;
+  for (const ModeScore& score : all) {
+    if (score.mode == mode) scores.push_back(&score);
   }
-  result.completed_share = static_cast<double>(completed) / static_cast<double>(runs);
+  const auto completed =
+      std::ranges::count_if(scores, [](const ModeScore* s) { return s->metrics.completed; });
+  JudgedGains result{
+      .gains = gains,
+      .mode = mode,
+      .completed_share = static_cast<double>(completed) / static_cast<double>(scores.size()),
+      .figures = {}};
   for (const JudgedBy& by : kJudgedBy) {
     std::vector<double> values;
-    for (const std::vector<ModeScore>& scores : by_draw) {
-      for (std::size_t i = 0; i < scores.size(); ++i) {
-        values.push_back(by.value(scores[i], setting.scenarios[i]));
-      }
+    for (std::size_t i = 0; i < scores.size(); ++i) {
+      values.push_back(by.value(*scores[i], setting.scenarios[i % setting.scenarios.size()]));
     }
     result.figures.push_back(figure_of(by.name, std::move(values), setting.tail_share));
   }
@@ -91,15 +90,12 @@ Result<std::vector<Plant<double>>> plants_of(const Model& model, int draws, std:
 std::vector<JudgedGains> judge(const ObjectiveSetting& setting,
                                const std::vector<NamedCandidate>& candidates) {
   const std::span<const YawMode> modes = yaw_modes(setting.vehicle);
-  const std::size_t draws = setting.plants.size() - 1;
+  const std::size_t of_own = modes.size() * setting.scenarios.size();
   std::vector<JudgedGains> all;
   for (const NamedCandidate& candidate : candidates) {
+    const auto scores = run_all(setting, std::span(&candidate.gains, 1)).front();
     for (const YawMode mode : modes) {
-      std::vector<std::vector<ModeScore>> by_draw(draws);
-      parallel_for(draws, 0, [&](std::size_t i) {
-        by_draw[i] = run_scenarios(setting, i + 1, candidate.gains, mode);
-      });
-      all.push_back(judged(setting, candidate, mode, by_draw));
+      all.push_back(judged(setting, candidate.name, mode, std::span(scores).subspan(of_own)));
     }
   }
   return all;

@@ -9,7 +9,9 @@
 #include <limits>
 #include <memory>
 #include <mutex>
+#include <span>
 
+#include "awmr/core/parallel.h"
 #include "awmr/core/random.h"
 
 namespace awmr {
@@ -78,9 +80,20 @@ Optimizer optimizer(nlopt_algorithm algorithm, const GainBounds& bounds, int eva
   return opt;
 }
 
-/// What NLopt's callbacks share: the problem, the last point, the best one. NLopt asks for the
-/// objective and for the constraints of a point one after the other, and hands on a single pointer:
-/// the last point is kept so that it is simulated once.
+/// A point with what was found there.
+struct Looked {
+  Point point{};
+  Candidate candidate{};
+  std::vector<double> residuals{};  ///< those required, then one per mode, or two
+
+  /// What NLopt is told of it.
+  double value() const {
+    return candidate.simulated && candidate.valid ? candidate.objective
+                                                  : kRejected + candidate.violation;
+  }
+};
+
+/// Looks at points, keeps the best one and counts.
 class Problem {
  public:
   Problem(const TuneOptions& options, const ConstraintContext& context, const Objective& objective)
@@ -95,24 +108,12 @@ class Problem {
   int evaluations = 0;
   int simulated = 0;
 
-  double objective(const double* x) {
-    look_at(x);
-    ++evaluations;
-    if (options_.progress) {
-      options_.progress(static_cast<std::size_t>(evaluations),
-                        static_cast<std::size_t>(options_.global_evaluations) +
-                            static_cast<std::size_t>(options_.local_evaluations));
-    }
-    return last_.simulated && last_.valid ? last_.objective : kRejected + last_.violation;
-  }
-
-  void residuals(const double* x, double* result) {
-    look_at(x);
-    std::copy(residuals_.begin(), residuals_.end(), result);
-  }
+  /// In the order of the points; their runs are driven together.
+  std::vector<Looked> look_at(std::span<const Point> points);
 
  private:
-  void look_at(const double* x);
+  Looked before_runs(const Point& point) const;
+  void add_runs(const Evaluation& evaluation, Looked& looked) const;
 
   const TuneOptions& options_;
   const ConstraintContext& context_;
@@ -123,45 +124,120 @@ class Problem {
   unsigned constraints_ = static_cast<unsigned>(
       awmr::residuals(constraints_of(Gains<double>{{1.0, 1.0, 1.0}, {1.0, 1.0}}, context_)).size() +
       simulated_constraints_);
-  std::optional<Point> point_;
-  Candidate last_;
-  std::vector<double> residuals_;
 };
 
-void Problem::look_at(const double* x) {
+Looked Problem::before_runs(const Point& point) const {
+  Looked looked{.point = point, .candidate = {.gains = gains_at(point.data(), options_.bounds)}};
+  looked.residuals = awmr::residuals(constraints_of(looked.candidate.gains, context_));
+  looked.candidate.violation = *std::ranges::max_element(looked.residuals);
+  looked.residuals.resize(constraints_, 0.0);
+  return looked;
+}
+
+void Problem::add_runs(const Evaluation& e, Looked& looked) const {
+  Candidate& candidate = looked.candidate;
+  candidate.simulated = true;
+  candidate.valid = e.valid;
+  candidate.objective = e.objective;
+  const std::size_t modes = e.mode_objective.size();
+  const std::size_t first = looked.residuals.size() - simulated_constraints_;
+  for (std::size_t i = 0; i < simulated_constraints_; ++i) {
+    const double broken = i < modes ? e.mode_objective[i] - 1.0
+                                    : e.mode_activity[i - modes] / options_.activity_max - 1.0;
+    looked.residuals[first + i] = e.valid ? broken : 1.0;
+    candidate.violation = std::max(candidate.violation, looked.residuals[first + i]);
+  }
+}
+
+std::vector<Looked> Problem::look_at(std::span<const Point> points) {
+  std::vector<Looked> all(points.size());
+  parallel_for(points.size(), 0, [&](std::size_t i) { all[i] = before_runs(points[i]); });
+  std::vector<Gains<double>> to_run;
+  for (const Looked& looked : all) {
+    if (looked.candidate.violation <= 0.0 || simulate_all) to_run.push_back(looked.candidate.gains);
+  }
+  const std::vector<Evaluation> found = objective_(to_run);
+  auto next = found.begin();
+  for (Looked& looked : all) {
+    if (looked.candidate.violation <= 0.0 || simulate_all) add_runs(*next++, looked);
+    if (better(looked.candidate, nearest)) nearest = looked.candidate;
+  }
+  simulated += static_cast<int>(found.size());
+  evaluations += static_cast<int>(points.size());
+  if (options_.progress) {
+    options_.progress(static_cast<std::size_t>(evaluations),
+                      static_cast<std::size_t>(options_.global_evaluations) +
+                          static_cast<std::size_t>(options_.local_evaluations));
+  }
+  return all;
+}
+
+/// What NLopt calls back: it asks for the objective and for the constraints of a point one after the
+/// other.
+class Asked {
+ public:
+  virtual ~Asked() = default;
+  virtual double objective(const Point& point) = 0;
+  virtual void residuals(const Point& point, std::span<double> result) = 0;
+};
+
+/// One point at a time; the last one is kept, so that it is looked at once.
+class OneByOne : public Asked {
+ public:
+  explicit OneByOne(Problem& problem) : problem_(problem) {}
+  double objective(const Point& point) override { return at(point).value(); }
+  void residuals(const Point& point, std::span<double> result) override {
+    std::ranges::copy(at(point).residuals, result.begin());
+  }
+
+ private:
+  const Looked& at(const Point& point) {
+    if (!last_ || last_->point != point) last_ = problem_.look_at(std::span(&point, 1)).front();
+    return *last_;
+  }
+
+  Problem& problem_;
+  std::optional<Looked> last_;
+};
+
+/// Goes through the points that are known, notes those of the next generation and stops there: their
+/// values are not known yet, and none of them depends on another's.
+class OneGeneration : public Asked {
+ public:
+  OneGeneration(const std::vector<Looked>& known, nlopt_opt search)
+      : known_(known), search_(search) {}
+  std::vector<Point> next;
+
+  double objective(const Point& point) override {
+    if (asked_ < known_.size()) return known_[asked_++].value();
+    next.push_back(point);
+    if (next.size() == kPopulation) nlopt_force_stop(search_);
+    return 0.0;
+  }
+  void residuals(const Point&, std::span<double> result) override {
+    std::ranges::fill(result, 0.0);
+    if (next.empty()) std::ranges::copy(known_[asked_ - 1].residuals, result.begin());
+  }
+
+ private:
+  const std::vector<Looked>& known_;
+  nlopt_opt search_;
+  std::size_t asked_ = 0;
+};
+
+Point point_at(const double* x) {
   Point point{};
   std::copy(x, x + kDimension, point.begin());
-  if (point_ == point) return;
-  point_ = point;
-  last_ = Candidate{.gains = gains_at(x, options_.bounds)};
-  residuals_ = awmr::residuals(constraints_of(last_.gains, context_));
-  last_.violation = *std::max_element(residuals_.begin(), residuals_.end());
-  residuals_.resize(constraints_, 0.0);
-  if (last_.violation <= 0.0 || simulate_all) {
-    const Evaluation e = objective_(last_.gains);
-    ++simulated;
-    last_.simulated = true;
-    last_.valid = e.valid;
-    last_.objective = e.objective;
-    const std::size_t modes = e.mode_objective.size();
-    const std::size_t first = residuals_.size() - simulated_constraints_;
-    for (std::size_t i = 0; i < simulated_constraints_; ++i) {
-      const double broken = i < modes ? e.mode_objective[i] - 1.0
-                                      : e.mode_activity[i - modes] / options_.activity_max - 1.0;
-      residuals_[first + i] = e.valid ? broken : 1.0;
-      last_.violation = std::max(last_.violation, residuals_[first + i]);
-    }
-  }
-  if (better(last_, nearest)) nearest = last_;
+  return point;
 }
 
 double objective_callback(unsigned, const double* x, double*, void* data) {
-  return static_cast<Problem*>(data)->objective(x);
+  return static_cast<Asked*>(data)->objective(point_at(x));
 }
 
-void constraints_callback(unsigned, double* result, unsigned, const double* x, double*,
+void constraints_callback(unsigned count, double* result, unsigned, const double* x, double*,
                           void* data) {
-  static_cast<Problem*>(data)->residuals(x, result);
+  static_cast<Asked*>(data)->residuals(point_at(x), {result, count});
 }
 
 /// Why NLopt stopped, in words.
@@ -178,26 +254,36 @@ std::string reason(nlopt_result code) {
   }
 }
 
-nlopt_result run(nlopt_algorithm algorithm, Problem& problem, const TuneOptions& options,
-                 const Point& start, int evaluations) {
-  Optimizer opt = optimizer(algorithm, options.bounds, evaluations);
-  const std::vector<double> tolerances(problem.constraints(), 0.0);
-  nlopt_set_min_objective(opt.get(), objective_callback, &problem);
-  nlopt_add_inequality_mconstraint(opt.get(), problem.constraints(), constraints_callback, &problem,
+nlopt_result run(nlopt_opt search, Asked& asked, unsigned constraints, const Point& start) {
+  const std::vector<double> tolerances(constraints, 0.0);
+  nlopt_set_min_objective(search, objective_callback, &asked);
+  nlopt_add_inequality_mconstraint(search, constraints, constraints_callback, &asked,
                                    tolerances.data());
-  if (algorithm == NLOPT_GN_ISRES) {
-    nlopt_set_population(opt.get(), kPopulation);
-    nlopt_srand(static_cast<unsigned long>((options.seed ^ (options.seed >> 32)) & 0xffffffffULL));
-  } else {
-    nlopt_set_initial_step1(opt.get(), kFirstStep);
-    nlopt_set_xtol_abs1(opt.get(), kLastStep);
-  }
   Point x = start;
   double value = 0.0;
-  return nlopt_optimize(opt.get(), x.data(), &value);
+  return nlopt_optimize(search, x.data(), &value);
 }
 
 bool failed(nlopt_result code) { return code < 0 && code != NLOPT_ROUNDOFF_LIMITED; }
+
+/// ISRES, a generation at a time, though NLopt asks for one point after the other: for each generation
+/// the search begins anew and is told what is known, which takes it to the next one. It is the search
+/// that it would be in one go.
+nlopt_result search_globally(Problem& problem, const TuneOptions& options, const Point& start) {
+  // NLopt's random generator is one per process.
+  static std::mutex generator;
+  const std::lock_guard<std::mutex> turn(generator);
+  std::vector<Looked> known;
+  while (true) {
+    const Optimizer search = optimizer(NLOPT_GN_ISRES, options.bounds, options.global_evaluations);
+    nlopt_set_population(search.get(), kPopulation);
+    nlopt_srand(static_cast<unsigned long>((options.seed ^ (options.seed >> 32)) & 0xffffffffULL));
+    OneGeneration generation(known, search.get());
+    const nlopt_result code = run(search.get(), generation, problem.constraints(), start);
+    if (generation.next.empty()) return code;
+    for (Looked& looked : problem.look_at(generation.next)) known.push_back(std::move(looked));
+  }
+}
 
 /// COBYLA again and again from the best point met, each time with the first step anew, until a
 /// search gains less than kWorthwhile or the budget is spent. Returns why it stopped.
@@ -206,9 +292,13 @@ Result<std::string> search_locally(Problem& problem, const TuneOptions& options)
   std::string stop;
   for (int searches = 1; problem.evaluations < budget; ++searches) {
     const Candidate before = problem.nearest;
+    const Optimizer search =
+        optimizer(NLOPT_LN_COBYLA, options.bounds, budget - problem.evaluations);
+    nlopt_set_initial_step1(search.get(), kFirstStep);
+    nlopt_set_xtol_abs1(search.get(), kLastStep);
+    OneByOne asked(problem);
     const nlopt_result code =
-        run(NLOPT_LN_COBYLA, problem, options, point_of(before.gains, options.bounds),
-            budget - problem.evaluations);
+        run(search.get(), asked, problem.constraints(), point_of(before.gains, options.bounds));
     if (failed(code)) return program_fault("NLopt's COBYLA: " + reason(code));
     stop = fmt::format("; local, {} searches: {}", searches, reason(code));
     const Candidate& after = problem.nearest;
@@ -278,14 +368,7 @@ Candidate feasible_start(const TuneOptions& options, const ConstraintContext& co
 Result<SearchResult> search(const TuneOptions& options, const ConstraintContext& context,
                             const Objective& objective, const Gains<double>& start) {
   Problem problem(options, context, objective);
-  nlopt_result global = NLOPT_FAILURE;
-  {
-    // NLopt's random generator is one per process.
-    static std::mutex generator;
-    const std::lock_guard<std::mutex> turn(generator);
-    global = run(NLOPT_GN_ISRES, problem, options, point_of(start, options.bounds),
-                 options.global_evaluations);
-  }
+  const nlopt_result global = search_globally(problem, options, point_of(start, options.bounds));
   if (failed(global)) return program_fault("NLopt's ISRES: " + reason(global));
   std::string stop = "global: " + reason(global);
   problem.simulate_all = true;

@@ -210,6 +210,7 @@ Result<Tuning> tune_on(const ObjectiveSetting& setting, const ConstraintContext&
                 .stop_reason = found.stop_reason,
                 .seed = options.seed,
                 .simulated = found.simulated,
+                .arithmetic = std::string(setting.arithmetic.rounding),
                 .held_out_scores = judged.scores,
                 .held_out_objective = judged.objective,
                 .robust = {}};
@@ -296,6 +297,7 @@ Scenario held_out_scenario() {
 Result<Tuning> tune(const Model& model, const TuneOptions& options) {
   AWMR_RETURN_IF_ERROR(check(options));
   AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, model.plant());
+  AWMR_ASSIGN_OR_RETURN(const BatchArithmetic arithmetic, batch_arithmetic());
   std::vector<Scenario> scenarios = options.scenarios;
   if (scenarios.empty()) scenarios.push_back(default_tuning_scenario());
   AWMR_RETURN_IF_ERROR(check_work(options, scenarios, plant, model));
@@ -304,7 +306,8 @@ Result<Tuning> tune(const Model& model, const TuneOptions& options) {
                            .weights = options.weights,
                            .scenarios = std::move(scenarios),
                            .tail_share = options.tail_share,
-                           .seed = options.seed};
+                           .seed = options.seed,
+                           .arithmetic = arithmetic};
   ConstraintContext context = context_of(options, plant, model.vehicle, setting.scenarios);
   if (options.nominal) return tune_on(setting, context, options);
   return tune_robustly(model, std::move(setting), std::move(context), options);

@@ -97,8 +97,6 @@ struct ModeScore {
   YawMode mode{};
   Metrics metrics{};
   double objective = 0.0;  ///< weighted mean of the normalised terms; 1 for the baseline itself
-  double speed_itae_m_s = 0.0;           ///< integral of t |u_d - u|, m s
-  double steering_rate_rms_degps = 0.0;  ///< of the commanded angle
 };
 
 /// A figure of the runs of one set of gains in one mode, over the judged draws.
@@ -138,6 +136,7 @@ struct Tuning {
   std::string stop_reason;
   std::uint64_t seed = 0;
   int simulated = 0;  ///< evaluations that were simulated; the others broke a constraint beforehand
+  std::string arithmetic;  ///< how the runs were rounded: as BatchArithmetic::rounding
   /// The tuned gains on a scenario that the search never saw, and how the baseline would score 1
   /// there: for information, it decides nothing.
   std::vector<ModeScore> held_out_scores;
@@ -150,8 +149,8 @@ Scenario default_tuning_scenario();
 /// The scenario judged on afterwards: 60 then 0 deg at 0.7 m/s, 20 s, from rest.
 Scenario held_out_scenario();
 
-/// Deterministic: model, options and seed fix every bit of the result, whatever the number of
-/// cores. Errors (refused): no gains within the bounds meet the constraints (the tightest one is
+/// Deterministic: model, options, seed and `arithmetic` fix every bit of the result, whatever the
+/// number of cores. Errors (refused): no gains within the bounds meet the constraints (the tightest one is
 /// named), or none that does beats the baseline in every mode; the baseline itself is then not
 /// returned as if it had been found. Errors (input): the model lacks a parameter; margin, weights,
 /// bounds or scenarios are unfit; all evaluations together would take more than 1e11 RK4 steps, some

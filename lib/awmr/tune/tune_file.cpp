@@ -103,13 +103,13 @@ Json score_json(const ModeScore& score) {
           {"overshoot_deg", optional_json(m.overshoot_deg)},
           {"heading_iae_degs", optional_json(m.heading_iae_degs)},
           {"heading_itae_degs2", optional_json(m.heading_itae_degs2)},
-          {"speed_itae_m_s", score.speed_itae_m_s},
+          {"speed_itae_m_s", m.speed_itae_m_s},
           {"speed_drop_mps", optional_json(m.speed_drop_mps)},
           {"sideslip_max_deg", m.sideslip_max_deg},
           {"yaw_rate_max_degps", m.yaw_rate_max_degps},
           {"control_variation", m.control_variation},
           {"control_effort", m.control_effort},
-          {"steering_rate_rms_degps", score.steering_rate_rms_degps}};
+          {"steering_rate_rms_degps", m.steering_rate_rms_degps}};
 }
 
 /// By mode, then scenario.
@@ -230,6 +230,7 @@ std::string gains_text(const Tuning& tuning, const TuneOptions& options,
                     {"evaluations", tuning.evaluations},
                     {"simulated", tuning.simulated},
                     {"seed", tuning.seed},
+                    {"arithmetic", tuning.arithmetic},
                     {"stop_reason", tuning.stop_reason}};
   if (tuning.robust) json["robust"] = robust_json(*tuning.robust, options);
   Json baseline = gains_to_json(tuning.baseline);

@@ -33,12 +33,13 @@ Plant<double> drawn_plant(std::uint64_t sample) {
           .steering_time_constant_s = about(0.02)};
 }
 
-std::vector<BatchRun> drawn_runs() {
+std::vector<BatchRun> drawn_runs(YawMode mode) {
   Vehicle vehicle;
   vehicle.wheel_force = {-1.0, 1.0};
   std::vector<BatchRun> runs;
   for (std::uint64_t i = 0; i < kBatchRuns; ++i) {
-    runs.push_back({drawn_plant(i), make_controller(drawn_plant(0), vehicle, kPaperGains), 5U, i});
+    runs.push_back(
+        {drawn_plant(i), make_controller(drawn_plant(0), vehicle, kPaperGains), mode, 5U, i});
   }
   return runs;
 }
@@ -114,7 +115,7 @@ int main(int argc, char** argv) {
   if (!kernel) return std::puts("no such kernel on this processor"), 2;
   for (const Scenario& scenario : scenarios()) {
     for (const YawMode mode : kYawModes) {
-      const auto metrics = simulate_batch(drawn_runs(), scenario, mode, kSampleTime_s,
+      const auto metrics = simulate_batch(drawn_runs(mode), scenario, kSampleTime_s,
                                           {kernel->name, kernel->rounding});
       for (std::size_t i = 0; i < metrics.size(); ++i) {
         std::printf("%s, mode %d, run %zu, %s:", scenario.name.c_str(), static_cast<int>(mode), i,

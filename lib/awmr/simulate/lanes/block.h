@@ -26,7 +26,6 @@ struct alignas(64) Row {
 
 /// What the runs of a block have in common, over all of it.
 struct BlockSetup {
-  YawMode mode = YawMode::kDifferential;
   CombinedSplit split = CombinedSplit::kRedistribute;
   AllocationForm form = AllocationForm::kExact;
   bool is_open_loop = false;  ///< tau_speed and tau_turn stand in the block, and no law asks
@@ -58,6 +57,7 @@ struct Block {
   Row active;  ///< 1; 0 once the run has ended, or where the lane has none
 
   // Constant over a run.
+  Row mode;          ///< the number of its YawMode
   Plant<Row> plant;  ///< with its chord at rest
   Row step_s;        ///< h
   Row substeps;
