@@ -57,8 +57,23 @@ std::string judged_table(const RobustTuning& robust) {
   return text;
 }
 
+/// What the gains stand at, and what the objective leaves open.
+std::string standing_of(const Tuning& tuning) {
+  std::string held;
+  for (const ActiveConstraint& one : tuning.active) {
+    held += fmt::format("{}{} (a tenth wider gains {:.1f} %)", held.empty() ? "" : "; ", one.name,
+                        100.0 * one.wider_gains);
+  }
+  return fmt::format(
+      "  held by    {}\n"
+      "  as good    with the same mu/epsilon any mu from {:.4g} to {:.4g}, and mu_s from {:.4g} to "
+      "{:.4g}: the least are taken\n",
+      held.empty() ? "no constraint" : held, tuning.mu_as_good.lo, tuning.mu_as_good.hi,
+      tuning.speed_mu_as_good.lo, tuning.speed_mu_as_good.hi);
+}
+
 std::string summary_of(const Tuning& tuning) {
-  std::string text = gains_table(tuning);
+  std::string text = gains_table(tuning) + standing_of(tuning);
   if (tuning.robust) text += judged_table(*tuning.robust);
   return text;
 }

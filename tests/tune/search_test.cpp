@@ -175,6 +175,49 @@ TEST(Tune, TellsItsProgressThatGrowsUpToItsEnd) {
   EXPECT_GT(done.back(), total / 4) << "the total is what the search may take at most";
 }
 
+double mean_objective(const TuneOptions& options, const Gains<double>& gains) {
+  double sum = 0.0;
+  for (const YawMode mode : kYawModes) sum += mode_objective(options, gains, mode);
+  return sum / 3.0;
+}
+
+/// The search ends at gains whose mu and epsilon scale together without effect; another seed at others.
+TEST(Tune, TakesTheLeastMuThatScoresAsWell) {
+  const TuneOptions options = short_options();
+  const Tuning tuning = tune(paper_model(), options).value();
+  const HeadingGains<double>& heading = tuning.gains.heading;
+  EXPECT_NEAR(heading.mu, tuning.mu_as_good.lo, 1e-9 * heading.mu);
+  EXPECT_NEAR(tuning.gains.speed.mu, tuning.speed_mu_as_good.lo, 1e-9 * tuning.gains.speed.mu);
+  EXPECT_LT(1.1 * tuning.mu_as_good.lo, tuning.mu_as_good.hi);
+  const auto with_mu = [&](double mu) {
+    Gains<double> gains = tuning.gains;
+    gains.heading.epsilon *= mu / gains.heading.mu;
+    gains.heading.mu = mu;
+    return mean_objective(options, gains);
+  };
+  const double own = with_mu(heading.mu);
+  EXPECT_NEAR(own, tuning.objective, 1e-9);
+  for (const double share : {0.25, 0.5, 0.75}) {
+    const double mu = heading.mu * std::pow(tuning.mu_as_good.hi / heading.mu, share);
+    EXPECT_LT(std::abs(with_mu(mu) - own), 2.0 * kIndifferent * own) << mu;
+  }
+  EXPECT_GT(with_mu(0.7 * heading.mu), own);
+}
+
+TEST(Tune, NamesTheConstraintThatHoldsTheGainsAndWhatItCosts) {
+  TuneOptions options = short_options();
+  options.local_evaluations = 200;
+  options.margin = 0.3;
+  const Tuning tuning = tune(paper_model(), options).value();
+  const auto held = std::ranges::find(tuning.active, "T2 < T1 (strict)", &ActiveConstraint::name);
+  ASSERT_NE(held, tuning.active.end());
+  EXPECT_GT(held->wider_gains, 0.0);
+  // Broken by a tenth of itself, the limit is 0.3/0.9.
+  options.margin = 0.3 / 0.9;
+  const Tuning wider = tune(paper_model(), options).value();
+  EXPECT_NEAR(held->wider_gains, 1.0 - wider.objective / tuning.objective, 0.01);
+}
+
 TEST(Tune, ReportsBothMarginsOfT2BelowT1WhicheverIsRequired) {
   TuneOptions options = short_options();
   options.global_evaluations = 20;

@@ -88,6 +88,19 @@ void describe_robust(JsonObject json) {
 }
 
 void describe_search(JsonObject json) {
+  if (json.has("active")) {
+    for (JsonObject& one : json.objects("active")) {
+      one.string("name");
+      one.number("wider_gains", {.min = 0.0});
+      one.reject_unknown_keys();
+    }
+  }
+  if (auto as_good = json.optional_object("as_good")) {
+    as_good->number("objective_share", {.min = 0.0, .max = 1.0});
+    as_good->interval("mu");
+    as_good->interval("speed_mu");
+    as_good->reject_unknown_keys();
+  }
   json.string("algorithm");
   json.string("stop_reason");
   json.optional_string("arithmetic");  // how the runs were rounded: "fused", "unfused" or "scalar"

@@ -72,6 +72,7 @@ class Objective {
   std::vector<Evaluation> operator()(std::span<const Gains<double>> gains) const;
   Evaluation operator()(const Gains<double>& gains) const;
   const Evaluation& baseline() const { return baseline_; }
+  std::span<const YawMode> modes() const { return yaw_modes(setting_.vehicle); }
 
  private:
   Evaluation evaluate(std::vector<ModeScore> scores) const;

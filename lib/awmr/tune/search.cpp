@@ -11,13 +11,11 @@
 #include <mutex>
 #include <span>
 
-#include "awmr/core/parallel.h"
 #include "awmr/core/random.h"
 
 namespace awmr {
 namespace {
 
-constexpr unsigned kDimension = 5;
 /// ISRES individuals per generation. NLopt's default of 20 (n + 1) would spend the budget on two
 /// generations.
 constexpr unsigned kPopulation = 40;
@@ -26,150 +24,19 @@ constexpr double kFirstStep = 0.2;
 constexpr double kLastStep = 1e-3;
 /// A local search that improves the objective by less is the last one.
 constexpr double kWorthwhile = 1e-4;
-/// What the global search sees for a point that breaks a constraint: worse than any objective that
-/// matters.
-constexpr double kRejected = 1e3;
 /// Starts of the feasibility search beside the baseline and the middle of the bounds, and steps of
 /// each.
 constexpr int kRandomStarts = 30;
 constexpr int kStartEvaluations = 300;
 
-using Point = std::array<double, kDimension>;
 using Optimizer = std::unique_ptr<nlopt_opt_s, decltype(&nlopt_destroy)>;
-
-std::array<Interval, kDimension> intervals(const GainBounds& b) {
-  return {b.lambda, b.mu, b.epsilon, b.speed_mu, b.speed_epsilon};
-}
-
-/// exp of the logarithms, held inside the bounds against rounding.
-Gains<double> gains_at(const double* x, const GainBounds& bounds) {
-  const auto range = intervals(bounds);
-  Point g{};
-  for (unsigned i = 0; i < kDimension; ++i) {
-    g[i] = std::clamp(std::exp(x[i]), range[i].lo, range[i].hi);
-  }
-  return {{g[0], g[1], g[2]}, {g[3], g[4]}};
-}
-
-Point lower(const GainBounds& bounds) {
-  Point x{};
-  for (unsigned i = 0; i < kDimension; ++i) x[i] = std::log(intervals(bounds)[i].lo);
-  return x;
-}
-
-Point upper(const GainBounds& bounds) {
-  Point x{};
-  for (unsigned i = 0; i < kDimension; ++i) x[i] = std::log(intervals(bounds)[i].hi);
-  return x;
-}
-
-Point point_of(const Gains<double>& g, const GainBounds& bounds) {
-  Point x{std::log(g.heading.lambda), std::log(g.heading.mu), std::log(g.heading.epsilon),
-          std::log(g.speed.mu), std::log(g.speed.epsilon)};
-  for (unsigned i = 0; i < kDimension; ++i) {
-    x[i] = std::clamp(x[i], lower(bounds)[i], upper(bounds)[i]);
-  }
-  return x;
-}
 
 Optimizer optimizer(nlopt_algorithm algorithm, const GainBounds& bounds, int evaluations) {
   Optimizer opt(nlopt_create(algorithm, kDimension), &nlopt_destroy);
-  nlopt_set_lower_bounds(opt.get(), lower(bounds).data());
-  nlopt_set_upper_bounds(opt.get(), upper(bounds).data());
+  nlopt_set_lower_bounds(opt.get(), lower_corner(bounds).data());
+  nlopt_set_upper_bounds(opt.get(), upper_corner(bounds).data());
   nlopt_set_maxeval(opt.get(), evaluations);
   return opt;
-}
-
-/// A point with what was found there.
-struct Looked {
-  Point point{};
-  Candidate candidate{};
-  std::vector<double> residuals{};  ///< those required, then one per mode, or two
-
-  /// What NLopt is told of it.
-  double value() const {
-    return candidate.simulated && candidate.valid ? candidate.objective
-                                                  : kRejected + candidate.violation;
-  }
-};
-
-/// Looks at points, keeps the best one and counts.
-class Problem {
- public:
-  Problem(const TuneOptions& options, const ConstraintContext& context, const Objective& objective)
-      : options_(options), context_(context), objective_(objective) {
-    nearest.violation = std::numeric_limits<double>::infinity();
-  }
-
-  /// Number of constraints: the required ones, then one per mode.
-  unsigned constraints() const { return constraints_; }
-  bool simulate_all = false;  ///< also points that break a constraint, as a local model needs
-  Candidate nearest;
-  int evaluations = 0;
-  int simulated = 0;
-
-  /// In the order of the points; their runs are driven together.
-  std::vector<Looked> look_at(std::span<const Point> points);
-
- private:
-  Looked before_runs(const Point& point) const;
-  void add_runs(const Evaluation& evaluation, Looked& looked) const;
-
-  const TuneOptions& options_;
-  const ConstraintContext& context_;
-  const Objective& objective_;
-  /// Those of the runs: a mode's objective, and unless nominal its activity.
-  std::size_t simulated_constraints_ =
-      (options_.nominal ? 1 : 2) * objective_.baseline().mode_objective.size();
-  unsigned constraints_ = static_cast<unsigned>(
-      awmr::residuals(constraints_of(Gains<double>{{1.0, 1.0, 1.0}, {1.0, 1.0}}, context_)).size() +
-      simulated_constraints_);
-};
-
-Looked Problem::before_runs(const Point& point) const {
-  Looked looked{.point = point, .candidate = {.gains = gains_at(point.data(), options_.bounds)}};
-  looked.residuals = awmr::residuals(constraints_of(looked.candidate.gains, context_));
-  looked.candidate.violation = *std::ranges::max_element(looked.residuals);
-  looked.residuals.resize(constraints_, 0.0);
-  return looked;
-}
-
-void Problem::add_runs(const Evaluation& e, Looked& looked) const {
-  Candidate& candidate = looked.candidate;
-  candidate.simulated = true;
-  candidate.valid = e.valid;
-  candidate.objective = e.objective;
-  const std::size_t modes = e.mode_objective.size();
-  const std::size_t first = looked.residuals.size() - simulated_constraints_;
-  for (std::size_t i = 0; i < simulated_constraints_; ++i) {
-    const double broken = i < modes ? e.mode_objective[i] - 1.0
-                                    : e.mode_activity[i - modes] / options_.activity_max - 1.0;
-    looked.residuals[first + i] = e.valid ? broken : 1.0;
-    candidate.violation = std::max(candidate.violation, looked.residuals[first + i]);
-  }
-}
-
-std::vector<Looked> Problem::look_at(std::span<const Point> points) {
-  std::vector<Looked> all(points.size());
-  parallel_for(points.size(), 0, [&](std::size_t i) { all[i] = before_runs(points[i]); });
-  std::vector<Gains<double>> to_run;
-  for (const Looked& looked : all) {
-    if (looked.candidate.violation <= 0.0 || simulate_all) to_run.push_back(looked.candidate.gains);
-  }
-  const std::vector<Evaluation> found = objective_(to_run);
-  auto next = found.begin();
-  for (Looked& looked : all) {
-    if (looked.candidate.violation <= 0.0 || simulate_all) add_runs(*next++, looked);
-    if (better(looked.candidate, nearest)) nearest = looked.candidate;
-  }
-  simulated += static_cast<int>(found.size());
-  evaluations += static_cast<int>(points.size());
-  if (options_.progress) {
-    options_.progress(static_cast<std::size_t>(evaluations),
-                      static_cast<std::size_t>(options_.global_evaluations) +
-                          static_cast<std::size_t>(options_.local_evaluations));
-  }
-  return all;
 }
 
 /// What NLopt calls back: it asks for the objective and for the constraints of a point one after the
@@ -285,30 +152,6 @@ nlopt_result search_globally(Problem& problem, const TuneOptions& options, const
   }
 }
 
-/// COBYLA again and again from the best point met, each time with the first step anew, until a
-/// search gains less than kWorthwhile or the budget is spent. Returns why it stopped.
-Result<std::string> search_locally(Problem& problem, const TuneOptions& options) {
-  const int budget = problem.evaluations + options.local_evaluations;
-  std::string stop;
-  for (int searches = 1; problem.evaluations < budget; ++searches) {
-    const Candidate before = problem.nearest;
-    const Optimizer search =
-        optimizer(NLOPT_LN_COBYLA, options.bounds, budget - problem.evaluations);
-    nlopt_set_initial_step1(search.get(), kFirstStep);
-    nlopt_set_xtol_abs1(search.get(), kLastStep);
-    OneByOne asked(problem);
-    const nlopt_result code =
-        run(search.get(), asked, problem.constraints(), point_of(before.gains, options.bounds));
-    if (failed(code)) return program_fault("NLopt's COBYLA: " + reason(code));
-    stop = fmt::format("; local, {} searches: {}", searches, reason(code));
-    const Candidate& after = problem.nearest;
-    if (after.feasible() == before.feasible() && before.objective - after.objective < kWorthwhile) {
-      break;
-    }
-  }
-  return stop;
-}
-
 /// What the callback of feasible_start() shares: it looks at the largest residual alone.
 struct Feasibility {
   const TuneOptions& options;
@@ -316,7 +159,7 @@ struct Feasibility {
   Candidate best;
 
   double look_at(const double* x) {
-    Candidate c{.gains = gains_at(x, options.bounds)};
+    Candidate c{.gains = gains_at(point_at(x), options.bounds)};
     const std::vector<double> r = residuals(constraints_of(c.gains, context));
     c.violation = *std::max_element(r.begin(), r.end());
     if (better(c, best)) best = c;
@@ -331,8 +174,8 @@ double feasibility_callback(unsigned, const double* x, double*, void* data) {
 /// The baseline, the middle of the bounds, then random ones.
 Point start_point(int index, const TuneOptions& options, const Gains<double>& baseline) {
   if (index == 0) return point_of(baseline, options.bounds);
-  const Point lo = lower(options.bounds);
-  const Point hi = upper(options.bounds);
+  const Point lo = lower_corner(options.bounds);
+  const Point hi = upper_corner(options.bounds);
   Random random(options.seed, static_cast<std::uint64_t>(index));
   Point x{};
   for (unsigned i = 0; i < kDimension; ++i) {
@@ -343,9 +186,26 @@ Point start_point(int index, const TuneOptions& options, const Gains<double>& ba
 
 }  // namespace
 
-bool better(const Candidate& a, const Candidate& b) {
-  if (a.feasible() != b.feasible()) return a.feasible();
-  return a.feasible() ? a.objective < b.objective : a.violation < b.violation;
+Result<std::string> search_locally(Problem& problem, const GainBounds& bounds,
+                                   int most_evaluations) {
+  const int budget = problem.evaluations + most_evaluations;
+  std::string stop;
+  for (int searches = 1; problem.evaluations < budget; ++searches) {
+    const Candidate before = problem.nearest;
+    const Optimizer search = optimizer(NLOPT_LN_COBYLA, bounds, budget - problem.evaluations);
+    nlopt_set_initial_step1(search.get(), kFirstStep);
+    nlopt_set_xtol_abs1(search.get(), kLastStep);
+    OneByOne asked(problem);
+    const nlopt_result code =
+        run(search.get(), asked, problem.constraints(), point_of(before.gains, bounds));
+    if (failed(code)) return program_fault("NLopt's COBYLA: " + reason(code));
+    stop = fmt::format("; local, {} searches: {}", searches, reason(code));
+    const Candidate& after = problem.nearest;
+    if (after.feasible() == before.feasible() && before.objective - after.objective < kWorthwhile) {
+      break;
+    }
+  }
+  return stop;
 }
 
 Candidate feasible_start(const TuneOptions& options, const ConstraintContext& context,
@@ -372,7 +232,8 @@ Result<SearchResult> search(const TuneOptions& options, const ConstraintContext&
   if (failed(global)) return program_fault("NLopt's ISRES: " + reason(global));
   std::string stop = "global: " + reason(global);
   problem.simulate_all = true;
-  AWMR_ASSIGN_OR_RETURN(const std::string local, search_locally(problem, options));
+  AWMR_ASSIGN_OR_RETURN(const std::string local,
+                        search_locally(problem, options.bounds, options.local_evaluations));
   stop += local;
   SearchResult result{
       .best = std::nullopt,

@@ -7,27 +7,10 @@
 #include <vector>
 
 #include "awmr/tune/constraints.h"
-#include "awmr/tune/objective.h"
+#include "awmr/tune/problem.h"
 #include "awmr/tune/tune.h"
 
 namespace awmr {
-
-/// Gains that were looked at.
-struct Candidate {
-  Gains<double> gains{};
-  /// Largest residual of the constraints and of "no mode is worse than the baseline"; <= 0 is
-  /// feasible.
-  double violation = 0.0;
-  double objective = 0.0;  ///< meaningful where `simulated`
-  bool simulated = false;  ///< false: a constraint was broken, so nothing was run
-  bool valid = false;      ///< finite, and completes what the baseline completes
-
-  bool feasible() const { return simulated && valid && violation <= 0.0; }
-};
-
-/// The order of candidates: any feasible one before any other; feasible ones by their objective,
-/// the others by their violation.
-bool better(const Candidate& a, const Candidate& b);
 
 struct SearchResult {
   std::optional<Candidate> best;  ///< the best feasible one, if any was met
@@ -37,6 +20,12 @@ struct SearchResult {
   std::string algorithm;
   std::string stop_reason;
 };
+
+/// LN_COBYLA again and again from the best point that `problem` has met, each time with the first step
+/// anew, until a search gains less than 1e-4 or the budget is spent. Returns why it stopped. Errors
+/// (program fault): NLopt's.
+Result<std::string> search_locally(Problem& problem, const GainBounds& bounds,
+                                   int most_evaluations);
 
 /// Gains within the bounds that meet `context`, or those that come nearest: no simulation is
 /// needed.

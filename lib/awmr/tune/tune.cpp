@@ -19,6 +19,7 @@
 #include "awmr/tune/objective.h"
 #include "awmr/tune/robust.h"
 #include "awmr/tune/search.h"
+#include "awmr/tune/sensitivity.h"
 
 namespace awmr {
 namespace {
@@ -191,7 +192,10 @@ Result<Tuning> tune_on(const ObjectiveSetting& setting, const ConstraintContext&
   const Objective objective(setting, kPaperGains);
   AWMR_ASSIGN_OR_RETURN(const SearchResult found, search(options, context, objective, start.gains));
   if (!found.best) return not_better(found, objective, modes);
-  const Gains<double>& gains = found.best->gains;
+  const SettledGains settled = settle(options, context, objective, *found.best);
+  AWMR_ASSIGN_OR_RETURN(std::vector<ActiveConstraint> active,
+                        active_constraints(options, context, objective, *found.best));
+  const Gains<double>& gains = settled.gains;
   const Evaluation tuned = objective(gains);
   if (!beats_everywhere(tuned)) return not_better(found, objective, modes);
   ObjectiveSetting elsewhere = setting;
@@ -210,6 +214,9 @@ Result<Tuning> tune_on(const ObjectiveSetting& setting, const ConstraintContext&
                 .stop_reason = found.stop_reason,
                 .seed = options.seed,
                 .simulated = found.simulated,
+                .mu_as_good = settled.mu,
+                .speed_mu_as_good = settled.speed_mu,
+                .active = std::move(active),
                 .arithmetic = std::string(setting.arithmetic.rounding),
                 .held_out_scores = judged.scores,
                 .held_out_objective = judged.objective,
@@ -227,8 +234,6 @@ Status check_latency(const ConstraintContext& context, const std::string& model_
                   context.latency_s, samples, context.sample_time_s, kMostLateSamples,
                   option_text("nominal")));
 }
-
-int share_of(int evaluations) { return static_cast<int>(std::ceil(kRobustShare * evaluations)); }
 
 /// Draws to judge on are not those that were tuned on.
 constexpr std::uint64_t kJudgedSeeds = 0x6a75646765ULL;
@@ -248,9 +253,9 @@ Result<Tuning> tune_robustly(const Model& model, ObjectiveSetting setting,
   const auto plants = static_cast<std::size_t>(options.draws) + 1;
   const auto evaluations =
       static_cast<std::size_t>(options.global_evaluations + options.local_evaluations);
-  const auto robust_evaluations = static_cast<std::size_t>(share_of(options.global_evaluations) +
-                                                           share_of(options.local_evaluations));
-  const std::size_t total = evaluations + plants * robust_evaluations;
+  const int robust_global = static_cast<int>(std::ceil(kRobustShare * options.global_evaluations));
+  const std::size_t total =
+      evaluations + plants * static_cast<std::size_t>(robust_global + options.local_evaluations);
   nominal_options.progress = part_of(options.progress, 0, 1, total);
   const Result<Tuning> nominal = tune_on(setting, context, nominal_options);
 
@@ -266,11 +271,10 @@ Result<Tuning> tune_robustly(const Model& model, ObjectiveSetting setting,
   context.latency_s = std::max(c.heading_late_s, c.yaw_rate_late_s);
   context.motor_time_constant_s = c.motor_time_constant_s;
   AWMR_RETURN_IF_ERROR(check_latency(context, model.file));
-  TuneOptions shorter = options;
-  shorter.global_evaluations = share_of(options.global_evaluations);
-  shorter.local_evaluations = share_of(options.local_evaluations);
-  shorter.progress = part_of(options.progress, evaluations, plants, total);
-  AWMR_ASSIGN_OR_RETURN(Tuning tuning, tune_on(setting, context, shorter));
+  TuneOptions robust_options = options;
+  robust_options.global_evaluations = robust_global;
+  robust_options.progress = part_of(options.progress, evaluations, plants, total);
+  AWMR_ASSIGN_OR_RETURN(Tuning tuning, tune_on(setting, context, robust_options));
 
   std::vector<NamedCandidate> candidates{{"robust", tuning.gains}, {"baseline", tuning.baseline}};
   if (nominal) {

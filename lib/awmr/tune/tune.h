@@ -49,7 +49,12 @@ struct GainBounds {
   Interval speed_epsilon{0.05, 10.0};  ///< m/s
 };
 
+/// Part of the global evaluations that a robust search makes: five and more runs stand behind each.
 inline constexpr double kRobustShare = 0.4;
+/// A share of the objective that does not matter: what it leaves open is settled by a rule.
+inline constexpr double kIndifferent = 1e-3;
+/// How much wider an active constraint is made, to see what it costs.
+inline constexpr double kWider = 0.1;
 
 struct TuneOptions {
   /// On the model's own values, with true readings at once and motors without lag, as a simulation
@@ -69,17 +74,23 @@ struct TuneOptions {
   double margin = 0.8;
   ObjectiveWeights weights;
   /// >= 1. More where a search is refused although its gains come near to the baseline's objective.
-  /// A robust search, whose evaluations run every draw, makes kRobustShare of these and of the local
-  /// ones.
+  /// A robust search makes kRobustShare of them.
   int global_evaluations = 300;
   /// >= 0, of the local searches together; 0: the best of the global search is the answer.
-  int local_evaluations = 150;
+  int local_evaluations = 300;
   /// Of the global search. Another one shows how far the objective is flat.
   std::uint64_t seed = 1;
   /// Each has to hold headings, under a name of its own; empty: 30 then -30 deg at 1 m/s.
   std::vector<Scenario> scenarios;
   GainBounds bounds;
   Progress progress = {};  ///< by runs of the search, each plant's counted
+};
+
+/// A constraint that the gains stand at.
+struct ActiveConstraint {
+  std::string name;  ///< of the constraint; "the paper's score, MODE"; "activity, MODE"
+  /// The share of the objective that is gained where it may be broken by kWider, >= 0.
+  double wider_gains = 0.0;
 };
 
 struct ConstraintReport {
@@ -136,6 +147,10 @@ struct Tuning {
   std::string stop_reason;
   std::uint64_t seed = 0;
   int simulated = 0;  ///< evaluations that were simulated; the others broke a constraint beforehand
+  /// Where mu and epsilon are scaled together and the objective rises by at most kIndifferent, the
+  /// constraints being met; the least mu is taken. Then the same of mu_s and epsilon_s.
+  Interval mu_as_good, speed_mu_as_good;
+  std::vector<ActiveConstraint> active;
   std::string arithmetic;  ///< how the runs were rounded: as BatchArithmetic::rounding
   /// The tuned gains on a scenario that the search never saw, and how the baseline would score 1
   /// there: for information, it decides nothing.

@@ -112,6 +112,16 @@ Json score_json(const ModeScore& score) {
           {"steering_rate_rms_degps", m.steering_rate_rms_degps}};
 }
 
+Json active_json(const std::vector<ActiveConstraint>& active) {
+  Json json = Json::array();
+  for (const ActiveConstraint& one : active) {
+    json.push_back({{"name", one.name}, {"wider_gains", one.wider_gains}});
+  }
+  return json;
+}
+
+Json interval_json(const Interval& interval) { return {interval.lo, interval.hi}; }
+
 /// By mode, then scenario.
 Json scores_json(const std::vector<ModeScore>& scores) {
   Json json = Json::object();
@@ -231,6 +241,11 @@ std::string gains_text(const Tuning& tuning, const TuneOptions& options,
                     {"simulated", tuning.simulated},
                     {"seed", tuning.seed},
                     {"arithmetic", tuning.arithmetic},
+                    {"active", active_json(tuning.active)},
+                    {"as_good",
+                     {{"objective_share", kIndifferent},
+                      {"mu", interval_json(tuning.mu_as_good)},
+                      {"speed_mu", interval_json(tuning.speed_mu_as_good)}}},
                     {"stop_reason", tuning.stop_reason}};
   if (tuning.robust) json["robust"] = robust_json(*tuning.robust, options);
   Json baseline = gains_to_json(tuning.baseline);

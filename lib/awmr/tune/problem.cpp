@@ -1,0 +1,129 @@
+#include "awmr/tune/problem.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "awmr/core/parallel.h"
+
+namespace awmr {
+namespace {
+
+/// What the global search sees for a point that breaks a constraint: worse than any objective that
+/// matters.
+constexpr double kRejected = 1e3;
+
+std::array<Interval, kDimension> intervals(const GainBounds& b) {
+  return {b.lambda, b.mu, b.epsilon, b.speed_mu, b.speed_epsilon};
+}
+
+}  // namespace
+
+Gains<double> gains_at(const Point& x, const GainBounds& bounds) {
+  const auto range = intervals(bounds);
+  Point g{};
+  for (unsigned i = 0; i < kDimension; ++i) {
+    g[i] = std::clamp(std::exp(x[i]), range[i].lo, range[i].hi);
+  }
+  return {{g[0], g[1], g[2]}, {g[3], g[4]}};
+}
+
+Point lower_corner(const GainBounds& bounds) {
+  Point x{};
+  for (unsigned i = 0; i < kDimension; ++i) x[i] = std::log(intervals(bounds)[i].lo);
+  return x;
+}
+
+Point upper_corner(const GainBounds& bounds) {
+  Point x{};
+  for (unsigned i = 0; i < kDimension; ++i) x[i] = std::log(intervals(bounds)[i].hi);
+  return x;
+}
+
+Point point_of(const Gains<double>& g, const GainBounds& bounds) {
+  Point x{std::log(g.heading.lambda), std::log(g.heading.mu), std::log(g.heading.epsilon),
+          std::log(g.speed.mu), std::log(g.speed.epsilon)};
+  for (unsigned i = 0; i < kDimension; ++i) {
+    x[i] = std::clamp(x[i], lower_corner(bounds)[i], upper_corner(bounds)[i]);
+  }
+  return x;
+}
+
+bool better(const Candidate& a, const Candidate& b) {
+  if (a.feasible() != b.feasible()) return a.feasible();
+  return a.feasible() ? a.objective < b.objective : a.violation < b.violation;
+}
+
+double Looked::value() const {
+  return candidate.simulated && candidate.valid ? candidate.objective
+                                                : kRejected + candidate.violation;
+}
+
+Problem::Problem(const TuneOptions& options, const ConstraintContext& context,
+                 const Objective& objective)
+    : options_(options), context_(context), objective_(objective) {
+  nearest.violation = std::numeric_limits<double>::infinity();
+  for (const ConstraintReport& c :
+       constraints_of(Gains<double>{{1.0, 1.0, 1.0}, {1.0, 1.0}}, context_)) {
+    if (c.required) names_.push_back(c.name);
+  }
+  before_runs_ = names_.size();
+  const std::span<const YawMode> modes = objective_.modes();
+  for (const YawMode mode : modes)
+    names_.push_back(fmt::format("the paper's score, {}", name_of(mode)));
+  if (!options_.nominal) {
+    for (const YawMode mode : modes) names_.push_back(fmt::format("activity, {}", name_of(mode)));
+  }
+  tolerated.assign(names_.size(), 0.0);
+}
+
+Looked Problem::before_runs(const Point& point) const {
+  Looked looked{.point = point, .candidate = {.gains = gains_at(point, options_.bounds)}};
+  looked.residuals = awmr::residuals(constraints_of(looked.candidate.gains, context_));
+  for (std::size_t i = 0; i < looked.residuals.size(); ++i) looked.residuals[i] -= tolerated[i];
+  looked.candidate.violation = *std::ranges::max_element(looked.residuals);
+  looked.residuals.resize(constraints(), 0.0);
+  return looked;
+}
+
+void Problem::add_runs(const Evaluation& e, Looked& looked) const {
+  Candidate& candidate = looked.candidate;
+  candidate.simulated = true;
+  candidate.valid = e.valid;
+  candidate.objective = e.objective;
+  const std::size_t modes = e.mode_objective.size();
+  for (std::size_t i = before_runs_; i < names_.size(); ++i) {
+    const std::size_t mode = (i - before_runs_) % modes;
+    const double broken = i < before_runs_ + modes
+                              ? e.mode_objective[mode] - 1.0
+                              : e.mode_activity[mode] / options_.activity_max - 1.0;
+    looked.residuals[i] = e.valid ? broken - tolerated[i] : 1.0;
+    candidate.violation = std::max(candidate.violation, looked.residuals[i]);
+  }
+}
+
+std::vector<Looked> Problem::look_at(std::span<const Point> points) {
+  std::vector<Looked> all(points.size());
+  parallel_for(points.size(), 0, [&](std::size_t i) { all[i] = before_runs(points[i]); });
+  std::vector<Gains<double>> to_run;
+  for (const Looked& looked : all) {
+    if (looked.candidate.violation <= 0.0 || simulate_all) to_run.push_back(looked.candidate.gains);
+  }
+  const std::vector<Evaluation> found = objective_(to_run);
+  auto next = found.begin();
+  for (Looked& looked : all) {
+    if (looked.candidate.violation <= 0.0 || simulate_all) add_runs(*next++, looked);
+    if (better(looked.candidate, nearest)) nearest = looked.candidate;
+  }
+  simulated += static_cast<int>(found.size());
+  evaluations += static_cast<int>(points.size());
+  if (options_.progress) {
+    options_.progress(static_cast<std::size_t>(evaluations),
+                      static_cast<std::size_t>(options_.global_evaluations) +
+                          static_cast<std::size_t>(options_.local_evaluations));
+  }
+  return all;
+}
+
+}  // namespace awmr

@@ -1,0 +1,85 @@
+/// What is searched: points, and what is found at them. Private to tune/.
+#pragma once
+
+#include <array>
+#include <limits>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "awmr/tune/constraints.h"
+#include "awmr/tune/objective.h"
+#include "awmr/tune/tune.h"
+
+namespace awmr {
+
+/// lambda, mu, epsilon, mu_s, epsilon_s.
+inline constexpr unsigned kDimension = 5;
+/// The gains' logarithms.
+using Point = std::array<double, kDimension>;
+
+/// The corners of the bounds.
+Point lower_corner(const GainBounds& bounds);
+Point upper_corner(const GainBounds& bounds);
+/// Held inside the bounds, against rounding.
+Gains<double> gains_at(const Point& point, const GainBounds& bounds);
+Point point_of(const Gains<double>& gains, const GainBounds& bounds);
+
+/// Gains that were looked at.
+struct Candidate {
+  Gains<double> gains{};
+  /// Largest residual of the constraints and of "no mode is worse than the baseline"; <= 0 is
+  /// feasible.
+  double violation = 0.0;
+  double objective = 0.0;  ///< meaningful where `simulated`
+  bool simulated = false;  ///< false: a constraint was broken, so nothing was run
+  bool valid = false;      ///< finite, and completes what the baseline completes
+
+  bool feasible() const { return simulated && valid && violation <= 0.0; }
+};
+
+/// The order of candidates: any feasible one before any other; feasible ones by their objective,
+/// the others by their violation.
+bool better(const Candidate& a, const Candidate& b);
+
+/// A point with what was found there.
+struct Looked {
+  Point point{};
+  Candidate candidate{};
+  std::vector<double> residuals{};  ///< in the order of Problem::names()
+
+  /// What NLopt is told of it.
+  double value() const;
+};
+
+/// Looks at points, keeps the best one and counts.
+class Problem {
+ public:
+  Problem(const TuneOptions& options, const ConstraintContext& context, const Objective& objective);
+
+  /// Of the constraints: the required ones, then "no worse than the baseline" of each mode, then
+  /// unless nominal the activity of each.
+  const std::vector<std::string>& names() const { return names_; }
+  unsigned constraints() const { return static_cast<unsigned>(names_.size()); }
+  bool simulate_all = false;  ///< also points that break a constraint, as a local model needs
+  /// By constraint: the residual up to which it counts as met. 0, but for what a wider limit is worth.
+  std::vector<double> tolerated;
+  Candidate nearest;
+  int evaluations = 0;
+  int simulated = 0;
+
+  /// In the order of the points; their runs are driven together.
+  std::vector<Looked> look_at(std::span<const Point> points);
+
+ private:
+  Looked before_runs(const Point& point) const;
+  void add_runs(const Evaluation& evaluation, Looked& looked) const;
+
+  const TuneOptions& options_;
+  const ConstraintContext& context_;
+  const Objective& objective_;
+  std::vector<std::string> names_;
+  std::size_t before_runs_ = 0;  ///< constraints that are known without a run
+};
+
+}  // namespace awmr

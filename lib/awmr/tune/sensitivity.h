@@ -1,0 +1,34 @@
+/// What holds the gains where they are, and what does not. Private to tune/.
+#pragma once
+
+#include <vector>
+
+#include "awmr/tune/constraints.h"
+#include "awmr/tune/objective.h"
+#include "awmr/tune/problem.h"
+#include "awmr/tune/tune.h"
+
+namespace awmr {
+
+/// Gains with what of them the objective leaves open.
+struct SettledGains {
+  Gains<double> gains{};
+  /// Where mu and epsilon are scaled together and the objective rises by at most kIndifferent.
+  Interval mu;
+  Interval speed_mu;  ///< the same of mu_s and epsilon_s
+};
+
+/// The objective hardly depends on mu while mu/epsilon stays: inside the boundary layer that ratio
+/// alone acts. So that the search's seed does not decide, the least mu is taken that scores as well as
+/// `best` within kIndifferent and meets every constraint, then the least mu_s.
+SettledGains settle(const TuneOptions& options, const ConstraintContext& context,
+                    const Objective& objective, const Candidate& best);
+
+/// The constraints within 1 % of which `best` stands, and how far the objective falls in a local search
+/// from there where one of them may be broken by a tenth. Errors: as search().
+Result<std::vector<ActiveConstraint>> active_constraints(const TuneOptions& options,
+                                                         const ConstraintContext& context,
+                                                         const Objective& objective,
+                                                         const Candidate& best);
+
+}  // namespace awmr
