@@ -28,8 +28,9 @@ MeterSums<T> driven(const Scenario& scenario, double sample_time_s, const Resist
         command(Measurement<T>{s.psi_rad, s.u_mps, s.v_mps, s.r_radps},
                 Reference<T>{T(goal_rad), none, none, T(scenario.speed_mps), none});
     measure<T>(
-        {s, a.force, a.steering_rad, yaw(s.r_radps), T(goal_rad), none, none, none}, vehicle,
-        course,
+        {s, a.force, a.steering_rad, yaw(s.r_radps), T(goal_rad), none, none, none,
+         T(scenario.speed_mps)},
+        vehicle, course,
         {t_s, sample_time_s, k == 0, k == 0 || std::abs(goal_rad - goal_before_rad) > 0.0, false},
         sums);
     goal_before_rad = goal_rad;
