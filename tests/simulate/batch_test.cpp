@@ -251,6 +251,67 @@ TEST(Batch, ARunThatFailsIsToldOfBySimulateAndTheOthersGoOn) {
   }
 }
 
+std::vector<double> numbers_of(const RunRow& row) {
+  return {row.t_s,
+          row.state.x_m,
+          row.state.y_m,
+          row.state.psi_rad,
+          row.state.u_mps,
+          row.state.v_mps,
+          row.state.r_radps,
+          row.state.steering_rad,
+          row.force.left,
+          row.force.right,
+          row.steering_command_rad,
+          row.tau_speed,
+          row.tau_turn_m,
+          row.psi_ref_rad,
+          row.u_ref_mps,
+          row.course.psi_goal_rad,
+          row.course.cross_track_m,
+          row.course.target_m.x_m,
+          row.course.target_m.y_m,
+          static_cast<double>(row.course.leg),
+          row.measured.psi_rad,
+          row.measured.u_mps,
+          row.measured_position_m.x_m,
+          row.measured_position_m.y_m,
+          row.disturbance.surge,
+          row.disturbance.yaw_m,
+          row.clearance_m};
+}
+
+/// Of the model's own vehicle, which amplifies nothing, in every mode beside the others.
+TEST(Batch, RowsAreThoseOfSimulateInEveryShippedScenario) {
+  const BatchArithmetic arithmetic = batch_arithmetic().value();
+  for (const Scenario& scenario : shipped_scenarios()) {
+    if (scenario.duration_s > 150.0) continue;
+    std::vector<BatchRun> runs;
+    for (const YawMode mode : kYawModes) runs.push_back(drawn_runs(1, 0.0, mode).front());
+    const auto driven = drive_batch(runs, scenario, kSampleTime_s, arithmetic);
+    const auto alone = simulate_batch(runs, scenario, kSampleTime_s, arithmetic);
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      const awmr::Run scalar = simulate(runs[i].plant, runs[i].controller, scenario, runs[i].mode,
+                                        {.sample_time_s = kSampleTime_s, .substeps = {}});
+      expect_same(driven[i].metrics, *alone[i], scenario.name);
+      const awmr::Run& run = driven[i].run;
+      EXPECT_EQ(run.substeps, scalar.substeps);
+      EXPECT_EQ(run.end, scalar.end) << scenario.name;
+      EXPECT_EQ(run.missed_waypoints, scalar.missed_waypoints);
+      ASSERT_EQ(run.rows.size(), scalar.rows.size()) << scenario.name;
+      double most = 0.0;
+      for (std::size_t k = 0; k < run.rows.size(); ++k) {
+        const auto a = numbers_of(run.rows[k]);
+        const auto b = numbers_of(scalar.rows[k]);
+        for (std::size_t n = 0; n < a.size(); ++n) {
+          most = std::max(most, std::abs(a[n] - b[n]) / std::max(1.0, std::abs(b[n])));
+        }
+      }
+      EXPECT_LT(most, 1e-6) << scenario.name << ", " << name_of(runs[i].mode);
+    }
+  }
+}
+
 TEST(Batch, InstructionsThatTheProcessorHasNotAreRefusedByName) {
   ::setenv("AWMR_INSTRUCTIONS", "mmx", 1);
   const auto arithmetic = batch_arithmetic();

@@ -19,7 +19,8 @@ using ::testing::HasSubstr;
 const Claim& claim_of(const std::string& id) {
   static const Model model = fitted_paper_model();
   static const Plant<double> plant = *model.plant();
-  static const std::vector<Claim> claims = check_guidance_claims({model, plant, kPaperGains});
+  static const std::vector<Claim> claims =
+      check_guidance_claims({model, plant, kPaperGains, batch_arithmetic().value()});
   return *std::find_if(claims.begin(), claims.end(),
                        [&](const Claim& claim) { return claim.id == id; });
 }
@@ -45,7 +46,8 @@ TEST(GuidanceClaims, AVehicleThatCannotTurnFails) {
   Model model = fitted_paper_model();
   model.vehicle.steering_max_deg = 3.0;
   const Plant<double> plant = *model.plant();
-  const auto claims = check_guidance_claims({model, plant, kPaperGains});
+  const auto claims =
+      check_guidance_claims({model, plant, kPaperGains, batch_arithmetic().value()});
   EXPECT_FALSE(claims.front().reproduced);
   EXPECT_THAT(claims.front().why, HasSubstr("steering turns too wide"));
 }

@@ -33,14 +33,15 @@ std::vector<std::string> ids_of(const std::vector<Claim>& claims) {
 
 std::vector<Claim> heading_claims_of(const Model& model, const Gains<double>& gains) {
   const Plant<double> plant = plant_of(model);
-  return check_heading_claims({model, plant, gains});
+  return check_heading_claims({model, plant, gains, batch_arithmetic().value()});
 }
 
 TEST(Claims, RunsOnlyTheOpenLoopOnesWithoutGains) {
   const Model model = fitted_paper_model();
-  EXPECT_THAT(ids_of(check_claims(model, plant_of(model), std::nullopt)),
-              ElementsAre("C1", "C2", "C14"));
-  EXPECT_THAT(ids_of(check_claims(model, plant_of(model), kPaperGains)),
+  EXPECT_THAT(
+      ids_of(check_claims(model, plant_of(model), std::nullopt, batch_arithmetic().value())),
+      ElementsAre("C1", "C2", "C14"));
+  EXPECT_THAT(ids_of(check_claims(model, plant_of(model), kPaperGains, batch_arithmetic().value())),
               ElementsAre("C1", "C2", "C3", "C4", "C5", "C6", "C7", "C8", "C9", "C10", "C11", "C12",
                           "C13", "C14"));
 }
@@ -224,8 +225,9 @@ TEST(OpenCases, AreAllCombinationsWithTheMassThatTyresCarry) {
 
 TEST(OpenCases, ClaimsAreJudgedInEachAsTheModelThereWouldBe) {
   const Model model = identified_paper_model();
-  std::vector<Claim> claims = check_claims(model, plant_of(model), kPaperGains);
-  add_open_cases(model, kPaperGains, claims);
+  std::vector<Claim> claims =
+      check_claims(model, plant_of(model), kPaperGains, batch_arithmetic().value());
+  add_open_cases(model, kPaperGains, batch_arithmetic().value(), claims);
   const Claim held = claim_of(claims, "C5");
   for (const ClaimCase& open : held.cases) {
     // What decides, by the reference figures: small angles make the drop, and with F' up to 0.5 the

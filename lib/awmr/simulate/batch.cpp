@@ -56,6 +56,8 @@ struct LaneParts {
   RunDisturbance disturbance;
   Sensed sensed = {};
   std::optional<Pilot> pilot = {};  ///< once the first sample is sensed
+  CourseRow course = {};            ///< as the pilot ordered it last
+  Run run = {};                     ///< its rows, where they are kept
   RunEnd ordered =
       RunEnd::kDuration;  ///< how the present sample ends the run; kDuration: it goes on
 };
@@ -65,6 +67,7 @@ struct Batch {
   const Scenario& scenario;
   double sample_time_s;
   const Kernel& kernel;
+  bool keeps_rows;
   std::unique_ptr<Block> block = std::make_unique<Block>();
   std::vector<LaneParts> parts = {};             ///< by run
   std::vector<std::optional<Ending>> ends = {};  ///< by run; none: it goes on, or it failed
@@ -80,11 +83,13 @@ void for_active(const Batch& batch, const Body& body) {
   }
 }
 
-/// Where the guidance is the same for all runs, none of them has a pilot of its own.
-bool has_pilots(const Scenario& scenario) {
-  const bool leads_alike = std::holds_alternative<OpenLoop>(scenario.guidance) ||
-                           std::holds_alternative<HeadingSteps>(scenario.guidance);
-  return !leads_alike || scenario.avoidance || scenario.shaping;
+/// Where the guidance is the same for all runs and no row tells of it, none of them has a pilot of its
+/// own.
+bool has_pilots(const Batch& batch) {
+  const Scenario& scenario = batch.scenario;
+  if (batch.block->setup.is_open_loop) return false;
+  return batch.keeps_rows || !std::holds_alternative<HeadingSteps>(scenario.guidance) ||
+         scenario.avoidance || scenario.shaping;
 }
 
 void set_up_lane(Batch& batch, const BatchRun& run, std::size_t lane) {
@@ -115,8 +120,8 @@ void set_up_lane(Batch& batch, const BatchRun& run, std::size_t lane) {
 
 /// All of a block. A lane without a run is a copy of the first, so that its numbers are harmless.
 Batch set_up(std::span<const BatchRun> runs, const Scenario& scenario, double sample_time_s,
-             const Kernel& kernel) {
-  Batch batch{scenario, sample_time_s, kernel};
+             const Kernel& kernel, bool keeps_rows) {
+  Batch batch{scenario, sample_time_s, kernel, keeps_rows};
   Block& block = *batch.block;
   const Controller<double> controller = controller_in(scenario, runs.front().controller);
   block.setup.split = controller.limits.split;
@@ -149,7 +154,7 @@ void sense(Batch& batch, std::size_t k) {
   if (!batch.scenario.sensors) {
     block.measured = {block.state.psi_rad, block.state.u_mps, block.state.v_mps,
                       block.state.r_radps};
-    if (!has_pilots(batch.scenario)) return;
+    if (!has_pilots(batch) && !batch.keeps_rows) return;
   }
   for_active(batch, [&](std::size_t lane) {
     LaneParts& parts = batch.parts[lane];
@@ -173,6 +178,7 @@ void start_observing(Block& block) {
 void follow(Batch& batch, std::size_t lane, const Pilot::Order& order) {
   Block& block = *batch.block;
   const auto state = lane_of<State<double>>(block.state, lane);
+  batch.parts[lane].course = order.course;
   put(order.reference, lane, block.reference);
   put(order.course.psi_goal_rad, lane, block.goal_rad);
   put(order.course.cross_track_m, lane, block.cross_track_m);
@@ -188,7 +194,7 @@ void follow(Batch& batch, std::size_t lane, const Pilot::Order& order) {
 /// What the laws are asked to follow.
 void guide(Batch& batch, std::size_t k, double t_s) {
   Block& block = *batch.block;
-  if (has_pilots(batch.scenario)) {
+  if (has_pilots(batch)) {
     for_active(batch, [&](std::size_t lane) {
       LaneParts& parts = batch.parts[lane];
       if (k == 0) parts.pilot.emplace(batch.scenario, batch.sample_time_s, parts.sensed);
@@ -210,6 +216,25 @@ void quantise_commands(Batch& batch) {
              block.steering_command_rad.lane[lane]);
     put(force, lane, block.force);
   });
+}
+
+/// The row of the sample, but for the disturbance over it.
+RunRow row_of(const Batch& batch, std::size_t lane, double t_s) {
+  const Block& block = *batch.block;
+  const LaneParts& parts = batch.parts[lane];
+  const auto reference = lane_of<Reference<double>>(block.reference, lane);
+  return {.t_s = t_s,
+          .state = lane_of<State<double>>(block.state, lane),
+          .force = lane_of<SideForces<double>>(block.force, lane),
+          .steering_command_rad = block.steering_command_rad.lane[lane],
+          .tau_speed = block.tau_speed.lane[lane],
+          .tau_turn_m = block.tau_turn_m.lane[lane],
+          .psi_ref_rad = reference.psi_rad,
+          .u_ref_mps = reference.speed_mps,
+          .course = parts.course,
+          .measured = parts.sensed.motion,
+          .measured_position_m = parts.sensed.position_m,
+          .clearance_m = block.clearance_m.lane[lane]};
 }
 
 /// Takes the sample into the metrics, and ends the runs that it ends.
@@ -234,8 +259,10 @@ void meter_sample(Batch& batch, std::size_t k, std::size_t samples, double t_s) 
   batch.goal_before_rad = goal_rad;
   batch.kernel.measure(block);
   for_active(batch, [&](std::size_t lane) {
-    const LaneParts& parts = batch.parts[lane];
+    LaneParts& parts = batch.parts[lane];
+    if (batch.keeps_rows) parts.run.rows.push_back(row_of(batch, lane, t_s));
     if (parts.ordered == RunEnd::kDuration && k < samples) return;
+    if (batch.keeps_rows) parts.run.rows.back().disturbance = parts.disturbance.next(t_s);
     batch.ends[lane] = {parts.ordered, t_s, parts.pilot ? parts.pilot->missed() : 0};
     put(0.0, lane, block.active);
   });
@@ -254,7 +281,10 @@ void move(Batch& batch, double t_s) {
   if (scenario.battery) block.sample.battery_share = battery_share(*scenario.battery, t_s);
   if (push.is_loaded) {
     for_active(batch, [&](std::size_t lane) {
-      put(batch.parts[lane].disturbance.next(t_s), lane, block.load);
+      LaneParts& parts = batch.parts[lane];
+      const BodyLoad load = parts.disturbance.next(t_s);
+      put(load, lane, block.load);
+      if (batch.keeps_rows) parts.run.rows.back().disturbance = load;
     });
   }
   batch.kernel.drive(block);
@@ -276,8 +306,8 @@ bool is_finite(const MeterSums<double>& sums) {
                      [](double value) { return std::isfinite(value); });
 }
 
-/// The metrics of each run; none where it failed.
-std::vector<std::optional<Metrics>> drive(Batch batch) {
+/// Drives the runs to their ends. The metrics of each; none where it failed.
+std::vector<std::optional<Metrics>> drive(Batch& batch) {
   Block& block = *batch.block;
   const std::size_t samples = samples_in(batch.scenario.duration_s, batch.sample_time_s);
   const auto goes_on = [&] {
@@ -299,7 +329,12 @@ std::vector<std::optional<Metrics>> drive(Batch batch) {
     const auto sums = lane_of<MeterSums<double>>(block.sums, lane);
     const auto& end = batch.ends[lane];
     metrics.emplace_back();
-    if (end && is_finite(sums)) metrics.back() = metrics_of(sums, *end, batch.scenario);
+    if (!end || !is_finite(sums)) continue;
+    metrics.back() = metrics_of(sums, *end, batch.scenario);
+    Run& run = batch.parts[lane].run;
+    run.substeps = static_cast<int>(block.substeps.lane[lane]);
+    run.end = end->end;
+    run.missed_waypoints = end->missed_waypoints;
   }
   return metrics;
 }
@@ -310,13 +345,40 @@ bool all_wheels_driven(std::span<const BatchRun> runs) {
       runs, [](const BatchRun& run) { return run.controller.limits.is_rear_driven; });
 }
 
-/// Errors (input): as failure_of().
-Result<Metrics> one_by_one(const BatchRun& run, const Scenario& scenario, double sample_time_s) {
-  const Run driven = simulate(
-      run.plant, run.controller, scenario, run.mode,
-      {.sample_time_s = sample_time_s, .substeps = {}, .seed = run.seed, .sample = run.sample});
-  AWMR_RETURN_IF_ERROR(failure_of(driven, scenario));
-  return metrics_of(driven, scenario, run.controller);
+DrivenRun one_by_one(const BatchRun& run, const Scenario& scenario, double sample_time_s) {
+  DrivenRun driven{
+      .run = simulate(
+          run.plant, run.controller, scenario, run.mode,
+          {.sample_time_s = sample_time_s, .substeps = {}, .seed = run.seed, .sample = run.sample}),
+      .metrics = {}};
+  driven.metrics = metrics_of(driven.run, scenario, run.controller);
+  return driven;
+}
+
+const Kernel* kernel_of(const BatchArithmetic& arithmetic) {
+  for (const Kernel* one : lanes::supported_kernels()) {
+    if (one->name == arithmetic.instructions) return one;
+  }
+  return nullptr;
+}
+
+/// Calls take(i, metrics, run) for each run, without metrics where a run failed or no kernel drives it.
+template <class Take>
+void drive_by_blocks(std::span<const BatchRun> runs, const Scenario& scenario, double sample_time_s,
+                     const BatchArithmetic& arithmetic, bool keeps_rows, const Take& take) {
+  const Kernel* const kernel = kernel_of(arithmetic);
+  for (std::size_t first = 0; first < runs.size(); first += kBatchRuns) {
+    const auto block = runs.subspan(first, std::min(kBatchRuns, runs.size() - first));
+    if (!kernel || !all_wheels_driven(block)) {
+      for (std::size_t i = 0; i < block.size(); ++i) take(first + i, std::nullopt, Run{});
+      continue;
+    }
+    Batch batch = set_up(block, scenario, sample_time_s, *kernel, keeps_rows);
+    const std::vector<std::optional<Metrics>> metrics = drive(batch);
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      take(first + i, metrics[i], std::move(batch.parts[i].run));
+    }
+  }
 }
 
 }  // namespace
@@ -339,23 +401,31 @@ Result<BatchArithmetic> batch_arithmetic() {
 std::vector<Result<Metrics>> simulate_batch(std::span<const BatchRun> runs,
                                             const Scenario& scenario, double sample_time_s,
                                             const BatchArithmetic& arithmetic) {
-  const Kernel* kernel = nullptr;
-  for (const Kernel* one : lanes::supported_kernels()) {
-    if (one->name == arithmetic.instructions) kernel = one;
-  }
   std::vector<Result<Metrics>> results;
-  for (std::size_t first = 0; first < runs.size(); first += kBatchRuns) {
-    const auto block = runs.subspan(first, std::min(kBatchRuns, runs.size() - first));
-    std::vector<std::optional<Metrics>> metrics(block.size());
-    if (kernel && all_wheels_driven(block))
-      metrics = drive(set_up(block, scenario, sample_time_s, *kernel));
-    for (std::size_t i = 0; i < block.size(); ++i) {
-      // A run that failed is told of by simulate(), or saved by it.
-      results.push_back(metrics[i] ? Result<Metrics>(*metrics[i])
-                                   : one_by_one(block[i], scenario, sample_time_s));
-    }
-  }
+  drive_by_blocks(
+      runs, scenario, sample_time_s, arithmetic, false,
+      [&](std::size_t i, const std::optional<Metrics>& metrics, const Run&) {
+        if (metrics) {
+          results.emplace_back(*metrics);
+          return;
+        }
+        // A run that failed is told of by simulate(), or saved by it.
+        const DrivenRun one = one_by_one(runs[i], scenario, sample_time_s);
+        const Status failure = failure_of(one.run, scenario);
+        results.push_back(failure ? Result<Metrics>(one.metrics) : tl::unexpected(failure.error()));
+      });
   return results;
+}
+
+std::vector<DrivenRun> drive_batch(std::span<const BatchRun> runs, const Scenario& scenario,
+                                   double sample_time_s, const BatchArithmetic& arithmetic) {
+  std::vector<DrivenRun> driven;
+  drive_by_blocks(runs, scenario, sample_time_s, arithmetic, true,
+                  [&](std::size_t i, const std::optional<Metrics>& metrics, Run run) {
+                    driven.push_back(metrics ? DrivenRun{std::move(run), *metrics}
+                                             : one_by_one(runs[i], scenario, sample_time_s));
+                  });
+  return driven;
 }
 
 }  // namespace awmr

@@ -49,4 +49,14 @@ std::vector<Result<Metrics>> simulate_batch(std::span<const BatchRun> runs,
                                             const Scenario& scenario, double sample_time_s,
                                             const BatchArithmetic& arithmetic);
 
+/// A run with what it is judged by.
+struct DrivenRun {
+  Run run;
+  Metrics metrics;
+};
+/// The same runs with their rows, for who asks more of a run than its metrics. One that fails is as
+/// simulate() leaves it.
+std::vector<DrivenRun> drive_batch(std::span<const BatchRun> runs, const Scenario& scenario,
+                                   double sample_time_s, const BatchArithmetic& arithmetic);
+
 }  // namespace awmr

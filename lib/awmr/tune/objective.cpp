@@ -24,14 +24,13 @@ std::size_t runs_together(std::size_t count, std::size_t scenarios) {
   return std::min(kBatchRuns, (share + kFour - 1) / kFour * kFour);
 }
 
-/// Of a run that failed the batch tells nothing: simulate() tells what came before.
-Metrics metrics_of_failed(const BatchRun& run, const Scenario& scenario, double sample_time_s) {
-  const Run driven = simulate(run.plant, run.controller, scenario, run.mode,
-                              {.sample_time_s = sample_time_s,
-                               .substeps = std::nullopt,
-                               .seed = run.seed,
-                               .sample = run.sample});
-  return metrics_of(driven, scenario, run.controller);
+/// Of a run that failed the metrics are those of what came before.
+Metrics metrics_of_failed(const BatchRun& run, const Scenario& scenario,
+                          const ObjectiveSetting& setting) {
+  return drive_batch(std::span(&run, 1), scenario, setting.vehicle.sample_time_s,
+                     setting.arithmetic)
+      .front()
+      .metrics;
 }
 
 /// By gains, then plant, then mode.
@@ -102,8 +101,7 @@ std::vector<std::vector<ModeScore>> run_all(const ObjectiveSetting& setting,
       scores[run / per_gains][run % per_gains * scenarios + i % scenarios] = {
           .scenario = scenario.name,
           .mode = block[j].mode,
-          .metrics =
-              metrics[j] ? *metrics[j] : metrics_of_failed(block[j], scenario, sample_time_s)};
+          .metrics = metrics[j] ? *metrics[j] : metrics_of_failed(block[j], scenario, setting)};
     }
   });
   return scores;

@@ -33,13 +33,17 @@ Run run_or_failed(const Model& model, const Gains<double>& gains, const Scenario
   return simulate(model, gains, scenario, mode).value_or(std::move(failed));
 }
 
-ModeRuns run_modes(const Model& model, const Gains<double>& gains, const Scenario& scenario) {
-  const Controller<double> controller = controller_for(model, gains).value();
+ModeRuns run_modes(const Model& model, const Gains<double>& gains, const Scenario& scenario,
+                   const BatchArithmetic& arithmetic) {
+  const BatchRun run{.plant = plant_for(scenario, model).value(),
+                     .controller = controller_for(model, gains).value(),
+                     .mode = {}};
+  std::vector<BatchRun> in_modes(std::size(kYawModes), run);
+  for (std::size_t i = 0; i < in_modes.size(); ++i) in_modes[i].mode = kYawModes[i];
+  auto driven = drive_batch(in_modes, scenario, model.vehicle.sample_time_s, arithmetic);
   ModeRuns runs;
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    runs[i].mode = kYawModes[i];
-    runs[i].run = run_or_failed(model, gains, scenario, kYawModes[i]);
-    runs[i].metrics = metrics_of(runs[i].run, scenario, controller);
+    runs[i] = {kYawModes[i], std::move(driven[i].run), driven[i].metrics};
   }
   return runs;
 }
@@ -79,12 +83,12 @@ int reversals(std::span<const double> signal, double band) {
 
 std::vector<Claim> check_claims(const Model& model, const Plant<double>& plant,
                                 const std::optional<Gains<double>>& gains,
-                                const ControlOptions& control) {
+                                const BatchArithmetic& arithmetic, const ControlOptions& control) {
   std::vector<Claim> claims;
   claims.push_back(check_straight_run(model, plant, control));
   claims.push_back(check_circle(model, plant, control));
   if (gains) {
-    const ClaimSetting setting{model, plant, *gains, control};
+    const ClaimSetting setting{model, plant, *gains, arithmetic, control};
     for (Claim& claim : check_heading_claims(setting)) {
       claims.push_back(std::move(claim));
     }

@@ -14,6 +14,7 @@
 
 #include "awmr/model/gains.h"
 #include "awmr/model/model.h"
+#include "awmr/simulate/batch.h"
 #include "awmr/simulate/metrics.h"
 #include "awmr/simulate/scenario.h"
 #include "awmr/simulate/simulate.h"
@@ -38,18 +39,20 @@ Run run_or_failed(const Model& model, const Gains<double>& gains, const Scenario
                   YawMode mode);
 /// The scenario in all three modes. Precondition: the model has every parameter, and an interval
 /// for each of the scenario's corner.
-ModeRuns run_modes(const Model& model, const Gains<double>& gains, const Scenario& scenario);
+ModeRuns run_modes(const Model& model, const Gains<double>& gains, const Scenario& scenario,
+                   const BatchArithmetic& arithmetic);
 
 /// What the claims are simulated with.
 struct ClaimSetting {
   const Model& model;
   const Plant<double>& plant;  ///< the model's
   const Gains<double>& gains;
+  BatchArithmetic arithmetic;   ///< of the runs
   ControlOptions control = {};  ///< of every scenario
 
   ModeRuns run(Scenario scenario) const {
     scenario.control = control;
-    return run_modes(model, gains, scenario);
+    return run_modes(model, gains, scenario, arithmetic);
   }
 };
 
@@ -91,6 +94,7 @@ int reversals(std::span<const double> signal, double band);
 /// In the paper's order; with gains, all; without, those that need none.
 std::vector<Claim> check_claims(const Model& model, const Plant<double>& plant,
                                 const std::optional<Gains<double>>& gains,
+                                const BatchArithmetic& arithmetic,
                                 const ControlOptions& control = {});
 
 }  // namespace awmr

@@ -107,7 +107,8 @@ Claim sideslip_smallest(const HeadingSetting& setting, const ModeRuns& runs) {
                  : "sway follows (tau_steering/l_f - m' r u)/a_s: differential has no steering "
                    "force, but turns fast enough for m' r u alone to make more sway"};
   if (!same_heading_gains(setting.gains.heading, kPaperGains.heading)) {
-    const HeadingSetting paper{{setting.model, setting.plant, kPaperGains, setting.control}};
+    const HeadingSetting paper{
+        {setting.model, setting.plant, kPaperGains, setting.arithmetic, setting.control}};
     claim.figure += "; with the paper's gains: largest " +
                     by_mode(paper.run("C6", kSimulated_deg), "deg", sideslip);
   }

@@ -90,7 +90,8 @@ std::vector<ClaimCase> open_cases(const Model& model) {
 }
 
 void add_open_cases(const Model& model, const std::optional<Gains<double>>& gains,
-                    std::vector<Claim>& claims, const Progress& progress) {
+                    const BatchArithmetic& arithmetic, std::vector<Claim>& claims,
+                    const Progress& progress) {
   const std::vector<ClaimCase> cases = open_cases(model);
   std::vector<std::vector<Claim>> judged_in(cases.size());
   std::atomic<std::size_t> done = 0;
@@ -98,7 +99,7 @@ void add_open_cases(const Model& model, const std::optional<Gains<double>>& gain
   if (progress) control.progress = [&] { progress(done, cases.size()); };
   const auto judge = [&](std::size_t i) {
     const Model other = model_in(cases[i], model);
-    judged_in[i] = check_claims(other, *other.plant(), gains, control_in(cases[i]));
+    judged_in[i] = check_claims(other, *other.plant(), gains, arithmetic, control_in(cases[i]));
     ++done;
   };
   parallel_for(cases.size(), 0, judge, control);

@@ -25,7 +25,8 @@ std::vector<ClaimCase> open_cases(const Model& model);
 /// Puts the cases into the claims, which have to be those of check_claims() with the same gains, and
 /// says which settings decide them. The result does not depend on the number of cores.
 void add_open_cases(const Model& model, const std::optional<Gains<double>>& gains,
-                    std::vector<Claim>& claims, const Progress& progress = {});
+                    const BatchArithmetic& arithmetic, std::vector<Claim>& claims,
+                    const Progress& progress = {});
 
 /// The settings on which the verdict hangs, the most decisive first: "wheel_force (8 of 12)" is a
 /// setting whose change alone turns the verdict in 8 of 12 places. Empty where nothing turns it.

@@ -85,8 +85,9 @@ std::string speed_drop_elsewhere(const HeadingSetting& setting) {
     other.vehicle.wheel_force = limits;
     // As long as the vehicle with its own limits, so that the figures are of the same run.
     const ModeRuns runs =
-        ClaimSetting{other, setting.plant, setting.gains, setting.control}.run(heading_steps(
-            kSimulated_deg, {.hold_s = setting.hold_s(), .speed_mps = kSpeed_mps, .name = "C5"}));
+        ClaimSetting{other, setting.plant, setting.gains, setting.arithmetic, setting.control}.run(
+            heading_steps(kSimulated_deg,
+                          {.hold_s = setting.hold_s(), .speed_mps = kSpeed_mps, .name = "C5"}));
     text += fmt::format("; with F' in [{}, {}]: {}", limits.lo, limits.hi,
                         by_mode(runs, "m/s", [&](const ModeRun& run) -> std::optional<double> {
                           return speed_drop(run, setting.hold_s());

@@ -100,14 +100,17 @@ void judge(Validation& validation, double tolerance) {
 
 /// The claims that vehicle and model allow to check. All but C1 and C14 compare the three modes;
 /// without gains, C2 takes a model that turns, C1 one that drives straight.
-/// Errors (input): with gains, the model lacks a parameter.
+/// Errors (input): with gains, the model lacks a parameter; batch_arithmetic()'s.
 Status add_claims(const Model& model, const std::optional<Gains<double>>& gains,
                   const ValidateOptions& options, Validation& validation) {
   const auto whole = model.plant();
   const bool all_modes = model.vehicle.drive == Drive::kFourWheel;
   if (whole && all_modes) {
-    validation.claims = check_claims(model, *whole, gains);
-    if (options.open_cases) add_open_cases(model, gains, validation.claims, options.progress);
+    AWMR_ASSIGN_OR_RETURN(const BatchArithmetic arithmetic, batch_arithmetic());
+    validation.claims = check_claims(model, *whole, gains, arithmetic);
+    if (options.open_cases) {
+      add_open_cases(model, gains, arithmetic, validation.claims, options.progress);
+    }
     return {};
   }
   if (!whole && gains) return tl::unexpected(whole.error());
