@@ -94,6 +94,7 @@ class Problem {
   Candidate nearest;
   int evaluations = 0;
   int simulated = 0;
+  std::vector<SearchStep> steps;
 
   double objective(const double* x) {
     look_at(x);
@@ -152,7 +153,12 @@ void Problem::look_at(const double* x) {
       last_.violation = std::max(last_.violation, residuals_[first + i]);
     }
   }
-  if (better(last_, nearest)) nearest = last_;
+  if (!better(last_, nearest)) return;
+  nearest = last_;
+  if (!nearest.feasible()) return;
+  // Asked for their constraints alone, points belong to the evaluation that comes next.
+  if (!steps.empty() && steps.back().evaluation > evaluations) steps.pop_back();
+  steps.push_back({evaluations + 1, nearest.objective});
 }
 
 double objective_callback(unsigned, const double* x, double*, void* data) {
@@ -251,6 +257,16 @@ Point start_point(int index, const TuneOptions& options, const Gains<double>& ba
   return x;
 }
 
+/// At most kMostHistorySteps of the steps.
+std::vector<SearchStep> at_even_ranks(const std::vector<SearchStep>& steps) {
+  if (steps.size() <= kMostHistorySteps) return steps;
+  std::vector<SearchStep> kept;
+  for (std::size_t i = 0; i < kMostHistorySteps; ++i) {
+    kept.push_back(steps[i * (steps.size() - 1) / (kMostHistorySteps - 1)]);
+  }
+  return kept;
+}
+
 }  // namespace
 
 bool better(const Candidate& a, const Candidate& b) {
@@ -288,6 +304,7 @@ Result<SearchResult> search(const TuneOptions& options, const ConstraintContext&
   }
   if (failed(global)) return program_fault("NLopt's ISRES: " + reason(global));
   std::string stop = "global: " + reason(global);
+  const int global_evaluations = problem.evaluations;
   problem.simulate_all = true;
   AWMR_ASSIGN_OR_RETURN(const std::string local, search_locally(problem, options));
   stop += local;
@@ -296,6 +313,9 @@ Result<SearchResult> search(const TuneOptions& options, const ConstraintContext&
       .nearest = problem.nearest,
       .evaluations = problem.evaluations,
       .simulated = problem.simulated,
+      .history = {.best = at_even_ranks(problem.steps),
+                  .global_evaluations = global_evaluations,
+                  .evaluations = problem.evaluations},
       .algorithm = fmt::format("NLopt GN_ISRES (population {}), then LN_COBYLA, over "
                                "the logarithms of the gains",
                                kPopulation),

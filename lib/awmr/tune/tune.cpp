@@ -210,6 +210,7 @@ Result<Tuning> tune_on(const ObjectiveSetting& setting, const ConstraintContext&
                 .stop_reason = found.stop_reason,
                 .seed = options.seed,
                 .simulated = found.simulated,
+                .history = found.history,
                 .held_out_scores = judged.scores,
                 .held_out_objective = judged.objective,
                 .robust = {}};
@@ -256,6 +257,7 @@ Result<Tuning> tune_robustly(const Model& model, ObjectiveSetting setting,
   RobustTuning robust{.conditions = conditions_of(model.vehicle),
                       .from_covariance = !model.covariance.parameters.empty(),
                       .nominal = {},
+                      .nominal_history = {},
                       .judged = {}};
   const LoopConditions& c = robust.conditions;
   AWMR_ASSIGN_OR_RETURN(setting.plants, plants_of(model, options.draws, options.seed));
@@ -274,6 +276,7 @@ Result<Tuning> tune_robustly(const Model& model, ObjectiveSetting setting,
   std::vector<NamedCandidate> candidates{{"robust", tuning.gains}, {"baseline", tuning.baseline}};
   if (nominal) {
     robust.nominal = nominal->gains;
+    robust.nominal_history = nominal->history;
     candidates.push_back({"nominal", nominal->gains});
   }
   setting.seed ^= kJudgedSeeds;

@@ -134,6 +134,16 @@ Json constraints_json(const std::vector<ConstraintReport>& constraints) {
   return json;
 }
 
+Json history_json(const SearchHistory& history) {
+  Json best = Json::array();
+  for (const SearchStep& step : history.best) {
+    best.push_back({{"evaluation", step.evaluation}, {"objective", step.objective}});
+  }
+  return {{"evaluations", history.evaluations},
+          {"global_evaluations", history.global_evaluations},
+          {"best", std::move(best)}};
+}
+
 Json robust_json(const RobustTuning& robust, const TuneOptions& options) {
   const LoopConditions& c = robust.conditions;
   Json json = {{"draws", options.draws},
@@ -152,7 +162,10 @@ Json robust_json(const RobustTuning& robust, const TuneOptions& options) {
                {"motor_time_constant_s", c.motor_time_constant_s},
                {"judged_draws", options.judged_draws},
                {"quantiles", Json::object()}};
-  if (robust.nominal) json["nominal"] = gains_to_json(*robust.nominal);
+  if (robust.nominal) {
+    json["nominal"] = gains_to_json(*robust.nominal);
+    json["nominal_history"] = history_json(robust.nominal_history);
+  }
   for (const JudgedGains& judged : robust.judged) {
     Json& entry = json["quantiles"][std::string(name_of(judged.mode))][judged.gains];
     entry["completed_share"] = judged.completed_share;
@@ -226,11 +239,9 @@ std::string gains_text(const Tuning& tuning, const TuneOptions& options,
   json["objective"]["held_out"] = {{"value", tuning.held_out_objective},
                                    {"metrics", scores_json(tuning.held_out_scores)}};
   json["metrics"] = scores_json(tuning.scores);
-  json["search"] = {{"algorithm", tuning.algorithm},
-                    {"evaluations", tuning.evaluations},
-                    {"simulated", tuning.simulated},
-                    {"seed", tuning.seed},
-                    {"stop_reason", tuning.stop_reason}};
+  json["search"] = {{"algorithm", tuning.algorithm},     {"evaluations", tuning.evaluations},
+                    {"simulated", tuning.simulated},     {"seed", tuning.seed},
+                    {"stop_reason", tuning.stop_reason}, {"history", history_json(tuning.history)}};
   if (tuning.robust) json["robust"] = robust_json(*tuning.robust, options);
   Json baseline = gains_to_json(tuning.baseline);
   baseline["objective"] = tuning.baseline_objective;
