@@ -25,12 +25,14 @@ struct SignRelation {
 
 /// +1: positions move where the heading points; -1: where its mirror image does; 0: cannot be told.
 int course_sign(const std::vector<EvidenceWindow>& windows) {
+  // Of a turn of constant rate the chord points along the heading in its middle, as long as it is no circle.
+  constexpr double kFurthestTurn_rad = 2.5;
   std::vector<double> moved = series(windows, [](const EvidenceWindow& w) { return w.moved_m; });
   const double far = median(moved);
   std::complex<double> same = 0.0, mirrored = 0.0, headings = 0.0;
   double n = 0.0;
   for (const EvidenceWindow& w : windows) {
-    if (w.moved_m < far || w.moved_m <= 0.0 || std::abs(w.turned_rad) > 1.0) continue;
+    if (w.moved_m < far || w.moved_m <= 0.0 || std::abs(w.turned_rad) > kFurthestTurn_rad) continue;
     same += std::polar(1.0, w.course_rad - w.heading_rad);
     mirrored += std::polar(1.0, w.course_rad + w.heading_rad);
     headings += std::polar(1.0, 2.0 * w.heading_rad);
