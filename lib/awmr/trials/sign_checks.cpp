@@ -39,9 +39,15 @@ int course_sign(const std::vector<EvidenceWindow>& windows) {
     n += 1.0;
   }
   // On a straight drive the two cannot be told apart.
-  if (n < 10.0 || std::abs(headings) / n > 0.9) return 0;
-  if (std::abs(same) / n > 0.7 && std::abs(same) > 1.5 * std::abs(mirrored)) return 1;
-  if (std::abs(mirrored) / n > 0.7 && std::abs(mirrored) > 1.5 * std::abs(same)) return -1;
+  if (n < 10.0 || std::abs(headings) / n > 0.95) return 0;
+  // How far the angles scatter, 0 to 1: one way by the noise alone, the other way by twice the headings as well.
+  constexpr double kMostNoise = 0.3;
+  const auto holds = [n](double one, double other) {
+    const double of_one = 1.0 - one / n;
+    return of_one < kMostNoise && (one > 1.5 * other || 1.0 - other / n > 4.0 * of_one);
+  };
+  if (holds(std::abs(same), std::abs(mirrored))) return 1;
+  if (holds(std::abs(mirrored), std::abs(same))) return -1;
   return 0;
 }
 
