@@ -123,7 +123,7 @@ Result<unsigned> tried(Executor& chip, Executor& host, const Attack& attack, Hos
 }  // namespace
 
 Result<Hostile> provoke(Executor& chip, Executor& host, const SafetyLimits& limits,
-                        const Mission& mission) {
+                        const Mission& mission, const Progress& progress) {
   Hostile found;
   // Every step is at time 0; the first one, late after whatever was before it, is not looked at.
   // Its mode is none: after a fault both remember nothing of the motion before.
@@ -131,7 +131,8 @@ Result<Hostile> provoke(Executor& chip, Executor& host, const SafetyLimits& limi
   first.mode = 3;
   AWMR_RETURN_IF_ERROR(chip.step(first));
   AWMR_RETURN_IF_ERROR(host.step(first));
-  for (std::uint8_t mode = 0; mode <= static_cast<std::uint8_t>(YawMode::kCombined); ++mode) {
+  constexpr std::uint8_t kModes = static_cast<std::uint8_t>(YawMode::kCombined) + 1;
+  for (std::uint8_t mode = 0; mode < kModes; ++mode) {
     Random random(1, mode);
     Attack best;
     best.input.mode = mode;
@@ -145,6 +146,7 @@ Result<Hostile> provoke(Executor& chip, Executor& host, const SafetyLimits& limi
     for (std::size_t i = 0; i < kStepsPerMode; ++i) {
       const Attack attack = changed(best, limits, random);
       AWMR_ASSIGN_OR_RETURN(const unsigned cycles, tried(chip, host, attack, found));
+      if (progress) progress(mode * kStepsPerMode + i + 1, kModes * kStepsPerMode);
       if (cycles < most) continue;
       most = cycles;
       best = attack;

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 
+#include "awmr/core/progress.h"
 #include "executor.h"
 
 namespace awmr::pil {
@@ -19,6 +20,6 @@ struct Hostile {
 /// lie on the vehicle or anywhere. What took longest so far is changed a little, again and again.
 /// The same steps every time. Errors: the executors'.
 Result<Hostile> provoke(Executor& chip, Executor& host, const SafetyLimits& limits,
-                        const Mission& mission);
+                        const Mission& mission, const Progress& progress = {});
 
 }  // namespace awmr::pil

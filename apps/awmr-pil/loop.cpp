@@ -172,7 +172,8 @@ std::uint8_t expected_fault(Injection injection) {
   return kFaultNone;
 }
 
-Result<std::vector<LoopRow>> run_loop(const LoopSetup& setup, Executor& executor) {
+Result<std::vector<LoopRow>> run_loop(const LoopSetup& setup, Executor& executor,
+                                      const Progress& progress) {
   const SimulateOptions options{.sample_time_s = setup.sample_time_s, .substeps = {}};
   Physics physics(setup.plant, setup.force_max, setup.scenario, options);
   Sensing sensing(setup.scenario.sensors, setup.sample_time_s, run_seed(setup.scenario.seed, 0, 0));
@@ -200,6 +201,7 @@ Result<std::vector<LoopRow>> run_loop(const LoopSetup& setup, Executor& executor
     if (!step) return tl::unexpected(step.error());
     row.step = *step;
     command(setup, row);
+    if (progress) progress(k, samples);
     if (step->output.arrived || order.no_passage || k == samples) break;
     AWMR_RETURN_IF_ERROR(drive(physics, row, setup.scenario.name));
   }

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "awmr/core/progress.h"
 #include "awmr/model/model.h"
 #include "awmr/simulate/scenario.h"
 #include "executor.h"
@@ -34,7 +35,8 @@ struct LoopRow {
 Status check_scenario(const Scenario& scenario, const std::string& file);
 
 /// Errors: the executor's. Ends with the scenario, or where its course does.
-Result<std::vector<LoopRow>> run_loop(const LoopSetup& setup, Executor& executor);
+Result<std::vector<LoopRow>> run_loop(const LoopSetup& setup, Executor& executor,
+                                      const Progress& progress = {});
 
 /// The samples at which the setup's injection changes the inputs: [first, last).
 struct Window {

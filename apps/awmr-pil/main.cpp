@@ -8,6 +8,7 @@
 #include "executor.h"
 #include "json_output.h"
 #include "pil_options.h"
+#include "progress.h"
 #include "run.h"
 #include "work_folder.h"
 
@@ -18,6 +19,14 @@ int report(const awmr::Error& error, bool json = false) {
   const std::string text = json ? awmr::cli::error_text(error) : awmr::to_text(error, "--");
   std::fputs(text.c_str(), stderr);
   return awmr::exit_code(error);
+}
+
+/// On a terminal it is told what is being done, and how much time is left.
+awmr::Result<awmr::pil::Outcome> watched(const awmr::cli::PilOptions& options) {
+  awmr::cli::Working working("reading");
+  return awmr::pil::run_pil(
+      options, {.doing = [&](std::string_view what) { working.doing(what); },
+                .progress = [&](std::size_t done, std::size_t total) { working(done, total); }});
 }
 
 int run(int argc, char** argv) {
@@ -47,7 +56,8 @@ int run(int argc, char** argv) {
     const auto served = awmr::pil::serve_terminal(terminal_elf);
     return served ? 0 : report(served.error());
   }
-  const auto outcome = awmr::pil::run_pil(options);
+  awmr::cli::show_progress({.on_terminal = !quiet, .in_lines = false});
+  const auto outcome = watched(options);
   if (!outcome) return report(outcome.error(), json);
   const int exit_code = outcome->passed ? 0 : 1;
   const std::string text = json ? awmr::cli::result_text({.command = "pil",

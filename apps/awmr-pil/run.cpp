@@ -140,12 +140,14 @@ Result<std::unique_ptr<Chip>> connect(const PilOptions& options, const Inputs& i
 }
 
 /// The longest step of an emulated chip, whose run is over.
-Result<std::optional<Hostile>> hostile_of(const PilOptions& options, const Inputs& in, Chip& chip) {
+Result<std::optional<Hostile>> hostile_of(const PilOptions& options, const Inputs& in, Chip& chip,
+                                          const Watch& watch) {
   if (options.port || options.injection != Injection::kNone) return std::optional<Hostile>();
+  watch.doing("looking for the longest step");
   const auto host = host_executor(in.parameters, in.setup.mission);
   if (const auto started = host->start(); !started) return tl::unexpected(started.error());
-  AWMR_ASSIGN_OR_RETURN(const Hostile hostile,
-                        provoke(chip, *host, in.parameters.block.safety, in.setup.mission));
+  AWMR_ASSIGN_OR_RETURN(const Hostile hostile, provoke(chip, *host, in.parameters.block.safety,
+                                                       in.setup.mission, watch.progress));
   return std::optional(hostile);
 }
 
@@ -157,9 +159,10 @@ double elapsed_s(bool emulated) {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-Result<ChipRun> run_chip(const PilOptions& options, const Inputs& in) {
+Result<ChipRun> run_chip(const PilOptions& options, const Inputs& in, const Watch& watch) {
   if (options.build_directory) AWMR_RETURN_IF_ERROR(prepare_to_keep(*options.build_directory));
   AWMR_ASSIGN_OR_RETURN(const auto folder, WorkFolder::make());
+  watch.doing("compiling the firmware");
   const auto library = firmware_library(in.model, in.gains, in.names, in.emit);
   if (!library) return tl::unexpected(library.error());
   const auto elf = build_firmware(
@@ -175,14 +178,15 @@ Result<ChipRun> run_chip(const PilOptions& options, const Inputs& in) {
   if (!chip) return tl::unexpected(chip.error());
   const auto started = (*chip)->start();
   if (!started) return tl::unexpected(started.error());
+  watch.doing(options.port ? "running on the board" : "running on the emulated chip");
   const double before_s = elapsed_s(!options.port);
-  auto rows = run_loop(in.setup, **chip);
+  auto rows = run_loop(in.setup, **chip, watch.progress);
   if (!rows) return tl::unexpected(rows.error());
   const double taken_s = elapsed_s(!options.port) - before_s;
   ChipRun run;
   run.real_time_factor = static_cast<double>(rows->size()) * in.setup.sample_time_s / taken_s;
   run.rows = std::move(*rows);
-  AWMR_ASSIGN_OR_RETURN(run.hostile, hostile_of(options, in, **chip));
+  AWMR_ASSIGN_OR_RETURN(run.hostile, hostile_of(options, in, **chip, watch));
   run.figures = (*chip)->figures();
   run.start_fault = *started;
   return run;
@@ -260,7 +264,7 @@ Status compare_runs(const PilOptions& options, const Inputs& in, Report& report)
 
 }  // namespace
 
-Result<Outcome> run_pil(const PilOptions& asked) {
+Result<Outcome> run_pil(const PilOptions& asked, const Watch& watch) {
   const std::vector<fs::path> inputs{asked.model, asked.gains, asked.scenario};
   AWMR_RETURN_IF_ERROR(check_output(asked.output, inputs));
   auto in = read_inputs(asked);
@@ -268,9 +272,10 @@ Result<Outcome> run_pil(const PilOptions& asked) {
   if (asked.injection != Injection::kNone) AWMR_RETURN_IF_ERROR(place_injection(*in));
   const PilOptions options = resolved(asked, *in);
   Report report;
-  auto chip = run_chip(options, *in);
+  auto chip = run_chip(options, *in, watch);
   if (!chip) return tl::unexpected(chip.error());
   report.chip = std::move(*chip);
+  watch.doing("comparing with the host's runs");
   report.cycles = cycles_of(report.chip.rows);
   if (auto compared = compare_runs(options, *in, report); !compared) {
     return tl::unexpected(compared.error());

@@ -112,7 +112,7 @@ TrialFiles recorded(const Project& project, const Vehicle& vehicle, Check& check
   return files;
 }
 
-/// Without a driving log each table has to be there, and the sway resistance given.
+/// Without a driving log each table has to be there; a sway resistance that is not given is assumed.
 void check_what_nothing_shows(const Project& project, const Vehicle* vehicle, Check& check) {
   if (!project.logs.empty()) return;
   const auto nothing_shows = [&](ParameterId id) {
@@ -125,11 +125,11 @@ void check_what_nothing_shows(const Project& project, const Vehicle* vehicle, Ch
   if (!project.turning) nothing_shows(ParameterId::kYawAlpha);
   if (project.coastdowns.empty()) nothing_shows(ParameterId::kMassNorm);
   if (vehicle == nullptr || vehicle->sway_alpha) return;
-  check.missing.push_back({project.vehicle.string() + ":/sway_alpha", 0, Severity::kError,
-                           "missing-value",
-                           fmt::format("to be filled in, as gains need it ({}), or shown by a "
-                                       "driving log with sway_mps",
-                                       info(ParameterId::kSwayAlpha).meaning)});
+  check.notes.push_back(
+      {project.vehicle.string() + ":/sway_alpha", 0, Severity::kNote, "assumed-sway",
+       fmt::format("not given ({}): identify will assume that of common tyres, within a factor of "
+                   "about 1.7, as long as no driving log with sway_mps shows it",
+                   info(ParameterId::kSwayAlpha).meaning)});
 }
 
 /// What the columns of a file that could not be read may be, by their names: the mapping to paste.

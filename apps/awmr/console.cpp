@@ -86,6 +86,14 @@ int report(const std::string& command, const Result<Outcome>& result, Manner man
   return exit_code;
 }
 
+/// Whatever a command does that takes over a second and has no words of its own is told by its name;
+/// `live` has a screen of its own.
+Result<Outcome> watched(const std::string& name, const std::function<Result<Outcome>()>& execute) {
+  if (name == "live") return execute();
+  const Working working("awmr " + name);
+  return execute();
+}
+
 std::string origin(const Estimate& estimate) {
   return fmt::format("{}, {}", name_in(kSourceNames, estimate.source), estimate.method);
 }
@@ -131,7 +139,7 @@ CLI::App* add_command(CLI::App& app, Session& session, const std::string& name,
       ->excludes(quiet);
   command->callback([&session, name, manner, execute = std::move(execute)] {
     show_progress({.on_terminal = !manner->quiet, .in_lines = !manner->quiet && !manner->json});
-    session.exit_code = report(name, execute(), *manner);
+    session.exit_code = report(name, watched(name, execute), *manner);
   });
   return command;
 }

@@ -29,12 +29,7 @@ std::vector<fs::path> inputs_of(const IdentifyCommand& command) {
 
 Result<Provenance> provenance_of(const IdentifyCommand& command) {
   Provenance provenance{"identify", described(command.identify), {}};
-  provenance.options.emplace_back("prefer", name_in(kPreferenceNames, command.trials.preference));
-  if (command.trials.as_is) provenance.options.emplace_back("as-is", "true");
-  if (command.steady_from_logs) provenance.options.emplace_back("steady_from_logs", "true");
-  for (const ColumnMapping& mapping : command.trials.columns) {
-    provenance.options.emplace_back("column", text_of(mapping));
-  }
+  describe_reading(command.trials, command.steady_from_logs, provenance.options);
   AWMR_ASSIGN_OR_RETURN(provenance.inputs, input_files(inputs_of(command), command.names));
   return provenance;
 }

@@ -109,4 +109,14 @@ std::vector<std::pair<std::string, std::string>> described(const IdentifyOptions
   return words;
 }
 
+void describe_reading(const TrialOptions& trials, bool steady_from_logs,
+                      std::vector<std::pair<std::string, std::string>>& words) {
+  words.emplace_back("prefer", name_in(kPreferenceNames, trials.preference));
+  if (trials.as_is) words.emplace_back("as-is", "true");
+  if (steady_from_logs) words.emplace_back("steady_from_logs", "true");
+  for (const ColumnMapping& mapping : trials.columns) {
+    words.emplace_back("column", text_of(mapping));
+  }
+}
+
 }  // namespace awmr::cli

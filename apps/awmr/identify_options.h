@@ -7,6 +7,7 @@
 
 #include "awmr/core/result.h"
 #include "awmr/identify/identify.h"
+#include "awmr/trials/read_trials.h"
 
 namespace awmr::cli {
 
@@ -19,5 +20,9 @@ Status add_asked(std::string_view name, IdentifyOptions& options);
 
 /// The options in words, for the model's provenance.
 std::vector<std::pair<std::string, std::string>> described(const IdentifyOptions& options);
+
+/// How the trials were read, behind them.
+void describe_reading(const TrialOptions& trials, bool steady_from_logs,
+                      std::vector<std::pair<std::string, std::string>>& words);
 
 }  // namespace awmr::cli

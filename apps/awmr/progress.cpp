@@ -15,6 +15,8 @@ namespace {
 
 std::atomic<bool> drawn_on_terminal = true;
 std::atomic<bool> told_in_lines = true;
+/// The one of all Workings that is seen.
+std::atomic<const Working*> seen = nullptr;
 
 bool is_terminal() {
   const char* term = std::getenv("TERM");
@@ -42,23 +44,27 @@ std::size_t terminal_columns() {
   return known ? size.ws_col : 80;
 }
 
-Working::Working(std::string what) : what_(std::move(what)) {
+Working::Working(std::string what) : what_(std::move(what)), covered_(seen.exchange(this)) {
   if (draws_progress()) drawer_ = std::thread([this] { draw_until_over(); });
 }
 
 Working::~Working() {
-  if (!drawer_.joinable()) return;
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    over_ = true;
+  if (drawer_.joinable()) {
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      over_ = true;
+    }
+    wake_.notify_one();
+    drawer_.join();
   }
-  wake_.notify_one();
-  drawer_.join();
+  seen = covered_;
 }
 
 void Working::doing(std::string_view what) {
   const std::lock_guard<std::mutex> lock(mutex_);
   what_ = what;
+  done_ = 0;
+  counted_from_ = Clock::now();
 }
 
 void Working::operator()(std::size_t done, std::size_t total) {
@@ -68,8 +74,11 @@ void Working::operator()(std::size_t done, std::size_t total) {
 }
 
 std::string Working::line() const {
-  const double passed_s = std::chrono::duration<double>(Clock::now() - start_).count();
-  if (done_ == 0) return fmt::format("{} ... {}", what_, duration_text(passed_s));
+  const auto since = [](Clock::time_point from) {
+    return std::chrono::duration<double>(Clock::now() - from).count();
+  };
+  if (done_ == 0) return fmt::format("{} ... {}", what_, duration_text(since(start_)));
+  const double passed_s = since(counted_from_);
   constexpr int kWidth = 24;
   const double share = static_cast<double>(done_) / static_cast<double>(total_);
   const int filled = static_cast<int>(share * kWidth);
@@ -82,6 +91,7 @@ void Working::draw_until_over() {
   std::unique_lock<std::mutex> lock(mutex_);
   bool drawn = false;
   for (auto pause = 1000ms; !wake_.wait_for(lock, pause, [this] { return over_; }); pause = 200ms) {
+    if (seen != this) continue;
     const std::string text = line().substr(0, terminal_columns() - 1);
     std::fputs(("\r\033[K" + text).c_str(), stderr);
     std::fflush(stderr);

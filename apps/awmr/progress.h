@@ -25,8 +25,8 @@ bool tells_progress_in_lines();
 std::size_t terminal_columns();
 
 /// While it lives, the terminal's last line says what is being done and for how long, and once parts
-/// are told, the share done and the time left. Nothing is drawn where stderr is no terminal. One at
-/// a time.
+/// are told, the share done and the time left. Nothing is drawn where stderr is no terminal. Of several
+/// that live at once the latest is seen; they end in the opposite order.
 class Working {
  public:
   explicit Working(std::string what);
@@ -34,7 +34,7 @@ class Working {
   Working(const Working&) = delete;
   Working& operator=(const Working&) = delete;
 
-  /// What is done now.
+  /// What is done now; its parts, if any, are counted anew.
   void doing(std::string_view what);
   void operator()(std::size_t done, std::size_t total);
 
@@ -47,10 +47,12 @@ class Working {
   std::size_t done_ = 0;
   std::size_t total_ = 0;
   Clock::time_point start_ = Clock::now();
+  Clock::time_point counted_from_ = start_;  ///< the beginning of what is done now
   bool over_ = false;
   std::mutex mutex_;
   std::condition_variable wake_;
   std::thread drawer_;
+  const Working* covered_ = nullptr;  ///< that is seen again when this one has ended
 };
 
 }  // namespace awmr::cli

@@ -12,7 +12,10 @@
 #include <vector>
 
 #include "awmr/core/name_table.h"
+#include "awmr/core/provenance.h"
 #include "awmr/core/result.h"
+#include "awmr/model/vehicle.h"
+#include "awmr/trials/trial_data.h"
 
 namespace awmr::python {
 
@@ -68,6 +71,17 @@ void bind_read(py::module_& module, const char* name, Read read, const char* tex
       name, [read](const std::filesystem::path& path) { return value_or_raise(read(path)); },
       py::arg("path"), text);
 }
+
+/// A vehicle that knows the file it was read from, which a model then names.
+struct VehicleOfFile : Vehicle {
+  InputFile file;
+};
+
+/// Trials that know their files and how these were read.
+struct TrialsOfFiles : Trials {
+  std::vector<InputFile> inputs = {};
+  std::vector<std::pair<std::string, std::string>> reading = {};  ///< options in words
+};
 
 void bind_errors(py::module_& module);
 void bind_model(py::module_& module);

@@ -19,7 +19,7 @@ void check_within(const char* name, double value, double least, double most) {
           .value());
 }
 
-Identification fit(const Trials& trials, const std::optional<std::string>& method,
+Identification fit(const TrialsOfFiles& trials, const std::optional<std::string>& method,
                    const std::optional<std::string>& noise, const Words& family,
                    const std::string& loss, bool joint, const Words& asked, std::uint64_t seed,
                    int starts, int bootstrap, double time_limit_s, bool cross_validate,
@@ -41,8 +41,12 @@ Identification fit(const Trials& trials, const std::optional<std::string>& metho
   check_within("bootstrap", bootstrap, 0, 1000000);
   check_within("threads", threads, 0, 1024);
   check_within("time_limit_s", time_limit_s, 0, 1e6);
+  Provenance provenance{"identify", cli::described(options), trials.inputs};
+  provenance.options.insert(provenance.options.end(), trials.reading.begin(), trials.reading.end());
   const py::gil_scoped_release released;
-  return value_or_raise(identify(trials, options));
+  Identification identified = value_or_raise(identify(trials, options));
+  identified.model.record.provenance = std::move(provenance);
+  return identified;
 }
 
 py::list refused_names(const Identification& identification) {

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "awmr/core/input_file.h"
 #include "awmr/model/gains_file.h"
 #include "awmr/model/model_file.h"
 #include "awmr/model/vehicle_file.h"
@@ -36,6 +37,12 @@ void bind_findings(py::module_& module) {
       });
 }
 
+Result<VehicleOfFile> read_with_its_file(const std::filesystem::path& path) {
+  AWMR_ASSIGN_OR_RETURN(Vehicle vehicle, read_vehicle(path));
+  AWMR_ASSIGN_OR_RETURN(InputFile file, input_file(path));
+  return VehicleOfFile{std::move(vehicle), std::move(file)};
+}
+
 void bind_vehicle(py::module_& module) {
   py::class_<Vehicle>(module, "Vehicle", "What is known of the vehicle before any trial.")
       .def_readonly("name", &Vehicle::name)
@@ -55,9 +62,10 @@ void bind_vehicle(py::module_& module) {
       .def_property_readonly("drive",
                              [](const Vehicle& v) { return name_in(kDriveNames, v.drive); })
       .def_property_readonly("inertia_kgm2", &Vehicle::inertia_kgm2, "Iz, kg m^2");
-  bind_read(
-      module, "read_vehicle", [](const auto& path) { return read_vehicle(path); },
-      "vehicle.json. Raises InputError.");
+  py::class_<VehicleOfFile, Vehicle>(module, "VehicleOfFile",
+                                     "A vehicle as read_vehicle() returns it: what is made of it "
+                                     "names its file.");
+  bind_read(module, "read_vehicle", read_with_its_file, "vehicle.json. Raises InputError.");
 }
 
 void bind_estimate(py::module_& module) {

@@ -1,8 +1,11 @@
 #include <fmt/format.h>
 
 #include "awmr/core/column_mapping.h"
+#include "awmr/core/input_file.h"
 #include "awmr/trials/load.h"
+#include "awmr/trials/log_files.h"
 #include "bindings.h"
+#include "identify_options.h"
 
 namespace awmr::python {
 namespace {
@@ -36,7 +39,7 @@ py::array lines(const std::vector<Row>& rows) {
   return to_column(rows, [](const Row& row) { return row.line; });
 }
 
-py::object surge_of(const Trials& trials) {
+py::object surge_of(const TrialsOfFiles& trials) {
   if (!trials.data.surge) return py::none();
   const auto& rows = trials.data.surge->rows;
   py::dict columns;
@@ -48,7 +51,7 @@ py::object surge_of(const Trials& trials) {
   return columns;
 }
 
-py::object turning_of(const Trials& trials) {
+py::object turning_of(const TrialsOfFiles& trials) {
   if (!trials.data.turning) return py::none();
   const auto& rows = trials.data.turning->rows;
   py::dict columns;
@@ -62,7 +65,7 @@ py::object turning_of(const Trials& trials) {
   return columns;
 }
 
-py::object stop_times_of(const Trials& trials) {
+py::object stop_times_of(const TrialsOfFiles& trials) {
   if (!trials.data.coastdown) return py::none();
   const auto& rows = trials.data.coastdown->rows;
   py::dict columns;
@@ -72,7 +75,7 @@ py::object stop_times_of(const Trials& trials) {
   return columns;
 }
 
-py::list curves_of(const Trials& trials) {
+py::list curves_of(const TrialsOfFiles& trials) {
   py::list all;
   for (const CoastCurve& curve : trials.data.curves) {
     py::dict columns;
@@ -104,37 +107,65 @@ py::dict columns_of(const DrivingLog& log) {
   return columns;
 }
 
-py::list logs_of(const Trials& trials) {
+py::list logs_of(const TrialsOfFiles& trials) {
   py::list all;
   for (const DrivingLog& log : trials.data.logs) all.append(columns_of(log));
   return all;
 }
 
-Trials load(const Vehicle& vehicle, const Path& surge, const Path& turning, const Paths& coastdown,
-            const Paths& log, const std::vector<std::string>& columns, const std::string& prefer,
-            bool as_is, bool steady_from_logs) {
+/// As read_vehicle() returns it, or as a model has it, which knows no file.
+using AnyVehicle = std::variant<VehicleOfFile, Vehicle>;
+
+/// Of the vehicle and of every file, in the order in which the command line names them.
+Result<std::vector<InputFile>> inputs_of(const AnyVehicle& vehicle, const TrialFiles& files) {
+  std::vector<InputFile> inputs;
+  if (const auto* read = std::get_if<VehicleOfFile>(&vehicle)) inputs.push_back(read->file);
+  std::vector<std::filesystem::path> paths;
+  if (files.surge) paths.push_back(*files.surge);
+  paths.insert(paths.end(), files.coastdowns.begin(), files.coastdowns.end());
+  if (files.turning) paths.push_back(*files.turning);
+  paths.insert(paths.end(), files.logs.begin(), files.logs.end());
+  for (const std::filesystem::path& path : paths) {
+    AWMR_ASSIGN_OR_RETURN(const std::vector<std::filesystem::path> parts, files_of(path));
+    for (const std::filesystem::path& part : parts) {
+      AWMR_ASSIGN_OR_RETURN(InputFile file, input_file(part));
+      inputs.push_back(std::move(file));
+    }
+  }
+  return inputs;
+}
+
+TrialsOfFiles load(const AnyVehicle& vehicle, const Path& surge, const Path& turning,
+                   const Paths& coastdown, const Paths& log,
+                   const std::vector<std::string>& columns, const std::string& prefer, bool as_is,
+                   bool steady_from_logs) {
   TrialOptions options{
       .columns = {}, .preference = value_of(kPreferenceNames, prefer, "prefer"), .as_is = as_is};
   for (const std::string& text : columns) {
     options.columns.push_back(value_or_raise(parse_column(text)));
   }
-  return value_or_raise(load_trials({.vehicle = vehicle,
-                                     .surge = surge,
-                                     .turning = turning,
-                                     .coastdowns = all_of(coastdown),
-                                     .logs = all_of(log),
-                                     .steady_from_logs = steady_from_logs,
-                                     .options = std::move(options)}));
+  const TrialFiles files{.vehicle = std::visit([](const Vehicle& any) { return any; }, vehicle),
+                         .surge = surge,
+                         .turning = turning,
+                         .coastdowns = all_of(coastdown),
+                         .logs = all_of(log),
+                         .steady_from_logs = steady_from_logs,
+                         .options = std::move(options)};
+  TrialsOfFiles trials{value_or_raise(load_trials(files))};
+  trials.inputs = value_or_raise(inputs_of(vehicle, files));
+  cli::describe_reading(files.options, steady_from_logs, trials.reading);
+  return trials;
 }
 
 }  // namespace
 
 void bind_trials(py::module_& module) {
-  py::class_<Trials>(module, "Trials",
-                     "Trials in SI units. A table is a dict of NumPy arrays by column, `line` the "
-                     "rows' lines in the file, NaN where a cell was not given; None without it.")
-      .def_readonly("vehicle", &Trials::vehicle)
-      .def_readonly("findings", &Trials::findings)
+  py::class_<TrialsOfFiles>(
+      module, "Trials",
+      "Trials in SI units. A table is a dict of NumPy arrays by column, `line` the "
+      "rows' lines in the file, NaN where a cell was not given; None without it.")
+      .def_readonly("vehicle", &TrialsOfFiles::vehicle)
+      .def_readonly("findings", &TrialsOfFiles::findings)
       .def_property_readonly("surge", surge_of, "tau_speed = 4 F' (1), speed_mps (m/s), ...")
       .def_property_readonly("turning", turning_of,
                              "steering_rad, wheel_force (over F_max), yaw_rate_radps (rad/s), ...")

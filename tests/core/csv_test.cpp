@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include "awmr/core/column_mapping.h"
 #include "core/csv_text.h"
 
 namespace awmr::testing {
@@ -18,6 +19,28 @@ void expect_two_rows(const Result<CsvTable>& table) {
   ASSERT_TRUE(table) << to_text(table.error());
   EXPECT_THAT(table->column("tau_speed"), ElementsAre(0.5, 2.0));
   EXPECT_THAT(table->column("speed_mps"), ElementsAre(0.25, 1.66));
+}
+
+TEST(CsvWithoutAHeader, IsReadByThePositionsThatAreMapped) {
+  const std::vector<CsvColumn> columns{{"t_s"}, {"v"}};
+  const std::vector<ColumnMapping> mappings{*parse_column("t_s=column_1"),
+                                            *parse_column("v=column_3*0.5")};
+  for (const char* text :
+       {"0,9,4\n1,9,6\n", "0;9;4,0\n1;9;6,0\n", "# by hand\n0\t9\t4\n1\t9\t6\n"}) {
+    const auto table = read_text(text, columns, mappings);
+    ASSERT_TRUE(table) << text << to_text(table.error());
+    EXPECT_THAT(table->column("t_s"), ::testing::ElementsAre(0.0, 1.0)) << text;
+    EXPECT_THAT(table->column("v"), ::testing::ElementsAre(2.0, 3.0)) << text;
+  }
+  const auto broken = read_text("0,9,4\n1,9,x\n", columns, mappings);
+  ASSERT_FALSE(broken);
+  EXPECT_THAT(to_text(broken.error()), ::testing::HasSubstr(":2:5"));
+  const auto few = read_text("0,9\n1,9\n", columns, mappings);
+  ASSERT_FALSE(few);
+  EXPECT_THAT(to_text(few.error()), ::testing::HasSubstr("column_3"));
+  const auto unmapped = read_text("0,9\n1,9\n", columns);
+  ASSERT_FALSE(unmapped);
+  EXPECT_THAT(to_text(unmapped.error()), ::testing::HasSubstr("column_1"));
 }
 
 TEST(Csv, ReadsCommas) {

@@ -27,6 +27,7 @@ std::string meaning_of(const std::vector<std::string>& header,
 TEST(FindTime, TakesAUnitThatLeavesNoDoubt) {
   EXPECT_EQ(meaning_of({"v", "time_ms"}), "`time_ms`*0.001");
   EXPECT_EQ(meaning_of({"t_us"}), "`t_us`*1e-06");
+  EXPECT_EQ(meaning_of({"__time", "/odom/v"}), "`__time`") << "PlotJuggler's";
   EXPECT_EQ(meaning_of({"Time [ns]"}), "`Time [ns]`*1e-09");
   EXPECT_EQ(meaning_of({"header.stamp (us)"}), "`header.stamp (us)`*1e-06");
   EXPECT_EQ(meaning_of({"timestamp_seconds"}), "`timestamp_seconds`*1");

@@ -1,5 +1,6 @@
 """The Python module gives the command line's numbers to the last bit, and its words where it fails."""
 import csv
+import hashlib
 import json
 import os
 import subprocess
@@ -59,12 +60,8 @@ class Module(unittest.TestCase):
         cls.folder.cleanup()
 
     def assert_same_model(self, model, path):
-        """All but the command, its options and its inputs."""
-        ours, theirs = json.loads(model.text()), json.loads(Path(path).read_text())
-        for document in (ours, theirs):
-            for key in ("command", "options", "inputs", "version"):
-                document.pop(key, None)
-        self.assertEqual(ours, theirs)
+        """To the byte: numbers, command, options, and inputs by SHA-256."""
+        self.assertEqual(model.text(), Path(path).read_text())
 
     def test_tables_give_the_same_model(self):
         trials = awmr.load_trials(self.vehicle, **tables())
@@ -78,6 +75,25 @@ class Module(unittest.TestCase):
         identified = awmr.identify(trials, fit=["surge.alpha", "mass_norm"])
         self.assert_same_model(identified.model, self.path / "driven.json")
         self.assertEqual(identified.refused, [])
+
+    def test_a_model_names_its_inputs_and_how_they_were_read(self):
+        folder = self.path / "renamed"
+        folder.mkdir()
+        text = (TABLES / "surge.csv").read_text().replace("speed_mps", "V (km/h)")
+        (folder / "surge.csv").write_text(text)
+        words = ["--column", "speed_mps=V (km/h)*1", "--prefer", "timed", "--as-is"]
+        made = command("identify", "--vehicle", PAPER / "vehicle.json", "--surge", folder / "surge.csv", *words, "-o",
+                       self.path / "renamed.json")
+        self.assertEqual(made.returncode, 0, made.stderr)
+        reading = {"surge": folder / "surge.csv", "columns": ["speed_mps=V (km/h)*1"], "prefer": "timed", "as_is": True}
+        model = awmr.identify(awmr.load_trials(self.vehicle, **reading)).model
+        self.assert_same_model(model, self.path / "renamed.json")
+        named = {one["name"]: one["sha256"] for one in json.loads(model.text())["inputs"]}
+        self.assertEqual(named["surge.csv"], hashlib.sha256((folder / "surge.csv").read_bytes()).hexdigest())
+        self.assertIn("vehicle.json", named)
+        # A vehicle out of a model has no file any more; its trials have.
+        model = awmr.identify(awmr.load_trials(self.model.vehicle, **reading)).model
+        self.assertEqual([one["name"] for one in json.loads(model.text())["inputs"]], ["surge.csv"])
 
     def test_rows_are_arrays_in_si_units(self):
         trials = awmr.load_trials(self.vehicle, log=[DRIVE], **tables())

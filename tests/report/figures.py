@@ -14,7 +14,10 @@ import xml.etree.ElementTree as ET
 AWMR = pathlib.Path(sys.argv[1]).resolve()
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 SVG = "{http://www.w3.org/2000/svg}"
-GAINS = {"schema": "awmr.gains/1", "heading": {"lambda": 3, "mu": 50, "epsilon": 12}, "speed": {"mu": 5, "epsilon": 1.2}}
+GAINS = {"schema": "awmr.gains/1", "heading": {"lambda": 3, "mu": 50, "epsilon": 12}, "speed": {"mu": 5, "epsilon": 1.2},
+         "search": {"algorithm": "none", "stop_reason": "none", "evaluations": 9, "simulated": 9, "seed": 1, "history": {
+             "evaluations": 9, "global_evaluations": 5, "best": [{"evaluation": 2, "objective": 0.9}, {"evaluation": 7, "objective": 0.8}]}},
+         "robust": {"nominal_history": {"evaluations": 12, "global_evaluations": 7, "best": [{"evaluation": 1, "objective": 0.7}]}}}
 MODES = ["differential", "steering", "combined"]
 
 
@@ -94,6 +97,8 @@ def check_content(at):
     expect(svg["path_c10_obstacle_between_waypoints"], MODES + ["waypoints"], "x (m)", "y (m)")
     expect(svg["heading_c10_obstacle_between_waypoints"], MODES + ["reference"] * 3, "ψ (deg)")
     expect(svg["distribution_c3_heading_steps_settling_time_s"], ["sample", "median, 5 to 95 %"] * 3, "settling time (s)", *MODES)
+    expect(svg["tuning_history"], ["robust", "nominal", "the paper's gains"], "evaluation", "objective, best so far")
+    assert "obstacle" in texts(svg["path_c10_obstacle_between_waypoints"]), texts(svg["path_c10_obstacle_between_waypoints"])
     assert any(name.startswith("differences_c3_heading_steps_") for name in svg), svg.keys()
     assert "surge_residuals" in svg and "yaw_residuals" in svg, svg.keys()
     for name in svg:
@@ -126,7 +131,7 @@ def main():
         assert {path.name for path in (alone / "figures").iterdir()} == {
             f"surge_{what}.{kind}" for what in ["resistance", "residuals"] for kind in ["svg", "pdf"]}
         assert {finding["code"] for finding in told["findings"]} == {"not-drawn"}, told["findings"]
-        assert len(told["findings"]) == 5, told["findings"]
+        assert len(told["findings"]) == 6, told["findings"]
 
         # Where figures cannot be written, nothing is.
         (alone / "report.html").unlink()
@@ -147,6 +152,12 @@ def main():
                        {**valid, "logs": [{"file": "a", "channels": {"x_m": {"series": {"t_s": [0, 1], "measured": [0]}}}}]}]:
             (out / "validation.json").write_text(json.dumps(broken))
             assert "validation" in awmr("report", out, "--figures", at / "broken", code=2).stderr
+            assert not (at / "broken").exists()
+        (out / "validation.json").write_text(json.dumps(valid))
+        for broken in [{**GAINS, "search": 3}, {**GAINS, "search": {"history": {"best": 7}}},
+                       {**GAINS, "search": {"history": {"evaluations": 9, "best": [{"evaluation": "a", "objective": 1}]}}}]:
+            (alone / "gains.json").write_text(json.dumps(broken))
+            assert "gains.json" in awmr("report", alone, "--figures", at / "broken", code=2).stderr
             assert not (at / "broken").exists()
     print(f"{len(figures)} figures looked at")
 

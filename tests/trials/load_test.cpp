@@ -104,6 +104,25 @@ TEST(LoadTrials, AStopInMillisecondsIsRefused) {
               AllOf(HasSubstr("milliseconds"), HasSubstr("stop_time_s=\"stop_time_s\"*0.001")));
 }
 
+TEST(LoadTrials, ACoastDownThatBeginsFasterThanTheSurgeRunsAllowIsRefusedWithTheLikelyUnit) {
+  const ScratchFile file("coastdown.csv", "initial_speed_mps,stop_time_s\n5.98,0.573\n");
+  TrialFiles files{.vehicle = paper_vehicle(), .surge = kPaper / "surge.csv"};
+  files.vehicle.wheel_force = {0.0, 0.5};  // what the fastest run used
+  files.coastdowns = {file.path()};
+  const auto trials = load_trials(files);
+  ASSERT_FALSE(trials);
+  EXPECT_THAT(to_text(trials.error()),
+              AllOf(HasSubstr("begins at 5.98 m/s"), HasSubstr("looks like km/h"),
+                    HasSubstr("initial_speed_mps=\"initial_speed_mps\"*0.2777778")));
+  files.options.as_is = true;
+  EXPECT_TRUE(load_trials(files));
+  // A downhill start within the runs' own reach stands.
+  files.options.as_is = false;
+  const ScratchFile fast("coastdown.csv", "initial_speed_mps,stop_time_s\n1.9,0.6\n");
+  files.coastdowns = {fast.path()};
+  EXPECT_TRUE(load_trials(files));
+}
+
 TEST(LoadTrials, AVehicleWhoseSizesCannotBeSaysNothingOfSpeeds) {
   const ScratchFile file("surge.csv", "tau_speed,distance_m,elapsed_s\n1,10,20\n4,10,5\n");
   TrialFiles files{.vehicle = paper_vehicle(), .surge = file.path()};

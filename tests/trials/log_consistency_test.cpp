@@ -215,6 +215,26 @@ INSTANTIATE_TEST_SUITE_P(
                   "yaw_rate_radps", "*-1"},
         WrongTurn{"YMirrored", [](DrivingLog& l) { scale(channel(l, LogChannel::kY), -1.0); },
                   "y_m", "mirror", 1},
+        WrongTurn{"TwoRunsInOneFileByTheirPositions",
+                  [](DrivingLog& l) {
+                    for (std::size_t i = kRows / 8; i < l.rows(); ++i) {
+                      channel(l, LogChannel::kX)[i] += 11.0;
+                    }
+                  },
+                  "x_m", "two runs in one file"},
+        WrongTurn{"TwoRunsInOneFileByTheirHeading",
+                  [](DrivingLog& l) {
+                    l[LogChannel::kX].reset();
+                    for (std::size_t i = kRows / 8; i < l.rows(); ++i) {
+                      channel(l, LogChannel::kHeading)[i] += 2.5;
+                    }
+                  },
+                  "heading_deg", "jumps by"},
+        WrongTurn{"HeadingInRadiansThatGoesOnBeyondATurn",
+                  [](DrivingLog& l) {
+                    for (double& psi : channel(l, LogChannel::kHeading)) psi = radians(psi) + 0.5;
+                  },
+                  "heading_deg", "57.29578", 8},
         WrongTurn{"SteeringInRadians",
                   [](DrivingLog& l) { scale(*l.steering_command_rad, pi<double>() / 180.0); },
                   "steering_cmd_deg", "57.29578", 5},
@@ -225,6 +245,40 @@ INSTANTIATE_TEST_SUITE_P(
                   },
                   "x_m", "mm"}),
     [](const auto& turn) { return turn.param.name; });
+
+TEST(LogConsistency, AFixThatComesBackAndOneAfterADropoutAreNoOtherRun) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    DrivingLog log = sound_log(seed);
+    channel(log, LogChannel::kX)[700] += 40.0;
+    // Two seconds without a fix, in which the vehicle drives on.
+    for (const LogChannel c : {LogChannel::kX, LogChannel::kY}) {
+      for (std::size_t i = 1000; i < 1100; ++i) log[c]->fresh[i] = false;
+    }
+    const auto found = contradictions(log, vehicle(), {});
+    EXPECT_TRUE(found.empty()) << seed << ": " << found.front().message;
+  }
+}
+
+/// A small rover turns by more than a radian in the second that a window takes.
+TEST(LogConsistency, OfAVehicleThatTurnsQuicklyAMirroredYIsNamed) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    DrivingLog log = sound_log(seed, {.sides_apart = false});
+    double psi = 0.0, x = 0.0, y = 0.0;
+    for (std::size_t i = 0; i < log.rows(); ++i) {
+      const double rate = 1.8 + 0.3 * std::sin(0.01 * static_cast<double>(i));
+      channel(log, LogChannel::kHeading)[i] = psi;
+      channel(log, LogChannel::kYawRate)[i] = rate;
+      channel(log, LogChannel::kX)[i] = x;
+      channel(log, LogChannel::kY)[i] = -y;
+      psi += kStep_s * rate;
+      x += kStep_s * channel(log, LogChannel::kSpeed)[i] * std::cos(psi);
+      y += kStep_s * channel(log, LogChannel::kSpeed)[i] * std::sin(psi);
+    }
+    const auto found = contradictions(log, vehicle(), {});
+    EXPECT_TRUE(std::ranges::any_of(found, [](const auto& c) { return c.column == "y_m"; }))
+        << seed;
+  }
+}
 
 TEST(LogConsistency, TheRemedyStartsFromTheFilesOwnColumn) {
   DrivingLog log = sound_log(1);

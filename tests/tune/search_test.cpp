@@ -79,6 +79,33 @@ double mode_objective(const TuneOptions& options, const Gains<double>& gains, Ya
   return sum / total;
 }
 
+TEST(History, IsTheBestSoFarOfTheSearchAndEndsWithTheGainsThatItFound) {
+  TuneOptions options = short_options();
+  options.nominal = false;
+  options.draws = 1;
+  options.judged_draws = 0;
+  const Result<Tuning> tuning = tune(paper_model(), options);
+  ASSERT_TRUE(tuning) << to_text(tuning.error());
+  ASSERT_TRUE(tuning->robust && tuning->robust->nominal);
+  EXPECT_EQ(tuning->history.best.back().objective, tuning->objective);
+  EXPECT_EQ(tuning->history.evaluations, tuning->evaluations);
+  for (const SearchHistory* history : {&tuning->history, &tuning->robust->nominal_history}) {
+    ASSERT_FALSE(history->best.empty());
+    EXPECT_LE(history->best.size(), kMostHistorySteps);
+    EXPECT_GT(history->global_evaluations, 0);
+    EXPECT_LE(history->global_evaluations, history->evaluations);
+    int evaluation = 0;
+    double objective = 1.0;  // what beats no baseline is not kept
+    for (const SearchStep& step : history->best) {
+      EXPECT_GT(step.evaluation, evaluation);
+      EXPECT_LT(step.objective, objective);
+      evaluation = step.evaluation;
+      objective = step.objective;
+    }
+    EXPECT_LE(evaluation, history->evaluations);
+  }
+}
+
 TEST(Ranking, NoInfeasibleCandidateBeatsAFeasibleOne) {
   const Candidate feasible{.violation = -0.1, .objective = 5.0, .simulated = true, .valid = true};
   const double nan = std::numeric_limits<double>::quiet_NaN();

@@ -152,6 +152,7 @@ TEST_F(TuneFile, WritesGainsThatReadBackBitForBit) {
 
 TEST_F(TuneFile, WritesTheContractsKeys) {
   Tuning tuning;
+  tuning.history = {.best = {{3, 0.9}, {7, 0.8}}, .global_evaluations = 5, .evaluations = 9};
   tuning.gains = kPaperGains;
   tuning.scores = {{.scenario = "a", .mode = YawMode::kSteering, .objective = 0.9}};
   const Json json =
@@ -161,6 +162,9 @@ TEST_F(TuneFile, WritesTheContractsKeys) {
   EXPECT_EQ(json.at("time_constants").at("T1_s"), 1.0 / 3.0);
   EXPECT_EQ(json.at("time_constants").at("T2_s"), 0.12);
   EXPECT_EQ(json.at("metrics").at("steering").at("a").at("objective"), 0.9);
+  const Json& history = json.at("search").at("history");
+  EXPECT_EQ(history.at("global_evaluations"), 5);
+  EXPECT_EQ(history.at("best").at(1), Json({{"evaluation", 7}, {"objective", 0.8}}));
   // A metric that has no meaning is null, not 0.
   EXPECT_TRUE(json.at("metrics").at("steering").at("a").at("overshoot_deg").is_null());
   for (const char* key : {"constraints", "objective", "search", "baseline", "version"}) {

@@ -8,6 +8,7 @@
 
 #include "awmr/core/column_sources.h"
 #include "awmr/core/csv_cell.h"
+#include "awmr/core/option_text.h"
 
 namespace awmr {
 namespace {
@@ -78,6 +79,44 @@ bool take_comment(CsvScanner& scanner, const std::set<std::string>& wanted, CsvH
   return header.is_comment = true;
 }
 
+/// `column_1`, `column_2`, ...: what the columns of a file without a header are called.
+constexpr std::string_view kPositionName = "column_";
+
+bool is_position(const std::string& name) {
+  if (!name.starts_with(kPositionName) || name.size() == kPositionName.size()) return false;
+  const std::string_view digits = std::string_view(name).substr(kPositionName.size());
+  return std::all_of(digits.begin(), digits.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
+
+bool is_number(const CsvCell& cell, bool may_have_comma) {
+  std::string text = name_of(cell);
+  if (may_have_comma) std::replace(text.begin(), text.end(), ',', '.');
+  return number_from_text(text).has_value();
+}
+
+/// Where columns are asked for by their position and the first line holds numbers, it is a row already.
+bool take_positions(CsvScanner& scanner, const std::set<std::string>& wanted, CsvHeader& header) {
+  if (std::none_of(wanted.begin(), wanted.end(), is_position)) return false;
+  for (const char delimiter : {';', '\t', ','}) {
+    CsvScanner row = scanner;
+    row.set_delimiter(delimiter);
+    std::vector<CsvCell> cells;
+    const bool is_record = row.next(cells) == Outcome::kRecord;
+    header.is_cut = header.is_cut || row.ran_out();
+    const bool are_numbers = std::all_of(cells.begin(), cells.end(), [&](const CsvCell& cell) {
+      return is_number(cell, delimiter != ',');
+    });
+    if (!is_record || cells.size() < 2 || !are_numbers) continue;
+    scanner.set_delimiter(header.delimiter = delimiter);
+    header.cells = std::move(cells);
+    for (std::size_t i = 0; i < header.cells.size(); ++i) {
+      header.names.push_back(fmt::format("{}{}", kPositionName, i + 1));
+    }
+    return header.is_positional = true;
+  }
+  return false;
+}
+
 Status take_first_line(CsvScanner& scanner, const std::string& file, CsvHeader& header) {
   scanner.set_delimiter(header.delimiter);
   const Outcome outcome = scanner.next(header.cells);
@@ -89,12 +128,14 @@ Status take_first_line(CsvScanner& scanner, const std::string& file, CsvHeader& 
     return input_error(fmt::format("{}:{}:{}", file, cell.line, cell.character),
                        message_of(outcome));
   }
-  const auto is_number = [](const CsvCell& cell) {
-    return number_from_text(name_of(cell)).has_value();
-  };
-  if (!std::all_of(header.cells.begin(), header.cells.end(), is_number)) return {};
-  return input_error(fmt::format("{}:{}:1", file, header.line),
-                     "this row holds numbers; expected the columns' names");
+  const bool are_numbers = std::all_of(header.cells.begin(), header.cells.end(),
+                                       [](const CsvCell& cell) { return is_number(cell, false); });
+  if (!are_numbers) return {};
+  return input_error(
+      fmt::format("{}:{}:1", file, header.line),
+      fmt::format("this row holds numbers; expected the columns' names: add them, or map the "
+                  "columns by their position, as in {}",
+                  option_text("column t_s=column_1")));
 }
 
 /// The texts of the first row.
@@ -118,23 +159,28 @@ Result<CsvHeader> find_header(CsvScanner& scanner, const std::string& file,
   const Delimiter chosen = delimiter_of(scanner, wanted);
   header.delimiter = chosen.character;
   header.is_cut = chosen.is_cut;
-  if (chosen.found > 0 || !take_comment(scanner, wanted, header)) {
-    AWMR_RETURN_IF_ERROR(take_first_line(scanner, file, header));
+  const bool is_found = chosen.found == 0 && (take_comment(scanner, wanted, header) ||
+                                              take_positions(scanner, wanted, header));
+  if (!is_found) AWMR_RETURN_IF_ERROR(take_first_line(scanner, file, header));
+  if (!header.is_positional) {
+    for (const CsvCell& cell : header.cells) header.names.push_back(name_of(cell));
   }
-  for (const CsvCell& cell : header.cells) header.names.push_back(name_of(cell));
   take_samples(scanner, header);
   return header;
 }
 
 std::vector<CsvNote> format_notes(const CsvHeader& header, bool has_decimal_commas) {
-  if (!has_decimal_commas && !header.is_comment) return {};
+  if (!has_decimal_commas && !header.is_comment && !header.is_positional) return {};
   const std::string_view between = header.delimiter == ','   ? "commas"
                                    : header.delimiter == ';' ? "semicolons"
                                                              : "tabs";
-  return {{header.line, "csv-format",
-           fmt::format("read with cells between {}{}{}", between,
-                       has_decimal_commas ? ", decimal commas" : "",
-                       header.is_comment ? ", the columns' names behind #" : "")}};
+  return {
+      {header.line, "csv-format",
+       fmt::format("read with cells between {}{}{}", between,
+                   has_decimal_commas ? ", decimal commas" : "",
+                   header.is_comment      ? ", the columns' names behind #"
+                   : header.is_positional ? ", the columns by their position, as there is no header"
+                                          : "")}};
 }
 
 std::string message_of(CsvScanner::Outcome outcome) {

@@ -18,6 +18,7 @@ struct CsvHeader {
   int line = 1;
   char delimiter = ',';
   bool is_comment = false;  ///< the names stand behind a '#'
+  bool is_positional = false;  ///< there is none: `column_1`, ... are its names, `cells` the first row's
   bool is_cut = false;      ///< the whole text was looked at: a longer one may say something else
 };
 

@@ -60,6 +60,10 @@ std::string in_backticks(const std::string& name) { return "`" + name + "`"; }
 
 /// `time_ms`, `header.stamp [us]`; not `stop_time_s`, which is a duration.
 std::optional<TimeColumn> with_unit(const std::string& name) {
+  // PlotJuggler's exports have seconds under this name.
+  if (name == "__time") {
+    return TimeColumn{.expression = in_backticks(name), .meaning = "\"__time\" in s"};
+  }
   const std::vector<std::string> parts = parts_of(name);
   if (parts.size() < 2 || !is_time_word(parts[parts.size() - 2])) return std::nullopt;
   const bool is_stamp = is_one_of(parts[parts.size() - 2], {"timestamp", "stamp"});

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "awmr/core/index.h"
+#include "awmr/identify/assumed_sway.h"
 #include "awmr/model/ranges.h"
 
 namespace awmr {
@@ -43,6 +44,9 @@ void take_out_what_hangs_on_it(Model& model, std::map<ParameterId, std::string>&
   follow(ParameterId::kYawBeta, ParameterId::kYawAlpha);
   follow(ParameterId::kSurgeAlpha, ParameterId::kMassNorm);
   follow(ParameterId::kMassNorm, ParameterId::kInertiaNorm);
+  if (model[ParameterId::kSwayAlpha].method == kAssumedSwayMethod) {
+    follow(ParameterId::kMassNorm, ParameterId::kSwayAlpha);
+  }
   follow(ParameterId::kInertiaNorm, ParameterId::kMassNorm);
 }
 

@@ -8,6 +8,7 @@
 
 #include "awmr/core/option_text.h"
 #include "awmr/identify/admissible.h"
+#include "awmr/identify/assumed_sway.h"
 #include "awmr/identify/main_values.h"
 #include "awmr/identify/refusals.h"
 #include "awmr/identify/trials_as_used.h"
@@ -176,6 +177,7 @@ Result<Identification> identify(const Vehicle& vehicle, const TrialData& data,
   const SubjectFit surge = identify_laws(vehicle, data, options, values, reasons);
   identify_mass(vehicle, data, options, surge, values, reasons);
   AWMR_RETURN_IF_ERROR(identify_from_logs(vehicle, data, options, asked, values, reasons));
+  assume_sway(data, values);
 
   model.covariance = values.covariance.covariance();
   reasons.inadmissible = take_out_inadmissible(model);

@@ -4,12 +4,16 @@
 
 #include <algorithm>
 
+#include "awmr/identify/assumed_sway.h"
+
 namespace awmr {
 namespace {
 
 bool has_coastdown(const TrialData& data) {
   return (data.coastdown && !data.coastdown->rows.empty()) || !data.curves.empty();
 }
+
+bool is_assumed(const Estimate& estimate) { return estimate.method == kAssumedSwayMethod; }
 
 /// Why the tables do not show a parameter.
 std::string table_reason(ParameterId id, const TrialData& data, const Reasons& reasons) {
@@ -75,7 +79,7 @@ std::vector<ParameterId> refuse_what_is_missing(const TrialData& data, const Rea
     const bool wanted = std::find(asked.begin(), asked.end(), parameter.id) != asked.end();
     const auto logged = reasons.logs.find(parameter.id);
     const bool held = estimate.value && logged != reasons.logs.end() && wanted &&
-                      estimate.source == Source::kGiven;
+                      (estimate.source == Source::kGiven || is_assumed(estimate));
     if (estimate.value && !held) continue;
     if (!estimate.value) {
       estimate.source = Source::kFitted;
@@ -88,7 +92,9 @@ std::vector<ParameterId> refuse_what_is_missing(const TrialData& data, const Rea
                                 ? logged->second
                                 : table_reason(parameter.id, data, reasons);
     const std::string kept =
-        held ? fmt::format(" (the given {:.4g} is kept)", *estimate.value) : std::string();
+        held ? fmt::format(" (the {} {:.4g} is kept)", is_assumed(estimate) ? "assumed" : "given",
+                           *estimate.value)
+             : std::string();
     model.record.findings.push_back(
         {"", 0, wanted ? Severity::kError : Severity::kNote, "not-identifiable",
          fmt::format("{} ({}) cannot be identified: {}; {}{}", parameter.name, parameter.meaning,

@@ -120,7 +120,7 @@ Result<Trials> load_trials(const TrialFiles& files) {
     auto set = keep(read_coastdown(path, options, findings), faults);
     if (!set) continue;
     if (const auto* stops = std::get_if<TrialSet<StopTimeRow>>(&*set)) {
-      check_consistency(*stops, path, vehicle, options, findings, faults);
+      check_consistency(*stops, data.surge, path, vehicle, options, findings, faults);
     }
     add_coastdown(path, std::move(*set), data, faults);
   }

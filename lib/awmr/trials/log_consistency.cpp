@@ -17,6 +17,10 @@ std::vector<Contradiction> contradictions(const DrivingLog& log, const Vehicle& 
   // With a wrong time no rate has the sign that it seems to have.
   if (!found.empty() && found.front().column == "t_s") return found;
   for (Contradiction& one : sign_contradictions(evidence)) found.push_back(std::move(one));
+  // Positions in another unit jump as well.
+  if (found.empty()) {
+    if (auto jump = jump_contradiction(evidence)) found.push_back(*std::move(jump));
+  }
   return found;
 }
 

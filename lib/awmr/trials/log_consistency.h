@@ -8,6 +8,7 @@
 ///     course of positions    against   heading
 ///     yaw rate               against   tau_steering and tau_diff of the commands (allocation.h)
 ///     sign of the speed      against   thrust to the rear that speeds the vehicle up
+///     a reading's change     against   what the vehicle does in the time between two: two runs
 ///     curvature r/u          against   tan(d_r)/l_f: no vehicle turns far more sharply than its
 ///                                      front axle points
 ///

@@ -79,6 +79,8 @@ std::string swapped_mapping(const Evidence& evidence);
 
 /// Units: time, forces, steering angle, yaw rate against heading, speed against positions.
 std::vector<Contradiction> unit_contradictions(const Evidence& evidence);
+/// Positions, or without them the heading, that go on elsewhere from one reading to the next.
+std::optional<Contradiction> jump_contradiction(const Evidence& evidence);
 /// Signs and sides: steering, forces, yaw rate, heading, y, direction of motion.
 std::vector<Contradiction> sign_contradictions(const Evidence& evidence);
 

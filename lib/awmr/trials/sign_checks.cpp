@@ -25,21 +25,29 @@ struct SignRelation {
 
 /// +1: positions move where the heading points; -1: where its mirror image does; 0: cannot be told.
 int course_sign(const std::vector<EvidenceWindow>& windows) {
+  // Of a turn of constant rate the chord points along the heading in its middle, as long as it is no circle.
+  constexpr double kFurthestTurn_rad = 2.5;
   std::vector<double> moved = series(windows, [](const EvidenceWindow& w) { return w.moved_m; });
   const double far = median(moved);
   std::complex<double> same = 0.0, mirrored = 0.0, headings = 0.0;
   double n = 0.0;
   for (const EvidenceWindow& w : windows) {
-    if (w.moved_m < far || w.moved_m <= 0.0 || std::abs(w.turned_rad) > 1.0) continue;
+    if (w.moved_m < far || w.moved_m <= 0.0 || std::abs(w.turned_rad) > kFurthestTurn_rad) continue;
     same += std::polar(1.0, w.course_rad - w.heading_rad);
     mirrored += std::polar(1.0, w.course_rad + w.heading_rad);
     headings += std::polar(1.0, 2.0 * w.heading_rad);
     n += 1.0;
   }
   // On a straight drive the two cannot be told apart.
-  if (n < 10.0 || std::abs(headings) / n > 0.9) return 0;
-  if (std::abs(same) / n > 0.7 && std::abs(same) > 1.5 * std::abs(mirrored)) return 1;
-  if (std::abs(mirrored) / n > 0.7 && std::abs(mirrored) > 1.5 * std::abs(same)) return -1;
+  if (n < 10.0 || std::abs(headings) / n > 0.95) return 0;
+  // How far the angles scatter, 0 to 1: one way by the noise alone, the other way by twice the headings as well.
+  constexpr double kMostNoise = 0.3;
+  const auto holds = [n](double one, double other) {
+    const double of_one = 1.0 - one / n;
+    return of_one < kMostNoise && (one > 1.5 * other || 1.0 - other / n > 4.0 * of_one);
+  };
+  if (holds(std::abs(same), std::abs(mirrored))) return 1;
+  if (holds(std::abs(mirrored), std::abs(same))) return -1;
   return 0;
 }
 

@@ -130,10 +130,13 @@ void check_consistency(const TrialSet<TurningRow>& turning, const std::filesyste
       "steering_deg", degrees(1.0));
 }
 
-void check_consistency(const TrialSet<StopTimeRow>& coastdown, const std::filesystem::path& path,
-                       const Vehicle& vehicle, const TrialOptions& options,
-                       std::vector<Finding>& findings, std::vector<Fault>& faults) {
-  tell_unit({path, coastdown.file, options, findings, faults}, wrong_unit(coastdown, vehicle));
+void check_consistency(const TrialSet<StopTimeRow>& coastdown,
+                       const std::optional<TrialSet<SurgeRow>>& surge,
+                       const std::filesystem::path& path, const Vehicle& vehicle,
+                       const TrialOptions& options, std::vector<Finding>& findings,
+                       std::vector<Fault>& faults) {
+  tell_unit({path, coastdown.file, options, findings, faults},
+            wrong_unit(coastdown, surge, vehicle));
 }
 
 }  // namespace awmr

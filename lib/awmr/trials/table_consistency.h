@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "awmr/trials/read_trials.h"
@@ -21,8 +22,11 @@ void check_consistency(const TrialSet<TurningRow>& turning, const std::filesyste
                        const Vehicle& vehicle, const TrialOptions& options,
                        std::vector<Finding>& findings, std::vector<Fault>& faults);
 
-void check_consistency(const TrialSet<StopTimeRow>& coastdown, const std::filesystem::path& path,
-                       const Vehicle& vehicle, const TrialOptions& options,
-                       std::vector<Finding>& findings, std::vector<Fault>& faults);
+/// `surge`: the same vehicle's runs, which tell how fast it can be.
+void check_consistency(const TrialSet<StopTimeRow>& coastdown,
+                       const std::optional<TrialSet<SurgeRow>>& surge,
+                       const std::filesystem::path& path, const Vehicle& vehicle,
+                       const TrialOptions& options, std::vector<Finding>& findings,
+                       std::vector<Fault>& faults);
 
 }  // namespace awmr

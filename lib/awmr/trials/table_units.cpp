@@ -38,7 +38,7 @@ constexpr std::array<TableUnit, 2> kTableTurnUnits{
 
 constexpr Interval kLengthsPerSecond{0.02, 100.0};
 constexpr double kUsualLengthsPerSecond = 20.0;
-constexpr Interval kFastestTurn_radps{0.003, 25.0};
+constexpr Interval kFastestTurn_radps{0.01, 25.0};
 constexpr double kLeastDeceleration_mps2 = 0.01;
 
 /// The unit whose factor all ratios have, within a tenth; none for ratios that scatter.
@@ -95,6 +95,29 @@ std::vector<double> printed_over_timed(const std::vector<TurningRow>& rows) {
     }
   }
   return ratios;
+}
+
+/// What the vehicle can do at the most by its surge runs, as long as its resistance grows with at least the
+/// square root of the speed: tau_speed/tau_run = (u/u_run)^b, b >= 1/2. None where the runs used less than half of the force: friction at rest then says too much.
+std::optional<double> top_speed_mps(const std::optional<TrialSet<SurgeRow>>& surge,
+                                    const Vehicle& vehicle) {
+  constexpr double kRoom = 1.3;
+  if (!surge || surge->rows.empty() || wrong_unit(*surge, vehicle)) return std::nullopt;
+  const auto fastest_run = std::ranges::max_element(surge->rows, {}, &SurgeRow::speed_mps);
+  const double share = fastest_run->tau_speed / (vehicle.driven_wheels() * vehicle.wheel_force.hi);
+  if (share < 0.5) return std::nullopt;
+  return kRoom * fastest_run->speed_mps / std::min(1.0, share * share);
+}
+
+/// The unit that brings a speed below what the vehicle can do.
+Smaller unit_below(double speed_mps, double top_mps) {
+  constexpr Smaller kUnits[] = {{1.0 / 3.6, "the speed looks like km/h"},
+                                {1e-2, "the speed looks like cm/s"},
+                                {1e-3, "the speed looks like mm/s"}};
+  for (const Smaller& unit : kUnits) {
+    if (speed_mps * unit.factor <= top_mps) return unit;
+  }
+  return kUnits[2];
 }
 
 std::string lengths_text(double speed_mps, const Vehicle& vehicle) {
@@ -156,6 +179,7 @@ std::optional<WrongUnit> wrong_unit(const TrialSet<TurningRow>& turning) {
 }
 
 std::optional<WrongUnit> wrong_unit(const TrialSet<StopTimeRow>& coastdown,
+                                    const std::optional<TrialSet<SurgeRow>>& surge,
                                     const Vehicle& vehicle) {
   if (coastdown.rows.empty()) return std::nullopt;
   const StopTimeRow& first = coastdown.rows.front();
@@ -166,6 +190,15 @@ std::optional<WrongUnit> wrong_unit(const TrialSet<StopTimeRow>& coastdown,
                                               {1e-3, "the speed looks like mm/s"});
     return WrongUnit{first.line, "initial_speed_mps",
                      fmt::format("{}: {}", lengths_text(speed_mps, vehicle), words), factor};
+  }
+  const auto top_mps = top_speed_mps(surge, vehicle);
+  if (top_mps && speed_mps > *top_mps) {
+    const auto [factor, words] = unit_below(speed_mps, *top_mps);
+    return WrongUnit{first.line, "initial_speed_mps",
+                     fmt::format("a coast-down begins at {:.3g} m/s, where the surge runs let the "
+                                 "vehicle do {:.3g} m/s at the most: {}",
+                                 speed_mps, *top_mps, words),
+                     factor};
   }
   double hardest_mps2 = 0.0;
   for (const StopTimeRow& row : coastdown.rows) {

@@ -27,6 +27,9 @@ struct WrongUnit {
 /// None where the table's units can be what they say; the first that cannot.
 std::optional<WrongUnit> wrong_unit(const TrialSet<SurgeRow>& surge, const Vehicle& vehicle);
 std::optional<WrongUnit> wrong_unit(const TrialSet<TurningRow>& turning);
-std::optional<WrongUnit> wrong_unit(const TrialSet<StopTimeRow>& coastdown, const Vehicle& vehicle);
+/// `surge`: the same vehicle's runs, which tell how fast it can be.
+std::optional<WrongUnit> wrong_unit(const TrialSet<StopTimeRow>& coastdown,
+                                    const std::optional<TrialSet<SurgeRow>>& surge,
+                                    const Vehicle& vehicle);
 
 }  // namespace awmr

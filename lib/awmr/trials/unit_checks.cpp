@@ -99,6 +99,17 @@ bool heading_spans_radians(const DrivingLog& log) {
   return most - least < 2.0 * pi<double>() + 0.1;
 }
 
+/// How fast the yaw rate says that the vehicle turns where it turns: the median of the upper half. Under
+/// kSlowTurn, counted in degrees per second nobody would call it turning.
+constexpr double kSlowTurn = 2.0;
+double turning_rate(const Evidence& evidence) {
+  std::vector<double> rates = series(evidence.windows, [](const EvidenceWindow& w) {
+    return w.span_s > 0.0 ? std::abs(w.rate_rad) / w.span_s : 0.0;
+  });
+  std::ranges::sort(rates);
+  return rates[rates.size() * 3 / 4];
+}
+
 bool agree(double ratio) { return ratio >= kLowestAgreement && ratio <= kHighestAgreement; }
 
 /// The values less their median.
@@ -128,7 +139,7 @@ std::optional<Contradiction> judge_rates(const Evidence& evidence) {
   const std::string compared =
       fmt::format("the heading turns {:.4g} times as far as the yaw rate says", size);
   if (unit && unit->factor < 0.1 && unit->factor > 0.01) {
-    if (heading_spans_radians(evidence.log)) {
+    if (heading_spans_radians(evidence.log) || turning_rate(evidence) < kSlowTurn) {
       return Contradiction{"heading_deg", compared + ": the heading looks like radians",
                            scaled_mapping(evidence, "heading_deg", degree)};
     }

@@ -71,6 +71,18 @@ void describe_quantiles(JsonObject json) {
   }
 }
 
+/// Of a search: the evaluations that were better than all before them.
+void describe_history(JsonObject json) {
+  json.number("evaluations", kNonNegative);
+  json.number("global_evaluations", kNonNegative);
+  for (JsonObject& step : json.objects("best")) {
+    step.number("evaluation", kPositive);
+    step.number("objective");
+    step.reject_unknown_keys();
+  }
+  json.reject_unknown_keys();
+}
+
 void describe_robust(JsonObject json) {
   json.string("drawn_from");
   for (const char* key :
@@ -84,6 +96,7 @@ void describe_robust(JsonObject json) {
     gains_from_json(*nominal);
     nominal->reject_unknown_keys();
   }
+  if (auto history = json.optional_object("nominal_history")) describe_history(*history);
   json.reject_unknown_keys();
 }
 
@@ -105,6 +118,7 @@ void describe_search(JsonObject json) {
   json.string("stop_reason");
   json.optional_string("arithmetic");  // how the runs were rounded: "fused", "unfused" or "scalar"
   for (const char* key : {"evaluations", "simulated", "seed"}) json.number(key, kNonNegative);
+  if (auto history = json.optional_object("history")) describe_history(*history);
   json.reject_unknown_keys();
 }
 

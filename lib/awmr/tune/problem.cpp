@@ -114,10 +114,12 @@ std::vector<Looked> Problem::look_at(std::span<const Point> points) {
   auto next = found.begin();
   for (Looked& looked : all) {
     if (looked.candidate.violation <= 0.0 || simulate_all) add_runs(*next++, looked);
-    if (better(looked.candidate, nearest)) nearest = looked.candidate;
+    ++evaluations;
+    if (!better(looked.candidate, nearest)) continue;
+    nearest = looked.candidate;
+    if (nearest.feasible()) steps.push_back({evaluations, nearest.objective});
   }
   simulated += static_cast<int>(found.size());
-  evaluations += static_cast<int>(points.size());
   if (options_.progress) {
     options_.progress(static_cast<std::size_t>(evaluations),
                       static_cast<std::size_t>(options_.global_evaluations) +

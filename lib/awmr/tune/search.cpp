@@ -184,6 +184,16 @@ Point start_point(int index, const TuneOptions& options, const Gains<double>& ba
   return x;
 }
 
+/// At most kMostHistorySteps of the steps.
+std::vector<SearchStep> at_even_ranks(const std::vector<SearchStep>& steps) {
+  if (steps.size() <= kMostHistorySteps) return steps;
+  std::vector<SearchStep> kept;
+  for (std::size_t i = 0; i < kMostHistorySteps; ++i) {
+    kept.push_back(steps[i * (steps.size() - 1) / (kMostHistorySteps - 1)]);
+  }
+  return kept;
+}
+
 }  // namespace
 
 Result<std::string> search_locally(Problem& problem, const GainBounds& bounds,
@@ -231,6 +241,7 @@ Result<SearchResult> search(const TuneOptions& options, const ConstraintContext&
   const nlopt_result global = search_globally(problem, options, point_of(start, options.bounds));
   if (failed(global)) return program_fault("NLopt's ISRES: " + reason(global));
   std::string stop = "global: " + reason(global);
+  const int global_evaluations = problem.evaluations;
   problem.simulate_all = true;
   AWMR_ASSIGN_OR_RETURN(const std::string local,
                         search_locally(problem, options.bounds, options.local_evaluations));
@@ -240,6 +251,9 @@ Result<SearchResult> search(const TuneOptions& options, const ConstraintContext&
       .nearest = problem.nearest,
       .evaluations = problem.evaluations,
       .simulated = problem.simulated,
+      .history = {.best = at_even_ranks(problem.steps),
+                  .global_evaluations = global_evaluations,
+                  .evaluations = problem.evaluations},
       .algorithm = fmt::format("NLopt GN_ISRES (population {}), then LN_COBYLA, over "
                                "the logarithms of the gains",
                                kPopulation),

@@ -17,6 +17,7 @@ struct SearchResult {
   Candidate nearest;              ///< the best of all by better()
   int evaluations = 0;
   int simulated = 0;
+  SearchHistory history;
   std::string algorithm;
   std::string stop_reason;
 };

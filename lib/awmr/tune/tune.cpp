@@ -218,6 +218,7 @@ Result<Tuning> tune_on(const ObjectiveSetting& setting, const ConstraintContext&
                 .speed_mu_as_good = settled.speed_mu,
                 .active = std::move(active),
                 .arithmetic = std::string(setting.arithmetic.rounding),
+                .history = found.history,
                 .held_out_scores = judged.scores,
                 .held_out_objective = judged.objective,
                 .robust = {}};
@@ -262,6 +263,7 @@ Result<Tuning> tune_robustly(const Model& model, ObjectiveSetting setting,
   RobustTuning robust{.conditions = conditions_of(model.vehicle),
                       .from_covariance = !model.covariance.parameters.empty(),
                       .nominal = {},
+                      .nominal_history = {},
                       .judged = {}};
   const LoopConditions& c = robust.conditions;
   AWMR_ASSIGN_OR_RETURN(setting.plants, plants_of(model, options.draws, options.seed));
@@ -279,6 +281,7 @@ Result<Tuning> tune_robustly(const Model& model, ObjectiveSetting setting,
   std::vector<NamedCandidate> candidates{{"robust", tuning.gains}, {"baseline", tuning.baseline}};
   if (nominal) {
     robust.nominal = nominal->gains;
+    robust.nominal_history = nominal->history;
     candidates.push_back({"nominal", nominal->gains});
   }
   setting.seed ^= kJudgedSeeds;

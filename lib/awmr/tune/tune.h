@@ -110,6 +110,22 @@ struct ModeScore {
   double objective = 0.0;  ///< weighted mean of the normalised terms; 1 for the baseline itself
 };
 
+/// A search's evaluation that was better than all before it.
+struct SearchStep {
+  int evaluation = 0;      ///< from 1
+  double objective = 0.0;  ///< of gains that meet every constraint
+};
+
+/// How far a search had come, in the order of its evaluations.
+struct SearchHistory {
+  std::vector<SearchStep>
+      best;  ///< kMostHistorySteps at most; the last are the gains that it ended at
+  int global_evaluations = 0;  ///< those of the global search; behind them the local one's
+  int evaluations = 0;
+};
+/// Of more steps those at even ranks are kept, the first and the last among them.
+inline constexpr std::size_t kMostHistorySteps = 200;
+
 /// A figure of the runs of one set of gains in one mode, over the judged draws.
 struct JudgedFigure {
   std::string name;  ///< "heading_iae_degs"
@@ -131,6 +147,7 @@ struct RobustTuning {
   LoopConditions conditions;
   bool from_covariance = false;  ///< false: the model has none, so that only noise was drawn
   std::optional<Gains<double>> nominal;  ///< those of `--nominal`; absent where there are none
+  SearchHistory nominal_history;         ///< of the search for them
   std::vector<JudgedGains> judged;       ///< by gains, then mode
 };
 
@@ -152,6 +169,7 @@ struct Tuning {
   Interval mu_as_good, speed_mu_as_good;
   std::vector<ActiveConstraint> active;
   std::string arithmetic;  ///< how the runs were rounded: as BatchArithmetic::rounding
+  SearchHistory history;
   /// The tuned gains on a scenario that the search never saw, and how the baseline would score 1
   /// there: for information, it decides nothing.
   std::vector<ModeScore> held_out_scores;

@@ -144,6 +144,16 @@ Json constraints_json(const std::vector<ConstraintReport>& constraints) {
   return json;
 }
 
+Json history_json(const SearchHistory& history) {
+  Json best = Json::array();
+  for (const SearchStep& step : history.best) {
+    best.push_back({{"evaluation", step.evaluation}, {"objective", step.objective}});
+  }
+  return {{"evaluations", history.evaluations},
+          {"global_evaluations", history.global_evaluations},
+          {"best", std::move(best)}};
+}
+
 Json robust_json(const RobustTuning& robust, const TuneOptions& options) {
   const LoopConditions& c = robust.conditions;
   Json json = {{"draws", options.draws},
@@ -162,7 +172,10 @@ Json robust_json(const RobustTuning& robust, const TuneOptions& options) {
                {"motor_time_constant_s", c.motor_time_constant_s},
                {"judged_draws", options.judged_draws},
                {"quantiles", Json::object()}};
-  if (robust.nominal) json["nominal"] = gains_to_json(*robust.nominal);
+  if (robust.nominal) {
+    json["nominal"] = gains_to_json(*robust.nominal);
+    json["nominal_history"] = history_json(robust.nominal_history);
+  }
   for (const JudgedGains& judged : robust.judged) {
     Json& entry = json["quantiles"][std::string(name_of(judged.mode))][judged.gains];
     entry["completed_share"] = judged.completed_share;
@@ -246,7 +259,8 @@ std::string gains_text(const Tuning& tuning, const TuneOptions& options,
                      {{"objective_share", kIndifferent},
                       {"mu", interval_json(tuning.mu_as_good)},
                       {"speed_mu", interval_json(tuning.speed_mu_as_good)}}},
-                    {"stop_reason", tuning.stop_reason}};
+                    {"stop_reason", tuning.stop_reason},
+                    {"history", history_json(tuning.history)}};
   if (tuning.robust) json["robust"] = robust_json(*tuning.robust, options);
   Json baseline = gains_to_json(tuning.baseline);
   baseline["objective"] = tuning.baseline_objective;

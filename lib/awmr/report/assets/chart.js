@@ -31,15 +31,21 @@ function markOf(series, index) {
   } else {
     mark.type = "line";
     Object.assign(draw, {stroke: colour, strokeWidth: {value: series.width || 2}, strokeDash: {value: series.dash || []},
-      strokeJoin: {value: "round"}, defined: {signal: "isValid(datum[1])"}});
+      strokeJoin: {value: "round"}, interpolate: {value: series.step ? "step-after" : "linear"}, defined: {signal: "isValid(datum[1])"}});
   }
   return mark;
 }
+
+/// What stands for all circles among the indices of hidden series.
+const circlesKey = "circles";
+/// What of a chart is hidden.
+const hiddenOf = (chart) => [...chart.series.flatMap((s, i) => (s.hidden ? [i] : [])), ...(chart.circlesHidden ? [circlesKey] : [])];
 
 /// The circles of a chart with equal axes (obstacles), in its units.
 function circleMarks(circles) {
   return circles.map((circle) => ({type: "arc", clip: true, description: circle.name, encode: {update: {
     x: {scale: "x", value: circle.x}, y: {scale: "y", value: circle.y}, startAngle: {value: 0}, endAngle: {value: 2 * Math.PI},
+    opacity: {signal: `indexof(hidden, '${circlesKey}') < 0 ? 1 : 0`},
     outerRadius: {signal: `abs(scale('x', ${circle.radius}) - scale('x', 0))`}, fill: {value: "var(--bad)"},
     fillOpacity: {value: 0.25}, stroke: {value: "var(--bad)"}}}}));
 }
@@ -51,7 +57,7 @@ function specification(chart) {
     ? `[mid_${axis} - unit * ${length} / 2, mid_${axis} + unit * ${length} / 2]` : `view_${axis}`);
   const signals = [
     {name: "view_x", value: chart.extent.x}, {name: "view_y", value: chart.extent.y},
-    {name: "hidden", value: chart.series.flatMap((s, i) => (s.hidden ? [i] : []))},
+    {name: "hidden", value: hiddenOf(chart)},
     {name: "pointed", value: null},
     {name: "mid_x", update: "(view_x[0] + view_x[1]) / 2"}, {name: "mid_y", update: "(view_y[0] + view_y[1]) / 2"},
     {name: "unit", update: "max((view_x[1] - view_x[0]) / width, (view_y[1] - view_y[0]) / height)"},
@@ -137,7 +143,8 @@ function legend(parent, entries, charts) {
       button.setAttribute("aria-pressed", String(shown));
       for (const chart of charts) {
         for (const s of chart.series) if (s.name === entry.name) s.hidden = !shown;
-        if (chart.view) chart.view.signal("hidden", chart.series.flatMap((s, i) => (s.hidden ? [i] : []))).run();
+        if (entry.kind === "circle") chart.circlesHidden = !shown;
+        if (chart.view) chart.view.signal("hidden", hiddenOf(chart)).run();
       }
     };
   }
@@ -148,8 +155,12 @@ function sample(entry) {
   const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
   svg.setAttribute("viewBox", "0 0 26 10");
   svg.setAttribute("aria-hidden", "true");
-  const shape = document.createElementNS(svg.namespaceURI, entry.kind === "points" ? "circle" : entry.kind === "band" ? "rect" : "line");
-  const drawn = entry.kind === "points" ? {cx: 13, cy: 5, r: 4, fill: entry.colour}
+  const elements = {points: "circle", circle: "circle", band: "rect", line: "line"};
+  const outline = {cross: "M11.5 0h3v3.5H18v3h-3.5V10h-3V6.5H8v-3h3.5z", diamond: "M13 0l5 5-5 5-5-5z"}[entry.shape];
+  const shape = document.createElementNS(svg.namespaceURI, outline ? "path" : elements[entry.kind]);
+  const drawn = entry.kind === "circle" ? {cx: 13, cy: 5, r: 4.5, fill: entry.colour, "fill-opacity": 0.25, stroke: entry.colour}
+    : outline ? {d: outline, fill: entry.colour}
+    : entry.kind === "points" ? {cx: 13, cy: 5, r: 4, fill: entry.colour}
     : entry.kind === "band" ? {x: 0, y: 0, width: 26, height: 10, fill: entry.colour, "fill-opacity": 0.25}
     : {x1: 0, y1: 5, x2: 26, y2: 5, stroke: entry.colour, "stroke-opacity": entry.opacity || 1, "stroke-width": entry.width || 2, "stroke-dasharray": (entry.dash || []).join(" ")};
   for (const [name, value] of Object.entries(drawn)) shape.setAttribute(name, value);

@@ -23,11 +23,11 @@ function drawAll() {
 }
 
 /// On paper all is open, and charts are laid out for a column of A4, so that their letters stay readable.
-const paperColumn = 318;
+const paperColumn = 318, paperHeight = 200;
 let closedBefore = [];
 addEventListener("beforeprint", () => {
   closedBefore = drawAll();
-  for (const chart of allCharts) fit(chart, paperColumn);
+  for (const chart of allCharts) fit(chart, paperColumn, paperHeight);
 });
 addEventListener("afterprint", () => {
   for (const chart of allCharts) fit(chart, chart.node.clientWidth);
@@ -49,13 +49,13 @@ function draw(chart) {
 
 /// Lays a chart out for a width in pixels, its margins included. With equal axes it is as high as its extent asks for,
 /// within reason.
-function fit(chart, outer) {
+function fit(chart, outer, most = Infinity) {
   if (!chart.view || outer < 50 || outer === chart.outer) return;
   chart.outer = outer;
   if (!chart.series.length) return chart.view.width(outer).run();  // Vega finds room for the names on the left
   const width = outer - margin.left - margin.right;
   const {x, y} = chart.extent;
-  const height = chart.equal ? Math.min(420, Math.max(130, width * (y[1] - y[0]) / (x[1] - x[0]))) : chart.height - margin.top - margin.bottom;
+  const height = chart.equal ? Math.min(420, 1.2 * most, Math.max(130, width * (y[1] - y[0]) / (x[1] - x[0]))) : Math.min(chart.height, most) - margin.top - margin.bottom;
   chart.view.width(width).height(height).run();
 }
 

@@ -53,6 +53,9 @@ function breakEven(parent, entries) {
     e.yaw_coulomb_m === null ? `beyond ${digits(e.most_m, 3)}` : digits(e.yaw_coulomb_m, 3)]));
 }
 
+/// A sentence with the names of its metrics as people say them, without their units.
+const inWords = (sentence) => sentence.replace(/\b[a-z]+(?:_[a-z]+)+\b/g, (name) => metricWords(name).split(",")[0]);
+
 function comparisonSection(data) {
   const {comparison} = data;
   if (!comparison) return;
@@ -69,7 +72,7 @@ function comparisonSection(data) {
     const details = add(box, "details");
     details.open = i === 0 && innerWidth > 640;
     add(details, "summary", scenario.name);
-    add(details, "p", scenario.verdict);
+    add(details, "p", inWords(scenario.verdict));
     const inside = add(details, "div");
     ranking(inside, scenario);
     spreadCharts(inside, scenario, (data.samples || {})[scenario.name]);

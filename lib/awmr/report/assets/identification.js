@@ -86,7 +86,7 @@ function estimatorsTable(parent, estimates) {
   add(box, "p", "The paper's log-linear fit puts the error on the logarithm of the force, which is set exactly; what is measured is time.", {class: "small"});
   table(box, ["of", "estimator", "noise on", "estimates", "#AICc", "#residual std", "#rows", "stopped because"], estimates.map((r) => [r.subject,
     [r.estimator, r.family].filter(Boolean).join(", "), r.noise, r.parameters.map((p) => `${p.name} ${digits(p.value)} ± ${digits(p.std_error, 2)}`).join("; "),
-    digits(r.aicc), digits(r.residual_std, 3), r.rows_used, r.stop_reason]));
+    digits(r.aicc), digits(r.residual_std, 3), r.rows_used, r.stop_reason.split(". ")[0]]));
 }
 
 /// What the main values become without each row.
@@ -154,9 +154,11 @@ function logCharts(parent, log) {
   const group = [];
   for (const [name, {series, unit}] of channels) {
     const points = (key) => series.t_s.map((t, i) => [t, series[key][i]]);
-    plot(grid, {title: name, x: "t, s", y: `${name.replace(/_[a-z]+$/, "").replaceAll("_", " ")}, ${unit}`, group, height: 220, series: [
-      {name: "measured", kind: "line", points: points("measured"), colour: "var(--dim)", width: 1.4},
-      {name: "predicted", kind: "line", points: points("predicted"), colour: "var(--two)", width: 1.4, dash: [6, 3]}]});
+    const words = name.replace(/_[a-z]+$/, "").replaceAll("_", " ");
+    // The prediction lies on the noise of what was measured, and has to be seen on it.
+    plot(grid, {title: words, x: "t, s", y: `${words}, ${unit}`, group, height: 220, series: [
+      {name: "measured", kind: "line", points: points("measured"), colour: "var(--one)", width: 1.2, opacity: 0.45},
+      {name: "predicted", kind: "line", points: points("predicted"), colour: "var(--two)", width: 2}]});
   }
 }
 

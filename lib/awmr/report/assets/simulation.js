@@ -10,6 +10,8 @@ const signals = [
   {title: "yaw rate", y: "yaw rate, deg/s", value: "r_degps"},
 ];
 const gainsWords = {tuned: "", paper: ", the paper's gains"};
+const referenceLook = {name: "reference", kind: "line", colour: "var(--dim)", width: 1.2, dash: [4, 3]};
+const obstacleLook = {name: "obstacle", kind: "circle", colour: "var(--bad)"};
 const nameOf = (run) => run.mode + gainsWords[run.gains];
 
 function lineOf(run, x, y) {
@@ -19,7 +21,7 @@ function lineOf(run, x, y) {
     : {name: nameOf(run), kind: "line", points, ...look, width: 1.2, dash: [2, 3], opacity: 1, hidden: true};
 }
 function referenceOf(run, x, y) {
-  return {name: "reference", kind: "line", points: run.columns[x].map((v, i) => [v, run.columns[y][i]]), colour: "var(--dim)", width: 1.2, dash: [4, 3]};
+  return {...referenceLook, points: run.columns[x].map((v, i) => [v, run.columns[y][i]])};
 }
 
 /// Where the course goes: waypoints or the ends of a line.
@@ -39,13 +41,14 @@ function scenarioPart(parent, stem, runs, scenario, open) {
   // A course gives each run a heading of its own to follow; steps of heading are the same for all.
   const sameHeading = !(scenario && scenario.guidance) || scenario.guidance.type === "heading";
   const entries = runs.map((run) => lineOf(run, "t_s", "psi_deg"));
-  legend(box, [...entries, {name: "reference", kind: "line", colour: "var(--dim)", width: 1.2, dash: [4, 3]}], group);
-  const grid = add(box, "div", undefined, {class: "grid"});
   const points = waypointsOf(scenario).filter((p) => Array.isArray(p));
-  const circles = ((scenario || {}).obstacles || []).map((o) => ({x: o.x_m, y: o.y_m, radius: o.radius_m, name: "obstacle"}));
+  const circles = ((scenario || {}).obstacles || []).map((o) => ({x: o.x_m, y: o.y_m, radius: o.radius_m, name: obstacleLook.name}));
+  const course = {name: points.length > 2 ? "waypoints" : "ends of the line", kind: "points", shape: "cross", points, colour: "var(--ink)"};
+  legend(box, [...entries, referenceLook, ...(points.length ? [course] : []), ...(circles.length ? [obstacleLook] : [])], group);
+  const grid = add(box, "div", undefined, {class: "grid"});
   plot(grid, {title: "path", x: "x, m", y: "y, m", equal: true, legend: false, group, circles, series: [
     ...runs.map((run) => lineOf(run, "x_m", "y_m")),
-    {name: points.length > 2 ? "waypoints" : "ends of the line", kind: "points", shape: "cross", points, colour: "var(--ink)"}]});
+    course]});
   for (const signal of signals) {
     const series = runs.map((run) => lineOf(run, "t_s", signal.value));
     if (signal.reference && (sameHeading || signal.value !== "psi_deg")) series.push(referenceOf(first, "t_s", signal.reference));

@@ -11,6 +11,28 @@ function constraintsTable(parent, constraints) {
     c.name + (c.required ? "" : " (told, not asked)"), state(c), digits(c.value), digits(c.limit), digits(c.margin, 3), c.meaning]));
 }
 
+/// The best objective so far against evaluations, of the search for the tuned gains and of the one without noise.
+function historyChart(parent, gains) {
+  const of = (name, history, look) => {
+    if (!history || !history.best.length) return [];
+    const last = history.best[history.best.length - 1];
+    const steps = history.best.map((s) => [s.evaluation, s.objective]);
+    return [{name, kind: "line", step: true, points: [...steps, [history.evaluations, last.objective]], ...look}];
+  };
+  const own = (gains.search || {}).history, {nominal_history: nominal} = gains.robust || {};
+  const series = [...of(gains.robust ? "tuned" : "tuned (nominal)", own, {colour: setColour.robust, width: 2.4}),
+    ...of("nominal", nominal, {colour: setColour.nominal, width: 1.6, dash: [7, 3]})];
+  if (!series.length) return;
+  const all = series.flatMap((s) => s.points.map((p) => p[0]));
+  series.push({name: "the paper's gains", kind: "line", points: [[Math.min(...all), 1], [Math.max(...all), 1]], colour: setColour.baseline, width: 1.2, dash: [2, 3]});
+  add(parent, "h3", "The search");
+  const phases = [["tuned", own], ["nominal", nominal]].filter(([, h]) => h && h.best.length)
+    .map(([name, h]) => `${name}: local from evaluation ${h.global_evaluations + 1} of ${h.evaluations}`);
+  add(parent, "p", `The best gains so far that keep every constraint; 1 is the paper's. A global search, then a local one (${phases.join("; ")}). ` +
+    (nominal ? "Each is over the paper's gains under its own conditions." : ""), {class: "small"});
+  plot(add(parent, "div", undefined, {class: "grid"}), {title: "objective, best so far", x: "evaluation", y: "objective", series, height: 260});
+}
+
 const robustFigures = [["settling_time_s", "settling time, s"], ["overshoot_deg", "overshoot, deg"], ["heading_iae_degs", "heading error, deg s"],
   ["control_variation", "control variation, 1/s"], ["steering_rate_rms_degps", "steering rate, RMS, deg/s"]];
 
@@ -38,6 +60,7 @@ function tuningSection(data) {
   if (gains.search) add(box, "p", `${gains.search.algorithm}: ${gains.search.evaluations} evaluations, ${gains.search.stop_reason}.`, {class: "small"});
   if (gains.objective && gains.objective.formula) add(box, "p", `Objective: ${gains.objective.formula}.`, {class: "small"});
   if (Array.isArray(gains.constraints)) constraintsTable(box, gains.constraints);
+  historyChart(box, gains);
   robustCharts(box, gains.robust);
   metricsTable(box, gains);
 }

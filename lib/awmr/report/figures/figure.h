@@ -67,7 +67,7 @@ struct Figure {
   Axis x;
   std::vector<Panel> panels = {};
   bool equal_axes = false;                 ///< a metre is as long on y as on x; of one panel
-  std::vector<FigureCircle> circles = {};  ///< with equal axes
+  std::vector<FigureCircle> circles = {};  ///< obstacles; with equal axes
 };
 
 }  // namespace awmr

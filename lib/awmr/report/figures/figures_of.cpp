@@ -47,6 +47,7 @@ Result<FiguresOfResults> figures_of(const ReportData& data) {
   FiguresOfResults all;
   add_identification_figures(data.model, all);
   AWMR_RETURN_IF_ERROR(add_from_file(add_log_figures, "validation.json", data.json, all));
+  AWMR_RETURN_IF_ERROR(add_from_file(add_tuning_figures, "gains.json", data.json, all));
   add_run_figures(data.json, all);
   AWMR_RETURN_IF_ERROR(add_from_file(add_comparison_figures, "comparison.json", data.json, all));
   number_equal_names(all.figures);

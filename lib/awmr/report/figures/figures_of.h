@@ -14,14 +14,16 @@ struct FiguresOfResults {
   std::vector<std::string> lacking = {};  ///< what is not drawn and why, a sentence each
 };
 
-/// Identification, logs, runs, comparison: what the data have of them.
-/// Errors (input): validation.json or comparison.json is not as awmr writes it.
+/// Identification, logs, tuning, runs, comparison: what the data have of them.
+/// Errors (input): validation.json, gains.json or comparison.json is not as awmr writes it.
 Result<FiguresOfResults> figures_of(const ReportData& data);
 
 // The parts of it; each adds to what is there.
 void add_identification_figures(const Model& model, FiguresOfResults& all);
 /// Throws Json::exception where validation.json is not as awmr writes it.
 void add_log_figures(const Json& data, FiguresOfResults& all);
+/// Throws Json::exception where gains.json is not as awmr writes it.
+void add_tuning_figures(const Json& data, FiguresOfResults& all);
 void add_run_figures(const Json& data, FiguresOfResults& all);
 /// Throws Json::exception where comparison.json is not as awmr writes it.
 void add_comparison_figures(const Json& data, FiguresOfResults& all);

@@ -28,22 +28,39 @@ std::vector<Series> legend_entries(const Figure& figure, double most_pt) {
   return entries;
 }
 
+/// A name, and what stands before it.
+struct Entry {
+  std::string name;
+  std::vector<Mark> (*sample)(const Series& series, PagePoint at, double width_pt);
+  Series series = {};
+};
+
+std::vector<Mark> obstacle_sample(const Series&, PagePoint at, double width_pt) {
+  return {obstacle_disc({at.x + 0.5 * width_pt, at.y}, 0.4 * kTextSizePt)};
+}
+
 }  // namespace
 
 Legend legend_of(const Figure& figure, double left_pt) {
   Legend legend{.layer = {.kind = "legend"}, .bottom_pt = kEdgePt + 0.6 * kTextSizePt};
   const double right_pt = kWidthPt - kEdgePt;
-  const std::vector<Series> entries = legend_entries(figure, right_pt - left_pt - kBeforeNamePt);
+  std::vector<Entry> entries;
+  for (Series& one : legend_entries(figure, right_pt - left_pt - kBeforeNamePt)) {
+    entries.push_back({one.name, sample_of, std::move(one)});
+  }
+  if (!figure.circles.empty()) {
+    entries.push_back({figure.circles.size() == 1 ? "obstacle" : "obstacles", obstacle_sample});
+  }
   if (entries.size() < 2) return legend;
   double x = left_pt;
   double middle = kEdgePt + 0.5 * kLegendLinePt;
-  for (const Series& entry : entries) {
+  for (const Entry& entry : entries) {
     const double width = kBeforeNamePt + width_of({{entry.name}});
     if (x > left_pt && x + width > right_pt) {
       x = left_pt;
       middle += kLegendLinePt;
     }
-    for (Mark& mark : sample_of(entry, {x, middle}, kSamplePt)) {
+    for (Mark& mark : entry.sample(entry.series, {x, middle}, kSamplePt)) {
       legend.layer.marks.push_back(std::move(mark));
     }
     legend.layer.marks.emplace_back(

@@ -38,6 +38,8 @@ std::vector<TextRun> axis_title(const Axis& axis, int exponent);
 Layer grid_of(const Plot& plot, const Axis& x, const Axis& y);
 /// Frame, ticks, numbers and titles. `title_x_pt`: where the title of y stands.
 Layer axes_of(const Plot& plot, const Axis& x, const Axis& y, double title_x_pt);
+/// An obstacle on the page.
+Disc obstacle_disc(PagePoint centre, double radius_pt);
 Layer circles_of(const Plot& plot, const std::vector<FigureCircle>& circles);
 Layer series_of(const Plot& plot, const Series& series);
 

@@ -126,14 +126,16 @@ Layer series_of(const Plot& plot, const Series& series) {
   return layer;
 }
 
+Disc obstacle_disc(PagePoint centre, double radius_pt) {
+  return {
+      .centre = centre, .radius = radius_pt, .stroke = Stroke{kBlack, 0.6}, .fill = kObstacleGrey};
+}
+
 Layer circles_of(const Plot& plot, const std::vector<FigureCircle>& circles) {
   Layer layer{.kind = "circles"};
   for (const FigureCircle& circle : circles) {
     const double radius = std::abs(plot.x(circle.x + circle.radius) - plot.x(circle.x));
-    layer.marks.emplace_back(Disc{.centre = {plot.x(circle.x), plot.y(circle.y)},
-                                  .radius = radius,
-                                  .stroke = Stroke{kBlack, 0.6},
-                                  .fill = kObstacleGrey});
+    layer.marks.emplace_back(obstacle_disc({plot.x(circle.x), plot.y(circle.y)}, radius));
   }
   return layer;
 }

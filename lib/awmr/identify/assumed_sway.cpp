@@ -1,0 +1,97 @@
+#include "awmr/identify/assumed_sway.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "awmr/core/gravity.h"
+
+namespace awmr {
+namespace {
+
+/// c, 1/rad.
+constexpr Interval kTyreStiffness{5.0, 15.0};
+/// Half of a normal 95 % interval over the standard deviation.
+constexpr double kNormal95 = 1.959964;
+/// Of a log the speed that it keeps below but for 5 % of the time: a spike is no speed.
+constexpr double kFastestQuantile = 0.95;
+
+void take_fastest(const DrivingLog& log, double& fastest_mps) {
+  const std::optional<Measured>& speed = log[LogChannel::kSpeed];
+  if (!speed) return;
+  std::vector<double> speeds;
+  for (std::size_t row = 0; row < speed->value.size(); ++row) {
+    if (speed->fresh[row]) speeds.push_back(std::abs(speed->value[row]));
+  }
+  if (speeds.empty()) return;
+  const auto place =
+      static_cast<std::size_t>(kFastestQuantile * static_cast<double>(speeds.size()));
+  std::nth_element(speeds.begin(), speeds.begin() + static_cast<std::ptrdiff_t>(place),
+                   speeds.end());
+  fastest_mps = std::max(fastest_mps, speeds[place]);
+}
+
+/// 0 where no trial tells a speed.
+double fastest_mps(const TrialData& data) {
+  double fastest = 0.0;
+  if (data.surge) {
+    for (const SurgeRow& row : data.surge->rows) fastest = std::max(fastest, row.speed_mps);
+  }
+  if (data.coastdown) {
+    for (const StopTimeRow& row : data.coastdown->rows) {
+      fastest = std::max(fastest, row.initial_speed_mps);
+    }
+  }
+  for (const CoastCurve& curve : data.curves) {
+    for (const double speed : curve.speed_mps) fastest = std::max(fastest, std::abs(speed));
+  }
+  for (const DrivingLog& log : data.logs) take_fastest(log, fastest);
+  return fastest;
+}
+
+double log_variance_of(const Interval& range) {
+  const double half = 0.5 * std::log(range.hi / range.lo) / kNormal95;
+  return half * half;
+}
+
+}  // namespace
+
+void assume_sway(const TrialData& data, MainValues& values) {
+  Model& model = values.model;
+  Estimate& sway = model[ParameterId::kSwayAlpha];
+  const Estimate& mass = model[ParameterId::kMassNorm];
+  const double speed_mps = 0.5 * fastest_mps(data);
+  if (sway.value || !mass.value || !(speed_mps > 0.0)) return;
+  const double stiffness = std::sqrt(kTyreStiffness.lo * kTyreStiffness.hi);
+  const double per_mass = stiffness * kGravity_mps2 / speed_mps;
+  const double value = per_mass * *mass.value;
+
+  const double own_variance = log_variance_of(kTyreStiffness);
+  JointCovariance::Gradient gradient{
+      {values.covariance.add_block(Eigen::MatrixXd::Constant(1, 1, own_variance)), value}};
+  if (values.covariance.has(ParameterId::kMassNorm)) {
+    for (const auto& [place, slope] : values.covariance.gradient(ParameterId::kMassNorm)) {
+      gradient[place] += per_mass * slope;
+    }
+  }
+  const double std_error = std::sqrt(values.covariance.variance(gradient));
+  const double factor = std::exp(kNormal95 * std_error / value);
+  sway = {value, std_error, Interval{value / factor, value * factor}, Source::kDerived,
+          kAssumedSwayMethod};
+  values.covariance.set(ParameterId::kSwayAlpha, std::move(gradient));
+  model.record.findings.push_back(
+      {"", 0, Severity::kWarning, "assumed-sway",
+       fmt::format(
+           "no trial shows how the vehicle slides sideways: {} is assumed to be {:.3g} s/m, {:.3g} "
+           "to "
+           "{:.3g}, of common tyres ({:.1f} g m'/u) at u = {:.2g} m/s, half of the fastest that "
+           "was "
+           "driven; gains are tuned for that range, and what is said of sideslip is no better than "
+           "it: give sway_alpha in vehicle.json, or record a driven log with sway_mps",
+           info(ParameterId::kSwayAlpha).name, value, sway.ci95->lo, sway.ci95->hi, stiffness,
+           speed_mps)});
+}
+
+}  // namespace awmr

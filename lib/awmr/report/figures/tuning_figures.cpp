@@ -1,0 +1,66 @@
+#include <algorithm>
+
+#include "awmr/report/figures/figures_of.h"
+
+namespace awmr {
+namespace {
+
+/// The best objective so far as stairs: it holds until an evaluation is better, and to the last one.
+Series stairs_of(const Json& history, const char* name, Role role) {
+  Series stairs{.name = name, .shape = SeriesShape::kLine, .role = role};
+  for (const Json& step : history.at("best")) {
+    const double evaluation = step.at("evaluation");
+    if (!stairs.y.empty()) {
+      stairs.x.push_back(evaluation);
+      stairs.y.push_back(stairs.y.back());
+    }
+    stairs.x.push_back(evaluation);
+    stairs.y.push_back(step.at("objective"));
+  }
+  if (stairs.y.empty()) return stairs;
+  stairs.x.push_back(history.at("evaluations"));
+  stairs.y.push_back(stairs.y.back());
+  return stairs;
+}
+
+/// The searches that the gains have a history of.
+std::vector<Series> searches_of(const Json& gains) {
+  std::vector<Series> all;
+  const Json& search = gains.at("search");
+  const bool robust = gains.contains("robust");
+  if (search.contains("history")) {
+    all.push_back(stairs_of(search.at("history"), robust ? "robust" : "nominal", Role::kModel));
+  }
+  if (robust && gains.at("robust").contains("nominal_history")) {
+    all.push_back(stairs_of(gains.at("robust").at("nominal_history"), "nominal", Role::kPredicted));
+  }
+  std::erase_if(all, [](const Series& one) { return one.x.empty(); });
+  return all;
+}
+
+}  // namespace
+
+void add_tuning_figures(const Json& data, FiguresOfResults& all) {
+  std::vector<Series> searches;
+  if (data.contains("gains") && data.at("gains").contains("search")) {
+    searches = searches_of(data.at("gains"));
+  }
+  if (searches.empty()) {
+    all.lacking.push_back("tuning_history: gains.json has no history of a search");
+    return;
+  }
+  double last = 0.0;
+  for (const Series& one : searches) last = std::max(last, one.x.back());
+  searches.push_back({.name = "the paper's gains",
+                      .shape = SeriesShape::kLine,
+                      .role = Role::kReference,
+                      .x = {0.0, last},
+                      .y = {1.0, 1.0}});
+  all.figures.push_back({.name = "tuning_history",
+                         .meaning = "The objective of the best gains that the search had met, "
+                                    "against its evaluations; 1 is the paper's",
+                         .x = {"evaluation"},
+                         .panels = {{.y = {"objective, best so far"}, .series = searches}}});
+}
+
+}  // namespace awmr

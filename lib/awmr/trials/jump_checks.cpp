@@ -1,0 +1,111 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "awmr/core/units.h"
+#include "awmr/trials/log_evidence.h"
+
+namespace awmr {
+namespace {
+
+/// Beyond what the vehicle does in the time between two readings, but for 5 % of them, by this factor.
+constexpr double kTimes = 10.0;
+constexpr double kQuantile = 0.95;
+/// A smaller jump is a fix that was corrected, not another place.
+constexpr double kVehicleLengths = 4.0;
+constexpr double kLeastTurn_rad = 1.0;
+constexpr std::size_t kFewest = 20;
+
+/// From one reading of a signal to the next one.
+struct Move {
+  std::size_t from = 0;  ///< rows
+  std::size_t to = 0;
+  double span_s = 0.0;
+  double size = 0.0;
+};
+
+/// `size(a, b)`: how far apart the readings of two rows are.
+using Size = std::function<double(std::size_t, std::size_t)>;
+
+std::vector<Move> moves_between(const DrivingLog& log, const std::vector<std::size_t>& rows,
+                                const Size& size) {
+  std::vector<Move> moves;
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    const double span_s = log.t_s[rows[i]] - log.t_s[rows[i - 1]];
+    moves.push_back({rows[i - 1], rows[i], span_s, size(rows[i - 1], rows[i])});
+  }
+  return moves;
+}
+
+/// What 95 % of the moves keep below in a second.
+double common_rate(const std::vector<Move>& moves) {
+  std::vector<double> rates;
+  for (const Move& move : moves) rates.push_back(move.size / move.span_s);
+  const auto place = static_cast<std::ptrdiff_t>(kQuantile * static_cast<double>(rates.size()));
+  std::nth_element(rates.begin(), rates.begin() + place, rates.end());
+  return rates[static_cast<std::size_t>(place)];
+}
+
+/// The first move that is none of the vehicle's, and from which the signal does not come back.
+std::optional<Move> jump_in(const std::vector<Move>& moves, double least, const Size& size) {
+  if (moves.size() < kFewest) return std::nullopt;
+  const double rate = common_rate(moves);
+  const auto is_far = [&](const Move& move) {
+    return move.size > std::max(least, kTimes * rate * move.span_s);
+  };
+  for (std::size_t i = 1; i + 1 < moves.size(); ++i) {
+    const Move& next = moves[i + 1];
+    const bool stays = !is_far(moves[i - 1]) && !is_far(next);
+    if (is_far(moves[i]) && stays && size(moves[i].from, next.to) > 0.5 * moves[i].size) {
+      return moves[i];
+    }
+  }
+  return std::nullopt;
+}
+
+std::vector<std::size_t> rows_with(const DrivingLog& log, std::initializer_list<LogChannel> all) {
+  std::vector<std::size_t> rows;
+  for (std::size_t row = 0; row < log.rows(); ++row) {
+    if (std::ranges::all_of(all, [&](LogChannel c) { return log[c]->fresh[row]; })) {
+      rows.push_back(row);
+    }
+  }
+  return rows;
+}
+
+Contradiction told(const DrivingLog& log, const Move& jump, std::string column,
+                   const std::string& how_far) {
+  return {std::move(column),
+          fmt::format(
+              "it jumps by {} between lines {} and {}, within {:.3g} s: this looks like two runs "
+              "in one file; give each run its number in a column run, or a file of its own",
+              how_far, log.line[jump.from], log.line[jump.to], jump.span_s),
+          ""};
+}
+
+}  // namespace
+
+std::optional<Contradiction> jump_contradiction(const Evidence& evidence) {
+  const DrivingLog& log = evidence.log;
+  if (evidence.has(LogChannel::kX) && evidence.has(LogChannel::kY)) {
+    const std::vector<double>& x = log[LogChannel::kX]->value;
+    const std::vector<double>& y = log[LogChannel::kY]->value;
+    const Size size = [&](std::size_t a, std::size_t b) {
+      return std::hypot(x[b] - x[a], y[b] - y[a]);
+    };
+    const auto moves = moves_between(log, rows_with(log, {LogChannel::kX, LogChannel::kY}), size);
+    const auto jump = jump_in(moves, kVehicleLengths * evidence.vehicle.length_m, size);
+    if (jump) return told(log, *jump, "x_m", fmt::format("{:.3g} m with y_m", jump->size));
+  }
+  if (!evidence.has(LogChannel::kHeading)) return std::nullopt;
+  const std::vector<double>& heading = log[LogChannel::kHeading]->value;
+  const Size size = [&](std::size_t a, std::size_t b) { return std::abs(heading[b] - heading[a]); };
+  const auto moves = moves_between(log, rows_with(log, {LogChannel::kHeading}), size);
+  const auto jump = jump_in(moves, kLeastTurn_rad, size);
+  if (!jump) return std::nullopt;
+  return told(log, *jump, "heading_deg", fmt::format("{:.3g} deg", degrees(jump->size)));
+}
+
+}  // namespace awmr
