@@ -48,9 +48,9 @@ inline Status choose(const PlantChoice& choice, std::span<Scenario> scenarios) {
     }
     if (!scenario.tyres) scenario.tyres.emplace();
     for (const TyreConflict& conflict : tyre_conflicts(scenario)) {
-      faults.push_back({fmt::format("{} {}", kPlantOption, name_in(kPlantKindNames, *choice)),
-                        fmt::format("the scenario '{}' has /{}, which {}", scenario.name,
-                                    conflict.key, conflict.message)});
+      faults.push_back(
+          {fmt::format("{} {}", kPlantOption, name_in(kPlantKindNames, *choice)),
+           fmt::format("scenario '{}', /{}: {}", scenario.name, conflict.key, conflict.message)});
     }
   }
   if (!faults.empty()) return input_errors(std::move(faults));

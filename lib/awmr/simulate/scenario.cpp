@@ -65,9 +65,10 @@ Status check_mode(const Vehicle& vehicle, YawMode mode) {
 std::vector<TyreConflict> tyre_conflicts(const Scenario& scenario) {
   std::vector<TyreConflict> conflicts;
   if (!scenario.patches.empty()) {
-    conflicts.push_back({"slippery",
-                         "limits the forces along the wheels alone, and tyres hold sideways too: "
-                         "remove it, or the tyres"});
+    conflicts.push_back(
+        {"slippery",
+         "a patch limits the forces along the wheels alone, and tyres hold sideways "
+         "too: remove it, or the tyres"});
   }
   for (const CornerParameter& corner : scenario.corner) {
     switch (corner.id) {
@@ -76,9 +77,10 @@ std::vector<TyreConflict> tyre_conflicts(const Scenario& scenario) {
       case ParameterId::kYawBeta:
       case ParameterId::kYawCoulomb:
       case ParameterId::kYawQuadratic:
-        conflicts.push_back({"corner/" + std::string(info(corner.id).name),
-                             "has no part on tyres, which resist sway and yaw in its place: "
-                             "remove it, or the tyres"});
+        conflicts.push_back(
+            {"corner", std::string(info(corner.id).name) +
+                           " has no part on tyres, which resist sway and yaw in its place: "
+                           "remove it, or the tyres"});
         break;
       default:
         break;
