@@ -158,6 +158,11 @@ TEST(FourWheelRuns, WhatHasNoMeaningOnTyresIsNamed) {
   scenario.corner = {{ParameterId::kYawAlpha, true}, {ParameterId::kMassNorm, true}};
   const auto conflicts = tyre_conflicts(scenario);
   ASSERT_EQ(conflicts.size(), 2U);
+  EXPECT_TRUE(check_tyres(scenario));
+  EXPECT_FALSE(check_tyres(on_tyres(scenario)));
+  scenario.corner.clear();
+  EXPECT_TRUE(plant_for(scenario, fitted_paper_model()));
+  EXPECT_FALSE(plant_for(on_tyres(scenario), fitted_paper_model()));
   EXPECT_EQ(conflicts[0].key, "slippery");
   EXPECT_EQ(conflicts[1].key, "corner");
   EXPECT_NE(conflicts[1].message.find("yaw.alpha"), std::string::npos);

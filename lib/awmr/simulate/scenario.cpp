@@ -114,7 +114,20 @@ Result<Model> model_at_corner(Model model, const Scenario& scenario) {
   return model;
 }
 
+Status check_tyres(const Scenario& scenario) {
+  std::vector<Fault> faults;
+  if (scenario.tyres) {
+    for (const TyreConflict& conflict : tyre_conflicts(scenario)) {
+      faults.push_back(
+          {fmt::format("scenario '{}':/{}", scenario.name, conflict.key), conflict.message});
+    }
+  }
+  if (!faults.empty()) return input_errors(std::move(faults));
+  return {};
+}
+
 Result<Plant<double>> plant_for(const Scenario& scenario, const Model& model, Motion motion) {
+  AWMR_RETURN_IF_ERROR(check_tyres(scenario));
   AWMR_ASSIGN_OR_RETURN(const Model corner, model_at_corner(model, scenario));
   AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, corner.plant(motion));
   AWMR_RETURN_IF_ERROR(check_work(plant, model.file, scenario, model.vehicle.sample_time_s));
