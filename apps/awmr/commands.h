@@ -20,6 +20,7 @@
 #include "heading_rate_option.h"
 #include "inputs.h"
 #include "live_stream.h"
+#include "plant_option.h"
 #include "shard_option.h"
 
 namespace awmr::cli {
@@ -133,6 +134,7 @@ struct SimulateCommand {
   fs::path output;
   AllocationChoice allocation = {};
   HeadingRateChoice heading_rate_limit = {};
+  PlantChoice plant = {};
 };
 Result<Outcome> execute(const SimulateCommand& command);
 void add_simulate(CLI::App& app, Session& session);
@@ -145,6 +147,7 @@ struct CompareCommand {
   fs::path output;
   AllocationChoice allocation = {};
   HeadingRateChoice heading_rate_limit = {};
+  PlantChoice plant = {};
   bool resume = false;     ///< go on from the output directory
   ShardChoice shard = {};  ///< as in `compare`
   InputNames names = {};

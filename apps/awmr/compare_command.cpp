@@ -66,7 +66,8 @@ std::vector<fs::path> inputs_of(const CompareCommand& command) {
   return paths;
 }
 
-Result<Provenance> provenance_of(const CompareCommand& command) {
+Result<Provenance> provenance_of(const CompareCommand& command,
+                                 const std::vector<Scenario>& scenarios) {
   AWMR_ASSIGN_OR_RETURN(std::vector<InputFile> inputs,
                         input_files(inputs_of(command), command.names));
   std::vector<std::pair<std::string, std::string>> options = options_of(command.allocation);
@@ -75,6 +76,7 @@ Result<Provenance> provenance_of(const CompareCommand& command) {
   for (auto& option : options_of_rate(command.heading_rate_limit)) {
     options.push_back(std::move(option));
   }
+  for (auto& option : options_of(command.plant, scenarios)) options.push_back(std::move(option));
   if (command.compare.break_even) options.emplace_back("break_even", "true");
   const Preferences& preferences = command.compare.preferences;
   if (!preferences.weights.empty()) {
@@ -174,8 +176,11 @@ Outcome outcome_of_part(const CompareCommand& command, const Comparison& part) {
 }
 
 Outcome outcome_of_whole(const CompareCommand& command, const Comparison& comparison,
-                         const Model& model) {
-  const std::string table = comparison_table(comparison, command.compare);
+                         const Model& model, const std::vector<Scenario>& scenarios) {
+  std::string table = comparison_table(comparison, command.compare);
+  for (const auto& [name, text] : options_of(command.plant, scenarios)) {
+    table += fmt::format("{}: {}\n", name, text);
+  }
   const auto run_of = [](const ComparisonRow& row) {
     return fmt::format("{}, {}, sample {}", row.scenario, name_of(row.mode), row.sample);
   };
@@ -193,8 +198,9 @@ Result<Outcome> execute(const CompareCommand& command) {
   AWMR_ASSIGN_OR_RETURN(std::vector<Scenario> scenarios,
                         read_each(command.scenarios, read_scenario));
   choose(command.allocation, model, scenarios);
+  AWMR_RETURN_IF_ERROR(choose(command.plant, scenarios));
   AWMR_RETURN_IF_ERROR(limit_heading_rate(command.heading_rate_limit, model, scenarios));
-  AWMR_ASSIGN_OR_RETURN(const Provenance provenance, provenance_of(command));
+  AWMR_ASSIGN_OR_RETURN(const Provenance provenance, provenance_of(command, scenarios));
   AWMR_RETURN_IF_ERROR(
       check_outputs(command.output, {"comparison.csv", json_of(command)}, inputs_of(command)));
   CompareOptions options = command.compare;
@@ -212,7 +218,7 @@ Result<Outcome> execute(const CompareCommand& command) {
   AWMR_RETURN_IF_ERROR(write_comparison(command, comparison, text));
   if (comparison.stopped) end_interrupted(command, comparison);
   Outcome outcome = command.shard ? outcome_of_part(command, comparison)
-                                  : outcome_of_whole(command, comparison, model);
+                                  : outcome_of_whole(command, comparison, model, scenarios);
   outcome.document = text;
   outcome.written = {command.output / json_of(command), command.output / "comparison.csv"};
   return outcome;
@@ -254,6 +260,7 @@ void add_compare(CLI::App& app, Session& session) {
   add_shard(*sub, texts->shard);
   add_allocation(*sub, command->allocation);
   add_heading_rate_limit(*sub, command->heading_rate_limit);
+  add_plant(*sub, command->plant);
   add_output_directory(*sub, command->output, "Directory for comparison.csv and comparison.json");
 }
 

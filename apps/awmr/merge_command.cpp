@@ -35,7 +35,10 @@ Result<Outcome> merge_comparison(const MergeCommand& command) {
       {command.output / "comparison.csv", comparison_csv(merged.comparison)},
       {command.output / "comparison.json", document}};
   AWMR_RETURN_IF_ERROR(write_files(files));
-  const std::string table = comparison_table(merged.comparison, merged.options);
+  std::string table = comparison_table(merged.comparison, merged.options);
+  for (const auto& [name, text] : merged.provenance.options) {
+    if (name == kPlantName) table += fmt::format("{}: {}\n", name, text);
+  }
   return Outcome{.summary = table + fmt::format("wrote {} and comparison.csv\n",
                                                 (command.output / "comparison.json").string()),
                  .brief = table,

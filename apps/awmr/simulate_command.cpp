@@ -34,13 +34,15 @@ std::string end_of(const Run& run, const Scenario& scenario) {
 
 std::string summary_of(const Run& run, const Scenario& scenario, const SimulateCommand& command) {
   const State<double>& last = run.rows.back().state;
+  const std::string plant =
+      scenario.tyres ? fmt::format("  plant: {}\n", plant_text(scenario)) : "";
   return fmt::format(
              "{}, {}: {} rows, {} RK4 steps per sample\n"
              "  at {:g} s: x {:.3f} m, y {:.3f} m, psi {:.2f} deg, u {:.3f} m/s, r {:.2f} deg/s\n",
              scenario.name, name_of(command.mode), run.rows.size(), run.substeps,
              run.rows.back().t_s, last.x_m, last.y_m, degrees(last.psi_rad), last.u_mps,
              degrees(last.r_radps)) +
-         end_of(run, scenario);
+         plant + end_of(run, scenario);
 }
 
 /// What there is of the course's figures.
@@ -68,6 +70,7 @@ std::string document_of(const Run& run, const Scenario& scenario, YawMode mode,
   Json json;
   json["scenario"] = scenario.name;
   json["mode"] = name_of(mode);
+  json["plant"] = plant_text(scenario);
   json["rows"] = run.rows.size();
   json["substeps"] = run.substeps;
   json["end"] = name_in(kRunEndNames, run.end);
@@ -88,6 +91,7 @@ Result<Outcome> execute(const SimulateCommand& command) {
   AWMR_ASSIGN_OR_RETURN(Model model, read_model(command.model));
   AWMR_ASSIGN_OR_RETURN(Scenario scenario, read_scenario(command.scenario));
   choose(command.allocation, model, std::span(&scenario, 1));
+  AWMR_RETURN_IF_ERROR(choose(command.plant, std::span(&scenario, 1)));
   AWMR_RETURN_IF_ERROR(
       limit_heading_rate(command.heading_rate_limit, model, std::span(&scenario, 1)));
   std::vector<fs::path> inputs{command.model, command.scenario};
@@ -127,6 +131,7 @@ void add_simulate(CLI::App& app, Session& session) {
       ->required();
   add_allocation(*sub, command->allocation);
   add_heading_rate_limit(*sub, command->heading_rate_limit);
+  add_plant(*sub, command->plant);
   add_output(*sub, command->output, "run.csv to write");
 }
 

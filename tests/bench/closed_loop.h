@@ -29,7 +29,7 @@ MeterSums<T> driven(const Scenario& scenario, double sample_time_s, const Resist
                 Reference<T>{T(goal_rad), none, none, T(scenario.speed_mps), none});
     measure<T>(
         {s, a.force, a.steering_rad, yaw(s.r_radps), T(goal_rad), none, none, none,
-         T(scenario.speed_mps)},
+         T(scenario.speed_mps), none},
         vehicle, course,
         {t_s, sample_time_s, k == 0, k == 0 || std::abs(goal_rad - goal_before_rad) > 0.0, false},
         sums);

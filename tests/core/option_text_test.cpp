@@ -8,6 +8,8 @@ namespace {
 TEST(OptionText, IsSpeltAsTheCallerSpellsOptions) {
   const std::string message = "use " + option_text("loss huber") + ", or " + option_text("joint");
   EXPECT_EQ(spell_options(message, "--"), "use --loss huber, or --joint");
+  EXPECT_EQ(spell_options(option_text("break_even") + " " + option_text("column t_s=a_b"), "--"),
+            "--break-even --column t_s=a_b");
   EXPECT_EQ(plain_text(message), "use loss huber, or joint");
 }
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -128,6 +129,50 @@ TEST(Batch, IsTheRunOfSimulateInEveryShippedScenarioAndMode) {
         expect_near(
             batch[i].value(), runs[i], scenario,
             scenario.name + ", " + std::string(name_of(mode)) + ", run " + std::to_string(i));
+      }
+    }
+  }
+}
+
+TEST(Batch, IsTheRunOfSimulateOnFourTyres) {
+  const std::vector<BatchRun> runs = drawn_runs(2, 0.2);
+  const BatchArithmetic arithmetic = batch_arithmetic().value();
+  for (Scenario& scenario : shipped_scenarios()) {
+    if (!tyre_conflicts(scenario).empty()) continue;
+    scenario.tyres.emplace();
+    scenario.duration_s = std::min(scenario.duration_s, 20.0);
+    for (const YawMode mode : kYawModes) {
+      const auto batch = simulate_batch(runs, scenario, mode, kSampleTime_s, arithmetic);
+      for (std::size_t i = 0; i < runs.size(); ++i) {
+        expect_near(batch[i].value(), runs[i], scenario, mode,
+                    "four tyres: " + scenario.name + ", " + std::string(name_of(mode)) + ", run " +
+                        std::to_string(i));
+      }
+    }
+  }
+}
+
+/// After a minute, without what a chaotic course would amplify.
+TEST(Batch, IsTheRunOfSimulateOnFourTyresAfterAMinute) {
+  Scenario scenario{.name = "a minute on tyres",
+                    .duration_s = 60.0,
+                    .initial = {},
+                    .speed_mps = 0.0,
+                    .guidance = OpenLoop{1.4, 0.08}};
+  for (const double friction : {0.3, 0.8, 1.1}) {
+    scenario.tyres = Tyres<double>{.friction = friction};
+    for (const YawMode mode : kYawModes) {
+      const std::vector<BatchRun> runs = drawn_runs(16, 0.2);
+      const auto batch =
+          simulate_batch(runs, scenario, mode, kSampleTime_s, batch_arithmetic().value());
+      for (std::size_t i = 0; i < runs.size(); ++i) {
+        const auto a = numbers_of(batch[i].value());
+        const auto b = numbers_of(judged(runs[i], scenario, mode));
+        for (std::size_t n = 0; n < a.size(); ++n) {
+          ASSERT_EQ(a[n].has_value(), b[n].has_value());
+          if (!a[n]) continue;
+          EXPECT_NEAR(*a[n], *b[n], 1e-9 * std::max(1.0, std::abs(*b[n])));
+        }
       }
     }
   }
@@ -278,7 +323,8 @@ std::vector<double> numbers_of(const RunRow& row) {
           row.measured_position_m.y_m,
           row.disturbance.surge,
           row.disturbance.yaw_m,
-          row.clearance_m};
+          row.clearance_m,
+          row.tyre_power_mps};
 }
 
 /// Of the model's own vehicle, which amplifies nothing, in every mode beside the others.

@@ -74,6 +74,42 @@ TEST(YawModeNames, GoBothWays) {
   EXPECT_FALSE(value_in(kYawModeNames, "sideways"));
 }
 
+std::string with_tyres(const std::string& rest) {
+  return R"({"name": "on tyres", "duration_s": 4, "speed_mps": 1,
+    "initial": {"x_m": 0, "y_m": 0, "psi_deg": 0, "u_mps": 0, "v_mps": 0, "r_degps": 0},
+    "guidance": {"type": "heading", "steps": [{"t_s": 0, "psi_deg": 30}]}, )" +
+         rest + "}";
+}
+
+TEST(ScenarioFile, TyresHaveDefaultsAndAreOffWithoutTheirKey) {
+  const auto none = read(with_tyres(R"("seed": 1)"));
+  ASSERT_TRUE(none);
+  EXPECT_FALSE(none->tyres);
+  const auto usual = read(with_tyres(R"("tyres": {})"));
+  ASSERT_TRUE(usual);
+  EXPECT_EQ(plant_text(*usual),
+            "four-wheel, friction 0.8, cornering stiffness 10 per rad, rest speed 0.1 m/s");
+  const auto given = read(with_tyres(
+      R"("tyres": {"friction": 0.3, "cornering_stiffness_per_rad": 5, "rest_speed_mps": 0.2})"));
+  ASSERT_TRUE(given);
+  EXPECT_EQ(given->tyres->friction, 0.3);
+  EXPECT_EQ(given->tyres->cornering_per_rad, 5.0);
+  EXPECT_EQ(given->tyres->rest_speed_mps, 0.2);
+}
+
+TEST(ScenarioFile, WhatHasNoMeaningOnTyresIsAFaultAtItsKey) {
+  const auto refused = read(with_tyres(
+      R"("tyres": {}, "slippery": [{"x_m": 1, "y_m": 2, "radius_m": 3, "force_max": 0.1}],
+         "corner": {"sway.alpha": "hi", "mass_norm": "lo"})"));
+  ASSERT_FALSE(refused);
+  const std::string text = to_text(refused.error());
+  EXPECT_NE(text.find(":/slippery: a patch limits the forces along the wheels alone"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find(":/corner: sway.alpha has no part on tyres"), std::string::npos) << text;
+  EXPECT_EQ(text.find("mass_norm"), std::string::npos);
+}
+
 const std::string kFull = R"({
   "name": "everything", "duration_s": 4,
   "initial": {"x_m": 0, "y_m": 0, "psi_deg": 0, "u_mps": 0, "v_mps": 0, "r_degps": 0},

@@ -48,6 +48,15 @@ std::vector<Fault> option_faults(const std::vector<NamedGains>& gains,
                                                 scenario.name)});
     }
   }
+  for (const Scenario& scenario : scenarios) {
+    if (options.break_even && scenario.tyres) {
+      faults.push_back(
+          {option_text("break_even"),
+           fmt::format("asks how much more yaw resistance ends a lead, which tyres have "
+                       "in its place in '{}': leave it out, or run the model's plant",
+                       scenario.name)});
+    }
+  }
   std::set<std::string> sets;
   for (const NamedGains& set : gains) {
     if (!sets.insert(set.name).second) {

@@ -31,6 +31,7 @@ std::vector<const Scenario*> apart(const std::vector<Scenario>& scenarios, std::
 Result<Fleet> fleet_of(const Model& model, const std::vector<Scenario>& scenarios,
                        const CompareOptions& options) {
   const std::size_t samples = at(options.samples) + 1;
+  for (const Scenario& scenario : scenarios) AWMR_RETURN_IF_ERROR(check_tyres(scenario));
   Fleet fleet;
   AWMR_ASSIGN_OR_RETURN(fleet.nominal, model.plant());
   const std::vector<const Scenario*> own = apart(scenarios, samples, fleet.first);

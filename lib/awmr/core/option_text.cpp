@@ -1,10 +1,24 @@
 #include "awmr/core/option_text.h"
 
+#include <algorithm>
+#include <cstddef>
+
 namespace awmr {
 namespace {
 
 constexpr std::string_view kOpen = "{option:";
 constexpr std::string_view kClose = "}";
+
+/// The name as it stands after the prefix: on a command line with hyphens. Its value stays as it is.
+std::string spelt(std::string_view option, std::string_view prefix) {
+  std::string text(option);
+  if (prefix == "--") {
+    const auto end =
+        text.begin() + static_cast<std::ptrdiff_t>(std::min(text.find(' '), text.size()));
+    std::replace(text.begin(), end, '_', '-');
+  }
+  return text;
+}
 
 }  // namespace
 
@@ -19,7 +33,8 @@ std::string spell_options(std::string_view message, std::string_view prefix) {
     const std::size_t close = open == std::string_view::npos ? open : message.find(kClose, open);
     if (close == std::string_view::npos) return text.append(message);
     const std::size_t name = open + kOpen.size();
-    text.append(message.substr(0, open)).append(prefix).append(message.substr(name, close - name));
+    text.append(message.substr(0, open)).append(prefix);
+    text.append(spelt(message.substr(name, close - name), prefix));
     message.remove_prefix(close + kClose.size());
   }
 }

@@ -16,7 +16,7 @@ namespace awmr {
 /// `name` is the option's, as in model.json's provenance, with its value where one is meant.
 std::string option_text(std::string_view name);
 
-/// The message with every option's name after `prefix`.
+/// The message with every option's name after `prefix`; after "--" with hyphens, as a command line has it.
 std::string spell_options(std::string_view message, std::string_view prefix);
 
 /// The message with the options' names as they are.

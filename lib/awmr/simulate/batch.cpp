@@ -95,10 +95,10 @@ bool has_pilots(const Batch& batch) {
 void set_up_lane(Batch& batch, const BatchRun& run, std::size_t lane) {
   Block& block = *batch.block;
   const Controller<double> controller = controller_in(batch.scenario, run.controller);
-  const int substeps = substeps_for(run.plant, batch.sample_time_s);
+  const int substeps = substeps_for(run.plant, batch.scenario, batch.sample_time_s);
   const double step_s = batch.sample_time_s / substeps;
   put(static_cast<double>(static_cast<int>(run.mode)), lane, block.mode);
-  put(resolved_at_rest(run.plant, step_s), lane, block.plant);
+  put(resolved_at_rest(run.plant, batch.scenario, step_s), lane, block.plant);
   put(step_s, lane, block.step_s);
   put(static_cast<double>(substeps), lane, block.substeps);
   put(prepared(controller), lane, block.controller);
@@ -134,6 +134,7 @@ Batch set_up(std::span<const BatchRun> runs, const Scenario& scenario, double sa
   block.setup.lag = motor_lag(scenario.actuators, sample_time_s);
   block.setup.is_by_wheel = forces_differ_by_wheel(scenario);
   block.setup.course = metered_course(scenario);
+  block.setup.tyres = scenario.tyres.value_or(Tyres<double>{});
   for (std::size_t lane = 0; lane < kBatchRuns; ++lane) {
     const bool has_run = lane < runs.size();
     set_up_lane(batch, has_run ? runs[lane] : runs.front(), lane);
@@ -234,7 +235,8 @@ RunRow row_of(const Batch& batch, std::size_t lane, double t_s) {
           .course = parts.course,
           .measured = parts.sensed.motion,
           .measured_position_m = parts.sensed.position_m,
-          .clearance_m = block.clearance_m.lane[lane]};
+          .clearance_m = block.clearance_m.lane[lane],
+          .tyre_power_mps = block.sums.tyre_power_mps.lane[lane]};
 }
 
 /// Takes the sample into the metrics, and ends the runs that it ends.

@@ -30,6 +30,7 @@ struct MeteredCourse {
   double speed_mps = 0.0;     ///< the speed that a drop is counted from
   /// Of a timed path: how far from its point the vehicle may be in the second half of the run.
   double tolerance_m = 0.0;
+  bool is_on_tyres = false;  ///< tyre work is that of the tyres' side forces, not against g3
 };
 
 /// What a row tells the meter.
@@ -44,6 +45,7 @@ struct MeteredRow {
   T off_target_m;          ///< from the point gone to
   T clearance_m;           ///< to the nearest obstacle; 0 without obstacles
   T speed_ref_mps;         ///< u_d, what the speed law is asked for
+  T tyre_power_mps;        ///< of the tyres' side forces; 0 without tyres
 };
 
 /// When a row is; the same for all lanes.
@@ -93,6 +95,7 @@ struct MeterSums {
   T power_mps = T(0.0);
   T copper = T(0.0);
   T yaw_resistance_m = T(0.0), r_radps = T(0.0);
+  T tyre_power_mps = T(0.0);
   T limited = T(0.0);  ///< flag
   T x_m = T(0.0), y_m = T(0.0), steering_rad = T(0.0);
   T steering_command_rad = T(0.0), left = T(0.0), right = T(0.0);
@@ -249,12 +252,16 @@ void measure_motion(const MeteredRow<T>& row, const MeteredVehicle<T>& vehicle, 
 
 /// Energy, wear and limits of the sample that ends here: commands are held over each.
 template <class T>
-void measure_work(const MeteredRow<T>& row, double dt_s, MeterSums<T>& m) {
+void measure_work(const MeteredRow<T>& row, bool is_on_tyres, double dt_s, MeterSums<T>& m) {
   using math::abs;
   using math::select;
   m.energy_mech += T(dt_s) * m.power_mps;
   m.energy_electric += T(dt_s) * T(2.0) * m.copper;
-  m.tyre_work += T(dt_s) * m.yaw_resistance_m * m.r_radps;
+  if (is_on_tyres) {
+    m.tyre_work += T(dt_s) * m.tyre_power_mps;
+  } else {
+    m.tyre_work += T(dt_s) * m.yaw_resistance_m * m.r_radps;
+  }
   m.saturation_s = select(m.limited > T(0.0), T(m.saturation_s + T(dt_s)), m.saturation_s);
   m.steering_travel_deg += abs(degrees(row.state.steering_rad - m.steering_rad));
   const T rate_degps = degrees(row.steering_command_rad - m.steering_command_rad) * T(1.0 / dt_s);
@@ -272,6 +279,7 @@ void remember(const MeteredRow<T>& row, const MeteredVehicle<T>& vehicle, double
   m.copper = work.copper;
   m.yaw_resistance_m = row.yaw_resistance_m;
   m.r_radps = row.state.r_radps;
+  m.tyre_power_mps = row.tyre_power_mps;
   m.limited = select(at_a_limit(row, vehicle), T(1.0), T(0.0));
   m.x_m = row.state.x_m;
   m.y_m = row.state.y_m;
@@ -291,7 +299,7 @@ void measure(const MeteredRow<T>& row, const MeteredVehicle<T>& vehicle,
   m.rows += T(1.0);
   if (course.has_headings) meter::measure_heading(row, time, m);
   meter::measure_motion(row, vehicle, time.is_first, m);
-  if (!time.is_first) meter::measure_work(row, time.since_last_s, m);
+  if (!time.is_first) meter::measure_work(row, course.is_on_tyres, time.since_last_s, m);
   meter::measure_speed(row.state.u_mps, course, m);
   meter::measure_speed_error(row, time, m);
   m.cross_track_m2 += row.cross_track_m * row.cross_track_m;

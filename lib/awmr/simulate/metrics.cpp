@@ -41,7 +41,8 @@ MeteredCourse metered_course(const Scenario& scenario) {
   const auto* timed = std::get_if<LissajousCourse>(&scenario.guidance);
   return {.has_headings = std::holds_alternative<HeadingSteps>(scenario.guidance),
           .speed_mps = scenario.speed_mps,
-          .tolerance_m = timed ? timed->tolerance_m : 0.0};
+          .tolerance_m = timed ? timed->tolerance_m : 0.0,
+          .is_on_tyres = scenario.tyres.has_value()};
 }
 
 Metrics metrics_of(MeterSums<double> sums, const Ending& ending, const Scenario& scenario) {
@@ -113,7 +114,8 @@ Metrics metrics_of(const Run& run, const Scenario& scenario, const Controller<do
              .cross_track_m = row.course.cross_track_m,
              .off_target_m = distance_m(row.course.target_m, {row.state.x_m, row.state.y_m}),
              .clearance_m = row.clearance_m,
-             .speed_ref_mps = row.u_ref_mps},
+             .speed_ref_mps = row.u_ref_mps,
+             .tyre_power_mps = row.tyre_power_mps},
             vehicle, course, time, sums);
   }
   return metrics_of(sums, {run.end, run.rows.back().t_s, run.missed_waypoints}, scenario);

@@ -45,7 +45,8 @@ struct Metrics {
   double saturation_s = 0.0;             ///< time with a command at a limit of F' or of d_r
   double steering_travel_deg = 0.0;      ///< total variation of the angle d_r
   double steering_rate_rms_degps = 0.0;  ///< of the commanded angle (for tuning)
-  /// Work against the yaw resistance, which scrubs the tyres, over F_max, m: integral of g3(r) r.
+  /// Work against the yaw resistance, which scrubs the tyres, over F_max, m: integral of g3(r) r. On tyres
+  /// (Scenario::tyres): work of their side forces, integral of RunRow::tyre_power_mps.
   double tyre_work = 0.0;
 };
 

@@ -65,13 +65,11 @@ SideForces<T> up_to(const SideForces<T>& force, const T& most) {
   return {math::saturate(force.left, most), math::saturate(force.right, most)};
 }
 
-/// Rates of the state with what pushes the vehicle.
-template <class T, class Forces>
-State<T> pushed_rates(const Plant<T>& plant, const Push<T>& push, const State<T>& at,
-                      const Forces& force, const T& steering_command_rad) {
+/// What pushes the vehicle, added to the rates of its state.
+template <class T>
+State<T> with_push(State<T> d, const Plant<T>& plant, const Push<T>& push, const State<T>& at) {
   using math::cos;
   using math::sin;
-  State<T> d = state_rates(plant, at, force, steering_command_rad);
   if (!push.is_loaded) return d;
   d.u_mps += push.load.surge / plant.mass_norm;
   d.v_mps += push.load.sway / plant.mass_norm;
@@ -82,6 +80,13 @@ State<T> pushed_rates(const Plant<T>& plant, const Push<T>& push, const State<T>
     d.v_mps += T(push.slope_accel_mps2) * sin(downhill_rad);
   }
   return d;
+}
+
+/// Rates of the state with what pushes the vehicle.
+template <class T, class Forces>
+State<T> pushed_rates(const Plant<T>& plant, const Push<T>& push, const State<T>& at,
+                      const Forces& force, const T& steering_command_rad) {
+  return with_push(state_rates(plant, at, force, steering_command_rad), plant, push, at);
 }
 
 /// g'(w)/inertia, at which a deviation from the speed w dies out:
@@ -137,13 +142,14 @@ struct Resolution {
   Mask<T> resolved = Mask<T>(true);  ///< false: no step is short enough, or a number is not finite
 };
 
-template <class T, class Rates>
-State<T> advance(const Plant<T>& plant, const State<T>& from, const T& h, const Rates& rates,
+/// `body` is a Plant or what else has a fastest_rate() of its own (four_wheel_motion.h); here and below.
+template <class Body, class T, class Rates>
+State<T> advance(const Body& body, const State<T>& from, const T& h, const Rates& rates,
                  const Mask<T>& asked, int halvings, Resolution<T>& resolution);
 
 /// Two steps of half the length where `asked`; unresolved where they would be one too many.
-template <class T, class Rates>
-AWMR_COLD State<T> advance_by_halves(Plant<T> plant, State<T> from, T h, Rates rates, Mask<T> asked,
+template <class Body, class T, class Rates>
+AWMR_COLD State<T> advance_by_halves(Body body, State<T> from, T h, Rates rates, Mask<T> asked,
                                      int halvings, Resolution<T>& resolution) {
   using math::any;
   using math::select;
@@ -154,28 +160,28 @@ AWMR_COLD State<T> advance_by_halves(Plant<T> plant, State<T> from, T h, Rates r
   if (!any(halved)) return from;
   resolution.halves = select(halved, T(resolution.halves + T(1.0)), resolution.halves);
   const T half = h / T(2.0);
-  const State<T> middle = advance(plant, from, half, rates, halved, halvings + 1, resolution);
-  const State<T> end = advance(plant, middle, half, rates, halved, halvings + 1, resolution);
+  const State<T> middle = advance(body, from, half, rates, halved, halvings + 1, resolution);
+  const State<T> end = advance(body, middle, half, rates, halved, halvings + 1, resolution);
   return blend(halved, end, from);
 }
 
 /// One step of the classical Runge-Kutta method where it resolves the rates at both of its ends,
 /// else two of half the length. What lanes hold that are not asked has no meaning.
-template <class T, class Rates>
-State<T> advance(const Plant<T>& plant, const State<T>& from, const T& h, const Rates& rates,
+template <class Body, class T, class Rates>
+State<T> advance(const Body& body, const State<T>& from, const T& h, const Rates& rates,
                  const Mask<T>& asked, int halvings, Resolution<T>& resolution) {
   using math::all;
   using math::any;
   const T most = T(kMostRateTimesStep);
-  Mask<T> fits = fastest_rate(plant, from) * h <= most;
+  Mask<T> fits = fastest_rate(body, from) * h <= most;
   State<T> to = from;
   if (any(fits)) {
     to = rk4_step(from, h, rates);
-    fits = fits && fastest_rate(plant, to) * h <= most;
+    fits = fits && fastest_rate(body, to) * h <= most;
     if (all(fits || !asked)) return to;
   }
   return blend(fits, to,
-               advance_by_halves(plant, from, h, rates, asked && !fits, halvings, resolution));
+               advance_by_halves(body, from, h, rates, asked && !fits, halvings, resolution));
 }
 
 /// True where every number is finite: 0 times a number is NaN else.
@@ -198,8 +204,8 @@ T settled(const T& speed) {
 
 /// Moves the state on by `substeps` steps of h where `asked`, with the rates of held commands. Where
 /// the motion is not resolved, the state stays as it was.
-template <class T, class Rates>
-void integrate(const Plant<T>& plant, const T& h, const T& substeps, const Rates& rates,
+template <class Body, class T, class Rates>
+void integrate(const Body& body, const T& h, const T& substeps, const Rates& rates,
                const Mask<T>& asked, State<T>& state, Resolution<T>& resolution) {
   using math::all;
   using math::any;
@@ -207,7 +213,7 @@ void integrate(const Plant<T>& plant, const T& h, const T& substeps, const Rates
   for (int i = 0;; ++i) {
     const Mask<T> steps = asked && resolution.resolved && T(i) < substeps;
     if (!any(steps)) break;
-    const State<T> next = advance(plant, moved, h, rates, steps, 0, resolution);
+    const State<T> next = advance(body, moved, h, rates, steps, 0, resolution);
     moved = all(steps) ? next : blend(steps, next, moved);
   }
   resolution.resolved = resolution.resolved && (is_finite(moved) || !asked);

@@ -40,8 +40,8 @@ double slipping(const Plant<double>& plant, double command, double wheel_mps, do
 }
 
 /// Steps of a sample; with room for rounding, so that a sample of exactly n steps takes n.
-double steps_of_sample(const Plant<double>& plant, double sample_time_s) {
-  return std::max(1.0, std::ceil(sample_time_s / step_limit(plant).step_s - 1e-9));
+double steps_of_sample(const Plant<double>& plant, bool on_tyres, double sample_time_s) {
+  return std::max(1.0, std::ceil(sample_time_s / step_limit(plant, on_tyres).step_s - 1e-9));
 }
 
 }  // namespace
@@ -49,30 +49,36 @@ double steps_of_sample(const Plant<double>& plant, double sample_time_s) {
 /// h <= T/6 for the time constants that do not depend on speed, m'/a_s of sway, T of the servo and
 /// that by which back-EMF brakes; and h such that resistance is its chord only below kChordSpeed (rest_speed() solved for h):
 ///   h <= inertia kChordSpeed / g(kChordSpeed)
-StepLimit step_limit(const Plant<double>& plant) {
+StepLimit step_limit(const Plant<double>& plant, bool on_tyres) {
   StepLimit limit{plant.steering_time_constant_s / kStepsPerTimeConstant,
                   ParameterId::kSteeringTimeConstant};
   const auto at_most = [&limit](double step_s, ParameterId parameter) {
     if (step_s < limit.step_s) limit = {step_s, parameter};
   };
-  if (plant.sway_alpha > 0.0) {
+  if (plant.sway_alpha > 0.0 && !on_tyres) {
     at_most(plant.mass_norm / plant.sway_alpha / kStepsPerTimeConstant, ParameterId::kSwayAlpha);
   }
   if (const double rate = back_emf_rate(plant); rate > 0.0) {
     at_most(1.0 / rate / kStepsPerTimeConstant, ParameterId::kBackEmf);
   }
-  at_most(step_for_chord(plant.surge, plant.mass_norm), ParameterId::kSurgeBeta);
-  at_most(step_for_chord(plant.yaw, plant.inertia_norm), ParameterId::kYawBeta);
+  const double rolling = on_tyres ? rolling_inertia(plant) : plant.mass_norm;
+  at_most(step_for_chord(plant.surge, rolling), ParameterId::kSurgeBeta);
+  if (!on_tyres) at_most(step_for_chord(plant.yaw, plant.inertia_norm), ParameterId::kYawBeta);
   return limit;
 }
 
 int substeps_for(const Plant<double>& plant, double sample_time_s) {
-  const double count = steps_of_sample(plant, sample_time_s);
+  return substeps_for(plant, Scenario{}, sample_time_s);
+}
+
+int substeps_for(const Plant<double>& plant, const Scenario& scenario, double sample_time_s) {
+  const double count = steps_of_sample(plant, scenario.tyres.has_value(), sample_time_s);
   return count < kMostSubsteps ? static_cast<int>(count) : kMostSubsteps;
 }
 
-double steps_of_run(const Plant<double>& plant, double duration_s, double sample_time_s) {
-  return (duration_s / sample_time_s + 1.0) * steps_of_sample(plant, sample_time_s);
+double steps_of_run(const Plant<double>& plant, const Scenario& scenario, double sample_time_s) {
+  return (scenario.duration_s / sample_time_s + 1.0) *
+         steps_of_sample(plant, scenario.tyres.has_value(), sample_time_s);
 }
 
 Push<double> push_of(const Disturbance& disturbance, const BodyLoad& load) {
@@ -90,12 +96,26 @@ Physics::Physics(const Plant<double>& plant, double force_max, const Scenario& s
       force_max_(force_max),
       scenario_(&scenario),
       sample_time_s_(options.sample_time_s),
-      substeps_(options.substeps.value_or(substeps_for(plant, options.sample_time_s))),
+      substeps_(options.substeps.value_or(substeps_for(plant, scenario, options.sample_time_s))),
       state_(scenario.initial),
       lag_(motor_lag(scenario.actuators, sample_time_s_)),
       disturbance_(scenario.disturbance, sample_time_s_, seed_of(scenario, options)),
       by_wheel_(forces_differ_by_wheel(scenario)) {
-  plant_ = resolved_at_rest(plant, sample_time_s_ / substeps_);
+  plant_ = resolved_at_rest(plant, scenario, sample_time_s_ / substeps_);
+}
+
+Plant<double> resolved_at_rest(const Plant<double>& plant, const Scenario& scenario,
+                               double step_s) {
+  Plant<double> resolved = resolved_at_rest(plant, step_s);
+  if (scenario.tyres) {
+    resolved.surge.rest_speed = rest_speed(plant.surge, rolling_inertia(plant), step_s);
+  }
+  return resolved;
+}
+
+double Physics::tyre_power_mps(const SideForces<double>& command) const {
+  if (!scenario_->tyres) return 0.0;
+  return awmr::tyre_power_mps(FourWheels<double>{plant_, *scenario_->tyres}, state_, command);
 }
 
 const BodyLoad& Physics::disturb(double t_s) {
@@ -137,12 +157,19 @@ WheelForces<double> at_the_ground(const Scenario& scenario, const Plant<double>&
 template <class Forces>
 void Physics::move(const Forces& force, double steering_command_rad) {
   const Push<double> push = push_of(scenario_->disturbance, load_);
-  integrate(
-      plant_, sample_time_s_ / substeps_, static_cast<double>(substeps_),
-      [&](const State<double>& at) {
-        return pushed_rates(plant_, push, at, force, steering_command_rad);
-      },
-      true, state_, resolution_);
+  const auto move_body = [&](const auto& body) {
+    integrate(
+        body, sample_time_s_ / substeps_, static_cast<double>(substeps_),
+        [&](const State<double>& at) {
+          return pushed_rates(body, push, at, force, steering_command_rad);
+        },
+        true, state_, resolution_);
+  };
+  if (scenario_->tyres) {
+    move_body(FourWheels<double>{plant_, *scenario_->tyres});
+  } else {
+    move_body(plant_);
+  }
 }
 
 MotorLag motor_lag(const std::optional<Actuators>& actuators, double sample_time_s) {

@@ -5,6 +5,7 @@
 #include "awmr/model/dynamics.h"
 #include "awmr/model/parameters.h"
 #include "awmr/simulate/disturbance.h"
+#include "awmr/simulate/four_wheel_motion.h"
 #include "awmr/simulate/motion.h"
 #include "awmr/simulate/scenario.h"
 
@@ -24,6 +25,9 @@ class Physics {
   /// The disturbance over the sample that begins at `t_s`, without the slope's share; to be asked
   /// once per sample, before step().
   const BodyLoad& disturb(double t_s);
+  /// What the tyres' side forces take from the vehicle at its state with these commands, over F_max, m/s; 0
+  /// without tyres.
+  double tyre_power_mps(const SideForces<double>& command) const;
   /// Over one sample, with the commands held. Where no step is short enough for the motion, or it
   /// is no longer finite, the state stays as it was and resolved() is false from then on.
   void step(double t_s, const SideForces<double>& force, double steering_command_rad);
@@ -68,14 +72,18 @@ Push<double> push_of(const Disturbance& disturbance, const BodyLoad& load);
 void quantise(const Actuators& actuators, double force_max, SideForces<double>& force,
               double& steering_command_rad);
 
-/// The longest RK4 step that resolves the plant at any speed, and the parameter that asks for it.
+/// The plant with its chord at rest (rest.h), for the steps of a run; on tyres that of g1 at the wheels.
+Plant<double> resolved_at_rest(const Plant<double>& plant, const Scenario& scenario, double step_s);
+
+/// The longest RK4 step that resolves the plant at any speed, and the parameter that asks for it. On
+/// tyres: without the resistances that they replace; the tyres' own rate depends on speed.
 struct StepLimit {
   double step_s = 0.0;
   ParameterId parameter{};
 };
-StepLimit step_limit(const Plant<double>& plant);
+StepLimit step_limit(const Plant<double>& plant, bool on_tyres);
 
 /// RK4 steps of a run from start to end, with those of its last row.
-double steps_of_run(const Plant<double>& plant, double duration_s, double sample_time_s);
+double steps_of_run(const Plant<double>& plant, const Scenario& scenario, double sample_time_s);
 
 }  // namespace awmr

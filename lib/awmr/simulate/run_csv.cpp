@@ -48,6 +48,8 @@ constexpr Column kDisturbance[] = {
     {"disturbance_yaw_m", [](const RunRow& r) { return r.disturbance.yaw_m; }},
 };
 
+constexpr Column kTyres[] = {{"tyre_power_mps", [](const RunRow& r) { return r.tyre_power_mps; }}};
+
 bool has_course(const Scenario& scenario) {
   return !std::holds_alternative<OpenLoop>(scenario.guidance) &&
          !std::holds_alternative<HeadingSteps>(scenario.guidance);
@@ -62,6 +64,7 @@ std::vector<Column> columns_of(const Scenario& scenario) {
   add(!scenario.obstacles.empty(), kClearance);
   add(scenario.sensors.has_value(), kMeasured);
   add(scenario.disturbance.any(), kDisturbance);
+  add(scenario.tyres.has_value(), kTyres);
   return columns;
 }
 

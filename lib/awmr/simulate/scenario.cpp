@@ -62,6 +62,41 @@ Status check_mode(const Vehicle& vehicle, YawMode mode) {
                   name_in(kDriveNames, vehicle.drive), name_of(mode), name_of(modes.front())));
 }
 
+std::vector<TyreConflict> tyre_conflicts(const Scenario& scenario) {
+  std::vector<TyreConflict> conflicts;
+  if (!scenario.patches.empty()) {
+    conflicts.push_back(
+        {"slippery",
+         "a patch limits the forces along the wheels alone, and tyres hold sideways "
+         "too: remove it, or the tyres"});
+  }
+  for (const CornerParameter& corner : scenario.corner) {
+    switch (corner.id) {
+      case ParameterId::kSwayAlpha:
+      case ParameterId::kYawAlpha:
+      case ParameterId::kYawBeta:
+      case ParameterId::kYawCoulomb:
+      case ParameterId::kYawQuadratic:
+        conflicts.push_back(
+            {"corner", std::string(info(corner.id).name) +
+                           " has no part on tyres, which resist sway and yaw in its place: "
+                           "remove it, or the tyres"});
+        break;
+      default:
+        break;
+    }
+  }
+  return conflicts;
+}
+
+std::string plant_text(const Scenario& scenario) {
+  if (!scenario.tyres) return std::string(name_in(kPlantKindNames, PlantKind::kModel));
+  const Tyres<double>& tyres = *scenario.tyres;
+  return fmt::format("{}, friction {}, cornering stiffness {} per rad, rest speed {} m/s",
+                     name_in(kPlantKindNames, PlantKind::kFourWheel), tyres.friction,
+                     tyres.cornering_per_rad, tyres.rest_speed_mps);
+}
+
 Result<Model> model_at_corner(Model model, const Scenario& scenario) {
   std::vector<Fault> faults;
   for (const CornerParameter& corner : scenario.corner) {
@@ -79,7 +114,20 @@ Result<Model> model_at_corner(Model model, const Scenario& scenario) {
   return model;
 }
 
+Status check_tyres(const Scenario& scenario) {
+  std::vector<Fault> faults;
+  if (scenario.tyres) {
+    for (const TyreConflict& conflict : tyre_conflicts(scenario)) {
+      faults.push_back(
+          {fmt::format("scenario '{}':/{}", scenario.name, conflict.key), conflict.message});
+    }
+  }
+  if (!faults.empty()) return input_errors(std::move(faults));
+  return {};
+}
+
 Result<Plant<double>> plant_for(const Scenario& scenario, const Model& model, Motion motion) {
+  AWMR_RETURN_IF_ERROR(check_tyres(scenario));
   AWMR_ASSIGN_OR_RETURN(const Model corner, model_at_corner(model, scenario));
   AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, corner.plant(motion));
   AWMR_RETURN_IF_ERROR(check_work(plant, model.file, scenario, model.vehicle.sample_time_s));

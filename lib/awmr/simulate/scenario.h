@@ -20,6 +20,7 @@
 #include "awmr/core/result.h"
 #include "awmr/model/model.h"
 #include "awmr/model/state.h"
+#include "awmr/model/tyres.h"
 #include "awmr/simulate/world.h"
 
 namespace awmr {
@@ -73,6 +74,11 @@ struct LissajousCourse {
 
 using Guidance = std::variant<OpenLoop, HeadingSteps, WaypointCourse, LineCourse, LissajousCourse>;
 
+/// What moves: the model's 3-DOF plant, or its rigid body on four tyres.
+enum class PlantKind { kModel, kFourWheel };
+inline constexpr NameTable<PlantKind, 2> kPlantKindNames{
+    {{"model", PlantKind::kModel}, {"four-wheel", PlantKind::kFourWheel}}};
+
 /// One run to simulate. What is optional is off where it is absent.
 struct Scenario {
   std::string name;
@@ -91,7 +97,9 @@ struct Scenario {
   std::optional<Actuators> actuators = {};  ///< absent: any force and angle can be commanded
   ControlOptions control = {};
   std::vector<CornerParameter> corner = {};  ///< of the plant; the controller does not know
-  std::uint64_t seed = 0;                    ///< of everything random in the scenario
+  /// Absent: the 3-DOF plant of the model; else four wheels on these tyres (model/tyres.h).
+  std::optional<Tyres<double>> tyres = {};
+  std::uint64_t seed = 0;  ///< of everything random in the scenario
 
   /// True where something in the scenario is drawn from a seed.
   bool random() const;
@@ -109,11 +117,24 @@ struct HeadingStepsOptions {
 Scenario heading_steps(const std::vector<double>& headings_deg,
                        const HeadingStepsOptions& options = {});
 
+/// What of the scenario has no meaning on tyres, each with its key in scenario.json and what to do.
+struct TyreConflict {
+  std::string key;
+  std::string message;
+};
+std::vector<TyreConflict> tyre_conflicts(const Scenario& scenario);
+
+/// Errors (input): the scenario has tyres and what has no meaning on them.
+Status check_tyres(const Scenario& scenario);
+
+/// The plant in words: "model", or "four-wheel, friction 0.8, ..." with the numbers of the tyres.
+std::string plant_text(const Scenario& scenario);
+
 /// The model with the scenario's corner parameters at the ends of their 95 % intervals.
 /// Errors (input): a parameter of the corner has no interval.
 Result<Model> model_at_corner(Model model, const Scenario& scenario);
-/// The plant of model_at_corner(). Errors (input): as there, as Model::plant and as check_work (in
-/// simulate.h).
+/// The plant of model_at_corner(). Errors (input): as there, as check_tyres, as Model::plant and as
+/// check_work (in simulate.h).
 Result<Plant<double>> plant_for(const Scenario& scenario, const Model& model,
                                 Motion motion = Motion::kPlanar);
 

@@ -30,6 +30,11 @@ void reject_idle_keys(JsonObject& json, const Scenario& scenario) {
   for (const char* key : {"avoidance", "shaping", "sensors", "control"}) {
     if (open && json.has(key)) json.fault(key, "open loop has no use for it; remove it");
   }
+  if (scenario.tyres) {
+    for (const TyreConflict& conflict : tyre_conflicts(scenario)) {
+      json.fault(conflict.key, conflict.message);
+    }
+  }
   const auto* timed = std::get_if<LissajousCourse>(&scenario.guidance);
   if (timed && timed->closed_loop && scenario.speed_mps > 0.0) {
     json.fault("speed_mps", "has to be 0 on a closed timed path, whose speed is the path's own");

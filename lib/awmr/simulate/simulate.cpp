@@ -46,7 +46,8 @@ bool is_finite(const RunRow& row) {
                             row.disturbance.surge,
                             row.disturbance.sway,
                             row.disturbance.yaw_m,
-                            row.clearance_m};
+                            row.clearance_m,
+                            row.tyre_power_mps};
   return std::all_of(std::begin(numbers), std::end(numbers),
                      [](double number) { return std::isfinite(number); });
 }
@@ -163,9 +164,9 @@ Status check_work(const Plant<double>& plant, const std::string& model_file,
                     scenario.duration_s, sample_time_s, rows, kMostRows,
                     (kMostRows - 1.0) * sample_time_s));
   }
-  const double steps = steps_of_run(plant, scenario.duration_s, sample_time_s);
+  const double steps = steps_of_run(plant, scenario, sample_time_s);
   if (!(steps <= kMostSteps)) {
-    const StepLimit limit = step_limit(plant);
+    const StepLimit limit = step_limit(plant, scenario.tyres.has_value());
     const ParameterInfo& parameter = info(limit.parameter);
     return input_error(
         model_file + ":" + std::string(parameter.pointer),
@@ -185,9 +186,10 @@ Status failure_of(const Run& run, const Scenario& scenario) {
       fmt::format("scenario '{}'", scenario.name),
       fmt::format("the simulation cannot go on after {:g} s, at u {:.4g} m/s, v {:.4g} m/s, r "
                   "{:.4g} deg/s: resistance is too stiff there for any step, or a number is no "
-                  "longer finite; check the initial speeds, the disturbances, and the model's "
+                  "longer finite; check the initial speeds, the disturbances, {}and the model's "
                   "exponents",
-                  last.t_s, last.state.u_mps, last.state.v_mps, degrees(last.state.r_radps)));
+                  last.t_s, last.state.u_mps, last.state.v_mps, degrees(last.state.r_radps),
+                  scenario.tyres ? "the tyres' cornering stiffness and rest speed, " : ""));
 }
 
 Run simulate(const Plant<double>& plant, const Controller<double>& controller,
@@ -215,6 +217,7 @@ Run simulate(const Plant<double>& plant, const Controller<double>& controller,
     if (!scenario.obstacles.empty()) row.clearance_m = clearance_m(scenario, row.state);
     run.end = command(scenario, controller, sensed, pilot, laws, row);
     row.disturbance = physics.disturb(row.t_s);
+    row.tyre_power_mps = physics.tyre_power_mps(row.force);
     if (!is_finite(row)) {
       if (k > 0) run.rows.pop_back();
       run.end = RunEnd::kFailed;

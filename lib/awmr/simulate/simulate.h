@@ -1,4 +1,4 @@
-/// The closed loop: RK4 on the 3-DOF plant between samples, the controller's command held over
+/// The closed loop: RK4 on the plant between samples, the controller's command held over
 /// each.
 #pragma once
 
@@ -41,6 +41,8 @@ struct RunRow {
   BodyLoad disturbance = {};                  ///< without a slope's share
   /// From the vehicle's circle to the nearest obstacle, < 0 inside of it; 0 without obstacles.
   double clearance_m = 0.0;
+  /// What the tyres' side forces take from the vehicle with what is commanded, over F_max; 0 without tyres.
+  double tyre_power_mps = 0.0;
 };
 
 /// How a run ended.
@@ -81,6 +83,8 @@ inline constexpr int kMostSubsteps = 100'000'000;
 /// RK4 steps per sample such that the step resolves the fastest time constant of the plant that
 /// does not depend on speed (see physics.cpp), at most kMostSubsteps.
 int substeps_for(const Plant<double>& plant, double sample_time_s);
+/// The same in a scenario, whose tyres replace some of the plant's resistances.
+int substeps_for(const Plant<double>& plant, const Scenario& scenario, double sample_time_s);
 
 /// What side forces and a steering angle amount to on the vehicle of these limits.
 GeneralisedForces<double> delivered_forces(const AllocationLimits<double>& limits,

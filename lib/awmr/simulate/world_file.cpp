@@ -1,4 +1,4 @@
-// scenario.json: disturbance, faults, slippery, battery, sensors, actuators, control, corner.
+// scenario.json: disturbance, faults, slippery, battery, sensors, actuators, control, corner, tyres.
 
 #include <array>
 #include <string>
@@ -226,6 +226,18 @@ std::vector<CornerParameter> read_corner(JsonObject json) {
   return corner;
 }
 
+Tyres<double> read_tyres(JsonObject json) {
+  Tyres<double> tyres;
+  tyres.friction = json.optional_number("friction", kTyreFrictionRule).value_or(tyres.friction);
+  tyres.cornering_per_rad =
+      json.optional_number("cornering_stiffness_per_rad", kCorneringStiffnessRule_per_rad)
+          .value_or(tyres.cornering_per_rad);
+  tyres.rest_speed_mps =
+      json.optional_number("rest_speed_mps", kTyreRestSpeedRule_mps).value_or(tyres.rest_speed_mps);
+  json.reject_unknown_keys();
+  return tyres;
+}
+
 }  // namespace
 
 void read_world(JsonObject& json, Scenario& scenario) {
@@ -245,6 +257,7 @@ void read_world(JsonObject& json, Scenario& scenario) {
   }
   if (auto object = json.optional_object("control")) scenario.control = read_control(*object);
   if (auto object = json.optional_object("corner")) scenario.corner = read_corner(*object);
+  if (auto object = json.optional_object("tyres")) scenario.tyres = read_tyres(*object);
 }
 
 }  // namespace awmr

@@ -110,7 +110,7 @@ Status check_work(const TuneOptions& options, const std::vector<Scenario>& scena
   for (const Scenario& scenario : scenarios) {
     AWMR_RETURN_IF_ERROR(check_work(plant, model.file, scenario, sample_time_s));
     steps += static_cast<double>(yaw_modes(model.vehicle).size()) *
-             steps_of_run(plant, scenario.duration_s, sample_time_s);
+             steps_of_run(plant, scenario, sample_time_s);
   }
   double evaluations = static_cast<double>(options.global_evaluations) + options.local_evaluations;
   if (!options.nominal) {

@@ -6,6 +6,7 @@
 #include "awmr/control/controller.h"
 #include "awmr/control/disturbance_observer.h"
 #include "awmr/control/heading_lqi.h"
+#include "awmr/simulate/four_wheel_motion.h"
 #include "awmr/simulate/meter.h"
 #include "awmr/simulate/motion.h"
 
@@ -36,7 +37,8 @@ struct BlockSetup {
   MotorLag lag;
   bool is_by_wheel = false;   ///< each wheel has a force of its own
   bool has_back_emf = false;  ///< a vehicle of the block, or what its controller knows of it
-  MeteredCourse course;
+  MeteredCourse course;       ///< with what says whether the block is on tyres
+  Tyres<double> tyres;        ///< of a block on tyres
 };
 
 /// What they have in common over one sample.

@@ -1,0 +1,210 @@
+/// Four wheels with tyres, as a second opinion on the 3-DOF vehicle of dynamics.h: each tyre makes a
+/// side force by its slip, and what it passes to the ground stays in its circle of friction. Templates
+/// on the scalar.
+///
+/// The side force is that of the brush model, in the form of Fiala: H. B. Pacejka, "Tire and Vehicle
+/// Dynamics", 3rd ed., 3.2.1. What of the 3-DOF model stays and what is replaced: README.md in this folder.
+#pragma once
+
+#include "awmr/core/gravity.h"
+#include "awmr/core/tyre_friction.h"
+#include "awmr/model/dynamics.h"
+
+namespace awmr {
+
+/// What has to be known of the tyres, the same for all four.
+template <class T>
+struct Tyres {
+  /// mu, > 0: force that the ground takes, over the load on the wheel, in any direction.
+  T friction = T(kTyreFriction);
+  /// c_a, 1/rad, > 0: cornering stiffness over the load on the wheel, how fast the side force grows
+  /// with a small slip angle.
+  T cornering_per_rad = T(kCorneringStiffness_per_rad);
+  /// v_0, m/s, > 0: a wheel that rolls more slowly counts as rolling about as fast as this, so that the
+  /// slip of a wheel at rest has a value. Below it the tyres resist like a viscous fluid: a vehicle that
+  /// is pushed sideways at rest creeps.
+  T rest_speed_mps = T(kTyreRestSpeed_mps);
+};
+
+/// A vehicle on four tyres. Of `body` the sway resistance g2 and the yaw resistance g3 are not used.
+template <class T>
+struct FourWheels {
+  Plant<T> body;
+  Tyres<T> tyres;
+};
+
+/// What a wheel carries where all four carry alike, over F_max:
+///   F'z = m' g/4
+template <class T>
+T wheel_load(const T& mass_norm) {
+  return mass_norm * T(kGravity_mps2 / 4.0);
+}
+
+/// How fast each wheel slides to its left, m/s, square to the direction in which it rolls (wheel_speeds()).
+/// The rear axle is taken as far behind the centre of gravity as the front one is before it:
+///   s_rear  = v - l_f r
+///   s_front = (v + l_f r) cos d_r - (u -+ d r) sin d_r         upper sign: left, lower: right
+template <class T>
+WheelSpeeds<T> side_speeds(const T& front_axle_m, const T& half_track_m, const State<T>& s) {
+  using math::cos;
+  using math::sin;
+  const T across_mps = (s.v_mps + front_axle_m * s.r_radps) * cos(s.steering_rad);
+  const T sin_d = sin(s.steering_rad);
+  const T rear_mps = s.v_mps - front_axle_m * s.r_radps;
+  return {across_mps - (s.u_mps - half_track_m * s.r_radps) * sin_d,
+          across_mps - (s.u_mps + half_track_m * s.r_radps) * sin_d, rear_mps, rear_mps};
+}
+
+/// The side force of a tyre over F_max, positive to the left, of a wheel that rolls at `rolls_mps` and slides
+/// to its left at `slides_mps`, while it passes on the force F'x (`along`, |F'x| <= mu F'z):
+///   F'm = sqrt((mu F'z)^2 - F'x^2)                  what the circle of friction leaves
+///   sigma = s/sqrt(w^2 + v_0^2)                     the tangent of the slip angle
+///   z = min(c_a F'z |sigma|/(3 F'm), 1)             1: all of the contact slides
+///   F'y = -F'm (1 - (1 - z)^3) sgn sigma            = -c_a F'z sigma for a small sigma
+template <class T>
+T side_force(const Tyres<T>& tyres, const T& load, const T& along, const T& rolls_mps,
+             const T& slides_mps) {
+  using math::abs;
+  using math::larger;
+  using math::select;
+  using math::sqrt;
+  const T grip = tyres.friction * load;
+  const T left_over = sqrt(larger(T(0.0), T(grip * grip - along * along)));
+  const T rolls = sqrt(rolls_mps * rolls_mps + tyres.rest_speed_mps * tyres.rest_speed_mps);
+  const T elastic = tyres.cornering_per_rad * load * abs(slides_mps) / rolls;
+  // Where nothing is left over the quotient has no meaning, and the force is 0.
+  const Mask<T> slides = !(elastic < T(3.0) * left_over);
+  const T sticks = T(1.0) - elastic / select(slides, T(1.0), T(T(3.0) * left_over));
+  const T force = select(slides, left_over, T(left_over * (T(1.0) - sticks * sticks * sticks)));
+  return select(slides_mps > T(0.0), T(-force), force);
+}
+
+/// What a wheel passes to the ground along the way that it rolls, over F_max: the force F' of its motor
+/// (motor_force()) less a quarter of g1, which resists in the drive, and no more than the friction holds:
+///   F'x = sat(F' - g1(w)/4, mu F'z)
+template <class T>
+T ground_force(const FourWheels<T>& p, const T& load, const T& command, const T& rolls_mps) {
+  const T drive = beyond_dead_zone(command, p.body.wheel_dead_zone);
+  const T force = motor_force(drive, p.body.back_emf_s_per_m, rolls_mps);
+  return math::saturate(T(force - T(0.25) * p.body.surge(rolls_mps)), T(p.tyres.friction * load));
+}
+
+/// What the four wheels do at one moment.
+template <class T>
+struct TyreForces {
+  WheelForces<T> along;   ///< over F_max, along the wheel, forward positive
+  WheelForces<T> across;  ///< over F_max, square to it, left positive
+};
+
+template <class T>
+TyreForces<T> tyre_forces(const FourWheels<T>& p, const State<T>& s, const WheelForces<T>& f) {
+  const WheelSpeeds<T> w = wheel_speeds(p.body.front_axle_m, p.body.half_track_m, s);
+  const WheelSpeeds<T> slides = side_speeds(p.body.front_axle_m, p.body.half_track_m, s);
+  const T load = wheel_load(p.body.mass_norm);
+  TyreForces<T> made;
+  made.along = {ground_force(p, load, f.front_left, w.front_left),
+                ground_force(p, load, f.front_right, w.front_right),
+                ground_force(p, load, f.rear_left, w.rear_left),
+                ground_force(p, load, f.rear_right, w.rear_right)};
+  const auto across = [&](const T& along, const T& rolls_mps, const T& slides_mps) {
+    return side_force(p.tyres, load, along, rolls_mps, slides_mps);
+  };
+  made.across = {across(made.along.front_left, w.front_left, slides.front_left),
+                 across(made.along.front_right, w.front_right, slides.front_right),
+                 across(made.along.rear_left, w.rear_left, slides.rear_left),
+                 across(made.along.rear_right, w.rear_right, slides.rear_right)};
+  return made;
+}
+
+/// Each wheel's command where the wheels of a side are commanded alike.
+template <class T>
+WheelForces<T> by_wheel(const Plant<T>& p, const SideForces<T>& f) {
+  return {f.left, f.right, p.rear_driven * f.left, p.rear_driven * f.right};
+}
+template <class T>
+const WheelForces<T>& by_wheel(const Plant<T>&, const WheelForces<T>& f) {
+  return f;
+}
+
+/// Work that the ground takes from the sliding tyres per second, over F_max, m/s, >= 0:
+///   P = -sum of F'y s
+template <class T, class Forces>
+T tyre_power_mps(const FourWheels<T>& p, const State<T>& s, const Forces& f) {
+  const WheelForces<T> y = tyre_forces(p, s, by_wheel(p.body, f)).across;
+  const WheelSpeeds<T> slides = side_speeds(p.body.front_axle_m, p.body.half_track_m, s);
+  return -((y.front_left * slides.front_left + y.front_right * slides.front_right) +
+           (y.rear_left * slides.rear_left + y.rear_right * slides.rear_right));
+}
+
+/// Rates of the state on four tyres. A front wheel's forces in the body's frame are
+///   X_i = F'x cos d_r - F'y sin d_r,   Y_i = F'x sin d_r + F'y cos d_r
+/// and a rear one's F'x and F'y. Newton and Euler, as in [paper (39)] but for what resists:
+///   u_dot = (sum of X_i)/m' + r v
+///   v_dot = (sum of Y_i)/m' - r u
+///   r_dot = (l_f (Y_FL + Y_FR - Y_RL - Y_RR) + d (X_FR - X_FL + X_RR - X_RL))/I'z
+template <class T, class Forces>
+State<T> state_rates(const FourWheels<T>& p, const State<T>& s, const Forces& f,
+                     const T& steering_command_rad) {
+  using math::cos;
+  using math::sin;
+  const TyreForces<T> made = tyre_forces(p, s, by_wheel(p.body, f));
+  const WheelForces<T>& x = made.along;
+  const WheelForces<T>& y = made.across;
+  const T cos_d = cos(s.steering_rad);
+  const T sin_d = sin(s.steering_rad);
+  const T front = x.front_left + x.front_right;
+  const T front_across = y.front_left + y.front_right;
+  const T rear_across = y.rear_left + y.rear_right;
+  const T front_sway = front * sin_d + front_across * cos_d;
+  const T turning = (x.front_right - x.front_left) * cos_d -
+                    (y.front_right - y.front_left) * sin_d + (x.rear_right - x.rear_left);
+  const T cos_psi = cos(s.psi_rad);
+  const T sin_psi = sin(s.psi_rad);
+  State<T> d{};
+  d.x_m = s.u_mps * cos_psi - s.v_mps * sin_psi;
+  d.y_m = s.u_mps * sin_psi + s.v_mps * cos_psi;
+  d.psi_rad = s.r_radps;
+  d.u_mps =
+      (front * cos_d - front_across * sin_d + (x.rear_left + x.rear_right)) / p.body.mass_norm +
+      s.r_radps * s.v_mps;
+  d.v_mps = (front_sway + rear_across) / p.body.mass_norm - s.r_radps * s.u_mps;
+  d.r_radps = (p.body.front_axle_m * (front_sway - rear_across) + p.body.half_track_m * turning) /
+              p.body.inertia_norm;
+  d.steering_rad = steering_rate(p.body, s.steering_rad, steering_command_rad);
+  return d;
+}
+
+/// The least inertia over F_max, s^2/m, that four equal resistances along the wheels slow down, of the body's
+/// surge or of its turning: no lever of a wheel is longer than its distance from the centre of gravity.
+///   m'_w = min(m', I'z/(l_f^2 + d^2))
+template <class T>
+T rolling_inertia(const Plant<T>& p) {
+  using math::select;
+  const T turning =
+      p.inertia_norm / (p.front_axle_m * p.front_axle_m + p.half_track_m * p.half_track_m);
+  return select(turning < p.mass_norm, turning, p.mass_norm);
+}
+
+/// The fastest rate at which the tyres take a sideways motion away, 1/s: their stiffness c_a F'z over the
+/// speed at which each rolls,
+///   max(1/m' sum_i c_a F'z/V_i,  1/I'z sum_i a_i^2 c_a F'z/V_i),   V_i = sqrt(w_i^2 + v_0^2)
+/// with a_i = l_f at the rear and, whatever the steering, sqrt(l_f^2 + d^2) at the front. The two sums are
+/// of sway and of yaw; coupled, they are no faster than twice the larger.
+template <class T>
+T tyre_rate(const FourWheels<T>& p, const State<T>& s) {
+  using math::sqrt;
+  const WheelSpeeds<T> w = wheel_speeds(p.body.front_axle_m, p.body.half_track_m, s);
+  const T rest_mps2 = p.tyres.rest_speed_mps * p.tyres.rest_speed_mps;
+  const auto slowness = [&](const T& rolls_mps) {
+    return T(1.0) / sqrt(rolls_mps * rolls_mps + rest_mps2);
+  };
+  const T front = slowness(w.front_left) + slowness(w.front_right);
+  const T rear = slowness(w.rear_left) + slowness(w.rear_right);
+  const T stiffness = p.tyres.cornering_per_rad * wheel_load(p.body.mass_norm);
+  const T axle_m2 = p.body.front_axle_m * p.body.front_axle_m;
+  const T wheel_m2 = axle_m2 + p.body.half_track_m * p.body.half_track_m;
+  return stiffness * math::larger(T((front + rear) / p.body.mass_norm),
+                                  T((wheel_m2 * front + axle_m2 * rear) / p.body.inertia_norm));
+}
+
+}  // namespace awmr

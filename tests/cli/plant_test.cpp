@@ -1,0 +1,121 @@
+/// `--plant` from the command line: which plant ran is said in what is written and in what is printed.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/program.h"
+
+namespace awmr::testing {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+using Json = nlohmann::json;
+
+constexpr const char* kC3 = "configs/paper/scenarios/c3_heading_steps.json";
+constexpr const char* kUsualTyres =
+    "four-wheel, friction 0.8, cornering stiffness 10 per rad, rest speed 0.1 m/s";
+
+class PlantOption : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    static const TemporaryDirectory kept;
+    model_ = (kept.path() / "model.json").string();
+    gains_ = (kept.path() / "gains.json").string();
+    write_all(gains_, R"({"heading": {"lambda": 3, "mu": 50, "epsilon": 12},
+                          "speed": {"mu": 5, "epsilon": 1.2}})");
+    const ProcessResult identified = awmr(
+        "identify --vehicle configs/paper/vehicle.json --surge datasets/paper/surge.csv "
+        "--coastdown datasets/paper/coastdown.csv --turning datasets/paper/turning.csv -o " +
+        model_);
+    ASSERT_EQ(identified.exit_code, 0) << identified.err;
+  }
+  std::string path(const std::string& name) const { return (directory_.path() / name).string(); }
+  static std::string with(const std::string& command, const std::string& words) {
+    return fmt::format("{} --model {} --gains {} {}", command, model_, gains_, words);
+  }
+  /// C3 with more keys, as a file.
+  std::string changed_c3(const std::string& key, const Json& value) const {
+    Json scenario = Json::parse(read_all(std::string(AWMR_SOURCE_DIR) + "/" + kC3));
+    scenario["name"] = "changed";
+    scenario[key] = value;
+    write_all(path("changed.json"), scenario.dump());
+    return path("changed.json");
+  }
+
+  TemporaryDirectory directory_;
+  inline static std::string model_, gains_;
+};
+
+TEST_F(PlantOption, OfSimulateIsNamedAndChangesTheRun) {
+  const auto run = [&](const std::string& words) {
+    return awmr(with("simulate", fmt::format("--scenario {} --mode combined {} -o {}", kC3, words,
+                                             path("run.csv"))));
+  };
+  EXPECT_THAT(run("").out, Not(HasSubstr("plant:")));
+  const std::string model = read_all(path("run.csv"));
+  EXPECT_EQ(run("--plant model").exit_code, 0);
+  EXPECT_EQ(read_all(path("run.csv")), model);
+  EXPECT_THAT(run("--plant four-wheel").out, HasSubstr(std::string("plant: ") + kUsualTyres));
+  EXPECT_THAT(read_all(path("run.csv")), HasSubstr("tyre_power_mps"));
+  EXPECT_EQ(Json::parse(run("--plant four-wheel --json").out).at("result").at("plant"),
+            kUsualTyres);
+}
+
+TEST_F(PlantOption, OfCompareIsNamedInItsFilesAndByMerge) {
+  const auto compare = [&](const std::string& words, const std::string& scenarios) {
+    return awmr(with("compare", fmt::format("{} --scenario {}", words, scenarios)));
+  };
+  const auto options = [&](const std::string& name) {
+    return Json::parse(read_all(path(name + "/comparison.json"))).at("options");
+  };
+  const ProcessResult whole = compare("--plant four-wheel --samples 1 -o " + path("whole"), kC3);
+  ASSERT_EQ(whole.exit_code, 0) << whole.err;
+  EXPECT_THAT(whole.out, HasSubstr(std::string("plant: ") + kUsualTyres));
+  EXPECT_EQ(options("whole").at("plant"), kUsualTyres);
+  for (const char* part : {"1/2", "2/2"}) {
+    const std::string to = path(std::string("part") + part[0]);
+    EXPECT_EQ(compare(fmt::format("--plant four-wheel --samples 1 --shard {} -o {}", part, to), kC3)
+                  .exit_code,
+              0);
+  }
+  const ProcessResult merged =
+      awmr(fmt::format("merge {} {} -o {}", path("part1"), path("part2"), path("merged")));
+  EXPECT_THAT(merged.out, HasSubstr(std::string("plant: ") + kUsualTyres));
+  EXPECT_EQ(read_all(path("merged/comparison.json")), read_all(path("whole/comparison.json")));
+  // Scenarios that differ are told apart; without any tyres and unasked, nothing is said.
+  const std::string tyred = changed_c3("tyres", {{"friction", 0.3}});
+  ASSERT_EQ(compare("-o " + path("both"), std::string(kC3) + " " + tyred).exit_code, 0);
+  EXPECT_THAT(options("both").at("plant").get<std::string>(),
+              HasSubstr("headings 30 then -30 deg: model; changed: four-wheel, friction 0.3"));
+  ASSERT_EQ(compare("-o " + path("plain"), kC3).exit_code, 0);
+  EXPECT_FALSE(options("plain").contains("plant"));
+  // Rows of another plant are not gone on with.
+  EXPECT_EQ(compare("--plant model --samples 2 --resume -o " + path("whole"), kC3).exit_code, 2);
+}
+
+TEST_F(PlantOption, RefusesWhatHasNoMeaningOnTyresByName) {
+  const ProcessResult slippery =
+      awmr(with("simulate",
+                "--scenario configs/scenarios/slippery_patch.json --mode combined "
+                "--plant four-wheel -o " +
+                    path("run.csv")));
+  EXPECT_EQ(slippery.exit_code, 2);
+  EXPECT_THAT(slippery.err, HasSubstr("--plant four-wheel: scenario 'left wheels on a slippery patch', "
+                        "/slippery: a patch limits"));
+  const ProcessResult corner =
+      awmr(with("compare", "--scenario configs/scenarios/worst_corner.json --plant four-wheel -o " +
+                               path("comparison")));
+  EXPECT_EQ(corner.exit_code, 2);
+  EXPECT_THAT(corner.err, HasSubstr("/corner: yaw.alpha has no part on tyres"));
+  const ProcessResult break_even =
+      awmr(with("compare", "--break-even --scenario " + changed_c3("tyres", Json::object()) +
+                               " -o " + path("comparison")));
+  EXPECT_EQ(break_even.exit_code, 2);
+  EXPECT_THAT(break_even.err, HasSubstr("--break-even"));
+  EXPECT_THAT(break_even.err, HasSubstr("tyres"));
+}
+
+}  // namespace
+}  // namespace awmr::testing
