@@ -135,16 +135,16 @@ TEST(Batch, IsTheRunOfSimulateInEveryShippedScenarioAndMode) {
 }
 
 TEST(Batch, IsTheRunOfSimulateOnFourTyres) {
-  const std::vector<BatchRun> runs = drawn_runs(2, 0.2);
   const BatchArithmetic arithmetic = batch_arithmetic().value();
   for (Scenario& scenario : shipped_scenarios()) {
     if (!tyre_conflicts(scenario).empty()) continue;
     scenario.tyres.emplace();
     scenario.duration_s = std::min(scenario.duration_s, 20.0);
     for (const YawMode mode : kYawModes) {
-      const auto batch = simulate_batch(runs, scenario, mode, kSampleTime_s, arithmetic);
+      const std::vector<BatchRun> runs = drawn_runs(2, 0.2, mode);
+      const auto batch = simulate_batch(runs, scenario, kSampleTime_s, arithmetic);
       for (std::size_t i = 0; i < runs.size(); ++i) {
-        expect_near(batch[i].value(), runs[i], scenario, mode,
+        expect_near(batch[i].value(), runs[i], scenario,
                     "four tyres: " + scenario.name + ", " + std::string(name_of(mode)) + ", run " +
                         std::to_string(i));
       }
@@ -162,12 +162,11 @@ TEST(Batch, IsTheRunOfSimulateOnFourTyresAfterAMinute) {
   for (const double friction : {0.3, 0.8, 1.1}) {
     scenario.tyres = Tyres<double>{.friction = friction};
     for (const YawMode mode : kYawModes) {
-      const std::vector<BatchRun> runs = drawn_runs(16, 0.2);
-      const auto batch =
-          simulate_batch(runs, scenario, mode, kSampleTime_s, batch_arithmetic().value());
+      const std::vector<BatchRun> runs = drawn_runs(16, 0.2, mode);
+      const auto batch = simulate_batch(runs, scenario, kSampleTime_s, batch_arithmetic().value());
       for (std::size_t i = 0; i < runs.size(); ++i) {
         const auto a = numbers_of(batch[i].value());
-        const auto b = numbers_of(judged(runs[i], scenario, mode));
+        const auto b = numbers_of(judged(runs[i], scenario));
         for (std::size_t n = 0; n < a.size(); ++n) {
           ASSERT_EQ(a[n].has_value(), b[n].has_value());
           if (!a[n]) continue;

@@ -87,7 +87,9 @@ TEST(History, IsTheBestSoFarOfTheSearchAndEndsWithTheGainsThatItFound) {
   const Result<Tuning> tuning = tune(paper_model(), options);
   ASSERT_TRUE(tuning) << to_text(tuning.error());
   ASSERT_TRUE(tuning->robust && tuning->robust->nominal);
-  EXPECT_EQ(tuning->history.best.back().objective, tuning->objective);
+  // Then mu and mu_s were made as small as does not matter.
+  const double found = tuning->history.best.back().objective;
+  EXPECT_NEAR(tuning->objective, found, kIndifferent * found);
   EXPECT_EQ(tuning->history.evaluations, tuning->evaluations);
   for (const SearchHistory* history : {&tuning->history, &tuning->robust->nominal_history}) {
     ASSERT_FALSE(history->best.empty());
