@@ -17,7 +17,8 @@ SVG = "{http://www.w3.org/2000/svg}"
 GAINS = {"schema": "awmr.gains/1", "heading": {"lambda": 3, "mu": 50, "epsilon": 12}, "speed": {"mu": 5, "epsilon": 1.2},
          "search": {"algorithm": "none", "stop_reason": "none", "evaluations": 9, "simulated": 9, "seed": 1, "history": {
              "evaluations": 9, "global_evaluations": 5, "best": [{"evaluation": 2, "objective": 0.9}, {"evaluation": 7, "objective": 0.8}]}},
-         "robust": {"nominal_history": {"evaluations": 12, "global_evaluations": 7, "best": [{"evaluation": 1, "objective": 0.7}]}}}
+         "robust": {"draws": 4, "seed": 1, "motor_time_constant_s": 0.02, "noise": {"heading_deg": 1, "yaw_rate_degps": 0.5, "speed_mps": 0.02},
+                    "latency": {"heading_s": 0.02, "yaw_rate_s": 0.02, "speed_s": 0.02}, "nominal_history": {"evaluations": 12, "global_evaluations": 7, "best": [{"evaluation": 1, "objective": 0.7}]}}}
 MODES = ["differential", "steering", "combined"]
 
 
@@ -98,7 +99,7 @@ def check_content(at):
     expect(svg["heading_c10_obstacle_between_waypoints"], MODES + ["reference"] * 3, "ψ (deg)")
     expect(svg["distribution_c3_heading_steps_settling_time_s"], ["sample", "median, 5 to 95 %"] * 3, "settling time (s)", *MODES)
     expect(svg["tuning_history"], ["robust", "nominal", "the paper's gains"], "evaluation", "objective, best so far")
-    assert "obstacle" in texts(svg["path_c10_obstacle_between_waypoints"]), texts(svg["path_c10_obstacle_between_waypoints"])
+    assert "obstacles" in texts(svg["path_c10_obstacle_between_waypoints"]), texts(svg["path_c10_obstacle_between_waypoints"])
     assert any(name.startswith("differences_c3_heading_steps_") for name in svg), svg.keys()
     assert "surge_residuals" in svg and "yaw_residuals" in svg, svg.keys()
     for name in svg:

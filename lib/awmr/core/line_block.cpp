@@ -26,8 +26,11 @@ Status LineBlock::read(const InputBytes& file, std::size_t first, std::size_t be
   lines_ = {};
   is_too_long_ = false;
   bytes_ = text().substr(begin - from, end - begin);
-  const std::size_t start = first > from ? first - from : text().find('\n') + 1;
-  if (start == 0 || from + start >= end) return {};
+  // The first row may be the text's first line, where there is no header.
+  const bool has_first = first > from || begin == 0;
+  const std::size_t start = has_first ? first - from : text().find('\n') + 1;
+  const bool is_inside_a_line = !has_first && start == 0;
+  if (is_inside_a_line || from + start >= end) return {};
   std::size_t stop = text().find('\n', end - 1 - from);
   for (std::size_t tail = 4 * kTail; stop == std::string_view::npos; tail *= 4) {
     if (from + have == file.size()) {

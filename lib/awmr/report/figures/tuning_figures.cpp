@@ -26,9 +26,9 @@ Series stairs_of(const Json& history, const char* name, Role role) {
 /// The searches that the gains have a history of.
 std::vector<Series> searches_of(const Json& gains) {
   std::vector<Series> all;
-  const Json& search = gains.at("search");
+  const auto& search = gains.at("search").get_ref<const Json::object_t&>();
   const bool robust = gains.contains("robust");
-  if (search.contains("history")) {
+  if (search.count("history") > 0) {
     all.push_back(stairs_of(search.at("history"), robust ? "robust" : "nominal", Role::kModel));
   }
   if (robust && gains.at("robust").contains("nominal_history")) {
