@@ -102,7 +102,8 @@ TEST_F(PlantOption, RefusesWhatHasNoMeaningOnTyresByName) {
                 "--plant four-wheel -o " +
                     path("run.csv")));
   EXPECT_EQ(slippery.exit_code, 2);
-  EXPECT_THAT(slippery.err, HasSubstr("--plant four-wheel: scenario 'left wheels on a slippery patch', "
+  EXPECT_THAT(slippery.err,
+              HasSubstr("--plant four-wheel: scenario 'left wheels on a slippery patch', "
                         "/slippery: a patch limits"));
   const ProcessResult corner =
       awmr(with("compare", "--scenario configs/scenarios/worst_corner.json --plant four-wheel -o " +

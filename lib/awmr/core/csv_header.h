@@ -18,8 +18,9 @@ struct CsvHeader {
   int line = 1;
   char delimiter = ',';
   bool is_comment = false;  ///< the names stand behind a '#'
-  bool is_positional = false;  ///< there is none: `column_1`, ... are its names, `cells` the first row's
-  bool is_cut = false;      ///< the whole text was looked at: a longer one may say something else
+  bool is_positional =
+      false;            ///< there is none: `column_1`, ... are its names, `cells` the first row's
+  bool is_cut = false;  ///< the whole text was looked at: a longer one may say something else
 };
 
 /// Finds the header and leaves `scanner`, which begins at the text's first byte, at the first row.
