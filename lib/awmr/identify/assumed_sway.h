@@ -20,7 +20,7 @@ namespace awmr {
 inline constexpr const char* kAssumedSwayMethod = "assumed of common tyres";
 
 /// Sets it, with its share of the covariance, and says so in a finding (`assumed-sway`). Nothing where the
-/// model has a value, no m', or no trial tells a speed.
+/// model has a value, knows nothing of turning or no m', or no trial tells a speed.
 void assume_sway(const TrialData& data, MainValues& values);
 
 }  // namespace awmr

@@ -9,6 +9,7 @@
 #include "awmr/core/option_text.h"
 #include "awmr/core/parallel.h"
 #include "awmr/core/units.h"
+#include "awmr/identify/assumed_sway.h"
 #include "awmr/identify/planning/recover_part.h"
 #include "awmr/model/family.h"
 #include "awmr/trials/replay.h"
@@ -153,7 +154,9 @@ OneRun identified_again(const Vehicle& vehicle, const TrialData& data, IdentifyO
     if (finding.severity == Severity::kError && run.why.empty()) run.why = finding.message;
   }
   for (std::size_t i = 0; i < truths.size(); ++i) {
-    run.found.estimates[i] = interval_of(identified->model[truths[i].id]);
+    const Estimate& estimate = identified->model[truths[i].id];
+    // What is assumed was not found in the trials.
+    if (estimate.method != kAssumedSwayMethod) run.found.estimates[i] = interval_of(estimate);
   }
   return run;
 }
