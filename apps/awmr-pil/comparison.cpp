@@ -122,6 +122,25 @@ double Difference::of(const std::string& signal) const {
   return std::numeric_limits<double>::infinity();
 }
 
+double heading_apart_deg(const std::vector<LoopRow>& a, const Run& b) {
+  const std::size_t rows = std::min(a.size(), b.rows.size());
+  double largest_rad = 0.0;
+  for (std::size_t i = 0; i < rows; ++i) {
+    double lo = b.rows[i].state.psi_rad;
+    double hi = lo;
+    for (const std::size_t near : {std::max<std::size_t>(i, 1) - 1, std::min(i + 1, rows - 1)}) {
+      lo = std::min(lo, b.rows[near].state.psi_rad);
+      hi = std::max(hi, b.rows[near].state.psi_rad);
+    }
+    const double psi_rad = a[i].state.psi_rad;
+    if (!std::isfinite(psi_rad) || !std::isfinite(lo) || !std::isfinite(hi)) {
+      return std::numeric_limits<double>::infinity();
+    }
+    largest_rad = std::max({largest_rad, lo - psi_rad, psi_rad - hi});
+  }
+  return degrees(largest_rad);
+}
+
 Difference difference(const std::vector<LoopRow>& a, const std::vector<LoopRow>& b) {
   return difference_of(samples_of(a, raw_sample_of), samples_of(b, raw_sample_of));
 }

@@ -25,6 +25,11 @@ Difference difference(const std::vector<LoopRow>& a, const std::vector<LoopRow>&
 /// From a run of simulate(), which is in double.
 Difference difference(const std::vector<LoopRow>& a, const Run& b);
 
+/// The largest distance of the heading from those that the other run has at the same sample and at the
+/// ones before and after it, deg: a leg may end at a sample of one run and at the next one of the other,
+/// and rounding decides at which. Infinite where only one is finite.
+double heading_apart_deg(const std::vector<LoopRow>& a, const Run& b);
+
 struct Cycles {
   unsigned min = 0;
   double mean = 0.0;

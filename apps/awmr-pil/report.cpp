@@ -91,9 +91,8 @@ void judge(const PilOptions& options, double period_cycles, Report& report) {
   checks.push_back({"rows as in the host's float run", report.from_float.same_length ? 0.0 : 1.0,
                     0.0, report.from_float.same_length, ""});
   if (report.from_double) {
-    checks.push_back(at_most("heading from the host's double run",
-                             report.from_double->of("heading_deg"), *options.heading_max_deg,
-                             "deg"));
+    checks.push_back(at_most("heading from the host's double run, give or take a sample",
+                             report.heading_apart_deg, *options.heading_max_deg, "deg"));
   }
   if (const auto& injected = report.injected) {
     const bool reset = options.injection == cli::Injection::kReset;

@@ -49,6 +49,7 @@ struct Report {
   std::vector<std::size_t> restarts;  ///< samples before which the chip was started anew
   Difference from_float;
   std::optional<Difference> from_double;  ///< absent with an injection
+  double heading_apart_deg = 0.0;         ///< from the double run, give or take a sample
   std::optional<Difference> by_float32;   ///< float by powf against double
   std::optional<Difference> by_table;     ///< float by table against float by powf
   std::optional<Injected> injected;

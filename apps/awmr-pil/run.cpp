@@ -251,6 +251,7 @@ Status compare_runs(const PilOptions& options, const Inputs& in, Report& report)
       in.setup.scenario, in.setup.mode, {.sample_time_s = in.setup.sample_time_s, .substeps = {}});
   AWMR_RETURN_IF_ERROR(failure_of(exact, in.setup.scenario));
   report.from_double = difference(report.chip.rows, exact);
+  report.heading_apart_deg = heading_apart_deg(report.chip.rows, exact);
   // Other families than the power law have no powf to compare with.
   if (in.model.surge_family != Family::kPower || in.model.yaw_family != Family::kPower) return {};
   const auto by_powf = run_host(in, ResistanceForm::kPowf);

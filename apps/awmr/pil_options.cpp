@@ -34,8 +34,8 @@ void add_bounds(CLI::App& command, PilOptions& options) {
       ->check(within(0.0, 1e9));
   command
       .add_option("--heading-max-deg", options.heading_max_deg,
-                  "Largest difference of the heading from the host's double run [0.05; 2 where "
-                  "obstacles are avoided or sensors simulated]")
+                  "Largest difference of the heading from the host's double run, give or take a "
+                  "sample [0.05; 2 where obstacles are avoided or sensors simulated]")
       ->check(within(0.0, 360.0));
 }
 
