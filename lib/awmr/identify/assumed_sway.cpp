@@ -63,8 +63,7 @@ void assume_sway(const TrialData& data, MainValues& values) {
   Estimate& sway = model[ParameterId::kSwayAlpha];
   const Estimate& mass = model[ParameterId::kMassNorm];
   const double speed_mps = 0.5 * fastest_mps(data);
-  const bool turns =
-      model[ParameterId::kYawAlpha].value && model[ParameterId::kInertiaNorm].value;
+  const bool turns = model[ParameterId::kYawAlpha].value && model[ParameterId::kInertiaNorm].value;
   if (sway.value || !mass.value || !turns || !(speed_mps > 0.0)) return;
   const double stiffness = std::sqrt(kTyreStiffness.lo * kTyreStiffness.hi);
   const double per_mass = stiffness * kGravity_mps2 / speed_mps;
