@@ -61,9 +61,11 @@ TEST_F(Terminal, ShowsHowFarLongWorkIs) {
   const std::string tune = "tune --model " + path("model.json") + " -o " + path("gains.json");
   EXPECT_THAT(on_terminal("", tune), AllOf(HasSubstr("searching for gains ["), HasSubstr(" left")));
   EXPECT_THAT(on_terminal("", tune + " --quiet"), Not(HasSubstr("searching")));
+  // All families of two logs on one thread: seconds, also of a fast processor.
   EXPECT_THAT(on_terminal("",
                           "identify --vehicle configs/paper/vehicle.json --log "
-                          "datasets/synthetic/drive_1.csv -o " +
+                          "datasets/synthetic/drive_1.csv --log datasets/synthetic/drive_2.csv "
+                          "--family auto --threads 1 -o " +
                               path("driven.json")),
               HasSubstr(" ... 1 s"));
   EXPECT_THAT(awmr(tune).err, Not(HasSubstr("searching")));
