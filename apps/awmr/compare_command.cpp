@@ -67,15 +67,14 @@ std::vector<fs::path> inputs_of(const CompareCommand& command) {
 }
 
 Result<Provenance> provenance_of(const CompareCommand& command,
-                                 const std::vector<Scenario>& scenarios) {
+                                 const std::vector<Scenario>& scenarios,
+                                 const HeadingRateChoice& rate) {
   AWMR_ASSIGN_OR_RETURN(std::vector<InputFile> inputs,
                         input_files(inputs_of(command), command.names));
   std::vector<std::pair<std::string, std::string>> options = options_of(command.allocation);
   options.emplace_back("samples", std::to_string(command.compare.samples));
   options.emplace_back("seed", std::to_string(command.compare.seed));
-  for (auto& option : options_of_rate(command.heading_rate_limit)) {
-    options.push_back(std::move(option));
-  }
+  for (auto& option : options_of_rate(rate)) options.push_back(std::move(option));
   for (auto& option : options_of(command.plant, scenarios)) options.push_back(std::move(option));
   if (command.compare.break_even) options.emplace_back("break_even", "true");
   const Preferences& preferences = command.compare.preferences;
@@ -169,6 +168,27 @@ void add_preferences(CLI::App& command, Texts& texts) {
       ->check(within(0.0, 1.0));
 }
 
+/// How fast headings were led, where that was not the scenarios' affair alone.
+std::string rate_in_words(const HeadingRateChoice& rate, const Model& model) {
+  if (rate == kNoRate) return {};
+  if (rate != kMeasuredRate) return fmt::format("headings are led at up to {} deg/s\n", rate);
+  return fmt::format(
+      "headings are led at up to {:.3g} deg/s, as fast as yaw resistance was measured\n"
+      "(--heading-rate-limit {}: as the scenarios have them)\n",
+      *measured_yaw_rate_degps(model), kNoRate);
+}
+
+/// A warning where the ranking leaves out a scrub that trials have measured.
+void note_scrub(const Model& model, const Comparison& comparison, std::vector<Finding>& findings) {
+  if (!model.yaw_scrub || !(model.yaw_scrub->ci95_m.lo > 0.0) || comparison.break_even) return;
+  findings.push_back(
+      {model.file, 0, Severity::kWarning, "scrub-unjudged",
+       fmt::format("this vehicle's turns by the sides' forces met {:.3g} to {:.3g} m beside yaw "
+                   "resistance, which differential and combined are compared without: --break-even "
+                   "says whether their lead stands it",
+                   model.yaw_scrub->ci95_m.lo, model.yaw_scrub->ci95_m.hi)});
+}
+
 Outcome outcome_of_part(const CompareCommand& command, const Comparison& part) {
   return {.summary = fmt::format("part {} of {}: {} runs\nwrote {} and comparison.csv\n",
                                  command.compare.shard.index, command.compare.shard.count,
@@ -176,18 +196,21 @@ Outcome outcome_of_part(const CompareCommand& command, const Comparison& part) {
 }
 
 Outcome outcome_of_whole(const CompareCommand& command, const Comparison& comparison,
-                         const Model& model, const std::vector<Scenario>& scenarios) {
-  std::string table = comparison_table(comparison, command.compare);
+                         const Model& model, const std::vector<Scenario>& scenarios,
+                         const HeadingRateChoice& rate) {
+  std::string table = comparison_table(comparison, command.compare) + rate_in_words(rate, model);
   for (const auto& [name, text] : options_of(command.plant, scenarios)) {
     table += fmt::format("{}: {}\n", name, text);
   }
   const auto run_of = [](const ComparisonRow& row) {
     return fmt::format("{}, {}, sample {}", row.scenario, name_of(row.mode), row.sample);
   };
+  std::vector<Finding> findings = extrapolation_in(model, comparison.rows, run_of);
+  note_scrub(model, comparison, findings);
   return {.summary = table + fmt::format("wrote {} and comparison.csv\n",
                                          (command.output / json_of(command)).string()),
           .brief = table,
-          .findings = extrapolation_in(model, comparison.rows, run_of)};
+          .findings = std::move(findings)};
 }
 
 }  // namespace
@@ -199,8 +222,9 @@ Result<Outcome> execute(const CompareCommand& command) {
                         read_each(command.scenarios, read_scenario));
   choose(command.allocation, model, scenarios);
   AWMR_RETURN_IF_ERROR(choose(command.plant, scenarios));
-  AWMR_RETURN_IF_ERROR(limit_heading_rate(command.heading_rate_limit, model, scenarios));
-  AWMR_ASSIGN_OR_RETURN(const Provenance provenance, provenance_of(command, scenarios));
+  const HeadingRateChoice rate = rate_to_compare_at(command.heading_rate_limit, model);
+  AWMR_RETURN_IF_ERROR(limit_heading_rate(rate, model, scenarios));
+  AWMR_ASSIGN_OR_RETURN(const Provenance provenance, provenance_of(command, scenarios, rate));
   AWMR_RETURN_IF_ERROR(
       check_outputs(command.output, {"comparison.csv", json_of(command)}, inputs_of(command)));
   CompareOptions options = command.compare;
@@ -218,7 +242,7 @@ Result<Outcome> execute(const CompareCommand& command) {
   AWMR_RETURN_IF_ERROR(write_comparison(command, comparison, text));
   if (comparison.stopped) end_interrupted(command, comparison);
   Outcome outcome = command.shard ? outcome_of_part(command, comparison)
-                                  : outcome_of_whole(command, comparison, model, scenarios);
+                                  : outcome_of_whole(command, comparison, model, scenarios, rate);
   outcome.document = text;
   outcome.written = {command.output / json_of(command), command.output / "comparison.csv"};
   return outcome;
@@ -259,7 +283,8 @@ void add_compare(CLI::App& app, Session& session) {
       "that steers is better");
   add_shard(*sub, texts->shard);
   add_allocation(*sub, command->allocation);
-  add_heading_rate_limit(*sub, command->heading_rate_limit);
+  add_heading_rate_limit(*sub, command->heading_rate_limit,
+                         "measured, where the model says how fast that was");
   add_plant(*sub, command->plant);
   add_output_directory(*sub, command->output, "Directory for comparison.csv and comparison.json");
 }

@@ -15,26 +15,38 @@
 
 namespace awmr::cli {
 
-/// As typed: deg/s, or "measured"; empty: no limit but the scenarios' own.
+/// As typed: deg/s, "measured" or "none"; empty where it was not: a command's own default.
 using HeadingRateChoice = std::string;
 
 inline constexpr const char* kMeasuredRate = "measured";
+inline constexpr const char* kNoRate = "none";
 
-inline void add_heading_rate_limit(CLI::App& command, HeadingRateChoice& choice) {
-  const auto check = [](const std::string& text) -> std::string {
-    if (text == kMeasuredRate) return {};
-    std::string number = text;
-    return within(0.1, 3600.0)(number).empty()
-               ? std::string()
-               : fmt::format("must be {}, or deg/s from 0.1 to 3600, found {}", kMeasuredRate,
-                             text.empty() ? "nothing" : text);
-  };
+/// What is wrong with a choice as typed; empty: nothing.
+inline std::string fault_of_rate(const std::string& text) {
+  if (text == kMeasuredRate || text == kNoRate) return {};
+  std::string number = text;
+  if (within(0.1, 3600.0)(number).empty()) return {};
+  return fmt::format("must be {}, {}, or deg/s from 0.1 to 3600, found {}", kMeasuredRate, kNoRate,
+                     text.empty() ? "nothing" : text);
+}
+
+/// `by_default`: what the command does without the option, in words.
+inline void add_heading_rate_limit(CLI::App& command, HeadingRateChoice& choice,
+                                   const char* by_default) {
   command
       .add_option("--heading-rate-limit", choice,
-                  "deg/s up to which a heading may be led to in every scenario that is not in open "
-                  "loop, or 'measured': as fast as yaw resistance was (default: the scenarios' own "
-                  "shaping)")
-      ->check(CLI::Validator(check, "measured or deg/s", ""));
+                  fmt::format("deg/s up to which a heading may be led to in every scenario that is "
+                              "not in open loop; 'measured': as fast as yaw resistance was; "
+                              "'none': by the scenarios' own shaping alone (default: {})",
+                              by_default))
+      ->check(CLI::Validator(fault_of_rate, "measured, none or deg/s", ""));
+}
+
+/// What a comparison does where nothing was typed: no faster than was measured, where that is known.
+/// What parts the modes in faster turns is the model's extrapolation.
+inline HeadingRateChoice rate_to_compare_at(const HeadingRateChoice& typed, const Model& model) {
+  if (!typed.empty()) return typed;
+  return measured_yaw_rate_degps(model) ? kMeasuredRate : kNoRate;
 }
 
 /// For an output's options; nothing where there is no choice.
@@ -47,7 +59,7 @@ inline std::vector<std::pair<std::string, std::string>> options_of_rate(
 /// Puts the limit into every scenario. Errors (input): nothing says how fast was measured.
 inline Status limit_heading_rate(const HeadingRateChoice& choice, const Model& model,
                                  std::span<Scenario> scenarios) {
-  if (choice.empty()) return {};
+  if (choice.empty() || choice == kNoRate) return {};
   double limit_degps = 0.0;
   if (choice == kMeasuredRate) {
     const std::optional<double> measured = measured_yaw_rate_degps(model);

@@ -53,9 +53,20 @@ std::string names_of(const EstimatorReport& report) {
   return report.family.empty() ? name : name + " " + report.family;
 }
 
+/// What turns by the sides met beside yaw resistance, where trials show it.
+std::string scrub_text(const Model& model) {
+  if (!model.yaw_scrub) return {};
+  const YawScrub& scrub = *model.yaw_scrub;
+  return fmt::format(
+      "scrub: {} turns by the sides' forces met {:.3g} m ({:.3g} to {:.3g}) beside yaw "
+      "resistance;\n"
+      "compare --break-even says what that decides\n",
+      scrub.rows, scrub.moment_m, scrub.ci95_m.lo, scrub.ci95_m.hi);
+}
+
 std::string summary_of(const Model& model) {
   return fmt::format("{}: {} trial rows\n", model.vehicle.name, model.record.trials.size()) +
-         parameter_table_text(model) + si_table_text(model);
+         parameter_table_text(model) + si_table_text(model) + scrub_text(model);
 }
 
 std::string estimators_of(const Model& model) {

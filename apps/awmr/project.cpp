@@ -117,6 +117,12 @@ void read_compare(JsonObject json, const FileNames& files, Project& project) {
       static_cast<int>(json.optional_integer("samples", 0, 1000000).value_or(0));
   project.compare.seed =
       static_cast<std::uint64_t>(json.optional_integer("seed", 0, 1000000000L).value_or(1));
+  if (const auto rate = json.optional_string("heading_rate_limit")) {
+    project.heading_rate_limit = *rate;
+    if (const std::string why = fault_of_rate(*rate); !why.empty()) {
+      json.fault("heading_rate_limit", why);
+    }
+  }
   json.reject_unknown_keys();
 }
 

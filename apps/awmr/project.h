@@ -10,6 +10,7 @@
 #include "awmr/core/result.h"
 #include "awmr/identify/identify.h"
 #include "awmr/trials/read_trials.h"
+#include "heading_rate_option.h"
 
 namespace awmr::cli {
 
@@ -26,6 +27,7 @@ struct Project {
   std::optional<std::filesystem::path> tune;  ///< tune.json
   std::vector<std::filesystem::path> scenarios;
   CompareOptions compare;
+  HeadingRateChoice heading_rate_limit = {};  ///< of the comparison
 };
 
 /// Errors: as read_json_file; unknown or missing keys, a malformed column mapping.

@@ -227,12 +227,14 @@ Result<Outcome> execute(const RunCommand& command) {
           .model = model, .gains = gains, .output = command.output, .header_only = true}));
   add_written(total, emitted.written);
   emit_library(model, gains, command.output / kLibrary, total);
-  AWMR_ASSIGN_OR_RETURN(Outcome compared, execute(CompareCommand{.model = model,
-                                                                 .gains = {gains},
-                                                                 .scenarios = project.scenarios,
-                                                                 .compare = project.compare,
-                                                                 .output = command.output,
-                                                                 .names = names}));
+  AWMR_ASSIGN_OR_RETURN(Outcome compared,
+                        execute(CompareCommand{.model = model,
+                                               .gains = {gains},
+                                               .scenarios = project.scenarios,
+                                               .compare = project.compare,
+                                               .output = command.output,
+                                               .heading_rate_limit = project.heading_rate_limit,
+                                               .names = names}));
   add_step(steps, "compare", std::move(compared));
   AWMR_ASSIGN_OR_RETURN(const std::vector<fs::path> runs, write_runs(project, command.output));
   add_written(total, runs);

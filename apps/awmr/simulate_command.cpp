@@ -130,7 +130,7 @@ void add_simulate(CLI::App& app, Session& session) {
   add_choice(*sub, "--mode", command->mode, kYawModeNames, "Which makes the yaw moment")
       ->required();
   add_allocation(*sub, command->allocation);
-  add_heading_rate_limit(*sub, command->heading_rate_limit);
+  add_heading_rate_limit(*sub, command->heading_rate_limit, kNoRate);
   add_plant(*sub, command->plant);
   add_output(*sub, command->output, "run.csv to write");
 }

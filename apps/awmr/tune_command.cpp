@@ -109,6 +109,9 @@ Result<Provenance> provenance_of(const TuneCommand& command,
   std::vector<std::pair<std::string, std::string>> options = options_of(command.allocation);
   if (command.nominal) options.emplace_back("nominal", "true");
   if (command.draws) options.emplace_back("draws", std::to_string(*command.draws));
+  for (auto& option : options_of_rate(command.heading_rate_limit)) {
+    options.push_back(std::move(option));
+  }
   return Provenance{"tune", std::move(options), std::move(inputs)};
 }
 
@@ -120,7 +123,10 @@ Result<Outcome> execute(const TuneCommand& command) {
   if (command.config) {
     AWMR_ASSIGN_OR_RETURN(config, read_tune_config(*command.config));
   }
-  choose(command.allocation, model, config.options.scenarios);
+  std::vector<Scenario>& scenarios = config.options.scenarios;
+  if (scenarios.empty()) scenarios.push_back(default_tuning_scenario());
+  choose(command.allocation, model, scenarios);
+  AWMR_RETURN_IF_ERROR(limit_heading_rate(command.heading_rate_limit, model, scenarios));
   if (command.nominal) config.options.nominal = true;
   if (command.draws) config.options.draws = *command.draws;
   AWMR_ASSIGN_OR_RETURN(const Provenance provenance, provenance_of(command, config.scenario_files));
@@ -157,6 +163,7 @@ void add_tune(CLI::App& app, Session& session) {
       ->check(within(0.0, 1000.0))
       ->excludes(nominal);
   add_allocation(*sub, command->allocation);
+  add_heading_rate_limit(*sub, command->heading_rate_limit, kNoRate);
   add_output(*sub, command->output, "gains.json to write");
 }
 

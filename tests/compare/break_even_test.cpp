@@ -107,5 +107,32 @@ TEST(BreakEven, IsRefusedForPartsAndSeveralSetsOfGains) {
   EXPECT_EQ(exit_code(sets.error()), 2);
 }
 
+/// The comparison's entries where the model has measured a scrub.
+std::string told_with(const Interval& scrub_m) {
+  Model model = uncertain_model();
+  model.yaw_scrub = YawScrub{0.5 * (scrub_m.lo + scrub_m.hi), 1e-6, scrub_m, 3, {0.1, 0.2}};
+  const auto comparison = compare(model, kPaperGains, {turn(60.0)}, {.break_even = true});
+  EXPECT_TRUE(comparison);
+  return comparison_table(*comparison);
+}
+
+TEST(BreakEven, IsDecidedByTheScrubThatWasMeasured) {
+  const auto comparison = compared(turn(60.0));
+  ASSERT_TRUE(comparison);
+  double least_m = 1.0, most_m = 0.0;
+  for (const BreakEven& entry : *comparison->break_even) {
+    if (!entry.yaw_coulomb_m) continue;
+    least_m = std::min(least_m, *entry.yaw_coulomb_m);
+    most_m = std::max(most_m, *entry.yaw_coulomb_m);
+  }
+  ASSERT_GT(most_m, 0.0);
+  EXPECT_THAT(told_with({0.5 * least_m, 0.9 * least_m}),
+              HasSubstr("kept in 1, lost in 0, open in 0"));
+  EXPECT_THAT(told_with({1.1 * most_m, 2.0 * most_m}),
+              HasSubstr("kept in 0, lost in 1, open in 0"));
+  EXPECT_THAT(told_with({0.5 * least_m, 2.0 * most_m}),
+              HasSubstr("kept in 0, lost in 0, open in 1"));
+}
+
 }  // namespace
 }  // namespace awmr::testing

@@ -45,9 +45,14 @@ void check_tables(const std::filesystem::path& path, const awmr::TrialOptions& o
   }
   if (const auto turning = awmr::read_turning(path, vehicle(), options, findings);
       !is_refused(turning)) {
-    for (const awmr::TurningRow& row : turning->rows) {
-      require(row.tau_turn_m > 0.0 && std::isfinite(row.tau_turn_m), "tau_turn > 0");
-      require(row.yaw_rate_radps > 0.0 && std::isfinite(row.yaw_rate_radps), "yaw rate > 0");
+    for (const auto* rows : {&turning->rows, &turning->by_sides}) {
+      for (const awmr::TurningRow& row : *rows) {
+        require(row.tau_turn_m > 0.0 && std::isfinite(row.tau_turn_m), "tau_turn > 0");
+        require(row.yaw_rate_radps > 0.0 && std::isfinite(row.yaw_rate_radps), "yaw rate > 0");
+      }
+    }
+    for (const awmr::TurningRow& row : turning->by_sides) {
+      require(row.sides && row.sides->left < row.sides->right, "a turn by the sides has forces");
     }
   }
   (void)is_refused(awmr::read_coastdown(path, options, findings));

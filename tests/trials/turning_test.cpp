@@ -119,6 +119,54 @@ const auto kReadSides = [](const std::filesystem::path& path, const TrialOptions
   return read_turning(path, vehicle, options, findings);
 };
 
+TEST(TurningTrial, KeepsTurnsByTheSidesApartFromSteeredOnes) {
+  const auto read =
+      accepted(kReadTurning,
+               "steering_deg,wheel_force,yaw_rate_radps,force_left,force_right\n"
+               "10,0.35,0.1,,\n0,,0.2,0.1,0.3\n0,0.2,-0.2,0.3,0.1\n5,,0.05,0.3,0.3\n");
+  ASSERT_THAT(read.set.rows, SizeIs(2));
+  EXPECT_EQ(read.set.rows[1].wheel_force, 0.3);
+  ASSERT_THAT(read.set.by_sides, SizeIs(2));
+  for (const TurningRow& row : read.set.by_sides) {
+    // 2 d (F'R - F'L)                                                               [paper (41)]
+    EXPECT_DOUBLE_EQ(row.tau_turn_m, 2.0 * 0.36 * 0.2);
+    EXPECT_EQ(row.yaw_rate_radps, 0.2);
+    EXPECT_EQ(row.sides->right, 0.3);
+  }
+  EXPECT_THAT(read.findings, IsEmpty());
+}
+
+TEST(TurningTrial, TakesTurnsByTheSidesForYawResistanceWhereThereAreNoOthers) {
+  const auto read = accepted(kReadTurning,
+                             "steering_deg,force_left,force_right,yaw_rate_radps\n"
+                             "0,0.1,0.3,0.2\n0,0.1,0.4,0.3\n");
+  EXPECT_THAT(read.set.rows, SizeIs(2));
+  EXPECT_THAT(read.set.by_sides, IsEmpty());
+  EXPECT_THAT(codes_of(read.findings), ElementsAre("turned-by-sides@2"));
+}
+
+TEST(TurningTrial, RefusesRunsThatTurnBothWaysOrContradictThemselves) {
+  const std::string header = "steering_deg,wheel_force,yaw_rate_radps,force_left,force_right\n";
+  const std::string steered = "10,0.35,0.1,,\n";
+  EXPECT_THAT(faults_of(kReadTurning, header + steered + "5,,0.2,0.1,0.3\n"),
+              ElementsAre(AllOf(StartsWith("3:1: "), HasSubstr("at once"))));
+  EXPECT_THAT(faults_of(kReadTurning, header + steered + "0,0.5,0.2,0.1,0.3\n"),
+              ElementsAre(AllOf(StartsWith("3:3: "), HasSubstr("whose mean is 0.2"))));
+  EXPECT_THAT(faults_of(kReadTurning, header + steered + "0,,0.2,0.1,0.3\n0,,0.2,0.1,\n"),
+              ElementsAre(HasSubstr("both or neither")));
+  EXPECT_THAT(faults_of(kReadTurning, header + steered + "0,,,0.1,0.3\n"),
+              ElementsAre(HasSubstr("no yaw rate")));
+  EXPECT_THAT(faults_of(kReadTurning, header + steered + "0,,0.2,0.3,0.1\n"),
+              ElementsAre(HasSubstr("signs must agree")));
+  // What a steered run leaves empty is missing, as in a table of steered runs alone.
+  EXPECT_THAT(faults_of(kReadTurning, header + steered + "10,,0.1,,\n0,,0.2,0.1,0.3\n"),
+              ElementsAre(AllOf(StartsWith("3:4: "), HasSubstr("the cell is empty"))));
+  EXPECT_THAT(faults_of(kReadTurning, "steering_deg,force_left,yaw_rate_radps\n0,0.1,0.2\n"),
+              ElementsAre(HasSubstr("belong together")));
+  EXPECT_THAT(faults_of(kReadTurning, "steering_deg,yaw_rate_radps\n0,0.2\n"),
+              ElementsAre(HasSubstr("no force")));
+}
+
 TEST(TurningTrialOfSides, ComputesTheYawMomentAndMirrorsATurnToTheRight) {
   const auto read = accepted(kReadSides,
                              "force_left,force_right,yaw_rate_radps\n"

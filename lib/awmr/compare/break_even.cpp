@@ -149,6 +149,20 @@ void answer(Question& question) {
       });
 }
 
+/// What the measured scrub makes of the leads, of which `all` are of the same pair of modes.
+std::string decided(const std::vector<const BreakEven*>& all, const Interval& measured_m) {
+  std::size_t kept = 0, lost = 0;
+  for (const BreakEven* entry : all) {
+    if (!entry->yaw_coulomb_m || measured_m.hi < *entry->yaw_coulomb_m) {
+      ++kept;
+    } else if (measured_m.lo > *entry->yaw_coulomb_m) {
+      ++lost;
+    }
+  }
+  return fmt::format("    with the measured scrub: kept in {}, lost in {}, open in {}\n", kept,
+                     lost, all.size() - kept - lost);
+}
+
 }  // namespace
 
 Result<std::vector<BreakEven>> break_even_of(const Model& model, const Gains<double>& gains,
@@ -162,6 +176,7 @@ Result<std::vector<BreakEven>> break_even_of(const Model& model, const Gains<dou
   // 2 d (F'R - F'L), at the ends of the forces' range.
   entry.most_m = 2.0 * nominal.half_track_m * (force.hi - force.lo);
   entry.sliding_m = kTyreFriction * kGravity_mps2 * nominal.mass_norm * nominal.front_axle_m;
+  if (model.yaw_scrub) entry.measured_m = model.yaw_scrub->ci95_m;
   std::vector<Question> questions;
   for (const Scenario& scenario : scenarios) {
     AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, plant_for(scenario, model));
@@ -212,13 +227,18 @@ std::string break_even_table(const std::vector<BreakEven>& entries) {
                           (*least)->yaw_coulomb_m ? "; " : "", lasting, (*least)->most_m);
     }
     text += '\n';
+    if (all.front()->measured_m) text += decided(all, *all.front()->measured_m);
   }
-  return text + fmt::format(
-                    "  tyres that slide sideways on a friction of 0.8 make {:.3g} m; yours: "
-                    "identify a log of turns by\n"
-                    "  the sides' forces alone, wheels straight, and compare its yaw resistance "
-                    "with the model's\n",
-                    entries.front().sliding_m);
+  text += fmt::format("  tyres that slide sideways on a friction of 0.8 make {:.3g} m; ",
+                      entries.front().sliding_m);
+  if (const auto& measured_m = entries.front().measured_m) {
+    return text +
+           fmt::format("yours, measured: {:.3g} to {:.3g} m\n", measured_m->lo, measured_m->hi);
+  }
+  return text +
+         "yours: turn by the sides' forces alone,\n"
+         "  wheels straight (awmr suggest says with which), and add the turns to the turning "
+         "table\n";
 }
 
 }  // namespace awmr

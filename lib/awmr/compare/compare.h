@@ -73,6 +73,9 @@ struct BreakEven {
   /// What four tyres that slide sideways on a friction of 0.8 would make, 0.8 g m' l_f, m: no scrub is
   /// more, where the centre of gravity is half-way between the axles.
   double sliding_m = 0.0;
+  /// What the vehicle's own turns by the sides' forces met, m (95 % interval); absent where the model
+  /// has no such trial.
+  std::optional<Interval> measured_m = {};
 };
 
 struct Comparison {

@@ -140,6 +140,9 @@ Json break_even_json(const std::vector<BreakEven>& entries) {
                     {"yaw_coulomb_m", optional_json(entry.yaw_coulomb_m)},
                     {"most_m", entry.most_m},
                     {"sliding_m", entry.sliding_m}});
+    if (entry.measured_m) {
+      json.back()["measured_m"] = {entry.measured_m->lo, entry.measured_m->hi};
+    }
   }
   return json;
 }

@@ -99,6 +99,7 @@ void describe_break_even(JsonObject& json) {
     entry.nullable_number("yaw_coulomb_m", kPositive);
     entry.number("most_m", kPositive);
     entry.number("sliding_m", kPositive);
+    entry.optional_interval("measured_m");
     entry.reject_unknown_keys();
   }
 }

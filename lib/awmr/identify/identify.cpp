@@ -11,6 +11,7 @@
 #include "awmr/identify/assumed_sway.h"
 #include "awmr/identify/main_values.h"
 #include "awmr/identify/refusals.h"
+#include "awmr/identify/tables/scrub.h"
 #include "awmr/identify/trials_as_used.h"
 #include "awmr/model/plausibility.h"
 
@@ -180,6 +181,7 @@ Result<Identification> identify(const Vehicle& vehicle, const TrialData& data,
   assume_sway(data, values);
 
   model.covariance = values.covariance.covariance();
+  if (data.turning) measure_scrub(*data.turning, model);
   reasons.inadmissible = take_out_inadmissible(model);
   model.record.trials = trials_as_used(data, model);
   result.refused = refuse_what_is_missing(data, reasons, asked, model);

@@ -42,6 +42,17 @@ struct Covariance {
   std::vector<std::vector<double>> matrix;  ///< square, symmetric, over `parameters`
 };
 
+/// What turns by the sides' forces meet beside the resistance of steered turns: the tyres' scrub. Over
+/// F_max, as a Coulomb friction:
+///   2 d (F'R - F'L) = g3(r) + moment
+struct YawScrub {
+  double moment_m = 0.0;     ///< m; below 0 where the turns met less than g3
+  double std_error_m = 0.0;  ///< m, > 0: of the turns' scatter and of g3
+  Interval ci95_m;           ///< 95 % confidence interval
+  int rows = 0;              ///< turns that show it, >= 3
+  Interval yaw_rate_radps;   ///< of those turns
+};
+
 /// False for what the vehicle does not have: the servo of one without steering.
 bool has(const Vehicle& vehicle, ParameterId id);
 /// The trial that shows a parameter of this vehicle, in words for a refusal.
@@ -72,6 +83,7 @@ struct Model {
   Family yaw_family = Family::kPower;
   std::array<Estimate, kParameterCount> estimates;  ///< by ParameterId
   Covariance covariance;
+  std::optional<YawScrub> yaw_scrub;  ///< absent: no turning trial shows it
   IdentificationRecord record;
 
   Estimate& operator[](ParameterId id) { return estimates[static_cast<std::size_t>(id)]; }

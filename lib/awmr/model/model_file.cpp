@@ -99,6 +99,25 @@ void put_si(Json& json, const Model& model) {
   }
 }
 
+Json scrub_to_json(const YawScrub& scrub) {
+  return {{"moment_m", scrub.moment_m},
+          {"std_error_m", scrub.std_error_m},
+          {"ci95_m", {scrub.ci95_m.lo, scrub.ci95_m.hi}},
+          {"rows", scrub.rows},
+          {"yaw_rate_radps", {scrub.yaw_rate_radps.lo, scrub.yaw_rate_radps.hi}}};
+}
+
+YawScrub scrub_from_json(JsonObject json) {
+  YawScrub scrub;
+  scrub.moment_m = json.number("moment_m", {});
+  scrub.std_error_m = json.number("std_error_m", kPositive);
+  scrub.ci95_m = json.interval("ci95_m");
+  scrub.rows = static_cast<int>(json.integer("rows", 3, 1'000'000'000L));
+  scrub.yaw_rate_radps = json.interval("yaw_rate_radps");
+  json.reject_unknown_keys();
+  return scrub;
+}
+
 template <class Item, class ToJson>
 Json list_to_json(const std::vector<Item>& items, ToJson to_json) {
   Json list = Json::array();
@@ -128,6 +147,7 @@ std::string model_text(const Model& model) {
   put_estimates(json, model);
   json["estimates"] = list_to_json(model.record.reports, report_to_json);
   json["covariance"] = covariance_to_json(model.covariance);
+  if (model.yaw_scrub) json["yaw_scrub"] = scrub_to_json(*model.yaw_scrub);
   put_si(json, model);
   json["findings"] = findings_to_json(model.record.findings);
   json["trials"] = list_to_json(model.record.trials, trial_to_json);
@@ -145,6 +165,9 @@ Model model_from_json(JsonObject& root) {
   estimates_from_json(root, model);
   model.record.reports = list_from_json(root, "estimates", report_from_json);
   model.covariance = covariance_from_json(root.object("covariance"));
+  if (const auto scrub = root.optional_object("yaw_scrub")) {
+    model.yaw_scrub = scrub_from_json(*scrub);
+  }
   root.optional_object("si");
   model.record.findings = list_from_json(root, "findings", finding_from_json);
   model.record.trials = list_from_json(root, "trials", trial_from_json);
@@ -167,6 +190,11 @@ std::vector<Fault> self_contradictions(const Model& model) {
     faults.push_back({fmt::format("{}:{}/ci95", model.file, parameter.pointer),
                       fmt::format("[{:g}, {:g}] does not hold the value {:g}; null is no interval",
                                   estimate.ci95->lo, estimate.ci95->hi, *estimate.value)});
+  }
+  if (const auto& scrub = model.yaw_scrub; scrub && !scrub->ci95_m.contains(scrub->moment_m)) {
+    faults.push_back({model.file + ":/yaw_scrub/ci95_m",
+                      fmt::format("[{:g}, {:g}] does not hold moment_m {:g}", scrub->ci95_m.lo,
+                                  scrub->ci95_m.hi, scrub->moment_m)});
   }
   const Covariance& covariance = model.covariance;
   for (std::size_t i = 0; i < covariance.parameters.size(); ++i) {

@@ -44,7 +44,7 @@ void note_extrapolation(const Model& model, double fastest_degps, const std::str
                    "resistance was measured (up to {:.3g} deg/s): beyond it the model is "
                    "extrapolated. Record faster turning trials, or limit the heading's rate "
                    "(shaping in the "
-                   "scenario; simulate and compare take --heading-rate-limit measured)",
+                   "scenario, or --heading-rate-limit measured)",
                    where, fastest_degps, fastest_degps / *measured, *measured)});
 }
 

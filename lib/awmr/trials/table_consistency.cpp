@@ -66,7 +66,7 @@ double largest_side_force(const TurningRow& row) {
   return std::max(std::abs(row.sides->left), std::abs(row.sides->right));
 }
 
-/// Without steering the sides have a force each.
+/// In turns by the sides each has a force of its own.
 void check_sides(const Table& table, const std::vector<TurningRow>& rows, const Interval& force) {
   const double limit = std::max(force.hi, -force.lo);
   const auto [first, largest] = beyond(rows, largest_side_force, limit);
@@ -109,6 +109,7 @@ void check_consistency(const TrialSet<TurningRow>& turning, const std::filesyste
   const Table table{path, turning.file, options, findings, faults};
   tell_unit(table, wrong_unit(turning));
   if (!vehicle.has_steering()) return check_sides(table, turning.rows, vehicle.wheel_force);
+  check_sides(table, turning.by_sides, vehicle.wheel_force);
   const double limit = vehicle.wheel_force.hi;
   if (const auto [first, largest] = beyond(turning.rows, &TurningRow::wheel_force, limit); first) {
     const auto [words, factor] = full_scale_of(largest, limit);

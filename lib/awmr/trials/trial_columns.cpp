@@ -26,9 +26,14 @@ const CsvColumn kSurgeColumns[] = {{"tau_speed", false},
                                    {"distance_m", false},
                                    {"elapsed_s", false}};
 
-const CsvColumn kTurningColumns[] = {{"steering_deg", true},    {"wheel_force", true},
-                                     {"yaw_rate_radps", false}, {"turns", false},
-                                     {"elapsed_s", false},      {"tau_turn", false}};
+const CsvColumn kTurningColumns[] = {{"steering_deg", true},
+                                     {"wheel_force", false, EmptyCells::kAbsent},
+                                     {"force_left", false, EmptyCells::kAbsent},
+                                     {"force_right", false, EmptyCells::kAbsent},
+                                     {"yaw_rate_radps", false, EmptyCells::kAbsent},
+                                     {"turns", false, EmptyCells::kAbsent},
+                                     {"elapsed_s", false, EmptyCells::kAbsent},
+                                     {"tau_turn", false, EmptyCells::kAbsent}};
 
 /// Of a vehicle without steering.
 const CsvColumn kSidesTurningColumns[] = {{"force_left", true},      {"force_right", true},

@@ -11,6 +11,8 @@ namespace awmr {
 
 std::optional<double> TrialReader::cell(std::size_t row, std::string_view column) const {
   if (!table_.has(column)) return std::nullopt;
+  const std::vector<bool>& present = table_.present(column);
+  if (!present.empty() && !present[row]) return std::nullopt;
   return table_.column(column)[row];
 }
 

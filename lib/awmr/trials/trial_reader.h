@@ -21,7 +21,7 @@ class TrialReader {
   bool has(std::string_view column) const { return table_.has(column); }
   /// As CsvTable::take().
   std::vector<double> take(std::string_view column) { return table_.take(column); }
-  /// The cell, or nothing where the file has no such column.
+  /// The cell, or nothing where the file has no such column or the row leaves it empty.
   std::optional<double> cell(std::size_t row, std::string_view column) const;
   /// As cell(); a negative value is a fault.
   std::optional<double> non_negative(std::size_t row, std::string_view column);

@@ -27,17 +27,17 @@ struct SurgeRow {
 ///   2 l_f F' sin d_r = g3(r)                                                     [paper (61)-(62)]
 /// All are magnitudes: g3 is odd, so a turn to the right is taken as its mirror image.
 ///
-/// A vehicle without steering turns by its sides, at d_r = 0:
+/// A run that turns by its sides, at d_r = 0, as every one of a vehicle without steering does:
 ///   2 d (F'R - F'L) = g3(r)                                                           [paper (41)]
 struct TurningRow {
   int line = 0;                     ///< of the file
-  double steering_rad = 0.0;        ///< d_r, rad, > 0; 0 without steering
-  double wheel_force = 0.0;         ///< F' of each wheel, over F_max, > 0; 0 without steering
+  double steering_rad = 0.0;        ///< d_r, rad, > 0; 0 by the sides
+  double wheel_force = 0.0;         ///< F' of each wheel, over F_max, > 0; 0 by the sides
   double tau_turn_m = 0.0;          ///< m, > 0: printed where given, else by the forces
   double yaw_rate_radps = 0.0;      ///< r, rad/s, > 0: printed or timed, as preferred
   std::optional<double> turns;      ///< full turns, > 0; with elapsed_s where the run was timed
   std::optional<double> elapsed_s;  ///< s, > 0
-  /// Without steering: F' of each left and each right wheel, over F_max, the right one larger.
+  /// By the sides: F' of each left and each right wheel, over F_max, the right one larger.
   std::optional<SideForces<double>> sides = {};
 };
 
@@ -69,6 +69,9 @@ struct TrialSet {
   int set_aside = 0;                     ///< how many rows the file had beside `rows`
   std::vector<std::size_t> mapped = {};  ///< indices of the TrialOptions' mappings that were used
   std::string force_column = {};         ///< that gave the force of a surge or turning run
+  /// Of a vehicle that also steers, its turns by the sides alone: they scrub the tyres, so that g3 of
+  /// steered turns is not theirs. Not in `rows`.
+  std::vector<Row> by_sides = {};
 };
 
 /// A coast-down file has a row per run, or the curves of its runs.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "awmr/core/csv_text.h"
 #include "awmr/core/units.h"
@@ -21,7 +22,14 @@ const Rate kTurningRate{.printed_column = "yaw_rate_radps",
 /// l_f and the steering angle are set up to about 1 %; F' is set exactly.
 constexpr double kGeometryError = 0.01;
 
-void check_turning_columns(TrialReader& reader) {
+void check_turning_columns(TrialReader& reader, const Vehicle& vehicle) {
+  if (vehicle.has_steering()) {
+    if (reader.has("force_left") != reader.has("force_right")) {
+      reader.header_fault("force_left and force_right belong together: add the other one");
+    } else if (!reader.has("wheel_force") && !reader.has("force_left")) {
+      reader.header_fault("no force: add a column wheel_force, or force_left and force_right");
+    }
+  }
   if (!reader.has("yaw_rate_radps") && !(reader.has("turns") && reader.has("elapsed_s"))) {
     reader.header_fault("no yaw rate: add a column yaw_rate_radps, or turns and elapsed_s");
   }
@@ -96,14 +104,14 @@ double tau_turn_of(TrialReader& reader, std::size_t row, const Turn& turn,
 /// A run that turns by its steering:
 ///   tau_turn = 2 l_f F' sin d_r                                                       [paper (62)]
 /// Nothing on a fault.
-std::optional<Turn> by_steering(TrialReader& reader, std::size_t row, const Vehicle& vehicle) {
+std::optional<Turn> by_steering(TrialReader& reader, std::size_t row, const Vehicle& vehicle,
+                                double wheel_force) {
   const double steering_deg = *reader.cell(row, "steering_deg");
   if (std::abs(steering_deg) >= 90.0) {
     reader.fault(row, "steering_deg",
                  fmt::format("must lie between -90 and 90, found {}", steering_deg));
     return std::nullopt;
   }
-  const double wheel_force = *reader.non_negative(row, "wheel_force");
   const double steering_rad = radians(std::abs(steering_deg));
   return Turn{.left = steering_deg,
               .in_words = fmt::format("steering_deg {}", steering_deg),
@@ -130,17 +138,92 @@ Turn by_sides(const TrialReader& reader, std::size_t row, const Vehicle& vehicle
           .sides = sides};
 }
 
+/// A faulty cell where wheel_force is given beside the forces of the sides and is not their mean.
+void check_mean(TrialReader& reader, std::size_t row, double left, double right) {
+  const auto mean = reader.cell(row, "wheel_force");
+  if (!mean) return;
+  const double computed = 0.5 * (left + right);
+  const double tolerance = reader.rounding_error(*mean, "wheel_force") + 0.005 * std::abs(computed);
+  if (std::abs(*mean - computed) <= tolerance) return;
+  reader.fault(
+      row, "wheel_force",
+      fmt::format("found {} beside force_left {} and force_right {}, whose mean is {:.4g}: "
+                  "correct it or leave it empty",
+                  *mean, left, right, computed));
+}
+
+/// A faulty cell for each that a steered run leaves empty: runs by the sides alone may share its table,
+/// and have other columns.
+bool is_filled(TrialReader& reader, std::size_t row) {
+  bool is_filled = true;
+  for (const char* column : {"wheel_force", "yaw_rate_radps", "turns", "elapsed_s", "tau_turn"}) {
+    if (!reader.has(column) || reader.cell(row, column)) continue;
+    reader.fault(row, column,
+                 fmt::format("column {}: the cell is empty; expected a number", column));
+    is_filled = false;
+  }
+  if (is_filled && !reader.has("wheel_force")) {
+    reader.fault(row, "force_left", "no force: give both sides', or a column wheel_force");
+    return false;
+  }
+  return is_filled;
+}
+
+/// A faulty row where nothing says how fast it turned.
+bool has_rate(TrialReader& reader, std::size_t row) {
+  if (reader.cell(row, "yaw_rate_radps")) return true;
+  if (reader.cell(row, "turns") && reader.cell(row, "elapsed_s")) return true;
+  reader.fault(row, reader.has("yaw_rate_radps") ? "yaw_rate_radps" : "turns",
+               "no yaw rate: give yaw_rate_radps, or turns and elapsed_s");
+  return false;
+}
+
+/// A run of a vehicle with steering, which turns by it or, with straight wheels, by its sides.
+/// Nothing on a fault.
+std::optional<Turn> by_steering_or_sides(TrialReader& reader, std::size_t row,
+                                         const Vehicle& vehicle) {
+  const auto left = reader.cell(row, "force_left");
+  const auto right = reader.cell(row, "force_right");
+  if (left.has_value() != right.has_value()) {
+    reader.fault(row, left ? "force_right" : "force_left",
+                 "is empty beside the other side's: give both or neither");
+    return std::nullopt;
+  }
+  if (!left) {
+    if (!is_filled(reader, row)) return std::nullopt;
+    return by_steering(reader, row, vehicle, *reader.non_negative(row, "wheel_force"));
+  }
+  check_mean(reader, row, *left, *right);
+  if (!has_rate(reader, row)) return std::nullopt;
+  if (*left == *right) {
+    if (*left < 0.0) {
+      reader.fault(row, "force_left", fmt::format("must not be negative, found {}", *left));
+      return std::nullopt;
+    }
+    return by_steering(reader, row, vehicle, *left);
+  }
+  if (*reader.cell(row, "steering_deg") == 0.0) return by_sides(reader, row, vehicle);
+  reader.fault(
+      row, "steering_deg",
+      fmt::format("found {} with force_left {} and force_right {}: a run that turns by its "
+                  "steering and by its sides at once shows the resistance of neither; "
+                  "keep the wheels straight, or drive both sides alike",
+                  *reader.cell(row, "steering_deg"), *left, *right));
+  return std::nullopt;
+}
+
 /// The row with its moment and its yaw rate, both magnitudes: g3 is odd, so a turn to the right is
 /// taken as its mirror image to the left.
 std::optional<TurningRow> read_row(TrialReader& reader, std::size_t row, const Vehicle& vehicle,
                                    Preference preference, std::vector<Finding>& findings) {
-  const auto turn =
-      vehicle.has_steering() ? by_steering(reader, row, vehicle) : by_sides(reader, row, vehicle);
+  const auto turn = vehicle.has_steering() ? by_steering_or_sides(reader, row, vehicle)
+                                           : by_sides(reader, row, vehicle);
   if (!turn) return std::nullopt;
   const auto printed = printed_yaw_rate(reader, row, *turn);
   const auto rate = rate_of(reader, row, kTurningRate, printed, preference, findings);
   if (!rate) return std::nullopt;
-  if (vehicle.has_steering()) check_stop(reader, row, vehicle, turn->left, findings);
+  if (!turn->sides && vehicle.has_steering())
+    check_stop(reader, row, vehicle, turn->left, findings);
   return TurningRow{.line = reader.table().line(row),
                     .steering_rad = turn->steering_rad,
                     .wheel_force = turn->wheel_force,
@@ -151,6 +234,19 @@ std::optional<TurningRow> read_row(TrialReader& reader, std::size_t row, const V
                     .sides = turn->sides};
 }
 
+/// Turns by the sides that are alone in a table of a vehicle with steering are what g3 is fitted to.
+void take_sides_alone(TrialSet<TurningRow>& set, std::vector<Finding>& findings) {
+  if (!set.rows.empty() || set.by_sides.empty()) return;
+  set.rows = std::exchange(set.by_sides, {});
+  findings.push_back(
+      {set.file, set.rows.front().line, Severity::kWarning, "turned-by-sides",
+       fmt::format(
+           "all {} turns are by the sides' forces, which scrub the tyres: yaw resistance is "
+           "fitted to them and holds for turns by the sides; where the vehicle also steers, "
+           "add steered turns (steering_deg, wheel_force)",
+           set.rows.size())});
+}
+
 }  // namespace
 
 Result<TrialSet<TurningRow>> read_turning(const std::filesystem::path& path, const Vehicle& vehicle,
@@ -158,12 +254,15 @@ Result<TrialSet<TurningRow>> read_turning(const std::filesystem::path& path, con
                                           std::vector<Finding>& findings) {
   AWMR_ASSIGN_OR_RETURN(CsvTable table, read_table(path, turning_columns(vehicle), options));
   TrialReader reader(std::move(table), options);
-  check_turning_columns(reader);
+  check_turning_columns(reader, vehicle);
   if (!reader.faults().empty()) return input_errors(std::move(reader.faults()));
 
   TrialSet<TurningRow> set{finding_file(reader.table()), {}, 0, reader.table().mapped()};
   set.force_column = "wheel_force";
   note_format(reader, findings);
+  // Empty cells are those of runs of the other kind: a table of runs has no time to join them by.
+  std::erase_if(findings,
+                [&](const Finding& f) { return f.code == "joined-by-time" && f.file == set.file; });
   std::vector<std::size_t> set_aside;
   for (std::size_t i = 0; i < reader.table().rows(); ++i) {
     const auto row = read_row(reader, i, vehicle, options.preference, findings);
@@ -171,10 +270,12 @@ Result<TrialSet<TurningRow>> read_turning(const std::filesystem::path& path, con
     if (row->tau_turn_m == 0.0 || row->yaw_rate_radps == 0.0) {
       set_aside.push_back(i);
     } else {
-      set.rows.push_back(*row);
+      const bool beside_steering = vehicle.has_steering() && row->sides;
+      (beside_steering ? set.by_sides : set.rows).push_back(*row);
     }
   }
   if (!reader.faults().empty()) return input_errors(std::move(reader.faults()));
+  take_sides_alone(set, findings);
   set.set_aside = static_cast<int>(set_aside.size());
   note_rows_set_aside(reader, set_aside,
                       "without yaw moment or yaw rate, a run shows nothing of tau_turn = a3 r^b3",

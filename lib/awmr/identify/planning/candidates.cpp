@@ -200,6 +200,33 @@ std::vector<CandidateTrial> candidates_of(const Model& model, const SuggestOptio
   return candidates;
 }
 
+std::vector<ScrubTurn> scrub_turns_of(const Model& model) {
+  const Vehicle& vehicle = model.vehicle;
+  const auto yaw = model.plant(Motion::kSteadyTurn);
+  const auto surge = model.plant(Motion::kSteadySurge);
+  if (!vehicle.has_steering() || model.yaw_scrub || !yaw || !surge) return {};
+  double fastest_mps = 0.0, fastest_radps = 0.0;
+  for (const TrialPoint& trial : model.record.trials) {
+    if (trial.kind == TrialKind::kSurge) fastest_mps = std::max(fastest_mps, trial.measured);
+    if (trial.kind == TrialKind::kTurning) fastest_radps = std::max(fastest_radps, trial.measured);
+  }
+  if (!(fastest_radps > 0.0)) return {};
+  const double straight = fastest_mps > 0.0
+                              ? surge->surge(0.5 * fastest_mps) / vehicle.driven_wheels()
+                              : 0.5 * (vehicle.wheel_force.lo + vehicle.wheel_force.hi);
+  std::vector<ScrubTurn> turns;
+  for (const double share : {1.0 / 3.0, 2.0 / 3.0, 1.0}) {
+    const double rate_radps = share * fastest_radps;
+    // 2 d (F'R - F'L) = g3(r)
+    const double half = yaw->yaw(rate_radps) / (4.0 * vehicle.half_track_m);
+    const SideForces<double> command{with_dead_zone(straight - half, yaw->wheel_dead_zone),
+                                     with_dead_zone(straight + half, yaw->wheel_dead_zone)};
+    if (command.left < vehicle.wheel_force.lo || command.right > vehicle.wheel_force.hi) break;
+    turns.push_back({command, degrees(rate_radps)});
+  }
+  return turns;
+}
+
 std::vector<std::string> assumptions_of(const Model& model, const SuggestOptions& options) {
   const SensorNoise& sensors = options.sensors;
   return {fmt::format("steady speeds scatter by {:.2g} of their value, yaw rates by {:.2g}: what "

@@ -37,6 +37,10 @@ void describe_suggestion(JsonObject& json) {
     missing.string("trial");
     missing.reject_unknown_keys();
   }
+  for (JsonObject& turn : json.optional_objects("scrub_turns")) {
+    for (const char* key : {"force_left", "force_right", "yaw_rate_degps"}) turn.number(key);
+    turn.reject_unknown_keys();
+  }
   for (JsonObject& trial : json.objects("trials")) {
     trial.choice("kind", kTrialKindNames);
     JsonObject settings = trial.object("settings");

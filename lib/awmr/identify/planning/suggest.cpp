@@ -214,6 +214,7 @@ Result<Suggestion> suggest(const Model& model, const SuggestOptions& options) {
   Suggestion suggestion{.criterion = target.criterion,
                         .missing = std::move(missing),
                         .trials = {},
+                        .scrub_turns = scrub_turns_of(model),
                         .assumptions = assumptions_of(model, options)};
   if (uncertainty.parameters.empty()) return suggestion;
   if (model.simulated_motion() == Motion::kPlanar) {

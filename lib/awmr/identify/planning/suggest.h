@@ -48,10 +48,19 @@ struct MissingParameter {
   std::string trial;  ///< that shows it, in words
 };
 
+/// Turns by the sides' forces, wheels straight, that tell what the tyres' scrub takes from them: what the
+/// choice between differential, steering and combined hangs on (compare --break-even).
+struct ScrubTurn {
+  SideForces<double> force;     ///< F' of each left and each right wheel, over F_max
+  double yaw_rate_degps = 0.0;  ///< that they would make without scrub
+};
+
 struct Suggestion {
   std::string criterion;                  ///< in words
   std::vector<MissingParameter> missing;  ///< no value at all: their trials come before any other
   std::vector<SuggestedTrial> trials;     ///< best first
+  /// Empty where the model has measured it, knows no yaw resistance or does not steer.
+  std::vector<ScrubTurn> scrub_turns;
   std::vector<std::string> assumptions;
 };
 

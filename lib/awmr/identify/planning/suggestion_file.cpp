@@ -16,6 +16,11 @@ std::string suggestion_text(const Suggestion& suggestion, const Provenance& prov
   for (const MissingParameter& one : suggestion.missing) {
     json["missing"].push_back({{"parameter", info(one.id).name}, {"trial", one.trial}});
   }
+  for (const ScrubTurn& turn : suggestion.scrub_turns) {
+    json["scrub_turns"].push_back({{"force_left", turn.force.left},
+                                   {"force_right", turn.force.right},
+                                   {"yaw_rate_degps", turn.yaw_rate_degps}});
+  }
   json["trials"] = Json::array();
   for (const SuggestedTrial& trial : suggestion.trials) {
     Json settings;
@@ -51,6 +56,20 @@ std::string missing_sheet(const std::vector<MissingParameter>& missing) {
   return text;
 }
 
+/// The turns that tell whether the sides or the steering should turn the vehicle.
+std::string scrub_sheet(const std::vector<ScrubTurn>& turns) {
+  if (turns.empty()) return {};
+  std::string text =
+      "\nfor the choice between differential, steering and combined: steady circles by the sides'\n"
+      "forces alone, wheels straight, as rows of the turning table (steering_deg 0)\n";
+  for (const ScrubTurn& turn : turns) {
+    text += fmt::format(
+        "[ ]    turning   force_left {:.3g}, force_right {:.3g}: {:.3g} deg/s if nothing scrubs\n",
+        turn.force.left, turn.force.right, turn.yaw_rate_degps);
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string field_sheet(const Suggestion& suggestion, std::size_t most) {
@@ -68,7 +87,7 @@ std::string field_sheet(const Suggestion& suggestion, std::size_t most) {
         fmt::format("       {}: standard error {:.3g} -> {:.3g};  information +{:.1f}\n",
                     trial.parameter, trial.std_error_before, trial.std_error_after, trial.d_gain);
   }
-  return text;
+  return text + scrub_sheet(suggestion.scrub_turns);
 }
 
 }  // namespace awmr

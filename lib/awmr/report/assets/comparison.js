@@ -48,7 +48,9 @@ function breakEven(parent, entries) {
   if (!entries || !entries.length) return;
   add(parent, "h3", "How much scrub a lead stands");
   add(parent, "p", "Wheels that are turned by the sides' forces scrub. With this Coulomb yaw moment more than the model has, a lead is gone. Tyres that slide "
-    + `sideways on a friction of 0.8 make ${digits(entries[0].sliding_m, 3)} m.`);
+    + `sideways on a friction of 0.8 make ${digits(entries[0].sliding_m, 3)} m`
+    + (entries[0].measured_m ? `; this vehicle's own turns by the sides met ${entries[0].measured_m.map((m) => digits(m, 3)).join(" to ")} m.`
+      : "; a few turns by the sides' forces, wheels straight, tell this vehicle's own (awmr suggest)."));
   table(parent, ["scenario", "mode", "ahead of", "#until, m"], entries.map((e) => [e.scenario, e.mode, e.against,
     e.yaw_coulomb_m === null ? `beyond ${digits(e.most_m, 3)}` : digits(e.yaw_coulomb_m, 3)]));
 }
