@@ -169,6 +169,21 @@ RC_GTEST_PROP(Lqi, TheGainsSolveTheRiccatiEquationAndTheLoopIsStable, ()) {
             1e-9L * (scale * (by_input + q) * scale).cwiseAbs().maxCoeff());
 }
 
+/// settles_when_sampled() is what the eigenvalues of the held law say: all within the unit circle.
+RC_GTEST_PROP(Lqi, SettlesWhenSampledWhereEveryEigenvalueDoes, ()) {
+  const LqiGains<double> gains = lqi_gains(any_weights(), ratio_between(1e-3, 10.0));
+  const double t_s = ratio_between(1e-3, 1.0);
+  Matrix3 step = Matrix3::Identity();  // of (e, e_dot, z)
+  step(0, 1) = step(2, 0) = Real(t_s);
+  const Vector3 k(gains.heading_per_s2, gains.rate_per_s, gains.integral_per_s3);
+  const Vector3 by_command(-0.5L * t_s * t_s, -Real(t_s), 0.0L);
+  step += by_command * k.transpose();
+  const Real largest = step.eigenvalues().cwiseAbs().maxCoeff();
+  RC_PRE(std::abs(largest - 1.0L) > 1e-9L);  // rounding decides there
+  RC_TAG(largest < 1.0L);
+  RC_ASSERT(settles_when_sampled(gains, t_s) == (largest < 1.0L));
+}
+
 /// The gains of the ends of what a scenario may ask for are finite, and solve their equations.
 TEST(Lqi, TheGainsAreFiniteAtTheEndsOfTheirRanges) {
   for (const double heading_deg : {1e-3, 180.0}) {

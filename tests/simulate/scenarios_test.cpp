@@ -176,5 +176,16 @@ TEST(HeadingSteps, OfThirtyAndMinusThirtyAreC3) {
   }
 }
 
+TEST(Scenarios, LqiWeightsTooFastForTheControllersSamplesAreRefused) {
+  const Model model = model_with_intervals();
+  auto scenario = read_scenario(AWMR_SOURCE_DIR "/configs/baselines/heading_steps_lqi.json");
+  ASSERT_TRUE(scenario) << to_text(scenario.error());
+  EXPECT_TRUE(plant_for(*scenario, model));
+  scenario->control.lqi->tau_turn_m *= 1000.0;
+  const auto refused = plant_for(*scenario, model);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(to_text(refused.error()).find("held over sample_time_s"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace awmr::testing

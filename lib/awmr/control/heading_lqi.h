@@ -63,6 +63,26 @@ LqiGains<T> lqi_gains(const LqiWeights<T>& weights, const T& inertia_norm) {
   return {a0, a1, sqrt(c2 + T(2.0) * a1)};
 }
 
+/// True where the law, held over T_s = sample_time_s > 0, still makes the heading settle. With w held and
+/// z moved on by T_s e,
+///   e+ = e + T_s e_dot - w T_s^2/2,  e_dot+ = e_dot - w T_s,  z+ = z + T_s e
+/// has over l = (eigenvalue) - 1 the characteristic polynomial
+///   l^3 + A l^2 + B l + C,  A = a2 T_s + a1 T_s^2/2,  B = a1 T_s^2 + a0 T_s^3/2,  C = a0 T_s^3
+/// whose zeros lie within the unit circle where those of its bilinear image l = 2 s/(1 - s),
+///   (8 - 4 A + 2 B - C) s^3 + (4 A - 4 B + 3 C) s^2 + (2 B - 3 C) s + C,
+/// lie on the left (Hurwitz).
+template <class T>
+bool settles_when_sampled(const LqiGains<T>& gains, const T& sample_time_s) {
+  const T a = gains.rate_per_s * sample_time_s +
+              gains.heading_per_s2 * sample_time_s * sample_time_s / T(2.0);
+  const T c = gains.integral_per_s3 * sample_time_s * sample_time_s * sample_time_s;
+  const T b = gains.heading_per_s2 * sample_time_s * sample_time_s + c / T(2.0);
+  const T s3 = T(8.0) - T(4.0) * a + T(2.0) * b - c;
+  const T s2 = T(4.0) * a - T(4.0) * b + T(3.0) * c;
+  const T s1 = T(2.0) * b - T(3.0) * c;
+  return s3 > T(0.0) && s2 > T(0.0) && s1 > T(0.0) && c > T(0.0) && s2 * s1 > s3 * c;
+}
+
 /// What the law remembers from sample to sample.
 template <class T>
 struct LqiState {

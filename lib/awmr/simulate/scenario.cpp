@@ -126,8 +126,25 @@ Status check_tyres(const Scenario& scenario) {
   return {};
 }
 
+/// Weights that ask for a law faster than the controller's samples are an error, not a run that swings.
+Status check_lqi(const Scenario& scenario, const Model& model) {
+  const auto& inertia_norm = model[ParameterId::kInertiaNorm].value;
+  if (!scenario.control.lqi || !inertia_norm) return {};
+  const double sample_time_s = model.vehicle.sample_time_s;
+  const LqiGains<double> gains = lqi_gains(*scenario.control.lqi, *inertia_norm);
+  if (settles_when_sampled(gains, sample_time_s)) return {};
+  return input_error(
+      fmt::format("scenario '{}':/control/heading_law", scenario.name),
+      fmt::format(
+          "its weights ask for gains ({:.3g} 1/s on the yaw rate) that swing up when they are "
+          "held over sample_time_s {:g}: give a smaller tau_turn_m, or larger heading_deg, "
+          "yaw_rate_degps and integral_deg_s",
+          gains.rate_per_s, sample_time_s));
+}
+
 Result<Plant<double>> plant_for(const Scenario& scenario, const Model& model, Motion motion) {
   AWMR_RETURN_IF_ERROR(check_tyres(scenario));
+  AWMR_RETURN_IF_ERROR(check_lqi(scenario, model));
   AWMR_ASSIGN_OR_RETURN(const Model corner, model_at_corner(model, scenario));
   AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, corner.plant(motion));
   AWMR_RETURN_IF_ERROR(check_work(plant, model.file, scenario, model.vehicle.sample_time_s));

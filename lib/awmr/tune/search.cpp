@@ -236,13 +236,18 @@ Candidate feasible_start(const TuneOptions& options, const ConstraintContext& co
 }
 
 Result<SearchResult> search(const TuneOptions& options, const ConstraintContext& context,
-                            const Objective& objective, const Gains<double>& start) {
+                            const Objective& objective, std::span<const Gains<double>> starts) {
   Problem problem(options, context, objective);
-  const nlopt_result global = search_globally(problem, options, point_of(start, options.bounds));
+  const nlopt_result global =
+      search_globally(problem, options, point_of(starts.front(), options.bounds));
   if (failed(global)) return program_fault("NLopt's ISRES: " + reason(global));
   std::string stop = "global: " + reason(global);
   const int global_evaluations = problem.evaluations;
   problem.simulate_all = true;
+  for (const Gains<double>& start : starts.subspan(1)) {
+    const Point point[] = {point_of(start, options.bounds)};
+    problem.look_at(point);
+  }
   AWMR_ASSIGN_OR_RETURN(const std::string local,
                         search_locally(problem, options.bounds, options.local_evaluations));
   stop += local;

@@ -33,11 +33,12 @@ Result<std::string> search_locally(Problem& problem, const GainBounds& bounds,
 Candidate feasible_start(const TuneOptions& options, const ConstraintContext& context,
                          const Gains<double>& baseline);
 
-/// GN_ISRES from `start` (feasible), then LN_COBYLA from the best point met, over ln(gains). Each
+/// GN_ISRES from the first of `starts`, then LN_COBYLA from the best point met, the other starts among
+/// them, over ln(gains). All starts meet the constraints that need no run; there is at least one. Each
 /// point is kept only if it meets every constraint exactly, whatever tolerance the search itself
 /// works with. Deterministic: NLopt's generator is reseeded, and searches in one process take
 /// turns.
 Result<SearchResult> search(const TuneOptions& options, const ConstraintContext& context,
-                            const Objective& objective, const Gains<double>& start);
+                            const Objective& objective, std::span<const Gains<double>> starts);
 
 }  // namespace awmr

@@ -183,14 +183,20 @@ ConstraintContext context_of(const TuneOptions& options, const Plant<double>& pl
   return context;
 }
 
-/// Searches on one setting.
+/// Searches on one setting. `also_from`: gains that may be a good start as well.
 Result<Tuning> tune_on(const ObjectiveSetting& setting, const ConstraintContext& context,
-                       const TuneOptions& options) {
+                       const TuneOptions& options,
+                       const std::optional<Gains<double>>& also_from = {}) {
   const std::span<const YawMode> modes = yaw_modes(setting.vehicle);
   const Candidate start = feasible_start(options, context, kPaperGains);
   if (start.violation > 0.0) return infeasible(start, context);
+  std::vector<Gains<double>> starts{start.gains};
+  if (also_from) {
+    const Candidate other = feasible_start(options, context, *also_from);
+    if (!(other.violation > 0.0)) starts.push_back(other.gains);
+  }
   const Objective objective(setting, kPaperGains);
-  AWMR_ASSIGN_OR_RETURN(const SearchResult found, search(options, context, objective, start.gains));
+  AWMR_ASSIGN_OR_RETURN(const SearchResult found, search(options, context, objective, starts));
   if (!found.best) return not_better(found, objective, modes);
   const SettledGains settled = settle(options, context, objective, *found.best);
   AWMR_ASSIGN_OR_RETURN(std::vector<ActiveConstraint> active,
@@ -276,7 +282,8 @@ Result<Tuning> tune_robustly(const Model& model, ObjectiveSetting setting,
   TuneOptions robust_options = options;
   robust_options.global_evaluations = robust_global;
   robust_options.progress = part_of(options.progress, evaluations, plants, total);
-  AWMR_ASSIGN_OR_RETURN(Tuning tuning, tune_on(setting, context, robust_options));
+  const auto nominal_gains = nominal ? std::optional(nominal->gains) : std::nullopt;
+  AWMR_ASSIGN_OR_RETURN(Tuning tuning, tune_on(setting, context, robust_options, nominal_gains));
 
   std::vector<NamedCandidate> candidates{{"robust", tuning.gains}, {"baseline", tuning.baseline}};
   if (nominal) {
