@@ -186,7 +186,7 @@ TEST_F(RecoverShards, OfMachinesThatRoundDifferentlyAreNotMixed) {
   std::string shard = read_all(second / kShardFile);
   shard.replace(shard.find(rounding_of_functions()), 4, "none");
   write_all(second / kShardFile, shard);
-  EXPECT_THAT(fault({first, second}), HasSubstr("their processors round differently"));
+  EXPECT_THAT(fault({first, second}), HasSubstr("their numbers are rounded differently"));
 }
 
 TEST_F(RecoverShards, DamagedTablesAreNamed) {

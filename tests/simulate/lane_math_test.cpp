@@ -51,6 +51,71 @@ void check(const char* name, const F& f, const Exact& exact, const Draw& draw, d
   if (!holds) ++failures;
 }
 
+/// The same of lanes of float32: arguments are rounded to floats, and errors are in a float's last
+/// place.
+template <class F, class Exact, class Draw>
+void check_float(const char* name, const F& f, const Exact& exact, const Draw& draw, double least,
+                 double most) {
+  double worst = 0.0;
+  for (int block = 0; block < 20000; ++block) {
+    double x[FloatLanes::kCount];
+    double y[FloatLanes::kCount];
+    double result[FloatLanes::kCount];
+    for (int i = 0; i < FloatLanes::kCount; ++i) {
+      draw(x[i], y[i]);
+      x[i] = static_cast<float>(x[i]);
+      y[i] = static_cast<float>(y[i]);
+    }
+    f(FloatLanes::load(x), FloatLanes::load(y)).store(result);
+    for (int i = 0; i < FloatLanes::kCount; ++i) {
+      const long double expected = exact(x[i], y[i]);
+      const float scale = static_cast<float>(fmaxl(fabsl(expected), least));
+      const double place = static_cast<double>(nextafterf(scale, __builtin_inff()) - scale);
+      worst = fmax(worst, static_cast<double>(fabsl(result[i] - expected)) / place);
+    }
+  }
+  const bool holds = worst <= most;
+  printf("%-26s worst %6.2f ulp, at most %g%s\n", name, worst, most, holds ? "" : "  FAILED");
+  if (!holds) ++failures;
+}
+template <class F>
+void check_float_out_of_range(const char* name, const F& f, double x, double y) {
+  double result[FloatLanes::kCount];
+  f(FloatLanes(x), FloatLanes(y)).store(result);
+  if (isnan(result[0])) return;
+  printf("%s(%g, %g) of floats is %g and not NaN  FAILED\n", name, x, y, result[0]);
+  ++failures;
+}
+
+void check_floats() {
+  const auto raise = [](const FloatLanes& x, const FloatLanes& y) { return pow(x, y); };
+  // The error of log2(x), half a place of it or so, counts y times.
+  check_float(
+      "pow of floats, speeds", raise, [](long double x, long double y) { return powl(x, y); },
+      [](double& x, double& y) {
+        x = exp(between(-10.0, 5.0));
+        y = between(0.0, 2.0);
+      },
+      0.0, 32.0);
+  const auto sine = [](const FloatLanes& x, const FloatLanes&) { return sin(x); };
+  const auto cosine = [](const FloatLanes& x, const FloatLanes&) { return cos(x); };
+  const auto quarter = [](double& x, double& y) {
+    x = between(-1.5707, 1.5707);
+    y = 0.0;
+  };
+  check_float(
+      "sin of floats", sine, [](long double x, long double) { return sinl(x); }, quarter, 1.0, 2.0);
+  check_float(
+      "cos of floats", cosine, [](long double x, long double) { return cosl(x); }, quarter, 1.0,
+      2.0);
+  for (const double x : {0.0, 1e-40, -1.0, kNaN}) check_float_out_of_range("pow", raise, x, 0.5);
+  check_float_out_of_range("pow", raise, 1e20, 20.0);
+  for (const double x : {1.6, -2.0, kInfinity, kNaN}) {
+    check_float_out_of_range("sin", sine, x, 0.0);
+    check_float_out_of_range("cos", cosine, x, 0.0);
+  }
+}
+
 /// Out of the range of a polynomial the result is NaN.
 template <class F>
 void check_out_of_range(const char* name, const F& f, double x, double y) {
@@ -137,5 +202,6 @@ int main() {
       ++failures;
     }
   }
+  check_floats();
   return failures == 0 ? 0 : 1;
 }

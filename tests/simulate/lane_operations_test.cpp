@@ -28,7 +28,7 @@ double next_number() {
 }
 
 /// The rounding of fma() that the kernels say they have.
-double fused(double a, double b, double c) {
+double multiplied_and_added(double a, double b, double c) {
 #ifdef __FMA__
   return std::fma(a, b, c);
 #else
@@ -101,7 +101,8 @@ int main() {
       "sqrt", [](const Lanes& x, const Lanes&, const Lanes&) { return sqrt(x); },
       [](double x, double, double) { return std::sqrt(x); });
   check(
-      "fma", [](const Lanes& x, const Lanes& y, const Lanes& z) { return fma(x, y, z); }, fused);
+      "fma", [](const Lanes& x, const Lanes& y, const Lanes& z) { return fma(x, y, z); },
+      multiplied_and_added);
   if (failures == 0) std::printf("every operation of %d lanes is that of doubles\n", kCount);
   return failures == 0 ? 0 : 1;
 }

@@ -78,8 +78,10 @@ inline constexpr std::array<MetricColumn, 16> kMetricColumns = {{
     {MetricId::kTyreWork, "tyre_work", "", "m", &Metrics::tyre_work, 0.01, 0.0},
 }};
 
-/// The columns of comparison.csv; with several sets of gains their name is the last.
-std::vector<std::string> comparison_columns(bool with_gains);
+/// The columns of comparison.csv: of a comparison in float32 also kFloat32Column; with several sets
+/// of gains their name is the last.
+std::vector<std::string> comparison_columns(bool with_float32, bool with_gains);
+inline constexpr std::string_view kFloat32Column = "float32";
 
 inline const MetricColumn& column_of(MetricId id) { return kMetricColumns[at(id)]; }
 

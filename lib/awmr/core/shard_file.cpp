@@ -4,9 +4,11 @@
 #include <fmt/ranges.h>
 
 #include <map>
+#include <set>
 
 #include "awmr/core/file.h"
 #include "awmr/core/hash.h"
+#include "awmr/core/option_text.h"
 
 namespace awmr {
 namespace {
@@ -34,7 +36,10 @@ std::string other_work(const ShardOrigin& first, const ShardOrigin& part) {
   if (part.shard.index > part.shard.count) {
     return fmt::format("is part {} of {}: there is none", part.shard.index, part.shard.count);
   }
-  if (a.options != b.options) return made_with_other_options(first);
+  if (a.options != b.options) {
+    return fmt::format("{} ({})", made_with_other_options(first),
+                       differing_options(a.options, b.options));
+  }
   if (!std::equal(a.inputs.begin(), a.inputs.end(), b.inputs.begin(), b.inputs.end(), same_input)) {
     return fmt::format("was made from other inputs than {}", first.directory.string());
   }
@@ -130,6 +135,19 @@ bool is_finished_part(const std::filesystem::path& directory, std::string_view s
   return true;
 }
 
+std::string differing_options(const std::vector<std::pair<std::string, std::string>>& a,
+                              const std::vector<std::pair<std::string, std::string>>& b) {
+  std::set<std::string> names;
+  for (const auto& [own, other] : {std::pair(&a, &b), std::pair(&b, &a)}) {
+    for (const auto& option : *own) {
+      if (std::find(other->begin(), other->end(), option) == other->end()) {
+        names.insert(option_text(option.first));
+      }
+    }
+  }
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
 std::string made_with_other_options(const ShardOrigin& first) {
   return fmt::format("was made with other options than {}", first.directory.string());
 }
@@ -138,7 +156,7 @@ std::string other_arithmetic(const ShardOrigin& first, const ShardOrigin& part,
                              std::string_view advice) {
   if (part.arithmetic == first.arithmetic) return {};
   return fmt::format(
-      "was computed in {} arithmetic, {} in {}: their processors round differently; {}",
+      "was computed in {} arithmetic, {} in {}: their numbers are rounded differently; {}",
       part.arithmetic, first.directory.string(), first.arithmetic, advice);
 }
 

@@ -54,6 +54,11 @@ bool is_finished_part(const std::filesystem::path& directory, std::string_view s
 Status check_parts(const std::vector<ShardOrigin>& parts,
                    const std::function<std::string(std::size_t)>& why_not);
 
+/// The options that one of them has and the other has not, or has otherwise, by their marked names
+/// (option_text.h).
+std::string differing_options(const std::vector<std::pair<std::string, std::string>>& a,
+                              const std::vector<std::pair<std::string, std::string>>& b);
+
 /// Words for `why_not`: other options; and where numbers were rounded in another way, which parts
 /// that are mixed must not be, with what to do about it.
 std::string made_with_other_options(const ShardOrigin& first);

@@ -59,7 +59,10 @@ std::vector<Scenario> scenarios() {
   small_angles.control.allocation = AllocationForm::kPaper;
   small_angles.control.split = CombinedSplit::kFixedHalf;
   const Scenario open{"open loop", 8.0, {}, 0.0, OpenLoop{0.6, 0.02}};
-  return {headings, observed, small_angles, open};
+  Scenario sloped = open;
+  sloped.name = "open loop on a slope";
+  sloped.disturbance.slope = Slope{.angle_rad = 0.1, .downhill_rad = 0.7};
+  return {headings, observed, small_angles, open, sloped};
 }
 
 void print_bits(double value) {
@@ -103,16 +106,13 @@ void print_loops_of_fits() {
   std::printf("\n");
 }
 
-}  // namespace
-
-/// The kernel comes by its name or, without one, is the widest.
-int main(int argc, char** argv) {
-  const auto kernels = lanes::supported_kernels();
-  const lanes::Kernel* kernel = kernels.empty() || argc > 1 ? nullptr : kernels.front();
-  for (const lanes::Kernel* one : kernels) {
-    if (argc > 1 && std::strcmp(one->name, argv[1]) == 0) kernel = one;
+/// Every run of the named kernel or, without a name, of the widest. False: there is none.
+bool print_runs(StepFormat format, const char* name) {
+  const lanes::Kernel* kernel = nullptr;
+  for (const lanes::Kernel* one : lanes::supported_kernels(format)) {
+    if (!kernel && (!name || std::strcmp(one->name, name) == 0)) kernel = one;
   }
-  if (!kernel) return std::puts("no such kernel on this processor"), 2;
+  if (!kernel) return false;
   for (const Scenario& scenario : scenarios()) {
     for (const YawMode mode : kYawModes) {
       const auto metrics = simulate_batch(drawn_runs(mode), scenario, kSampleTime_s,
@@ -123,6 +123,18 @@ int main(int argc, char** argv) {
         if (metrics[i]) print_metrics(*metrics[i]);
         std::printf("%s\n", metrics[i] ? "" : " failed");
       }
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+/// The kernel comes by its name or, without one, is the widest.
+int main(int argc, char** argv) {
+  for (const StepFormat format : {StepFormat::kDouble, StepFormat::kFloat32}) {
+    if (!print_runs(format, argc > 1 ? argv[1] : nullptr)) {
+      return std::puts("no such kernel on this processor"), 2;
     }
   }
   print_loops_of_fits();
