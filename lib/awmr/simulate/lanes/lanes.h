@@ -91,6 +91,23 @@ AWMR_LANE_INLINE Register fused(const Register& a, const Register& b, const Regi
 #endif
 }
 
+/// a/b and the root of a register, rounded as the number's own. (For floats of ARM, xsimd 8 takes
+/// estimates with two of Newton's steps, which miss the last place.)
+template <class Register>
+AWMR_LANE_INLINE Register quotient(const Register& a, const Register& b) {
+#ifdef __aarch64__
+  if constexpr (sizeof(typename Register::value_type) == sizeof(float)) return vdivq_f32(a, b);
+#endif
+  return a / b;
+}
+template <class Register>
+AWMR_LANE_INLINE Register root(const Register& a) {
+#ifdef __aarch64__
+  if constexpr (sizeof(typename Register::value_type) == sizeof(float)) return vsqrtq_f32(a);
+#endif
+  return xsimd::sqrt(a);
+}
+
 /// A register of doubles, or one of floats whose numbers stand in memory as doubles.
 using Register = xsimd::batch<double, xsimd::AWMR_LANES_ARCH>;
 using FloatRegister = xsimd::batch<float, xsimd::AWMR_LANES_ARCH>;
@@ -165,12 +182,16 @@ struct LanesOf {
   AWMR_LANES_OPERATOR(LanesOf, +)
   AWMR_LANES_OPERATOR(LanesOf, -)
   AWMR_LANES_OPERATOR(LanesOf, *)
-  AWMR_LANES_OPERATOR(LanesOf, /)
   AWMR_LANES_OPERATOR(Mask, <)
   AWMR_LANES_OPERATOR(Mask, <=)
   AWMR_LANES_OPERATOR(Mask, >)
   AWMR_LANES_OPERATOR(Mask, >=)
 #undef AWMR_LANES_OPERATOR
+
+  friend AWMR_LANE_INLINE LanesOf operator/(const LanesOf& a, const LanesOf& b) {
+    return by_register<LanesOf>([](const Register& x, const Register& y) { return quotient(x, y); },
+                                a, b);
+  }
 
   /// By the bit of the sign: xsimd 8 subtracts from 0 for AVX-512, which leaves 0 its sign.
   friend AWMR_LANE_INLINE LanesOf operator-(const LanesOf& a) {
@@ -198,7 +219,7 @@ struct LanesOf {
         [](const Register& x, const Register& y) { return xsimd::max(y, x); }, a, b);
   }
   friend AWMR_LANE_INLINE LanesOf sqrt(const LanesOf& a) {
-    return by_register<LanesOf>([](const Register& x) { return xsimd::sqrt(x); }, a);
+    return by_register<LanesOf>([](const Register& x) { return root(x); }, a);
   }
 };
 
