@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <atomic>
+#include <condition_variable>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -28,6 +30,80 @@ class FirstException {
   std::size_t item_ = 0;
   std::exception_ptr exception_;
 };
+
+/// Threads that stay from loop to loop: a search runs thousands of loops that take little longer than
+/// a thread takes to start. A loop waits for none of them but those that are in it, so that loops within
+/// loops end, whatever the others do.
+class Helpers {
+ public:
+  ~Helpers() {
+    {
+      const std::lock_guard lock(mutex_);
+      ended_ = true;
+    }
+    offered_.notify_all();
+  }
+
+  /// Calls `work` here and, as they come, on up to `most` other threads; returns once all have returned.
+  void share(std::size_t most, const std::function<void()>& own_work,
+             const std::function<void()>& work) {
+    Loop loop{&work, most, 0};
+    {
+      const std::lock_guard lock(mutex_);
+      grow_to(most);
+      loops_.push_back(&loop);
+    }
+    offered_.notify_all();
+    own_work();
+    std::unique_lock lock(mutex_);
+    std::erase(loops_, &loop);
+    left_.wait(lock, [&] { return loop.running == 0; });
+  }
+
+ private:
+  struct Loop {
+    const std::function<void()>* work;
+    std::size_t wanted;   ///< threads that may still come
+    std::size_t running;  ///< threads that are in it
+  };
+
+  /// As many threads as the system gives: results do not depend on their number.
+  void grow_to(std::size_t count) {
+    try {
+      while (threads_.size() < count) threads_.emplace_back([this] { help(); });
+    } catch (const std::system_error&) {
+    }
+  }
+
+  void help() {
+    std::unique_lock lock(mutex_);
+    while (true) {
+      offered_.wait(lock, [&] { return ended_ || !loops_.empty(); });
+      if (ended_) return;
+      Loop& loop = *loops_.front();
+      if (--loop.wanted == 0) loops_.erase(loops_.begin());
+      ++loop.running;
+      lock.unlock();
+      (*loop.work)();
+      lock.lock();
+      --loop.running;
+      // Nothing is left in a loop that a thread has come back from.
+      std::erase(loops_, &loop);
+      left_.notify_all();
+    }
+  }
+
+  std::mutex mutex_;
+  std::condition_variable offered_, left_;
+  std::vector<Loop*> loops_;  ///< that want threads, the oldest first
+  bool ended_ = false;
+  std::vector<std::jthread> threads_;  ///< the last member: they end before what they use
+};
+
+Helpers& helpers() {
+  static Helpers all;
+  return all;
+}
 
 }  // namespace
 
@@ -56,11 +132,10 @@ void parallel_for(std::size_t count, int threads, const std::function<void(std::
       }
     }
   };
-  {
-    std::vector<std::jthread> helpers;
-    for (std::size_t t = 1; t < std::min(thread_count(threads), count); ++t) {
-      helpers.emplace_back([&work] { work({}); });
-    }
+  const std::size_t used = std::min(thread_count(threads), count);
+  if (used > 1) {
+    helpers().share(used - 1, [&] { work(control.progress); }, [&] { work({}); });
+  } else {
     work(control.progress);
   }
   thrown.rethrow();
