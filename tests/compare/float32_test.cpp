@@ -183,6 +183,22 @@ TEST(Float32, RunsThatItCannotFollowAreSaidToBeInDouble) {
   EXPECT_EQ(float32_findings(*c, options).front().code, "float32-in-double");
 }
 
+/// Of drawn samples that are all the same vehicle there is no spread, though their mean is rounded.
+TEST(Float32, AMetricThatIsTheSameInAllSamplesHasNoShareOfItsSpread) {
+  const CompareOptions options = options_for(true, 3);
+  Comparison c = run(options).value();
+  for (std::vector<ComparisonRow>* rows : {&c.rows, &c.in_double}) {
+    for (ComparisonRow& row : *rows) row.metrics.path_length_m = 0.1;
+  }
+  for (ComparisonRow& row : c.rows) row.metrics.path_length_m += 1e-9;
+  for (const Float32Effect& effect : check_of(c, options).effects) {
+    if (effect.metric != MetricId::kPathLength) continue;
+    EXPECT_EQ(effect.spread, 0.0);
+    EXPECT_FALSE(effect.of_spread(effect.rms).has_value());
+    EXPECT_FALSE(effect.matters());
+  }
+}
+
 TEST(Float32, WhatItDoesNotDoIsRefusedByName) {
   Scenario on_tyres = short_heading();
   on_tyres.tyres.emplace();

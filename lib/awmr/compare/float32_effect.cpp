@@ -17,8 +17,11 @@ double mean_of(const std::vector<double>& values) {
   return values.empty() ? 0.0 : sum / static_cast<double>(values.size());
 }
 
-/// s = sqrt(sum (x - mean)^2 / (n - 1)), n >= 2
+/// s = sqrt(sum (x - mean)^2 / (n - 1)), n >= 2. Exactly 0 where all are the same, as at a corner
+/// of the parameters: their mean is rounded.
 double standard_deviation(const std::vector<double>& values) {
+  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  if (!(*least < *most)) return 0.0;
   const double mean = mean_of(values);
   double squares = 0.0;
   for (const double value : values) squares += (value - mean) * (value - mean);
