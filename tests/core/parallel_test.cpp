@@ -88,7 +88,8 @@ TEST(ParallelFor, StopsBeforeTheNextItemAndTellsOfItsOwnOnTheCallersThread) {
     EXPECT_EQ(std::this_thread::get_id(), caller);
     ++told;
   };
-  parallel_for(1000, 2, [&](std::size_t) { ++begun; }, control);
+  parallel_for(
+      1000, 2, [&](std::size_t) { ++begun; }, control);
   EXPECT_GE(begun, 5);
   EXPECT_LE(begun, 6);  // both threads may have asked before the fifth
   EXPECT_LE(told, begun);

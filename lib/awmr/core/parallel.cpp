@@ -134,7 +134,8 @@ void parallel_for(std::size_t count, int threads, const std::function<void(std::
   };
   const std::size_t used = std::min(thread_count(threads), count);
   if (used > 1) {
-    helpers().share(used - 1, [&] { work(control.progress); }, [&] { work({}); });
+    helpers().share(
+        used - 1, [&] { work(control.progress); }, [&] { work({}); });
   } else {
     work(control.progress);
   }
