@@ -20,6 +20,8 @@ using HeadingRateChoice = std::string;
 
 inline constexpr const char* kMeasuredRate = "measured";
 inline constexpr const char* kNoRate = "none";
+/// Under which an output's options say what was chosen.
+inline constexpr const char* kRateName = "heading_rate_limit";
 
 /// What is wrong with a choice as typed; empty: nothing.
 inline std::string fault_of_rate(const std::string& text) {
@@ -53,7 +55,7 @@ inline HeadingRateChoice rate_to_compare_at(const HeadingRateChoice& typed, cons
 inline std::vector<std::pair<std::string, std::string>> options_of_rate(
     const HeadingRateChoice& choice) {
   if (choice.empty()) return {};
-  return {{"heading_rate_limit", choice}};
+  return {{kRateName, choice}};
 }
 
 /// Puts the limit into every scenario. Errors (input): nothing says how fast was measured.

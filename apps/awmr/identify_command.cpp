@@ -42,8 +42,8 @@ double time_limit_s(const std::vector<DrivingLog>& logs) {
 }
 
 Result<Identification> identify_with_progress(const Trials& trials, IdentifyOptions options) {
-  Working working("fitting the tables");
   if (!(options.time_limit_s > 0.0)) options.time_limit_s = time_limit_s(trials.data.logs);
+  Working working("fitting the tables", trials.data.logs.empty() ? 0.0 : options.time_limit_s);
   options.doing = [&](std::string_view what) { working.doing(what); };
   return identify(trials, options);
 }

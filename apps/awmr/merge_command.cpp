@@ -46,7 +46,7 @@ Result<Outcome> merge_comparison(const MergeCommand& command) {
   AWMR_RETURN_IF_ERROR(write_files(files));
   std::string table = comparison_table(merged.comparison, merged.options);
   for (const auto& [name, text] : merged.provenance.options) {
-    if (name == kPlantName) table += fmt::format("{}: {}\n", name, text);
+    if (name == kPlantName || name == kRateName) table += fmt::format("{}: {}\n", name, text);
   }
   Outcome outcome{
       .summary = table + fmt::format("wrote {} and comparison.csv{}\n", files.back().path.string(),

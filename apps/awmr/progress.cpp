@@ -44,7 +44,8 @@ std::size_t terminal_columns() {
   return known ? size.ws_col : 80;
 }
 
-Working::Working(std::string what) : what_(std::move(what)), covered_(seen.exchange(this)) {
+Working::Working(std::string what, double most_s)
+    : what_(std::move(what)), most_s_(most_s), covered_(seen.exchange(this)) {
   if (draws_progress()) drawer_ = std::thread([this] { draw_until_over(); });
 }
 
@@ -77,7 +78,11 @@ std::string Working::line() const {
   const auto since = [](Clock::time_point from) {
     return std::chrono::duration<double>(Clock::now() - from).count();
   };
-  if (done_ == 0) return fmt::format("{} ... {}", what_, duration_text(since(start_)));
+  if (done_ == 0) {
+    const std::string limit =
+        most_s_ > 0.0 ? fmt::format(" of about {} at most", duration_text(most_s_)) : std::string();
+    return fmt::format("{} ... {}{}", what_, duration_text(since(start_)), limit);
+  }
   const double passed_s = since(counted_from_);
   constexpr int kWidth = 24;
   const double share = static_cast<double>(done_) / static_cast<double>(total_);

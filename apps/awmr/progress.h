@@ -25,11 +25,12 @@ bool tells_progress_in_lines();
 std::size_t terminal_columns();
 
 /// While it lives, the terminal's last line says what is being done and for how long, and once parts
-/// are told, the share done and the time left. Nothing is drawn where stderr is no terminal. Of several
+/// are told, the share done and the time left; else, where it is known, the longest that it may take. Nothing is drawn where stderr is no terminal. Of several
 /// that live at once the latest is seen; they end in the opposite order.
 class Working {
  public:
-  explicit Working(std::string what);
+  /// `most_s`: about the longest that it takes, s; 0 where that is not known.
+  explicit Working(std::string what, double most_s = 0.0);
   ~Working();  ///< clears the line
   Working(const Working&) = delete;
   Working& operator=(const Working&) = delete;
@@ -44,6 +45,7 @@ class Working {
   std::string line() const;
 
   std::string what_;
+  double most_s_;
   std::size_t done_ = 0;
   std::size_t total_ = 0;
   Clock::time_point start_ = Clock::now();

@@ -229,7 +229,7 @@ TEST_F(ReportInBrowser, TheLivePartComputesWhatTheCommandLineDoes) {
        {"tune --model model.json -o gains.json",
         "simulate --model model.json --gains gains.json --mode combined -o run.csv "
         "--scenario scenario_c3_heading_steps.json",
-        "compare --model model.json --gains gains.json -o . "
+        "compare --model model.json --gains gains.json --heading-rate-limit none -o . "
         "--scenario scenario_c3_heading_steps.json",
         "report ."}) {
     ASSERT_TRUE(succeeded(run_process(awmr(step), tuned.path()))) << step;

@@ -75,6 +75,11 @@ function comparisonSection(data) {
   if (!comparison) return;
   const box = section("The three yaw-control modes", comparison.samples
     ? `${plural(comparison.samples, "sample")} of the model's uncertainty, noise and disturbances; the same for every mode.` : "The model's own values, without spread.");
+  const rate = comparison.options.heading_rate_limit;
+  if (rate && rate !== "none") {
+    add(box, "p", `Headings are led no faster than ${rate === "measured" ? "yaw resistance was measured" : `${rate} deg/s`}; the simulations above take them as the `
+      + "scenarios do.");
+  }
   if (comparison.overall && comparison.overall.length) {
     const names = distinct(comparison.overall.flatMap((o) => Object.keys(o.best_or_tied)));
     add(box, "h3", "In how many scenarios each mode is best or level with the best");
