@@ -1,6 +1,7 @@
 #include <limits>
 
 #include "awmr/compare/compare.h"
+#include "awmr/simulate/validity.h"
 #include "bindings.h"
 
 namespace awmr::python {
@@ -12,10 +13,13 @@ struct NamedComparison {
 };
 
 NamedComparison compared(const Model& model, const Gains<double>& gains,
-                         const std::vector<Scenario>& scenarios, int samples, std::uint64_t seed,
-                         int threads) {
+                         std::vector<Scenario> scenarios, int samples, std::uint64_t seed,
+                         int threads, const py::object& heading_rate_limit) {
   CompareOptions options{.samples = samples, .seed = seed, .threads = threads};
+  const HeadingRateChoice said =
+      heading_rate_limit.is_none() ? HeadingRateChoice() : std::string(py::str(heading_rate_limit));
   const py::gil_scoped_release released;
+  value_or_raise(limit_heading_rate(rate_to_compare_at(said, model), model, scenarios));
   Comparison comparison = value_or_raise(compare(model, gains, scenarios, options));
   return {std::move(comparison), std::move(options)};
 }
@@ -73,9 +77,11 @@ void bind_compare(py::module_& module) {
       });
   module.def("compare", compared, py::arg("model"), py::arg("gains"), py::arg("scenarios"),
              py::kw_only(), py::arg("samples") = 0, py::arg("seed") = 1, py::arg("threads") = 0,
+             py::arg("heading_rate_limit") = py::none(),
              "The yaw-control modes on a list of scenarios, for the model's own values and "
              "`samples` draws from its covariance. The numbers are those of `awmr compare`, "
-             "whatever the threads (0: all). Raises InputError.");
+             "whatever the threads (0: all). heading_rate_limit: deg/s, \"measured\" or \"none\"; "
+             "by default measured, where the model says how fast that was. Raises InputError.");
 }
 
 }  // namespace awmr::python

@@ -158,6 +158,15 @@ class Module(unittest.TestCase):
         written = columns_of(self.path / "compared/comparison.csv")
         self.assertEqual(comparison.csv(), (self.path / "compared/comparison.csv").read_text())
         self.assertEqual(list(comparison.columns["mode"]), written["mode"])
+        stepped = awmr.compare(self.model, self.gains, [awmr.read_scenario(SCENARIO)],
+                               heading_rate_limit="none")
+        self.assertGreater(max(stepped.columns["yaw_rate_max_degps"]), 50.0)
+        slow = awmr.compare(self.model, self.gains, [awmr.read_scenario(SCENARIO)],
+                            heading_rate_limit=5)
+        self.assertLess(max(slow.columns["yaw_rate_max_degps"]), 6.0)
+        with self.assertRaises(awmr.InputError):
+            awmr.compare(self.model, self.gains, [awmr.read_scenario(SCENARIO)],
+                         heading_rate_limit="fast")
         np.testing.assert_array_equal(comparison.columns["heading_iae_degs"],
                                       numbers(written["heading_iae_degs"]))
         self.assertIn("combined", str(comparison))

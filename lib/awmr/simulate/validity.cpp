@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "awmr/core/csv_cell.h"
+#include "awmr/core/option_text.h"
 #include "awmr/core/units.h"
 
 namespace awmr {
@@ -30,6 +32,36 @@ void limit_heading_rate(double limit_degps, Scenario& scenario) {
       HeadingShaping<double>{.omega_radps = kShapingBandwidth_radps,
                              .rate_max_radps = limit_radps,
                              .accel_max_radps2 = kShapingBandwidth_radps * limit_radps};
+}
+
+std::string fault_of_rate(const HeadingRateChoice& choice) {
+  constexpr Interval kRates_degps{0.1, 3600.0};
+  if (choice == kMeasuredRate || choice == kNoRate) return {};
+  const auto rate_degps = number_from_text(choice);
+  if (rate_degps && kRates_degps.contains(*rate_degps)) return {};
+  return fmt::format("must be {}, {}, or deg/s from {:g} to {:g}, found {}", kMeasuredRate, kNoRate,
+                     kRates_degps.lo, kRates_degps.hi, choice.empty() ? "nothing" : choice);
+}
+
+HeadingRateChoice rate_to_compare_at(const HeadingRateChoice& said, const Model& model) {
+  if (!said.empty()) return said;
+  return measured_yaw_rate_degps(model) ? kMeasuredRate : kNoRate;
+}
+
+Status limit_heading_rate(const HeadingRateChoice& choice, const Model& model,
+                          std::span<Scenario> scenarios) {
+  if (choice.empty() || choice == kNoRate) return {};
+  const std::string place = option_text("heading_rate_limit");
+  if (const std::string why = fault_of_rate(choice); !why.empty()) return input_error(place, why);
+  const std::optional<double> limit_degps =
+      choice == kMeasuredRate ? measured_yaw_rate_degps(model) : *number_from_text(choice);
+  if (!limit_degps) {
+    return input_error(place,
+                       "the model does not say how fast it turned when yaw resistance was "
+                       "measured; give deg/s, or yaw_rate_max_degps in the vehicle");
+  }
+  for (Scenario& scenario : scenarios) limit_heading_rate(*limit_degps, scenario);
+  return {};
 }
 
 void note_extrapolation(const Model& model, double fastest_degps, const std::string& where,

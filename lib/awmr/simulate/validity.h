@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,24 @@ std::optional<double> measured_yaw_rate_degps(const Model& model);
 /// keeps its bandwidth and the lesser limit. In open loop there is no heading to limit.
 void limit_heading_rate(double limit_degps, Scenario& scenario);
 inline constexpr double kShapingBandwidth_radps = 4.0;
+
+/// How fast headings may be led, as a person says it: deg/s from 0.1 to 3600, "measured", as fast as
+/// yaw resistance was, or "none"; empty: not said.
+using HeadingRateChoice = std::string;
+inline constexpr const char* kMeasuredRate = "measured";
+inline constexpr const char* kNoRate = "none";
+
+/// What is wrong with a choice; empty: nothing.
+std::string fault_of_rate(const HeadingRateChoice& choice);
+
+/// What a comparison does where nothing was said: no faster than was measured, where that is known.
+/// What parts the modes in faster turns is the model's extrapolation.
+HeadingRateChoice rate_to_compare_at(const HeadingRateChoice& said, const Model& model);
+
+/// Puts the limit into every scenario. Errors (input): as fault_of_rate(); nothing says how fast was
+/// measured.
+Status limit_heading_rate(const HeadingRateChoice& choice, const Model& model,
+                          std::span<Scenario> scenarios);
 
 /// Adds a warning (`beyond-trials`) where a turn of `fastest_degps`, >= 0, is clearly faster than
 /// that: what the model says there is extrapolated. `where` names the run: "C3, combined".
