@@ -100,6 +100,14 @@ TEST(Scrub, NeedsThreeTurns) {
   EXPECT_THAT(codes(model), Contains("few-scrub-rows"));
 }
 
+TEST(Scrub, LessThanNothingIsRefused) {
+  TrialData data = turns(0.0, 0.01, 1);
+  for (TurningRow& row : data.turning->by_sides) row.yaw_rate_radps *= 57.29578;  // left in deg/s
+  const Model model = identified(data);
+  EXPECT_FALSE(model.yaw_scrub);
+  EXPECT_THAT(codes(model), Contains("negative-scrub"));
+}
+
 TEST(Scrub, SaysWhereItIsNoConstant) {
   TrialData data = synthetic(kTruth, 0.01, 1);
   Random random(5, 1);

@@ -46,7 +46,7 @@ struct Covariance {
 /// F_max, as a Coulomb friction:
 ///   2 d (F'R - F'L) = g3(r) + moment
 struct YawScrub {
-  double moment_m = 0.0;     ///< m; below 0 where the turns met less than g3
+  double moment_m = 0.0;     ///< m; below 0 by chance alone
   double std_error_m = 0.0;  ///< m, > 0: of the turns' scatter and of g3
   Interval ci95_m;           ///< 95 % confidence interval
   int rows = 0;              ///< turns that show it, >= 3

@@ -109,8 +109,8 @@ Json scrub_to_json(const YawScrub& scrub) {
 
 YawScrub scrub_from_json(JsonObject json) {
   YawScrub scrub;
-  scrub.moment_m = json.number("moment_m", {});
-  scrub.std_error_m = json.number("std_error_m", kPositive);
+  scrub.moment_m = json.number("moment_m", {.min = -1e6, .max = 1e6});
+  scrub.std_error_m = json.number("std_error_m", {.min = 0.0, .max = 1e6, .min_excluded = true});
   scrub.ci95_m = json.interval("ci95_m");
   scrub.rows = static_cast<int>(json.integer("rows", 3, 1'000'000'000L));
   scrub.yaw_rate_radps = json.interval("yaw_rate_radps");

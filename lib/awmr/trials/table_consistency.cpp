@@ -108,7 +108,10 @@ void check_consistency(const TrialSet<TurningRow>& turning, const std::filesyste
                        std::vector<Finding>& findings, std::vector<Fault>& faults) {
   const Table table{path, turning.file, options, findings, faults};
   tell_unit(table, wrong_unit(turning));
-  if (!vehicle.has_steering()) return check_sides(table, turning.rows, vehicle.wheel_force);
+  const bool is_by_sides = !turning.rows.empty() && turning.rows.front().sides;
+  if (!vehicle.has_steering() || is_by_sides) {
+    return check_sides(table, turning.rows, vehicle.wheel_force);
+  }
   check_sides(table, turning.by_sides, vehicle.wheel_force);
   const double limit = vehicle.wheel_force.hi;
   if (const auto [first, largest] = beyond(turning.rows, &TurningRow::wheel_force, limit); first) {

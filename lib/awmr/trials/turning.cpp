@@ -130,7 +130,7 @@ Turn by_sides(const TrialReader& reader, std::size_t row, const Vehicle& vehicle
   const double right = *reader.cell(row, "force_right");
   const SideForces<double> sides{std::min(left, right), std::max(left, right)};
   return {.left = right - left,
-          .in_words = fmt::format("force_right - force_left {}", right - left),
+          .in_words = fmt::format("force_right - force_left {:.4g}", right - left),
           .computed_m = differential_moment_m(vehicle.half_track_m, sides.right - sides.left),
           .equation = "2 d (F'R - F'L)",
           .parameter = "half_track_m",

@@ -134,6 +134,16 @@ void measure_scrub(const TrialSet<TurningRow>& turning, Model& model) {
   const double std_error = std::sqrt(variance);
   const double half = t_quantile_95(degrees_of_freedom) * std_error;
   const auto [slowest, fastest] = std::minmax_element(rates.begin(), rates.end());
+  if (mean + half < 0.0) {
+    note(model, turning, "negative-scrub",
+         fmt::format(
+             "the turns by the sides' forces met {:.3g} m ({:.3g} to {:.3g}) beside yaw "
+             "resistance, less than nothing: tyres that are dragged sideways do not help; "
+             "check the yaw rates' unit, the forces and half_track_m of these rows, and that "
+             "the steered turns are not held back",
+             mean, mean - half, mean + half));
+    return;
+  }
   model.yaw_scrub = YawScrub{.moment_m = mean,
                              .std_error_m = std_error,
                              .ci95_m = {mean - half, mean + half},

@@ -20,7 +20,7 @@ namespace awmr {
 inline constexpr std::size_t kFewestScrubRows = 3;
 
 /// Sets model.yaw_scrub where the model knows g3 and there are enough turns, which then have to lie
-/// within the yaw rates that g3 was fitted to. Findings say why not (`few-scrub-rows`,
+/// within the yaw rates that g3 was fitted to. Findings say why not (`few-scrub-rows`, `negative-scrub`,
 /// `scrub-beyond-trials`), and where c_i changes with r (`scrub-grows`), which a constant does not tell.
 void measure_scrub(const TrialSet<TurningRow>& turning, Model& model);
 
