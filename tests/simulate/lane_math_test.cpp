@@ -23,68 +23,71 @@ double next_uniform() {
 }
 double between(double lo, double hi) { return lo + (hi - lo) * next_uniform(); }
 
-/// Off in units of the last place of the larger of the result and `least`.
+/// The next number of a kind, towards infinity.
+double next_after(double number) { return nextafter(number, kInfinity); }
+float next_after(float number) { return nextafterf(number, __builtin_inff()); }
+
+/// Off in units of the last place, among numbers of the kind, of the larger of the result and `least`.
+template <class Number>
 double ulps(double result, long double exact, double least) {
-  const double scale = fmax(static_cast<double>(fabsl(exact)), least);
-  return static_cast<double>(fabsl(result - exact)) / (nextafter(scale, kInfinity) - scale);
+  const auto scale = static_cast<Number>(fmaxl(fabsl(exact), least));
+  const auto place = static_cast<double>(next_after(scale) - scale);
+  return static_cast<double>(fabsl(result - exact)) / place;
 }
 
 int failures = 0;
 
-/// The worst error of f over the arguments that draw() gives, held against `most`.
-template <class F, class Exact, class Draw>
-void check(const char* name, const F& f, const Exact& exact, const Draw& draw, double least,
-           double most) {
-  double worst = 0.0;
-  for (int block = 0; block < 20000; ++block) {
-    double x[Lanes::kCount];
-    double y[Lanes::kCount];
-    double result[Lanes::kCount];
-    for (int i = 0; i < Lanes::kCount; ++i) draw(x[i], y[i]);
-    f(Lanes::load(x), Lanes::load(y)).store(result);
-    for (int i = 0; i < Lanes::kCount; ++i) {
-      worst = fmax(worst, ulps(result[i], exact(x[i], y[i]), least));
-    }
-  }
-  const bool holds = worst <= most;
-  printf("%-26s worst %6.2f ulp, at most %g%s\n", name, worst, most, holds ? "" : "  FAILED");
-  if (!holds) ++failures;
-}
-
-/// The same of lanes of float32: arguments are rounded to floats, and errors are in a float's last
-/// place.
-template <class F, class Exact, class Draw>
-void check_float(const char* name, const F& f, const Exact& exact, const Draw& draw, double least,
+/// The worst error of f over the arguments that draw() gives, held against `most`. Lanes of doubles or
+/// of floats; `Number` is what they hold, to which arguments are rounded.
+template <class L, class Number, class F, class Exact, class Draw>
+void check_lanes(const char* name, const F& f, const Exact& exact, const Draw& draw, double least,
                  double most) {
   double worst = 0.0;
   for (int block = 0; block < 20000; ++block) {
-    double x[FloatLanes::kCount];
-    double y[FloatLanes::kCount];
-    double result[FloatLanes::kCount];
-    for (int i = 0; i < FloatLanes::kCount; ++i) {
+    double x[L::kCount];
+    double y[L::kCount];
+    double result[L::kCount];
+    for (int i = 0; i < L::kCount; ++i) {
       draw(x[i], y[i]);
-      x[i] = static_cast<float>(x[i]);
-      y[i] = static_cast<float>(y[i]);
+      x[i] = static_cast<double>(static_cast<Number>(x[i]));
+      y[i] = static_cast<double>(static_cast<Number>(y[i]));
     }
-    f(FloatLanes::load(x), FloatLanes::load(y)).store(result);
-    for (int i = 0; i < FloatLanes::kCount; ++i) {
-      const long double expected = exact(x[i], y[i]);
-      const float scale = static_cast<float>(fmaxl(fabsl(expected), least));
-      const double place = static_cast<double>(nextafterf(scale, __builtin_inff()) - scale);
-      worst = fmax(worst, static_cast<double>(fabsl(result[i] - expected)) / place);
+    f(L::load(x), L::load(y)).store(result);
+    for (int i = 0; i < L::kCount; ++i) {
+      worst = fmax(worst, ulps<Number>(result[i], exact(x[i], y[i]), least));
     }
   }
   const bool holds = worst <= most;
   printf("%-26s worst %6.2f ulp, at most %g%s\n", name, worst, most, holds ? "" : "  FAILED");
   if (!holds) ++failures;
 }
+template <class F, class Exact, class Draw>
+void check(const char* name, const F& f, const Exact& exact, const Draw& draw, double least,
+           double most) {
+  check_lanes<Lanes, double>(name, f, exact, draw, least, most);
+}
+template <class F, class Exact, class Draw>
+void check_float(const char* name, const F& f, const Exact& exact, const Draw& draw, double least,
+                 double most) {
+  check_lanes<FloatLanes, float>(name, f, exact, draw, least, most);
+}
+
+/// Out of the range of a polynomial the result is NaN.
+template <class L, class F>
+void check_is_nan(const char* name, const F& f, double x, double y) {
+  double result[L::kCount];
+  f(L(x), L(y)).store(result);
+  if (isnan(result[0])) return;
+  printf("%s(%g, %g) is %g and not NaN  FAILED\n", name, x, y, result[0]);
+  ++failures;
+}
+template <class F>
+void check_out_of_range(const char* name, const F& f, double x, double y) {
+  check_is_nan<Lanes>(name, f, x, y);
+}
 template <class F>
 void check_float_out_of_range(const char* name, const F& f, double x, double y) {
-  double result[FloatLanes::kCount];
-  f(FloatLanes(x), FloatLanes(y)).store(result);
-  if (isnan(result[0])) return;
-  printf("%s(%g, %g) of floats is %g and not NaN  FAILED\n", name, x, y, result[0]);
-  ++failures;
+  check_is_nan<FloatLanes>(name, f, x, y);
 }
 
 void check_floats() {
@@ -114,16 +117,6 @@ void check_floats() {
     check_float_out_of_range("sin", sine, x, 0.0);
     check_float_out_of_range("cos", cosine, x, 0.0);
   }
-}
-
-/// Out of the range of a polynomial the result is NaN.
-template <class F>
-void check_out_of_range(const char* name, const F& f, double x, double y) {
-  double result[Lanes::kCount];
-  f(Lanes(x), Lanes(y)).store(result);
-  if (isnan(result[0])) return;
-  printf("%s(%g, %g) is %g and not NaN  FAILED\n", name, x, y, result[0]);
-  ++failures;
 }
 
 }  // namespace

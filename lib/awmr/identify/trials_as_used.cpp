@@ -4,27 +4,16 @@
 #include <string>
 
 #include "awmr/identify/tables/subject.h"
+#include "awmr/model/fitted_law.h"
 #include "awmr/model/steady.h"
 
 namespace awmr {
 namespace {
 
-/// None where alpha or beta is not known.
-std::optional<Resistance<double>> law_of(const Model& model, ParameterId alpha, ParameterId beta,
-                                         ParameterId coulomb, ParameterId quadratic) {
-  if (!model[alpha].value || !model[beta].value) return std::nullopt;
-  return Resistance<double>{.alpha = *model[alpha].value,
-                            .beta = *model[beta].value,
-                            .coulomb = *model[coulomb].value,
-                            .quadratic = *model[quadratic].value};
-}
-
 /// u or r by the law that is in the model, and the stop time.
 std::optional<double> predicted(const Model& model, TrialKind kind, double input) {
-  const auto surge = law_of(model, ParameterId::kSurgeAlpha, ParameterId::kSurgeBeta,
-                            ParameterId::kSurgeCoulomb, ParameterId::kSurgeQuadratic);
-  const auto yaw = law_of(model, ParameterId::kYawAlpha, ParameterId::kYawBeta,
-                          ParameterId::kYawCoulomb, ParameterId::kYawQuadratic);
+  const auto surge = fitted_law(model, TrialKind::kSurge);
+  const auto yaw = fitted_law(model, TrialKind::kTurning);
   if (kind == TrialKind::kSurge && surge) {
     const double zone = *model[ParameterId::kWheelDeadZone].value;
     return steady_rate(*surge, input - model.vehicle.driven_wheels() * zone);

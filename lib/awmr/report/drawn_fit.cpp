@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "awmr/model/plant_of.h"
+#include "awmr/model/fitted_law.h"
 
 namespace awmr {
 namespace {
@@ -20,56 +20,6 @@ constexpr double kWithin99 = 2.576;
 /// Where the exponent's interval tells no quantile of Student's.
 constexpr double kNormalQuantile95 = 1.96;
 
-/// The parameters of a law g(w) = c + z F'0 + alpha w^beta + q w^2 on z driven wheels.
-struct LawOfKind {
-  ParameterId alpha, beta, coulomb, quadratic;
-  double driven_wheels = 0.0;  ///< z; 0 where the input has no dead zone in it
-};
-
-LawOfKind law_of_kind(const Model& model, TrialKind kind) {
-  if (kind == TrialKind::kTurning) {
-    return {ParameterId::kYawAlpha, ParameterId::kYawBeta, ParameterId::kYawCoulomb,
-            ParameterId::kYawQuadratic};
-  }
-  return {ParameterId::kSurgeAlpha, ParameterId::kSurgeBeta, ParameterId::kSurgeCoulomb,
-          ParameterId::kSurgeQuadratic, static_cast<double>(model.vehicle.driven_wheels())};
-}
-
-/// A parameter of a law and how the law at one rate changes with it.
-struct ParameterSlope {
-  ParameterId id;
-  double slope = 0.0;
-};
-
-/// dg/dalpha = w^beta, dg/dbeta = alpha w^beta ln w, dg/dc = 1, dg/dq = w^2, dg/dF'0 = z
-std::array<ParameterSlope, 5> slopes_at(const LawOfKind& ids, const Resistance<double>& law,
-                                        double w) {
-  const double power = w > 0.0 ? std::pow(w, law.beta) : 0.0;
-  return {{{ids.alpha, power},
-           {ids.beta, w > 0.0 ? law.alpha * power * std::log(w) : 0.0},
-           {ids.coulomb, 1.0},
-           {ids.quadratic, w * w},
-           {ParameterId::kWheelDeadZone, ids.driven_wheels}}};
-}
-
-/// g' C g over the parameters that the covariance has.
-double variance_of(const Covariance& covariance, const std::array<ParameterSlope, 5>& slopes) {
-  const auto place = [&](ParameterId id) {
-    const auto& ids = covariance.parameters;
-    return static_cast<std::size_t>(std::find(ids.begin(), ids.end(), id) - ids.begin());
-  };
-  double variance = 0.0;
-  for (const ParameterSlope& a : slopes) {
-    for (const ParameterSlope& b : slopes) {
-      const std::size_t row = place(a.id);
-      const std::size_t column = place(b.id);
-      if (row == covariance.matrix.size() || column == covariance.matrix.size()) continue;
-      variance += a.slope * b.slope * covariance.matrix[row][column];
-    }
-  }
-  return std::max(0.0, variance);
-}
-
 /// Student's quantile that the interval of the exponent was made with.
 double quantile_of_exponent(const Estimate& beta) {
   if (!beta.std_error || !(*beta.std_error > 0.0) || !beta.ci95) return kNormalQuantile95;
@@ -78,21 +28,21 @@ double quantile_of_exponent(const Estimate& beta) {
 
 /// From rest to a little beyond the fastest row, denser where the curve is steep.
 void add_curve(const Model& model, TrialKind kind, DrawnFit& fit) {
-  const LawOfKind ids = law_of_kind(model, kind);
-  if (!model[ids.alpha].value || !model[ids.beta].value) return;
-  const Plant<double> plant = model.plant_as_known();
-  fit.law = kind == TrialKind::kSurge ? plant.surge : plant.yaw;
-  fit.law.coulomb += ids.driven_wheels * plant.wheel_dead_zone;
+  const auto law = fitted_law(model, kind);
+  if (!law) return;
+  fit.law = *law;
+  if (kind == TrialKind::kSurge) {
+    fit.law.coulomb += model.vehicle.driven_wheels() * *model[ParameterId::kWheelDeadZone].value;
+  }
   double fastest = 0.0;
   for (const std::size_t i : fit.trials) {
     fastest = std::max(fastest, model.record.trials[i].measured);
   }
-  const double quantile = quantile_of_exponent(model[ids.beta]);
+  const double quantile = quantile_of_exponent(model[law_parameters(kind).beta]);
   for (int i = 0; i <= kCurvePoints; ++i) {
     const double share = static_cast<double>(i) / kCurvePoints;
     const double w = 1.05 * fastest * share * share;
-    const double half =
-        quantile * std::sqrt(variance_of(model.covariance, slopes_at(ids, fit.law, w)));
+    const double half = quantile * std::sqrt(variance_of_law(model, kind, std::array{w}));
     fit.curve.push_back({w, w > 0.0 ? fit.law.at(w) : fit.law.coulomb, half});
     fit.has_band = fit.has_band || half > 0.0;
   }

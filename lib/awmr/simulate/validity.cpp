@@ -7,6 +7,7 @@
 #include "awmr/core/csv_cell.h"
 #include "awmr/core/option_text.h"
 #include "awmr/core/units.h"
+#include "awmr/model/fitted_law.h"
 
 namespace awmr {
 
@@ -66,10 +67,8 @@ Status limit_heading_rate(const HeadingRateChoice& choice, const Model& model,
 
 void note_extrapolation(const Model& model, double fastest_degps, const std::string& where,
                         std::vector<Finding>& findings) {
-  constexpr double kClearly =
-      1.2;  // a power law that was fitted up to there holds a little further
   const std::optional<double> measured = measured_yaw_rate_degps(model);
-  if (!measured || fastest_degps <= kClearly * *measured) return;
+  if (!measured || fastest_degps <= kLittleFurther * *measured) return;
   findings.push_back(
       {model.file, 0, Severity::kWarning, "beyond-trials",
        fmt::format("{}: the vehicle turns at up to {:.3g} deg/s, {:.2g} times as fast as yaw "

@@ -10,45 +10,10 @@
 #include "awmr/core/units.h"
 #include "awmr/identify/tables/subject.h"
 #include "awmr/identify/uncertainty/quantiles.h"
+#include "awmr/model/fitted_law.h"
 
 namespace awmr {
 namespace {
-
-/// The partial derivative of g3 by one of its parameters; 0 by any other.
-double slope_of(const Model& model, ParameterId id, double rate_radps) {
-  const double alpha = *model[ParameterId::kYawAlpha].value;
-  const double power = std::pow(rate_radps, *model[ParameterId::kYawBeta].value);
-  switch (id) {
-    case ParameterId::kYawAlpha:
-      return power;
-    case ParameterId::kYawBeta:
-      return alpha * power * std::log(rate_radps);
-    case ParameterId::kYawCoulomb:
-      return 1.0;
-    case ParameterId::kYawQuadratic:
-      return rate_radps * rate_radps;
-    default:
-      return 0.0;
-  }
-}
-
-/// h' C h: what the fit of g3 leaves open of the mean of g3 over the turns.
-double variance_of_law(const Model& model, const std::vector<SteadyPoint>& turns) {
-  const Covariance& covariance = model.covariance;
-  std::vector<double> mean_slope;
-  for (const ParameterId id : covariance.parameters) {
-    double sum = 0.0;
-    for (const SteadyPoint& turn : turns) sum += slope_of(model, id, turn.rate);
-    mean_slope.push_back(sum / static_cast<double>(turns.size()));
-  }
-  double variance = 0.0;
-  for (std::size_t i = 0; i < mean_slope.size(); ++i) {
-    for (std::size_t j = 0; j < mean_slope.size(); ++j) {
-      variance += mean_slope[i] * covariance.matrix[i][j] * mean_slope[j];
-    }
-  }
-  return std::max(variance, 0.0);
-}
 
 /// Degrees of freedom of the yaw fit; those of a long record where logs fitted it.
 double degrees_of_law(const Model& model) {
@@ -97,10 +62,8 @@ void note(Model& model, const TrialSet<TurningRow>& turning, const char* code,
 }  // namespace
 
 void measure_scrub(const TrialSet<TurningRow>& turning, Model& model) {
-  if (turning.by_sides.empty() || !model[ParameterId::kYawAlpha].value ||
-      !model[ParameterId::kYawBeta].value) {
-    return;
-  }
+  const auto law = fitted_law(model, TrialKind::kTurning);
+  if (turning.by_sides.empty() || !law) return;
   const std::vector<SteadyPoint> turns =
       turning_points(turning.by_sides, *model[ParameterId::kWheelDeadZone].value);
   if (turns.size() < kFewestScrubRows) {
@@ -111,21 +74,17 @@ void measure_scrub(const TrialSet<TurningRow>& turning, Model& model) {
                     turns.size(), kFewestScrubRows));
     return;
   }
-  const Resistance<double> law{.alpha = *model[ParameterId::kYawAlpha].value,
-                               .beta = *model[ParameterId::kYawBeta].value,
-                               .coulomb = *model[ParameterId::kYawCoulomb].value,
-                               .quadratic = *model[ParameterId::kYawQuadratic].value};
   std::vector<double> rates, moments;
   for (const SteadyPoint& turn : turns) {
     rates.push_back(turn.rate);
-    moments.push_back(turn.force - law(turn.rate));
+    moments.push_back(turn.force - law->at(turn.rate));
   }
   const auto n = static_cast<double>(turns.size());
   const double mean = std::accumulate(moments.begin(), moments.end(), 0.0) / n;
   double squares = 0.0;
   for (const double moment : moments) squares += (moment - mean) * (moment - mean);
   const double of_scatter = squares / (n - 1.0) / n;
-  const double of_law = variance_of_law(model, turns);
+  const double of_law = variance_of_law(model, TrialKind::kTurning, rates);
   const double variance = of_scatter + of_law;
   if (!(variance > 0.0) || !std::isfinite(variance)) return;
   const double degrees_of_freedom =
@@ -150,10 +109,8 @@ void measure_scrub(const TrialSet<TurningRow>& turning, Model& model) {
                              .rows = static_cast<int>(turns.size()),
                              .yaw_rate_radps = {*slowest, *fastest}};
 
-  constexpr double kClearly =
-      1.2;  // a power law that was fitted up to there holds a little further
   const auto range = fitted_rates(turning);
-  if (range && (*fastest > kClearly * range->hi || kClearly * *slowest < range->lo)) {
+  if (range && (*fastest > kLittleFurther * range->hi || kLittleFurther * *slowest < range->lo)) {
     note(
         model, turning, "scrub-beyond-trials",
         fmt::format("the turns by the sides' forces go at {:.3g} to {:.3g} deg/s, the steered ones "

@@ -1,0 +1,61 @@
+#include "awmr/model/fitted_law.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace awmr {
+namespace {
+
+/// dg/d(parameter) at rate w; 0 where the law does not have the parameter.
+double slope_at(const Model& model, TrialKind kind, ParameterId parameter, double w) {
+  const LawParameters of = law_parameters(kind);
+  const double power = w > 0.0 ? std::pow(w, *model[of.beta].value) : 0.0;
+  if (parameter == of.alpha) return power;
+  if (parameter == of.beta) return w > 0.0 ? *model[of.alpha].value * power * std::log(w) : 0.0;
+  if (parameter == of.coulomb) return 1.0;
+  if (parameter == of.quadratic) return w * w;
+  if (parameter == ParameterId::kWheelDeadZone && kind != TrialKind::kTurning) {
+    return model.vehicle.driven_wheels();
+  }
+  return 0.0;
+}
+
+}  // namespace
+
+LawParameters law_parameters(TrialKind kind) {
+  if (kind == TrialKind::kTurning) {
+    return {ParameterId::kYawAlpha, ParameterId::kYawBeta, ParameterId::kYawCoulomb,
+            ParameterId::kYawQuadratic};
+  }
+  return {ParameterId::kSurgeAlpha, ParameterId::kSurgeBeta, ParameterId::kSurgeCoulomb,
+          ParameterId::kSurgeQuadratic};
+}
+
+std::optional<Resistance<double>> fitted_law(const Model& model, TrialKind kind) {
+  const LawParameters of = law_parameters(kind);
+  if (!model[of.alpha].value || !model[of.beta].value) return std::nullopt;
+  return Resistance<double>{.alpha = *model[of.alpha].value,
+                            .beta = *model[of.beta].value,
+                            .coulomb = *model[of.coulomb].value,
+                            .quadratic = *model[of.quadratic].value};
+}
+
+double variance_of_law(const Model& model, TrialKind kind, std::span<const double> rates) {
+  const Covariance& covariance = model.covariance;
+  std::vector<double> mean_slope;
+  for (const ParameterId parameter : covariance.parameters) {
+    double sum = 0.0;
+    for (const double w : rates) sum += slope_at(model, kind, parameter, w);
+    mean_slope.push_back(sum / static_cast<double>(rates.size()));
+  }
+  double variance = 0.0;
+  for (std::size_t i = 0; i < mean_slope.size(); ++i) {
+    for (std::size_t j = 0; j < mean_slope.size(); ++j) {
+      variance += mean_slope[i] * mean_slope[j] * covariance.matrix[i][j];
+    }
+  }
+  return std::max(variance, 0.0);
+}
+
+}  // namespace awmr

@@ -1,0 +1,34 @@
+/// The resistance law that a model's trials show, and what they leave open of it.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "awmr/model/model.h"
+
+namespace awmr {
+
+/// A law that was fitted up to some rate holds a little further; beyond this many times it, it is
+/// extrapolated.
+inline constexpr double kLittleFurther = 1.2;
+
+/// Which of a model's parameters are a law's:
+///   g(w) = c + alpha w^beta + q w^2
+struct LawParameters {
+  ParameterId alpha, beta, coulomb, quadratic;
+};
+/// g3 of turning, g1 of the other kinds.
+LawParameters law_parameters(TrialKind kind);
+
+/// The law with the model's values, without the wheels' dead zone; absent where alpha or beta has none.
+std::optional<Resistance<double>> fitted_law(const Model& model, TrialKind kind);
+
+/// Of the mean, over `rates` > 0 or at rest, of the moment or the force that a run at such a rate takes:
+///   h' C h,  h = mean of (dg/dalpha, dg/dbeta, dg/dc, dg/dq, dg/dF'0)
+///              = mean of (w^beta, alpha w^beta ln w, 1, w^2, z)
+/// C is the covariance as far as the model has it; z the driven wheels, whose dead zones F'0 a straight
+/// run overcomes; 0 in a turn, whose moments are told beyond them. >= 0, in the square of g's unit.
+/// Precondition: the law is fitted.
+double variance_of_law(const Model& model, TrialKind kind, std::span<const double> rates);
+
+}  // namespace awmr
