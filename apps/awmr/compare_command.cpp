@@ -188,8 +188,16 @@ std::string rate_in_words(const HeadingRateChoice& rate, const Model& model) {
       *measured_yaw_rate_degps(model), kNoRate);
 }
 
-/// A warning where the ranking leaves out a scrub that trials have measured.
+/// A warning where the ranking leaves out a scrub that trials have measured, or charges steering with
+/// one that it does not have.
 void note_scrub(const Model& model, const Comparison& comparison, std::vector<Finding>& findings) {
+  if (model.yaw_by_sides_alone) {
+    findings.push_back(
+        {model.file, 0, Severity::kWarning, "turned-by-sides",
+         "yaw resistance was measured in turns by the sides' forces and holds the scrub of their "
+         "tyres, with which steering and combined are charged here, too: they are shown worse than "
+         "they are. Add steered turns to the turning table (awmr suggest says which)"});
+  }
   if (!model.yaw_scrub || !(model.yaw_scrub->ci95_m.lo > 0.0) || comparison.break_even) return;
   findings.push_back(
       {model.file, 0, Severity::kWarning, "scrub-unjudged",
@@ -216,7 +224,9 @@ Outcome outcome_of_whole(const CompareCommand& command, const Comparison& compar
   const auto run_of = [](const ComparisonRow& row) {
     return fmt::format("{}, {}, sample {}", row.scenario, name_of(row.mode), row.sample);
   };
-  std::vector<Finding> findings = extrapolation_in(model, comparison.rows, run_of);
+  std::vector<Finding> findings =
+      extrapolation_in(model, comparison.rows, run_of, rate == kMeasuredRate);
+  if (auto finding = not_led(command.heading_rate_limit, model)) findings.push_back(*finding);
   note_scrub(model, comparison, findings);
   for (Finding& finding : float32_findings(comparison, command.compare)) {
     findings.push_back(std::move(finding));

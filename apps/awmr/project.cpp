@@ -109,6 +109,17 @@ void read_identify(JsonObject json, Project& project) {
   json.reject_unknown_keys();
 }
 
+/// deg/s, or a word.
+void read_heading_rate(JsonObject& json, Project& project) {
+  const auto rate = json.optional_number_or_string(
+      "heading_rate_limit", {.min = kLeadRates_degps.lo, .max = kLeadRates_degps.hi});
+  if (!rate) return;
+  project.heading_rate_limit = *rate;
+  if (const std::string why = fault_of_rate(*rate); !why.empty()) {
+    json.fault("heading_rate_limit", why);
+  }
+}
+
 void read_compare(JsonObject json, const FileNames& files, Project& project) {
   project.scenarios = files.all_at(json, "scenarios");
   if (json.has("scenarios") && project.scenarios.empty())
@@ -117,12 +128,7 @@ void read_compare(JsonObject json, const FileNames& files, Project& project) {
       static_cast<int>(json.optional_integer("samples", 0, 1000000).value_or(0));
   project.compare.seed =
       static_cast<std::uint64_t>(json.optional_integer("seed", 0, 1000000000L).value_or(1));
-  if (const auto rate = json.optional_string("heading_rate_limit")) {
-    project.heading_rate_limit = *rate;
-    if (const std::string why = fault_of_rate(*rate); !why.empty()) {
-      json.fault("heading_rate_limit", why);
-    }
-  }
+  read_heading_rate(json, project);
   json.reject_unknown_keys();
 }
 

@@ -56,6 +56,7 @@ std::string figures_of(const Metrics& metrics) {
   add("overshoot", metrics.overshoot_deg, "deg");
   add("cross-track RMS", metrics.cross_track_rms_m, "m");
   add("least clearance", metrics.clearance_min_m, "m");
+  add("electrical work", metrics.electric_work_j, "J");
   return text.empty() ? text : text + "\n";
 }
 
@@ -106,7 +107,8 @@ Result<Outcome> execute(const SimulateCommand& command) {
   AWMR_ASSIGN_OR_RETURN(const Run run, simulate(model, gains, scenario, command.mode));
   AWMR_ASSIGN_OR_RETURN(const Controller<double> controller, controller_for(model, gains));
   AWMR_RETURN_IF_ERROR(write_file(command.output, run_csv(run, scenario)));
-  const Metrics metrics = metrics_of(run, scenario, controller);
+  Metrics metrics = metrics_of(run, scenario, controller);
+  metrics.electric_work_j = electric_work_j(metrics, model.vehicle, controller.mass_norm);
   std::vector<Finding> findings;
   note_extrapolation(model, metrics.yaw_rate_max_degps,
                      fmt::format("{}, {}", scenario.name, name_of(command.mode)), findings);

@@ -26,7 +26,10 @@ JudgedRun simulated(const Model& model, const Gains<double>& gains, const Scenar
   JudgedRun judged{.run = value_or_raise(simulate(model, gains, scenario, mode)),
                    .scenario = scenario,
                    .metrics = {}};
-  judged.metrics = metrics_of(judged.run, scenario, value_or_raise(controller_for(model, gains)));
+  const Controller<double> controller = value_or_raise(controller_for(model, gains));
+  judged.metrics = metrics_of(judged.run, scenario, controller);
+  judged.metrics.electric_work_j =
+      electric_work_j(judged.metrics, model.vehicle, controller.mass_norm);
   return judged;
 }
 

@@ -4,7 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "awmr/compare/scoring.h"
 #include "awmr/core/json.h"
@@ -107,31 +109,104 @@ TEST(BreakEven, IsRefusedForPartsAndSeveralSetsOfGains) {
   EXPECT_EQ(exit_code(sets.error()), 2);
 }
 
-/// The comparison's entries where the model has measured a scrub.
-std::string told_with(const Interval& scrub_m) {
+/// The comparison where the model's turns by the sides have told this.
+Comparison told_with(const std::optional<YawScrub>& scrub, std::optional<double> held_m = {}) {
   Model model = uncertain_model();
-  model.yaw_scrub = YawScrub{0.5 * (scrub_m.lo + scrub_m.hi), 1e-6, scrub_m, 3, {0.1, 0.2}};
-  const auto comparison = compare(model, kPaperGains, {turn(60.0)}, {.break_even = true});
+  model.yaw_scrub = scrub;
+  model.yaw_held_m = held_m;
+  auto comparison = compare(model, kPaperGains, {turn(60.0)}, {.break_even = true});
   EXPECT_TRUE(comparison);
-  return comparison_table(*comparison);
+  return std::move(*comparison);
+}
+
+/// Of ten turns at the rates of the runs that are compared.
+YawScrub scrub_of(const Interval& scrub_m) {
+  return {0.5 * (scrub_m.lo + scrub_m.hi),
+          0.25 * (scrub_m.hi - scrub_m.lo),
+          scrub_m,
+          10,
+          {radians(20.0), radians(200.0)}};
+}
+
+/// The moments that end the leads of the model that knows of no scrub.
+std::vector<double> ending_moments_m() {
+  std::vector<double> moments_m;
+  const Comparison comparison = told_with(std::nullopt);
+  for (const BreakEven& entry : *comparison.break_even) {
+    if (entry.yaw_coulomb_m) moments_m.push_back(*entry.yaw_coulomb_m);
+  }
+  std::sort(moments_m.begin(), moments_m.end());
+  return moments_m;
 }
 
 TEST(BreakEven, IsDecidedByTheScrubThatWasMeasured) {
-  const auto comparison = compared(turn(60.0));
-  ASSERT_TRUE(comparison);
-  double least_m = 1.0, most_m = 0.0;
-  for (const BreakEven& entry : *comparison->break_even) {
-    if (!entry.yaw_coulomb_m) continue;
-    least_m = std::min(least_m, *entry.yaw_coulomb_m);
-    most_m = std::max(most_m, *entry.yaw_coulomb_m);
+  const std::vector<double> ends_m = ending_moments_m();
+  ASSERT_FALSE(ends_m.empty());
+  const double least_m = ends_m.front(), most_m = ends_m.back();
+  const auto told = [](const Interval& scrub_m) {
+    return comparison_table(told_with(scrub_of(scrub_m)));
+  };
+  EXPECT_THAT(told({0.5 * least_m, 0.9 * least_m}), HasSubstr("kept in 1, lost in 0, open in 0"));
+  EXPECT_THAT(told({1.1 * most_m, 2.0 * most_m}), HasSubstr("kept in 0, lost in 1, open in 0"));
+  EXPECT_THAT(told({0.5 * least_m, 2.0 * most_m}), HasSubstr("kept in 0, lost in 0, open in 1"));
+}
+
+TEST(BreakEven, IsOpenWhereScrubWasMeasuredAtOtherRates) {
+  const std::vector<double> ends_m = ending_moments_m();
+  ASSERT_FALSE(ends_m.empty());
+  YawScrub scrub = scrub_of({0.5 * ends_m.front(), 0.9 * ends_m.front()});
+  scrub.yaw_rate_radps = {radians(1.0), radians(2.0)};
+  const Comparison comparison = told_with(scrub);
+  for (const BreakEven& entry : *comparison.break_even) {
+    if (entry.yaw_coulomb_m) {
+      EXPECT_EQ(lead_of(entry), Lead::kOpen);
+    }
   }
-  ASSERT_GT(most_m, 0.0);
-  EXPECT_THAT(told_with({0.5 * least_m, 0.9 * least_m}),
-              HasSubstr("kept in 1, lost in 0, open in 0"));
-  EXPECT_THAT(told_with({1.1 * most_m, 2.0 * most_m}),
-              HasSubstr("kept in 0, lost in 1, open in 0"));
-  EXPECT_THAT(told_with({0.5 * least_m, 2.0 * most_m}),
+  EXPECT_THAT(comparison_table(comparison), HasSubstr("scrub was measured at 1 to 2"));
+}
+
+TEST(BreakEven, IsDecidedWithAllOfAScrubThatChangesWithTheRate) {
+  const std::vector<double> ends_m = ending_moments_m();
+  ASSERT_FALSE(ends_m.empty());
+  YawScrub scrub = scrub_of({0.5 * ends_m.front(), 0.9 * ends_m.front()});
+  scrub.changing_m = Interval{0.1 * ends_m.front(), 3.0 * ends_m.back()};
+  EXPECT_THAT(comparison_table(told_with(scrub)), HasSubstr("kept in 0, lost in 0, open in 1"));
+}
+
+TEST(BreakEven, IsNotKeptAgainstWhatTheTyresHold) {
+  const std::vector<double> ends_m = ending_moments_m();
+  ASSERT_FALSE(ends_m.empty());
+  const YawScrub moving = scrub_of({0.5 * ends_m.front(), 0.9 * ends_m.front()});
+  EXPECT_THAT(comparison_table(told_with(moving, 2.0 * ends_m.back())),
               HasSubstr("kept in 0, lost in 0, open in 1"));
+  // Where every turn stood still, what held it is the least.
+  EXPECT_THAT(comparison_table(told_with(std::nullopt, 2.0 * ends_m.back())),
+              HasSubstr("kept in 0, lost in 1, open in 0"));
+  EXPECT_THAT(comparison_table(told_with(std::nullopt, 0.5 * ends_m.front())),
+              HasSubstr("kept in 0, lost in 0, open in 1"));
+}
+
+TEST(BreakEven, SaysHowManyTurnsWouldDecide) {
+  const std::vector<double> ends_m = ending_moments_m();
+  ASSERT_FALSE(ends_m.empty());
+  const double end_m = ends_m.front();
+  // The end lies half-way out of the middle: a half as wide, and four times as many turns.
+  const Comparison comparison =
+      told_with(scrub_of({0.9 * end_m - 0.2 * end_m, 0.9 * end_m + 0.2 * end_m}));
+  for (const BreakEven& entry : *comparison.break_even) {
+    if (entry.yaw_coulomb_m == end_m) {
+      EXPECT_NEAR(entry.turns_to_decide.value_or(0), 40, 1);
+    }
+  }
+  EXPECT_THAT(comparison_table(comparison), HasSubstr("turns by the sides in all would decide"));
+}
+
+TEST(BreakEven, OfYawResistanceThatHoldsScrubIsRefused) {
+  Model model = uncertain_model();
+  model.yaw_by_sides_alone = true;
+  const auto comparison = compare(model, kPaperGains, {turn(60.0)}, {.break_even = true});
+  ASSERT_FALSE(comparison);
+  EXPECT_THAT(to_text(comparison.error()), HasSubstr("add steered turns"));
 }
 
 }  // namespace

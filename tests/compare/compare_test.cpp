@@ -174,8 +174,8 @@ TEST(ComparisonCsv, HasTheContractsColumns) {
             "scenario,mode,sample,completed,settling_time_s,overshoot_deg,heading_iae_degs,"
             "cross_track_rms_m,path_length_m,speed_drop_mps,sideslip_max_deg,yaw_rate_max_degps,"
             "control_variation,clearance_min_m,finish_time_s,energy_mech,energy_electric,"
-            "saturation_s,steering_travel_deg,tyre_work");
-  for (const std::string& line : lines) EXPECT_EQ(cells_of(line).size(), 20U);
+            "saturation_s,steering_travel_deg,tyre_work,electric_work_j");
+  for (const std::string& line : lines) EXPECT_EQ(cells_of(line).size(), 21U);
   const auto first = cells_of(lines[1]);
   EXPECT_EQ(first[0], "step");
   EXPECT_EQ(first[1], "differential");

@@ -164,7 +164,7 @@ TEST(SeveralGains, AreComparedWithEachOtherAndByMode) {
   const CompareOptions options{.samples = 4, .seed = 1, .threads = 2};
   const Comparison c = compared(options, {{"paper.json", kPaperGains}, {"slow.json", slow}});
   EXPECT_EQ(c.rows.size(), 2U * 6U * 5U);
-  EXPECT_THAT(comparison_csv(c), HasSubstr(",tyre_work,gains\n"));
+  EXPECT_THAT(comparison_csv(c), HasSubstr(",tyre_work,electric_work_j,gains\n"));
   const Json json = Json::parse(comparison_text(c, options, kProvenance));
   const Json& scenario = json["scenarios"][0];
   EXPECT_EQ(scenario["modes"].size(), 6U);

@@ -183,6 +183,21 @@ TEST(Batch, IsTheRunOfSimulateOnFourTyresAfterAMinute) {
   }
 }
 
+TEST(Batch, IsTheRunOfSimulateUnderABatteryThatSags) {
+  for (Scenario& scenario : shipped_scenarios()) {
+    scenario.duration_s = std::min(scenario.duration_s, 20.0);
+    if (!scenario.battery) scenario.battery.emplace();
+    scenario.battery->sag = 0.3;
+    std::vector<BatchRun> runs = drawn_runs(2, 0.2);
+    runs[1].plant.back_emf_s_per_m = 0.3;
+    const auto batch = simulate_batch(runs, scenario, kSampleTime_s, batch_arithmetic().value());
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      expect_near(batch[i].value(), runs[i], scenario,
+                  "sagging: " + scenario.name + ", run " + std::to_string(i));
+    }
+  }
+}
+
 TEST(Batch, EventsHappenAtTheSampleOfSimulate) {
   const std::vector<BatchRun> runs = drawn_runs(1, 0.0);
   for (const Scenario& scenario : shipped_scenarios()) {

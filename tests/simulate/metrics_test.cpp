@@ -172,6 +172,17 @@ TEST(Metrics, OpenLoopHasNoHeadingMetrics) {
   EXPECT_GT(m.path_length_m, 0.0);
 }
 
+TEST(ElectricWork, IsThatOfTheCopperAndOfTheWheels) {
+  Metrics metrics;
+  metrics.energy_electric = 3.0;  // s of a stalled motor
+  metrics.energy_mech = 2.0;      // m of F_max
+  Vehicle vehicle = fitted_paper_model().vehicle;
+  EXPECT_FALSE(electric_work_j(metrics, vehicle, 0.5));
+  vehicle.motor_stall_power_w = 20.0;
+  vehicle.mass_kg = 10.0;
+  EXPECT_DOUBLE_EQ(*electric_work_j(metrics, vehicle, 0.5), 20.0 * 3.0 + 10.0 / 0.5 * 2.0);
+}
+
 TEST(Validity, OfSeveralRunsTheFastestIsTold) {
   struct Judged {
     Metrics metrics;
@@ -192,6 +203,28 @@ TEST(Validity, OfSeveralRunsTheFastestIsTold) {
   ASSERT_EQ(findings.size(), 1U);
   EXPECT_NE(findings[0].message.find("the fastest"), std::string::npos);
   EXPECT_TRUE(extrapolation_in(model, std::vector<Judged>{}, where).empty());
+}
+
+TEST(Validity, WhereALimitIsOnItIsNotAdvised) {
+  Model model = fitted_paper_model();
+  model.vehicle.yaw_rate_max_degps = 15.0;
+  std::vector<Finding> findings;
+  note_extrapolation(model, 40.0, "run", findings, false);
+  note_extrapolation(model, 40.0, "run", findings, true);
+  ASSERT_EQ(findings.size(), 2U);
+  EXPECT_NE(findings[0].message.find("--heading-rate-limit measured"), std::string::npos);
+  EXPECT_EQ(findings[1].message.find("--heading-rate-limit measured"), std::string::npos);
+  EXPECT_NE(findings[1].message.find("lower the limit"), std::string::npos);
+}
+
+TEST(Validity, HeadingsThatNothingLeadsAreTold) {
+  Model model = fitted_paper_model();
+  const auto finding = not_led("", model);
+  ASSERT_TRUE(finding);
+  EXPECT_EQ(finding->code, "not-led");
+  EXPECT_FALSE(not_led(kNoRate, model));  // it was said
+  model.vehicle.yaw_rate_max_degps = 15.0;
+  EXPECT_FALSE(not_led("", model));
 }
 
 TEST(Validity, ATurnFasterThanTheTrialsCoveredIsTold) {

@@ -176,6 +176,40 @@ TEST(Battery, TheSpeedFallsToWhatTheForceLeft) {
   EXPECT_NEAR(run.rows.back().state.u_mps, std::pow(0.8 / 1.3157, 1.0 / 0.8841), 1e-6);
 }
 
+TEST(Battery, SagsUnderTheMotorsCurrent) {
+  // Without back-EMF, straight ahead with F' at all four wheels: F' s, s = 1/(1 + 4 rho F'^2).
+  Scenario s = straight(60.0);
+  s.guidance = OpenLoop{2.0, 0.0};  // F' = 0.5 of each wheel
+  s.battery = Battery{.sag = 0.1};
+  const awmr::Run run = run_of(s, YawMode::kDifferential);
+  const double force = 0.5 / (1.0 + 4.0 * 0.1 * 0.25);
+  EXPECT_NEAR(run.rows.back().state.u_mps, std::pow(4.0 * force / 1.3157, 1.0 / 0.8841), 1e-6);
+}
+
+TEST(Battery, SagIsTheVoltageThatTheCurrentsLeave) {
+  // Two sides that turn at other speeds, two motors each: Kirchhoff's law by iteration.
+  const SideForces<double> command{0.8, -0.3};
+  State<double> at{};
+  at.u_mps = 1.2;
+  at.r_radps = 0.7;
+  constexpr double kSag = 0.15, kBackEmf = 0.2, kHalfTrack_m = 0.25;
+  const double wheel_mps[2] = {1.2 - 0.7 * kHalfTrack_m, 1.2 + 0.7 * kHalfTrack_m};
+  double voltage = 1.0;
+  for (int i = 0; i < 200; ++i) {
+    double drawn = 0.0;  // over the stall current of one motor
+    for (const auto& [c, w] :
+         {std::pair(command.left, wheel_mps[0]), std::pair(command.right, wheel_mps[1])}) {
+      drawn += 2.0 * c * (voltage * c - kBackEmf * w);
+    }
+    voltage = 1.0 - kSag * drawn;
+  }
+  const SideForces<double> left = under_sag(kSag, 2.0, kBackEmf, kHalfTrack_m, at, command);
+  EXPECT_NEAR(left.left, voltage * command.left, 1e-12);
+  EXPECT_NEAR(left.right, voltage * command.right, 1e-12);
+  const SideForces<double> none = under_sag(0.0, 2.0, kBackEmf, kHalfTrack_m, at, command);
+  EXPECT_EQ(none.left, command.left);
+}
+
 TEST(SensorChannels, HaveTheirNoiseBiasAndSteps) {
   Scenario s = straight(100.0);
   s.guidance = OpenLoop{1.0, 0.0};

@@ -167,6 +167,26 @@ TEST(TurningTrial, RefusesRunsThatTurnBothWaysOrContradictThemselves) {
               ElementsAre(HasSubstr("no force")));
 }
 
+TEST(TurningTrial, KeepsTurnsByTheSidesThatStoodStill) {
+  const std::string header = "steering_deg,wheel_force,force_left,force_right,turns,elapsed_s\n";
+  const auto read = accepted(kReadTurning, header +
+                                               "10,0.35,,,2,142\n0,,0.1,0.3,0,20\n"
+                                               "0,,0.2,0.1,1,30\n");
+  EXPECT_THAT(read.set.rows, SizeIs(1));
+  EXPECT_THAT(read.set.by_sides, SizeIs(1));
+  ASSERT_THAT(read.set.standing, SizeIs(1));
+  EXPECT_DOUBLE_EQ(read.set.standing[0].tau_turn_m, 2.0 * 0.36 * 0.2);
+  EXPECT_EQ(read.set.standing[0].line, 3);
+  EXPECT_EQ(read.set.set_aside, 0);
+  // Where nothing steered, they tell nothing.
+  const auto alone = accepted(kReadTurning,
+                              "steering_deg,force_left,force_right,turns,elapsed_s\n"
+                              "0,0.1,0.3,0,20\n0,0.2,0.1,1,30\n");
+  EXPECT_THAT(alone.set.rows, SizeIs(1));
+  EXPECT_THAT(alone.set.standing, IsEmpty());
+  EXPECT_EQ(alone.set.set_aside, 1);
+}
+
 TEST(TurningTrialOfSides, ComputesTheYawMomentAndMirrorsATurnToTheRight) {
   const auto read = accepted(kReadSides,
                              "force_left,force_right,yaw_rate_radps\n"

@@ -4,15 +4,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <utility>
 
 #include "awmr/compare/ranking.h"
 #include "awmr/compare/scoring.h"
-#include "awmr/core/gravity.h"
 #include "awmr/core/index.h"
+#include "awmr/core/option_text.h"
 #include "awmr/core/parallel.h"
-#include "awmr/core/tyre_friction.h"
+#include "awmr/core/units.h"
+#include "awmr/model/fitted_law.h"
+#include "awmr/model/tyres.h"
 #include "awmr/simulate/batch.h"
 
 namespace awmr {
@@ -149,18 +152,72 @@ void answer(Question& question) {
       });
 }
 
+/// Turns at other rates than scrub was measured at, by more than a law holds further.
+bool turns_at_other_rates(const BreakEven& entry) {
+  return entry.measured_degps && (entry.fastest_degps > kLittleFurther * entry.measured_degps->hi ||
+                                  kLittleFurther * entry.fastest_degps < entry.measured_degps->lo);
+}
+
+/// What the model's turns by the sides say of the scrub, into an entry of which all else is known.
+void add_measured(const Model& model, BreakEven& entry) {
+  const auto& scrub = model.yaw_scrub;
+  if (scrub) {
+    entry.measured_m = scrub->ci95_m;
+    if (const auto& changing = scrub->changing_m) {
+      entry.measured_m = Interval{std::min(scrub->ci95_m.lo, changing->lo),
+                                  std::max(scrub->ci95_m.hi, changing->hi)};
+    }
+    entry.measured_degps =
+        Interval{degrees(scrub->yaw_rate_radps.lo), degrees(scrub->yaw_rate_radps.hi)};
+  }
+  if (const auto& held_m = model.yaw_held_m) {
+    if (!entry.measured_m) entry.measured_m = Interval{*held_m, std::max(*held_m, entry.most_m)};
+    entry.measured_m->hi = std::max(entry.measured_m->hi, *held_m);
+  }
+  if (!scrub || !entry.yaw_coulomb_m || scrub->changing_m || turns_at_other_rates(entry) ||
+      lead_of(entry) != Lead::kOpen || !scrub->ci95_m.contains(*entry.yaw_coulomb_m)) {
+    return;
+  }
+  // The interval's half shrinks as 1/sqrt(n), until it no longer holds the moment that ends the lead.
+  constexpr double kMostTurns = 1000.0;
+  const double half = 0.5 * (scrub->ci95_m.hi - scrub->ci95_m.lo);
+  const double shrunk = half / std::abs(*entry.yaw_coulomb_m - scrub->moment_m);
+  const double turns = std::ceil(scrub->rows * shrunk * shrunk);
+  if (turns <= kMostTurns) entry.turns_to_decide = static_cast<int>(turns);
+}
+
 /// What the measured scrub makes of the leads, of which `all` are of the same pair of modes.
-std::string decided(const std::vector<const BreakEven*>& all, const Interval& measured_m) {
-  std::size_t kept = 0, lost = 0;
+std::string decided(const std::vector<const BreakEven*>& all) {
+  std::map<Lead, int> count;
+  int at_other_rates = 0;
+  double slowest = std::numeric_limits<double>::infinity(), fastest = 0.0;
+  std::optional<int> turns;
   for (const BreakEven* entry : all) {
-    if (!entry->yaw_coulomb_m || measured_m.hi < *entry->yaw_coulomb_m) {
-      ++kept;
-    } else if (measured_m.lo > *entry->yaw_coulomb_m) {
-      ++lost;
+    ++count[*lead_of(*entry)];
+    if (entry->yaw_coulomb_m && turns_at_other_rates(*entry)) {
+      ++at_other_rates;
+      slowest = std::min(slowest, entry->fastest_degps);
+      fastest = std::max(fastest, entry->fastest_degps);
+    }
+    if (entry->turns_to_decide) {
+      turns = std::min(turns.value_or(*entry->turns_to_decide), *entry->turns_to_decide);
     }
   }
-  return fmt::format("    with the measured scrub: kept in {}, lost in {}, open in {}\n", kept,
-                     lost, all.size() - kept - lost);
+  std::string text =
+      fmt::format("    with the measured scrub: kept in {}, lost in {}, open in {}\n",
+                  count[Lead::kKept], count[Lead::kLost], count[Lead::kOpen]);
+  if (at_other_rates > 0) {
+    const Interval rates = *all.front()->measured_degps;
+    text += fmt::format(
+        "    {} of the open turn at {:.3g} to {:.3g} deg/s at the most, scrub was measured "
+        "at {:.3g} to {:.3g}\n",
+        at_other_rates, slowest, fastest, rates.lo, rates.hi);
+  }
+  if (turns) {
+    text += fmt::format(
+        "    about {} turns by the sides in all would decide the first of the open\n", *turns);
+  }
+  return text;
 }
 
 }  // namespace
@@ -169,14 +226,20 @@ Result<std::vector<BreakEven>> break_even_of(const Model& model, const Gains<dou
                                              const std::vector<Scenario>& scenarios,
                                              const Comparison& comparison,
                                              const CompareOptions& options) {
+  if (model.yaw_by_sides_alone) {
+    return input_error(
+        option_text("break_even"),
+        "yaw resistance was measured in turns by the sides' forces and holds their "
+        "scrub already: add steered turns (steering_deg, wheel_force) to the turning "
+        "table and identify again");
+  }
   AWMR_ASSIGN_OR_RETURN(const BatchArithmetic arithmetic, batch_arithmetic());
   AWMR_ASSIGN_OR_RETURN(const Plant<double> nominal, model.plant());
   const Interval force = model.vehicle.wheel_force;
   BreakEven entry;
   // 2 d (F'R - F'L), at the ends of the forces' range.
   entry.most_m = 2.0 * nominal.half_track_m * (force.hi - force.lo);
-  entry.sliding_m = kTyreFriction * kGravity_mps2 * nominal.mass_norm * nominal.front_axle_m;
-  if (model.yaw_scrub) entry.measured_m = model.yaw_scrub->ci95_m;
+  entry.sliding_m = sliding_moment_m(nominal);
   std::vector<Question> questions;
   for (const Scenario& scenario : scenarios) {
     AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, plant_for(scenario, model));
@@ -198,8 +261,20 @@ Result<std::vector<BreakEven>> break_even_of(const Model& model, const Gains<dou
   }
   parallel_for(questions.size(), options.threads, [&](std::size_t i) { answer(questions[i]); });
   std::vector<BreakEven> answers;
-  for (Question& question : questions) answers.push_back(std::move(question.entry));
+  for (Question& question : questions) {
+    question.entry.fastest_degps = question.own.yaw_rate_max_degps;
+    add_measured(model, question.entry);
+    answers.push_back(std::move(question.entry));
+  }
   return answers;
+}
+
+std::optional<Lead> lead_of(const BreakEven& entry) {
+  if (!entry.measured_m) return std::nullopt;
+  if (!entry.yaw_coulomb_m) return Lead::kKept;
+  if (turns_at_other_rates(entry)) return Lead::kOpen;
+  if (entry.measured_m->hi < *entry.yaw_coulomb_m) return Lead::kKept;
+  return entry.measured_m->lo > *entry.yaw_coulomb_m ? Lead::kLost : Lead::kOpen;
 }
 
 std::string break_even_table(const std::vector<BreakEven>& entries) {
@@ -227,11 +302,18 @@ std::string break_even_table(const std::vector<BreakEven>& entries) {
                           (*least)->yaw_coulomb_m ? "; " : "", lasting, (*least)->most_m);
     }
     text += '\n';
-    if (all.front()->measured_m) text += decided(all, *all.front()->measured_m);
+    if (all.front()->measured_m) text += decided(all);
   }
   text += fmt::format("  tyres that slide sideways on a friction of 0.8 make {:.3g} m; ",
                       entries.front().sliding_m);
-  if (const auto& measured_m = entries.front().measured_m) {
+  const BreakEven& first = entries.front();
+  if (first.measured_m && !first.measured_degps) {
+    return text + fmt::format(
+                      "yours: {:.3g} m or more, under which the turns by\n"
+                      "  the sides stood still (awmr suggest says what to turn with)\n",
+                      first.measured_m->lo);
+  }
+  if (const auto& measured_m = first.measured_m) {
     return text +
            fmt::format("yours, measured: {:.3g} to {:.3g} m\n", measured_m->lo, measured_m->hi);
   }

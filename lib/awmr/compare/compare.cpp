@@ -283,13 +283,15 @@ Result<Comparison> compare(const Model& model, const std::vector<NamedGains>& ga
         const auto controller = make_controller(fleet.nominal, model.vehicle, set.gains);
         const YawMode mode = kYawModes[block.mode];
         std::vector<bool> by_simulate;
-        const auto metrics =
-            simulate_batch(runs_of(fleet, controller, block, mode, options.seed), scenario,
-                           model.vehicle.sample_time_s,
+        const std::vector<BatchRun> runs = runs_of(fleet, controller, block, mode, options.seed);
+        auto metrics =
+            simulate_batch(runs, scenario, model.vehicle.sample_time_s,
                            block.checks ? arithmetics.checks : arithmetics.runs, &by_simulate);
         for (std::size_t i = 0; i < metrics.size(); ++i) {
           const std::size_t index = layout.row(block.place(i));
           if (metrics[i]) {
+            metrics[i]->electric_work_j =
+                electric_work_j(*metrics[i], model.vehicle, runs[i].plant.mass_norm);
             (block.checks ? checks : slots)[index] =
                 ComparisonRow{.scenario = scenario.name,
                               .mode = mode,

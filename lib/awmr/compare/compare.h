@@ -84,10 +84,28 @@ struct BreakEven {
   /// What four tyres that slide sideways on a friction of 0.8 would make, 0.8 g m' l_f, m: no scrub is
   /// more, where the centre of gravity is half-way between the axles.
   double sliding_m = 0.0;
-  /// What the vehicle's own turns by the sides' forces met, m (95 % interval); absent where the model
-  /// has no such trial.
+  double fastest_degps =
+      0.0;  ///< yaw rate of the mode's run on the model's own values, deg/s, >= 0
+  /// What the vehicle's own turns by the sides' forces met, m: the 95 % interval, wider where it changes
+  /// with the rate, and up to what held turns that stood still; absent where the model has no such trial.
   std::optional<Interval> measured_m = {};
+  std::optional<Interval> measured_degps =
+      {};  ///< yaw rates of those turns; absent: all stood still
+  /// How many such turns in all would decide, if those to come scatter as those did; absent where the
+  /// lead is decided or more turns alone would not do.
+  std::optional<int> turns_to_decide = {};
 };
+
+/// What a measured scrub makes of a lead.
+enum class Lead {
+  kKept,  ///< no measured scrub ends it
+  kLost,  ///< every one does
+  kOpen,  ///< some do, or the run turns at other rates than scrub was measured at
+};
+inline constexpr NameTable<Lead, 3> kLeadNames{
+    {{"kept", Lead::kKept}, {"lost", Lead::kLost}, {"open", Lead::kOpen}}};
+/// Absent where no scrub was measured.
+std::optional<Lead> lead_of(const BreakEven& entry);
 
 struct Comparison {
   std::vector<ComparisonRow> rows;  ///< the finished ones, by scenario, gains, mode, sample

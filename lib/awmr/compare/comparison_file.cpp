@@ -140,10 +140,16 @@ Json break_even_json(const std::vector<BreakEven>& entries) {
                     {"against", name_of(entry.against)},
                     {"yaw_coulomb_m", optional_json(entry.yaw_coulomb_m)},
                     {"most_m", entry.most_m},
-                    {"sliding_m", entry.sliding_m}});
+                    {"sliding_m", entry.sliding_m},
+                    {"fastest_degps", entry.fastest_degps}});
     if (entry.measured_m) {
       json.back()["measured_m"] = {entry.measured_m->lo, entry.measured_m->hi};
+      json.back()["lead"] = name_in(kLeadNames, *lead_of(entry));
     }
+    if (entry.measured_degps) {
+      json.back()["measured_degps"] = {entry.measured_degps->lo, entry.measured_degps->hi};
+    }
+    if (entry.turns_to_decide) json.back()["turns_to_decide"] = *entry.turns_to_decide;
   }
   return json;
 }

@@ -99,7 +99,11 @@ void describe_break_even(JsonObject& json) {
     entry.nullable_number("yaw_coulomb_m", kPositive);
     entry.number("most_m", kPositive);
     entry.number("sliding_m", kPositive);
+    entry.number("fastest_degps", kNonNegative);
     entry.optional_interval("measured_m");
+    entry.optional_interval("measured_degps");
+    if (entry.has("lead")) entry.choice("lead", kLeadNames);  // with measured_m
+    entry.optional_integer("turns_to_decide", 0, kMost);
     entry.reject_unknown_keys();
   }
 }

@@ -31,6 +31,7 @@ enum class MetricId {
   kSaturation,
   kSteeringTravel,
   kTyreWork,
+  kElectricWork,
 };
 
 struct MetricColumn {
@@ -54,7 +55,7 @@ struct MetricColumn {
   }
 };
 
-inline constexpr std::array<MetricColumn, 16> kMetricColumns = {{
+inline constexpr std::array<MetricColumn, 17> kMetricColumns = {{
     {MetricId::kSettlingTime, "settling_time_s", "settle", "s", &Metrics::settling_time_s, 0.1,
      1.0},
     {MetricId::kOvershoot, "overshoot_deg", "overs.", "deg", &Metrics::overshoot_deg, 0.5, 1.0},
@@ -76,6 +77,7 @@ inline constexpr std::array<MetricColumn, 16> kMetricColumns = {{
     {MetricId::kSteeringTravel, "steering_travel_deg", "", "deg", &Metrics::steering_travel_deg,
      5.0, 0.0},
     {MetricId::kTyreWork, "tyre_work", "", "m", &Metrics::tyre_work, 0.01, 0.0},
+    {MetricId::kElectricWork, "electric_work_j", "", "J", &Metrics::electric_work_j, 1.0, 0.0},
 }};
 
 /// The columns of comparison.csv: of a comparison in float32 also kFloat32Column; with several sets

@@ -134,6 +134,22 @@ std::optional<std::string> JsonObject::optional_string(std::string_view key) {
   return string(key);
 }
 
+std::optional<std::string> JsonObject::optional_number_or_string(std::string_view key,
+                                                                 NumberRule rule) {
+  if (!has(key)) return std::nullopt;
+  if (shape_ != nullptr) {
+    shape_->type(key, {{"anyOf", {schema_of(rule), {{"type", "string"}}}}});
+  }
+  const Json* value = find(key, true);
+  if (value == nullptr) return std::nullopt;
+  if (value->is_number()) {
+    const double given = number(key, rule);
+    return std::isfinite(given) ? std::optional(fmt::format("{}", given)) : std::nullopt;
+  }
+  const std::string text = string(key);
+  return value->is_string() ? std::optional(text) : std::nullopt;
+}
+
 std::size_t JsonObject::choice(std::string_view key, std::span<const std::string> choices) {
   const Json* value = find(key, true);
   if (shape_ != nullptr) return shape_->choice(key, choices);

@@ -57,6 +57,8 @@ class JsonObject {
   std::optional<bool> optional_boolean(std::string_view key);
   std::string string(std::string_view key);
   std::optional<std::string> optional_string(std::string_view key);
+  /// A number by the rule, as its text, or a string; absent on a fault.
+  std::optional<std::string> optional_number_or_string(std::string_view key, NumberRule rule);
   /// One of a fixed set, with the nearest one named on a fault; returns its index, 0 on a fault.
   std::size_t choice(std::string_view key, std::span<const std::string> choices);
   /// The value of the name; the table's first on a fault.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <utility>
 
@@ -158,6 +159,35 @@ Result<void> identify_from_logs(const Vehicle& vehicle, const TrialData& data,
   return {};
 }
 
+bool is_fitted_to_logs(const Model& model, ParameterId id) {
+  return model[id].method == name_in(kEstimatorNames, Estimator::kTrajectory);
+}
+
+/// Of a vehicle that also steers.
+bool is_by_sides_alone(const TrialData& data, const Model& model) {
+  return model.vehicle.has_steering() && data.turning && !data.turning->rows.empty() &&
+         data.turning->rows.front().sides && !is_fitted_to_logs(model, ParameterId::kYawAlpha);
+}
+
+/// The rate, rad/s, that one in a hundred of the logs' readings exceed: single readings may be wrong.
+std::optional<double> fastest_logged_turn_radps(const std::vector<DrivingLog>& logs) {
+  constexpr double kShare = 0.99;
+  std::vector<double> rates;
+  for (const DrivingLog& log : logs) {
+    const auto& rate = log[LogChannel::kYawRate];
+    for (std::size_t row = 0; rate && row < log.rows(); ++row) {
+      if (rate->fresh[row] && std::isfinite(rate->value[row])) {
+        rates.push_back(std::abs(rate->value[row]));
+      }
+    }
+  }
+  if (rates.empty()) return std::nullopt;
+  const auto at =
+      rates.begin() + static_cast<std::ptrdiff_t>(kShare * static_cast<double>(rates.size() - 1));
+  std::nth_element(rates.begin(), at, rates.end());
+  return *at > 0.0 ? std::optional(*at) : std::nullopt;
+}
+
 }  // namespace
 
 Result<Identification> identify(const Vehicle& vehicle, const TrialData& data,
@@ -181,7 +211,11 @@ Result<Identification> identify(const Vehicle& vehicle, const TrialData& data,
   assume_sway(data, values);
 
   model.covariance = values.covariance.covariance();
+  model.yaw_by_sides_alone = is_by_sides_alone(data, model);
   if (data.turning) measure_scrub(*data.turning, model);
+  if (is_fitted_to_logs(model, ParameterId::kYawAlpha)) {
+    model.record.logged_yaw_rate_radps = fastest_logged_turn_radps(data.logs);
+  }
   reasons.inadmissible = take_out_inadmissible(model);
   model.record.trials = trials_as_used(data, model);
   result.refused = refuse_what_is_missing(data, reasons, asked, model);

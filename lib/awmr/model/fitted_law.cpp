@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "awmr/core/units.h"
+
 namespace awmr {
 namespace {
 
@@ -56,6 +58,17 @@ double variance_of_law(const Model& model, TrialKind kind, std::span<const doubl
     }
   }
   return std::max(variance, 0.0);
+}
+
+std::optional<double> measured_yaw_rate_degps(const Model& model) {
+  if (model.vehicle.yaw_rate_max_degps) return model.vehicle.yaw_rate_max_degps;
+  std::optional<double> fastest;
+  if (const auto& rate_radps = model.record.logged_yaw_rate_radps) fastest = degrees(*rate_radps);
+  for (const TrialPoint& trial : model.record.trials) {
+    if (trial.kind != TrialKind::kTurning) continue;
+    fastest = std::max(fastest.value_or(0.0), degrees(trial.measured));
+  }
+  return fastest;
 }
 
 }  // namespace awmr

@@ -31,4 +31,9 @@ std::optional<Resistance<double>> fitted_law(const Model& model, TrialKind kind)
 /// Precondition: the law is fitted.
 double variance_of_law(const Model& model, TrialKind kind, std::span<const double> rates);
 
+/// The fastest turn, deg/s, up to which yaw resistance was measured: the vehicle's
+/// yaw_rate_max_degps, else the fastest turning trial of the record, in tables or logs. Absent where
+/// neither says.
+std::optional<double> measured_yaw_rate_degps(const Model& model);
+
 }  // namespace awmr

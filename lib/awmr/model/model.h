@@ -50,7 +50,10 @@ struct YawScrub {
   double std_error_m = 0.0;  ///< m, > 0: of the turns' scatter and of g3
   Interval ci95_m;           ///< 95 % confidence interval
   int rows = 0;              ///< turns that show it, >= 3
-  Interval yaw_rate_radps;   ///< of those turns
+  Interval yaw_rate_radps;   ///< of those turns, > 0
+  /// All that it is, with its uncertainty, between the slowest and the fastest of those turns, where it
+  /// changes with the yaw rate; absent where no change shows.
+  std::optional<Interval> changing_m = {};
 };
 
 /// False for what the vehicle does not have: the servo of one without steering.
@@ -84,6 +87,11 @@ struct Model {
   std::array<Estimate, kParameterCount> estimates;  ///< by ParameterId
   Covariance covariance;
   std::optional<YawScrub> yaw_scrub;  ///< absent: no turning trial shows it
+  /// The largest yaw moment by the sides' forces, m, > 0, under which the vehicle did not turn; absent:
+  /// it always did.
+  std::optional<double> yaw_held_m;
+  /// g3 was fitted to turns by the sides' forces of a vehicle that also steers: it holds their scrub.
+  bool yaw_by_sides_alone = false;
   IdentificationRecord record;
 
   Estimate& operator[](ParameterId id) { return estimates[static_cast<std::size_t>(id)]; }

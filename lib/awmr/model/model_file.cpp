@@ -100,11 +100,13 @@ void put_si(Json& json, const Model& model) {
 }
 
 Json scrub_to_json(const YawScrub& scrub) {
-  return {{"moment_m", scrub.moment_m},
-          {"std_error_m", scrub.std_error_m},
-          {"ci95_m", {scrub.ci95_m.lo, scrub.ci95_m.hi}},
-          {"rows", scrub.rows},
-          {"yaw_rate_radps", {scrub.yaw_rate_radps.lo, scrub.yaw_rate_radps.hi}}};
+  Json json{{"moment_m", scrub.moment_m},
+            {"std_error_m", scrub.std_error_m},
+            {"ci95_m", {scrub.ci95_m.lo, scrub.ci95_m.hi}},
+            {"rows", scrub.rows},
+            {"yaw_rate_radps", {scrub.yaw_rate_radps.lo, scrub.yaw_rate_radps.hi}}};
+  if (scrub.changing_m) json["changing_m"] = {scrub.changing_m->lo, scrub.changing_m->hi};
+  return json;
 }
 
 YawScrub scrub_from_json(JsonObject json) {
@@ -114,6 +116,7 @@ YawScrub scrub_from_json(JsonObject json) {
   scrub.ci95_m = json.interval("ci95_m");
   scrub.rows = static_cast<int>(json.integer("rows", 3, 1'000'000'000L));
   scrub.yaw_rate_radps = json.interval("yaw_rate_radps");
+  scrub.changing_m = json.optional_interval("changing_m");
   json.reject_unknown_keys();
   return scrub;
 }
@@ -148,6 +151,11 @@ std::string model_text(const Model& model) {
   json["estimates"] = list_to_json(model.record.reports, report_to_json);
   json["covariance"] = covariance_to_json(model.covariance);
   if (model.yaw_scrub) json["yaw_scrub"] = scrub_to_json(*model.yaw_scrub);
+  if (model.yaw_held_m) json["yaw_held_m"] = *model.yaw_held_m;
+  if (model.yaw_by_sides_alone) json["yaw_by_sides_alone"] = true;
+  if (const auto& rate_radps = model.record.logged_yaw_rate_radps) {
+    json["logged_yaw_rate_radps"] = *rate_radps;
+  }
   put_si(json, model);
   json["findings"] = findings_to_json(model.record.findings);
   json["trials"] = list_to_json(model.record.trials, trial_to_json);
@@ -168,6 +176,11 @@ Model model_from_json(JsonObject& root) {
   if (const auto scrub = root.optional_object("yaw_scrub")) {
     model.yaw_scrub = scrub_from_json(*scrub);
   }
+  constexpr NumberRule kAMoment{.min = 0.0, .max = 1e6, .min_excluded = true};
+  constexpr NumberRule kARate{.min = 0.0, .max = 1e3, .min_excluded = true};
+  model.yaw_held_m = root.optional_number("yaw_held_m", kAMoment);
+  model.yaw_by_sides_alone = root.optional_boolean("yaw_by_sides_alone").value_or(false);
+  model.record.logged_yaw_rate_radps = root.optional_number("logged_yaw_rate_radps", kARate);
   root.optional_object("si");
   model.record.findings = list_from_json(root, "findings", finding_from_json);
   model.record.trials = list_from_json(root, "trials", trial_from_json);
@@ -178,6 +191,36 @@ Model model_from_json(JsonObject& root) {
 }  // namespace
 
 namespace {
+
+/// What a measured scrub may say against itself and the vehicle.
+void add_scrub_contradictions(const YawScrub& scrub, const Model& model,
+                              std::vector<Fault>& faults) {
+  const std::string place = model.file + ":/yaw_scrub";
+  const auto check = [&](bool is_so, const char* key, const std::string& why) {
+    if (!is_so) faults.push_back({fmt::format("{}/{}", place, key), why});
+  };
+  const Interval ci = scrub.ci95_m;
+  check(ci.contains(scrub.moment_m), "ci95_m",
+        fmt::format("[{:g}, {:g}] does not hold moment_m {:g}", ci.lo, ci.hi, scrub.moment_m));
+  check(ci.hi >= 0.0, "ci95_m",
+        fmt::format("[{:g}, {:g}] is all below 0: scrub does not help to turn", ci.lo, ci.hi));
+  // Student's quantile: 12.7 with one degree of freedom, 1.96 with many.
+  const double quantile = 0.5 * (ci.hi - ci.lo) / scrub.std_error_m;
+  check(quantile >= 1.95 && quantile <= 12.8, "std_error_m",
+        fmt::format("{:g} does not make ci95_m [{:g}, {:g}], which is {:.3g} of it either side: "
+                    "1.96 to 12.7 are possible",
+                    scrub.std_error_m, ci.lo, ci.hi, quantile));
+  check(std::abs(0.5 * (ci.lo + ci.hi) - scrub.moment_m) <= 0.01 * (ci.hi - ci.lo), "moment_m",
+        fmt::format("{:g} is not the middle of ci95_m [{:g}, {:g}]", scrub.moment_m, ci.lo, ci.hi));
+  check(scrub.yaw_rate_radps.lo > 0.0 && scrub.yaw_rate_radps.hi < 1e3, "yaw_rate_radps",
+        "the rates of turns lie above 0 and below 1000 rad/s");
+  // More than the sides can apply is met by no turn.
+  const Interval force = model.vehicle.wheel_force;
+  const double most_m = differential_moment_m(model.vehicle.half_track_m, force.hi - force.lo);
+  check(scrub.moment_m <= most_m, "moment_m",
+        fmt::format("{:g} is more than the sides of this vehicle can apply, {:.4g} m",
+                    scrub.moment_m, most_m));
+}
 
 /// What a file edited by hand may say against itself: a value outside of its interval, a standard
 /// error that is not the covariance's.
@@ -191,11 +234,7 @@ std::vector<Fault> self_contradictions(const Model& model) {
                       fmt::format("[{:g}, {:g}] does not hold the value {:g}; null is no interval",
                                   estimate.ci95->lo, estimate.ci95->hi, *estimate.value)});
   }
-  if (const auto& scrub = model.yaw_scrub; scrub && !scrub->ci95_m.contains(scrub->moment_m)) {
-    faults.push_back({model.file + ":/yaw_scrub/ci95_m",
-                      fmt::format("[{:g}, {:g}] does not hold moment_m {:g}", scrub->ci95_m.lo,
-                                  scrub->ci95_m.hi, scrub->moment_m)});
-  }
+  if (model.yaw_scrub) add_scrub_contradictions(*model.yaw_scrub, model, faults);
   const Covariance& covariance = model.covariance;
   for (std::size_t i = 0; i < covariance.parameters.size(); ++i) {
     const ParameterInfo& parameter = info(covariance.parameters[i]);

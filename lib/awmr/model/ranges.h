@@ -19,6 +19,7 @@ inline constexpr NumberRule kSensorNoise{.min = 0.0, .max = 1e3};
 /// How late a sensor or a motor is.
 inline constexpr NumberRule kLatency_s{.min = 0.0, .max = 1.0};
 /// 1/k_e is the speed at which a motor under full voltage has no force left: 1 mm/s at the least.
+inline constexpr NumberRule kStallPower_w{.min = 0.0, .max = 1e6, .min_excluded = true};
 inline constexpr NumberRule kBackEmf_s_per_m{.min = 0.0, .max = 1e3};
 inline constexpr NumberRule kFastestTurn_degps{.min = 1e-3, .max = 1e6};
 /// Coefficients of resistance, m' and I'z, each in its own unit.

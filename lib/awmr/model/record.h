@@ -132,6 +132,9 @@ struct IdentificationRecord {
   std::vector<EstimatorReport> reports;
   std::vector<Finding> findings;
   std::vector<TrialPoint> trials;
+  /// The fastest turn in the logs that g3 was fitted to, rad/s, > 0; absent where it was not fitted to
+  /// logs.
+  std::optional<double> logged_yaw_rate_radps;
   Provenance provenance;
 };
 

@@ -40,6 +40,14 @@ T wheel_load(const T& mass_norm) {
   return mass_norm * T(kGravity_mps2 / 4.0);
 }
 
+/// What four tyres that slide sideways make where the vehicle turns on the spot, m, the centre of gravity
+/// being half-way between the axles: no scrub is more.
+///   mu g m' l_f
+template <class T>
+T sliding_moment_m(const Plant<T>& plant) {
+  return T(kTyreFriction * kGravity_mps2) * plant.mass_norm * plant.front_axle_m;
+}
+
 /// How fast each wheel slides to its left, m/s, square to the direction in which it rolls (wheel_speeds()).
 /// The rear axle is taken as far behind the centre of gravity as the front one is before it:
 ///   s_rear  = v - l_f r

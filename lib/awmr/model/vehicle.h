@@ -65,6 +65,9 @@ struct Vehicle {
   /// k_e, s/m, >= 0: force over F_max that a motor loses per m/s at its wheel, by its data sheet;
   /// absent: none, unless a log shows it.
   std::optional<double> back_emf_s_per_m;
+  /// P_s, W, > 0: what one motor takes under full voltage at a standstill, where all of it heats the motor;
+  /// absent: electrical work is not told in joules.
+  std::optional<double> motor_stall_power_w;
   /// deg/s, > 0: the fastest turn up to which yaw resistance is known; absent: the range that the
   /// turning trials covered.
   std::optional<double> yaw_rate_max_degps;

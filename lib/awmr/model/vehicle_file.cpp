@@ -107,6 +107,7 @@ void control_from_json(JsonObject& json, Vehicle& vehicle) {
   if (auto motor = json.optional_object("motor")) {
     vehicle.motor_time_constant_s = motor->optional_number("time_constant_s", kLatency_s);
     vehicle.back_emf_s_per_m = motor->optional_number("back_emf_s_per_m", kBackEmf_s_per_m);
+    vehicle.motor_stall_power_w = motor->optional_number("stall_power_w", kStallPower_w);
     motor->reject_unknown_keys();
   }
   vehicle.yaw_rate_max_degps = json.optional_number("yaw_rate_max_degps", kFastestTurn_degps);
@@ -122,6 +123,7 @@ void control_to_json(const Vehicle& vehicle, Json& json) {
     json["motor"]["time_constant_s"] = *vehicle.motor_time_constant_s;
   }
   if (vehicle.back_emf_s_per_m) json["motor"]["back_emf_s_per_m"] = *vehicle.back_emf_s_per_m;
+  if (vehicle.motor_stall_power_w) json["motor"]["stall_power_w"] = *vehicle.motor_stall_power_w;
   if (vehicle.yaw_rate_max_degps) json["yaw_rate_max_degps"] = *vehicle.yaw_rate_max_degps;
 }
 

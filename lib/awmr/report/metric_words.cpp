@@ -12,7 +12,7 @@ struct MetricEntry {
   std::string_view unit;
 };
 
-constexpr std::array<MetricEntry, 16> kMetricEntries{{
+constexpr std::array<MetricEntry, 17> kMetricEntries{{
     {"settling_time_s", "settling time", "s"},
     {"overshoot_deg", "overshoot", "deg"},
     {"heading_iae_degs", "heading error (IAE)", "deg s"},
@@ -26,6 +26,7 @@ constexpr std::array<MetricEntry, 16> kMetricEntries{{
     {"finish_time_s", "finish time", "s"},
     {"energy_mech", "energy at the wheels", ""},
     {"energy_electric", "energy in the motors", ""},
+    {"electric_work_j", "electrical work", "J"},
     {"saturation_s", "saturation", "s"},
     {"steering_travel_deg", "steering travel", "deg"},
     {"tyre_work", "tyre work", ""},

@@ -281,7 +281,10 @@ void move(Batch& batch, double t_s) {
   block.sample.slope_accel_mps2 = push.slope_accel_mps2;
   block.sample.slope_downhill_rad = push.slope_downhill_rad;
   block.sample.has_battery = scenario.battery.has_value();
-  if (scenario.battery) block.sample.battery_share = battery_share(*scenario.battery, t_s);
+  if (scenario.battery) {
+    block.sample.battery_sag = scenario.battery->sag;
+    block.sample.battery_share = battery_share(*scenario.battery, t_s);
+  }
   if (push.is_loaded) {
     for_active(batch, [&](std::size_t lane) {
       LaneParts& parts = batch.parts[lane];

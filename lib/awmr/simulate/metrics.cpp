@@ -37,6 +37,13 @@ MeteredVehicle<double> metered_vehicle(const AllocationLimits<double>& limits) {
           .rear_driven = limits.is_rear_driven ? 1.0 : 0.0};
 }
 
+std::optional<double> electric_work_j(const Metrics& metrics, const Vehicle& vehicle,
+                                      double mass_norm) {
+  if (!vehicle.motor_stall_power_w) return std::nullopt;
+  return *vehicle.motor_stall_power_w * metrics.energy_electric +
+         max_wheel_force_n(vehicle.mass_kg, mass_norm) * metrics.energy_mech;
+}
+
 MeteredCourse metered_course(const Scenario& scenario) {
   const auto* timed = std::get_if<LissajousCourse>(&scenario.guidance);
   return {.has_headings = std::holds_alternative<HeadingSteps>(scenario.guidance),

@@ -48,7 +48,15 @@ struct Metrics {
   /// Work against the yaw resistance, which scrubs the tyres, over F_max, m: integral of g3(r) r. On tyres
   /// (Scenario::tyres): work of their side forces, integral of RunRow::tyre_power_mps.
   double tyre_work = 0.0;
+  /// What the battery gives the motors, J; absent where the vehicle says no stall power.
+  std::optional<double> electric_work_j;
 };
+
+/// Into the copper and on to the wheels, J, of a vehicle whose normalised mass is m':
+///   P_s energy_electric + F_max energy_mech,   F_max = m/m'                          [paper (66)]
+/// P_s is the motors' stall power; absent without it.
+std::optional<double> electric_work_j(const Metrics& metrics, const Vehicle& vehicle,
+                                      double mass_norm);
 
 Metrics metrics_of(const Run& run, const Scenario& scenario, const Controller<double>& controller);
 

@@ -73,6 +73,24 @@ SideForces<T> up_to(const SideForces<T>& force, const T& most) {
   return {math::saturate(force.left, most), math::saturate(force.right, most)};
 }
 
+/// What the voltage s of a battery that sags, over that without current, leaves of both forces. The
+/// current of motor i, over its stall current, is s c_i - k_e w_i, of which the battery carries the
+/// share c_i for which the motor is on:
+///   s = 1 - rho sum c_i (s c_i - k_e w_i)
+///     = (1 + rho k_e sum c_i w_i) / (1 + rho sum c_i^2)
+/// c: commands F'; rho: Battery::sag; w_i = u -+ d r of the sample's start, m/s, as if the wheels were straight.
+/// The voltage is that over the whole sample.
+template <class T>
+SideForces<T> under_sag(double sag, const T& motors_a_side, const T& back_emf_s_per_m,
+                        const T& half_track_m, const State<T>& at, const SideForces<T>& force) {
+  const T rho = T(sag) * motors_a_side;
+  const T squares = force.left * force.left + force.right * force.right;
+  const T turning = force.left * (at.u_mps - half_track_m * at.r_radps) +
+                    force.right * (at.u_mps + half_track_m * at.r_radps);
+  const T voltage = (T(1.0) + rho * back_emf_s_per_m * turning) / (T(1.0) + rho * squares);
+  return {force.left * voltage, force.right * voltage};
+}
+
 /// What pushes the vehicle, added to the rates of its state.
 template <class T>
 State<T> with_push(State<T> d, const Plant<T>& plant, const Push<T>& push, const State<T>& at) {

@@ -189,6 +189,10 @@ void Physics::step(double t_s, const SideForces<double>& commanded, double steer
   SideForces<double> force = through_motors(lag_, commanded, motors_);
   force = switched_off(plant_.back_emf_s_per_m, commanded, force);
   if (const auto& battery = scenario_->battery) {
+    if (battery->sag > 0.0) {
+      force = under_sag(battery->sag, 1.0 + plant_.rear_driven, plant_.back_emf_s_per_m,
+                        plant_.half_track_m, state_, force);
+    }
     force = up_to(force, force_max_ * battery_share(*battery, t_s));
   }
   if (by_wheel_) {

@@ -11,16 +11,6 @@
 
 namespace awmr {
 
-std::optional<double> measured_yaw_rate_degps(const Model& model) {
-  if (model.vehicle.yaw_rate_max_degps) return model.vehicle.yaw_rate_max_degps;
-  std::optional<double> fastest;
-  for (const TrialPoint& trial : model.record.trials) {
-    if (trial.kind != TrialKind::kTurning) continue;
-    fastest = std::max(fastest.value_or(0.0), degrees(trial.measured));
-  }
-  return fastest;
-}
-
 void limit_heading_rate(double limit_degps, Scenario& scenario) {
   if (std::holds_alternative<OpenLoop>(scenario.guidance)) return;
   const double limit_radps = radians(limit_degps);
@@ -36,12 +26,11 @@ void limit_heading_rate(double limit_degps, Scenario& scenario) {
 }
 
 std::string fault_of_rate(const HeadingRateChoice& choice) {
-  constexpr Interval kRates_degps{0.1, 3600.0};
   if (choice == kMeasuredRate || choice == kNoRate) return {};
   const auto rate_degps = number_from_text(choice);
-  if (rate_degps && kRates_degps.contains(*rate_degps)) return {};
+  if (rate_degps && kLeadRates_degps.contains(*rate_degps)) return {};
   return fmt::format("must be {}, {}, or deg/s from {:g} to {:g}, found {}", kMeasuredRate, kNoRate,
-                     kRates_degps.lo, kRates_degps.hi, choice.empty() ? "nothing" : choice);
+                     kLeadRates_degps.lo, kLeadRates_degps.hi, choice.empty() ? "nothing" : choice);
 }
 
 HeadingRateChoice rate_to_compare_at(const HeadingRateChoice& said, const Model& model) {
@@ -65,18 +54,31 @@ Status limit_heading_rate(const HeadingRateChoice& choice, const Model& model,
   return {};
 }
 
+std::optional<Finding> not_led(const HeadingRateChoice& said, const Model& model) {
+  if (!said.empty() || measured_yaw_rate_degps(model)) return std::nullopt;
+  return Finding{model.file, 0, Severity::kWarning, "not-led",
+                 fmt::format("the model does not say how fast it turned when yaw resistance was "
+                             "measured, so that headings are not led: what parts the modes may be "
+                             "the model's extrapolation. Give yaw_rate_max_degps in the vehicle, "
+                             "or {}",
+                             option_text("heading_rate_limit"))};
+}
+
 void note_extrapolation(const Model& model, double fastest_degps, const std::string& where,
-                        std::vector<Finding>& findings) {
+                        std::vector<Finding>& findings, bool is_led) {
   const std::optional<double> measured = measured_yaw_rate_degps(model);
   if (!measured || fastest_degps <= kLittleFurther * *measured) return;
   findings.push_back(
       {model.file, 0, Severity::kWarning, "beyond-trials",
        fmt::format("{}: the vehicle turns at up to {:.3g} deg/s, {:.2g} times as fast as yaw "
                    "resistance was measured (up to {:.3g} deg/s): beyond it the model is "
-                   "extrapolated. Record faster turning trials, or limit the heading's rate "
-                   "(shaping in the "
-                   "scenario, or --heading-rate-limit measured)",
-                   where, fastest_degps, fastest_degps / *measured, *measured)});
+                   "extrapolated. {}",
+                   where, fastest_degps, fastest_degps / *measured, *measured,
+                   is_led ? "The heading is led no faster than that, and the vehicle overshoots it "
+                            "or slides: record faster turning trials, or lower the limit "
+                            "(--heading-rate-limit)"
+                          : "Record faster turning trials, or limit the heading's rate (shaping in "
+                            "the scenario, or --heading-rate-limit measured)")});
 }
 
 }  // namespace awmr

@@ -7,14 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "awmr/model/fitted_law.h"
 #include "awmr/model/model.h"
 #include "awmr/simulate/scenario.h"
 
 namespace awmr {
-
-/// The fastest turn, deg/s, up to which yaw resistance was measured: the vehicle's
-/// yaw_rate_max_degps, else the fastest turning trial of the record. Absent where neither says.
-std::optional<double> measured_yaw_rate_degps(const Model& model);
 
 /// Lets the heading that is held or led to turn by at most `limit_degps`, > 0, by a filter of
 /// kShapingBandwidth_radps where the scenario has none (control/guidance_shaping.h); one that it has
@@ -25,6 +22,7 @@ inline constexpr double kShapingBandwidth_radps = 4.0;
 /// How fast headings may be led, as a person says it: deg/s from 0.1 to 3600, "measured", as fast as
 /// yaw resistance was, or "none"; empty: not said.
 using HeadingRateChoice = std::string;
+inline constexpr Interval kLeadRates_degps{0.1, 3600.0};
 inline constexpr const char* kMeasuredRate = "measured";
 inline constexpr const char* kNoRate = "none";
 
@@ -40,20 +38,28 @@ HeadingRateChoice rate_to_compare_at(const HeadingRateChoice& said, const Model&
 Status limit_heading_rate(const HeadingRateChoice& choice, const Model& model,
                           std::span<Scenario> scenarios);
 
+/// A warning (`not-led`) where nothing was said and nothing says how fast was measured: the headings are
+/// compared as the scenarios have them.
+std::optional<Finding> not_led(const HeadingRateChoice& said, const Model& model);
+
 /// Adds a warning (`beyond-trials`) where a turn of `fastest_degps`, >= 0, is clearly faster than
-/// that: what the model says there is extrapolated. `where` names the run: "C3, combined".
+/// that: what the model says there is extrapolated. `where` names the run: "C3, combined". `is_led`:
+/// the heading's rate was limited to what was measured, and the vehicle turns faster than its heading
+/// is led.
 void note_extrapolation(const Model& model, double fastest_degps, const std::string& where,
-                        std::vector<Finding>& findings);
+                        std::vector<Finding>& findings, bool is_led = false);
 
 /// The same of the fastest of several runs, which have `metrics`; `where(run)` names one.
 template <class Runs, class Where>
-std::vector<Finding> extrapolation_in(const Model& model, const Runs& runs, const Where& where) {
+std::vector<Finding> extrapolation_in(const Model& model, const Runs& runs, const Where& where,
+                                      bool is_led = false) {
   const auto fastest = std::max_element(runs.begin(), runs.end(), [](const auto& a, const auto& b) {
     return a.metrics.yaw_rate_max_degps < b.metrics.yaw_rate_max_degps;
   });
   std::vector<Finding> findings;
   if (fastest != runs.end()) {
-    note_extrapolation(model, fastest->metrics.yaw_rate_max_degps, where(*fastest), findings);
+    note_extrapolation(model, fastest->metrics.yaw_rate_max_degps, where(*fastest), findings,
+                       is_led);
   }
   return findings;
 }

@@ -78,11 +78,15 @@ struct SlipperyPatch {
 };
 
 /// The battery runs down: the largest force of a motor falls linearly from all of F'max at
-/// `from_s` to `share_end` of it at `to_s`, and stays there. The controller does not know.
+/// `from_s` to `share_end` of it at `to_s`, and stays there. And its voltage sags under the motors'
+/// current. The controller knows of neither.
 struct Battery {
   double from_s = 0.0;     ///< >= 0
-  double to_s = 0.0;       ///< > from_s
+  double to_s = 1.0;       ///< > from_s
   double share_end = 1.0;  ///< of F'max, [0, 1]
+  /// The battery's inner resistance over that of one motor's winding, >= 0: the share of the voltage
+  /// that is lost where one motor is stalled, nearly. 0: none is.
+  double sag = 0.0;
 };
 
 /// The errors of one sensor, in the unit of what it measures.

@@ -12,6 +12,7 @@ namespace awmr {
 namespace {
 
 constexpr NumberRule kShare{.min = 0.0, .max = 1.0};
+constexpr NumberRule kSag{.min = 0.0, .max = 10.0};
 
 Window read_window(JsonObject& json) {
   Window window;
@@ -100,10 +101,14 @@ SlipperyPatch read_patch(JsonObject& json) {
 }
 
 Battery read_battery(JsonObject json) {
-  Battery battery{.from_s = json.number("from_s", kTime_s),
-                  .to_s = json.number("to_s", kDuration_s),
-                  .share_end = json.number("share_end", kShare)};
-  if (!(battery.to_s > battery.from_s)) json.fault("to_s", "has to be after from_s");
+  Battery battery{.sag = json.optional_number("sag", kSag).value_or(0.0)};
+  const bool runs_down = json.has("from_s") || json.has("to_s") || json.has("share_end");
+  if (runs_down || !json.has("sag")) {
+    battery.from_s = json.number("from_s", kTime_s);
+    battery.to_s = json.number("to_s", kDuration_s);
+    battery.share_end = json.number("share_end", kShare);
+    if (!(battery.to_s > battery.from_s)) json.fault("to_s", "has to be after from_s");
+  }
   json.reject_unknown_keys();
   return battery;
 }

@@ -72,6 +72,8 @@ struct TrialSet {
   /// Of a vehicle that also steers, its turns by the sides alone: they scrub the tyres, so that g3 of
   /// steered turns is not theirs. Not in `rows`.
   std::vector<Row> by_sides = {};
+  /// Those of them that did not turn: their moment is the least that the tyres held.
+  std::vector<Row> standing = {};
 };
 
 /// A coast-down file has a row per run, or the curves of its runs.

@@ -264,17 +264,28 @@ Result<TrialSet<TurningRow>> read_turning(const std::filesystem::path& path, con
   std::erase_if(findings,
                 [&](const Finding& f) { return f.code == "joined-by-time" && f.file == set.file; });
   std::vector<std::size_t> set_aside;
+  std::vector<std::size_t> standing;
   for (std::size_t i = 0; i < reader.table().rows(); ++i) {
     const auto row = read_row(reader, i, vehicle, options.preference, findings);
     if (!row) continue;
-    if (row->tau_turn_m == 0.0 || row->yaw_rate_radps == 0.0) {
+    const bool beside_steering = vehicle.has_steering() && row->sides;
+    const bool is_standing = row->yaw_rate_radps == 0.0;
+    if (row->tau_turn_m == 0.0 || (is_standing && !beside_steering)) {
       set_aside.push_back(i);
+    } else if (is_standing) {
+      set.standing.push_back(*row);
+      standing.push_back(i);
     } else {
-      const bool beside_steering = vehicle.has_steering() && row->sides;
       (beside_steering ? set.by_sides : set.rows).push_back(*row);
     }
   }
   if (!reader.faults().empty()) return input_errors(std::move(reader.faults()));
+  if (set.rows.empty()) {
+    // Nothing steered tells what the tyres hold from what resists.
+    set.standing.clear();
+    set_aside.insert(set_aside.end(), standing.begin(), standing.end());
+    std::sort(set_aside.begin(), set_aside.end());
+  }
   take_sides_alone(set, findings);
   set.set_aside = static_cast<int>(set_aside.size());
   note_rows_set_aside(reader, set_aside,

@@ -7,7 +7,9 @@
 
 #include "awmr/core/units.h"
 #include "awmr/model/dynamics.h"
+#include "awmr/model/fitted_law.h"
 #include "awmr/model/steady.h"
+#include "awmr/model/tyres.h"
 
 namespace awmr {
 namespace {
@@ -200,31 +202,92 @@ std::vector<CandidateTrial> candidates_of(const Model& model, const SuggestOptio
   return candidates;
 }
 
-std::vector<ScrubTurn> scrub_turns_of(const Model& model) {
+namespace {
+
+/// What turns by the sides may meet beside g3, m: as the trials have it, or from nothing to tyres that
+/// slide.
+Interval possible_scrub_m(const Model& model, const Plant<double>& plant) {
+  const double held_m = model.yaw_held_m.value_or(0.0);
+  if (const auto& scrub = model.yaw_scrub) {
+    const double least = std::max(scrub->ci95_m.lo, 0.0);
+    return {least, std::max({scrub->ci95_m.hi, least, held_m})};
+  }
+  return {held_m, std::max(held_m, sliding_moment_m(plant))};
+}
+
+/// Forces about `straight` that make this moment, where the wheels reach them:
+///   2 d (F'R - F'L) = moment                                                        [paper (41)]
+std::optional<SideForces<double>> forces_for(double moment_m, double straight,
+                                             const Plant<double>& plant, const Interval& range) {
+  const double half = moment_m / (4.0 * plant.half_track_m);
+  const SideForces<double> force{with_dead_zone(straight - half, plant.wheel_dead_zone),
+                                 with_dead_zone(straight + half, plant.wheel_dead_zone)};
+  if (force.left < range.lo || force.right > range.hi) return std::nullopt;
+  return force;
+}
+
+/// What is to be turned with steering where every turn was by the sides.
+std::string steered_turns_instead(const Vehicle& vehicle) {
+  const double stop = vehicle.steering_max_deg;
+  const double force = 0.5 * vehicle.wheel_force.hi;
+  return fmt::format(
+      "all turns were by the sides' forces, whose scrub is in yaw resistance: drive at least three "
+      "steered ones, as rows of the turning table: steering {:.3g}, {:.3g} and {:.3g} deg, "
+      "wheel_force {:.3g} or what the course allows",
+      stop / 3.0, 2.0 * stop / 3.0, stop, force);
+}
+
+std::string purpose_of(const Model& model) {
+  if (const auto& scrub = model.yaw_scrub) {
+    return fmt::format(
+        "{} turns have shown {:.3g} to {:.3g} m of scrub; four times as many halve "
+        "that. compare --break-even says whether it takes more",
+        scrub->rows, scrub->ci95_m.lo, scrub->ci95_m.hi);
+  }
+  return model.yaw_held_m ? fmt::format("so far the tyres held {:.3g} m", *model.yaw_held_m)
+                          : std::string("how much the tyres' scrub takes is not known yet");
+}
+
+}  // namespace
+
+ScrubPlan scrub_plan(const Model& model) {
   const Vehicle& vehicle = model.vehicle;
+  if (!vehicle.has_steering()) return {};
+  if (model.yaw_by_sides_alone) return {{}, steered_turns_instead(vehicle)};
   const auto yaw = model.plant(Motion::kSteadyTurn);
   const auto surge = model.plant(Motion::kSteadySurge);
-  if (!vehicle.has_steering() || model.yaw_scrub || !yaw || !surge) return {};
-  double fastest_mps = 0.0, fastest_radps = 0.0;
+  const std::optional<double> fastest_degps = measured_yaw_rate_degps(model);
+  if (!yaw || !surge || !fastest_degps) {
+    return {{},
+            "turns by the sides' forces are named once surge and yaw resistance are known, and how "
+            "fast they were measured (turning trials, or yaw_rate_max_degps in the vehicle)"};
+  }
+  double fastest_mps = 0.0;
   for (const TrialPoint& trial : model.record.trials) {
     if (trial.kind == TrialKind::kSurge) fastest_mps = std::max(fastest_mps, trial.measured);
-    if (trial.kind == TrialKind::kTurning) fastest_radps = std::max(fastest_radps, trial.measured);
   }
-  if (!(fastest_radps > 0.0)) return {};
   const double straight = fastest_mps > 0.0
                               ? surge->surge(0.5 * fastest_mps) / vehicle.driven_wheels()
                               : 0.5 * (vehicle.wheel_force.lo + vehicle.wheel_force.hi);
-  std::vector<ScrubTurn> turns;
-  for (const double share : {1.0 / 3.0, 2.0 / 3.0, 1.0}) {
-    const double rate_radps = share * fastest_radps;
-    // 2 d (F'R - F'L) = g3(r)
-    const double half = yaw->yaw(rate_radps) / (4.0 * vehicle.half_track_m);
-    const SideForces<double> command{with_dead_zone(straight - half, yaw->wheel_dead_zone),
-                                     with_dead_zone(straight + half, yaw->wheel_dead_zone)};
-    if (command.left < vehicle.wheel_force.lo || command.right > vehicle.wheel_force.hi) break;
-    turns.push_back({command, degrees(rate_radps)});
+  const Interval scrub_m = possible_scrub_m(model, *yaw);
+  ScrubPlan plan{{}, purpose_of(model)};
+  constexpr int kTurns = 3;
+  for (int i = 1; i <= kTurns; ++i) {
+    const double rate_degps = *fastest_degps * i / kTurns;
+    const double resisted_m = yaw->yaw(radians(rate_degps));
+    const auto least = forces_for(resisted_m + scrub_m.lo, straight, *yaw, vehicle.wheel_force);
+    if (!least) break;
+    const auto most = forces_for(resisted_m + scrub_m.hi, straight, *yaw, vehicle.wheel_force);
+    const SideForces<double> limits{vehicle.wheel_force.lo, vehicle.wheel_force.hi};
+    plan.turns.push_back({rate_degps, *least, most.value_or(limits)});
   }
-  return turns;
+  if (plan.turns.size() < kTurns) {
+    plan.about += fmt::format(
+        "; the forces of this vehicle reach {} of {} such turns about F' = {:.3g}: three are "
+        "needed, so drive more of them, or repeat them at other speeds",
+        plan.turns.size(), kTurns, straight);
+  }
+  return plan;
 }
 
 std::vector<std::string> assumptions_of(const Model& model, const SuggestOptions& options) {

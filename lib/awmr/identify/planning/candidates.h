@@ -19,9 +19,13 @@ struct CandidateTrial {
 /// Those whose motion the model knows; a log of one that knows straight motion alone drives straight.
 std::vector<CandidateTrial> candidates_of(const Model& model, const SuggestOptions& options);
 
-/// Turns by the sides at a third, two thirds and all of the fastest steered turn, about the force that
-/// drives straight at half the fastest speed: as far as the wheels' forces reach.
-std::vector<ScrubTurn> scrub_turns_of(const Model& model);
+struct ScrubPlan {
+  std::vector<ScrubTurn> turns;
+  std::string about;
+};
+/// Turns by the sides at a third, two thirds and all of the fastest turn that yaw resistance was measured
+/// at, about the force that drives straight at half the fastest speed: as far as the wheels' forces reach.
+ScrubPlan scrub_plan(const Model& model);
 
 /// What is assumed of the errors of the candidates' measurements, in words.
 std::vector<std::string> assumptions_of(const Model& model, const SuggestOptions& options);

@@ -38,9 +38,13 @@ void describe_suggestion(JsonObject& json) {
     missing.reject_unknown_keys();
   }
   for (JsonObject& turn : json.optional_objects("scrub_turns")) {
-    for (const char* key : {"force_left", "force_right", "yaw_rate_degps"}) turn.number(key);
+    for (const char* key :
+         {"force_left", "force_right", "most_force_left", "most_force_right", "yaw_rate_degps"}) {
+      turn.number(key);
+    }
     turn.reject_unknown_keys();
   }
+  json.optional_string("about_scrub");
   for (JsonObject& trial : json.objects("trials")) {
     trial.choice("kind", kTrialKindNames);
     JsonObject settings = trial.object("settings");

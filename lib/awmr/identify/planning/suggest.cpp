@@ -211,10 +211,12 @@ Result<Suggestion> suggest(const Model& model, const SuggestOptions& options) {
   }
   AWMR_ASSIGN_OR_RETURN(const Target target,
                         target_of(model, model.plant_as_known(), uncertainty.parameters, options));
+  ScrubPlan scrub = scrub_plan(model);
   Suggestion suggestion{.criterion = target.criterion,
                         .missing = std::move(missing),
                         .trials = {},
-                        .scrub_turns = scrub_turns_of(model),
+                        .scrub_turns = scrub.turns,
+                        .about_scrub = scrub.about,
                         .assumptions = assumptions_of(model, options)};
   if (uncertainty.parameters.empty()) return suggestion;
   if (model.simulated_motion() == Motion::kPlanar) {

@@ -51,16 +51,18 @@ struct MissingParameter {
 /// Turns by the sides' forces, wheels straight, that tell what the tyres' scrub takes from them: what the
 /// choice between differential, steering and combined hangs on (compare --break-even).
 struct ScrubTurn {
-  SideForces<double> force;     ///< F' of each left and each right wheel, over F_max
-  double yaw_rate_degps = 0.0;  ///< that they would make without scrub
+  double yaw_rate_degps = 0.0;  ///< to turn at, > 0
+  /// F' of each left and each right wheel, over F_max, that turn so if the tyres take as little as they
+  /// may, and if they take as much: as the trials have it, else nothing and sliding on a friction of 0.8.
+  SideForces<double> least, most;
 };
 
 struct Suggestion {
   std::string criterion;                  ///< in words
   std::vector<MissingParameter> missing;  ///< no value at all: their trials come before any other
   std::vector<SuggestedTrial> trials;     ///< best first
-  /// Empty where the model has measured it, knows no yaw resistance or does not steer.
-  std::vector<ScrubTurn> scrub_turns;
+  std::vector<ScrubTurn> scrub_turns;     ///< empty where `about_scrub` says why
+  std::string about_scrub;  ///< what they are for, or why there are none; empty: no steering
   std::vector<std::string> assumptions;
 };
 

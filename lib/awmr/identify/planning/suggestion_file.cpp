@@ -17,10 +17,13 @@ std::string suggestion_text(const Suggestion& suggestion, const Provenance& prov
     json["missing"].push_back({{"parameter", info(one.id).name}, {"trial", one.trial}});
   }
   for (const ScrubTurn& turn : suggestion.scrub_turns) {
-    json["scrub_turns"].push_back({{"force_left", turn.force.left},
-                                   {"force_right", turn.force.right},
-                                   {"yaw_rate_degps", turn.yaw_rate_degps}});
+    json["scrub_turns"].push_back({{"yaw_rate_degps", turn.yaw_rate_degps},
+                                   {"force_left", turn.least.left},
+                                   {"force_right", turn.least.right},
+                                   {"most_force_left", turn.most.left},
+                                   {"most_force_right", turn.most.right}});
   }
+  if (!suggestion.about_scrub.empty()) json["about_scrub"] = suggestion.about_scrub;
   json["trials"] = Json::array();
   for (const SuggestedTrial& trial : suggestion.trials) {
     Json settings;
@@ -57,15 +60,20 @@ std::string missing_sheet(const std::vector<MissingParameter>& missing) {
 }
 
 /// The turns that tell whether the sides or the steering should turn the vehicle.
-std::string scrub_sheet(const std::vector<ScrubTurn>& turns) {
-  if (turns.empty()) return {};
+std::string scrub_sheet(const Suggestion& suggestion) {
+  if (suggestion.about_scrub.empty()) return {};
   std::string text =
-      "\nfor the choice between differential, steering and combined: steady circles by the sides'\n"
-      "forces alone, wheels straight, as rows of the turning table (steering_deg 0)\n";
-  for (const ScrubTurn& turn : turns) {
+      fmt::format("\nfor the choice between differential, steering and combined:\n  {}\n",
+                  suggestion.about_scrub);
+  if (suggestion.scrub_turns.empty()) return text;
+  text +=
+      "  steady circles by the sides' forces alone, wheels straight, as rows of the turning table\n"
+      "  (steering_deg 0). Raise the difference from the first forces towards the second until it\n"
+      "  turns about so fast:\n";
+  for (const ScrubTurn& turn : suggestion.scrub_turns) {
     text += fmt::format(
-        "[ ]    turning   force_left {:.3g}, force_right {:.3g}: {:.3g} deg/s if nothing scrubs\n",
-        turn.force.left, turn.force.right, turn.yaw_rate_degps);
+        "[ ]    turning   {:.3g} deg/s: force_left {:.3g}, force_right {:.3g} to {:.3g}, {:.3g}\n",
+        turn.yaw_rate_degps, turn.least.left, turn.least.right, turn.most.left, turn.most.right);
   }
   return text;
 }
@@ -87,7 +95,7 @@ std::string field_sheet(const Suggestion& suggestion, std::size_t most) {
         fmt::format("       {}: standard error {:.3g} -> {:.3g};  information +{:.1f}\n",
                     trial.parameter, trial.std_error_before, trial.std_error_after, trial.d_gain);
   }
-  return text + scrub_sheet(suggestion.scrub_turns);
+  return text + scrub_sheet(suggestion);
 }
 
 }  // namespace awmr

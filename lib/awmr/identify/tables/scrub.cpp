@@ -6,6 +6,9 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
+#include <span>
+#include <string>
+#include <utility>
 
 #include "awmr/core/units.h"
 #include "awmr/identify/tables/subject.h"
@@ -26,107 +29,203 @@ double degrees_of_law(const Model& model) {
   return kOfALog;
 }
 
+Interval range_of(const std::vector<double>& values) {
+  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  return {*least, *most};
+}
+
 /// The rates that g3 was fitted to, rad/s; none where logs alone show it.
 std::optional<Interval> fitted_rates(const TrialSet<TurningRow>& turning) {
   if (turning.rows.empty()) return std::nullopt;
-  const auto [least, most] = std::minmax_element(
-      turning.rows.begin(), turning.rows.end(),
-      [](const TurningRow& a, const TurningRow& b) { return a.yaw_rate_radps < b.yaw_rate_radps; });
-  return Interval{least->yaw_rate_radps, most->yaw_rate_radps};
+  std::vector<double> rates;
+  for (const TurningRow& row : turning.rows) rates.push_back(row.yaw_rate_radps);
+  return range_of(rates);
 }
 
-/// A straight line through points, by least squares: its slope over the slope's standard error.
-/// Precondition: three points or more.
-double slope_t(const std::vector<double>& x, const std::vector<double>& y) {
-  const auto n = static_cast<double>(x.size());
-  const double mean_x = std::accumulate(x.begin(), x.end(), 0.0) / n;
-  const double mean_y = std::accumulate(y.begin(), y.end(), 0.0) / n;
-  double xx = 0.0, xy = 0.0, yy = 0.0;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    xx += (x[i] - mean_x) * (x[i] - mean_x);
-    xy += (x[i] - mean_x) * (y[i] - mean_y);
-    yy += (y[i] - mean_y) * (y[i] - mean_y);
+/// y = mean_y + slope (x - mean_x) by least squares.
+struct StraightLine {
+  double mean_x = 0.0, mean_y = 0.0, slope = 0.0;
+  double xx = 0.0;                 ///< sum (x - mean_x)^2
+  double residual_variance = 0.0;  ///< with n - 2 degrees of freedom
+  double count = 0.0;
+
+  double at(double x) const { return mean_y + slope * (x - mean_x); }
+  double variance_at(double x) const {
+    return residual_variance * (1.0 / count + (x - mean_x) * (x - mean_x) / xx);
   }
-  if (!(xx > 0.0)) return 0.0;
-  const double slope = xy / xx;
-  const double variance = std::max(yy - slope * xy, 0.0) / (n - 2.0) / xx;
-  return variance > 0.0 ? slope / std::sqrt(variance) : 0.0;
+  /// Whether the slope is told from none, at 95 %.
+  bool is_sloped() const {
+    return xx > 0.0 &&
+           std::abs(slope) > t_quantile_95(count - 2.0) * std::sqrt(residual_variance / xx);
+  }
+};
+
+/// Precondition: three points or more.
+StraightLine line_through(const std::vector<double>& x, const std::vector<double>& y) {
+  StraightLine line{.count = static_cast<double>(x.size())};
+  line.mean_x = std::accumulate(x.begin(), x.end(), 0.0) / line.count;
+  line.mean_y = std::accumulate(y.begin(), y.end(), 0.0) / line.count;
+  double xy = 0.0, yy = 0.0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    line.xx += (x[i] - line.mean_x) * (x[i] - line.mean_x);
+    xy += (x[i] - line.mean_x) * (y[i] - line.mean_y);
+    yy += (y[i] - line.mean_y) * (y[i] - line.mean_y);
+  }
+  if (line.xx > 0.0) line.slope = xy / line.xx;
+  line.residual_variance = std::max(yy - line.slope * xy, 0.0) / (line.count - 2.0);
+  return line;
+}
+
+/// What each turn by the sides met, in the order of the rows.
+struct Met {
+  std::vector<double> applied_m;  ///< tau_i
+  std::vector<double> rates_radps;
+  std::vector<double> moments_m;  ///< c_i
+};
+
+Met met_by(const std::vector<SteadyPoint>& turns, const Resistance<double>& law) {
+  Met met;
+  for (const SteadyPoint& turn : turns) {
+    met.applied_m.push_back(turn.force);
+    met.rates_radps.push_back(turn.rate);
+    met.moments_m.push_back(turn.force - law.at(turn.rate));
+  }
+  return met;
+}
+
+/// The mean of the c_i; absent where nothing scatters and nothing is open.
+std::optional<YawScrub> mean_scrub(const Met& met, double of_law, double degrees_of_law) {
+  const auto n = static_cast<double>(met.moments_m.size());
+  const double mean = std::accumulate(met.moments_m.begin(), met.moments_m.end(), 0.0) / n;
+  double squares = 0.0;
+  for (const double moment : met.moments_m) squares += (moment - mean) * (moment - mean);
+  const double of_scatter = squares / (n - 1.0) / n;
+  const double variance = of_scatter + of_law;
+  if (!(variance > 0.0) || !std::isfinite(variance)) return std::nullopt;
+  const double degrees_of_freedom =
+      variance * variance /
+      (of_scatter * of_scatter / (n - 1.0) + of_law * of_law / degrees_of_law);
+  const double std_error = std::sqrt(variance);
+  const double half = t_quantile_95(degrees_of_freedom) * std_error;
+  return YawScrub{.moment_m = mean,
+                  .std_error_m = std_error,
+                  .ci95_m = {mean - half, mean + half},
+                  .rows = static_cast<int>(n),
+                  .yaw_rate_radps = range_of(met.rates_radps)};
+}
+
+/// What the c_i are between the slowest and the fastest turn where they change with the rate: the
+/// intervals of a straight line at both ends, in one. Noise of r alone makes c fall with r, and noise
+/// of tau alone makes it rise with tau; only a change shows over both.
+std::optional<Interval> changing_scrub(const Met& met, const Model& model) {
+  const StraightLine by_rate = line_through(met.rates_radps, met.moments_m);
+  if (!by_rate.is_sloped() || !line_through(met.applied_m, met.moments_m).is_sloped()) {
+    return std::nullopt;
+  }
+  const double quantile = t_quantile_95(by_rate.count - 2.0);
+  const Interval rates = range_of(met.rates_radps);
+  std::vector<double> ends;
+  for (const double rate : {rates.lo, rates.hi}) {
+    const double of_law = variance_of_law(model, TrialKind::kTurning, std::span(&rate, 1));
+    const double half = quantile * std::sqrt(by_rate.variance_at(rate) + of_law);
+    ends.push_back(by_rate.at(rate) - half);
+    ends.push_back(by_rate.at(rate) + half);
+  }
+  return range_of(ends);
+}
+
+/// Moments of the turns that stood still, less what the motors' dead zone takes.
+std::vector<SteadyPoint> standing_turns(const TrialSet<TurningRow>& turning, const Model& model) {
+  return turning_points(turning.standing, *model[ParameterId::kWheelDeadZone].value);
+}
+
+std::optional<double> held_moment_m(const std::vector<SteadyPoint>& standing) {
+  std::optional<double> most;
+  for (const SteadyPoint& turn : standing) most = std::max(most.value_or(0.0), turn.force);
+  return most;
 }
 
 void note(Model& model, const TrialSet<TurningRow>& turning, const char* code,
           std::string message) {
+  const TurningRow& first =
+      turning.by_sides.empty() ? turning.standing.front() : turning.by_sides.front();
   model.record.findings.push_back(
-      {turning.file, turning.by_sides.front().line, Severity::kWarning, code, std::move(message)});
+      {turning.file, first.line, Severity::kWarning, code, std::move(message)});
+}
+
+void note_standing(Model& model, const TrialSet<TurningRow>& turning,
+                   const std::vector<SteadyPoint>& standing) {
+  std::string lines;
+  for (const SteadyPoint& turn : standing) {
+    lines += fmt::format("{}{}", lines.empty() ? "" : ", ", turn.line);
+  }
+  note(
+      model, turning, "scrub-holds",
+      fmt::format("{} of {} turns by the sides' forces stood still (line{} {}), the strongest "
+                  "under {:.3g} m: the tyres hold at least that. Turn with more; awmr suggest says "
+                  "with which forces",
+                  standing.size(), standing.size() + turning.by_sides.size(),
+                  standing.size() == 1 ? "" : "s", lines, *model.yaw_held_m));
+}
+
+/// What a constant scrub does not tell.
+void note_limits(Model& model, const TrialSet<TurningRow>& turning, const Met& met) {
+  const YawScrub& scrub = *model.yaw_scrub;
+  const Interval rates = scrub.yaw_rate_radps;
+  const auto range = fitted_rates(turning);
+  if (range && (rates.hi > kLittleFurther * range->hi || kLittleFurther * rates.lo < range->lo)) {
+    note(model, turning, "scrub-beyond-trials",
+         fmt::format("the turns by the sides' forces go at {:.3g} to {:.3g} deg/s, the steered "
+                     "ones at {:.3g} to {:.3g}: what the scrub takes is told against a yaw "
+                     "resistance that is extrapolated there; turn both ways at the same rates",
+                     degrees(rates.lo), degrees(rates.hi), degrees(range->lo), degrees(range->hi)));
+  }
+  if (scrub.changing_m) {
+    const Interval moments = range_of(met.moments_m);
+    note(model, turning, "scrub-grows",
+         fmt::format("what the turns by the sides' forces meet beside yaw resistance changes with "
+                     "the yaw rate, from {:.3g} to {:.3g} m: its mean {:.3g} m holds for the "
+                     "middle of {:.3g} to {:.3g} deg/s, and what hangs on it is decided with all "
+                     "of {:.3g} to {:.3g} m",
+                     moments.lo, moments.hi, scrub.moment_m, degrees(rates.lo), degrees(rates.hi),
+                     scrub.changing_m->lo, scrub.changing_m->hi));
+  }
 }
 
 }  // namespace
 
 void measure_scrub(const TrialSet<TurningRow>& turning, Model& model) {
   const auto law = fitted_law(model, TrialKind::kTurning);
-  if (turning.by_sides.empty() || !law) return;
+  if ((turning.by_sides.empty() && turning.standing.empty()) || !law) return;
+  const std::vector<SteadyPoint> standing = standing_turns(turning, model);
+  model.yaw_held_m = held_moment_m(standing);
+  if (model.yaw_held_m) note_standing(model, turning, standing);
   const std::vector<SteadyPoint> turns =
       turning_points(turning.by_sides, *model[ParameterId::kWheelDeadZone].value);
   if (turns.size() < kFewestScrubRows) {
-    note(
-        model, turning, "few-scrub-rows",
-        fmt::format("{} turns by the sides' forces show no scatter, and so no interval of what the "
-                    "tyres' scrub takes: drive at least {}",
-                    turns.size(), kFewestScrubRows));
+    note(model, turning, "few-scrub-rows",
+         fmt::format("{} turns by the sides' forces happened, too few for an interval of what the "
+                     "tyres' scrub takes: drive at least {}",
+                     turns.size(), kFewestScrubRows));
     return;
   }
-  std::vector<double> rates, moments;
-  for (const SteadyPoint& turn : turns) {
-    rates.push_back(turn.rate);
-    moments.push_back(turn.force - law->at(turn.rate));
-  }
-  const auto n = static_cast<double>(turns.size());
-  const double mean = std::accumulate(moments.begin(), moments.end(), 0.0) / n;
-  double squares = 0.0;
-  for (const double moment : moments) squares += (moment - mean) * (moment - mean);
-  const double of_scatter = squares / (n - 1.0) / n;
-  const double of_law = variance_of_law(model, TrialKind::kTurning, rates);
-  const double variance = of_scatter + of_law;
-  if (!(variance > 0.0) || !std::isfinite(variance)) return;
-  const double degrees_of_freedom =
-      variance * variance /
-      (of_scatter * of_scatter / (n - 1.0) + of_law * of_law / degrees_of_law(model));
-  const double std_error = std::sqrt(variance);
-  const double half = t_quantile_95(degrees_of_freedom) * std_error;
-  const auto [slowest, fastest] = std::minmax_element(rates.begin(), rates.end());
-  if (mean + half < 0.0) {
+  const Met met = met_by(turns, *law);
+  const double of_law = variance_of_law(model, TrialKind::kTurning, met.rates_radps);
+  std::optional<YawScrub> scrub = mean_scrub(met, of_law, degrees_of_law(model));
+  if (!scrub) return;
+  if (scrub->ci95_m.hi < 0.0) {
     note(model, turning, "negative-scrub",
          fmt::format(
              "the turns by the sides' forces met {:.3g} m ({:.3g} to {:.3g}) beside yaw "
              "resistance, less than nothing: tyres that are dragged sideways do not help; "
              "check the yaw rates' unit, the forces and half_track_m of these rows, and that "
              "the steered turns are not held back",
-             mean, mean - half, mean + half));
+             scrub->moment_m, scrub->ci95_m.lo, scrub->ci95_m.hi));
     return;
   }
-  model.yaw_scrub = YawScrub{.moment_m = mean,
-                             .std_error_m = std_error,
-                             .ci95_m = {mean - half, mean + half},
-                             .rows = static_cast<int>(turns.size()),
-                             .yaw_rate_radps = {*slowest, *fastest}};
-
-  const auto range = fitted_rates(turning);
-  if (range && (*fastest > kLittleFurther * range->hi || kLittleFurther * *slowest < range->lo)) {
-    note(
-        model, turning, "scrub-beyond-trials",
-        fmt::format("the turns by the sides' forces go at {:.3g} to {:.3g} deg/s, the steered ones "
-                    "at {:.3g} to {:.3g}: what the scrub takes is told against a yaw resistance "
-                    "that is extrapolated there; turn both ways at the same rates",
-                    degrees(*slowest), degrees(*fastest), degrees(range->lo), degrees(range->hi)));
-  }
-  if (std::abs(slope_t(rates, moments)) > t_quantile_95(n - 2.0)) {
-    const auto [least, most] = std::minmax_element(moments.begin(), moments.end());
-    note(
-        model, turning, "scrub-grows",
-        fmt::format("what the turns by the sides' forces meet beside yaw resistance changes with "
-                    "the yaw rate, from {:.3g} to {:.3g} m: its mean {:.3g} m holds for the middle "
-                    "of {:.3g} to {:.3g} deg/s",
-                    *least, *most, mean, degrees(*slowest), degrees(*fastest)));
-  }
+  scrub->changing_m = changing_scrub(met, model);
+  model.yaw_scrub = scrub;
+  note_limits(model, turning, met);
 }
 
 }  // namespace awmr

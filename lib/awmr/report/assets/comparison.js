@@ -51,8 +51,10 @@ function breakEven(parent, entries) {
     + `sideways on a friction of 0.8 make ${digits(entries[0].sliding_m, 3)} m`
     + (entries[0].measured_m ? `; this vehicle's own turns by the sides met ${entries[0].measured_m.map((m) => digits(m, 3)).join(" to ")} m.`
       : "; a few turns by the sides' forces, wheels straight, tell this vehicle's own (awmr suggest)."));
-  table(parent, ["scenario", "mode", "ahead of", "#until, m"], entries.map((e) => [e.scenario, e.mode, e.against,
-    e.yaw_coulomb_m === null ? `beyond ${digits(e.most_m, 3)}` : digits(e.yaw_coulomb_m, 3)]));
+  const decided = entries[0].lead ? ["lead"] : [];
+  table(parent, ["scenario", "mode", "ahead of", "#until, m", ...decided], entries.map((e) => [e.scenario, e.mode, e.against,
+    e.yaw_coulomb_m === null ? `beyond ${digits(e.most_m, 3)}` : digits(e.yaw_coulomb_m, 3),
+    ...(e.lead ? [e.turns_to_decide ? `${e.lead}: about ${e.turns_to_decide} turns decide` : e.lead] : [])]));
 }
 
 /// Of each figure the scenario and mode in which float32 changes it most for its spread, or for what matters.

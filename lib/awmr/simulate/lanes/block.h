@@ -45,6 +45,7 @@ struct BlockSetup {
 struct BlockSample {
   MeteredTime time;
   bool has_battery = false;
+  double battery_sag = 0.0;    ///< Battery::sag
   double battery_share = 1.0;  ///< of the largest force
   bool is_loaded = false;      ///< as in Push
   bool is_sloped = false;
