@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <iterator>
 #include <memory>
 
 #include "awmr/core/file.h"
@@ -57,6 +58,43 @@ std::string judged_table(const RobustTuning& robust) {
   return text;
 }
 
+/// What fresh draws say of the goals with the tuned gains.
+std::string goals_text(const RobustTuning& robust) {
+  std::string text;
+  for (const JudgedGoal& judged : robust.goals) {
+    if (judged.gains != "robust") continue;
+    std::string limits;
+    for (const GoalLimit& limit : judged.goal.at_most) {
+      limits += fmt::format("{}{} <= {:g}", limits.empty() ? "" : ", ", limit.figure, limit.most);
+    }
+    text += fmt::format("  {:<6} {}, {}{}: {:.1f} % of {} runs ({:.1f} to {:.1f}), asked {:g} %\n",
+                        name_in(kGoalVerdictNames, judged.verdict), limits, name_of(judged.mode),
+                        judged.goal.is_soft ? ", soft" : "", 100.0 * judged.held / judged.runs,
+                        judged.runs, 100.0 * judged.ci95.lo, 100.0 * judged.ci95.hi,
+                        100.0 * judged.goal.share);
+  }
+  return text.empty() ? text : "  goals, on fresh draws\n" + text;
+}
+
+/// A warning where fresh draws do not show that a goal is met.
+std::vector<Finding> goal_findings(const Tuning& tuning) {
+  std::vector<Finding> findings;
+  if (!tuning.robust) return findings;
+  for (const JudgedGoal& judged : tuning.robust->goals) {
+    if (judged.gains != "robust" || judged.verdict == GoalVerdict::kMet) continue;
+    const bool is_missed = judged.verdict == GoalVerdict::kMissed;
+    findings.push_back(
+        {"", 0, Severity::kWarning, is_missed ? "goal-missed" : "goal-open",
+         fmt::format("{} of {} fresh runs in {} keep the goal's limits, {:.1f} to {:.1f} %, where "
+                     "{:g} % are asked for: {}",
+                     judged.held, judged.runs, name_of(judged.mode), 100.0 * judged.ci95.lo,
+                     100.0 * judged.ci95.hi, 100.0 * judged.goal.share,
+                     is_missed ? "tune on more draws (--draws), raise the limits or accept less"
+                               : "judge on more (judged_draws)")});
+  }
+  return findings;
+}
+
 /// What the gains stand at, and what the objective leaves open.
 std::string standing_of(const Tuning& tuning) {
   std::string held;
@@ -74,7 +112,7 @@ std::string standing_of(const Tuning& tuning) {
 
 std::string summary_of(const Tuning& tuning) {
   std::string text = gains_table(tuning) + standing_of(tuning);
-  if (tuning.robust) text += judged_table(*tuning.robust);
+  if (tuning.robust) text += judged_table(*tuning.robust) + goals_text(*tuning.robust);
   return text;
 }
 
@@ -132,16 +170,19 @@ Result<Outcome> execute(const TuneCommand& command) {
   AWMR_ASSIGN_OR_RETURN(const Provenance provenance, provenance_of(command, config.scenario_files));
   AWMR_ASSIGN_OR_RETURN(const Tuning tuning, tune_with_progress(model, config.options));
   std::string document = gains_text(tuning, config.options, provenance);
+  std::vector<Finding> findings = goal_findings(tuning);
+  std::ranges::move(extrapolation_in(model, tuning.scores,
+                                     [](const ModeScore& score) {
+                                       return fmt::format("{}, {}", score.scenario,
+                                                          name_of(score.mode));
+                                     }),
+                    std::back_inserter(findings));
   AWMR_RETURN_IF_ERROR(write_file(command.output, document));
   return Outcome{.summary = summary_of(tuning),
                  .details = details_of(tuning),
                  .closing = fmt::format("wrote {}\n", command.output.string()),
                  .brief = gains_table(tuning),
-                 .findings = extrapolation_in(model, tuning.scores,
-                                              [](const ModeScore& score) {
-                                                return fmt::format("{}, {}", score.scenario,
-                                                                   name_of(score.mode));
-                                              }),
+                 .findings = std::move(findings),
                  .document = std::move(document),
                  .written = {command.output}};
 }
@@ -153,7 +194,7 @@ void add_tune(CLI::App& app, Session& session) {
                               [command] { return execute(*command); });
   add_file(*sub, "--model", command->model, "model.json from identify")->required();
   add_file(*sub, "--config", command->config,
-           "tune.json: form, margin, weights, evaluations, seed, scenarios");
+           "tune.json: form, margin, weights, goals, evaluations, seed, scenarios");
   auto* nominal = sub->add_flag("--nominal", command->nominal,
                                 "Tune on the model's own values alone: no draws from what is "
                                 "uncertain, no noise, no latency, no lag");

@@ -130,7 +130,7 @@ TEST(Objective, OfSetsOfGainsTogetherIsThatOfEachAlone) {
 
 TEST(Judged, AreTheOrderStatisticsOfAllPlantsButTheFirst) {
   const ObjectiveSetting setting = setting_of(6, 0.4);
-  const auto judged = judge(setting, {{"paper", kPaperGains}});
+  const auto judged = judge(setting, {{"paper", kPaperGains}}).gains;
   ASSERT_EQ(judged.size(), std::size(kYawModes));
   for (const JudgedGains& one : judged) {
     std::vector<double> iae, variation;

@@ -41,6 +41,26 @@ class TuneFile : public ::testing::Test {
   std::filesystem::path directory_;
 };
 
+TEST_F(TuneFile, ReadsGoals) {
+  const auto config = read(
+      R"({"goals": [{"at_most": {"settling_time_s": 2, "overshoot_deg": 1}, "share": 0.9},
+                    {"at_most": {"control_variation": 3}, "mode": "steering", "soft": true}]})");
+  ASSERT_TRUE(config) << to_text(config.error());
+  const TuneOptions& options = config->options;
+  ASSERT_EQ(options.goals.size(), 2U);
+  EXPECT_EQ(options.goals[0].at_most.size(), 2U);
+  EXPECT_EQ(options.goals[0].share, 0.9);
+  EXPECT_FALSE(options.goals[0].mode);
+  EXPECT_EQ(options.goals[1].at_most[0].figure, "control_variation");
+  EXPECT_EQ(options.goals[1].at_most[0].most, 3.0);
+  EXPECT_EQ(options.goals[1].mode, YawMode::kSteering);
+  EXPECT_TRUE(options.goals[1].is_soft);
+  EXPECT_EQ(options.judged_draws, kGoalDraws);
+  EXPECT_EQ(read(R"({"goals": [{"at_most": {"overshoot_deg": 1}}], "judged_draws": 60})")
+                ->options.judged_draws,
+            60);
+}
+
 TEST_F(TuneFile, GivesTheDefaultsForAnEmptyObject) {
   const Result<TuneConfig> config = read("{}");
   ASSERT_TRUE(config) << to_text(config.error());

@@ -5,13 +5,13 @@
 
 #include <algorithm>
 
-#include "awmr/compare/binomial.h"
 #include "awmr/compare/float32_effect.h"
 #include "awmr/compare/metric_columns.h"
 #include "awmr/compare/overall.h"
 #include "awmr/compare/ranking.h"
 #include "awmr/compare/scoring.h"
 #include "awmr/compare/statistics.h"
+#include "awmr/core/binomial.h"
 #include "awmr/core/csv.h"
 #include "awmr/core/csv_cell.h"
 #include "awmr/core/hash.h"

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "awmr/compare/binomial.h"
 #include "awmr/compare/scoring.h"
+#include "awmr/core/binomial.h"
 #include "awmr/core/index.h"
 #include "awmr/core/random.h"
 

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <utility>
 
-#include "awmr/compare/binomial.h"
+#include "awmr/core/binomial.h"
 #include "awmr/core/index.h"
 #include "awmr/core/random.h"
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "awmr/compare/binomial.h"
 #include "awmr/compare/ranking.h"
 #include "awmr/compare/scoring.h"
+#include "awmr/core/binomial.h"
 
 namespace awmr {
 namespace {

@@ -122,6 +122,22 @@ void describe_search(JsonObject json) {
   json.reject_unknown_keys();
 }
 
+void describe_goals(JsonObject& json) {
+  for (JsonObject& goal : json.optional_objects("goals")) {
+    JsonObject limits = goal.object("at_most");
+    for (const std::string& figure : run_figure_names()) limits.optional_number(figure, kPositive);
+    limits.reject_unknown_keys();
+    goal.number("share", {.min = kLeastShare, .max = kMostShare});
+    goal.boolean("soft");
+    goal.choice("mode", kYawModeNames);
+    goal.string("gains");
+    for (const char* key : {"held", "runs"}) goal.number(key, kNonNegative);
+    goal.interval("ci95");
+    goal.choice("verdict", kGoalVerdictNames);
+    goal.reject_unknown_keys();
+  }
+}
+
 void describe_gains(JsonObject& json) {
   json.schema(kGainsSchema);
   read_provenance(json);
@@ -135,6 +151,7 @@ void describe_gains(JsonObject& json) {
   if (auto metrics = json.optional_object("metrics")) describe_scores(*metrics);
   if (auto search = json.optional_object("search")) describe_search(*search);
   if (auto robust = json.optional_object("robust")) describe_robust(*robust);
+  describe_goals(json);
   if (auto baseline = json.optional_object("baseline")) {
     gains_from_json(*baseline);
     baseline->number("objective");

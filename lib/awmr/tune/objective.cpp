@@ -10,6 +10,7 @@
 #include "awmr/core/index.h"
 #include "awmr/core/parallel.h"
 #include "awmr/simulate/simulate.h"
+#include "awmr/tune/goals.h"
 
 namespace awmr {
 namespace {
@@ -156,6 +157,12 @@ Evaluation Objective::evaluate(std::vector<ModeScore> scores) const {
     evaluation.objective += evaluation.mode_objective.back();
   }
   evaluation.objective /= static_cast<double>(modes);
+  for (const GoalInMode& one : by_mode(setting_.goals, yaw_modes(setting_.vehicle))) {
+    const double quantile = quantile_of_excess(one, scores, setting_.scenarios);
+    evaluation.goal_quantile.push_back(quantile);
+    if (one.goal->is_soft) evaluation.objective += std::max(0.0, quantile - 1.0);
+  }
+  if (!std::isfinite(evaluation.objective)) evaluation.valid = false;
   scores.resize(per_plant);
   evaluation.scores = std::move(scores);
   return evaluation;

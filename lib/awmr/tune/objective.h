@@ -8,7 +8,8 @@
 /// over heading ITAE, overshoot, control variation, effort and speed ITAE. f_i is a floor in the
 /// unit of x_i, below which a difference does not matter: the baseline scores exactly 1, even where
 /// its overshoot is 0. Over several plants, J of a mode and scenario is (mean + CVaR)/2, CVaR the
-/// mean over the worst share of them. The objective is the mean of J over modes and scenarios.
+/// mean over the worst share of them. The objective is the mean of J over modes and scenarios, and for
+/// each soft goal and mode what the quantile of its excess (goals.h) is beyond 1.
 #pragma once
 
 #include <array>
@@ -53,14 +54,16 @@ struct ObjectiveSetting {
   double tail_share = 1.0;          ///< (0, 1]
   std::uint64_t seed = 0;           ///< of what is random in the scenarios, another for each plant
   BatchArithmetic arithmetic = {};  ///< of the runs
+  std::vector<Goal> goals = {};
 };
 
 struct Evaluation {
   std::vector<ModeScore> scores;       ///< of the first plant, by mode, then scenario
   std::vector<double> mode_objective;  ///< mean over the scenarios, in the order of yaw_modes()
   std::vector<double> mode_activity;   ///< control variation over the baseline's, of all plants
-  double objective = 0.0;              ///< mean over the modes; finite where `valid`
-  bool valid = false;  ///< finite, and completes each run that the baseline completes
+  std::vector<double> goal_quantile;   ///< of the excess, by goal, then mode (goals.h)
+  double objective = 0.0;  ///< mean over the modes, and what soft goals add; finite where `valid`
+  bool valid = false;      ///< finite, and completes each run that the baseline completes
 };
 
 class Objective {
@@ -73,6 +76,7 @@ class Objective {
   Evaluation operator()(const Gains<double>& gains) const;
   const Evaluation& baseline() const { return baseline_; }
   std::span<const YawMode> modes() const { return yaw_modes(setting_.vehicle); }
+  std::span<const Goal> goals() const { return setting_.goals; }
 
  private:
   Evaluation evaluate(std::vector<ModeScore> scores) const;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "awmr/core/parallel.h"
+#include "awmr/tune/goals.h"
 
 namespace awmr {
 namespace {
@@ -75,6 +76,12 @@ Problem::Problem(const TuneOptions& options, const ConstraintContext& context,
   if (!options_.nominal) {
     for (const YawMode mode : modes) names_.push_back(fmt::format("activity, {}", name_of(mode)));
   }
+  const std::vector<GoalInMode> goals = by_mode(objective_.goals(), modes);
+  for (std::size_t i = 0; i < goals.size(); ++i) {
+    if (goals[i].goal->is_soft) continue;
+    hard_goals_.push_back(i);
+    names_.push_back(goals[i].name());
+  }
   tolerated.assign(names_.size(), 0.0);
 }
 
@@ -92,14 +99,18 @@ void Problem::add_runs(const Evaluation& e, Looked& looked) const {
   candidate.simulated = true;
   candidate.valid = e.valid;
   candidate.objective = e.objective;
-  const std::size_t modes = e.mode_objective.size();
-  for (std::size_t i = before_runs_; i < names_.size(); ++i) {
-    const std::size_t mode = (i - before_runs_) % modes;
-    const double broken = i < before_runs_ + modes
-                              ? e.mode_objective[mode] - 1.0
-                              : e.mode_activity[mode] / options_.activity_max - 1.0;
-    looked.residuals[i] = e.valid ? broken - tolerated[i] : 1.0;
-    candidate.violation = std::max(candidate.violation, looked.residuals[i]);
+  std::vector<double> broken;
+  for (const double score : e.mode_objective) broken.push_back(score - 1.0);
+  if (!options_.nominal) {
+    for (const double activity : e.mode_activity) {
+      broken.push_back(activity / options_.activity_max - 1.0);
+    }
+  }
+  for (const std::size_t goal : hard_goals_) broken.push_back(e.goal_quantile[goal] - 1.0);
+  for (std::size_t i = 0; i < broken.size(); ++i) {
+    double& residual = looked.residuals[before_runs_ + i];
+    residual = e.valid ? broken[i] - tolerated[before_runs_ + i] : 1.0;
+    candidate.violation = std::max(candidate.violation, residual);
   }
 }
 

@@ -58,7 +58,7 @@ class Problem {
   Problem(const TuneOptions& options, const ConstraintContext& context, const Objective& objective);
 
   /// Of the constraints: the required ones, then "no worse than the baseline" of each mode, then
-  /// unless nominal the activity of each.
+  /// unless nominal the activity of each and the goals that are not soft.
   const std::vector<std::string>& names() const { return names_; }
   unsigned constraints() const { return static_cast<unsigned>(names_.size()); }
   bool simulate_all = false;  ///< also points that break a constraint, as a local model needs
@@ -80,7 +80,8 @@ class Problem {
   const ConstraintContext& context_;
   const Objective& objective_;
   std::vector<std::string> names_;
-  std::size_t before_runs_ = 0;  ///< constraints that are known without a run
+  std::size_t before_runs_ = 0;          ///< constraints that are known without a run
+  std::vector<std::size_t> hard_goals_;  ///< their places in Evaluation::goal_quantile
 };
 
 }  // namespace awmr

@@ -10,33 +10,10 @@
 #include "awmr/core/index.h"
 #include "awmr/core/units.h"
 #include "awmr/simulate/plant_sampler.h"
+#include "awmr/tune/goals.h"
 
 namespace awmr {
 namespace {
-
-/// The figures that gains are judged by, each the worse the larger.
-struct JudgedBy {
-  const char* name;
-  double (*value)(const ModeScore& score, const Scenario& scenario);
-};
-constexpr JudgedBy kJudgedBy[] = {
-    {"settling_time_s",
-     [](const ModeScore& s, const Scenario& scenario) {
-       return s.metrics.settling_time_s.value_or(scenario.duration_s);
-     }},
-    {"overshoot_deg",
-     [](const ModeScore& s, const Scenario&) { return s.metrics.overshoot_deg.value_or(0.0); }},
-    {"heading_iae_degs",
-     [](const ModeScore& s, const Scenario&) { return s.metrics.heading_iae_degs.value_or(0.0); }},
-    {"heading_itae_degs2",
-     [](const ModeScore& s, const Scenario&) {
-       return s.metrics.heading_itae_degs2.value_or(0.0);
-     }},
-    {"control_variation",
-     [](const ModeScore& s, const Scenario&) { return s.metrics.control_variation; }},
-    {"steering_rate_rms_degps",
-     [](const ModeScore& s, const Scenario&) { return s.metrics.steering_rate_rms_degps; }},
-};
 
 /// Median, 95 % quantile (the least value that as many do not exceed) and mean of the worst.
 JudgedFigure figure_of(const char* name, std::vector<double> values, double tail_share) {
@@ -64,7 +41,7 @@ JudgedGains judged(const ObjectiveSetting& setting, const char* gains, YawMode m
       .mode = mode,
       .completed_share = static_cast<double>(completed) / static_cast<double>(scores.size()),
       .figures = {}};
-  for (const JudgedBy& by : kJudgedBy) {
+  for (const RunFigure& by : run_figures()) {
     std::vector<double> values;
     for (std::size_t i = 0; i < scores.size(); ++i) {
       values.push_back(by.value(*scores[i], setting.scenarios[i % setting.scenarios.size()]));
@@ -87,18 +64,21 @@ Result<std::vector<Plant<double>>> plants_of(const Model& model, int draws, std:
   return plants;
 }
 
-std::vector<JudgedGains> judge(const ObjectiveSetting& setting,
-                               const std::vector<NamedCandidate>& candidates) {
+Judgement judge(const ObjectiveSetting& setting, const std::vector<NamedCandidate>& candidates) {
   const std::span<const YawMode> modes = yaw_modes(setting.vehicle);
   const std::size_t of_own = modes.size() * setting.scenarios.size();
-  std::vector<JudgedGains> all;
+  Judgement judgement;
   for (const NamedCandidate& candidate : candidates) {
-    const auto scores = run_all(setting, std::span(&candidate.gains, 1)).front();
+    const auto all = run_all(setting, std::span(&candidate.gains, 1)).front();
+    const auto scores = std::span(all).subspan(of_own);
     for (const YawMode mode : modes) {
-      all.push_back(judged(setting, candidate.name, mode, std::span(scores).subspan(of_own)));
+      judgement.gains.push_back(judged(setting, candidate.name, mode, scores));
+    }
+    for (const GoalInMode& one : by_mode(setting.goals, modes)) {
+      judgement.goals.push_back(judged_goal(one, candidate.name, scores, setting.scenarios));
     }
   }
-  return all;
+  return judgement;
 }
 
 }  // namespace awmr

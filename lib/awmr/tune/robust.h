@@ -20,9 +20,12 @@ struct NamedCandidate {
   Gains<double> gains;
 };
 
+struct Judgement {
+  std::vector<JudgedGains> gains;  ///< by gains, then mode
+  std::vector<JudgedGoal> goals;   ///< by gains, then goal, then mode
+};
 /// Every set of gains in every mode over all plants of the setting but the first, the model's own.
 /// A run that does not settle counts as having taken the whole scenario.
-std::vector<JudgedGains> judge(const ObjectiveSetting& setting,
-                               const std::vector<NamedCandidate>& candidates);
+Judgement judge(const ObjectiveSetting& setting, const std::vector<NamedCandidate>& candidates);
 
 }  // namespace awmr

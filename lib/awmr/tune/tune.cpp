@@ -16,6 +16,7 @@
 #include "awmr/simulate/scenario.h"
 #include "awmr/simulate/simulate.h"
 #include "awmr/tune/constraints.h"
+#include "awmr/tune/goals.h"
 #include "awmr/tune/objective.h"
 #include "awmr/tune/robust.h"
 #include "awmr/tune/search.h"
@@ -79,8 +80,44 @@ void check_robustness(const TuneOptions& options, std::vector<Fault>& faults) {
   }
 }
 
+void check_goal(const Goal& goal, std::vector<Fault>& faults) {
+  std::set<std::string> figures;
+  for (const auto& [figure, most] : goal.at_most) {
+    if (!is_run_figure(figure) || !figures.insert(figure).second) {
+      faults.push_back({"", fmt::format("goals: {} is no figure, or there twice; there are {}",
+                                        figure, fmt::join(run_figure_names(), ", "))});
+    }
+    if (!(most > 0.0) || !std::isfinite(most)) {
+      faults.push_back({"", fmt::format("goals: {} at most {} is not above 0", figure, most)});
+    }
+  }
+  if (figures.empty()) faults.push_back({"", "goals: one without a limit"});
+  if (!(goal.share >= kLeastShare && goal.share <= kMostShare)) {
+    faults.push_back({"", fmt::format("goals: a share of {} is not in {} ... {}", goal.share,
+                                      kLeastShare, kMostShare)});
+  }
+}
+
+void check_goals(const TuneOptions& options, std::vector<Fault>& faults) {
+  if (options.goals.empty()) return;
+  if (options.nominal) {
+    faults.push_back({"",
+                      "goals are chances over what is drawn, and a nominal search draws "
+                      "nothing: leave out nominal, or the goals"});
+  }
+  if (options.judged_draws == 0) {
+    faults.push_back({"", "goals are judged on fresh draws: judged_draws has to be above 0"});
+  }
+  if (options.goals.size() > kMostGoals) {
+    faults.push_back(
+        {"", fmt::format("goals: {} are more than {}", options.goals.size(), kMostGoals)});
+  }
+  for (const Goal& goal : options.goals) check_goal(goal, faults);
+}
+
 Status check(const TuneOptions& options) {
   std::vector<Fault> faults;
+  check_goals(options, faults);
   if (!(options.margin > 0.0 && options.margin < 1.0)) {
     faults.push_back({"", fmt::format("margin: {} is not in (0, 1)", options.margin)});
   }
@@ -165,6 +202,25 @@ tl::unexpected<Error> not_better(const SearchResult& found, const Objective& obj
       found.evaluations, in_words(found.nearest.gains), scores));
 }
 
+/// The goal, if any, that keeps the nearest gains from being taken.
+std::optional<tl::unexpected<Error>> goal_missed(const SearchResult& found,
+                                                 const Objective& objective) {
+  const Evaluation e = objective(found.nearest.gains);
+  const std::vector<GoalInMode> goals = by_mode(objective.goals(), objective.modes());
+  std::size_t worst = goals.size();
+  for (std::size_t i = 0; i < goals.size(); ++i) {
+    if (goals[i].goal->is_soft || e.goal_quantile[i] <= 1.0) continue;
+    if (worst == goals.size() || e.goal_quantile[i] > e.goal_quantile[worst]) worst = i;
+  }
+  if (worst == goals.size()) return std::nullopt;
+  return refusal(fmt::format(
+      "no gains within the bounds reach the goal \"{}\": with the nearest of {} ({}) so many runs "
+      "keep no less than {:.3g} times its limits; make it soft, raise its limits, or give more "
+      "evaluations",
+      goals[worst].name(), found.evaluations, in_words(found.nearest.gains),
+      e.goal_quantile[worst]));
+}
+
 bool beats_everywhere(const Evaluation& e) {
   return e.valid && std::all_of(e.mode_objective.begin(), e.mode_objective.end(),
                                 [](double mode) { return mode < 1.0; });
@@ -197,7 +253,10 @@ Result<Tuning> tune_on(const ObjectiveSetting& setting, const ConstraintContext&
   }
   const Objective objective(setting, kPaperGains);
   AWMR_ASSIGN_OR_RETURN(const SearchResult found, search(options, context, objective, starts));
-  if (!found.best) return not_better(found, objective, modes);
+  if (!found.best) {
+    if (auto missed = goal_missed(found, objective)) return *missed;
+    return not_better(found, objective, modes);
+  }
   const SettledGains settled = settle(options, context, objective, *found.best);
   AWMR_ASSIGN_OR_RETURN(std::vector<ActiveConstraint> active,
                         active_constraints(options, context, objective, *found.best));
@@ -206,6 +265,7 @@ Result<Tuning> tune_on(const ObjectiveSetting& setting, const ConstraintContext&
   if (!beats_everywhere(tuned)) return not_better(found, objective, modes);
   ObjectiveSetting elsewhere = setting;
   elsewhere.scenarios = {held_out_scenario()};
+  elsewhere.goals.clear();
   const Evaluation judged = Objective(std::move(elsewhere), kPaperGains)(gains);
 
   return Tuning{.gains = gains,
@@ -257,6 +317,7 @@ Result<Tuning> tune_robustly(const Model& model, ObjectiveSetting setting,
                              ConstraintContext context, const TuneOptions& options) {
   TuneOptions nominal_options = options;
   nominal_options.nominal = true;
+  nominal_options.goals.clear();
   const auto plants = static_cast<std::size_t>(options.draws) + 1;
   const auto evaluations =
       static_cast<std::size_t>(options.global_evaluations + options.local_evaluations);
@@ -270,10 +331,12 @@ Result<Tuning> tune_robustly(const Model& model, ObjectiveSetting setting,
                       .from_covariance = !model.covariance.parameters.empty(),
                       .nominal = {},
                       .nominal_history = {},
-                      .judged = {}};
+                      .judged = {},
+                      .goals = {}};
   const LoopConditions& c = robust.conditions;
   AWMR_ASSIGN_OR_RETURN(setting.plants, plants_of(model, options.draws, options.seed));
   for (Scenario& scenario : setting.scenarios) scenario = under(c, std::move(scenario));
+  setting.goals = options.goals;
   context.draws.assign(setting.plants.begin() + 1, setting.plants.end());
   context.heading_noise_rad = radians(c.heading_noise_deg);
   context.latency_s = std::max(c.heading_late_s, c.yaw_rate_late_s);
@@ -293,7 +356,11 @@ Result<Tuning> tune_robustly(const Model& model, ObjectiveSetting setting,
   }
   setting.seed ^= kJudgedSeeds;
   AWMR_ASSIGN_OR_RETURN(setting.plants, plants_of(model, options.judged_draws, setting.seed));
-  if (options.judged_draws > 0) robust.judged = judge(setting, candidates);
+  if (options.judged_draws > 0) {
+    Judgement judgement = judge(setting, candidates);
+    robust.judged = std::move(judgement.gains);
+    robust.goals = std::move(judgement.goals);
+  }
   tuning.robust = std::move(robust);
   return tuning;
 }

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "awmr/core/interval.h"
@@ -56,6 +57,28 @@ inline constexpr double kIndifferent = 1e-3;
 /// How much wider an active constraint is made, to see what it costs.
 inline constexpr double kWider = 0.1;
 
+/// A figure of a run (run_figure_names()) and the most that it may be, > 0, in the figure's unit.
+struct GoalLimit {
+  std::string figure;
+  double most = 0.0;
+};
+
+/// A share of the runs, over all draws and scenarios, in which every limit is kept.
+struct Goal {
+  std::vector<GoalLimit> at_most;  ///< at least one, each figure once
+  double share = 0.95;             ///< [kLeastShare, kMostShare]
+  std::optional<YawMode> mode;     ///< absent: in each mode
+  /// true: striven for, by what it is missed by in the objective; false: no gains that miss it on the
+  /// draws of the search are taken.
+  bool is_soft = false;
+};
+inline constexpr double kLeastShare = 0.5, kMostShare = 0.999;
+inline constexpr std::size_t kMostGoals = 20;
+/// Draws that goals are judged on where nobody says how many.
+inline constexpr int kGoalDraws = 500;
+bool is_run_figure(std::string_view name);
+std::vector<std::string> run_figure_names();
+
 struct TuneOptions {
   /// On the model's own values, with true readings at once and motors without lag, as a simulation
   /// alone would have it. Else robust: `draws` plants from the model's covariance beside its own,
@@ -83,7 +106,8 @@ struct TuneOptions {
   /// Each has to hold headings, under a name of its own; empty: 30 then -30 deg at 1 m/s.
   std::vector<Scenario> scenarios;
   GainBounds bounds;
-  Progress progress = {};  ///< by runs of the search, each plant's counted
+  std::vector<Goal> goals = {};  ///< of a robust search
+  Progress progress = {};        ///< by runs of the search, each plant's counted
 };
 
 /// A constraint that the gains stand at.
@@ -142,6 +166,26 @@ struct JudgedGains {
   std::vector<JudgedFigure> figures;
 };
 
+/// What fresh draws say of a goal.
+enum class GoalVerdict {
+  kMet,     ///< all of the interval of the share is at or above that of the goal
+  kMissed,  ///< all of it is below
+  kOpen,    ///< neither: more draws tell
+};
+inline constexpr NameTable<GoalVerdict, 3> kGoalVerdictNames{
+    {{"met", GoalVerdict::kMet}, {"missed", GoalVerdict::kMissed}, {"open", GoalVerdict::kOpen}}};
+
+/// A goal in one mode with one set of gains, over the judged draws.
+struct JudgedGoal {
+  Goal goal;
+  YawMode mode{};
+  std::string gains;  ///< "robust", "nominal", "baseline"
+  int held = 0;       ///< runs in which every limit is kept
+  int runs = 0;
+  Interval ci95;  ///< of the share, by Clopper and Pearson
+  GoalVerdict verdict = GoalVerdict::kOpen;
+};
+
 /// What robust gains were tuned under and how they do.
 struct RobustTuning {
   LoopConditions conditions;
@@ -149,6 +193,7 @@ struct RobustTuning {
   std::optional<Gains<double>> nominal;  ///< those of `--nominal`; absent where there are none
   SearchHistory nominal_history;         ///< of the search for them
   std::vector<JudgedGains> judged;       ///< by gains, then mode
+  std::vector<JudgedGoal> goals;         ///< by gains, then goal, then mode
 };
 
 struct Tuning {
@@ -184,7 +229,7 @@ Scenario held_out_scenario();
 
 /// Deterministic: model, options, seed and `arithmetic` fix every bit of the result, whatever the
 /// number of cores. Errors (refused): no gains within the bounds meet the constraints (the tightest one is
-/// named), or none that does beats the baseline in every mode; the baseline itself is then not
+/// named) or the goals that are not soft, or none that does beats the baseline in every mode; the baseline itself is then not
 /// returned as if it had been found. Errors (input): the model lacks a parameter; margin, weights,
 /// bounds or scenarios are unfit; all evaluations together would take more than 1e11 RK4 steps, some
 /// hours.

@@ -1,6 +1,8 @@
 // tune.json in, gains.json out.
 #include "awmr/tune/tune_file.h"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 #include "awmr/core/json.h"
@@ -13,6 +15,7 @@ namespace {
 
 constexpr double kGainLimit = 1e6;
 constexpr long kEvaluationLimit = 1'000'000;
+constexpr NumberRule kGoalLimit{.min = 0.0, .max = 1e9, .min_excluded = true};
 
 void read_weights(JsonObject json, ObjectiveWeights& weights) {
   double sum = 0.0;
@@ -57,8 +60,10 @@ void read_numbers(JsonObject& json, TuneOptions& options) {
                            .value_or(options.local_evaluations));
   options.nominal = json.optional_boolean("nominal").value_or(options.nominal);
   options.draws = static_cast<int>(json.optional_integer("draws", 0, 1000).value_or(options.draws));
-  options.judged_draws = static_cast<int>(
-      json.optional_integer("judged_draws", 0, 100'000).value_or(options.judged_draws));
+  if (json.has("goals")) options.judged_draws = kGoalDraws;
+  options.judged_draws =
+      static_cast<int>(json.optional_integer("judged_draws", json.has("goals") ? 1 : 0, 100'000)
+                           .value_or(options.judged_draws));
   options.tail_share =
       json.optional_number("tail_share", {.min = 0.0, .max = 1.0, .min_excluded = true})
           .value_or(options.tail_share);
@@ -67,6 +72,40 @@ void read_numbers(JsonObject& json, TuneOptions& options) {
           .value_or(options.activity_max);
   if (const auto seed = json.optional_integer("seed", 0, 4'294'967'295L)) {
     options.seed = static_cast<std::uint64_t>(*seed);
+  }
+}
+
+Goal read_goal(JsonObject json) {
+  Goal goal;
+  JsonObject limits = json.object("at_most");
+  for (const std::string& figure : run_figure_names()) {
+    if (const auto most = limits.optional_number(figure, kGoalLimit)) {
+      goal.at_most.push_back({figure, *most});
+    }
+  }
+  limits.reject_unknown_keys();
+  if (goal.at_most.empty()) {
+    json.fault("at_most", "names no figure that runs are judged by");
+  }
+  goal.share =
+      json.optional_number("share", {.min = kLeastShare, .max = kMostShare}).value_or(goal.share);
+  if (json.has("mode")) goal.mode = json.choice("mode", kYawModeNames);
+  goal.is_soft = json.optional_boolean("soft").value_or(false);
+  json.reject_unknown_keys();
+  return goal;
+}
+
+void read_goals(JsonObject& json, TuneOptions& options) {
+  for (JsonObject& goal : json.optional_objects("goals")) {
+    options.goals.push_back(read_goal(std::move(goal)));
+  }
+  if (options.goals.size() > kMostGoals) {
+    json.fault("goals", fmt::format("{} are more than {}", options.goals.size(), kMostGoals));
+  }
+  if (!options.goals.empty() && options.nominal) {
+    json.fault("goals",
+               "are chances over what is drawn, and a nominal search draws nothing: leave "
+               "out one of them");
   }
 }
 
@@ -187,6 +226,24 @@ Json robust_json(const RobustTuning& robust, const TuneOptions& options) {
   return json;
 }
 
+Json goals_json(const std::vector<JudgedGoal>& goals) {
+  Json json = Json::array();
+  for (const JudgedGoal& judged : goals) {
+    Json limits = Json::object();
+    for (const GoalLimit& limit : judged.goal.at_most) limits[limit.figure] = limit.most;
+    json.push_back({{"at_most", std::move(limits)},
+                    {"share", judged.goal.share},
+                    {"soft", judged.goal.is_soft},
+                    {"mode", name_of(judged.mode)},
+                    {"gains", judged.gains},
+                    {"held", judged.held},
+                    {"runs", judged.runs},
+                    {"ci95", interval_json(judged.ci95)},
+                    {"verdict", name_in(kGoalVerdictNames, judged.verdict)}});
+  }
+  return json;
+}
+
 Json objective_json(const Tuning& tuning, const ObjectiveWeights& weights) {
   Json json;
   json["value"] = tuning.objective;
@@ -214,6 +271,7 @@ TuneConfig config_from_json(JsonObject& object, const std::filesystem::path& dir
     read_weights(*weights, config.options.weights);
   }
   if (auto bounds = object.optional_object("bounds")) read_bounds(*bounds, config.options.bounds);
+  read_goals(object, config.options);
   read_scenarios(object, directory, config, faults);
   object.reject_unknown_keys();
   return config;
@@ -262,6 +320,7 @@ std::string gains_text(const Tuning& tuning, const TuneOptions& options,
                     {"stop_reason", tuning.stop_reason},
                     {"history", history_json(tuning.history)}};
   if (tuning.robust) json["robust"] = robust_json(*tuning.robust, options);
+  if (!options.goals.empty()) json["goals"] = goals_json(tuning.robust->goals);
   Json baseline = gains_to_json(tuning.baseline);
   baseline["objective"] = tuning.baseline_objective;
   baseline["metrics"] = scores_json(tuning.baseline_scores);

@@ -36,6 +36,15 @@ function historyChart(parent, gains) {
 const robustFigures = [["settling_time_s", "settling time, s"], ["overshoot_deg", "overshoot, deg"], ["heading_iae_degs", "heading error, deg s"],
   ["control_variation", "control variation, 1/s"], ["steering_rate_rms_degps", "steering rate, RMS, deg/s"]];
 
+function goalsTable(parent, goals) {
+  if (!goals || !goals.length) return;
+  add(parent, "h3", "Goals");
+  add(parent, "p", "In how many fresh runs every limit is kept, with the 95 % interval of that share.", {class: "small"});
+  const limits = (goal) => Object.entries(goal.at_most).map(([name, most]) => `${metricWords(name)} at most ${digits(most)}`).join("; ") + (goal.soft ? " (soft)" : "");
+  table(parent, ["goal", "mode", "gains", "#asked", "#kept", "verdict"], goals.map((goal) => [limits(goal), goal.mode, setWords[goal.gains] || goal.gains,
+    percent(goal.share), `${percent(goal.held / goal.runs)} (${percent(goal.ci95[0])} to ${percent(goal.ci95[1])})`, goal.gains === "robust" ? goal.verdict : ""]));
+}
+
 function robustCharts(parent, robust) {
   if (!robust || !robust.quantiles) return;
   const n = robust.noise, late = robust.latency;
@@ -61,6 +70,7 @@ function tuningSection(data) {
   if (gains.objective && gains.objective.formula) add(box, "p", `Objective: ${gains.objective.formula}.`, {class: "small"});
   if (Array.isArray(gains.constraints)) constraintsTable(box, gains.constraints);
   historyChart(box, gains);
+  goalsTable(box, gains.goals);
   robustCharts(box, gains.robust);
   metricsTable(box, gains);
 }

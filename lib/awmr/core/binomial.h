@@ -1,4 +1,4 @@
-/// Exact statements about shares. Private to this folder.
+/// Exact statements about shares.
 #pragma once
 
 #include <cstddef>

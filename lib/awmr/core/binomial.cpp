@@ -1,4 +1,4 @@
-#include "awmr/compare/binomial.h"
+#include "awmr/core/binomial.h"
 
 #include <algorithm>
 #include <boost/math/distributions/binomial.hpp>

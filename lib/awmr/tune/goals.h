@@ -1,0 +1,50 @@
+/// What runs have to reach, as chances: "95 % of the runs settle within 2 s and overshoot by at most
+/// 1 deg". Private to tune/, but for Goal itself (tune.h).
+///
+/// With x_i a run's figure and l_i its limit, the run's excess is e = max_i x_i/l_i, and a goal of the
+/// share p holds in a mode where the p quantile of e over all draws and scenarios is at most 1. Of few
+/// draws the quantile is their worst: ceil(p n) of n.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "awmr/tune/objective.h"
+#include "awmr/tune/tune.h"
+
+namespace awmr {
+
+/// A figure by which gains are judged, the worse the larger. A run that never settles has taken the
+/// whole scenario to settle.
+struct RunFigure {
+  const char* name;
+  double (*value)(const ModeScore& score, const Scenario& scenario);
+};
+std::span<const RunFigure> run_figures();
+
+/// "settling_time_s<=2, overshoot_deg<=1 @ 0.95"
+std::string in_words(const Goal& goal);
+
+/// The largest share of a limit that a run takes, >= 0; at most 1 where the goal holds in it.
+double excess_of(const Goal& goal, const ModeScore& score, const Scenario& scenario);
+
+/// A goal in one of the modes that it is for.
+struct GoalInMode {
+  const Goal* goal = nullptr;
+  YawMode mode{};
+  std::string name() const;  ///< for constraints and messages
+};
+/// By goal, then mode.
+std::vector<GoalInMode> by_mode(std::span<const Goal> goals, std::span<const YawMode> modes);
+
+/// The quantile of the excess over the mode's scores of all draws, which are by draw, then mode, then
+/// scenario. >= 0.
+double quantile_of_excess(const GoalInMode& one, std::span<const ModeScore> scores,
+                          std::span<const Scenario> scenarios);
+
+/// In how many of the mode's runs the goal holds, with the verdict on it.
+JudgedGoal judged_goal(const GoalInMode& one, const char* gains, std::span<const ModeScore> scores,
+                       std::span<const Scenario> scenarios);
+
+}  // namespace awmr

@@ -1,0 +1,176 @@
+/// Goals as chances: what a run's excess is, which quantile counts, and what fresh draws say.
+#include "awmr/tune/goals.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "awmr/core/binomial.h"
+#include "support/uncertain_model.h"
+#include "tune/paper_model.h"
+
+namespace awmr::testing {
+namespace {
+
+using ::testing::HasSubstr;
+
+const Scenario kScenario = default_tuning_scenario();
+
+ModeScore run_with(double settling_s, double overshoot_deg, YawMode mode = YawMode::kCombined) {
+  ModeScore score{.scenario = kScenario.name, .mode = mode};
+  score.metrics.settling_time_s = settling_s;
+  score.metrics.overshoot_deg = overshoot_deg;
+  return score;
+}
+
+Goal quick_and_calm(double share = 0.95) {
+  return {.at_most = {{"settling_time_s", 2.0}, {"overshoot_deg", 1.0}}, .share = share, .mode = {}};
+}
+
+TEST(Goal, HoldsInARunThatKeepsEveryLimit) {
+  const Goal goal = quick_and_calm();
+  EXPECT_DOUBLE_EQ(excess_of(goal, run_with(1.0, 0.2), kScenario), 0.5);
+  EXPECT_DOUBLE_EQ(excess_of(goal, run_with(1.0, 3.0), kScenario), 3.0);
+  EXPECT_DOUBLE_EQ(excess_of(goal, run_with(2.0, 1.0), kScenario), 1.0);
+  ModeScore never = run_with(0.0, 0.0);
+  never.metrics.settling_time_s.reset();
+  EXPECT_DOUBLE_EQ(excess_of(goal, never, kScenario), kScenario.duration_s / 2.0);
+  never.metrics.overshoot_deg = std::nan("");
+  EXPECT_TRUE(std::isinf(excess_of(goal, never, kScenario)));
+}
+
+TEST(Goal, IsJudgedByTheLeastValueThatItsShareOfRunsDoesNotExceed) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> seconds(0.5, 6.0);
+  for (const int runs : {1, 2, 5, 19, 20, 21, 400}) {
+    for (const double share : {0.5, 0.8, 0.95, 0.999}) {
+      const Goal goal = quick_and_calm(share);
+      std::vector<ModeScore> scores;
+      std::vector<double> excess;
+      for (int i = 0; i < runs; ++i) {
+        for (const YawMode mode : kYawModes) {
+          scores.push_back(run_with(seconds(random), 0.0, mode));
+          if (mode == YawMode::kSteering)
+            excess.push_back(*scores.back().metrics.settling_time_s / 2.0);
+        }
+      }
+      std::sort(excess.begin(), excess.end());
+      const GoalInMode one{&goal, YawMode::kSteering};
+      const double quantile = quantile_of_excess(one, scores, {&kScenario, 1});
+      const auto within = std::upper_bound(excess.begin(), excess.end(), quantile) - excess.begin();
+      EXPECT_GE(double(within), share * runs - 1e-9) << runs << " " << share;
+      EXPECT_LT(double(within - 1), share * runs) << runs << " " << share;
+    }
+  }
+}
+
+TEST(Goal, IsMetMissedOrOpenByTheExactIntervalOfItsShare) {
+  const Goal goal = quick_and_calm(0.9);
+  const GoalInMode one{&goal, YawMode::kCombined};
+  const auto judged = [&](int held, int runs) {
+    std::vector<ModeScore> scores;
+    for (int i = 0; i < runs; ++i) scores.push_back(run_with(i < held ? 1.0 : 3.0, 0.0));
+    return judged_goal(one, "robust", scores, {&kScenario, 1});
+  };
+  EXPECT_EQ(judged(400, 400).verdict, GoalVerdict::kMet);
+  EXPECT_EQ(judged(300, 400).verdict, GoalVerdict::kMissed);
+  EXPECT_EQ(judged(362, 400).verdict, GoalVerdict::kOpen);
+  EXPECT_EQ(judged(5, 5).verdict, GoalVerdict::kOpen);  // five runs do not show 90 %
+  const JudgedGoal some = judged(362, 400);
+  EXPECT_EQ(some.held, 362);
+  EXPECT_EQ(some.runs, 400);
+  EXPECT_EQ(some.ci95.lo, clopper_pearson(362, 400).lo);
+}
+
+TEST(Goal, IsForItsModeOrForEach) {
+  std::vector<Goal> goals{quick_and_calm(), quick_and_calm()};
+  goals[1].mode = YawMode::kSteering;
+  const auto all = by_mode(goals, kYawModes);
+  ASSERT_EQ(all.size(), std::size(kYawModes) + 1);
+  EXPECT_EQ(all.back().mode, YawMode::kSteering);
+  EXPECT_THAT(all.back().name(), HasSubstr("settling_time_s <= 2, overshoot_deg <= 1 in 95 %"));
+}
+
+TuneOptions options_with(const Goal& goal) {
+  TuneOptions options;
+  options.global_evaluations = 150;
+  options.local_evaluations = 60;
+  options.draws = 3;
+  options.judged_draws = 100;
+  options.goals = {goal};
+  return options;
+}
+
+/// The share quantile of the settling time of the fresh draws in differential mode.
+double settled_s(const Tuning& tuning) {
+  for (const JudgedGains& judged : tuning.robust->judged) {
+    if (judged.gains != "robust" || judged.mode != YawMode::kDifferential) continue;
+    for (const JudgedFigure& figure : judged.figures) {
+      if (figure.name == "settling_time_s") return figure.q95;
+    }
+  }
+  ADD_FAILURE();
+  return 0.0;
+}
+
+TEST(Goal, ThatIsHardHoldsOnTheDrawsOfTheSearchAndMovesTheGains) {
+  const Model model = uncertain_model();
+  TuneOptions without = options_with({});
+  without.goals.clear();
+  const Result<Tuning> free = tune(model, without);
+  ASSERT_TRUE(free) << to_text(free.error());
+  // Calmer commands than the search would choose by itself.
+  double activity = 0.0;
+  for (const ModeScore& score : free->scores) {
+    if (score.mode == YawMode::kDifferential) activity = score.metrics.control_variation;
+  }
+  Goal goal{.at_most = {{"control_variation", 0.9 * activity}}, .mode = YawMode::kDifferential};
+  const Result<Tuning> held = tune(model, options_with(goal));
+  ASSERT_TRUE(held) << to_text(held.error());
+  for (const ModeScore& score : held->scores) {
+    if (score.mode != YawMode::kDifferential) continue;
+    EXPECT_LE(score.metrics.control_variation, 0.9 * activity);
+  }
+  ASSERT_EQ(held->robust->goals.size(), 3U);  // by robust, paper's and nominal gains
+  EXPECT_EQ(held->robust->goals.front().gains, "robust");
+  EXPECT_EQ(held->robust->goals.front().runs, 100);
+  EXPECT_GT(held->objective, free->objective);
+}
+
+TEST(Goal, ThatNoGainsReachIsRefusedByItsName) {
+  Goal goal{.at_most = {{"settling_time_s", 0.05}}, .mode = {}};
+  const Result<Tuning> tuning = tune(uncertain_model(), options_with(goal));
+  ASSERT_FALSE(tuning);
+  EXPECT_EQ(tuning.error().kind, ErrorKind::kRefused);
+  EXPECT_THAT(to_text(tuning.error()), HasSubstr("reach the goal \"settling_time_s <= 0.05"));
+  // Soft, it is striven for.
+  goal.is_soft = true;
+  const Result<Tuning> striven = tune(uncertain_model(), options_with(goal));
+  ASSERT_TRUE(striven) << to_text(striven.error());
+  EXPECT_GT(settled_s(*striven), 0.05);
+  EXPECT_EQ(striven->robust->goals.front().verdict, GoalVerdict::kMissed);
+}
+
+TEST(Goal, IsRefusedWhereItMeansNothing) {
+  const auto why = [](TuneOptions options) {
+    const Result<Tuning> tuning = tune(uncertain_model(), options);
+    return tuning ? std::string("accepted") : to_text(tuning.error());
+  };
+  TuneOptions nominal = options_with(quick_and_calm());
+  nominal.nominal = true;
+  EXPECT_THAT(why(nominal), HasSubstr("a nominal search draws nothing"));
+  TuneOptions unjudged = options_with(quick_and_calm());
+  unjudged.judged_draws = 0;
+  EXPECT_THAT(why(unjudged), HasSubstr("judged_draws has to be above 0"));
+  EXPECT_THAT(why(options_with(quick_and_calm(1.0))), HasSubstr("a share of 1"));
+  EXPECT_THAT(why(options_with({})), HasSubstr("without a limit"));
+  EXPECT_THAT(why(options_with({.at_most = {{"speed", 1.0}}, .mode = {}})), HasSubstr("is no figure"));
+  EXPECT_THAT(why(options_with({.at_most = {{"overshoot_deg", 0.0}}, .mode = {}})),
+              HasSubstr("not above 0"));
+}
+
+}  // namespace
+}  // namespace awmr::testing
