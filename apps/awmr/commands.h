@@ -101,6 +101,7 @@ struct TuneCommand {
   AllocationChoice allocation = {};
   bool nominal = false;
   std::optional<int> draws = {};
+  std::optional<int> sensitivity = {};
   HeadingRateChoice heading_rate_limit = {};
   InputNames names = {};
 };

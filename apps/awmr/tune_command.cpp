@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iterator>
 #include <memory>
+#include <numeric>
 
 #include "awmr/core/file.h"
 #include "awmr/model/model_file.h"
@@ -76,6 +77,32 @@ std::string goals_text(const RobustTuning& robust) {
   return text.empty() ? text : "  goals, on fresh draws\n" + text;
 }
 
+/// By figure the inputs that move it most.
+std::string sensitivity_text(const RobustTuning& robust) {
+  if (!robust.sensitivity) return {};
+  constexpr std::size_t kMostInputs = 3;
+  std::string text = fmt::format(
+      "  what moves the tuned loop: total Sobol indices (95 %), {} samples of what was assumed\n",
+      robust.sensitivity->samples);
+  for (const SensitiveFigure& figure : robust.sensitivity->figures) {
+    std::vector<std::size_t> order(figure.by_input.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::ranges::sort(order, [&](std::size_t a, std::size_t b) {
+      return figure.by_input[a].total > figure.by_input[b].total;
+    });
+    text += fmt::format("  {:<13} {:<17} {:.3g} +- {:.2g}:", name_of(figure.mode), figure.name,
+                        figure.mean, figure.deviation);
+    for (std::size_t i = 0; i < std::min(kMostInputs, order.size()); ++i) {
+      const SobolIndex& index = figure.by_input[order[i]];
+      text += fmt::format("{} {} {:.2f} ({:.2f} to {:.2f})", i == 0 ? "" : ";",
+                          robust.sensitivity->inputs[order[i]], index.total, index.total_ci95.lo,
+                          index.total_ci95.hi);
+    }
+    text += '\n';
+  }
+  return text;
+}
+
 /// A warning where fresh draws do not show that a goal is met.
 std::vector<Finding> goal_findings(const Tuning& tuning) {
   std::vector<Finding> findings;
@@ -112,7 +139,10 @@ std::string standing_of(const Tuning& tuning) {
 
 std::string summary_of(const Tuning& tuning) {
   std::string text = gains_table(tuning) + standing_of(tuning);
-  if (tuning.robust) text += judged_table(*tuning.robust) + goals_text(*tuning.robust);
+  if (tuning.robust) {
+    text += judged_table(*tuning.robust) + goals_text(*tuning.robust) +
+            sensitivity_text(*tuning.robust);
+  }
   return text;
 }
 
@@ -147,6 +177,9 @@ Result<Provenance> provenance_of(const TuneCommand& command,
   std::vector<std::pair<std::string, std::string>> options = options_of(command.allocation);
   if (command.nominal) options.emplace_back("nominal", "true");
   if (command.draws) options.emplace_back("draws", std::to_string(*command.draws));
+  if (command.sensitivity) {
+    options.emplace_back("sensitivity", std::to_string(*command.sensitivity));
+  }
   for (auto& option : options_of_rate(command.heading_rate_limit)) {
     options.push_back(std::move(option));
   }
@@ -167,6 +200,7 @@ Result<Outcome> execute(const TuneCommand& command) {
   AWMR_RETURN_IF_ERROR(limit_heading_rate(command.heading_rate_limit, model, scenarios));
   if (command.nominal) config.options.nominal = true;
   if (command.draws) config.options.draws = *command.draws;
+  if (command.sensitivity) config.options.sensitivity = *command.sensitivity;
   AWMR_ASSIGN_OR_RETURN(const Provenance provenance, provenance_of(command, config.scenario_files));
   AWMR_ASSIGN_OR_RETURN(const Tuning tuning, tune_with_progress(model, config.options));
   std::string document = gains_text(tuning, config.options, provenance);
@@ -202,6 +236,12 @@ void add_tune(CLI::App& app, Session& session) {
                   "Plants drawn from the model's covariance that the gains are tuned for (default "
                   "4)")
       ->check(within(0.0, 1000.0))
+      ->excludes(nominal);
+  sub->add_option("--sensitivity", command->sensitivity,
+                  "Samples that say which of what was assumed (the model's parameters, noise, "
+                  "latency, lag) moves the tuned loop, by Sobol's indices (default none; 256 take "
+                  "some seconds)")
+      ->check(within(kFewestSamples, kMostSamples))
       ->excludes(nominal);
   add_allocation(*sub, command->allocation);
   add_heading_rate_limit(*sub, command->heading_rate_limit, kNoRate);

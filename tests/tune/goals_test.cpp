@@ -27,7 +27,8 @@ ModeScore run_with(double settling_s, double overshoot_deg, YawMode mode = YawMo
 }
 
 Goal quick_and_calm(double share = 0.95) {
-  return {.at_most = {{"settling_time_s", 2.0}, {"overshoot_deg", 1.0}}, .share = share, .mode = {}};
+  return {
+      .at_most = {{"settling_time_s", 2.0}, {"overshoot_deg", 1.0}}, .share = share, .mode = {}};
 }
 
 TEST(Goal, HoldsInARunThatKeepsEveryLimit) {
@@ -167,7 +168,8 @@ TEST(Goal, IsRefusedWhereItMeansNothing) {
   EXPECT_THAT(why(unjudged), HasSubstr("judged_draws has to be above 0"));
   EXPECT_THAT(why(options_with(quick_and_calm(1.0))), HasSubstr("a share of 1"));
   EXPECT_THAT(why(options_with({})), HasSubstr("without a limit"));
-  EXPECT_THAT(why(options_with({.at_most = {{"speed", 1.0}}, .mode = {}})), HasSubstr("is no figure"));
+  EXPECT_THAT(why(options_with({.at_most = {{"speed", 1.0}}, .mode = {}})),
+              HasSubstr("is no figure"));
   EXPECT_THAT(why(options_with({.at_most = {{"overshoot_deg", 0.0}}, .mode = {}})),
               HasSubstr("not above 0"));
 }

@@ -138,6 +138,25 @@ void describe_goals(JsonObject& json) {
   }
 }
 
+/// Sobol's indices by mode and figure.
+void describe_sensitivity(JsonObject json) {
+  json.number("samples", kPositive);
+  for (JsonObject& figure : json.objects("figures")) {
+    figure.choice("mode", kYawModeNames);
+    figure.string("figure");
+    figure.number("mean");
+    figure.number("std", kNonNegative);
+    for (JsonObject& input : figure.objects("by_input")) {
+      input.string("input");
+      for (const char* key : {"first", "total"}) input.number(key);
+      for (const char* key : {"first_ci95", "total_ci95"}) input.interval(key);
+      input.reject_unknown_keys();
+    }
+    figure.reject_unknown_keys();
+  }
+  json.reject_unknown_keys();
+}
+
 void describe_gains(JsonObject& json) {
   json.schema(kGainsSchema);
   read_provenance(json);
@@ -152,6 +171,7 @@ void describe_gains(JsonObject& json) {
   if (auto search = json.optional_object("search")) describe_search(*search);
   if (auto robust = json.optional_object("robust")) describe_robust(*robust);
   describe_goals(json);
+  if (auto sensitivity = json.optional_object("sensitivity")) describe_sensitivity(*sensitivity);
   if (auto baseline = json.optional_object("baseline")) {
     gains_from_json(*baseline);
     baseline->number("objective");

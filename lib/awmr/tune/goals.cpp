@@ -30,7 +30,7 @@ constexpr RunFigure kRunFigures[] = {
      [](const ModeScore& s, const Scenario&) { return s.metrics.steering_rate_rms_degps; }},
 };
 
-const RunFigure& figure_named(const std::string& name) {
+const RunFigure& figure_named(std::string_view name) {
   return *std::find_if(std::begin(kRunFigures), std::end(kRunFigures),
                        [&](const RunFigure& figure) { return figure.name == name; });
 }
@@ -49,6 +49,10 @@ std::vector<double> excesses(const GoalInMode& one, std::span<const ModeScore> s
 }  // namespace
 
 std::span<const RunFigure> run_figures() { return kRunFigures; }
+
+double figure_of_run(std::string_view name, const ModeScore& score, const Scenario& scenario) {
+  return figure_named(name).value(score, scenario);
+}
 
 bool is_run_figure(std::string_view name) {
   return std::any_of(std::begin(kRunFigures), std::end(kRunFigures),
@@ -72,14 +76,17 @@ std::string in_words(const Goal& goal) {
 double excess_of(const Goal& goal, const ModeScore& score, const Scenario& scenario) {
   double largest = 0.0;
   for (const GoalLimit& limit : goal.at_most) {
-    const double share = figure_named(limit.figure).value(score, scenario) / limit.most;
+    const double share = figure_of_run(limit.figure, score, scenario) / limit.most;
     // A figure that is no number is no figure that holds.
-    largest = std::isnan(share) ? std::numeric_limits<double>::infinity() : std::max(largest, share);
+    largest =
+        std::isnan(share) ? std::numeric_limits<double>::infinity() : std::max(largest, share);
   }
   return largest;
 }
 
-std::string GoalInMode::name() const { return fmt::format("{}, {}", in_words(*goal), name_of(mode)); }
+std::string GoalInMode::name() const {
+  return fmt::format("{}, {}", in_words(*goal), name_of(mode));
+}
 
 std::vector<GoalInMode> by_mode(std::span<const Goal> goals, std::span<const YawMode> modes) {
   std::vector<GoalInMode> all;
@@ -95,8 +102,8 @@ double quantile_of_excess(const GoalInMode& one, std::span<const ModeScore> scor
                           std::span<const Scenario> scenarios) {
   std::vector<double> all = excesses(one, scores, scenarios);
   const auto n = static_cast<double>(all.size());
-  const auto rank = std::max<std::size_t>(
-      1, static_cast<std::size_t>(std::ceil(one.goal->share * n - 1e-9)));
+  const auto rank =
+      std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(one.goal->share * n - 1e-9)));
   const auto at = all.begin() + static_cast<std::ptrdiff_t>(rank - 1);
   std::nth_element(all.begin(), at, all.end());
   return *at;

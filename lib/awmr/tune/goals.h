@@ -8,6 +8,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "awmr/tune/objective.h"
@@ -23,7 +24,10 @@ struct RunFigure {
 };
 std::span<const RunFigure> run_figures();
 
-/// "settling_time_s<=2, overshoot_deg<=1 @ 0.95"
+/// Of a figure that there is.
+double figure_of_run(std::string_view name, const ModeScore& score, const Scenario& scenario);
+
+/// "settling_time_s <= 2, overshoot_deg <= 1 in 95 % of runs"
 std::string in_words(const Goal& goal);
 
 /// The largest share of a limit that a run takes, >= 0; at most 1 where the goal holds in it.

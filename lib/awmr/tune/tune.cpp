@@ -16,6 +16,7 @@
 #include "awmr/simulate/scenario.h"
 #include "awmr/simulate/simulate.h"
 #include "awmr/tune/constraints.h"
+#include "awmr/tune/global_sensitivity.h"
 #include "awmr/tune/goals.h"
 #include "awmr/tune/objective.h"
 #include "awmr/tune/robust.h"
@@ -98,6 +99,19 @@ void check_goal(const Goal& goal, std::vector<Fault>& faults) {
   }
 }
 
+void check_sensitivity(const TuneOptions& options, std::vector<Fault>& faults) {
+  if (options.sensitivity == 0) return;
+  if (options.sensitivity < kFewestSamples || options.sensitivity > kMostSamples) {
+    faults.push_back({"", fmt::format("sensitivity: {} is neither 0 nor in {} ... {}",
+                                      options.sensitivity, kFewestSamples, kMostSamples)});
+  }
+  if (options.nominal) {
+    faults.push_back({"",
+                      "sensitivity is to what a nominal search does not assume: leave out one "
+                      "of them"});
+  }
+}
+
 void check_goals(const TuneOptions& options, std::vector<Fault>& faults) {
   if (options.goals.empty()) return;
   if (options.nominal) {
@@ -118,6 +132,7 @@ void check_goals(const TuneOptions& options, std::vector<Fault>& faults) {
 Status check(const TuneOptions& options) {
   std::vector<Fault> faults;
   check_goals(options, faults);
+  check_sensitivity(options, faults);
   if (!(options.margin > 0.0 && options.margin < 1.0)) {
     faults.push_back({"", fmt::format("margin: {} is not in (0, 1)", options.margin)});
   }
@@ -153,7 +168,8 @@ Status check_work(const TuneOptions& options, const std::vector<Scenario>& scena
   if (!options.nominal) {
     steps *= 1.0 + options.draws;
     // Three sets of gains are judged, each draw once.
-    evaluations += 3.0 * options.judged_draws / (1.0 + options.draws);
+    evaluations += (3.0 * options.judged_draws + sensitivity_runs(model, options.sensitivity)) /
+                   (1.0 + options.draws);
   }
   if (evaluations * steps <= kMostSearchSteps) return {};
   return input_error(
@@ -318,6 +334,7 @@ Result<Tuning> tune_robustly(const Model& model, ObjectiveSetting setting,
   TuneOptions nominal_options = options;
   nominal_options.nominal = true;
   nominal_options.goals.clear();
+  nominal_options.sensitivity = 0;
   const auto plants = static_cast<std::size_t>(options.draws) + 1;
   const auto evaluations =
       static_cast<std::size_t>(options.global_evaluations + options.local_evaluations);
@@ -332,8 +349,10 @@ Result<Tuning> tune_robustly(const Model& model, ObjectiveSetting setting,
                       .nominal = {},
                       .nominal_history = {},
                       .judged = {},
-                      .goals = {}};
+                      .goals = {},
+                      .sensitivity = {}};
   const LoopConditions& c = robust.conditions;
+  const ObjectiveSetting without_noise = setting;
   AWMR_ASSIGN_OR_RETURN(setting.plants, plants_of(model, options.draws, options.seed));
   for (Scenario& scenario : setting.scenarios) scenario = under(c, std::move(scenario));
   setting.goals = options.goals;
@@ -360,6 +379,11 @@ Result<Tuning> tune_robustly(const Model& model, ObjectiveSetting setting,
     Judgement judgement = judge(setting, candidates);
     robust.judged = std::move(judgement.gains);
     robust.goals = std::move(judgement.goals);
+  }
+  if (options.sensitivity > 0) {
+    AWMR_ASSIGN_OR_RETURN(robust.sensitivity,
+                          global_sensitivity(model, without_noise, robust.conditions, tuning.gains,
+                                             options.sensitivity));
   }
   tuning.robust = std::move(robust);
   return tuning;

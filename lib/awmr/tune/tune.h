@@ -76,6 +76,7 @@ inline constexpr double kLeastShare = 0.5, kMostShare = 0.999;
 inline constexpr std::size_t kMostGoals = 20;
 /// Draws that goals are judged on where nobody says how many.
 inline constexpr int kGoalDraws = 500;
+inline constexpr int kFewestSamples = 16, kMostSamples = 100'000;
 bool is_run_figure(std::string_view name);
 std::vector<std::string> run_figure_names();
 
@@ -107,7 +108,10 @@ struct TuneOptions {
   std::vector<Scenario> scenarios;
   GainBounds bounds;
   std::vector<Goal> goals = {};  ///< of a robust search
-  Progress progress = {};        ///< by runs of the search, each plant's counted
+  /// Samples that say which of what was assumed moves the tuned loop: 0 (none) or kFewestSamples to
+  /// kMostSamples; of a robust search.
+  int sensitivity = 0;
+  Progress progress = {};  ///< by runs of the search, each plant's counted
 };
 
 /// A constraint that the gains stand at.
@@ -166,6 +170,26 @@ struct JudgedGains {
   std::vector<JudgedFigure> figures;
 };
 
+/// What an input has to do with how far a figure varies (tune/sobol.h).
+struct SobolIndex {
+  double first = 0.0;  ///< first order: in [0, 1] but for what too few samples leave open
+  double total = 0.0;  ///< total, >= 0: with what it does together with others
+  Interval first_ci95, total_ci95;  ///< by bootstrap
+};
+struct SensitiveFigure {
+  YawMode mode{};
+  std::string name;                  ///< "settling_time_s"
+  double mean = 0.0;                 ///< in its unit
+  double deviation = 0.0;            ///< standard deviation, >= 0
+  std::vector<SobolIndex> by_input;  ///< in the order of GlobalSensitivity::inputs
+};
+/// Which of what was assumed moves the loop with the tuned gains.
+struct GlobalSensitivity {
+  int samples = 0;  ///< of the inputs, twice and once more for each input
+  std::vector<std::string> inputs;
+  std::vector<SensitiveFigure> figures;  ///< by mode, then figure
+};
+
 /// What fresh draws say of a goal.
 enum class GoalVerdict {
   kMet,     ///< all of the interval of the share is at or above that of the goal
@@ -194,6 +218,7 @@ struct RobustTuning {
   SearchHistory nominal_history;         ///< of the search for them
   std::vector<JudgedGains> judged;       ///< by gains, then mode
   std::vector<JudgedGoal> goals;         ///< by gains, then goal, then mode
+  std::optional<GlobalSensitivity> sensitivity;  ///< absent where nobody asked
 };
 
 struct Tuning {

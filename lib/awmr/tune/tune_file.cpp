@@ -64,6 +64,12 @@ void read_numbers(JsonObject& json, TuneOptions& options) {
   options.judged_draws =
       static_cast<int>(json.optional_integer("judged_draws", json.has("goals") ? 1 : 0, 100'000)
                            .value_or(options.judged_draws));
+  options.sensitivity =
+      static_cast<int>(json.optional_integer("sensitivity", 0, kMostSamples).value_or(0));
+  if (options.sensitivity > 0 && options.sensitivity < kFewestSamples) {
+    json.fault("sensitivity", fmt::format("{} samples tell nothing: 0, or at least {}",
+                                          options.sensitivity, kFewestSamples));
+  }
   options.tail_share =
       json.optional_number("tail_share", {.min = 0.0, .max = 1.0, .min_excluded = true})
           .value_or(options.tail_share);
@@ -226,6 +232,27 @@ Json robust_json(const RobustTuning& robust, const TuneOptions& options) {
   return json;
 }
 
+Json sensitivity_json(const GlobalSensitivity& sensitivity) {
+  Json figures = Json::array();
+  for (const SensitiveFigure& figure : sensitivity.figures) {
+    Json by_input = Json::array();
+    for (std::size_t i = 0; i < figure.by_input.size(); ++i) {
+      const SobolIndex& index = figure.by_input[i];
+      by_input.push_back({{"input", sensitivity.inputs[i]},
+                          {"first", index.first},
+                          {"first_ci95", interval_json(index.first_ci95)},
+                          {"total", index.total},
+                          {"total_ci95", interval_json(index.total_ci95)}});
+    }
+    figures.push_back({{"mode", name_of(figure.mode)},
+                       {"figure", figure.name},
+                       {"mean", figure.mean},
+                       {"std", figure.deviation},
+                       {"by_input", std::move(by_input)}});
+  }
+  return {{"samples", sensitivity.samples}, {"figures", std::move(figures)}};
+}
+
 Json goals_json(const std::vector<JudgedGoal>& goals) {
   Json json = Json::array();
   for (const JudgedGoal& judged : goals) {
@@ -320,6 +347,9 @@ std::string gains_text(const Tuning& tuning, const TuneOptions& options,
                     {"stop_reason", tuning.stop_reason},
                     {"history", history_json(tuning.history)}};
   if (tuning.robust) json["robust"] = robust_json(*tuning.robust, options);
+  if (tuning.robust && tuning.robust->sensitivity) {
+    json["sensitivity"] = sensitivity_json(*tuning.robust->sensitivity);
+  }
   if (!options.goals.empty()) json["goals"] = goals_json(tuning.robust->goals);
   Json baseline = gains_to_json(tuning.baseline);
   baseline["objective"] = tuning.baseline_objective;

@@ -20,6 +20,7 @@ struct TuneConfig {
 ///   schema, form ("paper" | "strict"), margin, weights {itae, overshoot, control_variation,
 ///   effort, speed_itae}, bounds {lambda, mu, epsilon, speed_mu, speed_epsilon: [lo, hi]},
 ///   nominal, draws, judged_draws (50; with goals 500), tail_share, activity_max,
+///   sensitivity (0: none),
 ///   goals [{at_most {FIGURE: limit, ...}, share (0.95), mode, soft (false)}, ...],
 ///   global_evaluations, local_evaluations, seed, scenarios [path relative to the file, ...].
 /// Errors (input): as read_json_file and read_scenario; unknown keys, values out of range.

@@ -62,6 +62,16 @@ function robustCharts(parent, robust) {
   }
 }
 
+function sensitivityTable(parent, sensitivity) {
+  if (!sensitivity) return;
+  const box = folded(parent, "What moves the tuned loop");
+  add(box, "p", `Total Sobol indices over ${sensitivity.samples} samples: the share of how far a figure varies that is left while this alone is not known. `
+    + "Noise level, latency and lag each from none to twice what is assumed.", {class: "small"});
+  const inputs = sensitivity.figures[0].by_input.map((one) => one.input);
+  table(box, ["mode", "figure", "#mean and spread", ...inputs.map((name) => `#${name}`)], sensitivity.figures.map((figure) => [figure.mode, metricWords(figure.figure),
+    `${digits(figure.mean, 3)} ± ${digits(figure.std, 2)}`, ...figure.by_input.map((one) => `${digits(one.total, 2)} (${digits(one.total_ci95[0], 2)} to ${digits(one.total_ci95[1], 2)})`)]));
+}
+
 function tuningSection(data) {
   const {gains} = data;
   if (!gains) return;
@@ -72,6 +82,7 @@ function tuningSection(data) {
   historyChart(box, gains);
   goalsTable(box, gains.goals);
   robustCharts(box, gains.robust);
+  sensitivityTable(box, gains.sensitivity);
   metricsTable(box, gains);
 }
 
