@@ -222,8 +222,9 @@ TEST(Csv, ARunMayLackAnOptionalValueWhateverTheOthersHave) {
 }
 
 TEST(Csv, AFormulaOfAnOptionalColumnTakesTheCellsOfItsOwnRow) {
-  const auto table = read_text("a,p,q\n1,2,3\n2,,4\n3,5,\n", {{"a"}, {"b", false, EmptyCells::kOptional}},
-                               {*parse_column("b=p*q")});
+  const auto table =
+      read_text("a,p,q\n1,2,3\n2,,4\n3,5,\n", {{"a"}, {"b", false, EmptyCells::kOptional}},
+                {*parse_column("b=p*q")});
   ASSERT_TRUE(table) << to_text(table.error());
   EXPECT_THAT(table->present("b"), ElementsAre(true, false, false));
   EXPECT_EQ(table->column("b")[0], 6.0);

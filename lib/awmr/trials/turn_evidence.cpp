@@ -47,10 +47,10 @@ constexpr std::array<RateUnit, 4> kPrintedUnits{
       "radians per second converted from degrees once "
       "too often"}}};
 constexpr std::array<RateUnit, 4> kTimedUnits{
-    {{360.0, "turns", 1.0 / 360.0, "degrees for turns"},
-     {60.0, "elapsed_s", 60.0, "minutes"},
-     {6.283185, "turns", 1.0 / 6.283185, "radians for turns"},
-     {1e-3, "elapsed_s", 1e-3, "milliseconds"}}};
+    {{360.0, "turns", 1.0 / 360.0, "turns in degrees"},
+     {60.0, "elapsed_s", 60.0, "a time in minutes"},
+     {6.283185, "turns", 1.0 / 6.283185, "turns in radians"},
+     {1e-3, "elapsed_s", 1e-3, "a time in milliseconds"}}};
 
 /// What one row says: its share of what is possible, and what to tell of it.
 struct TurnShare {
@@ -228,11 +228,8 @@ WrongUnit wrong_column(const TurnShare& told_by, const TurnJudgement& judgement,
   if (mendings.empty()) {
     return {line, told, {}, "correct the yaw rates, or what they are held against"};
   }
-  const std::string_view column = mendings.front().column;
-  const std::string_view what = column == "yaw_rate_radps" ? "the yaw rates look like "
-                                : column == "turns"        ? "turns look like "
-                                                           : "the time looks like ";
-  return {line, fmt::format("{}: {}{}", told, what, words_of(mendings)), mendings};
+  const std::string_view what = is_printed ? "the yaw rates look like" : "this looks like";
+  return {line, fmt::format("{}: {} {}", told, what, words_of(mendings)), mendings};
 }
 
 /// Rows that are apart from all others are wrong by themselves.

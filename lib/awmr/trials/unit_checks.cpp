@@ -77,9 +77,8 @@ std::optional<Contradiction> judge_force(const Evidence& evidence, std::string_v
   const ForceUnits units = force_units(of_both, evidence.vehicle);
   const std::vector<Mending> mendings = force_mendings(units, column);
   const std::string likeliest =
-      mendings.empty()
-          ? ""
-          : scaled_mapping(evidence, column, mendings[0].factor, mendings[0].offset);
+      mendings.empty() ? ""
+                       : scaled_mapping(evidence, column, mendings[0].factor, mendings[0].offset);
   return Contradiction{std::string(column), beyond + words_of(units), likeliest,
                        remedy_of(units, mendings, evidence.mappings)};
 }
