@@ -73,6 +73,23 @@ TEST(RepeatedRows, ACopyToTheMillisecondIsNamed) {
             "");
 }
 
+TEST(RepeatedRows, ASingleCopyIsNamedWhereItIsLessLikelyThanOneInAHundred) {
+  // Two readings of s = 0.003 t to q = 1 ms are the same with q/(2 s sqrt(pi)) = 0.094 s/t: 1 in 100 at 9.4 s.
+  EXPECT_THAT(told_of(read_surge, "tau_speed,distance_m,elapsed_s\n1,10,9.913\n1,10,9.913\n"),
+              HasSubstr("1 of 2 rows"));
+  EXPECT_EQ(told_of(read_surge, "tau_speed,distance_m,elapsed_s\n1,10,8.913\n1,10,8.913\n"), "");
+  // Three pairs to 0.1 s at 10 s: a = 0.1/(2 0.03) = 5/3, p = erf(a) - (1 - exp(-a^2))/(a sqrt(pi)) = 0.664,
+  // L = 1.99 and P(3 or more) = 0.32; at 400 s p = 0.0235, L = 0.071, P(3 or more) = 6e-5.
+  EXPECT_EQ(told_of(read_surge,
+                    "tau_speed,distance_m,elapsed_s\n1,10,10.1\n1,10,10.1\n1.1,10,9.9\n"
+                    "1.1,10,9.9\n1.2,10,9.8\n1.2,10,9.8\n"),
+            "");
+  EXPECT_THAT(told_of(read_surge,
+                      "tau_speed,distance_m,elapsed_s\n1,10,400.1\n1,10,400.1\n"
+                      "1.1,10,399.9\n1.1,10,399.9\n1.2,10,399.8\n1.2,10,399.8\n"),
+              HasSubstr("3 of 6 rows"));
+}
+
 TEST(RepeatedRows, TurnsAndStopsAreJudgedAsWell) {
   const std::string turns =
       "steering_deg,wheel_force,turns,elapsed_s\n10,0.35,2,142.613\n"

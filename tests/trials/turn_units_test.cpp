@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string_view>
 
 #include "awmr/trials/load.h"
@@ -108,6 +109,47 @@ TEST(TurnUnits, AMomentThatIsPrintedWithoutAnAngleSaysNothingOfTheRate) {
                        "steering_deg,wheel_force,yaw_rate_radps,tau_turn\n10,0.35,0.088,0.042\n"
                        "20,0.35,0.22,0.086\n0,0.35,0.05,0.02\n"),
             "");
+}
+
+/// Where the bounds lie, by the formulas of turn_evidence.h worked out once more.
+TEST(TurnUnits, TheBoundsAreWhereTheyAreSaidToBe) {
+  const std::string surge = "wheel_force,speed_mps\n0.2,0.5\n0.4,1.0\n0.8,3.0\n";
+  const double tan20 = std::tan(std::acos(-1.0) / 9.0);
+  const auto steered = [&](double rate) {
+    return refusal_of(paper_vehicle(), surge,
+                      fmt::format("steering_deg,wheel_force,yaw_rate_radps\n20,0.6,{}\n", rate));
+  };
+  // u(0.6) = 2 m/s lies halfway between two runs; l_f = 0.35 m: up to three times u tan(d)/l_f = 6.24 rad/s.
+  const double rolled = 2.0 * tan20 / 0.35;
+  EXPECT_EQ(steered(2.95 * rolled), "");
+  EXPECT_THAT(steered(3.05 * rolled), HasSubstr("2 m/s by the surge runs"));
+  EXPECT_EQ(steered(0.011 * rolled), "");
+  EXPECT_THAT(steered(0.009 * rolled), HasSubstr("*57.29578"));
+
+  Vehicle sides = paper_vehicle();
+  sides.drive = Drive::kDifferential;
+  const auto by_sides = [&](double rate) {
+    return refusal_of(sides, surge,
+                      fmt::format("force_left,force_right,yaw_rate_radps\n-0.2,0.6,{}\n", rate));
+  };
+  // (2 - -0.5)/(2 0.36) = 3.47 rad/s, of which four times are possible.
+  EXPECT_EQ(by_sides(3.95 * 2.5 / 0.72), "");
+  EXPECT_THAT(by_sides(4.05 * 2.5 / 0.72), HasSubstr("2.5 m/s apart"));
+
+  const auto without = [&](double rate) {
+    return refusal_of(paper_vehicle(), "",
+                      fmt::format("steering_deg,wheel_force,yaw_rate_radps\n20,0.6,{}\n", rate));
+  };
+  // r^2 0.35/tan(20 deg) = 60 m/s^2.
+  const double grip = std::sqrt(60.0 * tan20 / 0.35);
+  EXPECT_EQ(without(0.99 * grip), "");
+  EXPECT_THAT(without(1.01 * grip), HasSubstr("grip"));
+  const auto sides_without = [&](double rate) {
+    return refusal_of(sides, "",
+                      fmt::format("force_left,force_right,yaw_rate_radps\n-0.2,0.6,{}\n", rate));
+  };
+  EXPECT_EQ(sides_without(24.9), "");
+  EXPECT_THAT(sides_without(25.1), HasSubstr("more than 25 rad/s"));
 }
 
 /// 200 vehicles of each drive, with surge runs and without: 1200 campaigns.
