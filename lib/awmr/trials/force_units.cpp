@@ -31,7 +31,7 @@ constexpr ForceUnit kMicroseconds{
     1.0 / 500.0, -3.0};
 constexpr ForceUnit kNewtons{"newtons (to be divided by F_max, the largest force of one motor)"};
 constexpr ForceUnit kVolts{"volts (to be divided by the voltage of full power)"};
-constexpr Interval kVolts_V{2.0, 60.0};
+constexpr Interval kVoltRange{2.0, 60.0};
 constexpr Interval kAcceleration_mps2{0.1, 30.0};
 
 double limit_of(const Vehicle& vehicle) {
@@ -95,7 +95,7 @@ ForceUnits force_units(const ForceSpan& span, const Vehicle& vehicle) {
   if (may_be_pulse) units.push_back(kMicroseconds);
   for (const ForceUnit& scale : scales_of(span.largest)) units.push_back(scale);
   if (is_full_power(span.largest) && !may_be_pulse) return {units};
-  if (kVolts_V.contains(span.largest)) units.push_back(kVolts);
+  if (kVoltRange.contains(span.largest)) units.push_back(kVolts);
   if (!may_be_pulse && may_be_newtons(span.largest, vehicle)) units.push_back(kNewtons);
   if (units.empty()) units.push_back(over_smaller);
   return {units};
@@ -159,7 +159,7 @@ ThrustUnits thrust_units(const ForceSpan& thrust, const std::optional<ForceSpan>
 
 std::string remedy_of(const ForceUnits& units, std::span<const Mending> mendings,
                       std::span<const ColumnMapping> mappings) {
-  const std::string mapped = mapped_by(mendings, mappings);
+  std::string mapped = mapped_by(mendings, mappings);
   if (units.remedy.empty() || mapped.empty()) return mapped;
   return units.remedy + ", " + mapped;
 }

@@ -72,6 +72,7 @@ std::vector<LikeRuns> like_runs(const TrialReader& reader, const std::vector<std
     group.readings.push_back(std::abs(*reader.cell(row, reading)));
   }
   std::vector<LikeRuns> found;
+  found.reserve(groups.size());
   for (auto& [settings, group] : groups) found.push_back(std::move(group));
   return found;
 }
