@@ -85,6 +85,10 @@ TEST(ForceUnits, WhereNoUnitIsClearAllAreNamed) {
               AllOf(HasSubstr("percent, 8-bit PWM counts or newtons"),
                     HasSubstr("wheel_force=\"wheel_force\"*0.01' (percent)"),
                     HasSubstr("wheel_force=\"wheel_force\"*0.003921569' (8-bit PWM counts)")));
+  // A mapping says what it is for, also where the other units have none.
+  EXPECT_THAT(refusal_of("wheel_force,speed_mps\n20,0.55\n38,1.66\n", ""),
+              AllOf(HasSubstr("percent, volts"), HasSubstr("newtons"),
+                    HasSubstr("wheel_force=\"wheel_force\"*0.01' (percent), or take it")));
   // 12 is below a fifth of every scale: volts, or newtons, which no factor is known for.
   EXPECT_THAT(refusal_of("wheel_force,speed_mps\n4,0.55\n12,1.66\n", ""),
               AllOf(HasSubstr("volts"), HasSubstr("newtons"), Not(HasSubstr("map it")),

@@ -159,7 +159,7 @@ ThrustUnits thrust_units(const ForceSpan& thrust, const std::optional<ForceSpan>
 
 std::string remedy_of(const ForceUnits& units, std::span<const Mending> mendings,
                       std::span<const ColumnMapping> mappings) {
-  std::string mapped = mapped_by(mendings, mappings);
+  std::string mapped = mapped_by(mendings, mappings, !units.is_clear());
   if (units.remedy.empty() || mapped.empty()) return mapped;
   return units.remedy + ", " + mapped;
 }

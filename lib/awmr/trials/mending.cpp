@@ -7,14 +7,15 @@
 
 namespace awmr {
 
-std::string mapped_by(std::span<const Mending> mendings, std::span<const ColumnMapping> mappings) {
+std::string mapped_by(std::span<const Mending> mendings, std::span<const ColumnMapping> mappings,
+                      bool in_doubt) {
   std::string text;
   for (const Mending& mending : mendings) {
     const std::string option =
         option_text("column '" +
                     scaled_mapping(mappings, mending.column, mending.factor, mending.offset) + "'");
     text += fmt::format("{}by {}", text.empty() ? "map it " : " or ", option);
-    if (mendings.size() > 1) text += fmt::format(" ({})", mending.words);
+    if (in_doubt || mendings.size() > 1) text += fmt::format(" ({})", mending.words);
   }
   return text;
 }

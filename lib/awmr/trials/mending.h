@@ -19,9 +19,11 @@ struct Mending {
   double offset = 0.0;
 };
 
-/// "map it by --column 'A'", and where there are several, "(percent) or by --column 'B' (PWM counts)".
-/// Empty where there is none. `mappings` are those that the table was read with.
-std::string mapped_by(std::span<const Mending> mendings, std::span<const ColumnMapping> mappings);
+/// "map it by --column 'A'", and where there are several, or others that no mapping is known for
+/// (`in_doubt`), "(percent) or by --column 'B' (PWM counts)". Empty where there is none. `mappings` are those
+/// that the table was read with.
+std::string mapped_by(std::span<const Mending> mendings, std::span<const ColumnMapping> mappings,
+                      bool in_doubt = false);
 
 /// "percent", "percent or 8-bit PWM counts", "percent, volts or newtons".
 std::string words_of(std::span<const Mending> mendings);
