@@ -135,6 +135,10 @@ TEST(ParseColumn, ScalesAMappingForASuggestion) {
   EXPECT_EQ(scaled_expression(*parse_column("x=V (km/h)"), 3.0), "\"V (km/h)\"*3");
   EXPECT_EQ(scaled_expression(*parse_column("x=(a + b)/2"), 3.0), "((a + b)/2)*3");
   EXPECT_EQ(scaled_expression(*parse_column("x=a/b"), 3.0), "(a/b)*3");
+  // 3 (0.5 V + 2) = 1.5 V + 6, and 3 (0.5 V - 2) + 1 = 1.5 V - 5.
+  EXPECT_EQ(scaled_expression(*parse_column("x=V*0.5+2"), 3.0), "\"V\"*1.5+6");
+  EXPECT_EQ(scaled_expression(*parse_column("x=\"V\"*0.5-2"), 3.0, 1.0), "\"V\"*1.5-5");
+  EXPECT_EQ(scaled_expression(*parse_column("x=a/b"), 3.0, 1.0), "(a/b)*3+1");
 }
 
 /// The column x of a file, by these mappings.

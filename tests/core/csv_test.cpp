@@ -205,6 +205,31 @@ TEST(Csv, AMappingWithoutItsSourceLeavesAColumnOfTheNameAsItIs) {
   EXPECT_THAT(table->column("x"), ElementsAre(3.0));
 }
 
+TEST(Csv, ARunMayLackAnOptionalValueWhateverTheOthersHave) {
+  const std::vector<CsvColumn> columns = {{"a"}, {"b", false, EmptyCells::kOptional}};
+  const auto table = read_text("a,b\n1,5\n2,\n3,7\n4,8\n5,9\n", columns);
+  ASSERT_TRUE(table) << to_text(table.error());
+  EXPECT_EQ(table->rows(), 5U);
+  EXPECT_THAT(table->present("b"), ElementsAre(true, false, true, true, true));
+  EXPECT_TRUE(table->notes().empty());
+  // Without a value in any row, or at all, it is no column; no row is left out for it.
+  const auto without = read_text("a,b\n1,\n2,\n", columns);
+  ASSERT_TRUE(without) << to_text(without.error());
+  EXPECT_FALSE(without->has("b"));
+  EXPECT_EQ(without->rows(), 2U);
+  // What must be there is a fault beside it, as ever.
+  EXPECT_FALSE(read_text("a,b\n1,5\n,6\n", columns));
+}
+
+TEST(Csv, AFormulaOfAnOptionalColumnTakesTheCellsOfItsOwnRow) {
+  const auto table =
+      read_text("a,p,q\n1,2,3\n2,,4\n3,5,\n", {{"a"}, {"b", false, EmptyCells::kOptional}},
+                {*parse_column("b=p*q")});
+  ASSERT_TRUE(table) << to_text(table.error());
+  EXPECT_THAT(table->present("b"), ElementsAre(true, false, false));
+  EXPECT_EQ(table->column("b")[0], 6.0);
+}
+
 TEST(Csv, OneSourceMayServeTwoColumns) {
   const auto table =
       read_text("w\n4\n", {{"a"}, {"b"}}, {{"a", "w", 1.0, 0.0}, {"b", "w", 0.5, 0.0}});

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <vector>
 
+#include "awmr/trials/load.h"
 #include "awmr/trials/log_consistency.h"
 #include "awmr/trials/read_trials.h"
 #include "fuzz/file_of_bytes.h"
@@ -59,6 +60,22 @@ void check_tables(const std::filesystem::path& path, const awmr::TrialOptions& o
   check(findings);
 }
 
+/// As all tables of one folder, held against each other.
+void check_folder(const std::filesystem::path& path) {
+  for (const bool as_is : {false, true}) {
+    const awmr::TrialOptions options{.columns = {}, .as_is = as_is};
+    for (const awmr::TrialFiles& files :
+         {awmr::TrialFiles{.vehicle = vehicle(), .surge = path, .options = options},
+          awmr::TrialFiles{.vehicle = vehicle(), .turning = path, .options = options},
+          awmr::TrialFiles{
+              .vehicle = vehicle(), .surge = path, .turning = path, .options = options},
+          awmr::TrialFiles{.vehicle = vehicle(), .coastdowns = {path}, .options = options}}) {
+      const auto trials = awmr::load_trials(files);
+      if (!is_refused(trials)) check(trials->findings);
+    }
+  }
+}
+
 void check_log(const std::filesystem::path& path, const awmr::TrialOptions& options) {
   std::vector<awmr::Finding> findings;
   const auto log = awmr::read_log(path, options, findings);
@@ -84,6 +101,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   for (const awmr::Preference preference : {awmr::Preference::kPrinted, awmr::Preference::kTimed}) {
     check_tables(path, {.columns = {}, .preference = preference});
   }
+  check_folder(path);
   check_log(path, {});
   return 0;
 }

@@ -206,6 +206,13 @@ INSTANTIATE_TEST_SUITE_P(
                     scale(l.force_right, 255.0);
                   },
                   "force_left", "0.003921569"},
+        WrongTurn{"Microseconds",
+                  [](DrivingLog& l) {
+                    for (auto* force : {&l.force_left, &l.force_right}) {
+                      for (double& value : *force) value = 1500.0 + 500.0 * value;
+                    }
+                  },
+                  "force_left", "microseconds"},
         WrongTurn{"SidesSwapped", [](DrivingLog& l) { std::swap(l.force_left, l.force_right); },
                   "force_left", "force_left=\"force_right\"", 5},
         WrongTurn{"SteeringReversed", [](DrivingLog& l) { scale(*l.steering_command_rad, -1.0); },

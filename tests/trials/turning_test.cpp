@@ -187,6 +187,56 @@ TEST(TurningTrial, KeepsTurnsByTheSidesThatStoodStill) {
   EXPECT_EQ(alone.set.set_aside, 1);
 }
 
+TEST(TurningTrial, TakesAPrintedMomentWhereARowHasOne) {
+  const auto read = accepted(kReadTurning,
+                             "steering_deg,wheel_force,yaw_rate_radps,tau_turn\n"
+                             "5,0.35,0.038,\n10,0.35,0.088,0.0425\n15,0.35,0.15,\n");
+  ASSERT_THAT(read.set.rows, SizeIs(3));
+  EXPECT_EQ(read.set.rows[1].tau_turn_m, 0.0425);
+  // 2 l_f F' sin d_r                                                                [paper (62)]
+  EXPECT_DOUBLE_EQ(read.set.rows[0].tau_turn_m, 2.0 * 0.35 * 0.35 * std::sin(radians(5.0)));
+  EXPECT_DOUBLE_EQ(read.set.rows[2].tau_turn_m, 2.0 * 0.35 * 0.35 * std::sin(radians(15.0)));
+  EXPECT_THAT(read.findings, IsEmpty());
+}
+
+TEST(TurningTrial, TakesAColumnThatNoRowHasForNoColumn) {
+  const auto sides = accepted(kReadTurning,
+                              "steering_deg,wheel_force,yaw_rate_radps,force_left,force_right\n"
+                              "0,,0.2,0.1,0.3\n0,,0.3,0.1,0.4\n");
+  EXPECT_THAT(sides.set.rows, SizeIs(2));
+  const auto steered = accepted(kReadTurning,
+                                "steering_deg,wheel_force,yaw_rate_radps,turns,elapsed_s\n"
+                                "10,0.35,,2,142\n15,0.35,,2,83\n");
+  EXPECT_DOUBLE_EQ(steered.set.rows[0].yaw_rate_radps, 4.0 * pi<double>() / 142.0);
+  EXPECT_THAT(steered.findings, IsEmpty());
+}
+
+TEST(TurningTrial, NeedsARateInEachRowAndLeavesNoneOut) {
+  EXPECT_THAT(faults_of(kReadTurning,
+                        "steering_deg,wheel_force,yaw_rate_radps\n10,0.35,0.1\n"
+                        "15,0.35,\n20,0.35,0.2\n20,0.35,0.2\n20,0.35,0.2\n"),
+              ElementsAre(AllOf(StartsWith("3:9: "), HasSubstr("no yaw rate"))));
+  // A row of nothing but its angle was left out without a word.
+  EXPECT_THAT(faults_of(kReadTurning,
+                        "steering_deg,wheel_force,yaw_rate_radps\n10,0.35,0.1\n"
+                        "15,,\n20,0.35,0.2\n"),
+              ElementsAre(StartsWith("3:5: "), StartsWith("3:4: ")));
+  // A formula keeps nothing of the row before.
+  EXPECT_THAT(faults_of(kReadTurning, "steering_deg,wheel_force,a,b\n10,0.35,0.1,1\n15,0.35,,1\n",
+                        {.columns = {*parse_column("yaw_rate_radps=a*b")}}),
+              ElementsAre(HasSubstr("no yaw rate")));
+}
+
+TEST(TurningTrialOfSides, NamesAllRowsWithoutForcesInOneSentence) {
+  EXPECT_THAT(faults_of(kReadSides,
+                        "force_left,force_right,yaw_rate_radps\n,,0.1\n0.1,0.3,0.2\n"
+                        ",,0.2\n0.1,,0.2\n"),
+              ElementsAre(AllOf(StartsWith("2:1: "), HasSubstr("3 of 4 rows"),
+                                HasSubstr("(lines 2, 4, 5)"), HasSubstr("vehicle.json"))));
+  EXPECT_THAT(faults_of(kReadSides, "force_left,force_right,yaw_rate_radps\n,,0.1\n,,0.2\n"),
+              ElementsAre(HasSubstr("2 of 2 rows")));
+}
+
 TEST(TurningTrialOfSides, ComputesTheYawMomentAndMirrorsATurnToTheRight) {
   const auto read = accepted(kReadSides,
                              "force_left,force_right,yaw_rate_radps\n"

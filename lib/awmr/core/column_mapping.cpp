@@ -149,14 +149,18 @@ std::string text_of(const ColumnMapping& mapping) {
                      format_number(mapping.offset));
 }
 
-std::string scaled_expression(const ColumnMapping& mapping, double factor) {
+std::string scaled_expression(const ColumnMapping& mapping, double factor, double offset) {
   const bool has_operator = mapping.source.find_first_of("+-*/^(") != std::string::npos;
   const bool is_quoted = mapping.expression.starts_with('"');
   const bool is_formula =
       mapping.source.empty() || (has_operator && !is_quoted && !mapping.expression.empty() &&
                                  ColumnExpression::parse(mapping.expression).has_value());
-  if (is_formula) return fmt::format("({})*{:.7g}", mapping.expression, factor);
-  return fmt::format("\"{}\"*{:.7g}", mapping.source, factor * mapping.scale);
+  const std::string scaled =
+      is_formula ? fmt::format("({})*{:.7g}", mapping.expression, factor)
+                 : fmt::format("\"{}\"*{:.7g}", mapping.source, factor * mapping.scale);
+  // A formula has its offset in itself.
+  const double added = offset + (is_formula ? 0.0 : factor * mapping.offset);
+  return added == 0.0 ? scaled : fmt::format("{}{:+.7g}", scaled, added);
 }
 
 }  // namespace awmr

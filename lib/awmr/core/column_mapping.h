@@ -37,8 +37,8 @@ Result<ColumnMapping> parse_column(std::string_view name, std::string_view expre
 /// The mapping as it was given, `NAME=EXPRESSION`: what an output names as its option.
 std::string text_of(const ColumnMapping& mapping);
 
-/// `"SOURCE"*FACTOR` or `(EXPRESSION)*FACTOR`: the EXPRESSION of a mapping whose values are those of
-/// this one times `factor`, its offset left out.
-std::string scaled_expression(const ColumnMapping& mapping, double factor);
+/// `"SOURCE"*FACTOR+OFFSET` or `(EXPRESSION)*FACTOR+OFFSET`: the EXPRESSION of a mapping whose values are
+/// those of this one, its own scale and offset included, times `factor`, plus `offset`. No offset of 0.
+std::string scaled_expression(const ColumnMapping& mapping, double factor, double offset = 0.0);
 
 }  // namespace awmr

@@ -23,6 +23,10 @@ enum class EmptyCells {
   kFault,   ///< it is one: a value belongs into every row
   kHeld,    ///< a command: the previous value still holds
   kAbsent,  ///< a measurement: there was none in this row
+  /// Of a table with a row per run: this run has none. Any number of rows may be without; nothing is kept
+  /// from the row before, and no row is left out for it. Empty in all of them, the column is absent, also
+  /// where it is required.
+  kOptional,
 };
 
 struct CsvColumn {
@@ -89,8 +93,8 @@ class CsvTable {
   Parts parts_;
 };
 
-/// Reads the columns asked for. Where at least one of them is empty in a quarter of its rows or
-/// more, the file holds signals of different rates: the empty cells of columns that may have some
+/// Reads the columns asked for. Where at least one of them that is kHeld or kAbsent is empty in a quarter
+/// of its rows or more, the file holds signals of different rates: the empty cells of columns that may have some
 /// mean what EmptyCells says, and rows without a value of any column are left out.
 /// Every fault of the file at once: missing required or duplicate columns, ragged rows, cells that
 /// are empty, not numbers, NaN or infinite, an unterminated quote, no rows, a formula whose value

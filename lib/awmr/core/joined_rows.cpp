@@ -15,7 +15,9 @@ std::vector<bool> rows_that_count(const CsvTable::Parts& parts, const ColumnSour
   std::size_t known = 0;
   for (const ColumnSource& source : sources.found) {
     if (source.column.empty == EmptyCells::kFault || source.indices.empty()) continue;
-    const std::vector<bool>& present = parts.columns.at(source.column.name).present;
+    const auto column = parts.columns.find(source.column.name);
+    if (column == parts.columns.end()) continue;
+    const std::vector<bool>& present = column->second.present;
     for (std::size_t row = 0; row < rows; ++row) {
       if (present.empty() || present[row]) counts[row] = true;
     }
@@ -83,7 +85,7 @@ void refuse_void_columns(const CsvTable::Parts& parts, const ColumnSources& sour
     return !present.empty() && std::find(present.begin(), present.end(), true) == present.end();
   };
   for (const ColumnSource& source : sources.found) {
-    if (!is_void(source)) continue;
+    if (source.column.empty == EmptyCells::kOptional || !is_void(source)) continue;
     faults.push_back({fmt::format("{}:{}:1", parts.file, parts.header_line),
                       fmt::format("the column {} has no value in any row", source.column.name)});
   }

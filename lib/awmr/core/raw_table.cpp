@@ -24,12 +24,17 @@ std::size_t count_of_values(const RawColumn& column) {
       std::count_if(column.value.begin(), column.value.end(), has_value));
 }
 
+/// A column whose empty cells have times of their own behind them, in a sparse table.
+bool has_own_rate(const ColumnSource& source) {
+  return source.column.empty == EmptyCells::kHeld || source.column.empty == EmptyCells::kAbsent;
+}
+
 bool is_sparse(const RawTable& raw, const ColumnSources& sources) {
   if (raw.joined) return true;
   if (!raw.may_have_empty) return false;
   const double rows = static_cast<double>(raw.lines.size());
   for (const ColumnSource& source : sources.found) {
-    if (source.column.empty == EmptyCells::kFault) continue;
+    if (!has_own_rate(source)) continue;
     for (const std::size_t index : source.indices) {
       const std::vector<double>& value = raw.columns[index].value;
       const auto empty = std::count_if(value.begin(), value.end(), is_empty);
@@ -142,9 +147,12 @@ std::vector<double> storage_for(const ColumnSource& source, const std::vector<in
   return std::vector<double>(raw.lines.size());
 }
 
-/// Makes a column. `uses` are those of the columns that are still to be made.
+/// Makes a column. `uses` are those of the columns that are still to be made; `sparse`: it may have empty
+/// cells.
 CsvTable::Column column_of(ColumnSource& source, const std::vector<int>& uses, bool sparse,
                            RawTable& raw, FaultList& faults) {
+  // A run's formula takes the cells of its own row alone.
+  const bool keeps_previous = sparse && source.column.empty != EmptyCells::kOptional;
   const std::size_t rows = raw.lines.size();
   CsvTable::Column column;
   if (!source.indices.empty()) {
@@ -161,8 +169,8 @@ CsvTable::Column column_of(ColumnSource& source, const std::vector<int>& uses, b
     bool driven = true;
     for (std::size_t i = 0; i < inputs.size(); ++i) {
       const double value = cells[i][row];
-      if (!sparse || has_value(value)) inputs[i] = value;
-      if (sparse && i == driver) driven = has_value(value);
+      if (!keeps_previous || has_value(value)) inputs[i] = value;
+      if (keeps_previous && i == driver) driven = has_value(value);
     }
     const bool has_all = driven && std::all_of(inputs.begin(), inputs.end(), has_value);
     column.values[row] = has_all ? value_of(source, inputs) : 0.0;
@@ -213,6 +221,17 @@ void find_empty_cells(const ColumnSource& source, FaultList& faults) {
   }
 }
 
+/// A column that runs may have and that none has is no column.
+void drop_void_columns(CsvTable::Parts& parts, const ColumnSources& sources) {
+  for (const ColumnSource& source : sources.found) {
+    if (source.column.empty != EmptyCells::kOptional) continue;
+    const std::vector<bool>& present = parts.columns.at(source.column.name).present;
+    const bool is_void =
+        !present.empty() && std::find(present.begin(), present.end(), true) == present.end();
+    if (is_void) parts.columns.erase(source.column.name);
+  }
+}
+
 }  // namespace
 
 Result<CsvTable> table_of(RawTable raw, ColumnSources sources,
@@ -222,7 +241,7 @@ Result<CsvTable> table_of(RawTable raw, ColumnSources sources,
   CsvTable::Parts parts{
       .file = raw.file, .header_line = raw.header_line, .mapped = std::move(raw.mapped)};
   const auto may_be_empty = [sparse](const ColumnSource& source) {
-    return sparse && source.column.empty != EmptyCells::kFault;
+    return (sparse && has_own_rate(source)) || source.column.empty == EmptyCells::kOptional;
   };
   std::vector<int> uses = uses_of(raw, sources);
   for (ColumnSource& source : sources.found) {
@@ -245,6 +264,7 @@ Result<CsvTable> table_of(RawTable raw, ColumnSources sources,
                                            .character = std::move(column.character),
                                            .cell = source.indices.front()});
   }
+  drop_void_columns(parts, sources);
   parts.lines = std::move(raw.lines);
   parts.notes = std::move(raw.notes);
   parts.places = std::move(raw.places);

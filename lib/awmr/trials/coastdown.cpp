@@ -4,6 +4,7 @@
 #include "awmr/core/csv_text.h"
 #include "awmr/core/option_text.h"
 #include "read_table.h"
+#include "repeated_rows.h"
 #include "trial_reader.h"
 
 namespace awmr {
@@ -42,6 +43,7 @@ TrialSet<StopTimeRow> read_stop_times(TrialReader& reader, std::vector<Finding>&
   TrialSet<StopTimeRow> set{
       .file = finding_file(reader.table()), .rows = {}, .mapped = reader.table().mapped()};
   std::vector<std::size_t> set_aside;
+  std::vector<std::size_t> kept;
   const double timing_s = timing_std_s(reader.last_place("stop_time_s"));
   for (std::size_t i = 0; i < reader.table().rows(); ++i) {
     const double speed_mps = *reader.non_negative(i, "initial_speed_mps");
@@ -54,12 +56,16 @@ TrialSet<StopTimeRow> read_stop_times(TrialReader& reader, std::vector<Finding>&
     } else if (speed_mps == 0.0) {
       set_aside.push_back(i);
     } else {
+      kept.push_back(i);
       set.rows.push_back({reader.table().line(i), speed_mps, stop_time_s, timing_s});
     }
   }
   set.set_aside = static_cast<int>(set_aside.size());
   note_rows_set_aside(reader, set_aside, "a coast-down that begins at rest shows nothing of m'",
                       findings);
+  find_repeated_rows(reader, kept,
+                     {.settings = {"initial_speed_mps"}, .timed = "stop_time_s", .scatter = 0.01},
+                     findings);
   return set;
 }
 

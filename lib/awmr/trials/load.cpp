@@ -87,6 +87,33 @@ std::vector<std::filesystem::path> paths_of(const TrialFiles& files) {
   return paths;
 }
 
+/// The tables, and then each against itself, the vehicle and the others.
+void read_tables(const TrialFiles& files, const TrialOptions& options, Trials& trials,
+                 std::vector<Fault>& faults) {
+  auto& [vehicle, data, findings] = trials;
+  std::vector<Finding> of_turning;
+  if (files.surge) data.surge = keep(read_surge(*files.surge, options, findings), faults);
+  if (files.turning) {
+    data.turning = keep(read_turning(*files.turning, vehicle, options, of_turning), faults);
+  }
+  const Tables tables{vehicle, data.surge, data.turning};
+  if (data.surge) {
+    check_consistency(*data.surge, *files.surge, tables, options, findings, faults);
+  }
+  findings.insert(findings.end(), of_turning.begin(), of_turning.end());
+  if (data.turning) {
+    check_consistency(*data.turning, *files.turning, tables, options, findings, faults);
+  }
+  for (const std::filesystem::path& path : files.coastdowns) {
+    auto set = keep(read_coastdown(path, options, findings), faults);
+    if (!set) continue;
+    if (const auto* stops = std::get_if<TrialSet<StopTimeRow>>(&*set)) {
+      check_consistency(*stops, path, tables, options, findings, faults);
+    }
+    add_coastdown(path, std::move(*set), data, faults);
+  }
+}
+
 Status check(const TrialFiles& files) {
   if (!files.surge && !files.turning && files.coastdowns.empty() && files.logs.empty()) {
     return input_error("", "no trials: give at least one surge, turning, coast-down or log file");
@@ -106,24 +133,7 @@ Result<Trials> load_trials(const TrialFiles& files) {
   Trials trials{.vehicle = files.vehicle, .data = {}, .findings = {}};
   auto& [vehicle, data, findings] = trials;
   std::vector<Fault> faults;
-  if (files.surge) {
-    data.surge = keep(read_surge(*files.surge, options, findings), faults);
-    if (data.surge)
-      check_consistency(*data.surge, *files.surge, vehicle, options, findings, faults);
-  }
-  if (files.turning) {
-    data.turning = keep(read_turning(*files.turning, vehicle, options, findings), faults);
-    if (data.turning)
-      check_consistency(*data.turning, *files.turning, vehicle, options, findings, faults);
-  }
-  for (const std::filesystem::path& path : files.coastdowns) {
-    auto set = keep(read_coastdown(path, options, findings), faults);
-    if (!set) continue;
-    if (const auto* stops = std::get_if<TrialSet<StopTimeRow>>(&*set)) {
-      check_consistency(*stops, data.surge, path, vehicle, options, findings, faults);
-    }
-    add_coastdown(path, std::move(*set), data, faults);
-  }
+  read_tables(files, options, trials, faults);
   for (const std::filesystem::path& path : files.logs) {
     auto logs = keep(read_logs(path, options, findings), faults);
     if (logs) add_logs(path, std::move(*logs), options, trials, faults);

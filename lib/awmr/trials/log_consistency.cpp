@@ -61,11 +61,11 @@ Status check_consistency(const DrivingLog& log, const std::string& place, const 
                           fmt::format("{}: {}", one.column, one.message)});
       continue;
     }
+    const bool says_more = !one.remedy.empty() || one.mapping.empty();
     const std::string remedy =
-        one.mapping.empty() ? ""
-                            : "map it by " + option_text("column '" + one.mapping + "'") + ", or ";
-    faults.push_back({place, fmt::format("{}: {}; {}take it {}", one.column, one.message, remedy,
-                                         option_text("as-is"))});
+        says_more ? one.remedy : "map it by " + option_text("column '" + one.mapping + "'");
+    faults.push_back({place, fmt::format("{}: {}; {}{}take it {}", one.column, one.message, remedy,
+                                         remedy.empty() ? "" : ", or ", option_text("as-is"))});
   }
   if (!faults.empty()) return input_errors(std::move(faults));
   if (!found.empty()) return {};

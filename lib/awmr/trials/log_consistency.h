@@ -33,6 +33,7 @@ struct Contradiction {
   std::string message;  ///< what was compared, what was found, the likely cause
   std::string
       mapping;  ///< `NAME=SOURCE*FACTOR`, to be given as a column mapping; may be two, or none
+  std::string remedy = {};  ///< what to do, where that mapping alone does not say it; else empty
 };
 
 /// Empty for a log whose channels agree. `mappings`: those that the log was read with, so that the

@@ -138,25 +138,26 @@ MomentShares moment_shares(const std::vector<EvidenceWindow>& windows,
 
 namespace {
 
-/// What a column was read from, times a factor.
+/// What a column was read from, times a factor, plus an offset.
 std::string scaled_source(std::span<const ColumnMapping> mappings, std::string_view column,
-                          double factor) {
+                          double factor, double offset) {
   ColumnMapping used{std::string(column), std::string(column)};
   for (const ColumnMapping& mapping : mappings) {
     if (mapping.name == column) used = mapping;
   }
-  return scaled_expression(used, factor);
+  return scaled_expression(used, factor, offset);
 }
 
 }  // namespace
 
 std::string scaled_mapping(std::span<const ColumnMapping> mappings, std::string_view column,
-                           double factor) {
-  return fmt::format("{}={}", column, scaled_source(mappings, column, factor));
+                           double factor, double offset) {
+  return fmt::format("{}={}", column, scaled_source(mappings, column, factor, offset));
 }
 
-std::string scaled_mapping(const Evidence& evidence, std::string_view column, double factor) {
-  return scaled_mapping(evidence.mappings, column, factor);
+std::string scaled_mapping(const Evidence& evidence, std::string_view column, double factor,
+                           double offset) {
+  return scaled_mapping(evidence.mappings, column, factor, offset);
 }
 
 std::string swapped_mapping(const Evidence& evidence) {

@@ -70,10 +70,11 @@ struct MomentShares {
 MomentShares moment_shares(const std::vector<EvidenceWindow>& windows,
                            double (*rate)(const EvidenceWindow&));
 
-/// `NAME="SOURCE"*FACTOR`, from the column that NAME was read from.
+/// `NAME="SOURCE"*FACTOR+OFFSET`, from the column that NAME was read from.
 std::string scaled_mapping(std::span<const ColumnMapping> mappings, std::string_view column,
-                           double factor);
-std::string scaled_mapping(const Evidence& evidence, std::string_view column, double factor);
+                           double factor, double offset = 0.0);
+std::string scaled_mapping(const Evidence& evidence, std::string_view column, double factor,
+                           double offset = 0.0);
 /// The two forces, each from the other's column.
 std::string swapped_mapping(const Evidence& evidence);
 

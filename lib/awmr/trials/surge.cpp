@@ -4,6 +4,7 @@
 
 #include "awmr/core/csv_text.h"
 #include "read_table.h"
+#include "repeated_rows.h"
 #include "trial_reader.h"
 
 namespace awmr {
@@ -57,6 +58,7 @@ Result<TrialSet<SurgeRow>> read_surge(const std::filesystem::path& path,
   set.force_column = reader.has("tau_speed") ? "tau_speed" : "wheel_force";
   note_format(reader, findings);
   std::vector<std::size_t> set_aside;
+  std::vector<std::size_t> kept;
   for (std::size_t i = 0; i < reader.table().rows(); ++i) {
     const double tau_speed = tau_speed_of(reader, i, options.driven_wheels, findings);
     const auto printed = reader.non_negative(i, "speed_mps");
@@ -66,6 +68,7 @@ Result<TrialSet<SurgeRow>> read_surge(const std::filesystem::path& path,
       set_aside.push_back(i);
       continue;
     }
+    kept.push_back(i);
     set.rows.push_back(
         {reader.table().line(i), tau_speed, speed->used, speed->amount, speed->elapsed_s});
   }
@@ -74,6 +77,9 @@ Result<TrialSet<SurgeRow>> read_surge(const std::filesystem::path& path,
   note_rows_set_aside(reader, set_aside,
                       "at rest or without thrust, a run shows nothing of tau_speed = a1 u^b1",
                       findings);
+  find_repeated_rows(
+      reader, kept,
+      {.settings = {"tau_speed", "wheel_force", "distance_m"}, .printed = "speed_mps"}, findings);
   return set;
 }
 

@@ -4,15 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <optional>
+#include <limits>
 #include <string>
 
 #include "awmr/core/option_text.h"
 #include "awmr/core/units.h"
-#include "awmr/trials/log_evidence.h"
-#include "full_scale.h"
+#include "force_units.h"
 #include "table_units.h"
+#include "turn_evidence.h"
 
 namespace awmr {
 namespace {
@@ -25,122 +24,193 @@ struct Table {
   std::vector<Finding>& findings;
   std::vector<Fault>& faults;
 
-  void tell(int line, const std::string& message, std::string_view column, double factor) const {
+  /// `remedy`: "map it by ..."; may be empty.
+  void tell(int line, const std::string& message, const std::string& remedy) const {
     if (options.as_is) {
       findings.push_back({file, line, Severity::kWarning, "table-contradiction", message});
       return;
     }
-    const std::string mapping = scaled_mapping(options.columns, column, factor);
     faults.push_back({fmt::format("{}:{}", path.string(), line),
-                      fmt::format("{}; map it by {}, or take it {}", message,
-                                  option_text("column '" + mapping + "'"), option_text("as-is"))});
+                      fmt::format("{}; {}{}take it {}", message, remedy,
+                                  remedy.empty() ? "" : ", or ", option_text("as-is"))});
+  }
+  void tell(const std::optional<WrongUnit>& wrong) const {
+    if (!wrong) return;
+    const std::string mapped = mapped_by(wrong->mendings, options.columns);
+    tell(wrong->line, wrong->message, mapped.empty() ? wrong->remedy : mapped);
   }
 };
 
-/// The first row whose number is above `limit`, the largest number being `largest`.
+/// The first row whose force is above the vehicle's, and the span of all rows' forces.
 template <class Row>
 struct Beyond {
   const Row* first = nullptr;
-  double largest = 0.0;
+  ForceSpan span{std::numeric_limits<double>::infinity(), 0.0};
 };
 
-/// `number` is a member of Row, or a function of one.
-template <class Row, class Number>
-Beyond<Row> beyond(const std::vector<Row>& rows, Number number, double limit) {
-  constexpr double kRounding = 1.01;
+/// `force` is a member of Row, or a function of one that gives the span of its forces. A force of 0 tells
+/// nothing of its unit.
+template <class Row, class Force>
+Beyond<Row> beyond(const std::vector<Row>& rows, Force force, double limit) {
   Beyond<Row> found;
   for (const Row& row : rows) {
-    const double here = std::invoke(number, row);
-    found.largest = std::max(found.largest, here);
-    if (found.first == nullptr && here > limit * kRounding) found.first = &row;
+    const ForceSpan here = force(row);
+    if (here.largest == 0.0) continue;
+    found.span = joined(found.span, here);
+    if (found.first == nullptr && here.largest > limit * kForceRounding) found.first = &row;
   }
   return found;
 }
 
-void tell_unit(const Table& table, const std::optional<WrongUnit>& wrong) {
-  if (wrong) table.tell(wrong->line, wrong->message, wrong->column, wrong->factor);
+ForceSpan side_forces(const TurningRow& row) {
+  if (!row.sides) return {};
+  const auto& [left, right] = *row.sides;
+  const double largest = std::max(std::abs(left), std::abs(right));
+  if (left == 0.0 || right == 0.0) return {left + right, largest};
+  return {std::min(left, right), largest};
 }
 
-double largest_side_force(const TurningRow& row) {
-  if (!row.sides) return 0.0;
-  return std::max(std::abs(row.sides->left), std::abs(row.sides->right));
+ForceSpan steered_force(const TurningRow& row) { return {row.wheel_force, row.wheel_force}; }
+ForceSpan thrust(const SurgeRow& row) { return {row.tau_speed, row.tau_speed}; }
+
+double side_limit(const Vehicle& vehicle) {
+  return std::max(vehicle.wheel_force.hi, -vehicle.wheel_force.lo);
+}
+
+/// Forces of single wheels that are in another unit, in all of a folder's tables.
+struct FolderForces {
+  std::optional<ForceSpan> wheels = {};
+
+  /// What tells the unit of a column: all columns' forces, but for one that has F' of more than the
+  /// vehicle's.
+  ForceSpan beside(const ForceSpan& own) const {
+    return is_share_of_f_max(own) || !wheels ? own : *wheels;
+  }
+};
+
+FolderForces folder_forces(const Tables& tables) {
+  FolderForces found;
+  const auto add = [&found](const auto& forces, int wheels) {
+    const ForceSpan span{forces.span.least / wheels, forces.span.largest / wheels};
+    if (forces.first == nullptr || is_share_of_f_max(span)) return;
+    found.wheels = found.wheels ? joined(*found.wheels, span) : span;
+  };
+  if (tables.surge && tables.surge->force_column == "wheel_force") {
+    const int wheels = tables.vehicle.driven_wheels();
+    add(beyond(tables.surge->rows, thrust, wheels * tables.vehicle.wheel_force.hi), wheels);
+  }
+  if (tables.turning) {
+    for (const auto* rows : {&tables.turning->rows, &tables.turning->by_sides}) {
+      add(beyond(*rows, side_forces, side_limit(tables.vehicle)), 1);
+      add(beyond(*rows, steered_force, tables.vehicle.wheel_force.hi), 1);
+    }
+  }
+  return found;
+}
+
+std::string limits_text(const Interval& force) {
+  return fmt::format("wheel_force [{:g}, {:g}] of the vehicle", force.lo, force.hi);
 }
 
 /// In turns by the sides each has a force of its own.
-void check_sides(const Table& table, const std::vector<TurningRow>& rows, const Interval& force) {
-  const double limit = std::max(force.hi, -force.lo);
-  const auto [first, largest] = beyond(rows, largest_side_force, limit);
+void check_sides(const Table& table, const std::vector<TurningRow>& rows, const Tables& tables) {
+  const auto [first, span] = beyond(rows, side_forces, side_limit(tables.vehicle));
   if (first == nullptr) return;
-  const auto [words, factor] = full_scale_of(largest, limit);
+  const ForceUnits units = force_units(folder_forces(tables).beside(span), tables.vehicle);
   for (const char* column : {"force_left", "force_right"}) {
     table.tell(first->line,
-               fmt::format("the forces of the sides go beyond wheel_force [{:g}, {:g}] of the "
-                           "vehicle, and reach {:.4g}: {}",
-                           force.lo, force.hi, largest, words),
-               column, factor);
+               fmt::format("the forces of the sides go beyond {}, and reach {:.4g}: {}",
+                           limits_text(tables.vehicle.wheel_force), span.largest, words_of(units)),
+               remedy_of(units, force_mendings(units, column), table.options.columns));
   }
+}
+
+void check_wheel_force(const Table& table, const std::vector<TurningRow>& rows,
+                       const Tables& tables) {
+  const auto [first, span] = beyond(rows, steered_force, tables.vehicle.wheel_force.hi);
+  if (first == nullptr) return;
+  const ForceUnits units = force_units(folder_forces(tables).beside(span), tables.vehicle);
+  table.tell(
+      first->line,
+      fmt::format("wheel_force is {:.4g}, beyond {}, and reaches {:.4g}: {}", first->wheel_force,
+                  limits_text(tables.vehicle.wheel_force), span.largest, words_of(units)),
+      remedy_of(units, force_mendings(units, "wheel_force"), table.options.columns));
+}
+
+/// tau_speed = 4 F' with the wheels straight                                        [paper (41)]
+void check_thrust(const Table& table, const TrialSet<SurgeRow>& surge, const Tables& tables) {
+  const Vehicle& vehicle = tables.vehicle;
+  const int wheels = vehicle.driven_wheels();
+  const double limit = wheels * vehicle.wheel_force.hi;
+  const auto [first, span] = beyond(surge.rows, thrust, limit);
+  if (first == nullptr) return;
+  const FolderForces folder = folder_forces(tables);
+  const bool by_wheel = surge.force_column == "wheel_force";
+  ThrustUnits found;
+  if (by_wheel) {
+    const ForceSpan of_one{span.least / wheels, span.largest / wheels};
+    found.units = force_units(folder.beside(of_one), vehicle);
+    found.mendings = force_mendings(found.units, "wheel_force");
+  } else {
+    found = thrust_units(span, folder.wheels, vehicle);
+  }
+  const std::string of_wheel =
+      by_wheel ? fmt::format("{} x wheel_force {:.4g} = ", wheels, first->tau_speed / wheels) : "";
+  table.tell(first->line,
+             fmt::format("tau_speed is {}{:.4g}, beyond {} F'max = {:g} ({}), and reaches {:.4g}: "
+                         "{}",
+                         of_wheel, first->tau_speed, wheels, limit,
+                         limits_text(vehicle.wheel_force), span.largest, words_of(found.units)),
+             remedy_of(found.units, found.mendings, table.options.columns));
+}
+
+/// Angles in radians are small beside the stop in degrees. False where they are.
+bool check_steering(const Table& table, const std::vector<TurningRow>& rows,
+                    const Vehicle& vehicle) {
+  constexpr double kSmall = 0.02;  // of the stop: what a degree is in radians
+  if (rows.empty()) return true;
+  const double steepest_deg =
+      degrees(std::ranges::max_element(rows, {}, &TurningRow::steering_rad)->steering_rad);
+  if (steepest_deg >= kSmall * vehicle.steering_max_deg) return true;
+  const Mending radians{"radians", "steering_deg", degrees(1.0)};
+  table.tell(
+      rows.front().line,
+      fmt::format("steering_deg is at most {:.4g} in all runs, below 2 % of the stop at {:g}: "
+                  "the angles look like radians",
+                  steepest_deg, vehicle.steering_max_deg),
+      mapped_by({&radians, 1}, table.options.columns));
+  return false;
 }
 
 }  // namespace
 
 void check_consistency(const TrialSet<SurgeRow>& surge, const std::filesystem::path& path,
-                       const Vehicle& vehicle, const TrialOptions& options,
+                       const Tables& tables, const TrialOptions& options,
                        std::vector<Finding>& findings, std::vector<Fault>& faults) {
   const Table table{path, surge.file, options, findings, faults};
-  tell_unit(table, wrong_unit(surge, vehicle));
-  // tau_speed = 4 F' with the wheels straight                                    [paper (41)]
-  const int wheels = vehicle.driven_wheels();
-  const double limit = wheels * vehicle.wheel_force.hi;
-  const auto [first, largest] = beyond(surge.rows, &SurgeRow::tau_speed, limit);
-  if (first == nullptr) return;
-  const auto [words, factor] = full_scale_of(largest / wheels, vehicle.wheel_force.hi);
-  table.tell(
-      first->line,
-      fmt::format("tau_speed is {:.4g}, beyond {} F'max = {:g} (wheel_force [{:g}, {:g}] of the "
-                  "vehicle), and reaches {:.4g}: {}",
-                  first->tau_speed, wheels, limit, vehicle.wheel_force.lo, vehicle.wheel_force.hi,
-                  largest, words),
-      surge.force_column, factor);
+  table.tell(wrong_unit(surge, tables.vehicle));
+  check_thrust(table, surge, tables);
 }
 
 void check_consistency(const TrialSet<TurningRow>& turning, const std::filesystem::path& path,
-                       const Vehicle& vehicle, const TrialOptions& options,
+                       const Tables& tables, const TrialOptions& options,
                        std::vector<Finding>& findings, std::vector<Fault>& faults) {
   const Table table{path, turning.file, options, findings, faults};
-  tell_unit(table, wrong_unit(turning));
   const bool is_by_sides = !turning.rows.empty() && turning.rows.front().sides;
-  if (!vehicle.has_steering() || is_by_sides) {
-    return check_sides(table, turning.rows, vehicle.wheel_force);
-  }
-  check_sides(table, turning.by_sides, vehicle.wheel_force);
-  const double limit = vehicle.wheel_force.hi;
-  if (const auto [first, largest] = beyond(turning.rows, &TurningRow::wheel_force, limit); first) {
-    const auto [words, factor] = full_scale_of(largest, limit);
-    table.tell(first->line,
-               fmt::format("wheel_force is {:.4g}, beyond wheel_force [{:g}, {:g}] of the vehicle, "
-                           "and reaches {:.4g}: {}",
-                           first->wheel_force, vehicle.wheel_force.lo, limit, largest, words),
-               turning.force_column, factor);
-  }
-  constexpr double kSmall = 0.02;  // of the stop: what a degree is in radians
-  const double steepest_deg = degrees(
-      beyond(turning.rows, &TurningRow::steering_rad, radians(vehicle.steering_max_deg)).largest);
-  if (turning.rows.empty() || steepest_deg >= kSmall * vehicle.steering_max_deg) return;
-  table.tell(
-      turning.rows.front().line,
-      fmt::format("steering_deg is at most {:.4g} in all runs, below 2 % of the stop at {:g}: "
-                  "the angles look like radians",
-                  steepest_deg, vehicle.steering_max_deg),
-      "steering_deg", degrees(1.0));
+  const bool is_steered = tables.vehicle.has_steering() && !is_by_sides;
+  const auto wrong = wrong_unit(turning);
+  table.tell(wrong);
+  const bool angles_right = !is_steered || check_steering(table, turning.rows, tables.vehicle);
+  if (!wrong && angles_right) table.tell(wrong_turn(turning, tables.surge, tables.vehicle));
+  check_sides(table, is_by_sides || !is_steered ? turning.rows : turning.by_sides, tables);
+  if (is_steered) check_wheel_force(table, turning.rows, tables);
 }
 
-void check_consistency(const TrialSet<StopTimeRow>& coastdown,
-                       const std::optional<TrialSet<SurgeRow>>& surge,
-                       const std::filesystem::path& path, const Vehicle& vehicle,
-                       const TrialOptions& options, std::vector<Finding>& findings,
-                       std::vector<Fault>& faults) {
-  tell_unit({path, coastdown.file, options, findings, faults},
-            wrong_unit(coastdown, surge, vehicle));
+void check_consistency(const TrialSet<StopTimeRow>& coastdown, const std::filesystem::path& path,
+                       const Tables& tables, const TrialOptions& options,
+                       std::vector<Finding>& findings, std::vector<Fault>& faults) {
+  const Table table{path, coastdown.file, options, findings, faults};
+  table.tell(wrong_unit(coastdown, tables.surge, tables.vehicle));
 }
 
 }  // namespace awmr

@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 #include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "awmr/core/interval.h"
@@ -38,7 +40,7 @@ constexpr std::array<TableUnit, 2> kTableTurnUnits{
 
 constexpr Interval kLengthsPerSecond{0.02, 100.0};
 constexpr double kUsualLengthsPerSecond = 20.0;
-constexpr Interval kFastestTurn_radps{0.01, 25.0};
+constexpr double kSlowTable_radps = 0.01;  // its fastest turn does that at least
 constexpr double kLeastDeceleration_mps2 = 0.01;
 
 /// The unit whose factor all ratios have, within a tenth; none for ratios that scatter.
@@ -120,6 +122,11 @@ Smaller unit_below(double speed_mps, double top_mps) {
   return kUnits[2];
 }
 
+/// One unit is likely, and its factor mends it.
+WrongUnit wrong(int line, std::string message, std::string_view column, double factor) {
+  return {line, std::move(message), {{"", column, factor}}};
+}
+
 std::string lengths_text(double speed_mps, const Vehicle& vehicle) {
   return fmt::format("the fastest run does {:.3g} m/s, {:.3g} times the vehicle's length a second",
                      speed_mps, speed_mps / vehicle.length_m);
@@ -137,10 +144,10 @@ std::optional<WrongUnit> wrong_unit(const TrialSet<SurgeRow>& surge, const Vehic
     // 1000 is either's: a speed that a vehicle of this length has is right.
     const bool is_time = unit->times == 1000.0 && lengths <= kUsualLengthsPerSecond;
     if (is_time) unit = &kTableSpeedUnits[4];
-    return WrongUnit{first.line, unit->column,
-                     fmt::format("speed_mps is {:.3g} times distance_m over elapsed_s: {}",
-                                 median(ratios), unit->words),
-                     unit->factor};
+    return wrong(first.line,
+                 fmt::format("speed_mps is {:.3g} times distance_m over elapsed_s: {}",
+                             median(ratios), unit->words),
+                 unit->column, unit->factor);
   }
   if (kLengthsPerSecond.contains(lengths) || !tells_lengths(vehicle)) return std::nullopt;
   const bool is_timed = !ratios.empty();
@@ -151,11 +158,11 @@ std::optional<WrongUnit> wrong_unit(const TrialSet<SurgeRow>& surge, const Vehic
                                                     {1e-3, "the distance looks like mm"})
                                      : smaller_unit(lengths, {1e-2, "the speed looks like cm/s"},
                                                     {1e-3, "the speed looks like mm/s"});
-    return WrongUnit{first.line, is_timed ? "distance_m" : "speed_mps",
-                     fmt::format("{}: {}", told, words), factor};
+    return wrong(first.line, fmt::format("{}: {}", told, words),
+                 is_timed ? "distance_m" : "speed_mps", factor);
   }
   if (!is_timed) return std::nullopt;
-  return WrongUnit{first.line, "elapsed_s", told + ": the time looks like milliseconds", 1e-3};
+  return wrong(first.line, told + ": the time looks like milliseconds", "elapsed_s", 1e-3);
 }
 
 std::optional<WrongUnit> wrong_unit(const TrialSet<TurningRow>& turning) {
@@ -163,19 +170,15 @@ std::optional<WrongUnit> wrong_unit(const TrialSet<TurningRow>& turning) {
   const TurningRow& first = turning.rows.front();
   const std::vector<double> ratios = printed_over_timed(turning.rows);
   if (const TableUnit* unit = unit_of(ratios, kTableTurnUnits)) {
-    return WrongUnit{first.line, unit->column,
-                     fmt::format("yaw_rate_radps is {:.3g} times 2 pi turns over elapsed_s: {}",
-                                 median(ratios), unit->words),
-                     unit->factor};
+    return wrong(first.line,
+                 fmt::format("yaw_rate_radps is {:.3g} times 2 pi turns over elapsed_s: {}",
+                             median(ratios), unit->words),
+                 unit->column, unit->factor);
   }
   const double rate_radps = fastest(turning.rows, &TurningRow::yaw_rate_radps);
   const std::string told = fmt::format("the fastest turn does {:.3g} rad/s", rate_radps);
-  if (rate_radps > kFastestTurn_radps.hi && ratios.empty()) {
-    return WrongUnit{first.line, "yaw_rate_radps",
-                     told + ": the yaw rate looks like degrees per second", radians(1.0)};
-  }
-  if (rate_radps >= kFastestTurn_radps.lo || ratios.empty()) return std::nullopt;
-  return WrongUnit{first.line, "elapsed_s", told + ": the time looks like milliseconds", 1e-3};
+  if (rate_radps >= kSlowTable_radps || ratios.empty()) return std::nullopt;
+  return wrong(first.line, told + ": the time looks like milliseconds", "elapsed_s", 1e-3);
 }
 
 std::optional<WrongUnit> wrong_unit(const TrialSet<StopTimeRow>& coastdown,
@@ -188,28 +191,27 @@ std::optional<WrongUnit> wrong_unit(const TrialSet<StopTimeRow>& coastdown,
   if (lengths > kLengthsPerSecond.hi && tells_lengths(vehicle)) {
     const auto [factor, words] = smaller_unit(lengths, {1e-2, "the speed looks like cm/s"},
                                               {1e-3, "the speed looks like mm/s"});
-    return WrongUnit{first.line, "initial_speed_mps",
-                     fmt::format("{}: {}", lengths_text(speed_mps, vehicle), words), factor};
+    return wrong(first.line, fmt::format("{}: {}", lengths_text(speed_mps, vehicle), words),
+                 "initial_speed_mps", factor);
   }
   const auto top_mps = top_speed_mps(surge, vehicle);
   if (top_mps && speed_mps > *top_mps) {
     const auto [factor, words] = unit_below(speed_mps, *top_mps);
-    return WrongUnit{first.line, "initial_speed_mps",
-                     fmt::format("a coast-down begins at {:.3g} m/s, where the surge runs let the "
-                                 "vehicle do {:.3g} m/s at the most: {}",
-                                 speed_mps, *top_mps, words),
-                     factor};
+    return wrong(first.line,
+                 fmt::format("a coast-down begins at {:.3g} m/s, where the surge runs let the "
+                             "vehicle do {:.3g} m/s at the most: {}",
+                             speed_mps, *top_mps, words),
+                 "initial_speed_mps", factor);
   }
   double hardest_mps2 = 0.0;
   for (const StopTimeRow& row : coastdown.rows) {
     hardest_mps2 = std::max(hardest_mps2, row.initial_speed_mps / row.stop_time_s);
   }
   if (hardest_mps2 >= kLeastDeceleration_mps2) return std::nullopt;
-  return WrongUnit{first.line, "stop_time_s",
-                   fmt::format("the hardest stop loses {:.3g} m/s^2: the time looks like "
-                               "milliseconds",
-                               hardest_mps2),
-                   1e-3};
+  return wrong(first.line,
+               fmt::format("the hardest stop loses {:.3g} m/s^2: the time looks like milliseconds",
+                           hardest_mps2),
+               "stop_time_s", 1e-3);
 }
 
 }  // namespace awmr

@@ -26,19 +26,21 @@ const CsvColumn kSurgeColumns[] = {{"tau_speed", false},
                                    {"distance_m", false},
                                    {"elapsed_s", false}};
 
+// A run leaves empty what its kind has not, or what was not measured in it: turning.cpp says what each needs.
 const CsvColumn kTurningColumns[] = {{"steering_deg", true},
-                                     {"wheel_force", false, EmptyCells::kAbsent},
-                                     {"force_left", false, EmptyCells::kAbsent},
-                                     {"force_right", false, EmptyCells::kAbsent},
-                                     {"yaw_rate_radps", false, EmptyCells::kAbsent},
-                                     {"turns", false, EmptyCells::kAbsent},
-                                     {"elapsed_s", false, EmptyCells::kAbsent},
-                                     {"tau_turn", false, EmptyCells::kAbsent}};
+                                     {"wheel_force", false, EmptyCells::kOptional},
+                                     {"force_left", false, EmptyCells::kOptional},
+                                     {"force_right", false, EmptyCells::kOptional},
+                                     {"yaw_rate_radps", false, EmptyCells::kOptional},
+                                     {"turns", false, EmptyCells::kOptional},
+                                     {"elapsed_s", false, EmptyCells::kOptional},
+                                     {"tau_turn", false, EmptyCells::kOptional}};
 
 /// Of a vehicle without steering.
-const CsvColumn kSidesTurningColumns[] = {{"force_left", true},      {"force_right", true},
-                                          {"yaw_rate_radps", false}, {"turns", false},
-                                          {"elapsed_s", false},      {"tau_turn", false}};
+const CsvColumn kSidesTurningColumns[] = {
+    {"force_left", true, EmptyCells::kOptional},      {"force_right", true, EmptyCells::kOptional},
+    {"yaw_rate_radps", false, EmptyCells::kOptional}, {"turns", false, EmptyCells::kOptional},
+    {"elapsed_s", false, EmptyCells::kOptional},      {"tau_turn", false, EmptyCells::kOptional}};
 
 const CsvColumn kCoastdownColumns[] = {{"initial_speed_mps", false},
                                        {"stop_time_s", false},

@@ -111,17 +111,23 @@ void note_format(const TrialReader& reader, std::vector<Finding>& findings) {
   }
 }
 
+std::string lines_of(const TrialReader& reader, std::span<const std::size_t> rows) {
+  constexpr std::size_t kMostNamed = 12;
+  std::string lines = rows.size() == 1 ? "line " : "lines ";
+  for (std::size_t i = 0; i < rows.size() && i < kMostNamed; ++i) {
+    lines += fmt::format("{}{}", i == 0 ? "" : ", ", reader.table().line(rows[i]));
+  }
+  if (rows.size() > kMostNamed) lines += fmt::format(" and {} more", rows.size() - kMostNamed);
+  return lines;
+}
+
 void note_rows_set_aside(const TrialReader& reader, std::span<const std::size_t> rows,
                          std::string_view why, std::vector<Finding>& findings) {
   if (rows.empty()) return;
-  std::string lines;
-  for (const std::size_t row : rows) {
-    lines += fmt::format("{}{}", lines.empty() ? "" : ", ", reader.table().line(row));
-  }
   findings.push_back(
       reader.finding(rows.front(), Severity::kNote, "rows-set-aside",
-                     fmt::format("{} of {} rows set aside (line{} {}): {}", rows.size(),
-                                 reader.table().rows(), rows.size() == 1 ? "" : "s", lines, why)));
+                     fmt::format("{} of {} rows set aside ({}): {}", rows.size(),
+                                 reader.table().rows(), lines_of(reader, rows), why)));
 }
 
 }  // namespace awmr

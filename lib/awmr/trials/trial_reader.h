@@ -64,6 +64,9 @@ std::optional<RateInRow> rate_of(TrialReader& reader, std::size_t row, const Rat
 /// How the file was taken, where that was found out: the table's notes as findings.
 void note_format(const TrialReader& reader, std::vector<Finding>& findings);
 
+/// "line 4", "lines 4, 7, 9": of the table's rows, not empty; beyond twelve "... and 3 more".
+std::string lines_of(const TrialReader& reader, std::span<const std::size_t> rows);
+
 /// The note that says how many rows were set aside, and which.
 void note_rows_set_aside(const TrialReader& reader, std::span<const std::size_t> rows,
                          std::string_view why, std::vector<Finding>& findings);

@@ -69,6 +69,8 @@ struct TrialSet {
   int set_aside = 0;                     ///< how many rows the file had beside `rows`
   std::vector<std::size_t> mapped = {};  ///< indices of the TrialOptions' mappings that were used
   std::string force_column = {};         ///< that gave the force of a surge or turning run
+  std::string rate_column =
+      {};  ///< that gave the rate of a turning run: "yaw_rate_radps" or "turns"
   /// Of a vehicle that also steers, its turns by the sides alone: they scrub the tyres, so that g3 of
   /// steered turns is not theirs. Not in `rows`.
   std::vector<Row> by_sides = {};

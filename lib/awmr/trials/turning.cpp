@@ -9,6 +9,7 @@
 #include "awmr/model/dynamics.h"
 #include "awmr/trials/trial_columns.h"
 #include "read_table.h"
+#include "repeated_rows.h"
 #include "trial_reader.h"
 
 namespace awmr {
@@ -152,21 +153,17 @@ void check_mean(TrialReader& reader, std::size_t row, double left, double right)
                   *mean, left, right, computed));
 }
 
-/// A faulty cell for each that a steered run leaves empty: runs by the sides alone may share its table,
-/// and have other columns.
-bool is_filled(TrialReader& reader, std::size_t row) {
-  bool is_filled = true;
-  for (const char* column : {"wheel_force", "yaw_rate_radps", "turns", "elapsed_s", "tau_turn"}) {
-    if (!reader.has(column) || reader.cell(row, column)) continue;
-    reader.fault(row, column,
-                 fmt::format("column {}: the cell is empty; expected a number", column));
-    is_filled = false;
-  }
-  if (is_filled && !reader.has("wheel_force")) {
+/// F' of a steered run that gives no side's; a faulty cell where it is empty or negative.
+std::optional<double> wheel_force_of(TrialReader& reader, std::size_t row) {
+  if (!reader.has("wheel_force")) {
     reader.fault(row, "force_left", "no force: give both sides', or a column wheel_force");
-    return false;
+    return std::nullopt;
   }
-  return is_filled;
+  const auto force = reader.non_negative(row, "wheel_force");
+  if (!force) {
+    reader.fault(row, "wheel_force", "column wheel_force: the cell is empty; expected a number");
+  }
+  return force;
 }
 
 /// A faulty row where nothing says how fast it turned.
@@ -189,12 +186,14 @@ std::optional<Turn> by_steering_or_sides(TrialReader& reader, std::size_t row,
                  "is empty beside the other side's: give both or neither");
     return std::nullopt;
   }
+  const bool is_timed = has_rate(reader, row);
   if (!left) {
-    if (!is_filled(reader, row)) return std::nullopt;
-    return by_steering(reader, row, vehicle, *reader.non_negative(row, "wheel_force"));
+    const auto force = wheel_force_of(reader, row);
+    if (!force || !is_timed) return std::nullopt;
+    return by_steering(reader, row, vehicle, *force);
   }
   check_mean(reader, row, *left, *right);
-  if (!has_rate(reader, row)) return std::nullopt;
+  if (!is_timed) return std::nullopt;
   if (*left == *right) {
     if (*left < 0.0) {
       reader.fault(row, "force_left", fmt::format("must not be negative, found {}", *left));
@@ -212,12 +211,35 @@ std::optional<Turn> by_steering_or_sides(TrialReader& reader, std::size_t row,
   return std::nullopt;
 }
 
+/// A run of a vehicle without steering. Nothing on a fault; check_sides_given() names rows without forces.
+std::optional<Turn> by_sides_alone(TrialReader& reader, std::size_t row, const Vehicle& vehicle) {
+  if (!reader.cell(row, "force_left") || !reader.cell(row, "force_right")) return std::nullopt;
+  if (!has_rate(reader, row)) return std::nullopt;
+  return by_sides(reader, row, vehicle);
+}
+
+/// One fault for all rows of a vehicle without steering that lack the force of a side.
+void check_sides_given(TrialReader& reader) {
+  std::vector<std::size_t> without;
+  for (std::size_t row = 0; row < reader.table().rows(); ++row) {
+    if (reader.cell(row, "force_left") && reader.cell(row, "force_right")) continue;
+    without.push_back(row);
+  }
+  if (without.empty()) return;
+  reader.fault(without.front(),
+               reader.cell(without.front(), "force_left") ? "force_right" : "force_left",
+               fmt::format("{} of {} rows lack force_left or force_right ({}): a vehicle without "
+                           "steering turns by its sides' forces alone; give both, take the rows "
+                           "out, or correct drive in vehicle.json",
+                           without.size(), reader.table().rows(), lines_of(reader, without)));
+}
+
 /// The row with its moment and its yaw rate, both magnitudes: g3 is odd, so a turn to the right is
 /// taken as its mirror image to the left.
 std::optional<TurningRow> read_row(TrialReader& reader, std::size_t row, const Vehicle& vehicle,
                                    Preference preference, std::vector<Finding>& findings) {
   const auto turn = vehicle.has_steering() ? by_steering_or_sides(reader, row, vehicle)
-                                           : by_sides(reader, row, vehicle);
+                                           : by_sides_alone(reader, row, vehicle);
   if (!turn) return std::nullopt;
   const auto printed = printed_yaw_rate(reader, row, *turn);
   const auto rate = rate_of(reader, row, kTurningRate, printed, preference, findings);
@@ -259,12 +281,14 @@ Result<TrialSet<TurningRow>> read_turning(const std::filesystem::path& path, con
 
   TrialSet<TurningRow> set{finding_file(reader.table()), {}, 0, reader.table().mapped()};
   set.force_column = "wheel_force";
+  const bool is_timed = reader.has("turns") && reader.has("elapsed_s");
+  const bool takes_timed = is_timed && options.preference == Preference::kTimed;
+  set.rate_column = reader.has("yaw_rate_radps") && !takes_timed ? "yaw_rate_radps" : "turns";
   note_format(reader, findings);
-  // Empty cells are those of runs of the other kind: a table of runs has no time to join them by.
-  std::erase_if(findings,
-                [&](const Finding& f) { return f.code == "joined-by-time" && f.file == set.file; });
+  if (!vehicle.has_steering()) check_sides_given(reader);
   std::vector<std::size_t> set_aside;
   std::vector<std::size_t> standing;
+  std::vector<std::size_t> kept;
   for (std::size_t i = 0; i < reader.table().rows(); ++i) {
     const auto row = read_row(reader, i, vehicle, options.preference, findings);
     if (!row) continue;
@@ -276,6 +300,7 @@ Result<TrialSet<TurningRow>> read_turning(const std::filesystem::path& path, con
       set.standing.push_back(*row);
       standing.push_back(i);
     } else {
+      kept.push_back(i);
       (beside_steering ? set.by_sides : set.rows).push_back(*row);
     }
   }
@@ -291,6 +316,11 @@ Result<TrialSet<TurningRow>> read_turning(const std::filesystem::path& path, con
   note_rows_set_aside(reader, set_aside,
                       "without yaw moment or yaw rate, a run shows nothing of tau_turn = a3 r^b3",
                       findings);
+  find_repeated_rows(reader, kept,
+                     {.settings = {"steering_deg", "wheel_force", "force_left", "force_right",
+                                   "turns", "tau_turn"},
+                      .printed = "yaw_rate_radps"},
+                     findings);
   return set;
 }
 

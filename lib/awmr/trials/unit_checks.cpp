@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "awmr/core/units.h"
 #include "awmr/trials/log_evidence.h"
 #include "awmr/trials/robust_ratio.h"
-#include "full_scale.h"
+#include "force_units.h"
 
 namespace awmr {
 namespace {
@@ -56,32 +57,49 @@ std::optional<Contradiction> judge_time(const Evidence& evidence) {
 
 std::optional<Contradiction> judge_force(const Evidence& evidence, std::string_view column,
                                          const std::vector<double>& values,
-                                         double largest_of_both) {
+                                         const ForceSpan& of_both) {
   const Interval& limit = evidence.vehicle.wheel_force;
-  constexpr double kRounding = 1.01;
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
-  const double above = limit.hi * kRounding;
-  const double below = limit.lo < 0.0 ? limit.lo * kRounding : -0.01 * limit.hi;
+  const double above = limit.hi * kForceRounding;
+  const double below = limit.lo < 0.0 ? limit.lo * kForceRounding : -0.01 * limit.hi;
   if (*most <= above && *least >= below) return std::nullopt;
   const double worst = *most > above ? *most : *least;
-  const auto [words, factor] = full_scale_of(largest_of_both, limit.hi);
-  return Contradiction{
-      std::string(column),
-      fmt::format("reaches {:.4g}, beyond wheel_force [{:g}, {:g}] of the vehicle: "
-                  "{}",
-                  worst, limit.lo, limit.hi, words),
-      scaled_mapping(evidence, column, factor)};
+  const std::string beyond = fmt::format(
+      "reaches {:.4g}, beyond wheel_force [{:g}, {:g}] of the "
+      "vehicle: ",
+      worst, limit.lo, limit.hi);
+  if (of_both.largest <= std::max(limit.hi, -limit.lo) * kForceRounding) {
+    // Its size is one that the vehicle has the other way: no unit is wrong.
+    return Contradiction{
+        std::string(column), beyond + "the other way the vehicle has such a force", "",
+        fmt::format("widen wheel_force in vehicle.json to {:.4g}, or correct the signs", worst)};
+  }
+  const ForceUnits units = force_units(of_both, evidence.vehicle);
+  const std::vector<Mending> mendings = force_mendings(units, column);
+  const std::string likeliest =
+      mendings.empty() ? ""
+                       : scaled_mapping(evidence, column, mendings[0].factor, mendings[0].offset);
+  return Contradiction{std::string(column), beyond + words_of(units), likeliest,
+                       remedy_of(units, mendings, evidence.mappings)};
+}
+
+/// Of both sides; 0 is no reading of a servo pulse but the lack of one.
+ForceSpan force_span(const DrivingLog& log) {
+  ForceSpan span{std::numeric_limits<double>::infinity(), 0.0};
+  for (const auto* values : {&log.force_left, &log.force_right}) {
+    for (const double value : *values) {
+      if (value != 0.0) span = joined(span, {value, std::abs(value)});
+    }
+  }
+  return span;
 }
 
 std::vector<Contradiction> judge_forces(const Evidence& evidence) {
-  double largest = 0.0;
-  for (const auto* values : {&evidence.log.force_left, &evidence.log.force_right}) {
-    for (const double value : *values) largest = std::max(largest, std::abs(value));
-  }
+  const ForceSpan span = force_span(evidence.log);
   std::vector<Contradiction> found;
   for (const auto& [column, values] : {std::pair{"force_left", &evidence.log.force_left},
                                        std::pair{"force_right", &evidence.log.force_right}}) {
-    if (auto one = judge_force(evidence, column, *values, largest)) found.push_back(*one);
+    if (auto one = judge_force(evidence, column, *values, span)) found.push_back(*one);
   }
   return found;
 }

@@ -26,7 +26,7 @@ constexpr const char* kFigures[] = {"settling_time_s", "overshoot_deg", "heading
 
 /// One value of every input.
 struct Sample {
-  Model model;  ///< its parameters alone count
+  Model model;                                                ///< its parameters alone count
   double noise_level = 1.0, lateness = 1.0, motor_lag = 1.0;  ///< over what is assumed
   std::size_t noise = 0;                                      ///< which noise
 };
@@ -69,13 +69,12 @@ std::vector<Input> inputs_of(const Model& model) {
                         for (const ParameterId id : set) to.model[id].value = from.model[id].value;
                       }});
   }
-  inputs.push_back({"level of the sensors' noise", [](const Sample& from, Sample& to) {
-                      to.noise_level = from.noise_level;
-                    }});
+  inputs.push_back({"level of the sensors' noise",
+                    [](const Sample& from, Sample& to) { to.noise_level = from.noise_level; }});
   inputs.push_back({"latency of the sensors",
                     [](const Sample& from, Sample& to) { to.lateness = from.lateness; }});
-  inputs.push_back({"lag of the motors",
-                    [](const Sample& from, Sample& to) { to.motor_lag = from.motor_lag; }});
+  inputs.push_back(
+      {"lag of the motors", [](const Sample& from, Sample& to) { to.motor_lag = from.motor_lag; }});
   inputs.push_back(
       {"the noise itself", [](const Sample& from, Sample& to) { to.noise = from.noise; }});
   return inputs;
@@ -118,7 +117,8 @@ LoopConditions conditions_at(const Sample& sample, LoopConditions c) {
 
 /// The figures of one sample, by mode, then figure: means over the scenarios.
 std::vector<double> figures_at(const Sample& sample, const ObjectiveSetting& setting,
-                               const LoopConditions& assumed, const Controller<double>& controller) {
+                               const LoopConditions& assumed,
+                               const Controller<double>& controller) {
   const std::span<const YawMode> modes = yaw_modes(setting.vehicle);
   // A drawn model has every parameter that the model has.
   const Plant<double> plant = sample.model.plant_as_known();
@@ -136,9 +136,8 @@ std::vector<double> figures_at(const Sample& sample, const ObjectiveSetting& set
                             .mode = modes[mode],
                             .metrics = metrics[mode] ? *metrics[mode] : Metrics{}};
       for (std::size_t f = 0; f < std::size(kFigures); ++f) {
-        figures[mode * std::size(kFigures) + f] +=
-            figure_of_run(kFigures[f], score, scenario) /
-            static_cast<double>(setting.scenarios.size());
+        figures[mode * std::size(kFigures) + f] += figure_of_run(kFigures[f], score, scenario) /
+                                                   static_cast<double>(setting.scenarios.size());
       }
     }
   }
@@ -155,7 +154,8 @@ Result<GlobalSensitivity> global_sensitivity(const Model& model, const Objective
                                              const LoopConditions& assumed,
                                              const Gains<double>& gains, int samples) {
   const std::vector<Input> inputs = inputs_of(model);
-  AWMR_ASSIGN_OR_RETURN(const std::vector<Sample> a, drawn_samples(model, setting.seed, 0, samples));
+  AWMR_ASSIGN_OR_RETURN(const std::vector<Sample> a,
+                        drawn_samples(model, setting.seed, 0, samples));
   AWMR_ASSIGN_OR_RETURN(const std::vector<Sample> b,
                         drawn_samples(model, setting.seed, at(samples), samples));
   const auto controller = make_controller(setting.plants.front(), setting.vehicle, gains);

@@ -56,8 +56,8 @@ std::vector<SobolIndex> sobol_indices(const std::vector<double>& of_a,
   Random random(seed, 0);
   for (int resample = 0; resample < kResamples; ++resample) {
     for (std::size_t& place : places) {
-      place = std::min(of_a.size() - 1,
-                       static_cast<std::size_t>(random.uniform() * static_cast<double>(of_a.size())));
+      place = std::min(of_a.size() - 1, static_cast<std::size_t>(random.uniform() *
+                                                                 static_cast<double>(of_a.size())));
     }
     for (std::size_t i = 0; i < of_mixed.size(); ++i) {
       const auto [first, total] = indices_over(places, of_a, of_b, of_mixed[i]);

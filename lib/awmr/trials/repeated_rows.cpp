@@ -1,0 +1,146 @@
+#include "repeated_rows.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "awmr/core/units.h"
+
+namespace awmr {
+namespace {
+
+/// P(k or more) that is told.
+constexpr double kChance = 0.01;
+/// So many differences within settings show how much runs scatter.
+constexpr int kFewestDifferences = 3;
+/// A reading with more digits was computed: they do not show how finely it was read.
+constexpr double kComputed = 1e-6;
+
+/// p of the header; a = q/(2 s).
+double chance_of_same(double q, double s) {
+  const double a = q / (2.0 * s);
+  // The difference of the two terms cancels for small a: a/sqrt(pi) to within a^3/10.
+  if (a < 1e-3) return a / std::sqrt(pi<double>());
+  return std::erf(a) - (1.0 - std::exp(-a * a)) / (a * std::sqrt(pi<double>()));
+}
+
+/// P(k or more) of a Poisson number of mean L, k > L; at most that is told of so many.
+double chance_of_so_many(double expected, int k) {
+  if (k <= expected) return 1.0;
+  // The first term L^k e^-L / k!, and each next one L/(k+1), L/(k+2), ... of the one before.
+  double term = std::exp(k * std::log(expected) - expected - std::lgamma(k + 1.0));
+  double sum = 0.0;
+  for (int j = k; term > 1e-6 * sum; ++j) {
+    sum += term;
+    term *= expected / (j + 1.0);
+  }
+  return sum;
+}
+
+/// The runs of like settings, by their readings in order.
+struct LikeRuns {
+  std::vector<std::size_t> rows;
+  std::vector<double> readings;
+};
+
+/// A reading that all rows have.
+std::optional<std::string_view> reading_of(const TrialReader& reader,
+                                           const std::vector<std::size_t>& rows,
+                                           const RepeatRule& rule) {
+  for (const std::string_view column : {rule.timed, rule.printed}) {
+    const bool all = std::ranges::all_of(
+        rows, [&](std::size_t row) { return reader.cell(row, column).value_or(0.0) != 0.0; });
+    if (all) return column;
+  }
+  return std::nullopt;
+}
+
+std::vector<LikeRuns> like_runs(const TrialReader& reader, const std::vector<std::size_t>& rows,
+                                const RepeatRule& rule, std::string_view reading) {
+  std::map<std::vector<std::optional<double>>, LikeRuns> groups;
+  for (const std::size_t row : rows) {
+    std::vector<std::optional<double>> settings;
+    for (const std::string_view column : rule.settings) {
+      settings.push_back(reader.cell(row, column));
+    }
+    LikeRuns& group = groups[settings];
+    group.rows.push_back(row);
+    group.readings.push_back(std::abs(*reader.cell(row, reading)));
+  }
+  std::vector<LikeRuns> found;
+  found.reserve(groups.size());
+  for (auto& [settings, group] : groups) found.push_back(std::move(group));
+  return found;
+}
+
+/// The standard deviation over the reading of runs of like settings, from readings that differ; none of
+/// too few.
+std::optional<double> scatter_seen(const std::vector<LikeRuns>& groups) {
+  double squares = 0.0;
+  int differences = 0;
+  for (const LikeRuns& group : groups) {
+    const std::set<double> distinct(group.readings.begin(), group.readings.end());
+    if (distinct.size() < 2) continue;
+    double mean = 0.0;
+    for (const double value : distinct) mean += value / static_cast<double>(distinct.size());
+    for (const double value : distinct) squares += (value / mean - 1.0) * (value / mean - 1.0);
+    differences += static_cast<int>(distinct.size()) - 1;
+  }
+  if (differences < kFewestDifferences) return std::nullopt;
+  return std::sqrt(squares / differences);
+}
+
+/// q: how finely the reading was taken. Of a computed one, the least difference between any two.
+double resolution_of(const TrialReader& reader, std::string_view reading,
+                     const std::vector<LikeRuns>& groups) {
+  std::set<double> values;
+  for (const LikeRuns& group : groups) values.insert(group.readings.begin(), group.readings.end());
+  const double last_place = reader.last_place(reading);
+  if (last_place > kComputed * *values.rbegin()) return last_place;
+  double least = *values.rbegin();
+  for (auto value = values.begin(); std::next(value) != values.end(); ++value) {
+    least = std::min(least, *std::next(value) - *value);
+  }
+  return least;
+}
+
+}  // namespace
+
+void find_repeated_rows(const TrialReader& reader, const std::vector<std::size_t>& rows,
+                        const RepeatRule& rule, std::vector<Finding>& findings) {
+  if (rows.size() < 2) return;
+  const auto reading = reading_of(reader, rows, rule);
+  if (!reading) return;
+  const std::vector<LikeRuns> groups = like_runs(reader, rows, rule, *reading);
+  const double resolution = resolution_of(reader, *reading, groups);
+  const auto seen = scatter_seen(groups);
+  std::vector<std::size_t> repeated;
+  double expected = 0.0;
+  for (const LikeRuns& group : groups) {
+    std::set<std::pair<double, std::optional<double>>> before;
+    for (std::size_t i = 0; i < group.rows.size(); ++i) {
+      const double value = group.readings[i];
+      const double scatter = value * (seen ? std::min(rule.scatter, *seen) : rule.scatter);
+      expected +=
+          std::min(1.0, static_cast<double>(before.size()) * chance_of_same(resolution, scatter));
+      const bool is_new = before.insert({value, reader.cell(group.rows[i], rule.printed)}).second;
+      if (!is_new) repeated.push_back(group.rows[i]);
+    }
+  }
+  const int count = static_cast<int>(repeated.size());
+  if (count == 0 || chance_of_so_many(expected, count) > kChance) return;
+  std::ranges::sort(repeated);
+  findings.push_back(reader.finding(
+      repeated.front(), Severity::kWarning, "repeated-rows",
+      fmt::format("{} of {} rows repeat an earlier row to the last digit of {} ({}), where runs "
+                  "read to {:.2g} would by chance in {:.2g}: copies narrow every interval as if "
+                  "they had been driven; delete those that were not",
+                  repeated.size(), rows.size(), *reading, lines_of(reader, repeated), resolution,
+                  expected)));
+}
+
+}  // namespace awmr

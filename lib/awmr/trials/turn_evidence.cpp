@@ -1,0 +1,280 @@
+#include "turn_evidence.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "awmr/core/interval.h"
+#include "awmr/core/units.h"
+#include "awmr/model/plausibility.h"
+#include "force_units.h"
+
+namespace awmr {
+namespace {
+
+/// Times what wheels roll: 3 for a steered vehicle that drifts, or whose rear wheels steer as well; 4 by
+/// the sides, where u is interpolated twice.
+constexpr double kMostSteered = 3.0;
+constexpr double kMostBySides = 4.0;
+/// Below, nothing has turned: a wheelbase of five times l_f and the worst understeer leave several times more.
+constexpr double kLeastSteered = 0.01;
+constexpr double kMostAcceleration_mps2 = 60.0;
+constexpr double kFastestTurn_radps = 25.0;
+
+/// What a right unit leaves of the shares that are judged.
+constexpr Interval kPossibleShare{0.03, 2.5};
+constexpr double kPossibleAcceleration_mps2 = 15.0;
+
+/// A unit that makes a rate so many times too large.
+struct RateUnit {
+  double times;
+  std::string_view column;
+  double factor;
+  std::string_view words;
+};
+constexpr std::array<RateUnit, 4> kPrintedUnits{
+    {{57.29578, "yaw_rate_radps", 1.0 / 57.29578, "degrees per second"},
+     {9.549297, "yaw_rate_radps", 1.0 / 9.549297, "turns per minute"},
+     {57295.78, "yaw_rate_radps", 1.0 / 57295.78, "thousandths of a degree per second"},
+     {1.0 / 57.29578, "yaw_rate_radps", 57.29578,
+      "radians per second converted from degrees once "
+      "too often"}}};
+constexpr std::array<RateUnit, 4> kTimedUnits{
+    {{360.0, "turns", 1.0 / 360.0, "turns in degrees"},
+     {60.0, "elapsed_s", 60.0, "a time in minutes"},
+     {6.283185, "turns", 1.0 / 6.283185, "turns in radians"},
+     {1e-3, "elapsed_s", 1e-3, "a time in milliseconds"}}};
+
+/// What one row says: its share of what is possible, and what to tell of it.
+struct TurnShare {
+  const TurningRow* row;
+  double share;      ///< of what wheels roll, or of the acceleration that grip allows
+  std::string told;  ///< "that is more than ..."
+};
+
+/// u of the surge runs over tau_speed: a polygon through the origin and the runs, that never falls.
+class SpeedCurve {
+ public:
+  explicit SpeedCurve(const std::vector<SurgeRow>& rows) {
+    for (const SurgeRow& row : rows) points_.emplace_back(row.tau_speed, row.speed_mps);
+    std::ranges::sort(points_);
+    double most = 0.0;
+    for (auto& [tau, speed] : points_) most = speed = std::max(most, speed);
+  }
+  /// Odd. Beyond the runs u grows with the square of tau_speed, as resistance grows with the root of the
+  /// speed at least; beyond 1.5 times the hardest run nothing is said.
+  std::optional<double> at(double tau) const {
+    if (tau < 0.0) {
+      const auto forwards = at(-tau);
+      return forwards ? std::optional(-*forwards) : std::nullopt;
+    }
+    const auto [top_tau, top_speed] = points_.back();
+    if (tau > 1.5 * top_tau) return std::nullopt;
+    if (tau > top_tau) return top_speed * (tau / top_tau) * (tau / top_tau);
+    std::pair<double, double> below{0.0, 0.0};
+    for (const auto& above : points_) {
+      if (above.first < tau) {
+        below = above;
+        continue;
+      }
+      const double width = above.first - below.first;
+      if (width <= 0.0) return above.second;
+      return below.second + (above.second - below.second) * (tau - below.first) / width;
+    }
+    return top_speed;
+  }
+
+ private:
+  std::vector<std::pair<double, double>> points_;
+};
+
+double largest_force(const TurningRow& row) {
+  if (!row.sides) return row.wheel_force;
+  return std::max(std::abs(row.sides->left), std::abs(row.sides->right));
+}
+
+template <class Rows>
+double hardest(const Rows& rows) {
+  double most = 0.0;
+  for (const TurningRow& row : rows) most = std::max(most, largest_force(row));
+  return most;
+}
+
+/// What the surge runs say of speeds; none where their units, or those of the forces, cannot be trusted.
+std::optional<SpeedCurve> speed_curve(const TrialSet<TurningRow>& turning,
+                                      const std::optional<TrialSet<SurgeRow>>& surge,
+                                      const Vehicle& vehicle) {
+  if (!surge || surge->rows.empty() || wrong_unit(*surge, vehicle)) return std::nullopt;
+  const double limit = kForceRounding * vehicle.wheel_force.hi;
+  double thrust = 0.0;
+  for (const SurgeRow& row : surge->rows) thrust = std::max(thrust, row.tau_speed);
+  const bool surge_beyond = thrust > vehicle.driven_wheels() * limit;
+  const bool turns_beyond = std::max(hardest(turning.rows), hardest(turning.by_sides)) > limit;
+  // Both in the same wrong unit, as of PWM counts, are as good as F'.
+  const bool is_same =
+      surge_beyond == turns_beyond && (!surge_beyond || surge->force_column == "wheel_force");
+  return is_same ? std::optional<SpeedCurve>(surge->rows) : std::nullopt;
+}
+
+std::string turn_text(const TurningRow& row) {
+  if (!row.sides) {
+    return fmt::format("{:.3g} rad/s with {:.3g} deg of steering", row.yaw_rate_radps,
+                       degrees(row.steering_rad));
+  }
+  return fmt::format("{:.3g} rad/s with {:.3g} between the sides", row.yaw_rate_radps,
+                     row.sides->right - row.sides->left);
+}
+
+/// r over u tan(d_r)/l_f.
+std::optional<TurnShare> steered_share(const TurningRow& row, const SpeedCurve& speed,
+                                       const Vehicle& vehicle) {
+  const auto u = speed.at(vehicle.driven_wheels() * row.wheel_force);
+  if (!u || !(*u > 0.0) || row.steering_rad == 0.0) return std::nullopt;
+  const double most = *u * std::tan(row.steering_rad) / vehicle.front_axle_m;
+  return TurnShare{&row, row.yaw_rate_radps / most,
+                   fmt::format("where {:.3g} m/s by the surge runs make {:.3g} rad/s at the most "
+                               "(u tan(steering)/front_axle_m)",
+                               *u, most)};
+}
+
+/// r over (u(n F'R) - u(n F'L))/(2 d). Runs that scatter may lie about level: the slope is at least half of
+/// that to the origin.
+std::optional<TurnShare> side_share(const TurningRow& row, const SpeedCurve& speed,
+                                    const Vehicle& vehicle) {
+  const int n = vehicle.driven_wheels();
+  const auto left = speed.at(n * row.sides->left);
+  const auto right = speed.at(n * row.sides->right);
+  if (!left || !right) return std::nullopt;
+  const double apart = row.sides->right - row.sides->left;
+  const double chord = std::max(std::abs(*left), std::abs(*right)) * apart / largest_force(row);
+  const double difference = std::max(*right - *left, 0.5 * chord);
+  if (!(difference > 0.0)) return std::nullopt;
+  const double most = difference / (2.0 * vehicle.half_track_m);
+  return TurnShare{&row, row.yaw_rate_radps / most,
+                   fmt::format("where sides that roll {:.3g} m/s apart by the surge runs make "
+                               "{:.3g} rad/s at the most (over 2 half_track_m)",
+                               difference, most)};
+}
+
+/// r over that at which the smallest circle takes all the grip that there is.
+TurnShare grip_share(const TurningRow& row, const Vehicle& vehicle) {
+  const double radius_m = vehicle.front_axle_m / std::tan(row.steering_rad);
+  const double most = std::sqrt(kMostAcceleration_mps2 / radius_m);
+  return {&row, row.yaw_rate_radps / most,
+          fmt::format("which pulls outwards with {:.3g} m/s^2, where grip allows {:g} at the most "
+                      "(r^2 front_axle_m/tan(steering))",
+                      row.yaw_rate_radps * row.yaw_rate_radps * radius_m, kMostAcceleration_mps2)};
+}
+
+/// One way to judge all rows.
+struct TurnJudgement {
+  std::vector<TurnShare> shares;
+  double most;   ///< that a share may be
+  double least;  ///< that the largest share may be; 0: any
+  /// Of a right unit.
+  Interval possible;
+};
+
+std::vector<TurnJudgement> judgements(const TrialSet<TurningRow>& turning,
+                                      const std::optional<SpeedCurve>& speed,
+                                      const Vehicle& vehicle) {
+  TurnJudgement steered{{}, kMostSteered, kLeastSteered, kPossibleShare};
+  TurnJudgement by_sides{{}, kMostBySides, 0.0, kPossibleShare};
+  const Interval grip{0.003, std::sqrt(kPossibleAcceleration_mps2 / kMostAcceleration_mps2)};
+  TurnJudgement circle{{}, 1.0, 0.0, grip};
+  TurnJudgement any{{}, 1.0, 0.0, {0.0005, 0.5}};
+  for (const auto* rows : {&turning.rows, &turning.by_sides}) {
+    for (const TurningRow& row : *rows) {
+      auto& rolled = row.sides ? by_sides : steered;
+      const auto share = !speed      ? std::nullopt
+                         : row.sides ? side_share(row, *speed, vehicle)
+                                     : steered_share(row, *speed, vehicle);
+      if (share) rolled.shares.push_back(*share);
+      if (!row.sides && row.steering_rad > 0.0) {
+        circle.shares.push_back(grip_share(row, vehicle));
+      }
+      any.shares.push_back({&row, row.yaw_rate_radps / kFastestTurn_radps,
+                            fmt::format("more than {:g} rad/s", kFastestTurn_radps)});
+    }
+  }
+  // A vehicle whose own sizes cannot be says nothing of turns.
+  if (!implausible_values(vehicle).empty()) return {std::move(any)};
+  return {std::move(steered), std::move(by_sides), std::move(circle), std::move(any)};
+}
+
+/// The units that make of a share one that is possible.
+std::vector<Mending> turn_mendings(double share, const Interval& possible, bool is_printed) {
+  const bool is_fast = share > possible.hi;
+  std::vector<Mending> found;
+  for (const RateUnit& unit : is_printed ? std::span(kPrintedUnits) : std::span(kTimedUnits)) {
+    if ((unit.times > 1.0) != is_fast || !possible.contains(share / unit.times)) continue;
+    found.push_back({std::string(unit.words), unit.column, unit.factor});
+  }
+  return found;
+}
+
+WrongUnit wrong_column(const TurnShare& told_by, const TurnJudgement& judgement, bool is_printed,
+                       int line) {
+  std::vector<Mending> mendings = turn_mendings(told_by.share, judgement.possible, is_printed);
+  const std::string told = fmt::format("line {} turns at {}, {}", told_by.row->line,
+                                       turn_text(*told_by.row), told_by.told);
+  if (mendings.empty()) {
+    return {line, told, {}, "correct the yaw rates, or what they are held against"};
+  }
+  const std::string_view what = is_printed ? "the yaw rates look like" : "this looks like";
+  return {line, fmt::format("{}: {} {}", told, what, words_of(mendings)), mendings};
+}
+
+/// Rows that are apart from all others are wrong by themselves.
+WrongUnit wrong_rows(const std::vector<TurnShare>& shares, double most) {
+  std::vector<int> lines;
+  for (const TurnShare& one : shares) {
+    if (one.share > most) lines.push_back(one.row->line);
+  }
+  std::ranges::sort(lines);
+  const TurnShare& worst = shares.back();
+  return {lines.front(),
+          fmt::format("line {} turns at {}, {}; most rows do not", worst.row->line,
+                      turn_text(*worst.row), worst.told),
+          {},
+          fmt::format("correct line{} {}", lines.size() == 1 ? "" : "s", fmt::join(lines, ", "))};
+}
+
+/// The column that a judgement condemns, or the rows.
+std::optional<WrongUnit> wrong_by(TurnJudgement judgement, bool is_printed) {
+  constexpr double kApart = 10.0;
+  std::vector<TurnShare>& shares = judgement.shares;
+  if (shares.empty()) return std::nullopt;
+  int line = shares.front().row->line;
+  for (const TurnShare& one : shares) line = std::min(line, one.row->line);
+  std::ranges::stable_sort(shares, {}, &TurnShare::share);
+  const TurnShare& middle = shares[shares.size() / 2];
+  const TurnShare& largest = shares.back();
+  if (largest.share < judgement.least) return wrong_column(largest, judgement, is_printed, line);
+  if (largest.share <= judgement.most) return std::nullopt;
+  const bool is_apart = middle.share <= judgement.most && largest.share > kApart * middle.share;
+  if (is_apart) return wrong_rows(shares, judgement.most);
+  return wrong_column(largest, judgement, is_printed, line);
+}
+
+}  // namespace
+
+std::optional<WrongUnit> wrong_turn(const TrialSet<TurningRow>& turning,
+                                    const std::optional<TrialSet<SurgeRow>>& surge,
+                                    const Vehicle& vehicle) {
+  const bool is_printed = turning.rate_column == "yaw_rate_radps";
+  for (TurnJudgement& judgement :
+       judgements(turning, speed_curve(turning, surge, vehicle), vehicle)) {
+    if (auto wrong = wrong_by(std::move(judgement), is_printed)) return wrong;
+  }
+  return std::nullopt;
+}
+
+}  // namespace awmr
