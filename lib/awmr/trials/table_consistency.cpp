@@ -100,7 +100,8 @@ FolderForces folder_forces(const Tables& tables) {
     add(beyond(tables.surge->rows, thrust, wheels * tables.vehicle.wheel_force.hi), wheels);
   }
   if (tables.turning) {
-    for (const auto* rows : {&tables.turning->rows, &tables.turning->by_sides}) {
+    for (const auto* rows :
+         {&tables.turning->rows, &tables.turning->by_sides, &tables.turning->standing}) {
       add(beyond(*rows, side_forces, side_limit(tables.vehicle)), 1);
       add(beyond(*rows, steered_force, tables.vehicle.wheel_force.hi), 1);
     }
@@ -202,7 +203,9 @@ void check_consistency(const TrialSet<TurningRow>& turning, const std::filesyste
   table.tell(wrong);
   const bool angles_right = !is_steered || check_steering(table, turning.rows, tables.vehicle);
   if (!wrong && angles_right) table.tell(wrong_turn(turning, tables.surge, tables.vehicle));
-  check_sides(table, is_by_sides || !is_steered ? turning.rows : turning.by_sides, tables);
+  std::vector<TurningRow> by_sides = is_by_sides || !is_steered ? turning.rows : turning.by_sides;
+  by_sides.insert(by_sides.end(), turning.standing.begin(), turning.standing.end());
+  check_sides(table, by_sides, tables);
   if (is_steered) check_wheel_force(table, turning.rows, tables);
 }
 
