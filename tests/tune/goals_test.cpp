@@ -26,13 +26,13 @@ ModeScore run_with(double settling_s, double overshoot_deg, YawMode mode = YawMo
   return score;
 }
 
-Goal quick_and_calm(double share = 0.95) {
+TuningGoal quick_and_calm(double share = 0.95) {
   return {
       .at_most = {{"settling_time_s", 2.0}, {"overshoot_deg", 1.0}}, .share = share, .mode = {}};
 }
 
 TEST(Goal, HoldsInARunThatKeepsEveryLimit) {
-  const Goal goal = quick_and_calm();
+  const TuningGoal goal = quick_and_calm();
   EXPECT_DOUBLE_EQ(excess_of(goal, run_with(1.0, 0.2), kScenario), 0.5);
   EXPECT_DOUBLE_EQ(excess_of(goal, run_with(1.0, 3.0), kScenario), 3.0);
   EXPECT_DOUBLE_EQ(excess_of(goal, run_with(2.0, 1.0), kScenario), 1.0);
@@ -48,7 +48,7 @@ TEST(Goal, IsJudgedByTheLeastValueThatItsShareOfRunsDoesNotExceed) {
   std::uniform_real_distribution<double> seconds(0.5, 6.0);
   for (const int runs : {1, 2, 5, 19, 20, 21, 400}) {
     for (const double share : {0.5, 0.8, 0.95, 0.999}) {
-      const Goal goal = quick_and_calm(share);
+      const TuningGoal goal = quick_and_calm(share);
       std::vector<ModeScore> scores;
       std::vector<double> excess;
       for (int i = 0; i < runs; ++i) {
@@ -69,7 +69,7 @@ TEST(Goal, IsJudgedByTheLeastValueThatItsShareOfRunsDoesNotExceed) {
 }
 
 TEST(Goal, IsMetMissedOrOpenByTheExactIntervalOfItsShare) {
-  const Goal goal = quick_and_calm(0.9);
+  const TuningGoal goal = quick_and_calm(0.9);
   const GoalInMode one{&goal, YawMode::kCombined};
   const auto judged = [&](int held, int runs) {
     std::vector<ModeScore> scores;
@@ -87,7 +87,7 @@ TEST(Goal, IsMetMissedOrOpenByTheExactIntervalOfItsShare) {
 }
 
 TEST(Goal, IsForItsModeOrForEach) {
-  std::vector<Goal> goals{quick_and_calm(), quick_and_calm()};
+  std::vector<TuningGoal> goals{quick_and_calm(), quick_and_calm()};
   goals[1].mode = YawMode::kSteering;
   const auto all = by_mode(goals, kYawModes);
   ASSERT_EQ(all.size(), std::size(kYawModes) + 1);
@@ -95,7 +95,7 @@ TEST(Goal, IsForItsModeOrForEach) {
   EXPECT_THAT(all.back().name(), HasSubstr("settling_time_s <= 2, overshoot_deg <= 1 in 95 %"));
 }
 
-TuneOptions options_with(const Goal& goal) {
+TuneOptions options_with(const TuningGoal& goal) {
   TuneOptions options;
   options.global_evaluations = 150;
   options.local_evaluations = 60;
@@ -128,7 +128,8 @@ TEST(Goal, ThatIsHardHoldsOnTheDrawsOfTheSearchAndMovesTheGains) {
   for (const ModeScore& score : free->scores) {
     if (score.mode == YawMode::kDifferential) activity = score.metrics.control_variation;
   }
-  Goal goal{.at_most = {{"control_variation", 0.9 * activity}}, .mode = YawMode::kDifferential};
+  TuningGoal goal{.at_most = {{"control_variation", 0.9 * activity}},
+                  .mode = YawMode::kDifferential};
   const Result<Tuning> held = tune(model, options_with(goal));
   ASSERT_TRUE(held) << to_text(held.error());
   for (const ModeScore& score : held->scores) {
@@ -142,7 +143,7 @@ TEST(Goal, ThatIsHardHoldsOnTheDrawsOfTheSearchAndMovesTheGains) {
 }
 
 TEST(Goal, ThatNoGainsReachIsRefusedByItsName) {
-  Goal goal{.at_most = {{"settling_time_s", 0.05}}, .mode = {}};
+  TuningGoal goal{.at_most = {{"settling_time_s", 0.05}}, .mode = {}};
   const Result<Tuning> tuning = tune(uncertain_model(), options_with(goal));
   ASSERT_FALSE(tuning);
   EXPECT_EQ(tuning.error().kind, ErrorKind::kRefused);

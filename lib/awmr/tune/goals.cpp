@@ -65,7 +65,7 @@ std::vector<std::string> run_figure_names() {
   return names;
 }
 
-std::string in_words(const Goal& goal) {
+std::string in_words(const TuningGoal& goal) {
   std::string text;
   for (const GoalLimit& limit : goal.at_most) {
     text += fmt::format("{}{} <= {:g}", text.empty() ? "" : ", ", limit.figure, limit.most);
@@ -73,7 +73,7 @@ std::string in_words(const Goal& goal) {
   return fmt::format("{} in {:g} % of runs", text, 100.0 * goal.share);
 }
 
-double excess_of(const Goal& goal, const ModeScore& score, const Scenario& scenario) {
+double excess_of(const TuningGoal& goal, const ModeScore& score, const Scenario& scenario) {
   double largest = 0.0;
   for (const GoalLimit& limit : goal.at_most) {
     const double share = figure_of_run(limit.figure, score, scenario) / limit.most;
@@ -88,9 +88,9 @@ std::string GoalInMode::name() const {
   return fmt::format("{}, {}", in_words(*goal), name_of(mode));
 }
 
-std::vector<GoalInMode> by_mode(std::span<const Goal> goals, std::span<const YawMode> modes) {
+std::vector<GoalInMode> by_mode(std::span<const TuningGoal> goals, std::span<const YawMode> modes) {
   std::vector<GoalInMode> all;
-  for (const Goal& goal : goals) {
+  for (const TuningGoal& goal : goals) {
     for (const YawMode mode : modes) {
       if (!goal.mode || *goal.mode == mode) all.push_back({&goal, mode});
     }

@@ -1,5 +1,5 @@
 /// What runs have to reach, as chances: "95 % of the runs settle within 2 s and overshoot by at most
-/// 1 deg". Private to tune/, but for Goal itself (tune.h).
+/// 1 deg". Private to tune/, but for TuningGoal itself (tune.h).
 ///
 /// With x_i a run's figure and l_i its limit, the run's excess is e = max_i x_i/l_i, and a goal of the
 /// share p holds in a mode where the p quantile of e over all draws and scenarios is at most 1. Of few
@@ -28,19 +28,19 @@ std::span<const RunFigure> run_figures();
 double figure_of_run(std::string_view name, const ModeScore& score, const Scenario& scenario);
 
 /// "settling_time_s <= 2, overshoot_deg <= 1 in 95 % of runs"
-std::string in_words(const Goal& goal);
+std::string in_words(const TuningGoal& goal);
 
 /// The largest share of a limit that a run takes, >= 0; at most 1 where the goal holds in it.
-double excess_of(const Goal& goal, const ModeScore& score, const Scenario& scenario);
+double excess_of(const TuningGoal& goal, const ModeScore& score, const Scenario& scenario);
 
 /// A goal in one of the modes that it is for.
 struct GoalInMode {
-  const Goal* goal = nullptr;
+  const TuningGoal* goal = nullptr;
   YawMode mode{};
   std::string name() const;  ///< for constraints and messages
 };
 /// By goal, then mode.
-std::vector<GoalInMode> by_mode(std::span<const Goal> goals, std::span<const YawMode> modes);
+std::vector<GoalInMode> by_mode(std::span<const TuningGoal> goals, std::span<const YawMode> modes);
 
 /// The quantile of the excess over the mode's scores of all draws, which are by draw, then mode, then
 /// scenario. >= 0.

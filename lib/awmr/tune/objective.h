@@ -54,7 +54,7 @@ struct ObjectiveSetting {
   double tail_share = 1.0;          ///< (0, 1]
   std::uint64_t seed = 0;           ///< of what is random in the scenarios, another for each plant
   BatchArithmetic arithmetic = {};  ///< of the runs
-  std::vector<Goal> goals = {};
+  std::vector<TuningGoal> goals = {};
 };
 
 struct Evaluation {
@@ -76,7 +76,7 @@ class Objective {
   Evaluation operator()(const Gains<double>& gains) const;
   const Evaluation& baseline() const { return baseline_; }
   std::span<const YawMode> modes() const { return yaw_modes(setting_.vehicle); }
-  std::span<const Goal> goals() const { return setting_.goals; }
+  std::span<const TuningGoal> goals() const { return setting_.goals; }
 
  private:
   Evaluation evaluate(std::vector<ModeScore> scores) const;

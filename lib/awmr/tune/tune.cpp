@@ -81,7 +81,7 @@ void check_robustness(const TuneOptions& options, std::vector<Fault>& faults) {
   }
 }
 
-void check_goal(const Goal& goal, std::vector<Fault>& faults) {
+void check_goal(const TuningGoal& goal, std::vector<Fault>& faults) {
   std::set<std::string> figures;
   for (const auto& [figure, most] : goal.at_most) {
     if (!is_run_figure(figure) || !figures.insert(figure).second) {
@@ -126,7 +126,7 @@ void check_goals(const TuneOptions& options, std::vector<Fault>& faults) {
     faults.push_back(
         {"", fmt::format("goals: {} are more than {}", options.goals.size(), kMostGoals)});
   }
-  for (const Goal& goal : options.goals) check_goal(goal, faults);
+  for (const TuningGoal& goal : options.goals) check_goal(goal, faults);
 }
 
 Status check(const TuneOptions& options) {

@@ -64,7 +64,7 @@ struct GoalLimit {
 };
 
 /// A share of the runs, over all draws and scenarios, in which every limit is kept.
-struct Goal {
+struct TuningGoal {
   std::vector<GoalLimit> at_most;  ///< at least one, each figure once
   double share = 0.95;             ///< [kLeastShare, kMostShare]
   std::optional<YawMode> mode;     ///< absent: in each mode
@@ -107,7 +107,7 @@ struct TuneOptions {
   /// Each has to hold headings, under a name of its own; empty: 30 then -30 deg at 1 m/s.
   std::vector<Scenario> scenarios;
   GainBounds bounds;
-  std::vector<Goal> goals = {};  ///< of a robust search
+  std::vector<TuningGoal> goals = {};  ///< of a robust search
   /// Samples that say which of what was assumed moves the tuned loop: 0 (none) or kFewestSamples to
   /// kMostSamples; of a robust search.
   int sensitivity = 0;
@@ -201,7 +201,7 @@ inline constexpr NameTable<GoalVerdict, 3> kGoalVerdictNames{
 
 /// A goal in one mode with one set of gains, over the judged draws.
 struct JudgedGoal {
-  Goal goal;
+  TuningGoal goal;
   YawMode mode{};
   std::string gains;  ///< "robust", "nominal", "baseline"
   int held = 0;       ///< runs in which every limit is kept

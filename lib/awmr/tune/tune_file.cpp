@@ -81,8 +81,8 @@ void read_numbers(JsonObject& json, TuneOptions& options) {
   }
 }
 
-Goal read_goal(JsonObject json) {
-  Goal goal;
+TuningGoal read_goal(JsonObject json) {
+  TuningGoal goal;
   JsonObject limits = json.object("at_most");
   for (const std::string& figure : run_figure_names()) {
     if (const auto most = limits.optional_number(figure, kGoalLimit)) {
