@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cctype>
 #include <charconv>
@@ -100,6 +101,20 @@ std::optional<TimeColumn> as_date(const std::string& name, std::string_view samp
       .expression = name, .is_date = true, .meaning = fmt::format("the dates of \"{}\"", name)};
 }
 
+/// `timestamp` with 1763892000.25 in it: seconds since 1970 with a fraction, in the years 2001 to 2096. Counts
+/// of smaller units have none.
+std::optional<TimeColumn> as_unix_seconds(const std::string& name, std::string_view sample) {
+  if (!is_time_word(parts_of(name).back()) || sample.find('.') == std::string_view::npos) {
+    return std::nullopt;
+  }
+  double seconds = 0.0;
+  const auto [end, error] = std::from_chars(sample.data(), sample.data() + sample.size(), seconds);
+  if (error != std::errc() || end != sample.data() + sample.size()) return std::nullopt;
+  if (!(seconds >= 1e9 && seconds <= 4e9)) return std::nullopt;
+  return TimeColumn{.expression = in_backticks(name),
+                    .meaning = fmt::format("\"{}\" in s since 1970", name)};
+}
+
 /// Takes `digits` digits off the front; nothing where they are not there.
 std::optional<int> take_digits(std::string_view& text, std::size_t digits) {
   int value = 0;
@@ -185,6 +200,11 @@ tl::expected<std::optional<TimeColumn>, std::string> find_time(
     // The nanoseconds of a pair are no time of their own.
     if (!one && i < samples.size()) one = as_date(header[i], samples[i]);
     if (one) found.push_back(*std::move(one));
+  }
+  if (found.empty()) {
+    for (std::size_t i = 0; i < std::min(header.size(), samples.size()); ++i) {
+      if (auto one = as_unix_seconds(header[i], samples[i])) found.push_back(*std::move(one));
+    }
   }
   if (found.empty()) return std::nullopt;
   if (found.size() == 1) return std::move(found.front());

@@ -1,6 +1,6 @@
 /// Time under other names than `t_s`, where the name or the cells leave no doubt: with a unit
 /// (`time_ms`), as whole seconds and nanoseconds (`stamp.sec`, `stamp.nanosec`), as dates of ISO
-/// 8601. Private to the library.
+/// 8601, as seconds since 1970 with a fraction where there is no other. Private to the library.
 #pragma once
 
 #include <optional>

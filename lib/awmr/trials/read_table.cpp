@@ -18,6 +18,7 @@
 #include "awmr/trials/trial_columns.h"
 #include "csv_topics.h"
 #include "dataflash.h"
+#include "dataflash_text.h"
 #include "rosbag.h"
 #include "ulog.h"
 
@@ -96,11 +97,12 @@ Result<Signals> read_bags(std::span<const fs::path> paths, const Wanted& wanted)
   return all;
 }
 
-/// The file is of none of the binary formats, each of which is known by its first bytes.
+/// The file is of none of the recorders' formats, each of which is known by its first bytes.
 Result<bool> begins_as_text(const InputBytes& file) {
   std::string first(std::min(kFormatBytes, file.size()), '\0');
   AWMR_RETURN_IF_ERROR(file.read(0, first));
-  return !is_awl(first) && !is_ulog(first) && !is_dataflash(first) && !is_rosbag(first);
+  return !is_awl(first) && !is_ulog(first) && !is_dataflash(first) && !is_dataflash_text(first) &&
+         !is_rosbag(first);
 }
 
 }  // namespace
@@ -109,6 +111,7 @@ std::optional<Result<Signals>> read_signals(std::string_view bytes, const std::s
                                             const Wanted& wanted) {
   if (is_ulog(bytes)) return read_ulog(bytes, file, wanted);
   if (is_dataflash(bytes)) return read_dataflash(bytes, file, wanted);
+  if (is_dataflash_text(bytes)) return read_dataflash_text(bytes, file, wanted);
   if (is_rosbag(bytes)) return read_rosbag(bytes, file, wanted);
   return std::nullopt;
 }

@@ -1,0 +1,277 @@
+#include "dataflash_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "awmr/core/text.h"
+#include "dataflash_format.h"
+
+namespace awmr {
+namespace {
+
+/// A line's cells, without the blanks around them.
+using Cells = std::vector<std::string_view>;
+
+std::string_view without_blanks(std::string_view text) {
+  constexpr std::string_view kBlanks = " \t\r";
+  const std::size_t first = text.find_first_not_of(kBlanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
+}
+
+Cells cells_of(std::string_view line) {
+  Cells cells;
+  for (std::size_t at = 0; at <= line.size();) {
+    const std::size_t end = std::min(line.find(',', at), line.size());
+    cells.push_back(without_blanks(line.substr(at, end - at)));
+    at = end + 1;
+  }
+  return cells;
+}
+
+/// Calls `take(cells, line number)` for every line that is not empty.
+template <class Take>
+Status for_each_line(std::string_view bytes, const Take& take) {
+  int number = 1;
+  for (std::size_t at = 0; at < bytes.size(); ++number) {
+    const std::size_t end = std::min(bytes.find('\n', at), bytes.size());
+    const Cells cells = cells_of(bytes.substr(at, end - at));
+    if (!cells.front().empty()) AWMR_RETURN_IF_ERROR(take(cells, number));
+    at = end + 1;
+  }
+  return {};
+}
+
+template <class Number>
+std::optional<Number> number_of(std::string_view text) {
+  Number number{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+  return number;
+}
+
+/// A text as the binary form holds it: of a fixed number of bytes.
+std::string padded(std::string_view text, std::size_t bytes) {
+  std::string padded(text.substr(0, bytes));
+  padded.resize(bytes, '\0');
+  return padded;
+}
+
+/// An FMT line as the binary record that it was: type, length, name[4], format[16], labels[64].
+std::optional<std::string> binary_format(const Cells& cells) {
+  constexpr std::size_t kLabels = 5;
+  constexpr std::size_t kNameBytes = 4, kKindBytes = 16, kLabelBytes = 64;
+  if (cells.size() < kLabels) return std::nullopt;
+  const auto type = number_of<std::uint8_t>(cells[1]);
+  const auto length = number_of<std::uint8_t>(cells[2]);
+  std::string labels;
+  for (std::size_t i = kLabels; i < cells.size(); ++i) {
+    labels += (i == kLabels ? "" : ",") + std::string(cells[i]);
+  }
+  if (!type || !length || cells[3].empty() || cells[3].size() > kNameBytes ||
+      cells[4].size() > kKindBytes || labels.size() > kLabelBytes) {
+    return std::nullopt;
+  }
+  std::string record{static_cast<char>(*type), static_cast<char>(*length)};
+  return record + padded(cells[3], kNameBytes) + padded(cells[4], kKindBytes) +
+         padded(labels, kLabelBytes);
+}
+
+/// By the name that stands at the beginning of a line.
+using NamedFormats = std::map<std::string, dataflash::Format, std::less<>>;
+
+/// FMTU: TimeUS, type, units, multipliers; the unit '#' marks the number of an instance.
+void mark_instance_by_units(const Cells& cells, NamedFormats& formats) {
+  constexpr std::size_t kType = 2, kUnits = 3;
+  const auto type = cells.size() > kUnits ? number_of<std::uint8_t>(cells[kType]) : std::nullopt;
+  if (!type) return;
+  const std::size_t mark = cells[kUnits].find('#');
+  for (auto& [name, format] : formats) {
+    if (static_cast<std::uint8_t>(format.definition[0]) != *type) continue;
+    if (mark < format.fields.size() && format.fields[mark].kind->bytes == 1) format.instance = mark;
+  }
+}
+
+/// As many values as fields; a text at the end may have commas of its own.
+bool has_its_fields(const Cells& cells, const dataflash::Format& format) {
+  const std::size_t values = cells.size() - 1;
+  if (values == format.fields.size()) return true;
+  return values > format.fields.size() && !format.fields.empty() &&
+         format.fields.back().kind->scale == 0.0;
+}
+
+/// The format that a line has, if a known one and all of it.
+const dataflash::Format* format_of_line(const Cells& cells, const NamedFormats& formats) {
+  const auto found = formats.find(cells.front());
+  if (found == formats.end() || !has_its_fields(cells, found->second)) return nullptr;
+  return &found->second;
+}
+
+tl::unexpected<Error> error_at(const std::string& file, int line, const std::string& why) {
+  return input_error(fmt::format("{}:{}", file, line), why);
+}
+
+/// Adds what an FMT line defines.
+Status define(const Cells& cells, const std::string& file, int line, NamedFormats& formats) {
+  const std::optional<std::string> record = binary_format(cells);
+  if (!record) {
+    return error_at(file, line, "no format: expected FMT, type, length, name, kinds, names");
+  }
+  auto format = dataflash::format_of(*record);
+  if (!format) return error_at(file, line, format.error());
+  const auto [known, is_new] = formats.try_emplace(std::string(cells[3]), *std::move(format));
+  if (is_new || known->second.definition == *record) return {};
+  return error_at(file, line,
+                  fmt::format("a second, other format of {}", printable(known->second.name)));
+}
+
+/// A name and the instance it is of: a topic.
+using TextTopic = std::pair<std::string, std::uint8_t>;
+
+/// Nothing where the instance is no number.
+std::optional<TextTopic> topic_of_line(const Cells& cells, const dataflash::Format& format) {
+  if (!format.instance) return TextTopic{format.name, std::uint8_t{0}};
+  const auto instance = number_of<std::uint8_t>(cells[1 + *format.instance]);
+  if (!instance) return std::nullopt;
+  return TextTopic{format.name, *instance};
+}
+
+/// What the first pass over the file finds.
+struct TextContents {
+  NamedFormats formats = {};
+  std::map<TextTopic, std::size_t> topics = {};  ///< the number of their records
+  std::size_t lines = 0, skipped = 0;
+};
+
+Result<TextContents> text_contents(std::string_view bytes, const std::string& file) {
+  TextContents contents;
+  AWMR_RETURN_IF_ERROR(for_each_line(bytes, [&](const Cells& cells, int line) -> Status {
+    if (cells.front() == "FMT") return define(cells, file, line, contents.formats);
+    if (cells.front() == "FMTU") mark_instance_by_units(cells, contents.formats);
+    return {};
+  }));
+  AWMR_RETURN_IF_ERROR(for_each_line(bytes, [&](const Cells& cells, int) -> Status {
+    ++contents.lines;
+    if (cells.front() == "FMT") return {};
+    const dataflash::Format* format = format_of_line(cells, contents.formats);
+    const auto topic = format != nullptr ? topic_of_line(cells, *format) : std::nullopt;
+    if (!topic) {
+      ++contents.skipped;
+    } else if (format->time) {
+      ++contents.topics[*topic];
+    }
+    return {};
+  }));
+  return contents;
+}
+
+/// A topic with what is wanted of it.
+struct ListedText {
+  std::size_t topic = 0;            ///< in Signals::topics
+  std::vector<std::size_t> fields;  ///< in the order of its columns
+};
+
+std::map<TextTopic, ListedText> list_text_topics(const TextContents& contents, const Wanted& wanted,
+                                                 Signals& signals) {
+  std::map<TextTopic, ListedText> listed;
+  for (const auto& [key, records] : contents.topics) {
+    const dataflash::Format& format = contents.formats.find(key.first)->second;
+    Topic topic{.name = format.name};
+    if (key.second != 0) topic.name += fmt::format("[{}]", key.second);
+    ListedText entry{.topic = signals.topics.size(), .fields = {}};
+    for (std::size_t i = 0; i < format.fields.size(); ++i) {
+      const dataflash::Field& field = format.fields[i];
+      if (i == *format.time || i == format.instance || field.kind->scale == 0.0) continue;
+      const std::string& name = signals.header.emplace_back(topic.name + "." + field.name);
+      if (!wanted(name)) continue;
+      topic.columns.push_back(signals.header.size() - 1);
+      topic.values.emplace_back();
+      entry.fields.push_back(i);
+    }
+    signals.topics.push_back(std::move(topic));
+    listed.emplace(key, std::move(entry));
+  }
+  return listed;
+}
+
+/// ns; nothing where it cannot be a time.
+std::optional<std::int64_t> time_of_line(const Cells& cells, const dataflash::Format& format) {
+  const bool in_us = format.fields[*format.time].name == "TimeUS";
+  const std::int64_t unit_ns = in_us ? 1'000 : 1'000'000;
+  const auto ticks = number_of<std::uint64_t>(cells[1 + *format.time]);
+  if (!ticks || static_cast<double>(*ticks) * static_cast<double>(unit_ns) > 9e18) {
+    return std::nullopt;
+  }
+  return static_cast<std::int64_t>(*ticks) * unit_ns;
+}
+
+Status take_line(const Cells& cells, int line, const std::string& file,
+                 const dataflash::Format& format, const ListedText& listed, Topic& topic) {
+  const auto time_ns = time_of_line(cells, format);
+  if (!time_ns) {
+    return error_at(file, line,
+                    fmt::format("a record of {} has no time that can be", printable(format.name)));
+  }
+  topic.time_ns.push_back(*time_ns);
+  for (std::size_t i = 0; i < listed.fields.size(); ++i) {
+    const std::string_view cell = cells[1 + listed.fields[i]];
+    const auto value = number_of<double>(cell);
+    if (!value) {
+      return error_at(
+          file, line,
+          fmt::format("{}.{} is no number: {}", printable(format.name),
+                      printable(format.fields[listed.fields[i]].name), printable(cell)));
+    }
+    topic.values[i].push_back(*value);
+  }
+  return {};
+}
+
+}  // namespace
+
+bool is_dataflash_text(std::string_view bytes) {
+  if (!bytes.starts_with("FMT")) return false;
+  const std::size_t next = bytes.find_first_not_of(" \t", 3);
+  return next != std::string_view::npos && bytes[next] == ',';
+}
+
+Result<Signals> read_dataflash_text(std::string_view bytes, const std::string& file,
+                                    const Wanted& wanted) {
+  // Nobody knows whether a last line without an end is all there.
+  const std::string_view whole = bytes.substr(0, bytes.rfind('\n') + 1);
+  AWMR_ASSIGN_OR_RETURN(TextContents contents, text_contents(whole, file));
+  if (whole.size() < bytes.size()) {
+    ++contents.lines;
+    ++contents.skipped;
+  }
+  Signals signals;
+  const std::map<TextTopic, ListedText> listed = list_text_topics(contents, wanted, signals);
+  if (signals.header.size() > kMostSignals) {
+    return input_error(file, fmt::format("there are more than {} signals", kMostSignals));
+  }
+  AWMR_RETURN_IF_ERROR(for_each_line(whole, [&](const Cells& cells, int line) -> Status {
+    if (cells.front() == "FMT") return {};
+    const dataflash::Format* format = format_of_line(cells, contents.formats);
+    if (format == nullptr || !format->time) return {};
+    const auto key = topic_of_line(cells, *format);
+    const auto entry = key ? listed.find(*key) : listed.end();
+    if (entry == listed.end() || entry->second.fields.empty()) return {};
+    return take_line(cells, line, file, *format, entry->second,
+                     signals.topics[entry->second.topic]);
+  }));
+  if (contents.skipped > 0) {
+    signals.notes.push_back(
+        {0, "log-damaged",
+         fmt::format("{} of {} lines are of no known format and are passed over", contents.skipped,
+                     contents.lines)});
+  }
+  return signals;
+}
+
+}  // namespace awmr

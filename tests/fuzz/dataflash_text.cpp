@@ -1,0 +1,10 @@
+/// A DataFlash log as text is read with what its lines say, or refused; either way in bounded memory.
+#include "awmr/trials/dataflash_text.h"
+
+#include "fuzz/signals.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const auto all = [](const std::string&) { return true; };
+  awmr::fuzz::check(awmr::read_dataflash_text(awmr::fuzz::text_of(data, size), "a.log", all), size);
+  return 0;
+}
