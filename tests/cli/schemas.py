@@ -59,6 +59,9 @@ def pipeline(folder):
         os.symlink(SOURCE / name, Path(folder, name))
     c3 = "configs/paper/scenarios/c3_heading_steps.json"
     loop = "--model out/model.json --gains out/gains.json"
+    goals = {"goals": [{"at_most": {"settling_time_s": 6}}, {"at_most": {"overshoot_deg": 1}, "soft": True}],
+             "sensitivity": 16, "judged_draws": 20}
+    Path(folder, "striving.json").write_text(json.dumps({"schema": "awmr.tune/1", **goals}))
     prints = [
         awmr("run configs/paper/project.json -o out --json", folder),
         awmr("identify --vehicle configs/paper/vehicle.json --log datasets/synthetic/drive_1.csv "
@@ -66,6 +69,8 @@ def pipeline(folder):
         awmr("validate --model driven.json --log datasets/synthetic/drive_2.csv -o logs.json --json", folder),
         awmr(f"validate {loop} --claims -o claims.json --json", folder),
         awmr("tune --nominal --model out/model.json -o nominal.json --json", folder),
+        awmr("tune --model out/model.json --config striving.json -o striven.json --json", folder),
+        awmr(f"simulate --model out/model.json --gains striven.json --scenario {c3} --mode combined -o striven.csv --json", folder),
         awmr("suggest --model out/model.json -o suggest.json --json", folder),
         awmr("recover --model out/model.json --runs 5 -o recover.json --json", folder),
         awmr("map datasets/synthetic/drive_1.csv -o map.json --json", folder),

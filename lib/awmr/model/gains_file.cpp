@@ -27,7 +27,7 @@ Result<Gains<double>> read_gains(const std::filesystem::path& path) {
   const Gains<double> gains = gains_from_json(root);
   for (const std::string_view key :
        {"command", "version", "options", "inputs", "time_constants", "constraints", "objective",
-        "metrics", "robust", "search", "baseline"}) {
+        "metrics", "robust", "goals", "sensitivity", "search", "baseline"}) {
     root.ignore(key);
   }
   root.reject_unknown_keys();

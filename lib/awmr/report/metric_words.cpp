@@ -12,7 +12,7 @@ struct MetricEntry {
   std::string_view unit;
 };
 
-constexpr std::array<MetricEntry, 17> kMetricEntries{{
+constexpr std::array<MetricEntry, 19> kMetricEntries{{
     {"settling_time_s", "settling time", "s"},
     {"overshoot_deg", "overshoot", "deg"},
     {"heading_iae_degs", "heading error (IAE)", "deg s"},
@@ -30,6 +30,8 @@ constexpr std::array<MetricEntry, 17> kMetricEntries{{
     {"saturation_s", "saturation", "s"},
     {"steering_travel_deg", "steering travel", "deg"},
     {"tyre_work", "tyre work", ""},
+    {"steering_rate_rms_degps", "steering rate RMS", "deg/s"},
+    {"heading_itae_degs2", "heading error (ITAE)", "deg s^2"},
 }};
 
 }  // namespace
