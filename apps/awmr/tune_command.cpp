@@ -122,6 +122,26 @@ std::vector<Finding> goal_findings(const Tuning& tuning) {
   return findings;
 }
 
+/// A note where too few samples leave open what moves a figure most.
+std::vector<Finding> sensitivity_findings(const Tuning& tuning) {
+  if (!tuning.robust || !tuning.robust->sensitivity) return {};
+  constexpr double kWide = 0.5;  // an index says little between 0.2 and 0.7
+  int open = 0;
+  const std::vector<SensitiveFigure>& figures = tuning.robust->sensitivity->figures;
+  for (const SensitiveFigure& figure : figures) {
+    const auto widest = std::ranges::max_element(figure.by_input, {}, [](const SobolIndex& index) {
+      return index.total_ci95.hi - index.total_ci95.lo;
+    });
+    open += widest->total_ci95.hi - widest->total_ci95.lo > kWide ? 1 : 0;
+  }
+  if (open == 0) return {};
+  return {
+      {"", 0, Severity::kNote, "sensitivity-open",
+       fmt::format("{} samples leave open what moves {} of {} figures most, as few runs are far "
+                   "from the others: give more (--sensitivity)",
+                   tuning.robust->sensitivity->samples, open, figures.size())}};
+}
+
 /// What the gains stand at, and what the objective leaves open.
 std::string standing_of(const Tuning& tuning) {
   std::string held;
@@ -205,6 +225,7 @@ Result<Outcome> execute(const TuneCommand& command) {
   AWMR_ASSIGN_OR_RETURN(const Tuning tuning, tune_with_progress(model, config.options));
   std::string document = gains_text(tuning, config.options, provenance);
   std::vector<Finding> findings = goal_findings(tuning);
+  std::ranges::move(sensitivity_findings(tuning), std::back_inserter(findings));
   std::ranges::move(extrapolation_in(model, tuning.scores,
                                      [](const ModeScore& score) {
                                        return fmt::format("{}, {}", score.scenario,

@@ -36,7 +36,11 @@ function gainsVerdict(list, gains) {
   const better = gains.objective ? ` They score ${digits(gains.objective.value, 3)} where the paper's gains score ` +
     `${digits((gains.baseline || {}).objective ?? 1, 3)}; less is better.` : "";
   const held = gains.objective && gains.objective.held_out ? ` On manoeuvres that were not tuned on: ${digits(gains.objective.held_out.value, 3)}.` : "";
-  verdict(list, broken.length ? "bad" : "good", "Gains", `The tuned gains ${met}.${better}${held}`);
+  const goals = (gains.goals || []).filter((goal) => goal.gains === "robust");
+  const unmet = goals.filter((goal) => goal.verdict !== "met");
+  const reached = goals.length ? ` Of ${plural(goals.length, "goal")} on fresh draws ${goals.length - unmet.length} met` +
+    `${unmet.length ? `, ${unmet.filter((goal) => goal.verdict === "missed").length} missed` : ""}.` : "";
+  verdict(list, broken.length ? "bad" : unmet.length ? "doubt" : "good", "Gains", `The tuned gains ${met}.${better}${held}${reached}`);
 }
 
 function comparisonVerdict(list, comparison) {

@@ -67,9 +67,10 @@ function sensitivityTable(parent, sensitivity) {
   const box = folded(parent, "What moves the tuned loop");
   add(box, "p", `Total Sobol indices over ${sensitivity.samples} samples: the share of how far a figure varies that is left while this alone is not known. `
     + "Noise level, latency and lag each from none to twice what is assumed.", {class: "small"});
-  const inputs = sensitivity.figures[0].by_input.map((one) => one.input);
-  table(box, ["mode", "figure", "#mean and spread", ...inputs.map((name) => `#${name}`)], sensitivity.figures.map((figure) => [figure.mode, metricWords(figure.figure),
-    `${digits(figure.mean, 3)} ± ${digits(figure.std, 2)}`, ...figure.by_input.map((one) => `${digits(one.total, 2)} (${digits(one.total_ci95[0], 2)} to ${digits(one.total_ci95[1], 2)})`)]));
+  const mostMoving = (figure) => [...figure.by_input].sort((a, b) => b.total - a.total).slice(0, 3)
+    .map((one) => `${one.input} ${digits(one.total, 2)} (${digits(one.total_ci95[0], 2)} to ${digits(one.total_ci95[1], 2)})`).join("; ");
+  table(box, ["mode", "figure", "#mean and spread", "moved most by"], sensitivity.figures.map((figure) => [figure.mode, metricWords(figure.figure),
+    `${digits(figure.mean, 3)} ± ${digits(figure.std, 2)}`, mostMoving(figure)]));
 }
 
 function tuningSection(data) {
