@@ -58,11 +58,14 @@ std::vector<Scenario> scenarios() {
   small_angles.name = "small angles";
   small_angles.control.allocation = AllocationForm::kPaper;
   small_angles.control.split = CombinedSplit::kFixedHalf;
+  Scenario sagging = headings;
+  sagging.name = "a battery that sags";
+  sagging.battery = Battery{.sag = 0.3};
   const Scenario open{"open loop", 8.0, {}, 0.0, OpenLoop{0.6, 0.02}};
   Scenario sloped = open;
   sloped.name = "open loop on a slope";
   sloped.disturbance.slope = Slope{.angle_rad = 0.1, .downhill_rad = 0.7};
-  return {headings, observed, small_angles, open, sloped};
+  return {headings, observed, small_angles, sagging, open, sloped};
 }
 
 void print_bits(double value) {
