@@ -86,6 +86,25 @@ TEST(Goal, IsMetMissedOrOpenByTheExactIntervalOfItsShare) {
   EXPECT_EQ(some.ci95.lo, clopper_pearson(362, 400).lo);
 }
 
+TEST(Goal, OfADrawHoldsWhereAllItsScenariosKeepIt) {
+  const TuningGoal goal = quick_and_calm(0.5);
+  const GoalInMode one{&goal, YawMode::kCombined};
+  const std::vector<Scenario> scenarios{kScenario, held_out_scenario()};
+  // Two draws, of which the first fails in its second scenario.
+  const std::vector<ModeScore> scores{run_with(1.0, 0.0), run_with(3.0, 0.0), run_with(1.0, 0.0),
+                                      run_with(1.6, 0.0)};
+  const JudgedGoal judged = judged_goal(one, "robust", scores, scenarios);
+  EXPECT_EQ(judged.runs, 2);
+  EXPECT_EQ(judged.held, 1);
+  EXPECT_DOUBLE_EQ(quantile_of_excess(one, scores, scenarios), 0.8);
+}
+
+TEST(Goal, IsMissedByARunThatBreaksOff) {
+  ModeScore broken = run_with(0.5, 0.0);
+  broken.has_failed = true;
+  EXPECT_TRUE(std::isinf(excess_of(quick_and_calm(), broken, kScenario)));
+}
+
 TEST(Goal, IsForItsModeOrForEach) {
   std::vector<TuningGoal> goals{quick_and_calm(), quick_and_calm()};
   goals[1].mode = YawMode::kSteering;

@@ -78,9 +78,12 @@ TEST(Sobol, IndicesOfASumAreItsShares) {
 }
 
 TEST(Sobol, WhatDoesNotVaryHasNone) {
-  for (const SobolIndex& index : indices_of([](const auto&) { return 3.0; }, 2, 20)) {
-    EXPECT_EQ(index.first, 0.0);
-    EXPECT_EQ(index.total, 0.0);
+  for (const double constant : {3.0, 1.38, 0.1, 44.1}) {
+    for (const SobolIndex& index : indices_of([&](const auto&) { return constant; }, 2, 64)) {
+      EXPECT_EQ(index.first, 0.0);
+      EXPECT_EQ(index.total, 0.0);
+      EXPECT_EQ(index.first_ci95.hi, 0.0);
+    }
   }
 }
 

@@ -44,17 +44,25 @@ std::optional<Resistance<double>> fitted_law(const Model& model, TrialKind kind)
 }
 
 double variance_of_law(const Model& model, TrialKind kind, std::span<const double> rates) {
+  const std::vector<double> weights(rates.size(), 1.0 / static_cast<double>(rates.size()));
+  return variance_of_law(model, kind, rates, weights);
+}
+
+double variance_of_law(const Model& model, TrialKind kind, std::span<const double> rates,
+                       std::span<const double> weights) {
   const Covariance& covariance = model.covariance;
-  std::vector<double> mean_slope;
+  std::vector<double> slopes;
   for (const ParameterId parameter : covariance.parameters) {
     double sum = 0.0;
-    for (const double w : rates) sum += slope_at(model, kind, parameter, w);
-    mean_slope.push_back(sum / static_cast<double>(rates.size()));
+    for (std::size_t i = 0; i < rates.size(); ++i) {
+      sum += weights[i] * slope_at(model, kind, parameter, rates[i]);
+    }
+    slopes.push_back(sum);
   }
   double variance = 0.0;
-  for (std::size_t i = 0; i < mean_slope.size(); ++i) {
-    for (std::size_t j = 0; j < mean_slope.size(); ++j) {
-      variance += mean_slope[i] * mean_slope[j] * covariance.matrix[i][j];
+  for (std::size_t i = 0; i < slopes.size(); ++i) {
+    for (std::size_t j = 0; j < slopes.size(); ++j) {
+      variance += slopes[i] * slopes[j] * covariance.matrix[i][j];
     }
   }
   return std::max(variance, 0.0);

@@ -23,12 +23,16 @@ LawParameters law_parameters(TrialKind kind);
 /// The law with the model's values, without the wheels' dead zone; absent where alpha or beta has none.
 std::optional<Resistance<double>> fitted_law(const Model& model, TrialKind kind);
 
-/// Of the mean, over `rates` > 0 or at rest, of the moment or the force that a run at such a rate takes:
-///   h' C h,  h = mean of (dg/dalpha, dg/dbeta, dg/dc, dg/dq, dg/dF'0)
-///              = mean of (w^beta, alpha w^beta ln w, 1, w^2, z)
+/// Of sum_i weight_i g(w_i) over rates w_i >= 0, g being the moment or the force that a run at such a rate takes:
+///   h' C h,  h = sum_i weight_i (dg/dalpha, dg/dbeta, dg/dc, dg/dq, dg/dF'0)
+///              = sum_i weight_i (w^beta, alpha w^beta ln w, 1, w^2, z)
 /// C is the covariance as far as the model has it; z the driven wheels, whose dead zones F'0 a straight
-/// run overcomes; 0 in a turn, whose moments are told beyond them. >= 0, in the square of g's unit.
-/// Precondition: the law is fitted.
+/// run overcomes; 0 in a turn, whose moments are told beyond them. >= 0, in the square of g's unit times a
+/// weight's. Precondition: the law is fitted; as many weights as rates.
+double variance_of_law(const Model& model, TrialKind kind, std::span<const double> rates,
+                       std::span<const double> weights);
+
+/// Of their mean.
 double variance_of_law(const Model& model, TrialKind kind, std::span<const double> rates);
 
 /// The fastest turn, deg/s, up to which yaw resistance was measured: the vehicle's

@@ -115,7 +115,7 @@ LoopConditions conditions_at(const Sample& sample, LoopConditions c) {
   return c;
 }
 
-/// The figures of one sample, by mode, then figure: means over the scenarios.
+/// The figures of one sample, by mode, then figure: means over the scenarios. None where a run breaks off.
 std::vector<double> figures_at(const Sample& sample, const ObjectiveSetting& setting,
                                const LoopConditions& assumed,
                                const Controller<double>& controller) {
@@ -132,9 +132,9 @@ std::vector<double> figures_at(const Sample& sample, const ObjectiveSetting& set
     const auto metrics =
         simulate_batch(runs, scenario, setting.vehicle.sample_time_s, setting.arithmetic);
     for (std::size_t mode = 0; mode < modes.size(); ++mode) {
-      const ModeScore score{.scenario = scenario.name,
-                            .mode = modes[mode],
-                            .metrics = metrics[mode] ? *metrics[mode] : Metrics{}};
+      if (!metrics[mode]) return {};
+      const ModeScore score{
+          .scenario = scenario.name, .mode = modes[mode], .metrics = *metrics[mode]};
       for (std::size_t f = 0; f < std::size(kFigures); ++f) {
         figures[mode * std::size(kFigures) + f] += figure_of_run(kFigures[f], score, scenario) /
                                                    static_cast<double>(setting.scenarios.size());
@@ -168,6 +168,14 @@ Result<GlobalSensitivity> global_sensitivity(const Model& model, const Objective
     if (input < inputs.size()) inputs[input].take(b[i % n], sample);
     figures[i] = figures_at(sample, setting, assumed, controller);
   });
+  const auto broken_off = std::ranges::count_if(
+      figures, [](const std::vector<double>& of_sample) { return of_sample.empty(); });
+  if (broken_off > 0) {
+    return refusal(fmt::format(
+        "with {} of {} samples of what was assumed a run of the tuned loop breaks off, so that "
+        "nothing is told of what moves it; tune without sensitivity, and look at these vehicles",
+        broken_off, figures.size()));
+  }
   const std::span<const YawMode> modes = yaw_modes(setting.vehicle);
   GlobalSensitivity result{.samples = samples, .inputs = {}, .figures = {}};
   for (const Input& input : inputs) result.inputs.push_back(input.name);

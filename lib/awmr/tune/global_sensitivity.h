@@ -11,7 +11,7 @@ namespace awmr {
 /// parameters that the model's covariance ties to each other, drawn from it; the level of the sensors' noise, how late
 /// they are and the motors' lag, each even from none to twice what is assumed; and the noise itself. `setting`: with
 /// the model's own plant and the scenarios as they are without noise. Over several scenarios a figure is the mean.
-/// Errors (input): as PlantSampler's.
+/// Errors (input): as PlantSampler's; (refused): a run breaks off.
 Result<GlobalSensitivity> global_sensitivity(const Model& model, const ObjectiveSetting& setting,
                                              const LoopConditions& assumed,
                                              const Gains<double>& gains, int samples);

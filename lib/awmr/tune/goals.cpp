@@ -35,13 +35,16 @@ const RunFigure& figure_named(std::string_view name) {
                        [&](const RunFigure& figure) { return figure.name == name; });
 }
 
-/// Of the mode's runs, which are by draw, then mode, then scenario.
+/// Of each draw the largest excess in the mode over the scenarios: they share its plant, so that their runs are
+/// no trials of their own. Scores are by draw, then mode, then scenario.
 std::vector<double> excesses(const GoalInMode& one, std::span<const ModeScore> scores,
                              std::span<const Scenario> scenarios) {
   std::vector<double> all;
   for (std::size_t i = 0; i < scores.size(); ++i) {
     if (scores[i].mode != one.mode) continue;
-    all.push_back(excess_of(*one.goal, scores[i], scenarios[i % scenarios.size()]));
+    const std::size_t scenario = i % scenarios.size();
+    if (scenario == 0) all.push_back(0.0);
+    all.back() = std::max(all.back(), excess_of(*one.goal, scores[i], scenarios[scenario]));
   }
   return all;
 }
@@ -70,10 +73,11 @@ std::string in_words(const TuningGoal& goal) {
   for (const GoalLimit& limit : goal.at_most) {
     text += fmt::format("{}{} <= {:g}", text.empty() ? "" : ", ", limit.figure, limit.most);
   }
-  return fmt::format("{} in {:g} % of runs", text, 100.0 * goal.share);
+  return fmt::format("{} in {:g} % of draws", text, 100.0 * goal.share);
 }
 
 double excess_of(const TuningGoal& goal, const ModeScore& score, const Scenario& scenario) {
+  if (score.has_failed) return std::numeric_limits<double>::infinity();
   double largest = 0.0;
   for (const GoalLimit& limit : goal.at_most) {
     const double share = figure_of_run(limit.figure, score, scenario) / limit.most;

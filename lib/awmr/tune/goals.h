@@ -1,9 +1,9 @@
 /// What runs have to reach, as chances: "95 % of the runs settle within 2 s and overshoot by at most
 /// 1 deg". Private to tune/, but for TuningGoal itself (tune.h).
 ///
-/// With x_i a run's figure and l_i its limit, the run's excess is e = max_i x_i/l_i, and a goal of the
-/// share p holds in a mode where the p quantile of e over all draws and scenarios is at most 1. Of few
-/// draws the quantile is their worst: ceil(p n) of n.
+/// With x_i a run's figure and l_i its limit, the run's excess is e = max_i x_i/l_i, infinite where it breaks off;
+/// that of a draw is the largest over the scenarios. A goal of the share p holds in a mode where the p quantile of
+/// e over all draws is at most 1. Of few draws the quantile is their worst: ceil(p n) of n.
 #pragma once
 
 #include <span>
@@ -27,7 +27,7 @@ std::span<const RunFigure> run_figures();
 /// Of a figure that there is.
 double figure_of_run(std::string_view name, const ModeScore& score, const Scenario& scenario);
 
-/// "settling_time_s <= 2, overshoot_deg <= 1 in 95 % of runs"
+/// "settling_time_s <= 2, overshoot_deg <= 1 in 95 % of draws"
 std::string in_words(const TuningGoal& goal);
 
 /// The largest share of a limit that a run takes, >= 0; at most 1 where the goal holds in it.
@@ -42,12 +42,12 @@ struct GoalInMode {
 /// By goal, then mode.
 std::vector<GoalInMode> by_mode(std::span<const TuningGoal> goals, std::span<const YawMode> modes);
 
-/// The quantile of the excess over the mode's scores of all draws, which are by draw, then mode, then
+/// The quantile of the draws' excess over the mode's scores, which are by draw, then mode, then
 /// scenario. >= 0.
 double quantile_of_excess(const GoalInMode& one, std::span<const ModeScore> scores,
                           std::span<const Scenario> scenarios);
 
-/// In how many of the mode's runs the goal holds, with the verdict on it.
+/// In how many draws the goal holds in the mode, with the verdict on it.
 JudgedGoal judged_goal(const GoalInMode& one, const char* gains, std::span<const ModeScore> scores,
                        std::span<const Scenario> scenarios);
 

@@ -102,7 +102,8 @@ std::vector<std::vector<ModeScore>> run_all(const ObjectiveSetting& setting,
       scores[run / per_gains][run % per_gains * scenarios + i % scenarios] = {
           .scenario = scenario.name,
           .mode = block[j].mode,
-          .metrics = metrics[j] ? *metrics[j] : metrics_of_failed(block[j], scenario, setting)};
+          .metrics = metrics[j] ? *metrics[j] : metrics_of_failed(block[j], scenario, setting),
+          .has_failed = !metrics[j]};
     }
   });
   return scores;

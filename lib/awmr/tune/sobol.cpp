@@ -18,8 +18,14 @@ struct FirstAndTotal {
 /// Over the samples of these places, which may be there several times.
 FirstAndTotal indices_over(const std::vector<std::size_t>& places, const std::vector<double>& of_a,
                            const std::vector<double>& of_b, const std::vector<double>& of_mixed) {
-  double mean = 0.0;
-  for (const std::size_t j : places) mean += of_a[j] + of_b[j];
+  double mean = 0.0, least = of_a[places.front()], most = least;
+  for (const std::size_t j : places) {
+    mean += of_a[j] + of_b[j];
+    least = std::min({least, of_a[j], of_b[j]});
+    most = std::max({most, of_a[j], of_b[j]});
+  }
+  // Rounding of the mean would leave something of what does not vary.
+  if (!(most > least)) return {};
   mean /= 2.0 * static_cast<double>(places.size());
   double squares = 0.0, without_first = 0.0, of_total = 0.0;
   for (const std::size_t j : places) {
@@ -27,7 +33,6 @@ FirstAndTotal indices_over(const std::vector<std::size_t>& places, const std::ve
     without_first += (of_b[j] - of_mixed[j]) * (of_b[j] - of_mixed[j]);
     of_total += (of_a[j] - of_mixed[j]) * (of_a[j] - of_mixed[j]);
   }
-  if (!(squares > 0.0)) return {};
   // 2 N V = sum of the squares over both samples.
   return {1.0 - without_first / squares, of_total / squares};
 }

@@ -230,9 +230,8 @@ std::optional<tl::unexpected<Error>> goal_missed(const SearchResult& found,
   }
   if (worst == goals.size()) return std::nullopt;
   return refusal(fmt::format(
-      "no gains within the bounds reach the goal \"{}\": with the nearest of {} ({}) so many runs "
-      "keep no less than {:.3g} times its limits; make it soft, raise its limits, or give more "
-      "evaluations",
+      "no gains within the bounds reach the goal \"{}\": the nearest of {} ({}) need {:.3g} "
+      "times its limits; make it soft, raise its limits, or give more evaluations",
       goals[worst].name(), found.evaluations, in_words(found.nearest.gains),
       e.goal_quantile[worst]));
 }

@@ -63,7 +63,7 @@ struct GoalLimit {
   double most = 0.0;
 };
 
-/// A share of the runs, over all draws and scenarios, in which every limit is kept.
+/// A share of the draws in which every limit is kept, in all scenarios.
 struct TuningGoal {
   std::vector<GoalLimit> at_most;  ///< at least one, each figure once
   double share = 0.95;             ///< [kLeastShare, kMostShare]
@@ -135,7 +135,8 @@ struct ModeScore {
   std::string scenario;
   YawMode mode{};
   Metrics metrics{};
-  double objective = 0.0;  ///< weighted mean of the normalised terms; 1 for the baseline itself
+  double objective = 0.0;   ///< weighted mean of the normalised terms; 1 for the baseline itself
+  bool has_failed = false;  ///< the run broke off: its metrics are those of what came before
 };
 
 /// A search's evaluation that was better than all before it.
@@ -204,9 +205,9 @@ struct JudgedGoal {
   TuningGoal goal;
   YawMode mode{};
   std::string gains;  ///< "robust", "nominal", "baseline"
-  int held = 0;       ///< runs in which every limit is kept
-  int runs = 0;
-  Interval ci95;  ///< of the share, by Clopper and Pearson
+  int held = 0;       ///< draws in which every limit is kept
+  int runs = 0;       ///< draws
+  Interval ci95;      ///< of the share, by Clopper and Pearson
   GoalVerdict verdict = GoalVerdict::kOpen;
 };
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "awmr/core/json.h"
@@ -271,13 +272,19 @@ Json goals_json(const std::vector<JudgedGoal>& goals) {
   return json;
 }
 
-Json objective_json(const Tuning& tuning, const ObjectiveWeights& weights) {
+Json objective_json(const Tuning& tuning, const TuneOptions& options) {
+  const ObjectiveWeights& weights = options.weights;
   Json json;
   json["value"] = tuning.objective;
   json["weights"] = Json::object();
   json["formula"] =
       "mean over modes and scenarios of sum_i w_i (x_i + f_i)/(x0_i + f_i) / sum_i w_i; x0: the "
       "baseline's figure in the same mode and scenario; f: a floor below which nothing matters";
+  if (std::ranges::any_of(options.goals, &TuningGoal::is_soft)) {
+    json["formula"] = json["formula"].get<std::string>() +
+                      "; and for each soft goal and mode what the quantile of the draws' largest "
+                      "share of a limit is beyond 1";
+  }
   json["terms"] = Json::array();
   for (const ObjectiveTerm& term : kObjectiveTerms) {
     json["weights"][term.name] = weights.*term.weight;
@@ -330,7 +337,7 @@ std::string gains_text(const Tuning& tuning, const TuneOptions& options,
   json["time_constants"] = {{"T1_s", tuning.gains.heading.sliding_time_constant_s()},
                             {"T2_s", tuning.gains.heading.reaching_time_constant_s()}};
   json["constraints"] = constraints_json(tuning.constraints);
-  json["objective"] = objective_json(tuning, options.weights);
+  json["objective"] = objective_json(tuning, options);
   json["objective"]["held_out"] = {{"value", tuning.held_out_objective},
                                    {"metrics", scores_json(tuning.held_out_scores)}};
   json["metrics"] = scores_json(tuning.scores);

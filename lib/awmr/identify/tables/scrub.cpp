@@ -53,11 +53,6 @@ struct StraightLine {
   double variance_at(double x) const {
     return residual_variance * (1.0 / count + (x - mean_x) * (x - mean_x) / xx);
   }
-  /// Whether the slope is told from none, at 95 %.
-  bool is_sloped() const {
-    return xx > 0.0 &&
-           std::abs(slope) > t_quantile_95(count - 2.0) * std::sqrt(residual_variance / xx);
-  }
 };
 
 /// Precondition: three points or more.
@@ -74,6 +69,20 @@ StraightLine line_through(const std::vector<double>& x, const std::vector<double
   if (line.xx > 0.0) line.slope = xy / line.xx;
   line.residual_variance = std::max(yy - line.slope * xy, 0.0) / (line.count - 2.0);
   return line;
+}
+
+/// Whether moments y_i at x_i are sloped over x, at 95 %, where they are told against g3(r_i), whose own error
+/// is in the slope as well:
+///   slope = sum_i w_i y_i,  w_i = (x_i - mean x)/sum (x - mean x)^2
+bool is_sloped(const std::vector<double>& x, const std::vector<double>& y,
+               const std::vector<double>& rates_radps, const Model& model) {
+  const StraightLine line = line_through(x, y);
+  if (!(line.xx > 0.0)) return false;
+  std::vector<double> weights;
+  for (const double one : x) weights.push_back((one - line.mean_x) / line.xx);
+  const double variance = line.residual_variance / line.xx +
+                          variance_of_law(model, TrialKind::kTurning, rates_radps, weights);
+  return std::abs(line.slope) > t_quantile_95(line.count - 2.0) * std::sqrt(variance);
 }
 
 /// What each turn by the sides met, in the order of the rows.
@@ -118,10 +127,10 @@ std::optional<YawScrub> mean_scrub(const Met& met, double of_law, double degrees
 /// intervals of a straight line at both ends, in one. Noise of r alone makes c fall with r, and noise
 /// of tau alone makes it rise with tau; only a change shows over both.
 std::optional<Interval> changing_scrub(const Met& met, const Model& model) {
-  const StraightLine by_rate = line_through(met.rates_radps, met.moments_m);
-  if (!by_rate.is_sloped() || !line_through(met.applied_m, met.moments_m).is_sloped()) {
-    return std::nullopt;
+  for (const auto* over : {&met.rates_radps, &met.applied_m}) {
+    if (!is_sloped(*over, met.moments_m, met.rates_radps, model)) return std::nullopt;
   }
+  const StraightLine by_rate = line_through(met.rates_radps, met.moments_m);
   const double quantile = t_quantile_95(by_rate.count - 2.0);
   const Interval rates = range_of(met.rates_radps);
   std::vector<double> ends;

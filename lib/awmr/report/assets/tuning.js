@@ -39,7 +39,7 @@ const robustFigures = [["settling_time_s", "settling time, s"], ["overshoot_deg"
 function goalsTable(parent, goals) {
   if (!goals || !goals.length) return;
   add(parent, "h3", "Goals");
-  add(parent, "p", "In how many fresh runs every limit is kept, with the 95 % interval of that share.", {class: "small"});
+  add(parent, "p", "In how many fresh draws every limit is kept, with the 95 % interval of that share.", {class: "small"});
   const limits = (goal) => Object.entries(goal.at_most).map(([name, most]) => `${metricWords(name)} at most ${digits(most)}`).join("; ") + (goal.soft ? " (soft)" : "");
   table(parent, ["goal", "mode", "gains", "#asked", "#kept", "verdict"], goals.map((goal) => [limits(goal), goal.mode, setWords[goal.gains] || goal.gains,
     percent(goal.share), `${percent(goal.held / goal.runs)} (${percent(goal.ci95[0])} to ${percent(goal.ci95[1])})`, goal.gains === "robust" ? goal.verdict : ""]));
