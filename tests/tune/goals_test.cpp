@@ -183,6 +183,11 @@ TEST(Goal, IsRefusedWhereItMeansNothing) {
   TuneOptions nominal = options_with(quick_and_calm());
   nominal.nominal = true;
   EXPECT_THAT(why(nominal), HasSubstr("a nominal search draws nothing"));
+  TuneOptions steering = options_with(quick_and_calm());
+  steering.goals.front().mode = YawMode::kSteering;
+  Model unsteered = uncertain_model();
+  unsteered.vehicle.drive = Drive::kDifferential;
+  EXPECT_THAT(to_text(tune(unsteered, steering).error()), HasSubstr("has no mode steering"));
   TuneOptions unjudged = options_with(quick_and_calm());
   unjudged.judged_draws = 0;
   EXPECT_THAT(why(unjudged), HasSubstr("judged_draws has to be above 0"));

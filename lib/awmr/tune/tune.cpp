@@ -112,8 +112,15 @@ void check_sensitivity(const TuneOptions& options, std::vector<Fault>& faults) {
   }
 }
 
-void check_goals(const TuneOptions& options, std::vector<Fault>& faults) {
+void check_goals(const TuneOptions& options, const Vehicle& vehicle, std::vector<Fault>& faults) {
   if (options.goals.empty()) return;
+  const std::span<const YawMode> modes = yaw_modes(vehicle);
+  for (const TuningGoal& goal : options.goals) {
+    if (goal.mode && std::ranges::find(modes, *goal.mode) == modes.end()) {
+      faults.push_back({"", fmt::format("goals: a vehicle of drive \"{}\" has no mode {}",
+                                        name_in(kDriveNames, vehicle.drive), name_of(*goal.mode))});
+    }
+  }
   if (options.nominal) {
     faults.push_back({"",
                       "goals are chances over what is drawn, and a nominal search draws "
@@ -129,9 +136,9 @@ void check_goals(const TuneOptions& options, std::vector<Fault>& faults) {
   for (const TuningGoal& goal : options.goals) check_goal(goal, faults);
 }
 
-Status check(const TuneOptions& options) {
+Status check(const TuneOptions& options, const Vehicle& vehicle) {
   std::vector<Fault> faults;
-  check_goals(options, faults);
+  check_goals(options, vehicle, faults);
   check_sensitivity(options, faults);
   if (!(options.margin > 0.0 && options.margin < 1.0)) {
     faults.push_back({"", fmt::format("margin: {} is not in (0, 1)", options.margin)});
@@ -399,7 +406,7 @@ Scenario held_out_scenario() {
 }
 
 Result<Tuning> tune(const Model& model, const TuneOptions& options) {
-  AWMR_RETURN_IF_ERROR(check(options));
+  AWMR_RETURN_IF_ERROR(check(options, model.vehicle));
   AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, model.plant());
   AWMR_ASSIGN_OR_RETURN(const BatchArithmetic arithmetic, batch_arithmetic());
   std::vector<Scenario> scenarios = options.scenarios;
