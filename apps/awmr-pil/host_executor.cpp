@@ -17,7 +17,8 @@ class HostExecutor : public Executor {
     const AutopilotParameters& p = *parameters_;
     const bool good =
         start_autopilot(autopilot_, &p.block, p.surge.lines.data(), p.surge.lines.size(),
-                        p.yaw.lines.data(), p.yaw.lines.size(), p.crc, p.rest ? &*p.rest : nullptr);
+                        p.yaw.lines.data(), p.yaw.lines.size(), p.crc, p.rest ? &*p.rest : nullptr,
+                        p.observer ? &*p.observer : nullptr);
     set_up();
     return std::uint8_t{good ? kFaultNone : kFaultParameters};
   }

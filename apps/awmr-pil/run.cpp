@@ -54,7 +54,7 @@ Result<Inputs> read_inputs(const PilOptions& options) {
   Inputs in;
   auto model = read_model(options.model);
   if (!model) return tl::unexpected(model.error());
-  const auto gains = read_gains(options.gains);
+  const auto gains = read_gains_for(options.gains, model->vehicle.sample_time_s);
   if (!gains) return tl::unexpected(gains.error());
   const auto scenario = read_scenario(options.scenario);
   if (!scenario) return tl::unexpected(scenario.error());
@@ -81,6 +81,7 @@ Result<Inputs> read_inputs(const PilOptions& options) {
   in.model = std::move(*model);
   in.gains = *gains;
   in.names = *names;
+  in.emit.parts = parameters->parts;
   in.parameters = *parameters;
   return in;
 }

@@ -100,6 +100,7 @@ struct TuneCommand {
   fs::path output;
   AllocationChoice allocation = {};
   bool nominal = false;
+  bool observer = false;  ///< as {} for the file's `observer`
   std::optional<int> draws = {};
   std::optional<int> sensitivity = {};
   HeadingRateChoice heading_rate_limit = {};

@@ -47,8 +47,12 @@ class StopOnInterrupt {
 };
 
 /// Each under its file name; under the path as given where two names are the same.
-Result<std::vector<NamedGains>> read_named_gains(const std::vector<fs::path>& paths) {
-  AWMR_ASSIGN_OR_RETURN(const std::vector<Gains<double>> gains, read_each(paths, read_gains));
+Result<std::vector<NamedGains>> read_named_gains(const std::vector<fs::path>& paths,
+                                                 const Model& model) {
+  AWMR_ASSIGN_OR_RETURN(const std::vector<Gains<double>> gains,
+                        read_each(paths, [&](const fs::path& path) {
+                          return read_gains_for(path, model.vehicle.sample_time_s);
+                        }));
   std::set<fs::path> names;
   for (const fs::path& path : paths) names.insert(path.filename());
   std::vector<NamedGains> all;
@@ -243,7 +247,8 @@ Outcome outcome_of_whole(const CompareCommand& command, const Comparison& compar
 
 Result<Outcome> execute(const CompareCommand& command) {
   AWMR_ASSIGN_OR_RETURN(Model model, read_model(command.model));
-  AWMR_ASSIGN_OR_RETURN(const std::vector<NamedGains> gains, read_named_gains(command.gains));
+  AWMR_ASSIGN_OR_RETURN(const std::vector<NamedGains> gains,
+                        read_named_gains(command.gains, model));
   AWMR_ASSIGN_OR_RETURN(std::vector<Scenario> scenarios,
                         read_each(command.scenarios, read_scenario));
   choose(command.allocation, model, scenarios);

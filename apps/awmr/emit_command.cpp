@@ -82,7 +82,8 @@ Status add_tables(const Model& model, const Gains<double>& gains, const EmitInpu
 
 Result<Outcome> execute(const EmitCommand& command) {
   AWMR_ASSIGN_OR_RETURN(const Model model, read_model(command.model));
-  AWMR_ASSIGN_OR_RETURN(const Gains<double> gains, read_gains(command.gains));
+  AWMR_ASSIGN_OR_RETURN(const Gains<double> gains,
+                        read_gains_for(command.gains, model.vehicle.sample_time_s));
   AWMR_ASSIGN_OR_RETURN(const EmitInputs inputs, emit_inputs(command.model, command.gains));
   std::vector<EmittedFile> files;
   Outcome outcome{.summary =

@@ -21,7 +21,8 @@ Result<Outcome> execute(const ExportCommand& command) {
   AWMR_ASSIGN_OR_RETURN(const Model model, read_model(command.model));
   ExportSource source{.model = model};
   if (command.gains) {
-    AWMR_ASSIGN_OR_RETURN(source.gains, read_gains(*command.gains));
+    AWMR_ASSIGN_OR_RETURN(source.gains,
+                          read_gains_for(*command.gains, model.vehicle.sample_time_s));
   }
   AWMR_ASSIGN_OR_RETURN(const std::vector<InputFile> inputs, input_files(paths));
   source.inputs = inputs;

@@ -100,7 +100,7 @@ Result<Outcome> execute(const SimulateCommand& command) {
   AWMR_RETURN_IF_ERROR(check_output(command.output, inputs));
   Gains<double> gains = kPaperGains;
   if (command.gains) {
-    AWMR_ASSIGN_OR_RETURN(gains, read_gains(*command.gains));
+    AWMR_ASSIGN_OR_RETURN(gains, read_gains_for(*command.gains, model.vehicle.sample_time_s));
   } else if (!std::holds_alternative<OpenLoop>(scenario.guidance)) {
     return input_error("--gains", "this scenario closes the loop: give --gains GAINS.json");
   }

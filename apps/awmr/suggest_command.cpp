@@ -39,7 +39,8 @@ Status add_metrics(const SuggestCommand& command, const Model& model, SuggestOpt
   }
   AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, model.plant());
   AWMR_RETURN_IF_ERROR(check_mode(model.vehicle, command.mode));
-  AWMR_ASSIGN_OR_RETURN(const Gains<double> gains, read_gains(*command.gains));
+  AWMR_ASSIGN_OR_RETURN(const Gains<double> gains,
+                        read_gains_for(*command.gains, model.vehicle.sample_time_s));
   AWMR_ASSIGN_OR_RETURN(const Scenario scenario, read_scenario(*command.scenario));
   const Controller<double> controller = make_controller(plant, model.vehicle, gains);
   for (const LoopMetric& metric : kLoopMetrics) {

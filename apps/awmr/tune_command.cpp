@@ -34,6 +34,10 @@ std::string gains_table(const Tuning& tuning) {
                   "mu", "epsilon", "mu_s", "eps_s", "T1 s", "T2 s", "objective");
   text += gains_line("paper", tuning.baseline, tuning.baseline_objective);
   text += gains_line("tuned", tuning.gains, tuning.objective);
+  if (const ObserverGains<double>& observer = tuning.gains.observer; observer.is_on()) {
+    text += fmt::format("  observer   {:.4g} rad/s, up to {:.4g} m and {:.4g} of F_max\n",
+                        observer.bandwidth_radps, observer.yaw_max_m, observer.surge_max);
+  }
   return text;
 }
 
@@ -122,6 +126,17 @@ std::vector<Finding> goal_findings(const Tuning& tuning) {
   return findings;
 }
 
+/// A warning where an observer is tuned on runs that nothing pushes.
+std::vector<Finding> observer_findings(const TuneOptions& options) {
+  const bool is_pushed = std::ranges::any_of(
+      options.scenarios, [](const Scenario& scenario) { return scenario.disturbance.any(); });
+  if (!options.observer || is_pushed) return {};
+  return {
+      {"", 0, Severity::kWarning, "observer-unpushed",
+       "no scenario has a disturbance, so that the observer was tuned where it only lets noise in: "
+       "give one that pushes the vehicle, or none at all for the default ones"}};
+}
+
 /// A note where too few samples leave open what moves a figure most.
 std::vector<Finding> sensitivity_findings(const Tuning& tuning) {
   if (!tuning.robust || !tuning.robust->sensitivity) return {};
@@ -196,6 +211,7 @@ Result<Provenance> provenance_of(const TuneCommand& command,
   AWMR_ASSIGN_OR_RETURN(std::vector<InputFile> inputs, input_files(paths, command.names));
   std::vector<std::pair<std::string, std::string>> options = options_of(command.allocation);
   if (command.nominal) options.emplace_back("nominal", "true");
+  if (command.observer) options.emplace_back("observer", "true");
   if (command.draws) options.emplace_back("draws", std::to_string(*command.draws));
   if (command.sensitivity) {
     options.emplace_back("sensitivity", std::to_string(*command.sensitivity));
@@ -215,7 +231,10 @@ Result<Outcome> execute(const TuneCommand& command) {
     AWMR_ASSIGN_OR_RETURN(config, read_tune_config(*command.config));
   }
   std::vector<Scenario>& scenarios = config.options.scenarios;
-  if (scenarios.empty()) scenarios.push_back(default_tuning_scenario());
+  if (command.observer && !config.options.observer) config.options.observer.emplace();
+  if (scenarios.empty()) {
+    AWMR_ASSIGN_OR_RETURN(scenarios, default_tuning_scenarios(model, config.options));
+  }
   choose(command.allocation, model, scenarios);
   AWMR_RETURN_IF_ERROR(limit_heading_rate(command.heading_rate_limit, model, scenarios));
   if (command.nominal) config.options.nominal = true;
@@ -226,6 +245,7 @@ Result<Outcome> execute(const TuneCommand& command) {
   std::string document = gains_text(tuning, config.options, provenance);
   std::vector<Finding> findings = goal_findings(tuning);
   std::ranges::move(sensitivity_findings(tuning), std::back_inserter(findings));
+  std::ranges::move(observer_findings(config.options), std::back_inserter(findings));
   std::ranges::move(extrapolation_in(model, tuning.scores,
                                      [](const ModeScore& score) {
                                        return fmt::format("{}, {}", score.scenario,
@@ -253,6 +273,10 @@ void add_tune(CLI::App& app, Session& session) {
   auto* nominal = sub->add_flag("--nominal", command->nominal,
                                 "Tune on the model's own values alone: no draws from what is "
                                 "uncertain, no noise, no latency, no lag");
+  sub->add_flag(
+      "--observer", command->observer,
+      "Tune a disturbance observer with the gains, for pushes that do not go away: a slope, "
+      "a motor that pulls to one side");
   sub->add_option("--draws", command->draws,
                   "Plants drawn from the model's covariance that the gains are tuned for (default "
                   "4)")

@@ -91,8 +91,8 @@ Status add_judged_logs(const ValidateCommand& command, const Model& model,
 }
 
 /// Those of the file; without one, the paper's for its claims.
-Result<std::optional<Gains<double>>> gains_of(const ValidateCommand& command) {
-  if (command.gains) return read_gains(*command.gains);
+Result<std::optional<Gains<double>>> gains_of(const ValidateCommand& command, const Model& model) {
+  if (command.gains) return read_gains_for(*command.gains, model.vehicle.sample_time_s);
   if (command.claims) return kPaperGains;
   return std::nullopt;
 }
@@ -193,7 +193,7 @@ void add_claims_options(CLI::App& sub, ValidateCommand& command) {
 Result<Outcome> execute(const ValidateCommand& command) {
   AWMR_ASSIGN_OR_RETURN(Model model, read_model(command.model));
   choose(command.allocation, model, {});
-  AWMR_ASSIGN_OR_RETURN(const std::optional<Gains<double>> gains, gains_of(command));
+  AWMR_ASSIGN_OR_RETURN(const std::optional<Gains<double>> gains, gains_of(command, model));
   AWMR_RETURN_IF_ERROR(check_outputs(command));
   AWMR_ASSIGN_OR_RETURN(
       Validation validation,

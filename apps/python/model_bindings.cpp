@@ -141,19 +141,31 @@ void bind_gains(py::module_& module) {
   using G = Gains<double>;
   py::class_<G>(module, "Gains",
                 "Of the heading law: slope lambda_ (1/s), mu (rad/s^2), epsilon (rad/s); of the "
-                "speed law speed_mu (m/s^2), speed_epsilon (m/s). All > 0.")
-      .def(py::init(
-               [](double lambda, double mu, double epsilon, double speed_mu, double speed_epsilon) {
-                 for (const double gain : {lambda, mu, epsilon, speed_mu, speed_epsilon}) {
-                   if (gain > 0.0 && gain < 1e9) continue;
-                   throw Raised(
-                       input_error("gains", fmt::format("expected numbers above 0, found {}", gain))
-                           .value());
-                 }
-                 return G{{lambda, mu, epsilon}, {speed_mu, speed_epsilon}};
-               }),
+                "speed law speed_mu (m/s^2), speed_epsilon (m/s). All > 0. Of a disturbance "
+                "observer observer_bandwidth_radps (0: none), observer_yaw_max_m (m), "
+                "observer_surge_max.")
+      .def(py::init([](double lambda, double mu, double epsilon, double speed_mu,
+                       double speed_epsilon, double bandwidth_radps, double yaw_max_m,
+                       double surge_max) {
+             for (const double gain : {lambda, mu, epsilon, speed_mu, speed_epsilon}) {
+               if (gain > 0.0 && gain < 1e9) continue;
+               throw Raised(
+                   input_error("gains", fmt::format("expected numbers above 0, found {}", gain))
+                       .value());
+             }
+             const ObserverGains<double> observer{bandwidth_radps, yaw_max_m, surge_max};
+             for (const double one : {bandwidth_radps, yaw_max_m, surge_max}) {
+               if (one >= 0.0 && one < 1e9 && (one > 0.0) == observer.is_on()) continue;
+               throw Raised(input_error("gains",
+                                        "an observer has a bandwidth, yaw_max_m and "
+                                        "surge_max above 0, or none of them")
+                                .value());
+             }
+             return G{{lambda, mu, epsilon}, {speed_mu, speed_epsilon}, observer};
+           }),
            py::kw_only(), py::arg("lambda_"), py::arg("mu"), py::arg("epsilon"),
-           py::arg("speed_mu"), py::arg("speed_epsilon"))
+           py::arg("speed_mu"), py::arg("speed_epsilon"), py::arg("observer_bandwidth_radps") = 0.0,
+           py::arg("observer_yaw_max_m") = 0.0, py::arg("observer_surge_max") = 0.0)
       .def_property_readonly(
           "lambda_", [](const G& g) { return g.heading.lambda; }, "1/s")
       .def_property_readonly(
@@ -163,7 +175,13 @@ void bind_gains(py::module_& module) {
       .def_property_readonly(
           "speed_mu", [](const G& g) { return g.speed.mu; }, "m/s^2")
       .def_property_readonly(
-          "speed_epsilon", [](const G& g) { return g.speed.epsilon; }, "m/s");
+          "speed_epsilon", [](const G& g) { return g.speed.epsilon; }, "m/s")
+      .def_property_readonly(
+          "observer_bandwidth_radps", [](const G& g) { return g.observer.bandwidth_radps; },
+          "rad/s")
+      .def_property_readonly(
+          "observer_yaw_max_m", [](const G& g) { return g.observer.yaw_max_m; }, "m")
+      .def_property_readonly("observer_surge_max", [](const G& g) { return g.observer.surge_max; });
   bind_read(
       module, "read_gains", [](const auto& path) { return read_gains(path); },
       "gains.json. Raises InputError.");

@@ -7,10 +7,11 @@ namespace awmr::python {
 namespace {
 
 Tuning tuned(const Model& model, const std::optional<std::filesystem::path>& config, bool nominal,
-             std::optional<int> draws) {
+             std::optional<int> draws, bool observer) {
   TuneOptions options;
   if (config) options = value_or_raise(read_tune_config(*config)).options;
   options.nominal = options.nominal || nominal;
+  if (observer && !options.observer) options.observer.emplace();
   if (draws) {
     if (*draws < 0 || *draws > 1000) throw Raised(input_error("draws", "0 to 1000").value());
     options.draws = *draws;
@@ -48,6 +49,48 @@ py::list scores_of(const Tuning& tuning) {
   return all;
 }
 
+/// Empty for nominal gains.
+py::list judged_of(const Tuning& tuning) {
+  py::list all;
+  if (!tuning.robust) return all;
+  for (const JudgedGains& judged : tuning.robust->judged) {
+    py::dict one;
+    one["gains"] = judged.gains;
+    one["mode"] = name_of(judged.mode);
+    one["completed_share"] = judged.completed_share;
+    for (const JudgedFigure& figure : judged.figures) {
+      py::dict values;
+      values["median"] = figure.median;
+      values["q95"] = figure.q95;
+      values["tail_mean"] = figure.tail_mean;
+      one[py::str(figure.name)] = values;
+    }
+    all.append(one);
+  }
+  return all;
+}
+
+/// Empty without goals.
+py::list goals_of(const Tuning& tuning) {
+  py::list all;
+  if (!tuning.robust) return all;
+  for (const JudgedGoal& judged : tuning.robust->goals) {
+    py::dict limits;
+    for (const GoalLimit& limit : judged.goal.at_most) limits[py::str(limit.figure)] = limit.most;
+    py::dict one;
+    one["gains"] = judged.gains;
+    one["mode"] = name_of(judged.mode);
+    one["at_most"] = limits;
+    one["share"] = judged.goal.share;
+    one["held"] = judged.held;
+    one["runs"] = judged.runs;
+    one["ci95"] = py::make_tuple(judged.ci95.lo, judged.ci95.hi);
+    one["verdict"] = name_in(kGoalVerdictNames, judged.verdict);
+    all.append(one);
+  }
+  return all;
+}
+
 }  // namespace
 
 void bind_tune(py::module_& module) {
@@ -62,11 +105,20 @@ void bind_tune(py::module_& module) {
           "list of dicts: name, value <= limit, margin = limit - value, required")
       .def_property_readonly("scores", scores_of,
                              "list of dicts by scenario and mode: objective and the metrics of "
-                             "comparison.csv");
+                             "comparison.csv")
+      .def_property_readonly(
+          "judged", judged_of,
+          "list of dicts by gains (\"robust\", \"baseline\", ...) and mode: each "
+          "figure's median, q95 and tail_mean over fresh draws; empty for "
+          "nominal gains")
+      .def_property_readonly("goals", goals_of,
+                             "list of dicts by gains, goal and mode: held of so many runs, the "
+                             "share's ci95 and the verdict met, missed or open");
   module.def("tune", tuned, py::arg("model"), py::kw_only(), py::arg("config") = py::none(),
-             py::arg("nominal") = false, py::arg("draws") = py::none(),
+             py::arg("nominal") = false, py::arg("draws") = py::none(), py::arg("observer") = false,
              "Searches the controller's gains under T2 < T1. `config`: path of tune.json; `draws`: "
-             "plants from the model's covariance (default 4); `nominal`: none, no noise, no lag. "
+             "plants from the model's covariance (default 4); `nominal`: none, no noise, no lag; "
+             "`observer`: a disturbance observer is tuned with them. "
              "The numbers are those of `awmr tune`. Raises Refused where no gains meet the "
              "constraints, InputError where the model lacks a parameter.");
 }

@@ -60,7 +60,7 @@ def pipeline(folder):
     c3 = "configs/paper/scenarios/c3_heading_steps.json"
     loop = "--model out/model.json --gains out/gains.json"
     goals = {"goals": [{"at_most": {"settling_time_s": 6}}, {"at_most": {"overshoot_deg": 1}, "soft": True}],
-             "sensitivity": 16, "judged_draws": 20}
+             "sensitivity": 16, "judged_draws": 20, "observer": {"bandwidth_radps": [0.5, 5]}}
     Path(folder, "striving.json").write_text(json.dumps({"schema": "awmr.tune/1", **goals}))
     prints = [
         awmr("run configs/paper/project.json -o out --json", folder),

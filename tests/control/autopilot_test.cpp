@@ -256,6 +256,25 @@ TEST_F(AutopilotLeads, LessTheDisturbanceThatTheObserverSees) {
   }
 }
 
+TEST_F(AutopilotLeads, AnObserverTunedWithTheGainsIsOnFromTheStart) {
+  const ObserverBlock tuned{3.0F, 0.2F, 0.3F, kSampleTime_s};
+  const std::uint32_t crc = crc32_of_parameters(&block_, nullptr, 0, nullptr, 0, nullptr, &tuned);
+  decltype(autopilot_) other{};
+  ASSERT_TRUE(start_autopilot(other, &block_, nullptr, 0, nullptr, 0, crc, nullptr, &tuned));
+  observe_disturbance(autopilot_, Observers<float>{{3.0F, 0.2F}, {3.0F, 0.3F}, true},
+                      kSampleTime_s);
+  AutopilotOutput by_gains{};
+  for (int i = 0; i < 40; ++i) {
+    in_.measured.r_radps = 0.2F - 0.02F * static_cast<float>(i);
+    const AutopilotOutput by_call = step_at({0.0F, 0.0F});
+    autopilot_step(other, in_, by_gains);
+    EXPECT_EQ(by_gains.tau_turn_m, by_call.tau_turn_m);
+    EXPECT_EQ(by_gains.command.force.left, by_call.command.force.left);
+  }
+  EXPECT_FALSE(start_autopilot(other, &block_, nullptr, 0, nullptr, 0, crc_, nullptr, &tuned))
+      << "the check sum goes over the observer, too";
+}
+
 TEST_F(AutopilotLeads, WithForcesThatMakeUpForADeadZone) {
   RestBlock rest{};
   rest.dead_zone = 0.1F;

@@ -208,7 +208,8 @@ TEST_F(AutopilotFaults, AStepIsLateAfterItsTimeoutAndTheNextOneIsNot) {
 TEST_F(AutopilotFaults, TheCheckSumIsOverTheLastByteOfEveryTable) {
   ResistanceLine surge[3] = {}, yaw[2] = {};
   RestBlock rest{};
-  const auto crc = [&] { return crc32_of_parameters(&block_, surge, 3, yaw, 2, &rest); };
+  ObserverBlock observer{};
+  const auto crc = [&] { return crc32_of_parameters(&block_, surge, 3, yaw, 2, &rest, &observer); };
   const std::uint32_t undamaged = crc();
   const auto expect_seen = [&](auto& last) {
     auto* bytes = reinterpret_cast<unsigned char*>(&last);
@@ -220,6 +221,7 @@ TEST_F(AutopilotFaults, TheCheckSumIsOverTheLastByteOfEveryTable) {
   expect_seen(surge[2]);
   expect_seen(yaw[1]);
   expect_seen(rest);
+  expect_seen(observer);
   EXPECT_EQ(crc(), undamaged);
 }
 

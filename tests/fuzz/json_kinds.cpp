@@ -35,6 +35,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   if (const auto gains = awmr::read_gains(path); !is_refused(gains)) {
     require(gains->heading.lambda > 0.0 && gains->speed.epsilon > 0.0, "gains are above 0");
+    require(!gains->observer.is_on() || gains->observer.yaw_max_m > 0.0, "an observer has a limit");
   }
   if (const auto config = awmr::read_tune_config(path); !is_refused(config)) {
     require(config->options.margin > 0.0 && config->options.margin < 1.0, "there is a margin");

@@ -44,6 +44,23 @@ TEST(GainsFile, WritesWhatItReads) {
   EXPECT_FALSE(write_gains(gains, "/no/such/directory/gains.json"));
 }
 
+TEST(GainsFile, WritesAndReadsAnObserverWhereThereIsOne) {
+  const ScratchFile file("gains.json", kText);
+  EXPECT_FALSE(read_gains(file.path())->observer.is_on());
+  ASSERT_TRUE(write_gains({{3.0, 50.0, 12.0}, {5.0, 1.2}}, file.path()));
+  EXPECT_EQ(read_json_file(file.path())->contains("observer"), false);
+  ASSERT_TRUE(write_gains({{3.0, 50.0, 12.0}, {5.0, 1.2}, {2.5, 0.04, 1.3}}, file.path()));
+  const auto read = read_gains(file.path());
+  ASSERT_TRUE(read) << to_text(read.error());
+  EXPECT_EQ(read->observer.bandwidth_radps, 2.5);
+  EXPECT_EQ(read->observer.yaw_max_m, 0.04);
+  EXPECT_EQ(read->observer.surge_max, 1.3);
+  EXPECT_TRUE(read_gains_for(file.path(), 0.3));
+  const auto too_fast = read_gains_for(file.path(), 0.4);
+  ASSERT_FALSE(too_fast);
+  EXPECT_THAT(to_text(too_fast.error()), ::testing::HasSubstr("/observer/bandwidth_radps"));
+}
+
 TEST(GainsFile, PassesOverTheContractsOtherKeys) {
   Json json = Json::parse(kText);
   for (const char* key : {"command", "version", "options", "inputs", "time_constants",

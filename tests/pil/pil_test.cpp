@@ -214,6 +214,22 @@ TEST_F(Pil, FrictionAtRestADeadZoneAndBackEmfAreMadeUpForAsInTheSimulator) {
   }
 }
 
+/// In a scenario that asks for none of its own, where the chip is told headings and where it leads.
+TEST_F(Pil, AnObserverTunedWithTheGainsWorksOnTheChip) {
+  Json gains = Json::parse(read_all(path("gains.json")));
+  gains["observer"] = {{"bandwidth_radps", 2.0}, {"yaw_max_m", 0.04}, {"surge_max", 1.3}};
+  write_all(path("observed.json"), gains.dump());
+  for (const char* scenario : {kC3, "configs/scenarios/side_slope.json"}) {
+    const ProcessResult run =
+        awmr("pil --model " + path("model.json") + " --gains " + path("observed.json") +
+             " --scenario " + scenario + " --mode combined -o " + path("pil.json"));
+    ASSERT_EQ(run.exit_code, 0) << run.out << run.err;
+    EXPECT_EQ(largest(result()["difference"]), 0.0);
+    EXPECT_LE(result()["difference_double"]["heading_deg"].get<double>(), 0.05);
+    EXPECT_EQ(result()["hostile"]["differing"].get<int>(), 0);
+  }
+}
+
 TEST_F(Pil, ALineOverTheUartIsTheSameRun) {
   const std::string line = "configs/paper/scenarios/c9_line.json";
   ASSERT_EQ(pil(line, "combined", "", "memory.json").exit_code, 0);

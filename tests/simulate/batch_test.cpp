@@ -183,6 +183,26 @@ TEST(Batch, IsTheRunOfSimulateOnFourTyresAfterAMinute) {
   }
 }
 
+/// Side by side gains with and without an observer, and with another one.
+TEST(Batch, IsTheRunOfSimulateWhateverObserverItsGainsHave) {
+  const ObserverGains<double> observers[] = {{}, {5.0, 0.1, 0.5}, {1.0, 0.02, 0.3}};
+  for (const Scenario& scenario : shipped_scenarios()) {
+    std::vector<BatchRun> runs = drawn_runs(3, 0.2);
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      runs[i].controller.gains.observer = observers[i];
+    }
+    const BatchArithmetic arithmetic = batch_arithmetic().value();
+    const auto batch = simulate_batch(runs, scenario, kSampleTime_s, arithmetic);
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      const std::string where = scenario.name + ", run " + std::to_string(i);
+      expect_near(batch[i].value(), runs[i], scenario, where);
+      const auto alone =
+          simulate_batch(std::span(&runs[i], 1), scenario, kSampleTime_s, arithmetic);
+      expect_same(alone.front().value(), batch[i].value(), where);
+    }
+  }
+}
+
 TEST(Batch, IsTheRunOfSimulateUnderABatteryThatSags) {
   for (Scenario& scenario : shipped_scenarios()) {
     scenario.duration_s = std::min(scenario.duration_s, 20.0);

@@ -9,6 +9,7 @@
 #include "awmr/simulate/physics.h"
 #include "awmr/simulate/sensing.h"
 #include "simulate/paper_plant.h"
+#include "support/paper_vehicle.h"
 
 namespace awmr::testing {
 namespace {
@@ -351,6 +352,45 @@ TEST(Observer, TakesOffTheSteadyErrorOfAConstantDisturbance) {
     EXPECT_GT(std::abs(without.u_mps - 1.0), 0.1) << name_of(mode);
     EXPECT_LT(std::abs(with.u_mps - 1.0), 1e-4) << name_of(mode);
   }
+}
+
+TEST(Observer, OfTheGainsWorksAsThatOfTheScenarioWhichComesFirst) {
+  Scenario bare = straight();
+  bare.disturbance.yaw = {constant(0.01)};
+  Scenario own = bare;
+  own.control.observer = observer(true);
+  Gains<double> tuned = kPaperGains;
+  tuned.observer = {5.0, 0.3, 0.5};
+  Gains<double> slower = kPaperGains;
+  slower.observer = {1.0, 0.3, 0.5};
+  const auto rows = [](const Scenario& s, const Gains<double>& gains) {
+    const auto c = make_controller(paper_plant(), paper_vehicle(), gains);
+    const awmr::Run run =
+        simulate(paper_plant(), c, s, YawMode::kCombined, {.sample_time_s = 0.01, .substeps = {}});
+    return run_csv(run, s);
+  };
+  EXPECT_EQ(rows(bare, tuned), rows(own, kPaperGains));
+  EXPECT_EQ(rows(own, slower), rows(own, kPaperGains));
+  EXPECT_NE(rows(bare, slower), rows(bare, kPaperGains));
+  // An LQI has an integral of its own.
+  Scenario lqi = bare;
+  lqi.control.lqi = {
+      .heading_rad = 0.05, .yaw_rate_radps = 1.0, .integral_rad_s = 0.05, .tau_turn_m = 0.1};
+  EXPECT_EQ(rows(lqi, tuned), rows(lqi, kPaperGains));
+}
+
+TEST(Observer, OneTooFastForTheSampleTimeIsRefused) {
+  Scenario s = straight();
+  s.control.observer = observer(true);
+  s.control.observer->bandwidth_radps = 100.0;
+  const Model model = fitted_paper_model();
+  const auto refused = plant_for(s, model);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(to_text(refused.error()).find("disturbance_observer/bandwidth_radps"),
+            std::string::npos);
+  Gains<double> gains = kPaperGains;
+  gains.observer = {100.0, 0.1, 0.5};
+  EXPECT_FALSE(controller_for(model, gains));
 }
 
 double overshoot_deg(bool anti_windup) {

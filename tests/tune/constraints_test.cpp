@@ -8,6 +8,7 @@
 #include <cmath>
 #include <complex>
 
+#include "awmr/control/disturbance_observer.h"
 #include "awmr/model/gains_file.h"
 #include "awmr/tune/sampled_loop.h"
 #include "tune/paper_model.h"
@@ -243,7 +244,8 @@ TEST(SampledLoop, IsTheEquationsOfItsHeaderWhateverTheDirectShare) {
   }
 }
 
-/// The largest |z| of the loop with latency and motor lag, by the growth of its free motion.
+/// The largest |z| of the loop with latency, motor lag and the observer of control/, by the growth of
+/// its free motion.
 double growth(const SampledHeadingLoop& loop) {
   struct Motion {
     double psi, r, servo, motor;
@@ -254,12 +256,16 @@ double growth(const SampledHeadingLoop& loop) {
   constexpr int kSteps = 200;
   const double h = loop.sample_time_s / kSteps;
   double log_size = 0.0;
+  const DisturbanceObserver<double> observer{loop.observer_radps, 1e300};
+  ObserverState<double> observed{loop.observer_radps > 0.0 ? 0.1 : 0.0};
   for (int k = 0; k < kSamples; ++k) {
     readings.push_back(x);
     readings.erase(readings.begin());
     const Motion& late = readings.front();
+    const double d_hat = estimate(observer, late.r, observed);
     const double w = (loop.resistance_rate - loop.lambda - loop.reaching_rate) * late.r -
-                     loop.lambda * loop.reaching_rate * late.psi;
+                     loop.lambda * loop.reaching_rate * late.psi - d_hat;
+    advance(observer, d_hat, w - loop.resistance_rate * late.r, loop.sample_time_s, observed);
     for (int i = 0; i < kSteps; ++i) {
       const auto rates = [&](const Motion& s) {
         return Motion{s.r,
@@ -282,6 +288,7 @@ double growth(const SampledHeadingLoop& loop) {
       m = {m.psi / size, m.r / size, m.servo / size, m.motor / size};
     };
     scale(x);
+    observed.z /= size;
     for (Motion& reading : readings) scale(reading);
   }
   return std::exp(log_size / (kSamples / 2));
@@ -306,6 +313,53 @@ TEST(SampledLoop, IsStableExactlyWhereItsLateMotionDecays) {
       }
     }
   }
+}
+
+TEST(SampledLoop, IsStableExactlyWhereItsMotionUnderAnObserverDecays) {
+  int unstable = 0;
+  for (const int late : {0, 2, 5}) {
+    for (const double share : {0.0, 1.0}) {
+      for (const double k : {4.0, 12.0, 30.0}) {
+        for (const double observer_radps : {0.5, 4.0, 20.0, 60.0}) {
+          const SampledHeadingLoop loop{.lambda = 3.0,
+                                        .reaching_rate = k,
+                                        .resistance_rate = 25.0,
+                                        .servo_time_constant_s = 0.03,
+                                        .sample_time_s = 0.01,
+                                        .direct_share = share,
+                                        .motor_time_constant_s = 0.01,
+                                        .observer_radps = observer_radps,
+                                        .late_samples = late};
+          EXPECT_EQ(damping_ratio(loop) > 0.0, growth(loop) < 1.0)
+              << late << " " << share << " " << k << " " << observer_radps;
+          unstable += damping_ratio(loop) > 0.0 ? 0 : 1;
+        }
+      }
+    }
+  }
+  EXPECT_GT(unstable, 5);
+  EXPECT_LT(unstable, 67);
+}
+
+TEST(SampledLoop, GainsTheRootOfItsObserverForShortSamples) {
+  // -lambda, -k and -L: real and apart, and far from them the servo.
+  const double damping = damping_ratio({.lambda = 3.0,
+                                        .reaching_rate = 5.0,
+                                        .resistance_rate = 20.0,
+                                        .servo_time_constant_s = 1e-5,
+                                        .sample_time_s = 1e-5,
+                                        .direct_share = 0.0,
+                                        .observer_radps = 8.0});
+  EXPECT_NEAR(damping, 1.0, 1e-6);
+}
+
+TEST(Constraints, CountAnObserverInTheSpeedLoop) {
+  Gains<double> gains = kPaperGains;
+  gains.observer = {6.0, 0.1, 1.0};
+  const auto all = constraints_of(gains, paper_context(ReachingForm::kStrict, 0.8));
+  EXPECT_NEAR(named(all, "speed gain").value, 0.01 * (5.0 / 1.2 + 6.0), kRounding);
+  EXPECT_NEAR(named(all, "speed lag").value, 0.025 * (5.0 / 1.2 + 6.0), kRounding);
+  EXPECT_THAT(named(all, "speed lag").meaning, ::testing::HasSubstr("+ L"));
 }
 
 TEST(Constraints, StandForThePlantThatLeavesThemTheLeast) {

@@ -394,6 +394,82 @@ TEST(Robust, BeatsThePapersGainsOnFreshDrawsWithinItsActivity) {
   }
 }
 
+/// The heading error, deg, and speed error, m/s, that a push leaves at the end of a run.
+std::pair<double, double> left_by_a_push(const Scenario& pushed, const Gains<double>& gains) {
+  const Run run = simulate(paper_model(), gains, pushed, YawMode::kCombined).value();
+  const RunRow& last = run.rows.back();
+  return {degrees(last.psi_ref_rad - last.state.psi_rad), last.u_ref_mps - last.state.u_mps};
+}
+
+TEST(Observed, AnObserverTunedWithTheGainsTakesOffWhatPushesAllTheTime) {
+  TuneOptions options;
+  options.nominal = true;
+  options.global_evaluations = 80;
+  options.local_evaluations = 60;
+  options.observer.emplace();
+  const std::vector<Scenario> scenarios = default_tuning_scenarios(paper_model(), options).value();
+  ASSERT_EQ(scenarios.size(), 2U);
+  EXPECT_FALSE(scenarios.front().disturbance.any());
+  const Result<Tuning> tuning = tune(paper_model(), options);
+  ASSERT_TRUE(tuning) << to_text(tuning.error());
+  const ObserverGains<double>& observer = tuning->gains.observer;
+  EXPECT_TRUE(options.observer->bandwidth_radps.contains(observer.bandwidth_radps));
+  // Half of l_f g1(1 m/s) tan(10 deg), and of what is left of four wheels at F_max.
+  EXPECT_NEAR(observer.yaw_max_m, 0.5 * 0.35 * 1.3268 * std::tan(radians(10.0)), 1e-12);
+  EXPECT_NEAR(observer.surge_max, 0.5 * (4.0 - 1.3268), 1e-12);
+  EXPECT_FALSE(tuning->baseline.observer.is_on());
+  for (const ConstraintReport& c : tuning->constraints) {
+    EXPECT_TRUE(!c.required || c.margin >= 0.0) << c.name;
+  }
+  const auto [heading, speed] = left_by_a_push(scenarios.back(), tuning->gains);
+  const auto [heading_before, speed_before] = left_by_a_push(scenarios.back(), kPaperGains);
+  EXPECT_GT(std::abs(heading_before), 2.0);
+  EXPECT_GT(std::abs(speed_before), 0.1);
+  EXPECT_LT(std::abs(heading), 0.02);
+  EXPECT_LT(std::abs(speed), 1e-3);
+
+  options.observer->yaw_max_m = 0.02;
+  options.observer->bandwidth_radps = {3.0, 3.0};
+  const Result<Tuning> held = tune(paper_model(), options);
+  ASSERT_TRUE(held) << to_text(held.error());
+  EXPECT_DOUBLE_EQ(held->gains.observer.bandwidth_radps, 3.0);
+  EXPECT_EQ(held->gains.observer.yaw_max_m, 0.02);
+}
+
+TEST(Observed, IsJudgedBesideTheSameGainsWithoutIt) {
+  TuneOptions options;
+  options.draws = 1;
+  options.judged_draws = 10;
+  options.global_evaluations = 60;
+  options.local_evaluations = 20;
+  options.observer.emplace();
+  const Result<Tuning> tuning = tune(paper_model(), options);
+  ASSERT_TRUE(tuning) << to_text(tuning.error());
+  std::map<std::string, double> settled;
+  for (const JudgedGains& judged : tuning->robust->judged) {
+    if (judged.mode == YawMode::kDifferential) settled[judged.gains] = judged.completed_share;
+  }
+  EXPECT_EQ(settled.at("robust"), 1.0);
+  EXPECT_LE(settled.at("unobserved"), 0.5);  // never where it is pushed
+  EXPECT_LE(settled.at("baseline"), 0.5);
+}
+
+TEST(Observed, WhatContradictsASearchForAnObserverIsNamed) {
+  TuneOptions options = short_options();
+  options.observer.emplace();
+  options.observer->bandwidth_radps = {0.0, 3.0};
+  options.observer->surge_max = -1.0;
+  options.scenarios.front().control.observer = {
+      .bandwidth_radps = 5.0, .yaw_max_m = 0.1, .surge_max = 0.5};
+  const Result<Tuning> tuning = tune(paper_model(), options);
+  ASSERT_FALSE(tuning);
+  const std::string text = to_text(tuning.error());
+  for (const char* words :
+       {"bandwidth_radps", "surge_max: -1", "disturbance_observer of its own"}) {
+    EXPECT_THAT(text, ::testing::HasSubstr(words));
+  }
+}
+
 TEST(Robust, ALatencyOfManySamplesIsRefusedBeforeItTakesForEver) {
   TuneOptions options = short_options();
   options.nominal = false;

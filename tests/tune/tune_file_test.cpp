@@ -41,6 +41,20 @@ class TuneFile : public ::testing::Test {
   std::filesystem::path directory_;
 };
 
+TEST_F(TuneFile, ReadsAnObserver) {
+  EXPECT_FALSE(read("{}")->options.observer);
+  const auto plain = read(R"({"observer": {}})");
+  ASSERT_TRUE(plain) << to_text(plain.error());
+  EXPECT_EQ(plain->options.observer->bandwidth_radps.lo, ObserverSearch{}.bandwidth_radps.lo);
+  EXPECT_FALSE(plain->options.observer->yaw_max_m);
+  const auto given =
+      read(R"({"observer": {"bandwidth_radps": [1, 4], "yaw_max_m": 0.02, "surge_max": 0.5}})");
+  ASSERT_TRUE(given) << to_text(given.error());
+  EXPECT_EQ(given->options.observer->bandwidth_radps.hi, 4.0);
+  EXPECT_EQ(given->options.observer->yaw_max_m, 0.02);
+  EXPECT_EQ(given->options.observer->surge_max, 0.5);
+}
+
 TEST_F(TuneFile, ReadsGoals) {
   const auto config = read(
       R"({"goals": [{"at_most": {"settling_time_s": 2, "overshoot_deg": 1}, "share": 0.9},

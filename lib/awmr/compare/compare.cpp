@@ -254,6 +254,7 @@ Result<Comparison> compare(const Model& model, const std::vector<NamedGains>& ga
                            const std::vector<Scenario>& scenarios, const CompareOptions& options) {
   std::vector<Fault> faults = option_faults(gains, scenarios, options);
   if (!faults.empty()) return input_errors(std::move(faults));
+  for (const NamedGains& set : gains) AWMR_RETURN_IF_ERROR(controller_for(model, set.gains));
   AWMR_ASSIGN_OR_RETURN(const Fleet fleet, fleet_of(model, scenarios, options));
   AWMR_ASSIGN_OR_RETURN(const Arithmetics arithmetics,
                         arithmetics_for(options, fleet.nominal, scenarios));

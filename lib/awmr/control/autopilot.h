@@ -79,14 +79,28 @@ inline void set_motors(const RestBlock* rest, MotorCurve& part) {
   part.back_emf_s_per_m = rest != 0 ? flash_float(&rest->back_emf_s_per_m) : 0.0F;
 }
 
+/// Switches the observer on that was tuned with the gains, where the firmware was compiled for one.
+inline void set_observer(const ObserverBlock*, Without<Observer>&) {}
+inline void set_observer(const ObserverBlock* tuned, Observer& part) {
+  if (tuned == 0) return;
+  ObserverBlock read;
+  read_flash(tuned, read);
+  part.observers = {
+      {read.bandwidth_radps, read.yaw_max_m}, {read.bandwidth_radps, read.surge_max}, true};
+  part.sample_time_s = read.sample_time_s;
+  part.is_on = true;
+  part.is_started = false;
+}
+
 /// Reads the parameters and checks them against `crc`, the check sum that they were emitted with.
 /// Where they differ it returns false, and every step from then on gives the safe command only. On
-/// an AVR the block, the lines and `rest` lie in flash. `rest` is for RestingTable and MotorCurve.
+/// an AVR the block, the lines, `rest` and `observer` lie in flash. `rest` is for RestingTable and
+/// MotorCurve, `observer` for Observer.
 template <class G, class P>
 bool start_autopilot(Autopilot<G, P>& a, const ParameterBlock* block,
                      const ResistanceLine* surge_lines, size_t surge_count,
                      const ResistanceLine* yaw_lines, size_t yaw_count, uint32_t crc,
-                     const RestBlock* rest = 0) {
+                     const RestBlock* rest = 0, const ObserverBlock* observer = 0) {
   PreparedController<float, G>& c = a.controller;
   read_flash(&block->constants, c.constants);
   set_resistance(&block->surge_table, block->surge_alpha_beta, surge_lines, c.surge);
@@ -99,9 +113,10 @@ bool start_autopilot(Autopilot<G, P>& a, const ParameterBlock* block,
   read_flash(&block->safety, a.limits);
   a.waypoints.count = 0;
   switch_parts_off(a);
+  set_observer(observer, part_of<typename P::Observation>(a));
   a.has_stepped = false;
-  a.are_parameters_good =
-      crc32_of_parameters(block, surge_lines, surge_count, yaw_lines, yaw_count, rest) == crc;
+  a.are_parameters_good = crc32_of_parameters(block, surge_lines, surge_count, yaw_lines, yaw_count,
+                                              rest, observer) == crc;
   return a.are_parameters_good;
 }
 

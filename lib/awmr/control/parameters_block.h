@@ -41,6 +41,15 @@ struct RestBlock {
   float back_emf_s_per_m;  ///< k_e of a motor, s/m; 0: none
 };
 
+/// What a firmware whose gains were tuned with a disturbance observer knows beside the block. It has
+/// 32-bit members only too.
+struct ObserverBlock {
+  float bandwidth_radps;  ///< L
+  float yaw_max_m;        ///< largest moment that is taken off, over F_max
+  float surge_max;        ///< largest force that is taken off, over F_max
+  float sample_time_s;    ///< T_s
+};
+
 /// The CRC-32 that goes on from `crc` over `size` bytes, which lie in flash on an AVR.
 inline uint32_t crc32_of_flash(uint32_t crc, const void* address, size_t size) {
   const uint8_t* bytes = static_cast<const uint8_t*>(address);
@@ -49,14 +58,16 @@ inline uint32_t crc32_of_flash(uint32_t crc, const void* address, size_t size) {
 }
 
 /// The check sum of the firmware's parameters: CRC-32 of the block, the surge table's lines and the
-/// yaw table's, and `rest` where there is one, in this order.
+/// yaw table's, and `rest` and `observer` where they are, in this order.
 inline uint32_t crc32_of_parameters(const ParameterBlock* block, const ResistanceLine* surge_lines,
                                     size_t surge_count, const ResistanceLine* yaw_lines,
-                                    size_t yaw_count, const RestBlock* rest = 0) {
+                                    size_t yaw_count, const RestBlock* rest = 0,
+                                    const ObserverBlock* observer = 0) {
   uint32_t crc = crc32_of_flash(kCrc32Start, block, sizeof *block);
   crc = crc32_of_flash(crc, surge_lines, surge_count * sizeof(ResistanceLine));
   crc = crc32_of_flash(crc, yaw_lines, yaw_count * sizeof(ResistanceLine));
-  return ~(rest != 0 ? crc32_of_flash(crc, rest, sizeof *rest) : crc);
+  if (rest != 0) crc = crc32_of_flash(crc, rest, sizeof *rest);
+  return ~(observer != 0 ? crc32_of_flash(crc, observer, sizeof *observer) : crc);
 }
 
 /// The resistance in the form that the firmware was compiled for: from the block's table, or from

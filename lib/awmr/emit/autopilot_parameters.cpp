@@ -180,6 +180,12 @@ Result<AutopilotParameters> autopilot_parameters(const Model& model, const Gains
   parameters.resistance = options.resistance;
   parameters.sample_time_s = single(model.vehicle.sample_time_s);
   parameters.parts = options.parts;
+  if (gains.observer.is_on()) {
+    parameters.parts.insert(FirmwarePart::kObserver);
+    parameters.observer =
+        ObserverBlock{single(gains.observer.bandwidth_radps), single(gains.observer.yaw_max_m),
+                      single(gains.observer.surge_max), parameters.sample_time_s};
+  }
   parameters.split = options.split;
   parameters.block = block_of(plant, model, gains, options);
   parameters.steering_max_tan_half = 2.0F * parameters.block.constants.allocation.h_max;
@@ -192,7 +198,8 @@ Result<AutopilotParameters> autopilot_parameters(const Model& model, const Gains
   parameters.crc = crc32_of_parameters(&parameters.block, parameters.surge.lines.data(),
                                        parameters.surge.lines.size(), parameters.yaw.lines.data(),
                                        parameters.yaw.lines.size(),
-                                       parameters.rest ? &*parameters.rest : nullptr);
+                                       parameters.rest ? &*parameters.rest : nullptr,
+                                       parameters.observer ? &*parameters.observer : nullptr);
   return parameters;
 }
 

@@ -109,13 +109,15 @@ struct AutopilotParameters {
   ParameterBlock block{};
   /// For a model with friction at rest, a dead zone or back-EMF; absent: the firmware is without.
   std::optional<RestBlock> rest;
+  /// Of gains that were tuned with an observer; absent: none works unless the sketch switches one on.
+  std::optional<ObserverBlock> observer;
   float steering_max_tan_half = 0.0F;                  ///< tan(d_max/2)
   EmittedTable surge;                                  ///< of g1; without lines for kPowf
   EmittedTable yaw;                                    ///< of g3; without lines for kPowf
   ResistanceForm resistance = ResistanceForm::kTable;  ///< as in EmitOptions
   double table_error = 0.0;                            ///< that both tables keep to
   float sample_time_s = 0.0F;                          ///< as in awmr_params.h
-  std::set<FirmwarePart> parts;                        ///< as in EmitOptions
+  std::set<FirmwarePart> parts;  ///< as in EmitOptions, and the observer of the gains
   CombinedSplit split = CombinedSplit::kRedistribute;  ///< as in EmitOptions
   std::uint32_t crc = 0;                               ///< crc32_of_parameters() of all of it
 };

@@ -82,6 +82,11 @@ void export_gains(const Gains<double>& gains, std::vector<ExportedValue>& values
   add("heading_epsilon", gains.heading.epsilon, "rad/s", "epsilon: half width of its layer");
   add("speed_mu", gains.speed.mu, "m/s^2", "mu_s: largest corrective acceleration");
   add("speed_epsilon", gains.speed.epsilon, "m/s", "eps_s: half width of its layer");
+  if (!gains.observer.is_on()) return;
+  add("observer_bandwidth_radps", gains.observer.bandwidth_radps, "rad/s",
+      "L: bandwidth of the disturbance observer");
+  add("observer_yaw_max_m", gains.observer.yaw_max_m, "m", "largest moment that it takes off");
+  add("observer_surge_max", gains.observer.surge_max, "1", "largest force that it takes off");
 }
 
 }  // namespace

@@ -89,6 +89,13 @@ void add_gains(std::vector<Macro>& macros, const Gains<double>& gains, const std
   add("AWMR_SPEED_MU", gains.speed.mu, "mu_s, m/s^2: corrective surge acceleration", "/speed/mu");
   add("AWMR_SPEED_EPSILON", gains.speed.epsilon,
       "epsilon_s, m/s: half width of the boundary layer of u_d - u", "/speed/epsilon");
+  if (!gains.observer.is_on()) return;
+  add("AWMR_OBSERVER_BANDWIDTH_RADPS", gains.observer.bandwidth_radps,
+      "L, rad/s: bandwidth of the disturbance observer", "/observer/bandwidth_radps");
+  add("AWMR_OBSERVER_YAW_MAX_M", gains.observer.yaw_max_m,
+      "m: largest moment over F_max that it takes off", "/observer/yaw_max_m");
+  add("AWMR_OBSERVER_SURGE_MAX", gains.observer.surge_max,
+      "1: largest force over F_max that it takes off", "/observer/surge_max");
 }
 
 /// True for what a float32 holds with full precision: 0 and the normal numbers. False for NaN.

@@ -6,6 +6,7 @@
 #include "awmr/core/text.h"
 #include "awmr/core/units.h"
 #include "awmr/emit/emit.h"
+#include "awmr/model/observer_rate.h"
 #include "comment_safe.h"
 #include "literals.h"
 #include "macros.h"
@@ -39,7 +40,12 @@ AWMR_PARAMS_CHECK(AWMR_WHEEL_FORCE_MIN_IS_BELOW_MAX, AWMR_WHEEL_FORCE_MIN < AWMR
 AWMR_PARAMS_CHECK(AWMR_STEERING_MAX_RAD_IS_BELOW_HALF_PI, AWMR_STEERING_MAX_RAD < 1.57079633f);
 )";
 
-std::string checks_text(const std::vector<Macro>& macros) {
+constexpr std::string_view kObserverRelation =
+    R"(AWMR_PARAMS_CHECK(AWMR_OBSERVER_DOES_NOT_SWING,
+                  AWMR_OBSERVER_BANDWIDTH_RADPS * AWMR_SAMPLE_TIME_S < 1.0f);
+)";
+
+std::string checks_text(const std::vector<Macro>& macros, bool has_observer) {
   std::string text(kCheckMacro);
   for (const Macro& macro : macros) {
     if (macro.range == MacroRange::kPositive) {
@@ -49,6 +55,7 @@ std::string checks_text(const std::vector<Macro>& macros) {
     }
   }
   text += kRelations;
+  if (has_observer) text += kObserverRelation;
   return text + "#undef AWMR_PARAMS_CHECK\n";
 }
 
@@ -145,8 +152,11 @@ Result<std::string> params_header(const Model& model, const Gains<double>& gains
   const std::vector<Macro> macros = macros_of(model, gains, inputs);
   AWMR_RETURN_IF_ERROR(check_macros(macros));
   AWMR_RETURN_IF_ERROR(check_relations(model, gains, inputs));
-  return intro_text(model, inputs) + defines_text(macros, inputs) + checks_text(macros) +
-         "\n#endif /* AWMR_PARAMS_H */\n";
+  AWMR_RETURN_IF_ERROR(check_observer_rate(gains.observer.bandwidth_radps,
+                                           model.vehicle.sample_time_s,
+                                           inputs.gains_file + ":/observer/bandwidth_radps"));
+  return intro_text(model, inputs) + defines_text(macros, inputs) +
+         checks_text(macros, gains.observer.is_on()) + "\n#endif /* AWMR_PARAMS_H */\n";
 }
 
 }  // namespace awmr

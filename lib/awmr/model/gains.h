@@ -32,11 +32,24 @@ struct SpeedGains {
   T epsilon;  ///< eps_s, m/s, > 0: half width of the layer |e_u| <= eps_s, proportional inside
 };
 
+/// The disturbance observer beside both laws (control/disturbance_observer.h), where one was tuned with
+/// them.
+template <class T>
+struct ObserverGains {
+  /// L, rad/s, L T_s < 1; 0: there is none. Larger: a push is taken off sooner, and more noise let in.
+  T bandwidth_radps = T(0.0);
+  T yaw_max_m = T(0.0);  ///< m, > 0: largest moment over F_max that is taken off
+  T surge_max = T(0.0);  ///< dimensionless, > 0: largest force over F_max that is taken off
+
+  bool is_on() const { return bandwidth_radps > T(0.0); }
+};
+
 /// The gains of both loops.
 template <class T>
 struct Gains {
   HeadingGains<T> heading;
   SpeedGains<T> speed;
+  ObserverGains<T> observer = {};
 };
 
 }  // namespace awmr

@@ -2,6 +2,7 @@
 
 #include "awmr/core/file.h"
 #include "awmr/model/gains_json.h"
+#include "awmr/model/observer_rate.h"
 #include "awmr/model/ranges.h"
 
 namespace awmr {
@@ -9,13 +10,19 @@ namespace awmr {
 Gains<double> gains_from_json(JsonObject& root) {
   JsonObject heading = root.object("heading");
   JsonObject speed = root.object("speed");
-  const Gains<double> gains{
+  Gains<double> gains{
       .heading = {.lambda = heading.number("lambda", kGain),
                   .mu = heading.number("mu", kGain),
                   .epsilon = heading.number("epsilon", kGain)},
       .speed = {.mu = speed.number("mu", kGain), .epsilon = speed.number("epsilon", kGain)}};
   heading.reject_unknown_keys();
   speed.reject_unknown_keys();
+  if (auto observer = root.optional_object("observer")) {
+    gains.observer = {.bandwidth_radps = observer->number("bandwidth_radps", kObserverBandwidth),
+                      .yaw_max_m = observer->number("yaw_max_m", kObserverLimit),
+                      .surge_max = observer->number("surge_max", kObserverLimit)};
+    observer->reject_unknown_keys();
+  }
   return gains;
 }
 
@@ -32,6 +39,13 @@ Result<Gains<double>> read_gains(const std::filesystem::path& path) {
   }
   root.reject_unknown_keys();
   if (!faults.empty()) return input_errors(std::move(faults));
+  return gains;
+}
+
+Result<Gains<double>> read_gains_for(const std::filesystem::path& path, double sample_time_s) {
+  AWMR_ASSIGN_OR_RETURN(const Gains<double> gains, read_gains(path));
+  AWMR_RETURN_IF_ERROR(check_observer_rate(gains.observer.bandwidth_radps, sample_time_s,
+                                           path.string() + ":/observer/bandwidth_radps"));
   return gains;
 }
 

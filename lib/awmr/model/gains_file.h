@@ -9,11 +9,14 @@
 
 namespace awmr {
 
-/// Reads `/heading` and `/speed`; the contract's other keys are allowed and passed over.
+/// Reads `/heading`, `/speed` and, where it is there, `/observer`; the contract's other keys are allowed and passed over.
 /// Errors: as read_json_file; gains that are missing or not above 0.
 Result<Gains<double>> read_gains(const std::filesystem::path& path);
 
-/// Writes `/heading` and `/speed`, for gains that were not tuned here; gains_text() in tune/tune.h
+/// The same, for a controller of this sample time. Errors also: as check_observer_rate.
+Result<Gains<double>> read_gains_for(const std::filesystem::path& path, double sample_time_s);
+
+/// Writes them, for gains that were not tuned here; gains_text() in tune/tune.h
 /// makes the whole file. Errors: as write_file.
 Status write_gains(const Gains<double>& gains, const std::filesystem::path& path);
 

@@ -8,16 +8,23 @@ namespace awmr {
 
 inline constexpr std::string_view kGainsSchema = "awmr.gains/1";
 
-/// {"heading": {lambda, mu, epsilon}, "speed": {mu, epsilon}}
+/// {"heading": {lambda, mu, epsilon}, "speed": {mu, epsilon}}, and where there is an observer
+/// "observer": {bandwidth_radps, yaw_max_m, surge_max}.
 inline Json gains_to_json(const Gains<double>& gains) {
-  return {{"heading",
-           {{"lambda", gains.heading.lambda},
-            {"mu", gains.heading.mu},
-            {"epsilon", gains.heading.epsilon}}},
-          {"speed", {{"mu", gains.speed.mu}, {"epsilon", gains.speed.epsilon}}}};
+  Json json = {{"heading",
+                {{"lambda", gains.heading.lambda},
+                 {"mu", gains.heading.mu},
+                 {"epsilon", gains.heading.epsilon}}},
+               {"speed", {{"mu", gains.speed.mu}, {"epsilon", gains.speed.epsilon}}}};
+  if (gains.observer.is_on()) {
+    json["observer"] = {{"bandwidth_radps", gains.observer.bandwidth_radps},
+                        {"yaw_max_m", gains.observer.yaw_max_m},
+                        {"surge_max", gains.observer.surge_max}};
+  }
+  return json;
 }
 
-/// Reads `heading` and `speed`.
+/// Reads `heading`, `speed` and `observer`.
 Gains<double> gains_from_json(JsonObject& root);
 
 }  // namespace awmr

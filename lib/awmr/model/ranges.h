@@ -27,6 +27,9 @@ inline constexpr NumberRule kCoefficient{.min = 1e-9, .max = 1e9};
 inline constexpr NumberRule kTerm{.min = 0.0, .max = 1e9};
 inline constexpr NumberRule kExponent{.min = 0.0, .max = 20.0};
 inline constexpr NumberRule kGain{.min = 1e-9, .max = 1e9};
+/// Below 1/sample_time_s too, which is not known where gains are read.
+inline constexpr NumberRule kObserverBandwidth{.min = 1e-6, .max = 1e4};
+inline constexpr NumberRule kObserverLimit{.min = 1e-9, .max = 1e6};
 
 /// The values of a parameter with which the equations of motion make sense: dynamics.h and
 /// resistance.h have the bounds at their fields.

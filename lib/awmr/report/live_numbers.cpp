@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "awmr/core/units.h"
+#include "awmr/model/gains_json.h"
 #include "awmr/report/live/setup.h"
 #include "awmr/tune/robust.h"
 
@@ -48,12 +49,15 @@ Draws take_conditions(JsonObject robust, ConstraintContext& context) {
 }
 
 /// What gains.json says of how it was tuned. Errors (input): it says so in another form.
-Result<Draws> take_tuning(const Json& gains, ConstraintContext& context) {
+Result<Draws> take_tuning(const Json& gains, LiveSetup& setup) {
   std::vector<Fault> faults;
   JsonObject json(gains, "gains.json", "", faults);
-  take_reaching(json, json.object("heading").number("lambda", kPositive), context);
+  const Gains<double> tuned = gains_from_json(json);
+  setup.observer_yaw_max_m = tuned.observer.yaw_max_m;
+  setup.observer_surge_max = tuned.observer.surge_max;
+  take_reaching(json, tuned.heading.lambda, setup.context);
   Draws draws;
-  if (auto robust = json.optional_object("robust")) draws = take_conditions(*robust, context);
+  if (auto robust = json.optional_object("robust")) draws = take_conditions(*robust, setup.context);
   if (!faults.empty()) return input_errors(std::move(faults));
   return draws;
 }
@@ -78,7 +82,7 @@ Result<std::vector<double>> live_numbers(const Model& model, const Json& gains,
   setup.context.sample_time_s = model.vehicle.sample_time_s;
   setup.context.wheel_force = model.vehicle.wheel_force;
   setup.context.speed_mps = scenario.speed_mps;
-  AWMR_ASSIGN_OR_RETURN(const Draws draws, take_tuning(gains, setup.context));
+  AWMR_ASSIGN_OR_RETURN(const Draws draws, take_tuning(gains, setup));
   AWMR_ASSIGN_OR_RETURN(const std::vector<Plant<double>> plants,
                         plants_of(model, draws.count, draws.seed));
   setup.context.draws.assign(plants.begin() + 1, plants.end());

@@ -103,6 +103,12 @@ void set_up_lane(Batch& batch, const BatchRun& run, std::size_t lane) {
   put(step_s, lane, block.step_s);
   put(static_cast<double>(substeps), lane, block.substeps);
   put(prepared(controller), lane, block.controller);
+  const Observers<double> observers = observers_in(batch.scenario, controller.gains);
+  put(observers.yaw, lane, block.yaw_observer);
+  put(observers.surge, lane, block.surge_observer);
+  block.setup.anti_windup = observers.anti_windup;
+  block.setup.is_observed =
+      block.setup.is_observed || (observers.yaw.bandwidth_radps > 0.0 && !block.setup.is_open_loop);
   if (const auto& weights = batch.scenario.control.lqi) {
     put(lqi_gains(*weights, controller.inertia_norm), lane, block.lqi);
   }
@@ -128,9 +134,7 @@ Batch set_up(std::span<const BatchRun> runs, const Scenario& scenario, double sa
   block.setup.split = controller.limits.split;
   block.setup.form = controller.limits.form;
   block.setup.is_open_loop = std::holds_alternative<OpenLoop>(scenario.guidance);
-  block.setup.is_observed = scenario.control.observer && !block.setup.is_open_loop;
   block.setup.is_lqi = scenario.control.lqi.has_value();
-  if (scenario.control.observer) block.setup.observers = observers_of(*scenario.control.observer);
   block.setup.sample_time_s = sample_time_s;
   block.setup.lag = motor_lag(scenario.actuators, sample_time_s);
   block.setup.is_by_wheel = forces_differ_by_wheel(scenario);
@@ -170,9 +174,11 @@ void start_observing(Block& block) {
   for (std::size_t lane = 0; lane < kBatchRuns; ++lane) {
     const auto controller = lane_of<PreparedController<double>>(block.controller, lane);
     const auto measured = lane_of<Measurement<double>>(block.measured, lane);
-    put(start_observers(block.setup.observers,
-                        {controller.constants.mass_norm * measured.u_mps,
-                         controller.constants.inertia_norm * measured.r_radps}),
+    const Observers<double> observers{
+        lane_of<DisturbanceObserver<double>>(block.yaw_observer, lane),
+        lane_of<DisturbanceObserver<double>>(block.surge_observer, lane), block.setup.anti_windup};
+    put(start_observers(observers, {controller.constants.mass_norm * measured.u_mps,
+                                    controller.constants.inertia_norm * measured.r_radps}),
         lane, block.observed);
   }
 }

@@ -7,8 +7,9 @@ namespace awmr {
 Laws::Laws(const Controller<double>& controller, const Scenario& scenario, YawMode mode,
            double sample_time_s, const Measurement<double>& start)
     : controller_(controller_in(scenario, controller)), mode_(mode), sample_time_s_(sample_time_s) {
-  if (scenario.control.observer) {
-    observers_ = observers_of(*scenario.control.observer);
+  const Observers<double> observers = observers_in(scenario, controller.gains);
+  if (observers.yaw.bandwidth_radps > 0.0) {
+    observers_ = observers;
     observed_ = start_observers(*observers_, motion_of(start).momentum);
   }
   if (scenario.control.lqi) lqi_ = lqi_gains(*scenario.control.lqi, controller_.inertia_norm);

@@ -15,7 +15,9 @@ inline constexpr double kStopped_mps = 1e-3;
 /// The controller with what the scenario changes of it.
 Controller<double> controller_in(const Scenario& scenario, Controller<double> controller);
 
-Observers<double> observers_of(const ControlOptions::Observer& observer);
+/// The scenario's observer, or else the one of the gains; bandwidth 0 where there is none. An LQI takes
+/// no gains, and so not their observer.
+Observers<double> observers_in(const Scenario& scenario, const Gains<double>& gains);
 
 /// F' of a wheel at the most, over F_max: what overcomes the dead zone, and the zone.
 double largest_force(const Controller<double>& controller);

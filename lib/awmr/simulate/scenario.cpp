@@ -7,6 +7,7 @@
 
 #include "awmr/core/option_text.h"
 #include "awmr/core/units.h"
+#include "awmr/model/observer_rate.h"
 #include "awmr/simulate/simulate.h"
 
 namespace awmr {
@@ -142,9 +143,17 @@ Status check_lqi(const Scenario& scenario, const Model& model) {
           gains.rate_per_s, sample_time_s));
 }
 
+Status check_observer(const Scenario& scenario, const Model& model) {
+  if (!scenario.control.observer) return {};
+  return check_observer_rate(
+      scenario.control.observer->bandwidth_radps, model.vehicle.sample_time_s,
+      fmt::format("scenario '{}':/control/disturbance_observer/bandwidth_radps", scenario.name));
+}
+
 Result<Plant<double>> plant_for(const Scenario& scenario, const Model& model, Motion motion) {
   AWMR_RETURN_IF_ERROR(check_tyres(scenario));
   AWMR_RETURN_IF_ERROR(check_lqi(scenario, model));
+  AWMR_RETURN_IF_ERROR(check_observer(scenario, model));
   AWMR_ASSIGN_OR_RETURN(const Model corner, model_at_corner(model, scenario));
   AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, corner.plant(motion));
   AWMR_RETURN_IF_ERROR(check_work(plant, model.file, scenario, model.vehicle.sample_time_s));

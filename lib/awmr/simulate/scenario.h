@@ -133,8 +133,8 @@ std::string plant_text(const Scenario& scenario);
 /// The model with the scenario's corner parameters at the ends of their 95 % intervals.
 /// Errors (input): a parameter of the corner has no interval.
 Result<Model> model_at_corner(Model model, const Scenario& scenario);
-/// The plant of model_at_corner(). Errors (input): as there, as check_tyres, as Model::plant and as
-/// check_work (in simulate.h).
+/// The plant of model_at_corner(). Errors (input): as there, as check_tyres, as check_observer_rate,
+/// as Model::plant and as check_work (in simulate.h).
 Result<Plant<double>> plant_for(const Scenario& scenario, const Model& model,
                                 Motion motion = Motion::kPlanar);
 

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "awmr/core/units.h"
+#include "awmr/model/observer_rate.h"
 #include "awmr/simulate/laws.h"
 #include "awmr/simulate/one_run.h"
 #include "awmr/simulate/physics.h"
@@ -107,10 +108,15 @@ Controller<double> controller_in(const Scenario& scenario, Controller<double> co
   return controller;
 }
 
-Observers<double> observers_of(const ControlOptions::Observer& observer) {
-  return {{observer.bandwidth_radps, observer.yaw_max_m},
-          {observer.bandwidth_radps, observer.surge_max},
-          observer.anti_windup};
+Observers<double> observers_in(const Scenario& scenario, const Gains<double>& gains) {
+  if (const auto& own = scenario.control.observer) {
+    return {{own->bandwidth_radps, own->yaw_max_m},
+            {own->bandwidth_radps, own->surge_max},
+            own->anti_windup};
+  }
+  const ObserverGains<double> tuned =
+      scenario.control.lqi ? ObserverGains<double>{} : gains.observer;
+  return {{tuned.bandwidth_radps, tuned.yaw_max_m}, {tuned.bandwidth_radps, tuned.surge_max}, true};
 }
 
 double largest_force(const Controller<double>& controller) {
@@ -233,6 +239,9 @@ Run simulate(const Plant<double>& plant, const Controller<double>& controller,
 }
 
 Result<Controller<double>> controller_for(const Model& model, const Gains<double>& gains) {
+  AWMR_RETURN_IF_ERROR(check_observer_rate(gains.observer.bandwidth_radps,
+                                           model.vehicle.sample_time_s,
+                                           "gains:/observer/bandwidth_radps"));
   AWMR_ASSIGN_OR_RETURN(const Plant<double> nominal, model.plant(model.simulated_motion()));
   return make_controller(nominal, model.vehicle, gains);
 }

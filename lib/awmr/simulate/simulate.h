@@ -97,7 +97,7 @@ Controller<double> make_controller(const Plant<double>& plant, const Vehicle& ve
 
 /// The controller that knows the model's own values, not a corner of their intervals; where they
 /// are those of straight motion alone, it is one for straight motion.
-/// Errors (input): as Model::plant.
+/// Errors (input): as Model::plant and check_observer_rate.
 Result<Controller<double>> controller_for(const Model& model, const Gains<double>& gains);
 
 /// One run of the model under its own controller, at the vehicle's sample time: the scenario's

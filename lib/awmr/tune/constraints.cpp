@@ -44,6 +44,7 @@ double heading_damping(const Gains<double>& gains, const ConstraintContext& cont
                                 .sample_time_s = context.sample_time_s,
                                 .direct_share = direct_share,
                                 .motor_time_constant_s = motor_time_constant_s,
+                                .observer_radps = gains.observer.bandwidth_radps,
                                 .late_samples = late_samples}));
     }
   }
@@ -105,7 +106,8 @@ std::vector<ConstraintReport> constraints_with(const Gains<double>& gains,
   const Plant<double>& plant = context.plant;
   const double sliding_s = gains.heading.sliding_time_constant_s();
   const double reaching_s = gains.heading.reaching_time_constant_s();
-  const double speed_rate = gains.speed.mu / gains.speed.epsilon;
+  const double speed_rate = gains.speed.mu / gains.speed.epsilon + gains.observer.bandwidth_radps;
+  const char* rate_name = gains.observer.is_on() ? "(mu_s/epsilon_s + L)" : "(mu_s/epsilon_s)";
   const double servo_s = context.has_steering ? plant.steering_time_constant_s : 0.0;
   const double lag_s = std::max(servo_s, context.motor_time_constant_s) + context.latency_s +
                        context.sample_time_s / 2.0;
@@ -119,9 +121,9 @@ std::vector<ConstraintReport> constraints_with(const Gains<double>& gains,
       report("heading damping", kDampingRequired, heading_damping(gains, context, 0.0, 0.0),
              "required <= smallest damping ratio of the sampled heading loop with hold and servo"),
       report("speed gain", speed_rate * context.sample_time_s, kSpeedGainPerSample,
-             "(mu_s/epsilon_s) T_s <= 0.5: gain margin 4 of the sampled speed loop"),
+             fmt::format("{} T_s <= 0.5: gain margin 4 of the sampled speed loop", rate_name)),
       report("speed lag", speed_rate * lag_s, 1.0 / (4.0 * kDampingRequired * kDampingRequired),
-             "(mu_s/epsilon_s) (T + latency + T_s/2) <= 1/(4 zeta^2), zeta = 0.7"),
+             fmt::format("{} (T + latency + T_s/2) <= 1/(4 zeta^2), zeta = 0.7", rate_name)),
       report("mu dominates",
              kUnmodelledShare * plant.yaw(kDominatedYawRate_radps) / plant.inertia_norm,
              gains.heading.mu, "20 % of g3(60 deg/s)/I'z <= mu, rad/s^2"),

@@ -76,6 +76,10 @@ double turning_authority_m(const ConstraintContext& context);
 /// motors' lag and the latency, where they are given, stand beside T; the servo's T stands in for the
 /// motors' where there is a servo.
 ///
+/// An observer of bandwidth L stands in the sampled heading loop; in the speed loop it makes
+/// k_s + L of k_s: with d_hat the command is -(k_s + L) e_u - k_s L times its integral, and to first
+/// order the lag costs that of the faster part. Its gain on readings of the heading is none.
+///
 /// Noise gain is the law's gain from psi to tau_turn: beyond the limit the noise of a compass alone
 /// drives the actuators to their stops.
 ///

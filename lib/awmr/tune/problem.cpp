@@ -15,38 +15,42 @@ namespace {
 /// matters.
 constexpr double kRejected = 1e3;
 
-std::array<Interval, kDimension> intervals(const GainBounds& b) {
-  return {b.lambda, b.mu, b.epsilon, b.speed_mu, b.speed_epsilon};
-}
-
 }  // namespace
 
-Gains<double> gains_at(const Point& x, const GainBounds& bounds) {
-  const auto range = intervals(bounds);
+SearchSpace::SearchSpace(const TuneOptions& options) : observer_(options.observer) {
+  const GainBounds& b = options.bounds;
+  const Interval bandwidth = observer_ ? observer_->bandwidth_radps : Interval{1.0, 1.0};
+  range_ = {b.lambda, b.mu, b.epsilon, b.speed_mu, b.speed_epsilon, bandwidth};
+}
+
+Gains<double> SearchSpace::gains_at(const Point& x) const {
   Point g{};
-  for (unsigned i = 0; i < kDimension; ++i) {
-    g[i] = std::clamp(std::exp(x[i]), range[i].lo, range[i].hi);
+  for (unsigned i = 0; i < kMostDimensions; ++i) {
+    g[i] = std::clamp(std::exp(x[i]), range_[i].lo, range_[i].hi);
   }
-  return {{g[0], g[1], g[2]}, {g[3], g[4]}};
+  Gains<double> gains{{g[0], g[1], g[2]}, {g[3], g[4]}};
+  if (observer_) gains.observer = {g[5], *observer_->yaw_max_m, *observer_->surge_max};
+  return gains;
 }
 
-Point lower_corner(const GainBounds& bounds) {
+Point SearchSpace::lower_corner() const {
   Point x{};
-  for (unsigned i = 0; i < kDimension; ++i) x[i] = std::log(intervals(bounds)[i].lo);
+  for (unsigned i = 0; i < kMostDimensions; ++i) x[i] = std::log(range_[i].lo);
   return x;
 }
 
-Point upper_corner(const GainBounds& bounds) {
+Point SearchSpace::upper_corner() const {
   Point x{};
-  for (unsigned i = 0; i < kDimension; ++i) x[i] = std::log(intervals(bounds)[i].hi);
+  for (unsigned i = 0; i < kMostDimensions; ++i) x[i] = std::log(range_[i].hi);
   return x;
 }
 
-Point point_of(const Gains<double>& g, const GainBounds& bounds) {
-  Point x{std::log(g.heading.lambda), std::log(g.heading.mu), std::log(g.heading.epsilon),
-          std::log(g.speed.mu), std::log(g.speed.epsilon)};
-  for (unsigned i = 0; i < kDimension; ++i) {
-    x[i] = std::clamp(x[i], lower_corner(bounds)[i], upper_corner(bounds)[i]);
+Point SearchSpace::point_of(const Gains<double>& g) const {
+  const Point gains{g.heading.lambda, g.heading.mu,    g.heading.epsilon,
+                    g.speed.mu,       g.speed.epsilon, g.observer.bandwidth_radps};
+  Point x{};
+  for (unsigned i = 0; i < kMostDimensions; ++i) {
+    x[i] = std::log(std::clamp(gains[i], range_[i].lo, range_[i].hi));
   }
   return x;
 }
@@ -63,7 +67,7 @@ double Looked::value() const {
 
 Problem::Problem(const TuneOptions& options, const ConstraintContext& context,
                  const Objective& objective)
-    : options_(options), context_(context), objective_(objective) {
+    : options_(options), space_(options), context_(context), objective_(objective) {
   nearest.violation = std::numeric_limits<double>::infinity();
   for (const ConstraintReport& c :
        constraints_of(Gains<double>{{1.0, 1.0, 1.0}, {1.0, 1.0}}, context_)) {
@@ -86,7 +90,7 @@ Problem::Problem(const TuneOptions& options, const ConstraintContext& context,
 }
 
 Looked Problem::before_runs(const Point& point) const {
-  Looked looked{.point = point, .candidate = {.gains = gains_at(point, options_.bounds)}};
+  Looked looked{.point = point, .candidate = {.gains = space_.gains_at(point)}};
   looked.residuals = awmr::residuals(constraints_of(looked.candidate.gains, context_));
   for (std::size_t i = 0; i < looked.residuals.size(); ++i) looked.residuals[i] -= tolerated[i];
   looked.candidate.violation = *std::ranges::max_element(looked.residuals);

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,17 +14,29 @@
 
 namespace awmr {
 
-/// lambda, mu, epsilon, mu_s, epsilon_s.
-inline constexpr unsigned kDimension = 5;
-/// The gains' logarithms.
-using Point = std::array<double, kDimension>;
+/// lambda, mu, epsilon, mu_s, epsilon_s, and the bandwidth of an observer.
+inline constexpr unsigned kMostDimensions = 6;
+/// Their logarithms; the last is 0 where no observer is searched.
+using Point = std::array<double, kMostDimensions>;
 
-/// The corners of the bounds.
-Point lower_corner(const GainBounds& bounds);
-Point upper_corner(const GainBounds& bounds);
-/// Held inside the bounds, against rounding.
-Gains<double> gains_at(const Point& point, const GainBounds& bounds);
-Point point_of(const Gains<double>& gains, const GainBounds& bounds);
+/// Where the search looks.
+class SearchSpace {
+ public:
+  /// An observer's limits have to be there.
+  explicit SearchSpace(const TuneOptions& options);
+
+  unsigned dimension() const { return observer_ ? kMostDimensions : kMostDimensions - 1; }
+  /// The corners of the bounds.
+  Point lower_corner() const;
+  Point upper_corner() const;
+  /// Held inside the bounds, against rounding.
+  Gains<double> gains_at(const Point& point) const;
+  Point point_of(const Gains<double>& gains) const;
+
+ private:
+  std::array<Interval, kMostDimensions> range_;
+  std::optional<ObserverSearch> observer_;
+};
 
 /// Gains that were looked at.
 struct Candidate {
@@ -60,6 +73,7 @@ class Problem {
   /// Of the constraints: the required ones, then "no worse than the baseline" of each mode, then
   /// unless nominal the activity of each and the goals that are not soft.
   const std::vector<std::string>& names() const { return names_; }
+  const SearchSpace& space() const { return space_; }
   unsigned constraints() const { return static_cast<unsigned>(names_.size()); }
   bool simulate_all = false;  ///< also points that break a constraint, as a local model needs
   /// By constraint: the residual up to which it counts as met. 0, but for what a wider limit is worth.
@@ -77,6 +91,7 @@ class Problem {
   void add_runs(const Evaluation& evaluation, Looked& looked) const;
 
   const TuneOptions& options_;
+  SearchSpace space_;
   const ConstraintContext& context_;
   const Objective& objective_;
   std::vector<std::string> names_;

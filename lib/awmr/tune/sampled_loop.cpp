@@ -36,20 +36,30 @@ double damping_ratio(const SampledHeadingLoop& loop) {
   continuous(3, 4) = 1.0 / motor_s;
   const Matrix5 discrete = (continuous * loop.sample_time_s).exp();
 
-  // Behind the four states, the commands still to come: w of this sample's readings enters at the
-  // last of them, or at once.
+  // The states, y of an observer, then the commands still to come: w of this sample's readings enters
+  // at the last of them, or at once.
+  const double k = loop.reaching_rate;
+  const double l = loop.observer_radps;
+  const Eigen::Index states = l > 0.0 ? 5 : 4;
   const Eigen::Index n = loop.late_samples;
-  Eigen::MatrixXd closed = Eigen::MatrixXd::Zero(4 + n, 4 + n);
+  Eigen::RowVectorXd law = Eigen::RowVectorXd::Zero(states);
+  law(0) = -loop.lambda * k;
+  law(1) = loop.resistance_rate - loop.lambda - k - l;
+  Eigen::MatrixXd closed = Eigen::MatrixXd::Zero(states + n, states + n);
   closed.topLeftCorner<4, 4>() = discrete.topLeftCorner<4, 4>();
-  const Eigen::RowVector4d law(-loop.lambda * loop.reaching_rate,
-                               loop.resistance_rate - loop.lambda - loop.reaching_rate, 0.0, 0.0);
+  if (l > 0.0) {
+    law(4) = -1.0;
+    closed(4, 0) = loop.sample_time_s * l * loop.lambda * k;
+    closed(4, 1) = loop.sample_time_s * l * (loop.lambda + k);
+    closed(4, 4) = 1.0;
+  }
   const Eigen::Vector4d by_command = discrete.topRightCorner<4, 1>();
   if (n == 0) {
-    closed += by_command * law;
+    closed.topLeftCorner(4, states) += by_command * law;
   } else {
-    closed.block<4, 1>(0, 4) = by_command;
-    for (Eigen::Index i = 0; i + 1 < n; ++i) closed(4 + i, 5 + i) = 1.0;
-    closed.block<1, 4>(3 + n, 0) = law;
+    closed.block<4, 1>(0, states) = by_command;
+    for (Eigen::Index i = 0; i + 1 < n; ++i) closed(states + i, states + 1 + i) = 1.0;
+    closed.block(states + n - 1, 0, 1, states) = law;
   }
   const Eigen::VectorXcd eigenvalues =
       Eigen::EigenSolver<Eigen::MatrixXd>(closed, false).eigenvalues();

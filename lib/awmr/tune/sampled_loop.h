@@ -13,7 +13,13 @@ namespace awmr {
 ///     w = a r_j - (lambda + k) r_j - lambda k psi_j   the law, k = mu/eps, held over T_s,
 ///                                                     from the readings of j = n samples ago
 ///
-/// Without hold and servo, a cancels and s^2 + (lambda + k) s + lambda k has the roots -lambda, -k.
+/// With an observer of bandwidth L (control/disturbance_observer.h), d_hat = I'z (y + L r) is taken off:
+///
+///     w       = a r_j - (lambda + k + L) r_j - lambda k psi_j - y_j
+///     y_(j+1) = y_j + T_s L ((lambda + k) r_j + lambda k psi_j)
+///
+/// Without hold and servo, a cancels and s^2 + (lambda + k) s + lambda k has the roots -lambda, -k,
+/// and the observer adds -L.
 /// With them the cancellation comes late: a r - a r(t - tau) is about a tau r_dot, an added inertia
 /// of 1 + a tau, and the product (lambda + k) tau takes phase, tau = T + T_s/2. To first order and
 /// with lambda k << (lambda + k)/tau, damping zeta needs (lambda + k) tau <= 1/(4 zeta^2); here the
@@ -26,6 +32,7 @@ struct SampledHeadingLoop {
   double sample_time_s = 0.0;          ///< T_s, > 0
   double direct_share = 0.0;           ///< s: 1 differential, 0 steering, 1/2 combined
   double motor_time_constant_s = 0.0;  ///< T_m, >= 0
+  double observer_radps = 0.0;         ///< L, >= 0, L T_s < 1; 0: no observer
   int late_samples = 0;                ///< n, 0 ... 1000: how late the readings are
 };
 

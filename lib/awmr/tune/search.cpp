@@ -31,10 +31,10 @@ constexpr int kStartEvaluations = 300;
 
 using Optimizer = std::unique_ptr<nlopt_opt_s, decltype(&nlopt_destroy)>;
 
-Optimizer optimizer(nlopt_algorithm algorithm, const GainBounds& bounds, int evaluations) {
-  Optimizer opt(nlopt_create(algorithm, kDimension), &nlopt_destroy);
-  nlopt_set_lower_bounds(opt.get(), lower_corner(bounds).data());
-  nlopt_set_upper_bounds(opt.get(), upper_corner(bounds).data());
+Optimizer optimizer(nlopt_algorithm algorithm, const SearchSpace& space, int evaluations) {
+  Optimizer opt(nlopt_create(algorithm, space.dimension()), &nlopt_destroy);
+  nlopt_set_lower_bounds(opt.get(), space.lower_corner().data());
+  nlopt_set_upper_bounds(opt.get(), space.upper_corner().data());
   nlopt_set_maxeval(opt.get(), evaluations);
   return opt;
 }
@@ -92,19 +92,19 @@ class OneGeneration : public Asked {
   std::size_t asked_ = 0;
 };
 
-Point point_at(const double* x) {
+Point point_at(unsigned dimension, const double* x) {
   Point point{};
-  std::copy(x, x + kDimension, point.begin());
+  std::copy(x, x + dimension, point.begin());
   return point;
 }
 
-double objective_callback(unsigned, const double* x, double*, void* data) {
-  return static_cast<Asked*>(data)->objective(point_at(x));
+double objective_callback(unsigned dimension, const double* x, double*, void* data) {
+  return static_cast<Asked*>(data)->objective(point_at(dimension, x));
 }
 
-void constraints_callback(unsigned count, double* result, unsigned, const double* x, double*,
-                          void* data) {
-  static_cast<Asked*>(data)->residuals(point_at(x), {result, count});
+void constraints_callback(unsigned count, double* result, unsigned dimension, const double* x,
+                          double*, void* data) {
+  static_cast<Asked*>(data)->residuals(point_at(dimension, x), {result, count});
 }
 
 /// Why NLopt stopped, in words.
@@ -142,7 +142,7 @@ nlopt_result search_globally(Problem& problem, const TuneOptions& options, const
   const std::lock_guard<std::mutex> turn(generator);
   std::vector<Looked> known;
   while (true) {
-    const Optimizer search = optimizer(NLOPT_GN_ISRES, options.bounds, options.global_evaluations);
+    const Optimizer search = optimizer(NLOPT_GN_ISRES, problem.space(), options.global_evaluations);
     nlopt_set_population(search.get(), kPopulation);
     nlopt_srand(static_cast<unsigned long>((options.seed ^ (options.seed >> 32)) & 0xffffffffULL));
     OneGeneration generation(known, search.get());
@@ -154,12 +154,12 @@ nlopt_result search_globally(Problem& problem, const TuneOptions& options, const
 
 /// What the callback of feasible_start() shares: it looks at the largest residual alone.
 struct Feasibility {
-  const TuneOptions& options;
+  SearchSpace space;
   const ConstraintContext& context;
   Candidate best;
 
-  double look_at(const double* x) {
-    Candidate c{.gains = gains_at(point_at(x), options.bounds)};
+  double look_at(const Point& point) {
+    Candidate c{.gains = space.gains_at(point)};
     const std::vector<double> r = residuals(constraints_of(c.gains, context));
     c.violation = *std::max_element(r.begin(), r.end());
     if (better(c, best)) best = c;
@@ -167,18 +167,19 @@ struct Feasibility {
   }
 };
 
-double feasibility_callback(unsigned, const double* x, double*, void* data) {
-  return static_cast<Feasibility*>(data)->look_at(x);
+double feasibility_callback(unsigned dimension, const double* x, double*, void* data) {
+  return static_cast<Feasibility*>(data)->look_at(point_at(dimension, x));
 }
 
 /// The baseline, the middle of the bounds, then random ones.
-Point start_point(int index, const TuneOptions& options, const Gains<double>& baseline) {
-  if (index == 0) return point_of(baseline, options.bounds);
-  const Point lo = lower_corner(options.bounds);
-  const Point hi = upper_corner(options.bounds);
-  Random random(options.seed, static_cast<std::uint64_t>(index));
+Point start_point(int index, const SearchSpace& space, std::uint64_t seed,
+                  const Gains<double>& baseline) {
+  if (index == 0) return space.point_of(baseline);
+  const Point lo = space.lower_corner();
+  const Point hi = space.upper_corner();
+  Random random(seed, static_cast<std::uint64_t>(index));
   Point x{};
-  for (unsigned i = 0; i < kDimension; ++i) {
+  for (unsigned i = 0; i < space.dimension(); ++i) {
     x[i] = lo[i] + (hi[i] - lo[i]) * (index == 1 ? 0.5 : random.uniform());
   }
   return x;
@@ -196,18 +197,18 @@ std::vector<SearchStep> at_even_ranks(const std::vector<SearchStep>& steps) {
 
 }  // namespace
 
-Result<std::string> search_locally(Problem& problem, const GainBounds& bounds,
-                                   int most_evaluations) {
+Result<std::string> search_locally(Problem& problem, int most_evaluations) {
   const int budget = problem.evaluations + most_evaluations;
   std::string stop;
   for (int searches = 1; problem.evaluations < budget; ++searches) {
     const Candidate before = problem.nearest;
-    const Optimizer search = optimizer(NLOPT_LN_COBYLA, bounds, budget - problem.evaluations);
+    const Optimizer search =
+        optimizer(NLOPT_LN_COBYLA, problem.space(), budget - problem.evaluations);
     nlopt_set_initial_step1(search.get(), kFirstStep);
     nlopt_set_xtol_abs1(search.get(), kLastStep);
     OneByOne asked(problem);
     const nlopt_result code =
-        run(search.get(), asked, problem.constraints(), point_of(before.gains, bounds));
+        run(search.get(), asked, problem.constraints(), problem.space().point_of(before.gains));
     if (failed(code)) return program_fault("NLopt's COBYLA: " + reason(code));
     stop = fmt::format("; local, {} searches: {}", searches, reason(code));
     const Candidate& after = problem.nearest;
@@ -220,11 +221,11 @@ Result<std::string> search_locally(Problem& problem, const GainBounds& bounds,
 
 Candidate feasible_start(const TuneOptions& options, const ConstraintContext& context,
                          const Gains<double>& baseline) {
-  Feasibility problem{.options = options, .context = context, .best = {}};
+  Feasibility problem{.space = SearchSpace(options), .context = context, .best = {}};
   problem.best.violation = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 2 + kRandomStarts && problem.best.violation > 0.0; ++i) {
-    Point x = start_point(i, options, baseline);
-    Optimizer opt = optimizer(NLOPT_LN_COBYLA, options.bounds, kStartEvaluations);
+    Point x = start_point(i, problem.space, options.seed, baseline);
+    Optimizer opt = optimizer(NLOPT_LN_COBYLA, problem.space, kStartEvaluations);
     nlopt_set_min_objective(opt.get(), feasibility_callback, &problem);
     nlopt_set_initial_step1(opt.get(), kFirstStep);
     nlopt_set_xtol_abs1(opt.get(), kLastStep);
@@ -239,17 +240,17 @@ Result<SearchResult> search(const TuneOptions& options, const ConstraintContext&
                             const Objective& objective, std::span<const Gains<double>> starts) {
   Problem problem(options, context, objective);
   const nlopt_result global =
-      search_globally(problem, options, point_of(starts.front(), options.bounds));
+      search_globally(problem, options, problem.space().point_of(starts.front()));
   if (failed(global)) return program_fault("NLopt's ISRES: " + reason(global));
   std::string stop = "global: " + reason(global);
   const int global_evaluations = problem.evaluations;
   problem.simulate_all = true;
   for (const Gains<double>& start : starts.subspan(1)) {
-    const Point point[] = {point_of(start, options.bounds)};
+    const Point point[] = {problem.space().point_of(start)};
     problem.look_at(point);
   }
   AWMR_ASSIGN_OR_RETURN(const std::string local,
-                        search_locally(problem, options.bounds, options.local_evaluations));
+                        search_locally(problem, options.local_evaluations));
   stop += local;
   SearchResult result{
       .best = std::nullopt,

@@ -25,8 +25,7 @@ struct SearchResult {
 /// LN_COBYLA again and again from the best point that `problem` has met, each time with the first step
 /// anew, until a search gains less than 1e-4 or the budget is spent. Returns why it stopped. Errors
 /// (program fault): NLopt's.
-Result<std::string> search_locally(Problem& problem, const GainBounds& bounds,
-                                   int most_evaluations);
+Result<std::string> search_locally(Problem& problem, int most_evaluations);
 
 /// Gains within the bounds that meet `context`, or those that come nearest: no simulation is
 /// needed.

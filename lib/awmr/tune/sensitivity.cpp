@@ -27,9 +27,9 @@ Point scaled(Point point, const Pair& pair, double by_ln) {
 }
 
 /// How far the logarithms of a pair can be moved together within the bounds.
-Interval room(const Point& from, const Pair& pair, const GainBounds& bounds) {
-  const Point lower = lower_corner(bounds);
-  const Point upper = upper_corner(bounds);
+Interval room(const Point& from, const Pair& pair, const SearchSpace& space) {
+  const Point lower = space.lower_corner();
+  const Point upper = space.upper_corner();
   return {std::max(lower[pair[0]] - from[pair[0]], lower[pair[1]] - from[pair[1]]),
           std::min(upper[pair[0]] - from[pair[0]], upper[pair[1]] - from[pair[1]])};
 }
@@ -43,9 +43,8 @@ Interval last_good(const Interval& ends, std::ptrdiff_t good) {
 
 /// The stretch around 0 over which the logarithms of a pair can be moved together and the objective is
 /// at most `most`.
-Interval stretch(Problem& problem, const Point& from, const Pair& pair, const GainBounds& bounds,
-                 double most) {
-  const Interval within = room(from, pair, bounds);
+Interval stretch(Problem& problem, const Point& from, const Pair& pair, double most) {
+  const Interval within = room(from, pair, problem.space());
   // Each way: from what is good to what is not, as far as is known.
   std::array<Interval, 2> ends{{{0.0, within.lo}, {0.0, within.hi}}};
   for (int round = 0; round < 2; ++round) {
@@ -77,18 +76,17 @@ SettledGains settle(const TuneOptions& options, const ConstraintContext& context
   quiet.progress = {};
   Problem problem(quiet, context, objective);
   SettledGains settled;
-  Point point = point_of(best.gains, options.bounds);
+  Point point = problem.space().point_of(best.gains);
   // Half of what may be given up for each of the two.
-  const Interval heading = stretch(problem, point, kHeading, options.bounds,
-                                   (1.0 + 0.5 * kIndifferent) * best.objective);
+  const Interval heading =
+      stretch(problem, point, kHeading, (1.0 + 0.5 * kIndifferent) * best.objective);
   settled.mu = {best.gains.heading.mu * std::exp(heading.lo),
                 best.gains.heading.mu * std::exp(heading.hi)};
   point = scaled(point, kHeading, heading.lo);
-  const Interval speed =
-      stretch(problem, point, kSpeed, options.bounds, (1.0 + kIndifferent) * best.objective);
+  const Interval speed = stretch(problem, point, kSpeed, (1.0 + kIndifferent) * best.objective);
   settled.speed_mu = {best.gains.speed.mu * std::exp(speed.lo),
                       best.gains.speed.mu * std::exp(speed.hi)};
-  settled.gains = gains_at(scaled(point, kSpeed, speed.lo), options.bounds);
+  settled.gains = problem.space().gains_at(scaled(point, kSpeed, speed.lo));
   return settled;
 }
 
@@ -98,14 +96,14 @@ Result<std::vector<ActiveConstraint>> active_constraints(const TuneOptions& opti
                                                          const Candidate& best) {
   TuneOptions quiet = options;
   quiet.progress = {};
-  const Point point = point_of(best.gains, options.bounds);
+  const Point point = SearchSpace(options).point_of(best.gains);
   // The least objective of a local search with one constraint wider, or with none.
   const auto searched = [&](std::size_t wider) -> Result<double> {
     Problem problem(quiet, context, objective);
     if (wider < problem.tolerated.size()) problem.tolerated[wider] = kWider;
     problem.look_at(std::span(&point, 1));
     problem.simulate_all = true;
-    AWMR_RETURN_IF_ERROR(search_locally(problem, options.bounds, kPriceEvaluations));
+    AWMR_RETURN_IF_ERROR(search_locally(problem, kPriceEvaluations));
     return problem.nearest.objective;
   };
   Problem problem(quiet, context, objective);

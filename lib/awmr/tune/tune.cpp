@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iterator>
 #include <set>
+#include <tuple>
 #include <utility>
 #include <variant>
 
@@ -32,6 +33,16 @@ void check_bounds(const Interval& range, const char* name, std::vector<Fault>& f
                                     range.lo, range.hi)});
 }
 
+void check_observer(const std::optional<ObserverSearch>& observer, std::vector<Fault>& faults) {
+  if (!observer) return;
+  check_bounds(observer->bandwidth_radps, "the observer's bandwidth_radps", faults);
+  for (const auto& [name, limit] :
+       {std::pair("yaw_max_m", observer->yaw_max_m), std::pair("surge_max", observer->surge_max)}) {
+    if (!limit || (*limit > 0.0 && std::isfinite(*limit))) continue;
+    faults.push_back({"", fmt::format("the observer's {}: {} is not above 0", name, *limit)});
+  }
+}
+
 void check_weights(const ObjectiveWeights& w, std::vector<Fault>& faults) {
   const double values[] = {w.itae, w.overshoot, w.control_variation, w.effort, w.speed_itae};
   double sum = 0.0;
@@ -44,7 +55,8 @@ void check_weights(const ObjectiveWeights& w, std::vector<Fault>& faults) {
   }
 }
 
-void check_scenarios(const std::vector<Scenario>& scenarios, std::vector<Fault>& faults) {
+void check_scenarios(const std::vector<Scenario>& scenarios, bool observer_is_searched,
+                     std::vector<Fault>& faults) {
   std::set<std::string> names;
   for (const Scenario& scenario : scenarios) {
     if (!std::holds_alternative<HeadingSteps>(scenario.guidance)) {
@@ -56,6 +68,12 @@ void check_scenarios(const std::vector<Scenario>& scenarios, std::vector<Fault>&
       faults.push_back({"", fmt::format("scenario '{}' names the heading law lqi, which takes no "
                                         "gains; those of the sliding mode are tuned",
                                         scenario.name)});
+    }
+    if (observer_is_searched && scenario.control.observer) {
+      faults.push_back(
+          {"", fmt::format("scenario '{}' has a disturbance_observer of its own, and one "
+                           "is to be tuned: leave out one of them",
+                           scenario.name)});
     }
     if (!names.insert(scenario.name).second) {
       faults.push_back({"", fmt::format("two scenarios are named '{}'; scores are told apart by "
@@ -153,7 +171,8 @@ Status check(const TuneOptions& options, const Vehicle& vehicle) {
   check_bounds(options.bounds.epsilon, "epsilon", faults);
   check_bounds(options.bounds.speed_mu, "speed_mu", faults);
   check_bounds(options.bounds.speed_epsilon, "speed_epsilon", faults);
-  check_scenarios(options.scenarios, faults);
+  check_observer(options.observer, faults);
+  check_scenarios(options.scenarios, options.observer.has_value(), faults);
   if (!faults.empty()) return input_errors(std::move(faults));
   return {};
 }
@@ -188,9 +207,10 @@ Status check_work(const TuneOptions& options, const std::vector<Scenario>& scena
 }
 
 std::string in_words(const Gains<double>& g) {
-  return fmt::format("lambda {:.4g}, mu {:.4g}, epsilon {:.4g}, mu_s {:.4g}, epsilon_s {:.4g}",
-                     g.heading.lambda, g.heading.mu, g.heading.epsilon, g.speed.mu,
-                     g.speed.epsilon);
+  return fmt::format(
+      "lambda {:.4g}, mu {:.4g}, epsilon {:.4g}, mu_s {:.4g}, epsilon_s {:.4g}{}", g.heading.lambda,
+      g.heading.mu, g.heading.epsilon, g.speed.mu, g.speed.epsilon,
+      g.observer.is_on() ? fmt::format(", observer {:.4g} rad/s", g.observer.bandwidth_radps) : "");
 }
 
 /// No gains meet the constraints: the one broken most by the gains that come nearest.
@@ -259,6 +279,27 @@ ConstraintContext context_of(const TuneOptions& options, const Plant<double>& pl
                             .wheel_force = vehicle.wheel_force};
   for (const Scenario& s : scenarios) context.speed_mps = std::max(context.speed_mps, s.speed_mps);
   return context;
+}
+
+/// Gives an observer the limits that the user did not. Errors (input): there is nothing left to take
+/// off with.
+Status limit_observer(const ConstraintContext& context, std::optional<ObserverSearch>& observer) {
+  if (!observer) return {};
+  const Plant<double>& plant = context.plant;
+  const double left =
+      driven_wheels(plant) * context.wheel_force.hi - plant.surge(context.speed_mps);
+  const std::tuple<const char*, std::optional<double>*, double> limits[] = {
+      {"yaw_max_m", &observer->yaw_max_m, turning_authority_m(context)},
+      {"surge_max", &observer->surge_max, left}};
+  for (const auto& [name, limit, most] : limits) {
+    if (!*limit) *limit = kObserverShare * most;
+    if (**limit > 0.0) continue;
+    return input_error("",
+                       fmt::format("the observer's {}: at {:g} m/s the wheels have no force left "
+                                   "to take a disturbance off with: give slower scenarios",
+                                   name, context.speed_mps));
+  }
+  return {};
 }
 
 /// Searches on one setting. `also_from`: gains that may be a good start as well.
@@ -374,6 +415,11 @@ Result<Tuning> tune_robustly(const Model& model, ObjectiveSetting setting,
   AWMR_ASSIGN_OR_RETURN(Tuning tuning, tune_on(setting, context, robust_options, nominal_gains));
 
   std::vector<NamedCandidate> candidates{{"robust", tuning.gains}, {"baseline", tuning.baseline}};
+  if (tuning.gains.observer.is_on()) {
+    Gains<double> unobserved = tuning.gains;
+    unobserved.observer = {};
+    candidates.push_back({"unobserved", unobserved});
+  }
   if (nominal) {
     robust.nominal = nominal->gains;
     robust.nominal_history = nominal->history;
@@ -401,16 +447,38 @@ Scenario default_tuning_scenario() {
   return heading_steps({30.0, -30.0}, {.name = "heading_30_-30"});
 }
 
+Result<std::vector<Scenario>> default_tuning_scenarios(const Model& model,
+                                                       const TuneOptions& options) {
+  std::vector<Scenario> scenarios{default_tuning_scenario()};
+  if (!options.observer) return scenarios;
+  AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, model.plant());
+  const ConstraintContext context = context_of(options, plant, model.vehicle, scenarios);
+  Scenario pushed = scenarios.front();
+  pushed.name += "_pushed";
+  const auto constantly = [](double value) {
+    DisturbanceTerm term;
+    term.value = value;
+    return std::vector{term};
+  };
+  pushed.disturbance.yaw = constantly(kPush * turning_authority_m(context));
+  pushed.disturbance.surge = constantly(-kPush * plant.surge(pushed.speed_mps));
+  scenarios.push_back(std::move(pushed));
+  return scenarios;
+}
+
 Scenario held_out_scenario() {
   return heading_steps({60.0, 0.0}, {.speed_mps = 0.7, .name = "held_out_60_0"});
 }
 
-Result<Tuning> tune(const Model& model, const TuneOptions& options) {
+Result<Tuning> tune(const Model& model, const TuneOptions& asked) {
+  TuneOptions options = asked;
   AWMR_RETURN_IF_ERROR(check(options, model.vehicle));
   AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, model.plant());
   AWMR_ASSIGN_OR_RETURN(const BatchArithmetic arithmetic, batch_arithmetic());
   std::vector<Scenario> scenarios = options.scenarios;
-  if (scenarios.empty()) scenarios.push_back(default_tuning_scenario());
+  if (scenarios.empty()) {
+    AWMR_ASSIGN_OR_RETURN(scenarios, default_tuning_scenarios(model, options));
+  }
   AWMR_RETURN_IF_ERROR(check_work(options, scenarios, plant, model));
   ObjectiveSetting setting{.plants = {plant},
                            .vehicle = model.vehicle,
@@ -420,6 +488,7 @@ Result<Tuning> tune(const Model& model, const TuneOptions& options) {
                            .seed = options.seed,
                            .arithmetic = arithmetic};
   ConstraintContext context = context_of(options, plant, model.vehicle, setting.scenarios);
+  AWMR_RETURN_IF_ERROR(limit_observer(context, options.observer));
   if (options.nominal) return tune_on(setting, context, options);
   return tune_robustly(model, std::move(setting), std::move(context), options);
 }

@@ -50,6 +50,15 @@ struct GainBounds {
   Interval speed_epsilon{0.05, 10.0};  ///< m/s
 };
 
+/// A disturbance observer that is searched with the gains: its bandwidth.
+struct ObserverSearch {
+  Interval bandwidth_radps{0.2, 20.0};  ///< rad/s
+  /// Largest moment and force that it takes off, m and dimensionless, > 0. Absent: kObserverShare of the
+  /// weaker mode's turning authority, and of the force that the wheels have left at the largest u_d.
+  std::optional<double> yaw_max_m, surge_max;
+};
+inline constexpr double kObserverShare = 0.5;
+
 /// Part of the global evaluations that a robust search makes: five and more runs stand behind each.
 inline constexpr double kRobustShare = 0.4;
 /// A share of the objective that does not matter: what it leaves open is settled by a rule.
@@ -104,10 +113,11 @@ struct TuneOptions {
   int local_evaluations = 300;
   /// Of the global search. Another one shows how far the objective is flat.
   std::uint64_t seed = 1;
-  /// Each has to hold headings, under a name of its own; empty: 30 then -30 deg at 1 m/s.
+  /// Each has to hold headings, under a name of its own; empty: default_tuning_scenarios().
   std::vector<Scenario> scenarios;
   GainBounds bounds;
-  std::vector<TuningGoal> goals = {};  ///< of a robust search
+  std::optional<ObserverSearch> observer = {};  ///< absent: gains alone are searched
+  std::vector<TuningGoal> goals = {};           ///< of a robust search
   /// Samples that say which of what was assumed moves the tuned loop: 0 (none) or kFewestSamples to
   /// kMostSamples; of a robust search.
   int sensitivity = 0;
@@ -165,7 +175,8 @@ struct JudgedFigure {
 
 /// One set of gains in one mode, over the judged draws.
 struct JudgedGains {
-  std::string gains;  ///< "robust", "nominal", "baseline"
+  std::string
+      gains;  ///< "robust", "unobserved" (those without their observer), "nominal", "baseline"
   YawMode mode{};
   double completed_share = 0.0;  ///< settled after every step
   std::vector<JudgedFigure> figures;
@@ -204,7 +215,7 @@ inline constexpr NameTable<GoalVerdict, 3> kGoalVerdictNames{
 struct JudgedGoal {
   TuningGoal goal;
   YawMode mode{};
-  std::string gains;  ///< "robust", "nominal", "baseline"
+  std::string gains;  ///< as in JudgedGains
   int held = 0;       ///< draws in which every limit is kept
   int runs = 0;       ///< draws
   Interval ci95;      ///< of the share, by Clopper and Pearson
@@ -250,6 +261,12 @@ struct Tuning {
 
 /// The scenario tuned on when none is given: 30 then -30 deg at 1 m/s, 20 s, from rest. [paper 4.3]
 Scenario default_tuning_scenario();
+/// The same, and for an observer behind it the same pushed all the time, by kPush of the weaker mode's
+/// turning authority and against the motion by kPush of g1(u_d): without a push an observer only lets
+/// noise in. Errors (input): as Model::plant.
+Result<std::vector<Scenario>> default_tuning_scenarios(const Model& model,
+                                                       const TuneOptions& options);
+inline constexpr double kPush = 0.1;
 /// The scenario judged on afterwards: 60 then 0 deg at 0.7 m/s, 20 s, from rest.
 Scenario held_out_scenario();
 

@@ -8,6 +8,7 @@
 
 #include "awmr/core/json.h"
 #include "awmr/model/gains_json.h"
+#include "awmr/model/ranges.h"
 #include "awmr/simulate/scenario_file.h"
 #include "awmr/tune/objective.h"
 
@@ -80,6 +81,20 @@ void read_numbers(JsonObject& json, TuneOptions& options) {
   if (const auto seed = json.optional_integer("seed", 0, 4'294'967'295L)) {
     options.seed = static_cast<std::uint64_t>(*seed);
   }
+}
+
+ObserverSearch read_observer(JsonObject json) {
+  ObserverSearch observer;
+  if (const auto read = json.optional_interval("bandwidth_radps")) {
+    if (read->lo < kObserverBandwidth.min || read->hi > kObserverBandwidth.max) {
+      json.fault("bandwidth_radps", "both ends have to be in [1e-6, 1e4]");
+    }
+    observer.bandwidth_radps = *read;
+  }
+  observer.yaw_max_m = json.optional_number("yaw_max_m", kObserverLimit);
+  observer.surge_max = json.optional_number("surge_max", kObserverLimit);
+  json.reject_unknown_keys();
+  return observer;
 }
 
 TuningGoal read_goal(JsonObject json) {
@@ -305,6 +320,9 @@ TuneConfig config_from_json(JsonObject& object, const std::filesystem::path& dir
     read_weights(*weights, config.options.weights);
   }
   if (auto bounds = object.optional_object("bounds")) read_bounds(*bounds, config.options.bounds);
+  if (auto observer = object.optional_object("observer")) {
+    config.options.observer = read_observer(std::move(*observer));
+  }
   read_goals(object, config.options);
   read_scenarios(object, directory, config, faults);
   object.reject_unknown_keys();

@@ -106,7 +106,8 @@ Claim sideslip_smallest(const HeadingSetting& setting, const ModeRuns& runs) {
                  ? "without steered wheels only the turn itself, m' r u, makes sway"
                  : "sway follows (tau_steering/l_f - m' r u)/a_s: differential has no steering "
                    "force, but turns fast enough for m' r u alone to make more sway"};
-  if (!same_heading_gains(setting.gains.heading, kPaperGains.heading)) {
+  if (setting.gains.observer.is_on() ||
+      !same_heading_gains(setting.gains.heading, kPaperGains.heading)) {
     const HeadingSetting paper{
         {setting.model, setting.plant, kPaperGains, setting.arithmetic, setting.control}};
     claim.figure += "; with the paper's gains: largest " +

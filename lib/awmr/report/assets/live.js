@@ -6,6 +6,7 @@ const liveSliders = [
   {key: "lambda", name: "lambda, 1/s", low: 0.5, high: 15, log: true}, {key: "mu", name: "mu, rad/s²", low: 1, high: 200, log: true},
   {key: "epsilon", name: "epsilon, rad/s", low: 0.1, high: 50, log: true}, {key: "speed_mu", name: "mu_s, m/s²", low: 0.5, high: 100, log: true},
   {key: "speed_epsilon", name: "epsilon_s, m/s", low: 0.05, high: 10, log: true},
+  {key: "observer", name: "observer's bandwidth, rad/s", low: 0.2, high: 20, log: true},
   {key: "sample_time_s", name: "sample time, s", low: 0.002, high: 0.1, log: true},
   {key: "mass", name: "mass, times the model's", low: 0.5, high: 2, log: true},
   {key: "friction", name: "friction, times the model's", low: 0.5, high: 2, log: true},
@@ -24,7 +25,7 @@ async function liveModule(packed, numbers) {
   new Float64Array(exports.memory.buffer, room, numbers.length).set(numbers);
   exports.live_begin();
   return (s) => {
-    const ended = exports.live_run(s.lambda, s.mu, s.epsilon, s.speed_mu, s.speed_epsilon, modes.indexOf(s.mode), s.sample_time_s,
+    const ended = exports.live_run(s.lambda, s.mu, s.epsilon, s.speed_mu, s.speed_epsilon, s.observer || 0, modes.indexOf(s.mode), s.sample_time_s,
       s.mass, s.friction, s.heading_noise_deg);
     const text = new TextDecoder().decode(new Uint8Array(exports.memory.buffer, exports.live_text(), exports.live_size()).slice());
     const table = new Float64Array(exports.memory.buffer, exports.live_table(), exports.live_rows() * liveColumns.length).slice();
@@ -33,9 +34,10 @@ async function liveModule(packed, numbers) {
   };
 }
 
-/// In the form that --gains takes.
-function gainsDocument(s) {
-  return {schema: "awmr.gains/1", heading: {lambda: s.lambda, mu: s.mu, epsilon: s.epsilon}, speed: {mu: s.speed_mu, epsilon: s.speed_epsilon}};
+/// In the form that --gains takes; `observer`: the tuned one, if any.
+function gainsDocument(s, observer) {
+  const gains = {schema: "awmr.gains/1", heading: {lambda: s.lambda, mu: s.mu, epsilon: s.epsilon}, speed: {mu: s.speed_mu, epsilon: s.speed_epsilon}};
+  return observer ? {...gains, observer: {...observer, bandwidth_radps: s.observer}} : gains;
 }
 
 function liveSlider(parent, slider, settings, changed) {
@@ -109,8 +111,10 @@ async function liveSection(data) {
   if (!packed || !data.live) return;
   const box = section("Try other gains", `${data.live.scenario}, simulated here by the program's own code as you move the sliders. Grey: the tuned gains under the same conditions.`);
   box.parentNode.parentNode.classList.add("live");
-  const {heading, speed} = data.gains;
-  const tuned = {lambda: heading.lambda, mu: heading.mu, epsilon: heading.epsilon, speed_mu: speed.mu, speed_epsilon: speed.epsilon,
+  const {heading, speed, observer} = data.gains;
+  const gains = {lambda: heading.lambda, mu: heading.mu, epsilon: heading.epsilon, speed_mu: speed.mu, speed_epsilon: speed.epsilon,
+    ...(observer && {observer: observer.bandwidth_radps})};
+  const tuned = {...gains,
     mode: data.live.modes[data.live.modes.length - 1], sample_time_s: data.live.sample_time_s, mass: 1, friction: 1, heading_noise_deg: 0};
   const settings = {...tuned};
   let run = null;
@@ -126,7 +130,7 @@ async function liveSection(data) {
   const select = add(choice, "select");
   for (const mode of data.live.modes) add(select, "option", mode);
   select.value = settings.mode;
-  const shows = liveSliders.map((slider) => liveSlider(controls, slider, settings, () => changed()));
+  const shows = liveSliders.filter((slider) => slider.key in tuned).map((slider) => liveSlider(controls, slider, settings, () => changed()));
   const buttons = add(box, "p");
   const copy = add(buttons, "button", "Copy these gains as JSON", {type: "button"});
   const back = add(buttons, "button", "Back to the tuned gains", {type: "button"});
@@ -142,11 +146,10 @@ async function liveSection(data) {
     requestAnimationFrame(() => {
       waiting = false;
       const result = run(settings);
-      const {lambda, mu, epsilon, speed_mu, speed_epsilon} = tuned;
-      const besides = run({...settings, lambda, mu, epsilon, speed_mu, speed_epsilon});
+      const besides = run({...settings, ...gains});
       redraw(result, besides);
       liveTables(tables, result, besides);
-      shownGains.textContent = JSON.stringify(gainsDocument(settings));
+      shownGains.textContent = JSON.stringify(gainsDocument(settings, observer));
       said.textContent = result.ended ? "" : " The simulation could not go on: these gains let a number grow without bound.";
     });
   }
@@ -161,7 +164,7 @@ async function liveSection(data) {
   };
   copy.onclick = async () => {
     try {
-      await navigator.clipboard.writeText(JSON.stringify(gainsDocument(settings), null, 1));
+      await navigator.clipboard.writeText(JSON.stringify(gainsDocument(settings, observer), null, 1));
       said.textContent = " Copied: save them as a file, which simulate, compare and emit take for their gains.";
     } catch {
       said.textContent = " This browser does not let a page copy; the gains stand below.";

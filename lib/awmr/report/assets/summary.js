@@ -66,6 +66,11 @@ function gainsTable(parent, gains) {
   if (gains.baseline && gains.baseline.heading) rows.push(row("the paper's", gains.baseline, gains.baseline.objective));
   table(parent, ["gains", "#lambda, 1/s", "#mu", "#epsilon", "#mu_s", "#epsilon_s", "#T1, s", "#T2, s", "#objective"], rows,
     (k, i) => k === 0 && i > 0 && i < 6);
+  const {observer} = gains;
+  if (observer) {
+    add(parent, "p", `With a disturbance observer of ${digits(observer.bandwidth_radps)} rad/s, which takes off up to ${digits(observer.yaw_max_m)} m ` +
+      `and ${digits(observer.surge_max)} of F_max. It works in the firmware, too.`);
+  }
 }
 
 /// What to do next, most useful first.

@@ -28,7 +28,7 @@ set(flags --target=wasm32-wasi -std=c++20 -Oz -ffp-contract=off -ffunction-secti
 set(flags_random -fexceptions -fignore-exceptions -D__arm__)
 set(objects)
 foreach(part report/live/live core/error core/option_text core/random core/text model/family model/model
-    model/parameters model/rest_speed model/vehicle simulate/disturbance simulate/laws simulate/line_following
+    model/observer_rate model/parameters model/rest_speed model/vehicle simulate/disturbance simulate/laws simulate/line_following
     simulate/metrics simulate/passage simulate/physics simulate/pilot simulate/scenario simulate/sensing
     simulate/simulate simulate/straight tune/constraints tune/sampled_loop)
   string(REPLACE / _ name ${part})

@@ -112,12 +112,14 @@ AWMR_EXPORT(live_begin) void live_begin() {
 }
 
 /// mode: as YawMode. mass and friction: what the plant has of the model's, which the controller does
-/// not know. Returns whether the run went to its end.
+/// not know; observer_radps: 0 without an observer. Returns whether the run went to its end.
 AWMR_EXPORT(live_run)
 bool live_run(double lambda, double mu, double epsilon, double speed_mu, double speed_epsilon,
-              int mode, double sample_time_s, double mass, double friction,
+              double observer_radps, int mode, double sample_time_s, double mass, double friction,
               double heading_noise_deg) {
-  const Gains<double> gains{{lambda, mu, epsilon}, {speed_mu, speed_epsilon}};
+  const Gains<double> gains{{lambda, mu, epsilon},
+                            {speed_mu, speed_epsilon},
+                            {observer_radps, setup.observer_yaw_max_m, setup.observer_surge_max}};
   ConstraintContext context = setup.context;
   context.sample_time_s = sample_time_s;
   const Vehicle vehicle = vehicle_of_setup(sample_time_s);

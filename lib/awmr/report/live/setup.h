@@ -13,6 +13,8 @@ namespace awmr {
 struct LiveSetup {
   ConstraintContext context;  ///< its plant is the model's own
   double allocation_form = 0.0;
+  double observer_yaw_max_m = 0.0;  ///< of an observer tuned with the gains
+  double observer_surge_max = 0.0;
   double duration_s = 0.0;
   State<double> initial{};
   std::vector<HeadingStep> steps;
@@ -68,6 +70,8 @@ void visit_numbers(LiveSetup& setup, Visit&& visit) {
   }
   visit_list(c.draws, visit, [](Plant<double>& plant, auto& v) { visit_plant(plant, v); });
   visit(setup.allocation_form);
+  visit(setup.observer_yaw_max_m);
+  visit(setup.observer_surge_max);
   visit(setup.duration_s);
   State<double>& s = setup.initial;
   for (double* x : {&s.x_m, &s.y_m, &s.psi_rad, &s.u_mps, &s.v_mps, &s.r_radps}) visit(*x);

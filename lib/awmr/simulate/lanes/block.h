@@ -30,9 +30,9 @@ struct BlockSetup {
   CombinedSplit split = CombinedSplit::kRedistribute;
   AllocationForm form = AllocationForm::kExact;
   bool is_open_loop = false;  ///< tau_speed and tau_turn stand in the block, and no law asks
-  bool is_observed = false;
-  bool is_lqi = false;  ///< the heading law; false: the sliding mode
-  Observers<double> observers{};
+  bool is_observed = false;   ///< by an observer of any run; bandwidth 0 where a run has none
+  bool anti_windup = true;    ///< as in Observers
+  bool is_lqi = false;        ///< the heading law; false: the sliding mode
   double sample_time_s = 0.0;
   MotorLag lag;
   bool is_by_wheel = false;   ///< each wheel has a force of its own
@@ -65,6 +65,7 @@ struct Block {
   Row step_s;        ///< h
   Row substeps;
   PreparedController<Row> controller;
+  DisturbanceObserver<Row> yaw_observer, surge_observer;
   LqiGains<Row> lqi;
   Row dead_zone;   ///< F'0, as the controller knows it
   Row back_emf;    ///< k_e, as the controller knows it

@@ -74,6 +74,16 @@ const awmr::RestBlock awmr_rest AWMR_IN_FLASH = {AWMR_DEAD_ZONE, AWMR_SURGE_REST
 #define AWMR_REST 0
 #endif
 
+#ifdef AWMR_OBSERVER_BANDWIDTH_RADPS
+extern const awmr::ObserverBlock awmr_tuned_observer;
+const awmr::ObserverBlock awmr_tuned_observer AWMR_IN_FLASH = {
+    AWMR_OBSERVER_BANDWIDTH_RADPS, AWMR_OBSERVER_YAW_MAX_M, AWMR_OBSERVER_SURGE_MAX,
+    AWMR_SAMPLE_TIME_S};
+#define AWMR_TUNED_OBSERVER &awmr_tuned_observer
+#else
+#define AWMR_TUNED_OBSERVER 0
+#endif
+
 namespace {
 
 struct Parts {
@@ -104,7 +114,7 @@ inline void follow(const awmr_point* points, int16_t count, float acceptance_m, 
 uint8_t awmr_init(void) {
   const bool good =
       awmr::start_autopilot(autopilot, &awmr_parameters, kSurgeLines, kSurgeCount, kYawLines,
-                            kYawCount, AWMR_PARAMETERS_CRC32, AWMR_REST);
+                            kYawCount, AWMR_PARAMETERS_CRC32, AWMR_REST, AWMR_TUNED_OBSERVER);
   return good ? AWMR_FAULT_NONE : AWMR_FAULT_PARAMETERS;
 }
 

@@ -178,7 +178,8 @@ void awmr_shape(const awmr_shaping* shaping);
 #endif
 
 #if AWMR_WITH_OBSERVER
-/* Takes the disturbance that is seen off the command. NULL: off. */
+/* Takes the disturbance that is seen off the command. NULL: off. Gains that were tuned with an observer
+   (AWMR_OBSERVER_... in awmr_params.h) have it on from awmr_init() on. */
 void awmr_observe(const awmr_observer* observer);
 #endif
 
