@@ -104,6 +104,8 @@ struct TuneCommand {
   std::optional<int> draws = {};
   std::optional<int> sensitivity = {};
   HeadingRateChoice heading_rate_limit = {};
+  ShardChoice shard = {};  ///< of the judging; `output` is a directory then
+  bool resume = false;
   InputNames names = {};
 };
 Result<Outcome> execute(const TuneCommand& command);

@@ -8,7 +8,9 @@
 #include "awmr/core/file.h"
 #include "awmr/core/shard_file.h"
 #include "awmr/identify/planning/recover_shard.h"
+#include "awmr/tune/tune_shard.h"
 #include "commands.h"
+#include "judgement_words.h"
 #include "paths.h"
 
 namespace awmr::cli {
@@ -74,17 +76,32 @@ Result<Outcome> merge_recovery(const MergeCommand& command) {
   return outcome;
 }
 
+Result<Outcome> merge_tuning(const MergeCommand& command) {
+  AWMR_ASSIGN_OR_RETURN(const MergedTuning merged, merge_tune_shards(command.parts));
+  std::vector<fs::path> parts = files_of(command, kJudgedTable);
+  for (const fs::path& part : command.parts) parts.push_back(part / kTuneShardGains);
+  AWMR_RETURN_IF_ERROR(check_outputs(command.output, {"gains.json"}, parts));
+  AWMR_RETURN_IF_ERROR(make_directory(command.output));
+  Outcome outcome{.summary = judged_table(merged.judged) + goals_text(merged.goals),
+                  .findings = goal_findings(merged.goals),
+                  .document = merged.gains_text};
+  AWMR_RETURN_IF_ERROR(write_document(command.output / "gains.json", outcome));
+  return outcome;
+}
+
 }  // namespace
 
 Result<Outcome> execute(const MergeCommand& command) {
   AWMR_ASSIGN_OR_RETURN(const std::string schema, schema_of_part(command.parts.front()));
-  return schema == kRecoverShardSchema ? merge_recovery(command) : merge_comparison(command);
+  if (schema == kRecoverShardSchema) return merge_recovery(command);
+  return schema == kTuneShardSchema ? merge_tuning(command) : merge_comparison(command);
 }
 
 void add_merge(CLI::App& app, Session& session) {
   auto command = std::make_shared<MergeCommand>();
   CLI::App* sub = add_command(
-      app, session, "merge", "Put the parts of a compare or a recover together (--shard I/N)",
+      app, session, "merge",
+      "Put the parts of a compare, a recover or a tune together (--shard I/N)",
 
       "awmr compare --model model.json --gains gains.json --scenario "
       "configs/paper/scenarios/c3_heading_steps.json --samples 20 --shard 1/2 -o part1\n"
@@ -94,8 +111,8 @@ void add_merge(CLI::App& app, Session& session) {
       [command] { return execute(*command); });
   add_directory(*sub, "DIR", command->parts, "Directories of all parts, in any order")->required();
   add_output_directory(*sub, command->output,
-                       "Directory for comparison.csv and comparison.json, or recover.json: the "
-                       "bytes of a single run");
+                       "Directory for comparison.csv and comparison.json, or recover.json, or "
+                       "gains.json: the bytes of a single run");
 }
 
 }  // namespace awmr::cli

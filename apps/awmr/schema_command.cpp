@@ -13,6 +13,7 @@
 #include "awmr/model/vehicle_file.h"
 #include "awmr/simulate/scenario_file.h"
 #include "awmr/tune/tune_file.h"
+#include "awmr/tune/tune_shard.h"
 #include "choices.h"
 #include "commands.h"
 #include "json_output.h"
@@ -61,6 +62,7 @@ const std::vector<Schema>& schemas() {
                                        {"recover_shard", recover_shard_schema},
                                        {"tune", tune_schema},
                                        {"gains", gains_schema},
+                                       {"tune_shard", tune_shard_schema},
                                        {"scenario", scenario_schema},
                                        {"validation", validation_schema},
                                        {"comparison", comparison_schema},

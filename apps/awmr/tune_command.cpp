@@ -10,8 +10,10 @@
 #include "awmr/model/model_file.h"
 #include "awmr/simulate/validity.h"
 #include "awmr/tune/tune_file.h"
+#include "awmr/tune/tune_shard.h"
 #include "commands.h"
 #include "inputs.h"
+#include "judgement_words.h"
 #include "numbers.h"
 #include "paths.h"
 #include "progress.h"
@@ -41,46 +43,6 @@ std::string gains_table(const Tuning& tuning) {
   return text;
 }
 
-/// What the gains do on draws that they were not tuned on.
-std::string judged_table(const RobustTuning& robust) {
-  if (robust.judged.empty()) return {};
-  std::string text =
-      fmt::format("  {:<13} {:<9} {:>8} {:>10} {:>10} {:>10} {:>11}\n", "fresh draws", "gains",
-                  "settled", "settling s", "overs. deg", "IAE deg s", "steer deg/s");
-  text += fmt::format("  {:<13} {:<9} {:>8} {:>10} {:>10} {:>10} {:>11}\n", "", "", "%", "95 %",
-                      "95 %", "95 %", "RMS, 95 %");
-  for (const JudgedGains& judged : robust.judged) {
-    const auto q95 = [&](std::string_view name) {
-      const auto figure = std::find_if(judged.figures.begin(), judged.figures.end(),
-                                       [&](const JudgedFigure& f) { return f.name == name; });
-      return figure->q95;
-    };
-    text += fmt::format("  {:<13} {:<9} {:>8.0f} {:>10.2f} {:>10.2f} {:>10.1f} {:>11.1f}\n",
-                        name_of(judged.mode), judged.gains, 100.0 * judged.completed_share,
-                        q95("settling_time_s"), q95("overshoot_deg"), q95("heading_iae_degs"),
-                        q95("steering_rate_rms_degps"));
-  }
-  return text;
-}
-
-/// What fresh draws say of the goals with the tuned gains.
-std::string goals_text(const RobustTuning& robust) {
-  std::string text;
-  for (const JudgedGoal& judged : robust.goals) {
-    if (judged.gains != "robust") continue;
-    std::string limits;
-    for (const GoalLimit& limit : judged.goal.at_most) {
-      limits += fmt::format("{}{} <= {:g}", limits.empty() ? "" : ", ", limit.figure, limit.most);
-    }
-    text += fmt::format("  {:<6} {}, {}{}: {:.1f} % of {} draws ({:.1f} to {:.1f}), asked {:g} %\n",
-                        name_in(kGoalVerdictNames, judged.verdict), limits, name_of(judged.mode),
-                        judged.goal.is_soft ? ", soft" : "", 100.0 * judged.held / judged.runs,
-                        judged.runs, 100.0 * judged.ci95.lo, 100.0 * judged.ci95.hi,
-                        100.0 * judged.goal.share);
-  }
-  return text.empty() ? text : "  goals, on fresh draws\n" + text;
-}
-
 /// By figure the inputs that move it most.
 std::string sensitivity_text(const RobustTuning& robust) {
   if (!robust.sensitivity) return {};
@@ -105,25 +67,6 @@ std::string sensitivity_text(const RobustTuning& robust) {
     text += '\n';
   }
   return text;
-}
-
-/// A warning where fresh draws do not show that a goal is met.
-std::vector<Finding> goal_findings(const Tuning& tuning) {
-  std::vector<Finding> findings;
-  if (!tuning.robust) return findings;
-  for (const JudgedGoal& judged : tuning.robust->goals) {
-    if (judged.gains != "robust" || judged.verdict == GoalVerdict::kMet) continue;
-    const bool is_missed = judged.verdict == GoalVerdict::kMissed;
-    findings.push_back(
-        {"", 0, Severity::kWarning, is_missed ? "goal-missed" : "goal-open",
-         fmt::format("{} of {} fresh draws in {} keep the goal's limits, {:.1f} to {:.1f} %, where "
-                     "{:g} % are asked for: {}",
-                     judged.held, judged.runs, name_of(judged.mode), 100.0 * judged.ci95.lo,
-                     100.0 * judged.ci95.hi, 100.0 * judged.goal.share,
-                     is_missed ? "tune on more draws (--draws), raise the limits or accept less"
-                               : "judge on more (judged_draws)")});
-  }
-  return findings;
 }
 
 /// A warning where an observer is tuned on runs that nothing pushes.
@@ -175,7 +118,7 @@ std::string standing_of(const Tuning& tuning) {
 std::string summary_of(const Tuning& tuning) {
   std::string text = gains_table(tuning) + standing_of(tuning);
   if (tuning.robust) {
-    text += judged_table(*tuning.robust) + goals_text(*tuning.robust) +
+    text += judged_table(tuning.robust->judged) + goals_text(tuning.robust->goals) +
             sensitivity_text(*tuning.robust);
   }
   return text;
@@ -207,7 +150,10 @@ Result<Provenance> provenance_of(const TuneCommand& command,
   std::vector<fs::path> paths{command.model};
   if (command.config) paths.push_back(*command.config);
   paths.insert(paths.end(), scenario_files.begin(), scenario_files.end());
-  AWMR_RETURN_IF_ERROR(check_output(command.output, paths));
+  AWMR_RETURN_IF_ERROR(
+      command.shard
+          ? check_outputs(command.output, {kTuneShardGains, kJudgedTable, kShardFile}, paths)
+          : check_output(command.output, paths));
   AWMR_ASSIGN_OR_RETURN(std::vector<InputFile> inputs, input_files(paths, command.names));
   std::vector<std::pair<std::string, std::string>> options = options_of(command.allocation);
   if (command.nominal) options.emplace_back("nominal", "true");
@@ -220,6 +166,26 @@ Result<Provenance> provenance_of(const TuneCommand& command,
     options.push_back(std::move(option));
   }
   return Provenance{"tune", std::move(options), std::move(inputs)};
+}
+
+Result<Outcome> part_outcome(const TuneCommand& command, const Tuning& tuning,
+                             const TuneOptions& options, const Provenance& provenance) {
+  AWMR_RETURN_IF_ERROR(make_directory(command.output));
+  // The last one names the hashes of the others.
+  const OutputFile files[] = {
+      {command.output / kTuneShardGains, gains_text(tuning, options, provenance)},
+      {command.output / kJudgedTable, judged_csv(tuning, options)},
+      {command.output / kShardFile, tune_shard_text(tuning, options, provenance)}};
+  AWMR_RETURN_IF_ERROR(write_files(files));
+  const Shard& shard = *options.shard;
+  return Outcome{
+      .summary =
+          gains_table(tuning) +
+          fmt::format("part {} of {}: {} of {} fresh draws\nwrote {}, {} and {}\n", shard.index,
+                      shard.count, shard.share_of(options.judged_draws), options.judged_draws,
+                      files[2].path.string(), kJudgedTable, kTuneShardGains),
+      .document = files[2].bytes,
+      .written = {files[2].path, files[1].path, files[0].path}};
 }
 
 }  // namespace
@@ -241,9 +207,15 @@ Result<Outcome> execute(const TuneCommand& command) {
   if (command.draws) config.options.draws = *command.draws;
   if (command.sensitivity) config.options.sensitivity = *command.sensitivity;
   AWMR_ASSIGN_OR_RETURN(const Provenance provenance, provenance_of(command, config.scenario_files));
+  config.options.shard = command.shard;
+  if (command.resume && is_finished_tune_shard(command.output, *command.shard, provenance)) {
+    return finished_part(*command.shard, command.output);
+  }
   AWMR_ASSIGN_OR_RETURN(const Tuning tuning, tune_with_progress(model, config.options));
+  if (command.shard) return part_outcome(command, tuning, config.options, provenance);
   std::string document = gains_text(tuning, config.options, provenance);
-  std::vector<Finding> findings = goal_findings(tuning);
+  std::vector<Finding> findings =
+      tuning.robust ? goal_findings(tuning.robust->goals) : std::vector<Finding>{};
   std::ranges::move(sensitivity_findings(tuning), std::back_inserter(findings));
   std::ranges::move(observer_findings(config.options), std::back_inserter(findings));
   std::ranges::move(extrapolation_in(model, tuning.scores,
@@ -264,9 +236,13 @@ Result<Outcome> execute(const TuneCommand& command) {
 
 void add_tune(CLI::App& app, Session& session) {
   auto command = std::make_shared<TuneCommand>();
+  auto shard_text = std::make_shared<std::optional<std::string>>();
   CLI::App* sub = add_command(app, session, "tune", "Search the controller's gains under T2 < T1",
                               "awmr tune --model model.json -o gains.json",
-                              [command] { return execute(*command); });
+                              [command, shard_text]() -> Result<Outcome> {
+                                AWMR_ASSIGN_OR_RETURN(command->shard, shard_of(*shard_text));
+                                return execute(*command);
+                              });
   add_file(*sub, "--model", command->model, "model.json from identify")->required();
   add_file(*sub, "--config", command->config,
            "tune.json: form, margin, weights, goals, evaluations, seed, scenarios");
@@ -290,7 +266,10 @@ void add_tune(CLI::App& app, Session& session) {
       ->excludes(nominal);
   add_allocation(*sub, command->allocation);
   add_heading_rate_limit(*sub, command->heading_rate_limit, kNoRate);
-  add_output(*sub, command->output, "gains.json to write");
+  add_output(*sub, command->output, "gains.json to write; with --shard, the directory of the part");
+  auto* shard = add_shard(*sub, *shard_text)->excludes(nominal);
+  sub->add_flag("--resume", command->resume, "Leave a part that is finished as it is")
+      ->needs(shard);
 }
 
 }  // namespace awmr::cli

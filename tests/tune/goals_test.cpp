@@ -33,14 +33,14 @@ TuningGoal quick_and_calm(double share = 0.95) {
 
 TEST(Goal, HoldsInARunThatKeepsEveryLimit) {
   const TuningGoal goal = quick_and_calm();
-  EXPECT_DOUBLE_EQ(excess_of(goal, run_with(1.0, 0.2), kScenario), 0.5);
-  EXPECT_DOUBLE_EQ(excess_of(goal, run_with(1.0, 3.0), kScenario), 3.0);
-  EXPECT_DOUBLE_EQ(excess_of(goal, run_with(2.0, 1.0), kScenario), 1.0);
+  EXPECT_DOUBLE_EQ(excess_of(goal, outcome_of(run_with(1.0, 0.2), kScenario)), 0.5);
+  EXPECT_DOUBLE_EQ(excess_of(goal, outcome_of(run_with(1.0, 3.0), kScenario)), 3.0);
+  EXPECT_DOUBLE_EQ(excess_of(goal, outcome_of(run_with(2.0, 1.0), kScenario)), 1.0);
   ModeScore never = run_with(0.0, 0.0);
   never.metrics.settling_time_s.reset();
-  EXPECT_DOUBLE_EQ(excess_of(goal, never, kScenario), kScenario.duration_s / 2.0);
+  EXPECT_DOUBLE_EQ(excess_of(goal, outcome_of(never, kScenario)), kScenario.duration_s / 2.0);
   never.metrics.overshoot_deg = std::nan("");
-  EXPECT_TRUE(std::isinf(excess_of(goal, never, kScenario)));
+  EXPECT_TRUE(std::isinf(excess_of(goal, outcome_of(never, kScenario))));
 }
 
 TEST(Goal, IsJudgedByTheLeastValueThatItsShareOfRunsDoesNotExceed) {
@@ -60,7 +60,7 @@ TEST(Goal, IsJudgedByTheLeastValueThatItsShareOfRunsDoesNotExceed) {
       }
       std::sort(excess.begin(), excess.end());
       const GoalInMode one{&goal, YawMode::kSteering};
-      const double quantile = quantile_of_excess(one, scores, {&kScenario, 1});
+      const double quantile = quantile_of_excess(one, outcomes_of(scores, {&kScenario, 1}), 1);
       const auto within = std::upper_bound(excess.begin(), excess.end(), quantile) - excess.begin();
       EXPECT_GE(double(within), share * runs - 1e-9) << runs << " " << share;
       EXPECT_LT(double(within - 1), share * runs) << runs << " " << share;
@@ -74,7 +74,7 @@ TEST(Goal, IsMetMissedOrOpenByTheExactIntervalOfItsShare) {
   const auto judged = [&](int held, int runs) {
     std::vector<ModeScore> scores;
     for (int i = 0; i < runs; ++i) scores.push_back(run_with(i < held ? 1.0 : 3.0, 0.0));
-    return judged_goal(one, "robust", scores, {&kScenario, 1});
+    return judged_goal(one, {"robust", outcomes_of(scores, {&kScenario, 1})}, 1);
   };
   EXPECT_EQ(judged(400, 400).verdict, GoalVerdict::kMet);
   EXPECT_EQ(judged(300, 400).verdict, GoalVerdict::kMissed);
@@ -93,16 +93,16 @@ TEST(Goal, OfADrawHoldsWhereAllItsScenariosKeepIt) {
   // Two draws, of which the first fails in its second scenario.
   const std::vector<ModeScore> scores{run_with(1.0, 0.0), run_with(3.0, 0.0), run_with(1.0, 0.0),
                                       run_with(1.6, 0.0)};
-  const JudgedGoal judged = judged_goal(one, "robust", scores, scenarios);
+  const JudgedGoal judged = judged_goal(one, {"robust", outcomes_of(scores, scenarios)}, 2);
   EXPECT_EQ(judged.runs, 2);
   EXPECT_EQ(judged.held, 1);
-  EXPECT_DOUBLE_EQ(quantile_of_excess(one, scores, scenarios), 0.8);
+  EXPECT_DOUBLE_EQ(quantile_of_excess(one, outcomes_of(scores, scenarios), 2), 0.8);
 }
 
 TEST(Goal, IsMissedByARunThatBreaksOff) {
   ModeScore broken = run_with(0.5, 0.0);
   broken.has_failed = true;
-  EXPECT_TRUE(std::isinf(excess_of(quick_and_calm(), broken, kScenario)));
+  EXPECT_TRUE(std::isinf(excess_of(quick_and_calm(), outcome_of(broken, kScenario))));
 }
 
 TEST(Goal, IsForItsModeOrForEach) {

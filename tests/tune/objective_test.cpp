@@ -130,7 +130,12 @@ TEST(Objective, OfSetsOfGainsTogetherIsThatOfEachAlone) {
 
 TEST(Judged, AreTheOrderStatisticsOfAllPlantsButTheFirst) {
   const ObjectiveSetting setting = setting_of(6, 0.4);
-  const auto judged = judge(setting, {{"paper", kPaperGains}}).gains;
+  const auto runs = run_candidates(setting, {{"paper", kPaperGains}});
+  const auto judged = judgement_of(runs, {.modes = {std::begin(kYawModes), std::end(kYawModes)},
+                                          .scenarios = setting.scenarios.size(),
+                                          .tail_share = setting.tail_share,
+                                          .goals = {}})
+                          .gains;
   ASSERT_EQ(judged.size(), std::size(kYawModes));
   for (const JudgedGains& one : judged) {
     std::vector<double> iae, variation;

@@ -136,8 +136,9 @@ std::vector<double> figures_at(const Sample& sample, const ObjectiveSetting& set
       const ModeScore score{
           .scenario = scenario.name, .mode = modes[mode], .metrics = *metrics[mode]};
       for (std::size_t f = 0; f < std::size(kFigures); ++f) {
-        figures[mode * std::size(kFigures) + f] += figure_of_run(kFigures[f], score, scenario) /
-                                                   static_cast<double>(setting.scenarios.size());
+        figures[mode * std::size(kFigures) + f] +=
+            figure_of_run(kFigures[f], outcome_of(score, scenario)) /
+            static_cast<double>(setting.scenarios.size());
       }
     }
   }

@@ -11,60 +11,74 @@
 namespace awmr {
 namespace {
 
-constexpr RunFigure kRunFigures[] = {
+/// A figure by which gains are judged, the worse the larger.
+struct RunFigure {
+  const char* name;
+  double (*value)(const Metrics& metrics, const Scenario& scenario);
+};
+constexpr RunFigure kFiguresByName[kRunFigures] = {
     {"settling_time_s",
-     [](const ModeScore& s, const Scenario& scenario) {
-       return s.metrics.settling_time_s.value_or(scenario.duration_s);
+     [](const Metrics& m, const Scenario& scenario) {
+       return m.settling_time_s.value_or(scenario.duration_s);
      }},
     {"overshoot_deg",
-     [](const ModeScore& s, const Scenario&) { return s.metrics.overshoot_deg.value_or(0.0); }},
+     [](const Metrics& m, const Scenario&) { return m.overshoot_deg.value_or(0.0); }},
     {"heading_iae_degs",
-     [](const ModeScore& s, const Scenario&) { return s.metrics.heading_iae_degs.value_or(0.0); }},
+     [](const Metrics& m, const Scenario&) { return m.heading_iae_degs.value_or(0.0); }},
     {"heading_itae_degs2",
-     [](const ModeScore& s, const Scenario&) {
-       return s.metrics.heading_itae_degs2.value_or(0.0);
-     }},
-    {"control_variation",
-     [](const ModeScore& s, const Scenario&) { return s.metrics.control_variation; }},
+     [](const Metrics& m, const Scenario&) { return m.heading_itae_degs2.value_or(0.0); }},
+    {"control_variation", [](const Metrics& m, const Scenario&) { return m.control_variation; }},
     {"steering_rate_rms_degps",
-     [](const ModeScore& s, const Scenario&) { return s.metrics.steering_rate_rms_degps; }},
+     [](const Metrics& m, const Scenario&) { return m.steering_rate_rms_degps; }},
 };
 
-const RunFigure& figure_named(std::string_view name) {
-  return *std::find_if(std::begin(kRunFigures), std::end(kRunFigures),
-                       [&](const RunFigure& figure) { return figure.name == name; });
-}
-
 /// Of each draw the largest excess in the mode over the scenarios: they share its plant, so that their runs are
-/// no trials of their own. Scores are by draw, then mode, then scenario.
-std::vector<double> excesses(const GoalInMode& one, std::span<const ModeScore> scores,
-                             std::span<const Scenario> scenarios) {
+/// no trials of their own. Outcomes are by draw, then mode, then scenario.
+std::vector<double> excesses(const GoalInMode& one, std::span<const RunOutcome> outcomes,
+                             std::size_t scenarios) {
   std::vector<double> all;
-  for (std::size_t i = 0; i < scores.size(); ++i) {
-    if (scores[i].mode != one.mode) continue;
-    const std::size_t scenario = i % scenarios.size();
-    if (scenario == 0) all.push_back(0.0);
-    all.back() = std::max(all.back(), excess_of(*one.goal, scores[i], scenarios[scenario]));
+  for (std::size_t i = 0; i < outcomes.size(); ++i) {
+    if (outcomes[i].mode != one.mode) continue;
+    if (i % scenarios == 0) all.push_back(0.0);
+    all.back() = std::max(all.back(), excess_of(*one.goal, outcomes[i]));
   }
   return all;
 }
 
 }  // namespace
 
-std::span<const RunFigure> run_figures() { return kRunFigures; }
+RunOutcome outcome_of(const ModeScore& score, const Scenario& scenario) {
+  RunOutcome outcome{
+      .mode = score.mode, .completed = score.metrics.completed, .broke_off = score.has_failed};
+  for (std::size_t i = 0; i < kRunFigures; ++i) {
+    outcome.figures[i] = kFiguresByName[i].value(score.metrics, scenario);
+  }
+  return outcome;
+}
 
-double figure_of_run(std::string_view name, const ModeScore& score, const Scenario& scenario) {
-  return figure_named(name).value(score, scenario);
+std::vector<RunOutcome> outcomes_of(std::span<const ModeScore> scores,
+                                    std::span<const Scenario> scenarios) {
+  std::vector<RunOutcome> outcomes;
+  for (std::size_t i = 0; i < scores.size(); ++i) {
+    outcomes.push_back(outcome_of(scores[i], scenarios[i % scenarios.size()]));
+  }
+  return outcomes;
+}
+
+double figure_of_run(std::string_view name, const RunOutcome& outcome) {
+  const auto* figure =
+      std::ranges::find_if(kFiguresByName, [&](const RunFigure& one) { return one.name == name; });
+  return outcome.figures[static_cast<std::size_t>(figure - std::begin(kFiguresByName))];
 }
 
 bool is_run_figure(std::string_view name) {
-  return std::any_of(std::begin(kRunFigures), std::end(kRunFigures),
+  return std::any_of(std::begin(kFiguresByName), std::end(kFiguresByName),
                      [&](const RunFigure& figure) { return figure.name == name; });
 }
 
 std::vector<std::string> run_figure_names() {
   std::vector<std::string> names;
-  for (const RunFigure& figure : kRunFigures) names.emplace_back(figure.name);
+  for (const RunFigure& figure : kFiguresByName) names.emplace_back(figure.name);
   return names;
 }
 
@@ -76,11 +90,11 @@ std::string in_words(const TuningGoal& goal) {
   return fmt::format("{} in {:g} % of draws", text, 100.0 * goal.share);
 }
 
-double excess_of(const TuningGoal& goal, const ModeScore& score, const Scenario& scenario) {
-  if (score.has_failed) return std::numeric_limits<double>::infinity();
+double excess_of(const TuningGoal& goal, const RunOutcome& outcome) {
+  if (outcome.broke_off) return std::numeric_limits<double>::infinity();
   double largest = 0.0;
   for (const GoalLimit& limit : goal.at_most) {
-    const double share = figure_of_run(limit.figure, score, scenario) / limit.most;
+    const double share = figure_of_run(limit.figure, outcome) / limit.most;
     // A figure that is no number is no figure that holds.
     largest =
         std::isnan(share) ? std::numeric_limits<double>::infinity() : std::max(largest, share);
@@ -102,9 +116,9 @@ std::vector<GoalInMode> by_mode(std::span<const TuningGoal> goals, std::span<con
   return all;
 }
 
-double quantile_of_excess(const GoalInMode& one, std::span<const ModeScore> scores,
-                          std::span<const Scenario> scenarios) {
-  std::vector<double> all = excesses(one, scores, scenarios);
+double quantile_of_excess(const GoalInMode& one, std::span<const RunOutcome> outcomes,
+                          std::size_t scenarios) {
+  std::vector<double> all = excesses(one, outcomes, scenarios);
   const auto n = static_cast<double>(all.size());
   const auto rank =
       std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(one.goal->share * n - 1e-9)));
@@ -113,14 +127,13 @@ double quantile_of_excess(const GoalInMode& one, std::span<const ModeScore> scor
   return *at;
 }
 
-JudgedGoal judged_goal(const GoalInMode& one, const char* gains, std::span<const ModeScore> scores,
-                       std::span<const Scenario> scenarios) {
-  const std::vector<double> all = excesses(one, scores, scenarios);
+JudgedGoal judged_goal(const GoalInMode& one, const JudgedRuns& runs, std::size_t scenarios) {
+  const std::vector<double> all = excesses(one, runs.outcomes, scenarios);
   const auto held = static_cast<std::size_t>(
       std::count_if(all.begin(), all.end(), [](double excess) { return excess <= 1.0; }));
   JudgedGoal judged{.goal = *one.goal,
                     .mode = one.mode,
-                    .gains = gains,
+                    .gains = runs.gains,
                     .held = static_cast<int>(held),
                     .runs = static_cast<int>(all.size()),
                     .ci95 = clopper_pearson(held, all.size()),

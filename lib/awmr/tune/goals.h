@@ -16,22 +16,19 @@
 
 namespace awmr {
 
-/// A figure by which gains are judged, the worse the larger. A run that never settles has taken the
-/// whole scenario to settle.
-struct RunFigure {
-  const char* name;
-  double (*value)(const ModeScore& score, const Scenario& scenario);
-};
-std::span<const RunFigure> run_figures();
+RunOutcome outcome_of(const ModeScore& score, const Scenario& scenario);
+/// Of scores by draw, then mode, then scenario.
+std::vector<RunOutcome> outcomes_of(std::span<const ModeScore> scores,
+                                    std::span<const Scenario> scenarios);
 
 /// Of a figure that there is.
-double figure_of_run(std::string_view name, const ModeScore& score, const Scenario& scenario);
+double figure_of_run(std::string_view name, const RunOutcome& outcome);
 
 /// "settling_time_s <= 2, overshoot_deg <= 1 in 95 % of draws"
 std::string in_words(const TuningGoal& goal);
 
 /// The largest share of a limit that a run takes, >= 0; at most 1 where the goal holds in it.
-double excess_of(const TuningGoal& goal, const ModeScore& score, const Scenario& scenario);
+double excess_of(const TuningGoal& goal, const RunOutcome& outcome);
 
 /// A goal in one of the modes that it is for.
 struct GoalInMode {
@@ -42,13 +39,12 @@ struct GoalInMode {
 /// By goal, then mode.
 std::vector<GoalInMode> by_mode(std::span<const TuningGoal> goals, std::span<const YawMode> modes);
 
-/// The quantile of the draws' excess over the mode's scores, which are by draw, then mode, then
-/// scenario. >= 0.
-double quantile_of_excess(const GoalInMode& one, std::span<const ModeScore> scores,
-                          std::span<const Scenario> scenarios);
+/// The quantile of the draws' excess over the mode's runs, which are by draw, then mode, then one of
+/// so many scenarios. >= 0.
+double quantile_of_excess(const GoalInMode& one, std::span<const RunOutcome> outcomes,
+                          std::size_t scenarios);
 
 /// In how many draws the goal holds in the mode, with the verdict on it.
-JudgedGoal judged_goal(const GoalInMode& one, const char* gains, std::span<const ModeScore> scores,
-                       std::span<const Scenario> scenarios);
+JudgedGoal judged_goal(const GoalInMode& one, const JudgedRuns& runs, std::size_t scenarios);
 
 }  // namespace awmr

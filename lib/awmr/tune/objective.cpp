@@ -42,7 +42,8 @@ std::vector<BatchRun> runs_of(const ObjectiveSetting& setting,
     const auto controller = make_controller(setting.plants.front(), setting.vehicle, one);
     for (std::size_t plant = 0; plant < setting.plants.size(); ++plant) {
       for (const YawMode mode : yaw_modes(setting.vehicle)) {
-        runs.push_back({setting.plants[plant], controller, mode, setting.seed, plant});
+        runs.push_back({setting.plants[plant], controller, mode, setting.seed,
+                        setting.numbers.empty() ? plant : setting.numbers[plant]});
       }
     }
   }
@@ -158,8 +159,10 @@ Evaluation Objective::evaluate(std::vector<ModeScore> scores) const {
     evaluation.objective += evaluation.mode_objective.back();
   }
   evaluation.objective /= static_cast<double>(modes);
+  const std::vector<RunOutcome> outcomes =
+      setting_.goals.empty() ? std::vector<RunOutcome>{} : outcomes_of(scores, setting_.scenarios);
   for (const GoalInMode& one : by_mode(setting_.goals, yaw_modes(setting_.vehicle))) {
-    const double quantile = quantile_of_excess(one, scores, setting_.scenarios);
+    const double quantile = quantile_of_excess(one, outcomes, scenarios);
     evaluation.goal_quantile.push_back(quantile);
     if (one.goal->is_soft) evaluation.objective += std::max(0.0, quantile - 1.0);
   }

@@ -55,6 +55,7 @@ struct ObjectiveSetting {
   std::uint64_t seed = 0;           ///< of what is random in the scenarios, another for each plant
   BatchArithmetic arithmetic = {};  ///< of the runs
   std::vector<TuningGoal> goals = {};
+  std::vector<std::uint64_t> numbers = {};  ///< of the plants; empty: 0, 1, ...
 };
 
 struct Evaluation {

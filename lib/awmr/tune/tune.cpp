@@ -99,6 +99,20 @@ void check_robustness(const TuneOptions& options, std::vector<Fault>& faults) {
   }
 }
 
+void check_part(const TuneOptions& options, std::vector<Fault>& faults) {
+  if (!options.shard) return;
+  if (options.nominal) {
+    faults.push_back(
+        {option_text("shard"),
+         "nominal gains are judged on no draws, which parts could share: leave out one "
+         "of them"});
+  }
+  if (auto fault =
+          shard_fault(*options.shard, options.judged_draws, "fresh draws (judged_draws)")) {
+    faults.push_back(std::move(*fault));
+  }
+}
+
 void check_goal(const TuningGoal& goal, std::vector<Fault>& faults) {
   std::set<std::string> figures;
   for (const auto& [figure, most] : goal.at_most) {
@@ -165,6 +179,7 @@ Status check(const TuneOptions& options, const Vehicle& vehicle) {
     faults.push_back({"", "evaluations: global at least 1, local at least 0"});
   }
   check_robustness(options, faults);
+  check_part(options, faults);
   check_weights(options.weights, faults);
   check_bounds(options.bounds.lambda, "lambda", faults);
   check_bounds(options.bounds.mu, "mu", faults);
@@ -368,6 +383,14 @@ Status check_latency(const ConstraintContext& context, const std::string& model_
 /// Draws to judge on are not those that were tuned on.
 constexpr std::uint64_t kJudgedSeeds = 0x6a75646765ULL;
 
+/// The numbers of the fresh draws, from 1: those of the part, or all.
+std::vector<int> judged_draws_of(const TuneOptions& options) {
+  const Shard shard = options.shard.value_or(Shard{});
+  std::vector<int> draws;
+  for (int i = 0; i < shard.share_of(options.judged_draws); ++i) draws.push_back(shard.item(i) + 1);
+  return draws;
+}
+
 /// The progress of a search whose evaluations count `weight` each, behind `before` of `total`.
 Progress part_of(const Progress& progress, std::size_t before, std::size_t weight,
                  std::size_t total) {
@@ -397,6 +420,7 @@ Result<Tuning> tune_robustly(const Model& model, ObjectiveSetting setting,
                       .nominal_history = {},
                       .judged = {},
                       .goals = {},
+                      .runs = {},
                       .sensitivity = {}};
   const LoopConditions& c = robust.conditions;
   const ObjectiveSetting without_noise = setting;
@@ -426,9 +450,18 @@ Result<Tuning> tune_robustly(const Model& model, ObjectiveSetting setting,
     candidates.push_back({"nominal", nominal->gains});
   }
   setting.seed ^= kJudgedSeeds;
-  AWMR_ASSIGN_OR_RETURN(setting.plants, plants_of(model, options.judged_draws, setting.seed));
-  if (options.judged_draws > 0) {
-    Judgement judgement = judge(setting, candidates);
+  const std::vector<int> draws = judged_draws_of(options);
+  AWMR_ASSIGN_OR_RETURN(setting.plants, plants_of(model, draws, setting.seed));
+  setting.numbers = {0};
+  setting.numbers.insert(setting.numbers.end(), draws.begin(), draws.end());
+  if (options.judged_draws > 0) robust.runs = run_candidates(setting, candidates);
+  if (!options.shard) {
+    const std::span<const YawMode> modes = yaw_modes(model.vehicle);
+    Judgement judgement =
+        judgement_of(std::exchange(robust.runs, {}), {.modes = {modes.begin(), modes.end()},
+                                                      .scenarios = setting.scenarios.size(),
+                                                      .tail_share = options.tail_share,
+                                                      .goals = options.goals});
     robust.judged = std::move(judgement.gains);
     robust.goals = std::move(judgement.goals);
   }

@@ -2,6 +2,7 @@
 /// loop's own limits.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -13,6 +14,7 @@
 #include "awmr/core/progress.h"
 #include "awmr/core/provenance.h"
 #include "awmr/core/result.h"
+#include "awmr/core/shard.h"
 #include "awmr/model/gains.h"
 #include "awmr/model/model.h"
 #include "awmr/simulate/conditions.h"
@@ -86,6 +88,7 @@ inline constexpr std::size_t kMostGoals = 20;
 /// Draws that goals are judged on where nobody says how many.
 inline constexpr int kGoalDraws = 500;
 inline constexpr int kFewestSamples = 16, kMostSamples = 100'000;
+inline constexpr std::size_t kRunFigures = 6;  ///< by which a run is judged
 bool is_run_figure(std::string_view name);
 std::vector<std::string> run_figure_names();
 
@@ -96,6 +99,9 @@ struct TuneOptions {
   bool nominal = false;
   int draws = 4;          ///< 0 ... 1000
   int judged_draws = 50;  ///< fresh ones that gains are judged on afterwards, 0 ... 100000
+  /// A part of the judging, for as many machines: the search is made in whole, and of the fresh draws
+  /// those of the part are run (tune_shard.h).
+  std::optional<Shard> shard = {};
   /// Share of the worst draws that count as the tail: the objective is the mean of the mean over all
   /// draws and of that over the tail (CVaR), (0, 1].
   double tail_share = 0.2;
@@ -165,6 +171,20 @@ struct SearchHistory {
 /// Of more steps those at even ranks are kept, the first and the last among them.
 inline constexpr std::size_t kMostHistorySteps = 200;
 
+/// What a run comes to that gains are judged by.
+struct RunOutcome {
+  YawMode mode{};
+  bool completed = false;  ///< settled after every step
+  bool broke_off = false;  ///< its figures are those of what came before
+  /// In the order of run_figure_names(). A run that never settles has taken the whole scenario to.
+  std::array<double, kRunFigures> figures{};
+};
+/// The runs of one set of gains, by draw, then mode, then scenario.
+struct JudgedRuns {
+  std::string gains;  ///< as in JudgedGains
+  std::vector<RunOutcome> outcomes;
+};
+
 /// A figure of the runs of one set of gains in one mode, over the judged draws.
 struct JudgedFigure {
   std::string name;  ///< "heading_iae_degs"
@@ -228,8 +248,9 @@ struct RobustTuning {
   bool from_covariance = false;  ///< false: the model has none, so that only noise was drawn
   std::optional<Gains<double>> nominal;  ///< those of `--nominal`; absent where there are none
   SearchHistory nominal_history;         ///< of the search for them
-  std::vector<JudgedGains> judged;       ///< by gains, then mode
-  std::vector<JudgedGoal> goals;         ///< by gains, then goal, then mode
+  std::vector<JudgedGains> judged;       ///< by gains, then mode; empty of a part
+  std::vector<JudgedGoal> goals;         ///< by gains, then goal, then mode; empty of a part
+  std::vector<JudgedRuns> runs;          ///< of a part: those of its draws, by gains
   std::optional<GlobalSensitivity> sensitivity;  ///< absent where nobody asked
 };
 

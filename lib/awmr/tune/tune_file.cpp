@@ -11,13 +11,13 @@
 #include "awmr/model/ranges.h"
 #include "awmr/simulate/scenario_file.h"
 #include "awmr/tune/objective.h"
+#include "awmr/tune/tune_json.h"
 
 namespace awmr {
 namespace {
 
 constexpr double kGainLimit = 1e6;
 constexpr long kEvaluationLimit = 1'000'000;
-constexpr NumberRule kGoalLimit{.min = 0.0, .max = 1e9, .min_excluded = true};
 
 void read_weights(JsonObject json, ObjectiveWeights& weights) {
   double sum = 0.0;
@@ -95,26 +95,6 @@ ObserverSearch read_observer(JsonObject json) {
   observer.surge_max = json.optional_number("surge_max", kObserverLimit);
   json.reject_unknown_keys();
   return observer;
-}
-
-TuningGoal read_goal(JsonObject json) {
-  TuningGoal goal;
-  JsonObject limits = json.object("at_most");
-  for (const std::string& figure : run_figure_names()) {
-    if (const auto most = limits.optional_number(figure, kGoalLimit)) {
-      goal.at_most.push_back({figure, *most});
-    }
-  }
-  limits.reject_unknown_keys();
-  if (goal.at_most.empty()) {
-    json.fault("at_most", "names no figure that runs are judged by");
-  }
-  goal.share =
-      json.optional_number("share", {.min = kLeastShare, .max = kMostShare}).value_or(goal.share);
-  if (json.has("mode")) goal.mode = json.choice("mode", kYawModeNames);
-  goal.is_soft = json.optional_boolean("soft").value_or(false);
-  json.reject_unknown_keys();
-  return goal;
 }
 
 void read_goals(JsonObject& json, TuneOptions& options) {
@@ -232,18 +212,10 @@ Json robust_json(const RobustTuning& robust, const TuneOptions& options) {
                  {"speed_s", c.speed_late_s}}},
                {"motor_time_constant_s", c.motor_time_constant_s},
                {"judged_draws", options.judged_draws},
-               {"quantiles", Json::object()}};
+               {"quantiles", quantiles_json(robust.judged)}};
   if (robust.nominal) {
     json["nominal"] = gains_to_json(*robust.nominal);
     json["nominal_history"] = history_json(robust.nominal_history);
-  }
-  for (const JudgedGains& judged : robust.judged) {
-    Json& entry = json["quantiles"][std::string(name_of(judged.mode))][judged.gains];
-    entry["completed_share"] = judged.completed_share;
-    for (const JudgedFigure& figure : judged.figures) {
-      entry[figure.name] = {
-          {"median", figure.median}, {"q95", figure.q95}, {"tail_mean", figure.tail_mean}};
-    }
   }
   return json;
 }
@@ -267,24 +239,6 @@ Json sensitivity_json(const GlobalSensitivity& sensitivity) {
                        {"by_input", std::move(by_input)}});
   }
   return {{"samples", sensitivity.samples}, {"figures", std::move(figures)}};
-}
-
-Json goals_json(const std::vector<JudgedGoal>& goals) {
-  Json json = Json::array();
-  for (const JudgedGoal& judged : goals) {
-    Json limits = Json::object();
-    for (const GoalLimit& limit : judged.goal.at_most) limits[limit.figure] = limit.most;
-    json.push_back({{"at_most", std::move(limits)},
-                    {"share", judged.goal.share},
-                    {"soft", judged.goal.is_soft},
-                    {"mode", name_of(judged.mode)},
-                    {"gains", judged.gains},
-                    {"held", judged.held},
-                    {"runs", judged.runs},
-                    {"ci95", interval_json(judged.ci95)},
-                    {"verdict", name_in(kGoalVerdictNames, judged.verdict)}});
-  }
-  return json;
 }
 
 Json objective_json(const Tuning& tuning, const TuneOptions& options) {

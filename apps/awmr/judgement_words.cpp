@@ -1,0 +1,65 @@
+#include "judgement_words.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+
+namespace awmr::cli {
+
+std::string judged_table(const std::vector<JudgedGains>& all) {
+  if (all.empty()) return {};
+  std::string text =
+      fmt::format("  {:<13} {:<9} {:>8} {:>10} {:>10} {:>10} {:>11}\n", "fresh draws", "gains",
+                  "settled", "settling s", "overs. deg", "IAE deg s", "steer deg/s");
+  text += fmt::format("  {:<13} {:<9} {:>8} {:>10} {:>10} {:>10} {:>11}\n", "", "", "%", "95 %",
+                      "95 %", "95 %", "RMS, 95 %");
+  for (const JudgedGains& judged : all) {
+    const auto q95 = [&](std::string_view name) {
+      const auto figure = std::find_if(judged.figures.begin(), judged.figures.end(),
+                                       [&](const JudgedFigure& f) { return f.name == name; });
+      return figure->q95;
+    };
+    text += fmt::format("  {:<13} {:<9} {:>8.0f} {:>10.2f} {:>10.2f} {:>10.1f} {:>11.1f}\n",
+                        name_of(judged.mode), judged.gains, 100.0 * judged.completed_share,
+                        q95("settling_time_s"), q95("overshoot_deg"), q95("heading_iae_degs"),
+                        q95("steering_rate_rms_degps"));
+  }
+  return text;
+}
+
+std::string goals_text(const std::vector<JudgedGoal>& all) {
+  std::string text;
+  for (const JudgedGoal& judged : all) {
+    if (judged.gains != "robust") continue;
+    std::string limits;
+    for (const GoalLimit& limit : judged.goal.at_most) {
+      limits += fmt::format("{}{} <= {:g}", limits.empty() ? "" : ", ", limit.figure, limit.most);
+    }
+    text += fmt::format("  {:<6} {}, {}{}: {:.1f} % of {} draws ({:.1f} to {:.1f}), asked {:g} %\n",
+                        name_in(kGoalVerdictNames, judged.verdict), limits, name_of(judged.mode),
+                        judged.goal.is_soft ? ", soft" : "", 100.0 * judged.held / judged.runs,
+                        judged.runs, 100.0 * judged.ci95.lo, 100.0 * judged.ci95.hi,
+                        100.0 * judged.goal.share);
+  }
+  return text.empty() ? text : "  goals, on fresh draws\n" + text;
+}
+
+std::vector<Finding> goal_findings(const std::vector<JudgedGoal>& all) {
+  std::vector<Finding> findings;
+  for (const JudgedGoal& judged : all) {
+    if (judged.gains != "robust" || judged.verdict == GoalVerdict::kMet) continue;
+    const bool is_missed = judged.verdict == GoalVerdict::kMissed;
+    findings.push_back(
+        {"", 0, Severity::kWarning, is_missed ? "goal-missed" : "goal-open",
+         fmt::format("{} of {} fresh draws in {} keep the goal's limits, {:.1f} to {:.1f} %, where "
+                     "{:g} % are asked for: {}",
+                     judged.held, judged.runs, name_of(judged.mode), 100.0 * judged.ci95.lo,
+                     100.0 * judged.ci95.hi, 100.0 * judged.goal.share,
+                     is_missed ? "tune on more draws (--draws), raise the limits or accept less"
+                               : "judge on more (judged_draws)")});
+  }
+  return findings;
+}
+
+}  // namespace awmr::cli

@@ -1,0 +1,20 @@
+/// What gains.json and the parts of a judging (tune_shard.h) have in common. Private to tune/.
+#pragma once
+
+#include <vector>
+
+#include "awmr/core/json.h"
+#include "awmr/tune/tune.h"
+
+namespace awmr {
+
+/// A goal as tune.json has it, in both directions.
+TuningGoal read_goal(JsonObject json);
+Json goal_json(const TuningGoal& goal);
+
+/// `/robust/quantiles`: by mode, then gains.
+Json quantiles_json(const std::vector<JudgedGains>& judged);
+/// `/goals`
+Json goals_json(const std::vector<JudgedGoal>& goals);
+
+}  // namespace awmr
