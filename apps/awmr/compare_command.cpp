@@ -182,10 +182,9 @@ void add_preferences(CLI::App& command, Texts& texts) {
       ->check(within(0.0, 1.0));
 }
 
-/// How fast headings were led, where that was not the scenarios' affair alone.
+/// How fast headings were led, with the rate that the model knows.
 std::string rate_in_words(const HeadingRateChoice& rate, const Model& model) {
-  if (rate == kNoRate) return {};
-  if (rate != kMeasuredRate) return fmt::format("headings are led at up to {} deg/s\n", rate);
+  if (rate != kMeasuredRate) return words_of_rate(rate);
   return fmt::format(
       "headings are led at up to {:.3g} deg/s, as fast as yaw resistance was measured\n"
       "(--heading-rate-limit {}: as the scenarios have them)\n",

@@ -34,4 +34,12 @@ inline std::vector<std::pair<std::string, std::string>> options_of_rate(
   return {{kRateName, choice}};
 }
 
+/// How fast headings were led with this choice, where the model is not at hand; nothing where that was the
+/// scenarios' affair alone.
+inline std::string words_of_rate(const HeadingRateChoice& choice) {
+  if (choice == kNoRate) return {};
+  if (choice == kMeasuredRate) return "headings are led as fast as yaw resistance was measured\n";
+  return fmt::format("headings are led at up to {} deg/s\n", choice);
+}
+
 }  // namespace awmr::cli

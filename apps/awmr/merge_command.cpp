@@ -48,7 +48,8 @@ Result<Outcome> merge_comparison(const MergeCommand& command) {
   AWMR_RETURN_IF_ERROR(write_files(files));
   std::string table = comparison_table(merged.comparison, merged.options);
   for (const auto& [name, text] : merged.provenance.options) {
-    if (name == kPlantName || name == kRateName) table += fmt::format("{}: {}\n", name, text);
+    if (name == kPlantName) table += fmt::format("{}: {}\n", name, text);
+    if (name == kRateName) table += words_of_rate(text);
   }
   Outcome outcome{
       .summary = table + fmt::format("wrote {} and comparison.csv{}\n", files.back().path.string(),

@@ -87,6 +87,15 @@ TEST_F(ShardsOfCommands, OfATuningAreMergedToTheBytesOfASingleRun) {
               HasSubstr("another kind of work"));
 }
 
+TEST_F(ShardsOfCommands, OfTheLargestSeedAreMergedAndSayHowHeadingsWereLed) {
+  const std::string seed = "--seed 18446744073709551615 ";
+  const std::string parts =
+      parts_of("large", compare(seed + "--shard 1/2"), compare(seed + "--shard 2/2"));
+  const ProcessResult merged = awmr(fmt::format("merge {} -o {}", parts, path("merged")));
+  expect_done(merged);
+  EXPECT_THAT(merged.out, HasSubstr("headings are led as fast as yaw resistance was measured"));
+}
+
 TEST_F(ShardsOfCommands, OfDifferentKindsAreNotMixed) {
   const std::string mixed = parts_of("mixed", recover("--shard 1/2"), compare("--shard 2/2"));
   for (const std::string& parts : {mixed, path("mixed2") + " " + path("mixed1")}) {

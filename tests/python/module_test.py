@@ -135,6 +135,28 @@ class Module(unittest.TestCase):
             if constraint["required"]:
                 self.assertGreaterEqual(constraint["margin"], 0.0)
 
+    def test_a_robust_tuning_hands_out_what_fresh_draws_say(self):
+        config = self.path / "tune.json"
+        config.write_text(json.dumps({"draws": 1, "judged_draws": 8, "global_evaluations": 60,
+                                      "local_evaluations": 20,
+                                      "goals": [{"at_most": {"settling_time_s": 9}, "share": 0.6}]}))
+        made = command("tune", "--observer", "--model", self.path / "model.json", "--config", config,
+                       "-o", self.path / "observed.json")
+        self.assertEqual(made.returncode, 0, made.stderr)
+        written = json.loads((self.path / "observed.json").read_text())
+        tuning = awmr.tune(self.model, config=config, observer=True)
+        self.assertEqual(tuning.gains.observer_bandwidth_radps, written["observer"]["bandwidth_radps"])
+        self.assertEqual(tuning.gains.observer_yaw_max_m, written["observer"]["yaw_max_m"])
+        for one in tuning.judged:
+            self.assertEqual(one["heading_iae_degs"],
+                             written["robust"]["quantiles"][one["mode"]][one["gains"]]["heading_iae_degs"])
+        self.assertEqual([goal["held"] for goal in tuning.goals], [goal["held"] for goal in written["goals"]])
+        self.assertEqual([goal["verdict"] for goal in tuning.goals],
+                         [goal["verdict"] for goal in written["goals"]])
+        awmr.write_gains(tuning.gains, self.path / "again.json")
+        self.assertEqual(awmr.read_gains(self.path / "again.json").observer_surge_max,
+                         written["observer"]["surge_max"])
+
     def test_a_run_is_the_same(self):
         scenario = awmr.read_scenario(SCENARIO)
         for mode in ("differential", "steering", "combined"):
@@ -217,6 +239,13 @@ class Module(unittest.TestCase):
                      lambda: awmr.simulate(self.model, self.gains, awmr.read_scenario(SCENARIO),
                                            mode="sideways"),
                      lambda: awmr.Gains(lambda_=0, mu=1, epsilon=1, speed_mu=1, speed_epsilon=1),
+                     lambda: awmr.Gains(lambda_=3, mu=50, epsilon=12, speed_mu=5, speed_epsilon=1.2,
+                                        observer_bandwidth_radps=2),
+                     lambda: awmr.simulate(self.model,
+                                           awmr.Gains(lambda_=3, mu=50, epsilon=12, speed_mu=5,
+                                                      speed_epsilon=1.2, observer_bandwidth_radps=200,
+                                                      observer_yaw_max_m=0.1, observer_surge_max=1),
+                                           awmr.read_scenario(SCENARIO), mode="combined"),
                      lambda: awmr.tune(self.model, draws=-1)):
             with self.assertRaises(awmr.InputError):
                 call()

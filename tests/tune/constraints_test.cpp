@@ -383,9 +383,33 @@ TEST(Constraints, AskForDampingWithLatencyWhereThereIsAny) {
   const std::size_t without = constraints_of(kPaperGains, context).size();
   context.latency_s = 0.02;
   const std::vector<ConstraintReport> late = constraints_of(kPaperGains, context);
-  ASSERT_EQ(late.size(), without + 1);
-  EXPECT_EQ(late.back().name, "late damping");
-  EXPECT_LT(late.back().limit, 0.7);
+  ASSERT_EQ(late.size(), without + 2);
+  EXPECT_LT(named(late, "late damping").limit, 0.7);
+  // Twice as late and a sample more: 5 samples, of the worst of the modes and rates.
+  double worst = 1.0;
+  for (const double rate_degps : {1.0, 5.0, 20.0, 60.0}) {
+    const double rate = rate_degps * std::acos(-1.0) / 180.0;
+    for (const double share : {1.0, 0.5, 0.0}) {
+      worst = std::min(
+          worst,
+          damping_ratio({.lambda = 3.0,
+                         .reaching_rate = 50.0 / 12.0,
+                         .resistance_rate = 0.3028 * 0.825 * std::pow(rate, 0.825 - 1.0) / 0.0128,
+                         .servo_time_constant_s = 0.02,
+                         .sample_time_s = 0.01,
+                         .direct_share = share,
+                         .late_samples = 5}));
+    }
+  }
+  EXPECT_NEAR(named(late, "delay margin").limit, worst, 1e-9);
+  EXPECT_EQ(named(late, "delay margin").value, 0.05);
+  // Of the draws too: more resistance rings more.
+  Plant<double> rough = context.plant;
+  rough.yaw.alpha *= 2.0;
+  context.draws = {rough};
+  const std::vector<ConstraintReport> drawn = constraints_of(kPaperGains, context);
+  EXPECT_LT(named(drawn, "late damping").limit, named(late, "late damping").limit);
+  EXPECT_LT(named(drawn, "delay margin").limit, named(late, "delay margin").limit);
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <limits>
 #include <map>
 #include <set>
 #include <tuple>
@@ -47,12 +46,11 @@ Preferences read_preferences(JsonObject& json) {
 }
 
 Part part_from_json(JsonObject& json) {
-  Part part{
-      .origin = read_shard_origin(json, kShardSchema),
-      .samples = static_cast<int>(json.integer("samples", 0, kMostSamples)),
-      .seed = static_cast<std::uint64_t>(json.integer("seed", 0, std::numeric_limits<long>::max())),
-      .preferences = read_preferences(json),
-      .in_double_csv_sha256 = json.optional_string(kInDoubleHash)};
+  Part part{.origin = read_shard_origin(json, kShardSchema),
+            .samples = static_cast<int>(json.integer("samples", 0, kMostSamples)),
+            .seed = json.seed("seed"),
+            .preferences = read_preferences(json),
+            .in_double_csv_sha256 = json.optional_string(kInDoubleHash)};
   json.reject_unknown_keys();
   return part;
 }

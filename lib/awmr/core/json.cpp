@@ -93,6 +93,21 @@ long JsonObject::integer(std::string_view key, long min, long max) {
   return value->get<long>();
 }
 
+std::uint64_t JsonObject::seed(std::string_view key) {
+  constexpr std::uint64_t kMost = std::numeric_limits<std::uint64_t>::max();
+  if (shape_ != nullptr) {
+    shape_->type(key, {{"type", "integer"}, {"minimum", 0}, {"maximum", kMost}});
+  }
+  const Json* value = find(key, true);
+  if (value == nullptr) return 0;
+  if (!value->is_number_unsigned()) {
+    fault(key,
+          fmt::format("expected a whole number from 0 to {}, found {}", kMost, describe(*value)));
+    return 0;
+  }
+  return value->get<std::uint64_t>();
+}
+
 std::optional<long> JsonObject::optional_integer(std::string_view key, long min, long max) {
   if (!has(key)) return std::nullopt;
   return integer(key, min, max);

@@ -3,6 +3,7 @@
 /// nlohmann/json.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <limits>
@@ -57,6 +58,8 @@ class JsonObject {
   std::optional<bool> optional_boolean(std::string_view key);
   std::string string(std::string_view key);
   std::optional<std::string> optional_string(std::string_view key);
+  /// A whole number from 0 to 2^64 - 1; 0 on a fault.
+  std::uint64_t seed(std::string_view key);
   /// A number by the rule, as its text, or a string; absent on a fault.
   std::optional<std::string> optional_number_or_string(std::string_view key, NumberRule rule);
   /// One of a fixed set, with the nearest one named on a fault; returns its index, 0 on a fault.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 #include <utility>
@@ -23,23 +24,29 @@ ConstraintReport report(std::string name, double value, double limit, std::strin
           .required = required};
 }
 
-/// The worst of the three modes and of the yaw rates met on the way.
+/// The yaw rates met on the way.
+constexpr double kRates_degps[] = {1.0, 5.0, 20.0, 60.0};
+
+/// a = g3'(r)/I'z, g3'(r) = a3 b3 r^(b3 - 1)
+double resistance_rate(const Plant<double>& plant, double rate_degps) {
+  const Resistance<double>& g3 = plant.yaw;
+  return g3.alpha * g3.beta * std::pow(radians(rate_degps), g3.beta - 1.0) / plant.inertia_norm;
+}
+
+/// The worst of the three modes with each a of `resistance_rates`.
 double heading_damping(const Gains<double>& gains, const ConstraintContext& context,
-                       double latency_s, double motor_time_constant_s) {
+                       std::span<const double> resistance_rates, int late_samples,
+                       double motor_time_constant_s) {
   // The shares of the moment that the sides make at once, the rest of it by the servo.
   constexpr double kShares[] = {1.0, 0.5, 0.0};
   const auto shares = std::span(kShares).first(context.has_steering ? 3 : 1);
-  const auto late_samples = static_cast<int>(std::lround(latency_s / context.sample_time_s));
   double worst = 1.0;
-  for (const double rate_degps : {1.0, 5.0, 20.0, 60.0}) {
-    // g3'(r) = a3 b3 r^(b3 - 1)
-    const Resistance<double>& g3 = context.plant.yaw;
-    const double slope = g3.alpha * g3.beta * std::pow(radians(rate_degps), g3.beta - 1.0);
+  for (const double a : resistance_rates) {
     for (const double direct_share : shares) {
       worst = std::min(
           worst, damping_ratio({.lambda = gains.heading.lambda,
                                 .reaching_rate = gains.heading.mu / gains.heading.epsilon,
-                                .resistance_rate = slope / context.plant.inertia_norm,
+                                .resistance_rate = a,
                                 .servo_time_constant_s = context.plant.steering_time_constant_s,
                                 .sample_time_s = context.sample_time_s,
                                 .direct_share = direct_share,
@@ -49,6 +56,29 @@ double heading_damping(const Gains<double>& gains, const ConstraintContext& cont
     }
   }
   return worst;
+}
+
+/// The least and the largest a of the context's own plant and of its draws, over all rates: a is all that
+/// the loop knows of a plant.
+std::array<double, 2> resistance_range(const ConstraintContext& context) {
+  std::array<double, 2> range{resistance_rate(context.plant, kRates_degps[0]),
+                              resistance_rate(context.plant, kRates_degps[0])};
+  const auto take = [&range](const Plant<double>& plant) {
+    for (const double rate_degps : kRates_degps) {
+      const double a = resistance_rate(plant, rate_degps);
+      range = {std::min(range[0], a), std::max(range[1], a)};
+    }
+  };
+  take(context.plant);
+  for (const Plant<double>& plant : context.draws) take(plant);
+  return range;
+}
+
+/// By rate.
+std::vector<double> resistance_rates(const Plant<double>& plant) {
+  std::vector<double> rates;
+  for (const double rate_degps : kRates_degps) rates.push_back(resistance_rate(plant, rate_degps));
+  return rates;
 }
 
 /// Every constraint of one plant.
@@ -91,10 +121,17 @@ std::vector<ConstraintReport> constraints_of(const Gains<double>& gains,
     }
   }
   if (context.latency_s > 0.0 || context.motor_time_constant_s > 0.0) {
+    const std::array<double, 2> ends = resistance_range(context);
+    std::vector<double> rates = resistance_rates(context.plant);
+    rates.insert(rates.end(), ends.begin(), ends.end());
+    const auto late = static_cast<int>(std::lround(context.latency_s / context.sample_time_s));
+    const double lag_s = context.motor_time_constant_s;
     worst.push_back(report(
-        "late damping", kLateDampingRequired,
-        heading_damping(gains, context, context.latency_s, context.motor_time_constant_s),
+        "late damping", kLateDampingRequired, heading_damping(gains, context, rates, late, lag_s),
         "required <= smallest damping ratio of the loop with latency and motor lag as well"));
+    worst.push_back(report("delay margin", kDelayedDampingRequired,
+                           heading_damping(gains, context, ends, 2 * late + 1, lag_s),
+                           "required <= the same with readings twice as late, and a sample more"));
   }
   return worst;
 }
@@ -118,7 +155,8 @@ std::vector<ConstraintReport> constraints_with(const Gains<double>& gains,
              !strict),
       report("T2 < T1 (strict)", 2.0 * reaching_s, context.margin * sliding_s,
              "epsilon/mu <= margin/lambda, s: S itself decays before the error slides", strict),
-      report("heading damping", kDampingRequired, heading_damping(gains, context, 0.0, 0.0),
+      report("heading damping", kDampingRequired,
+             heading_damping(gains, context, resistance_rates(plant), 0, 0.0),
              "required <= smallest damping ratio of the sampled heading loop with hold and servo"),
       report("speed gain", speed_rate * context.sample_time_s, kSpeedGainPerSample,
              fmt::format("{} T_s <= 0.5: gain margin 4 of the sampled speed loop", rate_name)),

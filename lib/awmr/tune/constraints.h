@@ -12,8 +12,11 @@ namespace awmr {
 /// Every required damping ratio: 0.7, an overshoot of 4.6 % for a second-order loop without zeros.
 inline constexpr double kDampingRequired = 0.7;
 /// The damping ratio that is required with latency and motor lag. The g3 that is fed forward from a
-/// late yaw rate makes a fast mode that gains hardly change: 0.32 for the paper's vehicle at 20 ms.
+/// late yaw rate makes a fast mode that gains hardly change: 0.45 for the paper's vehicle at 20 ms.
 inline constexpr double kLateDampingRequired = 0.25;
+/// What has to be left of it with readings that are later than was said: the paper's vehicle has 0.28 at
+/// 50 ms.
+inline constexpr double kDelayedDampingRequired = 0.05;
 /// Beyond so many samples of latency it is not worked out.
 inline constexpr int kMostLateSamples = 20;
 /// Part of the modelled resistance that the corrective terms have to dominate: more than the model
@@ -54,14 +57,16 @@ double turning_authority_m(const ConstraintContext& context);
 ///   T2 < T1 (strict)   eps/mu     <= margin/lambda
 ///   heading damping    0.7 <= smallest zeta of the sampled loop
 ///   late damping       0.25 <= the same with latency and motor lag, where there is any
+///   delay margin       0.05 <= that with twice the latency and a sample more
 ///   speed gain         (mu_s/eps_s) T_s <= 0.5
 ///   speed lag          (mu_s/eps_s) (T + T_s/2) <= 1/(4 zeta^2)
 ///   mu dominates       0.2 g3(60 deg/s)/I'z <= mu                                     [paper (88)]
 ///   mu_s dominates     0.2 g1(u_d)/m' <= mu_s                                        [paper (102)]
 ///   noise gain         I'z lambda (mu/eps) sigma <= 0.25 turning_authority_m(), sigma: heading noise
 ///
-/// Each stands for the plant, out of the context's own and its draws, that leaves it the least; late
-/// damping, whose matrix grows with the latency, for the context's own.
+/// Each stands for the plant, out of the context's own and its draws, that leaves it the least. Late
+/// damping, whose matrix grows with the latency, is that of the context's own and of the draws' ends: the least
+/// and the largest g3'/I'z of them all. The delay margin is that of those ends.
 ///
 /// T2 < T1: one of the two forms is required, both are given.
 ///

@@ -239,11 +239,18 @@ tl::unexpected<Error> infeasible(const Candidate& nearest, const ConstraintConte
     worst = &c;
     worst_residual = residual.front();
   }
-  return refusal(fmt::format(
-      "no gains within the bounds meet the constraints: the nearest ({}) break '{}', {:.4g} "
-      "against a limit of {:.4g} ({}); raise the margin, choose form 'paper' or widen the bounds",
-      in_words(nearest.gains), worst ? worst->name : "none", worst ? worst->value : 0.0,
-      worst ? worst->limit : 0.0, worst ? worst->meaning : ""));
+  const std::string name = worst ? worst->name : "none";
+  const std::string advice = name == "late damping" || name == "delay margin"
+                                 ? "the readings are too late for this vehicle, nearly whatever "
+                                   "the gains: make them sooner "
+                                   "(latency_s of vehicle.json), or tune without latency (" +
+                                       option_text("nominal") + ")"
+                                 : "raise the margin, choose form 'paper' or widen the bounds";
+  return refusal(
+      fmt::format("no gains within the bounds meet the constraints: the nearest ({}) "
+                  "break '{}', {:.4g} against a limit of {:.4g} ({}); {}",
+                  in_words(nearest.gains), name, worst ? worst->value : 0.0,
+                  worst ? worst->limit : 0.0, worst ? worst->meaning : "", advice));
 }
 
 tl::unexpected<Error> not_better(const SearchResult& found, const Objective& objective,

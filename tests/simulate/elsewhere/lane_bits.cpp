@@ -33,6 +33,7 @@ Plant<double> drawn_plant(std::uint64_t sample) {
           .steering_time_constant_s = about(0.02)};
 }
 
+/// Every third one's gains have an observer of their own.
 std::vector<BatchRun> drawn_runs(YawMode mode) {
   Vehicle vehicle;
   vehicle.wheel_force = {-1.0, 1.0};
@@ -40,6 +41,9 @@ std::vector<BatchRun> drawn_runs(YawMode mode) {
   for (std::uint64_t i = 0; i < kBatchRuns; ++i) {
     runs.push_back(
         {drawn_plant(i), make_controller(drawn_plant(0), vehicle, kPaperGains), mode, 5U, i});
+    if (i % 3 == 1) {
+      runs.back().controller.gains.observer = {1.0 + static_cast<double>(i), 0.1, 0.4};
+    }
   }
   return runs;
 }

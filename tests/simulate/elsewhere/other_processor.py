@@ -26,7 +26,7 @@ KERNELS = {"sse2": ["-msse2"], "avx2": ["-mavx2", "-mfma"], "avx512": ["-mavx512
 KERNEL_OPTIONS = ["-fno-tree-slp-vectorize"]
 # What batches need, without a reader of files and the libraries that these take.
 PARTS = ["core/error", "core/option_text", "core/random", "core/text", "identify/logs/sensitivity_kernel", "model/family",
-         "model/model", "model/parameters", "model/rest_speed", "model/vehicle", "simulate/batch", "simulate/disturbance",
+         "model/model", "model/observer_rate", "model/parameters", "model/rest_speed", "model/vehicle", "simulate/batch", "simulate/disturbance",
          "simulate/lanes/kernels", "simulate/laws", "simulate/line_following", "simulate/metrics", "simulate/passage",
          "simulate/physics", "simulate/pilot", "simulate/scenario", "simulate/sensing", "simulate/simulate",
          "simulate/straight"]
