@@ -139,6 +139,20 @@ TEST(Export, WhatDoesNotFollowFromTheModelIsLeftOutAndSaid) {
   EXPECT_EQ(parameters_of(without).count("ATC_SPEED_P"), 0U);
 }
 
+TEST(Export, AnObserverIsAValueOfTheGainsAndLeftOutOfAnAutopilots) {
+  ExportSource source{.model = paper_robot()};
+  source.gains = kGains;
+  source.gains->observer = {2.5, 0.04, 1.3};
+  for (const ExportFormat format : {ExportFormat::kArduPilot, ExportFormat::kPx4}) {
+    EXPECT_THAT(export_text(source, format).value(), HasSubstr("the disturbance observer"));
+    EXPECT_THAT(text_of(source.model, format), Not(HasSubstr("the disturbance observer")));
+  }
+  const std::string csv = export_text(source, ExportFormat::kCsv).value();
+  EXPECT_THAT(csv, AllOf(HasSubstr("observer_bandwidth_radps,2.5"), HasSubstr("observer_yaw_max_m"),
+                         HasSubstr("observer_surge_max")));
+  EXPECT_THAT(text_of(source.model, ExportFormat::kCsv), Not(HasSubstr("observer")));
+}
+
 TEST(Export, AModelWithoutAYawLawGivesTheSpeedLoop) {
   Model model = paper_robot();
   model[ParameterId::kYawAlpha].value.reset();

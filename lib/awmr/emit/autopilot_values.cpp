@@ -114,6 +114,13 @@ void add_speed_loop(Autopilot& pilot, const char* p, const char* i, double throt
       usual);
 }
 
+/// Told where the gains were tuned with what these autopilots do not have.
+void leave_out_observer(Autopilot& pilot) {
+  if (!pilot.source.gains || !pilot.source.gains->observer.is_on()) return;
+  pilot.leave_out("the disturbance observer",
+                  "this autopilot has integrators in its place; the gains were tuned with it");
+}
+
 Status check_surge(const Model& model) {
   AWMR_RETURN_IF_ERROR(model.plant(Motion::kSteadySurge));
   if (model.vehicle.driven_wheels() != 4) {
@@ -250,6 +257,7 @@ Result<AutopilotValues> ardupilot_values(const ExportSource& source) {
   pilot.leave_out("ATC_SPEED_FF",
                   "CRUISE_THROTTLE/CRUISE_SPEED is the feed-forward; leave it at 0");
   pilot.leave_out("ATC_STR_RAT_P, _I, _D", "they depend on filters and delays of the autopilot");
+  leave_out_observer(pilot);
   return std::move(pilot.found);
 }
 
@@ -259,6 +267,7 @@ Result<AutopilotValues> px4_values(const ExportSource& source) {
   pilot.add("RO_MAX_THR_SPEED", "m/s", "u with g1(u) = 4 F' at F' = 1" + extrapolated(source.model),
             [](const Plant<double>& plant) { return speed_at(plant, 1.0); });
   add_speed_loop(pilot, "RO_SPEED_P", "RO_SPEED_I", 0.5 * pilot.vehicle().wheel_force.hi);
+  leave_out_observer(pilot);
   if (!knows_yaw(pilot)) {
     pilot.leave_out("RO_YAW_RATE_LIM, _CORR, _P, _I", kNoYaw);
     return std::move(pilot.found);
