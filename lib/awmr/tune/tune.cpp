@@ -10,6 +10,7 @@
 #include <utility>
 #include <variant>
 
+#include "awmr/core/index.h"
 #include "awmr/core/option_text.h"
 #include "awmr/core/units.h"
 #include "awmr/model/paper_gains.h"
@@ -393,9 +394,46 @@ constexpr std::uint64_t kJudgedSeeds = 0x6a75646765ULL;
 /// The numbers of the fresh draws, from 1: those of the part, or all.
 std::vector<int> judged_draws_of(const TuneOptions& options) {
   const Shard shard = options.shard.value_or(Shard{});
-  std::vector<int> draws;
-  for (int i = 0; i < shard.share_of(options.judged_draws); ++i) draws.push_back(shard.item(i) + 1);
+  std::vector<int> draws(at(shard.share_of(options.judged_draws)));
+  for (int i = 0; int& draw : draws) draw = shard.item(i++) + 1;
   return draws;
+}
+
+/// The tuned gains and the baseline, and beside them those without their observer and the nominal ones.
+std::vector<NamedCandidate> candidates_of(const Tuning& tuning,
+                                          const std::optional<Gains<double>>& nominal) {
+  std::vector<NamedCandidate> candidates{{"robust", tuning.gains}, {"baseline", tuning.baseline}};
+  if (tuning.gains.observer.is_on()) {
+    Gains<double> unobserved = tuning.gains;
+    unobserved.observer = {};
+    candidates.push_back({"unobserved", unobserved});
+  }
+  if (nominal) candidates.push_back({"nominal", *nominal});
+  return candidates;
+}
+
+/// Runs the candidates on fresh draws, and judges them where these are all of the draws.
+Status judge(const Model& model, ObjectiveSetting setting, const TuneOptions& options,
+             const std::vector<NamedCandidate>& candidates, RobustTuning& robust) {
+  if (options.judged_draws == 0) return {};
+  setting.seed ^= kJudgedSeeds;
+  const std::vector<int> draws = judged_draws_of(options);
+  AWMR_ASSIGN_OR_RETURN(setting.plants, plants_of(model, draws, setting.seed));
+  setting.numbers = {0};
+  setting.numbers.insert(setting.numbers.end(), draws.begin(), draws.end());
+  std::vector<JudgedRuns> runs = run_candidates(setting, candidates);
+  if (options.shard) {
+    robust.runs = std::move(runs);
+    return {};
+  }
+  const std::span<const YawMode> modes = yaw_modes(model.vehicle);
+  Judgement judgement = judgement_of(runs, {.modes = {modes.begin(), modes.end()},
+                                            .scenarios = setting.scenarios.size(),
+                                            .tail_share = options.tail_share,
+                                            .goals = options.goals});
+  robust.judged = std::move(judgement.gains);
+  robust.goals = std::move(judgement.goals);
+  return {};
 }
 
 /// The progress of a search whose evaluations count `weight` each, behind `before` of `total`.
@@ -413,8 +451,7 @@ Result<Tuning> tune_robustly(const Model& model, ObjectiveSetting setting,
   nominal_options.goals.clear();
   nominal_options.sensitivity = 0;
   const auto plants = static_cast<std::size_t>(options.draws) + 1;
-  const auto evaluations =
-      static_cast<std::size_t>(options.global_evaluations + options.local_evaluations);
+  const std::size_t evaluations = at(options.global_evaluations) + at(options.local_evaluations);
   const int robust_global = static_cast<int>(std::ceil(kRobustShare * options.global_evaluations));
   const std::size_t total =
       evaluations + plants * static_cast<std::size_t>(robust_global + options.local_evaluations);
@@ -445,33 +482,10 @@ Result<Tuning> tune_robustly(const Model& model, ObjectiveSetting setting,
   const auto nominal_gains = nominal ? std::optional(nominal->gains) : std::nullopt;
   AWMR_ASSIGN_OR_RETURN(Tuning tuning, tune_on(setting, context, robust_options, nominal_gains));
 
-  std::vector<NamedCandidate> candidates{{"robust", tuning.gains}, {"baseline", tuning.baseline}};
-  if (tuning.gains.observer.is_on()) {
-    Gains<double> unobserved = tuning.gains;
-    unobserved.observer = {};
-    candidates.push_back({"unobserved", unobserved});
-  }
-  if (nominal) {
-    robust.nominal = nominal->gains;
-    robust.nominal_history = nominal->history;
-    candidates.push_back({"nominal", nominal->gains});
-  }
-  setting.seed ^= kJudgedSeeds;
-  const std::vector<int> draws = judged_draws_of(options);
-  AWMR_ASSIGN_OR_RETURN(setting.plants, plants_of(model, draws, setting.seed));
-  setting.numbers = {0};
-  setting.numbers.insert(setting.numbers.end(), draws.begin(), draws.end());
-  if (options.judged_draws > 0) robust.runs = run_candidates(setting, candidates);
-  if (!options.shard) {
-    const std::span<const YawMode> modes = yaw_modes(model.vehicle);
-    Judgement judgement =
-        judgement_of(std::exchange(robust.runs, {}), {.modes = {modes.begin(), modes.end()},
-                                                      .scenarios = setting.scenarios.size(),
-                                                      .tail_share = options.tail_share,
-                                                      .goals = options.goals});
-    robust.judged = std::move(judgement.gains);
-    robust.goals = std::move(judgement.goals);
-  }
+  robust.nominal = nominal_gains;
+  if (nominal) robust.nominal_history = nominal->history;
+  AWMR_RETURN_IF_ERROR(
+      judge(model, setting, options, candidates_of(tuning, nominal_gains), robust));
   if (options.sensitivity > 0) {
     AWMR_ASSIGN_OR_RETURN(robust.sensitivity,
                           global_sensitivity(model, without_noise, robust.conditions, tuning.gains,
