@@ -2,9 +2,12 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
+#include <iterator>
 #include <memory>
 #include <set>
 
@@ -229,6 +232,17 @@ Outcome outcome_of_whole(const CompareCommand& command, const Comparison& compar
   };
   std::vector<Finding> findings =
       extrapolation_in(model, comparison.rows, run_of, rate == kMeasuredRate);
+  for (const Scenario& scenario : scenarios) {
+    std::ranges::move(asked_in_vain(scenario, model), std::back_inserter(findings));
+    std::ranges::move(plant_findings(scenario, model), std::back_inserter(findings));
+  }
+  if (const int samples = comparison.whole_samples - 1; samples >= 2 && samples < kFewSamples) {
+    findings.push_back(
+        {"", 0, Severity::kWarning, "few-samples",
+         fmt::format("intervals of {} samples hold the truth in {:.0f} % of cases at "
+                     "the most, not in 95: give {} samples or more",
+                     samples, 100.0 * (1.0 - std::pow(0.5, samples - 1)), kFewSamples)});
+  }
   if (auto finding = not_led(command.heading_rate_limit, model)) findings.push_back(*finding);
   note_scrub(model, comparison, findings);
   for (Finding& finding : float32_findings(comparison, command.compare)) {

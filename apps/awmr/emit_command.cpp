@@ -4,8 +4,10 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <utility>
 
 #include "awmr/core/file.h"
+#include "awmr/core/hash.h"
 #include "awmr/core/json.h"
 #include "awmr/model/gains_file.h"
 #include "awmr/model/model_file.h"
@@ -62,6 +64,43 @@ void add_coarse(const char* name, const EmittedTable& table, const EmitCommand& 
                    name, 100.0 * table.worst_share(), 100.0 * kTableError)});
 }
 
+/// A warning where the gains were tuned, by what they say, on another model than the one beside them.
+Result<std::vector<Finding>> other_model(const EmitCommand& command) {
+  AWMR_ASSIGN_OR_RETURN(const std::string model, read_file(command.model));
+  AWMR_ASSIGN_OR_RETURN(const Json gains, read_json_file(command.gains));
+  const auto inputs = gains.find("inputs");
+  if (gains.value("command", Json()) != "tune" || inputs == gains.end() || !inputs->is_array()) {
+    return std::vector<Finding>{};
+  }
+  const std::string own = sha256_hex(model);
+  for (const Json& input : *inputs) {
+    if (input.is_object() && input.value("sha256", Json()) == own) return std::vector<Finding>{};
+  }
+  return std::vector<Finding>{
+      {command.gains.string(), 0, Severity::kWarning, "gains-of-another-model",
+       fmt::format("were tuned on another model than {}, or on it before it was changed: what they "
+                   "were shown to keep, they were not for this one. Tune again",
+                   command.model.string())}};
+}
+
+/// A warning where a sampled loop is unstable with the gains, whatever the vehicle.
+std::vector<Finding> unstable_gains(const Gains<double>& gains, double sample_time_s,
+                                    const EmitCommand& command) {
+  constexpr double kMost = 2.0;  // of a sampled integrator
+  const double heading = gains.heading.lambda + gains.heading.mu / gains.heading.epsilon;
+  const double speed = gains.speed.mu / gains.speed.epsilon;
+  std::vector<Finding> findings;
+  for (const auto& [name, rate] : {std::pair("lambda + mu/epsilon of the heading", heading),
+                                   std::pair("mu/epsilon of the speed", speed)}) {
+    if (rate * sample_time_s < kMost) continue;
+    findings.push_back({command.gains.string(), 0, Severity::kWarning, "unstable-gains",
+                        fmt::format("{} is {:.3g} 1/s: with samples of {:g} s the loop is unstable "
+                                    "from {:.3g} on",
+                                    name, rate, sample_time_s, kMost / sample_time_s)});
+  }
+  return findings;
+}
+
 /// How well the tables of resistance hold; nothing where powf is called instead.
 Status add_tables(const Model& model, const Gains<double>& gains, const EmitInputs& inputs,
                   const EmitCommand& command, Outcome& outcome) {
@@ -95,6 +134,11 @@ Result<Outcome> execute(const EmitCommand& command) {
   } else {
     AWMR_ASSIGN_OR_RETURN(files, firmware_library(model, gains, inputs, command.emit));
     AWMR_RETURN_IF_ERROR(add_tables(model, gains, inputs, command, outcome));
+  }
+  AWMR_ASSIGN_OR_RETURN(const std::vector<Finding> foreign, other_model(command));
+  outcome.findings.insert(outcome.findings.end(), foreign.begin(), foreign.end());
+  for (Finding& finding : unstable_gains(gains, model.vehicle.sample_time_s, command)) {
+    outcome.findings.push_back(std::move(finding));
   }
   AWMR_RETURN_IF_ERROR(make_directory(command.output));
   AWMR_RETURN_IF_ERROR(write_emitted(command, files));

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <iterator>
 #include <memory>
 
 #include "awmr/core/file.h"
@@ -109,7 +111,8 @@ Result<Outcome> execute(const SimulateCommand& command) {
   AWMR_RETURN_IF_ERROR(write_file(command.output, run_csv(run, scenario)));
   Metrics metrics = metrics_of(run, scenario, controller);
   metrics.electric_work_j = electric_work_j(metrics, model.vehicle, controller.mass_norm);
-  std::vector<Finding> findings;
+  std::vector<Finding> findings = asked_in_vain(scenario, model);
+  std::ranges::move(plant_findings(scenario, model), std::back_inserter(findings));
   note_extrapolation(model, metrics.yaw_rate_max_degps,
                      fmt::format("{}, {}", scenario.name, name_of(command.mode)), findings);
   return Outcome{.summary = summary_of(run, scenario, command) + figures_of(metrics) +

@@ -43,7 +43,17 @@ Status add_metrics(const SuggestCommand& command, const Model& model, SuggestOpt
                         read_gains_for(*command.gains, model.vehicle.sample_time_s));
   AWMR_ASSIGN_OR_RETURN(const Scenario scenario, read_scenario(*command.scenario));
   const Controller<double> controller = make_controller(plant, model.vehicle, gains);
+  const awmr::Run own = simulate(plant, controller, scenario, command.mode,
+                                 {.sample_time_s = model.vehicle.sample_time_s, .substeps = {}});
+  const Metrics of_own = metrics_of(own, scenario, controller);
   for (const LoopMetric& metric : kLoopMetrics) {
+    if (!(of_own.*metric.value)) {
+      if (command.parameter != metric.name) continue;
+      return input_error("--parameter",
+                         fmt::format("the run of {} in {} has no {}: there is nothing to become "
+                                     "surer of",
+                                     scenario.name, name_of(command.mode), metric.name));
+    }
     options.metrics.push_back(
         {metric.name, [=, sample_time_s = model.vehicle.sample_time_s,
                        mode = command.mode](const Plant<double>& varied) {

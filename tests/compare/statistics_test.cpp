@@ -107,6 +107,39 @@ TEST(PairedDifferences, HaveTheWidthOfTheMeansStandardError) {
   EXPECT_NEAR(d.ci95->hi - d.ci95->lo, 0.098, 0.2 * 0.098);
 }
 
+TEST(Bootstrap, LeavesOutLessForFewValues) {
+  // Phi(-t sqrt(n/(n - 1))): t of 9 degrees of freedom is 2.2622, times 1.0541: Phi(-2.3846) = 0.00855.
+  EXPECT_NEAR(bootstrap_tail(10, 0.025), 0.00855, 2e-5);
+  EXPECT_NEAR(bootstrap_tail(100000, 0.025), 0.025, 1e-5);
+  EXPECT_LT(bootstrap_tail(2, 0.025), 1e-12);
+  EXPECT_EQ(bootstrap_tail(1, 0.025), 0.025);
+}
+
+TEST(Bootstrap, HoldsAMeanOfTenAsOftenAsItSays) {
+  int held = 0;
+  constexpr int kTrials = 400;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    Random random(17, static_cast<std::uint64_t>(trial));
+    Comparison c;
+    for (const YawMode mode : {YawMode::kDifferential, YawMode::kSteering}) {
+      for (int i = 0; i <= 10; ++i) {
+        ComparisonRow row{.scenario = "s", .mode = mode, .sample = i, .metrics = {}};
+        row.metrics.settling_time_s = 5.0 + (mode == YawMode::kSteering ? 0.0 : random.normal());
+        row.metrics.heading_iae_degs = 1.0;
+        c.rows.push_back(row);
+      }
+    }
+    const std::vector<ScenarioRows> scenarios = group(c);
+    for (const PairedDifference& d :
+         paired_differences(scenarios.front(), {}, static_cast<std::uint64_t>(trial), 0)) {
+      if (d.metric == MetricId::kSettlingTime) held += d.ci95->contains(0.0) ? 1 : 0;
+    }
+  }
+  // 95 % of 400, and three standard deviations; percentiles alone hold 90 %.
+  EXPECT_GT(held, 367);
+  EXPECT_LT(held, 393);
+}
+
 TEST(PairedDifferences, HaveStudentsP) {
   Comparison c;
   const double extra[] = {9.0, 1.0, 2.0, 4.0};
@@ -193,7 +226,8 @@ TEST(Ranking, IgnoresDifferencesBelowTheFloor) {
   EXPECT_THAT(ranks(ranking_of(c)), ElementsAre(1, 1, 1));
 }
 
-/// 40 samples: settling time by mode in the order differential, steering, combined, with a spread of 0.1 s.
+/// 40 samples: settling time by mode in the order differential, steering, combined, with a spread
+/// of 0.1 s.
 Comparison settling(std::array<double, 3> seconds, std::array<int, 3> failures = {0, 0, 0}) {
   constexpr YawMode kModes[] = {YawMode::kDifferential, YawMode::kSteering, YawMode::kCombined};
   Comparison c;

@@ -102,6 +102,44 @@ TEST(Verdict, DoesNotRankByAFailureThatMayBeChance) {
   EXPECT_THAT(verdict(twenty(0.0, 0.0, 1)), HasSubstr("tie"));
 }
 
+TEST(Verdict, OfAFewSamplesNoneIsLedByWhatNeverCompletes) {
+  // 0 of 4 against 4 of 4: McNemar's p is 0.125, but steering fails each of them. It is the quicker one.
+  Comparison c = twenty(-3.0, 0.1, 20);
+  std::erase_if(c.rows, [](const ComparisonRow& row) { return row.sample > 4; });
+  const std::string text = verdict(c);
+  EXPECT_THAT(text, ::testing::StartsWith("differential is best; steering is behind"));
+  EXPECT_THAT(text, HasSubstr("steering completed 0 of 4"));
+}
+
+TEST(Verdict, SharesTheFirstPlaceAmongWhatIsTheSame) {
+  const Judged same = judged(twenty(0.0, 0.0));
+  for (const RankedMode& mode : same.scenario.ranking) {
+    EXPECT_EQ(mode.rank, 1);
+    EXPECT_DOUBLE_EQ(mode.first_by_weights, 0.5);
+    EXPECT_DOUBLE_EQ(*mode.first_by_samples, 0.5);
+  }
+}
+
+TEST(Verdict, TiesWhatIsEquivalentInEveryMetric) {
+  // Ten metrics of next to nothing, each sure, and each a hundredth of what matters.
+  Comparison c = twenty(0.0, 0.0);
+  for (ComparisonRow& row : c.rows) {
+    row.metrics.settling_time_s = 0.01;
+    row.metrics.heading_iae_degs = row.mode == YawMode::kSteering ? 0.02 : 0.0;
+    row.metrics.sideslip_max_deg = row.mode == YawMode::kSteering ? 0.02 : 0.0;
+  }
+  EXPECT_THAT(verdict(c), HasSubstr("tie"));
+  EXPECT_THAT(verdict(c), Not(HasSubstr("behind")));
+}
+
+TEST(Verdict, SaysWhatASingleSampleDoesNotShow) {
+  Comparison c = twenty(3.0, 0.1);
+  std::erase_if(c.rows, [](const ComparisonRow& row) { return row.sample > 1; });
+  EXPECT_THAT(verdict(c), HasSubstr("a single sample shows no spread"));
+  std::erase_if(c.rows, [](const ComparisonRow& row) { return row.sample > 0; });
+  EXPECT_THAT(verdict(c), HasSubstr("the nominal run alone"));
+}
+
 TEST(Tally, CountsTheBestAndWhatIsNotToldApart) {
   const Judged clear = judged(twenty(3.0, 0.1));
   const Judged alike = judged(twenty(0.1, 2.0));

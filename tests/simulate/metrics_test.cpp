@@ -257,5 +257,72 @@ TEST(Validity, ATurnFasterThanTheTrialsCoveredIsTold) {
   EXPECT_EQ(findings.size(), 1U);
 }
 
+std::vector<std::string> codes_of(const std::vector<Finding>& findings) {
+  std::vector<std::string> codes;
+  for (const Finding& finding : findings) codes.push_back(finding.code);
+  return codes;
+}
+using Codes = std::vector<std::string>;
+
+TEST(Validity, WhatAScenarioAsksForInVainIsTold) {
+  const Model model = fitted_paper_model();
+  EXPECT_EQ(codes_of(asked_in_vain(kSteps, model)), Codes{});
+
+  Scenario late = kSteps;
+  late.sensors.emplace();
+  late.sensors->heading.late_s = 0.02;  // two samples
+  EXPECT_EQ(codes_of(asked_in_vain(late, model)), Codes{});
+  late.sensors->heading.late_s = 0.004;
+  late.sensors->speed.late_s = 0.025;
+  EXPECT_EQ(codes_of(asked_in_vain(late, model)), (Codes{"rounded-latency", "rounded-latency"}));
+
+  Scenario after = kSteps;
+  after.guidance = HeadingSteps{{{0.0, 0.1}, {3.9, 0.2}}};
+  EXPECT_EQ(codes_of(asked_in_vain(after, model)), Codes{});
+  after.guidance = HeadingSteps{{{0.0, 0.1}, {4.0, 0.2}}};
+  EXPECT_EQ(codes_of(asked_in_vain(after, model)), Codes{"late-step"});
+
+  Scenario blocked = kSteps;
+  WaypointCourse course;
+  course.points_m = {{5.0, 0.0}, {10.0, 0.0}};
+  course.acceptance_m = 0.5;
+  blocked.guidance = course;
+  blocked.obstacles = {{{10.0, 0.9}, 1.0}, {{5.0, 1.1}, 1.0}};
+  const auto findings = asked_in_vain(blocked, model);
+  ASSERT_EQ(codes_of(findings), Codes{"blocked-waypoint"});
+  EXPECT_NE(findings[0].message.find("waypoint 2"), std::string::npos);
+
+  // Four wheels at F_max hold 4 = 1.33 u^0.88: 3.5 m/s.
+  Scenario fast = kSteps;
+  fast.speed_mps = 3.3;
+  EXPECT_EQ(codes_of(asked_in_vain(fast, model)), Codes{});
+  fast.speed_mps = 3.7;
+  EXPECT_EQ(codes_of(asked_in_vain(fast, model)), Codes{"unreachable-speed"});
+}
+
+TEST(Validity, WorkOfForcesThatDoNotActIsTold) {
+  const Model model = fitted_paper_model();
+  EXPECT_EQ(codes_of(plant_findings(kSteps, model)), Codes{});
+  Scenario lagging = kSteps;
+  lagging.actuators.emplace().motor_time_constant_s = 0.1;
+  Scenario sagging = kSteps;
+  sagging.battery.emplace().sag = 0.2;
+  Scenario failing = kSteps;
+  failing.faults.emplace_back();
+  for (const Scenario& scenario : {lagging, sagging, failing}) {
+    EXPECT_EQ(codes_of(plant_findings(scenario, model)), Codes{"commanded-work"});
+  }
+}
+
+TEST(Validity, TyresThatTurnTheVehicleOtherwiseThanItsTrialsAreTold) {
+  Model model = fitted_paper_model();
+  Scenario on_tyres = kSteps;
+  on_tyres.tyres = Tyres<double>{};
+  EXPECT_EQ(codes_of(plant_findings(on_tyres, model)), Codes{});  // nobody measured how it turns
+  model.vehicle.yaw_rate_max_degps = 15.0;
+  EXPECT_EQ(codes_of(plant_findings(on_tyres, model)), Codes{"tyres-differ"});
+  EXPECT_EQ(codes_of(plant_findings(kSteps, model)), Codes{});
+}
+
 }  // namespace
 }  // namespace awmr::testing

@@ -40,6 +40,9 @@ struct ComparisonRow {
   bool took_float32 = false;
 };
 
+/// Below so many samples no interval is wide enough for its 95 %.
+inline constexpr int kFewSamples = 6;
+
 struct CompareOptions {
   /// Monte-Carlo samples beside the nominal model (sample 0), >= 0. More tell smaller differences
   /// apart; 0 compares the model's own values alone, without intervals or tests.
@@ -71,8 +74,9 @@ struct CompareOptions {
 /// Samples, the nominal one included, that a comparison in float32 also runs in double.
 inline constexpr int kCheckedSamples = 32;
 
-/// How much more yaw resistance a mode's turns could meet before another mode is better: straight wheels
-/// that are turned by the sides' forces scrub, which a model fitted to steered turns does not know.
+/// How much more yaw resistance a mode's turns could meet before another mode is better: straight
+/// wheels that are turned by the sides' forces scrub, which a model fitted to steered turns does
+/// not know.
 struct BreakEven {
   std::string scenario;
   YawMode mode{};  ///< differential or combined: it has the better score on the model's own values
@@ -86,8 +90,9 @@ struct BreakEven {
   double sliding_m = 0.0;
   double fastest_degps =
       0.0;  ///< yaw rate of the mode's run on the model's own values, deg/s, >= 0
-  /// What the vehicle's own turns by the sides' forces met, m: the 95 % interval, wider where it changes
-  /// with the rate, and up to what held turns that stood still; absent where the model has no such trial.
+  /// What the vehicle's own turns by the sides' forces met, m: the 95 % interval, wider where it
+  /// changes with the rate, and up to what held turns that stood still; absent where the model has
+  /// no such trial.
   std::optional<Interval> measured_m = {};
   std::optional<Interval> measured_degps =
       {};  ///< yaw rates of those turns; absent: all stood still
@@ -123,14 +128,15 @@ struct Comparison {
   bool is_float32() const { return awmr::is_float32(arithmetic); }
 };
 
-/// Samples draw the fitted parameters from the model's covariance (simulate/plant_sampler.h), and the scenarios'
-/// noise and disturbances from the seeds: the same draws for all modes and gains. The controller
-/// keeps the model's own values. Samples are run kBatchRuns at a time (simulate/batch.h), each
-/// of these blocks in every scenario and mode, so that a stopped comparison is a smaller one. Errors (input): the model lacks a
-/// parameter, or, with samples, a covariance to draw from, or an interval that a scenario's corner
-/// needs; no scenario, or two of the same name; a negative number of samples or threads; a finished
-/// row that is none of this comparison's; of float32, what check_float32() refuses, a processor
-/// without vector instructions, or break_even.
+/// Samples draw the fitted parameters from the model's covariance (simulate/plant_sampler.h), and
+/// the scenarios' noise and disturbances from the seeds: the same draws for all modes and gains.
+/// The controller keeps the model's own values. Samples are run kBatchRuns at a time
+/// (simulate/batch.h), each of these blocks in every scenario and mode, so that a stopped
+/// comparison is a smaller one. Errors (input): the model lacks a parameter, or, with samples, a
+/// covariance to draw from, or an interval that a scenario's corner needs; no scenario, or two of
+/// the same name; a negative number of samples or threads; a finished row that is none of this
+/// comparison's; of float32, what check_float32() refuses, a processor without vector instructions,
+/// or break_even.
 Result<Comparison> compare(const Model& model, const std::vector<NamedGains>& gains,
                            const std::vector<Scenario>& scenarios, const CompareOptions& options);
 Result<Comparison> compare(const Model& model, const Gains<double>& gains,

@@ -42,12 +42,15 @@ Entry entry_of(const ModeRows& rows, const std::vector<ScoredMetric>& scoring) {
   return entry;
 }
 
-/// Whether the two shares of completed runs are not told apart: by the exact McNemar test, or for a
-/// single run by being equal.
+/// Whether the two shares of completed runs are not told apart: by the exact McNemar test, or by
+/// being equal where there is a single run, or where one completes each and the other none.
 bool complete_alike(const ModeRows& a, const ModeRows& b) {
   const auto first = a.counted();
   const auto second = b.counted();
-  if (first.size() < 2) return a.completed_count() == b.completed_count();
+  const std::size_t apart = a.completed_count() > b.completed_count()
+                                ? a.completed_count() - b.completed_count()
+                                : b.completed_count() - a.completed_count();
+  if (first.size() < 2 || apart == first.size()) return apart == 0;
   std::size_t only_first = 0;
   std::size_t only_second = 0;
   for (std::size_t i = 0; i < first.size(); ++i) {
@@ -106,21 +109,31 @@ Behind behind(const Entry& own, const Entry& leader, double relevance, Random ra
     return {{}, beyond ? Conclusion::kRelevant : Conclusion::kEquivalent};
   }
   const std::vector<double> means = resampled_differences(own, leader, random);
-  const Interval ci95{quantile(means, 0.025), quantile(means, 0.975)};
+  const double tail = bootstrap_tail(own.log_scores.size(), 0.025);
+  const Interval ci95{quantile(means, tail), quantile(means, 1.0 - tail)};
   const Interval ratio{std::exp(ci95.lo), std::exp(ci95.hi)};
   if (ci95.lo > margin) return {ratio, Conclusion::kRelevant};
-  const bool within = quantile(means, 0.05) >= -margin && quantile(means, 0.95) <= margin;
+  const double one_sided = bootstrap_tail(own.log_scores.size(), 0.05);
+  const bool within =
+      quantile(means, one_sided) >= -margin && quantile(means, 1.0 - one_sided) <= margin;
   return {ratio, within ? Conclusion::kEquivalent : Conclusion::kUndecided};
 }
 
-/// The position of the least value among the entries that complete as often as the best.
+/// Counts, among the entries that complete as often as the best, the one of the least value; those
+/// that share it (but for rounding) share the count.
 template <class Value>
-std::size_t best_of(const std::vector<Entry>& entries, Value&& value) {
-  std::size_t best = 0;  // the first of the list is one of them
-  for (std::size_t i = 1; i < entries.size(); ++i) {
-    if (entries[i].completes && value(entries[i]) < value(entries[best])) best = i;
+void count_best(const std::vector<Entry>& entries, Value&& value, std::vector<double>& counts) {
+  constexpr double kRounding = 1e-12;
+  double least = value(entries.front());  // the first of the list is one of them
+  for (const Entry& entry : entries) {
+    if (entry.completes) least = std::min(least, value(entry));
   }
-  return best;
+  const double most = least + kRounding * (1.0 + std::abs(least));
+  std::vector<std::size_t> best;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    if (entries[i].completes && value(entries[i]) <= most) best.push_back(i);
+  }
+  for (const std::size_t i : best) counts[i] += 1.0 / static_cast<double>(best.size());
 }
 
 /// Shares of weights, drawn evenly from all that come to 1, under which each entry is the best.
@@ -129,10 +142,10 @@ std::vector<double> shares_by_weights(const std::vector<Entry>& entries, Random 
   std::vector<double> weights(entries.front().mean_losses.size());
   for (int draw = 0; draw < kWeightings; ++draw) {
     for (double& weight : weights) weight = -std::log1p(-random.uniform());  // Dirichlet(1, ..., 1)
-    const std::size_t best = best_of(entries, [&](const Entry& entry) {
+    const auto loss = [&](const Entry& entry) {
       return std::inner_product(weights.begin(), weights.end(), entry.mean_losses.begin(), 0.0);
-    });
-    ++shares[best];
+    };
+    count_best(entries, loss, shares);
   }
   for (double& share : shares) share /= kWeightings;
   return shares;
@@ -142,12 +155,28 @@ std::vector<double> shares_by_samples(const std::vector<Entry>& entries) {
   const std::size_t n = entries.front().log_scores.size();
   std::vector<double> shares(entries.size(), 0.0);
   for (std::size_t sample = 0; sample < n; ++sample) {
-    const std::size_t best =
-        best_of(entries, [&](const Entry& entry) { return entry.log_scores[sample]; });
-    ++shares[best];
+    count_best(
+        entries, [&](const Entry& entry) { return entry.log_scores[sample]; }, shares);
   }
   for (double& share : shares) share /= static_cast<double>(n);
   return shares;
+}
+
+/// Whether two modes are equivalent in every scored metric that both have: what their scores differ
+/// by is then below what matters, however sure it is.
+bool equivalent_in_all(const Contender& a, const Contender& b,
+                       const std::vector<ScoredMetric>& scoring,
+                       const std::vector<PairedDifference>& differences) {
+  bool any = false;
+  for (const PairedDifference& d : differences) {
+    const bool scored = std::any_of(scoring.begin(), scoring.end(), [&](const ScoredMetric& s) {
+      return s.metric->id == d.metric;
+    });
+    if (!scored || !d.is_between(a, b) || !d.mean) continue;
+    if (d.conclusion != Conclusion::kEquivalent) return false;
+    any = true;
+  }
+  return any;
 }
 
 /// Whether `other` is relevantly better in a scored metric, and in none relevantly worse.
@@ -218,6 +247,10 @@ std::vector<RankedMode> rank(const ScenarioRows& scenario,
           leader == 0 ? first.conclusion
                       : behind(own, entries[leader], preferences.relevance, random).conclusion;
       const bool alike = complete_alike(*own.rows, *entries[leader].rows);
+      if (alike && equivalent_in_all(own.rows->contender, entries[leader].rows->contender, scoring,
+                                     differences)) {
+        ranked.towards_leader = Conclusion::kEquivalent;
+      }
       if (!alike || ranked.towards_leader == Conclusion::kRelevant) leader = i;
     }
     ranked.rank = static_cast<int>(leader) + 1;

@@ -37,8 +37,9 @@ inline constexpr std::string_view kScoreFormula =
     "worst "
     "run's. A mode is behind where the whole 95 % interval of its score over the leader's "
     "(bootstrap "
-    "over samples) is above 1 + relevance; equivalent where the 90 % interval is within relevance "
-    "of 1; "
+    "over samples, widened for few by Student's t) is above 1 + relevance; equivalent where the 90 "
+    "% interval is within relevance "
+    "of 1, or every ranked metric by itself; "
     "else undecided, and with the leader of its rank. Modes that complete less often than the "
     "best, by "
     "the exact McNemar test, come after those that do not";

@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <boost/math/distributions/normal.hpp>
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -139,15 +141,16 @@ Eigen::ArrayXXd resampled_means(const Differences& all, Random random) {
   return means;
 }
 
-/// The middle 95 % of the resampled means; none where no resample met a value.
-std::optional<Interval> interval_of(Eigen::ArrayXXd::ConstRowXpr means) {
+/// The 95 % interval of a mean of `values` values by its resamples; none where no resample met a value.
+std::optional<Interval> interval_of(Eigen::ArrayXXd::ConstRowXpr means, std::size_t values) {
   std::vector<double> sorted;
   for (const double mean : means) {
     if (!std::isnan(mean)) sorted.push_back(mean);
   }
   if (sorted.empty()) return std::nullopt;
   std::sort(sorted.begin(), sorted.end());
-  return Interval{quantile(sorted, 0.025), quantile(sorted, 0.975)};
+  const double tail = bootstrap_tail(values, 0.025);
+  return Interval{quantile(sorted, tail), quantile(sorted, 1.0 - tail)};
 }
 
 Contender contender_of(const ComparisonRow& row) { return {row.mode, row.gains}; }
@@ -231,6 +234,13 @@ bool any_has(const ScenarioRows& scenario, const MetricColumn& metric) {
   });
 }
 
+double bootstrap_tail(std::size_t count, double tail) {
+  if (count < 2) return tail;
+  const auto n = static_cast<double>(count);
+  const double t = boost::math::quantile(boost::math::students_t(n - 1.0), 1.0 - tail);
+  return boost::math::cdf(boost::math::normal(), -t * std::sqrt(n / (n - 1.0)));
+}
+
 double quantile(std::span<const double> sorted, double p) {
   const double position = p * static_cast<double>(sorted.size() - 1);
   const auto below = static_cast<std::size_t>(std::floor(position));
@@ -264,7 +274,8 @@ std::vector<PairedDifference> paired_differences(const ScenarioRows& scenario,
   if (all.values.cols() >= 2) {
     const Eigen::ArrayXXd means = resampled_means(all, Random(seed, kBootstrapStream + stream));
     for (std::size_t i = 0; i < differences.size(); ++i) {
-      if (differences[i].count >= 2) differences[i].ci95 = interval_of(means.row(eigen_index(i)));
+      PairedDifference& d = differences[i];
+      if (d.count >= 2) d.ci95 = interval_of(means.row(eigen_index(i)), d.count);
     }
   }
   correct(differences);

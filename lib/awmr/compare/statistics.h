@@ -62,6 +62,12 @@ Summary summarise(const ModeRows& rows, const MetricColumn& metric);
 /// Whether any mode has the metric in any of its counted runs.
 bool any_has(const ScenarioRows& scenario, const MetricColumn& metric);
 
+/// The share of resampled means to leave out on either side for `tail` of the truths beyond it:
+/// Phi(-t sqrt(n/(n-1))), t of n - 1 degrees of freedom. Percentiles of a bootstrap by themselves
+/// are too narrow for few values (Hesterberg's expanded percentiles); below kFewSamples values
+/// nothing makes them wide enough.
+double bootstrap_tail(std::size_t count, double tail);
+
 /// Linear between order statistics (type 7 of Hyndman and Fan). `sorted` is not empty, p in [0, 1].
 double quantile(std::span<const double> sorted, double p);
 

@@ -113,7 +113,11 @@ std::string verdict_of(const ScenarioRows& scenario, const std::vector<RankedMod
                        const Preferences& preferences) {
   if (ranking.empty()) return std::string(kNotRanked) + ".";
   const RankedMode& best = ranking.front();
-  std::string text = best.completed_share > 0.0 ? "" : "none completed; by score ";
+  const bool any_completed = std::ranges::any_of(
+      ranking, [](const RankedMode& mode) { return mode.completed_share > 0.0; });
+  std::string text = best.completed_share > 0.0 ? ""
+                     : any_completed            ? "by score "
+                                                : "none completed; by score ";
   text += first_text(ranking, preferences);
   for (const RankedMode& other : ranking) {
     if (other.rank == 1) continue;
@@ -124,8 +128,10 @@ std::string verdict_of(const ScenarioRows& scenario, const std::vector<RankedMod
   }
   text += "; " + completion_text(scenario);
   if (ranking.size() > 1) text += stability_text(best);
-  if (scenario.modes.front().rows.size() < 3) {
-    text += "; the nominal run alone, without samples, shows no spread";
+  const std::size_t samples = scenario.modes.front().rows.size() - 1;
+  if (samples < 2) {
+    text += samples == 0 ? "; the nominal run alone, without samples, shows no spread"
+                         : "; a single sample shows no spread";
   }
   return text + ".";
 }

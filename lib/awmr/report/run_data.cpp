@@ -45,7 +45,7 @@ std::vector<double> sideslip_deg(std::span<const double> u_mps, std::span<const 
   std::vector<double> values;
   for (std::size_t i = 0; i < u_mps.size(); ++i) {
     const bool moving = std::hypot(u_mps[i], v_mps[i]) > kMovingMps;
-    values.push_back(moving ? degrees(std::atan2(v_mps[i], u_mps[i])) : 0.0);
+    values.push_back(moving ? degrees(std::atan2(v_mps[i], std::abs(u_mps[i]))) : 0.0);
   }
   return values;
 }

@@ -237,7 +237,7 @@ void measure_motion(const MeteredRow<T>& row, const MeteredVehicle<T>& vehicle, 
       row.force.left * row.force.left + row.force.right * row.force.right + steering * steering;
   const Mask<T> moves = hypot(s.u_mps, s.v_mps) > T(kMovingMps);
   if (any(moves)) {
-    const T sideslip_deg = abs(degrees(atan2(s.v_mps, s.u_mps)));
+    const T sideslip_deg = abs(degrees(atan2(s.v_mps, abs(s.u_mps))));
     m.sideslip_max_deg =
         select(moves, larger(m.sideslip_max_deg, sideslip_deg), m.sideslip_max_deg);
   }

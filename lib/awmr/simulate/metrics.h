@@ -26,8 +26,10 @@ struct Metrics {
   double path_length_m = 0.0;                ///< of the way driven
   /// Commanded speed minus the least speed after it was first reached within 0.1 %, >= 0.
   std::optional<double> speed_drop_mps;
-  double speed_itae_m_s = 0.0;    ///< integral of t |u_d - u| (for tuning)
-  double sideslip_max_deg = 0.0;  ///< |atan2(v, u)| where the vehicle moves faster than 0.05 m/s
+  double speed_itae_m_s = 0.0;  ///< integral of t |u_d - u| (for tuning)
+  /// |atan2(v, |u|)|, from the vehicle's axis whether it drives ahead or back, where it moves
+  /// faster than 0.05 m/s.
+  double sideslip_max_deg = 0.0;
   double yaw_rate_max_degps = 0.0;
   /// Total variation of the commanded d_r/d_max, F'L/F'max and F'R/F'max, summed, per second.
   double control_variation = 0.0;
@@ -45,8 +47,8 @@ struct Metrics {
   double saturation_s = 0.0;             ///< time with a command at a limit of F' or of d_r
   double steering_travel_deg = 0.0;      ///< total variation of the angle d_r
   double steering_rate_rms_degps = 0.0;  ///< of the commanded angle (for tuning)
-  /// Work against the yaw resistance, which scrubs the tyres, over F_max, m: integral of g3(r) r. On tyres
-  /// (Scenario::tyres): work of their side forces, integral of RunRow::tyre_power_mps.
+  /// Work against the yaw resistance, which scrubs the tyres, over F_max, m: integral of g3(r) r.
+  /// On tyres (Scenario::tyres): work of their side forces, integral of RunRow::tyre_power_mps.
   double tyre_work = 0.0;
   /// What the battery gives the motors, J; absent where the vehicle says no stall power.
   std::optional<double> electric_work_j;

@@ -8,8 +8,130 @@
 #include "awmr/core/option_text.h"
 #include "awmr/core/units.h"
 #include "awmr/model/fitted_law.h"
+#include "awmr/model/paper_gains.h"
+#include "awmr/simulate/physics.h"
+#include "awmr/simulate/simulate.h"
 
 namespace awmr {
+
+namespace {
+
+/// A reading is driven as of the nearest sample: told where that is off by more of one.
+constexpr double kLittleOfASample = 0.1;
+
+void note_latency(const char* name, double late_s, double sample_time_s, const Scenario& scenario,
+                  std::vector<Finding>& findings) {
+  const double samples = late_s / sample_time_s;
+  if (std::abs(samples - std::round(samples)) <= kLittleOfASample) return;
+  findings.push_back(
+      {"", 0, Severity::kWarning, "rounded-latency",
+       fmt::format("{}: the {} is {:g} s late, and is driven as {:.0f} samples of {:g} s: give "
+                   "whole samples, or a shorter sample_time_s",
+                   scenario.name, name, late_s, std::round(samples), sample_time_s)});
+}
+
+void note_late_steps(const Scenario& scenario, std::vector<Finding>& findings) {
+  const auto* headings = std::get_if<HeadingSteps>(&scenario.guidance);
+  if (headings == nullptr || headings->steps.back().t_s < scenario.duration_s) return;
+  findings.push_back({"", 0, Severity::kWarning, "late-step",
+                      fmt::format("{}: the heading step at {:g} s is not before the end at {:g} s, "
+                                  "and is never followed",
+                                  scenario.name, headings->steps.back().t_s, scenario.duration_s)});
+}
+
+void note_blocked_waypoints(const Scenario& scenario, std::vector<Finding>& findings) {
+  const auto* course = std::get_if<WaypointCourse>(&scenario.guidance);
+  if (course == nullptr) return;
+  for (std::size_t i = 0; i < course->points_m.size(); ++i) {
+    for (const Obstacle<double>& obstacle : scenario.obstacles) {
+      const double apart_m = std::hypot(course->points_m[i].x_m - obstacle.centre_m.x_m,
+                                        course->points_m[i].y_m - obstacle.centre_m.y_m);
+      if (apart_m > obstacle.radius_m) continue;
+      findings.push_back(
+          {"", 0, Severity::kWarning, "blocked-waypoint",
+           fmt::format("{}: waypoint {} lies within an obstacle", scenario.name, i + 1)});
+    }
+  }
+}
+
+void note_speed(const Scenario& scenario, const Model& model, std::vector<Finding>& findings) {
+  if (std::holds_alternative<OpenLoop>(scenario.guidance)) return;
+  const Plant<double> plant = model.plant_as_known();
+  const double most = driven_wheels(plant) * (model.vehicle.wheel_force.hi - plant.wheel_dead_zone -
+                                              plant.back_emf_s_per_m * scenario.speed_mps);
+  const double needed = plant.surge(scenario.speed_mps);
+  if (!(needed > most)) return;
+  findings.push_back({"", 0, Severity::kWarning, "unreachable-speed",
+                      fmt::format("{}: {:g} m/s take {:.3g} of F_max, and the wheels make {:.3g} "
+                                  "together: the speed is never reached",
+                                  scenario.name, scenario.speed_mps, needed, std::max(most, 0.0))});
+}
+
+}  // namespace
+
+namespace {
+
+/// The yaw rate, deg/s, that a steady moment of tau_turn_m makes under way, in a plain scenario; on
+/// tyres where they are given.
+double turned_degps(const Model& model, double tau_turn_m,
+                    const std::optional<Tyres<double>>& tyres) {
+  Scenario turn;
+  turn.name = "turn";
+  turn.duration_s = 10.0;
+  turn.speed_mps = 0.0;
+  const Plant<double> plant = model.plant_as_known();
+  turn.guidance = OpenLoop{0.5 * driven_wheels(plant) * model.vehicle.wheel_force.hi, tau_turn_m};
+  turn.tyres = tyres;
+  const YawMode mode = model.vehicle.has_steering() ? YawMode::kSteering : YawMode::kDifferential;
+  const Run run = simulate(plant, make_controller(plant, model.vehicle, kPaperGains), turn, mode,
+                           {.sample_time_s = model.vehicle.sample_time_s, .substeps = {}});
+  return std::abs(degrees(run.rows.back().state.r_radps));
+}
+
+}  // namespace
+
+std::vector<Finding> plant_findings(const Scenario& scenario, const Model& model) {
+  std::vector<Finding> findings;
+  const bool lags = scenario.actuators && scenario.actuators->motor_time_constant_s > 0.0;
+  const bool sags = scenario.battery && scenario.battery->sag > 0.0;
+  if (forces_differ_by_wheel(scenario) || lags || sags) {
+    findings.push_back(
+        {"", 0, Severity::kWarning, "commanded-work",
+         fmt::format("{}: mechanical and electrical work are those of the commanded "
+                     "forces; what a failed wheel, a sagging battery or a motor's lag "
+                     "takes of them is not taken off",
+                     scenario.name)});
+  }
+  const std::optional<double> measured_degps = measured_yaw_rate_degps(model);
+  if (!scenario.tyres || !measured_degps) return findings;
+  const double moment_m = model.plant_as_known().yaw(radians(*measured_degps));
+  const double plain_degps = turned_degps(model, moment_m, {});
+  const double on_tyres_degps = turned_degps(model, moment_m, scenario.tyres);
+  constexpr double kMuch = 1.5;
+  if (on_tyres_degps < kMuch * plain_degps && plain_degps < kMuch * on_tyres_degps) return findings;
+  findings.push_back(
+      {model.file, 0, Severity::kWarning, "tyres-differ",
+       fmt::format(
+           "{}: a moment that turns the model at {:.3g} deg/s, where its yaw resistance was "
+           "measured, turns it at {:.3g} on these tyres: they are not those of the trials. "
+           "Take what is said on them as another vehicle's",
+           scenario.name, plain_degps, on_tyres_degps)});
+  return findings;
+}
+
+std::vector<Finding> asked_in_vain(const Scenario& scenario, const Model& model) {
+  std::vector<Finding> findings;
+  if (scenario.sensors) {
+    const double sample_time_s = model.vehicle.sample_time_s;
+    note_latency("heading", scenario.sensors->heading.late_s, sample_time_s, scenario, findings);
+    note_latency("yaw rate", scenario.sensors->yaw_rate.late_s, sample_time_s, scenario, findings);
+    note_latency("speed", scenario.sensors->speed.late_s, sample_time_s, scenario, findings);
+  }
+  note_late_steps(scenario, findings);
+  note_blocked_waypoints(scenario, findings);
+  note_speed(scenario, model, findings);
+  return findings;
+}
 
 void limit_heading_rate(double limit_degps, Scenario& scenario) {
   if (std::holds_alternative<OpenLoop>(scenario.guidance)) return;

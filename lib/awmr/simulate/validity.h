@@ -13,6 +13,16 @@
 
 namespace awmr {
 
+/// Warnings of a scenario in which the forces that act are not those that are commanded, by which
+/// work is told (`commanded-work`: wheels that fail, a battery that sags, motors that lag), and of
+/// one on tyres that turn otherwise than yaw resistance was measured (`tyres-differ`).
+std::vector<Finding> plant_findings(const Scenario& scenario, const Model& model);
+
+/// Warnings of what a scenario asks for in vain on this vehicle: a reading that is late by a part
+/// of a sample (`rounded-latency`), a step behind the end (`late-step`), a waypoint within an
+/// obstacle (`blocked-waypoint`), a speed beyond the motors (`unreachable-speed`).
+std::vector<Finding> asked_in_vain(const Scenario& scenario, const Model& model);
+
 /// Lets the heading that is held or led to turn by at most `limit_degps`, > 0, by a filter of
 /// kShapingBandwidth_radps where the scenario has none (control/guidance_shaping.h); one that it has
 /// keeps its bandwidth and the lesser limit. In open loop there is no heading to limit.
@@ -38,8 +48,8 @@ HeadingRateChoice rate_to_compare_at(const HeadingRateChoice& said, const Model&
 Status limit_heading_rate(const HeadingRateChoice& choice, const Model& model,
                           std::span<Scenario> scenarios);
 
-/// A warning (`not-led`) where nothing was said and nothing says how fast was measured: the headings are
-/// compared as the scenarios have them.
+/// A warning (`not-led`) where nothing was said and nothing says how fast was measured: the
+/// headings are compared as the scenarios have them.
 std::optional<Finding> not_led(const HeadingRateChoice& said, const Model& model);
 
 /// Adds a warning (`beyond-trials`) where a turn of `fastest_degps`, >= 0, is clearly faster than
