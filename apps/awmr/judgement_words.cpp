@@ -7,14 +7,19 @@
 
 namespace awmr::cli {
 
-std::string judged_table(const std::vector<JudgedGains>& all) {
+std::string judged_table(const std::vector<JudgedGains>& all,
+                         const std::vector<JudgedGains>& by_scenario) {
   if (all.empty()) return {};
+  const std::vector<JudgedGains>& rows = by_scenario.empty() ? all : by_scenario;
   std::string text =
       fmt::format("  {:<13} {:<9} {:>8} {:>10} {:>10} {:>10} {:>11}\n", "fresh draws", "gains",
                   "settled", "settling s", "overs. deg", "IAE deg s", "steer deg/s");
   text += fmt::format("  {:<13} {:<9} {:>8} {:>10} {:>10} {:>10} {:>11}\n", "", "", "%", "95 %",
                       "95 %", "95 %", "RMS, 95 %");
-  for (const JudgedGains& judged : all) {
+  std::string_view scenario;
+  for (const JudgedGains& judged : rows) {
+    if (judged.scenario != scenario) text += fmt::format("  {}\n", judged.scenario);
+    scenario = judged.scenario;
     const auto q95 = [&](std::string_view name) {
       const auto figure = std::find_if(judged.figures.begin(), judged.figures.end(),
                                        [&](const JudgedFigure& f) { return f.name == name; });

@@ -9,8 +9,10 @@
 
 namespace awmr::cli {
 
-/// What the gains do on draws that they were not tuned on; empty where none were judged.
-std::string judged_table(const std::vector<JudgedGains>& all);
+/// What the gains do on draws that they were not tuned on, scenario by scenario where there are
+/// several; empty where none were judged.
+std::string judged_table(const std::vector<JudgedGains>& all,
+                         const std::vector<JudgedGains>& by_scenario);
 
 /// What fresh draws say of the goals with the tuned gains; empty without goals.
 std::string goals_text(const std::vector<JudgedGoal>& all);

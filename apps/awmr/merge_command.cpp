@@ -83,9 +83,10 @@ Result<Outcome> merge_tuning(const MergeCommand& command) {
   for (const fs::path& part : command.parts) parts.push_back(part / kTuneShardGains);
   AWMR_RETURN_IF_ERROR(check_outputs(command.output, {"gains.json"}, parts));
   AWMR_RETURN_IF_ERROR(make_directory(command.output));
-  Outcome outcome{.summary = judged_table(merged.judged) + goals_text(merged.goals),
-                  .findings = goal_findings(merged.goals),
-                  .document = merged.gains_text};
+  Outcome outcome{
+      .summary = judged_table(merged.judged, merged.judged_by_scenario) + goals_text(merged.goals),
+      .findings = goal_findings(merged.goals),
+      .document = merged.gains_text};
   AWMR_RETURN_IF_ERROR(write_document(command.output / "gains.json", outcome));
   return outcome;
 }

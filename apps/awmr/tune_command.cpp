@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -8,6 +9,7 @@
 
 #include "awmr/core/file.h"
 #include "awmr/model/model_file.h"
+#include "awmr/simulate/conditions.h"
 #include "awmr/simulate/validity.h"
 #include "awmr/tune/tune_file.h"
 #include "awmr/tune/tune_shard.h"
@@ -80,6 +82,35 @@ std::vector<Finding> observer_findings(const TuneOptions& options) {
        "give one that pushes the vehicle, or none at all for the default ones"}};
 }
 
+/// Warnings where the tuned gains leave runs that do not settle after every step.
+std::vector<Finding> unsettled_findings(const Tuning& tuning) {
+  constexpr double kMost = 0.95;
+  std::vector<Finding> findings;
+  const auto note = [&](const std::string& scenario, YawMode mode, double share) {
+    if (share >= kMost) return;
+    findings.push_back(
+        {"", 0, Severity::kWarning, "unsettled",
+         fmt::format(
+             "{}{}: {:.0f} % of the runs with the tuned gains settle after every step; what "
+             "is said of the others is of runs that do not get there. Give more time or a "
+             "faster lead, or an observer (--observer) where something pushes all the time",
+             scenario.empty() ? "" : scenario + ", ", name_of(mode), 100.0 * share)});
+  };
+  if (tuning.robust && !tuning.robust->judged.empty()) {
+    const RobustTuning& robust = *tuning.robust;
+    const auto& judged =
+        robust.judged_by_scenario.empty() ? robust.judged : robust.judged_by_scenario;
+    for (const JudgedGains& one : judged) {
+      if (one.gains == "robust") note(one.scenario, one.mode, one.completed_share);
+    }
+    return findings;
+  }
+  for (const ModeScore& score : tuning.scores) {
+    note(score.scenario, score.mode, score.metrics.completed ? 1.0 : 0.0);
+  }
+  return findings;
+}
+
 /// A note where too few samples leave open what moves a figure most.
 std::vector<Finding> sensitivity_findings(const Tuning& tuning) {
   if (!tuning.robust || !tuning.robust->sensitivity) return {};
@@ -115,11 +146,26 @@ std::string standing_of(const Tuning& tuning) {
       tuning.speed_mu_as_good.lo, tuning.speed_mu_as_good.hi);
 }
 
-std::string summary_of(const Tuning& tuning) {
-  std::string text = gains_table(tuning) + standing_of(tuning);
+/// What was open of the vehicles that the gains are for; empty where nothing was.
+std::string open_text(const OpenVehicle& open) {
+  if (!open.any()) return {};
+  std::string text = "  open      ";
+  if (!open.mass_factors.empty()) {
+    text += fmt::format(" m' and I'z times {:g}", fmt::join(open.mass_factors, ", "));
+  }
+  for (const Interval& force : open.wheel_forces) {
+    const bool first = &force == &open.wheel_forces.front();
+    const char* joint = !first ? "," : open.mass_factors.empty() ? " F'" : "; F'";
+    text += fmt::format("{} {:g} to {:g}", joint, force.lo, force.hi);
+  }
+  return text + '\n';
+}
+
+std::string summary_of(const Tuning& tuning, const TuneOptions& options) {
+  std::string text = gains_table(tuning) + standing_of(tuning) + open_text(options.open);
   if (tuning.robust) {
-    text += judged_table(tuning.robust->judged) + goals_text(tuning.robust->goals) +
-            sensitivity_text(*tuning.robust);
+    text += judged_table(tuning.robust->judged, tuning.robust->judged_by_scenario) +
+            goals_text(tuning.robust->goals) + sensitivity_text(*tuning.robust);
   }
   return text;
 }
@@ -199,11 +245,17 @@ Result<Outcome> execute(const TuneCommand& command) {
   std::vector<Scenario>& scenarios = config.options.scenarios;
   if (command.observer && !config.options.observer) config.options.observer.emplace();
   if (scenarios.empty()) {
-    AWMR_ASSIGN_OR_RETURN(scenarios, default_tuning_scenarios(model, config.options));
+    AWMR_ASSIGN_OR_RETURN(
+        scenarios, default_tuning_scenarios(model, config.options, command.heading_rate_limit));
   }
   choose(command.allocation, model, scenarios);
   AWMR_RETURN_IF_ERROR(limit_heading_rate(command.heading_rate_limit, model, scenarios));
   if (command.nominal) config.options.nominal = true;
+  if (command.draws && config.options.nominal) {
+    return input_error("--draws",
+                       "nominal gains are tuned on no draws, and the configuration asks for "
+                       "nominal: leave out one of them");
+  }
   if (command.draws) config.options.draws = *command.draws;
   if (command.sensitivity) config.options.sensitivity = *command.sensitivity;
   AWMR_ASSIGN_OR_RETURN(const Provenance provenance, provenance_of(command, config.scenario_files));
@@ -218,6 +270,15 @@ Result<Outcome> execute(const TuneCommand& command) {
       tuning.robust ? goal_findings(tuning.robust->goals) : std::vector<Finding>{};
   std::ranges::move(sensitivity_findings(tuning), std::back_inserter(findings));
   std::ranges::move(observer_findings(config.options), std::back_inserter(findings));
+  std::ranges::move(unsettled_findings(tuning), std::back_inserter(findings));
+  std::vector<Scenario> asked = scenarios;
+  if (tuning.robust) {
+    asked.push_back(
+        under(tuning.robust->conditions, {.name = "the vehicle", .guidance = OpenLoop{}}));
+  }
+  for (const Scenario& scenario : asked) {
+    std::ranges::move(asked_in_vain(scenario, model), std::back_inserter(findings));
+  }
   std::ranges::move(extrapolation_in(model, tuning.scores,
                                      [](const ModeScore& score) {
                                        return fmt::format("{}, {}", score.scenario,
@@ -225,7 +286,7 @@ Result<Outcome> execute(const TuneCommand& command) {
                                      }),
                     std::back_inserter(findings));
   AWMR_RETURN_IF_ERROR(write_file(command.output, document));
-  return Outcome{.summary = summary_of(tuning),
+  return Outcome{.summary = summary_of(tuning, config.options),
                  .details = details_of(tuning),
                  .closing = fmt::format("wrote {}\n", command.output.string()),
                  .brief = gains_table(tuning),
@@ -245,7 +306,7 @@ void add_tune(CLI::App& app, Session& session) {
                               });
   add_file(*sub, "--model", command->model, "model.json from identify")->required();
   add_file(*sub, "--config", command->config,
-           "tune.json: form, margin, weights, goals, evaluations, seed, scenarios");
+           "tune.json: form, margin, weights, goals, open, observer, evaluations, seed, scenarios");
   auto* nominal = sub->add_flag("--nominal", command->nominal,
                                 "Tune on the model's own values alone: no draws from what is "
                                 "uncertain, no noise, no latency, no lag");
@@ -265,7 +326,9 @@ void add_tune(CLI::App& app, Session& session) {
       ->check(within(kFewestSamples, kMostSamples))
       ->excludes(nominal);
   add_allocation(*sub, command->allocation);
-  add_heading_rate_limit(*sub, command->heading_rate_limit, kNoRate);
+  add_heading_rate_limit(*sub, command->heading_rate_limit,
+                         "none for scenarios of the user's; of the default ones one is led as "
+                         "measured, one is not");
   add_output(*sub, command->output, "gains.json to write; with --shard, the directory of the part");
   auto* shard = add_shard(*sub, *shard_text)->excludes(nominal);
   sub->add_flag("--resume", command->resume, "Leave a part that is finished as it is")

@@ -78,32 +78,35 @@ TEST(Constraints, KeepCompassNoiseBelowAQuarterOfTheWeakerAuthority) {
   // Steering: 0.35 1.3268 tan(10 deg) m; differential: 4 0.36 (1 - 1.3268/4) m, larger.
   const ConstraintContext context = paper_context(ReachingForm::kStrict, 0.8);
   const double degree = std::acos(-1.0) / 180.0;
-  EXPECT_NEAR(turning_authority_m(context), 0.35 * 1.3268 * std::tan(10.0 * degree), kRounding);
+  EXPECT_NEAR(turning_authority_m(context.own(), context.speed_mps),
+              0.35 * 1.3268 * std::tan(10.0 * degree), kRounding);
   const auto all = constraints_of(kPaperGains, context);
   EXPECT_NEAR(named(all, "noise gain").value, 0.0128 * 3.0 * 50.0 / 12.0 * degree, kRounding);
-  EXPECT_NEAR(named(all, "noise gain").limit, turning_authority_m(context) / 4.0, kRounding);
+  EXPECT_NEAR(named(all, "noise gain").limit,
+              turning_authority_m(context.own(), context.speed_mps) / 4.0, kRounding);
 }
 
 TEST(Constraints, KnowTheAuthorityOfFrontWheelDriveAndOfMotorsWithBackEmf) {
   ConstraintContext context = paper_context(ReachingForm::kStrict, 0.8);
   context.plant.rear_driven = 0.0;
   // Steering: l_f g1 tan(20 deg) = 0.169 m; differential: 2 0.36 (1 - 1.3268/2) = 0.242 m.
-  EXPECT_NEAR(turning_authority_m(context), 0.35 * 1.3268 * std::tan(std::acos(-1.0) / 9.0),
-              kRounding);
+  EXPECT_NEAR(turning_authority_m(context.own(), context.speed_mps),
+              0.35 * 1.3268 * std::tan(std::acos(-1.0) / 9.0), kRounding);
   context.plant.back_emf_s_per_m = 0.2;
   // Of the voltage 0.2 more is taken by 1 m/s.
-  EXPECT_NEAR(turning_authority_m(context), 2.0 * 0.36 * (1.0 - 1.3268 / 2.0 - 0.2), kRounding);
+  EXPECT_NEAR(turning_authority_m(context.own(), context.speed_mps),
+              2.0 * 0.36 * (1.0 - 1.3268 / 2.0 - 0.2), kRounding);
 }
 
 TEST(Constraints, PassOverTheModeThatHasNoAuthority) {
   // At rest steering has none; with F' at its upper limit the differential mode has none.
   ConstraintContext context = paper_context(ReachingForm::kStrict, 0.8);
   context.speed_mps = 0.0;
-  EXPECT_NEAR(turning_authority_m(context), 4.0 * 0.36, kRounding);
+  EXPECT_NEAR(turning_authority_m(context.own(), context.speed_mps), 4.0 * 0.36, kRounding);
   context.speed_mps = 1.0;
   context.wheel_force = {0.0, 1.3268 / 4.0};
-  EXPECT_NEAR(turning_authority_m(context), 0.35 * 1.3268 * std::tan(std::acos(-1.0) / 18.0),
-              kRounding);
+  EXPECT_NEAR(turning_authority_m(context.own(), context.speed_mps),
+              0.35 * 1.3268 * std::tan(std::acos(-1.0) / 18.0), kRounding);
 }
 
 TEST(Constraints, HoldForThePapersGains) {
@@ -131,6 +134,7 @@ TEST(SampledLoop, IsTheDoubleIntegratorsWithoutResistanceAndServo) {
   const double damping = damping_ratio({.lambda = l,
                                         .reaching_rate = k,
                                         .resistance_rate = 0.0,
+                                        .fed_forward_rate = 0.0,
                                         .servo_time_constant_s = 0.02,
                                         .sample_time_s = t,
                                         .direct_share = 1.0});
@@ -145,6 +149,7 @@ TEST(SampledLoop, IsUnstableExactlyBeyondTheJuryBound) {
     return damping_ratio({.lambda = 3.0,
                           .reaching_rate = k,
                           .resistance_rate = 0.0,
+                          .fed_forward_rate = 0.0,
                           .servo_time_constant_s = 0.02,
                           .sample_time_s = 0.01,
                           .direct_share = 1.0});
@@ -159,6 +164,7 @@ TEST(SampledLoop, ApproachesTheContinuousLoopForShortSamples) {
   const double damping = damping_ratio({.lambda = 3.0,
                                         .reaching_rate = 5.0,
                                         .resistance_rate = 20.0,
+                                        .fed_forward_rate = 20.0,
                                         .servo_time_constant_s = 1e-5,
                                         .sample_time_s = 1e-5,
                                         .direct_share = 0.0});
@@ -172,6 +178,7 @@ TEST(SampledLoop, LosesDampingWithLambdaPlusKTimesTheLag) {
     return damping_ratio({.lambda = 1e-3,
                           .reaching_rate = product / 0.0201,
                           .resistance_rate = 0.0,
+                          .fed_forward_rate = 0.0,
                           .servo_time_constant_s = 0.02,
                           .sample_time_s = 0.0002,
                           .direct_share = 0.0});
@@ -196,6 +203,7 @@ TEST(Constraints, TakeTheWorstDampingOfAllModesAndYawRates) {
         worst = std::min(worst, damping_ratio({.lambda = 3.0,
                                                .reaching_rate = k,
                                                .resistance_rate = slope / 0.0128,
+                                               .fed_forward_rate = slope / 0.0128,
                                                .servo_time_constant_s = 0.02,
                                                .sample_time_s = 0.01,
                                                .direct_share = share}));
@@ -207,12 +215,13 @@ TEST(Constraints, TakeTheWorstDampingOfAllModesAndYawRates) {
 
 /// A sample of the loop from one state to the next, by a thousand Euler-Heun steps.
 Eigen::Vector3d after_a_sample(const SampledHeadingLoop& loop, Eigen::Vector3d x) {
-  const double w = (loop.resistance_rate - loop.lambda - loop.reaching_rate) * x(1) -
+  const double w = (loop.fed_forward_rate - loop.lambda - loop.reaching_rate) * x(1) -
                    loop.lambda * loop.reaching_rate * x(0);
   const auto rates = [&](const Eigen::Vector3d& s) {
     return Eigen::Vector3d(
         s(1),
-        -loop.resistance_rate * s(1) + loop.direct_share * w + (1.0 - loop.direct_share) * s(2),
+        -loop.resistance_rate * s(1) +
+            loop.input_gain * (loop.direct_share * w + (1.0 - loop.direct_share) * s(2)),
         (w - s(2)) / loop.servo_time_constant_s);
   };
   constexpr int kSteps = 1000;
@@ -224,23 +233,35 @@ Eigen::Vector3d after_a_sample(const SampledHeadingLoop& loop, Eigen::Vector3d x
   return x;
 }
 
+/// What the law knows of the plant, whose a is 25 1/s: all, too little of its inertia, too much of its
+/// resistance.
+struct Known {
+  double fed_forward_rate;
+  double input_gain;
+};
+constexpr Known kKnown[] = {{25.0, 1.0}, {25.0, 0.4}, {32.0, 1.3}};
+
 TEST(SampledLoop, IsTheEquationsOfItsHeaderWhateverTheDirectShare) {
-  for (const double share : {0.0, 0.25, 0.5, 1.0}) {
-    const SampledHeadingLoop loop{.lambda = 3.0,
-                                  .reaching_rate = 20.0,
-                                  .resistance_rate = 25.0,
-                                  .servo_time_constant_s = 0.03,
-                                  .sample_time_s = 0.01,
-                                  .direct_share = share};
-    Eigen::Matrix3d closed;
-    for (int i = 0; i < 3; ++i) closed.col(i) = after_a_sample(loop, Eigen::Vector3d::Unit(i));
-    double worst = 1.0;
-    for (const std::complex<double> z : closed.eigenvalues()) {
-      const std::complex<double> s = std::log(z);
-      worst = std::min(worst, -s.real() / std::abs(s));
+  for (const Known& known : kKnown) {
+    for (const double share : {0.0, 0.25, 0.5, 1.0}) {
+      const SampledHeadingLoop loop{.lambda = 3.0,
+                                    .reaching_rate = 20.0,
+                                    .resistance_rate = 25.0,
+                                    .fed_forward_rate = known.fed_forward_rate,
+                                    .input_gain = known.input_gain,
+                                    .servo_time_constant_s = 0.03,
+                                    .sample_time_s = 0.01,
+                                    .direct_share = share};
+      Eigen::Matrix3d closed;
+      for (int i = 0; i < 3; ++i) closed.col(i) = after_a_sample(loop, Eigen::Vector3d::Unit(i));
+      double worst = 1.0;
+      for (const std::complex<double> z : closed.eigenvalues()) {
+        const std::complex<double> s = std::log(z);
+        worst = std::min(worst, -s.real() / std::abs(s));
+      }
+      // Heun's error is h^2 a^2/6 of the motion in T_s, h = 1e-5 s and a up to 33/s: below 1e-7.
+      EXPECT_NEAR(damping_ratio(loop), worst, 1e-5) << share << " " << known.input_gain;
     }
-    // Heun's error is h^2 a^2/6 of the motion in T_s, h = 1e-5 s and a up to 33/s: below 1e-7.
-    EXPECT_NEAR(damping_ratio(loop), worst, 1e-5) << share;
   }
 }
 
@@ -263,16 +284,16 @@ double growth(const SampledHeadingLoop& loop) {
     readings.erase(readings.begin());
     const Motion& late = readings.front();
     const double d_hat = estimate(observer, late.r, observed);
-    const double w = (loop.resistance_rate - loop.lambda - loop.reaching_rate) * late.r -
+    const double w = (loop.fed_forward_rate - loop.lambda - loop.reaching_rate) * late.r -
                      loop.lambda * loop.reaching_rate * late.psi - d_hat;
-    advance(observer, d_hat, w - loop.resistance_rate * late.r, loop.sample_time_s, observed);
+    advance(observer, d_hat, w - loop.fed_forward_rate * late.r, loop.sample_time_s, observed);
     for (int i = 0; i < kSteps; ++i) {
       const auto rates = [&](const Motion& s) {
-        return Motion{s.r,
-                      -loop.resistance_rate * s.r + loop.direct_share * s.motor +
-                          (1.0 - loop.direct_share) * s.servo,
-                      (w - s.servo) / loop.servo_time_constant_s,
-                      (w - s.motor) / loop.motor_time_constant_s};
+        return Motion{
+            s.r,
+            -loop.resistance_rate * s.r + loop.input_gain * (loop.direct_share * s.motor +
+                                                             (1.0 - loop.direct_share) * s.servo),
+            (w - s.servo) / loop.servo_time_constant_s, (w - s.motor) / loop.motor_time_constant_s};
       };
       const Motion a = rates(x);
       const Motion b =
@@ -295,20 +316,22 @@ double growth(const SampledHeadingLoop& loop) {
 }
 
 TEST(SampledLoop, IsStableExactlyWhereItsLateMotionDecays) {
-  for (const int late : {0, 2, 5}) {
-    for (const double motor_s : {0.01, 0.05}) {
+  for (const Known& known : kKnown) {
+    for (const int late : {0, 2, 5}) {
       for (const double share : {0.0, 0.5, 1.0}) {
         for (const double k : {4.0, 12.0, 30.0}) {
           const SampledHeadingLoop loop{.lambda = 3.0,
                                         .reaching_rate = k,
                                         .resistance_rate = 25.0,
+                                        .fed_forward_rate = known.fed_forward_rate,
+                                        .input_gain = known.input_gain,
                                         .servo_time_constant_s = 0.03,
                                         .sample_time_s = 0.01,
                                         .direct_share = share,
-                                        .motor_time_constant_s = motor_s,
+                                        .motor_time_constant_s = late == 2 ? 0.05 : 0.01,
                                         .late_samples = late};
           EXPECT_EQ(damping_ratio(loop) > 0.0, growth(loop) < 1.0)
-              << late << " " << motor_s << " " << share << " " << k;
+              << known.input_gain << " " << late << " " << share << " " << k;
         }
       }
     }
@@ -324,6 +347,7 @@ TEST(SampledLoop, IsStableExactlyWhereItsMotionUnderAnObserverDecays) {
           const SampledHeadingLoop loop{.lambda = 3.0,
                                         .reaching_rate = k,
                                         .resistance_rate = 25.0,
+                                        .fed_forward_rate = 25.0,
                                         .servo_time_constant_s = 0.03,
                                         .sample_time_s = 0.01,
                                         .direct_share = share,
@@ -346,6 +370,7 @@ TEST(SampledLoop, GainsTheRootOfItsObserverForShortSamples) {
   const double damping = damping_ratio({.lambda = 3.0,
                                         .reaching_rate = 5.0,
                                         .resistance_rate = 20.0,
+                                        .fed_forward_rate = 20.0,
                                         .servo_time_constant_s = 1e-5,
                                         .sample_time_s = 1e-5,
                                         .direct_share = 0.0,
@@ -367,7 +392,7 @@ TEST(Constraints, StandForThePlantThatLeavesThemTheLeast) {
   const std::vector<ConstraintReport> own = constraints_of(kPaperGains, context);
   Plant<double> heavy = context.plant;
   heavy.yaw.alpha *= 1.5;  // asks more of mu
-  context.draws = {context.plant, heavy};
+  context.draws = {context.own(), {heavy, context.wheel_force}};
   const std::vector<ConstraintReport> worst = constraints_of(kPaperGains, context);
   ASSERT_EQ(worst.size(), own.size());
   for (std::size_t i = 0; i < own.size(); ++i) EXPECT_LE(worst[i].margin, own[i].margin + 1e-15);
@@ -376,6 +401,40 @@ TEST(Constraints, StandForThePlantThatLeavesThemTheLeast) {
   const auto mu_alone =
       std::find_if(own.begin(), own.end(), [](const auto& c) { return c.name == "mu dominates"; });
   EXPECT_NEAR(mu->value, 1.5 * mu_alone->value, 1e-9);
+}
+
+TEST(Constraints, CountWhatTheLawDoesNotKnowOfADraw) {
+  ConstraintContext context = paper_context(ReachingForm::kStrict, 0.8);
+  Plant<double> loaded = context.plant;  // by as much as its own mass and a half
+  loaded.mass_norm *= 2.5;
+  loaded.inertia_norm *= 2.5;
+  Plant<double> light = context.plant;
+  light.mass_norm *= 0.5;
+  context.draws = {{loaded, context.wheel_force}, {light, {-0.5, 0.5}}};
+  const auto all = constraints_of(kPaperGains, context);
+  double worst = 1.0;
+  for (const double rate_degps : {1.0, 5.0, 20.0, 60.0}) {
+    const double rate = rate_degps * std::acos(-1.0) / 180.0;
+    const double slope = 0.3028 * 0.825 * std::pow(rate, 0.825 - 1.0);
+    for (const double share : {1.0, 0.5, 0.0}) {
+      worst = std::min(worst, damping_ratio({.lambda = 3.0,
+                                             .reaching_rate = 50.0 / 12.0,
+                                             .resistance_rate = slope / (2.5 * 0.0128),
+                                             .fed_forward_rate = slope / 0.0128,
+                                             .input_gain = 0.4,
+                                             .servo_time_constant_s = 0.02,
+                                             .sample_time_s = 0.01,
+                                             .direct_share = share}));
+    }
+  }
+  EXPECT_LT(worst, 0.7);
+  EXPECT_NEAR(named(all, "heading damping").limit, worst, 1e-9);
+  EXPECT_NEAR(named(all, "speed gain").value, 0.01 * 2.0 * 5.0 / 1.2, kRounding);
+  // The weaker motors leave the differential mode less than steering has: 4 d (0.5 - g1/4).
+  EXPECT_NEAR(
+      named(all, "noise gain").limit,
+      0.25 * std::min(4.0 * 0.36 * (0.5 - 1.3268 / 4.0), turning_authority_m(context.own(), 1.0)),
+      kRounding);
 }
 
 TEST(Constraints, AskForDampingWithLatencyWhereThereIsAny) {
@@ -395,6 +454,7 @@ TEST(Constraints, AskForDampingWithLatencyWhereThereIsAny) {
           damping_ratio({.lambda = 3.0,
                          .reaching_rate = 50.0 / 12.0,
                          .resistance_rate = 0.3028 * 0.825 * std::pow(rate, 0.825 - 1.0) / 0.0128,
+                         .fed_forward_rate = 0.3028 * 0.825 * std::pow(rate, 0.825 - 1.0) / 0.0128,
                          .servo_time_constant_s = 0.02,
                          .sample_time_s = 0.01,
                          .direct_share = share,
@@ -403,10 +463,10 @@ TEST(Constraints, AskForDampingWithLatencyWhereThereIsAny) {
   }
   EXPECT_NEAR(named(late, "delay margin").limit, worst, 1e-9);
   EXPECT_EQ(named(late, "delay margin").value, 0.05);
-  // Of the draws too: more resistance rings more.
-  Plant<double> rough = context.plant;
-  rough.yaw.alpha *= 2.0;
-  context.draws = {rough};
+  // Of the draws too: less resistance than the law makes up for rings more.
+  Plant<double> slippery = context.plant;
+  slippery.yaw.alpha *= 0.8;
+  context.draws = {{slippery, context.wheel_force}};
   const std::vector<ConstraintReport> drawn = constraints_of(kPaperGains, context);
   EXPECT_LT(named(drawn, "late damping").limit, named(late, "late damping").limit);
   EXPECT_LT(named(drawn, "delay margin").limit, named(late, "delay margin").limit);

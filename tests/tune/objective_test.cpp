@@ -30,16 +30,17 @@ Scenario short_turn() {
 /// Plants whose mass grows from one to the next; the first is the model's own.
 ObjectiveSetting setting_of(int plants, double tail_share = 1.0) {
   const Model model = paper_model();
-  ObjectiveSetting setting{.plants = {},
+  ObjectiveSetting setting{.vehicles = {},
                            .vehicle = model.vehicle,
                            .weights = {},
                            .scenarios = {short_turn()},
                            .tail_share = tail_share,
                            .arithmetic = batch_arithmetic().value()};
   for (int i = 0; i < plants; ++i) {
-    setting.plants.push_back(model.plant().value());
-    setting.plants.back().mass_norm *= 1.0 + 0.2 * i;
-    setting.plants.back().inertia_norm *= 1.0 + 0.2 * i;
+    Plant<double> plant = model.plant().value();
+    plant.mass_norm *= 1.0 + 0.2 * i;
+    plant.inertia_norm *= 1.0 + 0.2 * i;
+    setting.vehicles.push_back({plant, model.vehicle.wheel_force});
   }
   return setting;
 }
@@ -55,10 +56,10 @@ ModeScore score_of(const ObjectiveSetting& setting, std::size_t plant, YawMode m
 TEST(ModeScores, AreThoseOfTheRun) {
   const ObjectiveSetting setting = setting_of(2);
   const Controller<double> controller =
-      make_controller(setting.plants[0], setting.vehicle, kPaperGains);
+      make_controller(setting.vehicles[0].plant, setting.vehicle, kPaperGains);
   const ModeScore score = score_of(setting, 1, YawMode::kSteering);
   const awmr::Run run =
-      simulate(setting.plants[1], controller, setting.scenarios[0], YawMode::kSteering,
+      simulate(setting.vehicles[1].plant, controller, setting.scenarios[0], YawMode::kSteering,
                {.sample_time_s = setting.vehicle.sample_time_s, .substeps = {}, .sample = 1});
   double squares = 0.0;
   double itae = 0.0;
@@ -132,7 +133,7 @@ TEST(Judged, AreTheOrderStatisticsOfAllPlantsButTheFirst) {
   const ObjectiveSetting setting = setting_of(6, 0.4);
   const auto runs = run_candidates(setting, {{"paper", kPaperGains}});
   const auto judged = judgement_of(runs, {.modes = {std::begin(kYawModes), std::end(kYawModes)},
-                                          .scenarios = setting.scenarios.size(),
+                                          .scenarios = {"turn"},
                                           .tail_share = setting.tail_share,
                                           .goals = {}})
                           .gains;

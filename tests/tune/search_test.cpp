@@ -137,7 +137,7 @@ TEST(Ranking, OrdersFeasibleOnesByObjectiveAndOthersByViolation) {
 
 TEST(Objective, IsExactlyOneForTheBaselineInEveryModeAndScenario) {
   const Model model = paper_model();
-  const Objective objective({.plants = {model.plant().value()},
+  const Objective objective({.vehicles = {{model.plant().value(), model.vehicle.wheel_force}},
                              .vehicle = model.vehicle,
                              .weights = {},
                              .scenarios = short_options().scenarios},
@@ -362,6 +362,7 @@ TEST(Robust, BeatsThePapersGainsOnFreshDrawsWithinItsActivity) {
   options.nominal = false;
   options.draws = 3;
   options.judged_draws = 40;
+  options.local_evaluations = 120;  // the constraints of four vehicles leave less room
   const Model model = uncertain_model();
   const Result<Tuning> tuning = tune(model, options);
   ASSERT_TRUE(tuning) << to_text(tuning.error());

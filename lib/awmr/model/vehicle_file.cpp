@@ -8,25 +8,13 @@
 #include "awmr/core/column_mapping.h"
 #include "awmr/core/units.h"
 #include "awmr/model/ranges.h"
+#include "awmr/model/wheel_force_json.h"
 #include "vehicle_json.h"
 
 namespace awmr {
 namespace {
 
 constexpr std::string_view kVehicleSchema = "awmr.vehicle/1";
-
-/// F' is over the largest force of one motor, so it lies within [-1, 1]; forward thrust must exist.
-Interval wheel_force_from_json(JsonObject json) {
-  Interval force;
-  force.lo = json.number("min", {.min = -1.0, .max = 1.0});
-  force.hi = json.number("max", {.min = 0.0, .max = 1.0, .min_excluded = true});
-  if (force.lo >= force.hi) {
-    json.fault("min",
-               fmt::format("must be below max, found min {} and max {}", force.lo, force.hi));
-  }
-  json.reject_unknown_keys();
-  return force;
-}
 
 /// Reads the range of exponents among which a fit may choose; `absent` where there is no such key.
 Interval beta_range_from_json(JsonObject& json, std::string_view key, Interval absent) {
@@ -199,8 +187,7 @@ Json vehicle_to_json(const Vehicle& vehicle) {
   if (vehicle.drive != Drive::kFourWheel) json["drive"] = name_in(kDriveNames, vehicle.drive);
   json["front_axle_m"] = vehicle.front_axle_m;
   json["half_track_m"] = vehicle.half_track_m;
-  json["wheel_force"]["min"] = vehicle.wheel_force.lo;
-  json["wheel_force"]["max"] = vehicle.wheel_force.hi;
+  json["wheel_force"] = wheel_force_to_json(vehicle.wheel_force);
   if (vehicle.has_steering()) {
     json["steering"]["max_deg"] = vehicle.steering_max_deg;
     json["steering"]["max_rate_degps"] = vehicle.steering_max_rate_degps;

@@ -11,6 +11,7 @@
 #include "awmr/model/gains_json.h"
 #include "awmr/report/live/setup.h"
 #include "awmr/tune/robust.h"
+#include "awmr/tune/tune_json.h"
 
 namespace awmr {
 namespace {
@@ -27,10 +28,11 @@ void take_reaching(JsonObject& gains, double lambda, ConstraintContext& context)
   }
 }
 
-/// How many plants were drawn beside the model's own, and from which seed.
+/// How many vehicles were drawn beside the model's own, from which seed, and what was open of them.
 struct Draws {
   int count = 0;
   std::uint64_t seed = 1;
+  OpenVehicle open = {};
 };
 
 /// Noise, latency and lag that robust gains were tuned under, and on which draws.
@@ -44,8 +46,10 @@ Draws take_conditions(JsonObject robust, ConstraintContext& context) {
   if (!(latest_s < (kMostLateSamples + 0.5) * context.sample_time_s)) {
     robust.fault("latency", "more samples than gains are tuned for; tune again");
   }
-  return {static_cast<int>(robust.integer("draws", 0, 1000)),
-          static_cast<std::uint64_t>(robust.integer("seed", 0, 4'294'967'295L))};
+  Draws draws{static_cast<int>(robust.integer("draws", 0, 1000)),
+              static_cast<std::uint64_t>(robust.integer("seed", 0, 4'294'967'295L))};
+  if (auto open = robust.optional_object("open")) draws.open = read_open(std::move(*open));
+  return draws;
 }
 
 /// What gains.json says of how it was tuned. Errors (input): it says so in another form.
@@ -83,9 +87,9 @@ Result<std::vector<double>> live_numbers(const Model& model, const Json& gains,
   setup.context.wheel_force = model.vehicle.wheel_force;
   setup.context.speed_mps = scenario.speed_mps;
   AWMR_ASSIGN_OR_RETURN(const Draws draws, take_tuning(gains, setup));
-  AWMR_ASSIGN_OR_RETURN(const std::vector<Plant<double>> plants,
-                        plants_of(model, draws.count, draws.seed));
-  setup.context.draws.assign(plants.begin() + 1, plants.end());
+  AWMR_ASSIGN_OR_RETURN(const std::vector<DrawnVehicle> vehicles,
+                        vehicles_of(model, draws.count, draws.seed, draws.open));
+  setup.context.draws.assign(vehicles.begin() + 1, vehicles.end());
   setup.allocation_form = static_cast<double>(model.vehicle.allocation);
   setup.duration_s = scenario.duration_s;
   setup.initial = scenario.initial;

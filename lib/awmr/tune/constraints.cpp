@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <iterator>
 #include <span>
 #include <utility>
 
@@ -27,63 +27,78 @@ ConstraintReport report(std::string name, double value, double limit, std::strin
 /// The yaw rates met on the way.
 constexpr double kRates_degps[] = {1.0, 5.0, 20.0, 60.0};
 
-/// a = g3'(r)/I'z, g3'(r) = a3 b3 r^(b3 - 1)
+/// What the heading loop knows of a plant and of the model at one yaw rate, as in SampledHeadingLoop.
+struct LoopRates {
+  double resistance_rate;        ///< a
+  double fed_forward_rate;       ///< c
+  double input_gain;             ///< q
+  double servo_time_constant_s;  ///< T
+};
+
+/// g3'(r)/I'z, g3'(r) = a3 b3 r^(b3 - 1)
 double resistance_rate(const Plant<double>& plant, double rate_degps) {
   const Resistance<double>& g3 = plant.yaw;
   return g3.alpha * g3.beta * std::pow(radians(rate_degps), g3.beta - 1.0) / plant.inertia_norm;
 }
 
-/// The worst of the three modes with each a of `resistance_rates`.
+/// `known` is what the law was made for.
+LoopRates loop_rates(const Plant<double>& plant, const Plant<double>& known, double rate_degps) {
+  return {resistance_rate(plant, rate_degps), resistance_rate(known, rate_degps),
+          known.inertia_norm / plant.inertia_norm, plant.steering_time_constant_s};
+}
+
+/// By rate.
+std::vector<LoopRates> at_all_rates(const Plant<double>& plant, const Plant<double>& known) {
+  std::vector<LoopRates> loops;
+  for (const double rate_degps : kRates_degps) {
+    loops.push_back(loop_rates(plant, known, rate_degps));
+  }
+  return loops;
+}
+
+/// The least and the largest rate of the context's own plant and of each of its draws.
+std::vector<LoopRates> at_end_rates(const ConstraintContext& context) {
+  std::vector<LoopRates> loops;
+  for (const double rate_degps : {kRates_degps[0], kRates_degps[std::size(kRates_degps) - 1]}) {
+    loops.push_back(loop_rates(context.plant, context.plant, rate_degps));
+    for (const DrawnVehicle& drawn : context.draws) {
+      loops.push_back(loop_rates(drawn.plant, context.plant, rate_degps));
+    }
+  }
+  return loops;
+}
+
+/// The worst of the three modes in each of the loops.
 double heading_damping(const Gains<double>& gains, const ConstraintContext& context,
-                       std::span<const double> resistance_rates, int late_samples,
+                       std::span<const LoopRates> loops, int late_samples,
                        double motor_time_constant_s) {
   // The shares of the moment that the sides make at once, the rest of it by the servo.
   constexpr double kShares[] = {1.0, 0.5, 0.0};
   const auto shares = std::span(kShares).first(context.has_steering ? 3 : 1);
   double worst = 1.0;
-  for (const double a : resistance_rates) {
+  for (const LoopRates& loop : loops) {
     for (const double direct_share : shares) {
-      worst = std::min(
-          worst, damping_ratio({.lambda = gains.heading.lambda,
-                                .reaching_rate = gains.heading.mu / gains.heading.epsilon,
-                                .resistance_rate = a,
-                                .servo_time_constant_s = context.plant.steering_time_constant_s,
-                                .sample_time_s = context.sample_time_s,
-                                .direct_share = direct_share,
-                                .motor_time_constant_s = motor_time_constant_s,
-                                .observer_radps = gains.observer.bandwidth_radps,
-                                .late_samples = late_samples}));
+      worst =
+          std::min(worst, damping_ratio({.lambda = gains.heading.lambda,
+                                         .reaching_rate = gains.heading.mu / gains.heading.epsilon,
+                                         .resistance_rate = loop.resistance_rate,
+                                         .fed_forward_rate = loop.fed_forward_rate,
+                                         .input_gain = loop.input_gain,
+                                         .servo_time_constant_s = loop.servo_time_constant_s,
+                                         .sample_time_s = context.sample_time_s,
+                                         .direct_share = direct_share,
+                                         .motor_time_constant_s = motor_time_constant_s,
+                                         .observer_radps = gains.observer.bandwidth_radps,
+                                         .late_samples = late_samples}));
     }
   }
   return worst;
 }
 
-/// The least and the largest a of the context's own plant and of its draws, over all rates: a is all that
-/// the loop knows of a plant.
-std::array<double, 2> resistance_range(const ConstraintContext& context) {
-  std::array<double, 2> range{resistance_rate(context.plant, kRates_degps[0]),
-                              resistance_rate(context.plant, kRates_degps[0])};
-  const auto take = [&range](const Plant<double>& plant) {
-    for (const double rate_degps : kRates_degps) {
-      const double a = resistance_rate(plant, rate_degps);
-      range = {std::min(range[0], a), std::max(range[1], a)};
-    }
-  };
-  take(context.plant);
-  for (const Plant<double>& plant : context.draws) take(plant);
-  return range;
-}
-
-/// By rate.
-std::vector<double> resistance_rates(const Plant<double>& plant) {
-  std::vector<double> rates;
-  for (const double rate_degps : kRates_degps) rates.push_back(resistance_rate(plant, rate_degps));
-  return rates;
-}
-
-/// Every constraint of one plant.
+/// Every constraint that a vehicle stands in by itself.
 std::vector<ConstraintReport> constraints_with(const Gains<double>& gains,
-                                               const ConstraintContext& context);
+                                               const ConstraintContext& context,
+                                               const DrawnVehicle& vehicle);
 
 /// (value - limit) over the larger of the two: what is above 0 is broken.
 double residual(const ConstraintReport& c) {
@@ -93,17 +108,17 @@ double residual(const ConstraintReport& c) {
 
 }  // namespace
 
-double turning_authority_m(const ConstraintContext& context) {
-  const Plant<double>& plant = context.plant;
-  const double tau_speed = plant.surge(context.speed_mps);
+double turning_authority_m(const DrawnVehicle& vehicle, double speed_mps) {
+  const Plant<double>& plant = vehicle.plant;
+  const double tau_speed = plant.surge(speed_mps);
   const double wheels = driven_wheels(plant);
   const double steering = plant.front_axle_m * tau_speed *
                           std::tan(plant.steering_max_rad / (plant.rear_driven > 0.0 ? 2.0 : 1.0));
   // What a wheel is commanded to hold the speed, its back-EMF made up for.
-  const double held = tau_speed / wheels + plant.back_emf_s_per_m * context.speed_mps;
+  const double held = tau_speed / wheels + plant.back_emf_s_per_m * speed_mps;
   const double differential =
       wheels * plant.half_track_m *
-      std::min(context.wheel_force.hi - held, held - context.wheel_force.lo);
+      std::min(vehicle.wheel_force.hi - held, held - vehicle.wheel_force.lo);
   if (!(steering > 0.0)) return differential;
   if (!(differential > 0.0)) return steering;
   return std::min(steering, differential);
@@ -111,23 +126,21 @@ double turning_authority_m(const ConstraintContext& context) {
 
 std::vector<ConstraintReport> constraints_of(const Gains<double>& gains,
                                              const ConstraintContext& context) {
-  std::vector<ConstraintReport> worst = constraints_with(gains, context);
-  ConstraintContext drawn = context;
-  for (const Plant<double>& plant : context.draws) {
-    drawn.plant = plant;
-    const std::vector<ConstraintReport> here = constraints_with(gains, drawn);
+  std::vector<ConstraintReport> worst = constraints_with(gains, context, context.own());
+  for (const DrawnVehicle& drawn : context.draws) {
+    const std::vector<ConstraintReport> here = constraints_with(gains, context, drawn);
     for (std::size_t i = 0; i < worst.size(); ++i) {
       if (residual(here[i]) > residual(worst[i])) worst[i] = here[i];
     }
   }
   if (context.latency_s > 0.0 || context.motor_time_constant_s > 0.0) {
-    const std::array<double, 2> ends = resistance_range(context);
-    std::vector<double> rates = resistance_rates(context.plant);
-    rates.insert(rates.end(), ends.begin(), ends.end());
+    const std::vector<LoopRates> ends = at_end_rates(context);
+    std::vector<LoopRates> loops = at_all_rates(context.plant, context.plant);
+    loops.insert(loops.end(), ends.begin(), ends.end());
     const auto late = static_cast<int>(std::lround(context.latency_s / context.sample_time_s));
     const double lag_s = context.motor_time_constant_s;
     worst.push_back(report(
-        "late damping", kLateDampingRequired, heading_damping(gains, context, rates, late, lag_s),
+        "late damping", kLateDampingRequired, heading_damping(gains, context, loops, late, lag_s),
         "required <= smallest damping ratio of the loop with latency and motor lag as well"));
     worst.push_back(report("delay margin", kDelayedDampingRequired,
                            heading_damping(gains, context, ends, 2 * late + 1, lag_s),
@@ -139,11 +152,14 @@ std::vector<ConstraintReport> constraints_of(const Gains<double>& gains,
 namespace {
 
 std::vector<ConstraintReport> constraints_with(const Gains<double>& gains,
-                                               const ConstraintContext& context) {
-  const Plant<double>& plant = context.plant;
+                                               const ConstraintContext& context,
+                                               const DrawnVehicle& vehicle) {
+  const Plant<double>& known = context.plant;
+  const Plant<double>& plant = vehicle.plant;
   const double sliding_s = gains.heading.sliding_time_constant_s();
   const double reaching_s = gains.heading.reaching_time_constant_s();
-  const double speed_rate = gains.speed.mu / gains.speed.epsilon + gains.observer.bandwidth_radps;
+  const double speed_rate = known.mass_norm / plant.mass_norm *
+                            (gains.speed.mu / gains.speed.epsilon + gains.observer.bandwidth_radps);
   const char* rate_name = gains.observer.is_on() ? "(mu_s/epsilon_s + L)" : "(mu_s/epsilon_s)";
   const double servo_s = context.has_steering ? plant.steering_time_constant_s : 0.0;
   const double lag_s = std::max(servo_s, context.motor_time_constant_s) + context.latency_s +
@@ -156,21 +172,21 @@ std::vector<ConstraintReport> constraints_with(const Gains<double>& gains,
       report("T2 < T1 (strict)", 2.0 * reaching_s, context.margin * sliding_s,
              "epsilon/mu <= margin/lambda, s: S itself decays before the error slides", strict),
       report("heading damping", kDampingRequired,
-             heading_damping(gains, context, resistance_rates(plant), 0, 0.0),
+             heading_damping(gains, context, at_all_rates(plant, known), 0, 0.0),
              "required <= smallest damping ratio of the sampled heading loop with hold and servo"),
       report("speed gain", speed_rate * context.sample_time_s, kSpeedGainPerSample,
              fmt::format("{} T_s <= 0.5: gain margin 4 of the sampled speed loop", rate_name)),
       report("speed lag", speed_rate * lag_s, 1.0 / (4.0 * kDampingRequired * kDampingRequired),
              fmt::format("{} (T + latency + T_s/2) <= 1/(4 zeta^2), zeta = 0.7", rate_name)),
       report("mu dominates",
-             kUnmodelledShare * plant.yaw(kDominatedYawRate_radps) / plant.inertia_norm,
+             kUnmodelledShare * plant.yaw(kDominatedYawRate_radps) / known.inertia_norm,
              gains.heading.mu, "20 % of g3(60 deg/s)/I'z <= mu, rad/s^2"),
-      report("mu_s dominates", kUnmodelledShare * plant.surge(context.speed_mps) / plant.mass_norm,
+      report("mu_s dominates", kUnmodelledShare * plant.surge(context.speed_mps) / known.mass_norm,
              gains.speed.mu, "20 % of g1(u_d)/m' <= mu_s, m/s^2"),
       report("noise gain",
-             plant.inertia_norm * gains.heading.lambda * gains.heading.mu / gains.heading.epsilon *
+             known.inertia_norm * gains.heading.lambda * gains.heading.mu / gains.heading.epsilon *
                  context.heading_noise_rad,
-             kNoiseShare * turning_authority_m(context),
+             kNoiseShare * turning_authority_m(vehicle, context.speed_mps),
              fmt::format("tau_turn from {:g} deg of heading noise <= 25 % of the weaker mode's "
                          "authority, m",
                          degrees(context.heading_noise_rad))),

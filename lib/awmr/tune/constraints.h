@@ -5,6 +5,7 @@
 
 #include "awmr/core/units.h"
 #include "awmr/model/dynamics.h"
+#include "awmr/tune/drawn_vehicle.h"
 #include "awmr/tune/tune.h"
 
 namespace awmr {
@@ -14,8 +15,8 @@ inline constexpr double kDampingRequired = 0.7;
 /// The damping ratio that is required with latency and motor lag. The g3 that is fed forward from a
 /// late yaw rate makes a fast mode that gains hardly change: 0.45 for the paper's vehicle at 20 ms.
 inline constexpr double kLateDampingRequired = 0.25;
-/// What has to be left of it with readings that are later than was said: the paper's vehicle has 0.28 at
-/// 50 ms.
+/// What has to be left of it with readings that are later than was said: the paper's vehicle has
+/// 0.28 at 50 ms.
 inline constexpr double kDelayedDampingRequired = 0.05;
 /// Beyond so many samples of latency it is not worked out.
 inline constexpr int kMostLateSamples = 20;
@@ -34,7 +35,7 @@ inline constexpr double kNoiseShare = 0.25;
 struct ConstraintContext {
   ReachingForm form = ReachingForm::kStrict;  ///< the form of T2 < T1 that is required
   double margin = 0.8;                        ///< reaching time constant <= margin T1, in (0, 1)
-  Plant<double> plant{};                      ///< the model's own values
+  Plant<double> plant{};                      ///< the model's own values, which the laws know
   bool has_steering = true;                   ///< false: the sides alone turn the vehicle
   double sample_time_s = 0.01;                ///< T_s, > 0
   double speed_mps = 1.0;                     ///< largest u_d of the scenarios, >= 0
@@ -42,15 +43,17 @@ struct ConstraintContext {
   double heading_noise_rad = radians(1.0);    ///< standard deviation of a reading, >= 0
   double latency_s = 0.0;                     ///< of heading and yaw rate, >= 0
   double motor_time_constant_s = 0.0;         ///< >= 0
-  std::vector<Plant<double>> draws = {};      ///< further plants that the gains have to suit
+  std::vector<DrawnVehicle> draws = {};       ///< further ones that the gains have to suit
+
+  DrawnVehicle own() const { return {plant, wheel_force}; }
 };
 
-/// Largest tau_turn of the weaker of steering and differential at steady speed u_d, m; one that has
+/// Largest tau_turn by the weaker of steering and differential at steady speed u_d, m; one that has
 /// none there (steering at rest) is passed over:
 ///   steering      l_f g1(u_d) tan(d_max/2)
 ///   differential  4 d min(F'max - g1/4, g1/4 - F'min)
 /// Front-wheel drive: tan(d_max), and 2 for 4. Back-EMF: g1/4 + k_e u_d for g1/4.
-double turning_authority_m(const ConstraintContext& context);
+double turning_authority_m(const DrawnVehicle& vehicle, double speed_mps);
 
 /// Every constraint as value <= limit:
 ///   T2 < T1 (paper)    eps/(2 mu) <= margin/lambda                                    [paper (95)]
@@ -60,13 +63,18 @@ double turning_authority_m(const ConstraintContext& context);
 ///   delay margin       0.05 <= that with twice the latency and a sample more
 ///   speed gain         (mu_s/eps_s) T_s <= 0.5
 ///   speed lag          (mu_s/eps_s) (T + T_s/2) <= 1/(4 zeta^2)
-///   mu dominates       0.2 g3(60 deg/s)/I'z <= mu                                     [paper (88)]
-///   mu_s dominates     0.2 g1(u_d)/m' <= mu_s                                        [paper (102)]
+///   mu dominates       0.2 g3(60 deg/s)/I'z <= mu, g3 the plant's                     [paper (88)]
+///   mu_s dominates     0.2 g1(u_d)/m' <= mu_s, g1 the plant's                        [paper (102)]
 ///   noise gain         I'z lambda (mu/eps) sigma <= 0.25 turning_authority_m(), sigma: heading noise
 ///
-/// Each stands for the plant, out of the context's own and its draws, that leaves it the least. Late
-/// damping, whose matrix grows with the latency, is that of the context's own and of the draws' ends: the least
-/// and the largest g3'/I'z of them all. The delay margin is that of those ends.
+/// Each stands for the vehicle, out of the context's own and its draws, that leaves it the least.
+/// The laws know the context's own alone, so with another plant the loop's gain is its m' or I'z
+/// over the plant's: (mu_s/eps_s) times it in the speed loop, SampledHeadingLoop::input_gain in the
+/// heading loop.
+///
+/// Late damping, whose matrix grows with the latency, and the delay margin are those of the context's
+/// own plant and of each draw at the least and the largest of the yaw rates; late damping of its own
+/// at all of them.
 ///
 /// T2 < T1: one of the two forms is required, both are given.
 ///

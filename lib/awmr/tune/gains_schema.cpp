@@ -3,6 +3,7 @@
 #include "awmr/model/gains_json.h"
 #include "awmr/tune/objective.h"
 #include "awmr/tune/tune.h"
+#include "awmr/tune/tune_json.h"
 
 namespace awmr {
 namespace {
@@ -92,6 +93,10 @@ void describe_robust(JsonObject json) {
   describe_numbers(json.object("noise"), {"heading_deg", "yaw_rate_degps", "speed_mps"});
   describe_numbers(json.object("latency"), {"heading_s", "yaw_rate_s", "speed_s"});
   describe_quantiles(json.object("quantiles"));
+  if (auto by_scenario = json.optional_object("by_scenario")) {
+    for (JsonObject& one : by_scenario->values()) describe_quantiles(one);
+  }
+  if (auto open = json.optional_object("open")) read_open(std::move(*open));
   if (auto nominal = json.optional_object("nominal")) {
     gains_from_json(*nominal);
     nominal->reject_unknown_keys();

@@ -115,7 +115,8 @@ LoopConditions conditions_at(const Sample& sample, LoopConditions c) {
   return c;
 }
 
-/// The figures of one sample, by mode, then figure: means over the scenarios. None where a run breaks off.
+/// The figures of one sample, by mode, then figure: means over the scenarios. None where a run
+/// breaks off.
 std::vector<double> figures_at(const Sample& sample, const ObjectiveSetting& setting,
                                const LoopConditions& assumed,
                                const Controller<double>& controller) {
@@ -159,7 +160,7 @@ Result<GlobalSensitivity> global_sensitivity(const Model& model, const Objective
                         drawn_samples(model, setting.seed, 0, samples));
   AWMR_ASSIGN_OR_RETURN(const std::vector<Sample> b,
                         drawn_samples(model, setting.seed, at(samples), samples));
-  const auto controller = make_controller(setting.plants.front(), setting.vehicle, gains);
+  const auto controller = make_controller(setting.vehicles.front().plant, setting.vehicle, gains);
   const std::size_t n = at(samples);
   // By input, then sample; behind those A and B themselves.
   std::vector<std::vector<double>> figures((inputs.size() + 2) * n);

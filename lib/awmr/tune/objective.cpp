@@ -34,16 +34,19 @@ Metrics metrics_of_failed(const BatchRun& run, const Scenario& scenario,
       .metrics;
 }
 
-/// By gains, then plant, then mode.
+/// By gains, then vehicle, then mode.
 std::vector<BatchRun> runs_of(const ObjectiveSetting& setting,
                               std::span<const Gains<double>> gains) {
   std::vector<BatchRun> runs;
+  Vehicle vehicle = setting.vehicle;
   for (const Gains<double>& one : gains) {
-    const auto controller = make_controller(setting.plants.front(), setting.vehicle, one);
-    for (std::size_t plant = 0; plant < setting.plants.size(); ++plant) {
-      for (const YawMode mode : yaw_modes(setting.vehicle)) {
-        runs.push_back({setting.plants[plant], controller, mode, setting.seed,
-                        setting.numbers.empty() ? plant : setting.numbers[plant]});
+    for (std::size_t i = 0; i < setting.vehicles.size(); ++i) {
+      const DrawnVehicle& drawn = setting.vehicles[i];
+      vehicle.wheel_force = drawn.wheel_force;
+      const auto controller = make_controller(setting.vehicles.front().plant, vehicle, one);
+      for (const YawMode mode : yaw_modes(vehicle)) {
+        runs.push_back({drawn.plant, controller, mode, setting.seed,
+                        setting.numbers.empty() ? i : setting.numbers[i]});
       }
     }
   }
@@ -132,7 +135,7 @@ Evaluation Objective::operator()(const Gains<double>& gains) const {
 Evaluation Objective::evaluate(std::vector<ModeScore> scores) const {
   const std::size_t scenarios = setting_.scenarios.size();
   const std::size_t modes = yaw_modes(setting_.vehicle).size();
-  const std::size_t per_plant = modes * scenarios;
+  const std::size_t per_vehicle = modes * scenarios;
   Evaluation evaluation;
   evaluation.valid = true;
   for (std::size_t i = 0; i < scores.size(); ++i) {
@@ -146,13 +149,13 @@ Evaluation Objective::evaluate(std::vector<ModeScore> scores) const {
     double variation = 0.0;
     double of_baseline = 0.0;
     for (std::size_t scenario = 0; scenario < scenarios; ++scenario) {
-      std::vector<double> by_plant;
-      for (std::size_t i = mode * scenarios + scenario; i < scores.size(); i += per_plant) {
-        by_plant.push_back(scores[i].objective);
+      std::vector<double> by_vehicle;
+      for (std::size_t i = mode * scenarios + scenario; i < scores.size(); i += per_vehicle) {
+        by_vehicle.push_back(scores[i].objective);
         variation += scores[i].metrics.control_variation;
         of_baseline += baseline_scores_[i].metrics.control_variation;
       }
-      objective += mean_and_tail(std::move(by_plant), setting_.tail_share);
+      objective += mean_and_tail(std::move(by_vehicle), setting_.tail_share);
     }
     evaluation.mode_objective.push_back(objective / static_cast<double>(scenarios));
     evaluation.mode_activity.push_back(of_baseline > 0.0 ? variation / of_baseline : 1.0);
@@ -167,7 +170,7 @@ Evaluation Objective::evaluate(std::vector<ModeScore> scores) const {
     if (one.goal->is_soft) evaluation.objective += std::max(0.0, quantile - 1.0);
   }
   if (!std::isfinite(evaluation.objective)) evaluation.valid = false;
-  scores.resize(per_plant);
+  scores.resize(per_vehicle);
   evaluation.scores = std::move(scores);
   return evaluation;
 }

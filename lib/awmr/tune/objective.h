@@ -7,7 +7,7 @@
 ///
 /// over heading ITAE, overshoot, control variation, effort and speed ITAE. f_i is a floor in the
 /// unit of x_i, below which a difference does not matter: the baseline scores exactly 1, even where
-/// its overshoot is 0. Over several plants, J of a mode and scenario is (mean + CVaR)/2, CVaR the
+/// its overshoot is 0. Over several vehicles, J of a mode and scenario is (mean + CVaR)/2, CVaR the
 /// mean over the worst share of them. The objective is the mean of J over modes and scenarios, and for
 /// each soft goal and mode what the quantile of its excess (goals.h) is beyond 1.
 #pragma once
@@ -17,8 +17,8 @@
 #include <span>
 #include <vector>
 
-#include "awmr/model/dynamics.h"
 #include "awmr/simulate/batch.h"
+#include "awmr/tune/drawn_vehicle.h"
 #include "awmr/tune/tune.h"
 
 namespace awmr {
@@ -47,21 +47,21 @@ double objective_of(const ModeScore& score, const ModeScore& baseline,
 
 /// What the gains are scored on.
 struct ObjectiveSetting {
-  std::vector<Plant<double>> plants;  ///< the first is what the controller knows; not empty
+  std::vector<DrawnVehicle> vehicles;  ///< the controller knows the first's plant alone; not empty
   Vehicle vehicle;
   ObjectiveWeights weights;
   std::vector<Scenario> scenarios;  ///< each holds headings; not empty
   double tail_share = 1.0;          ///< (0, 1]
-  std::uint64_t seed = 0;           ///< of what is random in the scenarios, another for each plant
+  std::uint64_t seed = 0;  ///< of what is random in the scenarios, another for each vehicle
   BatchArithmetic arithmetic = {};  ///< of the runs
   std::vector<TuningGoal> goals = {};
-  std::vector<std::uint64_t> numbers = {};  ///< of the plants; empty: 0, 1, ...
+  std::vector<std::uint64_t> numbers = {};  ///< of the vehicles; empty: 0, 1, ...
 };
 
 struct Evaluation {
-  std::vector<ModeScore> scores;       ///< of the first plant, by mode, then scenario
+  std::vector<ModeScore> scores;       ///< of the first vehicle, by mode, then scenario
   std::vector<double> mode_objective;  ///< mean over the scenarios, in the order of yaw_modes()
-  std::vector<double> mode_activity;   ///< control variation over the baseline's, of all plants
+  std::vector<double> mode_activity;   ///< control variation over the baseline's, of all vehicles
   std::vector<double> goal_quantile;   ///< of the excess, by goal, then mode (goals.h)
   double objective = 0.0;  ///< mean over the modes, and what soft goals add; finite where `valid`
   bool valid = false;      ///< finite, and completes each run that the baseline completes
@@ -71,7 +71,7 @@ class Objective {
  public:
   Objective(ObjectiveSetting setting, const Gains<double>& baseline);
 
-  /// Simulates every mode of every plant for each set of gains. What is found of one depends neither
+  /// Simulates every mode of every vehicle for each set of gains. What is found of one depends neither
   /// on the others nor on the number of cores.
   std::vector<Evaluation> operator()(std::span<const Gains<double>> gains) const;
   Evaluation operator()(const Gains<double>& gains) const;
@@ -83,12 +83,12 @@ class Objective {
   Evaluation evaluate(std::vector<ModeScore> scores) const;
 
   ObjectiveSetting setting_;
-  std::vector<ModeScore> baseline_scores_;  ///< by plant, then mode, then scenario
+  std::vector<ModeScore> baseline_scores_;  ///< by vehicle, then mode, then scenario
   Evaluation baseline_;
 };
 
-/// All runs of each set of gains, by plant, then mode, then scenario. The number of a plant is that of
-/// its noise, too.
+/// All runs of each set of gains, by vehicle, then mode, then scenario. The number of a vehicle is
+/// that of its noise, too.
 std::vector<std::vector<ModeScore>> run_all(const ObjectiveSetting& setting,
                                             std::span<const Gains<double>> gains);
 

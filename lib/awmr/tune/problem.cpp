@@ -14,6 +14,9 @@ namespace {
 /// What the global search sees for a point that breaks a constraint: worse than any objective that
 /// matters.
 constexpr double kRejected = 1e3;
+/// What runs that break off or do not end as the baseline's do break every limit by, and more the
+/// worse they are.
+constexpr double kInvalid = 1.0;
 
 }  // namespace
 
@@ -113,7 +116,9 @@ void Problem::add_runs(const Evaluation& e, Looked& looked) const {
   for (const std::size_t goal : hard_goals_) broken.push_back(e.goal_quantile[goal] - 1.0);
   for (std::size_t i = 0; i < broken.size(); ++i) {
     double& residual = looked.residuals[before_runs_ + i];
-    residual = e.valid ? broken[i] - tolerated[before_runs_ + i] : 1.0;
+    residual = broken[i] - tolerated[before_runs_ + i];
+    if (!e.valid)
+      residual = kInvalid + (std::isfinite(residual) ? std::max(residual, 0.0) : kRejected);
     candidate.violation = std::max(candidate.violation, residual);
   }
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <numeric>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -28,9 +29,9 @@ JudgedFigure figure_of(const std::string& name, std::vector<double> values, doub
   return {name, quantile(0.5), quantile(0.95), worst / static_cast<double>(tail)};
 }
 
-/// What all draws in all scenarios make of one set of gains in one mode.
+/// What all draws make of one set of gains in one mode.
 JudgedGains judged(const JudgedRuns& runs, YawMode mode, double tail_share) {
-  JudgedGains result{.gains = runs.gains, .mode = mode, .figures = {}};
+  JudgedGains result{.gains = runs.gains, .mode = mode, .figures = {}, .scenario = {}};
   std::array<std::vector<double>, kRunFigures> values;
   int completed = 0;
   for (const RunOutcome& outcome : runs.outcomes) {
@@ -46,24 +47,56 @@ JudgedGains judged(const JudgedRuns& runs, YawMode mode, double tail_share) {
   return result;
 }
 
-}  // namespace
-
-Result<std::vector<Plant<double>>> plants_of(const Model& model, std::span<const int> numbers,
-                                             std::uint64_t seed) {
-  AWMR_ASSIGN_OR_RETURN(const Plant<double> own, model.plant());
-  std::vector<Plant<double>> plants(numbers.size() + 1, own);
-  if (model.covariance.parameters.empty()) return plants;
-  AWMR_ASSIGN_OR_RETURN(const PlantSampler sampler, PlantSampler::make(model));
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    AWMR_ASSIGN_OR_RETURN(plants[i + 1], sampler.draw(seed, numbers[i]));
+/// The runs in one of `count` scenarios.
+JudgedRuns in_scenario(const JudgedRuns& runs, std::size_t scenario, std::size_t count) {
+  JudgedRuns of_one{runs.gains, {}};
+  for (std::size_t i = scenario; i < runs.outcomes.size(); i += count) {
+    of_one.outcomes.push_back(runs.outcomes[i]);
   }
-  return plants;
+  return of_one;
 }
 
-Result<std::vector<Plant<double>>> plants_of(const Model& model, int draws, std::uint64_t seed) {
+/// The vehicle with what is open of it: of the draws in turn first the masses, then the forces.
+void open_up(const OpenVehicle& open, int number, DrawnVehicle& vehicle) {
+  const std::size_t turn = at(number - 1) % open.combinations();
+  const std::size_t masses = std::max<std::size_t>(1, open.mass_factors.size());
+  if (!open.mass_factors.empty()) {
+    vehicle.plant.mass_norm *= open.mass_factors[turn % masses];
+    vehicle.plant.inertia_norm *= open.mass_factors[turn % masses];
+  }
+  if (!open.wheel_forces.empty()) vehicle.wheel_force = open.wheel_forces[turn / masses];
+}
+
+}  // namespace
+
+std::size_t OpenVehicle::combinations() const {
+  return std::max<std::size_t>(1, mass_factors.size()) *
+         std::max<std::size_t>(1, wheel_forces.size());
+}
+
+Result<std::vector<DrawnVehicle>> vehicles_of(const Model& model, std::span<const int> numbers,
+                                              std::uint64_t seed, const OpenVehicle& open) {
+  AWMR_ASSIGN_OR_RETURN(const Plant<double> own, model.plant());
+  std::vector<DrawnVehicle> vehicles(numbers.size() + 1, {own, model.vehicle.wheel_force});
+  std::optional<PlantSampler> sampler;
+  if (!model.covariance.parameters.empty()) {
+    AWMR_ASSIGN_OR_RETURN(sampler, PlantSampler::make(model));
+  }
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    DrawnVehicle& vehicle = vehicles[i + 1];
+    if (sampler) {
+      AWMR_ASSIGN_OR_RETURN(vehicle.plant, sampler->draw(seed, numbers[i]));
+    }
+    open_up(open, numbers[i], vehicle);
+  }
+  return vehicles;
+}
+
+Result<std::vector<DrawnVehicle>> vehicles_of(const Model& model, int draws, std::uint64_t seed,
+                                              const OpenVehicle& open) {
   std::vector<int> numbers(at(draws));
   std::iota(numbers.begin(), numbers.end(), 1);
-  return plants_of(model, numbers, seed);
+  return vehicles_of(model, numbers, seed, open);
 }
 
 std::vector<JudgedRuns> run_candidates(const ObjectiveSetting& setting,
@@ -85,7 +118,17 @@ Judgement judgement_of(const std::vector<JudgedRuns>& runs, const JudgedBy& by) 
       judgement.gains.push_back(judged(of_gains, mode, by.tail_share));
     }
     for (const GoalInMode& one : by_mode(by.goals, by.modes)) {
-      judgement.goals.push_back(judged_goal(one, of_gains, by.scenarios));
+      judgement.goals.push_back(judged_goal(one, of_gains, by.scenarios.size()));
+    }
+  }
+  const std::size_t count = by.scenarios.size();
+  for (std::size_t scenario = 0; count > 1 && scenario < count; ++scenario) {
+    for (const JudgedRuns& of_gains : runs) {
+      const JudgedRuns here = in_scenario(of_gains, scenario, count);
+      for (const YawMode mode : by.modes) {
+        judgement.by_scenario.push_back(judged(here, mode, by.tail_share));
+        judgement.by_scenario.back().scenario = by.scenarios[scenario];
+      }
     }
   }
   return judgement;

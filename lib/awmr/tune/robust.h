@@ -6,17 +6,20 @@
 #include <vector>
 
 #include "awmr/core/result.h"
+#include "awmr/tune/drawn_vehicle.h"
 #include "awmr/tune/objective.h"
 #include "awmr/tune/tune.h"
 
 namespace awmr {
 
-/// The model's own plant, then those of the numbers from its covariance; where it has none, its own
-/// again. Errors (input): as PlantSampler's.
-Result<std::vector<Plant<double>>> plants_of(const Model& model, std::span<const int> numbers,
-                                             std::uint64_t seed);
+/// The model's own vehicle, then those of the numbers (from 1) from its covariance, or its own
+/// again where it has none; each of them with what is open of it. Errors (input): as
+/// PlantSampler's.
+Result<std::vector<DrawnVehicle>> vehicles_of(const Model& model, std::span<const int> numbers,
+                                              std::uint64_t seed, const OpenVehicle& open);
 /// Those of 1 to `draws`.
-Result<std::vector<Plant<double>>> plants_of(const Model& model, int draws, std::uint64_t seed);
+Result<std::vector<DrawnVehicle>> vehicles_of(const Model& model, int draws, std::uint64_t seed,
+                                              const OpenVehicle& open);
 
 /// Gains with the name that they are judged under.
 struct NamedCandidate {
@@ -24,18 +27,20 @@ struct NamedCandidate {
   Gains<double> gains;
 };
 
-/// Every set of gains in every mode over all plants of the setting but the first, the model's own.
+/// Every set of gains in every mode over all vehicles of the setting but the first, the model's own.
 std::vector<JudgedRuns> run_candidates(const ObjectiveSetting& setting,
                                        const std::vector<NamedCandidate>& candidates);
 
 struct Judgement {
   std::vector<JudgedGains> gains;  ///< by gains, then mode
-  std::vector<JudgedGoal> goals;   ///< by gains, then goal, then mode
+  std::vector<JudgedGains>
+      by_scenario;                ///< by scenario, then gains, then mode; empty where there is one
+  std::vector<JudgedGoal> goals;  ///< by gains, then goal, then mode
 };
 /// What runs are judged by, beside themselves.
 struct JudgedBy {
   std::vector<YawMode> modes;
-  std::size_t scenarios = 1;
+  std::vector<std::string> scenarios;  ///< by name, in the runs' order
   double tail_share = 1.0;
   std::vector<TuningGoal> goals;
 };

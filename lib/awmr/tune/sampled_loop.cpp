@@ -11,7 +11,7 @@ namespace {
 
 /// z -> zeta of its continuous equal s = ln(z)/T_s.
 double damping_of(const std::complex<double>& z) {
-  if (std::abs(z) < 1e-12) return 1.0;  // gone within the sample
+  if (std::abs(z) < kGoneWithinASample) return 1.0;
   const std::complex<double> s = std::log(z);
   const double magnitude = std::abs(s);
   return magnitude > 0.0 ? -s.real() / magnitude : 0.0;
@@ -26,8 +26,8 @@ double damping_ratio(const SampledHeadingLoop& loop) {
   Matrix5 continuous = Matrix5::Zero();
   continuous(0, 1) = 1.0;
   continuous(1, 1) = -loop.resistance_rate;
-  continuous(1, 2) = 1.0 - loop.direct_share;
-  continuous(1, lag ? 3 : 4) = loop.direct_share;
+  continuous(1, 2) = loop.input_gain * (1.0 - loop.direct_share);
+  continuous(1, lag ? 3 : 4) = loop.input_gain * loop.direct_share;
   continuous(2, 2) = -1.0 / loop.servo_time_constant_s;
   continuous(2, 4) = 1.0 / loop.servo_time_constant_s;
   // Without a lag nothing reads w_motor: it only has to die out.
@@ -44,7 +44,7 @@ double damping_ratio(const SampledHeadingLoop& loop) {
   const Eigen::Index n = loop.late_samples;
   Eigen::RowVectorXd law = Eigen::RowVectorXd::Zero(states);
   law(0) = -loop.lambda * k;
-  law(1) = loop.resistance_rate - loop.lambda - k - l;
+  law(1) = loop.fed_forward_rate - loop.lambda - k - l;
   Eigen::MatrixXd closed = Eigen::MatrixXd::Zero(states + n, states + n);
   closed.topLeftCorner<4, 4>() = discrete.topLeftCorner<4, 4>();
   if (l > 0.0) {

@@ -197,9 +197,11 @@ std::vector<SearchStep> at_even_ranks(const std::vector<SearchStep>& steps) {
 
 }  // namespace
 
-Result<std::string> search_locally(Problem& problem, int most_evaluations) {
+Result<std::string> search_locally(Problem& problem, const Gains<double>& start,
+                                   int most_evaluations) {
   const int budget = problem.evaluations + most_evaluations;
   std::string stop;
+  Gains<double> from = start;
   for (int searches = 1; problem.evaluations < budget; ++searches) {
     const Candidate before = problem.nearest;
     const Optimizer search =
@@ -208,13 +210,14 @@ Result<std::string> search_locally(Problem& problem, int most_evaluations) {
     nlopt_set_xtol_abs1(search.get(), kLastStep);
     OneByOne asked(problem);
     const nlopt_result code =
-        run(search.get(), asked, problem.constraints(), problem.space().point_of(before.gains));
+        run(search.get(), asked, problem.constraints(), problem.space().point_of(from));
     if (failed(code)) return program_fault("NLopt's COBYLA: " + reason(code));
     stop = fmt::format("; local, {} searches: {}", searches, reason(code));
     const Candidate& after = problem.nearest;
-    if (after.feasible() == before.feasible() && before.objective - after.objective < kWorthwhile) {
-      break;
-    }
+    const double gained =
+        after.feasible() ? before.objective - after.objective : before.violation - after.violation;
+    if (after.feasible() == before.feasible() && !(gained >= kWorthwhile)) break;
+    from = after.gains;
   }
   return stop;
 }
@@ -249,9 +252,15 @@ Result<SearchResult> search(const TuneOptions& options, const ConstraintContext&
     const Point point[] = {problem.space().point_of(start)};
     problem.look_at(point);
   }
-  AWMR_ASSIGN_OR_RETURN(const std::string local,
-                        search_locally(problem, options.local_evaluations));
-  stop += local;
+  // Where the nearest point leads to nothing that holds, another start may.
+  std::vector<Gains<double>> from{problem.nearest.gains};
+  from.insert(from.end(), starts.begin(), starts.end());
+  const int budget = problem.evaluations + options.local_evaluations;
+  for (std::size_t i = 0; i < from.size() && (i == 0 || !problem.nearest.feasible()); ++i) {
+    AWMR_ASSIGN_OR_RETURN(const std::string local,
+                          search_locally(problem, from[i], budget - problem.evaluations));
+    stop += local;
+  }
   SearchResult result{
       .best = std::nullopt,
       .nearest = problem.nearest,
@@ -264,7 +273,15 @@ Result<SearchResult> search(const TuneOptions& options, const ConstraintContext&
                                "the logarithms of the gains",
                                kPopulation),
       .stop_reason = stop};
-  if (problem.nearest.feasible()) result.best = problem.nearest;
+  if (problem.nearest.feasible()) {
+    result.best = problem.nearest;
+    return result;
+  }
+  const Point nearest[] = {problem.space().point_of(problem.nearest.gains)};
+  const Looked looked = problem.look_at(nearest).front();
+  const auto most = std::ranges::max_element(looked.residuals);
+  result.broken_most = problem.names()[static_cast<std::size_t>(most - looked.residuals.begin())];
+  result.broken_by = *most;
   return result;
 }
 

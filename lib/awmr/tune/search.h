@@ -15,6 +15,10 @@ namespace awmr {
 struct SearchResult {
   std::optional<Candidate> best;  ///< the best feasible one, if any was met
   Candidate nearest;              ///< the best of all by better()
+  /// Where there is no best: what the nearest breaks most, and by how much of the larger of its two
+  /// sides.
+  std::string broken_most = {};
+  double broken_by = 0.0;
   int evaluations = 0;
   int simulated = 0;
   SearchHistory history;
@@ -22,21 +26,22 @@ struct SearchResult {
   std::string stop_reason;
 };
 
-/// LN_COBYLA again and again from the best point that `problem` has met, each time with the first step
-/// anew, until a search gains less than 1e-4 or the budget is spent. Returns why it stopped. Errors
-/// (program fault): NLopt's.
-Result<std::string> search_locally(Problem& problem, int most_evaluations);
+/// LN_COBYLA from `start`, then again and again from the best point that `problem` has met, each
+/// time with the first step anew, until a search gains less than 1e-4 or the budget is spent.
+/// Returns why it stopped. Errors (program fault): NLopt's.
+Result<std::string> search_locally(Problem& problem, const Gains<double>& start,
+                                   int most_evaluations);
 
 /// Gains within the bounds that meet `context`, or those that come nearest: no simulation is
 /// needed.
 Candidate feasible_start(const TuneOptions& options, const ConstraintContext& context,
                          const Gains<double>& baseline);
 
-/// GN_ISRES from the first of `starts`, then LN_COBYLA from the best point met, the other starts among
-/// them, over ln(gains). All starts meet the constraints that need no run; there is at least one. Each
-/// point is kept only if it meets every constraint exactly, whatever tolerance the search itself
-/// works with. Deterministic: NLopt's generator is reseeded, and searches in one process take
-/// turns.
+/// GN_ISRES from the first of `starts`, then LN_COBYLA from the best point met, the other starts
+/// among them, over ln(gains); where that leads to no gains that hold, from each of the starts as
+/// well. All starts meet the constraints that need no run; there is at least one. Each point is
+/// kept only if it meets every constraint exactly, whatever tolerance the search itself works with.
+/// Deterministic: NLopt's generator is reseeded, and searches in one process take turns.
 Result<SearchResult> search(const TuneOptions& options, const ConstraintContext& context,
                             const Objective& objective, std::span<const Gains<double>> starts);
 

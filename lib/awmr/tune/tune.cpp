@@ -13,6 +13,7 @@
 #include "awmr/core/index.h"
 #include "awmr/core/option_text.h"
 #include "awmr/core/units.h"
+#include "awmr/model/fitted_law.h"
 #include "awmr/model/paper_gains.h"
 #include "awmr/simulate/physics.h"
 #include "awmr/simulate/scenario.h"
@@ -100,6 +101,39 @@ void check_robustness(const TuneOptions& options, std::vector<Fault>& faults) {
   }
 }
 
+void check_open(const TuneOptions& options, std::vector<Fault>& faults) {
+  const OpenVehicle& open = options.open;
+  if (!open.any()) return;
+  if (options.nominal) {
+    faults.push_back({"",
+                      "what is open is taken by the draws, and a nominal search draws nothing: "
+                      "leave out nominal, or open"});
+    return;
+  }
+  for (const double factor : open.mass_factors) {
+    if (factor >= kLeastMassFactor && factor <= kMostMassFactor) continue;
+    faults.push_back({"", fmt::format("open: a mass factor of {} is not in {} ... {}", factor,
+                                      kLeastMassFactor, kMostMassFactor)});
+  }
+  for (const Interval& force : open.wheel_forces) {
+    if (force.lo >= -1.0 && force.lo < force.hi && force.hi > 0.0 && force.hi <= 1.0) continue;
+    faults.push_back({"", fmt::format("open: wheel forces of [{}, {}], but -1 <= min < max and 0 < "
+                                      "max <= 1 is needed",
+                                      force.lo, force.hi)});
+  }
+  if (std::max(open.mass_factors.size(), open.wheel_forces.size()) > kMostOpenValues) {
+    faults.push_back({"", fmt::format("open: more than {} values of a kind", kMostOpenValues)});
+  }
+  const auto fewest = static_cast<int>(open.combinations());
+  for (const auto& [name, count] :
+       {std::pair("draws", options.draws), std::pair("judged_draws", options.judged_draws)}) {
+    if (count >= fewest || (count == 0 && name == std::string_view("judged_draws"))) continue;
+    faults.push_back({"", fmt::format("{}: {} do not take all of the {} combinations of what is "
+                                      "open; give a multiple of {}",
+                                      name, count, fewest, fewest)});
+  }
+}
+
 void check_part(const TuneOptions& options, std::vector<Fault>& faults) {
   if (!options.shard) return;
   if (options.nominal) {
@@ -180,6 +214,7 @@ Status check(const TuneOptions& options, const Vehicle& vehicle) {
     faults.push_back({"", "evaluations: global at least 1, local at least 0"});
   }
   check_robustness(options, faults);
+  check_open(options, faults);
   check_part(options, faults);
   check_weights(options.weights, faults);
   check_bounds(options.bounds.lambda, "lambda", faults);
@@ -192,6 +227,9 @@ Status check(const TuneOptions& options, const Vehicle& vehicle) {
   if (!faults.empty()) return input_errors(std::move(faults));
   return {};
 }
+
+/// Behind the name of a default scenario whose heading is led.
+constexpr std::string_view kLedSuffix = "_led";
 
 /// RK4 steps of a search at the most: some hours.
 constexpr double kMostSearchSteps = 1e11;
@@ -229,6 +267,30 @@ std::string in_words(const Gains<double>& g) {
       g.observer.is_on() ? fmt::format(", observer {:.4g} rad/s", g.observer.bandwidth_radps) : "");
 }
 
+/// What helps where a constraint leaves no gains.
+std::string advice_on(std::string_view constraint) {
+  if (constraint == "late damping" || constraint == "delay margin") {
+    return "the readings are too late for this vehicle, nearly whatever the gains: make them "
+           "sooner "
+           "(latency_s of vehicle.json), or tune without latency (" +
+           option_text("nominal") + ")";
+  }
+  if (constraint == "noise gain") {
+    return "the heading's noise takes too much of what the vehicle can turn with: a calmer compass "
+           "(noise of vehicle.json), a faster scenario, or wider bounds";
+  }
+  if (constraint == "heading damping") {
+    return "samples or the servo are too slow for the yaw resistance that the law makes up for, or "
+           "the model leaves it too open: a shorter sample_time_s or steering.time_constant_s, "
+           "better turning trials, or wider bounds";
+  }
+  if (constraint == "speed lag" || constraint == "speed gain") {
+    return "servo, motors or readings are too slow, or samples too long, for the speed loop that "
+           "the bounds ask for: wider bounds (speed_mu, speed_epsilon)";
+  }
+  return "raise the margin, choose form 'paper' or widen the bounds";
+}
+
 /// No gains meet the constraints: the one broken most by the gains that come nearest.
 tl::unexpected<Error> infeasible(const Candidate& nearest, const ConstraintContext& context) {
   const std::vector<ConstraintReport> all = constraints_of(nearest.gains, context);
@@ -241,17 +303,11 @@ tl::unexpected<Error> infeasible(const Candidate& nearest, const ConstraintConte
     worst_residual = residual.front();
   }
   const std::string name = worst ? worst->name : "none";
-  const std::string advice = name == "late damping" || name == "delay margin"
-                                 ? "the readings are too late for this vehicle, nearly whatever "
-                                   "the gains: make them sooner "
-                                   "(latency_s of vehicle.json), or tune without latency (" +
-                                       option_text("nominal") + ")"
-                                 : "raise the margin, choose form 'paper' or widen the bounds";
   return refusal(
       fmt::format("no gains within the bounds meet the constraints: the nearest ({}) "
                   "break '{}', {:.4g} against a limit of {:.4g} ({}); {}",
                   in_words(nearest.gains), name, worst ? worst->value : 0.0,
-                  worst ? worst->limit : 0.0, worst ? worst->meaning : "", advice));
+                  worst ? worst->limit : 0.0, worst ? worst->meaning : "", advice_on(name)));
 }
 
 tl::unexpected<Error> not_better(const SearchResult& found, const Objective& objective,
@@ -262,15 +318,24 @@ tl::unexpected<Error> not_better(const SearchResult& found, const Objective& obj
     scores +=
         fmt::format("{}{:.4f} {}", m == 0 ? "" : ", ", e.mode_objective[m], name_of(modes[m]));
   }
+  const std::string broken =
+      found.broken_by <= 0.0 ? ""
+      : !e.valid
+          ? ", and of their runs some break off or do not settle where the paper's do"
+          : fmt::format(", and break '{}' by {:.0f} %", found.broken_most, 100.0 * found.broken_by);
+  const char* activity =
+      found.broken_most.starts_with("activity") ? ", more activity (activity_max)" : "";
   return refusal(fmt::format(
-      "no gains beat the paper's in every mode (1 is theirs): the nearest of {} ({}) score {}; "
-      "give more evaluations, another seed or other weights, or keep the paper's gains",
-      found.evaluations, in_words(found.nearest.gains), scores));
+      "no gains keep every constraint and beat the paper's in every mode (1 is theirs): the "
+      "nearest of {} ({}) score {}{}; give more evaluations{}, another seed or other weights, or "
+      "keep the paper's gains",
+      found.evaluations, in_words(found.nearest.gains), scores, broken, activity));
 }
 
 /// The goal, if any, that keeps the nearest gains from being taken.
 std::optional<tl::unexpected<Error>> goal_missed(const SearchResult& found,
-                                                 const Objective& objective) {
+                                                 const Objective& objective,
+                                                 const std::vector<Scenario>& scenarios) {
   const Evaluation e = objective(found.nearest.gains);
   const std::vector<GoalInMode> goals = by_mode(objective.goals(), objective.modes());
   std::size_t worst = goals.size();
@@ -279,11 +344,16 @@ std::optional<tl::unexpected<Error>> goal_missed(const SearchResult& found,
     if (worst == goals.size() || e.goal_quantile[i] > e.goal_quantile[worst]) worst = i;
   }
   if (worst == goals.size()) return std::nullopt;
+  const bool is_led = std::ranges::any_of(
+      scenarios, [](const Scenario& one) { return one.name.ends_with(kLedSuffix); });
   return refusal(fmt::format(
       "no gains within the bounds reach the goal \"{}\": the nearest of {} ({}) need {:.3g} "
-      "times its limits; make it soft, raise its limits, or give more evaluations",
-      goals[worst].name(), found.evaluations, in_words(found.nearest.gains),
-      e.goal_quantile[worst]));
+      "times its limits; make it soft, raise its limits, or give more evaluations{}",
+      goals[worst].name(), found.evaluations, in_words(found.nearest.gains), e.goal_quantile[worst],
+      is_led ? "; of the default scenarios one leads the heading no faster than was measured, "
+               "which takes its time: " +
+                   option_text("heading_rate_limit") + " none leaves it out"
+             : ""));
 }
 
 bool beats_everywhere(const Evaluation& e) {
@@ -312,7 +382,7 @@ Status limit_observer(const ConstraintContext& context, std::optional<ObserverSe
   const double left =
       driven_wheels(plant) * context.wheel_force.hi - plant.surge(context.speed_mps);
   const std::tuple<const char*, std::optional<double>*, double> limits[] = {
-      {"yaw_max_m", &observer->yaw_max_m, turning_authority_m(context)},
+      {"yaw_max_m", &observer->yaw_max_m, turning_authority_m(context.own(), context.speed_mps)},
       {"surge_max", &observer->surge_max, left}};
   for (const auto& [name, limit, most] : limits) {
     if (!*limit) *limit = kObserverShare * most;
@@ -340,7 +410,7 @@ Result<Tuning> tune_on(const ObjectiveSetting& setting, const ConstraintContext&
   const Objective objective(setting, kPaperGains);
   AWMR_ASSIGN_OR_RETURN(const SearchResult found, search(options, context, objective, starts));
   if (!found.best) {
-    if (auto missed = goal_missed(found, objective)) return *missed;
+    if (auto missed = goal_missed(found, objective, setting.scenarios)) return *missed;
     return not_better(found, objective, modes);
   }
   const SettledGains settled = settle(options, context, objective, *found.best);
@@ -418,7 +488,7 @@ Status judge(const Model& model, ObjectiveSetting setting, const TuneOptions& op
   if (options.judged_draws == 0) return {};
   setting.seed ^= kJudgedSeeds;
   const std::vector<int> draws = judged_draws_of(options);
-  AWMR_ASSIGN_OR_RETURN(setting.plants, plants_of(model, draws, setting.seed));
+  AWMR_ASSIGN_OR_RETURN(setting.vehicles, vehicles_of(model, draws, setting.seed, options.open));
   setting.numbers = {0};
   setting.numbers.insert(setting.numbers.end(), draws.begin(), draws.end());
   std::vector<JudgedRuns> runs = run_candidates(setting, candidates);
@@ -427,11 +497,14 @@ Status judge(const Model& model, ObjectiveSetting setting, const TuneOptions& op
     return {};
   }
   const std::span<const YawMode> modes = yaw_modes(model.vehicle);
+  std::vector<std::string> names;
+  for (const Scenario& scenario : setting.scenarios) names.push_back(scenario.name);
   Judgement judgement = judgement_of(runs, {.modes = {modes.begin(), modes.end()},
-                                            .scenarios = setting.scenarios.size(),
+                                            .scenarios = std::move(names),
                                             .tail_share = options.tail_share,
                                             .goals = options.goals});
   robust.judged = std::move(judgement.gains);
+  robust.judged_by_scenario = std::move(judgement.by_scenario);
   robust.goals = std::move(judgement.goals);
   return {};
 }
@@ -449,6 +522,7 @@ Result<Tuning> tune_robustly(const Model& model, ObjectiveSetting setting,
   TuneOptions nominal_options = options;
   nominal_options.nominal = true;
   nominal_options.goals.clear();
+  nominal_options.open = {};
   nominal_options.sensitivity = 0;
   const auto plants = static_cast<std::size_t>(options.draws) + 1;
   const std::size_t evaluations = at(options.global_evaluations) + at(options.local_evaluations);
@@ -463,15 +537,17 @@ Result<Tuning> tune_robustly(const Model& model, ObjectiveSetting setting,
                       .nominal = {},
                       .nominal_history = {},
                       .judged = {},
+                      .judged_by_scenario = {},
                       .goals = {},
                       .runs = {},
                       .sensitivity = {}};
   const LoopConditions& c = robust.conditions;
   const ObjectiveSetting without_noise = setting;
-  AWMR_ASSIGN_OR_RETURN(setting.plants, plants_of(model, options.draws, options.seed));
+  AWMR_ASSIGN_OR_RETURN(setting.vehicles,
+                        vehicles_of(model, options.draws, options.seed, options.open));
   for (Scenario& scenario : setting.scenarios) scenario = under(c, std::move(scenario));
   setting.goals = options.goals;
-  context.draws.assign(setting.plants.begin() + 1, setting.plants.end());
+  context.draws.assign(setting.vehicles.begin() + 1, setting.vehicles.end());
   context.heading_noise_rad = radians(c.heading_noise_deg);
   context.latency_s = std::max(c.heading_late_s, c.yaw_rate_late_s);
   context.motor_time_constant_s = c.motor_time_constant_s;
@@ -502,19 +578,28 @@ Scenario default_tuning_scenario() {
 }
 
 Result<std::vector<Scenario>> default_tuning_scenarios(const Model& model,
-                                                       const TuneOptions& options) {
+                                                       const TuneOptions& options,
+                                                       const HeadingRateChoice& said) {
   std::vector<Scenario> scenarios{default_tuning_scenario()};
+  const std::optional<double> measured_degps = measured_yaw_rate_degps(model);
+  if (said.empty() && measured_degps) {
+    Scenario led = scenarios.front();
+    led.name += kLedSuffix;
+    limit_heading_rate(*measured_degps, led);
+    scenarios.push_back(std::move(led));
+  }
   if (!options.observer) return scenarios;
   AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, model.plant());
   const ConstraintContext context = context_of(options, plant, model.vehicle, scenarios);
-  Scenario pushed = scenarios.front();
+  Scenario pushed = scenarios.back();
   pushed.name += "_pushed";
   const auto constantly = [](double value) {
     DisturbanceTerm term;
     term.value = value;
     return std::vector{term};
   };
-  pushed.disturbance.yaw = constantly(kPush * turning_authority_m(context));
+  pushed.disturbance.yaw =
+      constantly(kPush * turning_authority_m(context.own(), context.speed_mps));
   pushed.disturbance.surge = constantly(-kPush * plant.surge(pushed.speed_mps));
   scenarios.push_back(std::move(pushed));
   return scenarios;
@@ -534,7 +619,7 @@ Result<Tuning> tune(const Model& model, const TuneOptions& asked) {
     AWMR_ASSIGN_OR_RETURN(scenarios, default_tuning_scenarios(model, options));
   }
   AWMR_RETURN_IF_ERROR(check_work(options, scenarios, plant, model));
-  ObjectiveSetting setting{.plants = {plant},
+  ObjectiveSetting setting{.vehicles = {{plant, model.vehicle.wheel_force}},
                            .vehicle = model.vehicle,
                            .weights = options.weights,
                            .scenarios = std::move(scenarios),

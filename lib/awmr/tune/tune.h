@@ -20,6 +20,7 @@
 #include "awmr/simulate/conditions.h"
 #include "awmr/simulate/metrics.h"
 #include "awmr/simulate/scenario.h"
+#include "awmr/simulate/validity.h"
 
 namespace awmr {
 
@@ -55,8 +56,9 @@ struct GainBounds {
 /// A disturbance observer that is searched with the gains: its bandwidth.
 struct ObserverSearch {
   Interval bandwidth_radps{0.2, 20.0};  ///< rad/s
-  /// Largest moment and force that it takes off, m and dimensionless, > 0. Absent: kObserverShare of the
-  /// weaker mode's turning authority, and of the force that the wheels have left at the largest u_d.
+  /// Largest moment and force that it takes off, m and dimensionless, > 0. Absent: kObserverShare
+  /// of the weaker mode's turning authority, and of the force that the wheels have left at the
+  /// largest u_d.
   std::optional<double> yaw_max_m, surge_max;
 };
 inline constexpr double kObserverShare = 0.5;
@@ -67,6 +69,18 @@ inline constexpr double kRobustShare = 0.4;
 inline constexpr double kIndifferent = 1e-3;
 /// How much wider an active constraint is made, to see what it costs.
 inline constexpr double kWider = 0.1;
+
+/// What of a vehicle neither trials nor data sheets settle: a load, a battery that runs down, what a
+/// paper leaves out. The draws take the combinations in turn; the model's own plant has none of it.
+struct OpenVehicle {
+  std::vector<double> mass_factors = {};    ///< of m' and I'z alike; empty: 1
+  std::vector<Interval> wheel_forces = {};  ///< F' of one wheel over F_max; empty: the vehicle's
+
+  std::size_t combinations() const;  ///< >= 1
+  bool any() const { return !mass_factors.empty() || !wheel_forces.empty(); }
+};
+inline constexpr double kLeastMassFactor = 0.1, kMostMassFactor = 10.0;
+inline constexpr std::size_t kMostOpenValues = 20;  ///< of masses, and of forces
 
 /// A figure of a run (run_figure_names()) and the most that it may be, > 0, in the figure's unit.
 struct GoalLimit {
@@ -99,6 +113,7 @@ struct TuneOptions {
   bool nominal = false;
   int draws = 4;          ///< 0 ... 1000
   int judged_draws = 50;  ///< fresh ones that gains are judged on afterwards, 0 ... 100000
+  OpenVehicle open = {};  ///< of a robust search
   /// A part of the judging, for as many machines: the search is made in whole, and of the fresh draws
   /// those of the part are run (tune_shard.h).
   std::optional<Shard> shard = {};
@@ -200,6 +215,7 @@ struct JudgedGains {
   YawMode mode{};
   double completed_share = 0.0;  ///< settled after every step
   std::vector<JudgedFigure> figures;
+  std::string scenario = {};  ///< empty: over all of them
 };
 
 /// What an input has to do with how far a figure varies (tune/sobol.h).
@@ -249,8 +265,10 @@ struct RobustTuning {
   std::optional<Gains<double>> nominal;  ///< those of `--nominal`; absent where there are none
   SearchHistory nominal_history;         ///< of the search for them
   std::vector<JudgedGains> judged;       ///< by gains, then mode; empty of a part
-  std::vector<JudgedGoal> goals;         ///< by gains, then goal, then mode; empty of a part
-  std::vector<JudgedRuns> runs;          ///< of a part: those of its draws, by gains
+  /// The same by scenario first; empty where there is one.
+  std::vector<JudgedGains> judged_by_scenario;
+  std::vector<JudgedGoal> goals;  ///< by gains, then goal, then mode; empty of a part
+  std::vector<JudgedRuns> runs;   ///< of a part: those of its draws, by gains
   std::optional<GlobalSensitivity> sensitivity;  ///< absent where nobody asked
 };
 
@@ -282,21 +300,25 @@ struct Tuning {
 
 /// The scenario tuned on when none is given: 30 then -30 deg at 1 m/s, 20 s, from rest. [paper 4.3]
 Scenario default_tuning_scenario();
-/// The same, and for an observer behind it the same pushed all the time, by kPush of the weaker mode's
-/// turning authority and against the motion by kPush of g1(u_d): without a push an observer only lets
-/// noise in. Errors (input): as Model::plant.
+/// The same, then, where the model says how fast yaw resistance was measured, with the heading led
+/// no faster: the step asks for quick gains, in turns that extrapolate the model; the led one for
+/// those that are accurate where it holds. With a rate or "none" `said` the first alone, for the
+/// caller to lead. For an observer the last one again behind them, pushed all the time, by kPush of
+/// the weaker mode's turning authority and against the motion by kPush of g1(u_d): without a push
+/// an observer only lets noise in. Errors (input): as Model::plant.
 Result<std::vector<Scenario>> default_tuning_scenarios(const Model& model,
-                                                       const TuneOptions& options);
+                                                       const TuneOptions& options,
+                                                       const HeadingRateChoice& said = {});
 inline constexpr double kPush = 0.1;
 /// The scenario judged on afterwards: 60 then 0 deg at 0.7 m/s, 20 s, from rest.
 Scenario held_out_scenario();
 
 /// Deterministic: model, options, seed and `arithmetic` fix every bit of the result, whatever the
-/// number of cores. Errors (refused): no gains within the bounds meet the constraints (the tightest one is
-/// named) or the goals that are not soft, or none that does beats the baseline in every mode; the baseline itself is then not
-/// returned as if it had been found. Errors (input): the model lacks a parameter; margin, weights,
-/// bounds or scenarios are unfit; all evaluations together would take more than 1e11 RK4 steps, some
-/// hours.
+/// number of cores. Errors (refused): no gains within the bounds meet the constraints (the tightest
+/// one is named) or the goals that are not soft, or none that does beats the baseline in every
+/// mode; the baseline itself is then not returned as if it had been found. Errors (input): the
+/// model lacks a parameter; margin, weights, bounds or scenarios are unfit; all evaluations
+/// together would take more than 1e11 RK4 steps, some hours.
 Result<Tuning> tune(const Model& model, const TuneOptions& options);
 
 /// The bytes of gains.json.

@@ -61,8 +61,15 @@ void read_numbers(JsonObject& json, TuneOptions& options) {
       static_cast<int>(json.optional_integer("local_evaluations", 0, kEvaluationLimit)
                            .value_or(options.local_evaluations));
   options.nominal = json.optional_boolean("nominal").value_or(options.nominal);
-  options.draws = static_cast<int>(json.optional_integer("draws", 0, 1000).value_or(options.draws));
   if (json.has("goals")) options.judged_draws = kGoalDraws;
+  if (auto open = json.optional_object("open")) {
+    options.open = read_open(std::move(*open));
+    const auto turn = static_cast<int>(options.open.combinations());
+    for (int* count : {&options.draws, &options.judged_draws}) {
+      *count = (*count + turn - 1) / turn * turn;
+    }
+  }
+  options.draws = static_cast<int>(json.optional_integer("draws", 0, 1000).value_or(options.draws));
   options.judged_draws =
       static_cast<int>(json.optional_integer("judged_draws", json.has("goals") ? 1 : 0, 100'000)
                            .value_or(options.judged_draws));
@@ -195,10 +202,17 @@ Json history_json(const SearchHistory& history) {
           {"best", std::move(best)}};
 }
 
+std::string_view drawn_from(const RobustTuning& robust, const TuneOptions& options) {
+  if (options.open.any()) {
+    return robust.from_covariance ? "covariance and what is open" : "what is open";
+  }
+  return robust.from_covariance ? "covariance" : "noise alone";
+}
+
 Json robust_json(const RobustTuning& robust, const TuneOptions& options) {
   const LoopConditions& c = robust.conditions;
   Json json = {{"draws", options.draws},
-               {"drawn_from", robust.from_covariance ? "covariance" : "noise alone"},
+               {"drawn_from", drawn_from(robust, options)},
                {"seed", options.seed},
                {"tail_share", options.tail_share},
                {"activity_max", options.activity_max},
@@ -213,9 +227,14 @@ Json robust_json(const RobustTuning& robust, const TuneOptions& options) {
                {"motor_time_constant_s", c.motor_time_constant_s},
                {"judged_draws", options.judged_draws},
                {"quantiles", quantiles_json(robust.judged)}};
+  if (options.open.any()) json["open"] = open_json(options.open);
   if (robust.nominal) {
     json["nominal"] = gains_to_json(*robust.nominal);
     json["nominal_history"] = history_json(robust.nominal_history);
+  }
+  // Last, where a merge of parts puts it.
+  if (!robust.judged_by_scenario.empty()) {
+    json["by_scenario"] = by_scenario_json(robust.judged_by_scenario);
   }
   return json;
 }

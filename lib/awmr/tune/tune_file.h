@@ -19,7 +19,9 @@ struct TuneConfig {
 /// tune.json (`awmr.tune/1`), strict, every key optional:
 ///   schema, form ("paper" | "strict"), margin, weights {itae, overshoot, control_variation,
 ///   effort, speed_itae}, bounds {lambda, mu, epsilon, speed_mu, speed_epsilon: [lo, hi]},
-///   nominal, draws, judged_draws (50; with goals 500), tail_share, activity_max,
+///   nominal, draws (4), judged_draws (50; with goals 500), tail_share, activity_max,
+///   open {mass_factors [...], wheel_forces [{min, max}, ...]}: the two numbers above are then, where nobody
+///   gives them, the next multiple of how many combinations there are,
 ///   sensitivity (0: none),
 ///   goals [{at_most {FIGURE: limit, ...}, share (0.95), mode, soft (false)}, ...],
 ///   global_evaluations, local_evaluations, seed, scenarios [path relative to the file, ...].

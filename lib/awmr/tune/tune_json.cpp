@@ -1,11 +1,25 @@
 #include "awmr/tune/tune_json.h"
 
+#include <fmt/format.h>
+
 #include <utility>
+
+#include "awmr/model/wheel_force_json.h"
 
 namespace awmr {
 namespace {
 
 constexpr NumberRule kGoalLimit{.min = 0.0, .max = 1e9, .min_excluded = true};
+
+/// By mode, then gains.
+void put_quantiles(const JudgedGains& judged, Json& json) {
+  Json& entry = json[std::string(name_of(judged.mode))][judged.gains];
+  entry["completed_share"] = judged.completed_share;
+  for (const JudgedFigure& figure : judged.figures) {
+    entry[figure.name] = {
+        {"median", figure.median}, {"q95", figure.q95}, {"tail_mean", figure.tail_mean}};
+  }
+}
 
 }  // namespace
 
@@ -36,16 +50,46 @@ Json goal_json(const TuningGoal& goal) {
   return json;
 }
 
+OpenVehicle read_open(JsonObject json) {
+  OpenVehicle open;
+  if (json.has("mass_factors")) {
+    open.mass_factors =
+        json.numbers("mass_factors", {.min = kLeastMassFactor, .max = kMostMassFactor});
+    if (open.mass_factors.empty()) json.fault("mass_factors", "an empty list; leave the key out");
+  }
+  if (json.has("wheel_forces")) {
+    for (JsonObject& force : json.objects("wheel_forces")) {
+      open.wheel_forces.push_back(wheel_force_from_json(std::move(force)));
+    }
+    if (open.wheel_forces.empty()) json.fault("wheel_forces", "an empty list; leave the key out");
+  }
+  for (const auto& [key, count] : {std::pair("mass_factors", open.mass_factors.size()),
+                                   std::pair("wheel_forces", open.wheel_forces.size())}) {
+    if (count <= kMostOpenValues) continue;
+    json.fault(key, fmt::format("{} are more than {}", count, kMostOpenValues));
+  }
+  json.reject_unknown_keys();
+  return open;
+}
+
+Json open_json(const OpenVehicle& open) {
+  Json json = Json::object();
+  if (!open.mass_factors.empty()) json["mass_factors"] = open.mass_factors;
+  for (const Interval& force : open.wheel_forces) {
+    json["wheel_forces"].push_back(wheel_force_to_json(force));
+  }
+  return json;
+}
+
 Json quantiles_json(const std::vector<JudgedGains>& judged) {
   Json json = Json::object();
-  for (const JudgedGains& one : judged) {
-    Json& entry = json[std::string(name_of(one.mode))][one.gains];
-    entry["completed_share"] = one.completed_share;
-    for (const JudgedFigure& figure : one.figures) {
-      entry[figure.name] = {
-          {"median", figure.median}, {"q95", figure.q95}, {"tail_mean", figure.tail_mean}};
-    }
-  }
+  for (const JudgedGains& one : judged) put_quantiles(one, json);
+  return json;
+}
+
+Json by_scenario_json(const std::vector<JudgedGains>& judged) {
+  Json json = Json::object();
+  for (const JudgedGains& one : judged) put_quantiles(one, json[one.scenario]);
   return json;
 }
 

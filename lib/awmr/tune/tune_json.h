@@ -12,8 +12,14 @@ namespace awmr {
 TuningGoal read_goal(JsonObject json);
 Json goal_json(const TuningGoal& goal);
 
+/// What is open of the vehicle, as in tune.json, in both directions.
+OpenVehicle read_open(JsonObject json);
+Json open_json(const OpenVehicle& open);
+
 /// `/robust/quantiles`: by mode, then gains.
 Json quantiles_json(const std::vector<JudgedGains>& judged);
+/// `/robust/by_scenario`: the quantiles of each.
+Json by_scenario_json(const std::vector<JudgedGains>& judged);
 /// `/goals`
 Json goals_json(const std::vector<JudgedGoal>& goals);
 

@@ -21,7 +21,6 @@ namespace {
 constexpr const char* kGainsHash = "gains_json_sha256";
 /// Of a judging at the most: as in tune.json, and more than are ever given.
 constexpr long kMostJudgedDraws = 100'000;
-constexpr long kMostScenarios = 10'000;
 
 /// One directory's part; its runs lie in the table.
 struct TunePart {
@@ -48,7 +47,8 @@ TunePart tune_part_from_json(JsonObject& json) {
   }
   if (part.by.modes.empty()) json.fault("modes", "names no mode");
   if (part.gains.empty()) json.fault("gains", "names no gains that were judged");
-  part.by.scenarios = at(static_cast<int>(json.integer("scenarios", 1, kMostScenarios)));
+  part.by.scenarios = json.strings("scenarios");
+  if (part.by.scenarios.empty()) json.fault("scenarios", "names no scenario");
   part.by.tail_share = json.number("tail_share", {.min = 0.0, .max = 1.0, .min_excluded = true});
   for (JsonObject& goal : json.objects("goals")) {
     part.by.goals.push_back(read_goal(std::move(goal)));
@@ -63,8 +63,16 @@ std::string other_search(const TunePart& first, const TunePart& part) {
                                        "run one of them again, all with AWMR_INSTRUCTIONS=sse2 or "
                                        "all on processors with fused multiply-add");
   if (!other.empty()) return other;
+  const JudgedBy& a = part.by;
+  const JudgedBy& b = first.by;
+  const auto goals_of = [](const JudgedBy& by) {
+    Json goals = Json::array();
+    for (const TuningGoal& goal : by.goals) goals.push_back(goal_json(goal));
+    return goals;
+  };
   if (part.judged_draws != first.judged_draws || part.gains != first.gains ||
-      part.gains_sha256 != first.gains_sha256) {
+      part.gains_sha256 != first.gains_sha256 || a.modes != b.modes || a.scenarios != b.scenarios ||
+      a.tail_share != b.tail_share || goals_of(a) != goals_of(b)) {
     return made_with_other_options(first.origin);
   }
   return {};
@@ -107,8 +115,8 @@ std::string_view take_line(std::string_view& text) {
   return line;
 }
 
-/// The runs of a part, by gains: of each those of its draws in their order. Errors (input), by line: a run
-/// that is none of the part's, in another place, or missing.
+/// The runs of a part, by gains: of each those of its draws in their order. Errors (input), by
+/// line: a run that is none of the part's, in another place, or missing.
 Result<std::vector<JudgedRuns>> read_judged(const TunePart& part) {
   AWMR_ASSIGN_OR_RETURN(const std::string text, read_shard_table(part.origin, kJudgedTable));
   const std::string file = (part.origin.directory / kJudgedTable).string();
@@ -122,7 +130,7 @@ Result<std::vector<JudgedRuns>> read_judged(const TunePart& part) {
     runs.push_back({gains, {}});
     for (int i = 0; i < part.draws(); ++i) {
       for (const YawMode mode : part.by.modes) {
-        for (std::size_t scenario = 0; scenario < part.by.scenarios; ++scenario) {
+        for (std::size_t scenario = 0; scenario < part.by.scenarios.size(); ++scenario) {
           ++line;
           const std::string place =
               place_of_row(gains, part.origin.shard.item(i) + 1, mode, scenario);
@@ -151,7 +159,7 @@ Result<std::vector<JudgedRuns>> read_all_runs(const std::vector<TunePart>& parts
     AWMR_ASSIGN_OR_RETURN(std::vector<JudgedRuns> runs, read_judged(part));
     by_part.push_back(std::move(runs));
   }
-  const std::size_t per_draw = first.by.modes.size() * first.by.scenarios;
+  const std::size_t per_draw = first.by.modes.size() * first.by.scenarios.size();
   std::vector<JudgedRuns> all;
   for (std::size_t g = 0; g < first.gains.size(); ++g) {
     JudgedRuns whole{first.gains[g], {}};
@@ -212,12 +220,14 @@ std::string tune_shard_text(const Tuning& tuning, const TuneOptions& options,
   json["gains"] = Json::array();
   for (const JudgedRuns& runs : tuning.robust->runs) json["gains"].push_back(runs.gains);
   json["modes"] = Json::array();
-  std::vector<YawMode> modes;
+  json["scenarios"] = Json::array();
+  // The scores are by mode, then scenario.
   for (const ModeScore& score : tuning.scores) {
-    if (std::ranges::find(modes, score.mode) == modes.end()) modes.push_back(score.mode);
+    if (score.scenario == tuning.scores.front().scenario) {
+      json["modes"].push_back(name_of(score.mode));
+    }
+    if (score.mode == tuning.scores.front().mode) json["scenarios"].push_back(score.scenario);
   }
-  for (const YawMode mode : modes) json["modes"].push_back(name_of(mode));
-  json["scenarios"] = tuning.scores.size() / modes.size();
   json["tail_share"] = options.tail_share;
   json["goals"] = Json::array();
   for (const TuningGoal& goal : options.goals) json["goals"].push_back(goal_json(goal));
@@ -243,6 +253,9 @@ Result<MergedTuning> merge_tune_shards(const std::vector<std::filesystem::path>&
       const std::vector<TunePart> parts,
       read_parts(directories, kTuneShardSchema, tune_part_from_json, other_search));
   AWMR_ASSIGN_OR_RETURN(const std::vector<JudgedRuns> runs, read_all_runs(parts));
+  for (const TunePart& part : parts) {
+    AWMR_RETURN_IF_ERROR(read_part_gains(part));
+  }
   AWMR_ASSIGN_OR_RETURN(Json json, read_part_gains(parts.front()));
   if (!json.is_object() || !json.contains("robust") || !json["robust"].is_object()) {
     return input_error((directories.front() / kTuneShardGains).string(),
@@ -250,8 +263,12 @@ Result<MergedTuning> merge_tune_shards(const std::vector<std::filesystem::path>&
   }
   Judgement judgement = judgement_of(runs, parts.front().by);
   json["robust"]["quantiles"] = quantiles_json(judgement.gains);
+  if (!judgement.by_scenario.empty()) {
+    json["robust"]["by_scenario"] = by_scenario_json(judgement.by_scenario);
+  }
   if (!judgement.goals.empty()) json["goals"] = goals_json(judgement.goals);
-  return MergedTuning{to_text(json), std::move(judgement.gains), std::move(judgement.goals)};
+  return MergedTuning{to_text(json), std::move(judgement.gains), std::move(judgement.by_scenario),
+                      std::move(judgement.goals)};
 }
 
 std::string tune_shard_schema() {

@@ -1,6 +1,6 @@
-/// The judging of gains in parts, on as many machines: each searches the gains, which come out the same,
-/// and runs some of the fresh draws; merge_tune_shards() puts the runs together to the bytes of a single
-/// `awmr tune`.
+/// The judging of gains in parts, on as many machines: each searches the gains, which come out the
+/// same, and runs some of the fresh draws; merge_tune_shards() puts the runs together to the bytes
+/// of a single `awmr tune`.
 #pragma once
 
 #include <filesystem>
@@ -25,8 +25,8 @@ inline constexpr const char* kJudgedTable = "judged.csv";
 /// Precondition: robust gains, tuned with options.shard.
 std::string judged_csv(const Tuning& tuning, const TuneOptions& options);
 
-/// The bytes of shard.json: where the part is from, which one it is, what its runs are judged by, and the
-/// hashes of the two files beside it.
+/// The bytes of shard.json: where the part is from, which one it is, what its runs are judged by,
+/// and the hashes of the two files beside it.
 std::string tune_shard_text(const Tuning& tuning, const TuneOptions& options,
                             const Provenance& provenance);
 
@@ -37,15 +37,15 @@ bool is_finished_tune_shard(const std::filesystem::path& directory, const Shard&
 
 /// What a single run would have come to.
 struct MergedTuning {
-  std::string gains_text;  ///< the bytes of gains.json
-  std::vector<JudgedGains> judged;
+  std::string gains_text;                               ///< the bytes of gains.json
+  std::vector<JudgedGains> judged, judged_by_scenario;  ///< as in RobustTuning
   std::vector<JudgedGoal> goals;
 };
 
-/// Puts the parts in the directories together, in any order. Errors (input): a directory without the three
-/// files, or with one that is not the one that shard.json was written with; parts of another kind, or of
-/// different searches (inputs, options, version of the program, arithmetic); a part that is missing or
-/// there twice; a row that is none of its part's, or missing.
+/// Puts the parts in the directories together, in any order. Errors (input): a directory without
+/// the three files, or with one that is not the one that shard.json was written with; parts of
+/// another kind, or of different searches (inputs, options, version of the program, arithmetic); a
+/// part that is missing or there twice; a row that is none of its part's, or missing.
 Result<MergedTuning> merge_tune_shards(const std::vector<std::filesystem::path>& directories);
 
 /// The JSON Schema of such a shard.json, from what reads it.

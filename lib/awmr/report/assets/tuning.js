@@ -4,6 +4,14 @@ const setOrder = ["robust", "nominal", "baseline"];
 const setColour = {robust: "var(--one)", nominal: "var(--three)", baseline: "var(--two)"};
 const setWords = {robust: "tuned", nominal: "nominal", baseline: "the paper's"};
 
+/// What was open of the vehicles; empty where nothing was.
+function openWords(open) {
+  if (!open) return "";
+  const masses = open.mass_factors ? [`m' and I'z times ${open.mass_factors.join(", ")}`] : [];
+  const forces = open.wheel_forces ? [`F' ${open.wheel_forces.map((f) => `${f.min} to ${f.max}`).join(", ")}`] : [];
+  return `; open: ${[...masses, ...forces].join("; ")}`;
+}
+
 function constraintsTable(parent, constraints) {
   add(parent, "h3", "Constraints");
   const state = (c) => (c.margin < 0 ? (c.required ? "broken" : "not kept") : c.margin < 0.01 * Math.abs(c.limit) ? "binds" : "kept");
@@ -49,11 +57,19 @@ function robustCharts(parent, robust) {
   if (!robust || !robust.quantiles) return;
   const n = robust.noise, late = robust.latency;
   add(parent, "h3", "On draws that none was tuned on");
-  add(parent, "p", `${robust.judged_draws} fresh draws (${robust.drawn_from}); heading noise ${n.heading_deg} deg, yaw rate ${n.yaw_rate_degps} deg/s, ` +
+  add(parent, "p", `${robust.judged_draws} fresh draws (${robust.drawn_from}${openWords(robust.open)}); heading noise ${n.heading_deg} deg, yaw rate ${n.yaw_rate_degps} deg/s, ` +
     `speed ${n.speed_mps} m/s; readings ${late.heading_s} s late; motors ${robust.motor_time_constant_s} s behind. From the median (mark) to the 95 % quantile.`, {class: "small"});
+  if (!robust.by_scenario) return quantileCharts(parent, robust.quantiles);
+  for (const [scenario, quantiles] of Object.entries(robust.by_scenario)) {
+    add(parent, "h4", scenario);
+    quantileCharts(parent, quantiles);
+  }
+}
+
+function quantileCharts(parent, quantiles) {
   const grid = add(parent, "div", undefined, {class: "grid small"});
   for (const [figure, title] of robustFigures) {
-    const rows = Object.entries(robust.quantiles).flatMap(([mode, sets]) => setOrder.filter((name) => (sets[name] || {})[figure]).map((name) => [name, sets[name]]).map(([name, q]) => {
+    const rows = Object.entries(quantiles).flatMap(([mode, sets]) => setOrder.filter((name) => (sets[name] || {})[figure]).map((name) => [name, sets[name]]).map(([name, q]) => {
       const {median, q95} = q[figure];
       return {label: `${mode}, ${setWords[name] || name}`, low: median, high: q95, middle: median, colour: setColour[name] || "var(--dim)",
         note: `${mode}, ${setWords[name] || name}\nmedian ${digits(median)}, 95 % ${digits(q95)}\nsettled: ${percent(q.completed_share)}`};

@@ -68,7 +68,11 @@ void visit_numbers(LiveSetup& setup, Visit&& visit) {
                     &c.heading_noise_rad, &c.latency_s, &c.motor_time_constant_s}) {
     visit(*x);
   }
-  visit_list(c.draws, visit, [](Plant<double>& plant, auto& v) { visit_plant(plant, v); });
+  visit_list(c.draws, visit, [](DrawnVehicle& drawn, auto& v) {
+    visit_plant(drawn.plant, v);
+    v(drawn.wheel_force.lo);
+    v(drawn.wheel_force.hi);
+  });
   visit(setup.allocation_form);
   visit(setup.observer_yaw_max_m);
   visit(setup.observer_surge_max);

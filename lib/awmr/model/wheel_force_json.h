@@ -1,0 +1,14 @@
+/// The forces that a motor can make, as JSON: of vehicle.json and of what a search leaves open of them.
+/// Include from .cpp files only.
+#pragma once
+
+#include "awmr/core/interval.h"
+#include "awmr/core/json.h"
+
+namespace awmr {
+
+/// `{min, max}` of F' of one wheel over F_max: -1 <= min < max, 0 < max <= 1.
+Interval wheel_force_from_json(JsonObject json);
+Json wheel_force_to_json(const Interval& force);
+
+}  // namespace awmr

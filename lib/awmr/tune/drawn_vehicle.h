@@ -1,0 +1,14 @@
+/// A vehicle that gains have to suit. Private to tune/.
+#pragma once
+
+#include "awmr/core/interval.h"
+#include "awmr/model/dynamics.h"
+
+namespace awmr {
+
+struct DrawnVehicle {
+  Plant<double> plant{};
+  Interval wheel_force{-1.0, 1.0};  ///< F' of one wheel over F_max, at which the allocation clips
+};
+
+}  // namespace awmr

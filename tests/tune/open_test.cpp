@@ -1,0 +1,158 @@
+/// Gains for vehicles of which neither trials nor data sheets say everything.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "awmr/core/units.h"
+#include "awmr/model/paper_gains.h"
+#include "awmr/simulate/simulate.h"
+#include "awmr/tune/robust.h"
+#include "tune/paper_model.h"
+
+namespace awmr::testing {
+namespace {
+
+using ::testing::HasSubstr;
+
+OpenVehicle paper_grid() {
+  return {.mass_factors = {1.0, 3.1}, .wheel_forces = {{-1.0, 1.0}, {0.0, 1.0}, {0.0, 0.5}}};
+}
+
+TEST(Open, IsTakenByTheDrawsInTurnAndNotByTheModelsOwn) {
+  const Model model = paper_model();
+  const Plant<double> own = model.plant().value();
+  const auto vehicles = vehicles_of(model, 7, 1, paper_grid());
+  ASSERT_TRUE(vehicles);
+  ASSERT_EQ(vehicles->size(), 8U);
+  const std::pair<double, Interval> expected[] = {{1.0, model.vehicle.wheel_force},
+                                                  {1.0, {-1.0, 1.0}},
+                                                  {3.1, {-1.0, 1.0}},
+                                                  {1.0, {0.0, 1.0}},
+                                                  {3.1, {0.0, 1.0}},
+                                                  {1.0, {0.0, 0.5}},
+                                                  {3.1, {0.0, 0.5}},
+                                                  {1.0, {-1.0, 1.0}}};
+  for (std::size_t i = 0; i < vehicles->size(); ++i) {
+    const auto& [factor, force] = expected[i];
+    const DrawnVehicle& vehicle = (*vehicles)[i];
+    EXPECT_EQ(vehicle.plant.mass_norm, factor * own.mass_norm) << i;
+    EXPECT_EQ(vehicle.plant.inertia_norm, factor * own.inertia_norm) << i;
+    EXPECT_EQ(vehicle.plant.surge.alpha, own.surge.alpha) << i;
+    EXPECT_EQ(vehicle.wheel_force.lo, force.lo) << i;
+    EXPECT_EQ(vehicle.wheel_force.hi, force.hi) << i;
+  }
+}
+
+TEST(Open, GoesByTheNumberOfADrawWhateverPartItIsIn) {
+  const Model model = paper_model();
+  const auto all = vehicles_of(model, 6, 1, paper_grid());
+  const int numbers[] = {2, 5};
+  const auto part = vehicles_of(model, numbers, 1, paper_grid());
+  ASSERT_TRUE(all && part);
+  for (std::size_t i = 0; i < std::size(numbers); ++i) {
+    const DrawnVehicle& whole = (*all)[static_cast<std::size_t>(numbers[i])];
+    EXPECT_EQ((*part)[i + 1].plant.mass_norm, whole.plant.mass_norm);
+    EXPECT_EQ((*part)[i + 1].wheel_force.hi, whole.wheel_force.hi);
+  }
+}
+
+TEST(Open, RunsClipAtTheForcesOfTheirVehicle) {
+  const Model model = paper_model();
+  Scenario turn;
+  turn.name = "turn";
+  turn.duration_s = 3.0;
+  turn.speed_mps = 1.0;
+  turn.guidance = HeadingSteps{{{0.0, radians(60.0)}}};
+  const Plant<double> plant = model.plant().value();
+  ObjectiveSetting setting{.vehicles = {{plant, model.vehicle.wheel_force}, {plant, {0.0, 0.5}}},
+                           .vehicle = model.vehicle,
+                           .weights = {},
+                           .scenarios = {turn},
+                           .arithmetic = batch_arithmetic().value()};
+  const auto scores = run_all(setting, std::span(&kPaperGains, 1)).front();
+  Vehicle weak = model.vehicle;
+  weak.wheel_force = {0.0, 0.5};
+  const auto controller = make_controller(plant, weak, kPaperGains);
+  const auto modes = yaw_modes(model.vehicle);
+  for (std::size_t m = 0; m < modes.size(); ++m) {
+    const awmr::Run run = simulate(
+        plant, controller, turn, modes[m],
+        {.sample_time_s = model.vehicle.sample_time_s, .substeps = {}, .seed = 0, .sample = 1});
+    const Metrics expected = metrics_of(run, turn, controller);
+    EXPECT_NEAR(scores[modes.size() + m].metrics.control_effort, expected.control_effort, 1e-9);
+    EXPECT_NEAR(*scores[modes.size() + m].metrics.heading_iae_degs, *expected.heading_iae_degs,
+                1e-6);
+    if (modes[m] == YawMode::kSteering) continue;
+    EXPECT_GT(scores[modes.size() + m].metrics.heading_iae_degs,
+              scores[m].metrics.heading_iae_degs);
+  }
+}
+
+TuneOptions short_search() {
+  TuneOptions options;
+  options.global_evaluations = 60;
+  options.local_evaluations = 20;
+  options.judged_draws = 0;
+  options.draws = 2;
+  options.open.mass_factors = {1.0, 3.1};
+  return options;
+}
+
+TEST(Open, GainsSuitAllOfItAndSayWhatItWas) {
+  const Model model = paper_model();
+  const TuneOptions options = short_search();
+  const Result<Tuning> tuning = tune(model, options);
+  ASSERT_TRUE(tuning) << to_text(tuning.error());
+  // s^2 + q (lambda + k) s + q lambda k with q = 1/3.1, to first order, before hold and servo.
+  const double lambda = tuning->gains.heading.lambda;
+  const double k = tuning->gains.heading.mu / tuning->gains.heading.epsilon;
+  EXPECT_GT((lambda + k) / (2.0 * std::sqrt(3.1 * lambda * k)), 0.6);
+  const std::string text =
+      gains_text(*tuning, options, {.command = "tune", .options = {}, .inputs = {}});
+  EXPECT_THAT(text, HasSubstr("\"mass_factors\""));
+  EXPECT_THAT(text, HasSubstr("\"drawn_from\": \"what is open\""));
+  EXPECT_THAT(text, ::testing::Not(HasSubstr("wheel_forces")));
+}
+
+std::string refused(const TuneOptions& options) {
+  const Result<Tuning> tuning = tune(paper_model(), options);
+  return tuning ? "" : to_text(tuning.error());
+}
+
+TEST(Open, IsRefusedWhereTheDrawsDoNotTakeAllOfIt) {
+  TuneOptions options = short_search();
+  options.draws = 1;
+  EXPECT_THAT(refused(options), HasSubstr("draws: 1 do not take all of the 2 combinations"));
+  options = short_search();
+  options.judged_draws = 1;
+  EXPECT_THAT(refused(options), HasSubstr("judged_draws: 1 do not take"));
+  options = short_search();
+  options.nominal = true;
+  EXPECT_THAT(refused(options), HasSubstr("a nominal search draws nothing"));
+}
+
+TEST(Open, IsRefusedOutsideOfWhatAVehicleMayBe) {
+  for (const double factor : {0.0, -1.0, 11.0, std::numeric_limits<double>::quiet_NaN()}) {
+    TuneOptions options = short_search();
+    options.open.mass_factors = {1.0, factor};
+    EXPECT_THAT(refused(options), HasSubstr("mass factor")) << factor;
+  }
+  for (const Interval force : {Interval{0.5, 0.5}, Interval{-2.0, 1.0}, Interval{-1.0, 0.0}}) {
+    TuneOptions options = short_search();
+    options.open.wheel_forces = {force};
+    EXPECT_THAT(refused(options), HasSubstr("wheel forces")) << force.lo;
+  }
+  TuneOptions options = short_search();
+  options.open.mass_factors.assign(kMostOpenValues + 1, 1.0);
+  options.draws = 100;
+  EXPECT_THAT(refused(options), HasSubstr("more than 20 values"));
+}
+
+}  // namespace
+}  // namespace awmr::testing
