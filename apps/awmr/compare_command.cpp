@@ -234,7 +234,7 @@ Outcome outcome_of_whole(const CompareCommand& command, const Comparison& compar
       extrapolation_in(model, comparison.rows, run_of, rate == kMeasuredRate);
   for (const Scenario& scenario : scenarios) {
     std::ranges::move(asked_in_vain(scenario, model), std::back_inserter(findings));
-    std::ranges::move(plant_findings(scenario, model), std::back_inserter(findings));
+    if (auto finding = tyres_differ(scenario, model)) findings.push_back(*finding);
   }
   if (const int samples = comparison.whole_samples - 1; samples >= 2 && samples < kFewSamples) {
     findings.push_back(

@@ -112,7 +112,7 @@ Result<Outcome> execute(const SimulateCommand& command) {
   Metrics metrics = metrics_of(run, scenario, controller);
   metrics.electric_work_j = electric_work_j(metrics, model.vehicle, controller.mass_norm);
   std::vector<Finding> findings = asked_in_vain(scenario, model);
-  std::ranges::move(plant_findings(scenario, model), std::back_inserter(findings));
+  if (auto finding = tyres_differ(scenario, model)) findings.push_back(*finding);
   note_extrapolation(model, metrics.yaw_rate_max_degps,
                      fmt::format("{}, {}", scenario.name, name_of(command.mode)), findings);
   return Outcome{.summary = summary_of(run, scenario, command) + figures_of(metrics) +

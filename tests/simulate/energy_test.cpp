@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "awmr/model/rest.h"
+#include "awmr/simulate/metrics.h"
 #include "awmr/simulate/physics.h"
 #include "simulate/paper_plant.h"
 
@@ -103,6 +104,67 @@ RC_GTEST_PROP(FourWheels, AgreeWithTheReducedForm, ()) {
     RC_ASSERT(std::abs(a.y_m - b.y_m) < 1e-10);
     RC_ASSERT(std::abs(a.psi_rad - b.psi_rad) < 1e-10);
   }
+}
+
+/// 4 s of driving at F' 0.5 by each motor.
+Scenario driven_straight() {
+  return {.name = "driven", .duration_s = 4.0, .initial = {}, .guidance = OpenLoop{2.0, 0.0}};
+}
+
+/// What the vehicle's resistances took and what it keeps: all that the motors put in, where none brakes.
+double taken_and_kept(const Plant<double>& plant, const awmr::Run& run) {
+  double taken = 0.0;
+  for (std::size_t i = 1; i < run.rows.size(); ++i) {
+    for (const std::size_t k : {i - 1, i}) {
+      const State<double>& s = run.rows[k].state;
+      taken += 0.5 * (run.rows[i].t_s - run.rows[i - 1].t_s) *
+               (s.u_mps * plant.surge(s.u_mps) + s.v_mps * plant.sway_alpha * s.v_mps +
+                s.r_radps * plant.yaw(s.r_radps));
+    }
+  }
+  return taken + kinetic(plant, run.rows.back().state);
+}
+
+TEST(Work, IsThatOfTheForcesThatActWhateverKeepsThemFromTheWheels) {
+  const Plant<double> plant = paper_plant();
+  const auto controller = make_controller(plant, paper_vehicle(), {});
+  Scenario lagging = driven_straight();
+  lagging.actuators.emplace().motor_time_constant_s = 0.2;
+  Scenario sagging = driven_straight();
+  sagging.battery.emplace().sag = 0.2;
+  Scenario failing = driven_straight();
+  failing.faults.push_back(
+      {.wheels = {Wheel::kFrontLeft}, .window = {.from_s = 1.0}, .share = 0.0});
+  Scenario empty = driven_straight();
+  empty.battery.emplace();
+  empty.battery->to_s = 1e-3;
+  empty.battery->share_end = 0.3;
+  for (const Scenario& scenario : {driven_straight(), lagging, sagging, failing, empty}) {
+    const awmr::Run run = simulate(plant, controller, scenario, YawMode::kCombined,
+                                   {.sample_time_s = 1e-3, .substeps = {}});
+    const Metrics metrics = metrics_of(run, scenario, controller);
+    // A rectangle's error: half a sample of the change of power, 2 m/s times 2 at the most.
+    EXPECT_NEAR(metrics.energy_mech, taken_and_kept(plant, run), 4e-3) << scenario.name;
+  }
+}
+
+TEST(Work, OfCopperIsThatOfTheMotorsThatRun) {
+  const Plant<double> plant = paper_plant();
+  const auto controller = make_controller(plant, paper_vehicle(), {});
+  const auto copper = [&](const Scenario& scenario) {
+    const awmr::Run run = simulate(plant, controller, scenario, YawMode::kCombined,
+                                   {.sample_time_s = 1e-3, .substeps = {}});
+    return metrics_of(run, scenario, controller).energy_electric;
+  };
+  EXPECT_NEAR(copper(driven_straight()), 4.0 * 4.0 * 0.25, 1e-9);
+  Scenario failing = driven_straight();
+  failing.faults.push_back(
+      {.wheels = {Wheel::kFrontLeft}, .window = {.from_s = 1.0}, .share = 0.0});
+  EXPECT_NEAR(copper(failing), 4.0 * 0.25 + 3.0 * 3.0 * 0.25, 1e-3);
+  // 0.25 (1 - exp(-t/tau))^2 over 4 s: 4 - 2 tau + tau/2 beyond exp(-20).
+  Scenario lagging = driven_straight();
+  lagging.actuators.emplace().motor_time_constant_s = 0.2;
+  EXPECT_NEAR(copper(lagging), 4.0 * 0.25 * (4.0 - 2.0 * 0.2 + 0.1), 1e-4);
 }
 
 }  // namespace

@@ -114,7 +114,7 @@ TEST(Metrics, WorkIsForceTimesTheWheelsSpeedAndNothingComesBack) {
   for (RunRow& row : run.rows) {
     row.state.u_mps = 0.8;
     row.state.r_radps = 0.5;
-    row.force = {-0.2, 0.6};
+    row.acting = {-0.2, 0.6, -0.2, 0.6};
   }
   // d = 0.36 m: the left wheels run at 0.8 - 0.18 m/s and brake, the right ones at 0.98 m/s:
   // 2 x 0.6 x 0.98 over 4 s.
@@ -130,6 +130,7 @@ TEST(Metrics, WorkIsForceTimesTheWheelsSpeedAndNothingComesBack) {
   EXPECT_NEAR(metrics_of(run, kSteps, real).energy_mech, m.energy_mech, 1e-9);
   EXPECT_NEAR(metrics_of(run, kSteps, real).energy_electric, m.energy_electric, 1e-9);
   // Two wheels do half of both.
+  for (RunRow& row : run.rows) row.acting = {-0.2, 0.6, 0.0, 0.0};
   real.limits.is_rear_driven = false;
   EXPECT_NEAR(metrics_of(run, kSteps, real).energy_mech, 0.5 * m.energy_mech, 1e-9);
   EXPECT_NEAR(metrics_of(run, kSteps, real).energy_electric, 0.5 * m.energy_electric, 1e-9);
@@ -142,7 +143,7 @@ TEST(Metrics, FrontWheelsRollAlongTheirAngle) {
     row.state.v_mps = 0.1;
     row.state.r_radps = 0.5;
     row.state.steering_rad = radians(20.0);
-    row.force = {0.5, 0.5};
+    row.acting = {0.5, 0.5, 0.5, 0.5};
   }
   // Front: 0.8 cos 20 deg + (0.1 + 0.35 x 0.5) sin 20 deg, the d r of the sides cancel; rear: 0.8.
   const double front_mps = 0.8 * std::cos(radians(20.0)) + 0.275 * std::sin(radians(20.0));
@@ -300,28 +301,16 @@ TEST(Validity, WhatAScenarioAsksForInVainIsTold) {
   EXPECT_EQ(codes_of(asked_in_vain(fast, model)), Codes{"unreachable-speed"});
 }
 
-TEST(Validity, WorkOfForcesThatDoNotActIsTold) {
-  const Model model = fitted_paper_model();
-  EXPECT_EQ(codes_of(plant_findings(kSteps, model)), Codes{});
-  Scenario lagging = kSteps;
-  lagging.actuators.emplace().motor_time_constant_s = 0.1;
-  Scenario sagging = kSteps;
-  sagging.battery.emplace().sag = 0.2;
-  Scenario failing = kSteps;
-  failing.faults.emplace_back();
-  for (const Scenario& scenario : {lagging, sagging, failing}) {
-    EXPECT_EQ(codes_of(plant_findings(scenario, model)), Codes{"commanded-work"});
-  }
-}
-
 TEST(Validity, TyresThatTurnTheVehicleOtherwiseThanItsTrialsAreTold) {
   Model model = fitted_paper_model();
   Scenario on_tyres = kSteps;
   on_tyres.tyres = Tyres<double>{};
-  EXPECT_EQ(codes_of(plant_findings(on_tyres, model)), Codes{});  // nobody measured how it turns
+  EXPECT_FALSE(tyres_differ(on_tyres, model));  // nobody measured how it turns
   model.vehicle.yaw_rate_max_degps = 15.0;
-  EXPECT_EQ(codes_of(plant_findings(on_tyres, model)), Codes{"tyres-differ"});
-  EXPECT_EQ(codes_of(plant_findings(kSteps, model)), Codes{});
+  const auto finding = tyres_differ(on_tyres, model);
+  ASSERT_TRUE(finding);
+  EXPECT_EQ(finding->code, "tyres-differ");
+  EXPECT_FALSE(tyres_differ(kSteps, model));
 }
 
 }  // namespace

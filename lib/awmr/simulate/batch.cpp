@@ -243,7 +243,11 @@ RunRow row_of(const Batch& batch, std::size_t lane, double t_s) {
           .measured = parts.sensed.motion,
           .measured_position_m = parts.sensed.position_m,
           .clearance_m = block.clearance_m.lane[lane],
-          .tyre_power_mps = block.sums.tyre_power_mps.lane[lane]};
+          .tyre_power_mps = block.sums.tyre_power_mps.lane[lane],
+          .acting = block.setup.is_by_wheel
+                        ? lane_of<WheelForces<double>>(block.wheels, lane)
+                        : at_all_wheels(lane_of<SideForces<double>>(block.arriving, lane),
+                                        block.plant.rear_driven.lane[lane])};
 }
 
 /// Takes the sample into the metrics, and ends the runs that it ends.

@@ -38,6 +38,7 @@ template <class T>
 struct MeteredRow {
   State<T> state;
   SideForces<T> force;     ///< commanded
+  WheelForces<T> acting;   ///< of the commands, over the sample that ends here: RunRow::acting
   T steering_command_rad;  ///< d_ro
   T yaw_resistance_m;      ///< g3(r), as the controller knows it
   T goal_rad;              ///< the heading commanded by the guidance
@@ -92,8 +93,7 @@ struct MeterSums {
   T error_deg = T(0.0);
   T speed_error_m = T(0.0);  ///< t |u_d - u|
   T t_s = T(0.0);
-  T power_mps = T(0.0);
-  T copper = T(0.0);
+  WheelSpeeds<T> rolling{T(0.0), T(0.0), T(0.0), T(0.0)};
   T yaw_resistance_m = T(0.0), r_radps = T(0.0);
   T tyre_power_mps = T(0.0);
   T limited = T(0.0);  ///< flag
@@ -110,7 +110,7 @@ constexpr double kMovingMps = 0.05;       ///< below it the sideslip angle has n
 
 using math::larger;
 
-/// What the motors do at one moment.
+/// What the motors do over a sample.
 template <class T>
 struct MotorWork {
   T power_mps;  ///< that the four wheels put into the vehicle, over F_max: sum of F' w above 0
@@ -118,18 +118,17 @@ struct MotorWork {
 };
 
 template <class T>
-MotorWork<T> motor_work(const MeteredRow<T>& row, const MeteredVehicle<T>& vehicle) {
+MotorWork<T> motor_work(const WheelForces<T>& f, const WheelSpeeds<T>& w,
+                        const MeteredVehicle<T>& vehicle) {
   using math::any;
-  const WheelSpeeds<T> w = wheel_speeds(vehicle.front_axle_m, vehicle.half_track_m, row.state);
-  const T& left = row.force.left;
-  const T& right = row.force.right;
   const auto power = [](const T& force, const T& wheel_mps) {
     return larger(T(0.0), T(force * wheel_mps));
   };
   if (!any(vehicle.back_emf_s_per_m > T(0.0) || vehicle.rear_driven < T(1.0))) {
-    return {(power(left, w.rear_left) + power(left, w.front_left)) +
-                (power(right, w.rear_right) + power(right, w.front_right)),
-            left * left + right * right};
+    return {(power(f.rear_left, w.rear_left) + power(f.front_left, w.front_left)) +
+                (power(f.rear_right, w.rear_right) + power(f.front_right, w.front_right)),
+            T(0.5) * ((f.rear_left * f.rear_left + f.front_left * f.front_left) +
+                      (f.rear_right * f.rear_right + f.front_right * f.front_right))};
   }
   MotorWork<T> work{T(0.0), T(0.0)};
   const auto add = [&](const T& command, const T& wheel_mps) {
@@ -138,10 +137,10 @@ MotorWork<T> motor_work(const MeteredRow<T>& row, const MeteredVehicle<T>& vehic
     work.power_mps += power(force, wheel_mps);
     work.copper += T(0.5) * force * force;
   };
-  add(left, w.front_left);
-  add(right, w.front_right);
-  add(vehicle.rear_driven * left, w.rear_left);
-  add(vehicle.rear_driven * right, w.rear_right);
+  add(f.front_left, w.front_left);
+  add(f.front_right, w.front_right);
+  add(f.rear_left, w.rear_left);
+  add(f.rear_right, w.rear_right);
   return work;
 }
 
@@ -250,13 +249,15 @@ void measure_motion(const MeteredRow<T>& row, const MeteredVehicle<T>& vehicle, 
       (abs(row.force.left - m.left) + abs(row.force.right - m.right)) / vehicle.force_max;
 }
 
-/// Energy, wear and limits of the sample that ends here: commands are held over each.
+/// Energy, wear and limits of the sample that ends here: forces are held over each.
 template <class T>
-void measure_work(const MeteredRow<T>& row, bool is_on_tyres, double dt_s, MeterSums<T>& m) {
+void measure_work(const MeteredRow<T>& row, const MeteredVehicle<T>& vehicle, bool is_on_tyres,
+                  double dt_s, MeterSums<T>& m) {
   using math::abs;
   using math::select;
-  m.energy_mech += T(dt_s) * m.power_mps;
-  m.energy_electric += T(dt_s) * T(2.0) * m.copper;
+  const MotorWork<T> work = motor_work(row.acting, m.rolling, vehicle);
+  m.energy_mech += T(dt_s) * work.power_mps;
+  m.energy_electric += T(dt_s) * T(2.0) * work.copper;
   if (is_on_tyres) {
     m.tyre_work += T(dt_s) * m.tyre_power_mps;
   } else {
@@ -274,9 +275,7 @@ void remember(const MeteredRow<T>& row, const MeteredVehicle<T>& vehicle, double
               MeterSums<T>& m) {
   using math::select;
   m.t_s = T(t_s);
-  const MotorWork<T> work = motor_work(row, vehicle);
-  m.power_mps = work.power_mps;
-  m.copper = work.copper;
+  m.rolling = wheel_speeds(vehicle.front_axle_m, vehicle.half_track_m, row.state);
   m.yaw_resistance_m = row.yaw_resistance_m;
   m.r_radps = row.state.r_radps;
   m.tyre_power_mps = row.tyre_power_mps;
@@ -299,7 +298,9 @@ void measure(const MeteredRow<T>& row, const MeteredVehicle<T>& vehicle,
   m.rows += T(1.0);
   if (course.has_headings) meter::measure_heading(row, time, m);
   meter::measure_motion(row, vehicle, time.is_first, m);
-  if (!time.is_first) meter::measure_work(row, course.is_on_tyres, time.since_last_s, m);
+  if (!time.is_first) {
+    meter::measure_work(row, vehicle, course.is_on_tyres, time.since_last_s, m);
+  }
   meter::measure_speed(row.state.u_mps, course, m);
   meter::measure_speed_error(row, time, m);
   m.cross_track_m2 += row.cross_track_m * row.cross_track_m;

@@ -115,6 +115,7 @@ Metrics metrics_of(const Run& run, const Scenario& scenario, const Controller<do
     goal_before_rad = goal;
     measure({.state = row.state,
              .force = row.force,
+             .acting = row.acting,
              .steering_command_rad = row.steering_command_rad,
              .yaw_resistance_m = controller.yaw(row.state.r_radps),
              .goal_rad = goal,

@@ -38,8 +38,8 @@ struct Metrics {
       clearance_min_m;                  ///< least distance from the vehicle's circle to an obstacle
   std::optional<double> finish_time_s;  ///< when the guidance's end was reached
 
-  /// Work that the commanded wheel forces put into the vehicle where they push it on, over F_max, m;
-  /// a braking motor gives nothing back:
+  /// Work that the wheel forces that act (RunRow::acting) put into the vehicle where they push it on,
+  /// over F_max, m; a braking motor gives nothing back:
   ///   integral of sum_i max(0, F'_i w_i), w_i: the speed of wheel i in its rolling direction
   double energy_mech = 0.0;
   /// Copper loss of the motors over that of one motor at F_max, s: integral of sum_i F'_i^2.

@@ -55,6 +55,12 @@ SideForces<T> through_motors(const MotorLag& lag, const SideForces<T>& command,
   return {command.left + behind.left * mean_share, command.right + behind.right * mean_share};
 }
 
+/// The same force at both wheels of a side; the rear ones where they are driven (Plant::rear_driven).
+template <class T>
+WheelForces<T> at_all_wheels(const SideForces<T>& force, const T& rear_driven) {
+  return {force.left, force.right, rear_driven * force.left, rear_driven * force.right};
+}
+
 /// What arrives of commands at motors with back-EMF: one that is commanded 0 is off at once, as it
 /// would brake for as long as a lag leaves it anything (motor_force() in dynamics.h).
 template <class T>

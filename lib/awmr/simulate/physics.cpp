@@ -196,8 +196,10 @@ void Physics::step(double t_s, const SideForces<double>& commanded, double steer
     force = up_to(force, force_max_ * battery_share(*battery, t_s));
   }
   if (by_wheel_) {
-    move(at_the_ground(*scenario_, plant_, state_, t_s, force), steering_command_rad);
+    acting_ = at_the_ground(*scenario_, plant_, state_, t_s, force);
+    move(acting_, steering_command_rad);
   } else {
+    acting_ = at_all_wheels(force, plant_.rear_driven);
     move(force, steering_command_rad);
   }
 }

@@ -28,6 +28,8 @@ class Physics {
   /// What the tyres' side forces take from the vehicle at its state with these commands, over F_max, m/s; 0
   /// without tyres.
   double tyre_power_mps(const SideForces<double>& command) const;
+  /// RunRow::acting of the last step().
+  const WheelForces<double>& acting() const { return acting_; }
   /// Over one sample, with the commands held. Where no step is short enough for the motion, or it
   /// is no longer finite, the state stays as it was and resolved() is false from then on.
   void step(double t_s, const SideForces<double>& force, double steering_command_rad);
@@ -45,6 +47,7 @@ class Physics {
   State<double> state_;
   MotorLag lag_;
   SideForces<double> motors_{};  ///< the forces of the motors, where they lag
+  WheelForces<double> acting_{0.0, 0.0, 0.0, 0.0};
   RunDisturbance disturbance_;
   BodyLoad load_;
   bool by_wheel_;

@@ -217,6 +217,7 @@ Run simulate(const Plant<double>& plant, const Controller<double>& controller,
     RunRow& row = run.rows.emplace_back();
     row.t_s = static_cast<double>(k) * sample_s;
     row.state = physics.state();
+    row.acting = physics.acting();
     if (k > 0) sensed = sensing.at(k, row.state);
     row.measured = sensed.motion;
     row.measured_position_m = sensed.position_m;

@@ -43,6 +43,9 @@ struct RunRow {
   double clearance_m = 0.0;
   /// What the tyres' side forces take from the vehicle with what is commanded, over F_max; 0 without tyres.
   double tyre_power_mps = 0.0;
+  /// What came to the wheels, over F_max, of what was commanded, over the sample that ends here: beyond
+  /// the motors' lag, the battery, faults and the ground. 0 in the first row.
+  WheelForces<double> acting = {0.0, 0.0, 0.0, 0.0};
 };
 
 /// How a run ended.

@@ -9,7 +9,6 @@
 #include "awmr/core/units.h"
 #include "awmr/model/fitted_law.h"
 #include "awmr/model/paper_gains.h"
-#include "awmr/simulate/physics.h"
 #include "awmr/simulate/simulate.h"
 
 namespace awmr {
@@ -90,33 +89,22 @@ double turned_degps(const Model& model, double tau_turn_m,
 
 }  // namespace
 
-std::vector<Finding> plant_findings(const Scenario& scenario, const Model& model) {
-  std::vector<Finding> findings;
-  const bool lags = scenario.actuators && scenario.actuators->motor_time_constant_s > 0.0;
-  const bool sags = scenario.battery && scenario.battery->sag > 0.0;
-  if (forces_differ_by_wheel(scenario) || lags || sags) {
-    findings.push_back(
-        {"", 0, Severity::kWarning, "commanded-work",
-         fmt::format("{}: mechanical and electrical work are those of the commanded "
-                     "forces; what a failed wheel, a sagging battery or a motor's lag "
-                     "takes of them is not taken off",
-                     scenario.name)});
-  }
+std::optional<Finding> tyres_differ(const Scenario& scenario, const Model& model) {
   const std::optional<double> measured_degps = measured_yaw_rate_degps(model);
-  if (!scenario.tyres || !measured_degps) return findings;
+  if (!scenario.tyres || !measured_degps) return std::nullopt;
   const double moment_m = model.plant_as_known().yaw(radians(*measured_degps));
   const double plain_degps = turned_degps(model, moment_m, {});
   const double on_tyres_degps = turned_degps(model, moment_m, scenario.tyres);
   constexpr double kMuch = 1.5;
-  if (on_tyres_degps < kMuch * plain_degps && plain_degps < kMuch * on_tyres_degps) return findings;
-  findings.push_back(
-      {model.file, 0, Severity::kWarning, "tyres-differ",
-       fmt::format(
-           "{}: a moment that turns the model at {:.3g} deg/s, where its yaw resistance was "
-           "measured, turns it at {:.3g} on these tyres: they are not those of the trials. "
-           "Take what is said on them as another vehicle's",
-           scenario.name, plain_degps, on_tyres_degps)});
-  return findings;
+  if (on_tyres_degps < kMuch * plain_degps && plain_degps < kMuch * on_tyres_degps) {
+    return std::nullopt;
+  }
+  return Finding{
+      model.file, 0, Severity::kWarning, "tyres-differ",
+      fmt::format("{}: a moment that turns the model at {:.3g} deg/s, where its yaw resistance was "
+                  "measured, turns it at {:.3g} on these tyres: they are not those of the trials. "
+                  "Take what is said on them as another vehicle's",
+                  scenario.name, plain_degps, on_tyres_degps)};
 }
 
 std::vector<Finding> asked_in_vain(const Scenario& scenario, const Model& model) {

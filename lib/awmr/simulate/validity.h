@@ -13,10 +13,9 @@
 
 namespace awmr {
 
-/// Warnings of a scenario in which the forces that act are not those that are commanded, by which
-/// work is told (`commanded-work`: wheels that fail, a battery that sags, motors that lag), and of
-/// one on tyres that turn otherwise than yaw resistance was measured (`tyres-differ`).
-std::vector<Finding> plant_findings(const Scenario& scenario, const Model& model);
+/// A warning (`tyres-differ`) of a scenario on tyres that turn otherwise than yaw resistance was
+/// measured.
+std::optional<Finding> tyres_differ(const Scenario& scenario, const Model& model);
 
 /// Warnings of what a scenario asks for in vain on this vehicle: a reading that is late by a part
 /// of a sample (`rounded-latency`), a step behind the end (`late-step`), a waypoint within an
