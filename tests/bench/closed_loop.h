@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "awmr/simulate/metering.h"
+#include "awmr/simulate/motion.h"
 #include "awmr/simulate/pilot.h"
 
 namespace awmr::bench {
@@ -19,6 +20,7 @@ MeterSums<T> driven(const Scenario& scenario, double sample_time_s, const Resist
   const T none = T(0.0);
   MeterSums<T> sums;
   State<T> s{};
+  SideForces<T> held{none, none};
   double goal_before_rad = 0.0;
   const int samples = static_cast<int>(scenario.duration_s / sample_time_s + 1e-9);
   for (int k = 0; k <= samples; ++k) {
@@ -28,12 +30,13 @@ MeterSums<T> driven(const Scenario& scenario, double sample_time_s, const Resist
         command(Measurement<T>{s.psi_rad, s.u_mps, s.v_mps, s.r_radps},
                 Reference<T>{T(goal_rad), none, none, T(scenario.speed_mps), none});
     measure<T>(
-        {s, a.force, a.steering_rad, yaw(s.r_radps), T(goal_rad), none, none, none,
-         T(scenario.speed_mps), none},
+        {s, a.force, at_all_wheels(held, T(1.0)), a.steering_rad, yaw(s.r_radps), T(goal_rad), none,
+         none, none, T(scenario.speed_mps), none},
         vehicle, course,
         {t_s, sample_time_s, k == 0, k == 0 || std::abs(goal_rad - goal_before_rad) > 0.0, false},
         sums);
     goal_before_rad = goal_rad;
+    held = a.force;
     if (k < samples) move(t_s, a, s);
   }
   return sums;

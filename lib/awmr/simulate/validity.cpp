@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "awmr/core/csv_cell.h"
 #include "awmr/core/option_text.h"
@@ -12,7 +13,6 @@
 #include "awmr/simulate/simulate.h"
 
 namespace awmr {
-
 namespace {
 
 /// A reading is driven as of the nearest sample: told where that is off by more of one.
@@ -66,10 +66,6 @@ void note_speed(const Scenario& scenario, const Model& model, std::vector<Findin
                                   scenario.name, scenario.speed_mps, needed, std::max(most, 0.0))});
 }
 
-}  // namespace
-
-namespace {
-
 /// The yaw rate, deg/s, that a steady moment of tau_turn_m makes under way, in a plain scenario; on
 /// tyres where they are given.
 double turned_degps(const Model& model, double tau_turn_m,
@@ -96,7 +92,7 @@ std::optional<Finding> tyres_differ(const Scenario& scenario, const Model& model
   const double plain_degps = turned_degps(model, moment_m, {});
   const double on_tyres_degps = turned_degps(model, moment_m, scenario.tyres);
   constexpr double kMuch = 1.5;
-  if (on_tyres_degps < kMuch * plain_degps && plain_degps < kMuch * on_tyres_degps) {
+  if (on_tyres_degps <= kMuch * plain_degps && plain_degps <= kMuch * on_tyres_degps) {
     return std::nullopt;
   }
   return Finding{
