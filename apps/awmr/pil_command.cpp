@@ -50,11 +50,12 @@ Result<Outcome> become_awmr_pil(std::vector<std::string> arguments) {
     ::execv(program->c_str(), argv.data());
     reason = errno;
   }
-  return input_error("awmr-pil",
-                     fmt::format("cannot be started ({}); it runs the firmware on an emulated chip "
-                                 "and is built where libsimavr is: apt-get install libsimavr-dev "
-                                 "gcc-avr avr-libc, then build awmr again",
-                                 std::strerror(reason)));
+  return input_error(
+      "awmr-pil",
+      fmt::format("cannot be started ({}); it runs the firmware on an emulated chip, and "
+                  "a demo build does not have it. Build it: scripts/setup test && "
+                  "scripts/build release, then use build/release/bin/awmr",
+                  std::strerror(reason)));
 }
 
 }  // namespace

@@ -5,6 +5,12 @@ target_compile_options(awmr_warnings INTERFACE
   -Wold-style-cast -Woverloaded-virtual -Wdouble-promotion
   $<$<BOOL:${AWMR_WARNINGS_AS_ERRORS}>:-Werror>)
 
+# Standard and third-party headers that most sources include, compiled once for all libraries. Whether each source
+# includes what it uses is checked where precompiled headers are off: scripts/tidy, preset `tidy`.
+set(AWMR_COMMON_HEADERS <algorithm> <array> <cmath> <cstddef> <cstdint> <filesystem> <functional> <limits> <map>
+  <memory> <optional> <set> <span> <string> <string_view> <utility> <variant> <vector>
+  <fmt/format.h> <tl/expected.hpp>)
+
 # awmr_library(NAME HEADERS file... [SOURCES file...] [PUBLIC target...] [PRIVATE target...])
 # The library of one folder, `awmr_NAME` with the alias `awmr::NAME`; header-only without SOURCES.
 # HEADERS are the public ones: they are installed, and no other is.
@@ -16,6 +22,9 @@ function(awmr_library name)
     target_link_libraries(${target} PUBLIC ${ARG_PUBLIC}
       PRIVATE ${ARG_PRIVATE} $<BUILD_INTERFACE:awmr_warnings>)
     set(scope PUBLIC)
+    if(TARGET awmr_common_headers)
+      target_precompile_headers(${target} REUSE_FROM awmr_common_headers)
+    endif()
     # The same products and sums on every compiler: no contraction into fused multiply-add.
     target_compile_options(${target} PRIVATE -ffp-contract=off)
   else()
@@ -33,19 +42,40 @@ function(awmr_library name)
   set_property(GLOBAL APPEND PROPERTY AWMR_LIBRARIES ${target})
 endfunction()
 
-# awmr_test(NAME SOURCES file... [LINK target...] [CASES n]): one GoogleTest executable; properties with a fixed
-# seed, each over n cases, 100 by default.
+# awmr_test(NAME SOURCES file... [TIER tier] [LINK target...] [CASES n]): one GoogleTest executable;
+# properties with a fixed seed, each over n cases, 100 by default. TIER is `unit` by default (tests/README.md).
 function(awmr_test name)
-  cmake_parse_arguments(ARG "" "CASES" "SOURCES;LINK" ${ARGN})
+  cmake_parse_arguments(ARG "" "CASES;TIER" "SOURCES;LINK" ${ARGN})
   if(NOT ARG_CASES)
     set(ARG_CASES 100)
+  endif()
+  if(NOT ARG_TIER)
+    set(ARG_TIER unit)
   endif()
   add_executable(${name} ${ARG_SOURCES})
   set_target_properties(${name} PROPERTIES UNITY_BUILD OFF)  # each test file has its own small names
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
-  target_compile_options(${name} PRIVATE -ffp-contract=off)
+  # Compiled quickly rather than for speed.
+  target_compile_options(${name} PRIVATE -ffp-contract=off $<$<CONFIG:Release>:-O1>)
   target_link_libraries(${name} PRIVATE ${ARG_LINK} GTest::gmock GTest::gtest_main awmr_warnings)
+  target_precompile_headers(${name} REUSE_FROM awmr_test_headers)
   target_compile_definitions(${name} PRIVATE AWMR_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300 LABELS ${ARG_TIER}
     ENVIRONMENT "RC_PARAMS=seed=20260117 max_success=${ARG_CASES}")
+endfunction()
+
+# awmr_command_test(NAME TIER tier TIMEOUT seconds COMMAND word... [NEEDS package=variable...]): a test that is a command;
+# 77 is its exit code for "skipped". Where a variable of NEEDS is false, the test is skipped and names the package.
+function(awmr_command_test name)
+  cmake_parse_arguments(ARG "" "TIER;TIMEOUT" "COMMAND;NEEDS" ${ARGN})
+  foreach(need IN LISTS ARG_NEEDS)
+    string(REGEX MATCH "^([^=]+)=(.+)$" matched ${need})
+    if(NOT ${CMAKE_MATCH_2})
+      set(ARG_COMMAND ${CMAKE_COMMAND} -E echo "skipped: ${CMAKE_MATCH_1} is not installed (scripts/setup all)")
+      break()
+    endif()
+  endforeach()
+  add_test(NAME ${name} COMMAND ${ARG_COMMAND})
+  set_tests_properties(${name} PROPERTIES LABELS ${ARG_TIER} TIMEOUT ${ARG_TIMEOUT} SKIP_RETURN_CODE 77
+    SKIP_REGULAR_EXPRESSION "^skipped: ")
 endfunction()

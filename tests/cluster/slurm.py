@@ -2,7 +2,7 @@
 """Starts a Slurm of its own (Debian's slurm-wlm and munge: a controller and two nodes on the loopback, nothing outside of a
 temporary directory), shares a comparison and a recovery out to it by scripts/cluster, loses a node and a task in the middle,
 damages a part, and holds what is merged against the bytes of a single run.
-usage: slurm.py AWMR. Ends with 77 where Slurm is not installed (scripts/setup long)."""
+usage: slurm.py AWMR. Ends with 77 where Slurm is not installed (scripts/setup all)."""
 import getpass
 import json
 import os
@@ -257,7 +257,7 @@ def fail(slurm, compare):
 def main():
     missing = [daemon for daemon in DAEMONS if not shutil.which(daemon, path=f"{os.environ['PATH']}:/usr/sbin")]
     if missing:
-        print(f"not installed: {', '.join(missing)} (scripts/setup long)")
+        print(f"not installed: {', '.join(missing)} (scripts/setup all)")
         return SKIPPED
     with tempfile.TemporaryDirectory(prefix="awmr-slurm-") as folder:
         at = pathlib.Path(folder)

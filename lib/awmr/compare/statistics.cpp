@@ -2,13 +2,12 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <boost/math/distributions/normal.hpp>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <numeric>
 #include <utility>
 
 #include "awmr/core/binomial.h"
+#include "awmr/core/distributions.h"
 #include "awmr/core/index.h"
 #include "awmr/core/random.h"
 
@@ -237,8 +236,8 @@ bool any_has(const ScenarioRows& scenario, const MetricColumn& metric) {
 double bootstrap_tail(std::size_t count, double tail) {
   if (count < 2) return tail;
   const auto n = static_cast<double>(count);
-  const double t = boost::math::quantile(boost::math::students_t(n - 1.0), 1.0 - tail);
-  return boost::math::cdf(boost::math::normal(), -t * std::sqrt(n / (n - 1.0)));
+  const double t = students_t_quantile(1.0 - tail, n - 1.0);
+  return normal_cdf(-t * std::sqrt(n / (n - 1.0)));
 }
 
 double quantile(std::span<const double> sorted, double p) {

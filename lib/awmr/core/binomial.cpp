@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <boost/math/distributions/binomial.hpp>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
+
+#include "awmr/core/distributions.h"
 
 namespace awmr {
 
@@ -29,8 +30,7 @@ double paired_t_p(double mean, double deviation, std::size_t count) {
   const double error = deviation / std::sqrt(n);
   // Differences equal but for rounding have no spread.
   if (!(error > 1e-12 * std::abs(mean))) return std::abs(mean) > 0.0 ? 0.0 : 1.0;
-  const boost::math::students_t_distribution<double> t(n - 1.0);
-  return 2.0 * boost::math::cdf(boost::math::complement(t, std::abs(mean) / error));
+  return 2.0 * students_t_tail(std::abs(mean) / error, n - 1.0);
 }
 
 double equivalence_p(double mean, double deviation, std::size_t count, double margin) {
@@ -38,8 +38,7 @@ double equivalence_p(double mean, double deviation, std::size_t count, double ma
   const double error = deviation / std::sqrt(n);
   const double inside = margin - std::abs(mean);
   if (!(error > 1e-12 * std::abs(mean))) return inside >= 0.0 ? 0.0 : 1.0;
-  const boost::math::students_t_distribution<double> t(n - 1.0);
-  return boost::math::cdf(boost::math::complement(t, inside / error));
+  return students_t_tail(inside / error, n - 1.0);
 }
 
 }  // namespace awmr

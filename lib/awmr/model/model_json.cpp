@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "awmr/core/index.h"
+#include "awmr/core/linear_algebra.h"
 #include "awmr/core/option_text.h"
 #include "awmr/model/findings_json.h"
 #include "awmr/model/ratio_names.h"
@@ -68,9 +68,7 @@ bool are_correlations(const std::vector<std::vector<double>>& m) {
   }
   if (n == 0 || !correlation.allFinite()) return n == 0;
   // The solver reads the lower triangle alone.
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(correlation, Eigen::EigenvaluesOnly)
-             .eigenvalues()
-             .minCoeff() > -kRounding;
+  return symmetric_eigenvalues(correlation).minCoeff() > -kRounding;
 }
 
 /// A covariance is symmetric with variances >= 0 on its diagonal and correlations that go together.

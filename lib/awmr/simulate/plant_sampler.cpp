@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <utility>
 
 #include "awmr/core/index.h"
+#include "awmr/core/linear_algebra.h"
 #include "awmr/core/random.h"
 #include "awmr/model/transform.h"
 
@@ -60,13 +60,13 @@ Eigen::MatrixXd coordinate_covariance(const Model& model) {
 /// L with L L^T = C; none where C is no covariance.
 ///   C = V diag(w) V^T  =>  L = V diag(sqrt w), which also holds for a singular C.
 std::optional<Eigen::MatrixXd> factor_of(const Eigen::MatrixXd& covariance) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(covariance);
-  const double largest = eigen.eigenvalues().maxCoeff();
-  if (eigen.info() != Eigen::Success || !std::isfinite(largest) ||
-      eigen.eigenvalues().minCoeff() < -kSingularTolerance * std::abs(largest)) {
+  const SymmetricEigen eigen = symmetric_eigen(covariance);
+  const double largest = eigen.values.maxCoeff();
+  if (!eigen.converged || !std::isfinite(largest) ||
+      eigen.values.minCoeff() < -kSingularTolerance * std::abs(largest)) {
     return std::nullopt;
   }
-  return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+  return eigen.vectors * eigen.values.cwiseMax(0.0).cwiseSqrt().asDiagonal();
 }
 
 /// Why there was nothing to draw, and what to do.

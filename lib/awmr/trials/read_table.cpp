@@ -28,7 +28,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Of these a file's format is known; is_awl() looks at most of them.
-constexpr std::size_t kFormatBytes = std::size_t{1} << 14U;
+constexpr std::size_t kSampleBytes = std::size_t{1} << 14U;
 
 /// The table of signals that have times of their own.
 Result<CsvTable> table_of_signals(CsvTopics topics, const std::string& file,
@@ -99,7 +99,7 @@ Result<Signals> read_bags(std::span<const fs::path> paths, const Wanted& wanted)
 
 /// The file is of none of the recorders' formats, each of which is known by its first bytes.
 Result<bool> begins_as_text(const InputBytes& file) {
-  std::string first(std::min(kFormatBytes, file.size()), '\0');
+  std::string first(std::min(kSampleBytes, file.size()), '\0');
   AWMR_RETURN_IF_ERROR(file.read(0, first));
   return !is_awl(first) && !is_ulog(first) && !is_dataflash(first) && !is_dataflash_text(first) &&
          !is_rosbag(first);

@@ -1,10 +1,12 @@
 #include "awmr/tune/sampled_loop.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <complex>
 #include <unsupported/Eigen/MatrixFunctions>
+
+#include "awmr/core/linear_algebra.h"
 
 namespace awmr {
 namespace {
@@ -61,10 +63,9 @@ double damping_ratio(const SampledHeadingLoop& loop) {
     for (Eigen::Index i = 0; i + 1 < n; ++i) closed(states + i, states + 1 + i) = 1.0;
     closed.block(states + n - 1, 0, 1, states) = law;
   }
-  const Eigen::VectorXcd eigenvalues =
-      Eigen::EigenSolver<Eigen::MatrixXd>(closed, false).eigenvalues();
+  const Eigen::VectorXcd poles = eigenvalues(closed);
   double worst = 1.0;
-  for (const std::complex<double>& z : eigenvalues) worst = std::min(worst, damping_of(z));
+  for (const std::complex<double>& z : poles) worst = std::min(worst, damping_of(z));
   return worst;
 }
 

@@ -5,7 +5,7 @@ usage: other_processor.py neon|avx512
   neon    a 64-bit ARM, as qemu-user emulates it: the numbers of the AVX2 kernel
   avx512  a Skylake-X, as Bochs emulates it with a kernel of Debian's: those of the AVX2 kernel, and every operation of lanes
           (lane_operations_test.cpp)
-Ends with 77 where the emulator or a processor with AVX2 is missing (scripts/setup long)."""
+Ends with 77 where the emulator or a processor with AVX2 is missing (scripts/setup all)."""
 import gzip
 import os
 import pathlib

@@ -1,10 +1,10 @@
 #include "awmr/identify/coastdown/coast_fit.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "awmr/core/linear_algebra.h"
 #include "awmr/identify/ceres_solve.h"
 #include "awmr/identify/coastdown/coast_noise.h"
 #include "awmr/identify/coastdown/coast_problem.h"
@@ -29,7 +29,7 @@ std::optional<Eigen::VectorXd> by_surge_law(CoastProblem& problem, const Eigen::
   const std::optional<Eigen::MatrixXd> all = problem.jacobian(blocks);
   if (!all) return std::nullopt;
   const Eigen::MatrixXd by_theta = all->leftCols(rows_of(blocks));
-  const Eigen::MatrixXd moves = -j.colPivHouseholderQr().solve(by_theta);
+  const Eigen::MatrixXd moves = -PivotedQr(j).solve(by_theta);
   if (!moves.allFinite()) return std::nullopt;
   for (std::size_t i = 0; i < places.size(); ++i) derivative(places[i]) = moves(0, eigen_index(i));
   return derivative;

@@ -1,10 +1,9 @@
 #include "awmr/identify/coastdown/coast_noise.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/SVD>
 #include <cmath>
 #include <limits>
 
+#include "awmr/core/linear_algebra.h"
 #include "awmr/identify/uncertainty/quantiles.h"
 
 namespace awmr {
@@ -47,7 +46,7 @@ void add_rank(const Eigen::MatrixXd& j, CoastFit& fit) {
     const double length = scaled.col(c).norm();
     if (length > 0.0) scaled.col(c) /= length;
   }
-  const Eigen::VectorXd singular = Eigen::JacobiSVD<Eigen::MatrixXd>(scaled).singularValues();
+  const Eigen::VectorXd singular = singular_values(scaled);
   const double minimum = singular(singular.size() - 1);
   fit.condition_number =
       minimum > 0.0 ? singular(0) / minimum : std::numeric_limits<double>::infinity();
@@ -80,7 +79,7 @@ Eigen::MatrixXd add_coast_noise(const Eigen::MatrixXd& j, const Eigen::VectorXd&
   if (!fit.autocorrelated) phi = 0.0;
   fit.dof = (n - static_cast<double>(j.cols())) * (1.0 - phi) / (1.0 + phi);
   const Eigen::MatrixXd inverse =
-      (j.transpose() * j).ldlt().solve(Eigen::MatrixXd::Identity(j.cols(), j.cols()));
+      solve_ldlt(j.transpose() * j, Eigen::MatrixXd::Identity(j.cols(), j.cols()));
   return variance * inverse * correlated_information(j, sizes, phi) * inverse;
 }
 

@@ -1,11 +1,11 @@
 #include "awmr/identify/coastdown/joint_fit.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <utility>
 
+#include "awmr/core/linear_algebra.h"
 #include "awmr/identify/ceres_solve.h"
 #include "awmr/identify/coastdown/coast_noise.h"
 #include "awmr/identify/coastdown/coast_problem.h"
@@ -70,7 +70,7 @@ Stacked stack(const Rows& rows, const SharedColumns& shared, const BySet& varian
   stacked.coast.rightCols(own) = rows.coast_jacobian.rightCols(own);
   const Eigen::MatrixXd information = stacked.surge.transpose() * stacked.surge / variance.surge +
                                       stacked.coast.transpose() * stacked.coast / variance.coast;
-  stacked.covariance = information.ldlt().solve(Eigen::MatrixXd::Identity(p + own, p + own));
+  stacked.covariance = solve_ldlt(information, Eigen::MatrixXd::Identity(p + own, p + own));
   return stacked;
 }
 

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <boost/math/distributions/normal.hpp>
 #include <cmath>
 
+#include "awmr/core/distributions.h"
 #include "awmr/identify/uncertainty/quantiles.h"
 
 namespace awmr {
@@ -56,7 +56,7 @@ std::vector<Finding> disagreement(const MassEstimate& a, const MassEstimate& b,
   const double deviation = std::sqrt(d.dot(surge.covariance * d) + a.own_variance + b.own_variance);
   const double z = std::abs(a.log_mass_norm - b.log_mass_norm) / deviation;
   if (!std::isfinite(z)) return {};
-  const double p = 2.0 * boost::math::cdf(boost::math::complement(boost::math::normal(), z));
+  const double p = 2.0 * normal_tail(z);
   if (p >= kDisagreement) return {};
   return {{file, 0, Severity::kWarning, "estimates-disagree",
            fmt::format(

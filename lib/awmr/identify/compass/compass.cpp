@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
@@ -11,6 +10,7 @@
 #include <utility>
 
 #include "awmr/core/index.h"
+#include "awmr/core/linear_algebra.h"
 #include "awmr/core/units.h"
 #include "awmr/identify/uncertainty/quantiles.h"
 #include "ellipse.h"
@@ -101,7 +101,7 @@ Known known(const Ellipse& ellipse, const Points& points, const std::vector<doub
   int sectors = 0;
   for (std::size_t s = 0; s < kSectors; ++s) {
     if (information[s].isZero(0.0)) continue;
-    const Parameters moved = (whole - information[s]).ldlt().solve(sums[s]);
+    const Parameters moved = solve_ldlt(whole - information[s], sums[s]);
     known.covariance += moved * moved.transpose();
     ++sectors;
   }

@@ -2,10 +2,10 @@
 
 #include <ceres/tiny_solver.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
-#include <Eigen/QR>
 #include <cmath>
+
+#include "awmr/core/linear_algebra.h"
 
 namespace awmr::compass {
 namespace {
@@ -20,20 +20,21 @@ Ellipse ellipse_of(const Eigen::Vector2d& centre, const Eigen::Matrix2d& gain) {
 ///     (f - o)' M (f - o) = k,  M = (A, B/2; B/2, C),  o = -M^-1 (D, E)/2,  k = 1 + o' M o,
 /// which is |S (f - o)| = 1 with S = (M/k)^(1/2), where M/k is positive definite.
 std::optional<Ellipse> conic(const Points& points) {
-  Eigen::Matrix<double, Eigen::Dynamic, 5> terms(points.rows(), 5);
+  Eigen::MatrixXd terms(points.rows(), 5);
   const auto x = points.col(0).array();
   const auto y = points.col(1).array();
   terms << x * x, x * y, y * y, x, y;
-  const auto qr = terms.colPivHouseholderQr();
+  const PivotedQr qr(terms);
   if (qr.rank() < 5) return std::nullopt;
-  const Parameters q = qr.solve(Eigen::VectorXd::Ones(points.rows()));
+  const Parameters q = qr.solve(Eigen::VectorXd(Eigen::VectorXd::Ones(points.rows())));
   Eigen::Matrix2d m;
   m << q[0], q[1] / 2, q[1] / 2, q[2];
   if (!(m.determinant() > 0.0)) return std::nullopt;
   const Eigen::Vector2d centre = -0.5 * m.inverse() * q.tail<2>();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> shape(m / (1.0 + centre.dot(m * centre)));
-  if (!(shape.eigenvalues().minCoeff() > 0.0)) return std::nullopt;
-  return ellipse_of(centre, shape.operatorSqrt());
+  const SymmetricEigen shape = symmetric_eigen(m / (1.0 + centre.dot(m * centre)));
+  if (!(shape.values.minCoeff() > 0.0)) return std::nullopt;
+  return ellipse_of(
+      centre, shape.vectors * shape.values.cwiseSqrt().asDiagonal() * shape.vectors.transpose());
 }
 
 /// For ceres::TinySolver: the residuals of all points and their derivatives, column by column.
@@ -95,8 +96,8 @@ std::optional<Ellipse> fit_ellipse(const Points& points) {
   if (!ellipse) return std::nullopt;
   ceres::TinySolver<Distances> solver;
   solver.Solve(Distances{scaled}, &ellipse->p);
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> shape(ellipse->gain());
-  if (!(shape.eigenvalues().minCoeff() > 0.0)) return std::nullopt;
+  const Eigen::VectorXd shape = symmetric_eigenvalues(ellipse->gain());
+  if (!(shape.minCoeff() > 0.0)) return std::nullopt;
   return ellipse_of(mean.transpose() + size * ellipse->centre(), ellipse->gain() / size);
 }
 

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <boost/math/distributions/normal.hpp>
 #include <cmath>
 
+#include "awmr/core/distributions.h"
 #include "awmr/core/index.h"
 
 namespace awmr {
@@ -19,7 +19,7 @@ std::optional<Finding> disagreement(const LogFit& fit, std::size_t i, const Esti
   const double other_std = *known.std_error / jacobian(q.scale, *known.value);
   const double z =
       std::abs(fit.coordinates[i] - other) / std::sqrt(variance + other_std * other_std);
-  const double p = 2.0 * boost::math::cdf(boost::math::complement(boost::math::normal(), z));
+  const double p = 2.0 * normal_tail(z);
   if (p >= kSignificant) return std::nullopt;
   return Finding{
       file, 0, Severity::kWarning, "estimates-disagree",

@@ -1,10 +1,10 @@
 #include "awmr/identify/logs/between_logs.h"
 
 #include <algorithm>
-#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <optional>
 
+#include "awmr/core/distributions.h"
 #include "awmr/core/index.h"
 #include "awmr/identify/uncertainty/quantiles.h"
 
@@ -62,8 +62,7 @@ Heterogeneity heterogeneity(const ByLog& by_log) {
   }
   const double degrees = static_cast<double>(by_log.weights.size()) - 1.0;
   const double between = std::max(0.0, (q - degrees) / (sum - squares / sum));
-  return {boost::math::cdf(boost::math::complement(boost::math::chi_squared(degrees), q)),
-          std::sqrt(1.0 + between * squares / sum)};
+  return {chi_squared_tail(q, degrees), std::sqrt(1.0 + between * squares / sum)};
 }
 
 /// Widens the i-th quantity of the common fit, known from this many logs.

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,6 +10,7 @@
 #include <utility>
 
 #include "awmr/core/index.h"
+#include "awmr/core/linear_algebra.h"
 #include "awmr/identify/uncertainty/quantiles.h"
 
 namespace awmr {
@@ -135,8 +135,8 @@ Identifiability identifiability(const Eigen::MatrixXd& information, const Scores
   Eigen::VectorXd scale(n);
   for (Eigen::Index i = 0; i < n; ++i) scale(i) = quantities[at(i)].large_change;
   const Eigen::MatrixXd scaled = scale.asDiagonal() * information * scale.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled);
-  const Eigen::VectorXd& values = eigen.eigenvalues();
+  const SymmetricEigen eigen = symmetric_eigen(scaled);
+  const Eigen::VectorXd& values = eigen.values;
   const double largest = values(n - 1);
   Identifiability found;
   found.condition_number = values(0) > 0.0 ? std::sqrt(largest / values(0)) : kInfinity;
@@ -144,7 +144,7 @@ Identifiability identifiability(const Eigen::MatrixXd& information, const Scores
   Eigen::MatrixXd inverse = Eigen::MatrixXd::Zero(n, n);
   for (Eigen::Index d = 0; d < n; ++d) {
     const double shown = values(d) > kNull * largest ? values(d) : 0.0;
-    const Eigen::VectorXd direction = eigen.eigenvectors().col(d);
+    const Eigen::VectorXd direction = eigen.vectors.col(d);
     inverse += direction * direction.transpose() / (shown + kPrior);
     const double std = 1.0 / std::sqrt(shown);
     if (std < kUnknown) {

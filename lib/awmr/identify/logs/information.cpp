@@ -1,10 +1,10 @@
 #include "awmr/identify/logs/information.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
 #include "awmr/core/index.h"
+#include "awmr/core/linear_algebra.h"
 
 namespace awmr {
 namespace {
@@ -12,7 +12,7 @@ namespace {
 /// (J_s^T J_s)^-1 J_s^T J_t: what the initial state does for each coordinate.
 Eigen::MatrixXd undone(const WindowSums& window, Eigen::Index n) {
   const Eigen::Index k = window.products.rows() - 1 - n;
-  return window.products.block(n, n, k, k).ldlt().solve(window.products.block(n, 0, k, n));
+  return solve_ldlt(window.products.block(n, n, k, k), window.products.block(n, 0, k, n));
 }
 
 }  // namespace

@@ -1,10 +1,10 @@
 #include "awmr/identify/logs/product_sums.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
 #include "awmr/core/index.h"
+#include "awmr/core/linear_algebra.h"
 #include "awmr/identify/logs/sensitivity_kernel.h"
 
 namespace awmr {
@@ -60,18 +60,17 @@ Triangle triangle_of(const Eigen::MatrixXd& products) {
   const Eigen::VectorXd inverse = scale.cwiseInverse();
   const Eigen::MatrixXd scaled =
       inverse.asDiagonal() * products.topLeftCorner(m, m) * inverse.asDiagonal();
-  const Eigen::LDLT<Eigen::MatrixXd> ldlt(scaled);
+  const Ldlt ldlt = factor_ldlt(scaled);
   const Eigen::VectorXd root =
-      (ldlt.vectorD().array() > kOpen).select(ldlt.vectorD().array().abs().sqrt(), 0.0);
+      (ldlt.diagonal.array() > kOpen).select(ldlt.diagonal.array().abs().sqrt(), 0.0);
   const Eigen::VectorXd gradient =
-      ldlt.transpositionsP() * (inverse.asDiagonal() * products.col(m).head(m));
+      ldlt.permutation * (inverse.asDiagonal() * products.col(m).head(m));
   // scaled = P^T L D L^T P
-  const Eigen::MatrixXd lower = ldlt.matrixL();
   const Eigen::MatrixXd factor =
-      ldlt.transpositionsP().transpose() * (lower * root.asDiagonal()).eval();
+      ldlt.permutation.transpose() * (ldlt.lower * root.asDiagonal()).eval();
   Triangle t;
   t.r = factor.transpose() * scale.asDiagonal();
-  t.z = ldlt.matrixL().solve(gradient);
+  t.z = ldlt.lower.triangularView<Eigen::UnitLower>().solve(gradient);
   for (Eigen::Index i = 0; i < m; ++i) t.z(i) = root(i) > 0.0 ? t.z(i) / root(i) : 0.0;
   t.rest = std::sqrt(std::max(0.0, products(m, m) - t.z.squaredNorm()));
   return t;

@@ -1,10 +1,10 @@
 #include "awmr/identify/logs/score_test.h"
 
-#include <Eigen/Cholesky>
 #include <cmath>
 #include <utility>
 
 #include "awmr/core/index.h"
+#include "awmr/core/linear_algebra.h"
 #include "awmr/identify/logs/information.h"
 
 namespace awmr {
@@ -69,7 +69,7 @@ std::vector<ScoreTest> score_test(const LogProblem& problem, const SearchPoint& 
   // The weak prior of the search keeps what no data show from making H_tt singular.
   Eigen::MatrixXd of_others = h.topLeftCorner(n, n);
   of_others.diagonal().array() += 1.0 / (kPriorStd * kPriorStd);
-  const Eigen::MatrixXd by_others = of_others.ldlt().solve(h.topRightCorner(n, all - n));
+  const Eigen::MatrixXd by_others = solve_ldlt(of_others, h.topRightCorner(n, all - n));
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     tests[i] = test_one(h, scores, by_others.col(eigen_index(i)), n + eigen_index(i));
   }

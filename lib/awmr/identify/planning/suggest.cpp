@@ -2,12 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
 #include "awmr/core/index.h"
+#include "awmr/core/linear_algebra.h"
 #include "awmr/core/option_text.h"
 #include "awmr/identify/planning/candidates.h"
 #include "awmr/model/transform.h"
@@ -164,12 +163,7 @@ Result<Target> target_of(const Model& model, const Plant<double>& plant,
 }
 
 double log_determinant(const Eigen::MatrixXd& covariance) {
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(covariance)
-      .eigenvalues()
-      .array()
-      .max(1e-300)
-      .log()
-      .sum();
+  return symmetric_eigen(covariance).values.array().max(1e-300).log().sum();
 }
 
 /// C_after = (C^-1 + J^T J)^-1, J what the trial would measure by the coordinates, in units of its
@@ -179,8 +173,8 @@ SuggestedTrial judged(const CandidateTrial& candidate, const Model& model,
   const Eigen::MatrixXd j = jacobian_of(model, uncertainty.parameters, candidate.standardised);
   const Eigen::MatrixXd& before = uncertainty.covariance;
   const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(before.rows(), before.rows());
-  const Eigen::MatrixXd information = before.ldlt().solve(identity);
-  const Eigen::MatrixXd after = (information + j.transpose() * j).ldlt().solve(identity);
+  const Eigen::MatrixXd information = solve_ldlt(before, identity);
+  const Eigen::MatrixXd after = solve_ldlt(information + j.transpose() * j, identity);
   SuggestedTrial trial = candidate.trial;
   trial.parameter = target.name;
   trial.std_error_before = target.std_error(before);

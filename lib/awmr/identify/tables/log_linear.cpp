@@ -1,46 +1,21 @@
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <cmath>
 #include <limits>
 
+#include "awmr/core/linear_algebra.h"
 #include "awmr/identify/tables/steady_fit.h"
 
 namespace awmr {
-namespace {
-
-/// The diagonal of Q Q^T. For a long table Q is made as two columns, not as a square matrix.
-Eigen::VectorXd leverages_of(const Eigen::ColPivHouseholderQR<Eigen::MatrixX2d>& qr) {
-  if (qr.rows() <= kExactRows) {
-    const Eigen::MatrixXd q = Eigen::MatrixXd(qr.householderQ()).leftCols(2);
-    return q.rowwise().squaredNorm();
-  }
-  const Eigen::MatrixXd q = qr.householderQ() * Eigen::MatrixXd::Identity(qr.rows(), 2);
-  return q.rowwise().squaredNorm();
-}
-
-/// s^2 (P^T P)^-1 = s^2 Pi R^-1 R^-T Pi^T, from the factors of P Pi = Q R.
-Eigen::Matrix2d covariance_of(const Eigen::ColPivHouseholderQR<Eigen::MatrixX2d>& qr,
-                              double variance) {
-  const Eigen::Matrix2d r = qr.matrixR().topRows<2>().triangularView<Eigen::Upper>();
-  const Eigen::Matrix2d r_inverse =
-      r.triangularView<Eigen::Upper>().solve(Eigen::Matrix2d::Identity());
-  const Eigen::Matrix2d p = qr.colsPermutation();
-  return variance * (p * r_inverse * r_inverse.transpose() * p.transpose());
-}
-
-}  // namespace
-
 SteadyFit fit_log_linear(const std::vector<SteadyPoint>& points) {
   const Eigen::Index n = rows_of(points);
-  Eigen::MatrixX2d design(n, 2);
+  Eigen::MatrixXd design(n, 2);
   Eigen::VectorXd observed(n);
   for (Eigen::Index i = 0; i < n; ++i) {
     const SteadyPoint& point = points[at(i)];
     design.row(i) << 1.0, std::log(point.rate);
     observed(i) = std::log(point.force);
   }
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixX2d> qr(design);
-  const Eigen::Vector2d singular = Eigen::JacobiSVD<Eigen::MatrixXd>(design).singularValues();
+  const PivotedQr qr(design);
+  const Eigen::VectorXd singular = singular_values(design);
   SteadyFit fit;
   fit.free = coordinates_of(Family::kPower);
   fit.rank = static_cast<int>(qr.rank());
@@ -48,7 +23,7 @@ SteadyFit fit_log_linear(const std::vector<SteadyPoint>& points) {
                                                     : std::numeric_limits<double>::infinity();
   fit.stop_reason = "linear problem, solved by QR";
   if (fit.rank < 2) return fit;
-  const Eigen::Vector2d theta = qr.solve(observed);
+  const Eigen::VectorXd theta = qr.solve(observed);
   fit[TransformedParameter::kLogAlpha] = theta(0);
   fit[TransformedParameter::kBeta] = theta(1);
   fit.usable = is_physical(fit.law());
@@ -57,12 +32,12 @@ SteadyFit fit_log_linear(const std::vector<SteadyPoint>& points) {
     return fit;
   }
   fit.residuals = design * theta - observed;
-  fit.leverages = leverages_of(qr);
+  fit.leverages = qr.leverages();
   fit.degrees_of_freedom = static_cast<int>(n) - 2;
   if (fit.degrees_of_freedom > 0) {
     const double variance = fit.residuals.squaredNorm() / fit.degrees_of_freedom;
     fit.residual_std = std::sqrt(variance);
-    fit.covariance = covariance_of(qr, variance);
+    fit.covariance = variance * qr.inverse_information();
   }
   return fit;
 }

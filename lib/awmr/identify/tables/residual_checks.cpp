@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 
+#include "awmr/core/distributions.h"
 #include "awmr/core/index.h"
 #include "awmr/core/option_text.h"
 #include "awmr/identify/uncertainty/diagnostics.h"
@@ -81,8 +81,7 @@ std::vector<Finding> outlier_findings(const Subject& subject, const SteadyFit& f
   std::vector<Finding> findings;
   const Eigen::VectorXd t = studentised(fit.residuals, fit.leverages, fit.degrees_of_freedom);
   for (Eigen::Index i = 0; i < t.size(); ++i) {
-    const boost::math::students_t distribution(fit.degrees_of_freedom - 1);
-    const double p = 2.0 * boost::math::cdf(boost::math::complement(distribution, std::abs(t(i)))) *
+    const double p = 2.0 * students_t_tail(std::abs(t(i)), fit.degrees_of_freedom - 1) *
                      static_cast<double>(t.size());
     if (p > kOutlierLevel) continue;
     findings.push_back(

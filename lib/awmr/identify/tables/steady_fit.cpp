@@ -1,13 +1,12 @@
 #include "awmr/identify/tables/steady_fit.h"
 
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
 #include "awmr/core/index.h"
+#include "awmr/core/linear_algebra.h"
 #include "awmr/identify/ceres_solve.h"
 #include "awmr/identify/tables/robust.h"
 #include "awmr/identify/tables/steady_search.h"
@@ -21,36 +20,9 @@ bool is_at(double bound, double value) {
   return std::isfinite(bound) && std::abs(value - bound) <= kAtBound;
 }
 
-/// The diagonal of Q Q^T over the columns of J. For a long table Q is made column by column: as a
-/// square matrix it would grow with the square of the rows.
-Eigen::VectorXd leverages_of(const Eigen::ColPivHouseholderQR<Eigen::MatrixXd>& qr) {
-  const Eigen::Index n = qr.rows();
-  const Eigen::Index p = qr.cols();
-  if (n <= kExactRows)
-    return Eigen::MatrixXd(qr.householderQ()).leftCols(p).rowwise().squaredNorm();
-  const Eigen::MatrixXd thin = qr.householderQ() * Eigen::MatrixXd::Identity(n, p);
-  return thin.rowwise().squaredNorm();
-}
-
-/// (J^T J)^-1, from the pseudo-inverse J^+: J^+ J^+T; for a long table from the factor R alone:
-///   (J^T J)^-1 = Pi R^-1 R^-T Pi^T,   J Pi = Q R
-Eigen::MatrixXd inverse_information(const Eigen::ColPivHouseholderQR<Eigen::MatrixXd>& qr) {
-  const Eigen::Index n = qr.rows();
-  const Eigen::Index p = qr.cols();
-  if (n <= kExactRows) {
-    const Eigen::MatrixXd inverse = qr.solve(Eigen::MatrixXd::Identity(n, n));
-    return inverse * inverse.transpose();
-  }
-  const Eigen::MatrixXd r = qr.matrixR().topRows(p).triangularView<Eigen::Upper>();
-  const Eigen::MatrixXd r_inverse =
-      r.triangularView<Eigen::Upper>().solve(Eigen::MatrixXd::Identity(p, p));
-  const Eigen::MatrixXd permutation = qr.colsPermutation();
-  return permutation * r_inverse * r_inverse.transpose() * permutation.transpose();
-}
-
 /// Singular values of J, the largest over the least; infinite where the rank lacks.
 double condition_of(const Eigen::MatrixXd& jacobian) {
-  const Eigen::VectorXd singular = Eigen::JacobiSVD<Eigen::MatrixXd>(jacobian).singularValues();
+  const Eigen::VectorXd singular = singular_values(jacobian);
   const double least = jacobian.rows() >= jacobian.cols() ? singular(singular.size() - 1) : 0.0;
   return least > 0.0 ? singular(0) / least : std::numeric_limits<double>::infinity();
 }
@@ -69,17 +41,18 @@ bool add_uncertainty(const SteadyProblem& problem, SteadySearch& search, SteadyF
   fit.residuals = std::move(*residuals);
   const Eigen::MatrixXd& used = *of_free;
   const auto p = used.cols();
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(used);
+  const PivotedQr qr(used);
   fit.rank = static_cast<int>(qr.rank());
   if (fit.rank < p) return true;
-  fit.leverages = leverages_of(qr);
+  fit.leverages = qr.leverages();
   if (fit.degrees_of_freedom <= 0) return fit.leverages.allFinite();
   const bool robust = problem.loss != Loss::kSquared;
   const double variance =
       robust ? m_estimate_variance(search.loss(), fit.residuals, static_cast<int>(p))
              : fit.residuals.squaredNorm() / fit.degrees_of_freedom;
   fit.residual_std = std::sqrt(variance);
-  fit.covariance = variance * inverse_information(qr);
+  fit.covariance = variance * (n <= kExactRows ? qr.inverse_information_by_pseudo_inverse()
+                                               : qr.inverse_information());
   return std::isfinite(variance) && fit.covariance.allFinite() && fit.leverages.allFinite();
 }
 

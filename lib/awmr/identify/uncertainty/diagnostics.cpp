@@ -3,14 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/math/distributions/chi_squared.hpp>
-#include <boost/math/distributions/fisher_f.hpp>
-#include <boost/math/distributions/normal.hpp>
 #include <cmath>
 #include <map>
 #include <numeric>
 #include <vector>
 
+#include "awmr/core/distributions.h"
 #include "awmr/core/index.h"
 
 namespace awmr {
@@ -47,15 +45,13 @@ std::optional<Diagnostic> normality(std::span<const double> residuals) {
   for (const double e : x) squares += (e - mean) * (e - mean);
   const double sd = std::sqrt(squares / static_cast<double>(n - 1));
   if (!(sd > 0.0) || !std::isfinite(sd)) return std::nullopt;
-  const boost::math::normal standard;
   const double size = static_cast<double>(n);
   double sum = 0.0;
   for (std::size_t i = 0; i < n; ++i) {
     // Far in a tail the probability rounds to 0 or 1; its logarithm has to stay finite.
     const double tiny = 1e-300;
-    const double below = std::max(tiny, boost::math::cdf(standard, (x[i] - mean) / sd));
-    const double above = std::max(
-        tiny, boost::math::cdf(boost::math::complement(standard, (x[n - 1 - i] - mean) / sd)));
+    const double below = std::max(tiny, normal_cdf((x[i] - mean) / sd));
+    const double above = std::max(tiny, normal_tail((x[n - 1 - i] - mean) / sd));
     sum += (2.0 * static_cast<double>(i) + 1.0) * (std::log(below) + std::log(above));
   }
   const double a = (-size - sum / size) * (1.0 + 0.75 / size + 2.25 / (size * size));
@@ -83,7 +79,7 @@ std::optional<Diagnostic> whiteness(std::span<const double> residuals, int lags)
     q += rho * rho / (n - k);
   }
   q *= static_cast<double>(n) * (n + 2.0);
-  const double p = boost::math::cdf(boost::math::complement(boost::math::chi_squared(lags), q));
+  const double p = chi_squared_tail(q, lags);
   return Diagnostic{
       "whiteness", q, p,
       verdict(p, "the residuals may be white", "neighbouring residuals are correlated")};
@@ -111,7 +107,7 @@ std::optional<Diagnostic> curvature(std::span<const double> forces,
   const double size = static_cast<double>(n);
   const double ratio = steps / squares;  // 2 for white noise
   const double deviation = std::sqrt(4.0 * (size - 2.0) / (size * size - 1.0));
-  const double p = boost::math::cdf(boost::math::normal(), (ratio - 2.0) / deviation);
+  const double p = normal_cdf((ratio - 2.0) / deviation);
   return Diagnostic{"curvature", ratio, p,
                     verdict(p, "the residuals scatter about the curve",
                             "neighbouring forces err alike: the curve bends otherwise")};
@@ -135,8 +131,7 @@ std::optional<Diagnostic> lack_of_fit(std::span<const double> forces,
   if (pure_dof < 1.0 || between_dof < 1.0 || !(pure > 0.0)) return std::nullopt;
   const double f = (between / between_dof) / (pure / pure_dof);
   if (!std::isfinite(f)) return std::nullopt;
-  const double p =
-      boost::math::cdf(boost::math::complement(boost::math::fisher_f(between_dof, pure_dof), f));
+  const double p = fisher_f_tail(f, between_dof, pure_dof);
   return Diagnostic{"lack of fit", f, p,
                     verdict(p, "the curve misses the runs no more than repeats differ",
                             "the curve misses the runs by more than repeats differ")};

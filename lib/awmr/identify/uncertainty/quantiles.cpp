@@ -1,18 +1,18 @@
 #include "awmr/identify/uncertainty/quantiles.h"
 
-#include <boost/math/distributions/chi_squared.hpp>
-#include <boost/math/distributions/students_t.hpp>
 #include <limits>
+
+#include "awmr/core/distributions.h"
 
 namespace awmr {
 
 double t_quantile_95(double degrees_of_freedom) {
   if (!(degrees_of_freedom > 0.0)) return std::numeric_limits<double>::infinity();
-  return boost::math::quantile(boost::math::students_t(degrees_of_freedom), 0.975);
+  return students_t_quantile(0.975, degrees_of_freedom);
 }
 
 double chi_squared_quantile_95(double degrees_of_freedom) {
-  return boost::math::quantile(boost::math::chi_squared(degrees_of_freedom), 0.95);
+  return chi_squared_quantile(0.95, degrees_of_freedom);
 }
 
 }  // namespace awmr

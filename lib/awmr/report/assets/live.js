@@ -108,6 +108,7 @@ function liveCharts(parent, start) {
 
 async function liveSection(data) {
   const packed = document.getElementById("wasm").textContent;
+  if (!packed && data.gains) section("Try other gains", "No sliders: this awmr was built without WebAssembly. To have them: scripts/setup all, scripts/build release, then awmr report.");
   if (!packed || !data.live) return;
   const box = section("Try other gains", `${data.live.scenario}, simulated here by the program's own code as you move the sliders. Grey: the tuned gains under the same conditions.`);
   box.parentNode.parentNode.classList.add("live");

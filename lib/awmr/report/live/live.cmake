@@ -1,5 +1,5 @@
-# The live part of the page: what simulates and judges gains, compiled to WebAssembly, packed and written as text into
-# ${AWMR_LIVE_SOURCE}. Where Debian's toolchain for it is missing, the text is empty and the page has no such part.
+# The live part of the page: simulation and constraints of gains, compiled to WebAssembly, packed and written as text into
+# ${AWMR_LIVE_SOURCE}. Without AWMR_LIVE_PAGE or the toolchain the text is empty, and the page says that it has no sliders.
 set(live_directory ${CMAKE_CURRENT_BINARY_DIR}/live)
 set(AWMR_LIVE_SOURCE ${live_directory}/live_wasm.cpp)
 file(MAKE_DIRECTORY ${live_directory})
@@ -9,38 +9,42 @@ find_program(AWMR_WASM_LD wasm-ld)
 find_program(AWMR_GZIP gzip)
 find_program(AWMR_BASE64 base64)
 set(works 1)
-if(AWMR_WASM_CXX AND AWMR_WASM_LD AND AWMR_GZIP AND AWMR_BASE64)
+option(AWMR_LIVE_PAGE "Compile the simulation into the report, for its sliders (clang, lld and wasi-libc)" ON)
+if(AWMR_LIVE_PAGE AND AWMR_WASM_CXX AND AWMR_WASM_LD AND AWMR_GZIP AND AWMR_BASE64)
   file(WRITE ${live_directory}/try.cpp "#include <cmath>\n#include <vector>\nint main() {}\n")
   execute_process(COMMAND ${AWMR_WASM_CXX} --target=wasm32-wasi -std=c++20 try.cpp -o try.wasm
     WORKING_DIRECTORY ${live_directory} RESULT_VARIABLE works OUTPUT_QUIET ERROR_QUIET)
 endif()
 if(NOT works EQUAL 0)
-  message(STATUS "The report's live part is left out: no toolchain for WebAssembly (scripts/setup installs it)")
+  message(STATUS "report: built without sliders (AWMR_LIVE_PAGE is off, or clang, lld or wasi-libc is missing: scripts/setup all)")
   file(WRITE ${AWMR_LIVE_SOURCE} "#include <string_view>\nnamespace awmr {\nextern const std::string_view kLiveWasm;\n"
     "const std::string_view kLiveWasm;\n}  // namespace awmr\n")
   return()
 endif()
 
-# One source, one object. -ffp-contract=off as everywhere; no exception leaves these sources.
+# Two objects: -ffp-contract=off as everywhere; no exception leaves these sources.
 set(flags --target=wasm32-wasi -std=c++20 -Oz -ffp-contract=off -ffunction-sections -fno-exceptions -fno-rtti -DNDEBUG
   -DFMT_HEADER_ONLY -isystem /usr/include/eigen3 -I${PROJECT_SOURCE_DIR}/lib)
-# Random123 knows no wasm32, but what it does for a small ARM holds; its arrays throw, which nothing here lets them.
-set(flags_random -fexceptions -fignore-exceptions -D__arm__)
+set(text "")
+foreach(part core/error core/linear_algebra core/option_text core/text model/family model/model model/observer_rate
+    model/parameters model/rest_speed model/vehicle simulate/disturbance simulate/laws simulate/line_following simulate/metrics
+    simulate/passage simulate/physics simulate/pilot simulate/scenario simulate/sensing simulate/simulate simulate/straight
+    tune/constraints tune/sampled_loop report/live/live)
+  string(APPEND text "#include \"${PROJECT_SOURCE_DIR}/lib/awmr/${part}.cpp\"\n")
+endforeach()
+file(CONFIGURE OUTPUT ${live_directory}/simulation.cpp CONTENT "${text}")
 set(objects)
-foreach(part report/live/live core/error core/option_text core/random core/text model/family model/model
-    model/observer_rate model/parameters model/rest_speed model/vehicle simulate/disturbance simulate/laws simulate/line_following
-    simulate/metrics simulate/passage simulate/physics simulate/pilot simulate/scenario simulate/sensing
-    simulate/simulate simulate/straight tune/constraints tune/sampled_loop)
-  string(REPLACE / _ name ${part})
+foreach(source ${live_directory}/simulation.cpp ${PROJECT_SOURCE_DIR}/lib/awmr/core/random.cpp)
+  get_filename_component(name ${source} NAME_WE)
   set(object ${live_directory}/${name}.o)
   set(more)
-  if(part STREQUAL core/random)
-    set(more ${flags_random})
+  if(name STREQUAL random)
+    # Random123 knows no wasm32, but what it does for a small ARM holds; its arrays throw, which nothing here lets them.
+    set(more -fexceptions -fignore-exceptions -D__arm__)
   endif()
-  add_custom_command(OUTPUT ${object} DEPENDS ${PROJECT_SOURCE_DIR}/lib/awmr/${part}.cpp DEPFILE ${object}.d
-    COMMAND ${CMAKE_CXX_COMPILER_LAUNCHER} ${AWMR_WASM_CXX} ${flags} ${more} -MD -MF ${object}.d
-      -c ${PROJECT_SOURCE_DIR}/lib/awmr/${part}.cpp -o ${object}
-    COMMENT "Compiling ${part}.cpp to WebAssembly" VERBATIM)
+  add_custom_command(OUTPUT ${object} DEPENDS ${source} DEPFILE ${object}.d
+    COMMAND ${CMAKE_CXX_COMPILER_LAUNCHER} ${AWMR_WASM_CXX} ${flags} ${more} -MD -MF ${object}.d -c ${source} -o ${object}
+    COMMENT "Compiling ${name}.cpp to WebAssembly" VERBATIM)
   list(APPEND objects ${object})
 endforeach()
 set(wasm ${live_directory}/live.wasm)

@@ -1,9 +1,5 @@
-/// The integrator against SUNDIALS CVODE: the same equations of motion, somebody else's method.
-#include <cvode/cvode.h>
+/// The integrator against Boost.odeint: the same equations of motion, another method.
 #include <gtest/gtest.h>
-#include <nvector/nvector_serial.h>
-#include <sunlinsol/sunlinsol_dense.h>
-#include <sunmatrix/sunmatrix_dense.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,12 +9,13 @@
 #include "awmr/core/units.h"
 #include "awmr/simulate/physics.h"
 #include "awmr/simulate/simulate.h"
+#include "peers/reference_integrator.h"
 #include "support/paper_vehicle.h"
 
 namespace awmr::testing {
 namespace {
 
-/// What CVODE needs to know: the plant and the command, constant in open loop.
+/// A plant under a constant command.
 struct Problem {
   Plant<double> plant;
   SideForces<double> force;
@@ -67,50 +64,17 @@ State<double> rates_wheel_by_wheel(const Problem& problem, const State<double>& 
           steering_rate(p, s.steering_rad, problem.steering_command_rad)};
 }
 
-State<double> state_of(N_Vector y) {
-  const double* v = N_VGetArrayPointer(y);
-  return {v[0], v[1], v[2], v[3], v[4], v[5], v[6]};
+/// The state at `end_s` under forces and a steering command that are held.
+State<double> reference(const Problem& problem, const State<double>& start, double end_s) {
+  const auto rates = [&](const State<double>& s) {
+    return problem.tyres
+               ? rates_wheel_by_wheel(problem, s)
+               : state_rates(problem.plant, s, problem.force, problem.steering_command_rad);
+  };
+  return integrate_reference(rates, start, end_s);
 }
 
-int rates(double, N_Vector y, N_Vector rate, void* user) {
-  const auto* problem = static_cast<const Problem*>(user);
-  const State<double> d = problem->tyres ? rates_wheel_by_wheel(*problem, state_of(y))
-                                         : state_rates(problem->plant, state_of(y), problem->force,
-                                                       problem->steering_command_rad);
-  double* out = N_VGetArrayPointer(rate);
-  const double values[] = {d.x_m, d.y_m, d.psi_rad, d.u_mps, d.v_mps, d.r_radps, d.steering_rad};
-  for (int i = 0; i < 7; ++i) out[i] = values[i];
-  return 0;
-}
-
-/// The state at `end_s`, BDF at tolerances far below what is asked of the simulator.
-State<double> by_cvode(Problem problem, const State<double>& start, double end_s) {
-  SUNContext context = nullptr;
-  SUNContext_Create(nullptr, &context);
-  N_Vector y = N_VNew_Serial(7, context);
-  const double values[] = {start.x_m,   start.y_m,     start.psi_rad,     start.u_mps,
-                           start.v_mps, start.r_radps, start.steering_rad};
-  for (int i = 0; i < 7; ++i) N_VGetArrayPointer(y)[i] = values[i];
-  void* cvode = CVodeCreate(CV_BDF, context);
-  SUNMatrix matrix = SUNDenseMatrix(7, 7, context);
-  SUNLinearSolver solver = SUNLinSol_Dense(y, matrix, context);
-  EXPECT_EQ(CVodeInit(cvode, rates, 0.0, y), CV_SUCCESS);
-  EXPECT_EQ(CVodeSStolerances(cvode, 1e-11, 1e-12), CV_SUCCESS);
-  EXPECT_EQ(CVodeSetUserData(cvode, &problem), CV_SUCCESS);
-  EXPECT_EQ(CVodeSetLinearSolver(cvode, solver, matrix), CV_SUCCESS);
-  EXPECT_EQ(CVodeSetMaxNumSteps(cvode, 1000000), CV_SUCCESS);
-  double reached = 0.0;
-  EXPECT_GE(CVode(cvode, end_s, y, &reached, CV_NORMAL), 0);
-  const State<double> end = state_of(y);
-  CVodeFree(&cvode);
-  SUNLinSolFree(solver);
-  SUNMatDestroy(matrix);
-  N_VDestroy(y);
-  SUNContext_Free(&context);
-  return end;
-}
-
-TEST(Cvode, OpenLoopPositionsAgreeAfterAMinuteInEveryMode) {
+TEST(ReferenceIntegrator, OpenLoopPositionsAgreeAfterAMinuteInEveryMode) {
   const Plant<double> plant = paper_plant();
   Vehicle vehicle{};
   vehicle.wheel_force = {-1.0, 1.0};
@@ -122,7 +86,7 @@ TEST(Cvode, OpenLoopPositionsAgreeAfterAMinuteInEveryMode) {
           simulate(plant, controller, scenario, mode, {.sample_time_s = 0.01, .substeps = {}});
       const RunRow& first = run.rows.front();
       const State<double> expected =
-          by_cvode({plant, first.force, first.steering_command_rad}, {}, 60.0);
+          reference({plant, first.force, first.steering_command_rad}, {}, 60.0);
       const State<double>& found = run.rows.back().state;
       EXPECT_NEAR(run.rows.back().t_s, 60.0, 1e-9);
       EXPECT_NEAR(found.x_m, expected.x_m, 1e-5) << name_of(mode) << " " << tau_turn_m;
@@ -132,7 +96,7 @@ TEST(Cvode, OpenLoopPositionsAgreeAfterAMinuteInEveryMode) {
 }
 
 /// The equations as well as the integrator are somebody else's here: the rates are summed anew.
-TEST(Cvode, PositionsOnFourTyresAgreeAfterAMinuteInEveryMode) {
+TEST(ReferenceIntegrator, PositionsOnFourTyresAgreeAfterAMinuteInEveryMode) {
   const Plant<double> plant = paper_plant();
   Vehicle vehicle{};
   vehicle.wheel_force = {-1.0, 1.0};
@@ -147,8 +111,8 @@ TEST(Cvode, PositionsOnFourTyresAgreeAfterAMinuteInEveryMode) {
         const RunRow& first = run.rows.front();
         // The chord at rest is part of the equations that are solved.
         const Plant<double> resolved = resolved_at_rest(plant, scenario, 0.01 / run.substeps);
-        const State<double> expected =
-            by_cvode({resolved, first.force, first.steering_command_rad, scenario.tyres}, {}, 60.0);
+        const State<double> expected = reference(
+            {resolved, first.force, first.steering_command_rad, scenario.tyres}, {}, 60.0);
         const State<double>& found = run.rows.back().state;
         const std::string where = std::string(name_of(mode)) + ", tau_turn " +
                                   std::to_string(tau_turn_m) + ", friction " +

@@ -1,0 +1,25 @@
+/// Probabilities and quantiles of the standard distributions. Boost.Math is compiled in
+/// distributions.cpp alone. Private: not installed.
+#pragma once
+
+namespace awmr {
+
+/// P(Z <= z), Z standard normal.
+double normal_cdf(double z);
+/// P(Z > z), exact far into the tail.
+double normal_tail(double z);
+
+/// P(T > t), T Student's t with degrees_of_freedom > 0.
+double students_t_tail(double t, double degrees_of_freedom);
+/// The t with P(T <= t) = p, 0 < p < 1.
+double students_t_quantile(double p, double degrees_of_freedom);
+
+/// P(X > x), X chi-squared with degrees_of_freedom > 0; x >= 0.
+double chi_squared_tail(double x, double degrees_of_freedom);
+/// The x with P(X <= x) = p, 0 <= p < 1.
+double chi_squared_quantile(double p, double degrees_of_freedom);
+
+/// P(F > f), F Fisher's F with both degrees of freedom > 0; f >= 0.
+double fisher_f_tail(double f, double numerator_dof, double denominator_dof);
+
+}  // namespace awmr

@@ -1,0 +1,65 @@
+#include "awmr/core/linear_algebra.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/SVD>
+
+namespace awmr {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+MatrixXd solve_ldlt(const MatrixXd& a, const MatrixXd& b) { return a.ldlt().solve(b); }
+
+Ldlt factor_ldlt(const MatrixXd& a) {
+  const Eigen::LDLT<MatrixXd> ldlt(a);
+  return {ldlt.matrixL(), ldlt.vectorD(), ldlt.transpositionsP()};
+}
+
+SymmetricEigen symmetric_eigen(const MatrixXd& a) {
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(a);
+  return {eigen.eigenvalues(), eigen.eigenvectors(), eigen.info() == Eigen::Success};
+}
+
+VectorXd symmetric_eigenvalues(const MatrixXd& a) {
+  return Eigen::SelfAdjointEigenSolver<MatrixXd>(a, Eigen::EigenvaluesOnly).eigenvalues();
+}
+
+Eigen::VectorXcd eigenvalues(const MatrixXd& a) {
+  return Eigen::EigenSolver<MatrixXd>(a, false).eigenvalues();
+}
+
+VectorXd singular_values(const MatrixXd& a) {
+  return Eigen::JacobiSVD<MatrixXd>(a).singularValues();
+}
+
+PivotedQr::PivotedQr(const MatrixXd& j) : qr_(j) {}
+
+Eigen::Index PivotedQr::rank() const { return qr_.rank(); }
+
+MatrixXd PivotedQr::solve(const MatrixXd& b) const { return qr_.solve(b); }
+
+VectorXd PivotedQr::solve(const VectorXd& b) const { return qr_.solve(b); }
+
+VectorXd PivotedQr::leverages() const {
+  const Eigen::Index n = qr_.rows();
+  const Eigen::Index p = qr_.cols();
+  if (n <= kMaxSquareQ) return MatrixXd(qr_.householderQ()).leftCols(p).rowwise().squaredNorm();
+  const MatrixXd thin = qr_.householderQ() * MatrixXd::Identity(n, p);
+  return thin.rowwise().squaredNorm();
+}
+
+MatrixXd PivotedQr::inverse_information() const {
+  const Eigen::Index p = qr_.cols();
+  const MatrixXd r = qr_.matrixR().topRows(p).triangularView<Eigen::Upper>();
+  const MatrixXd r_inverse = r.triangularView<Eigen::Upper>().solve(MatrixXd::Identity(p, p));
+  const MatrixXd permutation = qr_.colsPermutation();
+  return permutation * r_inverse * r_inverse.transpose() * permutation.transpose();
+}
+
+MatrixXd PivotedQr::inverse_information_by_pseudo_inverse() const {
+  const MatrixXd inverse = qr_.solve(MatrixXd::Identity(qr_.rows(), qr_.rows()));
+  return inverse * inverse.transpose();
+}
+
+}  // namespace awmr
