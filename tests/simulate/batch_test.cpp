@@ -10,7 +10,6 @@
 #include <string>
 #include <vector>
 
-#include "awmr/core/option_text.h"
 #include "awmr/core/random.h"
 #include "awmr/model/paper_gains.h"
 #include "awmr/simulate/scenario_file.h"
@@ -53,18 +52,13 @@ Plant<double> drawn_plant(std::uint64_t sample, double spread) {
 }
 
 /// Every instruction set that this processor has; and AWMR_INSTRUCTIONS, as it was, afterwards.
-std::vector<BatchArithmetic> all_arithmetics(StepFormat format = StepFormat::kDouble) {
+std::vector<BatchArithmetic> all_arithmetics() {
   std::vector<BatchArithmetic> all;
   for (const char* name : {"sse2", "avx2", "avx512"}) {
     ::setenv("AWMR_INSTRUCTIONS", name, 1);
-    if (const auto arithmetic = batch_arithmetic(format)) all.push_back(*arithmetic);
+    if (const auto arithmetic = batch_arithmetic()) all.push_back(*arithmetic);
   }
   ::unsetenv("AWMR_INSTRUCTIONS");
-  return all;
-}
-std::vector<BatchArithmetic> in_both_precisions() {
-  std::vector<BatchArithmetic> all = all_arithmetics();
-  for (const BatchArithmetic& one : all_arithmetics(StepFormat::kFloat32)) all.push_back(one);
   return all;
 }
 
@@ -291,7 +285,7 @@ TEST(Batch, DoesNotDependOnTheRunsBesideNorOnThePlaceAmongThem) {
   const Scenario scenario =
       *read_scenario(std::string(AWMR_SOURCE_DIR) + "/configs/scenarios/noisy_sensors.json");
   std::vector<BatchRun> reversed(runs.rbegin(), runs.rend());
-  for (const BatchArithmetic& arithmetic : in_both_precisions()) {
+  for (const BatchArithmetic& arithmetic : all_arithmetics()) {
     const auto whole = simulate_batch(runs, scenario, kSampleTime_s, arithmetic);
     const auto backwards = simulate_batch(reversed, scenario, kSampleTime_s, arithmetic);
     for (std::size_t i = 0; i < runs.size(); ++i) {
@@ -305,7 +299,7 @@ TEST(Batch, DoesNotDependOnTheRunsBesideNorOnThePlaceAmongThem) {
 
 TEST(Batch, HasTheSameBitsOnAllInstructionsThatRoundAlike) {
   const std::vector<BatchRun> runs = drawn_runs(20, 0.2);
-  const auto arithmetics = in_both_precisions();
+  const auto arithmetics = all_arithmetics();
   for (const Scenario& scenario : shipped_scenarios()) {
     if (scenario.duration_s > 150.0) continue;
     std::vector<std::pair<std::string_view, std::vector<Result<Metrics>>>> by_rounding;
@@ -328,7 +322,7 @@ TEST(Batch, ARunThatFailsIsToldOfBySimulateAndTheOthersGoOn) {
   runs[1].plant.surge.beta = 20.0;
   Scenario scenario{"fast", 1.0, {}, 0.0, OpenLoop{1.0, 0.0}};
   scenario.initial.u_mps = 1000.0;
-  for (const BatchArithmetic& arithmetic : in_both_precisions()) {
+  for (const BatchArithmetic& arithmetic : all_arithmetics()) {
     const auto metrics = simulate_batch(runs, scenario, kSampleTime_s, arithmetic);
     EXPECT_TRUE(metrics[0].has_value());
     EXPECT_FALSE(metrics[1].has_value());
@@ -404,145 +398,6 @@ TEST(Batch, InstructionsThatTheProcessorHasNotAreRefusedByName) {
   ::unsetenv("AWMR_INSTRUCTIONS");
   ASSERT_FALSE(arithmetic);
   EXPECT_NE(arithmetic.error().faults.front().message.find("'mmx' is none"), std::string::npos);
-}
-
-TEST(Batch, Float32IsRefusedByNameWhereThereAreNoLanes) {
-  ::setenv("AWMR_INSTRUCTIONS", "scalar", 1);
-  const auto arithmetic = batch_arithmetic(StepFormat::kFloat32);
-  ::unsetenv("AWMR_INSTRUCTIONS");
-  ASSERT_FALSE(arithmetic);
-  EXPECT_EQ(plain_text(arithmetic.error().faults.front().place), "float32");
-}
-
-/// How far float32 may be from double in each of numbers_of(), over the number or 1, whichever is
-/// more. Sums over a whole run and sizes of a movement keep five digits or so. What hangs on a
-/// single sample moves by as much as that sample has of it: the one at which a leg of a course, a
-/// limit or a step of a sensor changes may be the next one. Each bound is about five times what 16
-/// vehicles within 2 % of the paper's show at the most in the shipped scenarios and modes, by this
-/// test's own differences.
-constexpr double kSum = 2e-4;
-constexpr double kMoved = 5e-3;
-constexpr double kCommands = 2e-2;
-constexpr std::size_t kSpeedItae = 19;
-constexpr double kFloat32Bounds[] = {0.0,            // completed
-                                     kSampleTime_s,  // settling time
-                                     kSum,
-                                     kSum,
-                                     kSum,    // overshoot, |e|, t |e|
-                                     kMoved,  // cross-track
-                                     kSum,
-                                     kSum,  // length of the path, drop of the speed
-                                     kMoved,
-                                     kMoved,     // sideslip, yaw rate
-                                     kCommands,  // variation of the commands
-                                     kMoved,
-                                     kSum,           // effort, clearance
-                                     kSampleTime_s,  // time of the finish
-                                     kSum,
-                                     kSum,                 // work, copper loss
-                                     5.0 * kSampleTime_s,  // time at a limit
-                                     kCommands,            // steering travel
-                                     kMoved,               // tyre work
-                                     kMoved,               // t |u_d - u|
-                                     kCommands};           // rate of the steering
-
-/// A speed of float32 that is held is off by up to two of its last places, 6e-8 m/s between 0.5 and
-/// 1 m/s, which the integral of t |u_d - u| takes for T^2/2 of them.
-double float32_bound(std::size_t number, double value, const Scenario& scenario) {
-  const double bound = kFloat32Bounds[number] * std::max(1.0, std::abs(value));
-  const double held = 2.0 * 0x1p-24 * 0.5 * scenario.duration_s * scenario.duration_s;
-  return bound * (1.0 + 1e-9) + (number == kSpeedItae ? held : 0.0);
-}
-
-TEST(Batch, Float32IsNearDoubleInEveryShippedScenarioAndMode) {
-  const BatchArithmetic in_double = batch_arithmetic().value();
-  const BatchArithmetic in_float32 = batch_arithmetic(StepFormat::kFloat32).value();
-  for (const Scenario& scenario : shipped_scenarios()) {
-    for (const YawMode mode : kYawModes) {
-      const std::vector<BatchRun> runs = drawn_runs(4, 0.02, mode);
-      std::vector<bool> by_simulate;
-      const auto far = simulate_batch(runs, scenario, kSampleTime_s, in_float32, &by_simulate);
-      const auto near = simulate_batch(runs, scenario, kSampleTime_s, in_double);
-      EXPECT_EQ(by_simulate, std::vector<bool>(runs.size(), false)) << scenario.name;
-      bool differs = false;
-      for (std::size_t run = 0; run < runs.size(); ++run) {
-        const auto a = numbers_of(far[run].value());
-        const auto b = numbers_of(near[run].value());
-        differs = differs || a != b;
-        for (std::size_t i = 0; i < a.size(); ++i) {
-          const std::string where = scenario.name + ", " + std::string(name_of(mode)) + ", run " +
-                                    std::to_string(run) + ", number " + std::to_string(i);
-          ASSERT_EQ(a[i].has_value(), b[i].has_value()) << where;
-          if (!a[i]) continue;
-          EXPECT_NEAR(*a[i], *b[i], float32_bound(i, *b[i], scenario)) << where;
-        }
-      }
-      EXPECT_TRUE(differs) << scenario.name << ": these runs were not in float32";
-    }
-  }
-}
-
-/// A sum of float32 stands still where a step changes a speed by less than half of its last place:
-/// of steps of 3.3 ms at a decay of 15 1/s some ten places, 6e-7 m/s, before the speed that the
-/// thrust holds. What the steps add is kept in double, so that the speed ends where the rates of
-/// float32 are 0, by their own rounding a few places off.
-TEST(Batch, SpeedsOfFloat32DoNotStallOnTheirWayToWhereAThrustHoldsThem) {
-  constexpr double kPlaces = 4.0 * 0x1p-23;
-  const Scenario scenario{"thrust", 60.0, {}, 0.0, OpenLoop{0.9, 0.004}};
-  const std::vector<BatchRun> runs = drawn_runs(16, 0.02);
-  const auto a =
-      drive_batch(runs, scenario, kSampleTime_s, batch_arithmetic(StepFormat::kFloat32).value());
-  const auto b = drive_batch(runs, scenario, kSampleTime_s, batch_arithmetic().value());
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    const State<double>& in_float32 = a[i].run.rows.back().state;
-    const State<double>& in_double = b[i].run.rows.back().state;
-    EXPECT_NEAR(in_float32.u_mps, in_double.u_mps, kPlaces * in_double.u_mps);
-    EXPECT_NEAR(in_float32.r_radps, in_double.r_radps, kPlaces * in_double.r_radps);
-    EXPECT_NE(in_float32.u_mps, in_double.u_mps);
-  }
-}
-
-TEST(Batch, Float32LeavesTyresAndFrontWheelDriveToDoubleAndSaysSo) {
-  const BatchArithmetic arithmetic = batch_arithmetic(StepFormat::kFloat32).value();
-  const Scenario heading{"heading", 2.0, {}, 0.6, HeadingSteps{{{0.0, 0.5}, {1.0, -0.5}}}};
-  Scenario on_tyres = heading;
-  on_tyres.tyres.emplace();
-  std::vector<BatchRun> runs = drawn_runs(2, 0.2);
-  const auto expect_left = [&](const Scenario& scenario, const char* what) {
-    const Status refused = check_float32(scenario, runs[0].plant);
-    ASSERT_FALSE(refused) << what;
-    EXPECT_NE(refused.error().faults.front().message.find(what), std::string::npos);
-    std::vector<bool> by_simulate;
-    const auto batch = simulate_batch(runs, scenario, kSampleTime_s, arithmetic, &by_simulate);
-    EXPECT_EQ(by_simulate, (std::vector<bool>{true, true})) << what;
-    for (std::size_t i = 0; i < runs.size(); ++i) {
-      expect_same(*batch[i], judged(runs[i], scenario), what);
-    }
-  };
-  EXPECT_TRUE(check_float32(heading, runs[0].plant));
-  expect_left(on_tyres, "tyres");
-  for (BatchRun& run : runs) {
-    run.plant.rear_driven = 0.0;
-    run.controller = make_controller(run.plant, paper_vehicle(), kPaperGains);
-  }
-  expect_left(heading, "front-wheel drive");
-}
-
-/// A resistance of 1e39 u^130, which no float holds, keeps a vehicle at 0.5 m/s: the run is
-/// simulate()'s, and said to be; those beside it keep the bits that they have alone.
-TEST(Batch, ARunThatFloat32CannotFollowIsInDoubleAndSaidToBe) {
-  const BatchArithmetic arithmetic = batch_arithmetic(StepFormat::kFloat32).value();
-  std::vector<BatchRun> runs = drawn_runs(3, 0.2, YawMode::kDifferential);
-  runs[1].plant.surge.alpha = 1e39;
-  runs[1].plant.surge.beta = 130.0;
-  const Scenario scenario{"open", 1.0, {}, 0.0, OpenLoop{1.0, 0.0}};
-  std::vector<bool> by_simulate;
-  const auto metrics = simulate_batch(runs, scenario, kSampleTime_s, arithmetic, &by_simulate);
-  EXPECT_EQ(by_simulate, (std::vector<bool>{false, true, false}));
-  expect_same(*metrics[1], judged(runs[1], scenario), "by simulate()");
-  const auto alone =
-      simulate_batch(std::span(runs).subspan(2), scenario, kSampleTime_s, arithmetic);
-  expect_same(*metrics[2], *alone[0], "beside it");
 }
 
 TEST(Batch, AskedForScalarIsSimulateItself) {

@@ -13,9 +13,8 @@
 #define AWMR_LANES_ARCH sse2
 #endif
 #define AWMR_LANES_REGISTERS 2
-#define AWMR_LANES_FLOAT_REGISTERS 2
 
-#include "awmr/simulate/lanes/float_lane_math.h"
+#include "awmr/simulate/lanes/lane_math.h"
 
 namespace awmr {
 namespace testing {
