@@ -54,7 +54,7 @@ Plant<double> drawn_plant(std::uint64_t sample, double spread) {
 /// Every instruction set that this processor has; and AWMR_INSTRUCTIONS, as it was, afterwards.
 std::vector<BatchArithmetic> all_arithmetics() {
   std::vector<BatchArithmetic> all;
-  for (const char* name : {"sse2", "avx2", "avx512"}) {
+  for (const char* name : {"avx2", "avx512", "neon"}) {
     ::setenv("AWMR_INSTRUCTIONS", name, 1);
     if (const auto arithmetic = batch_arithmetic()) all.push_back(*arithmetic);
   }
@@ -297,21 +297,18 @@ TEST(Batch, DoesNotDependOnTheRunsBesideNorOnThePlaceAmongThem) {
   }
 }
 
-TEST(Batch, HasTheSameBitsOnAllInstructionsThatRoundAlike) {
-  const std::vector<BatchRun> runs = drawn_runs(20, 0.2);
+TEST(Batch, HasTheSameBitsOnAllInstructions) {
   const auto arithmetics = all_arithmetics();
+  if (arithmetics.size() < 2) GTEST_SKIP() << "needs two kernels that this processor runs";
+  const std::vector<BatchRun> runs = drawn_runs(20, 0.2);
   for (const Scenario& scenario : shipped_scenarios()) {
     if (scenario.duration_s > 150.0) continue;
-    std::vector<std::pair<std::string_view, std::vector<Result<Metrics>>>> by_rounding;
-    for (const BatchArithmetic& arithmetic : arithmetics) {
-      auto metrics = simulate_batch(runs, scenario, kSampleTime_s, arithmetic);
-      for (const auto& [rounding, first] : by_rounding) {
-        if (rounding != arithmetic.rounding) continue;
-        for (std::size_t i = 0; i < runs.size(); ++i) {
-          expect_same(*first[i], *metrics[i], scenario.name);
-        }
+    const auto first = simulate_batch(runs, scenario, kSampleTime_s, arithmetics.front());
+    for (std::size_t k = 1; k < arithmetics.size(); ++k) {
+      const auto metrics = simulate_batch(runs, scenario, kSampleTime_s, arithmetics[k]);
+      for (std::size_t i = 0; i < runs.size(); ++i) {
+        expect_same(*first[i], *metrics[i], scenario.name);
       }
-      by_rounding.emplace_back(arithmetic.rounding, std::move(metrics));
     }
   }
 }

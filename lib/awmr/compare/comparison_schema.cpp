@@ -132,7 +132,7 @@ void describe_how(JsonObject& json) {
 void describe_comparison(JsonObject& json) {
   json.schema("awmr.comparison/1");
   read_provenance(json);
-  json.optional_string("arithmetic");  // how the runs were rounded: "fused", "unfused" or "scalar"
+  json.optional_string("arithmetic");  // how the runs were rounded: "fused" or "scalar"
   json.string("csv_sha256");
   json.integer("samples", 0, kMost);
   if (auto stopped = json.optional_object("stopped")) {

@@ -57,8 +57,7 @@ std::string other_comparison(const Part& first, const Part& part) {
     return made_with_other_options(first.origin);
   }
   return other_arithmetic(first.origin, part.origin,
-                          "run one of them again, all with AWMR_INSTRUCTIONS=sse2 or all on "
-                          "processors with fused multiply-add");
+                          "run all parts on processors with AVX2 or NEON");
 }
 
 /// Every scenario, mode and set of gains has every sample once, from the part that it belongs to.

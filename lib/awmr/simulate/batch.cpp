@@ -405,7 +405,7 @@ Result<BatchArithmetic> batch_arithmetic() {
   if (name == "scalar") return BatchArithmetic{"scalar", "scalar"};
   std::string known = "scalar";
   for (const Kernel* kernel : kernels) {
-    if (name == kernel->name) return BatchArithmetic{kernel->name, kernel->rounding};
+    if (name == kernel->name) return BatchArithmetic{kernel->name, "fused"};
     known += fmt::format(", {}", kernel->name);
   }
   return input_error(

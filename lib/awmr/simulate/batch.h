@@ -28,10 +28,10 @@ struct BatchRun {
 
 /// By which instructions batches are computed.
 struct BatchArithmetic {
-  /// "avx512", "avx2", "sse2", "neon"; "scalar": by simulate(), one by one.
+  /// "avx512", "avx2", "neon"; "scalar": by simulate(), one by one.
   std::string_view instructions;
-  /// What results of different machines have to have in common to be the same bytes: "fused" where
-  /// a b + c is rounded once, whatever the instructions; "unfused"; or "scalar".
+  /// What results of different machines have to have in common to be the same bytes: "fused" (a b + c
+  /// is rounded once) for every vector instruction set, "scalar" for simulate().
   std::string_view rounding;
 };
 

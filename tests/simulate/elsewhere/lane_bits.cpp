@@ -126,10 +126,9 @@ int main(int argc, char** argv) {
   for (const Scenario& scenario : scenarios()) {
     for (const YawMode mode : kYawModes) {
       const auto metrics = simulate_batch(drawn_runs(mode), scenario, kSampleTime_s,
-                                          {kernel->name, kernel->rounding});
+                                          {kernel->name, "fused"});
       for (std::size_t i = 0; i < metrics.size(); ++i) {
-        std::printf("%s, mode %d, run %zu, %s:", scenario.name.c_str(), static_cast<int>(mode), i,
-                    kernel->rounding);
+        std::printf("%s, mode %d, run %zu:", scenario.name.c_str(), static_cast<int>(mode), i);
         if (metrics[i]) print_metrics(*metrics[i]);
         std::printf("%s\n", metrics[i] ? "" : " failed");
       }

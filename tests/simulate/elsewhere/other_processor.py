@@ -22,7 +22,7 @@ LONGEST_S = 900
 OPTIONS = ["-std=c++20", "-O2", "-DNDEBUG", "-ffp-contract=off", "-DAWMR_HAS_LANES", "-DFMT_HEADER_ONLY", f"-I{ROOT / 'lib'}",
            "-isystem", "/usr/include/eigen3"]
 # As lib/awmr/simulate/CMakeLists.txt compiles them; the order of instructions has no effect on the numbers.
-KERNELS = {"sse2": ["-msse2"], "avx2": ["-mavx2", "-mfma"], "avx512": ["-mavx512f", "-mfma"], "neon": []}
+KERNELS = {"avx2": ["-mavx2", "-mfma"], "avx512": ["-mavx512f", "-mfma"], "neon": []}
 KERNEL_OPTIONS = ["-fno-tree-slp-vectorize"]
 # What batches need, without a reader of files and the libraries that these take.
 PARTS = ["core/error", "core/option_text", "core/random", "core/text", "identify/logs/sensitivity_kernel", "model/family",
@@ -143,7 +143,7 @@ def main():
         return SKIPPED
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
-        bits = built(folder / "here", "g++", ["sse2", "avx2", "avx512"])
+        bits = built(folder / "here", "g++", ["avx2", "avx512"])
         here = output_of([bits, "avx2"]).splitlines()
         there = (on_arm if asked == "neon" else on_skylake)(folder, bits).splitlines()
     different = [pair for pair in zip(here, there) if pair[0] != pair[1]]

@@ -97,7 +97,6 @@ struct Block {
 /// The three steps of a sample, in this order, for one instruction set.
 struct Kernel {
   const char* name;
-  const char* rounding;  ///< "fused": a b + c is rounded once; "unfused"
   /// From `measured` and `reference` to the commands.
   void (*control)(Block& block);
   /// Takes the sample into the sums of the active lanes.

@@ -1,5 +1,4 @@
 #define AWMR_LANES avx512
 #define AWMR_LANES_ARCH avx512f
-#define AWMR_LANES_ROUNDING "fused"
 #define AWMR_LANES_REGISTERS 2
 #include "awmr/simulate/lanes/kernel.inc"

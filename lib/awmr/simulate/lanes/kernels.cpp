@@ -14,7 +14,6 @@ std::vector<const Kernel*> supported_kernels() {
   if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) {
     kernels.push_back(&awmr_lanes_avx2);
   }
-  kernels.push_back(&awmr_lanes_sse2);
 #endif
   return kernels;
 }

@@ -6,7 +6,6 @@
 #include "awmr/simulate/lanes/block.h"
 
 extern "C" {
-extern const awmr::lanes::Kernel awmr_lanes_sse2;
 extern const awmr::lanes::Kernel awmr_lanes_avx2;
 extern const awmr::lanes::Kernel awmr_lanes_avx512;
 extern const awmr::lanes::Kernel awmr_lanes_neon;
@@ -15,7 +14,7 @@ extern const awmr::lanes::Kernel awmr_lanes_neon;
 namespace awmr {
 namespace lanes {
 
-/// Those that this processor runs, the widest first; none on other processors than x86 and 64-bit ARM.
+/// The kernels that this program has and this processor runs, the widest first. Empty: runs go one by one.
 std::vector<const Kernel*> supported_kernels();
 
 }  // namespace lanes

@@ -101,7 +101,7 @@ struct SinCos {
 };
 
 /// The reduction to |r| <= pi/4 has three parts of pi/2, of which the first two have 33 bits, so
-/// that their products with a quadrant up to 2^20 are exact also without a fused multiplication.
+/// that their products with a quadrant up to 2^20 are exact.
 constexpr double kLargestAngle = 0x1p20;
 
 AWMR_LANE_INLINE SinCos sin_cos_in_range(const Lanes& x) {

@@ -124,7 +124,7 @@ AWMR_LANE_INLINE LaneMask select(const LaneMask& m, const LaneMask& a, const Lan
   return (m && a) || (!m && b);
 }
 
-/// a b + c, rounded once where the processor can. (xsimd 8 has no such function for AVX-512, and
+/// a b + c, rounded once. (xsimd 8 has no such function for AVX-512, and
 /// rounds twice there.)
 AWMR_LANE_INLINE Lanes fma(const Lanes& a, const Lanes& b, const Lanes& c) {
   return by_register(
