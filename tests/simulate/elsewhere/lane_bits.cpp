@@ -125,8 +125,8 @@ int main(int argc, char** argv) {
   if (!kernel) return std::puts("no such kernel on this processor"), 2;
   for (const Scenario& scenario : scenarios()) {
     for (const YawMode mode : kYawModes) {
-      const auto metrics = simulate_batch(drawn_runs(mode), scenario, kSampleTime_s,
-                                          {kernel->name, "fused"});
+      const auto metrics =
+          simulate_batch(drawn_runs(mode), scenario, kSampleTime_s, {kernel->name, "fused"});
       for (std::size_t i = 0; i < metrics.size(); ++i) {
         std::printf("%s, mode %d, run %zu:", scenario.name.c_str(), static_cast<int>(mode), i);
         if (metrics[i]) print_metrics(*metrics[i]);

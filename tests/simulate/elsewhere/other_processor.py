@@ -19,7 +19,7 @@ ROOT = HERE.parents[2]
 LIB = ROOT / "lib/awmr"
 SKIPPED = 77
 LONGEST_S = 900
-OPTIONS = ["-std=c++20", "-O2", "-DNDEBUG", "-ffp-contract=off", "-DAWMR_HAS_LANES", "-DFMT_HEADER_ONLY", f"-I{ROOT / 'lib'}",
+OPTIONS = ["-std=c++20", "-O2", "-DNDEBUG", "-ffp-contract=off", "-DFMT_HEADER_ONLY", f"-I{ROOT / 'lib'}",
            "-isystem", "/usr/include/eigen3"]
 # As lib/awmr/simulate/CMakeLists.txt compiles them; the order of instructions has no effect on the numbers.
 KERNELS = {"avx2": ["-mavx2", "-mfma"], "avx512": ["-mavx512f", "-mfma"], "neon": []}
@@ -27,7 +27,7 @@ KERNEL_OPTIONS = ["-fno-tree-slp-vectorize"]
 # What batches need, without a reader of files and the libraries that these take.
 PARTS = ["core/error", "core/option_text", "core/random", "core/text", "identify/logs/sensitivity_kernel", "model/family",
          "model/model", "model/observer_rate", "model/parameters", "model/rest_speed", "model/vehicle", "simulate/batch", "simulate/disturbance",
-         "simulate/lanes/kernels", "simulate/laws", "simulate/line_following", "simulate/metrics", "simulate/passage",
+         "simulate/laws", "simulate/line_following", "simulate/metrics", "simulate/passage",
          "simulate/physics", "simulate/pilot", "simulate/scenario", "simulate/sensing", "simulate/simulate",
          "simulate/straight"]
 BOCHS = """\
@@ -77,6 +77,7 @@ def built(folder, compiler, kernels):
     """lane_bits for the compiler's processor, with these kernels."""
     folder.mkdir()
     jobs = [(LIB / f"{part}.cpp", []) for part in PARTS] + [(HERE / "lane_bits.cpp", [])]
+    jobs += [(LIB / "simulate/lanes/kernels.cpp", [f"-DAWMR_HAS_{kernel.upper()}" for kernel in kernels])]
     jobs += [(LIB / f"simulate/lanes/kernel_{kernel}.cpp", KERNELS[kernel] + KERNEL_OPTIONS) for kernel in kernels]
     launcher = ["ccache"] if shutil.which("ccache") else []
     for source, options in jobs:
