@@ -401,12 +401,15 @@ TEST_F(Batch, RowsAreThoseOfSimulateInEveryShippedScenario) {
   }
 }
 
-TEST(Instructions, ThatTheProcessorHasNotAreRefusedByName) {
-  ::setenv("AWMR_INSTRUCTIONS", "mmx", 1);
-  const auto arithmetic = batch_arithmetic();
-  ::unsetenv("AWMR_INSTRUCTIONS");
-  ASSERT_FALSE(arithmetic);
-  EXPECT_NE(arithmetic.error().faults.front().message.find("'mmx' is none"), std::string::npos);
+TEST(Instructions, AreRefusedByNameWhereThereAreNone) {
+  for (const std::string name : {"mmx", "sse2"}) {
+    ::setenv("AWMR_INSTRUCTIONS", name.c_str(), 1);
+    const auto arithmetic = batch_arithmetic();
+    ::unsetenv("AWMR_INSTRUCTIONS");
+    ASSERT_FALSE(arithmetic) << name;
+    EXPECT_NE(arithmetic.error().faults.front().message.find("'" + name + "' is none"),
+              std::string::npos);
+  }
 }
 
 TEST(Instructions, NamedScalarAreSimulateItself) {
