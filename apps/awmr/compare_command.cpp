@@ -84,7 +84,6 @@ Result<Provenance> provenance_of(const CompareCommand& command,
   for (auto& option : options_of_rate(rate)) options.push_back(std::move(option));
   for (auto& option : options_of(command.plant, scenarios)) options.push_back(std::move(option));
   if (command.compare.break_even) options.emplace_back("break_even", "true");
-  if (command.compare.float32) options.emplace_back("float32", "true");
   const Preferences& preferences = command.compare.preferences;
   if (!preferences.weights.empty()) {
     std::vector<std::string> weights;
@@ -110,12 +109,6 @@ Result<Comparison> compare_until_interrupted(const Model& model,
   return compare(model, gains, scenarios, options);
 }
 
-/// The tables that are written beside it.
-std::vector<std::string> tables_of(const CompareCommand& command) {
-  if (command.compare.float32) return {"comparison.csv", kInDoubleTable};
-  return {"comparison.csv"};
-}
-
 /// What says where the rows of comparison.csv are from, and what they come to.
 const char* json_of(const CompareCommand& command) {
   return command.shard ? "shard.json" : "comparison.json";
@@ -131,12 +124,9 @@ std::string document_of(const CompareCommand& command, const Comparison& compari
 Status write_comparison(const CompareCommand& command, const Comparison& comparison,
                         const std::string& text) {
   AWMR_RETURN_IF_ERROR(make_directory(command.output));
-  // The last one names the hashes of those before it.
-  std::vector<OutputFile> files{{command.output / "comparison.csv", comparison_csv(comparison)}};
-  if (command.compare.float32) {
-    files.push_back({command.output / kInDoubleTable, in_double_csv(comparison)});
-  }
-  files.push_back({command.output / json_of(command), text});
+  // The last one names the hash of the first.
+  const OutputFile files[] = {{command.output / "comparison.csv", comparison_csv(comparison)},
+                              {command.output / json_of(command), text}};
   return write_files(files);
 }
 
@@ -214,10 +204,9 @@ void note_scrub(const Model& model, const Comparison& comparison, std::vector<Fi
 }
 
 Outcome outcome_of_part(const CompareCommand& command, const Comparison& part) {
-  return {.summary = fmt::format("part {} of {}: {} runs\nwrote {} and {}\n",
+  return {.summary = fmt::format("part {} of {}: {} runs\nwrote {} and comparison.csv\n",
                                  command.compare.shard.index, command.compare.shard.count,
-                                 part.rows.size(), (command.output / json_of(command)).string(),
-                                 fmt::join(tables_of(command), ", "))};
+                                 part.rows.size(), (command.output / json_of(command)).string())};
 }
 
 Outcome outcome_of_whole(const CompareCommand& command, const Comparison& comparison,
@@ -245,13 +234,8 @@ Outcome outcome_of_whole(const CompareCommand& command, const Comparison& compar
   }
   if (auto finding = not_led(command.heading_rate_limit, model)) findings.push_back(*finding);
   note_scrub(model, comparison, findings);
-  for (Finding& finding : float32_findings(comparison, command.compare)) {
-    findings.push_back(std::move(finding));
-  }
-  return {.summary =
-              table + fmt::format("wrote {} and {}\n", (command.output / json_of(command)).string(),
-                                  fmt::join(tables_of(command), ", ")),
-          .details = float32_details(comparison, command.compare),
+  return {.summary = table + fmt::format("wrote {} and comparison.csv\n",
+                                         (command.output / json_of(command)).string()),
           .brief = table,
           .findings = std::move(findings)};
 }
@@ -269,17 +253,15 @@ Result<Outcome> execute(const CompareCommand& command) {
   const HeadingRateChoice rate = rate_to_compare_at(command.heading_rate_limit, model);
   AWMR_RETURN_IF_ERROR(limit_heading_rate(rate, model, scenarios));
   AWMR_ASSIGN_OR_RETURN(const Provenance provenance, provenance_of(command, scenarios, rate));
-  std::vector<std::string> names = tables_of(command);
-  names.emplace_back(json_of(command));
-  AWMR_RETURN_IF_ERROR(check_outputs(command.output, names, inputs_of(command)));
+  AWMR_RETURN_IF_ERROR(
+      check_outputs(command.output, {"comparison.csv", json_of(command)}, inputs_of(command)));
   CompareOptions options = command.compare;
   if (command.resume && command.shard) {
     if (is_finished_shard(command.output, options, provenance)) {
       return finished_part(*command.shard, command.output);
     }
   } else if (command.resume) {
-    const StepFormat format = options.float32 ? StepFormat::kFloat32 : StepFormat::kDouble;
-    AWMR_ASSIGN_OR_RETURN(options.finished, read_finished(command.output, provenance, format));
+    AWMR_ASSIGN_OR_RETURN(options.finished, read_finished(command.output, provenance));
   }
   const StopOnInterrupt interrupt;
   AWMR_ASSIGN_OR_RETURN(const Comparison comparison,
@@ -290,10 +272,7 @@ Result<Outcome> execute(const CompareCommand& command) {
   Outcome outcome = command.shard ? outcome_of_part(command, comparison)
                                   : outcome_of_whole(command, comparison, model, scenarios, rate);
   outcome.document = text;
-  outcome.written = {command.output / json_of(command)};
-  for (const std::string& table : tables_of(command)) {
-    outcome.written.push_back(command.output / table);
-  }
+  outcome.written = {command.output / json_of(command), command.output / "comparison.csv"};
   return outcome;
 }
 
@@ -330,18 +309,12 @@ void add_compare(CLI::App& app, Session& session) {
       "--break-even", command->compare.break_even,
       "Also how much more yaw resistance turns by the sides' forces could meet before a mode "
       "that steers is better");
-  sub->add_flag(
-      "--float32", command->compare.float32,
-      "Steps of the motion in float32, up to 1.5 times as fast; what it changes is measured "
-      "over the first 32 samples, and told");
   add_shard(*sub, texts->shard);
   add_allocation(*sub, command->allocation);
   add_heading_rate_limit(*sub, command->heading_rate_limit,
                          "measured, where the model says how fast that was");
   add_plant(*sub, command->plant);
-  add_output_directory(*sub, command->output,
-                       "Directory for comparison.csv and comparison.json; with --float32 also "
-                       "in_double.csv");
+  add_output_directory(*sub, command->output, "Directory for comparison.csv and comparison.json");
 }
 
 }  // namespace awmr::cli

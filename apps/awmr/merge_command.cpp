@@ -28,41 +28,25 @@ std::vector<fs::path> files_of(const MergeCommand& command, const char* table) {
 
 Result<Outcome> merge_comparison(const MergeCommand& command) {
   AWMR_ASSIGN_OR_RETURN(const Merged merged, merge_shards(command.parts));
-  const bool is_float32 = merged.comparison.is_float32();
-  std::vector<std::string> names{"comparison.csv", "comparison.json"};
-  std::vector<fs::path> parts = files_of(command, "comparison.csv");
-  if (is_float32) {
-    names.emplace_back(kInDoubleTable);
-    for (const fs::path& part : files_of(command, kInDoubleTable)) parts.push_back(part);
-  }
-  AWMR_RETURN_IF_ERROR(check_outputs(command.output, names, parts));
+  AWMR_RETURN_IF_ERROR(check_outputs(command.output, {"comparison.csv", "comparison.json"},
+                                     files_of(command, "comparison.csv")));
   const std::string document =
       comparison_text(merged.comparison, merged.options, merged.provenance);
   AWMR_RETURN_IF_ERROR(make_directory(command.output));
-  std::vector<OutputFile> files{
-      {command.output / "comparison.csv", comparison_csv(merged.comparison)}};
-  if (is_float32) {
-    files.push_back({command.output / kInDoubleTable, in_double_csv(merged.comparison)});
-  }
-  files.push_back({command.output / "comparison.json", document});
+  const OutputFile files[] = {
+      {command.output / "comparison.csv", comparison_csv(merged.comparison)},
+      {command.output / "comparison.json", document}};
   AWMR_RETURN_IF_ERROR(write_files(files));
   std::string table = comparison_table(merged.comparison, merged.options);
   for (const auto& [name, text] : merged.provenance.options) {
     if (name == kPlantName) table += fmt::format("{}: {}\n", name, text);
     if (name == kRateName) table += words_of_rate(text);
   }
-  Outcome outcome{
-      .summary = table + fmt::format("wrote {} and comparison.csv{}\n", files.back().path.string(),
-                                     is_float32 ? ", in_double.csv" : ""),
-      .details = float32_details(merged.comparison, merged.options),
-      .brief = table,
-      .findings = float32_findings(merged.comparison, merged.options),
-      .document = document,
-      .written = {}};
-  for (auto file = files.rbegin(); file != files.rend(); ++file) {
-    outcome.written.push_back(file->path);
-  }
-  return outcome;
+  return Outcome{.summary = table + fmt::format("wrote {} and comparison.csv\n",
+                                                (command.output / "comparison.json").string()),
+                 .brief = table,
+                 .document = document,
+                 .written = {files[1].path, files[0].path}};
 }
 
 Result<Outcome> merge_recovery(const MergeCommand& command) {

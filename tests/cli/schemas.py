@@ -79,8 +79,6 @@ def pipeline(folder):
         awmr(f"compare {loop} --scenario {c3} --samples 2 --shard 1/2 -o part1 --json", folder),
         awmr(f"compare {loop} --scenario {c3} --samples 2 --shard 2/2 -o part2 --json", folder),
         awmr("merge part1 part2 -o merged --json", folder),
-        awmr(f"compare {loop} --scenario {c3} --samples 2 --float32 -o compared32 --json", folder),
-        awmr(f"compare {loop} --scenario {c3} --samples 2 --float32 --shard 1/1 -o part32 --json", folder),
         awmr("recover --model out/model.json --runs 5 --shard 1/2 -o recovered1 --json", folder),
         awmr("recover --model out/model.json --runs 5 --shard 2/2 -o recovered2 --json", folder),
         awmr("merge recovered1 recovered2 -o recovered --json", folder),

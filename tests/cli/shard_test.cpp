@@ -107,34 +107,6 @@ TEST_F(ShardsOfCommands, OfDifferentKindsAreNotMixed) {
   }
 }
 
-TEST_F(ShardsOfCommands, InFloat32AreNotMixedWithDouble) {
-  const std::string mixed =
-      parts_of("mixed", compare("--float32 --shard 1/2"), compare("--shard 2/2"));
-  const ProcessResult merged = awmr(fmt::format("merge {} -o {}", mixed, path("merged")));
-  EXPECT_EQ(merged.exit_code, 2);
-  EXPECT_THAT(merged.err, HasSubstr("other options"));
-  EXPECT_THAT(merged.err, HasSubstr("--float32"));
-  EXPECT_FALSE(fs::exists(path("merged")));
-}
-
-TEST_F(ShardsOfCommands, InFloat32AreMergedToTheBytesOfASingleRun) {
-  expect_done(awmr(compare("--float32 -o " + path("whole"))));
-  const std::string parts =
-      parts_of("part", compare("--float32 --shard 1/2"), compare("--float32 --shard 2/2"));
-  const ProcessResult merged = awmr(fmt::format("merge {} -o {}", parts, path("merged")));
-  expect_done(merged);
-  EXPECT_THAT(merged.out, HasSubstr("float32 against double, over 4 sample(s)"));
-  for (const char* name : {"comparison.csv", "comparison.json", "in_double.csv"}) {
-    EXPECT_EQ(read_all(path("merged") + "/" + name), read_all(path("whole") + "/" + name)) << name;
-  }
-  // What is there in double is not gone on with in float32, nor the other way round.
-  const ProcessResult resumed = awmr(compare("--resume -o " + path("whole")));
-  EXPECT_EQ(resumed.exit_code, 2);
-  EXPECT_THAT(resumed.err, HasSubstr("--float32"));
-  expect_done(awmr(compare("--float32 --resume -o " + path("whole"))));
-  EXPECT_EQ(read_all(path("whole/comparison.json")), read_all(path("merged/comparison.json")));
-}
-
 TEST_F(ShardsOfCommands, OfAProcessorThatRoundsDifferentlyAreNotMixed) {
   // What the C library takes on a processor without fused multiply-add.
   const std::string other = "GLIBC_TUNABLES=glibc.cpu.hwcaps=-FMA,-AVX2,-FMA4 ";

@@ -1,6 +1,6 @@
 # What a kernel file gives to the linker carries the name of its instruction set: a function of another
 # name would be merged with the rest of the program's, and run on processors without the instructions.
-# usage: cmake -DNM=nm -DLIBRARY=libawmr_simulate.a -P kernel_symbols.cmake
+# usage: cmake -DNM=nm -DLIBRARY=libawmr_simulate.a -DKERNELS=count -P kernel_symbols.cmake
 execute_process(COMMAND ${NM} -C ${LIBRARY} OUTPUT_VARIABLE listing ERROR_QUIET COMMAND_ERROR_IS_FATAL ANY)
 string(REPLACE ";" "," listing "${listing}")
 string(REPLACE "[" "(" listing "${listing}")
@@ -22,6 +22,6 @@ foreach(line IN LISTS lines)
     endif()
   endif()
 endforeach()
-if(NOT seen EQUAL 3)
-  message(SEND_ERROR "${LIBRARY} has ${seen} kernels, not 3")
+if(NOT seen EQUAL KERNELS)
+  message(SEND_ERROR "${LIBRARY} has ${seen} kernels, not ${KERNELS}")
 endif()

@@ -1,4 +1,4 @@
-// What lanes do one by one against the same on doubles, and lanes of floats on floats, bit for bit. Built for each instruction set; where the
+// What lanes do one by one against the same on doubles, bit for bit. Built for each instruction set; where the
 // processor has not the instructions, nothing is run.
 #include <cmath>
 #include <cstdint>
@@ -13,6 +13,7 @@ using namespace awmr::lanes::AWMR_LANES;
 using awmr::testing::has_instructions;
 
 constexpr int kBlocks = 2000;
+constexpr int kCount = Lanes::kCount;
 
 /// In (-20, 20), the same on every machine; now and then a number out of the ordinary.
 double next_number() {
@@ -26,37 +27,25 @@ double next_number() {
   return 40.0 * (static_cast<double>(state >> 12U) + 0.5) * 0x1p-52 - 20.0;
 }
 
-/// The rounding of fma() that the kernels say they have: std::fma() takes each kind of number.
-template <class Number>
-Number multiplied_and_added(Number a, Number b, Number c) {
-#ifdef __FMA__
-  return std::fma(a, b, c);
-#else
-  return a * b + c;
-#endif
-}
-
 bool same(double a, double b) {
   return (std::isnan(a) && std::isnan(b)) || std::memcmp(&a, &b, sizeof a) == 0;
 }
 
 int failures = 0;
 
-/// f of three batches against the same f of three of their numbers, each lane.
-template <class Batch, class Number, class OfLanes, class OfNumbers>
-void check(const char* name, const OfLanes& of_lanes, const OfNumbers& of_numbers) {
-  constexpr int kCount = Batch::kCount;
+/// f of three Lanes against the same f of three doubles, each lane.
+template <class OfLanes, class OfDoubles>
+void check(const char* name, const OfLanes& of_lanes, const OfDoubles& of_doubles) {
   for (int block = 0; block < kBlocks; ++block) {
     double x[kCount], y[kCount], z[kCount], result[kCount];
     for (int i = 0; i < kCount; ++i) {
-      x[i] = static_cast<Number>(next_number());
-      y[i] = static_cast<Number>(next_number());
-      z[i] = static_cast<Number>(next_number());
+      x[i] = next_number();
+      y[i] = next_number();
+      z[i] = next_number();
     }
-    of_lanes(Batch::load(x), Batch::load(y), Batch::load(z)).store(result);
+    of_lanes(Lanes::load(x), Lanes::load(y), Lanes::load(z)).store(result);
     for (int i = 0; i < kCount; ++i) {
-      const double expected = of_numbers(static_cast<Number>(x[i]), static_cast<Number>(y[i]),
-                                         static_cast<Number>(z[i]));
+      const double expected = of_doubles(x[i], y[i], z[i]);
       if (same(result[i], expected)) continue;
       std::printf("%s of %a, %a, %a: %a is not %a\n", name, x[i], y[i], z[i], result[i], expected);
       ++failures;
@@ -66,23 +55,23 @@ void check(const char* name, const OfLanes& of_lanes, const OfNumbers& of_number
 }
 
 double select(bool mask, double a, double b) { return mask ? a : b; }
-float select(bool mask, float a, float b) { return mask ? a : b; }
 double larger(double a, double b) { return a < b ? b : a; }
-float larger(float a, float b) { return a < b ? b : a; }
+
+}  // namespace
 
 // The same words for both.
 #define AWMR_CHECK(words)                                                                        \
-  check<Batch, Number>(                                                                          \
-      #words, [](const Batch& x, const Batch& y, const Batch& z) { return of(x, y, z, words); }, \
-      [](Number x, Number y, Number z) { return of(x, y, z, words); })
+  check(                                                                                         \
+      #words, [](const Lanes& x, const Lanes& y, const Lanes& z) { return of(x, y, z, words); }, \
+      [](double x, double y, double z) { return of(x, y, z, words); })
 /// All three are used in no test, and no compiler is to say so.
 template <class T>
 T of(const T&, const T&, const T&, const T& result) {
   return result;
 }
 
-template <class Batch, class Number>
-void check_all(const char* numbers) {
+int main() {
+  if (!has_instructions()) return std::puts("this processor has not the instructions"), 0;
   AWMR_CHECK(x + y);
   AWMR_CHECK(x - y);
   AWMR_CHECK(x * y);
@@ -96,25 +85,15 @@ void check_all(const char* numbers) {
   AWMR_CHECK(select(!(x >= y), x, z));
   AWMR_CHECK(select(x > y && y > z, x, z));
   AWMR_CHECK(select(x > y || y > z, x, z));
-  check<Batch, Number>(
-      "abs", [](const Batch& x, const Batch&, const Batch&) { return abs(x); },
-      [](Number x, Number, Number) { return std::fabs(x); });
-  check<Batch, Number>(
-      "sqrt", [](const Batch& x, const Batch&, const Batch&) { return sqrt(x); },
-      [](Number x, Number, Number) { return std::sqrt(x); });
-  check<Batch, Number>(
-      "fma", [](const Batch& x, const Batch& y, const Batch& z) { return fma(x, y, z); },
-      multiplied_and_added<Number>);
-  if (failures == 0) {
-    std::printf("every operation of %d lanes is that of %s\n", Batch::kCount, numbers);
-  }
-}
-
-}  // namespace
-
-int main() {
-  if (!has_instructions()) return std::puts("this processor has not the instructions"), 0;
-  check_all<Lanes, double>("doubles");
-  check_all<FloatLanes, float>("floats");
+  check(
+      "abs", [](const Lanes& x, const Lanes&, const Lanes&) { return abs(x); },
+      [](double x, double, double) { return std::fabs(x); });
+  check(
+      "sqrt", [](const Lanes& x, const Lanes&, const Lanes&) { return sqrt(x); },
+      [](double x, double, double) { return std::sqrt(x); });
+  check(
+      "fma", [](const Lanes& x, const Lanes& y, const Lanes& z) { return fma(x, y, z); },
+      [](double x, double y, double z) { return std::fma(x, y, z); });
+  if (failures == 0) std::printf("every operation of %d lanes is that of doubles\n", kCount);
   return failures == 0 ? 0 : 1;
 }

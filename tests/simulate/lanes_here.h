@@ -9,13 +9,11 @@
 #define AWMR_LANES avx2
 #define AWMR_LANES_ARCH fma3<xsimd::avx2>
 #else
-#define AWMR_LANES sse2
-#define AWMR_LANES_ARCH sse2
+#error "lanes need AVX2 or AVX-512"
 #endif
 #define AWMR_LANES_REGISTERS 2
-#define AWMR_LANES_FLOAT_REGISTERS 2
 
-#include "awmr/simulate/lanes/float_lane_math.h"
+#include "awmr/simulate/lanes/lane_math.h"
 
 namespace awmr {
 namespace testing {
@@ -23,10 +21,8 @@ namespace testing {
 inline bool has_instructions() {
 #if defined(__AVX512F__)
   return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("fma");
-#elif defined(__AVX2__)
-  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
 #else
-  return true;
+  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
 #endif
 }
 

@@ -57,13 +57,6 @@ std::vector<Fault> option_faults(const std::vector<NamedGains>& gains,
                        scenario.name)});
     }
   }
-  if (options.break_even && options.float32) {
-    faults.push_back(
-        {option_text("break_even"),
-         fmt::format("runs in double, whose leads it cannot take from runs in float32: "
-                     "leave out {}",
-                     option_text("float32"))});
-  }
   std::set<std::string> sets;
   for (const NamedGains& set : gains) {
     if (!sets.insert(set.name).second) {
@@ -131,24 +124,17 @@ Status take_finished(const std::vector<Scenario>& scenarios, const std::vector<N
 struct Block {
   std::size_t scenario, gains, mode;
   std::vector<std::size_t> samples;
-  bool checks = false;  ///< in double, of a comparison in float32
 
   Place place(std::size_t i) const { return {scenario, gains, mode, samples[i]}; }
 };
 
-/// The samples of this part that are below `end`.
-std::vector<std::size_t> samples_of(const Shard& shard, std::size_t end) {
+/// The samples of this part, as many at a time as fill the registers: block by block, each in all
+/// scenarios, gains and modes, so that a comparison that is stopped has whole samples.
+std::vector<Block> blocks_of(const Layout& layout, const Shard& shard, const Slots& slots) {
   std::vector<std::size_t> samples;
-  for (std::size_t sample = 0; sample < end; ++sample) {
+  for (std::size_t sample = 0; sample < layout.samples; ++sample) {
     if (shard.has(static_cast<int>(sample))) samples.push_back(sample);
   }
-  return samples;
-}
-
-/// These samples, as many at a time as fill the registers: block by block, each in all scenarios,
-/// gains and modes, so that a comparison that is stopped has whole samples.
-std::vector<Block> blocks_of(const Layout& layout, const std::vector<std::size_t>& samples,
-                             const Slots& slots) {
   std::vector<Block> blocks;
   const std::size_t apart = layout.scenarios * layout.gains * layout.modes;
   for (std::size_t first = 0; first < samples.size(); first += kBatchRuns) {
@@ -180,56 +166,9 @@ std::vector<BatchRun> runs_of(const Fleet& fleet, const Controller<double>& cont
   return runs;
 }
 
-/// The blocks of a comparison in float32 before those that check it in double; of one in double,
-/// its own alone.
-std::vector<Block> blocks_of(const Layout& layout, const CompareOptions& options,
-                             const Slots& slots, const Slots& checks) {
-  std::vector<Block> blocks = blocks_of(layout, samples_of(options.shard, layout.samples), slots);
-  if (!options.float32) return blocks;
-  const std::size_t end = std::min(layout.samples, at(kCheckedSamples));
-  for (Block& block : blocks_of(layout, samples_of(options.shard, end), checks)) {
-    block.checks = true;
-    blocks.push_back(std::move(block));
-  }
-  return blocks;
-}
-
-/// How the runs are rounded, and those that check them.
-struct Arithmetics {
-  BatchArithmetic runs;
-  BatchArithmetic checks;
-};
-
-/// Errors (input): as batch_arithmetic() and check_float32().
-Result<Arithmetics> arithmetics_for(const CompareOptions& options, const Plant<double>& nominal,
-                                    const std::vector<Scenario>& scenarios) {
-  AWMR_ASSIGN_OR_RETURN(const BatchArithmetic in_double, batch_arithmetic());
-  if (!options.float32) return Arithmetics{in_double, in_double};
-  for (const Scenario& scenario : scenarios) {
-    AWMR_RETURN_IF_ERROR(check_float32(scenario, nominal));
-  }
-  AWMR_ASSIGN_OR_RETURN(const BatchArithmetic in_float32, batch_arithmetic(StepFormat::kFloat32));
-  return Arithmetics{in_float32, in_double};
-}
-
 std::size_t finished_count(const Slots& slots) {
   return at(
       std::count_if(slots.begin(), slots.end(), [](const auto& slot) { return slot.has_value(); }));
-}
-
-/// Runs that check a comparison in float32.
-std::size_t checks_in(const std::vector<Block>& blocks) {
-  std::size_t runs = 0;
-  for (const Block& block : blocks) runs += block.checks ? block.samples.size() : 0;
-  return runs;
-}
-
-std::vector<ComparisonRow> rows_in(Slots slots) {
-  std::vector<ComparisonRow> rows;
-  for (auto& slot : slots) {
-    if (slot) rows.push_back(std::move(*slot));
-  }
-  return rows;
 }
 
 Comparison gathered(const Layout& layout, const Shard& shard, Slots slots) {
@@ -256,23 +195,19 @@ Result<Comparison> compare(const Model& model, const std::vector<NamedGains>& ga
   if (!faults.empty()) return input_errors(std::move(faults));
   for (const NamedGains& set : gains) AWMR_RETURN_IF_ERROR(controller_for(model, set.gains));
   AWMR_ASSIGN_OR_RETURN(const Fleet fleet, fleet_of(model, scenarios, options));
-  AWMR_ASSIGN_OR_RETURN(const Arithmetics arithmetics,
-                        arithmetics_for(options, fleet.nominal, scenarios));
+  AWMR_ASSIGN_OR_RETURN(const BatchArithmetic arithmetic, batch_arithmetic());
 
   const Layout layout{scenarios.size(), gains.size(), yaw_modes(model.vehicle).size(),
                       at(options.samples) + 1};
   Slots slots(layout.count());
   AWMR_RETURN_IF_ERROR(take_finished(scenarios, gains, options, layout, slots));
 
-  Slots checks(options.float32 ? layout.count() : 0);
-  const std::vector<Block> blocks = blocks_of(layout, options, slots, checks);
-  std::vector<Status> failures(layout.count() + checks.size());
+  const std::vector<Block> blocks = blocks_of(layout, options.shard, slots);
+  std::vector<Status> failures(layout.count());
   std::atomic<std::size_t> done = finished_count(slots);
-  std::size_t total = done;
-  for (const Block& block : blocks) total += block.samples.size();
   LoopControl control;
   if (options.stop != nullptr) control.stop = [&] { return options.stop->load(); };
-  if (options.progress) control.progress = [&] { options.progress(done, total); };
+  if (options.progress) control.progress = [&] { options.progress(done, layout.count()); };
   // Each run owns one slot, so the order in which threads take them leaves no trace.
   parallel_for(
       blocks.size(), options.threads,
@@ -283,26 +218,20 @@ Result<Comparison> compare(const Model& model, const std::vector<NamedGains>& ga
         // The controller knows the model's own values, not the drawn ones.
         const auto controller = make_controller(fleet.nominal, model.vehicle, set.gains);
         const YawMode mode = kYawModes[block.mode];
-        std::vector<bool> by_simulate;
         const std::vector<BatchRun> runs = runs_of(fleet, controller, block, mode, options.seed);
-        auto metrics =
-            simulate_batch(runs, scenario, model.vehicle.sample_time_s,
-                           block.checks ? arithmetics.checks : arithmetics.runs, &by_simulate);
+        auto metrics = simulate_batch(runs, scenario, model.vehicle.sample_time_s, arithmetic);
         for (std::size_t i = 0; i < metrics.size(); ++i) {
           const std::size_t index = layout.row(block.place(i));
           if (metrics[i]) {
             metrics[i]->electric_work_j =
                 electric_work_j(*metrics[i], model.vehicle, runs[i].plant.mass_norm);
-            (block.checks ? checks : slots)[index] =
-                ComparisonRow{.scenario = scenario.name,
-                              .mode = mode,
-                              .sample = static_cast<int>(block.samples[i]),
-                              .metrics = *metrics[i],
-                              .gains = set.name,
-                              .took_float32 = options.float32 && !block.checks && !by_simulate[i]};
+            slots[index] = ComparisonRow{.scenario = scenario.name,
+                                         .mode = mode,
+                                         .sample = static_cast<int>(block.samples[i]),
+                                         .metrics = *metrics[i],
+                                         .gains = set.name};
           } else {
-            failures[block.checks ? layout.count() + index : index] =
-                tl::unexpected(metrics[i].error());
+            failures[index] = tl::unexpected(metrics[i].error());
           }
         }
         done += metrics.size();
@@ -310,9 +239,7 @@ Result<Comparison> compare(const Model& model, const std::vector<NamedGains>& ga
       control);
   for (const Status& failure : failures) AWMR_RETURN_IF_ERROR(failure);
   Comparison comparison = gathered(layout, options.shard, std::move(slots));
-  comparison.arithmetic = arithmetics.runs.rounding;
-  if (finished_count(checks) < checks_in(blocks)) comparison.stopped = true;
-  comparison.in_double = rows_in(std::move(checks));
+  comparison.arithmetic = arithmetic.rounding;
   if (options.break_even && !comparison.stopped) {
     AWMR_ASSIGN_OR_RETURN(comparison.break_even, break_even_of(model, gains.front().gains,
                                                                scenarios, comparison, options));

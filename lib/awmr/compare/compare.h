@@ -17,7 +17,6 @@
 #include "awmr/core/shard.h"
 #include "awmr/model/gains.h"
 #include "awmr/model/model.h"
-#include "awmr/simulate/batch.h"
 #include "awmr/simulate/metrics.h"
 #include "awmr/simulate/scenario.h"
 
@@ -35,9 +34,6 @@ struct ComparisonRow {
   int sample = 0;  ///< >= 0; 0: the model's own values
   Metrics metrics;
   std::string gains = {};  ///< NamedGains::name
-  /// Of a comparison in float32: its motion took steps of float32. False: steps of double, as
-  /// float32 could not follow it. Not looked at in other comparisons.
-  bool took_float32 = false;
 };
 
 /// Below so many samples no interval is wide enough for its 95 %.
@@ -53,10 +49,6 @@ struct CompareOptions {
   Preferences preferences = {};
   /// Also Comparison::break_even; with one set of gains only.
   bool break_even = false;
-  /// The motion's steps in float32 (simulate/batch.h), which is faster. The first
-  /// kCheckedSamples of every scenario, mode and set of gains are also run in double: what float32
-  /// changes is measured and told (Comparison::in_double, float32_effect.h).
-  bool float32 = false;
   /// What of the samples to run: all, or a part that merge_shards() (shard.h) puts to the others. At
   /// most as many parts as samples, the nominal one included.
   Shard shard = {};
@@ -70,9 +62,6 @@ struct CompareOptions {
   /// Once true, no further run is begun: for an interrupt. Null: never.
   const std::atomic<bool>* stop = nullptr;
 };
-
-/// Samples, the nominal one included, that a comparison in float32 also runs in double.
-inline constexpr int kCheckedSamples = 32;
 
 /// How much more yaw resistance a mode's turns could meet before another mode is better: straight
 /// wheels that are turned by the sides' forces scrub, which a model fitted to steered turns does
@@ -122,10 +111,6 @@ struct Comparison {
   std::string arithmetic = {};
   /// By break_even_of() (break_even.h); absent where nobody asked.
   std::optional<std::vector<BreakEven>> break_even = {};
-  /// Of a comparison in float32: its first samples again, in double, in the order of `rows`.
-  std::vector<ComparisonRow> in_double = {};
-
-  bool is_float32() const { return awmr::is_float32(arithmetic); }
 };
 
 /// Samples draw the fitted parameters from the model's covariance (simulate/plant_sampler.h), and
@@ -135,8 +120,7 @@ struct Comparison {
 /// comparison is a smaller one. Errors (input): the model lacks a parameter, or, with samples, a
 /// covariance to draw from, or an interval that a scenario's corner needs; no scenario, or two of
 /// the same name; a negative number of samples or threads; a finished row that is none of this
-/// comparison's; of float32, what check_float32() refuses, a processor without vector instructions,
-/// or break_even.
+/// comparison's.
 Result<Comparison> compare(const Model& model, const std::vector<NamedGains>& gains,
                            const std::vector<Scenario>& scenarios, const CompareOptions& options);
 Result<Comparison> compare(const Model& model, const Gains<double>& gains,
@@ -147,24 +131,11 @@ std::vector<std::pair<std::string_view, std::optional<double>>> named_metrics(
     const Metrics& metrics);
 
 /// The bytes of comparison.csv: the contract's columns, `completed` as 1 or 0, empty cells where a
-/// metric has no meaning; of a comparison in float32 also `float32`, 1 or 0 (took_float32); with
-/// several sets of gains also `gains`.
+/// metric has no meaning; with several sets of gains also `gains`.
 std::string comparison_csv(const Comparison& comparison);
-/// The bytes of in_double.csv, of a comparison in float32: its first samples again in double, as
-/// they stand in the comparison.csv of a comparison in double.
-std::string in_double_csv(const Comparison& comparison);
-/// Its name: it lies beside comparison.csv.
-inline constexpr const char* kInDoubleTable = "in_double.csv";
 /// The bytes of comparison.json.
 std::string comparison_text(const Comparison& comparison, const CompareOptions& options,
                             const Provenance& provenance);
-
-/// Of a comparison in float32: a warning (`float32-effect`) where its effect is more than small, or
-/// changes what is concluded of two modes; a note (`float32-in-double`) where runs had to be driven
-/// in double. Otherwise none.
-std::vector<Finding> float32_findings(const Comparison& comparison, const CompareOptions& options);
-/// What it changes in every metric, as comparison_table() has it of the worst; empty in double.
-std::string float32_details(const Comparison& comparison, const CompareOptions& options);
 
 /// Figures by scenario and mode, the ranking and a verdict in a sentence, for a terminal.
 std::string comparison_table(const Comparison& comparison, const CompareOptions& options = {});

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-#include "awmr/compare/float32_effect.h"
 #include "awmr/compare/metric_columns.h"
 #include "awmr/compare/overall.h"
 #include "awmr/compare/ranking.h"
@@ -154,44 +153,6 @@ Json break_even_json(const std::vector<BreakEven>& entries) {
   return json;
 }
 
-Json effect_json(const Float32Effect& effect) {
-  return {{"scenario", effect.scenario},
-          {"mode", effect.contender.label()},
-          {"metric", column_of(effect.metric).name},
-          {"count", effect.count},
-          {"lost", effect.lost},
-          {"largest", effect.largest},
-          {"largest_sample", effect.largest_sample},
-          {"rms", effect.rms},
-          {"spread", optional_json(effect.spread)},
-          {"largest_of_spread", optional_json(effect.of_spread(effect.largest))},
-          {"rms_of_spread", optional_json(effect.of_spread(effect.rms))},
-          {"margin", effect.margin},
-          {"matters", effect.matters()}};
-}
-
-Json float32_json(const Comparison& comparison, const CompareOptions& options) {
-  const Float32Check check = check_of(comparison, options);
-  Json json = {{"in_double_csv_sha256", sha256_hex(in_double_csv(comparison))},
-               {"samples", check.samples},
-               {"in_double", check.in_double},
-               {"completed_otherwise", check.completed_otherwise},
-               {"small_share", kSmallShare}};
-  json["effects"] = Json::array();
-  for (const Float32Effect& effect : check.effects) json["effects"].push_back(effect_json(effect));
-  json["changed_conclusions"] = Json::array();
-  for (const ChangedConclusion& one : check.changed) {
-    Json changed = {{"scenario", one.scenario},
-                    {"first", one.first.label()},
-                    {"second", one.second.label()},
-                    {"metric", column_of(one.metric).name}};
-    put_conclusion(changed, "float32", one.in_float32);
-    put_conclusion(changed, "double", one.in_double);
-    json["changed_conclusions"].push_back(std::move(changed));
-  }
-  return json;
-}
-
 Json statistics_json(int samples) {
   Json json;
   json["over"] = samples > 0 ? "samples 1 and up" : "the nominal run alone";
@@ -245,10 +206,9 @@ std::vector<std::pair<std::string_view, std::optional<double>>> named_metrics(
   return named;
 }
 
-std::vector<std::string> comparison_columns(bool with_float32, bool with_gains) {
+std::vector<std::string> comparison_columns(bool with_gains) {
   std::vector<std::string> names{"scenario", "mode", "sample", "completed"};
   for (const MetricColumn& metric : kMetricColumns) names.emplace_back(metric.name);
-  if (with_float32) names.emplace_back(kFloat32Column);
   if (with_gains) names.emplace_back("gains");
   return names;
 }
@@ -256,8 +216,7 @@ std::vector<std::string> comparison_columns(bool with_float32, bool with_gains) 
 std::string comparison_csv(const Comparison& comparison) {
   const bool several = std::any_of(comparison.rows.begin(), comparison.rows.end(),
                                    [](const ComparisonRow& row) { return !row.gains.empty(); });
-  const bool in_float32 = comparison.is_float32();
-  std::string text = fmt::format("{}\n", fmt::join(comparison_columns(in_float32, several), ","));
+  std::string text = fmt::format("{}\n", fmt::join(comparison_columns(several), ","));
   for (const ComparisonRow& row : comparison.rows) {
     text += cell_of_text(row.scenario);
     text += ',';
@@ -267,17 +226,10 @@ std::string comparison_csv(const Comparison& comparison) {
       text += ',';
       if (const auto value = metric.value(row.metrics)) text += format_number(*value);
     }
-    if (in_float32) text += row.took_float32 ? ",1" : ",0";
     if (several) text += ',' + cell_of_text(row.gains);
     text += '\n';
   }
   return text;
-}
-
-std::string in_double_csv(const Comparison& comparison) {
-  Comparison in_double;
-  in_double.rows = comparison.in_double;
-  return comparison_csv(in_double);
 }
 
 std::string comparison_text(const Comparison& comparison, const CompareOptions& options,
@@ -299,7 +251,6 @@ std::string comparison_text(const Comparison& comparison, const CompareOptions& 
   json["overall"] = overall_json(ranked);
   json["counted_once"] = counted_once_json(ranked);
   if (comparison.break_even) json["break_even"] = break_even_json(*comparison.break_even);
-  if (comparison.is_float32()) json["float32"] = float32_json(comparison, options);
   json["scenarios"] = Json::array();
   for (const JudgedScenario& scenario : scenarios)
     json["scenarios"].push_back(scenario_json(scenario));

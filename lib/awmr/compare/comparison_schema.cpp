@@ -108,38 +108,6 @@ void describe_break_even(JsonObject& json) {
   }
 }
 
-void describe_effect(JsonObject& effect) {
-  for (const char* key : {"scenario", "mode", "metric"}) effect.string(key);
-  effect.integer("count", 0, kMost);           // runs that have the metric in float32 and in double
-  effect.integer("lost", 0, kMost);            // runs that have it in one of them alone
-  effect.number("largest", kNonNegative);      // |float32 - double|, in the metric's unit
-  effect.integer("largest_sample", 0, kMost);  // where that is
-  effect.number("rms", kNonNegative);
-  effect.nullable_number("spread", kNonNegative);  // standard deviation over the drawn samples
-  effect.nullable_number("largest_of_spread", kNonNegative);
-  effect.nullable_number("rms_of_spread", kNonNegative);
-  effect.number("margin", kNonNegative);  // below it a difference does not matter
-  effect.boolean("matters");  // lost, or rms beyond small_share of the spread and of the margin
-  effect.reject_unknown_keys();
-}
-
-void describe_float32(JsonObject& json) {
-  auto check = json.optional_object("float32");
-  if (!check) return;
-  check->string("in_double_csv_sha256");            // of in_double.csv: the checked runs in double
-  check->integer("samples", 0, kMost);              // checked; 0: stopped before they were
-  check->integer("in_double", 0, kMost);            // runs that float32 could not follow
-  check->integer("completed_otherwise", 0, kMost);  // in one of float32 and double alone
-  check->number("small_share", kShareOfRuns);
-  for (JsonObject& effect : check->objects("effects")) describe_effect(effect);
-  for (JsonObject& one : check->objects("changed_conclusions")) {
-    for (const char* key : {"scenario", "first", "second", "metric"}) one.string(key);
-    for (const char* key : {"float32", "double"}) one.optional_string(key);
-    one.reject_unknown_keys();
-  }
-  check->reject_unknown_keys();
-}
-
 void describe_how(JsonObject& json) {
   JsonObject statistics = json.object("statistics");
   for (const char* key : {"over", "paired_differences", "ci95", "p", "p_holm", "margin",
@@ -164,8 +132,7 @@ void describe_how(JsonObject& json) {
 void describe_comparison(JsonObject& json) {
   json.schema("awmr.comparison/1");
   read_provenance(json);
-  // How the runs were rounded: "fused", "unfused" or "scalar"; "fused float32", "unfused float32".
-  json.optional_string("arithmetic");
+  json.optional_string("arithmetic");  // how the runs were rounded: "fused" or "scalar"
   json.string("csv_sha256");
   json.integer("samples", 0, kMost);
   if (auto stopped = json.optional_object("stopped")) {
@@ -177,7 +144,6 @@ void describe_comparison(JsonObject& json) {
   describe_how(json);
   describe_overall(json);
   describe_break_even(json);
-  describe_float32(json);
   describe_scenarios(json);
   json.reject_unknown_keys();
 }

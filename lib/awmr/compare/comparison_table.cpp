@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "awmr/compare/break_even.h"
-#include "awmr/compare/float32_effect.h"
 #include "awmr/compare/overall.h"
 #include "awmr/compare/ranking.h"
 #include "awmr/compare/statistics.h"
@@ -121,7 +120,6 @@ std::string comparison_table(const Comparison& comparison, const CompareOptions&
   }
   text += overall_of(ranked_of(scenarios));
   if (comparison.break_even) text += break_even_table(*comparison.break_even);
-  if (comparison.is_float32()) text += float32_table(check_of(comparison, options));
   return text;
 }
 

@@ -80,10 +80,8 @@ inline constexpr std::array<MetricColumn, 17> kMetricColumns = {{
     {MetricId::kElectricWork, "electric_work_j", "", "J", &Metrics::electric_work_j, 1.0, 0.0},
 }};
 
-/// The columns of comparison.csv: of a comparison in float32 also kFloat32Column; with several sets
-/// of gains their name is the last.
-std::vector<std::string> comparison_columns(bool with_float32, bool with_gains);
-inline constexpr std::string_view kFloat32Column = "float32";
+/// The columns of comparison.csv; with several sets of gains their name is the last.
+std::vector<std::string> comparison_columns(bool with_gains);
 
 inline const MetricColumn& column_of(MetricId id) { return kMetricColumns[at(id)]; }
 

@@ -33,11 +33,9 @@ bool read_number(const std::string& text, Number& value) {
 }
 
 /// None where the cells are no row as comparison_csv writes it.
-std::optional<ComparisonRow> row_of(const std::vector<std::string>& cells, bool with_float32,
-                                    bool with_gains) {
+std::optional<ComparisonRow> row_of(const std::vector<std::string>& cells, bool with_gains) {
   constexpr std::size_t kFirst = 4;
-  constexpr std::size_t kNext = kFirst + kMetricColumns.size();
-  if (cells.size() != kNext + (with_float32 ? 1 : 0) + (with_gains ? 1 : 0)) return std::nullopt;
+  if (cells.size() != kFirst + kMetricColumns.size() + (with_gains ? 1 : 0)) return std::nullopt;
   ComparisonRow row;
   row.scenario = cells[0];
   const auto mode = value_in(kYawModeNames, cells[1]);
@@ -53,10 +51,6 @@ std::optional<ComparisonRow> row_of(const std::vector<std::string>& cells, bool 
       return std::nullopt;
     }
     kMetricColumns[i].set(row.metrics, value);
-  }
-  if (with_float32) {
-    if (cells[kNext] != "0" && cells[kNext] != "1") return std::nullopt;
-    row.took_float32 = cells[kNext] == "1";
   }
   if (with_gains) row.gains = cells.back();
   return row;
@@ -131,13 +125,12 @@ Result<std::vector<ComparisonRow>> read_rows(const std::filesystem::path& path,
   std::string_view rest = text;
   const std::vector<std::string> head = take_text_record(rest);
   const bool with_gains = head.back() == "gains";
-  const bool with_float32 = std::find(head.begin(), head.end(), kFloat32Column) != head.end();
-  if (head != comparison_columns(with_float32, with_gains)) {
+  if (head != comparison_columns(with_gains)) {
     return input_error(path.string() + ":1:1", "these are not the columns of a comparison");
   }
   while (!rest.empty()) {
     const std::string_view before = std::string_view(text).substr(0, text.size() - rest.size());
-    auto row = row_of(take_text_record(rest), with_float32, with_gains);
+    auto row = row_of(take_text_record(rest), with_gains);
     if (!row) {
       const auto line = 1 + std::count(before.begin(), before.end(), '\n');
       return input_error(fmt::format("{}:{}:1", path.string(), line),
@@ -149,11 +142,11 @@ Result<std::vector<ComparisonRow>> read_rows(const std::filesystem::path& path,
 }
 
 Result<std::vector<ComparisonRow>> read_finished(const std::filesystem::path& directory,
-                                                 const Provenance& provenance, StepFormat format) {
+                                                 const Provenance& provenance) {
   const std::filesystem::path json = directory / "comparison.json";
   AWMR_ASSIGN_OR_RETURN(const Origin before, read_origin(json));
   AWMR_RETURN_IF_ERROR(same_origin(before.provenance, before.version, provenance, json.string()));
-  AWMR_ASSIGN_OR_RETURN(const BatchArithmetic arithmetic, batch_arithmetic(format));
+  AWMR_ASSIGN_OR_RETURN(const BatchArithmetic arithmetic, batch_arithmetic());
   if (before.arithmetic != arithmetic.rounding) {
     return input_error(json.string(),
                        fmt::format("was computed in {} arithmetic, this comparison would be in {}; "

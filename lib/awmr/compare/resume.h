@@ -15,10 +15,9 @@ namespace awmr {
 /// The rows of a comparison.csv written before, and a check that its comparison.json is of the same
 /// inputs and options; the numbers of samples and threads may differ. Errors (input): the files
 /// are missing, malformed, of another comparison, of another version of the program or of other
-/// arithmetic: rows of float32 are not mixed with rows of double.
+/// arithmetic.
 Result<std::vector<ComparisonRow>> read_finished(const std::filesystem::path& directory,
-                                                 const Provenance& provenance,
-                                                 StepFormat format = StepFormat::kDouble);
+                                                 const Provenance& provenance);
 
 /// The rows of a comparison.csv. Errors (input): it is missing, no row of a comparison stands where
 /// one should, or its bytes are not those with the hash (none: not checked).

@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "awmr/compare/resume.h"
-#include "awmr/core/file.h"
 #include "awmr/core/hash.h"
 #include "awmr/core/index.h"
 #include "awmr/core/shard_file.h"
@@ -30,10 +29,7 @@ struct Part {
   int samples = 0;
   std::uint64_t seed = 0;
   Preferences preferences;
-  std::optional<std::string> in_double_csv_sha256;  ///< of a part in float32
 };
-
-constexpr const char* kInDoubleHash = "in_double_csv_sha256";
 
 Preferences read_preferences(JsonObject& json) {
   Preferences preferences;
@@ -49,8 +45,7 @@ Part part_from_json(JsonObject& json) {
   Part part{.origin = read_shard_origin(json, kShardSchema),
             .samples = static_cast<int>(json.integer("samples", 0, kMostSamples)),
             .seed = json.seed("seed"),
-            .preferences = read_preferences(json),
-            .in_double_csv_sha256 = json.optional_string(kInDoubleHash)};
+            .preferences = read_preferences(json)};
   json.reject_unknown_keys();
   return part;
 }
@@ -62,14 +57,13 @@ std::string other_comparison(const Part& first, const Part& part) {
     return made_with_other_options(first.origin);
   }
   return other_arithmetic(first.origin, part.origin,
-                          "run one of them again, all with AWMR_INSTRUCTIONS=sse2 or all on "
-                          "processors with fused multiply-add, and all or none in float32");
+                          "run all parts on processors with AVX2 or NEON");
 }
 
 /// Every scenario, mode and set of gains has every sample once, from the part that it belongs to.
-Status check_rows(const std::vector<ComparisonRow>& rows, const Part& part, const char* table,
+Status check_rows(const std::vector<ComparisonRow>& rows, const Part& part,
                   std::map<std::tuple<std::string, std::string, YawMode, int>, int>& seen) {
-  const std::string place = (part.origin.directory / table).string();
+  const std::string place = (part.origin.directory / kTable).string();
   const Shard& shard = part.origin.shard;
   for (const ComparisonRow& row : rows) {
     if (!shard.has(row.sample) || row.sample > part.samples) {
@@ -84,16 +78,14 @@ Status check_rows(const std::vector<ComparisonRow>& rows, const Part& part, cons
   return {};
 }
 
-/// The rows of all parts in the table of that name, each row once; `hash_of(part)` is its bytes'.
-template <class HashOf>
-Result<std::vector<ComparisonRow>> rows_of(const std::vector<Part>& parts, const char* table,
-                                           const HashOf& hash_of) {
+/// The rows of all parts, each row once.
+Result<std::vector<ComparisonRow>> rows_of(const std::vector<Part>& parts) {
   std::vector<ComparisonRow> rows;
   std::map<std::tuple<std::string, std::string, YawMode, int>, int> seen;
   for (const Part& part : parts) {
     AWMR_ASSIGN_OR_RETURN(std::vector<ComparisonRow> more,
-                          read_rows(part.origin.directory / table, hash_of(part)));
-    AWMR_RETURN_IF_ERROR(check_rows(more, part, table, seen));
+                          read_rows(part.origin.directory / kTable, part.origin.csv_sha256));
+    AWMR_RETURN_IF_ERROR(check_rows(more, part, seen));
     rows.insert(rows.end(), std::make_move_iterator(more.begin()),
                 std::make_move_iterator(more.end()));
   }
@@ -101,14 +93,12 @@ Result<std::vector<ComparisonRow>> rows_of(const std::vector<Part>& parts, const
 }
 
 /// In the order of a single run: scenarios and gains as each part has them, modes, samples. Errors
-/// (input): not every one of them has `samples`, counted from 0. `all` are the rows of the
-/// comparison.
-Status put_in_order(std::vector<ComparisonRow>& rows, const std::vector<ComparisonRow>& all,
-                    std::size_t samples) {
+/// (input): not every one of them has `samples`, counted from 0.
+Status put_in_order(std::vector<ComparisonRow>& rows, std::size_t samples) {
   std::map<std::string, std::size_t> scenarios;
   std::map<std::string, std::size_t> gains;
   std::set<YawMode> modes;
-  for (const ComparisonRow& row : all) {
+  for (const ComparisonRow& row : rows) {
     scenarios.emplace(row.scenario, scenarios.size());
     gains.emplace(row.gains, gains.size());
     modes.insert(row.mode);
@@ -127,15 +117,6 @@ Status put_in_order(std::vector<ComparisonRow>& rows, const std::vector<Comparis
   return {};
 }
 
-/// Whether in_double.csv of a part in float32 is there, as it was written.
-bool has_its_checks(const std::filesystem::path& directory) {
-  const auto json = read_json_file(directory / kShardFile);
-  const auto text = read_file(directory / kInDoubleTable);
-  if (!json || !text || !json->is_object()) return false;
-  const auto hash = json->find(kInDoubleHash);
-  return hash != json->end() && *hash == sha256_hex(*text);
-}
-
 }  // namespace
 
 std::string shard_text(const Comparison& part, const CompareOptions& options,
@@ -149,15 +130,12 @@ std::string shard_text(const Comparison& part, const CompareOptions& options,
   json["seed"] = options.seed;
   json["relevance"] = options.preferences.relevance;
   json["weights"] = options.preferences.weights;
-  if (part.is_float32()) json[kInDoubleHash] = sha256_hex(in_double_csv(part));
   return to_text(json);
 }
 
 bool is_finished_shard(const std::filesystem::path& directory, const CompareOptions& options,
                        const Provenance& provenance) {
-  const auto arithmetic =
-      batch_arithmetic(options.float32 ? StepFormat::kFloat32 : StepFormat::kDouble);
-  if (options.float32 && !has_its_checks(directory)) return false;
+  const auto arithmetic = batch_arithmetic();
   return arithmetic && is_finished_part(directory, kShardSchema,
                                         {.provenance = provenance,
                                          .shard = options.shard,
@@ -175,21 +153,10 @@ Result<Merged> merge_shards(const std::vector<std::filesystem::path>& directorie
                         read_parts(directories, kShardSchema, part_from_json, other_comparison));
   const Part& first = parts.front();
   Merged merged;
-  merged.comparison.arithmetic = first.origin.arithmetic;
-  AWMR_ASSIGN_OR_RETURN(merged.comparison.rows, rows_of(parts, kTable, [](const Part& part) {
-                          return part.origin.csv_sha256;
-                        }));
-  const std::vector<ComparisonRow> in_parts = merged.comparison.rows;
-  AWMR_RETURN_IF_ERROR(put_in_order(merged.comparison.rows, in_parts, at(first.samples) + 1));
-  if (merged.comparison.is_float32()) {
-    AWMR_ASSIGN_OR_RETURN(merged.comparison.in_double,
-                          rows_of(parts, kInDoubleTable, [](const Part& part) {
-                            return part.in_double_csv_sha256.value_or("");
-                          }));
-    AWMR_RETURN_IF_ERROR(put_in_order(merged.comparison.in_double, in_parts,
-                                      at(std::min(first.samples + 1, kCheckedSamples))));
-  }
+  AWMR_ASSIGN_OR_RETURN(merged.comparison.rows, rows_of(parts));
+  AWMR_RETURN_IF_ERROR(put_in_order(merged.comparison.rows, at(first.samples) + 1));
   merged.comparison.whole_samples = first.samples + 1;
+  merged.comparison.arithmetic = first.origin.arithmetic;
   merged.options.samples = first.samples;
   merged.options.seed = first.seed;
   merged.options.preferences = first.preferences;

@@ -186,7 +186,7 @@ Result<Json> read_samples(const fs::path& path) {
         row["gains"].empty() ? row["mode"] : row["mode"] + " with " + row["gains"];
     for (const auto& [name, cell] : row) {
       const auto value = number_from_text(cell);
-      if (value && name != "sample" && name != "completed" && name != "float32") {
+      if (value && name != "sample" && name != "completed") {
         samples[row["scenario"]][mode][name].push_back(*value);
       }
     }

@@ -9,7 +9,6 @@
 #include <memory>
 #include <optional>
 
-#include "awmr/core/option_text.h"
 #include "awmr/model/rest.h"
 #include "awmr/simulate/lanes/kernels.h"
 #include "awmr/simulate/metering.h"
@@ -372,17 +371,10 @@ DrivenRun one_by_one(const BatchRun& run, const Scenario& scenario, double sampl
 }
 
 const Kernel* kernel_of(const BatchArithmetic& arithmetic) {
-  for (const StepFormat format : {StepFormat::kDouble, StepFormat::kFloat32}) {
-    for (const Kernel* one : lanes::supported_kernels(format)) {
-      if (one->name == arithmetic.instructions && one->rounding == arithmetic.rounding) return one;
-    }
+  for (const Kernel* one : lanes::supported_kernels()) {
+    if (one->name == arithmetic.instructions) return one;
   }
   return nullptr;
-}
-
-/// Whether the kernel's motion is made for these runs.
-bool drives(const Kernel& kernel, const Scenario& scenario, std::span<const BatchRun> runs) {
-  return all_wheels_driven(runs) && (kernel.has_tyres || !scenario.tyres);
 }
 
 /// Calls take(i, metrics, run) for each run, without metrics where a run failed or no kernel drives it.
@@ -392,7 +384,7 @@ void drive_by_blocks(std::span<const BatchRun> runs, const Scenario& scenario, d
   const Kernel* const kernel = kernel_of(arithmetic);
   for (std::size_t first = 0; first < runs.size(); first += kBatchRuns) {
     const auto block = runs.subspan(first, std::min(kBatchRuns, runs.size() - first));
-    if (!kernel || !drives(*kernel, scenario, block)) {
+    if (!kernel || !all_wheels_driven(block)) {
       for (std::size_t i = 0; i < block.size(); ++i) take(first + i, std::nullopt, Run{});
       continue;
     }
@@ -406,45 +398,28 @@ void drive_by_blocks(std::span<const BatchRun> runs, const Scenario& scenario, d
 
 }  // namespace
 
-Result<BatchArithmetic> batch_arithmetic(StepFormat format) {
+Result<BatchArithmetic> batch_arithmetic() {
   const char* asked = std::getenv("AWMR_INSTRUCTIONS");
-  const auto kernels = lanes::supported_kernels(format);
+  const auto kernels = lanes::supported_kernels();
   const std::string_view name = asked ? asked : kernels.empty() ? "scalar" : kernels.front()->name;
-  if (name == "scalar" && format == StepFormat::kFloat32) {
-    return input_error(
-        option_text("float32"),
-        "needs vector instructions, without which runs are in double, one by one: leave it out");
-  }
   if (name == "scalar") return BatchArithmetic{"scalar", "scalar"};
-  std::string known = format == StepFormat::kFloat32 ? "" : "scalar";
+  std::string known = "scalar";
   for (const Kernel* kernel : kernels) {
-    if (name == kernel->name) return BatchArithmetic{kernel->name, kernel->rounding};
-    known += fmt::format("{}{}", known.empty() ? "" : ", ", kernel->name);
+    if (name == kernel->name) return BatchArithmetic{kernel->name, "fused"};
+    known += fmt::format(", {}", kernel->name);
   }
   return input_error(
       "AWMR_INSTRUCTIONS",
       fmt::format("'{}' is none that this processor and program have: {}", name, known));
 }
 
-Status check_float32(const Scenario& scenario, const Plant<double>& plant) {
-  const auto refused = [](std::string_view what) {
-    return input_error(option_text("float32"),
-                       fmt::format("knows no {}: leave it out, and all runs are in double", what));
-  };
-  if (scenario.tyres) return refused(fmt::format("tyres, as '{}' has them", scenario.name));
-  if (plant.rear_driven < 1.0) return refused("front-wheel drive, as the vehicle has it");
-  return {};
-}
-
 std::vector<Result<Metrics>> simulate_batch(std::span<const BatchRun> runs,
                                             const Scenario& scenario, double sample_time_s,
-                                            const BatchArithmetic& arithmetic,
-                                            std::vector<bool>* by_simulate) {
+                                            const BatchArithmetic& arithmetic) {
   std::vector<Result<Metrics>> results;
   drive_by_blocks(
       runs, scenario, sample_time_s, arithmetic, false,
       [&](std::size_t i, const std::optional<Metrics>& metrics, const Run&) {
-        if (by_simulate) by_simulate->push_back(!metrics);
         if (metrics) {
           results.emplace_back(*metrics);
           return;

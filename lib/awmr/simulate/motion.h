@@ -17,14 +17,6 @@ inline constexpr double kMostRateTimesStep = 1.0;
 inline constexpr int kMostHalvings = 40;
 inline constexpr double kMostHalves = 5e7;
 
-/// What a scalar's format adds to these limits.
-template <class T>
-struct MotionRange {
-  /// Below it a speed is rest: its square would be below the normal range.
-  static constexpr double kLeastSpeed = 1e-150;
-  static constexpr double kMostHalves = awmr::kMostHalves;
-};
-
 /// What pushes the vehicle over a sample beside its wheels.
 template <class T>
 struct Push {
@@ -185,8 +177,8 @@ AWMR_COLD State<T> advance_by_halves(Body body, State<T> from, T h, Rates rates,
                                      int halvings, Resolution<T>& resolution) {
   using math::any;
   using math::select;
-  const Mask<T> too_many = asked && (Mask<T>(halvings == kMostHalvings) ||
-                                     resolution.halves >= T(MotionRange<T>::kMostHalves));
+  const Mask<T> too_many =
+      asked && (Mask<T>(halvings == kMostHalvings) || resolution.halves >= T(kMostHalves));
   resolution.resolved = resolution.resolved && !too_many;
   const Mask<T> halved = asked && resolution.resolved;
   if (!any(halved)) return from;
@@ -231,7 +223,7 @@ template <class T>
 T settled(const T& speed) {
   using math::abs;
   using math::select;
-  return select(abs(speed) < T(MotionRange<T>::kLeastSpeed), T(0.0), speed);
+  return select(abs(speed) < T(1e-150), T(0.0), speed);
 }
 
 /// Moves the state on by `substeps` steps of h where `asked`, with the rates of held commands. Where

@@ -59,9 +59,8 @@ TunePart tune_part_from_json(JsonObject& json) {
 
 /// Why a part is not of the same search as the first; empty where it is.
 std::string other_search(const TunePart& first, const TunePart& part) {
-  std::string other = other_arithmetic(first.origin, part.origin,
-                                       "run one of them again, all with AWMR_INSTRUCTIONS=sse2 or "
-                                       "all on processors with fused multiply-add");
+  std::string other =
+      other_arithmetic(first.origin, part.origin, "run all parts on processors with AVX2 or NEON");
   if (!other.empty()) return other;
   const JudgedBy& a = part.by;
   const JudgedBy& b = first.by;

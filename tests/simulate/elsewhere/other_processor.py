@@ -19,15 +19,15 @@ ROOT = HERE.parents[2]
 LIB = ROOT / "lib/awmr"
 SKIPPED = 77
 LONGEST_S = 900
-OPTIONS = ["-std=c++20", "-O2", "-DNDEBUG", "-ffp-contract=off", "-DAWMR_HAS_LANES", "-DFMT_HEADER_ONLY", f"-I{ROOT / 'lib'}",
+OPTIONS = ["-std=c++20", "-O2", "-DNDEBUG", "-ffp-contract=off", "-DFMT_HEADER_ONLY", f"-I{ROOT / 'lib'}",
            "-isystem", "/usr/include/eigen3"]
 # As lib/awmr/simulate/CMakeLists.txt compiles them; the order of instructions has no effect on the numbers.
-KERNELS = {"sse2": ["-msse2"], "avx2": ["-mavx2", "-mfma"], "avx512": ["-mavx512f", "-mfma"], "neon": []}
+KERNELS = {"avx2": ["-mavx2", "-mfma"], "avx512": ["-mavx512f", "-mfma"], "neon": []}
 KERNEL_OPTIONS = ["-fno-tree-slp-vectorize"]
 # What batches need, without a reader of files and the libraries that these take.
 PARTS = ["core/error", "core/option_text", "core/random", "core/text", "identify/logs/sensitivity_kernel", "model/family",
          "model/model", "model/observer_rate", "model/parameters", "model/rest_speed", "model/vehicle", "simulate/batch", "simulate/disturbance",
-         "simulate/lanes/kernels", "simulate/laws", "simulate/line_following", "simulate/metrics", "simulate/passage",
+         "simulate/laws", "simulate/line_following", "simulate/metrics", "simulate/passage",
          "simulate/physics", "simulate/pilot", "simulate/scenario", "simulate/sensing", "simulate/simulate",
          "simulate/straight"]
 BOCHS = """\
@@ -77,6 +77,7 @@ def built(folder, compiler, kernels):
     """lane_bits for the compiler's processor, with these kernels."""
     folder.mkdir()
     jobs = [(LIB / f"{part}.cpp", []) for part in PARTS] + [(HERE / "lane_bits.cpp", [])]
+    jobs += [(LIB / "simulate/lanes/kernels.cpp", [f"-DAWMR_HAS_{kernel.upper()}" for kernel in kernels])]
     jobs += [(LIB / f"simulate/lanes/kernel_{kernel}.cpp", KERNELS[kernel] + KERNEL_OPTIONS) for kernel in kernels]
     launcher = ["ccache"] if shutil.which("ccache") else []
     for source, options in jobs:
@@ -143,7 +144,7 @@ def main():
         return SKIPPED
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
-        bits = built(folder / "here", "g++", ["sse2", "avx2", "avx512"])
+        bits = built(folder / "here", "g++", ["avx2", "avx512"])
         here = output_of([bits, "avx2"]).splitlines()
         there = (on_arm if asked == "neon" else on_skylake)(folder, bits).splitlines()
     different = [pair for pair in zip(here, there) if pair[0] != pair[1]]

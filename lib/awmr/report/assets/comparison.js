@@ -57,18 +57,6 @@ function breakEven(parent, entries) {
     ...(e.lead ? [e.turns_to_decide ? `${e.lead}: about ${e.turns_to_decide} turns decide` : e.lead] : [])]));
 }
 
-/// Of each figure the scenario and mode in which float32 changes it most for its spread, or for what matters.
-function float32Effect(parent, check) {
-  if (!check || !check.effects.length) return;
-  const size = (e) => { const scale = Math.max(e.spread || 0, e.margin); return scale > 0 ? e.rms / scale : 0; };
-  const worst = [...groupBy(check.effects, (e) => e.metric)].map(([, of]) => of.reduce((a, b) => size(b) > size(a) ? b : a)).sort((a, b) => size(b) - size(a));
-  const box = folded(parent, "What float32 changes");
-  add(box, "p", `Steps of the motion are in float32; ${plural(check.samples, "sample")} of every scenario and mode also in double. Of each figure, where the difference is largest.`
-    + (check.in_double ? ` ${plural(check.in_double, "run")} in double, as float32 could not follow.` : ""));
-  table(box, ["figure", "#largest difference", "#root mean square", "#of the spread", "in"], worst.map((e) => [metricWords(e.metric), digits(e.largest, 2), digits(e.rms, 2),
-    e.rms_of_spread === null ? "" : percent(e.rms_of_spread), `${e.scenario}, ${e.mode}`]));
-}
-
 /// A sentence with the names of its metrics as people say them, without their units.
 const inWords = (sentence) => sentence.replace(/\b[a-z]+(?:_[a-z]+)+\b/g, (name) => metricWords(name).split(",")[0]);
 
@@ -89,7 +77,6 @@ function comparisonSection(data) {
       (k, i) => i > 1 && comparison.overall[k].best_or_tied[names[i - 2]] === Math.max(...Object.values(comparison.overall[k].best_or_tied)));
   }
   breakEven(box, comparison.break_even);
-  float32Effect(box, comparison.float32);
   comparison.scenarios.forEach((scenario, i) => {
     const details = add(box, "details");
     details.open = i === 0 && innerWidth > 640;

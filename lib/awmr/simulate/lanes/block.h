@@ -97,10 +97,6 @@ struct Block {
 /// The three steps of a sample, in this order, for one instruction set.
 struct Kernel {
   const char* name;
-  /// "fused": a b + c is rounded once; "unfused". "fused float32", "unfused float32": the steps of
-  /// the motion are taken in float32, and all else in double.
-  const char* rounding;
-  bool has_tyres;  ///< moves a block on tyres, too
   /// From `measured` and `reference` to the commands.
   void (*control)(Block& block);
   /// Takes the sample into the sums of the active lanes.

@@ -1,6 +1,4 @@
 #define AWMR_LANES avx2
 #define AWMR_LANES_ARCH fma3<xsimd::avx2>
-#define AWMR_LANES_ROUNDING "fused"
 #define AWMR_LANES_REGISTERS 1
-#define AWMR_LANES_FLOAT_REGISTERS 1
 #include "awmr/simulate/lanes/kernel.inc"

@@ -1,6 +1,4 @@
 #define AWMR_LANES avx512
 #define AWMR_LANES_ARCH avx512f
-#define AWMR_LANES_ROUNDING "fused"
 #define AWMR_LANES_REGISTERS 2
-#define AWMR_LANES_FLOAT_REGISTERS 1
 #include "awmr/simulate/lanes/kernel.inc"

@@ -1,6 +1,4 @@
 #define AWMR_LANES neon
 #define AWMR_LANES_ARCH neon64
-#define AWMR_LANES_ROUNDING "fused"
 #define AWMR_LANES_REGISTERS 2
-#define AWMR_LANES_FLOAT_REGISTERS 2
 #include "awmr/simulate/lanes/kernel.inc"

@@ -16,19 +16,18 @@ namespace AWMR_LANES {
 using Bits = xsimd::batch<std::uint64_t, xsimd::AWMR_LANES_ARCH>;
 
 /// NaN where `in_range` does not hold.
-template <class T>
-AWMR_LANE_INLINE T only_where(const Mask<T>& in_range, const T& result) {
-  return select(in_range, result, T(__builtin_nan("")));
+AWMR_LANE_INLINE Lanes only_where(const LaneMask& in_range, const Lanes& result) {
+  return select(in_range, result, Lanes(__builtin_nan("")));
 }
 
 /// c[0] + c[1] x + ... by two of Horner's chains, of the even and of the odd powers.
-template <class T, int N>
-AWMR_LANE_INLINE T polynomial(const double (&c)[N], const T& x) {
-  const T z = x * x;
-  T last(c[N - 1]), before(c[N - 2]);
+template <int N>
+AWMR_LANE_INLINE Lanes polynomial(const double (&c)[N], const Lanes& x) {
+  const Lanes z = x * x;
+  Lanes last(c[N - 1]), before(c[N - 2]);
 #pragma GCC unroll 16
   for (int i = N - 3; i >= 0; --i) {
-    const T next = fma(last, z, T(c[i]));
+    const Lanes next = fma(last, z, Lanes(c[i]));
     last = before;
     before = next;
   }
@@ -47,7 +46,7 @@ AWMR_LANE_INLINE Split split(const Lanes& x) {
   constexpr std::uint64_t kRootHalf = 0x3FE6A09E667F3BCDULL;
   constexpr std::uint64_t kOne = 0x3FF0000000000000ULL;
   Split result;
-  for (int i = 0; i < Lanes::kRegisters; ++i) {
+  for (int i = 0; i < kRegisters; ++i) {
     const Bits bits = xsimd::bitwise_cast<Bits>(x.part[i]);
     // The biased exponent of x/sqrt(1/2), and below it what its mantissa would be.
     const Bits biased = (bits + Bits(kOne - kRootHalf)) >> 52;
@@ -102,7 +101,7 @@ struct SinCos {
 };
 
 /// The reduction to |r| <= pi/4 has three parts of pi/2, of which the first two have 33 bits, so
-/// that their products with a quadrant up to 2^20 are exact also without a fused multiplication.
+/// that their products with a quadrant up to 2^20 are exact.
 constexpr double kLargestAngle = 0x1p20;
 
 AWMR_LANE_INLINE SinCos sin_cos_in_range(const Lanes& x) {
