@@ -53,7 +53,6 @@ function(awmr_test name)
     set(ARG_TIER unit)
   endif()
   add_executable(${name} ${ARG_SOURCES})
-  set_target_properties(${name} PROPERTIES UNITY_BUILD OFF)  # each test file has its own small names
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
   # Compiled quickly rather than for speed.
   target_compile_options(${name} PRIVATE -ffp-contract=off $<$<CONFIG:Release>:-O1>)

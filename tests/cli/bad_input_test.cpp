@@ -3,7 +3,7 @@
 
 #include "cli/program.h"
 
-namespace awmr::testing {
+namespace awmr::testing::bad_input_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -114,4 +114,4 @@ TEST(Help, EveryCommandHasAnExample) {
 }
 
 }  // namespace
-}  // namespace awmr::testing
+}  // namespace awmr::testing::bad_input_test

@@ -7,7 +7,7 @@
 
 #include "cli/program.h"
 
-namespace awmr::testing {
+namespace awmr::testing::bad_number_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -94,4 +94,4 @@ TEST(BadNumber, ALogOfNoRowsOrWithoutEndIsNotSimulated) {
 }
 
 }  // namespace
-}  // namespace awmr::testing
+}  // namespace awmr::testing::bad_number_test

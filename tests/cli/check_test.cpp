@@ -5,7 +5,7 @@
 
 #include "cli/program.h"
 
-namespace awmr::testing {
+namespace awmr::testing::check_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -235,4 +235,4 @@ TEST_F(Check, AMappingForATrialThatIsStillEmptyIsNoError) {
 }
 
 }  // namespace
-}  // namespace awmr::testing
+}  // namespace awmr::testing::check_test

@@ -5,7 +5,7 @@
 
 #include "cli/program.h"
 
-namespace awmr::testing {
+namespace awmr::testing::completion_test {
 namespace {
 
 using ::testing::AllOf;
@@ -118,4 +118,4 @@ TEST(ManualPage, HasTheOptionsOfTheHelp) {
 }
 
 }  // namespace
-}  // namespace awmr::testing
+}  // namespace awmr::testing::completion_test

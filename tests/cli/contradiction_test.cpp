@@ -8,7 +8,7 @@
 #include "awmr/core/hash.h"
 #include "cli/program.h"
 
-namespace awmr::testing {
+namespace awmr::testing::contradiction_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -149,4 +149,4 @@ TEST_F(Contradiction, AScenarioThatBeganBeforeTheLogWasHeldAgainstItsFirstRow) {
 }
 
 }  // namespace
-}  // namespace awmr::testing
+}  // namespace awmr::testing::contradiction_test

@@ -7,7 +7,7 @@
 
 #include "cli/program.h"
 
-namespace awmr::testing {
+namespace awmr::testing::data_loss_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -159,4 +159,4 @@ TEST_F(DataLoss, ABrokenTuneFileWasFoundAfterIdentifying) {
 }
 
 }  // namespace
-}  // namespace awmr::testing
+}  // namespace awmr::testing::data_loss_test

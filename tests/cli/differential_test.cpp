@@ -9,7 +9,7 @@
 
 #include "cli/program.h"
 
-namespace awmr::testing {
+namespace awmr::testing::differential_test {
 namespace {
 
 using nlohmann::ordered_json;
@@ -207,4 +207,4 @@ TEST_F(DifferentialDrive, RefusesALogThatSteers) {
 }
 
 }  // namespace
-}  // namespace awmr::testing
+}  // namespace awmr::testing::differential_test

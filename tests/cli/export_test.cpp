@@ -3,7 +3,7 @@
 
 #include "cli/program.h"
 
-namespace awmr::testing {
+namespace awmr::testing::export_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -80,4 +80,4 @@ TEST_F(Export, TheSameInputsMakeTheSameBytesAndNameTheirHashes) {
 }
 
 }  // namespace
-}  // namespace awmr::testing
+}  // namespace awmr::testing::export_test

@@ -5,7 +5,7 @@
 
 #include "cli/program.h"
 
-namespace awmr::testing {
+namespace awmr::testing::init_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -107,4 +107,4 @@ TEST_F(Init, TheOpenValuesAreRefusedByTheStepsThatNeedThem) {
 }
 
 }  // namespace
-}  // namespace awmr::testing
+}  // namespace awmr::testing::init_test

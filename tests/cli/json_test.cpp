@@ -7,7 +7,7 @@
 
 #include "cli/program.h"
 
-namespace awmr::testing {
+namespace awmr::testing::json_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -148,4 +148,4 @@ TEST_F(JsonOutput, IsTheSameEveryTime) {
 }
 
 }  // namespace
-}  // namespace awmr::testing
+}  // namespace awmr::testing::json_test

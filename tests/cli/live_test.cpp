@@ -16,7 +16,7 @@
 
 #include "cli/program.h"
 
-namespace awmr::testing {
+namespace awmr::testing::live_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -260,4 +260,4 @@ TEST_F(Live, HostileStreamsEndWithinBounds) {
 }
 
 }  // namespace
-}  // namespace awmr::testing
+}  // namespace awmr::testing::live_test

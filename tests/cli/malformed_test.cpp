@@ -12,7 +12,7 @@
 
 #include "cli/program.h"
 
-namespace awmr::testing {
+namespace awmr::testing::malformed_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -227,4 +227,4 @@ TEST(MalformedTable, HasThreeHundredCases) {
 }
 
 }  // namespace
-}  // namespace awmr::testing
+}  // namespace awmr::testing::malformed_test

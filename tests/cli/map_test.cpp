@@ -6,7 +6,7 @@
 
 #include "cli/program.h"
 
-namespace awmr::testing {
+namespace awmr::testing::map_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -77,4 +77,4 @@ TEST_F(Map, AMalformedColumnsFileIsRefusedByPointer) {
 }
 
 }  // namespace
-}  // namespace awmr::testing
+}  // namespace awmr::testing::map_test

@@ -6,7 +6,7 @@
 
 #include "cli/program.h"
 
-namespace awmr::testing {
+namespace awmr::testing::partial_model_test {
 namespace {
 
 using ::testing::AllOf;
@@ -67,4 +67,4 @@ TEST_F(PartialModelCommands, ThatTurnNameWhatIsMissingAndTheTrialThatShowsIt) {
 }
 
 }  // namespace
-}  // namespace awmr::testing
+}  // namespace awmr::testing::partial_model_test

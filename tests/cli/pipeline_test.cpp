@@ -6,7 +6,7 @@
 
 #include "cli/program.h"
 
-namespace awmr::testing {
+namespace awmr::testing::pipeline_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -100,4 +100,4 @@ TEST_F(Pipeline, GivesTheSameBytesAgain) {
 }
 
 }  // namespace
-}  // namespace awmr::testing
+}  // namespace awmr::testing::pipeline_test

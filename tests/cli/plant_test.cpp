@@ -6,7 +6,7 @@
 
 #include "cli/program.h"
 
-namespace awmr::testing {
+namespace awmr::testing::plant_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -119,4 +119,4 @@ TEST_F(PlantOption, RefusesWhatHasNoMeaningOnTyresByName) {
 }
 
 }  // namespace
-}  // namespace awmr::testing
+}  // namespace awmr::testing::plant_test

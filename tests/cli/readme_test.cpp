@@ -6,7 +6,7 @@
 
 #include "cli/program.h"
 
-namespace awmr::testing {
+namespace awmr::testing::readme_test {
 namespace {
 
 /// The lines of the README's ```sh blocks that start with `awmr `.
@@ -65,4 +65,4 @@ TEST(Help, EveryExampleRunsWhereInitWroteTheirFiles) {
 }
 
 }  // namespace
-}  // namespace awmr::testing
+}  // namespace awmr::testing::readme_test

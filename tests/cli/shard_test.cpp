@@ -6,7 +6,7 @@
 
 #include "cli/program.h"
 
-namespace awmr::testing {
+namespace awmr::testing::shard_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -148,4 +148,4 @@ TEST_F(ShardsOfCommands, WhatNoRunGivesIsRefusedByTheMerge) {
 }
 
 }  // namespace
-}  // namespace awmr::testing
+}  // namespace awmr::testing::shard_test

@@ -6,7 +6,7 @@
 
 #include "cli/program.h"
 
-namespace awmr::testing {
+namespace awmr::testing::terminal_test {
 namespace {
 
 using ::testing::AllOf;
@@ -72,4 +72,4 @@ TEST_F(Terminal, ShowsHowFarLongWorkIs) {
 }
 
 }  // namespace
-}  // namespace awmr::testing
+}  // namespace awmr::testing::terminal_test

@@ -8,7 +8,7 @@
 
 #include "cli/program.h"
 
-namespace awmr::testing {
+namespace awmr::testing::tutorial_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -88,4 +88,4 @@ TEST(Tutorial, CheckProposesTheMappingThatTheProjectHas) {
 }
 
 }  // namespace
-}  // namespace awmr::testing
+}  // namespace awmr::testing::tutorial_test

@@ -7,7 +7,7 @@
 
 #include "paper_autopilot.h"
 
-namespace awmr::testing {
+namespace awmr::testing::autopilot_test {
 namespace {
 
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
@@ -381,4 +381,4 @@ TEST_F(AutopilotLeads, ByWhatWasAskedForLast) {
 }
 
 }  // namespace
-}  // namespace awmr::testing
+}  // namespace awmr::testing::autopilot_test

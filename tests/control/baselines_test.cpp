@@ -11,7 +11,7 @@
 #include "support/any_robot.h"
 #include "support/strict_scalar.h"
 
-namespace awmr::testing {
+namespace awmr::testing::baselines_test {
 namespace {
 
 using P = Position<double>;
@@ -248,4 +248,4 @@ TEST(Baselines, MixNoDoubleIntoTheirScalar) {
 }
 
 }  // namespace
-}  // namespace awmr::testing
+}  // namespace awmr::testing::baselines_test

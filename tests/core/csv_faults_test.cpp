@@ -4,7 +4,7 @@
 #include "core/csv_text.h"
 #include "core/faults.h"
 
-namespace awmr::testing {
+namespace awmr::testing::csv_faults_test {
 namespace {
 
 using ::testing::AllOf;
@@ -216,4 +216,4 @@ TEST(CsvFaults, ALongCellIsCutBetweenCharacters) {
 }
 
 }  // namespace
-}  // namespace awmr::testing
+}  // namespace awmr::testing::csv_faults_test

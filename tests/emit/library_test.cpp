@@ -9,7 +9,7 @@
 #include "emit/paper_robot.h"
 #include "support/toolchain.h"
 
-namespace awmr::testing {
+namespace awmr::testing::library_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -227,4 +227,4 @@ TEST(ResistanceTables, AreTheBestThereIsWhereNoBoundIsGiven) {
 }
 
 }  // namespace
-}  // namespace awmr::testing
+}  // namespace awmr::testing::library_test

@@ -11,7 +11,7 @@
 #include "json_edit.h"
 #include "support/paper_vehicle.h"
 
-namespace awmr::testing {
+namespace awmr::testing::model_file_test {
 namespace {
 
 using ::testing::AllOf;
@@ -337,4 +337,4 @@ TEST(Model, HasThePapersLargestWheelForce) {
 }
 
 }  // namespace
-}  // namespace awmr::testing
+}  // namespace awmr::testing::model_file_test

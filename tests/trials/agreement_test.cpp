@@ -4,7 +4,7 @@
 
 #include "support/scratch_file.h"
 
-namespace awmr::testing {
+namespace awmr::testing::agreement_test {
 namespace {
 
 double last_place_of(const std::string& cells, std::span<const ColumnMapping> mappings = {}) {
@@ -49,4 +49,4 @@ TEST(Agreement, TimesByHandOrToTheUnitOfAnAutomaticClock) {
 }
 
 }  // namespace
-}  // namespace awmr::testing
+}  // namespace awmr::testing::agreement_test

@@ -12,7 +12,7 @@
 #include "awmr/trials/read_trials.h"
 #include "trial_text.h"
 
-namespace awmr::testing {
+namespace awmr::testing::awl_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -265,4 +265,4 @@ TEST(LogRing, KeepsRowsInOrderAndCountsThoseItHasNoRoomFor) {
 }
 
 }  // namespace
-}  // namespace awmr::testing
+}  // namespace awmr::testing::awl_test

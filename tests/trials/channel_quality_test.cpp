@@ -10,7 +10,7 @@
 
 #include "awmr/core/random.h"
 
-namespace awmr {
+namespace awmr::channel_quality_test {
 namespace {
 
 constexpr double kRate_hz = 50.0;
@@ -131,4 +131,4 @@ TEST(ChannelQuality, TheEndOfASensorsRangeIsSetAside) {
 }
 
 }  // namespace
-}  // namespace awmr
+}  // namespace awmr::channel_quality_test

@@ -5,7 +5,7 @@
 
 #include "trial_text.h"
 
-namespace awmr::testing {
+namespace awmr::testing::coastdown_test {
 namespace {
 
 using ::testing::AllOf;
@@ -82,4 +82,4 @@ TEST(CoastdownTrial, RefusesNegativeCellsAndAStopInNoTime) {
 }
 
 }  // namespace
-}  // namespace awmr::testing
+}  // namespace awmr::testing::coastdown_test

@@ -6,7 +6,7 @@
 #include "awmr/core/column_mapping.h"
 #include "support/scratch_file.h"
 
-namespace awmr::testing {
+namespace awmr::testing::column_guess_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -106,4 +106,4 @@ TEST(GuessColumns, TwoTimesStayOpen) {
 }
 
 }  // namespace
-}  // namespace awmr::testing
+}  // namespace awmr::testing::column_guess_test

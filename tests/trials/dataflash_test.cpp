@@ -7,7 +7,7 @@
 #include "binary_text.h"
 #include "trial_text.h"
 
-namespace awmr::testing {
+namespace awmr::testing::dataflash_test {
 namespace {
 
 using ::testing::Contains;
@@ -123,4 +123,4 @@ TEST(Dataflash, IsReadAsALog) {
 }
 
 }  // namespace
-}  // namespace awmr::testing
+}  // namespace awmr::testing::dataflash_test

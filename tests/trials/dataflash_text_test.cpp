@@ -12,7 +12,7 @@
 #include "binary_text.h"
 #include "trial_text.h"
 
-namespace awmr::testing {
+namespace awmr::testing::dataflash_text_test {
 namespace {
 
 using ::testing::AllOf;
@@ -151,4 +151,4 @@ TEST(DataflashText, IsReadAsALog) {
 }
 
 }  // namespace
-}  // namespace awmr::testing
+}  // namespace awmr::testing::dataflash_text_test

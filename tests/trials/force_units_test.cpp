@@ -5,7 +5,7 @@
 #include "awmr/trials/load.h"
 #include "trial_text.h"
 
-namespace awmr::testing {
+namespace awmr::testing::force_units_test {
 namespace {
 
 using ::testing::AllOf;
@@ -116,4 +116,4 @@ TEST(ForceUnits, PercentBesideForcesThatAreRightMendsOnlyThePercent) {
 }
 
 }  // namespace
-}  // namespace awmr::testing
+}  // namespace awmr::testing::force_units_test

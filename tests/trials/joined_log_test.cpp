@@ -8,7 +8,7 @@
 #include "awmr/trials/replay.h"
 #include "trial_text.h"
 
-namespace awmr::testing {
+namespace awmr::testing::joined_log_test {
 namespace {
 
 using ::testing::AllOf;
@@ -189,4 +189,4 @@ TEST(LogFormat, IsTold) {
 }
 
 }  // namespace
-}  // namespace awmr::testing
+}  // namespace awmr::testing::joined_log_test

@@ -7,7 +7,7 @@
 #include "steady_log.h"
 #include "trial_text.h"
 
-namespace awmr::testing {
+namespace awmr::testing::load_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -199,4 +199,4 @@ TEST(LoadTrials, SteadyRunsOfALogJoinTheRowsOfATable) {
 }
 
 }  // namespace
-}  // namespace awmr::testing
+}  // namespace awmr::testing::load_test

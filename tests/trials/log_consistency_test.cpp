@@ -14,7 +14,7 @@
 #include "awmr/core/units.h"
 #include "support/paper_vehicle.h"
 
-namespace awmr {
+namespace awmr::log_consistency_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -346,4 +346,4 @@ TEST(LogConsistency, ARefusalNamesEachColumnWithItsRemedyAndAsIsTurnsItIntoAWarn
 }
 
 }  // namespace
-}  // namespace awmr
+}  // namespace awmr::log_consistency_test

@@ -10,7 +10,7 @@
 #include "steady_log.h"
 #include "trial_text.h"
 
-namespace awmr::testing {
+namespace awmr::testing::log_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -175,4 +175,4 @@ TEST(SteadyRunsOfALog, TurnByTheSidesWhereThereIsNoSteering) {
 }
 
 }  // namespace
-}  // namespace awmr::testing
+}  // namespace awmr::testing::log_test

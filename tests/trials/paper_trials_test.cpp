@@ -5,7 +5,7 @@
 #include "awmr/core/units.h"
 #include "trial_text.h"
 
-namespace awmr::testing {
+namespace awmr::testing::paper_trials_test {
 namespace {
 
 using ::testing::AllOf;
@@ -105,4 +105,4 @@ TEST(PaperCoastdown, HasTheStopTimeComputedBack) {
 }
 
 }  // namespace
-}  // namespace awmr::testing
+}  // namespace awmr::testing::paper_trials_test

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <string>
 
-namespace awmr {
+namespace awmr::recording_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -125,4 +125,4 @@ TEST(Recording, StopsWhereItIsFull) {
 }
 
 }  // namespace
-}  // namespace awmr
+}  // namespace awmr::recording_test

@@ -6,7 +6,7 @@
 #include "awmr/core/random.h"
 #include "trial_text.h"
 
-namespace awmr::testing {
+namespace awmr::testing::repeated_rows_test {
 namespace {
 
 using ::testing::AllOf;
@@ -148,4 +148,4 @@ TEST(RepeatedRows, AHalfOfCopiesIsNamedWhereTimesAreFine) {
 }
 
 }  // namespace
-}  // namespace awmr::testing
+}  // namespace awmr::testing::repeated_rows_test

@@ -11,7 +11,7 @@
 #include "support/process.h"
 #include "trial_text.h"
 
-namespace awmr::testing {
+namespace awmr::testing::rosbag_test {
 namespace {
 
 using ::testing::AllOf;
@@ -256,4 +256,4 @@ TEST_F(Tables, NoFileThatCanBeReadIsRefused) {
 }
 
 }  // namespace
-}  // namespace awmr::testing
+}  // namespace awmr::testing::rosbag_test

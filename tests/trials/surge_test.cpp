@@ -3,7 +3,7 @@
 
 #include "trial_text.h"
 
-namespace awmr::testing {
+namespace awmr::testing::surge_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -134,4 +134,4 @@ TEST(SurgeTrial, RefusesMalformedFiles) {
 }
 
 }  // namespace
-}  // namespace awmr::testing
+}  // namespace awmr::testing::surge_test

@@ -7,7 +7,7 @@
 #include "steady_log.h"
 #include "trial_text.h"
 
-namespace awmr::testing {
+namespace awmr::testing::trial_columns_test {
 namespace {
 
 using ::testing::AllOf;
@@ -82,4 +82,4 @@ TEST(TrialColumns, ALogTakesCommandsAndChannelsByExpression) {
 }
 
 }  // namespace
-}  // namespace awmr::testing
+}  // namespace awmr::testing::trial_columns_test

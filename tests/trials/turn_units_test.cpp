@@ -9,7 +9,7 @@
 #include "random_campaign.h"
 #include "trial_text.h"
 
-namespace awmr::testing {
+namespace awmr::testing::turn_units_test {
 namespace {
 
 using ::testing::AllOf;
@@ -174,4 +174,4 @@ TEST(TurnUnits, WrongTablesOfDrawnVehiclesAreNamed) {
 }
 
 }  // namespace
-}  // namespace awmr::testing
+}  // namespace awmr::testing::turn_units_test

@@ -6,7 +6,7 @@
 #include "awmr/core/units.h"
 #include "trial_text.h"
 
-namespace awmr::testing {
+namespace awmr::testing::turning_test {
 namespace {
 
 using ::testing::AllOf;
@@ -275,4 +275,4 @@ TEST(TurningTrialOfSides, RefusesSignsThatDisagreeAndOtherColumns) {
 }
 
 }  // namespace
-}  // namespace awmr::testing
+}  // namespace awmr::testing::turning_test

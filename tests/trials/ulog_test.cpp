@@ -10,7 +10,7 @@
 #include "binary_text.h"
 #include "trial_text.h"
 
-namespace awmr::testing {
+namespace awmr::testing::ulog_test {
 namespace {
 
 using ::testing::AllOf;
@@ -185,4 +185,4 @@ TEST(Ulog, TimeThatGoesBackAndSignalsThatAreNotThereAreRefused) {
 }
 
 }  // namespace
-}  // namespace awmr::testing
+}  // namespace awmr::testing::ulog_test
