@@ -86,9 +86,9 @@ void add_effects(const ScenarioRows& in_float32, const ScenarioRows& in_double, 
 }
 
 void add_changed(const ScenarioRows& in_float32, const ScenarioRows& in_double,
-                 const CompareOptions& options, std::uint64_t stream, Float32Check& check) {
-  const auto a = paired_differences(in_float32, options.preferences, options.seed, stream);
-  const auto b = paired_differences(in_double, options.preferences, options.seed, stream);
+                 const CompareOptions& options, Float32Check& check) {
+  const auto a = paired_differences(in_float32, options.preferences, options.seed);
+  const auto b = paired_differences(in_double, options.preferences, options.seed);
   for (std::size_t i = 0; i < b.size(); ++i) {
     if (a[i].conclusion == b[i].conclusion) continue;
     check.changed.push_back({in_double.scenario, b[i].first, b[i].second, b[i].metric,
@@ -166,7 +166,7 @@ Float32Check check_of(const Comparison& comparison, const CompareOptions& option
   const std::vector<ScenarioRows> in_double = group(other);
   for (std::size_t i = 0; i < in_double.size(); ++i) {
     add_effects(in_float32[i], in_double[i], options.preferences.relevance, check);
-    add_changed(in_float32[i], in_double[i], options, i, check);
+    add_changed(in_float32[i], in_double[i], options, check);
   }
   return check;
 }
