@@ -3,6 +3,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -42,6 +43,10 @@ struct ComparisonRow {
 
 /// Below so many samples no interval is wide enough for its 95 %.
 inline constexpr int kFewSamples = 6;
+
+/// Runs of a comparison at the most: scenarios times sets of gains times modes times samples, the
+/// nominal one included. Each takes some 2 kB of memory.
+inline constexpr std::size_t kMaxRuns = 1'000'000;
 
 struct CompareOptions {
   /// Monte-Carlo samples beside the nominal model (sample 0), >= 0. More tell smaller differences
@@ -134,7 +139,7 @@ struct Comparison {
 /// (simulate/batch.h), each of these blocks in every scenario and mode, so that a stopped
 /// comparison is a smaller one. Errors (input): the model lacks a parameter, or, with samples, a
 /// covariance to draw from, or an interval that a scenario's corner needs; no scenario, or two of
-/// the same name; a negative number of samples or threads; a finished row that is none of this
+/// the same name; a negative number of samples or threads; more than kMaxRuns runs; a finished row that is none of this
 /// comparison's; of float32, what check_float32() refuses, a processor without vector instructions,
 /// or break_even.
 Result<Comparison> compare(const Model& model, const std::vector<NamedGains>& gains,

@@ -13,6 +13,7 @@
 #include "awmr/core/file.h"
 #include "awmr/core/hash.h"
 #include "awmr/core/index.h"
+#include "awmr/core/json_document.h"
 #include "awmr/core/shard_file.h"
 #include "awmr/simulate/batch.h"
 
@@ -129,6 +130,10 @@ Status put_in_order(std::vector<ComparisonRow>& rows, const std::vector<Comparis
 
 /// Whether in_double.csv of a part in float32 is there, as it was written.
 bool has_its_checks(const std::filesystem::path& directory) {
+  if (!check_regular_file(directory / kShardFile) ||
+      !check_regular_file(directory / kInDoubleTable)) {
+    return false;
+  }
   const auto json = read_json_file(directory / kShardFile);
   const auto text = read_file(directory / kInDoubleTable);
   if (!json || !text || !json->is_object()) return false;
@@ -163,6 +168,10 @@ bool is_finished_shard(const std::filesystem::path& directory, const CompareOpti
                                          .shard = options.shard,
                                          .arithmetic = std::string(arithmetic->rounding)},
                                         kTable);
+}
+
+Status check_shard_text(std::string_view text, const std::string& file) {
+  return check_json_object(text, file, part_from_json);
 }
 
 std::string shard_schema() {
