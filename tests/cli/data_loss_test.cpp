@@ -190,7 +190,12 @@ TEST_F(DataLoss, APipeInAResultsDirectoryIsRefused) {
 }
 
 TEST_F(DataLoss, OutputsInPlacesThatCannotBeAreBadInput) {
-  ASSERT_EQ(identify(path("surge.csv"), path("model.json"), "", "--fit surge.alpha").exit_code, 0);
+  ASSERT_EQ(
+      awmr("identify --vehicle configs/paper/vehicle.json --surge datasets/paper/surge.csv "
+           "--coastdown datasets/paper/coastdown.csv --turning datasets/paper/turning.csv -o " +
+           path("model.json"))
+          .exit_code,
+      0);
   fs::create_symlink("loop", path("loop"));
   std::vector<std::string> places{path("loop"), path("loop") + "/d", path(std::string(256, 'n')),
                                   path("surge.csv") + "/d", path("new/") + std::string(256, 'n')};
@@ -201,13 +206,15 @@ TEST_F(DataLoss, OutputsInPlacesThatCannotBeAreBadInput) {
     places.push_back(path("shut/d/e"));
   }
   const std::string model = " --model " + path("model.json");
-  const std::string both = model +
-                           " --gains configs/paper/gains.json --scenario "
-                           "configs/paper/scenarios/c3_heading_steps.json";
+  write_all(path("gains.json"), R"({"heading": {"lambda": 3, "mu": 50, "epsilon": 12},
+                                    "speed": {"mu": 5, "epsilon": 1.2}})");
+  const std::string both = model + " --gains " + path("gains.json") +
+                           " --scenario configs/paper/scenarios/c3_heading_steps.json";
   for (const std::string& place : places) {
     for (const std::string& command :
          {"init " + place, "init --example " + place, "run configs/paper/project.json -o " + place,
-          "compare" + both + " -o " + place, "emit" + both + " -o " + place,
+          "compare" + both + " -o " + place,
+          "emit" + model + " --gains " + path("gains.json") + " -o " + place,
           "recover" + model + " --runs 4 --shard 1/2 -o " + place,
           "tune" + model + " --shard 1/2 -o " + place, "schema -o " + place, "man -o " + place,
           "merge " + place + " -o " + place, "report " + place, "check " + place,

@@ -247,15 +247,6 @@ Status check_output(const fs::path& path, std::span<const fs::path> inputs) {
   return {};
 }
 
-Status make_directory(const fs::path& path) {
-  std::error_code error;
-  fs::create_directories(path, error);
-  if (error) {
-    return input_error(path.string(), "cannot make the directory: " + error.message());
-  }
-  return {};
-}
-
 Result<bool> path_exists(const fs::path& path) {
   AWMR_ASSIGN_OR_RETURN(const PathKind kind, kind_of(path));
   return kind != PathKind::kNothing;
@@ -302,6 +293,16 @@ Status check_output_directory(const fs::path& path) {
     return input_error(
         path.string(),
         fmt::format("no file can be made in {}: {}; give another name", there.string(), reason()));
+  }
+  return {};
+}
+
+Status make_directory(const fs::path& path) {
+  AWMR_RETURN_IF_ERROR(check_output_directory(path));
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (error) {
+    return input_error(path.string(), "cannot make the directory: " + error.message());
   }
   return {};
 }

@@ -51,7 +51,7 @@ Status write_files(std::span<const OutputFile> files);
 Status check_output(const std::filesystem::path& path,
                     std::span<const std::filesystem::path> inputs = {});
 
-/// Makes `path` and its parents where they are missing.
+/// Makes `path` and its parents where they are missing. Errors: as check_output_directory.
 Status make_directory(const std::filesystem::path& path);
 
 /// Seconds that an opened pipe waits for the program at its other end.
