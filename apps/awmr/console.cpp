@@ -169,6 +169,7 @@ Status check_outputs(const std::filesystem::path& directory, const std::vector<s
   AWMR_ASSIGN_OR_RETURN(const bool exists, path_exists(directory));
   if (!exists) return check_output_directory(directory);
   for (const std::string& name : names) {
+    AWMR_RETURN_IF_ERROR(check_regular_file(directory / name));
     AWMR_RETURN_IF_ERROR(check_output(directory / name, inputs));
   }
   return {};

@@ -170,7 +170,7 @@ TEST_F(DataLoss, APipeInAResultsDirectoryIsRefused) {
   ASSERT_EQ(identify(path("surge.csv"), path("model.json"), "", "--fit surge.alpha").exit_code, 0);
   for (const char* name :
        {"gains.json", "validation.json", "comparison.csv", "run_a_combined_tuned.csv",
-        "scenario_a.json", "model.json", "shard.json"}) {
+        "scenario_a.json", "report.html", "model.json", "shard.json"}) {
     const std::string at = path(name);
     const bool is_model = name == std::string("model.json");
     if (is_model) fs::rename(at, path("kept.json"));

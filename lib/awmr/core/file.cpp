@@ -223,6 +223,7 @@ Status write_file(const fs::path& path, std::string_view bytes, const ReadBack& 
 Status write_files(std::span<const OutputFile> files) {
   std::vector<Staged> all;
   for (const OutputFile& file : files) {
+    AWMR_RETURN_IF_ERROR(check_regular_file(file.path));
     AWMR_ASSIGN_OR_RETURN(Staged staged, stage(file.path, file.bytes, file.read_back));
     all.push_back(std::move(staged));
   }

@@ -41,7 +41,7 @@ struct OutputFile {
 };
 
 /// Files that belong together: all are written under temporary names, then renamed one after the
-/// other. Where one cannot be written, none is. A program killed between two renamings (some
+/// other. Where one cannot be written, or is a pipe or a device, none is. A program killed between two renamings (some
 /// microseconds) leaves files of both sets: let the last one hold the hash of the others.
 Status write_files(std::span<const OutputFile> files);
 
