@@ -54,11 +54,7 @@ class MemoryLink : public Chip {
     const std::vector<std::uint8_t> bytes = pack(input);
     std::copy(bytes.begin(), bytes.end(), input_.begin());
     const std::uint8_t before = steps_[0];
-    while (steps_[0] == before) {
-      if (auto asleep = emulator_->run_to_sleep(kStartCycles); !asleep) {
-        return tl::unexpected(asleep.error());
-      }
-    }
+    while (steps_[0] == before) AWMR_RETURN_IF_ERROR(run_to_sleep());
     return Step{unpack(output_), emulator_->last_interrupt_cycles(),
                 std::exchange(is_reset_, false)};
   }
@@ -72,8 +68,20 @@ class MemoryLink : public Chip {
  private:
   /// Runs to the first sleep: the fault of the start-up check.
   Result<std::uint8_t> boot() {
-    AWMR_RETURN_IF_ERROR(emulator_->run_to_sleep(kStartCycles));
+    AWMR_RETURN_IF_ERROR(run_to_sleep());
     return emulator_->ram("pil_init_fault", 1)[0];
+  }
+
+  /// Errors (input): the chip never sleeps, as the timer asks for the next step before one ends.
+  Status run_to_sleep() {
+    const std::uint64_t begin = emulator_->cycles();
+    const Status asleep = emulator_->run_to_sleep(kStartCycles);
+    if (asleep || emulator_->cycles() - begin <= kStartCycles) return asleep;
+    return input_error("",
+                       fmt::format("a control step does not fit in the sample time: the chip was "
+                                   "busy for {} cycles ({:.1f} s) without a pause. Give "
+                                   "vehicle.json a longer sample_time_s and identify again",
+                                   kStartCycles, static_cast<double>(kStartCycles) / kClockHz));
   }
 
   void put(const std::string& symbol, const Writer& writer) {

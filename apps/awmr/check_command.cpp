@@ -6,8 +6,8 @@
 #include <functional>
 #include <memory>
 #include <set>
-#include <system_error>
 
+#include "awmr/core/file.h"
 #include "awmr/core/json.h"
 #include "awmr/model/model_file.h"
 #include "awmr/model/plausibility.h"
@@ -243,9 +243,9 @@ std::string summary_of(const fs::path& project, const Check& check) {
 }  // namespace
 
 Result<Outcome> execute(const CheckCommand& command) {
-  std::error_code error;
-  const fs::path path =
-      fs::is_directory(command.project, error) ? command.project / "project.json" : command.project;
+  AWMR_ASSIGN_OR_RETURN(const bool is_folder, directory_exists(command.project));
+  const fs::path path = is_folder ? command.project / "project.json" : command.project;
+  if (is_folder) AWMR_RETURN_IF_ERROR(check_regular_file(path));
   AWMR_ASSIGN_OR_RETURN(const Project project, read_project(path));
   AWMR_ASSIGN_OR_RETURN(const Check check, check_project(project));
   Outcome outcome{.summary = summary_of(path, check), .document = document_of(check)};

@@ -173,6 +173,7 @@ struct EmitCommand {
   fs::path output;
   EmitOptions emit = {};
   bool header_only = false;  ///< awmr_params.h alone, without the library around it
+  bool as_is = false;        ///< take sizes that contradict each other
 };
 Result<Outcome> execute(const EmitCommand& command);
 void add_emit(CLI::App& app, Session& session);

@@ -31,22 +31,25 @@ namespace {
 /// Set by Ctrl-C: what is running is finished, nothing more is begun.
 std::atomic<bool> stop_requested = false;
 
-/// While it lives, the first Ctrl-C asks for a stop and a second ends the program.
+/// While it lives, the first Ctrl-C asks for a stop and a second does what it did before.
 class StopOnInterrupt {
  public:
   StopOnInterrupt() {
     struct sigaction action = {};
-    action.sa_handler = [](int) { stop_requested.store(true); };
-    action.sa_flags = static_cast<int>(SA_RESETHAND);
+    action.sa_handler = [](int) {
+      stop_requested.store(true);
+      sigaction(SIGINT, &before, nullptr);
+    };
     sigemptyset(&action.sa_mask);
-    sigaction(SIGINT, &action, &before_);
+    sigaction(SIGINT, nullptr, &before);
+    sigaction(SIGINT, &action, nullptr);
   }
-  ~StopOnInterrupt() { sigaction(SIGINT, &before_, nullptr); }
+  ~StopOnInterrupt() { sigaction(SIGINT, &before, nullptr); }
   StopOnInterrupt(const StopOnInterrupt&) = delete;
   StopOnInterrupt& operator=(const StopOnInterrupt&) = delete;
 
  private:
-  struct sigaction before_ = {};
+  inline static struct sigaction before = {};
 };
 
 /// Each under its file name; under the path as given where two names are the same.
@@ -125,8 +128,10 @@ Status write_comparison(const CompareCommand& command, const Comparison& compari
                         const std::string& text) {
   AWMR_RETURN_IF_ERROR(make_directory(command.output));
   // The last one names the hash of the first.
-  const OutputFile files[] = {{command.output / "comparison.csv", comparison_csv(comparison)},
-                              {command.output / json_of(command), text}};
+  const OutputFile files[] = {
+      {command.output / "comparison.csv", comparison_csv(comparison), check_comparison_csv},
+      {command.output / json_of(command), text,
+       command.shard ? check_shard_text : check_comparison_text}};
   return write_files(files);
 }
 

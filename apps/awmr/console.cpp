@@ -11,7 +11,7 @@
 #include <sstream>
 #include <utility>
 
-#include "awmr/core/file.h"
+#include "awmr/core/json_document.h"
 #include "awmr/core/option_text.h"
 #include "awmr/core/text.h"
 #include "awmr/model/si_units.h"
@@ -154,9 +154,11 @@ CLI::Option* add_output_directory(CLI::App& command, std::filesystem::path& path
   return add_directory(command, "-o,--output", path, meaning)->required();
 }
 
-Status write_document(const std::optional<std::filesystem::path>& path, Outcome& outcome) {
+Status write_document(const std::optional<std::filesystem::path>& path, Outcome& outcome,
+                      const ReadBack& read_back) {
   if (!path) return {};
-  AWMR_RETURN_IF_ERROR(write_file(*path, outcome.document));
+  AWMR_RETURN_IF_ERROR(
+      write_file(*path, outcome.document, read_back ? read_back : ReadBack(check_json_text)));
   outcome.summary += fmt::format("wrote {}\n", path->string());
   outcome.written = {*path};
   return {};
@@ -164,8 +166,10 @@ Status write_document(const std::optional<std::filesystem::path>& path, Outcome&
 
 Status check_outputs(const std::filesystem::path& directory, const std::vector<std::string>& names,
                      std::span<const std::filesystem::path> inputs) {
-  if (!std::filesystem::exists(directory)) return {};
+  AWMR_ASSIGN_OR_RETURN(const bool exists, path_exists(directory));
+  if (!exists) return check_output_directory(directory);
   for (const std::string& name : names) {
+    AWMR_RETURN_IF_ERROR(check_regular_file(directory / name));
     AWMR_RETURN_IF_ERROR(check_output(directory / name, inputs));
   }
   return {};

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "awmr/core/file.h"
 #include "awmr/core/result.h"
 #include "awmr/model/model.h"
 
@@ -47,8 +48,10 @@ CLI::Option* add_output(CLI::App& command, std::filesystem::path& path, const st
 CLI::Option* add_output_directory(CLI::App& command, std::filesystem::path& path,
                                   const std::string& meaning);
 
-/// Writes the outcome's document where a path is given, and says so in its summary.
-Status write_document(const std::optional<std::filesystem::path>& path, Outcome& outcome);
+/// Writes the outcome's document, which is JSON, where a path is given, and reports it in the summary.
+/// Without `read_back` it is read back as JSON.
+Status write_document(const std::optional<std::filesystem::path>& path, Outcome& outcome,
+                      const ReadBack& read_back = {});
 
 /// As check_output for files of a directory, which may not be there yet; nothing is made.
 Status check_outputs(const std::filesystem::path& directory, const std::vector<std::string>& names,

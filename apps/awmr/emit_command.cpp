@@ -9,8 +9,10 @@
 #include "awmr/core/file.h"
 #include "awmr/core/hash.h"
 #include "awmr/core/json.h"
+#include "awmr/core/option_text.h"
 #include "awmr/model/gains_file.h"
 #include "awmr/model/model_file.h"
+#include "awmr/model/plausibility.h"
 #include "commands.h"
 #include "emit_options.h"
 #include "paths.h"
@@ -101,6 +103,19 @@ std::vector<Finding> unstable_gains(const Gains<double>& gains, double sample_ti
   return findings;
 }
 
+/// Errors (input): sizes that cannot be, each by its place in the model's file.
+Status check_vehicle(const EmitCommand& command, const Vehicle& vehicle) {
+  if (command.as_is) return {};
+  std::vector<Fault> faults;
+  for (const Implausible& one : implausible_values(vehicle)) {
+    faults.push_back({command.model.string() + ":/vehicle" + one.pointer,
+                      one.message + ". Correct vehicle.json and identify again, or give " +
+                          option_text("as-is")});
+  }
+  if (!faults.empty()) return input_errors(std::move(faults));
+  return {};
+}
+
 /// How well the tables of resistance hold; nothing where powf is called instead.
 Status add_tables(const Model& model, const Gains<double>& gains, const EmitInputs& inputs,
                   const EmitCommand& command, Outcome& outcome) {
@@ -121,6 +136,7 @@ Status add_tables(const Model& model, const Gains<double>& gains, const EmitInpu
 
 Result<Outcome> execute(const EmitCommand& command) {
   AWMR_ASSIGN_OR_RETURN(const Model model, read_model(command.model));
+  AWMR_RETURN_IF_ERROR(check_vehicle(command, model.vehicle));
   AWMR_ASSIGN_OR_RETURN(const Gains<double> gains,
                         read_gains_for(command.gains, model.vehicle.sample_time_s));
   AWMR_ASSIGN_OR_RETURN(const EmitInputs inputs, emit_inputs(command.model, command.gains));
@@ -155,6 +171,8 @@ void add_emit(CLI::App& app, Session& session) {
   add_file(*sub, "--model", command->model, "model.json from identify")->required();
   add_file(*sub, "--gains", command->gains, "gains.json from tune")->required();
   sub->add_flag("--header-only", command->header_only, "awmr_params.h alone, without the library");
+  sub->add_flag("--as-is", command->as_is,
+                "Take the vehicle's sizes as they are, where they contradict each other");
   add_emit_options(*sub, command->emit);
   add_output_directory(*sub, command->output, "Directory for awmr_params.h and the library");
 }

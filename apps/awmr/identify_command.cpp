@@ -110,7 +110,7 @@ Result<Outcome> execute(const IdentifyCommand& command) {
   Model& model = identified.model;
   model.record.provenance = std::move(provenance);
   std::string document = model_text(model);
-  AWMR_RETURN_IF_ERROR(write_file(command.output, document));
+  AWMR_RETURN_IF_ERROR(write_file(command.output, document, check_model_text));
   return Outcome{.summary = summary_of(model),
                  .details = estimators_of(model),
                  .closing = fmt::format("wrote {}\n", command.output.string()),

@@ -46,7 +46,12 @@ Result<std::vector<OutputFile>> files_to_write(const InitCommand& command) {
   for (const EmbeddedFile& file : command.example ? example_files() : project_templates()) {
     const fs::path path = command.directory / file.path;
     std::error_code error;
-    if (fs::symlink_status(path, error).type() != fs::file_type::not_found) {
+    const fs::file_type type = fs::symlink_status(path, error).type();
+    if (type == fs::file_type::none) {
+      return input_error(path.string(), "cannot look up this path: " + error.message() +
+                                            "; give another directory");
+    }
+    if (type != fs::file_type::not_found) {
       faults.push_back(
           {path.string(), "is there already; take another directory, or move it away"});
     }
@@ -58,20 +63,21 @@ Result<std::vector<OutputFile>> files_to_write(const InitCommand& command) {
 }
 
 /// The directories of the files that are not there yet, outer ones first.
-std::vector<fs::path> new_directories(const std::vector<OutputFile>& files) {
+Result<std::vector<fs::path>> new_directories(const std::vector<OutputFile>& files) {
   std::set<fs::path> found;
   for (const OutputFile& file : files) {
-    for (fs::path path = file.path.parent_path(); !path.empty() && !fs::exists(path);
-         path = path.parent_path()) {
+    for (fs::path path = file.path.parent_path(); !path.empty(); path = path.parent_path()) {
+      AWMR_ASSIGN_OR_RETURN(const bool exists, path_exists(path));
+      if (exists) break;
       found.insert(path);
     }
   }
-  return {found.begin(), found.end()};
+  return std::vector<fs::path>(found.begin(), found.end());
 }
 
 /// All files or none, and no new directory without them.
 Status write_all(const std::vector<OutputFile>& files) {
-  const std::vector<fs::path> made = new_directories(files);
+  AWMR_ASSIGN_OR_RETURN(const std::vector<fs::path> made, new_directories(files));
   Status written;
   for (const fs::path& directory : made) {
     if (written) written = make_directory(directory);

@@ -31,7 +31,7 @@ std::string error_text(const Error& error) {
   json["exit_code"] = exit_code(error);
   json["errors"] = Json::array();
   const auto plain = [](const std::string& text) { return printable(spell_options(text, "--")); };
-  for (const Fault& fault : error.faults) {
+  for (const Fault& fault : shown_faults(error.faults)) {
     json["errors"].push_back({{"place", plain(fault.place)}, {"message", plain(fault.message)}});
   }
   return awmr::to_text(json);

@@ -109,7 +109,9 @@ void LiveScreen::draw(const LiveUpdate& update) {
   const std::size_t columns = terminal_columns();
   std::vector<std::string> lines;
   add_wrapped(fmt::format("{}: {}; Ctrl-C ends", title_, progress_text(update)), columns, lines);
-  for (const Fault& fault : update.faults) add_wrapped(text_of(fault), columns, lines);
+  for (const Fault& fault : shown_faults(update.faults)) {
+    add_wrapped(text_of(fault), columns, lines);
+  }
   if (update.model) {
     for (const Precision& precision : precision_of(*update.model, update.asked)) {
       const std::string line = parameter_line(*update.model, precision, update.enough);
@@ -130,7 +132,7 @@ void LiveScreen::draw(const LiveUpdate& update) {
 /// A line for each update; faults once, until they are others.
 void LiveScreen::print_lines(const LiveUpdate& update) {
   std::string faults;
-  for (const Fault& fault : update.faults) faults += text_of(fault) + "\n";
+  for (const Fault& fault : shown_faults(update.faults)) faults += text_of(fault) + "\n";
   if (faults != faults_told_) print_to_stderr(faults);
   faults_told_ = faults;
   print_to_stderr(fmt::format("{}: {}; {}\n", progress_text(update), widths_text(update),

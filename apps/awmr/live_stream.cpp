@@ -36,13 +36,10 @@ bool became_shorter(int file) {
 
 std::atomic<bool> interrupted = false;
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may set it");
-extern "C" void note_interruption(int) { interrupted = true; }
-
-void handle_interruptions(void (*handler)(int)) {
-  struct sigaction action {};
-  action.sa_handler = handler;
-  sigemptyset(&action.sa_mask);
-  for (const int signal : {SIGINT, SIGTERM}) ::sigaction(signal, &action, nullptr);
+volatile std::sig_atomic_t hung_up = 0;
+extern "C" void note_interruption(int signal) {
+  interrupted = true;
+  if (signal == SIGHUP) hung_up = 1;
 }
 
 }  // namespace
@@ -58,7 +55,8 @@ Result<OpenStream> open_stream(const StreamSource& source) {
     if (input.number() < 0) return input_error("--log -", "standard input is closed");
     return OpenStream{std::move(input)};
   }
-  Descriptor file(::open(name.c_str(), O_RDONLY | O_CLOEXEC));
+  // A pipe opens at once, and what ends a recording also ends the wait for its writer.
+  Descriptor file(::open(name.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   if (file.number() < 0) {
     return input_error(name, std::string("cannot open the file: ") + std::strerror(errno));
   }
@@ -129,10 +127,23 @@ void RecorderStream::read_until_over() {
 
 Interruption::Interruption() {
   interrupted = false;
-  handle_interruptions(note_interruption);
+  struct sigaction action {};
+  action.sa_handler = note_interruption;
+  sigemptyset(&action.sa_mask);
+  for (std::size_t i = 0; i < kSignals.size(); ++i) {
+    ::sigaction(kSignals[i], nullptr, &before_[i]);
+    // Under nohup the terminal's end is ignored.
+    if (kSignals[i] == SIGHUP && before_[i].sa_handler == SIG_IGN) continue;
+    ::sigaction(kSignals[i], &action, nullptr);
+  }
 }
 
-Interruption::~Interruption() { handle_interruptions(SIG_DFL); }
+Interruption::~Interruption() {
+  if (hung_up != 0) before_.back().sa_handler = SIG_IGN;
+  for (std::size_t i = 0; i < kSignals.size(); ++i) {
+    ::sigaction(kSignals[i], &before_[i], nullptr);
+  }
+}
 
 bool Interruption::came() { return interrupted; }
 

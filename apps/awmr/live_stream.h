@@ -1,9 +1,11 @@
 /// What a recorder sends, taken up by a thread of its own: nothing is lost while a fit runs.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <csignal>
 #include <filesystem>
 #include <mutex>
 #include <optional>
@@ -56,7 +58,9 @@ class RecorderStream {
   std::thread reader_;  ///< last: it uses all of the above
 };
 
-/// While it lives, SIGINT and SIGTERM are noted in place of ending the program. One at a time.
+/// While it lives, SIGINT, SIGTERM and SIGHUP (a terminal that is closed) are noted in place of ending
+/// the program. After a SIGHUP further ones are ignored for good, so that the results are written: the
+/// kernel and the shell each send one. One object at a time.
 class Interruption {
  public:
   Interruption();
@@ -64,6 +68,10 @@ class Interruption {
   Interruption(const Interruption&) = delete;
   Interruption& operator=(const Interruption&) = delete;
   static bool came();
+
+ private:
+  static constexpr std::array kSignals{SIGINT, SIGTERM, SIGHUP};
+  std::array<struct sigaction, kSignals.size()> before_{};
 };
 
 }  // namespace awmr::cli

@@ -3,8 +3,10 @@
 #include <cstdio>
 #include <exception>
 #include <iostream>
+#include <new>
 #include <string>
 
+#include "awmr/core/temporary_file.h"
 #include "awmr/core/text.h"
 #include "command_line.h"
 #include "commands.h"
@@ -83,20 +85,29 @@ int run(int argc, char** argv) {
   return session.exit_code;
 }
 
+int fail(const awmr::Error& error, int argc, char** argv) {
+  const std::string text =
+      awmr::cli::asks_for_json(argc, argv) ? awmr::cli::error_text(error) : awmr::to_text(error);
+  std::fputs(text.c_str(), stderr);
+  return awmr::exit_code(error);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   // Beyond a limit of the file size a write then fails, instead of the program being ended.
   std::signal(SIGXFSZ, SIG_IGN);
+  awmr::remove_temporaries_on_signals();
   try {
     return run(argc, argv);
+  } catch (const std::bad_alloc&) {
+    return fail(awmr::input_error("",
+                                  "not enough memory for this input; use fewer samples, runs or "
+                                  "rows, or a machine with more memory")
+                    .value(),
+                argc, argv);
   } catch (const std::exception& error) {
-    const std::string what = std::string("a fault of the program: ") + error.what();
-    const awmr::Error fault = awmr::program_fault(what).value();
-    std::fputs(
-        (awmr::cli::asks_for_json(argc, argv) ? awmr::cli::error_text(fault) : awmr::to_text(fault))
-            .c_str(),
-        stderr);
-    return 3;
+    return fail(awmr::program_fault(std::string("a fault of the program: ") + error.what()).value(),
+                argc, argv);
   }
 }

@@ -4,10 +4,12 @@
 #include <memory>
 #include <utility>
 
+#include "awmr/compare/resume.h"
 #include "awmr/compare/shard.h"
 #include "awmr/core/file.h"
 #include "awmr/core/shard_file.h"
 #include "awmr/identify/planning/recover_shard.h"
+#include "awmr/model/gains_file.h"
 #include "awmr/tune/tune_shard.h"
 #include "commands.h"
 #include "judgement_words.h"
@@ -34,8 +36,8 @@ Result<Outcome> merge_comparison(const MergeCommand& command) {
       comparison_text(merged.comparison, merged.options, merged.provenance);
   AWMR_RETURN_IF_ERROR(make_directory(command.output));
   const OutputFile files[] = {
-      {command.output / "comparison.csv", comparison_csv(merged.comparison)},
-      {command.output / "comparison.json", document}};
+      {command.output / "comparison.csv", comparison_csv(merged.comparison), check_comparison_csv},
+      {command.output / "comparison.json", document, check_comparison_text}};
   AWMR_RETURN_IF_ERROR(write_files(files));
   std::string table = comparison_table(merged.comparison, merged.options);
   for (const auto& [name, text] : merged.provenance.options) {
@@ -71,7 +73,7 @@ Result<Outcome> merge_tuning(const MergeCommand& command) {
       .summary = judged_table(merged.judged, merged.judged_by_scenario) + goals_text(merged.goals),
       .findings = goal_findings(merged.goals),
       .document = merged.gains_text};
-  AWMR_RETURN_IF_ERROR(write_document(command.output / "gains.json", outcome));
+  AWMR_RETURN_IF_ERROR(write_document(command.output / "gains.json", outcome, check_gains_text));
   return outcome;
 }
 

@@ -62,8 +62,12 @@ Result<Outcome> part_outcome(const RecoverCommand& command, const RecoverPart& p
   AWMR_RETURN_IF_ERROR(make_directory(*command.output));
   // The last one names the hash of the first.
   const OutputFile files[] = {
-      {*command.output / kRecoverTable, recover_csv(part)},
-      {*command.output / kShardFile, recover_shard_text(part, *command.shard, provenance)}};
+      {*command.output / kRecoverTable, recover_csv(part),
+       [&](std::string_view text, const std::string& file) {
+         return check_recover_csv(text, file, part);
+       }},
+      {*command.output / kShardFile, recover_shard_text(part, *command.shard, provenance),
+       check_recover_shard_text}};
   AWMR_RETURN_IF_ERROR(write_files(files));
   return Outcome{.summary = fmt::format("part {} of {}: {} runs\nwrote {} and {}\n",
                                         command.shard->index, command.shard->count,

@@ -5,9 +5,11 @@
 #include <set>
 
 #include "awmr/core/file.h"
+#include "awmr/core/json_document.h"
 #include "awmr/core/option_text.h"
 #include "awmr/model/gains_file.h"
 #include "awmr/model/model_file.h"
+#include "awmr/model/plausibility.h"
 #include "awmr/model/vehicle_file.h"
 #include "awmr/simulate/scenario_file.h"
 #include "awmr/trials/load.h"
@@ -39,7 +41,7 @@ Result<std::vector<fs::path>> write_runs(const Project& project, const fs::path&
     AWMR_ASSIGN_OR_RETURN(const Scenario scenario, read_scenario(path));
     AWMR_ASSIGN_OR_RETURN(const std::string text, read_file(path));
     written.push_back(directory / scenario_name(path));
-    AWMR_RETURN_IF_ERROR(write_file(written.back(), text));
+    AWMR_RETURN_IF_ERROR(write_file(written.back(), text, check_json_text));
     for (const YawMode mode : yaw_modes(model.vehicle)) {
       for (const auto& [name, gains] : sets) {
         AWMR_ASSIGN_OR_RETURN(const Run run, simulate(model, gains, scenario, mode));
@@ -146,7 +148,15 @@ void add_faults(const Result<T>& read, std::vector<Fault>& faults) {
 Result<std::vector<fs::path>> checked_inputs(const RunCommand& command, const Project& project) {
   TuneConfig tune;
   std::vector<Fault> faults;
-  add_faults(read_trials(project), faults);
+  const auto trials = read_trials(project);
+  add_faults(trials, faults);
+  if (trials && !project.trials.as_is) {
+    for (const Implausible& one : implausible_values(trials->vehicle)) {
+      faults.push_back({project.vehicle.string() + ":" + one.pointer,
+                        one.message + ". Correct it, or give \"as_is\": true under identify in " +
+                            command.project.filename().string()});
+    }
+  }
   if (project.tune) {
     auto read = read_tune_config(*project.tune);
     add_faults(read, faults);
@@ -182,10 +192,10 @@ Status report_step(const RunCommand& command, Outcome& total) {
 constexpr const char* kLibrary = "firmware";
 
 /// The Arduino library. A vehicle that the chip does not carry has none, which is told.
-void emit_library(const fs::path& model, const fs::path& gains, const fs::path& output,
+void emit_library(const fs::path& model, const fs::path& gains, const fs::path& output, bool as_is,
                   Outcome& total) {
   const Result<Outcome> emitted =
-      execute(EmitCommand{.model = model, .gains = gains, .output = output});
+      execute(EmitCommand{.model = model, .gains = gains, .output = output, .as_is = as_is});
   if (emitted) {
     total.findings.insert(total.findings.end(), emitted->findings.begin(), emitted->findings.end());
     return add_written(total, emitted->written);
@@ -221,12 +231,13 @@ Result<Outcome> execute(const RunCommand& command) {
   add_step(steps, "tune", std::move(tuned));
   AWMR_ASSIGN_OR_RETURN(Outcome validated, validate_step(project, names, command.output));
   add_step(steps, "validate", std::move(validated));
-  AWMR_ASSIGN_OR_RETURN(
-      const Outcome emitted,
-      execute(EmitCommand{
-          .model = model, .gains = gains, .output = command.output, .header_only = true}));
+  AWMR_ASSIGN_OR_RETURN(const Outcome emitted, execute(EmitCommand{.model = model,
+                                                                   .gains = gains,
+                                                                   .output = command.output,
+                                                                   .header_only = true,
+                                                                   .as_is = project.trials.as_is}));
   add_written(total, emitted.written);
-  emit_library(model, gains, command.output / kLibrary, total);
+  emit_library(model, gains, command.output / kLibrary, project.trials.as_is, total);
   AWMR_ASSIGN_OR_RETURN(Outcome compared,
                         execute(CompareCommand{.model = model,
                                                .gains = {gains},

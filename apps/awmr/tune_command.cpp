@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "awmr/core/file.h"
+#include "awmr/model/gains_file.h"
 #include "awmr/model/model_file.h"
 #include "awmr/simulate/conditions.h"
 #include "awmr/simulate/validity.h"
@@ -218,10 +219,14 @@ Result<Outcome> part_outcome(const TuneCommand& command, const Tuning& tuning,
                              const TuneOptions& options, const Provenance& provenance) {
   AWMR_RETURN_IF_ERROR(make_directory(command.output));
   // The last one names the hashes of the others.
+  const std::string shard_json = tune_shard_text(tuning, options, provenance);
   const OutputFile files[] = {
-      {command.output / kTuneShardGains, gains_text(tuning, options, provenance)},
-      {command.output / kJudgedTable, judged_csv(tuning, options)},
-      {command.output / kShardFile, tune_shard_text(tuning, options, provenance)}};
+      {command.output / kTuneShardGains, gains_text(tuning, options, provenance), check_gains_text},
+      {command.output / kJudgedTable, judged_csv(tuning, options),
+       [&](std::string_view text, const std::string& file) {
+         return check_judged_csv(text, file, shard_json);
+       }},
+      {command.output / kShardFile, shard_json, check_tune_shard_text}};
   AWMR_RETURN_IF_ERROR(write_files(files));
   const Shard& shard = *options.shard;
   return Outcome{
@@ -285,7 +290,7 @@ Result<Outcome> execute(const TuneCommand& command) {
                                                           name_of(score.mode));
                                      }),
                     std::back_inserter(findings));
-  AWMR_RETURN_IF_ERROR(write_file(command.output, document));
+  AWMR_RETURN_IF_ERROR(write_file(command.output, document, check_gains_text));
   return Outcome{.summary = summary_of(tuning, config.options),
                  .details = details_of(tuning),
                  .closing = fmt::format("wrote {}\n", command.output.string()),

@@ -186,6 +186,34 @@ TEST_F(Check, IdentifyWarnsOfWhatCannotBe) {
   EXPECT_THAT(result.err, AllOf(HasSubstr("warning: "), HasSubstr("[implausible-vehicle]")));
 }
 
+TEST_F(Check, EmitAndRunRefuseWhatCannotBeUnlessItIsTakenAsItIs) {
+  ASSERT_EQ(
+      awmr("identify --vehicle configs/paper/vehicle.json --surge datasets/paper/surge.csv "
+           "--coastdown datasets/paper/coastdown.csv --turning datasets/paper/turning.csv -o " +
+           path("model.json").string())
+          .exit_code,
+      0);
+  const nlohmann::ordered_json good = read("model.json");
+  write("gains.json", {{"heading", {{"lambda", 3}, {"mu", 50}, {"epsilon", 12}}},
+                       {"speed", {{"mu", 5}, {"epsilon", 1.2}}}});
+  const std::string emit = "emit --header-only --model " + path("odd.json").string() + " --gains " +
+                           path("gains.json").string() + " -o " + path("firmware").string();
+  for (const auto& [key, value] :
+       {std::pair("half_track_m", 0.5), std::pair("half_track_m", 0.05),
+        std::pair("front_axle_m", 0.7), std::pair("length_m", 132.0),
+        std::pair("yaw_inertia_kgm2", 584.1), std::pair("mass_kg", 37000.0)}) {
+    nlohmann::ordered_json odd = good;
+    odd["vehicle"][key] = value;
+    write("odd.json", odd);
+    const ProcessResult refused = awmr(emit);
+    EXPECT_EQ(refused.exit_code, 2) << key;
+    EXPECT_THAT(refused.err, HasSubstr(std::string("odd.json:/vehicle/") + key)) << key;
+    EXPECT_FALSE(std::filesystem::exists(path("firmware"))) << key;
+    EXPECT_EQ(awmr(emit + " --as-is").exit_code, 0) << key;
+    std::filesystem::remove_all(path("firmware"));
+  }
+}
+
 TEST_F(Check, ContradictionsOfTheTrialsNameTheMappingThatMends) {
   write_all(path("surge.csv"),
             "wheel_force,distance_m,elapsed_s\n51,5,12.5\n102,5,5.9\n153,5,3.8\n204,5,2.8\n");

@@ -1,7 +1,9 @@
 /// What the program could destroy, or claim wrongly of its inputs.
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <nlohmann/json.hpp>
 
@@ -156,6 +158,89 @@ TEST_F(DataLoss, ABrokenTuneFileWasFoundAfterIdentifying) {
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_THAT(result.err, HasSubstr("missing.json"));
   EXPECT_FALSE(fs::exists(path("out")));
+}
+
+/// `awmr COMMAND` that is stopped after `seconds` where it hangs: exit code 124.
+ProcessResult within_seconds(int seconds, const std::string& command) {
+  return run_process(fmt::format("timeout {} {} {}", seconds, AWMR_PROGRAM, command),
+                     AWMR_SOURCE_DIR);
+}
+
+TEST_F(DataLoss, APipeInAResultsDirectoryIsRefused) {
+  ASSERT_EQ(identify(path("surge.csv"), path("model.json"), "", "--fit surge.alpha").exit_code, 0);
+  for (const char* name :
+       {"gains.json", "validation.json", "comparison.csv", "run_a_combined_tuned.csv",
+        "scenario_a.json", "report.html", "model.json", "shard.json"}) {
+    const std::string at = path(name);
+    const bool is_model = name == std::string("model.json");
+    if (is_model) fs::rename(at, path("kept.json"));
+    ASSERT_EQ(::mkfifo(at.c_str(), 0600), 0);
+    // A program that has it open and writes nothing.
+    const int held = ::open(at.c_str(), O_RDWR | O_CLOEXEC);
+    const std::string command = name == std::string("shard.json")
+                                    ? "merge " + path(".") + " -o " + path("merged")
+                                    : "report " + path(".");
+    const ProcessResult result = within_seconds(20, command);
+    EXPECT_EQ(result.exit_code, 2) << name;
+    EXPECT_THAT(result.err, HasSubstr("this is a pipe or a device")) << name;
+    ::close(held);
+    fs::remove(at);
+    if (is_model) fs::rename(path("kept.json"), at);
+  }
+}
+
+TEST_F(DataLoss, OutputsInPlacesThatCannotBeAreBadInput) {
+  ASSERT_EQ(
+      awmr("identify --vehicle configs/paper/vehicle.json --surge datasets/paper/surge.csv "
+           "--coastdown datasets/paper/coastdown.csv --turning datasets/paper/turning.csv -o " +
+           path("model.json"))
+          .exit_code,
+      0);
+  fs::create_symlink("loop", path("loop"));
+  std::vector<std::string> places{path("loop"), path("loop") + "/d", path(std::string(256, 'n')),
+                                  path("surge.csv") + "/d", path("new/") + std::string(256, 'n')};
+  if (::geteuid() != 0) {
+    fs::create_directory(path("shut"));
+    ASSERT_EQ(::chmod(path("shut").c_str(), 0), 0);
+    places.push_back(path("shut/d"));
+    places.push_back(path("shut/d/e"));
+  }
+  const std::string model = " --model " + path("model.json");
+  write_all(path("gains.json"), R"({"heading": {"lambda": 3, "mu": 50, "epsilon": 12},
+                                    "speed": {"mu": 5, "epsilon": 1.2}})");
+  const std::string both = model + " --gains " + path("gains.json") +
+                           " --scenario configs/paper/scenarios/c3_heading_steps.json";
+  for (const std::string& place : places) {
+    for (const std::string& command :
+         {"init " + place, "init --example " + place, "run configs/paper/project.json -o " + place,
+          "compare" + both + " -o " + place,
+          "emit" + model + " --gains " + path("gains.json") + " -o " + place,
+          "recover" + model + " --runs 4 --shard 1/2 -o " + place,
+          "tune" + model + " --shard 1/2 -o " + place, "schema -o " + place, "man -o " + place,
+          "merge " + place + " -o " + place, "report " + place, "check " + place,
+          "suggest" + model + " -o " + place + "/suggest.json",
+          "identify --vehicle " + path("vehicle.json") + " --log " + place + " -o " +
+              path("x.json")}) {
+      const ProcessResult result = within_seconds(60, command);
+      EXPECT_EQ(result.exit_code, 2) << command << "\n" << result.err;
+      EXPECT_THAT(result.err, HasSubstr("error: ")) << command;
+    }
+  }
+  if (::geteuid() != 0) ::chmod(path("shut").c_str(), 0755);
+}
+
+TEST_F(DataLoss, ASignalWhileFilesAreWrittenLeavesNoTemporaryFile) {
+  for (const char* signal : {"HUP", "INT", "TERM", "QUIT"}) {
+    for (const char* after : {"0.02", "0.05", "0.1", "0.2"}) {
+      run_process(fmt::format("timeout -s {} {} {} init --example {}", signal, after, AWMR_PROGRAM,
+                              path("example")),
+                  AWMR_SOURCE_DIR);
+      for (const auto& entry : fs::recursive_directory_iterator(directory_.path())) {
+        EXPECT_THAT(entry.path().filename().string(), Not(HasSubstr(".awmr-"))) << signal;
+      }
+      fs::remove_all(path("example"));
+    }
+  }
 }
 
 }  // namespace

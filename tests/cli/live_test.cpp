@@ -131,6 +131,24 @@ TEST_F(Live, AGrowingFileIsFollowedUntilNothingMoreComes) {
   EXPECT_THAT(run.out, HasSubstr("nothing more came: 1501 rows"));
 }
 
+TEST_F(Live, KeepsLogAndModelWhereItsTerminalIsClosed) {
+  // Two signals, as the kernel and the shell each send one.
+  const ProcessResult run =
+      shell("{ head -n 900 " + kDrive + kOnAndOn + " | { " + live("--log - --every 0.2") +
+            " & pid=$!; sleep 1.5; kill -HUP $pid; sleep 0.1; "
+            "kill -HUP $pid; wait $pid; }");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("interrupted: 898 rows"));
+  EXPECT_EQ(read_all(path("live.json")), identified());
+}
+
+TEST_F(Live, APipeThatNobodyWritesToEndsAtTheDuration) {
+  const ProcessResult run =
+      shell("mkfifo " + path("pipe") + "; " + live("--log " + path("pipe") + " --duration 1"));
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("the duration is over before anything came"));
+}
+
 TEST_F(Live, EndsAtADurationWithWhatItHas) {
   const ProcessResult run =
       shell("{ head -n 900 " + kDrive + kOnAndOn + " | " + live("--log - --duration 1.5"));

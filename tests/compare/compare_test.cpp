@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <map>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -135,6 +137,86 @@ TEST(Compare, RefusesBadOptionsAllAtOnce) {
   ASSERT_FALSE(c);
   EXPECT_EQ(c.error().kind, ErrorKind::kInput);
   EXPECT_EQ(c.error().faults.size(), 3U);
+}
+
+/// What comparison.json says of each scenario, by its name.
+std::map<std::string, Json> by_scenario(const Comparison& comparison,
+                                        const CompareOptions& options) {
+  std::map<std::string, Json> all;
+  const Json json = Json::parse(comparison_text(comparison, options, kProvenance));
+  for (const Json& one : json["scenarios"]) all[one["name"].get<std::string>()] = one;
+  return all;
+}
+
+TEST(Compare, NothingDependsOnTheOrderOfScenarios) {
+  const CompareOptions options{.samples = 6, .seed = 3};
+  Scenario faster = short_heading();
+  faster.name = "faster";
+  faster.speed_mps *= 1.5;
+  const std::vector<Scenario> scenarios{short_heading(), faster, short_open_loop()};
+  const auto reference = by_scenario(compared(options, scenarios), options);
+  ASSERT_EQ(reference.size(), 3U);
+  const auto turned =
+      by_scenario(compared(options, {scenarios[2], scenarios[1], scenarios[0]}), options);
+  EXPECT_EQ(reference, turned);
+  for (const Scenario& scenario : scenarios) {
+    EXPECT_EQ(by_scenario(compared(options, {scenario}), options).at(scenario.name),
+              reference.at(scenario.name));
+  }
+}
+
+TEST(Compare, RankingDoesNotDependOnTheOrderOfGains) {
+  const CompareOptions options{.samples = 6, .seed = 3};
+  Gains<double> faster = kPaperGains;
+  faster.heading.lambda *= 1.5;
+  // The second and third are the same: nothing but their names tells them apart.
+  std::vector<NamedGains> gains{{"a.json", kPaperGains}, {"c.json", faster}, {"b.json", faster}};
+  const auto ranking = [&] {
+    const auto c = compare(uncertain_model(), gains, {short_heading()}, options);
+    EXPECT_TRUE(c);
+    return Json::parse(comparison_text(*c, options, kProvenance))["scenarios"][0]["ranking"];
+  };
+  const Json reference = ranking();
+  ASSERT_EQ(reference.size(), 9U);
+  std::reverse(gains.begin(), gains.end());
+  EXPECT_EQ(ranking(), reference);
+}
+
+TEST(Compare, ChecksTheControllerOfEveryScenario) {
+  Scenario observed = short_heading();
+  observed.name = "observed";
+  observed.control.observer =
+      ControlOptions::Observer{.bandwidth_radps = 2.0 / uncertain_model().vehicle.sample_time_s,
+                               .yaw_max_m = 0.04,
+                               .surge_max = 1.0};
+  Scenario unstable = short_heading();
+  unstable.name = "unstable";
+  unstable.control.lqi = LqiWeights<double>{
+      .heading_rad = 1e-6, .yaw_rate_radps = 1e-6, .integral_rad_s = 1e-6, .tau_turn_m = 1e6};
+  Scenario endless = short_heading();
+  endless.name = "endless";
+  endless.duration_s = 1e6;
+  for (const Scenario& bad : {observed, unstable, endless}) {
+    for (const int samples : {0, 2}) {
+      std::vector<Scenario> scenarios{short_heading(), short_open_loop(), bad};
+      for (int turn = 0; turn < 3; ++turn) {
+        std::rotate(scenarios.begin(), scenarios.begin() + 1, scenarios.end());
+        const auto refused =
+            compare(uncertain_model(), kPaperGains, scenarios, {.samples = samples});
+        ASSERT_FALSE(refused) << bad.name << " " << turn;
+        EXPECT_EQ(exit_code(refused.error()), 2);
+        EXPECT_THAT(to_text(refused.error()), HasSubstr("scenario '" + bad.name + "'"));
+      }
+    }
+  }
+}
+
+TEST(Compare, RefusesMoreRunsThanMemoryHolds) {
+  const auto refused =
+      compare(uncertain_model(), kPaperGains, {short_heading()}, {.samples = 1'000'000});
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(exit_code(refused.error()), 2);
+  EXPECT_THAT(to_text(refused.error()), HasSubstr("give at most 333332 samples"));
 }
 
 TEST(Compare, RefusesTwoScenariosOfOneName) {

@@ -80,7 +80,7 @@ Comparison paired(int samples, double difference_spread) {
 }
 
 PairedDifference iae_difference(const Comparison& c, std::uint64_t seed) {
-  for (const PairedDifference& d : paired_differences(group(c)[0], {}, seed, 0)) {
+  for (const PairedDifference& d : paired_differences(group(c)[0], {}, seed)) {
     if (d.metric == MetricId::kHeadingIae) return d;
   }
   return {};
@@ -131,7 +131,7 @@ TEST(Bootstrap, HoldsAMeanOfTenAsOftenAsItSays) {
     }
     const std::vector<ScenarioRows> scenarios = group(c);
     for (const PairedDifference& d :
-         paired_differences(scenarios.front(), {}, static_cast<std::uint64_t>(trial), 0)) {
+         paired_differences(scenarios.front(), {}, static_cast<std::uint64_t>(trial))) {
       if (d.metric == MetricId::kSettlingTime) held += d.ci95->contains(0.0) ? 1 : 0;
     }
   }
@@ -183,7 +183,7 @@ TEST(PairedDifferences, PairOnlySamplesThatBothModesHave) {
 
 std::vector<RankedMode> ranking_of(const Comparison& c, const Preferences& preferences = {}) {
   const ScenarioRows scenario = group(c)[0];
-  return rank(scenario, paired_differences(scenario, preferences, 1, 0), preferences);
+  return rank(scenario, paired_differences(scenario, preferences, 1), preferences);
 }
 
 std::vector<int> ranks(const std::vector<RankedMode>& ranking) {
@@ -308,7 +308,7 @@ TEST(Preferences, RefuseWhatIsNoWeight) {
 
 TEST(PairedDifferences, AreRelevantEquivalentOrUndecided) {
   const auto conclusion = [](const Comparison& c) {
-    for (const PairedDifference& d : paired_differences(group(c)[0], {}, 1, 0)) {
+    for (const PairedDifference& d : paired_differences(group(c)[0], {}, 1)) {
       if (d.metric == MetricId::kSettlingTime && d.second.mode == YawMode::kSteering) {
         return d.conclusion;
       }

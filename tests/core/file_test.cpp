@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <csignal>
 #include <thread>
 
@@ -16,6 +17,7 @@
 namespace awmr::testing {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -130,6 +132,73 @@ TEST_F(FileTest, MakesADirectoryWithItsParents) {
   EXPECT_TRUE(fs::is_directory(path("a") / "b" / "c"));
   ASSERT_TRUE(write_file(path("f"), "x"));
   EXPECT_FALSE(make_directory(path("f") / "d"));
+}
+
+TEST_F(FileTest, AnOutputThatItsReaderRefusesIsAFaultAndLeavesTheOldFile) {
+  ASSERT_TRUE(write_file(path("a.txt"), "precious"));
+  const ReadBack refuse = [](std::string_view bytes, const std::string& file) -> Status {
+    if (bytes == "good") return {};
+    return input_error(file + ":/key", "expected a number, found null");
+  };
+  const auto refused = write_file(path("a.txt"), "bad", refuse);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(exit_code(refused.error()), 3);
+  EXPECT_THAT(faults_of(refused),
+              ElementsAre(AllOf(HasSubstr("a.txt was not written"), HasSubstr("a.txt:/key"),
+                                HasSubstr("expected a number"), HasSubstr("left as it was"))));
+  const OutputFile both[] = {{path("b.txt"), "good", refuse}, {path("a.txt"), "bad", refuse}};
+  EXPECT_FALSE(write_files(both));
+  EXPECT_EQ(read_file(path("a.txt")).value(), "precious");
+  EXPECT_THAT(names(), ElementsAre("a.txt"));
+  ASSERT_TRUE(write_file(path("a.txt"), "good", refuse));
+  EXPECT_EQ(read_file(path("a.txt")).value(), "good");
+}
+
+TEST_F(FileTest, APipeWithoutAProgramAtItsOtherEndIsAFaultAfterAWhile) {
+  ASSERT_EQ(::mkfifo(path("a.pipe").c_str(), 0600), 0);
+  EXPECT_THAT(faults_of(read_file(path("a.pipe"))),
+              ElementsAre(HasSubstr("no program writes to this pipe after 5 s")));
+  EXPECT_THAT(faults_of(write_file(path("a.pipe"), "x")),
+              ElementsAre(HasSubstr("no program reads this pipe after 5 s")));
+}
+
+TEST_F(FileTest, APipeWaitsForItsWriterAndReader) {
+  ASSERT_EQ(::mkfifo(path("a.pipe").c_str(), 0600), 0);
+  std::thread writer([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    EXPECT_TRUE(write_file(path("a.pipe"), "slow"));
+  });
+  EXPECT_EQ(read_file(path("a.pipe")).value(), "slow");
+  writer.join();
+}
+
+TEST_F(FileTest, QueriesTellWhatIsThereAndWhatCannotBeLookedUp) {
+  ASSERT_TRUE(write_file(path("a.txt"), ""));
+  ASSERT_EQ(::mkfifo(path("a.pipe").c_str(), 0600), 0);
+  fs::create_symlink("a.loop", path("a.loop"));
+  const fs::path long_name = path(std::string(256, 'n'));
+  EXPECT_TRUE(regular_file_exists(path("a.txt")).value());
+  EXPECT_FALSE(regular_file_exists(path("a.none")).value());
+  EXPECT_FALSE(path_exists(path("a.txt") / "below").value());
+  EXPECT_TRUE(directory_exists(path("")).value());
+  EXPECT_THAT(faults_of(regular_file_exists(path("a.pipe"))), ElementsAre(HasSubstr("is a pipe")));
+  EXPECT_THAT(faults_of(regular_file_exists(path(""))), ElementsAre(HasSubstr("is a directory")));
+  for (const fs::path& bad : {path("a.loop"), long_name}) {
+    EXPECT_THAT(faults_of(path_exists(bad)), ElementsAre(HasSubstr("cannot look up this path")));
+    EXPECT_FALSE(directory_exists(bad));
+    EXPECT_FALSE(regular_file_exists(bad));
+    EXPECT_FALSE(list_directory(bad));
+    EXPECT_FALSE(check_output_directory(bad));
+    EXPECT_FALSE(check_output(bad));
+    EXPECT_FALSE(make_directory(bad));
+  }
+  EXPECT_TRUE(check_output_directory(path("new") / "newer"));
+  EXPECT_FALSE(make_directory(path("new") / std::string(256, 'n')));
+  EXPECT_FALSE(path_exists(path("new")).value()) << "nothing is made";
+  EXPECT_THAT(faults_of(check_output_directory(path("a.txt"))),
+              ElementsAre(HasSubstr("this is a file where a directory is needed")));
+  EXPECT_THAT(list_directory(path("")).value(),
+              ElementsAre(path("a.loop"), path("a.pipe"), path("a.txt")));
 }
 
 }  // namespace

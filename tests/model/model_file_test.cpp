@@ -336,5 +336,30 @@ TEST(Model, HasThePapersLargestWheelForce) {
   EXPECT_NEAR(max_wheel_force_n(37.0, 0.0768), 481.77, 0.005);
 }
 
+TEST(ModelFile, AnIntervalThatDoesNotExistIsNullOrLeftOut) {
+  Model model = some_model();
+  model.record.reports[0].parameters[0].profile95 = Interval{1.2, 1.4};
+  const std::string text = model_text(model);
+  const std::string key = "\"profile95\": ";
+  const std::size_t begin = text.find(key) + key.size();
+  ASSERT_NE(text.find(key), std::string::npos);
+  const std::string with_null =
+      text.substr(0, begin) + "null" + text.substr(text.find(']', begin) + 1);
+  EXPECT_EQ(reread(text)->record.reports[0].parameters[0].profile95->hi, 1.4);
+  ASSERT_TRUE(reread(with_null)) << to_text(reread(with_null).error());
+  EXPECT_FALSE(reread(with_null)->record.reports[0].parameters[0].profile95);
+}
+
+TEST(ModelFile, IsReadBackBeforeItReplacesTheOldOne) {
+  Model model = some_model();
+  const ScratchFile file("model.json", model_text(model));
+  ASSERT_TRUE(write_model(model, file.path()));
+  model[ParameterId::kSurgeAlpha].value = 1e12;  // beyond what a model may hold
+  const auto refused = write_model(model, file.path());
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(exit_code(refused.error()), 3);
+  EXPECT_TRUE(read_model(file.path())) << "the old file is still there";
+}
+
 }  // namespace
 }  // namespace awmr::testing::model_file_test

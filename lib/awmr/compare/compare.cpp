@@ -75,6 +75,19 @@ std::vector<Fault> option_faults(const std::vector<NamedGains>& gains,
   return faults;
 }
 
+/// Checked before anything is sized by the number of samples.
+Status check_runs(std::size_t per_sample, int samples) {
+  const std::size_t most = kMaxRuns / per_sample;
+  if (at(samples) + 1 <= most) return {};
+  return input_error(
+      option_text("samples"),
+      fmt::format("{} samples and the nominal one in {} runs each are {:.3g} runs, more "
+                  "than the {} that are kept in memory: give at most {} samples, or "
+                  "fewer scenarios or sets of gains",
+                  samples, per_sample, (samples + 1.0) * static_cast<double>(per_sample), kMaxRuns,
+                  most > 0 ? most - 1 : 0));
+}
+
 /// What is run: positions in the lists of scenarios, gains and kYawModes, and the sample.
 struct Place {
   std::size_t scenario, gains, mode, sample;
@@ -193,6 +206,8 @@ Result<Comparison> compare(const Model& model, const std::vector<NamedGains>& ga
                            const std::vector<Scenario>& scenarios, const CompareOptions& options) {
   std::vector<Fault> faults = option_faults(gains, scenarios, options);
   if (!faults.empty()) return input_errors(std::move(faults));
+  AWMR_RETURN_IF_ERROR(check_runs(scenarios.size() * gains.size() * yaw_modes(model.vehicle).size(),
+                                  options.samples));
   for (const NamedGains& set : gains) AWMR_RETURN_IF_ERROR(controller_for(model, set.gains));
   AWMR_ASSIGN_OR_RETURN(const Fleet fleet, fleet_of(model, scenarios, options));
   AWMR_ASSIGN_OR_RETURN(const BatchArithmetic arithmetic, batch_arithmetic());

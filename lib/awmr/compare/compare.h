@@ -3,6 +3,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -38,6 +39,10 @@ struct ComparisonRow {
 
 /// Below so many samples no interval is wide enough for its 95 %.
 inline constexpr int kFewSamples = 6;
+
+/// Runs of a comparison at the most: scenarios times sets of gains times modes times samples, the
+/// nominal one included. Each takes some 2 kB of memory.
+inline constexpr std::size_t kMaxRuns = 1'000'000;
 
 struct CompareOptions {
   /// Monte-Carlo samples beside the nominal model (sample 0), >= 0. More tell smaller differences
@@ -119,8 +124,8 @@ struct Comparison {
 /// (simulate/batch.h), each of these blocks in every scenario and mode, so that a stopped
 /// comparison is a smaller one. Errors (input): the model lacks a parameter, or, with samples, a
 /// covariance to draw from, or an interval that a scenario's corner needs; no scenario, or two of
-/// the same name; a negative number of samples or threads; a finished row that is none of this
-/// comparison's.
+/// the same name; a negative number of samples or threads; more than kMaxRuns runs; a finished row
+/// that is none of this comparison's.
 Result<Comparison> compare(const Model& model, const std::vector<NamedGains>& gains,
                            const std::vector<Scenario>& scenarios, const CompareOptions& options);
 Result<Comparison> compare(const Model& model, const Gains<double>& gains,

@@ -4,6 +4,7 @@
 
 #include "awmr/core/index.h"
 #include "awmr/simulate/plant_sampler.h"
+#include "awmr/simulate/simulate.h"
 
 namespace awmr {
 namespace {
@@ -31,7 +32,8 @@ std::vector<const Scenario*> apart(const std::vector<Scenario>& scenarios, std::
 Result<Fleet> fleet_of(const Model& model, const std::vector<Scenario>& scenarios,
                        const CompareOptions& options) {
   const std::size_t samples = at(options.samples) + 1;
-  for (const Scenario& scenario : scenarios) AWMR_RETURN_IF_ERROR(check_tyres(scenario));
+  // The controller has the model's own values in every sample.
+  for (const Scenario& scenario : scenarios) AWMR_RETURN_IF_ERROR(check_scenario(scenario, model));
   Fleet fleet;
   AWMR_ASSIGN_OR_RETURN(fleet.nominal, model.plant());
   const std::vector<const Scenario*> own = apart(scenarios, samples, fleet.first);
@@ -46,7 +48,12 @@ Result<Fleet> fleet_of(const Model& model, const std::vector<Scenario>& scenario
       AWMR_ASSIGN_OR_RETURN(drawn, sampler->draw_model(options.seed, static_cast<int>(sample)));
     }
     for (std::size_t i = 0; i < own.size(); ++i) {
-      AWMR_ASSIGN_OR_RETURN(fleet.vehicles[i * samples + sample], plant_for(*own[i], drawn));
+      AWMR_ASSIGN_OR_RETURN(const Model corner, model_at_corner(drawn, *own[i]));
+      AWMR_ASSIGN_OR_RETURN(fleet.vehicles[i * samples + sample], corner.plant());
+    }
+    for (std::size_t i = 0; i < scenarios.size(); ++i) {
+      AWMR_RETURN_IF_ERROR(check_work(fleet.vehicle(i, sample), model.file, scenarios[i],
+                                      model.vehicle.sample_time_s));
     }
   }
   return fleet;

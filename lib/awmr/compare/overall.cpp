@@ -40,10 +40,9 @@ bool same_runs(const ModeRows& a, const ModeRows& b) {
 std::vector<JudgedScenario> judge(const Comparison& comparison, const Preferences& preferences,
                                   std::uint64_t seed) {
   std::vector<JudgedScenario> all;
-  std::uint64_t stream = 0;
   for (ScenarioRows& scenario : group(comparison)) {
-    auto differences = paired_differences(scenario, preferences, seed, stream);
-    auto ranking = rank(scenario, differences, preferences, seed, stream++);
+    auto differences = paired_differences(scenario, preferences, seed);
+    auto ranking = rank(scenario, differences, preferences, seed);
     std::string verdict = verdict_of(scenario, ranking, differences, preferences);
     all.push_back(
         {std::move(scenario), std::move(differences), std::move(ranking), std::move(verdict)});

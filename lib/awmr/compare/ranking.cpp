@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <tuple>
 
 #include "awmr/compare/scoring.h"
 #include "awmr/core/binomial.h"
@@ -60,22 +61,32 @@ bool complete_alike(const ModeRows& a, const ModeRows& b) {
   return mcnemar_p(only_first, only_second) >= kSignificance;
 }
 
+/// Among equals the order is by mode and name, not that in which the gains were given.
+bool is_before(const ModeRows& a, const ModeRows& b) {
+  return std::tie(a.contender.mode, a.contender.gains) <
+         std::tie(b.contender.mode, b.contender.gains);
+}
+
 /// Best first: those that complete as often as the best by their scores, then the others.
 std::vector<Entry> sorted_entries(const ScenarioRows& scenario,
                                   const std::vector<ScoredMetric>& scoring) {
   std::vector<Entry> entries;
   for (const ModeRows& rows : scenario.modes) entries.push_back(entry_of(rows, scoring));
-  const auto most = std::max_element(scenario.modes.begin(), scenario.modes.end(),
-                                     [](const ModeRows& a, const ModeRows& b) {
-                                       return a.completed_count() < b.completed_count();
-                                     });
+  const auto most = std::max_element(
+      scenario.modes.begin(), scenario.modes.end(), [](const ModeRows& a, const ModeRows& b) {
+        const std::size_t first = a.completed_count();
+        const std::size_t second = b.completed_count();
+        return first < second || (first == second && is_before(b, a));
+      });
   for (Entry& entry : entries) entry.completes = complete_alike(*entry.rows, *most);
   std::stable_sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
     if (a.completes != b.completes) return a.completes;
     if (!a.completes && a.rows->completed_count() != b.rows->completed_count()) {
       return a.rows->completed_count() > b.rows->completed_count();
     }
-    return a.log_score() < b.log_score();
+    const double first = a.log_score();
+    const double second = b.log_score();
+    return first < second || (!(second < first) && is_before(*a.rows, *b.rows));
   });
   return entries;
 }
@@ -221,13 +232,11 @@ bool has_a_goal(const ScenarioRows& scenario) {
 
 std::vector<RankedMode> rank(const ScenarioRows& scenario,
                              const std::vector<PairedDifference>& differences,
-                             const Preferences& preferences, std::uint64_t seed,
-                             std::uint64_t stream) {
+                             const Preferences& preferences, std::uint64_t seed) {
   const std::vector<ScoredMetric> scoring = scoring_of(scenario, preferences);
   if (!has_a_goal(scenario) || scoring.empty()) return {};
   const std::vector<Entry> entries = sorted_entries(scenario, scoring);
-  const std::vector<double> by_weights =
-      shares_by_weights(entries, Random(seed, kWeightStream | stream));
+  const std::vector<double> by_weights = shares_by_weights(entries, Random(seed, kWeightStream));
   const std::vector<double> by_samples = shares_by_samples(entries);
   std::vector<RankedMode> ranking;
   std::size_t leader = 0;  // the best of the current rank
@@ -240,7 +249,7 @@ std::vector<RankedMode> rank(const ScenarioRows& scenario,
     ranked.first_by_weights = by_weights[i];
     if (own.log_scores.size() >= 2) ranked.first_by_samples = by_samples[i];
     if (i > 0) {
-      const Random random(seed, kScoreStream | (stream << 8U) | i);
+      const Random random(seed, kScoreStream | i);
       const Behind first = behind(own, entries.front(), preferences.relevance, random);
       ranked.behind_ci95 = first.ratio_ci95;
       ranked.towards_leader =

@@ -53,11 +53,10 @@ bool has_a_goal(const ScenarioRows& scenario);
 
 /// Best first. Empty for a scenario that has nothing to follow (open loop), where lower metrics are
 /// no better, and where no ranked metric has a weight. `differences` are paired_differences() of the
-/// same scenario; `seed` and `stream` are those of the bootstrap.
+/// same scenario; `seed` is that of the bootstrap, which is the same in every scenario.
 std::vector<RankedMode> rank(const ScenarioRows& scenario,
                              const std::vector<PairedDifference>& differences,
-                             const Preferences& preferences = {}, std::uint64_t seed = 1,
-                             std::uint64_t stream = 0);
+                             const Preferences& preferences = {}, std::uint64_t seed = 1);
 
 /// One sentence (or two) on who is best, by what, and how sure that is.
 std::string verdict_of(const ScenarioRows& scenario, const std::vector<RankedMode>& ranking,

@@ -12,7 +12,7 @@
 #include "awmr/core/csv_cell.h"
 #include "awmr/core/file.h"
 #include "awmr/core/hash.h"
-#include "awmr/core/json.h"
+#include "awmr/core/json_document.h"
 #include "awmr/core/shard_file.h"
 #include "awmr/simulate/batch.h"
 
@@ -99,46 +99,64 @@ struct Origin {
   std::optional<std::string> csv_sha256;  ///< none in files of earlier versions
 };
 
+Origin origin_from_json(JsonObject& json) {
+  const std::string written_by = json.optional_string("version").value_or("unknown");
+  return {read_provenance(json), written_by, json.optional_string("arithmetic").value_or("scalar"),
+          json.optional_string("csv_sha256")};
+}
+
 Result<Origin> read_origin(const std::filesystem::path& path) {
+  AWMR_RETURN_IF_ERROR(check_regular_file(path));
   AWMR_ASSIGN_OR_RETURN(const Json document, read_json_file(path));
   std::vector<Fault> faults;
   JsonObject json(document, path.string(), "", faults);
-  const std::string written_by = json.optional_string("version").value_or("unknown");
-  Origin origin{read_provenance(json), written_by,
-                json.optional_string("arithmetic").value_or("scalar"),
-                json.optional_string("csv_sha256")};
+  Origin origin = origin_from_json(json);
   if (!faults.empty()) return input_errors(std::move(faults));
   return origin;
+}
+
+Result<std::vector<ComparisonRow>> rows_from_text(std::string_view text, const std::string& file) {
+  std::vector<ComparisonRow> rows;
+  std::string_view rest = text;
+  const std::vector<std::string> head = take_text_record(rest);
+  const bool with_gains = head.back() == "gains";
+  if (head != comparison_columns(with_gains)) {
+    return input_error(file + ":1:1", "these are not the columns of a comparison");
+  }
+  while (!rest.empty()) {
+    const std::string_view before = text.substr(0, text.size() - rest.size());
+    auto row = row_of(take_text_record(rest), with_gains);
+    if (!row) {
+      const auto line = 1 + std::count(before.begin(), before.end(), '\n');
+      return input_error(fmt::format("{}:{}:1", file, line),
+                         "is no row of a comparison; compare into another directory");
+    }
+    rows.push_back(std::move(*row));
+  }
+  return rows;
 }
 
 }  // namespace
 
 Result<std::vector<ComparisonRow>> read_rows(const std::filesystem::path& path,
                                              const std::optional<std::string>& sha256) {
+  AWMR_RETURN_IF_ERROR(check_regular_file(path));
   AWMR_ASSIGN_OR_RETURN(const std::string text, read_file(path));
   if (sha256 && *sha256 != sha256_hex(text)) {
     return input_error(path.string(),
                        "is not as it was written with comparison.json: it was changed, or is of "
                        "another comparison; compare into another directory");
   }
-  std::vector<ComparisonRow> rows;
-  std::string_view rest = text;
-  const std::vector<std::string> head = take_text_record(rest);
-  const bool with_gains = head.back() == "gains";
-  if (head != comparison_columns(with_gains)) {
-    return input_error(path.string() + ":1:1", "these are not the columns of a comparison");
-  }
-  while (!rest.empty()) {
-    const std::string_view before = std::string_view(text).substr(0, text.size() - rest.size());
-    auto row = row_of(take_text_record(rest), with_gains);
-    if (!row) {
-      const auto line = 1 + std::count(before.begin(), before.end(), '\n');
-      return input_error(fmt::format("{}:{}:1", path.string(), line),
-                         "is no row of a comparison; compare into another directory");
-    }
-    rows.push_back(std::move(*row));
-  }
-  return rows;
+  return rows_from_text(text, path.string());
+}
+
+Status check_comparison_csv(std::string_view text, const std::string& file) {
+  AWMR_RETURN_IF_ERROR(rows_from_text(text, file));
+  return {};
+}
+
+Status check_comparison_text(std::string_view text, const std::string& file) {
+  return check_json_object(text, file, origin_from_json);
 }
 
 Result<std::vector<ComparisonRow>> read_finished(const std::filesystem::path& directory,

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "awmr/compare/compare.h"
@@ -23,5 +24,9 @@ Result<std::vector<ComparisonRow>> read_finished(const std::filesystem::path& di
 /// one should, or its bytes are not those with the hash (none: not checked).
 Result<std::vector<ComparisonRow>> read_rows(const std::filesystem::path& path,
                                              const std::optional<std::string>& sha256);
+
+/// Read-backs (core/file.h) of comparison.csv and comparison.json, as a comparison is resumed.
+Status check_comparison_csv(std::string_view text, const std::string& file);
+Status check_comparison_text(std::string_view text, const std::string& file);
 
 }  // namespace awmr

@@ -12,6 +12,7 @@
 #include "awmr/compare/resume.h"
 #include "awmr/core/hash.h"
 #include "awmr/core/index.h"
+#include "awmr/core/json_document.h"
 #include "awmr/core/shard_file.h"
 #include "awmr/simulate/batch.h"
 
@@ -141,6 +142,10 @@ bool is_finished_shard(const std::filesystem::path& directory, const CompareOpti
                                          .shard = options.shard,
                                          .arithmetic = std::string(arithmetic->rounding)},
                                         kTable);
+}
+
+Status check_shard_text(std::string_view text, const std::string& file) {
+  return check_json_object(text, file, part_from_json);
 }
 
 std::string shard_schema() {

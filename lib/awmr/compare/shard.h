@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "awmr/compare/compare.h"
@@ -16,6 +17,9 @@ namespace awmr {
 /// which one it is, and the hash of its rows.
 std::string shard_text(const Comparison& part, const CompareOptions& options,
                        const Provenance& provenance);
+
+/// Read-back of shard.json (core/file.h).
+Status check_shard_text(std::string_view text, const std::string& file);
 
 /// Whether the directory holds this part already, finished, from the same inputs and options, and as
 /// it was written.

@@ -266,12 +266,12 @@ Summary summarise(const ModeRows& rows, const MetricColumn& metric) {
 }
 
 std::vector<PairedDifference> paired_differences(const ScenarioRows& scenario,
-                                                 const Preferences& preferences, std::uint64_t seed,
-                                                 std::uint64_t stream) {
+                                                 const Preferences& preferences,
+                                                 std::uint64_t seed) {
   Differences all = all_differences(scenario, preferences.relevance);
   std::vector<PairedDifference>& differences = all.results;
   if (all.values.cols() >= 2) {
-    const Eigen::ArrayXXd means = resampled_means(all, Random(seed, kBootstrapStream + stream));
+    const Eigen::ArrayXXd means = resampled_means(all, Random(seed, kBootstrapStream));
     for (std::size_t i = 0; i < differences.size(); ++i) {
       PairedDifference& d = differences[i];
       if (d.count >= 2) d.ci95 = interval_of(means.row(eigen_index(i)), d.count);

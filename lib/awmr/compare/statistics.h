@@ -112,10 +112,10 @@ std::vector<double> holm(std::span<const double> p);
 
 inline constexpr int kResamples = 1000;
 /// 95 % intervals of the mean by the percentile bootstrap: whole samples are resampled, the same
-/// ones for every metric and pair. `stream` separates scenarios. Pairs are of the same gains or of
-/// the same mode.
+/// ones for every metric, pair and scenario, so that no interval depends on the order of scenarios.
+/// Pairs are of the same gains or of the same mode.
 std::vector<PairedDifference> paired_differences(const ScenarioRows& scenario,
-                                                 const Preferences& preferences, std::uint64_t seed,
-                                                 std::uint64_t stream);
+                                                 const Preferences& preferences,
+                                                 std::uint64_t seed);
 
 }  // namespace awmr

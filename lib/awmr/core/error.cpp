@@ -29,20 +29,22 @@ tl::unexpected<Error> input_errors(std::vector<Fault> faults) {
 
 std::string to_text(const Error& error) { return to_text(error, ""); }
 
+std::vector<Fault> shown_faults(const std::vector<Fault>& faults) {
+  if (faults.size() <= kMaxFaultsShown) return faults;
+  std::vector<Fault> shown(faults.begin(), faults.begin() + kMaxFaultsShown);
+  const std::size_t left = faults.size() - kMaxFaultsShown;
+  shown.push_back(
+      {"", fmt::format("{} more fault{} not shown", left, left == 1 ? " is" : "s are")});
+  return shown;
+}
+
 std::string to_text(const Error& error, std::string_view prefix) {
   std::string text;
-  std::size_t shown = 0;
-  for (const Fault& fault : error.faults) {
-    if (shown == kMaxFaultsShown) break;
-    ++shown;
+  for (const Fault& fault : shown_faults(error.faults)) {
     const std::string message = printable(shortened(spell_options(fault.message, prefix)));
     const std::string place = printable(shortened(spell_options(fault.place, prefix)));
     text += place.empty() ? fmt::format("error: {}\n", message)
                           : fmt::format("error: {}: {}\n", place, message);
-  }
-  if (error.faults.size() > shown) {
-    const std::size_t left = error.faults.size() - shown;
-    text += fmt::format("error: {} more fault{} not shown\n", left, left == 1 ? " is" : "s are");
   }
   return text;
 }

@@ -7,10 +7,12 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
+#include <climits>
 #include <cstring>
 #include <optional>
+#include <thread>
 #include <utility>
-#include <vector>
 
 #include "awmr/core/opened_file.h"
 #include "awmr/core/temporary_file.h"
@@ -88,10 +90,54 @@ Result<Target> target_of(const fs::path& path) {
   return target;
 }
 
+/// Opens a stream to write. A pipe is opened once a program reads it, within kPipeWait_s.
+Result<Descriptor> open_stream(const fs::path& path) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(kPipeWait_s);
+  while (true) {
+    Descriptor file(::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NONBLOCK));
+    if (file.number() >= 0) {
+      ::fcntl(file.number(), F_SETFL, ::fcntl(file.number(), F_GETFL) & ~O_NONBLOCK);
+      return file;
+    }
+    if (errno != ENXIO) return write_error(path, reason());
+    if (std::chrono::steady_clock::now() > end) {
+      return write_error(path, fmt::format("no program reads this pipe after {:g} s; start the "
+                                           "reader first, or give a file",
+                                           kPipeWait_s));
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+}
+
 Status write_stream(const fs::path& path, std::string_view bytes) {
-  const Descriptor file(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
-  if (file.number() < 0 || !write_all(file.number(), bytes)) return write_error(path, reason());
+  AWMR_ASSIGN_OR_RETURN(const Descriptor file, open_stream(path));
+  if (!write_all(file.number(), bytes)) return write_error(path, reason());
   return {};
+}
+
+/// Errors (fault): the reader of this kind of file refuses the bytes.
+Status check_read_back(const fs::path& path, std::string_view bytes, const ReadBack& read_back) {
+  if (!read_back) return {};
+  const Status read = read_back(bytes, path.string());
+  if (read) return {};
+  const Fault& first = read.error().faults.front();
+  return program_fault(fmt::format(
+      "{} was not written, because its own reader refuses it ({}: {}). An existing file is left as "
+      "it was; please report this with the inputs",
+      path.string(), first.place, first.message));
+}
+
+/// What stands at a path.
+enum class PathKind { kNothing, kFile, kDirectory, kOther };
+
+Result<PathKind> kind_of(const fs::path& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0) {
+    if (errno == ENOENT || errno == ENOTDIR) return PathKind::kNothing;
+    return input_error(path.string(), "cannot look up this path: " + reason());
+  }
+  if (S_ISREG(status.st_mode)) return PathKind::kFile;
+  return S_ISDIR(status.st_mode) ? PathKind::kDirectory : PathKind::kOther;
 }
 
 /// What umask() takes from a new file's mode. It can only be read by setting it, so once.
@@ -122,7 +168,8 @@ struct Staged {
   std::optional<TemporaryFile> temporary;  ///< none for a stream
 };
 
-Result<Staged> stage(const fs::path& path, std::string_view bytes) {
+Result<Staged> stage(const fs::path& path, std::string_view bytes, const ReadBack& read_back) {
+  AWMR_RETURN_IF_ERROR(check_read_back(path, bytes, read_back));
   AWMR_ASSIGN_OR_RETURN(Target target, target_of(path));
   if (target.is_stream) return Staged{path, bytes, std::move(target), std::nullopt};
   const fs::path directory = directory_of(target.path);
@@ -166,8 +213,8 @@ Result<std::string> read_file(const fs::path& path, std::size_t max_bytes) {
   return bytes;
 }
 
-Status write_file(const fs::path& path, std::string_view bytes) {
-  AWMR_ASSIGN_OR_RETURN(Staged file, stage(path, bytes));
+Status write_file(const fs::path& path, std::string_view bytes, const ReadBack& read_back) {
+  AWMR_ASSIGN_OR_RETURN(Staged file, stage(path, bytes, read_back));
   std::vector<Staged> files;
   files.push_back(std::move(file));
   return finish(std::move(files));
@@ -176,7 +223,8 @@ Status write_file(const fs::path& path, std::string_view bytes) {
 Status write_files(std::span<const OutputFile> files) {
   std::vector<Staged> all;
   for (const OutputFile& file : files) {
-    AWMR_ASSIGN_OR_RETURN(Staged staged, stage(file.path, file.bytes));
+    AWMR_RETURN_IF_ERROR(check_regular_file(file.path));
+    AWMR_ASSIGN_OR_RETURN(Staged staged, stage(file.path, file.bytes, file.read_back));
     all.push_back(std::move(staged));
   }
   return finish(std::move(all));
@@ -200,13 +248,75 @@ Status check_output(const fs::path& path, std::span<const fs::path> inputs) {
   return {};
 }
 
+Result<bool> path_exists(const fs::path& path) {
+  AWMR_ASSIGN_OR_RETURN(const PathKind kind, kind_of(path));
+  return kind != PathKind::kNothing;
+}
+
+Result<bool> directory_exists(const fs::path& path) {
+  AWMR_ASSIGN_OR_RETURN(const PathKind kind, kind_of(path));
+  return kind == PathKind::kDirectory;
+}
+
+Result<bool> regular_file_exists(const fs::path& path) {
+  AWMR_ASSIGN_OR_RETURN(const PathKind kind, kind_of(path));
+  if (kind == PathKind::kNothing || kind == PathKind::kFile) return kind == PathKind::kFile;
+  return input_error(path.string(),
+                     kind == PathKind::kDirectory
+                         ? "this is a directory where a file is expected; move it away"
+                         : "this is a pipe or a device where a file is expected; move it away");
+}
+
+Status check_regular_file(const fs::path& path) {
+  AWMR_RETURN_IF_ERROR(regular_file_exists(path));
+  return {};
+}
+
+Status check_output_directory(const fs::path& path) {
+  fs::path there = path;
+  for (;;) {
+    AWMR_ASSIGN_OR_RETURN(const bool exists, path_exists(there));
+    if (exists || there == directory_of(there)) break;
+    if (there.filename().native().size() > NAME_MAX) {
+      return input_error(path.string(),
+                         fmt::format("a name of {} characters is too long; {} is the "
+                                     "most",
+                                     there.filename().native().size(), NAME_MAX));
+    }
+    there = directory_of(there);
+  }
+  AWMR_ASSIGN_OR_RETURN(const bool is_a_directory, directory_exists(there));
+  if (!is_a_directory) {
+    return input_error(there.string(),
+                       "this is a file where a directory is needed; give another name");
+  }
+  if (::access(there.c_str(), W_OK | X_OK) != 0) {
+    return input_error(
+        path.string(),
+        fmt::format("no file can be made in {}: {}; give another name", there.string(), reason()));
+  }
+  return {};
+}
+
 Status make_directory(const fs::path& path) {
+  AWMR_RETURN_IF_ERROR(check_output_directory(path));
   std::error_code error;
   fs::create_directories(path, error);
   if (error) {
     return input_error(path.string(), "cannot make the directory: " + error.message());
   }
   return {};
+}
+
+Result<std::vector<fs::path>> list_directory(const fs::path& path) {
+  std::error_code error;
+  std::vector<fs::path> entries;
+  for (fs::directory_iterator it(path, error), end; !error && it != end; it.increment(error)) {
+    entries.push_back(it->path());
+  }
+  if (error) return input_error(path.string(), "cannot read the directory: " + error.message());
+  std::sort(entries.begin(), entries.end());
+  return entries;
 }
 
 }  // namespace awmr

@@ -180,6 +180,11 @@ Result<Json> read_json_text(std::string_view text, const std::string& file) {
   return std::move(builder.document());
 }
 
+Status check_json_text(std::string_view text, const std::string& file) {
+  AWMR_RETURN_IF_ERROR(read_json_text(text, file));
+  return {};
+}
+
 Result<Json> read_json_file(const std::filesystem::path& path) {
   AWMR_ASSIGN_OR_RETURN(const std::string text, read_input(path, kMaxJsonBytes));
   return read_json_text(text, path.string());

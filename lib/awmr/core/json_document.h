@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "awmr/core/json.h"
 
@@ -17,5 +19,20 @@ inline constexpr std::size_t kMaxJsonValues = 2'000'000;  ///< in all
 /// Parses a text, in time and memory that grow as its length; `file` names it in errors. Errors:
 /// beyond a bound, syntax, a number out of range (all `FILE:LINE:COLUMN`); duplicate keys.
 Result<Json> read_json_text(std::string_view text, const std::string& file);
+
+/// Read-back (file.h) of a JSON file whose readers take it as it is. Errors: as read_json_text.
+Status check_json_text(std::string_view text, const std::string& file);
+
+/// Read-back through a strict reader: runs `read` on the document. Errors: as read_json_text; every
+/// fault that `read` finds.
+template <class Read>
+Status check_json_object(std::string_view text, const std::string& file, const Read& read) {
+  AWMR_ASSIGN_OR_RETURN(const Json document, read_json_text(text, file));
+  std::vector<Fault> faults;
+  JsonObject json(document, file, "", faults);
+  read(json);
+  if (!faults.empty()) return input_errors(std::move(faults));
+  return {};
+}
 
 }  // namespace awmr

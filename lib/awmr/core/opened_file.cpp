@@ -2,15 +2,39 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <cstring>
+#include <thread>
 #include <utility>
 
+#include "awmr/core/file.h"
+
 namespace awmr {
+namespace {
+
+/// True once a program has the pipe open to write or has left bytes in it, within kPipeWait_s. tee()
+/// takes nothing out of the pipe; on an empty one it gives 0 where there is no writer.
+bool has_writer(int pipe) {
+  int copy[2] = {-1, -1};
+  if (::pipe2(copy, O_CLOEXEC) != 0) return true;  // the read then waits for as long as it takes
+  const Descriptor copy_out(copy[0]);
+  const Descriptor copy_in(copy[1]);
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(kPipeWait_s);
+  while (::tee(pipe, copy_in.number(), 1, SPLICE_F_NONBLOCK) == 0) {
+    if (std::chrono::steady_clock::now() > end) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  return true;
+}
+
+}  // namespace
 
 Result<OpenedFile> OpenedFile::open(const std::filesystem::path& path) {
-  OpenedFile file(path.string(), Descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC)));
+  OpenedFile file(path.string(),
+                  Descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)));
   if (file.descriptor() < 0) {
     return input_error(file.name_, std::string("cannot open the file: ") + std::strerror(errno));
   }
@@ -20,6 +44,12 @@ Result<OpenedFile> OpenedFile::open(const std::filesystem::path& path) {
   if (S_ISDIR(file.status_.st_mode)) {
     return input_error(file.name_, "this is a directory; give a file");
   }
+  if (S_ISFIFO(file.status_.st_mode) && !has_writer(file.descriptor())) {
+    return input_error(file.name_, fmt::format("no program writes to this pipe after {:g} s; start "
+                                               "the writer first, or give a file",
+                                               kPipeWait_s));
+  }
+  ::fcntl(file.descriptor(), F_SETFL, ::fcntl(file.descriptor(), F_GETFL) & ~O_NONBLOCK);
   return file;
 }
 

@@ -14,7 +14,8 @@ namespace awmr {
 
 class OpenedFile {
  public:
-  /// Errors: the file is missing, a directory or unreadable.
+  /// Errors: the file is missing, a directory or unreadable; a pipe that no program opens to write
+  /// for kPipeWait_s (file.h).
   static Result<OpenedFile> open(const std::filesystem::path& path);
 
   const std::string& name() const { return name_; }

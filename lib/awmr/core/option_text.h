@@ -8,6 +8,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "awmr/core/result.h"
 
@@ -21,6 +22,9 @@ std::string spell_options(std::string_view message, std::string_view prefix);
 
 /// The message with the options' names as they are.
 std::string plain_text(std::string_view message);
+
+/// The first 20 and, where there are more, a last one with the number left out: what a person sees.
+std::vector<Fault> shown_faults(const std::vector<Fault>& faults);
 
 /// to_text(error) with every option's name after `prefix`; to_text() itself gives them as they are.
 std::string to_text(const Error& error, std::string_view prefix);

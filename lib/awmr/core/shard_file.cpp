@@ -91,12 +91,14 @@ ShardOrigin read_shard_origin(JsonObject& json, std::string_view schema) {
 }
 
 Result<std::string> schema_of_part(const std::filesystem::path& directory) {
+  AWMR_RETURN_IF_ERROR(check_regular_file(directory / kShardFile));
   AWMR_ASSIGN_OR_RETURN(const Json document, read_json_file(directory / kShardFile));
   return schema_in(document);
 }
 
 Result<Json> read_shard_json(const std::filesystem::path& directory, std::string_view schema) {
   const std::filesystem::path path = directory / kShardFile;
+  AWMR_RETURN_IF_ERROR(check_regular_file(path));
   AWMR_ASSIGN_OR_RETURN(Json document, read_json_file(path));
   const std::string found = schema_in(document);
   if (!found.empty() && found != schema) {
@@ -110,6 +112,7 @@ Result<Json> read_shard_json(const std::filesystem::path& directory, std::string
 
 Result<std::string> read_shard_table(const ShardOrigin& origin, std::string_view name) {
   const std::filesystem::path path = origin.directory / name;
+  AWMR_RETURN_IF_ERROR(check_regular_file(path));
   AWMR_ASSIGN_OR_RETURN(std::string text, read_file(path));
   if (sha256_hex(text) != origin.csv_sha256) {
     return input_error(path.string(),
@@ -122,6 +125,9 @@ Result<std::string> read_shard_table(const ShardOrigin& origin, std::string_view
 
 bool is_finished_part(const std::filesystem::path& directory, std::string_view schema,
                       const ShardOrigin& origin, std::string_view table) {
+  if (!check_regular_file(directory / kShardFile) || !check_regular_file(directory / table)) {
+    return false;
+  }
   const auto found = read_json_file(directory / kShardFile);
   const auto text = read_file(directory / table);
   if (!found || !text || !found->is_object()) return false;

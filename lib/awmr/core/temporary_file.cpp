@@ -7,8 +7,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <charconv>
+#include <cstdlib>
+#include <cstring>
 #include <string>
 
 namespace awmr {
@@ -28,6 +31,24 @@ std::optional<pid_t> maker_of(std::string_view name) {
   const std::string_view rest = name.substr(static_cast<std::size_t>(end - name.data()));
   const bool fits = error == std::errc() && number > 0 && rest.size() == kRandomCharacters + 1;
   return fits && rest[0] == '-' ? std::optional(number) : std::nullopt;
+}
+
+/// The paths that a signal handler removes. A handler may neither allocate nor lock, so these are
+/// pointers to the text that each TemporaryFile owns, on the heap so that a move leaves it in place.
+constexpr int kSlots = 64;
+std::atomic<char*> registered[kSlots];
+static_assert(std::atomic<char*>::is_always_lock_free, "a signal handler reads it");
+
+/// Of the signals that end a program, those that a user or a system sends.
+constexpr int kEndingSignals[] = {SIGHUP,  SIGINT,  SIGQUIT, SIGTERM, SIGPIPE,
+                                  SIGALRM, SIGUSR1, SIGUSR2, SIGXCPU};
+
+extern "C" void remove_and_end(int signal) {
+  for (std::atomic<char*>& slot : registered) {
+    if (const char* path = slot.load()) ::unlink(path);
+  }
+  // SA_RESETHAND has put the default action back, and the signal comes once this handler returns.
+  ::raise(signal);
 }
 
 bool is_running(pid_t process) { return ::kill(process, 0) == 0 || errno != ESRCH; }
@@ -54,10 +75,29 @@ std::optional<TemporaryFile> TemporaryFile::in(const fs::path& directory) {
 }
 
 TemporaryFile::TemporaryFile(TemporaryFile&& other) noexcept
-    : path_(std::exchange(other.path_, {})), file_(std::move(other.file_)) {}
+    : path_(std::exchange(other.path_, {})),
+      slot_(std::exchange(other.slot_, -1)),
+      file_(std::move(other.file_)) {}
 
 TemporaryFile::~TemporaryFile() {
   if (!path_.empty()) ::unlink(path_.c_str());
+  unregister_path();
+}
+
+void TemporaryFile::register_path() {
+  char* text = ::strdup(path_.c_str());
+  for (int i = 0; text != nullptr && i < kSlots; ++i) {
+    char* empty = nullptr;
+    if (!registered[i].compare_exchange_strong(empty, text)) continue;
+    slot_ = i;
+    return;
+  }
+  std::free(text);  // all slots are taken: the next start removes what a signal leaves
+}
+
+void TemporaryFile::unregister_path() {
+  if (slot_ >= 0) std::free(registered[slot_].exchange(nullptr));
+  slot_ = -1;
 }
 
 bool TemporaryFile::write(std::string_view bytes, mode_t mode) {
@@ -68,7 +108,21 @@ bool TemporaryFile::write(std::string_view bytes, mode_t mode) {
 bool TemporaryFile::rename_to(const fs::path& target) {
   if (::rename(path_.c_str(), target.c_str()) != 0) return false;
   path_.clear();
+  unregister_path();
   return true;
+}
+
+void remove_temporaries_on_signals() {
+  struct sigaction action {};
+  action.sa_handler = remove_and_end;
+  action.sa_flags = SA_RESETHAND;
+  sigemptyset(&action.sa_mask);
+  for (const int signal : kEndingSignals) {
+    struct sigaction before {};
+    if (::sigaction(signal, nullptr, &before) == 0 && before.sa_handler == SIG_DFL) {
+      ::sigaction(signal, &action, nullptr);
+    }
+  }
 }
 
 void remove_stale_temporaries(const fs::path& directory) {

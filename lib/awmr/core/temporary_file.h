@@ -1,4 +1,5 @@
-/// Files under a temporary name, which is how an output appears whole. Used by file.cpp alone.
+/// Files under a temporary name, which is how an output appears whole. Used by file.cpp; the programs
+/// call remove_temporaries_on_signals().
 #pragma once
 
 #include <sys/types.h>
@@ -30,10 +31,19 @@ class TemporaryFile {
 
  private:
   TemporaryFile(std::filesystem::path path, Descriptor file)
-      : path_(std::move(path)), file_(std::move(file)) {}
+      : path_(std::move(path)), file_(std::move(file)) {
+    register_path();
+  }
+  void register_path();
+  void unregister_path();
   std::filesystem::path path_;  ///< empty: nothing to remove
+  int slot_ = -1;               ///< where a signal handler finds the path; -1: nowhere
   Descriptor file_;
 };
+
+/// Removes the temporary files of this process before a signal that ends it does (SIGINT, SIGTERM,
+/// SIGHUP, ...). A signal that is ignored, as under nohup, stays ignored. For the start of a program.
+void remove_temporaries_on_signals();
 
 /// Removes the temporary files in `directory` whose program is gone: no process has their number,
 /// and nobody holds their lock (on another machine, where numbers mean other processes).

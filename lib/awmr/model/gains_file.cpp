@@ -1,6 +1,7 @@
 #include "awmr/model/gains_file.h"
 
 #include "awmr/core/file.h"
+#include "awmr/core/json_document.h"
 #include "awmr/model/gains_json.h"
 #include "awmr/model/observer_rate.h"
 #include "awmr/model/ranges.h"
@@ -26,10 +27,10 @@ Gains<double> gains_from_json(JsonObject& root) {
   return gains;
 }
 
-Result<Gains<double>> read_gains(const std::filesystem::path& path) {
-  AWMR_ASSIGN_OR_RETURN(const Json json, read_json_file(path));
-  std::vector<Fault> faults;
-  JsonObject root(json, path.string(), "", faults);
+namespace {
+
+/// The gains of a whole file.
+Gains<double> gains_from_file(JsonObject& root) {
   root.schema(kGainsSchema);
   const Gains<double> gains = gains_from_json(root);
   for (const std::string_view key :
@@ -38,8 +39,22 @@ Result<Gains<double>> read_gains(const std::filesystem::path& path) {
     root.ignore(key);
   }
   root.reject_unknown_keys();
+  return gains;
+}
+
+}  // namespace
+
+Result<Gains<double>> read_gains(const std::filesystem::path& path) {
+  AWMR_ASSIGN_OR_RETURN(const Json json, read_json_file(path));
+  std::vector<Fault> faults;
+  JsonObject root(json, path.string(), "", faults);
+  const Gains<double> gains = gains_from_file(root);
   if (!faults.empty()) return input_errors(std::move(faults));
   return gains;
+}
+
+Status check_gains_text(std::string_view text, const std::string& file) {
+  return check_json_object(text, file, gains_from_file);
 }
 
 Result<Gains<double>> read_gains_for(const std::filesystem::path& path, double sample_time_s) {
@@ -53,7 +68,7 @@ Status write_gains(const Gains<double>& gains, const std::filesystem::path& path
   Json json;
   json["schema"] = kGainsSchema;
   json.update(gains_to_json(gains));
-  return write_file(path, to_text(json));
+  return write_file(path, to_text(json), check_gains_text);
 }
 
 }  // namespace awmr

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <string_view>
 
 #include "awmr/core/result.h"
 #include "awmr/model/gains.h"
@@ -12,6 +14,9 @@ namespace awmr {
 /// Reads `/heading`, `/speed` and, where it is there, `/observer`; the contract's other keys are allowed and passed over.
 /// Errors: as read_json_file; gains that are missing or not above 0.
 Result<Gains<double>> read_gains(const std::filesystem::path& path);
+
+/// Read-back of gains.json (core/file.h).
+Status check_gains_text(std::string_view text, const std::string& file);
 
 /// The same, for a controller of this sample time. Errors also: as check_observer_rate.
 Result<Gains<double>> read_gains_for(const std::filesystem::path& path, double sample_time_s);

@@ -7,6 +7,8 @@
 #include <map>
 
 #include "awmr/core/file.h"
+#include "awmr/core/input_file.h"
+#include "awmr/core/json_document.h"
 #include "awmr/model/findings_json.h"
 #include "awmr/model/ranges.h"
 #include "awmr/model/si_units.h"
@@ -254,14 +256,24 @@ std::vector<Fault> self_contradictions(const Model& model) {
 }  // namespace
 
 Result<Model> read_model(const std::filesystem::path& path) {
-  AWMR_ASSIGN_OR_RETURN(const Json json, read_json_file(path));
+  AWMR_ASSIGN_OR_RETURN(const std::string text, read_input(path, kMaxJsonBytes));
+  return model_from_text(text, path.string());
+}
+
+Result<Model> model_from_text(std::string_view text, const std::string& file) {
+  AWMR_ASSIGN_OR_RETURN(const Json json, read_json_text(text, file));
   std::vector<Fault> faults;
-  JsonObject root(json, path.string(), "", faults);
+  JsonObject root(json, file, "", faults);
   Model model = model_from_json(root);
-  model.file = path.string();
+  model.file = file;
   if (faults.empty()) faults = self_contradictions(model);
   if (!faults.empty()) return input_errors(std::move(faults));
   return model;
+}
+
+Status check_model_text(std::string_view text, const std::string& file) {
+  AWMR_RETURN_IF_ERROR(model_from_text(text, file));
+  return {};
 }
 
 std::string model_schema() {
@@ -270,7 +282,7 @@ std::string model_schema() {
 }
 
 Status write_model(const Model& model, const std::filesystem::path& path) {
-  return write_file(path, model_text(model));
+  return write_file(path, model_text(model), check_model_text);
 }
 
 }  // namespace awmr

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 #include "awmr/core/result.h"
 #include "awmr/model/model.h"
@@ -11,6 +12,11 @@ namespace awmr {
 
 /// Errors: as read_json_file; unknown, missing or impossible values.
 Result<Model> read_model(const std::filesystem::path& path);
+
+/// The same of a text; `file` names it in errors.
+Result<Model> model_from_text(std::string_view text, const std::string& file);
+/// Read-back of model.json (core/file.h).
+Status check_model_text(std::string_view text, const std::string& file);
 
 /// The bytes of model.json.
 std::string model_text(const Model& model);

@@ -103,7 +103,7 @@ EstimatorParameter parameter_from_json(JsonObject json) {
   parameter.value = json.nullable_number("value").value_or(kNaN);
   parameter.std_error = json.nullable_number("std_error", kNonNegative);
   parameter.ci95 = json.nullable_interval("ci95");
-  parameter.profile95 = json.optional_interval("profile95");
+  if (json.has("profile95")) parameter.profile95 = json.nullable_interval("profile95");
   json.reject_unknown_keys();
   return parameter;
 }

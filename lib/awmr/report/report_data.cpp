@@ -17,8 +17,9 @@ Status check_same_inputs(const std::filesystem::path& directory, const std::stri
   if (!json.contains("inputs")) return {};
   for (const Json& input : json["inputs"]) {
     const std::filesystem::path name = std::filesystem::path(input.value("name", "")).filename();
-    const bool is_here = name == "model.json" || name == "gains.json";
-    if (!is_here || name == result || !std::filesystem::exists(directory / name)) continue;
+    if ((name != "model.json" && name != "gains.json") || name == result) continue;
+    AWMR_ASSIGN_OR_RETURN(const bool is_here, regular_file_exists(directory / name));
+    if (!is_here) continue;
     AWMR_ASSIGN_OR_RETURN(const std::string bytes, read_file(directory / name));
     if (sha256_hex(bytes) == input.value("sha256", "")) continue;
     return input_error((directory / result).string() + ":/inputs",
@@ -34,21 +35,23 @@ Status check_same_inputs(const std::filesystem::path& directory, const std::stri
 Result<ReportData> read_report_data(const std::filesystem::path& directory) {
   ReportData data;
   // Strictly first: what is shown is a model, or the fault's place is named.
+  AWMR_RETURN_IF_ERROR(check_regular_file(directory / "model.json"));
   AWMR_ASSIGN_OR_RETURN(data.model, read_model(directory / "model.json"));
   AWMR_ASSIGN_OR_RETURN(data.json["model"], read_json_file(directory / "model.json"));
-  if (const auto path = directory / "gains.json"; std::filesystem::exists(path)) {
-    AWMR_RETURN_IF_ERROR(read_gains(path));
-  }
+  AWMR_ASSIGN_OR_RETURN(const bool has_gains, regular_file_exists(directory / "gains.json"));
+  if (has_gains) AWMR_RETURN_IF_ERROR(read_gains(directory / "gains.json"));
   for (const char* name : {"gains", "validation", "comparison", "pil", "suggest"}) {
     const auto path = directory / (std::string(name) + ".json");
-    if (!std::filesystem::exists(path)) continue;
+    AWMR_ASSIGN_OR_RETURN(const bool is_there, regular_file_exists(path));
+    if (!is_there) continue;
     AWMR_ASSIGN_OR_RETURN(data.json[name], read_json_file(path));
     AWMR_RETURN_IF_ERROR(check_same_inputs(directory, path.filename().string(), data.json[name]));
   }
-  if (const auto path = directory / "comparison.csv"; std::filesystem::exists(path)) {
-    AWMR_ASSIGN_OR_RETURN(data.json["samples"], read_samples(path));
+  AWMR_ASSIGN_OR_RETURN(const bool has_samples, regular_file_exists(directory / "comparison.csv"));
+  if (has_samples) {
+    AWMR_ASSIGN_OR_RETURN(data.json["samples"], read_samples(directory / "comparison.csv"));
   }
-  data.json["header"] = std::filesystem::exists(directory / "awmr_params.h");
+  AWMR_ASSIGN_OR_RETURN(data.json["header"], path_exists(directory / "awmr_params.h"));
   AWMR_ASSIGN_OR_RETURN(data.json["runs"], read_runs(directory));
   AWMR_ASSIGN_OR_RETURN(data.json["scenarios"], read_scenarios(directory));
   data.json["fits"] = fits_json(data.model);

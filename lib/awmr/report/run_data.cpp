@@ -101,15 +101,18 @@ Json columns_of(const CsvTable& table, std::size_t most_rows) {
 }
 
 /// The names of a directory's files that match as a whole, in order, each with its groups.
-std::vector<std::vector<std::string>> matching_files(const fs::path& directory,
-                                                     const std::regex& pattern) {
+/// Errors (input): the directory cannot be read; one of them is no regular file.
+Result<std::vector<std::vector<std::string>>> matching_files(const fs::path& directory,
+                                                             const std::regex& pattern) {
+  AWMR_ASSIGN_OR_RETURN(const std::vector<fs::path> entries, list_directory(directory));
   std::vector<std::vector<std::string>> files;
-  for (const auto& entry : fs::directory_iterator(directory)) {
-    const std::string name = entry.path().filename().string();
+  for (const fs::path& entry : entries) {
+    const std::string name = entry.filename().string();
     std::smatch match;
-    if (std::regex_match(name, match, pattern)) files.emplace_back(match.begin(), match.end());
+    if (!std::regex_match(name, match, pattern)) continue;
+    AWMR_RETURN_IF_ERROR(check_regular_file(entry));
+    files.emplace_back(match.begin(), match.end());
   }
-  std::sort(files.begin(), files.end());
   return files;
 }
 
@@ -144,7 +147,7 @@ Json samples_json(Samples&& samples) {
 
 Result<Json> read_runs(const fs::path& directory) {
   static const std::regex kPattern("run_(.+)_(differential|steering|combined)_(tuned|paper)\\.csv");
-  const auto files = matching_files(directory, kPattern);
+  AWMR_ASSIGN_OR_RETURN(const auto files, matching_files(directory, kPattern));
   if (files.empty()) return Json::array();
   const std::size_t most = std::clamp(kMostRows / files.size(), kFewestRowsOfRun, kMostRowsOfRun);
   Json runs = Json::array();
@@ -161,7 +164,8 @@ Result<Json> read_runs(const fs::path& directory) {
 Result<Json> read_scenarios(const fs::path& directory) {
   static const std::regex kPattern("scenario_(.+)\\.json");
   Json scenarios = Json::object();
-  for (const std::vector<std::string>& file : matching_files(directory, kPattern)) {
+  AWMR_ASSIGN_OR_RETURN(const auto files, matching_files(directory, kPattern));
+  for (const std::vector<std::string>& file : files) {
     AWMR_RETURN_IF_ERROR(read_scenario(directory / file[0]));
     AWMR_ASSIGN_OR_RETURN(scenarios[file[1]], read_json_file(directory / file[0]));
   }

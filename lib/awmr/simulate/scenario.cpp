@@ -150,10 +150,14 @@ Status check_observer(const Scenario& scenario, const Model& model) {
       fmt::format("scenario '{}':/control/disturbance_observer/bandwidth_radps", scenario.name));
 }
 
-Result<Plant<double>> plant_for(const Scenario& scenario, const Model& model, Motion motion) {
+Status check_scenario(const Scenario& scenario, const Model& model) {
   AWMR_RETURN_IF_ERROR(check_tyres(scenario));
   AWMR_RETURN_IF_ERROR(check_lqi(scenario, model));
-  AWMR_RETURN_IF_ERROR(check_observer(scenario, model));
+  return check_observer(scenario, model);
+}
+
+Result<Plant<double>> plant_for(const Scenario& scenario, const Model& model, Motion motion) {
+  AWMR_RETURN_IF_ERROR(check_scenario(scenario, model));
   AWMR_ASSIGN_OR_RETURN(const Model corner, model_at_corner(model, scenario));
   AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, corner.plant(motion));
   AWMR_RETURN_IF_ERROR(check_work(plant, model.file, scenario, model.vehicle.sample_time_s));

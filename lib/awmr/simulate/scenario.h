@@ -127,14 +127,18 @@ std::vector<TyreConflict> tyre_conflicts(const Scenario& scenario);
 /// Errors (input): the scenario has tyres and what has no meaning on them.
 Status check_tyres(const Scenario& scenario);
 
+/// Errors (input): what the scenario asks of a controller with the model's own values is not possible: as
+/// check_tyres and check_observer_rate, and an LQI law that is unstable at the sample time.
+Status check_scenario(const Scenario& scenario, const Model& model);
+
 /// The plant in words: "model", or "four-wheel, friction 0.8, ..." with the numbers of the tyres.
 std::string plant_text(const Scenario& scenario);
 
 /// The model with the scenario's corner parameters at the ends of their 95 % intervals.
 /// Errors (input): a parameter of the corner has no interval.
 Result<Model> model_at_corner(Model model, const Scenario& scenario);
-/// The plant of model_at_corner(). Errors (input): as there, as check_tyres, as check_observer_rate,
-/// as Model::plant and as check_work (in simulate.h).
+/// The plant of model_at_corner(). Errors (input): as there, as check_scenario, as Model::plant and as
+/// check_work (in simulate.h).
 Result<Plant<double>> plant_for(const Scenario& scenario, const Model& model,
                                 Motion motion = Motion::kPlanar);
 

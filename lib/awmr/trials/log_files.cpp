@@ -1,31 +1,32 @@
 #include "awmr/trials/log_files.h"
 
-#include <algorithm>
-#include <system_error>
+#include "awmr/core/file.h"
 
 namespace awmr {
 namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<fs::path> with_extension(const fs::path& directory, const std::string& extension,
-                                     std::error_code& error) {
+/// Errors (input): one of them is no regular file.
+Result<std::vector<fs::path>> with_extension(const std::vector<fs::path>& entries,
+                                             const std::string& extension) {
   std::vector<fs::path> paths;
-  for (const fs::directory_entry& entry : fs::directory_iterator(directory, error)) {
-    if (entry.path().extension() == extension) paths.push_back(entry.path());
+  for (const fs::path& entry : entries) {
+    if (entry.extension() != extension) continue;
+    AWMR_RETURN_IF_ERROR(check_regular_file(entry));
+    paths.push_back(entry);
   }
-  std::sort(paths.begin(), paths.end());
   return paths;
 }
 
 }  // namespace
 
 Result<std::vector<fs::path>> files_of(const fs::path& path) {
-  std::error_code error;
-  if (!fs::is_directory(path, error)) return std::vector<fs::path>{path};
+  AWMR_ASSIGN_OR_RETURN(const bool is_a_directory, directory_exists(path));
+  if (!is_a_directory) return std::vector<fs::path>{path};
+  AWMR_ASSIGN_OR_RETURN(const std::vector<fs::path> entries, list_directory(path));
   for (const char* extension : {".db3", ".csv"}) {
-    std::vector<fs::path> paths = with_extension(path, extension, error);
-    if (error) return input_error(path.string(), error.message());
+    AWMR_ASSIGN_OR_RETURN(std::vector<fs::path> paths, with_extension(entries, extension));
     if (!paths.empty()) return paths;
   }
   return input_error(path.string(),

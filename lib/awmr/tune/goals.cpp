@@ -47,11 +47,15 @@ std::vector<double> excesses(const GoalInMode& one, std::span<const RunOutcome> 
 
 }  // namespace
 
+/// Of a run whose figure overflows: beyond every limit, and a number that files can hold.
+constexpr double kNoFigure = 1e100;
+
 RunOutcome outcome_of(const ModeScore& score, const Scenario& scenario) {
   RunOutcome outcome{
       .mode = score.mode, .completed = score.metrics.completed, .broke_off = score.has_failed};
   for (std::size_t i = 0; i < kRunFigures; ++i) {
-    outcome.figures[i] = kFiguresByName[i].value(score.metrics, scenario);
+    const double figure = kFiguresByName[i].value(score.metrics, scenario);
+    outcome.figures[i] = std::isfinite(figure) ? figure : kNoFigure;
   }
   return outcome;
 }

@@ -11,6 +11,7 @@
 #include "awmr/core/file.h"
 #include "awmr/core/hash.h"
 #include "awmr/core/index.h"
+#include "awmr/core/json_document.h"
 #include "awmr/core/shard_file.h"
 #include "awmr/tune/robust.h"
 #include "awmr/tune/tune_json.h"
@@ -116,9 +117,8 @@ std::string_view take_line(std::string_view& text) {
 
 /// The runs of a part, by gains: of each those of its draws in their order. Errors (input), by
 /// line: a run that is none of the part's, in another place, or missing.
-Result<std::vector<JudgedRuns>> read_judged(const TunePart& part) {
-  AWMR_ASSIGN_OR_RETURN(const std::string text, read_shard_table(part.origin, kJudgedTable));
-  const std::string file = (part.origin.directory / kJudgedTable).string();
+Result<std::vector<JudgedRuns>> judged_from_text(const TunePart& part, std::string_view text,
+                                                 const std::string& file) {
   std::string_view rest = text;
   if (take_line(rest) != head_of_table()) {
     return input_error(file + ":1:1", "these are not the columns of a judging");
@@ -150,6 +150,11 @@ Result<std::vector<JudgedRuns>> read_judged(const TunePart& part) {
   return runs;
 }
 
+Result<std::vector<JudgedRuns>> read_judged(const TunePart& part) {
+  AWMR_ASSIGN_OR_RETURN(const std::string text, read_shard_table(part.origin, kJudgedTable));
+  return judged_from_text(part, text, (part.origin.directory / kJudgedTable).string());
+}
+
 /// The runs of all parts, by gains, then draw. `parts` are in the order of their numbers.
 Result<std::vector<JudgedRuns>> read_all_runs(const std::vector<TunePart>& parts) {
   const TunePart& first = parts.front();
@@ -175,6 +180,7 @@ Result<std::vector<JudgedRuns>> read_all_runs(const std::vector<TunePart>& parts
 /// The gains of a part, as they were written with it.
 Result<Json> read_part_gains(const TunePart& part) {
   const std::filesystem::path path = part.origin.directory / kTuneShardGains;
+  AWMR_RETURN_IF_ERROR(check_regular_file(path));
   AWMR_ASSIGN_OR_RETURN(const std::string text, read_file(path));
   if (sha256_hex(text) != part.gains_sha256) {
     return input_error(path.string(),
@@ -236,6 +242,10 @@ std::string tune_shard_text(const Tuning& tuning, const TuneOptions& options,
 bool is_finished_tune_shard(const std::filesystem::path& directory, const Shard& shard,
                             const Provenance& provenance) {
   const auto arithmetic = batch_arithmetic();
+  if (!check_regular_file(directory / kShardFile) ||
+      !check_regular_file(directory / kTuneShardGains)) {
+    return false;
+  }
   const auto json = read_json_file(directory / kShardFile);
   const auto gains = read_file(directory / kTuneShardGains);
   if (!arithmetic || !json || !gains || !json->is_object()) return false;
@@ -268,6 +278,19 @@ Result<MergedTuning> merge_tune_shards(const std::vector<std::filesystem::path>&
   if (!judgement.goals.empty()) json["goals"] = goals_json(judgement.goals);
   return MergedTuning{to_text(json), std::move(judgement.gains), std::move(judgement.by_scenario),
                       std::move(judgement.goals)};
+}
+
+Status check_judged_csv(std::string_view text, const std::string& file,
+                        const std::string& shard_json) {
+  TunePart part;
+  AWMR_RETURN_IF_ERROR(check_json_object(
+      shard_json, file, [&](JsonObject& json) { part = tune_part_from_json(json); }));
+  AWMR_RETURN_IF_ERROR(judged_from_text(part, text, file));
+  return {};
+}
+
+Status check_tune_shard_text(std::string_view text, const std::string& file) {
+  return check_json_object(text, file, tune_part_from_json);
 }
 
 std::string tune_shard_schema() {

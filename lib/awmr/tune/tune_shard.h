@@ -30,6 +30,12 @@ std::string judged_csv(const Tuning& tuning, const TuneOptions& options);
 std::string tune_shard_text(const Tuning& tuning, const TuneOptions& options,
                             const Provenance& provenance);
 
+/// Read-backs of judged.csv and shard.json (core/file.h): that of the table takes the text of its
+/// shard.json.
+Status check_judged_csv(std::string_view text, const std::string& file,
+                        const std::string& shard_json);
+Status check_tune_shard_text(std::string_view text, const std::string& file);
+
 /// Whether the directory holds this part already, finished, from the same inputs and options, and as it
 /// was written.
 bool is_finished_tune_shard(const std::filesystem::path& directory, const Shard& shard,

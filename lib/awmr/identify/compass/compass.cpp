@@ -164,7 +164,8 @@ double turned_by_gyro_rad(const FieldRecord& record) {
   return turned;
 }
 
-/// Holds the compass against the gyroscope. Errors (input): they turn against each other.
+/// Compares the turns by compass and gyroscope. Errors (refused): they turn against each other, or by
+/// amounts that are more than kTurnTolerance apart.
 Status check_turn(const FieldRecord& record, double turned, std::vector<Finding>& findings) {
   if (record.yaw_rate_radps.empty()) {
     findings.push_back({record.file, 0, Severity::kNote, "turn-not-checked",
@@ -174,20 +175,17 @@ Status check_turn(const FieldRecord& record, double turned, std::vector<Finding>
   }
   const double gyro = turned_by_gyro_rad(record);
   if (gyro * turned < 0.0) {
-    return input_error(
-        record.file,
-        fmt::format("the compass turns by {:.0f} deg while the gyroscope turns by {:.0f}: one of "
-                    "field_ahead and field_left has the wrong sign, or they are exchanged, or "
-                    "yaw_rate_radps is positive to the right",
-                    degrees(turned), degrees(gyro)));
+    return refusal(fmt::format(
+        "{}: the compass turns by {:.0f} deg while the gyroscope turns by {:.0f}: one of "
+        "field_ahead and field_left has the wrong sign, or they are exchanged, or "
+        "yaw_rate_radps is positive to the right",
+        record.file, degrees(turned), degrees(gyro)));
   }
-  if (std::abs(turned - gyro) > kTurnTolerance * std::abs(turned)) {
-    findings.push_back({record.file, 0, Severity::kWarning, "compass-gyro",
-                        fmt::format("the compass turns by {:.0f} deg while the gyroscope turns by "
-                                    "{:.0f}: is yaw_rate_radps in rad/s, and is the record whole?",
-                                    degrees(turned), degrees(gyro))});
-  }
-  return {};
+  if (std::abs(turned - gyro) <= kTurnTolerance * std::abs(turned)) return {};
+  return refusal(fmt::format(
+      "{}: the compass turns by {:.0f} deg while the gyroscope turns by {:.0f}, more than {:.0f} % "
+      "apart: check that yaw_rate_radps is in rad/s and without bias, and that no row is missing",
+      record.file, degrees(turned), degrees(gyro), 100.0 * kTurnTolerance));
 }
 
 /// Errors (refused): the vehicle's float cannot hold the centre against the field, or the field is so

@@ -11,6 +11,7 @@
 #include "awmr/core/units.h"
 #include "awmr/identify/assumed_sway.h"
 #include "awmr/identify/planning/recover_part.h"
+#include "awmr/identify/planning/recover_table.h"
 #include "awmr/model/family.h"
 #include "awmr/trials/replay.h"
 
@@ -134,6 +135,12 @@ struct OneRun {
 /// What is shown of a parameter that was fitted, with its interval; of no other.
 std::optional<RecoverEstimate> interval_of(const Estimate& estimate) {
   if (!estimate.value || !estimate.ci95 || estimate.source == Source::kGiven) return std::nullopt;
+  // An interval without an end is none, as in model.json.
+  const auto fits = [](double number) { return std::abs(number) <= kLargestEstimate; };
+  if (!fits(*estimate.value) || !fits(estimate.std_error.value_or(0.0)) ||
+      !std::isfinite(estimate.ci95->lo) || !std::isfinite(estimate.ci95->hi)) {
+    return std::nullopt;
+  }
   return RecoverEstimate{*estimate.value, estimate.std_error, *estimate.ci95};
 }
 

@@ -9,6 +9,7 @@
 
 #include "awmr/core/hash.h"
 #include "awmr/core/index.h"
+#include "awmr/core/json_document.h"
 #include "awmr/core/name_table.h"
 #include "awmr/core/rounding.h"
 #include "awmr/core/shard_file.h"
@@ -183,6 +184,15 @@ bool is_finished_recover_shard(const std::filesystem::path& directory, const Sha
       directory, kRecoverShardSchema,
       {.provenance = provenance, .shard = shard, .arithmetic = rounding_of_functions()},
       kRecoverTable);
+}
+
+Status check_recover_csv(std::string_view text, const std::string& file, const RecoverPart& part) {
+  AWMR_RETURN_IF_ERROR(recover_runs(text, file, part.truths));
+  return {};
+}
+
+Status check_recover_shard_text(std::string_view text, const std::string& file) {
+  return check_json_object(text, file, shard_file_from_json);
 }
 
 std::string recover_shard_schema() {

@@ -27,6 +27,10 @@ std::string recover_csv(const RecoverPart& part);
 std::string recover_shard_text(const RecoverPart& part, const Shard& shard,
                                const Provenance& provenance);
 
+/// Read-backs of the two files (core/file.h): that of the table takes the part that it is of.
+Status check_recover_csv(std::string_view text, const std::string& file, const RecoverPart& part);
+Status check_recover_shard_text(std::string_view text, const std::string& file);
+
 /// Whether the directory holds this part already, finished, from the same inputs and options, and as
 /// it was written.
 bool is_finished_recover_shard(const std::filesystem::path& directory, const Shard& shard,

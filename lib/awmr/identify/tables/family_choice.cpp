@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <utility>
 
@@ -15,14 +16,16 @@ namespace {
 /// it costs some hundred fits.
 constexpr Eigen::Index kMaximumProfileRows = kExactRows;
 
-/// The profile's interval of every coordinate that has a standard error, in the parameter's scale.
+/// The profile's interval of every coordinate that has a standard error, in the parameter's scale. An
+/// interval that the data leave open at one end does not exist.
 void add_profiles(FamilyCandidate& candidate) {
   const std::vector<TransformedParameter> coordinates = coordinates_of(candidate.problem.family);
   for (std::size_t i = 0; i < candidate.report.parameters.size(); ++i) {
     const TransformedParameter c = coordinates[i];
     if (!candidate.fit.std_error(c)) continue;
-    candidate.report.parameters[i].profile95 =
-        values_from(c, profile_interval(candidate.problem, candidate.fit, c));
+    const Interval interval = values_from(c, profile_interval(candidate.problem, candidate.fit, c));
+    if (!std::isfinite(interval.lo) || !std::isfinite(interval.hi)) continue;
+    candidate.report.parameters[i].profile95 = interval;
   }
 }
 
