@@ -113,6 +113,7 @@ struct Sensors {
   Channel yaw_rate;  ///< rad/s
   Channel speed;     ///< m/s, surge
   bool sway_measured = true;
+  bool speed_signed = true;    ///< false: the speed is |u|, as a GPS gives it
   std::optional<Gps> gps;  ///< absent: the true position
 };
 
