@@ -17,7 +17,8 @@ enum class LinkKind { kMemory, kUart };
 struct FirmwareKind {
   LinkKind link = LinkKind::kMemory;
   cli::Optimize optimize = cli::Optimize::kSpeed;
-  std::string mission;  ///< mission_header()
+  std::string mission;       ///< mission_header()
+  bool is_directed = false;  ///< the speed has no sign, its direction is computed
 };
 
 /// Writes the emitted library and the link's program to `directory`, which is private and empty,

@@ -6,9 +6,11 @@
 #include <cmath>
 #include <limits>
 
+#include "awmr/control/arming.h"
 #include "awmr/simulate/physics.h"
 #include "awmr/simulate/pilot.h"
 #include "awmr/simulate/sensing.h"
+#include "sensor_injection.h"
 
 namespace awmr::pil {
 namespace {
@@ -36,8 +38,12 @@ AutopilotInput input_of(const LoopSetup& setup, double t_s, const Sensed& sensed
   in.reference.speed_mps = stops ? 0.0F : single(setup.scenario.speed_mps);
   const auto now_ms = static_cast<std::uint32_t>(std::llround(t_s * 1000.0));
   in.times = {now_ms, now_ms, now_ms, now_ms};
+  in.speed_unsigned = has_unsigned_speed(setup.scenario) ? 1 : 0;
   return in;
 }
+
+/// Older than every time-out.
+constexpr std::uint32_t kSilence_ms = 4'000'000;
 
 void inject(Injection injection, AutopilotInput& in) {
   constexpr std::uint32_t kLong_ms = 10'000;
@@ -63,10 +69,7 @@ void inject(Injection injection, AutopilotInput& in) {
     case Injection::kCommandTimeout:
       in.times.command_ms -= kLong_ms;
       break;
-    case Injection::kStepLate:
-    case Injection::kParameters:
-    case Injection::kReset:
-    case Injection::kNone:
+    default:
       break;
   }
 }
@@ -102,6 +105,10 @@ Status drive(Physics& physics, const LoopRow& row, const std::string& scenario) 
 }
 
 }  // namespace
+
+bool has_unsigned_speed(const Scenario& scenario) {
+  return scenario.sensors && !scenario.sensors->speed_signed;
+}
 
 Status check_scenario(const Scenario& scenario, const std::string& file) {
   std::vector<Fault> faults;
@@ -142,6 +149,17 @@ Window injection_window(const LoopSetup& setup) {
       return {0, samples_of(setup) + 1};
     case Injection::kStepLate:
       return {setup.middle, setup.middle + 1};
+    case Injection::kCompassSilent:
+    case Injection::kCompassFrozen:
+    case Injection::kCompassJump:
+    case Injection::kGyroSilent:
+    case Injection::kGyroFrozen:
+    case Injection::kGyroRange:
+    case Injection::kGpsSilent:
+    case Injection::kGpsEmpty:
+    case Injection::kGpsRepeated:
+    case Injection::kGpsJump:
+      return {setup.middle, samples_of(setup) + 1};
     default:
       return {setup.middle, setup.middle + 20};
   }
@@ -165,6 +183,18 @@ std::uint8_t expected_fault(Injection injection) {
       return kFaultStepLate;
     case Injection::kParameters:
       return kFaultParameters;
+    case Injection::kCompassSilent:
+    case Injection::kCompassFrozen:
+    case Injection::kCompassJump:
+    case Injection::kGyroSilent:
+    case Injection::kGyroFrozen:
+    case Injection::kGyroRange:
+      return kFaultHeadingStale;
+    case Injection::kGpsSilent:
+    case Injection::kGpsEmpty:
+    case Injection::kGpsRepeated:
+    case Injection::kGpsJump:
+      return kFaultSpeedStale;
     case Injection::kReset:
     case Injection::kNone:
       break;
@@ -183,6 +213,10 @@ Result<std::vector<LoopRow>> run_loop(const LoopSetup& setup, Executor& executor
     AWMR_RETURN_IF_ERROR(executor.follow(setup.mission.points));
   }
   const Window window = injection_window(setup);
+  const bool breaks_sensor = is_sensor_failure(setup.injection);
+  CheckedSensors checked(setup.injection, setup.sample_time_s, setup.limits);
+  Arming arming;
+  arming.arm(kFaultNone, kSensorGood);
   std::vector<LoopRow> rows;
   const std::size_t samples = samples_of(setup);
   for (std::size_t k = 0; k <= samples; ++k) {
@@ -192,7 +226,12 @@ Result<std::vector<LoopRow>> run_loop(const LoopSetup& setup, Executor& executor
     if (k > 0) sensed = sensing.at(k, row.state);
     const Pilot::Order order = pilot.at(row.t_s, sensed);
     AutopilotInput input = input_of(setup, row.t_s, sensed, order);
-    if (k >= window.first && k < window.last) inject(setup.injection, input);
+    if (breaks_sensor) {
+      row.cause = checked.step(k, k >= window.first, input);
+      if (!arming.is_armed()) input.times.command_ms -= kSilence_ms;
+    } else if (k >= window.first && k < window.last) {
+      inject(setup.injection, input);
+    }
     if (setup.injection == Injection::kStepLate && k >= window.first) delay(10'000, input.times);
     if (std::binary_search(setup.resets.begin(), setup.resets.end(), k)) {
       AWMR_RETURN_IF_ERROR(executor.reset());
@@ -200,6 +239,7 @@ Result<std::vector<LoopRow>> run_loop(const LoopSetup& setup, Executor& executor
     auto step = executor.step(input);
     if (!step) return tl::unexpected(step.error());
     row.step = *step;
+    if (breaks_sensor) arming.observe(step->output.fault, kSensorGood);
     command(setup, row);
     if (progress) progress(k, samples);
     if (step->output.arrived || order.no_passage || k == samples) break;

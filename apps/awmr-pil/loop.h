@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "awmr/control/sensor_checks.h"
 #include "awmr/core/progress.h"
 #include "awmr/model/model.h"
 #include "awmr/simulate/scenario.h"
@@ -19,6 +20,7 @@ struct LoopSetup {
   Mission mission;  ///< mission_of() the scenario
   YawMode mode = YawMode::kCombined;
   cli::Injection injection = cli::Injection::kNone;
+  SafetyLimits limits{};                 ///< the firmware's
   std::size_t middle = 0;                ///< the sample from which on the injection works
   std::vector<std::size_t> resets = {};  ///< samples before whose step the executor is reset
 };
@@ -27,9 +29,14 @@ struct LoopRow {
   double t_s = 0.0;
   State<double> state{};
   Step step;
+  SensorFault cause =
+      kSensorGood;  ///< the first sensor that is not believed, where failures are injected
   SideForces<double> force{};         ///< the step's, as the actuators can make it
   double steering_command_rad = 0.0;  ///< the same
 };
+
+/// True where the simulated speed sensor gives |u|, and the firmware computes the direction.
+bool has_unsigned_speed(const Scenario& scenario);
 
 /// Errors (input): the scenario asks for what the firmware does not do.
 Status check_scenario(const Scenario& scenario, const std::string& file);

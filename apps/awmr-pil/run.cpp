@@ -18,6 +18,7 @@
 #include "firmware_build.h"
 #include "loop.h"
 #include "report.h"
+#include "sensor_injection.h"
 #include "work_folder.h"
 
 namespace awmr::pil {
@@ -83,6 +84,7 @@ Result<Inputs> read_inputs(const PilOptions& options) {
   in.names = *names;
   in.emit.parts = parameters->parts;
   in.parameters = *parameters;
+  in.setup.limits = parameters->block.safety;
   return in;
 }
 
@@ -170,7 +172,8 @@ Result<ChipRun> run_chip(const PilOptions& options, const Inputs& in, const Watc
       folder->path(), *library,
       {.link = options.link == cli::PilLink::kMemory ? LinkKind::kMemory : LinkKind::kUart,
        .optimize = *options.optimize,
-       .mission = mission_header(in.setup.mission)});
+       .mission = mission_header(in.setup.mission),
+       .is_directed = has_unsigned_speed(in.setup.scenario)});
   if (!elf) return tl::unexpected(elf.error());
   if (options.build_directory) {
     AWMR_RETURN_IF_ERROR(keep_firmware(folder->path(), *options.build_directory));
@@ -214,9 +217,36 @@ PilOptions resolved(PilOptions options, const Inputs& in) {
   return options;
 }
 
+/// Longest time from a sensor's failure to the safe command, s: the detector and the time-out of the
+/// autopilot.
+constexpr double kSensorLatency_s = 1.5;
+
+/// The first fault comes in time and for the right reason, and stays: what is disarmed stays so.
+Injected sensor_failure_of(const LoopSetup& setup, const std::vector<LoopRow>& rows) {
+  Injected result;
+  result.expected = expected_fault(setup.injection);
+  const auto has_fault = [](const LoopRow& row) { return row.step.output.fault != kFaultNone; };
+  const auto first = std::find_if(rows.begin(), rows.end(), has_fault);
+  if (first == rows.end()) return result;
+  const auto at = static_cast<std::size_t>(first - rows.begin());
+  result.seen = first->step.output.fault;
+  result.quiet = at >= setup.middle;
+  result.worked = (result.seen & result.expected) != 0 &&
+                  is_expected(setup.injection, first->cause) &&
+                  static_cast<double>(at - std::min(at, setup.middle)) * setup.sample_time_s <=
+                      kSensorLatency_s;
+  result.safe = std::all_of(first, rows.end(), [&](const LoopRow& row) {
+    const Allocation<float>& command = row.step.output.command;
+    return has_fault(row) && std::max({std::abs(command.force.left), std::abs(command.force.right),
+                                       std::abs(command.steering_rad)}) <= 0.0F;
+  });
+  return result;
+}
+
 Injected injected_of(const LoopSetup& setup, const std::vector<LoopRow>& rows) {
   Injected result;
   result.expected = expected_fault(setup.injection);
+  if (is_sensor_failure(setup.injection)) return sensor_failure_of(setup, rows);
   const Window window = injection_window(setup);
   result.seen = window.first < window.last ? 0xFF : 0;
   for (std::size_t i = 0; i < rows.size(); ++i) {

@@ -13,6 +13,7 @@
 #include "awmr/model/gains_file.h"
 #include "awmr/model/model_file.h"
 #include "awmr/model/plausibility.h"
+#include "awmr/simulate/validity.h"
 #include "commands.h"
 #include "emit_options.h"
 #include "paths.h"
@@ -155,6 +156,12 @@ Result<Outcome> execute(const EmitCommand& command) {
   outcome.findings.insert(outcome.findings.end(), foreign.begin(), foreign.end());
   for (Finding& finding : unstable_gains(gains, model.vehicle.sample_time_s, command)) {
     outcome.findings.push_back(std::move(finding));
+  }
+  if (const auto plant = model.plant(Motion::kStraight)) {
+    if (auto finding = unsigned_speed_finding(*plant, gains, model.vehicle.wheel_force.hi,
+                                              command.gains.string())) {
+      outcome.findings.push_back(std::move(*finding));
+    }
   }
   AWMR_RETURN_IF_ERROR(make_directory(command.output));
   AWMR_RETURN_IF_ERROR(write_emitted(command, files));

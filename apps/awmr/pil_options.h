@@ -37,9 +37,20 @@ enum class Injection {
   kCommandTimeout,  ///< reference no longer renewed
   kStepLate,        ///< a pause before a step
   kParameters,      ///< a bit of the parameters in flash, before the start
-  kReset            ///< the chip itself, as when the supply breaks in; it goes on from the start
+  kReset,           ///< the chip itself, as when the supply breaks in; it goes on from the start
+  // Failures of a sensor, found by the checks of the sketches (control/sensor_checks.h).
+  kCompassSilent,  ///< no new field
+  kCompassFrozen,  ///< the same words
+  kCompassJump,    ///< off by 57 deg
+  kGyroSilent,     ///< no word
+  kGyroFrozen,     ///< the same word
+  kGyroRange,      ///< reset to another range
+  kGpsSilent,      ///< no sentence
+  kGpsEmpty,       ///< sentences with empty fields
+  kGpsRepeated,    ///< the same sentence
+  kGpsJump         ///< off by 20 m
 };
-inline constexpr NameTable<Injection, 11> kInjectionNames{
+inline constexpr NameTable<Injection, 21> kInjectionNames{
     {{"none", Injection::kNone},
      {"nan", Injection::kNaN},
      {"infinite", Injection::kInfinite},
@@ -50,7 +61,17 @@ inline constexpr NameTable<Injection, 11> kInjectionNames{
      {"command-timeout", Injection::kCommandTimeout},
      {"step-late", Injection::kStepLate},
      {"parameters", Injection::kParameters},
-     {"reset", Injection::kReset}}};
+     {"reset", Injection::kReset},
+     {"compass-silent", Injection::kCompassSilent},
+     {"compass-frozen", Injection::kCompassFrozen},
+     {"compass-jump", Injection::kCompassJump},
+     {"gyro-silent", Injection::kGyroSilent},
+     {"gyro-frozen", Injection::kGyroFrozen},
+     {"gyro-range", Injection::kGyroRange},
+     {"gps-silent", Injection::kGpsSilent},
+     {"gps-empty", Injection::kGpsEmpty},
+     {"gps-repeated", Injection::kGpsRepeated},
+     {"gps-jump", Injection::kGpsJump}}};
 
 struct PilOptions {
   std::filesystem::path model;

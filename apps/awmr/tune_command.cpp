@@ -276,6 +276,12 @@ Result<Outcome> execute(const TuneCommand& command) {
   std::ranges::move(sensitivity_findings(tuning), std::back_inserter(findings));
   std::ranges::move(observer_findings(config.options), std::back_inserter(findings));
   std::ranges::move(unsettled_findings(tuning), std::back_inserter(findings));
+  if (const auto plant = model.plant()) {
+    if (auto finding =
+            unsigned_speed_finding(*plant, tuning.gains, model.vehicle.wheel_force.hi, "")) {
+      findings.push_back(std::move(*finding));
+    }
+  }
   std::vector<Scenario> asked = scenarios;
   if (tuning.robust) {
     asked.push_back(

@@ -380,5 +380,25 @@ TEST_F(AutopilotLeads, ByWhatWasAskedForLast) {
   EXPECT_EQ(heading(), 0.3F);
 }
 
+TEST_F(AutopilotLeads, AGuidanceThatIsNoNumberIsAFaultInEveryMode) {
+  static constexpr Position<float> kNowhere[] = {{kNaN, 5.0F}, {10.0F, kNaN}};
+  for (const std::uint8_t mode : {0, 1, 2}) {
+    // Braking, the wheels are straight in steering mode, whatever heading is asked for.
+    for (const float speed_mps : {0.0F, 1.5F}) {
+      start_autopilot(autopilot_, &block_, nullptr, 0, nullptr, 0, crc_);
+      follow_waypoints(autopilot_, Waypoints<float>{kNowhere, 2, 1.0F, false});
+      AutopilotInput in = good();
+      in.mode = mode;
+      in.reference.speed_mps = speed_mps;
+      AutopilotOutput out{};
+      autopilot_step(autopilot_, in, out);
+      EXPECT_NE(out.fault, kFaultNone) << int{mode} << " " << speed_mps;
+      EXPECT_EQ(out.command.force.left, 0.0F);
+      EXPECT_EQ(out.command.force.right, 0.0F);
+      EXPECT_EQ(out.command.steering_rad, 0.0F);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace awmr::testing::autopilot_test

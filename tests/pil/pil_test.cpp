@@ -300,7 +300,10 @@ TEST_P(PilFault, GivesTheSafeCommandAndItsCodeAndRecovers) {
 INSTANTIATE_TEST_SUITE_P(, PilFault,
                          ::testing::Values("nan", "infinite", "range", "mode", "heading-stale",
                                            "speed-stale", "command-timeout", "step-late",
-                                           "parameters"),
+                                           "parameters", "compass-silent", "compass-frozen",
+                                           "compass-jump", "gyro-silent", "gyro-frozen",
+                                           "gyro-range", "gps-silent", "gps-empty", "gps-repeated",
+                                           "gps-jump"),
                          [](const auto& test) {
                            std::string name = test.param;
                            std::replace(name.begin(), name.end(), '-', '_');

@@ -129,7 +129,7 @@ const std::string kFull = R"({
   "slippery": [{"x_m": 1, "y_m": 2, "radius_m": 3, "force_max": 0.1}],
   "battery": {"from_s": 0, "to_s": 3, "share_end": 0.5},
   "sensors": {"heading_deg": {"noise": 1, "bias": 2, "quantum": 0.1},
-              "yaw_rate_degps": {"noise": 0.3}, "speed_mps": {"bias": 0.1}, "sway_measured": false,
+              "yaw_rate_degps": {"noise": 0.3}, "speed_mps": {"bias": 0.1}, "sway_measured": false, "speed_signed": false,
               "gps": {"rate_hz": 10, "latency_s": 0.1, "noise_m": 0.05, "quantum_m": 0.01,
                       "dropouts": [{"from_s": 1, "to_s": 2}]}},
   "actuators": {"servo": {"us_per_deg": 10, "step_us": 4}, "pwm_counts": 255},
@@ -161,6 +161,7 @@ TEST(ScenarioFile, ReadsTheWholeWorldInSiUnits) {
   EXPECT_EQ(s->battery->share_end, 0.5);
   EXPECT_EQ(s->sensors->heading.bias, radians(2.0));
   EXPECT_FALSE(s->sensors->sway_measured);
+  EXPECT_FALSE(s->sensors->speed_signed);
   EXPECT_EQ(s->sensors->gps->y.quantum, 0.01);
   EXPECT_NEAR(s->actuators->steering_quantum_rad, radians(0.4), 1e-15);
   EXPECT_EQ(s->control.split, CombinedSplit::kFixedHalf);

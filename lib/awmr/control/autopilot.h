@@ -8,6 +8,7 @@
 #include "awmr/control/autopilot_guidance.h"
 #include "awmr/control/autopilot_parts.h"
 #include "awmr/control/controller.h"
+#include "awmr/control/directed_speed.h"
 #include "awmr/control/guidance.h"
 #include "awmr/control/parameters_block.h"
 #include "awmr/control/resistance_table.h"
@@ -22,6 +23,8 @@ struct AutopilotInput {
   Position<float> position_m;   ///< read where something leads by it only
   Reference<float> reference;   ///< its heading is not read while something leads
   InputTimes times;             ///< how old all of this is
+  /// Not 0: measured.u_mps is |u|, as a GPS gives it; its direction is computed (directed_speed.h).
+  uint8_t speed_unsigned = 0;
 };
 
 /// What the firmware does at one step.
@@ -50,6 +53,9 @@ struct Autopilot : P::Line,
   float acceptance_m2;               ///< the square of waypoints.acceptance_m
   WaypointProgress<float> progress;  ///< valid once is_leg_started
   uint32_t last_step_ms;             ///< valid once has_stepped
+  DirectedSpeed<float> direction;    ///< of a speed without a sign
+  uint32_t direction_ms;             ///< InputTimes::speed_ms of its last reading
+  float mass_inverse;                ///< 1/m'
   bool has_stepped;                  ///< a step was made since the start
   bool is_leg_started;               ///< the first step towards the waypoints was made
   bool are_parameters_good;          ///< the check sum was right at the start
@@ -115,6 +121,9 @@ bool start_autopilot(Autopilot<G, P>& a, const ParameterBlock* block,
   switch_parts_off(a);
   set_observer(observer, part_of<typename P::Observation>(a));
   a.has_stepped = false;
+  a.direction = DirectedSpeed<float>();
+  a.direction_ms = 0;
+  a.mass_inverse = 1.0F / c.constants.mass_norm;
   a.are_parameters_good = crc32_of_parameters(block, surge_lines, surge_count, yaw_lines, yaw_count,
                                               rest, observer) == crc;
   return a.are_parameters_good;
@@ -204,11 +213,13 @@ template <class G, class P>
 AWMR_INLINE uint8_t check_input(Autopilot<G, P>& a, const AutopilotInput& in) {
   unsigned fault = a.are_parameters_good ? kFaultNone : kFaultParameters;
   if (in.mode > static_cast<uint8_t>(YawMode::kCombined)) fault |= kFaultRange;
+  if (!P::kIsDirected && in.speed_unsigned != 0) fault |= kFaultRange;
   fault |= check_measurement(a.limits, in.measured);
   fault |= check_reference(a.limits, in.reference);
   fault |= check_times(a.limits, in.times);
   fault |= check_period(a, in.times.now_ms);
-  if (a.waypoints.count > 0 || needs_position(part_of<typename P::Line>(a)) ||
+  if (a.waypoints.count > 0 || in.speed_unsigned != 0 ||
+      needs_position(part_of<typename P::Line>(a)) ||
       needs_position(part_of<typename P::Path>(a)) ||
       needs_position(part_of<typename P::Avoidance>(a))) {
     fault |= check_magnitude(in.position_m.x_m, kPositionMax);
@@ -252,19 +263,54 @@ AWMR_INLINE bool lead_all(Autopilot<G, P>& a, const Whereabouts& at, Reference<f
   return goal.arrived;
 }
 
+/// Follows the vehicle's motion by the model between two steps, where the speed has no sign.
+template <class G, class P>
+AWMR_CALLED void predict_direction(Autopilot<G, P>& a, uint32_t now_ms) {
+  if (!a.has_stepped) return;
+  const uint32_t wait_ms = now_ms - a.last_step_ms;
+  const uint32_t most_ms = a.limits.step_timeout_ms;
+  const float dt_s = 0.001F * static_cast<float>(wait_ms < most_ms ? wait_ms : most_ms);
+  predict_speed(a.direction, a.controller.surge, a.mass_inverse, a.limits.speed_max_mps, dt_s);
+}
+
+/// Puts the direction into the measured speed; see apply_direction().
+template <class G, class P>
+AWMR_CALLED void direct(Autopilot<G, P>& a, const AutopilotInput& in, Measurement<float>& measured,
+                        Reference<float>& ref) {
+  const bool is_new = !a.direction.has_fix || in.times.speed_ms != a.direction_ms;
+  a.direction_ms = in.times.speed_ms;
+  correct_speed(a.direction, {measured.u_mps, in.position_m, measured.psi_rad, is_new});
+  apply_direction(a.direction, measured, ref);
+}
+
+/// True where reference and laws are numbers. A guidance that is not may still give a command that is
+/// one: in steering mode the wheels are straight while the vehicle brakes, whatever is asked for.
+inline bool is_finite(const AutopilotOutput& out) {
+  const uint16_t infinity = static_cast<uint16_t>(float_math::kInfinityBits >> 16U);
+  return float_math::leading_bits(out.psi_ref_rad) < infinity &&
+         float_math::leading_bits(out.tau_turn_m) < infinity &&
+         float_math::leading_bits(out.tau_speed) < infinity;
+}
+
+/// The force that acts until the next step: the law's, within what four wheels can make.
+inline float acting_force(const AllocationConstants<float>& c, float tau_speed) {
+  return math::clamp(tau_speed, c.tau_speed_min, c.tau_speed_max);
+}
+
 /// The laws for a reference, the allocation, and the drives of the motors.
 template <class G, class P>
-AWMR_INLINE void control(Autopilot<G, P>& a, const AutopilotInput& in, const Reference<float>& ref,
+AWMR_INLINE void control(Autopilot<G, P>& a, const AutopilotInput& in,
+                         const Measurement<float>& measured, const Reference<float>& ref,
                          AutopilotOutput& out) {
   out.psi_ref_rad = ref.psi_rad;
-  out.tau_speed = speed_law(a.controller, in.measured, ref);
-  out.tau_turn_m = heading_law(a.controller, in.measured, ref);
+  out.tau_speed = speed_law(a.controller, measured, ref);
+  out.tau_turn_m = heading_law(a.controller, measured, ref);
   const auto& motors = part_of<typename P::Motors>(a);
   const AllocationConstants<float>& at_rest = a.controller.constants.allocation;
-  const AllocationConstants<float>& limits = limits_at(motors, at_rest, in.measured.u_mps);
+  const AllocationConstants<float>& limits = limits_at(motors, at_rest, measured.u_mps);
   allocate_asked(part_of<typename P::Observation>(a), a.controller, static_cast<YawMode>(in.mode),
-                 P::kSplit, in.measured, {limits, out.tau_speed, out.tau_turn_m, out.command});
-  make_up_back_emf(motors, at_rest, in.measured, out.command.force);
+                 P::kSplit, measured, {limits, out.tau_speed, out.tau_turn_m, out.command});
+  make_up_back_emf(motors, at_rest, measured, out.command.force);
 }
 
 }  // namespace detail
@@ -274,12 +320,27 @@ AWMR_INLINE void control(Autopilot<G, P>& a, const AutopilotInput& in, const Ref
 template <class G, class P>
 void autopilot_step(Autopilot<G, P>& a, const AutopilotInput& in, AutopilotOutput& out) {
   out.arrived = false;
+  const bool is_directed = P::kIsDirected && in.speed_unsigned != 0;
+  if (is_directed) detail::predict_direction(a, in.times.now_ms);
+  if (P::kIsDirected) a.direction.tau_speed = 0.0F;
   out.fault = detail::check_input(a, in);
   if (out.fault == kFaultNone) {
     Reference<float> ref = in.reference;
     out.arrived = detail::lead_all(a, {in.position_m, in.measured, in.times.now_ms}, ref);
-    detail::control(a, in, ref, out);
-    if (is_within_limits(a.controller.constants.allocation, out.command)) {
+    Measurement<float> directed;
+    const Measurement<float>* measured = &in.measured;
+    if (is_directed) {
+      directed = in.measured;
+      detail::direct(a, in, directed, ref);
+      measured = &directed;
+    }
+    detail::control(a, in, *measured, ref, out);
+    if (detail::is_finite(out) &&
+        is_within_limits(a.controller.constants.allocation, out.command)) {
+      if (is_directed) {
+        a.direction.tau_speed =
+            detail::acting_force(a.controller.constants.allocation, out.tau_speed);
+      }
       make_up_dead_zone(part_of<typename P::Motors>(a), out.command.force);
       return;
     }

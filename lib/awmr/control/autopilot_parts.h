@@ -93,6 +93,7 @@ struct NoParts {
   typedef Without<Observer> Observation;
   typedef Without<MotorCurve> Motors;
   static constexpr CombinedSplit kSplit = CombinedSplit::kRedistribute;
+  static constexpr bool kIsDirected = true;  ///< AutopilotInput::speed_unsigned is known
 };
 
 /// All of them, with either split.
@@ -106,6 +107,7 @@ struct AllParts {
   typedef Observer Observation;
   typedef MotorCurve Motors;
   static constexpr CombinedSplit kSplit = split;
+  static constexpr bool kIsDirected = true;
 };
 
 /// Parts that are not there are never to be switched off, nor need they be.

@@ -36,6 +36,7 @@ Sensed Sensing::at(std::size_t k, const State<double>& truth) {
   sensed.motion.psi_rad = read(sensors_->heading, as_of(sensors_->heading, k).psi_rad, heading_);
   sensed.motion.r_radps = read(sensors_->yaw_rate, as_of(sensors_->yaw_rate, k).r_radps, yaw_rate_);
   sensed.motion.u_mps = read(sensors_->speed, as_of(sensors_->speed, k).u_mps, speed_);
+  if (!sensors_->speed_signed) sensed.motion.u_mps = std::abs(sensed.motion.u_mps);
   if (!sensors_->sway_measured) sensed.motion.v_mps = 0.0;
   if (sensors_->gps) sensed.position_m = navigate(k, truth, sensed.motion);
   return sensed;

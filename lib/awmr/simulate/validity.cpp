@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "awmr/control/directed_speed.h"
 #include "awmr/core/csv_cell.h"
 #include "awmr/core/option_text.h"
 #include "awmr/core/units.h"
 #include "awmr/model/fitted_law.h"
 #include "awmr/model/paper_gains.h"
+#include "awmr/model/steady.h"
 #include "awmr/simulate/simulate.h"
 
 namespace awmr {
@@ -185,6 +187,26 @@ void note_extrapolation(const Model& model, double fastest_degps, const std::str
                             "(--heading-rate-limit)"
                           : "Record faster turning trials, or limit the heading's rate (shaping in "
                             "the scenario, or --heading-rate-limit measured)")});
+}
+
+std::optional<Finding> unsigned_speed_finding(const Plant<double>& plant,
+                                              const Gains<double>& gains, double force_max,
+                                              const std::string& file) {
+  const double top_mps = steady_rate(plant.surge, 4.0 * force_max).value_or(0.0);
+  constexpr int kSpeeds = 100;
+  for (int i = 1; i <= kSpeeds; ++i) {
+    const double u_mps = top_mps * i / kSpeeds;
+    if (!runs_away_unsigned(plant.surge, plant.mass_norm, gains.speed, u_mps)) continue;
+    return Finding{
+        file, 0, Severity::kWarning, "unsigned-speed-runs-away",
+        fmt::format(
+            "m' mu_s/eps_s = {:.3g} s/m is above 2 g1(u)/u = {:.3g} s/m at {:.3g} m/s: with a "
+            "speed sensor without a sign (GPS) the vehicle drives backward without end. Set "
+            "speed_unsigned in the sketch, as the examples do",
+            plant.mass_norm * gains.speed.mu / gains.speed.epsilon,
+            2.0 * plant.surge(u_mps) / u_mps, u_mps)};
+  }
+  return {};
 }
 
 }  // namespace awmr

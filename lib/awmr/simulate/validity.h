@@ -22,6 +22,13 @@ std::optional<Finding> tyres_differ(const Scenario& scenario, const Model& model
 /// obstacle (`blocked-waypoint`), a speed beyond the motors (`unreachable-speed`).
 std::vector<Finding> asked_in_vain(const Scenario& scenario, const Model& model);
 
+/// A warning (`unsigned-speed-runs-away`) where the speed law, fed with the size of the speed alone, as
+/// a GPS gives it, pushes a vehicle that rolls backward further back: m' mu_s/eps_s > 2 g1(u)/u at a
+/// speed that the vehicle reaches. `file` is that of the gains.
+std::optional<Finding> unsigned_speed_finding(const Plant<double>& plant,
+                                              const Gains<double>& gains, double force_max,
+                                              const std::string& file);
+
 /// Lets the heading that is held or led to turn by at most `limit_degps`, > 0, by a filter of
 /// kShapingBandwidth_radps where the scenario has none (control/guidance_shaping.h); one that it has
 /// keeps its bandwidth and the lesser limit. In open loop there is no heading to limit.

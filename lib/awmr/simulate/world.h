@@ -113,7 +113,8 @@ struct Sensors {
   Channel yaw_rate;  ///< rad/s
   Channel speed;     ///< m/s, surge
   bool sway_measured = true;
-  std::optional<Gps> gps;  ///< absent: the true position
+  bool speed_signed = true;  ///< false: the speed is |u|, as a GPS gives it
+  std::optional<Gps> gps;    ///< absent: the true position
 };
 
 /// What becomes of the commands on their way to the wheels.

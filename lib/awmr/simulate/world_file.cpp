@@ -148,6 +148,7 @@ Sensors read_sensors(JsonObject json) {
   sensors.yaw_rate = channel("yaw_rate_degps", radians(1.0));
   sensors.speed = channel("speed_mps", 1.0);
   sensors.sway_measured = json.optional_boolean("sway_measured").value_or(true);
+  sensors.speed_signed = json.optional_boolean("speed_signed").value_or(true);
   if (auto gps = json.optional_object("gps")) sensors.gps = read_gps(*gps);
   json.reject_unknown_keys();
   return sensors;

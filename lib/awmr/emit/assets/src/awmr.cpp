@@ -16,6 +16,11 @@
 
 #include "awmr/control/autopilot.h"
 
+// 0: for a speed sensor with a sign; awmr_input.speed_unsigned is a fault then, and takes no flash.
+#ifndef AWMR_WITH_DIRECTION
+#define AWMR_WITH_DIRECTION 1
+#endif
+
 namespace {
 
 #if AWMR_RESISTANCE_TABLE
@@ -94,6 +99,7 @@ struct Parts {
   typedef awmr::Optional<AWMR_WITH_SHAPING, awmr::Shaper>::type Shaping;
   typedef awmr::Optional<AWMR_WITH_OBSERVER, awmr::Observer>::type Observation;
   typedef awmr::Optional<AWMR_FRICTION_AT_REST, awmr::MotorCurve>::type Motors;
+  static constexpr bool kIsDirected = AWMR_WITH_DIRECTION;
   static constexpr awmr::CombinedSplit kSplit =
       AWMR_FIXED_HALF ? awmr::CombinedSplit::kFixedHalf : awmr::CombinedSplit::kRedistribute;
 };
@@ -124,6 +130,7 @@ static_assert(offsetof(awmr_input, psi_rad) == offsetof(awmr::AutopilotInput, me
 static_assert(offsetof(awmr_input, x_m) == offsetof(awmr::AutopilotInput, position_m), "");
 static_assert(offsetof(awmr_input, psi_ref_rad) == offsetof(awmr::AutopilotInput, reference), "");
 static_assert(offsetof(awmr_input, now_ms) == offsetof(awmr::AutopilotInput, times), "");
+static_assert(offsetof(awmr_input, speed_unsigned) == offsetof(awmr::AutopilotInput, speed_unsigned), "");
 static_assert(sizeof(awmr_point) == sizeof(awmr::Position<float>), "");
 static_assert(sizeof(awmr_output) == sizeof(awmr::AutopilotOutput), "");
 static_assert(offsetof(awmr_output, tau_speed) == offsetof(awmr::AutopilotOutput, tau_speed), "");

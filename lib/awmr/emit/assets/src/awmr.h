@@ -47,6 +47,8 @@ typedef struct awmr_input {
   uint32_t heading_ms;     /* ... psi_rad and r_radps were measured, */
   uint32_t speed_ms;       /* ... u_mps, x_m and y_m were measured, */
   uint32_t command_ms;     /* ... whoever commands was last heard of */
+  uint8_t speed_unsigned;  /* 1: u_mps is the size of the speed, as a GPS gives it, and x_m, y_m are
+                              measured: the direction is computed. 0: u_mps has its sign */
 } awmr_input;
 
 typedef struct awmr_output {

@@ -44,10 +44,10 @@ const char kHeaderText[] AWMR_IN_FLASH =
 #undef AWMR_LOG_COLUMN
 static_assert(sizeof kHeaderText <= awmr::kLogHeaderBytes - 8, "");
 
-/* One row, or, where the ring is full, one row that is lost. */
+/* `sensor_fault` is an awmr::SensorFault. One row, or, where the ring is full, one row that is lost. */
 template <uint8_t kBlocks>
 inline void put(awmr::LogRing<kBlocks>& ring, const awmr_input& in, const awmr_output& out,
-                uint32_t step, uint8_t reset_cause) {
+                uint32_t step, uint8_t reset_cause, uint8_t sensor_fault = 0) {
   awmr::LogRow* row = ring.begin_row();
   if (row == 0) return;
   row->step = step;
@@ -66,7 +66,7 @@ inline void put(awmr::LogRing<kBlocks>& ring, const awmr_input& in, const awmr_o
   row->mode = in.mode;
   row->fault = out.fault;
   row->limits = static_cast<uint8_t>(out.speed_limited | out.steering_limited << 1 |
-                                     out.force_limited << 2 | out.steering_powerless << 3);
+                                     out.force_limited << 2 | out.steering_powerless << 3 | sensor_fault << 4);
   row->reset_cause = reset_cause;
   ring.end_row();
 }

@@ -37,13 +37,14 @@ const float kServoUsPerRad = 573.0f; /* 10 us per degree of the wheels: measure 
 #include "awmr_board/command.h"
 #include "awmr_board/gps.h"
 #include "awmr_board/imu.h"
+#include "awmr_board/safety.h"
 #include "awmr_board/steps.h"
 
 namespace awmr_board {
 
 /* A time that was never taken is too old, however soon after the start. */
-inline uint32_t time_or_old(uint32_t time_ms, uint32_t now_ms, uint32_t timeout_ms) {
-  return time_ms != 0 ? time_ms : now_ms - timeout_ms - 1;
+inline uint32_t time_or_old(bool is_taken, uint32_t time_ms, uint32_t now_ms, uint32_t timeout_ms) {
+  return is_taken ? time_ms : now_ms - timeout_ms - 1;
 }
 
 /* In setup() of a sketch that steers by the autopilot: starts everything but the steps, and says
@@ -53,22 +54,49 @@ inline void begin(Imu& imu, Gps& gps, Log& card) {
   begin_actuators();
   imu.begin();
   gps.begin();
-  if (!AWMR_COMPASS_CALIBRATED) Serial.println(F("compass not calibrated: see CompassCalibration"));
+  if (!AWMR_COMPASS_CALIBRATED) Serial.println(F("compass not calibrated"));
   if (!card.begin()) Serial.println(F("no SD card: no log"));
   if (awmr_init() != AWMR_FAULT_NONE) Serial.println(F("parameters damaged: flash again"));
+  Serial.println(F("disarmed: hold still, then ARM"));
 }
 
-/* What the sensors know and when somebody commanded, with the times. */
+/* In the step: what the sensors measure and when somebody commanded, with the times. A sensor that
+   is not believed keeps its old time, which becomes the autopilot's fault. */
 inline void measure(const Imu& imu, const Gps& gps, const Command& command, awmr_input& input) {
   input.now_ms = millis();
   input.psi_rad = imu.psi_rad;
   input.r_radps = imu.r_radps;
-  input.heading_ms = time_or_old(imu.time_ms, input.now_ms, AWMR_HEADING_TIMEOUT_MS);
+  input.heading_ms =
+      time_or_old(imu.has_heading(), imu.time_ms, input.now_ms, AWMR_HEADING_TIMEOUT_MS);
   input.u_mps = gps.speed_mps;
+  input.speed_unsigned = 1;
   input.x_m = gps.x_m;
   input.y_m = gps.y_m;
-  input.speed_ms = time_or_old(gps.time_ms, input.now_ms, AWMR_SPEED_TIMEOUT_MS);
-  input.command_ms = time_or_old(command.heard_ms, input.now_ms, AWMR_COMMAND_TIMEOUT_MS);
+  input.speed_ms = time_or_old(gps.has_fix(), gps.time_ms, input.now_ms, AWMR_SPEED_TIMEOUT_MS);
+  input.command_ms =
+      time_or_old(command.has_heard, command.heard_ms, input.now_ms, AWMR_COMMAND_TIMEOUT_MS);
+}
+
+/* The first sensor that is not believed. */
+inline uint8_t sensor_fault(const Imu& imu, const Gps& gps) {
+  const awmr::SensorFault heading = imu.fault();
+  return heading != awmr::kSensorGood ? heading : gps.fault();
+}
+
+/* One step of a sketch that steers by the autopilot, after `input` has mode and references: reads
+   the sensors, drives, disarms on a fault, logs. */
+inline void step(Imu& imu, Gps& gps, Command& command, Safety& safety, Log& card, awmr_input& input,
+                 awmr_output& output) {
+  gps.read(input.u_ref_mps, imu.psi_rad, safety.is_armed());
+  imu.read(AWMR_SAMPLE_TIME_S);
+  measure(imu, gps, command, input);
+  safety.guard(input);
+  awmr_step(&input, &output);
+  const uint8_t cause = sensor_fault(imu, gps);
+  safety.observe(output.fault, cause, command);
+  if (!safety.is_armed()) stop(output);
+  drive(output);
+  card.put(input, output, cause);
 }
 
 }  // namespace awmr_board

@@ -25,14 +25,15 @@ struct Settings {
 
 enum State { kWaiting, kSettling, kMeasuring, kCoasting, kDone };
 
-/* What a step has to tell. After kNotSteady and kLetGo the same run waits to be driven again. */
+/* What a step has to tell. After kNotSteady, kLetGo and kSensorLost the same run waits to be driven again. */
 enum Event {
   kNothing,
   kRow,       /* a row of a surge or turning run, which is over */
   kCurveRow,  /* a row of a coast-down */
   kCoasted,   /* a coast-down is over */
   kNotSteady, /* the window's halves differ, or there were too few fixes in one */
-  kLetGo      /* nobody holds it any more */
+  kLetGo,     /* nobody holds it any more */
+  kSensorLost /* a sensor was not believed while it drove or coasted; a curve ends there */
 };
 
 struct Measured {
@@ -66,12 +67,14 @@ class Recorder {
     if (state_ == kWaiting) next();
   }
 
-  Event step(const Measured& m) {
+  /* is_doubtful: a sensor is not believed, and nothing that is measured counts. */
+  Event step(const Measured& m, bool is_doubtful = false) {
     if (is_new_) {
       since_ms_ = m.now_ms;
       is_new_ = false;
     }
     if (state_ == kWaiting || state_ == kDone) return kNothing;
+    if (is_doubtful) return lose();
     if (!m.is_held && state_ != kCoasting) return give_up(kLetGo); /* coasting, motors are off */
     const float t_s = static_cast<float>(m.now_ms - since_ms_) * 1e-3f;
     const bool is_fresh = m.speed_ms != speed_ms_;
@@ -120,6 +123,12 @@ class Recorder {
   Event give_up(Event why) {
     state_ = kWaiting;
     return why;
+  }
+  /* The rows of a curve are kept, and no other one has its run's number. */
+  Event lose() {
+    if (state_ != kCoasting) return give_up(kSensorLost);
+    next();
+    return kSensorLost;
   }
   Event measure(const Measured& m, float t_s, bool is_fresh) {
     const bool turns = trial().kind == kTurning;

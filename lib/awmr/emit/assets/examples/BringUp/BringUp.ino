@@ -1,5 +1,5 @@
 // Walks through the bring-up list of README.md after a first flash. Wheels off the ground. Over Serial (115200
-// baud) it says what it is going to do; the line "y" is yes, anything else is no. The first no ends it, motors off
+// baud) it says what it is going to do; the line "y" is yes and arms that one motion, anything else is no. The first no ends it, motors off
 // until a reset: mend what was wrong and begin anew. Forces are at most kForce, a motion lasts two seconds, and any
 // character meanwhile ends it too.
 #include <Wire.h>
@@ -10,9 +10,10 @@ const float kForce = 0.2f * AWMR_WHEEL_FORCE_MAX;
 const float kAngleRad = 0.5f * AWMR_STEERING_MAX_RAD;
 
 awmr_board::Imu imu;
-awmr_board::Gps gps;
-awmr_board::Command command;
 awmr_input input;
+Stream* gps_port;
+awmr::GpsLine gps_line;
+volatile bool has_fix = false;
 
 // What the step commands, set by loop(): a float is four bytes, so with interrupts off.
 struct Wanted {
@@ -26,15 +27,42 @@ float turned_rad = 0.0f; // by the gyroscope since it was set to 0
 
 float cut(float force) { return constrain(force, -kForce, kForce); }
 
+void read_gps() {
+  while (gps_port->available() > 0) {
+    awmr::GpsFix fix;
+    if (!gps_line.take(static_cast<char>(gps_port->read()))) continue;
+    if (awmr::read_rmc(gps_line.text(), fix) == awmr::GpsSentence::kFix) has_fix = true;
+  }
+}
+
+// A line that is "y", and nothing else in it.
+bool read_yes() {
+  bool is_yes = false;
+  for (uint8_t length = 0;;) {
+    if (Serial.available() == 0) continue;
+    const char c = static_cast<char>(Serial.read());
+    if (c != '\n' && c != '\r') {
+      is_yes = length == 0 && (c == 'y' || c == 'Y');
+      if (length < 255) ++length;
+    } else if (length > 0) {
+      return is_yes && length == 1;
+    }
+  }
+}
+
 void step() {
-  gps.read();
+  read_gps();
   imu.read(AWMR_SAMPLE_TIME_S);
   turned_rad += imu.r_radps * AWMR_SAMPLE_TIME_S;
   while (shall_hang) {
   }
   if (wanted.by_autopilot) {
-    awmr_board::measure(imu, gps, command, input);
-    input.u_mps = 0.0f; // on a box, and without a fix
+    input.now_ms = millis();
+    input.psi_rad = imu.psi_rad;
+    input.r_radps = imu.r_radps;
+    input.heading_ms =
+        awmr_board::time_or_old(imu.has_heading(), imu.time_ms, input.now_ms, AWMR_HEADING_TIMEOUT_MS);
+    // On a box it has no speed, and needs no fix.
     input.speed_ms = input.command_ms = input.now_ms;
     awmr_step(&input, &output);
     output.force_left = cut(output.force_left);
@@ -73,9 +101,7 @@ void end(const __FlashStringHelper* why) {
 void ask(const __FlashStringHelper* question) {
   Serial.print(question);
   Serial.println(F("  y?"));
-  while (!command.read()) {
-  }
-  if (command.letter != 'y') end(question);
+  if (!read_yes()) end(question);
 }
 
 // The stop rule: waits, but for no longer than until a character comes.
@@ -97,8 +123,17 @@ void show(float left, float right, float steering_rad, const __FlashStringHelper
   ask(question);
 }
 
+// The gyroscope is calibrated in the first second at rest.
+void wait_still() {
+  const uint32_t start_ms = millis();
+  while (imu.fault() == awmr::kGyroNotCalibrated) {
+    if (millis() - start_ms > 10000) end(F("not at rest for a second, or the gyroscope's offset is too large"));
+  }
+}
+
 void check_turn() {
   ask(F("2. Next: lift it and turn it by hand to the LEFT by a quarter turn, within 20 s."));
+  wait_still();
   if (!imu.has_heading()) end(F("no heading: magnetometer or its wiring"));
   const float before = atomically(imu.psi_rad);
   noInterrupts();
@@ -148,9 +183,9 @@ void walk() {
   }
   ask(F("6. GPS: under the open sky. Is its light on?"));
   const uint32_t start_ms = millis();
-  while (gps.time_ms == 0 && millis() - start_ms < 60000) {
+  while (!has_fix && millis() - start_ms < 60000) {
   }
-  if (gps.time_ms == 0) end(F("no fix within a minute"));
+  if (!has_fix) end(F("no fix within a minute"));
 #if AWMR_BOARD_HAS_CARD
   if (!SD.begin(awmr_board::kSdSelectPin)) end(F("7. no SD card"));
 #endif
@@ -167,7 +202,7 @@ void setup() {
   Serial.begin(115200);
   awmr_board::begin_actuators();
   imu.begin();
-  gps.begin();
+  gps_port = &awmr_board::begin_gps_port();
   const bool has_bitten = (awmr_board::reset_cause() & awmr_board::kWatchdog) != 0;
   if (awmr_init() != AWMR_FAULT_NONE) Serial.println(F("parameters damaged: flash again"));
   awmr_board::begin_steps(step);

@@ -1,7 +1,7 @@
 // Records the magnetic field while the vehicle turns, for `awmr compass FIELD00.CSV -o src/awmr_compass.h`. On level
 // ground away from iron, with everything mounted and switched on as for driving, turn it slowly through two whole
-// circles: by hand, or over Serial (115200 baud) by the line "T 0.3", which drives a circle to the left with 0.3 of
-// F_max as long as any character comes once a second.
+// circles: by hand, or over Serial (115200 baud): "ARM", then "T 0.3" drives a circle to the left with 0.3 of F_max
+// as long as a command comes once a second, "KEEP" for one; "STOP" stops.
 #include <SD.h>
 #include <SPI.h>
 #include <Wire.h>
@@ -17,6 +17,7 @@ struct Row {
 
 awmr_board::Imu imu;
 awmr_board::Command command;
+awmr::Arming arming;
 File file;
 Row row;
 volatile bool has_row = false;
@@ -26,12 +27,29 @@ uint8_t steps_since_row = 0;
 
 const uint8_t kStepsPerRow = 5;
 
-void step() {
-  while (command.read()) {
-    if (command.letter == 'T') force = constrain(command.value, 0.0f, AWMR_WHEEL_FORCE_MAX);
+void obey() {
+  if (command.word == awmr::CommandWord::kStop) {
+    arming.disarm(awmr::DisarmReason::kStop);
+    command.answer(awmr_board::kDisarmed);
+  } else if (command.word == awmr::CommandWord::kArm) {
+    force = 0.0f;
+    arming.arm(AWMR_FAULT_NONE, awmr::kSensorGood);
+    command.answer(awmr_board::kArmed);
+  } else if (!arming.is_armed()) {
+    command.answer(awmr_board::kNotArmed);
+  } else if (command.word == awmr::CommandWord::kForce) {
+    force = constrain(command.value, 0.0f, AWMR_WHEEL_FORCE_MAX);
+    command.answer(awmr_board::kOk);
+  } else if (command.word != awmr::CommandWord::kKeep) {
+    command.answer(awmr_board::kUnknown);
   }
-  const bool is_held = command.heard_ms != 0 && millis() - command.heard_ms < 1000;
-  if (!is_held) force = 0.0f;
+}
+
+void step() {
+  while (command.read()) obey();
+  // No compass is needed to turn by: it is what is calibrated.
+  if (millis() - command.heard_ms >= 1000) arming.disarm(awmr::DisarmReason::kTimeout);
+  if (!arming.is_armed()) force = 0.0f;
   awmr_output output = awmr_output();
   output.force_left = force;
   output.force_right = force;
@@ -70,6 +88,7 @@ void print_row(Print& to) {
 }
 
 void loop() {
+  command.speak();
   if (!has_row) return;
   print_row(Serial);
   if (file) {

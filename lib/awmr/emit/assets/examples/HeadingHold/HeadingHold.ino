@@ -1,6 +1,9 @@
-// Heading and speed hold on the source paper's hardware. Serial, 115200 baud, a line each: "H 30" heads 30 deg
-// (before the first one: as it stands at the start), "S 1.0" drives at 1 m/s, "M 2" takes the combined mode;
-// silence for AWMR_COMMAND_TIMEOUT_MS stops.
+// Heading and speed hold on the source paper's hardware. Over Serial, 115200 baud, one command a line:
+//   ARM     motors may turn, at speed 0, holding the heading that the vehicle has
+//   S 1.0   drive at 1 m/s        H 30   head 30 deg        M 2   combined mode
+//   KEEP    go on: without a command for AWMR_COMMAND_TIMEOUT_MS the motors stop
+//   STOP    motors off, at once
+// After a reset, STOP, a silence and any fault the motors stay off until the next ARM (SAFETY.md).
 #include <Wire.h>
 #include <awmr.h>
 #include <awmr_paper_board.h>
@@ -9,32 +12,35 @@ awmr_board::Imu imu;
 awmr_board::Gps gps;
 awmr_board::Log card;
 awmr_board::Command command;
+awmr_board::Safety safety;
 awmr_input input;
-bool has_reference = false;
+awmr_output output;
 
 void obey() {
-  if (command.letter == 'H') {
-    input.psi_ref_rad = command.value * 0.0174532925f;
-    has_reference = true;
+  const float value = command.value;
+  if (command.word == awmr::CommandWord::kHeading && fabs(value) <= 3600.0f) {
+    input.psi_ref_rad = value * 0.0174532925f;
+  } else if (command.word == awmr::CommandWord::kSpeed && fabs(value) < AWMR_SPEED_MAX_MPS) {
+    input.u_ref_mps = value;
+  } else if (command.word == awmr::CommandWord::kMode && (value == 0.0f || value == 1.0f || value == 2.0f)) {
+    input.mode = static_cast<uint8_t>(value);
+  } else {
+    return command.answer(awmr_board::kOutOfRange);
   }
-  if (command.letter == 'S') input.u_ref_mps = command.value;
-  if (command.letter == 'M') input.mode = static_cast<uint8_t>(command.value);
+  command.answer(awmr_board::kOk);
 }
 
 void step() {
-  while (command.read()) obey();
-  gps.read();
-  imu.read(AWMR_SAMPLE_TIME_S);
-  if (!has_reference && imu.has_heading()) {
-    input.psi_ref_rad = imu.psi_rad;
-    has_reference = true;
+  bool armed_now = false;
+  while (safety.read(command, armed_now)) {
+    if (armed_now) {
+      input.psi_ref_rad = imu.psi_rad;
+      input.u_ref_mps = 0.0f;
+    } else {
+      obey();
+    }
   }
-  awmr_board::measure(imu, gps, command, input);
-
-  awmr_output output;
-  awmr_step(&input, &output);
-  awmr_board::drive(output);
-  card.put(input, output);
+  awmr_board::step(imu, gps, command, safety, card, input, output);
 }
 
 void setup() {
@@ -43,4 +49,7 @@ void setup() {
   awmr_board::begin_steps(step);
 }
 
-void loop() { card.drain(); }
+void loop() {
+  command.speak();
+  card.drain();
+}

@@ -1,8 +1,9 @@
 // Steps through the field sheet by itself and writes its tables: SURGE00.CSV, TURN00.CSV and COAST00.CSV for
 // `awmr identify --surge --turning --coastdown`. Level, dry ground, half of the runs in each direction, room of
-// settle_s + measure_s at the run's speed. Over Serial (115200 baud): the line "G" drives the run that was
-// announced, "S" leaves it out; any character at least once a second keeps it going, letting go stops it and the
-// run waits again. Wheels straight is not steered: let go when it runs out of its lane.
+// settle_s + measure_s at the run's speed. Over Serial (115200 baud), one command a line: "ARM" after the start, a
+// stop and a fault; "G" drives the run that was announced, "N" leaves it out; any command at least once a second,
+// "KEEP" for one, keeps it going; "STOP" or silence stops it, and the run waits again. Wheels straight is not
+// steered: stop when it runs out of its lane.
 #include <SD.h>
 #include <SPI.h>
 #include <Wire.h>
@@ -35,6 +36,7 @@ const Settings kSettings = {3.0f, 3.0f, 15.0f, 0.05f, 0.05f};
 awmr_board::Imu imu;
 awmr_board::Gps gps;
 awmr_board::Command command;
+awmr_board::Safety safety;
 Recorder recorder(kRuns, kCount, kSettings);
 File surge, turning, coastdown;
 
@@ -48,22 +50,34 @@ volatile bool has_told = false;
 uint16_t rows_lost = 0;
 
 void step() {
-  while (command.read()) {
-    if (command.letter == 'G') recorder.go();
-    if (command.letter == 'S') recorder.skip();
+  bool armed_now = false;
+  while (safety.read(command, armed_now)) {
+    if (armed_now) continue;
+    if (command.word == awmr::CommandWord::kGo) {
+      recorder.go();
+    } else if (command.word == awmr::CommandWord::kNext) {
+      recorder.skip();
+    } else {
+      command.answer(awmr_board::kUnknown);
+      continue;
+    }
+    command.answer(awmr_board::kOk);
   }
-  gps.read();
+  gps.read(recorder.force(), imu.psi_rad, safety.is_armed());
   imu.read(AWMR_SAMPLE_TIME_S);
   const uint32_t now_ms = millis();
-  const bool is_held = command.heard_ms != 0 && now_ms - command.heard_ms < 1000;
+  const uint8_t cause = awmr_board::sensor_fault(imu, gps);
+  const bool is_heard = command.has_heard && now_ms - command.heard_ms < 1000;
+  safety.observe(is_heard ? AWMR_FAULT_NONE : AWMR_FAULT_COMMAND_TIMEOUT, cause, command);
   const uint8_t number = recorder.number();
-  const Measured measured = {now_ms, gps.speed_mps, gps.time_ms, imu.r_radps, is_held};
-  const Event event = recorder.step(measured);
+  const Measured measured = {now_ms, gps.speed_mps, gps.time_ms, imu.r_radps, safety.is_armed()};
+  const Event event = recorder.step(measured, cause != awmr::kSensorGood);
 
   awmr_output output = awmr_output();
   output.force_left = recorder.force();
   output.force_right = recorder.force();
   output.steering_rad = recorder.steering_rad();
+  if (!safety.is_armed()) awmr_board::stop(output);
   awmr_board::drive(output);
 
   if (event == kNothing) return;
@@ -99,7 +113,7 @@ void announce() {
   Serial.print(run.force, 3);
   Serial.print(F(", steering "));
   Serial.print(run.steering_rad * 57.2957795f, 1);
-  Serial.println(F(" deg: G drives, S leaves out"));
+  Serial.println(F(" deg: G drives, N leaves out"));
 }
 
 void setup() {
@@ -139,6 +153,7 @@ void write_row(Print& to) {
 }
 
 void loop() {
+  command.speak();
   if (!has_told) return;
   const Event event = told.event;
   File& file = event == kCurveRow || event == kCoasted ? coastdown
@@ -149,6 +164,7 @@ void loop() {
     write_row(file);
   }
   if (event == kNotSteady) Serial.println(F("not steady, or no GPS: a longer run-up, once more"));
+  if (event == kSensorLost) Serial.println(F("a sensor is not believed: once more"));
   if (event == kLetGo) Serial.println(F("let go: once more"));
   if (event != kCurveRow) file.flush();
   has_told = false;

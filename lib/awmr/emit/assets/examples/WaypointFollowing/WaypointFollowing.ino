@@ -1,6 +1,9 @@
 // Drives along waypoints on the source paper's hardware, in m north and west of the first GPS fix, and stops at
-// the last. Over Serial (115200 baud) the line "G" starts it, also after a reset; any character at least every
-// AWMR_COMMAND_TIMEOUT_MS keeps it going: letting go is the dead man's switch.
+// the last. Over Serial, 115200 baud, one command a line:
+//   ARM     motors may turn       G   drive the route from its first point on
+//   KEEP    go on: without a command for AWMR_COMMAND_TIMEOUT_MS the motors stop
+//   STOP    motors off, at once
+// After a reset, STOP, a silence, any fault and the last point the motors stay off until the next ARM (SAFETY.md).
 #include <Wire.h>
 #include <awmr.h>
 #include <awmr_paper_board.h>
@@ -8,42 +11,57 @@
 const awmr_point kPoints[] = {{10.0f, 20.0f}, {0.0f, 40.0f}, {-10.0f, 20.0f}, {0.0f, 0.0f}};
 const float kAcceptanceM = 2.0f;
 const float kSpeedMps = 1.0f;
+const uint32_t kBrakingMs = 5000; // longest time to come to rest at the last point
 
 awmr_board::Imu imu;
 awmr_board::Gps gps;
 awmr_board::Log card;
 awmr_board::Command command;
+awmr_board::Safety safety;
 awmr_input input;
-bool is_told_to_go = false;
-bool is_under_way = false;
+awmr_output output;
+bool has_arrived = false;
+uint32_t arrived_ms = 0;
+
+void follow(int16_t count) {
+  awmr_follow(kPoints, count, kAcceptanceM);
+  has_arrived = false;
+}
 
 void step() {
-  while (command.read()) {
-    if (command.letter == 'G') is_told_to_go = true;
+  bool armed_now = false;
+  while (safety.read(command, armed_now)) {
+    if (armed_now) {
+      follow(0);
+      input.psi_ref_rad = imu.psi_rad;
+      input.u_ref_mps = 0.0f;
+    } else if (command.word == awmr::CommandWord::kGo) {
+      follow(sizeof kPoints / sizeof kPoints[0]);
+      input.u_ref_mps = kSpeedMps;
+      command.answer(awmr_board::kOk);
+    } else {
+      command.answer(awmr_board::kUnknown);
+    }
   }
-  gps.read();
-  imu.read(AWMR_SAMPLE_TIME_S);
-  awmr_board::measure(imu, gps, command, input);
-  // Before it is told to go nobody has commanded anything, and the motors are off.
-  if (!is_told_to_go) input.command_ms = input.now_ms - AWMR_COMMAND_TIMEOUT_MS - 1;
-  if (is_told_to_go && !is_under_way && gps.time_ms != 0) {
-    awmr_follow(kPoints, sizeof kPoints / sizeof kPoints[0], kAcceptanceM);
-    input.u_ref_mps = kSpeedMps;
-    is_under_way = true;
+  awmr_board::step(imu, gps, command, safety, card, input, output);
+  if (output.arrived && !has_arrived) {
+    has_arrived = true;
+    arrived_ms = input.now_ms;
+    input.u_ref_mps = 0.0f;
   }
-
-  awmr_output output;
-  awmr_step(&input, &output);
-  if (output.arrived) input.u_ref_mps = 0.0f;
-  awmr_board::drive(output);
-  card.put(input, output);
+  if (has_arrived && safety.is_armed() &&
+      (gps.speed_mps < awmr::kStandstill_mps || input.now_ms - arrived_ms > kBrakingMs)) {
+    safety.stop(command, awmr::DisarmReason::kArrived);
+  }
 }
 
 void setup() {
   awmr_board::begin(imu, gps, card);
-  if (gps.has_origin()) Serial.println(F("GPS origin as before the reset"));
   input.mode = AWMR_COMBINED;
   awmr_board::begin_steps(step);
 }
 
-void loop() { card.drain(); }
+void loop() {
+  command.speak();
+  card.drain();
+}

@@ -18,6 +18,13 @@ inline void drive_motor(uint8_t pwm_pin, uint8_t direction_pin, float force) {
   analogWrite(pwm_pin, static_cast<int>(255.0f * size + 0.5f));
 }
 
+/* Motors off, wheels straight. */
+inline void stop(awmr_output& out) {
+  out.force_left = 0.0f;
+  out.force_right = 0.0f;
+  out.steering_rad = 0.0f;
+}
+
 inline void drive(const awmr_output& out) {
   set_servo(
       static_cast<uint16_t>(2.0f * (kServoCentreUs + kServoUsPerRad * out.steering_rad)));

@@ -35,8 +35,8 @@ class Log {
   }
 
   /* In the step: never waits. */
-  void put(const awmr_input& in, const awmr_output& out) {
-    awmr_log::put(ring_, in, out, step_number(), reset_cause());
+  void put(const awmr_input& in, const awmr_output& out, uint8_t sensor_fault = 0) {
+    awmr_log::put(ring_, in, out, step_number(), reset_cause(), sensor_fault);
   }
 
   /* In loop(): waits as long as the card does. Every second what was written so far is made safe
@@ -56,7 +56,7 @@ class Log {
 class Log {
  public:
   bool begin() { return false; }
-  void put(const awmr_input&, const awmr_output&) {}
+  void put(const awmr_input&, const awmr_output&, uint8_t = 0) {}
   void drain() {}
 };
 #endif

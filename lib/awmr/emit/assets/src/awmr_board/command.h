@@ -1,39 +1,108 @@
-/* What is typed: lines of a letter and perhaps a number, "H 30", over Serial. */
+/* Commands over Serial, 115200 baud: the lines of awmr/control/command_line.h. The step reads them,
+   loop() prints the answers, as a port that is full would make the step wait. */
 #ifndef AWMR_BOARD_COMMAND_H
 #define AWMR_BOARD_COMMAND_H
 
-#include <stdlib.h>
+#include "../awmr/control/command_line.h"
 
 namespace awmr_board {
 
+enum Answer {
+  kOk,
+  kUnknown,     /* in the order of awmr::CommandVerdict from kUnknown on */
+  kTooLong,
+  kDamaged,
+  kRepeated,
+  kTextLocked,
+  kOutOfRange,
+  kNotArmed,    /* the command needs an armed vehicle */
+  kArmRefused,  /* a sensor or the autopilot is at fault */
+  kArmed,
+  kDisarmed
+};
+
 class Command {
  public:
-  char letter = '\0';
+  awmr::CommandWord word = awmr::CommandWord::kNone;
   float value = 0.0f;    /* 0 where there is none */
-  uint32_t heard_ms = 0; /* when the last character came; 0: none yet */
+  uint32_t heard_ms = 0; /* when the last whole command came, valid once has_heard */
+  bool has_heard = false;
 
-  /* True: a line is complete. Never waits. */
+  /* True: a command came. A line that is none is refused and keeps nothing alive. Never waits. */
   bool read() {
     while (Serial.available() > 0) {
-      const char c = static_cast<char>(Serial.read());
-      heard_ms = millis();
-      if (c != '\n' && c != '\r') {
-        if (length_ < sizeof line_ - 1) line_[length_++] = c;
+      const awmr::CommandVerdict verdict = reader_.take(static_cast<char>(Serial.read()));
+      if (verdict == awmr::CommandVerdict::kNone) continue;
+      if (verdict != awmr::CommandVerdict::kTaken) {
+        answer(static_cast<Answer>(kUnknown + static_cast<uint8_t>(verdict) -
+                                   static_cast<uint8_t>(awmr::CommandVerdict::kUnknown)));
         continue;
       }
-      if (length_ == 0) continue;
-      line_[length_] = '\0';
-      length_ = 0;
-      letter = line_[0];
-      value = static_cast<float>(atof(line_ + 1));
+      word = reader_.word;
+      value = reader_.value;
+      heard_ms = millis();
+      has_heard = true;
       return true;
     }
     return false;
   }
 
+  /* In the step: for loop() to print. Where many wait the latest is lost. */
+  void answer(Answer what, uint8_t fault = 0, uint8_t cause = 0) {
+    const uint8_t next = static_cast<uint8_t>((written_ + 1) % kWaiting);
+    if (next == read_) return;
+    waiting_[written_] = {static_cast<uint8_t>(what), fault, cause, reader_.sequence,
+                          reader_.is_framed};
+    written_ = next;
+  }
+
+  /* In loop(): prints what waits. */
+  void speak() {
+    while (read_ != written_) {
+      const Waiting one = waiting_[read_];
+      read_ = static_cast<uint8_t>((read_ + 1) % kWaiting);
+      if (one.is_framed) {
+        Serial.print('#');
+        Serial.print(one.sequence);
+        Serial.print(' ');
+      }
+      print(one);
+    }
+  }
+
  private:
-  char line_[16];
-  uint8_t length_ = 0;
+  struct Waiting {
+    uint8_t what, fault, cause, sequence;
+    bool is_framed;
+  };
+  static const uint8_t kWaiting = 6;
+  awmr::CommandReader reader_;
+  Waiting waiting_[kWaiting] = {};
+  volatile uint8_t written_ = 0;
+  volatile uint8_t read_ = 0;
+
+  static void print(const Waiting& one) {
+    if (one.what == kOk) return (void)Serial.println(F("ok"));
+    if (one.what == kArmed) return (void)Serial.println(F("armed"));
+    Serial.print(one.what == kDisarmed ? F("disarmed") : F("refused: "));
+    switch (one.what) {
+      case kUnknown: Serial.print(F("no such command or value")); break;
+      case kTooLong: Serial.print(F("line too long")); break;
+      case kDamaged: Serial.print(F("frame damaged")); break;
+      case kRepeated: Serial.print(F("sequence not new")); break;
+      case kTextLocked: Serial.print(F("frames and STOP only")); break;
+      case kOutOfRange: Serial.print(F("out of range")); break;
+      case kNotArmed: Serial.print(F("not armed")); break;
+      default: break;
+    }
+    if (one.fault != 0 || one.cause != 0) {
+      Serial.print(F(" fault "));
+      Serial.print(one.fault);
+      Serial.print('/');
+      Serial.print(one.cause);
+    }
+    Serial.println();
+  }
 };
 
 }  // namespace awmr_board

@@ -3,10 +3,9 @@
 #define AWMR_BOARD_GPS_H
 
 #include <stddef.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "../awmr/control/crc.h"
+#include "../awmr/control/sensor_checks.h"
 #include "steps.h"
 
 namespace awmr_board {
@@ -24,82 +23,62 @@ class Gps {
  public:
   float x_m = 0.0f; /* north of the origin, the first fix */
   float y_m = 0.0f; /* west of it */
-  float speed_mps = 0.0f;
-  uint32_t time_ms = 0; /* of the last good fix; 0: none yet */
+  float speed_mps = 0.0f; /* without a sign */
+  uint32_t time_ms = 0;   /* of the last fix that was believed, valid once has_fix() */
 
   /* x and y go on from the origin of before a reset, unless the board was switched off. */
   void begin() {
     port_ = &begin_gps_port();
     if ((reset_cause() & kSwitchedOn) != 0 || !is_kept()) forget_origin();
+    check_.begin(AWMR_SPEED_MAX_MPS, AWMR_SPEED_TIMEOUT_MS, millis());
   }
+  bool has_fix() const { return has_fix_; }
   bool has_origin() const { return is_kept(); }
   void forget_origin() { kept_origin.crc = static_cast<uint16_t>(~crc_of_origin()); }
 
-  void read() {
+  /* Why fixes are not believed; awmr::kSensorGood: they are. */
+  awmr::SensorFault fault() const { return check_.fault(millis()); }
+
+  /* In the step, with the speed that is commanded, the heading and whether motors may turn. */
+  void read(float u_ref_mps = 0.0f, float psi_rad = 0.0f, bool is_armed = false) {
+    const int8_t direction = u_ref_mps > 0.0f ? 1 : u_ref_mps < 0.0f ? -1 : 0;
+    const awmr::GpsContext context = {psi_rad, direction, is_armed};
     while (port_->available() > 0) {
-      const char c = static_cast<char>(port_->read());
-      if (c == '$') length_ = 0;
-      if (length_ < sizeof line_ - 1) line_[length_++] = c;
-      if (c == '\n') {
-        line_[length_] = '\0';
-        parse();
-        length_ = 0;
-      }
+      if (line_.take(static_cast<char>(port_->read()))) take_line(context);
     }
   }
 
  private:
   Stream* port_ = 0;
-  char line_[96];
-  uint8_t length_ = 0;
+  awmr::GpsLine line_;
+  awmr::GpsCheck check_;
+  bool has_fix_ = false;
 
   static uint16_t crc_of_origin() {
     return awmr::crc16_of(reinterpret_cast<const uint8_t*>(&kept_origin), offsetof(Origin, crc));
   }
   static bool is_kept() { return kept_origin.crc == crc_of_origin(); }
 
-  /* The characters between $ and * in exclusive or. */
-  bool is_whole() const {
-    uint8_t sum = 0;
-    uint8_t i = 1;
-    while (line_[i] != '*' && line_[i] != '\0') sum ^= static_cast<uint8_t>(line_[i++]);
-    return line_[0] == '$' && line_[i] == '*' && strtoul(line_ + i + 1, 0, 16) == sum;
-  }
-  /* [d]ddmm.mmmm in 1e-7 deg, in whole numbers: a float has too few digits. */
-  static int32_t degrees_e7(const char* field) {
-    uint32_t whole = 0;
-    uint32_t part = 0;
-    uint32_t scale = 1000000;
-    while (*field >= '0' && *field <= '9') whole = whole * 10 + static_cast<uint32_t>(*field++ - '0');
-    if (*field == '.') ++field;
-    for (; *field >= '0' && *field <= '9' && scale > 0; scale /= 10) {
-      part += static_cast<uint32_t>(*field++ - '0') * scale;
-    }
-    const uint32_t minutes_e7 = whole % 100 * 10000000UL + part;
-    return static_cast<int32_t>(whole / 100 * 10000000UL + minutes_e7 / 60);
-  }
-  /* $GPRMC,time,A,lat,N,lon,E,knots,course,date,... */
-  void parse() {
-    if (!is_whole() || strncmp(line_ + 3, "RMC", 3) != 0) return;
-    const char* fields[9];
-    uint8_t count = 0;
-    for (const char* at = line_; *at != '\0' && count < 9; ++at) {
-      if (*at == ',') fields[count++] = at + 1;
-    }
-    if (count < 9 || *fields[1] != 'A') return;
-    const int32_t lat = *fields[3] == 'S' ? -degrees_e7(fields[2]) : degrees_e7(fields[2]);
-    const int32_t lon = *fields[5] == 'W' ? -degrees_e7(fields[4]) : degrees_e7(fields[4]);
+  void take_line(const awmr::GpsContext& context) {
+    awmr::GpsFix fix;
+    const awmr::GpsSentence kind = awmr::read_rmc(line_.text(), fix);
+    const uint32_t now_ms = millis();
+    if (kind != awmr::GpsSentence::kFix) return check_.take_unusable(kind, now_ms);
     if (!is_kept()) {
-      kept_origin.lat_e7 = lat;
-      kept_origin.lon_e7 = lon;
+      kept_origin.lat_e7 = fix.lat_e7;
+      kept_origin.lon_e7 = fix.lon_e7;
       kept_origin.crc = crc_of_origin();
     }
     const float m_per_e7 = 0.0111319491f; /* of a great circle of 6378137 m */
-    x_m = static_cast<float>(lat - kept_origin.lat_e7) * m_per_e7;
-    y_m = static_cast<float>(kept_origin.lon_e7 - lon) * m_per_e7 *
-          cos(static_cast<float>(lat) * 1.74532925e-9f);
-    speed_mps = static_cast<float>(atof(fields[6])) * 0.514444444f;
-    time_ms = millis();
+    const float north_m = static_cast<float>(fix.lat_e7 - kept_origin.lat_e7) * m_per_e7;
+    const float west_m = static_cast<float>(kept_origin.lon_e7 - fix.lon_e7) * m_per_e7 *
+                         awmr::float_math::cos(static_cast<float>(fix.lat_e7) * 1.74532925e-9f);
+    if (!check_.take_fix(fix, north_m, west_m, now_ms, context)) return;
+    x_m = north_m;
+    y_m = west_m;
+    speed_mps = fix.speed_mps;
+    time_ms = now_ms;
+    has_fix_ = true;
   }
 };
 

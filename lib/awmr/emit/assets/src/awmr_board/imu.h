@@ -4,6 +4,7 @@
 
 #include <math.h>
 
+#include "../awmr/control/sensor_checks.h"
 #include "../awmr/model/float_math.h"
 
 /* `awmr compass` writes src/awmr_compass.h from what the sketch CompassCalibration records. */
@@ -26,15 +27,19 @@ namespace awmr_board {
 
 class Imu {
  public:
-  float psi_rad = 0.0f; /* from true north once has_heading() */
+  float psi_rad = 0.0f; /* in (-pi, pi], from true north, once has_heading() */
   float r_radps = 0.0f;
-  uint32_t time_ms = 0; /* of the last good reading; 0: there was no heading yet */
+  uint32_t time_ms = 0; /* of the last reading that was believed, valid once has_heading() */
   float field_ahead = 0.0f; /* the last magnetic field, in counts, as the sensor gives it */
   float field_left = 0.0f;
   uint32_t field_ms = 0; /* when; 0: none yet */
 
-  /* The magnetometer has given one: until then the heading is old, and the motors stay off. */
+  /* The gyroscope is calibrated and the magnetometer has given a heading: until then it is old, and
+     the motors stay off. */
   bool has_heading() const { return has_heading_; }
+
+  /* Why heading and yaw rate are not believed; awmr::kSensorGood: they are. */
+  awmr::SensorFault fault() const { return check_.fault(millis()); }
 
   void begin() {
     Wire.begin();
@@ -44,41 +49,70 @@ class Imu {
 #endif
     write(kMpu, 0x6B, 0x01); /* awake, gyroscope's clock */
     write(kMpu, 0x1A, 0x03); /* 41 Hz low pass */
-    write(kMpu, 0x1B, 0x08); /* +-500 deg/s */
+    write(kMpu, kRangeRegister, kRange);
     write(kMpu, 0x37, 0x02); /* magnetometer on the same bus */
     read_sensitivity();
     write(kMag, 0x0A, 0x16); /* 16 bit, 100 Hz */
-    calibrate();
+    check_.begin(millis());
   }
 
-  /* Integrates the gyroscope and leans on the magnetometer with a time constant of 2 s. */
+  /* In the step: integrates the gyroscope and leans on the magnetometer with a time constant of 2 s.
+     The first second at rest calibrates the gyroscope. */
   void read(float dt_s) {
-    uint8_t bytes[7];
+    const uint32_t now_ms = millis();
+    const bool has_field = read_field(now_ms);
+    const float magnetic_rad =
+        has_field ? magnetic_heading() - AWMR_COMPASS_DECLINATION_RAD : 0.0f;
+    uint8_t bytes[2];
     if (!request(kMpu, 0x47, bytes, 2)) return;
-    r_radps = rate(bytes) - bias_radps_;
-    psi_rad += r_radps * dt_s;
-    if (request(kMag, 0x02, bytes, 1) && (bytes[0] & 0x01) && request(kMag, 0x03, bytes, 7) &&
-        !(bytes[6] & 0x08)) {
-      /* AK8963: its x is the board's y and its y the board's x. */
-      field_ahead = sensitivity_[1] * word(bytes[3], bytes[2]);
-      field_left = sensitivity_[0] * word(bytes[1], bytes[0]);
-      field_ms = millis();
-      lean(magnetic_heading() - AWMR_COMPASS_DECLINATION_RAD, dt_s / 2.0f);
+    const int16_t raw = word(bytes[0], bytes[1]);
+    check_.take_gyro(raw, now_ms);
+    if (++steps_ >= kStepsPerCheck) {
+      steps_ = 0;
+      if (request(kMpu, kRangeRegister, bytes, 1)) check_.take_range(bytes[0] == kRange);
     }
-    if (has_heading_) time_ms = millis();
+    if (!check_.calibration.is_done()) {
+      check_.calibration.take(raw, kRadpsPerWord, has_field, magnetic_rad);
+      r_radps = 0.0f;
+      return;
+    }
+    r_radps = kRadpsPerWord * raw - check_.calibration.bias_radps();
+    psi_rad = awmr::float_math::wrapped(psi_rad + r_radps * dt_s);
+    if (has_field) lean(magnetic_rad, dt_s);
+    if (has_heading_ && check_.fault(now_ms) == awmr::kSensorGood) time_ms = now_ms;
   }
 
  private:
   static const uint8_t kMpu = 0x68;
   static const uint8_t kMag = 0x0C;
-  float bias_radps_ = 0.0f;
-  float sensitivity_[2] = {1.0f, 1.0f}; /* of the magnetometer's own x and y */
+  static const uint8_t kRangeRegister = 0x1B;
+  static const uint8_t kRange = 0x08; /* +-500 deg/s */
+  static const uint8_t kStepsPerCheck = 5;
+  static constexpr float kRadpsPerWord = 500.0f / 32768.0f * 0.0174532925f;
+  static constexpr float kLean_s = 2.0f;
+  awmr::HeadingCheck check_;
+  float sensitivity_[2] = {0.0f, 0.0f}; /* of the magnetometer's own x and y */
   bool has_heading_ = false;
+  uint8_t steps_ = 0;
 
   static int16_t word(uint8_t high, uint8_t low) {
     return static_cast<int16_t>(static_cast<uint16_t>(high) << 8 | low);
   }
-  static float rate(const uint8_t* b) { return word(b[0], b[1]) * (500.0f / 32768.0f * 0.0174532925f); }
+  /* True: there is a new field, neither beyond the sensor's range nor zero. */
+  bool read_field(uint32_t now_ms) {
+    uint8_t bytes[7];
+    if (!request(kMag, 0x02, bytes, 1) || (bytes[0] & 0x01) == 0) return false;
+    if (!request(kMag, 0x03, bytes, 7) || (bytes[6] & 0x08) != 0) return false;
+    const int16_t x = word(bytes[1], bytes[0]);
+    const int16_t y = word(bytes[3], bytes[2]);
+    if (x == 0 && y == 0) return false;
+    check_.take_field(x, y, word(bytes[5], bytes[4]), now_ms);
+    /* AK8963: its x is the board's y and its y the board's x. */
+    field_ahead = sensitivity_[1] * y;
+    field_left = sensitivity_[0] * x;
+    field_ms = now_ms;
+    return true;
+  }
   /* (a, l) = S (field - centre), a circle; counter-clockwise from magnetic north: atan2(-l, a) */
   float magnetic_heading() const {
     const float ahead = field_ahead - AWMR_COMPASS_AHEAD_0;
@@ -86,14 +120,17 @@ class Imu {
     return atan2(-(AWMR_COMPASS_AHEAD_LEFT * ahead + AWMR_COMPASS_LEFT_LEFT * left),
                  AWMR_COMPASS_AHEAD_AHEAD * ahead + AWMR_COMPASS_AHEAD_LEFT * left);
   }
-  void lean(float measured_rad, float share) {
-    if (!has_heading_) psi_rad = measured_rad;
+  void lean(float measured_rad, float dt_s) {
+    if (!has_heading_) psi_rad = awmr::float_math::wrapped(measured_rad);
     has_heading_ = true;
-    psi_rad += share * awmr::float_math::wrapped(measured_rad - psi_rad);
+    const float innovation = awmr::float_math::wrapped(measured_rad - psi_rad);
+    check_.step.take(innovation, dt_s);
+    psi_rad = awmr::float_math::wrapped(psi_rad + dt_s / kLean_s * innovation);
   }
   /* The maker's sensitivities: H_adjusted = H ((ASA - 128)/256 + 1). [AK8963 data sheet, 8.3.11] */
   void read_sensitivity() {
     uint8_t bytes[3];
+    sensitivity_[0] = sensitivity_[1] = 1.0f; /* where they cannot be read */
     write(kMag, 0x0A, 0x00);
     delay(1);
     write(kMag, 0x0A, 0x0F); /* fuse ROM */
@@ -103,18 +140,6 @@ class Imu {
     }
     write(kMag, 0x0A, 0x00);
     delay(1);
-  }
-  /* At rest for a second: the gyroscope's mean is its bias. */
-  void calibrate() {
-    float sum = 0.0f;
-    uint8_t bytes[2];
-    uint8_t count = 0;
-    for (uint8_t i = 0; i < 100; ++i, delay(10)) {
-      if (!request(kMpu, 0x47, bytes, 2)) continue;
-      sum += rate(bytes);
-      ++count;
-    }
-    if (count > 0) bias_radps_ = sum / count;
   }
   static void write(uint8_t device, uint8_t address, uint8_t value) {
     Wire.beginTransmission(device);

@@ -33,6 +33,16 @@ static volatile uint32_t the_step_number;
 static uint16_t ticks_left; /* of the board's timer, until the next sample time */
 static uint16_t ticks_per_step;
 
+/* The shortest time of the watchdog that is at least 250 ms and four sample times: a step that was
+   left out as the one before took too long resets nothing. */
+inline uint8_t watchdog_time() {
+  return 4.0f * AWMR_SAMPLE_TIME_S <= 0.25f  ? WDTO_250MS
+         : 4.0f * AWMR_SAMPLE_TIME_S <= 0.5f ? WDTO_500MS
+         : 4.0f * AWMR_SAMPLE_TIME_S <= 1.0f ? WDTO_1S
+         : 4.0f * AWMR_SAMPLE_TIME_S <= 2.0f ? WDTO_2S
+                                             : WDTO_4S;
+}
+
 /* Calls `step` every AWMR_SAMPLE_TIME_S from the interrupt of the board's timer, other interrupts
    allowed: the bus of the sensors, the serial lines and millis() need theirs. A step that is not
    over when the next one is due goes on, and that one is left out. The watchdog resets a chip on
@@ -42,7 +52,7 @@ inline void begin_steps(Step step) {
   cli();
   ticks_left = ticks_per_step = begin_ticks(AWMR_SAMPLE_TIME_S);
   sei();
-  wdt_enable(AWMR_SAMPLE_TIME_S < 0.05f ? WDTO_250MS : WDTO_4S);
+  wdt_enable(watchdog_time());
 }
 
 /* The sample time, from 1, at which the step that runs began. To be asked for in the step. */

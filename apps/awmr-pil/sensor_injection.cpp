@@ -1,0 +1,130 @@
+#include "sensor_injection.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace awmr::pil {
+namespace {
+
+using cli::Injection;
+
+/// rad/s of a word of the boards' gyroscope, +-500 deg/s.
+constexpr float kRadpsPerWord = 500.0F / 32768.0F * 0.0174532925F;
+/// Counts RMS of a live sensor.
+constexpr double kGyroNoise = 5.0;
+constexpr double kFieldNoise = 3.0;
+constexpr double kFieldSize = 250.0;
+/// Of the complementary filter, s.
+constexpr double kLean_s = 2.0;
+constexpr double kFixPeriod_s = 0.2;
+constexpr double kCompassJump_rad = 1.0;
+constexpr float kGpsJump_m = 20.0F;
+
+std::int16_t rounded(double counts) { return static_cast<std::int16_t>(std::lround(counts)); }
+
+}  // namespace
+
+bool is_sensor_failure(Injection injection) {
+  return injection >= Injection::kCompassSilent && injection <= Injection::kGpsJump;
+}
+
+bool is_expected(Injection injection, SensorFault cause) {
+  switch (injection) {
+    case Injection::kCompassSilent:
+      return cause == kCompassSilent;
+    case Injection::kCompassFrozen:
+      return cause == kCompassFrozen;
+    case Injection::kCompassJump:
+      return cause == kHeadingOutOfStep;
+    case Injection::kGyroSilent:
+      return cause == kGyroSilent;
+    case Injection::kGyroFrozen:
+      return cause == kGyroFrozen;
+    case Injection::kGyroRange:
+      return cause == kGyroRange;
+    case Injection::kGpsSilent:
+      return cause == kGpsSilent;
+    case Injection::kGpsEmpty:
+      return cause == kGpsNoFix;
+    case Injection::kGpsRepeated:
+      return cause == kGpsRepeated;
+    case Injection::kGpsJump:
+      return cause == kGpsJump;
+    default:
+      return false;
+  }
+}
+
+CheckedSensors::CheckedSensors(Injection injection, double sample_time_s,
+                               const SafetyLimits& limits)
+    : injection_(injection), sample_time_s_(sample_time_s) {
+  heading_.begin(0);
+  gps_.begin(limits.speed_max_mps, limits.speed_timeout_ms, 0);
+  // At rest before the run.
+  for (int i = 0; i < 100; ++i) {
+    heading_.calibration.take(rounded(kGyroNoise * std::normal_distribution<double>()(random_)),
+                              kRadpsPerWord, false, 0.0F);
+  }
+}
+
+SensorFault CheckedSensors::step(std::size_t k, bool fails, AutopilotInput& in) {
+  const std::uint32_t now_ms = in.times.now_ms;
+  sense_heading(fails, in);
+  const auto samples =
+      static_cast<std::size_t>(std::max(1L, std::lround(kFixPeriod_s / sample_time_s_)));
+  if (k % samples == 0) sense_position(k, fails, in);
+  const SensorFault heading = heading_.fault(now_ms);
+  if (heading == kSensorGood) heading_ms_ = now_ms;
+  in.times.heading_ms = heading_ms_;
+  in.times.speed_ms = speed_ms_;
+  return heading != kSensorGood ? heading : gps_.fault(now_ms);
+}
+
+void CheckedSensors::sense_heading(bool fails, const AutopilotInput& in) {
+  const auto is = [&](Injection one) { return fails && injection_ == one; };
+  const std::uint32_t now_ms = in.times.now_ms;
+  std::normal_distribution<double> noise;
+  const double rate_radps = static_cast<double>(in.measured.r_radps);
+  if (!is(Injection::kGyroFrozen)) {
+    word_ = rounded(rate_radps / static_cast<double>(kRadpsPerWord) + kGyroNoise * noise(random_));
+  }
+  if (!is(Injection::kGyroSilent)) heading_.take_gyro(word_, now_ms);
+  heading_.take_range(!is(Injection::kGyroRange));
+  const double true_rad = static_cast<double>(in.measured.psi_rad);
+  const double seen_rad = true_rad + (is(Injection::kCompassJump) ? kCompassJump_rad : 0.0);
+  if (!is(Injection::kCompassFrozen)) {
+    field_[0] = rounded(-kFieldSize * std::sin(seen_rad) + kFieldNoise * noise(random_));
+    field_[1] = rounded(kFieldSize * std::cos(seen_rad) + kFieldNoise * noise(random_));
+    field_[2] = rounded(kFieldNoise * noise(random_));
+  }
+  heading_rad_ += sample_time_s_ * static_cast<double>(kRadpsPerWord) * word_;
+  if (is(Injection::kCompassSilent)) return;
+  heading_.take_field(field_[0], field_[1], field_[2], now_ms);
+  const double magnetic_rad = std::atan2(-field_[0], field_[1]);
+  if (!has_heading_) heading_rad_ = magnetic_rad;
+  has_heading_ = true;
+  const float innovation = float_math::wrapped(
+      static_cast<float>(std::remainder(magnetic_rad - heading_rad_, 6.283185307179586)));
+  heading_.step.take(innovation, static_cast<float>(sample_time_s_));
+  heading_rad_ += sample_time_s_ / kLean_s * static_cast<double>(innovation);
+}
+
+void CheckedSensors::sense_position(std::size_t k, bool fails, const AutopilotInput& in) {
+  const auto is = [&](Injection one) { return fails && injection_ == one; };
+  const std::uint32_t now_ms = in.times.now_ms;
+  if (is(Injection::kGpsSilent)) return;
+  if (is(Injection::kGpsEmpty)) return gps_.take_unusable(GpsSentence::kDamaged, now_ms);
+  if (!is(Injection::kGpsRepeated) || !fix_) {
+    const double utc_ms = 43'200'000.0 + 1000.0 * static_cast<double>(k) * sample_time_s_;
+    fix_ = GpsFix{static_cast<std::uint32_t>(utc_ms) % kDay_ms, 0, 0, std::abs(in.measured.u_mps)};
+    fix_m_ = in.position_m;
+    if (is(Injection::kGpsJump)) fix_m_.x_m += kGpsJump_m;
+  }
+  const std::int8_t direction = in.reference.speed_mps > 0.0F ? 1 : 0;
+  if (gps_.take_fix(*fix_, fix_m_.x_m, fix_m_.y_m, now_ms,
+                    {in.measured.psi_rad, direction, true})) {
+    speed_ms_ = now_ms;
+  }
+}
+
+}  // namespace awmr::pil

@@ -1,0 +1,46 @@
+// Sensors that fail: raw readings made of the simulated motion, and the checks of the sketches over them
+// (control/sensor_checks.h). A sensor that is not believed keeps its old time, as on the board.
+#pragma once
+
+#include <optional>
+#include <random>
+
+#include "awmr/control/autopilot.h"
+#include "awmr/control/sensor_checks.h"
+#include "pil_options.h"
+
+namespace awmr::pil {
+
+/// True for the injections that are failures of a sensor.
+bool is_sensor_failure(cli::Injection injection);
+
+/// The sensor faults that an injection may raise first.
+bool is_expected(cli::Injection injection, SensorFault cause);
+
+/// Compass, gyroscope and GPS of one run.
+class CheckedSensors {
+ public:
+  CheckedSensors(cli::Injection injection, double sample_time_s, const SafetyLimits& limits);
+
+  /// The k-th step: puts the times of what is believed into `in`. `fails`: the injection is at work.
+  SensorFault step(std::size_t k, bool fails, AutopilotInput& in);
+
+ private:
+  cli::Injection injection_;
+  double sample_time_s_;
+  HeadingCheck heading_;
+  GpsCheck gps_;
+  std::mt19937 random_{1};
+  std::int16_t word_ = 0;
+  std::int16_t field_[3] = {0, 0, 0};
+  double heading_rad_ = 0.0;  ///< of the complementary filter
+  bool has_heading_ = false;
+  std::optional<GpsFix> fix_;
+  Position<float> fix_m_{};
+  std::uint32_t heading_ms_ = 0, speed_ms_ = 0;
+
+  void sense_heading(bool fails, const AutopilotInput& in);
+  void sense_position(std::size_t k, bool fails, const AutopilotInput& in);
+};
+
+}  // namespace awmr::pil

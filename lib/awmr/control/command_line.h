@@ -1,0 +1,234 @@
+/// Commands over a serial line: one command a line, as text for a terminal or in frames for a
+/// program. Freestanding C++14.
+///
+///     text   = WORD [" " NUMBER]
+///     frame  = "#" SEQUENCE " " text "*" CRC
+///     SEQUENCE: 0 to 255, one more than in the last frame (256 is 0); CRC: CRC-16 (crc.h) of the
+///     characters between # and *, four hexadecimal digits
+///
+///     ARM  STOP  KEEP  G  N  Y  H <deg>  S <m/s>  M <mode>  T <force>
+///
+/// - A line is one whole command or is refused: nothing is guessed from a part of it.
+/// - STOP is the exception. It acts at its last letter, wherever it stands in a line, also in one
+///   that is too long or damaged.
+/// - A frame is new where its sequence number is 1 to 127 after the last; a repeated one is refused,
+///   so that a stuck transmitter keeps nothing alive.
+/// - After the first frame, text other than STOP is refused until the next reset: noise on a radio
+///   link can look like a short text, but not like a frame.
+#pragma once
+
+#include <stdint.h>
+
+#include "awmr/control/crc.h"
+
+namespace awmr {
+
+enum class CommandWord : uint8_t {
+  kNone,
+  kArm,      ///< ARM: motors may turn
+  kStop,     ///< STOP: motors off until the next ARM
+  kKeep,     ///< KEEP, or K: go on
+  kGo,       ///< G: start the route or the run
+  kNext,     ///< N: leave the run out
+  kYes,      ///< Y
+  kHeading,  ///< H deg
+  kSpeed,    ///< S m/s
+  kMode,     ///< M 0, 1 or 2
+  kForce     ///< T share of F_max
+};
+
+enum class CommandVerdict : uint8_t {
+  kNone,       ///< no line is complete
+  kTaken,      ///< `word` and `value` are a command
+  kUnknown,    ///< no such command, or a value that is missing, malformed or too much
+  kTooLong,    ///< more than kCommandLength characters
+  kDamaged,    ///< a frame whose check sum or form is wrong
+  kRepeated,   ///< a frame whose sequence number is not new
+  kTextLocked  ///< text after frames
+};
+
+/// Longest line, without its end.
+constexpr uint8_t kCommandLength = 31;
+
+class CommandReader {
+ public:
+  CommandWord word = CommandWord::kNone;
+  float value = 0.0F;      ///< 0 where the command has none
+  bool is_framed = false;  ///< the last line was a frame
+  uint8_t sequence = 0;    ///< of the last frame that was taken
+
+  /// The verdict on the line that this character completes; kNone within a line.
+  CommandVerdict take(char c) {
+    if (is_stop_at(c)) {
+      // The rest of this line is of no interest.
+      is_skipping_ = true;
+      word = CommandWord::kStop;
+      value = 0.0F;
+      is_framed = false;
+      return CommandVerdict::kTaken;
+    }
+    if (c == '\n' || c == '\r') return end_line();
+    if (length_ < kCommandLength) {
+      line_[length_] = upper(c);
+      if (c < ' ' || c > '~') is_text_ = false;
+    }
+    if (length_ <= kCommandLength) ++length_;
+    return CommandVerdict::kNone;
+  }
+
+ private:
+  char line_[kCommandLength + 1] = {};
+  uint8_t length_ = 0;
+  uint8_t stop_letters_ = 0;
+  bool is_text_ = true;
+  bool is_skipping_ = false;
+  bool has_sequence_ = false;
+
+  static char upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
+
+  bool is_stop_at(char c) {
+    const char letter = upper(c);
+    const char wanted = stop_letters_ == 0   ? 'S'
+                        : stop_letters_ == 1 ? 'T'
+                        : stop_letters_ == 2 ? 'O'
+                                             : 'P';
+    if (letter == wanted) {
+      ++stop_letters_;
+    } else {
+      stop_letters_ = letter == 'S' ? 1 : 0;
+    }
+    if (stop_letters_ < 4) return false;
+    stop_letters_ = 0;
+    return true;
+  }
+
+  CommandVerdict end_line() {
+    const uint8_t length = length_;
+    const bool is_text = is_text_;
+    const bool is_over = is_skipping_ || length == 0;
+    length_ = 0;
+    is_text_ = true;
+    is_skipping_ = false;
+    if (is_over) return CommandVerdict::kNone;
+    is_framed = line_[0] == '#';
+    if (length > kCommandLength) return CommandVerdict::kTooLong;
+    line_[length] = '\0';
+    if (is_framed) return is_text ? read_frame(length) : CommandVerdict::kDamaged;
+    if (!is_text) return CommandVerdict::kUnknown;
+    if (has_sequence_) return CommandVerdict::kTextLocked;
+    return read_text(line_);
+  }
+
+  CommandVerdict read_frame(uint8_t length) {
+    // "#0 K*0000" is the shortest.
+    if (length < 9 || line_[length - 5] != '*') return CommandVerdict::kDamaged;
+    uint16_t sum = 0;
+    for (uint8_t i = static_cast<uint8_t>(length - 4); i < length; ++i) {
+      const uint8_t digit = hex(line_[i]);
+      if (digit > 15) return CommandVerdict::kDamaged;
+      sum = static_cast<uint16_t>(sum << 4U | digit);
+    }
+    const size_t covered = static_cast<size_t>(length - 6);
+    if (crc16_of(reinterpret_cast<const uint8_t*>(line_ + 1), covered) != sum) {
+      return CommandVerdict::kDamaged;
+    }
+    line_[length - 5] = '\0';
+    const char* text = line_ + 1;
+    uint16_t number = 0;
+    uint8_t digits = 0;
+    for (; *text >= '0' && *text <= '9' && digits < 4; ++text, ++digits) {
+      number = static_cast<uint16_t>(number * 10U + static_cast<uint16_t>(*text - '0'));
+    }
+    if (digits == 0 || number > 255 || *text != ' ') return CommandVerdict::kDamaged;
+    const uint8_t ahead = static_cast<uint8_t>(number - sequence);
+    if (has_sequence_ && (ahead == 0 || ahead > 127)) return CommandVerdict::kRepeated;
+    const CommandVerdict verdict = read_text(text + 1);
+    // A frame is used up whatever it asks for, so that its repetition is none.
+    sequence = static_cast<uint8_t>(number);
+    has_sequence_ = true;
+    return verdict;
+  }
+
+  CommandVerdict read_text(const char* text) {
+    char name[5];
+    uint8_t letters = 0;
+    while (*text >= 'A' && *text <= 'Z') {
+      if (letters == 4) return CommandVerdict::kUnknown;
+      name[letters++] = *text++;
+    }
+    name[letters] = '\0';
+    const CommandWord found = find(name, letters);
+    if (found == CommandWord::kNone) return CommandVerdict::kUnknown;
+    float number = 0.0F;
+    if (found >= CommandWord::kHeading) {
+      if (*text++ != ' ' || !read_number(text, number)) return CommandVerdict::kUnknown;
+    } else if (*text != '\0') {
+      return CommandVerdict::kUnknown;
+    }
+    word = found;
+    value = number;
+    return CommandVerdict::kTaken;
+  }
+
+  static CommandWord find(const char* name, uint8_t letters) {
+    if (letters == 1) {
+      switch (name[0]) {
+        case 'K':
+          return CommandWord::kKeep;
+        case 'G':
+          return CommandWord::kGo;
+        case 'N':
+          return CommandWord::kNext;
+        case 'Y':
+          return CommandWord::kYes;
+        case 'H':
+          return CommandWord::kHeading;
+        case 'S':
+          return CommandWord::kSpeed;
+        case 'M':
+          return CommandWord::kMode;
+        case 'T':
+          return CommandWord::kForce;
+        default:
+          return CommandWord::kNone;
+      }
+    }
+    if (letters == 3 && name[0] == 'A' && name[1] == 'R' && name[2] == 'M') {
+      return CommandWord::kArm;
+    }
+    if (letters == 4 && name[0] == 'K' && name[1] == 'E' && name[2] == 'E' && name[3] == 'P') {
+      return CommandWord::kKeep;
+    }
+    return CommandWord::kNone;
+  }
+
+  /// [+-]d*[.d*] up to the end, with at most eight digits.
+  static bool read_number(const char* text, float& number) {
+    const bool is_negative = *text == '-';
+    if (*text == '-' || *text == '+') ++text;
+    uint32_t digits = 0;
+    uint8_t count = 0;
+    float scale = 1.0F;
+    bool has_point = false;
+    for (; *text != '\0'; ++text) {
+      if (*text == '.' && !has_point) {
+        has_point = true;
+        continue;
+      }
+      if (*text < '0' || *text > '9' || ++count > 8) return false;
+      digits = digits * 10U + static_cast<uint32_t>(*text - '0');
+      if (has_point) scale *= 10.0F;
+    }
+    if (count == 0) return false;
+    number = static_cast<float>(digits) / scale;
+    if (is_negative) number = -number;
+    return true;
+  }
+
+  static uint8_t hex(char c) {
+    if (c >= '0' && c <= '9') return static_cast<uint8_t>(c - '0');
+    return c >= 'A' && c <= 'F' ? static_cast<uint8_t>(c - 'A' + 10) : static_cast<uint8_t>(16);
+  }
+};
+
+}  // namespace awmr

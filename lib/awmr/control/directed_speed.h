@@ -1,0 +1,157 @@
+/// Direction of travel for a speed sensor without a sign, such as a GPS. Freestanding C++14.
+///
+/// The speed law takes its speed as signed. Fed with |u| it pushes a vehicle that rolls backward
+/// further back where m' mu_s/eps_s > 2 g1(u)/u, without end. Here the sign is predicted from the
+/// commanded force through the identified model,
+///   m' u_dot = tau_speed - g1(u)
+/// corrected by the sensor's magnitude, and verified by the displacement along the heading. Rules:
+///   - Force against the direction of travel (braking) needs a known direction.
+///   - The prediction of a braking vehicle ends at 0 and never crosses it: braking cannot turn into
+///     driving backward.
+///   - A direction is verified only while nothing brakes, after 1 m along the heading.
+///   - Without a known direction, a vehicle faster than wanted coasts: tau_speed is 0.
+///   - At u_ref = 0, tau_speed is 0 within kStandstill_mps.
+/// A vehicle on a slope is therefore braked in pulses, each no longer than the model's braking time.
+#pragma once
+
+#include <stdint.h>
+
+#include "awmr/control/controller.h"
+#include "awmr/control/displacement.h"
+#include "awmr/control/gps_sentence.h"
+#include "awmr/control/guidance.h"
+
+namespace awmr {
+
+/// A prediction below it, m/s, has no direction.
+constexpr float kDirected_mps = 0.1F;
+/// Distance along the heading, m, that verifies a direction.
+constexpr float kVerified_m = 1.0F;
+/// A direction is verified from this long after the last braking on, s: longer than the latency of a
+/// GPS and the vehicle's braking.
+constexpr float kSettled_s = 1.0F;
+
+/// Direction of travel between two steps. All zero: at rest, nothing known.
+template <class T>
+struct DirectedSpeed {
+  T predicted_mps;    ///< u by the model, signed; 0: no direction known
+  T tau_speed;        ///< applied since the last step, dimensionless
+  T along_m;          ///< displacement along the heading while nothing braked, m
+  T settled_s;        ///< time since the last braking, s, at most kSettled_s
+  Position<T> fix_m;  ///< of the last reading, valid once has_fix
+  bool has_fix;
+};
+
+/// Reading of a speed sensor without a sign.
+template <class T>
+struct SpeedReading {
+  T speed_mps;             ///< |u|, m/s, >= 0
+  Position<T> position_m;  ///< measured at the same time
+  T psi_rad;               ///< heading
+  bool is_new;             ///< measured since the last step
+};
+
+namespace detail {
+
+template <class T>
+T magnitude(const T& value) {
+  return value < T(0.0) ? -value : value;
+}
+/// True where one is positive and the other negative.
+template <class T>
+bool are_opposite(const T& a, const T& b) {
+  return a * b < T(0.0);
+}
+inline bool are_opposite(const float& a, const float& b) {
+  return ((bits_of(a) ^ bits_of(b)) >> 31U) != 0 && float_math::magnitude_bits(a) != 0 &&
+         float_math::magnitude_bits(b) != 0;
+}
+inline float magnitude(const float& value) { return float_of(float_math::magnitude_bits(value)); }
+/// `size` with the sign of `of`; +size for 0.
+template <class T>
+T with_sign(const T& size, const T& of) {
+  return of < T(0.0) ? -size : size;
+}
+
+}  // namespace detail
+
+/// Predicts the speed over the step of `dt_s` that ends now:
+///   u = u0 + dt (tau_speed - g1(u0))/m'
+/// Friction brings it to rest without reversing it, and so does braking.
+template <class T, class G>
+void predict_speed(DirectedSpeed<T>& d, const G& surge, const T& mass_inverse,
+                   const T& speed_max_mps, const T& dt_s) {
+  const T before = d.predicted_mps;
+  const T step = dt_s * mass_inverse;
+  const T pushed = before + step * d.tau_speed;
+  T size = detail::magnitude(pushed);
+  if (size > speed_max_mps) size = speed_max_mps;
+  size -= step * surge(size);
+  if (!(size > T(0.0)) || detail::are_opposite(pushed, before)) size = T(0.0);
+  d.predicted_mps = detail::with_sign(size, pushed);
+  if (d.settled_s < T(kSettled_s)) d.settled_s += dt_s;
+  if (detail::are_opposite(d.tau_speed, before)) {
+    d.settled_s = T(0.0);
+    d.along_m = T(0.0);
+  }
+}
+
+/// Corrects the prediction by a new reading.
+template <class T>
+void correct_speed(DirectedSpeed<T>& d, const SpeedReading<T>& reading) {
+  if (!reading.is_new) return;
+  const T speed = detail::magnitude(reading.speed_mps);
+  if (d.has_fix && speed > T(kStandstill_mps)) {
+    d.along_m += displacement_ahead_m(T(reading.position_m.x_m - d.fix_m.x_m),
+                                      T(reading.position_m.y_m - d.fix_m.y_m), reading.psi_rad);
+  } else {
+    d.along_m = T(0.0);
+  }
+  d.fix_m = reading.position_m;
+  d.has_fix = true;
+  if (!(d.settled_s < T(kSettled_s)) && detail::magnitude(d.along_m) > T(kVerified_m)) {
+    d.predicted_mps = detail::with_sign(speed, d.along_m);
+    d.along_m = T(0.0);
+    return;
+  }
+  T size = detail::magnitude(d.predicted_mps);
+  // Driven: the sensor knows the size better. Coasting or braking: only down, as a larger reading may
+  // be of the other direction.
+  if (d.predicted_mps * d.tau_speed > T(0.0)) {
+    size = T(0.5) * (size + speed);
+  } else if (size > speed) {
+    size = speed;
+  }
+  d.predicted_mps = detail::with_sign(size, d.predicted_mps);
+}
+
+/// Replaces |u| in `m` by the signed speed, and both speeds by 0 where no force may act.
+template <class T>
+void apply_direction(const DirectedSpeed<T>& d, Measurement<T>& m, Reference<T>& ref) {
+  const T speed = detail::magnitude(m.u_mps);
+  const T wanted = detail::magnitude(ref.speed_mps);
+  const bool is_known = detail::magnitude(d.predicted_mps) > T(kDirected_mps);
+  const bool is_stop = !(wanted > T(0.0));
+  const bool coasts =
+      is_stop ? !is_known || !(speed > T(kStandstill_mps)) : !is_known && speed > wanted;
+  if (coasts) {
+    m.u_mps = T(0.0);
+    ref.speed_mps = T(0.0);
+    ref.accel_mps2 = T(0.0);
+    return;
+  }
+  m.u_mps = detail::with_sign(speed, is_known ? d.predicted_mps : ref.speed_mps);
+}
+
+/// True where the speed law, fed with |u| of a vehicle that rolls backward at the speed u, pushes it
+/// further back. At u_ref = 0, in the layer of sat, it commands g1(u) - m' mu_s/eps_s u, which is
+/// beyond the resistance where
+///   m' mu_s/eps_s > 2 g1(u)/u
+template <class T, class G>
+bool runs_away_unsigned(const G& surge, const T& mass_norm, const SpeedGains<T>& gains,
+                        const T& speed_mps) {
+  const T correction = math::saturate(T(gains.mu / gains.epsilon * speed_mps), gains.mu);
+  return mass_norm * correction > T(2.0) * surge(speed_mps);
+}
+
+}  // namespace awmr

@@ -1,0 +1,148 @@
+/// Direction of travel of a speed without a sign: no force pushes a vehicle further the way it must
+/// not go. Each run is a vehicle that rolls well, where the signed law runs away.
+#include "awmr/control/directed_speed.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "awmr/control/autopilot.h"
+#include "paper_autopilot.h"
+
+namespace awmr::testing {
+namespace {
+
+/// m' du/dt = tau_speed - g1(u) - slope
+struct Vehicle {
+  double mass_norm = 1.0;
+  double alpha = 0.2;
+  double slope = 0.0;
+  double u = 0.0;
+  double x = 0.0;
+
+  void move(double tau_speed) {
+    for (int i = 0; i < 10; ++i) {
+      const double pushed = u + 1e-3 * (tau_speed - slope) / mass_norm;
+      const double loss = 1e-3 * alpha * std::abs(pushed) / mass_norm;
+      u = pushed - std::copysign(loss, pushed);
+      x += 1e-3 * u;
+    }
+  }
+};
+
+/// A whole autopilot for such a vehicle, m' = 1 and g1 = 0.2 u, fed with |u|.
+class RollingVehicle : public PaperAutopilot {
+ protected:
+  RollingVehicle() {
+    Controller<float> controller = paper_controller_of<float>();
+    controller.surge.alpha = 0.2F;
+    controller.surge.beta = 1.0F;
+    controller.mass_norm = 1.0F;
+    controller.gains.speed = {3.0F, 1.0F};
+    EXPECT_TRUE(
+        runs_away_unsigned(controller.surge, controller.mass_norm, controller.gains.speed, 0.5F));
+    block_.surge_alpha_beta[0] = 0.2F;
+    block_.surge_alpha_beta[1] = 1.0F;
+    block_.constants = prepared(controller).constants;
+    crc_ = crc32_of_parameters(&block_, nullptr, 0, nullptr, 0);
+    start_autopilot(autopilot_, &block_, nullptr, 0, nullptr, 0, crc_);
+    in_ = good();
+    in_.measured = {0.0F, 0.0F, 0.0F, 0.0F};
+    in_.reference = {0.0F, 0.0F, 0.0F, 0.0F, 0.0F};
+    in_.speed_unsigned = 1;
+  }
+  /// A step of 10 ms; a fix each 200 ms, `latency` steps old.
+  void step(float u_ref_mps, bool is_unsigned = true) {
+    const std::uint32_t now_ms = in_.times.now_ms + 10;
+    in_.times.now_ms = in_.times.heading_ms = in_.times.command_ms = now_ms;
+    if (now_ms % 200 == 0) {
+      in_.measured.u_mps =
+          static_cast<float>(std::abs(vehicle_.u) + noise_mps_ * std::sin(0.7 * now_ms));
+      in_.position_m = {static_cast<float>(vehicle_.x), 0.0F};
+      in_.times.speed_ms = now_ms;
+    }
+    in_.speed_unsigned = is_unsigned ? 1 : 0;
+    in_.reference.speed_mps = u_ref_mps;
+    autopilot_step(autopilot_, in_, out_);
+    EXPECT_EQ(out_.fault, kFaultNone);
+    vehicle_.move(std::clamp(static_cast<double>(out_.tau_speed), -4.0, 4.0));
+  }
+
+  Autopilot<Resistance<float>> autopilot_{};
+  AutopilotInput in_{};
+  AutopilotOutput out_{};
+  Vehicle vehicle_;
+  double noise_mps_ = 0.0;
+};
+
+TEST_F(RollingVehicle, RunsAwayBackwardWithoutADirection) {
+  vehicle_.u = -0.3;
+  for (int i = 0; i < 1000 && vehicle_.u > -1.0; ++i) step(0.0F, false);
+  EXPECT_LT(vehicle_.u, -0.8) << "the hazard that the direction removes";
+}
+
+TEST_F(RollingVehicle, ComesToRestFromAnyPush) {
+  for (const double push : {-2.0, -0.87, -0.3, 0.3, 0.87, 2.0}) {
+    vehicle_.u = push;
+    double fastest = 0.0;
+    for (int i = 0; i < 3000; ++i) {
+      step(0.0F);
+      fastest = std::max(fastest, std::abs(vehicle_.u));
+    }
+    EXPECT_LE(fastest, std::abs(push)) << push;
+    EXPECT_LT(std::abs(vehicle_.u), 0.05) << push;
+  }
+}
+
+TEST_F(RollingVehicle, NoiseAtRestCommandsNothing) {
+  noise_mps_ = 0.3;
+  for (int i = 0; i < 6000; ++i) {
+    step(0.0F);
+    ASSERT_EQ(out_.tau_speed, 0.0F);
+  }
+}
+
+TEST_F(RollingVehicle, BrakesFromADriveAndStaysAtRest) {
+  for (const double mass : {0.7, 1.0, 1.4}) {
+    vehicle_.mass_norm = mass;
+    for (int i = 0; i < 1500; ++i) step(1.0F);
+    EXPECT_NEAR(vehicle_.u, 1.0, 0.1) << mass;
+    double slowest = 1.0;
+    const double from_m = vehicle_.x;
+    for (int i = 0; i < 3000; ++i) {
+      step(0.0F);
+      slowest = std::min(slowest, vehicle_.u);
+    }
+    // The model brakes a lighter vehicle for too long by the share that it is lighter.
+    EXPECT_GT(slowest, -0.35) << mass;
+    EXPECT_LT(std::abs(vehicle_.u), 0.05) << mass;
+    EXPECT_LT(std::abs(vehicle_.x - from_m), 4.0) << mass;
+  }
+}
+
+TEST_F(RollingVehicle, DrivesBackwardWhereThatIsWanted) {
+  for (int i = 0; i < 1500; ++i) step(-0.5F);
+  EXPECT_NEAR(vehicle_.u, -0.5, 0.1);
+  for (int i = 0; i < 1500; ++i) step(0.5F);
+  EXPECT_NEAR(vehicle_.u, 0.5, 0.1);
+}
+
+TEST_F(RollingVehicle, IsNeverPushedFasterDownASlope) {
+  vehicle_.slope = 0.3;  // backward
+  double slowest = 0.0;
+  for (int i = 0; i < 6000; ++i) {
+    step(0.0F);
+    slowest = std::min(slowest, vehicle_.u);
+  }
+  EXPECT_GT(slowest, -1.5) << "coasting alone it would roll at 0.3/0.2 m/s";
+}
+
+TEST(RunsAwayUnsigned, IsTheConditionOfTheLaw) {
+  const Resistance<double> g1{.alpha = 1.3, .beta = 1.0};
+  // m' mu_s/eps_s = 2 g1(u)/u = 2.6
+  EXPECT_FALSE(runs_away_unsigned(g1, 1.0, SpeedGains<double>{2.5, 1.0}, 0.5));
+  EXPECT_TRUE(runs_away_unsigned(g1, 1.0, SpeedGains<double>{2.7, 1.0}, 0.5));
+}
+
+}  // namespace
+}  // namespace awmr::testing

@@ -1,0 +1,263 @@
+/// Plausibility of compass, gyroscope and GPS, arming, and the RMC reader.
+#include "awmr/control/sensor_checks.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <string>
+
+#include "awmr/control/arming.h"
+
+namespace awmr::testing {
+namespace {
+
+std::string sentence(const std::string& body) {
+  unsigned sum = 0;
+  for (const char c : body) sum ^= static_cast<unsigned char>(c);
+  return fmt::format("${}*{:02X}", body, sum);
+}
+constexpr const char* kGood =
+    "GPRMC,123519.20,A,4807.0380000,N,01131.0000000,E,022.4,084.4,230394,003.1,W,A";
+
+GpsSentence read(const std::string& line, GpsFix& fix) { return read_rmc(line.c_str(), fix); }
+
+TEST(Rmc, ReadsAWholeSentence) {
+  GpsFix fix{};
+  ASSERT_EQ(read(sentence(kGood) + "\r\n", fix), GpsSentence::kFix);
+  EXPECT_EQ(fix.utc_ms, ((12U * 60 + 35) * 60 + 19) * 1000 + 200);
+  EXPECT_EQ(fix.lat_e7, 481173000);
+  EXPECT_EQ(fix.lon_e7, 115166666);
+  EXPECT_NEAR(fix.speed_mps, 22.4 * 0.514444, 1e-4);
+  ASSERT_EQ(read(sentence("GNRMC,000000,A,0000.0,S,18000.0,W,0,,230394,,"), fix),
+            GpsSentence::kFix);
+  EXPECT_EQ(fix.lat_e7, 0);
+  EXPECT_EQ(fix.lon_e7, -1800000000);
+}
+
+TEST(Rmc, RefusesEmptyAndMalformedFields) {
+  const std::string good = kGood;
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string body = good;
+    return sentence(body.replace(body.find(from), from.size(), to));
+  };
+  GpsFix fix{};
+  for (const auto& [from, to] : {std::pair{"123519.20", ""},
+                                 {"123519.20", "12351"},
+                                 {"123519.20", "243519"},
+                                 {"123519.20", "126019"},
+                                 {"123519.20", "12a519"},
+                                 {",A,48", ",,48"},
+                                 {",A,48", ",X,48"},
+                                 {"4807.0380000", ""},
+                                 {"4807.0380000", "4860.0"},
+                                 {"4807.0380000", "9107.0"},
+                                 {"4807.0380000", "4807"},
+                                 {"4807.0380000", "4807.03x"},
+                                 {",N,", ",,"},
+                                 {",N,", ",E,"},
+                                 {"01131.0000000", ""},
+                                 {"01131.0000000", "1131.0"},
+                                 {"01131.0000000", "18131.0"},
+                                 {",E,", ",,"},
+                                 {"022.4", ""},
+                                 {"022.4", "-1"},
+                                 {"022.4", "nan"},
+                                 {"022.4", "1234567"}}) {
+    EXPECT_EQ(read(with(from, to), fix), GpsSentence::kDamaged) << from << " -> " << to;
+  }
+  EXPECT_EQ(read(with(",A,48", ",V,48"), fix), GpsSentence::kNoFix);
+  for (const char* mode : {",W,N", ",W,E"}) {
+    EXPECT_EQ(read(with(",W,A", mode), fix), GpsSentence::kNoFix) << mode;
+  }
+  EXPECT_EQ(read(sentence("GPGGA,1,2,3"), fix), GpsSentence::kOther);
+  EXPECT_EQ(read(sentence("GPRMC,123519"), fix), GpsSentence::kDamaged);
+  for (const std::string& line : {std::string(), std::string("$"), "$" + good, "$" + good + "*",
+                                  "$" + good + "*0", "$" + good + "*00", sentence(good) + "x"}) {
+    EXPECT_EQ(read(line, fix), GpsSentence::kDamaged) << line;
+  }
+}
+
+TEST(FrozenCheck, FindsTheSameWordForHalfASecondAlsoAcrossTheClocksWrap) {
+  for (const std::uint32_t start_ms : {0U, 0xFFFFFF00U}) {
+    FrozenCheck check;
+    for (std::uint32_t t = 0; t <= 500; t += 10) check.take(7, start_ms + t);
+    EXPECT_FALSE(check.is_frozen());
+    check.take(7, start_ms + 510);
+    EXPECT_TRUE(check.is_frozen());
+    check.take(8, start_ms + 520);
+    EXPECT_FALSE(check.is_frozen());
+  }
+}
+
+/// rad/s of a word, as of the board's gyroscope.
+constexpr float kPerWord = 500.0F / 32768.0F * 0.0174532925F;
+
+GyroCalibration calibrated(double rate_radps, double sway_radps, bool has_compass) {
+  std::mt19937 random(3);
+  std::normal_distribution<double> noise(0.0, 5.0);
+  GyroCalibration calibration;
+  for (int i = 0; i < 100; ++i) {
+    const double t = 0.01 * i;
+    const double rate = 0.02 + rate_radps + sway_radps * std::sin(6.28 * t);
+    calibration.take(static_cast<std::int16_t>(
+                         std::lround(rate / static_cast<double>(kPerWord) + noise(random))),
+                     kPerWord, has_compass, static_cast<float>(1.0 + rate_radps * t));
+  }
+  return calibration;
+}
+
+TEST(GyroCalibration, WaitsUntilTheVehicleIsAtRest) {
+  const GyroCalibration still = calibrated(0.0, 0.0, true);
+  EXPECT_TRUE(still.is_done());
+  // Mean of 100 words with 5 counts of noise: 4 standard errors.
+  EXPECT_NEAR(still.bias_radps(), 0.02, 4 * 0.5 * static_cast<double>(kPerWord));
+  EXPECT_FALSE(calibrated(0.5, 0.0, true).is_done());
+  EXPECT_FALSE(calibrated(0.5, 0.0, false).is_done());
+  EXPECT_FALSE(calibrated(-0.2, 0.0, false).is_done());
+  EXPECT_FALSE(calibrated(0.065, 0.0, true).is_done()) << "slow, but the compass sees it";
+  EXPECT_FALSE(calibrated(0.0, 0.1, false).is_done()) << "its mean is good, its spread is not";
+}
+
+struct Receiver {
+  GpsCheck check;
+  GpsFix fix{1000, 0, 0, 1.0F};
+  std::uint32_t now_ms = 5000;
+  float x_m = 0.0F;
+  GpsContext at{0.0F, 1, true};
+
+  Receiver() { check.begin(8.0F, 600, now_ms); }
+  bool next(std::uint32_t utc_ms = 200, std::uint32_t wait_ms = 200) {
+    fix.utc_ms = (fix.utc_ms + utc_ms) % kDay_ms;
+    now_ms += wait_ms;
+    return check.take_fix(fix, x_m, 0.0F, now_ms, at);
+  }
+  bool drive(int fixes) {
+    bool good = true;
+    for (int i = 0; i < fixes; ++i) {
+      x_m += 0.2F * fix.speed_mps * (at.direction < 0 ? -1.0F : 1.0F);
+      good = next() && good;
+    }
+    return good && check.fault(now_ms) == kSensorGood;
+  }
+};
+
+TEST(GpsCheck, BelievesADriveThroughMidnightAndLostSentences) {
+  Receiver gps;
+  gps.fix.utc_ms = kDay_ms - 3000;
+  EXPECT_TRUE(gps.drive(50));
+  gps.x_m += 0.6F;
+  EXPECT_TRUE(gps.next(600, 600));
+  EXPECT_TRUE(gps.drive(500));
+}
+
+TEST(GpsCheck, IsSilentWithoutSentences) {
+  Receiver gps;
+  ASSERT_TRUE(gps.drive(10));
+  EXPECT_EQ(gps.check.fault(gps.now_ms + 600), kSensorGood);
+  EXPECT_EQ(gps.check.fault(gps.now_ms + 601), kGpsSilent);
+}
+
+TEST(GpsCheck, RefusesRepeatedOldAndDisplacedFixes) {
+  Receiver gps;
+  ASSERT_TRUE(gps.drive(10));
+  for (int i = 0; i < 4; ++i) EXPECT_FALSE(gps.next(0));
+  EXPECT_EQ(gps.check.fault(gps.now_ms), kGpsRepeated);
+  Receiver late;
+  ASSERT_TRUE(late.drive(10));
+  EXPECT_FALSE(late.next(200, 900)) << "it came 700 ms later than the others";
+  EXPECT_FALSE(late.next(200, 200));
+  Receiver back;
+  ASSERT_TRUE(back.drive(10));
+  EXPECT_FALSE(back.next(kDay_ms - 1000));
+  Receiver displaced;
+  ASSERT_TRUE(displaced.drive(10));
+  displaced.x_m += 20.0F;
+  for (int i = 0; i < 20; ++i) EXPECT_FALSE(displaced.next());
+  EXPECT_EQ(displaced.check.fault(displaced.now_ms), kGpsJump);
+  displaced.at.is_armed = false;
+  displaced.fix.speed_mps = 0.0F;
+  int taken = 0;
+  for (int i = 0; i < 10; ++i) taken += displaced.next() ? 1 : 0;
+  EXPECT_GT(taken, 0) << "disarmed, the new position is taken over";
+}
+
+TEST(GpsCheck, ToleratesAClockThatIsOffByHalfAPercent) {
+  for (const std::uint32_t wait_ms : {199U, 201U}) {
+    Receiver gps;
+    for (int i = 0; i < 5000; ++i) {
+      gps.x_m += 0.2F;
+      ASSERT_TRUE(gps.next(200, wait_ms)) << i;
+    }
+  }
+}
+
+TEST(GpsCheck, FindsSpeedAndPositionThatContradictEachOther) {
+  Receiver still;
+  ASSERT_TRUE(still.drive(10));
+  for (int i = 0; i < 10; ++i) still.next();
+  EXPECT_EQ(still.check.fault(still.now_ms), kGpsInconsistent);
+  Receiver fast;
+  ASSERT_TRUE(fast.drive(10));
+  fast.fix.speed_mps = 0.0F;
+  for (int i = 0; i < 30; ++i) {
+    fast.x_m += 0.4F;
+    fast.next();
+  }
+  EXPECT_EQ(fast.check.fault(fast.now_ms), kGpsInconsistent);
+}
+
+TEST(GpsCheck, FindsAVehicleThatMovesTheWrongWay) {
+  Receiver gps;
+  ASSERT_TRUE(gps.drive(20));
+  for (int i = 0; i < 25; ++i) {
+    gps.x_m -= 0.2F;
+    gps.next();
+  }
+  EXPECT_EQ(gps.check.fault(gps.now_ms), kWrongWay);
+  gps.at.is_armed = false;
+  gps.fix.speed_mps = 0.0F;
+  gps.next();
+  EXPECT_EQ(gps.check.fault(gps.now_ms), kSensorGood) << "at rest the next arming may come";
+}
+
+TEST(StepCheck, FindsAJumpAndADriftAndNothingInNoise) {
+  std::mt19937 random(5);
+  std::normal_distribution<float> noise(0.0F, 0.035F);  // 2 deg
+  StepCheck quiet;
+  for (int i = 0; i < 100000; ++i) quiet.take(noise(random), 0.01F);
+  EXPECT_FALSE(quiet.is_apart());
+  StepCheck jump;
+  for (int i = 0; i < 25; ++i) jump.take(0.5F + noise(random), 0.01F);
+  EXPECT_TRUE(jump.is_apart());
+  StepCheck drift;
+  for (int i = 0; i < 1500; ++i) drift.take(0.12F + noise(random), 0.01F);
+  EXPECT_TRUE(drift.is_apart());
+  for (int i = 0; i < 1500; ++i) drift.take(noise(random), 0.01F);
+  EXPECT_FALSE(drift.is_apart());
+}
+
+TEST(Arming, NeedsACommandAfterEveryReasonToStop) {
+  Arming arming;
+  EXPECT_FALSE(arming.is_armed());
+  EXPECT_EQ(arming.reason, DisarmReason::kReset);
+  EXPECT_FALSE(arming.arm(kFaultHeadingStale | kFaultCommandTimeout, 0));
+  EXPECT_FALSE(arming.arm(kFaultNone, kGpsSilent));
+  EXPECT_TRUE(arming.arm(kFaultCommandTimeout, 0)) << "nobody has commanded yet";
+  EXPECT_FALSE(arming.observe(kFaultNone, 0));
+  EXPECT_TRUE(arming.observe(kFaultCommandTimeout, 0));
+  EXPECT_EQ(arming.reason, DisarmReason::kTimeout);
+  EXPECT_FALSE(arming.observe(kFaultNone, 0)) << "commands alone do not arm";
+  EXPECT_FALSE(arming.is_armed());
+  EXPECT_TRUE(arming.arm(kFaultNone, 0));
+  EXPECT_TRUE(arming.observe(kFaultNone, kCompassFrozen));
+  EXPECT_EQ(arming.reason, DisarmReason::kFault);
+  EXPECT_EQ(arming.cause, kCompassFrozen);
+  EXPECT_TRUE(arming.arm(kFaultNone, 0));
+  arming.disarm(DisarmReason::kStop);
+  EXPECT_EQ(arming.reason, DisarmReason::kStop);
+}
+
+}  // namespace
+}  // namespace awmr::testing

@@ -1,0 +1,206 @@
+// Runs one case of SAFETY.md against a sketch: drives it in the simulated world, breaks something at t = 10 s, and
+// prints what happened. Compiled once per sketch, which is included as AWMR_SKETCH.
+#include "world.h"
+
+#include AWMR_SKETCH
+
+#include <algorithm>
+
+namespace {
+
+struct Case {
+  const char* name;
+  std::function<void()> inject;
+  std::function<void()> mend = [] {};
+};
+
+std::string frame(int sequence, const std::string& text) {
+  const std::string body = std::to_string(sequence & 255) + " " + text;
+  const unsigned crc = awmr::crc16_of(reinterpret_cast<const uint8_t*>(body.data()), body.size());
+  char line[64];
+  snprintf(line, sizeof line, "#%s*%04X\n", body.c_str(), crc);
+  return line;
+}
+
+std::vector<Case> cases() {
+  World& w = world;
+  return {
+      {"none", [] {}},
+      {"compass-silent", [&] { w.compass_answers = false; }, [&] { w.compass_answers = true; }},
+      {"compass-frozen", [&] { w.compass_frozen = true; }, [&] { w.compass_frozen = false; }},
+      {"compass-jump", [&] { w.compass_offset = 1.0; }, [&] { w.compass_offset = 0; }},
+      {"compass-stuck", [&] { w.compass_stuck = true, w.stuck_psi = w.psi, w.say("H 90\n"); },
+       [&] { w.compass_stuck = false; }},
+      {"gyro-silent", [&] { w.gyro_answers = false; }, [&] { w.gyro_answers = true; }},
+      {"gyro-frozen", [&] { w.gyro_frozen = true; }, [&] { w.gyro_frozen = false; }},
+      {"gyro-range", [&] { w.gyro_gain = 2, w.registers[0x681B] = 0; },
+       [&] { w.gyro_gain = 1, w.registers[0x681B] = 8; }},
+      {"gyro-drift", [&] { w.gyro_bias += 0.15; }, [&] { w.gyro_bias -= 0.15; }},
+      {"gps-silent", [&] { w.gps_answers = false; }, [&] { w.gps_answers = true; }},
+      {"gps-no-fix", [&] { w.gps_void = true; }, [&] { w.gps_void = false; }},
+      {"gps-empty", [&] { w.gps_empty = true; }, [&] { w.gps_empty = false; }},
+      {"gps-damaged", [&] { w.gps_bad_sum = true; }, [&] { w.gps_bad_sum = false; }},
+      {"gps-repeated", [&] { w.gps_repeats = true; }, [&] { w.gps_repeats = false; }},
+      {"gps-late", [&] { w.gps_delay_ms = 2000; },
+       [&] { w.gps_delay_ms = 0, w.on_the_way.clear(); }},
+      {"gps-jump", [&] { w.gps_jump_m = 20; }, [&] { w.gps_jump_m = 0; }},
+      {"gps-speed-zero", [&] { w.gps_speed_gain = 0, w.gps_speed_noise = 0; },
+       [&] { w.gps_speed_gain = 1, w.gps_speed_noise = 0.05; }},
+      {"gps-position-frozen", [&] { w.gps_still = true, w.still_x = w.x, w.still_y = w.y; },
+       [&] { w.gps_still = false; }},
+      {"motors-reversed", [&] { w.motor_sign = -1; }, [&] { w.motor_sign = 1; }},
+      {"command-silence", [&] { w.keeps = false; }, [&] { w.keeps = true; }},
+      {"command-noise", [&] { w.keep = "x"; }, [&] { w.say("\n"), w.keep = "KEEP\n"; }},
+      {"command-unknown", [&] { w.keep = "STEP 1\n"; }, [&] { w.keep = "KEEP\n"; }},
+      {"command-repeated-frame", [&] { w.keep = frame(9, "KEEP"); },
+       [&] {
+         w.keep = "";
+         w.keeps = false;
+       }},
+      {"stop", [&] { w.say("STOP\n"); }},
+      {"stop-in-noise", [&] { w.say("\xff....stop"); }, [&] { w.say("\n"); }},
+  };
+}
+
+/// Prints name=value pairs. Times in s after the injection, -1: never.
+int run_case(const Case& one) {
+  World& w = world;
+  setup();
+  w.run(3);
+  w.say("ARM\n");
+  w.run(0.2);
+  w.say(AWMR_START);
+  w.run(6.8);
+  const bool drove = w.is_driven() && w.u > 0.3;
+  one.inject();
+  double stopped_s = -1, x0 = w.x, y0 = w.y, away = 0, fastest = 0;
+  bool drives_again = false;
+  int cause = 0;
+  double t = 0;
+  w.run(15, [&] {
+    t += 0.001;
+    fastest = std::max(fastest, fabs(w.u));
+    away = std::max(away, hypot(w.x - x0, w.y - y0));
+    if (stopped_s < 0 && !safety.is_armed()) stopped_s = t;
+    if (stopped_s >= 0 && (safety.is_armed() || w.is_driven())) drives_again = true;
+    const int now = awmr_board::sensor_fault(imu, gps);
+    if (cause == 0 && now != 0) cause = now;
+  });
+  const bool is_off = !w.is_driven();
+  one.mend();
+  w.run(25, [&] { drives_again = drives_again || (stopped_s >= 0 && w.is_driven()); });
+  if (w.keep.empty()) w.say(frame(10, "ARM"));
+  w.say("ARM\n");
+  w.run(0.1);
+  const bool rearmed = safety.is_armed();
+  printf(
+      "case=%s drove=%d stopped_s=%.2f off=%d drives_again=%d cause=%d away_m=%.2f "
+      "fastest_mps=%.2f rearmed=%d\n",
+      one.name, drove, stopped_s, is_off, drives_again, cause, away, fastest, rearmed);
+  return 0;
+}
+
+/// At rest, armed at speed 0: pushed by hand, or only the noise of the GPS.
+void hold_still(double pushed_mps, double noise_mps) {
+  World& w = world;
+  w.gps_speed_noise = noise_mps;
+  setup();
+  w.run(3);
+  w.say("ARM\n");
+  w.run(1);
+  const double before = w.u = pushed_mps, x0 = w.x, y0 = w.y;
+  double fastest = 0, driven_s = 0;
+  w.run(60, [&] {
+    fastest = std::max(fastest, fabs(w.u));
+    if (w.left() + w.right() != 0) driven_s += 0.001;
+  });
+  printf("pushed_mps=%.2f fastest_mps=%.3f end_mps=%.3f moved_m=%.2f driven_s=%.2f armed=%d\n",
+         before, fastest, w.u, hypot(w.x - x0, w.y - y0), driven_s, safety.is_armed());
+}
+
+/// Turned by hand at `rate` until t = 6 s: heading once it is at rest, and whether ARM waited for it.
+void start_turning(double rate) {
+  World& w = world;
+  w.forced_turn = rate;
+  setup();
+  w.run(3);
+  w.say("ARM\n");
+  w.run(3);
+  const bool armed_turning = safety.is_armed();
+  w.forced_turn = 0;
+  w.run(4);
+  w.say("ARM\n");
+  w.run(0.1);
+  const double error = remainder(imu.psi_rad - w.psi, 2 * 3.14159265358979);
+  printf("armed_turning=%d armed_still=%d heading_error_deg=%.2f\n", armed_turning,
+         safety.is_armed(), error * 57.29578);
+}
+
+/// `turns` net turns, disarmed, then armed.
+void turn_often(double turns) {
+  World& w = world;
+  setup();
+  w.run(3);
+  w.forced_turn = 3;
+  double largest = 0;
+  w.run(turns * 2 * 3.14159265358979 / 3,
+        [&] { largest = std::max(largest, fabs(static_cast<double>(imu.psi_rad))); });
+  w.forced_turn = 0;
+  w.run(20);
+  w.say("ARM\n");
+  w.run(1);
+  printf("largest_rad=%.4f armed=%d fault=%d\n", largest, safety.is_armed(), output.fault);
+}
+
+/// Drives what AWMR_START starts for `seconds`, then at speed 0 for a minute.
+void drive_and_stop(double seconds) {
+  World& w = world;
+  setup();
+  w.run(3);
+  w.say("ARM\n");
+  w.run(0.2);
+  w.say(AWMR_START);
+  bool was_armed = true;
+  double slowest = 0, fastest = 0, ended_s = -1, end_x = 0, end_y = 0, t = 0;
+  const auto watch = [&] {
+    t += 0.001;
+    slowest = std::min(slowest, w.u);
+    fastest = std::max(fastest, w.u);
+    if (was_armed && !safety.is_armed() && ended_s < 0) ended_s = t;
+    was_armed = safety.is_armed();
+  };
+  w.run(seconds, watch);
+  w.say("S 0\n");
+  end_x = w.x, end_y = w.y;
+  w.run(60, watch);
+  printf(
+      "slowest_mps=%.3f fastest_mps=%.3f ended_s=%.1f end_mps=%.3f rolled_m=%.2f reason=%d "
+      "driven=%d\n",
+      slowest, fastest, ended_s, w.u, hypot(w.x - end_x, w.y - end_y),
+      static_cast<int>(safety.reason()), w.is_driven());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::string what = argc > 1 ? argv[1] : "list";
+  const double number = argc > 2 ? atof(argv[2]) : 0;
+  if (what == "list") {
+    for (const Case& one : cases()) printf("%s\n", one.name);
+    return 0;
+  }
+  if (what == "hold") return hold_still(number, argc > 3 ? atof(argv[3]) : 0.05), 0;
+  if (what == "turning") return start_turning(number), 0;
+  if (what == "turns") return turn_often(number), 0;
+  if (what == "drive") {
+    if (argc > 3) world.mass_factor = atof(argv[3]);
+    if (argc > 4) world.gps_delay_ms = static_cast<uint32_t>(atoi(argv[4]));
+    if (argc > 5) world.slope = atof(argv[5]);
+    return drive_and_stop(number), 0;
+  }
+  if (argc > 2) world.start_ms = static_cast<uint32_t>(strtoul(argv[2], nullptr, 10));
+  for (const Case& one : cases()) {
+    if (one.name == what) return run_case(one);
+  }
+  return 2;
+}

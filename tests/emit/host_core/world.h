@@ -1,0 +1,209 @@
+// The simulated vehicle, its sensors and its operator. Everything that a case breaks is a member.
+#pragma once
+#include <Arduino.h>
+#include <SD.h>
+#include <Wire.h>
+#include <awmr.h>
+
+#include <cstdio>
+#include <functional>
+#include <map>
+#include <random>
+#include <vector>
+
+Stream Serial, Serial1;
+TwoWire Wire;
+SDClass SD;
+uint16_t OCR4A, ICR4, TCNT3, OCR3A;
+uint8_t TCCR4A, TCCR4B, TCCR3A, TCCR3B, TIMSK3, MCUSR = 1;
+extern "C" void TIMER3_COMPA_vect();
+void setup();
+void loop();
+
+struct World {
+  // Time. The step runs each 10 ms of it.
+  uint32_t start_ms = 1000, elapsed_ms = 0;
+  // Motion, and how the vehicle differs from the model.
+  double x = 0, y = 0, psi = 0.3, u = 0, r = 0;
+  double mass_factor = 1, drag_factor = 1, motor_sign = 1, slope = 0;
+  double forced_turn = 0;  // rad/s: turned by hand
+  bool is_held = false;    // by hand: u is 0
+  std::map<int, int> duty, level;
+  // Sensors.
+  std::mt19937 random{7};
+  double gyro_bias = 0.02, gyro_gain = 1, gyro_noise = 5, compass_offset = 0, compass_noise = 3;
+  bool gyro_answers = true, gyro_frozen = false, compass_answers = true, compass_frozen = false;
+  bool compass_stuck = false;
+  double stuck_psi = 0;
+  std::map<int, int> registers;
+  int gyro_word = 0, field[3] = {0, 0, 0};
+  double gps_noise_m = 0.1, gps_speed_noise = 0.05, gps_jump_m = 0, gps_speed_gain = 1;
+  uint32_t gps_delay_ms = 0, gps_latency_ms = 0;
+  bool gps_answers = true, gps_repeats = false, gps_empty = false, gps_void = false,
+       gps_still = false;
+  double still_x = 0, still_y = 0;
+  bool gps_bad_sum = false;
+  std::string last_sentence;
+  std::deque<std::pair<uint32_t, std::string>> on_the_way;
+  // Operator.
+  bool keeps = true;
+  std::string keep = "KEEP\n";
+  int sequence = 0;
+
+  double noise(double sigma) { return std::normal_distribution<double>(0, sigma)(random); }
+  double force(int pwm, int direction) {
+    return motor_sign * duty[pwm] / 255.0 * (level[direction] ? -1 : 1);
+  }
+  // Reversed, the sides are exchanged as well: it drives the wrong way and turns the right one.
+  double left() { return motor_sign > 0 ? force(44, 22) : force(45, 23); }
+  double right() { return motor_sign > 0 ? force(45, 23) : force(44, 22); }
+  bool is_driven() { return duty[44] != 0 || duty[45] != 0; }
+  double steering() { return (OCR4A / 2.0 - 1500) / 573.0; }
+
+  void move(double dt) {
+    const double d = steering(), sum = left() + right();
+    const double thrust = sum * (1 + cos(d));
+    const double mass = mass_factor * AWMR_MASS_NORM;
+    const auto drag = [](double a, double b, double w) { return a * pow(fabs(w), b); };
+    double next = u + dt * (thrust - slope) / mass;
+    const double loss = dt * drag_factor * drag(AWMR_SURGE_ALPHA, AWMR_SURGE_BETA, next) / mass;
+    u = fabs(next) > loss ? next - copysign(loss, next) : 0;
+    const double moment =
+        AWMR_FRONT_AXLE_M * sum * sin(d) + AWMR_HALF_TRACK_M * (right() - left()) * (1 + cos(d));
+    next = r + dt * moment / AWMR_INERTIA_NORM;
+    const double turn = dt * drag(AWMR_YAW_ALPHA, AWMR_YAW_BETA, next) / AWMR_INERTIA_NORM;
+    r = fabs(next) > turn ? next - copysign(turn, next) : 0;
+    if (forced_turn != 0) r = forced_turn;
+    if (is_held) u = 0;
+    psi += dt * r;
+    x += dt * u * cos(psi);
+    y += dt * u * sin(psi);
+  }
+  void sense() {
+    if (!gyro_frozen) {
+      gyro_word = static_cast<int>(
+          lround(gyro_gain * (r + gyro_bias) * 32768 / 500 * 57.29578 + noise(gyro_noise)));
+    }
+    if (compass_frozen) return;
+    const double seen = compass_stuck ? stuck_psi : psi + compass_offset;
+    field[0] = static_cast<int>(lround(-250 * sin(seen) + noise(compass_noise)));
+    field[1] = static_cast<int>(lround(250 * cos(seen) + noise(compass_noise)));
+    field[2] = static_cast<int>(lround(400 + noise(compass_noise)));
+  }
+  void navigate() {
+    if (elapsed_ms % 200 == 0 && gps_answers) {
+      if (!gps_repeats || last_sentence.empty()) last_sentence = sentence();
+      on_the_way.push_back({elapsed_ms + gps_delay_ms, last_sentence});
+    }
+    while (!on_the_way.empty() && on_the_way.front().first <= elapsed_ms) {
+      for (const char c : on_the_way.front().second) Serial1.incoming.push_back(c);
+      on_the_way.pop_front();
+    }
+  }
+  std::string sentence() {
+    const double px = gps_still ? still_x : x + gps_jump_m + noise(gps_noise_m);
+    const double py = gps_still ? still_y : y + noise(gps_noise_m);
+    const double lat = 48.1 + px / 111319.491,
+                 lon = 11.5 - py / (111319.491 * cos(48.1 * 0.0174532925));
+    const double knots = fabs(gps_speed_gain * u + noise(gps_speed_noise)) / 0.514444444;
+    const auto degrees = [](double v, int digits) {
+      char text[32];
+      snprintf(text, sizeof text, "%0*d%010.7f", digits, static_cast<int>(v),
+               (v - static_cast<int>(v)) * 60);
+      return std::string(text);
+    };
+    const unsigned s = elapsed_ms / 1000;
+    char body[160];
+    if (gps_empty) {
+      snprintf(body, sizeof body, "GPRMC,%02u%02u%02u.%02u,A,,,,,,,230394,,,A", 12 + s / 3600,
+               s / 60 % 60, s % 60, elapsed_ms % 1000 / 10);
+    } else {
+      snprintf(body, sizeof body, "GPRMC,%02u%02u%02u.%02u,%c,%s,N,%s,E,%.3f,,230394,,,A",
+               12 + s / 3600, s / 60 % 60, s % 60, elapsed_ms % 1000 / 10, gps_void ? 'V' : 'A',
+               degrees(lat, 2).c_str(), degrees(lon, 3).c_str(), knots);
+    }
+    unsigned sum = 0;
+    for (const char* c = body; *c; ++c) sum ^= static_cast<unsigned char>(*c);
+    if (gps_bad_sum) sum ^= 1;
+    char text[200];
+    snprintf(text, sizeof text, "$%s*%02X\r\n", body, sum);
+    return text;
+  }
+  void say(const std::string& text) {
+    for (const char c : text) Serial.incoming.push_back(c);
+  }
+  void tick() {
+    ++elapsed_ms;
+    move(0.001);
+    navigate();
+    if (keeps && elapsed_ms % 300 == 0) say(keep);
+    if (elapsed_ms % 10 == 0) {
+      sense();
+      TIMER3_COMPA_vect();
+      loop();
+    }
+  }
+  void run(double seconds, const std::function<void()>& each = {}) {
+    for (int i = 0; i < static_cast<int>(seconds * 1000 + 0.5); ++i) {
+      tick();
+      if (each) each();
+    }
+  }
+};
+static World world;
+
+uint32_t millis() { return world.start_ms + world.elapsed_ms; }
+void delay(uint32_t ms) {
+  for (; ms > 0; --ms) {
+    ++world.elapsed_ms;
+    world.move(0.001);
+    if (world.elapsed_ms % 10 == 0) world.sense();
+  }
+}
+void pinMode(uint8_t, uint8_t) {}
+void digitalWrite(uint8_t pin, uint8_t level) { world.level[pin] = level; }
+void analogWrite(uint8_t pin, int duty) { world.duty[pin] = duty; }
+
+static uint8_t bus_device, bus_address;
+static std::vector<uint8_t> bus_written, bus_read;
+static bool answers(uint8_t device) {
+  return device == 0x68 ? world.gyro_answers : device == 0x0C && world.compass_answers;
+}
+void TwoWire::beginTransmission(uint8_t device) {
+  bus_device = device;
+  bus_written.clear();
+}
+size_t TwoWire::write(uint8_t byte) {
+  bus_written.push_back(byte);
+  return 1;
+}
+uint8_t TwoWire::endTransmission(bool) {
+  if (!answers(bus_device)) return 2;
+  if (!bus_written.empty()) bus_address = bus_written[0];
+  for (size_t i = 1; i < bus_written.size(); ++i) {
+    world.registers[bus_device << 8 | (bus_address + static_cast<int>(i) - 1)] = bus_written[i];
+  }
+  return 0;
+}
+uint8_t TwoWire::requestFrom(uint8_t device, uint8_t count) {
+  bus_read.clear();
+  if (!answers(device)) return 0;
+  for (uint8_t i = 0; i < count; ++i) {
+    const int at = bus_address + i;
+    int value = world.registers[device << 8 | at];
+    if (device == 0x68 && at == 0x47) value = world.gyro_word >> 8;
+    if (device == 0x68 && at == 0x48) value = world.gyro_word;
+    if (device == 0x0C && at == 0x02) value = 1;
+    if (device == 0x0C && at >= 0x03 && at <= 0x08)
+      value = world.field[(at - 3) / 2] >> (at % 2 == 1 ? 0 : 8);
+    if (device == 0x0C && at >= 0x10) value = 128;
+    bus_read.push_back(static_cast<uint8_t>(value));
+  }
+  return count;
+}
+int TwoWire::read() {
+  if (bus_read.empty()) return -1;
+  const int byte = bus_read.front();
+  bus_read.erase(bus_read.begin());
+  return byte;
+}

@@ -1,0 +1,246 @@
+/// The emitted sketches, compiled for this machine, against a simulated vehicle and its sensors
+/// (host_core/): each hazard of SAFETY.md is made to happen, and its table holds what was seen.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <sstream>
+
+#include "emit/paper_robot.h"
+#include "support/toolchain.h"
+
+namespace awmr::testing {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// A row of the table: what goes wrong, what finds it, its code, and how soon the motors are off.
+struct Hazard {
+  const char* name;  ///< of the case in drive_case.cpp
+  const char* hazard;
+  const char* detector;
+  int cause;             ///< SensorFault; 0: none
+  double within_s;       ///< motors off, at most
+  bool on_route = true;  ///< also driven with WaypointFollowing
+};
+
+constexpr Hazard kHazards[] = {
+    {"compass-silent", "compass does not answer", "no new field for 0.5 s", 5, 0.6},
+    {"compass-frozen", "compass repeats its words", "same three words for 0.5 s", 6, 0.6},
+    {"compass-jump", "compass jumps by 57 deg", "innovation above 20 deg for 0.2 s", 7, 0.4},
+    {"compass-stuck", "compass stands still in a turn", "innovation above 20 deg for 0.2 s", 7, 1.5,
+     false},
+    {"gyro-silent", "gyroscope does not answer", "no word for 0.1 s", 1, 0.2},
+    {"gyro-frozen", "gyroscope repeats its word", "same word for 0.5 s", 2, 0.6},
+    {"gyro-range", "gyroscope reset to another range", "range register read back every 5 steps", 3,
+     0.1},
+    {"gyro-drift", "gyroscope drifts by 8.6 deg/s", "mean innovation above 6 deg over 5 s", 7, 6.0},
+    {"gps-silent", "GPS silent", "no sentence for the speed time-out", 8, 0.7},
+    {"gps-no-fix", "GPS without a fix", "status V, or mode N or E", 9, 0.9},
+    {"gps-empty", "GPS sentence with empty fields", "strict reader", 9, 0.9},
+    {"gps-damaged", "GPS sentence with a wrong check sum", "strict reader", 9, 0.9},
+    {"gps-repeated", "GPS repeats a sentence", "UTC stands still", 10, 0.9},
+    {"gps-late", "GPS fixes 2 s late", "silence, then UTC behind the clock by 0.5 s", 8, 0.9},
+    {"gps-jump", "GPS position jumps by 20 m", "displacement beyond 1.5 u + 1 m/s and 3 m", 12,
+     0.9},
+    {"gps-speed-zero", "GPS speed stands at 0", "displacement 3 m beyond the speed's", 13, 7.0},
+    {"gps-position-frozen", "GPS position stands still", "1.5 m by speed, none by position", 13,
+     2.5},
+    {"motors-reversed", "motors drive the wrong way, turning rightly",
+     "2 m against the commanded direction", 14, 12.0},
+    {"command-silence", "operator silent", "no command for the command time-out", 0, 1.4},
+    {"command-noise", "noise on the line", "no whole command", 0, 1.4},
+    {"command-unknown", "lines that are no command", "no known command", 0, 1.4},
+    {"command-repeated-frame", "transmitter repeats a frame", "sequence number", 0, 1.7},
+    {"stop", "operator sends STOP", "the command", 0, 0.05},
+    {"stop-in-noise", "STOP amid noise, without a line's end", "its last letter", 0, 0.05}};
+
+/// One row of the table in SAFETY.md.
+std::string table_row(const Hazard& h) {
+  return fmt::format("| {} | {} | {} | {:g} | `{}` |\n", h.hazard, h.detector,
+                     h.cause != 0 ? std::to_string(h.cause) : "-", h.within_s, h.name);
+}
+
+/// A vehicle that rolls well, m' = 1 and g1 = 0.2 u: fed with |u|, its speed law runs away.
+Model rolling_robot() {
+  Model model = paper_robot();
+  model[ParameterId::kSurgeAlpha].value = 0.2;
+  model[ParameterId::kSurgeBeta].value = 1.0;
+  model[ParameterId::kMassNorm].value = 1.0;
+  return model;
+}
+constexpr Gains<double> kRollingGains{.heading = kPaperGains.heading, .speed = {3.0, 1.0}};
+
+class SafeSketches : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    paper_ = new TemporaryDirectory;
+    rolling_ = new TemporaryDirectory;
+    build(*paper_, paper_robot(), kPaperGains);
+    build(*rolling_, rolling_robot(), kRollingGains);
+  }
+  static void TearDownTestSuite() {
+    delete paper_;
+    delete rolling_;
+  }
+
+  static void build(const TemporaryDirectory& directory, const Model& model,
+                    const Gains<double>& gains) {
+    const auto files = firmware_library(model, gains, paper_inputs(), {});
+    ASSERT_TRUE(files);
+    for (const EmittedFile& file : *files) {
+      std::filesystem::create_directories((directory.path() / file.path).parent_path());
+      write_all(directory.path() / file.path, file.bytes);
+    }
+    const std::string flags =
+        " -O1 -w -ffp-contract=off -fsanitize=address,undefined -fno-sanitize-recover=all ";
+    ASSERT_TRUE(succeeded(
+        run_process(std::string(kGxx) + " -std=c++14" + flags + "-Isrc -c src/awmr.cpp -o awmr.o",
+                    directory.path())));
+    for (const auto& [sketch, start] :
+         {std::pair{"HeadingHold", "S 1.0"}, std::pair{"WaypointFollowing", "G"}}) {
+      // naked functions are the chip's alone.
+      ASSERT_TRUE(succeeded(run_process(
+          fmt::format(
+              "{0} -std=c++17{1}-Dnaked= -D__AVR_ATmega2560__ '-DAWMR_START=\"{2}\\n\"' "
+              "'-DAWMR_SKETCH=\"{3}/examples/{4}/{4}.ino\"' -I{5}/tests/emit/host_core -Isrc "
+              "{5}/tests/emit/host_core/drive_case.cpp awmr.o -o {4}",
+              kGxx, flags, start, directory.path().string(), sketch, AWMR_SOURCE_DIR),
+          directory.path())));
+    }
+    ASSERT_TRUE(succeeded(run_process(
+        fmt::format("{0} -std=c++17{1}-Dnaked= -D__AVR_ATmega2560__ "
+                    "'-DAWMR_SKETCH=\"{2}/examples/RecordTrials/RecordTrials.ino\"' "
+                    "-I{3}/tests/emit/host_core "
+                    "-Isrc {3}/tests/emit/host_core/record_case.cpp awmr.o -o RecordTrials",
+                    kGxx, flags, directory.path().string(), AWMR_SOURCE_DIR),
+        directory.path())));
+  }
+  /// NAME=VALUE pairs that a run of the sketch prints.
+  static std::map<std::string, double> drive(const TemporaryDirectory& directory,
+                                             const std::string& line) {
+    const ProcessResult run = run_process("./" + line, directory.path());
+    EXPECT_TRUE(succeeded(run)) << line;
+    std::map<std::string, double> values;
+    std::istringstream words(run.out);
+    for (std::string word; words >> word;) {
+      const std::size_t at = word.find('=');
+      values[word.substr(0, at)] = std::atof(word.c_str() + at + 1);
+    }
+    return values;
+  }
+
+  static TemporaryDirectory* paper_;
+  static TemporaryDirectory* rolling_;
+};
+TemporaryDirectory* SafeSketches::paper_ = nullptr;
+TemporaryDirectory* SafeSketches::rolling_ = nullptr;
+
+TEST_F(SafeSketches, DriveWhereNothingIsWrongAlsoAcrossTheClocksWrap) {
+  for (const char* sketch : {"HeadingHold", "WaypointFollowing"}) {
+    // millis() wraps 12 s after the start, in the drive.
+    for (const char* start_ms : {"1000", "4294955000"}) {
+      auto seen = drive(*paper_, fmt::format("{} none {}", sketch, start_ms));
+      EXPECT_EQ(seen["drove"], 1) << sketch;
+      EXPECT_EQ(seen["stopped_s"], -1) << sketch << start_ms;
+      EXPECT_EQ(seen["cause"], 0) << sketch << start_ms;
+      EXPECT_GT(seen["away_m"], 10.0) << sketch << start_ms;
+    }
+  }
+}
+
+TEST_F(SafeSketches, StopAtEveryHazardStayStoppedAndDriveAgainOnceArmed) {
+  for (const Hazard& hazard : kHazards) {
+    for (const char* sketch : {"HeadingHold", "WaypointFollowing"}) {
+      if (!hazard.on_route && sketch != std::string("HeadingHold")) continue;
+      SCOPED_TRACE(fmt::format("{} {}", sketch, hazard.name));
+      auto seen = drive(*paper_, fmt::format("{} {}", sketch, hazard.name));
+      EXPECT_EQ(seen["drove"], 1);
+      EXPECT_GE(seen["stopped_s"], 0.0);
+      EXPECT_LE(seen["stopped_s"], hazard.within_s);
+      EXPECT_EQ(seen["off"], 1);
+      EXPECT_EQ(seen["drives_again"], 0) << "without ARM";
+      EXPECT_EQ(seen["cause"], hazard.cause);
+      EXPECT_EQ(seen["rearmed"], 1) << "once it was mended";
+    }
+  }
+}
+
+TEST_F(SafeSketches, TheTableOfHazardsIsWhatIsTested) {
+  std::string table;
+  for (const Hazard& hazard : kHazards) table += table_row(hazard);
+  EXPECT_THAT(read_all(paper_->path() / "SAFETY.md"), HasSubstr(table));
+  std::string cases = run_process("./HeadingHold list", paper_->path()).out;
+  std::string names = "none\n";
+  for (const Hazard& hazard : kHazards) names += std::string(hazard.name) + "\n";
+  EXPECT_EQ(cases, names);
+}
+
+TEST_F(SafeSketches, AtSpeedZeroNothingPushesAVehicleThatRolls) {
+  for (const auto* directory : {paper_, rolling_}) {
+    for (const double push : {0.0, -0.3, -0.87, -2.0, 0.87}) {
+      for (const double noise : {0.05, 0.3}) {
+        SCOPED_TRACE(fmt::format("{} {}", push, noise));
+        auto seen = drive(*directory, fmt::format("HeadingHold hold {} {}", push, noise));
+        EXPECT_EQ(seen["armed"], 1);
+        EXPECT_LE(seen["fastest_mps"], std::abs(push) + 0.01);
+        EXPECT_LE(std::abs(seen["end_mps"]), 0.05);
+        EXPECT_LE(seen["moved_m"], 12.0);
+        if (push == 0.0) {
+          EXPECT_EQ(seen["driven_s"], 0.0);
+        }
+      }
+    }
+  }
+}
+
+TEST_F(SafeSketches, StopForwardAndNeverDriveBackwardAfterADriveOrTheLastPoint) {
+  for (const auto* directory : {paper_, rolling_}) {
+    for (const char* conditions : {"", " 0.7", " 1.4 300"}) {
+      auto held = drive(*directory, std::string("HeadingHold drive 20") + conditions);
+      EXPECT_GE(held["slowest_mps"], -0.35) << conditions;
+      EXPECT_LE(std::abs(held["end_mps"]), 0.05) << conditions;
+      EXPECT_LE(held["rolled_m"], 5.0) << conditions;
+      auto route = drive(*directory, std::string("WaypointFollowing drive 120") + conditions);
+      EXPECT_EQ(route["reason"], 5) << "arrived" << conditions;
+      EXPECT_EQ(route["driven"], 0) << conditions;
+      EXPECT_GE(route["slowest_mps"], -0.35) << conditions;
+      EXPECT_LE(std::abs(route["end_mps"]), 0.05) << conditions;
+    }
+  }
+}
+
+TEST_F(SafeSketches, AreNotArmedWhileTheVehicleTurnsAtTheStart) {
+  for (const double rate : {0.5, -0.5, 0.1}) {
+    auto seen = drive(*paper_, fmt::format("HeadingHold turning {}", rate));
+    EXPECT_EQ(seen["armed_turning"], 0) << rate;
+    EXPECT_EQ(seen["armed_still"], 1) << rate;
+    EXPECT_LE(std::abs(seen["heading_error_deg"]), 2.0) << rate;
+  }
+}
+
+TEST_F(SafeSketches, HoldTheHeadingAfterSevenHundredTurns) {
+  auto seen = drive(*paper_, "HeadingHold turns 700");
+  EXPECT_LE(seen["largest_rad"], 3.14160);
+  EXPECT_EQ(seen["armed"], 1);
+  EXPECT_EQ(seen["fault"], 0);
+}
+
+TEST_F(SafeSketches, RecordNothingOfASensorThatIsNotBelieved) {
+  auto good = drive(*paper_, "RecordTrials none");
+  EXPECT_EQ(good["rows_broken"], 1);
+  for (const char* broken :
+       {"gps-silent", "gps-repeated", "gyro-silent", "gyro-frozen", "silence"}) {
+    auto seen = drive(*paper_, std::string("RecordTrials ") + broken);
+    EXPECT_EQ(seen["drove"], 1) << broken;
+    EXPECT_EQ(seen["driven"], 0) << broken;
+    EXPECT_EQ(seen["rows_broken"], 0) << broken;
+    EXPECT_EQ(seen["drives_unarmed"], 0) << broken;
+    EXPECT_EQ(seen["rows_mended"], 1) << broken;
+  }
+}
+
+}  // namespace
+}  // namespace awmr::testing

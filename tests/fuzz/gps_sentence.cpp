@@ -1,0 +1,43 @@
+/// Whatever bytes come from the GPS: reading ends, and a fix lies on the Earth, today.
+#include "awmr/control/gps_sentence.h"
+
+#include <cmath>
+#include <string>
+
+#include "fuzz/target.h"
+
+using awmr::fuzz::require;
+
+namespace {
+
+void check(const char* line) {
+  awmr::GpsFix fix{};
+  if (awmr::read_rmc(line, fix) != awmr::GpsSentence::kFix) return;
+  require(fix.utc_ms < awmr::kDay_ms + 1000, "time of day");
+  require(fix.lat_e7 >= -900000000 && fix.lat_e7 <= 900000000, "latitude");
+  require(fix.lon_e7 >= -1800000000 && fix.lon_e7 <= 1800000000, "longitude");
+  require(std::isfinite(fix.speed_mps) && fix.speed_mps >= 0.0F, "speed");
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  awmr::GpsLine port;
+  for (std::size_t i = 0; i < size; ++i) {
+    if (port.take(static_cast<char>(data[i]))) check(port.text());
+  }
+  // With its check sum made right, mutations reach the fields.
+  std::string line = "$";
+  unsigned sum = 0;
+  for (std::size_t i = 0; i < size && data[i] != '*' && data[i] != 0; ++i) {
+    if (data[i] == '$' || data[i] == '\r' || data[i] == '\n') continue;
+    line += static_cast<char>(data[i]);
+    sum ^= data[i];
+  }
+  constexpr const char* kDigits = "0123456789ABCDEF";
+  line += '*';
+  line += kDigits[sum >> 4U & 15U];
+  line += kDigits[sum & 15U];
+  check(line.c_str());
+  return 0;
+}
