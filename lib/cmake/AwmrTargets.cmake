@@ -42,10 +42,11 @@ function(awmr_library name)
   set_property(GLOBAL APPEND PROPERTY AWMR_LIBRARIES ${target})
 endfunction()
 
-# awmr_test(NAME SOURCES file... [TIER tier] [LINK target...] [CASES n]): one GoogleTest executable;
+# awmr_test(NAME SOURCES file... [TIER tier] [LINK target...] [CASES n] [WHOLE]): one GoogleTest executable, its cases
+# tests of their own, or with WHOLE one test together, where they share a costly set-up;
 # properties with a fixed seed, each over n cases, 100 by default. TIER is `unit` by default (tests/README.md).
 function(awmr_test name)
-  cmake_parse_arguments(ARG "" "CASES;TIER" "SOURCES;LINK" ${ARGN})
+  cmake_parse_arguments(ARG "WHOLE" "CASES;TIER" "SOURCES;LINK" ${ARGN})
   if(NOT ARG_CASES)
     set(ARG_CASES 100)
   endif()
@@ -60,6 +61,10 @@ function(awmr_test name)
   target_link_libraries(${name} PRIVATE ${ARG_LINK} GTest::gmock GTest::gtest_main awmr_warnings)
   target_precompile_headers(${name} REUSE_FROM awmr_test_headers)
   target_compile_definitions(${name} PRIVATE AWMR_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  if(ARG_WHOLE)
+    awmr_command_test(${name} TIER ${ARG_TIER} TIMEOUT 300 COMMAND ${name})
+    return()
+  endif()
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300 LABELS ${ARG_TIER}
     ENVIRONMENT "RC_PARAMS=seed=20260117 max_success=${ARG_CASES}")
 endfunction()

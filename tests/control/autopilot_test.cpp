@@ -382,7 +382,8 @@ TEST_F(AutopilotLeads, ByWhatWasAskedForLast) {
 
 TEST_F(AutopilotLeads, AGuidanceThatIsNoNumberIsAFaultInEveryMode) {
   static constexpr Position<float> kNowhere[] = {{kNaN, 5.0F}, {10.0F, kNaN}};
-  for (const std::uint8_t mode : {0, 1, 2}) {
+  constexpr std::uint8_t kModes[] = {0, 1, 2};
+  for (const std::uint8_t mode : kModes) {
     // Braking, the wheels are straight in steering mode, whatever heading is asked for.
     for (const float speed_mps : {0.0F, 1.5F}) {
       start_autopilot(autopilot_, &block_, nullptr, 0, nullptr, 0, crc_);

@@ -12,7 +12,7 @@ using awmr::fuzz::require;
 
 namespace {
 
-struct Bytes {
+struct Reader {
   const std::uint8_t* data;
   std::size_t size;
   template <class V>
@@ -31,7 +31,7 @@ float bounded(std::int16_t value, float scale) { return static_cast<float>(value
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  Bytes in{data, size};
+  Reader in{data, size};
   std::uint32_t now_ms = in.get<std::uint32_t>();
   awmr::HeadingCheck heading;
   awmr::GpsCheck gps;
