@@ -33,13 +33,14 @@ bool is_expected(Injection injection, SensorFault cause) {
     case Injection::kCompassSilent:
       return cause == kCompassSilent;
     case Injection::kCompassFrozen:
-      return cause == kCompassFrozen;
+      // In a turn the gyroscope contradicts it before the words have repeated for long enough.
+      return cause == kCompassFrozen || cause == kHeadingOutOfStep;
     case Injection::kCompassJump:
       return cause == kHeadingOutOfStep;
     case Injection::kGyroSilent:
       return cause == kGyroSilent;
     case Injection::kGyroFrozen:
-      return cause == kGyroFrozen;
+      return cause == kGyroFrozen || cause == kHeadingOutOfStep;
     case Injection::kGyroRange:
       return cause == kGyroRange;
     case Injection::kGpsSilent:

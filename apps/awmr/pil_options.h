@@ -85,7 +85,7 @@ struct PilOptions {
   std::optional<Optimize> optimize;    ///< absent: for size where obstacles are avoided, else speed
   std::optional<unsigned> cycles_max;  ///< absent: 12,000 by table, 24,000 by powf
   unsigned flash_max = 16384;          ///< bytes
-  unsigned ram_max = 512;              ///< bytes, without the stack
+  unsigned ram_max = 1024;             ///< bytes, without the stack
   std::optional<double> difference_max;  ///< from the host's float run; absent: 0 and 1e-6
   /// From the host's double run, give or take a sample; absent: 0.05, and 2 where obstacles are avoided or sensors are
   /// simulated, as what changes the course may then be noticed one of their samples apart.

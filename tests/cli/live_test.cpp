@@ -133,10 +133,10 @@ TEST_F(Live, AGrowingFileIsFollowedUntilNothingMoreComes) {
 
 TEST_F(Live, KeepsLogAndModelWhereItsTerminalIsClosed) {
   // Two signals, as the kernel and the shell each send one.
-  const ProcessResult run =
-      shell("{ head -n 900 " + kDrive + kOnAndOn + " | { " + live("--log - --every 0.2") +
-            " & pid=$!; sleep 1.5; kill -HUP $pid; sleep 0.1; "
-            "kill -HUP $pid; wait $pid; }");
+  const ProcessResult run = shell("{ head -n 900 " + kDrive + kOnAndOn + " | { exec 3<&0; " +
+                                  live("--log - --every 0.2") +
+                                  " <&3 & pid=$!; sleep 1.5; kill -HUP $pid; sleep 0.1; "
+                                  "kill -HUP $pid; wait $pid; }");
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(run.out, HasSubstr("interrupted: 898 rows"));
   EXPECT_EQ(read_all(path("live.json")), identified());

@@ -45,10 +45,10 @@ std::vector<double> excesses(const GoalInMode& one, std::span<const RunOutcome> 
   return all;
 }
 
-}  // namespace
-
-/// Of a run whose figure overflows: beyond every limit, and a number that files can hold.
+/// Stands for a figure that is not finite: beyond every limit, and a number that files can hold.
 constexpr double kNoFigure = 1e100;
+
+}  // namespace
 
 RunOutcome outcome_of(const ModeScore& score, const Scenario& scenario) {
   RunOutcome outcome{
@@ -98,10 +98,9 @@ double excess_of(const TuningGoal& goal, const RunOutcome& outcome) {
   if (outcome.broke_off) return std::numeric_limits<double>::infinity();
   double largest = 0.0;
   for (const GoalLimit& limit : goal.at_most) {
-    const double share = figure_of_run(limit.figure, outcome) / limit.most;
-    // A figure that is no number is no figure that holds.
-    largest =
-        std::isnan(share) ? std::numeric_limits<double>::infinity() : std::max(largest, share);
+    const double figure = figure_of_run(limit.figure, outcome);
+    if (!(figure < kNoFigure)) return std::numeric_limits<double>::infinity();
+    largest = std::max(largest, figure / limit.most);
   }
   return largest;
 }

@@ -14,7 +14,6 @@
 #include "awmr/core/option_text.h"
 #include "awmr/core/units.h"
 #include "awmr/model/fitted_law.h"
-#include "awmr/model/gains_json.h"
 #include "awmr/model/paper_gains.h"
 #include "awmr/simulate/physics.h"
 #include "awmr/simulate/scenario.h"
@@ -329,10 +328,12 @@ tl::unexpected<Error> not_better(const SearchResult& found, const Objective& obj
   return refusal(fmt::format(
       "no gains keep every constraint and beat the paper's in every mode (1 is theirs): the "
       "nearest of {} ({}) score {}{}; give more evaluations{}, another seed or other weights. To "
-      "go "
-      "on with the paper's gains, write {} to gains.json",
+      "go on with the paper's gains, write {{\"heading\": {{\"lambda\": {}, \"mu\": {}, "
+      "\"epsilon\": "
+      "{}}}, \"speed\": {{\"mu\": {}, \"epsilon\": {}}}}} to gains.json",
       found.evaluations, in_words(found.nearest.gains), scores, broken, activity,
-      gains_to_json(kPaperGains).dump()));
+      kPaperGains.heading.lambda, kPaperGains.heading.mu, kPaperGains.heading.epsilon,
+      kPaperGains.speed.mu, kPaperGains.speed.epsilon));
 }
 
 /// The goal, if any, that keeps the nearest gains from being taken.
