@@ -355,9 +355,9 @@ TEST_F(Pil, OverTheUartItIsTheSameRun) {
   EXPECT_EQ(result("uart.json")["difference_double"], result("memory.json")["difference_double"]);
 }
 
-TEST_F(Pil, OverALineThatFlipsAThousandthOfTheBitsAndLosesBytesItIsTheSameRun) {
+TEST_F(Pil, OverALineThatFlipsElevenBitsInTenThousandAndLosesBytesItIsTheSameRun) {
   ASSERT_EQ(pil(kC3, "combined", "--link uart", "quiet.json").exit_code, 0);
-  const ProcessResult run = pil(kC3, "combined", "--link uart --line-noise 1e-3", "noisy.json");
+  const ProcessResult run = pil(kC3, "combined", "--link uart --line-noise 1.1e-3", "noisy.json");
   ASSERT_EQ(run.exit_code, 0) << run.out << run.err;
   const Json quiet = result("quiet.json"), noisy = result("noisy.json");
   EXPECT_EQ(quiet["repeats"].get<int>(), 0);
