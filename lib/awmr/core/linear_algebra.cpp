@@ -49,12 +49,17 @@ VectorXd PivotedQr::leverages() const {
   return thin.rowwise().squaredNorm();
 }
 
+MatrixXd PivotedQr::r() const {
+  return qr_.matrixR().topRows(qr_.cols()).triangularView<Eigen::Upper>();
+}
+
+MatrixXd PivotedQr::permutation() const { return qr_.colsPermutation(); }
+
 MatrixXd PivotedQr::inverse_information() const {
   const Eigen::Index p = qr_.cols();
-  const MatrixXd r = qr_.matrixR().topRows(p).triangularView<Eigen::Upper>();
-  const MatrixXd r_inverse = r.triangularView<Eigen::Upper>().solve(MatrixXd::Identity(p, p));
-  const MatrixXd permutation = qr_.colsPermutation();
-  return permutation * r_inverse * r_inverse.transpose() * permutation.transpose();
+  const MatrixXd r_inverse = r().triangularView<Eigen::Upper>().solve(MatrixXd::Identity(p, p));
+  const MatrixXd pi = permutation();
+  return pi * r_inverse * r_inverse.transpose() * pi.transpose();
 }
 
 MatrixXd PivotedQr::inverse_information_by_pseudo_inverse() const {

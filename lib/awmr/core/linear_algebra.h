@@ -45,6 +45,8 @@ class PivotedQr {
   Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
   /// Leverages, n: the diagonal of Q Q^T over the columns of J.
   Eigen::VectorXd leverages() const;
+  Eigen::MatrixXd r() const;            ///< R: p x p, upper triangle
+  Eigen::MatrixXd permutation() const;  ///< Pi: p x p
   /// (J^T J)^-1 = Pi R^-1 R^-T Pi^T. Precondition: rank() == p.
   Eigen::MatrixXd inverse_information() const;
   /// The same from the pseudo-inverse J^+, for few rows: J^+ J^+T.

@@ -5,6 +5,19 @@
 #include "awmr/identify/tables/steady_fit.h"
 
 namespace awmr {
+namespace {
+
+/// s^2 (P^T P)^-1 = s^2 Pi R^-1 R^-T Pi^T, from the factors of P Pi = Q R.
+Eigen::Matrix2d covariance_of(const PivotedQr& qr, double variance) {
+  const Eigen::Matrix2d r = qr.r();
+  const Eigen::Matrix2d r_inverse =
+      r.triangularView<Eigen::Upper>().solve(Eigen::Matrix2d::Identity());
+  const Eigen::Matrix2d p = qr.permutation();
+  return variance * (p * r_inverse * r_inverse.transpose() * p.transpose());
+}
+
+}  // namespace
+
 SteadyFit fit_log_linear(const std::vector<SteadyPoint>& points) {
   const Eigen::Index n = rows_of(points);
   Eigen::MatrixXd design(n, 2);
@@ -37,7 +50,7 @@ SteadyFit fit_log_linear(const std::vector<SteadyPoint>& points) {
   if (fit.degrees_of_freedom > 0) {
     const double variance = fit.residuals.squaredNorm() / fit.degrees_of_freedom;
     fit.residual_std = std::sqrt(variance);
-    fit.covariance = variance * qr.inverse_information();
+    fit.covariance = covariance_of(qr, variance);
   }
   return fit;
 }
