@@ -170,7 +170,7 @@ class HeadingCheck {
     gyro_ms_ = now_ms;
     gyro_.take(static_cast<uint16_t>(word), now_ms);
   }
-  /// What the range register reads: the range that was set, or another.
+  /// Result of reading the range register back: true if it still holds the range that was set.
   void take_range(bool is_right) { is_range_wrong_ = !is_right; }
   /// A new field that the compass gave, as its three raw words.
   void take_field(int16_t x, int16_t y, int16_t z, uint32_t now_ms) {
@@ -203,7 +203,7 @@ class HeadingCheck {
   bool is_range_wrong_ = false;
 };
 
-/// What the vehicle is commanded while a fix comes.
+/// The vehicle's command at the time of a fix.
 struct GpsContext {
   float psi_rad;     ///< heading
   int8_t direction;  ///< of the speed commanded: 1, 0 or -1

@@ -70,7 +70,7 @@ Status check_regular_file(const std::filesystem::path& path);
 /// Whether files can be made in `path`, or `path` itself where it is missing. Errors (input): the
 /// directory, or the nearest one above it that exists, cannot be written.
 Status check_output_directory(const std::filesystem::path& path);
-/// What the directory holds, sorted. Errors (input): it cannot be read.
+/// Entries of a directory, sorted by path. Errors (input): it cannot be read.
 Result<std::vector<std::filesystem::path>> list_directory(const std::filesystem::path& path);
 
 }  // namespace awmr
