@@ -83,7 +83,21 @@ void Emulator::sleep(avr_t* avr, std::uint64_t) {
   self.asleep_ = true;
 }
 
+/// An interrupt that is raised between sei and the sleep after it is served before the instruction after
+/// the sleep [ATmega2560 data sheet, 7.7]. simavr 1.6 executes that one first: where it is cli, the
+/// interrupt is never served.
+void Emulator::serve_interrupt_after_sleep() {
+  constexpr unsigned kSleep = 0x9588;  // the instruction
+  if (avr_->state != cpu_Running || avr_->sreg[S_I] == 0 || avr_->pc < 2) return;
+  const unsigned executed = avr_->flash[avr_->pc - 2] | avr_->flash[avr_->pc - 1] << 8U;
+  if (executed != kSleep || avr_has_pending_interrupts(avr_) == 0) return;
+  avr_->interrupt_state = 1;
+  avr_service_interrupts(avr_);
+  entered_at_ = avr_->cycle;
+}
+
 Status Emulator::run_once() {
+  serve_interrupt_after_sleep();
   const bool was_asleep = avr_->state == cpu_Sleeping || asleep_;
   asleep_ = false;
   const int state = avr_run(avr_);

@@ -62,6 +62,7 @@ class Emulator {
  private:
   Emulator() = default;
   Status run_once();
+  void serve_interrupt_after_sleep();
   static void sleep(avr_t* avr, std::uint64_t cycles);
   void feed_uart();
 

@@ -10,6 +10,7 @@
 #include "awmr/simulate/physics.h"
 #include "awmr/simulate/pilot.h"
 #include "awmr/simulate/sensing.h"
+#include "injections.h"
 #include "sensor_injection.h"
 
 namespace awmr::pil {
@@ -92,6 +93,10 @@ void command(const LoopSetup& setup, LoopRow& row) {
   }
 }
 
+/// Each side drives with the other's force, the other way: the vehicle turns as commanded, and drives
+/// against the command.
+void reverse_motors(LoopRow& row) { row.force = {-row.force.right, -row.force.left}; }
+
 /// Moves the simulated vehicle on by a sample under the row's command.
 Status drive(Physics& physics, const LoopRow& row, const std::string& scenario) {
   physics.disturb(row.t_s);
@@ -140,68 +145,6 @@ Status check_scenario(const Scenario& scenario, const std::string& file) {
   return {};
 }
 
-Window injection_window(const LoopSetup& setup) {
-  switch (setup.injection) {
-    case Injection::kNone:
-    case Injection::kReset:
-      return {0, 0};
-    case Injection::kParameters:
-      return {0, samples_of(setup) + 1};
-    case Injection::kStepLate:
-      return {setup.middle, setup.middle + 1};
-    case Injection::kCompassSilent:
-    case Injection::kCompassFrozen:
-    case Injection::kCompassJump:
-    case Injection::kGyroSilent:
-    case Injection::kGyroFrozen:
-    case Injection::kGyroRange:
-    case Injection::kGpsSilent:
-    case Injection::kGpsEmpty:
-    case Injection::kGpsRepeated:
-    case Injection::kGpsJump:
-      return {setup.middle, samples_of(setup) + 1};
-    default:
-      return {setup.middle, setup.middle + 20};
-  }
-}
-
-std::uint8_t expected_fault(Injection injection) {
-  switch (injection) {
-    case Injection::kNaN:
-    case Injection::kInfinite:
-      return kFaultNotFinite;
-    case Injection::kRange:
-    case Injection::kMode:
-      return kFaultRange;
-    case Injection::kHeadingStale:
-      return kFaultHeadingStale;
-    case Injection::kSpeedStale:
-      return kFaultSpeedStale;
-    case Injection::kCommandTimeout:
-      return kFaultCommandTimeout;
-    case Injection::kStepLate:
-      return kFaultStepLate;
-    case Injection::kParameters:
-      return kFaultParameters;
-    case Injection::kCompassSilent:
-    case Injection::kCompassFrozen:
-    case Injection::kCompassJump:
-    case Injection::kGyroSilent:
-    case Injection::kGyroFrozen:
-    case Injection::kGyroRange:
-      return kFaultHeadingStale;
-    case Injection::kGpsSilent:
-    case Injection::kGpsEmpty:
-    case Injection::kGpsRepeated:
-    case Injection::kGpsJump:
-      return kFaultSpeedStale;
-    case Injection::kReset:
-    case Injection::kNone:
-      break;
-  }
-  return kFaultNone;
-}
-
 Result<std::vector<LoopRow>> run_loop(const LoopSetup& setup, Executor& executor,
                                       const Progress& progress) {
   const SimulateOptions options{.sample_time_s = setup.sample_time_s, .substeps = {}};
@@ -212,13 +155,13 @@ Result<std::vector<LoopRow>> run_loop(const LoopSetup& setup, Executor& executor
   if (!setup.mission.points.points_m.empty()) {
     AWMR_RETURN_IF_ERROR(executor.follow(setup.mission.points));
   }
-  const Window window = injection_window(setup);
+  const std::size_t samples = samples_of(setup);
+  const Window window = injection_window(setup.injection, setup.middle, samples);
   const bool breaks_sensor = is_sensor_failure(setup.injection);
   CheckedSensors checked(setup.injection, setup.sample_time_s, setup.limits);
   Arming arming;
   arming.arm(kFaultNone, kSensorGood);
   std::vector<LoopRow> rows;
-  const std::size_t samples = samples_of(setup);
   for (std::size_t k = 0; k <= samples; ++k) {
     LoopRow& row = rows.emplace_back();
     row.t_s = static_cast<double>(k) * setup.sample_time_s;
@@ -239,8 +182,9 @@ Result<std::vector<LoopRow>> run_loop(const LoopSetup& setup, Executor& executor
     auto step = executor.step(input);
     if (!step) return tl::unexpected(step.error());
     row.step = *step;
-    if (breaks_sensor) arming.observe(step->output.fault, kSensorGood);
+    if (breaks_sensor) arming.observe(step->output.fault, row.cause);
     command(setup, row);
+    if (setup.injection == Injection::kMotorsReversed && k >= window.first) reverse_motors(row);
     if (progress) progress(k, samples);
     if (step->output.arrived || order.no_passage || k == samples) break;
     AWMR_RETURN_IF_ERROR(drive(physics, row, setup.scenario.name));

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "awmr/control/sensor_checks.h"
+#include "awmr/control/sensor_fault.h"
 #include "awmr/core/progress.h"
 #include "awmr/model/model.h"
 #include "awmr/simulate/scenario.h"
@@ -44,15 +44,5 @@ Status check_scenario(const Scenario& scenario, const std::string& file);
 /// Errors: the executor's. Ends with the scenario, or where its course does.
 Result<std::vector<LoopRow>> run_loop(const LoopSetup& setup, Executor& executor,
                                       const Progress& progress = {});
-
-/// The samples at which the setup's injection changes the inputs: [first, last).
-struct Window {
-  std::size_t first = 0;
-  std::size_t last = 0;
-};
-Window injection_window(const LoopSetup& setup);
-
-/// The fault bits that an injection has to raise.
-std::uint8_t expected_fault(cli::Injection injection);
 
 }  // namespace awmr::pil

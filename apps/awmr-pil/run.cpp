@@ -16,9 +16,9 @@
 #include "emulator.h"
 #include "executor.h"
 #include "firmware_build.h"
+#include "injections.h"
 #include "loop.h"
 #include "report.h"
-#include "sensor_injection.h"
 #include "work_folder.h"
 
 namespace awmr::pil {
@@ -217,14 +217,10 @@ PilOptions resolved(PilOptions options, const Inputs& in) {
   return options;
 }
 
-/// Longest time from a sensor's failure to the safe command, s: the detector and the time-out of the
-/// autopilot.
-constexpr double kSensorLatency_s = 1.5;
-
 /// The first fault comes in time and for the right reason, and stays: what is disarmed stays so.
 Injected sensor_failure_of(const LoopSetup& setup, const std::vector<LoopRow>& rows) {
   Injected result;
-  result.expected = expected_fault(setup.injection);
+  result.expected = effect_of(setup.injection).fault;
   const auto has_fault = [](const LoopRow& row) { return row.step.output.fault != kFaultNone; };
   const auto first = std::find_if(rows.begin(), rows.end(), has_fault);
   if (first == rows.end()) return result;
@@ -232,9 +228,9 @@ Injected sensor_failure_of(const LoopSetup& setup, const std::vector<LoopRow>& r
   result.seen = first->step.output.fault;
   result.quiet = at >= setup.middle;
   result.worked = (result.seen & result.expected) != 0 &&
-                  is_expected(setup.injection, first->cause) &&
+                  is_expected_cause(setup.injection, first->cause) &&
                   static_cast<double>(at - std::min(at, setup.middle)) * setup.sample_time_s <=
-                      kSensorLatency_s;
+                      effect_of(setup.injection).within_s;
   result.safe = std::all_of(first, rows.end(), [&](const LoopRow& row) {
     const Allocation<float>& command = row.step.output.command;
     return has_fault(row) && std::max({std::abs(command.force.left), std::abs(command.force.right),
@@ -245,9 +241,9 @@ Injected sensor_failure_of(const LoopSetup& setup, const std::vector<LoopRow>& r
 
 Injected injected_of(const LoopSetup& setup, const std::vector<LoopRow>& rows) {
   Injected result;
-  result.expected = expected_fault(setup.injection);
+  result.expected = effect_of(setup.injection).fault;
   if (is_sensor_failure(setup.injection)) return sensor_failure_of(setup, rows);
-  const Window window = injection_window(setup);
+  const Window window = injection_window(setup.injection, setup.middle, rows.size());
   result.seen = window.first < window.last ? 0xFF : 0;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const AutopilotOutput& out = rows[i].step.output;

@@ -24,38 +24,6 @@ std::int16_t rounded(double counts) { return static_cast<std::int16_t>(std::lrou
 
 }  // namespace
 
-bool is_sensor_failure(Injection injection) {
-  return injection >= Injection::kCompassSilent && injection <= Injection::kGpsJump;
-}
-
-bool is_expected(Injection injection, SensorFault cause) {
-  switch (injection) {
-    case Injection::kCompassSilent:
-      return cause == kCompassSilent;
-    case Injection::kCompassFrozen:
-      // In a turn the gyroscope contradicts it before the words have repeated for long enough.
-      return cause == kCompassFrozen || cause == kHeadingOutOfStep;
-    case Injection::kCompassJump:
-      return cause == kHeadingOutOfStep;
-    case Injection::kGyroSilent:
-      return cause == kGyroSilent;
-    case Injection::kGyroFrozen:
-      return cause == kGyroFrozen || cause == kHeadingOutOfStep;
-    case Injection::kGyroRange:
-      return cause == kGyroRange;
-    case Injection::kGpsSilent:
-      return cause == kGpsSilent;
-    case Injection::kGpsEmpty:
-      return cause == kGpsNoFix;
-    case Injection::kGpsRepeated:
-      return cause == kGpsRepeated;
-    case Injection::kGpsJump:
-      return cause == kGpsJump;
-    default:
-      return false;
-  }
-}
-
 CheckedSensors::CheckedSensors(Injection injection, double sample_time_s,
                                const SafetyLimits& limits)
     : injection_(injection), sample_time_s_(sample_time_s) {
@@ -70,6 +38,7 @@ CheckedSensors::CheckedSensors(Injection injection, double sample_time_s,
 
 SensorFault CheckedSensors::step(std::size_t k, bool fails, AutopilotInput& in) {
   const std::uint32_t now_ms = in.times.now_ms;
+  if (fails && injection_ == Injection::kGpsSpeedZero) in.measured.u_mps = 0.0F;
   sense_heading(fails, in);
   const auto samples =
       static_cast<std::size_t>(std::max(1L, std::lround(kFixPeriod_s / sample_time_s_)));
@@ -118,10 +87,13 @@ void CheckedSensors::sense_position(std::size_t k, bool fails, const AutopilotIn
   if (!is(Injection::kGpsRepeated) || !fix_) {
     const double utc_ms = 43'200'000.0 + 1000.0 * static_cast<double>(k) * sample_time_s_;
     fix_ = GpsFix{static_cast<std::uint32_t>(utc_ms) % kDay_ms, 0, 0, std::abs(in.measured.u_mps)};
-    fix_m_ = in.position_m;
+    if (!is(Injection::kGpsPositionFrozen) || !has_position_) fix_m_ = in.position_m;
+    has_position_ = true;
     if (is(Injection::kGpsJump)) fix_m_.x_m += kGpsJump_m;
   }
-  const std::int8_t direction = in.reference.speed_mps > 0.0F ? 1 : 0;
+  const std::int8_t direction = in.reference.speed_mps > 0.0F   ? 1
+                                : in.reference.speed_mps < 0.0F ? -1
+                                                                : 0;
   if (gps_.take_fix(*fix_, fix_m_.x_m, fix_m_.y_m, now_ms,
                     {in.measured.psi_rad, direction, true})) {
     speed_ms_ = now_ms;

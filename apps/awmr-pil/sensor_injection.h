@@ -1,21 +1,16 @@
 // Sensors that fail: raw readings made of the simulated motion, and the checks of the sketches over them
-// (control/sensor_checks.h). A sensor that is not believed keeps its old time, as on the board.
+// (control/heading_check.h, gps_check.h). A sensor that is not believed keeps its old time, as on the board.
 #pragma once
 
 #include <optional>
 #include <random>
 
 #include "awmr/control/autopilot.h"
-#include "awmr/control/sensor_checks.h"
+#include "awmr/control/gps_check.h"
+#include "awmr/control/heading_check.h"
 #include "pil_options.h"
 
 namespace awmr::pil {
-
-/// True for the injections that are failures of a sensor.
-bool is_sensor_failure(cli::Injection injection);
-
-/// The sensor faults that an injection may raise first.
-bool is_expected(cli::Injection injection, SensorFault cause);
 
 /// Compass, gyroscope and GPS of one run.
 class CheckedSensors {
@@ -37,6 +32,7 @@ class CheckedSensors {
   bool has_heading_ = false;
   std::optional<GpsFix> fix_;
   Position<float> fix_m_{};
+  bool has_position_ = false;
   std::uint32_t heading_ms_ = 0, speed_ms_ = 0;
 
   void sense_heading(bool fails, const AutopilotInput& in);

@@ -38,19 +38,22 @@ enum class Injection {
   kStepLate,        ///< a pause before a step
   kParameters,      ///< a bit of the parameters in flash, before the start
   kReset,           ///< the chip itself, as when the supply breaks in; it goes on from the start
-  // Failures of a sensor, found by the checks of the sketches (control/sensor_checks.h).
-  kCompassSilent,  ///< no new field
-  kCompassFrozen,  ///< the same words
-  kCompassJump,    ///< off by 57 deg
-  kGyroSilent,     ///< no word
-  kGyroFrozen,     ///< the same word
-  kGyroRange,      ///< reset to another range
-  kGpsSilent,      ///< no sentence
-  kGpsEmpty,       ///< sentences with empty fields
-  kGpsRepeated,    ///< the same sentence
-  kGpsJump         ///< off by 20 m
+  // Failures of a sensor, found by the checks of the sketches (control/heading_check.h, gps_check.h).
+  kCompassSilent,      ///< no new field
+  kCompassFrozen,      ///< the same words
+  kCompassJump,        ///< off by 57 deg
+  kGyroSilent,         ///< no word
+  kGyroFrozen,         ///< the same word
+  kGyroRange,          ///< reset to another range
+  kGpsSilent,          ///< no sentence
+  kGpsEmpty,           ///< sentences with empty fields
+  kGpsRepeated,        ///< the same sentence
+  kGpsJump,            ///< off by 20 m
+  kGpsSpeedZero,       ///< a speed that is stuck at 0
+  kGpsPositionFrozen,  ///< the same position, with a speed
+  kMotorsReversed      ///< each side drives the wrong way, turning the right one
 };
-inline constexpr NameTable<Injection, 21> kInjectionNames{
+inline constexpr NameTable<Injection, 24> kInjectionNames{
     {{"none", Injection::kNone},
      {"nan", Injection::kNaN},
      {"infinite", Injection::kInfinite},
@@ -71,7 +74,10 @@ inline constexpr NameTable<Injection, 21> kInjectionNames{
      {"gps-silent", Injection::kGpsSilent},
      {"gps-empty", Injection::kGpsEmpty},
      {"gps-repeated", Injection::kGpsRepeated},
-     {"gps-jump", Injection::kGpsJump}}};
+     {"gps-jump", Injection::kGpsJump},
+     {"gps-speed-zero", Injection::kGpsSpeedZero},
+     {"gps-position-frozen", Injection::kGpsPositionFrozen},
+     {"motors-reversed", Injection::kMotorsReversed}}};
 
 struct PilOptions {
   std::filesystem::path model;

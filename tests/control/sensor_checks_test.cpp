@@ -1,5 +1,6 @@
 /// Plausibility of compass, gyroscope and GPS, arming, and the RMC reader.
-#include "awmr/control/sensor_checks.h"
+#include "awmr/control/gps_check.h"
+#include "awmr/control/heading_check.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -124,14 +125,14 @@ struct Receiver {
   GpsCheck check;
   GpsFix fix{1000, 0, 0, 1.0F};
   std::uint32_t now_ms = 5000;
-  float x_m = 0.0F;
+  float x_m = 0.0F, y_m = 0.0F;
   GpsContext at{0.0F, 1, true};
 
   Receiver() { check.begin(8.0F, 600, now_ms); }
   bool next(std::uint32_t utc_ms = 200, std::uint32_t wait_ms = 200) {
     fix.utc_ms = (fix.utc_ms + utc_ms) % kDay_ms;
     now_ms += wait_ms;
-    return check.take_fix(fix, x_m, 0.0F, now_ms, at);
+    return check.take_fix(fix, x_m, y_m, now_ms, at);
   }
   bool drive(int fixes) {
     bool good = true;
@@ -220,6 +221,42 @@ TEST(GpsCheck, FindsAVehicleThatMovesTheWrongWay) {
   gps.fix.speed_mps = 0.0F;
   gps.next();
   EXPECT_EQ(gps.check.fault(gps.now_ms), kSensorGood) << "at rest the next arming may come";
+}
+
+/// Position errors that wander by 1 m RMS with a time constant of 60 s, speeds from 0.4 to 3 m/s that
+/// change, also in sign, by 0.3 to 1 m/s2, turns by up to 0.5 rad/s, and heading errors of 5 deg.
+TEST(GpsCheck, RaisesNoFaultOnARoughDrive) {
+  for (unsigned seed = 1; seed <= 40; ++seed) {
+    std::mt19937 random(seed);
+    std::normal_distribution<float> noise(0.0F, 1.0F);
+    const auto draw = [&random](float from, float to) {
+      return std::uniform_real_distribution<float>(from, to)(random);
+    };
+    Receiver gps;
+    float x_m = 0.0F, y_m = 0.0F, u_mps = 0.0F, wanted_mps = 0.0F, turn_radps = 0.0F;
+    float psi_rad = 0.0F, rate_mps2 = 0.5F, wander_x_m = 0.0F, wander_y_m = 0.0F;
+    for (int i = 0; i < 3000; ++i) {
+      if (i % 100 == 0) {
+        wanted_mps = draw(0.4F, 3.0F) * (draw(0.0F, 1.0F) < 0.3F ? -1.0F : 1.0F);
+        rate_mps2 = draw(0.3F, 1.0F);
+        turn_radps = draw(-0.5F, 0.5F);
+      }
+      u_mps += std::min(std::max(wanted_mps - u_mps, -0.2F * rate_mps2), 0.2F * rate_mps2);
+      psi_rad += 0.2F * turn_radps;
+      x_m += 0.2F * u_mps * std::cos(psi_rad);
+      y_m += 0.2F * u_mps * std::sin(psi_rad);
+      const float step_m = std::sqrt(2.0F * 0.2F / 60.0F);
+      wander_x_m += step_m * noise(random) - 0.2F / 60.0F * wander_x_m;
+      wander_y_m += step_m * noise(random) - 0.2F / 60.0F * wander_y_m;
+      gps.x_m = x_m + wander_x_m + 0.02F * noise(random);
+      gps.y_m = y_m + wander_y_m + 0.02F * noise(random);
+      gps.fix.speed_mps = std::abs(u_mps + 0.05F * noise(random));
+      gps.at.psi_rad = psi_rad + 0.09F * std::sin(0.01F * static_cast<float>(i));
+      gps.at.direction = wanted_mps > 0.0F ? 1 : -1;
+      ASSERT_TRUE(gps.next()) << seed << " " << i;
+      ASSERT_EQ(gps.check.fault(gps.now_ms), kSensorGood) << seed << " " << i;
+    }
+  }
 }
 
 TEST(StepCheck, FindsAJumpAndADriftAndNothingInNoise) {

@@ -1,6 +1,7 @@
 /// Arbitrary readings at arbitrary times: a fault that is not good lasts as long as its cause, a fix
 /// that is believed is new, near and of this day, and nothing overflows.
-#include "awmr/control/sensor_checks.h"
+#include "awmr/control/gps_check.h"
+#include "awmr/control/heading_check.h"
 
 #include <cmath>
 #include <cstring>

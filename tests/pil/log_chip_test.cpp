@@ -9,9 +9,7 @@
 #include <sstream>
 
 #include "awmr/trials/awl.h"
-#include "emit/paper_robot.h"
-#include "emulator.h"
-#include "support/toolchain.h"
+#include "pil/chip.h"
 
 namespace awmr::testing {
 namespace {
@@ -21,35 +19,6 @@ using ::testing::HasSubstr;
 // As in log_chip.cpp.
 constexpr std::size_t kSteps = 250;
 constexpr std::size_t kStallFrom = 60, kStallTo = 150;
-constexpr std::uint64_t kCyclesOfASecond = 16'000'000;
-
-class Chip : public ::testing::Test {
- protected:
-  /// Builds tests/pil/PROGRAM.cpp with the emitted library and runs it until it sets log_done.
-  void run_chip(const std::string& program, const std::string& flags = "") {
-    ASSERT_TRUE(found(kAvrGxx));
-    write_library(directory_.path());
-    ASSERT_TRUE(succeeded(
-        run_process(std::string(kAvrGxx) +
-                        " -mmcu=atmega2560 -DF_CPU=16000000UL -std=c++11 -Os -Wall -Wextra "
-                        "-Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror -Isrc " +
-                        flags + "'" AWMR_SOURCE_DIR "/tests/pil/" + program + ".cpp' -o log.elf",
-                    directory_.path())));
-    auto emulator = pil::Emulator::load(directory_.path() / "log.elf");
-    ASSERT_TRUE(emulator) << to_text(emulator.error());
-    emulator_ = std::move(*emulator);
-    emulator_->on_uart_output([this](std::uint8_t byte) { file_ += static_cast<char>(byte); });
-    emulator_->connect_uart();
-    const auto done = emulator_->ram("log_done", 1);
-    const auto ran = emulator_->run_until([&] { return done[0] != 0; }, 10 * kCyclesOfASecond);
-    ASSERT_TRUE(ran) << to_text(ran.error());
-  }
-
-  TemporaryDirectory directory_;
-  std::unique_ptr<pil::Emulator> emulator_;
-  std::string file_;
-};
-
 class LogChip : public Chip {
  protected:
   void SetUp() override { run_chip("log_chip"); }

@@ -48,7 +48,7 @@ struct LogRow {
   uint8_t mode;         ///< a YawMode
   uint8_t fault;        ///< SafetyFault bits
   uint8_t limits;       ///< 1: speed, 2: steering, 4: force, 8: too little force to steer with;
-                        ///< the upper four bits are a SensorFault (sensor_checks.h)
+                        ///< the upper four bits are a SensorFault (sensor_fault.h)
   uint8_t reset_cause;  ///< as the board says; the same in every row
 };
 static_assert(sizeof(LogRow) == 64, "eight rows fill a block of 512 bytes");

@@ -5,7 +5,7 @@
 #include <stddef.h>
 
 #include "../awmr/control/crc.h"
-#include "../awmr/control/sensor_checks.h"
+#include "../awmr/control/gps_check.h"
 #include "steps.h"
 
 namespace awmr_board {

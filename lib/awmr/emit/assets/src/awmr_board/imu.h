@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-#include "../awmr/control/sensor_checks.h"
+#include "../awmr/control/heading_check.h"
 #include "../awmr/model/float_math.h"
 
 /* `awmr compass` writes src/awmr_compass.h from what the sketch CompassCalibration records. */

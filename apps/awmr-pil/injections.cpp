@@ -1,0 +1,83 @@
+#include "injections.h"
+
+#include <algorithm>
+
+#include "awmr/control/safety_fault.h"
+
+namespace awmr::pil {
+namespace {
+
+using cli::Injection;
+
+// A sensor that is not believed disarms, and its readings get old: one of the two is first.
+constexpr std::uint8_t kHeading = kFaultHeadingStale | kFaultCommandTimeout;
+constexpr std::uint8_t kSpeed = kFaultSpeedStale | kFaultCommandTimeout;
+
+constexpr InjectionEffect kEffects[] = {
+    {Injection::kNone, Duration::kNever, kFaultNone},
+    {Injection::kReset, Duration::kNever, kFaultNone},
+    {Injection::kNaN, Duration::kTwentySteps, kFaultNotFinite},
+    {Injection::kInfinite, Duration::kTwentySteps, kFaultNotFinite},
+    {Injection::kRange, Duration::kTwentySteps, kFaultRange},
+    {Injection::kMode, Duration::kTwentySteps, kFaultRange},
+    {Injection::kHeadingStale, Duration::kTwentySteps, kFaultHeadingStale},
+    {Injection::kSpeedStale, Duration::kTwentySteps, kFaultSpeedStale},
+    {Injection::kCommandTimeout, Duration::kTwentySteps, kFaultCommandTimeout},
+    {Injection::kStepLate, Duration::kOneStep, kFaultStepLate},
+    {Injection::kParameters, Duration::kWholeRun, kFaultParameters},
+    // A detector's time and the autopilot's time-out. In a turn the gyroscope and the compass
+    // contradict each other before the words of a frozen one have repeated for long enough.
+    {Injection::kCompassSilent, Duration::kFromTheMiddle, kHeading, kCompassSilent, kSensorGood,
+     1.5},
+    {Injection::kCompassFrozen, Duration::kFromTheMiddle, kHeading, kCompassFrozen,
+     kHeadingOutOfStep, 1.5},
+    {Injection::kCompassJump, Duration::kFromTheMiddle, kHeading, kHeadingOutOfStep, kSensorGood,
+     1.5},
+    {Injection::kGyroSilent, Duration::kFromTheMiddle, kHeading, kGyroSilent, kSensorGood, 1.5},
+    {Injection::kGyroFrozen, Duration::kFromTheMiddle, kHeading, kGyroFrozen, kHeadingOutOfStep,
+     1.5},
+    {Injection::kGyroRange, Duration::kFromTheMiddle, kHeading, kGyroRange, kSensorGood, 1.5},
+    {Injection::kGpsSilent, Duration::kFromTheMiddle, kSpeed, kGpsSilent, kSensorGood, 1.5},
+    {Injection::kGpsEmpty, Duration::kFromTheMiddle, kSpeed, kGpsNoFix, kSensorGood, 1.5},
+    {Injection::kGpsRepeated, Duration::kFromTheMiddle, kSpeed, kGpsRepeated, kSensorGood, 1.5},
+    {Injection::kGpsJump, Duration::kFromTheMiddle, kSpeed, kGpsJump, kSensorGood, 1.5},
+    // Found by the motion: after metres, which a law that is driven by its model may creep along slowly.
+    {Injection::kGpsSpeedZero, Duration::kFromTheMiddle, kFaultCommandTimeout, kGpsInconsistent,
+     kSensorGood, 40.0},
+    {Injection::kGpsPositionFrozen, Duration::kFromTheMiddle, kFaultCommandTimeout,
+     kGpsInconsistent, kSensorGood, 5.0},
+    {Injection::kMotorsReversed, Duration::kFromTheMiddle, kFaultCommandTimeout, kWrongWay,
+     kSensorGood, 40.0}};
+static_assert(std::size(kEffects) == cli::kInjectionNames.size());
+
+}  // namespace
+
+const InjectionEffect& effect_of(Injection injection) {
+  return *std::find_if(std::begin(kEffects), std::end(kEffects),
+                       [&](const InjectionEffect& one) { return one.injection == injection; });
+}
+
+bool is_sensor_failure(Injection injection) { return effect_of(injection).cause != kSensorGood; }
+
+bool is_expected_cause(Injection injection, SensorFault cause) {
+  const InjectionEffect& effect = effect_of(injection);
+  return cause != kSensorGood && (cause == effect.cause || cause == effect.other_cause);
+}
+
+Window injection_window(Injection injection, std::size_t middle, std::size_t samples) {
+  switch (effect_of(injection).duration) {
+    case Duration::kNever:
+      break;
+    case Duration::kWholeRun:
+      return {0, samples + 1};
+    case Duration::kOneStep:
+      return {middle, middle + 1};
+    case Duration::kTwentySteps:
+      return {middle, middle + 20};
+    case Duration::kFromTheMiddle:
+      return {middle, samples + 1};
+  }
+  return {0, 0};
+}
+
+}  // namespace awmr::pil

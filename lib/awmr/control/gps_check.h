@@ -1,0 +1,221 @@
+/// Plausibility checks of GPS fixes: a state machine over fixes with time stamps of one clock in ms
+/// that may wrap. Freestanding C++14.
+#pragma once
+
+#include "awmr/control/displacement.h"
+#include "awmr/control/gps_sentence.h"
+#include "awmr/control/sensor_fault.h"
+
+namespace awmr {
+
+/// The vehicle's command at the time of a fix.
+struct GpsContext {
+  float psi_rad;     ///< heading
+  int8_t direction;  ///< of the speed commanded: 1, 0 or -1
+  /// False: a position elsewhere is taken over after ten fixes, 2 s at 5 Hz.
+  bool is_armed;
+};
+
+/// Plausibility of GPS fixes.
+class GpsCheck {
+ public:
+  /// m/s: the vehicle's largest speed. ms: how long no fix is missed.
+  void begin(float speed_max_mps, uint32_t timeout_ms, uint32_t now_ms) {
+    speed_max_mps_ = speed_max_mps;
+    timeout_ms_ = timeout_ms;
+    sentence_ms_ = now_ms;
+  }
+
+  /// A sentence without a usable fix.
+  void take_unusable(GpsSentence kind, uint32_t now_ms) {
+    if (kind == GpsSentence::kOther) return;
+    sentence_ms_ = now_ms;
+    last_ = kGpsNoFix;
+  }
+
+  /// A fix at (x, y), m, that came at `now_ms`. True: it is believed.
+  bool take_fix(const GpsFix& fix, float x_m, float y_m, uint32_t now_ms, const GpsContext& at) {
+    sentence_ms_ = now_ms;
+    if (has_utc_) {
+      const uint32_t advance_ms = (fix.utc_ms + kDay_ms - utc_ms_) % kDay_ms;
+      if (advance_ms == 0) return refuse(kGpsRepeated);
+      if (advance_ms > kDay_ms / 2) {
+        unsettled_ = kRelocations;  // it ran back: believed again once it has advanced for a while
+      } else {
+        note_lag(detail::elapsed_ms(now_ms, utc_at_ms_), advance_ms);
+      }
+    }
+    utc_ms_ = fix.utc_ms;
+    utc_at_ms_ = now_ms;
+    has_utc_ = true;
+    if (lag_ms_ > kGpsLag_ms || unsettled_ > 0) {
+      if (unsettled_ > 0) --unsettled_;
+      return refuse(kGpsOld);
+    }
+    const Place here = {x_m, y_m, fix.speed_mps, now_ms};
+    if (has_fix_ && !is_reachable(here, fix_)) {
+      if (at.is_armed || ++elsewhere_ < kRelocations) return refuse(kGpsJump);
+      restart_motion();
+      has_fix_ = false;
+    }
+    // At rest after a contradiction: the next arming begins without it.
+    if (!at.is_armed && fix.speed_mps < kStandstill_mps) restart_motion();
+    note_motion(here, at);
+    elsewhere_ = 0;
+    fix_ = here;
+    has_fix_ = true;
+    last_ = kSensorGood;
+    return true;
+  }
+
+  SensorFault fault(uint32_t now_ms) const {
+    if (detail::elapsed_ms(now_ms, sentence_ms_) > timeout_ms_) return kGpsSilent;
+    if (!has_fix_ || detail::elapsed_ms(now_ms, fix_.time_ms) > timeout_ms_) {
+      return last_ != kSensorGood ? last_ : kGpsSilent;
+    }
+    if (is_wrong_way_) return kWrongWay;
+    if (is_inconsistent_) return kGpsInconsistent;
+    return kSensorGood;
+  }
+
+  /// Forgets what contradicted itself, for the next arming.
+  void restart_motion() {
+    has_anchor_ = false;
+    same_m_ = against_m_ = 0.0F;
+    against_fixes_ = 0;
+    is_wrong_way_ = is_inconsistent_ = false;
+  }
+
+ private:
+  struct Place {
+    float x_m, y_m, speed_mps;
+    uint32_t time_ms;
+  };
+
+  /// Fixes may come so much later than the earliest of late, ms.
+  static constexpr int32_t kGpsLag_ms = 500;
+  /// Displacement between two fixes that is noise, m.
+  static constexpr float kNoise_m = 3.0F;
+  /// Fixes elsewhere, or of an earlier time, in a row before they are taken over.
+  static constexpr uint8_t kRelocations = 10;
+  /// Motion is not followed across a longer gap between fixes, s.
+  static constexpr float kGap_s = 4.0F;
+  /// Displacement and speed are compared over windows of this length, m and ms.
+  static constexpr float kWindow_m = 20.0F;
+  static constexpr uint32_t kWindow_ms = 30000;
+  /// Displacement beyond 1.5 times the distance travelled, m: the position's wander in a window, where
+  /// the vehicle is to stand and where it is to drive.
+  static constexpr float kFurtherAtRest_m = 3.0F;
+  static constexpr float kFurther_m = 2.0F;
+  /// Distance travelled, m, on the very same position.
+  static constexpr float kSame_m = 1.5F;
+  /// Displacement against the commanded direction, m, after at most kAhead_m ahead are set off, in as
+  /// many fixes: beyond the position's wander while the vehicle moves.
+  static constexpr float kAgainst_m = 2.0F;
+  static constexpr float kAhead_m = 1.0F;
+  static constexpr uint8_t kAgainstFixes = 3;
+  /// After a change of the commanded direction the vehicle brakes for at most this long, s, and gets
+  /// faster by no more than this, m/s.
+  static constexpr float kBraking_s = 10.0F;
+  static constexpr float kFaster_mps = 0.5F;
+
+  float speed_max_mps_ = 0.0F;
+  uint32_t timeout_ms_ = 0;
+  uint32_t sentence_ms_ = 0;
+  uint32_t utc_ms_ = 0;
+  uint32_t utc_at_ms_ = 0;
+  int32_t lag_ms_ = 0;
+  Place fix_ = {0.0F, 0.0F, 0.0F, 0};     // the last that was believed
+  Place anchor_ = {0.0F, 0.0F, 0.0F, 0};  // where the window began, valid with has_anchor_
+  float travelled_m_ = 0.0F;              // integral of the speed since then
+  float same_m_ = 0.0F;                   // integral of the speed while the position stood still
+  float against_m_ = 0.0F;                // against the commanded direction
+  float braking_s_ = 0.0F;                // left of kBraking_s
+  float braked_from_mps_ = 0.0F;          // speed when the commanded direction changed
+  int8_t direction_ = 0;
+  uint8_t against_fixes_ = 0;  // in a row beyond kAgainst_m
+  uint8_t elsewhere_ = 0;      // fixes that were too far away, in a row
+  uint8_t unsettled_ = 0;      // fixes to wait for after UTC ran back
+  SensorFault last_ = kSensorGood;
+  bool has_utc_ = false;
+  bool has_fix_ = false;
+  bool has_anchor_ = false;
+  bool is_wrong_way_ = false;
+  bool is_inconsistent_ = false;
+
+  bool refuse(SensorFault why) {
+    last_ = why;
+    return false;
+  }
+
+  /// How far the fixes lag behind the earliest: it grows by what the clock went further than UTC
+  /// did, and is forgiven a 64th of the time, as the clock of a board is off by up to 0.5 %.
+  void note_lag(uint32_t wait_ms, uint32_t advance_ms) {
+    lag_ms_ += static_cast<int32_t>(wait_ms - advance_ms) - static_cast<int32_t>(advance_ms / 64U);
+    if (lag_ms_ < 0) lag_ms_ = 0;
+  }
+
+  /// Within 1.5 times the larger of both speeds and 1 m/s, and noise.
+  bool is_reachable(const Place& to, const Place& from) const {
+    const float dx = to.x_m - from.x_m;
+    const float dy = to.y_m - from.y_m;
+    const float time_s = 1e-3F * static_cast<float>(detail::elapsed_ms(to.time_ms, from.time_ms));
+    float speed_mps = to.speed_mps > from.speed_mps ? to.speed_mps : from.speed_mps;
+    if (speed_mps > speed_max_mps_) speed_mps = speed_max_mps_;
+    const float reach_m = (1.5F * speed_mps + 1.0F) * time_s + kNoise_m;
+    return dx * dx + dy * dy <= reach_m * reach_m;
+  }
+  void note_motion(const Place& to, const GpsContext& at) {
+    if (!has_fix_) return;
+    const float dt_s = 1e-3F * static_cast<float>(detail::elapsed_ms(to.time_ms, fix_.time_ms));
+    if (dt_s > kGap_s) return restart_motion();
+    const float dx_m = to.x_m - fix_.x_m;
+    const float dy_m = to.y_m - fix_.y_m;
+    if (dx_m != 0.0F || dy_m != 0.0F) same_m_ = 0.0F;
+    if (to.speed_mps > kStandstill_mps) same_m_ += to.speed_mps * dt_s;
+    if (same_m_ > kSame_m) is_inconsistent_ = true;
+    follow_command(to, dt_s, at.direction);
+    compare_with_speed(to, dt_s);
+    if (direction_ == 0) return;
+    const float ahead_m = displacement_ahead_m(dx_m, dy_m, at.psi_rad);
+    against_m_ -= direction_ > 0 ? ahead_m : -ahead_m;
+    if (against_m_ < -kAhead_m) {
+      against_m_ = -kAhead_m;
+      braking_s_ = 0.0F;
+    }
+    if (braking_s_ > 0.0F && against_m_ > 0.0F) against_m_ = 0.0F;
+    against_fixes_ = against_m_ > kAgainst_m ? static_cast<uint8_t>(against_fixes_ + 1) : 0;
+    if (against_fixes_ >= kAgainstFixes) is_wrong_way_ = true;
+  }
+
+  /// |dx| + |dy| <= 1.5 int u dt + the wander since the anchor, where |dx| + |dy| <= sqrt(2) int u dt.
+  void compare_with_speed(const Place& to, float dt_s) {
+    if (!has_anchor_ || travelled_m_ > kWindow_m ||
+        detail::elapsed_ms(to.time_ms, anchor_.time_ms) > kWindow_ms) {
+      anchor_ = fix_;
+      travelled_m_ = 0.0F;
+      has_anchor_ = true;
+    }
+    travelled_m_ += to.speed_mps * dt_s;
+    const float moved_m =
+        detail::size_of(to.x_m - anchor_.x_m) + detail::size_of(to.y_m - anchor_.y_m);
+    const float further_m = direction_ != 0 ? kFurther_m : kFurtherAtRest_m;
+    if (moved_m > 1.5F * travelled_m_ + further_m) is_inconsistent_ = true;
+  }
+
+  /// Starts anew where the commanded direction changes. A vehicle that moves then has to brake first.
+  void follow_command(const Place& to, float dt_s, int8_t direction) {
+    const bool is_moving = to.speed_mps > kStandstill_mps;
+    if (direction != direction_) {
+      direction_ = direction;
+      braking_s_ = is_moving ? kBraking_s : 0.0F;
+      braked_from_mps_ = to.speed_mps;
+      against_m_ = 0.0F;
+      against_fixes_ = 0;
+    }
+    braking_s_ -= dt_s;
+    if (!is_moving || to.speed_mps > braked_from_mps_ + kFaster_mps) braking_s_ = 0.0F;
+  }
+};
+
+}  // namespace awmr

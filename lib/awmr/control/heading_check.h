@@ -1,0 +1,169 @@
+/// Plausibility checks of compass and gyroscope: state machines over raw readings with time stamps of
+/// one clock in ms that may wrap. Freestanding C++14.
+#pragma once
+
+#include "awmr/control/sensor_fault.h"
+
+namespace awmr {
+
+/// Raw words of a live sensor differ by noise: five counts RMS of the gyroscope, four of the compass.
+/// 50 equal ones in a row are not of a live one.
+constexpr uint32_t kFrozen_ms = 500;
+constexpr uint32_t kCompassSilent_ms = 500;
+
+/// Watches words that have to change.
+class FrozenCheck {
+ public:
+  void take(uint32_t words, uint32_t now_ms) {
+    if (!has_words_ || words != words_) {
+      words_ = words;
+      changed_ms_ = now_ms;
+      has_words_ = true;
+      is_frozen_ = false;
+    } else if (detail::elapsed_ms(now_ms, changed_ms_) > kFrozen_ms) {
+      is_frozen_ = true;
+    }
+  }
+  bool is_frozen() const { return is_frozen_; }
+
+ private:
+  uint32_t words_ = 0;
+  uint32_t changed_ms_ = 0;
+  bool has_words_ = false;
+  bool is_frozen_ = false;
+};
+
+/// Zero-rate offset of a gyroscope, from one second at rest, tried again until it is at rest.
+class GyroCalibration {
+ public:
+  /// Words of one sample time, at rest or not; `heading_rad` is the compass's, valid with
+  /// `has_heading`.
+  void take(int16_t word, float rate_per_word, bool has_heading, float heading_rad) {
+    if (is_done_) return;
+    if (count_ == 0) start(word);
+    if (word < least_) least_ = word;
+    if (word > most_) most_ = word;
+    sum_ += word;
+    ++count_;
+    if (has_heading) take_heading(heading_rad);
+    if (count_ < kSamples) return;
+    bias_radps_ = static_cast<float>(sum_) * rate_per_word / static_cast<float>(kSamples);
+    const float spread_radps =
+        static_cast<float>(static_cast<int32_t>(most_) - least_) * rate_per_word;
+    count_ = 0;
+    is_done_ = spread_radps < kSpreadMax_radps && detail::size_of(bias_radps_) < kBiasMax_radps &&
+               detail::size_of(turned_rad_) < kTurnMax_rad;
+  }
+  bool is_done() const { return is_done_; }
+  float bias_radps() const { return bias_radps_; }
+
+ private:
+  static constexpr uint8_t kSamples = 100;
+  /// Six times the peak-to-peak noise of an MPU9250 behind its 41 Hz filter.
+  static constexpr float kSpreadMax_radps = 0.05F;
+  /// The data sheet's zero-rate offset is 5 deg/s.
+  static constexpr float kBiasMax_radps = 0.09F;
+  /// Between the compass's first and last reading, rad: 3.4 deg, of which 1.4 deg may be noise.
+  static constexpr float kTurnMax_rad = 0.06F;
+
+  int32_t sum_ = 0;
+  int16_t least_ = 0;
+  int16_t most_ = 0;
+  uint8_t count_ = 0;
+  bool is_done_ = false;
+  float bias_radps_ = 0.0F;
+  float first_rad_ = 0.0F;
+  float turned_rad_ = 0.0F;  // by the compass since its first reading
+  bool has_first_ = false;
+
+  void start(int16_t word) {
+    sum_ = 0;
+    least_ = most_ = word;
+    turned_rad_ = 0.0F;
+    has_first_ = false;
+  }
+  void take_heading(float heading_rad) {
+    if (!has_first_) first_rad_ = heading_rad;
+    has_first_ = true;
+    turned_rad_ = float_math::wrapped(heading_rad - first_rad_);
+  }
+};
+
+/// Compass against gyroscope. The heading is the integral of the gyroscope, led by the compass with
+/// the time constant T; its innovation e = wrap(compass - heading) is T times the rate by which the
+/// two differ.
+class StepCheck {
+ public:
+  /// One innovation, `dt_s` after the last.
+  void take(float innovation_rad, float dt_s) {
+    slow_rad_ += dt_s * kSlow_per_s * (innovation_rad - slow_rad_);
+    const float slow_rad = detail::size_of(slow_rad_);
+    jumped_s_ = detail::size_of(innovation_rad) > kJump_rad ? jumped_s_ + dt_s : 0.0F;
+    if (jumped_s_ > kJump_s || slow_rad > kSlowMax_rad) is_apart_ = true;
+    if (jumped_s_ == 0.0F && slow_rad < 0.5F * kSlowMax_rad) is_apart_ = false;
+  }
+  bool is_apart() const { return is_apart_; }
+
+ private:
+  /// A jump of the compass, or a gyroscope with a wrong scale in a turn: 20 deg for 0.2 s.
+  static constexpr float kJump_rad = 0.35F;
+  static constexpr float kJump_s = 0.2F;
+  /// A compass that stands still, or a gyroscope that drifts: 6 deg, with T = 2 s 3 deg/s, as a mean
+  /// over 5 s.
+  static constexpr float kSlow_per_s = 0.2F;
+  static constexpr float kSlowMax_rad = 0.105F;
+
+  float slow_rad_ = 0.0F;
+  float jumped_s_ = 0.0F;
+  bool is_apart_ = false;
+};
+
+/// Compass and gyroscope together.
+class HeadingCheck {
+ public:
+  GyroCalibration calibration;
+  StepCheck step;
+
+  void begin(uint32_t now_ms) {
+    gyro_ms_ = now_ms;
+    field_ms_ = now_ms;
+  }
+  /// A word that the gyroscope gave.
+  void take_gyro(int16_t word, uint32_t now_ms) {
+    gyro_ms_ = now_ms;
+    gyro_.take(static_cast<uint16_t>(word), now_ms);
+  }
+  /// Result of reading the range register back: true if it still holds the range that was set.
+  void take_range(bool is_right) { is_range_wrong_ = !is_right; }
+  /// A new field that the compass gave, as its three raw words.
+  void take_field(int16_t x, int16_t y, int16_t z, uint32_t now_ms) {
+    field_ms_ = now_ms;
+    // One word of 32 bits in place of three of 16: what changes one of them changes it, but for
+    // pairs of changes that cancel out, which are not all of those within half a second.
+    const uint32_t low = static_cast<uint16_t>(x);
+    const uint32_t high = static_cast<uint16_t>(y);
+    field_.take(
+        (low | high << 16U) ^ static_cast<uint32_t>(static_cast<uint16_t>(z)) * 0x9E3779B1UL,
+        now_ms);
+  }
+  SensorFault fault(uint32_t now_ms) const {
+    if (detail::elapsed_ms(now_ms, gyro_ms_) > kGyroSilent_ms) return kGyroSilent;
+    if (is_range_wrong_) return kGyroRange;
+    if (gyro_.is_frozen()) return kGyroFrozen;
+    if (!calibration.is_done()) return kGyroNotCalibrated;
+    if (detail::elapsed_ms(now_ms, field_ms_) > kCompassSilent_ms) return kCompassSilent;
+    if (field_.is_frozen()) return kCompassFrozen;
+    if (step.is_apart()) return kHeadingOutOfStep;
+    return kSensorGood;
+  }
+
+ private:
+  static constexpr uint32_t kGyroSilent_ms = 100;
+  FrozenCheck gyro_;
+  FrozenCheck field_;
+  uint32_t gyro_ms_ = 0;
+  uint32_t field_ms_ = 0;
+  bool is_range_wrong_ = false;
+};
+
+}  // namespace awmr

@@ -1,0 +1,154 @@
+// A drive with failures, step by step: sensor checks, commands, arming and the whole step of the autopilot, from drawn
+// raw readings. The chip and the host run it, and have to give the same bits: safety_chip_test.cpp.
+#pragma once
+
+#include "awmr.h"
+#include "awmr/control/arming.h"
+#include "awmr/control/command_line.h"
+#include "awmr/control/gps_check.h"
+#include "awmr/control/heading_check.h"
+
+namespace safety_sequence {
+
+const uint16_t kSteps = 1600;
+
+struct Sequence {
+  awmr::HeadingCheck heading;
+  awmr::GpsLine line;
+  awmr::GpsCheck gps;
+  awmr::CommandReader commands;
+  awmr::Arming arming;
+  awmr_input input;
+  awmr_output output;
+  uint32_t seed, now_ms, utc_ms, hash;
+  int16_t word;
+  int16_t field[3];
+  char sentence[96];   // empty: none came
+  uint8_t causes[15];  // steps with each sensor fault, at most 255
+  uint8_t disarmed;    // how often
+};
+
+inline uint32_t draw(Sequence& s) {
+  s.seed = s.seed * 1664525UL + 1013904223UL;
+  return s.seed >> 16;
+}
+inline void put(Sequence& s, float value) { s.hash = (s.hash ^ awmr::bits_of(value)) * 16777619UL; }
+
+inline void begin(Sequence& s) {
+  s = Sequence();
+  s.seed = 1;
+  s.hash = 2166136261UL;
+  s.now_ms = 0xFFFFE000UL;  // the clock wraps within the drive
+  s.utc_ms = 43200000UL;
+  s.heading.begin(s.now_ms);
+  s.gps.begin(AWMR_SPEED_MAX_MPS, AWMR_SPEED_TIMEOUT_MS, s.now_ms);
+  s.input.mode = AWMR_COMBINED;
+  s.input.speed_unsigned = 1;
+}
+
+// One in four of the blocks of 200 steps has a failure of its own.
+inline bool fails(uint16_t step, uint8_t which) {
+  return step >= 400 && step % 200 < 120 && step / 200 == static_cast<uint16_t>(which + 2);
+}
+
+inline void sense(Sequence& s, uint16_t step) {
+  s.heading.take_gyro(s.word, s.now_ms);
+  s.heading.take_range(!fails(step, 1));
+  s.heading.calibration.take(s.word, 2.6e-4F, true, 0.0F);
+  if (!fails(step, 2)) {
+    s.heading.take_field(s.field[0], s.field[1], s.field[2], s.now_ms);
+  }
+  s.heading.step.take(fails(step, 3) && step % 200 < 30 ? 0.5F : 0.01F, 0.01F);
+}
+
+// A sentence, its check sum written behind it.
+inline void say_fix(Sequence& s, uint16_t step) {
+  const char* pattern = "$GPRMC,120000.00,A,4806.0000000,N,01130.0000000,E,1.900,,230394,,,A*";
+  char* text = s.sentence;
+  for (uint8_t i = 0; pattern[i] != '\0'; ++i) text[i] = pattern[i];
+  const uint32_t ticks = s.utc_ms / 10 % 6000;
+  text[11] = static_cast<char>('0' + ticks / 1000);
+  text[12] = static_cast<char>('0' + ticks / 100 % 10);
+  text[14] = static_cast<char>('0' + ticks / 10 % 10);
+  const uint32_t place =
+      static_cast<uint32_t>(step) * 55 + draw(s) % 100 + (fails(step, 4) ? 200000 : 0);
+  uint32_t rest = place;
+  for (uint8_t i = 30; i > 23; --i, rest /= 10) text[i] = static_cast<char>('0' + rest % 10);
+  uint8_t sum = 0;
+  uint8_t end = 1;
+  for (; text[end] != '*'; ++end) sum = static_cast<uint8_t>(sum ^ static_cast<uint8_t>(text[end]));
+  const char* digits = "0123456789ABCDEF";
+  text[++end] = digits[sum >> 4];
+  text[++end] = digits[sum & 15];
+  text[++end] = '\n';
+  text[++end] = '\0';
+}
+
+// What the sensors give at this step.
+inline void prepare(Sequence& s, uint16_t step) {
+  if (!fails(step, 0)) s.word = static_cast<int16_t>(static_cast<int16_t>(draw(s) % 21) - 10);
+  for (uint8_t i = 0; i < 3; ++i) s.field[i] = static_cast<int16_t>(i * 100 + draw(s) % 9);
+  s.sentence[0] = '\0';
+  if (step % 20 != 0) return;
+  if (!fails(step, 5)) s.utc_ms = 43200000UL + 10UL * step;  // else the same UTC again
+  say_fix(s, step);
+}
+
+inline void read_gps(Sequence& s) {
+  for (const char* c = s.sentence; *c != '\0'; ++c) {
+    if (!s.line.take(*c)) continue;
+    awmr::GpsFix fix;
+    const awmr::GpsSentence kind = awmr::read_rmc(s.line.text(), fix);
+    if (kind != awmr::GpsSentence::kFix) {
+      s.gps.take_unusable(kind, s.now_ms);
+      continue;
+    }
+    const float x_m = static_cast<float>(fix.lat_e7 - 481000000L) * 0.0111319491F;
+    const awmr::GpsContext at = {0.0F, 1, s.arming.is_armed()};
+    if (!s.gps.take_fix(fix, x_m, 0.0F, s.now_ms, at)) continue;
+    s.input.x_m = x_m;
+    s.input.u_mps = fix.speed_mps;
+    s.input.speed_ms = s.now_ms;
+  }
+}
+
+inline void listen(Sequence& s, uint16_t step) {
+  const char* text = step % 200 == 150   ? "ARM\n"
+                     : step % 20 == 0    ? "KEEP\n"
+                     : step % 200 == 199 ? "....S 1\n"
+                                         : "";
+  for (const char* c = text; *c != '\0'; ++c) {
+    if (s.commands.take(*c) != awmr::CommandVerdict::kTaken) continue;
+    s.input.command_ms = s.now_ms;
+    if (s.commands.word == awmr::CommandWord::kArm) s.arming.arm(s.output.fault, 0);
+  }
+}
+
+inline void step(Sequence& s, uint16_t number) {
+  s.now_ms += 10;
+  read_gps(s);
+  sense(s, number);
+  listen(s, number);
+  awmr::SensorFault cause = s.heading.fault(s.now_ms);
+  if (cause == awmr::kSensorGood) {
+    s.input.heading_ms = s.now_ms;
+    cause = s.gps.fault(s.now_ms);
+  }
+  s.input.now_ms = s.now_ms;
+  s.input.r_radps = 2.6e-4F * static_cast<float>(s.word);
+  s.input.u_ref_mps = s.arming.is_armed() ? 1.0F : 0.0F;
+  if (!s.arming.is_armed()) s.input.command_ms = s.now_ms - AWMR_COMMAND_TIMEOUT_MS - 1;
+}
+
+inline void finish(Sequence& s) {
+  awmr::SensorFault cause = s.heading.fault(s.now_ms);
+  if (cause == awmr::kSensorGood) cause = s.gps.fault(s.now_ms);
+  if (s.causes[cause] < 255) ++s.causes[cause];
+  if (s.arming.observe(s.output.fault, cause)) ++s.disarmed;
+  put(s, s.output.force_left);
+  put(s, s.output.force_right);
+  put(s, s.output.steering_rad);
+  put(s, static_cast<float>(s.output.fault * 16 + cause));
+}
+
+}  // namespace safety_sequence
