@@ -9,7 +9,7 @@ target_compile_options(awmr_warnings INTERFACE
 # includes what it uses is checked where precompiled headers are off: scripts/tidy, preset `tidy`.
 set(AWMR_COMMON_HEADERS <algorithm> <array> <cmath> <cstddef> <cstdint> <filesystem> <functional> <limits> <map>
   <memory> <optional> <set> <span> <string> <string_view> <utility> <variant> <vector>
-  <fmt/format.h> <tl/expected.hpp>)
+  <Eigen/Core> <fmt/format.h> <nlohmann/json.hpp> <tl/expected.hpp>)
 
 # awmr_library(NAME HEADERS file... [SOURCES file...] [PUBLIC target...] [PRIVATE target...])
 # The library of one folder, `awmr_NAME` with the alias `awmr::NAME`; header-only without SOURCES.

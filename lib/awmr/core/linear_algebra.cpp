@@ -58,8 +58,14 @@ MatrixXd PivotedQr::permutation() const { return qr_.colsPermutation(); }
 MatrixXd PivotedQr::inverse_information() const {
   const Eigen::Index p = qr_.cols();
   const MatrixXd r_inverse = r().triangularView<Eigen::Upper>().solve(MatrixXd::Identity(p, p));
-  const MatrixXd pi = permutation();
-  return pi * r_inverse * r_inverse.transpose() * pi.transpose();
+  const MatrixXd pivoted = r_inverse * r_inverse.transpose();
+  // Pi M Pi^T: element (i, j) of M becomes that of the columns which the pivots i and j are.
+  const Eigen::VectorXi& pivot = qr_.colsPermutation().indices();
+  MatrixXd information(p, p);
+  for (Eigen::Index i = 0; i < p; ++i) {
+    for (Eigen::Index j = 0; j < p; ++j) information(pivot(i), pivot(j)) = pivoted(i, j);
+  }
+  return information;
 }
 
 MatrixXd PivotedQr::inverse_information_by_pseudo_inverse() const {
