@@ -107,14 +107,9 @@ std::vector<Finding> unstable_gains(const Gains<double>& gains, double sample_ti
 /// Errors (input): sizes that cannot be, each by its place in the model's file.
 Status check_vehicle(const EmitCommand& command, const Vehicle& vehicle) {
   if (command.as_is) return {};
-  std::vector<Fault> faults;
-  for (const Implausible& one : implausible_values(vehicle)) {
-    faults.push_back({command.model.string() + ":/vehicle" + one.pointer,
-                      one.message + ". Correct vehicle.json and identify again, or give " +
-                          option_text("as-is")});
-  }
-  if (!faults.empty()) return input_errors(std::move(faults));
-  return {};
+  return check_plausible(
+      vehicle, command.model.string() + ":/vehicle",
+      "Correct vehicle.json and identify again, or give " + option_text("as-is"));
 }
 
 /// How well the tables of resistance hold; nothing where powf is called instead.

@@ -5,7 +5,9 @@
 #include <utility>
 
 #include "awmr/core/file.h"
+#include "awmr/core/option_text.h"
 #include "awmr/model/model_file.h"
+#include "awmr/model/plausibility.h"
 #include "awmr/model/vehicle_file.h"
 #include "awmr/trials/load.h"
 #include "commands.h"
@@ -34,15 +36,7 @@ Result<Provenance> provenance_of(const IdentifyCommand& command) {
   return provenance;
 }
 
-/// 40 s, and 20 ms for every second of log, twenty times what a log takes that the model describes.
-double time_limit_s(const std::vector<DrivingLog>& logs) {
-  double limit_s = 40.0;
-  for (const DrivingLog& log : logs) limit_s += 0.02 * (log.t_s.back() - log.t_s.front());
-  return limit_s;
-}
-
 Result<Identification> identify_with_progress(const Trials& trials, IdentifyOptions options) {
-  if (!(options.time_limit_s > 0.0)) options.time_limit_s = time_limit_s(trials.data.logs);
   Working working("fitting the tables", trials.data.logs.empty() ? 0.0 : options.time_limit_s);
   options.doing = [&](std::string_view what) { working.doing(what); };
   return identify(trials, options);
@@ -96,6 +90,10 @@ Result<Outcome> execute(const IdentifyCommand& command) {
   }
   AWMR_RETURN_IF_ERROR(check_output(command.output, inputs_of(command)));
   AWMR_ASSIGN_OR_RETURN(Vehicle vehicle, read_vehicle(command.vehicle));
+  if (!command.trials.as_is) {
+    AWMR_RETURN_IF_ERROR(check_plausible(vehicle, command.vehicle.string() + ":",
+                                         "Correct it, or give " + option_text("as-is")));
+  }
   AWMR_ASSIGN_OR_RETURN(const Trials trials,
                         load_trials({.vehicle = std::move(vehicle),
                                      .surge = command.surge,

@@ -9,7 +9,9 @@
 
 #include "awmr/core/file.h"
 #include "awmr/core/name_table.h"
+#include "awmr/core/option_text.h"
 #include "awmr/model/model_file.h"
+#include "awmr/model/plausibility.h"
 #include "awmr/model/vehicle_file.h"
 #include "awmr/trials/trial_columns.h"
 #include "commands.h"
@@ -174,6 +176,10 @@ Result<Outcome> execute(const LiveCommand& asked) {
   AWMR_RETURN_IF_ERROR(check_output(record, inputs_of(command)));
   command.identify.logs = {record};
   AWMR_ASSIGN_OR_RETURN(Vehicle vehicle, read_vehicle(command.identify.vehicle));
+  if (!command.identify.trials.as_is) {
+    AWMR_RETURN_IF_ERROR(check_plausible(vehicle, command.identify.vehicle.string() + ":",
+                                         "Correct it, or give " + option_text("as-is")));
+  }
   AWMR_ASSIGN_OR_RETURN(const TrialOptions options,
                         with_vehicle_columns(command.identify.trials, vehicle));
   AWMR_ASSIGN_OR_RETURN(OpenStream source, open_stream(command.source));

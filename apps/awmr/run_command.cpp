@@ -151,11 +151,10 @@ Result<std::vector<fs::path>> checked_inputs(const RunCommand& command, const Pr
   const auto trials = read_trials(project);
   add_faults(trials, faults);
   if (trials && !project.trials.as_is) {
-    for (const Implausible& one : implausible_values(trials->vehicle)) {
-      faults.push_back({project.vehicle.string() + ":" + one.pointer,
-                        one.message + ". Correct it, or give \"as_is\": true under identify in " +
-                            command.project.filename().string()});
-    }
+    add_faults(check_plausible(trials->vehicle, project.vehicle.string() + ":",
+                               "Correct it, or give \"as_is\": true under identify in " +
+                                   command.project.filename().string()),
+               faults);
   }
   if (project.tune) {
     auto read = read_tune_config(*project.tune);

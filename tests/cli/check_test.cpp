@@ -174,14 +174,17 @@ TEST_F(Check, NumbersBeyondEveryVehicleAreBadInputWithTheLikelyUnit) {
               HasSubstr("looks like ms: 0.02"));
 }
 
-TEST_F(Check, IdentifyWarnsOfWhatCannotBe) {
-  write_all(path("odd.json"), "");
+TEST_F(Check, IdentifyRefusesWhatCannotBeUnlessItIsTakenAsItIs) {
   nlohmann::ordered_json vehicle = read("vehicle.json");
   vehicle["half_track_m"] = 0.17;
   write("odd.json", vehicle);
-  const ProcessResult result =
-      awmr("identify --vehicle " + path("odd.json").string() + " --surge " +
-           path("surge.csv").string() + " -o " + path("m.json").string());
+  const std::string identify = "identify --vehicle " + path("odd.json").string() + " --surge " +
+                               path("surge.csv").string() + " -o " + path("m.json").string();
+  const ProcessResult refused = awmr(identify);
+  EXPECT_EQ(refused.exit_code, 2) << refused.err;
+  EXPECT_THAT(refused.err, HasSubstr("odd.json:/half_track_m"));
+  EXPECT_FALSE(std::filesystem::exists(path("m.json")));
+  const ProcessResult result = awmr(identify + " --as-is");
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.err, AllOf(HasSubstr("warning: "), HasSubstr("[implausible-vehicle]")));
 }

@@ -188,6 +188,16 @@ std::vector<Implausible> implausible_values(const Vehicle& vehicle) {
   return found;
 }
 
+Status check_plausible(const Vehicle& vehicle, const std::string& place,
+                       const std::string& remedy) {
+  std::vector<Fault> faults;
+  for (const Implausible& one : implausible_values(vehicle)) {
+    faults.push_back({place + one.pointer, one.message + ". " + remedy});
+  }
+  if (!faults.empty()) return input_errors(std::move(faults));
+  return {};
+}
+
 std::vector<Finding> plausibility_findings(const Vehicle& vehicle, Severity severity,
                                            const std::string& file) {
   std::vector<Finding> findings;

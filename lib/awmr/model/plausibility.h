@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "awmr/core/result.h"
 #include "awmr/model/record.h"
 #include "awmr/model/vehicle.h"
 
@@ -28,6 +29,10 @@ struct Implausible {
 /// In the order of the table above. Where a size or the mass is in another unit, what is left is held
 /// against the value that it would be. Empty for any vehicle that can be built.
 std::vector<Implausible> implausible_values(const Vehicle& vehicle);
+
+/// Errors (input): every implausible value, each by its place, `place` followed by its pointer.
+/// `remedy`: what to do about it, a clause.
+Status check_plausible(const Vehicle& vehicle, const std::string& place, const std::string& remedy);
 
 /// The same as findings (`implausible-vehicle`), of a file or, where `file` is empty, of none.
 std::vector<Finding> plausibility_findings(const Vehicle& vehicle, Severity severity,
