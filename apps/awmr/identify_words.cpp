@@ -69,8 +69,8 @@ void add_log_options(CLI::App& sub, IdentifyCommand& command) {
       ->check(within(0, 1000000));
   sub.add_option("--time-limit", command.identify.time_limit_s,
                  "Seconds after which the searches in logs stop; what has not converged by then is "
-                 "refused, and families that were not tried are told (default: 40 s, and 20 ms "
-                 "for every second of log)")
+                 "refused, and where families were not compared the intervals are withdrawn; the "
+                 "result then depends on the machine (default: none)")
       ->check(within(0.1, 1e6));
   sub.add_flag("--cross-validate", command.identify.cross_validate,
                "Leave each log out once and predict it from the others");

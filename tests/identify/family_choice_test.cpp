@@ -5,8 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
+#include <random>
 
 #include "awmr/core/index.h"
+#include "awmr/identify/logs/family_score.h"
 #include "awmr/identify/logs/initial_guess.h"
 #include "awmr/identify/logs/log_problem.h"
 #include "awmr/identify/logs/multistart.h"
@@ -66,7 +69,7 @@ TEST(Families, AreFittedWithoutATermThatTheFamilyBeforeThemHad) {
     const FamilyFit fit = fit_from(logs, options, rubbing, other, Family::kPower);
     EXPECT_EQ(fitted_values(fit.options, fit.fit)[at(ParameterId::kSurgeCoulomb)], 0.0)
         << "held at the other family's, it is in the fit and not in the model";
-    EXPECT_GT(fit.fit.aic, rubbing.fit.aic + 10.0);
+    EXPECT_GT(aic_lead(rubbing.fit, fit.fit), 10.0);
   }
 }
 
@@ -79,7 +82,7 @@ TEST(Families, AFitWithBadLuckIsSearchedAgainFromTheRivalThatIsAhead) {
   const FamilyFit again = searched_again(logs, options, unlucky, rival);
   ASSERT_TRUE(again.fit.usable);
   EXPECT_EQ(again.surge, Family::kPower);
-  EXPECT_LT(again.fit.aic, rival.fit.aic + 10.0);
+  EXPECT_LT(aic_lead(rival.fit, again.fit), 10.0);
   const FamilyFit kept = searched_again(logs, options, again, unlucky);
   EXPECT_EQ(kept.fit.coordinates, again.fit.coordinates) << "a rival without a fit is no rival";
 }
@@ -92,6 +95,37 @@ TEST(Families, AreComparedAtTheirOwnOptimaWhateverTheFirstSearchFound) {
   EXPECT_TRUE(found.best.fit.usable);
   EXPECT_EQ(found.best.surge, Family::kPower);
   EXPECT_TRUE(found.findings.empty()) << found.findings.front().message;
+}
+
+/// A fit with these errors of the speed at 100 Hz and the noise that they are likeliest with.
+LogFit fit_with_errors(const std::vector<double>& errors) {
+  ErrorSeries series{errors, std::vector<double>(errors.size(), 0.01)};
+  series.since_s.front() = 0.0;
+  LogFit fit;
+  fit.errors[LogChannel::kSpeed] = {series};
+  fit.noise[LogChannel::kSpeed] =
+      likeliest_noise(fit.errors[LogChannel::kSpeed], 1.0, {.sensor_std = 1e-4});
+  fit.usable = true;
+  return fit;
+}
+
+TEST(Families, AreComparedUnderTheNoiseOfTheSmallerErrors) {
+  std::mt19937 random(3);
+  std::normal_distribution<double> white;
+  std::vector<double> small, smooth;
+  for (int k = 0; k < 6000; ++k) {
+    small.push_back(3e-3 * white(random));
+    smooth.push_back(0.2 * std::sin(0.01 * k));
+  }
+  const LogFit right = fit_with_errors(small), wrong = fit_with_errors(smooth);
+  EXPECT_TRUE(wrong.noise.at(LogChannel::kSpeed).overwhelms_sensor());
+  EXPECT_LT(wrong.noise.at(LogChannel::kSpeed).cost, right.noise.at(LogChannel::kSpeed).cost)
+      << "each under its own noise, the wrong one would be taken";
+  EXPECT_GT(aic_lead(right, wrong), 1e4);
+  EXPECT_EQ(aic_lead(right, wrong), -aic_lead(wrong, right));
+  LogFit none;
+  EXPECT_EQ(aic_lead(right, none), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(aic_lead(none, none), 0.0);
 }
 
 TEST(Windows, InPartsHoldEverySampleOnce) {

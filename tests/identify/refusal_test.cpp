@@ -71,10 +71,14 @@ TEST(Refusal, TwoRowsGiveValuesWithoutAnError) {
 TEST(Refusal, AnExponentOfOneOrMoreMakesAStopTimeWorthless) {
   TrialData data = synthetic({1.0, 1.3, 0.3, 0.8, 0.1}, 0.0, 1);
   data.coastdown->rows = {{2, 1.0, 0.5}};
-  const auto result = identify(vehicle(), data, {}, {});
-  ASSERT_TRUE(result);
-  EXPECT_THAT(result->refused, ElementsAre(ParameterId::kMassNorm, ParameterId::kInertiaNorm));
-  EXPECT_TRUE(has_finding(result->model, "exponent-at-bound"));
+  for (const double most : {1.0, 2.5}) {
+    Vehicle bounded = vehicle();
+    bounded.surge_beta_range.hi = most;
+    const auto result = identify(bounded, data, {}, {});
+    ASSERT_TRUE(result);
+    EXPECT_THAT(result->refused, ElementsAre(ParameterId::kMassNorm, ParameterId::kInertiaNorm));
+    EXPECT_EQ(has_finding(result->model, "exponent-at-bound"), most == 1.0);
+  }
 }
 
 TEST(Refusal, TimeNoiseWithoutTimesIsRefused) {

@@ -90,14 +90,15 @@ TEST(VehicleFile, TakesTheBoxFormulaWhereNoInertiaIsGiven) {
 
 TEST(VehicleFile, HasTheContractsDefaultsForWhatIsOptional) {
   Json json = Json::parse(paper_text());
-  for (const char* key : {"schema", "yaw_inertia_kgm2", "sway_alpha"}) json.erase(key);
+  for (const char* key : {"schema", "yaw_inertia_kgm2", "sway_alpha", "surge_beta_range"})
+    json.erase(key);
   const ScratchFile file("vehicle.json", json.dump());
   const auto vehicle = read_vehicle(file.path());
   ASSERT_TRUE(vehicle) << to_text(vehicle.error());
   EXPECT_FALSE(vehicle->yaw_inertia_kgm2);
   EXPECT_FALSE(vehicle->sway_alpha);
   EXPECT_EQ(vehicle->surge_beta_range.lo, 0.0);
-  EXPECT_EQ(vehicle->surge_beta_range.hi, 1.0);
+  EXPECT_EQ(vehicle->surge_beta_range.hi, 2.5);
   EXPECT_EQ(vehicle->yaw_beta_range.lo, 0.0);
   EXPECT_EQ(vehicle->yaw_beta_range.hi, 4.0);
 }

@@ -54,7 +54,7 @@ struct Vehicle {
   double sample_time_s = 0.0;              ///< T_s, s, > 0: between two steps of the controller
   std::optional<double> yaw_inertia_kgm2;  ///< Iz, kg m^2, > 0, measured; absent: the box formula
   std::optional<double> sway_alpha;        ///< a_s of g2, s/m, > 0; absent: a log has to show it
-  Interval surge_beta_range{0.0, 1.0};     ///< where a fit may put b1, 0 <= lo < hi
+  Interval surge_beta_range{0.0, 2.5};     ///< where a fit may put b1, 0 <= lo < hi
   Interval yaw_beta_range{0.0, 4.0};       ///< where a fit may put b3, 0 <= lo < hi
 
   /// How the simulated controller turns generalised forces into commands; the chip's is exact.

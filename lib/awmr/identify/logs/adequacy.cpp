@@ -5,19 +5,40 @@
 #include <utility>
 
 #include "awmr/core/option_text.h"
+#include "awmr/identify/logs/family_score.h"
 
 namespace awmr {
 namespace {
 
 /// Adds what the other families of surge resistance make of the logs; returns the advice, if any.
-std::optional<std::string> try_rivals(BestFamily rivals, double aic, Adequacy& adequacy) {
-  for (EstimatorReport& report : rivals.others) adequacy.rivals.push_back(std::move(report));
+std::optional<std::string> try_rivals(BestFamily rivals, const FamilyFit& chosen,
+                                      Adequacy& adequacy) {
+  for (EstimatorReport& report : reports_of(rivals.others, chosen)) {
+    adequacy.rivals.push_back(std::move(report));
+  }
   for (Finding& finding : rivals.findings) adequacy.findings.push_back(std::move(finding));
   if (rivals.best.surge == Family::kPower) return std::nullopt;
   adequacy.rivals.push_back(rivals.best.fit.report);
   return fmt::format("a power law does not describe these logs; {} does better by {:.0f} of AIC",
                      option_text(fmt::format("family surge={}", name_of(rivals.best.surge))),
-                     aic - rivals.best.fit.aic);
+                     aic_lead(rivals.best.fit, chosen.fit));
+}
+
+/// True for channels that show the model's errors: those of speed and of yaw rate, or where there are
+/// none, of what they add up to. A compass and a GPS wander by themselves.
+bool judges_model(const NoiseLevels& noise, LogChannel channel) {
+  switch (channel) {
+    case LogChannel::kSpeed:
+    case LogChannel::kYawRate:
+      return true;
+    case LogChannel::kHeading:
+      return !noise.contains(LogChannel::kYawRate);
+    case LogChannel::kX:
+    case LogChannel::kY:
+      return !noise.contains(LogChannel::kSpeed);
+    default:
+      return false;
+  }
 }
 
 }  // namespace
@@ -48,17 +69,21 @@ Adequacy judge_adequacy(const std::vector<DrivingLog>& logs, const LogFitOptions
         "tyres "
         "that give way), or the sensor wanders";
     if (channel == LogChannel::kSpeed && try_families) {
-      advice = try_rivals(best_family(logs, power_law, chosen, {.only_suspects = false}),
-                          chosen.fit.aic, adequacy)
+      advice = try_rivals(best_family(logs, power_law, chosen, {.only_suspects = false}), chosen,
+                          adequacy)
                    .value_or(advice);
     }
+    const bool withdraws = noise.overwhelms_sensor() && judges_model(chosen.fit.noise, channel);
+    adequacy.withdraws_intervals |= withdraws;
     adequacy.findings.push_back(
         {logs.front().file, 0, Severity::kWarning, "model-inadequate",
          fmt::format("the model misses {} by {:.3g} {} over {:.2g} s at a time, where the sensor's "
-                     "own noise is {:.2g}: {}. The intervals hold for the model as it is, not for "
-                     "the vehicle",
+                     "own noise is {:.2g}: {}. {}",
                      info(channel).name, noise.drift_std, info(channel).unit, noise.correlation_s,
-                     noise.sensor_std, advice)});
+                     noise.sensor_std, advice,
+                     withdraws
+                         ? "The intervals are withdrawn"
+                         : "The intervals hold for the model as it is, not for the vehicle")});
   }
   return adequacy;
 }

@@ -14,6 +14,7 @@ std::vector<Finding> autocorrelation_findings(const LogFit& fit, const std::stri
 struct Adequacy {
   std::vector<EstimatorReport> rivals;  ///< other families, where they were tried
   std::vector<Finding> findings;
+  bool withdraws_intervals = false;  ///< no interval of this model holds for the vehicle
 };
 
 /// `model-inadequate` for every channel whose errors are the model's own, not the sensor's. Where

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "awmr/core/index.h"
+#include "awmr/identify/logs/family_score.h"
 #include "awmr/identify/uncertainty/akaike.h"
 
 namespace awmr {
@@ -77,7 +78,7 @@ bool shows_back_emf(const FamilyFit& with, const FamilyFit& without) {
     const bool is_open = !with.fit.why_not[i].empty();
     if (with.fit.quantities[i].is(ParameterId::kBackEmf) && is_open) return false;
   }
-  return !without.fit.usable || with.fit.aic < without.fit.aic - kPlainlyBetter;
+  return aic_lead(with.fit, without.fit) > kPlainlyBetter;
 }
 
 Finding back_emf_finding(const std::string& file, const FamilyFit& with, const FamilyFit& without) {
@@ -90,7 +91,7 @@ Finding back_emf_finding(const std::string& file, const FamilyFit& with, const F
                       "resistance is what coasting shows",
                       k, std_error,
                       without.fit.usable ? fmt::format("is better by {:.0f} of AIC",
-                                                       without.fit.aic - with.fit.aic)
+                                                       aic_lead(with.fit, without.fit))
                                          : "converges, as it does not without")};
 }
 

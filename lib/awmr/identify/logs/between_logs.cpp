@@ -1,5 +1,7 @@
 #include "awmr/identify/logs/between_logs.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -79,13 +81,55 @@ void widen(std::size_t i, double by, std::size_t logs, LogFit& fit) {
   parameter.ci95 = Interval{q.value(x - half), q.value(x + half)};
 }
 
+template <class T>
+std::vector<T> part_of(const std::vector<T>& all, std::size_t first, std::size_t last) {
+  return {all.begin() + static_cast<std::ptrdiff_t>(first),
+          all.begin() + static_cast<std::ptrdiff_t>(last)};
+}
+
+/// Rows [first, last) of a log under a name of their own.
+DrivingLog rows_between(const DrivingLog& log, std::size_t first, std::size_t last,
+                        const std::string& which) {
+  DrivingLog part = log;
+  part.file = fmt::format("the {} of {}", which, log.file);
+  part.line = part_of(log.line, first, last);
+  part.t_s = part_of(log.t_s, first, last);
+  part.force_left = part_of(log.force_left, first, last);
+  part.force_right = part_of(log.force_right, first, last);
+  if (part.steering_command_rad) {
+    part.steering_command_rad = part_of(*log.steering_command_rad, first, last);
+  }
+  for (std::optional<Measured>& measured : part.measured) {
+    if (!measured) continue;
+    measured->value = part_of(std::vector<double>(measured->value), first, last);
+    measured->fresh = part_of(std::vector<bool>(measured->fresh), first, last);
+    measured->fresh_count =
+        static_cast<int>(std::count(measured->fresh.begin(), measured->fresh.end(), true));
+  }
+  return part;
+}
+
+/// The logs, or the halves of a single one that is long enough for each to show something.
+std::vector<DrivingLog> parts_to_compare(const std::vector<DrivingLog>& logs) {
+  constexpr double kLongEnough_s = 20.0;
+  if (logs.size() > 1) return logs;
+  const DrivingLog& log = logs.front();
+  const double duration_s = log.t_s.back() - log.t_s.front();
+  if (duration_s < kLongEnough_s) return {};
+  const auto middle = std::ranges::lower_bound(log.t_s, log.t_s.front() + 0.5 * duration_s);
+  const auto half = static_cast<std::size_t>(middle - log.t_s.begin());
+  return {rows_between(log, 0, half, "first half"),
+          rows_between(log, half, log.rows(), "second half")};
+}
+
 }  // namespace
 
-std::vector<LogDisagreement> hold_against_each_other(const std::vector<DrivingLog>& logs,
+std::vector<LogDisagreement> hold_against_each_other(const std::vector<DrivingLog>& all,
                                                      FamilyFit& common) {
   constexpr double kLevel = 0.001;
   std::vector<LogDisagreement> disagreements;
-  if (logs.size() < 2 || !common.fit.usable) return disagreements;
+  if (!common.fit.usable) return disagreements;
+  const std::vector<DrivingLog> logs = parts_to_compare(all);
   LogFitOptions options = from_optimum(common.options, common);
   options.bootstrap = 0;
   std::vector<LogFit> fits;

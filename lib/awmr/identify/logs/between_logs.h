@@ -16,7 +16,7 @@ struct LogDisagreement {
   std::vector<double> values;      ///< by file
 };
 
-/// Fits every log on its own from the common optimum and compares: with x_l, w_l = 1/var(x_l) of the
+/// Fits every log on its own, or the halves of a single one of 20 s and more, from the common optimum and compares: with x_l, w_l = 1/var(x_l) of the
 /// coordinate of a quantity in each of L logs that show it,
 ///
 ///     Q = sum w_l (x_l - mean)^2,   chi-squared with L - 1 degrees of freedom for one vehicle,
@@ -24,7 +24,7 @@ struct LogDisagreement {
 ///
 /// Where p < 0.001 over all quantities, the standard error and the interval of the common fit are
 /// widened by tau: they then hold for the mean of vehicles like these. A bias may differ.
-std::vector<LogDisagreement> hold_against_each_other(const std::vector<DrivingLog>& logs,
+std::vector<LogDisagreement> hold_against_each_other(const std::vector<DrivingLog>& all,
                                                      FamilyFit& common);
 
 }  // namespace awmr

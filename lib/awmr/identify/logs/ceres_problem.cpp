@@ -1,6 +1,7 @@
 #include "awmr/identify/logs/ceres_problem.h"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <utility>
 
@@ -21,6 +22,19 @@ double prior_residual(const LogProblem& problem, std::size_t i, double x) {
   return (x - problem.initial[i]) / prior_std(problem, i);
 }
 
+/// Of one evaluation of every window with its derivatives.
+std::int64_t numbers_integrated(const LogProblem& problem) {
+  double steps = 0.0;
+  for (const FitWindow& window : problem.windows) {
+    const std::vector<double>& t_s = window.rows.log->t_s;
+    const double duration_s = t_s[window.rows.end - 1] - t_s[window.rows.begin];
+    steps +=
+        static_cast<double>(window.samples().size()) + duration_s / problem.model.longest_step_s;
+  }
+  const std::size_t derivatives = problem.model.quantities.size() + problem.model.initial.size();
+  return std::llround(steps * static_cast<double>(1 + derivatives));
+}
+
 /// Evaluates every window before Ceres asks for any. The point is the one that Ceres moves. A coordinate
 /// at the end of its range that the cost would push beyond it is held there, by derivatives of 0: a
 /// step that is cut at the bound would leave the others where they belong without it. Derivatives are made at once: they cost little more than the residuals, and Ceres asks for them at every point
@@ -33,6 +47,7 @@ class Evaluator : public ceres::EvaluationCallback {
   void PrepareForEvaluation(bool, bool new_point) final {
     if (!new_point && !sums_.empty()) return;
     sums_ = sums_at(problem_, point_);
+    if (problem_.effort) problem_.effort->add(numbers_integrated(problem_));
     triangles_.clear();
     for (const WindowSums& sums : sums_) {
       triangles_.push_back(sums.finite ? triangle_of(sums.products) : Triangle{});
@@ -183,14 +198,31 @@ class EndAtRoughness : public ceres::IterationCallback {
   int failures_ = 0;
 };
 
+/// Ends a search at the limit of effort. Only searches that run one after the other are ended, so that
+/// the place does not depend on the number of threads.
+class EndAtLimit : public ceres::IterationCallback {
+ public:
+  explicit EndAtLimit(const LogProblem& problem) : problem_(problem) {}
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary&) final {
+    has_ended_ = problem_.ends_at_limit && problem_.effort && problem_.effort->is_over();
+    return has_ended_ ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
+  }
+  bool has_ended() const { return has_ended_; }
+
+ private:
+  const LogProblem& problem_;
+  bool has_ended_ = false;
+};
+
 /// Why a search ended, and whether it got there.
-void tell_end(const ceres::Solver::Summary& summary, Solved& solved) {
-  const bool rough = summary.termination_type == ceres::USER_SUCCESS;
+void tell_end(const ceres::Solver::Summary& summary, bool at_limit, Solved& solved) {
+  const bool rough = summary.termination_type == ceres::USER_SUCCESS && !at_limit;
   solved.cost = summary.final_cost;
   solved.converged = rough || converged(summary);
   solved.usable = summary.IsSolutionUsable();
-  solved.stop_reason =
-      rough ? "converged: steps fail that promise less than 0.05 of -ln L" : stop_reason(summary);
+  solved.stop_reason = at_limit ? "the limit of the search was reached"
+                       : rough  ? "converged: steps fail that promise less than 0.05 of -ln L"
+                                : stop_reason(summary);
 }
 
 /// Where a step would leave the finite numbers.
@@ -228,9 +260,11 @@ Solved search_from(const LogProblem& problem, SearchPoint from, double function_
   if (problem.deadline) options.max_solver_time_in_seconds = seconds_until(*problem.deadline);
   EndAtRoughness end_at_roughness;
   options.callbacks.push_back(&end_at_roughness);
+  EndAtLimit end_at_limit(problem);
+  options.callbacks.push_back(&end_at_limit);
   ceres::Solver::Summary summary;
   ceres::Solve(options, &search, &summary);
-  tell_end(summary, solved);
+  tell_end(summary, end_at_limit.has_ended(), solved);
   return solved;
 }
 

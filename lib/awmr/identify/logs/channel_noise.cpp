@@ -30,6 +30,33 @@ void add_second_differences(const std::vector<double>& values, Roughness& roughn
   }
 }
 
+/// sum nu_k^2/S_k, sum ln S_k and n of errors with a noise.
+struct InnovationSums {
+  double squares = 0.0;
+  double log_variances = 0.0;
+  double n = 0.0;
+};
+
+InnovationSums innovation_sums(std::span<const ErrorSeries> series, const ChannelNoise& noise) {
+  InnovationSums sums;
+  double product = 1.0;  // of variances: one logarithm for many of them
+  for (const ErrorSeries& part : series) {
+    Whitener whitener(noise);
+    for (std::size_t k = 0; k < part.error.size(); ++k) {
+      const auto [nu, variance] = whitener.next(part.error[k], part.since_s[k]);
+      sums.squares += nu * nu / variance;
+      product *= variance;
+      if (product > 1e150 || product < 1e-150) {
+        sums.log_variances += std::log(product);
+        product = 1.0;
+      }
+    }
+    sums.n += static_cast<double>(part.error.size());
+  }
+  sums.log_variances += std::log(product);
+  return sums;
+}
+
 /// -2 ln L of errors with a noise, and the factor on both variances that makes it least:
 ///
 ///     -2 ln L = sum ln S_k + nu_k^2 / S_k,   factor = (1/n) sum nu_k^2 / S_k
@@ -39,25 +66,9 @@ struct Likelihood {
 };
 
 Likelihood likelihood(std::span<const ErrorSeries> series, const ChannelNoise& noise) {
-  double squares = 0.0;
-  double log_variances = 0.0;
-  double product = 1.0;  // of variances: one logarithm for many of them
-  double n = 0.0;
-  for (const ErrorSeries& part : series) {
-    Whitener whitener(noise);
-    for (std::size_t k = 0; k < part.error.size(); ++k) {
-      const auto [nu, variance] = whitener.next(part.error[k], part.since_s[k]);
-      squares += nu * nu / variance;
-      product *= variance;
-      if (product > 1e150 || product < 1e-150) {
-        log_variances += std::log(product);
-        product = 1.0;
-      }
-    }
-    n += static_cast<double>(part.error.size());
-  }
+  const auto [squares, log_variances, n] = innovation_sums(series, noise);
   const double factor = std::max(squares / n, kMinimumStd * kMinimumStd);
-  return {n * std::log(factor) + log_variances + std::log(product), factor};
+  return {n * std::log(factor) + log_variances, factor};
 }
 
 /// Unit variance, of which e^x / (1 + e^x) is the drift's.
@@ -269,6 +280,11 @@ NoiseLevels sensor_noise(const std::vector<FitWindow>& windows) {
     noise.sensor_std = noise.white_std;
   }
   return levels;
+}
+
+double cost_of(std::span<const ErrorSeries> series, const ChannelNoise& noise) {
+  const InnovationSums sums = innovation_sums(series, noise);
+  return sums.squares + sums.log_variances;
 }
 
 ChannelNoise likeliest_noise(std::span<const ErrorSeries> series, double free_share,

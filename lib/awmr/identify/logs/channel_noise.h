@@ -37,6 +37,12 @@ struct ChannelNoise {
   /// Errors of more than half of the sensor's that stay for half a second or more are the model's, or
   /// a sensor's that wanders.
   bool of_the_model() const { return drift_std > 0.5 * sensor_std && correlation_s >= 0.5; }
+  /// Errors many times the sensor's own, which a bound on the model's share cannot come from: the
+  /// model is not that of the vehicle.
+  bool overwhelms_sensor() const {
+    constexpr double kMany = 5.0;
+    return of_the_model() && drift_std > kMany * sensor_std;
+  }
   /// A drift that a missing term of the model may be behind.
   bool has_slow_drift() const { return drift_std > 0.25 * sensor_std && correlation_s > 0.2; }
 };
@@ -57,6 +63,12 @@ struct ErrorSeries {
   std::vector<double> error;    ///< SI
   std::vector<double> since_s;  ///< time since the one before; 0: the first
 };
+
+/// The errors of a fit, by channel, a series for each window.
+using ErrorsByChannel = std::map<LogChannel, std::vector<ErrorSeries>>;
+
+/// -2 ln L of errors with this noise, but for a constant: sum ln S_k + nu_k^2/S_k.
+double cost_of(std::span<const ErrorSeries> series, const ChannelNoise& noise);
 
 /// The likeliest noise of these errors: white, or with a drift where that is plainly likelier (ten
 /// of -2 ln L), of second order where that is plainly likelier again. `free_share`, in (0, 1]: of

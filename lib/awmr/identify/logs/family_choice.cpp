@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "awmr/core/index.h"
+#include "awmr/identify/logs/family_score.h"
 #include "awmr/identify/uncertainty/akaike.h"
 
 namespace awmr {
@@ -52,7 +53,7 @@ FamilyFit fit_with(const std::vector<DrivingLog>& logs, LogFitOptions options, F
   const bool back_emf =
       std::ranges::find(result.options.free, ParameterId::kBackEmf) != result.options.free.end();
   if (back_emf) result.fit.report.family += ", back-EMF";
-  if (std::isfinite(result.fit.aic)) result.fit.report.aicc = result.fit.aic;
+  if (result.fit.usable) result.fit.report.aicc = aic_under(result.fit.noise, result.fit);
   return result;
 }
 
@@ -108,12 +109,11 @@ std::pair<double, std::string> largest_difference(const LogFit& a, const LogFit&
   return largest;
 }
 
-/// `power_law_aic`: none where a power law has no fit.
-Finding taken(const std::string& file, const FamilyFit& best, std::optional<double> power_law_aic) {
+Finding taken(const std::string& file, const FamilyFit& best, const LogFit& power_law) {
   const std::string families = families_in_words(best.surge, best.yaw);
   const std::string why =
-      power_law_aic
-          ? fmt::format("{} is better by {:.0f} of AIC", families, *power_law_aic - best.fit.aic)
+      power_law.usable
+          ? fmt::format("{} is better by {:.0f} of AIC", families, aic_lead(best.fit, power_law))
           : fmt::format("its fit did not converge, and that of {} did", families);
   return {file, 0, Severity::kWarning, "power-law-inadequate",
           "a power law does not describe these logs: " + why};
@@ -123,7 +123,7 @@ Finding taken(const std::string& file, const FamilyFit& best, std::optional<doub
 std::optional<Finding> undecided(const std::string& file, const FamilyFit& best,
                                  const FamilyFit& rival) {
   constexpr double kApart = 2.0;
-  const double gain = best.fit.aic - rival.fit.aic;
+  const double gain = aic_lead(rival.fit, best.fit);
   const auto [apart, name] = largest_difference(best.fit, rival.fit);
   if (!rival.fit.usable || !(gain > 0.0) || !(apart > kApart)) return std::nullopt;
   return Finding{
@@ -136,15 +136,12 @@ std::optional<Finding> undecided(const std::string& file, const FamilyFit& best,
                   families_in_words(best.surge, best.yaw))};
 }
 
-bool is_over(const std::optional<std::chrono::steady_clock::time_point>& deadline) {
-  return deadline && std::chrono::steady_clock::now() >= *deadline;
-}
-
 Finding not_compared(const std::string& file, const FamilyFit& first) {
-  return {file, 0, Severity::kWarning, "families-not-compared",
-          fmt::format("the time given to the fit was over before every other family of resistance "
-                      "had been tried beside {}; give it more, or name the family",
-                      families_in_words(first.surge, first.yaw))};
+  return {
+      file, 0, Severity::kWarning, "families-not-compared",
+      fmt::format("the time limit ended before every family of resistance was compared with {}; "
+                  "the intervals are withdrawn. Give more time, or name the family",
+                  families_in_words(first.surge, first.yaw))};
 }
 
 struct Contender {
@@ -163,47 +160,45 @@ std::vector<Contender> contenders(const FamilyFit& first, bool of_yaw) {
   return found;
 }
 
-std::optional<double> aic_of(const FamilyFit& family) {
-  return family.fit.usable ? std::optional(family.fit.aic) : std::nullopt;
-}
-
-/// Fits the contenders and leaves the best of them and of `result.best` there. A rival that is ahead
-/// shows where the first families may have to be searched from. Returns their AIC, none where they have no fit.
-std::optional<double> compete(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
-                              const std::vector<Contender>& others, double lead,
-                              BestFamily& result) {
-  FamilyFit& first = result.best;
-  std::optional<FamilyFit> best_rival;
-  bool all_tried = true;
+/// Fits the contenders and leaves the best of them and of `result.best` there; the fit of the first
+/// families is the result. A rival that is ahead shows where these may have to be searched from.
+LogFit compete(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
+               const std::vector<Contender>& others, double lead, BestFamily& result) {
+  FamilyFit first = std::move(result.best);
+  std::vector<FamilyFit> rivals;
+  std::size_t best = 0;
   for (const Contender& other : others) {
-    all_tried = !is_over(power_law.deadline);
-    if (!all_tried) break;
-    FamilyFit rival =
-        fit_from(logs, power_law, best_rival ? *best_rival : first, other.surge, other.yaw);
-    result.others.push_back(rival.fit.report);
-    if (!rival.fit.usable) continue;
-    if (!best_rival || rival.fit.aic < best_rival->fit.aic) best_rival = std::move(rival);
+    if (is_over(power_law)) {
+      result.is_out_of_time = true;
+      break;
+    }
+    const FamilyFit& from = rivals.empty() ? first : rivals[best];
+    rivals.push_back(fit_from(logs, power_law, from, other.surge, other.yaw));
+    if (aic_lead(rivals.back().fit, rivals[best].fit) > 0.0) best = rivals.size() - 1;
   }
-  if (!all_tried && first.fit.usable) {
-    result.findings.push_back(not_compared(logs.front().file, first));
+  if (result.is_out_of_time) result.findings.push_back(not_compared(logs.front().file, first));
+  if (rivals.empty()) {
+    result.best = std::move(first);
+    return result.best.fit;
   }
-  if (!best_rival) return aic_of(first);
-  first = searched_again(logs, power_law, std::move(first), *best_rival);
-  const std::optional<double> first_aic = aic_of(first);
-  if (!first.fit.usable || best_rival->fit.aic < first.fit.aic - lead) {
-    const auto same = [&](const EstimatorReport& r) {
-      return r.family == best_rival->fit.report.family;
-    };
-    std::erase_if(result.others, same);
-    result.others.push_back(first.fit.report);
-    result.best = std::move(*best_rival);
-  } else if (const auto finding = undecided(logs.front().file, first, *best_rival)) {
+  first = searched_again(logs, power_law, std::move(first), rivals[best]);
+  const LogFit of_first = first.fit;
+  if (aic_lead(rivals[best].fit, first.fit) > lead) {
+    std::swap(first, rivals[best]);
+  } else if (const auto finding = undecided(logs.front().file, first, rivals[best])) {
     result.findings.push_back(*finding);
   }
-  return first_aic;
+  result.best = std::move(first);
+  for (FamilyFit& rival : rivals) result.others.push_back(std::move(rival));
+  return of_first;
 }
 
 }  // namespace
+
+bool is_over(const LogFitOptions& options) {
+  if (options.effort && options.effort->is_over()) return true;
+  return options.deadline && std::chrono::steady_clock::now() >= *options.deadline;
+}
 
 std::string families_in_words(Family surge, Family yaw) {
   if (yaw == Family::kPower) return std::string(name_of(surge));
@@ -236,12 +231,21 @@ FamilyFit fit_from(const std::vector<DrivingLog>& logs, const LogFitOptions& pow
 
 FamilyFit searched_again(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                          FamilyFit first, const FamilyFit& rival) {
-  const auto is_behind = [&](const FamilyFit& other) {
-    return other.fit.usable && (!first.fit.usable || other.fit.aic < first.fit.aic);
-  };
-  if (!is_behind(rival)) return first;
+  if (!(aic_lead(rival.fit, first.fit) > 0.0)) return first;
   FamilyFit again = fit_from(logs, power_law, rival, first.surge, first.yaw);
-  return is_behind(again) ? std::move(again) : std::move(first);
+  return aic_lead(again.fit, first.fit) > 0.0 ? std::move(again) : std::move(first);
+}
+
+std::vector<EstimatorReport> reports_of(const std::vector<FamilyFit>& fits,
+                                        const FamilyFit& reference) {
+  std::vector<EstimatorReport> reports;
+  for (const FamilyFit& one : fits) {
+    reports.push_back(one.fit.report);
+    if (one.fit.usable && reference.fit.usable) {
+      reports.back().aicc = aic_under(reference.fit.noise, one.fit);
+    }
+  }
+  return reports;
 }
 
 BestFamily best_family(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
@@ -251,21 +255,21 @@ BestFamily best_family(const std::vector<DrivingLog>& logs, const LogFitOptions&
   };
   const bool surge = contest.surge && open(false);
   const bool yaw = contest.yaw && open(true);
-  std::optional<double> first_aic = aic_of(first);
+  LogFit power_fit = first.fit;
   const auto [first_surge, first_yaw] = std::pair(first.surge, first.yaw);
   BestFamily result;
   result.best = std::move(first);
   if (surge) {
-    first_aic = compete(logs, power_law, contenders(result.best, false), contest.lead, result);
+    power_fit = compete(logs, power_law, contenders(result.best, false), contest.lead, result);
   }
   if (yaw) {
     const bool is_first = result.best.surge == first_surge && result.best.yaw == first_yaw;
-    const auto aic = compete(logs, power_law, contenders(result.best, true), contest.lead, result);
-    if (is_first) first_aic = aic;
+    LogFit fit = compete(logs, power_law, contenders(result.best, true), contest.lead, result);
+    if (is_first) power_fit = std::move(fit);
   }
   const bool other = result.best.surge != Family::kPower || result.best.yaw != Family::kPower;
-  if (other && (!first_aic || *first_aic - result.best.fit.aic > kPlainlyBetter)) {
-    result.findings.push_back(taken(logs.front().file, result.best, first_aic));
+  if (other && aic_lead(result.best.fit, power_fit) > kPlainlyBetter) {
+    result.findings.push_back(taken(logs.front().file, result.best, power_fit));
   }
   return result;
 }

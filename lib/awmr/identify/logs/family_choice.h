@@ -16,6 +16,9 @@ struct FamilyFit {
   LogFit fit;
 };
 
+/// True once the limit of effort or of time is reached: no further model is tried.
+bool is_over(const LogFitOptions& options);
+
 /// The options with the optimum of `fit` as the only place to search from, and nothing suspected.
 LogFitOptions from_optimum(LogFitOptions options, const FamilyFit& fit);
 
@@ -43,12 +46,18 @@ struct FamilyContest {
 
 struct BestFamily {
   FamilyFit best;
-  std::vector<EstimatorReport> others;
-  std::vector<Finding> findings;  ///< `power-law-inadequate`, `family-undecided`
+  std::vector<FamilyFit> others;
+  std::vector<Finding>
+      findings;  ///< `power-law-inadequate`, `family-undecided`, `families-not-compared`
+  bool is_out_of_time = false;  ///< the limit was reached before every family was compared
 };
 
+/// Their reports, with the AIC of each under the noise of `reference`.
+std::vector<EstimatorReport> reports_of(const std::vector<FamilyFit>& fits,
+                                        const FamilyFit& reference);
+
 /// The families in turn, each from the optimum of the best so far, so that a richer one does not end
-/// above what it holds: the least AIC of those that converged. `first`: the power law's fit, or that
+/// above what it holds: the best of those that converged, compared as family_score.h says. `first`: the power law's fit, or that
 /// of the families to begin with.
 BestFamily best_family(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                        FamilyFit first, const FamilyContest& contest);

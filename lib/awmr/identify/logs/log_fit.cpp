@@ -6,6 +6,7 @@
 
 #include "awmr/core/index.h"
 #include "awmr/identify/logs/bootstrap.h"
+#include "awmr/identify/logs/ceres_problem.h"
 #include "awmr/identify/logs/information.h"
 #include "awmr/identify/logs/late_sensors.h"
 #include "awmr/identify/logs/log_report.h"
@@ -63,8 +64,8 @@ LogFit fit_at(const LogProblem& problem, const Solved& solved, const std::vector
           .covariance = found.covariance,
           .why_not = found.why_not,
           .noise = problem.model.noise,
+          .errors = errors_by_channel(problem, errors_at(problem, solved.point), options.loss),
           .suspect_gain = suspect_gains(problem, solved.point, options.suspects),
-          .aic = akaike(problem.model.noise, n),
           .widened = found.widened(),
           .report = log_report({problem, solved, found, bootstrap95}),
           .usable = solved.usable && solved.converged};

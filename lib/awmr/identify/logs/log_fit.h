@@ -21,9 +21,9 @@ struct LogFit {
   Eigen::MatrixXd covariance;        ///< of the coordinates; what is open has a large variance
   std::vector<std::string> why_not;  ///< by quantity; empty where the logs show it
   NoiseLevels noise;
+  ErrorsByChannel errors;  ///< raw, at the optimum
   /// By suspect of the options: by how much -2 ln L would fall with the term free (a score test).
   std::vector<double> suspect_gain;
-  double aic = 0.0;        ///< Akaike's criterion; less is better, of the same logs only
   double widened = 1.0;    ///< largest of Identifiability's factors
   EstimatorReport report;  ///< parameters by quantity
   bool usable = false;     ///< the search converged

@@ -1,8 +1,10 @@
 /// What a caller of fit_logs() can ask for. Private to identify/.
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -16,6 +18,19 @@ namespace awmr {
 struct SensorDelay {
   LogChannel channel = LogChannel::kSpeed;  ///< kX: the position
   double delay_s = 0.0;
+};
+
+/// Work of all searches of one identification: numbers integrated, each state and each derivative at
+/// each step. Unlike a time, it is the same on every machine, whatever else that does.
+class Effort {
+ public:
+  explicit Effort(std::int64_t limit) : limit_(limit) {}
+  void add(std::int64_t numbers) { spent_ += numbers; }
+  bool is_over() const { return spent_ > limit_; }
+
+ private:
+  std::int64_t limit_;
+  std::atomic<std::int64_t> spent_ = 0;
 };
 
 struct LogFitOptions {
@@ -40,6 +55,8 @@ struct LogFitOptions {
   int multistart = 6;          ///< random initial guesses beside the given one
   int bootstrap = 0;           ///< resamples of the block bootstrap; 0: none
   int threads = 0;             ///< 0: every core; the result does not depend on it
+  /// Counts the work of the searches; once it is over, no further model is tried. Absent: no limit.
+  std::shared_ptr<Effort> effort;
   /// When every search stops where it is.
   std::optional<std::chrono::steady_clock::time_point> deadline;
 };

@@ -23,6 +23,7 @@ LogProblem log_problem(const std::vector<DrivingLog>& logs, const LogFitOptions&
   problem.bounds = coordinate_bounds(problem.model.quantities, problem.initial, options.vehicle);
   problem.threads = options.threads;
   problem.deadline = options.deadline;
+  problem.effort = options.effort;
   return problem;
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "awmr/identify/logs/log_fit_options.h"
 #include "awmr/identify/logs/residuals.h"
 
 namespace awmr {
@@ -25,6 +26,8 @@ struct LogProblem {
   std::vector<Interval> bounds;  ///< of the coordinate, by quantity
   int threads = 0;               ///< 0: every core
   std::optional<std::chrono::steady_clock::time_point> deadline;  ///< of every search
+  std::shared_ptr<Effort> effort;                                 ///< of all searches
+  bool ends_at_limit = true;  ///< the search stops once the effort is over
 
   /// Free numbers: the quantities, and an initial state for every window.
   std::size_t unknowns() const {

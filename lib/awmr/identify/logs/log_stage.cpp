@@ -103,6 +103,16 @@ std::vector<LogChannel> biased_channels(const std::vector<DrivingLog>& logs,
   return asked;
 }
 
+/// Numbers integrated by all searches: about half a minute on a processor of 2023, and more for long
+/// logs. A log that the model describes takes a tenth.
+std::int64_t effort_limit(const std::vector<DrivingLog>& logs) {
+  constexpr double kLeast = 6e8;
+  constexpr double kPerSecond = 1e6;  // of log
+  double duration_s = 0.0;
+  for (const DrivingLog& log : logs) duration_s += log.t_s.back() - log.t_s.front();
+  return std::llround(kLeast + kPerSecond * duration_s);
+}
+
 LogFitOptions fit_options(const Vehicle& vehicle, const std::vector<DrivingLog>& logs,
                           const IdentifyOptions& options) {
   LogFitOptions fit;
@@ -117,6 +127,7 @@ LogFitOptions fit_options(const Vehicle& vehicle, const std::vector<DrivingLog>&
   fit.multistart = options.starts;
   fit.bootstrap = options.bootstrap;
   fit.threads = options.threads;
+  fit.effort = std::make_shared<Effort>(effort_limit(logs));
   if (options.time_limit_s > 0.0) {
     fit.deadline = std::chrono::steady_clock::now() +
                    std::chrono::duration_cast<std::chrono::steady_clock::duration>(
@@ -211,13 +222,13 @@ BestFamily or_with_back_emf(const std::vector<DrivingLog>& logs, LogFitOptions& 
                                 "these logs were not held against motors with back-EMF: " +
                                     same.fit.report.stop_reason});
     }
-    ideal.others.push_back(same.fit.report);
+    ideal.others.push_back(same);
     return ideal;
   }
   BestFamily braked = choose_families(logs, freed, options).found;
   if (!shows_back_emf(braked.best, ideal.best)) braked.best = same;
   braked.findings.push_back(back_emf_finding(logs.front().file, braked.best, ideal.best));
-  braked.others.push_back(ideal.best.fit.report);
+  braked.others.push_back(std::move(ideal.best));
   power_law = std::move(freed);
   return braked;
 }
@@ -228,8 +239,9 @@ FamilyFit fit_families(const std::vector<DrivingLog>& logs, LogFitOptions power_
                        const IdentifyOptions& options, LogStage& stage) {
   const FamilyChoice& surge = options.surge_family;
   auto [found, may_have_back_emf] = choose_families(logs, power_law, options);
-  if (may_have_back_emf) found = or_with_back_emf(logs, power_law, options, std::move(found));
-  append(stage.reports, found.others);
+  if (may_have_back_emf && !found.is_out_of_time)
+    found = or_with_back_emf(logs, power_law, options, std::move(found));
+  append(stage.reports, reports_of(found.others, found.best));
   append(stage.findings, found.findings);
   FamilyFit chosen = std::move(found.best);
   stage.surge_family = chosen.surge;
@@ -242,7 +254,16 @@ FamilyFit fit_families(const std::vector<DrivingLog>& logs, LogFitOptions power_
   const Adequacy adequacy = judge_adequacy(logs, power_law, chosen, try_families);
   append(stage.reports, adequacy.rivals);
   append(stage.findings, adequacy.findings);
+  stage.withdraws_intervals = adequacy.withdraws_intervals || found.is_out_of_time;
   return chosen;
+}
+
+/// Leaves the values without standard errors and intervals.
+void withdraw_intervals(EstimatorReport& report) {
+  for (EstimatorParameter& parameter : report.parameters) {
+    parameter.std_error.reset();
+    parameter.ci95.reset();
+  }
 }
 
 void refuse_all(const FamilyFit& chosen, const std::string& file, LogStage& stage) {
@@ -385,6 +406,7 @@ Result<LogStage> run_log_stage(const Vehicle& vehicle, const std::vector<Driving
   FamilyFit chosen = fit_families(logs, power_law, options, stage);
   tell(options, "holding the logs against each other");
   append(stage.findings, in_words(hold_against_each_other(logs, chosen)));
+  if (stage.withdraws_intervals) withdraw_intervals(chosen.fit.report);
   stage.reports[stage.chosen_report] = chosen.fit.report;
   const std::string& file = logs.front().file;
   if (!chosen.fit.usable) {

@@ -30,6 +30,7 @@ struct LogStage {
   std::vector<EstimatorReport> reports;  ///< of every family that was tried
   std::size_t chosen_report = 0;         ///< in `reports`: of the fit that fills `main`
   std::vector<Finding> findings;
+  bool withdraws_intervals = false;  ///< the values are shown without standard errors and intervals
 };
 
 /// Fits the logs from the model's values so far. All of `asked` are free; others are held at their
@@ -37,7 +38,7 @@ struct LogStage {
 /// did.
 /// Findings: `estimates-disagree` (logs against tables, p < 0.01), `coloured-residuals`,
 /// `model-inadequate`, `power-law-inadequate`, `family-undecided`, `back-emf`, `sensor-delay`, `logs-disagree`, `not-identifiable`, `not-converged`, `held-out-log`
-/// (each log predicted by the others), `families-not-compared` (the time was over).
+/// (each log predicted by the others), `families-not-compared` (the time limit ended).
 /// Errors (input): a given time constant is too fast for a log.
 Result<LogStage> run_log_stage(const Vehicle& vehicle, const std::vector<DrivingLog>& logs,
                                const IdentifyOptions& options,

@@ -26,6 +26,7 @@ LogProblem rough_problem(const LogProblem& problem) {
   LogProblem rough = problem;
   rough.model.longest_step_s = kRoughStep * problem.model.longest_step_s;
   rough.threads = 1;  // the searches run side by side
+  rough.ends_at_limit = false;
   std::vector<FitWindow> parts;
   for (const FitWindow& window : spread(problem.windows, kParts)) {
     std::ranges::move(parts_of(window, kPart_s), std::back_inserter(parts));

@@ -14,8 +14,8 @@
 namespace awmr {
 namespace {
 
-std::map<LogChannel, std::vector<ErrorSeries>> by_channel(const std::vector<FitWindow>& windows,
-                                                          const std::vector<WindowErrors>& errors) {
+ErrorsByChannel by_channel(const std::vector<FitWindow>& windows,
+                           const std::vector<WindowErrors>& errors) {
   std::map<LogChannel, std::vector<ErrorSeries>> channels;
   for (std::size_t w = 0; w < windows.size(); ++w) {
     std::map<LogChannel, ErrorSeries> series;
@@ -44,9 +44,21 @@ void clip(std::vector<ErrorSeries>& channel) {
   }
 }
 
+}  // namespace
+
+ErrorsByChannel errors_by_channel(const LogProblem& problem,
+                                  const std::vector<WindowErrors>& errors, Loss loss) {
+  ErrorsByChannel channels = by_channel(problem.windows, errors);
+  if (loss == Loss::kSquared) return channels;
+  for (auto& [name, channel] : channels) clip(channel);
+  return channels;
+}
+
+namespace {
+
 NoiseLevels noise_levels(const LogProblem& problem, const std::vector<WindowErrors>& errors,
                          Loss loss) {
-  auto channels = by_channel(problem.windows, errors);
+  const ErrorsByChannel channels = errors_by_channel(problem, errors, loss);
   double total = 0.0;
   for (const auto& [name, noise] : problem.model.noise) total += noise.count;
   const double spent = static_cast<double>(problem.unknowns());
@@ -55,9 +67,7 @@ NoiseLevels noise_levels(const LogProblem& problem, const std::vector<WindowErro
                                                                 problem.model.noise.end());
   std::vector<ChannelNoise> after(before.size());
   parallel_for(before.size(), problem.threads, [&](std::size_t i) {
-    std::vector<ErrorSeries>& channel = channels.at(before[i].first);
-    if (loss != Loss::kSquared) clip(channel);
-    after[i] = likeliest_noise(channel, free_share, before[i].second);
+    after[i] = likeliest_noise(channels.at(before[i].first), free_share, before[i].second);
   });
   NoiseLevels levels;
   for (std::size_t i = 0; i < before.size(); ++i) levels[before[i].first] = after[i];

@@ -10,6 +10,10 @@ struct NoiseIteration {
   SearchPoint point;
 };
 
+/// The raw errors at a point, clipped under a robust loss: outliers shall not pass for noise.
+ErrorsByChannel errors_by_channel(const LogProblem& problem,
+                                  const std::vector<WindowErrors>& errors, Loss loss);
+
 /// Fits, takes the noise of every channel from its residuals, fits again: until no level changes by
 /// more than a hundredth, a few rounds at most.
 NoiseIteration settle_noise(LogProblem problem, SearchPoint point, Loss loss);

@@ -1,0 +1,35 @@
+#include "awmr/identify/logs/family_score.h"
+
+#include <cmath>
+#include <limits>
+
+namespace awmr {
+
+double aic_under(const NoiseLevels& noise, const LogFit& fit) {
+  double aic = 2.0 * static_cast<double>(fit.quantities.size());
+  for (const auto& [channel, errors] : fit.errors) aic += cost_of(errors, noise.at(channel));
+  return aic;
+}
+
+double log_size_of_errors(const LogFit& fit) {
+  double size = 0.0;
+  for (const auto& [channel, errors] : fit.errors) {
+    double squares = 0.0;
+    double n = 0.0;
+    for (const ErrorSeries& part : errors) {
+      for (const double e : part.error) squares += e * e;
+      n += static_cast<double>(part.error.size());
+    }
+    size += n * std::log(std::max(squares / n, kMinimumStd * kMinimumStd));
+  }
+  return size;
+}
+
+double aic_lead(const LogFit& a, const LogFit& b) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  if (!a.usable || !b.usable) return a.usable ? kInfinity : b.usable ? -kInfinity : 0.0;
+  const NoiseLevels& noise = log_size_of_errors(a) <= log_size_of_errors(b) ? a.noise : b.noise;
+  return aic_under(noise, b) - aic_under(noise, a);
+}
+
+}  // namespace awmr
