@@ -36,8 +36,18 @@ Result<Provenance> provenance_of(const IdentifyCommand& command) {
   return provenance;
 }
 
+/// About the longest that the searches take, s, for the display alone: their limit is one of effort.
+double about_longest_s(const Trials& trials, const IdentifyOptions& options) {
+  if (options.time_limit_s > 0.0 || trials.data.logs.empty()) return options.time_limit_s;
+  double longest_s = 40.0;
+  for (const DrivingLog& log : trials.data.logs) {
+    longest_s += 0.05 * (log.t_s.back() - log.t_s.front());
+  }
+  return longest_s;
+}
+
 Result<Identification> identify_with_progress(const Trials& trials, IdentifyOptions options) {
-  Working working("fitting the tables", trials.data.logs.empty() ? 0.0 : options.time_limit_s);
+  Working working("fitting the tables", about_longest_s(trials, options));
   options.doing = [&](std::string_view what) { working.doing(what); };
   return identify(trials, options);
 }
