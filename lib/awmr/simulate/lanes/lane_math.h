@@ -15,6 +15,22 @@ namespace AWMR_LANES {
 
 using Bits = xsimd::batch<std::uint64_t, xsimd::AWMR_LANES_ARCH>;
 
+/// The same 64 bits a lane. xsimd 9 and later name the number in the cast, earlier ones the register.
+AWMR_LANE_INLINE Bits to_bits(const Register& x) {
+#if XSIMD_VERSION_MAJOR < 9
+  return xsimd::bitwise_cast<Bits>(x);
+#else
+  return xsimd::bitwise_cast<std::uint64_t>(x);
+#endif
+}
+AWMR_LANE_INLINE Register to_register(const Bits& x) {
+#if XSIMD_VERSION_MAJOR < 9
+  return xsimd::bitwise_cast<Register>(x);
+#else
+  return xsimd::bitwise_cast<double>(x);
+#endif
+}
+
 /// NaN where `in_range` does not hold.
 AWMR_LANE_INLINE Lanes only_where(const LaneMask& in_range, const Lanes& result) {
   return select(in_range, result, Lanes(__builtin_nan("")));
@@ -47,13 +63,13 @@ AWMR_LANE_INLINE Split split(const Lanes& x) {
   constexpr std::uint64_t kOne = 0x3FF0000000000000ULL;
   Split result;
   for (int i = 0; i < kRegisters; ++i) {
-    const Bits bits = xsimd::bitwise_cast<Bits>(x.part[i]);
+    const Bits bits = to_bits(x.part[i]);
     // The biased exponent of x/sqrt(1/2), and below it what its mantissa would be.
     const Bits biased = (bits + Bits(kOne - kRootHalf)) >> 52;
     // A whole number n < 2^52 in the mantissa of 2^52 is 2^52 + n.
-    result.k.part[i] = xsimd::bitwise_cast<Register>(biased | Bits(0x4330000000000000ULL)) -
-                       Register(0x1p52 + 1023.0);
-    result.m.part[i] = xsimd::bitwise_cast<Register>(bits - ((biased << 52) - Bits(kOne)));
+    result.k.part[i] =
+        to_register(biased | Bits(0x4330000000000000ULL)) - Register(0x1p52 + 1023.0);
+    result.m.part[i] = to_register(bits - ((biased << 52) - Bits(kOne)));
   }
   return result;
 }
@@ -83,8 +99,7 @@ AWMR_LANE_INLINE Lanes exp2_of_normal(const Lanes& y) {
   const Lanes p = polynomial(kSeries, fraction);
   return by_register(
       [](const Register& value, const Register& power) {
-        return xsimd::bitwise_cast<Register>(xsimd::bitwise_cast<Bits>(value) +
-                                             (xsimd::bitwise_cast<Bits>(power) << 52));
+        return to_register(to_bits(value) + (to_bits(power) << 52));
       },
       p, rounded);
 }
@@ -122,16 +137,16 @@ AWMR_LANE_INLINE SinCos sin_cos_in_range(const Lanes& x) {
   // the sign of the sine, and of the cosine one quadrant on: it is put where the sign is.
   const LaneMask swapped = by_register<LaneMask>(
       [](const Register& whole) {
-        const Bits odd = (xsimd::bitwise_cast<Bits>(whole) & Bits(std::uint64_t{1})) << 62;
-        return xsimd::bitwise_cast<Register>(odd) > Register(1.0);
+        const Bits odd = (to_bits(whole) & Bits(std::uint64_t{1})) << 62;
+        return to_register(odd) > Register(1.0);
       },
       rounded);
   const auto with_sign = [&rounded](const Lanes& value, std::uint64_t quadrants_on) {
     return by_register(
         [quadrants_on](const Register& one, const Register& whole) {
-          const Bits at = xsimd::bitwise_cast<Bits>(whole) + Bits(quadrants_on);
+          const Bits at = to_bits(whole) + Bits(quadrants_on);
           const Bits sign = (at & Bits(std::uint64_t{2})) << 62;
-          return xsimd::bitwise_cast<Register>(xsimd::bitwise_cast<Bits>(one) ^ sign);
+          return to_register(to_bits(one) ^ sign);
         },
         value, rounded);
   };
