@@ -5,12 +5,6 @@ target_compile_options(awmr_warnings INTERFACE
   -Wold-style-cast -Woverloaded-virtual -Wdouble-promotion
   $<$<BOOL:${AWMR_WARNINGS_AS_ERRORS}>:-Werror>)
 
-# Standard and third-party headers that most sources include, compiled once for all libraries. Whether each source
-# includes what it uses is checked where precompiled headers are off: scripts/tidy, preset `tidy`.
-set(AWMR_COMMON_HEADERS <algorithm> <array> <cmath> <cstddef> <cstdint> <filesystem> <functional> <limits> <map>
-  <memory> <optional> <set> <span> <string> <string_view> <utility> <variant> <vector>
-  <Eigen/Core> <fmt/format.h> <nlohmann/json.hpp> <tl/expected.hpp>)
-
 # awmr_library(NAME HEADERS file... [SOURCES file...] [PUBLIC target...] [PRIVATE target...])
 # The library of one folder, `awmr_NAME` with the alias `awmr::NAME`; header-only without SOURCES.
 # HEADERS are the public ones: they are installed, and no other is.
@@ -22,9 +16,6 @@ function(awmr_library name)
     target_link_libraries(${target} PUBLIC ${ARG_PUBLIC}
       PRIVATE ${ARG_PRIVATE} $<BUILD_INTERFACE:awmr_warnings>)
     set(scope PUBLIC)
-    if(TARGET awmr_common_headers)
-      target_precompile_headers(${target} REUSE_FROM awmr_common_headers)
-    endif()
     # The same products and sums on every compiler: no contraction into fused multiply-add.
     target_compile_options(${target} PRIVATE -ffp-contract=off)
   else()
@@ -42,11 +33,11 @@ function(awmr_library name)
   set_property(GLOBAL APPEND PROPERTY AWMR_LIBRARIES ${target})
 endfunction()
 
-# awmr_test(NAME SOURCES file... [TIER tier] [LINK target...] [CASES n] [WHOLE]): one GoogleTest executable, its cases
-# tests of their own, or with WHOLE one test together, where they share a costly set-up;
-# properties with a fixed seed, each over n cases, 100 by default. TIER is `unit` by default (tests/README.md).
+# awmr_test(NAME SOURCES file... [TIER tier] [LINK target...] [CASES n] [TOGETHER suite...]): one GoogleTest executable.
+# Each case is a test of its own, except that a suite of TOGETHER is one test, as its cases share a costly set-up.
+# Properties have a fixed seed and n cases, 100 by default. TIER is `unit` by default (tests/README.md).
 function(awmr_test name)
-  cmake_parse_arguments(ARG "WHOLE" "CASES;TIER" "SOURCES;LINK" ${ARGN})
+  cmake_parse_arguments(ARG "" "CASES;TIER" "SOURCES;LINK;TOGETHER" ${ARGN})
   if(NOT ARG_CASES)
     set(ARG_CASES 100)
   endif()
@@ -61,16 +52,21 @@ function(awmr_test name)
   target_link_libraries(${name} PRIVATE ${ARG_LINK} GTest::gmock GTest::gtest_main awmr_warnings)
   target_precompile_headers(${name} REUSE_FROM awmr_test_headers)
   target_compile_definitions(${name} PRIVATE AWMR_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-  if(ARG_WHOLE)
-    awmr_command_test(${name} TIER ${ARG_TIER} TIMEOUT 300 COMMAND ${name})
-    return()
+  set(others "*")
+  if(ARG_TOGETHER)
+    list(TRANSFORM ARG_TOGETHER APPEND ".*" OUTPUT_VARIABLE suites)
+    list(JOIN suites ":" suites)
+    set(others "-${suites}")
+    foreach(suite IN LISTS ARG_TOGETHER)
+      awmr_command_test(${suite} TIER ${ARG_TIER} TIMEOUT 300 COMMAND ${name} --gtest_filter=${suite}.*)
+    endforeach()
   endif()
-  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300 LABELS ${ARG_TIER}
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 TEST_FILTER ${others} PROPERTIES TIMEOUT 300 LABELS ${ARG_TIER}
     ENVIRONMENT "RC_PARAMS=seed=20260117 max_success=${ARG_CASES}")
 endfunction()
 
 # awmr_command_test(NAME TIER tier TIMEOUT seconds COMMAND word... [NEEDS package=variable...]): a test that is a command;
-# 77 is its exit code for "skipped". Where a variable of NEEDS is false, the test is skipped and names the package.
+# 77 is its exit code for "skipped"; the longest start first. Where a variable of NEEDS is false, the test is skipped and names the package.
 function(awmr_command_test name)
   cmake_parse_arguments(ARG "" "TIER;TIMEOUT" "COMMAND;NEEDS" ${ARGN})
   foreach(need IN LISTS ARG_NEEDS)
@@ -81,6 +77,6 @@ function(awmr_command_test name)
     endif()
   endforeach()
   add_test(NAME ${name} COMMAND ${ARG_COMMAND})
-  set_tests_properties(${name} PROPERTIES LABELS ${ARG_TIER} TIMEOUT ${ARG_TIMEOUT} SKIP_RETURN_CODE 77
+  set_tests_properties(${name} PROPERTIES LABELS ${ARG_TIER} TIMEOUT ${ARG_TIMEOUT} SKIP_RETURN_CODE 77 COST ${ARG_TIMEOUT}
     SKIP_REGULAR_EXPRESSION "^skipped: ")
 endfunction()

@@ -112,16 +112,6 @@ TEST_F(JsonOutput, OfOtherCommandsNamesTheFilesThatTheyWrote) {
   EXPECT_GT(checked.at("findings").size(), 5U);
 }
 
-TEST_F(JsonOutput, OfARunHoldsEveryStepUnderTheNameOfItsFile) {
-  const Json run =
-      result_of(awmr("run configs/paper/project.json --json -o " + path("out")), "run");
-  for (const char* step : {"model", "gains", "validation", "comparison"}) {
-    const std::string file = path(std::string("out/") + step + ".json");
-    EXPECT_EQ(run.at("result").at(step), Json::parse(read_all(file))) << step;
-  }
-  EXPECT_GT(run.at("written").size(), 7U);
-}
-
 TEST_F(JsonOutput, OfAnErrorIsAnObjectOnStderr) {
   const std::vector<std::string> lines{
       "identify --json --vehicle nowhere.json -o " + path("x"),

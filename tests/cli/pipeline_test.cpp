@@ -17,7 +17,7 @@ class Pipeline : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     directory_ = new TemporaryDirectory;
-    result_ = awmr("run configs/paper/project.json -o " + directory_->path().string());
+    result_ = awmr("run configs/paper/project.json --json -o " + directory_->path().string());
   }
   static void TearDownTestSuite() { delete directory_; }
   static Json json(const std::string& name) {
@@ -44,6 +44,15 @@ TEST_F(Pipeline, EndsWellAndLeavesEveryFile) {
         "comparison.json", "report.html", "firmware/src/awmr.cpp", "firmware/library.properties"}) {
     EXPECT_GT(read_all(directory_->path() / name).size(), 100u) << name;
   }
+}
+
+TEST_F(Pipeline, PrintsEveryStepAsJsonUnderTheNameOfItsFile) {
+  const Json run = Json::parse(result_.out);
+  EXPECT_EQ(run.at("command"), "run");
+  for (const std::string step : {"model", "gains", "validation", "comparison"}) {
+    EXPECT_EQ(run.at("result").at(step), json(step + ".json")) << step;
+  }
+  EXPECT_GT(run.at("written").size(), 7U);
 }
 
 TEST_F(Pipeline, NamesItsInputsRelativeToTheProjectAndItsOwnFilesByTheirNames) {
