@@ -60,7 +60,7 @@ def pipeline(folder):
     c3 = "configs/paper/scenarios/c3_heading_steps.json"
     loop = "--model out/model.json --gains out/gains.json"
     goals = {"goals": [{"at_most": {"settling_time_s": 6}}, {"at_most": {"overshoot_deg": 1}, "soft": True}],
-             "global_evaluations": 80, "local_evaluations": 20, "draws": 1, "sensitivity": 16, "judged_draws": 4, "observer": {"bandwidth_radps": [0.5, 5]},
+             "global_evaluations": 80, "local_evaluations": 20, "draws": 4, "sensitivity": 16, "judged_draws": 4, "observer": {"bandwidth_radps": [0.5, 5]},
              "open": {"mass_factors": [1, 1.2], "wheel_forces": [{"min": -1, "max": 1}, {"min": -1, "max": 0.9}]}}
     Path(folder, "striving.json").write_text(json.dumps({"schema": "awmr.tune/1", **goals}))
     prints = [
