@@ -38,8 +38,8 @@ constexpr double kRounding = 1e-13;
 TEST(Constraints, GiveBothFormsOfT2BelowT1ForThePapersGains) {
   // T1 = 1/3 s, T2 = 12/(2 50) = 0.12 s, 2 T2 = 0.24 s; limit 0.8/3 = 0.26667 s
   const auto all = constraints_of(kPaperGains, paper_context(ReachingForm::kStrict, 0.8));
-  const ConstraintReport& paper = named(all, "T2 < T1 (paper)");
-  const ConstraintReport& strict = named(all, "T2 < T1 (strict)");
+  const ConstraintReport paper = named(all, "T2 < T1 (paper)");
+  const ConstraintReport strict = named(all, "T2 < T1 (strict)");
   EXPECT_NEAR(paper.value, 0.12, kRounding);
   EXPECT_NEAR(strict.value, 0.24, kRounding);
   EXPECT_NEAR(paper.limit, 0.8 / 3.0, kRounding);
