@@ -58,7 +58,12 @@ Model strained_robot() {
 
 class CompiledHeader : public ::testing::TestWithParam<Compiler> {
  protected:
-  void SetUp() override { ASSERT_TRUE(found(GetParam().program)); }
+  void SetUp() override {
+    const std::string program = GetParam().program;
+    const bool is_clang = program == kClang || program == kClangxx;
+    if (is_clang && !found(program)) GTEST_SKIP() << "clang is not installed (scripts/setup ci)";
+    ASSERT_TRUE(found(program));
+  }
 
   void write_header(const std::string& header) const {
     write_all(directory_.path() / "awmr_params.h", header);
