@@ -58,6 +58,24 @@ TEST(CoastDown, AnExactCurveGivesTheMass) {
   }
 }
 
+TEST(CoastDown, CurvesOfFourRowsGiveTheMass) {
+  for (const Truth& t : kTruths) {
+    TrialData data = surge_only(t, 0.0, 1);
+    for (const double u0 : {1.5, 1.2, 0.9}) {
+      CoastCurve curve{"curve.csv", 2, {}, {}};
+      for (int i = 0; i < 4; ++i) {
+        curve.t_s.push_back(0.1 * i);
+        curve.speed_mps.push_back(closed_form(t, u0, 0.1 * i));
+      }
+      data.curves.push_back(curve);
+    }
+    const auto result = identify(vehicle(), data, {}, {});
+    ASSERT_TRUE(result);
+    ASSERT_TRUE(result->model[ParameterId::kMassNorm].value);
+    EXPECT_NEAR(*result->model[ParameterId::kMassNorm].value / t.mass_norm, 1.0, 1e-6);
+  }
+}
+
 TEST(CoastDown, FindsTheMomentOfMotorsOffInACurveRecordedFromBefore) {
   const Truth& t = kTruths[1];
   TrialData data = surge_only(t, 0.0, 1);

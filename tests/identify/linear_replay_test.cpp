@@ -93,22 +93,22 @@ ByHand by_hand(const DrivingLog& log, double step_s, double late_s = kSpeedDelay
   for (std::size_t i = 0; i < kParameterCount; ++i) {
     parameters.push_back({static_cast<ParameterId>(i), i, 1.0});
   }
-  const DelayColumn input{kInputDelay_s, kInputDelay};
+  const CommandPath path{.delay = DelayColumn{kInputDelay_s, kInputDelay}, .lag = std::nullopt};
   const Plant<double> plant = plant_by_hand(log.steering_command_rad.has_value(), step_s, drive);
-  LinearStepper stepper(plant, kColumns, parameters, input);
+  LinearStepper stepper(plant, kColumns, parameters, kInputDelay);
   LinearMotion first{first_state<double>([](std::size_t, double x) { return x; }),
                      std::vector<double>(kStateSize * kColumns, 0.0)};
   for (std::size_t i = 0; i < kStateSize; ++i) {
     first.row(kChannels[i], kColumns)[kFirstState + i] = 1.0;
   }
   ByHand found;
-  LinearStepper back(plant, kColumns, parameters, input);
-  replay_linear(
-      signals, 0, log.rows(), stepper, step_s, first, [&](std::size_t, const LinearMotion& motion) {
-        found.motions.push_back(motion);
-        found.earlier.push_back(
-            earlier_motion(signals, 0, found.motions, back, {late_s, kSpeedDelay}, step_s));
-      });
+  LinearStepper back(plant, kColumns, parameters, kInputDelay);
+  replay_linear(signals, 0, log.rows(), path, stepper, step_s, first,
+                [&](std::size_t, const LinearMotion& motion) {
+                  found.motions.push_back(motion);
+                  found.earlier.push_back(earlier_motion(signals, 0, found.motions, back,
+                                                         {late_s, kSpeedDelay}, step_s));
+                });
   return found;
 }
 

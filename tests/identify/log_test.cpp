@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <optional>
 
 #include "awmr/identify/logs/channel_noise.h"
 #include "awmr/identify/logs/identifiability.h"
 #include "awmr/identify/logs/whitener.h"
 #include "awmr/identify/planning/recover.h"
 #include "awmr/model/model_file.h"
+#include "awmr/trials/replay.h"
 #include "identify/synthetic_log.h"
 
 namespace awmr::testing {
@@ -160,6 +163,101 @@ TEST(Log, FindsADelayAndABias) {
   EXPECT_NEAR(parameter("bias.yaw_rate_radps").value, 0.05,
               4.5 * *parameter("bias.yaw_rate_radps").std_error);
   EXPECT_LT(*parameter("input_delay_s").std_error, 0.003);
+}
+
+/// The commands of a log moved by so many rows: to later rows where positive.
+void move_commands(DrivingLog& log, int rows) {
+  const auto move = [rows](std::vector<double>& v) {
+    const std::vector<double> old = v;
+    const int last = static_cast<int>(v.size()) - 1;
+    for (int i = 0; i <= last; ++i) {
+      v[static_cast<std::size_t>(i)] = old[static_cast<std::size_t>(std::clamp(i - rows, 0, last))];
+    }
+  };
+  move(log.force_left);
+  move(log.force_right);
+  move(*log.steering_command_rad);
+}
+
+/// The mean force over every row behind motors with a time constant: F'(t + h) = c + (F'(t) - c) e.
+std::vector<double> behind_motors(const DrivingLog& log, const std::vector<double>& command,
+                                  double lag_s) {
+  std::vector<double> mean = command;
+  double force = command.front();
+  for (std::size_t i = 0; i + 1 < log.rows(); ++i) {
+    const double h = log.t_s[i + 1] - log.t_s[i];
+    const double e = std::exp(-h / lag_s);
+    mean[i] = command[i] + (force - command[i]) * lag_s / h * (1.0 - e);
+    force = command[i] + (force - command[i]) * e;
+  }
+  return mean;
+}
+
+/// The drive of drive() with motors that lag.
+DrivingLog drive_with_lag(const Truth& t, std::uint64_t seed, double lag_s) {
+  const std::map<LogChannel, double> noise{{LogChannel::kX, 0.02},
+                                           {LogChannel::kY, 0.02},
+                                           {LogChannel::kHeading, 0.01},
+                                           {LogChannel::kSpeed, 0.01},
+                                           {LogChannel::kYawRate, 0.01}};
+  DrivingLog log = drive(t, seed);
+  const std::vector<double> left = log.force_left;
+  const std::vector<double> right = log.force_right;
+  log.force_left = behind_motors(log, left, lag_s);
+  log.force_right = behind_motors(log, right, lag_s);
+  Random random(seed, 77);
+  replay<double>(LogSignals(log), 0, log.rows(), plant(t), nullptr, 0.002, {},
+                 [&](std::size_t row, const State<double>& state) {
+                   for (const auto& [channel, std] : noise) {
+                     if (!log[channel]) continue;
+                     log[channel]->value[row] = channel_of(state, channel) + std * random.normal();
+                   }
+                 });
+  log.force_left = left;
+  log.force_right = right;
+  return log;
+}
+
+std::optional<EstimatorParameter> estimated(const Identification& result, const std::string& name) {
+  for (const EstimatorParameter& p : result.model.record.reports.back().parameters) {
+    if (p.name == name) return p;
+  }
+  return std::nullopt;
+}
+
+bool has_finding(const Identification& result, const std::string& code) {
+  return std::ranges::any_of(result.model.record.findings,
+                             [&](const Finding& f) { return f.code == code; });
+}
+
+TEST(Log, FindsByItselfThatCommandsActLateOrWereLoggedLate) {
+  for (const int rows : {-4, 5}) {
+    TrialData data;
+    data.logs = {drive(kTruths[1], 8)};
+    move_commands(data.logs[0], rows);
+    const auto result = identify(robot(), data, {}, {});
+    ASSERT_TRUE(result);
+    const auto delay = estimated(*result, "input_delay_s");
+    ASSERT_TRUE(delay && delay->std_error) << rows;
+    EXPECT_NEAR(delay->value, -0.01 * rows, 4.5 * *delay->std_error);
+    EXPECT_TRUE(has_finding(*result, rows > 0 ? "late-commands" : "actuator-lag"));
+    expect_recovered(*result, ParameterId::kMassNorm, kTruths[1].mass_norm, 4.5);
+    expect_recovered(*result, ParameterId::kInertiaNorm, 0.16 * kTruths[1].mass_norm, 4.5);
+  }
+}
+
+TEST(Log, TellsMotorsThatLagFromADeadTime) {
+  constexpr double kLag_s = 0.08;
+  TrialData data;
+  data.logs = {drive_with_lag(kTruths[1], 8, kLag_s)};
+  const auto result = identify(robot(), data, {}, {});
+  ASSERT_TRUE(result);
+  const auto lag = estimated(*result, "motor.time_constant_s");
+  ASSERT_TRUE(lag && lag->std_error);
+  EXPECT_NEAR(lag->value, kLag_s, 4.5 * *lag->std_error);
+  EXPECT_TRUE(has_finding(*result, "actuator-lag"));
+  expect_recovered(*result, ParameterId::kMassNorm, kTruths[1].mass_norm, 4.5);
+  expect_recovered(*result, ParameterId::kSurgeAlpha, kTruths[1].a1, 4.5);
 }
 
 TEST(Log, IsTheSameWhateverTheThreads) {

@@ -10,8 +10,9 @@
 namespace awmr {
 namespace {
 
-/// Two parameters of the curve, its initial speed and something left to judge them by.
-constexpr std::size_t kShortestCurve = 5;
+/// The initial speed, the deceleration and one row to judge them by; whether all curves together show
+/// the parameters is judged by the fit.
+constexpr std::size_t kShortestCurve = 3;
 
 bool is_curve(const TrialReader& reader) { return reader.has("t_s") && reader.has("speed_mps"); }
 bool is_stop_time(const TrialReader& reader) {

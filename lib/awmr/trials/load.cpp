@@ -107,9 +107,7 @@ void read_tables(const TrialFiles& files, const TrialOptions& options, Trials& t
   for (const std::filesystem::path& path : files.coastdowns) {
     auto set = keep(read_coastdown(path, options, findings), faults);
     if (!set) continue;
-    if (const auto* stops = std::get_if<TrialSet<StopTimeRow>>(&*set)) {
-      check_consistency(*stops, path, tables, options, findings, faults);
-    }
+    check_consistency(*set, path, tables, options, findings, faults);
     add_coastdown(path, std::move(*set), data, faults);
   }
 }

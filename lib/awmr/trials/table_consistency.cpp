@@ -183,6 +183,23 @@ bool check_steering(const Table& table, const std::vector<TurningRow>& rows,
   return false;
 }
 
+/// A vehicle coasts from a speed that it was driven to. Where no run was nearly as fast, the speed is in
+/// another unit or the resistance is extrapolated.
+void warn_of_fast_coasts(const Table& table, int line, double fastest_mps,
+                         const std::optional<TrialSet<SurgeRow>>& surge) {
+  constexpr double kFar = 1.5;
+  if (!surge || surge->rows.empty()) return;
+  const double driven_mps =
+      std::ranges::max_element(surge->rows, {}, &SurgeRow::speed_mps)->speed_mps;
+  if (fastest_mps <= kFar * driven_mps) return;
+  table.findings.push_back(
+      {table.file, line, Severity::kWarning, "coast-beyond-surge",
+       fmt::format("a coast-down begins at {:.3g} m/s, {:.2g} times the fastest surge run "
+                   "({:.3g} m/s): m' rests on a resistance that no run measured, or the speed is "
+                   "in another unit (km/h are 3.6 times m/s)",
+                   fastest_mps, fastest_mps / driven_mps, driven_mps)});
+}
+
 }  // namespace
 
 void check_consistency(const TrialSet<SurgeRow>& surge, const std::filesystem::path& path,
@@ -209,11 +226,28 @@ void check_consistency(const TrialSet<TurningRow>& turning, const std::filesyste
   if (is_steered) check_wheel_force(table, turning.rows, tables);
 }
 
-void check_consistency(const TrialSet<StopTimeRow>& coastdown, const std::filesystem::path& path,
+void check_consistency(const CoastdownSet& coastdown, const std::filesystem::path& path,
                        const Tables& tables, const TrialOptions& options,
                        std::vector<Finding>& findings, std::vector<Fault>& faults) {
-  const Table table{path, coastdown.file, options, findings, faults};
-  table.tell(wrong_unit(coastdown, tables.surge, tables.vehicle));
+  const auto check = [&](const std::string& file, int line, double fastest_mps,
+                         const std::optional<WrongUnit>& wrong) {
+    const Table table{path, file, options, findings, faults};
+    table.tell(wrong);
+    if (!wrong) warn_of_fast_coasts(table, line, fastest_mps, tables.surge);
+  };
+  if (const auto* stops = std::get_if<TrialSet<StopTimeRow>>(&coastdown)) {
+    if (stops->rows.empty()) return;
+    const auto& fastest =
+        *std::ranges::max_element(stops->rows, {}, &StopTimeRow::initial_speed_mps);
+    check(stops->file, fastest.line, fastest.initial_speed_mps,
+          wrong_unit(*stops, tables.surge, tables.vehicle));
+    return;
+  }
+  const auto& curves = std::get<std::vector<CoastCurve>>(coastdown);
+  if (curves.empty()) return;
+  const auto top = [](const CoastCurve& curve) { return std::ranges::max(curve.speed_mps); };
+  const CoastCurve& fastest = *std::ranges::max_element(curves, {}, top);
+  check(fastest.file, fastest.line, top(fastest), wrong_unit(curves, tables.surge, tables.vehicle));
 }
 
 }  // namespace awmr

@@ -28,7 +28,8 @@ void check_consistency(const TrialSet<SurgeRow>& surge, const std::filesystem::p
 void check_consistency(const TrialSet<TurningRow>& turning, const std::filesystem::path& path,
                        const Tables& tables, const TrialOptions& options,
                        std::vector<Finding>& findings, std::vector<Fault>& faults);
-void check_consistency(const TrialSet<StopTimeRow>& coastdown, const std::filesystem::path& path,
+/// Also `coast-beyond-surge` (a warning): the coast-downs begin at a speed far above that of every run.
+void check_consistency(const CoastdownSet& coastdown, const std::filesystem::path& path,
                        const Tables& tables, const TrialOptions& options,
                        std::vector<Finding>& findings, std::vector<Fault>& faults);
 

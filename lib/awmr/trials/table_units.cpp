@@ -181,37 +181,75 @@ std::optional<WrongUnit> wrong_unit(const TrialSet<TurningRow>& turning) {
   return wrong(first.line, told + ": the time looks like milliseconds", "elapsed_s", 1e-3);
 }
 
+namespace {
+
+/// What a file of coast-downs says of its units, and the columns that say it.
+struct Coasts {
+  int line;
+  double fastest_mps;
+  double hardest_mps2;
+  const char* speed;
+  const char* time;
+};
+
+std::optional<WrongUnit> wrong_unit(const Coasts& coasts,
+                                    const std::optional<TrialSet<SurgeRow>>& surge,
+                                    const Vehicle& vehicle) {
+  const double lengths = coasts.fastest_mps / vehicle.length_m;
+  if (lengths > kLengthsPerSecond.hi && tells_lengths(vehicle)) {
+    const auto [factor, words] = smaller_unit(lengths, {1e-2, "the speed looks like cm/s"},
+                                              {1e-3, "the speed looks like mm/s"});
+    return wrong(coasts.line,
+                 fmt::format("{}: {}", lengths_text(coasts.fastest_mps, vehicle), words),
+                 coasts.speed, factor);
+  }
+  const auto top_mps = top_speed_mps(surge, vehicle);
+  if (top_mps && coasts.fastest_mps > *top_mps) {
+    const auto [factor, words] = unit_below(coasts.fastest_mps, *top_mps);
+    return wrong(coasts.line,
+                 fmt::format("a coast-down begins at {:.3g} m/s, where the surge runs let the "
+                             "vehicle do {:.3g} m/s at the most: {}",
+                             coasts.fastest_mps, *top_mps, words),
+                 coasts.speed, factor);
+  }
+  if (coasts.hardest_mps2 >= kLeastDeceleration_mps2) return std::nullopt;
+  return wrong(coasts.line,
+               fmt::format("the hardest stop loses {:.3g} m/s^2: the time looks like milliseconds",
+                           coasts.hardest_mps2),
+               coasts.time, 1e-3);
+}
+
+}  // namespace
+
 std::optional<WrongUnit> wrong_unit(const TrialSet<StopTimeRow>& coastdown,
                                     const std::optional<TrialSet<SurgeRow>>& surge,
                                     const Vehicle& vehicle) {
   if (coastdown.rows.empty()) return std::nullopt;
-  const StopTimeRow& first = coastdown.rows.front();
-  const double speed_mps = fastest(coastdown.rows, &StopTimeRow::initial_speed_mps);
-  const double lengths = speed_mps / vehicle.length_m;
-  if (lengths > kLengthsPerSecond.hi && tells_lengths(vehicle)) {
-    const auto [factor, words] = smaller_unit(lengths, {1e-2, "the speed looks like cm/s"},
-                                              {1e-3, "the speed looks like mm/s"});
-    return wrong(first.line, fmt::format("{}: {}", lengths_text(speed_mps, vehicle), words),
-                 "initial_speed_mps", factor);
-  }
-  const auto top_mps = top_speed_mps(surge, vehicle);
-  if (top_mps && speed_mps > *top_mps) {
-    const auto [factor, words] = unit_below(speed_mps, *top_mps);
-    return wrong(first.line,
-                 fmt::format("a coast-down begins at {:.3g} m/s, where the surge runs let the "
-                             "vehicle do {:.3g} m/s at the most: {}",
-                             speed_mps, *top_mps, words),
-                 "initial_speed_mps", factor);
-  }
   double hardest_mps2 = 0.0;
   for (const StopTimeRow& row : coastdown.rows) {
     hardest_mps2 = std::max(hardest_mps2, row.initial_speed_mps / row.stop_time_s);
   }
-  if (hardest_mps2 >= kLeastDeceleration_mps2) return std::nullopt;
-  return wrong(first.line,
-               fmt::format("the hardest stop loses {:.3g} m/s^2: the time looks like milliseconds",
-                           hardest_mps2),
-               "stop_time_s", 1e-3);
+  return wrong_unit(
+      {coastdown.rows.front().line, fastest(coastdown.rows, &StopTimeRow::initial_speed_mps),
+       hardest_mps2, "initial_speed_mps", "stop_time_s"},
+      surge, vehicle);
+}
+
+std::optional<WrongUnit> wrong_unit(const std::vector<CoastCurve>& curves,
+                                    const std::optional<TrialSet<SurgeRow>>& surge,
+                                    const Vehicle& vehicle) {
+  if (curves.empty()) return std::nullopt;
+  double fastest_mps = 0.0;
+  double hardest_mps2 = 0.0;
+  for (const CoastCurve& curve : curves) {
+    const auto [least, most] = std::ranges::minmax(curve.speed_mps);
+    fastest_mps = std::max(fastest_mps, most);
+    hardest_mps2 = std::max(hardest_mps2, (most - least) / (curve.t_s.back() - curve.t_s.front()));
+  }
+  // A curve that does not fall is set aside by itself.
+  if (!(hardest_mps2 > 0.0)) return std::nullopt;
+  return wrong_unit({curves.front().line, fastest_mps, hardest_mps2, "speed_mps", "t_s"}, surge,
+                    vehicle);
 }
 
 }  // namespace awmr

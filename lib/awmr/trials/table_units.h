@@ -32,5 +32,8 @@ std::optional<WrongUnit> wrong_unit(const TrialSet<TurningRow>& turning);
 std::optional<WrongUnit> wrong_unit(const TrialSet<StopTimeRow>& coastdown,
                                     const std::optional<TrialSet<SurgeRow>>& surge,
                                     const Vehicle& vehicle);
+std::optional<WrongUnit> wrong_unit(const std::vector<CoastCurve>& curves,
+                                    const std::optional<TrialSet<SurgeRow>>& surge,
+                                    const Vehicle& vehicle);
 
 }  // namespace awmr

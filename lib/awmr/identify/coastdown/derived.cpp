@@ -109,6 +109,19 @@ void check_mass(const Resistance<double>& surge, const TrialSet<StopTimeRow>& co
   }
 }
 
+void check_mass(const Resistance<double>& surge, const std::vector<CoastCurve>& curves,
+                double mass_norm, std::vector<Finding>& findings) {
+  for (const CoastCurve& curve : curves) {
+    const double deceleration = surge.at(curve.speed_mps.front()) / mass_norm;
+    if (deceleration <= kGravity_mps2) continue;
+    findings.push_back(
+        {curve.file, curve.line, Severity::kWarning, "implausible-deceleration",
+         fmt::format("this coast-down begins with a deceleration of {:.1f} m/s^2 ({:.1f} g), more "
+                     "than a tyre gives; check the units of time and speed",
+                     deceleration, deceleration / kGravity_mps2)});
+  }
+}
+
 void check_inertia(const Vehicle& vehicle, std::vector<Finding>& findings) {
   if (!vehicle.yaw_inertia_kgm2) return;
   Vehicle box = vehicle;

@@ -16,23 +16,33 @@ namespace {
 /// A curve whose speed falls by less than this many deviations of its noise shows no deceleration.
 constexpr double kMinimumFall = 5.0;
 
+/// The noise of a curve, by how far each speed lies off the line through its neighbours:
+///
+///     e_i = u_i - (1 - w) u_(i-1) - w u_(i+1),   w = (t_i - t_(i-1))/(t_(i+1) - t_(i-1))
+///     std^2 = mean of e_i^2/(1 + w^2 + (1 - w)^2)
+double noise_of(const CoastCurve& curve) {
+  const std::vector<double>& t = curve.t_s;
+  const std::vector<double>& u = curve.speed_mps;
+  double squares = 0.0;
+  for (std::size_t i = 1; i + 1 < u.size(); ++i) {
+    const double w = (t[i] - t[i - 1]) / (t[i + 1] - t[i - 1]);
+    const double e = u[i] - (1.0 - w) * u[i - 1] - w * u[i + 1];
+    squares += e * e / (1.0 + w * w + (1.0 - w) * (1.0 - w));
+  }
+  return std::sqrt(squares / static_cast<double>(u.size() - 2));
+}
+
 /// False for a curve whose speeds only wander about one level: its mean of the last fifth is not
-/// below that of the first by more than noise explains.
+/// below that of the first by more than noise explains. Precondition: three rows.
 bool falls(const CoastCurve& curve) {
-  const std::size_t part = std::max<std::size_t>(2, curve.speed_mps.size() / 5);
+  const std::size_t part = std::max<std::size_t>(1, curve.speed_mps.size() / 5);
   const auto mean = [&](std::size_t begin) {
     double sum = 0.0;
     for (std::size_t i = begin; i < begin + part; ++i) sum += curve.speed_mps[i];
     return sum / static_cast<double>(part);
   };
-  double squares = 0.0;
-  for (std::size_t i = 1; i < curve.speed_mps.size(); ++i) {
-    const double step = curve.speed_mps[i] - curve.speed_mps[i - 1];
-    squares += step * step;
-  }
-  const double noise = std::sqrt(squares / (2.0 * static_cast<double>(curve.speed_mps.size())));
   const double fall = mean(0) - mean(curve.speed_mps.size() - part);
-  return fall > kMinimumFall * noise / std::sqrt(static_cast<double>(part)) && fall > 0.0;
+  return fall > kMinimumFall * noise_of(curve) / std::sqrt(static_cast<double>(part)) && fall > 0.0;
 }
 
 /// Returns the curves that fall, and adds a finding to `result` for each of the others.
@@ -172,6 +182,9 @@ MassResult estimate_mass(const SubjectFit* surge, const std::optional<TrialSet<S
     }
   }
   check(law, stops, !curves.empty(), vehicle, result);
+  if (result.estimate) {
+    check_mass(law.law(), curves, std::exp(result.estimate->log_mass_norm), result.findings);
+  }
   return result;
 }
 

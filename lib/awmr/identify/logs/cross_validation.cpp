@@ -19,7 +19,10 @@ std::string prediction_errors(const DrivingLog& log, const LogFitOptions& option
   double delay_s = 0.0;
   for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
     const FreeQuantity& q = fit.quantities[i];
-    if (q.kind == FreeQuantity::Kind::kDelay) delay_s = q.value(fit.coordinates[i]);
+    // A lag acts about as a delay as long as its time constant.
+    if (q.kind == FreeQuantity::Kind::kDelay || q.kind == FreeQuantity::Kind::kMotorLag) {
+      delay_s = q.value(fit.coordinates[i]);
+    }
   }
   const ParameterValues<double> values = fitted_values(options, fit);
   std::string text;

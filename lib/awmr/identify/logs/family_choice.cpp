@@ -206,8 +206,8 @@ std::string families_in_words(Family surge, Family yaw) {
 }
 
 LogFitOptions from_optimum(LogFitOptions options, const FamilyFit& fit) {
+  options = with_delays_of(fit.fit, std::move(options));
   options.initial_guess = fitted_values(fit.options, fit.fit);
-  options.sensor_delays = sensor_delays_of(fit.fit);
   options.guessed.clear();
   options.also_from.clear();
   options.suspects.clear();
@@ -235,6 +235,28 @@ FamilyFit searched_again(const std::vector<DrivingLog>& logs, const LogFitOption
   FamilyFit again = fit_from(logs, power_law, rival, first.surge, first.yaw);
   return aic_lead(again.fit, first.fit) > 0.0 ? std::move(again) : std::move(first);
 }
+
+namespace {
+
+bool has_delays(const LogFitOptions& options) {
+  return options.input_delay_s || options.motor_lag_s || !options.sensor_delays.empty();
+}
+
+/// The best families with delays of their own, where those that they took over from other families do
+/// worse: a wrong resistance hides behind delays.
+FamilyFit with_delays_of_its_own(const std::vector<DrivingLog>& logs,
+                                 const LogFitOptions& power_law, FamilyFit best) {
+  if (!best.fit.usable || !has_delays(best.options) || is_over(power_law)) return best;
+  LogFitOptions options = from_optimum(best.options, best);
+  options.input_delay_s = power_law.input_delay_s;
+  options.motor_lag_s = power_law.motor_lag_s;
+  options.sensor_delays = power_law.sensor_delays;
+  options.suspects = power_law.suspects;
+  FamilyFit own = fit_with(logs, std::move(options), best.surge, best.yaw);
+  return aic_lead(own.fit, best.fit) > 0.0 ? std::move(own) : std::move(best);
+}
+
+}  // namespace
 
 std::vector<EstimatorReport> reports_of(const std::vector<FamilyFit>& fits,
                                         const FamilyFit& reference) {
@@ -268,6 +290,7 @@ BestFamily best_family(const std::vector<DrivingLog>& logs, const LogFitOptions&
     if (is_first) power_fit = std::move(fit);
   }
   const bool other = result.best.surge != Family::kPower || result.best.yaw != Family::kPower;
+  if (other) result.best = with_delays_of_its_own(logs, power_law, std::move(result.best));
   if (other && aic_lead(result.best.fit, power_fit) > kPlainlyBetter) {
     result.findings.push_back(taken(logs.front().file, result.best, power_fit));
   }

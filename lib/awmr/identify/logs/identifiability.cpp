@@ -52,9 +52,9 @@ std::optional<std::size_t> place_of(const std::vector<FreeQuantity>& quantities,
   return at(found - quantities.begin());
 }
 
-/// A delay and a family's term may be zero, the end of their range.
+/// A delay, a lag and a family's term may be zero, the end of their range.
 bool stopped(const FreeQuantity& q, double coordinate, const Interval& bounds) {
-  if (q.is_delay()) return coordinate >= bounds.hi;
+  if (q.may_be_zero()) return coordinate >= bounds.hi;
   const bool term = q.kind == FreeQuantity::Kind::kParameter && info(q.id).term;
   if (term && coordinate == bounds.lo) return false;
   return coordinate <= bounds.lo || coordinate >= bounds.hi;

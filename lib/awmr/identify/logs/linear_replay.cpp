@@ -62,6 +62,22 @@ double slope_by_delay(const HeldSignal& signal, double t_s, double h_s, double d
   return -(signal.at(t_s + h_s - delay_s) - signal.at(t_s - delay_s)) / h_s;
 }
 
+/// A force behind a lag T over a span h in which the command is c, and its derivatives by T.
+struct Lagged {
+  double end, end_by_lag;
+  double mean, mean_by_lag;
+};
+
+Lagged lagged(double force, double by_lag, double command, double lag_s, double h_s) {
+  const double from = force - command;
+  if (!(lag_s > 0.0)) return {command, 0.0, command, from / h_s};
+  const double x = h_s / lag_s;
+  const double e = std::exp(-x);
+  const double share = -std::expm1(-x) / x;  // (T/h)(1 - e)
+  return {command + from * e, by_lag * e + from * e * x / lag_s, command + from * share,
+          by_lag * share + from * (share - e) / lag_s};
+}
+
 /// By column, [kStateSize]: the rate of the derivatives at one moment.
 std::array<double, kStateSize> rate_of_column(const StateSlopes& a, const double* b,
                                               std::size_t columns, const double* s) {
@@ -81,6 +97,43 @@ std::array<double, kStateSize> rate_of_column(const StateSlopes& a, const double
 
 }  // namespace
 
+LaggedForces::LaggedForces(const DrivingLog& log, const DelayColumn& lag)
+    : log_(&log), lag_s_(lag.delay_s), column_(lag.column) {
+  force_.reserve(log.rows());
+  by_lag_.reserve(log.rows());
+  SideForces<double> force{log.force_left.front(), log.force_right.front()};
+  SideForces<double> by_lag{};
+  for (std::size_t row = 0; row < log.rows(); ++row) {
+    force_.push_back(force);
+    by_lag_.push_back(by_lag);
+    if (row + 1 == log.rows()) break;
+    const double h = log.t_s[row + 1] - log.t_s[row];
+    const Lagged left = lagged(force.left, by_lag.left, log.force_left[row], lag_s_, h);
+    const Lagged right = lagged(force.right, by_lag.right, log.force_right[row], lag_s_, h);
+    force = {left.end, right.end};
+    by_lag = {left.end_by_lag, right.end_by_lag};
+  }
+}
+
+LaggedForces::Mean LaggedForces::mean(std::size_t row, double since_row_s, double h_s) const {
+  const auto side = [&](double force, double by_lag, double command) {
+    if (since_row_s > 0.0) {
+      const Lagged start = lagged(force, by_lag, command, lag_s_, since_row_s);
+      return lagged(start.end, start.end_by_lag, command, lag_s_, h_s);
+    }
+    return lagged(force, by_lag, command, lag_s_, h_s);
+  };
+  const Lagged left = side(force_[row].left, by_lag_[row].left, log_->force_left[row]);
+  const Lagged right = side(force_[row].right, by_lag_[row].right, log_->force_right[row]);
+  return {{left.mean, right.mean}, {left.mean_by_lag, right.mean_by_lag}};
+}
+
+std::optional<std::size_t> CommandPath::column() const {
+  if (delay) return delay->column;
+  if (lag) return lag->column();
+  return std::nullopt;
+}
+
 const double* LinearMotion::row(LogChannel channel, std::size_t columns) const {
   return by_column.data() + place_of(channel) * columns;
 }
@@ -90,12 +143,12 @@ double* LinearMotion::row(LogChannel channel, std::size_t columns) {
 
 LinearStepper::LinearStepper(const Plant<double>& plant, std::size_t columns,
                              const std::vector<ParameterColumn>& parameters,
-                             const std::optional<DelayColumn>& delay)
+                             std::optional<std::size_t> late_column)
     : plant_(plant, std::ranges::any_of(
                         parameters,
                         [](const ParameterColumn& p) { return p.id == ParameterId::kBackEmf; })),
       columns_(columns),
-      delay_(delay),
+      late_column_(late_column),
       driven_(kStages * kDrivenSize * columns, 0.0) {
   if (columns == 0) return;
   for (const ParameterColumn& p : parameters) {
@@ -112,14 +165,14 @@ void LinearStepper::note_driven(const DelayedCommand& command, double* driven) c
   for (const Term& t : terms_) {
     driven[t.place] = rates_.by_parameter[t.parameter].*t.rate * t.factor;
   }
-  if (!delay_) return;
+  if (!late_column_) return;
   const HeldCommand& by_delay = command.by_delay;
   for (std::size_t i = 0; i < kDrivenSize; ++i) {
     const auto rate = kDriven[i];
-    driven[i * columns_ + delay_->column] = by_delay.force.left * rates_.by_force_left.*rate +
-                                            by_delay.force.right * rates_.by_force_right.*rate;
+    driven[i * columns_ + *late_column_] = by_delay.force.left * rates_.by_force_left.*rate +
+                                           by_delay.force.right * rates_.by_force_right.*rate;
   }
-  driven[(kDrivenSize - 1) * columns_ + delay_->column] =
+  driven[(kDrivenSize - 1) * columns_ + *late_column_] =
       by_delay.steering_rad * rates_.steering_by_command;
 }
 
@@ -162,11 +215,15 @@ State<double> LinearStepper::rates(const DelayedCommand& command, const LinearMo
 }
 
 DelayedCommand command_at(const LogSignals& signals, std::size_t row, double t_s, double h_s,
-                          const std::optional<DelayColumn>& delay) {
+                          const CommandPath& path) {
   const DrivingLog& log = *signals.log;
   const std::vector<double>& steering = log.driving_steering_rad();
-  if (!delay) return {{{log.force_left[row], log.force_right[row]}, steering[row]}};
-  const double d = delay->delay_s;
+  if (path.lag) {
+    const LaggedForces::Mean mean = path.lag->mean(row, t_s - log.t_s[row], h_s);
+    return {{mean.force, steering[row]}, {mean.by_lag, 0.0}};
+  }
+  if (!path.delay) return {{{log.force_left[row], log.force_right[row]}, steering[row]}};
+  const double d = path.delay->delay_s;
   return {{{delayed_mean(signals.left, t_s, h_s, d), delayed_mean(signals.right, t_s, h_s, d)},
            delayed_mean(signals.steering, t_s, h_s, d)},
           {{slope_by_delay(signals.left, t_s, h_s, d), slope_by_delay(signals.right, t_s, h_s, d)},
@@ -182,7 +239,7 @@ LinearMotion earlier_motion(const LogSignals& signals, std::size_t begin,
   std::size_t row = begin + motions.size() - 1;
   while (row > begin && log.t_s[row] > then_s) --row;
   LinearMotion motion = motions[row - begin];
-  DelayedCommand command = command_at(signals, row, log.t_s[row], 1.0, std::nullopt);
+  DelayedCommand command = command_at(signals, row, log.t_s[row], 1.0, {});
   if (!log.steering_command_rad) command.command.steering_rad = motion.state.steering_rad;
   const double span_s = now_s - log.t_s[row] - delay.delay_s;
   State<double> rates{};

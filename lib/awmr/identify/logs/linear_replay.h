@@ -29,13 +29,46 @@ struct ParameterColumn {
   double factor;  ///< d parameter / d coordinate
 };
 
-/// A delay of all commands, whose derivatives fill a column.
+/// A delay whose derivatives fill a column: of all commands, where a negative one says that they were
+/// logged late; of a sensor; or the time constant of the motors.
 struct DelayColumn {
   double delay_s;
   std::size_t column;
 };
 
-/// What drives the vehicle, and how that changes with the delay.
+/// Wheel forces behind motors that lag by the time constant T, with the derivatives by T. From
+/// F' = c at the first row, while the command is c:
+///
+///     F'(t + h) = c + (F'(t) - c) e,   e = exp(-h/T)
+///     mean over h: c + (F'(t) - c) (T/h) (1 - e)
+class LaggedForces {
+ public:
+  LaggedForces(const DrivingLog& log, const DelayColumn& lag);
+  /// The mean over [t, t + h], which begins `since_row_s` after the row and ends before the next.
+  struct Mean {
+    SideForces<double> force;
+    SideForces<double> by_lag;
+  };
+  Mean mean(std::size_t row, double since_row_s, double h_s) const;
+  std::size_t column() const { return column_; }
+
+ private:
+  const DrivingLog* log_;
+  double lag_s_;
+  std::size_t column_;
+  std::vector<SideForces<double>> force_;   ///< by row
+  std::vector<SideForces<double>> by_lag_;  ///< by row
+};
+
+/// What stands between the logged commands and the wheels: nothing, a delay or a lag.
+struct CommandPath {
+  std::optional<DelayColumn> delay;
+  std::optional<LaggedForces> lag;
+
+  std::optional<std::size_t> column() const;
+};
+
+/// What drives the vehicle, and how that changes with the delay or lag.
 struct DelayedCommand {
   HeldCommand command;
   HeldCommand by_delay{};
@@ -44,10 +77,10 @@ struct DelayedCommand {
 /// Moves the state and its derivatives on.
 class LinearStepper {
  public:
-  /// `columns`: 0 for the state alone.
+  /// `columns`: 0 for the state alone. `late_column`: of the command path's delay or lag.
   LinearStepper(const Plant<double>& plant, std::size_t columns,
                 const std::vector<ParameterColumn>& parameters,
-                const std::optional<DelayColumn>& delay);
+                std::optional<std::size_t> late_column);
   /// One classical Runge-Kutta step of h seconds.
   void step(const DelayedCommand& command, double h_s, LinearMotion& motion);
   /// One step along the rates where it stands, which are returned; h of either sign.
@@ -56,7 +89,6 @@ class LinearStepper {
   State<double> rates(const DelayedCommand& command, const LinearMotion& motion);
 
   std::size_t columns() const { return columns_; }
-  const std::optional<DelayColumn>& delay() const { return delay_; }
 
  private:
   /// A derivative of rates_ that counts, and where it goes.
@@ -70,7 +102,7 @@ class LinearStepper {
 
   LinearPlant plant_;
   std::size_t columns_;
-  std::optional<DelayColumn> delay_;
+  std::optional<std::size_t> late_column_;
   std::vector<Term> terms_;
   LinearRates rates_;
   std::array<StateSlopes, kStages> slopes_{};
@@ -79,14 +111,14 @@ class LinearStepper {
 
 /// The command over [t, t + h].
 DelayedCommand command_at(const LogSignals& signals, std::size_t row, double t_s, double h_s,
-                          const std::optional<DelayColumn>& delay);
+                          const CommandPath& path);
 
 /// Runs the model over rows [begin, end) from `motion` and calls visit(row, motion) at every row, as
 /// replay() does.
 template <class Visit>
 void replay_linear(const LogSignals& signals, std::size_t begin, std::size_t end,
-                   LinearStepper& stepper, double longest_step_s, LinearMotion motion,
-                   Visit visit) {
+                   const CommandPath& path, LinearStepper& stepper, double longest_step_s,
+                   LinearMotion motion, Visit visit) {
   const DrivingLog& log = *signals.log;
   const bool servo = log.steering_command_rad.has_value();
   const std::size_t columns = stepper.columns();
@@ -106,7 +138,7 @@ void replay_linear(const LogSignals& signals, std::size_t begin, std::size_t end
     const int steps = steps_in(span_s, longest_step_s);
     const double h = span_s / steps;
     for (int i = 0; i < steps; ++i) {
-      DelayedCommand command = command_at(signals, row, log.t_s[row] + i * h, h, stepper.delay());
+      DelayedCommand command = command_at(signals, row, log.t_s[row] + i * h, h, path);
       if (!servo) {
         steer(row, (i + 0.5) / steps);
         command.command.steering_rad = motion.state.steering_rad;

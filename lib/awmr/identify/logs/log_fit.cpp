@@ -7,8 +7,8 @@
 #include "awmr/core/index.h"
 #include "awmr/identify/logs/bootstrap.h"
 #include "awmr/identify/logs/ceres_problem.h"
+#include "awmr/identify/logs/delays.h"
 #include "awmr/identify/logs/information.h"
-#include "awmr/identify/logs/late_sensors.h"
 #include "awmr/identify/logs/log_report.h"
 #include "awmr/identify/logs/multistart.h"
 #include "awmr/identify/logs/noise_iteration.h"
@@ -75,7 +75,7 @@ LogFit fit_at(const LogProblem& problem, const Solved& solved, const std::vector
 /// its end.
 std::optional<LogFit> fit_from(const LogProblem& guess, const std::vector<double>& coordinates,
                                const LogFitOptions& options) {
-  const NoiseIteration settled = allow_for_late_sensors(
+  const NoiseIteration settled = allow_for_delays(
       settle_noise(guess, from_measured(guess, coordinates), options.loss), options.loss);
   const Solved solved = solve(settled.problem, settled.point, kFine);
   const std::vector<WindowSums> sums =
@@ -108,13 +108,18 @@ LogFit fit_logs(const std::vector<DrivingLog>& logs, const LogFitOptions& option
   return *std::move(fit);
 }
 
-std::vector<SensorDelay> sensor_delays_of(const LogFit& fit) {
-  std::vector<SensorDelay> delays;
+LogFitOptions with_delays_of(const LogFit& fit, LogFitOptions options) {
+  options.sensor_delays.clear();
   for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
-    if (fit.quantities[i].kind != FreeQuantity::Kind::kSensorDelay) continue;
-    delays.push_back({fit.quantities[i].channel, fit.coordinates[i]});
+    const FreeQuantity& q = fit.quantities[i];
+    const double found_s = fit.coordinates[i];
+    if (q.kind == FreeQuantity::Kind::kDelay) options.input_delay_s = found_s;
+    if (q.kind == FreeQuantity::Kind::kMotorLag) options.motor_lag_s = found_s;
+    if (q.kind == FreeQuantity::Kind::kSensorDelay) {
+      options.sensor_delays.push_back({q.channel, found_s});
+    }
   }
-  return delays;
+  return options;
 }
 
 ParameterValues<double> fitted_values(const LogFitOptions& options, const LogFit& fit) {

@@ -34,8 +34,8 @@ struct LogFit {
 /// has no quantities, and its report says why.
 LogFit fit_logs(const std::vector<DrivingLog>& logs, const LogFitOptions& options);
 
-/// The sensors that the fit found late, with their delays.
-std::vector<SensorDelay> sensor_delays_of(const LogFit& fit);
+/// The options with the delays and the lag that the fit found free, from where it found them.
+LogFitOptions with_delays_of(const LogFit& fit, LogFitOptions options);
 
 /// All parameters as the fit leaves them: the free ones fitted, the rest as they were held.
 ParameterValues<double> fitted_values(const LogFitOptions& options, const LogFit& fit);

@@ -43,10 +43,13 @@ struct LogFitOptions {
   std::vector<ParameterId> free;
   /// Terms held at 0 whose worth the fit estimates without freeing them.
   std::vector<ParameterId> suspects;
-  bool delay = false;              ///< one input delay of all commands is free
+  /// A delay of all commands is free, with where the search begins; negative: they were logged late.
+  std::optional<double> input_delay_s;
+  /// The time constant of the motors is free, with where the search begins.
+  std::optional<double> motor_lag_s;
   std::vector<LogChannel> biases;  ///< channels whose constant offset is free
-  /// Sensor delays that are free, with where the search begins. The fit adds those that its residuals
-  /// show.
+  /// Sensor delays that are free, with where the search begins. The fit adds the delays and the lag
+  /// that its residuals show.
   std::vector<SensorDelay> sensor_delays;
   /// Further places to search from, beside the initial guess: the optimum of a family inside this one.
   std::vector<ParameterValues<double>> also_from;

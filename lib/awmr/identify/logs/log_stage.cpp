@@ -117,7 +117,7 @@ LogFitOptions fit_options(const Vehicle& vehicle, const std::vector<DrivingLog>&
                           const IdentifyOptions& options) {
   LogFitOptions fit;
   fit.vehicle = vehicle;
-  fit.delay = options.fit_input_delay;
+  if (options.fit_input_delay) fit.input_delay_s = 0.0;
   fit.suspects = {ParameterId::kSurgeCoulomb, ParameterId::kSurgeQuadratic,
                   ParameterId::kWheelDeadZone, ParameterId::kYawCoulomb,
                   ParameterId::kYawQuadratic};
@@ -289,26 +289,39 @@ std::vector<FoundDelay> found_delays(const LogFit& fit, FreeQuantity::Kind kind)
   for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
     if (fit.quantities[i].kind != kind || !fit.why_not[i].empty()) continue;
     const double error_s = std::sqrt(fit.covariance(eigen_index(i), eigen_index(i)));
-    if (fit.coordinates[i] < std::max(kShortest_s, 2.0 * error_s)) continue;
+    if (std::abs(fit.coordinates[i]) < std::max(kShortest_s, 2.0 * error_s)) continue;
     found.push_back({fit.quantities[i], fit.coordinates[i], error_s});
   }
   return found;
 }
 
-/// Two or more channels that show the motion at once, and all of them late: a cause that they share.
-/// With `--fit input_delay_s` the commands are late, by a dead time or a lag.
+/// The commands act late, by a dead time or by motors that lag, or were logged late. Or two or more
+/// channels that show the motion at once are all late: a cause that they share.
 std::vector<Finding> actuator_findings(const LogFit& fit, const std::string& file) {
   constexpr std::string_view kWhy =
-      "motors that lag, commands that arrive late or pass a ramp before they arrive. The fit takes "
-      "a "
-      "lag for a dead time, and m', I'z and the sway resistance take a part of it: their intervals "
-      "do not hold. Give the motors' lag in the vehicle file (motor.time_constant_s) to the "
-      "simulator, log what reaches the motors, or record slower steps";
-  const std::vector<FoundDelay> input = found_delays(fit, FreeQuantity::Kind::kDelay);
-  if (!input.empty()) {
-    return {{file, 0, Severity::kWarning, "actuator-lag",
-             fmt::format("the vehicle answers {:.3f} +- {:.3f} s after its commands: {}",
-                         input.front().value_s, input.front().error_s, kWhy)}};
+      "motors that lag, commands that arrive late or pass a ramp before they arrive. m', I'z and "
+      "the "
+      "sway resistance may take a part of it. Log what reaches the motors, or record slower steps";
+  for (const FoundDelay& lag : found_delays(fit, FreeQuantity::Kind::kMotorLag)) {
+    return {
+        {file, 0, Severity::kWarning, "actuator-lag",
+         fmt::format("the motors lag by a time constant of {:.3f} +- {:.3f} s; the fit allows for "
+                     "it. Give it to the simulator (motor.time_constant_s in the vehicle file)",
+                     lag.value_s, lag.error_s)}};
+  }
+  for (const FoundDelay& input : found_delays(fit, FreeQuantity::Kind::kDelay)) {
+    if (input.value_s < 0.0) {
+      return {{file, 0, Severity::kWarning, "late-commands",
+               fmt::format("the vehicle answers {:.3f} +- {:.3f} s before its commands: they were "
+                           "logged late, or all sensors early; the fit allows for it",
+                           -input.value_s, input.error_s)}};
+    }
+    return {
+        {file, 0, Severity::kWarning, "actuator-lag",
+         fmt::format("the vehicle answers {:.3f} +- {:.3f} s after its commands, rather by a dead "
+                     "time than by motors that lag; the fit allows for it, a controller has to "
+                     "as well",
+                     input.value_s, input.error_s)}};
   }
   const std::vector<FoundDelay> late = found_delays(fit, FreeQuantity::Kind::kSensorDelay);
   std::set<LogChannel> channels;

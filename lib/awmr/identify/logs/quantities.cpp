@@ -9,7 +9,9 @@ namespace awmr {
 namespace {
 
 Interval bounds_of(const FreeQuantity& quantity, double initial, const Vehicle& vehicle) {
-  if (quantity.is_delay()) return {0.0, 1.0};
+  constexpr double kLongest_s = 1.0;
+  if (quantity.kind == FreeQuantity::Kind::kDelay) return {-kLongest_s, kLongest_s};
+  if (quantity.may_be_zero()) return {0.0, kLongest_s};
   if (quantity.kind == FreeQuantity::Kind::kBias) return {-1e6, 1e6};
   if (quantity.id == ParameterId::kSurgeBeta) {
     return {vehicle.surge_beta_range.lo, vehicle.surge_beta_range.hi};
@@ -29,6 +31,8 @@ std::string FreeQuantity::name() const {
       return std::string(info(id).name);
     case Kind::kDelay:
       return std::string(kInputDelayName);
+    case Kind::kMotorLag:
+      return std::string(kMotorLagName);
     case Kind::kSensorDelay:
       return fmt::format("{}{}", kSensorDelayPrefix, info(channel).name);
     case Kind::kBias:
@@ -48,6 +52,10 @@ FreeQuantity free_parameter(ParameterId id) {
   return {.id = id, .scale = scale_of(id), .large_change = info(id).term ? 0.2 : 1.0};
 }
 
+FreeQuantity input_delay() { return {.kind = FreeQuantity::Kind::kDelay, .large_change = 0.1}; }
+
+FreeQuantity motor_lag() { return {.kind = FreeQuantity::Kind::kMotorLag, .large_change = 0.1}; }
+
 FreeQuantity sensor_delay_of(LogChannel channel) {
   return {.kind = FreeQuantity::Kind::kSensorDelay, .channel = channel, .large_change = 0.1};
 }
@@ -55,9 +63,8 @@ FreeQuantity sensor_delay_of(LogChannel channel) {
 std::vector<FreeQuantity> free_quantities(const LogFitOptions& options) {
   std::vector<FreeQuantity> quantities;
   for (const ParameterId id : options.free) quantities.push_back(free_parameter(id));
-  if (options.delay) {
-    quantities.push_back({.kind = FreeQuantity::Kind::kDelay, .large_change = 0.1});
-  }
+  if (options.input_delay_s) quantities.push_back(input_delay());
+  if (options.motor_lag_s) quantities.push_back(motor_lag());
   for (const LogChannel channel : options.biases) {
     quantities.push_back({.kind = FreeQuantity::Kind::kBias, .channel = channel});
   }
@@ -71,11 +78,24 @@ std::vector<double> initial_coordinates(const std::vector<FreeQuantity>& quantit
                                         const LogFitOptions& options) {
   std::vector<double> coordinates;
   for (const FreeQuantity& q : quantities) {
-    const bool parameter = q.kind == FreeQuantity::Kind::kParameter;
-    coordinates.push_back(parameter ? to_coordinate(q.id, options.initial_guess[at(q.id)]) : 0.0);
+    switch (q.kind) {
+      case FreeQuantity::Kind::kParameter:
+        coordinates.push_back(to_coordinate(q.id, options.initial_guess[at(q.id)]));
+        break;
+      case FreeQuantity::Kind::kDelay:
+        coordinates.push_back(*options.input_delay_s);
+        break;
+      case FreeQuantity::Kind::kMotorLag:
+        coordinates.push_back(*options.motor_lag_s);
+        break;
+      case FreeQuantity::Kind::kBias:
+        coordinates.push_back(0.0);
+        break;
+      case FreeQuantity::Kind::kSensorDelay:
+        break;
+    }
   }
-  std::size_t next = quantities.size() - options.sensor_delays.size();
-  for (const SensorDelay& late : options.sensor_delays) coordinates[next++] = late.delay_s;
+  for (const SensorDelay& late : options.sensor_delays) coordinates.push_back(late.delay_s);
   return coordinates;
 }
 

@@ -12,7 +12,8 @@ namespace awmr {
 
 /// One free number. The search moves its coordinate, which is the value or its logarithm.
 struct FreeQuantity {
-  enum class Kind { kParameter, kDelay, kSensorDelay, kBias };
+  /// kDelay: of all commands; kMotorLag: the time constant of the motors.
+  enum class Kind { kParameter, kDelay, kMotorLag, kSensorDelay, kBias };
   Kind kind = Kind::kParameter;
   ParameterId id = ParameterId::kMassNorm;  ///< of kParameter
   LogChannel channel = LogChannel::kX;      ///< of kSensorDelay (kX: of the position) and kBias
@@ -21,7 +22,7 @@ struct FreeQuantity {
   double large_change = 1.0;
 
   bool is(ParameterId parameter) const { return kind == Kind::kParameter && id == parameter; }
-  bool is_delay() const { return kind == Kind::kDelay || kind == Kind::kSensorDelay; }
+  bool may_be_zero() const { return kind == Kind::kMotorLag || kind == Kind::kSensorDelay; }
   std::string name() const;
   double value(double coordinate) const;
   double jacobian(double coordinate) const;  ///< d value / d coordinate
@@ -30,6 +31,12 @@ struct FreeQuantity {
 /// A parameter with its scale.
 FreeQuantity free_parameter(ParameterId id);
 
+/// The time by which all commands act late, s; negative: they were logged late.
+FreeQuantity input_delay();
+
+/// The time constant of the motors, s.
+FreeQuantity motor_lag();
+
 /// The time by which a channel is read late, s.
 FreeQuantity sensor_delay_of(LogChannel channel);
 
@@ -37,7 +44,7 @@ FreeQuantity sensor_delay_of(LogChannel channel);
 /// sensors' delays.
 std::vector<FreeQuantity> free_quantities(const LogFitOptions& options);
 
-/// By quantity: the coordinate at the initial guess; an input delay and a bias begin at zero.
+/// By quantity: the coordinate at the initial guess; a bias begins at zero.
 std::vector<double> initial_coordinates(const std::vector<FreeQuantity>& quantities,
                                         const LogFitOptions& options);
 

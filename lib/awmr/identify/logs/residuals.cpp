@@ -19,7 +19,7 @@ namespace {
 struct Unpacked {
   Plant<double> plant;
   std::vector<ParameterColumn> parameters;
-  std::optional<DelayColumn> delay;
+  CommandPath path;
   std::array<double, kChannelCount> bias{};
   std::array<std::optional<std::size_t>, kChannelCount> bias_column{};
   std::array<std::optional<DelayColumn>, kChannelCount> sensor_delay{};
@@ -43,7 +43,10 @@ Unpacked unpack(const LogModel& model, const FitWindow& window, const double* co
         u.parameters.push_back({quantity.id, i, quantity.jacobian(coordinates[i])});
         break;
       case FreeQuantity::Kind::kDelay:
-        u.delay = {number, i};
+        u.path.delay = {number, i};
+        break;
+      case FreeQuantity::Kind::kMotorLag:
+        u.path.lag.emplace(*window.rows.log, DelayColumn{number, i});
         break;
       case FreeQuantity::Kind::kSensorDelay:
         u.sensor_delay[at(quantity.channel)] = {number, i};
@@ -82,8 +85,8 @@ void for_each_error(const LogModel& model, const FitWindow& window, const Unpack
   const DrivingLog& log = *window.rows.log;
   const std::vector<Sample>& samples = window.samples();
   const double h = model.longest_step_s;
-  LinearStepper stepper(u.plant, columns, u.parameters, u.delay);
-  LinearStepper back(u.plant, columns, u.parameters, u.delay);
+  LinearStepper stepper(u.plant, columns, u.parameters, u.path.column());
+  LinearStepper back(u.plant, columns, u.parameters, u.path.column());
   const bool any_late = u.any_late();
   std::vector<LinearMotion> motions;  // by row, where a sensor is late
   std::vector<double> row(columns);
@@ -97,7 +100,7 @@ void for_each_error(const LogModel& model, const FitWindow& window, const Unpack
     }
     visit(next, error, row);
   };
-  replay_linear(*window.signals, window.rows.begin, window.rows.end, stepper, h,
+  replay_linear(*window.signals, window.rows.begin, window.rows.end, u.path, stepper, h,
                 first_motion(model, u, columns), [&](std::size_t at_row, const LinearMotion& now) {
                   if (any_late) motions.push_back(now);
                   for (; next < samples.size() && samples[next].row == at_row; ++next) {

@@ -25,7 +25,8 @@ ScoreTest test_one(const Eigen::MatrixXd& h, const std::vector<Eigen::VectorXd>&
     squares += own * own;
   }
   test.value = -sum / information;
-  test.std_error = std::sqrt(std::max(1.0 / information, squares / (information * information)));
+  test.noise_error = 1.0 / std::sqrt(information);
+  test.std_error = std::max(test.noise_error, std::sqrt(squares) / information);
   test.gain = std::pow(test.value / test.std_error, 2);
   return test;
 }

@@ -10,7 +10,8 @@ namespace awmr {
 struct ScoreTest {
   double value = 0.0;      ///< where one step of Gauss-Newton from 0 would put it
   double std_error = 0.0;  ///< of the value, by the noise model or the blocks' scatter: the larger
-  double gain = 0.0;       ///< of -2 ln L: (value / std_error)^2
+  double noise_error = 0.0;  ///< of the value, by the noise model alone
+  double gain = 0.0;         ///< of -2 ln L: (value / std_error)^2
 };
 
 /// Rao's score test of each candidate at 0, all others of the problem free and the other candidates
