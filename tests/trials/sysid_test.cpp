@@ -14,9 +14,9 @@
 namespace awmr::testing::sysid_test {
 namespace {
 
+using nlohmann::json;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-using nlohmann::json;
 
 constexpr double kCircumference_m = 0.4788;
 constexpr std::size_t kRows = 60;
@@ -34,7 +34,8 @@ json run_of(double direction, bool is_signed = true, double begin_s = 7.0) {
     const double right_rate = 0.55 * volts;
     const double yaw_rate = 2.0 * (right_rate - left_rate);
     const double shown = is_signed ? volts : std::abs(volts);
-    rows.push_back({begin_s + t_s, shown, shown, left, right, left_rate, right_rate, angle, yaw_rate});
+    rows.push_back(
+        {begin_s + t_s, shown, shown, left, right, left_rate, right_rate, angle, yaw_rate});
     left += 0.02 * left_rate;
     right += 0.02 * right_rate;
     angle += 0.02 * yaw_rate;
@@ -101,8 +102,10 @@ TEST(SysId, VoltagesWithoutASignAreMirroredWhereTheWheelsTurnBackward) {
 }
 
 TEST(SysId, ReadsASimpleMechanismAndTheRowsOfFrcCharacterization) {
-  const json simple = {{"sysid", true},        {"test", "Simple"},
-                       {"units", "Meters"},    {"unitsPerRotation", 2.0},
+  const json simple = {{"sysid", true},
+                       {"test", "Simple"},
+                       {"units", "Meters"},
+                       {"unitsPerRotation", 2.0},
                        {"slow-forward", {{1.0, 0.5, 3.0, 4.0}, {1.02, 0.6, 3.1, 5.0}}}};
   const auto one = read_sysid(simple.dump(), "a.json");
   ASSERT_TRUE(one) << to_text(one.error());

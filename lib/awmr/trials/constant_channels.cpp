@@ -34,8 +34,7 @@ bool is_constant(std::span<const double> values) {
 bool shows_motion(std::span<const double> values, const MotionLimit& limit) {
   if (values.empty() || is_constant(values)) return false;
   const auto [low, high] = std::ranges::minmax_element(values);
-  const double most =
-      limit.is_position ? *high - *low : std::max(std::abs(*low), std::abs(*high));
+  const double most = limit.is_position ? *high - *low : std::max(std::abs(*low), std::abs(*high));
   return most >= limit.least;
 }
 

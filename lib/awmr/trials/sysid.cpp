@@ -17,8 +17,9 @@ namespace {
 
 /// The tests in the order of their runs.
 constexpr std::array<std::string_view, 9> kSysIdTests{
-    "slow-forward",         "slow-backward",   "fast-forward",     "fast-backward", "quasistatic-forward",
-    "quasistatic-backward", "dynamic-forward", "dynamic-backward", "track-width"};
+    "slow-forward",    "slow-backward",       "fast-forward",
+    "fast-backward",   "quasistatic-forward", "quasistatic-backward",
+    "dynamic-forward", "dynamic-backward",    "track-width"};
 
 struct SysIdLength {
   std::string_view name;
@@ -44,37 +45,36 @@ struct SysIdRow {
 
 const SysIdRow& drivetrain_form() {
   static const SysIdRow kForm{9,
-                             {{1, "left_volts"},
-                              {2, "right_volts"},
-                              {3, "left_m", SysIdUnit::kMetres},
-                              {4, "right_m", SysIdUnit::kMetres},
-                              {5, "left_mps", SysIdUnit::kMetres},
-                              {6, "right_mps", SysIdUnit::kMetres},
-                              {7, "heading_deg", SysIdUnit::kDegrees},
-                              {8, "yaw_rate_radps"}},
-                             true};
+                              {{1, "left_volts"},
+                               {2, "right_volts"},
+                               {3, "left_m", SysIdUnit::kMetres},
+                               {4, "right_m", SysIdUnit::kMetres},
+                               {5, "left_mps", SysIdUnit::kMetres},
+                               {6, "right_mps", SysIdUnit::kMetres},
+                               {7, "heading_deg", SysIdUnit::kDegrees},
+                               {8, "yaw_rate_radps"}},
+                              true};
   return kForm;
 }
 
 const SysIdRow& old_drivetrain_form() {
   static const SysIdRow kForm{10,
-                             {{3, "left_volts"},
-                              {4, "right_volts"},
-                              {5, "left_m", SysIdUnit::kMetres},
-                              {6, "right_m", SysIdUnit::kMetres},
-                              {7, "left_mps", SysIdUnit::kMetres},
-                              {8, "right_mps", SysIdUnit::kMetres},
-                              {9, "heading_deg", SysIdUnit::kDegrees}},
-                             true};
+                              {{3, "left_volts"},
+                               {4, "right_volts"},
+                               {5, "left_m", SysIdUnit::kMetres},
+                               {6, "right_m", SysIdUnit::kMetres},
+                               {7, "left_mps", SysIdUnit::kMetres},
+                               {8, "right_mps", SysIdUnit::kMetres},
+                               {9, "heading_deg", SysIdUnit::kDegrees}},
+                              true};
   return kForm;
 }
 
 const SysIdRow& simple_form() {
-  static const SysIdRow kForm{4,
-                             {{1, "volts"},
-                              {2, "position_m", SysIdUnit::kMetres},
-                              {3, "speed_mps", SysIdUnit::kMetres}},
-                             false};
+  static const SysIdRow kForm{
+      4,
+      {{1, "volts"}, {2, "position_m", SysIdUnit::kMetres}, {3, "speed_mps", SysIdUnit::kMetres}},
+      false};
   return kForm;
 }
 
@@ -120,9 +120,10 @@ std::optional<std::string> SysIdReader::text_at(const char* key) {
 const SysIdRow* SysIdReader::find_form() {
   const std::string test = text_at("test").value_or("");
   if (test == "Arm" || test == "Elevator") {
-    fault("/test", fmt::format("\"{}\" is no drive: this log has no vehicle's motion; give a log of the "
-                               "test Drivetrain",
-                               test));
+    fault("/test",
+          fmt::format("\"{}\" is no drive: this log has no vehicle's motion; give a log of the "
+                      "test Drivetrain",
+                      test));
     return nullptr;
   }
   for (const std::string_view name : kSysIdTests) {
@@ -136,8 +137,9 @@ const SysIdRow* SysIdReader::find_form() {
           "expected 9 numbers (drivetrain), 4 (simple mechanism) or 10 (frc-characterization)");
     return nullptr;
   }
-  fault("/slow-forward", "no test has a row; record slow-forward, slow-backward, fast-forward and "
-                         "fast-backward");
+  fault("/slow-forward",
+        "no test has a row; record slow-forward, slow-backward, fast-forward and "
+        "fast-backward");
   return nullptr;
 }
 
@@ -145,9 +147,10 @@ double SysIdReader::read_metres_per_rotation() {
   const std::string units = text_at("units").value_or("");
   const auto unit = std::ranges::find(kSysIdLengths, units, &SysIdLength::name);
   if (unit == kSysIdLengths.end()) {
-    fault("/units", fmt::format("\"{}\" is no length, and the wheel's circumference is not in this file; set "
-                                "units to \"Meters\" and unitsPerRotation to the circumference in metres",
-                                units));
+    fault("/units",
+          fmt::format("\"{}\" is no length, and the wheel's circumference is not in this file; set "
+                      "units to \"Meters\" and unitsPerRotation to the circumference in metres",
+                      units));
     return 1.0;
   }
   const auto factor = document_.find("unitsPerRotation");
@@ -155,7 +158,8 @@ double SysIdReader::read_metres_per_rotation() {
       factor != document_.end() && factor->is_number() && factor->get<double>() > 0.0;
   const double metres = is_positive ? factor->get<double>() * unit->metres : 0.0;
   if (metres > 0.0 && std::isfinite(metres)) return metres;
-  fault("/unitsPerRotation", fmt::format("expected a number above 0: the wheel's circumference, {}", units));
+  fault("/unitsPerRotation",
+        fmt::format("expected a number above 0: the wheel's circumference, {}", units));
   return 1.0;
 }
 
@@ -197,7 +201,7 @@ void SysIdReader::read_run(std::string_view test, const SysIdRow& form) {
       const SysIdField& field = form.fields[i];
       const double factor = field.unit == SysIdUnit::kMetres    ? metres_
                             : field.unit == SysIdUnit::kDegrees ? degrees(1.0)
-                                                             : 1.0;
+                                                                : 1.0;
       const double value = row[field.index].get<double>() * factor;
       if (!std::isfinite(value)) fault(pointer, "out of range in metres or degrees");
       log_.columns[i + 2].push_back(value);
@@ -219,8 +223,9 @@ void SysIdReader::correct_voltage_signs(std::size_t begin, const SysIdRow& form,
   };
   using Pair = std::pair<std::string_view, std::string_view>;
   const std::vector<Pair> pairs =
-      form.is_drivetrain ? std::vector<Pair>{{"left_volts", "left_mps"}, {"right_volts", "right_mps"}}
-                         : std::vector<Pair>{{"volts", "speed_mps"}};
+      form.is_drivetrain
+          ? std::vector<Pair>{{"left_volts", "left_mps"}, {"right_volts", "right_mps"}}
+          : std::vector<Pair>{{"volts", "speed_mps"}};
   bool is_mirrored = false;
   for (const auto& [volts_name, speed_name] : pairs) {
     std::vector<double>& volts = values_of(volts_name);
@@ -264,15 +269,16 @@ Result<SysIdLog> SysIdReader::read() {
   for (const std::string_view test : kSysIdTests) read_run(test, *form);
   if (!faults_.empty()) return input_errors(std::move(faults_));
   if (form->is_drivetrain) add_speed();
-  std::string message =
-      fmt::format("SysId record: runs {}; {:.6g} m per rotation; {} in volts, to be divided by the voltage of "
-                  "full power",
-                  fmt::join(tests_, ", "), metres_,
-                  form->is_drivetrain ? "left_volts and right_volts are" : "volts is");
+  std::string message = fmt::format(
+      "SysId record: runs {}; {:.6g} m per rotation; {} in volts, to be divided by the voltage of "
+      "full power",
+      fmt::join(tests_, ", "), metres_,
+      form->is_drivetrain ? "left_volts and right_volts are" : "volts is");
   if (!unsigned_tests_.empty()) {
-    message += fmt::format("; the voltages of {} have no sign and are taken negative, as the wheels turned "
-                           "backward",
-                           fmt::join(unsigned_tests_, ", "));
+    message += fmt::format(
+        "; the voltages of {} have no sign and are taken negative, as the wheels turned "
+        "backward",
+        fmt::join(unsigned_tests_, ", "));
   }
   log_.notes.push_back({0, "sysid-log", std::move(message)});
   return std::move(log_);
