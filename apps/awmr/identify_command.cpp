@@ -143,7 +143,8 @@ void add_identify(CLI::App& app, Session& session) {
         return execute(command);
       });
   add_table_files(*sub, words->command);
-  add_file(*sub, "--log", words->command.logs, "CSV of a driving log; may be repeated");
+  add_file(*sub, "--log", words->command.logs,
+           "Driving log: CSV, or another format that awmr map reads; may be repeated");
   add_fit_options(*sub, *words);
   add_log_options(*sub, words->command);
   add_reading_options(*sub, *words);

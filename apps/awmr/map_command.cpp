@@ -134,7 +134,7 @@ void add_map(CLI::App& app, Session& session) {
       "awmr map datasets/synthetic/drive_1.csv -o map.json",
       [command] { return execute(*command); });
   add_file(*sub, "FILE", command->file,
-           "A log: CSV, ULog, DataFlash, a ROS 2 bag, or a directory of tables")
+           "A log: CSV, ULog, DataFlash, SysId's JSON, a ROS 2 bag, or a directory of tables")
       ->required();
   add_choice(*sub, "--trial", command->trial, kTrialKindNames,
              "What the file is: log (default), or a table with a row a run");

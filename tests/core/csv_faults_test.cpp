@@ -193,15 +193,70 @@ TEST(CsvFaults, EveryFaultAtOnceHeaderAndRows) {
                           StartsWith("a.csv:3:1: "), StartsWith("a.csv:4:1: ")));
 }
 
-TEST(CsvFaults, ReadingEndsAfterAHundredAndTwentyAreShown) {
+TEST(CsvFaults, ReadingEndsAfterAHundredFaultsAndOneOfACauseIsShown) {
   std::string text = "tau_speed,speed_mps\n";
   for (int i = 0; i < 100000; ++i) text += "1,x\n";
   const auto table = read_text(text, kSurge);
   ASSERT_FALSE(table);
   EXPECT_EQ(table.error().faults.size(), 100U);
   const std::string shown = to_text(table.error());
-  EXPECT_EQ(std::count(shown.begin(), shown.end(), '\n'), 21);
-  EXPECT_THAT(shown, EndsWith("error: 80 more faults are not shown\n"));
+  EXPECT_EQ(std::count(shown.begin(), shown.end(), '\n'), 1);
+  EXPECT_THAT(shown, AllOf(HasSubstr("a.csv:2:3: "), HasSubstr("at least 99 more")));
+}
+
+TEST(CsvFaults, FaultsOfTwoCausesAreShownOnceEach) {
+  std::string text = "tau_speed,speed_mps\n";
+  for (int i = 0; i < 10; ++i) text += "1,12:30\n1,5,6\n";
+  const auto table = read_text(text, kSurge);
+  ASSERT_FALSE(table);
+  const std::string shown = to_text(table.error());
+  EXPECT_EQ(std::count(shown.begin(), shown.end(), '\n'), 2) << shown;
+}
+
+TEST(CsvFaults, UpToThreeFaultsOfACauseAreShownEach) {
+  const auto table = read_text("tau_speed,speed_mps\nx,1\nx,1\nx,1\n", kSurge);
+  ASSERT_FALSE(table);
+  const std::string shown = to_text(table.error());
+  EXPECT_EQ(std::count(shown.begin(), shown.end(), '\n'), 3) << shown;
+}
+
+TEST(CsvFaults, DecimalCommasBetweenCommasAreNamed) {
+  EXPECT_THAT(faults("tau_speed,speed_mps\n0,2353,5,31\n"),
+              ElementsAre(AllOf(StartsWith("a.csv:2:8: "), HasSubstr("decimal commas"))));
+  EXPECT_THAT(faults("tau_speed,speed_mps\n1,0,5\n"),
+              ElementsAre(AllOf(StartsWith("a.csv:2:5: "), HasSubstr("decimal commas"))));
+}
+
+TEST(CsvFaults, FilesOfOtherFormatsAreNamed) {
+  for (const char* text :
+       {"{\"t_s\": [0, 1]}\n", "{\n  \"a\": 1\n}\n", "[{\"t_s\": 0}]\n", "[\n1\n]\n"}) {
+    EXPECT_THAT(faults(text), ElementsAre(AllOf(StartsWith("a.csv:1:1: "), HasSubstr("JSON"))))
+        << text;
+  }
+  EXPECT_THAT(faults("<!DOCTYPE html>\n<html></html>\n"), ElementsAre(HasSubstr("HTML")));
+  EXPECT_THAT(faults("<table><tr>\n"), ElementsAre(HasSubstr("HTML")));
+  EXPECT_THAT(faults("PK\x03\x04...."), ElementsAre(HasSubstr("Excel")));
+}
+
+TEST(CsvFaults, CellsBetweenSpacesAreOneFault) {
+  EXPECT_THAT(faults("tau_speed speed_mps\n1 0.5\n2 1.0\n"),
+              ElementsAre(AllOf(StartsWith("a.csv:1:1: "), HasSubstr("spaces"))));
+  EXPECT_THAT(faults("thrust  v\n1   0.5\n"), ElementsAre(HasSubstr("spaces")));
+}
+
+TEST(CsvFaults, BytesThatAreNotUtf8AreNamedWithTheirPlace) {
+  EXPECT_THAT(faults("tau_speed,speed_mps,W\xE4rme\n1,2,3\n"),
+              ElementsAre(AllOf(StartsWith("a.csv:1:21: "), HasSubstr("UTF-8"))));
+  EXPECT_THAT(cell_faults("5\xB0"), ElementsAre(HasSubstr("UTF-8")));
+}
+
+TEST(CsvFaults, DatesAndClockTimesAreNamed) {
+  for (const char* cell : {"2026-01-31", "31.01.2026", "1/31/26", "2026-01-31T12:00:00"}) {
+    EXPECT_THAT(cell_faults(cell), ElementsAre(HasSubstr("a date;"))) << cell;
+  }
+  for (const char* cell : {"12:34", "9:05:07.25"}) {
+    EXPECT_THAT(cell_faults(cell), ElementsAre(HasSubstr("a clock time;"))) << cell;
+  }
 }
 
 TEST(CsvFaults, ALongCellIsCutBetweenCharacters) {

@@ -180,6 +180,39 @@ TEST(Csv, PlacesACellByLineAndCharacter) {
   EXPECT_THAT(table->place(0, "elapsed_s"), EndsWith("a.csv:2:1"));
 }
 
+TEST(Csv, ReadsVerticalBarsAndSaysSo) {
+  const auto table = read_text("tau_speed|speed_mps\n0,5|0,25\n2|1,66\n", kSurge);
+  expect_two_rows(table);
+  EXPECT_THAT(notes_of(table), HasSubstr("vertical bars"));
+}
+
+TEST(Csv, ReadsAMinusSignOfUnicode) {
+  const auto table = read_text(
+      "a\n\xE2\x88\x92"
+      "0.5\n1e\xE2\x88\x92"
+      "2\n",
+      {{"a"}});
+  ASSERT_TRUE(table) << to_text(table.error());
+  EXPECT_THAT(table->column("a"), ElementsAre(-0.5, 0.01));
+}
+
+TEST(Csv, LeavesOutLinesAboveTheHeaderAndSaysSo) {
+  for (const std::string above :
+       {"=~=~=~=~=~= PuTTY log 2026.01.31 12:00:00 =~=~=~=~=~=\n", "sep=;\n", "\"sep=,\"\n",
+        "Robot 5\n", "Robot 5; May 2026\nfirst floor\n", "% recorded by MATLAB\n"}) {
+    const auto table = read_text(above + "tau_speed;speed_mps;run\n0.5;0.25;1\n2;1.66;1\n", kSurge);
+    expect_two_rows(table);
+    EXPECT_THAT(notes_of(table), HasSubstr("above the header")) << above;
+  }
+}
+
+TEST(Csv, ATitleAboveForeignNamesIsLeftOut) {
+  const auto table =
+      read_text("Robot 5\nthrust,v\n0.5,0.25\n2,1.66\n", kSurge,
+                {*parse_column("tau_speed=thrust*1"), *parse_column("speed_mps=v*1")});
+  expect_two_rows(table);
+}
+
 TEST(Csv, ReadsAPipe) {
   const auto table = read_csv("/dev/null", kSurge);
   ASSERT_FALSE(table);

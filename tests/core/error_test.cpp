@@ -19,12 +19,32 @@ TEST(Error, IsPrintedAsCompilersDo) {
 }
 
 TEST(Error, ShowsTwentyFaultsAndCountsTheRest) {
-  std::vector<Fault> faults(20, {"a", "b"});
-  EXPECT_THAT(to_text(error_of(input_errors(faults))), ::testing::EndsWith("error: a: b\n"));
+  std::vector<Fault> faults;
+  for (char c = 'a'; c < 'a' + 20; ++c) faults.push_back({"a", std::string(1, c)});
+  EXPECT_THAT(to_text(error_of(input_errors(faults))), ::testing::EndsWith("error: a: t\n"));
   faults.push_back({"a", "last"});
   const std::string text = to_text(error_of(input_errors(faults)));
   EXPECT_THAT(text, ::testing::EndsWith("error: 1 more fault is not shown\n"));
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 21);
+}
+
+TEST(Error, FaultsOfOneCauseInOneFileAreShownOnce) {
+  std::vector<Fault> faults;
+  for (int i = 1; i <= 5; ++i)
+    faults.push_back({"a.csv:" + std::to_string(i) + ":3", "found \"x\""});
+  faults.push_back({"b.csv:1:3", "found \"y\""});
+  const std::string text = to_text(error_of(input_errors(faults)));
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 2) << text;
+  EXPECT_THAT(text, ::testing::HasSubstr("; 4 more faults"));
+}
+
+TEST(Error, TheSameFaultOfOtherKeysIsShownEach) {
+  std::vector<Fault> faults;
+  for (const char* key : {"/a", "/b", "/c", "/d"}) {
+    faults.push_back({std::string("v.json:") + key, "this key is missing"});
+  }
+  const std::string text = to_text(error_of(input_errors(faults)));
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 4) << text;
 }
 
 }  // namespace

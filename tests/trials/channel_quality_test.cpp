@@ -121,6 +121,47 @@ TEST(ChannelQuality, RestIsNotStuck) {
   EXPECT_TRUE(judged(d).stuck.empty());
 }
 
+TEST(ChannelQuality, RestIsNotStuckWhateverTinyNumberStandsForIt) {
+  for (const double rest : {3.9e-312, -1e-15, 1e-9}) {
+    Drive d = drive(9, 0.02);
+    for (std::size_t i = 700; i < 1000; ++i) d.speed[i] = rest;
+    EXPECT_TRUE(judged(d).stuck.empty()) << rest;
+  }
+}
+
+/// A controller keeps the speed to the last digit of a coarse sensor while its command works against the
+/// ground.
+TEST(ChannelQuality, ASteadySpeedThatIsKeptIsNotStuck) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Random random(seed, 3);
+    Drive d = drive(seed, 0.02);
+    for (std::size_t i = 700; i < 1000; ++i) {
+      d.speed[i] = 0.5;
+      d.command[i] = d.command[700] + 0.4 * random.normal();
+    }
+    EXPECT_TRUE(judged(d).stuck.empty()) << seed;
+  }
+  Drive twice = drive(4, 0.02);
+  for (const std::size_t begin : {300U, 1200U}) {
+    for (std::size_t i = begin; i < begin + 200; ++i) twice.speed[i] = 0.5;
+  }
+  EXPECT_TRUE(judged(twice).stuck.empty());
+}
+
+TEST(ChannelQuality, RestingRowsAreNotSaturated) {
+  for (const double rest : {-1e-13, 3.9e-312, -0.0125}) {
+    Drive d = drive(10, 0.02);
+    for (double& u : d.speed) u = std::abs(u);
+    for (const std::size_t begin : {0U, 400U, 1500U}) {
+      for (std::size_t i = begin; i < begin + 100; ++i) {
+        d.command[i] = 0.0;
+        d.speed[i] = rest;
+      }
+    }
+    EXPECT_EQ(judged(d).saturated, 0U) << rest;
+  }
+}
+
 TEST(ChannelQuality, TheEndOfASensorsRangeIsSetAside) {
   Drive d = drive(10, 0.02);
   const double top = 0.8 * *std::max_element(d.speed.begin(), d.speed.end());

@@ -36,6 +36,19 @@ TEST(GuessColumns, TakesTheNamesThatAreAskedFor) {
       ElementsAre("sure t_s=t_s", "sure force_left=force_left", "sure speed_mps=speed_mps"));
 }
 
+TEST(GuessColumns, AChannelThatIsConstantWhileOthersMoveIsNotProposed) {
+  std::string text = "t_s,odom.twist.twist.linear.x,odom.twist.twist.linear.y\n";
+  for (int i = 0; i < 20; ++i) text += std::to_string(i) + "," + std::to_string(0.1 * i) + ",0\n";
+  EXPECT_THAT(guesses_of(text),
+              ElementsAre("sure t_s=t_s", "likely speed_mps=odom.twist.twist.linear.x",
+                          "unsure sway_mps="));
+  std::string at_rest = "t_s,odom.twist.twist.linear.x,odom.twist.twist.linear.y\n";
+  for (int i = 0; i < 20; ++i) at_rest += std::to_string(i) + ",0,0\n";
+  EXPECT_THAT(guesses_of(at_rest),
+              ElementsAre("sure t_s=t_s", "likely speed_mps=odom.twist.twist.linear.x",
+                          "likely sway_mps=odom.twist.twist.linear.y"));
+}
+
 TEST(GuessColumns, ReadsUnitsInNames) {
   EXPECT_THAT(guesses_of("time_ms,Speed (km/h),gyro_z_dps,heading_rad\n0,1,2,3\n"),
               ElementsAre("likely t_s=`time_ms`*0.001", "likely heading_deg=heading_rad*57.29578",

@@ -245,6 +245,23 @@ INSTANTIATE_TEST_SUITE_P(
         WrongTurn{"SteeringInRadians",
                   [](DrivingLog& l) { scale(*l.steering_command_rad, pi<double>() / 180.0); },
                   "steering_cmd_deg", "57.29578", 5},
+        WrongTurn{"ServoAnglesAboutNinety",
+                  [](DrivingLog& l) {
+                    for (double& angle : *l.steering_command_rad) angle += radians(90.0);
+                  },
+                  "steering_cmd_deg", "\"steering_cmd_deg\"*1-90"},
+        WrongTurn{"ServoPulses",
+                  [](DrivingLog& l) {
+                    for (double& angle : *l.steering_command_rad) {
+                      angle = radians(1500.0 + 500.0 * degrees(angle) / vehicle().steering_max_deg);
+                    }
+                  },
+                  "steering_cmd_deg", "us"},
+        WrongTurn{"RevolutionsPerMinute",
+                  [](DrivingLog& l) { scale(channel(l, LogChannel::kYawRate), 9.549297); },
+                  "yaw_rate_radps", "0.1047198"},
+        WrongTurn{"Knots", [](DrivingLog& l) { scale(channel(l, LogChannel::kSpeed), 1.943844); },
+                  "speed_mps", "0.51444", 5},
         WrongTurn{"PositionsInMillimetres",
                   [](DrivingLog& l) {
                     scale(channel(l, LogChannel::kX), 1000.0);
@@ -294,6 +311,51 @@ TEST(LogConsistency, TheRemedyStartsFromTheFilesOwnColumn) {
   const auto found = contradictions(log, vehicle(), mappings);
   ASSERT_FALSE(found.empty());
   EXPECT_EQ(found.front().mapping, "speed_mps=\"V (wheel)\"*0.5555556");
+}
+
+TEST(LogConsistency, AFactorOfNoUnitHasNoMapping) {
+  for (const double factor : {1.0 / 74.38188, 22.0, 1.0 / 4.2}) {
+    DrivingLog log = sound_log(3);
+    scale(channel(log, LogChannel::kYawRate), factor);
+    const auto found = contradictions(log, vehicle(), {});
+    ASSERT_FALSE(found.empty()) << factor;
+    EXPECT_EQ(found.front().column, "yaw_rate_radps");
+    EXPECT_EQ(found.front().mapping, "") << factor;
+  }
+  for (const double factor : {13.0, 1.0 / 7.7}) {
+    DrivingLog log = sound_log(3);
+    scale(channel(log, LogChannel::kSpeed), factor);
+    const auto found = contradictions(log, vehicle(), {});
+    const auto speed = std::ranges::find(found, "speed_mps", &Contradiction::column);
+    ASSERT_NE(speed, found.end()) << factor;
+    EXPECT_EQ(speed->mapping, "") << factor;
+  }
+}
+
+TEST(LogConsistency, AWheelsRateAsSpeedNamesItsRadius) {
+  DrivingLog log = sound_log(3);
+  scale(channel(log, LogChannel::kSpeed), 60.0 / (2.0 * pi<double>() * 0.3));
+  const auto found = contradictions(log, vehicle(), {});
+  const auto speed = std::ranges::find(found, "speed_mps", &Contradiction::column);
+  ASSERT_NE(speed, found.end());
+  EXPECT_THAT(speed->message, HasSubstr("rpm of a wheel"));
+}
+
+TEST(LogConsistency, ASpeedOrRateThatNoVehicleHasIsImplausibleByItself) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    DrivingLog log = sound_log(seed, {.position = false, .heading = false});
+    EXPECT_TRUE(contradictions(log, vehicle(), {}).empty()) << seed;
+    scale(channel(log, LogChannel::kSpeed), 150.0);
+    const auto speed = contradictions(log, vehicle(), {});
+    ASSERT_FALSE(speed.empty()) << seed;
+    EXPECT_EQ(speed.front().column, "speed_mps");
+    EXPECT_THAT(speed.front().message, HasSubstr("implausible"));
+    DrivingLog turning = sound_log(seed, {.position = false, .heading = false});
+    scale(channel(turning, LogChannel::kYawRate), 180.0 / pi<double>());
+    const auto rate = contradictions(turning, vehicle(), {});
+    ASSERT_FALSE(rate.empty()) << seed;
+    EXPECT_THAT(rate.back().mapping, HasSubstr("0.01745329"));
+  }
 }
 
 TEST(LogConsistency, AGyroBiasIsMeasuredAgainstTheHeading) {

@@ -43,6 +43,44 @@ TEST(Log, ReadsChannelsInSi) {
   EXPECT_NEAR(log.median_step_s(), 0.1, 1e-9);
 }
 
+std::vector<std::string> constant_columns(const Read<DrivingLog>& read) {
+  std::vector<std::string> columns;
+  for (const Finding& finding : read.findings) {
+    if (finding.code != "constant-channel") continue;
+    columns.push_back(finding.message.substr(0, finding.message.find(' ')));
+  }
+  return columns;
+}
+
+TEST(Log, AChannelThatIsConstantWhileOthersMoveIsSetAside) {
+  const auto moving = [](const std::string& constant) {
+    return [constant](int i) { return std::to_string(0.1 * i) + "," + constant; };
+  };
+  for (const char* constant : {"0", "0.0", "-0.25"}) {
+    const auto read = accepted_log(log_text("speed_mps,sway_mps", moving(constant)));
+    EXPECT_THAT(constant_columns(read), ElementsAre("sway_mps")) << constant;
+    EXPECT_FALSE(read.set[LogChannel::kSway]);
+    EXPECT_TRUE(read.set[LogChannel::kSpeed]);
+  }
+  const auto straight =
+      accepted_log(log_text("speed_mps,yaw_rate_radps,heading_deg", moving("0,90")));
+  EXPECT_THAT(constant_columns(straight), ElementsAre("heading_deg", "yaw_rate_radps"));
+  EXPECT_FALSE(straight.set[LogChannel::kHeading] || straight.set[LogChannel::kYawRate]);
+  const auto turning = accepted_log(log_text("yaw_rate_radps,speed_mps", moving("0.5")));
+  EXPECT_THAT(constant_columns(turning), ElementsAre("speed_mps"));
+}
+
+TEST(Log, AtRestOrWithItsOwnChangesAChannelIsKept) {
+  const auto at_rest = accepted_log(log_text(
+      "speed_mps,yaw_rate_radps", [](int i) { return "0," + std::to_string(0.001 * (i % 3)); }));
+  EXPECT_THAT(constant_columns(at_rest), ::testing::IsEmpty());
+  EXPECT_TRUE(at_rest.set[LogChannel::kSpeed]);
+  const auto swaying = accepted_log(log_text("speed_mps,sway_mps", [](int i) {
+    return std::to_string(0.1 * i) + (i == 5 ? ",1e-9" : ",0");
+  }));
+  EXPECT_THAT(constant_columns(swaying), ::testing::IsEmpty());
+}
+
 TEST(Log, UnwrapsTheHeadingEitherWay) {
   const auto up = accepted_log(log_text("heading_deg", [](int i) {
     return std::to_string(std::remainder(150.0 + 20.0 * i, 360.0));

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -42,6 +44,7 @@ class CsvParser {
   void check_commas();
   bool scan();
   bool read_row();
+  bool has_decimal_commas() const;
   void report_ragged();
   void read_cells();
   double value_of(const CsvCell& cell, const CsvUsedColumn& used);
@@ -116,13 +119,27 @@ bool CsvParser::read_row() {
   return true;
 }
 
+/// Of a row with more cells than the header, separated by commas: whole numbers alone.
+bool CsvParser::has_decimal_commas() const {
+  if (header_.delimiter != ',' || cells_.size() <= header_.names.size()) return false;
+  const auto is_whole = [](const CsvCell& cell) {
+    const std::size_t sign = cell.text.starts_with('-') || cell.text.starts_with('+') ? 1 : 0;
+    return cell.text.size() > sign &&
+           std::all_of(cell.text.begin() + static_cast<std::ptrdiff_t>(sign), cell.text.end(),
+                       is_digit);
+  };
+  return std::all_of(cells_.begin(), cells_.end(), is_whole);
+}
+
 void CsvParser::report_ragged() {
   const CsvCell& cell =
       cells_.size() > header_.names.size() ? cells_[header_.names.size()] : cells_.back();
   std::string message =
       fmt::format("this row has {} cells, the header {}", cells_.size(), header_.names.size());
-  if (cells_.size() == 2 * header_.names.size()) {
-    message += "; if these are decimal commas, write numbers with a point";
+  if (has_decimal_commas()) {
+    message +=
+        ": these look like decimal commas; write numbers with a point, or separate the cells "
+        "by semicolons";
   }
   fault(cell.line, cell.character, std::move(message));
 }
@@ -166,10 +183,27 @@ void CsvParser::read_cells() {
   }
 }
 
+/// Files that are no text, by their first bytes.
+struct KnownFile {
+  std::string_view begin;
+  std::string_view words;
+};
+constexpr std::array<KnownFile, 5> kKnownFiles{
+    {{"PK\x03\x04", "a ZIP archive or an Excel workbook; export the sheet as CSV"},
+     {"\xD0\xCF\x11\xE0", "an old Excel workbook; export the sheet as CSV"},
+     {"\x1F\x8B", "compressed by gzip; unpack it"},
+     {"%PDF-", "a PDF; export the table as CSV"},
+     {"\x89MCAP", "an MCAP bag; convert it by ros2 bag convert to sqlite3"}}};
+
 /// The text without its byte order mark. Errors: it is empty or no text.
 Result<std::string_view> text_of(std::string_view bytes, const std::string& file) {
   if (bytes.empty()) {
     return input_error(file, "the file is empty; expected a header row and rows");
+  }
+  for (const KnownFile& known : kKnownFiles) {
+    if (bytes.starts_with(known.begin)) {
+      return input_error(file, fmt::format("this file is no CSV but {}", known.words));
+    }
   }
   if (bytes.find('\0') != std::string_view::npos) {
     return input_error(file, "this is not UTF-8 text (UTF-16?); save it as UTF-8");

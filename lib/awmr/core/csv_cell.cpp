@@ -7,6 +7,7 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <optional>
 
 #include "awmr/core/csv.h"
 #include "awmr/core/text.h"
@@ -41,11 +42,46 @@ bool is_decimal_comma(std::string_view text) {
          text.find_first_not_of("+-0123456789,eE") == std::string_view::npos;
 }
 
+std::size_t count_digits(std::string_view text) {
+  return static_cast<std::size_t>(std::find_if_not(text.begin(), text.end(), is_digit) -
+                                  text.begin());
+}
+
+/// Begins with 2026-01-31, 31.01.2026 or 1/31/26.
+bool is_date(std::string_view text) {
+  const std::size_t first = count_digits(text);
+  if (first == 0 || first >= text.size()) return false;
+  const char separator = text[first];
+  if (separator != '-' && separator != '.' && separator != '/') return false;
+  text.remove_prefix(first + 1);
+  const std::size_t second = count_digits(text);
+  if (second == 0 || second > 2 || second >= text.size() || text[second] != separator) return false;
+  const std::size_t third = count_digits(text.substr(second + 1));
+  return first == 4 ? third == 1 || third == 2 : first <= 2 && (third == 2 || third == 4);
+}
+
+/// Begins with 12:34.
+bool is_clock_time(std::string_view text) {
+  const std::size_t hours = count_digits(text);
+  return hours > 0 && hours <= 2 && text.substr(hours).starts_with(':') &&
+         count_digits(text.substr(hours + 1)) == 2;
+}
+
+/// U+2212, which spreadsheets and typesetters write for '-'.
+constexpr std::string_view kMinusSign = "\xE2\x88\x92";
+
 /// What is wrong with a text that is no number, of which the first `read` characters are one.
 std::string why_not_a_number(std::string_view text, std::size_t read) {
   const std::size_t sign = text.find_first_not_of("+-");
   const std::string word = sign == std::string_view::npos ? "" : lower(text.substr(sign));
   std::string found = fmt::format("expected a number, found {}", shown(text));
+  if (!is_utf8(text)) return found + ", which is not UTF-8 (Latin-1?); save the file as UTF-8";
+  if (is_date(text) || is_clock_time(text)) {
+    return fmt::format(
+        "{}, a {}; write seconds as a number, or dates like 2026-01-31T12:34:56.789Z in one column "
+        "called time",
+        found, is_date(text) ? "date" : "clock time");
+  }
   if (word.rfind("nan", 0) == 0) return found + "; leave out rows without a measured value";
   if (word == "inf" || word == "infinity") {
     return found + "; a measured value is finite: leave out the row";
@@ -60,6 +96,18 @@ std::string why_not_a_number(std::string_view text, std::size_t read) {
     return found + "; a cell holds the number alone, the unit stands in the column's name";
   }
   return found;
+}
+
+/// A number whose minus is U+2212.
+std::optional<double> number_with_minus_sign(std::string_view text) {
+  std::string ascii(text);
+  std::size_t at = ascii.find(kMinusSign);
+  if (at == std::string::npos) return std::nullopt;
+  for (; at != std::string::npos; at = ascii.find(kMinusSign)) {
+    ascii.replace(at, kMinusSign.size(), "-");
+  }
+  const auto number = number_from_text(ascii);
+  return number ? std::optional(*number) : std::nullopt;
 }
 
 }  // namespace
@@ -84,6 +132,7 @@ tl::expected<double, std::string> number_from_text(std::string_view text) {
     return tl::unexpected(shown(text) + " is out of range: largest 1.8e308, smallest 2.3e-308");
   }
   if (error != std::errc() || stop != end || !std::isfinite(value)) {
+    if (const auto number = number_with_minus_sign(text)) return *number;
     const auto read = error == std::errc() ? static_cast<std::size_t>(stop - text.data()) : 0U;
     return tl::unexpected(why_not_a_number(text, read));
   }

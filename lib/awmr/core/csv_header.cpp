@@ -9,6 +9,7 @@
 #include "awmr/core/column_sources.h"
 #include "awmr/core/csv_cell.h"
 #include "awmr/core/option_text.h"
+#include "awmr/core/text.h"
 
 namespace awmr {
 namespace {
@@ -36,7 +37,7 @@ Delimiter delimiter_of(const CsvScanner& scanner, const std::set<std::string>& w
   int best = 0;
   Delimiter chosen;
   bool is_cut = false;
-  for (const char delimiter : {',', ';', '\t'}) {
+  for (const char delimiter : {',', ';', '\t', '|'}) {
     CsvScanner copy = scanner;
     copy.set_delimiter(delimiter);
     std::vector<CsvCell> cells;
@@ -97,7 +98,7 @@ bool is_number(const CsvCell& cell, bool may_have_comma) {
 /// Where columns are asked for by their position and the first line holds numbers, it is a row already.
 bool take_positions(CsvScanner& scanner, const std::set<std::string>& wanted, CsvHeader& header) {
   if (std::none_of(wanted.begin(), wanted.end(), is_position)) return false;
-  for (const char delimiter : {';', '\t', ','}) {
+  for (const char delimiter : {';', '\t', '|', ','}) {
     CsvScanner row = scanner;
     row.set_delimiter(delimiter);
     std::vector<CsvCell> cells;
@@ -115,6 +116,145 @@ bool take_positions(CsvScanner& scanner, const std::set<std::string>& wanted, Cs
     return header.is_positional = true;
   }
   return false;
+}
+
+/// Written by a program for itself: PuTTY's mark of a new log, Excel's separator.
+bool is_mark(std::string_view line) {
+  std::string_view text = trimmed(line);
+  if (text.starts_with("=~=~=")) return true;
+  if (text.starts_with('"') && text.ends_with('"') && text.size() > 1) {
+    text = text.substr(1, text.size() - 2);
+  }
+  constexpr std::size_t kSeparatorMark = 5;  // sep=;
+  return text.size() == kSeparatorMark && (text.starts_with("sep=") || text.starts_with("SEP="));
+}
+
+/// The cells of the next line, up to a fault.
+std::vector<CsvCell> cells_of_line(CsvScanner scanner, char delimiter) {
+  scanner.set_delimiter(delimiter);
+  std::vector<CsvCell> cells;
+  scanner.next(cells);
+  return cells;
+}
+
+bool has_number(const std::vector<CsvCell>& cells, char delimiter) {
+  return std::any_of(cells.begin(), cells.end(),
+                     [&](const CsvCell& cell) { return is_number(cell, delimiter != ','); });
+}
+
+/// `scanner` stands before a header: columns asked for, or names above a row of as many cells.
+bool is_above_rows(CsvScanner scanner, const Delimiter& chosen) {
+  const std::vector<CsvCell> names = cells_of_line(scanner, chosen.character);
+  if (chosen.found >= 2) return true;
+  if (names.size() < 2 || has_number(names, chosen.character)) return false;
+  scanner.skip_line();
+  scanner.peek_line();
+  const std::vector<CsvCell> row = cells_of_line(scanner, chosen.character);
+  return row.size() == names.size() && has_number(row, chosen.character);
+}
+
+/// Leaves out the marks above the header.
+void skip_marks(CsvScanner& scanner, CsvHeader& header) {
+  while (is_mark(scanner.peek_line())) {
+    scanner.skip_line();
+    ++header.skipped_lines;
+  }
+}
+
+/// Leaves out up to kMaxTitleLines lines above the header, with fewer cells than it. A first line that has
+/// columns asked for, or a number, is no title.
+void skip_titles(CsvScanner& scanner, const std::set<std::string>& wanted, CsvHeader& header) {
+  constexpr int kMaxTitleLines = 20;
+  CsvScanner ahead = scanner;
+  std::size_t most_cells = 0;
+  for (int skipped = 0; skipped <= kMaxTitleLines && !ahead.peek_line().empty(); ++skipped) {
+    const Delimiter chosen = delimiter_of(ahead, wanted);
+    const std::vector<CsvCell> cells = cells_of_line(ahead, chosen.character);
+    if (skipped == 0 && (chosen.found > 0 || has_number(cells, chosen.character))) return;
+    const bool may_be_header = most_cells == 1 || chosen.found >= 2;
+    if (skipped > 0 && cells.size() > most_cells && may_be_header && is_above_rows(ahead, chosen)) {
+      scanner = ahead;
+      header.skipped_lines += skipped;
+      return;
+    }
+    most_cells = std::max(most_cells, cells.size());
+    ahead.skip_line();
+  }
+  header.is_cut = header.is_cut || ahead.ran_out();
+}
+
+/// The format that a first line shows; empty: it may be a header.
+std::string_view format_of(std::string_view line) {
+  const std::string_view text = trimmed(line);
+  const std::string_view next = trimmed(text.substr(std::min<std::size_t>(1, text.size())));
+  const char after = next.empty() ? '"' : next[0];
+  if (text.starts_with('{') && (after == '"' || after == '}')) return "JSON";
+  const bool is_value = after == '"' || after == '{' || after == '[' || after == ']';
+  if (text.starts_with('[') && is_value) return "JSON";
+  const bool is_tag = after == '!' || after == '?' || (after >= 'a' && after <= 'z') ||
+                      (after >= 'A' && after <= 'Z');
+  if (text.starts_with('<') && is_tag && !next.empty()) return "HTML or XML";
+  return {};
+}
+
+/// Words between spaces.
+std::vector<std::string_view> words_in(std::string_view line) {
+  std::vector<std::string_view> words;
+  for (std::size_t begin = 0; (begin = line.find_first_not_of(" \t", begin)) != line.npos;) {
+    const std::size_t end = std::min(line.find_first_of(" \t", begin), line.size());
+    words.push_back(line.substr(begin, end - begin));
+    begin = end;
+  }
+  return words;
+}
+
+/// Names between spaces: some column asked for, or above a row of as many words with a number.
+bool is_between_spaces(CsvScanner scanner, const std::set<std::string>& wanted) {
+  const std::vector<std::string_view> words = words_in(scanner.peek_line());
+  if (words.size() < 2) return false;
+  const auto is_wanted = [&](std::string_view word) { return wanted.count(std::string(word)) > 0; };
+  if (std::any_of(words.begin(), words.end(), is_wanted)) return true;
+  scanner.skip_line();
+  const std::vector<std::string_view> row = words_in(scanner.peek_line());
+  return row.size() == words.size() &&
+         std::all_of(row.begin(), row.end(),
+                     [](std::string_view word) { return number_from_text(word).has_value(); });
+}
+
+/// Errors: text of another format.
+Status check_format(CsvScanner scanner, const std::string& file) {
+  const std::string_view format = format_of(scanner.peek_line());
+  if (format.empty()) return {};
+  return input_error(fmt::format("{}:{}:1", file, scanner.line()),
+                     fmt::format("this file is {}, expected CSV; export it as CSV: a row of names, "
+                                 "then rows of numbers",
+                                 format));
+}
+
+/// Errors: cells between spaces.
+Status check_spaces(CsvScanner scanner, const std::string& file,
+                    const std::set<std::string>& wanted) {
+  scanner.peek_line();
+  for (const char delimiter : {',', ';', '\t', '|'}) {
+    if (cells_of_line(scanner, delimiter).size() != 1) return {};
+  }
+  if (!is_between_spaces(scanner, wanted)) return {};
+  return input_error(fmt::format("{}:{}:1", file, scanner.line()),
+                     "the cells are separated by spaces; separate them by commas, semicolons or "
+                     "tabs");
+}
+
+/// Errors: a name that is not UTF-8.
+Status check_names(const CsvHeader& header, const std::string& file) {
+  for (const CsvCell& cell : header.cells) {
+    if (is_utf8(cell.text)) continue;
+    return input_error(
+        fmt::format("{}:{}:{}", file, cell.line, cell.character),
+        fmt::format("the column's name \"{}\" is not UTF-8 (Latin-1?); save the file "
+                    "as UTF-8",
+                    shortened(cell.text, 40)));
+  }
+  return {};
 }
 
 Status take_first_line(CsvScanner& scanner, const std::string& file, CsvHeader& header) {
@@ -154,14 +294,19 @@ Result<CsvHeader> find_header(CsvScanner& scanner, const std::string& file,
                               std::span<const ColumnMapping> mappings) {
   const std::set<std::string> wanted = wanted_names(columns, mappings);
   CsvHeader header;
+  skip_marks(scanner, header);
+  AWMR_RETURN_IF_ERROR(check_format(scanner, file));
+  skip_titles(scanner, wanted, header);
   scanner.peek_line();
   header.line = scanner.line();
+  AWMR_RETURN_IF_ERROR(check_spaces(scanner, file, wanted));
   const Delimiter chosen = delimiter_of(scanner, wanted);
   header.delimiter = chosen.character;
-  header.is_cut = chosen.is_cut;
+  header.is_cut = header.is_cut || chosen.is_cut;
   const bool is_found = chosen.found == 0 && (take_comment(scanner, wanted, header) ||
                                               take_positions(scanner, wanted, header));
   if (!is_found) AWMR_RETURN_IF_ERROR(take_first_line(scanner, file, header));
+  AWMR_RETURN_IF_ERROR(check_names(header, file));
   if (!header.is_positional) {
     for (const CsvCell& cell : header.cells) header.names.push_back(name_of(cell));
   }
@@ -170,17 +315,25 @@ Result<CsvHeader> find_header(CsvScanner& scanner, const std::string& file,
 }
 
 std::vector<CsvNote> format_notes(const CsvHeader& header, bool has_decimal_commas) {
-  if (!has_decimal_commas && !header.is_comment && !header.is_positional) return {};
-  const std::string_view between = header.delimiter == ','   ? "commas"
-                                   : header.delimiter == ';' ? "semicolons"
-                                                             : "tabs";
+  const bool is_usual = header.delimiter != '|' && header.skipped_lines == 0;
+  if (is_usual && !has_decimal_commas && !header.is_comment && !header.is_positional) return {};
+  const std::string_view between = header.delimiter == ','    ? "commas"
+                                   : header.delimiter == ';'  ? "semicolons"
+                                   : header.delimiter == '\t' ? "tabs"
+                                                              : "vertical bars";
+  const std::string skipped =
+      header.skipped_lines == 0
+          ? ""
+          : fmt::format(", without the {} line{} above the header", header.skipped_lines,
+                        header.skipped_lines == 1 ? "" : "s");
   return {
       {header.line, "csv-format",
-       fmt::format("read with cells between {}{}{}", between,
+       fmt::format("read with cells between {}{}{}{}", between,
                    has_decimal_commas ? ", decimal commas" : "",
                    header.is_comment      ? ", the columns' names behind #"
                    : header.is_positional ? ", the columns by their position, as there is no header"
-                                          : "")}};
+                                          : "",
+                   skipped)}};
 }
 
 std::string message_of(CsvScanner::Outcome outcome) {

@@ -17,6 +17,7 @@ struct CsvHeader {
   std::vector<std::string> samples = {};  ///< the cells of the first row
   int line = 1;
   char delimiter = ',';
+  int skipped_lines = 0;    ///< above it, that are neither header nor comments
   bool is_comment = false;  ///< the names stand behind a '#'
   bool is_positional =
       false;            ///< there is none: `column_1`, ... are its names, `cells` the first row's
@@ -25,7 +26,7 @@ struct CsvHeader {
 
 /// Finds the header and leaves `scanner`, which begins at the text's first byte, at the first row.
 /// `file` names the text in errors. Errors: no header, a quote that is not closed or has text behind
-/// it, numbers in place of names.
+/// it, numbers in place of names, JSON or HTML, cells between spaces, names that are not UTF-8.
 Result<CsvHeader> find_header(CsvScanner& scanner, const std::string& file,
                               std::span<const CsvColumn> columns,
                               std::span<const ColumnMapping> mappings);

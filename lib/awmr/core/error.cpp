@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <map>
 #include <utility>
 
 #include "awmr/core/option_text.h"
@@ -8,7 +10,55 @@
 
 namespace awmr {
 namespace {
+
 constexpr std::size_t kMaxFaultsShown = 20;
+/// Up to so many faults of one kind are shown one by one.
+constexpr std::size_t kMaxAlike = 3;
+
+/// The place without its line and column, or without the indices of its JSON pointer.
+std::string file_and_keys(const std::string& place) {
+  std::string text = place;
+  const std::size_t pointer = place.find(":/");
+  if (pointer != std::string::npos) {
+    text.erase(
+        std::remove_if(text.begin() + static_cast<std::ptrdiff_t>(pointer), text.end(), is_digit),
+        text.end());
+    return text;
+  }
+  const std::size_t end = text.find_last_not_of("0123456789:");
+  return text.substr(0, end == std::string::npos ? 0 : end + 1);
+}
+
+/// The same for faults of one cause: file, and message without the values that it quotes.
+std::string cause_of(const Fault& fault) {
+  std::string cause = file_and_keys(fault.place) + '\n';
+  bool is_quoted = false;
+  for (const char c : fault.message) {
+    if (c == '"') is_quoted = !is_quoted;
+    const bool is_value = is_digit(c) || c == '.' || c == ',' || c == '-' || c == '+';
+    if (!is_quoted && !is_value) cause += c;
+  }
+  return cause;
+}
+
+/// Of more than kMaxAlike faults of one cause the first, with the number of the others.
+std::vector<Fault> without_repeats(const std::vector<Fault>& faults) {
+  std::map<std::string, std::size_t> counts;
+  for (const Fault& fault : faults) ++counts[cause_of(fault)];
+  std::vector<Fault> first_ones;
+  for (const Fault& fault : faults) {
+    std::size_t& count = counts[cause_of(fault)];
+    if (count == 0) continue;
+    first_ones.push_back(fault);
+    if (count <= kMaxAlike || fault.place.empty()) continue;
+    first_ones.back().message +=
+        fmt::format("; {}{} more faults of this file are the same",
+                    faults.size() >= kMaxFaults ? "at least " : "", count - 1);
+    count = 0;
+  }
+  return first_ones;
+}
+
 }  // namespace
 
 tl::unexpected<Error> input_error(std::string place, std::string message) {
@@ -29,7 +79,8 @@ tl::unexpected<Error> input_errors(std::vector<Fault> faults) {
 
 std::string to_text(const Error& error) { return to_text(error, ""); }
 
-std::vector<Fault> shown_faults(const std::vector<Fault>& faults) {
+std::vector<Fault> shown_faults(const std::vector<Fault>& all) {
+  const std::vector<Fault> faults = without_repeats(all);
   if (faults.size() <= kMaxFaultsShown) return faults;
   std::vector<Fault> shown(faults.begin(), faults.begin() + kMaxFaultsShown);
   const std::size_t left = faults.size() - kMaxFaultsShown;

@@ -61,6 +61,15 @@ std::string escaped(std::string_view text, bool keep_lines) {
 
 }  // namespace
 
+bool is_utf8(std::string_view text) {
+  while (!text.empty()) {
+    const std::size_t bytes = first_character(text).bytes;
+    if (bytes == 0) return false;
+    text.remove_prefix(bytes);
+  }
+  return true;
+}
+
 std::string_view first_characters(std::string_view text, std::size_t longest) {
   if (text.size() <= longest) return text;
   while (longest > 0 && continues_character(text[longest])) --longest;

@@ -15,6 +15,8 @@ inline bool continues_character(char byte) {
 /// Whatever the language of the system.
 inline bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
+bool is_utf8(std::string_view text);
+
 /// The first `longest` bytes of a text, or fewer: it is never cut inside a UTF-8 character.
 std::string_view first_characters(std::string_view text, std::size_t longest);
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <optional>
 
 #include "awmr/trials/robust_ratio.h"
 
@@ -127,32 +129,78 @@ void find_spikes(std::span<const double> value, ChannelQuality& quality) {
   }
 }
 
-/// One value for a second and more, far longer than this sensor otherwise repeats one, while the
-/// vehicle was told something else at least 0.3 s before the end of it. Exactly zero is rest.
-void find_stuck(std::span<const double> t_s, std::span<const double> value,
-                std::span<const double> activity, ChannelQuality& quality) {
+/// Values so much smaller than the signal are rest, and so are they in the commands.
+constexpr double kRestShare = 1e-6;
+
+double largest_size(std::span<const double> values) {
+  double most = 0.0;
+  for (const double value : values) most = std::max(most, std::abs(value));
+  return most;
+}
+
+/// Rows [begin, end) of the same value.
+std::vector<RowSpan> equal_runs(std::span<const double> value) {
   std::vector<RowSpan> runs;
-  std::vector<double> lengths;
   for (std::size_t i = 0; i < value.size();) {
     std::size_t end = i + 1;
     while (end < value.size() && value[end] == value[i]) ++end;
     runs.push_back({i, end});
-    lengths.push_back(static_cast<double>(end - i));
     i = end;
   }
+  return runs;
+}
+
+/// For how long within the run, up to 0.3 s before its end, the command is off its first 0.3 s by `notable`
+/// on the mean of 0.3 s: a controller that keeps a steady speed changes its command all the time, but on
+/// the mean only a little.
+double changed_s(std::span<const double> t_s, std::span<const double> activity, const RowSpan& run,
+                 double notable) {
+  constexpr double kMean_s = 0.3;
+  double changed = 0.0;
+  double sum = 0.0;
+  std::optional<double> first_mean;
+  std::size_t from = run.begin;
+  for (std::size_t i = run.begin; i < run.end; ++i) {
+    sum += activity[i];
+    while (t_s[i] - t_s[from] > kMean_s) sum -= activity[from++];
+    const double mean = sum / static_cast<double>(i - from + 1);
+    if (t_s[i] - t_s[run.begin] < kMean_s) continue;
+    if (!first_mean) first_mean = mean;
+    if (t_s[i] >= t_s[run.end - 1] - kMean_s) break;
+    if (std::abs(mean - *first_mean) > notable) changed += t_s[i] - t_s[i - 1];
+  }
+  return changed;
+}
+
+/// One value for a second and more, far longer than this sensor otherwise repeats one, while the
+/// vehicle was told something else for 0.3 s. Rest is not stuck, and neither is a value that is held long
+/// twice: a set-point that is kept.
+void find_stuck(std::span<const double> t_s, std::span<const double> value,
+                std::span<const double> activity, ChannelQuality& quality) {
+  const std::vector<RowSpan> runs = equal_runs(value);
+  std::vector<double> lengths;
+  for (const RowSpan& run : runs) lengths.push_back(static_cast<double>(run.end - run.begin));
   const double usual = quantile(lengths, 0.9);
   const auto [low, high] = std::minmax_element(activity.begin(), activity.end());
   const double notable = 0.2 * (*high - *low);
+  const double rest = kRestShare * largest_size(value);
+  const auto is_resting = [&](double reading) { return std::abs(reading) <= rest; };
+  const auto is_long = [&](const RowSpan& run) {
+    return static_cast<double>(run.end - run.begin) >= 8.0 * usual &&
+           t_s[run.end - 1] - t_s[run.begin] >= 1.0;
+  };
+  std::vector<RowSpan> long_runs;
+  std::map<double, int> times_held;
   for (const RowSpan& run : runs) {
-    const double long_rows = 8.0 * usual;
-    const double span_s = t_s[run.end - 1] - t_s[run.begin];
-    if (value[run.begin] == 0.0 || span_s < 1.0) continue;
-    if (static_cast<double>(run.end - run.begin) < long_rows) continue;
-    bool told = false;
-    for (std::size_t i = run.begin; i < run.end && t_s[i] < t_s[run.end - 1] - 0.3; ++i) {
-      told = told || std::abs(activity[i] - activity[run.begin]) > notable;
-    }
-    if (!told || !(notable > 0.0)) continue;
+    if (!is_long(run) || is_resting(value[run.begin])) continue;
+    long_runs.push_back(run);
+    ++times_held[value[run.begin]];
+  }
+  for (const RowSpan& run : long_runs) {
+    if (times_held[value[run.begin]] > 1) continue;
+    constexpr double kLeastChanged_s = 0.3;
+    const bool is_told = notable > 0.0 && changed_s(t_s, activity, run, notable) >= kLeastChanged_s;
+    if (!is_told) continue;
     quality.stuck.push_back(run);
     // The first reading was still one.
     for (std::size_t i = run.begin + 1; i < run.end; ++i) quality.fresh[i] = false;
@@ -160,8 +208,16 @@ void find_stuck(std::span<const double> t_s, std::span<const double> value,
 }
 
 /// Rows that all read the largest (or the smallest) value of a signal that otherwise hardly repeats
-/// one exactly.
-void find_saturation(std::span<const double> value, ChannelQuality& quality) {
+/// one exactly. Rows in which the vehicle is told to do nothing do not count: there it rests at some value.
+void find_saturation(std::span<const double> all, std::span<const double> activity,
+                     ChannelQuality& quality) {
+  const double idle = 0.02 * largest_size(activity);
+  std::vector<double> value;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (std::abs(activity[i]) > idle) value.push_back(all[i]);
+  }
+  if (value.empty()) return;
+  const double rest = kRestShare * largest_size(value);
   const auto [low, high] = std::minmax_element(value.begin(), value.end());
   std::vector<double> sorted(value.begin(), value.end());
   std::sort(sorted.begin(), sorted.end());
@@ -171,7 +227,7 @@ void find_saturation(std::span<const double> value, ChannelQuality& quality) {
     std::size_t end = i;
     while (end < sorted.size() && sorted[end] == sorted[i]) ++end;
     ++levels;
-    if (sorted[i] != *low && sorted[i] != *high && sorted[i] != 0.0) {
+    if (sorted[i] != *low && sorted[i] != *high && std::abs(sorted[i]) > rest) {
       most_elsewhere = std::max(most_elsewhere, end - i);
     }
     i = end;
@@ -180,7 +236,7 @@ void find_saturation(std::span<const double> value, ChannelQuality& quality) {
   constexpr std::size_t kFewestLevels = 20;
   if (levels < kFewestLevels) return;
   for (const double bound : {*high, *low}) {
-    if (bound == 0.0) continue;
+    if (std::abs(bound) <= rest) continue;
     const auto count = static_cast<std::size_t>(std::count(value.begin(), value.end(), bound));
     if (count < std::max<std::size_t>(8, value.size() / 200)) continue;
     if (count < 4 * most_elsewhere) continue;
@@ -188,8 +244,8 @@ void find_saturation(std::span<const double> value, ChannelQuality& quality) {
       quality.saturated = count;
       quality.saturated_at = bound;
     }
-    for (std::size_t i = 0; i < value.size(); ++i) {
-      if (value[i] == bound) quality.fresh[i] = false;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (all[i] == bound) quality.fresh[i] = false;
     }
   }
 }
@@ -202,7 +258,8 @@ ChannelQuality channel_quality(std::span<const double> t_s, std::span<const doub
   judge_repeats(value, quality);
   find_spikes(value, quality);
   find_stuck(t_s, value, activity, quality);
-  if (quality.repeats == Repeats::kNone && quality.stuck.empty()) find_saturation(value, quality);
+  if (quality.repeats == Repeats::kNone && quality.stuck.empty())
+    find_saturation(value, activity, quality);
   return quality;
 }
 

@@ -5,6 +5,7 @@
 #include "awmr/core/option_text.h"
 #include "read_table.h"
 #include "repeated_rows.h"
+#include "rest_limits.h"
 #include "trial_reader.h"
 
 namespace awmr {
@@ -49,12 +50,12 @@ TrialSet<StopTimeRow> read_stop_times(TrialReader& reader, std::vector<Finding>&
   for (std::size_t i = 0; i < reader.table().rows(); ++i) {
     const double speed_mps = *reader.non_negative(i, "initial_speed_mps");
     const double stop_time_s = *reader.non_negative(i, "stop_time_s");
-    if (speed_mps > 0.0 && stop_time_s == 0.0) {
+    if (!is_rest(speed_mps, kRestSpeed_mps) && stop_time_s == 0.0) {
       reader.fault(i, "stop_time_s",
                    fmt::format("found 0 from initial_speed_mps {}; a moving vehicle takes time to "
                                "stop",
                                speed_mps));
-    } else if (speed_mps == 0.0) {
+    } else if (is_rest(speed_mps, kRestSpeed_mps)) {
       set_aside.push_back(i);
     } else {
       kept.push_back(i);

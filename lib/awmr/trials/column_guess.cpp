@@ -8,6 +8,7 @@
 #include <functional>
 #include <optional>
 #include <set>
+#include <span>
 #include <utility>
 
 #include "awmr/core/csv.h"
@@ -15,6 +16,7 @@
 #include "awmr/core/units.h"
 #include "awmr/trials/column_words.h"
 #include "awmr/trials/trial_columns.h"
+#include "constant_channels.h"
 
 namespace awmr {
 namespace {
@@ -51,8 +53,16 @@ double largest(const std::vector<double>& values) {
   return most;
 }
 
-Scale force_scale(const std::string& quoted, const std::vector<double>& values) {
+/// The usual battery, which the reason names.
+constexpr double kUsualVolts = 12.0;
+
+Scale force_scale(const std::string& quoted, const Words& words,
+                  const std::vector<double>& values) {
   const double most = largest(values);
+  if (has_any(words, {"volts", "volt", "voltage"})) {
+    return {fmt::format("{}/{:g}", quoted, kUsualVolts), Confidence::kUnsure,
+            fmt::format("volts over the voltage of full power, taken as {:g} V", kUsualVolts)};
+  }
   const double least =
       values.empty() ? 0.0 : std::abs(*std::min_element(values.begin(), values.end()));
   if (most <= 1.0) {
@@ -72,7 +82,7 @@ Scale force_scale(const std::string& quoted, const std::vector<double>& values) 
 Scale scale_of(const std::string& quoted, const Words& words, Dimension dimension,
                const std::vector<double>& values) {
   if (auto unit = by_unit_in_name(quoted, words, dimension)) return *std::move(unit);
-  if (dimension == Dimension::kForce) return force_scale(quoted, values);
+  if (dimension == Dimension::kForce) return force_scale(quoted, words, values);
   if (dimension == Dimension::kCount) return {quoted, Confidence::kLikely, "a number without unit"};
   if (dimension == Dimension::kGeographic) {
     return {quoted, Confidence::kLikely, "positions on the Earth are given in degrees"};
@@ -147,8 +157,47 @@ void add_time(const FileSample& sample, std::vector<ColumnGuess>& guesses) {
   }
 }
 
+/// The column of the file that a guess is made from, scaled or not; none for a formula of several.
+std::optional<std::size_t> source_of(const ColumnGuess& guess, const FileSample& sample) {
+  for (std::size_t i = 0; i < sample.names.size(); ++i) {
+    const std::string name = quoted(sample.names[i]);
+    const bool is_source = guess.expression == name || guess.expression == sample.names[i] ||
+                           guess.expression.starts_with(name + "*");
+    if (is_source) return i;
+  }
+  return std::nullopt;
+}
+
+/// A channel that is constant while others move is not proposed: it is no measurement.
+void withdraw_constants(const FileSample& sample, std::vector<ColumnGuess>& guesses) {
+  for (ColumnGuess& guess : guesses) {
+    const auto source = source_of(guess, sample);
+    if (!source) continue;
+    // The other channels by their first guess, this one by the column in question.
+    const auto values = [&](std::string_view column) -> std::optional<std::span<const double>> {
+      if (column == guess.column) return sample.values[*source];
+      for (const ColumnGuess& other : guesses) {
+        if (other.column != column) continue;
+        const auto index = source_of(other, sample);
+        return index ? std::optional(std::span<const double>(sample.values[*index])) : std::nullopt;
+      }
+      return std::nullopt;
+    };
+    for (const ConstantChannel& one : constant_channels(values)) {
+      if (info(one.channel).column != guess.column) continue;
+      guess.why = fmt::format(
+          "{} is {:g} in the first {} rows while other channels move: not a "
+          "measurement",
+          sample.names[*source], one.value, sample.values[*source].size());
+      guess.expression.clear();
+      guess.confidence = Confidence::kUnsure;
+      break;
+    }
+  }
+}
+
 /// Where two columns fit as well, neither is likely.
-void settle(std::vector<ColumnGuess>& guesses) {
+void settle(std::span<ColumnGuess> guesses) {
   std::stable_sort(guesses.begin(), guesses.end(), [](const ColumnGuess& a, const ColumnGuess& b) {
     return a.confidence < b.confidence;
   });
@@ -181,7 +230,6 @@ std::vector<ColumnGuess> guesses_of(const std::string& column, const FileSample&
   }
   if (column == "heading_deg") add_quaternions(sample, guesses);
   if (column == kTimeName && guesses.empty()) add_time(sample, guesses);
-  settle(guesses);
   return guesses;
 }
 
@@ -192,6 +240,13 @@ std::vector<ColumnGuess> guess_columns(const FileSample& sample, TrialKind kind)
   for (const CsvColumn& column : columns_of(kind)) {
     const std::vector<ColumnGuess> guesses = guesses_of(column.name, sample, kind);
     all.insert(all.end(), guesses.begin(), guesses.end());
+  }
+  if (kind == TrialKind::kLog) withdraw_constants(sample, all);
+  for (auto begin = all.begin(); begin != all.end();) {
+    const auto end = std::find_if(
+        begin, all.end(), [&](const ColumnGuess& guess) { return guess.column != begin->column; });
+    settle({begin, end});
+    begin = end;
   }
   return all;
 }

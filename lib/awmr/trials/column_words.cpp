@@ -16,8 +16,8 @@ struct Rule {
   Dimension dimension;
 };
 
-const std::set<std::string> kThrustWords{"force", "duty",   "pwm",    "throttle", "thrust",
-                                         "motor", "effort", "torque", "power"};
+const std::set<std::string> kThrustWords{"force",  "duty",   "pwm",   "throttle", "thrust", "motor",
+                                         "effort", "torque", "power", "volts",    "voltage"};
 const std::set<std::string> kSteerWords{"steer", "steering", "delta"};
 const std::set<std::string> kSideWords{"left", "l", "right", "r"};
 const std::set<std::string> kSpeedWords{"speed", "velocity", "vel", "v", "vx", "spd", "linear"};

@@ -10,6 +10,7 @@
 #include "awmr/trials/log_files.h"
 #include "awmr/trials/trial_columns.h"
 #include "read_table.h"
+#include "sysid.h"
 
 namespace awmr {
 namespace {
@@ -46,8 +47,9 @@ FileSample sample_of_signals(const Signals& signals) {
   return sample;
 }
 
-FileSample sample_of_awl(AwlLog log) {
-  FileSample sample{.names = std::move(log.header), .values = std::move(log.columns), .texts = {}};
+FileSample sample_of_columns(std::vector<std::string> names,
+                             std::vector<std::vector<double>> columns) {
+  FileSample sample{.names = std::move(names), .values = std::move(columns), .texts = {}};
   sample.texts.resize(sample.names.size());
   for (std::vector<double>& values : sample.values) {
     values.resize(std::min(values.size(), kSampleRows));
@@ -82,7 +84,11 @@ Result<FileSample> sample_of(const fs::path& path) {
   AWMR_ASSIGN_OR_RETURN(const std::string bytes, read_input(paths.front()));
   if (is_awl(bytes)) {
     AWMR_ASSIGN_OR_RETURN(AwlLog log, read_awl(bytes, paths.front().string()));
-    return sample_of_awl(std::move(log));
+    return sample_of_columns(std::move(log.header), std::move(log.columns));
+  }
+  if (is_sysid(bytes)) {
+    AWMR_ASSIGN_OR_RETURN(SysIdLog log, read_sysid(bytes, paths.front().string()));
+    return sample_of_columns(std::move(log.header), std::move(log.columns));
   }
   const auto signals = read_signals(bytes, paths.front().string(), all);
   if (!signals) return sample_of_text(bytes, path.string());

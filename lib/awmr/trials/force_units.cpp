@@ -31,6 +31,8 @@ constexpr ForceUnit kMicroseconds{
     1.0 / 500.0, -3.0};
 constexpr ForceUnit kNewtons{"newtons (to be divided by F_max, the largest force of one motor)"};
 constexpr ForceUnit kVolts{"volts (to be divided by the voltage of full power)"};
+constexpr ForceUnit kUnknownForce{
+    "no unit that is known (F' is the force over F_max of one motor)"};
 constexpr Interval kVoltRange{2.0, 60.0};
 constexpr Interval kAcceleration_mps2{0.1, 30.0};
 
@@ -97,7 +99,7 @@ ForceUnits force_units(const ForceSpan& span, const Vehicle& vehicle) {
   if (is_full_power(span.largest) && !may_be_pulse) return {units};
   if (kVoltRange.contains(span.largest)) units.push_back(kVolts);
   if (!may_be_pulse && may_be_newtons(span.largest, vehicle)) units.push_back(kNewtons);
-  if (units.empty()) units.push_back(over_smaller);
+  if (units.empty()) units.push_back(kUnknownForce);
   return {units};
 }
 

@@ -12,6 +12,7 @@
 #include "awmr/trials/read_trials.h"
 #include "awmr/trials/robust_ratio.h"
 #include "awmr/trials/trial_columns.h"
+#include "constant_channels.h"
 #include "log_channels.h"
 #include "read_table.h"
 #include "trial_reader.h"
@@ -206,13 +207,35 @@ DrivingLog commands_of(TrialReader& reader, RowSpan rows) {
   return log;
 }
 
-DrivingLog log_of(TrialReader& reader, RowSpan rows, std::vector<Finding>& findings) {
+/// Channels of the file that are no measurement, each told. A value that was held counts once more, which
+/// changes nothing.
+std::vector<LogChannel> find_unmeasured(const TrialReader& reader, std::vector<Finding>& findings) {
+  const CsvTable& table = reader.table();
+  const auto values = [&](std::string_view column) -> std::optional<std::span<const double>> {
+    return table.has(column) ? std::optional(table.column(column)) : std::nullopt;
+  };
+  std::vector<LogChannel> unmeasured;
+  for (const ConstantChannel& one : constant_channels(values)) {
+    const std::string_view column = info(one.channel).column;
+    const bool is_turn = one.channel == LogChannel::kHeading || one.channel == LogChannel::kYawRate;
+    findings.push_back(
+        {finding_file(table), 0, Severity::kWarning, "constant-channel",
+         fmt::format("{} is {:g} in every row while other channels move: not a measurement, set "
+                     "aside{}",
+                     column, one.value, is_turn ? "; a straight drive shows nothing of yaw" : "")});
+    unmeasured.push_back(one.channel);
+  }
+  return unmeasured;
+}
+
+DrivingLog log_of(TrialReader& reader, RowSpan rows, std::span<const LogChannel> unmeasured,
+                  std::vector<Finding>& findings) {
   DrivingLog log = commands_of(reader, rows);
   if (reader.has("latitude_deg")) add_geographic(reader, rows, log, findings);
   if (!reader.faults().empty()) return log;
   for (const LogChannel channel : kChannels) {
     const ChannelInfo& about = info(channel);
-    if (!reader.has(about.column)) continue;
+    if (!reader.has(about.column) || std::ranges::count(unmeasured, channel) > 0) continue;
     std::vector<double> values = values_of(reader, rows, about.column, about.to_si);
     if (channel == LogChannel::kHeading) unwrap(values);
     log[channel] = measured_of(channel, log, rows_present(reader, rows, about.column),
@@ -245,7 +268,8 @@ Result<std::vector<DrivingLog>> read_logs(const std::filesystem::path& path,
   note_format(reader, findings);
   std::vector<DrivingLog> logs;
   logs.reserve(runs.size());
-  for (const RowSpan run : runs) logs.push_back(log_of(reader, run, findings));
+  const std::vector<LogChannel> unmeasured = find_unmeasured(reader, findings);
+  for (const RowSpan run : runs) logs.push_back(log_of(reader, run, unmeasured, findings));
   if (!reader.faults().empty()) return input_errors(std::move(reader.faults()));
   return logs;
 }

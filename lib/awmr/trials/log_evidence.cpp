@@ -6,6 +6,8 @@
 #include <cmath>
 #include <span>
 
+#include "rest_limits.h"
+
 namespace awmr {
 namespace {
 
@@ -52,7 +54,7 @@ EvidenceWindow sums_of(const DrivingLog& log, const Vehicle& vehicle, const LogW
     sums.driven_m = integral_of(log, LogChannel::kSpeed, window);
     const auto [least, most] = std::ranges::minmax(
         std::span(speed->value).subspan(window.begin, window.end - window.begin));
-    sums.has_stuck_speed = !(least < most) && least != 0.0;
+    sums.has_stuck_speed = !(least < most) && !is_rest(least, kRestSpeed_mps);
   }
   add_commands(log, vehicle, window, sums);
   return sums;

@@ -20,6 +20,7 @@
 #include "dataflash.h"
 #include "dataflash_text.h"
 #include "rosbag.h"
+#include "sysid.h"
 #include "ulog.h"
 
 namespace awmr {
@@ -44,21 +45,42 @@ Result<CsvTable> table_of_signals(CsvTopics topics, const std::string& file,
   return table_of(std::move(raw), std::move(sources), mappings, std::move(faults));
 }
 
+/// The columns of a file without lines.
+Result<CsvTable> table_of_columns(std::vector<std::string> header,
+                                  std::vector<std::vector<double>> values,
+                                  std::vector<CsvNote> notes, const std::string& file,
+                                  std::span<const CsvColumn> columns,
+                                  std::span<const ColumnMapping> mappings) {
+  RawTable raw{.file = file};
+  raw.lines.append(1, values.empty() ? 0 : values.front().size());
+  for (std::vector<double>& column : values) raw.columns.push_back({std::move(column)});
+  raw.notes = std::move(notes);
+  ColumnSources sources = find_columns(header, {}, columns, mappings, file);
+  std::vector<Fault> faults;
+  for (HeaderFault& fault : sources.faults) faults.push_back({file, std::move(fault.message)});
+  return table_of(std::move(raw), std::move(sources), mappings, std::move(faults));
+}
+
 /// The rows of an on-board log.
 Result<CsvTable> table_of_awl(std::string_view bytes, const std::string& file,
                               std::span<const CsvColumn> columns,
                               std::span<const ColumnMapping> mappings) {
   AWMR_ASSIGN_OR_RETURN(AwlLog log, read_awl(bytes, file));
-  RawTable raw{.file = file};
-  raw.lines.append(1, log.rows());
-  for (std::vector<double>& column : log.columns) raw.columns.push_back({std::move(column)});
+  std::vector<CsvNote> notes;
   for (Finding& finding : log.findings) {
-    raw.notes.push_back({finding.line, std::move(finding.code), std::move(finding.message)});
+    notes.push_back({finding.line, std::move(finding.code), std::move(finding.message)});
   }
-  ColumnSources sources = find_columns(log.header, {}, columns, mappings, file);
-  std::vector<Fault> faults;
-  for (HeaderFault& fault : sources.faults) faults.push_back({file, std::move(fault.message)});
-  return table_of(std::move(raw), std::move(sources), mappings, std::move(faults));
+  return table_of_columns(std::move(log.header), std::move(log.columns), std::move(notes), file,
+                          columns, mappings);
+}
+
+/// The rows of SysId's tests.
+Result<CsvTable> table_of_sysid(std::string_view bytes, const std::string& file,
+                                std::span<const CsvColumn> columns,
+                                std::span<const ColumnMapping> mappings) {
+  AWMR_ASSIGN_OR_RETURN(SysIdLog log, read_sysid(bytes, file));
+  return table_of_columns(std::move(log.header), std::move(log.columns), std::move(log.notes), file,
+                          columns, mappings);
 }
 
 /// A bag may be cut into several files: its topics go on from one to the next.
@@ -102,7 +124,7 @@ Result<bool> begins_as_text(const InputBytes& file) {
   std::string first(std::min(kSampleBytes, file.size()), '\0');
   AWMR_RETURN_IF_ERROR(file.read(0, first));
   return !is_awl(first) && !is_ulog(first) && !is_dataflash(first) && !is_dataflash_text(first) &&
-         !is_rosbag(first);
+         !is_rosbag(first) && !is_sysid(first);
 }
 
 }  // namespace
@@ -142,6 +164,7 @@ Result<CsvTable> read_table(const fs::path& path, std::span<const CsvColumn> col
   if (is_text) return read_csv(std::move(bytes), columns, options.columns);
   AWMR_ASSIGN_OR_RETURN(const std::shared_ptr<const std::string> whole, bytes->whole());
   if (is_awl(*whole)) return table_of_awl(*whole, file, columns, options.columns);
+  if (is_sysid(*whole)) return table_of_sysid(*whole, file, columns, options.columns);
   auto signals = read_signals(*whole, file, wanted);
   if (!signals) return read_csv_text(*whole, file, columns, options.columns);
   if (!*signals) return tl::unexpected(std::move(*signals).error());

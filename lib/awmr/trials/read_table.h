@@ -18,7 +18,7 @@ std::optional<Result<Signals>> read_signals(std::string_view bytes, const std::s
                                             const Wanted& wanted);
 
 /// The format is known by the first bytes: ULog, DataFlash, a bag of ROS 2 in SQLite,
-/// the emitted firmware's own, else text. Of a
+/// the emitted firmware's own, SysId's JSON, else text. Of a
 /// directory the files are joined by time. Errors: as read_csv(); those of the formats.
 Result<CsvTable> read_table(const std::filesystem::path& path, std::span<const CsvColumn> columns,
                             const TrialOptions& options);

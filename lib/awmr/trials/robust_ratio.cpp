@@ -9,6 +9,8 @@ namespace {
 
 constexpr int kFewestPairs = 10;
 constexpr double kLargestSpread = 0.6;
+/// Distances and turns of a window below this are rest, whatever was written.
+constexpr double kSmallest = 1e-9;
 
 }  // namespace
 
@@ -32,7 +34,7 @@ std::optional<RobustRatio> robust_ratio(std::span<const double> x, std::span<con
   const double half = median(sizes);
   std::vector<double> ratios;
   for (std::size_t i = 0; i < x.size(); ++i) {
-    if (sizes[i] >= half && sizes[i] > 0.0) ratios.push_back(y[i] / x[i]);
+    if (sizes[i] >= half && sizes[i] > kSmallest) ratios.push_back(y[i] / x[i]);
   }
   if (static_cast<int>(ratios.size()) < kFewestPairs) return std::nullopt;
   const double ratio = median(ratios);

@@ -5,6 +5,7 @@
 #include "awmr/core/csv_text.h"
 #include "read_table.h"
 #include "repeated_rows.h"
+#include "rest_limits.h"
 #include "trial_reader.h"
 
 namespace awmr {
@@ -64,7 +65,7 @@ Result<TrialSet<SurgeRow>> read_surge(const std::filesystem::path& path,
     const auto printed = reader.non_negative(i, "speed_mps");
     const auto speed = rate_of(reader, i, kSpeed, printed, options.preference, findings);
     if (!speed) continue;
-    if (tau_speed == 0.0 || speed->used == 0.0) {
+    if (is_rest(tau_speed, kRestForce) || is_rest(speed->used, kRestSpeed_mps)) {
       set_aside.push_back(i);
       continue;
     }

@@ -10,6 +10,7 @@
 #include "awmr/trials/trial_columns.h"
 #include "read_table.h"
 #include "repeated_rows.h"
+#include "rest_limits.h"
 #include "trial_reader.h"
 
 namespace awmr {
@@ -293,8 +294,8 @@ Result<TrialSet<TurningRow>> read_turning(const std::filesystem::path& path, con
     const auto row = read_row(reader, i, vehicle, options.preference, findings);
     if (!row) continue;
     const bool beside_steering = vehicle.has_steering() && row->sides;
-    const bool is_standing = row->yaw_rate_radps == 0.0;
-    if (row->tau_turn_m == 0.0 || (is_standing && !beside_steering)) {
+    const bool is_standing = is_rest(row->yaw_rate_radps, kRestRate_radps);
+    if (is_rest(row->tau_turn_m, kRestForce) || (is_standing && !beside_steering)) {
       set_aside.push_back(i);
     } else if (is_standing) {
       set.standing.push_back(*row);

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <limits>
 
+#include "awmr/core/option_text.h"
 #include "awmr/core/units.h"
+#include "awmr/model/plausibility.h"
 #include "awmr/trials/log_evidence.h"
 #include "awmr/trials/robust_ratio.h"
 #include "force_units.h"
@@ -137,6 +139,19 @@ std::vector<double> centred(std::vector<double> values) {
   return values;
 }
 
+/// What 95 % of the readings that count stay below, by size: a spike does not move it.
+double usual_largest(const Measured& channel) {
+  std::vector<double> sizes;
+  for (std::size_t row = 0; row < channel.value.size(); ++row) {
+    if (channel.fresh[row]) sizes.push_back(std::abs(channel.value[row]));
+  }
+  if (sizes.empty()) return 0.0;
+  const auto place =
+      sizes.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(sizes.size() - 1));
+  std::nth_element(sizes.begin(), place, sizes.end());
+  return *place;
+}
+
 std::optional<Contradiction> judge_rates(const Evidence& evidence) {
   if (!evidence.has(LogChannel::kHeading) || !evidence.has(LogChannel::kYawRate)) return {};
   const std::vector<double> rate =
@@ -151,12 +166,17 @@ std::optional<Contradiction> judge_rates(const Evidence& evidence) {
   const auto without_bias = robust_ratio(centred(rate), centred(turned));
   if (without_bias && agree(without_bias->ratio)) return std::nullopt;
   const double degree = 180.0 / pi<double>();
-  static constexpr std::array<UnitFactor, 3> kUnits{
-      {{57.29578, ""}, {1.0 / 57.29578, ""}, {1e-3, "milliseconds"}}};
+  // By what the yaw rate is to be multiplied.
+  static constexpr std::array<UnitFactor, 5> kUnits{
+      {{57.29578, "rad/s, converted from deg/s once too often"},
+       {1.0 / 57.29578, "degrees per second"},
+       {0.1047198, "revolutions per minute"},
+       {6.283185, "revolutions per second"},
+       {1e-3, "mrad/s"}}};
   const auto unit = known_factor(size, kUnits);
   const std::string compared =
       fmt::format("the heading turns {:.4g} times as far as the yaw rate says", size);
-  if (unit && unit->factor < 0.1 && unit->factor > 0.01) {
+  if (unit && unit->factor == 1.0 / 57.29578) {
     if (heading_spans_radians(evidence.log) || turning_rate(evidence) < kSlowTurn) {
       return Contradiction{"heading_deg", compared + ": the heading looks like radians",
                            scaled_mapping(evidence, "heading_deg", degree)};
@@ -165,9 +185,42 @@ std::optional<Contradiction> judge_rates(const Evidence& evidence) {
                          compared + ": the yaw rate looks like degrees per second",
                          scaled_mapping(evidence, "yaw_rate_radps", 1.0 / degree)};
   }
+  if (unit) {
+    return Contradiction{"yaw_rate_radps",
+                         compared + fmt::format(": the yaw rate looks like {}", unit->words),
+                         scaled_mapping(evidence, "yaw_rate_radps", unit->factor)};
+  }
+  return Contradiction{"yaw_rate_radps", compared + ", which is the factor of no unit", "",
+                       "compare the units of yaw_rate_radps, heading_deg and t_s with the sensors' "
+                       "data sheets"};
+}
+
+/// A rate that no wheeled vehicle turns at, where no heading is there to compare it with.
+std::optional<Contradiction> judge_rate_alone(const Evidence& evidence) {
+  constexpr double kLargest_radps = 25.0;  // as of turning tables
+  if (!evidence.has(LogChannel::kYawRate) || evidence.has(LogChannel::kHeading)) return {};
+  const double rate_radps = usual_largest(*evidence.log[LogChannel::kYawRate]);
+  if (rate_radps <= kLargest_radps) return std::nullopt;
   return Contradiction{"yaw_rate_radps",
-                       compared + ": one of yaw_rate_radps, heading_deg and t_s has another unit",
-                       scaled_mapping(evidence, "yaw_rate_radps", size)};
+                       fmt::format("reaches {:.4g} rad/s, beyond the {:g} rad/s of any wheeled "
+                                   "vehicle: it looks like degrees per second",
+                                   rate_radps, kLargest_radps),
+                       scaled_mapping(evidence, "yaw_rate_radps", pi<double>() / 180.0)};
+}
+
+/// A speed that is a wheel's rate: the radius that makes metres per second of it, where a wheel of this
+/// vehicle may have it.
+std::string words_of_wheel(double ratio, const Vehicle& vehicle) {
+  constexpr double kSmallestRadius_m = 0.01;
+  const double rpm_radius_m = ratio * 60.0 / (2.0 * pi<double>());
+  const auto fits = [&](double radius_m) {
+    return radius_m >= kSmallestRadius_m && radius_m <= 0.5 * vehicle.length_m;
+  };
+  std::string words;
+  if (fits(rpm_radius_m))
+    words += fmt::format("; as rpm of a wheel its radius is {:.3g} m", rpm_radius_m);
+  if (fits(ratio)) words += fmt::format("; as rad/s of a wheel its radius is {:.3g} m", ratio);
+  return words;
 }
 
 std::optional<Contradiction> judge_speed(const Evidence& evidence) {
@@ -187,7 +240,8 @@ std::optional<Contradiction> judge_speed(const Evidence& evidence) {
                                                           {1e-3, "mm/s"},
                                                           {0.51444, "knots"},
                                                           {0.3048, "ft/s"}}};
-  static constexpr std::array<UnitFactor, 2> kPositionUnits{{{1e3, "mm"}, {100.0, "cm"}}};
+  static constexpr std::array<UnitFactor, 4> kPositionUnits{
+      {{1e3, "mm"}, {100.0, "cm"}, {1.0 / 0.0254, "inches"}, {1.0 / 0.3048, "feet"}}};
   const std::string compared =
       fmt::format("the positions move {:.4g} times as far as the speed says", ratio->ratio);
   if (const auto unit = known_factor(ratio->ratio, kPositionUnits)) {
@@ -195,12 +249,38 @@ std::optional<Contradiction> judge_speed(const Evidence& evidence) {
                          scaled_mapping(evidence, "x_m", 1.0 / unit->factor) + "' and column '" +
                              scaled_mapping(evidence, "y_m", 1.0 / unit->factor)};
   }
-  const auto unit = known_factor(ratio->ratio, kSpeedUnits);
-  const double factor = unit ? unit->factor : ratio->ratio;
+  if (const auto unit = known_factor(ratio->ratio, kSpeedUnits)) {
+    return Contradiction{"speed_mps",
+                         compared + fmt::format(": the speed looks like {}", unit->words),
+                         scaled_mapping(evidence, "speed_mps", unit->factor)};
+  }
   return Contradiction{"speed_mps",
-                       compared + (unit ? fmt::format(": the speed looks like {}", unit->words)
-                                        : ": speed, position or time has another unit"),
-                       scaled_mapping(evidence, "speed_mps", factor)};
+                       compared + ", which is the factor of no unit" +
+                           words_of_wheel(ratio->ratio, evidence.vehicle),
+                       "",
+                       "compare the units of speed_mps, x_m, y_m and t_s with the sensors' data "
+                       "sheets"};
+}
+
+/// A speed that no wheeled vehicle of this length drives at, where no position is there to compare it with.
+std::optional<Contradiction> judge_speed_alone(const Evidence& evidence) {
+  constexpr double kLargest_mps = 100.0;
+  constexpr double kLargestLengthsPerSecond = 100.0;  // as of surge tables
+  if (!evidence.has(LogChannel::kSpeed) || !implausible_values(evidence.vehicle).empty()) return {};
+  const double length_m = evidence.vehicle.length_m;
+  const double speed_mps = usual_largest(*evidence.log[LogChannel::kSpeed]);
+  const double limit_mps = std::min(kLargest_mps, kLargestLengthsPerSecond * length_m);
+  if (speed_mps <= limit_mps) return std::nullopt;
+  return Contradiction{
+      "speed_mps",
+      fmt::format(
+          "reaches {:.4g} m/s, implausible beyond {:.4g} m/s for a wheeled vehicle of length {:g} "
+          "m: it looks like rpm of a wheel or motor, cm/s or mm/s",
+          speed_mps, limit_mps, length_m),
+      "",
+      fmt::format("map cm/s by {}, mm/s by {}, rpm by the factor 2 pi RADIUS_M/(60 GEAR_RATIO)",
+                  option_text("column '" + scaled_mapping(evidence, "speed_mps", 0.01) + "'"),
+                  option_text("column '" + scaled_mapping(evidence, "speed_mps", 1e-3) + "'"))};
 }
 
 /// How sharply the vehicle turns for its steering angle, over what its front axle allows:
@@ -232,6 +312,40 @@ double largest_steering_deg(const DrivingLog& log) {
   return largest_deg;
 }
 
+/// What a servo is told in place of an angle: an angle about 90 deg, a pulse's length, a share of the stop.
+std::optional<Contradiction> judge_servo(const Evidence& evidence, const std::string& column) {
+  const std::vector<double>& angle_rad = evidence.log.driving_steering_rad();
+  const auto [low_rad, high_rad] = std::ranges::minmax_element(angle_rad);
+  const double low = degrees(*low_rad);
+  const double high = degrees(*high_rad);
+  const double stop_deg = evidence.vehicle.steering_max_deg;
+  const std::string reads =
+      fmt::format("reads {:.4g} to {:.4g} deg, where the stop is at {:g} deg", low, high, stop_deg);
+  // Calibration and trim: both ends a little beyond the stop.
+  constexpr double kBeyondStop = 1.2;
+  constexpr Interval kServoPulse_us{900.0, 2200.0};
+  for (const double centre : {90.0, 180.0}) {
+    if (low < centre - kBeyondStop * stop_deg || high > centre + kBeyondStop * stop_deg) continue;
+    return Contradiction{
+        column, reads + fmt::format(": it looks like a servo's angle, {:g} straight ahead", centre),
+        scaled_mapping(evidence, column, 1.0, -centre)};
+  }
+  if (kServoPulse_us.contains(low) && kServoPulse_us.contains(high)) {
+    const double factor = stop_deg / 500.0;
+    return Contradiction{column,
+                         reads +
+                             ": it looks like a servo's pulse in us, 1500 straight ahead and 500 "
+                             "to the stop",
+                         scaled_mapping(evidence, column, factor, -1500.0 * factor)};
+  }
+  const double most = std::max(std::abs(low), std::abs(high));
+  if (most > 3.0 * stop_deg && std::abs(most / 100.0 - 1.0) <= 0.005) {
+    return Contradiction{column, reads + ": it looks like percent of the stop",
+                         scaled_mapping(evidence, column, stop_deg / 100.0)};
+  }
+  return std::nullopt;
+}
+
 std::optional<Contradiction> judge_absent_steering(const Evidence& evidence) {
   const double largest_deg = largest_steering_deg(evidence.log);
   if (!(largest_deg > 0.0)) return std::nullopt;
@@ -247,12 +361,19 @@ std::optional<Contradiction> judge_steering_unit(const Evidence& evidence) {
   const double largest_deg = largest_steering_deg(evidence.log);
   const std::string column(evidence.log.steering_column());
   const double stop_deg = evidence.vehicle.steering_max_deg;
+  if (largest_deg > 1.5 * stop_deg) {
+    if (auto servo = judge_servo(evidence, column)) return servo;
+  }
   if (largest_deg > 3.0 * stop_deg) {
-    return Contradiction{column,
-                         fmt::format("reaches {:.4g} deg, where the stop is at {:g} deg: it looks "
-                                     "like counts, microseconds or percent of the stop",
-                                     largest_deg, stop_deg),
-                         scaled_mapping(evidence, column, stop_deg / largest_deg)};
+    return Contradiction{
+        column,
+        fmt::format(
+            "reaches {:.4g} deg, where the stop is at {:g} deg: it looks like counts of a servo",
+            largest_deg, stop_deg),
+        "",
+        fmt::format(
+            "map it by {}",
+            option_text(fmt::format("column '{}=(COUNTS - CENTRE)*DEGREES_PER_COUNT'", column)))};
   }
   // In radians the stop itself would read as 1.7 % of what it is in degrees.
   if (largest_deg > 0.025 * stop_deg) return std::nullopt;
@@ -288,7 +409,9 @@ std::vector<Contradiction> unit_contradictions(const Evidence& evidence) {
   }
   const auto steering = evidence.vehicle.has_steering() ? judge_steering_unit(evidence)
                                                         : judge_absent_steering(evidence);
-  for (const auto& judged : {steering, judge_rates(evidence), judge_speed(evidence)}) {
+  const auto speed = judge_speed(evidence);
+  for (const auto& judged : {steering, judge_rates(evidence), judge_rate_alone(evidence),
+                             speed ? speed : judge_speed_alone(evidence)}) {
     if (judged) found.push_back(*judged);
   }
   return found;

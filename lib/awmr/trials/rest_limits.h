@@ -1,0 +1,15 @@
+/// Below these a vehicle rests: simulators and filters write 3.9e-312 where they mean 0. No vehicle of the
+/// sizes that are read moves so slowly. Private to this folder.
+#pragma once
+
+#include <cmath>
+
+namespace awmr {
+
+inline constexpr double kRestSpeed_mps = 1e-6;
+inline constexpr double kRestRate_radps = 1e-6;
+inline constexpr double kRestForce = 1e-6;  ///< over F_max
+
+inline bool is_rest(double value, double limit) { return std::abs(value) < limit; }
+
+}  // namespace awmr

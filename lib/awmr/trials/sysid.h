@@ -1,0 +1,42 @@
+/// The JSON that WPILib's SysId records of a robot driven through its characterization tests. Private to this
+/// folder.
+///
+///     {"sysid": true, "test": "Drivetrain", "units": "Meters", "unitsPerRotation": 0.4788,
+///      "slow-forward": [[t, left V, right V, left rot, right rot, left rot/s, right rot/s, rad, rad/s], ...],
+///      "slow-backward": ..., "fast-forward": ..., "fast-backward": ...}
+///
+/// Each test is a run. Positions and velocities are in rotations and become metres by unitsPerRotation and
+/// units.               [wpilibsuite/sysid, docs/data-collection.md and AnalysisManager.cpp]
+/// Rows by test:
+///     Drivetrain, Drivetrain (Angular)    the nine numbers above
+///     Simple, General Mechanism           t, V, rotations, rotations/s
+///     of frc-characterization             t, battery V, autospeed, left V, right V, left and right rotations,
+///                                         left and right rotations/s, rad
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "awmr/core/csv.h"
+#include "awmr/core/result.h"
+
+namespace awmr {
+
+/// Its tests, a row after the other. `t_s` begins at 0 in each run.
+struct SysIdLog {
+  std::vector<std::string> header = {};  ///< run, t_s, left_volts, ..., in SI units and degrees
+  std::vector<std::vector<double>> columns = {};  ///< by name
+  std::vector<CsvNote> notes = {};                ///< `sysid-log`
+
+  std::size_t rows() const { return columns.empty() ? 0 : columns.front().size(); }
+};
+
+/// By its first bytes.
+bool is_sysid(std::string_view bytes);
+
+/// Errors: JSON that is no such record; a mechanism that does not drive; units that are no lengths; no rows;
+/// rows of another size; a time that does not rise.
+Result<SysIdLog> read_sysid(std::string_view bytes, const std::string& file);
+
+}  // namespace awmr
