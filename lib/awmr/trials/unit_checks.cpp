@@ -195,12 +195,43 @@ std::optional<Contradiction> judge_rates(const Evidence& evidence) {
                        "data sheets"};
 }
 
+/// How many times as fast the yaw rate is as wheels that roll about their steering angle would turn the
+/// vehicle, u tan(d)/(2 l_f), by the windows in which the sides push alike.
+std::optional<double> rate_over_rolling(const Evidence& evidence) {
+  constexpr double kLittle = 0.1;  // of the steering's moment
+  if (!evidence.has(LogChannel::kSpeed) || !evidence.vehicle.has_steering()) return std::nullopt;
+  std::vector<double> rolling;
+  std::vector<double> rate;
+  for (const EvidenceWindow& w : evidence.overlapping) {
+    if (std::abs(w.tau_diff_m) > kLittle * std::abs(w.tau_steering_m)) continue;
+    rolling.push_back(w.driven_m * std::tan(w.steering_rad) /
+                      (2.0 * evidence.vehicle.front_axle_m));
+    rate.push_back(w.rate_rad);
+  }
+  const auto ratio = robust_ratio(rolling, rate);
+  if (!ratio) return std::nullopt;
+  return std::abs(ratio->ratio);
+}
+
 /// A rate that no wheeled vehicle turns at, where no heading is there to compare it with.
 std::optional<Contradiction> judge_rate_alone(const Evidence& evidence) {
   constexpr double kLargest_radps = 25.0;  // as of turning tables
   if (!evidence.has(LogChannel::kYawRate) || evidence.has(LogChannel::kHeading)) return {};
   const double rate_radps = usual_largest(*evidence.log[LogChannel::kYawRate]);
-  if (rate_radps <= kLargest_radps) return std::nullopt;
+  // A vehicle that slides turns by another rate than wheels that roll, but not by this factor; degrees
+  // for radians make 57.
+  constexpr double kMostSlide = 14.0;
+  if (rate_radps <= kLargest_radps) {
+    const auto ratio = rate_over_rolling(evidence);
+    if (!ratio || *ratio <= kMostSlide) return std::nullopt;
+    return Contradiction{
+        "yaw_rate_radps",
+        fmt::format(
+            "is {:.3g} times what the steering angle makes at this speed, u tan(d)/(2 l_f): "
+            "it looks like degrees per second",
+            *ratio),
+        scaled_mapping(evidence, "yaw_rate_radps", pi<double>() / 180.0)};
+  }
   return Contradiction{"yaw_rate_radps",
                        fmt::format("reaches {:.4g} rad/s, beyond the {:g} rad/s of any wheeled "
                                    "vehicle: it looks like degrees per second",

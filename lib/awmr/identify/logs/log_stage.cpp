@@ -402,6 +402,57 @@ void take(const LogFit& fit, const Model& model, bool overrule, const std::strin
   }
 }
 
+/// Whether the sides push differently anywhere.
+bool steers_by_sides(const std::vector<DrivingLog>& logs) {
+  constexpr double kMuch = 0.01;  // of the largest force
+  return std::ranges::any_of(logs, [](const DrivingLog& log) {
+    for (std::size_t i = 0; i < log.rows(); ++i) {
+      if (std::abs(log.force_right[i] - log.force_left[i]) > kMuch) return true;
+    }
+    return false;
+  });
+}
+
+/// Why I'z as fitted cannot be the vehicle's; empty where it can.
+std::string why_no_inertia(const Vehicle& vehicle, const std::vector<DrivingLog>& logs,
+                           const Model& model, const LogStage& stage) {
+  // As of vehicle.json (model/plausibility.h): all mass in the corners makes 3 times the box.
+  constexpr double kLeastOfBox = 1.0 / 20.0;
+  constexpr double kMostOfBox = 3.0;
+  const auto estimate_of = [&](ParameterId id) -> const Estimate* {
+    const auto found = std::ranges::find(stage.main, id, &LogStage::Main::id);
+    if (found != stage.main.end()) return &found->estimate;
+    return model[id].value ? &model[id] : nullptr;
+  };
+  const Estimate* inertia = estimate_of(ParameterId::kInertiaNorm);
+  if (inertia == nullptr) return {};
+  const Estimate* mass = estimate_of(ParameterId::kMassNorm);
+  if (mass == nullptr) {
+    return stage.reasons.contains(ParameterId::kMassNorm) && !steers_by_sides(logs)
+               ? "m' is open, and only the steering turned the vehicle: with it I'z is open too"
+               : "";
+  }
+  if (!inertia->ci95 || !mass->ci95) return {};
+  const double box = vehicle.inertia_kgm2() / vehicle.mass_kg;
+  const double least = inertia->ci95->lo / mass->ci95->hi / box;
+  const double most = inertia->ci95->hi / mass->ci95->lo / box;
+  if (most > kLeastOfBox && least < kMostOfBox) return {};
+  return fmt::format(
+      "I'z/m' as fitted is {:.3g} times Iz/m of the vehicle, which no distribution of "
+      "its mass makes: something else turns it, or a unit or a sign is wrong",
+      *inertia->value / *mass->value / box);
+}
+
+/// Withholds an I'z that cannot be.
+void judge_inertia(const Vehicle& vehicle, const std::vector<DrivingLog>& logs, const Model& model,
+                   LogStage& stage) {
+  const std::string why = why_no_inertia(vehicle, logs, model, stage);
+  if (why.empty()) return;
+  stage.reasons[ParameterId::kInertiaNorm] = why;
+  std::erase_if(stage.main,
+                [](const LogStage::Main& value) { return value.id == ParameterId::kInertiaNorm; });
+}
+
 }  // namespace
 
 Result<LogStage> run_log_stage(const Vehicle& vehicle, const std::vector<DrivingLog>& logs,
@@ -427,6 +478,7 @@ Result<LogStage> run_log_stage(const Vehicle& vehicle, const std::vector<Driving
     return stage;
   }
   take(chosen.fit, model, overrule, file, stage);
+  judge_inertia(vehicle, logs, model, stage);
   if (options.cross_validate && logs.size() > 1) {
     tell(options, "predicting each log from the others");
     const CrossValidation held_out = leave_one_log_out(logs, chosen.options);
