@@ -6,6 +6,7 @@
 #include "awmr/core/option_text.h"
 #include "awmr/core/provenance.h"
 #include "executor.h"
+#include "findings_text.h"
 #include "json_output.h"
 #include "pil_options.h"
 #include "progress.h"
@@ -63,9 +64,15 @@ int run(int argc, char** argv) {
   const std::string text = json ? awmr::cli::result_text({.command = "pil",
                                                           .exit_code = exit_code,
                                                           .written = {options.output},
+                                                          .findings = outcome->findings,
                                                           .document = outcome->document})
                                 : outcome->summary;
   if (json || !quiet || !outcome->passed) std::fputs(text.c_str(), stdout);
+  if (!json && !quiet) {
+    const std::string findings =
+        awmr::cli::findings_text(outcome->findings, awmr::cli::Style(stderr));
+    std::fputs(findings.c_str(), stderr);
+  }
   return exit_code;
 }
 

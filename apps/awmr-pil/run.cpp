@@ -9,6 +9,7 @@
 #include <set>
 
 #include "awmr/core/file.h"
+#include "awmr/model/findings_json.h"
 #include "awmr/model/gains_file.h"
 #include "awmr/model/model_file.h"
 #include "awmr/simulate/scenario_file.h"
@@ -16,6 +17,7 @@
 #include "emulator.h"
 #include "executor.h"
 #include "firmware_build.h"
+#include "gains_origin.h"
 #include "injections.h"
 #include "loop.h"
 #include "report.h"
@@ -297,6 +299,8 @@ Result<Outcome> run_pil(const PilOptions& asked, const Watch& watch) {
   AWMR_RETURN_IF_ERROR(check_output(asked.output, inputs));
   auto in = read_inputs(asked);
   if (!in) return tl::unexpected(in.error());
+  std::vector<Finding> findings;
+  AWMR_RETURN_IF_ERROR(cli::note_other_model(asked.gains, asked.model, findings));
   if (asked.injection != Injection::kNone) AWMR_RETURN_IF_ERROR(place_injection(*in));
   const PilOptions options = resolved(asked, *in);
   Report report;
@@ -311,10 +315,11 @@ Result<Outcome> run_pil(const PilOptions& asked, const Watch& watch) {
   judge(options, in->setup.sample_time_s * kClockHz, report);
   const auto text = report_text(options, in->setup, report);
   if (!text) return tl::unexpected(text.error());
-  if (auto written = write_file(options.output, *text); !written) {
+  const std::string document = with_findings(*text, findings);
+  if (auto written = write_file(options.output, document); !written) {
     return tl::unexpected(written.error());
   }
-  return Outcome{report_summary(options, in->setup, report), report.passed(), *text};
+  return Outcome{report_summary(options, in->setup, report), report.passed(), document, findings};
 }
 
 }  // namespace awmr::pil

@@ -1,6 +1,8 @@
 // The whole of `awmr pil`: build, run, compare, judge.
 #pragma once
 
+#include "awmr/model/record.h"
+
 #include <functional>
 #include <string>
 #include <string_view>
@@ -15,6 +17,7 @@ struct Outcome {
   std::string summary;  ///< for stdout
   bool passed = false;
   std::string document;  ///< the bytes of pil.json
+  std::vector<Finding> findings = {};
 };
 
 /// Is told what is being done, and how far it is.

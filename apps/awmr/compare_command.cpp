@@ -19,7 +19,9 @@
 #include "awmr/simulate/scenario_file.h"
 #include "awmr/simulate/validity.h"
 #include "commands.h"
+#include "gains_origin.h"
 #include "inputs.h"
+#include "judgement_words.h"
 #include "numbers.h"
 #include "paths.h"
 #include "progress.h"
@@ -208,29 +210,20 @@ void note_scrub(const Model& model, const Comparison& comparison, std::vector<Fi
                    model.yaw_scrub->ci95_m.lo, model.yaw_scrub->ci95_m.hi)});
 }
 
-Outcome outcome_of_part(const CompareCommand& command, const Comparison& part) {
-  return {.summary = fmt::format("part {} of {}: {} runs\nwrote {} and comparison.csv\n",
-                                 command.compare.shard.index, command.compare.shard.count,
-                                 part.rows.size(), (command.output / json_of(command)).string())};
-}
-
-Outcome outcome_of_whole(const CompareCommand& command, const Comparison& comparison,
-                         const Model& model, const std::vector<Scenario>& scenarios,
-                         const HeadingRateChoice& rate) {
-  std::string table = comparison_table(comparison, command.compare) + rate_in_words(rate, model);
-  for (const auto& [name, text] : options_of(command.plant, scenarios)) {
-    table += fmt::format("{}: {}\n", name, text);
+/// Every finding but that on the fastest turn, the same for a part as for the whole.
+Result<std::vector<Finding>> findings_of(const CompareCommand& command,
+                                         const Comparison& comparison, const Model& model,
+                                         const std::vector<Scenario>& scenarios) {
+  std::vector<Finding> findings;
+  for (const fs::path& gains : command.gains) {
+    AWMR_RETURN_IF_ERROR(note_other_model(gains, command.model, findings));
   }
-  const auto run_of = [](const ComparisonRow& row) {
-    return fmt::format("{}, {}, sample {}", row.scenario, name_of(row.mode), row.sample);
-  };
-  std::vector<Finding> findings =
-      extrapolation_in(model, comparison.rows, run_of, rate == kMeasuredRate);
   for (const Scenario& scenario : scenarios) {
     std::ranges::move(asked_in_vain(scenario, model), std::back_inserter(findings));
     if (auto finding = tyres_differ(scenario, model)) findings.push_back(*finding);
   }
-  if (const int samples = comparison.whole_samples - 1; samples >= 2 && samples < kFewSamples) {
+  const int samples = command.shard ? command.compare.samples : comparison.whole_samples - 1;
+  if (samples >= 2 && samples < kFewSamples) {
     findings.push_back(
         {"", 0, Severity::kWarning, "few-samples",
          fmt::format("intervals of {} samples hold the truth in {:.0f} % of cases at "
@@ -239,6 +232,27 @@ Outcome outcome_of_whole(const CompareCommand& command, const Comparison& compar
   }
   if (auto finding = not_led(command.heading_rate_limit, model)) findings.push_back(*finding);
   note_scrub(model, comparison, findings);
+  return findings;
+}
+
+Outcome outcome_of_part(const CompareCommand& command, const Comparison& part,
+                        std::vector<Finding> findings) {
+  return {.summary = fmt::format("part {} of {}: {} runs\nwrote {} and comparison.csv\n",
+                                 command.compare.shard.index, command.compare.shard.count,
+                                 part.rows.size(), (command.output / json_of(command)).string()),
+          .findings = std::move(findings)};
+}
+
+Outcome outcome_of_whole(const CompareCommand& command, const Comparison& comparison,
+                         const Model& model, const std::vector<Scenario>& scenarios,
+                         const HeadingRateChoice& rate, const Provenance& provenance,
+                         std::vector<Finding> more) {
+  std::string table = comparison_table(comparison, command.compare) + rate_in_words(rate, model);
+  for (const auto& [name, text] : options_of(command.plant, scenarios)) {
+    table += fmt::format("{}: {}\n", name, text);
+  }
+  std::vector<Finding> findings = extrapolation_findings(comparison, provenance);
+  std::ranges::move(more, std::back_inserter(findings));
   return {.summary = table + fmt::format("wrote {} and comparison.csv\n",
                                          (command.output / json_of(command)).string()),
           .brief = table,
@@ -271,12 +285,15 @@ Result<Outcome> execute(const CompareCommand& command) {
   const StopOnInterrupt interrupt;
   AWMR_ASSIGN_OR_RETURN(const Comparison comparison,
                         compare_until_interrupted(model, gains, scenarios, std::move(options)));
-  const std::string text = document_of(command, comparison, provenance);
-  AWMR_RETURN_IF_ERROR(write_comparison(command, comparison, text));
+  AWMR_ASSIGN_OR_RETURN(std::vector<Finding> findings,
+                        findings_of(command, comparison, model, scenarios));
+  Outcome outcome = command.shard ? outcome_of_part(command, comparison, std::move(findings))
+                                  : outcome_of_whole(command, comparison, model, scenarios, rate,
+                                                     provenance, std::move(findings));
+  outcome.document = document_of(command, comparison, provenance);
+  put_findings_into_document(outcome);
+  AWMR_RETURN_IF_ERROR(write_comparison(command, comparison, outcome.document));
   if (comparison.stopped) end_interrupted(command, comparison);
-  Outcome outcome = command.shard ? outcome_of_part(command, comparison)
-                                  : outcome_of_whole(command, comparison, model, scenarios, rate);
-  outcome.document = text;
   outcome.written = {command.output / json_of(command), command.output / "comparison.csv"};
   return outcome;
 }

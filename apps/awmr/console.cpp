@@ -14,6 +14,8 @@
 #include "awmr/core/json_document.h"
 #include "awmr/core/option_text.h"
 #include "awmr/core/text.h"
+#include "awmr/model/finding_rank.h"
+#include "awmr/model/findings_json.h"
 #include "awmr/model/si_units.h"
 #include "findings_text.h"
 #include "json_output.h"
@@ -60,9 +62,9 @@ void tell_findings(const Outcome& outcome, Manner manner) {
   const Style style(stderr);
   std::string text;
   if (!manner.quiet && !manner.verbose) text = findings_text(outcome.findings, style);
-  for (const Finding& finding : outcome.findings) {
-    const bool matters = outcome.refused && finding.severity == Severity::kError;
-    if (manner.quiet ? matters : manner.verbose) text += to_text(finding, style) + "\n";
+  for (const Finding* finding : by_effect(outcome.findings)) {
+    const bool matters = outcome.refused && finding->severity == Severity::kError;
+    if (manner.quiet ? matters : manner.verbose) text += to_text(*finding, style) + "\n";
   }
   print(stderr, text);
 }
@@ -154,8 +156,13 @@ CLI::Option* add_output_directory(CLI::App& command, std::filesystem::path& path
   return add_directory(command, "-o,--output", path, meaning)->required();
 }
 
+void put_findings_into_document(Outcome& outcome) {
+  outcome.document = with_findings(outcome.document, outcome.findings);
+}
+
 Status write_document(const std::optional<std::filesystem::path>& path, Outcome& outcome,
                       const ReadBack& read_back) {
+  put_findings_into_document(outcome);
   if (!path) return {};
   AWMR_RETURN_IF_ERROR(
       write_file(*path, outcome.document, read_back ? read_back : ReadBack(check_json_text)));

@@ -48,8 +48,12 @@ CLI::Option* add_output(CLI::App& command, std::filesystem::path& path, const st
 CLI::Option* add_output_directory(CLI::App& command, std::filesystem::path& path,
                                   const std::string& meaning);
 
-/// Writes the outcome's document, which is JSON, where a path is given, and reports it in the summary.
-/// Without `read_back` it is read back as JSON.
+/// Puts the outcome's findings, those that stderr shows, into its document. To be called once all of
+/// them are there, before the document is written.
+void put_findings_into_document(Outcome& outcome);
+
+/// Puts the findings into the outcome's document, which is JSON, writes it where a path is given, and
+/// reports the file in the summary. Without `read_back` it is read back as JSON.
 Status write_document(const std::optional<std::filesystem::path>& path, Outcome& outcome,
                       const ReadBack& read_back = {});
 

@@ -7,23 +7,29 @@
 #include <utility>
 
 #include "awmr/core/file.h"
-#include "awmr/core/hash.h"
 #include "awmr/core/json.h"
+#include "awmr/core/json_document.h"
 #include "awmr/core/option_text.h"
+#include "awmr/emit/manifest.h"
 #include "awmr/model/gains_file.h"
 #include "awmr/model/model_file.h"
 #include "awmr/model/plausibility.h"
 #include "awmr/simulate/validity.h"
 #include "commands.h"
 #include "emit_options.h"
+#include "gains_origin.h"
+#include "inputs.h"
 #include "paths.h"
 
 namespace awmr::cli {
 namespace {
 
-/// `DIR/PATH` for each file, directories made as needed; all or none.
-Status write_emitted(const EmitCommand& command, const std::vector<EmittedFile>& files) {
+/// `DIR/PATH` for each file, directories made as needed; all or none. Errors (input), before anything is
+/// written: as check_replaceable().
+Status write_emitted(const EmitCommand& command, const std::vector<EmittedFile>& files,
+                     const std::string& manifest) {
   const fs::path inputs[] = {command.model, command.gains};
+  AWMR_RETURN_IF_ERROR(make_directory(command.output));
   std::vector<OutputFile> outputs;
   for (const EmittedFile& file : files) {
     const fs::path path = command.output / file.path;
@@ -31,12 +37,15 @@ Status write_emitted(const EmitCommand& command, const std::vector<EmittedFile>&
     AWMR_RETURN_IF_ERROR(check_output(path, inputs));
     outputs.push_back({path, file.bytes});
   }
+  outputs.push_back({command.output / kManifest, manifest, check_json_text});
+  AWMR_RETURN_IF_ERROR(check_output(outputs.back().path, inputs));
   return write_files(outputs);
 }
 
 std::vector<fs::path> paths_of(const EmitCommand& command, const std::vector<EmittedFile>& files) {
   std::vector<fs::path> paths;
   for (const EmittedFile& file : files) paths.push_back(command.output / file.path);
+  paths.push_back(command.output / kManifest);
   return paths;
 }
 
@@ -65,25 +74,6 @@ void add_coarse(const char* name, const EmittedTable& table, const EmitCommand& 
        fmt::format("the {} resistance is so steep at low speed that its best table is off by up to "
                    "{:.2g} % of it, where {:g} % is usual: the chip's feed-forward is off by that",
                    name, 100.0 * table.worst_share(), 100.0 * kTableError)});
-}
-
-/// A warning where the gains were tuned, by what they say, on another model than the one beside them.
-Result<std::vector<Finding>> other_model(const EmitCommand& command) {
-  AWMR_ASSIGN_OR_RETURN(const std::string model, read_file(command.model));
-  AWMR_ASSIGN_OR_RETURN(const Json gains, read_json_file(command.gains));
-  const auto inputs = gains.find("inputs");
-  if (gains.value("command", Json()) != "tune" || inputs == gains.end() || !inputs->is_array()) {
-    return std::vector<Finding>{};
-  }
-  const std::string own = sha256_hex(model);
-  for (const Json& input : *inputs) {
-    if (input.is_object() && input.value("sha256", Json()) == own) return std::vector<Finding>{};
-  }
-  return std::vector<Finding>{
-      {command.gains.string(), 0, Severity::kWarning, "gains-of-another-model",
-       fmt::format("were tuned on another model than {}, or on it before it was changed: what they "
-                   "were shown to keep, they were not for this one. Tune again",
-                   command.model.string())}};
 }
 
 /// A warning where a sampled loop is unstable with the gains, whatever the vehicle.
@@ -147,8 +137,8 @@ Result<Outcome> execute(const EmitCommand& command) {
     AWMR_ASSIGN_OR_RETURN(files, firmware_library(model, gains, inputs, command.emit));
     AWMR_RETURN_IF_ERROR(add_tables(model, gains, inputs, command, outcome));
   }
-  AWMR_ASSIGN_OR_RETURN(const std::vector<Finding> foreign, other_model(command));
-  outcome.findings.insert(outcome.findings.end(), foreign.begin(), foreign.end());
+  AWMR_RETURN_IF_ERROR(check_replaceable(command.output, files));
+  AWMR_RETURN_IF_ERROR(note_other_model(command.gains, command.model, outcome.findings));
   for (Finding& finding : unstable_gains(gains, model.vehicle.sample_time_s, command)) {
     outcome.findings.push_back(std::move(finding));
   }
@@ -158,8 +148,13 @@ Result<Outcome> execute(const EmitCommand& command) {
       outcome.findings.push_back(std::move(*finding));
     }
   }
-  AWMR_RETURN_IF_ERROR(make_directory(command.output));
-  AWMR_RETURN_IF_ERROR(write_emitted(command, files));
+  AWMR_ASSIGN_OR_RETURN(std::vector<InputFile> origin,
+                        input_files({command.model, command.gains}));
+  const Provenance provenance{
+      "emit", {{"header_only", command.header_only ? "true" : "false"}}, std::move(origin)};
+  outcome.document = manifest_text(command.output, files, provenance, outcome.document,
+                                   outcome.findings);
+  AWMR_RETURN_IF_ERROR(write_emitted(command, files, outcome.document));
   outcome.written = paths_of(command, files);
   return outcome;
 }

@@ -10,6 +10,7 @@
 #include "awmr/model/model_file.h"
 #include "choices.h"
 #include "commands.h"
+#include "gains_origin.h"
 #include "paths.h"
 
 namespace awmr::cli {
@@ -28,7 +29,12 @@ Result<Outcome> execute(const ExportCommand& command) {
   source.inputs = inputs;
   AWMR_ASSIGN_OR_RETURN(const std::string text, export_text(source, command.format));
   AWMR_RETURN_IF_ERROR(write_file(command.output, text));
+  std::vector<Finding> findings;
+  if (command.gains) {
+    AWMR_RETURN_IF_ERROR(note_other_model(*command.gains, command.model, findings));
+  }
   return Outcome{.summary = fmt::format("wrote {}\n", command.output.string()),
+                 .findings = std::move(findings),
                  .written = {command.output}};
 }
 

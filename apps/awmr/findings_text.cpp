@@ -3,20 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
-#include <map>
-#include <set>
 #include <span>
 #include <utility>
 
 #include "awmr/core/option_text.h"
 #include "awmr/core/text.h"
+#include "awmr/model/finding_rank.h"
 
 namespace awmr::cli {
 namespace {
 
 constexpr std::size_t kShown = 3;
-constexpr int kLater = std::numeric_limits<int>::max();
 
 std::string severity_text(Severity severity, const Style& style) {
   switch (severity) {
@@ -28,24 +25,6 @@ std::string severity_text(Severity severity, const Style& style) {
       return style.note("note:");
   }
   return {};
-}
-
-/// Errors first; then the last finding of each code, the latest first, as those about the result
-/// come behind those about rows; then the others. Within each as they stand in the record.
-std::vector<const Finding*> worst_first(const std::vector<Finding>& findings) {
-  std::vector<const Finding*> order;
-  for (const Finding& finding : findings) order.push_back(&finding);
-  std::set<std::string> seen;
-  std::map<const Finding*, int> turn;
-  for (auto finding = findings.rbegin(); finding != findings.rend(); ++finding) {
-    const bool is_first = seen.insert(finding->code).second;
-    const bool error = finding->severity == Severity::kError;
-    turn[&*finding] = error ? -1 : is_first ? static_cast<int>(turn.size()) : kLater;
-  }
-  std::stable_sort(order.begin(), order.end(), [&](const Finding* a, const Finding* b) {
-    return a->severity != b->severity ? a->severity > b->severity : turn[a] < turn[b];
-  });
-  return order;
 }
 
 /// "2 tau-turn-mismatch, 1 outlier", each code where it comes first.
@@ -82,7 +61,7 @@ std::string to_text(const Finding& finding, const Style& style) {
 }
 
 std::string findings_text(const std::vector<Finding>& findings, const Style& style) {
-  const std::vector<const Finding*> order = worst_first(findings);
+  const std::vector<const Finding*> order = by_effect(findings);
   const auto errors = static_cast<std::size_t>(
       std::count_if(findings.begin(), findings.end(),
                     [](const Finding& finding) { return finding.severity == Severity::kError; }));

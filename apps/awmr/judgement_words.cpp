@@ -4,6 +4,10 @@
 
 #include <algorithm>
 #include <string_view>
+#include <utility>
+
+#include "awmr/simulate/validity.h"
+#include "commands.h"
 
 namespace awmr::cli {
 
@@ -63,6 +67,48 @@ std::vector<Finding> goal_findings(const std::vector<JudgedGoal>& all) {
                      100.0 * judged.ci95.hi, 100.0 * judged.goal.share,
                      is_missed ? "tune on more draws (--draws), raise the limits or accept less"
                                : "judge on more (judged_draws)")});
+  }
+  return findings;
+}
+
+void note_unsettled(const std::string& scenario, YawMode mode, double completed_share,
+                    std::vector<Finding>& findings) {
+  constexpr double kMinShare = 0.95;
+  if (completed_share >= kMinShare) return;
+  findings.push_back(
+      {"", 0, Severity::kWarning, "unsettled",
+       fmt::format("{}{}: {:.0f} % of the runs with the tuned gains settle after every step; "
+                   "figures of the others are of runs that do not get there. Give more time or a "
+                   "faster lead, or an observer (--observer) where something pushes all the time",
+                   scenario.empty() ? "" : scenario + ", ", name_of(mode),
+                   100.0 * completed_share)});
+}
+
+std::vector<Finding> extrapolation_findings(const Comparison& comparison,
+                                            const Provenance& provenance) {
+  if (!comparison.measured_yaw_rate_degps || comparison.rows.empty()) return {};
+  const auto fastest = std::ranges::max_element(
+      comparison.rows, {}, [](const ComparisonRow& row) { return row.metrics.yaw_rate_max_degps; });
+  const bool is_led =
+      std::ranges::find(provenance.options, std::pair(std::string(kRateName),
+                                                      std::string(kMeasuredRate))) !=
+      provenance.options.end();
+  const std::string model = provenance.inputs.empty() ? "" : provenance.inputs.front().name;
+  auto finding = extrapolation_finding(
+      model, *comparison.measured_yaw_rate_degps, fastest->metrics.yaw_rate_max_degps,
+      fmt::format("{}, {}, sample {}", fastest->scenario, name_of(fastest->mode), fastest->sample),
+      is_led);
+  if (!finding) return {};
+  return {*std::move(finding)};
+}
+
+std::vector<Finding> unsettled_findings(const std::vector<JudgedGains>& all,
+                                        const std::vector<JudgedGains>& by_scenario) {
+  std::vector<Finding> findings;
+  for (const JudgedGains& one : by_scenario.empty() ? all : by_scenario) {
+    if (one.gains == "robust") {
+      note_unsettled(one.scenario, one.mode, one.completed_share, findings);
+    }
   }
   return findings;
 }

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "awmr/core/json.h"
+#include "awmr/model/findings_json.h"
 #include "schemas.h"
 
 namespace awmr::cli {
@@ -66,6 +67,7 @@ void describe_pil(JsonObject& json) {
   }
   describe_chip(json);
   describe_verdict(json);
+  read_findings(json);
   json.reject_unknown_keys();
 }
 

@@ -11,6 +11,7 @@
 #include "awmr/model/model_file.h"
 #include "awmr/model/plausibility.h"
 #include "awmr/model/vehicle_file.h"
+#include "awmr/simulate/run_side.h"
 #include "awmr/simulate/scenario_file.h"
 #include "awmr/trials/load.h"
 #include "awmr/tune/tune_file.h"
@@ -32,7 +33,8 @@ std::string scenario_name(const fs::path& scenario) {
 
 /// What the report draws: every scenario as it is, and its runs in every mode, with the tuned and
 /// with the paper's gains.
-Result<std::vector<fs::path>> write_runs(const Project& project, const fs::path& directory) {
+Result<std::vector<fs::path>> write_runs(const Project& project, const InputNames& names,
+                                         const fs::path& directory) {
   std::vector<fs::path> written;
   AWMR_ASSIGN_OR_RETURN(const Model model, read_model(directory / "model.json"));
   AWMR_ASSIGN_OR_RETURN(const Gains<double> tuned, read_gains(directory / "gains.json"));
@@ -45,8 +47,19 @@ Result<std::vector<fs::path>> write_runs(const Project& project, const fs::path&
     for (const YawMode mode : yaw_modes(model.vehicle)) {
       for (const auto& [name, gains] : sets) {
         AWMR_ASSIGN_OR_RETURN(const Run run, simulate(model, gains, scenario, mode));
-        written.push_back(directory / run_name(path, mode, name));
-        AWMR_RETURN_IF_ERROR(write_file(written.back(), run_csv(run, scenario)));
+        std::vector<fs::path> paths{directory / "model.json", path};
+        if (name == sets[0].first) paths.push_back(directory / "gains.json");
+        AWMR_ASSIGN_OR_RETURN(std::vector<InputFile> inputs, input_files(paths, names));
+        const Provenance provenance{"simulate",
+                                    {{"mode", std::string(name_of(mode))}, {"gains", name}},
+                                    std::move(inputs)};
+        const fs::path csv = directory / run_name(path, mode, name);
+        const std::string text_of_run = run_csv(run, scenario);
+        const OutputFile files[] = {
+            {csv, text_of_run},
+            {run_side_path(csv), run_side_text(text_of_run, provenance, "", {})}};
+        AWMR_RETURN_IF_ERROR(write_files(files));
+        for (const OutputFile& file : files) written.push_back(file.path);
       }
     }
   }
@@ -120,7 +133,11 @@ std::vector<std::string> outputs_of(const Project& project) {
   for (const fs::path& path : project.scenarios) {
     outputs.push_back(scenario_name(path));
     for (const YawMode mode : kYawModes) {
-      for (const char* gains : {"tuned", "paper"}) outputs.push_back(run_name(path, mode, gains));
+      for (const char* gains : {"tuned", "paper"}) {
+        const std::string run = run_name(path, mode, gains);
+        outputs.push_back(run);
+        outputs.push_back(run_side_path(run).string());
+      }
     }
   }
   return outputs;
@@ -246,7 +263,7 @@ Result<Outcome> execute(const RunCommand& command) {
                                                .heading_rate_limit = project.heading_rate_limit,
                                                .names = names}));
   add_step(steps, "compare", std::move(compared));
-  AWMR_ASSIGN_OR_RETURN(const std::vector<fs::path> runs, write_runs(project, command.output));
+  AWMR_ASSIGN_OR_RETURN(const std::vector<fs::path> runs, write_runs(project, names, command.output));
   add_written(total, runs);
   AWMR_RETURN_IF_ERROR(report_step(command, total));
   total.summary += fmt::format(

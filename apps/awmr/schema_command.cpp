@@ -7,10 +7,12 @@
 
 #include "awmr/compare/shard.h"
 #include "awmr/core/file.h"
+#include "awmr/emit/manifest.h"
 #include "awmr/identify/planning/recover_shard.h"
 #include "awmr/identify/planning/suggest.h"
 #include "awmr/model/model_file.h"
 #include "awmr/model/vehicle_file.h"
+#include "awmr/simulate/run_side.h"
 #include "awmr/simulate/scenario_file.h"
 #include "awmr/tune/tune_file.h"
 #include "awmr/tune/tune_shard.h"
@@ -64,6 +66,8 @@ const std::vector<Schema>& schemas() {
                                        {"gains", gains_schema},
                                        {"tune_shard", tune_shard_schema},
                                        {"scenario", scenario_schema},
+                                       {"run", run_schema},
+                                       {"emit", emit_schema},
                                        {"validation", validation_schema},
                                        {"comparison", comparison_schema},
                                        {"shard", shard_schema},

@@ -12,10 +12,13 @@
 #include "awmr/model/gains_file.h"
 #include "awmr/model/model_file.h"
 #include "awmr/simulate/metrics.h"
+#include "awmr/simulate/run_side.h"
 #include "awmr/simulate/scenario_file.h"
 #include "awmr/simulate/validity.h"
 #include "choices.h"
 #include "commands.h"
+#include "gains_origin.h"
+#include "inputs.h"
 #include "paths.h"
 
 namespace awmr::cli {
@@ -88,6 +91,25 @@ std::string document_of(const Run& run, const Scenario& scenario, YawMode mode,
   return awmr::to_text(json);
 }
 
+Result<Provenance> provenance_of(const SimulateCommand& command, const Scenario& scenario,
+                                 const std::vector<fs::path>& paths) {
+  AWMR_ASSIGN_OR_RETURN(std::vector<InputFile> inputs, input_files(paths));
+  std::vector<std::pair<std::string, std::string>> options = options_of(command.allocation);
+  options.emplace_back("mode", std::string(name_of(command.mode)));
+  for (auto& option : options_of_rate(command.heading_rate_limit)) {
+    options.push_back(std::move(option));
+  }
+  for (auto& option : options_of(command.plant, std::vector<Scenario>{scenario})) options.push_back(std::move(option));
+  return Provenance{"simulate", std::move(options), std::move(inputs)};
+}
+
+/// A pipe or a device has nothing beside it.
+bool has_side_file(const fs::path& output) {
+  std::error_code ignored;
+  const fs::file_status status = fs::status(output, ignored);
+  return !fs::exists(status) || fs::is_regular_file(status);
+}
+
 }  // namespace
 
 Result<Outcome> execute(const SimulateCommand& command) {
@@ -100,6 +122,10 @@ Result<Outcome> execute(const SimulateCommand& command) {
   std::vector<fs::path> inputs{command.model, command.scenario};
   if (command.gains) inputs.push_back(*command.gains);
   AWMR_RETURN_IF_ERROR(check_output(command.output, inputs));
+  if (has_side_file(command.output)) {
+    AWMR_RETURN_IF_ERROR(check_output(run_side_path(command.output), inputs));
+    AWMR_RETURN_IF_ERROR(check_run_side(run_side_path(command.output)));
+  }
   Gains<double> gains = kPaperGains;
   if (command.gains) {
     AWMR_ASSIGN_OR_RETURN(gains, read_gains_for(*command.gains, model.vehicle.sample_time_s));
@@ -108,18 +134,34 @@ Result<Outcome> execute(const SimulateCommand& command) {
   }
   AWMR_ASSIGN_OR_RETURN(const Run run, simulate(model, gains, scenario, command.mode));
   AWMR_ASSIGN_OR_RETURN(const Controller<double> controller, controller_for(model, gains));
-  AWMR_RETURN_IF_ERROR(write_file(command.output, run_csv(run, scenario)));
   Metrics metrics = metrics_of(run, scenario, controller);
   metrics.electric_work_j = electric_work_j(metrics, model.vehicle, controller.mass_norm);
-  std::vector<Finding> findings = asked_in_vain(scenario, model);
+  std::vector<Finding> findings;
+  if (command.gains) {
+    AWMR_RETURN_IF_ERROR(note_other_model(*command.gains, command.model, findings));
+  }
+  std::ranges::move(asked_in_vain(scenario, model), std::back_inserter(findings));
   if (auto finding = tyres_differ(scenario, model)) findings.push_back(*finding);
   note_extrapolation(model, metrics.yaw_rate_max_degps,
                      fmt::format("{}, {}", scenario.name, name_of(command.mode)), findings);
-  return Outcome{.summary = summary_of(run, scenario, command) + figures_of(metrics) +
-                            fmt::format("wrote {}\n", command.output.string()),
-                 .findings = std::move(findings),
-                 .document = document_of(run, scenario, command.mode, metrics),
-                 .written = {command.output}};
+  AWMR_ASSIGN_OR_RETURN(const Provenance provenance, provenance_of(command, scenario, inputs));
+  const std::string csv = run_csv(run, scenario);
+  const std::string side = run_side_text(
+      csv, provenance, document_of(run, scenario, command.mode, metrics), findings);
+  Outcome outcome{.summary = summary_of(run, scenario, command) + figures_of(metrics) +
+                             fmt::format("wrote {}\n", command.output.string()),
+                  .findings = std::move(findings),
+                  .document = side,
+                  .written = {command.output}};
+  if (!has_side_file(command.output)) {
+    AWMR_RETURN_IF_ERROR(write_file(command.output, csv));
+    return outcome;
+  }
+  // The last one holds the hash of the first.
+  const OutputFile files[] = {{command.output, csv}, {run_side_path(command.output), side}};
+  AWMR_RETURN_IF_ERROR(write_files(files));
+  outcome.written.push_back(files[1].path);
+  return outcome;
 }
 
 void add_simulate(CLI::App& app, Session& session) {

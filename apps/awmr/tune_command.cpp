@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "awmr/core/file.h"
+#include "awmr/model/findings_json.h"
 #include "awmr/model/gains_file.h"
 #include "awmr/model/model_file.h"
 #include "awmr/simulate/conditions.h"
@@ -83,35 +84,6 @@ std::vector<Finding> observer_findings(const TuneOptions& options) {
        "give one that pushes the vehicle, or none at all for the default ones"}};
 }
 
-/// Warnings where the tuned gains leave runs that do not settle after every step.
-std::vector<Finding> unsettled_findings(const Tuning& tuning) {
-  constexpr double kMost = 0.95;
-  std::vector<Finding> findings;
-  const auto note = [&](const std::string& scenario, YawMode mode, double share) {
-    if (share >= kMost) return;
-    findings.push_back(
-        {"", 0, Severity::kWarning, "unsettled",
-         fmt::format(
-             "{}{}: {:.0f} % of the runs with the tuned gains settle after every step; what "
-             "is said of the others is of runs that do not get there. Give more time or a "
-             "faster lead, or an observer (--observer) where something pushes all the time",
-             scenario.empty() ? "" : scenario + ", ", name_of(mode), 100.0 * share)});
-  };
-  if (tuning.robust && !tuning.robust->judged.empty()) {
-    const RobustTuning& robust = *tuning.robust;
-    const auto& judged =
-        robust.judged_by_scenario.empty() ? robust.judged : robust.judged_by_scenario;
-    for (const JudgedGains& one : judged) {
-      if (one.gains == "robust") note(one.scenario, one.mode, one.completed_share);
-    }
-    return findings;
-  }
-  for (const ModeScore& score : tuning.scores) {
-    note(score.scenario, score.mode, score.metrics.completed ? 1.0 : 0.0);
-  }
-  return findings;
-}
-
 /// A note where too few samples leave open what moves a figure most.
 std::vector<Finding> sensitivity_findings(const Tuning& tuning) {
   if (!tuning.robust || !tuning.robust->sensitivity) return {};
@@ -130,6 +102,50 @@ std::vector<Finding> sensitivity_findings(const Tuning& tuning) {
        fmt::format("{} samples leave open what moves {} of {} figures most, as few runs are far "
                    "from the others: give more (--sensitivity)",
                    tuning.robust->sensitivity->samples, open, figures.size())}};
+}
+
+/// Findings of the goals and of the runs, on fresh draws where there are any.
+std::vector<Finding> judged_findings(const Tuning& tuning) {
+  if (tuning.robust && !tuning.robust->judged.empty()) {
+    std::vector<Finding> findings = goal_findings(tuning.robust->goals);
+    std::ranges::move(
+        unsettled_findings(tuning.robust->judged, tuning.robust->judged_by_scenario),
+        std::back_inserter(findings));
+    return findings;
+  }
+  std::vector<Finding> findings;
+  for (const ModeScore& score : tuning.scores) {
+    note_unsettled(score.scenario, score.mode, score.metrics.completed ? 1.0 : 0.0, findings);
+  }
+  return findings;
+}
+
+/// Every other finding: those that a part of a tuning has as the whole has them.
+std::vector<Finding> findings_before_judging(const Model& model, const Tuning& tuning,
+                                             const TuneOptions& options) {
+  std::vector<Finding> findings = sensitivity_findings(tuning);
+  std::ranges::move(observer_findings(options), std::back_inserter(findings));
+  if (const auto plant = model.plant()) {
+    if (auto finding =
+            unsigned_speed_finding(*plant, tuning.gains, model.vehicle.wheel_force.hi, "")) {
+      findings.push_back(std::move(*finding));
+    }
+  }
+  std::vector<Scenario> asked = options.scenarios;
+  if (tuning.robust) {
+    asked.push_back(
+        under(tuning.robust->conditions, {.name = "the vehicle", .guidance = OpenLoop{}}));
+  }
+  for (const Scenario& scenario : asked) {
+    std::ranges::move(asked_in_vain(scenario, model), std::back_inserter(findings));
+  }
+  std::ranges::move(extrapolation_in(model, tuning.scores,
+                                     [](const ModeScore& score) {
+                                       return fmt::format("{}, {}", score.scenario,
+                                                          name_of(score.mode));
+                                     }),
+                    std::back_inserter(findings));
+  return findings;
 }
 
 /// What the gains stand at, and what the objective leaves open.
@@ -179,8 +195,9 @@ std::string details_of(const Tuning& tuning) {
   }
   text += "constraints\n";
   for (const ConstraintReport& constraint : tuning.constraints) {
-    text += fmt::format("  {:<38} {:.4g} <= {:.4g}, margin {:.4g}\n", constraint.name,
-                        constraint.value, constraint.limit, constraint.margin);
+    text += fmt::format("  {:<38} {:.4g} {} {:.4g}, margin {:.4g}\n", constraint.name,
+                        constraint.value, constraint.sense == Sense::kAtMost ? "<=" : ">=",
+                        constraint.limit, constraint.margin);
   }
   return text + fmt::format("search\n  {} after {} evaluations: {}\n", tuning.algorithm,
                             tuning.evaluations, tuning.stop_reason);
@@ -216,10 +233,12 @@ Result<Provenance> provenance_of(const TuneCommand& command,
 }
 
 Result<Outcome> part_outcome(const TuneCommand& command, const Tuning& tuning,
-                             const TuneOptions& options, const Provenance& provenance) {
+                             const TuneOptions& options, const Provenance& provenance,
+                             std::vector<Finding> findings) {
   AWMR_RETURN_IF_ERROR(make_directory(command.output));
   // The last one names the hashes of the others.
-  const std::string shard_json = tune_shard_text(tuning, options, provenance);
+  const std::string shard_json =
+      with_findings(tune_shard_text(tuning, options, provenance), findings);
   const OutputFile files[] = {
       {command.output / kTuneShardGains, gains_text(tuning, options, provenance), check_gains_text},
       {command.output / kJudgedTable, judged_csv(tuning, options),
@@ -235,6 +254,7 @@ Result<Outcome> part_outcome(const TuneCommand& command, const Tuning& tuning,
           fmt::format("part {} of {}: {} of {} fresh draws\nwrote {}, {} and {}\n", shard.index,
                       shard.count, shard.share_of(options.judged_draws), options.judged_draws,
                       files[2].path.string(), kJudgedTable, kTuneShardGains),
+      .findings = std::move(findings),
       .document = files[2].bytes,
       .written = {files[2].path, files[1].path, files[0].path}};
 }
@@ -269,41 +289,23 @@ Result<Outcome> execute(const TuneCommand& command) {
     return finished_part(*command.shard, command.output);
   }
   AWMR_ASSIGN_OR_RETURN(const Tuning tuning, tune_with_progress(model, config.options));
-  if (command.shard) return part_outcome(command, tuning, config.options, provenance);
-  std::string document = gains_text(tuning, config.options, provenance);
-  std::vector<Finding> findings =
-      tuning.robust ? goal_findings(tuning.robust->goals) : std::vector<Finding>{};
-  std::ranges::move(sensitivity_findings(tuning), std::back_inserter(findings));
-  std::ranges::move(observer_findings(config.options), std::back_inserter(findings));
-  std::ranges::move(unsettled_findings(tuning), std::back_inserter(findings));
-  if (const auto plant = model.plant()) {
-    if (auto finding =
-            unsigned_speed_finding(*plant, tuning.gains, model.vehicle.wheel_force.hi, "")) {
-      findings.push_back(std::move(*finding));
-    }
+  if (command.shard) {
+    return part_outcome(command, tuning, config.options, provenance,
+                        findings_before_judging(model, tuning, config.options));
   }
-  std::vector<Scenario> asked = scenarios;
-  if (tuning.robust) {
-    asked.push_back(
-        under(tuning.robust->conditions, {.name = "the vehicle", .guidance = OpenLoop{}}));
-  }
-  for (const Scenario& scenario : asked) {
-    std::ranges::move(asked_in_vain(scenario, model), std::back_inserter(findings));
-  }
-  std::ranges::move(extrapolation_in(model, tuning.scores,
-                                     [](const ModeScore& score) {
-                                       return fmt::format("{}, {}", score.scenario,
-                                                          name_of(score.mode));
-                                     }),
+  std::vector<Finding> findings = judged_findings(tuning);
+  std::ranges::move(findings_before_judging(model, tuning, config.options),
                     std::back_inserter(findings));
-  AWMR_RETURN_IF_ERROR(write_file(command.output, document, check_gains_text));
-  return Outcome{.summary = summary_of(tuning, config.options),
-                 .details = details_of(tuning),
-                 .closing = fmt::format("wrote {}\n", command.output.string()),
-                 .brief = gains_table(tuning),
-                 .findings = std::move(findings),
-                 .document = std::move(document),
-                 .written = {command.output}};
+  Outcome outcome{.summary = summary_of(tuning, config.options),
+                  .details = details_of(tuning),
+                  .closing = fmt::format("wrote {}\n", command.output.string()),
+                  .brief = gains_table(tuning),
+                  .findings = std::move(findings),
+                  .document = gains_text(tuning, config.options, provenance),
+                  .written = {command.output}};
+  put_findings_into_document(outcome);
+  AWMR_RETURN_IF_ERROR(write_file(command.output, outcome.document, check_gains_text));
+  return outcome;
 }
 
 void add_tune(CLI::App& app, Session& session) {

@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
 #include <type_traits>
 #include <utility>
@@ -14,6 +15,7 @@
 #include "awmr/trials/trial_columns.h"
 #include "choices.h"
 #include "commands.h"
+#include "gains_origin.h"
 #include "inputs.h"
 #include "numbers.h"
 #include "paths.h"
@@ -124,6 +126,21 @@ Result<Provenance> provenance_of(const ValidateCommand& command) {
   return Provenance{"validate", std::move(options), std::move(inputs)};
 }
 
+/// Adds a warning (`log-of-the-fit`) for each log that the model was fitted to, by SHA-256: the model is
+/// the first input, and no other input of a validation is one of the model's.
+void note_fitted_logs(const Model& model, const Provenance& provenance,
+                      std::vector<Finding>& findings) {
+  for (const InputFile& input : provenance.inputs) {
+    const bool is_fitted = std::ranges::any_of(
+        model.record.provenance.inputs,
+        [&](const InputFile& fitted) { return fitted.sha256 == input.sha256; });
+    if (!is_fitted) continue;
+    findings.push_back({input.name, 0, Severity::kWarning, "log-of-the-fit",
+                        "the model was fitted to this log: its figures describe the fit, not the "
+                        "prediction of another drive. Validate on a log that was not fitted"});
+  }
+}
+
 /// The claims where they are asked for; else the verdict, and how each log is predicted.
 std::string summary_of(const ValidateCommand& command, const Validation& validation) {
   if (command.claims) return claims_table(validation.claims) + validation.verdict + '\n';
@@ -201,6 +218,10 @@ Result<Outcome> execute(const ValidateCommand& command) {
   std::vector<Finding> findings;
   AWMR_RETURN_IF_ERROR(add_judged_logs(command, model, gains, validation, findings));
   AWMR_ASSIGN_OR_RETURN(const Provenance provenance, provenance_of(command));
+  if (command.gains) {
+    AWMR_RETURN_IF_ERROR(note_other_model(*command.gains, command.model, findings));
+  }
+  note_fitted_logs(model, provenance, findings);
   Outcome outcome{.summary = summary_of(command, validation),
                   .details = command.claims ? "" : validation_table(validation),
                   .closing = fmt::format("wrote {}\n", command.output.string()),
@@ -209,6 +230,7 @@ Result<Outcome> execute(const ValidateCommand& command) {
                   .refused = !validation.passed,
                   .document = validation_text(validation, provenance),
                   .written = {command.output}};
+  put_findings_into_document(outcome);
   AWMR_RETURN_IF_ERROR(write_file(command.output, outcome.document));
   if (command.claims_table) {
     const std::string table = claims_markdown(

@@ -27,6 +27,7 @@ py::list constraints_of(const Tuning& tuning) {
     one["name"] = report.name;
     one["value"] = report.value;
     one["limit"] = report.limit;
+    one["sense"] = std::string(name_in(kSenseNames, report.sense));
     one["margin"] = report.margin;
     one["required"] = report.required;
     all.append(one);

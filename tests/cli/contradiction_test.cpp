@@ -78,14 +78,6 @@ TEST_F(Contradiction, RecoverSaidNothingOfARunThatGaveNothing) {
   EXPECT_EQ(Json::parse(read_all(path("recover.json")))["parameters"].size(), 1U);
 }
 
-TEST_F(Contradiction, AReportOfResultsOfTwoModelsLookedWhole) {
-  for (const char* name : {"model.json", "gains.json"}) fs::copy(kept(name), path(name));
-  const std::string report = "report " + directory_.path().string();
-  EXPECT_EQ(awmr(report).exit_code, 0);
-  write_all(path("model.json"), read_all(kept("model.json")) + "\n");
-  expect_refused(awmr(report), "gains.json:/inputs: was made from another model.json");
-}
-
 TEST_F(Contradiction, APartOfAComparisonWithANumberThatIsNoneWasAFaultOfTheProgram) {
   for (const char* part : {"1", "2"}) {
     ASSERT_EQ(awmr(fmt::format("compare --model {} --gains {} {} --samples 3 --shard {}/2 -o {}",

@@ -69,9 +69,9 @@ TEST(Constraints, BoundTheSpeedLoopByHandFormulas) {
 TEST(Constraints, AskTheCorrectiveTermsToDominate) {
   // 0.2 0.3028 (pi/3)^0.825/0.0128 and 0.2 1.3268/0.0768 at 1 m/s
   const auto all = constraints_of(kPaperGains, paper_context(ReachingForm::kStrict, 0.8));
-  EXPECT_NEAR(named(all, "mu dominates").value,
+  EXPECT_NEAR(named(all, "mu dominates").limit,
               0.2 * 0.3028 * std::pow(std::acos(-1.0) / 3.0, 0.825) / 0.0128, 1e-12);
-  EXPECT_NEAR(named(all, "mu_s dominates").value, 0.2 * 1.3268 / 0.0768, 1e-12);
+  EXPECT_NEAR(named(all, "mu_s dominates").limit, 0.2 * 1.3268 / 0.0768, 1e-12);
 }
 
 TEST(Constraints, KeepCompassNoiseBelowAQuarterOfTheWeakerAuthority) {
@@ -107,6 +107,21 @@ TEST(Constraints, PassOverTheModeThatHasNoAuthority) {
   context.wheel_force = {0.0, 1.3268 / 4.0};
   EXPECT_NEAR(turning_authority_m(context.own(), context.speed_mps),
               0.35 * 1.3268 * std::tan(std::acos(-1.0) / 18.0), kRounding);
+}
+
+TEST(Constraints, HaveTheValueOfTheGainsAndTheLimitThatItMustKeep) {
+  ConstraintContext context = paper_context(ReachingForm::kStrict, 0.8);
+  context.latency_s = 0.02;
+  const auto all = constraints_of(kPaperGains, context);
+  for (const ConstraintReport& c : all) {
+    const double margin = c.sense == Sense::kAtLeast ? c.value - c.limit : c.limit - c.value;
+    EXPECT_EQ(c.margin, margin) << c.name;
+  }
+  EXPECT_EQ(named(all, "mu dominates").value, kPaperGains.heading.mu);
+  EXPECT_EQ(named(all, "mu_s dominates").value, kPaperGains.speed.mu);
+  EXPECT_EQ(named(all, "heading damping").limit, 0.7);
+  EXPECT_EQ(named(all, "late damping").limit, 0.25);
+  EXPECT_EQ(named(all, "T2 < T1 (strict)").value, 12.0 / 50.0);
 }
 
 TEST(Constraints, HoldForThePapersGains) {
@@ -209,7 +224,7 @@ TEST(Constraints, TakeTheWorstDampingOfAllModesAndYawRates) {
                                                .direct_share = share}));
       }
     }
-    EXPECT_NEAR(named(constraints_of(gains, context), "heading damping").limit, worst, 1e-9) << k;
+    EXPECT_NEAR(named(constraints_of(gains, context), "heading damping").value, worst, 1e-9) << k;
   }
 }
 
@@ -400,7 +415,7 @@ TEST(Constraints, StandForThePlantThatLeavesThemTheLeast) {
                                [](const auto& c) { return c.name == "mu dominates"; });
   const auto mu_alone =
       std::find_if(own.begin(), own.end(), [](const auto& c) { return c.name == "mu dominates"; });
-  EXPECT_NEAR(mu->value, 1.5 * mu_alone->value, 1e-9);
+  EXPECT_NEAR(mu->limit, 1.5 * mu_alone->limit, 1e-9);
 }
 
 TEST(Constraints, CountWhatTheLawDoesNotKnowOfADraw) {
@@ -428,7 +443,7 @@ TEST(Constraints, CountWhatTheLawDoesNotKnowOfADraw) {
     }
   }
   EXPECT_LT(worst, 0.7);
-  EXPECT_NEAR(named(all, "heading damping").limit, worst, 1e-9);
+  EXPECT_NEAR(named(all, "heading damping").value, worst, 1e-9);
   EXPECT_NEAR(named(all, "speed gain").value, 0.01 * 2.0 * 5.0 / 1.2, kRounding);
   // The weaker motors leave the differential mode less than steering has: 4 d (0.5 - g1/4).
   EXPECT_NEAR(
@@ -443,7 +458,7 @@ TEST(Constraints, AskForDampingWithLatencyWhereThereIsAny) {
   context.latency_s = 0.02;
   const std::vector<ConstraintReport> late = constraints_of(kPaperGains, context);
   ASSERT_EQ(late.size(), without + 2);
-  EXPECT_LT(named(late, "late damping").limit, 0.7);
+  EXPECT_LT(named(late, "late damping").value, 0.7);
   // Twice as late and a sample more: 5 samples, of the worst of the modes and rates.
   double worst = 1.0;
   for (const double rate_degps : {1.0, 5.0, 20.0, 60.0}) {
@@ -461,15 +476,15 @@ TEST(Constraints, AskForDampingWithLatencyWhereThereIsAny) {
                          .late_samples = 5}));
     }
   }
-  EXPECT_NEAR(named(late, "delay margin").limit, worst, 1e-9);
-  EXPECT_EQ(named(late, "delay margin").value, 0.05);
+  EXPECT_NEAR(named(late, "delay margin").value, worst, 1e-9);
+  EXPECT_EQ(named(late, "delay margin").limit, 0.05);
   // Of the draws too: less resistance than the law makes up for rings more.
   Plant<double> slippery = context.plant;
   slippery.yaw.alpha *= 0.8;
   context.draws = {{slippery, context.wheel_force}};
   const std::vector<ConstraintReport> drawn = constraints_of(kPaperGains, context);
-  EXPECT_LT(named(drawn, "late damping").limit, named(late, "late damping").limit);
-  EXPECT_LT(named(drawn, "delay margin").limit, named(late, "delay margin").limit);
+  EXPECT_LT(named(drawn, "late damping").value, named(late, "late damping").value);
+  EXPECT_LT(named(drawn, "delay margin").value, named(late, "delay margin").value);
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "awmr/core/index.h"
 #include "awmr/core/option_text.h"
 #include "awmr/core/parallel.h"
+#include "awmr/model/fitted_law.h"
 #include "awmr/simulate/batch.h"
 #include "awmr/simulate/simulate.h"
 
@@ -255,6 +256,7 @@ Result<Comparison> compare(const Model& model, const std::vector<NamedGains>& ga
   for (const Status& failure : failures) AWMR_RETURN_IF_ERROR(failure);
   Comparison comparison = gathered(layout, options.shard, std::move(slots));
   comparison.arithmetic = arithmetic.rounding;
+  comparison.measured_yaw_rate_degps = measured_yaw_rate_degps(model);
   if (options.break_even && !comparison.stopped) {
     AWMR_ASSIGN_OR_RETURN(comparison.break_even, break_even_of(model, gains.front().gains,
                                                                scenarios, comparison, options));

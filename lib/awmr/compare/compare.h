@@ -114,6 +114,8 @@ struct Comparison {
   bool stopped = false;  ///< before all of its runs were done
   /// How the runs were rounded (BatchArithmetic::rounding): rows of different ones are not mixed.
   std::string arithmetic = {};
+  /// Fastest yaw rate that yaw resistance was measured at, deg/s, > 0; absent where the model has none.
+  std::optional<double> measured_yaw_rate_degps = {};
   /// By break_even_of() (break_even.h); absent where nobody asked.
   std::optional<std::vector<BreakEven>> break_even = {};
 };

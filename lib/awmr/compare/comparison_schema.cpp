@@ -4,6 +4,7 @@
 #include "awmr/compare/compare.h"
 #include "awmr/compare/metric_columns.h"
 #include "awmr/core/json.h"
+#include "awmr/model/findings_json.h"
 
 namespace awmr {
 namespace {
@@ -145,6 +146,7 @@ void describe_comparison(JsonObject& json) {
   describe_overall(json);
   describe_break_even(json);
   describe_scenarios(json);
+  read_findings(json);
   json.reject_unknown_keys();
 }
 

@@ -131,15 +131,16 @@ Behind behind(const Entry& own, const Entry& leader, double relevance, Random ra
 }
 
 /// Counts, among the entries that complete as often as the best, the one of the least value; those
-/// that share it (but for rounding) share the count.
+/// within `margin` of it share the count, as a difference of less does not matter.
 template <class Value>
-void count_best(const std::vector<Entry>& entries, Value&& value, std::vector<double>& counts) {
+void count_best(const std::vector<Entry>& entries, double margin, Value&& value,
+                std::vector<double>& counts) {
   constexpr double kRounding = 1e-12;
   double least = value(entries.front());  // the first of the list is one of them
   for (const Entry& entry : entries) {
     if (entry.completes) least = std::min(least, value(entry));
   }
-  const double most = least + kRounding * (1.0 + std::abs(least));
+  const double most = least + margin + kRounding * (1.0 + std::abs(least));
   std::vector<std::size_t> best;
   for (std::size_t i = 0; i < entries.size(); ++i) {
     if (entries[i].completes && value(entries[i]) <= most) best.push_back(i);
@@ -148,7 +149,8 @@ void count_best(const std::vector<Entry>& entries, Value&& value, std::vector<do
 }
 
 /// Shares of weights, drawn evenly from all that come to 1, under which each entry is the best.
-std::vector<double> shares_by_weights(const std::vector<Entry>& entries, Random random) {
+std::vector<double> shares_by_weights(const std::vector<Entry>& entries, double margin,
+                                      Random random) {
   std::vector<double> shares(entries.size(), 0.0);
   std::vector<double> weights(entries.front().mean_losses.size());
   for (int draw = 0; draw < kWeightings; ++draw) {
@@ -156,18 +158,18 @@ std::vector<double> shares_by_weights(const std::vector<Entry>& entries, Random 
     const auto loss = [&](const Entry& entry) {
       return std::inner_product(weights.begin(), weights.end(), entry.mean_losses.begin(), 0.0);
     };
-    count_best(entries, loss, shares);
+    count_best(entries, margin, loss, shares);
   }
   for (double& share : shares) share /= kWeightings;
   return shares;
 }
 
-std::vector<double> shares_by_samples(const std::vector<Entry>& entries) {
+std::vector<double> shares_by_samples(const std::vector<Entry>& entries, double margin) {
   const std::size_t n = entries.front().log_scores.size();
   std::vector<double> shares(entries.size(), 0.0);
   for (std::size_t sample = 0; sample < n; ++sample) {
     count_best(
-        entries, [&](const Entry& entry) { return entry.log_scores[sample]; }, shares);
+        entries, margin, [&](const Entry& entry) { return entry.log_scores[sample]; }, shares);
   }
   for (double& share : shares) share /= static_cast<double>(n);
   return shares;
@@ -207,6 +209,28 @@ bool dominates(const Contender& other, const Contender& own,
   return better;
 }
 
+/// Modes that tie for the first place share the weights, and, where they are equivalent, the samples: none
+/// of them is first alone where the ranking puts none of them first.
+void share_firsts_of_ties(std::vector<RankedMode>& ranking) {
+  const auto end = std::find_if(ranking.begin(), ranking.end(),
+                                [](const RankedMode& mode) { return mode.rank > 1; });
+  const auto count = static_cast<double>(end - ranking.begin());
+  const bool equal = std::all_of(ranking.begin() + 1, std::max(end, ranking.begin() + 1),
+                                 [](const RankedMode& mode) {
+                                   return mode.towards_leader == Conclusion::kEquivalent;
+                                 });
+  double weights = 0.0;
+  double samples = 0.0;
+  for (auto mode = ranking.begin(); mode != end; ++mode) {
+    weights += mode->first_by_weights / count;
+    samples += mode->first_by_samples.value_or(0.0) / count;
+  }
+  for (auto mode = ranking.begin(); mode != end; ++mode) {
+    mode->first_by_weights = weights;
+    if (equal && mode->first_by_samples) mode->first_by_samples = samples;
+  }
+}
+
 void name_ties_and_dominance(std::vector<RankedMode>& ranking,
                              const std::vector<ScoredMetric>& scoring,
                              const std::vector<PairedDifference>& differences) {
@@ -236,8 +260,10 @@ std::vector<RankedMode> rank(const ScenarioRows& scenario,
   const std::vector<ScoredMetric> scoring = scoring_of(scenario, preferences);
   if (!has_a_goal(scenario) || scoring.empty()) return {};
   const std::vector<Entry> entries = sorted_entries(scenario, scoring);
-  const std::vector<double> by_weights = shares_by_weights(entries, Random(seed, kWeightStream));
-  const std::vector<double> by_samples = shares_by_samples(entries);
+  const double margin = std::log1p(preferences.relevance);
+  const std::vector<double> by_weights =
+      shares_by_weights(entries, margin, Random(seed, kWeightStream));
+  const std::vector<double> by_samples = shares_by_samples(entries, margin);
   std::vector<RankedMode> ranking;
   std::size_t leader = 0;  // the best of the current rank
   for (std::size_t i = 0; i < entries.size(); ++i) {
@@ -265,6 +291,7 @@ std::vector<RankedMode> rank(const ScenarioRows& scenario,
     ranked.rank = static_cast<int>(leader) + 1;
     ranking.push_back(std::move(ranked));
   }
+  share_firsts_of_ties(ranking);
   name_ties_and_dominance(ranking, scoring, differences);
   return ranking;
 }

@@ -24,7 +24,8 @@ struct RankedMode {
   std::optional<Conclusion> towards_leader;
   std::vector<std::string> tied_with;  ///< labels of the others of its rank
   /// Shares in [0, 1] in which the mode has the best score of all that complete as often as the
-  /// best does: of weights drawn at random, and of the samples (absent below 2).
+  /// best does: of weights drawn at random, and of the samples (absent below 2). Modes within
+  /// `relevance` of the best share it, and so do modes that tie for the first place.
   double first_by_weights = 0.0;
   std::optional<double> first_by_samples;
   /// Labels of modes that are relevantly better in a ranked metric and in none relevantly worse.

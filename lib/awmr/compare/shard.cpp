@@ -14,6 +14,7 @@
 #include "awmr/core/index.h"
 #include "awmr/core/json_document.h"
 #include "awmr/core/shard_file.h"
+#include "awmr/model/findings_json.h"
 #include "awmr/simulate/batch.h"
 
 namespace awmr {
@@ -30,6 +31,8 @@ struct Part {
   int samples = 0;
   std::uint64_t seed = 0;
   Preferences preferences;
+  std::optional<double> measured_yaw_rate_degps;
+  std::vector<Finding> findings;
 };
 
 Preferences read_preferences(JsonObject& json) {
@@ -46,7 +49,9 @@ Part part_from_json(JsonObject& json) {
   Part part{.origin = read_shard_origin(json, kShardSchema),
             .samples = static_cast<int>(json.integer("samples", 0, kMostSamples)),
             .seed = json.seed("seed"),
-            .preferences = read_preferences(json)};
+            .preferences = read_preferences(json),
+            .measured_yaw_rate_degps = json.optional_number("measured_yaw_rate_degps", kPositive),
+            .findings = read_findings(json)};
   json.reject_unknown_keys();
   return part;
 }
@@ -131,6 +136,9 @@ std::string shard_text(const Comparison& part, const CompareOptions& options,
   json["seed"] = options.seed;
   json["relevance"] = options.preferences.relevance;
   json["weights"] = options.preferences.weights;
+  if (part.measured_yaw_rate_degps) {
+    json["measured_yaw_rate_degps"] = *part.measured_yaw_rate_degps;
+  }
   return to_text(json);
 }
 
@@ -161,6 +169,8 @@ Result<Merged> merge_shards(const std::vector<std::filesystem::path>& directorie
   AWMR_ASSIGN_OR_RETURN(merged.comparison.rows, rows_of(parts));
   AWMR_RETURN_IF_ERROR(put_in_order(merged.comparison.rows, at(first.samples) + 1));
   merged.comparison.whole_samples = first.samples + 1;
+  merged.comparison.measured_yaw_rate_degps = first.measured_yaw_rate_degps;
+  merged.findings = first.findings;
   merged.comparison.arithmetic = first.origin.arithmetic;
   merged.options.samples = first.samples;
   merged.options.seed = first.seed;

@@ -10,6 +10,7 @@
 #include "awmr/compare/compare.h"
 #include "awmr/core/provenance.h"
 #include "awmr/core/result.h"
+#include "awmr/model/record.h"
 
 namespace awmr {
 
@@ -31,6 +32,7 @@ struct Merged {
   Comparison comparison;
   CompareOptions options;  ///< samples and seed
   Provenance provenance;
+  std::vector<Finding> findings;  ///< of the parts: all but those on the fastest turn of all runs
 };
 
 /// Puts the parts in the directories together, in any order. Errors (input): a directory without

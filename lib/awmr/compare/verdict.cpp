@@ -98,6 +98,7 @@ std::string first_text(const std::vector<RankedMode>& ranking, const Preferences
 
 /// "; combined is first under 83 % of all weights and in 97 % of the samples"
 std::string stability_text(const RankedMode& best) {
+  if (!best.tied_with.empty()) return {};  // no mode is first
   std::string text = fmt::format("; {} is first under {:.0f} % of all weights",
                                  best.contender.label(), 100.0 * best.first_by_weights);
   if (best.first_by_samples) {

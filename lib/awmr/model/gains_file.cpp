@@ -35,7 +35,7 @@ Gains<double> gains_from_file(JsonObject& root) {
   const Gains<double> gains = gains_from_json(root);
   for (const std::string_view key :
        {"command", "version", "options", "inputs", "time_constants", "constraints", "objective",
-        "metrics", "robust", "goals", "sensitivity", "search", "baseline"}) {
+        "metrics", "robust", "goals", "sensitivity", "search", "baseline", "findings"}) {
     root.ignore(key);
   }
   root.reject_unknown_keys();

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 
 #include "awmr/core/index.h"
@@ -259,6 +260,25 @@ Json findings_to_json(const std::vector<Finding>& findings) {
 
 void describe_findings(JsonObject& json) {
   for (const JsonObject& finding : json.objects("findings")) finding_from_json(finding);
+}
+
+std::vector<Finding> read_findings(JsonObject& json) {
+  std::vector<Finding> findings;
+  for (const JsonObject& finding : json.optional_objects("findings")) {
+    findings.push_back(finding_from_json(finding));
+  }
+  return findings;
+}
+
+std::string with_findings(const std::string& document, const std::vector<Finding>& findings) {
+  std::vector<Finding> named = findings;
+  for (Finding& finding : named) {
+    finding.file = std::filesystem::path(finding.file).filename().string();
+  }
+  Json json = Json::parse(document);
+  json.erase("findings");
+  json["findings"] = findings_to_json(named);
+  return to_text(json);
 }
 
 Finding finding_from_json(JsonObject json) {

@@ -91,11 +91,16 @@ Status add_live(const fs::path& directory, const Model& model, Json& data) {
 
 }  // namespace
 
-Result<std::string> report_html(const fs::path& directory) {
+Result<ReportPage> report_page(const fs::path& directory) {
   AWMR_ASSIGN_OR_RETURN(ReportData data, read_report_data(directory));
   data.json["paper_vehicle"] = is_vehicle_of_paper(data.model.vehicle);
   AWMR_RETURN_IF_ERROR(add_live(directory, data.model, data.json));
-  return assembled(data.json);
+  return ReportPage{assembled(data.json), std::move(data.left_out)};
+}
+
+Result<std::string> report_html(const fs::path& directory) {
+  AWMR_ASSIGN_OR_RETURN(ReportPage page, report_page(directory));
+  return std::move(page.html);
 }
 
 Result<FigureSet> report_figures(const fs::path& directory) {

@@ -8,13 +8,23 @@
 
 #include "awmr/core/file.h"
 #include "awmr/core/result.h"
+#include "awmr/model/record.h"
 
 namespace awmr {
 
 /// Reads model.json and, where present, gains.json, validation.json, comparison.json and .csv,
 /// pil.json, suggest.json, the scenarios `scenario_<scenario>.json` and the runs
-/// `run_<scenario>_<mode>_<tuned|paper>.csv`. Errors (input): no model.json, or a file is broken.
+/// `run_<scenario>_<mode>_<tuned|paper>.csv` with their side files. Errors (input): no model.json, or a
+/// file is broken.
 Result<std::string> report_html(const std::filesystem::path& directory);
+
+/// The page, with what it leaves out.
+struct ReportPage {
+  std::string html;
+  /// Results that were left out, as they are not of this directory's model, each with its reason.
+  std::vector<Finding> left_out;
+};
+Result<ReportPage> report_page(const std::filesystem::path& directory);
 
 /// The figures of a directory of results, each as SVG and as PDF.
 struct FigureSet {

@@ -1,31 +1,148 @@
 #include "awmr/report/report_data.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
 #include "awmr/core/file.h"
 #include "awmr/core/hash.h"
+#include "awmr/model/finding_rank.h"
+#include "awmr/model/findings_json.h"
 #include "awmr/model/gains_file.h"
 #include "awmr/model/model_file.h"
 #include "awmr/report/drawn_fit.h"
 #include "awmr/report/metric_words.h"
 #include "awmr/report/run_data.h"
+#include "awmr/simulate/run_side.h"
 
 namespace awmr {
 namespace {
 
-/// Errors (input): a result was made from another model.json or gains.json than the one beside it.
-Status check_same_inputs(const std::filesystem::path& directory, const std::string& result,
-                         const Json& json) {
-  if (!json.contains("inputs")) return {};
-  for (const Json& input : json["inputs"]) {
-    const std::filesystem::path name = std::filesystem::path(input.value("name", "")).filename();
-    if ((name != "model.json" && name != "gains.json") || name == result) continue;
-    AWMR_ASSIGN_OR_RETURN(const bool is_here, regular_file_exists(directory / name));
-    if (!is_here) continue;
-    AWMR_ASSIGN_OR_RETURN(const std::string bytes, read_file(directory / name));
-    if (sha256_hex(bytes) == input.value("sha256", "")) continue;
-    return input_error((directory / result).string() + ":/inputs",
-                       "was made from another " + name.string() +
-                           " than the one beside it: make it again, or take it out of the "
-                           "directory");
+/// The hashes of what lies in the directory.
+struct Origin {
+  std::string model_sha256;
+  std::string gains_sha256 = {};  ///< empty: no gains.json that is of this model
+};
+
+/// Why a result is not of the model, or the gains, beside it; none: it is, or it names no inputs, as a
+/// file written by hand.
+std::optional<Finding> foreign_result(const std::string& result, const Json& json,
+                                      const Origin& origin) {
+  const auto inputs = json.find("inputs");
+  if (inputs == json.end() || !inputs->is_array() || inputs->empty()) return std::nullopt;
+  bool is_of_model = false;
+  bool is_of_gains = true;
+  for (const Json& input : *inputs) {
+    if (!input.is_object()) continue;
+    const Json sha256 = input.value("sha256", Json());
+    is_of_model = is_of_model || sha256 == origin.model_sha256;
+    const std::filesystem::path name = input.value("name", std::string());
+    if (name.filename() != "gains.json" || origin.gains_sha256.empty()) continue;
+    is_of_gains = is_of_gains && sha256 == origin.gains_sha256;
+  }
+  if (is_of_model && is_of_gains) return std::nullopt;
+  return Finding{result, 0, Severity::kWarning, "result-of-another-model",
+                 fmt::format("was made from another {} than the one in this directory, and is not "
+                             "shown. Make it again, or take it out of the directory",
+                             is_of_model ? "gains.json" : "model.json")};
+}
+
+/// Whether a run is shown: its side file holds its hash and names the model. Else the finding says why.
+Result<std::optional<Finding>> foreign_run(const std::filesystem::path& directory,
+                                           const std::string& name, const Origin& origin) {
+  const std::filesystem::path side = run_side_path(directory / name);
+  AWMR_ASSIGN_OR_RETURN(const bool has_side, regular_file_exists(side));
+  const auto without = [&](const char* why) {
+    return Finding{name, 0, Severity::kWarning, "result-without-origin",
+                   fmt::format("{}, so that its model is unknown, and it is not shown. Simulate it "
+                               "again (awmr simulate)",
+                               why)};
+  };
+  if (!has_side) return without("has no side file (.csv.json)");
+  AWMR_ASSIGN_OR_RETURN(const Json json, read_json_file(side));
+  AWMR_ASSIGN_OR_RETURN(const std::string csv, read_file(directory / name));
+  if (!json.is_object() || json.value("csv_sha256", Json()) != sha256_hex(csv)) {
+    return without("is not the run that its side file was written with");
+  }
+  return foreign_result(name, json, origin);
+}
+
+/// The findings that a result's own document holds. What is none is passed over.
+void add_findings_of(const Json& json, std::vector<Finding>& findings) {
+  if (!json.is_object() || !json.contains("findings")) return;
+  std::vector<Fault> faults;
+  JsonObject object(json, "", "", faults);
+  const std::vector<Finding> more = read_findings(object);
+  if (faults.empty()) findings.insert(findings.end(), more.begin(), more.end());
+}
+
+/// Of each kind, as the page shows them: those that change the numbers most first, each once.
+Json shown_findings(const std::vector<Finding>& findings) {
+  std::vector<Finding> order;
+  for (const Finding* finding : by_effect(findings)) {
+    const bool is_known = std::ranges::any_of(order, [&](const Finding& other) {
+      return other.code == finding->code && other.file == finding->file &&
+             other.line == finding->line && other.message == finding->message;
+    });
+    if (!is_known) order.push_back(*finding);
+  }
+  return findings_to_json(order);
+}
+
+/// gains.json and the other results, those of another model left out.
+Status read_results(const std::filesystem::path& directory, Origin& origin, ReportData& data,
+                    std::vector<Finding>& of_results) {
+  for (const char* name : {"gains", "validation", "comparison", "pil", "suggest"}) {
+    const auto path = directory / (std::string(name) + ".json");
+    AWMR_ASSIGN_OR_RETURN(const bool is_there, regular_file_exists(path));
+    if (!is_there) continue;
+    if (std::string_view(name) == "gains") AWMR_RETURN_IF_ERROR(read_gains(path));
+    AWMR_ASSIGN_OR_RETURN(Json json, read_json_file(path));
+    if (auto foreign = foreign_result(path.filename().string(), json, origin)) {
+      data.left_out.push_back(*std::move(foreign));
+      continue;
+    }
+    if (std::string_view(name) == "gains") {
+      AWMR_ASSIGN_OR_RETURN(const std::string bytes, read_file(path));
+      origin.gains_sha256 = sha256_hex(bytes);
+    }
+    add_findings_of(json, of_results);
+    data.json[name] = std::move(json);
+  }
+  return {};
+}
+
+/// The samples of comparison.csv, where they are those of the comparison that is shown.
+Status read_own_samples(const std::filesystem::path& directory, ReportData& data) {
+  const std::filesystem::path path = directory / "comparison.csv";
+  AWMR_ASSIGN_OR_RETURN(const bool is_there, regular_file_exists(path));
+  if (!is_there || !data.json.contains("comparison")) return {};
+  AWMR_ASSIGN_OR_RETURN(const std::string bytes, read_file(path));
+  const Json& comparison = data.json["comparison"];
+  if (comparison.contains("csv_sha256") && comparison["csv_sha256"] != sha256_hex(bytes)) {
+    data.left_out.push_back({"comparison.csv", 0, Severity::kWarning, "result-without-origin",
+                             "does not hold the rows that comparison.json was written with, and is "
+                             "not shown. Compare again (awmr compare)"});
+    return {};
+  }
+  AWMR_ASSIGN_OR_RETURN(data.json["samples"], read_samples(path));
+  return {};
+}
+
+/// What emit wrote, beside the results or in `firmware`.
+Status add_emitted(const std::filesystem::path& directory, const Origin& origin,
+                   std::vector<Finding>& findings) {
+  for (const auto& folder : {directory, directory / "firmware"}) {
+    const std::filesystem::path path = folder / "awmr_emit.json";
+    AWMR_ASSIGN_OR_RETURN(const bool is_there, regular_file_exists(path));
+    if (!is_there) continue;
+    AWMR_ASSIGN_OR_RETURN(const Json json, read_json_file(path));
+    if (!foreign_result(path.filename().string(), json, origin)) add_findings_of(json, findings);
   }
   return {};
 }
@@ -38,24 +155,29 @@ Result<ReportData> read_report_data(const std::filesystem::path& directory) {
   AWMR_RETURN_IF_ERROR(check_regular_file(directory / "model.json"));
   AWMR_ASSIGN_OR_RETURN(data.model, read_model(directory / "model.json"));
   AWMR_ASSIGN_OR_RETURN(data.json["model"], read_json_file(directory / "model.json"));
-  AWMR_ASSIGN_OR_RETURN(const bool has_gains, regular_file_exists(directory / "gains.json"));
-  if (has_gains) AWMR_RETURN_IF_ERROR(read_gains(directory / "gains.json"));
-  for (const char* name : {"gains", "validation", "comparison", "pil", "suggest"}) {
-    const auto path = directory / (std::string(name) + ".json");
-    AWMR_ASSIGN_OR_RETURN(const bool is_there, regular_file_exists(path));
-    if (!is_there) continue;
-    AWMR_ASSIGN_OR_RETURN(data.json[name], read_json_file(path));
-    AWMR_RETURN_IF_ERROR(check_same_inputs(directory, path.filename().string(), data.json[name]));
-  }
-  AWMR_ASSIGN_OR_RETURN(const bool has_samples, regular_file_exists(directory / "comparison.csv"));
-  if (has_samples) {
-    AWMR_ASSIGN_OR_RETURN(data.json["samples"], read_samples(directory / "comparison.csv"));
-  }
+  AWMR_ASSIGN_OR_RETURN(const std::string bytes, read_file(directory / "model.json"));
+  Origin origin{.model_sha256 = sha256_hex(bytes)};
+  std::vector<Finding> findings = data.model.record.findings;
+  AWMR_RETURN_IF_ERROR(read_results(directory, origin, data, findings));
+  AWMR_RETURN_IF_ERROR(read_own_samples(directory, data));
+  AWMR_RETURN_IF_ERROR(add_emitted(directory, origin, findings));
   AWMR_ASSIGN_OR_RETURN(data.json["header"], path_exists(directory / "awmr_params.h"));
-  AWMR_ASSIGN_OR_RETURN(data.json["runs"], read_runs(directory));
+  const auto is_own = [&](const std::string& name) -> Result<bool> {
+    AWMR_ASSIGN_OR_RETURN(auto foreign, foreign_run(directory, name, origin));
+    if (foreign) {
+      data.left_out.push_back(*std::move(foreign));
+      return false;
+    }
+    AWMR_ASSIGN_OR_RETURN(const Json side, read_json_file(run_side_path(directory / name)));
+    add_findings_of(side, findings);
+    return true;
+  };
+  AWMR_ASSIGN_OR_RETURN(data.json["runs"], read_runs(directory, is_own));
   AWMR_ASSIGN_OR_RETURN(data.json["scenarios"], read_scenarios(directory));
   data.json["fits"] = fits_json(data.model);
   data.json["metric_words"] = metric_words_json();
+  findings.insert(findings.end(), data.left_out.begin(), data.left_out.end());
+  data.json["findings"] = shown_findings(findings);
   return data;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <regex>
 #include <vector>
@@ -145,9 +146,15 @@ Json samples_json(Samples&& samples) {
 
 }  // namespace
 
-Result<Json> read_runs(const fs::path& directory) {
+Result<Json> read_runs(const fs::path& directory,
+                       const std::function<Result<bool>(const std::string&)>& is_own) {
   static const std::regex kPattern("run_(.+)_(differential|steering|combined)_(tuned|paper)\\.csv");
-  AWMR_ASSIGN_OR_RETURN(const auto files, matching_files(directory, kPattern));
+  AWMR_ASSIGN_OR_RETURN(const auto found, matching_files(directory, kPattern));
+  std::vector<std::vector<std::string>> files;
+  for (const std::vector<std::string>& file : found) {
+    AWMR_ASSIGN_OR_RETURN(const bool is_shown, is_own(file[0]));
+    if (is_shown) files.push_back(file);
+  }
   if (files.empty()) return Json::array();
   const std::size_t most = std::clamp(kMostRows / files.size(), kFewestRowsOfRun, kMostRowsOfRun);
   Json runs = Json::array();

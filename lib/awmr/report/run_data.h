@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <string>
 
 #include "awmr/core/json.h"
 
@@ -9,8 +11,10 @@ namespace awmr {
 
 /// The files `run_SCENARIO_MODE_GAINS.csv`, by name: [{scenario, mode, gains, columns: {t_s: [...]}}],
 /// angles in degrees, with as many rows as a chart needs (drawn_rows.h).
-/// Errors: as read_csv; a run's time goes back.
-Result<Json> read_runs(const std::filesystem::path& directory);
+/// Files that `is_own` is false for are passed over. Errors: as read_csv and `is_own`; a run's time goes
+/// back.
+Result<Json> read_runs(const std::filesystem::path& directory,
+                       const std::function<Result<bool>(const std::string& name)>& is_own);
 
 /// The files `scenario_SCENARIO.json` as they are, by SCENARIO. Errors: as read_scenario.
 Result<Json> read_scenarios(const std::filesystem::path& directory);

@@ -172,21 +172,30 @@ std::optional<Finding> not_led(const HeadingRateChoice& said, const Model& model
                              option_text("heading_rate_limit"))};
 }
 
+std::optional<Finding> extrapolation_finding(const std::string& file, double measured_degps,
+                                             double fastest_degps, const std::string& where,
+                                             bool is_led) {
+  if (fastest_degps <= kLittleFurther * measured_degps) return std::nullopt;
+  return Finding{
+      file, 0, Severity::kWarning, "beyond-trials",
+      fmt::format("{}: the vehicle turns at up to {:.3g} deg/s, {:.2g} times as fast as yaw "
+                  "resistance was measured (up to {:.3g} deg/s): beyond it the model is "
+                  "extrapolated. {}",
+                  where, fastest_degps, fastest_degps / measured_degps, measured_degps,
+                  is_led ? "The heading is led no faster than that, and the vehicle overshoots it "
+                           "or slides: record faster turning trials, or lower the limit "
+                           "(--heading-rate-limit)"
+                         : "Record faster turning trials, or limit the heading's rate (shaping in "
+                           "the scenario, or --heading-rate-limit measured)")};
+}
+
 void note_extrapolation(const Model& model, double fastest_degps, const std::string& where,
                         std::vector<Finding>& findings, bool is_led) {
   const std::optional<double> measured = measured_yaw_rate_degps(model);
-  if (!measured || fastest_degps <= kLittleFurther * *measured) return;
-  findings.push_back(
-      {model.file, 0, Severity::kWarning, "beyond-trials",
-       fmt::format("{}: the vehicle turns at up to {:.3g} deg/s, {:.2g} times as fast as yaw "
-                   "resistance was measured (up to {:.3g} deg/s): beyond it the model is "
-                   "extrapolated. {}",
-                   where, fastest_degps, fastest_degps / *measured, *measured,
-                   is_led ? "The heading is led no faster than that, and the vehicle overshoots it "
-                            "or slides: record faster turning trials, or lower the limit "
-                            "(--heading-rate-limit)"
-                          : "Record faster turning trials, or limit the heading's rate (shaping in "
-                            "the scenario, or --heading-rate-limit measured)")});
+  if (!measured) return;
+  if (auto finding = extrapolation_finding(model.file, *measured, fastest_degps, where, is_led)) {
+    findings.push_back(*std::move(finding));
+  }
 }
 
 std::optional<Finding> unsigned_speed_finding(const Plant<double>& plant,

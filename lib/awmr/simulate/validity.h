@@ -58,6 +58,12 @@ Status limit_heading_rate(const HeadingRateChoice& choice, const Model& model,
 /// headings are compared as the scenarios have them.
 std::optional<Finding> not_led(const HeadingRateChoice& said, const Model& model);
 
+/// A warning (`beyond-trials`) where a turn of `fastest_degps`, >= 0, is clearly faster than yaw
+/// resistance was measured, `measured_degps` > 0. `file` is the model's.
+std::optional<Finding> extrapolation_finding(const std::string& file, double measured_degps,
+                                             double fastest_degps, const std::string& where,
+                                             bool is_led);
+
 /// Adds a warning (`beyond-trials`) where a turn of `fastest_degps`, >= 0, is clearly faster than
 /// that: what the model says there is extrapolated. `where` names the run: "C3, combined". `is_led`:
 /// the heading's rate was limited to what was measured, and the vehicle turns faster than its heading

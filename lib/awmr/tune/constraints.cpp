@@ -14,14 +14,24 @@
 namespace awmr {
 namespace {
 
-ConstraintReport report(std::string name, double value, double limit, std::string meaning,
-                        bool required = true) {
+ConstraintReport at_most(std::string name, double value, double limit, std::string meaning,
+                         bool required = true) {
   return {.name = std::move(name),
           .value = value,
           .limit = limit,
           .margin = limit - value,
+          .sense = Sense::kAtMost,
           .meaning = std::move(meaning),
           .required = required};
+}
+
+ConstraintReport at_least(std::string name, double value, double limit, std::string meaning) {
+  return {.name = std::move(name),
+          .value = value,
+          .limit = limit,
+          .margin = value - limit,
+          .sense = Sense::kAtLeast,
+          .meaning = std::move(meaning)};
 }
 
 /// The yaw rates met on the way.
@@ -100,10 +110,10 @@ std::vector<ConstraintReport> constraints_with(const Gains<double>& gains,
                                                const ConstraintContext& context,
                                                const DrawnVehicle& vehicle);
 
-/// (value - limit) over the larger of the two: what is above 0 is broken.
+/// -margin over the larger of value and limit: what is above 0 is broken.
 double residual(const ConstraintReport& c) {
   const double scale = std::max({std::abs(c.value), std::abs(c.limit), 1e-12});
-  return (c.value - c.limit) / scale;
+  return -c.margin / scale;
 }
 
 }  // namespace
@@ -139,12 +149,13 @@ std::vector<ConstraintReport> constraints_of(const Gains<double>& gains,
     loops.insert(loops.end(), ends.begin(), ends.end());
     const auto late = static_cast<int>(std::lround(context.latency_s / context.sample_time_s));
     const double lag_s = context.motor_time_constant_s;
-    worst.push_back(report(
-        "late damping", kLateDampingRequired, heading_damping(gains, context, loops, late, lag_s),
-        "required <= smallest damping ratio of the loop with latency and motor lag as well"));
-    worst.push_back(report("delay margin", kDelayedDampingRequired,
-                           heading_damping(gains, context, ends, 2 * late + 1, lag_s),
-                           "required <= the same with readings twice as late, and a sample more"));
+    worst.push_back(at_least(
+        "late damping", heading_damping(gains, context, loops, late, lag_s), kLateDampingRequired,
+        "smallest damping ratio of the loop with latency and motor lag as well >= required"));
+    worst.push_back(at_least("delay margin",
+                             heading_damping(gains, context, ends, 2 * late + 1, lag_s),
+                             kDelayedDampingRequired,
+                             "the same with readings twice as late, and a sample more >= required"));
   }
   return worst;
 }
@@ -166,24 +177,26 @@ std::vector<ConstraintReport> constraints_with(const Gains<double>& gains,
                        context.sample_time_s / 2.0;
   const bool strict = context.form == ReachingForm::kStrict;
   return {
-      report("T2 < T1 (paper)", reaching_s, context.margin * sliding_s,
+      at_most("T2 < T1 (paper)", reaching_s, context.margin * sliding_s,
              "epsilon/(2 mu) <= margin/lambda, s: V = S^2/2 decays before the error slides",
              !strict),
-      report("T2 < T1 (strict)", 2.0 * reaching_s, context.margin * sliding_s,
+      at_most("T2 < T1 (strict)", 2.0 * reaching_s, context.margin * sliding_s,
              "epsilon/mu <= margin/lambda, s: S itself decays before the error slides", strict),
-      report("heading damping", kDampingRequired,
-             heading_damping(gains, context, at_all_rates(plant, known), 0, 0.0),
-             "required <= smallest damping ratio of the sampled heading loop with hold and servo"),
-      report("speed gain", speed_rate * context.sample_time_s, kSpeedGainPerSample,
+      at_least("heading damping",
+               heading_damping(gains, context, at_all_rates(plant, known), 0, 0.0),
+               kDampingRequired,
+               "smallest damping ratio of the sampled heading loop with hold and servo >= required"),
+      at_most("speed gain", speed_rate * context.sample_time_s, kSpeedGainPerSample,
              fmt::format("{} T_s <= 0.5: gain margin 4 of the sampled speed loop", rate_name)),
-      report("speed lag", speed_rate * lag_s, 1.0 / (4.0 * kDampingRequired * kDampingRequired),
+      at_most("speed lag", speed_rate * lag_s, 1.0 / (4.0 * kDampingRequired * kDampingRequired),
              fmt::format("{} (T + latency + T_s/2) <= 1/(4 zeta^2), zeta = 0.7", rate_name)),
-      report("mu dominates",
-             kUnmodelledShare * plant.yaw(kDominatedYawRate_radps) / known.inertia_norm,
-             gains.heading.mu, "20 % of g3(60 deg/s)/I'z <= mu, rad/s^2"),
-      report("mu_s dominates", kUnmodelledShare * plant.surge(context.speed_mps) / known.mass_norm,
-             gains.speed.mu, "20 % of g1(u_d)/m' <= mu_s, m/s^2"),
-      report("noise gain",
+      at_least("mu dominates", gains.heading.mu,
+               kUnmodelledShare * plant.yaw(kDominatedYawRate_radps) / known.inertia_norm,
+               "mu >= 20 % of g3(60 deg/s)/I'z, rad/s^2"),
+      at_least("mu_s dominates", gains.speed.mu,
+               kUnmodelledShare * plant.surge(context.speed_mps) / known.mass_norm,
+               "mu_s >= 20 % of g1(u_d)/m', m/s^2"),
+      at_most("noise gain",
              known.inertia_norm * gains.heading.lambda * gains.heading.mu / gains.heading.epsilon *
                  context.heading_noise_rad,
              kNoiseShare * turning_authority_m(vehicle, context.speed_mps),

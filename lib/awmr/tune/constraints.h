@@ -55,16 +55,16 @@ struct ConstraintContext {
 /// Front-wheel drive: tan(d_max), and 2 for 4. Back-EMF: g1/4 + k_e u_d for g1/4.
 double turning_authority_m(const DrawnVehicle& vehicle, double speed_mps);
 
-/// Every constraint as value <= limit:
+/// Every constraint, as value <= limit or value >= limit (ConstraintReport::sense):
 ///   T2 < T1 (paper)    eps/(2 mu) <= margin/lambda                                    [paper (95)]
 ///   T2 < T1 (strict)   eps/mu     <= margin/lambda
-///   heading damping    0.7 <= smallest zeta of the sampled loop
-///   late damping       0.25 <= the same with latency and motor lag, where there is any
-///   delay margin       0.05 <= that with twice the latency and a sample more
+///   heading damping    smallest zeta of the sampled loop >= 0.7
+///   late damping       the same with latency and motor lag, where there is any, >= 0.25
+///   delay margin       that with twice the latency and a sample more >= 0.05
 ///   speed gain         (mu_s/eps_s) T_s <= 0.5
 ///   speed lag          (mu_s/eps_s) (T + T_s/2) <= 1/(4 zeta^2)
-///   mu dominates       0.2 g3(60 deg/s)/I'z <= mu, g3 the plant's                     [paper (88)]
-///   mu_s dominates     0.2 g1(u_d)/m' <= mu_s, g1 the plant's                        [paper (102)]
+///   mu dominates       mu >= 0.2 g3(60 deg/s)/I'z, g3 the plant's                     [paper (88)]
+///   mu_s dominates     mu_s >= 0.2 g1(u_d)/m', g1 the plant's                        [paper (102)]
 ///   noise gain         I'z lambda (mu/eps) sigma <= 0.25 turning_authority_m(), sigma: heading noise
 ///
 /// Each stands for the vehicle, out of the context's own and its draws, that leaves it the least.

@@ -1,5 +1,6 @@
 // gains.json as gains_text() writes it. Who reads gains needs `heading` and `speed` alone.
 #include "awmr/core/json.h"
+#include "awmr/model/findings_json.h"
 #include "awmr/model/gains_json.h"
 #include "awmr/tune/objective.h"
 #include "awmr/tune/tune.h"
@@ -32,6 +33,8 @@ void describe_constraints(JsonObject& json) {
     constraint.string("name");
     constraint.boolean("required");
     for (const char* key : {"value", "limit", "margin"}) constraint.number(key);
+    // Files of before the key have both sides in the order of `meaning`.
+    if (constraint.has("sense")) constraint.choice("sense", kSenseNames);
     constraint.string("meaning");
     constraint.reject_unknown_keys();
   }
@@ -183,6 +186,7 @@ void describe_gains(JsonObject& json) {
     describe_scores(baseline->object("metrics"));
     baseline->reject_unknown_keys();
   }
+  read_findings(json);
   json.reject_unknown_keys();
 }
 

@@ -152,11 +152,17 @@ struct ActiveConstraint {
   double wider_gains = 0.0;
 };
 
+/// On which side of its limit a value must be.
+enum class Sense { kAtMost, kAtLeast };
+inline constexpr NameTable<Sense, 2> kSenseNames{
+    {{"at-most", Sense::kAtMost}, {"at-least", Sense::kAtLeast}}};
+
 struct ConstraintReport {
   std::string name;     ///< "T2 < T1 (strict)", ...
-  double value = 0.0;   ///< left side
-  double limit = 0.0;   ///< right side
-  double margin = 0.0;  ///< limit - value, >= 0 when it holds
+  double value = 0.0;   ///< of these gains
+  double limit = 0.0;   ///< that the value must keep
+  double margin = 0.0;  ///< distance of the value from its limit, >= 0 when it holds
+  Sense sense = Sense::kAtMost;
   std::string meaning{};
   bool required = true;  ///< false: reported only (the form of T2 < T1 that was not asked for)
 };

@@ -186,6 +186,7 @@ Json constraints_json(const std::vector<ConstraintReport>& constraints) {
                     {"required", c.required},
                     {"value", c.value},
                     {"limit", c.limit},
+                    {"sense", name_in(kSenseNames, c.sense)},
                     {"margin", c.margin},
                     {"meaning", c.meaning}});
   }

@@ -13,6 +13,7 @@
 #include "awmr/core/index.h"
 #include "awmr/core/json_document.h"
 #include "awmr/core/shard_file.h"
+#include "awmr/model/findings_json.h"
 #include "awmr/tune/robust.h"
 #include "awmr/tune/tune_json.h"
 
@@ -30,6 +31,7 @@ struct TunePart {
   std::vector<std::string> gains;
   JudgedBy by;
   std::string gains_sha256;
+  std::vector<Finding> findings;
 
   /// The draws of this part.
   int draws() const { return origin.shard.share_of(judged_draws); }
@@ -40,7 +42,8 @@ TunePart tune_part_from_json(JsonObject& json) {
                 .judged_draws = static_cast<int>(json.integer("judged_draws", 1, kMostJudgedDraws)),
                 .gains = json.strings("gains"),
                 .by = {},
-                .gains_sha256 = json.string(kGainsHash)};
+                .gains_sha256 = json.string(kGainsHash),
+                .findings = {}};
   for (const std::string& name : json.strings("modes")) {
     const auto mode = value_in(kYawModeNames, name);
     if (!mode) json.fault("modes", fmt::format("'{}' is no mode", name));
@@ -54,6 +57,7 @@ TunePart tune_part_from_json(JsonObject& json) {
   for (JsonObject& goal : json.objects("goals")) {
     part.by.goals.push_back(read_goal(std::move(goal)));
   }
+  part.findings = read_findings(json);
   json.reject_unknown_keys();
   return part;
 }
@@ -277,7 +281,7 @@ Result<MergedTuning> merge_tune_shards(const std::vector<std::filesystem::path>&
   }
   if (!judgement.goals.empty()) json["goals"] = goals_json(judgement.goals);
   return MergedTuning{to_text(json), std::move(judgement.gains), std::move(judgement.by_scenario),
-                      std::move(judgement.goals)};
+                      std::move(judgement.goals), parts.front().findings};
 }
 
 Status check_judged_csv(std::string_view text, const std::string& file,

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "awmr/core/json.h"
+#include "awmr/model/findings_json.h"
 #include "awmr/validate/validate.h"
 
 namespace awmr {
@@ -117,6 +118,7 @@ void describe_validation(JsonObject& json) {
   describe_logs(json);
   describe_drives(json);
   describe_claims(json);
+  read_findings(json);
   json.reject_unknown_keys();
 }
 

@@ -4,6 +4,7 @@
 #include "awmr/core/json.h"
 #include "awmr/identify/planning/recover.h"
 #include "awmr/identify/planning/suggest.h"
+#include "awmr/model/findings_json.h"
 
 namespace awmr {
 namespace {
@@ -24,6 +25,7 @@ void describe_recovery(JsonObject& json) {
     parameter.integer("runs", 0, kMostRuns);
     parameter.reject_unknown_keys();
   }
+  read_findings(json);
   json.reject_unknown_keys();
 }
 
@@ -56,6 +58,7 @@ void describe_suggestion(JsonObject& json) {
     }
     trial.reject_unknown_keys();
   }
+  read_findings(json);
   json.reject_unknown_keys();
 }
 

@@ -12,18 +12,31 @@ function verdict(list, tone, head, text) {
 function modelVerdict(list, data) {
   const v = data.validation;
   if (!v) return verdict(list, "doubt", "Model", "not held against its trials yet (awmr validate)");
-  const unseen = (v.logs || []).filter((log) => !data.model.inputs.some((input) => input.name === log.file));
+  const fitted = data.model.inputs.map((input) => input.sha256);
+  const ofFit = (v.inputs || []).filter((input) => fitted.includes(input.sha256)).map((input) => input.name);
+  const unseen = (v.logs || []).filter((log) => !ofFit.includes(log.file) && !data.model.inputs.some((input) => input.name === log.file));
   const seen = unseen.length ? "" : " These are the data that it was fitted to, so this says that the fit is sound, not how " +
     "well another drive is predicted; a log that was not fitted would say that.";
   verdict(list, v.passed ? "good" : "bad", v.passed ? "The model predicts its data" : "The model does not predict its data", v.verdict + "." + seen);
 }
 
-function dataVerdict(list, model) {
-  const warnings = model.findings.filter(isWarning);
-  if (!warnings.length) return verdict(list, "good", "Data", `no warnings, ${plural(model.findings.length, "note")}`);
-  const rows = distinct(warnings.filter((f) => f.line).map((f) => `${f.file}:${f.line}`));
-  verdict(list, "doubt", `Data: ${plural(warnings.length, "warning")}`,
-    (rows.length ? `about ${rows.join(", ")}; ` : "") + `each is under Identification. The first: ${warnings[0].message}`);
+/// Of all steps; the program has put those first that change the numbers most.
+function findingsVerdict(list, findings) {
+  const warnings = findings.filter(isWarning);
+  if (!warnings.length) return verdict(list, "good", "Findings", `no warnings, ${plural(findings.length, "note")}`);
+  verdict(list, "doubt", `Findings: ${plural(warnings.length, "warning")}`, warnings.length > 3 ? "The first three change the numbers most." : "");
+}
+
+/// The first three as they are, all of them folded.
+function findingsPart(parent, findings) {
+  if (!findings.length) return;
+  const where = (f) => (f.file ? `${f.file}${f.line ? `:${f.line}` : ""}` : "");
+  add(parent, "h3", "Findings");
+  const first = add(parent, "ol", undefined, {class: "findings"});
+  for (const f of findings.slice(0, 3)) add(first, "li", `${f.severity}: ${where(f) ? `${where(f)}: ` : ""}${f.message} [${f.code}]`);
+  if (findings.length <= 3) return;
+  const box = folded(parent, `All ${findings.length} findings`);
+  table(box, ["", "where", "what", "code"], findings.map((f) => [f.severity, where(f), f.message, f.code]));
 }
 
 function gainsVerdict(list, gains) {
@@ -46,7 +59,7 @@ function gainsVerdict(list, gains) {
 function comparisonVerdict(list, comparison) {
   if (!comparison) return;
   const wins = groupBy(comparison.scenarios.filter((s) => s.ranking.length), (s) => s.ranking.filter((r) => r.rank === 1).map((r) => r.mode).join(" and "));
-  const words = [...wins].map(([mode, where]) => `${mode} is best in ${where.map((s) => `“${s.name}”`).join(", ")}`);
+  const words = [...wins].map(([mode, where]) => `${mode} ${mode.includes(" and ") ? "tie" : "is best"} in ${where.map((s) => `“${s.name}”`).join(", ")}`);
   verdict(list, comparison.samples ? "good" : "doubt", "Yaw-control modes", words.join("; ") + ". " + (comparison.samples
     ? `Over ${plural(comparison.samples, "sample")} of the uncertain model.` : "From the nominal run alone, which shows no spread; compare with samples to see it."));
 }
@@ -102,7 +115,8 @@ function summarySection(data) {
   gainsVerdict(list, data.gains);
   comparisonVerdict(list, data.comparison);
   firmwareVerdict(list, data.pil);
-  dataVerdict(list, model);
+  findingsVerdict(list, data.findings);
+  findingsPart(root, data.findings);
   if (data.gains) {
     add(root, "h3", "Gains");
     gainsTable(root, data.gains);

@@ -16,7 +16,7 @@ function constraintsTable(parent, constraints) {
   add(parent, "h3", "Constraints");
   const state = (c) => (c.margin < 0 ? (c.required ? "broken" : "not kept") : c.margin < 0.01 * Math.abs(c.limit) ? "binds" : "kept");
   table(parent, ["constraint", "", "#value", "#limit", "#margin", "meaning"], constraints.map((c) => [
-    c.name + (c.required ? "" : " (told, not asked)"), state(c), digits(c.value), digits(c.limit), digits(c.margin, 3), c.meaning]));
+    c.name + (c.required ? "" : " (told, not asked)"), state(c), digits(c.value), `${({"at-least": "≥ ", "at-most": "≤ "})[c.sense] || ""}${digits(c.limit)}`, digits(c.margin, 3), c.meaning]));
 }
 
 /// The best objective so far against evaluations, of the search for the tuned gains and of the one without noise.

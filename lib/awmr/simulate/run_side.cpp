@@ -1,0 +1,68 @@
+#include "awmr/simulate/run_side.h"
+
+#include <limits>
+
+#include "awmr/control/yaw_mode.h"
+#include "awmr/core/file.h"
+#include "awmr/core/hash.h"
+#include "awmr/core/json.h"
+#include "awmr/model/findings_json.h"
+
+namespace awmr {
+namespace {
+
+constexpr std::string_view kRunSchema = "awmr.run/1";
+
+void describe_run(JsonObject& json) {
+  json.schema(kRunSchema);
+  read_provenance(json);
+  json.string("csv_sha256");
+  json.optional_string("scenario");
+  json.optional_string("mode");
+  json.optional_string("plant");
+  for (const char* key : {"rows", "substeps", "missed_waypoints"}) {
+    json.optional_integer(key, 0, std::numeric_limits<int>::max());
+  }
+  json.optional_string("end");
+  json.optional_boolean("completed");
+  for (const char* key : {"metrics", "last_row"}) {
+    auto values = json.optional_object(key);
+    if (!values) continue;
+    for (const std::string& name : values->keys()) values->nullable_number(name);
+  }
+  read_findings(json);
+  json.reject_unknown_keys();
+}
+
+}  // namespace
+
+std::filesystem::path run_side_path(const std::filesystem::path& csv) {
+  std::filesystem::path side = csv;
+  side += ".json";
+  return side;
+}
+
+std::string run_side_text(std::string_view csv, const Provenance& provenance,
+                          const std::string& figures, const std::vector<Finding>& findings) {
+  Json json = output_document(kRunSchema, provenance);
+  json["csv_sha256"] = sha256_hex(csv);
+  if (!figures.empty()) json.update(Json::parse(figures));
+  return with_findings(to_text(json), findings);
+}
+
+Status check_run_side(const std::filesystem::path& side) {
+  AWMR_ASSIGN_OR_RETURN(const bool exists, regular_file_exists(side));
+  if (!exists) return {};
+  const auto json = read_json_file(side);
+  if (json && json->is_object() && json->value("schema", Json()) == kRunSchema) return {};
+  return input_error(side.string(),
+                     "is not the side file of a run, and simulate would replace it. Choose another "
+                     "output, or move this file away");
+}
+
+std::string run_schema() {
+  return json_schema_text(kRunSchema, "Where a run of simulate is from, and its figures",
+                          describe_run);
+}
+
+}  // namespace awmr

@@ -1,0 +1,30 @@
+/// The side file of a run: `run.csv.json` beside `run.csv` names the model, the scenario and the gains
+/// that the run was made from.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "awmr/core/provenance.h"
+#include "awmr/core/result.h"
+#include "awmr/model/record.h"
+
+namespace awmr {
+
+/// The CSV's own name with `.json` behind it.
+std::filesystem::path run_side_path(const std::filesystem::path& csv);
+
+/// The bytes of the side file: origin, the SHA-256 of `csv`, the keys of `figures`, the findings.
+/// Precondition: `figures` is empty or a JSON object without those keys.
+std::string run_side_text(std::string_view csv, const Provenance& provenance,
+                          const std::string& figures, const std::vector<Finding>& findings);
+
+/// Errors (input): a file of this name is there that is no side file of a run.
+Status check_run_side(const std::filesystem::path& side);
+
+/// The JSON Schema of the side file.
+std::string run_schema();
+
+}  // namespace awmr

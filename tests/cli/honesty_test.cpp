@@ -1,0 +1,210 @@
+/// What the program does where files are of another vehicle, of the user, or of the fit itself, and that a
+/// finding on stderr stands in the command's file too.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "cli/program.h"
+
+namespace awmr::testing::honesty_test {
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+constexpr const char* kTables =
+    "--surge datasets/paper/surge.csv --coastdown datasets/paper/coastdown.csv --turning "
+    "datasets/paper/turning.csv";
+constexpr const char* kScenario = "--scenario configs/paper/scenarios/c3_heading_steps.json";
+constexpr const char* kForeignGains = "gains-of-another-model";
+
+std::set<std::string> codes_in(const Json& findings) {
+  std::set<std::string> codes;
+  for (const Json& finding : findings) codes.insert(finding.at("code"));
+  return codes;
+}
+
+class Honesty : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    kept_ = new TemporaryDirectory;
+    Json vehicle = Json::parse(read_all("configs/paper/vehicle.json"));
+    vehicle["name"] = "another";
+    vehicle["mass_kg"] = 41.0;
+    write_all(kept("other_vehicle.json"), vehicle.dump());
+    const std::string lines[] = {
+        fmt::format("identify --vehicle configs/paper/vehicle.json {} -o {}", kTables,
+                    kept("model.json")),
+        fmt::format("identify --vehicle {} {} -o {}", kept("other_vehicle.json"), kTables,
+                    kept("other.json")),
+        fmt::format("tune --nominal --model {} -o {}", kept("model.json"), kept("gains.json"))};
+    for (const std::string& line : lines) EXPECT_EQ(awmr(line).exit_code, 0) << line;
+  }
+  static void TearDownTestSuite() { delete kept_; }
+  static std::string kept(const std::string& name) { return (kept_->path() / name).string(); }
+  std::string path(const std::string& name) const { return (directory_.path() / name).string(); }
+
+  /// The exit code is 0 or 1; the object that `--json` prints.
+  static Json result_of(const std::string& line) {
+    const ProcessResult run = awmr(line + " --json");
+    EXPECT_LE(run.exit_code, 1) << line << run.err;
+    return Json::parse(run.out);
+  }
+  std::string simulate_line(const std::string& model, const std::string& run) const {
+    return fmt::format("simulate --model {} --gains {} {} --mode combined -o {}", kept(model),
+                       kept("gains.json"), kScenario, path(run));
+  }
+  /// The page's data.
+  Json page() const {
+    const std::string html = read_all(path("report.html"));
+    const std::string begin = "id=\"data\">";
+    const std::size_t start = html.find(begin) + begin.size();
+    return Json::parse(html.substr(start, html.find("</script>", start) - start));
+  }
+  TemporaryDirectory directory_;
+
+ private:
+  static inline TemporaryDirectory* kept_ = nullptr;
+};
+
+TEST_F(Honesty, GainsOfAnotherModelAreNamedByEveryCommandThatTakesThem) {
+  const std::string both =
+      fmt::format("--model {} --gains {}", kept("other.json"), kept("gains.json"));
+  const std::string lines[] = {
+      fmt::format("simulate {} {} --mode combined -o {}", both, kScenario, path("run.csv")),
+      fmt::format("compare {} {} -o {}", both, kScenario, path("comparison")),
+      fmt::format("validate {} -o {}", both, path("validation.json")),
+      fmt::format("emit {} -o {}", both, path("firmware")),
+      fmt::format("export {} --format csv -o {}", both, path("export.csv"))};
+  for (const std::string& line : lines) {
+    EXPECT_THAT(codes_in(result_of(line).at("findings")), Contains(kForeignGains)) << line;
+    EXPECT_THAT(awmr(line).err, HasSubstr(kForeignGains)) << line;
+  }
+  for (const char* file :
+       {"run.csv.json", "comparison/comparison.json", "validation.json", "firmware/awmr_emit.json"}) {
+    const Json document = Json::parse(read_all(path(file)));
+    EXPECT_THAT(codes_in(document.at("findings")), Contains(kForeignGains)) << file;
+  }
+}
+
+TEST_F(Honesty, OwnGainsAndGainsWrittenByHandHaveNoFinding) {
+  const Json own = result_of(simulate_line("model.json", "run.csv"));
+  EXPECT_THAT(codes_in(own.at("findings")), Not(Contains(kForeignGains)));
+  const Json tuned = Json::parse(read_all(kept("gains.json")));
+  const Json by_hand = {{"heading", tuned.at("heading")}, {"speed", tuned.at("speed")}};
+  write_all(path("gains.json"), by_hand.dump());
+  const Json run = result_of(fmt::format("simulate --model {} --gains {} {} --mode combined -o {}",
+                                         kept("other.json"), path("gains.json"), kScenario,
+                                         path("run.csv")));
+  EXPECT_THAT(codes_in(run.at("findings")), Not(Contains(kForeignGains)));
+}
+
+TEST_F(Honesty, AReportLeavesOutWhatIsNotOfItsModel) {
+  for (const char* name : {"model.json", "gains.json"}) fs::copy(kept(name), path(name));
+  ASSERT_EQ(awmr(simulate_line("model.json", "run_own_combined_tuned.csv")).exit_code, 0);
+  ASSERT_EQ(awmr(simulate_line("other.json", "run_foreign_combined_tuned.csv")).exit_code, 0);
+  fs::copy(path("run_own_combined_tuned.csv"), path("run_bare_combined_tuned.csv"));
+  ASSERT_EQ(awmr(fmt::format("validate --model {} -o {}", kept("other.json"),
+                             path("validation.json")))
+                .exit_code,
+            0);
+  const ProcessResult report = awmr("report " + directory_.path().string());
+  ASSERT_EQ(report.exit_code, 0) << report.err;
+  EXPECT_THAT(report.err, HasSubstr("run_foreign_combined_tuned.csv"));
+  EXPECT_THAT(report.err, HasSubstr("run_bare_combined_tuned.csv"));
+  EXPECT_THAT(report.err, HasSubstr("validation.json"));
+  const Json data = page();
+  ASSERT_EQ(data.at("runs").size(), 1U);
+  EXPECT_EQ(data.at("runs")[0].at("scenario"), "own");
+  EXPECT_FALSE(data.contains("validation"));
+  EXPECT_TRUE(data.contains("gains"));
+  const std::set<std::string> codes = codes_in(data.at("findings"));
+  EXPECT_THAT(codes, Contains("result-of-another-model"));
+  EXPECT_THAT(codes, Contains("result-without-origin"));
+  // Another model: nothing is left of what was made from the first.
+  fs::copy(kept("other.json"), path("model.json"), fs::copy_options::overwrite_existing);
+  ASSERT_EQ(awmr("report " + directory_.path().string()).exit_code, 0);
+  EXPECT_FALSE(page().contains("gains"));
+}
+
+TEST_F(Honesty, EmitRefusesToReplaceWhatItDidNotWrite) {
+  const std::string line = fmt::format("emit --model {} --gains {} -o {}", kept("model.json"),
+                                       kept("gains.json"), path("firmware"));
+  fs::create_directory(path("firmware"));
+  write_all(path("firmware/README.md"), "mine");
+  write_all(path("firmware/LICENSE"), "mine, too");
+  const ProcessResult refused = awmr(line);
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("firmware/README.md"));
+  EXPECT_THAT(refused.err, HasSubstr("firmware/LICENSE"));
+  EXPECT_EQ(read_all(path("firmware/README.md")), "mine");
+  EXPECT_FALSE(fs::exists(path("firmware/awmr_params.h")));
+  fs::remove_all(path("firmware"));
+  ASSERT_EQ(awmr(line).exit_code, 0);
+  EXPECT_EQ(awmr(line).exit_code, 0) << "its own files are replaced";
+  const std::string header = read_all(path("firmware/awmr_params.h"));
+  write_all(path("firmware/awmr_params.h"), header + "/* tuned by hand */\n");
+  const ProcessResult edited = awmr(line);
+  EXPECT_EQ(edited.exit_code, 2);
+  EXPECT_THAT(edited.err, HasSubstr("firmware/awmr_params.h"));
+  EXPECT_EQ(read_all(path("firmware/awmr_params.h")), header + "/* tuned by hand */\n");
+}
+
+TEST_F(Honesty, ALogOfTheFitIsNoValidation) {
+  const std::string log = "datasets/synthetic/drive.csv";
+  if (!fs::exists(log)) GTEST_SKIP() << log;
+  const ProcessResult fit = awmr(fmt::format(
+      "identify --vehicle configs/paper/vehicle.json {} --log {} -o {}", kTables, log,
+      path("model.json")));
+  ASSERT_LE(fit.exit_code, 1) << fit.err;
+  const auto validate = [&](const std::string& model) {
+    return codes_in(result_of(fmt::format("validate --model {} --log {} -o {}", model, log,
+                                          path("validation.json")))
+                        .at("findings"));
+  };
+  EXPECT_THAT(validate(path("model.json")), Contains("log-of-the-fit"));
+  EXPECT_THAT(validate(kept("model.json")), Not(Contains("log-of-the-fit")));
+}
+
+// One command a line, with the file that holds its document.
+TEST_F(Honesty, FindingsOnStderrAreThoseOfTheFile) {
+  const std::string model = kept("model.json");
+  const std::string both = fmt::format("--model {} --gains {}", model, kept("gains.json"));
+  const std::pair<std::string, std::string> lines[] = {
+      {fmt::format("identify --vehicle configs/paper/vehicle.json {} -o {}", kTables,
+                   path("m.json")),
+       "m.json"},
+      {fmt::format("tune --nominal --model {} -o {}", model, path("g.json")), "g.json"},
+      {fmt::format("validate {} -o {}", both, path("v.json")), "v.json"},
+      {fmt::format("simulate {} {} --mode combined -o {}", both, kScenario, path("run.csv")),
+       "run.csv.json"},
+      {fmt::format("compare {} {} --samples 3 -o {}", both, kScenario, path("c")),
+       "c/comparison.json"},
+      {fmt::format("emit {} -o {}", both, path("e")), "e/awmr_emit.json"},
+      {fmt::format("suggest --model {} -o {}", model, path("s.json")), "s.json"},
+      {fmt::format("recover --runs 2 --model {} -o {}", model, path("r.json")), "r.json"}};
+  std::set<std::string> seen;
+  for (const auto& [line, file] : lines) {
+    const Json result = result_of(line);
+    const std::set<std::string> shown = codes_in(result.at("findings"));
+    seen.insert(shown.begin(), shown.end());
+    EXPECT_EQ(codes_in(Json::parse(read_all(path(file))).at("findings")), shown) << line;
+    EXPECT_EQ(codes_in(result.at("result").at("findings")), shown) << line;
+    const ProcessResult words = awmr(line + " --verbose");
+    for (const std::string& code : shown) {
+      EXPECT_THAT(words.err, HasSubstr("[" + code + "]")) << line;
+    }
+  }
+  EXPECT_THAT(seen, Not(IsEmpty()));
+}
+
+}  // namespace
+}  // namespace awmr::testing::honesty_test
