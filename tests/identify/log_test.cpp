@@ -260,6 +260,19 @@ TEST(Log, TellsMotorsThatLagFromADeadTime) {
   expect_recovered(*result, ParameterId::kSurgeAlpha, kTruths[1].a1, 4.5);
 }
 
+TEST(Log, AnInertiaThatTheVehicleCannotHaveIsRefused) {
+  TrialData data;
+  data.logs = {drive(kTruths[1], 3)};
+  Vehicle small = robot();
+  small.length_m = 0.4;
+  small.width_m = 0.24;
+  const auto result = identify(small, data, {}, {});
+  ASSERT_TRUE(result);
+  EXPECT_TRUE(refused(*result, ParameterId::kInertiaNorm));
+  EXPECT_FALSE(result->model[ParameterId::kInertiaNorm].value);
+  EXPECT_TRUE(result->model[ParameterId::kMassNorm].value);
+}
+
 TEST(Log, IsTheSameWhateverTheThreads) {
   TrialData data;
   data.logs = {drive(kTruths[0], 11, {.duration_s = 12.0})};

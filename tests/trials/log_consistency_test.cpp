@@ -358,6 +358,22 @@ TEST(LogConsistency, ASpeedOrRateThatNoVehicleHasIsImplausibleByItself) {
   }
 }
 
+TEST(LogConsistency, AGyroInDegreesIsFoundByTheSteeringAngleWithoutAHeading) {
+  constexpr double kGently = 0.15;  // so that no rate is beyond what vehicles do
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    DrivingLog log =
+        sound_log(seed, {.position = false, .heading = false, .sides_apart = false, .noise = 0.2});
+    scale(*log.steering_command_rad, kGently);
+    scale(channel(log, LogChannel::kYawRate), kGently);
+    EXPECT_TRUE(contradictions(log, vehicle(), {}).empty()) << seed;
+    scale(channel(log, LogChannel::kYawRate), 180.0 / pi<double>());
+    const auto found = contradictions(log, vehicle(), {});
+    ASSERT_EQ(found.size(), 1U) << seed;
+    EXPECT_EQ(found.front().column, "yaw_rate_radps");
+    EXPECT_THAT(found.front().mapping, HasSubstr("0.01745329"));
+  }
+}
+
 TEST(LogConsistency, AGyroBiasIsMeasuredAgainstTheHeading) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     const DrivingLog biased = sound_log(seed, {.gyro_bias_radps = 0.05});

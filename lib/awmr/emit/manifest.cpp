@@ -67,7 +67,8 @@ std::string fault_of(const EmittedFile& file, const std::string& bytes, const Ha
            "directory, or move the file away";
   }
   if (known->second == sha256_hex(bytes)) return {};
-  return "was edited since awmr emit wrote it, and emit would replace it. Choose another directory, "
+  return "was edited since awmr emit wrote it, and emit would replace it. Choose another "
+         "directory, "
          "or move the file away";
 }
 
