@@ -5,8 +5,10 @@
 #include <set>
 
 #include "awmr/core/file.h"
+#include "awmr/core/json.h"
 #include "awmr/core/json_document.h"
 #include "awmr/core/option_text.h"
+#include "awmr/emit/manifest.h"
 #include "awmr/model/gains_file.h"
 #include "awmr/model/model_file.h"
 #include "awmr/model/plausibility.h"
@@ -22,6 +24,8 @@
 
 namespace awmr::cli {
 namespace {
+
+constexpr const char* kLibrary = "firmware";
 
 std::string run_name(const fs::path& scenario, YawMode mode, const char* gains) {
   return fmt::format("run_{}_{}_{}.csv", scenario.stem().string(), name_of(mode), gains);
@@ -142,6 +146,33 @@ std::vector<std::string> outputs_of(const Project& project) {
   return outputs;
 }
 
+template <class T>
+void add_faults(const Result<T>& read, std::vector<Fault>& faults) {
+  if (read) return;
+  faults.insert(faults.end(), read.error().faults.begin(), read.error().faults.end());
+}
+
+/// Errors (input), one for each file that run would replace and that no command of awmr wrote: results
+/// name their command, emitted files stand in their manifest.
+Status check_own_results(const fs::path& directory) {
+  std::vector<Fault> faults;
+  for (const char* name : {"model.json", "gains.json", "validation.json", "comparison.json"}) {
+    const fs::path path = directory / name;
+    AWMR_ASSIGN_OR_RETURN(const bool exists, regular_file_exists(path));
+    if (!exists) continue;
+    const auto json = read_json_file(path);
+    if (json && json->is_object() && json->contains("command")) continue;
+    faults.push_back({path.string(),
+                      "is not a result that awmr wrote, and run would replace it. Choose another "
+                      "directory, or move the file away"});
+  }
+  add_faults(check_report_page(directory / "report.html"), faults);
+  add_faults(check_replaceable(directory, {{"awmr_params.h", ""}}), faults);
+  add_faults(check_replaceable(directory / kLibrary, library_outline()), faults);
+  if (!faults.empty()) return input_errors(std::move(faults));
+  return {};
+}
+
 Result<Trials> read_trials(const Project& project) {
   AWMR_ASSIGN_OR_RETURN(Vehicle vehicle, read_vehicle(project.vehicle));
   return load_trials({.vehicle = std::move(vehicle),
@@ -151,12 +182,6 @@ Result<Trials> read_trials(const Project& project) {
                       .logs = project.logs,
                       .steady_from_logs = project.steady_from_logs,
                       .options = project.trials});
-}
-
-template <class T>
-void add_faults(const Result<T>& read, std::vector<Fault>& faults) {
-  if (read) return;
-  faults.insert(faults.end(), read.error().faults.begin(), read.error().faults.end());
 }
 
 /// Every file that goes in. Errors, found before the first step and before anything is written: a
@@ -189,6 +214,7 @@ Result<std::vector<fs::path>> checked_inputs(const RunCommand& command, const Pr
   if (!faults.empty()) return input_errors(std::move(faults));
   std::vector<fs::path> inputs = inputs_of(command, project, tune);
   AWMR_RETURN_IF_ERROR(cli::check_outputs(command.output, outputs_of(project), inputs));
+  AWMR_RETURN_IF_ERROR(check_own_results(command.output));
   return inputs;
 }
 
@@ -203,8 +229,6 @@ Status report_step(const RunCommand& command, Outcome& total) {
   total.findings.insert(total.findings.end(), reported.findings.begin(), reported.findings.end());
   return {};
 }
-
-constexpr const char* kLibrary = "firmware";
 
 /// The Arduino library. A vehicle that the chip does not carry has none, which is told.
 void emit_library(const fs::path& model, const fs::path& gains, const fs::path& output, bool as_is,
@@ -238,6 +262,7 @@ Result<Outcome> execute(const RunCommand& command) {
   if (total.refused) {
     total.summary += "stopped: the steps that follow need what could not be identified\n";
     total.document = joined(steps.documents);
+    put_findings_into_document(total);
     return total;
   }
   AWMR_ASSIGN_OR_RETURN(
@@ -272,6 +297,7 @@ Result<Outcome> execute(const RunCommand& command) {
       kLibrary, command.figures ? fmt::format(", the figures ({})", kFigures) : "",
       command.output.string());
   total.document = joined(steps.documents);
+  put_findings_into_document(total);
   return total;
 }
 

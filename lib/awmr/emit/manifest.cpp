@@ -8,6 +8,7 @@
 #include "awmr/core/hash.h"
 #include "awmr/core/json.h"
 #include "awmr/model/findings_json.h"
+#include "library_files.h"
 
 namespace awmr {
 namespace {
@@ -106,6 +107,18 @@ Status check_replaceable(const std::filesystem::path& directory,
   }
   if (!faults.empty()) return input_errors(std::move(faults));
   return {};
+}
+
+std::vector<EmittedFile> library_outline() {
+  std::vector<EmittedFile> files;
+  for (const char* path :
+       {"awmr_params.h", "library.properties", "library.json", "src/awmr_autopilot_params.h"}) {
+    files.push_back({path, ""});
+  }
+  for (const EmbeddedFile& file : embedded_files()) {
+    files.push_back({std::string(file.path), std::string(file.bytes)});
+  }
+  return files;
 }
 
 std::string emit_schema() {

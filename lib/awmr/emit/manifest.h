@@ -29,6 +29,10 @@ std::string manifest_text(const std::filesystem::path& directory,
 Status check_replaceable(const std::filesystem::path& directory,
                          const std::vector<EmittedFile>& files);
 
+/// The files of the whole library, as firmware_library() has them, for check_replaceable() before there
+/// is a model: those that depend on it are empty.
+std::vector<EmittedFile> library_outline();
+
 /// The JSON Schema of the manifest.
 std::string emit_schema();
 

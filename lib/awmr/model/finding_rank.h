@@ -12,7 +12,7 @@ namespace awmr {
 enum class Effect {
   kRefusal,        ///< something that was asked for could not be done
   kWithdrawn,      ///< a value or an interval does not hold, or is withheld
-  kContradiction,  ///< units, signs or sides contradict each other
+  kContradiction,  ///< units, signs or sides of a file contradict each other; of one row: kDoubt
   kDoubt,          ///< any other warning
   kAssumption,     ///< a value that no data show
   kNote,           ///< changes no number

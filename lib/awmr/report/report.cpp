@@ -98,6 +98,16 @@ Result<ReportPage> report_page(const fs::path& directory) {
   return ReportPage{assembled(data.json), std::move(data.left_out)};
 }
 
+Status check_report_page(const fs::path& path) {
+  AWMR_ASSIGN_OR_RETURN(const bool exists, regular_file_exists(path));
+  if (!exists) return {};
+  AWMR_ASSIGN_OR_RETURN(const std::string page, read_file(path));
+  if (page.find("<title>awmr report</title>") != std::string::npos) return {};
+  return input_error(
+      path.string(),
+      "is not a page that awmr wrote, and the report would replace it. Move it away");
+}
+
 Result<std::string> report_html(const fs::path& directory) {
   AWMR_ASSIGN_OR_RETURN(ReportPage page, report_page(directory));
   return std::move(page.html);
