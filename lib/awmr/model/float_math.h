@@ -14,6 +14,11 @@
 #include <stdint.h>
 #include <string.h>
 
+#if defined(__GNUC__) && __GNUC__ == 7
+// GCC 7, the Arduino IDE's, takes another overload for an earlier declaration without the attribute.
+#pragma GCC diagnostic ignored "-Wattributes"
+#endif
+
 /// A function that an AVR's compiler is to call and not to copy into each of its callers, and to make
 /// small: those whose time is not counted by the cycle.
 #ifdef __AVR__
