@@ -148,12 +148,11 @@ Result<Outcome> execute(const EmitCommand& command) {
       outcome.findings.push_back(std::move(*finding));
     }
   }
-  AWMR_ASSIGN_OR_RETURN(std::vector<InputFile> origin,
-                        input_files({command.model, command.gains}));
+  AWMR_ASSIGN_OR_RETURN(std::vector<InputFile> origin, input_files({command.model, command.gains}));
   const Provenance provenance{
       "emit", {{"header_only", command.header_only ? "true" : "false"}}, std::move(origin)};
-  outcome.document = manifest_text(command.output, files, provenance, outcome.document,
-                                   outcome.findings);
+  outcome.document =
+      manifest_text(command.output, files, provenance, outcome.document, outcome.findings);
   AWMR_RETURN_IF_ERROR(write_emitted(command, files, outcome.document));
   outcome.written = paths_of(command, files);
   return outcome;

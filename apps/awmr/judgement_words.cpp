@@ -90,8 +90,8 @@ std::vector<Finding> extrapolation_findings(const Comparison& comparison,
   const auto fastest = std::ranges::max_element(
       comparison.rows, {}, [](const ComparisonRow& row) { return row.metrics.yaw_rate_max_degps; });
   const bool is_led =
-      std::ranges::find(provenance.options, std::pair(std::string(kRateName),
-                                                      std::string(kMeasuredRate))) !=
+      std::ranges::find(provenance.options,
+                        std::pair(std::string(kRateName), std::string(kMeasuredRate))) !=
       provenance.options.end();
   const std::string model = provenance.inputs.empty() ? "" : provenance.inputs.front().name;
   auto finding = extrapolation_finding(

@@ -54,9 +54,8 @@ Result<std::vector<fs::path>> write_runs(const Project& project, const InputName
         std::vector<fs::path> paths{directory / "model.json", path};
         if (name == sets[0].first) paths.push_back(directory / "gains.json");
         AWMR_ASSIGN_OR_RETURN(std::vector<InputFile> inputs, input_files(paths, names));
-        const Provenance provenance{"simulate",
-                                    {{"mode", std::string(name_of(mode))}, {"gains", name}},
-                                    std::move(inputs)};
+        const Provenance provenance{
+            "simulate", {{"mode", std::string(name_of(mode))}, {"gains", name}}, std::move(inputs)};
         const fs::path csv = directory / run_name(path, mode, name);
         const std::string text_of_run = run_csv(run, scenario);
         const OutputFile files[] = {
@@ -288,7 +287,8 @@ Result<Outcome> execute(const RunCommand& command) {
                                                .heading_rate_limit = project.heading_rate_limit,
                                                .names = names}));
   add_step(steps, "compare", std::move(compared));
-  AWMR_ASSIGN_OR_RETURN(const std::vector<fs::path> runs, write_runs(project, names, command.output));
+  AWMR_ASSIGN_OR_RETURN(const std::vector<fs::path> runs,
+                        write_runs(project, names, command.output));
   add_written(total, runs);
   AWMR_RETURN_IF_ERROR(report_step(command, total));
   total.summary += fmt::format(

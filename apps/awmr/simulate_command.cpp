@@ -99,7 +99,8 @@ Result<Provenance> provenance_of(const SimulateCommand& command, const Scenario&
   for (auto& option : options_of_rate(command.heading_rate_limit)) {
     options.push_back(std::move(option));
   }
-  for (auto& option : options_of(command.plant, std::vector<Scenario>{scenario})) options.push_back(std::move(option));
+  for (auto& option : options_of(command.plant, std::vector<Scenario>{scenario}))
+    options.push_back(std::move(option));
   return Provenance{"simulate", std::move(options), std::move(inputs)};
 }
 
@@ -146,8 +147,8 @@ Result<Outcome> execute(const SimulateCommand& command) {
                      fmt::format("{}, {}", scenario.name, name_of(command.mode)), findings);
   AWMR_ASSIGN_OR_RETURN(const Provenance provenance, provenance_of(command, scenario, inputs));
   const std::string csv = run_csv(run, scenario);
-  const std::string side = run_side_text(
-      csv, provenance, document_of(run, scenario, command.mode, metrics), findings);
+  const std::string side =
+      run_side_text(csv, provenance, document_of(run, scenario, command.mode, metrics), findings);
   Outcome outcome{.summary = summary_of(run, scenario, command) + figures_of(metrics) +
                              fmt::format("wrote {}\n", command.output.string()),
                   .findings = std::move(findings),

@@ -108,9 +108,8 @@ std::vector<Finding> sensitivity_findings(const Tuning& tuning) {
 std::vector<Finding> judged_findings(const Tuning& tuning) {
   if (tuning.robust && !tuning.robust->judged.empty()) {
     std::vector<Finding> findings = goal_findings(tuning.robust->goals);
-    std::ranges::move(
-        unsettled_findings(tuning.robust->judged, tuning.robust->judged_by_scenario),
-        std::back_inserter(findings));
+    std::ranges::move(unsettled_findings(tuning.robust->judged, tuning.robust->judged_by_scenario),
+                      std::back_inserter(findings));
     return findings;
   }
   std::vector<Finding> findings;
@@ -195,9 +194,9 @@ std::string details_of(const Tuning& tuning) {
   }
   text += "constraints\n";
   for (const ConstraintReport& constraint : tuning.constraints) {
-    text += fmt::format("  {:<38} {:.4g} {} {:.4g}, margin {:.4g}\n", constraint.name,
-                        constraint.value, constraint.sense == Sense::kAtMost ? "<=" : ">=",
-                        constraint.limit, constraint.margin);
+    text += fmt::format(
+        "  {:<38} {:.4g} {} {:.4g}, margin {:.4g}\n", constraint.name, constraint.value,
+        constraint.sense == Sense::kAtMost ? "<=" : ">=", constraint.limit, constraint.margin);
   }
   return text + fmt::format("search\n  {} after {} evaluations: {}\n", tuning.algorithm,
                             tuning.evaluations, tuning.stop_reason);

@@ -131,9 +131,9 @@ Result<Provenance> provenance_of(const ValidateCommand& command) {
 void note_fitted_logs(const Model& model, const Provenance& provenance,
                       std::vector<Finding>& findings) {
   for (const InputFile& input : provenance.inputs) {
-    const bool is_fitted = std::ranges::any_of(
-        model.record.provenance.inputs,
-        [&](const InputFile& fitted) { return fitted.sha256 == input.sha256; });
+    const bool is_fitted =
+        std::ranges::any_of(model.record.provenance.inputs,
+                            [&](const InputFile& fitted) { return fitted.sha256 == input.sha256; });
     if (!is_fitted) continue;
     findings.push_back({input.name, 0, Severity::kWarning, "log-of-the-fit",
                         "the model was fitted to this log: its figures describe the fit, not the "

@@ -88,8 +88,8 @@ TEST_F(Honesty, GainsOfAnotherModelAreNamedByEveryCommandThatTakesThem) {
     EXPECT_THAT(codes_in(result_of(line).at("findings")), Contains(kForeignGains)) << line;
     EXPECT_THAT(awmr(line).err, HasSubstr(kForeignGains)) << line;
   }
-  for (const char* file :
-       {"run.csv.json", "comparison/comparison.json", "validation.json", "firmware/awmr_emit.json"}) {
+  for (const char* file : {"run.csv.json", "comparison/comparison.json", "validation.json",
+                           "firmware/awmr_emit.json"}) {
     const Json document = Json::parse(read_all(path(file)));
     EXPECT_THAT(codes_in(document.at("findings")), Contains(kForeignGains)) << file;
   }
@@ -101,9 +101,9 @@ TEST_F(Honesty, OwnGainsAndGainsWrittenByHandHaveNoFinding) {
   const Json tuned = Json::parse(read_all(kept("gains.json")));
   const Json by_hand = {{"heading", tuned.at("heading")}, {"speed", tuned.at("speed")}};
   write_all(path("gains.json"), by_hand.dump());
-  const Json run = result_of(fmt::format("simulate --model {} --gains {} {} --mode combined -o {}",
-                                         kept("other.json"), path("gains.json"), kScenario,
-                                         path("run.csv")));
+  const Json run =
+      result_of(fmt::format("simulate --model {} --gains {} {} --mode combined -o {}",
+                            kept("other.json"), path("gains.json"), kScenario, path("run.csv")));
   EXPECT_THAT(codes_in(run.at("findings")), Not(Contains(kForeignGains)));
 }
 
@@ -112,10 +112,10 @@ TEST_F(Honesty, AReportLeavesOutWhatIsNotOfItsModel) {
   ASSERT_EQ(awmr(simulate_line("model.json", "run_own_combined_tuned.csv")).exit_code, 0);
   ASSERT_EQ(awmr(simulate_line("other.json", "run_foreign_combined_tuned.csv")).exit_code, 0);
   fs::copy(path("run_own_combined_tuned.csv"), path("run_bare_combined_tuned.csv"));
-  ASSERT_EQ(awmr(fmt::format("validate --model {} -o {}", kept("other.json"),
-                             path("validation.json")))
-                .exit_code,
-            0);
+  ASSERT_EQ(
+      awmr(fmt::format("validate --model {} -o {}", kept("other.json"), path("validation.json")))
+          .exit_code,
+      0);
   const ProcessResult report = awmr("report " + directory_.path().string());
   ASSERT_EQ(report.exit_code, 0) << report.err;
   EXPECT_THAT(report.err, HasSubstr("run_foreign_combined_tuned.csv"));
@@ -160,9 +160,9 @@ TEST_F(Honesty, EmitRefusesToReplaceWhatItDidNotWrite) {
 
 TEST_F(Honesty, ALogOfTheFitIsNoValidation) {
   const std::string log = "datasets/synthetic/drive_1.csv";
-  const ProcessResult fit = awmr(fmt::format(
-      "identify --vehicle configs/paper/vehicle.json {} --log {} -o {}", kTables, log,
-      path("model.json")));
+  const ProcessResult fit =
+      awmr(fmt::format("identify --vehicle configs/paper/vehicle.json {} --log {} -o {}", kTables,
+                       log, path("model.json")));
   ASSERT_LE(fit.exit_code, 1) << fit.err;
   const auto validate = [&](const std::string& model) {
     return codes_in(result_of(fmt::format("validate --model {} --log {} -o {}", model, log,

@@ -191,7 +191,8 @@ Json ranking_json(const Preferences& preferences) {
   }
   json["first_by_weights"] =
       "share of weights, drawn evenly from all that come to 1 over the "
-      "metrics with a weight, under which the mode has the best score; modes within relevance of it, "
+      "metrics with a weight, under which the mode has the best score; modes within relevance of "
+      "it, "
       "and modes that tie for the first place, share it";
   return json;
 }

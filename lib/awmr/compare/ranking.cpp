@@ -215,10 +215,9 @@ void share_firsts_of_ties(std::vector<RankedMode>& ranking) {
   const auto end = std::find_if(ranking.begin(), ranking.end(),
                                 [](const RankedMode& mode) { return mode.rank > 1; });
   const auto count = static_cast<double>(end - ranking.begin());
-  const bool equal = std::all_of(ranking.begin() + 1, std::max(end, ranking.begin() + 1),
-                                 [](const RankedMode& mode) {
-                                   return mode.towards_leader == Conclusion::kEquivalent;
-                                 });
+  const bool equal = std::all_of(
+      ranking.begin() + 1, std::max(end, ranking.begin() + 1),
+      [](const RankedMode& mode) { return mode.towards_leader == Conclusion::kEquivalent; });
   double weights = 0.0;
   double samples = 0.0;
   for (auto mode = ranking.begin(); mode != end; ++mode) {

@@ -68,7 +68,8 @@ std::string fault_of(const EmittedFile& file, const std::string& bytes, const Ha
            "directory, or move the file away";
   }
   if (known->second == sha256_hex(bytes)) return {};
-  return "was edited since awmr emit wrote it, and emit would replace it. Choose another directory, "
+  return "was edited since awmr emit wrote it, and emit would replace it. Choose another "
+         "directory, "
          "or move the file away";
 }
 
@@ -110,8 +111,8 @@ Status check_replaceable(const std::filesystem::path& directory,
 
 std::vector<EmittedFile> library_outline() {
   std::vector<EmittedFile> files;
-  for (const char* path : {"awmr_params.h", "library.properties", "library.json",
-                           "src/awmr_autopilot_params.h"}) {
+  for (const char* path :
+       {"awmr_params.h", "library.properties", "library.json", "src/awmr_autopilot_params.h"}) {
     files.push_back({path, ""});
   }
   for (const EmbeddedFile& file : embedded_files()) {

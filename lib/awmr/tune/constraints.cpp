@@ -152,10 +152,10 @@ std::vector<ConstraintReport> constraints_of(const Gains<double>& gains,
     worst.push_back(at_least(
         "late damping", heading_damping(gains, context, loops, late, lag_s), kLateDampingRequired,
         "smallest damping ratio of the loop with latency and motor lag as well >= required"));
-    worst.push_back(at_least("delay margin",
-                             heading_damping(gains, context, ends, 2 * late + 1, lag_s),
-                             kDelayedDampingRequired,
-                             "the same with readings twice as late, and a sample more >= required"));
+    worst.push_back(
+        at_least("delay margin", heading_damping(gains, context, ends, 2 * late + 1, lag_s),
+                 kDelayedDampingRequired,
+                 "the same with readings twice as late, and a sample more >= required"));
   }
   return worst;
 }
@@ -178,18 +178,18 @@ std::vector<ConstraintReport> constraints_with(const Gains<double>& gains,
   const bool strict = context.form == ReachingForm::kStrict;
   return {
       at_most("T2 < T1 (paper)", reaching_s, context.margin * sliding_s,
-             "epsilon/(2 mu) <= margin/lambda, s: V = S^2/2 decays before the error slides",
-             !strict),
+              "epsilon/(2 mu) <= margin/lambda, s: V = S^2/2 decays before the error slides",
+              !strict),
       at_most("T2 < T1 (strict)", 2.0 * reaching_s, context.margin * sliding_s,
-             "epsilon/mu <= margin/lambda, s: S itself decays before the error slides", strict),
-      at_least("heading damping",
-               heading_damping(gains, context, at_all_rates(plant, known), 0, 0.0),
-               kDampingRequired,
-               "smallest damping ratio of the sampled heading loop with hold and servo >= required"),
+              "epsilon/mu <= margin/lambda, s: S itself decays before the error slides", strict),
+      at_least(
+          "heading damping", heading_damping(gains, context, at_all_rates(plant, known), 0, 0.0),
+          kDampingRequired,
+          "smallest damping ratio of the sampled heading loop with hold and servo >= required"),
       at_most("speed gain", speed_rate * context.sample_time_s, kSpeedGainPerSample,
-             fmt::format("{} T_s <= 0.5: gain margin 4 of the sampled speed loop", rate_name)),
+              fmt::format("{} T_s <= 0.5: gain margin 4 of the sampled speed loop", rate_name)),
       at_most("speed lag", speed_rate * lag_s, 1.0 / (4.0 * kDampingRequired * kDampingRequired),
-             fmt::format("{} (T + latency + T_s/2) <= 1/(4 zeta^2), zeta = 0.7", rate_name)),
+              fmt::format("{} (T + latency + T_s/2) <= 1/(4 zeta^2), zeta = 0.7", rate_name)),
       at_least("mu dominates", gains.heading.mu,
                kUnmodelledShare * plant.yaw(kDominatedYawRate_radps) / known.inertia_norm,
                "mu >= 20 % of g3(60 deg/s)/I'z, rad/s^2"),
@@ -197,12 +197,12 @@ std::vector<ConstraintReport> constraints_with(const Gains<double>& gains,
                kUnmodelledShare * plant.surge(context.speed_mps) / known.mass_norm,
                "mu_s >= 20 % of g1(u_d)/m', m/s^2"),
       at_most("noise gain",
-             known.inertia_norm * gains.heading.lambda * gains.heading.mu / gains.heading.epsilon *
-                 context.heading_noise_rad,
-             kNoiseShare * turning_authority_m(vehicle, context.speed_mps),
-             fmt::format("tau_turn from {:g} deg of heading noise <= 25 % of the weaker mode's "
-                         "authority, m",
-                         degrees(context.heading_noise_rad))),
+              known.inertia_norm * gains.heading.lambda * gains.heading.mu / gains.heading.epsilon *
+                  context.heading_noise_rad,
+              kNoiseShare * turning_authority_m(vehicle, context.speed_mps),
+              fmt::format("tau_turn from {:g} deg of heading noise <= 25 % of the weaker mode's "
+                          "authority, m",
+                          degrees(context.heading_noise_rad))),
   };
 }
 
