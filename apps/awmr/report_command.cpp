@@ -34,7 +34,7 @@ Status write_figures(FigureSet figures, const fs::path& directory, Outcome& outc
 }  // namespace
 
 Result<Outcome> execute(const ReportCommand& command) {
-  AWMR_RETURN_IF_ERROR(check_report_page(command.directory / "report.html"));
+  AWMR_RETURN_IF_ERROR(check_regular_file(command.directory / "report.html"));
   AWMR_ASSIGN_OR_RETURN(ReportPage page, report_page(command.directory));
   const fs::path path = command.directory / "report.html";
   Outcome outcome{.summary = fmt::format("wrote {}\n", path.string()),

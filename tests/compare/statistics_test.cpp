@@ -252,7 +252,10 @@ TEST(Ranking, TellsEquivalentFromUndecidedAndBehind) {
   EXPECT_NEAR(ranking[2].score, std::pow((20.0 + 0.1) / (10.0 + 0.1), 0.25), 2e-3);
   EXPECT_TRUE(ranking[2].behind_ci95->contains(ranking[2].score));
   EXPECT_THAT(ranking[2].dominated_by, ElementsAre("differential", "steering"));
-  EXPECT_EQ(ranking[0].first_by_samples, 1.0);
+  // Equal within the relevance: neither is first alone.
+  EXPECT_EQ(ranking[0].first_by_samples, 0.5);
+  EXPECT_EQ(ranking[1].first_by_samples, 0.5);
+  EXPECT_DOUBLE_EQ(ranking[0].first_by_weights, ranking[1].first_by_weights);
 }
 
 TEST(Ranking, OfTwoModesDoesNotHangOnAThird) {

@@ -24,10 +24,10 @@ struct ReportPage {
   /// Results that were left out, as they are not of this directory's model, each with its reason.
   std::vector<Finding> left_out;
 };
+Result<ReportPage> report_page(const std::filesystem::path& directory);
+
 /// Errors (input): a file of this name is there that is no page of this program.
 Status check_report_page(const std::filesystem::path& path);
-
-Result<ReportPage> report_page(const std::filesystem::path& directory);
 
 /// The figures of a directory of results, each as SVG and as PDF.
 struct FigureSet {
