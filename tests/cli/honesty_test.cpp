@@ -36,7 +36,7 @@ class Honesty : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     kept_ = new TemporaryDirectory;
-    Json vehicle = Json::parse(read_all("configs/paper/vehicle.json"));
+    Json vehicle = Json::parse(read_all(AWMR_SOURCE_DIR "/configs/paper/vehicle.json"));
     vehicle["name"] = "another";
     vehicle["mass_kg"] = 41.0;
     write_all(kept("other_vehicle.json"), vehicle.dump());
