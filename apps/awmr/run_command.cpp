@@ -13,6 +13,7 @@
 #include "awmr/model/model_file.h"
 #include "awmr/model/plausibility.h"
 #include "awmr/model/vehicle_file.h"
+#include "awmr/report/report.h"
 #include "awmr/simulate/run_side.h"
 #include "awmr/simulate/scenario_file.h"
 #include "awmr/trials/load.h"

@@ -375,7 +375,10 @@ TEST(Log, WhereEverySensorSeemsLateTheActuatorsAreNamed) {
   data.logs = {commanded_early(drive(kTruths[0], 22, {.duration_s = 40.0}), 6)};
   const auto result = identify(robot(), data, {}, {});
   ASSERT_TRUE(result);
-  EXPECT_TRUE(has_finding(*result, "actuator-lag", "every sensor seems late"));
+  EXPECT_TRUE(has_finding(*result, "actuator-lag"));
+  const auto delay = estimated(*result, "input_delay_s");
+  ASSERT_TRUE(delay && delay->std_error);
+  EXPECT_NEAR(delay->value, 0.06, 4.5 * *delay->std_error);
   IdentifyOptions with_delay;
   with_delay.fit_input_delay = true;
   const auto delayed = identify(robot(), data, with_delay, {});
