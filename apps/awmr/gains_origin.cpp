@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "awmr/core/input_file.h"
 #include "awmr/core/json.h"
 
@@ -14,13 +12,8 @@ Status note_other_model(const std::filesystem::path& gains, const std::filesyste
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(gains, ignored)) return {};
   AWMR_ASSIGN_OR_RETURN(const Json json, read_json_file(gains));
-  const auto inputs = json.find("inputs");
-  if (inputs == json.end() || !inputs->is_array() || inputs->empty()) return {};
   AWMR_ASSIGN_OR_RETURN(const InputFile own, input_file(model));
-  const bool is_own = std::ranges::any_of(*inputs, [&](const Json& input) {
-    return input.is_object() && input.value("sha256", Json()) == own.sha256;
-  });
-  if (is_own) return {};
+  if (is_made_from(json, own.sha256).value_or(true)) return {};
   findings.push_back(
       {gains.string(), 0, Severity::kWarning, "gains-of-another-model",
        fmt::format("these gains were tuned on another model than {}, or on it before it changed: "

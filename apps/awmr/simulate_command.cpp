@@ -104,7 +104,7 @@ Result<Provenance> provenance_of(const SimulateCommand& command, const Scenario&
   return Provenance{"simulate", std::move(options), std::move(inputs)};
 }
 
-/// A pipe or a device has nothing beside it.
+/// False for a pipe or a device.
 bool has_side_file(const fs::path& output) {
   std::error_code ignored;
   const fs::file_status status = fs::status(output, ignored);

@@ -66,7 +66,8 @@ function(awmr_test name)
 endfunction()
 
 # awmr_command_test(NAME TIER tier TIMEOUT seconds COMMAND word... [NEEDS package=variable...]): a test that is a command;
-# 77 is its exit code for "skipped"; the longest start first. Where a variable of NEEDS is false, the test is skipped and names the package.
+# 77 is its exit code for "skipped". Where a variable of NEEDS is false, the test is skipped and names the package.
+# It starts before the cases of awmr_test(), as it takes longer.
 function(awmr_command_test name)
   cmake_parse_arguments(ARG "" "TIER;TIMEOUT" "COMMAND;NEEDS" ${ARGN})
   foreach(need IN LISTS ARG_NEEDS)

@@ -225,9 +225,11 @@ std::optional<EstimatorParameter> estimated(const Identification& result, const 
   return std::nullopt;
 }
 
-bool has_finding(const Identification& result, const std::string& code) {
-  return std::ranges::any_of(result.model.record.findings,
-                             [&](const Finding& f) { return f.code == code; });
+bool has_finding(const Identification& result, const std::string& code,
+                 const std::string& words = "") {
+  return std::ranges::any_of(result.model.record.findings, [&](const Finding& f) {
+    return f.code == code && f.message.find(words) != std::string::npos;
+  });
 }
 
 TEST(Log, FindsByItselfThatCommandsActLateOrWereLoggedLate) {
@@ -332,12 +334,6 @@ TEST(Log, CrossValidationIsReportedWithTheFamilyThatWasChosen) {
     const bool chosen = report.family == name_of(result->model.surge_family);
     EXPECT_EQ(report.leave_one_out.size(), chosen ? 2u : 0u) << report.family;
   }
-}
-
-bool has_finding(const Identification& result, const std::string& code, const std::string& words) {
-  return std::ranges::any_of(result.model.record.findings, [&](const Finding& f) {
-    return f.code == code && f.message.find(words) != std::string::npos;
-  });
 }
 
 TEST(Log, ALateSpeedIsFoundAndAllowedFor) {

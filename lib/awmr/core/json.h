@@ -121,6 +121,9 @@ void put_provenance(Json& json, const Provenance& provenance);
 Json output_document(std::string_view schema, const Provenance& provenance);
 /// Reads them back.
 Provenance read_provenance(JsonObject& json);
+/// Whether a document was made from the file of this hash; none where it names no inputs, as one that
+/// was written by hand.
+std::optional<bool> is_made_from(const Json& document, std::string_view sha256);
 
 /// Two-space indentation, numbers that read back the same, a newline at the end. Precondition: all
 /// numbers are finite, as JSON has no others; throws std::logic_error with the pointer of one that

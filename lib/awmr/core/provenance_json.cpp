@@ -1,4 +1,7 @@
+#include <algorithm>
+#include <optional>
 #include <string>
+#include <string_view>
 
 #include "awmr/core/json.h"
 #include "awmr/core/provenance.h"
@@ -44,6 +47,14 @@ Provenance read_provenance(JsonObject& json) {
     input.reject_unknown_keys();
   }
   return provenance;
+}
+
+std::optional<bool> is_made_from(const Json& document, std::string_view sha256) {
+  const auto inputs = document.find("inputs");
+  if (inputs == document.end() || !inputs->is_array() || inputs->empty()) return std::nullopt;
+  return std::ranges::any_of(*inputs, [&](const Json& input) {
+    return input.is_object() && input.value("sha256", Json()) == sha256;
+  });
 }
 
 }  // namespace awmr

@@ -8,7 +8,7 @@
 
 namespace awmr {
 
-/// What a finding changes, most first.
+/// Effects of findings on the numbers, the largest first.
 enum class Effect {
   kRefusal,        ///< something that was asked for could not be done
   kWithdrawn,      ///< a value or an interval does not hold, or is withheld

@@ -142,7 +142,7 @@ void judge_inertia(const Vehicle& vehicle, std::vector<Implausible>& found) {
   Vehicle box = vehicle;
   box.yaw_inertia_kgm2.reset();
   const double ratio = *vehicle.yaw_inertia_kgm2 / box.inertia_kgm2();
-  if (Interval{0.05, 3.0}.contains(ratio)) return;
+  if (kInertiaOverBox.contains(ratio)) return;
   const auto guess = likely(ratio, kInertia, {0.3, 3.0}, 1.0);
   found.push_back(
       {"/yaw_inertia_kgm2",

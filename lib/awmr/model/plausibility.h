@@ -14,11 +14,15 @@
 #include <string>
 #include <vector>
 
+#include "awmr/core/interval.h"
 #include "awmr/core/result.h"
 #include "awmr/model/record.h"
 #include "awmr/model/vehicle.h"
 
 namespace awmr {
+
+/// Iz over that of the box of the same mass and size: all mass in the corners makes 3.
+inline constexpr Interval kInertiaOverBox{0.05, 3.0};
 
 /// A number that cannot be, or hardly.
 struct Implausible {

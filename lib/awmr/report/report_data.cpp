@@ -29,32 +29,41 @@ struct Origin {
   std::string gains_sha256 = {};  ///< empty: no gains.json that is of this model
 };
 
-/// Why a result is not of the model, or the gains, beside it; none: it is, or it names no inputs, as a
-/// file written by hand.
+/// Why a result is left out: it was made from another model, or other gains, than those beside it. None
+/// where it was not, or names no inputs.
 std::optional<Finding> foreign_result(const std::string& result, const Json& json,
                                       const Origin& origin) {
-  const auto inputs = json.find("inputs");
-  if (inputs == json.end() || !inputs->is_array() || inputs->empty()) return std::nullopt;
-  bool is_of_model = false;
+  const std::optional<bool> is_of_model = is_made_from(json, origin.model_sha256);
+  if (!is_of_model) return std::nullopt;
   bool is_of_gains = true;
-  for (const Json& input : *inputs) {
+  for (const Json& input : json["inputs"]) {
     if (!input.is_object()) continue;
     const Json sha256 = input.value("sha256", Json());
-    is_of_model = is_of_model || sha256 == origin.model_sha256;
     const std::filesystem::path name = input.value("name", std::string());
     if (name.filename() != "gains.json" || origin.gains_sha256.empty()) continue;
     is_of_gains = is_of_gains && sha256 == origin.gains_sha256;
   }
-  if (is_of_model && is_of_gains) return std::nullopt;
+  if (*is_of_model && is_of_gains) return std::nullopt;
   return Finding{result, 0, Severity::kWarning, "result-of-another-model",
                  fmt::format("was made from another {} than the one in this directory, and is not "
                              "shown. Make it again, or take it out of the directory",
-                             is_of_model ? "gains.json" : "model.json")};
+                             *is_of_model ? "gains.json" : "model.json")};
 }
 
-/// Whether a run is shown: its side file holds its hash and names the model. Else the finding says why.
+/// The findings that a result's own document holds. What is none is passed over.
+void add_findings_of(const Json& json, std::vector<Finding>& findings) {
+  if (!json.is_object() || !json.contains("findings")) return;
+  std::vector<Fault> faults;
+  JsonObject object(json, "", "", faults);
+  const std::vector<Finding> more = read_findings(object);
+  if (faults.empty()) findings.insert(findings.end(), more.begin(), more.end());
+}
+
+/// Why a run is left out: its side file does not hold its hash, or names another model. Of a run that is
+/// shown the findings are added.
 Result<std::optional<Finding>> foreign_run(const std::filesystem::path& directory,
-                                           const std::string& name, const Origin& origin) {
+                                           const std::string& name, const Origin& origin,
+                                           std::vector<Finding>& findings) {
   const std::filesystem::path side = run_side_path(directory / name);
   AWMR_ASSIGN_OR_RETURN(const bool has_side, regular_file_exists(side));
   const auto without = [&](const char* why) {
@@ -69,16 +78,9 @@ Result<std::optional<Finding>> foreign_run(const std::filesystem::path& director
   if (!json.is_object() || json.value("csv_sha256", Json()) != sha256_hex(csv)) {
     return without("is not the run that its side file was written with");
   }
-  return foreign_result(name, json, origin);
-}
-
-/// The findings that a result's own document holds. What is none is passed over.
-void add_findings_of(const Json& json, std::vector<Finding>& findings) {
-  if (!json.is_object() || !json.contains("findings")) return;
-  std::vector<Fault> faults;
-  JsonObject object(json, "", "", faults);
-  const std::vector<Finding> more = read_findings(object);
-  if (faults.empty()) findings.insert(findings.end(), more.begin(), more.end());
+  auto foreign = foreign_result(name, json, origin);
+  if (!foreign) add_findings_of(json, findings);
+  return foreign;
 }
 
 /// Of each kind, as the page shows them: those that change the numbers most first, each once.
@@ -134,7 +136,7 @@ Status read_own_samples(const std::filesystem::path& directory, ReportData& data
   return {};
 }
 
-/// What emit wrote, beside the results or in `firmware`.
+/// Adds the findings of emit, whose manifest lies beside the results or in `firmware`.
 Status add_emitted(const std::filesystem::path& directory, const Origin& origin,
                    std::vector<Finding>& findings) {
   for (const auto& folder : {directory, directory / "firmware"}) {
@@ -163,14 +165,9 @@ Result<ReportData> read_report_data(const std::filesystem::path& directory) {
   AWMR_RETURN_IF_ERROR(add_emitted(directory, origin, findings));
   AWMR_ASSIGN_OR_RETURN(data.json["header"], path_exists(directory / "awmr_params.h"));
   const auto is_own = [&](const std::string& name) -> Result<bool> {
-    AWMR_ASSIGN_OR_RETURN(auto foreign, foreign_run(directory, name, origin));
-    if (foreign) {
-      data.left_out.push_back(*std::move(foreign));
-      return false;
-    }
-    AWMR_ASSIGN_OR_RETURN(const Json side, read_json_file(run_side_path(directory / name)));
-    add_findings_of(side, findings);
-    return true;
+    AWMR_ASSIGN_OR_RETURN(auto foreign, foreign_run(directory, name, origin, findings));
+    if (foreign) data.left_out.push_back(*foreign);
+    return !foreign;
   };
   AWMR_ASSIGN_OR_RETURN(data.json["runs"], read_runs(directory, is_own));
   AWMR_ASSIGN_OR_RETURN(data.json["scenarios"], read_scenarios(directory));

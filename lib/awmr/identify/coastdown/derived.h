@@ -27,12 +27,12 @@ std::optional<MassFromStopTime> mass_from_stop_time(const SteadyFit& surge,
 
 /// Findings about a vehicle that stops as fast as this: `implausible-deceleration`, `fragile-mass`,
 /// `single-stop-time`.
-/// `implausible-deceleration` where a curve begins with more than a tyre gives: g1(u)/m' > g.
-void check_mass(const Resistance<double>& surge, const std::vector<CoastCurve>& curves,
-                double mass_norm, std::vector<Finding>& findings);
 void check_mass(const Resistance<double>& surge, const TrialSet<StopTimeRow>& coastdown,
                 double mass_kg, double mass_norm, std::optional<double> relative_std_error,
                 std::vector<Finding>& findings);
+/// `implausible-deceleration` where a curve begins with more than a tyre gives: g1(u)/m' > g.
+void check_mass(const Resistance<double>& surge, const std::vector<CoastCurve>& curves,
+                double mass_norm, std::vector<Finding>& findings);
 
 /// `inertia-mismatch`: a measured Iz far from the uniform box's.
 void check_inertia(const Vehicle& vehicle, std::vector<Finding>& findings);

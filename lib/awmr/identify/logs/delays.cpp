@@ -74,7 +74,7 @@ NoiseIteration with(const NoiseIteration& settled, const FreeQuantity& more, dou
   return settle_noise(std::move(from.problem), std::move(from.point), loss);
 }
 
-/// The fit with a suspect's delay free, if it is plainly likelier for it.
+/// The fit with a suspect's delay free, if that lowers AIC enough.
 std::optional<NoiseIteration> with_delay(const NoiseIteration& settled, const Suspect& suspect,
                                          Loss loss) {
   constexpr double kPlainly = 10.0;  // of AIC
@@ -86,8 +86,8 @@ std::optional<NoiseIteration> with_delay(const NoiseIteration& settled, const Su
   return akaike_of(lagging) < akaike_of(late) ? std::move(lagging) : std::move(late);
 }
 
-/// The fit with one more delay free: that of the commands or of the likeliest sensor that helps, the
-/// better of both; none where neither is plainly likelier.
+/// The fit with one more delay free, that of the commands or of one sensor, whichever has the lower AIC;
+/// none where neither lowers it enough.
 std::optional<NoiseIteration> with_one_more(const NoiseIteration& settled, Loss loss) {
   std::optional<NoiseIteration> commands;
   std::optional<NoiseIteration> sensor;

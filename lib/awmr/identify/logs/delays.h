@@ -6,8 +6,8 @@
 
 namespace awmr {
 
-/// Frees, one after the other, each delay that a score test suspects and with which the fit is plainly
-/// likelier (ten of AIC): a late speed would otherwise pass for a heavy vehicle. A delay of all commands
+/// Frees delays one after the other: each that a score test suspects and that lowers AIC by more than
+/// ten. A late speed would otherwise pass for a heavy vehicle. A delay of all commands
 /// may be negative, where they were logged late; where it is positive, the lag of the motors takes its
 /// place if that is likelier. Of the commands and all channels, one stays without a delay: the others
 /// are late against it.

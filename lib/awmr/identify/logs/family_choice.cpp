@@ -193,6 +193,24 @@ LogFit compete(const std::vector<DrivingLog>& logs, const LogFitOptions& power_l
   return of_first;
 }
 
+bool has_delays(const LogFitOptions& options) {
+  return options.input_delay_s || options.motor_lag_s || !options.sensor_delays.empty();
+}
+
+/// The best families with delays of their own, where those that they took over from other families do
+/// worse: a wrong resistance hides behind delays.
+FamilyFit with_delays_of_its_own(const std::vector<DrivingLog>& logs,
+                                 const LogFitOptions& power_law, FamilyFit best) {
+  if (!best.fit.usable || !has_delays(best.options) || is_over(power_law)) return best;
+  LogFitOptions options = from_optimum(best.options, best);
+  options.input_delay_s = power_law.input_delay_s;
+  options.motor_lag_s = power_law.motor_lag_s;
+  options.sensor_delays = power_law.sensor_delays;
+  options.suspects = power_law.suspects;
+  FamilyFit own = fit_with(logs, std::move(options), best.surge, best.yaw);
+  return aic_lead(own.fit, best.fit) > 0.0 ? std::move(own) : std::move(best);
+}
+
 }  // namespace
 
 bool is_over(const LogFitOptions& options) {
@@ -235,28 +253,6 @@ FamilyFit searched_again(const std::vector<DrivingLog>& logs, const LogFitOption
   FamilyFit again = fit_from(logs, power_law, rival, first.surge, first.yaw);
   return aic_lead(again.fit, first.fit) > 0.0 ? std::move(again) : std::move(first);
 }
-
-namespace {
-
-bool has_delays(const LogFitOptions& options) {
-  return options.input_delay_s || options.motor_lag_s || !options.sensor_delays.empty();
-}
-
-/// The best families with delays of their own, where those that they took over from other families do
-/// worse: a wrong resistance hides behind delays.
-FamilyFit with_delays_of_its_own(const std::vector<DrivingLog>& logs,
-                                 const LogFitOptions& power_law, FamilyFit best) {
-  if (!best.fit.usable || !has_delays(best.options) || is_over(power_law)) return best;
-  LogFitOptions options = from_optimum(best.options, best);
-  options.input_delay_s = power_law.input_delay_s;
-  options.motor_lag_s = power_law.motor_lag_s;
-  options.sensor_delays = power_law.sensor_delays;
-  options.suspects = power_law.suspects;
-  FamilyFit own = fit_with(logs, std::move(options), best.surge, best.yaw);
-  return aic_lead(own.fit, best.fit) > 0.0 ? std::move(own) : std::move(best);
-}
-
-}  // namespace
 
 std::vector<EstimatorReport> reports_of(const std::vector<FamilyFit>& fits,
                                         const FamilyFit& reference) {

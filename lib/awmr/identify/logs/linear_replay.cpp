@@ -97,16 +97,22 @@ std::array<double, kStateSize> rate_of_column(const StateSlopes& a, const double
 
 }  // namespace
 
-LaggedForces::LaggedForces(const DrivingLog& log, const DelayColumn& lag)
-    : log_(&log), lag_s_(lag.delay_s), column_(lag.column) {
-  force_.reserve(log.rows());
-  by_lag_.reserve(log.rows());
-  SideForces<double> force{log.force_left.front(), log.force_right.front()};
+LaggedForces::LaggedForces(const DrivingLog& log, std::size_t begin, std::size_t end,
+                           const DelayColumn& lag)
+    : log_(&log), lag_s_(lag.delay_s), column_(lag.column), first_row_(begin) {
+  constexpr double kForgotten = 40.0;  // time constants: exp(-40) is 4e-18
+  const double from_s = log.t_s[begin] - kForgotten * lag_s_;
+  while (first_row_ > 0 && log.t_s[first_row_] > from_s) --first_row_;
+  // A lag of 0 still has the command before the first row in its derivative.
+  if (first_row_ > 0) --first_row_;
+  force_.reserve(end - first_row_);
+  by_lag_.reserve(end - first_row_);
+  SideForces<double> force{log.force_left[first_row_], log.force_right[first_row_]};
   SideForces<double> by_lag{};
-  for (std::size_t row = 0; row < log.rows(); ++row) {
+  for (std::size_t row = first_row_; row < end; ++row) {
     force_.push_back(force);
     by_lag_.push_back(by_lag);
-    if (row + 1 == log.rows()) break;
+    if (row + 1 == end) break;
     const double h = log.t_s[row + 1] - log.t_s[row];
     const Lagged left = lagged(force.left, by_lag.left, log.force_left[row], lag_s_, h);
     const Lagged right = lagged(force.right, by_lag.right, log.force_right[row], lag_s_, h);
@@ -123,8 +129,10 @@ LaggedForces::Mean LaggedForces::mean(std::size_t row, double since_row_s, doubl
     }
     return lagged(force, by_lag, command, lag_s_, h_s);
   };
-  const Lagged left = side(force_[row].left, by_lag_[row].left, log_->force_left[row]);
-  const Lagged right = side(force_[row].right, by_lag_[row].right, log_->force_right[row]);
+  const SideForces<double>& force = force_[row - first_row_];
+  const SideForces<double>& by_lag = by_lag_[row - first_row_];
+  const Lagged left = side(force.left, by_lag.left, log_->force_left[row]);
+  const Lagged right = side(force.right, by_lag.right, log_->force_right[row]);
   return {{left.mean, right.mean}, {left.mean_by_lag, right.mean_by_lag}};
 }
 

@@ -36,14 +36,18 @@ struct DelayColumn {
   std::size_t column;
 };
 
-/// Wheel forces behind motors that lag by the time constant T, with the derivatives by T. From
-/// F' = c at the first row, while the command is c:
+/// Wheel forces behind motors that lag by the time constant T, with the derivatives by T. While the
+/// command is c:
 ///
 ///     F'(t + h) = c + (F'(t) - c) e,   e = exp(-h/T)
 ///     mean over h: c + (F'(t) - c) (T/h) (1 - e)
+///
+/// It begins with F' = c so many time constants before the rows, or at the log's first row, that an
+/// earlier command has less weight than rounding.
 class LaggedForces {
  public:
-  LaggedForces(const DrivingLog& log, const DelayColumn& lag);
+  /// For the rows [begin, end) of the log.
+  LaggedForces(const DrivingLog& log, std::size_t begin, std::size_t end, const DelayColumn& lag);
   /// The mean over [t, t + h], which begins `since_row_s` after the row and ends before the next.
   struct Mean {
     SideForces<double> force;
@@ -56,11 +60,12 @@ class LaggedForces {
   const DrivingLog* log_;
   double lag_s_;
   std::size_t column_;
+  std::size_t first_row_;                   ///< of the two below
   std::vector<SideForces<double>> force_;   ///< by row
   std::vector<SideForces<double>> by_lag_;  ///< by row
 };
 
-/// What stands between the logged commands and the wheels: nothing, a delay or a lag.
+/// How the logged commands reach the wheels: at once, after a delay, or through motors that lag.
 struct CommandPath {
   std::optional<DelayColumn> delay;
   std::optional<LaggedForces> lag;
@@ -68,7 +73,7 @@ struct CommandPath {
   std::optional<std::size_t> column() const;
 };
 
-/// What drives the vehicle, and how that changes with the delay or lag.
+/// The commands as they reach the wheels, and their derivatives by the delay or the lag.
 struct DelayedCommand {
   HeldCommand command;
   HeldCommand by_delay{};

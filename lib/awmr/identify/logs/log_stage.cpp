@@ -18,6 +18,7 @@
 #include "awmr/identify/logs/cross_validation.h"
 #include "awmr/identify/logs/initial_guess.h"
 #include "awmr/identify/uncertainty/akaike.h"
+#include "awmr/model/plausibility.h"
 #include "awmr/trials/log_consistency.h"
 
 namespace awmr {
@@ -80,16 +81,22 @@ std::string cannot_show(const std::vector<DrivingLog>& logs, ParameterId id) {
   }
 }
 
+/// Whether the sides are told to push differently anywhere.
+bool pushes_apart(const DrivingLog& log) {
+  constexpr double kMuch = 0.01;  // of the largest force
+  for (std::size_t i = 0; i < log.rows(); ++i) {
+    if (std::abs(log.force_right[i] - log.force_left[i]) > kMuch) return true;
+  }
+  return false;
+}
+
 /// Whether the vehicle is told to turn anywhere in the logs.
 bool turns(const std::vector<DrivingLog>& logs) {
-  constexpr double kMuch = 0.01;  // of the largest force, and rad
+  constexpr double kMuch_rad = 0.01;
   return std::ranges::any_of(logs, [](const DrivingLog& log) {
-    const std::vector<double>& steering = log.driving_steering_rad();
-    for (std::size_t i = 0; i < log.rows(); ++i) {
-      const double difference = std::abs(log.force_right[i] - log.force_left[i]);
-      if (std::abs(steering[i]) > kMuch || difference > kMuch) return true;
-    }
-    return false;
+    return pushes_apart(log) || std::ranges::any_of(log.driving_steering_rad(), [](double angle) {
+             return std::abs(angle) > kMuch_rad;
+           });
   });
 }
 
@@ -402,23 +409,9 @@ void take(const LogFit& fit, const Model& model, bool overrule, const std::strin
   }
 }
 
-/// Whether the sides push differently anywhere.
-bool steers_by_sides(const std::vector<DrivingLog>& logs) {
-  constexpr double kMuch = 0.01;  // of the largest force
-  return std::ranges::any_of(logs, [](const DrivingLog& log) {
-    for (std::size_t i = 0; i < log.rows(); ++i) {
-      if (std::abs(log.force_right[i] - log.force_left[i]) > kMuch) return true;
-    }
-    return false;
-  });
-}
-
 /// Why I'z as fitted cannot be the vehicle's; empty where it can.
 std::string why_no_inertia(const Vehicle& vehicle, const std::vector<DrivingLog>& logs,
                            const Model& model, const LogStage& stage) {
-  // As of vehicle.json (model/plausibility.h): all mass in the corners makes 3 times the box.
-  constexpr double kLeastOfBox = 1.0 / 20.0;
-  constexpr double kMostOfBox = 3.0;
   const auto estimate_of = [&](ParameterId id) -> const Estimate* {
     const auto found = std::ranges::find(stage.main, id, &LogStage::Main::id);
     if (found != stage.main.end()) return &found->estimate;
@@ -428,7 +421,8 @@ std::string why_no_inertia(const Vehicle& vehicle, const std::vector<DrivingLog>
   if (inertia == nullptr) return {};
   const Estimate* mass = estimate_of(ParameterId::kMassNorm);
   if (mass == nullptr) {
-    return stage.reasons.contains(ParameterId::kMassNorm) && !steers_by_sides(logs)
+    return stage.reasons.contains(ParameterId::kMassNorm) &&
+                   std::ranges::none_of(logs, pushes_apart)
                ? "m' is open, and only the steering turned the vehicle: with it I'z is open too"
                : "";
   }
@@ -436,14 +430,14 @@ std::string why_no_inertia(const Vehicle& vehicle, const std::vector<DrivingLog>
   const double box = vehicle.inertia_kgm2() / vehicle.mass_kg;
   const double least = inertia->ci95->lo / mass->ci95->hi / box;
   const double most = inertia->ci95->hi / mass->ci95->lo / box;
-  if (most > kLeastOfBox && least < kMostOfBox) return {};
+  if (most > kInertiaOverBox.lo && least < kInertiaOverBox.hi) return {};
   return fmt::format(
       "I'z/m' as fitted is {:.3g} times Iz/m of the vehicle, which no distribution of "
       "its mass makes: something else turns it, or a unit or a sign is wrong",
       *inertia->value / *mass->value / box);
 }
 
-/// Withholds an I'z that cannot be.
+/// Refuses an I'z that the vehicle cannot have.
 void judge_inertia(const Vehicle& vehicle, const std::vector<DrivingLog>& logs, const Model& model,
                    LogStage& stage) {
   const std::string why = why_no_inertia(vehicle, logs, model, stage);

@@ -46,7 +46,8 @@ Unpacked unpack(const LogModel& model, const FitWindow& window, const double* co
         u.path.delay = {number, i};
         break;
       case FreeQuantity::Kind::kMotorLag:
-        u.path.lag.emplace(*window.rows.log, DelayColumn{number, i});
+        u.path.lag.emplace(*window.rows.log, window.rows.begin, window.rows.end,
+                           DelayColumn{number, i});
         break;
       case FreeQuantity::Kind::kSensorDelay:
         u.sensor_delay[at(quantity.channel)] = {number, i};
