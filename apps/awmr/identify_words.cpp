@@ -22,6 +22,7 @@ Result<IdentifyCommand> command_of(const IdentifyWords& words) {
   if (!words.noise.empty()) command.identify.noise = value_in(kErrorModelNames, words.noise);
   command.identify.loss = *value_in(kLossNames, words.loss);
   command.trials.preference = *value_in(kPreferenceNames, words.prefer);
+  command.identify.keeps_outliers = command.trials.as_is;
   return command;
 }
 
@@ -82,8 +83,10 @@ void add_log_options(CLI::App& sub, IdentifyCommand& command) {
 }
 
 void add_reading_options(CLI::App& sub, IdentifyWords& words) {
-  sub.add_flag("--as-is", words.command.trials.as_is,
-               "Take logs whose units, signs or sides contradict themselves as they are");
+  sub.add_flag(
+      "--as-is", words.command.trials.as_is,
+      "Take trials whose units, signs or sides contradict themselves as they are, and keep "
+      "gross outliers");
   sub.add_option("--prefer", words.prefer,
                  "Which of two disagreeing values to use: printed (default) or timed")
       ->check(one_of(names_in(kPreferenceNames)));

@@ -105,6 +105,7 @@ void read_identify(JsonObject json, Project& project) {
       static_cast<std::uint64_t>(json.optional_integer("seed", 0, 1000000000L).value_or(1));
   options.bootstrap = static_cast<int>(json.optional_integer("bootstrap", 0, 1000000).value_or(0));
   project.trials.as_is = json.optional_boolean("as_is").value_or(false);
+  options.keeps_outliers = project.trials.as_is;
   project.steady_from_logs = json.optional_boolean("steady_from_logs").value_or(false);
   json.reject_unknown_keys();
 }

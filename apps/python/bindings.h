@@ -81,6 +81,7 @@ struct VehicleOfFile : Vehicle {
 struct TrialsOfFiles : Trials {
   std::vector<InputFile> inputs = {};
   std::vector<std::pair<std::string, std::string>> reading = {};  ///< options in words
+  bool as_is = false;
 };
 
 void bind_errors(py::module_& module);

@@ -37,6 +37,7 @@ Identification fit(const TrialsOfFiles& trials, const std::optional<std::string>
   options.time_limit_s = time_limit_s;
   options.cross_validate = cross_validate;
   options.threads = threads;
+  options.keeps_outliers = trials.as_is;
   check_within("starts", starts, 0, 1000);
   check_within("bootstrap", bootstrap, 0, 1000000);
   check_within("threads", threads, 0, 1024);

@@ -154,6 +154,7 @@ TrialsOfFiles load(const AnyVehicle& vehicle, const Path& surge, const Path& tur
   TrialsOfFiles trials{value_or_raise(load_trials(files))};
   trials.inputs = value_or_raise(inputs_of(vehicle, files));
   cli::describe_reading(files.options, steady_from_logs, trials.reading);
+  trials.as_is = as_is;
   return trials;
 }
 

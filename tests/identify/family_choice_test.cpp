@@ -13,6 +13,7 @@
 #include "awmr/identify/logs/initial_guess.h"
 #include "awmr/identify/logs/log_problem.h"
 #include "awmr/identify/logs/multistart.h"
+#include "awmr/identify/logs/nearest_curve.h"
 #include "identify/synthetic_log.h"
 
 namespace awmr::testing {
@@ -57,6 +58,96 @@ TEST(Multistart, MostStartsLeadToTheOptimum) {
   }
   // Over whole windows of 10 s it was one of seven.
   EXPECT_GT(there, 2 * all / 3) << there << " of " << all;
+}
+
+TEST(NearestCurve, IsTheCurveItselfWhereTheFamilyHasIt) {
+  const Resistance<double> curve{
+      .alpha = 0.6, .beta = 1.0, .rest_speed = 0.0, .coulomb = 0.3, .quadratic = 0.2};
+  const auto near = nearest_curve(curve, terms_of(Family::kCoulombLinearQuadratic), 2.0);
+  EXPECT_NEAR(near.alpha, 0.6, 1e-12);
+  EXPECT_NEAR(near.coulomb, 0.3, 1e-12);
+  EXPECT_NEAR(near.quadratic, 0.2, 1e-12);
+}
+
+TEST(NearestCurve, StaysCloseOverTheSpeedsDrivenInEveryFamily) {
+  for (const double beta : {0.3, 0.6, 1.0, 1.5, 2.0}) {
+    const Resistance<double> curve{.alpha = 1.2, .beta = beta};
+    for (const Family family : values_in(kFamilyNames)) {
+      const auto near = nearest_curve(curve, terms_of(family), 1.5);
+      EXPECT_GT(near.alpha, 0.0);
+      EXPECT_GE(near.coulomb, 0.0);
+      for (const double u : {0.5, 1.0, 1.5}) {
+        EXPECT_NEAR(near.at(u), curve.at(u), 0.25 * curve.at(1.5))
+            << name_of(family) << " " << beta;
+      }
+    }
+  }
+}
+
+/// A vehicle of mass m' = 0.09 against 0.12 + 0.35 u, by the closed solution of each step of its command:
+/// slow ramps from rest, both ways, and two steps. `noise_mps`: of the speed.
+DrivingLog ramps_with_friction(double noise_mps, std::uint64_t seed) {
+  constexpr double kMass = 0.09, kCoulomb = 0.12, kAlpha = 0.35, kStep_s = 0.02;
+  std::mt19937_64 chance(seed);
+  std::normal_distribution<double> noise;
+  DrivingLog log;
+  log.file = "ramps.csv";
+  log.steering_command_rad.emplace();
+  Measured speed;
+  double u = 0.0;
+  for (int i = 0; i * kStep_s < 52.0; ++i) {
+    const double t = i * kStep_s;
+    const double thrust = t < 2.0    ? 0.0
+                          : t < 16.0 ? 0.04 * (t - 2.0)
+                          : t < 20.0 ? 0.0
+                          : t < 34.0 ? -0.04 * (t - 20.0)
+                          : t < 38.0 ? 0.0
+                          : t < 42.0 ? 0.7
+                          : t < 45.0 ? 0.0
+                          : t < 49.0 ? -0.7
+                                     : 0.0;
+    log.line.push_back(i + 2);
+    log.t_s.push_back(t);
+    log.force_left.push_back(thrust / 4.0);
+    log.force_right.push_back(thrust / 4.0);
+    log.steering_command_rad->push_back(0.0);
+    speed.value.push_back(u + noise_mps * noise(chance));
+    speed.fresh.push_back(true);
+    // Over a step in one direction s: u(t) = u_end + (u - u_end) exp(-a t/m'), u_end = (thrust - s c)/a.
+    double left_s = kStep_s;
+    while (left_s > 0.0) {
+      if (u == 0.0 && std::abs(thrust) <= kCoulomb) break;
+      const double way = u != 0.0 ? std::copysign(1.0, u) : std::copysign(1.0, thrust);
+      const double end = (thrust - way * kCoulomb) / kAlpha;
+      const double stop_s = way * end < 0.0 && u != 0.0
+                                ? kMass / kAlpha * std::log((u - end) / -end)
+                                : std::numeric_limits<double>::infinity();
+      const double span_s = std::min(left_s, stop_s);
+      u = stop_s <= left_s ? 0.0 : end + (u - end) * std::exp(-kAlpha * span_s / kMass);
+      left_s -= span_s;
+    }
+  }
+  speed.fresh_count = static_cast<int>(speed.value.size());
+  log[LogChannel::kSpeed] = std::move(speed);
+  return log;
+}
+
+TEST(Families, OfFrictionFromRestAreRightAtAnyNoise) {
+  for (const double noise_mps : {1e-5, 5e-4, 1e-3, 5e-3, 2e-2, 5e-2}) {
+    TrialData data;
+    data.logs = {ramps_with_friction(noise_mps, 17)};
+    const auto result = identify(robot(), data, {}, {});
+    ASSERT_TRUE(result);
+    const Model& model = result->model;
+    EXPECT_TRUE(terms_of(model.surge_family).coulomb) << noise_mps;
+    // Two parameters, six logs: 4 deviations make a chance of 8e-4 for the test to fail.
+    for (const auto& [id, truth] :
+         {std::pair(ParameterId::kSurgeCoulomb, 0.12), std::pair(ParameterId::kMassNorm, 0.09)}) {
+      ASSERT_TRUE(model[id].value && model[id].std_error) << info(id).name << " at " << noise_mps;
+      EXPECT_LT(std::abs(*model[id].value - truth), 4.0 * *model[id].std_error)
+          << info(id).name << " at " << noise_mps;
+    }
+  }
 }
 
 TEST(Families, AreFittedWithoutATermThatTheFamilyBeforeThemHad) {

@@ -80,21 +80,34 @@ struct ByHand {
 constexpr double kInputDelay_s = 0.033;
 constexpr double kSpeedDelay_s = 0.047;
 
-Plant<double> plant_by_hand(bool servo, double step_s, Drive drive) {
-  Plant<double> plant = resolved_at_rest(plant_of(robot(drive), kValues), step_s);
+/// Coulomb friction, whose stops cut steps, or none.
+enum class Friction { kNone, kCoulomb };
+
+ParameterValues<double> values_with(Friction friction) {
+  ParameterValues<double> values = kValues;
+  if (friction == Friction::kNone) {
+    values[at(ParameterId::kSurgeCoulomb)] = values[at(ParameterId::kYawCoulomb)] = 0.0;
+  }
+  return values;
+}
+
+Plant<double> plant_by_hand(bool servo, double step_s, Drive drive, Friction friction) {
+  Plant<double> plant =
+      resolved_beside_friction(plant_of(robot(drive), values_with(friction)), step_s);
   if (!servo) plant.steering_max_rad = 10.0;
   return plant;
 }
 
 ByHand by_hand(const DrivingLog& log, double step_s, double late_s = kSpeedDelay_s,
-               Drive drive = Drive::kFourWheel) {
+               Drive drive = Drive::kFourWheel, Friction friction = Friction::kNone) {
   const LogSignals signals(log);
   std::vector<ParameterColumn> parameters;
   for (std::size_t i = 0; i < kParameterCount; ++i) {
     parameters.push_back({static_cast<ParameterId>(i), i, 1.0});
   }
   const CommandPath path{.delay = DelayColumn{kInputDelay_s, kInputDelay}, .lag = std::nullopt};
-  const Plant<double> plant = plant_by_hand(log.steering_command_rad.has_value(), step_s, drive);
+  const Plant<double> plant =
+      plant_by_hand(log.steering_command_rad.has_value(), step_s, drive, friction);
   LinearStepper stepper(plant, kColumns, parameters, kInputDelay);
   LinearMotion first{first_state<double>([](std::size_t, double x) { return x; }),
                      std::vector<double>(kStateSize * kColumns, 0.0)};
@@ -117,13 +130,14 @@ struct ByJets {
   std::vector<State<Jet>> earlier;
 };
 
-ByJets by_jets(const DrivingLog& log, double step_s, Drive drive = Drive::kFourWheel) {
+ByJets by_jets(const DrivingLog& log, double step_s, Drive drive = Drive::kFourWheel,
+               Friction friction = Friction::kNone) {
   const LogSignals signals(log);
   ParameterValues<Jet> values;
   for (std::size_t i = 0; i < kParameterCount; ++i) {
-    values[i] = Jet(kValues[i], static_cast<int>(i));
+    values[i] = Jet(values_with(friction)[i], static_cast<int>(i));
   }
-  const Plant<Jet> plant = resolved_at_rest(plant_of(robot(drive), values), step_s);
+  const Plant<Jet> plant = resolved_beside_friction(plant_of(robot(drive), values), step_s);
   const Jet input(kInputDelay_s, kInputDelay);
   const Jet late(kSpeedDelay_s, kSpeedDelay);
   const auto first = first_state<Jet>(
@@ -162,6 +176,17 @@ void expect_equal(const std::vector<State<Jet>>& jets, const std::vector<LinearM
 
 /// Rounding of 300 steps.
 constexpr double kRounding = 1e-11;
+/// The moment of a stop within a step is taken from the rates there, not from the step's polynomial.
+constexpr double kStops = 1e-4;
+
+TEST(LinearReplay, WithStopsHasTheStatesAndTheDerivativesOfJets) {
+  for (const bool servo : {true, false}) {
+    const DrivingLog log = commands(servo);
+    const Drive drive = Drive::kFourWheel;
+    expect_equal(by_jets(log, 0.004, drive, Friction::kCoulomb).states,
+                 by_hand(log, 0.004, kSpeedDelay_s, drive, Friction::kCoulomb).motions, kStops);
+  }
+}
 
 TEST(LinearReplay, HasTheStatesAndTheDerivativesOfJets) {
   for (const bool servo : {true, false}) {

@@ -120,6 +120,7 @@ TEST(Losses, LeaveOneBadRunWithoutSayWhileSquaresFollowIt) {
   data.surge->rows[10].speed_mps *= 0.7;
   IdentifyOptions squares;
   squares.method = Method::kNonlinear;
+  squares.keeps_outliers = true;
   const double by_squares =
       *identify(vehicle(), data, squares, {})->model[ParameterId::kSurgeBeta].value;
   for (const Loss loss : {Loss::kHuber, Loss::kCauchy, Loss::kTukey}) {
@@ -138,7 +139,7 @@ TEST(Losses, LeaveOneBadRunWithoutSayWhileSquaresFollowIt) {
 TEST(Outliers, AreNamedWithTheirLineAndTheirInfluence) {
   TrialData data = runs_on({.alpha = 1.3157, .beta = 0.8841}, 0.0, 0.003, 2);
   data.surge->rows[10].speed_mps *= 0.7;
-  const auto result = identify(vehicle(), data, {}, {});
+  const auto result = identify(vehicle(), data, {.keeps_outliers = true}, {});
   ASSERT_TRUE(result);
   const Finding* outlier = finding(result->model, "outlier");
   ASSERT_NE(outlier, nullptr);
@@ -150,6 +151,32 @@ TEST(Outliers, AreNamedWithTheirLineAndTheirInfluence) {
                    });
   ASSERT_NE(influential, result->model.record.findings.end());
   EXPECT_THAT(influential->message, ::testing::HasSubstr("surge.alpha becomes"));
+}
+
+TEST(Outliers, ThatAreGrossAreSetAsideByName) {
+  for (const double factor : {1e-3, 0.1, 0.5, 10.0}) {
+    const TrialData clean = runs_on({.alpha = 1.3157, .beta = 0.8841}, 0.0, 0.003, 2);
+    TrialData data = clean;
+    data.surge->rows[4].speed_mps *= factor;
+    TrialData without = clean;
+    without.surge->rows.erase(without.surge->rows.begin() + 4);
+    const auto result = identify(vehicle(), data, {}, {});
+    const auto expected = identify(vehicle(), without, {}, {});
+    ASSERT_TRUE(result && expected);
+    EXPECT_TRUE(std::ranges::any_of(result->model.record.findings, [&](const Finding& f) {
+      return f.code == "outlier" && f.line == data.surge->rows[4].line;
+    })) << factor;
+    EXPECT_EQ(result->model[ParameterId::kSurgeBeta].value,
+              expected->model[ParameterId::kSurgeBeta].value);
+  }
+}
+
+TEST(Outliers, OfAPowerLawThatCoulombFrictionExplainsStay) {
+  // The slowest run lies far off any power law of the others.
+  TrialData data = runs_on({.alpha = 0.8, .beta = 1.0, .coulomb = 0.1}, 0.0, 1e-4, 3);
+  const auto result = identify(vehicle(), data, {}, {});
+  ASSERT_TRUE(result);
+  EXPECT_EQ(result->model.record.reports.front().rows_used, 12);
 }
 
 TEST(Outliers, LeavingARowOutGivesWhatTheFitWithoutItGives) {

@@ -88,8 +88,12 @@ Method method_of(const TrialData& data, const IdentifyOptions& options) {
 /// Where the logs fill the main values, the tables are still fitted, with the method that suits them.
 SubjectOptions subject_options(const IdentifyOptions& options, Method method,
                                const FamilyChoice& family) {
-  return {method == Method::kTrajectory ? method_of_tables(options) : method, options.noise, family,
-          options.loss, options.side_by_side};
+  return {method == Method::kTrajectory ? method_of_tables(options) : method,
+          options.noise,
+          family,
+          options.loss,
+          options.side_by_side,
+          options.keeps_outliers};
 }
 
 /// A dead zone belongs to the wheels: the surge runs show it, and it is taken off the turning runs.

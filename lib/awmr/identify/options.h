@@ -98,6 +98,7 @@ struct IdentifyOptions {
   bool cross_validate = false;  ///< logs: leave one out, predict it; where there are two or more
   int threads = 0;              ///< 0: all; the result does not depend on it
   bool side_by_side = true;     ///< false: the asked estimator alone, without its rivals and tests
+  bool keeps_outliers = false;  ///< tables: gross outliers are fitted with the other runs
   /// Logs: is told what begins, in words, for who waits. It has no part in the result.
   std::function<void(std::string_view)> doing = {};
 };

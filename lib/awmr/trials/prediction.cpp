@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "awmr/core/index.h"
-#include "awmr/model/rest.h"
+#include "awmr/model/sliding.h"
 #include "awmr/trials/replay.h"
 
 namespace awmr {
@@ -35,7 +35,7 @@ Predictor predictor(const DrivingLog& log, const Plant<double>& plant,
                     const PredictionOptions& options) {
   const double step_s = replay_step_s(plant);
   const std::size_t most = options.most_in_series;
-  return {LogSignals(log), resolved_at_rest(plant, step_s), step_s, options.delay_s,
+  return {LogSignals(log), resolved_beside_friction(plant, step_s), step_s, options.delay_s,
           most > 0 ? log.rows() / most + 1 : 0};
 }
 

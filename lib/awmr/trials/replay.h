@@ -9,8 +9,7 @@
 #include <vector>
 
 #include "awmr/core/result.h"
-#include "awmr/model/rest.h"
-#include "awmr/model/runge_kutta.h"
+#include "awmr/model/sliding.h"
 #include "awmr/trials/log.h"
 
 namespace awmr {
@@ -69,7 +68,8 @@ inline int steps_in(double span_s, double longest_step_s) {
 }
 
 /// Runs the model over rows [begin, end) from the initial state `state` and calls visit(row, state)
-/// at every row. Steps are at most `longest_step_s`. `delay_s` null: none.
+/// at every row. Steps are at most `longest_step_s`. `delay_s` null: none. The plant is one of
+/// resolved_beside_friction().
 template <class T, class Visit>
 void replay(const LogSignals& signals, std::size_t begin, std::size_t end, Plant<T> plant,
             const T* delay_s, double longest_step_s, State<T> state, Visit visit) {
@@ -77,6 +77,8 @@ void replay(const LogSignals& signals, std::size_t begin, std::size_t end, Plant
   const bool servo = log.steering_command_rad.has_value();
   // A logged angle is what it is: no stop, no lag.
   if (!servo) plant.steering_max_rad = T(10.0);
+  const FrictionRates<T> friction = friction_rates(plant);
+  if (friction.any()) plant = without_friction(plant);
   const auto angle_at = [&](std::size_t row, double share) {
     const std::vector<double>& angle = log[LogChannel::kSteering]->value;
     return angle[row] + share * (angle[std::min(row + 1, log.rows() - 1)] - angle[row]);
@@ -103,8 +105,9 @@ void replay(const LogSignals& signals, std::size_t begin, std::size_t end, Plant
         steering = delay_s ? delayed_mean(signals.steering, at_s, h, *delay_s)
                            : T((*log.steering_command_rad)[row]);
       }
-      state = rk4_step(state, T(h),
-                       [&](const State<T>& at) { return state_rates(plant, at, force, steering); });
+      state = rk4_step_with_friction(friction, state, T(h), [&](const State<T>& at) {
+        return state_rates(plant, at, force, steering);
+      });
     }
   }
 }
@@ -123,14 +126,21 @@ State<T> earlier_state(const LogSignals& signals, std::size_t begin,
   while (row > begin && log.t_s[row] > then_s) --row;
   const bool servo = log.steering_command_rad.has_value();
   if (!servo) plant.steering_max_rad = T(10.0);
+  const FrictionRates<T> friction = friction_rates(plant);
+  if (friction.any()) plant = without_friction(plant);
   State<T> state = states[row - begin];
   const SideForces<T> force{T(log.force_left[row]), T(log.force_right[row])};
   const T steering = servo ? T((*log.steering_command_rad)[row]) : state.steering_rad;
   const auto rates = [&](const State<T>& s) { return state_rates(plant, s, force, steering); };
   const T span_s = T(now_s - log.t_s[row]) - delay_s;
-  if (value_of(span_s) < 0.0) return moved(state, rates(state), span_s);
+  if (value_of(span_s) < 0.0) {
+    const State<T> here = rates(state);
+    return moved(state, with_friction(friction, sliding(friction, state, here), here), span_s);
+  }
   const int steps = steps_in(value_of(span_s), longest_step_s);
-  for (int i = 0; i < steps; ++i) state = rk4_step(state, T(span_s / double(steps)), rates);
+  for (int i = 0; i < steps; ++i) {
+    state = rk4_step_with_friction(friction, state, T(span_s / double(steps)), rates);
+  }
   return state;
 }
 

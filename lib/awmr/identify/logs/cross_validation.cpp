@@ -38,7 +38,6 @@ std::string prediction_errors(const DrivingLog& log, const LogFitOptions& option
 
 CrossValidation leave_one_log_out(const std::vector<DrivingLog>& logs, LogFitOptions options) {
   options.bootstrap = 0;
-  options.suspects.clear();
   CrossValidation result;
   for (std::size_t out = 0; out < logs.size(); ++out) {
     const LogFit fit = fit_logs(without(logs, out), options);

@@ -65,38 +65,48 @@ double akaike_of(const NoiseIteration& fit) {
   return akaike(fit.problem.model.noise, rows_of(fit.problem.model.quantities));
 }
 
-/// The fit with one more quantity free, searched from `begin_s`.
-NoiseIteration with(const NoiseIteration& settled, const FreeQuantity& more, double begin_s,
-                    Loss loss) {
+/// One round of the fit with one more quantity free, from `begin_s`.
+NoiseIteration tried(const NoiseIteration& settled, const FreeQuantity& more, double begin_s,
+                     Loss loss) {
   constexpr double kLongestFirstStep_s = 0.3;
   begin_s = std::clamp(begin_s, -kLongestFirstStep_s, kLongestFirstStep_s);
   Extended from = extended(with_white_noise(settled.problem), settled.point, {more}, {begin_s});
-  return settle_noise(std::move(from.problem), std::move(from.point), loss);
+  return settle_noise(std::move(from.problem), std::move(from.point), loss, 1);
 }
 
-/// The fit with a suspect's delay free, if that lowers AIC enough.
-std::optional<NoiseIteration> with_delay(const NoiseIteration& settled, const Suspect& suspect,
-                                         Loss loss) {
-  constexpr double kPlainly = 10.0;  // of AIC
-  NoiseIteration late = with(settled, suspect.delay, suspect.value_s, loss);
-  if (!(akaike_of(settled) - akaike_of(late) > kPlainly)) return std::nullopt;
-  const double found_s = late.point.coordinates.back();
-  if (suspect.delay.kind != FreeQuantity::Kind::kDelay || !(found_s > 0.0)) return late;
-  NoiseIteration lagging = with(settled, motor_lag(), found_s, loss);
-  return akaike_of(lagging) < akaike_of(late) ? std::move(lagging) : std::move(late);
-}
-
-/// The fit with one more delay free, that of the commands or of one sensor, whichever has the lower AIC;
-/// none where neither lowers it enough.
-std::optional<NoiseIteration> with_one_more(const NoiseIteration& settled, Loss loss) {
-  std::optional<NoiseIteration> commands;
-  std::optional<NoiseIteration> sensor;
+/// The likeliest fit with one more delay free, of the commands or of one sensor, after one round; none
+/// where no suspect makes the fit likelier.
+std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& settled, Loss loss) {
+  std::optional<NoiseIteration> best;
+  double least = akaike_of(settled);
+  const auto consider = [&](NoiseIteration fit) {
+    const double criterion = akaike_of(fit);
+    if (!(criterion < least)) return false;
+    least = criterion;
+    best = std::move(fit);
+    return true;
+  };
+  bool has_sensor = false;
   for (const Suspect& suspect : suspects(settled)) {
-    std::optional<NoiseIteration>& place = is_of_commands(suspect.delay) ? commands : sensor;
-    if (!place) place = with_delay(settled, suspect, loss);
+    const bool is_sensor = !is_of_commands(suspect.delay);
+    if (is_sensor && has_sensor) continue;
+    NoiseIteration late = tried(settled, suspect.delay, suspect.value_s, loss);
+    const double found_s = late.point.coordinates.back();
+    if (!consider(std::move(late))) continue;
+    has_sensor |= is_sensor;
+    if (!is_sensor && found_s > 0.0) consider(tried(settled, motor_lag(), found_s, loss));
   }
-  if (!commands || !sensor) return commands ? std::move(commands) : std::move(sensor);
-  return akaike_of(*commands) <= akaike_of(*sensor) ? std::move(commands) : std::move(sensor);
+  return best;
+}
+
+/// The fit with one more delay free, where that lowers AIC enough.
+std::optional<NoiseIteration> with_one_more(const NoiseIteration& settled, Loss loss) {
+  constexpr double kPlainly = 10.0;  // of AIC
+  std::optional<NoiseIteration> more = likeliest_with_one_more(settled, loss);
+  if (!more) return std::nullopt;
+  *more = settle_noise(std::move(more->problem), std::move(more->point), loss);
+  if (!(akaike_of(settled) - akaike_of(*more) > kPlainly)) return std::nullopt;
+  return more;
 }
 
 }  // namespace

@@ -6,11 +6,11 @@
 
 namespace awmr {
 
-/// Frees delays one after the other: each that a score test suspects and that lowers AIC by more than
-/// ten. A late speed would otherwise pass for a heavy vehicle. A delay of all commands
-/// may be negative, where they were logged late; where it is positive, the lag of the motors takes its
-/// place if that is likelier. Of the commands and all channels, one stays without a delay: the others
-/// are late against it.
+/// Frees delays one after the other: of those that a score test suspects, the one that lowers AIC most
+/// after one round of its fit, if it lowers it by more than ten in the end. A late speed would otherwise
+/// pass for a heavy vehicle. A delay of all commands may be negative, where they were logged late; where
+/// it is positive, the lag of the motors takes its place if that is likelier. Of the commands and all
+/// channels, one stays without a delay: the others are late against it.
 NoiseIteration allow_for_delays(NoiseIteration settled, Loss loss);
 
 }  // namespace awmr

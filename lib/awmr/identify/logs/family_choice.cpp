@@ -9,6 +9,7 @@
 
 #include "awmr/core/index.h"
 #include "awmr/identify/logs/family_score.h"
+#include "awmr/identify/logs/nearest_curve.h"
 #include "awmr/identify/uncertainty/akaike.h"
 
 namespace awmr {
@@ -71,6 +72,45 @@ LogFitOptions without_terms(const LogFitOptions& power_law, const FamilyFit& inn
     }
   }
   return options;
+}
+
+/// The fastest that the logs drive, m/s, and turn, rad/s; 1 where nothing shows it.
+double fastest(const std::vector<DrivingLog>& logs, LogChannel channel) {
+  double most = 0.0;
+  for (const DrivingLog& log : logs) {
+    for (std::size_t row = 0; log[channel] && row < log.rows(); ++row) {
+      if (is_measurement(log, channel, row)) {
+        most = std::max(most, std::abs(log[channel]->value[row]));
+      }
+    }
+  }
+  return most > 0.0 ? most : 1.0;
+}
+
+/// Puts the curves of these families that are nearest to those of `inner` among `values`.
+void begin_near(const std::vector<DrivingLog>& logs, const FamilyFit& inner, Family surge,
+                Family yaw, ParameterValues<double>& values) {
+  const Vehicle& vehicle = inner.options.vehicle;
+  const Plant<double> plant = plant_of(vehicle, fitted_values(inner.options, inner.fit));
+  const double wheels = vehicle.driven_wheels();
+  if (surge != inner.surge) {
+    Resistance<double> curve = plant.surge;
+    curve.coulomb += wheels * plant.wheel_dead_zone;
+    const FamilyTerms terms = terms_of(surge);
+    const auto near = nearest_curve(curve, terms, fastest(logs, LogChannel::kSpeed));
+    values[at(ParameterId::kSurgeAlpha)] = near.alpha;
+    values[at(ParameterId::kSurgeBeta)] = near.beta;
+    values[at(ParameterId::kSurgeCoulomb)] = terms.coulomb ? near.coulomb : 0.0;
+    values[at(ParameterId::kWheelDeadZone)] = terms.dead_zone ? near.coulomb / wheels : 0.0;
+    values[at(ParameterId::kSurgeQuadratic)] = near.quadratic;
+  }
+  if (yaw != inner.yaw) {
+    const auto near = nearest_curve(plant.yaw, terms_of(yaw), fastest(logs, LogChannel::kYawRate));
+    values[at(ParameterId::kYawAlpha)] = near.alpha;
+    values[at(ParameterId::kYawBeta)] = near.beta;
+    values[at(ParameterId::kYawCoulomb)] = near.coulomb;
+    values[at(ParameterId::kYawQuadratic)] = near.quadratic;
+  }
 }
 
 bool is_of_yaw(ParameterId term) {
@@ -193,16 +233,13 @@ LogFit compete(const std::vector<DrivingLog>& logs, const LogFitOptions& power_l
   return of_first;
 }
 
-bool has_delays(const LogFitOptions& options) {
-  return options.input_delay_s || options.motor_lag_s || !options.sensor_delays.empty();
-}
-
 /// The best families with delays of their own, where those that they took over from other families do
-/// worse: a wrong resistance hides behind delays.
+/// worse: a wrong resistance hides behind delays, and hides delays.
 FamilyFit with_delays_of_its_own(const std::vector<DrivingLog>& logs,
                                  const LogFitOptions& power_law, FamilyFit best) {
-  if (!best.fit.usable || !has_delays(best.options) || is_over(power_law)) return best;
+  if (!best.fit.usable || is_over(power_law)) return best;
   LogFitOptions options = from_optimum(best.options, best);
+  options.finds_delays = true;
   options.input_delay_s = power_law.input_delay_s;
   options.motor_lag_s = power_law.motor_lag_s;
   options.sensor_delays = power_law.sensor_delays;
@@ -229,6 +266,7 @@ LogFitOptions from_optimum(LogFitOptions options, const FamilyFit& fit) {
   options.guessed.clear();
   options.also_from.clear();
   options.suspects.clear();
+  options.finds_delays = false;
   return options;
 }
 
@@ -241,9 +279,10 @@ FamilyFit fit_from(const std::vector<DrivingLog>& logs, const LogFitOptions& pow
                    const FamilyFit& inner, Family surge, Family yaw) {
   if (!inner.fit.usable) return fit_family(logs, power_law, surge, yaw);
   const LogFitOptions at_optimum = without_terms(power_law, inner, surge, yaw);
-  LogFitOptions options = with_families(at_optimum, surge, yaw);
-  options.also_from = {at_optimum.initial_guess,
-                       with_families(power_law, surge, yaw).initial_guess};
+  LogFitOptions near = at_optimum;
+  begin_near(logs, inner, surge, yaw, near.initial_guess);
+  LogFitOptions options = with_families(std::move(near), surge, yaw);
+  options.also_from = {at_optimum.initial_guess};
   return fit_with(logs, std::move(options), surge, yaw);
 }
 

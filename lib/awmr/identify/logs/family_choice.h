@@ -19,15 +19,16 @@ struct FamilyFit {
 /// True once the limit of effort or of time is reached: no further model is tried.
 bool is_over(const LogFitOptions& options);
 
-/// The options with the optimum of `fit` as the only place to search from, and nothing suspected.
+/// The options with the optimum of `fit` as the only place to search from, with its delays and no
+/// others, and nothing suspected.
 LogFitOptions from_optimum(LogFitOptions options, const FamilyFit& fit);
 
 /// The fit with the families' terms free. `power_law`: the options for a power law in both motions.
 FamilyFit fit_family(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                      Family surge, Family yaw);
 
-/// The fit of families from the optimum of `inner`, if it has one: with a little of each term that
-/// this one lacks, with none of it, and from the initial guess of the power law.
+/// The fit of families from the optimum of `inner`, if it has one: from its nearest curves, and with
+/// its own numbers and none of each term that it lacks.
 FamilyFit fit_from(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                    const FamilyFit& inner, Family surge, Family yaw);
 

@@ -142,6 +142,16 @@ void add_back_emf(const LinearPlant& plant, const State<double>& s, bool left_on
   a.r_steering -= k * along(braking.by_steering, 2);
 }
 
+/// v_dot and all of its derivatives times `pace`.
+void slow_sway(double pace, LinearRates& out) {
+  StateSlopes& a = out.by_state;
+  for (double* rate : {&out.rates.v_mps, &a.v_u, &a.v_v, &a.v_r, &a.v_steering,
+                       &out.by_force_left.v, &out.by_force_right.v}) {
+    *rate *= pace;
+  }
+  for (DrivenSlopes& by : out.by_parameter) by.v *= pace;
+}
+
 }  // namespace
 
 LinearResistance::LinearResistance(const Resistance<double>& law) : law_(law) {
@@ -240,6 +250,47 @@ void linear_rates(const LinearPlant& plant, const State<double>& s, const HeldCo
       return wheel.value > 0.0 || wheel.value < 0.0;
     };
     add_back_emf(plant, s, is_on(left), is_on(right), sin_d, cos_d, out);
+  }
+  if (plant.sway_pace < 1.0) slow_sway(plant.sway_pace, out);
+}
+
+namespace {
+
+/// Of one rate: w_dot -= s c/inertia. `inertia` is m' or I'z.
+template <double DrivenSlopes::*kRate>
+void brake(double way, double friction, double per_inertia, ParameterId coulomb,
+           ParameterId inertia, double& rate, LinearRates& out) {
+  rate -= way * friction;
+  out.by_parameter[at(coulomb)].*kRate = -way * per_inertia;
+  out.by_parameter[at(inertia)].*kRate += way * friction * per_inertia;
+}
+
+template <double DrivenSlopes::*kRate>
+void hold(double& rate, LinearRates& out) {
+  rate = 0.0;
+  for (DrivenSlopes& by : out.by_parameter) by.*kRate = 0.0;
+  out.by_force_left.*kRate = 0.0;
+  out.by_force_right.*kRate = 0.0;
+}
+
+}  // namespace
+
+void add_friction(const LinearPlant& p, const Sliding& way, LinearRates& out) {
+  StateSlopes& a = out.by_state;
+  if (is_held(way.surge, p.friction.surge_mps2)) {
+    hold<&DrivenSlopes::u>(out.rates.u_mps, out);
+    a.u_u = a.u_v = a.u_r = a.u_steering = 0.0;
+  } else if (p.friction.surge_mps2 > 0.0) {
+    brake<&DrivenSlopes::u>(way.surge, p.friction.surge_mps2, p.per_mass,
+                            ParameterId::kSurgeCoulomb, ParameterId::kMassNorm, out.rates.u_mps,
+                            out);
+  }
+  if (is_held(way.yaw, p.friction.yaw_radps2)) {
+    hold<&DrivenSlopes::r>(out.rates.r_radps, out);
+    a.r_u = a.r_v = a.r_r = a.r_steering = 0.0;
+  } else if (p.friction.yaw_radps2 > 0.0) {
+    brake<&DrivenSlopes::r>(way.yaw, p.friction.yaw_radps2, p.per_inertia, ParameterId::kYawCoulomb,
+                            ParameterId::kInertiaNorm, out.rates.r_radps, out);
   }
 }
 

@@ -4,10 +4,12 @@
 /// hand, which costs a tenth of what a number with derivatives costs. A test holds both together.
 #pragma once
 
+#include <algorithm>
 #include <array>
 
 #include "awmr/model/dynamics.h"
 #include "awmr/model/parameters.h"
+#include "awmr/model/sliding.h"
 
 namespace awmr {
 
@@ -39,23 +41,31 @@ class LinearResistance {
   ResistanceSlopes at_rest_speed_;
 };
 
-/// The plant whose rates are asked for again and again, with the reciprocals that they need.
+/// The plant whose rates are asked for again and again, with the reciprocals that they need. Coulomb
+/// friction is no part of its rates: add_friction().
 struct LinearPlant {
-  /// `by_back_emf`: its derivatives are asked for, even where the motors have none.
-  explicit LinearPlant(const Plant<double>& p, bool by_back_emf = false)
-      : plant(p),
-        surge(p.surge),
-        yaw(p.yaw),
+  /// `by_back_emf`: its derivatives are asked for, even where the motors have none. `longest_step_s`: of
+  /// the Runge-Kutta steps to come; 0: short enough for sway.
+  explicit LinearPlant(const Plant<double>& p, bool by_back_emf = false,
+                       double longest_step_s = 0.0)
+      : plant(without_friction(p)),
+        friction(friction_rates(p)),
+        surge(plant.surge),
+        yaw(plant.yaw),
         per_mass(1.0 / p.mass_norm),
         per_inertia(1.0 / p.inertia_norm),
         per_lag(1.0 / p.steering_time_constant_s),
+        sway_pace(std::min(1.0, p.mass_norm / (p.sway_alpha * longest_step_s))),
         has_back_emf(by_back_emf || p.back_emf_s_per_m > 0.0) {}
   Plant<double> plant;
+  FrictionRates<double> friction;
   LinearResistance surge;
   LinearResistance yaw;
   double per_mass;
   double per_inertia;
   double per_lag;
+  /// Factor on v_dot, <= 1: sway that is faster than the steps reaches the same v within a step.
+  double sway_pace;
   bool has_back_emf;
 };
 
@@ -96,5 +106,9 @@ struct LinearRates {
 /// The rates at `s`. What is 0 at all times stays as it is in `out`: it begins as LinearRates{}.
 void linear_rates(const LinearPlant& p, const State<double>& s, const HeldCommand& command,
                   LinearRates& out);
+
+/// Adds Coulomb friction to rates: it brakes what slides, and where it holds the vehicle no rate and no
+/// derivative is left.
+void add_friction(const LinearPlant& p, const Sliding& way, LinearRates& out);
 
 }  // namespace awmr

@@ -1,5 +1,7 @@
 #include "awmr/identify/logs/linear_replay.h"
 
+#include <algorithm>
+
 #include "awmr/core/index.h"
 
 namespace awmr {
@@ -151,10 +153,12 @@ double* LinearMotion::row(LogChannel channel, std::size_t columns) {
 
 LinearStepper::LinearStepper(const Plant<double>& plant, std::size_t columns,
                              const std::vector<ParameterColumn>& parameters,
-                             std::optional<std::size_t> late_column)
-    : plant_(plant, std::ranges::any_of(
-                        parameters,
-                        [](const ParameterColumn& p) { return p.id == ParameterId::kBackEmf; })),
+                             std::optional<std::size_t> late_column, double longest_step_s)
+    : plant_(
+          plant,
+          std::ranges::any_of(
+              parameters, [](const ParameterColumn& p) { return p.id == ParameterId::kBackEmf; }),
+          longest_step_s),
       columns_(columns),
       late_column_(late_column),
       driven_(kStages * kDrivenSize * columns, 0.0) {
@@ -184,29 +188,81 @@ void LinearStepper::note_driven(const DelayedCommand& command, double* driven) c
       by_delay.steering_rad * rates_.steering_by_command;
 }
 
-void LinearStepper::step(const DelayedCommand& command, double h, LinearMotion& motion) {
+void LinearStepper::find_rates(const DelayedCommand& command, const State<double>& s) {
+  linear_rates(plant_, s, command.command, rates_);
+  if (plant_.friction.any()) add_friction(plant_, way_, rates_);
+}
+
+void LinearStepper::find_way(const DelayedCommand& command, LinearMotion& motion) {
+  if (!plant_.friction.any()) return;
+  const State<double>& s = motion.state;
+  if (s.u_mps == 0.0 || s.r_radps == 0.0) linear_rates(plant_, s, command.command, rates_);
+  way_ = sliding(plant_.friction, s, rates_.rates);
+  if (is_held(way_.surge, plant_.friction.surge_mps2)) {
+    std::fill_n(motion.row(LogChannel::kSpeed, columns_), columns_, 0.0);
+  }
+  if (is_held(way_.yaw, plant_.friction.yaw_radps2)) {
+    std::fill_n(motion.row(LogChannel::kYawRate, columns_), columns_, 0.0);
+  }
+}
+
+State<double> LinearStepper::state_after(const DelayedCommand& command, double h,
+                                         const State<double>& from) {
   // As rk4_step() does.
   constexpr double kToNext[kStages] = {0.5, 0.5, 1.0, 0.0};
   constexpr double kShare[kStages] = {6.0, 3.0, 3.0, 6.0};
-  State<double> at_stage = motion.state;
-  State<double> next = motion.state;
+  State<double> at_stage = from;
+  State<double> next = from;
   for (std::size_t i = 0; i < kStages; ++i) {
-    linear_rates(plant_, at_stage, command.command, rates_);
+    find_rates(command, at_stage);
     next = moved(next, rates_.rates, h / kShare[i]);
-    at_stage = moved(motion.state, rates_.rates, kToNext[i] * h);
+    at_stage = moved(from, rates_.rates, kToNext[i] * h);
     if (columns_ == 0) continue;
     slopes_[i] = rates_.by_state;
     note_driven(command, driven_.data() + i * kDrivenSize * columns_);
   }
+  return next;
+}
+
+void LinearStepper::move_to(const State<double>& next, double h, LinearMotion& motion) {
   motion.state = next;
   if (columns_ > 0) {
     step_sensitivities(slopes_, driven_.data(), h, columns_, motion.by_column.data());
   }
 }
 
+void LinearStepper::stop(LogChannel speed, const DelayedCommand& command, LinearMotion& motion) {
+  // A change of the speed S before the stop moves the stop by -S/w_dot before it, and the speed after
+  // it by that time at the difference of the rates: S after = S before (w_dot after)/(w_dot before).
+  find_rates(command, motion.state);
+  const double before = channel_of(rates_.rates, speed);
+  channel_of(motion.state, speed) = 0.0;
+  find_way(command, motion);
+  find_rates(command, motion.state);
+  const double factor = before != 0.0 ? channel_of(rates_.rates, speed) / before : 0.0;
+  double* const row = motion.row(speed, columns_);
+  for (std::size_t c = 0; c < columns_; ++c) row[c] *= factor;
+}
+
+void LinearStepper::step(const DelayedCommand& command, double h, LinearMotion& motion) {
+  for (int stops = 0;; ++stops) {
+    find_way(command, motion);
+    const State<double>& from = motion.state;
+    const State<double> next = state_after(command, h, from);
+    const double surge = share_until_rest(way_.surge, from.u_mps, next.u_mps);
+    const double yaw = share_until_rest(way_.yaw, from.r_radps, next.r_radps);
+    const double share = std::min(surge, yaw);
+    if (share == 1.0 || stops == kMostStopsInAStep) return move_to(next, h, motion);
+    move_to(state_after(command, share * h, from), share * h, motion);
+    stop(surge <= yaw ? LogChannel::kSpeed : LogChannel::kYawRate, command, motion);
+    h *= 1.0 - share;
+  }
+}
+
 State<double> LinearStepper::step_along_tangent(const DelayedCommand& command, double h,
                                                 LinearMotion& motion) {
-  linear_rates(plant_, motion.state, command.command, rates_);
+  find_way(command, motion);
+  find_rates(command, motion.state);
   motion.state = moved(motion.state, rates_.rates, h);
   if (columns_ > 0) note_driven(command, driven_.data());
   for (std::size_t c = 0; c < columns_; ++c) {
@@ -217,8 +273,9 @@ State<double> LinearStepper::step_along_tangent(const DelayedCommand& command, d
   return rates_.rates;
 }
 
-State<double> LinearStepper::rates(const DelayedCommand& command, const LinearMotion& motion) {
-  linear_rates(plant_, motion.state, command.command, rates_);
+State<double> LinearStepper::rates(const DelayedCommand& command, LinearMotion& motion) {
+  find_way(command, motion);
+  find_rates(command, motion.state);
   return rates_.rates;
 }
 

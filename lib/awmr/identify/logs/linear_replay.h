@@ -83,15 +83,16 @@ struct DelayedCommand {
 class LinearStepper {
  public:
   /// `columns`: 0 for the state alone. `late_column`: of the command path's delay or lag.
+  /// `longest_step_s`: of LinearPlant.
   LinearStepper(const Plant<double>& plant, std::size_t columns,
                 const std::vector<ParameterColumn>& parameters,
-                std::optional<std::size_t> late_column);
-  /// One classical Runge-Kutta step of h seconds.
+                std::optional<std::size_t> late_column, double longest_step_s = 0.0);
+  /// One classical Runge-Kutta step of h seconds with friction, as rk4_step_with_friction().
   void step(const DelayedCommand& command, double h_s, LinearMotion& motion);
   /// One step along the rates where it stands, which are returned; h of either sign.
   State<double> step_along_tangent(const DelayedCommand& command, double h_s, LinearMotion& motion);
   /// The state's rates there.
-  State<double> rates(const DelayedCommand& command, const LinearMotion& motion);
+  State<double> rates(const DelayedCommand& command, LinearMotion& motion);
 
   std::size_t columns() const { return columns_; }
 
@@ -104,11 +105,22 @@ class LinearStepper {
     double factor;
   };
   void note_driven(const DelayedCommand& command, double* driven) const;
+  /// The rates and their derivatives at `s`, friction included.
+  void find_rates(const DelayedCommand& command, const State<double>& s);
+  /// Which way `motion` slides from here on. What is held has no derivatives left.
+  void find_way(const DelayedCommand& command, LinearMotion& motion);
+  /// The state h seconds on, and what the derivatives need to follow.
+  State<double> state_after(const DelayedCommand& command, double h_s, const State<double>& from);
+  /// Moves the state to `next`, that of the last state_after(), and its derivatives with it.
+  void move_to(const State<double>& next, double h_s, LinearMotion& motion);
+  /// Takes a speed that has come to 0 to rest, or on the other way.
+  void stop(LogChannel speed, const DelayedCommand& command, LinearMotion& motion);
 
   LinearPlant plant_;
   std::size_t columns_;
   std::optional<std::size_t> late_column_;
   std::vector<Term> terms_;
+  Sliding way_;
   LinearRates rates_;
   std::array<StateSlopes, kStages> slopes_{};
   std::vector<double> driven_;  ///< [kStages][kDrivenSize][columns]

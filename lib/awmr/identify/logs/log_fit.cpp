@@ -75,8 +75,11 @@ LogFit fit_at(const LogProblem& problem, const Solved& solved, const std::vector
 /// its end.
 std::optional<LogFit> fit_from(const LogProblem& guess, const std::vector<double>& coordinates,
                                const LogFitOptions& options) {
-  const NoiseIteration settled = allow_for_delays(
-      settle_noise(guess, from_measured(guess, coordinates), options.loss), options.loss);
+  LogProblem problem = guess;
+  problem.model.longest_step_s = step_s_at(problem.model, coordinates);
+  NoiseIteration settled =
+      settle_noise(std::move(problem), from_measured(guess, coordinates), options.loss);
+  if (options.finds_delays) settled = allow_for_delays(std::move(settled), options.loss);
   const Solved solved = solve(settled.problem, settled.point, kFine);
   const std::vector<WindowSums> sums =
       sums_at(settled.problem, solved.point, block_length_s(settled.problem.model.noise));

@@ -48,9 +48,9 @@ struct LogFitOptions {
   /// The time constant of the motors is free, with where the search begins.
   std::optional<double> motor_lag_s;
   std::vector<LogChannel> biases;  ///< channels whose constant offset is free
-  /// Sensor delays that are free, with where the search begins. The fit adds the delays and the lag
-  /// that its residuals show.
+  /// Sensor delays that are free, with where the search begins.
   std::vector<SensorDelay> sensor_delays;
+  bool finds_delays = true;  ///< the fit adds the delays and the lag that its residuals show
   /// Further places to search from, beside the initial guess: the optimum of a family inside this one.
   std::vector<ParameterValues<double>> also_from;
   Loss loss = Loss::kSquared;  ///< a robust one where a sensor has outliers

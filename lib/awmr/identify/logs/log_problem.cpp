@@ -1,25 +1,51 @@
 #include "awmr/identify/logs/log_problem.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
+#include "awmr/core/index.h"
 #include "awmr/core/parallel.h"
 
 namespace awmr {
 
+namespace {
+
+double shortest_spacing_s(const std::vector<DrivingLog>& logs) {
+  double shortest_s = std::numeric_limits<double>::infinity();
+  for (const DrivingLog& log : logs) shortest_s = std::min(shortest_s, log.median_step_s());
+  return shortest_s;
+}
+
+}  // namespace
+
+double step_s_at(const LogModel& model, const std::vector<double>& coordinates) {
+  ParameterValues<double> values = model.held;
+  for (std::size_t i = 0; i < coordinates.size(); ++i) {
+    const FreeQuantity& q = model.quantities[i];
+    if (q.kind == FreeQuantity::Kind::kParameter) values[at(q.id)] = q.value(coordinates[i]);
+  }
+  constexpr double kStepsOfRow = 4.0;
+  Plant<double> plant = plant_of(model.vehicle, values);
+  const double sway_s = 0.25 * plant.mass_norm / plant.sway_alpha;
+  plant.sway_alpha = 0.0;
+  // A guess may be faster than any vehicle.
+  return std::max(
+      kShortestReplayStep_s,
+      std::min(replay_step_s(plant), std::max(sway_s, model.row_spacing_s / kStepsOfRow)));
+}
+
 LogProblem log_problem(const std::vector<DrivingLog>& logs, const LogFitOptions& options) {
   LogProblem problem;
   problem.windows = fit_windows(logs);
-  problem.model = {
-      .vehicle = options.vehicle,
-      .held = options.initial_guess,
-      .quantities = free_quantities(options),
-      .initial = initial_components(logs),
-      .noise = sensor_noise(problem.windows),
-      // A guess may be faster than any vehicle.
-      .longest_step_s = std::max(kShortestReplayStep_s,
-                                 replay_step_s(plant_of(options.vehicle, options.initial_guess)))};
+  problem.model = {.vehicle = options.vehicle,
+                   .held = options.initial_guess,
+                   .quantities = free_quantities(options),
+                   .initial = initial_components(logs),
+                   .noise = sensor_noise(problem.windows),
+                   .row_spacing_s = shortest_spacing_s(logs)};
   problem.initial = initial_coordinates(problem.model.quantities, options);
+  problem.model.longest_step_s = step_s_at(problem.model, problem.initial);
   problem.bounds = coordinate_bounds(problem.model.quantities, problem.initial, options.vehicle);
   problem.threads = options.threads;
   problem.deadline = options.deadline;

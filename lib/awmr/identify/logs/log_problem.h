@@ -41,6 +41,10 @@ struct SearchPoint {
   std::vector<double> initial_states;  ///< by window, then by component
 };
 
+/// The longest step that follows the motion at these coordinates, s: as replay_step_s(), but sway need
+/// not be followed between the rows of a log (LinearPlant::sway_pace).
+double step_s_at(const LogModel& model, const std::vector<double>& coordinates);
+
 /// The problem at the initial guess: sensor noise, no outlier weighed down. The logs must outlive
 /// it.
 LogProblem log_problem(const std::vector<DrivingLog>& logs, const LogFitOptions& options);

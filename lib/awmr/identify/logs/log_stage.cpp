@@ -475,7 +475,7 @@ Result<LogStage> run_log_stage(const Vehicle& vehicle, const std::vector<Driving
   judge_inertia(vehicle, logs, model, stage);
   if (options.cross_validate && logs.size() > 1) {
     tell(options, "predicting each log from the others");
-    const CrossValidation held_out = leave_one_log_out(logs, chosen.options);
+    const CrossValidation held_out = leave_one_log_out(logs, from_optimum(chosen.options, chosen));
     append(stage.reports[stage.chosen_report].leave_one_out, held_out.leave_one_out);
     append(stage.findings, held_out.findings);
   }

@@ -124,12 +124,11 @@ void weigh(LogProblem& problem, const std::vector<WindowErrors>& errors, Loss lo
 
 }  // namespace
 
-NoiseIteration settle_noise(LogProblem problem, SearchPoint point, Loss loss) {
-  constexpr int kRounds = 6;
+NoiseIteration settle_noise(LogProblem problem, SearchPoint point, Loss loss, int rounds) {
   constexpr double kSettled = 0.01;
   constexpr double kMiddling = 1e-6;
   const double fine_step_s = problem.model.longest_step_s;
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < rounds; ++round) {
     problem.model.longest_step_s = round == 0 ? kRoughStep * fine_step_s : fine_step_s;
     point = solve(problem, std::move(point), kMiddling).point;
     problem.model.longest_step_s = fine_step_s;

@@ -15,7 +15,9 @@ ErrorsByChannel errors_by_channel(const LogProblem& problem,
                                   const std::vector<WindowErrors>& errors, Loss loss);
 
 /// Fits, takes the noise of every channel from its residuals, fits again: until no level changes by
-/// more than a hundredth, a few rounds at most.
-NoiseIteration settle_noise(LogProblem problem, SearchPoint point, Loss loss);
+/// more than a hundredth, `rounds` at most. One round ranks models: it integrates with longer steps.
+inline constexpr int kNoiseRounds = 6;
+NoiseIteration settle_noise(LogProblem problem, SearchPoint point, Loss loss,
+                            int rounds = kNoiseRounds);
 
 }  // namespace awmr

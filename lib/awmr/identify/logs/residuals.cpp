@@ -10,7 +10,7 @@
 #include "awmr/identify/logs/linear_replay.h"
 #include "awmr/identify/logs/product_sums.h"
 #include "awmr/identify/logs/whitener.h"
-#include "awmr/model/rest.h"
+#include "awmr/model/sliding.h"
 
 namespace awmr {
 namespace {
@@ -29,6 +29,16 @@ struct Unpacked {
     return std::ranges::any_of(sensor_delay, [](const auto& d) { return d.has_value(); });
   }
 };
+
+/// The servo no faster than Runge-Kutta steps of h seconds can follow: a search along what no channel
+/// shows would end where the steps blow up.
+void slow_servo(double h, std::vector<ParameterColumn>& parameters, Plant<double>& plant) {
+  if (!(plant.steering_time_constant_s < 0.5 * h)) return;
+  plant.steering_time_constant_s = 0.5 * h;
+  std::erase_if(parameters, [](const ParameterColumn& column) {
+    return column.id == ParameterId::kSteeringTimeConstant;
+  });
+}
 
 Unpacked unpack(const LogModel& model, const FitWindow& window, const double* coordinates,
                 const double* initial_state) {
@@ -59,7 +69,8 @@ Unpacked unpack(const LogModel& model, const FitWindow& window, const double* co
         break;
     }
   }
-  u.plant = resolved_at_rest(plant_of(model.vehicle, values), model.longest_step_s);
+  u.plant = resolved_beside_friction(plant_of(model.vehicle, values), model.longest_step_s);
+  slow_servo(model.longest_step_s, u.parameters, u.plant);
   // A logged angle is what it is: no stop, no lag.
   if (!window.rows.log->steering_command_rad) u.plant.steering_max_rad = 10.0;
   u.initial = window.measured;
@@ -86,8 +97,8 @@ void for_each_error(const LogModel& model, const FitWindow& window, const Unpack
   const DrivingLog& log = *window.rows.log;
   const std::vector<Sample>& samples = window.samples();
   const double h = model.longest_step_s;
-  LinearStepper stepper(u.plant, columns, u.parameters, u.path.column());
-  LinearStepper back(u.plant, columns, u.parameters, u.path.column());
+  LinearStepper stepper(u.plant, columns, u.parameters, u.path.column(), h);
+  LinearStepper back(u.plant, columns, u.parameters, u.path.column(), h);
   const bool any_late = u.any_late();
   std::vector<LinearMotion> motions;  // by row, where a sensor is late
   std::vector<double> row(columns);

@@ -21,6 +21,7 @@ struct LogModel {
   std::vector<FreeQuantity> quantities;
   std::vector<InitialComponent> initial;
   NoiseLevels noise;
+  double row_spacing_s = 0.02;   ///< the shortest of the logs'
   double longest_step_s = 0.01;  ///< of the integration
 };
 

@@ -6,7 +6,7 @@
 
 #include "awmr/core/units.h"
 #include "awmr/model/dynamics.h"
-#include "awmr/model/rest.h"
+#include "awmr/model/sliding.h"
 #include "awmr/model/steady.h"
 #include "awmr/trials/replay.h"
 
@@ -158,7 +158,7 @@ CoastCurve simulate_coastdown(const Plant<double>& plant, double speed_mps, doub
   NoiseSource noise(noise_mps, correlation_s, 1.0 / rate_hz);
   const auto rows = static_cast<int>(std::lround(duration_s * rate_hz));
   constexpr double kStep_s = 1e-4;
-  const Plant<double> resolved = resolved_at_rest(plant, kStep_s);
+  const Plant<double> resolved = resolved_beside_friction(plant, kStep_s);
   State<double> state{};
   state.u_mps = speed_mps;
   const int steps = std::max(1, static_cast<int>(std::lround(1.0 / (rate_hz * kStep_s))));
@@ -248,8 +248,8 @@ DrivingLog simulate_log(const Plant<double>& plant, const Vehicle& vehicle, cons
   command_drive(vehicle, plan, log);
   std::vector<State<double>> truth(log.rows());
   const double step_s = std::min(1e-3, replay_step_s(plant));
-  replay<double>(LogSignals(log), 0, log.rows(), resolved_at_rest(plant, step_s), nullptr, step_s,
-                 State<double>{},
+  replay<double>(LogSignals(log), 0, log.rows(), resolved_beside_friction(plant, step_s), nullptr,
+                 step_s, State<double>{},
                  [&](std::size_t row, const State<double>& state) { truth[row] = state; });
 
   std::vector<LogChannel> channels{LogChannel::kX, LogChannel::kY, LogChannel::kHeading,

@@ -14,7 +14,8 @@ struct SubjectOptions {
   std::optional<ErrorModel> noise;
   FamilyChoice family;
   Loss loss = Loss::kSquared;
-  bool side_by_side = true;  ///< false: the asked fit alone, without rivals
+  bool side_by_side = true;     ///< false: the asked fit alone, without rivals
+  bool keeps_outliers = false;  ///< a run far off the others' curve is fitted with them
 };
 
 /// A nonlinear fit of one family under one noise model, and its entry of /estimates.

@@ -8,6 +8,7 @@
 
 #include "awmr/core/index.h"
 #include "awmr/core/option_text.h"
+#include "awmr/identify/tables/gross_outlier.h"
 #include "awmr/identify/tables/influence.h"
 #include "awmr/identify/tables/profile.h"
 #include "awmr/identify/tables/residual_checks.h"
@@ -182,9 +183,22 @@ void take(const Subject& subject, Choice choice, SubjectFit& result) {
   append(bound_findings(subject, *result.chosen, result.problem.family), result.findings);
 }
 
-}  // namespace
+/// Takes the gross outliers out of the subject.
+std::vector<Finding> set_outliers_aside(Subject& subject, const SubjectOptions& options) {
+  constexpr std::size_t kOneIn = 10;
+  std::vector<Finding> findings;
+  if (options.keeps_outliers || options.loss != Loss::kSquared) return findings;
+  const std::size_t most = std::max<std::size_t>(1, subject.points.size() / kOneIn);
+  while (findings.size() < most) {
+    const auto outlier = gross_outlier(subject, options);
+    if (!outlier) break;
+    findings.push_back(set_aside(subject, *outlier));
+    subject.points.erase(subject.points.begin() + eigen_index(outlier->point));
+  }
+  return findings;
+}
 
-SubjectFit fit_subject(const Subject& subject, const SubjectOptions& options) {
+SubjectFit fit_rows(const Subject& subject, const SubjectOptions& options) {
   SubjectFit result;
   if (!has_two_forces(subject.points)) return result;
   const SteadyFit line = fit_log_linear(subject.points);
@@ -211,6 +225,16 @@ SubjectFit fit_subject(const Subject& subject, const SubjectOptions& options) {
   if (options.loss == Loss::kSquared) {
     append(power_law_findings(subject, wanted, candidates, result.problem.family), result.findings);
   }
+  return result;
+}
+
+}  // namespace
+
+SubjectFit fit_subject(Subject subject, const SubjectOptions& options) {
+  if (!has_two_forces(subject.points)) return {};
+  std::vector<Finding> aside = set_outliers_aside(subject, options);
+  SubjectFit result = fit_rows(subject, options);
+  append(std::move(aside), result.findings);
   return result;
 }
 

@@ -21,7 +21,8 @@ struct SubjectFit {
 
 /// All estimators side by side, the chosen one with its diagnostics, outliers (`outlier`),
 /// influence of single rows (`influential-row`) and the verdict on the power law
-/// (`power-law-inadequate`).
-SubjectFit fit_subject(const Subject& subject, const SubjectOptions& options);
+/// (`power-law-inadequate`). Under squared loss gross outliers are set aside before the fit, at most
+/// a tenth of the runs and at least one.
+SubjectFit fit_subject(Subject subject, const SubjectOptions& options);
 
 }  // namespace awmr

@@ -1,0 +1,60 @@
+#include "awmr/identify/logs/nearest_curve.h"
+
+#include <Eigen/Dense>
+#include <limits>
+
+namespace awmr {
+namespace {
+
+constexpr Eigen::Index kSpeeds = 12;
+using Values = Eigen::Matrix<double, kSpeeds, 1>;
+
+struct Nearest {
+  Resistance<double> curve{};
+  double squares = std::numeric_limits<double>::infinity();
+};
+
+/// With beta, and a quadratic term or none; the constant is free, or held at `least`.
+Nearest fitted(const Values& speed, const Values& force, double beta, bool quadratic,
+               bool free_constant, double least) {
+  Eigen::Matrix<double, kSpeeds, Eigen::Dynamic> columns(kSpeeds, 1 + quadratic + free_constant);
+  columns.col(0) = speed.array().pow(beta);
+  if (quadratic) columns.col(1) = speed.array().square();
+  if (free_constant) columns.col(1 + quadratic).setOnes();
+  const Values wanted = force.array() - (free_constant ? 0.0 : least);
+  const Eigen::VectorXd x = columns.colPivHouseholderQr().solve(wanted);
+  const double constant = free_constant ? x(1 + quadratic) : least;
+  const bool possible = x(0) > 0.0 && constant >= least && (!quadratic || x(1) >= 0.0);
+  if (!possible) return {};
+  return {{.alpha = x(0), .beta = beta, .coulomb = constant, .quadratic = quadratic ? x(1) : 0.0},
+          (columns * x - wanted).squaredNorm()};
+}
+
+}  // namespace
+
+Resistance<double> nearest_curve(const Resistance<double>& curve, const FamilyTerms& terms,
+                                 double fastest) {
+  constexpr double kLeastShare = 0.1;
+  constexpr double kLeastBeta = 0.2;
+  constexpr double kBetaStep = 0.1;
+  constexpr int kBetas = 24;  // up to 2.5
+  const Values speed = Values::LinSpaced(fastest / kSpeeds, fastest);
+  const Values force = speed.unaryExpr([&](double w) { return curve.at(w); });
+  const bool constant = terms.coulomb || terms.dead_zone;
+  const double least = constant ? kLeastShare * curve.at(0.5 * fastest) : 0.0;
+  Nearest best;
+  const auto consider = [&](double beta) {
+    for (const bool quadratic : {false, true}) {
+      for (const bool free_constant : {false, true}) {
+        if ((quadratic && !terms.quadratic) || (free_constant && !constant)) continue;
+        const Nearest one = fitted(speed, force, beta, quadratic, free_constant, least);
+        if (one.squares < best.squares) best = one;
+      }
+    }
+  };
+  if (!terms.beta) consider(1.0);
+  for (int i = 0; terms.beta && i < kBetas; ++i) consider(kLeastBeta + kBetaStep * i);
+  return best.squares < std::numeric_limits<double>::infinity() ? best.curve : curve;
+}
+
+}  // namespace awmr

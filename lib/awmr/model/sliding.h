@@ -1,0 +1,112 @@
+/// Coulomb friction where a vehicle stops, turns round and is held. Templates on the scalar.
+///
+/// The curve g jumps at rest by c to either side. Over a step the friction keeps its direction,
+///
+///     u_dot = (X - s c - (g1(u) - c sgn u))/m' + r v,   s: 1 or -1, the way the vehicle slides
+///
+/// and a step in which u passes 0 ends there: the vehicle is held, u_dot = 0, while what drives it,
+/// |X + m' r v|, is at most c. Yaw likewise. A chord through the jump would let it creep instead.
+#pragma once
+
+#include "awmr/model/rest.h"
+#include "awmr/model/runge_kutta.h"
+
+namespace awmr {
+
+/// c over inertia.
+template <class T>
+struct FrictionRates {
+  T surge_mps2;   ///< c1/m', >= 0
+  T yaw_radps2;   ///< c3/I'z, >= 0
+  bool any() const { return value_of(surge_mps2) > 0.0 || value_of(yaw_radps2) > 0.0; }
+};
+
+template <class T>
+FrictionRates<T> friction_rates(const Plant<T>& plant) {
+  return {T(plant.surge.coulomb / plant.mass_norm), T(plant.yaw.coulomb / plant.inertia_norm)};
+}
+
+template <class T>
+Plant<T> without_friction(Plant<T> plant) {
+  plant.surge.coulomb = T(0.0);
+  plant.yaw.coulomb = T(0.0);
+  return plant;
+}
+
+/// resolved_at_rest() for steps with friction: the chords are those of the other resistance alone.
+template <class T>
+Plant<T> resolved_beside_friction(Plant<T> plant, double step_s) {
+  const Plant<T> resolved = resolved_at_rest(without_friction(plant), step_s);
+  plant.surge.rest_speed = resolved.surge.rest_speed;
+  plant.yaw.rest_speed = resolved.yaw.rest_speed;
+  return plant;
+}
+
+/// Which way surge and yaw slide: 1, -1, or 0 where friction holds them or there is none.
+struct Sliding {
+  double surge = 0.0;
+  double yaw = 0.0;
+};
+
+/// `rate`: of `speed` without friction, `friction` what friction changes it by.
+inline double slides(double speed, double rate, double friction) {
+  if (!(friction > 0.0)) return 0.0;
+  if (speed > 0.0) return 1.0;
+  if (speed < 0.0) return -1.0;
+  return rate > friction ? 1.0 : rate < -friction ? -1.0 : 0.0;
+}
+
+/// `rates`: those at s without friction.
+template <class T>
+Sliding sliding(const FrictionRates<T>& friction, const State<T>& s, const State<T>& rates) {
+  return {slides(value_of(s.u_mps), value_of(rates.u_mps), value_of(friction.surge_mps2)),
+          slides(value_of(s.r_radps), value_of(rates.r_radps), value_of(friction.yaw_radps2))};
+}
+
+/// Whether friction holds the vehicle in its surge, or in its yaw.
+inline bool is_held(double way, double friction) { return friction > 0.0 && way == 0.0; }
+
+/// The rates with friction, from those without.
+template <class T>
+State<T> with_friction(const FrictionRates<T>& friction, const Sliding& way, State<T> rates) {
+  rates.u_mps = is_held(way.surge, value_of(friction.surge_mps2))
+                    ? T(0.0)
+                    : T(rates.u_mps - way.surge * friction.surge_mps2);
+  rates.r_radps = is_held(way.yaw, value_of(friction.yaw_radps2))
+                      ? T(0.0)
+                      : T(rates.r_radps - way.yaw * friction.yaw_radps2);
+  return rates;
+}
+
+/// The share of a step from `from` to `to` after which a speed that slides `way` is 0; 1: it does not get
+/// there. A speed that begins at 0 is not stopped by the step.
+inline double share_until_rest(double way, double from, double to) {
+  if (!(way * from > 0.0) || !(way * to < 0.0)) return 1.0;
+  return from / (from - to);
+}
+
+/// A step holds so many stops at most; what it has left then is taken in one.
+inline constexpr int kMostStopsInAStep = 4;
+
+/// rk4_step() with friction. `rates` are those without it, and all of them where there is none.
+template <class T, class Rates>
+State<T> rk4_step_with_friction(const FrictionRates<T>& friction, State<T> s, T h,
+                                const Rates& rates) {
+  if (!friction.any()) return rk4_step(s, h, rates);
+  for (int stops = 0;; ++stops) {
+    const Sliding way = sliding(friction, s, rates(s));
+    const auto slid = [&](const State<T>& at) { return with_friction(friction, way, rates(at)); };
+    const State<T> next = rk4_step(s, h, slid);
+    const double surge = share_until_rest(way.surge, value_of(s.u_mps), value_of(next.u_mps));
+    const double yaw = share_until_rest(way.yaw, value_of(s.r_radps), value_of(next.r_radps));
+    if ((surge == 1.0 && yaw == 1.0) || stops == kMostStopsInAStep) return next;
+    const bool surge_stops = surge <= yaw;
+    const T share = surge_stops ? T(s.u_mps / (s.u_mps - next.u_mps))
+                                : T(s.r_radps / (s.r_radps - next.r_radps));
+    s = rk4_step(s, T(share * h), slid);
+    (surge_stops ? s.u_mps : s.r_radps) = T(0.0);
+    h = T((T(1.0) - share) * h);
+  }
+}
+
+}  // namespace awmr
