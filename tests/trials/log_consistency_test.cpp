@@ -30,6 +30,7 @@ struct Making {
   bool sides_apart = true;
   double noise = 1.0;
   double gyro_bias_radps = 0.0;
+  bool combined = false;  ///< the sides make the moment that the steering makes
 };
 
 Measured measured(std::vector<double> values) {
@@ -53,6 +54,10 @@ DrivingLog sound_log(std::uint64_t seed, const Making& making = {}, std::size_t 
       level = 0.15 + 0.4 * random.uniform();
       apart = making.sides_apart ? 0.1 * (random.uniform() - 0.5) : 0.0;
       angle = radians(30.0) * (random.uniform() - 0.5);
+      if (making.combined) {
+        const Vehicle v = testing::paper_vehicle();
+        apart = 0.5 * v.front_axle_m * level * std::sin(angle) / v.half_track_m;
+      }
     }
     log.t_s.push_back(kStep_s * static_cast<double>(i));
     log.line.push_back(static_cast<int>(i) + 2);
@@ -140,6 +145,23 @@ TEST(LogConsistency, TheFirstTenSecondsOfAHundredGoodLogsRaiseNoAlarm) {
       const auto found = contradictions(sound_log(seed, making, kFirstRows), vehicle(), {});
       EXPECT_TRUE(found.empty()) << seed << ": " << found.front().column << ": "
                                  << found.front().message;
+    }
+  }
+}
+
+TEST(LogConsistency, InTheCombinedModeAReversedSteeringAndSwappedSidesAreNamed) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const DrivingLog sound = sound_log(seed, {.combined = true});
+    EXPECT_TRUE(contradictions(sound, vehicle(), {}).empty()) << seed;
+    DrivingLog reversed = sound;
+    scale(*reversed.steering_command_rad, -1.0);
+    DrivingLog swapped = sound;
+    std::swap(swapped.force_left, swapped.force_right);
+    for (const auto& [log, column] :
+         {std::pair(&reversed, "steering_cmd_deg"), std::pair(&swapped, "force_left")}) {
+      const auto found = contradictions(*log, vehicle(), {});
+      ASSERT_EQ(found.size(), 1U) << seed << ", " << column;
+      EXPECT_EQ(found.front().column, column) << seed;
     }
   }
 }

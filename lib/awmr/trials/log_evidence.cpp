@@ -131,7 +131,14 @@ MomentShares moment_shares(const std::vector<EvidenceWindow>& windows,
   };
   if (steering_only) return {shown(sr / ss, 1.0 / ss, sr * sr / ss), 0};
   if (sides_only) return {0.0, shown(dr / dd, 1.0 / dd, dr * dr / dd)};
-  if (!apart) return {};
+  if (!apart) {
+    // Moments that nearly cancel each other turn nothing: one of them has the wrong sign, that which the
+    // rate is against.
+    constexpr double kNearlyEqual = 4.0;  // of their squares
+    const bool cancel = sd < 0.0 && ss < kNearlyEqual * dd && dd < kNearlyEqual * ss;
+    if (sd < 0.0 && !cancel) return {};
+    return {shown(sr / ss, 1.0 / ss, sr * sr / ss), shown(dr / dd, 1.0 / dd, dr * dr / dd)};
+  }
   const double bs = (sr * dd - dr * sd) / determinant;
   const double bd = (dr * ss - sr * sd) / determinant;
   const double explained = bs * sr + bd * dr;
