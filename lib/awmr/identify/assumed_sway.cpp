@@ -12,7 +12,7 @@ namespace awmr {
 namespace {
 
 /// c, 1/rad.
-constexpr Interval kTyreStiffness{5.0, 15.0};
+constexpr Interval kTyreStiffness{0.5, 16.0};
 /// Half of a normal 95 % interval over the standard deviation.
 constexpr double kNormal95 = 1.959964;
 /// Of a log the speed that it keeps below but for 5 % of the time: a spike is no speed.

@@ -5,7 +5,8 @@
 ///
 ///     F_y = c m g v/u,    over F_max = m/m':    sway.alpha = c g m'/u
 ///
-/// c is 5 for hard plastic and 15 for rubber on asphalt, taken as a 95 % interval in the logarithm; u is half of the
+/// c is 15 for rubber on asphalt, 5 for hard plastic and less than 1 for wheels that slide already, as those of
+/// a skid-steered vehicle in its turns: 0.5 to 16, taken as a 95 % interval in the logarithm. u is half of the
 /// fastest speed in the trials, where scenarios are driven.
 #pragma once
 
