@@ -149,6 +149,32 @@ TEST(LogConsistency, TheFirstTenSecondsOfAHundredGoodLogsRaiseNoAlarm) {
   }
 }
 
+/// Every n-th value, held until the next.
+void hold(LogChannel channel, std::size_t n, DrivingLog& log) {
+  Measured& held = *log[channel];
+  held.held = true;
+  for (std::size_t row = 0; row < log.rows(); ++row) {
+    held.fresh[row] = row % n == 0;
+    held.value[row] = held.value[row - row % n];
+  }
+}
+
+TEST(LogConsistency, SensorsSlowerThanTheLogHaveNoOtherUnit) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    for (const std::size_t n : {5, 10, 25, 40, 50}) {
+      DrivingLog log = sound_log(seed);
+      for (const LogChannel c : {LogChannel::kX, LogChannel::kY, LogChannel::kHeading}) {
+        hold(c, n, log);
+      }
+      const auto found = contradictions(log, vehicle(), {});
+      EXPECT_TRUE(found.empty()) << seed << ", one in " << n << ": " << found.front().column << ": "
+                                 << found.front().message;
+      scale(log[LogChannel::kSpeed]->value, 3.6);
+      EXPECT_FALSE(contradictions(log, vehicle(), {}).empty()) << seed << ", one in " << n;
+    }
+  }
+}
+
 TEST(LogConsistency, InTheCombinedModeAReversedSteeringAndSwappedSidesAreNamed) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const DrivingLog sound = sound_log(seed, {.combined = true});

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 
@@ -60,6 +61,36 @@ EvidenceWindow sums_of(const DrivingLog& log, const Vehicle& vehicle, const LogW
   return sums;
 }
 
+/// Whether every position and heading of a row is a reading, none of them held from a row before.
+bool has_readings(const DrivingLog& log, std::size_t row) {
+  return std::ranges::all_of(
+      std::array{LogChannel::kX, LogChannel::kY, LogChannel::kHeading}, [&](LogChannel channel) {
+        return !log[channel] || !log[channel]->held || log[channel]->fresh[row];
+      });
+}
+
+/// The windows moved to where they begin and end with readings: what a sensor slower than the log moved
+/// between two held values belongs to another time. An end moves on into the window behind, or back where
+/// there is none; windows that this makes twice or half as long are left out.
+std::vector<LogWindow> between_readings(const std::vector<LogWindow>& windows) {
+  std::vector<LogWindow> moved;
+  for (std::size_t i = 0; i < windows.size(); ++i) {
+    const auto& [log, begin, end] = windows[i];
+    const bool goes_on = i + 1 < windows.size() && windows[i + 1].begin == end;
+    const std::size_t limit = goes_on ? windows[i + 1].end : end;
+    std::size_t first = begin;
+    while (first < end && !has_readings(*log, first)) ++first;
+    std::size_t last = end - 1;
+    while (last < limit && !has_readings(*log, last)) ++last;
+    if (last == limit) {
+      last = end - 1;
+      while (last > first && !has_readings(*log, last)) --last;
+    }
+    if (2 * (last - std::min(first, last)) >= end - begin) moved.push_back({log, first, last + 1});
+  }
+  return moved;
+}
+
 /// Between two windows that follow each other, two more that take a part of both; none where there
 /// are windows enough.
 std::vector<LogWindow> windows_between(const std::vector<LogWindow>& windows) {
@@ -93,11 +124,11 @@ Evidence evidence_of(const DrivingLog& log, const Vehicle& vehicle,
                      std::span<const ColumnMapping> mappings) {
   Evidence evidence{log, vehicle, mappings, {}, {}};
   const std::vector<LogWindow> windows = windows_of(log, kEvidenceWindow_s);
-  for (const LogWindow& window : windows) {
+  for (const LogWindow& window : between_readings(windows)) {
     evidence.windows.push_back(sums_of(log, vehicle, window));
   }
   evidence.overlapping = evidence.windows;
-  for (const LogWindow& window : windows_between(windows)) {
+  for (const LogWindow& window : between_readings(windows_between(windows))) {
     evidence.overlapping.push_back(sums_of(log, vehicle, window));
   }
   return evidence;
