@@ -174,7 +174,8 @@ void add_preferences(CLI::App& command, Texts& texts) {
   command.add_option(
       "--weight", texts.weights,
       "NAME=WEIGHT of a metric in the ranking, 0 to 1000, may be repeated: finish_time_s=3, "
-      "energy_electric=1 (default 1 for how the course was followed, 0 for energy and wear)");
+      "energy_electric=1 (default 1 for heading_iae_degs, cross_track_rms_m, settling_time_s, "
+      "finish_time_s, speed_drop_mps, energy_mech and tyre_work, 0 for the others)");
   command
       .add_option("--relevance", texts.relevance,
                   "Share of a metric, and of the score, below which a difference does not matter "

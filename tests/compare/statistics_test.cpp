@@ -243,13 +243,13 @@ Comparison settling(std::array<double, 3> seconds, std::array<int, 3> failures =
 }
 
 TEST(Ranking, TellsEquivalentFromUndecidedAndBehind) {
-  // Of four ranked metrics one differs: scores by (ratio)^(1/4).
+  // Of four ranked metrics one differs: scores by (ratio)^(1/4), with an offset of 0.1 s/0.05.
   const auto ranking = ranking_of(settling({10.0, 10.5, 20.0}));
   EXPECT_THAT(ranks(ranking), ElementsAre(1, 1, 3));
   EXPECT_EQ(ranking[1].contender.mode, YawMode::kSteering);
   EXPECT_EQ(ranking[1].towards_leader, Conclusion::kEquivalent);
   EXPECT_EQ(ranking[2].towards_leader, Conclusion::kRelevant);
-  EXPECT_NEAR(ranking[2].score, std::pow((20.0 + 0.1) / (10.0 + 0.1), 0.25), 2e-3);
+  EXPECT_NEAR(ranking[2].score, std::pow((20.0 + 2.0) / (10.0 + 2.0), 0.25), 2e-3);
   EXPECT_TRUE(ranking[2].behind_ci95->contains(ranking[2].score));
   EXPECT_THAT(ranking[2].dominated_by, ElementsAre("differential", "steering"));
   // Equal within the relevance: neither is first alone.
@@ -275,19 +275,21 @@ TEST(Ranking, AFailureThatMayBeChanceBarsNoClearWinner) {
 }
 
 TEST(Ranking, FollowsTheUsersWeightsAndSaysHowMuchItHangsOnThem) {
-  // Differential settles in half the time of steering and turns its motors twice as much.
+  // Differential settles in half the time of steering and turns its motors 1.75 times as much: with offsets of
+  // 2 s and 1 /s (floors over the relevance) a factor of 1.5 either way.
   Comparison c;
   c.rows = {row(YawMode::kDifferential, 0, 50.0), row(YawMode::kSteering, 0, 50.0)};
   c.rows[0].metrics.settling_time_s = 2.0;
   c.rows[1].metrics.settling_time_s = 4.0;
-  c.rows[0].metrics.control_variation = 4.0;
+  c.rows[0].metrics.control_variation = 3.5;
   c.rows[1].metrics.control_variation = 2.0;
-  const auto by_time = ranking_of(c, *preferences_of({"settling_time_s=5"}, 0.05));
+  const auto by_time =
+      ranking_of(c, *preferences_of({"settling_time_s=5", "control_variation=1"}, 0.05));
   const auto by_work = ranking_of(c, *preferences_of({"control_variation=5"}, 0.05));
   EXPECT_EQ(by_time[0].contender.mode, YawMode::kDifferential);
   EXPECT_EQ(by_work[0].contender.mode, YawMode::kSteering);
   EXPECT_THAT(by_time[0].dominated_by, IsEmpty());
-  // By symmetry but for the floors (0.1 s, 0.05 /s) each is first under half of all weights; 1000
+  // By symmetry each is first under half of all weights; 1000
   // draws have a standard error of 1.6 %.
   EXPECT_NEAR(by_time[0].first_by_weights, 0.5, 0.06);
   EXPECT_NEAR(by_time[0].first_by_weights + by_time[1].first_by_weights, 1.0, 1e-12);

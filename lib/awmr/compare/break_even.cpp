@@ -90,13 +90,21 @@ std::optional<std::size_t> first_false(const std::vector<bool>& all) {
 /// says of each moment of a batch whether the mode still leads.
 template <class Ahead>
 std::optional<double> least_that_ends(double most_m, const Ahead& ahead) {
+  constexpr double kFine = 0.01;
+  constexpr int kMostRounds = 3;
   for (double share = kLeast; share < 0.99; share *= 10.0) {
     const std::vector<double> decade_m = in_ratios_between(share * most_m, 10.0 * share * most_m);
     const auto first = first_false(ahead(decade_m));
     if (!first) continue;
-    const double kept_m = *first > 0 ? decade_m[*first - 1] : 0.0;
-    const std::vector<double> between_m = evenly_between(kept_m, decade_m[*first]);
-    return between_m[first_false(ahead(between_m)).value_or(between_m.size() - 1)];
+    double kept_m = *first > 0 ? decade_m[*first - 1] : 0.0;
+    double ended_m = decade_m[*first];
+    for (int rounds = 0; rounds < kMostRounds && ended_m - kept_m > kFine * ended_m; ++rounds) {
+      const std::vector<double> between_m = evenly_between(kept_m, ended_m);
+      const std::size_t end = first_false(ahead(between_m)).value_or(between_m.size() - 1);
+      kept_m = end > 0 ? between_m[end - 1] : 0.0;
+      ended_m = between_m[end];
+    }
+    return ended_m;
   }
   return std::nullopt;
 }

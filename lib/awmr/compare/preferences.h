@@ -14,8 +14,8 @@ namespace awmr {
 inline constexpr double kMaximumWeight = 1000.0;
 
 struct Preferences {
-  /// By metric's name, in [0, kMaximumWeight]; those that are not here have their default: 1 for those that say how
-  /// well the course was followed, 0 for energy and wear.
+  /// By metric's name, in [0, kMaximumWeight]; those that are not here have their default
+  /// (metric_columns.h).
   std::map<std::string, double, std::less<>> weights;
   /// In [0, 1], 1: a metric that differs by less than this share, or by less than the metric's floor,
   /// is the same for all practical purposes.

@@ -14,8 +14,8 @@ namespace awmr {
 struct RankedMode {
   int rank = 0;  ///< >= 1, 1 is best; tied modes share a rank
   Contender contender;
-  /// Weighted geometric mean of the ranked metrics over those of the first of the list: 1.2 for 20 %
-  /// more. Below 1 where a mode has the better score and fails more often.
+  /// Weighted geometric mean of the ranked metrics, each with its offset (scoring.h), over those of the
+  /// first of the list. Below 1 where a mode has the better score and fails more often.
   double score = 1.0;
   double completed_share = 0.0;         ///< in [0, 1]
   std::optional<Interval> behind_ci95;  ///< of the score; absent for the first and below 2 samples
@@ -34,7 +34,8 @@ struct RankedMode {
 
 inline constexpr std::string_view kScoreFormula =
     "weighted geometric mean over the ranked metrics of (x + f)/(x1 + f): x the mode's, x1 that of "
-    "the first mode, f the metric's floor; by sample, a metric that a run lacks counts as the "
+    "the first mode, f the metric's floor over the relevance; by sample, a metric that a run lacks "
+    "counts as the "
     "worst "
     "run's. A mode is behind where the whole 95 % interval of its score over the leader's "
     "(bootstrap "

@@ -30,7 +30,11 @@ std::vector<ScoredMetric> scoring_of(const ScenarioRows& scenario, const Prefere
   for (const MetricColumn& metric : kMetricColumns) {
     const double weight = weight_of(metric, preferences);
     if (!(weight > 0.0) || !any_has(scenario, metric)) continue;
-    scoring.push_back({&metric, weight, worst_of(scenario, metric)});
+    const double share = preferences.relevance > 0.0 ? preferences.relevance : 1.0;
+    scoring.push_back({.metric = &metric,
+                       .weight = weight,
+                       .offset = metric.ranking_floor / share,
+                       .missing = worst_of(scenario, metric)});
     sum += weight;
   }
   for (ScoredMetric& scored : scoring) scored.weight /= sum;
@@ -39,7 +43,7 @@ std::vector<ScoredMetric> scoring_of(const ScenarioRows& scenario, const Prefere
 
 double log_loss(const Metrics& metrics, const ScoredMetric& scored) {
   const double value = scored.metric->value(metrics).value_or(scored.missing);
-  return std::log(std::max(value, 0.0) + scored.metric->ranking_floor);
+  return std::log(std::max(value, 0.0) + scored.offset);
 }
 
 double log_score(const Metrics& metrics, const std::vector<ScoredMetric>& scoring) {

@@ -15,14 +15,15 @@ double weight_of(const MetricColumn& metric, const Preferences& preferences);
 struct ScoredMetric {
   const MetricColumn* metric = nullptr;
   double weight = 0.0;   ///< in (0, 1], all of a scenario come to 1
+  double offset = 0.0;   ///< f of log_loss(), in the metric's unit, > 0
   double missing = 0.0;  ///< what a run without the metric counts as: the worst of all runs
 };
 
 /// The metrics with a weight that some run of the scenario has. Empty where there is none.
 std::vector<ScoredMetric> scoring_of(const ScenarioRows& scenario, const Preferences& preferences);
 
-/// ln(x + f), f the metric's floor: a difference of two of them is a ratio's logarithm where the
-/// metric is large, and next to nothing where both are below the floor.
+/// ln(x + f), f the metric's floor over the relevance: steps of x that matter, floor + relevance x, count
+/// alike at every x, each as much as the relevance. A ratio of two small numbers is no large step.
 double log_loss(const Metrics& metrics, const ScoredMetric& scored);
 
 /// Sum of w ln(x + f): of two runs, exp of the difference is the weighted geometric mean of the
