@@ -114,7 +114,7 @@ inline float atan_poly(float t) {
 constexpr float kTanPiBy8 = 0.414213562F;
 
 /// sin(x + k pi/2) of a reduced x.
-AWMR_CALLED inline float sin_of_reduced(float x, int k) {
+inline float sin_of_reduced(float x, int k) {
   const float value = (k & 1) != 0 ? cos_poly(x) : sin_poly(x);
   return (k & 2) != 0 ? -value : value;
 }
@@ -142,8 +142,11 @@ AWMR_CALLED inline void sin_cos(float x, float& sine, float& cosine) {
   }
   const int k = nearest(x * 0.636619772F);
   const float rest = detail::reduced(x, k);
-  sine = detail::sin_of_reduced(rest, k);
-  cosine = detail::sin_of_reduced(rest, k + 1);
+  // A loop, so that the polynomials are there once.
+  float values[2];
+  for (int i = 0; i < 2; ++i) values[i] = detail::sin_of_reduced(rest, k + i);
+  sine = values[0];
+  cosine = values[1];
 }
 
 namespace detail {
