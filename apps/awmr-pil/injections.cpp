@@ -33,13 +33,21 @@ constexpr InjectionEffect kEffects[] = {
      kHeadingOutOfStep, 1.5},
     {Injection::kCompassJump, Duration::kFromTheMiddle, kHeading, kHeadingOutOfStep, kSensorGood,
      1.5},
+    // From the next turn on.
+    {Injection::kCompassStuck, Duration::kFromTheMiddle, kHeading, kHeadingOutOfStep, kSensorGood,
+     40.0},
     {Injection::kGyroSilent, Duration::kFromTheMiddle, kHeading, kGyroSilent, kSensorGood, 1.5},
     {Injection::kGyroFrozen, Duration::kFromTheMiddle, kHeading, kGyroFrozen, kHeadingOutOfStep,
      1.5},
     {Injection::kGyroRange, Duration::kFromTheMiddle, kHeading, kGyroRange, kSensorGood, 1.5},
+    {Injection::kGyroDrift, Duration::kFromTheMiddle, kHeading, kHeadingOutOfStep, kSensorGood,
+     6.0},
     {Injection::kGpsSilent, Duration::kFromTheMiddle, kSpeed, kGpsSilent, kSensorGood, 1.5},
+    {Injection::kGpsNoFix, Duration::kFromTheMiddle, kSpeed, kGpsNoFix, kSensorGood, 1.5},
     {Injection::kGpsEmpty, Duration::kFromTheMiddle, kSpeed, kGpsNoFix, kSensorGood, 1.5},
+    {Injection::kGpsDamaged, Duration::kFromTheMiddle, kSpeed, kGpsNoFix, kSensorGood, 1.5},
     {Injection::kGpsRepeated, Duration::kFromTheMiddle, kSpeed, kGpsRepeated, kSensorGood, 1.5},
+    {Injection::kGpsLate, Duration::kFromTheMiddle, kSpeed, kGpsSilent, kSensorGood, 1.5},
     {Injection::kGpsJump, Duration::kFromTheMiddle, kSpeed, kGpsJump, kSensorGood, 1.5},
     // Found by the motion: after metres, which a law that is driven by its model may creep along slowly.
     {Injection::kGpsSpeedZero, Duration::kFromTheMiddle, kFaultCommandTimeout, kGpsInconsistent,
@@ -47,7 +55,20 @@ constexpr InjectionEffect kEffects[] = {
     {Injection::kGpsPositionFrozen, Duration::kFromTheMiddle, kFaultCommandTimeout,
      kGpsInconsistent, kSensorGood, 5.0},
     {Injection::kMotorsReversed, Duration::kFromTheMiddle, kFaultCommandTimeout, kWrongWay,
-     kSensorGood, 40.0}};
+     kSensorGood, 40.0},
+    // The command time-out and the wait between two commands; STOP acts in the next step.
+    {Injection::kCommandSilence, Duration::kFromTheMiddle, kFaultCommandTimeout, kSensorGood,
+     kSensorGood, 1.4},
+    {Injection::kCommandNoise, Duration::kFromTheMiddle, kFaultCommandTimeout, kSensorGood,
+     kSensorGood, 1.4},
+    {Injection::kCommandUnknown, Duration::kFromTheMiddle, kFaultCommandTimeout, kSensorGood,
+     kSensorGood, 1.4},
+    {Injection::kCommandRepeatedFrame, Duration::kFromTheMiddle, kFaultCommandTimeout, kSensorGood,
+     kSensorGood, 1.7},
+    {Injection::kStop, Duration::kFromTheMiddle, kFaultCommandTimeout, kSensorGood, kSensorGood,
+     0.05},
+    {Injection::kStopInNoise, Duration::kFromTheMiddle, kFaultCommandTimeout, kSensorGood,
+     kSensorGood, 0.05}};
 static_assert(std::size(kEffects) == cli::kInjectionNames.size());
 
 }  // namespace
@@ -57,11 +78,15 @@ const InjectionEffect& effect_of(Injection injection) {
                        [&](const InjectionEffect& one) { return one.injection == injection; });
 }
 
-bool is_sensor_failure(Injection injection) { return effect_of(injection).cause != kSensorGood; }
+bool disarms(Injection injection) { return effect_of(injection).within_s > 0.0; }
+
+bool is_command_failure(Injection injection) {
+  return disarms(injection) && effect_of(injection).cause == kSensorGood;
+}
 
 bool is_expected_cause(Injection injection, SensorFault cause) {
   const InjectionEffect& effect = effect_of(injection);
-  return cause != kSensorGood && (cause == effect.cause || cause == effect.other_cause);
+  return cause == effect.cause || (cause != kSensorGood && cause == effect.other_cause);
 }
 
 Window injection_window(Injection injection, std::size_t middle, std::size_t samples) {

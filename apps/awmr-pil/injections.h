@@ -27,15 +27,20 @@ struct InjectionEffect {
   /// The sensor check that has to find it; kSensorGood: not a failure of a sensor.
   SensorFault cause = kSensorGood;
   SensorFault other_cause = kSensorGood;  ///< or this one, where it is faster
-  double within_s = 0.0;                  ///< safe command, for failures of a sensor
+  /// Safe command, for failures that the sketches' checks find and that disarm; 0: none of these.
+  double within_s = 0.0;
 };
 
 const InjectionEffect& effect_of(cli::Injection injection);
 
-/// True for the injections that are failures of a sensor or of the motors, found by sensor checks.
-bool is_sensor_failure(cli::Injection injection);
+/// True for failures of a sensor, of the motors or of the operator's line, which the checks of the
+/// sketches find: the vehicle is disarmed.
+bool disarms(cli::Injection injection);
+/// True for those of the operator's line.
+bool is_command_failure(cli::Injection injection);
 
-/// True if `cause` is a sensor fault that this injection may raise first.
+/// True if `cause` is a sensor fault that this injection may raise first; kSensorGood for failures of
+/// the operator's line.
 bool is_expected_cause(cli::Injection injection, SensorFault cause);
 
 /// Samples at which an injection acts: [first, last).

@@ -10,6 +10,7 @@
 #include "awmr/simulate/physics.h"
 #include "awmr/simulate/pilot.h"
 #include "awmr/simulate/sensing.h"
+#include "command_injection.h"
 #include "injections.h"
 #include "sensor_injection.h"
 
@@ -157,8 +158,9 @@ Result<std::vector<LoopRow>> run_loop(const LoopSetup& setup, Executor& executor
   }
   const std::size_t samples = samples_of(setup);
   const Window window = injection_window(setup.injection, setup.middle, samples);
-  const bool breaks_sensor = is_sensor_failure(setup.injection);
+  const bool is_checked = disarms(setup.injection);
   CheckedSensors checked(setup.injection, setup.sample_time_s, setup.limits);
+  CheckedCommands commands(setup.injection);
   Arming arming;
   arming.arm(kFaultNone, kSensorGood);
   std::vector<LoopRow> rows;
@@ -169,8 +171,13 @@ Result<std::vector<LoopRow>> run_loop(const LoopSetup& setup, Executor& executor
     if (k > 0) sensed = sensing.at(k, row.state);
     const Pilot::Order order = pilot.at(row.t_s, sensed);
     AutopilotInput input = input_of(setup, row.t_s, sensed, order);
-    if (breaks_sensor) {
-      row.cause = checked.step(k, k >= window.first, input);
+    if (is_checked) {
+      const bool fails = k >= window.first;
+      if (is_command_failure(setup.injection)) {
+        commands.step(fails, arming, input.times);
+      } else {
+        row.cause = checked.step(k, fails, input);
+      }
       if (!arming.is_armed()) input.times.command_ms -= kSilence_ms;
     } else if (k >= window.first && k < window.last) {
       inject(setup.injection, input);
@@ -182,7 +189,7 @@ Result<std::vector<LoopRow>> run_loop(const LoopSetup& setup, Executor& executor
     auto step = executor.step(input);
     if (!step) return tl::unexpected(step.error());
     row.step = *step;
-    if (breaks_sensor) arming.observe(step->output.fault, row.cause);
+    if (is_checked) arming.observe(step->output.fault, row.cause);
     command(setup, row);
     if (setup.injection == Injection::kMotorsReversed && k >= window.first) reverse_motors(row);
     if (progress) progress(k, samples);

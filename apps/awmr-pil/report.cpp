@@ -60,6 +60,7 @@ Result<Provenance> provenance_of(const PilOptions& options) {
       {"split", std::string(name_in(kCombinedSplitNames, options.emit.split))},
       {"optimize", std::string(name_in(cli::kOptimizeNames, *options.optimize))},
       {"table-error", fmt::format("{:g}", options.emit.table_error.value_or(kTableError))},
+      {"inject", std::string(name_in(cli::kInjectionNames, options.injection))},
       {"line-noise", fmt::format("{:g}", options.line_noise)}};
   for (const fs::path& path : {options.model, options.gains, options.scenario}) {
     const auto input = input_file(path);

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "awmr/core/file.h"
+#include "awmr/core/json_document.h"
 #include "awmr/model/findings_json.h"
 #include "awmr/model/gains_file.h"
 #include "awmr/model/model_file.h"
@@ -220,7 +221,7 @@ PilOptions resolved(PilOptions options, const Inputs& in) {
 }
 
 /// The first fault comes in time and for the right reason, and stays: what is disarmed stays so.
-Injected sensor_failure_of(const LoopSetup& setup, const std::vector<LoopRow>& rows) {
+Injected disarming_of(const LoopSetup& setup, const std::vector<LoopRow>& rows) {
   Injected result;
   result.expected = effect_of(setup.injection).fault;
   const auto has_fault = [](const LoopRow& row) { return row.step.output.fault != kFaultNone; };
@@ -244,7 +245,7 @@ Injected sensor_failure_of(const LoopSetup& setup, const std::vector<LoopRow>& r
 Injected injected_of(const LoopSetup& setup, const std::vector<LoopRow>& rows) {
   Injected result;
   result.expected = effect_of(setup.injection).fault;
-  if (is_sensor_failure(setup.injection)) return sensor_failure_of(setup, rows);
+  if (disarms(setup.injection)) return disarming_of(setup, rows);
   const Window window = injection_window(setup.injection, setup.middle, rows.size());
   result.seen = window.first < window.last ? 0xFF : 0;
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -316,7 +317,7 @@ Result<Outcome> run_pil(const PilOptions& asked, const Watch& watch) {
   const auto text = report_text(options, in->setup, report);
   if (!text) return tl::unexpected(text.error());
   const std::string document = with_findings(*text, findings);
-  if (auto written = write_file(options.output, document); !written) {
+  if (auto written = write_file(options.output, document, check_json_text); !written) {
     return tl::unexpected(written.error());
   }
   return Outcome{report_summary(options, in->setup, report), report.passed(), document, findings};

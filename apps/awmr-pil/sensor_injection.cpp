@@ -18,7 +18,30 @@ constexpr double kFieldSize = 250.0;
 constexpr double kLean_s = 2.0;
 constexpr double kFixPeriod_s = 0.2;
 constexpr double kCompassJump_rad = 1.0;
+constexpr double kGyroDrift_radps = 0.15;
+constexpr std::uint32_t kGpsLate_ms = 2000;
 constexpr float kGpsJump_m = 20.0F;
+
+/// The verdict of the sketches' reader on a sentence that a receiver at fault sends; kFix for others.
+GpsSentence sentence_of(Injection injection) {
+  const char* text = "";
+  switch (injection) {
+    case Injection::kGpsNoFix:
+      text = "$GPRMC,120000.00,V,,,,,,,230394,,,N*71\n";
+      break;
+    case Injection::kGpsEmpty:
+      text = "$GPRMC,120000.00,A,,,,,,,230394,,,A*69\n";
+      break;
+    case Injection::kGpsDamaged:
+      text = "$GPRMC,120000.00,A,4806.0000000,N,01130.0000000,E,1.900,,230394,,,A*00\n";
+      break;
+    default:
+      return GpsSentence::kFix;
+  }
+  RmcReader reader;
+  for (; *text != '\0'; ++text) reader.take(*text);
+  return reader.kind();
+}
 
 std::int16_t rounded(double counts) { return static_cast<std::int16_t>(std::lround(counts)); }
 
@@ -54,14 +77,17 @@ void CheckedSensors::sense_heading(bool fails, const AutopilotInput& in) {
   const auto is = [&](Injection one) { return fails && injection_ == one; };
   const std::uint32_t now_ms = in.times.now_ms;
   std::normal_distribution<double> noise;
-  const double rate_radps = static_cast<double>(in.measured.r_radps);
+  const double rate_radps = static_cast<double>(in.measured.r_radps) +
+                            (is(Injection::kGyroDrift) ? kGyroDrift_radps : 0.0);
   if (!is(Injection::kGyroFrozen)) {
     word_ = rounded(rate_radps / static_cast<double>(kRadpsPerWord) + kGyroNoise * noise(random_));
   }
   if (!is(Injection::kGyroSilent)) heading_.take_gyro(word_, now_ms);
   heading_.take_range(!is(Injection::kGyroRange));
   const double true_rad = static_cast<double>(in.measured.psi_rad);
-  const double seen_rad = true_rad + (is(Injection::kCompassJump) ? kCompassJump_rad : 0.0);
+  if (is(Injection::kCompassStuck) && !stuck_rad_) stuck_rad_ = true_rad;
+  const double seen_rad =
+      stuck_rad_.value_or(true_rad + (is(Injection::kCompassJump) ? kCompassJump_rad : 0.0));
   if (!is(Injection::kCompassFrozen)) {
     field_[0] = rounded(-kFieldSize * std::sin(seen_rad) + kFieldNoise * noise(random_));
     field_[1] = rounded(kFieldSize * std::cos(seen_rad) + kFieldNoise * noise(random_));
@@ -83,7 +109,10 @@ void CheckedSensors::sense_position(std::size_t k, bool fails, const AutopilotIn
   const auto is = [&](Injection one) { return fails && injection_ == one; };
   const std::uint32_t now_ms = in.times.now_ms;
   if (is(Injection::kGpsSilent)) return;
-  if (is(Injection::kGpsEmpty)) return gps_.take_unusable(GpsSentence::kDamaged, now_ms);
+  if (const GpsSentence kind = fails ? sentence_of(injection_) : GpsSentence::kFix;
+      kind != GpsSentence::kFix) {
+    return gps_.take_unusable(kind, now_ms);
+  }
   if (!is(Injection::kGpsRepeated) || !fix_) {
     const double utc_ms = 43'200'000.0 + 1000.0 * static_cast<double>(k) * sample_time_s_;
     fix_ = GpsFix{static_cast<std::uint32_t>(utc_ms) % kDay_ms, 0, 0, std::abs(in.measured.u_mps)};
@@ -91,10 +120,20 @@ void CheckedSensors::sense_position(std::size_t k, bool fails, const AutopilotIn
     has_position_ = true;
     if (is(Injection::kGpsJump)) fix_m_.x_m += kGpsJump_m;
   }
+  if (!is(Injection::kGpsLate)) return take_fix(*fix_, fix_m_, in);
+  late_.push_back({now_ms, *fix_, fix_m_});
+  if (now_ms - late_.front().sent_ms < kGpsLate_ms) return;
+  take_fix(late_.front().fix, late_.front().position_m, in);
+  late_.pop_front();
+}
+
+void CheckedSensors::take_fix(const GpsFix& fix, const Position<float>& position_m,
+                              const AutopilotInput& in) {
+  const std::uint32_t now_ms = in.times.now_ms;
   const std::int8_t direction = in.reference.speed_mps > 0.0F   ? 1
                                 : in.reference.speed_mps < 0.0F ? -1
                                                                 : 0;
-  if (gps_.take_fix(*fix_, fix_m_.x_m, fix_m_.y_m, now_ms,
+  if (gps_.take_fix(fix, position_m.x_m, position_m.y_m, now_ms,
                     {in.measured.psi_rad, direction, true})) {
     speed_ms_ = now_ms;
   }

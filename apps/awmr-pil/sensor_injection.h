@@ -2,6 +2,7 @@
 // (control/heading_check.h, gps_check.h). A sensor that is not believed keeps its old time, as on the board.
 #pragma once
 
+#include <deque>
 #include <optional>
 #include <random>
 
@@ -30,13 +31,22 @@ class CheckedSensors {
   std::int16_t field_[3] = {0, 0, 0};
   double heading_rad_ = 0.0;  ///< of the complementary filter
   bool has_heading_ = false;
+  std::optional<double> stuck_rad_;  ///< heading that the compass keeps
   std::optional<GpsFix> fix_;
   Position<float> fix_m_{};
   bool has_position_ = false;
+  /// A fix on its way from the receiver.
+  struct LateFix {
+    std::uint32_t sent_ms;
+    GpsFix fix;
+    Position<float> position_m;
+  };
+  std::deque<LateFix> late_;
   std::uint32_t heading_ms_ = 0, speed_ms_ = 0;
 
   void sense_heading(bool fails, const AutopilotInput& in);
   void sense_position(std::size_t k, bool fails, const AutopilotInput& in);
+  void take_fix(const GpsFix& fix, const Position<float>& position_m, const AutopilotInput& in);
 };
 
 }  // namespace awmr::pil

@@ -4,6 +4,7 @@
 
 #include "awmr/core/input_file.h"
 #include "awmr/core/json.h"
+#include "awmr/core/json_document.h"
 #include "awmr/trials/log_files.h"
 
 namespace awmr::cli {
@@ -71,6 +72,10 @@ Result<std::vector<ColumnMapping>> columns_of_file(const std::filesystem::path& 
 std::string columns_schema() {
   return json_schema_text(kColumnsSchema, "Where the columns of a log come from",
                           [](JsonObject& json) { columns_from_json(json); });
+}
+
+Status check_columns_text(std::string_view text, const std::string& file) {
+  return check_json_object(text, file, columns_from_json);
 }
 
 Result<std::vector<ColumnMapping>> column_mappings(const ColumnWords& words) {

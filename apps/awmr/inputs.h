@@ -42,6 +42,9 @@ inline constexpr std::string_view kColumnsSchema = "awmr.columns/1";
 /// The JSON Schema of such a file, from what reads it.
 std::string columns_schema();
 
+/// Read-back (file.h) of such a file. Errors: as column_mappings().
+Status check_columns_text(std::string_view text, const std::string& file);
+
 /// Where mappings come from.
 struct ColumnWords {
   std::vector<std::string> columns = {};           ///< as `--column` gave them

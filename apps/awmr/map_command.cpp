@@ -122,7 +122,7 @@ Result<Outcome> execute(const MapCommand& command) {
                   .document = text_of(command, guesses, sample,
                                       {"map", std::move(options), std::move(inputs)})};
   if (!command.output) return outcome;
-  AWMR_RETURN_IF_ERROR(write_file(*command.output, outcome.document));
+  AWMR_RETURN_IF_ERROR(write_file(*command.output, outcome.document, check_columns_text));
   outcome.written = {*command.output};
   return outcome;
 }

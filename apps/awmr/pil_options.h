@@ -42,18 +42,30 @@ enum class Injection {
   kCompassSilent,      ///< no new field
   kCompassFrozen,      ///< the same words
   kCompassJump,        ///< off by 57 deg
+  kCompassStuck,       ///< the heading of the start of the failure, with noise
   kGyroSilent,         ///< no word
   kGyroFrozen,         ///< the same word
   kGyroRange,          ///< reset to another range
+  kGyroDrift,          ///< off by 8.6 deg/s
   kGpsSilent,          ///< no sentence
+  kGpsNoFix,           ///< sentences without a fix
   kGpsEmpty,           ///< sentences with empty fields
+  kGpsDamaged,         ///< sentences with a wrong check sum
   kGpsRepeated,        ///< the same sentence
+  kGpsLate,            ///< sentences 2 s late
   kGpsJump,            ///< off by 20 m
   kGpsSpeedZero,       ///< a speed that is stuck at 0
   kGpsPositionFrozen,  ///< the same position, with a speed
-  kMotorsReversed      ///< each side drives the wrong way, turning the right one
+  kMotorsReversed,     ///< each side drives the wrong way, turning the right one
+  // Failures of the operator's line, read as the sketches do (control/command_line.h).
+  kCommandSilence,        ///< no command
+  kCommandNoise,          ///< characters without a line's end
+  kCommandUnknown,        ///< lines that are no command
+  kCommandRepeatedFrame,  ///< the same frame
+  kStop,                  ///< STOP
+  kStopInNoise            ///< STOP amid noise, without a line's end
 };
-inline constexpr NameTable<Injection, 24> kInjectionNames{
+inline constexpr NameTable<Injection, 35> kInjectionNames{
     {{"none", Injection::kNone},
      {"nan", Injection::kNaN},
      {"infinite", Injection::kInfinite},
@@ -68,16 +80,27 @@ inline constexpr NameTable<Injection, 24> kInjectionNames{
      {"compass-silent", Injection::kCompassSilent},
      {"compass-frozen", Injection::kCompassFrozen},
      {"compass-jump", Injection::kCompassJump},
+     {"compass-stuck", Injection::kCompassStuck},
      {"gyro-silent", Injection::kGyroSilent},
      {"gyro-frozen", Injection::kGyroFrozen},
      {"gyro-range", Injection::kGyroRange},
+     {"gyro-drift", Injection::kGyroDrift},
      {"gps-silent", Injection::kGpsSilent},
+     {"gps-no-fix", Injection::kGpsNoFix},
      {"gps-empty", Injection::kGpsEmpty},
+     {"gps-damaged", Injection::kGpsDamaged},
      {"gps-repeated", Injection::kGpsRepeated},
+     {"gps-late", Injection::kGpsLate},
      {"gps-jump", Injection::kGpsJump},
      {"gps-speed-zero", Injection::kGpsSpeedZero},
      {"gps-position-frozen", Injection::kGpsPositionFrozen},
-     {"motors-reversed", Injection::kMotorsReversed}}};
+     {"motors-reversed", Injection::kMotorsReversed},
+     {"command-silence", Injection::kCommandSilence},
+     {"command-noise", Injection::kCommandNoise},
+     {"command-unknown", Injection::kCommandUnknown},
+     {"command-repeated-frame", Injection::kCommandRepeatedFrame},
+     {"stop", Injection::kStop},
+     {"stop-in-noise", Injection::kStopInNoise}}};
 
 struct PilOptions {
   std::filesystem::path model;

@@ -15,6 +15,7 @@
 #include "awmr/model/vehicle_file.h"
 #include "awmr/report/report.h"
 #include "awmr/simulate/run_side.h"
+#include "awmr/simulate/run_table.h"
 #include "awmr/simulate/scenario_file.h"
 #include "awmr/trials/load.h"
 #include "awmr/tune/tune_file.h"
@@ -60,8 +61,8 @@ Result<std::vector<fs::path>> write_runs(const Project& project, const InputName
         const fs::path csv = directory / run_name(path, mode, name);
         const std::string text_of_run = run_csv(run, scenario);
         const OutputFile files[] = {
-            {csv, text_of_run},
-            {run_side_path(csv), run_side_text(text_of_run, provenance, "", {})}};
+            {csv, text_of_run, check_run_text},
+            {run_side_path(csv), run_side_text(text_of_run, provenance, "", {}), check_json_text}};
         AWMR_RETURN_IF_ERROR(write_files(files));
         for (const OutputFile& file : files) written.push_back(file.path);
       }

@@ -9,10 +9,12 @@
 
 #include "awmr/core/file.h"
 #include "awmr/core/json.h"
+#include "awmr/core/json_document.h"
 #include "awmr/model/gains_file.h"
 #include "awmr/model/model_file.h"
 #include "awmr/simulate/metrics.h"
 #include "awmr/simulate/run_side.h"
+#include "awmr/simulate/run_table.h"
 #include "awmr/simulate/scenario_file.h"
 #include "awmr/simulate/validity.h"
 #include "choices.h"
@@ -155,11 +157,12 @@ Result<Outcome> execute(const SimulateCommand& command) {
                   .document = side,
                   .written = {command.output}};
   if (!has_side_file(command.output)) {
-    AWMR_RETURN_IF_ERROR(write_file(command.output, csv));
+    AWMR_RETURN_IF_ERROR(write_file(command.output, csv, check_run_text));
     return outcome;
   }
   // The last one holds the hash of the first.
-  const OutputFile files[] = {{command.output, csv}, {run_side_path(command.output), side}};
+  const OutputFile files[] = {{command.output, csv, check_run_text},
+                              {run_side_path(command.output), side, check_json_text}};
   AWMR_RETURN_IF_ERROR(write_files(files));
   outcome.written.push_back(files[1].path);
   return outcome;

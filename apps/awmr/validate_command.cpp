@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "awmr/core/file.h"
+#include "awmr/core/json_document.h"
 #include "awmr/model/gains_file.h"
 #include "awmr/model/model_file.h"
 #include "awmr/simulate/scenario_file.h"
@@ -231,7 +232,7 @@ Result<Outcome> execute(const ValidateCommand& command) {
                   .document = validation_text(validation, provenance),
                   .written = {command.output}};
   put_findings_into_document(outcome);
-  AWMR_RETURN_IF_ERROR(write_file(command.output, outcome.document));
+  AWMR_RETURN_IF_ERROR(write_file(command.output, outcome.document, check_json_text));
   if (command.claims_table) {
     const std::string table = claims_markdown(
         validation.claims, "awmr validate --model MODEL --claims --claims-table FILE");

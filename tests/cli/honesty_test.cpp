@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
@@ -203,6 +204,50 @@ TEST_F(Honesty, FindingsOnStderrAreThoseOfTheFile) {
     }
   }
   EXPECT_THAT(seen, Not(IsEmpty()));
+}
+
+/// A document without what has to follow the order of the files: the list of inputs, and keys.
+nlohmann::json without_inputs(const Json& document) {
+  nlohmann::json unordered = nlohmann::json::parse(document.dump());
+  unordered.erase("inputs");
+  return unordered;
+}
+
+TEST_F(Honesty, NoNumberDependsOnTheOrderOfFiles) {
+  const std::string first = "datasets/synthetic/drive_1.csv";
+  const std::string second = "datasets/synthetic/drive_2.csv";
+  const std::pair<std::string, std::string> orders[] = {{first, second}, {second, first}};
+  std::vector<nlohmann::json> fits, checks, gains;
+  for (const auto& [one, other] : orders) {
+    const std::string logs = fmt::format("--log {} --log {}", one, other);
+    fits.push_back(without_inputs(result_of(
+        fmt::format("identify --vehicle configs/paper/vehicle.json {} --bootstrap 20 -o {}", logs,
+                    path("m.json")))["result"]));
+    Json validation = result_of(fmt::format("validate --model {} {} -o {}", kept("model.json"),
+                                            logs, path("v.json")))["result"];
+    std::map<std::string, Json> by_file;
+    for (const Json& log : validation["logs"]) by_file[log["file"].get<std::string>()] = log;
+    validation["logs"] = by_file;
+    validation.erase("findings");
+    checks.push_back(without_inputs(validation));
+  }
+  const std::string scenarios = AWMR_SOURCE_DIR "/configs/paper/scenarios/";
+  const std::string steps[] = {scenarios + "c3_heading_steps.json",
+                               scenarios + "c13_heading_steps.json"};
+  for (const auto& list : {Json{steps[0], steps[1]}, Json{steps[1], steps[0]}}) {
+    write_all(path("tune.json"), Json{{"global_evaluations", 20},
+                                      {"local_evaluations", 10},
+                                      {"draws", 2},
+                                      {"judged_draws", 2},
+                                      {"scenarios", list}}
+                                     .dump());
+    gains.push_back(without_inputs(
+        result_of(fmt::format("tune --model {} --config {} -o {}", kept("model.json"),
+                              path("tune.json"), path("g.json")))["result"]));
+  }
+  EXPECT_EQ(fits[0], fits[1]);
+  EXPECT_EQ(checks[0], checks[1]);
+  EXPECT_EQ(gains[0], gains[1]);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 /// Plausibility of compass, gyroscope and GPS, arming, and the RMC reader.
-#include "awmr/control/gps_check.h"
+#include "awmr/control/gps_receiver.h"
 #include "awmr/control/heading_check.h"
 
 #include <fmt/format.h>
@@ -22,7 +22,17 @@ std::string sentence(const std::string& body) {
 constexpr const char* kGood =
     "GPRMC,123519.20,A,4807.0380000,N,01131.0000000,E,022.4,084.4,230394,003.1,W,A";
 
-GpsSentence read(const std::string& line, GpsFix& fix) { return read_rmc(line.c_str(), fix); }
+/// The verdict on what the characters of a line give; kOther where they are no sentence.
+GpsSentence read(const std::string& line, GpsFix& fix) {
+  RmcReader reader;
+  GpsSentence kind = GpsSentence::kOther;
+  for (const char c : line) {
+    if (!reader.take(c)) continue;
+    kind = reader.kind();
+    if (kind == GpsSentence::kFix) fix = to_fix(reader.numbers());
+  }
+  return kind;
+}
 
 TEST(Rmc, ReadsAWholeSentence) {
   GpsFix fix{};
@@ -31,7 +41,7 @@ TEST(Rmc, ReadsAWholeSentence) {
   EXPECT_EQ(fix.lat_e7, 481173000);
   EXPECT_EQ(fix.lon_e7, 115166666);
   EXPECT_NEAR(fix.speed_mps, 22.4 * 0.514444, 1e-4);
-  ASSERT_EQ(read(sentence("GNRMC,000000,A,0000.0,S,18000.0,W,0,,230394,,"), fix),
+  ASSERT_EQ(read(sentence("GNRMC,000000,A,0000.0,S,18000.0,W,0,,230394,,") + "\n", fix),
             GpsSentence::kFix);
   EXPECT_EQ(fix.lat_e7, 0);
   EXPECT_EQ(fix.lon_e7, -1800000000);
@@ -41,13 +51,16 @@ TEST(Rmc, RefusesEmptyAndMalformedFields) {
   const std::string good = kGood;
   const auto with = [&](const std::string& from, const std::string& to) {
     std::string body = good;
-    return sentence(body.replace(body.find(from), from.size(), to));
+    return sentence(body.replace(body.find(from), from.size(), to)) + "\n";
   };
   GpsFix fix{};
   for (const auto& [from, to] : {std::pair{"123519.20", ""},
                                  {"123519.20", "12351"},
                                  {"123519.20", "243519"},
                                  {"123519.20", "126019"},
+                                 {"123519.20", "123560"},
+                                 {"123519.20", "240000"},
+                                 {"123519.20", "1235190"},
                                  {"123519.20", "12a519"},
                                  {",A,48", ",,48"},
                                  {",A,48", ",X,48"},
@@ -72,12 +85,83 @@ TEST(Rmc, RefusesEmptyAndMalformedFields) {
   for (const char* mode : {",W,N", ",W,E"}) {
     EXPECT_EQ(read(with(",W,A", mode), fix), GpsSentence::kNoFix) << mode;
   }
-  EXPECT_EQ(read(sentence("GPGGA,1,2,3"), fix), GpsSentence::kOther);
-  EXPECT_EQ(read(sentence("GPRMC,123519"), fix), GpsSentence::kDamaged);
-  for (const std::string& line : {std::string(), std::string("$"), "$" + good, "$" + good + "*",
-                                  "$" + good + "*0", "$" + good + "*00", sentence(good) + "x"}) {
-    EXPECT_EQ(read(line, fix), GpsSentence::kDamaged) << line;
+  EXPECT_EQ(read(sentence("GPGGA,1,2,3") + "\n", fix), GpsSentence::kOther);
+  EXPECT_EQ(read(sentence("GPRMC,123519") + "\n", fix), GpsSentence::kDamaged);
+  for (const std::string& line : {std::string("$"), "$" + good, "$" + good + "*", "$" + good + "*0",
+                                  "$" + good + "*00", sentence(good) + "x"}) {
+    EXPECT_EQ(read(line + "\n", fix), GpsSentence::kDamaged) << line;
   }
+}
+
+/// A port of 64 characters, as Arduino's.
+struct Port {
+  std::string waiting;
+  int most = 0;
+  void receive(const std::string& text) {
+    waiting += text;
+    most = std::max(most, static_cast<int>(waiting.size()));
+  }
+  int available() const { return static_cast<int>(waiting.size()); }
+  int read() {
+    const char c = waiting.front();
+    waiting.erase(0, 1);
+    return c;
+  }
+};
+
+struct ReceiverOnAPort {
+  Port port;
+  GpsReceiver gps;
+  std::uint32_t now_ms = 0;
+  std::string on_the_way;
+  ReceiverOnAPort() { gps.begin(8.0F, 600, 0); }
+  /// A step of 10 ms at 38,400 baud. The characters that it read.
+  int step() {
+    now_ms += 10;
+    port.receive(on_the_way.substr(0, 39));
+    on_the_way.erase(0, 39);
+    const int before = port.available();
+    const auto project = [](const GpsFix& fix) {
+      return GpsPlace{static_cast<float>(fix.lat_e7 - 481173000), 0.0F};
+    };
+    gps.read(port, project, {0.0F, 1, true}, now_ms);
+    return before - port.available();
+  }
+};
+
+TEST(GpsReceiver, SpreadsASentenceOverStepsAndPublishesTwoStepsAfterItsEnd) {
+  ReceiverOnAPort board;
+  board.on_the_way =
+      sentence(kGood) + "\n";  // 82 characters: the third step reads the last of them
+  for (int i = 1; i <= 4; ++i) {
+    EXPECT_LE(board.step(), 28);
+    EXPECT_FALSE(board.gps.has_fix()) << i;
+  }
+  board.step();
+  ASSERT_TRUE(board.gps.has_fix());
+  EXPECT_EQ(board.gps.time_ms, 30U);
+  EXPECT_EQ(board.gps.x_m, 0.0F);
+  EXPECT_NEAR(board.gps.speed_mps, 22.4 * 0.514444, 1e-4);
+  EXPECT_EQ(board.gps.fault(board.now_ms), kSensorGood);
+}
+
+TEST(GpsReceiver, KeepsUpWithAPortThatNeverRests) {
+  ReceiverOnAPort board;
+  int fixes = 0;
+  std::uint32_t time_ms = 0;
+  for (int i = 0; i < 400; ++i) {
+    if (board.on_the_way.size() < 100) {
+      std::string body = kGood;
+      body.replace(body.find("123519.20"), 9, fmt::format("1235{:05.2f}", 0.01 * i));
+      board.on_the_way += sentence(body) + "\r\n" + sentence("GPGGA,1,2,3,4,5,6,7") + "\r\n";
+    }
+    board.step();
+    fixes += board.gps.has_fix() && board.gps.time_ms != time_ms ? 1 : 0;
+    time_ms = board.gps.time_ms;
+  }
+  EXPECT_LE(board.port.most, 64);
+  // 400 steps of 39 characters, in pairs of sentences of 110 characters.
+  EXPECT_GE(fixes, 400 * 39 / 110 - 3);
 }
 
 TEST(FrozenCheck, FindsTheSameWordForHalfASecondAlsoAcrossTheClocksWrap) {

@@ -6,10 +6,14 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
+#include <csignal>
 #include <fstream>
+#include <random>
 #include <thread>
 
 #include "awmr/core/file.h"
+#include "awmr/core/temporary_file.h"
 #include "core/directory_test.h"
 #include "core/faults.h"
 #include "support/process.h"
@@ -161,6 +165,28 @@ TEST_F(FileLoss, AnEndlessInputIsRefused) {
 
 TEST_F(FileLoss, AFullDeviceIsAnError) {
   EXPECT_THAT(faults_of(write_file("/dev/full", "x")), ElementsAre(HasSubstr("No space left")));
+}
+
+/// A program that does nothing but make temporary files, ended at any moment, 200 times.
+TEST_F(FileLoss, ASignalLeavesNoTemporaryFileWhereverItComes) {
+  std::mt19937 random(1);
+  for (int i = 0; i < 200; ++i) {
+    const pid_t child = ::fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+      remove_temporaries_on_signals();
+      write_all(path("started"), "");
+      for (;;) (void)TemporaryFile::in(path("."));
+    }
+    while (!fs::exists(path("started"))) std::this_thread::yield();
+    std::this_thread::sleep_for(std::chrono::microseconds(random() % 1000));
+    ::kill(child, SIGTERM);
+    int status = 0;
+    ASSERT_EQ(::waitpid(child, &status, 0), child);
+    EXPECT_EQ(WTERMSIG(status), SIGTERM);
+    EXPECT_THAT(names(), ElementsAre("started")) << i;
+    fs::remove(path("started"));
+  }
 }
 
 }  // namespace

@@ -56,7 +56,8 @@ class Sketches : public Boards, public ::testing::WithParamInterface<const Board
     const std::string libraries = std::string(kArduino) + "/libraries/";
     return fmt::format(
         " -mmcu={} -DF_CPU=16000000L -DARDUINO=10819 -DARDUINO_{} -DARDUINO_ARCH_AVR -Os "
-        "-ffunction-sections -fdata-sections -I{}/cores/arduino -I{}/variants/{} -I{}Wire/src "
+        "-flto -fno-fat-lto-objects -ffunction-sections -fdata-sections -I{}/cores/arduino "
+        "-I{}/variants/{} -I{}Wire/src "
         "-I{}SPI/src -I{}SoftwareSerial/src -I{}/tests/emit/arduino -I../src -Isrc ",
         GetParam()->chip, GetParam()->name, kArduino, kArduino, GetParam()->variant, libraries,
         libraries, libraries, AWMR_SOURCE_DIR);
@@ -74,7 +75,7 @@ class Sketches : public Boards, public ::testing::WithParamInterface<const Board
                "/Wire/src/utility/*.c; do '" + kAvrGcc + "' -std=gnu11 -w" + flags() +
                "-c $f || exit 1; done && for f in " + core + "/*.cpp " + libraries +
                "/Wire/src/*.cpp " + libraries + "/SoftwareSerial/src/*.cpp; do " + cxx() +
-               "-w -DDECIMAL_DIG=9 -c $f || exit 1; done && '" + kAvrAr + "' rcs ../core.a *.o");
+               "-w -DDECIMAL_DIG=9 -c $f || exit 1; done && '" + kAvrGccAr + "' rcs ../core.a *.o");
   }
 };
 
@@ -88,9 +89,10 @@ TEST_P(Sketches, CompileLinkAndFit) {
     const std::string sketch = fmt::format("examples/{}/{}.ino", name, name);
     ASSERT_TRUE(succeeded(run(cxx() + "-Wall -Wextra -Werror -x c++ -include Arduino.h -c " +
                               sketch + " -o sketch.o")));
-    ASSERT_TRUE(succeeded(run(
-        fmt::format("'{}' -mmcu={} -Os -Wl,--gc-sections sketch.o awmr.o core.a -lm -o sketch.elf",
-                    kAvrGxx, GetParam()->chip))));
+    ASSERT_TRUE(
+        succeeded(run(fmt::format("'{}' -mmcu={} -Os -flto -fuse-linker-plugin -Wl,--gc-sections "
+                                  "sketch.o awmr.o core.a -lm -o sketch.elf",
+                                  kAvrGxx, GetParam()->chip))));
     const ProcessResult size = run(std::string("'") + kAvrSize + "' sketch.elf | tail -1");
     std::istringstream numbers(size.out);
     int text = 0;

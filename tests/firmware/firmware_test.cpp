@@ -11,8 +11,9 @@
 namespace awmr::testing {
 namespace {
 
-constexpr long kFlashBytesMax = 16384;  // of 262144, as awmr pil asks
-constexpr long kRamBytesMax = 512;      // of 8192, without the stack
+// What avr-gcc 5.4 makes of it, 8,272 and 50 bytes, and 1 %; the chip has 262,144 and 8,192.
+constexpr long kFlashBytesMax = 8355;
+constexpr long kRamBytesMax = 51;  // without the stack
 
 class Firmware : public ::testing::Test {
  protected:

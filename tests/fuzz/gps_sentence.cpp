@@ -10,10 +10,10 @@ using awmr::fuzz::require;
 
 namespace {
 
-void check(const char* line) {
-  awmr::GpsFix fix{};
-  if (awmr::read_rmc(line, fix) != awmr::GpsSentence::kFix) return;
-  require(fix.utc_ms < awmr::kDay_ms + 1000, "time of day");
+void take(awmr::RmcReader& reader, char c) {
+  if (!reader.take(c) || reader.kind() != awmr::GpsSentence::kFix) return;
+  const awmr::GpsFix fix = awmr::to_fix(reader.numbers());
+  require(fix.utc_ms < awmr::kDay_ms, "time of day");
   require(fix.lat_e7 >= -900000000 && fix.lat_e7 <= 900000000, "latitude");
   require(fix.lon_e7 >= -1800000000 && fix.lon_e7 <= 1800000000, "longitude");
   require(std::isfinite(fix.speed_mps) && fix.speed_mps >= 0.0F, "speed");
@@ -22,10 +22,8 @@ void check(const char* line) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  awmr::GpsLine port;
-  for (std::size_t i = 0; i < size; ++i) {
-    if (port.take(static_cast<char>(data[i]))) check(port.text());
-  }
+  awmr::RmcReader reader;
+  for (std::size_t i = 0; i < size; ++i) take(reader, static_cast<char>(data[i]));
   // With its check sum made right, mutations reach the fields.
   std::string line = "$";
   unsigned sum = 0;
@@ -38,6 +36,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   line += '*';
   line += kDigits[sum >> 4U & 15U];
   line += kDigits[sum & 15U];
-  check(line.c_str());
+  for (const char c : line + '\n') take(reader, c);
   return 0;
 }

@@ -8,7 +8,9 @@
 #include <filesystem>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
+#include <vector>
 
 #include "cli/program.h"
 
@@ -86,16 +88,18 @@ class PilScenario : public Pil,
 
 TEST_P(PilScenario, RunsBitForBitAsOnTheHostAndWithinItsBudgets) {
   const auto [scenario, mode] = GetParam();
-  const int cycles_max = 9500;
+  // Bounds are what was measured, the largest of the nine runs, and 1 %.
+  const int cycles_max = 9140;
   const ProcessResult run = pil(scenario, mode, "--cycles-max " + std::to_string(cycles_max));
   ASSERT_EQ(run.exit_code, 0) << run.out << run.err;
   const Json json = result();
   EXPECT_EQ(largest(json["difference"]), 0.0);
-  EXPECT_LE(json["difference_double"]["heading_deg"].get<double>(), 0.05);
+  EXPECT_LE(json["difference_double"]["heading_deg"].get<double>(), 0.0071);
   // Parts that are left out cost nothing: what these images took before there were any.
   EXPECT_LE(json["flash_bytes"].get<int>(), 11830);
   EXPECT_LE(json["ram_bytes"].get<int>(), 415);
   EXPECT_GT(json["stack_bytes"].get<int>(), 50);
+  EXPECT_LE(json["stack_bytes"].get<int>(), 162);
   EXPECT_LE(json["cycles"]["max"].get<int>(), cycles_max);
   EXPECT_LT(json["cycles"]["min"].get<int>(), json["cycles"]["max"].get<int>());
   EXPECT_EQ(json["verdict"], "passed");
@@ -103,7 +107,7 @@ TEST_P(PilScenario, RunsBitForBitAsOnTheHostAndWithinItsBudgets) {
   EXPECT_EQ(json["hostile"]["differing"].get<int>(), 0);
   EXPECT_GE(json["hostile"]["steps"].get<int>(), 6000);
   EXPECT_GT(json["cycles_bound"].get<int>(), json["cycles"]["max"].get<int>());
-  EXPECT_LT(json["cycles_bound"].get<int>(), 160000);
+  EXPECT_LE(json["cycles_bound"].get<int>(), std::string(scenario) == kC8 ? 29590 : 10970);
   const bool in_readme = std::string(scenario) != kC13;
   const std::string name = std::string(scenario) == kC3 ? "C3 " : "C8 ";
   if (in_readme) {
@@ -280,7 +284,55 @@ TEST_F(Pil, ByPowfItIsWithinTwoMillionths) {
   const ProcessResult run = pil(kC3, "combined", "--resistance powf --difference-max 2e-6");
   ASSERT_EQ(run.exit_code, 0) << run.out << run.err;
   EXPECT_LE(largest(result()["difference"]), 2e-6);
-  EXPECT_LE(result()["cycles"]["max"].get<int>(), 24000);
+  EXPECT_LE(result()["cycles"]["max"].get<int>(), 18750);
+}
+
+constexpr const char* kFaults[] = {"nan",
+                                   "infinite",
+                                   "range",
+                                   "mode",
+                                   "heading-stale",
+                                   "speed-stale",
+                                   "command-timeout",
+                                   "step-late",
+                                   "parameters",
+                                   "compass-silent",
+                                   "compass-frozen",
+                                   "compass-jump",
+                                   "compass-stuck",
+                                   "gyro-silent",
+                                   "gyro-frozen",
+                                   "gyro-range",
+                                   "gyro-drift",
+                                   "gps-silent",
+                                   "gps-no-fix",
+                                   "gps-empty",
+                                   "gps-damaged",
+                                   "gps-repeated",
+                                   "gps-late",
+                                   "gps-jump",
+                                   "gps-speed-zero",
+                                   "gps-position-frozen",
+                                   "motors-reversed",
+                                   "command-silence",
+                                   "command-noise",
+                                   "command-unknown",
+                                   "command-repeated-frame",
+                                   "stop",
+                                   "stop-in-noise"};
+
+TEST(PilFaults, AreAllHazardsOfTheSafetyPage) {
+  std::istringstream page(
+      read_all(std::string(AWMR_SOURCE_DIR) + "/lib/awmr/emit/assets/SAFETY.md"));
+  std::vector<std::string> hazards;
+  for (std::string line; std::getline(page, line);) {
+    // A row of the five columns of the hazards.
+    if (std::count(line.begin(), line.end(), '|') != 6 || !line.ends_with("` |")) continue;
+    const std::size_t name = line.rfind(" `") + 2;
+    hazards.push_back(line.substr(name, line.size() - 3 - name));
+  }
+  EXPECT_EQ(hazards.size(), 24U);
+  EXPECT_THAT(kFaults, ::testing::IsSupersetOf(hazards));
 }
 
 class PilFault : public Pil, public ::testing::WithParamInterface<const char*> {};
@@ -289,6 +341,8 @@ TEST_P(PilFault, GivesTheSafeCommandAndItsCode) {
   // Long enough for what only metres of motion show.
   Json scenario = Json::parse(read_all(std::filesystem::path(AWMR_SOURCE_DIR) / kC3));
   scenario["duration_s"] = 90;
+  // A turn after the middle, in which a compass that stands still shows.
+  scenario["guidance"]["steps"].push_back({{"t_s", 60}, {"psi_deg", 30}});
   write_all(path("long.json"), scenario.dump());
   const ProcessResult run =
       pil(path("long.json"), "combined", std::string("--inject ") + GetParam());
@@ -303,19 +357,11 @@ TEST_P(PilFault, GivesTheSafeCommandAndItsCode) {
   EXPECT_EQ(injected["start_fault"].get<int>() != 0, GetParam() == std::string("parameters"));
 }
 
-INSTANTIATE_TEST_SUITE_P(, PilFault,
-                         ::testing::Values("nan", "infinite", "range", "mode", "heading-stale",
-                                           "speed-stale", "command-timeout", "step-late",
-                                           "parameters", "compass-silent", "compass-frozen",
-                                           "compass-jump", "gyro-silent", "gyro-frozen",
-                                           "gyro-range", "gps-silent", "gps-empty", "gps-repeated",
-                                           "gps-jump", "gps-speed-zero", "gps-position-frozen",
-                                           "motors-reversed"),
-                         [](const auto& test) {
-                           std::string name = test.param;
-                           std::replace(name.begin(), name.end(), '-', '_');
-                           return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(, PilFault, ::testing::ValuesIn(kFaults), [](const auto& test) {
+  std::string name = test.param;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+});
 
 TEST_F(Pil, AChipThatIsResetInMidRunIsStartedAnewAndGoesOnAsItsTwin) {
   const std::string line = "configs/paper/scenarios/c9_line.json";

@@ -72,14 +72,15 @@ TEST_F(SafetyChip, SensorChecksCommandsArmingAndDirectionGiveTheHostsBitsWithinT
   const unsigned whole = word("safety_whole_cycles");
   const unsigned fix = word("safety_fix_cycles");
   std::cout << "step to waypoints with the direction of the speed " << step
-            << " cycles at most, with sensor checks and commands " << whole << ", with a fix "
-            << fix << "; " << emulator_->flash_bytes() << " bytes of flash, "
-            << emulator_->ram_bytes() << " of RAM\n";
-  EXPECT_LE(step, 20000U);
-  EXPECT_LE(whole, 20000U);
-  EXPECT_LE(fix, 48000U) << "every twentieth step, with the sentence written and read: 3 ms of 10";
-  EXPECT_LE(emulator_->flash_bytes(), 32768U);
-  EXPECT_LE(emulator_->ram_bytes(), 1024U);
+            << " cycles at most, with sensor checks and commands " << whole
+            << ", while a fix is worked on " << fix << "; " << emulator_->flash_bytes()
+            << " bytes of flash, " << emulator_->ram_bytes() << " of RAM\n";
+  // The budget of a step is 20,000 cycles. The bounds are what avr-gcc 5.4 makes and 1 %.
+  EXPECT_LE(step, 16620U);
+  EXPECT_LE(whole, 19300U);
+  EXPECT_LE(fix, 20000U);
+  EXPECT_LE(emulator_->flash_bytes(), 24470U);
+  EXPECT_LE(emulator_->ram_bytes(), 934U);
 }
 
 }  // namespace

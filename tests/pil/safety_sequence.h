@@ -5,17 +5,18 @@
 #include "awmr.h"
 #include "awmr/control/arming.h"
 #include "awmr/control/command_line.h"
-#include "awmr/control/gps_check.h"
+#include "awmr/control/gps_receiver.h"
 #include "awmr/control/heading_check.h"
 
 namespace safety_sequence {
 
 const uint16_t kSteps = 1600;
+// Characters that come to a port of 38,400 baud in a step of 10 ms.
+const uint8_t kCharactersPerStep = 39;
 
 struct Sequence {
   awmr::HeadingCheck heading;
-  awmr::GpsLine line;
-  awmr::GpsCheck gps;
+  awmr::GpsReceiver gps;
   awmr::CommandReader commands;
   awmr::Arming arming;
   awmr_input input;
@@ -23,9 +24,10 @@ struct Sequence {
   uint32_t seed, now_ms, utc_ms, hash;
   int16_t word;
   int16_t field[3];
-  char sentence[96];   // empty: none came
-  uint8_t causes[15];  // steps with each sensor fault, at most 255
-  uint8_t disarmed;    // how often
+  char sentence[96];
+  uint8_t arrived, taken;  // characters of it that came to the port, and that were read from it
+  uint8_t causes[15];      // steps with each sensor fault, at most 255
+  uint8_t disarmed;        // how often
 };
 
 inline uint32_t draw(Sequence& s) {
@@ -88,28 +90,36 @@ inline void say_fix(Sequence& s, uint16_t step) {
 inline void prepare(Sequence& s, uint16_t step) {
   if (!fails(step, 0)) s.word = static_cast<int16_t>(static_cast<int16_t>(draw(s) % 21) - 10);
   for (uint8_t i = 0; i < 3; ++i) s.field[i] = static_cast<int16_t>(i * 100 + draw(s) % 9);
-  s.sentence[0] = '\0';
-  if (step % 20 != 0) return;
-  if (!fails(step, 5)) s.utc_ms = 43200000UL + 10UL * step;  // else the same UTC again
-  say_fix(s, step);
+  if (step % 20 == 0) {
+    s.arrived = s.taken = 0;
+    if (!fails(step, 5)) s.utc_ms = 43200000UL + 10UL * step;  // else the same UTC again
+    say_fix(s, step);
+  }
+  for (uint8_t i = 0; i < kCharactersPerStep && s.sentence[s.arrived] != '\0'; ++i) ++s.arrived;
 }
 
-inline void read_gps(Sequence& s) {
-  for (const char* c = s.sentence; *c != '\0'; ++c) {
-    if (!s.line.take(*c)) continue;
-    awmr::GpsFix fix;
-    const awmr::GpsSentence kind = awmr::read_rmc(s.line.text(), fix);
-    if (kind != awmr::GpsSentence::kFix) {
-      s.gps.take_unusable(kind, s.now_ms);
-      continue;
-    }
-    const float x_m = static_cast<float>(fix.lat_e7 - 481000000L) * 0.0111319491F;
-    const awmr::GpsContext at = {0.0F, 1, s.arming.is_armed()};
-    if (!s.gps.take_fix(fix, x_m, 0.0F, s.now_ms, at)) continue;
-    s.input.x_m = x_m;
-    s.input.u_mps = fix.speed_mps;
-    s.input.speed_ms = s.now_ms;
+struct Projection {
+  awmr::GpsPlace operator()(const awmr::GpsFix& fix) const {
+    return {static_cast<float>(fix.lat_e7 - 481000000L) * 0.0111319491F,
+            static_cast<float>(115000000L - fix.lon_e7) * 0.0074342F};
   }
+};
+
+struct Port {
+  Sequence& s;
+  int available() const { return s.arrived - s.taken; }
+  int read() { return s.sentence[s.taken++]; }
+};
+
+inline void read_gps(Sequence& s) {
+  const awmr::GpsContext at = {0.0F, 1, s.arming.is_armed()};
+  Projection projection;
+  Port port = {s};
+  s.gps.read(port, projection, at, s.now_ms);
+  s.input.x_m = s.gps.x_m;
+  s.input.y_m = s.gps.y_m;
+  s.input.u_mps = s.gps.speed_mps;
+  s.input.speed_ms = s.gps.has_fix() ? s.gps.time_ms : s.now_ms - AWMR_SPEED_TIMEOUT_MS - 1;
 }
 
 inline void listen(Sequence& s, uint16_t step) {

@@ -7,7 +7,10 @@ namespace awmr {
 
 /// dx cos psi + dy sin psi, m: how far a displacement (dx, dy) goes ahead.
 AWMR_CALLED inline float displacement_ahead_m(float dx_m, float dy_m, float psi_rad) {
-  return dx_m * float_math::cos(psi_rad) + dy_m * float_math::sin(psi_rad);
+  float sine = 0.0F;
+  float cosine = 0.0F;
+  float_math::sin_cos(psi_rad, sine, cosine);
+  return dx_m * cosine + dy_m * sine;
 }
 inline double displacement_ahead_m(double dx_m, double dy_m, double psi_rad) {
   return dx_m * ::cos(psi_rad) + dy_m * ::sin(psi_rad);

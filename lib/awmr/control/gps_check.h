@@ -35,9 +35,19 @@ class GpsCheck {
 
   /// A fix at (x, y), m, that came at `now_ms`. True: it is believed.
   bool take_fix(const GpsFix& fix, float x_m, float y_m, uint32_t now_ms, const GpsContext& at) {
+    const bool is_believed = accept_fix(fix, x_m, y_m, now_ms, at);
+    finish_motion();
+    return is_believed;
+  }
+
+  /// The first part of take_fix(), which decides whether the fix is believed. check_motion() may do
+  /// the others in later steps, before the next fix.
+  bool accept_fix(const GpsFix& fix, float x_m, float y_m, uint32_t now_ms, const GpsContext& at) {
     sentence_ms_ = now_ms;
     if (has_utc_) {
-      const uint32_t advance_ms = (fix.utc_ms + kDay_ms - utc_ms_) % kDay_ms;
+      // Both are times of day.
+      uint32_t advance_ms = fix.utc_ms - utc_ms_;
+      if (fix.utc_ms < utc_ms_) advance_ms += kDay_ms;
       if (advance_ms == 0) return refuse(kGpsRepeated);
       if (advance_ms > kDay_ms / 2) {
         unsettled_ = kRelocations;  // it ran back: believed again once it has advanced for a while
@@ -53,19 +63,51 @@ class GpsCheck {
       return refuse(kGpsOld);
     }
     const Place here = {x_m, y_m, fix.speed_mps, now_ms};
-    if (has_fix_ && !is_reachable(here, fix_)) {
+    const Motion motion = motion_to(here);
+    if (has_fix_ && !is_reachable(here, motion)) {
       if (at.is_armed || ++elsewhere_ < kRelocations) return refuse(kGpsJump);
       restart_motion();
       has_fix_ = false;
     }
     // At rest after a contradiction: the next arming begins without it.
     if (!at.is_armed && fix.speed_mps < kStandstill_mps) restart_motion();
-    note_motion(here, at);
     elsewhere_ = 0;
+    if (has_fix_) {
+      move_anchor(now_ms);
+      motion_ = motion;
+      context_ = at;
+      due_ = Due::kSpeed;
+    }
     fix_ = here;
     has_fix_ = true;
     last_ = kSensorGood;
     return true;
+  }
+
+  /// Compares the displacement of the last fix that was believed, at the first call with its speed, at
+  /// the second with the command. False: that is done.
+  bool check_motion() {
+    switch (due_) {
+      case Due::kSpeed:
+        due_ = motion_.time_s > kGap_s ? Due::kNothing : Due::kDirection;
+        if (due_ == Due::kNothing) {
+          restart_motion();
+        } else {
+          compare_with_speed();
+        }
+        break;
+      case Due::kDirection:
+        due_ = Due::kNothing;
+        compare_with_direction();
+        break;
+      case Due::kNothing:
+        break;
+    }
+    return due_ != Due::kNothing;
+  }
+  void finish_motion() {
+    while (check_motion()) {
+    }
   }
 
   SensorFault fault(uint32_t now_ms) const {
@@ -91,6 +133,11 @@ class GpsCheck {
     float x_m, y_m, speed_mps;
     uint32_t time_ms;
   };
+  struct Motion {
+    float dx_m, dy_m, time_s;
+  };
+  /// What is left to compare the last motion with.
+  enum class Due : uint8_t { kNothing, kSpeed, kDirection };
 
   /// Fixes may come so much later than the earliest of late, ms.
   static constexpr int32_t kGpsLag_ms = 500;
@@ -125,7 +172,9 @@ class GpsCheck {
   uint32_t utc_ms_ = 0;
   uint32_t utc_at_ms_ = 0;
   int32_t lag_ms_ = 0;
-  Place fix_ = {0.0F, 0.0F, 0.0F, 0};     // the last that was believed
+  Place fix_ = {0.0F, 0.0F, 0.0F, 0};   // the last that was believed
+  Motion motion_ = {0.0F, 0.0F, 0.0F};  // to it, valid where one is due
+  GpsContext context_ = {0.0F, 0, false};
   Place anchor_ = {0.0F, 0.0F, 0.0F, 0};  // where the window began, valid with has_anchor_
   float travelled_m_ = 0.0F;              // integral of the speed since then
   float same_m_ = 0.0F;                   // integral of the speed while the position stood still
@@ -140,6 +189,7 @@ class GpsCheck {
   bool has_utc_ = false;
   bool has_fix_ = false;
   bool has_anchor_ = false;
+  Due due_ = Due::kNothing;
   bool is_wrong_way_ = false;
   bool is_inconsistent_ = false;
 
@@ -155,29 +205,63 @@ class GpsCheck {
     if (lag_ms_ < 0) lag_ms_ = 0;
   }
 
-  /// Within 1.5 times the larger of both speeds and 1 m/s, and noise.
-  bool is_reachable(const Place& to, const Place& from) const {
-    const float dx = to.x_m - from.x_m;
-    const float dy = to.y_m - from.y_m;
-    const float time_s = 1e-3F * static_cast<float>(detail::elapsed_ms(to.time_ms, from.time_ms));
-    float speed_mps = to.speed_mps > from.speed_mps ? to.speed_mps : from.speed_mps;
-    if (speed_mps > speed_max_mps_) speed_mps = speed_max_mps_;
-    const float reach_m = (1.5F * speed_mps + 1.0F) * time_s + kNoise_m;
-    return dx * dx + dy * dy <= reach_m * reach_m;
+  /// From the last fix that was believed to this one.
+  Motion motion_to(const Place& to) const {
+    return {to.x_m - fix_.x_m, to.y_m - fix_.y_m,
+            1e-3F * static_cast<float>(detail::elapsed_ms(to.time_ms, fix_.time_ms))};
   }
-  void note_motion(const Place& to, const GpsContext& at) {
-    if (!has_fix_) return;
-    const float dt_s = 1e-3F * static_cast<float>(detail::elapsed_ms(to.time_ms, fix_.time_ms));
-    if (dt_s > kGap_s) return restart_motion();
-    const float dx_m = to.x_m - fix_.x_m;
-    const float dy_m = to.y_m - fix_.y_m;
-    if (dx_m != 0.0F || dy_m != 0.0F) same_m_ = 0.0F;
-    if (to.speed_mps > kStandstill_mps) same_m_ += to.speed_mps * dt_s;
+
+  /// Within 1.5 times the larger of both speeds and 1 m/s, and noise.
+  bool is_reachable(const Place& to, const Motion& motion) const {
+    float speed_mps = to.speed_mps > fix_.speed_mps ? to.speed_mps : fix_.speed_mps;
+    if (speed_mps > speed_max_mps_) speed_mps = speed_max_mps_;
+    const float reach_m = (1.5F * speed_mps + 1.0F) * motion.time_s + kNoise_m;
+    return motion.dx_m * motion.dx_m + motion.dy_m * motion.dy_m <= reach_m * reach_m;
+  }
+
+  /// A window begins at the last fix that was believed where there is none, and where one is over.
+  void move_anchor(uint32_t now_ms) {
+    if (has_anchor_ && !(travelled_m_ > kWindow_m) &&
+        detail::elapsed_ms(now_ms, anchor_.time_ms) <= kWindow_ms) {
+      return;
+    }
+    anchor_ = fix_;
+    travelled_m_ = 0.0F;
+    has_anchor_ = true;
+  }
+
+  /// |dx| + |dy| <= 1.5 int u dt + the wander since the anchor, where |dx| + |dy| <= sqrt(2) int u dt.
+  void compare_with_speed() {
+    const bool is_moving = fix_.speed_mps > kStandstill_mps;
+    follow_command(is_moving);
+    const float travelled_m = fix_.speed_mps * motion_.time_s;
+    if (motion_.dx_m != 0.0F || motion_.dy_m != 0.0F) same_m_ = 0.0F;
+    if (is_moving) same_m_ += travelled_m;
     if (same_m_ > kSame_m) is_inconsistent_ = true;
-    follow_command(to, dt_s, at.direction);
-    compare_with_speed(to, dt_s);
+    travelled_m_ += travelled_m;
+    const float moved_m =
+        detail::size_of(fix_.x_m - anchor_.x_m) + detail::size_of(fix_.y_m - anchor_.y_m);
+    const float further_m = direction_ != 0 ? kFurther_m : kFurtherAtRest_m;
+    if (moved_m > 1.5F * travelled_m_ + further_m) is_inconsistent_ = true;
+  }
+
+  /// Starts anew where the commanded direction changes. A vehicle that moves then has to brake first.
+  void follow_command(bool is_moving) {
+    if (context_.direction != direction_) {
+      direction_ = context_.direction;
+      braking_s_ = is_moving ? kBraking_s : 0.0F;
+      braked_from_mps_ = fix_.speed_mps;
+      against_m_ = 0.0F;
+      against_fixes_ = 0;
+    }
+    braking_s_ -= motion_.time_s;
+    if (!is_moving || fix_.speed_mps > braked_from_mps_ + kFaster_mps) braking_s_ = 0.0F;
+  }
+
+  /// The displacement against the commanded direction.
+  void compare_with_direction() {
     if (direction_ == 0) return;
-    const float ahead_m = displacement_ahead_m(dx_m, dy_m, at.psi_rad);
+    const float ahead_m = displacement_ahead_m(motion_.dx_m, motion_.dy_m, context_.psi_rad);
     against_m_ -= direction_ > 0 ? ahead_m : -ahead_m;
     if (against_m_ < -kAhead_m) {
       against_m_ = -kAhead_m;
@@ -186,35 +270,6 @@ class GpsCheck {
     if (braking_s_ > 0.0F && against_m_ > 0.0F) against_m_ = 0.0F;
     against_fixes_ = against_m_ > kAgainst_m ? static_cast<uint8_t>(against_fixes_ + 1) : 0;
     if (against_fixes_ >= kAgainstFixes) is_wrong_way_ = true;
-  }
-
-  /// |dx| + |dy| <= 1.5 int u dt + the wander since the anchor, where |dx| + |dy| <= sqrt(2) int u dt.
-  void compare_with_speed(const Place& to, float dt_s) {
-    if (!has_anchor_ || travelled_m_ > kWindow_m ||
-        detail::elapsed_ms(to.time_ms, anchor_.time_ms) > kWindow_ms) {
-      anchor_ = fix_;
-      travelled_m_ = 0.0F;
-      has_anchor_ = true;
-    }
-    travelled_m_ += to.speed_mps * dt_s;
-    const float moved_m =
-        detail::size_of(to.x_m - anchor_.x_m) + detail::size_of(to.y_m - anchor_.y_m);
-    const float further_m = direction_ != 0 ? kFurther_m : kFurtherAtRest_m;
-    if (moved_m > 1.5F * travelled_m_ + further_m) is_inconsistent_ = true;
-  }
-
-  /// Starts anew where the commanded direction changes. A vehicle that moves then has to brake first.
-  void follow_command(const Place& to, float dt_s, int8_t direction) {
-    const bool is_moving = to.speed_mps > kStandstill_mps;
-    if (direction != direction_) {
-      direction_ = direction;
-      braking_s_ = is_moving ? kBraking_s : 0.0F;
-      braked_from_mps_ = to.speed_mps;
-      against_m_ = 0.0F;
-      against_fixes_ = 0;
-    }
-    braking_s_ -= dt_s;
-    if (!is_moving || to.speed_mps > braked_from_mps_ + kFaster_mps) braking_s_ = 0.0F;
   }
 };
 

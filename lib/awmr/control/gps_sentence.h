@@ -1,5 +1,7 @@
 /// RMC sentence of a GPS (NMEA 0183), read strictly: a field that is empty or malformed, or a check
-/// sum that is missing or wrong, makes the whole sentence unusable. Freestanding C++14.
+/// sum that is missing or wrong, makes the whole sentence unusable. It is read character by character
+/// and in whole numbers, so that its cost spreads over the steps in which it arrives. Freestanding
+/// C++14.
 #pragma once
 
 #include <stdint.h>
@@ -23,10 +25,28 @@ enum class GpsSentence : uint8_t {
 
 /// Speeds below it, m/s, are noise of a receiver at rest.
 constexpr float kStandstill_mps = 0.3F;
-/// Milliseconds of a day.
-constexpr uint32_t kDay_ms = 86400000;
+/// Seconds and milliseconds of a day.
+constexpr uint32_t kDay_s = 86400;
+constexpr uint32_t kDay_ms = 1000 * kDay_s;
 /// Units of GpsFix::lat_e7 in a degree.
 constexpr uint32_t kDegree_e7 = 10000000;
+
+/// A number of a sentence: the digits before its point and, in units of the last place that is kept,
+/// those behind it. Groups of digits below 60 count sixty to one: 1234 is 12 60 + 34.
+struct RmcNumber {
+  uint32_t whole;
+  uint32_t part;
+};
+
+/// The numbers of a sentence before they are converted.
+struct RmcNumbers {
+  RmcNumber utc;    ///< s since midnight, and ms
+  RmcNumber lat;    ///< minutes of arc, and 1e-7 of one
+  RmcNumber lon;    ///< minutes of arc, and 1e-7 of one
+  RmcNumber knots;  ///< kn, and 1e-3 kn
+  bool is_south;
+  bool is_west;
+};
 
 namespace detail {
 
@@ -40,163 +60,235 @@ inline uint8_t hex_value(char c) {
   return 16;
 }
 
-/// Reads `count` digits at `text` into `value`. False: there are fewer.
-inline bool read_digits(const char*& text, uint8_t count, uint32_t& value) {
-  value = 0;
-  for (; count > 0; --count, ++text) {
-    if (!is_digit(*text)) return false;
-    value = value * 10U + static_cast<uint32_t>(*text - '0');
-  }
-  return true;
-}
-
-/// Reads [.d*] up to the end of the field as units of 10^-places. False: something else is there.
-inline bool read_fraction(const char*& text, uint8_t places, uint32_t& value) {
-  value = 0;
-  if (*text == '.') {
-    for (++text; is_digit(*text); ++text) {
-      if (places == 0) continue;
-      value = value * 10U + static_cast<uint32_t>(*text - '0');
-      --places;
-    }
-  }
-  for (; places > 0; --places) value *= 10U;
-  return *text == ',' || *text == '*';
-}
-
-/// The start of the field after this one; 0 at the end of the sentence.
-inline const char* next_field(const char* text) {
-  while (*text != ',' && *text != '*' && *text != '\0') ++text;
-  return *text == ',' ? text + 1 : 0;
-}
-
-/// hhmmss[.s*]
-inline bool read_utc(const char* text, uint32_t& utc_ms) {
-  uint32_t hours = 0;
-  uint32_t minutes = 0;
-  uint32_t seconds = 0;
-  uint32_t part_ms = 0;
-  if (!read_digits(text, 2, hours) || !read_digits(text, 2, minutes) ||
-      !read_digits(text, 2, seconds) || !read_fraction(text, 3, part_ms)) {
-    return false;
-  }
-  utc_ms = ((hours * 60U + minutes) * 60U + seconds) * 1000U + part_ms;
-  return hours < 24 && minutes < 60 && seconds < 61;
-}
-
-/// ddmm.m* or dddmm.m*, then the field of the hemisphere: `plus` or `minus`.
-inline bool read_degrees(const char* text, uint8_t degree_digits, char plus, char minus,
-                         int32_t& degrees_e7) {
-  uint32_t degrees = 0;
-  uint32_t minutes = 0;
-  uint32_t part_e7 = 0;
-  if (!read_digits(text, degree_digits, degrees) || !read_digits(text, 2, minutes) ||
-      *text != '.' || !read_fraction(text, 7, part_e7)) {
-    return false;
-  }
-  const char* hemisphere = next_field(text);
-  if (hemisphere == 0 || (*hemisphere != plus && *hemisphere != minus)) return false;
-  if (hemisphere[1] != ',') return false;
-  const uint32_t most = degree_digits == 2 ? 90 : 180;
-  if (degrees > most || minutes > 59) return false;
-  const uint32_t whole = degrees * kDegree_e7 + (minutes * kDegree_e7 + part_e7) / 60U;
-  if (whole > most * kDegree_e7) return false;
-  degrees_e7 = *hemisphere == plus ? static_cast<int32_t>(whole) : -static_cast<int32_t>(whole);
-  return true;
-}
-
-/// d*[.d*] knots, at most five digits before the point.
-inline bool read_knots(const char* text, float& speed_mps) {
-  uint32_t whole = 0;
-  uint32_t part = 0;
-  uint8_t digits = 0;
-  for (; is_digit(*text) && digits < 5; ++text, ++digits) {
-    whole = whole * 10U + static_cast<uint32_t>(*text - '0');
-  }
-  if (digits == 0 || !read_fraction(text, 3, part)) return false;
-  speed_mps = static_cast<float>(whole * 1000U + part) * 0.514444444e-3F;
-  return true;
-}
-
-/// $...*hh: hh is the exclusive or of the characters between. Nothing but a line's end follows.
-inline bool has_right_sum(const char* line) {
-  if (*line != '$') return false;
-  uint8_t sum = 0;
-  const char* at = line + 1;
-  for (; *at != '*' && *at != '\0'; ++at)
-    sum = static_cast<uint8_t>(sum ^ static_cast<uint8_t>(*at));
-  if (*at != '*') return false;
-  const uint8_t high = hex_value(at[1]);
-  if (high > 15) return false;
-  const uint8_t low = hex_value(at[2]);
-  if (low > 15 || static_cast<uint8_t>(high * 16U + low) != sum) return false;
-  return at[3] == '\0' || at[3] == '\r' || at[3] == '\n';
+/// 1e7 (whole + 1e-7 part)/60, of degrees and minutes apart to stay within 32 bits.
+inline int32_t degrees_e7(const RmcNumber& minutes, bool is_negative) {
+  const uint16_t whole = static_cast<uint16_t>(minutes.whole);
+  const uint16_t degrees = static_cast<uint16_t>(whole / 60U);
+  const uint32_t rest = static_cast<uint16_t>(whole - degrees * 60U);
+  const int32_t size =
+      static_cast<int32_t>(degrees * kDegree_e7 + (rest * kDegree_e7 + minutes.part) / 60U);
+  return is_negative ? -size : size;
 }
 
 }  // namespace detail
 
-/// Reads $xxRMC,time,A,lat,N,lon,E,knots,course,date,variation,E,mode*hh. `fix` is complete for kFix
-/// only. `line` ends with 0.
-inline GpsSentence read_rmc(const char* line, GpsFix& fix) {
-  if (!detail::has_right_sum(line)) return GpsSentence::kDamaged;
-  // The talker has two characters: $GPRMC, $GNRMC.
-  for (uint8_t i = 1; i < 7; ++i) {
-    if (line[i] == '\0') return GpsSentence::kOther;
-  }
-  if (line[3] != 'R' || line[4] != 'M' || line[5] != 'C' || line[6] != ',') {
-    return GpsSentence::kOther;
-  }
-  const char* fields[12];  // from the time on
-  uint8_t count = 0;
-  for (const char* at = line + 7; at != 0 && count < 12; at = detail::next_field(at)) {
-    fields[count++] = at;
-  }
-  if (count < 7) return GpsSentence::kDamaged;
-  if (*fields[1] == 'V') return GpsSentence::kNoFix;
-  if (fields[1][0] != 'A' || fields[1][1] != ',') return GpsSentence::kDamaged;
-  // NMEA 2.3 and later: how the fix was made. N none, E by dead reckoning, M by hand, S simulated.
-  if (count == 12) {
-    const char mode = *fields[11];
-    if (mode == 'N' || mode == 'E' || mode == 'M' || mode == 'S') return GpsSentence::kNoFix;
-  }
-  if (!detail::read_utc(fields[0], fix.utc_ms) ||
-      !detail::read_degrees(fields[2], 2, 'N', 'S', fix.lat_e7) ||
-      !detail::read_degrees(fields[4], 3, 'E', 'W', fix.lon_e7) ||
-      !detail::read_knots(fields[6], fix.speed_mps)) {
-    return GpsSentence::kDamaged;
-  }
-  return GpsSentence::kFix;
+/// The fix of a sentence for which RmcReader::kind() is kFix.
+inline GpsFix to_fix(const RmcNumbers& numbers) {
+  return {numbers.utc.whole * 1000U + numbers.utc.part,
+          detail::degrees_e7(numbers.lat, numbers.is_south),
+          detail::degrees_e7(numbers.lon, numbers.is_west),
+          static_cast<float>(numbers.knots.whole * 1000U + numbers.knots.part) * 0.514444444e-3F};
 }
 
-/// Collects the characters of a port into lines, each from a $ on. A line that is too long is
-/// dropped.
-class GpsLine {
+/// Reads $xxRMC,time,A,lat,N,lon,E,knots,course,date,variation,E,mode*hh from the characters of a
+/// port, whatever comes between; xx are two characters of the talker, as in $GPRMC and $GNRMC.
+class RmcReader {
  public:
-  /// True: text() is a line that is complete.
+  /// True: this character ended a sentence, each from a $ on; kind() and numbers() are valid until
+  /// the next $. A sentence that is too long is dropped.
   bool take(char c) {
+    const uint8_t digit = static_cast<uint8_t>(c - '0');
     if (c == '$') {
-      length_ = 0;
-      is_open_ = true;
-    }
-    if (!is_open_) return false;
-    if (c == '\n' || c == '\r') {
+      begin_sentence();
+    } else if (!is_open_ || ++length_ > kLengthMax) {
       is_open_ = false;
-      text_[length_] = '\0';
-      return length_ > 0;
-    }
-    if (length_ + 1U >= sizeof text_) {
+    } else if (number_ != 0 && digit <= 9) {
+      // The most frequent of all, and none of the characters below.
+      add_to_sum(c);
+      take_digit(digit);
+    } else if (c == '\n' || c == '\r') {
       is_open_ = false;
-      return false;
+      return true;
+    } else if (sum_place_ != kSummed) {
+      take_sum(c);
+    } else if (c == '*') {
+      end_field();
+      sum_place_ = kHighDigit;
+    } else {
+      add_to_sum(c);
+      if (is_rmc_) take_in_field(c);
     }
-    text_[length_++] = c;
     return false;
   }
-  const char* text() const { return text_; }
+
+  GpsSentence kind() const {
+    if (sum_place_ != kComplete || sum_ != 0) return GpsSentence::kDamaged;
+    if (!is_rmc_ || field_ == kTalker) return GpsSentence::kOther;
+    if (field_ < kKnots) return GpsSentence::kDamaged;
+    if (status_ == 'V') return GpsSentence::kNoFix;
+    // NMEA 2.3 and later: how the fix was made. N none, E by dead reckoning, M by hand, S simulated.
+    if (status_ == 'A' && (mode_ == 'N' || mode_ == 'E' || mode_ == 'M' || mode_ == 'S')) {
+      return GpsSentence::kNoFix;
+    }
+    return status_ != 'A' || is_malformed_ ? GpsSentence::kDamaged : GpsSentence::kFix;
+  }
+  const RmcNumbers& numbers() const { return numbers_; }
 
  private:
-  char text_[96] = {};
+  /// Characters of the longest sentence, with its $ and the first of its end.
+  static constexpr uint8_t kLengthMax = 96;
+
+  enum Field : uint8_t {
+    kTalker,
+    kUtc,
+    kStatus,
+    kLat,
+    kNorth,
+    kLon,
+    kEast,
+    kKnots,
+    kMode = 12,
+    kBeyond
+  };
+  /// What the next character is for the check sum.
+  enum SumPlace : uint8_t { kSummed, kHighDigit, kLowDigit, kComplete, kTooMuch };
+
+  RmcNumbers numbers_ = {};
+  RmcNumber* number_ = 0;  // of this field; 0: it is none
+  uint32_t value_ = 0;     // of its digits since the last point
+  uint8_t field_ = kTalker;
+  uint8_t size_ = 0;         // characters of this field
+  uint8_t digits_left_ = 0;  // before the point
+  uint8_t places_left_ = 0;  // behind it
+  uint8_t sixties_ = 0;      // bit 0: the next digit begins a group below 60; bit 1: the one after
   uint8_t length_ = 0;
+  uint8_t sum_ = 0;
+  SumPlace sum_place_ = kSummed;
+  char status_ = 0;
+  char mode_ = 0;
+  bool has_point_ = false;
   bool is_open_ = false;
+  bool is_rmc_ = false;
+  bool is_malformed_ = false;
+
+  void begin_sentence() {
+    length_ = 1;
+    sum_ = 0;
+    sum_place_ = kSummed;
+    field_ = kTalker;
+    size_ = 0;
+    number_ = 0;
+    status_ = mode_ = 0;
+    is_open_ = is_rmc_ = true;
+    is_malformed_ = false;
+  }
+
+  void add_to_sum(char c) { sum_ = static_cast<uint8_t>(sum_ ^ static_cast<uint8_t>(c)); }
+
+  void take_sum(char c) {
+    const uint8_t digit = detail::hex_value(c);
+    if (digit > 15 || sum_place_ > kLowDigit) {
+      sum_place_ = kTooMuch;
+    } else if (sum_place_ == kHighDigit) {
+      sum_ = static_cast<uint8_t>(sum_ ^ digit << 4U);
+      sum_place_ = kLowDigit;
+    } else {
+      sum_ = static_cast<uint8_t>(sum_ ^ digit);
+      sum_place_ = kComplete;
+    }
+  }
+
+  void take_in_field(char c) {
+    if (c == ',') {
+      end_field();
+      begin_field();
+    } else if (number_ == 0) {
+      take_letter(c);
+      if (size_ < 255) ++size_;
+    } else if (c == '.' && !has_point_) {
+      end_whole();
+    } else {
+      is_malformed_ = true;
+    }
+  }
+
+  void take_letter(char c) {
+    switch (field_) {
+      case kTalker:
+        if (size_ > 4 || (size_ > 1 && c != "RMC"[size_ - 2])) is_rmc_ = false;
+        break;
+      case kStatus:
+        if (size_ == 0 || status_ != 'V') status_ = size_ == 0 ? c : 'X';
+        break;
+      case kNorth:
+        numbers_.is_south = c == 'S';
+        if (c != 'N' && c != 'S') is_malformed_ = true;
+        break;
+      case kEast:
+        numbers_.is_west = c == 'W';
+        if (c != 'E' && c != 'W') is_malformed_ = true;
+        break;
+      case kMode:
+        if (size_ == 0) mode_ = c;
+        break;
+      default:
+        break;
+    }
+  }
+
+  void begin_field() {
+    size_ = 0;
+    if (field_ < kBeyond) ++field_;
+    // hhmmss[.s*] (no leap second), ddmm.m*, dddmm.m*; knots: at most five digits before the point
+    if (field_ == kUtc) begin_number(numbers_.utc, 6, 3, 0x14);
+    if (field_ == kLat) begin_number(numbers_.lat, 4, 7, 0x04);
+    if (field_ == kLon) begin_number(numbers_.lon, 5, 7, 0x08);
+    if (field_ == kKnots) begin_number(numbers_.knots, 5, 3, 0x00);
+  }
+  void begin_number(RmcNumber& number, uint8_t digits, uint8_t places, uint8_t sixties) {
+    number_ = &number;
+    value_ = 0;
+    digits_left_ = digits;
+    places_left_ = places;
+    sixties_ = sixties;
+    has_point_ = false;
+  }
+
+  void take_digit(uint8_t digit) {
+    bool is_sixties = false;
+    if (has_point_) {
+      if (places_left_ == 0) return;
+      --places_left_;
+    } else {
+      if (digits_left_ == 0) is_malformed_ = true;
+      --digits_left_;
+      is_sixties = (sixties_ & 1U) != 0;
+      sixties_ = static_cast<uint8_t>(sixties_ >> 1U);
+      if (is_sixties && digit > 5) is_malformed_ = true;
+    }
+    append(digit, is_sixties);
+  }
+  /// value = 10 value + digit, or 6 value + digit: in shifts, as a product takes an AVR 50 cycles.
+  void append(uint8_t digit, bool is_sixties) {
+    const uint32_t twice = value_ << 1U;
+    uint32_t rest = twice << 1U;
+    if (!is_sixties) rest <<= 1U;
+    value_ = rest + twice + digit;
+  }
+  void end_whole() {
+    number_->whole = value_;
+    value_ = 0;
+    has_point_ = true;
+  }
+
+  void end_field() {
+    if (field_ == kTalker && size_ != 5) is_rmc_ = false;
+    if ((field_ == kNorth || field_ == kEast) && size_ != 1) is_malformed_ = true;
+    if (number_ == 0) return;
+    const bool has_point = has_point_;
+    if (!has_point) end_whole();
+    for (; places_left_ > 0; --places_left_) append(0, false);
+    number_->part = value_;
+    if (field_ == kKnots ? digits_left_ > 4 : digits_left_ > 0) is_malformed_ = true;
+    if (field_ == kUtc && number_->whole >= kDay_s) is_malformed_ = true;
+    if (field_ == kLat || field_ == kLon) {
+      const uint16_t most = static_cast<uint16_t>((field_ == kLat ? 90U : 180U) * 60U);
+      if (!has_point || number_->whole > most || (number_->whole == most && value_ != 0)) {
+        is_malformed_ = true;
+      }
+    }
+    number_ = 0;
+  }
 };
 
 }  // namespace awmr

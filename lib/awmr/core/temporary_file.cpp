@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <signal.h>
 #include <sys/file.h>
+#include <sys/random.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -20,7 +21,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kPrefix = ".awmr-";
-constexpr std::size_t kRandomCharacters = 6;  ///< as mkostemp makes them
+constexpr std::size_t kRandomCharacters = 6;
+constexpr int kAttempts = 100;  ///< to find a name that is not taken
 
 /// The process that made a temporary file, by the file's name.
 std::optional<pid_t> maker_of(std::string_view name) {
@@ -51,6 +53,28 @@ extern "C" void remove_and_end(int signal) {
   ::raise(signal);
 }
 
+/// Its slot, or -1: all are taken, and the next start removes what a signal leaves.
+int register_path(const fs::path& path) {
+  char* text = ::strdup(path.c_str());
+  for (int i = 0; text != nullptr && i < kSlots; ++i) {
+    char* empty = nullptr;
+    if (registered[i].compare_exchange_strong(empty, text)) return i;
+  }
+  std::free(text);
+  return -1;
+}
+
+std::string random_characters() {
+  constexpr std::string_view kCharacters =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789";
+  unsigned char bytes[kRandomCharacters] = {};
+  // Without random bytes the name is taken sooner or later, and the file cannot be made.
+  [[maybe_unused]] const ssize_t count = ::getrandom(bytes, sizeof bytes, 0);
+  std::string text;
+  for (const unsigned char byte : bytes) text += kCharacters[byte % kCharacters.size()];
+  return text;
+}
+
 bool is_running(pid_t process) { return ::kill(process, 0) == 0 || errno != ESRCH; }
 
 }  // namespace
@@ -66,12 +90,28 @@ bool write_all(int descriptor, std::string_view bytes) {
 }
 
 std::optional<TemporaryFile> TemporaryFile::in(const fs::path& directory) {
-  std::string name = (directory / fmt::format("{}{}-XXXXXX", kPrefix, ::getpid())).string();
-  Descriptor file(::mkostemp(name.data(), O_CLOEXEC));
-  if (file.number() < 0) return std::nullopt;
+  int reason = EEXIST;
+  for (int i = 0; i < kAttempts && reason == EEXIST; ++i) {
+    TemporaryFile made(directory /
+                       fmt::format("{}{}-{}", kPrefix, ::getpid(), random_characters()));
+    if (!made.path_.empty()) return made;
+    reason = errno;
+  }
+  errno = reason;
+  return std::nullopt;
+}
+
+// The path is registered before the file is there: no signal comes between the two.
+TemporaryFile::TemporaryFile(fs::path path)
+    : path_(std::move(path)),
+      slot_(register_path(path_)),
+      file_(::open(path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0600)) {
+  if (file_.number() < 0) {
+    path_.clear();  // nothing to remove, or the file of another
+    return;
+  }
   // Where the file system knows no locks, the number of the process is all there is.
-  (void)::flock(file.number(), LOCK_EX | LOCK_NB);
-  return TemporaryFile(name, std::move(file));
+  (void)::flock(file_.number(), LOCK_EX | LOCK_NB);
 }
 
 TemporaryFile::TemporaryFile(TemporaryFile&& other) noexcept
@@ -82,17 +122,6 @@ TemporaryFile::TemporaryFile(TemporaryFile&& other) noexcept
 TemporaryFile::~TemporaryFile() {
   if (!path_.empty()) ::unlink(path_.c_str());
   unregister_path();
-}
-
-void TemporaryFile::register_path() {
-  char* text = ::strdup(path_.c_str());
-  for (int i = 0; text != nullptr && i < kSlots; ++i) {
-    char* empty = nullptr;
-    if (!registered[i].compare_exchange_strong(empty, text)) continue;
-    slot_ = i;
-    return;
-  }
-  std::free(text);  // all slots are taken: the next start removes what a signal leaves
 }
 
 void TemporaryFile::unregister_path() {

@@ -30,11 +30,7 @@ class TemporaryFile {
   bool rename_to(const std::filesystem::path& target);
 
  private:
-  TemporaryFile(std::filesystem::path path, Descriptor file)
-      : path_(std::move(path)), file_(std::move(file)) {
-    register_path();
-  }
-  void register_path();
+  explicit TemporaryFile(std::filesystem::path path);
   void unregister_path();
   std::filesystem::path path_;  ///< empty: nothing to remove
   int slot_ = -1;               ///< where a signal handler finds the path; -1: nowhere

@@ -113,14 +113,17 @@ inline float atan_poly(float t) {
 
 constexpr float kTanPiBy8 = 0.414213562F;
 
+/// sin(x + k pi/2) of a reduced x.
+inline float sin_of_reduced(float x, int k) {
+  const float value = (k & 1) != 0 ? cos_poly(x) : sin_poly(x);
+  return (k & 2) != 0 ? -value : value;
+}
+
 /// sin(x + quarter pi/2), so that quarter 0 is the sine and quarter 1 the cosine.
 AWMR_CALLED inline float sin_from(float x, int quarter) {
   if (!(::fabsf(x) <= kAngleMax)) return not_a_number();
   const int k = nearest(x * 0.636619772F);
-  const float rest = reduced(x, k);
-  const int quadrant = (k + quarter) & 3;
-  const float value = (quadrant & 1) != 0 ? cos_poly(rest) : sin_poly(rest);
-  return (quadrant & 2) != 0 ? -value : value;
+  return sin_of_reduced(reduced(x, k), k + quarter);
 }
 
 }  // namespace detail
@@ -130,6 +133,21 @@ inline float sin(float x) { return detail::sin_from(x, 0); }
 
 /// cos x, |x| <= kAngleMax. Worst error 7.9e-8.
 inline float cos(float x) { return detail::sin_from(x, 1); }
+
+/// The same two numbers for one reduction of x.
+AWMR_CALLED inline void sin_cos(float x, float& sine, float& cosine) {
+  if (!(::fabsf(x) <= kAngleMax)) {
+    sine = cosine = not_a_number();
+    return;
+  }
+  const int k = nearest(x * 0.636619772F);
+  const float rest = detail::reduced(x, k);
+  // A loop, so that the polynomials are there once.
+  float values[2];
+  for (int i = 0; i < 2; ++i) values[i] = detail::sin_of_reduced(rest, k + i);
+  sine = values[0];
+  cosine = values[1];
+}
 
 namespace detail {
 

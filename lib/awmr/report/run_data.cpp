@@ -14,6 +14,7 @@
 #include "awmr/core/drawn_rows.h"
 #include "awmr/core/file.h"
 #include "awmr/core/units.h"
+#include "awmr/simulate/run_table.h"
 #include "awmr/simulate/scenario_file.h"
 
 namespace awmr {
@@ -68,21 +69,6 @@ std::vector<RunSignal> signals_of(const CsvTable& table) {
           {"steering_deg", in_degrees(table.column("steering_rad"))},
           {"steering_cmd_deg", in_degrees(table.column("steering_cmd_rad"))},
           {"sideslip_deg", sideslip_deg(table.column("u_mps"), table.column("v_mps"))}};
-}
-
-Result<CsvTable> read_run(const fs::path& path) {
-  std::vector<CsvColumn> columns;
-  for (const char* name :
-       {"t_s", "x_m", "y_m", "psi_rad", "u_mps", "v_mps", "r_radps", "force_left", "force_right",
-        "steering_rad", "steering_cmd_rad", "psi_ref_rad", "u_ref_mps"}) {
-    columns.push_back({name});
-  }
-  AWMR_ASSIGN_OR_RETURN(CsvTable table, read_csv(path, columns));
-  const auto t = table.column("t_s");
-  const auto back = std::is_sorted_until(t.begin(), t.end());
-  if (back == t.end()) return table;
-  return input_error(table.place(static_cast<std::size_t>(back - t.begin()), "t_s"),
-                     "the time goes back; simulate the run again");
 }
 
 Json columns_of(const CsvTable& table, std::size_t most_rows) {

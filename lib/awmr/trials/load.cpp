@@ -1,5 +1,6 @@
 #include "awmr/trials/load.h"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -112,6 +113,14 @@ void read_tables(const TrialFiles& files, const TrialOptions& options, Trials& t
   }
 }
 
+/// By name, so that no number of a fit depends on the order in which the files were given.
+std::vector<std::filesystem::path> in_order_of_names(std::vector<std::filesystem::path> paths) {
+  std::sort(paths.begin(), paths.end(), [](const auto& a, const auto& b) {
+    return std::pair(a.filename(), a) < std::pair(b.filename(), b);
+  });
+  return paths;
+}
+
 Status check(const TrialFiles& files) {
   if (!files.surge && !files.turning && files.coastdowns.empty() && files.logs.empty()) {
     return input_error("", "no trials: give at least one surge, turning, coast-down or log file");
@@ -132,7 +141,7 @@ Result<Trials> load_trials(const TrialFiles& files) {
   auto& [vehicle, data, findings] = trials;
   std::vector<Fault> faults;
   read_tables(files, options, trials, faults);
-  for (const std::filesystem::path& path : files.logs) {
+  for (const std::filesystem::path& path : in_order_of_names(files.logs)) {
     auto logs = keep(read_logs(path, options, findings), faults);
     if (logs) add_logs(path, std::move(*logs), options, trials, faults);
   }

@@ -12,7 +12,7 @@ const float kAngleRad = 0.5f * AWMR_STEERING_MAX_RAD;
 awmr_board::Imu imu;
 awmr_input input;
 Stream* gps_port;
-awmr::GpsLine gps_line;
+awmr::RmcReader gps_reader;
 volatile bool has_fix = false;
 
 // What the step commands, set by loop(): a float is four bytes, so with interrupts off.
@@ -29,9 +29,8 @@ float cut(float force) { return constrain(force, -kForce, kForce); }
 
 void read_gps() {
   while (gps_port->available() > 0) {
-    awmr::GpsFix fix;
-    if (!gps_line.take(static_cast<char>(gps_port->read()))) continue;
-    if (awmr::read_rmc(gps_line.text(), fix) == awmr::GpsSentence::kFix) has_fix = true;
+    if (!gps_reader.take(static_cast<char>(gps_port->read()))) continue;
+    if (gps_reader.kind() == awmr::GpsSentence::kFix) has_fix = true;
   }
 }
 

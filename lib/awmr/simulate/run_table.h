@@ -1,0 +1,19 @@
+/// The reader of run.csv.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "awmr/core/csv.h"
+#include "awmr/core/result.h"
+
+namespace awmr {
+
+/// The columns of run.csv that every run has. Errors: as read_csv; the time goes back.
+Result<CsvTable> read_run(const std::filesystem::path& path);
+
+/// Read-back (file.h) of run.csv. Errors: as read_run.
+Status check_run_text(std::string_view text, const std::string& file);
+
+}  // namespace awmr
