@@ -31,8 +31,7 @@ std::vector<std::array<double, 4>> drawn(const PlantSampler& sampler) {
 }
 
 TEST(PlantSampler, DrawsHaveTheModelsMeanAndCovariance) {
-  Model model = uncertain_model();
-  model.vehicle.surge_beta_range = {0.0, 4.0};  // no draw is cut off
+  const Model model = uncertain_model();
   const auto sampler = PlantSampler::make(model);
   ASSERT_TRUE(sampler);
   const auto draws = drawn(*sampler);
@@ -94,13 +93,32 @@ TEST(PlantSampler, KeepsPositiveQuantitiesPositiveWhateverTheirError) {
   }
 }
 
-TEST(PlantSampler, KeepsExponentsInTheVehiclesRange) {
+/// The range bounds fits: an estimate at its end has its uncertainty on both sides.
+TEST(PlantSampler, DrawsExponentsOnBothSidesOfAnEndOfTheVehiclesRange) {
+  for (const double beta : {0.995, 1.0, 1.4}) {
+    Model model = uncertain_model();
+    ASSERT_EQ(model.vehicle.surge_beta_range.hi, 1.0);
+    model[ParameterId::kSurgeBeta].value = beta;
+    const auto sampler = PlantSampler::make(model);
+    ASSERT_TRUE(sampler);
+    int above = 0;
+    for (int sample = 1; sample <= 1000; ++sample) {
+      const auto plant = sampler->draw(1, sample);
+      ASSERT_TRUE(plant) << to_text(plant.error());
+      above += plant->surge.beta > beta ? 1 : 0;
+    }
+    // Binomial of 1000 halves: 5 standard deviations of 16.
+    EXPECT_NEAR(above, 500, 79) << beta;
+  }
+}
+
+TEST(PlantSampler, DrawsNoNegativeExponent) {
   Model model = uncertain_model();
-  model[ParameterId::kSurgeBeta].value = 0.995;  // s.e. 0.016: a third would be above 1
+  model[ParameterId::kSurgeBeta].value = 0.01;  // s.e. 0.016: a quarter would be below 0
   const auto sampler = PlantSampler::make(model);
   ASSERT_TRUE(sampler);
   for (int sample = 1; sample <= 1000; ++sample) {
-    EXPECT_LE(sampler->draw(1, sample)->surge.beta, 1.0);
+    EXPECT_GE(sampler->draw(1, sample)->surge.beta, 0.0);
   }
 }
 
@@ -150,15 +168,15 @@ TEST(PlantSampler, DrawsATermWellAboveZeroAsTheNormalThatItsFitGave) {
   EXPECT_NEAR(squares, 1.0, 5.0 * std::sqrt(2.0 / kDraws));
 }
 
-TEST(PlantSampler, SaysWhenTheRangeLeavesNothingToDraw) {
+TEST(PlantSampler, SaysWhenNextToNoDrawIsAdmissible) {
   Model model = uncertain_model();
-  model[ParameterId::kSurgeBeta].value = 2.0;
+  model[ParameterId::kSurgeBeta].value = -1.0;  // 60 standard errors below 0
   const auto sampler = PlantSampler::make(model);
   ASSERT_TRUE(sampler);
   const auto plant = sampler->draw(1, 1);
   ASSERT_FALSE(plant);
   EXPECT_EQ(plant.error().kind, ErrorKind::kInput);
-  EXPECT_THAT(to_text(plant.error()), HasSubstr("surge_beta_range"));
+  EXPECT_EQ(plant.error().faults.front().place, "model.json:/covariance");
 }
 
 TEST(PlantSampler, DrawsFromASingularCovariance) {

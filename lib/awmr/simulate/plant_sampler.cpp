@@ -21,10 +21,10 @@ constexpr int kMostTries = 1000;
 /// 17 digits, a derived parameter (m' from a1, b1) makes it singular.
 constexpr double kSingularTolerance = 1e-9;
 
-bool in_range(const Vehicle& vehicle, ParameterId id, double value) {
-  if (id == ParameterId::kSurgeBeta) return vehicle.surge_beta_range.contains(value);
-  if (id == ParameterId::kYawBeta) return vehicle.yaw_beta_range.contains(value);
-  return !info(id).term || value >= 0.0;
+/// A resistance does not fall with speed and does not push: b >= 0, and every term >= 0.
+bool is_admissible(ParameterId id, double value) {
+  const bool is_exponent = id == ParameterId::kSurgeBeta || id == ParameterId::kYawBeta;
+  return !(is_exponent || info(id).term) || value >= 0.0;
 }
 
 Status check_shape(const Covariance& covariance, const std::string& place) {
@@ -69,18 +69,6 @@ std::optional<Eigen::MatrixXd> factor_of(const Eigen::MatrixXd& covariance) {
   return eigen.vectors * eigen.values.cwiseMax(0.0).cwiseSqrt().asDiagonal();
 }
 
-/// Why there was nothing to draw, and what to do.
-tl::unexpected<Error> nothing_to_draw(const Model& model) {
-  const std::vector<ParameterId>& ids = model.covariance.parameters;
-  const bool terms =
-      std::any_of(ids.begin(), ids.end(), [](ParameterId id) { return info(id).term; });
-  return input_error(
-      model.file + ":/vehicle",
-      fmt::format("{} draws of the exponents{} all fell outside surge_beta_range or "
-                  "yaw_beta_range{}: widen the range, or identify from more trials",
-                  kMostTries, terms ? " and terms" : "", terms ? ", or below 0" : ""));
-}
-
 }  // namespace
 
 Result<PlantSampler> PlantSampler::make(const Model& model) {
@@ -111,22 +99,29 @@ Result<Plant<double>> PlantSampler::draw(std::uint64_t seed, int sample) const {
 
 Result<Model> PlantSampler::draw_model(std::uint64_t seed, int sample) const {
   Random random(seed, static_cast<std::uint64_t>(sample));
-  const std::vector<ParameterId>& ids = model_.covariance.parameters;
-  std::vector<double> normals(ids.size());
-  Model drawn = model_;
+  std::vector<double> normals(centre_.size());
   for (int attempt = 0; attempt < kMostTries; ++attempt) {
     for (double& normal : normals) normal = random.normal();
-    bool accepted = true;
-    for (std::size_t i = 0; i < ids.size(); ++i) {
-      double z = centre_[i];
-      for (std::size_t j = 0; j < ids.size(); ++j) z += factor_[i][j] * normals[j];
-      const double value = from_coordinate(ids[i], z);
-      accepted = accepted && in_range(model_.vehicle, ids[i], value);
-      drawn[ids[i]].value = value;
-    }
-    if (accepted) return drawn;
+    if (std::optional<Model> drawn = model_at(normals)) return *std::move(drawn);
   }
-  return nothing_to_draw(model_);
+  return input_error(
+      model_.file + ":/covariance",
+      fmt::format("in {} draws an exponent or a term of a resistance was below 0 every time: "
+                  "identify from more trials",
+                  kMostTries));
+}
+
+std::optional<Model> PlantSampler::model_at(std::span<const double> normals) const {
+  const std::vector<ParameterId>& ids = model_.covariance.parameters;
+  Model drawn = model_;
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    double z = centre_[i];
+    for (std::size_t j = 0; j < ids.size(); ++j) z += factor_[i][j] * normals[j];
+    const double value = from_coordinate(ids[i], z);
+    if (!is_admissible(ids[i], value)) return std::nullopt;
+    drawn[ids[i]].value = value;
+  }
+  return drawn;
 }
 
 }  // namespace awmr
