@@ -16,9 +16,10 @@ class Vehicles : public ::testing::TestWithParam<TestVehicle> {};
 
 /// A row of the table in lib/awmr/tune/README.md; quantiles of the mode that takes the longest.
 std::string row_of(const TestVehicle& vehicle, const Scenario& scenario, const Tuning& tuning) {
-  std::string row = fmt::format("| {} | {:g} / {:g} | {:g} m/s, {:g} deg |", vehicle.name,
-                                vehicle.servo_s, vehicle.sample_time_s, scenario.speed_mps,
-                                degrees(std::get<HeadingSteps>(scenario.guidance).steps[0].psi_rad));
+  std::string row =
+      fmt::format("| {} | {:g} / {:g} | {:g} m/s, {:g} deg |", vehicle.name, vehicle.servo_s,
+                  vehicle.sample_time_s, scenario.speed_mps,
+                  degrees(std::get<HeadingSteps>(scenario.guidance).steps[0].psi_rad));
   const auto put = [&](const Gains<double>& g) {
     row += fmt::format(" {:.3g}, {:.3g}, {:.3g} |", g.heading.lambda,
                        g.heading.mu / g.heading.epsilon, g.speed.mu / g.speed.epsilon);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/math/special_functions/erf.hpp>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -25,6 +26,21 @@ constexpr double kSingularTolerance = 1e-9;
 bool is_admissible(ParameterId id, double value) {
   const bool is_exponent = id == ParameterId::kSurgeBeta || id == ParameterId::kYawBeta;
   return !(is_exponent || info(id).term) || value >= 0.0;
+}
+
+/// Quantiles of 0 and 1 are infinite.
+constexpr double kLeastShare = 1e-9;
+
+/// The z with P(Z <= z) = p, Z standard normal, 0 < p < 1.
+double normal_quantile(double p) { return -std::sqrt(2.0) * boost::math::erfc_inv(2.0 * p); }
+
+/// The root phi > 1 of phi^(d + 1) = phi + 1, by phi <- (1 + phi)^(1/(d + 1)): a contraction.
+double kronecker_base(std::size_t dimensions) {
+  double phi = 2.0;
+  for (int i = 0; i < 60; ++i) {
+    phi = std::pow(1.0 + phi, 1.0 / (static_cast<double>(dimensions) + 1.0));
+  }
+  return phi;
 }
 
 Status check_shape(const Covariance& covariance, const std::string& place) {
@@ -95,6 +111,21 @@ Result<PlantSampler> PlantSampler::make(const Model& model) {
 Result<Plant<double>> PlantSampler::draw(std::uint64_t seed, int sample) const {
   AWMR_ASSIGN_OR_RETURN(const Model drawn, draw_model(seed, sample));
   return drawn.plant();
+}
+
+Result<Plant<double>> PlantSampler::draw_evenly(std::uint64_t seed, int sample) const {
+  Random shift(seed, 0);  // draws are numbered from 1
+  const double step = 1.0 / kronecker_base(centre_.size());
+  std::vector<double> normals;
+  double stride = 1.0;
+  for (std::size_t j = 0; j < centre_.size(); ++j) {
+    stride *= step;
+    const double place = shift.uniform() + sample * stride;
+    normals.push_back(
+        normal_quantile(std::clamp(place - std::floor(place), kLeastShare, 1.0 - kLeastShare)));
+  }
+  if (const std::optional<Model> drawn = model_at(normals)) return drawn->plant();
+  return draw(seed, sample);
 }
 
 Result<Model> PlantSampler::draw_model(std::uint64_t seed, int sample) const {

@@ -96,8 +96,9 @@ Result<Manoeuvre> manoeuvre_for(const Model& model) {
   while (hold_for(step_deg) > kLongestHold_s && step_deg > kSmallestStep_deg) {
     step_deg -= kSmallestStep_deg;
   }
-  const double hold_s = std::clamp(std::round(hold_for(step_deg) / kShortestHold_s) * kShortestHold_s,
-                                   kShortestHold_s, kLongestHold_s);
+  const double hold_s =
+      std::clamp(std::round(hold_for(step_deg) / kShortestHold_s) * kShortestHold_s,
+                 kShortestHold_s, kLongestHold_s);
   return Manoeuvre{speed_mps, step_deg, hold_s};
 }
 
@@ -132,8 +133,8 @@ Result<std::vector<Scenario>> default_tuning_scenarios(const Model& model,
     term.value = value;
     return std::vector{term};
   };
-  pushed.disturbance.yaw = constantly(
-      kPush * turning_authority_m({plant, model.vehicle.wheel_force}, pushed.speed_mps));
+  pushed.disturbance.yaw =
+      constantly(kPush * turning_authority_m({plant, model.vehicle.wheel_force}, pushed.speed_mps));
   pushed.disturbance.surge = constantly(-kPush * plant.surge(pushed.speed_mps));
   scenarios.push_back(std::move(pushed));
   return scenarios;

@@ -28,7 +28,8 @@ std::string advice_on(std::string_view constraint) {
   };
   static constexpr Advice kAdvice[] = {
       {"late damping", "limits/late_damping", "the readings are late (latency_s of vehicle.json)"},
-      {"delay margin", "limits/delayed_damping", "the readings are late (latency_s of vehicle.json)"},
+      {"delay margin", "limits/delayed_damping",
+       "the readings are late (latency_s of vehicle.json)"},
       {"noise gain", "limits/noise_share",
        "heading noise uses much of the available yaw moment (noise of vehicle.json)"},
       {"steering rate", "limits/steering_rate_rms_degps",
@@ -40,7 +41,8 @@ std::string advice_on(std::string_view constraint) {
       {"mu dominates", "bounds of mu", "yaw resistance asks for it"},
       {"mu_s dominates", "bounds of speed_mu", "surge resistance asks for it"}};
   const auto* known = std::ranges::find(kAdvice, constraint, &Advice::constraint);
-  if (known == std::end(kAdvice)) return "raise the margin, choose form 'paper' or widen the bounds";
+  if (known == std::end(kAdvice))
+    return "raise the margin, choose form 'paper' or widen the bounds";
   return fmt::format("relax {} of tune.json; {}", known->limit, known->cause);
 }
 
@@ -93,10 +95,10 @@ tl::unexpected<Error> not_found(const SearchResult& found, const Objective& obje
   if (auto missed = goal_missed(found, e, objective, scenarios)) return *missed;
   const std::string gains = in_words(found.nearest.gains);
   if (!e.valid) {
-    return refusal(
-        fmt::format("no gains keep every run finite: runs with the nearest of {} ({}) break off; give "
-                    "slower scenarios or narrower bounds",
-                    found.evaluations, gains));
+    return refusal(fmt::format(
+        "no gains keep every run finite: runs with the nearest of {} ({}) break off; give "
+        "slower scenarios or narrower bounds",
+        found.evaluations, gains));
   }
   const bool is_activity = found.broken_most.starts_with("activity");
   return refusal(fmt::format(

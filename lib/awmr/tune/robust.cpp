@@ -74,8 +74,13 @@ std::size_t OpenVehicle::combinations() const {
          std::max<std::size_t>(1, wheel_forces.size());
 }
 
-Result<std::vector<DrawnVehicle>> vehicles_of(const Model& model, std::span<const int> numbers,
-                                              std::uint64_t seed, const OpenVehicle& open) {
+namespace {
+
+using Draw = Result<Plant<double>> (PlantSampler::*)(std::uint64_t seed, int sample) const;
+
+Result<std::vector<DrawnVehicle>> drawn_by(Draw draw, const Model& model,
+                                           std::span<const int> numbers, std::uint64_t seed,
+                                           const OpenVehicle& open) {
   AWMR_ASSIGN_OR_RETURN(const Plant<double> own, model.plant());
   std::vector<DrawnVehicle> vehicles(numbers.size() + 1, {own, model.vehicle.wheel_force});
   std::optional<PlantSampler> sampler;
@@ -85,18 +90,25 @@ Result<std::vector<DrawnVehicle>> vehicles_of(const Model& model, std::span<cons
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     DrawnVehicle& vehicle = vehicles[i + 1];
     if (sampler) {
-      AWMR_ASSIGN_OR_RETURN(vehicle.plant, sampler->draw(seed, numbers[i]));
+      AWMR_ASSIGN_OR_RETURN(vehicle.plant, ((*sampler).*draw)(seed, numbers[i]));
     }
     open_up(open, numbers[i], vehicle);
   }
   return vehicles;
 }
 
+}  // namespace
+
+Result<std::vector<DrawnVehicle>> vehicles_of(const Model& model, std::span<const int> numbers,
+                                              std::uint64_t seed, const OpenVehicle& open) {
+  return drawn_by(&PlantSampler::draw, model, numbers, seed, open);
+}
+
 Result<std::vector<DrawnVehicle>> vehicles_of(const Model& model, int draws, std::uint64_t seed,
                                               const OpenVehicle& open) {
   std::vector<int> numbers(at(draws));
   std::iota(numbers.begin(), numbers.end(), 1);
-  return vehicles_of(model, numbers, seed, open);
+  return drawn_by(&PlantSampler::draw_evenly, model, numbers, seed, open);
 }
 
 std::vector<JudgedRuns> run_candidates(const ObjectiveSetting& setting,
