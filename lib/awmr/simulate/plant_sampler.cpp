@@ -28,19 +28,23 @@ bool is_admissible(ParameterId id, double value) {
   return !(is_exponent || info(id).term) || value >= 0.0;
 }
 
-/// Quantiles of 0 and 1 are infinite.
-constexpr double kLeastShare = 1e-9;
+constexpr double kInsideStratum = 1e-6;
 
 /// The z with P(Z <= z) = p, Z standard normal, 0 < p < 1.
 double normal_quantile(double p) { return -std::sqrt(2.0) * boost::math::erfc_inv(2.0 * p); }
 
-/// The root phi > 1 of phi^(d + 1) = phi + 1, by phi <- (1 + phi)^(1/(d + 1)): a contraction.
-double kronecker_base(std::size_t dimensions) {
-  double phi = 2.0;
-  for (int i = 0; i < 60; ++i) {
-    phi = std::pow(1.0 + phi, 1.0 / (static_cast<double>(dimensions) + 1.0));
+/// Standard normals, one in each of `count` strata of equal probability, in a random order.
+std::vector<double> stratified_normals(int count, Random& random) {
+  std::vector<double> normals;
+  for (int i = 0; i < count; ++i) {
+    const double place = std::max(random.uniform(), kInsideStratum);  // 0 has no quantile
+    normals.push_back(normal_quantile((i + place) / count));
   }
-  return phi;
+  for (std::size_t i = normals.size(); i > 1; --i) {
+    std::swap(normals[i - 1],
+              normals[static_cast<std::size_t>(random.uniform() * static_cast<double>(i))]);
+  }
+  return normals;
 }
 
 Status check_shape(const Covariance& covariance, const std::string& place) {
@@ -113,19 +117,21 @@ Result<Plant<double>> PlantSampler::draw(std::uint64_t seed, int sample) const {
   return drawn.plant();
 }
 
-Result<Plant<double>> PlantSampler::draw_evenly(std::uint64_t seed, int sample) const {
-  Random shift(seed, 0);  // draws are numbered from 1
-  const double step = 1.0 / kronecker_base(centre_.size());
-  std::vector<double> normals;
-  double stride = 1.0;
+Result<std::vector<Plant<double>>> PlantSampler::draw_evenly(std::uint64_t seed, int count) const {
+  Random random(seed, 0);  // draw() has the streams from 1
+  std::vector<std::vector<double>> by_direction;
   for (std::size_t j = 0; j < centre_.size(); ++j) {
-    stride *= step;
-    const double place = shift.uniform() + sample * stride;
-    normals.push_back(
-        normal_quantile(std::clamp(place - std::floor(place), kLeastShare, 1.0 - kLeastShare)));
+    by_direction.push_back(stratified_normals(count, random));
   }
-  if (const std::optional<Model> drawn = model_at(normals)) return drawn->plant();
-  return draw(seed, sample);
+  std::vector<Plant<double>> plants;
+  for (int i = 0; i < count; ++i) {
+    std::vector<double> normals;
+    for (const std::vector<double>& of : by_direction) normals.push_back(of[at(i)]);
+    const std::optional<Model> drawn = model_at(normals);
+    AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, drawn ? drawn->plant() : draw(seed, i + 1));
+    plants.push_back(plant);
+  }
+  return plants;
 }
 
 Result<Model> PlantSampler::draw_model(std::uint64_t seed, int sample) const {

@@ -34,11 +34,10 @@ class PlantSampler {
   /// The same as a model, whose intervals are still those of the identified one.
   Result<Model> draw_model(std::uint64_t seed, int sample) const;
 
-  /// One of draws that are spread evenly, for few of them: the first n cover each direction of the
-  /// covariance with about n strata. With phi the root of phi^(d+1) = phi + 1, d parameters,
-  ///   u_j = frac(s_j + sample phi^-j),  z_j the standard normal quantile of u_j,
-  /// the shift s from the seed: a Kronecker sequence [Roberts 2018]. Where it is not admissible, draw()'s.
-  Result<Plant<double>> draw_evenly(std::uint64_t seed, int sample) const;
+  /// So many draws that are spread evenly, for few of them: a Latin hypercube. Each direction of the
+  /// covariance has one draw in each of `count` strata of equal probability, in an order and at a place
+  /// within it from the seed. One that is not admissible is draw()'s of its number.
+  Result<std::vector<Plant<double>>> draw_evenly(std::uint64_t seed, int count) const;
 
  private:
   /// The model at standard normals, one for each parameter of the covariance; none where an exponent
