@@ -100,7 +100,8 @@ struct TuneCommand {
   fs::path output;
   AllocationChoice allocation = {};
   bool nominal = false;
-  bool observer = false;  ///< as {} for the file's `observer`
+  bool observer = false;                  ///< as {} for the file's `observer`
+  std::optional<fs::path> baseline = {};  ///< as the file's `baseline`
   std::optional<int> draws = {};
   std::optional<int> sensitivity = {};
   HeadingRateChoice heading_rate_limit = {};

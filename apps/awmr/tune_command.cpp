@@ -27,18 +27,21 @@ namespace {
 
 std::string gains_line(const char* name, const Gains<double>& gains, double objective) {
   return fmt::format(
-      "  {:<10} {:>8.4g} {:>8.4g} {:>8.4g} {:>8.4g} {:>8.4g} {:>8.4f} {:>8.4f} {:>10.4f}\n", name,
+      "  {:<14} {:>8.4g} {:>8.4g} {:>8.4g} {:>8.4g} {:>8.4g} {:>8.4f} {:>8.4f} {:>10.4f}\n", name,
       gains.heading.lambda, gains.heading.mu, gains.heading.epsilon, gains.speed.mu,
       gains.speed.epsilon, gains.heading.sliding_time_constant_s(),
       gains.heading.reaching_time_constant_s(), objective);
 }
 
-/// The tuned gains under the paper's, with their time constants and objective.
+/// The tuned gains under the baseline, with their time constants and objective.
 std::string gains_table(const Tuning& tuning) {
   std::string text =
-      fmt::format("  {:<10} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>10}\n", "gains", "lambda",
+      fmt::format("  {:<14} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>10}\n", "gains", "lambda",
                   "mu", "epsilon", "mu_s", "eps_s", "T1 s", "T2 s", "objective");
-  text += gains_line("paper", tuning.baseline, tuning.baseline_objective);
+  const bool is_known =
+      tuning.baseline.source == kPolePlacement || tuning.baseline.source == kPaperSource;
+  text += gains_line(is_known ? tuning.baseline.source.c_str() : "baseline", tuning.baseline.gains,
+                     tuning.baseline_objective);
   text += gains_line("tuned", tuning.gains, tuning.objective);
   if (const ObserverGains<double>& observer = tuning.gains.observer; observer.is_on()) {
     text += fmt::format("  observer   {:.4g} rad/s, up to {:.4g} m and {:.4g} of F_max\n",
@@ -189,7 +192,7 @@ std::string summary_of(const Tuning& tuning, const TuneOptions& options) {
 std::string details_of(const Tuning& tuning) {
   std::string text = "objective by scenario and mode\n";
   for (const ModeScore& score : tuning.scores) {
-    text += fmt::format("  {:<22} {:<13} {:.4f} of the paper's gains'\n", score.scenario,
+    text += fmt::format("  {:<22} {:<13} {:.4f} of the baseline's\n", score.scenario,
                         name_of(score.mode), score.objective);
   }
   text += "constraints\n";
@@ -209,9 +212,11 @@ Result<Tuning> tune_with_progress(const Model& model, TuneOptions options) {
 }
 
 Result<Provenance> provenance_of(const TuneCommand& command,
+                                 const std::optional<fs::path>& baseline_file,
                                  const std::vector<fs::path>& scenario_files) {
   std::vector<fs::path> paths{command.model};
   if (command.config) paths.push_back(*command.config);
+  if (baseline_file) paths.push_back(*baseline_file);
   paths.insert(paths.end(), scenario_files.begin(), scenario_files.end());
   AWMR_RETURN_IF_ERROR(
       command.shard
@@ -221,6 +226,7 @@ Result<Provenance> provenance_of(const TuneCommand& command,
   std::vector<std::pair<std::string, std::string>> options = options_of(command.allocation);
   if (command.nominal) options.emplace_back("nominal", "true");
   if (command.observer) options.emplace_back("observer", "true");
+  if (command.baseline) options.emplace_back("baseline", command.baseline->string());
   if (command.draws) options.emplace_back("draws", std::to_string(*command.draws));
   if (command.sensitivity) {
     options.emplace_back("sensitivity", std::to_string(*command.sensitivity));
@@ -282,7 +288,15 @@ Result<Outcome> execute(const TuneCommand& command) {
   }
   if (command.draws) config.options.draws = *command.draws;
   if (command.sensitivity) config.options.sensitivity = *command.sensitivity;
-  AWMR_ASSIGN_OR_RETURN(const Provenance provenance, provenance_of(command, config.scenario_files));
+  if (command.baseline) {
+    AWMR_ASSIGN_OR_RETURN(config.options.baseline, baseline_named(*command.baseline));
+    config.baseline_file.reset();
+    if (config.options.baseline && config.options.baseline->source != kPaperSource) {
+      config.baseline_file = *command.baseline;
+    }
+  }
+  AWMR_ASSIGN_OR_RETURN(const Provenance provenance,
+                        provenance_of(command, config.baseline_file, config.scenario_files));
   config.options.shard = command.shard;
   if (command.resume && is_finished_tune_shard(command.output, *command.shard, provenance)) {
     return finished_part(*command.shard, command.output);
@@ -317,8 +331,10 @@ void add_tune(CLI::App& app, Session& session) {
                                 return execute(*command);
                               });
   add_file(*sub, "--model", command->model, "model.json from identify")->required();
-  add_file(*sub, "--config", command->config,
-           "tune.json: form, margin, weights, goals, open, observer, evaluations, seed, scenarios");
+  add_file(
+      *sub, "--config", command->config,
+      "tune.json: form, margin, limits, baseline, weights, goals, open, observer, evaluations, "
+      "seed, scenarios");
   auto* nominal = sub->add_flag("--nominal", command->nominal,
                                 "Tune on the model's own values alone: no draws from what is "
                                 "uncertain, no noise, no latency, no lag");
@@ -326,9 +342,13 @@ void add_tune(CLI::App& app, Session& session) {
       "--observer", command->observer,
       "Tune a disturbance observer with the gains, for pushes that do not go away: a slope, "
       "a motor that pulls to one side");
+  sub->add_option("--baseline", command->baseline,
+                  "Gains that the objective is normalised by: pole-placement (default), paper or a "
+                  "gains.json")
+      ->type_name("NAME|FILE");
   sub->add_option("--draws", command->draws,
                   "Plants drawn from the model's covariance that the gains are tuned for (default "
-                  "4)")
+                  "32)")
       ->check(within(0.0, 1000.0))
       ->excludes(nominal);
   sub->add_option("--sensitivity", command->sensitivity,

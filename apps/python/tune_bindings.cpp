@@ -97,7 +97,7 @@ py::list goals_of(const Tuning& tuning) {
 void bind_tune(py::module_& module) {
   py::class_<Tuning>(module, "Tuning", "Gains and how they were found.")
       .def_readonly("gains", &Tuning::gains)
-      .def_readonly("objective", &Tuning::objective, "1 for the paper's gains, less is better")
+      .def_readonly("objective", &Tuning::objective, "1 for the baseline, less is better")
       .def_readonly("evaluations", &Tuning::evaluations)
       .def_readonly("algorithm", &Tuning::algorithm)
       .def_readonly("stop_reason", &Tuning::stop_reason)
@@ -118,7 +118,7 @@ void bind_tune(py::module_& module) {
   module.def("tune", tuned, py::arg("model"), py::kw_only(), py::arg("config") = py::none(),
              py::arg("nominal") = false, py::arg("draws") = py::none(), py::arg("observer") = false,
              "Searches the controller's gains under T2 < T1. `config`: path of tune.json; `draws`: "
-             "plants from the model's covariance (default 4); `nominal`: none, no noise, no lag; "
+             "plants from the model's covariance (default 32); `nominal`: none, no noise, no lag; "
              "`observer`: a disturbance observer is tuned with them. "
              "The numbers are those of `awmr tune`. Raises Refused where no gains meet the "
              "constraints, InputError where the model lacks a parameter.");

@@ -31,8 +31,7 @@ std::vector<std::array<double, 4>> drawn(const PlantSampler& sampler) {
 }
 
 TEST(PlantSampler, DrawsHaveTheModelsMeanAndCovariance) {
-  Model model = uncertain_model();
-  model.vehicle.surge_beta_range = {0.0, 4.0};  // no draw is cut off
+  const Model model = uncertain_model();
   const auto sampler = PlantSampler::make(model);
   ASSERT_TRUE(sampler);
   const auto draws = drawn(*sampler);
@@ -58,6 +57,34 @@ TEST(PlantSampler, DrawsHaveTheModelsMeanAndCovariance) {
           std::sqrt((expected(i, i) * expected(j, j) + expected(i, j) * expected(i, j)) / kDraws);
       EXPECT_NEAR(covariance, expected(i, j), 5.0 * deviation) << i << ' ' << j;
     }
+  }
+}
+
+/// Of 32 random draws the mean has a standard error of sigma/sqrt(32) = 0.18 sigma, their mean square one of
+/// sqrt(2/32) = 0.25, and that of five seeds one of 0.11. Even draws are held to a third of the first and, over
+/// the seeds, to twice the last.
+TEST(PlantSampler, EvenDrawsHaveTheModelsMeanAndSpreadWhileTheyAreFew) {
+  constexpr int kFew = 32;
+  constexpr int kSeeds = 5;
+  const Model model = uncertain_model();
+  const auto sampler = PlantSampler::make(model);
+  ASSERT_TRUE(sampler);
+  const std::array<double, 4> centre = coordinates(*model.plant());
+  const std::array<double, 4> scale = {1.3157, 1.0, 0.3028, 0.0768};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double sigma = std::sqrt(model.covariance.matrix[i][i]) / scale[i];
+    double square = 0.0;
+    for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+      double mean = 0.0;
+      const std::vector<Plant<double>> plants = sampler->draw_evenly(seed, kFew).value();
+      for (const Plant<double>& plant : plants) {
+        const double z = (coordinates(plant)[i] - centre[i]) / sigma;
+        mean += z / kFew;
+        square += z * z / (kFew * kSeeds);
+      }
+      EXPECT_LT(std::abs(mean), 0.06) << seed << ' ' << i;
+    }
+    EXPECT_NEAR(square, 1.0, 0.22) << i;
   }
 }
 
@@ -94,13 +121,32 @@ TEST(PlantSampler, KeepsPositiveQuantitiesPositiveWhateverTheirError) {
   }
 }
 
-TEST(PlantSampler, KeepsExponentsInTheVehiclesRange) {
+/// The range bounds fits: an estimate at its end has its uncertainty on both sides.
+TEST(PlantSampler, DrawsExponentsOnBothSidesOfAnEndOfTheVehiclesRange) {
+  for (const double beta : {0.995, 1.0, 1.4}) {
+    Model model = uncertain_model();
+    ASSERT_EQ(model.vehicle.surge_beta_range.hi, 1.0);
+    model[ParameterId::kSurgeBeta].value = beta;
+    const auto sampler = PlantSampler::make(model);
+    ASSERT_TRUE(sampler);
+    int above = 0;
+    for (int sample = 1; sample <= 1000; ++sample) {
+      const auto plant = sampler->draw(1, sample);
+      ASSERT_TRUE(plant) << to_text(plant.error());
+      above += plant->surge.beta > beta ? 1 : 0;
+    }
+    // Binomial of 1000 halves: 5 standard deviations of 16.
+    EXPECT_NEAR(above, 500, 79) << beta;
+  }
+}
+
+TEST(PlantSampler, DrawsNoNegativeExponent) {
   Model model = uncertain_model();
-  model[ParameterId::kSurgeBeta].value = 0.995;  // s.e. 0.016: a third would be above 1
+  model[ParameterId::kSurgeBeta].value = 0.01;  // s.e. 0.016: a quarter would be below 0
   const auto sampler = PlantSampler::make(model);
   ASSERT_TRUE(sampler);
   for (int sample = 1; sample <= 1000; ++sample) {
-    EXPECT_LE(sampler->draw(1, sample)->surge.beta, 1.0);
+    EXPECT_GE(sampler->draw(1, sample)->surge.beta, 0.0);
   }
 }
 
@@ -150,15 +196,15 @@ TEST(PlantSampler, DrawsATermWellAboveZeroAsTheNormalThatItsFitGave) {
   EXPECT_NEAR(squares, 1.0, 5.0 * std::sqrt(2.0 / kDraws));
 }
 
-TEST(PlantSampler, SaysWhenTheRangeLeavesNothingToDraw) {
+TEST(PlantSampler, SaysWhenNextToNoDrawIsAdmissible) {
   Model model = uncertain_model();
-  model[ParameterId::kSurgeBeta].value = 2.0;
+  model[ParameterId::kSurgeBeta].value = -1.0;  // 60 standard errors below 0
   const auto sampler = PlantSampler::make(model);
   ASSERT_TRUE(sampler);
   const auto plant = sampler->draw(1, 1);
   ASSERT_FALSE(plant);
   EXPECT_EQ(plant.error().kind, ErrorKind::kInput);
-  EXPECT_THAT(to_text(plant.error()), HasSubstr("surge_beta_range"));
+  EXPECT_EQ(plant.error().faults.front().place, "model.json:/covariance");
 }
 
 TEST(PlantSampler, DrawsFromASingularCovariance) {

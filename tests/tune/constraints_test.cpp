@@ -10,6 +10,7 @@
 
 #include "awmr/control/disturbance_observer.h"
 #include "awmr/model/gains_file.h"
+#include "awmr/tune/pole_placement.h"
 #include "awmr/tune/sampled_loop.h"
 #include "tune/paper_model.h"
 
@@ -129,6 +130,57 @@ TEST(Constraints, HoldForThePapersGains) {
   for (const ConstraintReport& c : all) {
     EXPECT_GE(c.margin, 0.0) << c.name << " " << c.value << " against " << c.limit;
   }
+}
+
+/// Of linear resistance g3 = a I'z r the law makes w = (a - lambda - k) n - lambda k n_psi of noise.
+TEST(SteeringRate, IsThatOfIndependentReadingsThroughTheLaw) {
+  ConstraintContext context = paper_context(ReachingForm::kStrict, 0.8);
+  context.plant.yaw = {.alpha = 0.3, .beta = 1.0};
+  context.heading_noise_rad = 0.02;
+  context.yaw_rate_noise_radps = 0.01;
+  const double a = 0.3 / 0.0128;
+  const double k = 50.0 / 12.0;
+  const double w = std::hypot(3.0 * k * 0.02, (a - 3.0 - k) * 0.01);
+  const double per_moment = 2.0 / (0.35 * 1.3268);  // 2/(l_f g1(1 m/s))
+  const double expected = per_moment * 0.0128 * std::sqrt(2.0) * w / 0.01 * 180.0 / std::acos(-1.0);
+  // The midpoint rule over +-6 deviations leaves 1e-8 of the tails.
+  EXPECT_NEAR(steering_rate_rms_degps(kPaperGains, context), expected, 1e-6 * expected);
+  context.limits.steering_rate_rms_degps = expected - 1.0;
+  EXPECT_LT(named(constraints_of(kPaperGains, context), "steering rate").margin, 0.0);
+  context.has_steering = false;
+  EXPECT_EQ(steering_rate_rms_degps(kPaperGains, context), 0.0);
+}
+
+/// No pair of poles whose slower one is faster by a twentieth meets every constraint.
+TEST(PolePlacement, IsTheFastestThatTheConstraintsAllow) {
+  ConstraintContext context = paper_context(ReachingForm::kStrict, 0.8);
+  context.latency_s = 0.02;
+  context.limits.steering_rate_rms_degps = 270.0;
+  const Gains<double> placed = place_poles(context);
+  EXPECT_THAT(residuals(constraints_of(placed, context)), ::testing::Each(::testing::Le(0.0)));
+  const auto all = constraints_of(placed, context);
+  EXPECT_NEAR(named(all, "mu dominates").margin, 0.0, 1e-6);
+  EXPECT_NEAR(named(all, "mu_s dominates").margin, 0.0, 1e-6);
+  EXPECT_NEAR(named(all, "speed lag").margin, 0.0, 1e-6);
+  for (double k = 1.0; k < 100.0; k *= 1.02) {
+    Gains<double> faster = placed;
+    faster.heading.lambda *= 1.05;
+    faster.heading.epsilon = faster.heading.mu / k;
+    EXPECT_THAT(residuals(constraints_of(faster, context)), ::testing::Contains(::testing::Gt(0.0)))
+        << k;
+  }
+}
+
+TEST(PolePlacement, KeepsTheConstraintsOfEachDraw) {
+  ConstraintContext context = paper_context(ReachingForm::kStrict, 0.8);
+  context.latency_s = 0.02;
+  const double alone = place_poles(context).heading.lambda;
+  Plant<double> slippery = context.plant;
+  slippery.yaw.alpha *= 0.8;
+  context.draws = {{slippery, context.wheel_force}};
+  const Gains<double> placed = place_poles(context);
+  EXPECT_LT(placed.heading.lambda, alone);
+  EXPECT_THAT(residuals(constraints_of(placed, context)), ::testing::Each(::testing::Le(0.0)));
 }
 
 TEST(SampledLoop, IsTheDoubleIntegratorsWithoutResistanceAndServo) {

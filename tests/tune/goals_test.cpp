@@ -17,7 +17,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-const Scenario kScenario = default_tuning_scenario();
+const Scenario kScenario = default_tuning_scenario(paper_model()).value();
 
 ModeScore run_with(double settling_s, double overshoot_deg, YawMode mode = YawMode::kCombined) {
   ModeScore score{.scenario = kScenario.name, .mode = mode};
@@ -89,7 +89,7 @@ TEST(Goal, IsMetMissedOrOpenByTheExactIntervalOfItsShare) {
 TEST(Goal, OfADrawHoldsWhereAllItsScenariosKeepIt) {
   const TuningGoal goal = quick_and_calm(0.5);
   const GoalInMode one{&goal, YawMode::kCombined};
-  const std::vector<Scenario> scenarios{kScenario, held_out_scenario()};
+  const std::vector<Scenario> scenarios{kScenario, held_out_scenario(paper_model()).value()};
   // Two draws, of which the first fails in its second scenario.
   const std::vector<ModeScore> scores{run_with(1.0, 0.0), run_with(3.0, 0.0), run_with(1.0, 0.0),
                                       run_with(1.6, 0.0)};

@@ -1,5 +1,5 @@
-/// Whatever the robot: gains are found that hold their constraints and beat the baseline, or they are
-/// refused; and what they do does not hang on the step or on the form of the equations.
+/// Whatever the robot: gains are found that hold their constraints, or they are refused; and what they do
+/// does not depend on the step or on the form of the equations.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -16,7 +16,7 @@ namespace awmr::testing {
 namespace {
 
 Scenario short_scenario() {
-  Scenario scenario = default_tuning_scenario();
+  Scenario scenario = default_tuning_scenario(paper_model()).value();
   scenario.duration_s = 4.0;
   scenario.guidance = HeadingSteps{{{0.0, radians(30.0)}, {2.0, radians(-30.0)}}};
   return scenario;
@@ -38,16 +38,16 @@ void is_sound_or_refused(double beyond) {
     RC_ASSERT(tuning.error().kind != ErrorKind::kFault);
     return;
   }
-  RC_ASSERT(std::isfinite(tuning->objective) && tuning->objective < tuning->baseline_objective);
+  RC_ASSERT(std::isfinite(tuning->objective));
   for (const ConstraintReport& c : tuning->constraints) {
     RC_ASSERT(std::isfinite(c.value) && std::isfinite(c.limit));
     RC_ASSERT(!c.required || c.margin >= 0.0);
   }
-  const GainBounds bounds;
   const Gains<double>& g = tuning->gains;
-  RC_ASSERT(g.heading.lambda >= bounds.lambda.lo && g.heading.lambda <= bounds.lambda.hi);
-  RC_ASSERT(g.heading.mu >= bounds.mu.lo && g.heading.mu <= bounds.mu.hi);
-  RC_ASSERT(g.heading.epsilon >= bounds.epsilon.lo && g.heading.epsilon <= bounds.epsilon.hi);
+  for (const double gain :
+       {g.heading.lambda, g.heading.mu, g.heading.epsilon, g.speed.mu, g.speed.epsilon}) {
+    RC_ASSERT(std::isfinite(gain) && gain > 0.0);
+  }
   const std::string text = gains_text(*tuning, few_evaluations(), {});
   RC_ASSERT(!text.empty());  // it throws for a number that is not finite
 }

@@ -104,7 +104,7 @@ TEST_F(TuneFile, TakesEveryDocumentedKey) {
   EXPECT_EQ(config->options.margin, 0.5);
   EXPECT_EQ(config->options.weights.effort, 3.0);
   EXPECT_EQ(config->options.weights.speed_itae, 4.0);
-  EXPECT_EQ(config->options.bounds.speed_epsilon.hi, 10.0);
+  EXPECT_EQ(config->options.bounds.speed_epsilon->hi, 10.0);
   EXPECT_EQ(config->options.global_evaluations, 11);
   EXPECT_EQ(config->options.local_evaluations, 12);
   EXPECT_EQ(config->options.seed, 13U);
@@ -170,7 +170,7 @@ TEST_F(TuneFile, ReportsEveryFaultAtOnce) {
 TEST_F(TuneFile, WritesGainsThatReadBackBitForBit) {
   Tuning tuning;
   tuning.gains = {{3.1, 50.0 / 3.0, 0.1 + 0.2}, {1.0 / 7.0, 1e-3}};
-  tuning.baseline = kPaperGains;
+  tuning.baseline = {kPaperGains, kPaperSource};
   tuning.scores = {{.scenario = "a", .mode = YawMode::kSteering, .objective = 0.9}};
   tuning.constraints = {{.name = "T2 < T1 (strict)", .value = 1.0, .limit = 2.0, .margin = 1.0}};
   const std::string text =

@@ -1,4 +1,4 @@
-/// The gains that the paper prints: the baseline that every tuning is held against.
+/// The gains that the paper prints.
 #pragma once
 
 #include "awmr/model/gains.h"

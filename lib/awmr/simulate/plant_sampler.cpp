@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/math/special_functions/erf.hpp>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -21,10 +22,29 @@ constexpr int kMostTries = 1000;
 /// 17 digits, a derived parameter (m' from a1, b1) makes it singular.
 constexpr double kSingularTolerance = 1e-9;
 
-bool in_range(const Vehicle& vehicle, ParameterId id, double value) {
-  if (id == ParameterId::kSurgeBeta) return vehicle.surge_beta_range.contains(value);
-  if (id == ParameterId::kYawBeta) return vehicle.yaw_beta_range.contains(value);
-  return !info(id).term || value >= 0.0;
+/// A resistance does not fall with speed and does not push: b >= 0, and every term >= 0.
+bool is_admissible(ParameterId id, double value) {
+  const bool is_exponent = id == ParameterId::kSurgeBeta || id == ParameterId::kYawBeta;
+  return !(is_exponent || info(id).term) || value >= 0.0;
+}
+
+constexpr double kInsideStratum = 1e-6;
+
+/// The z with P(Z <= z) = p, Z standard normal, 0 < p < 1.
+double normal_quantile(double p) { return -std::sqrt(2.0) * boost::math::erfc_inv(2.0 * p); }
+
+/// Standard normals, one in each of `count` strata of equal probability, in a random order.
+std::vector<double> stratified_normals(int count, Random& random) {
+  std::vector<double> normals;
+  for (int i = 0; i < count; ++i) {
+    const double place = std::max(random.uniform(), kInsideStratum);  // 0 has no quantile
+    normals.push_back(normal_quantile((i + place) / count));
+  }
+  for (std::size_t i = normals.size(); i > 1; --i) {
+    std::swap(normals[i - 1],
+              normals[static_cast<std::size_t>(random.uniform() * static_cast<double>(i))]);
+  }
+  return normals;
 }
 
 Status check_shape(const Covariance& covariance, const std::string& place) {
@@ -69,18 +89,6 @@ std::optional<Eigen::MatrixXd> factor_of(const Eigen::MatrixXd& covariance) {
   return eigen.vectors * eigen.values.cwiseMax(0.0).cwiseSqrt().asDiagonal();
 }
 
-/// Why there was nothing to draw, and what to do.
-tl::unexpected<Error> nothing_to_draw(const Model& model) {
-  const std::vector<ParameterId>& ids = model.covariance.parameters;
-  const bool terms =
-      std::any_of(ids.begin(), ids.end(), [](ParameterId id) { return info(id).term; });
-  return input_error(
-      model.file + ":/vehicle",
-      fmt::format("{} draws of the exponents{} all fell outside surge_beta_range or "
-                  "yaw_beta_range{}: widen the range, or identify from more trials",
-                  kMostTries, terms ? " and terms" : "", terms ? ", or below 0" : ""));
-}
-
 }  // namespace
 
 Result<PlantSampler> PlantSampler::make(const Model& model) {
@@ -109,24 +117,48 @@ Result<Plant<double>> PlantSampler::draw(std::uint64_t seed, int sample) const {
   return drawn.plant();
 }
 
+Result<std::vector<Plant<double>>> PlantSampler::draw_evenly(std::uint64_t seed, int count) const {
+  Random random(seed, 0);  // draw() has the streams from 1
+  std::vector<std::vector<double>> by_direction;
+  for (std::size_t j = 0; j < centre_.size(); ++j) {
+    by_direction.push_back(stratified_normals(count, random));
+  }
+  std::vector<Plant<double>> plants;
+  for (int i = 0; i < count; ++i) {
+    std::vector<double> normals;
+    for (const std::vector<double>& of : by_direction) normals.push_back(of[at(i)]);
+    const std::optional<Model> drawn = model_at(normals);
+    AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, drawn ? drawn->plant() : draw(seed, i + 1));
+    plants.push_back(plant);
+  }
+  return plants;
+}
+
 Result<Model> PlantSampler::draw_model(std::uint64_t seed, int sample) const {
   Random random(seed, static_cast<std::uint64_t>(sample));
-  const std::vector<ParameterId>& ids = model_.covariance.parameters;
-  std::vector<double> normals(ids.size());
-  Model drawn = model_;
+  std::vector<double> normals(centre_.size());
   for (int attempt = 0; attempt < kMostTries; ++attempt) {
     for (double& normal : normals) normal = random.normal();
-    bool accepted = true;
-    for (std::size_t i = 0; i < ids.size(); ++i) {
-      double z = centre_[i];
-      for (std::size_t j = 0; j < ids.size(); ++j) z += factor_[i][j] * normals[j];
-      const double value = from_coordinate(ids[i], z);
-      accepted = accepted && in_range(model_.vehicle, ids[i], value);
-      drawn[ids[i]].value = value;
-    }
-    if (accepted) return drawn;
+    if (std::optional<Model> drawn = model_at(normals)) return *std::move(drawn);
   }
-  return nothing_to_draw(model_);
+  return input_error(
+      model_.file + ":/covariance",
+      fmt::format("in {} draws an exponent or a term of a resistance was below 0 every time: "
+                  "identify from more trials",
+                  kMostTries));
+}
+
+std::optional<Model> PlantSampler::model_at(std::span<const double> normals) const {
+  const std::vector<ParameterId>& ids = model_.covariance.parameters;
+  Model drawn = model_;
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    double z = centre_[i];
+    for (std::size_t j = 0; j < ids.size(); ++j) z += factor_[i][j] * normals[j];
+    const double value = from_coordinate(ids[i], z);
+    if (!is_admissible(ids[i], value)) return std::nullopt;
+    drawn[ids[i]].value = value;
+  }
+  return drawn;
 }
 
 }  // namespace awmr

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "awmr/core/result.h"
@@ -16,21 +18,32 @@ namespace awmr {
 ///
 /// A quantity that has to be positive is drawn in its logarithm, so that its median is the model's
 /// value. Exponents b and a family's terms (Coulomb, quadratic, dead zone) are drawn as they are,
-/// and all parameters are drawn again until the exponents lie in the vehicle's surge_beta_range and
-/// yaw_beta_range and no term is negative. A term that was fitted as 0 is thus drawn from the half
-/// of its normal above 0: its mean is 0.8 of its standard error, no longer the estimate.
+/// and all parameters are drawn again until none of them is negative: a resistance neither falls with
+/// speed nor pushes. The vehicle's surge_beta_range and yaw_beta_range bound fits, not draws: an
+/// estimate near an end of its range has its uncertainty on both sides. A term that was fitted as 0
+/// is drawn from the half of its normal above 0: its mean is 0.8 of its standard error, no longer the
+/// estimate.
 class PlantSampler {
  public:
   /// Errors (input): a parameter has no value; no covariance; one that is no covariance.
   static Result<PlantSampler> make(const Model& model);
 
-  /// The plant of `sample` (>= 1): depends on seed and sample alone. Errors (input): what the
-  /// exponents and terms may be leaves next to nothing to draw.
+  /// The plant of `sample` (>= 1): depends on seed and sample alone. Errors (input): next to
+  /// every draw has a negative exponent or term.
   Result<Plant<double>> draw(std::uint64_t seed, int sample) const;
   /// The same as a model, whose intervals are still those of the identified one.
   Result<Model> draw_model(std::uint64_t seed, int sample) const;
 
+  /// So many draws that are spread evenly, for few of them: a Latin hypercube. Each direction of the
+  /// covariance has one draw in each of `count` strata of equal probability, in an order and at a place
+  /// within it from the seed. One that is not admissible is draw()'s of its number.
+  Result<std::vector<Plant<double>>> draw_evenly(std::uint64_t seed, int count) const;
+
  private:
+  /// The model at standard normals, one for each parameter of the covariance; none where an exponent
+  /// or a term is negative there.
+  std::optional<Model> model_at(std::span<const double> normals) const;
+
   Model model_;
   std::vector<double> centre_;               ///< z by position in the covariance
   std::vector<std::vector<double>> factor_;  ///< L with L L^T = Cov(z)

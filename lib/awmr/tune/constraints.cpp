@@ -8,6 +8,7 @@
 #include <span>
 #include <utility>
 
+#include "awmr/control/controller.h"
 #include "awmr/core/units.h"
 #include "awmr/tune/sampled_loop.h"
 
@@ -34,8 +35,9 @@ ConstraintReport at_least(std::string name, double value, double limit, std::str
           .meaning = std::move(meaning)};
 }
 
-/// The yaw rates met on the way.
-constexpr double kRates_degps[] = {1.0, 5.0, 20.0, 60.0};
+double examined_rate_radps(double share, const ConstraintContext& context) {
+  return std::max(share * context.fastest_radps, kSlowest_radps);
+}
 
 /// What the heading loop knows of a plant and of the model at one yaw rate, as in SampledHeadingLoop.
 struct LoopRates {
@@ -45,23 +47,25 @@ struct LoopRates {
   double servo_time_constant_s;  ///< T
 };
 
-/// g3'(r)/I'z, g3'(r) = a3 b3 r^(b3 - 1)
-double resistance_rate(const Plant<double>& plant, double rate_degps) {
+/// g3'(r)/I'z, g3'(r) = a3 b3 r^(b3 - 1) + 2 q3 r
+double resistance_rate(const Plant<double>& plant, double rate_radps) {
   const Resistance<double>& g3 = plant.yaw;
-  return g3.alpha * g3.beta * std::pow(radians(rate_degps), g3.beta - 1.0) / plant.inertia_norm;
+  return (g3.alpha * g3.beta * std::pow(rate_radps, g3.beta - 1.0) +
+          2.0 * g3.quadratic * rate_radps) /
+         plant.inertia_norm;
 }
 
 /// `known` is what the law was made for.
-LoopRates loop_rates(const Plant<double>& plant, const Plant<double>& known, double rate_degps) {
-  return {resistance_rate(plant, rate_degps), resistance_rate(known, rate_degps),
+LoopRates loop_rates(const Plant<double>& plant, const Plant<double>& known, double rate_radps) {
+  return {resistance_rate(plant, rate_radps), resistance_rate(known, rate_radps),
           known.inertia_norm / plant.inertia_norm, plant.steering_time_constant_s};
 }
 
 /// By rate.
-std::vector<LoopRates> at_all_rates(const Plant<double>& plant, const Plant<double>& known) {
+std::vector<LoopRates> at_all_rates(const Plant<double>& plant, const ConstraintContext& context) {
   std::vector<LoopRates> loops;
-  for (const double rate_degps : kRates_degps) {
-    loops.push_back(loop_rates(plant, known, rate_degps));
+  for (const double share : kRateShares) {
+    loops.push_back(loop_rates(plant, context.plant, examined_rate_radps(share, context)));
   }
   return loops;
 }
@@ -69,10 +73,11 @@ std::vector<LoopRates> at_all_rates(const Plant<double>& plant, const Plant<doub
 /// The least and the largest rate of the context's own plant and of each of its draws.
 std::vector<LoopRates> at_end_rates(const ConstraintContext& context) {
   std::vector<LoopRates> loops;
-  for (const double rate_degps : {kRates_degps[0], kRates_degps[std::size(kRates_degps) - 1]}) {
-    loops.push_back(loop_rates(context.plant, context.plant, rate_degps));
+  for (const double share : {kRateShares[0], kRateShares[std::size(kRateShares) - 1]}) {
+    const double rate_radps = examined_rate_radps(share, context);
+    loops.push_back(loop_rates(context.plant, context.plant, rate_radps));
     for (const DrawnVehicle& drawn : context.draws) {
-      loops.push_back(loop_rates(drawn.plant, context.plant, rate_degps));
+      loops.push_back(loop_rates(drawn.plant, context.plant, rate_radps));
     }
   }
   return loops;
@@ -110,6 +115,23 @@ std::vector<ConstraintReport> constraints_with(const Gains<double>& gains,
                                                const ConstraintContext& context,
                                                const DrawnVehicle& vehicle);
 
+/// Largest tau_turn of each way to turn at steady speed, m.
+struct Moments {
+  double steering;
+  double differential;
+};
+Moments moments_m(const DrawnVehicle& vehicle, double speed_mps) {
+  const Plant<double>& plant = vehicle.plant;
+  const double tau_speed = plant.surge(speed_mps);
+  const double wheels = driven_wheels(plant);
+  // What a wheel is commanded to hold the speed, its back-EMF made up for.
+  const double held = tau_speed / wheels + plant.back_emf_s_per_m * speed_mps;
+  return {.steering = plant.front_axle_m * tau_speed *
+                      std::tan(plant.steering_max_rad / (plant.rear_driven > 0.0 ? 2.0 : 1.0)),
+          .differential = wheels * plant.half_track_m *
+                          std::min(vehicle.wheel_force.hi - held, held - vehicle.wheel_force.lo)};
+}
+
 /// -margin over the larger of value and limit: what is above 0 is broken.
 double residual(const ConstraintReport& c) {
   const double scale = std::max({std::abs(c.value), std::abs(c.limit), 1e-12});
@@ -119,19 +141,15 @@ double residual(const ConstraintReport& c) {
 }  // namespace
 
 double turning_authority_m(const DrawnVehicle& vehicle, double speed_mps) {
-  const Plant<double>& plant = vehicle.plant;
-  const double tau_speed = plant.surge(speed_mps);
-  const double wheels = driven_wheels(plant);
-  const double steering = plant.front_axle_m * tau_speed *
-                          std::tan(plant.steering_max_rad / (plant.rear_driven > 0.0 ? 2.0 : 1.0));
-  // What a wheel is commanded to hold the speed, its back-EMF made up for.
-  const double held = tau_speed / wheels + plant.back_emf_s_per_m * speed_mps;
-  const double differential =
-      wheels * plant.half_track_m *
-      std::min(vehicle.wheel_force.hi - held, held - vehicle.wheel_force.lo);
+  const auto [steering, differential] = moments_m(vehicle, speed_mps);
   if (!(steering > 0.0)) return differential;
   if (!(differential > 0.0)) return steering;
   return std::min(steering, differential);
+}
+
+double largest_moment_m(const DrawnVehicle& vehicle, double speed_mps) {
+  const auto [steering, differential] = moments_m(vehicle, speed_mps);
+  return std::max(steering, differential);
 }
 
 std::vector<ConstraintReport> constraints_of(const Gains<double>& gains,
@@ -145,19 +163,50 @@ std::vector<ConstraintReport> constraints_of(const Gains<double>& gains,
   }
   if (context.latency_s > 0.0 || context.motor_time_constant_s > 0.0) {
     const std::vector<LoopRates> ends = at_end_rates(context);
-    std::vector<LoopRates> loops = at_all_rates(context.plant, context.plant);
+    std::vector<LoopRates> loops = at_all_rates(context.plant, context);
     loops.insert(loops.end(), ends.begin(), ends.end());
     const auto late = static_cast<int>(std::lround(context.latency_s / context.sample_time_s));
     const double lag_s = context.motor_time_constant_s;
     worst.push_back(at_least(
-        "late damping", heading_damping(gains, context, loops, late, lag_s), kLateDampingRequired,
+        "late damping", heading_damping(gains, context, loops, late, lag_s),
+        context.limits.late_damping,
         "smallest damping ratio of the loop with latency and motor lag as well >= required"));
     worst.push_back(
         at_least("delay margin", heading_damping(gains, context, ends, 2 * late + 1, lag_s),
-                 kDelayedDampingRequired,
+                 context.limits.delayed_damping,
                  "the same with readings twice as late, and a sample more >= required"));
   }
+  if (const auto& limit = context.limits.steering_rate_rms_degps; limit && context.has_steering) {
+    worst.push_back(at_most("steering rate", steering_rate_rms_degps(gains, context), *limit,
+                            "RMS rate of the steering command from the readings' noise, deg/s"));
+  }
   return worst;
+}
+
+double steering_rate_rms_degps(const Gains<double>& gains, const ConstraintContext& context) {
+  const Plant<double>& plant = context.plant;
+  const double tau_speed = plant.surge(context.speed_mps);
+  if (!context.has_steering || !(tau_speed > 0.0)) return 0.0;
+  const double k = gains.heading.mu / gains.heading.epsilon;
+  const double rate_gain = gains.heading.lambda + k + gains.observer.bandwidth_radps;
+  const Resistance<double> g3 = feed_forward(plant.yaw);
+  // E[w^2] over the standard normal z = n/sigma_r, by the midpoint rule over +-6.
+  constexpr int kPoints = 240;
+  constexpr double kReach = 6.0;
+  constexpr double kWidth = 2.0 * kReach / kPoints;
+  double mean_square = 0.0;
+  for (int i = 0; i < kPoints; ++i) {
+    const double z = -kReach + (i + 0.5) * kWidth;
+    const double n = z * context.yaw_rate_noise_radps;
+    const double w = fed_forward(g3, n, 0.0) / plant.inertia_norm - rate_gain * n;
+    mean_square += kWidth * w * w * std::exp(-0.5 * z * z) / std::sqrt(2.0 * pi<double>());
+  }
+  const double by_heading = gains.heading.lambda * k * context.heading_noise_rad;
+  mean_square += by_heading * by_heading;
+  const double per_moment =
+      (plant.rear_driven > 0.0 ? 2.0 : 1.0) / (plant.front_axle_m * tau_speed);
+  return degrees(per_moment * plant.inertia_norm * std::sqrt(2.0 * mean_square) /
+                 context.sample_time_s);
 }
 
 namespace {
@@ -176,6 +225,7 @@ std::vector<ConstraintReport> constraints_with(const Gains<double>& gains,
   const double lag_s = std::max(servo_s, context.motor_time_constant_s) + context.latency_s +
                        context.sample_time_s / 2.0;
   const bool strict = context.form == ReachingForm::kStrict;
+  const double zeta = context.limits.damping;
   return {
       at_most("T2 < T1 (paper)", reaching_s, context.margin * sliding_s,
               "epsilon/(2 mu) <= margin/lambda, s: V = S^2/2 decays before the error slides",
@@ -183,26 +233,28 @@ std::vector<ConstraintReport> constraints_with(const Gains<double>& gains,
       at_most("T2 < T1 (strict)", 2.0 * reaching_s, context.margin * sliding_s,
               "epsilon/mu <= margin/lambda, s: S itself decays before the error slides", strict),
       at_least(
-          "heading damping", heading_damping(gains, context, at_all_rates(plant, known), 0, 0.0),
-          kDampingRequired,
+          "heading damping", heading_damping(gains, context, at_all_rates(plant, context), 0, 0.0),
+          context.limits.damping,
           "smallest damping ratio of the sampled heading loop with hold and servo >= required"),
       at_most("speed gain", speed_rate * context.sample_time_s, kSpeedGainPerSample,
               fmt::format("{} T_s <= 0.5: gain margin 4 of the sampled speed loop", rate_name)),
-      at_most("speed lag", speed_rate * lag_s, 1.0 / (4.0 * kDampingRequired * kDampingRequired),
-              fmt::format("{} (T + latency + T_s/2) <= 1/(4 zeta^2), zeta = 0.7", rate_name)),
+      at_most(
+          "speed lag", speed_rate * lag_s, 1.0 / (4.0 * zeta * zeta),
+          fmt::format("{} (T + latency + T_s/2) <= 1/(4 zeta^2), zeta = {:g}", rate_name, zeta)),
       at_least("mu dominates", gains.heading.mu,
-               kUnmodelledShare * plant.yaw(kDominatedYawRate_radps) / known.inertia_norm,
-               "mu >= 20 % of g3(60 deg/s)/I'z, rad/s^2"),
+               kUnmodelledShare * plant.yaw(context.fastest_radps) / known.inertia_norm,
+               fmt::format("mu >= 20 % of g3({:.3g} deg/s)/I'z, rad/s^2",
+                           degrees(context.fastest_radps))),
       at_least("mu_s dominates", gains.speed.mu,
                kUnmodelledShare * plant.surge(context.speed_mps) / known.mass_norm,
                "mu_s >= 20 % of g1(u_d)/m', m/s^2"),
       at_most("noise gain",
               known.inertia_norm * gains.heading.lambda * gains.heading.mu / gains.heading.epsilon *
                   context.heading_noise_rad,
-              kNoiseShare * turning_authority_m(vehicle, context.speed_mps),
-              fmt::format("tau_turn from {:g} deg of heading noise <= 25 % of the weaker mode's "
+              context.limits.noise_share * turning_authority_m(vehicle, context.speed_mps),
+              fmt::format("tau_turn from {:g} deg of heading noise <= {:g} % of the weaker mode's "
                           "authority, m",
-                          degrees(context.heading_noise_rad))),
+                          degrees(context.heading_noise_rad), 100.0 * context.limits.noise_share)),
   };
 }
 

@@ -10,40 +10,36 @@
 
 namespace awmr {
 
-/// Every required damping ratio: 0.7, an overshoot of 4.6 % for a second-order loop without zeros.
-inline constexpr double kDampingRequired = 0.7;
-/// The damping ratio that is required with latency and motor lag. The g3 that is fed forward from a
-/// late yaw rate makes a fast mode that gains hardly change: 0.45 for the paper's vehicle at 20 ms.
-inline constexpr double kLateDampingRequired = 0.25;
-/// What has to be left of it with readings that are later than was said: the paper's vehicle has
-/// 0.28 at 50 ms.
-inline constexpr double kDelayedDampingRequired = 0.05;
 /// Beyond so many samples of latency it is not worked out.
 inline constexpr int kMostLateSamples = 20;
 /// Part of the modelled resistance that the corrective terms have to dominate: more than the model
 /// may be wrong by on its own trials (0.15 is validate's default tolerance).
 inline constexpr double kUnmodelledShare = 0.2;
-/// The yaw rate at which mu has to dominate.
-inline constexpr double kDominatedYawRate_radps = radians(60.0);
 /// mu_s/eps_s T_s at most: the sampled integrator is unstable from 2 on, so the gain margin is 4.
 inline constexpr double kSpeedGainPerSample = 0.5;
 
-/// The noise of a heading may take at most this part of the authority.
-inline constexpr double kNoiseShare = 0.25;
+/// Yaw rates at which the heading loop is examined, over the fastest that the runs reach; none is slower
+/// than kSlowest_radps, which readings do not tell from rest.
+inline constexpr double kRateShares[] = {1.0 / 60.0, 1.0 / 12.0, 1.0 / 3.0, 1.0};
+inline constexpr double kSlowest_radps = radians(1.0);
 
 /// What the constraints depend on beside the gains.
 struct ConstraintContext {
-  ReachingForm form = ReachingForm::kStrict;  ///< the form of T2 < T1 that is required
-  double margin = 0.8;                        ///< reaching time constant <= margin T1, in (0, 1)
-  Plant<double> plant{};                      ///< the model's own values, which the laws know
-  bool has_steering = true;                   ///< false: the sides alone turn the vehicle
-  double sample_time_s = 0.01;                ///< T_s, > 0
-  double speed_mps = 1.0;                     ///< largest u_d of the scenarios, >= 0
-  Interval wheel_force{-1.0, 1.0};            ///< F' of one wheel over F_max
-  double heading_noise_rad = radians(1.0);    ///< standard deviation of a reading, >= 0
-  double latency_s = 0.0;                     ///< of heading and yaw rate, >= 0
-  double motor_time_constant_s = 0.0;         ///< >= 0
-  std::vector<DrawnVehicle> draws = {};       ///< further ones that the gains have to suit
+  ReachingForm form = ReachingForm::kStrict;   ///< the form of T2 < T1 that is required
+  double margin = 0.8;                         ///< reaching time constant <= margin T1, in (0, 1)
+  Plant<double> plant{};                       ///< the model's own values, which the laws know
+  bool has_steering = true;                    ///< false: the sides alone turn the vehicle
+  double sample_time_s = 0.01;                 ///< T_s, > 0
+  double speed_mps = 1.0;                      ///< largest u_d of the scenarios, >= 0
+  double step_rad = radians(60.0);             ///< largest change of the commanded heading, >= 0
+  double fastest_radps = radians(60.0);        ///< yaw rate that the runs reach, > 0
+  TuningLimits limits = {};                    ///< without a steering rate: that is not limited
+  Interval wheel_force{-1.0, 1.0};             ///< F' of one wheel over F_max
+  double heading_noise_rad = radians(1.0);     ///< standard deviation of a reading, >= 0
+  double yaw_rate_noise_radps = radians(0.5);  ///< the same, >= 0
+  double latency_s = 0.0;                      ///< of heading and yaw rate, >= 0
+  double motor_time_constant_s = 0.0;          ///< >= 0
+  std::vector<DrawnVehicle> draws = {};        ///< further ones that the gains have to suit
 
   DrawnVehicle own() const { return {plant, wheel_force}; }
 };
@@ -55,17 +51,24 @@ struct ConstraintContext {
 /// Front-wheel drive: tan(d_max), and 2 for 4. Back-EMF: g1/4 + k_e u_d for g1/4.
 double turning_authority_m(const DrawnVehicle& vehicle, double speed_mps);
 
+/// Largest tau_turn of the stronger of the two, m; of steering or differential alone where the vehicle has
+/// one of them.
+double largest_moment_m(const DrawnVehicle& vehicle, double speed_mps);
+
 /// Every constraint, as value <= limit or value >= limit (ConstraintReport::sense):
 ///   T2 < T1 (paper)    eps/(2 mu) <= margin/lambda                                    [paper (95)]
 ///   T2 < T1 (strict)   eps/mu     <= margin/lambda
-///   heading damping    smallest zeta of the sampled loop >= 0.7
-///   late damping       the same with latency and motor lag, where there is any, >= 0.25
-///   delay margin       that with twice the latency and a sample more >= 0.05
+///   heading damping    smallest zeta of the sampled loop >= damping
+///   late damping       the same with latency and motor lag, where there is any, >= late_damping
+///   delay margin       that with twice the latency and a sample more >= delayed_damping
 ///   speed gain         (mu_s/eps_s) T_s <= 0.5
 ///   speed lag          (mu_s/eps_s) (T + T_s/2) <= 1/(4 zeta^2)
-///   mu dominates       mu >= 0.2 g3(60 deg/s)/I'z, g3 the plant's                     [paper (88)]
+///   mu dominates       mu >= 0.2 g3(r)/I'z, g3 the plant's, r the fastest              [paper (88)]
 ///   mu_s dominates     mu_s >= 0.2 g1(u_d)/m', g1 the plant's                        [paper (102)]
-///   noise gain         I'z lambda (mu/eps) sigma <= 0.25 turning_authority_m(), sigma: heading noise
+///   noise gain         I'z lambda (mu/eps) sigma <= noise_share turning_authority_m(), sigma: heading
+///                      noise
+///   steering rate      steering_rate_rms_degps() <= the limit, where there is one
+/// with the limits of TuningLimits.
 ///
 /// Each stands for the vehicle, out of the context's own and its draws, that leaves it the least.
 /// The laws know the context's own alone, so with another plant the loop's gain is its m' or I'z
@@ -78,8 +81,8 @@ double turning_authority_m(const DrawnVehicle& vehicle, double speed_mps);
 ///
 /// T2 < T1: one of the two forms is required, both are given.
 ///
-/// Heading damping is that of the worst of the vehicle's modes' actuation and of yaw rates of 1, 5,
-/// 20 and 60 deg/s, since the slope of g3 depends on the rate.
+/// Heading damping is that of the worst of the vehicle's modes' actuation and of the yaw rates of
+/// kRateShares, since the slope of g3 depends on the rate.
 ///
 /// Speed gain: with g1 cancelled with the hold's delay the loop's pole is
 ///   z = 1 - k_s (1 - exp(-a T_s))/a,   k_s = mu_s/eps_s,   a = g1'/m' >= 0,
@@ -100,6 +103,14 @@ double turning_authority_m(const DrawnVehicle& vehicle, double speed_mps);
 /// allocation clips, and the paper's own mu (I'z mu = 0.64 m) is beyond it in every mode.
 std::vector<ConstraintReport> constraints_of(const Gains<double>& gains,
                                              const ConstraintContext& context);
+
+/// RMS rate of the steering command, deg/s, from independent readings of standard deviations sigma_psi and
+/// sigma_r while a heading is held in steering mode. With n the noise of the yaw rate, the law makes
+///   w = g3(n)/I'z - (lambda + k + L) n - lambda k n_psi,   k = mu/eps,
+/// of it, the command is d = c I'z w/(l_f g1(u_d)), c = 2 (front-wheel drive: 1), and from one sample to the
+/// next it changes by sqrt(2 E[w^2]) of that. With gains of 0 it is what g3 makes by itself. 0 without
+/// steering, or where the vehicle has no thrust to steer with.
+double steering_rate_rms_degps(const Gains<double>& gains, const ConstraintContext& context);
 
 /// (value - limit)/max(|value|, |limit|) of each required constraint: <= 0 exactly when it holds.
 std::vector<double> residuals(const std::vector<ConstraintReport>& constraints);

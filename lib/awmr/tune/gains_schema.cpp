@@ -89,10 +89,10 @@ void describe_history(JsonObject json) {
 
 void describe_robust(JsonObject json) {
   json.string("drawn_from");
-  for (const char* key :
-       {"draws", "seed", "tail_share", "activity_max", "motor_time_constant_s", "judged_draws"}) {
+  for (const char* key : {"draws", "seed", "tail_share", "motor_time_constant_s", "judged_draws"}) {
     json.number(key);
   }
+  json.optional_number("activity_max");
   describe_numbers(json.object("noise"), {"heading_deg", "yaw_rate_degps", "speed_mps"});
   describe_numbers(json.object("latency"), {"heading_s", "yaw_rate_s", "speed_s"});
   describe_quantiles(json.object("quantiles"));
@@ -100,6 +100,7 @@ void describe_robust(JsonObject json) {
     for (JsonObject& one : by_scenario->values()) describe_quantiles(one);
   }
   if (auto open = json.optional_object("open")) read_open(std::move(*open));
+  // Files of before pole placement have the nominal gains and their search.
   if (auto nominal = json.optional_object("nominal")) {
     gains_from_json(*nominal);
     nominal->reject_unknown_keys();
@@ -174,6 +175,11 @@ void describe_gains(JsonObject& json) {
     describe_numbers(*times, {"T1_s", "T2_s"});
   }
   describe_constraints(json);
+  if (auto limits = json.optional_object("limits")) {
+    limits->optional_number("steering_rate_rms_degps", kPositive);
+    for (const LimitKey& key : kLimitKeys) limits->number(key.name, {.min = 0.0, .max = 1.0});
+    limits->reject_unknown_keys();
+  }
   if (auto objective = json.optional_object("objective")) describe_objective(*objective);
   if (auto metrics = json.optional_object("metrics")) describe_scores(*metrics);
   if (auto search = json.optional_object("search")) describe_search(*search);
@@ -182,6 +188,8 @@ void describe_gains(JsonObject& json) {
   if (auto sensitivity = json.optional_object("sensitivity")) describe_sensitivity(*sensitivity);
   if (auto baseline = json.optional_object("baseline")) {
     gains_from_json(*baseline);
+    baseline->optional_string(
+        "source");  // "pole-placement", "paper" or a file; absent: the paper's
     baseline->number("objective");
     describe_scores(baseline->object("metrics"));
     baseline->reject_unknown_keys();

@@ -141,8 +141,7 @@ Evaluation Objective::evaluate(std::vector<ModeScore> scores) const {
   for (std::size_t i = 0; i < scores.size(); ++i) {
     ModeScore& s = scores[i];
     s.objective = objective_of(s, baseline_scores_[i], setting_.weights);
-    if (!std::isfinite(s.objective)) evaluation.valid = false;
-    if (baseline_scores_[i].metrics.completed && !s.metrics.completed) evaluation.valid = false;
+    if (!std::isfinite(s.objective) || s.has_failed) evaluation.valid = false;
   }
   for (std::size_t mode = 0; mode < modes; ++mode) {
     double objective = 0.0;

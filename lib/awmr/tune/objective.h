@@ -64,7 +64,7 @@ struct Evaluation {
   std::vector<double> mode_activity;   ///< control variation over the baseline's, of all vehicles
   std::vector<double> goal_quantile;   ///< of the excess, by goal, then mode (goals.h)
   double objective = 0.0;  ///< mean over the modes, and what soft goals add; finite where `valid`
-  bool valid = false;      ///< finite, and completes each run that the baseline completes
+  bool valid = false;      ///< finite, and no run breaks off
 };
 
 class Objective {
@@ -78,6 +78,7 @@ class Objective {
   const Evaluation& baseline() const { return baseline_; }
   std::span<const YawMode> modes() const { return yaw_modes(setting_.vehicle); }
   std::span<const TuningGoal> goals() const { return setting_.goals; }
+  std::size_t draws() const { return setting_.vehicles.size() - 1; }
 
  private:
   Evaluation evaluate(std::vector<ModeScore> scores) const;

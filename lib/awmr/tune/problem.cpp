@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "awmr/core/parallel.h"
 #include "awmr/tune/goals.h"
@@ -14,16 +15,27 @@ namespace {
 /// What the global search sees for a point that breaks a constraint: worse than any objective that
 /// matters.
 constexpr double kRejected = 1e3;
-/// What runs that break off or do not end as the baseline's do break every limit by, and more the
-/// worse they are.
+/// What runs that break off break every limit by, and more the worse they are.
 constexpr double kInvalid = 1.0;
 
 }  // namespace
 
+void bound_around(const Gains<double>& gains, GainBounds& bounds) {
+  const std::pair<std::optional<Interval>*, double> all[] = {
+      {&bounds.lambda, gains.heading.lambda},
+      {&bounds.mu, gains.heading.mu},
+      {&bounds.epsilon, gains.heading.epsilon},
+      {&bounds.speed_mu, gains.speed.mu},
+      {&bounds.speed_epsilon, gains.speed.epsilon}};
+  for (const auto& [bound, gain] : all) {
+    if (!*bound) *bound = Interval{gain / kBoundFactor, gain * kBoundFactor};
+  }
+}
+
 SearchSpace::SearchSpace(const TuneOptions& options) : observer_(options.observer) {
   const GainBounds& b = options.bounds;
   const Interval bandwidth = observer_ ? observer_->bandwidth_radps : Interval{1.0, 1.0};
-  range_ = {b.lambda, b.mu, b.epsilon, b.speed_mu, b.speed_epsilon, bandwidth};
+  range_ = {*b.lambda, *b.mu, *b.epsilon, *b.speed_mu, *b.speed_epsilon, bandwidth};
 }
 
 Gains<double> SearchSpace::gains_at(const Point& x) const {
@@ -78,9 +90,7 @@ Problem::Problem(const TuneOptions& options, const ConstraintContext& context,
   }
   before_runs_ = names_.size();
   const std::span<const YawMode> modes = objective_.modes();
-  for (const YawMode mode : modes)
-    names_.push_back(fmt::format("the paper's score, {}", name_of(mode)));
-  if (!options_.nominal) {
+  if (options_.activity_max) {
     for (const YawMode mode : modes) names_.push_back(fmt::format("activity, {}", name_of(mode)));
   }
   const std::vector<GoalInMode> goals = by_mode(objective_.goals(), modes);
@@ -107,18 +117,20 @@ void Problem::add_runs(const Evaluation& e, Looked& looked) const {
   candidate.valid = e.valid;
   candidate.objective = e.objective;
   std::vector<double> broken;
-  for (const double score : e.mode_objective) broken.push_back(score - 1.0);
-  if (!options_.nominal) {
+  if (options_.activity_max) {
     for (const double activity : e.mode_activity) {
-      broken.push_back(activity / options_.activity_max - 1.0);
+      broken.push_back(activity / *options_.activity_max - 1.0);
     }
   }
   for (const std::size_t goal : hard_goals_) broken.push_back(e.goal_quantile[goal] - 1.0);
   for (std::size_t i = 0; i < broken.size(); ++i) {
     double& residual = looked.residuals[before_runs_ + i];
     residual = broken[i] - tolerated[before_runs_ + i];
-    if (!e.valid)
-      residual = kInvalid + (std::isfinite(residual) ? std::max(residual, 0.0) : kRejected);
+    candidate.violation = std::max(candidate.violation, residual);
+  }
+  if (e.valid) return;
+  for (double& residual : looked.residuals) {
+    residual = kInvalid + (std::isfinite(residual) ? std::max(residual, 0.0) : kRejected);
     candidate.violation = std::max(candidate.violation, residual);
   }
 }

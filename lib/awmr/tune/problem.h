@@ -19,10 +19,13 @@ inline constexpr unsigned kMostDimensions = 6;
 /// Their logarithms; the last is 0 where no observer is searched.
 using Point = std::array<double, kMostDimensions>;
 
+/// Gives the bounds that are absent: kBoundFactor either side of the gains.
+void bound_around(const Gains<double>& gains, GainBounds& bounds);
+
 /// Where the search looks.
 class SearchSpace {
  public:
-  /// An observer's limits have to be there.
+  /// All bounds and an observer's limits have to be there.
   explicit SearchSpace(const TuneOptions& options);
 
   unsigned dimension() const { return observer_ ? kMostDimensions : kMostDimensions - 1; }
@@ -41,12 +44,11 @@ class SearchSpace {
 /// Gains that were looked at.
 struct Candidate {
   Gains<double> gains{};
-  /// Largest residual of the constraints and of "no mode is worse than the baseline"; <= 0 is
-  /// feasible.
+  /// Largest residual of the constraints, the activity limit and the goals; <= 0 is feasible.
   double violation = 0.0;
   double objective = 0.0;  ///< meaningful where `simulated`
   bool simulated = false;  ///< false: a constraint was broken, so nothing was run
-  bool valid = false;      ///< finite, and completes what the baseline completes
+  bool valid = false;      ///< finite, and no run breaks off
 
   bool feasible() const { return simulated && valid && violation <= 0.0; }
 };
@@ -70,8 +72,8 @@ class Problem {
  public:
   Problem(const TuneOptions& options, const ConstraintContext& context, const Objective& objective);
 
-  /// Of the constraints: the required ones, then "no worse than the baseline" of each mode, then
-  /// unless nominal the activity of each and the goals that are not soft.
+  /// Of the constraints: the required ones, then where it is limited the activity of each mode, then the
+  /// goals that are not soft.
   const std::vector<std::string>& names() const { return names_; }
   const SearchSpace& space() const { return space_; }
   unsigned constraints() const { return static_cast<unsigned>(names_.size()); }

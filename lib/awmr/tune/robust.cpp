@@ -74,29 +74,47 @@ std::size_t OpenVehicle::combinations() const {
          std::max<std::size_t>(1, wheel_forces.size());
 }
 
-Result<std::vector<DrawnVehicle>> vehicles_of(const Model& model, std::span<const int> numbers,
-                                              std::uint64_t seed, const OpenVehicle& open) {
+namespace {
+
+/// The model's own vehicle, then the drawn plants of these numbers, with what is open of each; without
+/// plants the model's own again.
+Result<std::vector<DrawnVehicle>> vehicles_with(const Model& model, std::span<const int> numbers,
+                                                const std::vector<Plant<double>>& plants,
+                                                const OpenVehicle& open) {
   AWMR_ASSIGN_OR_RETURN(const Plant<double> own, model.plant());
   std::vector<DrawnVehicle> vehicles(numbers.size() + 1, {own, model.vehicle.wheel_force});
-  std::optional<PlantSampler> sampler;
-  if (!model.covariance.parameters.empty()) {
-    AWMR_ASSIGN_OR_RETURN(sampler, PlantSampler::make(model));
-  }
   for (std::size_t i = 0; i < numbers.size(); ++i) {
-    DrawnVehicle& vehicle = vehicles[i + 1];
-    if (sampler) {
-      AWMR_ASSIGN_OR_RETURN(vehicle.plant, sampler->draw(seed, numbers[i]));
-    }
-    open_up(open, numbers[i], vehicle);
+    if (!plants.empty()) vehicles[i + 1].plant = plants[i];
+    open_up(open, numbers[i], vehicles[i + 1]);
   }
   return vehicles;
+}
+
+}  // namespace
+
+Result<std::vector<DrawnVehicle>> vehicles_of(const Model& model, std::span<const int> numbers,
+                                              std::uint64_t seed, const OpenVehicle& open) {
+  std::vector<Plant<double>> plants;
+  if (!model.covariance.parameters.empty()) {
+    AWMR_ASSIGN_OR_RETURN(const PlantSampler sampler, PlantSampler::make(model));
+    for (const int number : numbers) {
+      AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, sampler.draw(seed, number));
+      plants.push_back(plant);
+    }
+  }
+  return vehicles_with(model, numbers, plants, open);
 }
 
 Result<std::vector<DrawnVehicle>> vehicles_of(const Model& model, int draws, std::uint64_t seed,
                                               const OpenVehicle& open) {
   std::vector<int> numbers(at(draws));
   std::iota(numbers.begin(), numbers.end(), 1);
-  return vehicles_of(model, numbers, seed, open);
+  std::vector<Plant<double>> plants;
+  if (!model.covariance.parameters.empty()) {
+    AWMR_ASSIGN_OR_RETURN(const PlantSampler sampler, PlantSampler::make(model));
+    AWMR_ASSIGN_OR_RETURN(plants, sampler.draw_evenly(seed, draws));
+  }
+  return vehicles_with(model, numbers, plants, open);
 }
 
 std::vector<JudgedRuns> run_candidates(const ObjectiveSetting& setting,

@@ -17,7 +17,7 @@ namespace awmr {
 /// PlantSampler's.
 Result<std::vector<DrawnVehicle>> vehicles_of(const Model& model, std::span<const int> numbers,
                                               std::uint64_t seed, const OpenVehicle& open);
-/// Those of 1 to `draws`.
+/// Those of 1 to `draws`, spread evenly (PlantSampler::draw_evenly).
 Result<std::vector<DrawnVehicle>> vehicles_of(const Model& model, int draws, std::uint64_t seed,
                                               const OpenVehicle& open);
 

@@ -29,6 +29,9 @@ constexpr double kWorthwhile = 1e-4;
 constexpr int kRandomStarts = 30;
 constexpr int kStartEvaluations = 300;
 
+/// Evaluations on all draws, from gains that are feasible there.
+constexpr int kFinishEvaluations = 12;
+
 using Optimizer = std::unique_ptr<nlopt_opt_s, decltype(&nlopt_destroy)>;
 
 Optimizer optimizer(nlopt_algorithm algorithm, const SearchSpace& space, int evaluations) {
@@ -239,9 +242,37 @@ Candidate feasible_start(const TuneOptions& options, const ConstraintContext& co
   return problem.best;
 }
 
+namespace {
+
+/// What the nearest gains of a problem break most.
+void note_broken(Problem& problem, SearchResult& result) {
+  const Point nearest[] = {problem.space().point_of(problem.nearest.gains)};
+  const Looked looked = problem.look_at(nearest).front();
+  const auto most = std::ranges::max_element(looked.residuals);
+  result.broken_most = problem.names()[static_cast<std::size_t>(most - looked.residuals.begin())];
+  result.broken_by = *most;
+}
+
+/// Goes on from gains that were found on some of the draws, on all of them.
+Result<std::string> finish(Problem& problem, const Gains<double>& from,
+                           std::span<const Gains<double>> starts, int most_evaluations) {
+  std::vector<Point> points{problem.space().point_of(from)};
+  for (const Gains<double>& start : starts) points.push_back(problem.space().point_of(start));
+  problem.look_at(points);
+  problem.simulate_all = true;
+  const int budget = problem.nearest.feasible() ? std::min(kFinishEvaluations, most_evaluations)
+                                                : most_evaluations;
+  AWMR_ASSIGN_OR_RETURN(const std::string stop,
+                        search_locally(problem, problem.nearest.gains, budget));
+  return "; on all draws" + stop;
+}
+
+}  // namespace
+
 Result<SearchResult> search(const TuneOptions& options, const ConstraintContext& context,
-                            const Objective& objective, std::span<const Gains<double>> starts) {
-  Problem problem(options, context, objective);
+                            const Objective& searched, const Objective& all,
+                            std::span<const Gains<double>> starts) {
+  Problem problem(options, context, searched);
   const nlopt_result global =
       search_globally(problem, options, problem.space().point_of(starts.front()));
   if (failed(global)) return program_fault("NLopt's ISRES: " + reason(global));
@@ -261,27 +292,32 @@ Result<SearchResult> search(const TuneOptions& options, const ConstraintContext&
                           search_locally(problem, from[i], budget - problem.evaluations));
     stop += local;
   }
-  SearchResult result{
-      .best = std::nullopt,
-      .nearest = problem.nearest,
-      .evaluations = problem.evaluations,
-      .simulated = problem.simulated,
-      .history = {.best = at_even_ranks(problem.steps),
-                  .global_evaluations = global_evaluations,
-                  .evaluations = problem.evaluations},
-      .algorithm = fmt::format("NLopt GN_ISRES (population {}), then LN_COBYLA, over "
-                               "the logarithms of the gains",
-                               kPopulation),
-      .stop_reason = stop};
-  if (problem.nearest.feasible()) {
-    result.best = problem.nearest;
-    return result;
+  TuneOptions quiet = options;
+  quiet.progress = {};
+  Problem on_all(quiet, context, all);
+  const bool has_more = all.draws() > searched.draws();
+  if (has_more) {
+    AWMR_ASSIGN_OR_RETURN(const std::string finished,
+                          finish(on_all, problem.nearest.gains, starts, options.local_evaluations));
+    stop += finished;
   }
-  const Point nearest[] = {problem.space().point_of(problem.nearest.gains)};
-  const Looked looked = problem.look_at(nearest).front();
-  const auto most = std::ranges::max_element(looked.residuals);
-  result.broken_most = problem.names()[static_cast<std::size_t>(most - looked.residuals.begin())];
-  result.broken_by = *most;
+  Problem& last = has_more ? on_all : problem;
+  SearchResult result{.best = std::nullopt,
+                      .nearest = last.nearest,
+                      .evaluations = problem.evaluations + on_all.evaluations,
+                      .simulated = problem.simulated + on_all.simulated,
+                      .history = {.best = at_even_ranks(problem.steps),
+                                  .global_evaluations = global_evaluations,
+                                  .evaluations = problem.evaluations},
+                      .algorithm = fmt::format("NLopt GN_ISRES (population {}), then LN_COBYLA, "
+                                               "over the logarithms of the gains",
+                                               kPopulation),
+                      .stop_reason = stop};
+  if (last.nearest.feasible()) {
+    result.best = last.nearest;
+  } else {
+    note_broken(last, result);
+  }
   return result;
 }
 

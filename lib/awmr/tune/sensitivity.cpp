@@ -14,7 +14,7 @@ constexpr int kPoints = 8;
 /// A residual above this is that of an active constraint.
 constexpr double kActive = -0.01;
 /// Evaluations of the search for what a wider limit is worth.
-constexpr int kPriceEvaluations = 80;
+constexpr int kPriceEvaluations = 30;
 
 /// The places of a mu and its epsilon in a Point.
 using Pair = std::array<unsigned, 2>;
@@ -71,22 +71,26 @@ Interval stretch(Problem& problem, const Point& from, const Pair& pair, double m
 }  // namespace
 
 SettledGains settle(const TuneOptions& options, const ConstraintContext& context,
-                    const Objective& objective, const Candidate& best) {
+                    const Objective& searched, const Objective& all, const Candidate& best) {
   TuneOptions quiet = options;
   quiet.progress = {};
-  Problem problem(quiet, context, objective);
+  Problem problem(quiet, context, searched);
   SettledGains settled;
   Point point = problem.space().point_of(best.gains);
+  const double objective = problem.look_at(std::span(&point, 1)).front().candidate.objective;
   // Half of what may be given up for each of the two.
   const Interval heading =
-      stretch(problem, point, kHeading, (1.0 + 0.5 * kIndifferent) * best.objective);
+      stretch(problem, point, kHeading, (1.0 + 0.5 * kIndifferent) * objective);
   settled.mu = {best.gains.heading.mu * std::exp(heading.lo),
                 best.gains.heading.mu * std::exp(heading.hi)};
   point = scaled(point, kHeading, heading.lo);
-  const Interval speed = stretch(problem, point, kSpeed, (1.0 + kIndifferent) * best.objective);
+  const Interval speed = stretch(problem, point, kSpeed, (1.0 + kIndifferent) * objective);
   settled.speed_mu = {best.gains.speed.mu * std::exp(speed.lo),
                       best.gains.speed.mu * std::exp(speed.hi)};
-  settled.gains = problem.space().gains_at(scaled(point, kSpeed, speed.lo));
+  point = scaled(point, kSpeed, speed.lo);
+  Problem on_all(quiet, context, all);
+  const Candidate least = on_all.look_at(std::span(&point, 1)).front().candidate;
+  settled.gains = least.feasible() ? least.gains : best.gains;
   return settled;
 }
 

@@ -20,9 +20,10 @@ struct SettledGains {
 
 /// The objective hardly depends on mu while mu/epsilon stays: inside the boundary layer that ratio
 /// alone acts. So that the search's seed does not decide, the least mu is taken that scores as well as
-/// `best` within kIndifferent and meets every constraint, then the least mu_s.
+/// `best` within kIndifferent on the searched draws and meets every constraint, then the least mu_s;
+/// `best` itself where they do not hold on all draws.
 SettledGains settle(const TuneOptions& options, const ConstraintContext& context,
-                    const Objective& objective, const Candidate& best);
+                    const Objective& searched, const Objective& all, const Candidate& best);
 
 /// The constraints within 1 % of which `best` stands, and how far the objective falls in a local search
 /// from there where one of them may be broken by a tenth. Errors: as search().

@@ -33,7 +33,7 @@ inline constexpr NameTable<ReachingForm, 2> kReachingFormNames{
     {{"paper", ReachingForm::kPaper}, {"strict", ReachingForm::kStrict}}};
 
 /// Weights of the objective's terms, >= 0 and not all 0; each term is over its value with the
-/// baseline gains in the same mode and scenario (see objective.h).
+/// baseline's gains in the same mode and scenario (see objective.h).
 struct ObjectiveWeights {
   double itae = 1.0;                ///< heading: integral of t |psi_d - psi|, t from each step
   double overshoot = 0.5;           ///< heading: travel beyond the command
@@ -42,16 +42,38 @@ struct ObjectiveWeights {
   double speed_itae = 0.25;  ///< speed: integral of t |u_d - u|; without it mu_s, eps_s are free
 };
 
-/// Where the search looks. Symbols and units as in model/gains.h. Origin: a decade or so either
-/// side of the paper's 3, 50, 12 and of this project's speed gains; what is too fast for the
-/// sampled loop is cut off by the constraints, not by these bounds.
+/// Where the search looks. Symbols and units as in model/gains.h. Absent: kBoundFactor either side of
+/// pole placement; what is too fast for the sampled loop is cut off by the constraints.
 struct GainBounds {
-  Interval lambda{0.5, 15.0};          ///< 1/s
-  Interval mu{1.0, 200.0};             ///< rad/s^2
-  Interval epsilon{0.1, 50.0};         ///< rad/s
-  Interval speed_mu{0.5, 100.0};       ///< m/s^2
-  Interval speed_epsilon{0.05, 10.0};  ///< m/s
+  std::optional<Interval> lambda = {};         ///< 1/s
+  std::optional<Interval> mu = {};             ///< rad/s^2
+  std::optional<Interval> epsilon = {};        ///< rad/s
+  std::optional<Interval> speed_mu = {};       ///< m/s^2
+  std::optional<Interval> speed_epsilon = {};  ///< m/s
 };
+inline constexpr double kBoundFactor = 10.0;
+
+/// Absolute limits that gains have to keep, whatever other gains do.
+struct TuningLimits {
+  /// RMS rate of the steering command, deg/s, > 0, that the readings' noise makes while a heading is
+  /// held at the largest u_d in the mode that steers most. Absent: none for nominal gains; else the
+  /// servo's rate limit, at most its range 2 d_max over its time constant, or 1.5 times what the g3
+  /// that is fed forward of a noisy yaw rate makes with any gains, if that is more.
+  std::optional<double> steering_rate_rms_degps = {};
+  double damping = 0.7;           ///< smallest ratio of the loop without latency, (0, 1]
+  double late_damping = 0.25;     ///< the same with latency and motor lag, (0, 1]
+  double delayed_damping = 0.05;  ///< with twice the latency and a sample more, (0, 1]
+  /// Share of the weaker mode's turning authority that the noise of a heading may take, (0, 1].
+  double noise_share = 0.25;
+};
+
+/// Gains that the objective is normalised by.
+struct Baseline {
+  Gains<double> gains{};
+  std::string source;  ///< kPolePlacement, kPaperSource or the file that they were read from
+};
+inline constexpr const char* kPolePlacement = "pole-placement";
+inline constexpr const char* kPaperSource = "paper";
 
 /// A disturbance observer that is searched with the gains: its bandwidth.
 struct ObserverSearch {
@@ -63,8 +85,8 @@ struct ObserverSearch {
 };
 inline constexpr double kObserverShare = 0.5;
 
-/// Part of the global evaluations that a robust search makes: five and more runs stand behind each.
-inline constexpr double kRobustShare = 0.4;
+/// Draws that the search runs; gains are finished on all of them.
+inline constexpr int kSearchedDraws = 4;
 /// A share of the objective that does not matter: what it leaves open is settled by a rule.
 inline constexpr double kIndifferent = 1e-3;
 /// How much wider an active constraint is made, to see what it costs.
@@ -108,10 +130,10 @@ std::vector<std::string> run_figure_names();
 
 struct TuneOptions {
   /// On the model's own values, with true readings at once and motors without lag, as a simulation
-  /// alone would have it. Else robust: `draws` plants from the model's covariance beside its own,
-  /// under LoopConditions.
+  /// alone would have it. Else robust: `draws` plants from the model's covariance in addition to its
+  /// own, under LoopConditions. Every constraint holds for all of them.
   bool nominal = false;
-  int draws = 4;          ///< 0 ... 1000
+  int draws = 32;         ///< 0 ... 1000
   int judged_draws = 50;  ///< fresh ones that gains are judged on afterwards, 0 ... 100000
   OpenVehicle open = {};  ///< of a robust search
   /// A part of the judging, for as many machines: the search is made in whole, and of the fresh draws
@@ -120,18 +142,20 @@ struct TuneOptions {
   /// Share of the worst draws that count as the tail: the objective is the mean of the mean over all
   /// draws and of that over the tail (CVaR), (0, 1].
   double tail_share = 0.2;
-  /// In every mode the commands may vary by this much of what they do with the paper's gains, > 0.
-  double activity_max = 1.5;
+  TuningLimits limits = {};
+  /// Absent: pole placement, the fastest that the constraints allow.
+  std::optional<Baseline> baseline = {};
+  /// Largest control variation over the baseline's in each mode, > 0, of a robust search; absent: no
+  /// such limit.
+  std::optional<double> activity_max = {};
   /// kPaper where the paper's own condition is to be kept; it admits twice the eps/mu.
   ReachingForm form = ReachingForm::kStrict;
   /// Reaching time constant <= margin T1, in (0, 1). A smaller one parts the two phases further.
   double margin = 0.8;
   ObjectiveWeights weights;
-  /// >= 1. More where a search is refused although its gains come near to the baseline's objective.
-  /// A robust search makes kRobustShare of them.
-  int global_evaluations = 300;
+  int global_evaluations = 80;  ///< >= 1
   /// >= 0, of the local searches together; 0: the best of the global search is the answer.
-  int local_evaluations = 300;
+  int local_evaluations = 80;
   /// Of the global search. Another one shows how far the objective is flat.
   std::uint64_t seed = 1;
   /// Each has to hold headings, under a name of its own; empty: default_tuning_scenarios().
@@ -147,7 +171,7 @@ struct TuneOptions {
 
 /// A constraint that the gains stand at.
 struct ActiveConstraint {
-  std::string name;  ///< of the constraint; "the paper's score, MODE"; "activity, MODE"
+  std::string name;  ///< of the constraint; "activity, MODE"; a goal
   /// The share of the objective that is gained where it may be broken by kWider, >= 0.
   double wider_gains = 0.0;
 };
@@ -216,8 +240,9 @@ struct JudgedFigure {
 
 /// One set of gains in one mode, over the judged draws.
 struct JudgedGains {
-  std::string
-      gains;  ///< "robust", "unobserved" (those without their observer), "nominal", "baseline"
+  /// "robust", "baseline", "paper" (where the baseline is another), "unobserved" (without their
+  /// observer)
+  std::string gains;
   YawMode mode{};
   double completed_share = 0.0;  ///< settled after every step
   std::vector<JudgedFigure> figures;
@@ -267,10 +292,8 @@ struct JudgedGoal {
 /// What robust gains were tuned under and how they do.
 struct RobustTuning {
   LoopConditions conditions;
-  bool from_covariance = false;  ///< false: the model has none, so that only noise was drawn
-  std::optional<Gains<double>> nominal;  ///< those of `--nominal`; absent where there are none
-  SearchHistory nominal_history;         ///< of the search for them
-  std::vector<JudgedGains> judged;       ///< by gains, then mode; empty of a part
+  bool from_covariance = false;     ///< false: the model has none, so that only noise was drawn
+  std::vector<JudgedGains> judged;  ///< by gains, then mode; empty of a part
   /// The same by scenario first; empty where there is one.
   std::vector<JudgedGains> judged_by_scenario;
   std::vector<JudgedGoal> goals;  ///< by gains, then goal, then mode; empty of a part
@@ -283,7 +306,8 @@ struct Tuning {
   std::vector<ConstraintReport> constraints;
   double objective = 0.0;  ///< mean of `scores`
   std::vector<ModeScore> scores;
-  Gains<double> baseline{};
+  Baseline baseline;
+  TuningLimits limits;  ///< that the search kept, each with its value
   double baseline_objective = 0.0;
   std::vector<ModeScore> baseline_scores;
   std::string algorithm;
@@ -304,27 +328,37 @@ struct Tuning {
   std::optional<RobustTuning> robust;  ///< absent for nominal gains
 };
 
-/// The scenario tuned on when none is given: 30 then -30 deg at 1 m/s, 20 s, from rest. [paper 4.3]
-Scenario default_tuning_scenario();
-/// The same, then, where the model says how fast yaw resistance was measured, with the heading led
-/// no faster: the step asks for quick gains, in turns that extrapolate the model; the led one for
-/// those that are accurate where it holds. With a rate or "none" `said` the first alone, for the
-/// caller to lead. For an observer the last one again behind them, pushed all the time, by kPush of
-/// the weaker mode's turning authority and against the motion by kPush of g1(u_d): without a push
-/// an observer only lets noise in. Errors (input): as Model::plant.
+/// The scenario tuned on when none is given: a heading, then its opposite, from rest, at the speed, by the
+/// angle and for the time that suit the vehicle:
+///   u_d   0.3 of the speed at full thrust, or that at a third of the thrust if it is faster; at most
+///         0.6 of the fastest measured speed; 10 m/s at most where nothing was measured
+///   psi   30 deg; less where the weaker mode turns too slowly for 20 s
+///   hold  1.6 times what the weaker mode takes for 2 psi, no faster than turning was measured; in
+///         steps of 5 s from 5 to 20 s
+/// The paper's vehicle has 30 then -30 deg at 1 m/s, 10 s each. [paper 4.3] Errors (input): as
+/// Model::plant.
+Result<Scenario> default_tuning_scenario(const Model& model);
+/// The same, then, where the model says how fast yaw resistance was measured, with the heading
+/// limited to that rate: the step asks for quick gains, in turns that extrapolate the model; the
+/// limited one for those that are accurate where it holds. With a rate or "none" `said` the first
+/// alone, for the caller to limit. For an observer the last one again behind them, pushed all the
+/// time, by kPush of the weaker mode's turning authority and against the motion by kPush of g1(u_d):
+/// without a push an observer only lets noise in. Errors (input): as Model::plant.
 Result<std::vector<Scenario>> default_tuning_scenarios(const Model& model,
                                                        const TuneOptions& options,
                                                        const HeadingRateChoice& said = {});
 inline constexpr double kPush = 0.1;
-/// The scenario judged on afterwards: 60 then 0 deg at 0.7 m/s, 20 s, from rest.
-Scenario held_out_scenario();
+/// Behind the name of a default scenario whose heading rate is limited.
+inline constexpr std::string_view kLedSuffix = "_led";
+/// The scenario that gains are scored on afterwards: twice the heading, then 0, at 0.7 of the speed
+/// of default_tuning_scenario(). Errors (input): as Model::plant.
+Result<Scenario> held_out_scenario(const Model& model);
 
 /// Deterministic: model, options, seed and `arithmetic` fix every bit of the result, whatever the
-/// number of cores. Errors (refused): no gains within the bounds meet the constraints (the tightest
-/// one is named) or the goals that are not soft, or none that does beats the baseline in every
-/// mode; the baseline itself is then not returned as if it had been found. Errors (input): the
-/// model lacks a parameter; margin, weights, bounds or scenarios are unfit; all evaluations
-/// together would take more than 1e11 RK4 steps, some hours.
+/// number of cores. Errors (refused): no gains within the bounds meet the constraints, the activity or
+/// the goals that are not soft; the one that is broken most is named. Errors (input): the model lacks
+/// a parameter; margin, weights, limits, bounds or scenarios are unfit; runs with the baseline break
+/// off; all evaluations together would take more than 1e11 RK4 steps, some hours.
 Result<Tuning> tune(const Model& model, const TuneOptions& options);
 
 /// The bytes of gains.json.

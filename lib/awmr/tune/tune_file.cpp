@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "awmr/core/json.h"
+#include "awmr/model/gains_file.h"
 #include "awmr/model/gains_json.h"
 #include "awmr/model/ranges.h"
 #include "awmr/simulate/scenario_file.h"
@@ -31,11 +32,12 @@ void read_weights(JsonObject json, ObjectiveWeights& weights) {
 }
 
 void read_bounds(JsonObject json, GainBounds& bounds) {
-  const std::pair<const char*, Interval*> entries[] = {{"lambda", &bounds.lambda},
-                                                       {"mu", &bounds.mu},
-                                                       {"epsilon", &bounds.epsilon},
-                                                       {"speed_mu", &bounds.speed_mu},
-                                                       {"speed_epsilon", &bounds.speed_epsilon}};
+  const std::pair<const char*, std::optional<Interval>*> entries[] = {
+      {"lambda", &bounds.lambda},
+      {"mu", &bounds.mu},
+      {"epsilon", &bounds.epsilon},
+      {"speed_mu", &bounds.speed_mu},
+      {"speed_epsilon", &bounds.speed_epsilon}};
   for (const auto& [key, target] : entries) {
     const std::optional<Interval> read = json.optional_interval(key);
     if (!read) continue;
@@ -83,11 +85,40 @@ void read_numbers(JsonObject& json, TuneOptions& options) {
       json.optional_number("tail_share", {.min = 0.0, .max = 1.0, .min_excluded = true})
           .value_or(options.tail_share);
   options.activity_max =
-      json.optional_number("activity_max", {.min = 0.0, .max = 1e6, .min_excluded = true})
-          .value_or(options.activity_max);
+      json.optional_number("activity_max", {.min = 0.0, .max = 1e6, .min_excluded = true});
   if (const auto seed = json.optional_integer("seed", 0, 4'294'967'295L)) {
     options.seed = static_cast<std::uint64_t>(*seed);
   }
+}
+
+void read_limits(JsonObject json, TuningLimits& limits) {
+  limits.steering_rate_rms_degps = json.optional_number(
+      "steering_rate_rms_degps", {.min = 0.0, .max = 1e6, .min_excluded = true});
+  for (const LimitKey& key : kLimitKeys) {
+    double& limit = limits.*key.limit;
+    limit = json.optional_number(key.name, {.min = 0.0, .max = 1.0, .min_excluded = true})
+                .value_or(limit);
+  }
+  json.reject_unknown_keys();
+}
+
+/// A word for gains that the program knows, or the path of a gains.json relative to `directory`.
+void read_baseline(JsonObject& json, const std::filesystem::path& directory, TuneConfig& config,
+                   std::vector<Fault>& faults) {
+  const std::optional<std::string> name = json.optional_string("baseline");
+  if (!name) return;
+  if (name->empty()) return json.fault("baseline", "is empty: give a gains.json");
+  const bool is_file = *name != kPaperSource && *name != kPolePlacement;
+  Result<std::optional<Baseline>> baseline =
+      baseline_named(is_file ? directory / *name : std::filesystem::path(*name));
+  if (!baseline) {
+    const std::vector<Fault>& more = baseline.error().faults;
+    faults.insert(faults.end(), more.begin(), more.end());
+    return;
+  }
+  config.options.baseline = *std::move(baseline);
+  if (config.options.baseline) config.options.baseline->source = *name;
+  if (is_file) config.baseline_file = directory / *name;
 }
 
 ObserverSearch read_observer(JsonObject json) {
@@ -216,7 +247,6 @@ Json robust_json(const RobustTuning& robust, const TuneOptions& options) {
                {"drawn_from", drawn_from(robust, options)},
                {"seed", options.seed},
                {"tail_share", options.tail_share},
-               {"activity_max", options.activity_max},
                {"noise",
                 {{"heading_deg", c.heading_noise_deg},
                  {"yaw_rate_degps", c.yaw_rate_noise_degps},
@@ -229,10 +259,7 @@ Json robust_json(const RobustTuning& robust, const TuneOptions& options) {
                {"judged_draws", options.judged_draws},
                {"quantiles", quantiles_json(robust.judged)}};
   if (options.open.any()) json["open"] = open_json(options.open);
-  if (robust.nominal) {
-    json["nominal"] = gains_to_json(*robust.nominal);
-    json["nominal_history"] = history_json(robust.nominal_history);
-  }
+  if (options.activity_max) json["activity_max"] = *options.activity_max;
   // Last, where a merge of parts puts it.
   if (!robust.judged_by_scenario.empty()) {
     json["by_scenario"] = by_scenario_json(robust.judged_by_scenario);
@@ -259,6 +286,15 @@ Json sensitivity_json(const GlobalSensitivity& sensitivity) {
                        {"by_input", std::move(by_input)}});
   }
   return {{"samples", sensitivity.samples}, {"figures", std::move(figures)}};
+}
+
+Json limits_json(const TuningLimits& limits) {
+  Json json = Json::object();
+  if (limits.steering_rate_rms_degps) {
+    json["steering_rate_rms_degps"] = *limits.steering_rate_rms_degps;
+  }
+  for (const LimitKey& key : kLimitKeys) json[key.name] = limits.*key.limit;
+  return json;
 }
 
 Json objective_json(const Tuning& tuning, const TuneOptions& options) {
@@ -297,13 +333,24 @@ TuneConfig config_from_json(JsonObject& object, const std::filesystem::path& dir
   if (auto observer = object.optional_object("observer")) {
     config.options.observer = read_observer(std::move(*observer));
   }
+  if (auto limits = object.optional_object("limits")) {
+    read_limits(std::move(*limits), config.options.limits);
+  }
   read_goals(object, config.options);
+  read_baseline(object, directory, config, faults);
   read_scenarios(object, directory, config, faults);
   object.reject_unknown_keys();
   return config;
 }
 
 }  // namespace
+
+Result<std::optional<Baseline>> baseline_named(const std::filesystem::path& name) {
+  if (name == kPolePlacement) return std::nullopt;
+  if (name == kPaperSource) return Baseline{kPaperGains, kPaperSource};
+  AWMR_ASSIGN_OR_RETURN(const Gains<double> gains, read_gains(name));
+  return Baseline{gains, name.string()};
+}
 
 Result<TuneConfig> read_tune_config(const std::filesystem::path& path) {
   AWMR_ASSIGN_OR_RETURN(const Json json, read_json_file(path));
@@ -329,6 +376,7 @@ std::string gains_text(const Tuning& tuning, const TuneOptions& options,
   json["time_constants"] = {{"T1_s", tuning.gains.heading.sliding_time_constant_s()},
                             {"T2_s", tuning.gains.heading.reaching_time_constant_s()}};
   json["constraints"] = constraints_json(tuning.constraints);
+  json["limits"] = limits_json(tuning.limits);
   json["objective"] = objective_json(tuning, options);
   json["objective"]["held_out"] = {{"value", tuning.held_out_objective},
                                    {"metrics", scores_json(tuning.held_out_scores)}};
@@ -350,7 +398,8 @@ std::string gains_text(const Tuning& tuning, const TuneOptions& options,
     json["sensitivity"] = sensitivity_json(*tuning.robust->sensitivity);
   }
   if (!options.goals.empty()) json["goals"] = goals_json(tuning.robust->goals);
-  Json baseline = gains_to_json(tuning.baseline);
+  Json baseline = gains_to_json(tuning.baseline.gains);
+  baseline["source"] = tuning.baseline.source;
   baseline["objective"] = tuning.baseline_objective;
   baseline["metrics"] = scores_json(tuning.baseline_scores);
   json["baseline"] = std::move(baseline);

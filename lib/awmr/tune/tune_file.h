@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,12 +15,19 @@ struct TuneConfig {
   TuneOptions options;
   /// The files that `options.scenarios` came from, for an output's list of inputs.
   std::vector<std::filesystem::path> scenario_files;
+  std::optional<std::filesystem::path> baseline_file = {};  ///< the same of `options.baseline`
 };
+
+/// The baseline that "pole-placement" (none is given), "paper" or the path of a gains.json stands for. Errors:
+/// as read_gains.
+Result<std::optional<Baseline>> baseline_named(const std::filesystem::path& name);
 
 /// tune.json (`awmr.tune/1`), strict, every key optional:
 ///   schema, form ("paper" | "strict"), margin, weights {itae, overshoot, control_variation,
 ///   effort, speed_itae}, bounds {lambda, mu, epsilon, speed_mu, speed_epsilon: [lo, hi]},
-///   nominal, draws (4), judged_draws (50; with goals 500), tail_share, activity_max,
+///   nominal, draws (32), judged_draws (50; with goals 500), tail_share, activity_max,
+///   limits {steering_rate_rms_degps, damping, late_damping, delayed_damping, noise_share},
+///   baseline ("pole-placement" | "paper" | path of a gains.json relative to the file),
 ///   open {mass_factors [...], wheel_forces [{min, max}, ...]}: the two numbers above are then, where nobody
 ///   gives them, the next multiple of how many combinations there are,
 ///   sensitivity (0: none),

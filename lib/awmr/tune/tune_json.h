@@ -8,6 +8,16 @@
 
 namespace awmr {
 
+/// A limit of TuningLimits in (0, 1], as tune.json and gains.json name it.
+struct LimitKey {
+  const char* name;
+  double TuningLimits::*limit;
+};
+inline constexpr LimitKey kLimitKeys[] = {{"damping", &TuningLimits::damping},
+                                          {"late_damping", &TuningLimits::late_damping},
+                                          {"delayed_damping", &TuningLimits::delayed_damping},
+                                          {"noise_share", &TuningLimits::noise_share}};
+
 /// A goal as tune.json has it, in both directions.
 TuningGoal read_goal(JsonObject json);
 Json goal_json(const TuningGoal& goal);

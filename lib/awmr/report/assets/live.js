@@ -1,7 +1,7 @@
 // Gains to play with: the program's own simulator and constraints, compiled to WebAssembly, run at every move of a slider.
 
 const liveColumns = ["t_s", "psi_rad", "psi_ref_rad", "u_mps", "force_left", "force_right", "steering_rad", "r_radps"];
-/// Where tune looks (GainBounds in tune/tune.h), and what else can be moved; `log`: the slider moves in ratios.
+/// Gains and what else can be moved; `log`: the slider moves in ratios.
 const liveSliders = [
   {key: "lambda", name: "lambda, 1/s", low: 0.5, high: 15, log: true}, {key: "mu", name: "mu, rad/s²", low: 1, high: 200, log: true},
   {key: "epsilon", name: "epsilon, rad/s", low: 0.1, high: 50, log: true}, {key: "speed_mu", name: "mu_s, m/s²", low: 0.5, high: 100, log: true},

@@ -46,8 +46,8 @@ function gainsVerdict(list, gains) {
   const tightest = [...required].sort((a, b) => a.margin / Math.abs(a.limit) - b.margin / Math.abs(b.limit))[0];
   const met = broken.length ? `break ${broken.map((c) => `“${c.name}”`).join(", ")}`
     : `meet all ${plural(required.length, "constraint")}` + (tightest ? `; the tightest is “${tightest.name}”` : "");
-  const better = gains.objective ? ` They score ${digits(gains.objective.value, 3)} where the paper's gains score ` +
-    `${digits((gains.baseline || {}).objective ?? 1, 3)}; less is better.` : "";
+  const better = gains.objective ? ` They score ${digits(gains.objective.value, 3)} against ${digits((gains.baseline || {}).objective ?? 1, 3)} of ` +
+    `${baselineWords(gains)}; less is better.` : "";
   const held = gains.objective && gains.objective.held_out ? ` On manoeuvres that were not tuned on: ${digits(gains.objective.held_out.value, 3)}.` : "";
   const goals = (gains.goals || []).filter((goal) => goal.gains === "robust");
   const unmet = goals.filter((goal) => goal.verdict !== "met");
@@ -76,7 +76,7 @@ function gainsTable(parent, gains) {
     digits(set.speed.mu), digits(set.speed.epsilon), digits(1 / set.heading.lambda), digits(set.heading.epsilon / (2 * set.heading.mu)), digits(objective)];
   const rows = [row("tuned", gains, (gains.objective || {}).value)];
   if (gains.robust && gains.robust.nominal) rows.push(row("tuned without noise (nominal)", gains.robust.nominal));
-  if (gains.baseline && gains.baseline.heading) rows.push(row("the paper's", gains.baseline, gains.baseline.objective));
+  if (gains.baseline && gains.baseline.heading) rows.push(row(baselineWords(gains), gains.baseline, gains.baseline.objective));
   table(parent, ["gains", "#lambda, 1/s", "#mu", "#epsilon", "#mu_s", "#epsilon_s", "#T1, s", "#T2, s", "#objective"], rows,
     (k, i) => k === 0 && i > 0 && i < 6);
   const {observer} = gains;

@@ -1,8 +1,14 @@
 // Tuning: which constraints bind, and what the gains do on draws that none of them was tuned on.
 
-const setOrder = ["robust", "nominal", "baseline"];
-const setColour = {robust: "var(--one)", nominal: "var(--three)", baseline: "var(--two)"};
-const setWords = {robust: "tuned", nominal: "nominal", baseline: "the paper's"};
+const setOrder = ["robust", "nominal", "baseline", "paper"];
+const setColour = {robust: "var(--one)", nominal: "var(--three)", baseline: "var(--two)", paper: "var(--three)"};
+const setWords = {robust: "tuned", nominal: "nominal", baseline: "baseline", paper: "the paper's"};
+
+/// What the objective is 1 for; files of before `source` have the paper's gains.
+function baselineWords(gains) {
+  const {source} = gains.baseline || {};
+  return !source || source === "paper" ? "the paper's gains" : source === "pole-placement" ? "pole placement" : source;
+}
 
 /// What was open of the vehicles; empty where nothing was.
 function openWords(open) {
@@ -32,12 +38,12 @@ function historyChart(parent, gains) {
     ...of("nominal", nominal, {colour: setColour.nominal, width: 1.6, dash: [7, 3]})];
   if (!series.length) return;
   const all = series.flatMap((s) => s.points.map((p) => p[0]));
-  series.push({name: "the paper's gains", kind: "line", points: [[Math.min(...all), 1], [Math.max(...all), 1]], colour: setColour.baseline, width: 1.2, dash: [2, 3]});
+  series.push({name: baselineWords(gains), kind: "line", points: [[Math.min(...all), 1], [Math.max(...all), 1]], colour: setColour.baseline, width: 1.2, dash: [2, 3]});
   add(parent, "h3", "The search");
   const phases = [["tuned", own], ["nominal", nominal]].filter(([, h]) => h && h.best.length)
     .map(([name, h]) => `${name}: local from evaluation ${h.global_evaluations + 1} of ${h.evaluations}`);
-  add(parent, "p", `The best gains so far that keep every constraint; 1 is the paper's. A global search, then a local one (${phases.join("; ")}). ` +
-    (nominal ? "Each is over the paper's gains under its own conditions." : ""), {class: "small"});
+  add(parent, "p", `The best gains so far that keep every constraint; 1 is ${baselineWords(gains)}. A global search, then a local one (${phases.join("; ")}). ` +
+    (nominal ? "Each is over the baseline under its own conditions." : ""), {class: "small"});
   plot(add(parent, "div", undefined, {class: "grid"}), {title: "objective, best so far", x: "evaluation", y: "objective", series, height: 260});
 }
 
@@ -103,7 +109,7 @@ function tuningSection(data) {
   metricsTable(box, gains);
 }
 
-/// The figures of the objective, by mode and scenario, tuned beside the paper's.
+/// The figures of the objective, by mode and scenario, tuned and in brackets the baseline's.
 function metricsTable(parent, gains) {
   const base = (gains.baseline || {}).metrics || {};
   const rows = Object.entries(gains.metrics || {}).flatMap(([mode, scenarios]) => Object.entries(scenarios).map(([name, m]) => {
@@ -112,6 +118,6 @@ function metricsTable(parent, gains) {
     return [mode, name, pair("settling_time_s"), pair("overshoot_deg"), pair("heading_iae_degs"), pair("control_variation"), pair("sideslip_max_deg")];
   }));
   if (!rows.length) return;
-  const box = folded(parent, "Figures by mode and manoeuvre (in brackets the paper's gains)");
+  const box = folded(parent, `Figures by mode and manoeuvre (in brackets ${baselineWords(gains)})`);
   table(box, ["mode", "manoeuvre", "#settling, s", "#overshoot, deg", "#heading error, deg s", "#variation, 1/s", "#sideslip, deg"], rows);
 }

@@ -1,0 +1,13 @@
+/// Checks of what a search is asked to do. Private to tune/.
+#pragma once
+
+#include "awmr/core/result.h"
+#include "awmr/model/vehicle.h"
+#include "awmr/tune/tune.h"
+
+namespace awmr {
+
+/// Errors (input): every option that is out of its range or contradicts another one, at once.
+Status check_options(const TuneOptions& options, const Vehicle& vehicle);
+
+}  // namespace awmr

@@ -1,0 +1,151 @@
+// The scenarios that gains are tuned and scored on where nobody gives any: scaled by the vehicle.
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "awmr/core/units.h"
+#include "awmr/model/fitted_law.h"
+#include "awmr/model/steady.h"
+#include "awmr/simulate/conditions.h"
+#include "awmr/simulate/validity.h"
+#include "awmr/tune/constraints.h"
+#include "awmr/tune/tune.h"
+
+namespace awmr {
+namespace {
+
+constexpr double kShareOfReachable = 0.3;
+constexpr double kShareOfThrust = 1.0 / 3.0;
+constexpr double kShareOfMeasured = 0.6;
+constexpr double kFastestUnmeasured_mps = 10.0;
+constexpr double kLargestStep_deg = 30.0;
+constexpr double kSmallestStep_deg = 5.0;
+constexpr double kShortestHold_s = 5.0;
+constexpr double kLongestHold_s = 20.0;
+/// Time held over the time to turn.
+constexpr double kHoldOverTurn = 1.6;
+/// What a loop takes in addition to the turn, over the lags of servo and readings.
+constexpr double kSettlingOverLag = 10.0;
+
+/// To two significant digits: no more is known, and the numbers are read by people.
+double rounded(double value) {
+  const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1.0);
+  return std::round(value / unit) * unit;
+}
+
+/// The fastest steady speed of the surge trials; absent where the model has none.
+std::optional<double> measured_speed_mps(const Model& model) {
+  std::optional<double> fastest;
+  for (const TrialPoint& trial : model.record.trials) {
+    if (trial.kind != TrialKind::kSurge) continue;
+    fastest = std::max(fastest.value_or(0.0), trial.measured);
+  }
+  return fastest;
+}
+
+/// u_d, m/s.
+double speed_for(const Model& model, const Plant<double>& plant) {
+  const double wheels = driven_wheels(plant);
+  const double thrust = wheels * (model.vehicle.wheel_force.hi - plant.wheel_dead_zone);
+  const double viscous = wheels * plant.back_emf_s_per_m;
+  const auto at_full = steady_rate(plant.surge, thrust, viscous);
+  const auto at_part = steady_rate(plant.surge, kShareOfThrust * thrust, viscous);
+  const auto measured = measured_speed_mps(model);
+  double speed =
+      std::max(kShareOfReachable * at_full.value_or(kFastestUnmeasured_mps), at_part.value_or(0.0));
+  speed = std::min(speed, measured ? kShareOfMeasured * *measured : kFastestUnmeasured_mps);
+  return rounded(std::max(speed, 1e-6));
+}
+
+/// Time that the weaker mode takes to turn by an angle, s: at its steady yaw rate r, which is no faster than
+/// turning was measured, after speeding up by N/I'z, and for the loop to settle.
+///   angle/r + sqrt(angle I'z/N) + 10 (T + latency)
+double turning_time_s(const Model& model, const Plant<double>& plant, double speed_mps,
+                      double angle_rad) {
+  const double moment = turning_authority_m({plant, model.vehicle.wheel_force}, speed_mps);
+  const LoopConditions conditions = conditions_of(model.vehicle);
+  const double lag_s = std::max(model.vehicle.has_steering() ? plant.steering_time_constant_s : 0.0,
+                                conditions.motor_time_constant_s) +
+                       std::max(conditions.heading_late_s, conditions.yaw_rate_late_s);
+  std::optional<double> rate = steady_rate(plant.yaw, moment);
+  if (const auto measured_degps = measured_yaw_rate_degps(model)) {
+    rate = std::min(rate.value_or(radians(*measured_degps)), radians(*measured_degps));
+  }
+  return (rate ? angle_rad / *rate : 0.0) +
+         (moment > 0.0 ? std::sqrt(angle_rad * plant.inertia_norm / moment) : 0.0) +
+         kSettlingOverLag * lag_s;
+}
+
+/// A heading and its opposite.
+struct Manoeuvre {
+  double speed_mps;
+  double step_deg;
+  double hold_s;
+};
+
+Result<Manoeuvre> manoeuvre_for(const Model& model) {
+  AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, model.plant());
+  const double speed_mps = speed_for(model, plant);
+  const auto hold_for = [&](double step_deg) {
+    return kHoldOverTurn * turning_time_s(model, plant, speed_mps, radians(2.0 * step_deg));
+  };
+  double step_deg = kLargestStep_deg;
+  while (hold_for(step_deg) > kLongestHold_s && step_deg > kSmallestStep_deg) {
+    step_deg -= kSmallestStep_deg;
+  }
+  const double hold_s =
+      std::clamp(std::round(hold_for(step_deg) / kShortestHold_s) * kShortestHold_s,
+                 kShortestHold_s, kLongestHold_s);
+  return Manoeuvre{speed_mps, step_deg, hold_s};
+}
+
+}  // namespace
+
+Result<Scenario> default_tuning_scenario(const Model& model) {
+  AWMR_ASSIGN_OR_RETURN(const Manoeuvre m, manoeuvre_for(model));
+  return heading_steps({m.step_deg, -m.step_deg},
+                       {.hold_s = m.hold_s,
+                        .speed_mps = m.speed_mps,
+                        .name = fmt::format("heading_{:g}_{:g}", m.step_deg, -m.step_deg)});
+}
+
+Result<std::vector<Scenario>> default_tuning_scenarios(const Model& model,
+                                                       const TuneOptions& options,
+                                                       const HeadingRateChoice& said) {
+  AWMR_ASSIGN_OR_RETURN(Scenario stepped, default_tuning_scenario(model));
+  std::vector<Scenario> scenarios{std::move(stepped)};
+  const std::optional<double> measured_degps = measured_yaw_rate_degps(model);
+  if (said.empty() && measured_degps) {
+    Scenario limited = scenarios.front();
+    limited.name += kLedSuffix;
+    limit_heading_rate(*measured_degps, limited);
+    scenarios.push_back(std::move(limited));
+  }
+  if (!options.observer) return scenarios;
+  AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, model.plant());
+  Scenario pushed = scenarios.back();
+  pushed.name += "_pushed";
+  const auto constantly = [](double value) {
+    DisturbanceTerm term;
+    term.value = value;
+    return std::vector{term};
+  };
+  pushed.disturbance.yaw =
+      constantly(kPush * turning_authority_m({plant, model.vehicle.wheel_force}, pushed.speed_mps));
+  pushed.disturbance.surge = constantly(-kPush * plant.surge(pushed.speed_mps));
+  scenarios.push_back(std::move(pushed));
+  return scenarios;
+}
+
+Result<Scenario> held_out_scenario(const Model& model) {
+  AWMR_ASSIGN_OR_RETURN(const Manoeuvre m, manoeuvre_for(model));
+  return heading_steps({2.0 * m.step_deg, 0.0},
+                       {.hold_s = m.hold_s,
+                        .speed_mps = 0.7 * m.speed_mps,
+                        .name = fmt::format("held_out_{:g}_0", 2.0 * m.step_deg)});
+}
+
+}  // namespace awmr

@@ -1,0 +1,115 @@
+#include "awmr/tune/pole_placement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string_view>
+
+namespace awmr {
+namespace {
+
+/// Ratios lambda/k are halved every second time, k every fourth time.
+constexpr int kRatios = 13;
+const double kRatioStep = std::sqrt(0.5);
+const double kRateStep = std::pow(0.5, 0.25);
+/// From the fastest k, 1/T_s, to the slowest: 1e-4 of it.
+constexpr int kRates = 54;
+constexpr int kBisections = 6;
+/// A gain that is met with equality would be lost to rounding.
+constexpr double kInside = 1.0 - 1e-9;
+/// The least force that a law may have where nothing asks for any.
+constexpr double kLeastMu = 1e-3;
+
+const ConstraintReport& named(const std::vector<ConstraintReport>& all, std::string_view name) {
+  return *std::ranges::find(all, name, &ConstraintReport::name);
+}
+
+double violation(const Gains<double>& gains, const ConstraintContext& context) {
+  const std::vector<double> broken = residuals(constraints_of(gains, context));
+  return *std::ranges::max_element(broken);
+}
+
+/// The least force of a law that dominates.
+double least_mu(const ConstraintReport& dominates) {
+  return std::max(dominates.limit / kInside, kLeastMu);
+}
+
+SpeedGains<double> place_speed_pole(const std::vector<ConstraintReport>& at_one) {
+  const ConstraintReport& gain = named(at_one, "speed gain");
+  const ConstraintReport& lag = named(at_one, "speed lag");
+  const double rate = kInside * std::min(gain.limit / gain.value, lag.limit / lag.value);
+  const double mu = least_mu(named(at_one, "mu_s dominates"));
+  return {mu, mu / rate};
+}
+
+/// Looks for heading poles, the speed gains being given.
+class HeadingPoles {
+ public:
+  HeadingPoles(const ConstraintContext& context, const SpeedGains<double>& speed, double mu)
+      : context_(context), own_(context), speed_(speed), mu_(mu) {
+    own_.draws.clear();
+  }
+
+  Gains<double> fastest() {
+    const double largest =
+        kInside * context_.margin * (context_.form == ReachingForm::kStrict ? 1.0 : 2.0);
+    for (int i = 0; i < kRatios; ++i) look_along(largest * std::pow(kRatioStep, i));
+    return found_ ? best_ : nearest_;
+  }
+
+ private:
+  Gains<double> gains_at(double ratio, double k) const {
+    const double lambda = ratio * k;
+    return {{lambda, mu_, mu_ / k}, speed_};
+  }
+
+  bool is_met(const Gains<double>& gains) {
+    double broken = violation(gains, own_);  // the draws only if the model's own plant allows it
+    if (broken <= 0.0 && !context_.draws.empty()) broken = violation(gains, context_);
+    if (broken < least_broken_) {
+      least_broken_ = broken;
+      nearest_ = gains;
+    }
+    return broken <= 0.0;
+  }
+
+  /// The largest k of a ratio, from above; given up where lambda would be no larger than what was found.
+  void look_along(double ratio) {
+    double k = 1.0 / context_.sample_time_s;
+    const auto is_behind = [&](double rate) {
+      return found_ && ratio * rate <= best_.heading.lambda;
+    };
+    for (int i = 0; i < kRates && !is_behind(k); ++i, k *= kRateStep) {
+      if (!is_met(gains_at(ratio, k))) continue;
+      double too_fast = k / kRateStep;
+      for (int j = 0; j < kBisections; ++j) {
+        const double middle = std::sqrt(k * too_fast);
+        (is_met(gains_at(ratio, middle)) ? k : too_fast) = middle;
+      }
+      if (is_behind(k)) return;
+      best_ = gains_at(ratio, k);
+      found_ = true;
+      return;
+    }
+  }
+
+  const ConstraintContext& context_;
+  ConstraintContext own_;  ///< without the draws
+  SpeedGains<double> speed_;
+  double mu_;
+  bool found_ = false;
+  Gains<double> best_{};
+  Gains<double> nearest_{};
+  double least_broken_ = std::numeric_limits<double>::infinity();
+};
+
+}  // namespace
+
+Gains<double> place_poles(const ConstraintContext& context) {
+  const Gains<double> one{{1.0, 1.0, 1.0}, {1.0, 1.0}};
+  const std::vector<ConstraintReport> at_one = constraints_of(one, context);
+  return HeadingPoles(context, place_speed_pole(at_one), least_mu(named(at_one, "mu dominates")))
+      .fastest();
+}
+
+}  // namespace awmr
