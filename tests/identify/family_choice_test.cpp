@@ -132,6 +132,59 @@ DrivingLog ramps_with_friction(double noise_mps, std::uint64_t seed) {
   return log;
 }
 
+/// Steps of thrust, each held for 0.5 to 2 s, of a vehicle with m' = 0.5 and 2.2 u of resistance, behind motors
+/// that lag by `lag_s`: straight, and nothing measured but the speed.
+DrivingLog steps_behind_lag(double lag_s, std::uint64_t seed) {
+  constexpr double kMass = 0.5, kAlpha = 2.2, kStep_s = 0.02, kFine_s = 1e-4, kNoise_mps = 0.005;
+  std::mt19937_64 chance(seed);
+  std::normal_distribution<double> noise;
+  std::uniform_real_distribution<double> part(0.0, 1.0);
+  DrivingLog log;
+  log.file = "steps.csv";
+  log.steering_command_rad.emplace();
+  Measured speed;
+  double u = 0.0, force = 0.0, command = 0.0, until_s = 0.0;
+  for (int i = 0; i * kStep_s < 60.0; ++i) {
+    const double t = i * kStep_s;
+    if (t >= until_s) {
+      until_s = t + 0.5 + 1.5 * part(chance);
+      command = 0.2 + 1.6 * part(chance);
+    }
+    log.line.push_back(i + 2);
+    log.t_s.push_back(t);
+    log.force_left.push_back(command / 4.0);
+    log.force_right.push_back(command / 4.0);
+    log.steering_command_rad->push_back(0.0);
+    speed.value.push_back(u + kNoise_mps * noise(chance));
+    speed.fresh.push_back(true);
+    for (double at_s = 0.0; at_s < kStep_s - 0.5 * kFine_s; at_s += kFine_s) {
+      const double next = command + (force - command) * std::exp(-kFine_s / lag_s);
+      const double end = 0.5 * (force + next) / kAlpha;
+      u = end + (u - end) * std::exp(-kAlpha * kFine_s / kMass);
+      force = next;
+    }
+  }
+  speed.fresh_count = static_cast<int>(speed.value.size());
+  log[LogChannel::kSpeed] = std::move(speed);
+  return log;
+}
+
+TEST(Families, OfMotorsThatLagLeaveTheMassRightWhereOnlyTheSpeedIsMeasured) {
+  for (const double lag_s : {0.06, 0.1}) {
+    TrialData data;
+    data.logs = {steps_behind_lag(lag_s, 5)};
+    const auto result = identify(robot(), data, {}, {});
+    ASSERT_TRUE(result);
+    const Estimate& mass = result->model[ParameterId::kMassNorm];
+    ASSERT_TRUE(mass.value && mass.std_error) << lag_s;
+    EXPECT_LT(std::abs(*mass.value - 0.5), 4.0 * *mass.std_error) << lag_s;
+    const auto& findings = result->model.record.findings;
+    EXPECT_TRUE(std::ranges::any_of(findings, [](const Finding& f) {
+      return f.code == "actuator-lag";
+    })) << lag_s;
+  }
+}
+
 TEST(Families, OfFrictionFromRestAreRightAtAnyNoise) {
   for (const double noise_mps : {1e-5, 5e-4, 1e-3, 5e-3, 2e-2, 5e-2}) {
     TrialData data;

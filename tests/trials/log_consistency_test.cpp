@@ -175,6 +175,45 @@ TEST(LogConsistency, SensorsSlowerThanTheLogHaveNoOtherUnit) {
   }
 }
 
+/// Every n-th row.
+DrivingLog thinned(const DrivingLog& log, std::size_t n) {
+  DrivingLog thin = log;
+  const auto thin_out = [n](auto& values) {
+    std::size_t kept = 0;
+    for (std::size_t row = 0; row < values.size(); row += n) values[kept++] = values[row];
+    values.resize(kept);
+  };
+  thin_out(thin.t_s);
+  thin_out(thin.line);
+  thin_out(thin.force_left);
+  thin_out(thin.force_right);
+  thin_out(*thin.steering_command_rad);
+  for (auto& channel : thin.measured) {
+    if (!channel) continue;
+    thin_out(channel->value);
+    thin_out(channel->fresh);
+  }
+  return thin;
+}
+
+TEST(LogConsistency, ALogOfARowASecondIsReadWithoutEvidence) {
+  for (const std::size_t n : {20, 27, 50, 100, 500}) {
+    Vehicle slow = vehicle();
+    slow.sample_time_s = kStep_s * static_cast<double>(n);
+    EXPECT_TRUE(contradictions(thinned(sound_log(1), n), slow, {}).empty()) << n;
+  }
+}
+
+TEST(LogConsistency, ATimeInMinutesHoursOrDaysIsNamed) {
+  for (const double factor : {60.0, 1e3, 3600.0, 86400.0}) {
+    DrivingLog log = sound_log(1);
+    scale(log.t_s, 1.0 / factor);
+    const auto found = contradictions(log, vehicle(), {});
+    EXPECT_TRUE(std::ranges::any_of(found, [](const auto& c) { return c.column == "t_s"; }))
+        << factor;
+  }
+}
+
 TEST(LogConsistency, InTheCombinedModeAReversedSteeringAndSwappedSidesAreNamed) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const DrivingLog sound = sound_log(seed, {.combined = true});

@@ -34,6 +34,7 @@ constexpr CodeEffect kEffects[] = {
     {"log-contradiction", Effect::kContradiction},
     {"contradiction", Effect::kContradiction},
     {"inertia-mismatch", Effect::kContradiction},
+    {"speed-controlled", Effect::kContradiction},
     {"implausible-vehicle", Effect::kContradiction},
     {"implausible-deceleration", Effect::kContradiction},
     {"negative-scrub", Effect::kContradiction},

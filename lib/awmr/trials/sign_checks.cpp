@@ -27,6 +27,7 @@ struct SignRelation {
 int course_sign(const std::vector<EvidenceWindow>& windows) {
   // Of a turn of constant rate the chord points along the heading in its middle, as long as it is no circle.
   constexpr double kFurthestTurn_rad = 2.5;
+  if (windows.empty()) return 0;
   std::vector<double> moved = series(windows, [](const EvidenceWindow& w) { return w.moved_m; });
   const double far = median(moved);
   std::complex<double> same = 0.0, mirrored = 0.0, headings = 0.0;

@@ -54,7 +54,22 @@ std::optional<Contradiction> judge_time(const Evidence& evidence) {
                     step_s, ratio, evidence.vehicle.sample_time_s, unit.words),
         scaled_mapping(evidence, "t_s", 1.0 / unit.factor)};
   }
-  return std::nullopt;
+  // No vehicle is logged a thousand times a second and twenty times as often as it is controlled.
+  constexpr double kFastest_s = 1e-3;
+  constexpr double kOften = 0.05;
+  if (step_s >= kFastest_s || ratio >= kOften) return std::nullopt;
+  static constexpr std::array<UnitFactor, 4> kLong{{{1.0 / 60.0, "minutes"},
+                                                    {1e-3, "thousands of seconds"},
+                                                    {1.0 / 3600.0, "hours"},
+                                                    {1.0 / 86400.0, "days"}}};
+  const UnitFactor& unit = *std::ranges::min_element(
+      kLong, {}, [&](const UnitFactor& one) { return std::abs(std::log(ratio / one.factor)); });
+  return Contradiction{
+      "t_s",
+      fmt::format("rows are {:.4g} apart in t_s, {:.3g} times sample_time_s = {:g} s: the time "
+                  "looks like {}",
+                  step_s, ratio, evidence.vehicle.sample_time_s, unit.words),
+      scaled_mapping(evidence, "t_s", 1.0 / unit.factor)};
 }
 
 std::optional<Contradiction> judge_force(const Evidence& evidence, std::string_view column,

@@ -6,6 +6,7 @@
 
 #include "awmr/core/option_text.h"
 #include "awmr/identify/logs/family_score.h"
+#include "awmr/identify/logs/windows.h"
 
 namespace awmr {
 namespace {
@@ -77,9 +78,11 @@ Adequacy judge_adequacy(const std::vector<DrivingLog>& logs, const LogFitOptions
     adequacy.withdraws_intervals |= withdraws;
     adequacy.findings.push_back(
         {logs.front().file, 0, Severity::kWarning, "model-inadequate",
-         fmt::format("the model misses {} by {:.3g} {} over {:.2g} s at a time, where the sensor's "
+         fmt::format("the model misses {} by {:.3g} {} over {} at a time, where the sensor's "
                      "own noise is {:.2g}: {}. {}",
-                     info(channel).name, noise.drift_std, info(channel).unit, noise.correlation_s,
+                     info(channel).name, noise.drift_std, info(channel).unit,
+                     noise.correlation_s < kWindow_s ? fmt::format("{:.2g} s", noise.correlation_s)
+                                                     : fmt::format("more than {:g} s", kWindow_s),
                      noise.sensor_std, advice,
                      withdraws
                          ? "The intervals are withdrawn"

@@ -92,8 +92,8 @@ std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& sett
     if (is_sensor && has_sensor) continue;
     NoiseIteration late = tried(settled, suspect.delay, suspect.value_s, loss);
     const double found_s = late.point.coordinates.back();
-    if (!consider(std::move(late))) continue;
-    has_sensor |= is_sensor;
+    has_sensor |= consider(std::move(late)) && is_sensor;
+    // Also where a sensor's delay does as well as one of the commands: a lag may do better than both.
     if (!is_sensor && found_s > 0.0) consider(tried(settled, motor_lag(), found_s, loss));
   }
   return best;

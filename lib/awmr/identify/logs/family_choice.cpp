@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "awmr/core/index.h"
+#include "awmr/core/option_text.h"
 #include "awmr/identify/logs/family_score.h"
 #include "awmr/identify/logs/nearest_curve.h"
 #include "awmr/identify/uncertainty/akaike.h"
@@ -177,11 +178,11 @@ std::optional<Finding> undecided(const std::string& file, const FamilyFit& best,
 }
 
 Finding not_compared(const std::string& file, const FamilyFit& first) {
-  return {
-      file, 0, Severity::kWarning, "families-not-compared",
-      fmt::format("the time limit ended before every family of resistance was compared with {}; "
-                  "the intervals are withdrawn. Give more time, or name the family",
-                  families_in_words(first.surge, first.yaw))};
+  return {file, 0, Severity::kWarning, "families-not-compared",
+          fmt::format(
+              "the search reached its limit before every family of resistance was compared with "
+              "{}; the intervals are withdrawn. Name the family ({}), or give a part of the logs",
+              families_in_words(first.surge, first.yaw), option_text("family surge=..."))};
 }
 
 struct Contender {

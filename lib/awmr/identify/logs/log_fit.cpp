@@ -1,5 +1,7 @@
 #include "awmr/identify/logs/log_fit.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <optional>
 #include <utility>
@@ -93,6 +95,16 @@ LogFit fit_logs(const std::vector<DrivingLog>& logs, const LogFitOptions& option
   const LogProblem guess = log_problem(logs, options);
   if (guess.windows.empty() || guess.initial.empty()) {
     return without_solution("nothing measured, or nothing asked for", {});
+  }
+  int readings = 0;
+  for (const auto& [channel, noise] : guess.model.noise) readings += noise.count;
+  if (readings <= static_cast<int>(guess.unknowns())) {
+    return without_solution(
+        fmt::format(
+            "{} readings are too few for {} free numbers, the state at the beginning of each "
+            "10 s among them: log faster or more channels",
+            readings, guess.unknowns()),
+        {});
   }
   Multistart search = multistart(guess, options);
   if (search.ends.empty()) {

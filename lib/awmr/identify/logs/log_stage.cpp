@@ -437,6 +437,39 @@ std::string why_no_inertia(const Vehicle& vehicle, const std::vector<DrivingLog>
       *inertia->value / *mass->value / box);
 }
 
+/// `speed-controlled`, a warning: resistance that is linear in surge and yaw, and in yaw by d^2 of that in
+/// surge, is what every wheel by itself makes of its command: the drag of its motor, or a loop that holds its
+/// speed at a set-point which stands in the place of the force.
+///
+///     tau_speed = a1 u,   tau_turn = a3 r = d^2 a1 r
+std::vector<Finding> speed_findings(const Vehicle& vehicle, const std::vector<DrivingLog>& logs,
+                                    const LogStage& stage) {
+  constexpr double kOfExponent = 0.05;
+  constexpr double kOfRatio = 0.1;
+  const auto value = [&](ParameterId id) {
+    const auto found = std::ranges::find(stage.main, id, &LogStage::Main::id);
+    return found == stage.main.end() ? 0.0 : found->estimate.value.value_or(0.0);
+  };
+  const auto is_linear = [&](Family family, ParameterId beta) {
+    return family == Family::kPower && std::abs(value(beta) - 1.0) < kOfExponent;
+  };
+  const double surge = value(ParameterId::kSurgeAlpha);
+  const double ratio =
+      value(ParameterId::kYawAlpha) / (surge * vehicle.half_track_m * vehicle.half_track_m);
+  if (!(surge > 0.0) || std::ranges::none_of(logs, pushes_apart) ||
+      !is_linear(stage.surge_family, ParameterId::kSurgeBeta) ||
+      !is_linear(stage.yaw_family, ParameterId::kYawBeta) || !(std::abs(ratio - 1.0) < kOfRatio)) {
+    return {};
+  }
+  return {{logs.front().file, 0, Severity::kWarning, "speed-controlled",
+           fmt::format(
+               "each wheel rolls at {:.3g} m/s per unit of its command, in turns too: either the "
+               "drag of its motor is all the resistance there is, or force_left and "
+               "force_right are set-points of a speed controller; then a1, a3, m' and I'z "
+               "are that controller's, not the vehicle's: log what reaches the motors",
+               vehicle.driven_wheels() / surge)}};
+}
+
 /// Refuses an I'z that the vehicle cannot have.
 void judge_inertia(const Vehicle& vehicle, const std::vector<DrivingLog>& logs, const Model& model,
                    LogStage& stage) {
@@ -472,6 +505,7 @@ Result<LogStage> run_log_stage(const Vehicle& vehicle, const std::vector<Driving
     return stage;
   }
   take(chosen.fit, model, overrule, file, stage);
+  append(stage.findings, speed_findings(vehicle, logs, stage));
   judge_inertia(vehicle, logs, model, stage);
   if (options.cross_validate && logs.size() > 1) {
     tell(options, "predicting each log from the others");
