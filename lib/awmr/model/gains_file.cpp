@@ -33,9 +33,10 @@ namespace {
 Gains<double> gains_from_file(JsonObject& root) {
   root.schema(kGainsSchema);
   const Gains<double> gains = gains_from_json(root);
-  for (const std::string_view key : {"command", "version", "options", "inputs", "time_constants",
-                                     "constraints", "limits", "objective", "metrics", "robust",
-                                     "goals", "sensitivity", "search", "baseline", "findings"}) {
+  for (const std::string_view key :
+       {"command", "version", "options", "inputs", "time_constants", "constraints", "limits",
+        "examined", "objective", "metrics", "robust", "goals", "sensitivity", "search", "baseline",
+        "findings"}) {
     root.ignore(key);
   }
   root.reject_unknown_keys();

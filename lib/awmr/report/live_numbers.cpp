@@ -40,7 +40,9 @@ Draws take_conditions(JsonObject robust, ConstraintContext& context) {
   JsonObject late = robust.object("latency");
   const double latest_s =
       std::max(late.number("heading_s", kNonNegative), late.number("yaw_rate_s", kNonNegative));
-  context.heading_noise_rad = radians(robust.object("noise").number("heading_deg", kNonNegative));
+  JsonObject noise = robust.object("noise");
+  context.heading_noise_rad = radians(noise.number("heading_deg", kNonNegative));
+  context.yaw_rate_noise_radps = radians(noise.number("yaw_rate_degps", kNonNegative));
   context.latency_s = latest_s;
   context.motor_time_constant_s = robust.number("motor_time_constant_s", kNonNegative);
   if (!(latest_s < (kMostLateSamples + 0.5) * context.sample_time_s)) {
@@ -60,6 +62,15 @@ Result<Draws> take_tuning(const Json& gains, LiveSetup& setup) {
   setup.observer_yaw_max_m = tuned.observer.yaw_max_m;
   setup.observer_surge_max = tuned.observer.surge_max;
   take_reaching(json, tuned.heading.lambda, setup.context);
+  if (auto limits = json.optional_object("limits")) {
+    setup.context.limits = read_limits(std::move(*limits));
+  }
+  if (auto examined = json.optional_object("examined")) {
+    const ExaminedRange range = read_examined(std::move(*examined));
+    setup.context.speed_mps = range.speed_mps;
+    setup.context.step_rad = range.step_rad;
+    setup.context.fastest_radps = range.yaw_rate_radps;
+  }
   Draws draws;
   if (auto robust = json.optional_object("robust")) draws = take_conditions(*robust, setup.context);
   if (!faults.empty()) return input_errors(std::move(faults));
@@ -85,7 +96,7 @@ Result<std::vector<double>> live_numbers(const Model& model, const Json& gains,
   setup.context.has_steering = model.vehicle.has_steering();
   setup.context.sample_time_s = model.vehicle.sample_time_s;
   setup.context.wheel_force = model.vehicle.wheel_force;
-  setup.context.speed_mps = scenario.speed_mps;
+  setup.context.speed_mps = setup.speed_mps = scenario.speed_mps;
   AWMR_ASSIGN_OR_RETURN(const Draws draws, take_tuning(gains, setup));
   AWMR_ASSIGN_OR_RETURN(const std::vector<DrawnVehicle> vehicles,
                         vehicles_of(model, draws.count, draws.seed, draws.open));

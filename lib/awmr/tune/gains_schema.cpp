@@ -175,6 +175,7 @@ void describe_gains(JsonObject& json) {
     describe_numbers(*times, {"T1_s", "T2_s"});
   }
   describe_constraints(json);
+  if (auto examined = json.optional_object("examined")) read_examined(std::move(*examined));
   if (auto limits = json.optional_object("limits")) {
     limits->optional_number("steering_rate_rms_degps", kPositive);
     for (const LimitKey& key : kLimitKeys) limits->number(key.name, {.min = 0.0, .max = 1.0});

@@ -193,6 +193,7 @@ Result<Tuning> search_gains(const ObjectiveSetting& setting, const ConstraintCon
                 .scores = tuned.scores,
                 .baseline = baseline,
                 .limits = context.limits,
+                .examined = {context.speed_mps, context.step_rad, context.fastest_radps},
                 .baseline_objective = all.baseline().objective,
                 .baseline_scores = all.baseline().scores,
                 .algorithm = found.algorithm,

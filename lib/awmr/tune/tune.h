@@ -15,6 +15,7 @@
 #include "awmr/core/provenance.h"
 #include "awmr/core/result.h"
 #include "awmr/core/shard.h"
+#include "awmr/core/units.h"
 #include "awmr/model/gains.h"
 #include "awmr/model/model.h"
 #include "awmr/simulate/conditions.h"
@@ -65,6 +66,13 @@ struct TuningLimits {
   double delayed_damping = 0.05;  ///< with twice the latency and a sample more, (0, 1]
   /// Share of the weaker mode's turning authority that the noise of a heading may take, (0, 1].
   double noise_share = 0.25;
+};
+
+/// What the constraints were examined for, by the scenarios and the vehicle.
+struct ExaminedRange {
+  double speed_mps = 1.0;                 ///< largest u_d, >= 0
+  double step_rad = radians(60.0);        ///< largest change of the commanded heading, >= 0
+  double yaw_rate_radps = radians(60.0);  ///< fastest that the runs reach, > 0
 };
 
 /// Gains that the objective is normalised by.
@@ -308,6 +316,7 @@ struct Tuning {
   std::vector<ModeScore> scores;
   Baseline baseline;
   TuningLimits limits;  ///< that the search kept, each with its value
+  ExaminedRange examined;
   double baseline_objective = 0.0;
   std::vector<ModeScore> baseline_scores;
   std::string algorithm;

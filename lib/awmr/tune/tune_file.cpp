@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "awmr/core/json.h"
+#include "awmr/core/units.h"
 #include "awmr/model/gains_file.h"
 #include "awmr/model/gains_json.h"
 #include "awmr/model/ranges.h"
@@ -89,17 +90,6 @@ void read_numbers(JsonObject& json, TuneOptions& options) {
   if (const auto seed = json.optional_integer("seed", 0, 4'294'967'295L)) {
     options.seed = static_cast<std::uint64_t>(*seed);
   }
-}
-
-void read_limits(JsonObject json, TuningLimits& limits) {
-  limits.steering_rate_rms_degps = json.optional_number(
-      "steering_rate_rms_degps", {.min = 0.0, .max = 1e6, .min_excluded = true});
-  for (const LimitKey& key : kLimitKeys) {
-    double& limit = limits.*key.limit;
-    limit = json.optional_number(key.name, {.min = 0.0, .max = 1.0, .min_excluded = true})
-                .value_or(limit);
-  }
-  json.reject_unknown_keys();
 }
 
 /// A word for gains that the program knows, or the path of a gains.json relative to `directory`.
@@ -334,7 +324,7 @@ TuneConfig config_from_json(JsonObject& object, const std::filesystem::path& dir
     config.options.observer = read_observer(std::move(*observer));
   }
   if (auto limits = object.optional_object("limits")) {
-    read_limits(std::move(*limits), config.options.limits);
+    config.options.limits = read_limits(std::move(*limits));
   }
   read_goals(object, config.options);
   read_baseline(object, directory, config, faults);
@@ -377,6 +367,9 @@ std::string gains_text(const Tuning& tuning, const TuneOptions& options,
                             {"T2_s", tuning.gains.heading.reaching_time_constant_s()}};
   json["constraints"] = constraints_json(tuning.constraints);
   json["limits"] = limits_json(tuning.limits);
+  json["examined"] = {{"speed_mps", tuning.examined.speed_mps},
+                      {"step_deg", degrees(tuning.examined.step_rad)},
+                      {"yaw_rate_degps", degrees(tuning.examined.yaw_rate_radps)}};
   json["objective"] = objective_json(tuning, options);
   json["objective"]["held_out"] = {{"value", tuning.held_out_objective},
                                    {"metrics", scores_json(tuning.held_out_scores)}};

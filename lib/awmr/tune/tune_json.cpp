@@ -1,5 +1,7 @@
 #include "awmr/tune/tune_json.h"
 
+#include "awmr/core/units.h"
+
 #include <fmt/format.h>
 
 #include <utility>
@@ -22,6 +24,28 @@ void put_quantiles(const JudgedGains& judged, Json& json) {
 }
 
 }  // namespace
+
+TuningLimits read_limits(JsonObject json) {
+  TuningLimits limits;
+  limits.steering_rate_rms_degps = json.optional_number(
+      "steering_rate_rms_degps", {.min = 0.0, .max = 1e6, .min_excluded = true});
+  for (const LimitKey& key : kLimitKeys) {
+    double& limit = limits.*key.limit;
+    limit = json.optional_number(key.name, {.min = 0.0, .max = 1.0, .min_excluded = true})
+                .value_or(limit);
+  }
+  json.reject_unknown_keys();
+  return limits;
+}
+
+ExaminedRange read_examined(JsonObject json) {
+  const ExaminedRange range{
+      .speed_mps = json.number("speed_mps", {.min = 0.0}),
+      .step_rad = radians(json.number("step_deg", {.min = 0.0})),
+      .yaw_rate_radps = radians(json.number("yaw_rate_degps", {.min = 0.0, .min_excluded = true}))};
+  json.reject_unknown_keys();
+  return range;
+}
 
 TuningGoal read_goal(JsonObject json) {
   TuningGoal goal;

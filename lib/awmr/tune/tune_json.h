@@ -18,6 +18,12 @@ inline constexpr LimitKey kLimitKeys[] = {{"damping", &TuningLimits::damping},
                                           {"delayed_damping", &TuningLimits::delayed_damping},
                                           {"noise_share", &TuningLimits::noise_share}};
 
+/// Limits as tune.json and gains.json have them; those that are not there have their default.
+TuningLimits read_limits(JsonObject json);
+
+/// `/examined` of gains.json.
+ExaminedRange read_examined(JsonObject json);
+
 /// A goal as tune.json has it, in both directions.
 TuningGoal read_goal(JsonObject json);
 Json goal_json(const TuningGoal& goal);

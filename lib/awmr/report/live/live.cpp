@@ -42,7 +42,7 @@ Scenario scenario_of_setup(double heading_noise_deg) {
   Scenario scenario{.name = "live",
                     .duration_s = setup.duration_s,
                     .initial = setup.initial,
-                    .speed_mps = setup.context.speed_mps,
+                    .speed_mps = setup.speed_mps,
                     .guidance = HeadingSteps{setup.steps}};
   if (heading_noise_deg > 0.0) {
     scenario.sensors.emplace();

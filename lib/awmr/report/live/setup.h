@@ -15,6 +15,7 @@ struct LiveSetup {
   double allocation_form = 0.0;
   double observer_yaw_max_m = 0.0;  ///< of an observer tuned with the gains
   double observer_surge_max = 0.0;
+  double speed_mps = 0.0;  ///< of the scenario
   double duration_s = 0.0;
   State<double> initial{};
   std::vector<HeadingStep> steps;
@@ -64,10 +65,16 @@ void visit_numbers(LiveSetup& setup, Visit&& visit) {
   visit(c.margin);
   visit_plant(c.plant, visit);
   visit_as_number(c.has_steering, visit);
-  for (double* x : {&c.sample_time_s, &c.speed_mps, &c.wheel_force.lo, &c.wheel_force.hi,
-                    &c.heading_noise_rad, &c.latency_s, &c.motor_time_constant_s}) {
+  for (double* x :
+       {&c.sample_time_s, &c.speed_mps, &c.step_rad, &c.fastest_radps, &c.limits.damping,
+        &c.limits.late_damping, &c.limits.delayed_damping, &c.limits.noise_share, &c.wheel_force.lo,
+        &c.wheel_force.hi, &c.heading_noise_rad, &c.yaw_rate_noise_radps, &c.latency_s,
+        &c.motor_time_constant_s}) {
     visit(*x);
   }
+  double steering_rate_degps = c.limits.steering_rate_rms_degps.value_or(0.0);  // 0: no limit
+  visit(steering_rate_degps);
+  if (steering_rate_degps > 0.0) c.limits.steering_rate_rms_degps = steering_rate_degps;
   visit_list(c.draws, visit, [](DrawnVehicle& drawn, auto& v) {
     visit_plant(drawn.plant, v);
     v(drawn.wheel_force.lo);
@@ -76,6 +83,7 @@ void visit_numbers(LiveSetup& setup, Visit&& visit) {
   visit(setup.allocation_form);
   visit(setup.observer_yaw_max_m);
   visit(setup.observer_surge_max);
+  visit(setup.speed_mps);
   visit(setup.duration_s);
   State<double>& s = setup.initial;
   for (double* x : {&s.x_m, &s.y_m, &s.psi_rad, &s.u_mps, &s.v_mps, &s.r_radps}) visit(*x);
