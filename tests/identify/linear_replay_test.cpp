@@ -177,7 +177,7 @@ void expect_equal(const std::vector<State<Jet>>& jets, const std::vector<LinearM
 /// Rounding of 300 steps.
 constexpr double kRounding = 1e-11;
 /// The moment of a stop within a step is taken from the rates there, not from the step's polynomial.
-constexpr double kStops = 1e-4;
+constexpr double kStops = 5e-4;
 
 TEST(LinearReplay, WithStopsHasTheStatesAndTheDerivativesOfJets) {
   for (const bool servo : {true, false}) {
