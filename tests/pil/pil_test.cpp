@@ -35,8 +35,9 @@ class Pil : public ::testing::Test {
     ASSERT_EQ(run.exit_code, 0) << run.err;
     // Commands about as active as with the paper's gains, with which single precision is compared.
     write_all(path("tune.json"), R"({"baseline": "paper", "activity_max": 1.5})");
-    const ProcessResult tuned = awmr("tune --nominal --quiet --model " + path("model.json") +
-                                     " --config " + path("tune.json") + " -o " + path("gains.json"));
+    const ProcessResult tuned =
+        awmr("tune --nominal --quiet --model " + path("model.json") + " --config " +
+             path("tune.json") + " -o " + path("gains.json"));
     ASSERT_EQ(tuned.exit_code, 0) << tuned.err;
   }
   static void TearDownTestSuite() { delete directory_; }
