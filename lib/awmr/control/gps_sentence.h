@@ -140,7 +140,7 @@ class RmcReader {
     kMode = 12,
     kBeyond
   };
-  /// What the next character is for the check sum.
+  /// Role of the next character in the check sum.
   enum SumPlace : uint8_t { kSummed, kHighDigit, kLowDigit, kComplete, kTooMuch };
 
   RmcNumbers numbers_ = {};

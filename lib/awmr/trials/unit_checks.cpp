@@ -40,6 +40,17 @@ std::optional<UnitFactor> known_factor(double ratio, const std::array<UnitFactor
   return best;
 }
 
+/// Of a time that is in another unit, by the rows' distance over the sample time.
+Contradiction time_in(const UnitFactor& unit, const Evidence& evidence) {
+  const double step_s = evidence.log.median_step_s();
+  const double sample_time_s = evidence.vehicle.sample_time_s;
+  return {"t_s",
+          fmt::format("rows are {:.4g} apart in t_s, {:.3g} times sample_time_s = {:g} s: the time "
+                      "looks like {}",
+                      step_s, step_s / sample_time_s, sample_time_s, unit.words),
+          scaled_mapping(evidence, "t_s", 1.0 / unit.factor)};
+}
+
 std::optional<Contradiction> judge_time(const Evidence& evidence) {
   static constexpr std::array<UnitFactor, 3> kFactors{
       {{1e3, "milliseconds"}, {1e6, "microseconds"}, {1e9, "nanoseconds"}}};
@@ -47,12 +58,7 @@ std::optional<Contradiction> judge_time(const Evidence& evidence) {
   const double ratio = step_s / evidence.vehicle.sample_time_s;
   for (const UnitFactor& unit : kFactors) {
     if (ratio < 0.3 * unit.factor || ratio > 30.0 * unit.factor) continue;
-    return Contradiction{
-        "t_s",
-        fmt::format("rows are {:.4g} apart in t_s, {:.3g} times sample_time_s = {:g} s: the time "
-                    "looks like {}",
-                    step_s, ratio, evidence.vehicle.sample_time_s, unit.words),
-        scaled_mapping(evidence, "t_s", 1.0 / unit.factor)};
+    return time_in(unit, evidence);
   }
   // No vehicle is logged a thousand times a second and twenty times as often as it is controlled.
   constexpr double kFastest_s = 1e-3;
@@ -62,14 +68,9 @@ std::optional<Contradiction> judge_time(const Evidence& evidence) {
                                                     {1e-3, "thousands of seconds"},
                                                     {1.0 / 3600.0, "hours"},
                                                     {1.0 / 86400.0, "days"}}};
-  const UnitFactor& unit = *std::ranges::min_element(
+  const UnitFactor& nearest = *std::ranges::min_element(
       kLong, {}, [&](const UnitFactor& one) { return std::abs(std::log(ratio / one.factor)); });
-  return Contradiction{
-      "t_s",
-      fmt::format("rows are {:.4g} apart in t_s, {:.3g} times sample_time_s = {:g} s: the time "
-                  "looks like {}",
-                  step_s, ratio, evidence.vehicle.sample_time_s, unit.words),
-      scaled_mapping(evidence, "t_s", 1.0 / unit.factor)};
+  return time_in(nearest, evidence);
 }
 
 std::optional<Contradiction> judge_force(const Evidence& evidence, std::string_view column,

@@ -15,7 +15,7 @@ namespace {
 /// What the global search sees for a point that breaks a constraint: worse than any objective that
 /// matters.
 constexpr double kRejected = 1e3;
-/// What runs that break off break every limit by, and more the worse they are.
+/// Violation of every limit by gains whose runs break off, on top of their own.
 constexpr double kInvalid = 1.0;
 
 }  // namespace

@@ -57,9 +57,9 @@ inline constexpr double kBoundFactor = 10.0;
 /// Absolute limits that gains have to keep, whatever other gains do.
 struct TuningLimits {
   /// RMS rate of the steering command, deg/s, > 0, that the readings' noise makes while a heading is
-  /// held at the largest u_d in the mode that steers most. Absent: none for nominal gains; else the
-  /// servo's rate limit, at most its range 2 d_max over its time constant, or 1.5 times what the g3
-  /// that is fed forward of a noisy yaw rate makes with any gains, if that is more.
+  /// held at the largest u_d in the mode that steers most. Absent: none for nominal gains; else 0.9
+  /// of the servo's rate limit, at most its range 2 d_max over its time constant, or 1.25 times what
+  /// the g3 that is fed forward of a noisy yaw rate makes with any gains, if that is more.
   std::optional<double> steering_rate_rms_degps = {};
   double damping = 0.7;           ///< smallest ratio of the loop without latency, (0, 1]
   double late_damping = 0.25;     ///< the same with latency and motor lag, (0, 1]

@@ -81,7 +81,7 @@ std::string cannot_show(const std::vector<DrivingLog>& logs, ParameterId id) {
   }
 }
 
-/// Whether the sides are told to push differently anywhere.
+/// Whether the commanded forces of the two sides differ anywhere.
 bool pushes_apart(const DrivingLog& log) {
   constexpr double kMuch = 0.01;  // of the largest force
   for (std::size_t i = 0; i < log.rows(); ++i) {

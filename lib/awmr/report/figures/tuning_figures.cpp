@@ -38,7 +38,7 @@ std::vector<Series> searches_of(const Json& gains) {
   return all;
 }
 
-/// What the objective is 1 for; files of before `source` have the paper's gains.
+/// The gains whose objective is 1. Files without `source` are older: the paper's gains.
 std::string baseline_name(const Json& gains) {
   const bool is_named = gains.contains("baseline") && gains.at("baseline").contains("source");
   return is_named && gains.at("baseline").at("source") != "paper" ? "baseline"
