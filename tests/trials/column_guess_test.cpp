@@ -83,6 +83,13 @@ TEST(GuessColumns, LeavesOpenWhatTheNameDoesNotSay) {
                           "unsure steering_deg=steering"));
 }
 
+TEST(GuessColumns, ReadsBodyVelocitiesByTheirLetters) {
+  EXPECT_THAT(guesses_of("u_mps,v_mps,r_radps,u_ref_mps\n1,0.1,0.2,1\n1.1,0.2,0.3,1\n"),
+              ElementsAre("likely speed_mps=u_mps", "likely sway_mps=v_mps",
+                          "likely yaw_rate_radps=r_radps"));
+  EXPECT_THAT(guesses_of("v_mps\n1\n"), ElementsAre("likely speed_mps=v_mps"));
+}
+
 TEST(GuessColumns, ReadsUnitsInWhatTheValuesCanBe) {
   EXPECT_THAT(guesses_of("heading\n170\n-20\n"), ElementsAre("likely heading_deg=heading"));
   EXPECT_THAT(guesses_of("duty_left,duty_right\n0.5,-0.2\n"),

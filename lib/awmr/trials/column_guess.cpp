@@ -210,10 +210,31 @@ void settle(std::span<ColumnGuess> guesses) {
   }
 }
 
+/// Surge, sway and yaw rate by their letters, as vehicle dynamics and `awmr simulate` write them
+/// (u_mps, v_mps, r_radps): where a log has both u and v, v is the sway and not the speed.
+bool has_body_velocities(const FileSample& sample) {
+  const auto has = [&](const char* letter) {
+    return std::any_of(sample.names.begin(), sample.names.end(),
+                       [&](const std::string& name) { return words_of(name).front() == letter; });
+  };
+  return has("u") && has("v");
+}
+Words with_body_velocity(Words words) {
+  // A letter, and at most a unit of two words: u_ref_mps is a reference.
+  const bool is_reading = words.size() == 1 || unit_in(words, Dimension::kSpeed) ||
+                          unit_in(words, Dimension::kAngularRate);
+  if (!is_reading || words.size() > 3 || has_any(words, {"ref", "cmd", "des"})) return words;
+  if (words.front() == "u") words.front() = "speed";
+  if (words.front() == "v") words.front() = "sway";
+  if (words.front() == "r") words.front() = "yawrate";
+  return words;
+}
+
 /// What the columns of the sample may be of one column that is asked for.
 std::vector<ColumnGuess> guesses_of(const std::string& column, const FileSample& sample,
                                     TrialKind kind) {
   std::vector<ColumnGuess> guesses;
+  const bool by_letters = kind == TrialKind::kLog && has_body_velocities(sample);
   for (std::size_t i = 0; i < sample.names.size(); ++i) {
     const std::string& name = sample.names[i];
     if (name == column) {
@@ -221,7 +242,7 @@ std::vector<ColumnGuess> guesses_of(const std::string& column, const FileSample&
           {column, name, Confidence::kSure, "it has this name", first_of(sample.values[i])});
       continue;
     }
-    const Words words = words_of(name);
+    const Words words = by_letters ? with_body_velocity(words_of(name)) : words_of(name);
     const auto dimension = dimension_as(kind, column, words);
     if (!dimension) continue;
     Scale scale = scale_of(quoted(name), words, *dimension, sample.values[i]);

@@ -41,7 +41,7 @@ std::vector<Rule> log_rules() {
        Dimension::kAngle},
       {"speed_mps",
        {kSpeedWords},
-       {"y", "z", "vy", "vz", "angular", "yaw", "wheel", "left", "right", "motor", "angle"},
+       {"y", "z", "vy", "vz", "angular", "yaw", "wheel", "left", "right", "motor", "angle", "tau"},
        Dimension::kSpeed},
       {"sway_mps", {{"vy", "sway"}}, {}, Dimension::kSpeed},
       {"sway_mps", {{"velocity", "vel", "linear"}, {"y"}}, {"angular"}, Dimension::kSpeed},

@@ -60,6 +60,21 @@ PredictedSeries drawn(const PredictedSeries& all) {
   return some;
 }
 
+/// Errors (input): a replay left the finite numbers.
+Status check_finite(const LogValidation& validation) {
+  for (const ChannelValidation& channel : validation.channels) {
+    if (std::isfinite(channel.one_step.nrmse) && std::isfinite(channel.long_horizon.nrmse))
+      continue;
+    return input_error(
+        validation.file,
+        fmt::format("the model's replay of this log diverges ({} is not finite): the log is of "
+                    "another vehicle, or a column is mapped to the wrong channel; check the "
+                    "mapping with awmr map",
+                    channel.channel));
+  }
+  return {};
+}
+
 }  // namespace
 
 LogValidation validate_log(const DrivingLog& log, const Plant<double>& plant, double horizon_s,
@@ -90,6 +105,7 @@ Result<LogValidation> validate_log(const DrivingLog& log, const Model& model, do
     AWMR_ASSIGN_OR_RETURN(part, straight_part(log, model));
   }
   LogValidation validation = validate_log(part ? *part : log, plant, horizon_s, tolerance);
+  AWMR_RETURN_IF_ERROR(check_finite(validation));
   if (!validation.channels.empty()) return validation;
   return input_error(log.file, fmt::format("no channel has readings to be predicted within a "
                                            "horizon of {:g} s: give a longer one",

@@ -32,7 +32,7 @@ LogValidation validate_log(const DrivingLog& log, const Plant<double>& plant, do
 
 /// The same with what the model knows. Where that is straight motion alone (simulated_motion() of
 /// model/model.h), the log has to drive straight on, and its speed is predicted.
-/// Errors (input): g1 or m' is missing; the log turns, or has no speed_mps, and the model knows
+/// Errors (input): the replay diverges; g1 or m' is missing; the log turns, or has no speed_mps, and the model knows
 /// straight motion alone: where it turns, and what is missing by name.
 Result<LogValidation> validate_log(const DrivingLog& log, const Model& model, double horizon_s,
                                    double tolerance);
