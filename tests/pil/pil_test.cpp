@@ -114,7 +114,7 @@ TEST_P(PilScenario, RunsBitForBitAsOnTheHostAndWithinItsBudgets) {
   const bool in_readme = std::string(scenario) != kC13;
   const std::string name = std::string(scenario) == kC3 ? "C3 " : "C8 ";
   if (in_readme) {
-    EXPECT_THAT(read_all(std::string(AWMR_SOURCE_DIR) + "/README.md"),
+    EXPECT_THAT(read_all(std::string(AWMR_SOURCE_DIR) + "/apps/awmr-pil/README.md"),
                 HasSubstr(readme_line(name + mode, json)));
   }
 }
