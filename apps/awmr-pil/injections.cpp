@@ -56,6 +56,10 @@ constexpr InjectionEffect kEffects[] = {
      kGpsInconsistent, kSensorGood, 5.0},
     {Injection::kMotorsReversed, Duration::kFromTheMiddle, kFaultCommandTimeout, kWrongWay,
      kSensorGood, 40.0},
+    // In the next turn.
+    {Injection::kSidesSwapped, Duration::kFromTheMiddle, kHeading, kWrongTurn, kSensorGood, 40.0},
+    {Injection::kCompassTurning, Duration::kFromTheMiddle, kFaultCommandTimeout, kOffHeading,
+     kWrongWay, 40.0},
     // The command time-out and the wait between two commands; STOP acts in the next step.
     {Injection::kCommandSilence, Duration::kFromTheMiddle, kFaultCommandTimeout, kSensorGood,
      kSensorGood, 1.4},

@@ -98,6 +98,8 @@ void command(const LoopSetup& setup, LoopRow& row) {
 /// against the command.
 void reverse_motors(LoopRow& row) { row.force = {-row.force.right, -row.force.left}; }
 
+void swap_sides(LoopRow& row) { row.force = {row.force.right, row.force.left}; }
+
 /// Moves the simulated vehicle on by a sample under the row's command.
 Status drive(Physics& physics, const LoopRow& row, const std::string& scenario) {
   physics.disturb(row.t_s);
@@ -176,7 +178,8 @@ Result<std::vector<LoopRow>> run_loop(const LoopSetup& setup, Executor& executor
       if (is_command_failure(setup.injection)) {
         commands.step(fails, arming, input.times);
       } else {
-        row.cause = checked.step(k, fails, input);
+        const float moment_m = rows.size() > 1 ? rows[k - 1].step.output.tau_turn_m : 0.0F;
+        row.cause = checked.step(k, fails, arming.is_armed() ? moment_m : 0.0F, input);
       }
       if (!arming.is_armed()) input.times.command_ms -= kSilence_ms;
     } else if (k >= window.first && k < window.last) {
@@ -192,6 +195,7 @@ Result<std::vector<LoopRow>> run_loop(const LoopSetup& setup, Executor& executor
     if (is_checked) arming.observe(step->output.fault, row.cause);
     command(setup, row);
     if (setup.injection == Injection::kMotorsReversed && k >= window.first) reverse_motors(row);
+    if (setup.injection == Injection::kSidesSwapped && k >= window.first) swap_sides(row);
     if (progress) progress(k, samples);
     if (step->output.arrived || order.no_passage || k == samples) break;
     AWMR_RETURN_IF_ERROR(drive(physics, row, setup.scenario.name));

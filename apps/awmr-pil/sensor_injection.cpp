@@ -18,6 +18,7 @@ constexpr double kFieldSize = 250.0;
 constexpr double kLean_s = 2.0;
 constexpr double kFixPeriod_s = 0.2;
 constexpr double kCompassJump_rad = 1.0;
+constexpr double kCompassTurning_radps = 0.0436;
 constexpr double kGyroDrift_radps = 0.15;
 constexpr std::uint32_t kGpsLate_ms = 2000;
 constexpr float kGpsJump_m = 20.0F;
@@ -51,6 +52,8 @@ CheckedSensors::CheckedSensors(Injection injection, double sample_time_s,
                                const SafetyLimits& limits)
     : injection_(injection), sample_time_s_(sample_time_s) {
   heading_.begin(0);
+  heading_.turn.begin(static_cast<std::int32_t>(
+      1.5707963267948966 / (static_cast<double>(kRadpsPerWord) * sample_time_s)));
   gps_.begin(limits.speed_max_mps, limits.speed_timeout_ms, 0);
   // At rest before the run.
   for (int i = 0; i < 100; ++i) {
@@ -59,10 +62,17 @@ CheckedSensors::CheckedSensors(Injection injection, double sample_time_s,
   }
 }
 
-SensorFault CheckedSensors::step(std::size_t k, bool fails, AutopilotInput& in) {
+SensorFault CheckedSensors::step(std::size_t k, bool fails, float moment_m, AutopilotInput& in) {
   const std::uint32_t now_ms = in.times.now_ms;
+  if (fails && injection_ == Injection::kCompassTurning) {
+    // The gyroscope is led by the compass: the heading turns away with it.
+    turned_rad_ += kCompassTurning_radps * sample_time_s_;
+    in.measured.psi_rad =
+        float_math::wrapped(in.measured.psi_rad + static_cast<float>(turned_rad_));
+  }
   if (fails && injection_ == Injection::kGpsSpeedZero) in.measured.u_mps = 0.0F;
   sense_heading(fails, in);
+  heading_.turn.take(word_, moment_m);
   const auto samples =
       static_cast<std::size_t>(std::max(1L, std::lround(kFixPeriod_s / sample_time_s_)));
   if (k % samples == 0) sense_position(k, fails, in);

@@ -19,7 +19,8 @@ class CheckedSensors {
   CheckedSensors(cli::Injection injection, double sample_time_s, const SafetyLimits& limits);
 
   /// The k-th step: puts the times of what is believed into `in`. `fails`: the injection is at work.
-  SensorFault step(std::size_t k, bool fails, AutopilotInput& in);
+  /// `moment_m`: the yaw moment commanded since the step before; 0: the motors are off.
+  SensorFault step(std::size_t k, bool fails, float moment_m, AutopilotInput& in);
 
  private:
   cli::Injection injection_;
@@ -32,6 +33,7 @@ class CheckedSensors {
   double heading_rad_ = 0.0;  ///< of the complementary filter
   bool has_heading_ = false;
   std::optional<double> stuck_rad_;  ///< heading that the compass keeps
+  double turned_rad_ = 0.0;          ///< how far a compass that turns away has turned
   std::optional<GpsFix> fix_;
   Position<float> fix_m_{};
   bool has_position_ = false;

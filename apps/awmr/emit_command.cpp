@@ -94,6 +94,30 @@ std::vector<Finding> unstable_gains(const Gains<double>& gains, double sample_ti
   return findings;
 }
 
+/// A warning where samples are shorter than the chip's longest step, or longer than what a heading may be old.
+std::vector<Finding> sample_time(double sample_time_s, const EmitCommand& command) {
+  constexpr double kLongestStep_s = 20000.0 / 16e6;
+  const double oldest_s = 1e-3 * command.emit.heading_timeout_ms;
+  std::vector<Finding> findings;
+  const auto add = [&](std::string message) {
+    findings.push_back({command.model.filename().string(), 0, Severity::kWarning,
+                        "sample-time-of-the-chip", std::move(message)});
+  };
+  if (sample_time_s < kLongestStep_s) {
+    add(
+        fmt::format("sample_time_s is {:g} s, and a step of the ATmega2560 takes up to {:g} s: "
+                    "give a longer sample_time_s, or use a faster board",
+                    sample_time_s, kLongestStep_s));
+  }
+  if (sample_time_s > 0.5 * oldest_s) {
+    add(
+        fmt::format("sample_time_s is {:g} s, and a heading older than {:g} s is a fault: give {} "
+                    "of two samples or more",
+                    sample_time_s, oldest_s, option_text("heading-timeout-ms")));
+  }
+  return findings;
+}
+
 /// Errors (input): sizes that cannot be, each by its place in the model's file.
 Status check_vehicle(const EmitCommand& command, const Vehicle& vehicle) {
   if (command.as_is) return {};
@@ -139,6 +163,9 @@ Result<Outcome> execute(const EmitCommand& command) {
   }
   AWMR_RETURN_IF_ERROR(check_replaceable(command.output, files));
   AWMR_RETURN_IF_ERROR(note_other_model(command.gains, command.model, outcome.findings));
+  for (Finding& finding : sample_time(model.vehicle.sample_time_s, command)) {
+    outcome.findings.push_back(std::move(finding));
+  }
   for (Finding& finding : unstable_gains(gains, model.vehicle.sample_time_s, command)) {
     outcome.findings.push_back(std::move(finding));
   }

@@ -57,6 +57,8 @@ enum class Injection {
   kGpsSpeedZero,       ///< a speed that is stuck at 0
   kGpsPositionFrozen,  ///< the same position, with a speed
   kMotorsReversed,     ///< each side drives the wrong way, turning the right one
+  kSidesSwapped,       ///< left and right motors exchanged
+  kCompassTurning,     ///< turned away by 2.5 deg/s
   // Failures of the operator's line, read as the sketches do (control/command_line.h).
   kCommandSilence,        ///< no command
   kCommandNoise,          ///< characters without a line's end
@@ -65,7 +67,7 @@ enum class Injection {
   kStop,                  ///< STOP
   kStopInNoise            ///< STOP amid noise, without a line's end
 };
-inline constexpr NameTable<Injection, 35> kInjectionNames{
+inline constexpr NameTable<Injection, 37> kInjectionNames{
     {{"none", Injection::kNone},
      {"nan", Injection::kNaN},
      {"infinite", Injection::kInfinite},
@@ -95,6 +97,8 @@ inline constexpr NameTable<Injection, 35> kInjectionNames{
      {"gps-speed-zero", Injection::kGpsSpeedZero},
      {"gps-position-frozen", Injection::kGpsPositionFrozen},
      {"motors-reversed", Injection::kMotorsReversed},
+     {"sides-swapped", Injection::kSidesSwapped},
+     {"compass-turning", Injection::kCompassTurning},
      {"command-silence", Injection::kCommandSilence},
      {"command-noise", Injection::kCommandNoise},
      {"command-unknown", Injection::kCommandUnknown},

@@ -139,9 +139,9 @@ TEST_F(RollingVehicle, IsNeverPushedFasterDownASlope) {
 
 TEST(RunsAwayUnsigned, IsTheConditionOfTheLaw) {
   const Resistance<double> g1{.alpha = 1.3, .beta = 1.0};
-  // m' mu_s/eps_s = 2 g1(u)/u = 2.6
-  EXPECT_FALSE(runs_away_unsigned(g1, 1.0, SpeedGains<double>{2.5, 1.0}, 0.5));
-  EXPECT_TRUE(runs_away_unsigned(g1, 1.0, SpeedGains<double>{2.7, 1.0}, 0.5));
+  // m' mu_s/eps_s = g1(u)/u = 1.3
+  EXPECT_FALSE(runs_away_unsigned(g1, 1.0, SpeedGains<double>{1.2, 1.0}, 0.5));
+  EXPECT_TRUE(runs_away_unsigned(g1, 1.0, SpeedGains<double>{1.4, 1.0}, 0.5));
 }
 
 }  // namespace

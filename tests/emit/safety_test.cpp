@@ -50,6 +50,10 @@ constexpr Hazard kHazards[] = {
     {"gps-speed-zero", "GPS speed is stuck at 0", "displacement 2 m beyond the speed's", 13, 13.0},
     {"motors-reversed", "motors drive the wrong way, but turn the right way",
      "2 m against the commanded direction", 14, 8.0},
+    {"sides-swapped", "left and right motors swapped", "quarter turn against the commanded moment",
+     16, 10.0, false},
+    {"compass-turning", "compass turns away by 2.5 deg/s", "track 30 deg off the heading over 10 m",
+     15, 35.0, false},
     {"command-silence", "operator silent", "no command for the command time-out", 0, 1.4},
     {"command-noise", "noise on the line", "no whole command", 0, 1.4},
     {"command-unknown", "lines that are no command", "no known command", 0, 1.4},
@@ -194,6 +198,34 @@ TEST_F(SafeSketches, AtSpeedZeroNothingPushesAVehicleThatRolls) {
       }
     }
   }
+}
+
+TEST_F(SafeSketches, AreNeverDrivenDownASlopeAtSpeedZero) {
+  for (const auto* directory : {paper_, rolling_}) {
+    // Of F_max: more than the resistance at rest, up to more than the brakes hold.
+    for (const double pull : {0.3, 0.9, 1.5, -0.9, -1.5}) {
+      for (const char* first : {"", " driven"}) {
+        SCOPED_TRACE(fmt::format("{}{}", pull, first));
+        auto seen = drive(*directory, fmt::format("HeadingHold slope {}{}", pull, first));
+        EXPECT_EQ(seen["driven_on_s"], 0.0);
+      }
+    }
+  }
+}
+
+TEST_F(SafeSketches, StopWhereTheCompassIsTurnedOnTheVehicleOrTheServoReversed) {
+  for (const double offset_deg : {57.0, 90.0, -90.0}) {
+    auto seen = drive(*paper_, fmt::format("HeadingHold wrong {}", offset_deg));
+    EXPECT_GE(seen["stopped_s"], 0.0) << offset_deg;
+    EXPECT_LE(seen["stopped_s"], 25.0) << offset_deg;
+    EXPECT_EQ(seen["cause"], 15) << offset_deg;
+  }
+  auto reversed = drive(*paper_, "HeadingHold wrong 0 -1");
+  EXPECT_GE(reversed["stopped_s"], 0.0);
+  EXPECT_EQ(reversed["cause"], 16);
+  // A mounting that is off by less than the detector's limit is no fault.
+  auto slight = drive(*paper_, "HeadingHold wrong 10");
+  EXPECT_EQ(slight["stopped_s"], -1);
 }
 
 TEST_F(SafeSketches, StopForwardAndNeverDriveBackwardAfterADriveOrTheLastPoint) {

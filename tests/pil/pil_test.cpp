@@ -317,6 +317,8 @@ constexpr const char* kFaults[] = {"nan",
                                    "gps-speed-zero",
                                    "gps-position-frozen",
                                    "motors-reversed",
+                                   "sides-swapped",
+                                   "compass-turning",
                                    "command-silence",
                                    "command-noise",
                                    "command-unknown",
@@ -334,7 +336,7 @@ TEST(PilFaults, AreAllHazardsOfTheSafetyPage) {
     const std::size_t name = line.rfind(" `") + 2;
     hazards.push_back(line.substr(name, line.size() - 3 - name));
   }
-  EXPECT_EQ(hazards.size(), 24U);
+  EXPECT_EQ(hazards.size(), 26U);
   EXPECT_THAT(kFaults, ::testing::IsSupersetOf(hazards));
 }
 
@@ -348,7 +350,10 @@ TEST_P(PilFault, GivesTheSafeCommandAndItsCode) {
   scenario["guidance"]["steps"].push_back({{"t_s", 60}, {"psi_deg", 30}});
   write_all(path("long.json"), scenario.dump());
   const ProcessResult run =
-      pil(path("long.json"), "combined", std::string("--inject ") + GetParam());
+      // Combined, the steering undoes what swapped sides do.
+      pil(path("long.json"),
+          GetParam() == std::string("sides-swapped") ? "differential" : "combined",
+          std::string("--inject ") + GetParam());
   ASSERT_EQ(run.exit_code, 0) << run.out << run.err;
   const Json injected = result()["injected"];
   EXPECT_TRUE(injected["safe"].get<bool>());

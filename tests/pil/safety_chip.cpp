@@ -21,7 +21,7 @@ extern "C" {
 // and work on its fix.
 volatile uint16_t safety_step_cycles, safety_whole_cycles, safety_fix_cycles;
 volatile uint32_t safety_hash;
-volatile uint8_t safety_causes[15], safety_disarmed;
+volatile uint8_t safety_causes[17], safety_disarmed;
 volatile uint8_t log_done;
 }
 
@@ -41,7 +41,7 @@ int main() {
     safety_sequence::finish(sequence);
   }
   safety_hash = sequence.hash;
-  for (uint8_t i = 0; i < 15; ++i) safety_causes[i] = sequence.causes[i];
+  for (uint8_t i = 0; i < 17; ++i) safety_causes[i] = sequence.causes[i];
   safety_disarmed = sequence.disarmed;
   log_done = 1;
   // The emulator ends a chip that sleeps with its interrupts off.

@@ -26,7 +26,7 @@ struct Sequence {
   int16_t field[3];
   char sentence[96];
   uint8_t arrived, taken;  // characters of it that came to the port, and that were read from it
-  uint8_t causes[15];      // steps with each sensor fault, at most 255
+  uint8_t causes[17];      // steps with each sensor fault, at most 255
   uint8_t disarmed;        // how often
 };
 
@@ -43,6 +43,7 @@ inline void begin(Sequence& s) {
   s.now_ms = 0xFFFFE000UL;  // the clock wraps within the drive
   s.utc_ms = 43200000UL;
   s.heading.begin(s.now_ms);
+  s.heading.turn.begin(590000L);
   s.gps.begin(AWMR_SPEED_MAX_MPS, AWMR_SPEED_TIMEOUT_MS, s.now_ms);
   s.input.mode = AWMR_COMBINED;
   s.input.speed_unsigned = 1;
@@ -60,6 +61,7 @@ inline void sense(Sequence& s, uint16_t step) {
   if (!fails(step, 2)) {
     s.heading.take_field(s.field[0], s.field[1], s.field[2], s.now_ms);
   }
+  s.heading.turn.take(s.word, s.output.tau_turn_m);
   s.heading.step.take(fails(step, 3) && step % 200 < 30 ? 0.5F : 0.01F, 0.01F);
 }
 

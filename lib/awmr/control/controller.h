@@ -191,30 +191,59 @@ AWMR_INLINE T heading_law(const PreparedController<T, G>& c, const Measurement<T
   return math::plus_product(held, k.inertia_norm, ref.psi_accel_radps2);
 }
 
+/// Speed whose resistance the speed law feeds forward, m/s:
+///   w = 0                     at u_d = 0
+///   w = max(0, u_d + eps_s)   where the vehicle is faster than that, forward; backward likewise
+///   w = u                     else
+/// With g1(u) everywhere, a vehicle that a slope pulls would be driven along the slope by g1(u) - m' mu_s: without
+/// end where it is faster than u_d, and at u_d = 0 wherever g1(u) is more than the correction. `wanted` and `limit`
+/// are the correction before and at its saturation, `epsilon` a function that gives eps_s.
+template <class T, class Epsilon>
+AWMR_INLINE T fed_forward_speed(const T& u_mps, const Reference<T>& ref, const T& error_mps,
+                                const T& wanted, const T& limit, const Epsilon& epsilon) {
+  using math::any;
+  using math::select;
+  T w_mps = u_mps;
+  const Mask<T> too_fast = math::is_opposite(u_mps, error_mps) && math::is_beyond(wanted, limit);
+  if (any(too_fast)) {
+    const T ahead = math::larger(T(ref.speed_mps + epsilon()), T(0.0));
+    const T back = -math::larger(T(epsilon() - ref.speed_mps), T(0.0));
+    w_mps = select(too_fast, select(u_mps > T(0.0), ahead, back), w_mps);
+  }
+  const Mask<T> stands = math::is_zero(ref.speed_mps);
+  return any(stands) ? select(stands, T(0.0), w_mps) : w_mps;
+}
+
 /// The speed law, dimensionless:
-///   tau_speed = g1(u) - m' r v + m' (u_d_dot + mu_s sat(e_u/eps_s)),   e_u = u_d - u
+///   tau_speed = g1(w) - m' r v + m' (u_d_dot + mu_s sat(e_u/eps_s)),   e_u = u_d - u
 ///                                                                    [paper (97)-(102), corrected]
 /// Corrected: (100)-(102) are printed without u_d_dot, which (99) has; the disturbance drops out as
-/// in the heading law.
+/// in the heading law. The paper has g1(u) at every speed; w is fed_forward_speed().
 template <class T, class G>
 T speed_law(const Controller<T, G>& c, const Measurement<T>& m, const Reference<T>& ref) {
   const SpeedGains<T>& gains = c.gains.speed;
   const T error = ref.speed_mps - m.u_mps;
-  const T correction = math::saturate(T(gains.mu / gains.epsilon * error), gains.mu);
-  return fed_forward(c.surge, m.u_mps, error) +
+  const T wanted = gains.mu / gains.epsilon * error;
+  const T correction = math::saturate(wanted, gains.mu);
+  const T w_mps =
+      fed_forward_speed(m.u_mps, ref, error, wanted, gains.mu, [&gains] { return gains.epsilon; });
+  return fed_forward(c.surge, w_mps, error) +
          c.mass_norm * (ref.accel_mps2 + correction - m.r_radps * m.v_mps);
 }
 
 /// The same by the constants of the chip:
-///   tau_speed = g1(u) + m' (u_d_dot - r v) + sat(e_u m' mu_s/eps_s, m' mu_s)
+///   tau_speed = g1(w) + m' (u_d_dot - r v) + sat(e_u m' mu_s/eps_s, m' mu_s)
 template <class T, class G>
 AWMR_INLINE T speed_law(const PreparedController<T, G>& c, const Measurement<T>& m,
                         const Reference<T>& ref) {
   const ControlConstants<T>& k = c.constants;
   const T error = ref.speed_mps - m.u_mps;
-  const T correction = math::saturate(T(k.speed_slope * error), k.speed_limit);
+  const T wanted = k.speed_slope * error;
+  const T correction = math::saturate(wanted, k.speed_limit);
+  const T w_mps = fed_forward_speed(m.u_mps, ref, error, wanted, k.speed_limit,
+                                    [&k] { return T(k.speed_limit / k.speed_slope); });
   const T accel_mps2 = math::difference(ref.accel_mps2, T(m.r_radps * m.v_mps));
-  return fed_forward(c.surge, m.u_mps, error) + (k.mass_norm * accel_mps2 + correction);
+  return fed_forward(c.surge, w_mps, error) + (k.mass_norm * accel_mps2 + correction);
 }
 
 /// Both laws and the allocation, for one sample.

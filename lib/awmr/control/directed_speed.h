@@ -1,7 +1,7 @@
 /// Direction of travel for a speed sensor without a sign, such as a GPS. Freestanding C++14.
 ///
 /// The speed law takes its speed as signed. Fed with |u| it pushes a vehicle that rolls backward
-/// further back where m' mu_s/eps_s > 2 g1(u)/u, without end. Here the sign is predicted from the
+/// further back where m' mu_s/eps_s > g1(u)/u, without end. Here the sign is predicted from the
 /// commanded force through the identified model,
 ///   m' u_dot = tau_speed - g1(u)
 /// corrected by the sensor's magnitude, and verified by the displacement along the heading. Rules:
@@ -57,15 +57,6 @@ template <class T>
 T magnitude(const T& value) {
   return value < T(0.0) ? -value : value;
 }
-/// True where one is positive and the other negative.
-template <class T>
-bool are_opposite(const T& a, const T& b) {
-  return a * b < T(0.0);
-}
-inline bool are_opposite(const float& a, const float& b) {
-  return ((bits_of(a) ^ bits_of(b)) >> 31U) != 0 && float_math::magnitude_bits(a) != 0 &&
-         float_math::magnitude_bits(b) != 0;
-}
 inline float magnitude(const float& value) { return float_of(float_math::magnitude_bits(value)); }
 /// `size` with the sign of `of`; +size for 0.
 template <class T>
@@ -87,10 +78,10 @@ void predict_speed(DirectedSpeed<T>& d, const G& surge, const T& mass_inverse,
   T size = detail::magnitude(pushed);
   if (size > speed_max_mps) size = speed_max_mps;
   size -= step * surge(size);
-  if (!(size > T(0.0)) || detail::are_opposite(pushed, before)) size = T(0.0);
+  if (!(size > T(0.0)) || math::is_opposite(pushed, before)) size = T(0.0);
   d.predicted_mps = detail::with_sign(size, pushed);
   if (d.settled_s < T(kSettled_s)) d.settled_s += dt_s;
-  if (detail::are_opposite(d.tau_speed, before)) {
+  if (math::is_opposite(d.tau_speed, before)) {
     d.settled_s = T(0.0);
     d.along_m = T(0.0);
   }
@@ -144,14 +135,14 @@ void apply_direction(const DirectedSpeed<T>& d, Measurement<T>& m, Reference<T>&
 }
 
 /// True where the speed law, fed with |u| of a vehicle that rolls backward at the speed u, pushes it
-/// further back. At u_ref = 0, in the layer of sat, it commands g1(u) - m' mu_s/eps_s u, which is
-/// beyond the resistance where
-///   m' mu_s/eps_s > 2 g1(u)/u
+/// further back. At u_ref = 0, in the layer of sat, it commands -m' mu_s/eps_s u, which is beyond the
+/// resistance where
+///   m' mu_s/eps_s > g1(u)/u
 template <class T, class G>
 bool runs_away_unsigned(const G& surge, const T& mass_norm, const SpeedGains<T>& gains,
                         const T& speed_mps) {
   const T correction = math::saturate(T(gains.mu / gains.epsilon * speed_mps), gains.mu);
-  return mass_norm * correction > T(2.0) * surge(speed_mps);
+  return mass_norm * correction > surge(speed_mps);
 }
 
 }  // namespace awmr

@@ -5,7 +5,21 @@
 
 namespace awmr {
 
-/// dx cos psi + dy sin psi, m: how far a displacement (dx, dy) goes ahead.
+/// Displacement in the vehicle's axes, m.
+struct BodyDisplacement {
+  float ahead_m;
+  float left_m;
+};
+
+///   ahead = dx cos psi + dy sin psi,   left = dy cos psi - dx sin psi
+AWMR_CALLED inline BodyDisplacement body_displacement(float dx_m, float dy_m, float psi_rad) {
+  float sine = 0.0F;
+  float cosine = 0.0F;
+  float_math::sin_cos(psi_rad, sine, cosine);
+  return {dx_m * cosine + dy_m * sine, dy_m * cosine - dx_m * sine};
+}
+
+/// The part ahead alone, m.
 AWMR_CALLED inline float displacement_ahead_m(float dx_m, float dy_m, float psi_rad) {
   float sine = 0.0F;
   float cosine = 0.0F;

@@ -85,7 +85,7 @@ class GpsCheck {
   }
 
   /// Compares the displacement of the last fix that was believed, at the first call with its speed, at
-  /// the second with the command. False: that is done.
+  /// the second with the command, at the third with the heading. False: that is done.
   bool check_motion() {
     switch (due_) {
       case Due::kSpeed:
@@ -97,8 +97,12 @@ class GpsCheck {
         }
         break;
       case Due::kDirection:
-        due_ = Due::kNothing;
+        due_ = Due::kTrack;
         compare_with_direction();
+        break;
+      case Due::kTrack:
+        due_ = Due::kNothing;
+        compare_with_heading();
         break;
       case Due::kNothing:
         break;
@@ -116,6 +120,7 @@ class GpsCheck {
       return last_ != kSensorGood ? last_ : kGpsSilent;
     }
     if (is_wrong_way_) return kWrongWay;
+    if (is_off_heading_) return kOffHeading;
     if (is_inconsistent_) return kGpsInconsistent;
     return kSensorGood;
   }
@@ -125,7 +130,8 @@ class GpsCheck {
     has_anchor_ = false;
     same_m_ = against_m_ = 0.0F;
     against_fixes_ = 0;
-    is_wrong_way_ = is_inconsistent_ = false;
+    is_wrong_way_ = is_inconsistent_ = is_off_heading_ = false;
+    restart_track();
   }
 
  private:
@@ -137,7 +143,7 @@ class GpsCheck {
     float dx_m, dy_m, time_s;
   };
   /// What is left to compare the last motion with.
-  enum class Due : uint8_t { kNothing, kSpeed, kDirection };
+  enum class Due : uint8_t { kNothing, kSpeed, kDirection, kTrack };
 
   /// Fixes may come so much later than the earliest of late, ms.
   static constexpr int32_t kGpsLag_ms = 500;
@@ -161,6 +167,14 @@ class GpsCheck {
   static constexpr float kAgainst_m = 2.0F;
   static constexpr float kAhead_m = 1.0F;
   static constexpr uint8_t kAgainstFixes = 3;
+  /// Track and heading are compared over this displacement, |ahead| + |left|, m: three times what a
+  /// position wanders to the side meanwhile.
+  static constexpr float kTrack_m = 10.0F;
+  /// tan 30 deg: beyond the sideslip of a vehicle, and a heading 0.5 s older than the position in a turn of
+  /// kStraight_rad a fix.
+  static constexpr float kOffTrack = 0.577F;
+  /// Displacements over which the heading changes by more than this, rad, are left out.
+  static constexpr float kStraight_rad = 0.1F;
   /// After a change of the commanded direction the vehicle brakes for at most this long, s, and gets
   /// faster by no more than this, m/s.
   static constexpr float kBraking_s = 10.0F;
@@ -175,12 +189,16 @@ class GpsCheck {
   Place fix_ = {0.0F, 0.0F, 0.0F, 0};   // the last that was believed
   Motion motion_ = {0.0F, 0.0F, 0.0F};  // to it, valid where one is due
   GpsContext context_ = {0.0F, 0, false};
-  Place anchor_ = {0.0F, 0.0F, 0.0F, 0};  // where the window began, valid with has_anchor_
-  float travelled_m_ = 0.0F;              // integral of the speed since then
-  float same_m_ = 0.0F;                   // integral of the speed while the position stood still
-  float against_m_ = 0.0F;                // against the commanded direction
-  float braking_s_ = 0.0F;                // left of kBraking_s
-  float braked_from_mps_ = 0.0F;          // speed when the commanded direction changed
+  Place anchor_ = {0.0F, 0.0F, 0.0F, 0};   // where the window began, valid with has_anchor_
+  float travelled_m_ = 0.0F;               // integral of the speed since then
+  float same_m_ = 0.0F;                    // integral of the speed while the position stood still
+  float against_m_ = 0.0F;                 // against the commanded direction
+  BodyDisplacement moved_ = {0.0F, 0.0F};  // by the last fix, valid with Due::kTrack
+  float track_ahead_m_ = 0.0F;             // sum of |ahead| since the track was compared
+  float track_left_m_ = 0.0F;              // sum of left, of the way that the vehicle drives
+  float track_psi_rad_ = 0.0F;             // heading at the fix before
+  float braking_s_ = 0.0F;                 // left of kBraking_s
+  float braked_from_mps_ = 0.0F;           // speed when the commanded direction changed
   int8_t direction_ = 0;
   uint8_t against_fixes_ = 0;  // in a row beyond kAgainst_m
   uint8_t elsewhere_ = 0;      // fixes that were too far away, in a row
@@ -191,6 +209,7 @@ class GpsCheck {
   bool has_anchor_ = false;
   Due due_ = Due::kNothing;
   bool is_wrong_way_ = false;
+  bool is_off_heading_ = false;
   bool is_inconsistent_ = false;
 
   bool refuse(SensorFault why) {
@@ -260,8 +279,9 @@ class GpsCheck {
 
   /// The displacement against the commanded direction.
   void compare_with_direction() {
+    moved_ = body_displacement(motion_.dx_m, motion_.dy_m, context_.psi_rad);
     if (direction_ == 0) return;
-    const float ahead_m = displacement_ahead_m(motion_.dx_m, motion_.dy_m, context_.psi_rad);
+    const float ahead_m = moved_.ahead_m;
     against_m_ -= direction_ > 0 ? ahead_m : -ahead_m;
     if (against_m_ < -kAhead_m) {
       against_m_ = -kAhead_m;
@@ -270,6 +290,23 @@ class GpsCheck {
     if (braking_s_ > 0.0F && against_m_ > 0.0F) against_m_ = 0.0F;
     against_fixes_ = against_m_ > kAgainst_m ? static_cast<uint8_t>(against_fixes_ + 1) : 0;
     if (against_fixes_ >= kAgainstFixes) is_wrong_way_ = true;
+  }
+
+  void restart_track() { track_ahead_m_ = track_left_m_ = 0.0F; }
+
+  /// The direction of the displacement beside the heading: a compass that is turned on the vehicle, or
+  /// that iron turns, leads it off its course.
+  void compare_with_heading() {
+    const float turned_rad = float_math::wrapped(context_.psi_rad - track_psi_rad_);
+    track_psi_rad_ = context_.psi_rad;
+    if (direction_ == 0 || !(fix_.speed_mps > kStandstill_mps)) return restart_track();
+    if (detail::size_of(turned_rad) > kStraight_rad) return;
+    track_ahead_m_ += detail::size_of(moved_.ahead_m);
+    track_left_m_ += direction_ > 0 ? moved_.left_m : -moved_.left_m;
+    const float left_m = detail::size_of(track_left_m_);
+    if (track_ahead_m_ + left_m < kTrack_m) return;
+    if (left_m > kOffTrack * track_ahead_m_) is_off_heading_ = true;
+    restart_track();
   }
 };
 

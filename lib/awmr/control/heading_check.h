@@ -118,11 +118,49 @@ class StepCheck {
   bool is_apart_ = false;
 };
 
+/// The yaw rate beside the commanded yaw moment: left and right motors that are swapped, a reversed
+/// servo, or a gyroscope of the wrong sign, turn the vehicle away from where it is to head.
+class TurnCheck {
+ public:
+  /// Sum of the gyroscope's words over a quarter of a turn.
+  void begin(int32_t quarter_turn_words) { quarter_turn_words_ = quarter_turn_words; }
+  /// A word of the gyroscope, its offset taken off, and the moment commanded since the last one, m; 0: the
+  /// motors are off. In whole numbers, which cost the chip little.
+  void take(int16_t word, float moment_m) {
+    if (word <= kTurning && word >= -kTurning) {
+      if (is_wrong_ && float_math::magnitude_bits(moment_m) == 0) restart();
+      return;
+    }
+    if (float_math::magnitude_bits(moment_m) == 0) return;
+    if ((word < 0) == (bits_of(moment_m) >> 31U != 0)) {
+      against_words_ = 0;
+    } else {
+      against_words_ += word < 0 ? -static_cast<int32_t>(word) : word;
+      is_wrong_ = is_wrong_ || against_words_ > quarter_turn_words_;
+      if (is_wrong_) against_words_ = 0;
+    }
+  }
+  bool is_wrong() const { return is_wrong_; }
+
+ private:
+  /// 5.7 deg/s of an MPU9250 at +-500 deg/s: noise does not turn so fast.
+  static constexpr int16_t kTurning = 375;
+  int32_t quarter_turn_words_ = 0;
+  int32_t against_words_ = 0;
+  bool is_wrong_ = false;
+
+  void restart() {
+    against_words_ = 0;
+    is_wrong_ = false;
+  }
+};
+
 /// Compass and gyroscope together.
 class HeadingCheck {
  public:
   GyroCalibration calibration;
   StepCheck step;
+  TurnCheck turn;
 
   void begin(uint32_t now_ms) {
     gyro_ms_ = now_ms;
@@ -154,6 +192,7 @@ class HeadingCheck {
     if (detail::elapsed_ms(now_ms, field_ms_) > kCompassSilent_ms) return kCompassSilent;
     if (field_.is_frozen()) return kCompassFrozen;
     if (step.is_apart()) return kHeadingOutOfStep;
+    if (turn.is_wrong()) return kWrongTurn;
     return kSensorGood;
   }
 

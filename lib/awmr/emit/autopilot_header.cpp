@@ -33,6 +33,8 @@ constexpr std::string_view kIntro =
 #define AWMR_SPEED_TIMEOUT_MS {}UL
 #define AWMR_COMMAND_TIMEOUT_MS {}UL
 #define AWMR_STEP_TIMEOUT_MS {}UL
+/* m/s, of the sketch WaypointFollowing: 1, at most 60 % of the speed at full force */
+#define AWMR_ROUTE_SPEED_MPS {}
 /* AWMR_SAMPLE_TIME_S as a text, for the header of logs */
 #define AWMR_SAMPLE_TIME_TEXT "{}"
 /* CRC-32 of the parameter block and the tables' lines, as they lie in flash */
@@ -138,6 +140,7 @@ std::string autopilot_header(const AutopilotParameters& parameters) {
                   float_literal(static_cast<double>(block.safety.yaw_rate_max_radps)),
                   block.safety.heading_timeout_ms, block.safety.speed_timeout_ms,
                   block.safety.command_timeout_ms, block.safety.step_timeout_ms,
+                  float_literal(static_cast<double>(parameters.route_speed_mps)),
                   parameters.sample_time_s, parameters.crc);
   text += parts_text(parameters);
   text += rest_text(parameters);

@@ -10,6 +10,7 @@
 #include "awmr/core/option_text.h"
 #include "awmr/core/units.h"
 #include "awmr/emit/emit.h"
+#include "awmr/model/steady.h"
 #include "awmr/simulate/simulate.h"
 #include "macros.h"
 #include "resistance_tables.h"
@@ -100,6 +101,15 @@ ParameterBlock block_of(const Plant<double>& plant, const Model& model, const Ga
   return block;
 }
 
+/// The speed of a route, m/s: at full force nothing is left to steer with.
+double route_speed_mps(const Plant<double>& plant, double full_force) {
+  constexpr double kUsual_mps = 1.0;
+  constexpr double kShare = 0.6;
+  const double viscous = 4.0 * plant.back_emf_s_per_m;
+  const double top_mps = steady_rate(plant.surge, full_force, viscous).value_or(kUsual_mps);
+  return std::min(kUsual_mps, kShare * top_mps);
+}
+
 /// Refuses what the simulated controller does and the firmware does not.
 Status check_allocation(const Model& model) {
   if (model.vehicle.allocation == AllocationForm::kExact) return {};
@@ -179,6 +189,7 @@ Result<AutopilotParameters> autopilot_parameters(const Model& model, const Gains
   AutopilotParameters parameters;
   parameters.resistance = options.resistance;
   parameters.sample_time_s = single(model.vehicle.sample_time_s);
+  parameters.route_speed_mps = single(route_speed_mps(plant, full_force));
   parameters.parts = options.parts;
   if (gains.observer.is_on()) {
     parameters.parts.insert(FirmwarePart::kObserver);

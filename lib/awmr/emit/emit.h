@@ -117,6 +117,7 @@ struct AutopilotParameters {
   ResistanceForm resistance = ResistanceForm::kTable;  ///< as in EmitOptions
   double table_error = 0.0;                            ///< that both tables keep to
   float sample_time_s = 0.0F;                          ///< as in awmr_params.h
+  float route_speed_mps = 0.0F;  ///< of the sketches: 1 m/s, at most 60 % of what can be reached
   std::set<FirmwarePart> parts;  ///< as in EmitOptions, and the observer of the gains
   CombinedSplit split = CombinedSplit::kRedistribute;  ///< as in EmitOptions
   std::uint32_t crc = 0;                               ///< crc32_of_parameters() of all of it

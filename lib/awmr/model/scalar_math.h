@@ -129,6 +129,23 @@ inline bool is_beyond(float x, float limit) {
   return float_math::magnitude_bits(x) > bits_of(limit);
 }
 
+/// x = 0. For float by the bits.
+template <class T>
+Mask<T> is_zero(const T& x) {
+  return !(x > T(0.0)) && !(x < T(0.0));
+}
+inline bool is_zero(float x) { return float_math::magnitude_bits(x) == 0; }
+
+/// True where one is positive and the other negative. For float by the signs.
+template <class T>
+Mask<T> is_opposite(const T& x, const T& y) {
+  return x * y < T(0.0);
+}
+inline bool is_opposite(float x, float y) {
+  return ((bits_of(x) ^ bits_of(y)) >> 31U) != 0 && float_math::magnitude_bits(x) != 0 &&
+         float_math::magnitude_bits(y) != 0;
+}
+
 /// The angle of (x, y) in (-pi, pi], for directions to steer by: atan2, and for float the bearing
 /// that costs the chip a third of it and is within 4.1e-5 rad.
 template <class T>

@@ -1,18 +1,13 @@
 #include "awmr/model/wheel_force_json.h"
 
-#include <fmt/format.h>
-
 namespace awmr {
 
 Interval wheel_force_from_json(JsonObject json) {
   Interval force;
-  // F' is over the largest force of one motor, so it lies within [-1, 1]; forward thrust must exist.
-  force.lo = json.number("min", {.min = -1.0, .max = 1.0});
+  // F' is over the largest force of one motor, so it lies within [-1, 1]. Forward thrust must exist,
+  // and motors must be able to stop.
+  force.lo = json.number("min", {.min = -1.0, .max = 0.0});
   force.hi = json.number("max", {.min = 0.0, .max = 1.0, .min_excluded = true});
-  if (force.lo >= force.hi) {
-    json.fault("min",
-               fmt::format("must be below max, found min {} and max {}", force.lo, force.hi));
-  }
   json.reject_unknown_keys();
   return force;
 }

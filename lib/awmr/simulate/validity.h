@@ -23,7 +23,7 @@ std::optional<Finding> tyres_differ(const Scenario& scenario, const Model& model
 std::vector<Finding> asked_in_vain(const Scenario& scenario, const Model& model);
 
 /// A warning (`unsigned-speed-runs-away`) where the speed law, fed with the size of the speed alone, as
-/// a GPS gives it, pushes a vehicle that rolls backward further back: m' mu_s/eps_s > 2 g1(u)/u at a
+/// a GPS gives it, pushes a vehicle that rolls backward further back: m' mu_s/eps_s > g1(u)/u at a
 /// speed that the vehicle reaches. `file` is that of the gains.
 std::optional<Finding> unsigned_speed_finding(const Plant<double>& plant,
                                               const Gains<double>& gains, double force_max,

@@ -12,6 +12,7 @@ struct Case {
   const char* name;
   std::function<void()> inject;
   std::function<void()> mend = [] {};
+  double watch_s = 15;  // how long it is driven with the failure
 };
 
 std::string frame(int sequence, const std::string& text) {
@@ -49,6 +50,10 @@ std::vector<Case> cases() {
       {"gps-speed-zero", [&] { w.gps_speed_gain = 0, w.gps_speed_noise = 0; },
        [&] { w.gps_speed_gain = 1, w.gps_speed_noise = 0.05; }},
       {"motors-reversed", [&] { w.motor_sign = -1; }, [&] { w.motor_sign = 1; }},
+      {"sides-swapped", [&] { w.sides_swapped = true, w.say("M 0\nH 60\n"); },
+       [&] { w.sides_swapped = false; }},
+      {"compass-turning", [&] { w.compass_rate = 0.0436; },
+       [&] { w.compass_rate = w.compass_offset = 0; }, 40},
       {"command-silence", [&] { w.keeps = false; }, [&] { w.keeps = true; }},
       {"command-noise", [&] { w.keep = "x"; }, [&] { w.say("\n"), w.keep = "KEEP\n"; }},
       {"command-unknown", [&] { w.keep = "STEP 1\n"; }, [&] { w.keep = "KEEP\n"; }},
@@ -77,7 +82,7 @@ int run_case(const Case& one) {
   bool drives_again = false;
   int cause = 0;
   double t = 0;
-  w.run(15, [&] {
+  w.run(one.watch_s, [&] {
     t += 0.001;
     fastest = std::max(fastest, fabs(w.u));
     away = std::max(away, hypot(w.x - x0, w.y - y0));
@@ -116,6 +121,55 @@ void hold_still(double pushed_mps, double noise_mps) {
   });
   printf("pushed_mps=%.2f fastest_mps=%.3f end_mps=%.3f moved_m=%.2f driven_s=%.2f armed=%d\n",
          before, fastest, w.u, hypot(w.x - x0, w.y - y0), driven_s, safety.is_armed());
+}
+
+/// On a slope, armed at speed 0 after a drive of 10 s, or from rest: how fast it gets in a minute, and which way it
+/// is driven meanwhile.
+void stand_on_slope(double pull, bool drives_first) {
+  World& w = world;
+  setup();
+  w.run(3);
+  w.say("ARM\n");
+  w.run(0.2);
+  if (drives_first) {
+    w.say("S 0.5\n");
+    w.run(10);
+    w.say("S 0\n");
+  }
+  w.slope = pull;
+  double fastest = 0, driven_on_s = 0, t = 0;
+  w.run(60, [&] {
+    t += 0.001;
+    fastest = std::max(fastest, fabs(w.u));
+    // Braking of the vehicle before it turned round may last a second.
+    if (t > 5 && (w.left() + w.right()) * w.u > 1e-6 && fabs(w.u) > 0.3) driven_on_s += 0.001;
+  });
+  printf("fastest_mps=%.3f end_mps=%.3f driven_on_s=%.3f armed=%d\n", fastest, w.u, driven_on_s,
+         safety.is_armed());
+}
+
+/// A fault from the start: the compass is off by `offset_deg`, or the servo reversed. Drives, then heads 90 deg away.
+void drive_wrong(double offset_deg, double servo_sign) {
+  World& w = world;
+  w.compass_offset = offset_deg / 57.29578;
+  w.servo_sign = servo_sign;
+  setup();
+  w.run(3);
+  w.say("ARM\n");
+  w.run(0.2);
+  if (servo_sign < 0) w.say("M 1\n");
+  w.say(AWMR_START);
+  w.run(5);
+  w.say("H 90\n");
+  double stopped_s = -1, t = 0;
+  int cause = 0;
+  w.run(60, [&] {
+    t += 0.001;
+    if (stopped_s < 0 && !safety.is_armed()) stopped_s = t;
+    const int now = awmr_board::sensor_fault(imu, gps);
+    if (cause == 0 && now != 0) cause = now;
+  });
+  printf("stopped_s=%.2f cause=%d away_m=%.2f\n", stopped_s, cause, hypot(w.x, w.y));
 }
 
 /// Turned by hand at `rate` until t = 6 s: heading once it is at rest, and whether ARM waited for it.
@@ -190,6 +244,8 @@ int main(int argc, char** argv) {
     return 0;
   }
   if (what == "hold") return hold_still(number, argc > 3 ? atof(argv[3]) : 0.05), 0;
+  if (what == "slope") return stand_on_slope(number, argc > 3), 0;
+  if (what == "wrong") return drive_wrong(number, argc > 3 ? atof(argv[3]) : 1), 0;
   if (what == "turning") return start_turning(number), 0;
   if (what == "turns") return turn_often(number), 0;
   if (what == "drive") {

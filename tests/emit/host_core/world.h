@@ -26,12 +26,15 @@ struct World {
   // Motion, and how the vehicle differs from the model.
   double x = 0, y = 0, psi = 0.3, u = 0, r = 0;
   double mass_factor = 1, drag_factor = 1, motor_sign = 1, slope = 0;
+  bool sides_swapped = false;
+  double servo_sign = 1;
   double forced_turn = 0;  // rad/s: turned by hand
   bool is_held = false;    // by hand: u is 0
   std::map<int, int> duty, level;
   // Sensors.
   std::mt19937 random{7};
   double gyro_bias = 0.02, gyro_gain = 1, gyro_noise = 5, compass_offset = 0, compass_noise = 3;
+  double compass_rate = 0;  // rad/s: the compass turns away
   bool gyro_answers = true, gyro_frozen = false, compass_answers = true, compass_frozen = false;
   bool compass_stuck = false;
   double stuck_psi = 0;
@@ -55,10 +58,11 @@ struct World {
     return motor_sign * duty[pwm] / 255.0 * (level[direction] ? -1 : 1);
   }
   // Reversed, the sides are exchanged as well: it drives the wrong way and turns the right one.
-  double left() { return motor_sign > 0 ? force(44, 22) : force(45, 23); }
-  double right() { return motor_sign > 0 ? force(45, 23) : force(44, 22); }
+  bool is_exchanged() const { return (motor_sign < 0) != sides_swapped; }
+  double left() { return is_exchanged() ? force(45, 23) : force(44, 22); }
+  double right() { return is_exchanged() ? force(44, 22) : force(45, 23); }
   bool is_driven() { return duty[44] != 0 || duty[45] != 0; }
-  double steering() { return (OCR4A / 2.0 - 1500) / 573.0; }
+  double steering() { return servo_sign * (OCR4A / 2.0 - 1500) / 573.0; }
 
   void move(double dt) {
     const double d = steering(), sum = left() + right();
@@ -134,6 +138,7 @@ struct World {
   }
   void tick() {
     ++elapsed_ms;
+    compass_offset += 0.001 * compass_rate;
     move(0.001);
     navigate();
     if (keeps && elapsed_ms % 300 == 0) say(keep);

@@ -109,6 +109,12 @@ awmr::Autopilot<Resistance, Parts> autopilot;
 // The barriers keep the compiler from moving what a caller writes before or reads after past the
 // call, whatever it knows of the two types.
 inline void follow(const awmr_point* points, int16_t count, float acceptance_m, bool skip_passed) {
+  // An acceptance that is no distance: each step is a fault, AWMR_FAULT_OUTPUT, until the next route.
+  static const awmr_point kNowhere = {__builtin_nanf(""), __builtin_nanf("")};
+  if (!(acceptance_m >= 0.0f && acceptance_m < 1e6f)) {
+    points = &kNowhere;
+    count = 1;
+  }
   __asm__ volatile("" ::: "memory");
   const awmr::Waypoints<float> waypoints = {reinterpret_cast<const awmr::Position<float>*>(points),
                                             count, acceptance_m, skip_passed};

@@ -95,6 +95,7 @@ inline void step(Imu& imu, Gps& gps, Command& command, Safety& safety, Log& card
   const uint8_t cause = sensor_fault(imu, gps);
   safety.observe(output.fault, cause, command);
   if (!safety.is_armed()) stop(output);
+  imu.note_moment(safety.is_armed() ? output.tau_turn_m : 0.0f);
   drive(output);
   card.put(input, output, cause);
 }

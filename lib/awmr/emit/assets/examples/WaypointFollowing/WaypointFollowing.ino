@@ -10,7 +10,7 @@
 
 const awmr_point kPoints[] = {{10.0f, 20.0f}, {0.0f, 40.0f}, {-10.0f, 20.0f}, {0.0f, 0.0f}};
 const float kAcceptanceM = 2.0f;
-const float kSpeedMps = 1.0f;
+const float kSpeedMps = AWMR_ROUTE_SPEED_MPS;
 const uint32_t kBrakingMs = 5000; // longest time to come to rest at the last point
 
 awmr_board::Imu imu;

@@ -56,6 +56,9 @@ class Imu {
     check_.begin(millis());
   }
 
+  /* After awmr_step(): the yaw moment that is commanded until the next step, m; 0: the motors are off. */
+  void note_moment(float tau_turn_m) { moment_m_ = tau_turn_m; }
+
   /* In the step: integrates the gyroscope and leans on the magnetometer with a time constant of 2 s.
      The first second at rest calibrates the gyroscope. */
   void read(float dt_s) {
@@ -76,6 +79,11 @@ class Imu {
       r_radps = 0.0f;
       return;
     }
+    if (bias_word_ == kNoBias) {
+      bias_word_ = static_cast<int16_t>(check_.calibration.bias_radps() / kRadpsPerWord);
+      check_.turn.begin(static_cast<int32_t>(1.5707963f / (kRadpsPerWord * dt_s)));
+    }
+    check_.turn.take(static_cast<int16_t>(raw - bias_word_), moment_m_);
     r_radps = kRadpsPerWord * raw - check_.calibration.bias_radps();
     psi_rad = awmr::float_math::wrapped(psi_rad + r_radps * dt_s);
     if (has_field) lean(magnetic_rad, dt_s);
@@ -92,8 +100,11 @@ class Imu {
   static constexpr float kLean_s = 2.0f;
   awmr::HeadingCheck check_;
   float sensitivity_[2] = {0.0f, 0.0f}; /* of the magnetometer's own x and y */
+  static const int16_t kNoBias = -32768;
   bool has_heading_ = false;
   uint8_t steps_ = 0;
+  int16_t bias_word_ = kNoBias; /* of the gyroscope, once it is calibrated */
+  float moment_m_ = 0.0f;
 
   static int16_t word(uint8_t high, uint8_t low) {
     return static_cast<int16_t>(static_cast<uint16_t>(high) << 8 | low);
