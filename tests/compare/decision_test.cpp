@@ -128,7 +128,8 @@ TEST(Decision, ChangesAreRunsOnTheOtherPlantAndWithOtherGains) {
   const Scenario scenario = short_heading();
   const auto comparison = compared({scenario, short_open_loop()}, 3);
   ASSERT_TRUE(comparison) << to_text(comparison.error());
-  ASSERT_THAT(comparison->changes, SizeIs(3));  // of the heading alone: in open loop nothing is ranked
+  ASSERT_THAT(comparison->changes,
+              SizeIs(3));  // of the heading alone: in open loop nothing is ranked
   Scenario tyres = scenario;
   tyres.tyres.emplace();
   Gains<double> slower = kPaperGains;

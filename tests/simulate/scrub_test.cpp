@@ -50,7 +50,8 @@ TEST(Scrub, OpposesTheTurnByTheDifferentialShareOfItsMoment) {
   EXPECT_NEAR(scrub_at(turning(0.2, 0.2), {0.3, 0.3}), 0.0, kRounding_m);
   EXPECT_NEAR(scrub_at(turning(0.2, 0.0), {0.0, 0.0}), 0.0, kRounding_m);
   const SideForces<double> force{0.2, 0.3};
-  const auto tau = generalised_forces(paper_plant().front_axle_m, paper_plant().half_track_m, force, 0.2);
+  const auto tau =
+      generalised_forces(paper_plant().front_axle_m, paper_plant().half_track_m, force, 0.2);
   const double share = tau.tau_diff_m / (tau.tau_diff_m + tau.tau_steering_m);
   EXPECT_GT(share, 0.2);
   EXPECT_LT(share, 0.8);
