@@ -172,6 +172,15 @@ TEST(Decision, DoesNotDependOnThreadsAndIsInTheFile) {
   EXPECT_EQ(counts.at("survived").at("gains").at("of"), 1);
 }
 
+TEST(Decision, NeedsTwoToChooseFrom) {
+  Model skid = uncertain_model();
+  skid.vehicle.drive = Drive::kDifferential;
+  const auto comparison = compare(skid, kPaperGains, {short_heading()}, {.other_settings = true});
+  ASSERT_TRUE(comparison) << to_text(comparison.error());
+  EXPECT_THAT(comparison->changes, IsEmpty());
+  EXPECT_FALSE(judge(*comparison, {}, 1).front().decision);
+}
+
 TEST(Decision, SaysWhatCouldNotBeRun) {
   Scenario slippery = short_heading();
   slippery.patches.push_back({.centre_m = {5.0, 0.0}, .radius_m = 1.0, .force_max = 0.1});

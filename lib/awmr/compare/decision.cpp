@@ -225,6 +225,7 @@ std::vector<Change> changes_of_runs(const Model& model, const std::vector<NamedG
                                     const std::vector<Scenario>& scenarios,
                                     const CompareOptions& options) {
   std::vector<Change> changes;
+  if (gains.size() * yaw_modes(model.vehicle).size() < 2) return changes;  // nothing to choose
   std::vector<ChangedCourse> courses = changed_courses(gains, scenarios, changes);
   // A course to a thread; each has no more samples than a thread runs at a time.
   CompareOptions few;
