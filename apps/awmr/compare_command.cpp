@@ -192,9 +192,9 @@ std::string rate_in_words(const HeadingRateChoice& rate, const Model& model) {
       *measured_yaw_rate_degps(model), kNoRate);
 }
 
-/// A warning where the ranking leaves out a scrub that trials have measured, or charges steering with
-/// one that it does not have.
-void note_scrub(const Model& model, const Comparison& comparison, std::vector<Finding>& findings) {
+/// How much scrub the modes are compared with, or a warning where steering is charged with one that it does
+/// not have.
+void note_scrub(const Model& model, std::vector<Finding>& findings) {
   if (model.yaw_by_sides_alone) {
     findings.push_back(
         {model.file, 0, Severity::kWarning, "turned-by-sides",
@@ -202,13 +202,14 @@ void note_scrub(const Model& model, const Comparison& comparison, std::vector<Fi
          "tyres, with which steering and combined are charged here, too: they are shown worse than "
          "they are. Add steered turns to the turning table (awmr suggest says which)"});
   }
-  if (!model.yaw_scrub || !(model.yaw_scrub->ci95_m.lo > 0.0) || comparison.break_even) return;
+  if (!model.yaw_scrub || !(model.yaw_scrub->moment_m > 0.0)) return;
   findings.push_back(
-      {model.file, 0, Severity::kWarning, "scrub-unjudged",
-       fmt::format("this vehicle's turns by the sides' forces met {:.3g} to {:.3g} m beside yaw "
-                   "resistance, which differential and combined are compared without: --break-even "
-                   "says whether their lead stands it",
-                   model.yaw_scrub->ci95_m.lo, model.yaw_scrub->ci95_m.hi)});
+      {model.file, 0, Severity::kNote, "scrub-simulated",
+       fmt::format("differential and combined turns on the model's plant meet the scrub that this "
+                   "vehicle's differential turns met, {:.3g} m (95 %: {:.3g} to {:.3g}), which the "
+                   "controller does not know; --break-even gives the scrub that ends each lead",
+                   model.yaw_scrub->moment_m, model.yaw_scrub->ci95_m.lo,
+                   model.yaw_scrub->ci95_m.hi)});
 }
 
 /// Every finding but that on the fastest turn, the same for a part as for the whole.
@@ -232,7 +233,7 @@ Result<std::vector<Finding>> findings_of(const CompareCommand& command,
                      samples, 100.0 * (1.0 - std::pow(0.5, samples - 1)), kFewSamples)});
   }
   if (auto finding = not_led(command.heading_rate_limit, model)) findings.push_back(*finding);
-  note_scrub(model, comparison, findings);
+  note_scrub(model, findings);
   return findings;
 }
 
@@ -276,6 +277,7 @@ Result<Outcome> execute(const CompareCommand& command) {
   AWMR_RETURN_IF_ERROR(
       check_outputs(command.output, {"comparison.csv", json_of(command)}, inputs_of(command)));
   CompareOptions options = command.compare;
+  options.other_settings = !command.plant;
   if (command.resume && command.shard) {
     if (is_finished_shard(command.output, options, provenance)) {
       return finished_part(*command.shard, command.output);
@@ -336,7 +338,7 @@ void add_compare(CLI::App& app, Session& session) {
   add_allocation(*sub, command->allocation);
   add_heading_rate_limit(*sub, command->heading_rate_limit,
                          "measured, where the model says how fast that was");
-  add_plant(*sub, command->plant);
+  add_plant_or_both(*sub, command->plant);
   add_output_directory(*sub, command->output, "Directory for comparison.csv and comparison.json");
 }
 

@@ -25,16 +25,34 @@ inline constexpr const char* kPlantOption = "--plant";
 /// Under which an output's options say what moved.
 inline constexpr const char* kPlantName = "plant";
 
-inline void add_plant(CLI::App& command, PlantChoice& choice) {
+/// Of `compare`: the plants that the scenarios say, and whether the others change the verdict.
+inline constexpr const char* kBothPlants = "both";
+
+inline void add_plant_of(CLI::App& command, PlantChoice& choice, std::vector<std::string> names,
+                         const std::string& by_default) {
   const auto set = [&choice](const std::string& name) { choice = value_in(kPlantKindNames, name); };
   command
       .add_option_function<std::string>(kPlantOption, set,
                                         "What moves in every scenario: the model's 3-DOF "
                                         "equations, or its body on four tyres with "
                                         "a circle of friction, those of the scenario's tyres or "
-                                        "their defaults (default: four-wheel "
-                                        "where a scenario has tyres, else model)")
-      ->check(one_of(names_in(kPlantKindNames)));
+                                        "their defaults (default: " +
+                                            by_default + ")")
+      ->check(one_of(std::move(names)));
+}
+
+inline void add_plant(CLI::App& command, PlantChoice& choice) {
+  add_plant_of(command, choice, names_in(kPlantKindNames),
+               "four-wheel where a scenario has tyres, else model");
+}
+
+/// The same of `compare`, which without a choice checks its verdicts on the other plant.
+inline void add_plant_or_both(CLI::App& command, PlantChoice& choice) {
+  std::vector<std::string> names = names_in(kPlantKindNames);
+  names.emplace_back(kBothPlants);
+  add_plant_of(command, choice, std::move(names),
+               "both: four-wheel where a scenario has tyres, else model, and who is first on the "
+               "other one and with slower and faster gains");
 }
 
 /// Puts the choice into every scenario. Errors (input): a scenario has what has no meaning on tyres.

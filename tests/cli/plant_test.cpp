@@ -95,6 +95,33 @@ TEST_F(PlantOption, OfCompareIsNamedInItsFilesAndByMerge) {
   EXPECT_EQ(compare("--plant model --samples 2 --resume -o " + path("whole"), kC3).exit_code, 2);
 }
 
+TEST_F(PlantOption, OfCompareIsBothByDefaultAlsoInParts) {
+  const auto compared = [&](const std::string& name, const std::string& words) {
+    EXPECT_EQ(awmr(with("compare",
+                        fmt::format("{} --samples 1 --scenario {} -o {}", words, kC3, path(name))))
+                  .exit_code,
+              0);
+    return path(name) + "/comparison.json";
+  };
+  const std::string whole = read_all(compared("whole", ""));
+  EXPECT_EQ(read_all(compared("both", "--plant both")), whole);
+  const auto kinds = [](const std::string& text) {
+    std::vector<std::string> all;
+    const Json document = Json::parse(text);
+    for (const Json& change : document["scenarios"][0]["decision"]["changes"])
+      all.push_back(change["kind"]);
+    return all;
+  };
+  EXPECT_THAT(kinds(whole), ::testing::ElementsAre("weights", "plant", "gains", "gains"));
+  EXPECT_THAT(kinds(read_all(compared("one", "--plant model"))), ::testing::ElementsAre("weights"));
+  compared("part1", "--shard 1/2");
+  compared("part2", "--shard 2/2");
+  EXPECT_EQ(awmr(fmt::format("merge {} {} -o {}", path("part1"), path("part2"), path("merged")))
+                .exit_code,
+            0);
+  EXPECT_EQ(read_all(path("merged/comparison.json")), whole);
+}
+
 TEST_F(PlantOption, RefusesWhatHasNoMeaningOnTyresByName) {
   const ProcessResult slippery =
       awmr(with("simulate",

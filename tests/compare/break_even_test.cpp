@@ -33,7 +33,7 @@ Result<Comparison> compared(const Scenario& scenario, CompareOptions options = {
   return compare(uncertain_model(), kPaperGains, {scenario}, options);
 }
 
-/// By simulate(): whether the mode, with so much more Coulomb friction, settles and scores no worse.
+/// By simulate(): whether the mode, both with so much scrub, settles and scores no worse.
 bool leads(const Scenario& scenario, const Comparison& comparison, const BreakEven& entry,
            double moment_m) {
   const Model model = uncertain_model();
@@ -42,13 +42,13 @@ bool leads(const Scenario& scenario, const Comparison& comparison, const BreakEv
   options.sample_time_s = model.vehicle.sample_time_s;
   const auto metrics_with = [&](YawMode mode, double scrub_m) {
     Plant<double> plant = model.plant().value();
-    plant.yaw.coulomb += scrub_m;
+    plant.yaw_scrub_m = scrub_m;
     return metrics_of(simulate(plant, controller, scenario, mode, options), scenario, controller);
   };
   const Metrics own = metrics_with(entry.mode, moment_m);
   const auto scoring = scoring_of(group(comparison).front(), {});
   return own.settling_time_s &&
-         log_score(own, scoring) <= log_score(metrics_with(entry.against, 0.0), scoring);
+         log_score(own, scoring) <= log_score(metrics_with(entry.against, moment_m), scoring);
 }
 
 TEST(BreakEven, IsWhereTheLeadEnds) {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "awmr/core/units.h"
 #include "awmr/identify/planning/suggest.h"
 #include "identify/synthetic.h"
 
@@ -33,6 +34,24 @@ TEST(Suggest, RanksEveryCandidateByWhatItPromisesAndNoneMakesItWorse) {
   // A stop time is a poor way to m': something that moves has to come before any turning run.
   EXPECT_TRUE(suggestion->trials.front().kind == TrialKind::kLog ||
               suggestion->trials.front().kind == TrialKind::kCoastdown);
+}
+
+TEST(Suggest, ATurnWhileCoastingIsOneThatTyresRoll) {
+  const Model model = some_model(0.05);
+  const auto suggestion = suggest(model, {});
+  ASSERT_TRUE(suggestion && suggestion->coasting);
+  const CoastingTurn& turn = *suggestion->coasting;
+  EXPECT_GT(turn.speed_mps, 0.0);
+  EXPECT_LE(turn.steering_deg, 10.0 * (1.0 + 1e-12));  // half of the stop
+  // r = u tan(d_r)/(2 l_f), and across no more than 0.2 g.
+  const double rate = turn.speed_mps * std::tan(radians(turn.steering_deg)) / 0.7;
+  EXPECT_NEAR(radians(turn.rolling_yaw_rate_degps), rate, 1e-12);
+  EXPECT_LE(rate * turn.speed_mps, 0.2 * 9.80665 * (1.0 + 1e-12));
+  Model skid = model;
+  skid.vehicle.drive = Drive::kDifferential;
+  const auto without = suggest(skid, {});
+  ASSERT_TRUE(without);
+  EXPECT_FALSE(without->coasting);
 }
 
 TEST(Suggest, ATurningRunSaysNothingOfSurge) {

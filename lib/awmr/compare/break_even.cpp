@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <utility>
@@ -35,15 +36,15 @@ struct Course {
   BatchArithmetic arithmetic;
 };
 
-/// By moment: the metrics of the course where the plant's yaw resistance has so much more Coulomb
-/// friction. A run that fails has none.
-std::vector<std::optional<Metrics>> driven_with(const Course& course,
+/// By moment: the metrics of the course in this mode where the plant has so much scrub. A run that fails
+/// has none.
+std::vector<std::optional<Metrics>> driven_with(const Course& course, YawMode mode,
                                                 const std::vector<double>& moments_m) {
   std::vector<BatchRun> runs;
   for (const double moment_m : moments_m) {
     Plant<double> plant = course.plant;
-    plant.yaw.coulomb += moment_m;
-    runs.push_back({plant, course.controller, course.mode, 0, 0});
+    plant.yaw_scrub_m = moment_m;
+    runs.push_back({plant, course.controller, mode, 0, 0});
   }
   std::vector<std::optional<Metrics>> driven;
   for (const Result<Metrics>& metrics :
@@ -53,15 +54,17 @@ std::vector<std::optional<Metrics>> driven_with(const Course& course,
   return driven;
 }
 
-/// Whether a run still does what the other mode does, and scores no worse. What it lost of the metrics
-/// that it had without scrub (it settles no more, it does not arrive) it is behind for.
-bool is_ahead(const std::optional<Metrics>& run, const Metrics& without, const Metrics& other,
-              const std::vector<ScoredMetric>& scoring) {
+/// Whether a run still does what the other mode does with the same scrub, and scores no worse. What it
+/// lost of the metrics that it had without scrub (it settles no more, it does not arrive) it is behind for.
+/// A run of the other mode that failed decides nothing.
+bool is_ahead(const std::optional<Metrics>& run, const Metrics& without,
+              const std::optional<Metrics>& other, const std::vector<ScoredMetric>& scoring) {
   if (!run || (without.completed && !run->completed)) return false;
+  if (!other) return true;
   const bool lost = std::any_of(scoring.begin(), scoring.end(), [&](const ScoredMetric& scored) {
     return scored.metric->value(without) && !scored.metric->value(*run);
   });
-  return !lost && log_score(*run, scoring) <= log_score(other, scoring);
+  return !lost && log_score(*run, scoring) <= log_score(*other, scoring);
 }
 
 /// From `lo` to `hi`, both with, as many as fill a batch.
@@ -109,12 +112,28 @@ std::optional<double> least_that_ends(double most_m, const Ahead& ahead) {
   return std::nullopt;
 }
 
-/// The modes' runs of sample 0, as scoring_of() reads them.
-ScenarioRows nominal_rows(const Comparison& comparison, const std::string& scenario) {
+/// The runs of sample 0, of a model with scrub run again without.
+Result<std::vector<ComparisonRow>> rows_without_scrub(const Model& model,
+                                                      const Gains<double>& gains,
+                                                      const std::vector<Scenario>& scenarios,
+                                                      const Comparison& comparison, int threads) {
+  if (model.yaw_scrub) {
+    Model bare = model;
+    bare.yaw_scrub.reset();
+    AWMR_ASSIGN_OR_RETURN(Comparison again, compare(bare, gains, scenarios, {.threads = threads}));
+    return std::move(again.rows);
+  }
+  std::vector<ComparisonRow> rows;
+  std::copy_if(comparison.rows.begin(), comparison.rows.end(), std::back_inserter(rows),
+               [](const ComparisonRow& row) { return row.sample == 0; });
+  return rows;
+}
+
+/// Those of a scenario, as scoring_of() reads them.
+ScenarioRows nominal_rows(const std::vector<ComparisonRow>& all, const std::string& scenario) {
   ScenarioRows rows{scenario, {}};
-  for (const ComparisonRow& row : comparison.rows) {
-    if (row.sample == 0 && row.scenario == scenario)
-      rows.modes.push_back({{row.mode, ""}, {&row, 1}});
+  for (const ComparisonRow& row : all) {
+    if (row.scenario == scenario) rows.modes.push_back({{row.mode, ""}, {&row, 1}});
   }
   return rows;
 }
@@ -123,7 +142,7 @@ ScenarioRows nominal_rows(const Comparison& comparison, const std::string& scena
 struct Question {
   Course course;
   std::vector<ScoredMetric> scoring;
-  Metrics own, other;
+  Metrics own;  ///< without scrub
   BreakEven entry;
 };
 
@@ -144,7 +163,7 @@ std::vector<Question> questions_of(const Course& course, const ScenarioRows& row
     entry.scenario = rows.scenario;
     entry.mode = course.mode;
     entry.against = less;
-    questions.push_back({course, scoring, own, other->nominal(), entry});
+    questions.push_back({course, scoring, own, entry});
   }
   return questions;
 }
@@ -152,9 +171,11 @@ std::vector<Question> questions_of(const Course& course, const ScenarioRows& row
 void answer(Question& question) {
   question.entry.yaw_coulomb_m =
       least_that_ends(question.entry.most_m, [&](const std::vector<double>& moments_m) {
+        const auto own = driven_with(question.course, question.entry.mode, moments_m);
+        const auto other = driven_with(question.course, question.entry.against, moments_m);
         std::vector<bool> ahead;
-        for (const auto& run : driven_with(question.course, moments_m)) {
-          ahead.push_back(is_ahead(run, question.own, question.other, question.scoring));
+        for (std::size_t i = 0; i < own.size(); ++i) {
+          ahead.push_back(is_ahead(own[i], question.own, other[i], question.scoring));
         }
         return ahead;
       });
@@ -248,10 +269,12 @@ Result<std::vector<BreakEven>> break_even_of(const Model& model, const Gains<dou
   // 2 d (F'R - F'L), at the ends of the forces' range.
   entry.most_m = 2.0 * nominal.half_track_m * (force.hi - force.lo);
   entry.sliding_m = sliding_moment_m(nominal);
+  AWMR_ASSIGN_OR_RETURN(const std::vector<ComparisonRow> without,
+                        rows_without_scrub(model, gains, scenarios, comparison, options.threads));
   std::vector<Question> questions;
   for (const Scenario& scenario : scenarios) {
     AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, plant_for(scenario, model));
-    const ScenarioRows rows = nominal_rows(comparison, scenario.name);
+    const ScenarioRows rows = nominal_rows(without, scenario.name);
     const std::vector<ScoredMetric> scoring = scoring_of(rows, options.preferences);
     if (!has_a_goal(rows) || scoring.empty()) continue;
     for (const ModeRows& one : rows.modes) {
@@ -287,8 +310,7 @@ std::optional<Lead> lead_of(const BreakEven& entry) {
 
 std::string break_even_table(const std::vector<BreakEven>& entries) {
   std::string text =
-      "break-even: how much Coulomb yaw moment of turns by the sides' forces, beside the model's\n"
-      "own, ends a lead\n";
+      "break-even: how much scrub, the Coulomb yaw moment of a differential turn, ends a lead\n";
   if (entries.empty()) return text + "  no mode that turns by the sides' forces leads\n";
   std::map<std::pair<YawMode, YawMode>, std::vector<const BreakEven*>> pairs;
   for (const BreakEven& entry : entries) pairs[{entry.mode, entry.against}].push_back(&entry);

@@ -1,5 +1,4 @@
-/// How much more a mode's turns would have to cost before another mode is better. Private to this
-/// folder.
+/// The scrub that ends a mode's lead over another. Private to this folder.
 #pragma once
 
 #include <string>
@@ -9,9 +8,9 @@
 
 namespace awmr {
 
-/// For each scenario, and each pair of a mode that turns by the sides' forces and one that does so less
-/// (differential, combined, steering) of which the first has the better score on the model's own values:
-/// the yaw moment of Coulomb friction that takes its lead away. The controller knows nothing of it.
+/// For each scenario, and each pair of a mode with differential turns and one with less of them
+/// (differential, combined, steering) of which the first has the better score without scrub: the scrub with
+/// which its lead is gone. The controller knows nothing of it.
 /// `comparison` holds the rows of sample 0 with one set of gains. Errors (input): as fleet_of().
 Result<std::vector<BreakEven>> break_even_of(const Model& model, const Gains<double>& gains,
                                              const std::vector<Scenario>& scenarios,

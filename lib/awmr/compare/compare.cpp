@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "awmr/compare/break_even.h"
+#include "awmr/compare/decision.h"
 #include "awmr/compare/fleet.h"
 #include "awmr/core/index.h"
 #include "awmr/core/option_text.h"
@@ -260,6 +261,11 @@ Result<Comparison> compare(const Model& model, const std::vector<NamedGains>& ga
   if (options.break_even && !comparison.stopped) {
     AWMR_ASSIGN_OR_RETURN(comparison.break_even, break_even_of(model, gains.front().gains,
                                                                scenarios, comparison, options));
+  }
+  if (options.other_settings && options.shard.index == 1 && !comparison.stopped) {
+    comparison.changes = changes_of_runs(model, gains, scenarios, options);
+    comparison.stopped = options.stop != nullptr && options.stop->load();
+    if (comparison.stopped) comparison.changes.clear();  // to be run as a whole
   }
   return comparison;
 }

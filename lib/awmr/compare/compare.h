@@ -13,6 +13,8 @@
 #include <vector>
 
 #include "awmr/compare/preferences.h"
+#include "awmr/core/interval.h"
+#include "awmr/core/name_table.h"
 #include "awmr/core/provenance.h"
 #include "awmr/core/result.h"
 #include "awmr/core/shard.h"
@@ -37,6 +39,16 @@ struct ComparisonRow {
   std::string gains = {};  ///< NamedGains::name
 };
 
+/// What is compared in a scenario: a mode with a set of gains.
+struct Contender {
+  YawMode mode{};
+  std::string gains;  ///< NamedGains::name; empty where there is one set only
+
+  /// "combined", or "combined with tuned.json".
+  std::string label() const;
+  friend bool operator==(const Contender&, const Contender&) = default;
+};
+
 /// Below so many samples no interval is wide enough for its 95 %.
 inline constexpr int kFewSamples = 6;
 
@@ -54,6 +66,9 @@ struct CompareOptions {
   Preferences preferences = {};
   /// Also Comparison::break_even; with one set of gains only.
   bool break_even = false;
+  /// Also Comparison::changes: who is first on the other plant and with slower and faster gains. Of a
+  /// comparison in parts, the first part has them.
+  bool other_settings = false;
   /// What of the samples to run: all, or a part that merge_shards() (shard.h) puts to the others. At
   /// most as many parts as samples, the nominal one included.
   Shard shard = {};
@@ -68,15 +83,14 @@ struct CompareOptions {
   const std::atomic<bool>* stop = nullptr;
 };
 
-/// How much more yaw resistance a mode's turns could meet before another mode is better: straight
-/// wheels that are turned by the sides' forces scrub, which a model fitted to steered turns does
-/// not know.
+/// How much scrub (Plant::yaw_scrub_m) ends a mode's lead over another: on the model's own values, every
+/// mode with the scrub that its turns meet, unknown to the controller.
 struct BreakEven {
   std::string scenario;
-  YawMode mode{};  ///< differential or combined: it has the better score on the model's own values
+  YawMode mode{};     ///< differential or combined: it has the better score without scrub
   YawMode against{};  ///< a mode that turns less by the sides' forces
-  /// The Coulomb yaw moment over F_max, m, > 0, to within 1.2 % of itself or 7e-6 of most_m, beside the
-  /// model's own, with which the lead is gone; absent where it lasts up to most_m.
+  /// c, m, > 0, to within 1.2 % of itself or 7e-6 of most_m, with which the lead is gone; absent where it
+  /// lasts up to most_m.
   std::optional<double> yaw_coulomb_m;
   double most_m = 0.0;  ///< the largest yaw moment that the sides' forces make, m
   /// What four tyres that slide sideways on a friction of 0.8 would make, 0.8 g m' l_f, m: no scrub is
@@ -106,6 +120,21 @@ inline constexpr NameTable<Lead, 3> kLeadNames{
 /// Absent where no scrub was measured.
 std::optional<Lead> lead_of(const BreakEven& entry);
 
+/// What a ranking should not depend on.
+enum class ChangeKind { kPlant, kWeights, kGains };
+inline constexpr NameTable<ChangeKind, 3> kChangeKindNames{{{"plant", ChangeKind::kPlant},
+                                                            {"weights", ChangeKind::kWeights},
+                                                            {"gains", ChangeKind::kGains}}};
+
+/// Who is first in a scenario in another setting than the comparison's own.
+struct Change {
+  std::string scenario;
+  ChangeKind kind{};
+  std::string setting;           ///< "four-wheel", "model"; "slower", "faster"; "within a factor 2"
+  std::vector<Contender> first;  ///< of rank 1; of weights: of rank 1 whatever they are
+  std::string not_run = {};      ///< why there is no ranking in this setting; empty: there is
+};
+
 struct Comparison {
   std::vector<ComparisonRow> rows;  ///< the finished ones, by scenario, gains, mode, sample
   /// Samples, the nominal one included, that every scenario, mode and set of gains has from 0 on:
@@ -118,6 +147,8 @@ struct Comparison {
   std::optional<double> measured_yaw_rate_degps = {};
   /// By break_even_of() (break_even.h); absent where nobody asked.
   std::optional<std::vector<BreakEven>> break_even = {};
+  /// By changes_of_runs() (decision.h): plants and gains; empty where nobody asked.
+  std::vector<Change> changes = {};
 };
 
 /// Samples draw the fitted parameters from the model's covariance (simulate/plant_sampler.h), and

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "awmr/compare/decision.h"
 #include "awmr/compare/metric_columns.h"
 #include "awmr/compare/overall.h"
 #include "awmr/compare/ranking.h"
@@ -15,6 +16,7 @@
 #include "awmr/core/csv_cell.h"
 #include "awmr/core/hash.h"
 #include "awmr/core/json.h"
+#include "awmr/simulate/batch.h"
 
 namespace awmr {
 namespace {
@@ -85,7 +87,36 @@ Json ranked_json(const RankedMode& ranked) {
   return json;
 }
 
-Json scenario_json(const JudgedScenario& scenario) {
+Json labels_json(const std::vector<Contender>& contenders) {
+  Json labels = Json::array();
+  for (const Contender& one : contenders) labels.push_back(one.label());
+  return labels;
+}
+
+/// `all` has the changes that could not be run as well.
+Json decision_json(const std::string& scenario, const Decision& decision,
+                   const std::vector<Change>& all) {
+  Json json = {{"kind", name_in(kDecisionKindNames, decision.kind())},
+               {"first", labels_json(decision.first)},
+               {"never_behind", labels_json(decision.never_behind())},
+               {"deciding_trials", decision.deciding_trials()},
+               {"changes", Json::array()}};
+  for (const Change& change : decision.changes) {
+    json["changes"].push_back({{"kind", name_in(kChangeKindNames, change.kind)},
+                               {"setting", change.setting},
+                               {"first", labels_json(change.first)},
+                               {"survives", decision.survives(change)}});
+  }
+  for (const Change& change : all) {
+    if (change.scenario != scenario || change.not_run.empty()) continue;
+    json["changes"].push_back({{"kind", name_in(kChangeKindNames, change.kind)},
+                               {"setting", change.setting},
+                               {"not_run", change.not_run}});
+  }
+  return json;
+}
+
+Json scenario_json(const JudgedScenario& scenario, const std::vector<Change>& changes) {
   Json json;
   json["name"] = scenario.rows.scenario;
   json["modes"] = Json::object();
@@ -99,6 +130,9 @@ Json scenario_json(const JudgedScenario& scenario) {
   for (const RankedMode& ranked : scenario.ranking) json["ranking"].push_back(ranked_json(ranked));
   if (json["ranking"].empty()) {
     json["ranking_note"] = kNotRanked;
+  }
+  if (scenario.decision) {
+    json["decision"] = decision_json(scenario.rows.scenario, *scenario.decision, changes);
   }
   json["verdict"] = scenario.verdict;
   return json;
@@ -127,6 +161,19 @@ Json overall_json(const std::vector<JudgedScenario>& ranked) {
     json.push_back({{"metric", column_of(one.metric).name},
                     {"scenarios", one.scenarios},
                     {"best_or_tied", counts}});
+  }
+  return json;
+}
+
+Json decisions_json(const std::vector<JudgedScenario>& ranked) {
+  DecisionTally tally = tally_decisions(ranked);
+  Json json;
+  for (const auto& [name, kind] : kDecisionKindNames) {
+    json[std::string(name)] = tally.scenarios[kind];
+  }
+  for (const auto& [name, kind] : kChangeKindNames) {
+    const DecisionTally::Share& share = tally.survived[kind];
+    json["survived"][std::string(name)] = {{"count", share.count}, {"of", share.of}};
   }
   return json;
 }
@@ -194,6 +241,12 @@ Json ranking_json(const Preferences& preferences) {
       "metrics with a weight, under which the mode has the best score; modes within relevance of "
       "it, "
       "and modes that tie for the first place, share it";
+  json["decision"] = fmt::format(
+      "decided: one mode is of rank 1 in the ranking and under every change; level: "
+      "several are; undecided: none is. Changes: any weights within a factor {:g}; with "
+      "option plant both, the other plant, and the rates of both loops times and over "
+      "{:.3g}, each with up to {} samples",
+      kWeightFactor, kGainsFactor, kBatchRuns - 1);
   return json;
 }
 
@@ -252,10 +305,11 @@ std::string comparison_text(const Comparison& comparison, const CompareOptions& 
   const std::vector<JudgedScenario> ranked = ranked_of(scenarios);
   json["overall"] = overall_json(ranked);
   json["counted_once"] = counted_once_json(ranked);
+  json["decisions"] = decisions_json(ranked);
   if (comparison.break_even) json["break_even"] = break_even_json(*comparison.break_even);
   json["scenarios"] = Json::array();
   for (const JudgedScenario& scenario : scenarios)
-    json["scenarios"].push_back(scenario_json(scenario));
+    json["scenarios"].push_back(scenario_json(scenario, judged.changes));
   return to_text(json);
 }
 

@@ -1,7 +1,7 @@
 // comparison.json as comparison_text() writes it.
 #include <limits>
 
-#include "awmr/compare/compare.h"
+#include "awmr/compare/decision.h"
 #include "awmr/compare/metric_columns.h"
 #include "awmr/core/json.h"
 #include "awmr/model/findings_json.h"
@@ -62,6 +62,23 @@ void describe_ranking(JsonObject& scenario) {
   scenario.optional_string("ranking_note");
 }
 
+void describe_decision(JsonObject& scenario) {
+  auto decision = scenario.optional_object("decision");
+  if (!decision) return;
+  decision->choice("kind", kDecisionKindNames);
+  for (const char* key : {"first", "never_behind", "deciding_trials"}) decision->strings(key);
+  for (JsonObject& change : decision->objects("changes")) {
+    change.choice("kind", kChangeKindNames);
+    change.string("setting");
+    // A ranking in this setting, or why there is none.
+    if (change.has("first")) change.strings("first");
+    change.optional_boolean("survives");
+    change.optional_string("not_run");
+    change.reject_unknown_keys();
+  }
+  decision->reject_unknown_keys();
+}
+
 void describe_scenarios(JsonObject& json) {
   for (JsonObject& scenario : json.objects("scenarios")) {
     scenario.string("name");
@@ -72,6 +89,7 @@ void describe_scenarios(JsonObject& json) {
     }
     describe_differences(scenario);
     describe_ranking(scenario);
+    describe_decision(scenario);
     scenario.string("verdict");
     scenario.reject_unknown_keys();
   }
@@ -90,6 +108,21 @@ void describe_overall(JsonObject& json) {
     same.string("same_runs_as");
     same.reject_unknown_keys();
   }
+}
+
+void describe_decisions(JsonObject& json) {
+  auto decisions = json.optional_object("decisions");
+  if (!decisions) return;
+  for (const auto& kind : kDecisionKindNames) decisions->integer(kind.name, 0, kMost);
+  JsonObject survived = decisions->object("survived");
+  for (const auto& kind : kChangeKindNames) {
+    JsonObject share = survived.object(kind.name);
+    share.integer("count", 0, kMost);
+    share.integer("of", 0, kMost);
+    share.reject_unknown_keys();
+  }
+  survived.reject_unknown_keys();
+  decisions->reject_unknown_keys();
 }
 
 void describe_break_even(JsonObject& json) {
@@ -127,6 +160,7 @@ void describe_how(JsonObject& json) {
   }
   ranking.number("relevance", kShareOfRuns);
   ranking.string("first_by_weights");
+  ranking.optional_string("decision");
   ranking.reject_unknown_keys();
 }
 
@@ -144,6 +178,7 @@ void describe_comparison(JsonObject& json) {
   json.number("seed", kNonNegative);
   describe_how(json);
   describe_overall(json);
+  describe_decisions(json);
   describe_break_even(json);
   describe_scenarios(json);
   read_findings(json);

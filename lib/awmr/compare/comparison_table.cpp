@@ -76,6 +76,24 @@ std::string table_of(const ScenarioRows& scenario, const std::vector<RankedMode>
   return text;
 }
 
+/// "decisions: 3 decided, 1 level, 2 undecided; survive plant 3 of 6, weights 5 of 6, gains 6 of 6"
+std::string decisions_of(const std::vector<JudgedScenario>& scenarios) {
+  DecisionTally tally = tally_decisions(scenarios);
+  std::string text;
+  for (const auto& [name, kind] : kDecisionKindNames) {
+    text +=
+        fmt::format("{}{} {}", text.empty() ? "decisions: " : ", ", tally.scenarios[kind], name);
+  }
+  std::string survived;
+  for (const auto& [name, kind] : kChangeKindNames) {
+    const DecisionTally::Share& share = tally.survived[kind];
+    if (share.of == 0) continue;
+    survived += fmt::format("{}{} in {} of {}", survived.empty() ? "; survive a change of " : ", ",
+                            name, share.count, share.of);
+  }
+  return text + survived + '\n';
+}
+
 /// "best or tied, of 12 scenarios" by metric, where there are several to count.
 std::string overall_of(const std::vector<JudgedScenario>& scenarios) {
   if (scenarios.size() < 2) return "";
@@ -95,6 +113,7 @@ std::string overall_of(const std::vector<JudgedScenario>& scenarios) {
     }
     text += '\n';
   }
+  text += decisions_of(scenarios);
   const std::vector<std::size_t> first = first_with_same_runs(scenarios);
   for (std::size_t i = 0; i < scenarios.size(); ++i) {
     if (first[i] == i) continue;

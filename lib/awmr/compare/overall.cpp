@@ -43,9 +43,13 @@ std::vector<JudgedScenario> judge(const Comparison& comparison, const Preference
   for (ScenarioRows& scenario : group(comparison)) {
     auto differences = paired_differences(scenario, preferences, seed);
     auto ranking = rank(scenario, differences, preferences, seed);
-    std::string verdict = verdict_of(scenario, ranking, differences, preferences);
-    all.push_back(
-        {std::move(scenario), std::move(differences), std::move(ranking), std::move(verdict)});
+    std::optional<Decision> decision;
+    if (ranking.size() > 1) {
+      decision = decide(scenario, differences, ranking, comparison.changes, preferences, seed);
+    }
+    std::string verdict = verdict_of(scenario, ranking, decision, differences, preferences);
+    all.push_back({std::move(scenario), std::move(differences), std::move(ranking),
+                   std::move(decision), std::move(verdict)});
   }
   return all;
 }
@@ -94,6 +98,28 @@ std::vector<MetricTally> tally(const std::vector<JudgedScenario>& scenarios) {
     if (one.scenarios > 0) tallies.push_back(std::move(one));
   }
   return tallies;
+}
+
+DecisionTally tally_decisions(const std::vector<JudgedScenario>& scenarios) {
+  DecisionTally tally;
+  const std::vector<std::size_t> first = first_with_same_runs(scenarios);
+  for (std::size_t i = 0; i < scenarios.size(); ++i) {
+    const std::optional<Decision>& decision = scenarios[i].decision;
+    if (first[i] != i || !decision) continue;
+    ++tally.scenarios[decision->kind()];
+    for (const auto& [name, kind] : kChangeKindNames) {
+      bool has_one = false;
+      bool survives = true;
+      for (const Change& change : decision->changes) {
+        if (change.kind != kind) continue;
+        has_one = true;
+        survives = survives && decision->survives(change);
+      }
+      tally.survived[kind].of += has_one ? 1 : 0;
+      tally.survived[kind].count += has_one && survives ? 1 : 0;
+    }
+  }
+  return tally;
 }
 
 }  // namespace awmr

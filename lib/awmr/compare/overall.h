@@ -2,9 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "awmr/compare/decision.h"
 #include "awmr/compare/preferences.h"
 #include "awmr/compare/ranking.h"
 #include "awmr/compare/statistics.h"
@@ -23,6 +26,7 @@ struct JudgedScenario {
   ScenarioRows rows;
   std::vector<PairedDifference> differences;
   std::vector<RankedMode> ranking;
+  std::optional<Decision> decision;  ///< absent where nothing is ranked, or there is one mode only
   std::string verdict;
 };
 
@@ -40,5 +44,17 @@ std::vector<std::size_t> first_with_same_runs(const std::vector<JudgedScenario>&
 /// same runs the first. A contender is beaten in a metric by one whose mean is lower where the
 /// difference is a relevant one. A contender without a value is beaten by any that has one.
 std::vector<MetricTally> tally(const std::vector<JudgedScenario>& scenarios);
+
+/// How many scenarios, of several with the same runs the first, are decided, and how many survive
+/// each kind of change with all of its settings.
+struct DecisionTally {
+  std::map<DecisionKind, int> scenarios;
+  struct Share {
+    int count = 0;  ///< that survive
+    int of = 0;     ///< that have such a change
+  };
+  std::map<ChangeKind, Share> survived;
+};
+DecisionTally tally_decisions(const std::vector<JudgedScenario>& scenarios);
 
 }  // namespace awmr

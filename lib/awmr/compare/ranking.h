@@ -60,9 +60,4 @@ std::vector<RankedMode> rank(const ScenarioRows& scenario,
                              const std::vector<PairedDifference>& differences,
                              const Preferences& preferences = {}, std::uint64_t seed = 1);
 
-/// One sentence (or two) on who is best, by what, and how sure that is.
-std::string verdict_of(const ScenarioRows& scenario, const std::vector<RankedMode>& ranking,
-                       const std::vector<PairedDifference>& differences,
-                       const Preferences& preferences = {});
-
 }  // namespace awmr

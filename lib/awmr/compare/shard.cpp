@@ -32,6 +32,7 @@ struct Part {
   std::uint64_t seed = 0;
   Preferences preferences;
   std::optional<double> measured_yaw_rate_degps;
+  std::vector<Change> changes;
   std::vector<Finding> findings;
 };
 
@@ -45,12 +46,43 @@ Preferences read_preferences(JsonObject& json) {
   return preferences;
 }
 
+Json change_to_json(const Change& change) {
+  Json json{{"scenario", change.scenario},
+            {"kind", name_in(kChangeKindNames, change.kind)},
+            {"setting", change.setting},
+            {"first", Json::array()},
+            {"not_run", change.not_run}};
+  for (const Contender& one : change.first) {
+    json["first"].push_back({{"mode", name_of(one.mode)}, {"gains", one.gains}});
+  }
+  return json;
+}
+
+std::vector<Change> read_changes(JsonObject& json) {
+  std::vector<Change> changes;
+  for (JsonObject& one : json.optional_objects("changes")) {
+    Change change{.scenario = one.string("scenario"),
+                  .kind = one.choice("kind", kChangeKindNames),
+                  .setting = one.string("setting"),
+                  .first = {},
+                  .not_run = one.string("not_run")};
+    for (JsonObject& first : one.objects("first")) {
+      change.first.push_back({first.choice("mode", kYawModeNames), first.string("gains")});
+      first.reject_unknown_keys();
+    }
+    one.reject_unknown_keys();
+    changes.push_back(std::move(change));
+  }
+  return changes;
+}
+
 Part part_from_json(JsonObject& json) {
   Part part{.origin = read_shard_origin(json, kShardSchema),
             .samples = static_cast<int>(json.integer("samples", 0, kMostSamples)),
             .seed = json.seed("seed"),
             .preferences = read_preferences(json),
             .measured_yaw_rate_degps = json.optional_number("measured_yaw_rate_degps", kPositive),
+            .changes = read_changes(json),
             .findings = read_findings(json)};
   json.reject_unknown_keys();
   return part;
@@ -139,6 +171,7 @@ std::string shard_text(const Comparison& part, const CompareOptions& options,
   if (part.measured_yaw_rate_degps) {
     json["measured_yaw_rate_degps"] = *part.measured_yaw_rate_degps;
   }
+  for (const Change& change : part.changes) json["changes"].push_back(change_to_json(change));
   return to_text(json);
 }
 
@@ -170,6 +203,7 @@ Result<Merged> merge_shards(const std::vector<std::filesystem::path>& directorie
   AWMR_RETURN_IF_ERROR(put_in_order(merged.comparison.rows, at(first.samples) + 1));
   merged.comparison.whole_samples = first.samples + 1;
   merged.comparison.measured_yaw_rate_degps = first.measured_yaw_rate_degps;
+  merged.comparison.changes = first.changes;  // part 1 has them
   merged.findings = first.findings;
   merged.comparison.arithmetic = first.origin.arithmetic;
   merged.options.samples = first.samples;

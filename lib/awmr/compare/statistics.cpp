@@ -188,7 +188,8 @@ Comparison judged_part(const Comparison& comparison) {
   Comparison part{.rows = {},
                   .whole_samples = comparison.whole_samples,
                   .stopped = comparison.stopped,
-                  .arithmetic = comparison.arithmetic};
+                  .arithmetic = comparison.arithmetic,
+                  .changes = comparison.changes};
   for (const ComparisonRow& row : comparison.rows) {
     if (row.sample < comparison.whole_samples) part.rows.push_back(row);
   }

@@ -15,16 +15,6 @@
 
 namespace awmr {
 
-/// What is compared in a scenario: a mode with a set of gains.
-struct Contender {
-  YawMode mode{};
-  std::string gains;  ///< NamedGains::name; empty where there is one set only
-
-  /// "combined", or "combined with tuned.json".
-  std::string label() const;
-  friend bool operator==(const Contender&, const Contender&) = default;
-};
-
 /// The rows of one contender in one scenario: the model's own (sample 0), then the drawn ones.
 struct ModeRows {
   Contender contender;

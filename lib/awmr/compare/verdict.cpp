@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "awmr/compare/ranking.h"
+#include "awmr/compare/decision.h"
 #include "awmr/compare/scoring.h"
 #include "awmr/core/binomial.h"
 
@@ -83,11 +83,12 @@ std::string share_text(const RankedMode& other) {
 }
 
 /// "combined is best", "combined and steering tie for the first place".
-std::string first_text(const std::vector<RankedMode>& ranking, const Preferences& preferences) {
+std::string first_text(const std::vector<RankedMode>& ranking, bool is_undecided,
+                       const Preferences& preferences) {
   const RankedMode& best = ranking.front();
   std::vector<std::string> first{best.contender.label()};
   first.insert(first.end(), best.tied_with.begin(), best.tied_with.end());
-  if (first.size() == 1) return first.front() + " is best";
+  if (first.size() == 1) return first.front() + (is_undecided ? " is first here" : " is best");
   if (first.size() < ranking.size()) return joined(first) + " tie for the first place";
   const bool equal = std::all_of(ranking.begin() + 1, ranking.end(), [](const RankedMode& mode) {
     return mode.towards_leader == Conclusion::kEquivalent;
@@ -110,16 +111,18 @@ std::string stability_text(const RankedMode& best) {
 }  // namespace
 
 std::string verdict_of(const ScenarioRows& scenario, const std::vector<RankedMode>& ranking,
+                       const std::optional<Decision>& decision,
                        const std::vector<PairedDifference>& differences,
                        const Preferences& preferences) {
   if (ranking.empty()) return std::string(kNotRanked) + ".";
+  const bool is_undecided = decision && decision->kind() == DecisionKind::kUndecided;
   const RankedMode& best = ranking.front();
   const bool any_completed = std::ranges::any_of(
       ranking, [](const RankedMode& mode) { return mode.completed_share > 0.0; });
   std::string text = best.completed_share > 0.0 ? ""
                      : any_completed            ? "by score "
                                                 : "none completed; by score ";
-  text += first_text(ranking, preferences);
+  text += first_text(ranking, is_undecided, preferences);
   for (const RankedMode& other : ranking) {
     if (other.rank == 1) continue;
     const PairedDifference* gap =
@@ -129,6 +132,7 @@ std::string verdict_of(const ScenarioRows& scenario, const std::vector<RankedMod
   }
   text += "; " + completion_text(scenario);
   if (ranking.size() > 1) text += stability_text(best);
+  if (decision) text += decision_text(*decision);
   const std::size_t samples = scenario.modes.front().rows.size() - 1;
   if (samples < 2) {
     text += samples == 0 ? "; the nominal run alone, without samples, shows no spread"

@@ -43,7 +43,35 @@ struct Plant {
   T back_emf_s_per_m = T(0.0);
   /// 1: all four wheels are driven, as the paper's are; 0: the front ones alone. Given.
   T rear_driven = T(1.0);
+  /// c, m, >= 0: Coulomb yaw moment over F_max that the tyres' scrub adds to g3 in a turn by left and
+  /// right wheel forces alone, see scrub_moment_m(). 0: none, as in the paper. From differential turns.
+  T yaw_scrub_m = T(0.0);
 };
+
+/// g3 with all of the scrub: the steepest resistance to yaw that steps have to resolve.
+template <class T>
+Resistance<T> yaw_with_scrub(const Plant<T>& p) {
+  Resistance<T> law = p.yaw;
+  law.coulomb = law.coulomb + p.yaw_scrub_m;
+  return law;
+}
+
+/// The moment of the tyres' scrub against a yaw rate r, m: straight wheels that turn with the vehicle
+/// are dragged sideways, steered ones roll. c is measured where the whole turn is differential, and none
+/// where it is all steered, so it is scaled by the differential share of the moment:
+///   N_c = c q sgn r,   q = |tau_diff|/(|tau_diff| + |tau_steering|),   q = 0 where neither turns
+/// Below the yaw resistance's rest speed N_c is its chord, as g3 is.
+template <class T>
+T scrub_moment_m(const Plant<T>& p, const T& yaw_rate_radps, const T& tau_steering_m,
+                 const T& tau_diff_m) {
+  using math::abs;
+  using math::larger;
+  const T differential = abs(tau_diff_m);
+  const T tiny = T(1e-30);
+  const T share = differential / larger(T(differential + abs(tau_steering_m)), tiny);
+  return p.yaw_scrub_m * share *
+         (yaw_rate_radps / larger(larger(T(abs(yaw_rate_radps)), p.yaw.rest_speed), tiny));
+}
 
 /// n, of which tau_speed = n F' straight ahead.
 template <class T>
@@ -146,12 +174,43 @@ T steering_rate(const Plant<T>& p, const T& steering_rad, const T& steering_comm
                         p.steering_max_rate_radps);
 }
 
+namespace detail {
+
+/// The forces of the motors of these commands: beyond the dead zone, less back-EMF.
+template <class T>
+WheelForces<T> wheel_forces(const Plant<T>& p, const State<T>& s, const WheelForces<T>& command) {
+  using math::any;
+  const WheelForces<T> e{beyond_dead_zone(command.front_left, p.wheel_dead_zone),
+                         beyond_dead_zone(command.front_right, p.wheel_dead_zone),
+                         beyond_dead_zone(command.rear_left, p.wheel_dead_zone),
+                         beyond_dead_zone(command.rear_right, p.wheel_dead_zone)};
+  if (any(p.back_emf_s_per_m > T(0.0))) return motor_forces(p, s, e);
+  return e;
+}
+
+/// Both parts of the yaw moment of wheel forces, m.
+template <class T>
+struct YawMoments {
+  T steering_m;  ///< l_f S_f sin d_r
+  T diff_m;      ///< d cos d_r (F'FR - F'FL) + d (F'RR - F'RL)
+};
+
+template <class T>
+YawMoments<T> yaw_moments(const Plant<T>& p, const WheelForces<T>& e, const T& cos_d,
+                          const T& sin_d) {
+  return {p.front_axle_m * (e.front_left + e.front_right) * sin_d,
+          p.half_track_m * cos_d * (e.front_right - e.front_left) +
+              p.half_track_m * (e.rear_right - e.rear_left)};
+}
+
+}  // namespace detail
+
 /// Rates of the state where each wheel has a force of its own, F' = motor_force(). With S_f = F'FL + F'FR and
 /// S_r = F'RL + F'RR, the last three are
 ///   u_dot = (S_f cos d_r + S_r + m' r v - g1(u)) / m'
 ///   v_dot = (S_f sin d_r       - m' r u - g2(v)) / m'
-///   r_dot = (l_f S_f sin d_r + d cos d_r (F'FR - F'FL) + d (F'RR - F'RL) - g3(r)) / I'z
-/// and the first three those of detail::rates.                              [paper (39), corrected]
+///   r_dot = (l_f S_f sin d_r + d cos d_r (F'FR - F'FL) + d (F'RR - F'RL) - g3(r) - N_c) / I'z
+/// with N_c = scrub_moment_m(), and the first three those of detail::rates.  [paper (39), corrected]
 /// Corrected: the rear term of the printed r_dot repeats the front pair of forces.
 template <class T>
 State<T> state_rates(const Plant<T>& p, const State<T>& s, const WheelForces<T>& f,
@@ -161,16 +220,16 @@ State<T> state_rates(const Plant<T>& p, const State<T>& s, const WheelForces<T>&
   using math::sin;
   const T cos_d = cos(s.steering_rad);
   const T sin_d = sin(s.steering_rad);
-  WheelForces<T> e{beyond_dead_zone(f.front_left, p.wheel_dead_zone),
-                   beyond_dead_zone(f.front_right, p.wheel_dead_zone),
-                   beyond_dead_zone(f.rear_left, p.wheel_dead_zone),
-                   beyond_dead_zone(f.rear_right, p.wheel_dead_zone)};
-  if (any(p.back_emf_s_per_m > T(0.0))) e = detail::motor_forces(p, s, e);
+  const WheelForces<T> e = detail::wheel_forces(p, s, f);
   const T front = e.front_left + e.front_right;
   const T rear = e.rear_left + e.rear_right;
-  const T moment = p.front_axle_m * front * sin_d +
-                   p.half_track_m * cos_d * (e.front_right - e.front_left) +
-                   p.half_track_m * (e.rear_right - e.rear_left);
+  T moment = p.front_axle_m * front * sin_d +
+             p.half_track_m * cos_d * (e.front_right - e.front_left) +
+             p.half_track_m * (e.rear_right - e.rear_left);
+  if (any(p.yaw_scrub_m > T(0.0))) {
+    const detail::YawMoments<T> tau = detail::yaw_moments(p, e, cos_d, sin_d);
+    moment = moment - scrub_moment_m(p, s.r_radps, tau.steering_m, tau.diff_m);
+  }
   return detail::rates(p, s, front * cos_d + rear, front * sin_d, moment,
                        steering_rate(p, s.steering_rad, steering_command_rad));
 }
@@ -251,16 +310,36 @@ State<T> side_driven_rates(const Plant<T>& p, const State<T>& s, const SideForce
                        steering_rate(p, s.steering_rad, steering_command_rad));
 }
 
+/// Each wheel's command where the wheels of a side are commanded alike.
+template <class T>
+WheelForces<T> by_wheel(const Plant<T>& p, const SideForces<T>& f) {
+  return {f.left, f.right, p.rear_driven * f.left, p.rear_driven * f.right};
+}
+template <class T>
+const WheelForces<T>& by_wheel(const Plant<T>&, const WheelForces<T>& f) {
+  return f;
+}
+
+/// Work that the ground takes by scrub per second, over F_max, m/s, >= 0: N_c r; 0 without scrub.
+template <class T>
+T scrub_power_mps(const Plant<T>& p, const State<T>& s, const SideForces<T>& f) {
+  using math::cos;
+  using math::sin;
+  const WheelForces<T> e = detail::wheel_forces(p, s, by_wheel(p, f));
+  const detail::YawMoments<T> tau =
+      detail::yaw_moments(p, e, T(cos(s.steering_rad)), T(sin(s.steering_rad)));
+  return scrub_moment_m(p, s.r_radps, tau.steering_m, tau.diff_m) * s.r_radps;
+}
+
 /// Rates of the state where the wheels of a side are commanded alike. With back-EMF, or where the rear
-/// wheels are not driven, those push otherwise than the front ones of their side: each by itself.
+/// wheels are not driven, those push otherwise than the front ones of their side: each by itself. Scrub
+/// is in the equations by wheel as well.
 template <class T>
 State<T> state_rates(const Plant<T>& p, const State<T>& s, const SideForces<T>& f,
                      const T& steering_command_rad) {
   using math::any;
-  if (any(p.back_emf_s_per_m > T(0.0) || p.rear_driven < T(1.0))) {
-    return state_rates(
-        p, s, WheelForces<T>{f.left, f.right, p.rear_driven * f.left, p.rear_driven * f.right},
-        steering_command_rad);
+  if (any(p.back_emf_s_per_m > T(0.0) || p.rear_driven < T(1.0) || p.yaw_scrub_m > T(0.0))) {
+    return state_rates(p, s, by_wheel(p, f), steering_command_rad);
   }
   return side_driven_rates(p, s, beyond_dead_zone(f, p.wheel_dead_zone), steering_command_rad);
 }

@@ -121,7 +121,10 @@ Plant<double> Model::plant_as_known() const {
     values[static_cast<std::size_t>(parameter.id)] =
         (*this)[parameter.id].value.value_or(none_of(parameter.id));
   }
-  return plant_of(vehicle, values);
+  Plant<double> plant = plant_of(vehicle, values);
+  // Below 0 by chance alone: tyres that are dragged sideways do not help.
+  if (yaw_scrub) plant.yaw_scrub_m = std::max(yaw_scrub->moment_m, 0.0);
+  return plant;
 }
 
 Motion Model::simulated_motion() const { return plant() ? Motion::kPlanar : Motion::kStraight; }

@@ -124,16 +124,6 @@ TyreForces<T> tyre_forces(const FourWheels<T>& p, const State<T>& s, const Wheel
   return made;
 }
 
-/// Each wheel's command where the wheels of a side are commanded alike.
-template <class T>
-WheelForces<T> by_wheel(const Plant<T>& p, const SideForces<T>& f) {
-  return {f.left, f.right, p.rear_driven * f.left, p.rear_driven * f.right};
-}
-template <class T>
-const WheelForces<T>& by_wheel(const Plant<T>&, const WheelForces<T>& f) {
-  return f;
-}
-
 /// Work that the ground takes from the sliding tyres per second, over F_max, m/s, >= 0:
 ///   P = -sum of F'y s
 template <class T, class Forces>

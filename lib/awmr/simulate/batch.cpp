@@ -115,6 +115,7 @@ void set_up_lane(Batch& batch, const BatchRun& run, std::size_t lane) {
   put(controller.limits.back_emf_s_per_m, lane, block.back_emf);
   block.setup.has_back_emf = block.setup.has_back_emf || run.plant.back_emf_s_per_m > 0.0 ||
                              controller.limits.back_emf_s_per_m > 0.0;
+  block.setup.has_scrub = block.setup.has_scrub || run.plant.yaw_scrub_m > 0.0;
   put(largest_force(controller), lane, block.force_most);
   put(metered_vehicle(controller.limits), lane, block.metered);
   put(batch.scenario.initial, lane, block.state);

@@ -46,7 +46,7 @@ struct MeteredRow {
   T off_target_m;          ///< from the point gone to
   T clearance_m;           ///< to the nearest obstacle; 0 without obstacles
   T speed_ref_mps;         ///< u_d, what the speed law is asked for
-  T tyre_power_mps;        ///< of the tyres' side forces; 0 without tyres
+  T tyre_power_mps;        ///< of the tyres' side forces; without tyres, of scrub
 };
 
 /// When a row is; the same for all lanes.
@@ -262,6 +262,7 @@ void measure_work(const MeteredRow<T>& row, const MeteredVehicle<T>& vehicle, bo
     m.tyre_work += T(dt_s) * m.tyre_power_mps;
   } else {
     m.tyre_work += T(dt_s) * m.yaw_resistance_m * m.r_radps;
+    m.tyre_work += T(dt_s) * m.tyre_power_mps;  // of scrub
   }
   m.saturation_s = select(m.limited > T(0.0), T(m.saturation_s + T(dt_s)), m.saturation_s);
   m.steering_travel_deg += abs(degrees(row.state.steering_rad - m.steering_rad));

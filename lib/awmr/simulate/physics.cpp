@@ -63,7 +63,9 @@ StepLimit step_limit(const Plant<double>& plant, bool on_tyres) {
   }
   const double rolling = on_tyres ? rolling_inertia(plant) : plant.mass_norm;
   at_most(step_for_chord(plant.surge, rolling), ParameterId::kSurgeBeta);
-  if (!on_tyres) at_most(step_for_chord(plant.yaw, plant.inertia_norm), ParameterId::kYawBeta);
+  if (!on_tyres) {
+    at_most(step_for_chord(yaw_with_scrub(plant), plant.inertia_norm), ParameterId::kYawBeta);
+  }
   return limit;
 }
 
@@ -114,7 +116,7 @@ Plant<double> resolved_at_rest(const Plant<double>& plant, const Scenario& scena
 }
 
 double Physics::tyre_power_mps(const SideForces<double>& command) const {
-  if (!scenario_->tyres) return 0.0;
+  if (!scenario_->tyres) return scrub_power_mps(plant_, state_, command);
   return awmr::tyre_power_mps(FourWheels<double>{plant_, *scenario_->tyres}, state_, command);
 }
 

@@ -18,6 +18,9 @@ namespace {
 
 constexpr int kMostTries = 1000;
 
+/// Draws of scrub are apart from those of the other parameters, which do not depend on it.
+constexpr std::uint64_t kScrubStream = std::uint64_t{1} << 61U;
+
 /// What a negative eigenvalue may be for rounding's sake, over the largest: the file's matrix has
 /// 17 digits, a derived parameter (m' from a1, b1) makes it singular.
 constexpr double kSingularTolerance = 1e-9;
@@ -119,6 +122,8 @@ Result<Plant<double>> PlantSampler::draw(std::uint64_t seed, int sample) const {
 
 Result<std::vector<Plant<double>>> PlantSampler::draw_evenly(std::uint64_t seed, int count) const {
   Random random(seed, 0);  // draw() has the streams from 1
+  Random of_scrub(seed, kScrubStream);
+  const std::vector<double> scrubs = stratified_normals(count, of_scrub);
   std::vector<std::vector<double>> by_direction;
   for (std::size_t j = 0; j < centre_.size(); ++j) {
     by_direction.push_back(stratified_normals(count, random));
@@ -128,7 +133,8 @@ Result<std::vector<Plant<double>>> PlantSampler::draw_evenly(std::uint64_t seed,
     std::vector<double> normals;
     for (const std::vector<double>& of : by_direction) normals.push_back(of[at(i)]);
     const std::optional<Model> drawn = model_at(normals);
-    AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, drawn ? drawn->plant() : draw(seed, i + 1));
+    AWMR_ASSIGN_OR_RETURN(const Plant<double> plant,
+                          drawn ? with_scrub(*drawn, scrubs[at(i)]).plant() : draw(seed, i + 1));
     plants.push_back(plant);
   }
   return plants;
@@ -139,13 +145,23 @@ Result<Model> PlantSampler::draw_model(std::uint64_t seed, int sample) const {
   std::vector<double> normals(centre_.size());
   for (int attempt = 0; attempt < kMostTries; ++attempt) {
     for (double& normal : normals) normal = random.normal();
-    if (std::optional<Model> drawn = model_at(normals)) return *std::move(drawn);
+    if (std::optional<Model> drawn = model_at(normals)) {
+      Random of_scrub(seed, kScrubStream | static_cast<std::uint64_t>(sample));
+      return with_scrub(*std::move(drawn), of_scrub.normal());
+    }
   }
   return input_error(
       model_.file + ":/covariance",
       fmt::format("in {} draws an exponent or a term of a resistance was below 0 every time: "
                   "identify from more trials",
                   kMostTries));
+}
+
+Model PlantSampler::with_scrub(Model drawn, double normal) const {
+  if (const auto& scrub = model_.yaw_scrub) {
+    drawn.yaw_scrub->moment_m = scrub->moment_m + scrub->std_error_m * normal;
+  }
+  return drawn;
 }
 
 std::optional<Model> PlantSampler::model_at(std::span<const double> normals) const {

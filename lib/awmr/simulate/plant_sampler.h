@@ -25,6 +25,8 @@ namespace awmr {
 /// estimate.
 class PlantSampler {
  public:
+  /// Draws have a scrub of their own where the model has one (YawScrub::std_error_m, which holds the
+  /// error of g3 as well and is taken as independent of it).
   /// Errors (input): a parameter has no value; no covariance; one that is no covariance.
   static Result<PlantSampler> make(const Model& model);
 
@@ -43,6 +45,8 @@ class PlantSampler {
   /// The model at standard normals, one for each parameter of the covariance; none where an exponent
   /// or a term is negative there.
   std::optional<Model> model_at(std::span<const double> normals) const;
+  /// The model with a scrub `normal` standard errors from its own; as it is without one.
+  Model with_scrub(Model drawn, double normal) const;
 
   Model model_;
   std::vector<double> centre_;               ///< z by position in the covariance

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "awmr/core/gravity.h"
 #include "awmr/core/units.h"
 #include "awmr/model/dynamics.h"
 #include "awmr/model/fitted_law.h"
@@ -237,6 +238,16 @@ std::string steered_turns_instead(const Vehicle& vehicle) {
       stop / 3.0, 2.0 * stop / 3.0, stop, force);
 }
 
+/// Of the surge trials, > 0; none without.
+std::optional<double> fastest_surge_mps(const Model& model) {
+  std::optional<double> fastest_mps;
+  for (const TrialPoint& trial : model.record.trials) {
+    if (trial.kind != TrialKind::kSurge || !(trial.measured > 0.0)) continue;
+    fastest_mps = std::max(fastest_mps.value_or(0.0), trial.measured);
+  }
+  return fastest_mps;
+}
+
 std::string purpose_of(const Model& model) {
   if (const auto& scrub = model.yaw_scrub) {
     return fmt::format(
@@ -262,13 +273,9 @@ ScrubPlan scrub_plan(const Model& model) {
             "turns by the sides' forces are named once surge and yaw resistance are known, and how "
             "fast they were measured (turning trials, or yaw_rate_max_degps in the vehicle)"};
   }
-  double fastest_mps = 0.0;
-  for (const TrialPoint& trial : model.record.trials) {
-    if (trial.kind == TrialKind::kSurge) fastest_mps = std::max(fastest_mps, trial.measured);
-  }
-  const double straight = fastest_mps > 0.0
-                              ? surge->surge(0.5 * fastest_mps) / vehicle.driven_wheels()
-                              : 0.5 * (vehicle.wheel_force.lo + vehicle.wheel_force.hi);
+  const std::optional<double> fastest_mps = fastest_surge_mps(model);
+  const double straight = fastest_mps ? surge->surge(0.5 * *fastest_mps) / vehicle.driven_wheels()
+                                      : 0.5 * (vehicle.wheel_force.lo + vehicle.wheel_force.hi);
   const Interval scrub_m = possible_scrub_m(model, *yaw);
   ScrubPlan plan{{}, purpose_of(model)};
   constexpr int kTurns = 3;
@@ -288,6 +295,26 @@ ScrubPlan scrub_plan(const Model& model) {
         plan.turns.size(), kTurns, straight);
   }
   return plan;
+}
+
+/// Rolling without slip about a centre on the rear axle's line, the wheelbase being 2 l_f (tyres.h):
+///   r = u tan(d_r)/(2 l_f),   u r <= 0.2 g
+std::optional<CoastingTurn> coasting_turn(const Model& model) {
+  const Vehicle& vehicle = model.vehicle;
+  const auto surge = model.plant(Motion::kSteadySurge);
+  if (!vehicle.has_steering() || !surge) return std::nullopt;
+  constexpr double kMostAcross_mps2 = 0.2 * kGravity_mps2;
+  const double force = std::max(0.0, vehicle.wheel_force.hi - surge->wheel_dead_zone);
+  const auto reachable = steady_rate(surge->surge, driven_wheels(*surge) * force,
+                                     driven_wheels(*surge) * surge->back_emf_s_per_m);
+  const double fastest_mps = fastest_surge_mps(model).value_or(reachable.value_or(0.0));
+  if (!(fastest_mps > 0.0)) return std::nullopt;
+  const double speed_mps = 0.5 * fastest_mps;
+  const double wheelbase_m = 2.0 * vehicle.front_axle_m;
+  const double most_rad = std::atan(kMostAcross_mps2 * wheelbase_m / (speed_mps * speed_mps));
+  const double steering_rad = std::min(radians(0.5 * vehicle.steering_max_deg), most_rad);
+  return CoastingTurn{speed_mps, degrees(steering_rad),
+                      degrees(speed_mps * std::tan(steering_rad) / wheelbase_m)};
 }
 
 std::vector<std::string> assumptions_of(const Model& model, const SuggestOptions& options) {

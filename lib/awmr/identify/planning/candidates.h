@@ -27,6 +27,10 @@ struct ScrubPlan {
 /// at, about the force that drives straight at half the fastest speed: as far as the wheels' forces reach.
 ScrubPlan scrub_plan(const Model& model);
 
+/// At half of the fastest speed of the trials, or of the motors, and half of the steering's stop, less where
+/// tyres of little friction would slide.
+std::optional<CoastingTurn> coasting_turn(const Model& model);
+
 /// What is assumed of the errors of the candidates' measurements, in words.
 std::vector<std::string> assumptions_of(const Model& model, const SuggestOptions& options);
 

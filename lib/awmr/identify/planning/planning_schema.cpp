@@ -47,6 +47,12 @@ void describe_suggestion(JsonObject& json) {
     turn.reject_unknown_keys();
   }
   json.optional_string("about_scrub");
+  if (auto coasting = json.optional_object("steer_while_coasting")) {
+    for (const char* key : {"speed_mps", "steering_deg", "rolling_yaw_rate_degps"}) {
+      coasting->number(key, kPositive);
+    }
+    coasting->reject_unknown_keys();
+  }
   for (JsonObject& trial : json.objects("trials")) {
     trial.choice("kind", kTrialKindNames);
     JsonObject settings = trial.object("settings");

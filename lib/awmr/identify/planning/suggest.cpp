@@ -211,7 +211,8 @@ Result<Suggestion> suggest(const Model& model, const SuggestOptions& options) {
                         .trials = {},
                         .scrub_turns = scrub.turns,
                         .about_scrub = scrub.about,
-                        .assumptions = assumptions_of(model, options)};
+                        .assumptions = assumptions_of(model, options),
+                        .coasting = coasting_turn(model)};
   if (uncertainty.parameters.empty()) return suggestion;
   if (model.simulated_motion() == Motion::kPlanar) {
     AWMR_RETURN_IF_ERROR(check_replay(model.plant_as_known(), model.file));

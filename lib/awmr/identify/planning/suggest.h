@@ -57,6 +57,15 @@ struct ScrubTurn {
   SideForces<double> least, most;
 };
 
+/// A turn that tells the 3-DOF model from tyres: in (41) the front wheels turn the vehicle by the motors'
+/// thrust alone, wheels that roll turn it whether or not the motors push.
+struct CoastingTurn {
+  double speed_mps = 0.0;     ///< to let go at, > 0
+  double steering_deg = 0.0;  ///< to steer once the motors are off, > 0
+  /// Of wheels that roll without slipping at that speed and angle, deg/s, > 0. The model has 0.
+  double rolling_yaw_rate_degps = 0.0;
+};
+
 struct Suggestion {
   std::string criterion;                  ///< in words
   std::vector<MissingParameter> missing;  ///< no value at all: their trials come before any other
@@ -64,6 +73,7 @@ struct Suggestion {
   std::vector<ScrubTurn> scrub_turns;     ///< empty where `about_scrub` says why
   std::string about_scrub;  ///< what they are for, or why there are none; empty: no steering
   std::vector<std::string> assumptions;
+  std::optional<CoastingTurn> coasting = {};  ///< absent: no steering, or no surge resistance yet
 };
 
 /// Information adds up:

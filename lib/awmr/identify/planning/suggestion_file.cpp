@@ -24,6 +24,11 @@ std::string suggestion_text(const Suggestion& suggestion, const Provenance& prov
                                    {"most_force_right", turn.most.right}});
   }
   if (!suggestion.about_scrub.empty()) json["about_scrub"] = suggestion.about_scrub;
+  if (const auto& coasting = suggestion.coasting) {
+    json["steer_while_coasting"] = {{"speed_mps", coasting->speed_mps},
+                                    {"steering_deg", coasting->steering_deg},
+                                    {"rolling_yaw_rate_degps", coasting->rolling_yaw_rate_degps}};
+  }
   json["trials"] = Json::array();
   for (const SuggestedTrial& trial : suggestion.trials) {
     Json settings;
@@ -78,6 +83,18 @@ std::string scrub_sheet(const Suggestion& suggestion) {
   return text;
 }
 
+/// The turn that tells the two plants of compare apart.
+std::string coasting_sheet(const Suggestion& suggestion) {
+  const auto& coasting = suggestion.coasting;
+  if (!coasting) return {};
+  return fmt::format(
+      "\nfor the choice between the model and the four-wheel plant (compare, simulate --plant):\n"
+      "[ ]    steer while coasting: at {:.3g} m/s motors off, at once steer {:.3g} deg, log yaw "
+      "rate "
+      "and\n       speed. The model says 0 deg/s, wheels that roll without slip {:.3g} deg/s\n",
+      coasting->speed_mps, coasting->steering_deg, coasting->rolling_yaw_rate_degps);
+}
+
 }  // namespace
 
 std::string field_sheet(const Suggestion& suggestion, std::size_t most) {
@@ -95,7 +112,7 @@ std::string field_sheet(const Suggestion& suggestion, std::size_t most) {
         fmt::format("       {}: standard error {:.3g} -> {:.3g};  information +{:.1f}\n",
                     trial.parameter, trial.std_error_before, trial.std_error_after, trial.d_gain);
   }
-  return text + scrub_sheet(suggestion);
+  return text + scrub_sheet(suggestion) + coasting_sheet(suggestion);
 }
 
 }  // namespace awmr

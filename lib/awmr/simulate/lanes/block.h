@@ -37,6 +37,7 @@ struct BlockSetup {
   MotorLag lag;
   bool is_by_wheel = false;   ///< each wheel has a force of its own
   bool has_back_emf = false;  ///< a vehicle of the block, or what its controller knows of it
+  bool has_scrub = false;     ///< a vehicle of the block
   MeteredCourse course;       ///< with what says whether the block is on tyres
   Tyres<double> tyres;        ///< of a block on tyres
 };

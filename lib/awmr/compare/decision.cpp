@@ -1,0 +1,281 @@
+#include "awmr/compare/decision.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <utility>
+#include <variant>
+
+#include "awmr/compare/scoring.h"
+#include "awmr/core/parallel.h"
+#include "awmr/simulate/batch.h"
+
+namespace awmr {
+namespace {
+
+bool has(const std::vector<Contender>& contenders, const Contender& one) {
+  return std::find(contenders.begin(), contenders.end(), one) != contenders.end();
+}
+
+std::vector<Contender> first_of(const std::vector<RankedMode>& ranking) {
+  std::vector<Contender> first;
+  for (const RankedMode& mode : ranking) {
+    if (mode.rank == 1) first.push_back(mode.contender);
+  }
+  return first;
+}
+
+/// Mean of log_loss() over the counted runs.
+double mean_log_loss(const ModeRows& rows, const ScoredMetric& scored) {
+  double sum = 0.0;
+  for (const ComparisonRow& row : rows.counted()) sum += log_loss(row.metrics, scored);
+  return sum / static_cast<double>(rows.counted().size());
+}
+
+/// The weights w_k within the factor that are worst for `own` against `other`. With d_k how far own is
+/// behind in metric k, own is behind by more than the margin m where
+///   sum w_k (d_k - m) > 0,
+/// a sum in which each term is largest by itself: w_k is doubled where d_k > m, else halved.
+Preferences worst_weights(const ModeRows& own, const ModeRows& other,
+                          const std::vector<ScoredMetric>& scoring,
+                          const Preferences& preferences) {
+  const double margin = std::log1p(preferences.relevance);
+  Preferences worst = preferences;
+  for (const ScoredMetric& scored : scoring) {
+    const bool is_behind = mean_log_loss(own, scored) - mean_log_loss(other, scored) > margin;
+    const double factor = is_behind ? kWeightFactor : 1.0 / kWeightFactor;
+    worst.weights[std::string(scored.metric->name)] =
+        factor * weight_of(*scored.metric, preferences);
+  }
+  return worst;
+}
+
+/// Those that are of rank 1 whatever the weights are within the factor.
+Change change_of_weights(const ScenarioRows& scenario,
+                         const std::vector<PairedDifference>& differences,
+                         const Preferences& preferences, std::uint64_t seed) {
+  const std::vector<ScoredMetric> scoring = scoring_of(scenario, preferences);
+  Change change{.scenario = scenario.scenario,
+                .kind = ChangeKind::kWeights,
+                .setting = fmt::format("within a factor {:g}", kWeightFactor),
+                .first = {}};
+  for (const ModeRows& own : scenario.modes) {
+    const bool stays =
+        std::all_of(scenario.modes.begin(), scenario.modes.end(), [&](const ModeRows& other) {
+          if (&other == &own) return true;
+          const Preferences worst = worst_weights(own, other, scoring, preferences);
+          return has(first_of(rank(scenario, differences, worst, seed)), own.contender);
+        });
+    if (stays) change.first.push_back(own.contender);
+  }
+  return change;
+}
+
+/// Who is first by these rows of one scenario.
+std::vector<Contender> first_by(const std::vector<ComparisonRow>& rows,
+                                const CompareOptions& options) {
+  const Comparison comparison{.rows = rows};
+  const ScenarioRows scenario = group(comparison).front();
+  const auto differences = paired_differences(scenario, options.preferences, options.seed);
+  return first_of(rank(scenario, differences, options.preferences, options.seed));
+}
+
+/// The given gains with all rates of both closed loops times the factor: lambda and mu/epsilon of
+/// the heading, mu_s/epsilon_s of the speed.
+NamedGains with_rates_times(double factor, NamedGains set) {
+  set.gains.heading.lambda *= factor;
+  set.gains.heading.mu *= factor;
+  set.gains.speed.mu *= factor;
+  return set;
+}
+
+/// The first fault in a line.
+std::string message_of(const Error& error) {
+  const Fault& fault = error.faults.front();
+  return fault.place.empty() ? fault.message : fmt::format("{}: {}", fault.place, fault.message);
+}
+
+/// The plant that the scenario is not on.
+PlantKind other_plant(const Scenario& scenario) {
+  return scenario.tyres ? PlantKind::kModel : PlantKind::kFourWheel;
+}
+
+/// The scenario on that plant. Errors (input): it has no meaning there.
+Result<Scenario> on_other_plant(Scenario scenario) {
+  if (scenario.tyres) {
+    scenario.tyres.reset();
+    return scenario;
+  }
+  for (const TyreConflict& conflict : tyre_conflicts(scenario)) {
+    return input_error("/" + conflict.key, conflict.message);
+  }
+  scenario.tyres.emplace();
+  return scenario;
+}
+
+/// A scenario in another setting.
+struct ChangedCourse {
+  Change change;
+  Scenario scenario;
+  std::vector<NamedGains> gains;
+};
+
+/// What is to be run, in the order of the scenarios; what cannot be, goes into `changes` at once.
+std::vector<ChangedCourse> changed_courses(const std::vector<NamedGains>& gains,
+                                           const std::vector<Scenario>& scenarios,
+                                           std::vector<Change>& changes) {
+  std::vector<ChangedCourse> courses;
+  for (const Scenario& scenario : scenarios) {
+    if (std::holds_alternative<OpenLoop>(scenario.guidance)) continue;  // nothing is ranked
+    Change change{.scenario = scenario.name,
+                  .kind = ChangeKind::kPlant,
+                  .setting = std::string(name_in(kPlantKindNames, other_plant(scenario))),
+                  .first = {}};
+    if (auto other = on_other_plant(scenario)) {
+      courses.push_back({std::move(change), *std::move(other), gains});
+    } else {
+      change.not_run = message_of(other.error());
+      changes.push_back(std::move(change));
+    }
+    if (gains.size() > 1) continue;  // these sets are the change of gains
+    for (const auto& [setting, factor] :
+         {std::pair("slower", 1.0 / kGainsFactor), std::pair("faster", kGainsFactor)}) {
+      courses.push_back(
+          {{.scenario = scenario.name, .kind = ChangeKind::kGains, .setting = setting, .first = {}},
+           scenario,
+           {with_rates_times(factor, gains.front())}});
+    }
+  }
+  return courses;
+}
+
+/// "differential and combined"
+std::string listed(const std::vector<Contender>& contenders) {
+  std::vector<std::string> labels;
+  for (const Contender& one : contenders) labels.push_back(one.label());
+  return labels.empty() ? "none" : fmt::format("{}", fmt::join(labels, " and "));
+}
+
+std::string in_words(const Change& change) {
+  switch (change.kind) {
+    case ChangeKind::kPlant:
+      return fmt::format("on the {} plant", change.setting);
+    case ChangeKind::kWeights:
+      return fmt::format("with all weights {}", change.setting);
+    case ChangeKind::kGains:
+      return fmt::format("with gains {:.1f} times {}", kGainsFactor, change.setting);
+  }
+  return {};
+}
+
+std::string trials_in_words(const std::vector<std::string_view>& trials) {
+  if (trials.empty()) return {};
+  return fmt::format("; {} would tell which plant is right (awmr suggest)",
+                     fmt::join(trials, " and "));
+}
+
+}  // namespace
+
+std::vector<Contender> Decision::never_behind() const {
+  std::vector<Contender> left;
+  std::copy_if(first.begin(), first.end(), std::back_inserter(left), [&](const Contender& one) {
+    return std::all_of(changes.begin(), changes.end(),
+                       [&](const Change& change) { return has(change.first, one); });
+  });
+  return left;
+}
+
+DecisionKind Decision::kind() const {
+  const std::size_t count = never_behind().size();
+  if (count == 0) return DecisionKind::kUndecided;
+  return count == 1 ? DecisionKind::kDecided : DecisionKind::kLevel;
+}
+
+bool Decision::survives(const Change& change) const {
+  return std::any_of(first.begin(), first.end(),
+                     [&](const Contender& one) { return has(change.first, one); });
+}
+
+/// A differential turn is another one on tyres because they scrub, a steered one because they steer
+/// whether or not the motors push.
+std::vector<std::string_view> Decision::deciding_trials() const {
+  bool differential = false;
+  bool steered = false;
+  for (const Change& change : changes) {
+    if (change.kind != ChangeKind::kPlant) continue;
+    for (const auto* some : {&first, &change.first}) {
+      const auto& others = some == &first ? change.first : first;
+      for (const Contender& one : *some) {
+        if (has(others, one)) continue;
+        differential = differential || one.mode != YawMode::kSteering;
+        steered = steered || one.mode != YawMode::kDifferential;
+      }
+    }
+  }
+  std::vector<std::string_view> trials;
+  if (differential) trials.push_back(kDifferentialTurns);
+  if (steered) trials.push_back(kSteerWhileCoasting);
+  return trials;
+}
+
+std::vector<Change> changes_of_runs(const Model& model, const std::vector<NamedGains>& gains,
+                                    const std::vector<Scenario>& scenarios,
+                                    const CompareOptions& options) {
+  std::vector<Change> changes;
+  if (gains.size() * yaw_modes(model.vehicle).size() < 2) return changes;  // nothing to choose
+  std::vector<ChangedCourse> courses = changed_courses(gains, scenarios, changes);
+  // A course to a thread; each has no more samples than a thread runs at a time.
+  CompareOptions few;
+  few.samples = std::min(options.samples, static_cast<int>(kBatchRuns) - 1);
+  few.seed = options.seed;
+  few.preferences = options.preferences;
+  few.threads = 1;
+  few.stop = options.stop;
+  parallel_for(courses.size(), options.threads, [&](std::size_t i) {
+    ChangedCourse& course = courses[i];
+    const auto comparison = compare(model, course.gains, {course.scenario}, few);
+    if (!comparison) {
+      course.change.not_run = message_of(comparison.error());
+    } else if (!comparison->stopped) {
+      course.change.first = first_by(comparison->rows, few);
+    }
+  });
+  for (ChangedCourse& course : courses) changes.push_back(std::move(course.change));
+  return changes;
+}
+
+Decision decide(const ScenarioRows& scenario, const std::vector<PairedDifference>& differences,
+                const std::vector<RankedMode>& ranking, const std::vector<Change>& changes,
+                const Preferences& preferences, std::uint64_t seed) {
+  Decision decision{first_of(ranking), {}};
+  decision.changes.push_back(change_of_weights(scenario, differences, preferences, seed));
+  std::copy_if(changes.begin(), changes.end(), std::back_inserter(decision.changes),
+               [&](const Change& change) {
+                 return change.scenario == scenario.scenario && change.not_run.empty();
+               });
+  return decision;
+}
+
+std::string decision_text(const Decision& decision) {
+  const std::vector<Contender> never_behind = decision.never_behind();
+  const bool is_undecided = never_behind.empty();
+  std::vector<std::string> words;
+  for (const Change& change : decision.changes) {
+    if (!is_undecided) {
+      words.push_back(in_words(change));
+    } else if (change.first != decision.first) {
+      words.push_back(fmt::format("{} first {}", listed(change.first), in_words(change)));
+    }
+  }
+  const bool differ = decision.kind() != DecisionKind::kDecided;
+  const std::string trials = differ ? trials_in_words(decision.deciding_trials()) : "";
+  if (is_undecided) return fmt::format("; undecided: {}{}", fmt::join(words, ", "), trials);
+  return fmt::format("; {} a first place {}{}",
+                     listed(never_behind) + (never_behind.size() == 1 ? " keeps" : " keep"),
+                     fmt::join(words, ", "), trials);
+}
+
+}  // namespace awmr

@@ -1,0 +1,161 @@
+/// The tyres' scrub in the 3-DOF plant: differential turns meet it, steered ones do not.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "awmr/model/paper_gains.h"
+#include "awmr/model/steady.h"
+#include "awmr/simulate/batch.h"
+#include "awmr/simulate/plant_sampler.h"
+#include "simulate/paper_plant.h"
+#include "support/uncertain_model.h"
+
+namespace awmr::testing {
+namespace {
+
+constexpr double kScrub_m = 0.02;
+
+Plant<double> scrubbing_plant() {
+  Plant<double> plant = paper_plant();
+  plant.yaw_scrub_m = kScrub_m;
+  return plant;
+}
+
+State<double> turning(double r_radps, double steering_rad) {
+  return {.x_m = 0.0,
+          .y_m = 0.0,
+          .psi_rad = 0.0,
+          .u_mps = 1.0,
+          .v_mps = 0.0,
+          .r_radps = r_radps,
+          .steering_rad = steering_rad};
+}
+
+/// What scrub takes from r_dot, times I'z.
+double scrub_at(const State<double>& state, const SideForces<double>& force) {
+  const Plant<double> plant = scrubbing_plant();
+  const double with = state_rates(plant, state, force, 0.0).r_radps;
+  const double without = state_rates(paper_plant(), state, force, 0.0).r_radps;
+  return (without - with) * plant.inertia_norm;
+}
+
+TEST(Scrub, OpposesTheTurnByTheDifferentialShareOfItsMoment) {
+  // Sums of moments of about 0.1 m over I'z = 0.0128, rounded at 1e-16: 1e-14 of c.
+  constexpr double kRounding_m = 1e-14;
+  EXPECT_NEAR(scrub_at(turning(0.2, 0.0), {0.2, 0.3}), kScrub_m, kRounding_m);
+  EXPECT_NEAR(scrub_at(turning(-0.2, 0.0), {0.2, 0.3}), -kScrub_m, kRounding_m);
+  // A differential moment that brakes the turn drags the wheels as well.
+  EXPECT_NEAR(scrub_at(turning(0.2, 0.0), {0.3, 0.2}), kScrub_m, kRounding_m);
+  EXPECT_NEAR(scrub_at(turning(0.2, 0.2), {0.3, 0.3}), 0.0, kRounding_m);
+  EXPECT_NEAR(scrub_at(turning(0.2, 0.0), {0.0, 0.0}), 0.0, kRounding_m);
+  const SideForces<double> force{0.2, 0.3};
+  const auto tau =
+      generalised_forces(paper_plant().front_axle_m, paper_plant().half_track_m, force, 0.2);
+  const double share = tau.tau_diff_m / (tau.tau_diff_m + tau.tau_steering_m);
+  EXPECT_GT(share, 0.2);
+  EXPECT_LT(share, 0.8);
+  EXPECT_NEAR(scrub_at(turning(0.2, 0.2), force), share * kScrub_m, kRounding_m);
+}
+
+TEST(Scrub, OfASteadyDifferentialTurnIsWhatItsTrialMeasures) {
+  // 2 d (F'R - F'L) = g3(r) + c, as identify has it: after 20 s, 50 time constants I'z/g3'(r) = 0.4 s and
+  // less, within 1e-6 of r.
+  const Plant<double> plant = scrubbing_plant();
+  const double tau_turn_m = 0.1;
+  const awmr::Run run = run_open_loop(plant, turning(0.0, 0.0), 20.0, {1.0, tau_turn_m});
+  const double r = run.rows.back().state.r_radps;
+  EXPECT_NEAR(r, steady_rate(paper_plant().yaw, tau_turn_m - kScrub_m).value(), 1e-6 * r);
+}
+
+TEST(Scrub, HoldsWhatIsWeakerThanItself) {
+  // The chord of g3 + c ends below 1e-3 rad/s (physics.cpp), and half of c is balanced below its end.
+  const awmr::Run run =
+      run_open_loop(scrubbing_plant(), turning(0.0, 0.0), 5.0, {1.0, 0.5 * kScrub_m});
+  EXPECT_LT(std::abs(run.rows.back().state.r_radps), 1e-3);
+  EXPECT_GT(std::abs(run.rows.back().state.r_radps), 0.0);
+}
+
+TEST(Scrub, WorksAgainstTheTurn) {
+  // Of the steady turn: tyre work grows by (g3(r) + c) r per second.
+  const Plant<double> plant = scrubbing_plant();
+  Scenario scenario = short_open_loop();
+  scenario.guidance = OpenLoop{1.0, 0.1};
+  const auto controller = make_controller(plant, paper_vehicle(), kPaperGains);
+  const auto work_m = [&](double duration_s) {
+    scenario.duration_s = duration_s;
+    const awmr::Run run = simulate(plant, controller, scenario, YawMode::kDifferential,
+                                   {.sample_time_s = 0.01, .substeps = {}});
+    return metrics_of(run, scenario, controller).tyre_work;
+  };
+  const double r = steady_rate(plant.yaw, 0.1 - kScrub_m).value();
+  EXPECT_NEAR(work_m(21.0) - work_m(20.0), 0.1 * r, 1e-6);
+}
+
+TEST(Scrub, IsTheSameInABatch) {
+  const auto arithmetic = batch_arithmetic();
+  ASSERT_TRUE(arithmetic);
+  const Plant<double> plant = scrubbing_plant();
+  const auto controller = make_controller(plant, paper_vehicle(), kPaperGains);
+  const Scenario scenario = short_heading();
+  for (const YawMode mode : kYawModes) {
+    const std::vector<BatchRun> runs{{plant, controller, mode}};
+    const auto batch = simulate_batch(runs, scenario, 0.01, *arithmetic);
+    ASSERT_TRUE(batch.front());
+    const Metrics alone = metrics_of(
+        simulate(plant, controller, scenario, mode, {.sample_time_s = 0.01, .substeps = {}}),
+        scenario, controller);
+    // Rounding alone, as in batch_test.cpp.
+    EXPECT_NEAR(*batch.front()->heading_iae_degs, *alone.heading_iae_degs, 1e-8);
+    EXPECT_NEAR(batch.front()->tyre_work, alone.tyre_work, 1e-10);
+  }
+}
+
+Model scrubbing_model(double moment_m) {
+  Model model = uncertain_model();
+  model.yaw_scrub = YawScrub{.moment_m = moment_m,
+                             .std_error_m = 0.002,
+                             .ci95_m = {moment_m - 0.005, moment_m + 0.005},
+                             .rows = 6,
+                             .yaw_rate_radps = {0.1, 0.3}};
+  return model;
+}
+
+TEST(Scrub, OfTheModelIsInItsPlantAndNeverBelowZero) {
+  EXPECT_EQ(scrubbing_model(0.01).plant()->yaw_scrub_m, 0.01);
+  EXPECT_EQ(scrubbing_model(-0.001).plant()->yaw_scrub_m, 0.0);
+  EXPECT_EQ(uncertain_model().plant()->yaw_scrub_m, 0.0);
+}
+
+TEST(Scrub, IsDrawnWithItsErrorAndLeavesOtherDrawsAsTheyAre) {
+  const auto plain = PlantSampler::make(uncertain_model());
+  const auto sampler = PlantSampler::make(scrubbing_model(0.01));
+  ASSERT_TRUE(plain && sampler);
+  constexpr int kDraws = 2000;
+  double sum = 0.0, squares = 0.0;
+  for (int i = 1; i <= kDraws; ++i) {
+    const auto drawn = sampler->draw(5, i);
+    ASSERT_TRUE(drawn);
+    EXPECT_EQ(drawn->yaw.alpha, plain->draw(5, i)->yaw.alpha);
+    sum += drawn->yaw_scrub_m;
+    squares += drawn->yaw_scrub_m * drawn->yaw_scrub_m;
+  }
+  // Of 2,000 draws the mean has a standard error of 0.002/sqrt(2000) = 4.5e-5, the deviation one of
+  // 0.002/sqrt(4000) = 3.2e-5; 5 of them.
+  const double mean = sum / kDraws;
+  EXPECT_NEAR(mean, 0.01, 2.3e-4);
+  EXPECT_NEAR(std::sqrt(squares / kDraws - mean * mean), 0.002, 1.6e-4);
+  const auto evenly = sampler->draw_evenly(5, 16);
+  const auto plainly = plain->draw_evenly(5, 16);
+  ASSERT_TRUE(evenly && plainly);
+  double even_sum = 0.0;
+  for (std::size_t i = 0; i < 16; ++i) {
+    EXPECT_EQ((*evenly)[i].mass_norm, (*plainly)[i].mass_norm);
+    even_sum += (*evenly)[i].yaw_scrub_m;
+  }
+  // One draw in each of 16 strata: the mean is within a stratum's share of the deviation.
+  EXPECT_NEAR(even_sum / 16.0, 0.01, 0.002 / 4.0);
+}
+
+}  // namespace
+}  // namespace awmr::testing
