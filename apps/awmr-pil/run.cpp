@@ -301,7 +301,7 @@ Result<Outcome> run_pil(const PilOptions& asked, const Watch& watch) {
   auto in = read_inputs(asked);
   if (!in) return tl::unexpected(in.error());
   std::vector<Finding> findings;
-  AWMR_RETURN_IF_ERROR(cli::note_other_model(asked.gains, asked.model, findings));
+  AWMR_RETURN_IF_ERROR(cli::note_other_model(asked.gains, asked.model, findings, asked.mode));
   if (asked.injection != Injection::kNone) AWMR_RETURN_IF_ERROR(place_injection(*in));
   const PilOptions options = resolved(asked, *in);
   Report report;

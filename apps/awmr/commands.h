@@ -102,6 +102,7 @@ struct TuneCommand {
   bool nominal = false;
   bool observer = false;                  ///< as {} for the file's `observer`
   std::optional<fs::path> baseline = {};  ///< as the file's `baseline`
+  std::optional<YawMode> mode = {};       ///< as the file's `mode`
   std::optional<int> draws = {};
   std::optional<int> sensitivity = {};
   HeadingRateChoice heading_rate_limit = {};

@@ -2,10 +2,12 @@
 
 #include <CLI/CLI.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "awmr/core/input_file.h"
 #include "awmr/core/provenance.h"
+#include "awmr/model/gains_file.h"
 #include "awmr/simulate/scenario.h"
 #include "choices.h"
 #include "numbers.h"
@@ -53,9 +55,11 @@ Result<EmitInputs> emit_inputs(const std::filesystem::path& model,
                                const std::filesystem::path& gains) {
   AWMR_ASSIGN_OR_RETURN(const InputFile model_input, input_file(model));
   AWMR_ASSIGN_OR_RETURN(const InputFile gains_input, input_file(gains));
+  AWMR_ASSIGN_OR_RETURN(std::optional<CertifiedGains> certificate, read_certificate(gains));
   return EmitInputs{.model_sha256 = model_input.sha256,
                     .gains_sha256 = gains_input.sha256,
-                    .gains_file = gains.filename().string()};
+                    .gains_file = gains.filename().string(),
+                    .certificate = std::move(certificate)};
 }
 
 }  // namespace awmr::cli

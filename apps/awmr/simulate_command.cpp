@@ -141,7 +141,7 @@ Result<Outcome> execute(const SimulateCommand& command) {
   metrics.electric_work_j = electric_work_j(metrics, model.vehicle, controller.mass_norm);
   std::vector<Finding> findings;
   if (command.gains) {
-    AWMR_RETURN_IF_ERROR(note_other_model(*command.gains, command.model, findings));
+    AWMR_RETURN_IF_ERROR(note_other_model(*command.gains, command.model, findings, command.mode));
   }
   std::ranges::move(asked_in_vain(scenario, model), std::back_inserter(findings));
   if (auto finding = tyres_differ(scenario, model)) findings.push_back(*finding);

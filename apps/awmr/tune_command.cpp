@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "awmr/core/file.h"
+#include "awmr/core/units.h"
 #include "awmr/model/findings_json.h"
 #include "awmr/model/gains_file.h"
 #include "awmr/model/model_file.h"
@@ -15,6 +16,7 @@
 #include "awmr/simulate/validity.h"
 #include "awmr/tune/tune_file.h"
 #include "awmr/tune/tune_shard.h"
+#include "choices.h"
 #include "commands.h"
 #include "inputs.h"
 #include "judgement_words.h"
@@ -122,10 +124,31 @@ std::vector<Finding> judged_findings(const Tuning& tuning) {
   return findings;
 }
 
+/// A warning where some parameters of the confidence set make the loop unstable.
+std::vector<Finding> certificate_findings(const Certificate& certificate) {
+  std::vector<Finding> findings;
+  for (const ModeCertificate& one : certificate.modes) {
+    if (one.damping.value > 0.0) continue;
+    std::string where;
+    for (const auto& [id, value] : one.damping.parameters) {
+      where += fmt::format("{}{} = {:.4g}", where.empty() ? "" : ", ", info(id).name, value);
+    }
+    findings.push_back(
+        {"", 0, Severity::kWarning, "not-certified",
+         fmt::format("{}: the heading loop is unstable for parameters within the model's 95 % set "
+                     "(damping {:.3g} at {}, {:.3g} deg/s). Record the trials that `awmr suggest` "
+                     "names, or raise limits/late_damping",
+                     name_of(one.mode), one.damping.value, where,
+                     degrees(one.damping.yaw_rate_radps))});
+  }
+  return findings;
+}
+
 /// Every other finding: those that a part of a tuning has as the whole has them.
 std::vector<Finding> findings_before_judging(const Model& model, const Tuning& tuning,
                                              const TuneOptions& options) {
   std::vector<Finding> findings = sensitivity_findings(tuning);
+  std::ranges::move(certificate_findings(*tuning.certificate), std::back_inserter(findings));
   std::ranges::move(observer_findings(options), std::back_inserter(findings));
   if (const auto plant = model.plant()) {
     if (auto finding =
@@ -180,8 +203,23 @@ std::string open_text(const OpenVehicle& open) {
   return text + '\n';
 }
 
+/// Worst damping and delay margin of the heading loop, over the confidence set.
+std::string certificate_text(const Certificate& certificate) {
+  std::string by_mode;
+  for (const ModeCertificate& one : certificate.modes) {
+    by_mode += fmt::format("{}{} {:.3g}, {:.3g} s", by_mode.empty() ? "" : "; ", name_of(one.mode),
+                           one.damping.value, one.delay_margin_s.value);
+  }
+  return fmt::format(
+      "  certified  damping at least {:.3g}, delay margin {:.3g} s over {}, {:g} s late ({})\n",
+      certificate.damping_min(), certificate.delay_margin_s(),
+      certificate.parameters > 0 ? "95 % of the model's parameters" : "the model's own values",
+      certificate.latency_s, by_mode);
+}
+
 std::string summary_of(const Tuning& tuning, const TuneOptions& options) {
-  std::string text = gains_table(tuning) + standing_of(tuning) + open_text(options.open);
+  std::string text = gains_table(tuning) + standing_of(tuning) +
+                     certificate_text(*tuning.certificate) + open_text(options.open);
   if (tuning.robust) {
     text += judged_table(tuning.robust->judged, tuning.robust->judged_by_scenario) +
             goals_text(tuning.robust->goals) + sensitivity_text(*tuning.robust);
@@ -227,6 +265,7 @@ Result<Provenance> provenance_of(const TuneCommand& command,
   if (command.nominal) options.emplace_back("nominal", "true");
   if (command.observer) options.emplace_back("observer", "true");
   if (command.baseline) options.emplace_back("baseline", command.baseline->string());
+  if (command.mode) options.emplace_back("mode", std::string(name_of(*command.mode)));
   if (command.draws) options.emplace_back("draws", std::to_string(*command.draws));
   if (command.sensitivity) {
     options.emplace_back("sensitivity", std::to_string(*command.sensitivity));
@@ -281,6 +320,7 @@ Result<Outcome> execute(const TuneCommand& command) {
   choose(command.allocation, model, scenarios);
   AWMR_RETURN_IF_ERROR(limit_heading_rate(command.heading_rate_limit, model, scenarios));
   if (command.nominal) config.options.nominal = true;
+  if (command.mode) config.options.mode = command.mode;
   if (command.draws && config.options.nominal) {
     return input_error("--draws",
                        "nominal gains are tuned on no draws, and the configuration asks for "
@@ -331,10 +371,9 @@ void add_tune(CLI::App& app, Session& session) {
                                 return execute(*command);
                               });
   add_file(*sub, "--model", command->model, "model.json from identify")->required();
-  add_file(
-      *sub, "--config", command->config,
-      "tune.json: form, margin, limits, baseline, weights, goals, open, observer, evaluations, "
-      "seed, scenarios");
+  add_file(*sub, "--config", command->config,
+           "tune.json: mode, form, margin, limits, baseline, weights, goals, open, observer, "
+           "evaluations, seed, scenarios");
   auto* nominal = sub->add_flag("--nominal", command->nominal,
                                 "Tune on the model's own values alone: no draws from what is "
                                 "uncertain, no noise, no latency, no lag");
@@ -346,6 +385,11 @@ void add_tune(CLI::App& app, Session& session) {
                   "Gains that the objective is normalised by: pole-placement (default), paper or a "
                   "gains.json")
       ->type_name("NAME|FILE");
+  sub->add_option_function<std::string>(
+         "--mode",
+         [command](const std::string& name) { command->mode = value_in(kYawModeNames, name); },
+         "Tune for this mode alone (default: one set of gains for all modes)")
+      ->check(one_of(names_in(kYawModeNames)));
   sub->add_option("--draws", command->draws,
                   "Plants drawn from the model's covariance that the gains are tuned for (default "
                   "32)")

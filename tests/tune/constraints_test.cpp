@@ -110,6 +110,31 @@ TEST(Constraints, PassOverTheModeThatHasNoAuthority) {
               0.35 * 1.3268 * std::tan(std::acos(-1.0) / 18.0), kRounding);
 }
 
+TEST(Constraints, OfOneModeAreThoseOfItsActuationAlone) {
+  ConstraintContext context = paper_context(ReachingForm::kStrict, 0.8);
+  context.limits.steering_rate_rms_degps = 100.0;
+  const auto all = constraints_of(kPaperGains, context);
+  double worst = 1.0;
+  for (const YawMode mode : {YawMode::kDifferential, YawMode::kSteering, YawMode::kCombined}) {
+    context.mode = mode;
+    worst = std::min(worst, named(constraints_of(kPaperGains, context), "heading damping").value);
+  }
+  EXPECT_EQ(worst, named(all, "heading damping").value);
+
+  // Without a servo: the speed loop has T_s/2 of lag alone, and no steering command has a rate.
+  context.mode = YawMode::kDifferential;
+  const auto differential = constraints_of(kPaperGains, context);
+  EXPECT_NEAR(named(differential, "speed lag").value, 5.0 / 1.2 * 0.005, kRounding);
+  EXPECT_EQ(differential.size() + 1, all.size());
+  EXPECT_NEAR(named(differential, "noise gain").limit, 4.0 * 0.36 * (1.0 - 1.3268 / 4.0) / 4.0,
+              kRounding);
+
+  // The servo makes half of the moment.
+  context.mode = YawMode::kCombined;
+  EXPECT_NEAR(named(constraints_of(kPaperGains, context), "steering rate").value,
+              0.5 * named(all, "steering rate").value, 1e-9);
+}
+
 TEST(Constraints, HaveTheValueOfTheGainsAndTheLimitThatItMustKeep) {
   ConstraintContext context = paper_context(ReachingForm::kStrict, 0.8);
   context.latency_s = 0.02;

@@ -47,7 +47,7 @@ ObjectiveSetting setting_of(int plants, double tail_share = 1.0) {
 
 /// In the one scenario, with the paper's gains.
 ModeScore score_of(const ObjectiveSetting& setting, std::size_t plant, YawMode mode) {
-  const auto scores = run_all(setting, std::span(&kPaperGains, 1)).front();
+  const auto scores = run_all(setting, draw_noise(setting), std::span(&kPaperGains, 1)).front();
   const auto modes = yaw_modes(setting.vehicle);
   const auto place = std::find(modes.begin(), modes.end(), mode) - modes.begin();
   return scores.at(plant * modes.size() + static_cast<std::size_t>(place));

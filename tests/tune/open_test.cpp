@@ -75,7 +75,7 @@ TEST(Open, RunsClipAtTheForcesOfTheirVehicle) {
                            .weights = {},
                            .scenarios = {turn},
                            .arithmetic = batch_arithmetic().value()};
-  const auto scores = run_all(setting, std::span(&kPaperGains, 1)).front();
+  const auto scores = run_all(setting, draw_noise(setting), std::span(&kPaperGains, 1)).front();
   Vehicle weak = model.vehicle;
   weak.wheel_force = {0.0, 0.5};
   const auto controller = make_controller(plant, weak, kPaperGains);

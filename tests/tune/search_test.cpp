@@ -13,6 +13,7 @@
 #include "awmr/model/gains_file.h"
 #include "awmr/simulate/simulate.h"
 #include "awmr/tune/robust.h"
+#include "awmr/tune/trade_off.h"
 #include "support/uncertain_model.h"
 #include "tune/paper_model.h"
 
@@ -579,6 +580,34 @@ TEST(Robust, WithoutDrawsAndWithoutACovarianceNoiseAloneIsDrawn) {
       gains_text(*tuning, options, {.command = "tune", .options = {}, .inputs = {}});
   EXPECT_EQ(text, text_of(options));
   EXPECT_THAT(text, ::testing::HasSubstr("noise alone"));
+}
+
+TEST(TradeOff, KeepsWhatNoOtherBeatsInBoth) {
+  const auto front = front_of({{2.0, 1.0}, {1.0, 3.0}, {1.0, 2.0}, {3.0, 1.0}, {1.5, 2.5}});
+  ASSERT_EQ(front.size(), 2U);
+  EXPECT_EQ(front[0].settling_time_s, 1.0);
+  EXPECT_EQ(front[0].control_variation, 2.0);
+  EXPECT_EQ(front[1].settling_time_s, 2.0);
+  EXPECT_EQ(front[1].control_variation, 1.0);
+  EXPECT_TRUE(front_of({}).empty());
+}
+
+TEST(TradeOff, HasTheGainsThatTheTuningNames) {
+  const TuneOptions options = short_options();
+  const Tuning tuning = tune(paper_model(), options).value();
+  ASSERT_FALSE(tuning.trade_off.front.empty());
+  std::map<std::string, TradeOffPoint> named;
+  for (const NamedTradeOff& one : tuning.trade_off.named) named[one.gains] = one.point;
+  for (const char* name : {"tuned", "baseline", "paper", "lqi"}) EXPECT_EQ(named.count(name), 1U);
+  // Without draws they are the means over the modes of what the scores have.
+  double settling_s = 0.0;
+  double variation = 0.0;
+  for (const ModeScore& score : tuning.scores) {
+    settling_s += score.metrics.settling_time_s.value_or(10.0) / 3.0;
+    variation += score.metrics.control_variation / 3.0;
+  }
+  EXPECT_NEAR(named["tuned"].settling_time_s, settling_s, 1e-12);
+  EXPECT_NEAR(named["tuned"].control_variation, variation, 1e-12);
 }
 
 }  // namespace

@@ -91,7 +91,7 @@ TEST_F(TuneFile, TakesEveryDocumentedKey) {
             "u_mps": 0, "v_mps": 0, "r_degps": 0}, "speed_mps": 1,
             "guidance": {"type": "heading", "steps": [{"t_s": 0, "psi_deg": 20}]}})");
   const Result<TuneConfig> config = read(
-      R"({"schema": "awmr.tune/1", "form": "paper", "margin": 0.5,
+      R"({"schema": "awmr.tune/1", "mode": "steering", "form": "paper", "margin": 0.5,
           "weights": {"itae": 2, "overshoot": 0, "control_variation": 1, "effort": 3,
                       "speed_itae": 4},
           "bounds": {"lambda": [1, 2], "mu": [3, 4], "epsilon": [5, 6], "speed_mu": [7, 8],
@@ -100,6 +100,7 @@ TEST_F(TuneFile, TakesEveryDocumentedKey) {
           "activity_max": 1.7, "global_evaluations": 11, "local_evaluations": 12, "seed": 13,
           "scenarios": ["turn.json"]})");
   ASSERT_TRUE(config) << to_text(config.error());
+  EXPECT_EQ(config->options.mode, YawMode::kSteering);
   EXPECT_EQ(config->options.form, ReachingForm::kPaper);
   EXPECT_EQ(config->options.margin, 0.5);
   EXPECT_EQ(config->options.weights.effort, 3.0);
@@ -119,6 +120,37 @@ TEST_F(TuneFile, TakesEveryDocumentedKey) {
   EXPECT_EQ(config->scenario_files.front(), directory_ / "turn.json");
 }
 
+TEST_F(TuneFile, ReadsLimits) {
+  const TuningLimits defaults;
+  EXPECT_FALSE(read("{}")->options.limits.steering_rate_rms_degps);
+  const auto one = read(R"({"limits": {"damping": 0.8}})");
+  ASSERT_TRUE(one) << to_text(one.error());
+  EXPECT_EQ(one->options.limits.damping, 0.8);
+  EXPECT_EQ(one->options.limits.late_damping, defaults.late_damping);
+  const auto all = read(
+      R"({"limits": {"steering_rate_rms_degps": 120, "damping": 1, "late_damping": 0.3,
+                     "delayed_damping": 0.1, "noise_share": 0.5}})");
+  ASSERT_TRUE(all) << to_text(all.error());
+  EXPECT_EQ(all->options.limits.steering_rate_rms_degps, 120.0);
+  EXPECT_EQ(all->options.limits.damping, 1.0);
+  EXPECT_EQ(all->options.limits.late_damping, 0.3);
+  EXPECT_EQ(all->options.limits.delayed_damping, 0.1);
+  EXPECT_EQ(all->options.limits.noise_share, 0.5);
+}
+
+TEST_F(TuneFile, RefusesLimitsOutOfRange) {
+  for (const char* text :
+       {R"({"limits": {"damping": 0}})", R"({"limits": {"damping": 1.01}})",
+        R"({"limits": {"late_damping": -0.1}})", R"({"limits": {"delayed_damping": "0.1"}})",
+        R"({"limits": {"noise_share": 1.5}})", R"({"limits": {"steering_rate_rms_degps": 0}})",
+        R"({"limits": {"steering_rate_rms_degps": null}})", R"({"limits": {"dampng": 0.7}})",
+        R"({"limits": []})"}) {
+    const Result<TuneConfig> config = read(text);
+    ASSERT_FALSE(config) << text;
+    EXPECT_EQ(config.error().kind, ErrorKind::kInput) << text;
+  }
+}
+
 TEST_F(TuneFile, NamesAnUnknownKeyAndItsNearest) {
   EXPECT_THAT(fault(R"({"margn": 0.5})"), HasSubstr("margin"));
   EXPECT_THAT(fault(R"({"weights": {"overshot": 1}})"), HasSubstr("overshoot"));
@@ -131,6 +163,8 @@ TEST_F(TuneFile, RefusesValuesOutOfRange) {
         R"({"margin": 1})",
         R"({"margin": "0.5"})",
         R"({"form": "strickt"})",
+        R"({"mode": "sideways"})",
+        R"({"mode": null})",
         R"({"global_evaluations": 0})",
         R"({"local_evaluations": -1})",
         R"({"nominal": 1})",

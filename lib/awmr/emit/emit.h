@@ -13,6 +13,7 @@
 #include "awmr/control/yaw_mode.h"
 #include "awmr/core/name_table.h"
 #include "awmr/core/result.h"
+#include "awmr/model/certificate.h"
 #include "awmr/model/gains.h"
 #include "awmr/model/model.h"
 
@@ -23,6 +24,7 @@ struct EmitInputs {
   std::string model_sha256;               ///< of the bytes of the model's file, lower-case digits
   std::string gains_sha256;               ///< of the bytes of the gains' file, lower-case digits
   std::string gains_file = "gains.json";  ///< without its folders
+  std::optional<CertifiedGains> certificate = {};  ///< of the gains; absent: they have none
 };
 
 /// AWMR_PARAMS_SHA256: SHA-256 of the 128 characters that the model's and the gains' SHA-256 make

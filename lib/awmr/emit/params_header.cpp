@@ -59,17 +59,30 @@ std::string checks_text(const std::vector<Macro>& macros, bool has_observer) {
   return text + "#undef AWMR_PARAMS_CHECK\n";
 }
 
+/// Lines of the intro: worst cases by mode.
+std::string certificate_text(const std::optional<CertifiedGains>& certificate) {
+  if (!certificate) return {};
+  std::string text = fmt::format(
+      "   Heading loop with {:g} s of latency, worst case over the model's parameters ({}):\n",
+      certificate->latency_s, comment_safe(certificate->set));
+  for (const CertifiedMode& one : certificate->modes) {
+    text += fmt::format("     {}: damping {:.3g}, delay margin {:.3g} s\n", comment_safe(one.mode),
+                        one.damping_min, one.delay_margin_s);
+  }
+  return text;
+}
+
 std::string intro_text(const Model& model, const EmitInputs& inputs) {
   return fmt::format(
       "/* awmr_params.h: parameters and gains of \"{}\", made by awmr {}.\n"
       "   model: {}, SHA-256 {}\n"
       "   gains: {}, SHA-256 {}\n"
-      "   Forces are over F_max, the largest force of one motor, in N. */\n"
+      "{}   Forces are over F_max, the largest force of one motor, in N. */\n"
       "#ifndef AWMR_PARAMS_H\n"
       "#define AWMR_PARAMS_H\n\n",
       comment_safe(model.vehicle.name), version(), comment_safe(file_name(model)),
       comment_safe(inputs.model_sha256), comment_safe(inputs.gains_file),
-      comment_safe(inputs.gains_sha256));
+      comment_safe(inputs.gains_sha256), certificate_text(inputs.certificate));
 }
 
 std::string defines_text(const std::vector<Macro>& macros, const EmitInputs& inputs) {

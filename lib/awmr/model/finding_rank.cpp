@@ -25,6 +25,7 @@ constexpr CodeEffect kEffects[] = {
     {"estimates-disagree", Effect::kWithdrawn},
     {"logs-disagree", Effect::kWithdrawn},
     {"fragile-mass", Effect::kWithdrawn},
+    {"gains-of-another-mode", Effect::kWithdrawn},
     {"gains-of-another-model", Effect::kWithdrawn},
     {"result-of-another-model", Effect::kWithdrawn},
     {"result-without-origin", Effect::kWithdrawn},

@@ -1,5 +1,8 @@
 #include "awmr/model/gains_file.h"
 
+#include <utility>
+#include <vector>
+
 #include "awmr/core/file.h"
 #include "awmr/core/json_document.h"
 #include "awmr/model/gains_json.h"
@@ -34,9 +37,9 @@ Gains<double> gains_from_file(JsonObject& root) {
   root.schema(kGainsSchema);
   const Gains<double> gains = gains_from_json(root);
   for (const std::string_view key :
-       {"command", "version", "options", "inputs", "time_constants", "constraints", "limits",
-        "examined", "objective", "metrics", "robust", "goals", "sensitivity", "search", "baseline",
-        "findings"}) {
+       {"command", "version", "mode", "options", "inputs", "time_constants", "constraints",
+        "limits", "certificate", "trade_off", "examined", "objective", "metrics", "robust", "goals",
+        "sensitivity", "search", "baseline", "findings"}) {
     root.ignore(key);
   }
   root.reject_unknown_keys();
@@ -52,6 +55,29 @@ Result<Gains<double>> read_gains(const std::filesystem::path& path) {
   const Gains<double> gains = gains_from_file(root);
   if (!faults.empty()) return input_errors(std::move(faults));
   return gains;
+}
+
+Result<std::optional<CertifiedGains>> read_certificate(const std::filesystem::path& path) {
+  AWMR_ASSIGN_OR_RETURN(const Json json, read_json_file(path));
+  std::vector<Fault> faults;
+  JsonObject root(json, path.string(), "", faults);
+  std::optional<JsonObject> object = root.optional_object("certificate");
+  if (!object) return std::nullopt;
+  CertifiedGains certificate{.set = object->string("set"),
+                             .latency_s = object->number("latency_s", kNonNegative),
+                             .modes = {}};
+  JsonObject modes = object->object("modes");
+  const std::vector<std::string> names = modes.keys();
+  for (const std::string& name : names) {
+    JsonObject mode = modes.object(name);
+    const auto margin_s = mode.object("delay_margin").nullable_number("min_s", kNonNegative);
+    certificate.modes.push_back(
+        {.mode = name,
+         .damping_min = mode.object("damping").number("min", {.min = -1.0, .max = 1.0}),
+         .delay_margin_s = margin_s.value_or(std::numeric_limits<double>::infinity())});
+  }
+  if (!faults.empty()) return input_errors(std::move(faults));
+  return certificate;
 }
 
 Status check_gains_text(std::string_view text, const std::string& file) {

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
 #include "awmr/core/result.h"
+#include "awmr/model/certificate.h"
 #include "awmr/model/gains.h"
 #include "awmr/model/paper_gains.h"
 
@@ -14,6 +16,10 @@ namespace awmr {
 /// Reads `/heading`, `/speed` and, where it is there, `/observer`; the contract's other keys are allowed and passed over.
 /// Errors: as read_json_file; gains that are missing or not above 0.
 Result<Gains<double>> read_gains(const std::filesystem::path& path);
+
+/// Reads `/certificate`; absent in files that were not tuned, and in those of before it. Errors: as read_gains; a
+/// certificate in another form.
+Result<std::optional<CertifiedGains>> read_certificate(const std::filesystem::path& path);
 
 /// Read-back of gains.json (core/file.h).
 Status check_gains_text(std::string_view text, const std::string& file);

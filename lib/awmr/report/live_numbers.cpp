@@ -61,6 +61,7 @@ Result<Draws> take_tuning(const Json& gains, LiveSetup& setup) {
   const Gains<double> tuned = gains_from_json(json);
   setup.observer_yaw_max_m = tuned.observer.yaw_max_m;
   setup.observer_surge_max = tuned.observer.surge_max;
+  if (json.has("mode")) setup.context.mode = json.choice("mode", kYawModeNames);
   take_reaching(json, tuned.heading.lambda, setup.context);
   if (auto limits = json.optional_object("limits")) {
     setup.context.limits = read_limits(std::move(*limits));

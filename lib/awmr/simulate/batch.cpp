@@ -147,7 +147,7 @@ Batch set_up(std::span<const BatchRun> runs, const Scenario& scenario, double sa
   }
   for (const BatchRun& run : runs) {
     const RunSeed seed = run_seed(scenario.seed, run.seed, run.sample);
-    batch.parts.push_back({Sensing(scenario.sensors, sample_time_s, seed),
+    batch.parts.push_back({Sensing(scenario.sensors, sample_time_s, seed, run.noise),
                            RunDisturbance(scenario.disturbance, sample_time_s, seed)});
   }
   batch.ends.resize(runs.size());

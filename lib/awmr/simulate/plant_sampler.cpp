@@ -164,6 +164,38 @@ Model PlantSampler::with_scrub(Model drawn, double normal) const {
   return drawn;
 }
 
+std::optional<Plant<double>> PlantSampler::plant_at(std::span<const double> normals) const {
+  const std::optional<Model> model = model_at(normals);
+  if (!model) return std::nullopt;
+  const Result<Plant<double>> plant = model->plant();
+  return plant ? std::optional(*plant) : std::nullopt;
+}
+
+int PlantSampler::rank() const {
+  return static_cast<int>(directions_of(model_.covariance.parameters).size());
+}
+
+std::vector<std::vector<double>> PlantSampler::directions_of(
+    std::span<const ParameterId> ids) const {
+  // Rows of L, each over its length: a parameter's scale does not matter. V of V diag(w) V^T = L^T L.
+  const std::size_t n = centre_.size();
+  Eigen::MatrixXd spread = Eigen::MatrixXd::Zero(eigen_index(n), eigen_index(n));
+  for (std::size_t i = 0; i < n; ++i) {
+    if (std::ranges::find(ids, model_.covariance.parameters[i]) == ids.end()) continue;
+    const Eigen::VectorXd row =
+        Eigen::Map<const Eigen::VectorXd>(factor_[i].data(), eigen_index(n));
+    if (row.squaredNorm() > 0.0) spread += row * row.transpose() / row.squaredNorm();
+  }
+  const SymmetricEigen eigen = symmetric_eigen(spread);
+  std::vector<std::vector<double>> directions;
+  for (Eigen::Index j = eigen.values.size() - 1; j >= 0; --j) {
+    if (!(eigen.values(j) > kSingularTolerance)) break;
+    const Eigen::VectorXd v = eigen.vectors.col(j);
+    directions.emplace_back(v.begin(), v.end());
+  }
+  return directions;
+}
+
 std::optional<Model> PlantSampler::model_at(std::span<const double> normals) const {
   const std::vector<ParameterId>& ids = model_.covariance.parameters;
   Model drawn = model_;

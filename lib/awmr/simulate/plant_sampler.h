@@ -41,6 +41,15 @@ class PlantSampler {
   /// within it from the seed. One that is not admissible is draw()'s of its number.
   Result<std::vector<Plant<double>>> draw_evenly(std::uint64_t seed, int count) const;
 
+  /// The plant at standard normals n, one for each parameter of the covariance: z = centre + L n. None where
+  /// an exponent or a term is negative there.
+  std::optional<Plant<double>> plant_at(std::span<const double> normals) const;
+  /// Degrees of freedom: the parameters lie in |n| <= r with the probability of a chi-squared of as many
+  /// below r^2. Derived parameters (m' from a1, b1) add none.
+  int rank() const;
+  /// Orthonormal directions of n along which any of these parameters moves; along all others they stay.
+  std::vector<std::vector<double>> directions_of(std::span<const ParameterId> ids) const;
+
  private:
   /// The model at standard normals, one for each parameter of the covariance; none where an exponent
   /// or a term is negative there.

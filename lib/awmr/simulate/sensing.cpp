@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "awmr/simulate/one_run.h"
+
 namespace awmr {
 namespace {
 
@@ -12,40 +14,71 @@ enum Use : std::uint64_t { kHeading = 1, kYawRate, kSpeed, kGps };
 /// Room for the rounding of times that are multiples of the sample time.
 constexpr double kTimeRounding_s = 1e-9;
 
-double read(const Channel& channel, double truth, Random& random) {
+bool is_noisy(const Channel& channel) { return channel.noise > 0.0 || channel.noise < 0.0; }
+
+/// `next_normal` is called only if the channel has noise.
+template <class Normal>
+double read(const Channel& channel, double truth, const Normal& next_normal) {
   double value = truth + channel.bias;
-  if (channel.noise > 0.0 || channel.noise < 0.0) value += channel.noise * random.normal();
+  if (is_noisy(channel)) value += channel.noise * next_normal();
   if (channel.quantum > 0.0) value = channel.quantum * std::round(value / channel.quantum);
   return value;
 }
 
 }  // namespace
 
-Sensing::Sensing(const std::optional<Sensors>& sensors, double sample_time_s, const RunSeed& seed)
+SensorNoise draw_sensor_noise(const Scenario& scenario, double sample_time_s, std::uint64_t seed,
+                              std::uint64_t sample) {
+  SensorNoise noise;
+  if (!scenario.sensors) return noise;
+  const RunSeed run = run_seed(scenario.seed, seed, sample);
+  const std::size_t readings = samples_in(scenario.duration_s, sample_time_s) + 1;
+  const auto draw = [&](const Channel& channel, std::uint64_t use, std::vector<double>& normals) {
+    if (!is_noisy(channel)) return;
+    Random random = run.random(use);
+    normals.resize(readings);
+    for (double& normal : normals) normal = random.normal();
+  };
+  draw(scenario.sensors->heading, kHeading, noise.heading);
+  draw(scenario.sensors->yaw_rate, kYawRate, noise.yaw_rate);
+  draw(scenario.sensors->speed, kSpeed, noise.speed);
+  return noise;
+}
+
+Sensing::Sensor::Sensor(const Channel& its_channel, double sample_time_s, const Random& its_random,
+                        const std::vector<double>* its_normals)
+    : channel(its_channel),
+      late(static_cast<std::size_t>(std::lround(its_channel.late_s / sample_time_s))),
+      random(its_random),
+      normals(its_normals) {}
+
+double Sensing::Sensor::read(std::size_t k, double truth) {
+  return awmr::read(channel, truth, [&] { return normals ? (*normals)[k] : random.normal(); });
+}
+
+Sensing::Sensing(const std::optional<Sensors>& sensors, double sample_time_s, const RunSeed& seed,
+                 const SensorNoise* noise)
     : sensors_(sensors),
       sample_time_s_(sample_time_s),
-      heading_(seed.random(kHeading)),
-      yaw_rate_(seed.random(kYawRate)),
-      speed_(seed.random(kSpeed)),
+      heading_(sensors ? sensors->heading : Channel{}, sample_time_s, seed.random(kHeading),
+               noise ? &noise->heading : nullptr),
+      yaw_rate_(sensors ? sensors->yaw_rate : Channel{}, sample_time_s, seed.random(kYawRate),
+                noise ? &noise->yaw_rate : nullptr),
+      speed_(sensors ? sensors->speed : Channel{}, sample_time_s, seed.random(kSpeed),
+             noise ? &noise->speed : nullptr),
       gps_(seed.random(kGps)) {}
 
 Sensed Sensing::at(std::size_t k, const State<double>& truth) {
   Sensed sensed{{truth.psi_rad, truth.u_mps, truth.v_mps, truth.r_radps}, {truth.x_m, truth.y_m}};
   if (!sensors_) return sensed;
   motion_.push_back(sensed.motion);
-  sensed.motion.psi_rad = read(sensors_->heading, as_of(sensors_->heading, k).psi_rad, heading_);
-  sensed.motion.r_radps = read(sensors_->yaw_rate, as_of(sensors_->yaw_rate, k).r_radps, yaw_rate_);
-  sensed.motion.u_mps = read(sensors_->speed, as_of(sensors_->speed, k).u_mps, speed_);
+  sensed.motion.psi_rad = heading_.read(k, motion_[heading_.sample_read_at(k)].psi_rad);
+  sensed.motion.r_radps = yaw_rate_.read(k, motion_[yaw_rate_.sample_read_at(k)].r_radps);
+  sensed.motion.u_mps = speed_.read(k, motion_[speed_.sample_read_at(k)].u_mps);
   if (!sensors_->speed_signed) sensed.motion.u_mps = std::abs(sensed.motion.u_mps);
   if (!sensors_->sway_measured) sensed.motion.v_mps = 0.0;
   if (sensors_->gps) sensed.position_m = navigate(k, truth, sensed.motion);
   return sensed;
-}
-
-/// The motion that a sensor tells of at the k-th sample; before the first one, that of the first.
-const Measurement<double>& Sensing::as_of(const Channel& channel, std::size_t k) const {
-  const auto late = static_cast<std::size_t>(std::lround(channel.late_s / sample_time_s_));
-  return motion_[k > late ? k - late : 0];
 }
 
 /// Dead reckoning from the measured motion; a fix that arrives at t for the time t - latency sets
@@ -66,8 +99,9 @@ Position<double> Sensing::navigate(std::size_t k, const State<double>& truth,
                                   [&](const Window& window) { return window.holds(taken_s); });
     const auto sample = std::min(
         k, static_cast<std::size_t>(std::floor(taken_s / sample_time_s_ + kTimeRounding_s)));
-    const Position<double> fix{read(gps.x, true_m_[sample].x_m, gps_),
-                               read(gps.y, true_m_[sample].y_m, gps_)};
+    const auto next_normal = [this] { return gps_.normal(); };
+    const Position<double> fix{read(gps.x, true_m_[sample].x_m, next_normal),
+                               read(gps.y, true_m_[sample].y_m, next_normal)};
     if (lost) continue;
     fix_offset_m_ = {fix.x_m - travelled_m_[sample].x_m, fix.y_m - travelled_m_[sample].y_m};
   }

@@ -7,6 +7,7 @@
 #include "awmr/control/controller.h"
 #include "awmr/control/guidance.h"
 #include "awmr/model/state.h"
+#include "awmr/simulate/batch.h"
 #include "awmr/simulate/disturbance.h"
 #include "awmr/simulate/world.h"
 
@@ -21,17 +22,32 @@ struct Sensed {
 /// The sensors of one run, with their noise, latency and drop-outs.
 class Sensing {
  public:
-  Sensing(const std::optional<Sensors>& sensors, double sample_time_s, const RunSeed& seed);
+  /// `noise`: null, or what draw_sensor_noise() gives for this seed; it outlives the sensors.
+  Sensing(const std::optional<Sensors>& sensors, double sample_time_s, const RunSeed& seed,
+          const SensorNoise* noise = nullptr);
   /// The k-th sample; to be asked once per sample, in order from 0.
   Sensed at(std::size_t k, const State<double>& truth);
 
  private:
   Position<double> navigate(std::size_t k, const State<double>& truth,
                             const Measurement<double>& motion);
-  const Measurement<double>& as_of(const Channel& channel, std::size_t k) const;
+  /// A sensor's channel with its noise.
+  struct Sensor {
+    Sensor(const Channel& channel, double sample_time_s, const Random& random,
+           const std::vector<double>* normals);
+    double read(std::size_t k, double truth);
+    /// The sample whose truth is read at the k-th: before the first one, the first.
+    std::size_t sample_read_at(std::size_t k) const { return k > late ? k - late : 0; }
+
+    Channel channel;
+    std::size_t late;  ///< samples
+    Random random;
+    const std::vector<double>* normals;  ///< null: drawn from `random`
+  };
   std::optional<Sensors> sensors_;
   double sample_time_s_;
-  Random heading_, yaw_rate_, speed_, gps_;
+  Sensor heading_, yaw_rate_, speed_;
+  Random gps_;
   std::vector<Measurement<double>> motion_;    ///< true, by sample
   std::vector<Position<double>> true_m_;       ///< by sample
   std::vector<Position<double>> travelled_m_;  ///< by sample: dead reckoning from the first

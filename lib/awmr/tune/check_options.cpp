@@ -187,6 +187,22 @@ void check_sensitivity(const TuneOptions& options, std::vector<Fault>& faults) {
   }
 }
 
+void check_mode(const TuneOptions& options, const Vehicle& vehicle, std::vector<Fault>& faults) {
+  if (!options.mode) return;
+  const std::span<const YawMode> modes = yaw_modes(vehicle);
+  if (std::ranges::find(modes, *options.mode) == modes.end()) {
+    faults.push_back(
+        {"", fmt::format("mode: a vehicle of drive \"{}\" has no mode {}",
+                         name_in(kDriveNames, vehicle.drive), name_of(*options.mode))});
+  }
+  for (const TuningGoal& goal : options.goals) {
+    if (!goal.mode || *goal.mode == *options.mode) continue;
+    faults.push_back({"", fmt::format("goals: one is for the mode {}, and gains are tuned for {} "
+                                      "alone: leave out one of them",
+                                      name_of(*goal.mode), name_of(*options.mode))});
+  }
+}
+
 void check_goals(const TuneOptions& options, const Vehicle& vehicle, std::vector<Fault>& faults) {
   if (options.goals.empty()) return;
   const std::span<const YawMode> modes = yaw_modes(vehicle);
@@ -215,6 +231,7 @@ void check_goals(const TuneOptions& options, const Vehicle& vehicle, std::vector
 
 Status check_options(const TuneOptions& options, const Vehicle& vehicle) {
   std::vector<Fault> faults;
+  check_mode(options, vehicle, faults);
   check_goals(options, vehicle, faults);
   check_sensitivity(options, faults);
   if (!(options.margin > 0.0 && options.margin < 1.0)) {

@@ -10,7 +10,6 @@
 
 #include "awmr/control/controller.h"
 #include "awmr/core/units.h"
-#include "awmr/tune/sampled_loop.h"
 
 namespace awmr {
 namespace {
@@ -39,13 +38,18 @@ double examined_rate_radps(double share, const ConstraintContext& context) {
   return std::max(share * context.fastest_radps, kSlowest_radps);
 }
 
-/// What the heading loop knows of a plant and of the model at one yaw rate, as in SampledHeadingLoop.
-struct LoopRates {
-  double resistance_rate;        ///< a
-  double fed_forward_rate;       ///< c
-  double input_gain;             ///< q
-  double servo_time_constant_s;  ///< T
-};
+/// The share of the moment that left and right wheel forces make; the servo makes the rest.
+double direct_share(YawMode mode) {
+  switch (mode) {
+    case YawMode::kDifferential:
+      return 1.0;
+    case YawMode::kSteering:
+      return 0.0;
+    case YawMode::kCombined:
+      return 0.5;
+  }
+  return 1.0;
+}
 
 /// g3'(r)/I'z, g3'(r) = a3 b3 r^(b3 - 1) + 2 q3 r
 double resistance_rate(const Plant<double>& plant, double rate_radps) {
@@ -55,56 +59,48 @@ double resistance_rate(const Plant<double>& plant, double rate_radps) {
          plant.inertia_norm;
 }
 
-/// `known` is what the law was made for.
-LoopRates loop_rates(const Plant<double>& plant, const Plant<double>& known, double rate_radps) {
-  return {resistance_rate(plant, rate_radps), resistance_rate(known, rate_radps),
-          known.inertia_norm / plant.inertia_norm, plant.steering_time_constant_s};
-}
+/// A plant at a yaw rate.
+struct ExaminedLoop {
+  const Plant<double>* plant;
+  double rate_radps;
+};
 
 /// By rate.
-std::vector<LoopRates> at_all_rates(const Plant<double>& plant, const ConstraintContext& context) {
-  std::vector<LoopRates> loops;
+std::vector<ExaminedLoop> at_all_rates(const Plant<double>& plant,
+                                       const ConstraintContext& context) {
+  std::vector<ExaminedLoop> loops;
   for (const double share : kRateShares) {
-    loops.push_back(loop_rates(plant, context.plant, examined_rate_radps(share, context)));
+    loops.push_back({&plant, examined_rate_radps(share, context)});
   }
   return loops;
 }
 
 /// The least and the largest rate of the context's own plant and of each of its draws.
-std::vector<LoopRates> at_end_rates(const ConstraintContext& context) {
-  std::vector<LoopRates> loops;
-  for (const double share : {kRateShares[0], kRateShares[std::size(kRateShares) - 1]}) {
-    const double rate_radps = examined_rate_radps(share, context);
-    loops.push_back(loop_rates(context.plant, context.plant, rate_radps));
-    for (const DrawnVehicle& drawn : context.draws) {
-      loops.push_back(loop_rates(drawn.plant, context.plant, rate_radps));
-    }
+std::vector<ExaminedLoop> at_end_rates(const ConstraintContext& context) {
+  const Interval rates = examined_rates_radps(context);
+  std::vector<ExaminedLoop> loops;
+  for (const double rate_radps : {rates.lo, rates.hi}) {
+    loops.push_back({&context.plant, rate_radps});
+    for (const DrawnVehicle& drawn : context.draws) loops.push_back({&drawn.plant, rate_radps});
   }
   return loops;
 }
 
 /// The worst of the three modes in each of the loops.
 double heading_damping(const Gains<double>& gains, const ConstraintContext& context,
-                       std::span<const LoopRates> loops, int late_samples,
+                       std::span<const ExaminedLoop> loops, int late_samples,
                        double motor_time_constant_s) {
-  // The shares of the moment that the sides make at once, the rest of it by the servo.
-  constexpr double kShares[] = {1.0, 0.5, 0.0};
-  const auto shares = std::span(kShares).first(context.has_steering ? 3 : 1);
+  constexpr YawMode kAll[] = {YawMode::kDifferential, YawMode::kCombined, YawMode::kSteering};
+  const auto modes = context.mode ? std::span(&*context.mode, 1)
+                                  : std::span(kAll).first(context.has_steering ? 3 : 1);
   double worst = 1.0;
-  for (const LoopRates& loop : loops) {
-    for (const double direct_share : shares) {
-      worst =
-          std::min(worst, damping_ratio({.lambda = gains.heading.lambda,
-                                         .reaching_rate = gains.heading.mu / gains.heading.epsilon,
-                                         .resistance_rate = loop.resistance_rate,
-                                         .fed_forward_rate = loop.fed_forward_rate,
-                                         .input_gain = loop.input_gain,
-                                         .servo_time_constant_s = loop.servo_time_constant_s,
-                                         .sample_time_s = context.sample_time_s,
-                                         .direct_share = direct_share,
-                                         .motor_time_constant_s = motor_time_constant_s,
-                                         .observer_radps = gains.observer.bandwidth_radps,
-                                         .late_samples = late_samples}));
+  for (const ExaminedLoop& examined : loops) {
+    for (const YawMode mode : modes) {
+      SampledHeadingLoop loop =
+          heading_loop(gains, context, *examined.plant, examined.rate_radps, mode);
+      loop.motor_time_constant_s = motor_time_constant_s;
+      loop.late_samples = late_samples;
+      worst = std::min(worst, damping_ratio(loop));
     }
   }
   return worst;
@@ -140,8 +136,11 @@ double residual(const ConstraintReport& c) {
 
 }  // namespace
 
-double turning_authority_m(const DrawnVehicle& vehicle, double speed_mps) {
+double turning_authority_m(const DrawnVehicle& vehicle, double speed_mps,
+                           std::optional<YawMode> mode) {
   const auto [steering, differential] = moments_m(vehicle, speed_mps);
+  if (mode == YawMode::kSteering && steering > 0.0) return steering;
+  if (mode == YawMode::kDifferential && differential > 0.0) return differential;
   if (!(steering > 0.0)) return differential;
   if (!(differential > 0.0)) return steering;
   return std::min(steering, differential);
@@ -162,8 +161,8 @@ std::vector<ConstraintReport> constraints_of(const Gains<double>& gains,
     }
   }
   if (context.latency_s > 0.0 || context.motor_time_constant_s > 0.0) {
-    const std::vector<LoopRates> ends = at_end_rates(context);
-    std::vector<LoopRates> loops = at_all_rates(context.plant, context);
+    const std::vector<ExaminedLoop> ends = at_end_rates(context);
+    std::vector<ExaminedLoop> loops = at_all_rates(context.plant, context);
     loops.insert(loops.end(), ends.begin(), ends.end());
     const auto late = static_cast<int>(std::lround(context.latency_s / context.sample_time_s));
     const double lag_s = context.motor_time_constant_s;
@@ -176,17 +175,36 @@ std::vector<ConstraintReport> constraints_of(const Gains<double>& gains,
                  context.limits.delayed_damping,
                  "the same with readings twice as late, and a sample more >= required"));
   }
-  if (const auto& limit = context.limits.steering_rate_rms_degps; limit && context.has_steering) {
+  if (const auto& limit = context.limits.steering_rate_rms_degps; limit && context.steers()) {
     worst.push_back(at_most("steering rate", steering_rate_rms_degps(gains, context), *limit,
                             "RMS rate of the steering command from the readings' noise, deg/s"));
   }
   return worst;
 }
 
+SampledHeadingLoop heading_loop(const Gains<double>& gains, const ConstraintContext& context,
+                                const Plant<double>& plant, double rate_radps, YawMode mode) {
+  return {.lambda = gains.heading.lambda,
+          .reaching_rate = gains.heading.mu / gains.heading.epsilon,
+          .resistance_rate = resistance_rate(plant, rate_radps),
+          .fed_forward_rate = resistance_rate(context.plant, rate_radps),
+          .input_gain = context.plant.inertia_norm / plant.inertia_norm,
+          .servo_time_constant_s = plant.steering_time_constant_s,
+          .sample_time_s = context.sample_time_s,
+          .direct_share = direct_share(mode),
+          .observer_radps = gains.observer.bandwidth_radps};
+}
+
+Interval examined_rates_radps(const ConstraintContext& context) {
+  constexpr std::size_t kLast = std::size(kRateShares) - 1;
+  return {examined_rate_radps(kRateShares[0], context),
+          examined_rate_radps(kRateShares[kLast], context)};
+}
+
 double steering_rate_rms_degps(const Gains<double>& gains, const ConstraintContext& context) {
   const Plant<double>& plant = context.plant;
   const double tau_speed = plant.surge(context.speed_mps);
-  if (!context.has_steering || !(tau_speed > 0.0)) return 0.0;
+  if (!context.steers() || !(tau_speed > 0.0)) return 0.0;
   const double k = gains.heading.mu / gains.heading.epsilon;
   const double rate_gain = gains.heading.lambda + k + gains.observer.bandwidth_radps;
   const Resistance<double> g3 = feed_forward(plant.yaw);
@@ -203,8 +221,9 @@ double steering_rate_rms_degps(const Gains<double>& gains, const ConstraintConte
   }
   const double by_heading = gains.heading.lambda * k * context.heading_noise_rad;
   mean_square += by_heading * by_heading;
+  const double share = context.mode == YawMode::kCombined ? 0.5 : 1.0;
   const double per_moment =
-      (plant.rear_driven > 0.0 ? 2.0 : 1.0) / (plant.front_axle_m * tau_speed);
+      share * (plant.rear_driven > 0.0 ? 2.0 : 1.0) / (plant.front_axle_m * tau_speed);
   return degrees(per_moment * plant.inertia_norm * std::sqrt(2.0 * mean_square) /
                  context.sample_time_s);
 }
@@ -221,7 +240,7 @@ std::vector<ConstraintReport> constraints_with(const Gains<double>& gains,
   const double speed_rate = known.mass_norm / plant.mass_norm *
                             (gains.speed.mu / gains.speed.epsilon + gains.observer.bandwidth_radps);
   const char* rate_name = gains.observer.is_on() ? "(mu_s/epsilon_s + L)" : "(mu_s/epsilon_s)";
-  const double servo_s = context.has_steering ? plant.steering_time_constant_s : 0.0;
+  const double servo_s = context.steers() ? plant.steering_time_constant_s : 0.0;
   const double lag_s = std::max(servo_s, context.motor_time_constant_s) + context.latency_s +
                        context.sample_time_s / 2.0;
   const bool strict = context.form == ReachingForm::kStrict;
@@ -251,7 +270,8 @@ std::vector<ConstraintReport> constraints_with(const Gains<double>& gains,
       at_most("noise gain",
               known.inertia_norm * gains.heading.lambda * gains.heading.mu / gains.heading.epsilon *
                   context.heading_noise_rad,
-              context.limits.noise_share * turning_authority_m(vehicle, context.speed_mps),
+              context.limits.noise_share *
+                  turning_authority_m(vehicle, context.speed_mps, context.mode),
               fmt::format("tau_turn from {:g} deg of heading noise <= {:g} % of the weaker mode's "
                           "authority, m",
                           degrees(context.heading_noise_rad), 100.0 * context.limits.noise_share)),

@@ -6,6 +6,7 @@
 #include "awmr/core/units.h"
 #include "awmr/model/dynamics.h"
 #include "awmr/tune/drawn_vehicle.h"
+#include "awmr/tune/sampled_loop.h"
 #include "awmr/tune/tune.h"
 
 namespace awmr {
@@ -29,6 +30,7 @@ struct ConstraintContext {
   double margin = 0.8;                         ///< reaching time constant <= margin T1, in (0, 1)
   Plant<double> plant{};                       ///< the model's own values, which the laws know
   bool has_steering = true;                    ///< false: the sides alone turn the vehicle
+  std::optional<YawMode> mode = {};            ///< the only one; absent: all that the vehicle has
   double sample_time_s = 0.01;                 ///< T_s, > 0
   double speed_mps = 1.0;                      ///< largest u_d of the scenarios, >= 0
   double step_rad = radians(60.0);             ///< largest change of the commanded heading, >= 0
@@ -42,14 +44,17 @@ struct ConstraintContext {
   std::vector<DrawnVehicle> draws = {};        ///< further ones that the gains have to suit
 
   DrawnVehicle own() const { return {plant, wheel_force}; }
+  /// Whether the servo acts in any of the modes.
+  bool steers() const { return has_steering && mode != YawMode::kDifferential; }
 };
 
 /// Largest tau_turn by the weaker of steering and differential at steady speed u_d, m; one that has
-/// none there (steering at rest) is passed over:
+/// none there (steering at rest) is passed over. Of one mode alone: steering or differential.
 ///   steering      l_f g1(u_d) tan(d_max/2)
 ///   differential  4 d min(F'max - g1/4, g1/4 - F'min)
 /// Front-wheel drive: tan(d_max), and 2 for 4. Back-EMF: g1/4 + k_e u_d for g1/4.
-double turning_authority_m(const DrawnVehicle& vehicle, double speed_mps);
+double turning_authority_m(const DrawnVehicle& vehicle, double speed_mps,
+                           std::optional<YawMode> mode = {});
 
 /// Largest tau_turn of the stronger of the two, m; of steering or differential alone where the vehicle has
 /// one of them.
@@ -104,11 +109,19 @@ double largest_moment_m(const DrawnVehicle& vehicle, double speed_mps);
 std::vector<ConstraintReport> constraints_of(const Gains<double>& gains,
                                              const ConstraintContext& context);
 
+/// The heading loop of a plant at a yaw rate, by gains that know the context's own plant: with hold and servo, without
+/// latency and motor lag.
+SampledHeadingLoop heading_loop(const Gains<double>& gains, const ConstraintContext& context,
+                                const Plant<double>& plant, double rate_radps, YawMode mode);
+
+/// The slowest and the fastest yaw rate at which the heading loop is examined.
+Interval examined_rates_radps(const ConstraintContext& context);
+
 /// RMS rate of the steering command, deg/s, from independent readings of standard deviations sigma_psi and
 /// sigma_r while a heading is held in steering mode. With n the noise of the yaw rate, the law makes
 ///   w = g3(n)/I'z - (lambda + k + L) n - lambda k n_psi,   k = mu/eps,
 /// of it, the command is d = c I'z w/(l_f g1(u_d)), c = 2 (front-wheel drive: 1), and from one sample to the
-/// next it changes by sqrt(2 E[w^2]) of that. With gains of 0 it is what g3 makes by itself. 0 without
+/// next it changes by sqrt(2 E[w^2]) of that; in combined mode alone, by half. With gains of 0 it is what g3 makes by itself. 0 without
 /// steering, or where the vehicle has no thrust to steer with.
 double steering_rate_rms_degps(const Gains<double>& gains, const ConstraintContext& context);
 

@@ -2,6 +2,7 @@
 #include "awmr/core/json.h"
 #include "awmr/model/findings_json.h"
 #include "awmr/model/gains_json.h"
+#include "awmr/model/parameters.h"
 #include "awmr/tune/objective.h"
 #include "awmr/tune/tune.h"
 #include "awmr/tune/tune_json.h"
@@ -166,11 +167,57 @@ void describe_sensitivity(JsonObject json) {
   json.reject_unknown_keys();
 }
 
+void describe_worst_case(JsonObject json, const char* value) {
+  json.nullable_number(value);
+  json.number("yaw_rate_degps", kNonNegative);
+  JsonObject parameters = json.object("parameters");
+  for (const ParameterInfo& parameter : parameter_table()) {
+    parameters.optional_number(parameter.name, kNonNegative);
+  }
+  parameters.reject_unknown_keys();
+  json.reject_unknown_keys();
+}
+
+/// Worst cases over the model's confidence set, by mode.
+void describe_certificate(JsonObject json) {
+  json.string("set");  // "95 %", or the model's own values
+  json.number("damping_min", {.min = -1.0, .max = 1.0});
+  json.nullable_number("delay_margin_s", kNonNegative);
+  json.string("method");
+  for (const char* key :
+       {"parameters", "degrees_of_freedom", "latency_s", "motor_time_constant_s"}) {
+    json.number(key, kNonNegative);
+  }
+  json.interval("yaw_rate_degps");
+  JsonObject modes = json.object("modes");
+  for (JsonObject& mode : modes.values()) {
+    describe_worst_case(mode.object("damping"), "min");
+    describe_worst_case(mode.object("delay_margin"), "min_s");
+    mode.reject_unknown_keys();
+  }
+  json.reject_unknown_keys();
+}
+
+/// Settling time against command activity, of the search and of named gains.
+void describe_trade_off(JsonObject json) {
+  const auto describe_point = [](JsonObject& point) {
+    for (const char* key : {"settling_time_s", "control_variation"})
+      point.number(key, kNonNegative);
+    point.reject_unknown_keys();
+  };
+  for (JsonObject& point : json.objects("front")) describe_point(point);
+  JsonObject gains = json.object("gains");
+  for (JsonObject& point : gains.values()) describe_point(point);
+  json.reject_unknown_keys();
+}
+
 void describe_gains(JsonObject& json) {
   json.schema(kGainsSchema);
   read_provenance(json);
   json.ignore("version");
   gains_from_json(json);
+  // Absent: the gains are for every mode of the vehicle.
+  if (json.has("mode")) json.choice("mode", kYawModeNames);
   if (auto times = json.optional_object("time_constants")) {
     describe_numbers(*times, {"T1_s", "T2_s"});
   }
@@ -181,6 +228,8 @@ void describe_gains(JsonObject& json) {
     for (const LimitKey& key : kLimitKeys) limits->number(key.name, {.min = 0.0, .max = 1.0});
     limits->reject_unknown_keys();
   }
+  if (auto certificate = json.optional_object("certificate")) describe_certificate(*certificate);
+  if (auto trade_off = json.optional_object("trade_off")) describe_trade_off(*trade_off);
   if (auto objective = json.optional_object("objective")) describe_objective(*objective);
   if (auto metrics = json.optional_object("metrics")) describe_scores(*metrics);
   if (auto search = json.optional_object("search")) describe_search(*search);

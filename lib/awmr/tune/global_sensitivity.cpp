@@ -120,7 +120,7 @@ LoopConditions conditions_at(const Sample& sample, LoopConditions c) {
 std::vector<double> figures_at(const Sample& sample, const ObjectiveSetting& setting,
                                const LoopConditions& assumed,
                                const Controller<double>& controller) {
-  const std::span<const YawMode> modes = yaw_modes(setting.vehicle);
+  const std::span<const YawMode> modes = setting.modes();
   // A drawn model has every parameter that the model has.
   const Plant<double> plant = sample.model.plant_as_known();
   std::vector<BatchRun> runs;
@@ -178,7 +178,7 @@ Result<GlobalSensitivity> global_sensitivity(const Model& model, const Objective
         "nothing is told of what moves it; tune without sensitivity, and look at these vehicles",
         broken_off, figures.size()));
   }
-  const std::span<const YawMode> modes = yaw_modes(setting.vehicle);
+  const std::span<const YawMode> modes = setting.modes();
   GlobalSensitivity result{.samples = samples, .inputs = {}, .figures = {}};
   for (const Input& input : inputs) result.inputs.push_back(input.name);
   for (std::size_t f = 0; f < modes.size() * std::size(kFigures); ++f) {

@@ -34,6 +34,11 @@ Metrics metrics_of_failed(const BatchRun& run, const Scenario& scenario,
       .metrics;
 }
 
+/// Of the runs of a vehicle.
+std::uint64_t number_of(const ObjectiveSetting& setting, std::size_t vehicle) {
+  return setting.numbers.empty() ? vehicle : setting.numbers[vehicle];
+}
+
 /// By gains, then vehicle, then mode.
 std::vector<BatchRun> runs_of(const ObjectiveSetting& setting,
                               std::span<const Gains<double>> gains) {
@@ -44,9 +49,8 @@ std::vector<BatchRun> runs_of(const ObjectiveSetting& setting,
       const DrawnVehicle& drawn = setting.vehicles[i];
       vehicle.wheel_force = drawn.wheel_force;
       const auto controller = make_controller(setting.vehicles.front().plant, vehicle, one);
-      for (const YawMode mode : yaw_modes(vehicle)) {
-        runs.push_back({drawn.plant, controller, mode, setting.seed,
-                        setting.numbers.empty() ? i : setting.numbers[i]});
+      for (const YawMode mode : setting.modes()) {
+        runs.push_back({drawn.plant, controller, mode, setting.seed, number_of(setting, i)});
       }
     }
   }
@@ -86,9 +90,34 @@ double mean_and_tail(std::vector<double> values, double tail_share) {
   return 0.5 * (mean + worst);
 }
 
-std::vector<std::vector<ModeScore>> run_all(const ObjectiveSetting& setting,
+std::span<const YawMode> tuned_modes(const Vehicle& vehicle, std::optional<YawMode> mode) {
+  const std::span<const YawMode> all = yaw_modes(vehicle);
+  if (!mode) return all;
+  return all.subspan(static_cast<std::size_t>(std::ranges::find(all, *mode) - all.begin()), 1);
+}
+
+RunNoise draw_noise(const ObjectiveSetting& setting) {
+  const std::size_t vehicles = setting.vehicles.size();
+  double bytes = 0.0;
+  for (const Scenario& scenario : setting.scenarios) {
+    const double samples = scenario.duration_s / setting.vehicle.sample_time_s;
+    bytes += 3.0 * sizeof(double) * samples * static_cast<double>(vehicles);
+  }
+  if (bytes > kMostNoiseBytes) return {};
+  RunNoise noise(setting.scenarios.size(), std::vector<SensorNoise>(vehicles));
+  parallel_for(setting.scenarios.size() * vehicles, 0, [&](std::size_t i) {
+    const std::size_t scenario = i / vehicles;
+    noise[scenario][i % vehicles] =
+        draw_sensor_noise(setting.scenarios[scenario], setting.vehicle.sample_time_s, setting.seed,
+                          number_of(setting, i % vehicles));
+  });
+  return noise;
+}
+
+std::vector<std::vector<ModeScore>> run_all(const ObjectiveSetting& setting, const RunNoise& noise,
                                             std::span<const Gains<double>> gains) {
   const std::vector<BatchRun> runs = runs_of(setting, gains);
+  const std::size_t modes = setting.modes().size();
   const std::size_t scenarios = setting.scenarios.size();
   const std::size_t together = runs_together(runs.size(), scenarios);
   const std::size_t blocks = (runs.size() + together - 1) / together;
@@ -98,7 +127,12 @@ std::vector<std::vector<ModeScore>> run_all(const ObjectiveSetting& setting,
   parallel_for(blocks * scenarios, 0, [&](std::size_t i) {
     const Scenario& scenario = setting.scenarios[i % scenarios];
     const std::size_t first = i / scenarios * together;
-    const auto block = std::span(runs).subspan(first, std::min(together, runs.size() - first));
+    const std::size_t count = std::min(together, runs.size() - first);
+    std::vector<BatchRun> block(runs.begin() + eigen_index(first),
+                                runs.begin() + eigen_index(first + count));
+    for (std::size_t j = 0; j < count && !noise.empty(); ++j) {
+      block[j].noise = &noise[i % scenarios][(first + j) % per_gains / modes];
+    }
     const double sample_time_s = setting.vehicle.sample_time_s;
     const auto metrics = simulate_batch(block, scenario, sample_time_s, setting.arithmetic);
     for (std::size_t j = 0; j < block.size(); ++j) {
@@ -115,14 +149,15 @@ std::vector<std::vector<ModeScore>> run_all(const ObjectiveSetting& setting,
 
 Objective::Objective(ObjectiveSetting setting, const Gains<double>& baseline)
     : setting_(std::move(setting)),
-      baseline_scores_(run_all(setting_, std::span(&baseline, 1)).front()) {
+      noise_(draw_noise(setting_)),
+      baseline_scores_(run_all(setting_, noise_, std::span(&baseline, 1)).front()) {
   baseline_ = evaluate(baseline_scores_);
 }
 
 std::vector<Evaluation> Objective::operator()(std::span<const Gains<double>> gains) const {
   std::vector<Evaluation> evaluations;
   if (gains.empty()) return evaluations;
-  for (std::vector<ModeScore>& scores : run_all(setting_, gains)) {
+  for (std::vector<ModeScore>& scores : run_all(setting_, noise_, gains)) {
     evaluations.push_back(evaluate(std::move(scores)));
   }
   return evaluations;
@@ -134,7 +169,7 @@ Evaluation Objective::operator()(const Gains<double>& gains) const {
 
 Evaluation Objective::evaluate(std::vector<ModeScore> scores) const {
   const std::size_t scenarios = setting_.scenarios.size();
-  const std::size_t modes = yaw_modes(setting_.vehicle).size();
+  const std::size_t modes = setting_.modes().size();
   const std::size_t per_vehicle = modes * scenarios;
   Evaluation evaluation;
   evaluation.valid = true;
@@ -163,12 +198,20 @@ Evaluation Objective::evaluate(std::vector<ModeScore> scores) const {
   evaluation.objective /= static_cast<double>(modes);
   const std::vector<RunOutcome> outcomes =
       setting_.goals.empty() ? std::vector<RunOutcome>{} : outcomes_of(scores, setting_.scenarios);
-  for (const GoalInMode& one : by_mode(setting_.goals, yaw_modes(setting_.vehicle))) {
+  for (const GoalInMode& one : by_mode(setting_.goals, setting_.modes())) {
     const double quantile = quantile_of_excess(one, outcomes, scenarios);
     evaluation.goal_quantile.push_back(quantile);
     if (one.goal->is_soft) evaluation.objective += std::max(0.0, quantile - 1.0);
   }
   if (!std::isfinite(evaluation.objective)) evaluation.valid = false;
+  for (std::size_t i = 0; i < scores.size(); ++i) {
+    const Metrics& metrics = scores[i].metrics;
+    evaluation.trade_off.settling_time_s +=
+        metrics.settling_time_s.value_or(setting_.scenarios[i % scenarios].duration_s) /
+        static_cast<double>(scores.size());
+    evaluation.trade_off.control_variation +=
+        metrics.control_variation / static_cast<double>(scores.size());
+  }
   scores.resize(per_vehicle);
   evaluation.scores = std::move(scores);
   return evaluation;

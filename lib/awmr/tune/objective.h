@@ -14,6 +14,7 @@
 
 #include <array>
 #include <iterator>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -45,6 +46,9 @@ std::array<double, std::size(kObjectiveTerms)> figures_of(const ModeScore& score
 double objective_of(const ModeScore& score, const ModeScore& baseline,
                     const ObjectiveWeights& weights);
 
+/// All modes of the vehicle, or the one of them.
+std::span<const YawMode> tuned_modes(const Vehicle& vehicle, std::optional<YawMode> mode);
+
 /// What the gains are scored on.
 struct ObjectiveSetting {
   std::vector<DrawnVehicle> vehicles;  ///< the controller knows the first's plant alone; not empty
@@ -56,13 +60,23 @@ struct ObjectiveSetting {
   BatchArithmetic arithmetic = {};  ///< of the runs
   std::vector<TuningGoal> goals = {};
   std::vector<std::uint64_t> numbers = {};  ///< of the vehicles; empty: 0, 1, ...
+  std::optional<YawMode> mode = {};         ///< the only one; absent: all of the vehicle's
+
+  std::span<const YawMode> modes() const { return tuned_modes(vehicle, mode); }
 };
+
+/// What the sensors' noise of all runs is made of, by scenario, then vehicle. Empty where it would take more
+/// than kMostNoiseBytes: the runs then draw it themselves.
+using RunNoise = std::vector<std::vector<SensorNoise>>;
+inline constexpr double kMostNoiseBytes = 64e6;
+RunNoise draw_noise(const ObjectiveSetting& setting);
 
 struct Evaluation {
   std::vector<ModeScore> scores;       ///< of the first vehicle, by mode, then scenario
-  std::vector<double> mode_objective;  ///< mean over the scenarios, in the order of yaw_modes()
+  std::vector<double> mode_objective;  ///< mean over the scenarios, in the order of modes()
   std::vector<double> mode_activity;   ///< control variation over the baseline's, of all vehicles
   std::vector<double> goal_quantile;   ///< of the excess, by goal, then mode (goals.h)
+  TradeOffPoint trade_off;             ///< over all runs
   double objective = 0.0;  ///< mean over the modes, and what soft goals add; finite where `valid`
   bool valid = false;      ///< finite, and no run breaks off
 };
@@ -76,7 +90,7 @@ class Objective {
   std::vector<Evaluation> operator()(std::span<const Gains<double>> gains) const;
   Evaluation operator()(const Gains<double>& gains) const;
   const Evaluation& baseline() const { return baseline_; }
-  std::span<const YawMode> modes() const { return yaw_modes(setting_.vehicle); }
+  std::span<const YawMode> modes() const { return setting_.modes(); }
   std::span<const TuningGoal> goals() const { return setting_.goals; }
   std::size_t draws() const { return setting_.vehicles.size() - 1; }
 
@@ -84,13 +98,14 @@ class Objective {
   Evaluation evaluate(std::vector<ModeScore> scores) const;
 
   ObjectiveSetting setting_;
+  RunNoise noise_;
   std::vector<ModeScore> baseline_scores_;  ///< by vehicle, then mode, then scenario
   Evaluation baseline_;
 };
 
 /// All runs of each set of gains, by vehicle, then mode, then scenario. The number of a vehicle is
-/// that of its noise, too.
-std::vector<std::vector<ModeScore>> run_all(const ObjectiveSetting& setting,
+/// that of its noise, too. `noise`: draw_noise() of the setting.
+std::vector<std::vector<ModeScore>> run_all(const ObjectiveSetting& setting, const RunNoise& noise,
                                             std::span<const Gains<double>> gains);
 
 /// (mean + mean of the largest share)/2; at least one value counts as the largest.

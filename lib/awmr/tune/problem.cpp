@@ -145,7 +145,11 @@ std::vector<Looked> Problem::look_at(std::span<const Point> points) {
   const std::vector<Evaluation> found = objective_(to_run);
   auto next = found.begin();
   for (Looked& looked : all) {
-    if (looked.candidate.violation <= 0.0 || simulate_all) add_runs(*next++, looked);
+    if (looked.candidate.violation <= 0.0 || simulate_all) {
+      add_runs(*next, looked);
+      if (looked.candidate.feasible()) met.push_back(next->trade_off);
+      ++next;
+    }
     ++evaluations;
     if (!better(looked.candidate, nearest)) continue;
     nearest = looked.candidate;

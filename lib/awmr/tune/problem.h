@@ -83,7 +83,8 @@ class Problem {
   Candidate nearest;
   int evaluations = 0;
   int simulated = 0;
-  std::vector<SearchStep> steps;  ///< the evaluations that were better than all before them
+  std::vector<TradeOffPoint> met;  ///< of all feasible ones
+  std::vector<SearchStep> steps;   ///< the evaluations that were better than all before them
 
   /// In the order of the points; their runs are driven together.
   std::vector<Looked> look_at(std::span<const Point> points);

@@ -119,10 +119,11 @@ Result<std::vector<DrawnVehicle>> vehicles_of(const Model& model, int draws, std
 
 std::vector<JudgedRuns> run_candidates(const ObjectiveSetting& setting,
                                        const std::vector<NamedCandidate>& candidates) {
-  const std::size_t of_own = yaw_modes(setting.vehicle).size() * setting.scenarios.size();
+  const std::size_t of_own = setting.modes().size() * setting.scenarios.size();
+  const RunNoise noise = draw_noise(setting);
   std::vector<JudgedRuns> runs;
   for (const NamedCandidate& candidate : candidates) {
-    const auto scores = run_all(setting, std::span(&candidate.gains, 1)).front();
+    const auto scores = run_all(setting, noise, std::span(&candidate.gains, 1)).front();
     runs.push_back(
         {candidate.name, outcomes_of(std::span(scores).subspan(of_own), setting.scenarios)});
   }

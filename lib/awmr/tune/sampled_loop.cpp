@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <limits>
 #include <unsupported/Eigen/MatrixFunctions>
 
 #include "awmr/core/linear_algebra.h"
+#include "awmr/core/units.h"
 
 namespace awmr {
 namespace {
@@ -19,11 +21,11 @@ double damping_of(const std::complex<double>& z) {
   return magnitude > 0.0 ? -s.real() / magnitude : 0.0;
 }
 
-}  // namespace
+/// States psi, r, w_servo, w_motor and the held input w.
+using Matrix5 = Eigen::Matrix<double, 5, 5>;
 
-double damping_ratio(const SampledHeadingLoop& loop) {
-  // [Phi Gamma; 0 1] = exp([A B; 0 0] T_s), states psi, r, w_servo, w_motor and the held input w.
-  using Matrix5 = Eigen::Matrix<double, 5, 5>;
+/// [Phi Gamma; 0 1] = exp([A B; 0 0] t)
+Matrix5 held_over(const SampledHeadingLoop& loop, double time_s) {
   const bool lag = loop.motor_time_constant_s > 0.0;
   Matrix5 continuous = Matrix5::Zero();
   continuous(0, 1) = 1.0;
@@ -36,30 +38,75 @@ double damping_ratio(const SampledHeadingLoop& loop) {
   const double motor_s = lag ? loop.motor_time_constant_s : loop.sample_time_s;
   continuous(3, 3) = -1.0 / motor_s;
   continuous(3, 4) = 1.0 / motor_s;
-  const Matrix5 discrete = (continuous * loop.sample_time_s).exp();
+  return (continuous * time_s).exp();
+}
+
+/// A delay as whole samples and a part of one.
+struct SplitDelay {
+  int samples;  ///< >= 0
+  double part;  ///< [0, 1)
+};
+SplitDelay split_delay(double delay_s, double sample_time_s) {
+  constexpr double kRounding = 1e-9;
+  const double delay = delay_s / sample_time_s;
+  const double whole = std::floor(delay + kRounding);
+  const double part = delay - whole;
+  return {static_cast<int>(whole), part > kRounding ? part : 0.0};
+}
+
+/// The plant from one sample to the next; in its first part the command before the last still acts:
+///   x_(j+1) = Phi x_j + Gamma0 w_(j-m) + Gamma1 w_(j-m-1)
+struct HeldPlant {
+  Eigen::Matrix4d phi;
+  Eigen::Vector4d gamma0, gamma1;
+};
+HeldPlant hold(const SampledHeadingLoop& loop, double part) {
+  const Matrix5 whole = held_over(loop, loop.sample_time_s);
+  HeldPlant plant{.phi = whole.topLeftCorner<4, 4>(),
+                  .gamma0 = whole.topRightCorner<4, 1>(),
+                  .gamma1 = Eigen::Vector4d::Zero()};
+  if (part > 0.0) {
+    plant.gamma0 = held_over(loop, (1.0 - part) * loop.sample_time_s).topRightCorner<4, 1>();
+    plant.gamma1 = whole.topRightCorner<4, 1>() - plant.gamma0;
+  }
+  return plant;
+}
+
+}  // namespace
+
+double damping_ratio(const SampledHeadingLoop& loop) {
+  const SplitDelay delay = split_delay(loop.command_delay_s, loop.sample_time_s);
+  const HeldPlant plant = hold(loop, delay.part);
+  const bool is_split = delay.part > 0.0;
 
   // The states, y of an observer, then the commands still to come: w of this sample's readings enters
   // at the last of them, or at once.
   const double k = loop.reaching_rate;
   const double l = loop.observer_radps;
   const Eigen::Index states = l > 0.0 ? 5 : 4;
-  const Eigen::Index n = loop.late_samples;
+  const Eigen::Index n = loop.late_samples + delay.samples + (is_split ? 1 : 0);
   Eigen::RowVectorXd law = Eigen::RowVectorXd::Zero(states);
   law(0) = -loop.lambda * k;
   law(1) = loop.fed_forward_rate - loop.lambda - k - l;
   Eigen::MatrixXd closed = Eigen::MatrixXd::Zero(states + n, states + n);
-  closed.topLeftCorner<4, 4>() = discrete.topLeftCorner<4, 4>();
+  closed.topLeftCorner<4, 4>() = plant.phi;
   if (l > 0.0) {
     law(4) = -1.0;
     closed(4, 0) = loop.sample_time_s * l * loop.lambda * k;
     closed(4, 1) = loop.sample_time_s * l * (loop.lambda + k);
     closed(4, 4) = 1.0;
   }
-  const Eigen::Vector4d by_command = discrete.topRightCorner<4, 1>();
-  if (n == 0) {
-    closed.topLeftCorner(4, states) += by_command * law;
-  } else {
-    closed.block<4, 1>(0, states) = by_command;
+  // The command `i` samples before the newest acts by `gamma`.
+  const auto enter = [&](Eigen::Index i, const Eigen::Vector4d& gamma) {
+    if (i == 0) {
+      closed.topLeftCorner(4, states) += gamma * law;
+    } else {
+      closed.block<4, 1>(0, states + n - i) = gamma;
+    }
+  };
+  if (is_split) enter(n, plant.gamma1);
+  enter(is_split ? n - 1 : n, plant.gamma0);
+  if (n > 0) {
     for (Eigen::Index i = 0; i + 1 < n; ++i) closed(states + i, states + 1 + i) = 1.0;
     closed.block(states + n - 1, 0, 1, states) = law;
   }
@@ -67,6 +114,92 @@ double damping_ratio(const SampledHeadingLoop& loop) {
   double worst = 1.0;
   for (const std::complex<double>& z : poles) worst = std::min(worst, damping_of(z));
   return worst;
+}
+
+namespace {
+
+/// P(w, f) of delay_margin_s().
+class CompensatedLoop {
+ public:
+  CompensatedLoop(const SampledHeadingLoop& loop, double part)
+      : loop_(loop), part_(part), plant_(hold(loop, part)) {}
+
+  std::complex<double> operator()(double omega_radps) const {
+    const double t_s = loop_.sample_time_s;
+    const std::complex<double> z = std::polar(1.0, omega_radps * t_s);
+    const Eigen::Vector4cd by = plant_.gamma0 + plant_.gamma1 / z;
+    // (z I - Phi) x = by from the last row up: neither actuator acts on the other.
+    const Eigen::Matrix4d& phi = plant_.phi;
+    const std::complex<double> motor = by(3) / (z - phi(3, 3));
+    const std::complex<double> servo = by(2) / (z - phi(2, 2));
+    const std::complex<double> r =
+        (by(1) + phi(1, 2) * servo + phi(1, 3) * motor) / (z - phi(1, 1));
+    const std::complex<double> psi =
+        (by(0) + phi(0, 1) * r + phi(0, 2) * servo + phi(0, 3) * motor) / (z - phi(0, 0));
+    const double k = loop_.reaching_rate;
+    const double l = loop_.observer_radps;
+    const std::complex<double> s = (loop_.lambda + k) * r + loop_.lambda * k * psi;
+    std::complex<double> w = (loop_.fed_forward_rate - l) * r - s;
+    if (l > 0.0) w -= t_s * l * s / (z - 1.0);
+    return w * std::polar(1.0, omega_radps * part_ * t_s);
+  }
+
+ private:
+  const SampledHeadingLoop& loop_;
+  double part_;
+  HeldPlant plant_;
+};
+
+/// The least delay, s, above `least_s` at which the loop has a pole on the unit circle.
+double next_crossing_s(const SampledHeadingLoop& loop, double part, double least_s) {
+  constexpr int kCrossingFrequencies = 100;
+  constexpr int kCrossingBisections = 36;
+  const CompensatedLoop open(loop, part);
+  const double k = loop.reaching_rate;
+  // The heading integrates: far below its own gain |P| > 1.
+  const double lowest =
+      1e-4 * loop.lambda * k / (loop.lambda + k + loop.resistance_rate + loop.fed_forward_rate);
+  const double nyquist = pi<double>() / loop.sample_time_s;
+  const double ratio = std::pow(nyquist / lowest, 1.0 / kCrossingFrequencies);
+  const auto excess = [&](double omega) { return std::abs(open(omega)) - 1.0; };
+  double next = std::numeric_limits<double>::infinity();
+  double low = lowest;
+  double at_low = excess(low);
+  for (int i = 1; i <= kCrossingFrequencies; ++i) {
+    const double high = i == kCrossingFrequencies ? nyquist : lowest * std::pow(ratio, i);
+    const double at_high = excess(high);
+    if ((at_low > 0.0) != (at_high > 0.0)) {
+      double above = at_low > 0.0 ? low : high;
+      double below = at_low > 0.0 ? high : low;
+      for (int j = 0; j < kCrossingBisections; ++j) {
+        const double middle = 0.5 * (above + below);
+        (excess(middle) > 0.0 ? above : below) = middle;
+      }
+      const double turn_s = 2.0 * pi<double>() / above;
+      const double delay_s = std::arg(open(above)) / above;
+      next = std::min(next, delay_s + turn_s * (std::floor((least_s - delay_s) / turn_s) + 1.0));
+    }
+    low = high;
+    at_low = at_high;
+  }
+  return next;
+}
+
+}  // namespace
+
+double delay_margin_s(const SampledHeadingLoop& loop) {
+  constexpr int kDelayIterations = 30;
+  constexpr double kDelayConverged = 1e-7;  // of a sample time
+  if (!(damping_ratio(loop) > 0.0)) return 0.0;
+  const double present_s = loop.late_samples * loop.sample_time_s + loop.command_delay_s;
+  double delay_s = next_crossing_s(loop, 0.0, present_s);
+  for (int i = 0; i < kDelayIterations && std::isfinite(delay_s); ++i) {
+    const double before_s = delay_s;
+    const double part = split_delay(before_s, loop.sample_time_s).part;
+    delay_s = next_crossing_s(loop, part, present_s);
+    if (std::abs(delay_s - before_s) < kDelayConverged * loop.sample_time_s) break;
+  }
+  return delay_s - present_s;
 }
 
 }  // namespace awmr

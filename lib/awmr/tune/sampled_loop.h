@@ -40,6 +40,9 @@ struct SampledHeadingLoop {
   double motor_time_constant_s = 0.0;  ///< T_m, >= 0
   double observer_radps = 0.0;         ///< L, >= 0, L T_s < 1; 0: no observer
   int late_samples = 0;                ///< n, 0 ... 1000: how late the readings are
+  /// Delay of the held command on its way to motors and servo, s, >= 0: any part of T_s. A delay of as
+  /// much of the readings gives the same loop.
+  double command_delay_s = 0.0;
 };
 
 /// Smallest damping ratio zeta = -Re(s)/|s|, s = ln(z)/T_s, over the eigenvalues z of the closed
@@ -48,5 +51,15 @@ struct SampledHeadingLoop {
 /// does not ring: it counts as 1.
 inline constexpr double kGoneWithinASample = 0.1;
 double damping_ratio(const SampledHeadingLoop& loop);
+
+/// The least further delay of the command, s, with which the loop is no longer stable: 0 if it is not
+/// stable as it is, infinity if no delay makes it so.
+///
+/// With the delay D = (n + m + f) T_s, m whole and 0 <= f < 1, the loop has a pole z = e^(j w T_s) on the unit
+/// circle exactly where
+///     P(w, f) = e^(j w D),   P(w, f) = C(z) (z I - Phi)^-1 (Gamma0(f) + Gamma1(f)/z) e^(j w f T_s),
+/// Phi, Gamma the plant held over T_s, C the law. |P| = 1 gives w, the phase D. P hardly depends on f, so
+/// that D follows by fixed-point iteration from the f before.
+double delay_margin_s(const SampledHeadingLoop& loop);
 
 }  // namespace awmr

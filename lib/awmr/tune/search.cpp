@@ -309,6 +309,7 @@ Result<SearchResult> search(const TuneOptions& options, const ConstraintContext&
                       .history = {.best = at_even_ranks(problem.steps),
                                   .global_evaluations = global_evaluations,
                                   .evaluations = problem.evaluations},
+                      .met = problem.met,
                       .algorithm = fmt::format("NLopt GN_ISRES (population {}), then LN_COBYLA, "
                                                "over the logarithms of the gains",
                                                kPopulation),

@@ -22,6 +22,7 @@ struct SearchResult {
   int evaluations = 0;
   int simulated = 0;
   SearchHistory history;
+  std::vector<TradeOffPoint> met;  ///< of all feasible gains on the searched draws
   std::string algorithm;
   std::string stop_reason;
 };

@@ -18,6 +18,7 @@
 #include "awmr/simulate/physics.h"
 #include "awmr/simulate/scenario.h"
 #include "awmr/simulate/simulate.h"
+#include "awmr/tune/certificate.h"
 #include "awmr/tune/check_options.h"
 #include "awmr/tune/constraints.h"
 #include "awmr/tune/global_sensitivity.h"
@@ -28,6 +29,7 @@
 #include "awmr/tune/robust.h"
 #include "awmr/tune/search.h"
 #include "awmr/tune/sensitivity.h"
+#include "awmr/tune/trade_off.h"
 
 namespace awmr {
 namespace {
@@ -42,7 +44,7 @@ Status check_work(const TuneOptions& options, const std::vector<Scenario>& scena
   double steps = 0.0;  // of one evaluation
   for (const Scenario& scenario : scenarios) {
     AWMR_RETURN_IF_ERROR(check_work(plant, model.file, scenario, sample_time_s));
-    steps += static_cast<double>(yaw_modes(model.vehicle).size()) *
+    steps += static_cast<double>(tuned_modes(model.vehicle, options.mode).size()) *
              steps_of_run(plant, scenario, sample_time_s);
   }
   double evaluations = static_cast<double>(options.global_evaluations) + options.local_evaluations;
@@ -85,6 +87,7 @@ ConstraintContext context_of(const TuneOptions& options, const Plant<double>& pl
                             .margin = options.margin,
                             .plant = plant,
                             .has_steering = vehicle.has_steering(),
+                            .mode = options.mode,
                             .sample_time_s = vehicle.sample_time_s,
                             .speed_mps = 0.0,
                             .step_rad = 0.0,
@@ -104,7 +107,7 @@ ConstraintContext context_of(const TuneOptions& options, const Plant<double>& pl
 
 /// The limit on the steering command that the user did not give.
 void limit_steering_rate(const Vehicle& vehicle, ConstraintContext& context) {
-  if (context.limits.steering_rate_rms_degps || !context.has_steering) return;
+  if (context.limits.steering_rate_rms_degps || !context.steers()) return;
   constexpr double kShareOfServo = 0.9;
   constexpr double kOverFeedForward = 1.25;
   const double servo_degps =
@@ -166,8 +169,9 @@ Result<std::vector<Gains<double>>> starts_of(const TuneOptions& options,
 }
 
 /// Searches on one setting, and scores what it finds on `held_out` as well.
-Result<Tuning> search_gains(const ObjectiveSetting& setting, const ConstraintContext& context,
-                            TuneOptions options, const Scenario& held_out) {
+Result<Tuning> search_gains(const Model& model, const ObjectiveSetting& setting,
+                            const ConstraintContext& context, TuneOptions options,
+                            const Scenario& held_out) {
   const Gains<double> poles = place_poles(context);
   bound_around(poles, options.bounds);
   AWMR_ASSIGN_OR_RETURN(const std::vector<Gains<double>> starts,
@@ -182,6 +186,10 @@ Result<Tuning> search_gains(const ObjectiveSetting& setting, const ConstraintCon
   AWMR_ASSIGN_OR_RETURN(std::vector<ActiveConstraint> active,
                         active_constraints(options, context, some, *found.best));
   const Evaluation tuned = all(settled.gains);
+  AWMR_ASSIGN_OR_RETURN(Certificate certificate,
+                        certify(model, context, options.open, settled.gains));
+  TradeOff trade_off =
+      trade_off_of(searched(setting, options), context, found.met, settled.gains, baseline.gains);
   ObjectiveSetting elsewhere = setting;
   elsewhere.scenarios = {held_out};
   elsewhere.goals.clear();
@@ -208,6 +216,8 @@ Result<Tuning> search_gains(const ObjectiveSetting& setting, const ConstraintCon
                 .history = found.history,
                 .held_out_scores = judged.scores,
                 .held_out_objective = judged.objective,
+                .certificate = std::move(certificate),
+                .trade_off = std::move(trade_off),
                 .robust = {}};
 }
 
@@ -261,7 +271,7 @@ Status judge(const Model& model, ObjectiveSetting setting, const TuneOptions& op
     robust.runs = std::move(runs);
     return {};
   }
-  const std::span<const YawMode> modes = yaw_modes(model.vehicle);
+  const std::span<const YawMode> modes = setting.modes();
   std::vector<std::string> names;
   for (const Scenario& scenario : setting.scenarios) names.push_back(scenario.name);
   Judgement judgement = judgement_of(runs, {.modes = {modes.begin(), modes.end()},
@@ -298,7 +308,7 @@ Result<Tuning> tune_robustly(const Model& model, ObjectiveSetting setting,
   context.motor_time_constant_s = c.motor_time_constant_s;
   limit_steering_rate(model.vehicle, context);
   AWMR_RETURN_IF_ERROR(check_latency(context, model.file));
-  AWMR_ASSIGN_OR_RETURN(Tuning tuning, search_gains(setting, context, options, held_out));
+  AWMR_ASSIGN_OR_RETURN(Tuning tuning, search_gains(model, setting, context, options, held_out));
   AWMR_RETURN_IF_ERROR(judge(model, setting, options, candidates_of(tuning), robust));
   if (options.sensitivity > 0) {
     AWMR_ASSIGN_OR_RETURN(robust.sensitivity,
@@ -328,10 +338,11 @@ Result<Tuning> tune(const Model& model, const TuneOptions& asked) {
                            .scenarios = std::move(scenarios),
                            .tail_share = options.tail_share,
                            .seed = options.seed,
-                           .arithmetic = arithmetic};
+                           .arithmetic = arithmetic,
+                           .mode = options.mode};
   ConstraintContext context = context_of(options, plant, model.vehicle, setting.scenarios);
   AWMR_RETURN_IF_ERROR(limit_observer(context, options.observer));
-  if (options.nominal) return search_gains(setting, context, std::move(options), held_out);
+  if (options.nominal) return search_gains(model, setting, context, std::move(options), held_out);
   return tune_robustly(model, std::move(setting), std::move(context), options, held_out);
 }
 

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "awmr/core/interval.h"
@@ -151,6 +152,8 @@ struct TuneOptions {
   /// draws and of that over the tail (CVaR), (0, 1].
   double tail_share = 0.2;
   TuningLimits limits = {};
+  /// The only mode that the gains are tuned for; absent: all of the vehicle's. Default scenarios are the same.
+  std::optional<YawMode> mode = {};
   /// Absent: pole placement, the fastest that the constraints allow.
   std::optional<Baseline> baseline = {};
   /// Largest control variation over the baseline's in each mode, > 0, of a robust search; absent: no
@@ -309,6 +312,53 @@ struct RobustTuning {
   std::optional<GlobalSensitivity> sensitivity;  ///< absent where nobody asked
 };
 
+/// Settling against command activity: means over the modes, scenarios and plants of the search. A run that does not
+/// settle counts with the scenario's duration.
+struct TradeOffPoint {
+  double settling_time_s = 0.0;
+  double control_variation = 0.0;  ///< 1/s, as Metrics::control_variation
+};
+struct NamedTradeOff {
+  std::string gains;  ///< "tuned", "baseline", "paper", "lqi"
+  TradeOffPoint point;
+};
+struct TradeOff {
+  /// Of the gains that the search met and that keep every constraint, those that no other beats in both; by
+  /// settling time.
+  std::vector<TradeOffPoint> front;
+  /// On the same runs; without those whose runs break off. "lqi": the LQI law (control/heading_lqi.h) by
+  /// Bryson's rule, with a sixth of the step, the step in 1.5 s, four seconds of that error and a quarter of the
+  /// weaker mode's turning authority.
+  std::vector<NamedTradeOff> named;
+};
+
+/// Where over a model's confidence set a figure of the loop is worst.
+struct WorstCase {
+  double value = 0.0;
+  double yaw_rate_radps = 0.0;
+  /// That the loop depends on, with their values there.
+  std::vector<std::pair<ParameterId, double>> parameters = {};
+};
+struct ModeCertificate {
+  YawMode mode{};
+  WorstCase damping = {};         ///< smallest damping ratio; <= 0: not stable
+  WorstCase delay_margin_s = {};  ///< further delay that is borne, s; infinity: any
+};
+/// Damping and delay margin of the sampled heading loop with hold, servo, latency and motor lag that hold for all
+/// of the model's 95 % confidence set (tune/certificate.h).
+struct Certificate {
+  int parameters = 0;          ///< fitted ones with a covariance; 0: the model's own values alone
+  int degrees_of_freedom = 0;  ///< of their ellipsoid
+  Interval yaw_rate_radps;     ///< examined
+  double latency_s = 0.0;      ///< of the readings
+  double motor_time_constant_s = 0.0;
+  std::vector<ModeCertificate> modes;
+
+  double damping_min() const;
+  double delay_margin_s() const;
+};
+inline constexpr double kCertifiedShare = 0.95;
+
 struct Tuning {
   Gains<double> gains{};
   std::vector<ConstraintReport> constraints;
@@ -334,6 +384,8 @@ struct Tuning {
   /// there: for information, it decides nothing.
   std::vector<ModeScore> held_out_scores;
   double held_out_objective = 0.0;
+  std::optional<Certificate> certificate;  ///< tune() gives one
+  TradeOff trade_off;
   std::optional<RobustTuning> robust;  ///< absent for nominal gains
 };
 

@@ -51,6 +51,7 @@ void read_bounds(JsonObject json, GainBounds& bounds) {
 }
 
 void read_numbers(JsonObject& json, TuneOptions& options) {
+  if (json.has("mode")) options.mode = json.choice("mode", kYawModeNames);
   if (json.has("form")) options.form = json.choice("form", kReachingFormNames);
   if (const auto margin =
           json.optional_number("margin", {.min = 0.0, .max = 1.0, .min_excluded = true})) {
@@ -363,6 +364,7 @@ std::string gains_text(const Tuning& tuning, const TuneOptions& options,
   Json json;
   json["schema"] = kGainsSchema;
   json.update(gains_to_json(tuning.gains));
+  if (options.mode) json["mode"] = name_of(*options.mode);
   json["time_constants"] = {{"T1_s", tuning.gains.heading.sliding_time_constant_s()},
                             {"T2_s", tuning.gains.heading.reaching_time_constant_s()}};
   json["constraints"] = constraints_json(tuning.constraints);
@@ -370,6 +372,8 @@ std::string gains_text(const Tuning& tuning, const TuneOptions& options,
   json["examined"] = {{"speed_mps", tuning.examined.speed_mps},
                       {"step_deg", degrees(tuning.examined.step_rad)},
                       {"yaw_rate_degps", degrees(tuning.examined.yaw_rate_radps)}};
+  if (tuning.certificate) json["certificate"] = certificate_json(*tuning.certificate);
+  if (!tuning.trade_off.named.empty()) json["trade_off"] = trade_off_json(tuning.trade_off);
   json["objective"] = objective_json(tuning, options);
   json["objective"]["held_out"] = {{"value", tuning.held_out_objective},
                                    {"metrics", scores_json(tuning.held_out_scores)}};

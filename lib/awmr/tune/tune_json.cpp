@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <string>
 #include <utility>
 
 #include "awmr/model/wheel_force_json.h"
@@ -114,6 +116,54 @@ Json quantiles_json(const std::vector<JudgedGains>& judged) {
 Json by_scenario_json(const std::vector<JudgedGains>& judged) {
   Json json = Json::object();
   for (const JudgedGains& one : judged) put_quantiles(one, json[one.scenario]);
+  return json;
+}
+
+namespace {
+
+Json worst_case_json(const char* name, const WorstCase& worst) {
+  Json json;
+  json[name] = std::isfinite(worst.value) ? Json(worst.value) : Json(nullptr);
+  json["yaw_rate_degps"] = degrees(worst.yaw_rate_radps);
+  json["parameters"] = Json::object();
+  for (const auto& [id, value] : worst.parameters) json["parameters"][info(id).name] = value;
+  return json;
+}
+
+}  // namespace
+
+Json certificate_json(const Certificate& certificate) {
+  const double margin_s = certificate.delay_margin_s();
+  Json json = {
+      {"set", certificate.parameters > 0 ? kCertifiedSet : kUncertifiedSet},
+      {"damping_min", certificate.damping_min()},
+      {"delay_margin_s", std::isfinite(margin_s) ? Json(margin_s) : Json(nullptr)},
+      {"method",
+       "heading loop inside the boundary layer, discretised exactly with hold, servo, latency and "
+       "motor lag; least value over the ellipsoid of the parameters and the yaw rates by centre, "
+       "axes, corners and 500 random points and a pattern search from the least of each orthant"},
+      {"parameters", certificate.parameters},
+      {"degrees_of_freedom", certificate.degrees_of_freedom},
+      {"yaw_rate_degps",
+       {degrees(certificate.yaw_rate_radps.lo), degrees(certificate.yaw_rate_radps.hi)}},
+      {"latency_s", certificate.latency_s},
+      {"motor_time_constant_s", certificate.motor_time_constant_s}};
+  for (const ModeCertificate& one : certificate.modes) {
+    json["modes"][std::string(name_of(one.mode))] = {
+        {"damping", worst_case_json("min", one.damping)},
+        {"delay_margin", worst_case_json("min_s", one.delay_margin_s)}};
+  }
+  return json;
+}
+
+Json trade_off_json(const TradeOff& trade_off) {
+  const auto point_json = [](const TradeOffPoint& point) -> Json {
+    return {{"settling_time_s", point.settling_time_s},
+            {"control_variation", point.control_variation}};
+  };
+  Json json = {{"front", Json::array()}, {"gains", Json::object()}};
+  for (const TradeOffPoint& point : trade_off.front) json["front"].push_back(point_json(point));
+  for (const NamedTradeOff& one : trade_off.named) json["gains"][one.gains] = point_json(one.point);
   return json;
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "awmr/core/json.h"
+#include "awmr/model/certificate.h"
 #include "awmr/tune/tune.h"
 
 namespace awmr {
@@ -36,6 +37,10 @@ Json open_json(const OpenVehicle& open);
 Json quantiles_json(const std::vector<JudgedGains>& judged);
 /// `/robust/by_scenario`: the quantiles of each.
 Json by_scenario_json(const std::vector<JudgedGains>& judged);
+/// `/certificate`
+Json certificate_json(const Certificate& certificate);
+/// `/trade_off`
+Json trade_off_json(const TradeOff& trade_off);
 /// `/goals`
 Json goals_json(const std::vector<JudgedGoal>& goals);
 

@@ -25,6 +25,32 @@ function constraintsTable(parent, constraints) {
     c.name + (c.required ? "" : " (told, not asked)"), state(c), digits(c.value), `${({"at-least": "≥ ", "at-most": "≤ "})[c.sense] || ""}${digits(c.limit)}`, digits(c.margin, 3), c.meaning]));
 }
 
+/// Settling time against command activity: what the search met, and the named gains.
+function tradeOffChart(parent, gains) {
+  const {trade_off: tradeOff} = gains;
+  if (!tradeOff) return;
+  const at = (p) => [p.settling_time_s, p.control_variation];
+  const words = {...setWords, tuned: "tuned", baseline: baselineWords(gains), lqi: "LQI"};
+  const colour = {...setColour, tuned: setColour.robust, lqi: "var(--ink)"};
+  const series = [{name: "met by the search", kind: "line", points: tradeOff.front.map(at), colour: "var(--dim)", width: 1.2},
+    ...Object.entries(tradeOff.gains).map(([name, point]) => ({name: words[name] || name, kind: "points", points: [at(point)], colour: colour[name]}))];
+  add(parent, "h3", "Settling against command activity");
+  add(parent, "p", "Means over the modes, manoeuvres and plants of the search; nothing that the search met and that keeps every constraint is better in both than the line.", {class: "small"});
+  plot(add(parent, "div", undefined, {class: "grid"}), {title: "trade-off", x: "settling time, s", y: "control variation, 1/s", series, height: 260});
+}
+
+/// The worst damping and delay margin of the heading loop over the model's confidence set.
+function certificateTable(parent, certificate) {
+  if (!certificate) return;
+  add(parent, "h3", "Certificate");
+  add(parent, "p", `The worst cases over the model's parameters (${certificate.set}) and yaw rates of ${certificate.yaw_rate_degps.map((r) => digits(r, 3)).join(" to ")} deg/s, ` +
+    `with readings ${digits(certificate.latency_s)} s late: ${certificate.method}.`, {class: "small"});
+  const place = (worst) => `${digits(worst.yaw_rate_degps, 3)} deg/s; ${Object.entries(worst.parameters).map(([name, value]) => `${name} ${digits(value)}`).join(", ")}`;
+  const margin = (seconds) => (seconds === null ? "any" : digits(seconds, 3));
+  table(parent, ["mode", "#damping", "at", "#delay margin, s", "at"], Object.entries(certificate.modes).map(([mode, {damping, delay_margin: delay}]) => [
+    mode, digits(damping.min, 3), place(damping), margin(delay.min_s), place(delay)]));
+}
+
 /// The best objective so far against evaluations, of the search for the tuned gains and of the one without noise.
 function historyChart(parent, gains) {
   const of = (name, history, look) => {
@@ -102,6 +128,8 @@ function tuningSection(data) {
   if (gains.search) add(box, "p", `${gains.search.algorithm}: ${gains.search.evaluations} evaluations, ${gains.search.stop_reason}.`, {class: "small"});
   if (gains.objective && gains.objective.formula) add(box, "p", `Objective: ${gains.objective.formula}.`, {class: "small"});
   if (Array.isArray(gains.constraints)) constraintsTable(box, gains.constraints);
+  certificateTable(box, gains.certificate);
+  tradeOffChart(box, gains);
   historyChart(box, gains);
   goalsTable(box, gains.goals);
   robustCharts(box, gains.robust);

@@ -65,6 +65,9 @@ void visit_numbers(LiveSetup& setup, Visit&& visit) {
   visit(c.margin);
   visit_plant(c.plant, visit);
   visit_as_number(c.has_steering, visit);
+  double mode = c.mode ? static_cast<double>(static_cast<int>(*c.mode)) : -1.0;  // -1: all
+  visit(mode);
+  if (mode >= 0.0) c.mode = static_cast<YawMode>(static_cast<int>(mode));
   for (double* x :
        {&c.sample_time_s, &c.speed_mps, &c.step_rad, &c.fastest_radps, &c.limits.damping,
         &c.limits.late_damping, &c.limits.delayed_damping, &c.limits.noise_share, &c.wheel_force.lo,

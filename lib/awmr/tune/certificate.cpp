@@ -1,0 +1,255 @@
+#include "awmr/tune/certificate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include "awmr/core/distributions.h"
+#include "awmr/core/parallel.h"
+#include "awmr/core/random.h"
+#include "awmr/tune/objective.h"
+
+namespace awmr {
+namespace {
+
+constexpr ParameterId kLoopParameters[] = {ParameterId::kYawAlpha, ParameterId::kYawBeta,
+                                           ParameterId::kYawQuadratic, ParameterId::kInertiaNorm,
+                                           ParameterId::kSteeringTimeConstant};
+
+/// A point of the unit ball, then a place in [0, 1] between the logarithms of the least and largest yaw rate.
+using SetPoint = std::vector<double>;
+
+/// Brings a point back into the ball and the range.
+SetPoint inside(SetPoint point) {
+  double square = 0.0;
+  for (std::size_t i = 0; i + 1 < point.size(); ++i) square += point[i] * point[i];
+  const double shrink = square > 1.0 ? 1.0 / std::sqrt(square) : 1.0;
+  for (std::size_t i = 0; i + 1 < point.size(); ++i) point[i] *= shrink;
+  point.back() = std::clamp(point.back(), 0.0, 1.0);
+  return point;
+}
+
+SetPoint random_direction(std::size_t size, Random& random) {
+  SetPoint direction(size);
+  double square = 0.0;
+  for (double& x : direction) {
+    x = random.normal();
+    square += x * x;
+  }
+  for (double& x : direction) x /= std::sqrt(square);
+  return direction;
+}
+
+/// Centre, axes and corners, each at kPlaces of the yaw rate, then random points of the ball and its surface.
+std::vector<SetPoint> first_points(std::size_t dimension, Random& random) {
+  constexpr int kPlaces = 5;
+  constexpr int kRandomPoints = 500;
+  std::vector<SetPoint> in_ball{SetPoint(dimension, 0.0)};
+  for (std::size_t i = 0; i < dimension; ++i) {
+    for (const double end : {-1.0, 1.0}) {
+      in_ball.emplace_back(dimension, 0.0);
+      in_ball.back()[i] = end;
+    }
+  }
+  for (unsigned corner = 0; dimension > 1 && corner < 1U << dimension; ++corner) {
+    SetPoint& point = in_ball.emplace_back(dimension, 0.0);
+    for (std::size_t i = 0; i < dimension; ++i) {
+      point[i] = ((corner >> i & 1U) != 0 ? 1.0 : -1.0) / std::sqrt(static_cast<double>(dimension));
+    }
+  }
+  std::vector<SetPoint> points;
+  for (const SetPoint& point : in_ball) {
+    for (int i = 0; i < kPlaces; ++i) {
+      points.push_back(point);
+      points.back().push_back(i / (kPlaces - 1.0));
+    }
+  }
+  for (int i = 0; i < kRandomPoints; ++i) {
+    SetPoint point = random_direction(dimension, random);
+    const double radius = std::pow(random.uniform(), 1.0 / (static_cast<double>(dimension) + 1.0));
+    for (double& x : point) x *= i % 2 == 0 ? 1.0 : radius;
+    point.push_back(random.uniform());
+    points.push_back(std::move(point));
+  }
+  return points;
+}
+
+struct ValuedPoint {
+  SetPoint point;
+  double value;
+};
+using PointFunction = std::function<double(const SetPoint&)>;
+
+/// Steps along the axes and as many random directions; half the step where none of them falls.
+ValuedPoint search_by_pattern(ValuedPoint best, const PointFunction& value, Random& random) {
+  constexpr double kFirstPatternStep = 0.25;
+  constexpr double kLastPatternStep = 5e-4;
+  const std::size_t size = best.point.size();
+  for (double step = kFirstPatternStep; step > kLastPatternStep;) {
+    std::vector<SetPoint> directions;
+    for (std::size_t i = 0; i < size; ++i) {
+      directions.emplace_back(size, 0.0);
+      directions.back()[i] = 1.0;
+      directions.push_back(random_direction(size, random));
+    }
+    bool has_fallen = false;
+    for (const SetPoint& direction : directions) {
+      for (const double by : {-step, step}) {
+        SetPoint point = best.point;
+        for (std::size_t i = 0; i < size; ++i) point[i] += by * direction[i];
+        point = inside(std::move(point));
+        const double there = value(point);
+        if (!(there < best.value)) continue;
+        best = {std::move(point), there};
+        has_fallen = true;
+      }
+    }
+    if (!has_fallen) step *= 0.5;
+  }
+  return best;
+}
+
+/// The least point in each orthant of the ball: functions of a set often have a valley in more than one.
+std::vector<ValuedPoint> best_by_orthant(std::vector<ValuedPoint> points) {
+  std::map<unsigned, ValuedPoint> best;
+  for (ValuedPoint& one : points) {
+    unsigned orthant = 0;
+    for (std::size_t i = 0; i + 1 < one.point.size(); ++i) {
+      if (one.point[i] > 0.0) orthant |= 1U << i;
+    }
+    const auto [place, is_new] = best.try_emplace(orthant, one);
+    if (!is_new && one.value < place->second.value) place->second = std::move(one);
+  }
+  std::vector<ValuedPoint> starts;
+  for (auto& [orthant, one] : best) starts.push_back(std::move(one));
+  return starts;
+}
+
+ValuedPoint least_over_set(std::size_t dimension, const PointFunction& value) {
+  constexpr std::uint64_t kPatternSeed = 1;
+  Random random(kPatternSeed, 0);
+  std::vector<ValuedPoint> points;
+  for (SetPoint& point : first_points(dimension, random)) {
+    const double there = value(point);
+    points.push_back({std::move(point), there});
+  }
+  const std::vector<ValuedPoint> starts = best_by_orthant(std::move(points));
+  ValuedPoint least = starts.front();
+  for (const ValuedPoint& start : starts) {
+    ValuedPoint found = search_by_pattern(start, value, random);
+    if (found.value < least.value) least = std::move(found);
+  }
+  return least;
+}
+
+/// The values of the loop's parameters that the vehicle has.
+std::vector<std::pair<ParameterId, double>> loop_parameters(const Model& model,
+                                                            const Plant<double>& plant) {
+  std::vector<std::pair<ParameterId, double>> values;
+  const double all[] = {plant.yaw.alpha, plant.yaw.beta, plant.yaw.quadratic, plant.inertia_norm,
+                        plant.steering_time_constant_s};
+  for (std::size_t i = 0; i < std::size(all); ++i) {
+    const ParameterId id = kLoopParameters[i];
+    if (has(model.vehicle, id) && !is_absent_term(model, id)) values.emplace_back(id, all[i]);
+  }
+  return values;
+}
+
+}  // namespace
+
+double Certificate::damping_min() const {
+  return std::ranges::min(modes, {}, [](const ModeCertificate& m) { return m.damping.value; })
+      .damping.value;
+}
+
+double Certificate::delay_margin_s() const {
+  return std::ranges::min(modes, {},
+                          [](const ModeCertificate& m) { return m.delay_margin_s.value; })
+      .delay_margin_s.value;
+}
+
+Result<ConfidenceSet> ConfidenceSet::make(const Model& model) {
+  ConfidenceSet set;
+  AWMR_ASSIGN_OR_RETURN(set.own_, model.plant());
+  if (model.covariance.parameters.empty()) return set;
+  Model bare = model;  // it is copied for each plant
+  bare.record = {};
+  AWMR_ASSIGN_OR_RETURN(set.sampler_, PlantSampler::make(bare));
+  set.parameters_ = static_cast<int>(model.covariance.parameters.size());
+  set.directions_ = set.sampler_->directions_of(kLoopParameters);
+  set.radius_ = std::sqrt(chi_squared_quantile(kCertifiedShare, set.sampler_->rank()));
+  return set;
+}
+
+std::optional<Plant<double>> ConfidenceSet::plant_at(std::span<const double> point) const {
+  if (directions_.empty()) return own_;
+  std::vector<double> normals(directions_.front().size(), 0.0);
+  for (std::size_t j = 0; j < directions_.size(); ++j) {
+    for (std::size_t i = 0; i < normals.size(); ++i) {
+      normals[i] += radius_ * point[j] * directions_[j][i];
+    }
+  }
+  return sampler_->plant_at(normals);
+}
+
+SampledHeadingLoop certified_loop(const Gains<double>& gains, const ConstraintContext& context,
+                                  const Plant<double>& plant, double rate_radps, YawMode mode) {
+  SampledHeadingLoop loop = heading_loop(gains, context, plant, rate_radps, mode);
+  loop.motor_time_constant_s = context.motor_time_constant_s;
+  loop.command_delay_s = context.latency_s;
+  return loop;
+}
+
+Result<Certificate> certify(const Model& model, const ConstraintContext& context,
+                            const OpenVehicle& open, const Gains<double>& gains) {
+  AWMR_ASSIGN_OR_RETURN(const ConfidenceSet set, ConfidenceSet::make(model));
+  const Interval rates = examined_rates_radps(context);
+  Certificate certificate{.parameters = set.parameters(),
+                          .degrees_of_freedom = set.rank(),
+                          .yaw_rate_radps = rates,
+                          .latency_s = context.latency_s,
+                          .motor_time_constant_s = context.motor_time_constant_s,
+                          .modes = {}};
+  const std::span<const YawMode> modes = tuned_modes(model.vehicle, context.mode);
+  const std::vector<double> masses =
+      open.mass_factors.empty() ? std::vector<double>{1.0} : open.mass_factors;
+
+  const auto rate_at = [&](const SetPoint& point) {
+    return rates.lo * std::pow(rates.hi / rates.lo, point.back());
+  };
+  const auto plant_at = [&](const SetPoint& point, double mass_factor) {
+    auto plant = set.plant_at(std::span(point).first(point.size() - 1));
+    if (plant) plant->inertia_norm *= mass_factor;
+    return plant;
+  };
+  const auto worst_case = [&](YawMode mode, double (*measure)(const SampledHeadingLoop&)) {
+    WorstCase worst{.value = std::numeric_limits<double>::infinity()};
+    for (const double mass_factor : masses) {
+      const ValuedPoint least = least_over_set(set.dimension(), [&](const SetPoint& point) {
+        const auto plant = plant_at(point, mass_factor);
+        if (!plant) return std::numeric_limits<double>::infinity();
+        return measure(certified_loop(gains, context, *plant, rate_at(point), mode));
+      });
+      if (least.value >= worst.value && !worst.parameters.empty()) continue;
+      worst = {.value = least.value,
+               .yaw_rate_radps = rate_at(least.point),
+               .parameters = loop_parameters(model, plant_at(least.point, mass_factor).value())};
+    }
+    return worst;
+  };
+  for (const YawMode mode : modes) certificate.modes.push_back({.mode = mode});
+  parallel_for(2 * modes.size(), 0, [&](std::size_t i) {
+    ModeCertificate& one = certificate.modes[i / 2];
+    if (i % 2 == 0) {
+      one.damping = worst_case(one.mode, damping_ratio);
+    } else {
+      one.delay_margin_s = worst_case(one.mode, delay_margin_s);
+    }
+  });
+  return certificate;
+}
+
+}  // namespace awmr

@@ -1,0 +1,60 @@
+#include "awmr/tune/trade_off.h"
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+#include "awmr/control/heading_lqi.h"
+#include "awmr/model/paper_gains.h"
+
+namespace awmr {
+namespace {
+
+/// LQI weights that scale with the vehicle (Bryson's rule), as TradeOff::named has them.
+LqiWeights<double> lqi_weights(const ConstraintContext& context) {
+  const double error_rad = context.step_rad / 6.0;
+  return {.heading_rad = error_rad,
+          .yaw_rate_radps = context.step_rad / 1.5,
+          .integral_rad_s = 4.0 * error_rad,
+          .tau_turn_m = 0.25 * turning_authority_m(context.own(), context.speed_mps, context.mode)};
+}
+
+}  // namespace
+
+std::vector<TradeOffPoint> front_of(std::vector<TradeOffPoint> points) {
+  std::ranges::sort(points, {}, [](const TradeOffPoint& p) {
+    return std::pair(p.settling_time_s, p.control_variation);
+  });
+  std::vector<TradeOffPoint> front;
+  for (const TradeOffPoint& point : points) {
+    if (!front.empty() && !(point.control_variation < front.back().control_variation)) continue;
+    front.push_back(point);
+  }
+  return front;
+}
+
+TradeOff trade_off_of(const ObjectiveSetting& searched, const ConstraintContext& context,
+                      std::vector<TradeOffPoint> met, const Gains<double>& tuned,
+                      const Gains<double>& baseline) {
+  TradeOff result{.front = front_of(std::move(met)), .named = {}};
+  const auto add = [&result](const char* name, const Evaluation& evaluation) {
+    if (evaluation.valid) result.named.push_back({name, evaluation.trade_off});
+  };
+  ObjectiveSetting setting = searched;
+  setting.goals.clear();
+  const Objective objective(setting, baseline);
+  add("tuned", objective(tuned));
+  add("baseline", objective.baseline());
+  add("paper", objective(kPaperGains));
+  const LqiWeights<double> weights = lqi_weights(context);
+  const double inertia_norm = context.plant.inertia_norm;
+  if (!(weights.heading_rad > 0.0 && weights.tau_turn_m > 0.0) ||
+      !settles_when_sampled(lqi_gains(weights, inertia_norm), context.sample_time_s)) {
+    return result;
+  }
+  for (Scenario& scenario : setting.scenarios) scenario.control.lqi = weights;
+  add("lqi", Objective(std::move(setting), baseline).baseline());
+  return result;
+}
+
+}  // namespace awmr

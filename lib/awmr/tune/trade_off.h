@@ -1,0 +1,20 @@
+/// Settling against command activity. Private to tune/.
+#pragma once
+
+#include <vector>
+
+#include "awmr/tune/constraints.h"
+#include "awmr/tune/objective.h"
+#include "awmr/tune/tune.h"
+
+namespace awmr {
+
+/// The points that no other beats in both figures, by settling time.
+std::vector<TradeOffPoint> front_of(std::vector<TradeOffPoint> points);
+
+/// The front of what a search met, and the named gains on the setting that it ran.
+TradeOff trade_off_of(const ObjectiveSetting& searched, const ConstraintContext& context,
+                      std::vector<TradeOffPoint> met, const Gains<double>& tuned,
+                      const Gains<double>& baseline);
+
+}  // namespace awmr

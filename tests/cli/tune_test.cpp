@@ -1,0 +1,120 @@
+/// What tune writes of the gains that it compares with, and of the certificate.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "cli/program.h"
+
+namespace awmr::testing::tune_test {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+using Json = nlohmann::json;
+
+class TunedGains : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    directory_ = new TemporaryDirectory;
+    awmr(
+        "identify --vehicle configs/paper/vehicle.json --surge datasets/paper/surge.csv "
+        "--coastdown "
+        "datasets/paper/coastdown.csv --turning datasets/paper/turning.csv -o " +
+        path("model.json"));
+    write_all(
+        path("tune.json"),
+        R"({"global_evaluations": 20, "local_evaluations": 10, "draws": 4, "judged_draws": 4})");
+    write_all(path("own.json"), R"({"heading": {"lambda": 2, "mu": 30, "epsilon": 5},
+                                   "speed": {"mu": 6, "epsilon": 1.5}})");
+  }
+  static void TearDownTestSuite() { delete directory_; }
+  static std::string path(const std::string& name) { return (directory_->path() / name).string(); }
+  static ProcessResult tune(const std::string& more) {
+    return awmr("tune --model " + path("model.json") + " --config " + path("tune.json") + " -o " +
+                path("gains.json") + " " + more);
+  }
+  static Json gains() { return Json::parse(read_all(path("gains.json"))); }
+
+  static inline TemporaryDirectory* directory_ = nullptr;
+};
+
+TEST_F(TunedGains, AreComparedWithTheFileThatIsGivenAsBaseline) {
+  const ProcessResult run = tune("--baseline " + path("own.json"));
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const Json json = gains();
+  const Json& baseline = json.at("baseline");
+  EXPECT_EQ(baseline.at("source"), path("own.json"));
+  EXPECT_EQ(baseline.at("heading"), Json::parse(read_all(path("own.json"))).at("heading"));
+  EXPECT_EQ(baseline.at("objective"), 1.0);
+  EXPECT_EQ(json.at("options").at("baseline"), path("own.json"));
+  bool is_input = false;
+  for (const Json& input : json.at("inputs")) {
+    is_input = is_input || input.at("name") == "own.json";
+  }
+  EXPECT_TRUE(is_input) << json.at("inputs");
+  // The paper's gains are judged as well, as the baseline is another.
+  EXPECT_TRUE(json.at("robust").at("quantiles").at("steering").contains("paper"));
+}
+
+TEST_F(TunedGains, TakeTheBaselinesThatTheProgramKnowsByName) {
+  ASSERT_EQ(tune("--baseline paper").exit_code, 0);
+  EXPECT_EQ(gains().at("baseline").at("source"), "paper");
+  EXPECT_EQ(gains().at("baseline").at("heading").at("mu"), 50.0);
+  ASSERT_EQ(tune("--baseline pole-placement").exit_code, 0);
+  EXPECT_EQ(gains().at("baseline").at("source"), "pole-placement");
+}
+
+TEST_F(TunedGains, RefuseABaselineThatIsNoGainsFile) {
+  const ProcessResult missing = tune("--baseline " + path("absent.json"));
+  EXPECT_EQ(missing.exit_code, 2);
+  EXPECT_THAT(missing.err, HasSubstr("absent.json"));
+  write_all(path("bad.json"), R"({"heading": {"lambda": 2, "mu": -30, "epsilon": 5},
+                                 "speed": {"mu": 6, "epsilon": 1.5}})");
+  const ProcessResult bad = tune("--baseline " + path("bad.json"));
+  EXPECT_EQ(bad.exit_code, 2);
+  EXPECT_THAT(bad.err, HasSubstr("bad.json:/heading/mu"));
+}
+
+TEST_F(TunedGains, OfOneModeAreExaminedThereAndWarnElsewhere) {
+  const ProcessResult run = tune("--mode differential");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const Json json = gains();
+  EXPECT_EQ(json.at("mode"), "differential");
+  EXPECT_EQ(json.at("metrics").size(), 1U);
+  EXPECT_EQ(json.at("robust").at("quantiles").size(), 1U);
+  EXPECT_EQ(json.at("certificate").at("modes").size(), 1U);
+  for (const Json& constraint : json.at("constraints")) {
+    EXPECT_NE(constraint.at("name"), "steering rate");
+  }
+  const auto simulate = [](const std::string& mode) {
+    return awmr("simulate --model " + path("model.json") + " --gains " + path("gains.json") +
+                " --scenario configs/paper/scenarios/c3_heading_steps.json --mode " + mode +
+                " -o " + path("run.csv"));
+  };
+  EXPECT_THAT(simulate("steering").err, HasSubstr("gains-of-another-mode"));
+  EXPECT_THAT(simulate("differential").err, Not(HasSubstr("gains-of-another-mode")));
+}
+
+TEST_F(TunedGains, CarryTheirCertificateIntoTheHeader) {
+  const ProcessResult run = tune("");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("certified"));
+  const Json certificate = gains().at("certificate");
+  EXPECT_EQ(certificate.at("set"), "95 %");
+  double damping = 1.0;
+  for (const auto& [mode, worst] : certificate.at("modes").items()) {
+    damping = std::min(damping, worst.at("damping").at("min").get<double>());
+    EXPECT_GT(worst.at("delay_margin").at("min_s"), 0.0) << mode;
+  }
+  EXPECT_EQ(certificate.at("damping_min"), damping);
+  ASSERT_EQ(awmr("emit --header-only --model " + path("model.json") + " --gains " +
+                 path("gains.json") + " -o " + path("firmware"))
+                .exit_code,
+            0);
+  EXPECT_THAT(read_all(path("firmware/awmr_params.h")), HasSubstr("delay margin"));
+}
+
+}  // namespace
+}  // namespace awmr::testing::tune_test

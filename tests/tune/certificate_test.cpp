@@ -1,0 +1,244 @@
+/// Worst-case damping and delay margin, compared with random points of the set and with simulations in time.
+#include "awmr/tune/certificate.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "awmr/core/parallel.h"
+#include "awmr/core/random.h"
+#include "awmr/core/units.h"
+#include "awmr/model/paper_gains.h"
+#include "awmr/simulate/conditions.h"
+#include "awmr/simulate/scenario.h"
+#include "awmr/tune/pole_placement.h"
+#include "tune/vehicles.h"
+
+namespace awmr::testing {
+namespace {
+
+/// What the vehicle's loop is examined under: its own latency and lag, yaw rates up to 30 deg/s.
+ConstraintContext context_of(const Model& model) {
+  const LoopConditions c = conditions_of(model.vehicle);
+  return {.plant = model.plant().value(),
+          .has_steering = model.vehicle.has_steering(),
+          .sample_time_s = model.vehicle.sample_time_s,
+          .speed_mps = 0.3,
+          .fastest_radps = radians(30.0),
+          .wheel_force = model.vehicle.wheel_force,
+          .latency_s = std::max(c.heading_late_s, c.yaw_rate_late_s),
+          .motor_time_constant_s = c.motor_time_constant_s};
+}
+
+class CertificateOf : public ::testing::TestWithParam<TestVehicle> {};
+
+TEST_P(CertificateOf, IsNoBetterThanAnyRandomPointOfTheSet) {
+  const Model model = model_of(GetParam());
+  const ConstraintContext context = context_of(model);
+  const Gains<double> gains = place_poles(context);
+  const Certificate certificate = certify(model, context, {}, gains).value();
+  const ConfidenceSet set = ConfidenceSet::make(model).value();
+  const Interval rates = examined_rates_radps(context);
+  ASSERT_EQ(certificate.modes.size(), yaw_modes(model.vehicle).size());
+  constexpr std::size_t kSamples = 20'000;
+  for (const ModeCertificate& one : certificate.modes) {
+    std::vector<double> damping(kSamples, 1.0);
+    std::vector<double> margin_s(kSamples, 1e9);
+    parallel_for(kSamples, 0, [&](std::size_t i) {
+      // Half of the points on the surface, half within, where the minimum is if not on it.
+      Random random(7, i);
+      std::vector<double> point(set.dimension());
+      double square = 0.0;
+      for (double& x : point) {
+        x = random.normal();
+        square += x * x;
+      }
+      const double radius =
+          i % 2 == 0 ? 1.0 : std::pow(random.uniform(), 1.0 / static_cast<double>(set.dimension()));
+      for (double& x : point) x *= radius / std::sqrt(square);
+      const auto plant = set.plant_at(point);
+      if (!plant) return;
+      const double rate = rates.lo * std::pow(rates.hi / rates.lo, random.uniform());
+      const SampledHeadingLoop loop = certified_loop(gains, context, *plant, rate, one.mode);
+      damping[i] = damping_ratio(loop);
+      if (i < kSamples / 4) margin_s[i] = delay_margin_s(loop);
+    });
+    const double least_damping = *std::ranges::min_element(damping);
+    const double least_margin_s = *std::ranges::min_element(margin_s);
+    EXPECT_GE(least_damping, one.damping.value - kCertificateTolerance);
+    EXPECT_GE(least_margin_s, one.delay_margin_s.value * (1.0 - kCertificateTolerance));
+    fmt::print("{}, {}: damping {:.4f} (sampled {:.4f}), delay margin {:.4f} s (sampled {:.4f})\n",
+               GetParam().name, name_of(one.mode), one.damping.value, least_damping,
+               one.delay_margin_s.value, least_margin_s);
+  }
+}
+
+TEST_P(CertificateOf, IsAttainedAtThePlaceThatItNames) {
+  const Model model = model_of(GetParam());
+  const ConstraintContext context = context_of(model);
+  const Gains<double> gains = place_poles(context);
+  const Certificate certificate = certify(model, context, {}, gains).value();
+  const auto loop_at = [&](const WorstCase& worst, YawMode mode) {
+    Model there = model;
+    for (const auto& [id, value] : worst.parameters) there[id].value = value;
+    return certified_loop(gains, context, there.plant().value(), worst.yaw_rate_radps, mode);
+  };
+  for (const ModeCertificate& one : certificate.modes) {
+    EXPECT_NEAR(damping_ratio(loop_at(one.damping, one.mode)), one.damping.value, 1e-9);
+    EXPECT_NEAR(delay_margin_s(loop_at(one.delay_margin_s, one.mode)), one.delay_margin_s.value,
+                1e-9);
+  }
+}
+
+/// The loop in time: Euler steps of a 200th of the sample, the held command through a queue of these steps.
+/// Largest |psi| over the last tenth of the time, over that of the first tenth.
+double growth(const SampledHeadingLoop& loop, double delay_s, double time_s) {
+  constexpr int kSteps = 200;
+  const double h = loop.sample_time_s / kSteps;
+  const double all_s = delay_s + loop.command_delay_s + loop.late_samples * loop.sample_time_s;
+  const auto late = static_cast<std::size_t>(std::lround(all_s / h));
+  const auto samples = static_cast<std::size_t>(time_s / loop.sample_time_s);
+  std::vector<double> commands;  // by step
+  double psi = 0.1, r = 0.0, servo = 0.0, motor = 0.0, y = 0.0;
+  double early = 0.0, at_end = 0.0;
+  for (std::size_t j = 0; j < samples; ++j) {
+    const double k = loop.reaching_rate;
+    const double s = (loop.lambda + k) * r + loop.lambda * k * psi;
+    const double w = loop.fed_forward_rate * r - s - loop.observer_radps * r - y;
+    y += loop.sample_time_s * loop.observer_radps * s;
+    commands.insert(commands.end(), kSteps, w);
+    for (std::size_t i = j * kSteps; i < (j + 1) * kSteps; ++i) {
+      const double u = i >= late ? commands[i - late] : 0.0;
+      const double direct = loop.motor_time_constant_s > 0.0 ? motor : u;
+      const double moment =
+          loop.input_gain * (loop.direct_share * direct + (1.0 - loop.direct_share) * servo);
+      psi += h * r;
+      r += h * (moment - loop.resistance_rate * r);
+      servo += h * (u - servo) / loop.servo_time_constant_s;
+      if (loop.motor_time_constant_s > 0.0) motor += h * (u - motor) / loop.motor_time_constant_s;
+    }
+    if (j < samples / 10) early = std::max(early, std::abs(psi));
+    if (j >= samples - samples / 10) at_end = std::max(at_end, std::abs(psi));
+  }
+  return at_end / early;
+}
+
+TEST_P(CertificateOf, HasTheDelayMarginOfASimulationInTime) {
+  const Model model = model_of(GetParam());
+  const ConstraintContext context = context_of(model);
+  const Gains<double> gains = place_poles(context);
+  const Certificate certificate = certify(model, context, {}, gains).value();
+  for (const ModeCertificate& one : certificate.modes) {
+    const WorstCase& worst = one.delay_margin_s;
+    Model there = model;
+    for (const auto& [id, value] : worst.parameters) there[id].value = value;
+    const SampledHeadingLoop loop =
+        certified_loop(gains, context, there.plant().value(), worst.yaw_rate_radps, one.mode);
+    // At 5 % of the margin from it a pole is about 5 % of w D from the circle: e-folds in some 20/w, of which the
+    // time has at least ten.
+    const double time_s = 400.0 * (worst.value + loop.command_delay_s + loop.sample_time_s);
+    EXPECT_LT(growth(loop, 0.95 * worst.value, time_s), 0.5) << name_of(one.mode);
+    EXPECT_GT(growth(loop, 1.05 * worst.value, time_s), 2.0) << name_of(one.mode);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(FromToyToTractor, CertificateOf, ::testing::ValuesIn(test_vehicles()));
+
+SampledHeadingLoop plain_loop() {
+  return {.lambda = 2.5,
+          .reaching_rate = 10.0,
+          .resistance_rate = 20.0,
+          .fed_forward_rate = 22.0,
+          .input_gain = 1.1,
+          .servo_time_constant_s = 0.05,
+          .sample_time_s = 0.02,
+          .direct_share = 0.5,
+          .motor_time_constant_s = 0.02};
+}
+
+TEST(DampingRatio, TakesADelayOfWholeSamplesAsOneOfTheReadings) {
+  SampledHeadingLoop readings = plain_loop();
+  readings.late_samples = 3;
+  SampledHeadingLoop commands = plain_loop();
+  commands.command_delay_s = 3 * 0.02;
+  EXPECT_DOUBLE_EQ(damping_ratio(readings), damping_ratio(commands));
+}
+
+TEST(DampingRatio, ChangesContinuouslyWithTheDelay) {
+  // The fastest pole that samples show has |s| = pi/T_s = 157 1/s, and zeta changes by no more over a second of
+  // delay: by 1.6e-5 over 1e-7 s. A wrong split of the delay would jump by some 0.01.
+  for (const double delay_s : {0.01, 0.02, 0.0333, 0.04}) {
+    SampledHeadingLoop before = plain_loop();
+    before.command_delay_s = delay_s - 5e-8;
+    SampledHeadingLoop after = plain_loop();
+    after.command_delay_s = delay_s + 5e-8;
+    EXPECT_NEAR(damping_ratio(before), damping_ratio(after), 1.6e-5) << delay_s;
+  }
+}
+
+TEST(DelayMargin, IsWhereTheLargestEigenvalueReachesTheCircle) {
+  for (const double observer : {0.0, 1.0}) {
+    for (const double present_s : {0.0, 0.02, 0.027}) {
+      SampledHeadingLoop loop = plain_loop();
+      loop.observer_radps = observer;
+      loop.command_delay_s = present_s;
+      const double margin_s = delay_margin_s(loop);
+      ASSERT_GT(margin_s, 0.0);
+      loop.command_delay_s = present_s + 0.9999 * margin_s;
+      EXPECT_GT(damping_ratio(loop), 0.0) << observer << " " << present_s;
+      loop.command_delay_s = present_s + 1.0001 * margin_s;
+      EXPECT_LT(damping_ratio(loop), 0.0) << observer << " " << present_s;
+    }
+  }
+}
+
+/// s^2 + (lambda + k) s + lambda k with an ideal plant: L = ((lambda + k) s + lambda k)/s^2 has the crossover
+/// w^2 = (b^2 + sqrt(b^4 + 4 c^2))/2, b = lambda + k, c = lambda k, and the margin atan(b w/c)/w. A sample of
+/// T_s holds T_s/2 of it, to first order.
+TEST(DelayMargin, TendsToThatOfTheContinuousLoop) {
+  constexpr double kSample_s = 1e-4;
+  const SampledHeadingLoop loop{.lambda = 2.0,
+                                .reaching_rate = 5.0,
+                                .servo_time_constant_s = 1.0,
+                                .sample_time_s = kSample_s,
+                                .direct_share = 1.0};
+  const double b = 7.0;
+  const double c = 10.0;
+  const double w = std::sqrt((b * b + std::sqrt(b * b * b * b + 4.0 * c * c)) / 2.0);
+  const double margin_s = std::atan(b * w / c) / w - kSample_s / 2.0;
+  // Second order in w T_s = 7e-4.
+  EXPECT_NEAR(delay_margin_s(loop), margin_s, 1e-6);
+}
+
+TEST(Certificate, OfAModelWithoutACovarianceIsThatOfItsOwnValues) {
+  const Model model = paper_model();
+  const ConstraintContext context = context_of(model);
+  const Certificate certificate = certify(model, context, {}, kPaperGains).value();
+  EXPECT_EQ(certificate.parameters, 0);
+  for (const ModeCertificate& one : certificate.modes) {
+    EXPECT_EQ(one.damping.parameters.front().second, 0.3028);
+    double least = 1.0;
+    for (const double rate : {certificate.yaw_rate_radps.lo, certificate.yaw_rate_radps.hi}) {
+      least = std::min(least, damping_ratio(certified_loop(kPaperGains, context, context.plant,
+                                                           rate, one.mode)));
+    }
+    EXPECT_LE(one.damping.value, least);
+  }
+}
+
+TEST(Certificate, CoversTheMassesThatAreOpen) {
+  const Model model = model_of(test_vehicles()[4]);
+  const ConstraintContext context = context_of(model);
+  const Certificate empty = certify(model, context, {}, kPaperGains).value();
+  const Certificate loaded =
+      certify(model, context, {.mass_factors = {1.0, 2.0}}, kPaperGains).value();
+  EXPECT_LE(loaded.damping_min(), empty.damping_min());
+  EXPECT_LE(loaded.delay_margin_s(), empty.delay_margin_s());
+  EXPECT_NE(loaded.damping_min(), empty.damping_min());
+}
+
+}  // namespace
+}  // namespace awmr::testing
