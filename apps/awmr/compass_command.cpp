@@ -65,11 +65,13 @@ Result<Outcome> execute(const CompassCommand& command) {
   AWMR_ASSIGN_OR_RETURN(const auto inputs, input_files({command.file}));
   AWMR_ASSIGN_OR_RETURN(const std::string header, compass_header(fit.calibration, inputs.front()));
   AWMR_RETURN_IF_ERROR(write_file(command.output, header));
-  return Outcome{.summary = summary_of(fit.calibration),
-                 .closing = fmt::format("wrote {}\n", command.output.string()),
-                 .findings = fit.findings,
-                 .document = document_of(fit.calibration),
-                 .written = {command.output}};
+  Outcome outcome{.summary = summary_of(fit.calibration),
+                  .closing = fmt::format("wrote {}\n", command.output.string()),
+                  .findings = fit.findings,
+                  .document = document_of(fit.calibration),
+                  .written = {command.output}};
+  put_findings_into_document(outcome);
+  return outcome;
 }
 
 void add_compass(CLI::App& app, Session& session) {

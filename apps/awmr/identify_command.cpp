@@ -49,6 +49,7 @@ double about_longest_s(const Trials& trials, const IdentifyOptions& options) {
 Result<Identification> identify_with_progress(const Trials& trials, IdentifyOptions options) {
   Working working("fitting the tables", about_longest_s(trials, options));
   options.doing = [&](std::string_view what) { working.doing(what); };
+  options.notice = print_notice;
   return identify(trials, options);
 }
 

@@ -44,10 +44,12 @@ Result<Outcome> execute(const LogCommand& command) {
   AWMR_ASSIGN_OR_RETURN(const AwlLog log, read_awl_file(command.file));
   AWMR_ASSIGN_OR_RETURN(const auto inputs, input_files({command.file}));
   AWMR_RETURN_IF_ERROR(write_file(command.output, origin_of(log, inputs.front()) + log_csv(log)));
-  return Outcome{.summary = summary_of(log, command),
-                 .findings = log.findings,
-                 .document = document_of(log),
-                 .written = {command.output}};
+  Outcome outcome{.summary = summary_of(log, command),
+                  .findings = log.findings,
+                  .document = document_of(log),
+                  .written = {command.output}};
+  put_findings_into_document(outcome);
+  return outcome;
 }
 
 void add_log(CLI::App& app, Session& session) {

@@ -38,6 +38,12 @@ void show_progress(ProgressManner manner) {
 bool draws_progress() { return drawn_on_terminal && is_terminal(); }
 bool tells_progress_in_lines() { return told_in_lines && !is_terminal(); }
 
+void print_notice(std::string_view text) {
+  if (!told_in_lines) return;
+  std::fputs((draws_progress() ? "\r\033[K" : ""), stderr);
+  std::fputs(fmt::format("{}\n", text).c_str(), stderr);
+}
+
 std::size_t terminal_columns() {
   winsize size{};
   const bool known = ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;

@@ -21,6 +21,9 @@ void show_progress(ProgressManner manner);
 /// What was asked for, where stderr can be drawn on, and where it cannot.
 bool draws_progress();
 bool tells_progress_in_lines();
+/// A line on stderr, but not with `--quiet` or `--json`: why work that begins now takes long.
+void print_notice(std::string_view text);
+
 /// Of the terminal; longer lines would wrap, and could not be drawn again.
 std::size_t terminal_columns();
 

@@ -105,17 +105,17 @@ ByHand by_hand(const DrivingLog& log, double step_s, double late_s = kSpeedDelay
   for (std::size_t i = 0; i < kParameterCount; ++i) {
     parameters.push_back({static_cast<ParameterId>(i), i, 1.0});
   }
-  const CommandPath path{.delay = DelayColumn{kInputDelay_s, kInputDelay}, .lag = std::nullopt};
+  const CommandPath path{.delay = DelayColumn{kInputDelay_s, kInputDelay}};
   const Plant<double> plant =
       plant_by_hand(log.steering_command_rad.has_value(), step_s, drive, friction);
-  LinearStepper stepper(plant, kColumns, parameters, kInputDelay);
+  LinearStepper stepper(plant, kColumns, parameters, columns_of(path));
   LinearMotion first{first_state<double>([](std::size_t, double x) { return x; }),
                      std::vector<double>(kStateSize * kColumns, 0.0)};
   for (std::size_t i = 0; i < kStateSize; ++i) {
     first.row(kChannels[i], kColumns)[kFirstState + i] = 1.0;
   }
   ByHand found;
-  LinearStepper back(plant, kColumns, parameters, kInputDelay);
+  LinearStepper back(plant, kColumns, parameters, columns_of(path));
   replay_linear(signals, 0, log.rows(), path, stepper, step_s, first,
                 [&](std::size_t, const LinearMotion& motion) {
                   found.motions.push_back(motion);

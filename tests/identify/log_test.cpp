@@ -13,21 +13,13 @@
 #include "awmr/identify/planning/recover.h"
 #include "awmr/model/model_file.h"
 #include "awmr/trials/replay.h"
-#include "identify/synthetic_log.h"
+#include "identify/log_answers.h"
 
 namespace awmr::testing {
 namespace {
 
 bool refused(const Identification& result, ParameterId id) {
   return std::find(result.refused.begin(), result.refused.end(), id) != result.refused.end();
-}
-
-/// Within `deviations` of its own standard error.
-void expect_recovered(const Identification& result, ParameterId id, double truth,
-                      double deviations) {
-  const Estimate& estimate = result.model[id];
-  ASSERT_TRUE(estimate.value && estimate.std_error) << info(id).name;
-  EXPECT_NEAR(*estimate.value, truth, deviations * *estimate.std_error) << info(id).name;
 }
 
 TEST(Log, GivesEveryParameterFromNothingElse) {
@@ -177,59 +169,6 @@ void move_commands(DrivingLog& log, int rows) {
   move(log.force_left);
   move(log.force_right);
   move(*log.steering_command_rad);
-}
-
-/// The mean force over every row behind motors with a time constant: F'(t + h) = c + (F'(t) - c) e.
-std::vector<double> behind_motors(const DrivingLog& log, const std::vector<double>& command,
-                                  double lag_s) {
-  std::vector<double> mean = command;
-  double force = command.front();
-  for (std::size_t i = 0; i + 1 < log.rows(); ++i) {
-    const double h = log.t_s[i + 1] - log.t_s[i];
-    const double e = std::exp(-h / lag_s);
-    mean[i] = command[i] + (force - command[i]) * lag_s / h * (1.0 - e);
-    force = command[i] + (force - command[i]) * e;
-  }
-  return mean;
-}
-
-/// The drive of drive() with motors that lag.
-DrivingLog drive_with_lag(const Truth& t, std::uint64_t seed, double lag_s) {
-  const std::map<LogChannel, double> noise{{LogChannel::kX, 0.02},
-                                           {LogChannel::kY, 0.02},
-                                           {LogChannel::kHeading, 0.01},
-                                           {LogChannel::kSpeed, 0.01},
-                                           {LogChannel::kYawRate, 0.01}};
-  DrivingLog log = drive(t, seed);
-  const std::vector<double> left = log.force_left;
-  const std::vector<double> right = log.force_right;
-  log.force_left = behind_motors(log, left, lag_s);
-  log.force_right = behind_motors(log, right, lag_s);
-  Random random(seed, 77);
-  replay<double>(LogSignals(log), 0, log.rows(), plant(t), nullptr, 0.002, {},
-                 [&](std::size_t row, const State<double>& state) {
-                   for (const auto& [channel, std] : noise) {
-                     if (!log[channel]) continue;
-                     log[channel]->value[row] = channel_of(state, channel) + std * random.normal();
-                   }
-                 });
-  log.force_left = left;
-  log.force_right = right;
-  return log;
-}
-
-std::optional<EstimatorParameter> estimated(const Identification& result, const std::string& name) {
-  for (const EstimatorParameter& p : result.model.record.reports.back().parameters) {
-    if (p.name == name) return p;
-  }
-  return std::nullopt;
-}
-
-bool has_finding(const Identification& result, const std::string& code,
-                 const std::string& words = "") {
-  return std::ranges::any_of(result.model.record.findings, [&](const Finding& f) {
-    return f.code == code && f.message.find(words) != std::string::npos;
-  });
 }
 
 TEST(Log, FindsByItselfThatCommandsActLateOrWereLoggedLate) {

@@ -99,6 +99,24 @@ TEST(ChannelQuality, SpikesAreFoundAndNothingElseIs) {
   EXPECT_EQ(fresh_rows(q), kRows - wild.size());
 }
 
+TEST(ChannelQuality, NoiseAloneHasNoSpikes) {
+  // Of 3,000 channels the bound of 1e-9 a reading lets none through; one in a hundred would be 30.
+  int alarms = 0;
+  for (const std::size_t rows : {60U, 300U, 2000U}) {
+    for (std::uint64_t seed = 1; seed <= 1000; ++seed) {
+      Random random(seed, 3);
+      std::vector<double> t_s, value, command;
+      for (std::size_t i = 0; i < rows; ++i) {
+        t_s.push_back(static_cast<double>(i) / kRate_hz);
+        value.push_back(random.normal());
+        command.push_back(i % 50 < 25 ? 0.3 : 0.5);
+      }
+      alarms += channel_quality(t_s, value, command).spikes.empty() ? 0 : 1;
+    }
+  }
+  EXPECT_EQ(alarms, 0);
+}
+
 TEST(ChannelQuality, AnEdgeOfTheSignalIsNoSpike) {
   Drive d = drive(7, 0.001);
   for (std::size_t i = 1000; i < kRows; ++i) d.speed[i] += 5.0;

@@ -12,6 +12,7 @@
 
 #include "awmr/core/random.h"
 #include "awmr/core/units.h"
+#include "awmr/trials/calibration_checks.h"
 #include "support/paper_vehicle.h"
 
 namespace awmr::log_consistency_test {
@@ -131,6 +132,55 @@ TEST(LogConsistency, ASpeedWithoutASignIsNamedAndOneWithASignIsNot) {
     };
     EXPECT_TRUE(is_named(reversing_log(seed, false))) << seed;
     EXPECT_FALSE(is_named(reversing_log(seed, true))) << seed;
+  }
+}
+
+TEST(LogConsistency, AVehicleThatNeverMovesIsRefusedBySayingSo) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    DrivingLog log = sound_log(seed);
+    Random random(seed, 12);
+    for (const LogChannel channel : kChannels) {
+      if (!log[channel]) continue;
+      for (double& value : log[channel]->value) value = 0.02 * random.normal();
+    }
+    const auto found = contradictions(log, vehicle(), {});
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_EQ(found.front().column, "speed_mps");
+    EXPECT_THAT(found.front().message, HasSubstr("never moves"));
+  }
+}
+
+/// The findings of the channels' calibration by code.
+int calibrations(const DrivingLog& log, const std::string& code, const std::string& words = "") {
+  return static_cast<int>(
+      std::ranges::count_if(calibration_findings(log, {}), [&](const Finding& finding) {
+        return finding.code == code && finding.message.find(words) != std::string::npos;
+      }));
+}
+
+TEST(LogConsistency, ScalesAndDirectionsOfSoundLogsAgree) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    for (const Making& making : {Making{}, Making{.gyro_bias_radps = 0.05}, Making{.noise = 3.0}}) {
+      EXPECT_TRUE(calibration_findings(sound_log(seed, making), {}).empty()) << seed;
+    }
+  }
+}
+
+TEST(LogConsistency, AMisalignedCompassAndScalesThatAreOffAreNamed) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    DrivingLog turned = sound_log(seed);
+    for (double& psi : turned[LogChannel::kHeading]->value) psi += radians(6.0);
+    EXPECT_EQ(calibrations(turned, "heading-offset"), 1) << seed;
+    EXPECT_EQ(calibrations(turned, "scale-mismatch"), 0) << seed;
+    DrivingLog gyro = sound_log(seed);
+    scale(gyro[LogChannel::kYawRate]->value, 1.1);
+    EXPECT_EQ(calibrations(gyro, "scale-mismatch", "gyroscope is off; map"), 1) << seed;
+    DrivingLog wheel = sound_log(seed);
+    scale(wheel[LogChannel::kSpeed]->value, 0.9);
+    EXPECT_EQ(calibrations(wheel, "scale-mismatch", "or that of the positions"), 1) << seed;
+    DrivingLog alone = sound_log(seed, {.position = false});
+    scale(alone[LogChannel::kYawRate]->value, 1.1);
+    EXPECT_EQ(calibrations(alone, "scale-mismatch", "or that of the heading"), 1) << seed;
   }
 }
 

@@ -101,6 +101,8 @@ struct IdentifyOptions {
   bool keeps_outliers = false;  ///< tables: gross outliers are fitted with the other runs
   /// Logs: is told what begins, in words, for who waits. It has no part in the result.
   std::function<void(std::string_view)> doing = {};
+  /// Logs: is told why the work that begins may take more than ten seconds. No part in the result either.
+  std::function<void(std::string_view)> notice = {};
 };
 
 }  // namespace awmr

@@ -28,10 +28,10 @@ constexpr double kSymmetryTolerance = 1e-9;
 
 /// True for the name of a parameter, and of what a fit estimates beside the parameters.
 bool is_estimated_name(std::string_view name) {
-  return parameter_by_name(name) || name == kInputDelayName || name == kMotorLagName ||
-         name == kMassOverSurgeName || name == kCoulombOverSurgeName ||
+  return parameter_by_name(name) || name == kInputDelayName || name == kSteeringDelayName ||
+         name == kMotorLagName || name == kMassOverSurgeName || name == kCoulombOverSurgeName ||
          name == kQuadraticOverSurgeName || name.starts_with(kBiasPrefix) ||
-         name.starts_with(kSensorDelayPrefix);
+         name.starts_with(kSensorDelayPrefix) || name.starts_with(kSensorLagPrefix);
 }
 
 int count(JsonObject& json, std::string_view key) {

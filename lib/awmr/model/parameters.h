@@ -41,6 +41,7 @@ struct ParameterInfo {
 
 /// What a fit of logs can estimate beside the parameters; in /estimates only.
 inline constexpr std::string_view kInputDelayName = "input_delay_s";
+inline constexpr std::string_view kSteeringDelayName = "steering.delay_s";
 inline constexpr std::string_view kMotorLagName = "motor.time_constant_s";
 inline constexpr std::string_view kBiasPrefix = "bias.";  ///< + the channel's column
 /// All that a coast-down shows without a surge trial: the ratio m'/a1, in s (m/s)^(b1 - 1).

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "awmr/core/option_text.h"
+#include "awmr/trials/calibration_checks.h"
 #include "awmr/trials/log_evidence.h"
 #include "awmr/trials/robust_ratio.h"
 
@@ -13,6 +14,7 @@ namespace awmr {
 std::vector<Contradiction> contradictions(const DrivingLog& log, const Vehicle& vehicle,
                                           std::span<const ColumnMapping> mappings) {
   const Evidence evidence = evidence_of(log, vehicle, mappings);
+  if (auto rest = rest_contradiction(evidence)) return {*std::move(rest)};
   std::vector<Contradiction> found = unit_contradictions(evidence);
   // With a wrong time no rate has the sign that it seems to have.
   if (!found.empty() && found.front().column == "t_s") return found;
@@ -69,6 +71,9 @@ Status check_consistency(const DrivingLog& log, const std::string& place, const 
   }
   if (!faults.empty()) return input_errors(std::move(faults));
   if (!found.empty()) return {};
+  for (Finding& finding : calibration_findings(log, options.columns)) {
+    findings.push_back(std::move(finding));
+  }
   const auto bias = gyro_bias(log);
   if (bias && bias->significant()) {
     findings.push_back(

@@ -12,7 +12,7 @@
 ///     curvature r/u          against   tan(d_r)/l_f: no vehicle turns far more sharply than its
 ///                                      front axle points
 ///
-/// A ratio near 57.3, 3.6, 1000 or -1 tells which unit or sign is off; where one of several columns
+/// A vehicle that never moves is refused first. A ratio near 57.3, 3.6, 1000 or -1 tells which unit or sign is off; where one of several columns
 /// may be to blame, all are named.
 #pragma once
 
@@ -44,7 +44,8 @@ std::vector<Contradiction> contradictions(const DrivingLog& log, const Vehicle& 
 
 /// Refuses such a log. Errors (input): each contradiction at `place`, the log as its user named it,
 /// with the mapping that would mend it. With `options.as_is` they are findings (`log-contradiction`,
-/// a warning) instead. A gyro bias of five standard errors and more is a finding (`gyro-bias`).
+/// a warning) instead. A gyro bias of five standard errors and more is a finding (`gyro-bias`), and so are
+/// those of calibration_checks.h.
 Status check_consistency(const DrivingLog& log, const std::string& place, const Vehicle& vehicle,
                          const TrialOptions& options, std::vector<Finding>& findings);
 

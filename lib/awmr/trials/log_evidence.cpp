@@ -120,6 +120,10 @@ double integral_of(const DrivingLog& log, LogChannel channel, const LogWindow& w
   return sum;
 }
 
+std::vector<LogWindow> evidence_rows(const DrivingLog& log, double length_s) {
+  return between_readings(windows_of(log, length_s));
+}
+
 Evidence evidence_of(const DrivingLog& log, const Vehicle& vehicle,
                      std::span<const ColumnMapping> mappings) {
   Evidence evidence{log, vehicle, mappings, {}, {}};

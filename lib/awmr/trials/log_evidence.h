@@ -49,6 +49,9 @@ struct Evidence {
 Evidence evidence_of(const DrivingLog& log, const Vehicle& vehicle,
                      std::span<const ColumnMapping> mappings);
 
+/// Windows of about this length side by side, each between readings.
+std::vector<LogWindow> evidence_rows(const DrivingLog& log, double length_s);
+
 /// The integral of a channel over a window, by trapezoids.
 double integral_of(const DrivingLog& log, LogChannel channel, const LogWindow& window);
 
@@ -78,6 +81,8 @@ std::string scaled_mapping(const Evidence& evidence, std::string_view column, do
 /// The two forces, each from the other's column.
 std::string swapped_mapping(const Evidence& evidence);
 
+/// A vehicle that never moves: then no channel can be compared with another.
+std::optional<Contradiction> rest_contradiction(const Evidence& evidence);
 /// Units: time, forces, steering angle, yaw rate against heading, speed against positions.
 std::vector<Contradiction> unit_contradictions(const Evidence& evidence);
 /// Positions, or without them the heading, that go on elsewhere from one reading to the next.

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "awmr/core/index.h"
@@ -28,6 +29,7 @@ struct Predictor {
   Plant<double> plant;
   double step_s;
   double delay_s;
+  std::optional<LaggedForces> lagged;
   std::size_t series_step;  ///< every so many readings of a channel go into its series; 0: none
 };
 
@@ -35,15 +37,18 @@ Predictor predictor(const DrivingLog& log, const Plant<double>& plant,
                     const PredictionOptions& options) {
   const double step_s = replay_step_s(plant);
   const std::size_t most = options.most_in_series;
-  return {LogSignals(log), resolved_beside_friction(plant, step_s), step_s, options.delay_s,
-          most > 0 ? log.rows() / most + 1 : 0};
+  std::optional<LaggedForces> lagged;
+  if (options.motor_lag_s > 0.0) lagged.emplace(log, 0, log.rows(), options.motor_lag_s);
+  return {LogSignals(log),   resolved_beside_friction(plant, step_s), step_s, options.delay_s,
+          std::move(lagged), most > 0 ? log.rows() / most + 1 : 0};
 }
 
 template <class Visit>
 void run(const Predictor& model, std::size_t begin, std::size_t end, const State<double>& initial,
          Visit visit) {
   replay<double>(model.signals, begin, end, model.plant,
-                 model.delay_s > 0.0 ? &model.delay_s : nullptr, model.step_s, initial, visit);
+                 model.delay_s != 0.0 ? &model.delay_s : nullptr, model.step_s, initial, visit,
+                 model.lagged ? &*model.lagged : nullptr);
 }
 
 /// visit(channel, value) for everything that was measured in a row.

@@ -32,8 +32,9 @@ struct ChannelPrediction {
 };
 
 struct PredictionOptions {
-  double horizon_s = 10.0;  ///< the length of a window, each from its own measured initial state
-  double delay_s = 0.0;     ///< from a command to its effect
+  double horizon_s = 10.0;   ///< the length of a window, each from its own measured initial state
+  double delay_s = 0.0;      ///< from a command to its effect
+  double motor_lag_s = 0.0;  ///< the time constant of the motors, >= 0
   /// Of so many readings of a channel at most the series is kept, every n-th of them; 0: of none.
   std::size_t most_in_series = 0;
 };

@@ -10,6 +10,7 @@
 
 #include "awmr/core/result.h"
 #include "awmr/model/sliding.h"
+#include "awmr/trials/lagged_forces.h"
 #include "awmr/trials/log.h"
 
 namespace awmr {
@@ -25,54 +26,35 @@ struct LogWindow {
 /// left out.
 std::vector<LogWindow> windows_of(const DrivingLog& log, double longest_s);
 
-/// A command that was held from row to row, as its integral over time: the mean over any span is
-/// then a difference, whose derivative by a delay exists although the command jumps.
-class HeldSignal {
- public:
-  HeldSignal(const std::vector<double>& t_s, const std::vector<double>& value);
-  /// The integral up to t, a time inside or outside of the log; beyond its ends the end's value
-  /// holds.
-  double integral(double t_s) const;
-  double at(double t_s) const;
-
- private:
-  std::size_t row_at(double t_s) const;
-  const std::vector<double>* t_s_;
-  const std::vector<double>* value_;
-  std::vector<double> integral_;
-};
-
-/// The commands of a log as held signals.
-struct LogSignals {
-  explicit LogSignals(const DrivingLog& log);
-  const DrivingLog* log;
-  HeldSignal left;
-  HeldSignal right;
-  HeldSignal steering;  ///< the command, or the angle where only that was logged
-};
-
-/// Mean of a command over [t, t + h] as it arrives `delay_s` later.
-template <class T>
-T delayed_mean(const HeldSignal& signal, double t_s, double h_s, const T& delay_s) {
-  // mean = (U(t + h - d) - U(t - d))/h, whose derivative by d is -(u(t + h - d) - u(t - d))/h. The
-  // linear term that carries it to T is zero in value.
-  const double d = value_of(delay_s);
-  const double mean = (signal.integral(t_s + h_s - d) - signal.integral(t_s - d)) / h_s;
-  const double slope = -(signal.at(t_s + h_s - d) - signal.at(t_s - d)) / h_s;
-  return T(mean) + slope * (delay_s - T(d));
-}
-
 /// The equal steps that a span is taken in, none longer than `longest_step_s` but for rounding.
 inline int steps_in(double span_s, double longest_step_s) {
   return std::max(1, static_cast<int>(std::ceil(span_s / longest_step_s - 1e-9)));
 }
 
+/// The force over [t, t + h] of motors that lag. Those with back-EMF are off as soon as their command, here
+/// its mean `command` as it arrives, is 0.
+template <class T>
+SideForces<T> lagged_force(const LaggedForces& lagged, const LogSignals& signals, double t_s,
+                           double h_s, const T* delay_s, const SideForces<T>& command,
+                           const Plant<T>& plant) {
+  const double d = delay_s ? value_of(*delay_s) : 0.0;
+  const LaggedForces::Mean mean = lagged.mean(signals, t_s, h_s, d);
+  const bool switches_off = plant.back_emf_s_per_m > T(0.0);
+  const auto side = [&](double force, double by_delay, const T& commanded) {
+    if (switches_off && value_of(commanded) == 0.0) return T(0.0);
+    return delay_s ? T(force) + by_delay * (*delay_s - T(d)) : T(force);
+  };
+  return {side(mean.force.left, mean.by_delay.left, command.left),
+          side(mean.force.right, mean.by_delay.right, command.right)};
+}
+
 /// Runs the model over rows [begin, end) from the initial state `state` and calls visit(row, state)
-/// at every row. Steps are at most `longest_step_s`. `delay_s` null: none. The plant is one of
-/// resolved_beside_friction().
+/// at every row. Steps are at most `longest_step_s`. `delay_s` null: none. `lagged` null: motors that follow
+/// their commands at once. The plant is one of resolved_beside_friction().
 template <class T, class Visit>
 void replay(const LogSignals& signals, std::size_t begin, std::size_t end, Plant<T> plant,
-            const T* delay_s, double longest_step_s, State<T> state, Visit visit) {
+            const T* delay_s, double longest_step_s, State<T> state, Visit visit,
+            const LaggedForces* lagged = nullptr) {
   const DrivingLog& log = *signals.log;
   const bool servo = log.steering_command_rad.has_value();
   // A logged angle is what it is: no stop, no lag.
@@ -97,6 +79,7 @@ void replay(const LogSignals& signals, std::size_t begin, std::size_t end, Plant
         force = {delayed_mean(signals.left, at_s, h, *delay_s),
                  delayed_mean(signals.right, at_s, h, *delay_s)};
       }
+      if (lagged) force = lagged_force(*lagged, signals, at_s, h, delay_s, force, plant);
       T steering{};
       if (!servo) {
         steering = T(angle_at(row, (i + 0.5) / steps));

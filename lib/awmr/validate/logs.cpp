@@ -78,9 +78,10 @@ Status check_finite(const LogValidation& validation) {
 }  // namespace
 
 LogValidation validate_log(const DrivingLog& log, const Plant<double>& plant, double horizon_s,
-                           double tolerance) {
+                           double tolerance, double motor_lag_s) {
   LogValidation validation{log.file, horizon_s, {}, true};
-  const PredictionOptions options{.horizon_s = horizon_s, .most_in_series = kMostInSeries};
+  const PredictionOptions options{
+      .horizon_s = horizon_s, .motor_lag_s = motor_lag_s, .most_in_series = kMostInSeries};
   for (const ChannelPrediction& prediction : predict_log(log, plant, options)) {
     ChannelValidation entry{std::string(info(prediction.channel).name),
                             std::string(info(prediction.channel).unit),
@@ -104,7 +105,8 @@ Result<LogValidation> validate_log(const DrivingLog& log, const Model& model, do
   if (motion != Motion::kPlanar) {
     AWMR_ASSIGN_OR_RETURN(part, straight_part(log, model));
   }
-  LogValidation validation = validate_log(part ? *part : log, plant, horizon_s, tolerance);
+  LogValidation validation = validate_log(part ? *part : log, plant, horizon_s, tolerance,
+                                          model.vehicle.motor_time_constant_s.value_or(0.0));
   AWMR_RETURN_IF_ERROR(check_finite(validation));
   if (!validation.channels.empty()) return validation;
   return input_error(log.file, fmt::format("no channel has readings to be predicted within a "

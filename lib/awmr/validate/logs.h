@@ -26,9 +26,10 @@ struct LogValidation {
   bool passed = false;  ///< every channel's long-horizon NRMSE within the tolerance
 };
 
-/// A channel that does not vary (a log at rest) has no NRMSE and is left out.
+/// A channel that does not vary (a log at rest) has no NRMSE and is left out. `motor_lag_s`: the time
+/// constant of the motors.
 LogValidation validate_log(const DrivingLog& log, const Plant<double>& plant, double horizon_s,
-                           double tolerance);
+                           double tolerance, double motor_lag_s = 0.0);
 
 /// The same with what the model knows. Where that is straight motion alone (simulated_motion() of
 /// model/model.h), the log has to drive straight on, and its speed is predicted.

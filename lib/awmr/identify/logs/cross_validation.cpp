@@ -17,17 +17,19 @@ std::vector<DrivingLog> without(std::vector<DrivingLog> logs, std::size_t out) {
 std::string prediction_errors(const DrivingLog& log, const LogFitOptions& options,
                               const LogFit& fit) {
   double delay_s = 0.0;
+  double motor_lag_s = options.vehicle.motor_time_constant_s.value_or(0.0);
   for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
     const FreeQuantity& q = fit.quantities[i];
-    // A lag acts about as a delay as long as its time constant.
-    if (q.kind == FreeQuantity::Kind::kDelay || q.kind == FreeQuantity::Kind::kMotorLag) {
-      delay_s = q.value(fit.coordinates[i]);
-    }
+    const double value = q.value(fit.coordinates[i]);
+    if (q.kind == FreeQuantity::Kind::kDelay) delay_s = value;
+    if (q.kind == FreeQuantity::Kind::kMotorLag) motor_lag_s = value;
   }
   const ParameterValues<double> values = fitted_values(options, fit);
   std::string text;
-  for (const ChannelPrediction& prediction : predict_log(
-           log, plant_of(options.vehicle, values), {.horizon_s = kWindow_s, .delay_s = delay_s})) {
+  const PredictionOptions how{
+      .horizon_s = kWindow_s, .delay_s = delay_s, .motor_lag_s = motor_lag_s};
+  for (const ChannelPrediction& prediction :
+       predict_log(log, plant_of(options.vehicle, values), how)) {
     text += fmt::format("{}{} {:.1f} %", text.empty() ? "" : ", ", info(prediction.channel).name,
                         100.0 * prediction.long_horizon.nrmse);
   }

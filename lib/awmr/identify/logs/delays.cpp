@@ -15,16 +15,26 @@ namespace {
 
 bool has_delay(const std::vector<FreeQuantity>& quantities, LogChannel channel) {
   return std::ranges::any_of(quantities, [&](const FreeQuantity& q) {
-    return q.kind == FreeQuantity::Kind::kSensorDelay && q.channel == channel;
+    const bool is_of_sensor =
+        q.kind == FreeQuantity::Kind::kSensorDelay || q.kind == FreeQuantity::Kind::kSensorLag;
+    return is_of_sensor && q.channel == channel;
   });
 }
+
+bool is_of_steering(const FreeQuantity& q) { return q.kind == FreeQuantity::Kind::kSteeringDelay; }
 
 bool is_of_commands(const FreeQuantity& q) {
   return q.kind == FreeQuantity::Kind::kDelay || q.kind == FreeQuantity::Kind::kMotorLag;
 }
 
+/// Whether the lag of the servo is free, so that a dead time of the steering could pass for it.
+bool frees_servo(const std::vector<FreeQuantity>& quantities) {
+  return std::ranges::any_of(
+      quantities, [](const FreeQuantity& q) { return q.is(ParameterId::kSteeringTimeConstant); });
+}
+
 /// A delay of the commands and of every measured channel, one for both coordinates of the position,
-/// where they have none yet; none where all but one have.
+/// where they have none yet; none where all but one have. And one of the steering alone.
 std::vector<FreeQuantity> candidates(const LogProblem& problem) {
   const std::vector<FreeQuantity>& quantities = problem.model.quantities;
   std::vector<FreeQuantity> found;
@@ -35,6 +45,9 @@ std::vector<FreeQuantity> candidates(const LogProblem& problem) {
     found.push_back(sensor_delay_of(channel));
   }
   if (found.size() == 1) found.clear();
+  if (frees_servo(quantities) && std::ranges::none_of(quantities, is_of_steering)) {
+    found.push_back(steering_delay());
+  }
   return found;
 }
 
@@ -74,8 +87,13 @@ NoiseIteration tried(const NoiseIteration& settled, const FreeQuantity& more, do
   return settle_noise(std::move(from.problem), std::move(from.point), loss, 1);
 }
 
-/// The likeliest fit with one more delay free, of the commands or of one sensor, after one round; none
-/// where no suspect makes the fit likelier.
+/// Readings that a program may smooth before it logs them.
+bool may_be_smoothed(LogChannel channel) {
+  return channel == LogChannel::kSpeed || channel == LogChannel::kYawRate;
+}
+
+/// The likeliest fit with one more delay or lag free, of the commands, of the steering alone or of one
+/// sensor, after one round; none where no suspect makes the fit likelier.
 std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& settled, Loss loss) {
   std::optional<NoiseIteration> best;
   double least = akaike_of(settled);
@@ -86,15 +104,22 @@ std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& sett
     best = std::move(fit);
     return true;
   };
+  const bool is_lag_given = settled.problem.model.vehicle.motor_time_constant_s.has_value();
   bool has_sensor = false;
   for (const Suspect& suspect : suspects(settled)) {
-    const bool is_sensor = !is_of_commands(suspect.delay);
+    const FreeQuantity& delay = suspect.delay;
+    const bool is_sensor = delay.kind == FreeQuantity::Kind::kSensorDelay;
     if (is_sensor && has_sensor) continue;
-    NoiseIteration late = tried(settled, suspect.delay, suspect.value_s, loss);
+    NoiseIteration late = tried(settled, delay, suspect.value_s, loss);
     const double found_s = late.point.coordinates.back();
     has_sensor |= consider(std::move(late)) && is_sensor;
+    if (!(found_s > 0.0)) continue;
     // Also where a sensor's delay does as well as one of the commands: a lag may do better than both.
-    if (!is_sensor && found_s > 0.0) consider(tried(settled, motor_lag(), found_s, loss));
+    if (is_of_commands(delay) && !is_lag_given)
+      consider(tried(settled, motor_lag(), found_s, loss));
+    if (is_sensor && may_be_smoothed(delay.channel)) {
+      consider(tried(settled, sensor_lag_of(delay.channel), found_s, loss));
+    }
   }
   return best;
 }

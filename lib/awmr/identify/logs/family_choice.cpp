@@ -242,11 +242,20 @@ FamilyFit with_delays_of_its_own(const std::vector<DrivingLog>& logs,
   LogFitOptions options = from_optimum(best.options, best);
   options.finds_delays = true;
   options.input_delay_s = power_law.input_delay_s;
+  options.steering_delay_s = power_law.steering_delay_s;
   options.motor_lag_s = power_law.motor_lag_s;
   options.sensor_delays = power_law.sensor_delays;
+  options.sensor_lags = power_law.sensor_lags;
   options.suspects = power_law.suspects;
   FamilyFit own = fit_with(logs, std::move(options), best.surge, best.yaw);
   return aic_lead(own.fit, best.fit) > 0.0 ? std::move(own) : std::move(best);
+}
+
+/// Whether other families of yaw, or of surge, are fitted against the first one.
+bool is_contested(const LogFitOptions& power_law, const FamilyFit& first,
+                  const FamilyContest& contest, bool of_yaw) {
+  if (!(of_yaw ? contest.yaw : contest.surge)) return false;
+  return !contest.only_suspects || suspicious(first.fit, power_law.suspects, of_yaw);
 }
 
 }  // namespace
@@ -266,7 +275,7 @@ LogFitOptions from_optimum(LogFitOptions options, const FamilyFit& fit) {
   options.initial_guess = fitted_values(fit.options, fit.fit);
   options.guessed.clear();
   options.also_from.clear();
-  options.suspects.clear();
+  std::erase_if(options.suspects, [](ParameterId id) { return id != ParameterId::kBackEmf; });
   options.finds_delays = false;
   return options;
 }
@@ -306,13 +315,19 @@ std::vector<EstimatorReport> reports_of(const std::vector<FamilyFit>& fits,
   return reports;
 }
 
+std::size_t contender_count(const LogFitOptions& power_law, const FamilyFit& first,
+                            const FamilyContest& contest) {
+  std::size_t count = 0;
+  for (const bool of_yaw : {false, true}) {
+    if (is_contested(power_law, first, contest, of_yaw)) count += contenders(first, of_yaw).size();
+  }
+  return count;
+}
+
 BestFamily best_family(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                        FamilyFit first, const FamilyContest& contest) {
-  const auto open = [&](bool of_yaw) {
-    return !contest.only_suspects || suspicious(first.fit, power_law.suspects, of_yaw);
-  };
-  const bool surge = contest.surge && open(false);
-  const bool yaw = contest.yaw && open(true);
+  const bool surge = is_contested(power_law, first, contest, false);
+  const bool yaw = is_contested(power_law, first, contest, true);
   LogFit power_fit = first.fit;
   const auto [first_surge, first_yaw] = std::pair(first.surge, first.yaw);
   BestFamily result;

@@ -57,6 +57,10 @@ struct BestFamily {
 std::vector<EstimatorReport> reports_of(const std::vector<FamilyFit>& fits,
                                         const FamilyFit& reference);
 
+/// How many fits of other families best_family() makes, unless its limit ends them.
+std::size_t contender_count(const LogFitOptions& power_law, const FamilyFit& first,
+                            const FamilyContest& contest);
+
 /// The families in turn, each from the optimum of the best so far, so that a richer one does not end
 /// above what it holds: the best of those that converged, compared as family_score.h says. `first`: the power law's fit, or that
 /// of the families to begin with.

@@ -64,22 +64,6 @@ double slope_by_delay(const HeldSignal& signal, double t_s, double h_s, double d
   return -(signal.at(t_s + h_s - delay_s) - signal.at(t_s - delay_s)) / h_s;
 }
 
-/// A force behind a lag T over a span h in which the command is c, and its derivatives by T.
-struct Lagged {
-  double end, end_by_lag;
-  double mean, mean_by_lag;
-};
-
-Lagged lagged(double force, double by_lag, double command, double lag_s, double h_s) {
-  const double from = force - command;
-  if (!(lag_s > 0.0)) return {command, 0.0, command, from / h_s};
-  const double x = h_s / lag_s;
-  const double e = std::exp(-x);
-  const double share = -std::expm1(-x) / x;  // (T/h)(1 - e)
-  return {command + from * e, by_lag * e + from * e * x / lag_s, command + from * share,
-          by_lag * share + from * (share - e) / lag_s};
-}
-
 /// By column, [kStateSize]: the rate of the derivatives at one moment.
 std::array<double, kStateSize> rate_of_column(const StateSlopes& a, const double* b,
                                               std::size_t columns, const double* s) {
@@ -99,49 +83,11 @@ std::array<double, kStateSize> rate_of_column(const StateSlopes& a, const double
 
 }  // namespace
 
-LaggedForces::LaggedForces(const DrivingLog& log, std::size_t begin, std::size_t end,
-                           const DelayColumn& lag)
-    : log_(&log), lag_s_(lag.delay_s), column_(lag.column), first_row_(begin) {
-  constexpr double kForgotten = 40.0;  // time constants: exp(-40) is 4e-18
-  const double from_s = log.t_s[begin] - kForgotten * lag_s_;
-  while (first_row_ > 0 && log.t_s[first_row_] > from_s) --first_row_;
-  // A lag of 0 still has the command before the first row in its derivative.
-  if (first_row_ > 0) --first_row_;
-  force_.reserve(end - first_row_);
-  by_lag_.reserve(end - first_row_);
-  SideForces<double> force{log.force_left[first_row_], log.force_right[first_row_]};
-  SideForces<double> by_lag{};
-  for (std::size_t row = first_row_; row < end; ++row) {
-    force_.push_back(force);
-    by_lag_.push_back(by_lag);
-    if (row + 1 == end) break;
-    const double h = log.t_s[row + 1] - log.t_s[row];
-    const Lagged left = lagged(force.left, by_lag.left, log.force_left[row], lag_s_, h);
-    const Lagged right = lagged(force.right, by_lag.right, log.force_right[row], lag_s_, h);
-    force = {left.end, right.end};
-    by_lag = {left.end_by_lag, right.end_by_lag};
-  }
-}
-
-LaggedForces::Mean LaggedForces::mean(std::size_t row, double since_row_s, double h_s) const {
-  const auto side = [&](double force, double by_lag, double command) {
-    if (since_row_s > 0.0) {
-      const Lagged start = lagged(force, by_lag, command, lag_s_, since_row_s);
-      return lagged(start.end, start.end_by_lag, command, lag_s_, h_s);
-    }
-    return lagged(force, by_lag, command, lag_s_, h_s);
+LateColumns columns_of(const CommandPath& path) {
+  const auto column = [](const std::optional<DelayColumn>& delay) {
+    return delay ? std::optional(delay->column) : std::nullopt;
   };
-  const SideForces<double>& force = force_[row - first_row_];
-  const SideForces<double>& by_lag = by_lag_[row - first_row_];
-  const Lagged left = side(force.left, by_lag.left, log_->force_left[row]);
-  const Lagged right = side(force.right, by_lag.right, log_->force_right[row]);
-  return {{left.mean, right.mean}, {left.mean_by_lag, right.mean_by_lag}};
-}
-
-std::optional<std::size_t> CommandPath::column() const {
-  if (delay) return delay->column;
-  if (lag) return lag->column();
-  return std::nullopt;
+  return {column(path.delay), column(path.steering_delay), path.lag_column};
 }
 
 const double* LinearMotion::row(LogChannel channel, std::size_t columns) const {
@@ -153,14 +99,14 @@ double* LinearMotion::row(LogChannel channel, std::size_t columns) {
 
 LinearStepper::LinearStepper(const Plant<double>& plant, std::size_t columns,
                              const std::vector<ParameterColumn>& parameters,
-                             std::optional<std::size_t> late_column, double longest_step_s)
+                             const LateColumns& late, double longest_step_s)
     : plant_(
           plant,
           std::ranges::any_of(
               parameters, [](const ParameterColumn& p) { return p.id == ParameterId::kBackEmf; }),
           longest_step_s),
       columns_(columns),
-      late_column_(late_column),
+      late_(late),
       driven_(kStages * kDrivenSize * columns, 0.0) {
   if (columns == 0) return;
   for (const ParameterColumn& p : parameters) {
@@ -177,15 +123,19 @@ void LinearStepper::note_driven(const DelayedCommand& command, double* driven) c
   for (const Term& t : terms_) {
     driven[t.place] = rates_.by_parameter[t.parameter].*t.rate * t.factor;
   }
-  if (!late_column_) return;
-  const HeldCommand& by_delay = command.by_delay;
+  if (late_.delay) note_late(command.by_delay, *late_.delay, driven);
+  if (late_.lag) note_late({command.by_lag, 0.0}, *late_.lag, driven);
+  if (late_.steering_delay)
+    note_late({{}, command.steering_by_delay}, *late_.steering_delay, driven);
+}
+
+void LinearStepper::note_late(const HeldCommand& by, std::size_t column, double* driven) const {
   for (std::size_t i = 0; i < kDrivenSize; ++i) {
     const auto rate = kDriven[i];
-    driven[i * columns_ + *late_column_] = by_delay.force.left * rates_.by_force_left.*rate +
-                                           by_delay.force.right * rates_.by_force_right.*rate;
+    driven[i * columns_ + column] =
+        by.force.left * rates_.by_force_left.*rate + by.force.right * rates_.by_force_right.*rate;
   }
-  driven[(kDrivenSize - 1) * columns_ + *late_column_] =
-      by_delay.steering_rad * rates_.steering_by_command;
+  driven[(kDrivenSize - 1) * columns_ + column] = by.steering_rad * rates_.steering_by_command;
 }
 
 void LinearStepper::find_rates(const DelayedCommand& command, const State<double>& s) {
@@ -279,20 +229,47 @@ State<double> LinearStepper::rates(const DelayedCommand& command, LinearMotion& 
   return rates_.rates;
 }
 
+namespace {
+
+/// The forces of motors that are off as soon as their command is 0: none, and no derivatives.
+void switch_off(const SideForces<double>& command, DelayedCommand& at_wheels) {
+  const auto off = [&](double SideForces<double>::*side) {
+    if (command.*side != 0.0) return;
+    at_wheels.command.force.*side = 0.0;
+    at_wheels.by_lag.*side = at_wheels.by_delay.force.*side = 0.0;
+  };
+  off(&SideForces<double>::left);
+  off(&SideForces<double>::right);
+}
+
+}  // namespace
+
 DelayedCommand command_at(const LogSignals& signals, std::size_t row, double t_s, double h_s,
                           const CommandPath& path) {
   const DrivingLog& log = *signals.log;
   const std::vector<double>& steering = log.driving_steering_rad();
-  if (path.lag) {
-    const LaggedForces::Mean mean = path.lag->mean(row, t_s - log.t_s[row], h_s);
-    return {{mean.force, steering[row]}, {mean.by_lag, 0.0}};
+  DelayedCommand at{{{log.force_left[row], log.force_right[row]}, steering[row]}};
+  const double d = path.delay ? path.delay->delay_s : 0.0;
+  if (path.delay) {
+    at.command.force = {delayed_mean(signals.left, t_s, h_s, d),
+                        delayed_mean(signals.right, t_s, h_s, d)};
+    at.by_delay.force = {slope_by_delay(signals.left, t_s, h_s, d),
+                         slope_by_delay(signals.right, t_s, h_s, d)};
   }
-  if (!path.delay) return {{{log.force_left[row], log.force_right[row]}, steering[row]}};
-  const double d = path.delay->delay_s;
-  return {{{delayed_mean(signals.left, t_s, h_s, d), delayed_mean(signals.right, t_s, h_s, d)},
-           delayed_mean(signals.steering, t_s, h_s, d)},
-          {{slope_by_delay(signals.left, t_s, h_s, d), slope_by_delay(signals.right, t_s, h_s, d)},
-           slope_by_delay(signals.steering, t_s, h_s, d)}};
+  if (path.delay || path.steering_delay) {
+    const double late_s = d + (path.steering_delay ? path.steering_delay->delay_s : 0.0);
+    at.command.steering_rad = delayed_mean(signals.steering, t_s, h_s, late_s);
+    at.by_delay.steering_rad = slope_by_delay(signals.steering, t_s, h_s, late_s);
+    at.steering_by_delay = at.by_delay.steering_rad;
+  }
+  if (!path.lag) return at;
+  const SideForces<double> command = at.command.force;
+  const LaggedForces::Mean mean = path.lag->mean(signals, t_s, h_s, d);
+  at.command.force = mean.force;
+  at.by_lag = mean.by_lag;
+  at.by_delay.force = mean.by_delay;
+  if (path.switches_off) switch_off(command, at);
+  return at;
 }
 
 LinearMotion earlier_motion(const LogSignals& signals, std::size_t begin,

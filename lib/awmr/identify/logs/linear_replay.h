@@ -8,6 +8,7 @@
 
 #include "awmr/identify/logs/linear_rates.h"
 #include "awmr/identify/logs/sensitivity_kernel.h"
+#include "awmr/trials/lagged_forces.h"
 #include "awmr/trials/replay.h"
 
 namespace awmr {
@@ -29,64 +30,45 @@ struct ParameterColumn {
   double factor;  ///< d parameter / d coordinate
 };
 
-/// A delay whose derivatives fill a column: of all commands, where a negative one says that they were
-/// logged late; of a sensor; or the time constant of the motors.
+/// A delay or a lag and the column that its derivatives fill.
 struct DelayColumn {
   double delay_s;
   std::size_t column;
 };
 
-/// Wheel forces behind motors that lag by the time constant T, with the derivatives by T. While the
-/// command is c:
-///
-///     F'(t + h) = c + (F'(t) - c) e,   e = exp(-h/T)
-///     mean over h: c + (F'(t) - c) (T/h) (1 - e)
-///
-/// It begins with F' = c so many time constants before the rows, or at the log's first row, that an
-/// earlier command has less weight than rounding.
-class LaggedForces {
- public:
-  /// For the rows [begin, end) of the log.
-  LaggedForces(const DrivingLog& log, std::size_t begin, std::size_t end, const DelayColumn& lag);
-  /// The mean over [t, t + h], which begins `since_row_s` after the row and ends before the next.
-  struct Mean {
-    SideForces<double> force;
-    SideForces<double> by_lag;
-  };
-  Mean mean(std::size_t row, double since_row_s, double h_s) const;
-  std::size_t column() const { return column_; }
-
- private:
-  const DrivingLog* log_;
-  double lag_s_;
-  std::size_t column_;
-  std::size_t first_row_;                   ///< of the two below
-  std::vector<SideForces<double>> force_;   ///< by row
-  std::vector<SideForces<double>> by_lag_;  ///< by row
-};
-
-/// How the logged commands reach the wheels: at once, after a delay, or through motors that lag.
+/// How the logged commands reach the wheels: at once, after delays, or through motors that lag.
 struct CommandPath {
-  std::optional<DelayColumn> delay;
-  std::optional<LaggedForces> lag;
-
-  std::optional<std::size_t> column() const;
+  std::optional<DelayColumn> delay = {};  ///< of all commands; negative: they were logged late
+  std::optional<DelayColumn> steering_delay = {};  ///< of the steering, on top of that
+  std::optional<LaggedForces> lag = {};
+  std::optional<std::size_t> lag_column = {};  ///< where the lag is free
+  /// A motor is off as soon as its command is 0, whatever its lag: as of motors with back-EMF.
+  bool switches_off = false;
 };
 
-/// The commands as they reach the wheels, and their derivatives by the delay or the lag.
+/// The columns of what is free in a command path.
+struct LateColumns {
+  std::optional<std::size_t> delay = {};
+  std::optional<std::size_t> steering_delay = {};
+  std::optional<std::size_t> lag = {};
+};
+LateColumns columns_of(const CommandPath& path);
+
+/// The commands as they reach the wheels, and their derivatives by what is free in their path.
 struct DelayedCommand {
   HeldCommand command;
   HeldCommand by_delay{};
+  double steering_by_delay = 0.0;  ///< by a delay of the steering alone
+  SideForces<double> by_lag{};
 };
 
 /// Moves the state and its derivatives on.
 class LinearStepper {
  public:
-  /// `columns`: 0 for the state alone. `late_column`: of the command path's delay or lag.
-  /// `longest_step_s`: of LinearPlant.
+  /// `columns`: 0 for the state alone. `late`: of the command path. `longest_step_s`: of LinearPlant.
   LinearStepper(const Plant<double>& plant, std::size_t columns,
-                const std::vector<ParameterColumn>& parameters,
-                std::optional<std::size_t> late_column, double longest_step_s = 0.0);
+                const std::vector<ParameterColumn>& parameters, const LateColumns& late,
+                double longest_step_s = 0.0);
   /// One classical Runge-Kutta step of h seconds with friction, as rk4_step_with_friction().
   void step(const DelayedCommand& command, double h_s, LinearMotion& motion);
   /// One step along the rates where it stands, which are returned; h of either sign.
@@ -105,6 +87,8 @@ class LinearStepper {
     double factor;
   };
   void note_driven(const DelayedCommand& command, double* driven) const;
+  /// Fills a column by the derivatives of the commands.
+  void note_late(const HeldCommand& by, std::size_t column, double* driven) const;
   /// The rates and their derivatives at `s`, friction included.
   void find_rates(const DelayedCommand& command, const State<double>& s);
   /// Which way `motion` slides from here on. What is held has no derivatives left.
@@ -118,7 +102,7 @@ class LinearStepper {
 
   LinearPlant plant_;
   std::size_t columns_;
-  std::optional<std::size_t> late_column_;
+  LateColumns late_;
   std::vector<Term> terms_;
   Sliding way_;
   LinearRates rates_;
@@ -159,7 +143,7 @@ void replay_linear(const LogSignals& signals, std::size_t begin, std::size_t end
       if (!servo) {
         steer(row, (i + 0.5) / steps);
         command.command.steering_rad = motion.state.steering_rad;
-        command.by_delay.steering_rad = 0.0;
+        command.by_delay.steering_rad = command.steering_by_delay = 0.0;
       }
       stepper.step(command, h, motion);
     }

@@ -1,6 +1,7 @@
 /// What a caller of fit_logs() can ask for. Private to identify/.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstdint>
@@ -27,6 +28,8 @@ class Effort {
   explicit Effort(std::int64_t limit) : limit_(limit) {}
   void add(std::int64_t numbers) { spent_ += numbers; }
   bool is_over() const { return spent_ > limit_; }
+  std::int64_t spent() const { return spent_; }
+  std::int64_t left() const { return std::max<std::int64_t>(0, limit_ - spent_); }
 
  private:
   std::int64_t limit_;
@@ -45,11 +48,16 @@ struct LogFitOptions {
   std::vector<ParameterId> suspects;
   /// A delay of all commands is free, with where the search begins; negative: they were logged late.
   std::optional<double> input_delay_s;
-  /// The time constant of the motors is free, with where the search begins.
+  /// A delay of the steering on top of that is free, with where the search begins, s >= 0.
+  std::optional<double> steering_delay_s;
+  /// The time constant of the motors is free, with where the search begins; never where the vehicle file
+  /// gives it: it is held there then.
   std::optional<double> motor_lag_s;
   std::vector<LogChannel> biases;  ///< channels whose constant offset is free
   /// Sensor delays that are free, with where the search begins.
   std::vector<SensorDelay> sensor_delays;
+  /// Time constants of filters that smooth a channel, in the same way.
+  std::vector<SensorDelay> sensor_lags;
   bool finds_delays = true;  ///< the fit adds the delays and the lag that its residuals show
   /// Further places to search from, beside the initial guess: the optimum of a family inside this one.
   std::vector<ParameterValues<double>> also_from;

@@ -20,13 +20,9 @@ double shortest_spacing_s(const std::vector<DrivingLog>& logs) {
 }  // namespace
 
 double step_s_at(const LogModel& model, const std::vector<double>& coordinates) {
-  ParameterValues<double> values = model.held;
-  for (std::size_t i = 0; i < coordinates.size(); ++i) {
-    const FreeQuantity& q = model.quantities[i];
-    if (q.kind == FreeQuantity::Kind::kParameter) values[at(q.id)] = q.value(coordinates[i]);
-  }
   constexpr double kStepsOfRow = 4.0;
-  Plant<double> plant = plant_of(model.vehicle, values);
+  Plant<double> plant =
+      plant_of(model.vehicle, parameters_at(model.held, model.quantities, coordinates));
   const double sway_s = 0.25 * plant.mass_norm / plant.sway_alpha;
   plant.sway_alpha = 0.0;
   // A guess may be faster than any vehicle.

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "awmr/core/index.h"
+#include "awmr/core/option_text.h"
 #include "awmr/identify/logs/adequacy.h"
 #include "awmr/identify/logs/agreement.h"
 #include "awmr/identify/logs/back_emf.h"
@@ -19,6 +20,7 @@
 #include "awmr/identify/logs/initial_guess.h"
 #include "awmr/identify/uncertainty/akaike.h"
 #include "awmr/model/plausibility.h"
+#include "awmr/trials/calibration_checks.h"
 #include "awmr/trials/log_consistency.h"
 
 namespace awmr {
@@ -100,13 +102,18 @@ bool turns(const std::vector<DrivingLog>& logs) {
   });
 }
 
-/// Channels with an offset: those asked for, and a yaw rate whose bias the heading shows.
+/// Channels with an offset: those asked for, a yaw rate whose bias the heading shows, and a heading that the
+/// course over ground shows to be turned.
 std::vector<LogChannel> biased_channels(const std::vector<DrivingLog>& logs,
                                         std::vector<LogChannel> asked) {
-  const bool known = std::find(asked.begin(), asked.end(), LogChannel::kYawRate) != asked.end();
-  if (!known && std::any_of(logs.begin(), logs.end(), has_gyro_bias)) {
-    asked.push_back(LogChannel::kYawRate);
-  }
+  const auto add = [&](LogChannel channel, bool is_biased) {
+    const bool known = std::ranges::find(asked, channel) != asked.end();
+    if (is_biased && !known) asked.push_back(channel);
+  };
+  add(LogChannel::kYawRate, std::ranges::any_of(logs, has_gyro_bias));
+  add(LogChannel::kHeading, std::ranges::any_of(logs, [](const DrivingLog& log) {
+        return heading_offset_rad(log).has_value();
+      }));
   return asked;
 }
 
@@ -188,6 +195,30 @@ struct Chosen {
   bool may_have_back_emf = false;  ///< by the fit of the first family
 };
 
+/// Reports why the work to come may take more than ten seconds of one processor. `numbers`: that it
+/// integrates, about.
+void announce(const IdentifyOptions& options, double numbers, const std::string& what) {
+  constexpr double kNumbersPerSecond = 2e7;  // a processor of 2023
+  constexpr double kLong_s = 10.0;
+  const double about_s = numbers / kNumbersPerSecond;
+  if (!options.notice || about_s <= kLong_s) return;
+  options.notice(fmt::format(
+      "{} may take up to about {:.0f} s of one processor; a part of the logs ({}) takes less", what,
+      about_s, option_text("from S")));
+}
+
+/// Of the first fit: an evaluation integrates each row in a step or more, the state and a derivative by
+/// each free number and initial component.
+double numbers_of_first_fit(const std::vector<DrivingLog>& logs, const LogFitOptions& options) {
+  constexpr double kEvaluations = 40.0;
+  constexpr double kStepsOfRow = 2.0;
+  constexpr double kInitialComponents = 7.0;
+  double rows = 0.0;
+  for (const DrivingLog& log : logs) rows += static_cast<double>(log.rows());
+  const double derivatives = static_cast<double>(options.free.size()) + kInitialComponents;
+  return kEvaluations * kStepsOfRow * rows * (1.0 + derivatives);
+}
+
 Chosen choose_families(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                        const IdentifyOptions& options) {
   const FamilyChoice& surge = options.surge_family;
@@ -195,6 +226,7 @@ Chosen choose_families(const std::vector<DrivingLog>& logs, const LogFitOptions&
   const bool surge_open = is_open(surge);
   const bool yaw_open = is_open(yaw) && contains(power_law.free, ParameterId::kYawAlpha);
   tell(options, "fitting the logs");
+  announce(options, numbers_of_first_fit(logs, power_law), "fitting logs of this length");
   Chosen chosen{{.best = fit_family(logs, power_law, surge.family.value_or(Family::kPower),
                                     yaw.family.value_or(Family::kPower)),
                  .others = {},
@@ -204,11 +236,17 @@ Chosen choose_families(const std::vector<DrivingLog>& logs, const LogFitOptions&
   // Where nobody asked, another family than the paper's has to be plainly better.
   tell(options, "trying families of resistance");
   const bool somebody_asked = !surge.family || !yaw.family;
-  chosen.found = best_family(logs, power_law, std::move(chosen.found.best),
-                             {.surge = surge_open,
+  const FamilyContest contest{.surge = surge_open,
                               .yaw = yaw_open,
                               .lead = somebody_asked ? 0.0 : kPlainlyBetter,
-                              .only_suspects = !somebody_asked});
+                              .only_suspects = !somebody_asked};
+  const auto contenders =
+      static_cast<double>(contender_count(power_law, chosen.found.best, contest));
+  announce(options,
+           std::min(contenders * static_cast<double>(power_law.effort->spent()),
+                    static_cast<double>(power_law.effort->left())),
+           "comparing other families of resistance, as the first one leaves errors,");
+  chosen.found = best_family(logs, power_law, std::move(chosen.found.best), contest);
   return chosen;
 }
 
@@ -256,6 +294,7 @@ FamilyFit fit_families(const std::vector<DrivingLog>& logs, LogFitOptions power_
   stage.chosen_report = stage.reports.size();
   stage.reports.push_back(chosen.fit.report);
   append(stage.findings, autocorrelation_findings(chosen.fit, logs.front().file));
+  append(stage.findings, braking_findings(logs.front().file, chosen));
   tell(options, "judging the fit");
   const bool try_families = surge.asked && surge.family == Family::kPower;
   const Adequacy adequacy = judge_adequacy(logs, power_law, chosen, try_families);
@@ -357,6 +396,30 @@ std::vector<Finding> delay_findings(const LogFit& fit, const std::string& file) 
              channel == LogChannel::kX ? "the position" : info(channel).name,
              channel == LogChannel::kX ? "comes" : "is read", value_s, error_s)});
   }
+  for (const auto& [quantity, value_s, error_s] :
+       found_delays(fit, FreeQuantity::Kind::kSensorLag)) {
+    findings.push_back(
+        {file, 0, Severity::kWarning, "sensor-lag",
+         fmt::format(
+             "{} is smoothed by a filter with a time constant of {:.3f} +- {:.3f} s; the fit "
+             "allows for it. Log the unfiltered reading, or make the filter faster",
+             info(quantity.channel).name, value_s, error_s)});
+  }
+  return findings;
+}
+
+/// `steering-delay`: the steering acts later than the forces, by more than the servo's lag.
+std::vector<Finding> steering_findings(const LogFit& fit, const std::string& file) {
+  std::vector<Finding> findings;
+  for (const FoundDelay& late : found_delays(fit, FreeQuantity::Kind::kSteeringDelay)) {
+    findings.push_back(
+        {file, 0, Severity::kWarning, "steering-delay",
+         fmt::format(
+             "the steering begins to move {:.3f} +- {:.3f} s after its command, in addition "
+             "to the servo's time constant; the fit allows for it. Shorten the servo's frame "
+             "or its bus cycle, or tune with that much more latency",
+             late.value_s, late.error_s)});
+  }
   return findings;
 }
 
@@ -384,6 +447,7 @@ void take(const LogFit& fit, const Model& model, bool overrule, const std::strin
           LogStage& stage) {
   stage.block = fit.covariance;
   append(stage.findings, delay_findings(fit, file));
+  append(stage.findings, steering_findings(fit, file));
   append(stage.findings, actuator_findings(fit, file));
   for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
     const FreeQuantity& q = fit.quantities[i];

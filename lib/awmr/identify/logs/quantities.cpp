@@ -31,10 +31,14 @@ std::string FreeQuantity::name() const {
       return std::string(info(id).name);
     case Kind::kDelay:
       return std::string(kInputDelayName);
+    case Kind::kSteeringDelay:
+      return std::string(kSteeringDelayName);
     case Kind::kMotorLag:
       return std::string(kMotorLagName);
     case Kind::kSensorDelay:
       return fmt::format("{}{}", kSensorDelayPrefix, info(channel).name);
+    case Kind::kSensorLag:
+      return fmt::format("{}{}", kSensorLagPrefix, info(channel).name);
     case Kind::kBias:
       return fmt::format("{}{}", kBiasPrefix, info(channel).name);
   }
@@ -54,22 +58,34 @@ FreeQuantity free_parameter(ParameterId id) {
 
 FreeQuantity input_delay() { return {.kind = FreeQuantity::Kind::kDelay, .large_change = 0.1}; }
 
+FreeQuantity steering_delay() {
+  return {.kind = FreeQuantity::Kind::kSteeringDelay, .large_change = 0.1};
+}
+
 FreeQuantity motor_lag() { return {.kind = FreeQuantity::Kind::kMotorLag, .large_change = 0.1}; }
 
 FreeQuantity sensor_delay_of(LogChannel channel) {
   return {.kind = FreeQuantity::Kind::kSensorDelay, .channel = channel, .large_change = 0.1};
 }
 
+FreeQuantity sensor_lag_of(LogChannel channel) {
+  return {.kind = FreeQuantity::Kind::kSensorLag, .channel = channel, .large_change = 0.1};
+}
+
 std::vector<FreeQuantity> free_quantities(const LogFitOptions& options) {
   std::vector<FreeQuantity> quantities;
   for (const ParameterId id : options.free) quantities.push_back(free_parameter(id));
   if (options.input_delay_s) quantities.push_back(input_delay());
+  if (options.steering_delay_s) quantities.push_back(steering_delay());
   if (options.motor_lag_s) quantities.push_back(motor_lag());
   for (const LogChannel channel : options.biases) {
     quantities.push_back({.kind = FreeQuantity::Kind::kBias, .channel = channel});
   }
   for (const SensorDelay& late : options.sensor_delays) {
     quantities.push_back(sensor_delay_of(late.channel));
+  }
+  for (const SensorDelay& smooth : options.sensor_lags) {
+    quantities.push_back(sensor_lag_of(smooth.channel));
   }
   return quantities;
 }
@@ -85,6 +101,9 @@ std::vector<double> initial_coordinates(const std::vector<FreeQuantity>& quantit
       case FreeQuantity::Kind::kDelay:
         coordinates.push_back(*options.input_delay_s);
         break;
+      case FreeQuantity::Kind::kSteeringDelay:
+        coordinates.push_back(*options.steering_delay_s);
+        break;
       case FreeQuantity::Kind::kMotorLag:
         coordinates.push_back(*options.motor_lag_s);
         break;
@@ -92,10 +111,12 @@ std::vector<double> initial_coordinates(const std::vector<FreeQuantity>& quantit
         coordinates.push_back(0.0);
         break;
       case FreeQuantity::Kind::kSensorDelay:
+      case FreeQuantity::Kind::kSensorLag:
         break;
     }
   }
   for (const SensorDelay& late : options.sensor_delays) coordinates.push_back(late.delay_s);
+  for (const SensorDelay& smooth : options.sensor_lags) coordinates.push_back(smooth.delay_s);
   return coordinates;
 }
 
@@ -107,6 +128,16 @@ std::vector<Interval> coordinate_bounds(const std::vector<FreeQuantity>& quantit
     bounds.push_back(bounds_of(quantities[i], initial[i], vehicle));
   }
   return bounds;
+}
+
+ParameterValues<double> parameters_at(ParameterValues<double> held,
+                                      const std::vector<FreeQuantity>& quantities,
+                                      const std::vector<double>& coordinates) {
+  for (std::size_t i = 0; i < coordinates.size(); ++i) {
+    const FreeQuantity& q = quantities[i];
+    if (q.kind == FreeQuantity::Kind::kParameter) held[at(q.id)] = q.value(coordinates[i]);
+  }
+  return held;
 }
 
 std::vector<double> values_at(const std::vector<FreeQuantity>& quantities,

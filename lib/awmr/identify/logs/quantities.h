@@ -12,17 +12,31 @@ namespace awmr {
 
 /// One free number. The search moves its coordinate, which is the value or its logarithm.
 struct FreeQuantity {
-  /// kDelay: of all commands; kMotorLag: the time constant of the motors.
-  enum class Kind { kParameter, kDelay, kMotorLag, kSensorDelay, kBias };
+  /// kDelay: of all commands; kSteeringDelay: of the steering alone, on top of that; kMotorLag: the time
+  /// constant of the motors; kSensorLag: that of a filter which smooths a channel.
+  enum class Kind {
+    kParameter,
+    kDelay,
+    kSteeringDelay,
+    kMotorLag,
+    kSensorDelay,
+    kSensorLag,
+    kBias
+  };
   Kind kind = Kind::kParameter;
   ParameterId id = ParameterId::kMassNorm;  ///< of kParameter
-  LogChannel channel = LogChannel::kX;      ///< of kSensorDelay (kX: of the position) and kBias
+  LogChannel channel =
+      LogChannel::kX;  ///< of kSensorDelay (kX: of the position), kSensorLag, kBias
   Scale scale = Scale::kLinear;
   /// A change of the coordinate that would be large: a factor e for a logarithm, 1 for an exponent.
   double large_change = 1.0;
 
   bool is(ParameterId parameter) const { return kind == Kind::kParameter && id == parameter; }
-  bool may_be_zero() const { return kind == Kind::kMotorLag || kind == Kind::kSensorDelay; }
+  /// A time that is not negative.
+  bool may_be_zero() const {
+    return kind == Kind::kSteeringDelay || kind == Kind::kMotorLag || kind == Kind::kSensorDelay ||
+           kind == Kind::kSensorLag;
+  }
   std::string name() const;
   double value(double coordinate) const;
   double jacobian(double coordinate) const;  ///< d value / d coordinate
@@ -34,14 +48,20 @@ FreeQuantity free_parameter(ParameterId id);
 /// The time by which all commands act late, s; negative: they were logged late.
 FreeQuantity input_delay();
 
+/// The time by which the steering acts later than the forces, s: a servo's frame, a slower bus.
+FreeQuantity steering_delay();
+
 /// The time constant of the motors, s.
 FreeQuantity motor_lag();
+
+/// The time constant of a first-order filter that smooths a channel, s.
+FreeQuantity sensor_lag_of(LogChannel channel);
 
 /// The time by which a channel is read late, s.
 FreeQuantity sensor_delay_of(LogChannel channel);
 
-/// What a fit is free to move, in this order: the parameters, the input delay, the biases, the
-/// sensors' delays.
+/// What a fit is free to move, in this order: the parameters, the delays and the lag of the commands, the
+/// biases, the sensors' delays, their lags.
 std::vector<FreeQuantity> free_quantities(const LogFitOptions& options);
 
 /// By quantity: the coordinate at the initial guess; a bias begins at zero.
@@ -51,6 +71,11 @@ std::vector<double> initial_coordinates(const std::vector<FreeQuantity>& quantit
 /// By quantity: where the search may move the coordinate from its initial guess.
 std::vector<Interval> coordinate_bounds(const std::vector<FreeQuantity>& quantities,
                                         const std::vector<double>& initial, const Vehicle& vehicle);
+
+/// All parameters: `held`, overlaid by the free ones at the first coordinates.
+ParameterValues<double> parameters_at(ParameterValues<double> held,
+                                      const std::vector<FreeQuantity>& quantities,
+                                      const std::vector<double>& coordinates);
 
 /// By quantity: the value at each coordinate.
 std::vector<double> values_at(const std::vector<FreeQuantity>& quantities,

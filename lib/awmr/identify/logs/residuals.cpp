@@ -9,6 +9,7 @@
 #include "awmr/core/index.h"
 #include "awmr/identify/logs/linear_replay.h"
 #include "awmr/identify/logs/product_sums.h"
+#include "awmr/identify/logs/smoothed_channel.h"
 #include "awmr/identify/logs/whitener.h"
 #include "awmr/model/sliding.h"
 
@@ -23,6 +24,7 @@ struct Unpacked {
   std::array<double, kChannelCount> bias{};
   std::array<std::optional<std::size_t>, kChannelCount> bias_column{};
   std::array<std::optional<DelayColumn>, kChannelCount> sensor_delay{};
+  std::array<std::optional<DelayColumn>, kChannelCount> sensor_lag{};
   State<double> initial{};
 
   bool any_late() const {
@@ -55,9 +57,15 @@ Unpacked unpack(const LogModel& model, const FitWindow& window, const double* co
       case FreeQuantity::Kind::kDelay:
         u.path.delay = {number, i};
         break;
+      case FreeQuantity::Kind::kSteeringDelay:
+        u.path.steering_delay = {number, i};
+        break;
       case FreeQuantity::Kind::kMotorLag:
-        u.path.lag.emplace(*window.rows.log, window.rows.begin, window.rows.end,
-                           DelayColumn{number, i});
+        u.path.lag.emplace(*window.rows.log, window.rows.begin, window.rows.end, number);
+        u.path.lag_column = i;
+        break;
+      case FreeQuantity::Kind::kSensorLag:
+        u.sensor_lag[at(quantity.channel)] = {number, i};
         break;
       case FreeQuantity::Kind::kSensorDelay:
         u.sensor_delay[at(quantity.channel)] = {number, i};
@@ -69,6 +77,11 @@ Unpacked unpack(const LogModel& model, const FitWindow& window, const double* co
         break;
     }
   }
+  const double given_lag_s = model.vehicle.motor_time_constant_s.value_or(0.0);
+  if (!u.path.lag && given_lag_s > 0.0) {
+    u.path.lag.emplace(*window.rows.log, window.rows.begin, window.rows.end, given_lag_s);
+  }
+  u.path.switches_off = values[at(ParameterId::kBackEmf)] > 0.0;
   u.plant = resolved_beside_friction(plant_of(model.vehicle, values), model.longest_step_s);
   slow_servo(model.longest_step_s, u.parameters, u.plant);
   // A logged angle is what it is: no stop, no lag.
@@ -89,25 +102,51 @@ LinearMotion first_motion(const LogModel& model, const Unpacked& u, std::size_t 
   return motion;
 }
 
+/// Those of a window, by channel.
+using SmoothedChannels = std::array<std::optional<SmoothedChannel>, kChannelCount>;
+
+SmoothedChannels smoothed_channels(const FitWindow& window, const Unpacked& u,
+                                   std::size_t columns) {
+  SmoothedChannels smoothed;
+  for (const LogChannel channel : kChannels) {
+    const auto& lag = u.sensor_lag[at(channel)];
+    if (!lag) continue;
+    smoothed[at(channel)].emplace(channel, *lag, channel_of(window.measured, channel), columns);
+  }
+  return smoothed;
+}
+
 /// Calls visit(i, error, row) for every sample, in order: model + bias - measured, and its derivatives
-/// by column, a vector for the visitor to use; empty without columns. A late sensor is compared with what was so its delay before.
+/// by column, a vector for the visitor to use; empty without columns. A late sensor is compared with what
+/// was so its delay before, a smoothed one with what its filter shows.
 template <class Visit>
 void for_each_error(const LogModel& model, const FitWindow& window, const Unpacked& u,
                     std::size_t columns, Visit visit) {
   const DrivingLog& log = *window.rows.log;
   const std::vector<Sample>& samples = window.samples();
   const double h = model.longest_step_s;
-  LinearStepper stepper(u.plant, columns, u.parameters, u.path.column(), h);
-  LinearStepper back(u.plant, columns, u.parameters, u.path.column(), h);
+  const LateColumns late_columns = columns_of(u.path);
+  LinearStepper stepper(u.plant, columns, u.parameters, late_columns, h);
+  LinearStepper back(u.plant, columns, u.parameters, late_columns, h);
   const bool any_late = u.any_late();
   std::vector<LinearMotion> motions;  // by row, where a sensor is late
   std::vector<double> row(columns);
   std::size_t next = 0;
+  SmoothedChannels smoothed = smoothed_channels(window, u, columns);
+  const auto follow = [&](std::size_t at_row, const LinearMotion& now) {
+    const double since_s = at_row > window.rows.begin ? log.t_s[at_row] - log.t_s[at_row - 1] : 0.0;
+    for (auto& channel : smoothed) {
+      if (channel) channel->next(now, since_s, columns);
+    }
+  };
   const auto compare = [&](const LinearMotion& motion, const Sample& sample) {
     const LogChannel c = sample.channel;
-    const double error = channel_of(motion.state, c) + u.bias[at(c)] - log[c]->value[sample.row];
+    const auto& smooth = smoothed[at(c)];
+    const double shown = smooth ? smooth->value() : channel_of(motion.state, c);
+    const double error = shown + u.bias[at(c)] - log[c]->value[sample.row];
     if (columns > 0) {
-      std::copy_n(motion.row(c, columns), columns, row.begin());
+      std::copy_n(smooth ? smooth->by_column().data() : motion.row(c, columns), columns,
+                  row.begin());
       if (u.bias_column[at(c)]) row[*u.bias_column[at(c)]] += 1.0;
     }
     visit(next, error, row);
@@ -115,6 +154,7 @@ void for_each_error(const LogModel& model, const FitWindow& window, const Unpack
   replay_linear(*window.signals, window.rows.begin, window.rows.end, u.path, stepper, h,
                 first_motion(model, u, columns), [&](std::size_t at_row, const LinearMotion& now) {
                   if (any_late) motions.push_back(now);
+                  follow(at_row, now);
                   for (; next < samples.size() && samples[next].row == at_row; ++next) {
                     const auto& late = u.sensor_delay[at(samples[next].channel)];
                     if (!late) {

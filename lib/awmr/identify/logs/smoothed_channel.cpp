@@ -1,0 +1,32 @@
+#include "awmr/identify/logs/smoothed_channel.h"
+
+#include <cmath>
+
+namespace awmr {
+
+void SmoothedChannel::next(const LinearMotion& now, double h_s, std::size_t columns) {
+  const double u = channel_of(now.state, channel_);
+  const double* const by = columns > 0 ? now.row(channel_, columns) : nullptr;
+  if (has_before_) move(u, by, h_s, columns);
+  has_before_ = true;
+  u_before_ = u;
+  if (columns > 0) by_before_.assign(by, by + columns);
+}
+
+void SmoothedChannel::move(double u, const double* by, double h_s, std::size_t columns) {
+  const double lag_s = lag_.delay_s;
+  const double e = lag_s > 0.0 ? std::exp(-h_s / lag_s) : 0.0;
+  const double q = lag_s / h_s * (1.0 - e);
+  const double behind = y_ - u_before_;
+  for (std::size_t c = 0; c < columns; ++c) {
+    by_column_[c] = (1.0 - q) * by[c] + (q - e) * by_before_[c] + e * by_column_[c];
+  }
+  if (columns > 0) {
+    const double e_by_lag = lag_s > 0.0 ? e * h_s / (lag_s * lag_s) : 0.0;
+    const double q_by_lag = (1.0 - e) / h_s - (lag_s > 0.0 ? e / lag_s : 0.0);
+    by_column_[lag_.column] += behind * e_by_lag - q_by_lag * (u - u_before_);
+  }
+  y_ = u - q * (u - u_before_) + e * behind;
+}
+
+}  // namespace awmr

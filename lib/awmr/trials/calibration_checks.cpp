@@ -1,0 +1,267 @@
+#include "awmr/trials/calibration_checks.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+
+#include "awmr/core/linear_algebra.h"
+#include "awmr/core/option_text.h"
+#include "awmr/core/units.h"
+#include "awmr/trials/log_evidence.h"
+#include "awmr/trials/robust_ratio.h"
+
+namespace awmr {
+namespace {
+
+using Complex = std::complex<double>;
+
+constexpr std::size_t kFewestWindows = 15;
+constexpr double kSignificance = 5.0;  // standard errors
+constexpr double kLeastScale = 0.03;
+constexpr double kLeastOffset_rad = 0.0175;
+
+/// Twenty windows or more: the longer, the less the noise at their ends counts, but side slip and heading
+/// errors add up.
+std::vector<LogWindow> calibration_windows(const DrivingLog& log) {
+  constexpr double kShortest_s = 1.0;
+  constexpr double kLongest_s = 5.0;
+  constexpr double kWindows = 20.0;
+  const double duration_s = log.t_s.back() - log.t_s.front();
+  return evidence_rows(log, std::clamp(duration_s / kWindows, kShortest_s, kLongest_s));
+}
+
+struct Regression {
+  Eigen::VectorXd coefficients;
+  Eigen::VectorXd std_errors;
+  double scatter = 0.0;  ///< of the rows that count
+};
+
+/// The rows whose residual is within four standard deviations, by the median.
+std::vector<Eigen::Index> usual_rows(const Eigen::VectorXd& residuals) {
+  std::vector<double> sizes(residuals.data(), residuals.data() + residuals.size());
+  for (double& size : sizes) size = std::abs(size);
+  const double limit = 4.0 * kStdPerMad * median(std::move(sizes));
+  std::vector<Eigen::Index> rows;
+  for (Eigen::Index i = 0; i < residuals.size(); ++i) {
+    if (std::abs(residuals(i)) <= limit) rows.push_back(i);
+  }
+  return rows;
+}
+
+/// Least squares of y = X k, outliers left out in three rounds; none where X is short of rank.
+std::optional<Regression> regression(const Eigen::MatrixXd& x, const Eigen::VectorXd& y) {
+  constexpr int kRounds = 3;
+  Regression found;
+  std::vector<Eigen::Index> rows(static_cast<std::size_t>(y.size()));
+  for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = static_cast<Eigen::Index>(i);
+  for (int round = 0; round < kRounds; ++round) {
+    const auto count = static_cast<Eigen::Index>(rows.size());
+    if (count <= 2 * x.cols()) return std::nullopt;
+    const Eigen::MatrixXd some = x(rows, Eigen::all);
+    const PivotedQr qr(some);
+    if (qr.rank() < x.cols()) return std::nullopt;
+    found.coefficients = qr.solve(Eigen::VectorXd(y(rows)));
+    const Eigen::VectorXd residuals = y(rows) - some * found.coefficients;
+    const double variance = residuals.squaredNorm() / static_cast<double>(count - x.cols());
+    found.scatter = std::sqrt(variance);
+    found.std_errors = (variance * qr.inverse_information().diagonal()).cwiseSqrt();
+    rows = usual_rows(y - x * found.coefficients);
+  }
+  return found;
+}
+
+/// The integrals of one window.
+struct CourseWindow {
+  Complex moved, driven, turned, slipped, hastened;
+};
+
+CourseWindow course_window(const DrivingLog& log, const LogWindow& window, double heading_factor) {
+  const std::vector<double>& x = log[LogChannel::kX]->value;
+  const std::vector<double>& y = log[LogChannel::kY]->value;
+  const std::vector<double>& u = log[LogChannel::kSpeed]->value;
+  const std::vector<double>& psi = log[LogChannel::kHeading]->value;
+  const auto& rate = log[LogChannel::kYawRate];
+  const std::size_t last = window.end - 1;
+  CourseWindow sums{{x[last] - x[window.begin], y[last] - y[window.begin]}, 0, 0, 0, 0};
+  for (std::size_t i = window.begin; i < last; ++i) {
+    const double h = log.t_s[i + 1] - log.t_s[i];
+    const double speed = 0.5 * (u[i] + u[i + 1]);
+    const Complex ahead = std::polar(1.0, heading_factor * 0.5 * (psi[i] + psi[i + 1]));
+    const double turn =
+        rate ? 0.5 * (rate->value[i] + rate->value[i + 1]) * h : psi[i + 1] - psi[i];
+    sums.driven += speed * h * ahead;
+    sums.turned += turn * ahead;
+    sums.slipped += speed * turn * ahead;
+    sums.hastened += (u[i + 1] - u[i]) * ahead;
+  }
+  return sums;
+}
+
+/// k and the scatter of its fit. Headings count times `heading_factor`.
+struct CourseFit {
+  Complex factor;
+  double std_error = 0.0;
+  double scatter_m = 0.0;
+};
+
+std::optional<CourseFit> course_fit(const DrivingLog& log, double heading_factor = 1.0) {
+  for (const LogChannel channel :
+       {LogChannel::kX, LogChannel::kY, LogChannel::kSpeed, LogChannel::kHeading}) {
+    if (!log[channel]) return std::nullopt;
+  }
+  const std::vector<LogWindow> windows = calibration_windows(log);
+  if (windows.size() < kFewestWindows) return std::nullopt;
+  // k = p + iq, times a: real part p Re a - q Im a, imaginary part p Im a + q Re a.
+  constexpr Eigen::Index kTerms = 4;
+  Eigen::MatrixXd left(2 * static_cast<Eigen::Index>(windows.size()), 2 * kTerms);
+  Eigen::VectorXd right(left.rows());
+  for (std::size_t w = 0; w < windows.size(); ++w) {
+    const CourseWindow sums = course_window(log, windows[w], heading_factor);
+    const auto row = 2 * static_cast<Eigen::Index>(w);
+    const Complex terms[kTerms] = {sums.driven, sums.turned, sums.slipped, sums.hastened};
+    for (Eigen::Index i = 0; i < kTerms; ++i) {
+      const Complex term = terms[i];
+      left.block(row, 2 * i, 2, 2) << term.real(), -term.imag(), term.imag(), term.real();
+    }
+    right(row) = sums.moved.real();
+    right(row + 1) = sums.moved.imag();
+  }
+  const auto found = regression(left, right);
+  if (!found) return std::nullopt;
+  return CourseFit{{found->coefficients(0), found->coefficients(1)},
+                   std::max(found->std_errors(0), found->std_errors(1)),
+                   found->scatter};
+}
+
+/// How many times as far the heading turns as the yaw rate says.
+std::optional<Calibration> heading_over_rate(const DrivingLog& log) {
+  if (!log[LogChannel::kHeading] || !log[LogChannel::kYawRate]) return std::nullopt;
+  const std::vector<LogWindow> windows = calibration_windows(log);
+  if (windows.size() < kFewestWindows) return std::nullopt;
+  const std::vector<double>& psi = log[LogChannel::kHeading]->value;
+  const std::vector<double>& rate = log[LogChannel::kYawRate]->value;
+  Eigen::MatrixXd left(static_cast<Eigen::Index>(windows.size()), 3);
+  Eigen::VectorXd right(left.rows());
+  for (std::size_t w = 0; w < windows.size(); ++w) {
+    const std::size_t first = windows[w].begin;
+    const std::size_t last = windows[w].end - 1;
+    const auto row = static_cast<Eigen::Index>(w);
+    left(row, 0) = integral_of(log, LogChannel::kYawRate, windows[w]);
+    left(row, 1) = log.t_s[last] - log.t_s[first];
+    left(row, 2) = rate[last] - rate[first];
+    right(row) = psi[last] - psi[first];
+  }
+  const auto found = regression(left, right);
+  if (!found) return std::nullopt;
+  return Calibration{found->coefficients(0), found->std_errors(0)};
+}
+
+bool is_off_one(const Calibration& scale) {
+  const double off = std::abs(scale.value - 1.0);
+  return off > kLeastScale && off > kSignificance * scale.std_error;
+}
+
+Finding scale_finding(const DrivingLog& log, std::string message) {
+  return {log.file, 0, Severity::kWarning, "scale-mismatch", std::move(message)};
+}
+
+std::string mapping_option(std::span<const ColumnMapping> mappings, std::string_view column,
+                           double factor) {
+  return option_text("column '" + scaled_mapping(mappings, column, factor) + "'");
+}
+
+/// Which of the two is off: the positions follow the heading as it is, or as the yaw rate has it.
+enum class ChannelAtFault { kYawRate, kHeading, kEither };
+ChannelAtFault channel_at_fault(const DrivingLog& log, const Calibration& scale) {
+  constexpr double kClearly = 0.7;
+  const auto as_it_is = course_fit(log);
+  const auto by_rate = course_fit(log, 1.0 / scale.value);
+  if (!as_it_is || !by_rate) return ChannelAtFault::kEither;
+  if (as_it_is->scatter_m < kClearly * by_rate->scatter_m) return ChannelAtFault::kYawRate;
+  if (by_rate->scatter_m < kClearly * as_it_is->scatter_m) return ChannelAtFault::kHeading;
+  return ChannelAtFault::kEither;
+}
+
+std::optional<Finding> rate_mismatch(const DrivingLog& log,
+                                     std::span<const ColumnMapping> mappings) {
+  const auto scale = heading_over_rate(log);
+  if (!scale || !is_off_one(*scale)) return std::nullopt;
+  const std::string compared =
+      fmt::format("heading_deg turns {:.3f} +- {:.3f} times as far as yaw_rate_radps says",
+                  scale->value, scale->std_error);
+  const std::string rate = mapping_option(mappings, "yaw_rate_radps", scale->value);
+  const std::string heading = mapping_option(mappings, "heading_deg", 1.0 / scale->value);
+  switch (channel_at_fault(log, *scale)) {
+    case ChannelAtFault::kYawRate:
+      return scale_finding(log,
+                           fmt::format("{}, and the positions follow the heading: the scale of the "
+                                       "gyroscope is off; map it by {}",
+                                       compared, rate));
+    case ChannelAtFault::kHeading:
+      return scale_finding(log,
+                           fmt::format("{}, and the positions follow the yaw rate: the scale of "
+                                       "the heading is off; map it by {}",
+                                       compared, heading));
+    case ChannelAtFault::kEither:
+      break;
+  }
+  return scale_finding(log,
+                       fmt::format("{}: the scale of the gyroscope is off (map it by {}) or that "
+                                   "of the heading ({})",
+                                   compared, rate, heading));
+}
+
+std::optional<Finding> speed_mismatch(const DrivingLog& log, const CourseFit& course,
+                                      std::span<const ColumnMapping> mappings) {
+  const Calibration scale{std::abs(course.factor), course.std_error};
+  if (!is_off_one(scale)) return std::nullopt;
+  return scale_finding(
+      log,
+      fmt::format("x_m and y_m move {:.3f} +- {:.3f} times as far as speed_mps says: the scale "
+                  "of the speed is off (wheel radius, gear, slip; map it by {}) or that of the "
+                  "positions ({} and {})",
+                  scale.value, scale.std_error, mapping_option(mappings, "speed_mps", scale.value),
+                  mapping_option(mappings, "x_m", 1.0 / scale.value),
+                  mapping_option(mappings, "y_m", 1.0 / scale.value)));
+}
+
+std::optional<Calibration> offset_of(const CourseFit& course) {
+  const double size = std::abs(course.factor);
+  if (!(size > kSignificance * course.std_error)) return std::nullopt;
+  const Calibration offset{std::arg(course.factor), course.std_error / size};
+  const bool is_there = std::abs(offset.value) > kLeastOffset_rad &&
+                        std::abs(offset.value) > kSignificance * offset.std_error;
+  return is_there ? std::optional(offset) : std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Calibration> heading_offset_rad(const DrivingLog& log) {
+  const auto course = course_fit(log);
+  return course ? offset_of(*course) : std::nullopt;
+}
+
+std::vector<Finding> calibration_findings(const DrivingLog& log,
+                                          std::span<const ColumnMapping> mappings) {
+  std::vector<Finding> findings;
+  if (auto rate = rate_mismatch(log, mappings)) findings.push_back(*std::move(rate));
+  const auto course = course_fit(log);
+  if (!course) return findings;
+  if (auto speed = speed_mismatch(log, *course, mappings)) findings.push_back(*std::move(speed));
+  if (const auto offset = offset_of(*course)) {
+    findings.push_back(
+        {log.file, 0, Severity::kWarning, "heading-offset",
+         fmt::format(
+             "the course over ground is {:+.2f} +- {:.2f} deg from heading_deg: the compass "
+             "is turned in the vehicle or its declination is missing, or the vehicle drifts "
+             "to one side; the offset is estimated with the rest ({})",
+             degrees(offset->value), degrees(offset->std_error),
+             option_text("fit bias.heading_deg"))});
+  }
+  return findings;
+}
+
+}  // namespace awmr

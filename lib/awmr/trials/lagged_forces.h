@@ -1,0 +1,53 @@
+/// Wheel forces behind motors that lag the commands of a log.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "awmr/trials/held_signal.h"
+
+namespace awmr {
+
+/// Forces F' behind motors of the time constant T, with the derivatives by T. While the command is c:
+///
+///     T dF'/dt = c - F',   F'(t + h) = c + (F'(t) - c) exp(-h/T)
+///     mean over [t, t + h] = mean of c - (T/h) (F'(t + h) - F'(t))
+///
+/// F' begins at c so many time constants before the rows that are asked for, or at the log's first
+/// row, that an earlier command has less weight than rounding. T = 0 passes the commands on.
+class LaggedForces {
+ public:
+  /// For the rows [begin, end) of the log, and commands that act up to a second earlier or later.
+  /// The log must outlive it.
+  LaggedForces(const DrivingLog& log, std::size_t begin, std::size_t end, double lag_s);
+
+  /// The mean over a span, and its derivatives.
+  struct Mean {
+    SideForces<double> force;
+    SideForces<double> by_lag;
+    SideForces<double> by_delay;
+  };
+  /// Over [t, t + h], where the commands reach the motors `delay_s` late. `signals`: of the same log.
+  Mean mean(const LogSignals& signals, double t_s, double h_s, double delay_s) const;
+
+ private:
+  struct Side {
+    std::vector<double> force;   ///< by row, as the row begins
+    std::vector<double> by_lag;  ///< by row
+  };
+  struct Value {
+    double force;
+    double by_lag;
+  };
+  Side side(const std::vector<double>& command, std::size_t end) const;
+  /// At `t_s`, before a command that begins there counts.
+  Value at(const Side& side, const std::vector<double>& command, double t_s) const;
+
+  const DrivingLog* log_;
+  double lag_s_;
+  std::size_t first_row_;  ///< of the two below
+  Side left_;
+  Side right_;
+};
+
+}  // namespace awmr

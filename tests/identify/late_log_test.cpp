@@ -1,0 +1,105 @@
+/// Logs whose steering, motors or sensors are late in ways of their own, and drivers that brake at a
+/// command of 0.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <thread>
+#include <vector>
+
+#include "awmr/identify/logs/residuals.h"
+#include "awmr/model/model_file.h"
+#include "identify/log_answers.h"
+
+namespace awmr::testing {
+namespace {
+
+constexpr double kStep_s = 0.01;  // of drive()
+
+/// The steering acts so many rows after its command.
+DrivingLog with_late_steering(DrivingLog log, std::size_t rows) {
+  std::vector<double>& command = *log.steering_command_rad;
+  std::rotate(command.begin(), command.begin() + static_cast<std::ptrdiff_t>(rows), command.end());
+  std::fill(command.end() - static_cast<std::ptrdiff_t>(rows), command.end(), 0.0);
+  return log;
+}
+
+TEST(LateLog, TellsADeadTimeOfTheSteeringFromTheServosLag) {
+  constexpr std::size_t kRows = 8;
+  TrialData data;
+  data.logs = {with_late_steering(drive(kTruths[1], 8, {.duration_s = 40.0}), kRows)};
+  const auto result = identify(robot(), data, {}, {});
+  ASSERT_TRUE(result);
+  const auto delay = estimated(*result, "steering.delay_s");
+  ASSERT_TRUE(delay && delay->std_error);
+  EXPECT_NEAR(delay->value, kStep_s * kRows, 4.5 * *delay->std_error);
+  EXPECT_TRUE(has_finding(*result, "steering-delay"));
+  expect_recovered(*result, ParameterId::kSteeringTimeConstant,
+                   plant(kTruths[1]).steering_time_constant_s, 4.5);
+  expect_recovered(*result, ParameterId::kInertiaNorm, 0.16 * kTruths[1].mass_norm, 4.5);
+}
+
+TEST(LateLog, HoldsAMotorLagThatTheVehicleFileGives) {
+  constexpr double kLag_s = 0.08;
+  TrialData data;
+  data.logs = {drive_with_lag(kTruths[1], 8, kLag_s)};
+  Vehicle vehicle = robot();
+  vehicle.motor_time_constant_s = kLag_s;
+  const auto result = identify(vehicle, data, {}, {});
+  ASSERT_TRUE(result);
+  EXPECT_FALSE(estimated(*result, "motor.time_constant_s"));
+  EXPECT_FALSE(has_finding(*result, "actuator-lag"));
+  expect_recovered(*result, ParameterId::kMassNorm, kTruths[1].mass_norm, 4.5);
+  expect_recovered(*result, ParameterId::kSurgeAlpha, kTruths[1].a1, 4.5);
+}
+
+/// The speed as a first-order filter shows it: dy/dt = (u - y)/T, by the exact answer to ramps.
+DrivingLog with_smoothed_speed(DrivingLog log, const std::vector<double>& speed, double lag_s) {
+  std::vector<double>& shown = log[LogChannel::kSpeed]->value;
+  double y = speed.front();
+  for (std::size_t i = 1; i < log.rows(); ++i) {
+    const double slope = (speed[i] - speed[i - 1]) / kStep_s;
+    y = speed[i] - slope * lag_s + (y - speed[i - 1] + slope * lag_s) * std::exp(-kStep_s / lag_s);
+    shown[i] += y - speed[i];
+  }
+  return log;
+}
+
+TEST(LateLog, AllowsForASpeedThatAFilterSmooths) {
+  constexpr double kLag_s = 0.2;
+  const Truth& t = kTruths[1];
+  DrivingLog log = drive(t, 8, {.duration_s = 40.0});
+  std::vector<double> speed(log.rows());
+  replay<double>(LogSignals(log), 0, log.rows(), plant(t), nullptr, 0.002, {},
+                 [&](std::size_t row, const State<double>& state) { speed[row] = state.u_mps; });
+  TrialData data;
+  data.logs = {with_smoothed_speed(std::move(log), speed, kLag_s)};
+  const auto result = identify(robot(), data, {}, {});
+  ASSERT_TRUE(result);
+  const auto lag = estimated(*result, "lag.speed_mps");
+  ASSERT_TRUE(lag && lag->std_error);
+  EXPECT_NEAR(lag->value, kLag_s, 4.5 * *lag->std_error);
+  EXPECT_TRUE(has_finding(*result, "sensor-lag"));
+  expect_recovered(*result, ParameterId::kMassNorm, t.mass_norm, 4.5);
+}
+
+TEST(LateLog, GivesTheSameBytesOnALoadedMachine) {
+  TrialData data;
+  data.logs = {drive(kTruths[0], 11, {.duration_s = 12.0})};
+  const std::string idle = model_text(identify(robot(), data, {}, {})->model);
+  std::atomic<bool> is_over = false;
+  std::vector<std::jthread> busy;
+  for (unsigned i = 0; i < 2 * std::thread::hardware_concurrency(); ++i) {
+    busy.emplace_back([&] {
+      while (!is_over) {
+      }
+    });
+  }
+  const std::string loaded = model_text(identify(robot(), data, {}, {})->model);
+  is_over = true;
+  EXPECT_EQ(idle, loaded);
+}
+
+}  // namespace
+}  // namespace awmr::testing
