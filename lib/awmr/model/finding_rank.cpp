@@ -38,7 +38,6 @@ constexpr CodeEffect kEffects[] = {
     {"speed-controlled", Effect::kContradiction},
     {"scale-mismatch", Effect::kContradiction},
     {"heading-offset", Effect::kContradiction},
-    {"brakes-at-zero", Effect::kContradiction},
     {"implausible-vehicle", Effect::kContradiction},
     {"implausible-deceleration", Effect::kContradiction},
     {"negative-scrub", Effect::kContradiction},

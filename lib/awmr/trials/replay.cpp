@@ -5,6 +5,8 @@
 #include <limits>
 #include <optional>
 
+#include "awmr/model/steady.h"
+
 namespace awmr {
 namespace {
 
@@ -116,13 +118,35 @@ State<double> measured_initial_state(const LogWindow& window) {
   return s;
 }
 
+namespace {
+
+/// Below this speed, m/s or rad/s, resistance may be its chord (rest_speed()): no log resolves it.
+constexpr double kChordSpeed = 0.01;
+
+/// The longest step with which resistance without Coulomb friction decays as it should, s:
+///   h <= inertia w/(max(1, beta) g(w))   at kChordSpeed and at the speed that `force` holds,
+/// where g(w)/w is largest for beta < 1 and beta > 1. The Runge-Kutta method is stable up to 2.78 times it.
+double resistance_step_s(Resistance<double> law, double inertia, double force) {
+  law.coulomb = 0.0;
+  double step_s = std::numeric_limits<double>::infinity();
+  for (const double w : {kChordSpeed, steady_rate(law, force).value_or(kChordSpeed)}) {
+    step_s = std::min(step_s, inertia * w / (std::max(1.0, law.beta) * law.at(w)));
+  }
+  return step_s;
+}
+
+}  // namespace
+
 double replay_step_s(const Plant<double>& plant) {
   double fastest_s = plant.steering_time_constant_s;
   if (plant.sway_alpha > 0.0) fastest_s = std::min(fastest_s, plant.mass_norm / plant.sway_alpha);
   if (const double rate = back_emf_rate(plant); rate > 0.0) {
     fastest_s = std::min(fastest_s, 1.0 / rate);
   }
-  return 0.25 * fastest_s;
+  constexpr double kFullForce = 4.0;
+  const double arm_m = plant.half_track_m + plant.front_axle_m;
+  return std::min({0.25 * fastest_s, resistance_step_s(plant.surge, plant.mass_norm, kFullForce),
+                   resistance_step_s(plant.yaw, plant.inertia_norm, kFullForce * arm_m)});
 }
 
 Result<void> check_replay(const Plant<double>& plant, const std::string& file) {
@@ -131,11 +155,14 @@ Result<void> check_replay(const Plant<double>& plant, const std::string& file) {
   const bool servo = step_s == 0.25 * plant.steering_time_constant_s;
   const double braking = back_emf_rate(plant);
   const bool motors = braking > 0.0 && step_s == 0.25 * (1.0 / braking);
+  const bool sway = step_s == 0.25 * (plant.mass_norm / plant.sway_alpha);
   const std::string what =
       servo    ? fmt::format("steering.time_constant_s is {:g} s", plant.steering_time_constant_s)
       : motors ? fmt::format("motors of back_emf_s_per_m {:g} brake within {:g} s",
                              plant.back_emf_s_per_m, 1.0 / braking)
-               : fmt::format("m'/sway_alpha is {:g}/{:g} s", plant.mass_norm, plant.sway_alpha);
+      : sway   ? fmt::format("m'/sway_alpha is {:g}/{:g} s", plant.mass_norm, plant.sway_alpha)
+               : fmt::format("resistance brings m' {:g} or I'z {:g} to rest within {:g} s",
+                             plant.mass_norm, plant.inertia_norm, 4.0 * step_s);
   return input_error(file,
                      fmt::format("{}, too fast to be followed through a log, whose motion is "
                                  "computed in steps of a quarter of it; {:g} s or more can be",

@@ -96,24 +96,4 @@ Finding back_emf_finding(const std::string& file, const FamilyFit& with, const F
                                          : "converges, as it does not without")};
 }
 
-std::vector<Finding> braking_findings(const std::string& file, const FamilyFit& fit) {
-  constexpr double kStandardErrors = 5.0;
-  constexpr double kLeastShare = 0.03;  // of the resistance at 1 m/s
-  const std::optional<ScoreTest>& test = fit.fit.back_emf_test;
-  if (!fit.fit.usable || !test || !(test->std_error > 0.0)) return {};
-  const double brakes = -test->value;
-  const Plant<double> plant = plant_of(fit.options.vehicle, fitted_values(fit.options, fit.fit));
-  const double resistance = plant.surge.coulomb + plant.surge.alpha + plant.surge.quadratic;
-  const double wheels = fit.options.vehicle.driven_wheels();
-  if (brakes < kStandardErrors * test->std_error || brakes * wheels < kLeastShare * resistance) {
-    return {};
-  }
-  return {{file, 0, Severity::kWarning, "brakes-at-zero",
-           fmt::format("the vehicle slows down more at a command of 0 than its resistance while "
-                       "driven explains, by about {:.2g} +- {:.1g} of F_max per m/s at each wheel: "
-                       "the motor driver brakes at 0, where a log's 0 means motors that run free. "
-                       "Set the driver to coast, or leave these rows out ({})",
-                       brakes, test->std_error, option_text("exclude A:B"))}};
-}
-
 }  // namespace awmr

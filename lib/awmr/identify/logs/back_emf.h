@@ -32,8 +32,4 @@ bool shows_back_emf(const FamilyFit& with, const FamilyFit& without);
 /// `back-emf`: what was taken, and how much better it describes the logs.
 Finding back_emf_finding(const std::string& file, const FamilyFit& with, const FamilyFit& without);
 
-/// `brakes-at-zero`, where a command of 0 brakes the vehicle: driving, its motors resist less than they do
-/// then, so that k_e would have to be negative.
-std::vector<Finding> braking_findings(const std::string& file, const FamilyFit& fit);
-
 }  // namespace awmr

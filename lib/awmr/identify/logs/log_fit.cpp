@@ -14,6 +14,7 @@
 #include "awmr/identify/logs/log_report.h"
 #include "awmr/identify/logs/multistart.h"
 #include "awmr/identify/logs/noise_iteration.h"
+#include "awmr/identify/logs/score_test.h"
 
 namespace awmr {
 namespace {
@@ -34,29 +35,18 @@ LogFit without_solution(std::string why, std::vector<SearchStart> starts) {
   return fit;
 }
 
-std::vector<ScoreTest> suspect_tests(const LogProblem& problem, const SearchPoint& point,
-                                     const std::vector<ParameterId>& suspects) {
+/// By how much -2 ln L would fall with each suspect free.
+std::vector<double> suspect_gains(const LogProblem& problem, const SearchPoint& point,
+                                  const std::vector<ParameterId>& suspects) {
   std::vector<FreeQuantity> terms;
   terms.reserve(suspects.size());
   for (const ParameterId id : suspects) terms.push_back(free_parameter(id));
-  return score_test(problem, point, terms);
-}
-
-/// By how much -2 ln L would fall with each suspect free.
-std::vector<double> gains_of(const std::vector<ScoreTest>& tests) {
   std::vector<double> gains;
-  for (const ScoreTest& test : tests) {
+  for (const ScoreTest& test : score_test(problem, point, terms)) {
     // A term is not negative: where it would have to be, it brings nothing.
     gains.push_back(test.value > 0.0 ? test.gain : 0.0);
   }
   return gains;
-}
-
-std::optional<ScoreTest> test_of(ParameterId id, const std::vector<ParameterId>& suspects,
-                                 const std::vector<ScoreTest>& tests) {
-  const auto place = std::ranges::find(suspects, id);
-  if (place == suspects.end()) return std::nullopt;
-  return tests[at(place - suspects.begin())];
 }
 
 /// What a search that ended at `solved` amounts to; `sums` are those there, all finite.
@@ -66,7 +56,6 @@ LogFit fit_at(const LogProblem& problem, const Solved& solved, const std::vector
   const std::vector<double>& coordinates = solved.point.coordinates;
   const Eigen::Index n = rows_of(quantities);
   const Scores scores = scores_of(problem.windows, sums, n);
-  const std::vector<ScoreTest> tests = suspect_tests(problem, solved.point, options.suspects);
   const Identifiability found = without_stopped(
       identifiability(information(sums, n), scores, quantities), problem, coordinates);
   const std::vector<Interval> bootstrap95 =
@@ -78,8 +67,7 @@ LogFit fit_at(const LogProblem& problem, const Solved& solved, const std::vector
           .why_not = found.why_not,
           .noise = problem.model.noise,
           .errors = errors_by_channel(problem, errors_at(problem, solved.point), options.loss),
-          .suspect_gain = gains_of(tests),
-          .back_emf_test = test_of(ParameterId::kBackEmf, options.suspects, tests),
+          .suspect_gain = suspect_gains(problem, solved.point, options.suspects),
           .widened = found.widened(),
           .report = log_report({problem, solved, found, bootstrap95}),
           .usable = solved.usable && solved.converged};
@@ -137,16 +125,11 @@ LogFit fit_logs(const std::vector<DrivingLog>& logs, const LogFitOptions& option
 
 LogFitOptions with_delays_of(const LogFit& fit, LogFitOptions options) {
   options.sensor_delays.clear();
-  options.sensor_lags.clear();
   for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
     const FreeQuantity& q = fit.quantities[i];
     const double found_s = fit.coordinates[i];
     if (q.kind == FreeQuantity::Kind::kDelay) options.input_delay_s = found_s;
-    if (q.kind == FreeQuantity::Kind::kSteeringDelay) options.steering_delay_s = found_s;
     if (q.kind == FreeQuantity::Kind::kMotorLag) options.motor_lag_s = found_s;
-    if (q.kind == FreeQuantity::Kind::kSensorLag) {
-      options.sensor_lags.push_back({q.channel, found_s});
-    }
     if (q.kind == FreeQuantity::Kind::kSensorDelay) {
       options.sensor_delays.push_back({q.channel, found_s});
     }
@@ -155,7 +138,12 @@ LogFitOptions with_delays_of(const LogFit& fit, LogFitOptions options) {
 }
 
 ParameterValues<double> fitted_values(const LogFitOptions& options, const LogFit& fit) {
-  return parameters_at(options.initial_guess, fit.quantities, fit.coordinates);
+  ParameterValues<double> values = options.initial_guess;
+  for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
+    const FreeQuantity& q = fit.quantities[i];
+    if (q.kind == FreeQuantity::Kind::kParameter) values[at(q.id)] = q.value(fit.coordinates[i]);
+  }
+  return values;
 }
 
 }  // namespace awmr

@@ -6,13 +6,11 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "awmr/identify/logs/channel_noise.h"
 #include "awmr/identify/logs/quantities.h"
-#include "awmr/identify/logs/score_test.h"
 #include "awmr/model/record.h"
 
 namespace awmr {
@@ -26,9 +24,6 @@ struct LogFit {
   ErrorsByChannel errors;  ///< raw, at the optimum
   /// By suspect of the options: by how much -2 ln L would fall with the term free (a score test).
   std::vector<double> suspect_gain;
-  /// Back-EMF at 0, where it is among the suspects: its value is negative for motors that brake more at a
-  /// command of 0 than while they drive.
-  std::optional<ScoreTest> back_emf_test;
   double widened = 1.0;    ///< largest of Identifiability's factors
   EstimatorReport report;  ///< parameters by quantity
   bool usable = false;     ///< the search converged

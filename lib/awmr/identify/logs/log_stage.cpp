@@ -294,7 +294,6 @@ FamilyFit fit_families(const std::vector<DrivingLog>& logs, LogFitOptions power_
   stage.chosen_report = stage.reports.size();
   stage.reports.push_back(chosen.fit.report);
   append(stage.findings, autocorrelation_findings(chosen.fit, logs.front().file));
-  append(stage.findings, braking_findings(logs.front().file, chosen));
   tell(options, "judging the fit");
   const bool try_families = surge.asked && surge.family == Family::kPower;
   const Adequacy adequacy = judge_adequacy(logs, power_law, chosen, try_families);
