@@ -5,7 +5,7 @@
 
 namespace awmr {
 
-/// dx cos psi + dy sin psi, m: how far a displacement (dx, dy) goes ahead.
+/// dx cos psi + dy sin psi, m: component of a displacement (dx, dy) along the heading.
 AWMR_CALLED inline float displacement_ahead_m(float dx_m, float dy_m, float psi_rad) {
   float sine = 0.0F;
   float cosine = 0.0F;
