@@ -10,11 +10,11 @@
 ///
 /// - A line is executed only if it is a complete command; incomplete lines are refused.
 /// - Exception: STOP acts at its last letter, anywhere in a line, even in one that is too long or
-/// damaged.
+///   damaged.
 /// - A frame is new if its sequence number is 1 to 127 after the last. A repeated one is refused,
-/// so that a stuck transmitter cannot prevent the command time-out.
+///   so that a stuck transmitter cannot prevent the command time-out.
 /// - After the first frame, text other than STOP is refused until the next reset, because noise on
-/// a radio link can look like a short text but not like a frame.
+///   a radio link can look like a short text but not like a frame.
 #pragma once
 
 #include <stdint.h>

@@ -7,9 +7,9 @@
 ///   m' u_dot = tau_speed - g1(u)
 /// corrected by the sensor's magnitude, and verified by the displacement along the heading. Rules:
 ///   - Force against the direction of travel (braking) needs a known direction.
-/// - The predicted speed of a braking vehicle stops at 0: braking cannot become driving backward.
-/// - A direction is verified only while the vehicle does not brake, after 1 m along the heading.
-/// - Without a known direction, a vehicle that is too fast coasts: tau_speed is 0.
+///   - The predicted speed of a braking vehicle stops at 0: braking cannot become driving backward.
+///   - A direction is verified only while the vehicle does not brake, after 1 m along the heading.
+///   - Without a known direction, a vehicle that is too fast coasts: tau_speed is 0.
 ///   - At u_ref = 0, tau_speed is 0 within kStandstill_mps.
 /// A vehicle on a slope therefore brakes in pulses, each no longer than the model's braking time.
 #pragma once

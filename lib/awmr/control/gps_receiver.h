@@ -1,10 +1,11 @@
 /// Converts the characters of a GPS port to a checked position and speed. Freestanding C++14.
 ///
 /// The work on a sentence is spread over several steps, so that all take about the same time:
-/// 1. Read its characters, at most kCharactersPerStep per step.
-/// 2. Convert its numbers and accept or reject the fix.
-/// 3. Publish position and speed, for the autopilot in this step.
-/// 4. Compare the displacement with the speed, 5. with the command.
+///   1. Read its characters, at most kCharactersPerStep per step.
+///   2. Convert its numbers and accept or reject the fix.
+///   3. Publish position and speed, for the autopilot in this step.
+///   4. Compare the displacement with the speed.
+///   5. Compare the displacement with the command.
 /// If the next sentence ends earlier, a fix in step 2 is dropped and the rest is done at once.
 #pragma once
 
