@@ -278,12 +278,10 @@ inline bool is_weak(float tau_speed) {
   return float_math::leading_order_of(tau_speed) < static_cast<int16_t>(0x3D80);
 }
 
-/// The largest
-/// h
-/// at tau_speed: h_max sat(16 tau_speed, [0, 1]). The angle for a moment grows as 1/tau_speed, but
-/// is 0 for tau_speed <= 0. A constant limit would make it jump there from the stop to straight.
-/// The reduced limit costs at most 1/256 of the steering moment at full thrust. With a single lane
-/// it is not read where steering_for() sets steering_powerless.
+/// The largest |h| at tau_speed: h_max sat(16 tau_speed, [0, 1]). The angle for a moment grows as
+/// 1/tau_speed, but is 0 for tau_speed <= 0. A constant limit would make it jump there from the
+/// stop to straight. The reduced limit costs at most 1/256 of the steering moment at full thrust.
+/// With a single lane it is not read where steering_for() sets steering_powerless.
 template <class T>
 AWMR_INLINE T steering_limit(const AllocationConstants<T>& c, const T& tau_speed) {
   using math::any;
@@ -295,9 +293,7 @@ AWMR_INLINE T steering_limit(const AllocationConstants<T>& c, const T& tau_speed
   return select(weak, tapered, c.h_max);
 }
 
-///
-/// h
-/// >= h_max, to which h is clipped. For float, compares bits.
+/// |h| >= h_max, to which h is clipped. For float, compares bits.
 template <class T>
 Mask<T> is_at_stop(const T& h, const T& h_max) {
   return h >= h_max || h <= T(-h_max);
@@ -306,9 +302,7 @@ inline bool is_at_stop(float h, float h_max) {
   return float_math::magnitude_bits(h) == bits_of(h_max);
 }
 
-/// The h of the angle that makes a yaw moment at tau_speed, clipped to
-/// h
-/// <= limit:
+/// The h of the angle that makes a yaw moment at tau_speed, clipped to |h| <= limit:
 ///   h = q/2 = moment/(2 l_f tau_speed)
 /// `half_ratio` is moment/(2 l_f). Sets steering_limited or steering_powerless in `a`.
 template <class T>

@@ -23,9 +23,7 @@ struct AutopilotInput {
   Position<float> position_m;   ///< read only if guidance needs it
   Reference<float> reference;   ///< its heading is ignored while guidance is active
   InputTimes times;             ///< time stamps of all inputs
-  /// Not 0: measured.u_mps is
-  /// u
-  /// , as from a GPS; its sign is computed (directed_speed.h).
+  /// Not 0: measured.u_mps is |u|, as from a GPS; its sign is computed (directed_speed.h).
   uint8_t speed_unsigned = 0;
 };
 

@@ -163,12 +163,8 @@ T sliding_surface(const HeadingGains<T>& gains, const Measurement<T>& m, const R
 ///   tau_turn = g3(r) + I'z (psi_d_ddot + lambda (psi_d_dot - r) + mu sat(S/eps))
 ///   sat(z)   = z for |z| <= 1, sgn z beyond                           [paper (84)-(89), corrected]
 /// Corrected: (84)-(85) print r_ddot for r_dot; (88)-(89) print psi_d_dot - r_dot for psi_d_dot -
-/// r; in (87), as in (78), sat has the condition
-/// e
-/// <= eps instead of
-/// S
-/// <= eps. The printed law also subtracts the disturbance, which is unknown: it is omitted, and mu
-/// must dominate it.
+/// r; in (87), as in (78), sat has the condition |e| <= eps instead of |S| <= eps. The printed law
+/// also subtracts the disturbance, which is unknown: it is omitted, and mu must dominate it.
 template <class T, class G>
 T heading_law(const Controller<T, G>& c, const Measurement<T>& m, const Reference<T>& ref) {
   const HeadingGains<T>& gains = c.gains.heading;

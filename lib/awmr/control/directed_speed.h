@@ -1,9 +1,8 @@
 /// Direction of travel for a speed sensor without a sign, such as a GPS. Freestanding C++14.
 ///
-/// The speed law needs a signed speed. With
-/// u
-/// it accelerates a vehicle that rolls backward further backward if m' mu_s/eps_s > 2 g1(u)/u,
-/// without limit. Here the sign is predicted from the commanded force with the identified model,
+/// The speed law needs a signed speed. With |u| it accelerates a vehicle that rolls backward
+/// further backward if m' mu_s/eps_s > 2 g1(u)/u, without limit. Here the sign is predicted from
+/// the commanded force with the identified model,
 ///   m' u_dot = tau_speed - g1(u)
 /// corrected by the sensor's magnitude, and verified by the displacement along the heading. Rules:
 ///   - Force against the direction of travel (braking) needs a known direction.
@@ -125,9 +124,7 @@ void correct_speed(DirectedSpeed<T>& d, const SpeedReading<T>& reading) {
   d.predicted_mps = detail::with_sign(size, d.predicted_mps);
 }
 
-/// Replaces
-/// u
-/// in `m` by the signed speed. Sets both speeds to 0 if no force is permitted.
+/// Replaces |u| in `m` by the signed speed. Sets both speeds to 0 if no force is permitted.
 template <class T>
 void apply_direction(const DirectedSpeed<T>& d, Measurement<T>& m, Reference<T>& ref) {
   const T speed = detail::magnitude(m.u_mps);
@@ -145,10 +142,9 @@ void apply_direction(const DirectedSpeed<T>& d, Measurement<T>& m, Reference<T>&
   m.u_mps = detail::with_sign(speed, is_known ? d.predicted_mps : ref.speed_mps);
 }
 
-/// True if the speed law, used with
-/// u
-/// , accelerates a vehicle that rolls backward at the speed u further backward. At u_ref = 0, in
-/// the layer of sat, it commands g1(u) - m' mu_s/eps_s u, which exceeds the resistance if
+/// True if the speed law, used with |u|, accelerates a vehicle that rolls backward at the speed u
+/// further backward. At u_ref = 0, in the layer of sat, it commands g1(u) - m' mu_s/eps_s u, which
+/// exceeds the resistance if
 ///   m' mu_s/eps_s > 2 g1(u)/u
 template <class T, class G>
 bool runs_away_unsigned(const G& surge, const T& mass_norm, const SpeedGains<T>& gains,

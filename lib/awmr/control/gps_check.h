@@ -232,15 +232,8 @@ class GpsCheck {
     has_anchor_ = true;
   }
 
-  ///
-  /// dx
-  /// +
-  /// dy
-  /// <= 1.5 int u dt + the drift since the anchor, because
-  /// dx
-  /// +
-  /// dy
-  /// <= sqrt(2) int u dt.
+  /// |dx| + |dy| <= 1.5 int u dt + the drift since the anchor, because |dx| + |dy| <= sqrt(2) int u
+  /// dt.
   void compare_with_speed() {
     const bool is_moving = fix_.speed_mps > kStandstill_mps;
     follow_command(is_moving);

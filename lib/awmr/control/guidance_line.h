@@ -84,9 +84,8 @@ struct PolylineGuidance {
   bool finished;    ///< past the end of the last segment: psi_d holds its last value
 };
 
-/// Coordinates of a point relative to the segment from A to B. With its unit vector t = (B - A)/
-/// B - A
-/// :
+/// Coordinates of a point relative to the segment from A to B. With its unit vector
+/// t = (B - A)/|B - A|:
 ///   psi_AB = atan2(t_y, t_x)
 ///   e      = -(x - x_A) t_y + (y - y_A) t_x                         [paper (104)-(106), corrected]
 /// Corrected: (105) prints the direction from B to A. (104) and (106) print distance and direction

@@ -39,10 +39,9 @@ Allocation<T> safe_command() {
 
 namespace detail {
 
-/// kFaultNotFinite if the value is infinite or NaN, kFaultRange if
-/// value
-/// > largest, else kFaultNone. It compares bits, whose order is that of the magnitudes; on the chip
-/// this takes a tenth of the time of a float comparison.
+/// kFaultNotFinite if the value is infinite or NaN, kFaultRange if |value| > largest, else
+/// kFaultNone. It compares bits, whose order is that of the magnitudes; on the chip this takes a
+/// tenth of the time of a float comparison.
 AWMR_SHARED inline uint8_t check_magnitude_at_edge(float value, float largest) {
   const uint32_t magnitude = float_math::magnitude_bits(value);
   if (magnitude >= float_math::kInfinityBits) return kFaultNotFinite;

@@ -1,4 +1,4 @@
-/// How the delay of a sensor is called where it is estimated, in /estimates.
+/// Name of a sensor's estimated delay, in /estimates.
 #pragma once
 
 #include <string_view>

@@ -6,7 +6,8 @@ namespace awmr {
 
 Interval wheel_force_from_json(JsonObject json) {
   Interval force;
-  // F' is over the largest force of one motor, so it lies within [-1, 1]; forward thrust must exist.
+  // F' is divided by the largest force of one motor, so it is within [-1, 1]; forward thrust must
+  // exist.
   force.lo = json.number("min", {.min = -1.0, .max = 1.0});
   force.hi = json.number("max", {.min = 0.0, .max = 1.0, .min_excluded = true});
   if (force.lo >= force.hi) {

@@ -13,8 +13,8 @@ namespace awmr {
 
 /// Reads model.json and, if present, gains.json, validation.json, comparison.json and .csv,
 /// pil.json, suggest.json, the scenarios `scenario_<scenario>.json` and the runs
-/// `run_<scenario>_<mode>_<tuned
-/// paper>.csv` with their side files. Errors (input): no model.json, or an invalid file.
+/// `run_<scenario>_<mode>_<tuned|paper>.csv` with their side files. Errors (input): no model.json,
+/// or an invalid file.
 Result<std::string> report_html(const std::filesystem::path& directory);
 
 /// The page, and the results that it omits.

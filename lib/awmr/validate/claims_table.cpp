@@ -32,8 +32,7 @@ std::string over_open_cases(const Claim& claim) {
                      claim.decided_by.empty() ? "" : "; decided by " + claim.decided_by);
 }
 
-/// Escapes '
-/// ', which would end a cell of a Markdown table.
+/// Escapes '|', which would end a cell of a Markdown table.
 std::string cell(std::string text) {
   for (std::size_t at = text.find('|'); at != std::string::npos; at = text.find('|', at + 2)) {
     text.insert(at, 1, '\\');

@@ -152,11 +152,7 @@ double off_path_m(const ModeRun& run) {
   return largest;
 }
 
-/// The path's smallest radius of curvature,
-/// p_dot
-/// ^3/
-/// p_dot x p_ddot
-/// .
+/// The path's smallest radius of curvature, |p_dot|^3/|p_dot x p_ddot|.
 double least_radius_m(const Lissajous<double>& path, double duration_s) {
   double least = 1e300;
   for (double t_s = 0.0; t_s < duration_s; t_s += 0.1) {
