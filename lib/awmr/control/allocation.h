@@ -133,9 +133,9 @@ AllocationConstants<T> at_speed(AllocationConstants<T> c, const T& back_emf_s_pe
 
 /// Motor drives e that make these forces at the speed u, m/s, and yaw rate r, rad/s:
 ///   e = sat(F' + k_e w, [F'min, F'max]),   w = u -+ d r           upper sign: left, lower: right
-/// w is the speed of a rear wheel, and of a front wheel up to d_r^2/2 of it and l_f r d_r. A drive
-/// of 0 switches the motor off: a vehicle that cannot reverse its motors (F'min = 0) brakes by
-/// back-EMF while its drive is above 0, and rolls freely otherwise. NaN stays NaN.
+/// w is the speed of a rear wheel; a front wheel's differs by d_r^2/2 of it and by l_f r d_r.
+/// A drive of 0 switches the motor off: a vehicle that cannot reverse its motors (F'min = 0) brakes
+/// by back-EMF while its drive is above 0, and rolls freely otherwise. NaN stays NaN.
 template <class T>
 SideForces<T> motor_drives(const SideForces<T>& force, const AllocationConstants<T>& c,
                            const T& back_emf_s_per_m, const T& u_mps, const T& r_radps) {

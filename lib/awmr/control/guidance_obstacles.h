@@ -18,10 +18,10 @@
 /// contain it. The chosen side is kept until the other is nearer by `side_hysteresis_rad`, or until
 /// the guidance heading is free again.
 ///
-/// Why it clears one obstacle: a vehicle with turning radius rho that heads for the centre of a
-/// circle can pass it if D^2 >= (R + rho)^2 - rho^2, which holds for any R while D_obs >= rho. So
-/// an MMD of rho plus the distance travelled while the turn begins is sufficient. If that does not
-/// hold (several obstacles, or a start that is too close), the speed is reduced. The permitted
+/// Why it clears one obstacle: a vehicle with turning radius rho heads for the centre of a circle.
+/// It can pass the circle if D^2 >= (R + rho)^2 - rho^2. This holds for any R while D_obs >= rho.
+/// So an MMD of rho plus the distance travelled while the turn begins is sufficient. If that does
+/// not hold (several obstacles, or a start that is too close), the speed is reduced. The permitted
 /// fraction is the distance along the heading to a circle grown by vehicle_radius + clearance/2,
 /// divided by `brake_m`. So the vehicle stops before the circle.
 ///

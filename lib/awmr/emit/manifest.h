@@ -24,8 +24,8 @@ std::string manifest_text(const std::filesystem::path& directory,
                           const std::string& figures, const std::vector<Finding>& findings);
 
 /// Errors (input): an invalid manifest; each file in `directory` that would be replaced without
-/// permission. A file can be replaced if it is already the same, if it matches the manifest there,
-/// or if the manifest does not name it and it is a header that begins with emit's own line.
+/// permission. A file can be replaced if it is already the same or if it matches the manifest
+/// there. If the manifest does not name it, it must be a header that begins with emit's own line.
 Status check_replaceable(const std::filesystem::path& directory,
                          const std::vector<EmittedFile>& files);
 

@@ -21,8 +21,8 @@ struct Resistance {
   T beta;
   /// Surge: m/s, yaw: rad/s; >= 0: below it the curve is replaced by its chord to the origin. 0,
   /// for fits and steady states, keeps the law exact. A simulation sets it (see rest_speed() in
-  /// steady.h), because at rest the slope is infinite for beta < 1 and the curve jumps for c > 0,
-  /// and steps of h seconds cannot resolve time constants below h.
+  /// steady.h): at rest the slope is infinite for beta < 1 and the curve jumps for c > 0. Steps of
+  /// h seconds cannot resolve time constants below h.
   T rest_speed = T(0.0);
   /// c, in the unit of g, >= 0: Coulomb friction, the same at every speed. 0 in the paper.
   T coulomb = T(0.0);

@@ -66,8 +66,8 @@ WheelSpeeds<T> side_speeds(const T& front_axle_m, const T& half_track_m, const S
           across_mps - (s.u_mps + half_track_m * s.r_radps) * sin_d, rear_mps, rear_mps};
 }
 
-/// The side force of a tyre over F_max, positive to the left, for a wheel that rolls at `rolls_mps`
-/// and slides to its left at `slides_mps`, with the longitudinal force F'x (`along`, |F'x| <= mu
+/// The side force of a tyre over F_max, positive to the left. The wheel rolls at `rolls_mps`,
+/// slides to its left at `slides_mps` and has the longitudinal force F'x (`along`, |F'x| <= mu
 /// F'z):
 ///   F'm = sqrt((mu F'z)^2 - F'x^2)                  remainder of the circle of friction
 ///   sigma = s/sqrt(w^2 + v_0^2)                     the tangent of the slip angle

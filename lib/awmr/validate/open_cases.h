@@ -1,7 +1,7 @@
 /// Settings that the paper leaves open, and their effect on its claims. Private to this folder.
 ///
-/// The paper prints neither the limits of F' nor a method to share the moment of the combined mode,
-/// its allocation is for small angles, and its m' requires more tyre force than friction permits.
+/// The paper prints neither the limits of F' nor a method to share the moment of the combined mode.
+/// Its allocation is for small angles, and its m' requires more tyre force than friction permits.
 /// The cases are all combinations of
 ///
 ///     allocation   exact, paper (control/allocation.h)
