@@ -1,22 +1,22 @@
 /// Allocation: (tau_speed, tau_turn) -> (F'L, F'R, d_r), in three modes. Freestanding C++14.
 ///
-/// The exact inverse of generalised_forces() in model/dynamics.h; the paper's small-angle form stands
-/// beside it (AllocationForm). The exact steering path sets q = tan(d_r/2), with which
+/// The exact inverse of generalised_forces() in model/dynamics.h; the paper's small-angle form is
+/// also available (AllocationForm). The exact steering path sets q = tan(d_r/2), with which
 ///   sin d_r      = 2 q/(1 + q^2)
 ///   1 + cos d_r  = 2/(1 + q^2)
 ///   tau_steering = l_f tau_speed q
-/// so that the only function needed is the arc tangent of the angle commanded. The code computes
-/// with h = q/2 = tan(d_r/2)/2, because then 1/(2 (1 + cos d_r)) = 1/4 + h^2: a steering angle
-/// costs one division, and a pair of forces none.
+/// so that only the arc tangent of the commanded angle is necessary. The code uses h = q/2 =
+/// tan(d_r/2)/2, because then 1/(2 (1 + cos d_r)) = 1/4 + h^2: a steering angle needs one division,
+/// a pair of forces none.
 ///
-/// For small angles 4 h is the angle itself, and h^2 is nothing beside 1/4: AllocationForm::kPaper
-/// is the same computation with d_r = 4 h and h^2 = 0.
+/// For small angles, 4 h is the angle and h^2 is negligible next to 1/4: AllocationForm::kPaper is
+/// the same computation with d_r = 4 h and h^2 = 0.
 ///
 /// Order of limits:
 ///   1. tau_speed is clipped to [4 F'min, 4 F'max];
 ///   2. d_r is clipped to |d_r| <= d_max, and the F' follow from the clipped, commanded d_r;
 ///   3. each F' is clipped to [F'min, F'max].
-/// Where tau_speed is small, d_r has a limit below d_max: steering_limit().
+/// If tau_speed is small, d_r has a limit below d_max: steering_limit().
 #pragma once
 
 #include "awmr/control/flash.h"
@@ -36,7 +36,7 @@ T tan_half(const T& angle_rad) {
   return sin(angle_rad) / (T(1.0) + cos(angle_rad));
 }
 
-/// The vehicle's geometry and what its actuators can do.
+/// Geometry and actuator limits of the vehicle.
 template <class T>
 struct AllocationLimits {
   T front_axle_m;           ///< l_f, m, > 0: centre of gravity to front axle
@@ -44,22 +44,22 @@ struct AllocationLimits {
   T force_min;              ///< F'min of one wheel, over F_max, in [-1, F'max); < 0 reverses
   T force_max;              ///< F'max of one wheel, over F_max, in (0, 1]
   T steering_max_rad;       ///< d_max, rad, in (0, pi/2): stop of the front wheels, either side
-  T steering_max_tan_half;  ///< tan_half(d_max): given, so that the chip need not compute it
-  /// What the combined mode does with a path that saturates.
+  T steering_max_tan_half;  ///< tan_half(d_max): precomputed for the chip
+  /// Action of the combined mode when one path saturates.
   CombinedSplit split = CombinedSplit::kRedistribute;
-  /// The chip has kExact alone.
+  /// The chip supports only kExact.
   AllocationForm form = AllocationForm::kExact;
-  /// F'0 of every wheel, over F_max, >= 0. The forces of an allocation, and the limits above, are
-  /// those beyond it; the command that goes out to a motor is with_dead_zone() of them.
+  /// F'0 of every wheel, over F_max, >= 0. The allocated forces and the limits above exclude it;
+  /// the motor command is with_dead_zone() of them.
   T dead_zone = T(0.0);
   /// k_e of every motor, s/m, >= 0 (motor_force() in model/dynamics.h): a wheel that rolls at u m/s
-  /// makes forces in [F'min - k_e u, F'max - k_e u].
+  /// can make forces in [F'min - k_e u, F'max - k_e u].
   T back_emf_s_per_m = T(0.0);
-  /// False: the front wheels alone are driven. The chip knows all four alone.
+  /// False: only the front wheels are driven. The chip supports only four driven wheels.
   bool is_rear_driven = true;
 };
 
-/// The commands, and which limits they met.
+/// The commands, and the limits that are active.
 template <class T>
 struct Allocation {
   SideForces<T> force;       ///< F' of each wheel of a side, in [F'min, F'max]
@@ -67,24 +67,24 @@ struct Allocation {
   Mask<T> speed_limited;     ///< tau_speed was clipped
   Mask<T> steering_limited;  ///< d_r was clipped
   Mask<T> force_limited;     ///< an F' was clipped
-  /// Steering was asked for, but tau_speed is too small to steer with.
+  /// Steering was requested, but tau_speed is too small to steer with.
   Mask<T> steering_powerless;
 };
 
-/// Below this tau_speed the front wheels push too little to turn the vehicle, and d_r is commanded
-/// to 0.
+/// Below this tau_speed, the front wheels push too little to turn the vehicle, and the commanded
+/// d_r is 0.
 template <class T>
 constexpr T steering_authority_min() {
   return T(1e-6);
 }
-/// From this tau_speed on, a 64th of what four motors have, d_r may go to its stop.
+/// From this tau_speed on (1/64 of the thrust of four motors), d_r can reach its stop.
 template <class T>
 constexpr T steering_authority_full() {
   return T(0.0625);
 }
 
-/// What the allocation needs of the limits, computed once. It has members of type T only, so that
-/// it has no padding and a check sum can go over it.
+/// Constants of the allocation, computed once from the limits. All members are of type T, so there
+/// is no padding and a check sum can cover it.
 template <class T>
 struct AllocationConstants {
   T tau_speed_min;         ///< 4 F'min
@@ -101,7 +101,7 @@ struct AllocationConstants {
   T h_max;                 ///< tan(d_max/2)/2
 };
 
-/// The constants of these limits, for the exact form.
+/// Computes the constants from the limits, for the exact form.
 template <class T>
 AllocationConstants<T> prepared(const AllocationLimits<T>& limits) {
   return {T(4.0) * limits.force_min,
@@ -118,8 +118,8 @@ AllocationConstants<T> prepared(const AllocationLimits<T>& limits) {
           T(0.5) * limits.steering_max_tan_half};
 }
 
-/// The constants at the speed u, m/s, where the motors have back-EMF: k_e u is gone from the forces.
-/// The turn's share of a wheel's speed, +- d r, is left to motor_commands().
+/// Constants at the speed u, m/s, for motors with back-EMF: the force limits are reduced by k_e u.
+/// motor_commands() handles the turn's part of a wheel's speed, +- d r.
 template <class T>
 AllocationConstants<T> at_speed(AllocationConstants<T> c, const T& back_emf_s_per_m,
                                 const T& u_mps) {
@@ -131,11 +131,11 @@ AllocationConstants<T> at_speed(AllocationConstants<T> c, const T& back_emf_s_pe
   return c;
 }
 
-/// The drives e of the motors that make these forces at the speed u, m/s, and yaw rate r, rad/s:
+/// Motor drives e that make these forces at the speed u, m/s, and yaw rate r, rad/s:
 ///   e = sat(F' + k_e w, [F'min, F'max]),   w = u -+ d r           upper sign: left, lower: right
-/// w is how fast a rear wheel rolls, and a front one up to d_r^2/2 of it and l_f r d_r. A drive of 0
-/// switches the motor off: a vehicle that cannot reverse its motors (F'min = 0) brakes by its
-/// back-EMF as long as a drive is left, and rolls freely beyond. NaN stays NaN.
+/// w is the speed of a rear wheel; a front wheel's differs by d_r^2/2 of it and by l_f r d_r.
+/// A drive of 0 switches the motor off: a vehicle that cannot reverse its motors (F'min = 0) brakes
+/// by back-EMF while its drive is above 0, and rolls freely otherwise. NaN stays NaN.
 template <class T>
 SideForces<T> motor_drives(const SideForces<T>& force, const AllocationConstants<T>& c,
                            const T& back_emf_s_per_m, const T& u_mps, const T& r_radps) {
@@ -148,13 +148,13 @@ SideForces<T> motor_drives(const SideForces<T>& force, const AllocationConstants
                   c.force_max)};
 }
 
-/// The commands of which motors with a dead zone make these drives.
+/// Motor commands that make these drives with a dead zone.
 template <class T>
 SideForces<T> with_dead_zone(const SideForces<T>& drive, const T& dead_zone) {
   return {with_dead_zone(drive.left, dead_zone), with_dead_zone(drive.right, dead_zone)};
 }
 
-/// What the motors are commanded to make these forces: both of the above.
+/// Motor commands that make these forces, with dead zone and back-EMF.
 template <class T>
 SideForces<T> motor_commands(const SideForces<T>& force, const AllocationConstants<T>& c,
                              const T& dead_zone, const T& back_emf_s_per_m, const T& u_mps,
@@ -164,7 +164,7 @@ SideForces<T> motor_commands(const SideForces<T>& force, const AllocationConstan
 
 namespace detail {
 
-/// x, or the end of [lo, hi] that it lies beyond; `limited` is then set. NaN stays NaN.
+/// x limited to [lo, hi]; sets `limited` if x is outside. NaN stays NaN.
 template <class T>
 T clipped(const T& x, const T& lo, const T& hi, Mask<T>& limited) {
   using math::select;
@@ -174,8 +174,8 @@ T clipped(const T& x, const T& lo, const T& hi, Mask<T>& limited) {
   return select(above, hi, select(below, lo, x));
 }
 
-/// The same for float, by the order of whole numbers, which costs the chip less than comparing
-/// floats. NaN stays NaN.
+/// As above for float, by integer order, which is faster on the chip than comparing floats. NaN
+/// stays NaN.
 AWMR_SHARED inline float clipped_at_edge(float x, float lo, float hi, bool& limited) {
   const int32_t order = float_math::order_of(x);
   const bool above = order > float_math::order_of(hi);
@@ -184,7 +184,7 @@ AWMR_SHARED inline float clipped_at_edge(float x, float lo, float hi, bool& limi
   limited = true;
   return above ? hi : lo;
 }
-/// The same, most often by the leading halves alone.
+/// As above; usually decided by the leading 16 bits.
 inline float clipped(float x, float lo, float hi, bool& limited) {
   return float_math::is_inside(x, lo, hi) ? x : clipped_at_edge(x, lo, hi, limited);
 }
@@ -199,7 +199,7 @@ inline float twice_atan_of_twice(float h, float h2) {
   return float_math::twice_atan_of_twice(h, h2);
 }
 
-/// What the two forms do not have in common.
+/// The functions that differ between the two forms.
 struct ExactAngle {
   /// 1/(2 (1 + cos d_r)) at d_r = 0.
   template <class T>
@@ -211,13 +211,13 @@ struct ExactAngle {
   static AWMR_INLINE T of_h(const T& h, const T& h2) {
     return twice_atan_of_twice(h, h2);
   }
-  /// h^2, with which 1/(2 (1 + cos d_r)) = 1/4 + h^2.
+  /// h^2, so that 1/(2 (1 + cos d_r)) = 1/4 + h^2.
   template <class T>
   static AWMR_INLINE T square(const T& h) {
     return h * h;
   }
 };
-/// sin d_r = d_r and cos d_r = 1.
+/// Small angles: sin d_r = d_r and cos d_r = 1.
 struct SmallAngle {
   template <class T>
   static AWMR_INLINE T straight() {
@@ -233,10 +233,10 @@ struct SmallAngle {
   }
 };
 
-/// The front wheels alone are driven: with t = tan d_r,
+/// Only the front wheels are driven: with t = tan d_r,
 ///   tau_steering = l_f tau_speed t,   1/(2 cos d_r) = sqrt(1 + t^2)/2
-/// which is the same computation with h = t/2 in place of q/2, d_r = atan(2 h), and
-/// sqrt(1 + 4 h^2)/2 in place of 1/4 + h^2.
+/// which is the same computation with h = t/2 instead of q/2, d_r = atan(2 h), and sqrt(1 + 4
+/// h^2)/2 instead of 1/4 + h^2.
 struct FrontAngle {
   template <class T>
   static T straight() {
@@ -253,7 +253,7 @@ struct FrontAngle {
     return T(0.5) * sqrt(T(1.0) + T(4.0) * h * h) - T(0.25);
   }
 };
-/// The same for sin d_r = d_r and cos d_r = 1.
+/// Only the front wheels are driven, for sin d_r = d_r and cos d_r = 1.
 struct FrontSmallAngle {
   template <class T>
   static T straight() {
@@ -269,7 +269,7 @@ struct FrontSmallAngle {
   }
 };
 
-/// tau_speed < 1/16. For float by the leading half alone: that of 1/16 has nothing behind it.
+/// tau_speed < 1/16. For float, the leading 16 bits are sufficient: the other bits of 1/16 are 0.
 template <class T>
 Mask<T> is_weak(const T& tau_speed) {
   return tau_speed < steering_authority_full<T>();
@@ -279,9 +279,9 @@ inline bool is_weak(float tau_speed) {
 }
 
 /// The largest |h| at tau_speed: h_max sat(16 tau_speed, [0, 1]). The angle for a moment grows as
-/// 1/tau_speed, and behind tau_speed = 0 it is 0: with one limit for all tau_speed it would jump there
-/// from the stop to straight. What the lower limit takes away is at most 1/256 of the moment that the
-/// steering has at full thrust. In one lane it is not read where steering_for() is powerless.
+/// 1/tau_speed, but is 0 for tau_speed <= 0. A constant limit would make it jump there from the
+/// stop to straight. The reduced limit costs at most 1/256 of the steering moment at full thrust.
+/// With a single lane it is not read where steering_for() sets steering_powerless.
 template <class T>
 AWMR_INLINE T steering_limit(const AllocationConstants<T>& c, const T& tau_speed) {
   using math::any;
@@ -293,7 +293,7 @@ AWMR_INLINE T steering_limit(const AllocationConstants<T>& c, const T& tau_speed
   return select(weak, tapered, c.h_max);
 }
 
-/// |h| >= h_max, to which h is clipped. For float by the bits.
+/// |h| >= h_max, to which h is clipped. For float, compares bits.
 template <class T>
 Mask<T> is_at_stop(const T& h, const T& h_max) {
   return h >= h_max || h <= T(-h_max);
@@ -323,7 +323,7 @@ AWMR_INLINE T steering_for(T limit, const T& tau_speed, const T& half_ratio, All
   return clipped(h, T(-limit), limit, a.steering_limited);
 }
 
-/// The steering angle that is commanded for h, rad; exactly +-d_max where h was clipped to +-h_max.
+/// The commanded steering angle for h, rad; exactly +-d_max if h was clipped to +-h_max.
 template <class Angle, class T>
 AWMR_INLINE T angle_of(const AllocationConstants<T>& c, const T& h, const T& h2,
                        Mask<T> is_limited) {
@@ -337,7 +337,7 @@ AWMR_INLINE T angle_of(const AllocationConstants<T>& c, const T& h, const T& h2,
   return select(stopped, stop_rad, math::saturate(Angle::of_h(h, h2), c.steering_max_rad));
 }
 
-/// Puts the side forces into `a`, each clipped to [F'min, F'max]:
+/// Writes the left and right wheel forces into `a`, each clipped to [F'min, F'max]:
 ///   F'R,L = (tau_speed +- moment/d)/(2 (1 + cos d_r)) = (tau_speed +- moment/d) (1/4 + h^2)
 /// `moment_over_track` is moment/d, `quarter` is 1/4 + h^2.
 template <class T>
@@ -349,11 +349,11 @@ AWMR_INLINE void forces_for(const AllocationConstants<T>& c, const T& tau_speed,
   a.force.right = clipped(mean + half_difference, c.force_min, c.force_max, a.force_limited);
 }
 
-/// The h by which the steering delivers what the clipped forces leave of tau_turn. With
-/// quarter = 1/4 + h^2, so that 1 + cos d_r = 1/(2 quarter), the clipped forces make
+/// The h with which the steering makes the part of tau_turn that the clipped forces do not make.
+/// With quarter = 1/4 + h^2, so that 1 + cos d_r = 1/(2 quarter), the clipped forces make
 ///   tau_speed = (F'L + F'R)/(2 quarter)
 ///   tau_diff  = d (F'R - F'L)/(2 quarter)
-/// and the rest of the moment, tau_turn - tau_diff, asks for
+/// and the remaining moment, tau_turn - tau_diff, requires
 ///   h = (tau_turn - tau_diff)/(2 l_f tau_speed)
 ///     = (2 quarter tau_turn - d (F'R - F'L))/(2 l_f (F'L + F'R))
 template <class T>
@@ -364,7 +364,7 @@ T give_back(const AllocationConstants<T>& c, T limit, const T& tau_turn_m, const
   return steering_for(limit, T(a.force.left + a.force.right), T(rest_m * c.axle_half_inverse), a);
 }
 
-/// allocate(), by either form.
+/// Implementation of allocate() for both forms.
 template <class Angle, class T>
 AWMR_INLINE void allocate_by(YawMode mode, const T& tau_speed, const T& tau_turn_m,
                              const AllocationConstants<T>& c, CombinedSplit split,
@@ -380,16 +380,16 @@ AWMR_INLINE void allocate_by(YawMode mode, const T& tau_speed, const T& tau_turn
   T h2 = T(0.0);
   T quarter = Angle::template straight<T>();
   if (mode != YawMode::kDifferential) {
-    // The combined mode steers for half of tau_turn: its constant is half of steering's.
+    // The combined mode steers for half of tau_turn, so its constant is half of steering's.
     h = steering_for(steering_limit(c, speed), speed,
                      T(tau_turn_m * (combined ? c.axle_quarter_inverse : c.axle_half_inverse)), a);
     h2 = Angle::square(h);
     quarter = T(0.25) + h2;
   }
   const Mask<T> lost = a.steering_limited || a.steering_powerless;
-  T over_track = T(0.0);  // the forces' share of the moment over d
+  T over_track = T(0.0);  // the moment made by the forces, over d
   if (redistribute && any(lost)) {
-    // The steering makes the moment l_f tau_speed q = 2 h l_f tau_speed of tau_turn.
+    // The steering makes the part l_f tau_speed q = 2 h l_f tau_speed of tau_turn.
     over_track = (tau_turn_m - h * speed * c.axle_twice_m) * c.half_track_inverse;
     if (!MaskOf<T>::kOneLane) {
       over_track = select(lost, over_track,
@@ -430,27 +430,26 @@ AWMR_INLINE void allocate_by(YawMode mode, const T& tau_speed, const T& tau_turn
 ///                  F'R,L = tau_speed/(2 (1 + cos d_r)) +- tau_turn/(4 d (1 + cos d_r))
 ///                                                                          [paper (42), corrected]
 /// Corrected: the paper prints the combined mode with L and R swapped against its (41), and with d
-/// where l_f belongs in d_r; its small angles, sin d_r = d_r and cos d_r = 1, are not needed. With
-/// them (AllocationForm::kPaper) the angles are tan(d_r/2) -> d_r/2, the forces those at d_r = 0:
-/// at 20 deg they leave out 3 % of the thrust.
+/// instead of l_f in d_r. Its small angles, sin d_r = d_r and cos d_r = 1, are not necessary. With
+/// them (AllocationForm::kPaper), tan(d_r/2) becomes d_r/2 and the forces are those at d_r = 0,
+/// which omits 3 % of the thrust at 20 deg.
 ///
-/// `split` is for the combined mode: with kRedistribute, what the limits take away from one path
-/// goes to the other. The result is finite for finite input.
+/// `split` applies to the combined mode: with kRedistribute, the part that one path cannot make
+/// because of its limits goes to the other. The result is finite for finite input.
 template <class T>
 AWMR_INLINE void allocate(YawMode mode, const T& tau_speed, const T& tau_turn_m,
                           const AllocationConstants<T>& c, CombinedSplit split, Allocation<T>& a) {
   detail::allocate_by<detail::ExactAngle>(mode, tau_speed, tau_turn_m, c, split, a);
 }
 
-/// The constants of the small-angle form, AllocationForm::kPaper, where those of the exact one are
-/// `c`.
+/// Converts constants of the exact form to the small-angle form, AllocationForm::kPaper.
 template <class T>
 AllocationConstants<T> small_angle_form(AllocationConstants<T> c) {
   c.h_max = T(0.25) * c.steering_max_rad;
   return c;
 }
 
-/// allocate() where the front wheels alone are driven, from the constants of all four:
+/// allocate() with only the front wheels driven, from the constants of four driven wheels:
 ///
 ///   differential   d_r   = 0
 ///                  F'R,L = tau_speed/2 +- tau_turn/(2 d)
@@ -480,9 +479,9 @@ void allocate_to_front(YawMode mode, const T& tau_speed, const T& tau_turn_m,
   }
 }
 
-/// The same from the limits themselves, in their form, where the time of a step does not matter, and
-/// at the speed u, m/s, which the limits depend on where the motors have back-EMF. The chip has the
-/// exact form alone, and four motors.
+/// allocate() from the limits, in their form, where computing time does not matter. u, m/s, is the
+/// speed, on which the limits depend if the motors have back-EMF. The chip supports only the exact
+/// form and four motors.
 template <class T>
 Allocation<T> allocate(YawMode mode, const T& tau_speed, const T& tau_turn_m,
                        const AllocationLimits<T>& limits, const T& u_mps = T(0.0)) {

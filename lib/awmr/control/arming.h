@@ -1,7 +1,7 @@
 /// Arming: motors turn only between an arm command and the first reason to stop. Freestanding C++14.
 ///
-/// Disarmed is the state after a reset. ARM is refused while a sensor is at fault. Everything that
-/// ends a drive disarms and latches: STOP, a time-out of the commands, any fault, the end of a route.
+/// The state after a reset is disarmed. ARM is refused while a sensor has a fault. Everything that
+/// ends a drive disarms and latches: STOP, a command time-out, any fault, the end of a route.
 #pragma once
 
 #include <stdint.h>
@@ -13,11 +13,11 @@ namespace awmr {
 /// Why the vehicle is disarmed.
 enum class DisarmReason : uint8_t {
   kNone = 0,     ///< it is armed
-  kReset = 1,    ///< nobody has armed it since the start
+  kReset = 1,    ///< not armed since the start
   kStop = 2,     ///< the command STOP
   kTimeout = 3,  ///< no valid command for AWMR_COMMAND_TIMEOUT_MS
-  kFault = 4,    ///< a fault; `fault` and `cause` keep which
-  kArrived = 5   ///< nothing is left to go to
+  kFault = 4,    ///< a fault; stored in `fault` and `cause`
+  kArrived = 5   ///< the route is finished
 };
 
 struct Arming {
@@ -27,7 +27,7 @@ struct Arming {
 
   bool is_armed() const { return reason == DisarmReason::kNone; }
 
-  /// `fault` and `cause` are those of the last step. False: refused, the vehicle stays as it is.
+  /// `fault` and `cause` are those of the last step. False: refused, the state is unchanged.
   bool arm(uint8_t step_fault, uint8_t sensor_fault) {
     if ((step_fault & ~static_cast<unsigned>(kFaultCommandTimeout)) != 0 || sensor_fault != 0) {
       return false;
@@ -40,7 +40,7 @@ struct Arming {
   void disarm(DisarmReason why) {
     if (is_armed() || why == DisarmReason::kStop) reason = why;
   }
-  /// After each step: any fault disarms. True: this step did.
+  /// Call after each step: any fault disarms. True: this step disarmed the vehicle.
   bool observe(uint8_t step_fault, uint8_t sensor_fault) {
     if (!is_armed() || (step_fault == kFaultNone && sensor_fault == 0)) return false;
     const bool is_silence = step_fault == kFaultCommandTimeout && sensor_fault == 0;

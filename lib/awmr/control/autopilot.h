@@ -1,6 +1,6 @@
-/// One whole step of the firmware: checks, guidance, heading and speed laws, allocation, limits.
-/// Its parts are in autopilot_parts.h and what they do in autopilot_guidance.h. Freestanding C++14.
-/// The host's float run is this source too, and gives the same bits.
+/// One complete step of the firmware: checks, guidance, heading and speed laws, allocation, limits.
+/// The optional parts are in autopilot_parts.h, their functions in autopilot_guidance.h.
+/// Freestanding C++14. The host's float run compiles this source, too, and gives the same bits.
 #pragma once
 
 #include <stdint.h>
@@ -16,29 +16,29 @@
 
 namespace awmr {
 
-/// What the firmware knows at one step.
+/// Input of one step.
 struct AutopilotInput {
   uint8_t mode;                 ///< a YawMode
-  Measurement<float> measured;  ///< the vehicle's motion, as the sensors say
-  Position<float> position_m;   ///< read where something leads by it only
-  Reference<float> reference;   ///< its heading is not read while something leads
-  InputTimes times;             ///< how old all of this is
-  /// Not 0: measured.u_mps is |u|, as a GPS gives it; its direction is computed (directed_speed.h).
+  Measurement<float> measured;  ///< motion of the vehicle from the sensors
+  Position<float> position_m;   ///< read only if guidance needs it
+  Reference<float> reference;   ///< its heading is ignored while guidance is active
+  InputTimes times;             ///< time stamps of all inputs
+  /// Not 0: measured.u_mps is |u|, as from a GPS; its sign is computed (directed_speed.h).
   uint8_t speed_unsigned = 0;
 };
 
-/// What the firmware does at one step.
+/// Output of one step.
 struct AutopilotOutput {
-  Allocation<float> command;  ///< to the motors and the servo
-  float tau_speed;            ///< asked for by the speed law, dimensionless; 0 on a fault
-  float tau_turn_m;           ///< asked for by the heading law, m; 0 on a fault
-  float psi_ref_rad;          ///< the heading held or led to
-  bool arrived;               ///< nothing is left to go to
-  uint8_t fault;              ///< SafetyFault bits; not 0: `command` is the safe one
+  Allocation<float> command;  ///< for the motors and the servo
+  float tau_speed;            ///< requested by the speed law, dimensionless; 0 on a fault
+  float tau_turn_m;           ///< requested by the heading law, m; 0 on a fault
+  float psi_ref_rad;          ///< heading reference
+  bool arrived;               ///< the route is finished
+  uint8_t fault;              ///< SafetyFault bits; not 0: `command` is the safe command
 };
 
-/// The autopilot between two steps. G is the form of the resistances, as in Controller; P says
-/// which parts there are (autopilot_parts.h).
+/// State of the autopilot between two steps. G is the type of the resistances, as in Controller; P
+/// lists the compiled parts (autopilot_parts.h).
 template <class G, class P = NoParts>
 struct Autopilot : P::Line,
                    P::Path,
@@ -49,19 +49,19 @@ struct Autopilot : P::Line,
                    P::Motors {
   PreparedController<float, G> controller;
   SafetyLimits limits;
-  Waypoints<float> waypoints;        ///< count 0: none to follow
+  Waypoints<float> waypoints;        ///< count 0: none
   float acceptance_m2;               ///< the square of waypoints.acceptance_m
   WaypointProgress<float> progress;  ///< valid once is_leg_started
   uint32_t last_step_ms;             ///< valid once has_stepped
-  DirectedSpeed<float> direction;    ///< of a speed without a sign
-  uint32_t direction_ms;             ///< InputTimes::speed_ms of its last reading
+  DirectedSpeed<float> direction;    ///< for a speed without a sign
+  uint32_t direction_ms;             ///< InputTimes::speed_ms of the last reading
   float mass_inverse;                ///< 1/m'
-  bool has_stepped;                  ///< a step was made since the start
+  bool has_stepped;                  ///< at least one step since the start
   bool is_leg_started;               ///< the first step towards the waypoints was made
-  bool are_parameters_good;          ///< the check sum was right at the start
+  bool are_parameters_good;          ///< the check sum was correct at the start
 };
 
-/// A part of the autopilot, or Without it: `part_of<typename P::Line>(a)`.
+/// A part of the autopilot, or its Without stand-in: `part_of<typename P::Line>(a)`.
 template <class Part, class A>
 Part& part_of(A& a) {
   return static_cast<Part&>(a);
@@ -78,14 +78,14 @@ void switch_parts_off(Autopilot<G, P>& a) {
   switch_off(part_of<typename P::Observation>(a));
 }
 
-/// The motors' curve, where the firmware was compiled for it.
+/// Sets the motors' curve, if it is compiled in.
 inline void set_motors(const RestBlock*, Without<MotorCurve>&) {}
 inline void set_motors(const RestBlock* rest, MotorCurve& part) {
   part.dead_zone = rest != 0 ? flash_float(&rest->dead_zone) : 0.0F;
   part.back_emf_s_per_m = rest != 0 ? flash_float(&rest->back_emf_s_per_m) : 0.0F;
 }
 
-/// Switches the observer on that was tuned with the gains, where the firmware was compiled for one.
+/// Enables the observer that was tuned with the gains, if it is compiled in.
 inline void set_observer(const ObserverBlock*, Without<Observer>&) {}
 inline void set_observer(const ObserverBlock* tuned, Observer& part) {
   if (tuned == 0) return;
@@ -98,10 +98,10 @@ inline void set_observer(const ObserverBlock* tuned, Observer& part) {
   part.is_started = false;
 }
 
-/// Reads the parameters and checks them against `crc`, the check sum that they were emitted with.
-/// Where they differ it returns false, and every step from then on gives the safe command only. On
-/// an AVR the block, the lines, `rest` and `observer` lie in flash. `rest` is for RestingTable and
-/// MotorCurve, `observer` for Observer.
+/// Reads the parameters and checks them against `crc`, the check sum in the emitted header. If they
+/// differ, returns false, and every step then gives the safe command. On an AVR, the block, the
+/// lines, `rest` and `observer` are in flash. `rest` is for RestingTable and MotorCurve, `observer`
+/// for Observer.
 template <class G, class P>
 bool start_autopilot(Autopilot<G, P>& a, const ParameterBlock* block,
                      const ResistanceLine* surge_lines, size_t surge_count,
@@ -129,8 +129,7 @@ bool start_autopilot(Autopilot<G, P>& a, const ParameterBlock* block,
   return a.are_parameters_good;
 }
 
-/// Follows these points from the next step on. With no points it holds the reference's heading
-/// again.
+/// Follows these points from the next step on. With no points, holds the reference heading again.
 template <class G, class P>
 void follow_waypoints(Autopilot<G, P>& a, const Waypoints<float>& waypoints) {
   a.waypoints = waypoints;
@@ -149,7 +148,7 @@ void follow_line(Autopilot<G, P>& a, const Polyline<float>& line) {
   part.is_started = false;
 }
 
-/// Follows this path from the next step on, which is its t = 0.
+/// Follows this path from the next step on; that step is the path's t = 0.
 template <class G, class P>
 void follow_path(Autopilot<G, P>& a, const Lissajous<float>& path, float gain_per_s) {
   follow_waypoints(a, Waypoints<float>{0, 0, 0.0F, false});
@@ -160,8 +159,8 @@ void follow_path(Autopilot<G, P>& a, const Lissajous<float>& path, float gain_pe
   part.is_started = false;
 }
 
-/// Steers clear of `count` obstacles from the next step on; 0: of none. `sectors` is room for as
-/// many.
+/// Avoids `count` obstacles from the next step on; 0: none. `sectors` has room for `count`
+/// elements.
 template <class G, class P>
 void avoid_obstacles(Autopilot<G, P>& a, const Avoidance<float>& avoidance,
                      const Obstacle<float>* obstacles, Sector<float>* sectors, int count) {
@@ -173,7 +172,7 @@ void avoid_obstacles(Autopilot<G, P>& a, const Avoidance<float>& avoidance,
   part.state = AvoidanceState();
 }
 
-/// Shapes the heading from the next step on, beginning with the vehicle's.
+/// Shapes the heading reference from the next step on, starting from the vehicle's heading.
 template <class G, class P>
 void shape_headings(Autopilot<G, P>& a, const HeadingShaping<float>& filter, float sample_time_s) {
   Shaper& part = part_of<Shaper>(a);
@@ -183,7 +182,7 @@ void shape_headings(Autopilot<G, P>& a, const HeadingShaping<float>& filter, flo
   part.is_started = false;
 }
 
-/// Observes the disturbance from the next step on, beginning with none.
+/// Estimates the disturbance from the next step on, starting from 0.
 template <class G, class P>
 void observe_disturbance(Autopilot<G, P>& a, const Observers<float>& observers,
                          float sample_time_s) {
@@ -196,10 +195,11 @@ void observe_disturbance(Autopilot<G, P>& a, const Observers<float>& observers,
 
 namespace detail {
 
-/// Positions may be this far from the origin, m: their squares are far from overflow.
+/// Maximum magnitude of a position coordinate, m: its square cannot overflow.
 constexpr float kPositionMax = 1e6F;
 
-/// kFaultStepLate where the step before was too long ago; the first step has none before it.
+/// kFaultStepLate if too much time has passed since the last step; the first step has no
+/// predecessor.
 template <class G, class P>
 AWMR_INLINE uint8_t check_period(Autopilot<G, P>& a, uint32_t now_ms) {
   const bool late = a.has_stepped && is_older(now_ms, a.last_step_ms, a.limits.step_timeout_ms);
@@ -208,7 +208,7 @@ AWMR_INLINE uint8_t check_period(Autopilot<G, P>& a, uint32_t now_ms) {
   return late ? kFaultStepLate : kFaultNone;
 }
 
-/// The faults of one step's input.
+/// Faults of one step's input.
 template <class G, class P>
 AWMR_INLINE uint8_t check_input(Autopilot<G, P>& a, const AutopilotInput& in) {
   unsigned fault = a.are_parameters_good ? kFaultNone : kFaultParameters;
@@ -228,7 +228,7 @@ AWMR_INLINE uint8_t check_input(Autopilot<G, P>& a, const AutopilotInput& in) {
   return static_cast<uint8_t>(fault);
 }
 
-/// Puts the heading that the waypoints lead to into the reference.
+/// Writes the line-of-sight heading to the waypoint into the reference.
 template <class G, class P>
 AWMR_INLINE void lead_by_waypoints(Autopilot<G, P>& a, const Whereabouts& at, Reference<float>& ref,
                                    Goal& goal) {
@@ -248,8 +248,8 @@ AWMR_INLINE void lead_by_waypoints(Autopilot<G, P>& a, const Whereabouts& at, Re
       [&] { return distance_m(at.position_m, *goal.target_m); }, ref);
 }
 
-/// Puts where waypoints, a line or a path lead to into the reference, and the heading that keeps
-/// clear of obstacles, and shapes it. Returns true where nothing is left to go to.
+/// Updates the reference: guidance by waypoints, line or path, then obstacle avoidance and heading
+/// shaping. Returns true when the route is finished.
 template <class G, class P>
 AWMR_INLINE bool lead_all(Autopilot<G, P>& a, const Whereabouts& at, Reference<float>& ref) {
   Goal goal = {0, false};
@@ -263,7 +263,7 @@ AWMR_INLINE bool lead_all(Autopilot<G, P>& a, const Whereabouts& at, Reference<f
   return goal.arrived;
 }
 
-/// Follows the vehicle's motion by the model between two steps, where the speed has no sign.
+/// Predicts the vehicle's speed by the model between two steps, for a speed without a sign.
 template <class G, class P>
 AWMR_CALLED void predict_direction(Autopilot<G, P>& a, uint32_t now_ms) {
   if (!a.has_stepped) return;
@@ -273,7 +273,7 @@ AWMR_CALLED void predict_direction(Autopilot<G, P>& a, uint32_t now_ms) {
   predict_speed(a.direction, a.controller.surge, a.mass_inverse, a.limits.speed_max_mps, dt_s);
 }
 
-/// Puts the direction into the measured speed; see apply_direction().
+/// Gives the measured speed its sign; see apply_direction().
 template <class G, class P>
 AWMR_CALLED void direct(Autopilot<G, P>& a, const AutopilotInput& in, Measurement<float>& measured,
                         Reference<float>& ref) {
@@ -283,8 +283,8 @@ AWMR_CALLED void direct(Autopilot<G, P>& a, const AutopilotInput& in, Measuremen
   apply_direction(a.direction, measured, ref);
 }
 
-/// True where reference and laws are numbers. A guidance that is not may still give a command that is
-/// one: in steering mode the wheels are straight while the vehicle brakes, whatever is asked for.
+/// True if the reference and both laws are finite. The command alone cannot show this: in steering
+/// mode the wheels are straight while the vehicle brakes, even if the reference is NaN.
 inline bool is_finite(const AutopilotOutput& out) {
   const uint16_t infinity = static_cast<uint16_t>(float_math::kInfinityBits >> 16U);
   return float_math::leading_bits(out.psi_ref_rad) < infinity &&
@@ -292,12 +292,12 @@ inline bool is_finite(const AutopilotOutput& out) {
          float_math::leading_bits(out.tau_speed) < infinity;
 }
 
-/// The force that acts until the next step: the law's, within what four wheels can make.
+/// Force applied until the next step: the law's, limited to the range of four wheels.
 inline float acting_force(const AllocationConstants<float>& c, float tau_speed) {
   return math::clamp(tau_speed, c.tau_speed_min, c.tau_speed_max);
 }
 
-/// The laws for a reference, the allocation, and the drives of the motors.
+/// Computes both laws, the allocation and the motor drives for a reference.
 template <class G, class P>
 AWMR_INLINE void control(Autopilot<G, P>& a, const AutopilotInput& in,
                          const Measurement<float>& measured, const Reference<float>& ref,
@@ -315,8 +315,8 @@ AWMR_INLINE void control(Autopilot<G, P>& a, const AutopilotInput& in,
 
 }  // namespace detail
 
-/// One step, to be called once per sample time. On a fault, of the input or of the command, the
-/// motors are commanded off and the wheels straight, and `out.fault` tells why.
+/// Performs one step. Call it once per sample time. On a fault of the input or of the command, the
+/// motors are off and the wheels straight, and `out.fault` has the reason.
 template <class G, class P>
 void autopilot_step(Autopilot<G, P>& a, const AutopilotInput& in, AutopilotOutput& out) {
   out.arrived = false;

@@ -1,5 +1,5 @@
-/// What the autopilot's parts do at one step. For a part that was left out each of these functions
-/// has a twin that does nothing, so that the step itself asks for none. Freestanding C++14.
+/// Functions of the autopilot's optional parts in one step. Each has a no-op overload for
+/// Without<Part>, so autopilot_step() needs no tests for missing parts. Freestanding C++14.
 #pragma once
 
 #include <stdint.h>
@@ -11,20 +11,20 @@
 
 namespace awmr {
 
-/// What one step's guidance knows of the vehicle.
+/// Vehicle pose and motion for the guidance of one step.
 struct Whereabouts {
   const Position<float>& position_m;
   const Measurement<float>& measured;
   uint32_t now_ms;
 };
 
-/// Where the guidance leads at one step.
+/// Target of the guidance in one step.
 struct Goal {
-  const Position<float>* target_m;  ///< 0: to no point, or to none that is near
-  bool arrived;                     ///< nothing is left to go to
+  const Position<float>* target_m;  ///< 0: no point, or none nearby
+  bool arrived;                     ///< the route is finished
 };
 
-/// True where a part reads the position at the next step.
+/// True if the part reads the position in the next step.
 template <class Part>
 AWMR_INLINE bool needs_position(const Without<Part>&) {
   return false;
@@ -33,7 +33,8 @@ inline bool needs_position(const LineFollower& part) { return part.line.count > 
 inline bool needs_position(const PathFollower& part) { return part.is_on && part.gain_per_s > 0; }
 inline bool needs_position(const Avoider& part) { return part.count > 0; }
 
-/// Lowers the speed on the last leg. `to_go_m` is a function that gives what is left of it, m.
+/// Reduces the speed on the last leg. `to_go_m` is a function that returns the remaining distance,
+/// m.
 template <class ToGo>
 AWMR_INLINE void slow_down(const Without<SlowDown>&, bool, const ToGo&, Reference<float>&) {}
 template <class ToGo>
@@ -43,7 +44,7 @@ AWMR_INLINE void slow_down(const SlowDown& part, bool is_last, const ToGo& to_go
   ref.speed_mps *= arrival_share(part.distance_m, to_go_m());
 }
 
-/// guide() in guidance.h, past what obstacles cover.
+/// guide() in guidance.h, skipping waypoints covered by obstacles.
 AWMR_INLINE WaypointGuidance<float> guide_clear(const Without<Avoider>&,
                                                 const Waypoints<float>& waypoints,
                                                 const float& acceptance_m2,
@@ -59,7 +60,7 @@ inline WaypointGuidance<float> guide_clear(const Avoider& part, const Waypoints<
                             progress);
 }
 
-/// Puts the heading along the line into the reference. False: there is no line to follow.
+/// Writes the heading along the line into the reference. False: there is no line to follow.
 template <class Arrival>
 AWMR_INLINE bool lead(Without<LineFollower>&, const Arrival&, const Whereabouts&, Reference<float>&,
                       Goal&) {
@@ -84,7 +85,7 @@ AWMR_CALLED bool lead(LineFollower& part, const Arrival& arrival, const Whereabo
   return true;
 }
 
-/// Puts heading and speed of the path into the reference; a speed above 0 that is asked for stays.
+/// Writes heading and speed of the path into the reference; a requested speed above 0 is kept.
 /// False: there is no path to follow.
 AWMR_INLINE bool lead(Without<PathFollower>&, const Whereabouts&, Reference<float>&) {
   return false;
@@ -111,10 +112,10 @@ AWMR_CALLED inline bool lead(PathFollower& part, const Whereabouts& at, Referenc
   return true;
 }
 
-/// A target that is farther than every obstacle, m.
+/// Target distance that is larger than any obstacle's, m.
 constexpr float kNoTarget_m = 1e30F;
 
-/// Turns the reference out of the way of obstacles, and lowers its speed where that is not enough.
+/// Turns the reference heading away from obstacles and reduces its speed if that is not enough.
 AWMR_INLINE void steer_clear(Without<Avoider>&, const Whereabouts&, const Goal&,
                              Reference<float>&) {}
 AWMR_CALLED inline void steer_clear(Avoider& part, const Whereabouts& at, const Goal& goal,
@@ -131,27 +132,27 @@ AWMR_CALLED inline void steer_clear(Avoider& part, const Whereabouts& at, const 
   ref.psi_rate_radps = 0.0F;
 }
 
-/// Shapes the reference's heading, from the vehicle's own on.
+/// Shapes the reference's heading, starting from the vehicle's heading.
 AWMR_INLINE void shape_heading(Without<Shaper>&, const Whereabouts&, Reference<float>&) {}
 AWMR_CALLED inline void shape_heading(Shaper& part, const Whereabouts& at, Reference<float>& ref) {
   if (!part.is_on) return;
   if (!part.is_started) part.state = start_shaping(at.measured.psi_rad);
   part.is_started = true;
   shape(part.filter, ref.psi_rad, part.sample_time_s, part.state);
-  // Turns would add up, until a float can no longer tell the heading.
+  // Without wrapping, full turns accumulate until a float cannot resolve the heading.
   part.state.psi_rad = called_wrap_angle(part.state.psi_rad);
   ref.psi_rad = part.state.psi_rad;
   ref.psi_rate_radps = part.state.psi_rate_radps;
   ref.psi_accel_radps2 = part.state.psi_accel_radps2;
 }
 
-/// The command of which motors with a dead zone make the forces.
+/// Motor commands that make the forces with a dead zone.
 AWMR_INLINE void make_up_dead_zone(const Without<MotorCurve>&, SideForces<float>&) {}
 inline void make_up_dead_zone(const MotorCurve& part, SideForces<float>& force) {
   force = with_dead_zone(force, part.dead_zone);
 }
 
-/// What can be allocated at the speed u, m/s.
+/// Allocation limits at the speed u, m/s.
 AWMR_INLINE const AllocationConstants<float>& limits_at(const Without<MotorCurve>&,
                                                         const AllocationConstants<float>& c,
                                                         const float& /*u_mps*/) {
@@ -163,7 +164,7 @@ inline AllocationConstants<float> limits_at(const MotorCurve& part,
   return at_speed(c, part.back_emf_s_per_m, u_mps);
 }
 
-/// The drives of which motors with back-EMF make the forces.
+/// Motor drives that make the forces with back-EMF.
 AWMR_INLINE void make_up_back_emf(const Without<MotorCurve>&, const AllocationConstants<float>&,
                                   const Measurement<float>&, SideForces<float>&) {}
 inline void make_up_back_emf(const MotorCurve& part, const AllocationConstants<float>& c,
@@ -171,7 +172,7 @@ inline void make_up_back_emf(const MotorCurve& part, const AllocationConstants<f
   force = motor_drives(force, c, part.back_emf_s_per_m, m.u_mps, m.r_radps);
 }
 
-/// What the laws ask for, what can be allocated, and the command that it comes to.
+/// Allocation request: limits, the laws' outputs, and the resulting command.
 struct Asked {
   const AllocationConstants<float>& limits;
   float& tau_speed;
@@ -179,7 +180,7 @@ struct Asked {
   Allocation<float>& command;
 };
 
-/// The allocation of what the laws ask for.
+/// Allocates the laws' outputs.
 template <class G>
 AWMR_INLINE void allocate_asked(Without<Observer>&, const PreparedController<float, G>&,
                                 YawMode mode, CombinedSplit split, const Measurement<float>&,
@@ -187,7 +188,7 @@ AWMR_INLINE void allocate_asked(Without<Observer>&, const PreparedController<flo
   allocate(mode, asked.tau_speed, asked.tau_turn_m, asked.limits, split, asked.command);
 }
 
-/// The same, less the disturbance that the observer sees.
+/// Allocates the laws' outputs minus the estimated disturbance.
 template <class G>
 void allocate_asked(Observer& part, const PreparedController<float, G>& c, YawMode mode,
                     CombinedSplit split, const Measurement<float>& m, const Asked& asked) {

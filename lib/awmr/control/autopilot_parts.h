@@ -1,5 +1,5 @@
-/// What a firmware can do beyond holding a heading and going to waypoints. Each part is compiled in
-/// or left out; one that is left out takes neither flash nor RAM nor time. Freestanding C++14.
+/// Optional features of a firmware in addition to heading hold and waypoints. A part that is not
+/// compiled in needs no flash, RAM or time. Freestanding C++14.
 #pragma once
 
 #include <stdint.h>
@@ -16,27 +16,27 @@ namespace awmr {
 
 /// Follows a line or polyline.
 struct LineFollower {
-  Polyline<float> line;              ///< count 0: none to follow
+  Polyline<float> line;              ///< count 0: none
   PolylineProgress<float> progress;  ///< valid once is_started
   bool is_started;                   ///< the first step along the line was made
 };
 
-/// Follows a Lissajous figure in time.
+/// Follows a Lissajous figure as a function of time.
 struct PathFollower {
   Lissajous<float> path;
   float gain_per_s;   ///< k of closed_path(), > 0; 0: open_path()
-  float held_rad;     ///< psi_d of the step before, valid once is_started
+  float held_rad;     ///< psi_d of the last step, valid once is_started
   uint32_t start_ms;  ///< the path's t = 0, valid once is_started
   bool is_on;
   bool is_started;  ///< the first step along the path was made
 };
 
-/// Lowers the speed before the last waypoint, or the line's end.
+/// Reduces the speed before the last waypoint, or the line's end.
 struct SlowDown {
-  float distance_m;  ///< m, from where on; 0: not at all
+  float distance_m;  ///< m before the end; 0: disabled
 };
 
-/// Steers clear of obstacles.
+/// Avoids obstacles.
 struct Avoider {
   Avoidance<float> avoidance;
   const Obstacle<float>* obstacles;  ///< not owned; `count` of them
@@ -45,7 +45,7 @@ struct Avoider {
   AvoidanceState state;
 };
 
-/// Shapes the heading that is held or led to.
+/// Shapes the heading reference.
 struct Shaper {
   HeadingShaping<float> filter;
   float sample_time_s;
@@ -54,7 +54,7 @@ struct Shaper {
   bool is_started;
 };
 
-/// Takes the disturbance that it sees off the command.
+/// Subtracts the estimated disturbance from the command.
 struct Observer {
   Observers<float> observers;
   float sample_time_s;
@@ -63,13 +63,13 @@ struct Observer {
   bool is_started;
 };
 
-/// Makes up for what the motors do not make of a command: the dead zone and the back-EMF.
+/// Compensates the dead zone and the back-EMF of the motors.
 struct MotorCurve {
   float dead_zone;         ///< F'0 of a wheel, over F_max; 0: none
   float back_emf_s_per_m;  ///< k_e of a motor, s/m; 0: none
 };
 
-/// In the place of a part that was left out: it is empty, and whatever is done with it is nothing.
+/// Empty stand-in for a part that is not compiled in. All operations on it are no-ops.
 template <class Part>
 struct Without {};
 
@@ -83,7 +83,7 @@ struct Optional<false, Part> {
   typedef Without<Part> type;
 };
 
-/// Which parts there are. A firmware has a struct of its own with these names.
+/// List of the compiled parts. A firmware defines its own struct with these names.
 struct NoParts {
   typedef Without<LineFollower> Line;
   typedef Without<PathFollower> Path;
@@ -93,10 +93,10 @@ struct NoParts {
   typedef Without<Observer> Observation;
   typedef Without<MotorCurve> Motors;
   static constexpr CombinedSplit kSplit = CombinedSplit::kRedistribute;
-  static constexpr bool kIsDirected = true;  ///< AutopilotInput::speed_unsigned is known
+  static constexpr bool kIsDirected = true;  ///< AutopilotInput::speed_unsigned is supported
 };
 
-/// All of them, with either split.
+/// All parts, with either split.
 template <CombinedSplit split = CombinedSplit::kRedistribute>
 struct AllParts {
   typedef LineFollower Line;
@@ -110,7 +110,7 @@ struct AllParts {
   static constexpr bool kIsDirected = true;
 };
 
-/// Parts that are not there are never to be switched off, nor need they be.
+/// Switches a part off; a no-op for a part that is not compiled in.
 template <class Part>
 void switch_off(Without<Part>&) {}
 inline void switch_off(LineFollower& part) { part.line.count = 0; }
@@ -120,8 +120,8 @@ inline void switch_off(Avoider& part) { part.count = 0; }
 inline void switch_off(Shaper& part) { part.is_on = false; }
 inline void switch_off(Observer& part) { part.is_on = false; }
 
-/// Begins anew at the next step, after one that gave the safe command: what the part remembers of
-/// the vehicle's motion no longer holds.
+/// Resets the part after a step with the safe command: its memory of the vehicle's motion is no
+/// longer valid.
 template <class Part>
 void begin_anew(Without<Part>&) {}
 inline void begin_anew(Avoider& part) { part.state = AvoidanceState(); }

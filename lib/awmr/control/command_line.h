@@ -1,5 +1,5 @@
-/// Commands over a serial line: one command a line, as text for a terminal or in frames for a
-/// program. Freestanding C++14.
+/// Reads commands from a serial line: one command per line, as text for a terminal or as frames for
+/// a program. Freestanding C++14.
 ///
 ///     text   = WORD [" " NUMBER]
 ///     frame  = "#" SEQUENCE " " text "*" CRC
@@ -8,13 +8,13 @@
 ///
 ///     ARM  STOP  KEEP  G  N  Y  H <deg>  S <m/s>  M <mode>  T <force>
 ///
-/// - A line is one whole command or is refused: nothing is guessed from a part of it.
-/// - STOP is the exception. It acts at its last letter, wherever it stands in a line, also in one
-///   that is too long or damaged.
-/// - A frame is new where its sequence number is 1 to 127 after the last; a repeated one is refused,
-///   so that a stuck transmitter keeps nothing alive.
-/// - After the first frame, text other than STOP is refused until the next reset: noise on a radio
-///   link can look like a short text, but not like a frame.
+/// - A line is executed only if it is a complete command; incomplete lines are refused.
+/// - Exception: STOP acts at its last letter, anywhere in a line, even in one that is too long or
+///   damaged.
+/// - A frame is new if its sequence number is 1 to 127 after the last. A repeated one is refused,
+///   so that a stuck transmitter cannot prevent the command time-out.
+/// - After the first frame, text other than STOP is refused until the next reset, because noise on
+///   a radio link can look like a short text but not like a frame.
 #pragma once
 
 #include <stdint.h>
@@ -25,11 +25,11 @@ namespace awmr {
 
 enum class CommandWord : uint8_t {
   kNone,
-  kArm,      ///< ARM: motors may turn
+  kArm,      ///< ARM: motors can turn
   kStop,     ///< STOP: motors off until the next ARM
-  kKeep,     ///< KEEP, or K: go on
+  kKeep,     ///< KEEP, or K: continue; resets the command time-out
   kGo,       ///< G: start the route or the run
-  kNext,     ///< N: leave the run out
+  kNext,     ///< N: skip this run
   kYes,      ///< Y
   kHeading,  ///< H deg
   kSpeed,    ///< S m/s
@@ -38,29 +38,29 @@ enum class CommandWord : uint8_t {
 };
 
 enum class CommandVerdict : uint8_t {
-  kNone,       ///< no line is complete
-  kTaken,      ///< `word` and `value` are a command
-  kUnknown,    ///< no such command, or a value that is missing, malformed or too much
+  kNone,       ///< no complete line yet
+  kTaken,      ///< `word` and `value` are valid
+  kUnknown,    ///< no such command, or its value is missing, malformed or too large
   kTooLong,    ///< more than kCommandLength characters
-  kDamaged,    ///< a frame whose check sum or form is wrong
-  kRepeated,   ///< a frame whose sequence number is not new
-  kTextLocked  ///< text after frames
+  kDamaged,    ///< a frame with a wrong check sum or form
+  kRepeated,   ///< a frame with an old sequence number
+  kTextLocked  ///< text after the first frame
 };
 
-/// Longest line, without its end.
+/// Maximum length of a line, without its end.
 constexpr uint8_t kCommandLength = 31;
 
 class CommandReader {
  public:
   CommandWord word = CommandWord::kNone;
-  float value = 0.0F;      ///< 0 where the command has none
+  float value = 0.0F;      ///< 0 if the command has none
   bool is_framed = false;  ///< the last line was a frame
-  uint8_t sequence = 0;    ///< of the last frame that was taken
+  uint8_t sequence = 0;    ///< of the last accepted frame
 
-  /// The verdict on the line that this character completes; kNone within a line.
+  /// Result for the line that this character completes; kNone within a line.
   CommandVerdict take(char c) {
     if (is_stop_at(c)) {
-      // The rest of this line is of no interest.
+      // Skip the rest of this line.
       is_skipping_ = true;
       word = CommandWord::kStop;
       value = 0.0F;
@@ -120,7 +120,7 @@ class CommandReader {
   }
 
   CommandVerdict read_frame(uint8_t length) {
-    // "#0 K*0000" is the shortest.
+    // The shortest frame is "#0 K*0000".
     if (length < 9 || line_[length - 5] != '*') return CommandVerdict::kDamaged;
     uint16_t sum = 0;
     for (uint8_t i = static_cast<uint8_t>(length - 4); i < length; ++i) {
@@ -143,7 +143,7 @@ class CommandReader {
     const uint8_t ahead = static_cast<uint8_t>(number - sequence);
     if (has_sequence_ && (ahead == 0 || ahead > 127)) return CommandVerdict::kRepeated;
     const CommandVerdict verdict = read_text(text + 1);
-    // A frame is used up whatever it asks for, so that its repetition is none.
+    // The sequence number is consumed for every command, so that a repetition is refused.
     sequence = static_cast<uint8_t>(number);
     has_sequence_ = true;
     return verdict;
@@ -202,7 +202,7 @@ class CommandReader {
     return CommandWord::kNone;
   }
 
-  /// [+-]d*[.d*] up to the end, with at most eight digits.
+  /// Reads [+-]d*[.d*] up to the end, with at most eight digits.
   static bool read_number(const char* text, float& number) {
     const bool is_negative = *text == '-';
     if (*text == '-' || *text == '+') ++text;

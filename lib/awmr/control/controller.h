@@ -1,5 +1,5 @@
-/// The sliding-mode heading and speed laws and the allocation, one step at a time. Freestanding
-/// C++14: the same source runs in the simulator (double), in its float twin and on the AVR.
+/// Sliding-mode heading and speed laws and the allocation, one step at a time. Freestanding C++14:
+/// the same source runs in the simulator (double), in its float version and on the AVR.
 #pragma once
 
 #include "awmr/control/allocation.h"
@@ -13,79 +13,79 @@
 
 namespace awmr {
 
-/// The model and the gains by which a vehicle is controlled. G is the form in which a resistance is
-/// known: the law itself, or a table of it (resistance_table.h); it has to give g for a speed.
+/// Model and gains of the controller. G is the type of a resistance: the law itself, or a table of
+/// it (resistance_table.h). It must return g for a speed.
 template <class T, class G = Resistance<T>>
 struct Controller {
-  G surge;                     ///< g1, dimensionless, of u in m/s: the model's, fed forward
-  G yaw;                       ///< g3, m, of r in rad/s: the model's, fed forward
-  T mass_norm;                 ///< m', s^2/m, > 0: the model's
-  T inertia_norm;              ///< I'z, s^2 m, > 0: the model's
-  Gains<T> gains;              ///< as tuned
-  AllocationLimits<T> limits;  ///< the vehicle's
+  G surge;                     ///< g1 of the model, dimensionless, of u in m/s: fed forward
+  G yaw;                       ///< g3 of the model, m, of r in rad/s: fed forward
+  T mass_norm;                 ///< m' of the model, s^2/m, > 0
+  T inertia_norm;              ///< I'z of the model, s^2 m, > 0
+  Gains<T> gains;              ///< tuned gains
+  AllocationLimits<T> limits;  ///< limits of the vehicle
 };
 
-/// What the sensors say of the vehicle's motion at one sample.
+/// Measured motion of the vehicle at one sample.
 template <class T>
 struct Measurement {
   T psi_rad;  ///< psi, rad: heading, counter-clockwise from the world's x axis; any number of turns
   T u_mps;    ///< u, m/s: surge speed, forward positive
-  T v_mps;    ///< v, m/s: sway speed, left positive; 0 where no sensor shows it
+  T v_mps;    ///< v, m/s: sway speed, left positive; 0 without a sensor
   T r_radps;  ///< r, rad/s: yaw rate, counter-clockwise positive
 };
 
-/// What the laws are asked to follow at one sample.
+/// Reference of the laws at one sample.
 template <class T>
 struct Reference {
-  T psi_rad;           ///< psi_d, rad: heading wanted; any number of turns
-  T psi_rate_radps;    ///< psi_d_dot, rad/s: 0 for a heading that is held
-  T psi_accel_radps2;  ///< psi_d_ddot, rad/s^2: 0 for a heading that is held
-  T speed_mps;         ///< u_d, m/s: speed wanted, forward positive
-  T accel_mps2;        ///< u_d_dot, m/s^2: 0 for a speed that is held
+  T psi_rad;           ///< psi_d, rad: desired heading; any number of turns
+  T psi_rate_radps;    ///< psi_d_dot, rad/s: 0 for a constant heading
+  T psi_accel_radps2;  ///< psi_d_ddot, rad/s^2: 0 for a constant heading
+  T speed_mps;         ///< u_d, m/s: desired speed, forward positive
+  T accel_mps2;        ///< u_d_dot, m/s^2: 0 for a constant speed
 };
 
-/// What the laws answer, and the commands it comes to.
+/// Outputs of the laws, and the resulting commands.
 template <class T>
 struct Command {
-  T tau_speed;               ///< dimensionless, forward positive: asked for, before any limit
-  T tau_turn_m;              ///< m, counter-clockwise positive: asked for, before any limit
+  T tau_speed;               ///< dimensionless, forward positive: requested, before any limit
+  T tau_turn_m;              ///< m, counter-clockwise positive: requested, before any limit
   T sliding_radps;           ///< S, rad/s: 0 on the sliding surface
-  Allocation<T> allocation;  ///< forces and angle, inside their limits
+  Allocation<T> allocation;  ///< forces and angle, within their limits
 };
 
-/// Up to this many turns wrap_angle takes them off one by one, beyond it all at once.
+/// Maximum number of turns that wrap_angle removes one by one; above it uses atan2.
 constexpr int kTurnsOneByOne = 64;
 
-/// The angle's equal in (-pi, pi], in constant time. NaN stays NaN, and an infinite angle becomes
-/// it.
+/// The equivalent angle in (-pi, pi], in constant time. NaN stays NaN, and an infinite angle
+/// becomes NaN.
 template <class T>
 T wrap_angle(T angle_rad) {
   using math::atan2;
   using math::cos;
   using math::sin;
   const T few = T(2.0 * kTurnsOneByOne) * pi<T>();
-  // NaN is on neither side of a bound: the loops below would not end.
+  // NaN compares false with every bound, so the loops below would not end.
   if (!(angle_rad < few && angle_rad > -few)) angle_rad = atan2(sin(angle_rad), cos(angle_rad));
   if (!(angle_rad < few && angle_rad > -few)) return angle_rad;
   while (angle_rad > pi<T>()) angle_rad -= T(2.0) * pi<T>();
   while (!(angle_rad > -pi<T>())) angle_rad += T(2.0) * pi<T>();
   return angle_rad;
 }
-/// For float it takes the same time for every angle, as a control step on the chip has to.
+/// For float, computing time is the same for every angle, as a control step on the chip requires.
 template <>
 inline float wrap_angle(float angle_rad) {
   return float_math::wrapped(angle_rad);
 }
 
-/// The same, for guidance, where a call more does not matter.
+/// wrap_angle() as a called function, for guidance, where the cost of a call does not matter.
 template <class T>
 AWMR_CALLED T called_wrap_angle(const T& angle_rad) {
   return wrap_angle(angle_rad);
 }
 
-/// What the laws and the allocation need of model, gains and limits, computed once, with m' and I'z
-/// multiplied in. It has members of type T only, so that it has no padding and a check sum can go
-/// over it.
+/// Constants of the laws and the allocation, computed once from model, gains and limits, with m'
+/// and I'z multiplied in. All members are of type T, so there is no padding and a check sum can
+/// cover it.
 template <class T>
 struct ControlConstants {
   T mass_norm;      ///< m', s^2/m
@@ -99,7 +99,7 @@ struct ControlConstants {
   AllocationConstants<T> allocation;
 };
 
-/// A controller as the chip holds it.
+/// The form of the controller on the chip.
 template <class T, class G = Resistance<T>>
 struct PreparedController {
   G surge;  ///< g1
@@ -107,7 +107,7 @@ struct PreparedController {
   ControlConstants<T> constants;
 };
 
-/// The controller with its constants computed.
+/// Computes the constants of a controller.
 template <class T, class G>
 PreparedController<T, G> prepared(const Controller<T, G>& c) {
   return {
@@ -120,12 +120,12 @@ PreparedController<T, G> prepared(const Controller<T, G>& c) {
        prepared(c.limits)}};
 }
 
-/// The resistance that a law adds to its command, at the speed w:
+/// Resistance that a law adds to its command, at the speed w:
 ///   g(w)                                        for |w| >= rest_speed
 ///   g(rest_speed) sat((w + intent)/rest_speed)  below
-/// The second line is for curves that jump at rest (feed_forward() in resistance.h): there the
-/// curve does not tell the force that gets the vehicle moving, but the sign of `intent`, the speed
-/// error, tells which way that force has to point.
+/// The second line is for curves that jump at rest (feed_forward() in resistance.h). There the
+/// curve does not give the force that starts the motion, but the sign of `intent`, the speed error,
+/// gives its direction.
 template <class T>
 T fed_forward(const Resistance<T>& law, const T& speed, const T& intent) {
   using math::abs;
@@ -139,12 +139,12 @@ T fed_forward(const Resistance<T>& law, const T& speed, const T& intent) {
   if (MaskOf<T>::kOneLane || all(rests)) return held;
   return select(rests, held, law(speed));
 }
-/// The same of a table.
+/// As above, for a table.
 inline float fed_forward(const RestingTable& law, const float& speed, const float& intent) {
   if (!law.is_resting(speed)) return law.table(speed);
   return law.at_rest * math::saturate((speed + intent) / law.rest_speed, 1.0F);
 }
-/// A table that has no jump at rest needs no intent.
+/// As above, for a table without a jump at rest; `intent` is not used.
 template <class T, class G>
 T fed_forward(const G& table, const T& speed, const T&) {
   return table(speed);
@@ -162,10 +162,9 @@ T sliding_surface(const HeadingGains<T>& gains, const Measurement<T>& m, const R
 /// The heading law, m:
 ///   tau_turn = g3(r) + I'z (psi_d_ddot + lambda (psi_d_dot - r) + mu sat(S/eps))
 ///   sat(z)   = z for |z| <= 1, sgn z beyond                           [paper (84)-(89), corrected]
-/// Corrected: (84)-(85) print r_ddot for r_dot, (88)-(89) print psi_d_dot - r_dot for
-/// psi_d_dot - r, and in (87), as in (78), sat asks for |e| <= eps instead of |S| <= eps. The
-/// printed law also subtracts the disturbance, which nobody knows: it drops out, and mu has to
-/// dominate it.
+/// Corrected: (84)-(85) print r_ddot for r_dot; (88)-(89) print psi_d_dot - r_dot for psi_d_dot -
+/// r; in (87), as in (78), sat has the condition |e| <= eps instead of |S| <= eps. The printed law
+/// also subtracts the disturbance, which is unknown: it is omitted, and mu must dominate it.
 template <class T, class G>
 T heading_law(const Controller<T, G>& c, const Measurement<T>& m, const Reference<T>& ref) {
   const HeadingGains<T>& gains = c.gains.heading;
@@ -177,9 +176,9 @@ T heading_law(const Controller<T, G>& c, const Measurement<T>& m, const Referenc
          c.inertia_norm * (ref.psi_accel_radps2 + gains.lambda * error_rate + correction);
 }
 
-/// The same by the constants of the chip, where each operation counts:
+/// The same law with the chip's constants, where each operation counts:
 ///   tau_turn = g3(r) + I'z lambda (psi_d_dot - r) + sat(S I'z mu/eps, I'z mu) + I'z psi_d_ddot
-/// without those that a heading that is held does not need.
+/// Terms that are 0 for a constant heading are skipped.
 template <class T, class G>
 AWMR_INLINE T heading_law(const PreparedController<T, G>& c, const Measurement<T>& m,
                           const Reference<T>& ref) {
@@ -246,7 +245,7 @@ AWMR_INLINE T speed_law(const PreparedController<T, G>& c, const Measurement<T>&
   return fed_forward(c.surge, w_mps, error) + (k.mass_norm * accel_mps2 + correction);
 }
 
-/// Both laws and the allocation, for one sample.
+/// Computes both laws and the allocation for one sample.
 template <class T, class G>
 Command<T> control_step(const Controller<T, G>& c, YawMode mode, const Measurement<T>& m,
                         const Reference<T>& ref) {

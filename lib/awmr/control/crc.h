@@ -1,4 +1,4 @@
-/// Cyclic redundancy checks, a bit at a time: no table to store. Freestanding C++14.
+/// Cyclic redundancy checks, computed without a table. Freestanding C++14.
 #pragma once
 
 #include <stddef.h>
@@ -6,7 +6,7 @@
 
 namespace awmr {
 
-/// CRC-32 of IEEE 802.3 (reflected, 0xEDB88320), the one of zip and PNG: "123456789" gives
+/// CRC-32 of IEEE 802.3 (reflected, 0xEDB88320), as used by zip and PNG: "123456789" gives
 /// 0xCBF43926. Start with kCrc32Start, feed bytes in order, end with ~crc.
 constexpr uint32_t kCrc32Start = 0xFFFFFFFFUL;
 
@@ -22,7 +22,7 @@ inline uint32_t crc32_with(uint32_t crc, uint8_t byte) {
 constexpr uint16_t kCrc16Start = 0xFFFFU;
 
 inline uint16_t crc16_with(uint16_t crc, uint8_t byte) {
-  // Four shifts for eight bits: the polynomial x^16 + x^12 + x^5 + 1 folds by nibbles.
+  // Four shifts instead of eight: the polynomial x^16 + x^12 + x^5 + 1 can be folded by nibbles.
   uint8_t high = static_cast<uint8_t>((crc >> 8U) ^ byte);
   high = static_cast<uint8_t>(high ^ (high >> 4U));
   const uint16_t folded = static_cast<uint16_t>((static_cast<uint16_t>(high) << 12U) ^

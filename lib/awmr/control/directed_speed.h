@@ -6,12 +6,11 @@
 ///   m' u_dot = tau_speed - g1(u)
 /// corrected by the sensor's magnitude, and verified by the displacement along the heading. Rules:
 ///   - Force against the direction of travel (braking) needs a known direction.
-///   - The prediction of a braking vehicle ends at 0 and never crosses it: braking cannot turn into
-///     driving backward.
-///   - A direction is verified only while nothing brakes, after 1 m along the heading.
-///   - Without a known direction, a vehicle faster than wanted coasts: tau_speed is 0.
+///   - The predicted speed of a braking vehicle stops at 0: braking cannot become driving backward.
+///   - A direction is verified only while the vehicle does not brake, after 1 m along the heading.
+///   - Without a known direction, a vehicle that is too fast coasts: tau_speed is 0.
 ///   - At u_ref = 0, tau_speed is 0 within kStandstill_mps.
-/// A vehicle on a slope is therefore braked in pulses, each no longer than the model's braking time.
+/// A vehicle on a slope therefore brakes in pulses, each no longer than the model's braking time.
 #pragma once
 
 #include <stdint.h>
@@ -23,20 +22,20 @@
 
 namespace awmr {
 
-/// A prediction below it, m/s, has no direction.
+/// Below this predicted speed, m/s, the direction is unknown.
 constexpr float kDirected_mps = 0.1F;
-/// Distance along the heading, m, that verifies a direction.
+/// Distance along the heading that verifies a direction, m.
 constexpr float kVerified_m = 1.0F;
-/// A direction is verified from this long after the last braking on, s: longer than the latency of a
+/// Time after the last braking before a direction can be verified, s: longer than the latency of a
 /// GPS and the vehicle's braking.
 constexpr float kSettled_s = 1.0F;
 
-/// Direction of travel between two steps. All zero: at rest, nothing known.
+/// Direction of travel between two steps. All zero: at rest, direction unknown.
 template <class T>
 struct DirectedSpeed {
-  T predicted_mps;    ///< u by the model, signed; 0: no direction known
+  T predicted_mps;    ///< u by the model, signed; 0: direction unknown
   T tau_speed;        ///< applied since the last step, dimensionless
-  T along_m;          ///< displacement along the heading while nothing braked, m
+  T along_m;          ///< displacement along the heading without braking, m
   T settled_s;        ///< time since the last braking, s, at most kSettled_s
   Position<T> fix_m;  ///< of the last reading, valid once has_fix
   bool has_fix;
@@ -68,7 +67,7 @@ T with_sign(const T& size, const T& of) {
 
 /// Predicts the speed over the step of `dt_s` that ends now:
 ///   u = u0 + dt (tau_speed - g1(u0))/m'
-/// Friction brings it to rest without reversing it, and so does braking.
+/// Friction and braking bring it to 0 without reversing it.
 template <class T, class G>
 void predict_speed(DirectedSpeed<T>& d, const G& surge, const T& mass_inverse,
                    const T& speed_max_mps, const T& dt_s) {
@@ -87,7 +86,7 @@ void predict_speed(DirectedSpeed<T>& d, const G& surge, const T& mass_inverse,
   }
 }
 
-/// Corrects the prediction by a new reading.
+/// Corrects the prediction with a new reading.
 template <class T>
 void correct_speed(DirectedSpeed<T>& d, const SpeedReading<T>& reading) {
   if (!reading.is_new) return;
@@ -106,8 +105,8 @@ void correct_speed(DirectedSpeed<T>& d, const SpeedReading<T>& reading) {
     return;
   }
   T size = detail::magnitude(d.predicted_mps);
-  // Driven: the sensor knows the size better. Coasting or braking: only down, as a larger reading may
-  // be of the other direction.
+  // Driving: the average with the sensor. Coasting or braking: only a smaller reading is used,
+  // because a larger one can belong to the other direction.
   if (d.predicted_mps * d.tau_speed > T(0.0)) {
     size = T(0.5) * (size + speed);
   } else if (size > speed) {
@@ -116,7 +115,7 @@ void correct_speed(DirectedSpeed<T>& d, const SpeedReading<T>& reading) {
   d.predicted_mps = detail::with_sign(size, d.predicted_mps);
 }
 
-/// Replaces |u| in `m` by the signed speed, and both speeds by 0 where no force may act.
+/// Replaces |u| in `m` by the signed speed. Sets both speeds to 0 if no force is permitted.
 template <class T>
 void apply_direction(const DirectedSpeed<T>& d, Measurement<T>& m, Reference<T>& ref) {
   const T speed = detail::magnitude(m.u_mps);

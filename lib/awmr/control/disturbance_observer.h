@@ -1,4 +1,4 @@
-/// Estimates the disturbance that the printed laws leave out, so that it can be taken off the
+/// Estimates the disturbance that the printed laws omit, so that it can be subtracted from the
 /// command. Freestanding C++14.
 #pragma once
 
@@ -7,36 +7,36 @@
 
 namespace awmr {
 
-/// How an observer is set.
+/// Settings of an observer.
 ///
-/// The model that the laws are derived from carries a disturbance d that nobody knows:
+/// The model from which the laws are derived has an unknown disturbance d:
 ///   J w_dot = tau - g(w) + d                                                    [paper (80), (96)]
 /// Yaw: J = I'z, w = r, d in m. Surge: J = m', w = u, d dimensionless, and m' r v added to tau. The
-/// laws leave d out; inside the boundary layer it then costs a steady heading error of
-/// d/(J lambda mu/eps). The observer
+/// laws omit d; inside the boundary layer this causes a steady heading error of d/(J lambda
+/// mu/eps). The observer
 ///   d_hat = z + L J w
 ///   z_dot = -L (tau - g(w) + d_hat)
 /// has d_hat_dot = L (d - d_hat): a first-order low pass of bandwidth L without differentiation.
 template <class T>
 struct DisturbanceObserver {
-  T bandwidth_radps;  ///< L, rad/s, > 0, L T_s < 1. Larger: follows d faster and lets more noise in
+  T bandwidth_radps;  ///< L, rad/s, > 0, L T_s < 1. Larger: follows d faster, passes more noise
   T limit;            ///< > 0, in the unit of tau: |d_hat| <= limit
 };
 
-/// What an observer remembers from sample to sample.
+/// State of an observer between samples.
 template <class T>
 struct ObserverState {
   T z;  ///< z, in the unit of tau
 };
 
-/// The state in which d_hat = 0. `momentum` is J w.
+/// The state for which d_hat = 0. `momentum` is J w.
 template <class T>
 ObserverState<T> start_observer(const DisturbanceObserver<T>& observer, const T& momentum) {
   return {-observer.bandwidth_radps * momentum};
 }
 
-/// d_hat, in the unit of tau. At the limit the state is set back, so that d_hat leaves the limit at
-/// once when d falls.
+/// d_hat, in the unit of tau. At the limit the state is reset, so that d_hat leaves the limit
+/// immediately when d decreases.
 template <class T>
 T estimate(const DisturbanceObserver<T>& observer, const T& momentum, ObserverState<T>& state) {
   const T share = observer.bandwidth_radps * momentum;
@@ -45,9 +45,8 @@ T estimate(const DisturbanceObserver<T>& observer, const T& momentum, ObserverSt
   return d;
 }
 
-/// Moves the state on by one sample. `known` is tau - g(w), with the tau that the limits have left:
-/// with the tau that was asked for, a saturated actuator would look like a disturbance and d_hat
-/// would wind up.
+/// Advances the state by one sample. `known` is tau - g(w) with the limited tau. With the requested
+/// tau, a saturated actuator would look like a disturbance and d_hat would wind up.
 template <class T>
 void advance(const DisturbanceObserver<T>& observer, const T& d_hat, const T& known,
              const T& sample_time_s, ObserverState<T>& state) {
@@ -57,14 +56,14 @@ void advance(const DisturbanceObserver<T>& observer, const T& d_hat, const T& kn
 /// The observers of both axes.
 template <class T>
 struct Observers {
-  DisturbanceObserver<T> yaw;    ///< its limit in m
-  DisturbanceObserver<T> surge;  ///< its limit dimensionless
-  /// true: they are told what the limits have left of the command. false, to show what that is good
-  /// for: the command as it was asked for.
+  DisturbanceObserver<T> yaw;    ///< limit in m
+  DisturbanceObserver<T> surge;  ///< dimensionless limit
+  /// true: the observers use the limited command. false, to show the effect of anti-windup: the
+  /// requested command.
   bool anti_windup;
 };
 
-/// What both remember.
+/// States of both observers.
 template <class T>
 struct ObserversState {
   ObserverState<T> yaw;
@@ -78,7 +77,7 @@ struct AxisForces {
   T yaw_m;  ///< m, counter-clockwise positive
 };
 
-/// What is known of the motion at one sample.
+/// Quantities of the motion at one sample.
 template <class T>
 struct ObservedMotion {
   AxisForces<T> momentum;    ///< m' u and I'z r
@@ -92,7 +91,7 @@ ObserversState<T> start_observers(const Observers<T>& observers, const AxisForce
           start_observer(observers.surge, momentum.surge)};
 }
 
-/// Both d_hat.
+/// d_hat of both axes.
 template <class T>
 AWMR_CALLED AxisForces<T> estimate(const Observers<T>& observers, const ObservedMotion<T>& motion,
                                    ObserversState<T>& state) {
@@ -100,8 +99,8 @@ AWMR_CALLED AxisForces<T> estimate(const Observers<T>& observers, const Observed
           estimate(observers.yaw, motion.momentum.yaw_m, state.yaw)};
 }
 
-/// Moves both on by one sample. `asked` is the command less d_hat, `allocated` what the allocation
-/// makes of it.
+/// Advances both states by one sample. `asked` is the command minus d_hat, `allocated` the forces
+/// from the allocation.
 template <class T>
 AWMR_CALLED void advance(const Observers<T>& observers, const AxisForces<T>& d_hat,
                          const AxisForces<T>& asked, const GeneralisedForces<T>& allocated,

@@ -1,13 +1,13 @@
-/// Constants that stay in the flash of an AVR, whose program memory has an address space of its
-/// own. Elsewhere they are constants as any. Freestanding C++14.
+/// Constants in the flash of an AVR, whose program memory is a separate address space. On other
+/// processors they are ordinary constants. Freestanding C++14.
 #pragma once
 
 #include <stdint.h>
 #include <string.h>
 
-/// AWMR_IN_FLASH: a constant that takes no RAM. AWMR_SHARED: a function called from several places
-/// that is not to be copied into each. AWMR_INLINE: a template called from one place only, which
-/// the compiler would call all the same, as another file might instantiate it too.
+/// AWMR_IN_FLASH: a constant that needs no RAM. AWMR_SHARED: a function called from several places
+/// that must not be inlined into each. AWMR_INLINE: a template called from one place only, which
+/// the compiler would otherwise not inline, because other files could instantiate it.
 #ifdef __AVR__
 #include <avr/pgmspace.h>
 #define AWMR_IN_FLASH PROGMEM
@@ -21,7 +21,7 @@
 
 namespace awmr {
 
-/// Reads a float that lies in flash at `address`.
+/// Reads a float from flash at `address`.
 inline float flash_float(const float* address) {
 #ifdef __AVR__
   return pgm_read_float(address);
@@ -30,7 +30,7 @@ inline float flash_float(const float* address) {
 #endif
 }
 
-/// Reads a byte that lies in flash at `address`.
+/// Reads a byte from flash at `address`.
 inline uint8_t flash_byte(const uint8_t* address) {
 #ifdef __AVR__
   return pgm_read_byte(address);
@@ -39,7 +39,7 @@ inline uint8_t flash_byte(const uint8_t* address) {
 #endif
 }
 
-/// Copies what lies in flash at `source` to `value`.
+/// Copies the object in flash at `source` to `value`.
 template <class V>
 void read_flash(const V* source, V& value) {
 #ifdef __AVR__

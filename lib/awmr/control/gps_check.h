@@ -1,5 +1,5 @@
-/// Plausibility checks of GPS fixes: a state machine over fixes with time stamps of one clock in ms
-/// that may wrap. Freestanding C++14.
+/// Plausibility checks of GPS fixes: a state machine with time stamps of one clock in ms that can
+/// wrap. Freestanding C++14.
 #pragma once
 
 #include "awmr/control/displacement.h"
@@ -11,37 +11,37 @@ namespace awmr {
 /// The vehicle's command at the time of a fix.
 struct GpsContext {
   float psi_rad;     ///< heading
-  int8_t direction;  ///< of the speed commanded: 1, 0 or -1
-  /// False: a position elsewhere is taken over after ten fixes, 2 s at 5 Hz.
+  int8_t direction;  ///< of the commanded speed: 1, 0 or -1
+  /// False: a position elsewhere is accepted after ten fixes, 2 s at 5 Hz.
   bool is_armed;
 };
 
 /// Plausibility of GPS fixes.
 class GpsCheck {
  public:
-  /// m/s: the vehicle's largest speed. ms: how long no fix is missed.
+  /// speed_max_mps: the vehicle's largest speed. timeout_ms: time without a fix before a fault.
   void begin(float speed_max_mps, uint32_t timeout_ms, uint32_t now_ms) {
     speed_max_mps_ = speed_max_mps;
     timeout_ms_ = timeout_ms;
     sentence_ms_ = now_ms;
   }
 
-  /// A sentence without a usable fix.
+  /// Processes a sentence without a usable fix.
   void take_unusable(GpsSentence kind, uint32_t now_ms) {
     if (kind == GpsSentence::kOther) return;
     sentence_ms_ = now_ms;
     last_ = kGpsNoFix;
   }
 
-  /// A fix at (x, y), m, that came at `now_ms`. True: it is believed.
+  /// Processes a fix at (x, y), m, received at `now_ms`. True: it is accepted.
   bool take_fix(const GpsFix& fix, float x_m, float y_m, uint32_t now_ms, const GpsContext& at) {
     const bool is_believed = accept_fix(fix, x_m, y_m, now_ms, at);
     finish_motion();
     return is_believed;
   }
 
-  /// The first part of take_fix(), which decides whether the fix is believed. check_motion() may do
-  /// the others in later steps, before the next fix.
+  /// First part of take_fix(): decides whether to accept the fix. check_motion() can do the rest in
+  /// later steps, before the next fix.
   bool accept_fix(const GpsFix& fix, float x_m, float y_m, uint32_t now_ms, const GpsContext& at) {
     sentence_ms_ = now_ms;
     if (has_utc_) {
@@ -50,7 +50,7 @@ class GpsCheck {
       if (fix.utc_ms < utc_ms_) advance_ms += kDay_ms;
       if (advance_ms == 0) return refuse(kGpsRepeated);
       if (advance_ms > kDay_ms / 2) {
-        unsettled_ = kRelocations;  // it ran back: believed again once it has advanced for a while
+        unsettled_ = kRelocations;  // UTC ran back: wait until it has advanced for a while
       } else {
         note_lag(detail::elapsed_ms(now_ms, utc_at_ms_), advance_ms);
       }
@@ -69,7 +69,7 @@ class GpsCheck {
       restart_motion();
       has_fix_ = false;
     }
-    // At rest after a contradiction: the next arming begins without it.
+    // At rest after a contradiction: reset for the next arming.
     if (!at.is_armed && fix.speed_mps < kStandstill_mps) restart_motion();
     elsewhere_ = 0;
     if (has_fix_) {
@@ -125,7 +125,7 @@ class GpsCheck {
     return kSensorGood;
   }
 
-  /// Forgets what contradicted itself, for the next arming.
+  /// Clears the contradiction for the next arming.
   void restart_motion() {
     has_anchor_ = false;
     same_m_ = against_m_ = 0.0F;
@@ -145,25 +145,26 @@ class GpsCheck {
   /// What is left to compare the last motion with.
   enum class Due : uint8_t { kNothing, kSpeed, kDirection, kTrack };
 
-  /// Fixes may come so much later than the earliest of late, ms.
+  /// Maximum lag of fixes behind the earliest, ms.
   static constexpr int32_t kGpsLag_ms = 500;
-  /// Displacement between two fixes that is noise, m.
+  /// Displacement between two fixes that counts as noise, m.
   static constexpr float kNoise_m = 3.0F;
-  /// Fixes elsewhere, or of an earlier time, in a row before they are taken over.
+  /// Number of consecutive fixes elsewhere, or with an earlier time, before they are accepted.
   static constexpr uint8_t kRelocations = 10;
-  /// Motion is not followed across a longer gap between fixes, s.
+  /// Maximum gap between fixes across which motion is evaluated, s.
   static constexpr float kGap_s = 4.0F;
-  /// Displacement and speed are compared over windows of this length, m and ms.
+  /// Length of the windows in which displacement and speed are compared, m and ms.
   static constexpr float kWindow_m = 20.0F;
   static constexpr uint32_t kWindow_ms = 30000;
-  /// Displacement beyond 1.5 times the distance travelled, m: the position's wander in a window, where
-  /// the vehicle is to stand and where it is to drive.
+  /// Permitted displacement beyond 1.5 times the distance travelled, m: the drift of the position
+  /// in a window, if the vehicle is commanded to stand and if it is commanded to drive.
   static constexpr float kFurtherAtRest_m = 3.0F;
   static constexpr float kFurther_m = 2.0F;
-  /// Distance travelled, m, on the very same position.
+  /// Maximum distance travelled without any change of position, m.
   static constexpr float kSame_m = 1.5F;
-  /// Displacement against the commanded direction, m, after at most kAhead_m ahead are set off, in as
-  /// many fixes: beyond the position's wander while the vehicle moves.
+  /// Maximum displacement against the commanded direction, m, in as many consecutive fixes. At most
+  /// kAhead_m of displacement ahead is deducted. It exceeds the drift of the position while the
+  /// vehicle moves.
   static constexpr float kAgainst_m = 2.0F;
   static constexpr float kAhead_m = 1.0F;
   static constexpr uint8_t kAgainstFixes = 3;
@@ -186,8 +187,8 @@ class GpsCheck {
   uint32_t utc_ms_ = 0;
   uint32_t utc_at_ms_ = 0;
   int32_t lag_ms_ = 0;
-  Place fix_ = {0.0F, 0.0F, 0.0F, 0};   // the last that was believed
-  Motion motion_ = {0.0F, 0.0F, 0.0F};  // to it, valid where one is due
+  Place fix_ = {0.0F, 0.0F, 0.0F, 0};   // last accepted fix
+  Motion motion_ = {0.0F, 0.0F, 0.0F};  // displacement to it, valid if one is due
   GpsContext context_ = {0.0F, 0, false};
   Place anchor_ = {0.0F, 0.0F, 0.0F, 0};   // where the window began, valid with has_anchor_
   float travelled_m_ = 0.0F;               // integral of the speed since then
@@ -200,8 +201,8 @@ class GpsCheck {
   float braking_s_ = 0.0F;                 // left of kBraking_s
   float braked_from_mps_ = 0.0F;           // speed when the commanded direction changed
   int8_t direction_ = 0;
-  uint8_t against_fixes_ = 0;  // in a row beyond kAgainst_m
-  uint8_t elsewhere_ = 0;      // fixes that were too far away, in a row
+  uint8_t against_fixes_ = 0;  // consecutive fixes beyond kAgainst_m
+  uint8_t elsewhere_ = 0;      // consecutive fixes that were too far away
   uint8_t unsettled_ = 0;      // fixes to wait for after UTC ran back
   SensorFault last_ = kSensorGood;
   bool has_utc_ = false;
@@ -217,20 +218,21 @@ class GpsCheck {
     return false;
   }
 
-  /// How far the fixes lag behind the earliest: it grows by what the clock went further than UTC
-  /// did, and is forgiven a 64th of the time, as the clock of a board is off by up to 0.5 %.
+  /// Updates the lag of the fixes behind the earliest. It grows by the advance of the clock minus
+  /// that of UTC, and decreases by 1/64 of the time, because a board's clock can be wrong by up to
+  /// 0.5 %.
   void note_lag(uint32_t wait_ms, uint32_t advance_ms) {
     lag_ms_ += static_cast<int32_t>(wait_ms - advance_ms) - static_cast<int32_t>(advance_ms / 64U);
     if (lag_ms_ < 0) lag_ms_ = 0;
   }
 
-  /// From the last fix that was believed to this one.
+  /// Displacement and time from the last accepted fix to this one.
   Motion motion_to(const Place& to) const {
     return {to.x_m - fix_.x_m, to.y_m - fix_.y_m,
             1e-3F * static_cast<float>(detail::elapsed_ms(to.time_ms, fix_.time_ms))};
   }
 
-  /// Within 1.5 times the larger of both speeds and 1 m/s, and noise.
+  /// True within noise plus 1.5 times the larger of both speeds and 1 m/s.
   bool is_reachable(const Place& to, const Motion& motion) const {
     float speed_mps = to.speed_mps > fix_.speed_mps ? to.speed_mps : fix_.speed_mps;
     if (speed_mps > speed_max_mps_) speed_mps = speed_max_mps_;
@@ -238,7 +240,7 @@ class GpsCheck {
     return motion.dx_m * motion.dx_m + motion.dy_m * motion.dy_m <= reach_m * reach_m;
   }
 
-  /// A window begins at the last fix that was believed where there is none, and where one is over.
+  /// Starts a window at the last accepted fix if there is none or the last window is complete.
   void move_anchor(uint32_t now_ms) {
     if (has_anchor_ && !(travelled_m_ > kWindow_m) &&
         detail::elapsed_ms(now_ms, anchor_.time_ms) <= kWindow_ms) {
@@ -249,7 +251,8 @@ class GpsCheck {
     has_anchor_ = true;
   }
 
-  /// |dx| + |dy| <= 1.5 int u dt + the wander since the anchor, where |dx| + |dy| <= sqrt(2) int u dt.
+  /// |dx| + |dy| <= 1.5 int u dt + the drift since the anchor, because |dx| + |dy| <= sqrt(2) int u
+  /// dt.
   void compare_with_speed() {
     const bool is_moving = fix_.speed_mps > kStandstill_mps;
     follow_command(is_moving);
@@ -264,7 +267,7 @@ class GpsCheck {
     if (moved_m > 1.5F * travelled_m_ + further_m) is_inconsistent_ = true;
   }
 
-  /// Starts anew where the commanded direction changes. A vehicle that moves then has to brake first.
+  /// Restarts when the commanded direction changes. A moving vehicle must brake first.
   void follow_command(bool is_moving) {
     if (context_.direction != direction_) {
       direction_ = context_.direction;
@@ -277,7 +280,7 @@ class GpsCheck {
     if (!is_moving || fix_.speed_mps > braked_from_mps_ + kFaster_mps) braking_s_ = 0.0F;
   }
 
-  /// The displacement against the commanded direction.
+  /// Checks the displacement against the commanded direction.
   void compare_with_direction() {
     moved_ = body_displacement(motion_.dx_m, motion_.dy_m, context_.psi_rad);
     if (direction_ == 0) return;

@@ -1,12 +1,12 @@
-/// A GPS from the characters of its port to a position and a speed that are believed. Freestanding
-/// C++14.
+/// Converts the characters of a GPS port to a checked position and speed. Freestanding C++14.
 ///
-/// The work on a sentence is spread over the steps, so that none is much longer than another:
-///   1. Its characters are read, at most kCharactersPerStep in a step.
-///   2. Its numbers are converted, and the fix is believed or not.
-///   3. Position and speed are published, for the autopilot to use in this step.
-///   4. The displacement is compared with the speed, 5. with the command.
-/// Where the next sentence ends before that, a fix of step 2 is left out and the rest is done at once.
+/// The work on a sentence is spread over several steps, so that all take about the same time:
+///   1. Read its characters, at most kCharactersPerStep per step.
+///   2. Convert its numbers and accept or reject the fix.
+///   3. Publish position and speed, for the autopilot in this step.
+///   4. Compare the displacement with the speed.
+///   5. Compare the displacement with the command.
+/// If the next sentence ends earlier, a fix in step 2 is dropped and the rest is done at once.
 #pragma once
 
 #include "awmr/control/gps_check.h"
@@ -23,18 +23,18 @@ class GpsReceiver {
   float x_m = 0.0F;
   float y_m = 0.0F;
   float speed_mps = 0.0F;  ///< without a sign
-  uint32_t time_ms = 0;    ///< when the sentence of the above came, valid once has_fix()
+  uint32_t time_ms = 0;    ///< arrival time of its sentence, valid once has_fix()
 
   /// As GpsCheck::begin().
   void begin(float speed_max_mps, uint32_t timeout_ms, uint32_t now_ms) {
     check_.begin(speed_max_mps, timeout_ms, now_ms);
   }
   bool has_fix() const { return has_fix_; }
-  /// Why fixes are not believed; kSensorGood: they are.
+  /// Reason why fixes are rejected; kSensorGood: they are accepted.
   SensorFault fault(uint32_t now_ms) const { return check_.fault(now_ms); }
 
-  /// Once in each step. `port` has available() and read(), as Arduino's Stream; `project` makes a
-  /// GpsPlace of a GpsFix.
+  /// Call once per step. `port` has available() and read(), like Arduino's Stream; `project`
+  /// converts a GpsFix to a GpsPlace.
   template <class Port, class Projection>
   void read(Port& port, Projection& project, const GpsContext& at, uint32_t now_ms) {
     work(project, at);
@@ -52,8 +52,8 @@ class GpsReceiver {
 
   RmcReader reader_;
   GpsCheck check_;
-  RmcNumbers numbers_ = {};           // of the sentence that is worked on
-  GpsPlace believed_ = {0.0F, 0.0F};  // not published yet, valid with Work::kPublish
+  RmcNumbers numbers_ = {};           // of the current sentence
+  GpsPlace believed_ = {0.0F, 0.0F};  // accepted but not published, valid with Work::kPublish
   float believed_mps_ = 0.0F;
   uint32_t sentence_ms_ = 0;
   Work due_ = Work::kNone;

@@ -1,7 +1,7 @@
-/// RMC sentence of a GPS (NMEA 0183), read strictly: a field that is empty or malformed, or a check
-/// sum that is missing or wrong, makes the whole sentence unusable. It is read character by character
-/// and in whole numbers, so that its cost spreads over the steps in which it arrives. Freestanding
-/// C++14.
+/// Strict reader for the RMC sentence of a GPS (NMEA 0183). An empty or malformed field, or a
+/// missing or wrong check sum, makes the whole sentence unusable. It works character by character
+/// and in integers, so that its cost is spread over the steps in which the sentence arrives.
+/// Freestanding C++14.
 #pragma once
 
 #include <stdint.h>
@@ -17,13 +17,13 @@ struct GpsFix {
 };
 
 enum class GpsSentence : uint8_t {
-  kOther,    ///< whole, but not RMC
+  kOther,    ///< complete, but not RMC
   kDamaged,  ///< check sum missing or wrong, a field empty or malformed
-  kNoFix,    ///< whole, but the receiver has no fix or only estimates it
+  kNoFix,    ///< complete, but the receiver has no fix or only estimates it
   kFix
 };
 
-/// Speeds below it, m/s, are noise of a receiver at rest.
+/// Speeds below this, m/s, are noise of a receiver at rest.
 constexpr float kStandstill_mps = 0.3F;
 /// Seconds and milliseconds of a day.
 constexpr uint32_t kDay_s = 86400;
@@ -31,8 +31,8 @@ constexpr uint32_t kDay_ms = 1000 * kDay_s;
 /// Units of GpsFix::lat_e7 in a degree.
 constexpr uint32_t kDegree_e7 = 10000000;
 
-/// A number of a sentence: the digits before its point and, in units of the last place that is kept,
-/// those behind it. Groups of digits below 60 count sixty to one: 1234 is 12 60 + 34.
+/// A number of a sentence: the digits before its point, and those behind it in units of the last
+/// place kept. Two-digit groups below 60 are combined with base 60: 1234 is 12 60 + 34.
 struct RmcNumber {
   uint32_t whole;
   uint32_t part;
@@ -60,7 +60,7 @@ inline uint8_t hex_value(char c) {
   return 16;
 }
 
-/// 1e7 (whole + 1e-7 part)/60, of degrees and minutes apart to stay within 32 bits.
+/// 1e7 (whole + 1e-7 part)/60, computed by degrees and minutes to stay within 32 bits.
 inline int32_t degrees_e7(const RmcNumber& minutes, bool is_negative) {
   const uint16_t whole = static_cast<uint16_t>(minutes.whole);
   const uint16_t degrees = static_cast<uint16_t>(whole / 60U);
@@ -72,7 +72,7 @@ inline int32_t degrees_e7(const RmcNumber& minutes, bool is_negative) {
 
 }  // namespace detail
 
-/// The fix of a sentence for which RmcReader::kind() is kFix.
+/// Converts a sentence for which RmcReader::kind() is kFix.
 inline GpsFix to_fix(const RmcNumbers& numbers) {
   return {numbers.utc.whole * 1000U + numbers.utc.part,
           detail::degrees_e7(numbers.lat, numbers.is_south),
@@ -81,11 +81,11 @@ inline GpsFix to_fix(const RmcNumbers& numbers) {
 }
 
 /// Reads $xxRMC,time,A,lat,N,lon,E,knots,course,date,variation,E,mode*hh from the characters of a
-/// port, whatever comes between; xx are two characters of the talker, as in $GPRMC and $GNRMC.
+/// port, and ignores everything else; xx are two characters of the talker, as in $GPRMC and $GNRMC.
 class RmcReader {
  public:
-  /// True: this character ended a sentence, each from a $ on; kind() and numbers() are valid until
-  /// the next $. A sentence that is too long is dropped.
+  /// True: this character ended a sentence (each starts with $); kind() and numbers() are valid
+  /// until the next $. A sentence that is too long is dropped.
   bool take(char c) {
     const uint8_t digit = static_cast<uint8_t>(c - '0');
     if (c == '$') {
@@ -93,7 +93,7 @@ class RmcReader {
     } else if (!is_open_ || ++length_ > kLengthMax) {
       is_open_ = false;
     } else if (number_ != 0 && digit <= 9) {
-      // The most frequent of all, and none of the characters below.
+      // Digits are the most frequent characters and need none of the tests below.
       add_to_sum(c);
       take_digit(digit);
     } else if (c == '\n' || c == '\r') {
@@ -116,7 +116,7 @@ class RmcReader {
     if (!is_rmc_ || field_ == kTalker) return GpsSentence::kOther;
     if (field_ < kKnots) return GpsSentence::kDamaged;
     if (status_ == 'V') return GpsSentence::kNoFix;
-    // NMEA 2.3 and later: how the fix was made. N none, E by dead reckoning, M by hand, S simulated.
+    // NMEA 2.3 and later: mode of the fix. N none, E by dead reckoning, M by hand, S simulated.
     if (status_ == 'A' && (mode_ == 'N' || mode_ == 'E' || mode_ == 'M' || mode_ == 'S')) {
       return GpsSentence::kNoFix;
     }
@@ -125,7 +125,7 @@ class RmcReader {
   const RmcNumbers& numbers() const { return numbers_; }
 
  private:
-  /// Characters of the longest sentence, with its $ and the first of its end.
+  /// Length of the longest sentence, with its $ and the first character of its end.
   static constexpr uint8_t kLengthMax = 96;
 
   enum Field : uint8_t {
@@ -144,13 +144,13 @@ class RmcReader {
   enum SumPlace : uint8_t { kSummed, kHighDigit, kLowDigit, kComplete, kTooMuch };
 
   RmcNumbers numbers_ = {};
-  RmcNumber* number_ = 0;  // of this field; 0: it is none
+  RmcNumber* number_ = 0;  // of this field; 0: it is not a number
   uint32_t value_ = 0;     // of its digits since the last point
   uint8_t field_ = kTalker;
   uint8_t size_ = 0;         // characters of this field
   uint8_t digits_left_ = 0;  // before the point
   uint8_t places_left_ = 0;  // behind it
-  uint8_t sixties_ = 0;      // bit 0: the next digit begins a group below 60; bit 1: the one after
+  uint8_t sixties_ = 0;      // bit 0: next digit begins a group below 60; bit 1: the one after
   uint8_t length_ = 0;
   uint8_t sum_ = 0;
   SumPlace sum_place_ = kSummed;
@@ -258,7 +258,8 @@ class RmcReader {
     }
     append(digit, is_sixties);
   }
-  /// value = 10 value + digit, or 6 value + digit: in shifts, as a product takes an AVR 50 cycles.
+  /// value = 10 value + digit, or 6 value + digit: by shifts, because a product takes an AVR 50
+  /// cycles.
   void append(uint8_t digit, bool is_sixties) {
     const uint32_t twice = value_ << 1U;
     uint32_t rest = twice << 1U;

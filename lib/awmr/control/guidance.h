@@ -32,27 +32,27 @@ AWMR_CALLED T distance_m(const Position<T>& a, const Position<T>& b) {
   return sqrt(squared_distance_m2(a, b));
 }
 
-/// Points that are nearer than this to each other, m, have no direction between them.
+/// Points closer to each other than this, m, have no direction between them.
 template <class T>
 constexpr T coincident_m() {
   return T(1e-20);
 }
 
-/// Where a point lies as seen from another one, both along the world's axes.
+/// Vector from one point to another, along the world's axes.
 template <class T>
 Position<T> seen_from(const Position<T>& from, const Position<T>& point) {
   return {point.x_m - from.x_m, point.y_m - from.y_m};
 }
 
-/// True where a point at `away_m` is not farther than `radius_m`, whose square is `radius_m2`.
-/// Outside of the square around the circle no product is needed.
+/// True if a point at `away_m` is within `radius_m`, whose square is `radius_m2`. Outside the
+/// square around the circle, no product is necessary.
 template <class T>
 AWMR_INLINE bool is_reached(const Position<T>& away_m, const T& radius_m, const T& radius_m2) {
   if (math::is_beyond(away_m.x_m, radius_m) || math::is_beyond(away_m.y_m, radius_m)) return false;
   return !math::is_above(T(away_m.x_m * away_m.x_m + away_m.y_m * away_m.y_m), radius_m2);
 }
 
-/// The direction to a point at `away_m`, in (-pi, pi]; `otherwise_rad` where it is here.
+/// The direction to a point at `away_m`, in (-pi, pi]; `otherwise_rad` if it coincides.
 template <class T>
 AWMR_INLINE T direction_rad(const Position<T>& away_m, const T& otherwise_rad) {
   const T here = coincident_m<T>();
@@ -62,26 +62,26 @@ AWMR_INLINE T direction_rad(const Position<T>& away_m, const T& otherwise_rad) {
   return math::bearing(away_m.y_m, away_m.x_m);
 }
 
-/// Points to go to, one after the other.
+/// Waypoints, in order.
 template <class T>
 struct Waypoints {
   const Position<T>* points_m;  ///< not owned; `count` of them
   int count;                    ///< >= 0
   T acceptance_m;               ///< m, > 0: a point is reached within this distance of it
-  /// What becomes of a point that the vehicle went past without coming within `acceptance_m` of it,
-  /// that is, beyond the perpendicular to the leg through the point. true: it is missed and the
-  /// next one follows, for a vehicle that cannot turn tightly enough to come back. false, as in the
-  /// paper: the vehicle turns back to it.
+  /// Handling of a waypoint that the vehicle has passed without coming within `acceptance_m`, that
+  /// is, beyond the perpendicular to the leg through the point. true: it is counted as missed and
+  /// the next one follows, for a vehicle that cannot turn tightly enough to return. false, as in
+  /// the paper: the vehicle turns back to it.
   bool skip_passed;
 };
 
-/// How far the vehicle has come along the points.
+/// Progress along the waypoints.
 template <class T>
 struct WaypointProgress {
-  int next;                 ///< index of the point being gone to; `count` when all are done
-  int missed;               ///< points passed by, see Waypoints::skip_passed
-  Position<T> leg_start_m;  ///< where the present leg began
-  T psi_rad;                ///< the last line of sight, held where there is none
+  int next;                 ///< index of the current waypoint; `count` when all are done
+  int missed;               ///< waypoints passed by, see Waypoints::skip_passed
+  Position<T> leg_start_m;  ///< start of the current leg
+  T psi_rad;                ///< the last line of sight, held if there is none
 };
 
 /// The progress before the first step: `position_m` and `psi_rad` are the vehicle's.
@@ -90,14 +90,14 @@ WaypointProgress<T> start_waypoints(const Position<T>& position_m, const T& psi_
   return {0, 0, position_m, psi_rad};
 }
 
-/// Where the waypoints lead at one step.
+/// Guidance output of one step.
 template <class T>
 struct WaypointGuidance {
   T psi_rad;      ///< psi_d, in (-pi, pi]
-  bool finished;  ///< no point is left: psi_d holds the last line of sight
+  bool finished;  ///< no waypoint is left: psi_d holds the last line of sight
 };
 
-/// True beyond the perpendicular to the leg through its end. Nothing is past a leg without length.
+/// True beyond the perpendicular to the leg through its end. Never true for a leg of zero length.
 template <class T>
 bool is_past(const Position<T>& position_m, const Position<T>& leg_start_m,
              const Position<T>& leg_end_m) {
@@ -106,13 +106,13 @@ bool is_past(const Position<T>& position_m, const Position<T>& leg_start_m,
   return along > T(0.0);
 }
 
-/// The line of sight to the first point (x_d, y_d) that is not yet reached:
+/// The line of sight to the first waypoint (x_d, y_d) that is not reached yet:
 ///   psi_d = atan2(y_d - y, x_d - x)                                       [paper (103), corrected]
 /// Corrected: the printed differences point from the waypoint to the vehicle.
 ///
-/// Points that coincide, or lie within the acceptance radius of each other, are reached in the same
-/// step. With no points the guidance is finished at once and the heading held. `acceptance_m2` is
-/// the square of Waypoints::acceptance_m.
+/// Waypoints that coincide, or are within each other's acceptance radius, are reached in the same
+/// step. With no waypoints, guidance is finished at once and the heading is held. `acceptance_m2`
+/// is the square of Waypoints::acceptance_m.
 template <class T>
 AWMR_INLINE WaypointGuidance<T> guide(const Waypoints<T>& waypoints, const T& acceptance_m2,
                                       const Position<T>& position_m,
@@ -133,7 +133,7 @@ AWMR_INLINE WaypointGuidance<T> guide(const Waypoints<T>& waypoints, const T& ac
   }
   return {progress.psi_rad, true};
 }
-/// The same, where the time of a step does not matter.
+/// As above, computing acceptance_m2 in each step.
 template <class T>
 AWMR_CALLED WaypointGuidance<T> guide(const Waypoints<T>& waypoints, const Position<T>& position_m,
                                       WaypointProgress<T>& progress) {
@@ -141,14 +141,14 @@ AWMR_CALLED WaypointGuidance<T> guide(const Waypoints<T>& waypoints, const Posit
   return guide(waypoints, acceptance_m2, position_m, progress);
 }
 
-/// What is left of the speed at the last point itself, so that it is reached.
+/// Fraction of the speed at the last waypoint, so that the vehicle reaches it.
 template <class T>
 constexpr T arrival_share_min() {
   return T(0.1);
 }
 
-/// The share of the speed with `to_go_m` left to the last point: it falls in proportion within
-/// `slow_down_m` > 0 of it, to arrival_share_min().
+/// Fraction of the speed at `to_go_m` before the last waypoint: it decreases linearly within
+/// `slow_down_m` > 0, down to arrival_share_min().
 template <class T>
 T arrival_share(const T& slow_down_m, const T& to_go_m) {
   return math::clamp(T(to_go_m / slow_down_m), arrival_share_min<T>(), T(1.0));

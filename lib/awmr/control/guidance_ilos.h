@@ -1,28 +1,27 @@
-/// Following a line or a polyline by integral line of sight (ILOS), a baseline beside the law of
-/// guidance_line.h. Freestanding C++14.
+/// Integral line-of-sight (ILOS) following of a line or polyline, a baseline for comparison with
+/// the law of guidance_line.h. Freestanding C++14.
 ///
-/// A side slope, a sideslip that no sensor shows or a heading that is held with an error leave a
-/// vehicle that aims at the line beside it. ILOS aims so far to the other side that it comes to lie
-/// on it.
+/// A side slope, an unmeasured sideslip or a steady heading error leaves a vehicle that aims at the
+/// line offset from it. ILOS shifts the aim to the other side until the offset is 0.
 #pragma once
 
 #include "awmr/control/guidance_line.h"
 
 namespace awmr {
 
-/// How a line is approached by integral line of sight.
+/// Parameters of integral line-of-sight guidance.
 template <class T>
 struct IntegralLos {
-  /// Delta, m, > 0: how far ahead on the line the vehicle aims. Larger: smoother, and later on the
+  /// Delta, m, > 0: lookahead distance along the line. Larger: smoother, and slower to reach the
   /// line.
   T lookahead_m;
-  /// sigma, m/s, > 0: how fast the aim is moved aside. The literature asks for less than the speed;
-  /// larger: what pushes the vehicle off the line is made up for sooner, and the line overshot more.
+  /// sigma, m/s, > 0: speed at which the aim is shifted. The literature requires less than the
+  /// vehicle's speed. Larger: disturbances are compensated sooner, and the line is overshot more.
   T integral_gain_mps;
   bool sideslip_compensation;  ///< as in LineLaw
 };
 
-/// What integral line of sight remembers from step to step.
+/// State of integral line-of-sight guidance between steps.
 template <class T>
 struct CrossTrackIntegral {
   T integral_s;  ///< y_int, s
@@ -35,7 +34,7 @@ CrossTrackIntegral<T> start_integral() {
   return {T(0.0), 0};
 }
 
-/// The heading that leads to a line of direction psi_AB and then along it, rad, in (-pi, pi]:
+/// The heading that approaches a line of direction psi_AB and then follows it, rad, in (-pi, pi]:
 ///   psi_d     = psi_AB - beta - atan(q),   q = (e + sigma y_int)/Delta
 ///   y_int_dot = Delta e/((e + sigma y_int)^2 + Delta^2) = e/(Delta (1 + q^2))
 /// (Borhaug, Pavlov, Pettersen, Integral LOS control for path following of underactuated marine
@@ -52,8 +51,8 @@ T line_heading_rad(const IntegralLos<T>& law, const T& psi_line_rad, const T& cr
   return called_wrap_angle(T(psi_line_rad - beta - atan(q)));
 }
 
-/// guide() of guidance_line.h by this law. On each new segment y_int begins at 0: what pushes the
-/// vehicle aside comes from another side there.
+/// guide() of guidance_line.h with this law. y_int restarts at 0 on each segment, because the
+/// disturbance comes from another side there.
 template <class T>
 PolylineGuidance<T> guide(const Polyline<T, IntegralLos<T>>& line, const Position<T>& position_m,
                           const T& sideslip, const T& sample_time_s, PolylineProgress<T>& progress,

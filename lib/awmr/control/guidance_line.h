@@ -23,21 +23,21 @@ AWMR_CALLED T sideslip_rad(const T& u_mps, const T& v_mps) {
   return atan2(v_mps, u_mps);
 }
 
-/// How a line is approached.
+/// Parameters of the approach to a line.
 template <class T>
 struct LineLaw {
-  /// Delta, rad, in (0, pi/2]: angle at which the line is approached from outside the lane. Larger:
-  /// the line is reached on a shorter way and met more abruptly.
+  /// Delta, rad, in (0, pi/2]: angle of approach outside the lane. Larger: the line is reached on a
+  /// shorter way and more abruptly.
   T delta_rad;
-  /// R, m, > 0: half width of the lane inside which the approach flattens in proportion to the
-  /// distance. Larger: smoother, and later on the line.
+  /// R, m, > 0: half width of the lane in which the approach angle is proportional to the distance.
+  /// Larger: smoother, and slower to reach the line.
   T width_m;
-  /// true, as in the paper: beta is subtracted, so that the course and not the heading is led, and
-  /// a vehicle that slips stays on the line. false: for vehicles that cannot measure v.
+  /// true, as in the paper: beta is subtracted, so that the course over ground is controlled and a
+  /// vehicle that slips stays on the line. false: for vehicles that cannot measure v.
   bool sideslip_compensation;
 };
 
-/// The heading that leads to a line of direction psi_AB and then along it, rad, in (-pi, pi]:
+/// The heading that approaches a line of direction psi_AB and then follows it, rad, in (-pi, pi]:
 ///   psi_d = psi_AB - beta - Delta sat(e/R)                                           [paper (107)]
 /// e = cross_track_m is the signed distance from the line, m, positive to the left of its
 /// direction; beta = sideslip, rad.
@@ -50,22 +50,23 @@ T line_heading_rad(const LineLaw<T>& law, const T& psi_line_rad, const T& cross_
 }
 
 /// Corners joined by line segments, driven from the first to the last. Two corners are one line.
-/// `Law` says how a segment is approached: this one, or that of guidance_ilos.h.
+/// `Law` is the approach to a segment: this one, or that of guidance_ilos.h.
 template <class T, class Law = LineLaw<T>>
 struct Polyline {
   const Position<T>* points_m;  ///< the corners in the world frame, m; not owned, `count` of them
   int count;                    ///< >= 0; with fewer than two corners the line is finished at once
-  /// m, >= 0: the next segment is taken up this far before the present one ends, so that a corner
-  /// is rounded on its inside. The last segment is driven to its end. 0: corners are overshot.
+  /// m, >= 0: the next segment starts this distance before the end of the current one, so that a
+  /// corner is rounded on its inside. The last segment is driven to its end. 0: corners are
+  /// overshot.
   T corner_m;
-  Law law;  ///< how each segment is approached
+  Law law;  ///< approach to each segment
 };
 
-/// How far the vehicle has come along the corners.
+/// Progress along the corners.
 template <class T>
 struct PolylineProgress {
   int segment;  ///< from points_m[segment] to points_m[segment + 1]
-  T psi_rad;    ///< the last psi_d, held where there is none
+  T psi_rad;    ///< the last psi_d, held if there is none
 };
 
 /// The progress before the first step: `psi_rad` is the vehicle's heading.
@@ -74,16 +75,17 @@ PolylineProgress<T> start_polyline(const T& psi_rad) {
   return {0, psi_rad};
 }
 
-/// Where the polyline leads at one step.
+/// Guidance output of one step.
 template <class T>
 struct PolylineGuidance {
   T psi_rad;        ///< psi_d, rad, in (-pi, pi]
-  T cross_track_m;  ///< e, m: distance from the present segment's line, left of it positive
-  T to_go_m;        ///< m: along the present segment, to its end
-  bool finished;    ///< past the last segment's end: psi_d holds its last value
+  T cross_track_m;  ///< e, m: distance from the current segment's line, left positive
+  T to_go_m;        ///< m: distance along the current segment to its end
+  bool finished;    ///< past the end of the last segment: psi_d holds its last value
 };
 
-/// A point as seen along the segment from A to B. With its unit vector t = (B - A)/|B - A|:
+/// Coordinates of a point relative to the segment from A to B. With its unit vector
+/// t = (B - A)/|B - A|:
 ///   psi_AB = atan2(t_y, t_x)
 ///   e      = -(x - x_A) t_y + (y - y_A) t_x                         [paper (104)-(106), corrected]
 /// Corrected: (105) prints the direction from B to A. (104) and (106) print distance and direction
@@ -91,7 +93,7 @@ struct PolylineGuidance {
 template <class T>
 struct AlongSegment {
   T length_m;       ///< |B - A|, m
-  T tx, ty;         ///< t; like what follows without meaning where length_m is 0
+  T tx, ty;         ///< t; this and the following are undefined if length_m is 0
   T along_m;        ///< m: from A, along t
   T cross_track_m;  ///< e, m: left of the segment's line positive
 
@@ -101,7 +103,7 @@ struct AlongSegment {
   }
 };
 
-/// `position_m` as seen along the segment from a to b.
+/// Computes `position_m` relative to the segment from a to b.
 template <class T>
 AWMR_INLINE AlongSegment<T> along_segment(const Position<T>& a, const Position<T>& b,
                                           const Position<T>& position_m) {
@@ -117,11 +119,11 @@ AWMR_INLINE AlongSegment<T> along_segment(const Position<T>& a, const Position<T
   return s;
 }
 
-/// The heading along the present segment, as `heading_rad` has it of the segment's direction and the
-/// distance from it.
+/// Guidance along the current segment; `heading_rad` computes the heading from the segment's
+/// direction and the distance from it.
 ///
-/// Segments without length, whose corners coincide, are passed over; where no segment has a length
-/// the guidance is finished and the heading held.
+/// Segments of zero length (coinciding corners) are skipped. If no segment has a length, guidance
+/// is finished and the heading is held.
 template <class T, class Law, class Heading>
 AWMR_INLINE PolylineGuidance<T> guide_by(const Polyline<T, Law>& line,
                                          const Position<T>& position_m, const Heading& heading_rad,
@@ -141,7 +143,7 @@ AWMR_INLINE PolylineGuidance<T> guide_by(const Polyline<T, Law>& line,
   return {progress.psi_rad, cross_track_m, T(0.0), true};
 }
 
-/// The same by the law of (107).
+/// guide_by() with the law of (107).
 template <class T>
 AWMR_CALLED PolylineGuidance<T> guide(const Polyline<T>& line, const Position<T>& position_m,
                                       const T& sideslip, PolylineProgress<T>& progress) {

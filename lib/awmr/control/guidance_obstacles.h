@@ -12,18 +12,18 @@
 ///   alpha_i = asin(R_i/D_i) + sigma w_i               half angle of the blocked sector, D_i > R_i
 ///           = pi/2          + sigma w_i               the same inside the grown circle
 ///
-/// The blocked sector lies around the bearing of c_i. An obstacle counts while D_obs <= MMD (plus
-/// the hysteresis once avoidance is on) and while it is nearer than the target. psi_d is turned
-/// from the guidance heading to the nearest edge, left or right, of the union of the blocked
-/// sectors that contain it. The side once taken is kept until the other is nearer by
-/// `side_hysteresis_rad`, or until the guidance heading is free again.
+/// The blocked sector is centred on the bearing of c_i. An obstacle counts while D_obs <= MMD (plus
+/// the hysteresis once avoidance is active) and while it is nearer than the target. psi_d is the
+/// edge, left or right, nearest to the guidance heading, of the union of the blocked sectors that
+/// contain it. The chosen side is kept until the other is nearer by `side_hysteresis_rad`, or until
+/// the guidance heading is free again.
 ///
-/// Why it clears one obstacle: a vehicle of turning radius rho that heads for the middle of a
-/// circle can still pass it from D^2 >= (R + rho)^2 - rho^2, that is from D_obs < rho whatever R
-/// is. So an MMD of rho plus the way travelled while the turn begins is enough. Where that does not
-/// hold, with several obstacles or a start too near, the speed is cut: the share of it that is
-/// allowed is the distance along the heading to a circle grown by vehicle_radius + clearance/2,
-/// over `brake_m`, so that the vehicle stops before the circle.
+/// Why it clears one obstacle: a vehicle with turning radius rho heads for the centre of a circle.
+/// It can pass the circle if D^2 >= (R + rho)^2 - rho^2. This holds for any R while D_obs >= rho.
+/// So an MMD of rho plus the distance travelled while the turn begins is sufficient. If that does
+/// not hold (several obstacles, or a start that is too close), the speed is reduced. The permitted
+/// fraction is the distance along the heading to a circle grown by vehicle_radius + clearance/2,
+/// divided by `brake_m`. So the vehicle stops before the circle.
 ///
 /// Edge cases:
 ///   inside R_i                the sector is more than a half-plane, so psi_d leads out; a vehicle
@@ -45,30 +45,31 @@ struct Obstacle {
   T radius_m;            ///< radius_i, m, > 0
 };
 
-/// How obstacles are avoided; the symbols are those above.
+/// Parameters of the avoidance, with the symbols above.
 template <class T>
 struct Avoidance {
   /// mmd_base, m, > 0: at least the vehicle's turning radius.
   T mmd_base_m;
-  /// mmd_per_speed, s, >= 0: the time that a turn takes to begin (servo, yaw inertia).
+  /// mmd_per_speed, s, >= 0: delay before a turn takes effect (servo, yaw inertia).
   T mmd_per_speed_s;
-  /// sigma, rad, in [0, pi/2): by how much more than the tangent asks for the vehicle turns at
-  /// D_obs = 0. Larger: a wider berth.
+  /// sigma, rad, in [0, pi/2): extra angle beyond the tangent at D_obs = 0. Larger: a wider berth.
   T sigma_rad;
-  /// vehicle_radius, m, >= 0: of the circle around the vehicle's centre of gravity that holds it.
+  /// vehicle_radius, m, >= 0: radius of the circle around the centre of gravity that encloses the
+  /// vehicle.
   T vehicle_radius_m;
-  /// clearance, m, > 0: to keep free between that circle and the obstacle.
+  /// clearance, m, > 0: free distance between that circle and the obstacle.
   T clearance_m;
-  /// m, >= 0: by how much D_obs has to exceed MMD before an obstacle stops counting. It keeps the
-  /// avoidance from switching on and off at the edge.
+  /// m, >= 0: amount by which D_obs must exceed MMD before an obstacle stops counting. It prevents
+  /// the avoidance from switching on and off at the edge.
   T hysteresis_m;
-  /// rad, >= 0: by how much nearer the other side has to be before the side is changed.
+  /// rad, >= 0: the side changes only if the other side is nearer by more than this.
   T side_hysteresis_rad;
-  /// brake, m, > 0: free way ahead below which the speed is cut. At least the stopping distance.
+  /// brake, m, > 0: free distance ahead below which the speed is reduced. At least the stopping
+  /// distance.
   T brake_m;
 };
 
-/// The headings that one obstacle blocks.
+/// Range of headings that one obstacle blocks.
 template <class T>
 struct Sector {
   T bearing_rad;  ///< of the obstacle's centre
@@ -79,21 +80,21 @@ struct Sector {
 /// The side to which psi_d is turned.
 enum class AvoidanceSide { kNone, kLeft, kRight };
 
-/// What the avoidance remembers from step to step.
+/// State of the avoidance between steps.
 struct AvoidanceState {
   AvoidanceSide side = AvoidanceSide::kNone;  ///< kNone: the guidance heading is free
 };
 
-/// The heading and the speed that avoid the obstacles at one step.
+/// Heading and speed that avoid the obstacles in one step.
 template <class T>
 struct Avoided {
   T psi_rad;      ///< psi_d, rad, in (-pi, pi]
-  T speed_share;  ///< dimensionless, in [0, 1]: the part of u_d that is allowed
+  T speed_share;  ///< dimensionless, in [0, 1]: permitted fraction of u_d
   bool active;    ///< psi_d is not the guidance heading, or every direction is blocked
   bool blocked;   ///< every direction is blocked
 };
 
-/// True where the obstacle's grown circle holds the whole acceptance circle of a target: no course
+/// True if the obstacle's grown circle contains the whole acceptance circle of a target: no path
 /// that keeps the clearance reaches it.
 template <class T>
 bool covers(const Avoidance<T>& avoidance, const Obstacle<T>& obstacle, const Position<T>& target_m,
@@ -102,7 +103,7 @@ bool covers(const Avoidance<T>& avoidance, const Obstacle<T>& obstacle, const Po
          obstacle.radius_m + avoidance.vehicle_radius_m + avoidance.clearance_m;
 }
 
-/// True where one of `count` obstacles covers the target.
+/// True if one of `count` obstacles covers the target.
 template <class T>
 bool is_covered(const Avoidance<T>& avoidance, const Obstacle<T>* obstacles, int count,
                 const Position<T>& target_m, const T& acceptance_m) {
@@ -112,7 +113,7 @@ bool is_covered(const Avoidance<T>& avoidance, const Obstacle<T>* obstacles, int
   return false;
 }
 
-/// guide(), past the points that an obstacle covers: they are missed before they are gone to.
+/// guide(), skipping waypoints that an obstacle covers: they count as missed.
 template <class T>
 AWMR_CALLED WaypointGuidance<T> guide_past_covered(const Avoidance<T>& avoidance,
                                                    const Obstacle<T>* obstacles, int count,
@@ -132,11 +133,11 @@ AWMR_CALLED WaypointGuidance<T> guide_past_covered(const Avoidance<T>& avoidance
 
 namespace detail {
 
-/// Where a point lies as seen from the vehicle.
+/// Distance and bearing of a point from the vehicle.
 template <class T>
 struct Sight {
   T distance_m;
-  T bearing_rad;  ///< in the world frame; `otherwise_rad` where the two coincide
+  T bearing_rad;  ///< in the world frame; `otherwise_rad` if they coincide
 };
 template <class T>
 AWMR_CALLED Sight<T> sight(const Position<T>& from, const Position<T>& point,
@@ -144,7 +145,7 @@ AWMR_CALLED Sight<T> sight(const Position<T>& from, const Position<T>& point,
   return {distance_m(from, point), direction_rad(seen_from(from, point), otherwise_rad)};
 }
 
-/// A heading this near to a sector's edge, rad, counts as outside the sector; above a float's
+/// A heading within this distance of a sector's edge, rad, counts as outside; larger than a float's
 /// rounding.
 template <class T>
 constexpr T sector_tolerance_rad() {
@@ -159,7 +160,7 @@ T arc_sine(const T& s) {
   return atan2(s, sqrt(T(1.0) - s * s));
 }
 
-/// What the vehicle has around it at one step.
+/// Obstacles and vehicle state in one step.
 template <class T>
 struct Surroundings {
   const Avoidance<T>& avoidance;
@@ -170,7 +171,7 @@ struct Surroundings {
   T psi_rad;               ///< the vehicle's heading
   T mmd_m;                 ///< MMD(u)
   T reach_m;               ///< largest D_obs that counts: MMD, plus the hysteresis once active
-  T target_m;              ///< distance to where the guidance leads
+  T target_m;              ///< distance to the guidance target
 
   /// The sector that obstacle i blocks.
   AWMR_CALLED Sector<T> sector(int i) const {
@@ -189,8 +190,8 @@ struct Surroundings {
     for (int i = 0; i < count; ++i) sectors[i] = sector(i);
   }
 
-  /// By how much `heading_rad` has to turn to leave all sectors, rad, >= 0; to the left for
-  /// sign = 1, to the right for sign = -1. 2 pi or more: there is no way out.
+  /// Angle by which `heading_rad` must turn to leave all sectors, rad, >= 0; to the left for sign =
+  /// 1, to the right for sign = -1. 2 pi or more: every direction is blocked.
   AWMR_CALLED T turn_out(const T& heading_rad, const T& sign) const {
     const T full = T(2.0) * pi<T>();
     T turned = T(0.0);
@@ -210,7 +211,7 @@ struct Surroundings {
     return turned;
   }
 
-  /// The share of the speed at which the vehicle may go on along its heading.
+  /// Permitted fraction of the speed along the current heading.
   T speed_share() const {
     using math::abs;
     using math::cos;
@@ -221,7 +222,7 @@ struct Surroundings {
       const T grown_m =
           obstacles[i].radius_m + avoidance.vehicle_radius_m + avoidance.clearance_m / T(2.0);
       const Sight<T> centre = sight(position_m, obstacles[i].centre_m, psi_rad);
-      // The way along any heading is no shorter than the way straight to the circle.
+      // The distance along any heading is at least the straight distance to the circle.
       if (centre.distance_m - grown_m > avoidance.brake_m) continue;
       const T off = centre.bearing_rad - psi_rad;
       const T along_m = centre.distance_m * cos(off);
@@ -237,11 +238,11 @@ struct Surroundings {
 
 }  // namespace detail
 
-/// Turns the guidance heading out of the sectors that `count` obstacles block, and cuts the speed
-/// where that is not enough. `guidance_rad` is the heading that the guidance wants and `target_m`
-/// the distance to where it leads: obstacles beyond it do not matter. It is a very large number
-/// where there is no target. `psi_rad` and `u_mps` are the vehicle's. `sectors` is room for `count`
-/// of them, so that each is computed once.
+/// Turns the guidance heading out of the sectors that `count` obstacles block, and reduces the
+/// speed if that is not sufficient. `guidance_rad` is the guidance heading. `target_m` is the
+/// distance to its target: obstacles beyond it are ignored. It is a very large number without a
+/// target. `psi_rad` and `u_mps` are the vehicle's. `sectors` has room for `count` elements, so
+/// that each sector is computed once.
 template <class T>
 AWMR_CALLED Avoided<T> avoid(const Avoidance<T>& avoidance, const Obstacle<T>* obstacles,
                              Sector<T>* sectors, int count, const Position<T>& position_m,
@@ -264,7 +265,7 @@ AWMR_CALLED Avoided<T> avoid(const Avoidance<T>& avoidance, const Obstacle<T>* o
   if (!(left < full) && !(right < full)) {
     return {called_wrap_angle(guidance_rad), T(0.0), true, true};
   }
-  // Keeping the side taken is worth the hysteresis; of two equal sides the left is taken.
+  // The chosen side has an advantage of the hysteresis; of two equal sides, the left is taken.
   T difference = left - right;
   if (state.side == AvoidanceSide::kLeft) difference -= avoidance.side_hysteresis_rad;
   if (state.side == AvoidanceSide::kRight) difference += avoidance.side_hysteresis_rad;

@@ -1,4 +1,4 @@
-/// Following a path that is given in time. Freestanding C++14.
+/// Following a timed path. Freestanding C++14.
 #pragma once
 
 #include "awmr/control/controller.h"
@@ -38,25 +38,25 @@ struct Lissajous {
   }
 };
 
-/// Where a timed path leads at one step.
+/// Guidance output of one step.
 template <class T>
 struct PathGuidance {
   T psi_rad;         ///< psi_d, rad, in (-pi, pi]
-  T psi_rate_radps;  ///< psi_d_dot, rad/s, of the path itself
+  T psi_rate_radps;  ///< psi_d_dot, rad/s, of the path
   T speed_mps;       ///< u_d, m/s, >= 0
 };
 
-/// Below this speed, m/s, a path has no direction (a cusp, a turning point): the heading is held.
+/// Below this speed, m/s, a path has no direction (a cusp or reversal): the heading is held.
 template <class T>
 constexpr T path_speed_min_mps() {
   return T(1e-4);
 }
 
-/// The path's own direction and speed, open loop in position as in the paper:
+/// Direction and speed of the path, open loop in position as in the paper:
 ///   psi_d     = atan2(y_d_dot, x_d_dot)                                              [paper (116)]
 ///   psi_d_dot = (x_d_dot y_d_ddot - y_d_dot x_d_ddot)/|p_d_dot|^2
 ///   u_d       = |p_d_dot|
-/// `held_rad` is the psi_d of the step before, for a path that stands still.
+/// `held_rad` is the psi_d of the last step, used if the path is at rest.
 template <class T>
 AWMR_CALLED PathGuidance<T> open_path(const PathPoint<T>& path, const T& held_rad) {
   using math::atan2;
@@ -68,12 +68,12 @@ AWMR_CALLED PathGuidance<T> open_path(const PathPoint<T>& path, const T& held_ra
           (path.vx_mps * path.ay_mps2 - path.vy_mps * path.ax_mps2) / speed2, sqrt(speed2)};
 }
 
-/// This project's form, with the position fed back. With e_p = p_d - p, k = gain_per_s > 0, the
-/// direction t of the path and w = p_d_dot + k e_p:
+/// Position feedback, this project's form. With e_p = p_d - p, k = gain_per_s > 0, the direction t
+/// of the path and w = p_d_dot + k e_p:
 ///   psi_d = atan2(w_y, w_x) - beta
 ///   u_d   = max(0, |p_d_dot| + k e_p . t)
-/// On the path the speed is the path's own, and behind it the vehicle catches up. `sideslip` is
-/// beta, rad, and `held_rad` as in open_path().
+/// On the path, the speed is the path's; behind it, the vehicle catches up. `sideslip` is beta,
+/// rad, and `held_rad` as in open_path().
 template <class T>
 AWMR_CALLED PathGuidance<T> closed_path(const PathPoint<T>& path, const T& gain_per_s,
                                         const Position<T>& position_m, const T& sideslip,

@@ -1,20 +1,19 @@
-/// Following a line or a polyline by pure pursuit, a baseline beside the law of guidance_line.h.
-/// Freestanding C++14.
+/// Pure-pursuit following of a line or polyline, a baseline for comparison with the law of
+/// guidance_line.h. Freestanding C++14.
 ///
-/// The vehicle goes to a goal on the line that stays the lookahead distance away from it, as a dog
-/// goes after a hare. Before a corner the goal turns first, so that the corner is rounded on its
-/// inside.
+/// The vehicle drives to a goal on the line at the lookahead distance ahead of it. The goal passes
+/// a corner before the vehicle does, so the corner is rounded on its inside.
 #pragma once
 
 #include "awmr/control/guidance_line.h"
 
 namespace awmr {
 
-/// How a line is approached by pure pursuit.
+/// Parameters of pure pursuit.
 template <class T>
 struct PurePursuit {
-  /// L, m, > 0: from the vehicle to its goal. Larger: smoother, later on the line, and corners cut
-  /// by more.
+  /// L, m, > 0: distance from the vehicle to its goal. Larger: smoother, slower to reach the line,
+  /// and corners are cut more.
   T lookahead_m;
   bool sideslip_compensation;  ///< as in LineLaw
 };
@@ -27,10 +26,11 @@ struct PursuedLine {
   PurePursuit<T> law;
 };
 
-/// Where the goal lies along a segment, m from its start:
+/// Position of the goal along a segment, m from its start:
 ///   s_g = max(0, s + sqrt(L^2 - e^2))
-/// the farther of the two points of its line that are L away from a vehicle at s, e beside it; the
-/// nearest point of the line where all are farther away; the start where the segment is not reached.
+/// This is the farther of the two points of its line at distance L from a vehicle at s with offset
+/// e; the nearest point of the line if all are farther away; the start if the vehicle is before the
+/// segment.
 template <class T>
 T goal_along_m(const PurePursuit<T>& law, const AlongSegment<T>& s) {
   using math::sqrt;
@@ -39,8 +39,8 @@ T goal_along_m(const PurePursuit<T>& law, const AlongSegment<T>& s) {
   return goal_m > T(0.0) ? goal_m : T(0.0);
 }
 
-/// The distance from the present segment's line or from that of the one before, whichever is nearer:
-/// the goal is past a corner before the vehicle is.
+/// Distance from the line of the current or the last segment, whichever is nearer, because the goal
+/// passes a corner before the vehicle does.
 template <class T>
 T nearer_cross_track_m(const PursuedLine<T>& line, int segment, const Position<T>& position_m,
                        const T& cross_track_m) {
@@ -52,15 +52,15 @@ T nearer_cross_track_m(const PursuedLine<T>& line, int segment, const Position<T
   return is_nearer ? before.cross_track_m : cross_track_m;
 }
 
-/// The heading to the goal, which lies s_g along the present segment from A to B (Coulter,
-/// Implementation of the pure pursuit path tracking algorithm, 1992, with the heading to the goal
-/// itself in place of the arc to it, as a heading law follows):
+/// The heading to the goal, which is s_g along the current segment from A to B (Coulter,
+/// Implementation of the pure pursuit path tracking algorithm, 1992; the heading to the goal
+/// replaces the arc, because a heading law follows):
 ///   psi_d = psi_AB - beta + atan2(-e, s_g - s)
-/// with s along and e beside the segment as in along_segment(), beta as in line_heading_rad(). The
-/// next segment is taken up when the goal reaches the end of the present one; the last segment is
-/// driven to its end, where it goes on straight for the goal.
+/// with s and e as in along_segment(), beta as in line_heading_rad(). The next segment starts when
+/// the goal reaches the end of the current one. On the last segment the goal continues straight
+/// beyond its end, and the segment is driven to its end.
 ///
-/// Segments without length are passed over as in guide() of guidance_line.h.
+/// Segments of zero length are skipped as in guide() of guidance_line.h.
 template <class T>
 PolylineGuidance<T> guide(const PursuedLine<T>& line, const Position<T>& position_m,
                           const T& sideslip, PolylineProgress<T>& progress) {

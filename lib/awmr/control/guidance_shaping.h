@@ -6,23 +6,23 @@
 
 namespace awmr {
 
-/// A filter of second order, critically damped, with its rate and its acceleration limited:
+/// A critically damped second-order filter with limited rate and acceleration:
 ///   e          = wrap(psi_in - psi_d)
 ///   r_des      = sat(w e/2, r_max)
 ///   psi_d_ddot = sat(2 w (r_des - psi_d_dot), a_max)
 /// Without the limits it is psi_d_ddot + 2 w psi_d_dot + w^2 psi_d = w^2 psi_in.
 template <class T>
 struct HeadingShaping {
-  /// w, rad/s, > 0: bandwidth. Larger: the reference follows faster. w T_s <= 0.5 keeps the
-  /// discrete filter without overshoot.
+  /// w, rad/s, > 0: bandwidth. Larger: the reference follows faster. w T_s <= 0.5 prevents
+  /// overshoot of the discrete filter.
   T omega_radps;
-  /// r_max, rad/s, > 0: such as the largest yaw rate that the turning trials covered.
+  /// r_max, rad/s, > 0: for example the largest yaw rate of the turning trials.
   T rate_max_radps;
-  /// a_max, rad/s^2, > 0: such as what the vehicle's yaw moment can do.
+  /// a_max, rad/s^2, > 0: for example the vehicle's largest yaw acceleration.
   T accel_max_radps2;
 };
 
-/// The filter's output, which is its state too.
+/// Output and state of the filter.
 template <class T>
 struct ShapedHeading {
   T psi_rad;           ///< psi_d, rad, not wrapped
@@ -36,9 +36,9 @@ ShapedHeading<T> start_shaping(const T& psi_rad) {
   return {psi_rad, T(0.0), T(0.0)};
 }
 
-/// Moves the filter on by one sample towards psi_in = target_rad, which may jump and may be
-/// wrapped: the filter takes the short way round. The step is semi-implicit Euler: the new rate
-/// moves the heading.
+/// Advances the filter by one sample towards psi_in = target_rad, which can jump and can be
+/// wrapped: the filter takes the shorter way. The step is semi-implicit Euler: the new rate moves
+/// the heading.
 template <class T>
 void shape(const HeadingShaping<T>& filter, const T& target_rad, const T& sample_time_s,
            ShapedHeading<T>& state) {

@@ -1,17 +1,17 @@
-/// Plausibility checks of compass and gyroscope: state machines over raw readings with time stamps of
-/// one clock in ms that may wrap. Freestanding C++14.
+/// Plausibility checks of compass and gyroscope: state machines over raw readings with time stamps
+/// of one clock in ms that can wrap. Freestanding C++14.
 #pragma once
 
 #include "awmr/control/sensor_fault.h"
 
 namespace awmr {
 
-/// Raw words of a live sensor differ by noise: five counts RMS of the gyroscope, four of the compass.
-/// 50 equal ones in a row are not of a live one.
+/// Raw words of a working sensor vary by noise: five counts RMS for the gyroscope, four for the
+/// compass. 50 equal words in a row mean a frozen sensor.
 constexpr uint32_t kFrozen_ms = 500;
 constexpr uint32_t kCompassSilent_ms = 500;
 
-/// Watches words that have to change.
+/// Detects words that do not change.
 class FrozenCheck {
  public:
   void take(uint32_t words, uint32_t now_ms) {
@@ -33,10 +33,11 @@ class FrozenCheck {
   bool is_frozen_ = false;
 };
 
-/// Zero-rate offset of a gyroscope, from one second at rest, tried again until it is at rest.
+/// Measures the zero-rate offset of a gyroscope during one second at rest; retries until it is at
+/// rest.
 class GyroCalibration {
  public:
-  /// Words of one sample time, at rest or not; `heading_rad` is the compass's, valid with
+  /// Processes the word of one sample, at rest or not; `heading_rad` is the compass's, valid with
   /// `has_heading`.
   void take(int16_t word, float rate_per_word, bool has_heading, float heading_rad) {
     if (is_done_) return;
@@ -59,11 +60,12 @@ class GyroCalibration {
 
  private:
   static constexpr uint8_t kSamples = 100;
-  /// Six times the peak-to-peak noise of an MPU9250 behind its 41 Hz filter.
+  /// Six times the peak-to-peak noise of an MPU9250 with its 41 Hz filter.
   static constexpr float kSpreadMax_radps = 0.05F;
-  /// The data sheet's zero-rate offset is 5 deg/s.
+  /// The data sheet specifies a zero-rate offset of 5 deg/s.
   static constexpr float kBiasMax_radps = 0.09F;
-  /// Between the compass's first and last reading, rad: 3.4 deg, of which 1.4 deg may be noise.
+  /// Maximum change of the compass heading from first to last reading, rad: 3.4 deg, of which 1.4
+  /// deg can be noise.
   static constexpr float kTurnMax_rad = 0.06F;
 
   int32_t sum_ = 0;
@@ -73,7 +75,7 @@ class GyroCalibration {
   bool is_done_ = false;
   float bias_radps_ = 0.0F;
   float first_rad_ = 0.0F;
-  float turned_rad_ = 0.0F;  // by the compass since its first reading
+  float turned_rad_ = 0.0F;  // compass heading change since its first reading
   bool has_first_ = false;
 
   void start(int16_t word) {
@@ -89,12 +91,12 @@ class GyroCalibration {
   }
 };
 
-/// Compass against gyroscope. The heading is the integral of the gyroscope, led by the compass with
-/// the time constant T; its innovation e = wrap(compass - heading) is T times the rate by which the
-/// two differ.
+/// Compares compass and gyroscope. The heading is the integral of the gyroscope, corrected by the
+/// compass with the time constant T. Its innovation e = wrap(compass - heading) is T times the
+/// difference of their rates.
 class StepCheck {
  public:
-  /// One innovation, `dt_s` after the last.
+  /// Processes one innovation, `dt_s` after the last.
   void take(float innovation_rad, float dt_s) {
     slow_rad_ += dt_s * kSlow_per_s * (innovation_rad - slow_rad_);
     const float slow_rad = detail::size_of(slow_rad_);
@@ -105,11 +107,10 @@ class StepCheck {
   bool is_apart() const { return is_apart_; }
 
  private:
-  /// A jump of the compass, or a gyroscope with a wrong scale in a turn: 20 deg for 0.2 s.
+  /// Compass jump, or wrong gyroscope scale in a turn: 20 deg for 0.2 s.
   static constexpr float kJump_rad = 0.35F;
   static constexpr float kJump_s = 0.2F;
-  /// A compass that stands still, or a gyroscope that drifts: 6 deg, with T = 2 s 3 deg/s, as a mean
-  /// over 5 s.
+  /// Frozen compass, or gyroscope drift: 6 deg, which is 3 deg/s for T = 2 s, as a mean over 5 s.
   static constexpr float kSlow_per_s = 0.2F;
   static constexpr float kSlowMax_rad = 0.105F;
 
@@ -166,18 +167,18 @@ class HeadingCheck {
     gyro_ms_ = now_ms;
     field_ms_ = now_ms;
   }
-  /// A word that the gyroscope gave.
+  /// Processes a word of the gyroscope.
   void take_gyro(int16_t word, uint32_t now_ms) {
     gyro_ms_ = now_ms;
     gyro_.take(static_cast<uint16_t>(word), now_ms);
   }
   /// Result of reading the range register back: true if it still holds the range that was set.
   void take_range(bool is_right) { is_range_wrong_ = !is_right; }
-  /// A new field that the compass gave, as its three raw words.
+  /// Processes a new field of the compass, as three raw words.
   void take_field(int16_t x, int16_t y, int16_t z, uint32_t now_ms) {
     field_ms_ = now_ms;
-    // One word of 32 bits in place of three of 16: what changes one of them changes it, but for
-    // pairs of changes that cancel out, which are not all of those within half a second.
+    // One word of 32 bits replaces three of 16. A change of any of them changes it, except pairs of
+    // changes that cancel; not all changes within half a second do so.
     const uint32_t low = static_cast<uint16_t>(x);
     const uint32_t high = static_cast<uint16_t>(y);
     field_.take(

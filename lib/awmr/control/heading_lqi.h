@@ -1,5 +1,5 @@
-/// The heading law by optimal control with an integral (LQI), a baseline beside the sliding mode of
-/// controller.h. Freestanding C++14.
+/// LQI (linear-quadratic with integral) heading law, a baseline for comparison with the sliding
+/// mode of controller.h. Freestanding C++14.
 #pragma once
 
 #include "awmr/control/allocation.h"
@@ -8,18 +8,18 @@
 
 namespace awmr {
 
-/// What is as bad as what: the largest values that are acceptable (Bryson's rule).
+/// Weights as the largest acceptable values (Bryson's rule).
 template <class T>
 struct LqiWeights {
   T heading_rad;     ///< e_max, rad, > 0: of the heading error e
   T yaw_rate_radps;  ///< r_max, rad/s, > 0: of its rate e_dot
   T integral_rad_s;  ///< z_max, rad s, > 0: of its integral z
-  /// tau_max, m, > 0: of the yaw moment that is asked for beyond the resistance and the acceleration
-  /// of the reference.
+  /// tau_max, m, > 0: of the requested yaw moment beyond the resistance and the reference's
+  /// acceleration.
   T tau_turn_m;
 };
 
-/// What an error asks for, in yaw acceleration.
+/// Gains from the errors to the yaw acceleration.
 template <class T>
 struct LqiGains {
   T integral_per_s3;  ///< a0, 1/s^3
@@ -27,13 +27,13 @@ struct LqiGains {
   T rate_per_s;       ///< a2, 1/s
 };
 
-/// The gains that make
+/// Computes the gains that minimise
 ///   J = integral of (e/e_max)^2 + (e_dot/r_max)^2 + (z/z_max)^2 + (w/w_max)^2,  w_max = tau_max/I'z
-/// the least. With yaw resistance fed forward, tau_turn = g3(r) + I'z (psi_d_ddot + w), the vehicle
-/// that the law sees is linear at every yaw rate:
+/// With yaw resistance fed forward, tau_turn = g3(r) + I'z (psi_d_ddot + w), the plant of this law
+/// is linear at every yaw rate:
 ///   z_dot = e,  e_ddot = -w
-/// The optimal w = a1 e + a2 e_dot + a0 z, otherwise found from the stabilising solution of the
-/// algebraic Riccati equation, follows for this chain of integrators by spectral factorisation
+/// The optimal w = a1 e + a2 e_dot + a0 z usually requires the stabilising solution of the
+/// algebraic Riccati equation. For this chain of integrators it follows by spectral factorisation
 /// (Kalman, When is a linear control system optimal?, 1964): p(s) = s^3 + a2 s^2 + a1 s + a0 is the
 /// stable factor of
 ///   p(s) p(-s) = -s^6 + w_max^2 (s^4/r_max^2 - s^2/e_max^2 + 1/z_max^2)
@@ -41,9 +41,9 @@ struct LqiGains {
 ///   a0   = w_max/z_max
 ///   a2^2 = w_max^2/r_max^2 + 2 a1
 ///   a1^2 = w_max^2/e_max^2 + 2 a0 a2
-/// The last two leave one equation for a1, convex and below 0 at a1 = 0: it has one positive root,
-/// to which Newton's method falls from any point above. The point that it begins at is above, and
-/// less than three times the root, by
+/// The last two leave one equation for a1, convex and below 0 at a1 = 0. It has one positive root,
+/// to which Newton's method converges monotonically from any larger value. The initial value is
+/// larger, and less than three times the root, because
 ///   a1^2 <= c1 + 2 a0 sqrt(c2) + 2 a0 sqrt(2 a1),  c1 = w_max^2/e_max^2,  c2 = w_max^2/r_max^2
 template <class T>
 LqiGains<T> lqi_gains(const LqiWeights<T>& weights, const T& inertia_norm) {
@@ -63,14 +63,14 @@ LqiGains<T> lqi_gains(const LqiWeights<T>& weights, const T& inertia_norm) {
   return {a0, a1, sqrt(c2 + T(2.0) * a1)};
 }
 
-/// True where the law, held over T_s = sample_time_s > 0, still makes the heading settle. With w held and
-/// z moved on by T_s e,
+/// True if the sampled law, with T_s = sample_time_s > 0, is stable. With w held and z advanced by
+/// T_s e,
 ///   e+ = e + T_s e_dot - w T_s^2/2,  e_dot+ = e_dot - w T_s,  z+ = z + T_s e
 /// has over l = (eigenvalue) - 1 the characteristic polynomial
 ///   l^3 + A l^2 + B l + C,  A = a2 T_s + a1 T_s^2/2,  B = a1 T_s^2 + a0 T_s^3/2,  C = a0 T_s^3
-/// whose zeros lie within the unit circle where those of its bilinear image l = 2 s/(1 - s),
+/// whose zeros are within the unit circle if those of its bilinear image l = 2 s/(1 - s),
 ///   (8 - 4 A + 2 B - C) s^3 + (4 A - 4 B + 3 C) s^2 + (2 B - 3 C) s + C,
-/// lie on the left (Hurwitz).
+/// are in the left half-plane (Hurwitz).
 template <class T>
 bool settles_when_sampled(const LqiGains<T>& gains, const T& sample_time_s) {
   const T a = gains.rate_per_s * sample_time_s +
@@ -83,17 +83,17 @@ bool settles_when_sampled(const LqiGains<T>& gains, const T& sample_time_s) {
   return s3 > T(0.0) && s2 > T(0.0) && s1 > T(0.0) && c > T(0.0) && s2 * s1 > s3 * c;
 }
 
-/// What the law remembers from sample to sample.
+/// State of the law between samples.
 template <class T>
 struct LqiState {
   T integral_rad_s;  ///< z, rad s
-  T error_rad;       ///< e of the present sample, rad
+  T error_rad;       ///< e of the current sample, rad
 };
 
 /// The heading law, m:
 ///   tau_turn = g3(r) + I'z (psi_d_ddot + a1 e + a2 e_dot + a0 z)
 ///   e        = wrap(psi_d - psi),  e_dot = psi_d_dot - r
-/// G as in Controller. Keeps e for integrate_error().
+/// G as in Controller. Stores e for integrate_error().
 template <class T, class G>
 T lqi_law(const G& yaw, const T& inertia_norm, const LqiGains<T>& gains, const Measurement<T>& m,
           const Reference<T>& ref, LqiState<T>& state) {
@@ -105,17 +105,17 @@ T lqi_law(const G& yaw, const T& inertia_norm, const LqiGains<T>& gains, const M
          inertia_norm * (ref.psi_accel_radps2 + w);
 }
 
-/// Moments that differ by less than this share are the same but for rounding.
+/// Moments whose relative difference is below this are equal except for rounding.
 template <class T>
 constexpr T same_moment_share() {
   return T(1e-6);
 }
 
-/// Moves z on by one sample:
+/// Advances z by one sample:
 ///   z_dot = e
-///   z_dot = 0 while a limit takes moment away and e asks for more of it
-/// The second line is conditional integration, without which z would wind up while a limit is met.
-/// `asked_m` is what the allocation `a` was asked for, `made` what it makes.
+///   z_dot = 0 while a limit reduces the moment and e requires more of it
+/// The second line is conditional integration, without which z would wind up at a limit. `asked_m`
+/// is the moment requested from the allocation `a`, `made` the moment it makes.
 template <class T>
 void integrate_error(const T& asked_m, const Allocation<T>& a, const GeneralisedForces<T>& made,
                      const T& sample_time_s, LqiState<T>& state) {

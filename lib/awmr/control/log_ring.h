@@ -1,8 +1,8 @@
-/// Rows of the log between the control step, which must not wait, and a card, which may make its
-/// writer wait for a quarter of a second. Freestanding C++11.
+/// Ring buffer for log rows between the control step, which must not wait, and a card, which can
+/// block for a quarter of a second. Freestanding C++11.
 ///
 /// One writer (the control step, an interrupt) and one reader (the idle loop) need no lock: each
-/// changes its own counter, a byte, which an 8-bit processor reads and writes at once.
+/// changes only its own counter, a byte, which an 8-bit processor reads and writes atomically.
 #pragma once
 
 #include <stdint.h>
@@ -11,19 +11,19 @@
 
 namespace awmr {
 
-/// Rows in a block of a card.
+/// Rows per block of a card.
 constexpr uint8_t kLogBlockRows = 8;
 
-/// kBlocks of 512 bytes. At a row each sample time it bridges (kBlocks - 1) * 8 sample times in
-/// which nothing is written: 0.56 s with 8 blocks at 10 ms.
+/// kBlocks of 512 bytes. At one row per sample time it covers (kBlocks - 1) * 8 sample times
+/// without a write: 0.56 s with 8 blocks at 10 ms.
 template <uint8_t kBlocks>
 class LogRing {
   static_assert(kBlocks >= 2 && kBlocks <= 16 && (kBlocks & (kBlocks - 1)) == 0,
                 "2, 4, 8 or 16 blocks: counters of a byte run through all rows");
 
  public:
-  /// The row to fill in, or 0 where there is no room: it is lost, and the gap in the sequence shows
-  /// it.
+  /// The row to fill in, or 0 if the ring is full: the row is lost, and the sequence numbers show
+  /// the gap.
   LogRow* begin_row() {
     const uint32_t sequence = sequence_++;
     if (static_cast<uint8_t>(written_ - read_) == kRows) return 0;
@@ -31,28 +31,28 @@ class LogRing {
     row.sequence = sequence;
     return &row;
   }
-  /// The row is whole.
+  /// Completes the row.
   void end_row() {
     barrier();
     written_ = static_cast<uint8_t>(written_ + 1);
   }
 
-  /// How many rows can be taken at once: those up to the end of a block, when all of them are
-  /// there; with `rest` those that are.
+  /// Number of rows that can be read at once: those up to the end of a block if all are complete;
+  /// with `rest`, those that are complete.
   uint8_t ready(bool rest = false) const {
     const uint8_t there = static_cast<uint8_t>(written_ - read_);
     const uint8_t whole = static_cast<uint8_t>(kLogBlockRows - read_ % kLogBlockRows);
     if (there >= whole) return whole;
     return rest ? there : static_cast<uint8_t>(0);
   }
-  /// The first of `count` rows that are ready, in one piece, sealed.
+  /// The first of `count` ready rows, contiguous and sealed.
   const LogRow* sealed(uint8_t count) {
     barrier();
     LogRow* first = rows_ + (read_ & kMask);
     for (uint8_t i = 0; i < count; ++i) seal(first[i]);
     return first;
   }
-  /// Their place may be written again.
+  /// Frees their space for writing.
   void release(uint8_t count) {
     barrier();
     read_ = static_cast<uint8_t>(read_ + count);
@@ -62,7 +62,7 @@ class LogRing {
   static constexpr uint8_t kRows = static_cast<uint8_t>(kBlocks * kLogBlockRows);
   static constexpr uint8_t kMask = static_cast<uint8_t>(kRows - 1);
 
-  /// The compiler moves no access to a row past its counter's.
+  /// Prevents the compiler from moving row accesses across counter accesses.
   static void barrier() { __asm__ volatile("" ::: "memory"); }
 
   LogRow rows_[kRows];

@@ -1,4 +1,4 @@
-/// What the firmware knows of its vehicle, as one block with a check sum. Freestanding C++14.
+/// Parameters of the firmware's vehicle, as one block with a check sum. Freestanding C++14.
 #pragma once
 
 #include <stddef.h>
@@ -12,15 +12,15 @@
 
 namespace awmr {
 
-/// Where the cells of a ResistanceTable lie; its members say what each of these is.
+/// Layout of the cells of a ResistanceTable; see its members.
 struct TableShape {
-  uint32_t count;          ///< lines; 0: there is no table, the power law is computed by powf
+  uint32_t count;          ///< lines; 0: no table, the power law is computed by powf
   uint32_t first;          ///< ResistanceTable::first
   uint32_t mantissa_bits;  ///< ResistanceTable::mantissa_bits
 };
 
-/// All parameters of the firmware. It has 32-bit members only and so no padding: its bytes, and the
-/// check sum over them, are the same on every little-endian machine.
+/// All parameters of the firmware. It has only 32-bit members and so no padding: its bytes, and
+/// their check sum, are the same on every little-endian machine.
 struct ParameterBlock {
   float surge_alpha_beta[2];  ///< a1, b1
   float yaw_alpha_beta[2];    ///< a3, b3
@@ -30,8 +30,8 @@ struct ParameterBlock {
   TableShape yaw_table;    ///< of g3
 };
 
-/// What a firmware for motors with a dead zone or back-EMF, or for friction that does not go away at
-/// rest, knows beside the block. It has 32-bit members only too.
+/// Additional parameters for motors with a dead zone or back-EMF, or for friction that does not
+/// vanish at rest. It also has only 32-bit members.
 struct RestBlock {
   float dead_zone;         ///< F'0 of a wheel, over F_max; 0: none
   float surge_rest_speed;  ///< RestingTable::rest_speed of g1, m/s
@@ -41,24 +41,24 @@ struct RestBlock {
   float back_emf_s_per_m;  ///< k_e of a motor, s/m; 0: none
 };
 
-/// What a firmware whose gains were tuned with a disturbance observer knows beside the block. It has
-/// 32-bit members only too.
+/// Additional parameters for gains that were tuned with a disturbance observer. It also has only
+/// 32-bit members.
 struct ObserverBlock {
   float bandwidth_radps;  ///< L
-  float yaw_max_m;        ///< largest moment that is taken off, over F_max
-  float surge_max;        ///< largest force that is taken off, over F_max
+  float yaw_max_m;        ///< largest moment that is compensated, over F_max
+  float surge_max;        ///< largest force that is compensated, over F_max
   float sample_time_s;    ///< T_s
 };
 
-/// The CRC-32 that goes on from `crc` over `size` bytes, which lie in flash on an AVR.
+/// Continues the CRC-32 `crc` over `size` bytes, which are in flash on an AVR.
 inline uint32_t crc32_of_flash(uint32_t crc, const void* address, size_t size) {
   const uint8_t* bytes = static_cast<const uint8_t*>(address);
   for (size_t i = 0; i < size; ++i) crc = crc32_with(crc, flash_byte(bytes + i));
   return crc;
 }
 
-/// The check sum of the firmware's parameters: CRC-32 of the block, the surge table's lines and the
-/// yaw table's, and `rest` and `observer` where they are, in this order.
+/// The check sum of the firmware's parameters: CRC-32 of the block, the lines of the surge table
+/// and of the yaw table, then `rest` and `observer` if present.
 inline uint32_t crc32_of_parameters(const ParameterBlock* block, const ResistanceLine* surge_lines,
                                     size_t surge_count, const ResistanceLine* yaw_lines,
                                     size_t yaw_count, const RestBlock* rest = 0,
@@ -70,8 +70,8 @@ inline uint32_t crc32_of_parameters(const ParameterBlock* block, const Resistanc
   return ~(observer != 0 ? crc32_of_flash(crc, observer, sizeof *observer) : crc);
 }
 
-/// The resistance in the form that the firmware was compiled for: from the block's table, or from
-/// the block's alpha and beta.
+/// Sets the resistance in the compiled form: from the block's table, or from the block's alpha and
+/// beta.
 inline void set_resistance(const TableShape* shape, const float* /*alpha_beta*/,
                            const ResistanceLine* lines, ResistanceTable& table) {
   TableShape read;
@@ -93,7 +93,7 @@ inline void set_resistance(const TableShape* shape, const float* alpha_beta,
   set_resistance(shape, alpha_beta, lines, law.table);
 }
 
-/// What happens at rest, where the firmware was compiled for it.
+/// Sets the resistance at rest, if it is compiled in.
 template <class G>
 void set_rest(const float* /*rest_speed*/, const float* /*at_rest*/, G&) {}
 inline void set_rest(const float* rest_speed, const float* at_rest, RestingTable& law) {

@@ -1,10 +1,10 @@
-/// A resistance as a table: what the chip uses instead of powf. Freestanding C++14.
+/// Resistance as a table, which replaces powf on the chip. Freestanding C++14.
 ///
-/// A cell holds the speeds that share a float's exponent and its leading m mantissa bits: 2^m cells
-/// to an octave, evenly spaced in it. So the error follows the curve's own scale, and an index is a
-/// shift of the float's bits, without a logarithm. In a cell the curve is the chord between its two
-/// ends, held as a line: one multiplication and one addition. Below the first cell it is the chord
-/// to the origin. It is odd: g(-w) = -g(w).
+/// A cell contains the speeds with the same float exponent and leading m mantissa bits: 2^m cells
+/// per octave, evenly spaced in it. So the error scales with the curve, and the index is a shift of
+/// the float's bits, without a logarithm. In a cell the curve is the chord between its ends, stored
+/// as a line: one multiplication and one addition. Below the first cell it is the chord to the
+/// origin. It is odd: g(-w) = -g(w).
 #pragma once
 
 #include <stdint.h>
@@ -14,8 +14,8 @@
 
 namespace awmr {
 
-/// g(w) = offset + slope w for the speeds w >= 0 of a cell. It has no padding: a check sum can go
-/// over it.
+/// g(w) = offset + slope w for the speeds w >= 0 of a cell. It has no padding, so that a check sum
+/// can cover it.
 struct ResistanceLine {
   float slope;   ///< in the unit of g over that of w
   float offset;  ///< in the unit of g
@@ -23,8 +23,8 @@ struct ResistanceLine {
 
 /// A view of a table: the lines are not owned.
 struct ResistanceTable {
-  /// In flash on an AVR. The first is the chord to the origin, below all cells; then one for each
-  /// cell, ascending.
+  /// In flash on an AVR. The first line is the chord to the origin, below all cells; then one line
+  /// per cell, ascending.
   const ResistanceLine* lines;
   uint16_t count;         ///< of lines, >= 2
   uint16_t first;         ///< cell_of() of the speeds of lines[1]
@@ -35,8 +35,8 @@ struct ResistanceTable {
     return static_cast<uint16_t>(float_math::leading_bits(speed) >> (7U - mantissa_bits));
   }
 
-  /// g(speed), speed in m/s or rad/s. Beyond the last cell and for NaN the result is NaN: a caller
-  /// checks the range first.
+  /// g(speed), speed in m/s or rad/s. Beyond the last cell and for NaN the result is NaN: the
+  /// caller must check the range first.
   float operator()(const float& speed) const {
     const uint16_t cell = cell_of(speed, mantissa_bits);
     const uint16_t index = cell < first ? 0U : static_cast<uint16_t>(cell - first + 1U);
@@ -47,7 +47,8 @@ struct ResistanceTable {
   }
 };
 
-/// A resistance that jumps at rest: a table from `rest_speed` on, below it the chord to the origin.
+/// A resistance that jumps at rest: a table from `rest_speed` on, and the chord to the origin below
+/// it.
 struct RestingTable {
   ResistanceTable table;
   float rest_speed;  ///< m/s or rad/s; 0: it does not jump

@@ -1,4 +1,4 @@
-/// What the autopilot refuses to steer by, and what it does then. Freestanding C++14.
+/// Input checks of the autopilot and the safe command. Freestanding C++14.
 #pragma once
 
 #include <stdint.h>
@@ -10,21 +10,21 @@
 
 namespace awmr {
 
-/// When things were last renewed, in ms of one clock that may wrap around.
+/// Times of the last updates, in ms of one clock that can wrap.
 struct InputTimes {
   uint32_t now_ms;      ///< the time of this step
   uint32_t heading_ms;  ///< when heading and yaw rate were measured
   uint32_t speed_ms;    ///< when speed and position were measured
-  uint32_t command_ms;  ///< when the reference was given
+  uint32_t command_ms;  ///< time of the last reference
 };
 
-/// What the autopilot still steers by. Part of ParameterBlock, so of 32-bit members only.
+/// Limits of valid input. Part of ParameterBlock, so it has only 32-bit members.
 struct SafetyLimits {
-  float speed_max_mps;          ///< a measured |u| or |v| above it is no measurement
-  float yaw_rate_max_radps;     ///< a measured |r| above it is no measurement
-  uint32_t heading_timeout_ms;  ///< oldest heading and yaw rate to steer by
-  uint32_t speed_timeout_ms;    ///< oldest speed and position to steer by
-  uint32_t command_timeout_ms;  ///< longest silence of whoever gives the reference
+  float speed_max_mps;          ///< a measured |u| or |v| above it is invalid
+  float yaw_rate_max_radps;     ///< a measured |r| above it is invalid
+  uint32_t heading_timeout_ms;  ///< maximum age of heading and yaw rate
+  uint32_t speed_timeout_ms;    ///< maximum age of speed and position
+  uint32_t command_timeout_ms;  ///< maximum age of the reference
   uint32_t step_timeout_ms;     ///< longest time between two steps
 };
 
@@ -39,33 +39,33 @@ Allocation<T> safe_command() {
 
 namespace detail {
 
-/// kFaultNotFinite where the value is infinite or NaN, kFaultRange where |value| > largest, else
-/// kFaultNone. It compares bits, which order as the magnitudes do; on the chip that costs a tenth
-/// of a comparison of floats.
+/// kFaultNotFinite if the value is infinite or NaN, kFaultRange if |value| > largest, else
+/// kFaultNone. It compares bits, whose order is that of the magnitudes; on the chip this takes a
+/// tenth of the time of a float comparison.
 AWMR_SHARED inline uint8_t check_magnitude_at_edge(float value, float largest) {
   const uint32_t magnitude = float_math::magnitude_bits(value);
   if (magnitude >= float_math::kInfinityBits) return kFaultNotFinite;
   return magnitude > bits_of(largest) ? kFaultRange : kFaultNone;
 }
-/// The same, most often by the leading halves alone.
+/// As above; usually decided by the leading 16 bits.
 inline uint8_t check_magnitude(float value, float largest) {
   if (float_math::leading_bits(value) < float_math::leading_bits(largest)) return kFaultNone;
   return check_magnitude_at_edge(value, largest);
 }
 
-/// True where `then_ms` lies more than `limit_ms` before `now_ms`; the difference is right across
-/// the clock's wrap. A time ahead of `now_ms` cannot come from the clock and counts as old.
+/// True if `then_ms` is more than `limit_ms` before `now_ms`; also correct across the clock's wrap.
+/// A time after `now_ms` cannot come from the clock and counts as old.
 inline bool is_older(uint32_t now_ms, uint32_t then_ms, uint32_t limit_ms) {
   return static_cast<uint32_t>(now_ms - then_ms) > limit_ms;
 }
 
 }  // namespace detail
 
-/// The largest yaw rate (rad/s) and acceleration (rad/s^2, m/s^2) that a reference may ask for. It
-/// is far beyond any vehicle, and there only so that no product overflows.
+/// The largest yaw rate (rad/s) and acceleration (rad/s^2, m/s^2) of a reference. It is far above
+/// any vehicle's, and only prevents overflow of products.
 constexpr float kReferenceMax = 1e6F;
 
-/// The faults of a measurement: a value that is not finite or cannot be.
+/// Faults of a measurement: a value that is not finite or out of range.
 inline uint8_t check_measurement(const SafetyLimits& limits, const Measurement<float>& m) {
   return static_cast<uint8_t>(detail::check_magnitude(m.psi_rad, 0.5F * float_math::kAngleMax) |
                               detail::check_magnitude(m.u_mps, limits.speed_max_mps) |
@@ -73,8 +73,8 @@ inline uint8_t check_measurement(const SafetyLimits& limits, const Measurement<f
                               detail::check_magnitude(m.r_radps, limits.yaw_rate_max_radps));
 }
 
-/// The faults of a reference: a value that is not finite or cannot be. Headings, measured and
-/// wanted, may be half of kAngleMax each, so that their difference is an angle that wraps.
+/// Faults of a reference: a value that is not finite or out of range. Measured and desired headings
+/// are each limited to half of kAngleMax, so that their difference can be wrapped.
 inline uint8_t check_reference(const SafetyLimits& limits, const Reference<float>& ref) {
   return static_cast<uint8_t>(detail::check_magnitude(ref.psi_rad, 0.5F * float_math::kAngleMax) |
                               detail::check_magnitude(ref.psi_rate_radps, kReferenceMax) |
@@ -83,7 +83,7 @@ inline uint8_t check_reference(const SafetyLimits& limits, const Reference<float
                               detail::check_magnitude(ref.accel_mps2, kReferenceMax));
 }
 
-/// The faults of inputs that were not renewed in time.
+/// Faults of inputs that were not updated in time.
 inline uint8_t check_times(const SafetyLimits& limits, const InputTimes& times) {
   unsigned fault = kFaultNone;
   if (detail::is_older(times.now_ms, times.heading_ms, limits.heading_timeout_ms)) {
@@ -108,7 +108,7 @@ inline bool is_between(float value, float lo, float hi) {
 }
 }  // namespace detail
 
-/// The last gate before the motors: every command is a number within its limits. False for NaN.
+/// Final check before the motors: every command is a number within its limits. False for NaN.
 inline bool is_within_limits(const AllocationConstants<float>& c, const Allocation<float>& a) {
   return detail::is_between(a.force.left, c.force_min, c.force_max) &&
          detail::is_between(a.force.right, c.force_min, c.force_max) &&

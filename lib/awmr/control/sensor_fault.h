@@ -1,9 +1,10 @@
-/// Faults of compass, gyroscope and GPS: a sensor is believed only while it proves itself.
+/// Faults of compass, gyroscope and GPS: a reading is used only while it passes its checks.
 /// Freestanding C++14.
 ///
-/// A sensor at fault is not believed, so that its time stamp ages and the autopilot gives the safe
-/// command (safety.h); the SensorFault says why. A fault lasts as long as its cause and, for a
-/// compass out of step and a displaced position, until the readings have agreed again for a while.
+/// Readings of a sensor with a fault are not used, so their time stamp ages and the autopilot gives
+/// the safe command (safety.h). SensorFault is the reason. A fault lasts as long as its cause.
+/// Faults of compass agreement and displaced position also last until the readings have agreed
+/// again for a while.
 #pragma once
 
 #include <stdint.h>
@@ -12,21 +13,21 @@
 
 namespace awmr {
 
-/// Why a sensor is not believed. The number is the code in messages and in the log.
+/// Reason why a sensor is not used. The number is the code in messages and in the log.
 enum SensorFault : uint8_t {
   kSensorGood = 0,
   kGyroSilent = 1,         ///< the gyroscope does not answer
   kGyroFrozen = 2,         ///< the same raw word for kFrozen_ms
-  kGyroRange = 3,          ///< its range register is not what was set: it was reset
-  kGyroNotCalibrated = 4,  ///< it has not been at rest long enough since the start
+  kGyroRange = 3,          ///< its range register was changed: the sensor was reset
+  kGyroNotCalibrated = 4,  ///< not at rest long enough since the start
   kCompassSilent = 5,      ///< no new field for kCompassSilent_ms
   kCompassFrozen = 6,      ///< the same three raw words for kFrozen_ms
   kHeadingOutOfStep = 7,   ///< compass and gyroscope turn differently
-  kGpsSilent = 8,          ///< no whole sentence for the time-out of the speed
+  kGpsSilent = 8,          ///< no complete sentence within the time-out of the speed
   kGpsNoFix = 9,           ///< the receiver reports no fix, or fields are empty or damaged
-  kGpsRepeated = 10,       ///< sentences come, their UTC stands still
+  kGpsRepeated = 10,       ///< sentences arrive, but their UTC does not change
   kGpsOld = 11,            ///< fixes lag behind by more than kGpsLag_ms, or their UTC runs back
-  kGpsJump = 12,           ///< a displacement that the vehicle cannot drive
+  kGpsJump = 12,           ///< a displacement that the vehicle cannot achieve
   kGpsInconsistent = 13,   ///< speed and displacement contradict each other
   kWrongWay = 14,          ///< driven one way, it moves the other
   kOffHeading = 15,        ///< the track of the positions is 30 deg and more off the heading

@@ -1,4 +1,4 @@
-/// The three ways to make a yaw moment. Freestanding C++14.
+/// The three modes of making a yaw moment. Freestanding C++14.
 #pragma once
 
 namespace awmr {
@@ -6,13 +6,13 @@ namespace awmr {
 enum class YawMode {
   kDifferential,  ///< by the difference of right and left forces, wheels straight
   kSteering,      ///< by the steered front wheels, right and left forces equal
-  kCombined,      ///< half of the moment by each
+  kCombined,      ///< half of the moment by each method
 };
 
-/// What the combined mode does when one of its two paths saturates.
+/// Action of the combined mode when one of its two paths saturates.
 enum class CombinedSplit {
-  kFixedHalf,     ///< as in the paper: half of tau_turn each way, whatever the limits take away
-  kRedistribute,  ///< what the saturated path cannot deliver goes to the other path
+  kFixedHalf,     ///< as in the paper: half of tau_turn each way, regardless of limits
+  kRedistribute,  ///< the part that the saturated path cannot make goes to the other path
 };
 
 }  // namespace awmr

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kPlacesBlock = std::size_t{1} << 18U;
 
-/// The text of a line that is `skip` lines below the byte `begin`.
+/// Text of the line `skip` lines below the one that starts at byte `begin`.
 std::optional<std::string> line_below(const InputBytes& bytes, std::size_t begin, int skip) {
   std::string line;
   std::string block;

@@ -1,4 +1,5 @@
-/// Where the cells of a table stand that was read without noting it. Private to the library.
+/// Finds the position of a table's cells that was not stored when it was read. Private to the
+/// library.
 #pragma once
 
 #include <cstddef>
@@ -9,10 +10,10 @@
 
 namespace awmr {
 
-/// Every line feed from the first row on ends a line, and every row is one line.
+/// Assumes that every line feed from the first row on ends a line and that every row is one line.
 class CellPlaces {
  public:
-  /// The first row begins at byte `first_row`, in line `first_line`.
+  /// The first row begins at byte `first_row`, on line `first_line`.
   CellPlaces(std::shared_ptr<const InputBytes> bytes, std::size_t first_row, int first_line,
              char delimiter)
       : bytes_(std::move(bytes)),
@@ -20,8 +21,8 @@ class CellPlaces {
         first_line_(first_line),
         delimiter_(delimiter) {}
 
-  /// The place in its line, from 1, of a cell, from 0; reads the file again up to there. 1 where it
-  /// is no longer what it was.
+  /// Column of a cell (counted from 0) in its line, from 1. Reads the file again up to there.
+  /// Returns 1 if the file has changed.
   int character(int line, std::size_t cell) const;
 
  private:

@@ -22,7 +22,7 @@ constexpr std::array<std::string_view, 15> kFunctions{"sin",  "cos",   "tan",  "
                                                       "atan", "atan2", "sqrt", "abs",   "min",
                                                       "max",  "exp",   "ln",   "log10", "sign"};
 
-/// What a bare name begins with; bytes above 0x7F are those of other alphabets in UTF-8.
+/// True if a bare name can begin with it. Bytes above 0x7F belong to non-ASCII UTF-8 characters.
 bool begins_name(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' ||
          static_cast<unsigned char>(c) >= 0x80U;
@@ -30,11 +30,11 @@ bool begins_name(char c) {
 
 bool continues_name(char c) { return begins_name(c) || is_digit(c) || c == '.'; }
 
-/// The formula as the parser gets it: columns are called c0, c1, ..., numbers are written anew.
+/// The formula as passed to the parser: columns are renamed c0, c1, ..., numbers are reformatted.
 struct Formula {
   std::vector<std::string> names = {};
   std::string text = {};
-  std::vector<bool> open = {};  ///< of each bracket that is open: a function's
+  std::vector<bool> open = {};  ///< by open bracket: it belongs to a function
 };
 
 std::string_view without_spaces(std::string_view text) {
@@ -50,7 +50,7 @@ void add_column(std::string_view name, Formula& formula) {
   formula.text += fmt::format(" c{} ", found - formula.names.begin());
 }
 
-/// Takes `name`, `name.of.parts` or `name[0]` off the front.
+/// Removes `name`, `name.of.parts` or `name[0]` from the front.
 std::string_view take_bare_name(std::string_view& rest) {
   std::size_t end = 0;
   while (end < rest.size() && continues_name(rest[end])) {
@@ -66,7 +66,8 @@ std::string_view take_bare_name(std::string_view& rest) {
   return name;
 }
 
-/// Each of these takes one token off the front of `rest`; what is wrong with it, or nothing.
+/// The functions below each remove one token from the front of `rest`. They return an error text,
+/// or nothing.
 using Wrong = std::optional<std::string>;
 
 Wrong take_number(std::string_view& rest, Formula& formula) {
@@ -153,7 +154,7 @@ tl::expected<Formula, std::string> formula_of(std::string_view text) {
 
 struct ColumnExpression::Compiled {
   mu::Parser parser;
-  std::vector<double> values;  ///< what c0, c1, ... are bound to
+  std::vector<double> values;  ///< values bound to c0, c1, ...
 };
 
 ColumnExpression::ColumnExpression(std::vector<std::string> names,

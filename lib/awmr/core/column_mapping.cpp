@@ -19,7 +19,7 @@ constexpr std::string_view kForm = "expected NAME=SOURCE[*SCALE][+OFFSET]";
 constexpr std::string_view kExpressionForm =
     "expected NAME=EXPRESSION, for example speed_mps=(left + right)/2*0.1";
 
-/// Takes a number off the front of `text`; nothing where none is there.
+/// Removes a number from the front of `text`; nothing if there is none.
 std::optional<double> take_number(std::string_view& text) {
   std::string_view digits = trimmed(text);
   if (digits.size() > 1 && digits[0] == '+' && digits[1] != '-') digits.remove_prefix(1);
@@ -31,7 +31,8 @@ std::optional<double> take_number(std::string_view& text) {
   return value;
 }
 
-/// Takes SOURCE off the front of `text`: up to the closing quote, else up to the first '*' or '+'.
+/// Removes SOURCE from the front of `text`: up to the closing quote, else up to the first '*' or
+/// '+'.
 std::optional<std::string> take_source(std::string_view& text) {
   if (text.empty() || text[0] != '"') {
     const std::size_t end = std::min(text.find_first_of("*+"), text.size());
@@ -54,7 +55,7 @@ std::optional<std::string> take_source(std::string_view& text) {
   return std::nullopt;
 }
 
-/// Takes `[*SCALE][+OFFSET]`, all that is left of `rest`; says what is wrong with it.
+/// Parses `[*SCALE][+OFFSET]`, the whole of `rest`. Returns an error text, or nothing.
 std::optional<std::string> take_scale_and_offset(std::string_view rest, ColumnMapping& mapping) {
   if (!rest.empty() && rest[0] == '*') {
     rest.remove_prefix(1);
@@ -74,7 +75,7 @@ std::optional<std::string> take_scale_and_offset(std::string_view rest, ColumnMa
   return std::nullopt;
 }
 
-/// Reads `SOURCE[*SCALE][+OFFSET]`; says what is wrong with it.
+/// Parses `SOURCE[*SCALE][+OFFSET]`. Returns an error text, or nothing.
 std::optional<std::string> take_body(std::string_view body, ColumnMapping& mapping) {
   auto source = take_source(body);
   if (!source) return "the quote is not closed";
@@ -83,7 +84,7 @@ std::optional<std::string> take_body(std::string_view body, ColumnMapping& mappi
   return take_scale_and_offset(body, mapping);
 }
 
-/// `NAME=BODY` cut in two.
+/// `NAME=BODY`, split.
 struct Halves {
   std::string_view name;
   std::string_view body;
@@ -142,7 +143,7 @@ Result<ColumnMapping> parse_column(std::string_view text) {
 std::string text_of(const ColumnMapping& mapping) {
   const std::string name =
       mapping.file.empty() ? mapping.name : fmt::format("{}:{}", mapping.file, mapping.name);
-  // A constant is of both forms.
+  // A constant has both forms.
   const bool scaled = !mapping.source.empty() && !number_from_text(mapping.expression);
   if (!scaled) return fmt::format("{}={}", name, mapping.expression);
   return fmt::format("{}={}*{}+{}", name, mapping.source, format_number(mapping.scale),
@@ -158,7 +159,7 @@ std::string scaled_expression(const ColumnMapping& mapping, double factor, doubl
   const std::string scaled =
       is_formula ? fmt::format("({})*{:.7g}", mapping.expression, factor)
                  : fmt::format("\"{}\"*{:.7g}", mapping.source, factor * mapping.scale);
-  // A formula has its offset in itself.
+  // A formula includes its offset.
   const double added = offset + (is_formula ? 0.0 : factor * mapping.offset);
   return added == 0.0 ? scaled : fmt::format("{}{:+.7g}", scaled, added);
 }

@@ -19,7 +19,7 @@ bool stands(const std::string& name, Header header) {
   return std::find(header.begin(), header.end(), name) != header.end();
 }
 
-/// The header's names, as many as can be read at a glance.
+/// The header's names, limited to a readable number.
 std::string listed(Header names) {
   constexpr std::size_t kMost = 20;
   std::string text;
@@ -30,14 +30,15 @@ std::string listed(Header names) {
   return text;
 }
 
-/// What a mapping comes to with this header.
+/// Result of applying a mapping to this header.
 struct Candidate {
   ColumnSource source;
-  std::vector<std::string> names;    ///< the columns that it takes
-  std::vector<std::string> missing;  ///< those that the header has not
+  std::vector<std::string> names;    ///< columns that it uses
+  std::vector<std::string> missing;  ///< those that the header does not have
 };
 
-/// The text as a whole, SOURCE with scale and offset, or arithmetic: the first that the header has.
+/// The whole text as a name, SOURCE with scale and offset, or arithmetic: the first that the header
+/// has.
 Candidate candidate_of(const CsvColumn& column, const ColumnMapping& mapping, Header header) {
   Candidate candidate{
       .source = {.column = column, .indices = {}, .mapping = &mapping}, .names = {}, .missing = {}};
@@ -63,7 +64,7 @@ Candidate candidate_of(const CsvColumn& column, const ColumnMapping& mapping, He
   return candidate;
 }
 
-/// The lower, the closer to the file.
+/// Priority of a mapping: lower is more specific to the file.
 int distance(const ColumnMapping& mapping) {
   return !mapping.file.empty() ? 0 : mapping.standing ? 2 : 1;
 }
@@ -72,7 +73,7 @@ std::string shown(const ColumnMapping& mapping) {
   return mapping.expression.empty() ? mapping.source : mapping.expression;
 }
 
-/// One column that was asked for, with what came of its mappings.
+/// One requested column, with the results of its mappings.
 class Search {
  public:
   Search(const CsvColumn& column, Header header, Header samples, ColumnSources& result)
@@ -136,7 +137,7 @@ class Search {
     }
   }
 
-  /// Takes the column that can only be the time; false where there is none.
+  /// Uses the only column that can be the time; false if there is none.
   bool use_time() {
     auto time = find_time(header_, samples_);
     if (!time) {
@@ -147,7 +148,7 @@ class Search {
     ColumnSource source{.column = column_, .indices = {}};
     std::vector<std::string> names{(*time)->expression};
     if (!(*time)->is_date) {
-      // A name with a backtick has no place in a formula; no unit has been found in one then.
+      // A name with a backtick cannot be written in a formula; no such name with a unit is known.
       auto expression = ColumnExpression::parse((*time)->expression);
       if (!expression) return false;
       names = expression->names();
@@ -158,7 +159,7 @@ class Search {
     return true;
   }
 
-  /// Sets the places of the columns; a name that stands twice in the header is a fault.
+  /// Sets the indices of the columns; a name that occurs twice in the header is a fault.
   void use(ColumnSource source, const std::vector<std::string>& names) {
     for (const std::string& name : names) {
       const auto first = std::find(header_.begin(), header_.end(), name);
@@ -171,7 +172,7 @@ class Search {
       }
       source.indices.push_back(static_cast<std::size_t>(first - header_.begin()));
     }
-    // A mapping of the time may name a column of dates.
+    // A mapping of the time can name a column of dates.
     const bool is_one = source.indices.size() == 1 && !source.expression && source.scale == 1.0;
     if (column_.name == kTimeName && source.mapping != nullptr && is_one &&
         source.indices[0] < samples_.size() && seconds_of_date(samples_[source.indices[0]])) {

@@ -1,4 +1,4 @@
-/// Which columns of a header give those that are asked for. Private to the library.
+/// Finds the columns of a header that provide the requested columns. Private to the library.
 #pragma once
 
 #include <optional>
@@ -13,7 +13,7 @@
 
 namespace awmr {
 
-/// Where one column that was asked for comes from.
+/// Source of one requested column.
 struct ColumnSource {
   CsvColumn column;
   std::vector<std::size_t> indices;              ///< into the header; none for a constant
@@ -21,10 +21,10 @@ struct ColumnSource {
   std::optional<ColumnExpression> expression{};  ///< none: the one column, scaled
   double scale = 1.0;
   double offset = 0.0;
-  std::optional<TimeColumn> time = {};  ///< where t_s was found by its unit or as dates
+  std::optional<TimeColumn> time = {};  ///< set if t_s was found by its unit or as dates
 };
 
-/// What is wrong with a header.
+/// A fault of a header.
 struct HeaderFault {
   std::optional<std::size_t> cell;  ///< none: the header as a whole
   std::string message;
@@ -35,25 +35,25 @@ struct ColumnSources {
   std::vector<HeaderFault> faults = {};
 };
 
-/// A mapping counts where the header has its columns, the file's own before those for every file
-/// before the vehicle's; else the column is looked for under its own name. `file` is the table's
-/// path, `samples` the cells of its first row, by which dates are known. Where t_s is neither there
-/// nor mapped, it is looked for by find_time(). Faults: a required column is missing; two mappings
-/// of one column; a formula of whose columns only some are there; a column that stands twice; more
-/// than one column that may be the time.
+/// A mapping applies if the header has its columns. Order of priority: mappings of this file,
+/// mappings of every file, mappings of the vehicle, then the column under its own name. `file` is
+/// the table's path. `samples` are the cells of its first row, used to recognise dates. If t_s is
+/// neither present nor mapped, find_time() looks for it.
+/// Faults: a missing required column; two mappings of one column; a formula with only some of its
+/// columns present; a column name that occurs twice; more than one candidate for the time.
 ColumnSources find_columns(std::span<const std::string> header,
                            std::span<const std::string> samples, std::span<const CsvColumn> columns,
                            std::span<const ColumnMapping> mappings, const std::string& file);
 
-/// The columns that a mapping is made from and that the header does not have; of several ways to
-/// read the mapping, of that which find_columns() takes. Empty: the header has all of them.
+/// Columns that the mapping needs and the header does not have, for the reading of the mapping that
+/// find_columns() chooses. Empty: the header has all of them.
 std::vector<std::string> missing_columns(const ColumnMapping& mapping,
                                          std::span<const std::string> header);
 
-/// The mapping is for every file, or for this one, by its path or its name.
+/// True if the mapping applies to every file, or to this one by its path or name.
 bool is_for(const ColumnMapping& mapping, const std::string& file);
 
-/// Every name that the columns and their mappings may look for in a header.
+/// All names that the columns and their mappings can refer to in a header.
 std::set<std::string> wanted_names(std::span<const CsvColumn> columns,
                                    std::span<const ColumnMapping> mappings);
 

@@ -22,7 +22,7 @@
 namespace awmr {
 namespace {
 
-/// Header, then rows, gathering faults until there are too many to be of use.
+/// Parses the header, then the rows. Collects faults up to a maximum.
 class CsvParser {
  public:
   CsvParser(std::string file, std::string_view bytes) : scanner_(bytes) {
@@ -83,8 +83,8 @@ Result<CsvTable> CsvParser::parse(std::span<const CsvColumn> columns,
   return table_of(std::move(raw_), std::move(sources), mappings, std::move(faults_));
 }
 
-/// Fills `cells_` with the next record; false at the end and after a quote that is never closed.
-/// After another fault in a record `cells_` is empty.
+/// Fills `cells_` with the next record. False at the end of the text and after an unterminated
+/// quote. After another fault in a record, `cells_` is empty.
 bool CsvParser::scan() {
   const CsvScanner::Outcome outcome = scanner_.next(cells_);
   if (outcome == CsvScanner::Outcome::kRecord) return true;
@@ -119,7 +119,7 @@ bool CsvParser::read_row() {
   return true;
 }
 
-/// Of a row with more cells than the header, separated by commas: whole numbers alone.
+/// True if a row with more cells than the header, separated by commas, has only whole numbers.
 bool CsvParser::has_decimal_commas() const {
   if (header_.delimiter != ',' || cells_.size() <= header_.names.size()) return false;
   const auto is_whole = [](const CsvCell& cell) {
@@ -144,7 +144,7 @@ void CsvParser::report_ragged() {
   fault(cell.line, cell.character, std::move(message));
 }
 
-/// A fault, or a cell that may be empty, has its own mark in place of a value.
+/// Faulty cells and permitted empty cells have marker values.
 double CsvParser::value_of(const CsvCell& cell, const CsvUsedColumn& used) {
   if (used.may_be_empty && cell.text.empty()) return kEmptyCell;
   if (used.is_date) {
@@ -167,7 +167,7 @@ double CsvParser::value_of(const CsvCell& cell, const CsvUsedColumn& used) {
   return kFaultyCell;
 }
 
-/// Decimal commas that cannot be are a fault.
+/// Reports decimal commas that are ambiguous or inconsistent.
 void CsvParser::check_commas() {
   if (const auto wrong = fault_of(commas_)) {
     fault(commas_.comma->line, commas_.comma->character, *wrong);
@@ -183,7 +183,7 @@ void CsvParser::read_cells() {
   }
 }
 
-/// Files that are no text, by their first bytes.
+/// Non-text file formats, by their first bytes.
 struct KnownFile {
   std::string_view begin;
   std::string_view words;
@@ -195,7 +195,7 @@ constexpr std::array<KnownFile, 5> kKnownFiles{
      {"%PDF-", "a PDF; export the table as CSV"},
      {"\x89MCAP", "an MCAP bag; convert it by ros2 bag convert to sqlite3"}}};
 
-/// The text without its byte order mark. Errors: it is empty or no text.
+/// The text without its byte order mark. Errors: it is empty or is not text.
 Result<std::string_view> text_of(std::string_view bytes, const std::string& file) {
   if (bytes.empty()) {
     return input_error(file, "the file is empty; expected a header row and rows");

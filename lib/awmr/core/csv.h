@@ -1,4 +1,4 @@
-/// CSV in: header row, unit in the column name; comma, semicolon or tab (detected), `#` comment
+/// CSV input: header row, unit in the column name; comma, semicolon or tab (detected), `#` comment
 /// lines, CRLF, a BOM and quoted fields. Columns are found by name, extra ones ignored.
 #pragma once
 
@@ -18,14 +18,14 @@
 
 namespace awmr {
 
-/// What an empty cell means in a table whose columns have values at times of their own.
+/// Meaning of an empty cell in a table whose columns have different sample times.
 enum class EmptyCells {
-  kFault,   ///< it is one: a value belongs into every row
+  kFault,   ///< a fault: every row needs a value
   kHeld,    ///< a command: the previous value still holds
   kAbsent,  ///< a measurement: there was none in this row
-  /// Of a table with a row per run: this run has none. Any number of rows may be without; nothing is kept
-  /// from the row before, and no row is left out for it. Empty in all of them, the column is absent, also
-  /// where it is required.
+  /// For tables with one row per run: this run has no value. Any number of rows can be empty; no
+  /// value is carried over from the row before, and no row is dropped. If all are empty, the column
+  /// is absent, even if it is required.
   kOptional,
 };
 
@@ -35,24 +35,24 @@ struct CsvColumn {
   EmptyCells empty = EmptyCells::kFault;
 };
 
-/// What a reader has to tell of how it took a file; never silent, never a fault.
+/// Note on how a file was interpreted. Always reported, never a fault.
 struct CsvNote {
   int line = 0;  ///< 0: the file as a whole
   std::string code;
   std::string message;
 };
 
-/// Finds again where a cell stands in the file.
+/// Finds the position of a cell in the file.
 class CellPlaces;
 
-/// The numeric columns that were asked for, and where each cell stood.
+/// The requested numeric columns, and the position of each cell.
 class CsvTable {
  public:
   struct Column {
     std::vector<double> values;
     std::vector<int> character;      ///< column in the file, from 1, by row; empty: see `cell`
-    std::vector<bool> present = {};  ///< by row: has a value of its own; empty: all have
-    std::optional<std::size_t> cell = {};  ///< of a row, from 0, whose place `places` finds
+    std::vector<bool> present = {};  ///< by row: has its own value; empty: all have
+    std::optional<std::size_t> cell = {};  ///< index, from 0, whose position `places` finds
   };
   struct Parts {
     std::string file;
@@ -62,7 +62,7 @@ class CsvTable {
     std::vector<CsvNote> notes = {};
     std::vector<std::size_t> mapped = {};
     double clock_s = 0.0;
-    std::shared_ptr<const CellPlaces> places = {};  ///< null: where `character` is not known, 1
+    std::shared_ptr<const CellPlaces> places = {};  ///< null: unknown `character` is reported as 1
   };
   /// Precondition: every column has a value for every line.
   explicit CsvTable(Parts parts) : parts_(std::move(parts)) {}
@@ -72,9 +72,9 @@ class CsvTable {
   bool has(std::string_view column) const;
   /// Values by row. Precondition: has(column).
   std::span<const double> column(std::string_view column) const;
-  /// The same, moved out of the table, whose column is empty then. Precondition: has(column).
+  /// As column(), moved out of the table, which leaves the column empty. Precondition: has(column).
   std::vector<double> take(std::string_view column);
-  /// By row: the value was written there, not held from a row before. Empty: all were.
+  /// By row: the value was in the file, not carried over from an earlier row. Empty: all were.
   /// Precondition: has(column).
   const std::vector<bool>& present(std::string_view column) const;
   /// Line in the file, from 1.
@@ -84,25 +84,26 @@ class CsvTable {
   /// `FILE:LINE:1` of the header.
   std::string header_place() const;
   const std::vector<CsvNote>& notes() const { return parts_.notes; }
-  /// What a clock's time had taken off so that t_s counts from the first row, s.
+  /// Clock time subtracted so that t_s counts from the first row, s.
   double clock_s() const { return parts_.clock_s; }
-  /// The mappings that gave a column: indices into those that the table was read with.
+  /// Mappings that gave a column: indices into those that the table was read with.
   const std::vector<std::size_t>& mapped() const { return parts_.mapped; }
 
  private:
   Parts parts_;
 };
 
-/// Reads the columns asked for. Where at least one of them that is kHeld or kAbsent is empty in a quarter
-/// of its rows or more, the file holds signals of different rates: the empty cells of columns that may have some
-/// mean what EmptyCells says, and rows without a value of any column are left out.
-/// Every fault of the file at once: missing required or duplicate columns, ragged rows, cells that
-/// are empty, not numbers, NaN or infinite, an unterminated quote, no rows, a formula whose value
-/// is infinite or NaN.
+/// Reads the requested columns. If at least one kHeld or kAbsent column is empty in a quarter of
+/// its rows or more, the file is sparse: it holds signals of different rates. Empty cells of
+/// columns that permit them then have the meaning in EmptyCells, and rows without any value are
+/// dropped.
+/// Reports all faults of the file at once: missing required or duplicate columns, ragged rows,
+/// cells that are empty, not numbers, NaN or infinite, an unterminated quote, no rows, a formula
+/// whose value is infinite or NaN.
 Result<CsvTable> read_csv(const std::filesystem::path& path, std::span<const CsvColumn> columns,
                           std::span<const ColumnMapping> mappings = {});
 
-/// CSV out: numbers in the shortest form that reads back the same.
+/// CSV output: numbers in the shortest form that reads back to the same value.
 std::string format_number(double value);
 
 }  // namespace awmr

@@ -13,7 +13,8 @@ namespace {
 
 bool ends_cell(char c, char delimiter) { return c == delimiter || c == '\n' || c == '\r'; }
 
-/// The bytes of a word that are `c` have their top bit set; so may those above the first one.
+/// Sets the top bit of each byte of `word` that equals `c`. Bytes above the first match can be set,
+/// too.
 std::uint64_t bytes_like(std::uint64_t word, char c) {
   constexpr std::uint64_t kOnes = 0x0101010101010101U;
   const std::uint64_t zero = word ^ (kOnes * static_cast<unsigned char>(c));
@@ -37,7 +38,7 @@ const char* cell_end(const char* text, char delimiter) {
   }
 }
 
-/// Blank lines, comments and quoted cells begin with one of these, or with blanks in front of them.
+/// Blank lines, comments and quoted cells begin with one of these, or with blanks followed by one.
 bool begins_oddly(char first, char delimiter) {
   return first == '#' || first == '"' || first == '\n' || first == '\r' || first == ' ' ||
          (first == '\t' && delimiter != '\t');
@@ -45,7 +46,7 @@ bool begins_oddly(char first, char delimiter) {
 
 }  // namespace
 
-/// A row has at least a byte for each cell: its delimiter or line end.
+/// A row has at least one byte per cell: its delimiter or line end.
 void CsvBlock::make_room(std::size_t bytes, const CsvShape& shape) {
   capacity_ = bytes / shape.cells + 1;
   if (size_ < capacity_ * shape.used.size()) {
@@ -64,7 +65,7 @@ bool CsvBlock::read(std::string_view lines, const CsvShape& shape) {
   rows_ = lines_ = 0;
   has_empty_ = false;
   without_row_.clear();
-  // A text has no such byte; searched for here, no cell need be looked at for it.
+  // Text has no NUL byte; checked here once for all cells.
   if (lines.find('\0') != std::string_view::npos) return false;
   const char* const end = lines.data() + lines.size();
   for (const char* line = lines.data(); line != end; ++lines_) {
@@ -82,7 +83,7 @@ bool CsvBlock::read(std::string_view lines, const CsvShape& shape) {
   return true;
 }
 
-/// Takes an ordinary row; returns where the next line begins, null where the line is none.
+/// Reads an ordinary row. Returns the start of the next line, or null if the line is not one.
 const char* CsvBlock::read_row(const char* text, char delimiter) {
   if (begins_oddly(*text, delimiter)) return nullptr;
   const Slot* const last = &slots_.back();
@@ -96,7 +97,7 @@ const char* CsvBlock::read_row(const char* text, char delimiter) {
   return *text == '\n' ? text + 1 : nullptr;
 }
 
-/// Returns where the cell ends; null where it is wrong or quoted.
+/// Returns the end of the cell, or null if it is invalid or quoted.
 inline const char* CsvBlock::read_cell(const char* text, char delimiter, const Slot& slot) {
   if (!slot.column->is_date) {
     const char* const end = take_exact_number(text, slot.values[rows_]);
@@ -107,7 +108,7 @@ inline const char* CsvBlock::read_cell(const char* text, char delimiter, const S
   return put({text, static_cast<std::size_t>(end - text)}, slot) ? end : nullptr;
 }
 
-/// Takes the text of a cell as the reader of whole texts does; false where it is wrong.
+/// Parses the text of a cell like the whole-text reader; false if it is invalid.
 bool CsvBlock::put(std::string_view text, const Slot& slot) {
   const auto value = csv_value(text, *slot.column);
   if (!value) return false;
@@ -116,7 +117,7 @@ bool CsvBlock::put(std::string_view text, const Slot& slot) {
   return true;
 }
 
-/// The same for a line.
+/// Parses a line that is not an ordinary row, with the whole-text reader's rules.
 bool CsvBlock::read_odd_line(std::string_view line, char delimiter) {
   CsvScanner scanner(line);
   scanner.set_delimiter(delimiter);

@@ -1,4 +1,4 @@
-/// The rows of a piece of a CSV file, fast where they are ordinary. Private to the library.
+/// Rows of one block of a CSV file, with a fast path for ordinary rows. Private to the library.
 #pragma once
 
 #include <cstddef>
@@ -11,37 +11,37 @@
 
 namespace awmr {
 
-/// What every row of the file looks like.
+/// Format common to all rows of the file.
 struct CsvShape {
   char delimiter = ',';
-  std::size_t cells = 0;                     ///< of a row
-  std::span<const CsvUsedColumn> used = {};  ///< those that are read
+  std::size_t cells = 0;                     ///< per row
+  std::span<const CsvUsedColumn> used = {};  ///< columns that are read
 };
 
-/// Rows of some lines that follow each other.
+/// Rows of consecutive lines.
 class CsvBlock {
  public:
-  /// Bytes behind the lines that are looked at, whatever they are.
+  /// Readable bytes required behind the lines; their values do not matter.
   static constexpr std::size_t kPadding = 8;
 
-  /// Reads whole lines in place of what was read before; each ends with LF, and kPadding bytes behind
-  /// them are readable. False where some line is not a row, a comment or blank by itself: a quoted
-  /// cell goes on in the next line, a carriage return alone ends it, or a cell is wrong.
+  /// Reads whole lines and replaces those read before. Each line ends with LF, and kPadding bytes
+  /// behind them are readable. False if a line is not by itself a row, a comment or blank: a quoted
+  /// cell continues in the next line, a carriage return alone ends it, or a cell is invalid.
   bool read(std::string_view lines, const CsvShape& shape);
 
   std::size_t rows() const { return rows_; }
   std::size_t lines() const { return lines_; }
-  /// By row, of one of the columns that are read.
+  /// By row, for one of the columns that are read.
   std::span<const double> values(std::size_t place) const {
     return {values_.get() + place * capacity_, rows_};
   }
-  /// Some cell that may be empty is.
+  /// True if a permitted cell is empty.
   bool has_empty() const { return has_empty_; }
-  /// The lines, from 0, without a row.
+  /// Indices, from 0, of the lines without a row.
   std::span<const std::size_t> without_row() const { return without_row_; }
 
  private:
-  /// Where the values of a cell of each row go.
+  /// Destination for the values of one cell of each row.
   struct Slot {
     const CsvUsedColumn* column = nullptr;  ///< null: it is not read
     double* values = nullptr;
@@ -53,7 +53,7 @@ class CsvBlock {
   bool read_odd_line(std::string_view line, char delimiter);
   bool put(std::string_view text, const Slot& slot);
 
-  std::unique_ptr<double[]> values_ = {};  ///< one column after the other, `capacity_` of each
+  std::unique_ptr<double[]> values_ = {};  ///< one column after the other, each `capacity_` long
   std::size_t size_ = 0;                   ///< of `values_`
   std::size_t capacity_ = 0;
   std::vector<Slot> slots_ = {};  ///< as in the header

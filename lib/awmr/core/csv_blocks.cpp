@@ -22,15 +22,15 @@
 namespace awmr {
 namespace {
 
-/// How the file is taken, known from its beginning.
+/// File format, determined from its beginning.
 struct Beginning {
-  CsvHeader header = {};  ///< without `cells`, whose text is gone
+  CsvHeader header = {};  ///< without `cells`, whose text is no longer in memory
   std::size_t first_row = 0;
   int first_line = 1;
 };
 
-/// Reads as much of the file as it takes to be sure of the header; nothing where there is none, or
-/// where it does not end.
+/// Reads as much of the file as the header needs. Nothing if there is no header or if it does not
+/// end.
 Result<std::optional<Beginning>> beginning_of(const InputBytes& file,
                                               std::span<const CsvColumn> columns,
                                               std::span<const ColumnMapping> mappings) {
@@ -55,15 +55,15 @@ Result<std::optional<Beginning>> beginning_of(const InputBytes& file,
   return std::nullopt;
 }
 
-/// What comes of the blocks, one after the other.
+/// Rows collected from the blocks, in order.
 struct Gathered {
   RawTable raw;
   Sha256 hash = {};
   int next_line = 1;
 };
 
-/// Makes room for the rows that are still to come, as long as those so far: memory that is not
-/// written to takes none.
+/// Reserves memory for the remaining rows, estimated from those so far. Unwritten memory costs
+/// nothing.
 void reserve(std::vector<double>& values, std::size_t more, double share_read) {
   if (values.size() + more <= values.capacity()) return;
   const double all = static_cast<double>(values.size() + more) / share_read;
@@ -95,13 +95,13 @@ void take(const CsvBlock& block, std::span<const CsvUsedColumn> used, double sha
 
 int threads_for(const InputBytes& file, const CsvBlocks& blocks) {
   constexpr std::size_t kSmallFile = std::size_t{1} << 23U;
-  constexpr unsigned kMostThreads = 4;  // the hash, block after block, keeps no more busy
+  constexpr unsigned kMostThreads = 4;  // hashing is sequential and keeps no more threads busy
   if (blocks.threads > 0) return blocks.threads;
   if (file.size() < kSmallFile) return 1;
   return static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, kMostThreads));
 }
 
-/// Reads all rows; false where some line needs the reader of whole texts.
+/// Reads all rows; false if a line needs the whole-text reader.
 Result<bool> read_rows(const InputBytes& file, std::size_t first_row, const CsvShape& shape,
                        const CsvBlocks& blocks, Gathered& gathered) {
   const std::size_t count = (file.size() + blocks.bytes - 1) / blocks.bytes;

@@ -1,5 +1,5 @@
-/// A CSV file that is read in blocks, by several threads where it is large: what an ordinary table of
-/// numbers takes, however long it is. Private to the library.
+/// Reads a CSV file in blocks, with several threads if it is large. Handles ordinary numeric tables
+/// of any length. Private to the library.
 ///
 ///     the file   |  block 0  |  block 1  |  block 2  | ...     any thread reads one of them
 ///     its lines  header|-----|-----|----|------|-----          a line counts where it begins
@@ -16,17 +16,17 @@
 
 namespace awmr {
 
-/// None of it changes the table.
+/// Performance settings. They do not change the table.
 struct CsvBlocks {
-  std::size_t bytes = std::size_t{1} << 18U;  ///< of a block; text and numbers stay in the cache
+  std::size_t bytes = std::size_t{1} << 18U;  ///< per block; text and numbers fit into the cache
   int threads = 0;                            ///< 0: one for a small file, else up to four
-  bool hash = true;  ///< takes the hash of a file, by which outputs name it
+  bool hash = true;  ///< compute the hash that identifies the file in outputs
 };
 
-/// The table as read_csv_text() gives it, or nothing where that has to read the file: something is
-/// wrong with it, a quoted cell goes over several lines, a carriage return alone ends a line, or
-/// numbers have decimal commas. Notes the hash of a file. Errors: the file cannot be read or is
-/// written to meanwhile.
+/// Returns the same table as read_csv_text(), or nothing if read_csv_text() must read the file: it
+/// has a fault, a quoted cell spans lines, a carriage return alone ends a line, or numbers have
+/// decimal commas. Records the hash of the file. Errors: the file cannot be read or is modified
+/// while it is read.
 Result<std::optional<CsvTable>> read_csv_blocks(std::shared_ptr<const InputBytes> bytes,
                                                 std::span<const CsvColumn> columns,
                                                 std::span<const ColumnMapping> mappings,

@@ -15,7 +15,7 @@
 namespace awmr {
 namespace {
 
-constexpr std::size_t kLongestCell = 40;  ///< shown in a message
+constexpr std::size_t kLongestCell = 40;  ///< characters shown in a message
 
 std::string lower(std::string_view text) {
   std::string result(text);
@@ -25,7 +25,7 @@ std::string lower(std::string_view text) {
   return result;
 }
 
-/// The text in quotes, cut where it is long, on one line.
+/// The text in quotes, shortened, on one line.
 std::string shown(std::string_view text) {
   const std::string_view begin = first_characters(text, kLongestCell);
   std::string result(begin);
@@ -47,7 +47,7 @@ std::size_t count_digits(std::string_view text) {
                                   text.begin());
 }
 
-/// Begins with 2026-01-31, 31.01.2026 or 1/31/26.
+/// True if it begins with 2026-01-31, 31.01.2026 or 1/31/26.
 bool is_date(std::string_view text) {
   const std::size_t first = count_digits(text);
   if (first == 0 || first >= text.size()) return false;
@@ -60,17 +60,17 @@ bool is_date(std::string_view text) {
   return first == 4 ? third == 1 || third == 2 : first <= 2 && (third == 2 || third == 4);
 }
 
-/// Begins with 12:34.
+/// True if it begins with 12:34.
 bool is_clock_time(std::string_view text) {
   const std::size_t hours = count_digits(text);
   return hours > 0 && hours <= 2 && text.substr(hours).starts_with(':') &&
          count_digits(text.substr(hours + 1)) == 2;
 }
 
-/// U+2212, which spreadsheets and typesetters write for '-'.
+/// U+2212, which spreadsheets and typesetters use for '-'.
 constexpr std::string_view kMinusSign = "\xE2\x88\x92";
 
-/// What is wrong with a text that is no number, of which the first `read` characters are one.
+/// Reason why a text is not a number; its first `read` characters are one.
 std::string why_not_a_number(std::string_view text, std::size_t read) {
   const std::size_t sign = text.find_first_not_of("+-");
   const std::string word = sign == std::string_view::npos ? "" : lower(text.substr(sign));
@@ -98,7 +98,7 @@ std::string why_not_a_number(std::string_view text, std::size_t read) {
   return found;
 }
 
-/// A number whose minus is U+2212.
+/// Parses a number whose minus sign is U+2212.
 std::optional<double> number_with_minus_sign(std::string_view text) {
   std::string ascii(text);
   std::size_t at = ascii.find(kMinusSign);

@@ -1,4 +1,5 @@
-/// The columns of a CSV file that are read, and what a cell of one comes to. Private to the library.
+/// The columns of a CSV file that are read, and the conversion of their cells. Private to the
+/// library.
 #pragma once
 
 #include <optional>
@@ -14,17 +15,17 @@ namespace awmr {
 /// A column of the file that is read.
 struct CsvUsedColumn {
   std::size_t index;         ///< into the header
-  std::string name;          ///< as errors call it
-  bool may_be_empty = true;  ///< for all that is made from it
+  std::string name;          ///< name in error messages
+  bool may_be_empty = true;  ///< for every column derived from it
   bool is_date = false;      ///< a date of ISO 8601
 };
 
-/// Each column once, however many are made from it.
+/// Each file column once, however many requested columns use it.
 std::vector<CsvUsedColumn> used_columns(const ColumnSources& sources,
                                         std::span<const std::string> header);
 
-/// The value of a cell without quotes, whose outer spaces may stand; kEmptyCell where it is empty and
-/// may be. Nothing where it is wrong.
+/// Value of an unquoted cell; surrounding spaces are allowed. kEmptyCell if it is empty and may be.
+/// Nothing if it is invalid.
 std::optional<double> csv_value(std::string_view text, const CsvUsedColumn& column);
 
 }  // namespace awmr

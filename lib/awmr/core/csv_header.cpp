@@ -16,7 +16,7 @@ namespace {
 
 using Outcome = CsvScanner::Outcome;
 
-/// The text of a cell with its doubled quotes made single.
+/// Text of a cell with doubled quotes replaced by single ones.
 std::string name_of(const CsvCell& cell) {
   std::string name;
   for (std::size_t i = 0; i < cell.text.size(); ++i) {
@@ -28,11 +28,11 @@ std::string name_of(const CsvCell& cell) {
 
 struct Delimiter {
   char character = ',';
-  int found = 0;        ///< columns asked for that it parts off
+  int found = 0;        ///< requested columns that it separates
   bool is_cut = false;  ///< as in CsvHeader
 };
 
-/// The delimiter that finds most of the columns asked for, then the one that makes most cells.
+/// The delimiter that finds most requested columns; of equal ones, the one that gives most cells.
 Delimiter delimiter_of(const CsvScanner& scanner, const std::set<std::string>& wanted) {
   int best = 0;
   Delimiter chosen;
@@ -41,7 +41,7 @@ Delimiter delimiter_of(const CsvScanner& scanner, const std::set<std::string>& w
     CsvScanner copy = scanner;
     copy.set_delimiter(delimiter);
     std::vector<CsvCell> cells;
-    copy.next(cells);  // up to a fault, if there is one
+    copy.next(cells);  // up to the first fault
     is_cut = is_cut || copy.ran_out();
     const auto found =
         static_cast<int>(std::count_if(cells.begin(), cells.end(), [&](const CsvCell& cell) {
@@ -57,8 +57,8 @@ Delimiter delimiter_of(const CsvScanner& scanner, const std::set<std::string>& w
   return chosen;
 }
 
-/// Some programs write the names behind a '#': the last comment above the first row, where it has as
-/// many cells as that and some of the columns asked for.
+/// Uses the last comment above the first row as the header, because some programs write names
+/// behind a '#'. It must have as many cells as that row and some of the requested columns.
 bool take_comment(CsvScanner& scanner, const std::set<std::string>& wanted, CsvHeader& header) {
   CsvScanner comment(scanner.comment());
   const Delimiter chosen = delimiter_of(comment, wanted);
@@ -80,7 +80,7 @@ bool take_comment(CsvScanner& scanner, const std::set<std::string>& wanted, CsvH
   return header.is_comment = true;
 }
 
-/// `column_1`, `column_2`, ...: what the columns of a file without a header are called.
+/// Names of the columns of a file without a header: `column_1`, `column_2`, ...
 constexpr std::string_view kPositionName = "column_";
 
 bool is_position(const std::string& name) {
@@ -95,7 +95,7 @@ bool is_number(const CsvCell& cell, bool may_have_comma) {
   return number_from_text(text).has_value();
 }
 
-/// Where columns are asked for by their position and the first line holds numbers, it is a row already.
+/// If columns are requested by position and the first line holds numbers, the first line is a row.
 bool take_positions(CsvScanner& scanner, const std::set<std::string>& wanted, CsvHeader& header) {
   if (std::none_of(wanted.begin(), wanted.end(), is_position)) return false;
   for (const char delimiter : {';', '\t', '|', ','}) {
@@ -118,7 +118,7 @@ bool take_positions(CsvScanner& scanner, const std::set<std::string>& wanted, Cs
   return false;
 }
 
-/// Written by a program for itself: PuTTY's mark of a new log, Excel's separator.
+/// Line that a program writes for itself: PuTTY's mark of a new log, Excel's separator.
 bool is_mark(std::string_view line) {
   std::string_view text = trimmed(line);
   if (text.starts_with("=~=~=")) return true;
@@ -129,7 +129,7 @@ bool is_mark(std::string_view line) {
   return text.size() == kSeparatorMark && (text.starts_with("sep=") || text.starts_with("SEP="));
 }
 
-/// The cells of the next line, up to a fault.
+/// Cells of the next line, up to the first fault.
 std::vector<CsvCell> cells_of_line(CsvScanner scanner, char delimiter) {
   scanner.set_delimiter(delimiter);
   std::vector<CsvCell> cells;
@@ -142,7 +142,8 @@ bool has_number(const std::vector<CsvCell>& cells, char delimiter) {
                      [&](const CsvCell& cell) { return is_number(cell, delimiter != ','); });
 }
 
-/// `scanner` stands before a header: columns asked for, or names above a row of as many cells.
+/// True if `scanner` is at a header: it has requested columns, or names above a row of as many
+/// cells.
 bool is_above_rows(CsvScanner scanner, const Delimiter& chosen) {
   const std::vector<CsvCell> names = cells_of_line(scanner, chosen.character);
   if (chosen.found >= 2) return true;
@@ -153,7 +154,7 @@ bool is_above_rows(CsvScanner scanner, const Delimiter& chosen) {
   return row.size() == names.size() && has_number(row, chosen.character);
 }
 
-/// Leaves out the marks above the header.
+/// Skips such marks above the header.
 void skip_marks(CsvScanner& scanner, CsvHeader& header) {
   while (is_mark(scanner.peek_line())) {
     scanner.skip_line();
@@ -161,8 +162,8 @@ void skip_marks(CsvScanner& scanner, CsvHeader& header) {
   }
 }
 
-/// Leaves out up to kMaxTitleLines lines above the header, with fewer cells than it. A first line that has
-/// columns asked for, or a number, is no title.
+/// Skips up to kMaxTitleLines title lines above the header, which have fewer cells than it. A first
+/// line with a requested column or a number is not a title.
 void skip_titles(CsvScanner& scanner, const std::set<std::string>& wanted, CsvHeader& header) {
   constexpr int kMaxTitleLines = 20;
   CsvScanner ahead = scanner;
@@ -183,7 +184,7 @@ void skip_titles(CsvScanner& scanner, const std::set<std::string>& wanted, CsvHe
   header.is_cut = header.is_cut || ahead.ran_out();
 }
 
-/// The format that a first line shows; empty: it may be a header.
+/// File format recognised from the first line; empty: it can be a header.
 std::string_view format_of(std::string_view line) {
   const std::string_view text = trimmed(line);
   const std::string_view next = trimmed(text.substr(std::min<std::size_t>(1, text.size())));
@@ -197,7 +198,7 @@ std::string_view format_of(std::string_view line) {
   return {};
 }
 
-/// Words between spaces.
+/// Splits a line at spaces.
 std::vector<std::string_view> words_in(std::string_view line) {
   std::vector<std::string_view> words;
   for (std::size_t begin = 0; (begin = line.find_first_not_of(" \t", begin)) != line.npos;) {
@@ -208,7 +209,8 @@ std::vector<std::string_view> words_in(std::string_view line) {
   return words;
 }
 
-/// Names between spaces: some column asked for, or above a row of as many words with a number.
+/// True for names separated by spaces: one is a requested column, or the next row has as many
+/// words, one of them a number.
 bool is_between_spaces(CsvScanner scanner, const std::set<std::string>& wanted) {
   const std::vector<std::string_view> words = words_in(scanner.peek_line());
   if (words.size() < 2) return false;
@@ -221,7 +223,7 @@ bool is_between_spaces(CsvScanner scanner, const std::set<std::string>& wanted) 
                      [](std::string_view word) { return number_from_text(word).has_value(); });
 }
 
-/// Errors: text of another format.
+/// Errors: the text is of another format.
 Status check_format(CsvScanner scanner, const std::string& file) {
   const std::string_view format = format_of(scanner.peek_line());
   if (format.empty()) return {};
@@ -231,7 +233,7 @@ Status check_format(CsvScanner scanner, const std::string& file) {
                                  format));
 }
 
-/// Errors: cells between spaces.
+/// Errors: cells are separated by spaces.
 Status check_spaces(CsvScanner scanner, const std::string& file,
                     const std::set<std::string>& wanted) {
   scanner.peek_line();
@@ -244,7 +246,7 @@ Status check_spaces(CsvScanner scanner, const std::string& file,
                      "tabs");
 }
 
-/// Errors: a name that is not UTF-8.
+/// Errors: a name is not UTF-8.
 Status check_names(const CsvHeader& header, const std::string& file) {
   for (const CsvCell& cell : header.cells) {
     if (is_utf8(cell.text)) continue;
@@ -278,7 +280,7 @@ Status take_first_line(CsvScanner& scanner, const std::string& file, CsvHeader& 
                   option_text("column t_s=column_1")));
 }
 
-/// The texts of the first row.
+/// Stores the texts of the first row.
 void take_samples(CsvScanner scanner, CsvHeader& header) {
   std::vector<CsvCell> cells;
   scanner.next(cells);

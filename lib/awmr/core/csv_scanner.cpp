@@ -8,14 +8,14 @@
 namespace awmr {
 namespace {
 
-/// UTF-8 characters: bytes other than the continuations 10xxxxxx.
+/// Number of UTF-8 characters: bytes other than continuations 10xxxxxx.
 int characters(std::string_view text) {
   return static_cast<int>(std::count_if(text.begin(), text.end(), [](char c) {
     return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
   }));
 }
 
-/// What may stand around a cell: not the tab where it parts the cells.
+/// Characters ignored around a cell: not the tab if it is the delimiter.
 const char* blanks(char delimiter) { return delimiter == '\t' ? " " : " \t"; }
 
 }  // namespace
@@ -63,7 +63,7 @@ void CsvScanner::skip_spaces() {
   advance(std::min(rest_.find_first_not_of(blanks(delimiter_)), rest_.size()));
 }
 
-/// Takes LF, CRLF or CR.
+/// Consumes LF, CRLF or CR.
 void CsvScanner::end_line() {
   if (rest_.empty()) return;
   rest_.remove_prefix(rest_.substr(0, 2) == "\r\n" ? 2 : 1);

@@ -1,4 +1,4 @@
-/// Cuts the bytes of a CSV file into records of cells.
+/// Splits the bytes of a CSV file into records of cells.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 
 namespace awmr {
 
-/// One cell: its text without quotes and outer spaces, and where it stands, from 1.
+/// One cell: its text without quotes and outer spaces, and its position, from 1.
 struct CsvCell {
   std::string_view text;
   int line = 1;
@@ -23,22 +23,22 @@ class CsvScanner {
   explicit CsvScanner(std::string_view bytes) : rest_(bytes) {}
   void set_delimiter(char delimiter) { delimiter_ = delimiter; }
 
-  /// Skips comments and blank lines, up to the line that comes next, whose number is line().
+  /// Skips comments and blank lines. Returns the next line, whose number is line().
   std::string_view peek_line();
   int line() const { return line_; }
-  /// The last comment that was skipped, without its '#', and its line; 0: there was none.
+  /// The last comment that was skipped, without its '#', and its line; line 0: there was none.
   std::string_view comment() const { return comment_; }
   int comment_line() const { return comment_line_; }
 
-  /// The next record. On a fault the last cell is where it is.
+  /// Reads the next record. On a fault, the last cell is the faulty one.
   Outcome next(std::vector<CsvCell>& cells);
 
-  /// Drops what is left of the line after a fault.
+  /// Skips the rest of the line after a fault.
   void skip_line();
 
-  /// Bytes that were not scanned yet.
+  /// Bytes not scanned yet.
   std::size_t left() const { return rest_.size(); }
-  /// All bytes were looked at: the last record might go on where there were more.
+  /// All bytes were read: if the text was cut off, the last record can be incomplete.
   bool ran_out() const { return has_open_quote_ || rest_.empty(); }
 
  private:

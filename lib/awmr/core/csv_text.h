@@ -1,4 +1,4 @@
-/// CSV that is open or in memory already.
+/// Reads CSV from an open input or from memory.
 #pragma once
 
 #include <memory>
@@ -12,15 +12,15 @@
 
 namespace awmr {
 
-/// UTF-8's, which some programs put at the beginning of a file.
+/// UTF-8 byte order mark, which some programs write at the beginning of a file.
 inline constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
-/// As read_csv, of an input that is open.
+/// As read_csv, from an open input.
 Result<CsvTable> read_csv(std::shared_ptr<const InputBytes> bytes,
                           std::span<const CsvColumn> columns,
                           std::span<const ColumnMapping> mappings = {});
 
-/// As read_csv, from a text; `file` names it in errors.
+/// As read_csv, from text; `file` names it in errors.
 Result<CsvTable> read_csv_text(std::string_view bytes, const std::string& file,
                                std::span<const CsvColumn> columns,
                                std::span<const ColumnMapping> mappings = {});
@@ -28,17 +28,17 @@ Result<CsvTable> read_csv_text(std::string_view bytes, const std::string& file,
 /// The beginning of a table.
 struct CsvHead {
   std::vector<std::string> names;
-  std::vector<std::vector<std::string>> rows;  ///< the cells as they stand
+  std::vector<std::vector<std::string>> rows;  ///< unparsed cells
   char delimiter = ',';
 };
 
-/// The header, found as read_csv_text() finds it, and up to `most_rows` rows. Errors: no header.
+/// Finds the header as read_csv_text() does and reads up to `most_rows` rows. Errors: no header.
 Result<CsvHead> csv_head(std::string_view bytes, const std::string& file,
                          std::span<const CsvColumn> columns,
                          std::span<const ColumnMapping> mappings, std::size_t most_rows);
 
-/// The file's name without its directory, for findings, whose bytes are the same wherever the file
-/// lies; errors show the path as typed.
+/// File name without its directory. Findings use it so that their bytes do not depend on the file's
+/// location; errors show the path as typed.
 std::string finding_file(const CsvTable& table);
 
 }  // namespace awmr

@@ -10,7 +10,7 @@
 namespace awmr {
 namespace {
 
-/// 1,250 or -12,500: a comma that may part thousands.
+/// True for 1,250 or -12,500: the comma can be a thousands separator.
 bool may_be_thousands(std::string_view text) {
   if (text.starts_with('+') || text.starts_with('-')) text.remove_prefix(1);
   const std::size_t comma = text.find(',');

@@ -1,5 +1,5 @@
-/// Numbers with a decimal comma, where the cells are parted by something else: what all the cells of
-/// a file show together. Private to the library.
+/// Detects numbers with decimal commas from all cells of a file, if the delimiter is not a comma.
+/// Private to the library.
 #pragma once
 
 #include <optional>
@@ -10,21 +10,20 @@
 
 namespace awmr {
 
-/// The cells that were seen. One way of writing for a whole file; "1,250" alone may be a thousand
-/// and a quarter of it or one and a quarter.
+/// Cells seen so far. A file must use one notation; "1,250" alone can mean 1250 or 1.25.
 struct DecimalCommas {
   std::optional<CsvCell> comma = {};  ///< the first cell with a comma
   std::optional<CsvCell> point = {};  ///< the first number with a point
-  bool unmistakable = false;          ///< some cell cannot be a number of thousands
+  bool unmistakable = false;          ///< some cell cannot have a thousands separator
 };
 
-/// The number of a cell like `-1,25` or `1,25e3`, which is noted; nothing for any other text.
+/// Parses a cell like `-1,25` or `1,25e3` and records it in `seen`; nothing for any other text.
 std::optional<double> number_with_comma(const CsvCell& cell, DecimalCommas& seen);
 
-/// Notes a number with a point.
+/// Records a number with a decimal point.
 void note_point(const CsvCell& cell, DecimalCommas& seen);
 
-/// What is wrong with the commas of the file: points as well, or only what may be thousands.
+/// Fault of the file's commas: points occur as well, or all commas can be thousands separators.
 std::optional<std::string> fault_of(const DecimalCommas& seen);
 
 }  // namespace awmr

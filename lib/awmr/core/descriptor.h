@@ -1,4 +1,4 @@
-/// A file descriptor with an owner.
+/// Owning file descriptor.
 #pragma once
 
 #include <utility>

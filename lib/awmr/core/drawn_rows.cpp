@@ -10,7 +10,7 @@
 namespace awmr {
 namespace {
 
-/// What one signal may differ by from the line that is drawn, per tolerance: its range.
+/// Range of each signal: the scale of its tolerance.
 std::vector<double> ranges_of(std::span<const std::vector<double>> signals) {
   std::vector<double> ranges;
   for (const std::vector<double>& signal : signals) {
@@ -25,7 +25,7 @@ struct Farthest {
   double distance = 0.0;  ///< over the signal's range
 };
 
-/// The row between `first` and `last` that lies farthest off the straight line between these two.
+/// The row between `first` and `last` that is farthest from the straight line between them.
 Farthest farthest_row(std::span<const double> t, std::span<const std::vector<double>> signals,
                       std::span<const double> ranges, std::size_t first, std::size_t last) {
   Farthest farthest;
@@ -53,7 +53,7 @@ std::vector<std::size_t> rows_within(std::span<const double> t,
     open.pop_back();
     const Farthest far = farthest_row(t, signals, ranges, first, last);
     if (far.distance > tolerance) {
-      open.emplace_back(far.row, last);  // the earlier half comes off first: rows stay in order
+      open.emplace_back(far.row, last);  // the earlier half is processed first: rows stay in order
       open.emplace_back(first, far.row);
     } else {
       rows.push_back(last);

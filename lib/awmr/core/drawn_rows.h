@@ -1,4 +1,4 @@
-/// Which rows of a time series a chart needs, and how many digits. Not installed.
+/// Selects the rows of a time series that a chart needs, and rounds its numbers. Not installed.
 #pragma once
 
 #include <cstddef>
@@ -7,21 +7,21 @@
 
 namespace awmr {
 
-/// The rows, first and last among them, between which straight lines pass by every signal at every
-/// row at a distance of at most `tolerance` times the signal's own range: peaks stay, whatever their
-/// width. Where that takes more than `most` rows, the tolerance is doubled until it does not.
+/// Rows, first and last included, whose connecting straight lines stay within `tolerance` times
+/// each signal's range at every row. Peaks are kept, whatever their width. If more than `most` rows
+/// are necessary, the tolerance is doubled until they suffice.
 ///
-/// Douglas and Peucker's method, for all signals at once, along time.
+/// Douglas-Peucker along time, for all signals together.
 /// t: ascending, one value a row; signals: each with as many values. `most` >= 2.
 std::vector<std::size_t> drawn_rows(std::span<const double> t,
                                     std::span<const std::vector<double>> signals, double tolerance,
                                     std::size_t most);
 
-/// Within 1/2000 of its range a signal is drawn as it is: a tenth of a pixel of a chart 220 px high, a
-/// pixel when enlarged tenfold.
+/// Tolerance as a fraction of a signal's range: a tenth of a pixel in a chart 220 px high, one
+/// pixel at tenfold zoom.
 inline constexpr double kDrawnTolerance = 1.0 / 2000.0;
 
-/// Five digits of a finite number.
+/// Rounds a finite number to five digits.
 double drawn_number(double x);
 
 }  // namespace awmr

@@ -1,4 +1,4 @@
-/// Files that are built into the program as text: lib/cmake/Embed.cmake makes them.
+/// Files compiled into the program as text by lib/cmake/Embed.cmake.
 #pragma once
 
 #include <string_view>

@@ -12,7 +12,7 @@ namespace awmr {
 namespace {
 
 constexpr std::size_t kMaxFaultsShown = 20;
-/// Up to so many faults of one kind are shown one by one.
+/// Maximum number of similar faults listed one by one.
 constexpr std::size_t kMaxAlike = 3;
 
 /// The place without its line and column, or without the indices of its JSON pointer.
@@ -29,7 +29,7 @@ std::string file_and_keys(const std::string& place) {
   return text.substr(0, end == std::string::npos ? 0 : end + 1);
 }
 
-/// The same for faults of one cause: file, and message without the values that it quotes.
+/// Key for faults with the same cause: file, and message without the values that it quotes.
 std::string cause_of(const Fault& fault) {
   std::string cause = file_and_keys(fault.place) + '\n';
   bool is_quoted = false;
@@ -41,7 +41,8 @@ std::string cause_of(const Fault& fault) {
   return cause;
 }
 
-/// Of more than kMaxAlike faults of one cause the first, with the number of the others.
+/// If more than kMaxAlike faults have the same cause, keeps the first, with the number of the
+/// others.
 std::vector<Fault> without_repeats(const std::vector<Fault>& faults) {
   std::map<std::string, std::size_t> counts;
   for (const Fault& fault : faults) ++counts[cause_of(fault)];

@@ -30,7 +30,7 @@ tl::unexpected<Error> write_error(const fs::path& path, const std::string& why) 
   return input_error(path.string(), "cannot write the file: " + why);
 }
 
-/// Appends up to the end, at most one byte more than `max_bytes`; false where reading fails.
+/// Appends up to the end, at most one byte more than `max_bytes`; false if reading fails.
 bool read_all(int descriptor, std::size_t max_bytes, std::string& bytes) {
   constexpr std::size_t kBlock = std::size_t{1} << 18U;
   while (bytes.size() <= max_bytes) {
@@ -44,7 +44,7 @@ bool read_all(int descriptor, std::size_t max_bytes, std::string& bytes) {
   return true;
 }
 
-/// What the path names once symbolic links are followed, the last of which may lead to nothing yet.
+/// The path with symbolic links resolved; the last link may point to a missing file.
 std::optional<fs::path> resolved(fs::path path) {
   std::error_code error;
   for (int i = 0; i < kMostLinks && fs::is_symlink(fs::symlink_status(path, error)); ++i) {
@@ -56,7 +56,7 @@ std::optional<fs::path> resolved(fs::path path) {
   return path;
 }
 
-/// Where the bytes go, and what stands there now.
+/// Destination of the bytes and the file that exists there.
 struct Target {
   fs::path path;
   bool exists = false;
@@ -90,7 +90,7 @@ Result<Target> target_of(const fs::path& path) {
   return target;
 }
 
-/// Opens a stream to write. A pipe is opened once a program reads it, within kPipeWait_s.
+/// Opens a stream for writing. Waits up to kPipeWait_s for a pipe's reader.
 Result<Descriptor> open_stream(const fs::path& path) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(kPipeWait_s);
   while (true) {
@@ -115,7 +115,7 @@ Status write_stream(const fs::path& path, std::string_view bytes) {
   return {};
 }
 
-/// Errors (fault): the reader of this kind of file refuses the bytes.
+/// Errors (fault): the reader of this kind of file rejects the bytes.
 Status check_read_back(const fs::path& path, std::string_view bytes, const ReadBack& read_back) {
   if (!read_back) return {};
   const Status read = read_back(bytes, path.string());
@@ -140,7 +140,7 @@ Result<PathKind> kind_of(const fs::path& path) {
   return S_ISDIR(status.st_mode) ? PathKind::kDirectory : PathKind::kOther;
 }
 
-/// What umask() takes from a new file's mode. It can only be read by setting it, so once.
+/// Process umask, read once, because reading it requires setting it.
 mode_t creation_mask() {
   static const mode_t kMask = [] {
     const mode_t current = ::umask(077);
@@ -154,13 +154,13 @@ fs::path directory_of(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
-/// Makes the renaming last; where the system cannot, the new file still stands whole.
+/// Makes the rename durable. If the system cannot, the new file is still complete.
 void flush_directory(const fs::path& path) {
   const Descriptor directory(::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (directory.number() >= 0) ::fsync(directory.number());
 }
 
-/// A file that is written but not yet in its place.
+/// A file that is written but not yet renamed.
 struct Staged {
   fs::path path;  ///< as typed
   std::string_view bytes;
@@ -181,7 +181,7 @@ Result<Staged> stage(const fs::path& path, std::string_view bytes, const ReadBac
   return Staged{path, bytes, std::move(target), std::move(temporary)};
 }
 
-/// Puts all of them in their place.
+/// Renames all files to their final names.
 Status finish(std::vector<Staged> files) {
   for (Staged& file : files) {
     if (!file.temporary) {

@@ -1,4 +1,4 @@
-/// SHA-256, by which every output names its inputs.
+/// SHA-256, used to identify inputs in outputs.
 #pragma once
 
 #include <filesystem>
@@ -10,12 +10,12 @@
 
 namespace awmr {
 
-/// Of bytes that come in pieces.
+/// Hash of bytes that arrive in pieces.
 class Sha256 {
  public:
   Sha256();
   void add(std::string_view bytes);
-  /// As sha256_hex(), of all that was added. Once.
+  /// As sha256_hex(), of all bytes added. Call once.
   std::string hex();
 
  private:

@@ -1,5 +1,4 @@
-/// Items that are worked on by several threads at once and taken one after the other. Private to the
-/// library.
+/// Processes items on several threads and collects the results in order. Private to the library.
 #pragma once
 
 #include <condition_variable>
@@ -14,8 +13,8 @@ namespace awmr {
 
 class InOrder {
  public:
-  /// Waits for the items before this one and calls `taking`. False where no further item counts. Items
-  /// are begun in their order, and each that is begun comes here.
+  /// Waits for the earlier items and calls `taking`. False if no further item is needed. Items
+  /// start in order, and each started item must call this.
   template <class Taking>
   bool take(std::size_t item, const Taking& taking) {
     std::unique_lock lock(mutex_);
@@ -26,7 +25,8 @@ class InOrder {
     turn_.notify_all();
     return !has_ended_;
   }
-  /// Calls `work`, which begins items; where it throws, no thread waits for what it had begun.
+  /// Calls `work`, which starts items. If it throws, threads that wait for these items are
+  /// released.
   template <class Work>
   void guard(const Work& work) {
     try {
@@ -38,14 +38,15 @@ class InOrder {
       throw;
     }
   }
-  /// Within `taking`: no further item counts.
+  /// Call within `taking`: no further item is needed.
   void end() { has_ended_ = true; }
-  /// The same, for a reason.
+  /// As end(), with an error.
   void fail(Error error) {
     error_ = std::move(error);
     has_ended_ = true;
   }
-  /// Once all threads are done: whether every item was taken. Errors: that of fail().
+  /// Call after all threads have finished: true if every item was collected. Errors: that of
+  /// fail().
   Result<bool> outcome() {
     if (error_) return tl::unexpected(std::move(*error_));
     return !has_ended_;

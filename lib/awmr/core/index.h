@@ -1,5 +1,5 @@
-/// Indices without casts in the mathematics. Standard containers count in std::size_t, Eigen in
-/// std::ptrdiff_t; both are non-negative here.
+/// Index conversions without casts in the mathematics. Standard containers use std::size_t, Eigen
+/// uses std::ptrdiff_t; both are non-negative here.
 #pragma once
 
 #include <cstddef>
@@ -7,21 +7,21 @@
 
 namespace awmr {
 
-/// An index or a size of Eigen's for a standard container: values[at(i)].
+/// Converts an Eigen index or size for a standard container: values[at(i)].
 template <class Integer>
 constexpr std::size_t at(Integer i) {
   static_assert(std::is_integral_v<Integer> || std::is_enum_v<Integer>);
   return static_cast<std::size_t>(i);
 }
 
-/// The size of a standard container, or an index into it, as Eigen counts.
+/// Converts a standard container's size or index to Eigen's type.
 template <class Integer>
 constexpr std::ptrdiff_t eigen_index(Integer i) {
   static_assert(std::is_integral_v<Integer> || std::is_enum_v<Integer>);
   return static_cast<std::ptrdiff_t>(i);
 }
 
-/// container.size() as Eigen counts.
+/// container.size() in Eigen's type.
 template <class Container>
 std::ptrdiff_t rows_of(const Container& container) {
   return static_cast<std::ptrdiff_t>(container.size());

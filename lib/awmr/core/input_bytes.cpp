@@ -15,7 +15,7 @@ namespace awmr {
 
 Result<std::shared_ptr<const InputBytes>> InputBytes::open(const std::filesystem::path& path) {
   std::error_code error;
-  // A pipe must not be opened twice; some files of the system have bytes but no size.
+  // A pipe cannot be opened twice; some system files have bytes but report size 0.
   if (!std::filesystem::is_regular_file(path, error) ||
       std::filesystem::file_size(path, error) == 0) {
     AWMR_ASSIGN_OR_RETURN(std::string text, read_input(path));

@@ -1,5 +1,5 @@
-/// The bytes of an input by position: of a file they are read in blocks, so that it need not fit into
-/// memory; what can be read only once, such as a pipe, is read whole.
+/// Random access to the bytes of an input. Files are read in blocks and need not fit into memory.
+/// Inputs that can be read only once, such as pipes, are read whole.
 #pragma once
 
 #include <cstddef>
@@ -18,21 +18,21 @@ class InputBytes {
  public:
   /// Errors: as read_file().
   static Result<std::shared_ptr<const InputBytes>> open(const std::filesystem::path& path);
-  /// Of a text that is in memory; `name` stands for it in errors.
+  /// From text in memory; `name` names it in errors.
   InputBytes(std::string name, std::string text)
       : name_(std::move(name)), text_(std::make_shared<const std::string>(std::move(text))) {}
 
   const std::string& name() const { return name_; }
   std::size_t size() const { return file_ ? file_->size() : text_->size(); }
-  /// It is read in blocks: its hash is not known before the last one, see note_input().
+  /// Read in blocks: the hash is unknown until the last one, see note_input().
   bool is_file() const { return file_.has_value(); }
 
-  /// Fills `bytes` with what begins at `offset`. Precondition: it ends within size(). Errors: the file
-  /// cannot be read or became shorter.
+  /// Fills `bytes` from `offset` on. Precondition: the range ends within size(). Errors: the file
+  /// cannot be read or has become shorter.
   Status read(std::size_t offset, std::span<char> bytes) const;
-  /// Errors: the file was written to since it was opened.
+  /// Errors: the file was modified after it was opened.
   Status check_unchanged() const;
-  /// All of it, its hash noted as by read_input(). Errors: as read() and check_unchanged().
+  /// All bytes; records their hash like read_input(). Errors: as read() and check_unchanged().
   Result<std::shared_ptr<const std::string>> whole() const;
 
  private:

@@ -1,5 +1,5 @@
-/// Input files, each read once: the hash that an output names is the hash of what was read. A pipe
-/// gives its bytes only once, and a file may change between two readings.
+/// Input files, each read once, so that the hash in an output is that of the bytes used. A pipe
+/// gives its bytes only once, and a file can change between two reads.
 #pragma once
 
 #include <cstddef>
@@ -12,16 +12,16 @@
 
 namespace awmr {
 
-/// As read_file, and notes the hash under the path. The notes are the process's own, a line per
-/// path, and safe to use from several threads.
+/// As read_file; also records the hash under the path. The records are per process, one per path,
+/// and thread-safe.
 Result<std::string> read_input(const std::filesystem::path& path,
                                std::size_t max_bytes = kMaxFileBytes);
 
-/// Notes the hash of what was read otherwise, in pieces.
+/// Records the hash of an input that was read in pieces.
 void note_input(const std::filesystem::path& path, std::string sha256);
 
-/// The file's name, and the hash of what was last read of it; reads it if nothing was. Errors: as
-/// read_file.
+/// The file's name and the hash of the bytes last read from it. Reads the file if it was not read
+/// yet. Errors: as read_file.
 Result<InputFile> input_file(const std::filesystem::path& path);
 
 }  // namespace awmr

@@ -7,7 +7,7 @@ struct Interval {
   double lo = 0.0;  ///< the lower end
   double hi = 0.0;  ///< the upper end, >= lo
 
-  /// True at the ends too; false for NaN.
+  /// Includes both ends; false for NaN.
   bool contains(double value) const { return lo <= value && value <= hi; }
 };
 

@@ -8,7 +8,7 @@
 namespace awmr {
 namespace {
 
-/// The rows that count: from where every command is known, those with a value of some column.
+/// Rows to keep: from where every command is known, those with a value in some column.
 std::vector<bool> rows_that_count(const CsvTable::Parts& parts, const ColumnSources& sources) {
   const std::size_t rows = parts.lines.size();
   std::vector<bool> counts(rows, false);
@@ -47,7 +47,7 @@ void keep(Values& values, const std::vector<bool>& kept) {
   values.resize(end);
 }
 
-/// How many of its own values each column has, for a person.
+/// Number of values that each column has, as text.
 std::string rates_of(const CsvTable::Parts& parts) {
   std::string text;
   for (const auto& [name, column] : parts.columns) {

@@ -1,4 +1,4 @@
-/// Tables whose columns have values at times of their own: which of their rows are kept. Private to the
+/// Selects the rows to keep in tables whose columns have different sample times. Private to the
 /// library.
 #pragma once
 
@@ -9,11 +9,10 @@
 
 namespace awmr {
 
-/// Drops the rows without a value of any column and those before every command is known; a note says
-/// how many.
+/// Drops rows without any value and rows before every command is known; a note gives their number.
 void drop_rows(CsvTable::Parts& parts, const ColumnSources& sources);
 
-/// A column without a value in any row is a fault.
+/// Reports each column without any value as a fault.
 void refuse_void_columns(const CsvTable::Parts& parts, const ColumnSources& sources,
                          std::vector<Fault>& faults);
 

@@ -1,6 +1,6 @@
 /// Strict JSON: unknown, missing and duplicate keys and values out of range are faults, each with
-/// its JSON pointer, all of a file at once. Include from .cpp files only: it brings in
-/// nlohmann/json.
+/// its JSON pointer. All faults of a file are reported at once. Include from .cpp files only,
+/// because it includes nlohmann/json.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ namespace awmr {
 
 using Json = nlohmann::ordered_json;
 
-/// What a number may be.
+/// Range of a number.
 struct NumberRule {
   double min = std::numeric_limits<double>::lowest();
   double max = std::numeric_limits<double>::max();
@@ -38,13 +38,13 @@ Result<Json> read_json_file(const std::filesystem::path& path);
 
 class JsonShape;
 
-/// A strict view of one JSON object. Each reader notes its key as known; on a fault it adds to the
-/// shared list and returns a stand-in (NaN, empty), so that reading goes on and finds the rest.
-/// Call `reject_unknown_keys()` once all keys were asked for.
+/// A strict view of one JSON object. Each reader marks its key as known. On a fault it adds to the
+/// shared list and returns a placeholder (NaN, empty), so that reading continues and finds the
+/// rest. Call `reject_unknown_keys()` after all keys were read.
 class JsonObject {
  public:
   JsonObject(const Json& value, std::string file, std::string pointer, std::vector<Fault>& faults);
-  /// Reads nothing: what is asked for is noted in `shape`, and every read gives its stand-in.
+  /// Reads nothing: records the requested keys in `shape` and returns placeholders.
   JsonObject(JsonShape& shape, std::vector<Fault>& ignored) : faults_(&ignored), shape_(&shape) {}
 
   bool has(std::string_view key);
@@ -60,11 +60,11 @@ class JsonObject {
   std::optional<std::string> optional_string(std::string_view key);
   /// A whole number from 0 to 2^64 - 1; 0 on a fault.
   std::uint64_t seed(std::string_view key);
-  /// A number by the rule, as its text, or a string; absent on a fault.
+  /// A number that follows the rule, as text, or a string; absent on a fault.
   std::optional<std::string> optional_number_or_string(std::string_view key, NumberRule rule);
-  /// One of a fixed set, with the nearest one named on a fault; returns its index, 0 on a fault.
+  /// One of a fixed set; a fault suggests the nearest one. Returns its index, 0 on a fault.
   std::size_t choice(std::string_view key, std::span<const std::string> choices);
-  /// The value of the name; the table's first on a fault.
+  /// The value of the name in the table; the first value on a fault.
   template <class T, std::size_t N>
   T choice(std::string_view key, const NameTable<T, N>& table) {
     return table[choice(key, std::span<const std::string>(names_in(table)))].value;
@@ -75,10 +75,11 @@ class JsonObject {
   std::optional<Interval> nullable_interval(std::string_view key);
   std::vector<double> numbers(std::string_view key, NumberRule rule = kAnyNumber);
   std::vector<std::string> strings(std::string_view key);
-  /// An array of arrays of numbers as it stands, for the caller to check; null where there is none,
-  /// which is a fault.
+  /// An unchecked array of arrays, for the caller to check; null if it is missing, which is a
+  /// fault.
   const Json* rows(std::string_view key);
-  /// A missing key or a value that is no object gives an empty view whose reads are silent.
+  /// A missing key or a value that is not an object gives an empty view, which reports no further
+  /// faults.
   JsonObject object(std::string_view key);
   std::optional<JsonObject> optional_object(std::string_view key);
   /// The elements of an array of objects.
@@ -100,7 +101,7 @@ class JsonObject {
 
  private:
   const Json* find(std::string_view key, bool required);
-  const Json* value_ = nullptr;  ///< null: an absent object, whose reads are silent
+  const Json* value_ = nullptr;  ///< null: a missing object, which reports no faults
   std::string file_;
   std::string pointer_;
   std::vector<Fault>* faults_;
@@ -108,26 +109,26 @@ class JsonObject {
   std::set<std::string, std::less<>> known_;
 };
 
-/// The JSON Schema (draft 2020-12) of what `read` accepts, from the keys that it asks for: `read` is
-/// run on every choice of every key, with optional keys there and not. It accepts whatever `read`
-/// does; rules that hold between keys are the reader's alone, but for the keys that go with a choice.
-/// `format` is the `schema` key's value.
+/// The JSON Schema (draft 2020-12) of the documents that `read` accepts. `read` is run for every
+/// value of every choice, with and without each optional key. The schema accepts every document
+/// that `read` accepts. It has no rules between keys, except for keys that depend on a choice.
+/// `format` is the value of the `schema` key.
 std::string json_schema_text(std::string_view format, std::string_view title,
                              const std::function<void(JsonObject&)>& read);
 
-/// `{"command", "version", "options", "inputs"}`, the contract's keys of origin, put into `json`.
+/// Writes the provenance keys `{"command", "version", "options", "inputs"}` into `json`.
 void put_provenance(Json& json, const Provenance& provenance);
-/// How an output begins: its schema, and where it comes from.
+/// Beginning of an output document: schema and provenance.
 Json output_document(std::string_view schema, const Provenance& provenance);
-/// Reads them back.
+/// Reads the keys written by put_provenance().
 Provenance read_provenance(JsonObject& json);
-/// Whether a document was made from the file of this hash; none where it names no inputs, as one that
-/// was written by hand.
+/// True if the document was made from the file with this hash; none if it names no inputs, like a
+/// document written by hand.
 std::optional<bool> is_made_from(const Json& document, std::string_view sha256);
 
-/// Two-space indentation, numbers that read back the same, a newline at the end. Precondition: all
-/// numbers are finite, as JSON has no others; throws std::logic_error with the pointer of one that
-/// is not.
+/// Two-space indentation, numbers that read back to the same value, a newline at the end.
+/// Precondition: all numbers are finite, because JSON has no others. Otherwise throws
+/// std::logic_error with the pointer of the number.
 std::string to_text(const Json& json);
 
 }  // namespace awmr

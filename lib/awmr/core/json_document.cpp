@@ -27,7 +27,7 @@ std::string place_of(const std::string& file, std::string_view text, std::size_t
   return fmt::format("{}:{}:{}", file, lines + 1, characters + 1);
 }
 
-/// What would need memory or a stack beyond all use, found before anything is built.
+/// Rejects documents that need excessive memory or stack, before anything is built.
 std::optional<Fault> beyond_bounds(const std::string& file, std::string_view text) {
   std::size_t depth = 0;
   std::size_t values = 1;
@@ -52,8 +52,8 @@ std::optional<Fault> beyond_bounds(const std::string& file, std::string_view tex
   return std::nullopt;
 }
 
-/// Builds the document from the parser's events and names the keys given twice by their JSON
-/// pointer. Json's own builder looks for each new key in a list of all before it.
+/// Builds the document from parser events and reports duplicate keys by their JSON pointer. Json's
+/// own builder searches a list of all earlier keys for each new key.
 class DocumentBuilder final : public Json::json_sax_t {
  public:
   explicit DocumentBuilder(std::string file, std::string_view text)
@@ -65,7 +65,7 @@ class DocumentBuilder final : public Json::json_sax_t {
   bool number_unsigned(number_unsigned_t value) override { return add(value); }
   bool number_float(number_float_t value, const string_t& /*text*/) override { return add(value); }
   bool string(string_t& value) override { return add(std::move(value)); }
-  bool binary(binary_t& /*value*/) override { return false; }  // not in a text
+  bool binary(binary_t& /*value*/) override { return false; }  // does not occur in text
   bool start_object(std::size_t /*size*/) override { return open(Json::object()); }
   bool key(string_t& value) override;
   bool end_object() override { return close(); }
@@ -78,10 +78,10 @@ class DocumentBuilder final : public Json::json_sax_t {
   std::vector<Fault>& faults() { return faults_; }
 
  private:
-  /// An array or object that is not closed yet.
+  /// An array or object that is still open.
   struct Level {
     Json value;
-    std::string key;  ///< of the member that comes next
+    std::string key;  ///< of the next member
     std::unordered_set<std::string> keys;
   };
 
@@ -105,7 +105,8 @@ bool DocumentBuilder::add(Json value) {
   } else if (Level& level = levels_.back(); level.value.is_array()) {
     level.value.push_back(std::move(value));
   } else {
-    // The members of an ordered object are a vector of pairs, whose keys are already known to differ.
+    // The members of an ordered object are a vector of pairs; their keys were already checked for
+    // duplicates.
     std::vector<Json::object_t::value_type>& members = level.value.get_ref<Json::object_t&>();
     members.emplace_back(std::move(level.key), std::move(value));
   }
@@ -132,7 +133,7 @@ bool DocumentBuilder::key(string_t& value) {
   return true;
 }
 
-/// The parser's own words, without its prefix "[json.exception...] ... at line 3, column 5: ".
+/// The parser's message without its prefix "[json.exception...] ... at line 3, column 5: ".
 std::string reason_of(const Json::exception& error) {
   const std::string text = error.what();
   const std::size_t prefix = text.find("] ");
@@ -148,14 +149,14 @@ bool DocumentBuilder::parse_error(std::size_t position, const std::string& last_
     const std::size_t begin = position - std::min(position, last_token.size());
     faults_ = {{place_of(file_, text_, begin), "a number is out of range: " + reason}};
   } else {
-    // `position` counts what was read, the byte in fault included.
+    // `position` counts the bytes read, including the faulty one.
     const std::size_t offset = position == 0 ? 0 : position - 1;
     faults_ = {{place_of(file_, text_, offset), "this is not valid JSON: " + reason}};
   }
   return false;
 }
 
-/// nlohmann would print NaN and infinity as null, silently.
+/// Rejects NaN and infinity, which nlohmann would silently print as null.
 void require_finite(const Json& value, const std::string& pointer) {
   if (value.is_number_float() && !std::isfinite(value.get<double>())) {
     throw std::logic_error("a number to be written is not finite: " + pointer);
@@ -192,7 +193,7 @@ Result<Json> read_json_file(const std::filesystem::path& path) {
 
 std::string to_text(const Json& json) {
   require_finite(json, "");
-  // A name that is no UTF-8, as a path may be, is written with replacement characters.
+  // A name that is not UTF-8 (possible for a path) is written with replacement characters.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -1,5 +1,5 @@
-/// A JSON document that is in memory already, and the bounds of every document. They are far beyond
-/// what any of the program's files holds.
+/// Parses JSON documents in memory and defines the size limits of all documents. The limits are far
+/// above the program's own files.
 #pragma once
 
 #include <cstddef>
@@ -13,18 +13,18 @@
 namespace awmr {
 
 inline constexpr std::size_t kMaxJsonBytes = std::size_t{64} << 20U;
-inline constexpr std::size_t kMaxJsonDepth = 64;          ///< arrays and objects in each other
-inline constexpr std::size_t kMaxJsonValues = 2'000'000;  ///< in all
+inline constexpr std::size_t kMaxJsonDepth = 64;          ///< nesting depth of arrays and objects
+inline constexpr std::size_t kMaxJsonValues = 2'000'000;  ///< in total
 
-/// Parses a text, in time and memory that grow as its length; `file` names it in errors. Errors:
-/// beyond a bound, syntax, a number out of range (all `FILE:LINE:COLUMN`); duplicate keys.
+/// Parses a text in time and memory proportional to its length; `file` names it in errors. Errors:
+/// beyond a limit, syntax, a number out of range (all `FILE:LINE:COLUMN`); duplicate keys.
 Result<Json> read_json_text(std::string_view text, const std::string& file);
 
-/// Read-back (file.h) of a JSON file whose readers take it as it is. Errors: as read_json_text.
+/// Read-back check (file.h) of a JSON file without a strict reader. Errors: as read_json_text.
 Status check_json_text(std::string_view text, const std::string& file);
 
-/// Read-back through a strict reader: runs `read` on the document. Errors: as read_json_text; every
-/// fault that `read` finds.
+/// Read-back check with a strict reader: runs `read` on the document. Errors: as read_json_text;
+/// all faults that `read` finds.
 template <class Read>
 Status check_json_object(std::string_view text, const std::string& file, const Read& read) {
   AWMR_ASSIGN_OR_RETURN(const Json document, read_json_text(text, file));

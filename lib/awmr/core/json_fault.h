@@ -1,4 +1,4 @@
-/// How faults of JSON are told. Private to this folder.
+/// Formatting of JSON faults. Private to this folder.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace awmr {
 
-/// A value as a fault shows it, cut between characters where it is long.
+/// A value as shown in a fault; long values are cut between characters.
 std::string describe(const Json& value);
 std::string describe(const NumberRule& rule);
 bool allows(const NumberRule& rule, double value);

@@ -1,4 +1,4 @@
-// Arrays in JSON, and what faults say.
+// Reads arrays in JSON and formats faults.
 
 #include <fmt/format.h>
 

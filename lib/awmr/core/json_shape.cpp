@@ -6,10 +6,10 @@
 namespace awmr {
 namespace {
 
-/// The key that stands for any: what is read of it holds for all keys of the object.
+/// Stands for any key: what is read of it applies to all keys of the object.
 constexpr std::string_view kAnyKey = "*";
 
-/// True where the way takes every pick of `picks`.
+/// True if the way makes all of these choices.
 bool takes(const Way& way, const std::map<std::string, std::size_t>& picks) {
   return std::all_of(picks.begin(), picks.end(), [&](const auto& pick) {
     const auto taken = way.picks.find(pick.first);
@@ -17,7 +17,7 @@ bool takes(const Way& way, const std::map<std::string, std::size_t>& picks) {
   });
 }
 
-/// What forbids those of `keys` that are not `allowed`; empty where all are.
+/// Schema that forbids those of `keys` that are not `allowed`; empty if all are.
 Json forbidding(const std::set<std::string>& keys, const std::set<std::string>& allowed) {
   Json rule = Json::object();
   for (const std::string& key : keys) {
@@ -79,7 +79,7 @@ void JsonShape::asked(std::string_view key, bool required) {
   property(key);
   Asked& asked = now();
   asked.keys.emplace(key);
-  // What is looked for before it is read may be missing.
+  // A key whose presence is checked before it is read can be missing.
   if (!required && !asked.required.contains(std::string(key))) asked.optional.emplace(key);
   if (required && !asked.optional.contains(std::string(key))) asked.required.emplace(key);
 }
@@ -128,7 +128,7 @@ Json JsonShape::property_schema(const Property& property) const {
   return kinds.size() == 1 ? kinds.front() : Json{{"anyOf", kinds}};
 }
 
-/// What is asked for with any name of the choice under `key`, all else being the same.
+/// Keys requested for any name of the choice under `key`, with everything else equal.
 JsonShape::Keys JsonShape::with_any_name(const std::string& key) const {
   const std::string place = place_ + "/" + key;
   Keys keys;
@@ -144,8 +144,8 @@ JsonShape::Keys JsonShape::with_any_name(const std::string& key) const {
   return keys;
 }
 
-/// If the choice under `key` has this name, some keys have to be there, and those of other names
-/// may not be. Empty where the name makes no difference.
+/// Rule for the choice under `key` with this name: it requires some keys and forbids those of other
+/// names. Empty if the name makes no difference.
 Json JsonShape::variant(const std::string& key, std::size_t pick, const Json& name) const {
   const std::string place = place_ + "/" + key;
   const auto& on = exploration_->met.at(place).on;
@@ -158,14 +158,15 @@ Json JsonShape::variant(const std::string& key, std::size_t pick, const Json& na
   for (const Asked& one : ways_) {
     if (!takes(one.way, at_least)) continue;
     if (!one.way.present && one.optional.contains(key)) {
-      // The choice is not made here; what is asked for only where other keys are missing goes with all.
+      // This choice is not made here. Keys requested only if others are missing are allowed for all
+      // names.
       for (const std::string& other : one.keys) {
         if (!keys.present.contains(other)) allowed.insert(other);
       }
       continue;
     }
     allowed.insert(one.keys.begin(), one.keys.end());
-    // A choice that is met with this name only may do without what its first name asks for.
+    // A choice found only under this name can omit the keys that its first name requires.
     if (std::exchange(first, false)) required = one.required;
     std::erase_if(required, [&](const std::string& k) { return !one.required.contains(k); });
   }
@@ -175,7 +176,7 @@ Json JsonShape::variant(const std::string& key, std::size_t pick, const Json& na
           {"then", then}};
 }
 
-/// What says that the choices of this object are made so.
+/// Schema condition: the choices of this object have these names.
 Json JsonShape::names_of(const std::map<std::string, std::size_t>& picks) const {
   Json rule = Json::object();
   for (const auto& [key, property] : properties_) {
@@ -187,8 +188,8 @@ Json JsonShape::names_of(const std::map<std::string, std::size_t>& picks) const 
   return rule;
 }
 
-/// If the optional choice under `key` is not made, its default decides which keys have to be there,
-/// and those of other names may not be.
+/// Rule for the optional choice under `key` when it is absent: its default decides which keys are
+/// required, and those of other names are forbidden.
 Json JsonShape::variant_without(const std::string& key) const {
   const auto& on = exploration_->met.at(place_ + "/" + key).on;
   const Asked* absent = nullptr;
@@ -202,7 +203,7 @@ Json JsonShape::variant_without(const std::string& key) const {
   const Keys keys = with_any_name(key);
   Json then = forbidding(keys.all, allowed);
   std::set<std::string> required = absent->required;
-  // What is asked for only where other keys are missing does not hang on the choice.
+  // Keys requested only if others are missing do not depend on the choice.
   std::erase_if(required, [&](const std::string& k) { return !keys.required.contains(k); });
   then["required"] = required;
   Json where = names_of(on);
@@ -210,7 +211,7 @@ Json JsonShape::variant_without(const std::string& key) const {
   return {{"if", where}, {"then", then}};
 }
 
-/// One rule for each name of each choice that decides which keys there are.
+/// Adds one rule for each name of each choice that decides which keys exist.
 void JsonShape::add_variants(Json& schema) const {
   for (const auto& [key, property] : properties_) {
     const auto met = exploration_->met.find(place_ + "/" + key);

@@ -1,6 +1,5 @@
-/// What a reader asks of a JSON object, as a JSON Schema. A JsonObject that describes, instead of
-/// reading a document, notes here each key that the reader asks for, with what its value may be.
-/// Private to this folder.
+/// Derives a JSON Schema from a reader. In this mode a JsonObject reads no document: it records
+/// each key that the reader requests, with the allowed values. Private to this folder.
 #pragma once
 
 #include <cstddef>
@@ -16,37 +15,37 @@
 
 namespace awmr {
 
-/// Which of a reader's ways is taken: whether optional keys are there, and which of its names a
-/// choice has, by the choice's place; those without an entry have their first.
+/// One path through a reader: which optional keys are present, and which name each choice has, by
+/// the choice's position. Choices without an entry have their first name.
 struct Way {
   bool present = true;
   std::map<std::string, std::size_t> picks = {};
 };
 
-/// A choice that was met, and the way on which it was.
+/// A choice that was found, and the way on which it was found.
 struct MetChoice {
-  std::size_t count = 0;  ///< names it has
+  std::size_t count = 0;  ///< number of names
   std::map<std::string, std::size_t> on = {};
 };
 
-/// What all objects of one description share.
+/// State shared by all objects of one description.
 struct Exploration {
   Way way = {};
-  std::map<std::string, MetChoice> met = {};  ///< by place
+  std::map<std::string, MetChoice> met = {};  ///< by position
 };
 
 class JsonShape {
  public:
   JsonShape(Exploration& exploration, std::string place);
 
-  void begin();  ///< a new way; what was asked for on the last one is kept
+  void begin();  ///< starts a new way; keys recorded on earlier ways are kept
   void asked(std::string_view key, bool required);
   bool has(std::string_view key);
   void type(std::string_view key, const Json& schema);
   std::size_t choice(std::string_view key, std::span<const std::string> choices);
   JsonShape& object(std::string_view key);
   JsonShape& element(std::string_view key);  ///< of an array of objects
-  void close() { closed_ = true; }           ///< no other keys
+  void close() { closed_ = true; }           ///< no other keys are allowed
 
   Json schema() const;
 
@@ -56,18 +55,18 @@ class JsonShape {
     std::unique_ptr<JsonShape> object;
     std::unique_ptr<JsonShape> element;
   };
-  /// What was asked for on one way.
+  /// Keys requested on one way.
   struct Asked {
     Way way;
     std::set<std::string> keys;
     std::set<std::string> required;
     std::set<std::string> optional;
   };
-  /// What is asked for on several ways.
+  /// Keys requested on several ways.
   struct Keys {
     std::set<std::string> all;
-    std::set<std::string> present;   ///< where optional keys are there
-    std::set<std::string> required;  ///< there, on one way or another
+    std::set<std::string> present;   ///< if optional keys are present
+    std::set<std::string> required;  ///< on at least one way
   };
   Property& property(std::string_view key);
   Asked& now();
@@ -80,13 +79,13 @@ class JsonShape {
 
   Exploration* exploration_;
   std::string place_;
-  std::vector<std::pair<std::string, Property>> properties_;  ///< in the order they were asked for
+  std::vector<std::pair<std::string, Property>> properties_;  ///< in the order of the requests
   std::vector<Asked> ways_;
   bool fresh_ = true;
   bool closed_ = false;
 };
 
-// Schemas of what is no object.
+// Schemas of values that are not objects.
 Json schema_of(const NumberRule& rule);
 Json schema_of(long min, long max);
 Json array_schema(Json items);

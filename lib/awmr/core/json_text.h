@@ -1,4 +1,4 @@
-/// What the JSON sources share.
+/// Helpers shared by the JSON sources.
 #pragma once
 
 #include <string>

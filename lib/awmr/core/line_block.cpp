@@ -7,13 +7,13 @@
 namespace awmr {
 namespace {
 
-constexpr std::size_t kTail = 512;  ///< read behind a block: the rest of most lines
+constexpr std::size_t kTail = 512;  ///< read behind a block: contains the rest of most lines
 
 }  // namespace
 
 Status LineBlock::read(const InputBytes& file, std::size_t first, std::size_t begin,
                        std::size_t end) {
-  // The byte in front of the block tells whether a line begins with it.
+  // The byte before the block shows whether a line begins with the block.
   const std::size_t from = begin == 0 ? 0 : begin - 1;
   std::size_t have = 0;
   const auto read_until = [&](std::size_t until) -> Status {
@@ -26,7 +26,7 @@ Status LineBlock::read(const InputBytes& file, std::size_t first, std::size_t be
   lines_ = {};
   is_too_long_ = false;
   bytes_ = text().substr(begin - from, end - begin);
-  // The first row may be the text's first line, where there is no header.
+  // The first row can be the text's first line if there is no header.
   const bool has_first = first > from || begin == 0;
   const std::size_t start = has_first ? first - from : text().find('\n') + 1;
   const bool is_inside_a_line = !has_first && start == 0;

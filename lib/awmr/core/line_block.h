@@ -1,4 +1,4 @@
-/// The lines that begin in a block of a file, read whole. Private to the library.
+/// Reads the lines that begin in one block of a file, completely. Private to the library.
 #pragma once
 
 #include <cstddef>
@@ -11,20 +11,21 @@ namespace awmr {
 
 class LineBlock {
  public:
-  /// A longer line is none of a table of numbers.
+  /// Numeric tables have no longer lines.
   static constexpr std::size_t kLongestLine = std::size_t{1} << 20U;
   /// Readable bytes behind lines().
   static constexpr std::size_t kPadding = 8;
 
-  /// Reads the bytes [begin, end) of a file whose first line of interest begins at `first`. Errors: as
-  /// InputBytes::read().
+  /// Reads the lines that begin in bytes [begin, end). The first line of interest begins at
+  /// `first`. Errors: as InputBytes::read().
   Status read(const InputBytes& file, std::size_t first, std::size_t begin, std::size_t end);
 
-  /// The bytes themselves.
+  /// The bytes of the block.
   std::string_view bytes() const { return bytes_; }
-  /// The lines that begin among them, each with its LF; the file's last one may have got it here.
+  /// The lines that begin in the block, each with its LF; a missing LF at the end of the file is
+  /// added.
   std::string_view lines() const { return lines_; }
-  /// A line is longer than kLongestLine; lines() is empty.
+  /// True if a line is longer than kLongestLine; lines() is empty then.
   bool is_too_long() const { return is_too_long_; }
 
  private:

@@ -59,7 +59,7 @@ MatrixXd PivotedQr::inverse_information() const {
   const Eigen::Index p = qr_.cols();
   const MatrixXd r_inverse = r().triangularView<Eigen::Upper>().solve(MatrixXd::Identity(p, p));
   const MatrixXd pivoted = r_inverse * r_inverse.transpose();
-  // Pi M Pi^T: element (i, j) of M becomes that of the columns which the pivots i and j are.
+  // Pi M Pi^T: element (i, j) of M moves to row pivot(i), column pivot(j).
   const Eigen::VectorXi& pivot = qr_.colsPermutation().indices();
   MatrixXd information(p, p);
   for (Eigen::Index i = 0; i < p; ++i) {

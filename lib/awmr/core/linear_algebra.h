@@ -1,5 +1,6 @@
-/// Decompositions of dense double matrices. Eigen's are compiled in linear_algebra.cpp alone, as
-/// each costs seconds in every source that instantiates it. Private: not installed.
+/// Decompositions of dense double matrices. Eigen's decompositions are instantiated in
+/// linear_algebra.cpp only, because they cost seconds of compile time per source. Private: not
+/// installed.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,7 +8,7 @@
 
 namespace awmr {
 
-/// X of A X = B by L D L^T with pivoting. A: n x n, symmetric and positive or negative
+/// Solves A X = B by L D L^T with pivoting. A: n x n, symmetric and positive or negative
 /// semidefinite; B: n x k.
 Eigen::MatrixXd solve_ldlt(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 
@@ -19,20 +20,20 @@ struct Ldlt {
 };
 Ldlt factor_ldlt(const Eigen::MatrixXd& a);
 
-/// A = V diag(w) V^T of a symmetric A, of which the lower triangle is read.
+/// A = V diag(w) V^T of a symmetric A; only the lower triangle is read.
 struct SymmetricEigen {
   Eigen::VectorXd values;   ///< w, ascending
-  Eigen::MatrixXd vectors;  ///< V, a column each
+  Eigen::MatrixXd vectors;  ///< V, one per column
   bool converged = false;
 };
 SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& a);
-/// w alone.
+/// w only.
 Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& a);
 
 /// Eigenvalues of a square matrix, in no particular order.
 Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& a);
 
-/// Descending.
+/// Singular values, descending.
 Eigen::VectorXd singular_values(const Eigen::MatrixXd& a);
 
 /// J Pi = Q R with column pivoting. J: n x p.
@@ -49,12 +50,12 @@ class PivotedQr {
   Eigen::MatrixXd permutation() const;  ///< Pi: p x p
   /// (J^T J)^-1 = Pi R^-1 R^-T Pi^T. Precondition: rank() == p.
   Eigen::MatrixXd inverse_information() const;
-  /// The same from the pseudo-inverse J^+, for few rows: J^+ J^+T.
+  /// As inverse_information(), from the pseudo-inverse J^+, for few rows: J^+ J^+T.
   Eigen::MatrixXd inverse_information_by_pseudo_inverse() const;
 
  private:
-  /// Above this many rows Q is computed column by column: as a square matrix it would grow with
-  /// the square of the rows.
+  /// Above this number of rows, Q is computed column by column, because a square Q grows with the
+  /// square of the rows.
   static constexpr Eigen::Index kMaxSquareQ = 200;
 
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr_;

@@ -1,4 +1,4 @@
-/// The names of an enumeration's values, in one table: for files, options and messages alike.
+/// Table of the names of an enumeration's values, for files, options and messages.
 ///
 ///     inline constexpr NameTable<Colour, 2> kColourNames{{{"red", Colour::kRed},
 ///                                                         {"blue", Colour::kBlue}}};
@@ -14,18 +14,18 @@
 
 namespace awmr {
 
-/// A value and the name it has outside of the program.
+/// A value and its external name.
 template <class T>
 struct Named {
   std::string_view name;
   T value;
 };
 
-/// One entry for each of the enumeration's N values.
+/// One entry for each of the N values.
 template <class T, std::size_t N>
 using NameTable = std::array<Named<T>, N>;
 
-/// The name of a value; empty for a value that the table does not have.
+/// Name of a value; empty if the table does not have the value.
 template <class T, std::size_t N>
 constexpr std::string_view name_in(const NameTable<T, N>& table, T value) {
   for (const Named<T>& entry : table) {
@@ -34,7 +34,7 @@ constexpr std::string_view name_in(const NameTable<T, N>& table, T value) {
   return {};
 }
 
-/// The value of a name; none where the table has no such name.
+/// Value of a name; none if the table does not have the name.
 template <class T, std::size_t N>
 constexpr std::optional<T> value_in(const NameTable<T, N>& table, std::string_view name) {
   for (const Named<T>& entry : table) {
@@ -43,7 +43,7 @@ constexpr std::optional<T> value_in(const NameTable<T, N>& table, std::string_vi
   return std::nullopt;
 }
 
-/// All values, in the order of the table.
+/// All values, in table order.
 template <class T, std::size_t N>
 std::vector<T> values_in(const NameTable<T, N>& table) {
   std::vector<T> values;
@@ -51,7 +51,7 @@ std::vector<T> values_in(const NameTable<T, N>& table) {
   return values;
 }
 
-/// All names, in the order of the table.
+/// All names, in table order.
 template <class T, std::size_t N>
 std::vector<std::string> names_in(const NameTable<T, N>& table) {
   std::vector<std::string> names;

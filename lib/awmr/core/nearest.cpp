@@ -7,7 +7,7 @@
 namespace awmr {
 namespace {
 
-constexpr std::size_t kLongestCompared = 100;  ///< bytes; the distance takes the product of lengths
+constexpr std::size_t kLongestCompared = 100;  ///< bytes; the cost is the product of the lengths
 
 /// Levenshtein distance, one row at a time.
 std::size_t edit_distance(std::string_view a, std::string_view b) {

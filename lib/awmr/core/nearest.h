@@ -1,4 +1,4 @@
-/// "did you mean": the candidate nearest to a misspelt name.
+/// Suggests the candidate nearest to a misspelt name ("did you mean").
 #pragma once
 
 #include <span>
@@ -7,8 +7,8 @@
 
 namespace awmr {
 
-/// The candidate with the smallest edit distance, or empty where none is near (distance above a
-/// third of the word's length, at least 1). Names above 100 bytes are near to none.
+/// The candidate with the smallest edit distance, or empty if the distance exceeds a third of the
+/// word's length (at least 1). Names above 100 bytes never match.
 std::string nearest(std::string_view word, std::span<const std::string> candidates);
 
 }  // namespace awmr

@@ -15,11 +15,11 @@
 namespace awmr {
 namespace {
 
-/// True once a program has the pipe open to write or has left bytes in it, within kPipeWait_s. tee()
-/// takes nothing out of the pipe; on an empty one it gives 0 where there is no writer.
+/// Waits up to kPipeWait_s: true once a program has the pipe open for writing or has left bytes in
+/// it. tee() does not consume bytes; on an empty pipe it returns 0 if there is no writer.
 bool has_writer(int pipe) {
   int copy[2] = {-1, -1};
-  if (::pipe2(copy, O_CLOEXEC) != 0) return true;  // the read then waits for as long as it takes
+  if (::pipe2(copy, O_CLOEXEC) != 0) return true;  // the read then blocks until data arrives
   const Descriptor copy_out(copy[0]);
   const Descriptor copy_in(copy[1]);
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(kPipeWait_s);

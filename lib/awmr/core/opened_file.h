@@ -1,4 +1,4 @@
-/// An input that is open: what it was at that moment, and whether it still is. Private to the library.
+/// An open input that detects later modification. Private to the library.
 #pragma once
 
 #include <sys/stat.h>
@@ -14,15 +14,15 @@ namespace awmr {
 
 class OpenedFile {
  public:
-  /// Errors: the file is missing, a directory or unreadable; a pipe that no program opens to write
-  /// for kPipeWait_s (file.h).
+  /// Errors: the file is missing, a directory or unreadable; a pipe that no program opens for
+  /// writing within kPipeWait_s (file.h).
   static Result<OpenedFile> open(const std::filesystem::path& path);
 
   const std::string& name() const { return name_; }
   int descriptor() const { return descriptor_.number(); }
-  /// Its bytes when it was opened; 0: not known, as of a pipe.
+  /// Size in bytes when it was opened; 0: unknown, as for a pipe.
   std::size_t size() const;
-  /// Errors: it was written to since then.
+  /// Errors: it was modified after it was opened.
   Status check_unchanged() const;
 
  private:

@@ -1,5 +1,5 @@
-/// Options in messages. The library does not know how its caller spells options: a message marks
-/// where it names one, and the caller writes it out for its own users.
+/// Option names in messages. The library does not know how its caller spells options: messages mark
+/// option names, and the caller formats them for its users.
 ///
 ///     option_text("loss huber");                          // a marked name, for a message
 ///     plain_text("use " + option_text("loss huber"));     // "use loss huber"
@@ -14,19 +14,19 @@
 
 namespace awmr {
 
-/// `name` is the option's, as in model.json's provenance, with its value where one is meant.
+/// `name` is the option's name as in model.json's provenance, with its value if necessary.
 std::string option_text(std::string_view name);
 
-/// The message with every option's name after `prefix`; after "--" with hyphens, as a command line has it.
+/// The message with `prefix` before every option name; with prefix "--", names have hyphens.
 std::string spell_options(std::string_view message, std::string_view prefix);
 
-/// The message with the options' names as they are.
+/// The message with the option names unchanged.
 std::string plain_text(std::string_view message);
 
-/// The first 20 and, where there are more, a last one with the number left out: what a person sees.
+/// The first 20 faults; if there are more, a last one with the number omitted.
 std::vector<Fault> shown_faults(const std::vector<Fault>& faults);
 
-/// to_text(error) with every option's name after `prefix`; to_text() itself gives them as they are.
+/// to_text(error) with `prefix` before every option name; to_text() leaves the names unchanged.
 std::string to_text(const Error& error, std::string_view prefix);
 
 }  // namespace awmr

@@ -12,7 +12,7 @@
 namespace awmr {
 namespace {
 
-/// The exception of the smallest item, if any.
+/// The exception of the item with the smallest index, if any.
 class FirstException {
  public:
   void keep(std::size_t item, std::exception_ptr exception) {
@@ -31,9 +31,8 @@ class FirstException {
   std::exception_ptr exception_;
 };
 
-/// Threads that stay from loop to loop: a search runs thousands of loops that take little longer than
-/// a thread takes to start. A loop waits for none of them but those that are in it, so that loops within
-/// loops end, whatever the others do.
+/// Persistent worker threads: a search runs thousands of loops, each about as short as the start of
+/// a thread. A loop waits only for threads that work on it, so that nested loops always end.
 class Helpers {
  public:
   ~Helpers() {
@@ -44,7 +43,8 @@ class Helpers {
     offered_.notify_all();
   }
 
-  /// Calls `work` here and, as they come, on up to `most` other threads; returns once all have returned.
+  /// Calls `work` here and on up to `most` other threads as they become free. Returns once all have
+  /// returned.
   void share(std::size_t most, const std::function<void()>& own_work,
              const std::function<void()>& work) {
     Loop loop{&work, most, 0};
@@ -63,11 +63,11 @@ class Helpers {
  private:
   struct Loop {
     const std::function<void()>* work;
-    std::size_t wanted;   ///< threads that may still come
-    std::size_t running;  ///< threads that are in it
+    std::size_t wanted;   ///< further threads that can join
+    std::size_t running;  ///< threads that work on it
   };
 
-  /// As many threads as the system gives: results do not depend on their number.
+  /// Starts as many threads as the system permits: results do not depend on their number.
   void grow_to(std::size_t count) {
     try {
       while (threads_.size() < count) threads_.emplace_back([this] { help(); });
@@ -87,7 +87,7 @@ class Helpers {
       (*loop.work)();
       lock.lock();
       --loop.running;
-      // Nothing is left in a loop that a thread has come back from.
+      // A loop has no work left once a thread has returned from it.
       std::erase(loops_, &loop);
       left_.notify_all();
     }
@@ -95,9 +95,9 @@ class Helpers {
 
   std::mutex mutex_;
   std::condition_variable offered_, left_;
-  std::vector<Loop*> loops_;  ///< that want threads, the oldest first
+  std::vector<Loop*> loops_;  ///< loops that need threads, the oldest first
   bool ended_ = false;
-  std::vector<std::jthread> threads_;  ///< the last member: they end before what they use
+  std::vector<std::jthread> threads_;  ///< last member: the threads end before the data they use
 };
 
 Helpers& helpers() {

@@ -26,12 +26,12 @@ using Clock = std::chrono::steady_clock;
 constexpr std::size_t kOutputBytes = 65536;
 constexpr int kPoll_ms = 20;
 
-/// The process groups that run_program() waits for.
+/// Process groups that run_program() waits for.
 std::mutex running_mutex;
 std::set<pid_t> running;
 bool may_start = true;
 
-/// A pipe's two ends, closed with the object.
+/// Both ends of a pipe, closed by the destructor.
 struct Pipe {
   std::array<int, 2> ends{-1, -1};
   bool open() { return ::pipe2(ends.data(), O_CLOEXEC) == 0; }
@@ -48,8 +48,8 @@ struct Pipe {
   Pipe& operator=(const Pipe&) = delete;
 };
 
-/// How the new process differs from this one: its directory, its files, a process group of its own
-/// so that it can be ended with all that it starts, no signal blocked or ignored.
+/// Differences of the new process from this one: directory, files, its own process group (so that
+/// it can be killed with its children), no signal blocked or ignored.
 class SpawnSettings {
  public:
   SpawnSettings(const fs::path& directory, int output) {
@@ -91,7 +91,7 @@ std::vector<char*> pointers(std::vector<std::string>& texts) {
   return list;
 }
 
-/// Its process, which is also its process group; or the error's number, negative.
+/// Process id, which is also its process group; or a negative error number.
 pid_t start(const ProgramCall& call, int output) {
   std::vector<std::string> arguments{call.program.string()};
   arguments.insert(arguments.end(), call.arguments.begin(), call.arguments.end());
@@ -108,7 +108,7 @@ pid_t start(const ProgramCall& call, int output) {
   return process;
 }
 
-/// What there is to read now, kept up to kOutputBytes. False at the pipe's end.
+/// Reads the available bytes and keeps up to kOutputBytes. False at the pipe's end.
 bool read_on(int file, std::string& output) {
   std::array<char, 4096> block;
   const ssize_t count = ::read(file, block.data(), block.size());
@@ -118,7 +118,7 @@ bool read_on(int file, std::string& output) {
   return count > 0;
 }
 
-/// Reads until the process itself has ended or its time is over.
+/// Reads until the process has ended or its time limit is reached.
 ProgramEnd wait_for(pid_t process, int file, double time_limit_s) {
   ProgramEnd end;
   const auto deadline = Clock::now() + std::chrono::duration<double>(time_limit_s);
@@ -128,7 +128,7 @@ ProgramEnd wait_for(pid_t process, int file, double time_limit_s) {
     pollfd waiting{.fd = readable ? file : -1, .events = POLLIN, .revents = 0};
     if (::poll(&waiting, 1, kPoll_ms) > 0) readable = read_on(file, end.output);
     if (waiting.revents != 0 && readable && Clock::now() < deadline) continue;
-    // WNOWAIT keeps the process's number taken until its group has been ended.
+    // WNOWAIT keeps the process id reserved until its group has been killed.
     const int waited =
         ::waitid(P_PID, static_cast<id_t>(process), &ended, WEXITED | WNOHANG | WNOWAIT);
     if (waited == 0 && ended.si_pid == process) break;

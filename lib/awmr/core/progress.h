@@ -1,4 +1,4 @@
-/// How far work that takes long has come.
+/// Progress of long work.
 #pragma once
 
 #include <cstddef>
@@ -6,8 +6,8 @@
 
 namespace awmr {
 
-/// Is told how many parts of all are done: their number may fall short of `total`, where the work
-/// ends early. Calls do not overlap. Empty: nobody asks. It has no part in the result.
+/// Called with the number of finished parts, which can stay below `total` if the work ends early.
+/// Calls do not overlap. Empty: no reports. It does not affect the result.
 using Progress = std::function<void(std::size_t done, std::size_t total)>;
 
 }  // namespace awmr

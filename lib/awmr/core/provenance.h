@@ -1,5 +1,5 @@
-/// Where an output comes from: program version, resolved options, inputs by SHA-256. No clock time,
-/// so the same inputs give the same bytes.
+/// Provenance of an output: program version, resolved options, inputs by SHA-256. No clock time, so
+/// that the same inputs give the same bytes.
 #pragma once
 
 #include <string>
@@ -8,12 +8,12 @@
 
 namespace awmr {
 
-/// The version of the program, as in CMake's project().
+/// The program version, from CMake's project().
 const char* version();
 
-/// A file that an output was made from; input_file() in core/input_file.h makes it.
+/// An input file of an output; input_file() in core/input_file.h creates it.
 struct InputFile {
-  std::string name;    ///< its file name, without the directory: the same wherever it lies
+  std::string name;    ///< without the directory, so that the location does not matter
   std::string sha256;  ///< of its bytes
 };
 

@@ -1,5 +1,5 @@
-/// Counter-based random numbers (Philox 4x32-10): the n-th number of a stream depends on seed,
-/// stream and n alone, so results do not depend on threads or order.
+/// Counter-based random numbers (Philox 4x32-10): the n-th number of a stream depends only on seed,
+/// stream and n, so results do not depend on threads or order.
 #pragma once
 
 #include <cstdint>
@@ -9,17 +9,17 @@ namespace awmr {
 /// One stream of numbers.
 class Random {
  public:
-  /// The streams of a seed are independent of each other. Whatever is random on its own takes its
-  /// own stream: each sample, each sensor.
+  /// Streams of one seed are independent. Each independent random quantity (each sample, each
+  /// sensor) uses its own stream.
   Random(std::uint64_t seed, std::uint64_t stream);
 
   /// The next 32 random bits.
   std::uint32_t bits();
   /// The next number, uniform in [0, 1), with 53 random bits.
   double uniform();
-  /// The next number, normal with mean 0 and standard deviation 1. It takes two uniform ones and
-  /// uses one half of what the Box-Muller method makes of them, so that the place in the stream
-  /// depends only on how many numbers were drawn.
+  /// The next number, normal with mean 0 and standard deviation 1. Uses two uniform numbers and
+  /// only one output of the Box-Muller method, so that the stream position depends only on the
+  /// number of draws.
   double normal();
 
  private:

@@ -13,7 +13,8 @@
 namespace awmr {
 namespace {
 
-/// With this share of empty cells a column has a rate of its own; a stray empty cell is a fault.
+/// From this fraction of empty cells on, a column has its own rate; below it, an empty cell is a
+/// fault.
 constexpr double kSparseShare = 0.25;
 
 bool is_empty(double value) { return std::isnan(value); }
@@ -24,7 +25,7 @@ std::size_t count_of_values(const RawColumn& column) {
       std::count_if(column.value.begin(), column.value.end(), has_value));
 }
 
-/// A column whose empty cells have times of their own behind them, in a sparse table.
+/// True for a column whose empty cells are due to its own sample times, in a sparse table.
 bool has_own_rate(const ColumnSource& source) {
   return source.column.empty == EmptyCells::kHeld || source.column.empty == EmptyCells::kAbsent;
 }
@@ -50,7 +51,7 @@ int character_of(const RawTable& raw, const ColumnSource& source, std::size_t ro
   return character.empty() ? 1 : character[row];
 }
 
-/// Gathers faults with their places, up to kMaxFaults.
+/// Collects faults with their positions, up to kMaxFaults.
 struct FaultList {
   const RawTable& raw;
   std::vector<Fault>& faults;
@@ -63,7 +64,7 @@ struct FaultList {
   }
 };
 
-/// What is wrong with the value of a row: nothing, or its formula's result.
+/// Checks the value of a row: its cells and the result of its formula.
 void check_value(double value, const ColumnSource& source, std::span<const double> inputs,
                  std::size_t row, FaultList& faults) {
   if (std::isfinite(value)) return;
@@ -85,7 +86,7 @@ void check_value(double value, const ColumnSource& source, std::span<const doubl
                          std::isnan(value) ? "not a number" : "infinite", at));
 }
 
-/// The column that decides in which rows a formula has a value: the one with the most values. The
+/// The input column with the most values: it decides in which rows a formula has a value. The
 /// others keep their previous value.
 std::size_t fastest(const RawTable& raw, const ColumnSource& source) {
   std::size_t best = 0;
@@ -100,7 +101,7 @@ std::size_t fastest(const RawTable& raw, const ColumnSource& source) {
   return best;
 }
 
-/// Fills in what a row without a value holds: the value before it, or the first one.
+/// Fills rows without a value with the previous value, or with the first one.
 void hold(CsvTable::Column& column) {
   const auto first = std::find(column.present.begin(), column.present.end(), true);
   if (first == column.present.end()) return;
@@ -116,7 +117,7 @@ double value_of(ColumnSource& source, std::span<const double> inputs) {
   return source.mapping == nullptr ? inputs.front() : inputs.front() * source.scale + source.offset;
 }
 
-/// Of seconds with nanoseconds: both are what they are taken for.
+/// Checks a pair of seconds and nanoseconds: both must be in range.
 void check_pair(const ColumnSource& source, std::span<const double> inputs, std::size_t row,
                 FaultList& faults) {
   if (!source.time || !source.time->is_pair) return;
@@ -128,7 +129,7 @@ void check_pair(const ColumnSource& source, std::span<const double> inputs, std:
                          option_text("column t_s=EXPRESSION")));
 }
 
-/// How many of the columns that were asked for are still to be made from each one of the file.
+/// By column of the file: number of requested columns still to be made from it.
 std::vector<int> uses_of(const RawTable& raw, const ColumnSources& sources) {
   std::vector<int> uses(raw.columns.size(), 0);
   for (const ColumnSource& source : sources.found) {
@@ -137,8 +138,8 @@ std::vector<int> uses_of(const RawTable& raw, const ColumnSources& sources) {
   return uses;
 }
 
-/// Values to be written row by row: those of a column of the file that nothing else is made from, or
-/// others where there is none. So a column that is made from another takes no memory of its own.
+/// Storage for values that are written row by row: that of a file column that nothing else is made
+/// from, else new storage. So a derived column needs no extra memory.
 std::vector<double> storage_for(const ColumnSource& source, const std::vector<int>& uses,
                                 RawTable& raw) {
   for (const std::size_t index : source.indices) {
@@ -147,11 +148,10 @@ std::vector<double> storage_for(const ColumnSource& source, const std::vector<in
   return std::vector<double>(raw.lines.size());
 }
 
-/// Makes a column. `uses` are those of the columns that are still to be made; `sparse`: it may have empty
-/// cells.
+/// Makes a column. `uses`: remaining uses of each file column; `sparse`: it can have empty cells.
 CsvTable::Column column_of(ColumnSource& source, const std::vector<int>& uses, bool sparse,
                            RawTable& raw, FaultList& faults) {
-  // A run's formula takes the cells of its own row alone.
+  // In a table of runs, a formula uses only the cells of its own row.
   const bool keeps_previous = sparse && source.column.empty != EmptyCells::kOptional;
   const std::size_t rows = raw.lines.size();
   CsvTable::Column column;
@@ -192,7 +192,7 @@ CsvTable::Column column_of(ColumnSource& source, const std::vector<int>& uses, b
   return column;
 }
 
-/// A clock's time counts from the first row; says what the time was taken from.
+/// Makes clock time start at the first row; notes where the time came from.
 void settle_time(const ColumnSource& source, CsvTable::Parts& parts) {
   if (!source.time) return;
   std::vector<double>& t_s = parts.columns.at(source.column.name).values;
@@ -207,7 +207,8 @@ void settle_time(const ColumnSource& source, CsvTable::Parts& parts) {
                                      is_clock ? ", counted from the first row" : "")});
 }
 
-/// Of a column that may have no empty cell; or of one that may, in a table that is not sparse.
+/// Reports empty cells of a column that permits none, and of any column in a table that is not
+/// sparse.
 void find_empty_cells(const ColumnSource& source, FaultList& faults) {
   if (!faults.raw.may_have_empty) return;
   for (const std::size_t index : source.indices) {
@@ -221,7 +222,7 @@ void find_empty_cells(const ColumnSource& source, FaultList& faults) {
   }
 }
 
-/// A column that runs may have and that none has is no column.
+/// Drops optional columns without any value.
 void drop_void_columns(CsvTable::Parts& parts, const ColumnSources& sources) {
   for (const ColumnSource& source : sources.found) {
     if (source.column.empty != EmptyCells::kOptional) continue;
@@ -255,7 +256,7 @@ Result<CsvTable> table_of(RawTable raw, ColumnSources sources,
     parts.columns.emplace(source.column.name,
                           column_of(source, uses, may_be_empty(source), raw, list));
   }
-  // What is taken as it stands is moved, once nothing else is made from it.
+  // Columns used unchanged are moved, once nothing else is made from them.
   for (const ColumnSource& source : sources.found) {
     if (source.mapping != nullptr || source.expression || may_be_empty(source)) continue;
     RawColumn& column = raw.columns[source.indices.front()];

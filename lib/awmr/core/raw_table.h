@@ -1,5 +1,5 @@
-/// The numbers of a file as they stand in it, before names and units: what every format is read
-/// into, and what the table of the columns asked for is made from. Private to the library.
+/// The numbers of a file before names and units are applied: the common form of all formats, from
+/// which the table of requested columns is made. Private to the library.
 #pragma once
 
 #include <limits>
@@ -12,30 +12,30 @@
 
 namespace awmr {
 
-/// Stands for a cell without a value, and for one whose fault is known already. Neither can be read
-/// from a file: values are finite.
+/// Marks a cell without a value, or with a fault already reported. It cannot be read from a file,
+/// because values in files are finite.
 inline constexpr double kEmptyCell = std::numeric_limits<double>::quiet_NaN();
 inline constexpr double kFaultyCell = std::numeric_limits<double>::infinity();
 
 struct RawColumn {
   std::vector<double> value = {};
-  std::vector<int> character = {};  ///< place in the line, from 1; empty: not kept
+  std::vector<int> character = {};  ///< position in the line, from 1; empty: not stored
 };
 
 struct RawTable {
   std::string file;
   int header_line = 1;
   RowLines lines = {};
-  std::vector<RawColumn> columns = {};  ///< as in the header; those that are not wanted are empty
+  std::vector<RawColumn> columns = {};  ///< as in the header; unused ones are empty
   std::vector<CsvNote> notes = {};
-  std::vector<std::size_t> mapped = {};           ///< mappings that were used to read it
-  std::shared_ptr<const CellPlaces> places = {};  ///< where they are not kept but can be found
+  std::vector<std::size_t> mapped = {};           ///< mappings used to read it
+  std::shared_ptr<const CellPlaces> places = {};  ///< finds positions that are not stored
   bool may_have_empty = true;                     ///< false: every cell has a value
-  bool joined = false;  ///< made of signals with times of their own: cells may be empty
+  bool joined = false;  ///< made of signals with different sample times: cells can be empty
 };
 
-/// The columns that were asked for. `faults` are those found so far; `mappings` those that `sources`
-/// were found with. Errors: as read_csv().
+/// Makes the requested columns. `faults`: those found so far; `mappings`: those used to find
+/// `sources`. Errors: as read_csv().
 Result<CsvTable> table_of(RawTable raw, ColumnSources sources,
                           std::span<const ColumnMapping> mappings, std::vector<Fault> faults);
 

@@ -1,5 +1,5 @@
-/// Failure as a value. Whatever a user can cause is returned as an `Error` that says where, what
-/// was wrong and what to do; a broken invariant of the program asserts.
+/// Errors as values. Every failure that a user can cause is returned as an `Error` that says where
+/// it is, what is wrong and what to do. A broken invariant of the program asserts.
 #pragma once
 
 #include <cstddef>
@@ -11,28 +11,28 @@
 
 namespace awmr {
 
-/// One thing that is wrong, at one place.
+/// One fault, at one place.
 struct Fault {
   std::string place;    ///< `FILE:LINE:COLUMN`, `FILE:/json/pointer`, `FILE`, or empty
   std::string message;  ///< what is wrong, what was found, what to do
 };
 
-/// More faults than this are not gathered from a file.
+/// Maximum number of faults collected from a file.
 inline constexpr std::size_t kMaxFaults = 100;
 
 /// Each kind has one exit code.
 enum class ErrorKind {
   kInput,    ///< the command line, a file or a value is wrong (exit code 2)
-  kRefused,  ///< the work ran and the answer is no (exit code 1)
-  kFault,    ///< a fault of the program itself (exit code 3)
+  kRefused,  ///< the work ran and its answer is negative (exit code 1)
+  kFault,    ///< internal error of the program (exit code 3)
 };
 
 struct Error {
   ErrorKind kind = ErrorKind::kInput;
-  std::vector<Fault> faults;  ///< every fault found, never empty
+  std::vector<Fault> faults;  ///< all faults found, never empty
 };
 
-/// A value, or why there is none.
+/// A value or an error.
 template <class T>
 using Result = tl::expected<T, Error>;
 using Status = Result<void>;
@@ -41,18 +41,18 @@ using Status = Result<void>;
 tl::unexpected<Error> input_error(std::string place, std::string message);
 tl::unexpected<Error> refusal(std::string message);
 tl::unexpected<Error> program_fault(std::string message);
-/// All faults of a file at once; `faults` must not be empty.
+/// All faults of a file; `faults` must not be empty.
 tl::unexpected<Error> input_errors(std::vector<Fault> faults);
 
-/// `error: PLACE: MESSAGE`, a line per fault, at most 20 and then the number left out.
+/// `error: PLACE: MESSAGE`, one line per fault, at most 20, then the number omitted.
 std::string to_text(const Error& error);
 
-/// 1 for a refusal, 2 for bad input, 3 for a fault of the program.
+/// 1 for a refusal, 2 for invalid input, 3 for an internal error.
 int exit_code(const Error& error);
 
 }  // namespace awmr
 
-/// Hands an error on to the caller: both stand in a function that returns a Result.
+/// Returns an error to the caller; both macros are for functions that return a Result.
 ///
 ///     AWMR_RETURN_IF_ERROR(write_file(path, text));
 ///     AWMR_ASSIGN_OR_RETURN(const Model model, read_model(path));

@@ -1,14 +1,13 @@
-/// How this machine rounds.
+/// Fingerprint of this machine's floating-point rounding.
 #pragma once
 
 #include <string>
 
 namespace awmr {
 
-/// What the mathematical functions of the C library come to here, to their last bits, as 16
-/// hexadecimal digits. The library chooses its functions by the processor, and with fused
-/// multiply-add some results are another neighbour of the true one: only on machines that agree in
-/// this are the bytes of a result the same.
+/// Hash of results of the C library's mathematical functions, to their last bits, as 16 hexadecimal
+/// digits. The library selects variants by processor, and with fused multiply-add some results
+/// round differently. Results are byte-identical only between machines with the same value.
 std::string rounding_of_functions();
 
 }  // namespace awmr

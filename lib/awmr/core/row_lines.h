@@ -1,4 +1,4 @@
-/// The line of each row of a table, kept as runs: as a rule a row stands below the one before.
+/// Line of each row of a table, stored as runs of consecutive lines.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,7 @@ class RowLines {
   }
   /// Adds a row.
   void push_back(int line) { append(line, 1); }
-  /// Adds as many rows, in lines that follow each other.
+  /// Adds `rows` rows on consecutive lines.
   void append(int first_line, std::size_t rows) {
     if (rows == 0) return;
     const bool goes_on =
@@ -33,7 +33,7 @@ class RowLines {
  private:
   struct Run {
     std::size_t row;
-    int line;  ///< of that row
+    int line;  ///< of the first row
   };
   std::vector<Run> runs_ = {};
   std::size_t rows_ = 0;

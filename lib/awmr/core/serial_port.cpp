@@ -50,7 +50,7 @@ Result<bool> make_raw(int file, unsigned baud) {
 }
 
 Result<Descriptor> open_serial_port(const std::filesystem::path& path, unsigned baud) {
-  // Without O_NONBLOCK a modem port may wait for its carrier without end.
+  // Without O_NONBLOCK, a modem port can wait for its carrier forever.
   Descriptor port(::open(path.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC | O_NONBLOCK));
   if (port.number() < 0) return input_error(path.string(), std::strerror(errno));
   ::fcntl(port.number(), F_SETFL, ::fcntl(port.number(), F_GETFL) & ~O_NONBLOCK);

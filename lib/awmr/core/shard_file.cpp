@@ -13,12 +13,12 @@
 namespace awmr {
 namespace {
 
-/// Parts of one work at the most: far beyond any cluster.
+/// Maximum number of shards: far above any cluster.
 constexpr long kMostShards = 1'000'000;
 
 std::string file_of(const ShardOrigin& part) { return (part.directory / kShardFile).string(); }
 
-/// Why a part is not of the same work as the first; empty where it is.
+/// Reason why a shard is not of the same job as the first; empty if it is.
 std::string other_work(const ShardOrigin& first, const ShardOrigin& part) {
   const auto same_input = [](const InputFile& a, const InputFile& b) {
     return a.name == b.name && a.sha256 == b.sha256;
@@ -47,14 +47,14 @@ std::string other_work(const ShardOrigin& first, const ShardOrigin& part) {
   return {};
 }
 
-/// Empty where the file names none.
+/// Empty if the file names none.
 std::string schema_in(const Json& document) {
   if (!document.is_object()) return {};
   const auto schema = document.find("schema");
   return schema != document.end() && schema->is_string() ? schema->get<std::string>() : "";
 }
 
-/// The first numbers that no part has.
+/// The lowest numbers of missing shards.
 std::vector<int> missing_of(const std::map<int, const ShardOrigin*>& by_index, int count) {
   constexpr std::size_t kNamed = 20;
   std::vector<int> missing;

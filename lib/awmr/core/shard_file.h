@@ -1,6 +1,6 @@
-/// The files of a part: shard.json says where the part is from and which one it is, and beside it
-/// lies a table of what it came to. What all kinds of work have in common. Include from .cpp files
-/// only: it brings in nlohmann/json.
+/// Files of a shard, common to all kinds of jobs: shard.json identifies the shard and its origin; a
+/// table next to it has the results. Include from .cpp files only, because it includes
+/// nlohmann/json.
 #pragma once
 
 #include <algorithm>
@@ -16,58 +16,58 @@
 
 namespace awmr {
 
-/// What every shard.json says.
+/// Contents common to every shard.json.
 struct ShardOrigin {
-  std::filesystem::path directory = {};  ///< that it was read from
+  std::filesystem::path directory = {};  ///< the shard was read from here
   Provenance provenance;
   std::string version = {};  ///< of the program that wrote it
   Shard shard;
-  std::string arithmetic;  ///< how its numbers were rounded; "scalar" in files of earlier versions
-  std::string csv_sha256 = {};  ///< of the table beside it
-  bool stopped = false;         ///< before all of its items were done: it has to be run again
+  std::string arithmetic;       ///< rounding of its numbers; "scalar" in files of earlier versions
+  std::string csv_sha256 = {};  ///< of the table next to it
+  bool stopped = false;         ///< stopped before all items were done: must be run again
 };
 
-/// How shard.json begins.
+/// Beginning of shard.json.
 Json shard_document(std::string_view schema, const ShardOrigin& origin);
-/// Reads that back.
+/// Reads the keys written by shard_document().
 ShardOrigin read_shard_origin(JsonObject& json, std::string_view schema);
 
-/// The schema of the part in the directory, by which one kind is told from another; empty where the
-/// file names none. Errors: as read_json_file().
+/// The schema of the shard in the directory, which identifies its kind; empty if the file names
+/// none. Errors: as read_json_file().
 Result<std::string> schema_of_part(const std::filesystem::path& directory);
 
-/// DIR/shard.json. Errors: as read_json_file(); (input) it is a part of another kind of work.
+/// Reads DIR/shard.json. Errors: as read_json_file(); (input) it is a shard of another kind of job.
 Result<Json> read_shard_json(const std::filesystem::path& directory, std::string_view schema);
 
-/// The table beside it. Errors: as read_file(); (input) it is not the one that shard.json was
-/// written with.
+/// Reads the table next to shard.json. Errors: as read_file(); (input) its hash differs from the
+/// one in shard.json.
 Result<std::string> read_shard_table(const ShardOrigin& origin, std::string_view name);
 
-/// Whether the directory holds this very part, finished: shard.json as it would be written now, its
-/// csv_sha256 that of the table beside it.
+/// True if the directory holds this shard, finished: shard.json is as it would be written now, and
+/// its csv_sha256 is that of the table next to it.
 bool is_finished_part(const std::filesystem::path& directory, std::string_view schema,
                       const ShardOrigin& origin, std::string_view table);
 
-/// Of the same work, each part once and none missing. `why_not` says in words what else keeps a part
-/// from the first one; empty where nothing does. Errors (input), each by its place: another version of
-/// the program, number of parts, option or input; a part that was stopped, is there twice, or missing.
+/// Checks that the shards are of one job, each exactly once and none missing. `why_not` returns any
+/// other reason why a shard does not match the first, or an empty text. Errors (input), each with
+/// its place: another program version, number of shards, option or input; a shard that is stopped,
+/// duplicate or missing.
 Status check_parts(const std::vector<ShardOrigin>& parts,
                    const std::function<std::string(std::size_t)>& why_not);
 
-/// The options that one of them has and the other has not, or has otherwise, by their marked names
-/// (option_text.h).
+/// Options that differ or exist in only one of the lists, by their marked names (option_text.h).
 std::string differing_options(const std::vector<std::pair<std::string, std::string>>& a,
                               const std::vector<std::pair<std::string, std::string>>& b);
 
-/// Words for `why_not`: other options; and where numbers were rounded in another way, which parts
-/// that are mixed must not be, with what to do about it.
+/// Texts for `why_not`: other options; numbers rounded in another way, which cannot be mixed, with
+/// the remedy.
 std::string made_with_other_options(const ShardOrigin& first);
 std::string other_arithmetic(const ShardOrigin& first, const ShardOrigin& part,
                              std::string_view advice);
 
-/// The parts in the directories as `read` finds them (it takes the JsonObject of shard.json and gives
-/// a value with a ShardOrigin `origin`), checked by check_parts() with `why_not(first, part)`, in the
-/// order of their numbers.
+/// Reads the shards in the directories with `read`, which takes the JsonObject of shard.json and
+/// returns a value with a ShardOrigin `origin`. Checks them by check_parts() with `why_not(first,
+/// part)`; returns them in order of their numbers.
 template <class Read, class WhyNot>
 auto read_parts(const std::vector<std::filesystem::path>& directories, std::string_view schema,
                 const Read& read, const WhyNot& why_not)

@@ -22,9 +22,9 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kPrefix = ".awmr-";
 constexpr std::size_t kRandomCharacters = 6;
-constexpr int kAttempts = 100;  ///< to find a name that is not taken
+constexpr int kAttempts = 100;  ///< attempts to find an unused name
 
-/// The process that made a temporary file, by the file's name.
+/// Id of the process that made a temporary file, from the file's name.
 std::optional<pid_t> maker_of(std::string_view name) {
   if (!name.starts_with(kPrefix)) return std::nullopt;
   name.remove_prefix(kPrefix.size());
@@ -35,13 +35,13 @@ std::optional<pid_t> maker_of(std::string_view name) {
   return fits && rest[0] == '-' ? std::optional(number) : std::nullopt;
 }
 
-/// The paths that a signal handler removes. A handler may neither allocate nor lock, so these are
-/// pointers to the text that each TemporaryFile owns, on the heap so that a move leaves it in place.
+/// Paths that a signal handler removes. A handler cannot allocate or lock, so these point to text
+/// owned by each TemporaryFile, on the heap so that a move does not change its address.
 constexpr int kSlots = 64;
 std::atomic<char*> registered[kSlots];
 static_assert(std::atomic<char*>::is_always_lock_free, "a signal handler reads it");
 
-/// Of the signals that end a program, those that a user or a system sends.
+/// Signals that end a program and are sent by a user or the system.
 constexpr int kEndingSignals[] = {SIGHUP,  SIGINT,  SIGQUIT, SIGTERM, SIGPIPE,
                                   SIGALRM, SIGUSR1, SIGUSR2, SIGXCPU};
 
@@ -49,11 +49,12 @@ extern "C" void remove_and_end(int signal) {
   for (std::atomic<char*>& slot : registered) {
     if (const char* path = slot.load()) ::unlink(path);
   }
-  // SA_RESETHAND has put the default action back, and the signal comes once this handler returns.
+  // SA_RESETHAND has restored the default action; the signal is delivered once this handler
+  // returns.
   ::raise(signal);
 }
 
-/// Its slot, or -1: all are taken, and the next start removes what a signal leaves.
+/// Its slot, or -1 if all are in use; the next program start then removes files left by a signal.
 int register_path(const fs::path& path) {
   char* text = ::strdup(path.c_str());
   for (int i = 0; text != nullptr && i < kSlots; ++i) {
@@ -68,7 +69,7 @@ std::string random_characters() {
   constexpr std::string_view kCharacters =
       "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789";
   unsigned char bytes[kRandomCharacters] = {};
-  // Without random bytes the name is taken sooner or later, and the file cannot be made.
+  // Without random bytes, names collide in the end and the file cannot be made.
   [[maybe_unused]] const ssize_t count = ::getrandom(bytes, sizeof bytes, 0);
   std::string text;
   for (const unsigned char byte : bytes) text += kCharacters[byte % kCharacters.size()];
@@ -101,16 +102,16 @@ std::optional<TemporaryFile> TemporaryFile::in(const fs::path& directory) {
   return std::nullopt;
 }
 
-// The path is registered before the file is there: no signal comes between the two.
+// The path is registered before the file exists, so that no signal arrives in between.
 TemporaryFile::TemporaryFile(fs::path path)
     : path_(std::move(path)),
       slot_(register_path(path_)),
       file_(::open(path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0600)) {
   if (file_.number() < 0) {
-    path_.clear();  // nothing to remove, or the file of another
+    path_.clear();  // nothing to remove, or another process's file
     return;
   }
-  // Where the file system knows no locks, the number of the process is all there is.
+  // If the file system has no locks, only the process id protects the file.
   (void)::flock(file_.number(), LOCK_EX | LOCK_NB);
 }
 

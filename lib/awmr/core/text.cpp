@@ -9,10 +9,10 @@ namespace {
 
 struct Character {
   std::uint32_t code = 0;  ///< Unicode
-  std::size_t bytes = 0;   ///< 0 where the text does not begin with UTF-8
+  std::size_t bytes = 0;   ///< 0 if the text does not begin with UTF-8
 };
 
-/// The first character of a text that is not empty.  [RFC 3629, section 3]
+/// The first character of a non-empty text.  [RFC 3629, section 3]
 Character first_character(std::string_view text) {
   const auto byte = static_cast<unsigned char>(text[0]);
   if (byte < 0x80U) return {byte, 1};
@@ -29,7 +29,8 @@ Character first_character(std::string_view text) {
   return {code, bytes};
 }
 
-/// What would move the cursor, change the terminal's state or turn the direction of writing.
+/// True for characters that move the cursor, change the terminal's state or reverse the writing
+/// direction.
 bool is_control(std::uint32_t code) {
   return code < 0x20 || (code >= 0x7F && code < 0xA0) || code == 0x200E || code == 0x200F ||
          (code >= 0x2028 && code <= 0x202E) || (code >= 0x2066 && code <= 0x2069);

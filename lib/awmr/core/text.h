@@ -1,4 +1,4 @@
-/// Text of a user's files as it may be shown: it steers no terminal and fills no screen.
+/// Sanitises user text for display: escapes control characters and shortens long text.
 #pragma once
 
 #include <cstddef>
@@ -12,26 +12,26 @@ inline bool continues_character(char byte) {
   return (static_cast<unsigned char>(byte) & 0xC0U) == 0x80U;
 }
 
-/// Whatever the language of the system.
+/// Independent of the system's locale.
 inline bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 bool is_utf8(std::string_view text);
 
-/// The first `longest` bytes of a text, or fewer: it is never cut inside a UTF-8 character.
+/// The first `longest` bytes of a text, or fewer, so that no UTF-8 character is cut.
 std::string_view first_characters(std::string_view text, std::size_t longest);
 
-/// The text on one line: control characters, the marks that turn the direction of writing and bytes
-/// that are no UTF-8 as `\n`, `\t`, `\u{202e}`, `\xff`.
+/// The text on one line. Control characters, marks that change the writing direction and bytes that
+/// are not UTF-8 are written as `\n`, `\t`, `\u{202e}`, `\xff`.
 std::string printable(std::string_view text);
 
-/// As `printable`, but lines stay lines.
+/// As `printable`, but keeps line breaks.
 std::string printable_lines(std::string_view text);
 
-/// The longest text that `shortened` leaves as it is, in bytes.
+/// Maximum length that `shortened` leaves unchanged, in bytes.
 inline constexpr std::size_t kLongestShown = 1000;
 
-/// The text, or where it is longer than `longest` its beginning and its end, as the end of a
-/// message says what to do.
+/// The text; if longer than `longest`, its beginning and its end, because the end of a message says
+/// what to do.
 std::string shortened(std::string_view text, std::size_t longest = kLongestShown);
 
 }  // namespace awmr

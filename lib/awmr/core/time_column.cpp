@@ -15,7 +15,7 @@
 namespace awmr {
 namespace {
 
-/// A name in its parts, lower case: `Header.Stamp_ns` is header, stamp, ns.
+/// Splits a name into parts, lower case: `Header.Stamp_ns` gives header, stamp, ns.
 std::vector<std::string> parts_of(std::string_view name) {
   std::vector<std::string> parts(1);
   for (const char c : name) {
@@ -59,9 +59,9 @@ bool is_time_word(std::string_view word) {
 
 std::string in_backticks(const std::string& name) { return "`" + name + "`"; }
 
-/// `time_ms`, `header.stamp [us]`; not `stop_time_s`, which is a duration.
+/// Matches `time_ms`, `header.stamp [us]`; not `stop_time_s`, which is a duration.
 std::optional<TimeColumn> with_unit(const std::string& name) {
-  // PlotJuggler's exports have seconds under this name.
+  // PlotJuggler exports seconds under this name.
   if (name == "__time") {
     return TimeColumn{.expression = in_backticks(name), .meaning = "\"__time\" in s"};
   }
@@ -75,7 +75,7 @@ std::optional<TimeColumn> with_unit(const std::string& name) {
                     .meaning = fmt::format("\"{}\" in {}", name, parts.back())};
 }
 
-/// `stamp.sec` with its `stamp.nanosec`.
+/// Matches `stamp.sec` with `stamp.nanosec`.
 std::optional<TimeColumn> with_nanoseconds(const std::string& name,
                                            std::span<const std::string> header) {
   std::vector<std::string> parts = parts_of(name);
@@ -101,8 +101,8 @@ std::optional<TimeColumn> as_date(const std::string& name, std::string_view samp
       .expression = name, .is_date = true, .meaning = fmt::format("the dates of \"{}\"", name)};
 }
 
-/// `timestamp` with 1763892000.25 in it: seconds since 1970 with a fraction, in the years 2001 to 2096. Counts
-/// of smaller units have none.
+/// Matches `timestamp` with 1763892000.25 in it: seconds since 1970 with a fraction, in the years
+/// 2001 to 2096. Counts of smaller units have no fraction.
 std::optional<TimeColumn> as_unix_seconds(const std::string& name, std::string_view sample) {
   if (!is_time_word(parts_of(name).back()) || sample.find('.') == std::string_view::npos) {
     return std::nullopt;
@@ -115,7 +115,7 @@ std::optional<TimeColumn> as_unix_seconds(const std::string& name, std::string_v
                     .meaning = fmt::format("\"{}\" in s since 1970", name)};
 }
 
-/// Takes `digits` digits off the front; nothing where they are not there.
+/// Removes `digits` digits from the front; nothing if they are missing.
 std::optional<int> take_digits(std::string_view& text, std::size_t digits) {
   int value = 0;
   if (text.size() < digits) return std::nullopt;
@@ -131,7 +131,7 @@ bool take(std::string_view& text, char c) {
   return true;
 }
 
-/// Takes `.789` or `,789`.
+/// Removes `.789` or `,789`.
 std::optional<double> take_fraction(std::string_view& text) {
   if (!take(text, '.') && !take(text, ',')) return 0.0;
   double value = 0.0;
@@ -145,7 +145,7 @@ std::optional<double> take_fraction(std::string_view& text) {
   return value;
 }
 
-/// Takes `Z`, `+hh:mm`, `-hhmm` or nothing; the offset from UTC, s.
+/// Removes `Z`, `+hh:mm`, `-hhmm` or nothing. Returns the offset from UTC, s.
 std::optional<int> take_zone(std::string_view& text) {
   if (text.empty() || take(text, 'Z')) return 0;
   const int sign = text[0] == '-' ? -1 : 1;
@@ -157,7 +157,7 @@ std::optional<int> take_zone(std::string_view& text) {
   return sign * (3600 * *hours + 60 * *minutes);
 }
 
-/// Takes `hh:mm[:ss[.fff]]`; seconds since midnight.
+/// Removes `hh:mm[:ss[.fff]]`. Returns seconds since midnight.
 std::optional<double> take_clock(std::string_view& text) {
   const auto hours = take_digits(text, 2);
   if (!hours || *hours > 23 || !take(text, ':')) return std::nullopt;
@@ -197,7 +197,7 @@ tl::expected<std::optional<TimeColumn>, std::string> find_time(
   for (std::size_t i = 0; i < header.size(); ++i) {
     auto one = with_nanoseconds(header[i], header);
     if (!one) one = with_unit(header[i]);
-    // The nanoseconds of a pair are no time of their own.
+    // The nanoseconds of a pair are not a separate time.
     if (!one && i < samples.size()) one = as_date(header[i], samples[i]);
     if (one) found.push_back(*std::move(one));
   }
@@ -208,7 +208,7 @@ tl::expected<std::optional<TimeColumn>, std::string> find_time(
   }
   if (found.empty()) return std::nullopt;
   if (found.size() == 1) return std::move(found.front());
-  // A pair is one time, even if its halves look like times of their own.
+  // A pair counts as one time, even if each half looks like a time.
   for (const TimeColumn& pair : found) {
     const auto is_part = [&](const TimeColumn& other) {
       const std::size_t star = other.expression.find('*');

@@ -1,20 +1,20 @@
-/// What is taken for tyres of which nobody measured anything. All of it is over the weight on the tyre.
+/// Default tyre parameters if nothing was measured. All are divided by the weight on the tyre.
 #pragma once
 
 namespace awmr {
 
-/// mu, what a tyre holds: rubber on a dry floor or road. J. Y. Wong, "Theory of Ground Vehicles", table 1.3,
-/// has 0.75 to 0.9 for dry asphalt and concrete, 0.5 to 0.8 wet, 0.6 for gravel; smooth or dusty floors may
-/// have less.
+/// mu, friction coefficient of rubber on a dry floor or road. J. Y. Wong, "Theory of Ground
+/// Vehicles", table 1.3, has 0.75 to 0.9 for dry asphalt and concrete, 0.5 to 0.8 wet, 0.6 for
+/// gravel; smooth or dusty floors may have less.
 inline constexpr double kTyreFriction = 0.8;
 
-/// c_a, cornering stiffness, 1/rad: the slope of the side force at a small slip angle. Pneumatic tyres have
-/// about 5 to 15 (0.09 to 0.26 per degree) at the load that they are made for; a small robot's are hardly
-/// ever measured.
+/// c_a, cornering stiffness, 1/rad: the slope of the side force at a small slip angle. Pneumatic
+/// tyres have about 5 to 15 (0.09 to 0.26 per degree) at their design load. Those of small robots
+/// are hardly ever measured.
 inline constexpr double kCorneringStiffness_per_rad = 10.0;
 
-/// m/s: below it a tyre's slip is taken as if it rolled about this fast. Far below the speeds that courses
-/// are driven at.
+/// m/s: below it, a tyre's slip is computed as if it rolled at about this speed. Far below the
+/// speeds at which paths are driven.
 inline constexpr double kTyreRestSpeed_mps = 0.1;
 
 }  // namespace awmr

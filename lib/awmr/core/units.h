@@ -3,7 +3,7 @@
 
 namespace awmr {
 
-/// Half a turn, rad, rounded to the scalar.
+/// pi, rad, rounded to the scalar type.
 template <class T>
 constexpr T pi() {
   return T(3.14159265358979323846);

@@ -57,7 +57,7 @@ constexpr std::string_view kParts = R"(
 #define AWMR_FIXED_HALF {}
 )";
 
-/// AWMR_WITH_SLOW_DOWN of slow_down.
+/// Macro of a part: AWMR_WITH_SLOW_DOWN for slow_down.
 std::string macro_of(std::string_view part) {
   std::string macro = "AWMR_WITH_";
   std::transform(part.begin(), part.end(), std::back_inserter(macro),

@@ -27,11 +27,11 @@ TableShape shape_of(const EmittedTable& table) {
   return {static_cast<std::uint32_t>(table.lines.size()), table.first, table.mantissa_bits};
 }
 
-/// The value as a float of the chip; -0 becomes 0.
+/// The value as a float on the chip; -0 becomes 0.
 float single(double value) { return static_cast<float>(value) + 0.0F; }
 
-/// The forces that the allocation may ask of a wheel: what is left of its limits beyond the zone in
-/// which the motor does not move, as in make_controller().
+/// Range of the wheel force that the allocation can request: the limits minus the dead zone of the
+/// motors, as in make_controller().
 Interval force_beyond_dead_zone(const Plant<double>& plant, const Vehicle& vehicle) {
   const Controller<double> controller = make_controller(plant, vehicle, {});
   return {controller.limits.force_min, controller.limits.force_max};
@@ -44,8 +44,8 @@ bool is_power_law(const Plant<double>& plant) {
   return !has_terms(plant.surge) && !has_terms(plant.yaw);
 }
 
-/// What the firmware needs at rest and of the motors; none for a law without friction there and
-/// motors without a dead zone or back-EMF.
+/// Parameters at rest and of the motors; none for a law without friction at rest and motors without
+/// dead zone or back-EMF.
 std::optional<RestBlock> rest_of(const Plant<double>& plant) {
   const bool jumps = plant.surge.coulomb > 0.0 || plant.yaw.coulomb > 0.0;
   if (!jumps && !(plant.wheel_dead_zone > 0.0) && !(plant.back_emf_s_per_m > 0.0)) return {};
@@ -61,8 +61,8 @@ std::optional<RestBlock> rest_of(const Plant<double>& plant) {
                    single(plant.back_emf_s_per_m)};
 }
 
-/// The controller in float. What is computed from it is computed in float too, as the compiler of
-/// the firmware folds the expressions of awmr.cpp.
+/// The controller in float. Values derived from it are also computed in float, because the
+/// firmware's compiler folds the expressions of awmr.cpp in float.
 Controller<float> float_controller(const Plant<double>& plant, const Model& model,
                                    const Gains<double>& gains) {
   Controller<float> controller{};
@@ -82,7 +82,7 @@ Controller<float> float_controller(const Plant<double>& plant, const Model& mode
   return controller;
 }
 
-/// All parameters but the tables and the speeds that they end at.
+/// All parameters except the tables and their top speeds.
 ParameterBlock block_of(const Plant<double>& plant, const Model& model, const Gains<double>& gains,
                         const EmitOptions& options) {
   const auto estimate = [&](ParameterId id) { return single(*model[id].value); };
@@ -127,7 +127,7 @@ Status check_drive(const Plant<double>& plant, const Model& model) {
                          option_text("header-only") + ")");
 }
 
-/// powf knows the power law alone.
+/// powf supports only the power law.
 Status check_family(const Plant<double>& plant, ResistanceForm form) {
   if (form == ResistanceForm::kPowf && !is_power_law(plant)) {
     return input_error(option_text("resistance"),
@@ -136,13 +136,13 @@ Status check_family(const Plant<double>& plant, ResistanceForm form) {
   return {};
 }
 
-/// A resistance as the chip will know it.
+/// A resistance in the form for the chip.
 struct ChipLaw {
   std::string name;   ///< for messages
   ResistanceLaw law;  ///< g1, dimensionless, or g3, m
-  double full_scale;  ///< the largest force or moment there is, in the unit of g
-  double top;         ///< m/s or rad/s: beyond every speed that the vehicle can drive at
-  double rest_speed;  ///< m/s or rad/s: below it the table is not read
+  double full_scale;  ///< the largest possible force or moment, in the unit of g
+  double top;         ///< m/s or rad/s: above every speed that the vehicle can reach
+  double rest_speed;  ///< m/s or rad/s: below it the table is not used
 };
 
 ChipLaw chip_law(std::string name, const Resistance<double>& law, double full_scale) {
@@ -152,10 +152,10 @@ ChipLaw chip_law(std::string name, const Resistance<double>& law, double full_sc
   return chip;
 }
 
-/// The largest float below `top`: a speed at the top itself has no cell of the table above it.
+/// The largest float below `top`: the top itself has no cell in the table.
 float largest_below(double top) { return std::nextafter(static_cast<float>(top), 0.0F); }
 
-/// Puts both tables into the parameters. Errors (refused): no table is within the bound.
+/// Adds both tables to the parameters. Errors (refused): no table is within the bound.
 Status add_tables(const ChipLaw& surge, const ChipLaw& yaw, std::optional<double> table_error,
                   AutopilotParameters& parameters) {
   const auto table = [&](const ChipLaw& chip) {

@@ -1,12 +1,12 @@
-/// The parameters of ArduPilot Rover and of PX4's rovers that follow from a model.
+/// Computes the parameters of ArduPilot Rover and of PX4's rovers from a model.
 ///
-/// Their loops, in the model's terms, with throttle and steering outputs in [-1, 1] as F' is:
+/// Their loops, in the model's terms, with throttle and steering outputs in [-1, 1] like F':
 ///
 ///     throttle = F' of every wheel                              4 F' = g1(u) at a steady speed u
 ///     skid steering s: F'L = throttle + s, F'R = throttle - s   4 d s = g3(r)
 ///     steered wheels:  d_r = steering times the stop            l_f g1(u) tan(d_r/2) = g3(r)
 ///
-/// the last two from (41) at constant speed, turns counted positive. What they are fed with stands in
+/// The last two follow from (41) at constant speed, turns counted positive. Their inputs are in
 /// ArduPilot's libraries/APM_Control/AR_AttitudeControl.cpp (get_throttle_out_speed,
 /// get_steering_out_rate) and AR_Motors/AP_MotorsUGV.cpp, and in PX4's
 /// src/lib/rover_control/RoverControl.cpp (speedControl, rateControl) and rovercontrol_params.yaml.
@@ -46,8 +46,9 @@ struct Autopilot {
   const Vehicle& vehicle() const { return source.model.vehicle; }
   bool knows(ParameterId id) const { return source.model[id].value.has_value(); }
 
-  /// A positive number of the plant, with an interval that is symmetric in its logarithm. `usual` is
-  /// the range that the autopilot's documentation gives; beyond it the value stands, and it is said.
+  /// Adds a positive number computed from the plant, with an interval that is symmetric in its
+  /// logarithm. `usual` is the range in the autopilot's documentation; a value outside is kept and
+  /// reported.
   void add(const char* name, const char* unit, std::string derivation, const OfPlant& f,
            std::optional<Interval> usual = {}) {
     const double value = f(source.model.plant_as_known());
@@ -83,14 +84,14 @@ bool knows_yaw(const Autopilot& pilot) {
   return pilot.knows(ParameterId::kYawAlpha) && pilot.knows(ParameterId::kYawBeta);
 }
 
-/// The speed that a throttle holds: g1(u) = 4 F', less the dead zone.
+/// The steady speed for a throttle: g1(u) = 4 F', minus the dead zone.
 double speed_at(const Plant<double>& plant, double throttle) {
   return steady_or_never(plant.surge, 4.0 * beyond_dead_zone(throttle, plant.wheel_dead_zone));
 }
 
-/// A PI loop on the throttle that closes with the time constant T of the speed law in its layer,
+/// A PI loop on the throttle with the closed-loop time constant T of the speed law in its layer,
 ///   T = eps_s/mu_s,   K_p = m'/(4 T),   K_i = g1'(u)/(4 T)
-/// which cancels the plant's own pole, m' du/dt = 4 dF' - g1'(u) du.
+/// which cancels the plant's pole, m' du/dt = 4 dF' - g1'(u) du.
 /// [Skogestad 2003, J. Process Control 13, 291]
 void add_speed_loop(Autopilot& pilot, const char* p, const char* i, double throttle,
                     std::optional<Interval> usual = {}) {
@@ -114,7 +115,7 @@ void add_speed_loop(Autopilot& pilot, const char* p, const char* i, double throt
       usual);
 }
 
-/// Told where the gains were tuned with what these autopilots do not have.
+/// Reports tuned features that these autopilots do not have.
 void leave_out_observer(Autopilot& pilot) {
   if (!pilot.source.gains || !pilot.source.gains->observer.is_on()) return;
   pilot.leave_out("the disturbance observer",
@@ -138,7 +139,7 @@ Status check_surge(const Model& model) {
           back_emf));
 }
 
-/// ArduPilot's steering output over turn rate, at half of the largest output.
+/// Steering output of ArduPilot divided by turn rate, at half of the largest output.
 void add_steering_feed_forward(Autopilot& pilot, double throttle) {
   constexpr const char* kName = "ATC_STR_RAT_FF";
   constexpr Interval kUsual{0.0, 3.0};
@@ -168,7 +169,7 @@ void add_steering_feed_forward(Autopilot& pilot, double throttle) {
       kUsual);
 }
 
-/// What full commands turn the vehicle with, held to what its yaw resistance was measured up to.
+/// Yaw rate at full commands, limited to the range in which yaw resistance was measured:
 ///   skid:     g3(r) = 2 d (F'max - F'min)
 ///   steered:  g3(r) = 2 l_f F'max sin d_max
 double largest_yaw_rate(const Plant<double>& plant, const Vehicle& vehicle,
@@ -182,8 +183,8 @@ double largest_yaw_rate(const Plant<double>& plant, const Vehicle& vehicle,
   return measured_degps ? std::min(rate, radians(*measured_degps)) : rate;
 }
 
-/// The rate loop of skid steering: with T = 1/(lambda + mu/epsilon), in which the heading law closes
-/// on a yaw rate inside of its layer,
+/// The rate loop of skid steering: with T = 1/(lambda + mu/epsilon), the closed-loop time constant
+/// of the heading law for the yaw rate inside its layer,
 ///   K_p = I'z/(4 d T),   K_i = g3'(r)/(4 d T)
 void add_skid_rate_loop(Autopilot& pilot, const OfPlant& rate) {
   const bool known = pilot.source.gains && pilot.knows(ParameterId::kInertiaNorm);
@@ -205,7 +206,8 @@ void add_skid_rate_loop(Autopilot& pilot, const OfPlant& rate) {
             });
 }
 
-/// PX4 feeds s = RO_YAW_RATE_CORR r d/RO_MAX_THR_SPEED forward, where 4 d s = g3(r) is needed:
+/// PX4 uses the feed-forward s = RO_YAW_RATE_CORR r d/RO_MAX_THR_SPEED, but 4 d s = g3(r) is
+/// necessary:
 ///   RO_YAW_RATE_CORR = g3(r) u_max/(4 d^2 r)
 void add_skid(Autopilot& pilot, const OfPlant& rate) {
   pilot.add("RD_WHEEL_TRACK", "m", "2 d",
@@ -245,7 +247,7 @@ std::string extrapolated(const Model& model) {
 Result<AutopilotValues> ardupilot_values(const ExportSource& source) {
   AWMR_RETURN_IF_ERROR(check_surge(source.model));
   Autopilot pilot{source};
-  // CRUISE_THROTTLE takes whole percent.
+  // CRUISE_THROTTLE is in whole percent.
   const double percent = std::max(1.0, std::round(50.0 * pilot.vehicle().wheel_force.hi));
   const double throttle = 0.01 * percent;
   pilot.add("CRUISE_THROTTLE", "%", "half of the largest wheel force, in whole percent",

@@ -1,4 +1,4 @@
-/// Names from files inside comments of other languages. Private to emit/.
+/// Makes names from files safe inside comments of other languages. Private to emit/.
 #pragma once
 
 #include <string>
@@ -6,8 +6,9 @@
 
 namespace awmr {
 
-/// One line of printable ASCII, other characters as '?', that neither ends a C89 comment nor seems to
-/// start one. Nothing in it ends a comment that goes to the end of its line, in any language.
+/// Returns one line of printable ASCII, with other characters as '?', that neither ends nor appears
+/// to start a C89 comment. It also cannot end a comment that extends to the end of its line, in any
+/// language.
 std::string comment_safe(std::string_view text);
 
 }  // namespace awmr

@@ -9,8 +9,8 @@
 
 namespace awmr {
 
-/// The bytes of awmr_compass.h, which the sketches take from the library's src/; `record` is the
-/// file that the calibration was made from. Errors (input): a constant is no normal float32 or 0.
+/// Text of awmr_compass.h, which the sketches include from the library's src/; `record` is the file
+/// of the calibration data. Errors (input): a constant is neither a normal float32 nor 0.
 Result<std::string> compass_header(const CompassCalibration& calibration, const InputFile& record);
 
 }  // namespace awmr

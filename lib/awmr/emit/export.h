@@ -1,5 +1,5 @@
-/// A model and its gains as other programs' parameter files: ROS 2, MATLAB, Python, CSV, and those of
-/// the autopilots that rovers carry.
+/// Exports a model and its gains as parameter files of other programs: ROS 2, MATLAB, Python, CSV,
+/// and rover autopilots.
 #pragma once
 
 #include <optional>
@@ -30,16 +30,16 @@ inline constexpr NameTable<ExportFormat, 6> kExportFormatNames{
      {"ardupilot", ExportFormat::kArduPilot},
      {"px4", ExportFormat::kPx4}}};
 
-/// What a file is made from.
+/// Inputs of an exported file.
 struct ExportSource {
   const Model& model;
   std::optional<Gains<double>> gains = {};
-  std::span<const InputFile> inputs = {};  ///< of the model and the gains, named in the file's head
+  std::span<const InputFile> inputs = {};  ///< model and gains, named in the file's header
 };
 
-/// The bytes of the file: ASCII, every value with its unit, 95 % interval and origin. What the model
-/// does not know is left out; the autopilots' files say in comments what was left out and why.
-/// Errors (input), of the autopilots: the model lacks the surge law.
+/// Text of the file: ASCII, every value with its unit, 95 % interval and origin. Unknown quantities
+/// are omitted; the autopilots' files list them in comments with the reason. Errors (input), for
+/// the autopilots: the model lacks the surge law.
 Result<std::string> export_text(const ExportSource& source, ExportFormat format);
 
 }  // namespace awmr

@@ -11,15 +11,16 @@
 namespace awmr {
 namespace {
 
-/// The shortest decimal that reads back the same, with a point, so that no language takes it for an
-/// integer and YAML 1.1 takes no exponent for a string: 1.0, 1.5e-07 as 1.5e-07, 1e-07 as 1.0e-07.
+/// The shortest decimal that reads back to the same value, with a point, so that no language reads
+/// an integer and YAML 1.1 does not read an exponent as a string: 1.0, 1.5e-07 as 1.5e-07, 1e-07 as
+/// 1.0e-07.
 std::string number(double value) {
   std::string text = fmt::format("{}", value);
   if (text.find('.') != std::string::npos) return text;
   return text.insert(std::min(text.find('e'), text.size()), ".0");
 }
 
-/// What the file is and what it was made from, a comment line each.
+/// Header of the file: its contents and inputs, one comment line each.
 std::string head(const ExportSource& source, std::string_view mark, std::string_view what) {
   std::string text = fmt::format("{} {} of \"{}\", by awmr {} export.\n", mark, what,
                                  comment_safe(source.model.vehicle.name), version());
@@ -78,7 +79,7 @@ std::string python_text(const ExportSource& source) {
   return text + fmt::format("\nSTD_ERROR = {{\n{}}}\n\nCI95 = {{\n{}}}\n", errors, intervals);
 }
 
-/// A field in quotes, its own ones doubled. [RFC 4180, 2.7]
+/// A quoted field, with inner quotes doubled. [RFC 4180, 2.7]
 std::string csv_field(std::string_view text) {
   std::string field = "\"";
   for (const char c : comment_safe(text)) field += c == '"' ? "\"\"" : std::string(1, c);
@@ -101,7 +102,8 @@ std::string csv_text(const ExportSource& source) {
   return text;
 }
 
-/// Each value as `row` writes it, below its derivation; then what the model does not give.
+/// Each value in the format of `row`, below its derivation; then the values that the model does not
+/// give.
 template <class Row>
 std::string autopilot_text(std::string text, const AutopilotValues& found, const Row& row) {
   for (const ExportedValue& value : found.values) {
@@ -120,7 +122,7 @@ Result<std::string> ardupilot_text(const ExportSource& source) {
   AWMR_ASSIGN_OR_RETURN(const AutopilotValues found, ardupilot_values(source));
   return autopilot_text(head(source, "#", "ArduPilot Rover parameters") + std::string(kFirstDrive),
                         found, [](const ExportedValue& value) {
-                          // CRUISE_THROTTLE is whole percent.
+                          // CRUISE_THROTTLE is in whole percent.
                           const bool is_percent = value.unit == "%";
                           return is_percent ? fmt::format("{},{:.0f}\n", value.name, value.value)
                                             : fmt::format("{},{:.6f}\n", value.name, value.value);

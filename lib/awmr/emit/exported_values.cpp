@@ -10,7 +10,7 @@
 namespace awmr {
 namespace {
 
-/// "surge.alpha" or "/surge/alpha" as an identifier.
+/// Converts "surge.alpha" or "/surge/alpha" to an identifier.
 std::string identifier(std::string_view name) {
   std::string text(name);
   std::replace_if(
@@ -39,7 +39,7 @@ void export_parameters(const Model& model, std::vector<ExportedValue>& values) {
                               estimate));
   }
   for (const SiQuantity& quantity : si_quantities(model)) {
-    // m itself stands with the vehicle.
+    // m itself is listed with the vehicle.
     if (quantity.estimate.source == Source::kGiven) continue;
     values.push_back(exported("si" + identifier(quantity.pointer), quantity.unit,
                               fmt::format("{} in SI units", quantity.name), quantity.estimate));

@@ -1,4 +1,4 @@
-/// What is exported, whatever the format. Private to emit/.
+/// Exported values, independent of the format. Private to emit/.
 #pragma once
 
 #include <optional>
@@ -22,19 +22,19 @@ struct ExportedValue {
   std::optional<Interval> ci95 = {};
 };
 
-/// The identified quantities, also in SI units, the vehicle and the gains; none that is not known.
+/// The identified quantities, also in SI units, the vehicle and the gains; only known values.
 std::vector<ExportedValue> exported_values(const ExportSource& source);
 
-/// The numbers of an autopilot's file, and what of it the model does not give.
+/// The values of an autopilot's file, and the parameters that the model does not give.
 struct AutopilotValues {
   std::vector<ExportedValue> values;  ///< `meaning` is the derivation
-  std::vector<std::string> left_out;  ///< "NAME: why"
+  std::vector<std::string> left_out;  ///< "NAME: reason"
 };
 /// Errors (input): the model lacks the surge law.
 Result<AutopilotValues> ardupilot_values(const ExportSource& source);
 Result<AutopilotValues> px4_values(const ExportSource& source);
 
-/// "std error 0.018, 95 % [1.275, 1.357]"; empty where neither is known.
+/// "std error 0.018, 95 % [1.275, 1.357]"; empty if neither is known.
 std::string uncertainty_text(const ExportedValue& value);
 
 }  // namespace awmr

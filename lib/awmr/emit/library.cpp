@@ -6,7 +6,7 @@
 namespace awmr {
 namespace {
 
-/// The Arduino library specification's metadata.
+/// Metadata of the Arduino library specification.
 constexpr std::string_view kProperties = R"(name=awmr
 version={}
 author=awmr
@@ -18,7 +18,7 @@ architectures=*
 includes=awmr.h
 )";
 
-/// The same for PlatformIO, which would else look for an Arduino: the library runs on any chip.
+/// Metadata for PlatformIO, which would otherwise require an Arduino: the library runs on any chip.
 constexpr std::string_view kLibraryJson = R"({{
   "name": "awmr",
   "version": "{}",

@@ -1,5 +1,5 @@
-/// The files of the emitted library that do not depend on the model, as they were built in.
-/// Private to emit/.
+/// Files of the emitted library that do not depend on the model, compiled into the program. Private
+/// to emit/.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace awmr {
 
-/// In the order of their paths within each part.
+/// Sorted by path within each part.
 const std::vector<EmbeddedFile>& embedded_files();
 
 }  // namespace awmr

@@ -1,4 +1,4 @@
-/// Numbers as C source. Private to emit/.
+/// Formats numbers as C source. Private to emit/.
 #pragma once
 
 #include <string>

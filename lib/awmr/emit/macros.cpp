@@ -39,7 +39,7 @@ void add_parameters(std::vector<Macro>& macros, const Model& model, const std::s
   add("AWMR_SWAY_ALPHA", ParameterId::kSwayAlpha, MacroRange::kPositive);
   add("AWMR_MASS_NORM", ParameterId::kMassNorm, MacroRange::kPositive);
   add("AWMR_INERTIA_NORM", ParameterId::kInertiaNorm, MacroRange::kPositive);
-  // Written for the families that have these terms only: the header of a power law stays short.
+  // Only for friction models with these terms: the header of a power law stays short.
   const std::pair<const char*, ParameterId> terms[] = {
       {"AWMR_SURGE_COULOMB", ParameterId::kSurgeCoulomb},
       {"AWMR_SURGE_QUADRATIC", ParameterId::kSurgeQuadratic},
@@ -98,7 +98,7 @@ void add_gains(std::vector<Macro>& macros, const Gains<double>& gains, const std
       "1: largest force over F_max that it takes off", "/observer/surge_max");
 }
 
-/// True for what a float32 holds with full precision: 0 and the normal numbers. False for NaN.
+/// True if a float32 has full precision for the value: 0 and normal numbers. False for NaN.
 bool is_zero_or_normal_float(double value) {
   using Limits = std::numeric_limits<float>;
   const double magnitude = std::abs(value);

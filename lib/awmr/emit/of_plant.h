@@ -1,5 +1,4 @@
-/// Numbers that follow from a model's plant, with the uncertainty that it hands on to them. Private to
-/// emit/.
+/// Computes numbers from a model's plant, with propagated uncertainty. Private to emit/.
 #pragma once
 
 #include <functional>
@@ -9,12 +8,12 @@
 
 namespace awmr {
 
-/// A number that follows from the plant; NaN where the plant does not reach it.
+/// A number computed from the plant; NaN if the plant cannot reach it.
 using OfPlant = std::function<double(const Plant<double>&)>;
 
-/// The standard error of f by the model's covariance C, to first order, with g = df/dp:
+/// Standard error of f from the model's covariance C, to first order, with g = df/dp:
 ///   Var f = g^T C g
-/// None where f hangs on nothing that was fitted, or on something that has no covariance.
+/// None if f depends on no fitted parameter, or on a parameter without covariance.
 std::optional<double> std_error_of(const Model& model, const OfPlant& f);
 
 }  // namespace awmr

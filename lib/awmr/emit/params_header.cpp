@@ -30,7 +30,7 @@ constexpr std::string_view kCheckMacro = R"(
 
 )";
 
-/// The constraint T2 < T1 of tune/ as the compiler can check it, without a division:
+/// The constraint T2 < T1 of tune/ in a form for the compiler, without a division:
 ///   epsilon/(2 mu) < 1/lambda   is   epsilon lambda/2 < mu                      [paper (91), (95)]
 constexpr std::string_view kRelations =
     R"(/* T2 = epsilon/(2 mu) < T1 = 1/lambda: the sliding surface is reached faster than it decays */
@@ -98,8 +98,8 @@ std::string defines_text(const std::vector<Macro>& macros, const EmitInputs& inp
                     params_sha256(inputs));
 }
 
-/// Checks that the values keep their order. It compares them as they are written, because rounding
-/// to float32 may make two of them equal.
+/// Checks the order of the values. It compares the written values, because rounding to float32 can
+/// make two of them equal.
 Status check_relations(const Model& model, const Gains<double>& gains, const EmitInputs& inputs) {
   const Vehicle& vehicle = model.vehicle;
   std::vector<Fault> faults;
@@ -114,7 +114,7 @@ Status check_relations(const Model& model, const Gains<double>& gains, const Emi
   }
   if (!faults.empty()) return input_errors(std::move(faults));
 
-  // A compiler may fold the product in float or exactly: the check has to hold either way.
+  // A compiler can fold the product in float or exactly: the check must hold in both cases.
   const float epsilon = static_cast<float>(gains.heading.epsilon);
   const float lambda = static_cast<float>(gains.heading.lambda);
   const float mu = static_cast<float>(gains.heading.mu);
@@ -144,9 +144,9 @@ std::string comment_safe(std::string_view text) {
   return safe;
 }
 
-/// %.9g and `f`: nine significant digits read back to the same float. `3f` is no literal of C, so
-/// a point or an exponent is always there; a sign needs parentheses, as a macro's value has to bind
-/// tighter than what is around it.
+/// %.9g and `f`: nine significant digits read back to the same float. `3f` is not a C literal, so a
+/// point or an exponent is always present. A sign needs parentheses, because a macro's value must
+/// bind tighter than its context.
 std::string float_literal(double value) {
   const float rounded = static_cast<float>(value) + 0.0F;  // -0 + 0 = 0
   std::string text = fmt::format("{:.9g}", static_cast<double>(rounded));

@@ -17,7 +17,7 @@ constexpr int kLowestExponent = -20;  ///< first entry at 2^-20 = 1e-6 m/s or ra
 constexpr int kMaxLines = 1024;       ///< 8 KiB of flash
 constexpr int kSamplesPerCell = 64;
 
-/// The line through the law at two speeds; g(0) = 0.
+/// The chord of the law between two speeds; g(0) = 0.
 ResistanceLine chord(const ResistanceLaw& law, double from, double to) {
   const double start = from > 0.0 ? law(from) : 0.0;
   const double slope = (law(to) - start) / (to - from);
@@ -44,7 +44,7 @@ EmittedTable table_between(const ResistanceLaw& law, int lowest_exponent, int to
   return table;
 }
 
-/// Compares the table with the law at `samples` places of [lo, hi), from `rest_speed` on.
+/// Compares the table with the law at `samples` points of [lo, hi), from `rest_speed` on.
 void measure(const ResistanceLaw& law, double lo, double hi, int samples, double rest_speed,
              EmittedTable& table) {
   const ResistanceTable view = table.view();
@@ -62,7 +62,7 @@ void measure(const ResistanceLaw& law, double lo, double hi, int samples, double
 }
 
 void measure_all(const ResistanceLaw& law, double rest_speed, EmittedTable& table) {
-  // Below the first entry as well, octave by octave: the law may be steepest at rest.
+  // Also below the first entry, octave by octave: the law can be steepest at rest.
   for (double hi = table.lowest_speed; hi > 1e-9; hi /= 2.0) {
     measure(law, hi / 2.0, hi, kSamplesPerCell, rest_speed, table);
   }
@@ -93,7 +93,7 @@ Result<EmittedTable> resistance_table(const std::string& name, const ResistanceL
                                       std::optional<double> error_share, double rest_speed) {
   const int top_exponent = std::ilogb(top);
   EmittedTable best;     // the smallest within the bound
-  EmittedTable closest;  // that with the least error
+  EmittedTable closest;  // the one with the smallest error
   for (int bits = 0; bits <= kMaxMantissaBits; ++bits) {
     for (int lowest = top_exponent - 1; lowest >= kLowestExponent; --lowest) {
       const int lines = (top_exponent - lowest) * (1 << bits) + 1;

@@ -1,5 +1,5 @@
-/// A resistance law as the table that the chip interpolates (control/resistance_table.h), no larger
-/// than a bound on its error asks for. Private to emit/.
+/// Converts a resistance law to the table that the chip interpolates (control/resistance_table.h),
+/// no larger than the error bound requires. Private to emit/.
 #pragma once
 
 #include <functional>
@@ -16,15 +16,15 @@ namespace awmr {
 /// g as a function of a speed >= 0: g1 of m/s or g3 of rad/s.
 using ResistanceLaw = std::function<double(double)>;
 
-/// The least power of two at which g exceeds the largest force or moment by half of it, so that no
-/// speed the vehicle can drive at lies beyond: between 1 and 64 m/s or rad/s.
+/// The smallest power of two, between 1 and 64 m/s or rad/s, at which g exceeds 1.5 times the
+/// largest force or moment. So the vehicle cannot reach a higher speed.
 double table_top(const ResistanceLaw& law, double full_scale);
 
-/// The smallest table of `law` up to `top` whose error, in the chip's own arithmetic, stays below
-/// `error_share` of the law or, where that is less, of a tenth of `full_scale`; without `error_share`
-/// that of kTableError or, where there is none, the one with the least error. Below `rest_speed` it is
-/// not read, and may be as far off as it likes. `name` is for the message.
-/// Errors (refused): not even the largest table does.
+/// The smallest table of `law` up to `top` whose error, in the chip's arithmetic, is below
+/// `error_share` of the law or, if that is less, of a tenth of `full_scale`. Without `error_share`,
+/// the bound is kTableError or, if no table achieves it, the smallest possible error. Below
+/// `rest_speed` the table is not used, and its error does not matter. `name` is for the message.
+/// Errors (refused): even the largest table exceeds the bound.
 Result<EmittedTable> resistance_table(const std::string& name, const ResistanceLaw& law,
                                       double full_scale, double top,
                                       std::optional<double> error_share, double rest_speed);

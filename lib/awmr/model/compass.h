@@ -1,4 +1,4 @@
-/// What a compass that lies level in a vehicle is corrected by.
+/// Calibration of a compass that is level in the vehicle.
 #pragma once
 
 #include "awmr/core/interval.h"
@@ -11,8 +11,9 @@ struct WithInterval {
   Interval ci95 = {};
 };
 
-/// The field f in the vehicle's plane, ahead and to the left, in any unit, is an ellipse as the
-/// vehicle turns: magnets that turn with it move its centre (hard iron), iron bends it (soft iron).
+/// The field f in the vehicle's plane, ahead and to the left, in any unit, describes an ellipse as
+/// the vehicle turns. Magnets that turn with the vehicle shift its centre (hard iron); iron deforms
+/// it (soft iron).
 ///     c = S (f - o),  S symmetric, det S = 1,  |c| = field
 ///     heading = atan2(-c_left, c_ahead) - declination, counter-clockwise from true north
 struct CompassCalibration {
@@ -23,10 +24,10 @@ struct CompassCalibration {
   WithInterval gain_left;
   WithInterval field;            ///< strength in the plane, in the unit of f, > 0
   double residual = 0.0;         ///< standard deviation of |c| over `field`
-  double heading_error_deg = 0;  ///< 97.5 % bound of what the fit leaves open, worst direction
+  double heading_error_deg = 0;  ///< 97.5 % bound of the fit's heading uncertainty, worst direction
   double turned_deg = 0.0;       ///< from the first row to the last, left positive
-  double largest_gap_deg = 0.0;  ///< between two directions next to each other
-  double declination_deg = 0.0;  ///< of magnetic north from true north, east positive
+  double largest_gap_deg = 0.0;  ///< between two adjacent directions
+  double declination_deg = 0.0;  ///< from true north to magnetic north, east positive
 };
 
 }  // namespace awmr

@@ -1,7 +1,7 @@
 /// The 3-DOF vehicle and its steering servo. Templates on the scalar: double, float, ceres::Jet.
 ///
-/// Which equation of the paper is implemented where, and what the printed ones have wrong that is
-/// not implemented as such: README.md in this folder.
+/// README.md in this folder lists where each equation of the paper is implemented, and the errors
+/// of the printed equations.
 #pragma once
 
 #include "awmr/model/resistance.h"
@@ -10,8 +10,8 @@
 
 namespace awmr {
 
-/// What the equations of motion need to know of a vehicle. Every force is divided by F_max, the
-/// largest force of one motor in N, so that forces are dimensionless and moments are in m.
+/// Parameters of the equations of motion. Every force is divided by F_max, the largest force of one
+/// motor in N, so that forces are dimensionless and moments are in m.
 template <class T>
 struct Plant {
   /// g1(u), dimensionless: resistance to surge over F_max. From surge trials or a driven log.
@@ -31,17 +31,17 @@ struct Plant {
   T half_track_m;
   /// d_max, rad, in (0, pi/2): stop of the front wheels, the same on either side. Data sheet.
   T steering_max_rad;
-  /// d_rate_max, rad/s, > 0: the servo's fastest turn, either way. Data sheet.
+  /// d_rate_max, rad/s, > 0: the servo's maximum rate, in both directions. Data sheet.
   T steering_max_rate_radps;
   /// T, s, > 0: time constant of the servo's first-order lag. Data sheet, or a log of its angle.
   T steering_time_constant_s;
-  /// F'0, over F_max, >= 0: the part of each wheel's force command that moves nothing. 0: none, as
-  /// in the paper; another value comes from the dead-zone family of resistances.
+  /// F'0, over F_max, >= 0: the part of each wheel's force command that has no effect. 0: none, as
+  /// in the paper; other values come from the dead-zone family of resistances.
   T wheel_dead_zone = T(0.0);
-  /// k_e, s/m, >= 0: the force over F_max that a motor loses per m/s at its wheel (back-EMF). 0: an
-  /// ideal source of force, as in the paper. Data sheet, or a log of driven stretches and coasting.
+  /// k_e, s/m, >= 0: decrease of a motor's force over F_max per m/s at its wheel (back-EMF). 0: an
+  /// ideal force source, as in the paper. Data sheet, or a log with driven and coasting sections.
   T back_emf_s_per_m = T(0.0);
-  /// 1: all four wheels are driven, as the paper's are; 0: the front ones alone. Given.
+  /// 1: all four wheels are driven, as in the paper; 0: only the front wheels. Given.
   T rear_driven = T(1.0);
   /// c, m, >= 0: Coulomb yaw moment over F_max that the tyres' scrub adds to g3 in a turn by left and
   /// right wheel forces alone, see scrub_moment_m(). 0: none, as in the paper. From differential turns.
@@ -79,7 +79,7 @@ T driven_wheels(const Plant<T>& p) {
   return T(2.0) + T(2.0) * p.rear_driven;
 }
 
-/// How fast each wheel rolls: m/s along the wheel, forward positive.
+/// Rolling speed of each wheel: m/s along the wheel, forward positive.
 template <class T>
 struct WheelSpeeds {
   T front_left;
@@ -88,7 +88,7 @@ struct WheelSpeeds {
   T rear_right;
 };
 
-/// The rear wheels roll ahead, the front ones along d_r:
+/// The rear wheels roll along the body's x axis, the front ones along d_r:
 ///   w_rear  =  u -+ d r                              upper sign: left, lower: right
 ///   w_front = (u -+ d r) cos d_r + (v + l_f r) sin d_r
 template <class T>
@@ -103,8 +103,8 @@ WheelSpeeds<T> wheel_speeds(const T& front_axle_m, const T& half_track_m, const 
 }
 
 /// F' of a motor whose wheel rolls at w m/s, over F_max. `drive` is e, its command beyond the dead
-/// zone: the voltage over that at which the motor makes F_max at a standstill.
-///   F' = e - k_e w    for e != 0: the voltage that the turning motor makes is taken off
+/// zone: the voltage divided by the voltage for F_max at standstill.
+///   F' = e - k_e w    for e != 0: reduced by the back-EMF of the turning motor
 ///   F' = 0            for e  = 0: the motor is off and its wheel rolls freely
 template <class T>
 T motor_force(const T& drive, const T& back_emf_s_per_m, const T& wheel_mps) {
@@ -112,8 +112,8 @@ T motor_force(const T& drive, const T& back_emf_s_per_m, const T& wheel_mps) {
   return select(drive > T(0.0) || drive < T(0.0), T(drive - back_emf_s_per_m * wheel_mps), T(0.0));
 }
 
-/// The fastest rate at which back-EMF brakes, 1/s: of the surge, 4 k_e/m', or at most of the yaw rate,
-/// k_e (4 d^2 + 2 l_f^2)/I'z. 0 without it.
+/// The fastest rate of braking by back-EMF, 1/s: of the surge, 4 k_e/m', or an upper bound for the
+/// yaw rate, k_e (4 d^2 + 2 l_f^2)/I'z. 0 without back-EMF.
 inline double back_emf_rate(const Plant<double>& p) {
   const double surge = 4.0 / p.mass_norm;
   const double yaw =
@@ -150,7 +150,7 @@ State<T> rates(const Plant<T>& p, const State<T>& s, const T& surge_force, const
   return d;
 }
 
-/// What each wheel pushes with at the speed at which it rolls.
+/// Force of each wheel's motor at the wheel's rolling speed.
 template <class T>
 AWMR_COLD WheelForces<T> motor_forces(const Plant<T>& p, const State<T>& s,
                                       const WheelForces<T>& drive) {
@@ -164,7 +164,7 @@ AWMR_COLD WheelForces<T> motor_forces(const Plant<T>& p, const State<T>& s,
 
 }  // namespace detail
 
-/// The servo, rad/s: a first-order lag whose target and whose rate are limited.
+/// The servo, rad/s: a first-order lag with limited target and limited rate.
 ///   d_r_dot = sat((sat(d_ro, d_max) - d_r)/T, d_rate_max)                        [paper (43)-(44)]
 /// d_ro is the angle commanded, rad, left positive.
 template <class T>
@@ -234,7 +234,7 @@ State<T> state_rates(const Plant<T>& p, const State<T>& s, const WheelForces<T>&
                        steering_rate(p, s.steering_rad, steering_command_rad));
 }
 
-/// What two side forces and a steering angle amount to. All are over F_max.
+/// Generalised forces of the left and right wheel forces and a steering angle. All are over F_max.
 template <class T>
 struct GeneralisedForces {
   T tau_speed;       ///< dimensionless: thrust along the body's x axis, forward positive
@@ -242,7 +242,7 @@ struct GeneralisedForces {
   T tau_diff_m;      ///< m: yaw moment of the right-left difference, counter-clockwise positive
 };
 
-/// The generalised forces of side forces F'L, F'R at a steering angle d_r.
+/// The generalised forces of left and right wheel forces F'L, F'R at a steering angle d_r.
 ///   tau_speed    =     (F'L + F'R) (cos d_r + 1)
 ///   tau_steering = l_f (F'L + F'R)  sin d_r
 ///   tau_diff     = d   (F'R - F'L) (cos d_r + 1)                                      [paper (41)]
@@ -257,7 +257,8 @@ GeneralisedForces<T> generalised_forces(const T& front_axle_m, const T& half_tra
           half_track_m * (f.right - f.left) * one_plus_cos};
 }
 
-/// The same where the front wheels alone are driven: the rear ones' 1 is gone from (41).
+/// The generalised forces with only the front wheels driven: the terms 1 of the rear wheels in (41)
+/// are omitted.
 ///   tau_speed    =     (F'L + F'R) cos d_r
 ///   tau_steering = l_f (F'L + F'R) sin d_r
 ///   tau_diff     = d   (F'R - F'L) cos d_r
@@ -272,7 +273,7 @@ GeneralisedForces<T> front_wheel_forces(const T& front_axle_m, const T& half_tra
           half_track_m * (f.right - f.left) * cos_d};
 }
 
-/// tau_turn, m, of a turning trial: the wheels push alike with F' (`wheel_force`) at a steering
+/// tau_turn, m, of a turning trial: all wheels have the same force F' (`wheel_force`) at a steering
 /// angle d_r, rad.
 ///   tau_turn = 2 l_f F' sin d_r                                                       [paper (62)]
 template <class T>
@@ -288,14 +289,13 @@ T differential_moment_m(const T& half_track_m, const T& right_less_left) {
   return T(2.0) * half_track_m * right_less_left;
 }
 
-/// What motors with a dead zone make of the commands of both sides.
+/// Forces of motors with a dead zone for the commands of both sides.
 template <class T>
 SideForces<T> beyond_dead_zone(const SideForces<T>& command, const T& zone) {
   return {beyond_dead_zone(command.left, zone), beyond_dead_zone(command.right, zone)};
 }
 
-/// Rates of the state where both wheels of a side push with the same force. The last
-/// three are
+/// Rates of the state if both wheels of a side have the same force. The last three are
 ///   u_dot = (tau_speed               + m' r v - g1(u)) / m'
 ///   v_dot = (tau_steering/l_f        - m' r u - g2(v)) / m'
 ///   r_dot = (tau_steering + tau_diff          - g3(r)) / I'z                          [paper (40)]

@@ -1,4 +1,4 @@
-/// The families of resistance, each a choice of the terms of resistance.h that are free.
+/// The families of resistance (friction models). Each frees some of the terms of resistance.h.
 #pragma once
 
 #include <string_view>
@@ -8,11 +8,11 @@
 namespace awmr {
 
 enum class Family {
-  kPower,                   ///< alpha w^beta: the paper's
+  kPower,                   ///< alpha w^beta, as in the paper
   kCoulombLinear,           ///< c + alpha w
   kCoulombLinearQuadratic,  ///< c + alpha w + q w^2
   kCoulombPower,            ///< c + alpha w^beta
-  kDeadZone,                ///< alpha w^beta against a command that loses a dead zone; surge only
+  kDeadZone,                ///< alpha w^beta with a dead zone of the command; surge only
 };
 inline constexpr NameTable<Family, 5> kFamilyNames{
     {{"power", Family::kPower},
@@ -22,7 +22,7 @@ inline constexpr NameTable<Family, 5> kFamilyNames{
      {"dead-zone", Family::kDeadZone}}};
 constexpr std::string_view name_of(Family family) { return name_in(kFamilyNames, family); }
 
-/// Which of the curve's numbers a family leaves free; beta is 1 where it is not, the rest 0.
+/// Free parameters of a family's curve; if not free, beta is 1 and the others are 0.
 struct FamilyTerms {
   bool beta = false;
   bool coulomb = false;

@@ -11,14 +11,15 @@ namespace awmr {
 
 Json findings_to_json(const std::vector<Finding>& findings);
 
-/// What `findings` of an object holds, for a schema.
+/// Describes `findings` of an object for a schema.
 void describe_findings(JsonObject& json);
 
-/// The findings of a document, each with its place in it; empty where it has none.
+/// The findings of a document, each with its position; empty if there are none.
 std::vector<Finding> read_findings(JsonObject& json);
 
-/// The document with `findings` as its last key, in place of any that it has. Files are called by their
-/// names, without folders: the same bytes wherever they lie. Precondition: `document` is a JSON object.
+/// The document with `findings` as its last key, replacing existing ones. Files are given by name,
+/// without directories, so that the bytes do not depend on their location. Precondition: `document`
+/// is a JSON object.
 std::string with_findings(const std::string& document, const std::vector<Finding>& findings);
 
 }  // namespace awmr

@@ -1,4 +1,4 @@
-/// The resistance law that a model's trials show, and what they leave open of it.
+/// The resistance law identified from a model's trials, and its uncertainty.
 #pragma once
 
 #include <optional>
@@ -8,36 +8,39 @@
 
 namespace awmr {
 
-/// A law that was fitted up to some rate holds a little further; beyond this many times it, it is
-/// extrapolated.
+/// A law is used up to this factor beyond the fastest fitted rate; above that it is an
+/// extrapolation.
 inline constexpr double kLittleFurther = 1.2;
 
-/// Which of a model's parameters are a law's:
+/// The model's parameters of a law:
 ///   g(w) = c + alpha w^beta + q w^2
 struct LawParameters {
   ParameterId alpha, beta, coulomb, quadratic;
 };
-/// g3 of turning, g1 of the other kinds.
+/// g3 for turning, g1 for the other kinds.
 LawParameters law_parameters(TrialKind kind);
 
-/// The law with the model's values, without the wheels' dead zone; absent where alpha or beta has none.
+/// The law with the model's values, without the wheels' dead zone; absent if alpha or beta has no
+/// value.
 std::optional<Resistance<double>> fitted_law(const Model& model, TrialKind kind);
 
-/// Of sum_i weight_i g(w_i) over rates w_i >= 0, g being the moment or the force that a run at such a rate takes:
+/// Variance of sum_i weight_i g(w_i) over rates w_i >= 0; g is the force or moment of a run at such
+/// a rate:
 ///   h' C h,  h = sum_i weight_i (dg/dalpha, dg/dbeta, dg/dc, dg/dq, dg/dF'0)
 ///              = sum_i weight_i (w^beta, alpha w^beta ln w, 1, w^2, z)
-/// C is the covariance as far as the model has it; z the driven wheels, whose dead zones F'0 a straight
-/// run overcomes; 0 in a turn, whose moments are told beyond them. >= 0, in the square of g's unit times a
-/// weight's. Precondition: the law is fitted; as many weights as rates.
+/// C is the covariance as far as the model has it. z is the number of driven wheels, whose dead
+/// zones F'0 a straight run must overcome; z = 0 for turns, whose moments already exclude the dead
+/// zone. >= 0, in the squared unit of g times that of a weight. Precondition: the law is fitted; as
+/// many weights as rates.
 double variance_of_law(const Model& model, TrialKind kind, std::span<const double> rates,
                        std::span<const double> weights);
 
-/// Of their mean.
+/// Variance of the mean of g over these rates.
 double variance_of_law(const Model& model, TrialKind kind, std::span<const double> rates);
 
-/// The fastest turn, deg/s, up to which yaw resistance was measured: the vehicle's
-/// yaw_rate_max_degps, else the fastest turning trial of the record, in tables or logs. Absent where
-/// neither says.
+/// The fastest turn, deg/s, for which yaw resistance was measured: the vehicle's
+/// yaw_rate_max_degps, else the fastest turning trial of the record, in tables or logs. Absent if
+/// neither is available.
 std::optional<double> measured_yaw_rate_degps(const Model& model);
 
 }  // namespace awmr

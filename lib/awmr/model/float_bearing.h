@@ -1,7 +1,7 @@
-/// The direction of a vector for float, by whole numbers of 16 bits. Freestanding C++14.
+/// The direction of a vector for float, with 16-bit integers. Freestanding C++14.
 ///
-/// A heading to steer by needs no more than a sensor can tell, and an 8-bit processor divides
-/// 16 bits in half the time of a float. Whole numbers are the same on every machine.
+/// A steering direction needs no more than a sensor's accuracy, and an 8-bit processor divides 16
+/// bits in half the time of a float. Integer results are the same on every machine.
 #pragma once
 
 #include <stdint.h>
@@ -12,14 +12,14 @@ namespace awmr {
 namespace float_math {
 namespace detail {
 
-/// The leading 16 bits of a normal float's mantissa, the hidden one with them.
+/// The leading 16 bits of a normal float's mantissa, including the hidden bit.
 inline uint16_t mantissa16(uint32_t bits) {
   return static_cast<uint16_t>(bits >> 8U) | static_cast<uint16_t>(0x8000U);
 }
 
-/// small/large times 2^16, to the nearest, of two magnitudes' bits, small <= large:
-/// long division of the mantissas, a bit shorter for each power of two between the exponents; 0 where
-/// these are more than 16 apart.
+/// small/large times 2^16, rounded to nearest, from the bits of two magnitudes, small <= large:
+/// long division of the mantissas, one bit shorter for each power of two between the exponents; 0
+/// if these differ by more than 16.
 inline uint16_t ratio16(uint32_t small, uint32_t large) {
   const uint16_t divisor = mantissa16(large);
   uint16_t rest = mantissa16(small);
@@ -27,7 +27,7 @@ inline uint16_t ratio16(uint32_t small, uint32_t large) {
   if (apart > 16) return 0;
   uint16_t ratio = 0;
   if (rest >= divisor) {
-    if (apart == 0) return 0xFFFFU;  // 1, or what lies above all that fits
+    if (apart == 0) return 0xFFFFU;  // 1: limited to the largest value that fits
     rest = static_cast<uint16_t>(rest - divisor);
     ratio = 1;
   }
@@ -40,7 +40,7 @@ inline uint16_t ratio16(uint32_t small, uint32_t large) {
       ratio = static_cast<uint16_t>(ratio | 1U);
     }
   }
-  // What is left says which way to round; the largest ratio stays below 1.
+  // The remainder decides the rounding; the largest ratio stays below 1.
   const bool up = rest >= divisor - rest && ratio != 0xFFFFU;
   return static_cast<uint16_t>(up ? ratio + 1U : ratio);
 }
@@ -75,8 +75,8 @@ inline float by_two_to_17(int32_t whole) {
 
 }  // namespace detail
 
-/// The angle of (x, y) in (-pi, pi], as atan2 of this namespace, but within 4.1e-5 rad only. Not
-/// both below 1e-30 in magnitude. NaN for what is not finite.
+/// The angle of (x, y) in (-pi, pi], like atan2 of this namespace, but only within 4.1e-5 rad.
+/// Precondition: not both are below 1e-30 in magnitude. NaN for non-finite input.
 inline float bearing(float y, float x) {
   uint32_t small = magnitude_bits(y);
   uint32_t large = magnitude_bits(x);
@@ -87,7 +87,7 @@ inline float bearing(float y, float x) {
     large = height;
   }
   if (large >= kInfinityBits) return not_a_number();
-  // Half of a mantissa's last place is added, which rounds it.
+  // Adds half of the mantissa's last place, for rounding.
   int32_t angle =
       static_cast<int32_t>(detail::atan17(detail::ratio16(small + 0x80U, large + 0x80U)));
   if (steep) angle = detail::kQuarterTurn17 - angle;

@@ -1,13 +1,13 @@
 /// sin, cos, atan, atan2 and the wrap of an angle for float. Freestanding C++14.
 ///
-/// Made of operations that IEEE 754 rounds exactly (add, subtract, multiply, divide) and of
+/// Uses only operations that IEEE 754 rounds exactly (add, subtract, multiply, divide) and
 /// comparisons, so that the ATmega2560 and a host compiled with -ffp-contract=off give the same
-/// bits; the C libraries' own differ in the last one. Polynomials are minimax by the Remez exchange
-/// on the reduced interval, in z = x^2. The worst errors are those of tests/model/float_math_test,
-/// over every float of the range when run with AWMR_EXHAUSTIVE=1.
+/// bits; the C libraries' functions differ in the last bit. Polynomials are minimax by the Remez
+/// exchange on the reduced interval, in z = x^2. The worst errors are those of
+/// tests/model/float_math_test, over every float of the range if run with AWMR_EXHAUSTIVE=1.
 ///
-/// Angles are taken up to kAngleMax either side; beyond it, and for infinities and NaN, the result
-/// is NaN, which a caller can see.
+/// Angles are valid up to +-kAngleMax; beyond it, and for infinities and NaN, the result is NaN,
+/// which a caller can detect.
 #pragma once
 
 #include <math.h>
@@ -15,12 +15,13 @@
 #include <string.h>
 
 #if defined(__GNUC__) && __GNUC__ == 7
-// GCC 7, the Arduino IDE's, takes another overload for an earlier declaration without the attribute.
+// GCC 7, used by the Arduino IDE, confuses another overload with an earlier declaration without the
+// attribute.
 #pragma GCC diagnostic ignored "-Wattributes"
 #endif
 
-/// A function that an AVR's compiler is to call and not to copy into each of its callers, and to make
-/// small: those whose time is not counted by the cycle.
+/// A function that an AVR compiler must not inline, and must optimise for size: for functions
+/// without tight time limits.
 #ifdef __AVR__
 #define AWMR_CALLED __attribute__((noinline, optimize("Os")))
 #else
@@ -44,36 +45,36 @@ inline float float_of(uint32_t bits) {
 
 namespace float_math {
 
-/// The bits of |x|, which order as magnitudes do: a comparison of whole numbers, half the cycles of
-/// one of floats on the chip. Above kInfinityBits: NaN.
+/// The bits of |x|, which have the order of magnitudes: an integer comparison takes half the cycles
+/// of a float comparison on the chip. Above kInfinityBits: NaN.
 inline uint32_t magnitude_bits(float x) { return bits_of(x) & 0x7FFFFFFFUL; }
 constexpr uint32_t kInfinityBits = 0x7F800000UL;
 
-/// A whole number that orders as the floats do: -0 is equal to 0, a NaN lies beyond the infinity of
-/// its sign.
+/// An integer with the order of the floats: -0 is equal to 0, a NaN is beyond the infinity of its
+/// sign.
 inline int32_t order_of(float x) {
   const int32_t magnitude = static_cast<int32_t>(magnitude_bits(x));
   return (bits_of(x) & 0x80000000UL) != 0 ? -magnitude : magnitude;
 }
 inline bool is_nan(float x) { return magnitude_bits(x) > kInfinityBits; }
 
-/// The leading half of |x|: sign-free exponent and seven bits of mantissa. Where those of two
-/// magnitudes differ they order as the magnitudes do, for half the cycles.
+/// The leading 16 bits of |x|: exponent and seven bits of mantissa. If those of two magnitudes
+/// differ, they have the order of the magnitudes, at half the cycles.
 inline uint16_t leading_bits(float x) {
   return static_cast<uint16_t>(bits_of(x) >> 16U) & static_cast<uint16_t>(0x7FFFU);
 }
-/// The same for order_of.
+/// The leading 16 bits for order_of.
 inline int16_t leading_order_of(float x) {
   const int16_t magnitude = static_cast<int16_t>(leading_bits(x));
   return (bits_of(x) & 0x80000000UL) != 0 ? static_cast<int16_t>(-magnitude) : magnitude;
 }
-/// lo < x < hi, and their leading halves tell. False at the ends, near them, and for NaN.
+/// True if the leading 16 bits show lo < x < hi. False at the ends, near them, and for NaN.
 inline bool is_inside(float x, float lo, float hi) {
   const int16_t order = leading_order_of(x);
   return order > leading_order_of(lo) && order < leading_order_of(hi);
 }
 
-/// The largest angle, rad, that these functions take.
+/// The largest angle, rad, for these functions.
 constexpr float kAngleMax = 8192.0F;
 
 constexpr float kPi = 3.14159265F;
@@ -82,12 +83,13 @@ constexpr float kPiBy4 = 0.785398163F;
 
 inline float not_a_number() { return __builtin_nanf(""); }
 
-/// The whole number nearest to x, halves away from 0. |x| < 32767, so that AVR's int holds it.
+/// The integer nearest to x, halves away from 0. |x| < 32767, so that AVR's int can hold it.
 inline int nearest(float x) { return static_cast<int>(x < 0.0F ? x - 0.5F : x + 0.5F); }
 
 namespace detail {
 
-/// x - k pi/2 by Cody and Waite: the first two parts have 11 bits, so that k times either is exact.
+/// x - k pi/2 by Cody and Waite: the first two parts have 11 bits, so that their products with k
+/// are exact.
 inline float reduced(float x, int k) {
   const float turns = static_cast<float>(k);
   return ((x - turns * 1.5703125F) - turns * 4.837512969970703125e-4F) - turns * 7.54978995e-8F;
@@ -134,7 +136,7 @@ inline float sin(float x) { return detail::sin_from(x, 0); }
 /// cos x, |x| <= kAngleMax. Worst error 7.9e-8.
 inline float cos(float x) { return detail::sin_from(x, 1); }
 
-/// The same two numbers for one reduction of x.
+/// sin x and cos x with one reduction of x.
 AWMR_CALLED inline void sin_cos(float x, float& sine, float& cosine) {
   if (!(::fabsf(x) <= kAngleMax)) {
     sine = cosine = not_a_number();
@@ -142,7 +144,7 @@ AWMR_CALLED inline void sin_cos(float x, float& sine, float& cosine) {
   }
   const int k = nearest(x * 0.636619772F);
   const float rest = detail::reduced(x, k);
-  // A loop, so that the polynomials are there once.
+  // A loop, so that the polynomials are compiled only once.
   float values[2];
   for (int i = 0; i < 2; ++i) values[i] = detail::sin_of_reduced(rest, k + i);
   sine = values[0];
@@ -153,7 +155,7 @@ namespace detail {
 
 /// `eighths` times pi/4, for 0 to 4.
 inline float eighths_of_turn(uint8_t eighths) {
-  // No switch, which compilers turn into a table in RAM.
+  // No switch, because compilers convert it to a table in RAM.
   if (eighths == 0) return 0.0F;
   if (eighths == 1) return kPiBy4;
   if (eighths == 2) return kPiBy2;
@@ -162,8 +164,8 @@ inline float eighths_of_turn(uint8_t eighths) {
 
 }  // namespace detail
 
-/// The angle of (x, y) in (-pi, pi], 0 at the origin; a zero has no sign here. Both finite and
-/// below 1.7e38. Worst error 5e-7, and 9e-7 of the value.
+/// The angle of (x, y) in (-pi, pi], 0 at the origin; the sign of a zero is ignored. Both finite
+/// and below 1.7e38. Worst error 5e-7, and 9e-7 of the value.
 ///
 /// Computed as an octant's angle, a multiple of pi/4, plus or minus the arc tangent of a ratio
 /// below tan(pi/8).
@@ -194,18 +196,19 @@ inline float atan2(float y, float x) {
   const float part = detail::atan_poly(ratio);
   const float angle = detail::eighths_of_turn(eighths) + (backwards ? -part : part);
   if (bits_of(y) >> 31U == 0 || magnitude_bits(y) == 0) return angle;
-  // A hair below the negative x axis the angle rounds to half a turn, whose one sign is positive.
+  // Slightly below the negative x axis the angle rounds to half a turn, which has only the positive
+  // sign.
   return eighths == 4 && magnitude_bits(angle) == bits_of(kPi) ? angle : -angle;
 }
 
-/// atan2 where a call more does not matter.
+/// atan2 as a called function, where the cost of a call does not matter.
 AWMR_CALLED inline float called_atan2(float y, float x) { return atan2(y, x); }
 
 /// atan x. Worst error 9e-7 of the value.
 inline float atan(float x) { return atan2(x, 1.0F); }
 
-/// 2 atan(2 h), the angle with tan(angle/2) = 2 h, of h and z = h^2. Worst error 5e-7 of the value
-/// to 22.6 deg, 9e-7 beyond.
+/// 2 atan(2 h), the angle with tan(angle/2) = 2 h, from h and z = h^2. Worst error 5e-7 of the
+/// value to 22.6 deg, 9e-7 beyond.
 inline float twice_atan_of_twice(float h, float z) {
   // 0.1^2: |angle| <= 22.6 deg. h (4 + z P(z)) is within 3.4e-7 of the value before rounding.
   if (magnitude_bits(z) <= magnitude_bits(0.01F)) {
@@ -215,14 +218,14 @@ inline float twice_atan_of_twice(float h, float z) {
   return half + half;
 }
 
-/// The angle's equal in (-pi, pi]: unchanged where it is there already. Worst error 5e-7.
+/// The equivalent angle in (-pi, pi]: unchanged if it is already in the range. Worst error 5e-7.
 inline float wrapped(float x) {
   const uint32_t magnitude = magnitude_bits(x);
   if (magnitude < bits_of(kPi)) return x;
   if (magnitude == bits_of(kPi)) return kPi;
   float rest = x;
   if (magnitude < bits_of(9.42477F)) {
-    // Below 3 pi: one turn, the common case of a heading that is not wrapped itself.
+    // Below 3 pi: one turn, the common case for a heading that is not wrapped.
     rest = bits_of(x) >> 31U == 0 ? x - 2.0F * kPi : x + 2.0F * kPi;
   } else {
     if (!(magnitude <= bits_of(kAngleMax))) return not_a_number();
@@ -230,7 +233,7 @@ inline float wrapped(float x) {
     // 2 pi in three parts, as in detail::reduced.
     rest = ((x - turns * 6.28125F) - turns * 1.93500518798828125e-3F) - turns * 3.01991598e-7F;
   }
-  // The rounding of the above may leave it a little outside.
+  // Rounding can leave the result slightly outside.
   if (magnitude_bits(rest) < bits_of(kPi)) return rest;
   if (bits_of(rest) >> 31U != 0) return rest + 2.0F * kPi;
   return magnitude_bits(rest) == bits_of(kPi) ? rest : rest - 2.0F * kPi;

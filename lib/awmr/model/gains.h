@@ -1,4 +1,4 @@
-/// Controller gains and the time constants that follow from them. Freestanding C++14.
+/// Controller gains and their time constants. Freestanding C++14.
 #pragma once
 
 namespace awmr {
@@ -8,7 +8,7 @@ template <class T>
 struct HeadingGains {
   /// lambda, 1/s, > 0: slope of the sliding surface. Larger: the heading error falls faster.
   T lambda;
-  /// mu, rad/s^2, > 0: largest corrective yaw acceleration. It has to exceed |disturbance|/I'z.
+  /// mu, rad/s^2, > 0: largest corrective yaw acceleration. It must exceed |disturbance|/I'z.
   T mu;
   /// epsilon, rad/s, > 0: half width of the boundary layer |S| <= epsilon, in which the correction
   /// is proportional to S. Larger: less chattering, a softer response.
@@ -32,14 +32,15 @@ struct SpeedGains {
   T epsilon;  ///< eps_s, m/s, > 0: half width of the layer |e_u| <= eps_s, proportional inside
 };
 
-/// The disturbance observer beside both laws (control/disturbance_observer.h), where one was tuned with
-/// them.
+/// The disturbance observer used with both laws (control/disturbance_observer.h), if one was tuned
+/// with them.
 template <class T>
 struct ObserverGains {
-  /// L, rad/s, L T_s < 1; 0: there is none. Larger: a push is taken off sooner, and more noise let in.
+  /// L, rad/s, L T_s < 1; 0: none. Larger: disturbances are compensated sooner, and more noise
+  /// passes.
   T bandwidth_radps = T(0.0);
-  T yaw_max_m = T(0.0);  ///< m, > 0: largest moment over F_max that is taken off
-  T surge_max = T(0.0);  ///< dimensionless, > 0: largest force over F_max that is taken off
+  T yaw_max_m = T(0.0);  ///< m, > 0: largest moment over F_max that is compensated
+  T surge_max = T(0.0);  ///< dimensionless, > 0: largest force over F_max that is compensated
 
   bool is_on() const { return bandwidth_radps > T(0.0); }
 };

@@ -32,7 +32,7 @@ Gains<double> gains_from_json(JsonObject& root) {
 
 namespace {
 
-/// The gains of a whole file.
+/// Reads the gains from a complete file.
 Gains<double> gains_from_file(JsonObject& root) {
   root.schema(kGainsSchema);
   const Gains<double> gains = gains_from_json(root);

@@ -1,4 +1,4 @@
-/// gains.json (`awmr.gains/1`): the gains that a later command needs. tune/ adds how they were found.
+/// gains.json (`awmr.gains/1`): the gains used by later commands. tune/ adds the tuning results.
 #pragma once
 
 #include <filesystem>
@@ -13,8 +13,8 @@
 
 namespace awmr {
 
-/// Reads `/heading`, `/speed` and, where it is there, `/observer`; the contract's other keys are allowed and passed over.
-/// Errors: as read_json_file; gains that are missing or not above 0.
+/// Reads `/heading`, `/speed` and, if present, `/observer`; other keys of the format are allowed
+/// and ignored. Errors: as read_json_file; gains that are missing or not above 0.
 Result<Gains<double>> read_gains(const std::filesystem::path& path);
 
 /// Reads `/certificate`; absent in files that were not tuned, and in those of before it. Errors: as read_gains; a
@@ -24,11 +24,11 @@ Result<std::optional<CertifiedGains>> read_certificate(const std::filesystem::pa
 /// Read-back of gains.json (core/file.h).
 Status check_gains_text(std::string_view text, const std::string& file);
 
-/// The same, for a controller of this sample time. Errors also: as check_observer_rate.
+/// As above, for a controller with this sample time. Errors also: as check_observer_rate.
 Result<Gains<double>> read_gains_for(const std::filesystem::path& path, double sample_time_s);
 
-/// Writes them, for gains that were not tuned here; gains_text() in tune/tune.h
-/// makes the whole file. Errors: as write_file.
+/// Writes gains that were not tuned here; gains_text() in tune/tune.h makes the complete file.
+/// Errors: as write_file.
 Status write_gains(const Gains<double>& gains, const std::filesystem::path& path);
 
 }  // namespace awmr

@@ -9,7 +9,7 @@
 namespace awmr {
 namespace {
 
-/// What stands for a parameter that is not known and not taken: see Model::plant_as_known().
+/// Substitute for an unknown parameter that is not needed: see Model::plant_as_known().
 double none_of(ParameterId id) {
   switch (id) {
     case ParameterId::kSurgeBeta:
@@ -23,7 +23,7 @@ double none_of(ParameterId id) {
   }
 }
 
-/// The model's plant. Errors (input): a parameter that is needed has no value.
+/// The model's plant. Errors (input): a necessary parameter has no value.
 template <class IsNeeded>
 Result<Plant<double>> plant_with(const Model& model, IsNeeded is_needed) {
   std::vector<Fault> faults;

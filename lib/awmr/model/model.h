@@ -18,7 +18,7 @@
 
 namespace awmr {
 
-/// Where a number comes from.
+/// Origin of a number.
 enum class Source {
   kGiven,    ///< by the user, in vehicle.json
   kDerived,  ///< computed from other numbers of the model, such as I'z from m' and Iz
@@ -29,7 +29,7 @@ inline constexpr NameTable<Source, 3> kSourceNames{
 
 /// One identified number with its uncertainty and its origin.
 struct Estimate {
-  std::optional<double> value;      ///< in the parameter's unit; absent: the data cannot show it
+  std::optional<double> value;      ///< in the parameter's unit; absent: not determined by the data
   std::optional<double> std_error;  ///< in the same unit, > 0; absent: given, or too few data
   std::optional<Interval> ci95;     ///< 95 % confidence interval; absent as `std_error`
   Source source = Source::kGiven;
@@ -38,59 +38,59 @@ struct Estimate {
 
 /// The covariance of the fitted parameters.
 struct Covariance {
-  std::vector<ParameterId> parameters;      ///< which row and column is whose
+  std::vector<ParameterId> parameters;      ///< of the rows and columns
   std::vector<std::vector<double>> matrix;  ///< square, symmetric, over `parameters`
 };
 
-/// What turns by the sides' forces meet beside the resistance of steered turns: the tyres' scrub. Over
-/// F_max, as a Coulomb friction:
+/// Tyre scrub: yaw moment in differential (skid) turns in addition to the resistance of steered
+/// turns. Over F_max, as a Coulomb friction:
 ///   2 d (F'R - F'L) = g3(r) + moment
 struct YawScrub {
-  double moment_m = 0.0;     ///< m; below 0 by chance alone
-  double std_error_m = 0.0;  ///< m, > 0: of the turns' scatter and of g3
+  double moment_m = 0.0;     ///< m; negative values are due to noise
+  double std_error_m = 0.0;  ///< m, > 0: from the turns' scatter and g3
   Interval ci95_m;           ///< 95 % confidence interval
-  int rows = 0;              ///< turns that show it, >= 3
+  int rows = 0;              ///< turns from which it was estimated, >= 3
   Interval yaw_rate_radps;   ///< of those turns, > 0
-  /// All that it is, with its uncertainty, between the slowest and the fastest of those turns, where it
-  /// changes with the yaw rate; absent where no change shows.
+  /// Range of the moment, with its uncertainty, from the slowest to the fastest of those turns, if
+  /// it changes with the yaw rate; absent if no change is detected.
   std::optional<Interval> changing_m = {};
 };
 
-/// False for what the vehicle does not have: the servo of one without steering.
+/// False for a parameter that the vehicle does not have: the servo of a vehicle without steering.
 bool has(const Vehicle& vehicle, ParameterId id);
-/// The trial that shows a parameter of this vehicle, in words for a refusal.
+/// The trial that identifies a parameter of this vehicle, as text for a refusal.
 std::string_view trial_of(const Vehicle& vehicle, ParameterId id);
 
-/// Motions by what the equations of each take of a model.
+/// Types of motion, by the parameters in their equations.
 enum class Motion {
   kSteadySurge,  ///< straight ahead at constant speed: g1
   kSteadyTurn,   ///< a constant yaw rate: g3
   kStraight,     ///< straight ahead, wheels straight, v = r = 0: g1 and m'
   kPlanar,       ///< any: every parameter
 };
-/// True where the motion's equations have the parameter in them.
+/// True if the motion's equations contain the parameter.
 bool takes(Motion motion, ParameterId id);
-/// The motion that a trial of the kind is a measurement of.
+/// The motion that a trial of this kind measures.
 Motion motion_of(TrialKind kind);
 
-/// The vehicle as identified: what is known beforehand, the resistance families, every quantity
-/// with its uncertainty.
+/// The identified vehicle: the data given before the trials, the resistance families, every
+/// quantity with its uncertainty.
 struct Model {
-  /// A model of which nothing is known yet. Only the terms that a power law does not have are set,
-  /// to 0.
+  /// A model without any identified quantity. Only the terms that a power law does not have are
+  /// set, to 0.
   Model();
 
-  std::string file = "model.json";  ///< what errors call it: the path that it was read from
+  std::string file = "model.json";  ///< name in errors: the path that it was read from
   Vehicle vehicle;
   Family surge_family = Family::kPower;
   Family yaw_family = Family::kPower;
   std::array<Estimate, kParameterCount> estimates;  ///< by ParameterId
   Covariance covariance;
-  std::optional<YawScrub> yaw_scrub;  ///< absent: no turning trial shows it
-  /// The largest yaw moment by the sides' forces, m, > 0, under which the vehicle did not turn; absent:
-  /// it always did.
+  std::optional<YawScrub> yaw_scrub;  ///< absent: no turning trial determines it
+  /// The largest yaw moment by left and right wheel forces, m, > 0, for which the vehicle did not
+  /// turn; absent: it always turned.
   std::optional<double> yaw_held_m;
-  /// g3 was fitted to turns by the sides' forces of a vehicle that also steers: it holds their scrub.
+  /// g3 was fitted to differential turns of a vehicle that also steers: it includes the tyre scrub.
   bool yaw_by_sides_alone = false;
   IdentificationRecord record;
 
@@ -99,24 +99,24 @@ struct Model {
     return estimates[static_cast<std::size_t>(id)];
   }
 
-  /// The plant that the estimates and the vehicle make, for simulation and control, in this motion.
-  /// Errors (input): a parameter that the motion takes has no value; each is named with the trial
-  /// that would show it.
+  /// The plant from estimates and vehicle, for simulation and control in this motion. Errors
+  /// (input): a parameter in the motion's equations has no value; each is named with the trial that
+  /// identifies it.
   Result<Plant<double>> plant(Motion motion = Motion::kPlanar) const;
 
-  /// The same for all that the trials in the record are measurements of.
+  /// The plant for all motions measured by the trials in the record.
   Result<Plant<double>> plant_of_trials() const;
 
-  /// The same, unchecked. A parameter without a value stands for none of it: no resistance, an
-  /// inertia and a time constant of 1. In a motion that does not take it, it multiplies zeros.
+  /// The plant without checks. A parameter without a value is replaced: no resistance, an inertia
+  /// and a time constant of 1. In a motion whose equations do not contain it, it multiplies zeros.
   Plant<double> plant_as_known() const;
 
-  /// The richest motion that the model could be simulated in: kStraight where something of turning
-  /// is not known.
+  /// The most general motion for which the model can be simulated: kStraight if a parameter of
+  /// turning is unknown.
   Motion simulated_motion() const;
 };
 
-/// True for a term that the model's family does not have: it is nowhere in model.json.
+/// True for a term that the model's family does not have: model.json does not contain it.
 bool is_absent_term(const Model& model, ParameterId id);
 
 /// The largest force of one motor, N:

@@ -44,8 +44,8 @@ Estimate estimate_from_json(JsonObject json, const ParameterInfo& parameter) {
   return estimate;
 }
 
-/// Reads every estimate at its place: "/surge/alpha" is the key "alpha" of the group "surge",
-/// "/mass_norm" a key of the file itself.
+/// Reads every estimate: "/surge/alpha" is the key "alpha" of the group "surge", "/mass_norm" a key
+/// of the file itself.
 void estimates_from_json(JsonObject& root, Model& model) {
   std::map<std::string, JsonObject, std::less<>> groups;
   for (const ParameterInfo& parameter : parameter_table()) {
@@ -93,7 +93,7 @@ void put_estimates(Json& json, const Model& model) {
   if (model.yaw_family != Family::kPower) json["yaw"]["family"] = name_of(model.yaw_family);
 }
 
-/// /si: what is worked out of the rest of the file, for who reads it. It is not read back.
+/// /si: computed from the rest of the file, for readers. It is not read back.
 void put_si(Json& json, const Model& model) {
   for (const SiQuantity& quantity : si_quantities(model)) {
     json["si"][Json::json_pointer(quantity.pointer)] =
@@ -194,7 +194,7 @@ Model model_from_json(JsonObject& root) {
 
 namespace {
 
-/// What a measured scrub may say against itself and the vehicle.
+/// Contradictions between a measured scrub moment, its interval and the vehicle.
 void add_scrub_contradictions(const YawScrub& scrub, const Model& model,
                               std::vector<Fault>& faults) {
   const std::string place = model.file + ":/yaw_scrub";
@@ -216,7 +216,7 @@ void add_scrub_contradictions(const YawScrub& scrub, const Model& model,
         fmt::format("{:g} is not the middle of ci95_m [{:g}, {:g}]", scrub.moment_m, ci.lo, ci.hi));
   check(scrub.yaw_rate_radps.lo > 0.0 && scrub.yaw_rate_radps.hi < 1e3, "yaw_rate_radps",
         "the rates of turns lie above 0 and below 1000 rad/s");
-  // More than the sides can apply is met by no turn.
+  // The scrub moment cannot exceed the largest moment of the wheel forces.
   const Interval force = model.vehicle.wheel_force;
   const double most_m = differential_moment_m(model.vehicle.half_track_m, force.hi - force.lo);
   check(scrub.moment_m <= most_m, "moment_m",
@@ -224,8 +224,8 @@ void add_scrub_contradictions(const YawScrub& scrub, const Model& model,
                     scrub.moment_m, most_m));
 }
 
-/// What a file edited by hand may say against itself: a value outside of its interval, a standard
-/// error that is not the covariance's.
+/// Contradictions in a file edited by hand: a value outside its interval, a standard error that
+/// differs from the covariance.
 std::vector<Fault> self_contradictions(const Model& model) {
   constexpr double kTolerance = 0.01;
   std::vector<Fault> faults;

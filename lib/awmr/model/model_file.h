@@ -13,18 +13,18 @@ namespace awmr {
 /// Errors: as read_json_file; unknown, missing or impossible values.
 Result<Model> read_model(const std::filesystem::path& path);
 
-/// The same of a text; `file` names it in errors.
+/// As read_model(), from text; `file` names it in errors.
 Result<Model> model_from_text(std::string_view text, const std::string& file);
-/// Read-back of model.json (core/file.h).
+/// Read-back check of model.json (core/file.h).
 Status check_model_text(std::string_view text, const std::string& file);
 
-/// The bytes of model.json.
+/// Text of model.json.
 std::string model_text(const Model& model);
 
 /// Errors: as write_file.
 Status write_model(const Model& model, const std::filesystem::path& path);
 
-/// The JSON Schema of model.json, from what reads it.
+/// The JSON Schema of model.json, derived from its reader.
 std::string model_schema();
 
 }  // namespace awmr

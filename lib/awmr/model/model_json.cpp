@@ -17,16 +17,17 @@
 namespace awmr {
 namespace {
 
-/// The kinds of trial that /trials may name: those that are tables. A log has no rows there.
+/// The kinds of trial in /trials: those with tables. Logs have no rows there.
 constexpr NameTable<TrialKind, 3> kTableNames{
     {kTrialKindNames[0], kTrialKindNames[1], kTrialKindNames[2]}};
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-/// m(i,j) and m(j,i) may differ by this share: they are sums whose last digits depend on the order.
+/// Maximum relative difference of m(i,j) and m(j,i): the last digits of such sums depend on the
+/// order.
 constexpr double kSymmetryTolerance = 1e-9;
 
-/// True for the name of a parameter, and of what a fit estimates beside the parameters.
+/// True for the name of a parameter, or of another quantity that a fit estimates.
 bool is_estimated_name(std::string_view name) {
   return parameter_by_name(name) || name == kInputDelayName || name == kSteeringDelayName ||
          name == kMotorLagName || name == kMassOverSurgeName || name == kCoulombOverSurgeName ||
@@ -57,7 +58,7 @@ std::vector<std::vector<double>> matrix_from_json(JsonObject& json, const Json& 
   return rows;
 }
 
-/// False where correlations contradict each other: a correlation matrix has no eigenvalue below 0.
+/// False if correlations are contradictory: a correlation matrix has no eigenvalue below 0.
 bool are_correlations(const std::vector<std::vector<double>>& m) {
   constexpr double kRounding = 1e-6;
   const auto n = static_cast<Eigen::Index>(m.size());
@@ -69,11 +70,12 @@ bool are_correlations(const std::vector<std::vector<double>>& m) {
     }
   }
   if (n == 0 || !correlation.allFinite()) return n == 0;
-  // The solver reads the lower triangle alone.
+  // The solver reads only the lower triangle.
   return symmetric_eigenvalues(correlation).minCoeff() > -kRounding;
 }
 
-/// A covariance is symmetric with variances >= 0 on its diagonal and correlations that go together.
+/// Checks that a covariance is symmetric, with variances >= 0 on its diagonal and consistent
+/// correlations.
 void check_covariance(JsonObject& json, const std::vector<std::vector<double>>& m) {
   for (std::size_t i = 0; i < m.size(); ++i) {
     if (!(m[i][i] >= 0.0)) {
@@ -110,7 +112,7 @@ EstimatorParameter parameter_from_json(JsonObject json) {
   return parameter;
 }
 
-/// Writes the parts of a report that not every estimator works out; each has no key where absent.
+/// Writes the parts of a report that only some estimators compute; a missing part has no key.
 void put_details(Json& json, const EstimatorReport& report) {
   if (!report.family.empty()) json["family"] = report.family;
   if (report.aicc) json["aicc"] = number_or_null(report.aicc);
@@ -209,8 +211,8 @@ EstimatorReport report_from_json(JsonObject json) {
   for (JsonObject& parameter : json.objects("parameters")) {
     report.parameters.push_back(parameter_from_json(parameter));
   }
-  // Both may be null: a fit without degrees of freedom has no residual spread, and one that lacks
-  // rank has no finite condition number.
+  // Both can be null: a fit without degrees of freedom has no residual spread, and a rank-deficient
+  // one has no finite condition number.
   report.residual_std = json.nullable_number("residual_std", kNonNegative).value_or(kNaN);
   report.rows_used = count(json, "rows_used");
   report.degrees_of_freedom = count(json, "degrees_of_freedom");

@@ -1,4 +1,4 @@
-/// The parts of model.json that are lists: each as JSON and back. Private to this folder.
+/// Converts the lists of model.json to JSON and back. Private to this folder.
 #pragma once
 
 #include "awmr/core/json.h"
@@ -14,7 +14,7 @@ Json report_to_json(const EstimatorReport& report);
 EstimatorReport report_from_json(JsonObject json);
 
 Json covariance_to_json(const Covariance& covariance);
-/// Faults: unknown or repeated parameters; a matrix that is not square over them, not symmetric, or
+/// Faults: unknown or repeated parameters; a matrix that has the wrong size, is not symmetric, or
 /// has a negative variance.
 Covariance covariance_from_json(JsonObject json);
 

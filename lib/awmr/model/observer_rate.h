@@ -1,4 +1,4 @@
-/// How fast a disturbance observer may be.
+/// Limit of a disturbance observer's bandwidth.
 #pragma once
 
 #include <string>
@@ -7,7 +7,8 @@
 
 namespace awmr {
 
-/// Errors (input), at `place`: L T_s >= 1, where the estimate of a sampled observer would swing.
+/// Errors (input), at `place`: L T_s >= 1, for which the estimate of a sampled observer would
+/// oscillate.
 Status check_observer_rate(double bandwidth_radps, double sample_time_s, const std::string& place);
 
 }  // namespace awmr

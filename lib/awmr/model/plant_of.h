@@ -1,4 +1,5 @@
-/// Parameters and vehicle -> what the equations of motion need. A template on the scalar.
+/// Converts parameters and vehicle to the quantities of the equations of motion. A template on the
+/// scalar.
 #pragma once
 
 #include <array>
@@ -14,8 +15,8 @@ namespace awmr {
 template <class T>
 using ParameterValues = std::array<T, kParameterCount>;
 
-/// The plant of these values and the vehicle's geometry and steering limits. The one place where
-/// parameters become the numbers of the equations of motion.
+/// The plant from these values and the vehicle's geometry and steering limits. All conversions from
+/// parameters to the equations of motion are made here.
 template <class T>
 Plant<T> plant_of(const Vehicle& vehicle, const ParameterValues<T>& values) {
   const auto value = [&values](ParameterId id) { return values[static_cast<std::size_t>(id)]; };

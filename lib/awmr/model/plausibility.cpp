@@ -14,7 +14,7 @@
 namespace awmr {
 namespace {
 
-/// What a value times `factor` would be.
+/// A unit error: the likely meaning of a value times `factor`.
 struct Guess {
   double factor;
   std::string_view words;
@@ -30,7 +30,7 @@ constexpr std::array<Guess, 5> kInertia{{{1e-4, "looks like kg cm^2"},
                                          {1e-7, "looks like g cm^2"},
                                          {1e-9, "looks like g mm^2"}}};
 
-/// The guess that brings a ratio nearest to the usual one, if it then is in the usual range.
+/// The guess that brings a ratio nearest to the usual one, if the result is in the usual range.
 std::optional<Guess> likely(double ratio, std::span<const Guess> guesses, Interval range,
                             double usual) {
   std::optional<Guess> best;
@@ -42,20 +42,20 @@ std::optional<Guess> likely(double ratio, std::span<const Guess> guesses, Interv
   return best;
 }
 
-/// "; it looks like mm: 0.32", or what to do.
+/// "; it looks like mm: 0.32", or another remedy.
 std::string remedy(double value, const std::optional<Guess>& guess) {
   if (!guess) return "; measure it again";
   return fmt::format("; it {}: {:.4g}", guess->words, value * guess->factor);
 }
 
-/// Which of the sizes and the mass are in another unit.
+/// Unit factors of the sizes and the mass.
 struct Scale {
   double size;
   double mass;
 };
 
-/// By the mass over the footprint alone, where length and width fit each other: the scale that makes
-/// it most like a robot's.
+/// Uses only the mass over the footprint, if length and width are consistent: the scale that makes
+/// it most similar to a robot's.
 std::optional<Scale> likely_scale(double mass_per_area) {
   static constexpr std::array<Scale, 5> kScales{
       {{1e-3, 1.0}, {1e-2, 1.0}, {1.0, 1e-3}, {1e-3, 1e-3}, {1e-2, 1e-3}}};
@@ -73,7 +73,7 @@ std::optional<Scale> likely_scale(double mass_per_area) {
   return best;
 }
 
-/// Length against width. Corrects the one that is too large by a unit.
+/// Checks length against width. Corrects the one that is too large by a unit factor.
 void judge_shape(Vehicle& vehicle, std::vector<Implausible>& found) {
   constexpr Interval kShape{0.2, 10.0};
   const double ratio = vehicle.length_m / vehicle.width_m;
@@ -87,7 +87,7 @@ void judge_shape(Vehicle& vehicle, std::vector<Implausible>& found) {
   if (guess) larger *= guess->factor;
 }
 
-/// Mass over the footprint. Corrects what is in another unit.
+/// Checks mass over the footprint. Corrects a value in another unit.
 void judge_mass(Vehicle& vehicle, std::vector<Implausible>& found) {
   constexpr Interval kMassPerArea{1.0, 5000.0};
   const double per_area = vehicle.mass_kg / (vehicle.length_m * vehicle.width_m);

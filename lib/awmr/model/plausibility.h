@@ -1,5 +1,5 @@
-/// What a vehicle's numbers say of each other before any trial: sizes, masses and angles that cannot
-/// be, and the unit that they were most likely given in.
+/// Consistency checks of a vehicle's numbers before any trial: implausible sizes, masses and
+/// angles, and the unit in which they were probably given.
 ///
 ///     mass over the footprint m/(length width)    1 to 5000 kg/m^2: from a toy to a mining truck
 ///     length over width                           1/5 to 10
@@ -21,24 +21,25 @@
 
 namespace awmr {
 
-/// Iz over that of the box of the same mass and size: all mass in the corners makes 3.
+/// Iz divided by that of a box of the same mass and size: all mass in the corners makes 3.
 inline constexpr Interval kInertiaOverBox{0.05, 3.0};
 
-/// A number that cannot be, or hardly.
+/// A number that is impossible or very unlikely.
 struct Implausible {
   std::string pointer;  ///< in vehicle.json: "/half_track_m"
-  std::string message;  ///< what was compared, the likely unit and the value that it would make
+  std::string message;  ///< the comparison, the likely unit and the resulting value
 };
 
-/// In the order of the table above. Where a size or the mass is in another unit, what is left is held
-/// against the value that it would be. Empty for any vehicle that can be built.
+/// In the order of the table above. If a size or the mass is in another unit, the remaining checks
+/// use the converted value. Empty for any vehicle that can be built.
 std::vector<Implausible> implausible_values(const Vehicle& vehicle);
 
-/// Errors (input): every implausible value, each by its place, `place` followed by its pointer.
-/// `remedy`: what to do about it, a clause.
+/// Errors (input): all implausible values, each with its place, which is `place` followed by its
+/// pointer. `remedy`: what to do about it, a clause.
 Status check_plausible(const Vehicle& vehicle, const std::string& place, const std::string& remedy);
 
-/// The same as findings (`implausible-vehicle`), of a file or, where `file` is empty, of none.
+/// The implausible values as findings (`implausible-vehicle`), for a file or, if `file` is empty,
+/// for none.
 std::vector<Finding> plausibility_findings(const Vehicle& vehicle, Severity severity,
                                            const std::string& file = {});
 

@@ -1,4 +1,4 @@
-/// How what a coast-down alone shows of a family's terms is called, in /estimates.
+/// Names, in /estimates, of ratios of a family's terms that a coast-down alone can identify.
 #pragma once
 
 #include <string_view>

@@ -1,4 +1,4 @@
-/// Resistance to motion: one odd curve whose special cases are the families. Freestanding C++14.
+/// Resistance to motion: one odd curve; the families are special cases. Freestanding C++14.
 #pragma once
 
 #include "awmr/model/scalar_math.h"
@@ -7,22 +7,22 @@ namespace awmr {
 
 /// The force or moment that resists a speed w, positive against motion in w's direction:
 ///   g(w) = (c + alpha |w|^beta + q w^2) sgn w                                   [paper (47), (63)]
-/// The paper has c = q = 0 and w > 0 only; its law is extended here to an odd curve.
+/// The paper has c = q = 0 and only w > 0; its law is extended here to an odd curve.
 ///
 /// Surge: g1 of w = u in m/s, dimensionless (a force over F_max). Yaw: g3 of w = r in rad/s, in m
-/// (a moment over F_max). Which terms are free is the family's choice (family.h).
+/// (a moment over F_max). The family determines which terms are free (family.h).
 template <class T>
 struct Resistance {
-  /// alpha, > 0: resistance at unit speed where c = q = 0. Surge: a1, (s/m)^b1; yaw: a3,
-  /// m (s/rad)^b3. Fitted to steady runs or logs.
+  /// alpha, > 0: resistance at unit speed for c = q = 0. Surge: a1, (s/m)^b1; yaw: a3, m
+  /// (s/rad)^b3. Fitted to steady runs or logs.
   T alpha;
-  /// beta, dimensionless, >= 0: how steeply the resistance rises. Surge: b1, in [0, 1] in the
-  /// paper; yaw: b3. Below 1 the slope at rest is infinite.
+  /// beta, dimensionless, >= 0: steepness of the resistance. Surge: b1, in [0, 1] in the paper;
+  /// yaw: b3. Below 1 the slope at rest is infinite.
   T beta;
   /// Surge: m/s, yaw: rad/s; >= 0: below it the curve is replaced by its chord to the origin. 0,
   /// for fits and steady states, keeps the law exact. A simulation sets it (see rest_speed() in
-  /// steady.h), because at rest the slope is infinite for beta < 1 and the curve jumps for c > 0,
-  /// and steps of h seconds cannot follow time constants below h.
+  /// steady.h): at rest the slope is infinite for beta < 1 and the curve jumps for c > 0. Steps of
+  /// h seconds cannot resolve time constants below h.
   T rest_speed = T(0.0);
   /// c, in the unit of g, >= 0: Coulomb friction, the same at every speed. 0 in the paper.
   T coulomb = T(0.0);
@@ -43,8 +43,8 @@ struct Resistance {
     using math::select;
     const T magnitude = abs(speed);
     if (!MaskOf<T>::kOneLane) {
-      // Without branches, which lanes would wait for: speed/reached is 1 or -1 beyond the chord, and the
-      // way along it before its end.
+      // Without branches, which would have to be equal in all lanes: speed/reached is 1 or -1
+      // beyond the chord, and the fraction of the chord before its end.
       const T reached = larger(larger(magnitude, rest_speed), T(1e-30));
       return at(reached) * (speed / reached);
     }
@@ -55,29 +55,29 @@ struct Resistance {
   }
 };
 
-/// Below this speed (m/s, rad/s) a controller feeds the chord of a curve with Coulomb friction
-/// forward: the curve jumps at rest, so the command would chatter between +c and -c there.
+/// Below this speed (m/s, rad/s), a controller uses the chord of a curve with Coulomb friction for
+/// feed-forward: the curve jumps at rest, so the command would otherwise chatter between +c and -c.
 template <class T>
 constexpr T feed_forward_rest_speed() {
   return T(0.02);
 }
-/// The law as a controller feeds it forward: with a chord at rest where it would jump there.
+/// The law for a controller's feed-forward: with a chord at rest if it would jump there.
 template <class T>
 Resistance<T> feed_forward(Resistance<T> law) {
   if (law.coulomb > T(0.0)) law.rest_speed = feed_forward_rest_speed<T>();
   return law;
 }
 
-/// The command of which a motor with a dead zone makes `force`; 0 for 0. Both are over F_max, and
-/// zone = F'0 >= 0. The inverse of beyond_dead_zone() for every force but 0.
+/// The command for which a motor with a dead zone makes `force`; 0 for 0. Both are over F_max, and
+/// zone = F'0 >= 0. The inverse of beyond_dead_zone() for every force except 0.
 template <class T>
 T with_dead_zone(const T& force, const T& zone) {
   using math::select;
   return select(force > T(0.0), T(force + zone), select(force < T(0.0), T(force - zone), force));
 }
 
-/// The force that a motor with a dead zone makes of `command`: none while |command| <= zone, and
-/// beyond that the command less the zone. Both are over F_max, and zone = F'0 >= 0.
+/// The force of a motor with a dead zone for `command`: 0 for |command| <= zone, and beyond that
+/// the command reduced by the zone. Both are over F_max, and zone = F'0 >= 0.
 template <class T>
 T beyond_dead_zone(const T& command, const T& zone) {
   using math::select;

@@ -1,4 +1,4 @@
-/// A plant that a simulation can bring to rest.
+/// A plant that a simulation can integrate to rest.
 #pragma once
 
 #include "awmr/model/dynamics.h"
@@ -6,10 +6,10 @@
 
 namespace awmr {
 
-/// The value of a scalar; a type that carries derivatives has its own overload beside it.
+/// The value of a scalar; types with derivatives have their own overloads.
 inline double value_of(double x) { return x; }
 
-/// The curve without the derivatives of its numbers.
+/// The curve without the derivatives of its coefficients.
 template <class T>
 Resistance<double> value_of(const Resistance<T>& law) {
   return {value_of(law.alpha), value_of(law.beta), value_of(law.rest_speed), value_of(law.coulomb),
@@ -17,8 +17,8 @@ Resistance<double> value_of(const Resistance<T>& law) {
 }
 
 /// The plant whose resistances have the chord at rest that Runge-Kutta steps of step_s seconds
-/// need: see rest_speed(). Where the chord begins is a matter of the steps, not of the motion: it
-/// carries no derivatives.
+/// need: see rest_speed(). The start of the chord depends on the steps, not on the motion: it has
+/// no derivatives.
 template <class T>
 Plant<T> resolved_at_rest(Plant<T> plant, double step_s) {
   plant.surge.rest_speed = T(rest_speed(value_of(plant.surge), value_of(plant.mass_norm), step_s));

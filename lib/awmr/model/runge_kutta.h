@@ -5,7 +5,7 @@
 
 namespace awmr {
 
-/// s + h d: the state h seconds on at the rates d.
+/// s + h d: the state after h seconds with the rates d.
 template <class T>
 State<T> moved(const State<T>& s, const State<T>& d, const T& h) {
   return {s.x_m + h * d.x_m,
@@ -20,7 +20,7 @@ State<T> moved(const State<T>& s, const State<T>& d, const T& h) {
 /// The state one step of h seconds later, by the classical fourth-order method:
 ///   k1 = rates(s),   k2 = rates(s + h/2 k1),   k3 = rates(s + h/2 k2),   k4 = rates(s + h k3)
 ///   s + h/6 (k1 + 2 k2 + 2 k3 + k4)
-/// Its error over the step is of order h^5 where the rates are smooth.
+/// Its error per step is of order h^5 for smooth rates.
 template <class T, class Rates>
 State<T> rk4_step(const State<T>& s, const T& h, const Rates& rates) {
   const State<T> k1 = rates(s);

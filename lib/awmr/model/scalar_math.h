@@ -1,8 +1,8 @@
 /// Elementary functions for any scalar. Freestanding C++14.
 ///
-/// Templates write `using math::sin; sin(x)`: float and double come from here, ceres::Jet and other
-/// scalars from their own namespace by argument-dependent lookup. float's sin, cos, atan and atan2
-/// are float_math.h's, the same bits on every machine.
+/// Templates use `using math::sin; sin(x)`: float and double functions are defined here, those of
+/// ceres::Jet and other scalars in their own namespace (argument-dependent lookup). float's sin,
+/// cos, atan and atan2 are those of float_math.h, with the same bits on every machine.
 #pragma once
 
 #include <math.h>
@@ -10,25 +10,27 @@
 #include "awmr/model/float_bearing.h"
 #include "awmr/model/float_math.h"
 
-/// A helper that is to leave no trace in the code of a chip.
+/// A helper that is always inlined on the chip.
 #ifdef __AVR__
 #define AWMR_NO_CALL inline __attribute__((always_inline))
 #else
 #define AWMR_NO_CALL inline
 #endif
 
-/// A template that is rarely called, and not to be copied into its callers.
+/// A template that is rarely called and must not be inlined.
 #define AWMR_COLD __attribute__((noinline, cold))
 
 namespace awmr {
 
-/// What a comparison of two T says: bool. A batch, whose lanes may differ, has its own mask with
-/// any(), all(), select(), !, && and || (simulate/lanes/lanes.h).
+/// Result type of a comparison of two T: bool. A batch, whose lanes can differ, has its own mask
+/// type with any(), all(), select(), !, && and
 ///
-/// A branch that lanes may take apart is written as
+/// (simulate/lanes/lanes.h).
+///
+/// A branch that can differ between lanes is written as
 ///   if (any(m)) { if (MaskOf<T>::kOneLane || all(m)) return a;  x = select(m, a, x); }
-/// which for bool is the branch itself, without the work of the other side. The constant says so
-/// before the compiler weighs what to copy into its callers, which the chip's flash hangs on.
+/// For bool this is the ordinary branch, without computing the other alternative. The constant is
+/// known before the compiler decides on inlining, which affects the chip's flash size.
 template <class T>
 struct MaskOf {
   using Type = bool;
@@ -63,36 +65,36 @@ inline double hypot(double x, double y) { return ::hypot(x, y); }
 inline float pow(float x, float y) { return ::powf(x, y); }
 inline double pow(double x, double y) { return ::pow(x, y); }
 
-/// sat(x, limit): x inside [-limit, limit], the nearer end outside.
+/// sat(x, limit): x inside [-limit, limit], otherwise the nearer end.
 template <class T>
 T saturate(const T& x, const T& limit) {
   using math::select;
   return select(x > limit, limit, select(x < -limit, T(-limit), x));
 }
 
-/// The same for float, limit >= 0, by comparing bits, which costs the chip less. NaN stays NaN.
+/// As above for float, limit >= 0, by comparing bits, which is faster on the chip. NaN stays NaN.
 inline float saturate(float x, float limit) {
   const uint32_t magnitude = float_math::magnitude_bits(x);
   if (magnitude <= float_math::magnitude_bits(limit) || float_math::is_nan(x)) return x;
   return bits_of(x) >> 31U != 0 ? -limit : limit;
 }
 
-/// The larger; x where they are equal or one is not a number.
+/// The larger value; x if they are equal or one is NaN.
 template <class T>
 T larger(const T& x, const T& y) {
   using math::select;
   return select(x < y, y, x);
 }
 
-/// x. For float 0 where |x| < 2^-90, so that no quotient of it by a force is subnormal: an AVR rounds
-/// those otherwise than a host.
+/// x. For float, 0 if |x| < 2^-90, so that no quotient of it by a force is subnormal: an AVR rounds
+/// subnormal numbers differently from a host.
 template <class T>
 T flushed(const T& x) {
   return x;
 }
 inline float flushed(float x) { return float_math::leading_bits(x) < 0x1280U ? 0.0F : x; }
 
-/// a - b. For float without the subtraction where a is 0, as it is of a reference that is held.
+/// a - b. For float, returns -b without a subtraction if a is 0, as for a constant reference.
 template <class T>
 T difference(const T& a, const T& b) {
   return a - b;
@@ -101,7 +103,7 @@ inline float difference(float a, float b) {
   return float_math::magnitude_bits(a) == 0 ? -b : a - b;
 }
 
-/// a + b c. For float it is a where c is 0.
+/// a + b c. For float, returns a if c is 0.
 template <class T>
 T plus_product(const T& a, const T& b, const T& c) {
   return a + b * c;
@@ -110,7 +112,7 @@ inline float plus_product(float a, float b, float c) {
   return float_math::magnitude_bits(c) == 0 ? a : a + b * c;
 }
 
-/// x > y. For float by the order of whole numbers, a third of the chip's cycles.
+/// x > y. For float, by integer order, a third of the chip's cycles.
 template <class T>
 Mask<T> is_above(const T& x, const T& y) {
   return x > y;
@@ -120,7 +122,7 @@ inline bool is_above(float x, float y) {
          !float_math::is_nan(y);
 }
 
-/// |x| > limit, limit >= 0. For float by comparing bits, by which NaN lies beyond every limit.
+/// |x| > limit, limit >= 0. For float, by comparing bits, with NaN beyond every limit.
 template <class T>
 Mask<T> is_beyond(const T& x, const T& limit) {
   return x > limit || -x > limit;
@@ -154,7 +156,7 @@ T bearing(const T& y, const T& x) {
 }
 inline float bearing(float y, float x) { return float_math::bearing(y, x); }
 
-/// x inside [lo, hi], the nearer end outside; lo <= hi.
+/// x inside [lo, hi], otherwise the nearer end; lo <= hi.
 template <class T>
 T clamp(const T& x, const T& lo, const T& hi) {
   using math::select;

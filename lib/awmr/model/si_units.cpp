@@ -8,16 +8,16 @@
 namespace awmr {
 namespace {
 
-/// A relative variance below this is the rounding of a quantity that m' has dropped out of.
+/// A relative variance below this is rounding: m' cancels in the quantity.
 constexpr double kExact = 1e-18;
 
-/// True for what the equations of motion divide by F_max: neither an exponent nor a time.
+/// True for parameters divided by F_max in the equations of motion: neither exponents nor times.
 bool is_over_max_force(ParameterId id) {
   return id != ParameterId::kSurgeBeta && id != ParameterId::kYawBeta &&
          id != ParameterId::kSteeringTimeConstant;
 }
 
-/// C_ab of the model's covariance. What was given is exact; none for what has no covariance.
+/// C_ab of the model's covariance. Given values are exact; none without covariance.
 std::optional<double> covariance_of(const Model& model, ParameterId a, ParameterId b) {
   if (model[a].source == Source::kGiven || model[b].source == Source::kGiven) return 0.0;
   const std::vector<ParameterId>& ids = model.covariance.parameters;
@@ -27,8 +27,8 @@ std::optional<double> covariance_of(const Model& model, ParameterId a, Parameter
   return model.covariance.matrix[row][column];
 }
 
-/// Half of the 95 % interval over the standard error, in the coordinate in which the error is
-/// normal; 0 for what was given, none without an interval.
+/// Half of the 95 % interval divided by the standard error, in the coordinate in which the error is
+/// normal; 0 for given values, none without an interval.
 std::optional<double> quantile_of(const Model& model, ParameterId id) {
   const Estimate& estimate = model[id];
   if (estimate.source == Source::kGiven) return 0.0;
@@ -62,7 +62,7 @@ Estimate times_max_force(const Model& model, ParameterId id) {
   return q;
 }
 
-/// F_max = m/m', whose interval is that of m' turned over.
+/// F_max = m/m'; its interval is the reciprocal of that of m'.
 Estimate max_force(const Model& model) {
   const Estimate& mass = model[ParameterId::kMassNorm];
   const double mass_kg = model.vehicle.mass_kg;
@@ -75,7 +75,7 @@ Estimate max_force(const Model& model) {
   return force;
 }
 
-/// A force over F_max becomes newtons: N s^2/m are kg, and N s^2 m are kg m^2.
+/// Multiplies a force over F_max by F_max: N s^2/m are kg, and N s^2 m are kg m^2.
 SiQuantity quantity_of(const Model& model, const ParameterInfo& parameter) {
   if (parameter.id == ParameterId::kInertiaNorm) {
     return {"/yaw_inertia", "Iz", "kg m^2", times_max_force(model, parameter.id)};

@@ -1,11 +1,12 @@
-/// Coulomb friction where a vehicle stops, turns round and is held. Templates on the scalar.
+/// Coulomb friction when a vehicle stops, reverses and is held. Templates on the scalar.
 ///
-/// The curve g jumps at rest by c to either side. Over a step the friction keeps its direction,
+/// The curve g jumps by c in both directions at rest. Over a step the friction keeps its direction,
 ///
 ///     u_dot = (X - s c - (g1(u) - c sgn u))/m' + r v,   s: 1 or -1, the way the vehicle slides
 ///
-/// and a step in which u passes 0 ends there: the vehicle is held, u_dot = 0, while what drives it,
-/// |X + m' r v|, is at most c. Yaw likewise. A chord through the jump would let it creep instead.
+/// and a step in which u passes 0 ends there: the vehicle is held, u_dot = 0, while the driving
+/// force |X + m' r v| is at most c. Yaw likewise. With a chord instead of the jump, the vehicle
+/// would creep.
 #pragma once
 
 #include "awmr/model/rest.h"
@@ -13,7 +14,7 @@
 
 namespace awmr {
 
-/// c over inertia.
+/// c divided by inertia.
 template <class T>
 struct FrictionRates {
   T surge_mps2;  ///< c1/m', >= 0
@@ -33,7 +34,8 @@ Plant<T> without_friction(Plant<T> plant) {
   return plant;
 }
 
-/// resolved_at_rest() for steps with friction: the chords are those of the other resistance alone.
+/// resolved_at_rest() for steps with friction: the chords are those of the resistance without
+/// friction.
 template <class T>
 Plant<T> resolved_beside_friction(Plant<T> plant, double step_s) {
   const Plant<T> resolved = resolved_at_rest(without_friction(plant), step_s);
@@ -42,13 +44,13 @@ Plant<T> resolved_beside_friction(Plant<T> plant, double step_s) {
   return plant;
 }
 
-/// Which way surge and yaw slide: 1, -1, or 0 where friction holds them or there is none.
+/// Sliding directions of surge and yaw: 1, -1, or 0 if held by friction or without friction.
 struct Sliding {
   double surge = 0.0;
   double yaw = 0.0;
 };
 
-/// `rate`: of `speed` without friction, `friction` what friction changes it by.
+/// `rate`: of `speed` without friction; `friction`: the change of rate by friction.
 inline double slides(double speed, double rate, double friction) {
   if (!(friction > 0.0)) return 0.0;
   if (speed > 0.0) return 1.0;
@@ -63,10 +65,10 @@ Sliding sliding(const FrictionRates<T>& friction, const State<T>& s, const State
           slides(value_of(s.r_radps), value_of(rates.r_radps), value_of(friction.yaw_radps2))};
 }
 
-/// Whether friction holds the vehicle in its surge, or in its yaw.
+/// True if friction holds the vehicle in surge, or in yaw.
 inline bool is_held(double way, double friction) { return friction > 0.0 && way == 0.0; }
 
-/// The rates with friction, from those without.
+/// Rates with friction, computed from those without.
 template <class T>
 State<T> with_friction(const FrictionRates<T>& friction, const Sliding& way, State<T> rates) {
   rates.u_mps = is_held(way.surge, value_of(friction.surge_mps2))
@@ -78,17 +80,17 @@ State<T> with_friction(const FrictionRates<T>& friction, const Sliding& way, Sta
   return rates;
 }
 
-/// The share of a step from `from` to `to` after which a speed that slides `way` is 0; 1: it does not get
-/// there. A speed that begins at 0 is not stopped by the step.
+/// The fraction of a step from `from` to `to` after which a speed with sliding direction `way` is
+/// 0; 1: it does not reach 0. A speed that starts at 0 is not stopped by the step.
 inline double share_until_rest(double way, double from, double to) {
   if (!(way * from > 0.0) || !(way * to < 0.0)) return 1.0;
   return from / (from - to);
 }
 
-/// A step holds so many stops at most; what it has left then is taken in one.
+/// Maximum number of stops in a step; the rest of the step is then taken without further stops.
 inline constexpr int kMostStopsInAStep = 4;
 
-/// rk4_step() with friction. `rates` are those without it, and all of them where there is none.
+/// rk4_step() with friction. `rates` are those without friction.
 template <class T, class Rates>
 State<T> rk4_step_with_friction(const FrictionRates<T>& friction, State<T> s, T h,
                                 const Rates& rates) {

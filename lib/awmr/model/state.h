@@ -1,4 +1,4 @@
-/// What moves and what is commanded, by name. Freestanding C++14.
+/// Named states and commands. Freestanding C++14.
 ///
 /// World frame: x and y fixed to the ground. Body frame: origin at the centre of gravity, x forward
 /// and y left. Both are right-handed with z up, so angles and yaw rates count counter-clockwise.
@@ -6,8 +6,8 @@
 
 namespace awmr {
 
-/// The state X = (x, y, psi, u, v, r) and the servo's angle beside it. The same struct holds the
-/// state's derivative in time; each field is then per second.
+/// The state X = (x, y, psi, u, v, r) and the servo's angle. The struct is also used for the time
+/// derivative of the state; each field is then per second.
 template <class T>
 struct State {
   T x_m;           ///< x, m: position of the centre of gravity in the world frame
@@ -16,18 +16,18 @@ struct State {
   T u_mps;         ///< u, m/s: surge speed along the body's x axis, forward positive
   T v_mps;         ///< v, m/s: sway speed along the body's y axis, left positive
   T r_radps;       ///< r, rad/s: yaw rate, counter-clockwise positive
-  T steering_rad;  ///< d_r, rad: angle of the front wheels as it is, left positive; |d_r| <= d_max
+  T steering_rad;  ///< d_r, rad: actual angle of the front wheels, left positive; |d_r| <= d_max
 };
 
-/// The forces where both wheels of a side are driven alike. Each is the force of ONE wheel over
-/// F_max, dimensionless, in [-1, 1], forward positive.
+/// The forces if both wheels of a side are driven alike. Each is the force of ONE wheel over F_max,
+/// dimensionless, in [-1, 1], forward positive.
 template <class T>
 struct SideForces {
   T left;   ///< F'L = F'FL = F'RL
   T right;  ///< F'R = F'FR = F'RR
 };
 
-/// The forces where each wheel has its own: over F_max, dimensionless, in [-1, 1], along the wheel,
+/// The individual forces of the wheels: over F_max, dimensionless, in [-1, 1], along the wheel,
 /// forward positive.
 template <class T>
 struct WheelForces {

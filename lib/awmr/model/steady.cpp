@@ -13,17 +13,18 @@ std::optional<double> finite(double value) {
   return std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
-/// The w at which alpha w^beta + v w + q w^2 = excess, v = `viscous`, by Newton's method on
+/// Solves alpha w^beta + v w + q w^2 = excess for w, v = `viscous`, by Newton's method on
 ///   h(s) = ln((alpha e^(s beta) + v e^s + q e^(2 s))/excess),   w = e^s
-/// h rises and is convex, as a logarithm of a sum of exponentials: the steps from above the root
-/// come down to it and never pass, so they have ended where rounding alone would turn them back.
+/// h is increasing and convex, as a logarithm of a sum of exponentials: the steps from above the
+/// root decrease monotonically towards it. So the iteration ends when rounding would reverse a
+/// step.
 std::optional<double> rate_above_coulomb(const Resistance<double>& law, double excess,
                                          double viscous) {
   constexpr double kFastest = 1e9;
   constexpr double kSlowest = 1e-300;
   constexpr int kMostSteps = 200;
   if (!(excess > 0.0) || !std::isfinite(excess)) return std::nullopt;
-  // Each term alone holds the force at a speed above the root.
+  // Each term alone balances the force at a speed above the root.
   double w = std::min({std::pow(excess / law.alpha, 1.0 / law.beta),
                        std::sqrt(excess / law.quadratic), excess / viscous});
   for (int i = 0; i < kMostSteps && w > kSlowest && w <= kFastest; ++i) {
@@ -36,7 +37,7 @@ std::optional<double> rate_above_coulomb(const Resistance<double>& law, double e
     if (!(next < w)) return finite(next);
     w = next;
   }
-  // Beyond any vehicle, or a curve that jumps at rest (beta = 0) by more than the force.
+  // Faster than any vehicle, or a curve that jumps at rest (beta = 0) by more than the force.
   return std::nullopt;
 }
 

@@ -1,4 +1,4 @@
-/// What a resistance says of steady motion and of stopping.
+/// Steady motion and stopping time for a resistance law.
 #pragma once
 
 #include <optional>
@@ -7,27 +7,27 @@
 
 namespace awmr {
 
-/// The w > 0 at which the resistance holds a force: g(w) = force. For g1 and force = tau_speed it
-/// is the steady speed in m/s, for g3 and force = tau_turn in m the steady yaw rate in rad/s.
-/// With `viscous` > 0, in the unit of g over that of w: g(w) + viscous w = force, as motors with
-/// back-EMF leave of tau_speed at u with viscous = 4 k_e.
-/// None where the force does not overcome Coulomb friction c, or the curve never reaches it.
+/// The w > 0 at which the resistance equals a force: g(w) = force. For g1 and force = tau_speed it
+/// is the steady speed in m/s, for g3 and force = tau_turn in m the steady yaw rate in rad/s. With
+/// `viscous` > 0, in the unit of g over that of w: g(w) + viscous w = force, which applies to
+/// motors with back-EMF, with force = tau_speed and viscous = 4 k_e.
+/// None if the force does not exceed Coulomb friction c, or the curve never reaches it.
 std::optional<double> steady_rate(const Resistance<double>& law, double force,
                                   double viscous = 0.0);
 
 /// Time from motors off at speed_mps = u > 0 to rest, s:
 ///   t_a = m' int_0^u dw/g(w)
 ///       = m' u^(1-beta) / ((1-beta) alpha)   for a power law                     [paper (55)-(59)]
-/// None where the vehicle never stops: c = 0 and beta >= 1.
+/// None if the vehicle never stops: c = 0 and beta >= 1.
 std::optional<double> stop_time_s(const Resistance<double>& law, double mass_norm,
                                   double speed_mps);
 
 /// The speed, m/s or rad/s, below which a simulation with steps of h = step_s seconds replaces the
 /// resistance by its chord (Resistance::rest_speed). `inertia` is m' for surge and I'z for yaw.
 ///
-/// On the chord that ends at w the speed decays at the rate g(w)/(w inertia). The Runge-Kutta
-/// method is stable while rate times h is below 2.78 and monotone while it is below about 1, so w
-/// is where the rate is 1/h:
+/// On the chord that ends at w, the speed decays at the rate g(w)/(w inertia). The Runge-Kutta
+/// method is stable if rate times h is below 2.78 and monotone if it is below about 1, so w is
+/// where the rate is 1/h:
 ///   w = g(w) h/inertia                        with Coulomb friction: solved by iteration
 ///   w = (alpha h/inertia)^(1/(1 - beta))      for a power law of beta < 1
 ///   w = 0: the law needs no chord             otherwise

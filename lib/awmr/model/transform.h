@@ -1,10 +1,10 @@
-/// The coordinate in which a parameter is searched, drawn and given a normal error.
+/// The coordinate in which a parameter is searched and sampled, and in which its error is normal.
 ///
 ///     linear:       coordinate = value        d value / d coordinate = 1
 ///     logarithmic:  coordinate = ln value     d value / d coordinate = value
 ///
-/// A quantity that is positive and known up to a factor is normal in its logarithm. An exponent is
-/// not: it lies in a fixed range. Nor is a family's term: it may be exactly zero.
+/// A positive quantity known up to a factor is normal in its logarithm. An exponent is not, because
+/// it has a fixed range. Nor is a family's term, because it can be exactly zero.
 #pragma once
 
 #include <cmath>
@@ -15,18 +15,18 @@ namespace awmr {
 
 enum class Scale { kLinear, kLogarithmic };
 
-/// Linear: the exponents b1 and b3, and the terms that only some families have (Coulomb, quadratic,
-/// dead zone). Logarithmic: every other parameter.
+/// Linear: the exponents b1 and b3, and the terms of only some families (Coulomb, quadratic, dead
+/// zone). Logarithmic: all other parameters.
 inline Scale scale_of(ParameterId id) {
   const bool exponent = id == ParameterId::kSurgeBeta || id == ParameterId::kYawBeta;
   return exponent || info(id).term ? Scale::kLinear : Scale::kLogarithmic;
 }
 
-/// The value must be positive on a logarithmic scale.
+/// The value must be positive for a logarithmic scale.
 inline double to_coordinate(Scale scale, double value) {
   return scale == Scale::kLogarithmic ? std::log(value) : value;
 }
-/// A template on the scalar: the derivatives of ceres::Jet come with it.
+/// A template on the scalar, so that derivatives of ceres::Jet are propagated.
 template <class T>
 T from_coordinate(Scale scale, const T& coordinate) {
   using std::exp;

@@ -1,9 +1,10 @@
-/// Four wheels with tyres, as a second opinion on the 3-DOF vehicle of dynamics.h: each tyre makes a
-/// side force by its slip, and what it passes to the ground stays in its circle of friction. Templates
-/// on the scalar.
+/// Four-wheel tyre model, for a cross-check with the 3-DOF vehicle of dynamics.h: each tyre makes a
+/// side force from its slip, and its total force stays within its circle of friction. Templates on
+/// the scalar.
 ///
-/// The side force is that of the brush model, in the form of Fiala: H. B. Pacejka, "Tire and Vehicle
-/// Dynamics", 3rd ed., 3.2.1. What of the 3-DOF model stays and what is replaced: README.md in this folder.
+/// The side force is that of the brush model, in the form of Fiala: H. B. Pacejka, "Tire and
+/// Vehicle Dynamics", 3rd ed., 3.2.1. README.md in this folder lists the parts of the 3-DOF model
+/// that are kept or replaced.
 #pragma once
 
 #include "awmr/core/gravity.h"
@@ -12,44 +13,46 @@
 
 namespace awmr {
 
-/// What has to be known of the tyres, the same for all four.
+/// Tyre parameters, the same for all four.
 template <class T>
 struct Tyres {
-  /// mu, > 0: force that the ground takes, over the load on the wheel, in any direction.
+  /// mu, > 0: largest force on the ground in any direction, divided by the load on the wheel.
   T friction = T(kTyreFriction);
-  /// c_a, 1/rad, > 0: cornering stiffness over the load on the wheel, how fast the side force grows
-  /// with a small slip angle.
+  /// c_a, 1/rad, > 0: cornering stiffness over the load on the wheel, the slope of the side force
+  /// at a small slip angle.
   T cornering_per_rad = T(kCorneringStiffness_per_rad);
-  /// v_0, m/s, > 0: a wheel that rolls more slowly counts as rolling about as fast as this, so that the
-  /// slip of a wheel at rest has a value. Below it the tyres resist like a viscous fluid: a vehicle that
-  /// is pushed sideways at rest creeps.
+  /// v_0, m/s, > 0: a wheel that rolls more slowly is treated as rolling at about this speed, so
+  /// that the slip of a wheel at rest is defined. Below it the tyres resist like a viscous fluid: a
+  /// vehicle that is pushed sideways at rest creeps.
   T rest_speed_mps = T(kTyreRestSpeed_mps);
 };
 
-/// A vehicle on four tyres. Of `body` the sway resistance g2 and the yaw resistance g3 are not used.
+/// A vehicle on four tyres. The sway resistance g2 and the yaw resistance g3 of `body` are not
+/// used.
 template <class T>
 struct FourWheels {
   Plant<T> body;
   Tyres<T> tyres;
 };
 
-/// What a wheel carries where all four carry alike, over F_max:
+/// Load on each wheel if all four carry the same, over F_max:
 ///   F'z = m' g/4
 template <class T>
 T wheel_load(const T& mass_norm) {
   return mass_norm * T(kGravity_mps2 / 4.0);
 }
 
-/// What four tyres that slide sideways make where the vehicle turns on the spot, m, the centre of gravity
-/// being half-way between the axles: no scrub is more.
+/// Moment of four tyres that slide sideways when the vehicle turns on the spot, m, with the centre
+/// of gravity half-way between the axles. It is the upper bound of the scrub moment.
 ///   mu g m' l_f
 template <class T>
 T sliding_moment_m(const Plant<T>& plant) {
   return T(kTyreFriction * kGravity_mps2) * plant.mass_norm * plant.front_axle_m;
 }
 
-/// How fast each wheel slides to its left, m/s, square to the direction in which it rolls (wheel_speeds()).
-/// The rear axle is taken as far behind the centre of gravity as the front one is before it:
+/// Sliding speed of each wheel to its left, m/s, perpendicular to its rolling direction
+/// (wheel_speeds()). The rear axle is assumed as far behind the centre of gravity as the front one
+/// is before it:
 ///   s_rear  = v - l_f r
 ///   s_front = (v + l_f r) cos d_r - (u -+ d r) sin d_r         upper sign: left, lower: right
 template <class T>
@@ -63,9 +66,10 @@ WheelSpeeds<T> side_speeds(const T& front_axle_m, const T& half_track_m, const S
           across_mps - (s.u_mps + half_track_m * s.r_radps) * sin_d, rear_mps, rear_mps};
 }
 
-/// The side force of a tyre over F_max, positive to the left, of a wheel that rolls at `rolls_mps` and slides
-/// to its left at `slides_mps`, while it passes on the force F'x (`along`, |F'x| <= mu F'z):
-///   F'm = sqrt((mu F'z)^2 - F'x^2)                  what the circle of friction leaves
+/// The side force of a tyre over F_max, positive to the left. The wheel rolls at `rolls_mps`,
+/// slides to its left at `slides_mps` and has the longitudinal force F'x (`along`, |F'x| <= mu
+/// F'z):
+///   F'm = sqrt((mu F'z)^2 - F'x^2)                  remainder of the circle of friction
 ///   sigma = s/sqrt(w^2 + v_0^2)                     the tangent of the slip angle
 ///   z = min(c_a F'z |sigma|/(3 F'm), 1)             1: all of the contact slides
 ///   F'y = -F'm (1 - (1 - z)^3) sgn sigma            = -c_a F'z sigma for a small sigma
@@ -80,15 +84,15 @@ T side_force(const Tyres<T>& tyres, const T& load, const T& along, const T& roll
   const T left_over = sqrt(larger(T(0.0), T(grip * grip - along * along)));
   const T rolls = sqrt(rolls_mps * rolls_mps + tyres.rest_speed_mps * tyres.rest_speed_mps);
   const T elastic = tyres.cornering_per_rad * load * abs(slides_mps) / rolls;
-  // Where nothing is left over the quotient has no meaning, and the force is 0.
+  // If nothing remains, the quotient is undefined, and the force is 0.
   const Mask<T> slides = !(elastic < T(3.0) * left_over);
   const T sticks = T(1.0) - elastic / select(slides, T(1.0), T(T(3.0) * left_over));
   const T force = select(slides, left_over, T(left_over * (T(1.0) - sticks * sticks * sticks)));
   return select(slides_mps > T(0.0), T(-force), force);
 }
 
-/// What a wheel passes to the ground along the way that it rolls, over F_max: the force F' of its motor
-/// (motor_force()) less a quarter of g1, which resists in the drive, and no more than the friction holds:
+/// Force of a wheel on the ground along its rolling direction, over F_max: the force F' of its
+/// motor (motor_force()) minus a quarter of g1, which resists in the drive, limited by friction:
 ///   F'x = sat(F' - g1(w)/4, mu F'z)
 template <class T>
 T ground_force(const FourWheels<T>& p, const T& load, const T& command, const T& rolls_mps) {
@@ -97,11 +101,11 @@ T ground_force(const FourWheels<T>& p, const T& load, const T& command, const T&
   return math::saturate(T(force - T(0.25) * p.body.surge(rolls_mps)), T(p.tyres.friction * load));
 }
 
-/// What the four wheels do at one moment.
+/// Forces of the four wheels at one time.
 template <class T>
 struct TyreForces {
   WheelForces<T> along;   ///< over F_max, along the wheel, forward positive
-  WheelForces<T> across;  ///< over F_max, square to it, left positive
+  WheelForces<T> across;  ///< over F_max, perpendicular to it, left positive
 };
 
 template <class T>
@@ -172,8 +176,8 @@ State<T> state_rates(const FourWheels<T>& p, const State<T>& s, const Forces& f,
   return d;
 }
 
-/// The least inertia over F_max, s^2/m, that four equal resistances along the wheels slow down, of the body's
-/// surge or of its turning: no lever of a wheel is longer than its distance from the centre of gravity.
+/// The smallest inertia over F_max, s^2/m, that four equal resistances along the wheels slow down,
+/// for the body's surge or yaw. A wheel's lever is at most its distance from the centre of gravity.
 ///   m'_w = min(m', I'z/(l_f^2 + d^2))
 template <class T>
 T rolling_inertia(const Plant<T>& p) {
@@ -183,11 +187,11 @@ T rolling_inertia(const Plant<T>& p) {
   return select(turning < p.mass_norm, turning, p.mass_norm);
 }
 
-/// The fastest rate at which the tyres take a sideways motion away, 1/s: their stiffness c_a F'z over the
-/// speed at which each rolls,
+/// Upper bound of the rate at which the tyres damp a sideways motion, 1/s: their stiffness c_a F'z
+/// divided by each wheel's rolling speed,
 ///   max(1/m' sum_i c_a F'z/V_i,  1/I'z sum_i a_i^2 c_a F'z/V_i),   V_i = sqrt(w_i^2 + v_0^2)
-/// with a_i = l_f at the rear and, whatever the steering, sqrt(l_f^2 + d^2) at the front. The two sums are
-/// of sway and of yaw; coupled, they are no faster than twice the larger.
+/// with a_i = l_f at the rear and, for any steering angle, sqrt(l_f^2 + d^2) at the front. The two
+/// sums are those of sway and yaw; coupled, they are at most twice the larger.
 template <class T>
 T tyre_rate(const FourWheels<T>& p, const State<T>& s) {
   using math::sqrt;

@@ -1,4 +1,4 @@
-/// What is known of the vehicle before any trial. Its file: vehicle_file.h.
+/// Vehicle data given before any trial. Its file: vehicle_file.h.
 #pragma once
 
 #include <map>
@@ -11,11 +11,11 @@
 
 namespace awmr {
 
-/// Which wheels drive the vehicle, and what turns it.
+/// The driven wheels and the steering.
 enum class Drive {
-  kFourWheel,     ///< four driven wheels, the front ones steered: the paper's
-  kDifferential,  ///< no steering (d_r = 0): the forces of the sides alone turn it
-  kFrontWheel,    ///< the front wheels alone are driven, and steered
+  kFourWheel,     ///< four driven wheels, the front ones steered, as in the paper
+  kDifferential,  ///< no steering (d_r = 0): turned only by left and right wheel forces
+  kFrontWheel,    ///< only the front wheels are driven, and steered
 };
 inline constexpr NameTable<Drive, 3> kDriveNames{{{"four_wheel", Drive::kFourWheel},
                                                   {"differential", Drive::kDifferential},
@@ -24,8 +24,8 @@ inline constexpr NameTable<Drive, 3> kDriveNames{{{"four_wheel", Drive::kFourWhe
 inline constexpr NameTable<AllocationForm, 2> kAllocationFormNames{
     {{"exact", AllocationForm::kExact}, {"paper", AllocationForm::kPaper}}};
 
-/// What the vehicle's sensors add to what they measure: standard deviations, independent from
-/// reading to reading, and how late a reading is. Absent: not known.
+/// Errors of the vehicle's sensors: standard deviations of noise, independent between readings, and
+/// latencies. Absent: not known.
 struct SensorQuality {
   std::optional<double> heading_deg = {};      ///< deg, >= 0
   std::optional<double> yaw_rate_degps = {};   ///< deg/s, >= 0
@@ -38,10 +38,10 @@ struct SensorQuality {
   bool operator==(const SensorQuality&) const = default;
 };
 
-/// What the user measures on the vehicle or reads in its data sheets.
+/// Data measured on the vehicle or taken from its data sheets.
 struct Vehicle {
   std::string name;
-  double mass_kg = 0.0;                    ///< m, kg, > 0: as it drives, batteries included
+  double mass_kg = 0.0;                    ///< m, kg, > 0: ready to drive, with batteries
   double length_m = 0.0;                   ///< b of the box formula, m, > 0: along the body's x
   double width_m = 0.0;                    ///< a of the box formula, m, > 0: along the body's y
   Drive drive = Drive::kFourWheel;         ///< without steering, the steering_ fields are 0
@@ -49,38 +49,39 @@ struct Vehicle {
   double half_track_m = 0.0;               ///< d, m, > 0: centre line to the middle of a wheel
   Interval wheel_force;                    ///< F' of one wheel: -1 <= min < max, 0 < max <= 1
   double steering_max_deg = 0.0;           ///< d_max, deg, in (0, 90): stop, the same either side
-  double steering_max_rate_degps = 0.0;    ///< d_rate_max, deg/s, > 0: the servo's fastest turn
+  double steering_max_rate_degps = 0.0;    ///< d_rate_max, deg/s, > 0: the servo's maximum rate
   double steering_time_constant_s = 0.0;   ///< T, s, > 0: the servo's first-order lag
   double sample_time_s = 0.0;              ///< T_s, s, > 0: between two steps of the controller
   std::optional<double> yaw_inertia_kgm2;  ///< Iz, kg m^2, > 0, measured; absent: the box formula
-  std::optional<double> sway_alpha;        ///< a_s of g2, s/m, > 0; absent: a log has to show it
-  Interval surge_beta_range{0.0, 2.5};     ///< where a fit may put b1, 0 <= lo < hi
-  Interval yaw_beta_range{0.0, 4.0};       ///< where a fit may put b3, 0 <= lo < hi
+  std::optional<double> sway_alpha;        ///< a_s of g2, s/m, > 0; absent: a log must identify it
+  Interval surge_beta_range{0.0, 2.5};     ///< range of b1 in fits, 0 <= lo < hi
+  Interval yaw_beta_range{0.0, 4.0};       ///< range of b3 in fits, 0 <= lo < hi
 
-  /// How the simulated controller turns generalised forces into commands; the chip's is exact.
+  /// Form of the simulated controller's allocation; the chip's is exact.
   AllocationForm allocation = AllocationForm::kExact;
-  SensorQuality sensors = {};  ///< what gains are tuned for (tune/tune.h)
-  /// s, >= 0: first-order lag of the motors' force behind its command, which gains are tuned for.
+  SensorQuality sensors = {};  ///< assumed when gains are tuned (tune/tune.h)
+  /// s, >= 0: first-order lag from the motors' command to their force, assumed when gains are
+  /// tuned.
   std::optional<double> motor_time_constant_s;
-  /// k_e, s/m, >= 0: force over F_max that a motor loses per m/s at its wheel, by its data sheet;
-  /// absent: none, unless a log shows it.
+  /// k_e, s/m, >= 0: decrease of a motor's force over F_max per m/s at its wheel, from its data
+  /// sheet; absent: none, unless a log identifies it.
   std::optional<double> back_emf_s_per_m;
-  /// P_s, W, > 0: what one motor takes under full voltage at a standstill, where all of it heats the motor;
-  /// absent: electrical work is not told in joules.
+  /// P_s, W, > 0: power of one motor under full voltage at standstill, where all of it becomes
+  /// heat; absent: electrical work is not reported in joules.
   std::optional<double> motor_stall_power_w;
-  /// deg/s, > 0: the fastest turn up to which yaw resistance is known; absent: the range that the
-  /// turning trials covered.
+  /// deg/s, > 0: the fastest turn for which yaw resistance is known; absent: the range of the
+  /// turning trials.
   std::optional<double> yaw_rate_max_degps;
 
-  /// How this vehicle's files name what is asked for: column -> expression (core/column_mapping.h).
+  /// Column mappings of this vehicle's files: column -> expression (core/column_mapping.h).
   std::map<std::string, std::string> columns = {};
 
   bool has_steering() const { return drive != Drive::kDifferential; }
   /// n: straight ahead, tau_speed = n F'.
   int driven_wheels() const { return drive == Drive::kFrontWheel ? 2 : 4; }
 
-  /// Yaw inertia about the centre of gravity, kg m^2: the measured Iz where there is one, else that
-  /// of a uniform box,
+  /// Yaw inertia about the centre of gravity, kg m^2: the measured Iz if available, else that of a
+  /// uniform box,
   ///   Iz = m (a^2 + b^2)/12                                                           [paper (65)]
   double inertia_kgm2() const;
 };

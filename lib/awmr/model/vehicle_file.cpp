@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::string_view kVehicleSchema = "awmr.vehicle/1";
 
-/// Reads the range of exponents among which a fit may choose; `absent` where there is no such key.
+/// Reads the range of exponents for a fit; returns `absent` if there is no such key.
 Interval beta_range_from_json(JsonObject& json, std::string_view key, Interval absent) {
   const Interval range = json.optional_interval(key).value_or(absent);
   if (range.lo < 0.0) {
@@ -42,12 +42,12 @@ void steering_from_json(JsonObject json, Vehicle& vehicle) {
   json.reject_unknown_keys();
 }
 
-/// `null` is as good as no key: it is not known.
+/// `null` is equivalent to a missing key: not known.
 std::optional<double> known_number(JsonObject& json, std::string_view key, NumberRule rule) {
   return json.has(key) ? json.nullable_number(key, rule) : std::nullopt;
 }
 
-/// The mappings are kept as texts; whether a file has their columns is seen when it is read.
+/// The mappings are stored as text; their columns are checked when a file is read.
 void columns_from_json(JsonObject json, Vehicle& vehicle) {
   for (const std::string& name : json.keys()) {
     const std::string expression = json.string(name);
@@ -58,7 +58,7 @@ void columns_from_json(JsonObject json, Vehicle& vehicle) {
   }
 }
 
-/// A quantity of each sensor, by its key in `noise` or `latency_s`.
+/// A property of each sensor, by its key in `noise` or `latency_s`.
 struct SensorKey {
   std::string_view key;
   std::optional<double> SensorQuality::*member;
@@ -115,7 +115,7 @@ void control_to_json(const Vehicle& vehicle, Json& json) {
   if (vehicle.yaw_rate_max_degps) json["yaw_rate_max_degps"] = *vehicle.yaw_rate_max_degps;
 }
 
-/// A unit that a number beyond its range was likely given in.
+/// The unit in which a number beyond its range was probably given.
 struct SmallerUnit {
   std::string_view pointer;
   NumberRule rule;
@@ -128,7 +128,7 @@ constexpr SmallerUnit kSmallerUnits[] = {{"/length_m", kSize_m, 1e-3, "mm"},
                                          {"/half_track_m", kSize_m, 1e-3, "mm"},
                                          {"/sample_time_s", kSampleTime_s, 1e-3, "ms"}};
 
-/// Tells at each fault of a number that is too large what it would be in a smaller unit.
+/// Adds to each fault of a too large number its value in a smaller unit.
 void name_units(const Json& document, const std::string& file, std::vector<Fault>& faults) {
   for (Fault& fault : faults) {
     for (const SmallerUnit& unit : kSmallerUnits) {
@@ -153,7 +153,7 @@ Vehicle vehicle_from_json(JsonObject& json) {
   vehicle.width_m = json.number("width_m", kSize_m);
   if (json.has("drive")) vehicle.drive = json.choice("drive", kDriveNames);
   vehicle.half_track_m = json.number("half_track_m", kSize_m);
-  // Without steering, l_f only says where the front wheels touch the ground.
+  // Without steering, l_f only gives the position of the front wheels.
   vehicle.front_axle_m = vehicle.has_steering() || json.has("front_axle_m")
                              ? json.number("front_axle_m", kSize_m)
                              : vehicle.half_track_m;

@@ -12,7 +12,7 @@ namespace awmr {
 /// Errors: as read_json_file; unknown, missing or impossible values.
 Result<Vehicle> read_vehicle(const std::filesystem::path& path);
 
-/// The JSON Schema of vehicle.json, from what reads it.
+/// The JSON Schema of vehicle.json, derived from its reader.
 std::string vehicle_schema();
 
 }  // namespace awmr

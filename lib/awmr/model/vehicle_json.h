@@ -1,4 +1,4 @@
-/// The vehicle as JSON, alone (vehicle.json) and within model.json. Private to this folder: from
+/// The vehicle as JSON, as vehicle.json and within model.json. Private to this folder; include from
 /// .cpp files only.
 #pragma once
 
@@ -7,10 +7,10 @@
 
 namespace awmr {
 
-/// Reads every key of the vehicle and refuses others; faults go where `json` collects them.
+/// Reads every key of the vehicle and rejects others; faults are added to those of `json`.
 Vehicle vehicle_from_json(JsonObject& json);
 
-/// The vehicle with its defaults written out; an optional quantity that is not known has no key.
+/// The vehicle with explicit defaults; an unknown optional quantity has no key.
 Json vehicle_to_json(const Vehicle& vehicle);
 
 }  // namespace awmr

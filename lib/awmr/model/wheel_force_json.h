@@ -1,4 +1,4 @@
-/// The forces that a motor can make, as JSON: of vehicle.json and of what a search leaves open of them.
+/// Range of a motor's force as JSON: in vehicle.json and in the unmodelled variation of a search.
 /// Include from .cpp files only.
 #pragma once
 

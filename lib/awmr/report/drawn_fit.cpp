@@ -15,18 +15,19 @@ namespace {
 constexpr int kCurvePoints = 120;
 constexpr int kCoastSteps = 400;
 constexpr std::size_t kMostCoastdowns = 8;
-/// Of a normal distribution: 99 of 100 are within so many standard deviations.
+/// Normal distribution: 99 % of the values are within this number of standard deviations.
 constexpr double kWithin99 = 2.576;
-/// Where the exponent's interval tells no quantile of Student's.
+/// Used if the exponent's interval does not give a Student quantile.
 constexpr double kNormalQuantile95 = 1.96;
 
-/// Student's quantile that the interval of the exponent was made with.
+/// Student quantile that was used for the exponent's interval.
 double quantile_of_exponent(const Estimate& beta) {
   if (!beta.std_error || !(*beta.std_error > 0.0) || !beta.ci95) return kNormalQuantile95;
   return (beta.ci95->hi - beta.ci95->lo) / (2.0 * *beta.std_error);
 }
 
-/// From rest to a little beyond the fastest row, denser where the curve is steep.
+/// Computes the curve from rest to slightly above the fastest row, with more points where it is
+/// steep.
 void add_curve(const Model& model, TrialKind kind, DrawnFit& fit) {
   const auto law = fitted_law(model, kind);
   if (!law) return;
@@ -62,7 +63,8 @@ void add_left_over(const Model& model, DrawnFit& fit) {
       kWithin99 * std::sqrt(squares / static_cast<double>(fit.left_over.size() - 2));
 }
 
-/// Each initial speed once, ascending, of many those at even ranks; and the longest stop from it.
+/// Initial speeds, each once, ascending, at even ranks if there are many; and the longest stop from
+/// each.
 std::vector<std::pair<double, double>> coasts_of(const Model& model) {
   std::vector<std::pair<double, double>> coasts;
   for (const TrialPoint& trial : model.record.trials) {
@@ -70,7 +72,7 @@ std::vector<std::pair<double, double>> coasts_of(const Model& model) {
       coasts.emplace_back(trial.input, std::max(trial.measured, trial.predicted.value_or(0.0)));
     }
   }
-  // Of each speed the longest comes first, and stays.
+  // The longest stop of each speed is first and is kept.
   std::sort(coasts.begin(), coasts.end(), [](const auto& a, const auto& b) {
     return a.first != b.first ? a.first < b.first : a.second > b.second;
   });
@@ -85,7 +87,7 @@ std::vector<std::pair<double, double>> coasts_of(const Model& model) {
   return some;
 }
 
-/// By the midpoint rule; at rest it stays.
+/// Integrates by the midpoint rule; stays at rest once stopped.
 CoastdownCurve coasted(const Resistance<double>& law, double mass_norm, double speed_mps,
                        double end_s) {
   CoastdownCurve curve{speed_mps, {0.0}, {speed_mps}};

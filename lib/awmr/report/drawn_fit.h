@@ -1,5 +1,5 @@
-/// What page and figures draw of an identification: the curve through steady runs with its band,
-/// what is left over, and coast-downs by the model. Private to this folder.
+/// Curve through steady runs with its band, residuals, and modelled coast-downs, for page and
+/// figures. Private to this folder.
 #pragma once
 
 #include <cstddef>
@@ -14,46 +14,47 @@ namespace awmr {
 /// One point of the curve through steady runs, all in the unit of the trial's input.
 struct CurvePoint {
   double rate = 0.0;   ///< u in m/s or r in rad/s
-  double value = 0.0;  ///< what holds this rate: tau_speed, or tau_turn in m
-  /// Half of the 95 % confidence band at this rate; 0 where the law has no covariance.
+  double value = 0.0;  ///< input that holds this rate: tau_speed, or tau_turn in m
+  /// Half width of the 95 % confidence band at this rate; 0 without a covariance of the law.
   double half_band = 0.0;
 };
 
-/// What is left over of a row.
+/// Residual of a row.
 struct LeftOver {
-  std::size_t trial = 0;  ///< which of the model's trials
+  std::size_t trial = 0;  ///< index of the model's trial
   double percent = 0.0;   ///< (measured/predicted - 1) 100
 };
 
 /// Steady runs of one kind and the law of the model.
 struct DrawnFit {
   std::vector<std::size_t> trials =
-      {};                    ///< which of the model's trials are of this kind, never empty
-  Resistance<double> law{};  ///< with what a dead zone takes, in `coulomb`
-  std::vector<CurvePoint> curve = {};  ///< empty where the model does not know the law
+      {};                              ///< indices of the model's trials of this kind, never empty
+  Resistance<double> law{};            ///< including the effect of a dead zone, in `coulomb`
+  std::vector<CurvePoint> curve = {};  ///< empty if the model does not have the law
   bool has_band = false;
-  std::vector<LeftOver> left_over = {};  ///< empty where fewer than three rows are predicted
-  double bound_percent = 0.0;            ///< 99 of 100 rows are within, if errors are normal
+  std::vector<LeftOver> left_over = {};  ///< empty if fewer than three rows are predicted
+  double bound_percent = 0.0;            ///< contains 99 of 100 rows if errors are normal
 };
 
-/// The runs of `kind`, kSurge or kTurning; none where the model was made without such.
+/// The runs of `kind`, kSurge or kTurning; none if the model has no such runs.
 std::optional<DrawnFit> drawn_fit(const Model& model, TrialKind kind);
 
-/// A coast-down by the model: m' du/dt = -g1(u) from its initial speed to rest.
+/// A modelled coast-down: m' du/dt = -g1(u) from its initial speed to rest.
 struct CoastdownCurve {
   double initial_speed_mps = 0.0;
   std::vector<double> t_s = {};
   std::vector<double> speed_mps = {};
 };
 
-/// For each initial speed of the model's coast-downs, of many for those at even ranks; empty where
-/// there are none, or the model knows no g1 or m'.
+/// One curve per initial speed of the model's coast-downs, at even ranks if there are many. Empty
+/// if there are none, or if the model has no g1 or m'.
 std::vector<CoastdownCurve> coastdown_curves(const Model& model);
 
-/// By trial of the model: whether a warning or an error is about its row.
+/// By trial of the model: true if a warning or an error refers to its row.
 std::vector<bool> doubtful_trials(const Model& model);
 
-/// The three as the page draws them: {"surge", "turning", "coastdown"}, what there is of them.
+/// All of the above in the form used by the page: {"surge", "turning", "coastdown"}, as far as
+/// available.
 Json fits_json(const Model& model);
 
 }  // namespace awmr

@@ -16,7 +16,7 @@
 namespace awmr {
 namespace {
 
-/// The form of T2 < T1 that was required, and its margin: the limit is margin/lambda.
+/// Reads the form of T2 < T1 that was required, and its margin: the limit is margin/lambda.
 void take_reaching(JsonObject& gains, double lambda, ConstraintContext& context) {
   for (JsonObject& constraint : gains.optional_objects("constraints")) {
     const bool strict = constraint.string("name") == "T2 < T1 (strict)";
@@ -28,14 +28,15 @@ void take_reaching(JsonObject& gains, double lambda, ConstraintContext& context)
   }
 }
 
-/// How many vehicles were drawn beside the model's own, from which seed, and what was open of them.
+/// Number of sampled vehicles in addition to the model's own, their seed and their unmodelled
+/// variation.
 struct Draws {
   int count = 0;
   std::uint64_t seed = 1;
   OpenVehicle open = {};
 };
 
-/// Noise, latency and lag that robust gains were tuned under, and on which draws.
+/// Reads noise, latency and lag used for tuning robust gains, and the samples.
 Draws take_conditions(JsonObject robust, ConstraintContext& context) {
   JsonObject late = robust.object("latency");
   const double latest_s =
@@ -54,7 +55,7 @@ Draws take_conditions(JsonObject robust, ConstraintContext& context) {
   return draws;
 }
 
-/// What gains.json says of how it was tuned. Errors (input): it says so in another form.
+/// Reads the tuning conditions from gains.json. Errors (input): they have another form.
 Result<Draws> take_tuning(const Json& gains, LiveSetup& setup) {
   std::vector<Fault> faults;
   JsonObject json(gains, "gains.json", "", faults);

@@ -1,4 +1,4 @@
-/// The numbers that the live part of the page starts from. Private to this folder.
+/// Initial numbers of the interactive part of the page. Private to this folder.
 #pragma once
 
 #include <vector>
@@ -10,14 +10,15 @@
 
 namespace awmr {
 
-/// The setup of live/setup.h as the numbers that it is read back from; empty where the model does
-/// not know of turning. `gains` is gains.json: under what it was tuned (/robust, /constraints) its
-/// constraints are worked out again.
-/// Errors (input): gains.json does not say that as tune writes it.
+/// The setup of live/setup.h as numbers; empty if the model has no turning motion. `gains` is
+/// gains.json: its constraints are computed again under its tuning conditions (/robust,
+/// /constraints).
+/// Errors (input): gains.json does not have the format of tune.
 Result<std::vector<double>> live_numbers(const Model& model, const Json& gains,
                                          const Scenario& scenario);
 
-/// A scenario that the live part can run: headings to hold, and nothing else that acts.
+/// True for a scenario that the interactive part can run: headings to hold, without any other
+/// effect.
 bool is_plain_heading(const Json& scenario);
 
 }  // namespace awmr

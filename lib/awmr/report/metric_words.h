@@ -1,4 +1,4 @@
-/// What the metrics of a comparison are called in words. Private to this folder.
+/// Readable names of the metrics of a comparison. Private to this folder.
 #pragma once
 
 #include <string>
@@ -10,13 +10,13 @@ namespace awmr {
 
 struct MetricWords {
   std::string words;  ///< "settling time"
-  std::string unit;   ///< "s"; empty where dimensionless
+  std::string unit;   ///< "s"; empty if dimensionless
 };
 
-/// Of a name as in comparison.json; a metric that is not known is called by its name.
+/// For a name as in comparison.json; an unknown metric keeps its name.
 MetricWords metric_words(std::string_view name);
 
-/// All of them as the page takes them: {"settling_time_s": "settling time, s", ...}.
+/// All of them in the form used by the page: {"settling_time_s": "settling time, s", ...}.
 Json metric_words_json();
 
 }  // namespace awmr

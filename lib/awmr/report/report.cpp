@@ -20,13 +20,13 @@ extern const std::string_view kVegaJs;
 extern const std::string_view kPageHtml;
 extern const std::string_view kPageCss;
 extern const std::string_view kPageJs;
-extern const std::string_view kLiveWasm;  ///< packed, in base 64; empty: built without it
+extern const std::string_view kLiveWasm;  ///< compressed, in base 64; empty: built without it
 
 namespace {
 
 namespace fs = std::filesystem;
 
-/// JSON inside a script element: `<` is escaped, so that no text can close the element.
+/// JSON inside a script element: `<` is escaped, so that text cannot close the element.
 std::string script_safe(const Json& json) {
   std::string text;
   for (const char c : json.dump()) {
@@ -39,7 +39,8 @@ std::string script_safe(const Json& json) {
   return text;
 }
 
-/// The paper's claims are about its vehicle: mass, box, axle and track, its Table 1.
+/// True if mass, box, axle and track are those of the paper's Table 1; its claims apply only to
+/// this vehicle.
 bool is_vehicle_of_paper(const Vehicle& vehicle) {
   const auto near = [](double a, double b) { return std::abs(a - b) <= 1e-9 * b; };
   return near(vehicle.mass_kg, 37.0) && near(vehicle.length_m, 1.32) &&
@@ -47,7 +48,7 @@ bool is_vehicle_of_paper(const Vehicle& vehicle) {
          near(vehicle.half_track_m, 0.36);
 }
 
-/// Each `@name@` of the page's frame, once, replaced by its part.
+/// The page, with each `@name@` of its frame replaced once by the part of that name.
 std::string assembled(const Json& data) {
   const std::string json = script_safe(data);
   const std::array<std::pair<std::string_view, std::string_view>, 5> parts{
@@ -67,8 +68,8 @@ std::string assembled(const Json& data) {
   }
 }
 
-/// What the live part of the page begins with: the first heading scenario without anything else in
-/// it, or the paper's; absent without gains, and where the model knows nothing of turning.
+/// Adds the initial data of the interactive part: the first plain heading scenario, or the paper's.
+/// Nothing without gains, or if the model has no turning motion.
 Status add_live(const fs::path& directory, const Model& model, Json& data) {
   if (kLiveWasm.empty() || !data.contains("gains")) return {};
   Scenario scenario = heading_steps({30.0, -30.0}, {.name = "headings 30 then -30 deg"});

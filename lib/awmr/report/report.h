@@ -1,5 +1,4 @@
-/// From what lies in a directory of results: report.html, one self-contained file, and figures for
-/// print.
+/// Creates report.html, one self-contained file, and print figures from a directory of results.
 #pragma once
 
 #include <filesystem>
@@ -12,32 +11,32 @@
 
 namespace awmr {
 
-/// Reads model.json and, where present, gains.json, validation.json, comparison.json and .csv,
+/// Reads model.json and, if present, gains.json, validation.json, comparison.json and .csv,
 /// pil.json, suggest.json, the scenarios `scenario_<scenario>.json` and the runs
-/// `run_<scenario>_<mode>_<tuned|paper>.csv` with their side files. Errors (input): no model.json, or a
-/// file is broken.
+/// `run_<scenario>_<mode>_<tuned|paper>.csv` with their side files. Errors (input): no model.json,
+/// or an invalid file.
 Result<std::string> report_html(const std::filesystem::path& directory);
 
-/// The page, with what it leaves out.
+/// The page, and the results that it omits.
 struct ReportPage {
   std::string html;
-  /// Results that were left out, as they are not of this directory's model, each with its reason.
+  /// Results omitted because they do not belong to this directory's model, each with its reason.
   std::vector<Finding> left_out;
 };
 Result<ReportPage> report_page(const std::filesystem::path& directory);
 
-/// Errors (input): a file of this name is there that is no page of this program.
+/// Errors (input): a file of this name exists and is not a page of this program.
 Status check_report_page(const std::filesystem::path& path);
 
 /// The figures of a directory of results, each as SVG and as PDF.
 struct FigureSet {
   std::vector<OutputFile> files = {};  ///< NAME.svg, NAME.pdf, ...: to be written below a directory
   std::vector<std::string> names = {};    ///< without extension, in order
-  std::vector<std::string> lacking = {};  ///< what is not drawn and why, a sentence each
+  std::vector<std::string> lacking = {};  ///< missing figures and the reasons, one sentence each
 };
 
-/// The same bytes from the same files. Errors: as report_html(); a figure would hold a number that is
-/// not finite or beyond 1e100.
+/// The same files give the same bytes. Errors: as report_html(); a figure would have a number that
+/// is not finite or beyond 1e100.
 Result<FigureSet> report_figures(const std::filesystem::path& directory);
 
 }  // namespace awmr

@@ -23,14 +23,14 @@
 namespace awmr {
 namespace {
 
-/// The hashes of what lies in the directory.
+/// Hashes of the files in the directory.
 struct Origin {
   std::string model_sha256;
-  std::string gains_sha256 = {};  ///< empty: no gains.json that is of this model
+  std::string gains_sha256 = {};  ///< empty: no gains.json of this model
 };
 
-/// Why a result is left out: it was made from another model, or other gains, than those beside it. None
-/// where it was not, or names no inputs.
+/// Reason to omit a result: it was made from a model or gains other than those in the directory.
+/// None if it was made from them, or names no inputs.
 std::optional<Finding> foreign_result(const std::string& result, const Json& json,
                                       const Origin& origin) {
   const std::optional<bool> is_of_model = is_made_from(json, origin.model_sha256);
@@ -50,7 +50,7 @@ std::optional<Finding> foreign_result(const std::string& result, const Json& jso
                              *is_of_model ? "gains.json" : "model.json")};
 }
 
-/// The findings that a result's own document holds. What is none is passed over.
+/// Adds the findings in a result's document. Invalid ones are skipped.
 void add_findings_of(const Json& json, std::vector<Finding>& findings) {
   if (!json.is_object() || !json.contains("findings")) return;
   std::vector<Fault> faults;
@@ -59,8 +59,8 @@ void add_findings_of(const Json& json, std::vector<Finding>& findings) {
   if (faults.empty()) findings.insert(findings.end(), more.begin(), more.end());
 }
 
-/// Why a run is left out: its side file does not hold its hash, or names another model. Of a run that is
-/// shown the findings are added.
+/// Reason to omit a run: its side file has another hash or names another model. Adds the findings
+/// of a run that is shown.
 Result<std::optional<Finding>> foreign_run(const std::filesystem::path& directory,
                                            const std::string& name, const Origin& origin,
                                            std::vector<Finding>& findings) {
@@ -83,7 +83,8 @@ Result<std::optional<Finding>> foreign_run(const std::filesystem::path& director
   return foreign;
 }
 
-/// Of each kind, as the page shows them: those that change the numbers most first, each once.
+/// Findings in the form used by the page: those with the largest effect on the numbers first, each
+/// once.
 Json shown_findings(const std::vector<Finding>& findings) {
   std::vector<Finding> order;
   for (const Finding* finding : by_effect(findings)) {
@@ -96,7 +97,7 @@ Json shown_findings(const std::vector<Finding>& findings) {
   return findings_to_json(order);
 }
 
-/// gains.json and the other results, those of another model left out.
+/// Reads gains.json and the other results; omits those of another model.
 Status read_results(const std::filesystem::path& directory, Origin& origin, ReportData& data,
                     std::vector<Finding>& of_results) {
   for (const char* name : {"gains", "validation", "comparison", "pil", "suggest"}) {
@@ -119,7 +120,7 @@ Status read_results(const std::filesystem::path& directory, Origin& origin, Repo
   return {};
 }
 
-/// The samples of comparison.csv, where they are those of the comparison that is shown.
+/// Reads the samples of comparison.csv, if they belong to the comparison that is shown.
 Status read_own_samples(const std::filesystem::path& directory, ReportData& data) {
   const std::filesystem::path path = directory / "comparison.csv";
   AWMR_ASSIGN_OR_RETURN(const bool is_there, regular_file_exists(path));
@@ -136,7 +137,7 @@ Status read_own_samples(const std::filesystem::path& directory, ReportData& data
   return {};
 }
 
-/// Adds the findings of emit, whose manifest lies beside the results or in `firmware`.
+/// Adds the findings of emit; its manifest is next to the results or in `firmware`.
 Status add_emitted(const std::filesystem::path& directory, const Origin& origin,
                    std::vector<Finding>& findings) {
   for (const auto& folder : {directory, directory / "firmware"}) {
@@ -153,7 +154,7 @@ Status add_emitted(const std::filesystem::path& directory, const Origin& origin,
 
 Result<ReportData> read_report_data(const std::filesystem::path& directory) {
   ReportData data;
-  // Strictly first: what is shown is a model, or the fault's place is named.
+  // Strict reading first: either this is a valid model, or the error has the fault's position.
   AWMR_RETURN_IF_ERROR(check_regular_file(directory / "model.json"));
   AWMR_ASSIGN_OR_RETURN(data.model, read_model(directory / "model.json"));
   AWMR_ASSIGN_OR_RETURN(data.json["model"], read_json_file(directory / "model.json"));

@@ -1,4 +1,4 @@
-/// What a directory of results holds, read once for the page and the figures. Private to this
+/// Contents of a directory of results, read once for the page and the figures. Private to this
 /// folder.
 #pragma once
 
@@ -12,18 +12,18 @@ namespace awmr {
 
 struct ReportData {
   Model model;
-  /// As the page takes it: the files that are there under their names ("model", "gains",
+  /// In the form used by the page: the existing files under their names ("model", "gains",
   /// "validation", "comparison", "pil", "suggest"), "samples" of comparison.csv, "runs" and
-  /// "scenarios" (run_data.h), "fits" (drawn_fit.h), "metric_words", "header", and "findings" of all of
-  /// them, those that change the numbers most first.
+  /// "scenarios" (run_data.h), "fits" (drawn_fit.h), "metric_words", "header", and "findings" of
+  /// all files, those with the largest effect on the numbers first.
   Json json;
-  /// A warning for each result that was made from another model or gains than those in the directory
-  /// (`result-of-another-model`), or that does not say from which (`result-without-origin`). None of
-  /// them is in `json`.
+  /// A warning for each result that was made from another model or gains than those in the
+  /// directory (`result-of-another-model`), or that does not name its inputs
+  /// (`result-without-origin`). `json` has none of these results.
   std::vector<Finding> left_out = {};
 };
 
-/// Errors (input): no model.json, or a file is broken.
+/// Errors (input): no model.json, or an invalid file.
 Result<ReportData> read_report_data(const std::filesystem::path& directory);
 
 }  // namespace awmr

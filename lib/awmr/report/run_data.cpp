@@ -22,16 +22,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Of all runs together: a page stays below 3 MB with some 100 bytes a row.
+/// Total over all runs: a page stays below 3 MB at about 100 bytes per row.
 constexpr std::size_t kMostRows = 20000;
 constexpr std::size_t kMostRowsOfRun = 1500;
 constexpr std::size_t kFewestRowsOfRun = 100;
-/// Marks beside each other in a chart of the samples.
+/// Maximum number of marks per row in a chart of the samples.
 constexpr std::size_t kMostSamples = 60;
-/// As in the metrics (simulate/metrics.h): at rest there is no sideslip angle.
+/// As in the metrics (simulate/metrics.h): below this speed there is no sideslip angle.
 constexpr double kMovingMps = 0.05;
 
-/// One signal of a run: its name in the page and its values.
+/// One signal of a run: its name in the page, and its values.
 struct RunSignal {
   std::string name;
   std::vector<double> values;
@@ -87,8 +87,8 @@ Json columns_of(const CsvTable& table, std::size_t most_rows) {
   return columns;
 }
 
-/// The names of a directory's files that match as a whole, in order, each with its groups.
-/// Errors (input): the directory cannot be read; one of them is no regular file.
+/// Names of a directory's files that match the whole pattern, sorted, each with its groups. Errors
+/// (input): the directory cannot be read; a match is not a regular file.
 Result<std::vector<std::vector<std::string>>> matching_files(const fs::path& directory,
                                                              const std::regex& pattern) {
   AWMR_ASSIGN_OR_RETURN(const std::vector<fs::path> entries, list_directory(directory));
@@ -103,7 +103,7 @@ Result<std::vector<std::vector<std::string>>> matching_files(const fs::path& dir
   return files;
 }
 
-/// At most kMostSamples of them, the least and the largest among these.
+/// At most kMostSamples values, including the smallest and the largest.
 Json at_even_ranks(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   const std::size_t count = std::min(values.size(), kMostSamples);

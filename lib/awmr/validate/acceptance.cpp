@@ -21,7 +21,7 @@ namespace {
 
 constexpr double kLevel = 0.95;
 constexpr double kShortest_s = 2.0;
-/// The stream of the noise that is added to a draw's readings, apart from those of the simulator.
+/// Random stream of the noise added to a draw's readings, separate from the simulator's streams.
 constexpr std::uint64_t kReadingsStream = std::uint64_t{1} << 40;
 
 Status check_options(const AcceptanceOptions& options) {
@@ -29,7 +29,7 @@ Status check_options(const AcceptanceOptions& options) {
   return input_error("draws", fmt::format("expected 39 to 10000, got {}", options.draws));
 }
 
-/// The least value that `share` of the values do not exceed.
+/// The smallest value that at least a fraction `share` of the values do not exceed.
 double quantile_of(std::vector<double> values, double share) {
   std::sort(values.begin(), values.end());
   const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(values.size())));
@@ -43,8 +43,8 @@ State<double> moved_by(State<double> state, const State<double>& error, Random& 
   return state;
 }
 
-/// A lateness or a lag that the vehicle does not give lies anywhere between none and twice what is
-/// usual.
+/// Draws each latency or lag that the vehicle file does not give, uniformly between 0 and twice its
+/// usual value.
 LoopConditions drawn(LoopConditions c, const Vehicle& vehicle, Random& random) {
   const auto draw = [&](const std::optional<double>& given, double& value) {
     const double share = 2.0 * random.uniform();
@@ -57,9 +57,9 @@ LoopConditions drawn(LoopConditions c, const Vehicle& vehicle, Random& random) {
   return c;
 }
 
-/// A drive that is foretold, as far as it is compared.
+/// The compared part of a predicted drive.
 struct Foretold {
-  double end_s = 0.0;                ///< of the run; windows beyond it mean nothing
+  double end_s = 0.0;                ///< of the run; later windows are invalid
   std::vector<WindowMeans> windows;  ///< by channel
 };
 
@@ -72,7 +72,7 @@ Foretold foretold_from(const Run& run, const std::vector<DriveChannel>& channels
   return drive;
 }
 
-/// The drives that are foretold.
+/// Simulates the predicted drives.
 Result<std::vector<Foretold>> foretold_drives(const Model& model,
                                               const Controller<double>& controller,
                                               const Scenario& scenario,
@@ -109,7 +109,7 @@ Result<std::vector<Foretold>> foretold_drives(const Model& model,
   return drives;
 }
 
-/// Mean and standard deviation of the foretold window means of a channel.
+/// Mean and standard deviation of the predicted window means of a channel.
 ForetoldSeries foretold_of(const DriveChannel& channel, const std::vector<WindowMeans>& draws) {
   const std::size_t windows = draws.front().mean.size();
   const auto n = static_cast<double>(draws.size());
@@ -120,7 +120,7 @@ ForetoldSeries foretold_of(const DriveChannel& channel, const std::vector<Window
     for (const WindowMeans& draw : draws) squares += std::pow(draw.mean[w] - series.mean[w], 2);
     series.spread[w] = std::sqrt(squares / (n - 1.0));
   }
-  // Where all draws agree to rounding, as a command at its limit does, the distance is still finite.
+  // If all draws agree except for rounding, like a command at its limit, the distance stays finite.
   const double most = *std::max_element(series.spread.begin(), series.spread.end());
   double size = channel.noise;
   for (const double mean : series.mean) size = std::max(size, std::abs(mean));
@@ -129,7 +129,7 @@ ForetoldSeries foretold_of(const DriveChannel& channel, const std::vector<Window
   return series;
 }
 
-/// The distances of a series from what is foretold, by window; 0 where nothing was measured.
+/// Distances of a series from the prediction, by window; 0 without a measurement.
 std::vector<double> distances(const WindowMeans& windows, const ForetoldSeries& foretold) {
   std::vector<double> all(windows.mean.size());
   for (std::size_t w = 0; w < all.size(); ++w) {
@@ -149,13 +149,13 @@ int samples_in(const WindowMeans& windows) {
   return std::accumulate(windows.rows.begin(), windows.rows.end(), 0);
 }
 
-/// A channel of the drive, of all foretold drives, and what they scatter.
+/// A channel of the drive and of all predicted drives, with the scatter of the predictions.
 struct Compared {
   DriveChannel channel;
   WindowMeans measured;
   ForetoldSeries foretold;
   std::vector<double> largest;  ///< by draw
-  double usual = 0.0;           ///< what 95 % of the draws keep to in this channel
+  double usual = 0.0;           ///< not exceeded by 95 % of the draws in this channel
 };
 
 Compared compare_channel(const DriveChannel& channel, std::vector<WindowMeans> draws,
@@ -172,7 +172,7 @@ Compared compare_channel(const DriveChannel& channel, std::vector<WindowMeans> d
   return one;
 }
 
-/// Over all channels: the factor of its usual distance that a drive reaches, by draw.
+/// By draw: the largest ratio of distance to usual distance over all channels.
 std::vector<double> factors_of_draws(const std::vector<Compared>& channels, std::size_t draws) {
   std::vector<double> factors(draws);
   for (const Compared& one : channels) {
@@ -203,7 +203,7 @@ ChannelAcceptance judged(const Compared& one, double factor) {
   return result;
 }
 
-/// Whether the vehicle says how noisy a sensor of the controller's is.
+/// True if the vehicle file gives the noise of this sensor of the controller.
 bool is_given(const std::string& channel, const SensorQuality& sensors) {
   if (channel == info(LogChannel::kHeading).name) return sensors.heading_deg.has_value();
   if (channel == info(LogChannel::kYawRate).name) return sensors.yaw_rate_degps.has_value();
@@ -222,7 +222,8 @@ std::vector<Compared> compare(const std::vector<DriveChannel>& channels,
   return all;
 }
 
-/// The channels, each with what it is allowed, and the place of the drive among the foretold ones.
+/// Evaluates the channels with their allowed distances, and the rank of the drive among the
+/// predicted ones.
 void take_verdict(const std::vector<Compared>& channels, Acceptance& result) {
   const std::vector<double> factors = factors_of_draws(channels, at(result.draws));
   const double allowed = quantile_of(factors, kLevel);
@@ -231,7 +232,7 @@ void take_verdict(const std::vector<Compared>& channels, Acceptance& result) {
     result.channels.push_back(judged(one, allowed));
     reached = std::max(reached, result.channels.back().distance / one.usual);
   }
-  // The drive counts among those that are as far off: of n + 1 alike, each place is as likely.
+  // The drive itself counts: under the null hypothesis, all n + 1 ranks are equally likely.
   const auto as_far = std::count_if(factors.begin(), factors.end(),
                                     [&](double factor) { return factor >= reached; });
   result.p_value = static_cast<double>(as_far + 1) / static_cast<double>(factors.size() + 1);

@@ -13,7 +13,7 @@ std::optional<Circle> fit_circle(std::span<const Point> points) {
     mean.x_m += p.x_m / n;
     mean.y_m += p.y_m / n;
   }
-  // About the mean, with z = x^2 + y^2, the normal equations are
+  // Relative to the mean, with z = x^2 + y^2, the normal equations are
   //   [Sxx Sxy] [cx]   1 [Sxz]
   //   [Sxy Syy] [cy] = - [Syz]    and  R^2 = cx^2 + cy^2 + (Sxx + Syy)/n.
   //                    2
@@ -29,7 +29,7 @@ std::optional<Circle> fit_circle(std::span<const Point> points) {
     syz += y * z;
   }
   const double determinant = sxx * syy - sxy * sxy;
-  // On a line one eigenvalue of the scatter is 0; 1e-12 of the other is rounding.
+  // For points on a line, one eigenvalue of the scatter is 0; 1e-12 of the other is rounding.
   if (!(determinant > 1e-12 * (sxx + syy) * (sxx + syy))) return std::nullopt;
   const double cx = 0.5 * (syy * sxz - sxy * syz) / determinant;
   const double cy = 0.5 * (sxx * syz - sxy * sxz) / determinant;

@@ -1,4 +1,4 @@
-/// The circle nearest to a set of points.
+/// Fits a circle to points.
 #pragma once
 
 #include <optional>
@@ -20,7 +20,7 @@ struct Circle {
 };
 
 /// Least squares on  x^2 + y^2 = 2 cx x + 2 cy y + (R^2 - cx^2 - cy^2)  (Kasa's algebraic fit:
-/// exact on exact circles, linear, biased to small radii only on short noisy arcs). Nothing for
+/// exact for exact circles, linear, biased to small radii only for short noisy arcs). Nothing for
 /// fewer than three points or points on a line.
 std::optional<Circle> fit_circle(std::span<const Point> points);
 

@@ -10,8 +10,8 @@
 namespace awmr {
 namespace {
 
-/// Steady yaw rate of the largest moment that a mode can make while tau_speed holds the speed:
-/// r = (moment/a3)^(1/b3).
+/// Steady yaw rate at the largest moment of a mode while tau_speed holds the speed: r =
+/// (moment/a3)^(1/b3).
 double largest_yaw_rate_radps(const Plant<double>& plant, const AllocationLimits<double>& limits,
                               YawMode mode, double speed_mps) {
   constexpr double kMoreThanAnyMoment_m = 1e3;
@@ -92,7 +92,7 @@ std::vector<Claim> check_claims(const Model& model, const Plant<double>& plant,
     for (Claim& claim : check_heading_claims(setting)) {
       claims.push_back(std::move(claim));
     }
-    // C13 goes after C8 to C12.
+    // C13 follows C8 to C12.
     const auto driven = claims.end() - 1;
     std::vector<Claim> guided = check_guidance_claims(setting);
     claims.insert(driven, std::make_move_iterator(guided.begin()),

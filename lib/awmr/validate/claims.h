@@ -1,8 +1,8 @@
-/// What the paper claims, each checked by simulating this model.
+/// Checks of the paper's claims by simulating this model.
 ///
-/// The paper's words ("fast", "slight", "no overshoot") carry no numbers: what counts as reproduced
-/// is written beside each check and into the output. A claim that fails is reported as not
-/// reproduced, with the figure that says so. Private to this folder.
+/// The paper's terms ("fast", "slight", "no overshoot") have no numbers. The criterion for a
+/// reproduced claim is given with each check and in the output. A claim that fails is reported as
+/// not reproduced, with the figure. Private to this folder.
 #pragma once
 
 #include <algorithm>
@@ -33,22 +33,22 @@ struct ModeRun {
 };
 using ModeRuns = std::array<ModeRun, std::size(kYawModes)>;
 
-/// simulate(), where a run that the simulator refuses is one row that ends as kFailed: whatever is
-/// claimed of it is not reproduced.
+/// simulate(); a run that the simulator refuses becomes one row that ends as kFailed, so that its
+/// claims are not reproduced.
 Run run_or_failed(const Model& model, const Gains<double>& gains, const Scenario& scenario,
                   YawMode mode);
-/// The scenario in all three modes. Precondition: the model has every parameter, and an interval
-/// for each of the scenario's corner.
+/// Runs the scenario in all three modes. Precondition: the model has every parameter, and an
+/// interval for each of the scenario's corner.
 ModeRuns run_modes(const Model& model, const Gains<double>& gains, const Scenario& scenario,
                    const BatchArithmetic& arithmetic);
 
-/// What the claims are simulated with.
+/// Common inputs of the claims' simulations.
 struct ClaimSetting {
   const Model& model;
-  const Plant<double>& plant;  ///< the model's
+  const Plant<double>& plant;  ///< of the model
   const Gains<double>& gains;
-  BatchArithmetic arithmetic;   ///< of the runs
-  ControlOptions control = {};  ///< of every scenario
+  BatchArithmetic arithmetic;   ///< for the runs
+  ControlOptions control = {};  ///< for every scenario
 
   ModeRuns run(Scenario scenario) const {
     scenario.control = control;
@@ -61,7 +61,7 @@ bool all_modes(const ModeRuns& runs, Condition condition) {
   return std::all_of(runs.begin(), runs.end(), condition);
 }
 
-/// Where the condition that a claim makes of every mode holds.
+/// By mode: true if the condition of a claim holds.
 template <class Condition>
 std::vector<ClaimInMode> verdicts_by_mode(const ModeRuns& runs, Condition condition) {
   std::vector<ClaimInMode> verdicts;
@@ -77,21 +77,21 @@ Claim check_circle(const Model& model, const Plant<double>& plant,
                    const ControlOptions& control = {});
 /// C14: lambda 3, mu 50, eps 12 give T1 = 0.33 s and T2 = 0.12 s.                [paper 4.1]
 Claim check_time_constants(const std::optional<Gains<double>>& gains);
-/// C3 to C7 from one set of runs, then C13.                             [paper 4.3, section 6]
+/// C3 to C7 from one set of runs, and C13.                            [paper 4.3, section 6]
 std::vector<Claim> check_heading_claims(const ClaimSetting& setting);
 
 /// C8 to C12: waypoints, line, obstacles, timed path, best modes.           [paper 5, section 7]
 std::vector<Claim> check_guidance_claims(const ClaimSetting& setting);
 
-/// Longest time that settling may take to be called fast, see C3: what the mode's largest steady
-/// yaw rate needs for the step, plus 4 (T1 + 2 T2) of the paper's gains: e^-4 = 1.8 %, within the 2
-/// % band; S decays with 2 T2, then e with T1.
+/// Longest settling time that counts as fast, see C3: the time for the step at the mode's largest
+/// steady yaw rate, plus 4 (T1 + 2 T2) of the paper's gains. e^-4 = 1.8 % is within the 2 % band; S
+/// decays with 2 T2, then e with T1.
 double allowed_settling_s(const Plant<double>& plant, const Vehicle& vehicle, YawMode mode,
                           double step_rad, double speed_mps);
-/// Turning points of a signal: how often it goes back by more than `band` from its last extreme.
+/// Number of reversals of a signal by more than `band` from its last extreme.
 int reversals(std::span<const double> signal, double band);
 
-/// In the paper's order; with gains, all; without, those that need none.
+/// Checks all claims in the paper's order; without gains, only those that need none.
 std::vector<Claim> check_claims(const Model& model, const Plant<double>& plant,
                                 const std::optional<Gains<double>>& gains,
                                 const BatchArithmetic& arithmetic,

@@ -18,8 +18,8 @@ std::string holds_in(const std::vector<ClaimCase>& cases) {
   return fmt::format("{} of {}", reproduced, cases.size());
 }
 
-/// "holds in 4 of 24 (differential 24 of 24, ...); decided by allocation (4 of 12)", empty where the
-/// claim was not judged over what the paper leaves open.
+/// "holds in 4 of 24 (differential 24 of 24, ...); decided by allocation (4 of 12)". Empty if the
+/// claim was not evaluated over the settings that the paper leaves open.
 std::string over_open_cases(const Claim& claim) {
   if (claim.cases.empty()) return {};
   std::string modes;
@@ -32,7 +32,7 @@ std::string over_open_cases(const Claim& claim) {
                      claim.decided_by.empty() ? "" : "; decided by " + claim.decided_by);
 }
 
-/// A cell of a Markdown table: '|' would end it.
+/// Escapes '|', which would end a cell of a Markdown table.
 std::string cell(std::string text) {
   for (std::size_t at = text.find('|'); at != std::string::npos; at = text.find('|', at + 2)) {
     text.insert(at, 1, '\\');

@@ -14,9 +14,9 @@
 namespace awmr {
 namespace {
 
-/// White noise by the second differences, which leave little of a smooth motion:
+/// Estimates white noise from second differences, which a smooth motion hardly affects:
 ///   Var(x_(k+1) - 2 x_k + x_(k-1)) = 6 sigma^2.
-/// A coarse sensor's step q is noise of q/sqrt(12) at least.
+/// Lower bound for a sensor with quantisation step q: q/sqrt(12).
 double white_noise(const std::vector<double>& values, double quantum) {
   const double least = quantum / std::sqrt(12.0);
   if (values.size() < 10) return least;
@@ -28,7 +28,7 @@ double white_noise(const std::vector<double>& values, double quantum) {
   return std::max(least, spread / std::sqrt(6.0));
 }
 
-/// A sensor of the controller's: its errors in the scenario, and what it was read as.
+/// A sensor of the controller: its errors in the scenario, and its reading.
 struct ControllersSensor {
   Channel Sensors::*errors;
   double Measurement<double>::*reading;
@@ -50,7 +50,7 @@ std::size_t window_of(double t_s) {
   return static_cast<std::size_t>(std::floor(t_s / kWindow_s + 1e-9));
 }
 
-/// In the run's row that is nearest in time; after its end the last.
+/// Value in the run's row that is nearest in time; after the end, that of the last row.
 double at_time(const DriveChannel& channel, const Run& run, double sample_time_s, double t_s) {
   const auto row = static_cast<std::size_t>(t_s / sample_time_s + 0.5);
   return channel.of_run(run.rows[std::min(row, run.rows.size() - 1)]);
@@ -73,7 +73,7 @@ WindowMeans means(const DriveChannel& channel, double duration_s, const Value& v
   return windows;
 }
 
-/// The rows of the log that a channel was measured in.
+/// Reads the rows of the log in which a channel was measured.
 template <class Counts, class Value>
 void take_rows(const DrivingLog& log, std::size_t first, double duration_s, const Counts& counts,
                const Value& value, DriveChannel& channel) {

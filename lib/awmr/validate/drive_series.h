@@ -1,5 +1,4 @@
-/// A drive and the runs that foretell it as series of window means, channel by channel. Private to
-/// this folder.
+/// A drive and its predictions as series of window means, by channel. Private to this folder.
 #pragma once
 
 #include <cstddef>
@@ -15,57 +14,58 @@
 
 namespace awmr {
 
-/// One channel of a drive, from where the scenario begins.
+/// One channel of a drive, from the beginning of the scenario.
 struct DriveChannel {
   std::string name;
   std::string unit;
-  /// What a run's row says of it: what the controller was told, where it is told this at all.
+  /// Value in a run's row: the controller's reading, if the controller has this sensor.
   std::function<double(const RunRow& row)> of_run;
   double noise = 0.0;           ///< standard deviation of a reading
-  bool noise_from_log = false;  ///< estimated, as nobody gives it
-  bool noise_in_run = false;    ///< the rows of a run have it already
-  std::vector<double> t_s;      ///< of the scenario, by row that was measured
+  bool noise_from_log = false;  ///< estimated, because it is not given
+  bool noise_in_run = false;    ///< the rows of a run include it already
+  std::vector<double> t_s;      ///< scenario time of each measured row
   std::vector<double> measured;
 };
 
-/// The means of half seconds, and how many rows each is of.
+/// Means over half seconds, and the number of rows in each.
 struct WindowMeans {
   std::vector<double> mean;
   std::vector<int> rows;
 };
 inline constexpr double kWindow_s = 0.5;
 
-/// The state in which the drive begins.
+/// State at the beginning of the drive.
 struct DriveStart {
   State<double> state{};
-  State<double> error{};  ///< standard deviation of what was read of it
+  State<double> error{};  ///< standard deviation of the measured components
 };
 
-/// The first row that commands anything, or that at or after from_s, which is no time before the log.
-/// Errors (input): there is none.
+/// The first row with a command, or the first row at or after from_s, which must not be before the
+/// log. Errors (input): there is none.
 Result<std::size_t> first_row_of(const DrivingLog& log, const std::optional<double>& from_s);
 
-/// The noise of a channel's readings from row `first` on, taken to be white.
-/// Precondition: the log has the channel.
+/// Noise of a channel's readings from row `first` on, assumed to be white. Precondition: the log
+/// has the channel.
 double noise_in(const DrivingLog& log, LogChannel which, std::size_t first);
 
-/// The vehicle's conditions; noise that it does not give is that of the log's readings.
+/// The vehicle's conditions; missing noise is estimated from the log.
 LoopConditions conditions_in(const DrivingLog& log, std::size_t first, const Vehicle& vehicle);
 
-/// The channels that the log has, over duration_s from its row `first`. Noise of the
-/// controller's sensors is the scenario's, which has to have them, that of others the log's own.
+/// The channels of the log, over duration_s from row `first`. The noise of the controller's sensors
+/// is taken from the scenario, which must have it; that of other channels is estimated from the
+/// log.
 std::vector<DriveChannel> channels_of(const DrivingLog& log, std::size_t first, double duration_s,
                                       const Scenario& scenario);
 
-/// The readings up to the first row, of half a second at most, in place of the scenario's initial
-/// state where there are any.
+/// Initial state from the readings up to the first row (at most half a second); the scenario's
+/// initial state where there are none.
 DriveStart start_of(const DrivingLog& log, std::size_t first,
                     const std::vector<DriveChannel>& channels, const Scenario& scenario);
 
-/// Only windows that end by duration_s.
+/// Means of the windows that end by duration_s.
 WindowMeans means_of(const DriveChannel& channel, double duration_s);
-/// What would have been recorded of the run at the same times. random: for the noise that its rows
-/// are without; nullptr for none.
+/// Means of the run at the times of the log's rows. random: adds noise that the run's rows do not
+/// include; nullptr: none.
 WindowMeans means_of(const DriveChannel& channel, const Run& run, double sample_time_s,
                      double duration_s, Random* random);
 

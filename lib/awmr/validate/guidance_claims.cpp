@@ -1,4 +1,4 @@
-// C8 to C12: waypoints, lines, obstacles, timed paths, and which mode is best for what.
+// C8 to C12: waypoints, lines, obstacles, timed paths, and the best mode for each purpose.
 
 #include <fmt/format.h>
 
@@ -12,13 +12,13 @@
 namespace awmr {
 namespace {
 
-/// "d tends to 0": over the last quarter of the line, a hundredth of the lane's half width.
+/// "d tends to 0": over the last quarter of the line, within a hundredth of the lane's half width.
 constexpr double kOnTheLineShare = 0.01;
-/// "Alike": finishing times, and their excess over the quickest mode's.
+/// "Alike": maximum relative difference of finishing times from the quickest mode's.
 constexpr double kAlikeShare = 0.10;
-/// "Well followed": a twentieth of the path's width of 20 m, about what a figure shows.
+/// "Well followed": a twentieth of the path's width of 20 m, about the resolution of a figure.
 constexpr double kPathTolerance_m = 1.0;
-/// A figure counts as equal to the best one if it differs by less than this share.
+/// A figure counts as equal to the best one if the relative difference is below this.
 constexpr double kAsGoodShare = 0.01;
 
 double largest_steering_deg(const ModeRun& run) {
@@ -143,7 +143,7 @@ Claim obstacles_avoided(const ClaimSetting& setting) {
                             "paper's own rule is lost with its figure, this is the project's"};
 }
 
-/// Largest distance from the path's point of the time.
+/// Largest distance from the path's point at the same time.
 double off_path_m(const ModeRun& run) {
   double largest = 0.0;
   for (const RunRow& row : run.run.rows) {
@@ -152,7 +152,7 @@ double off_path_m(const ModeRun& run) {
   return largest;
 }
 
-/// The path's least radius of curvature, |p_dot|^3/|p_dot x p_ddot|.
+/// The path's smallest radius of curvature, |p_dot|^3/|p_dot x p_ddot|.
 double least_radius_m(const Lissajous<double>& path, double duration_s) {
   double least = 1e300;
   for (double t_s = 0.0; t_s < duration_s; t_s += 0.1) {
@@ -189,10 +189,10 @@ Claim timed_path_followed(const ClaimSetting& setting) {
           .modes = verdicts_by_mode(open, followed)};
 }
 
-/// Speed below u_d at most, once reached.
+/// Largest drop of the speed below u_d after u_d was first reached.
 std::optional<double> drop_mps(const ModeRun& run) { return run.metrics.speed_drop_mps; }
 
-/// Whether `mode` has the least value or is within kAsGoodShare of it.
+/// True if `mode` has the smallest value or is within kAsGoodShare of it.
 template <class Value>
 bool is_best(const ModeRuns& runs, YawMode mode, Value value) {
   const auto own = value(in_mode(runs, mode));

@@ -15,11 +15,12 @@ namespace {
 
 const std::vector<double> kDriven_deg{30.0, 45.0};  ///< headings of the experiment     [paper 6]
 
-/// "Without overshoot": within what a figure of the paper would show, and the least settling band
-/// of metrics.h.
+/// "Without overshoot": not visible in a figure of the paper; also the smallest settling band of
+/// metrics.h.
 constexpr double kNoOvershoot_deg = 0.5;
-/// A command chatters when it reverses by more than 1 % of its range more than once a second, on
-/// average over the run. A discontinuous law reverses at up to every second sample: 50 a second.
+/// A command chatters if it reverses by more than 1 % of its range more than once per second, on
+/// average over the run. A discontinuous law reverses at up to every second sample: 50 times per
+/// second.
 constexpr double kReversalBand = 0.01;
 constexpr double kReversalsPerSecond = 1.0;
 constexpr double kYawRateMax_degps = 20.0;  ///< [paper 6]
@@ -82,8 +83,8 @@ bool same_heading_gains(const HeadingGains<double>& a, const HeadingGains<double
          1e-9;
 }
 
-/// How fast differential turns decides its sideslip, so other gains than the paper's are shown
-/// beside the paper's.
+/// The sideslip in differential mode depends on its yaw rate, so results for other gains are shown
+/// next to those for the paper's gains.
 Claim sideslip_smallest(const HeadingSetting& setting, const ModeRuns& runs) {
   const auto sideslip = [](const ModeRun& run) -> std::optional<double> {
     return run.metrics.sideslip_max_deg;
@@ -116,7 +117,7 @@ Claim sideslip_smallest(const HeadingSetting& setting, const ModeRuns& runs) {
   return claim;
 }
 
-/// Most reversals per second of F'L, F'R and d_r as commanded.
+/// Largest number of reversals per second of the commanded F'L, F'R and d_r.
 double reversals_per_second(const Model& model, const ModeRun& run) {
   std::vector<double> left, right, steering;
   for (const RunRow& row : run.run.rows) {

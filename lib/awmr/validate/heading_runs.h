@@ -1,4 +1,4 @@
-/// The runs behind the heading and speed claims. Private to this folder.
+/// Runs for the heading and speed claims. Private to this folder.
 #pragma once
 
 #include <fmt/format.h>
@@ -19,7 +19,7 @@ inline constexpr double kSpeed_mps = 1.0;                      ///< u_d         
 inline const std::vector<double> kSimulated_deg{30.0, -30.0};  ///< headings      [paper 4.3]
 inline constexpr double kLargestStep_deg = 60.0;               ///< of any sequence here
 
-/// Figures are given to 1e-4: what is smaller is rounding, not result.
+/// Rounds figures to 1e-4: smaller values are rounding errors.
 inline double to_figure(double value) { return std::round(value * 1e4) / 1e4 + 0.0; }
 
 /// "differential 0.1, steering 0.2, combined 0.3 UNIT"
@@ -39,12 +39,12 @@ inline const ModeRun& in_mode(const ModeRuns& runs, YawMode mode) {
                        [mode](const ModeRun& run) { return run.mode == mode; });
 }
 
-/// The loop that the heading claims run.
+/// Setting of the heading claims' runs.
 struct HeadingSetting : ClaimSetting {
   double allowed_s(YawMode mode) const {
     return allowed_settling_s(plant, model.vehicle, mode, radians(kLargestStep_deg), kSpeed_mps);
   }
-  /// Long enough for every mode to be allowed to settle, at most two minutes.
+  /// Long enough for every mode to settle within its limit, at most two minutes.
   double hold_s() const {
     double longest_s = 10.0;
     for (const YawMode mode : kYawModes) longest_s = std::max(longest_s, 1.5 * allowed_s(mode));
@@ -57,9 +57,9 @@ struct HeadingSetting : ClaimSetting {
   }
 };
 
-/// C4, on the runs of 30 then -30 deg.
+/// C4, from the runs with 30 then -30 deg.
 Claim check_speed_converges(const HeadingSetting& setting, const ModeRuns& runs);
-/// C5, on the same runs and, for the figure, with other force limits.
+/// C5, from the same runs and, for the figure, runs with other force limits.
 Claim check_speed_held(const HeadingSetting& setting, const ModeRuns& runs);
 
 }  // namespace awmr

@@ -12,7 +12,7 @@
 namespace awmr {
 namespace {
 
-/// The first row that steers, or drives the sides apart.
+/// The first row with a steering command or different left and right forces.
 std::optional<std::size_t> first_turning_row(const DrivingLog& log) {
   for (std::size_t row = 0; row < log.rows(); ++row) {
     const bool straight =
@@ -22,8 +22,8 @@ std::optional<std::size_t> first_turning_row(const DrivingLog& log) {
   return std::nullopt;
 }
 
-/// The log's commands and its speed, which is all that straight motion predicts.
-/// Errors (input): the log turns; it has no speed.
+/// The log's commands and its speed, the only prediction of straight motion. Errors (input): the
+/// log turns; it has no speed.
 Result<DrivingLog> straight_part(const DrivingLog& log, const Model& model) {
   if (const auto row = first_turning_row(log)) {
     Error error = model.plant().error();
@@ -45,7 +45,7 @@ Result<DrivingLog> straight_part(const DrivingLog& log, const Model& model) {
   return part;
 }
 
-/// Of a channel's readings so many are looked at, and so many drawn.
+/// Maximum number of a channel's readings evaluated, and drawn.
 constexpr std::size_t kMostInSeries = 100000;
 constexpr std::size_t kMostDrawn = 1000;
 
@@ -60,7 +60,7 @@ PredictedSeries drawn(const PredictedSeries& all) {
   return some;
 }
 
-/// Errors (input): a replay left the finite numbers.
+/// Errors (input): a replay gave non-finite numbers.
 Status check_finite(const LogValidation& validation) {
   for (const ChannelValidation& channel : validation.channels) {
     if (std::isfinite(channel.one_step.nrmse) && std::isfinite(channel.long_horizon.nrmse))

@@ -1,4 +1,4 @@
-/// The model against driving logs, best those that it was not fitted to.
+/// Validates the model on driving logs, preferably logs that were not fitted.
 #pragma once
 
 #include <string>
@@ -14,16 +14,16 @@ struct ChannelValidation {
   std::string channel;  ///< "yaw_rate_radps"
   std::string unit;
   int samples = 0;
-  PredictionError one_step;      ///< from the last measured row to the next
-  PredictionError long_horizon;  ///< by the commands alone over windows of `horizon_s`
-  PredictedSeries series = {};   ///< as many readings of the long horizon as a chart needs
+  PredictionError one_step;      ///< from one measured row to the next
+  PredictionError long_horizon;  ///< from the commands alone over windows of `horizon_s`
+  PredictedSeries series = {};   ///< long horizon, reduced to the readings for a chart
 };
 
 struct LogValidation {
   std::string file;
   double horizon_s = 0.0;
   std::vector<ChannelValidation> channels;
-  bool passed = false;  ///< every channel's long-horizon NRMSE within the tolerance
+  bool passed = false;  ///< the long-horizon NRMSE of every channel is within the tolerance
 };
 
 /// A channel that does not vary (a log at rest) has no NRMSE and is left out. `motor_lag_s`: the time
@@ -31,10 +31,11 @@ struct LogValidation {
 LogValidation validate_log(const DrivingLog& log, const Plant<double>& plant, double horizon_s,
                            double tolerance, double motor_lag_s = 0.0);
 
-/// The same with what the model knows. Where that is straight motion alone (simulated_motion() of
-/// model/model.h), the log has to drive straight on, and its speed is predicted.
-/// Errors (input): the replay diverges; g1 or m' is missing; the log turns, or has no speed_mps, and the model knows
-/// straight motion alone: where it turns, and what is missing by name.
+/// As above, for a model that can be incomplete. If it has only straight motion (simulated_motion()
+/// of model/model.h), the log must drive straight, and its speed is predicted.
+/// Errors (input): the replay diverges; g1 or m' is missing; the log turns or has no speed_mps, and
+/// the model has only straight motion. The message says where the log turns and which parameters
+/// are missing.
 Result<LogValidation> validate_log(const DrivingLog& log, const Model& model, double horizon_s,
                                    double tolerance);
 

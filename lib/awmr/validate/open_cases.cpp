@@ -17,7 +17,7 @@
 namespace awmr {
 namespace {
 
-/// By how much m' has to be larger for the tyres to carry the full thrust.
+/// Factor by which m' must increase for the tyres to carry the full thrust.
 double mass_factor(const Model& model) {
   const double least_mass_norm = kFullThrust / (kTyreFriction * kGravity_mps2);
   return least_mass_norm / *model[ParameterId::kMassNorm].value;
@@ -43,11 +43,11 @@ ClaimCase judged(ClaimCase open, bool reproduced) {
   return open;
 }
 
-/// A setting as a number, and a case's other settings as one.
+/// Key of a case: all settings except one, as numbers.
 using Key = std::tuple<int, double, double, double, int>;
 struct Setting {
   std::string_view name;
-  std::function<void(ClaimCase&)> forget;  ///< makes it the same in every case
+  std::function<void(ClaimCase&)> forget;  ///< sets it to the same value in every case
 };
 
 Key key_of(const ClaimCase& open) {
@@ -55,9 +55,10 @@ Key key_of(const ClaimCase& open) {
           open.mass_factor, static_cast<int>(open.split)};
 }
 
-/// In how many places all other settings leave the verdict to this one, and of how many.
+/// Number of combinations of the other settings in which this setting decides the verdict, and
+/// their total.
 std::pair<int, int> places_decided(const std::vector<ClaimCase>& cases, const Setting& setting) {
-  std::map<Key, std::pair<bool, bool>> places;  // reproduced somewhere, not reproduced somewhere
+  std::map<Key, std::pair<bool, bool>> places;  // reproduced in a case, not in another
   for (const ClaimCase& open : cases) {
     ClaimCase others = open;
     setting.forget(others);

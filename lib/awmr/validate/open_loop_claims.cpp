@@ -1,4 +1,4 @@
-// C1, C2 and C14: what needs no feedback.
+// C1, C2 and C14: claims that need no feedback.
 
 #include <fmt/format.h>
 
@@ -16,13 +16,13 @@ namespace {
 
 constexpr double kCircleTurn_m = 0.4;  ///< the paper's constant tau_turn [paper 3.5.2]
 
-/// Agreement with the steady speed solved from g1(u) = tau_speed: the run lasts long enough for
-/// the transient to be gone, what remains is the integrator's error, far below this.
+/// Tolerance for the steady speed solved from g1(u) = tau_speed: the run outlasts the transient,
+/// and the integrator's error is far below this.
 constexpr double kSteadyTolerance = 1e-3;
-/// Agreement with a measured speed: Table 2 disagrees with itself by 5 % (10 m/9.26 s is 1.080
-/// m/s, printed 1.03), so no model can be held to less.
+/// Tolerance for a measured speed: Table 2 is inconsistent by 5 % (10 m/9.26 s is 1.080 m/s,
+/// printed 1.03), so a stricter limit is not meaningful.
 constexpr double kMeasuredTolerance = 0.05;
-/// Largest distance of the last turn from its circle, over the radius.
+/// Largest distance of the last turn from its circle, divided by the radius.
 constexpr double kCircleTolerance = 0.01;
 
 Run run_open_loop(const Model& model, YawMode mode, OpenLoop forces, double duration_s,
@@ -33,7 +33,7 @@ Run run_open_loop(const Model& model, YawMode mode, OpenLoop forces, double dura
                           .speed_mps = 0.0,
                           .guidance = forces,
                           .control = control};
-  // Open loop needs no gains; any will do.
+  // Gains have no effect in open loop.
   return run_or_failed(model, kPaperGains, scenario, mode);
 }
 
@@ -53,7 +53,7 @@ struct Turn {
   double speed_mps = 0.0;        ///< at the end of the run
 };
 
-/// Points of the run's last full turn, empty where it made less than two: the first is transient.
+/// Points of the run's last full turn. Empty if it made fewer than two: the first is transient.
 std::vector<Point> last_turn(const Run& run) {
   const double end_rad = run.rows.back().state.psi_rad;
   if (std::abs(end_rad) < 4.0 * std::numbers::pi) return {};
@@ -69,7 +69,7 @@ std::vector<Point> last_turn(const Run& run) {
 
 Turn turn_of(const Model& model, YawMode mode, const ControlOptions& control) {
   Turn turn{.mode = mode, .circle = {}};
-  // A slow vehicle needs longer for two turns.
+  // A slow vehicle takes longer for two turns.
   for (const double duration_s : {60.0, 240.0, 960.0}) {
     const Run run = run_open_loop(model, mode, {kFullThrust, kCircleTurn_m}, duration_s, control);
     const State<double>& end = run.rows.back().state;
@@ -87,7 +87,7 @@ std::string figure_of(const Turn& turn) {
                      100.0 * turn.circle->deviation_m / turn.circle->radius_m, turn.speed_mps);
 }
 
-/// Why the diameters differ: what of tau_turn each mode delivers.
+/// Reason for different diameters: the part of tau_turn that each mode makes.
 std::string delivered_moments(const Model& model, const Plant<double>& plant) {
   const AllocationLimits<double> limits = make_controller(plant, model.vehicle, kPaperGains).limits;
   std::string text;
@@ -105,7 +105,7 @@ std::string delivered_moments(const Model& model, const Plant<double>& plant) {
 
 namespace {
 
-/// Why the speed does not come to where g1(u) = tau_speed.
+/// Reason why the speed does not settle at g1(u) = tau_speed.
 std::string why_not_settled(const Model& model) {
   return model.vehicle.driven_wheels() * model.vehicle.wheel_force.hi < kFullThrust
              ? "the force limits keep tau_speed 2 from the wheels"

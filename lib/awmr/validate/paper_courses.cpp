@@ -6,7 +6,7 @@ namespace awmr {
 namespace {
 
 constexpr double kCourseSpeed_mps = 1.0;  ///< [paper 5.1]
-/// Not printed: the paper names neither acceptance radius nor lane nor Delta, and its figure of the
+/// Chosen here: the paper gives no acceptance radius, lane or Delta, and its figure of the
 /// obstacles is lost.
 constexpr double kAcceptance_m = 1.0;
 constexpr double kDelta_deg = 60.0;
@@ -21,7 +21,7 @@ State<double> at(double x_m, double y_m, double psi_deg) {
 
 LineLaw<double> lane(double width_m) { return {radians(kDelta_deg), width_m, true}; }
 
-/// MMD: the steering mode's turning radius, 5 m at any speed, and room for the turn to begin.
+/// MMD: the steering mode's turning radius, 5 m at any speed, plus distance for the turn to begin.
 Avoidance<double> avoidance() {
   return {.mmd_base_m = 6.0,
           .mmd_per_speed_s = 1.0,
@@ -80,7 +80,7 @@ Scenario obstacle_between_waypoints_scenario() {
 Scenario lissajous_scenario(bool closed_loop) {
   return {
       .name = closed_loop ? "C11 timed path, position fed back" : "C11 timed path, heading alone",
-      .duration_s = 628.0,  // once round: 2 pi/0.01 s
+      .duration_s = 628.0,  // one period: 2 pi/0.01 s
       .initial = at(10.0, 0.0, 90.0),
       .speed_mps = 0.0,
       .guidance = LissajousCourse{.path = {10.0, 10.0, 0.01, 0.03},

@@ -1,5 +1,5 @@
-/// The paper's guided runs as scenarios: the same as configs/paper/scenarios/c8 to c12, which a
-/// test holds them to. Private to this folder.
+/// The paper's guided runs as scenarios. A test checks that they equal configs/paper/scenarios/c8
+/// to c12. Private to this folder.
 #pragma once
 
 #include "awmr/simulate/scenario.h"

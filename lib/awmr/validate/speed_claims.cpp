@@ -1,4 +1,4 @@
-// C4 and C5: the speed loop, while the heading is held and stepped.
+// C4 and C5: the speed loop, with constant heading and heading steps.
 
 #include <fmt/format.h>
 
@@ -10,12 +10,11 @@
 namespace awmr {
 namespace {
 
-/// "Without overshoot", "without steady error", "constant": within what a figure of the paper would
-/// show.
+/// "Without overshoot", "without steady error", "constant": not visible in a figure of the paper.
 constexpr double kNoSpeedError = 0.01;  ///< of u_d
 constexpr double kSlightDrop = 0.20;    ///< of u_d: more is not "slight"
 
-/// The least and the greatest speed u between `from_s` and `to_s`.
+/// The range of the speed u between `from_s` and `to_s`.
 Interval speed_range(const ModeRun& run, double from_s, double to_s) {
   Interval range{1e300, -1e300};
   for (const RunRow& row : run.run.rows) {
@@ -28,8 +27,8 @@ Interval speed_range(const ModeRun& run, double from_s, double to_s) {
 
 }  // namespace
 
-/// Convergence is judged from rest up to the second heading, at which the speed has long arrived;
-/// what the step does to the speed is C5, and given here too.
+/// Convergence is evaluated from rest up to the second heading, when the speed has long settled.
+/// The effect of the step on the speed is C5; it is also reported here.
 Claim check_speed_converges(const HeadingSetting& setting, const ModeRuns& runs) {
   const double step_s = setting.hold_s();
   const auto excess = [](Interval range) { return std::max(0.0, range.hi - kSpeed_mps); };
@@ -72,13 +71,15 @@ Claim check_speed_converges(const HeadingSetting& setting, const ModeRuns& runs)
 
 namespace {
 
-/// Commanded speed minus the least from the second heading on, >= 0. The metric of compare/ starts
-/// when u is first within 2 %, so from rest it never falls below what is then missing.
+/// Commanded speed minus the smallest speed from the second heading on, >= 0. The metric of
+/// compare/ starts when u is first within 2 %, so from rest it is at least the difference at that
+/// time.
 double speed_drop(const ModeRun& run, double step_s) {
   return std::max(0.0, kSpeed_mps - speed_range(run, step_s, run.run.rows.back().t_s).lo);
 }
 
-/// The force limits the vehicle does not have: the paper prints none, and the claim hangs on them.
+/// Results for other force limits than the vehicle's: the paper prints none, and the claim depends
+/// on them.
 std::string speed_drop_elsewhere(const HeadingSetting& setting) {
   std::string text;
   for (const Interval limits : {Interval{-1.0, 1.0}, Interval{0.0, 0.5}}) {
@@ -86,7 +87,7 @@ std::string speed_drop_elsewhere(const HeadingSetting& setting) {
     if (std::abs(limits.lo - own.lo) + std::abs(limits.hi - own.hi) < 1e-12) continue;
     Model other = setting.model;
     other.vehicle.wheel_force = limits;
-    // As long as the vehicle with its own limits, so that the figures are of the same run.
+    // Same duration as with the vehicle's own limits, so that the figures are comparable.
     const ModeRuns runs =
         ClaimSetting{other, setting.plant, setting.gains, setting.arithmetic, setting.control}.run(
             heading_steps(kSimulated_deg,
@@ -99,7 +100,7 @@ std::string speed_drop_elsewhere(const HeadingSetting& setting) {
   return text;
 }
 
-/// A side's force was at a limit somewhere from the second heading on.
+/// True if the left or right force was at a limit anywhere from the second heading on.
 bool side_saturates(const ModeRun& run, Interval limits, double step_s) {
   const auto at_limit = [&](double force) { return !(force > limits.lo) || !(force < limits.hi); };
   return std::any_of(run.run.rows.begin(), run.run.rows.end(), [&](const RunRow& row) {

@@ -14,18 +14,18 @@
 namespace awmr {
 namespace {
 
-/// A vehicle in its world, which a suspect changes.
+/// Model and scenario as changed by a fault hypothesis.
 struct Altered {
   Model model;
   Scenario scenario;
 };
 
-/// One thing that may differ.
+/// A possible change.
 struct Change {
   std::string what;
   std::string unit;
-  Interval range;  ///< of the value; of a factor above 0, searched in its logarithm
-  double none;     ///< the value that changes nothing
+  Interval range;  ///< of the value; for a factor, above 0 and searched in its logarithm
+  double none;     ///< value without effect
   std::function<void(Altered&, double value)> apply;
   bool is_factor() const { return unit == "times"; }
 };
@@ -39,7 +39,7 @@ constexpr std::size_t kMostNamed = 4;
 void add_parameters(const Model& model, std::vector<Change>& changes) {
   for (const ParameterInfo& parameter : parameter_table()) {
     const ParameterId id = parameter.id;
-    // An exponent and its coefficient bend one curve; the coefficient stands for both.
+    // An exponent and its coefficient change the same curve; only the coefficient is varied.
     const bool exponent = id == ParameterId::kSurgeBeta || id == ParameterId::kYawBeta;
     if (exponent || !model[id].value || *model[id].value <= 0.0) continue;
     changes.push_back({std::string(parameter.name), "times", kFactor, 1.0,
@@ -117,7 +117,7 @@ Scenario without_noise(Scenario scenario) {
   return scenario;
 }
 
-/// The search for one change's value; everything that stays the same is here.
+/// Search for the value of one change; contains everything that stays the same.
 struct Search {
   const Model& model;
   const Controller<double>& controller;
@@ -126,7 +126,7 @@ struct Search {
   double duration_s;
   const std::vector<SuspectChannel>& evidence;
 
-  /// The sum over channels of the mean squared distance of the drive from the changed vehicle's run.
+  /// Mean squared distance of the drive from the changed vehicle's run, summed over channels.
   double distance(const Change& change, double value) const {
     constexpr double kNever = std::numeric_limits<double>::max();
     Altered changed{model, scenario};
@@ -150,7 +150,8 @@ struct Search {
     return std::isfinite(sum) ? sum : kNever;
   }
 
-  /// The best value: on a grid first, as there may be several valleys, then between its neighbours.
+  /// The best value: first on a grid, because there can be several minima, then between its
+  /// neighbours.
   Suspect best(const Change& change, double unchanged) const {
     const auto to = [&](double value) { return change.is_factor() ? std::log(value) : value; };
     const auto from = [&](double z) { return change.is_factor() ? std::exp(z) : z; };

@@ -1,4 +1,4 @@
-/// What single change would bring a drive and its model together. Private to this folder.
+/// Finds single changes of the model that explain a drive. Private to this folder.
 #pragma once
 
 #include <vector>
@@ -9,22 +9,23 @@
 
 namespace awmr {
 
-/// Mean and standard deviation of what is foretold of a channel, by window.
+/// Mean and standard deviation of the predictions of a channel, by window.
 struct ForetoldSeries {
   std::vector<double> mean;
   std::vector<double> spread;
 };
 
-/// A channel of the drive, as it was measured and as it was foretold.
+/// A channel of the drive, measured and predicted.
 struct SuspectChannel {
   const DriveChannel* channel;
   const WindowMeans* measured;
   const ForetoldSeries* foretold;
 };
 
-/// Each parameter, the motors, the sensors' biases and lateness, constant pushes: the value of each
-/// that, alone, makes the run least distant from the drive. Those that explain 30 % and more, the
-/// best first, at most four. The chip's controller stays as it is: only the vehicle changes.
+/// Fault hypotheses: each parameter, the motors, the sensors' biases and latencies, constant
+/// external forces. For each, finds the value that alone minimises the distance of the run from the
+/// drive. Returns those that explain at least 30 %, the best first, at most four. Only the vehicle
+/// changes; the controller stays the same.
 std::vector<Suspect> suspects_of(const Model& model, const Controller<double>& controller,
                                  const Scenario& scenario, const AcceptanceOptions& options,
                                  double duration_s, const std::vector<SuspectChannel>& evidence);

@@ -6,7 +6,7 @@
 
 namespace awmr {
 
-/// Words filled into indented lines of 100 characters.
+/// Wraps text to indented lines of 100 characters.
 std::string wrapped(const std::string& text, std::size_t indent);
 
 }  // namespace awmr

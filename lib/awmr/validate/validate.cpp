@@ -49,7 +49,7 @@ TrialResidual residual_of(const Plant<double>& plant, const TrialPoint& trial) {
   return residual;
 }
 
-/// Absent where there is no trial of the kind or one of them has no prediction.
+/// Absent if there is no trial of the kind or one of them has no prediction.
 std::optional<double> rms_relative_error(const std::vector<TrialResidual>& trials, TrialKind kind) {
   double sum = 0.0;
   int count = 0;
@@ -98,9 +98,9 @@ void judge(Validation& validation, double tolerance) {
   }
 }
 
-/// The claims that vehicle and model allow to check. All but C1 and C14 compare the three modes;
-/// without gains, C2 takes a model that turns, C1 one that drives straight.
-/// Errors (input): with gains, the model lacks a parameter; batch_arithmetic()'s.
+/// Adds the claims that vehicle and model permit. All but C1 and C14 compare the three modes.
+/// Without gains, C2 needs a model with turning motion, C1 one with straight motion.
+/// Errors (input): with gains, the model lacks a parameter; those of batch_arithmetic().
 Status add_claims(const Model& model, const std::optional<Gains<double>>& gains,
                   const ValidateOptions& options, Validation& validation) {
   const auto whole = model.plant();
@@ -130,7 +130,7 @@ Status add_claims(const Model& model, const std::optional<Gains<double>>& gains,
   return {};
 }
 
-/// What was found of logs, as a further sentence of the verdict.
+/// Adds the result for logs or drives to the verdict, as a sentence.
 void take_into_verdict(Validation& validation, bool passed, const std::string& sentence) {
   const bool first = validation.trials.empty() && validation.logs.empty();
   validation.passed = first ? passed : validation.passed && passed;
@@ -163,7 +163,7 @@ void add_drives(Validation& validation, std::vector<Acceptance> drives) {
 }
 
 std::optional<double> predicted_measurement(const Plant<double>& plant, const TrialPoint& trial) {
-  // tau_speed = 4 F' at d_r = 0, of which the dead zone takes 4 F'0               [paper (41)]
+  // tau_speed = 4 F' at d_r = 0; the dead zone removes 4 F'0                    [paper (41)]
   if (trial.kind == TrialKind::kSurge) {
     return steady_rate(plant.surge, trial.input - driven_wheels(plant) * plant.wheel_dead_zone);
   }

@@ -1,4 +1,4 @@
-// validation.json as validation_text() writes it.
+// Schema of validation.json as written by validation_text().
 #include <limits>
 #include <string>
 

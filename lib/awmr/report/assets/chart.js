@@ -1,9 +1,10 @@
-// Charts: a description in a few words becomes a specification for Vega, which draws it as SVG. Colours are the page's
-// variables, so that a chart follows light, dark and print by itself.
+// Charts: converts a short description to a specification for Vega, which draws it as SVG. Colours
+// are the page's variables, so that a chart follows light, dark and print style automatically.
 
 const allCharts = [];
 
-/// Around every plot, pixels: the same for all, so that the axes of charts below each other line up.
+/// Margins around every plot, pixels: the same for all, so that the axes of charts below each other
+/// align.
 const margin = {left: 62, right: 14, top: 8, bottom: 40};
 
 const style = {
@@ -12,7 +13,7 @@ const style = {
     titleFontSize: 12, titleFontWeight: "normal", labelFlush: true},
 };
 
-/// The mark of one series, shown while the signal `hidden` does not name it.
+/// The mark of one series, visible unless the signal `hidden` contains its index.
 function markOf(series, index) {
   const x = {scale: "x", field: "0"};
   const y = {scale: "y", field: "1"};
@@ -36,9 +37,9 @@ function markOf(series, index) {
   return mark;
 }
 
-/// What stands for all circles among the indices of hidden series.
+/// Entry that represents all circles in a list of hidden series.
 const circlesKey = "circles";
-/// What of a chart is hidden.
+/// List of hidden elements of a chart.
 const hiddenOf = (chart) => [...chart.series.flatMap((s, i) => (s.hidden ? [i] : [])), ...(chart.circlesHidden ? [circlesKey] : [])];
 
 /// The circles of a chart with equal axes (obstacles), in its units.
@@ -52,7 +53,8 @@ function circleMarks(circles) {
 
 /// `chart`: {title, x, y, series: [{name, kind: "line" | "points" | "band", points: [[x, y, ...]], colour, ...}], equal, circles}
 function specification(chart) {
-  // With equal axes a metre is as long on x as on y: the view is widened on the axis that has room left.
+  // With equal axes, x and y have the same scale: the range is extended on the axis that has space
+  // left.
   const domain = (axis, length) => (chart.equal
     ? `[mid_${axis} - unit * ${length} / 2, mid_${axis} + unit * ${length} / 2]` : `view_${axis}`);
   const signals = [
@@ -82,7 +84,7 @@ function specification(chart) {
   };
 }
 
-/// The least and the largest of both axes over the series that are drawn, with a little room.
+/// Range of both axes over the visible series, with a small margin.
 function extentOf(series, circles) {
   const range = (values, room) => {
     let low = Infinity, high = -Infinity;
@@ -103,7 +105,7 @@ function extentOf(series, circles) {
   };
 }
 
-/// What a screen reader says of a chart: its axes, and where each series begins and ends and how far it goes.
+/// Description of a chart for screen readers: its axes, and start, end and range of each series.
 function described(chart) {
   const of = (s) => {
     const values = s.points.map((p) => p[1]).filter(isNumber);
@@ -113,8 +115,9 @@ function described(chart) {
   return `${chart.title}, ${chart.y} over ${chart.x}. ${chart.series.filter((s) => !s.hidden).map(of).join("; ")}.`;
 }
 
-/// Puts a chart under `parent`; it is drawn when it comes near to the screen, or before printing. Charts of one `group`
-/// share the extent of x, the cursor and what is hidden. With `legend` false the group's own legend stands elsewhere.
+/// Adds a chart to `parent`. It is drawn when it is near the visible area, or before printing.
+/// Charts of one `group` share the x range, the cursor and the hidden series. With `legend` false,
+/// the group's own legend is used.
 function plot(parent, options) {
   const chart = {height: 260, circles: [], ...options, series: options.series.filter((s) => s.points.length)};
   if (!chart.series.length) return;
@@ -131,7 +134,7 @@ function plot(parent, options) {
   return chart;
 }
 
-/// Buttons that show and hide the series of these names in all of `charts`.
+/// Adds buttons that show and hide the series of these names in all of `charts`.
 function legend(parent, entries, charts) {
   const box = add(parent, "div", undefined, {class: "legend", role: "group", "aria-label": "what is drawn"});
   for (const entry of entries) {
@@ -150,7 +153,7 @@ function legend(parent, entries, charts) {
   }
 }
 
-/// A piece of a series as it is drawn, for the legend.
+/// Sample of a series for the legend.
 function sample(entry) {
   const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
   svg.setAttribute("viewBox", "0 0 26 10");

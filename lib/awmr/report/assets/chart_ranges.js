@@ -1,6 +1,8 @@
-// Ranges beside each other: a row per entry, a bar from low to high, a mark in the middle, small marks for single values.
+// Range chart: one row per entry, with a bar from low to high, a mark in the middle and small marks
+// for single values.
 
-/// `rows`: [{label, low, high, middle, values: [], colour, note}]; `zero`: a line at 0; `limit`: where values are cut.
+/// `rows`: [{label, low, high, middle, values: [], colour, note}]; `zero`: a line at 0; `limit`:
+/// values are clipped here.
 function ranges(parent, options) {
   const chart = {...options, rows: options.rows.filter((r) => isNumber(r.middle)), circles: []};
   if (!chart.rows.length) return;

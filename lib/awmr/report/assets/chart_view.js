@@ -1,10 +1,10 @@
-// Drawing of charts when they are needed, and what the pointer does over them.
+// Draws charts when they are needed, and handles the pointer.
 
 const onScreen = new IntersectionObserver((entries) => {
   for (const entry of entries) if (entry.isIntersecting) draw(entry.target.chart);
 }, {rootMargin: "300px"});
 const resized = new ResizeObserver((entries) => {
-  // Not within the observer's own round, which a changed height would begin again.
+  // Not inside the observer's callback: a changed height would trigger it again.
   requestAnimationFrame(() => entries.forEach(({target}) => fit(target.chart, target.clientWidth)));
 });
 
@@ -14,7 +14,7 @@ function register(chart) {
   onScreen.observe(chart.node);
 }
 
-/// Opens and draws all of the page. Returns what was closed.
+/// Opens and draws the whole page. Returns the sections that were closed.
 function drawAll() {
   const closed = [...document.querySelectorAll("details:not([open])")];
   for (const details of closed) details.open = true;
@@ -22,7 +22,8 @@ function drawAll() {
   return closed;
 }
 
-/// On paper all is open, and charts are laid out for a column of A4, so that their letters stay readable.
+/// For print, all sections are open, and charts are laid out for a column of A4, so that their text
+/// stays readable.
 const paperColumn = 318, paperHeight = 200;
 let closedBefore = [];
 addEventListener("beforeprint", () => {
@@ -47,19 +48,19 @@ function draw(chart) {
   if (chart.series.length) listen(chart);
 }
 
-/// Lays a chart out for a width in pixels, its margins included. With equal axes it is as high as its extent asks for,
-/// within reason.
+/// Lays a chart out for a width in pixels, including its margins. With equal axes, its height
+/// follows from its range, within limits.
 function fit(chart, outer, most = Infinity) {
   if (!chart.view || outer < 50 || outer === chart.outer) return;
   chart.outer = outer;
-  if (!chart.series.length) return chart.view.width(outer).run();  // Vega finds room for the names on the left
+  if (!chart.series.length) return chart.view.width(outer).run();  // Vega reserves space for names
   const width = outer - margin.left - margin.right;
   const {x, y} = chart.extent;
   const height = chart.equal ? Math.min(420, 1.2 * most, Math.max(130, width * (y[1] - y[0]) / (x[1] - x[0]))) : Math.min(chart.height, most) - margin.top - margin.bottom;
   chart.view.width(width).height(height).run();
 }
 
-/// Where the pointer is, in pixels from the corner of the plot, and in the units of the axes.
+/// Position of the pointer, in pixels from the corner of the plot, and in the units of the axes.
 function place(chart, event) {
   const box = chart.node.getBoundingClientRect();
   const [left, top] = chart.view.origin();
@@ -119,7 +120,7 @@ function whole(chart) {
   }
 }
 
-/// Shows the values under the pointer: of every line at its x, or of the nearest point.
+/// Shows the values at the pointer: of every line at its x, or of the nearest point.
 function point(chart, event) {
   const at = place(chart, event);
   const shown = chart.series.filter((s) => !s.hidden && s.kind !== "band");

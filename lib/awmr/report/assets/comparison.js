@@ -1,9 +1,10 @@
-// The yaw-control modes: how each figure is spread over the samples, what differs for sure, and who is ahead.
+// Comparison of yaw-control modes: distribution of each metric over the samples, significant
+// differences, ranking.
 
 /// "settling_time_s" as "settling time, s"
 const metricWords = (name) => report.metric_words[name] || name;
 
-/// A mode's colour; several sets of gains make "combined with NAME".
+/// Colour of a mode; several sets of gains give labels like "combined with NAME".
 const colourOf = (label) => (modeStyle[label.split(" ")[0]] || {colour: "var(--dim)"}).colour;
 
 function spreadCharts(parent, scenario, samples) {
@@ -20,7 +21,7 @@ function spreadCharts(parent, scenario, samples) {
   }
 }
 
-/// Differences between two modes sample by sample, in percent of the larger mean, with their intervals.
+/// Paired differences between two modes, in percent of the larger mean, with their intervals.
 function differences(parent, scenario) {
   const list = scenario.paired_differences.filter((d) => d.ci95);
   if (!list.length) return;
@@ -57,7 +58,7 @@ function breakEven(parent, entries) {
     ...(e.lead ? [e.turns_to_decide ? `${e.lead}: about ${e.turns_to_decide} turns decide` : e.lead] : [])]));
 }
 
-/// A sentence with the names of its metrics as people say them, without their units.
+/// Replaces metric names in a sentence by readable names without units.
 const inWords = (sentence) => sentence.replace(/\b[a-z]+(?:_[a-z]+)+\b/g, (name) => metricWords(name).split(",")[0]);
 
 function comparisonSection(data) {

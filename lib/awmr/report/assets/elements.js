@@ -1,5 +1,6 @@
 "use strict";
-// What every section is made of. Text from the data goes in as text nodes and attributes only, never as HTML.
+// Elements common to all sections. Text from the data is inserted only as text nodes and
+// attributes, never as HTML.
 
 function add(parent, tag, text, attributes) {
   const node = document.createElement(tag);
@@ -10,7 +11,8 @@ function add(parent, tag, text, attributes) {
 }
 
 const isNumber = (x) => typeof x === "number" && Number.isFinite(x);
-/// Four significant digits, trailing zeros kept where they stand for precision; a dash for what is not there.
+/// Four significant digits, with trailing zeros where they show precision; a dash for missing
+/// values.
 function digits(x, n = 4) {
   if (!isNumber(x)) return "–";
   return x !== 0 && (Math.abs(x) < 1e-4 || Math.abs(x) >= 1e7) ? x.toExponential(n - 1) : Number(x.toPrecision(n)).toString();
@@ -19,7 +21,8 @@ const interval = (pair) => (pair ? `${digits(pair[0])} to ${digits(pair[1])}` : 
 const percent = (x) => (isNumber(x) ? `${digits(100 * x, 3)} %` : "–");
 const plural = (n, word) => `${n} ${word}${n === 1 ? "" : "s"}`;
 
-/// A section of the report, which opens and closes; on a narrow screen it starts closed. Returns where its content goes.
+/// Adds a collapsible section of the report; on a narrow screen it is closed at first. Returns the
+/// container of its content.
 function section(title, lead) {
   const details = add(add(document.getElementById("report"), "section"), "details");
   details.open = innerWidth > 640;
@@ -28,15 +31,15 @@ function section(title, lead) {
   return add(details, "div");
 }
 
-/// A part that is closed until it is asked for.
+/// A part that is closed at first.
 function folded(parent, title) {
   const details = add(parent, "details");
   add(details, "summary", title);
   return add(details, "div");
 }
 
-/// `head`: a name for each column, with a leading "#" where the column holds numbers. `rows`: arrays of text.
-/// `best(row, column)`: whether to emphasise a cell.
+/// `head`: a name for each column, with a leading "#" for columns of numbers. `rows`: arrays of
+/// text. `best(row, column)`: whether to emphasise a cell.
 function table(parent, head, rows, best) {
   const numeric = head.map((name) => name.startsWith("#"));
   const names = head.map((name) => name.replace(/^#/, ""));
@@ -56,7 +59,7 @@ function table(parent, head, rows, best) {
   return node;
 }
 
-/// The values of a list, each once, in order.
+/// The distinct values of a list, in order.
 const distinct = (list) => [...new Set(list)];
 
 function groupBy(list, key) {
@@ -65,8 +68,8 @@ function groupBy(list, key) {
   return groups;
 }
 
-/// Yaw-control modes in their order, each with its colour, width and dashes: thick below thin, so that lines that lie on each
-/// other are all seen.
+/// Yaw-control modes in order, each with its colour, width and dashes: thick lines below thin ones,
+/// so that coinciding lines are all visible.
 const modes = ["differential", "steering", "combined"];
 const modeStyle = {
   differential: {colour: "var(--one)", width: 4.5, dash: [], opacity: 0.55},

@@ -1,6 +1,8 @@
-// Identification: the trials with the curve through them, its band, what is left over; the values; the findings.
+// Identification: the trials with the fitted curve, its band and residuals; the values; the
+// findings.
 
-/// Curve, band and residuals come with the data (drawn_fit.h), the same that the figures for print are made of.
+/// Curve, band and residuals are part of the data (drawn_fit.h), which are also used for the print
+/// figures.
 function fitCharts(parent, model, fit, kind, xTitle, yTitle) {
   if (!fit) return;
   const rows = model.trials.filter((t) => t.kind === kind);
@@ -22,7 +24,8 @@ function fitCharts(parent, model, fit, kind, xTitle, yTitle) {
   residualChart(parent, kind, fit, model.trials, xTitle, note);
 }
 
-/// What is left over, in percent of the prediction, within the band that 99 of 100 rows keep if errors are normal.
+/// Residuals, in percent of the prediction, and the band that contains 99 of 100 rows if errors are
+/// normal.
 function residualChart(parent, kind, fit, trials, xTitle, note) {
   const left = fit.left_over.map(([i, percentage]) => [trials[i].measured, percentage, note(trials[i])]);
   if (!left.length) return;
@@ -34,7 +37,7 @@ function residualChart(parent, kind, fit, trials, xTitle, note) {
     {name: "left over", kind: "points", points: left, colour: "var(--one)"}]});
 }
 
-/// The coast-down: m' du/dt = -g1(u) from each initial speed, and the stops that were timed.
+/// The coast-down: m' du/dt = -g1(u) from each initial speed, and the measured stops.
 function coastdownChart(parent, model, coasts) {
   if (!coasts.length) return;
   const rows = model.trials.filter((t) => t.kind === "coastdown");
@@ -48,11 +51,11 @@ function estimateRows(rows) {
   return rows.map(([name, e]) => [name, digits(e.value, 5), digits(e.std_error, 2), interval(e.ci95), e.unit, `${e.source}, ${e.method}`]);
 }
 const estimateHead = ["quantity", "#value", "#standard error", "95 % interval", "unit", "origin"];
-/// Every quantity below `entry`, under its path.
+/// All quantities below `entry`, by path.
 const leaves = (entry, path) => (entry && typeof entry === "object" ? ("value" in entry ? [[path, entry]]
   : Object.entries(entry).flatMap(([key, below]) => leaves(below, path ? `${path}.${key}` : key))) : []);
 
-/// How far two parameters are known together only: a table, coloured by strength.
+/// Correlation of each pair of parameters: a table, coloured by strength.
 function correlations(parent, covariance) {
   const names = covariance.parameters.filter((_, i) => covariance.matrix[i][i] > 0);
   if (names.length < 2) return;
@@ -89,7 +92,7 @@ function estimatorsTable(parent, estimates) {
     digits(r.aicc), digits(r.residual_std, 3), r.rows_used, r.stop_reason.split(". ")[0]]));
 }
 
-/// What the main values become without each row.
+/// The main values without each row in turn.
 function influenceTable(parent, estimates) {
   const left = estimates.filter((e) => Array.isArray(e.leave_one_out) && e.leave_one_out.length);
   if (!left.length) return;
@@ -130,7 +133,7 @@ function identificationSection(data) {
   drivesPart(box, data.validation);
 }
 
-/// Drives under the controller against what is foretold of them.
+/// Drives under the controller compared with their predictions.
 function drivesPart(parent, validation) {
   for (const drive of (validation || {}).drives || []) {
     add(parent, "h3", `The drive ${drive.file} against “${drive.scenario}”, ${drive.mode}: ${drive.inside ? "as foretold" : "not as foretold"}`);
@@ -146,7 +149,7 @@ function drivesPart(parent, validation) {
   }
 }
 
-/// Measured and predicted by channel; results of older versions have no series.
+/// Measured and predicted signals by channel; results of older versions have no series.
 function logCharts(parent, log) {
   const channels = Object.entries(log.channels).filter(([, c]) => c.series);
   if (!channels.length) return;
@@ -155,7 +158,7 @@ function logCharts(parent, log) {
   for (const [name, {series, unit}] of channels) {
     const points = (key) => series.t_s.map((t, i) => [t, series[key][i]]);
     const words = name.replace(/_[a-z]+$/, "").replaceAll("_", " ");
-    // The prediction lies on the noise of what was measured, and has to be seen on it.
+    // The prediction is drawn over the noisy measurement and must be visible on it.
     plot(grid, {title: words, x: "t, s", y: `${words}, ${unit}`, group, height: 220, series: [
       {name: "measured", kind: "line", points: points("measured"), colour: "var(--one)", width: 1.2, opacity: 0.45},
       {name: "predicted", kind: "line", points: points("predicted"), colour: "var(--two)", width: 2}]});

@@ -1,7 +1,8 @@
-// Gains to play with: the program's own simulator and constraints, compiled to WebAssembly, run at every move of a slider.
+// Interactive gains: the program's own simulator and constraints, compiled to WebAssembly, run at
+// every move of a slider.
 
 const liveColumns = ["t_s", "psi_rad", "psi_ref_rad", "u_mps", "force_left", "force_right", "steering_rad", "r_radps"];
-/// Gains and what else can be moved; `log`: the slider moves in ratios.
+/// Gains and other adjustable values; `log`: the slider has a logarithmic scale.
 const liveSliders = [
   {key: "lambda", name: "lambda, 1/s", low: 0.5, high: 15, log: true}, {key: "mu", name: "mu, rad/s²", low: 1, high: 200, log: true},
   {key: "epsilon", name: "epsilon, rad/s", low: 0.1, high: 50, log: true}, {key: "speed_mu", name: "mu_s, m/s²", low: 0.5, high: 100, log: true},
@@ -13,11 +14,12 @@ const liveSliders = [
   {key: "heading_noise_deg", name: "heading noise, deg", low: 0, high: 5, log: false},
 ];
 
-/// The module, begun with the setup's numbers, as a function from settings to {rows, constraints, metrics, ended}.
+/// Loads the module, initialised with the setup's numbers; returns a function from settings to
+/// {rows, constraints, metrics, ended}.
 async function liveModule(packed, numbers) {
   const bytes = Uint8Array.from(atob(packed), (c) => c.charCodeAt(0));
   const wasm = await new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
-  // The C library asks for a system, of which nothing is used: every call is answered with "not there".
+  // The C library needs system functions that are never used: every call returns "not available".
   const system = new Proxy({}, {get: () => () => 52});
   const {exports} = (await WebAssembly.instantiate(wasm, {wasi_snapshot_preview1: system})).instance;
   exports._initialize();
@@ -34,7 +36,7 @@ async function liveModule(packed, numbers) {
   };
 }
 
-/// In the form that --gains takes; `observer`: the tuned one, if any.
+/// The gains in the form that --gains accepts; `observer`: the tuned one, if any.
 function gainsDocument(s, observer) {
   const gains = {schema: "awmr.gains/1", heading: {lambda: s.lambda, mu: s.mu, epsilon: s.epsilon}, speed: {mu: s.speed_mu, epsilon: s.speed_epsilon}};
   return observer ? {...gains, observer: {...observer, bandwidth_radps: s.observer}} : gains;
@@ -63,7 +65,8 @@ function liveSlider(parent, slider, settings, changed) {
 
 const degreesOf = (list) => list.map((x) => x * 180 / Math.PI);
 const pairs = (x, y) => x.map((v, i) => [v, y[i]]);
-/// Of a long run, as many rows as there are pixels, and of each stretch the least and the largest value.
+/// Reduces a long run to about one row per pixel; keeps the minimum and the maximum of each
+/// interval.
 function thinned(points, most = 500) {
   const stretch = Math.ceil(points.length / most);
   if (stretch < 3) return points;
@@ -172,7 +175,7 @@ async function liveSection(data) {
     }
   };
   changed();
-  window.awmrLive = {run, tuned};  // for whoever looks at the page by script
+  window.awmrLive = {run, tuned};  // for access to the page by script
 }
 
 function liveTables(parent, result, tuned) {

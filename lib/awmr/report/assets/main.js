@@ -1,4 +1,5 @@
-// The report, from top to bottom. A part whose data are not what they should be says so; the others stand.
+// The report, from top to bottom. A part with invalid data shows an error; the others are not
+// affected.
 const report = JSON.parse(document.getElementById("data").textContent);
 document.getElementById("report").textContent = "";
 document.title = `${report.model.vehicle.name}: awmr report`;

@@ -1,4 +1,4 @@
-// The paper's claims, the firmware, and what everything was made from.
+// The paper's claims, the firmware, and the inputs of all results.
 
 function claimsSection(data) {
   const claims = ((data.validation || {}).claims || []).filter((c) => c.verdict);

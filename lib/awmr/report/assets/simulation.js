@@ -1,4 +1,4 @@
-// Simulations: a scenario in all modes; one legend and one cursor for all of its charts.
+// Simulations: a scenario in all modes; all of its charts share one legend and one cursor.
 
 const signals = [
   {title: "heading", y: "heading, deg", value: "psi_deg", reference: "psi_ref_deg"},
@@ -24,7 +24,7 @@ function referenceOf(run, x, y) {
   return {...referenceLook, points: run.columns[x].map((v, i) => [v, run.columns[y][i]])};
 }
 
-/// Where the course goes: waypoints or the ends of a line.
+/// The points of the path: waypoints or the ends of a line.
 function waypointsOf(scenario) {
   const guidance = (scenario || {}).guidance || {};
   if (Array.isArray(guidance.points_m)) return guidance.points_m;
@@ -38,7 +38,8 @@ function scenarioPart(parent, stem, runs, scenario, open) {
   const group = [];
   const box = add(details, "div");
   const first = runs[0];
-  // A course gives each run a heading of its own to follow; steps of heading are the same for all.
+  // With guidance, each run has its own heading reference; without it, the reference is the same
+  // for all.
   const sameHeading = !(scenario && scenario.guidance) || scenario.guidance.type === "heading";
   const entries = runs.map((run) => lineOf(run, "t_s", "psi_deg"));
   const points = waypointsOf(scenario).filter((p) => Array.isArray(p));
@@ -59,7 +60,7 @@ function scenarioPart(parent, stem, runs, scenario, open) {
 function simulationSection(data) {
   if (!data.runs.length) return;
   const box = section("Simulations", "The paths' axes are equal. A drag over a chart enlarges it and those beside it, a double click takes that back.");
-  // In the order of the comparison.
+  // Same order as in the comparison.
   const names = ((data.comparison || {}).scenarios || []).map((s) => s.name);
   const place = (stem) => names.indexOf((data.scenarios[stem] || {}).name);
   const byScenario = [...groupBy(data.runs, (run) => run.scenario)].sort((a, b) => place(a[0]) - place(b[0]));

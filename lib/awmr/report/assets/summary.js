@@ -1,4 +1,4 @@
-// First of all: what came out, in words; the gains; where the header is; what to do next.
+// Summary at the top of the page: results, gains, location of the header, next steps.
 
 const isWarning = (f) => f.severity === "warning" || f.severity === "error";
 
@@ -8,7 +8,7 @@ function verdict(list, tone, head, text) {
   add(item, "span", text);
 }
 
-/// The model against its own trials, or against logs.
+/// Validation of the model on its own trials, or on logs.
 function modelVerdict(list, data) {
   const v = data.validation;
   if (!v) return verdict(list, "doubt", "Model", "not held against its trials yet (awmr validate)");
@@ -20,14 +20,14 @@ function modelVerdict(list, data) {
   verdict(list, v.passed ? "good" : "bad", v.passed ? "The model predicts its data" : "The model does not predict its data", v.verdict + "." + seen);
 }
 
-/// Of all steps; the program has put those first that change the numbers most.
+/// Findings of all steps; the program lists those with the largest effect first.
 function findingsVerdict(list, findings) {
   const warnings = findings.filter(isWarning);
   if (!warnings.length) return verdict(list, "good", "Findings", `no warnings, ${plural(findings.length, "note")}`);
   verdict(list, "doubt", `Findings: ${plural(warnings.length, "warning")}`, warnings.length > 3 ? "The first three change the numbers most." : "");
 }
 
-/// The first three as they are, all of them folded.
+/// Shows the first three findings, and all of them in a collapsed part.
 function findingsPart(parent, findings) {
   if (!findings.length) return;
   const where = (f) => (f.file ? `${f.file}${f.line ? `:${f.line}` : ""}` : "");
@@ -86,7 +86,7 @@ function gainsTable(parent, gains) {
   }
 }
 
-/// What to do next, most useful first.
+/// Next steps, most useful first.
 function nextSteps(data) {
   const steps = [];
   if (data.model.findings.some((f) => f.severity === "error" || f.code === "not-identifiable")) {

@@ -1,16 +1,17 @@
-// Tuning: which constraints bind, and what the gains do on draws that none of them was tuned on.
+// Tuning: active constraints, and performance of the gains on sampled vehicles that were not used
+// for tuning.
 
 const setOrder = ["robust", "nominal", "baseline", "paper"];
 const setColour = {robust: "var(--one)", nominal: "var(--three)", baseline: "var(--two)", paper: "var(--three)"};
 const setWords = {robust: "tuned", nominal: "nominal", baseline: "baseline", paper: "the paper's"};
 
-/// What the objective is 1 for; files of before `source` have the paper's gains.
+/// Baseline for which the objective is 1; files without `source` use the paper's gains.
 function baselineWords(gains) {
   const {source} = gains.baseline || {};
   return !source || source === "paper" ? "the paper's gains" : source === "pole-placement" ? "pole placement" : source;
 }
 
-/// What was open of the vehicles; empty where nothing was.
+/// Describes the unmodelled variation of the vehicles; empty if there is none.
 function openWords(open) {
   if (!open) return "";
   const masses = open.mass_factors ? [`m' and I'z times ${open.mass_factors.join(", ")}`] : [];
@@ -137,7 +138,7 @@ function tuningSection(data) {
   metricsTable(box, gains);
 }
 
-/// The figures of the objective, by mode and scenario, tuned and in brackets the baseline's.
+/// Metrics of the objective, by mode and scenario: tuned, and the baseline's in brackets.
 function metricsTable(parent, gains) {
   const base = (gains.baseline || {}).metrics || {};
   const rows = Object.entries(gains.metrics || {}).flatMap(([mode, scenarios]) => Object.entries(scenarios).map(([name, m]) => {

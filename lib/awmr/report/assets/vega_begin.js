@@ -1,5 +1,6 @@
 "use strict";
-// Vega comes as modules that ask for each other by name. They are kept here and made into one object at the end.
+// Vega's modules refer to each other by name. They are stored here and combined into one object at
+// the end.
 const vegaModules = {};
 function vegaModule(name, define) {
   const exports = {};

@@ -13,7 +13,7 @@ namespace {
 constexpr double kTickPt = 3.0;
 constexpr Stroke kFrameStroke{kBlack, 0.6};
 constexpr Stroke kGridStroke{kGridGrey, 0.4};
-/// From the middle of a line of text down to its base line.
+/// Vertical distance from the middle of a line of text to its base line.
 constexpr double kHalfTextPt = 0.36 * kTextSizePt;
 
 Outline straight(PagePoint from, PagePoint to, const Stroke& stroke) {
@@ -69,7 +69,7 @@ std::vector<TextRun> axis_title(const Axis& axis, int exponent) {
 }
 
 std::string fitted(const std::string& name, double most_pt) {
-  // A bound before anything is measured: no letter is narrower than a point.
+  // Upper bound before any measurement: no letter is narrower than a point.
   std::string text = std::string(first_characters(name, static_cast<std::size_t>(4.0 * most_pt)));
   if (text.size() == name.size() && width_of({{text}}) <= most_pt) return text;
   while (!text.empty() && width_of({{text + "…"}}) > most_pt) {

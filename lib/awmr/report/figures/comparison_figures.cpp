@@ -16,7 +16,8 @@ std::optional<double> number_in(const Json& json, const char* key) {
   return json.at(key).get<double>();
 }
 
-/// The scenario's file without extension, by which its other figures are called; else its name.
+/// File name of the scenario without extension, as in the names of its other figures; else the
+/// scenario's name.
 std::string stem_of(const Json& data, const std::string& name) {
   for (const auto& [stem, scenario] : data.at("scenarios").items()) {
     if (scenario.value("name", "") == name) return stem;
@@ -24,7 +25,7 @@ std::string stem_of(const Json& data, const std::string& name) {
   return name;
 }
 
-/// A difference in percent of the larger of both modes' means; none where both are 0.
+/// A difference in percent of the larger of both modes' means; none if both are 0.
 struct DifferenceRow {
   std::string metric;
   double mean = 0.0;
@@ -53,7 +54,7 @@ std::optional<DifferenceRow> difference_row(const Json& scenario, const Json& on
   return row;
 }
 
-/// Paired differences of two modes, a row for each metric.
+/// Paired differences of two modes, one row per metric.
 Figure difference_figure(const std::string& stem, const std::string& first,
                          const std::string& second, const std::vector<DifferenceRow>& rows) {
   Series relevant{.name = "relevant", .shape = SeriesShape::kRanges, .role = Role::kModel};
@@ -96,7 +97,7 @@ void add_differences(const Json& scenario, const std::string& stem, FiguresOfRes
   }
 }
 
-/// Of one metric: a row for each mode, its samples, and its range from 5 to 95 %.
+/// Distribution of one metric: one row per mode, with its samples and its 5 to 95 % range.
 Figure spread_figure(const std::string& stem, const std::string& metric, const Json& scenario,
                      const Json& samples) {
   const MetricWords words = metric_words(metric);
@@ -134,7 +135,7 @@ Figure spread_figure(const std::string& stem, const std::string& metric, const J
   return figure;
 }
 
-/// Whether any mode has a figure of the metric other than 0.
+/// True if any mode has a value of the metric other than 0.
 bool is_told(const Json& scenario, const std::string& metric) {
   const Json& modes = scenario.at("modes");
   return std::any_of(modes.begin(), modes.end(), [&](const Json& mode) {
@@ -167,7 +168,7 @@ void add_comparison_figures(const Json& data, FiguresOfResults& all) {
         "differences and distributions of the modes: there is no comparison.json");
     return;
   }
-  // The metrics that the ranking weighs, and the differences in all of them.
+  // The metrics with a weight in the ranking, and the differences in all metrics.
   for (const Json& scenario : data.at("comparison").at("scenarios")) {
     const std::string stem = stem_of(data, scenario.at("name"));
     add_spreads(data, scenario, stem, all);

@@ -1,5 +1,5 @@
-/// What is on a page, in points (1/72 inch) from its upper left corner: outlines, marks and text.
-/// Written as SVG and as PDF by drawing_svg() and drawing_pdf(). Private to this folder.
+/// Elements of a page, in points (1/72 inch) from its upper left corner: outlines, marks and text.
+/// drawing_svg() and drawing_pdf() write it as SVG and as PDF. Private to this folder.
 #pragma once
 
 #include <optional>
@@ -23,7 +23,7 @@ struct Stroke {
   std::vector<double> dashes_pt = {};
 };
 
-/// Straight lines through points.
+/// Polyline through points.
 struct Outline {
   std::vector<PagePoint> points = {};
   bool closed = false;
@@ -41,7 +41,7 @@ struct Disc {
 enum class Anchor { kStart, kMiddle, kEnd };
 enum class Shift { kNone, kIndex, kExponent };
 
-/// A part of a label: upright, smaller and lower, or smaller and higher.
+/// A part of a label: normal, subscript, or superscript.
 struct TextRun {
   std::string text = {};
   Shift shift = Shift::kNone;
@@ -50,16 +50,16 @@ struct TextRun {
 struct Label {
   PagePoint at;  ///< on the base line
   Anchor anchor = Anchor::kStart;
-  bool upwards = false;  ///< turned left by a quarter
+  bool upwards = false;  ///< rotated by 90 degrees to the left
   std::vector<TextRun> runs = {};
 };
 
 using Mark = std::variant<Outline, Disc, Label>;
 
-/// What belongs together.
+/// Elements that belong together.
 struct Layer {
   std::string kind = {};  ///< "grid", "axes", "series", "legend"
-  std::string name = {};  ///< of a series
+  std::string name = {};  ///< for a series
   std::vector<Mark> marks = {};
 };
 
@@ -70,28 +70,28 @@ struct Drawing {
   std::vector<Layer> layers = {};
 };
 
-/// One size of text throughout, and what indices and exponents are of it.
+/// The only size of text, and the size of indices and exponents relative to it.
 inline constexpr double kTextSizePt = 9.0;
 inline constexpr double kSmallTextShare = 0.7;
-/// How far indices go down and exponents up, of the size of the text.
+/// Vertical shift of indices (down) and exponents (up), as a fraction of the text size.
 inline constexpr double kIndexShift = 0.25;
 inline constexpr double kExponentShift = 0.4;
 inline constexpr const char* kFontFamily = "DejaVu Sans";
-/// How far below the base line a run stands, points.
+/// Shift of a run below the base line, points.
 inline double lowered_pt(Shift shift) {
   if (shift == Shift::kNone) return 0.0;
   return (shift == Shift::kIndex ? kIndexShift : -kExponentShift) * kTextSizePt;
 }
 
-/// "tau_{speed} (10^{3} m)" in parts.
+/// Splits "tau_{speed} (10^{3} m)" into runs.
 std::vector<TextRun> text_runs(const std::string& marked);
 
-/// The same bytes from the same drawing.
+/// The same drawing gives the same bytes.
 std::string drawing_svg(const Drawing& drawing);
-/// One page, the font embedded, without a date. Errors (fault): the memory ran out.
+/// One page, with embedded font and without a date. Errors (fault): out of memory.
 Result<std::string> drawing_pdf(const Drawing& drawing);
 
-/// How wide Cairo sets them.
+/// Width of the runs as set by Cairo.
 double width_of(const std::vector<TextRun>& runs);
 
 }  // namespace awmr

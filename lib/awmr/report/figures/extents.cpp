@@ -9,12 +9,12 @@
 namespace awmr {
 namespace {
 
-/// A range that is narrower than that of its values is rounding, and drawn as a constant.
+/// A relative range below this is rounding and is drawn as a constant.
 constexpr double kLeastRelativeSpan = 1e-6;
 constexpr double kLargestNumber = 1e100;
 constexpr double kLeastSpan = 1e-100;
 
-/// The least and the largest of what was taken in.
+/// Minimum and maximum of the values added.
 struct Span {
   double low = std::numeric_limits<double>::infinity();
   double high = -std::numeric_limits<double>::infinity();
@@ -26,7 +26,8 @@ struct Span {
     low = std::min(low, x);
     high = std::max(high, x);
   }
-  /// With a share of it as room on both sides; around a constant a tenth of it, around 0 one.
+  /// The range with this fraction of it as margin on both sides; around a constant, a tenth of it;
+  /// around 0, one.
   Interval with_room(double share) const {
     if (low > high) return {0.0, 1.0};
     const double size = std::max(std::abs(low), std::abs(high));
@@ -77,7 +78,7 @@ Interval x_range(const Figure& figure) {
 
 Interval y_range(const Figure& figure, const Panel& panel) {
   const auto rows = static_cast<double>(panel.y.rows.size());
-  if (rows > 0.0) return {0.4 - rows, 0.6};  // row i lies at -i, the first on top
+  if (rows > 0.0) return {0.4 - rows, 0.6};  // row i is at -i, the first on top
   Span span;
   for (const Series& s : panel.series) {
     span.take(s.y);

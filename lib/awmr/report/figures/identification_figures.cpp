@@ -9,11 +9,11 @@
 namespace awmr {
 namespace {
 
-/// What the figures of one kind of trial are called.
+/// Names for the figures of one kind of trial.
 struct KindWords {
   TrialKind kind;
-  const char* name;        ///< of the files
-  const char* resistance;  ///< in words
+  const char* name;        ///< in file names
+  const char* resistance;  ///< in text
   Axis rate;
   Axis input;
 };
@@ -25,7 +25,7 @@ const std::vector<KindWords>& kinds() {
   return kKinds;
 }
 
-/// The rows of the fit without and with a warning; empty series are left out.
+/// Adds the rows of the fit without and with a warning; empty series are omitted.
 void add_measured(const Model& model, const DrawnFit& fit, std::vector<Series>& series) {
   const std::vector<bool> doubtful = doubtful_trials(model);
   Series good{.name = "measured", .shape = SeriesShape::kPoints, .role = Role::kMeasured};

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kBottomPt = 31.0;
 constexpr double kBetweenPanelsPt = 11.0;
-/// Between two numbers of x, of y.
+/// Minimum distance between two numbers of x, of y.
 constexpr double kTickDistanceX = 62.0;
 constexpr double kTickDistanceY = 30.0;
 
@@ -34,7 +34,7 @@ double widest(const std::vector<Tick>& ticks) {
   return width;
 }
 
-/// As many as their numbers leave room for.
+/// As many ticks as there is space for their numbers.
 Ticks x_ticks_in(Interval range, double length_pt) {
   for (int most = std::max(2, static_cast<int>(length_pt / kTickDistanceX));; --most) {
     Ticks ticks = ticks_in(range, most);
@@ -43,7 +43,7 @@ Ticks x_ticks_in(Interval range, double length_pt) {
   }
 }
 
-/// A metre as long on y as on x: the axis that has room left is widened.
+/// Gives x and y the same scale: extends the range of the axis that has space left.
 void make_axes_equal(PlotScale& x, PlotScale& y) {
   const auto per_point = [](const PlotScale& s) {
     return (s.range.hi - s.range.lo) / std::abs(s.to_pt - s.from_pt);
@@ -61,7 +61,7 @@ struct Margins {
   double right_pt = 12.0;
 };
 
-/// Every panel between the margins, the uppermost from `top_pt` down.
+/// Distributes the panels between the margins; the top one starts at `top_pt`.
 std::vector<Plot> plots_of(const Figure& figure, const Margins& margins, double top_pt) {
   const auto count = static_cast<double>(figure.panels.size());
   const double all = height_pt(figure) - kBottomPt - top_pt - (count - 1.0) * kBetweenPanelsPt;
@@ -84,7 +84,7 @@ std::vector<Plot> plots_of(const Figure& figure, const Margins& margins, double 
   return plots;
 }
 
-/// Left for title, numbers or names and ticks, right for half of the last number.
+/// Left margin for title, numbers or names and ticks; right margin for half of the last number.
 Margins margins_of(const Figure& figure, const std::vector<Plot>& plots) {
   double width = 0.0;
   for (const Plot& plot : plots) width = std::max(width, widest(plot.y_ticks.list));
@@ -115,7 +115,7 @@ void add_panel(const Figure& figure, const Panel& panel, const Plot& plot, Drawi
   drawing.layers.push_back(axes_of(plot, figure.x, panel.y, kEdgePt + 0.9 * kTextSizePt));
 }
 
-/// Names of rows that are no wider than two fifths of the page.
+/// Shortens row names to two fifths of the page width.
 Figure with_fitted_rows(Figure figure) {
   for (Panel& panel : figure.panels) {
     for (std::string& row : panel.y.rows) row = fitted(row, 0.4 * kWidthPt);
@@ -128,7 +128,8 @@ Figure with_fitted_rows(Figure figure) {
 Result<Drawing> layout(const Figure& unfitted) {
   AWMR_RETURN_IF_ERROR(check_numbers(unfitted));
   const Figure figure = with_fitted_rows(unfitted);
-  // The numbers decide on the margins, and the margins a little on where the numbers stand.
+  // The numbers determine the margins, and the margins slightly affect the positions of the
+  // numbers.
   Margins margins;
   std::vector<Plot> plots;
   Legend legend;

@@ -11,7 +11,7 @@ constexpr double kLegendLinePt = 13.0;
 constexpr double kSamplePt = 22.0;
 constexpr double kBeforeNamePt = kSamplePt + 5.0;
 
-/// Each series once, in the order of the roles.
+/// Each series once, in the order of roles.
 std::vector<Series> legend_entries(const Figure& figure, double most_pt) {
   std::vector<Series> entries;
   for (const Panel& panel : figure.panels) {
@@ -28,7 +28,7 @@ std::vector<Series> legend_entries(const Figure& figure, double most_pt) {
   return entries;
 }
 
-/// A name, and what stands before it.
+/// A name, and the sample before it.
 struct Entry {
   std::string name;
   std::vector<Mark> (*sample)(const Series& series, PagePoint at, double width_pt);

@@ -9,7 +9,7 @@
 namespace awmr {
 namespace {
 
-/// A channel of validation.json, in the unit that it is drawn in.
+/// A channel of validation.json, with the unit for drawing.
 struct ChannelAxis {
   std::string_view channel;
   const char* quantity;
@@ -36,7 +36,7 @@ Series channel_series(const Json& series, const char* key, Role role, double per
   return one;
 }
 
-/// A panel for each channel; none of a log that an older version validated.
+/// One panel per channel; none for a log validated by an older version.
 Figure log_figure(const Json& log) {
   const std::string file = log.at("file");
   Figure figure{.name = figure_name("log", std::filesystem::path(file).stem().string()),

@@ -1,4 +1,4 @@
-// A drawing as PDF, and the widths of text, both by Cairo.
+// Writes a drawing as PDF and measures text, both with Cairo.
 #include <cairo-pdf.h>
 #include <cairo.h>
 
@@ -18,8 +18,8 @@ struct DestroyCairo {
 using Context = std::unique_ptr<cairo_t, DestroyCairo>;
 using Surface = std::unique_ptr<cairo_surface_t, DestroyCairo>;
 
-/// A surface to draw text on; outlines of letters and distances are those of the font itself, not
-/// fitted to the dots of any screen.
+/// A context for text on this surface. Glyphs and distances are those of the font, without hinting
+/// for a screen.
 Context context_on(cairo_surface_t* surface) {
   Context context(cairo_create(surface));
   const std::unique_ptr<cairo_font_options_t, DestroyCairo> options(cairo_font_options_create());
@@ -50,7 +50,7 @@ void set_colour(cairo_t* c, const Colour& colour) {
   cairo_set_source_rgb(c, colour.red / 255.0, colour.green / 255.0, colour.blue / 255.0);
 }
 
-/// Fills and strokes the path that is there, and ends it.
+/// Fills and strokes the current path, then clears it.
 void paint(cairo_t* c, const std::optional<Stroke>& stroke, const std::optional<Colour>& fill) {
   if (fill) {
     set_colour(c, *fill);
@@ -95,7 +95,7 @@ void draw(cairo_t* c, const Label& label) {
     x += width_on(c, {run});
   }
   cairo_restore(c);
-  cairo_new_path(c);  // text leaves the point where it ends
+  cairo_new_path(c);  // text moves the current point to its end
 }
 
 cairo_status_t append(void* bytes, const unsigned char* data, unsigned int length) {
@@ -114,7 +114,7 @@ Result<std::string> drawing_pdf(const Drawing& drawing) {
   std::string bytes;
   const Surface page(
       cairo_pdf_surface_create_for_stream(append, &bytes, drawing.width_pt, drawing.height_pt));
-  // The clock would be in the bytes.
+  // A date would make the bytes depend on the clock.
   cairo_pdf_surface_set_metadata(page.get(), CAIRO_PDF_METADATA_CREATE_DATE, nullptr);
   cairo_pdf_surface_set_metadata(page.get(), CAIRO_PDF_METADATA_TITLE,
                                  printable(drawing.meaning).c_str());

@@ -1,9 +1,9 @@
-/// How each role of a series is drawn: the one table of colours, widths, dashes and marks. Private
-/// to this folder.
+/// Style of each role of a series: the table of colours, widths, dashes and marks. Private to this
+/// folder.
 ///
-/// The colours are those of Okabe and Ito, "Color Universal Design" (2008), which the colour-blind
-/// tell apart. On grey print dashes and marks do so, and lines that lie on each other are seen, as
-/// the broad one is drawn first.
+/// The colours are those of Okabe and Ito, "Color Universal Design" (2008), which colour-blind
+/// readers can distinguish. In grey print, dashes and marks distinguish the series. Coinciding
+/// lines are visible because the wide one is drawn first.
 #pragma once
 
 #include <array>
@@ -30,7 +30,7 @@ struct Pen {
   double width_pt = 1.0;
   std::vector<double> dashes_pt = {};
   Marker marker = Marker::kDisc;
-  Colour band = {};  ///< of an area, opaque: nothing that is drawn is transparent
+  Colour band = {};  ///< for an area; opaque, because nothing is drawn transparently
 };
 
 inline const Pen& pen_of(Role role) {

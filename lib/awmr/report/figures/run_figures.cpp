@@ -7,7 +7,7 @@
 namespace awmr {
 namespace {
 
-/// Of the mode in a run's name.
+/// Role of the mode in a run's name.
 Role role_of_mode(const Json& run) {
   static const std::map<std::string, Role> kRoles{{"differential", Role::kDifferential},
                                                   {"steering", Role::kSteering},
@@ -15,14 +15,14 @@ Role role_of_mode(const Json& run) {
   return kRoles.at(run["mode"]);
 }
 
-/// The runs of one scenario by mode, and the scenario itself, null where its file is not there.
+/// The runs of one scenario by mode, and the scenario itself; null if its file is missing.
 struct ScenarioRuns {
   std::string stem;
   std::vector<const Json*> runs;
   Json scenario;
 };
 
-/// Of every scenario the runs with the tuned gains, or where there are none with the paper's.
+/// By scenario, the runs with the tuned gains; if there are none, those with the paper's.
 std::vector<ScenarioRuns> runs_by_scenario(const Json& data) {
   std::map<std::string, std::map<std::string, std::vector<const Json*>>> by_gains;
   for (const Json& run : data["runs"]) {
@@ -31,7 +31,7 @@ std::vector<ScenarioRuns> runs_by_scenario(const Json& data) {
   std::vector<ScenarioRuns> all;
   for (auto& [stem, sets] : by_gains) {
     std::vector<const Json*>& runs = sets[sets.count("tuned") > 0 ? "tuned" : "paper"];
-    // The broadest line first, so that the others are seen on it.
+    // The widest line first, so that the others are visible on it.
     std::sort(runs.begin(), runs.end(),
               [](const Json* a, const Json* b) { return role_of_mode(*a) < role_of_mode(*b); });
     all.push_back({stem, std::move(runs),
@@ -60,8 +60,8 @@ Series reference_of(const Json& run, const char* y) {
           .y = column(run, y)};
 }
 
-/// The heading that was asked for, by whole turns nearest to the one that was driven: headings are
-/// continuous, and a reference is not.
+/// The reference heading, shifted by whole turns to be nearest to the driven heading: headings are
+/// continuous, references are not.
 Series heading_reference_of(const Json& run) {
   Series reference = reference_of(run, "psi_ref_deg");
   const std::vector<double> psi_deg = column(run, "psi_deg");
@@ -71,7 +71,7 @@ Series heading_reference_of(const Json& run) {
   return reference;
 }
 
-/// A signal of all runs over time.
+/// One signal of all runs over time.
 Panel panel_of(const ScenarioRuns& one, const char* signal, Axis y) {
   Panel panel{.y = std::move(y), .series = {}};
   for (const Json* run : one.runs) panel.series.push_back(line_of(*run, "t_s", signal));
@@ -86,8 +86,8 @@ Figure figure_over_time(const ScenarioRuns& one, const char* kind, const std::st
           .panels = std::move(panels)};
 }
 
-/// Headings that are the scenario's own are the same for every run; a course gives each run its own
-/// to follow, in a panel of its own.
+/// Heading references of the scenario are the same for every run. With guidance, each run has its
+/// own reference, in a separate panel.
 Figure heading_figure(const ScenarioRuns& one) {
   const Axis psi{"ψ", "deg"};
   std::vector<Panel> panels;

@@ -36,7 +36,7 @@ Mark marker_at(const Pen& pen, PagePoint at) {
   return Disc{.centre = at, .radius = r, .fill = pen.colour};
 }
 
-/// Which points of a cloud are drawn: all, or of very many those that stand out.
+/// The points to draw: all, or the most visible ones if there are very many.
 std::vector<std::size_t> drawn_points(const Series& series) {
   std::vector<std::size_t> order(series.x.size());
   std::iota(order.begin(), order.end(), 0);
@@ -141,7 +141,7 @@ Layer circles_of(const Plot& plot, const std::vector<FigureCircle>& circles) {
 }
 
 std::vector<Mark> sample_of(const Series& series, PagePoint at, double width_pt) {
-  // The series of two points on a plot as wide as the sample.
+  // A series of two points on a plot as wide as the sample.
   Series piece = series;
   piece.x = {0.0, 1.0};
   piece.y = {0.0, 0.0};

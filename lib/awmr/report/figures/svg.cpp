@@ -1,4 +1,4 @@
-// A drawing as SVG: text stays text, in the reader's DejaVu Sans or what comes nearest.
+// Writes a drawing as SVG: text stays text, in the reader's DejaVu Sans or the nearest font.
 #include <fmt/format.h>
 
 #include <array>
@@ -10,7 +10,7 @@
 namespace awmr {
 namespace {
 
-/// A hundredth of a point, without zeros at the end.
+/// Formats to a hundredth of a point, without trailing zeros.
 std::string in_points(double x) {
   std::string text = fmt::format("{:.2f}", x);
   text.erase(text.find_last_not_of('0') + 1);

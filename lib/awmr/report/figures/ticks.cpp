@@ -17,13 +17,13 @@ struct TickStep {
   double value() const { return mantissa * std::pow(10.0, power); }
 };
 
-/// The smallest step of which the range holds at most `most` multiples.
+/// The smallest step with at most `most` multiples in the range.
 TickStep step_for(Interval range, int most) {
   const auto count = [&](const TickStep& step) {
     const double h = step.value();
     return std::floor(range.hi / h) - std::ceil(range.lo / h) + 1.0;
   };
-  // Half of the least that could do, so that rounding of the logarithm does not matter.
+  // Starts one decade lower, so that rounding of the logarithm does not matter.
   const int power = static_cast<int>(std::floor(std::log10((range.hi - range.lo) / most))) - 1;
   for (int i = power;; ++i) {
     for (const int mantissa : {1, 2, 5}) {
@@ -33,7 +33,7 @@ TickStep step_for(Interval range, int most) {
   }
 }
 
-/// Between 0.001 and 99999 numbers are written as they are.
+/// Numbers between 0.001 and 99999 need no exponent.
 int exponent_for(Interval range) {
   const double largest = std::max(std::abs(range.lo), std::abs(range.hi));
   const int magnitude = static_cast<int>(std::floor(std::log10(largest)));

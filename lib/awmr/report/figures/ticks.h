@@ -1,4 +1,4 @@
-/// Where an axis of numbers has its ticks, and what stands at them. Private to this folder.
+/// Tick positions and labels of a numeric axis. Private to this folder.
 #pragma once
 
 #include <string>
@@ -10,16 +10,16 @@ namespace awmr {
 
 struct Tick {
   double value = 0.0;
-  std::string text = {};  ///< with a real minus sign, over 10^exponent of Ticks
+  std::string text = {};  ///< with a real minus sign; divided by 10^exponent of Ticks
 };
 
 struct Ticks {
   std::vector<Tick> list = {};
-  int exponent = 0;  ///< a multiple of 3; the axis has to say it where it is not 0
+  int exponent = 0;  ///< a multiple of 3; the axis title must show it if it is not 0
 };
 
-/// At multiples of 1, 2 or 5 times a power of ten within `range`, at most `most` of them (>= 2) and
-/// at least one, all with the same number of decimals.
+/// Ticks at multiples of 1, 2 or 5 times a power of ten within `range`: at most `most` (>= 2), at
+/// least one, all with the same number of decimals.
 /// Precondition: range.hi - range.lo is positive, finite and over 1e-7 of the larger end.
 Ticks ticks_in(Interval range, int most);
 

@@ -5,7 +5,7 @@
 namespace awmr {
 namespace {
 
-/// The best objective so far as stairs: it holds until an evaluation is better, and to the last one.
+/// The best objective so far as a step curve, up to the last evaluation.
 Series stairs_of(const Json& history, const char* name, Role role) {
   Series stairs{.name = name, .shape = SeriesShape::kLine, .role = role};
   for (const Json& step : history.at("best")) {
@@ -23,7 +23,7 @@ Series stairs_of(const Json& history, const char* name, Role role) {
   return stairs;
 }
 
-/// The searches that the gains have a history of.
+/// The searches whose history is in the gains.
 std::vector<Series> searches_of(const Json& gains) {
   std::vector<Series> all;
   const auto& search = gains.at("search").get_ref<const Json::object_t&>();
@@ -38,7 +38,7 @@ std::vector<Series> searches_of(const Json& gains) {
   return all;
 }
 
-/// The gains whose objective is 1. Files without `source` are older: the paper's gains.
+/// Name of the gains whose objective is 1. Older files without `source` use the paper's gains.
 std::string baseline_name(const Json& gains) {
   const bool is_named = gains.contains("baseline") && gains.at("baseline").contains("source");
   return is_named && gains.at("baseline").at("source") != "paper" ? "baseline"

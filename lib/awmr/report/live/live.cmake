@@ -1,5 +1,6 @@
-# The live part of the page: simulation and constraints of gains, compiled to WebAssembly, packed and written as text into
-# ${AWMR_LIVE_SOURCE}. Without AWMR_LIVE_PAGE or the toolchain the text is empty, and the page says that it has no sliders.
+# The interactive part of the page: simulation and constraints, compiled to WebAssembly, compressed
+# and written as text into ${AWMR_LIVE_SOURCE}. Without AWMR_LIVE_PAGE or the toolchain the text is
+# empty, and the page reports that it has no sliders.
 set(live_directory ${CMAKE_CURRENT_BINARY_DIR}/live)
 set(AWMR_LIVE_SOURCE ${live_directory}/live_wasm.cpp)
 file(MAKE_DIRECTORY ${live_directory})

@@ -1,9 +1,9 @@
-/// The live part of the page, compiled to WebAssembly: one run and the constraints of gains that the
-/// reader moves. The same sources simulate and tune on the command line.
+/// The interactive part of the page, compiled to WebAssembly: one run and the constraints for the
+/// gains set by the reader. The command line uses the same sources for simulation and tuning.
 ///
-/// The page writes the setup's numbers where live_setup() says, calls live_begin(), then live_run()
-/// for each position of its sliders, and reads live_rows() rows of kColumns doubles at live_table()
-/// and live_size() bytes of JSON at live_text().
+/// The page writes the setup's numbers to live_setup(), calls live_begin(), then live_run() for
+/// each position of its sliders. It reads live_rows() rows of kColumns doubles at live_table() and
+/// live_size() bytes of JSON at live_text().
 #include <fmt/format.h>
 
 #include <optional>
@@ -80,7 +80,7 @@ std::string metrics_text(const Metrics& m) {
 /// JSON has no infinity.
 std::string number(double x) { return x - x == 0.0 ? fmt::format("{}", x) : "null"; }
 
-/// The names and meanings hold neither quotes nor backslashes.
+/// Assumes that names and meanings have no quotes or backslashes.
 std::string constraints_text(const std::vector<ConstraintReport>& constraints) {
   std::string json;
   for (const ConstraintReport& c : constraints) {
@@ -100,7 +100,7 @@ using namespace awmr;
 
 #define AWMR_EXPORT(name) extern "C" __attribute__((export_name(#name)))
 
-/// Room for the setup's numbers.
+/// Allocates space for the setup's numbers.
 AWMR_EXPORT(live_setup) double* live_setup(int count) {
   numbers.assign(static_cast<std::size_t>(count), 0.0);
   return numbers.data();
@@ -111,8 +111,8 @@ AWMR_EXPORT(live_begin) void live_begin() {
   visit_numbers(setup, [&](double& x) { x = numbers[next++]; });
 }
 
-/// mode: as YawMode. mass and friction: what the plant has of the model's, which the controller does
-/// not know; observer_radps: 0 without an observer. Returns whether the run went to its end.
+/// mode: as YawMode. mass and friction: factors of the plant relative to the model, unknown to the
+/// controller; observer_radps: 0 without an observer. Returns true if the run was completed.
 AWMR_EXPORT(live_run)
 bool live_run(double lambda, double mu, double epsilon, double speed_mu, double speed_epsilon,
               double observer_radps, int mode, double sample_time_s, double mass, double friction,

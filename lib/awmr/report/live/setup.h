@@ -1,5 +1,5 @@
-/// What the live part of the page computes with: made by the program from model.json and gains.json,
-/// read by the same code compiled to WebAssembly. Private to the report.
+/// Input of the interactive part of the page: written by the program from model.json and
+/// gains.json, read by the same code compiled to WebAssembly. Private to the report.
 #pragma once
 
 #include <vector>
@@ -9,11 +9,11 @@
 
 namespace awmr {
 
-/// A model, its vehicle's limits, a heading scenario, and what the constraints depend on.
+/// A model, its vehicle's limits, a heading scenario, and the inputs of the constraints.
 struct LiveSetup {
-  ConstraintContext context;  ///< its plant is the model's own
+  ConstraintContext context;  ///< its plant is the model's
   double allocation_form = 0.0;
-  double observer_yaw_max_m = 0.0;  ///< of an observer tuned with the gains
+  double observer_yaw_max_m = 0.0;  ///< for an observer tuned with the gains
   double observer_surge_max = 0.0;
   double speed_mps = 0.0;  ///< of the scenario
   double duration_s = 0.0;
@@ -40,7 +40,7 @@ void visit_plant(Plant<double>& plant, Visit&& visit) {
   }
 }
 
-/// What is no double passes as one.
+/// Visits a value of another type as a double.
 template <class T, class Visit>
 void visit_as_number(T& value, Visit&& visit) {
   double number = static_cast<double>(value);
@@ -48,7 +48,7 @@ void visit_as_number(T& value, Visit&& visit) {
   value = static_cast<T>(number);
 }
 
-/// Before its elements, how many there are.
+/// Visits the number of elements, then the elements.
 template <class T, class Visit, class VisitElement>
 void visit_list(std::vector<T>& list, Visit&& visit, VisitElement&& visit_element) {
   double size = static_cast<double>(list.size());
@@ -57,7 +57,7 @@ void visit_list(std::vector<T>& list, Visit&& visit, VisitElement&& visit_elemen
   for (T& element : list) visit_element(element, visit);
 }
 
-/// Every number of the setup in one order, for writing and for reading: visit(double&).
+/// Visits all numbers of the setup in a fixed order, for writing and for reading: visit(double&).
 template <class Visit>
 void visit_numbers(LiveSetup& setup, Visit&& visit) {
   ConstraintContext& c = setup.context;

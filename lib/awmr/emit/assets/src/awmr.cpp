@@ -1,7 +1,7 @@
-// The C interface over awmr/control/, which is the source that was simulated and tuned.
+// C interface of awmr/control/, the source that was simulated and tuned.
 
-// A chip that rounds a b + c once in place of twice would give other bits than the host that tuned:
-// products and sums stay apart, whatever the compiler's default is.
+// A chip that rounds a b + c once instead of twice would give other bits than the host used for
+// tuning. So products and sums stay separate, whatever the compiler's default is.
 #if defined(__FAST_MATH__)
 #error "awmr: compile without -ffast-math; infinities and NaN have to be seen, and bits be the host's"
 #elif defined(__clang__)
@@ -16,7 +16,7 @@
 
 #include "awmr/control/autopilot.h"
 
-// 0: for a speed sensor with a sign; awmr_input.speed_unsigned is a fault then, and takes no flash.
+// 0: for a speed sensor with a sign; saves flash. awmr_input.speed_unsigned is then a fault.
 #ifndef AWMR_WITH_DIRECTION
 #define AWMR_WITH_DIRECTION 1
 #endif
@@ -47,7 +47,7 @@ const size_t kYawCount = 0;
 
 }  // namespace
 
-// Not static, so that a debugger or a flashing tool finds it by its name.
+// Not static, so that debuggers and flashing tools find it by name.
 extern const awmr::ParameterBlock awmr_parameters;
 const awmr::ParameterBlock awmr_parameters AWMR_IN_FLASH = {
     {AWMR_SURGE_ALPHA, AWMR_SURGE_BETA},
@@ -106,8 +106,8 @@ struct Parts {
 
 awmr::Autopilot<Resistance, Parts> autopilot;
 
-// The barriers keep the compiler from moving what a caller writes before or reads after past the
-// call, whatever it knows of the two types.
+// The barriers prevent the compiler from moving the caller's writes and reads across the call,
+// whatever it assumes about aliasing of the two types.
 inline void follow(const awmr_point* points, int16_t count, float acceptance_m, bool skip_passed) {
   // An acceptance that is no distance: each step is a fault, AWMR_FAULT_OUTPUT, until the next route.
   static const awmr_point kNowhere = {__builtin_nanf(""), __builtin_nanf("")};
@@ -130,7 +130,7 @@ uint8_t awmr_init(void) {
   return good ? AWMR_FAULT_NONE : AWMR_FAULT_PARAMETERS;
 }
 
-// The C structs have the members of the C++ ones in their order.
+// The C structs have the same members in the same order as the C++ structs.
 static_assert(sizeof(awmr_input) == sizeof(awmr::AutopilotInput), "");
 static_assert(offsetof(awmr_input, psi_rad) == offsetof(awmr::AutopilotInput, measured), "");
 static_assert(offsetof(awmr_input, x_m) == offsetof(awmr::AutopilotInput, position_m), "");
@@ -142,7 +142,7 @@ static_assert(sizeof(awmr_output) == sizeof(awmr::AutopilotOutput), "");
 static_assert(offsetof(awmr_output, tau_speed) == offsetof(awmr::AutopilotOutput, tau_speed), "");
 static_assert(offsetof(awmr_output, arrived) == offsetof(awmr::AutopilotOutput, arrived), "");
 
-// So they are used in place.
+// The C structs are used in place of the C++ ones.
 __attribute__((noinline)) void awmr_step(const awmr_input* input, awmr_output* output) {
   __asm__ volatile("" ::: "memory");
   awmr::autopilot_step(autopilot, *reinterpret_cast<const awmr::AutopilotInput*>(input),

@@ -1,6 +1,7 @@
 /* awmr: the autopilot of one vehicle as a C interface. C99 and C++11.
-   Angles in rad, counter-clockwise positive, x forward, y left; forces over F_max, the largest force
-   of one motor. Nothing is allocated; there is one autopilot. Call from one thread (or one interrupt).
+   Angles in rad, counter-clockwise positive, x forward, y left; forces over F_max, the largest
+   force of one motor. No memory is allocated; there is one autopilot. Call from one thread (or one
+   interrupt).
 
      awmr_init();
      every AWMR_SAMPLE_TIME_S: fill an awmr_input; awmr_step(&input, &output); drive the motors. */
@@ -12,14 +13,14 @@
 #include "awmr_autopilot_params.h"
 #include "awmr_params.h"
 
-/* mode: how a yaw moment is made */
-#define AWMR_DIFFERENTIAL 0 /* by the sides' forces, wheels straight */
-#define AWMR_STEERING 1     /* by the front wheels, sides alike */
-#define AWMR_COMBINED 2     /* by both; what one cannot deliver goes to the other, unless
+/* mode: method of making a yaw moment */
+#define AWMR_DIFFERENTIAL 0 /* by left and right wheel forces, wheels straight */
+#define AWMR_STEERING 1     /* by the front wheels, equal forces on both sides */
+#define AWMR_COMBINED 2     /* by both; what one cannot make goes to the other, unless
                                AWMR_FIXED_HALF */
 
-/* fault: why the safe command (forces 0, wheels straight) was given. Bits, several may be set.
-   AWMR_FAULT_PARAMETERS stays until reset; the others last as long as their cause. */
+/* fault: reason for the safe command (forces 0, wheels straight). Bits, several can be set.
+   AWMR_FAULT_PARAMETERS is set until reset; the others last as long as their cause. */
 #define AWMR_FAULT_NONE 0x00
 #define AWMR_FAULT_PARAMETERS 0x01      /* the parameters in flash fail their check sum */
 #define AWMR_FAULT_NOT_FINITE 0x02      /* an input is infinite or NaN */
@@ -27,42 +28,42 @@
 #define AWMR_FAULT_HEADING_STALE 0x08   /* heading_ms too old: AWMR_HEADING_TIMEOUT_MS */
 #define AWMR_FAULT_SPEED_STALE 0x10     /* speed_ms too old: AWMR_SPEED_TIMEOUT_MS */
 #define AWMR_FAULT_COMMAND_TIMEOUT 0x20 /* command_ms too old: AWMR_COMMAND_TIMEOUT_MS */
-#define AWMR_FAULT_STEP_LATE 0x40       /* the step before too long ago: AWMR_STEP_TIMEOUT_MS */
+#define AWMR_FAULT_STEP_LATE 0x40       /* too long since the last step: AWMR_STEP_TIMEOUT_MS */
 #define AWMR_FAULT_OUTPUT 0x80          /* the command would have been outside its limits */
 
 typedef struct awmr_input {
   uint8_t mode;            /* AWMR_DIFFERENTIAL, AWMR_STEERING or AWMR_COMBINED */
   float psi_rad;           /* heading, wrapped or not, |psi| <= 4096 */
-  float u_mps;             /* speed ahead */
-  float v_mps;             /* speed to the left; 0 where it is not measured */
+  float u_mps;             /* forward speed */
+  float v_mps;             /* speed to the left; 0 if not measured */
   float r_radps;           /* yaw rate */
-  float x_m;               /* position, read by what leads or avoids obstacles only */
+  float x_m;               /* position, read only by guidance and avoidance */
   float y_m;
-  float psi_ref_rad;       /* heading to hold; not read while something leads */
+  float psi_ref_rad;       /* heading to hold; ignored while guidance is active */
   float psi_ref_rate_radps;
   float psi_ref_accel_radps2;
   float u_ref_mps;         /* speed to hold */
   float u_ref_accel_mps2;
-  uint32_t now_ms;         /* a clock in ms that may wrap around, and by it when ... */
-  uint32_t heading_ms;     /* ... psi_rad and r_radps were measured, */
-  uint32_t speed_ms;       /* ... u_mps, x_m and y_m were measured, */
-  uint32_t command_ms;     /* ... whoever commands was last heard of */
-  uint8_t speed_unsigned;  /* 1: u_mps is the size of the speed, as a GPS gives it, and x_m, y_m are
-                              measured: the direction is computed. 0: u_mps has its sign */
+  uint32_t now_ms;         /* a clock in ms that can wrap, and the times on it */
+  uint32_t heading_ms;     /* at which psi_rad and r_radps were measured, */
+  uint32_t speed_ms;       /* at which u_mps, x_m and y_m were measured, */
+  uint32_t command_ms;     /* and of the last command */
+  uint8_t speed_unsigned;  /* 1: u_mps is the magnitude of the speed, as from a GPS, and x_m, y_m
+                              are measured: the direction is computed. 0: u_mps has its sign */
 } awmr_input;
 
 typedef struct awmr_output {
-  float force_left;        /* of each wheel of the side, AWMR_WHEEL_FORCE_MIN to _MAX */
+  float force_left;        /* of each wheel on that side, AWMR_WHEEL_FORCE_MIN to _MAX */
   float force_right;
   float steering_rad;      /* of the front wheels, left positive */
   uint8_t speed_limited;   /* 1: tau_speed was clipped */
   uint8_t steering_limited;   /* 1: the steering angle was clipped */
   uint8_t force_limited;      /* 1: a force was clipped */
   uint8_t steering_powerless; /* 1: too little force to steer with */
-  float tau_speed;         /* asked for by the speed law, before any limit */
-  float tau_turn_m;        /* asked for by the heading law, m, before any limit */
-  float psi_ref_rad;       /* the heading held or led to */
-  uint8_t arrived;         /* 1: nothing is left to go to: set u_ref_mps to 0 to stop */
+  float tau_speed;         /* requested by the speed law, before any limit */
+  float tau_turn_m;        /* requested by the heading law, m, before any limit */
+  float psi_ref_rad;       /* heading reference */
+  uint8_t arrived;         /* 1: the route is finished: set u_ref_mps to 0 to stop */
   uint8_t fault;           /* AWMR_FAULT_...; not 0: the safe command */
 } awmr_output;
 
@@ -71,15 +72,16 @@ typedef struct awmr_point {
   float y_m;
 } awmr_point;
 
-/* Parts beyond heading hold and waypoints: each takes flash and RAM only where awmr_autopilot_params.h
-   says that it is compiled in (awmr emit --with NAME). */
+/* Optional parts in addition to heading hold and waypoints. Each needs flash and RAM only if
+   awmr_autopilot_params.h has it compiled in (awmr emit --with NAME). */
 
 #if AWMR_WITH_LINE
 typedef struct awmr_line_law {
-  float delta_rad;         /* angle at which the line is approached, in (0, pi/2] */
+  float delta_rad;         /* angle of approach to the line, in (0, pi/2] */
   float width_m;           /* half width of the lane in which the approach flattens, > 0 */
-  float corner_m;          /* the next segment is taken up this far before a corner, >= 0 */
-  uint8_t sideslip_compensation; /* 1: the course is led and not the heading; v_mps is measured */
+  float corner_m;          /* the next segment starts this far before a corner, >= 0 */
+  uint8_t sideslip_compensation; /* 1: the course over ground is controlled, not the heading; v_mps
+                                    is measured */
 } awmr_line_law;
 #endif
 
@@ -90,7 +92,7 @@ typedef struct awmr_path {
   float amplitude_y_m;
   float rate_x_radps;
   float rate_y_radps;
-  float gain_per_s;        /* position fed back with this gain; 0: direction and speed alone */
+  float gain_per_s;        /* gain of the position feedback; 0: only direction and speed */
 } awmr_path;
 #endif
 
@@ -100,20 +102,20 @@ typedef struct awmr_obstacle {
   float y_m;
   float radius_m;          /* > 0 */
 } awmr_obstacle;
-typedef struct awmr_sector { /* room to compute in: nothing to fill in */
+typedef struct awmr_sector { /* workspace: nothing to fill in */
   float bearing_rad;
   float half_rad;
   uint8_t counts;
 } awmr_sector;
 typedef struct awmr_avoidance {
   float mmd_base_m;        /* minimum manoeuvring distance at rest: at least the turning radius */
-  float mmd_per_speed_s;   /* more of it for each m/s, >= 0 */
-  float sigma_rad;         /* turned by more than the tangent, next to the obstacle, [0, pi/2) */
-  float vehicle_radius_m;  /* of the circle that holds the vehicle */
-  float clearance_m;       /* kept free between it and the obstacle, > 0 */
-  float hysteresis_m;      /* farther than where avoidance began, before it ends, >= 0 */
-  float side_hysteresis_rad; /* nearer on the other side, before the side is changed, >= 0 */
-  float brake_m;           /* free way ahead below which the speed is cut, > 0 */
+  float mmd_per_speed_s;   /* increase per m/s, >= 0 */
+  float sigma_rad;         /* extra angle beyond the tangent next to the obstacle, [0, pi/2) */
+  float vehicle_radius_m;  /* of the circle that encloses the vehicle */
+  float clearance_m;       /* free distance between it and the obstacle, > 0 */
+  float hysteresis_m;      /* added distance before avoidance ends, >= 0 */
+  float side_hysteresis_rad; /* advantage of the other side before the side changes, >= 0 */
+  float brake_m;           /* free distance ahead below which the speed is reduced, > 0 */
 } awmr_avoidance;
 #endif
 
@@ -128,9 +130,9 @@ typedef struct awmr_shaping {
 #if AWMR_WITH_OBSERVER
 typedef struct awmr_observer {
   float bandwidth_radps;   /* > 0, below 1/AWMR_SAMPLE_TIME_S */
-  float yaw_max_m;         /* largest moment taken off, over F_max */
-  float surge_max;         /* largest force taken off, over F_max */
-  uint8_t anti_windup;     /* 1, unless to see what it is good for */
+  float yaw_max_m;         /* largest moment compensated, over F_max */
+  float surge_max;         /* largest force compensated, over F_max */
+  uint8_t anti_windup;     /* 1; 0 only to see its effect */
 } awmr_observer;
 #endif
 
@@ -138,50 +140,52 @@ typedef struct awmr_observer {
 extern "C" {
 #endif
 
-/* Reads and checks the parameters. AWMR_FAULT_NONE, or AWMR_FAULT_PARAMETERS: awmr_step then gives
-   the safe command only. */
+/* Reads and checks the parameters. Returns AWMR_FAULT_NONE or AWMR_FAULT_PARAMETERS; after the
+   latter, awmr_step gives only the safe command. */
 uint8_t awmr_init(void);
 
 /* One control step. */
 void awmr_step(const awmr_input* input, awmr_output* output);
 
-/* Goes to `count` points one after the other from the next step on; a point is reached within
+/* Follows `count` waypoints in order from the next step on; a waypoint is reached within
    acceptance_m. The points are not copied. count 0: back to holding psi_ref_rad. */
 void awmr_follow(const awmr_point* points, int16_t count, float acceptance_m);
 
-/* The same, but a point that was passed by is given up, for a vehicle that cannot turn back to it. */
+/* As above, but skips a waypoint that was passed by, for a vehicle that cannot turn back to it. */
 void awmr_follow_skipping(const awmr_point* points, int16_t count, float acceptance_m);
 
 #if AWMR_WITH_LINE
-/* Along `count` corners from the next step on, instead of waypoints. The corners are not copied. */
+/* Follows the line through `count` corners from the next step on, instead of waypoints. The corners
+   are not copied. */
 void awmr_follow_line(const awmr_point* corners, int16_t count, const awmr_line_law* law);
 #endif
 
 #if AWMR_WITH_PATH
-/* Along a path in time from the next step on. With u_ref_mps 0 at the path's own speed. */
+/* Follows a timed path from the next step on. With u_ref_mps 0, at the path's own speed. */
 void awmr_follow_path(const awmr_path* path);
 #endif
 
 #if AWMR_WITH_SLOW_DOWN
-/* From this distance to the last waypoint or the line's end on the speed falls, to a tenth. 0: off. */
+/* Reduces the speed from this distance to the last waypoint or the line's end on, to a tenth. 0:
+   off. */
 void awmr_slow_down(float distance_m);
 #endif
 
 #if AWMR_WITH_AVOIDANCE
-/* Steers clear of `count` obstacles, whatever leads. `sectors` is room for as many. Neither is copied.
-   0: of none. */
+/* Avoids `count` obstacles, with any guidance. `sectors` has room for `count` elements. Neither is
+   copied. count 0: off. */
 void awmr_avoid(const awmr_avoidance* avoidance, const awmr_obstacle* obstacles, awmr_sector* sectors,
                 int16_t count);
 #endif
 
 #if AWMR_WITH_SHAPING
-/* Limits rate and acceleration of the heading that is held or led to. NULL: off. */
+/* Limits rate and acceleration of the heading reference. NULL: off. */
 void awmr_shape(const awmr_shaping* shaping);
 #endif
 
 #if AWMR_WITH_OBSERVER
-/* Takes the disturbance that is seen off the command. NULL: off. Gains that were tuned with an observer
-   (AWMR_OBSERVER_... in awmr_params.h) have it on from awmr_init() on. */
+/* Compensates the estimated disturbance. NULL: off. With gains that were tuned with an observer
+   (AWMR_OBSERVER_... in awmr_params.h), it is on from awmr_init() on. */
 void awmr_observe(const awmr_observer* observer);
 #endif
 

@@ -1,12 +1,12 @@
-/* The on-board log: a row of 64 bytes a step, through a ring, to a file that `awmr log` and
-   `awmr identify --log` read. C++11; to be included where it is used only, as the ring takes RAM.
+/* The on-board log: one row of 64 bytes per step, through a ring buffer, to a file for `awmr log`
+   and `awmr identify --log`. C++11; include it only where it is used, because the ring needs RAM.
 
      control step (an interrupt):  awmr_log::put(ring, input, output, step, reset_cause);
      idle loop:                    awmr_log::drain(ring, file);
 
-   The step copies 56 bytes and never waits. The check sum and the card are the loop's. Where the
-   card makes the loop wait for longer than the ring holds, rows are lost and their numbers with
-   them, so that the reader knows. */
+   The step copies 56 bytes and never waits. The loop computes check sums and writes the card. If
+   the card blocks the loop for longer than the ring can buffer, rows are lost. Their sequence
+   numbers are missing, so that the reader detects it. */
 #ifndef AWMR_LOG_H
 #define AWMR_LOG_H
 
@@ -16,8 +16,8 @@
 
 namespace awmr_log {
 
-/* Of 512 bytes: 4 KiB of the 8 that a Mega has, 56 sample times of a card that does not take
-   anything (0.56 s at 10 ms; cards may take 0.25 s). */
+/* Blocks of 512 bytes: 4 KiB of a Mega's 8 KiB. They buffer 56 sample times during which the card
+   accepts nothing (0.56 s at 10 ms; cards can take 0.25 s). */
 typedef awmr::LogRing<8> Ring;
 
 #define AWMR_LOG_COLUMN(name, type, scale) \
@@ -44,7 +44,7 @@ const char kHeaderText[] AWMR_IN_FLASH =
 #undef AWMR_LOG_COLUMN
 static_assert(sizeof kHeaderText <= awmr::kLogHeaderBytes - 8, "");
 
-/* `sensor_fault` is an awmr::SensorFault. One row, or, where the ring is full, one row that is lost. */
+/* Adds one row; if the ring is full, the row is lost. `sensor_fault` is an awmr::SensorFault. */
 template <uint8_t kBlocks>
 inline void put(awmr::LogRing<kBlocks>& ring, const awmr_input& in, const awmr_output& out,
                 uint32_t step, uint8_t reset_cause, uint8_t sensor_fault = 0) {
@@ -71,8 +71,9 @@ inline void put(awmr::LogRing<kBlocks>& ring, const awmr_input& in, const awmr_o
   ring.end_row();
 }
 
-/* Twice at the start of a file: one damaged byte is not the end of all of it. A sink has
-   size_t write(const uint8_t*, size_t), as Arduino's File and Serial. False: it took less. */
+/* Writes the header twice at the start of a file, so that one damaged byte does not make the file
+   unreadable. A sink has size_t write(const uint8_t*, size_t), like Arduino's File and Serial.
+   False: it accepted fewer bytes. */
 template <class Sink>
 bool write_header(Sink& sink) {
   bool good = true;
@@ -99,8 +100,8 @@ bool write_header(Sink& sink) {
 
 enum Drained { kNothing, kWritten, kFailed };
 
-/* Writes one block, if there is one; with `rest` what there is of one, before a file is closed.
-   Rows that the sink does not take are lost. */
+/* Writes one block if it is complete; with `rest`, also an incomplete block, before a file is
+   closed. Rows that the sink does not accept are lost. */
 template <uint8_t kBlocks, class Sink>
 Drained drain(awmr::LogRing<kBlocks>& ring, Sink& sink, bool rest = false) {
   const uint8_t rows = ring.ready(rest);

@@ -1,10 +1,10 @@
-/* The source paper's hardware for the example sketches: MPU9250 for heading and yaw rate, GPS for speed and
-   position, a servo, two motor drivers, a log on an SD card. Arduino Mega 2560, or an Uno without the
-   card; header-only, so that the library itself needs neither Wire nor SD; to be included by the
-   sketch alone. Axes: x north, y west, z up; heading counter-clockwise from north.
+/* The source paper's hardware for the example sketches: MPU9250 for heading and yaw rate, GPS for
+   speed and position, a servo, two motor drivers, a log on an SD card. Arduino Mega 2560, or an Uno
+   without the card. Header-only, so that the library itself needs neither Wire nor SD; include it
+   only in the sketch. Axes: x north, y west, z up; heading counter-clockwise from north.
 
-   Everything that drives runs in a timer interrupt (begin_steps); loop() has nothing to do but the
-   card, which may make it wait. */
+   All driving code runs in a timer interrupt (begin_steps). loop() handles only the card, which can
+   block. */
 #ifndef AWMR_PAPER_BOARD_H
 #define AWMR_PAPER_BOARD_H
 
@@ -42,13 +42,13 @@ const float kServoUsPerRad = 573.0f; /* 10 us per degree of the wheels: measure 
 
 namespace awmr_board {
 
-/* A time that was never taken is too old, however soon after the start. */
+/* The time stamp, or an outdated one if there is none yet, even directly after the start. */
 inline uint32_t time_or_old(bool is_taken, uint32_t time_ms, uint32_t now_ms, uint32_t timeout_ms) {
   return is_taken ? time_ms : now_ms - timeout_ms - 1;
 }
 
-/* In setup() of a sketch that steers by the autopilot: starts everything but the steps, and says
-   over Serial (115200 baud) what is missing. */
+/* Call in setup() of a sketch that uses the autopilot: starts everything except the steps, and
+   reports missing devices over Serial (115200 baud). */
 inline void begin(Imu& imu, Gps& gps, Log& card) {
   Serial.begin(115200);
   begin_actuators();
@@ -60,8 +60,8 @@ inline void begin(Imu& imu, Gps& gps, Log& card) {
   Serial.println(F("disarmed: hold still, then ARM"));
 }
 
-/* In the step: what the sensors measure and when somebody commanded, with the times. A sensor that
-   is not believed keeps its old time, which becomes the autopilot's fault. */
+/* Call in the step: writes sensor readings and time stamps into the input. A rejected sensor keeps
+   its old time stamp, which becomes a fault of the autopilot. */
 inline void measure(const Imu& imu, const Gps& gps, const Command& command, awmr_input& input) {
   input.now_ms = millis();
   input.psi_rad = imu.psi_rad;
@@ -77,14 +77,14 @@ inline void measure(const Imu& imu, const Gps& gps, const Command& command, awmr
       time_or_old(command.has_heard, command.heard_ms, input.now_ms, AWMR_COMMAND_TIMEOUT_MS);
 }
 
-/* The first sensor that is not believed. */
+/* Fault of the first sensor that is rejected. */
 inline uint8_t sensor_fault(const Imu& imu, const Gps& gps) {
   const awmr::SensorFault heading = imu.fault();
   return heading != awmr::kSensorGood ? heading : gps.fault();
 }
 
-/* One step of a sketch that steers by the autopilot, after `input` has mode and references: reads
-   the sensors, drives, disarms on a fault, logs. */
+/* One step of a sketch that uses the autopilot, after `input` has mode and references: reads the
+   sensors, drives, disarms on a fault, logs. */
 inline void step(Imu& imu, Gps& gps, Command& command, Safety& safety, Log& card, awmr_input& input,
                  awmr_output& output) {
   gps.read(input.u_ref_mps, imu.psi_rad, safety.is_armed());

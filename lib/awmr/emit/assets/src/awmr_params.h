@@ -1,2 +1,2 @@
-/* The parameters lie beside library.properties, where awmr emit has always written them. */
+/* The parameters are next to library.properties, where awmr emit writes them. */
 #include "../awmr_params.h"

@@ -1,5 +1,5 @@
-/* Records the trials of the field sheet: drives each run of a list, measures where it is steady,
-   and gives the rows of the tables that `awmr identify` reads. C++11, without Arduino. */
+/* Records the trials of the field sheet: drives each run of a list, measures in steady state, and
+   returns the rows of the tables for `awmr identify`. C++11, without Arduino. */
 #ifndef AWMR_TRIALS_H
 #define AWMR_TRIALS_H
 
@@ -16,35 +16,36 @@ struct Trial {
 };
 
 struct Settings {
-  float settle_s;       /* drives so long before it measures */
-  float measure_s;      /* and takes means over so long */
-  float coast_s;        /* a coast-down ends after so long at the latest, */
-  float rest_mps;       /* or below this speed, once there are rows enough for a curve */
-  float steady_share;   /* the means of the window's halves agree within this share of themselves */
+  float settle_s;       /* driving time before the measurement */
+  float measure_s;      /* averaging time */
+  float coast_s;        /* maximum duration of a coast-down, */
+  float rest_mps;       /* which also ends below this speed, with enough rows for a curve */
+  float steady_share;   /* maximum relative difference of the means of the window's halves */
 };
 
 enum State { kWaiting, kSettling, kMeasuring, kCoasting, kDone };
 
-/* What a step has to tell. After kNotSteady, kLetGo and kSensorLost the same run waits to be driven again. */
+/* Event of a step. After kNotSteady, kLetGo and kSensorLost, the same run waits to be driven again.
+   */
 enum Event {
   kNothing,
-  kRow,       /* a row of a surge or turning run, which is over */
+  kRow,       /* a row of a surge or turning run, which is finished */
   kCurveRow,  /* a row of a coast-down */
-  kCoasted,   /* a coast-down is over */
-  kNotSteady, /* the window's halves differ, or there were too few fixes in one */
-  kLetGo,     /* nobody holds it any more */
-  kSensorLost /* a sensor was not believed while it drove or coasted; a curve ends there */
+  kCoasted,   /* a coast-down is finished */
+  kNotSteady, /* the window's halves differ, or one has too few fixes */
+  kLetGo,     /* the dead man's switch was released */
+  kSensorLost /* a sensor was rejected while driving or coasting; a curve ends there */
 };
 
 struct Measured {
   uint32_t now_ms;
   float speed_mps;
-  uint32_t speed_ms; /* when it was measured: a new one counts once */
+  uint32_t speed_ms; /* time of its measurement: each reading counts once */
   float yaw_rate_radps;
-  bool is_held;      /* somebody holds the dead man's switch */
+  bool is_held;      /* the dead man's switch is held */
 };
 
-/* Of kRow: force, steering_rad and value, the mean speed or yaw rate. Of kCurveRow: t_s since
+/* For kRow: force, steering_rad and value, the mean speed or yaw rate. For kCurveRow: t_s since
    motors-off and value, the speed. */
 struct Row {
   float force;
@@ -58,16 +59,16 @@ class Recorder {
   Recorder(const Trial* runs, uint8_t count, const Settings& settings)
       : runs_(runs), settings_(settings), count_(count) {}
 
-  /* The next run, or the one that was given up, begins with the next step. */
+  /* Starts the waiting run in the next step. */
   void go() {
     if (state_ == kWaiting) state_ = kSettling, is_new_ = true;
   }
-  /* Leaves out the run that waits. */
+  /* Skips the waiting run. */
   void skip() {
     if (state_ == kWaiting) next();
   }
 
-  /* is_doubtful: a sensor is not believed, and nothing that is measured counts. */
+  /* is_doubtful: a sensor is rejected, and measurements are ignored. */
   Event step(const Measured& m, bool is_doubtful = false) {
     if (is_new_) {
       since_ms_ = m.now_ms;
@@ -90,7 +91,7 @@ class Recorder {
   uint8_t number() const { return number_; } /* of the run, from 0; the count when all are done */
   const Trial& trial() const { return runs_[number_]; }
   const Row& row() const { return row_; }
-  /* To be commanded until the next step: motors off unless it drives. */
+  /* Force to command until the next step: 0 unless it drives. */
   float force() const { return state_ == kSettling || state_ == kMeasuring ? trial().force : 0.0f; }
   float steering_rad() const { return state_ == kWaiting || state_ == kDone ? 0.0f : trial().steering_rad; }
 
@@ -101,15 +102,15 @@ class Recorder {
   uint8_t number_ = 0;
   State state_ = kWaiting;
   bool is_new_ = false;
-  uint32_t since_ms_ = 0; /* the state began */
+  uint32_t since_ms_ = 0; /* start of the state */
   uint32_t speed_ms_ = 0;
-  float sum_[2] = {0.0f, 0.0f}; /* of the halves of the window */
+  float sum_[2] = {0.0f, 0.0f}; /* one per half of the window */
   uint16_t samples_[2] = {0, 0};
   uint8_t curve_rows_ = 0;
   Row row_ = {0.0f, 0.0f, 0.0f, 0.0f};
 
   static const uint8_t kFewest = 3;      /* fixes in half a window */
-  static const uint8_t kCurveRows = 8;   /* of a coast-down, at rest if need be */
+  static const uint8_t kCurveRows = 8;   /* minimum of a coast-down, at rest if necessary */
 
   void begin_window(uint32_t now_ms) {
     state_ = kMeasuring;
@@ -124,7 +125,8 @@ class Recorder {
     state_ = kWaiting;
     return why;
   }
-  /* The rows of a curve are kept, and no other one has its run's number. */
+  /* Ends a run after a sensor fault. The rows of a curve are kept, and no other curve gets its
+     run's number. */
   Event lose() {
     if (state_ != kCoasting) return give_up(kSensorLost);
     next();

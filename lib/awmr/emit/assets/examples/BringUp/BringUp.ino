@@ -1,7 +1,8 @@
-// Walks through the bring-up list of README.md after a first flash. Wheels off the ground. Over Serial (115200
-// baud) it says what it is going to do; the line "y" is yes and arms that one motion, anything else is no. The first no ends it, motors off
-// until a reset: mend what was wrong and begin anew. Forces are at most kForce, a motion lasts two seconds, and any
-// character meanwhile ends it too.
+// Guides through the bring-up list of README.md after a first flash. Wheels off the ground. Over
+// Serial (115200 baud) it announces each motion; the line "y" arms this motion, anything else is
+// no. The first no ends the bring-up, with the motors off until a reset: fix the fault and start
+// again. Forces are at most kForce, a motion lasts two seconds, and any character during a motion
+// also ends it.
 #include <Wire.h>
 #include <awmr.h>
 #include <awmr_paper_board.h>
@@ -15,15 +16,15 @@ Stream* gps_port;
 awmr::RmcReader gps_reader;
 volatile bool has_fix = false;
 
-// What the step commands, set by loop(): a float is four bytes, so with interrupts off.
+// Commands of the step, set by loop() with interrupts off, because a float has four bytes.
 struct Wanted {
   float left, right, steering_rad;
-  bool by_autopilot; // it holds the heading that it had, forces cut to kForce
+  bool by_autopilot; // holds the heading at its start, with forces limited to kForce
 };
 Wanted wanted;
 awmr_output output;
 volatile bool shall_hang = false;
-float turned_rad = 0.0f; // by the gyroscope since it was set to 0
+float turned_rad = 0.0f; // turned by the gyroscope since it was set to 0
 
 float cut(float force) { return constrain(force, -kForce, kForce); }
 
@@ -34,7 +35,7 @@ void read_gps() {
   }
 }
 
-// A line that is "y", and nothing else in it.
+// True for the line "y" and nothing else.
 bool read_yes() {
   bool is_yes = false;
   for (uint8_t length = 0;;) {
@@ -61,7 +62,7 @@ void step() {
     input.r_radps = imu.r_radps;
     input.heading_ms =
         awmr_board::time_or_old(imu.has_heading(), imu.time_ms, input.now_ms, AWMR_HEADING_TIMEOUT_MS);
-    // On a box it has no speed, and needs no fix.
+    // The vehicle stands on a box: it has no speed and needs no fix.
     input.speed_ms = input.command_ms = input.now_ms;
     awmr_step(&input, &output);
     output.force_left = cut(output.force_left);
@@ -103,16 +104,16 @@ void ask(const __FlashStringHelper* question) {
   if (!read_yes()) end(question);
 }
 
-// The stop rule: waits, but for no longer than until a character comes.
+// The stop rule: waits, but ends at the first character.
 void wait_ms(uint32_t limit_ms) {
   const uint32_t start_ms = millis();
-  while (Serial.available() > 0) Serial.read(); // the end of the last line
+  while (Serial.available() > 0) Serial.read(); // rest of the last line
   while (millis() - start_ms < limit_ms) {
     if (Serial.available() > 0) end(F("stopped"));
   }
 }
 
-// Turns something for two seconds, then asks what was seen.
+// Moves an actuator for two seconds, then asks for the observation.
 void show(float left, float right, float steering_rad, const __FlashStringHelper* warning,
           const __FlashStringHelper* question) {
   ask(warning);

@@ -1,7 +1,8 @@
-// Records the magnetic field while the vehicle turns, for `awmr compass FIELD00.CSV -o src/awmr_compass.h`. On level
-// ground away from iron, with everything mounted and switched on as for driving, turn it slowly through two whole
-// circles: by hand, or over Serial (115200 baud): "ARM", then "T 0.3" drives a circle to the left with 0.3 of F_max
-// as long as a command comes once a second, "KEEP" for one; "STOP" stops.
+// Records the magnetic field while the vehicle turns, for `awmr compass FIELD00.CSV -o
+// src/awmr_compass.h`. Use level ground away from iron, with everything mounted and switched on as
+// for driving. Turn the vehicle slowly through two whole circles, by hand or over Serial (115200
+// baud): "ARM", then "T 0.3" drives a circle to the left with 0.3 of F_max while a command, such as
+// "KEEP", arrives once per second; "STOP" stops.
 #include <SD.h>
 #include <SPI.h>
 #include <Wire.h>
@@ -47,7 +48,7 @@ void obey() {
 
 void step() {
   while (command.read()) obey();
-  // No compass is needed to turn by: it is what is calibrated.
+  // The turn needs no compass: the compass is being calibrated.
   if (millis() - command.heard_ms >= 1000) arming.disarm(awmr::DisarmReason::kTimeout);
   if (!arming.is_armed()) force = 0.0f;
   awmr_output output = awmr_output();

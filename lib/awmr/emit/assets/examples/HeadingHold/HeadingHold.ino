@@ -1,9 +1,11 @@
-// Heading and speed hold on the source paper's hardware. Over Serial, 115200 baud, one command a line:
-//   ARM     motors may turn, at speed 0, holding the heading that the vehicle has
+// Heading and speed hold on the source paper's hardware. Over Serial, 115200 baud, one command per
+// line:
+//   ARM     motors can turn, at speed 0, holding the current heading
 //   S 1.0   drive at 1 m/s        H 30   head 30 deg        M 2   combined mode
-//   KEEP    go on: without a command for AWMR_COMMAND_TIMEOUT_MS the motors stop
+//   KEEP    continue: without a command for AWMR_COMMAND_TIMEOUT_MS the motors stop
 //   STOP    motors off, at once
-// After a reset, STOP, a silence and any fault the motors stay off until the next ARM (SAFETY.md).
+// After a reset, STOP, a command time-out and any fault, the motors are off until the next ARM
+// (SAFETY.md).
 #include <Wire.h>
 #include <awmr.h>
 #include <awmr_paper_board.h>

@@ -1,9 +1,10 @@
-// Steps through the field sheet by itself and writes its tables: SURGE00.CSV, TURN00.CSV and COAST00.CSV for
-// `awmr identify --surge --turning --coastdown`. Level, dry ground, half of the runs in each direction, room of
-// settle_s + measure_s at the run's speed. Over Serial (115200 baud), one command a line: "ARM" after the start, a
-// stop and a fault; "G" drives the run that was announced, "N" leaves it out; any command at least once a second,
-// "KEEP" for one, keeps it going; "STOP" or silence stops it, and the run waits again. Wheels straight is not
-// steered: stop when it runs out of its lane.
+// Runs the field sheet automatically and writes its tables: SURGE00.CSV, TURN00.CSV and COAST00.CSV
+// for `awmr identify --surge --turning --coastdown`. Use level, dry ground, half of the runs in
+// each direction, with space for settle_s + measure_s at the run's speed. Over Serial (115200
+// baud), one command per line: "ARM" after the start, a stop and a fault; "G" drives the announced
+// run, "N" skips it. A run needs a command, such as "KEEP", at least once per second; "STOP" or a
+// time-out stops it, and the run waits again. With straight wheels nothing steers: stop the vehicle
+// if it leaves its lane.
 #include <SD.h>
 #include <SPI.h>
 #include <Wire.h>
@@ -45,7 +46,7 @@ struct Told {
   uint8_t number;
   Row row;
 };
-Told told;                  // by the step, for loop() to write
+Told told;                  // written by the step, for loop() to record
 volatile bool has_told = false;
 uint16_t rows_lost = 0;
 

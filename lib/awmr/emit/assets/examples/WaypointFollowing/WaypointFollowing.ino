@@ -1,9 +1,10 @@
-// Drives along waypoints on the source paper's hardware, in m north and west of the first GPS fix, and stops at
-// the last. Over Serial, 115200 baud, one command a line:
-//   ARM     motors may turn       G   drive the route from its first point on
-//   KEEP    go on: without a command for AWMR_COMMAND_TIMEOUT_MS the motors stop
+// Drives along waypoints on the source paper's hardware, in m north and west of the first GPS fix,
+// and stops at the last. Over Serial, 115200 baud, one command per line:
+//   ARM     motors can turn       G   drive the route from its first point on
+//   KEEP    continue: without a command for AWMR_COMMAND_TIMEOUT_MS the motors stop
 //   STOP    motors off, at once
-// After a reset, STOP, a silence, any fault and the last point the motors stay off until the next ARM (SAFETY.md).
+// After a reset, STOP, a command time-out, any fault and the last point, the motors are off until
+// the next ARM (SAFETY.md).
 #include <Wire.h>
 #include <awmr.h>
 #include <awmr_paper_board.h>

@@ -1,5 +1,5 @@
-/* The log on the card: LOG00.AWL and on, for `awmr log` and `awmr identify --log`. A board without a
-   card says at its start that there is no log. */
+/* The log on the card: LOG00.AWL and following, for `awmr log` and `awmr identify --log`. A board
+   without a card reports at its start that there is no log. */
 #ifndef AWMR_BOARD_CARD_H
 #define AWMR_BOARD_CARD_H
 
@@ -11,7 +11,7 @@
 namespace awmr_board {
 
 #if AWMR_BOARD_HAS_CARD
-/* Opens the first of NAME00 to NAME99 that is not there yet; no file where all are. */
+/* Opens the first of NAME00 to NAME99 that does not exist; no file if all exist. */
 inline File next_file(const char* name_and_extension) {
   char name[13];
   strncpy(name, name_and_extension, sizeof name - 1);
@@ -27,20 +27,20 @@ inline File next_file(const char* name_and_extension) {
 
 class Log {
  public:
-  /* In setup(). False: there is no card, or no name is left. */
+  /* Call in setup(). False: there is no card, or no name is left. */
   bool begin() {
     if (!SD.begin(kSdSelectPin)) return false;
     file_ = next_file("LOG00.AWL");
     return file_ && awmr_log::write_header(file_) && awmr_log::write_header(file_);
   }
 
-  /* In the step: never waits. */
+  /* Call in the step: never waits. */
   void put(const awmr_input& in, const awmr_output& out, uint8_t sensor_fault = 0) {
     awmr_log::put(ring_, in, out, step_number(), reset_cause(), sensor_fault);
   }
 
-  /* In loop(): waits as long as the card does. Every second what was written so far is made safe
-     against the battery's being unplugged. */
+  /* Call in loop(): waits as long as the card does. Once per second, flushes the data so that they
+     survive loss of the battery. */
   void drain() {
     if (!file_ || awmr_log::drain(ring_, file_) != awmr_log::kWritten) return;
     if (++blocks_ % kBlocksPerFlush == 0) file_.flush();

@@ -1,5 +1,5 @@
-/* Commands over Serial, 115200 baud: the lines of awmr/control/command_line.h. The step reads them,
-   loop() prints the answers, as a port that is full would make the step wait. */
+/* Commands over Serial, 115200 baud: the lines of awmr/control/command_line.h. The step reads them;
+   loop() prints the answers, because a full port would make the step wait. */
 #ifndef AWMR_BOARD_COMMAND_H
 #define AWMR_BOARD_COMMAND_H
 
@@ -16,7 +16,7 @@ enum Answer {
   kTextLocked,
   kOutOfRange,
   kNotArmed,    /* the command needs an armed vehicle */
-  kArmRefused,  /* a sensor or the autopilot is at fault */
+  kArmRefused,  /* a sensor or the autopilot has a fault */
   kArmed,
   kDisarmed
 };
@@ -24,11 +24,12 @@ enum Answer {
 class Command {
  public:
   awmr::CommandWord word = awmr::CommandWord::kNone;
-  float value = 0.0f;    /* 0 where there is none */
-  uint32_t heard_ms = 0; /* when the last whole command came, valid once has_heard */
+  float value = 0.0f;    /* 0 if there is none */
+  uint32_t heard_ms = 0; /* time of the last complete command, valid once has_heard */
   bool has_heard = false;
 
-  /* True: a command came. A line that is none is refused and keeps nothing alive. Never waits. */
+  /* True: a command was received. An invalid line is refused and does not reset the time-out. Never
+     waits. */
   bool read() {
     while (Serial.available() > 0) {
       const awmr::CommandVerdict verdict = reader_.take(static_cast<char>(Serial.read()));
@@ -47,7 +48,7 @@ class Command {
     return false;
   }
 
-  /* In the step: for loop() to print. Where many wait the latest is lost. */
+  /* Call in the step: queues an answer for loop(). If the queue is full, it is lost. */
   void answer(Answer what, uint8_t fault = 0, uint8_t cause = 0) {
     const uint8_t next = static_cast<uint8_t>((written_ + 1) % kWaiting);
     if (next == read_) return;
@@ -56,7 +57,7 @@ class Command {
     written_ = next;
   }
 
-  /* In loop(): prints what waits. */
+  /* Call in loop(): prints the queued answers. */
   void speak() {
     while (read_ != written_) {
       const Waiting one = waiting_[read_];

@@ -1,4 +1,4 @@
-/* GPS: $--RMC sentences on the board's port, 5 Hz or more (an Uno's port is slow: RMC alone). */
+/* GPS: $--RMC sentences on the board's port, 5 Hz or more (an Uno's port is slow: only RMC). */
 #ifndef AWMR_BOARD_GPS_H
 #define AWMR_BOARD_GPS_H
 
@@ -10,8 +10,8 @@
 
 namespace awmr_board {
 
-/* Where x and y count from, in RAM that a reset leaves alone. After it was switched on RAM holds
-   anything, and the check sum fails. */
+/* Origin of x and y, in RAM that a reset does not clear. After power-on, RAM is random and the
+   check sum fails. */
 struct Origin {
   int32_t lat_e7; /* 1e-7 deg */
   int32_t lon_e7;
@@ -19,11 +19,11 @@ struct Origin {
 };
 static Origin kept_origin __attribute__((section(".noinit")));
 
-/* x_m, y_m: north and west of the origin, the first fix; speed_mps without a sign; time_ms of the last
-   fix that was believed, valid once has_fix(). */
+/* x_m, y_m: north and west of the origin, the first fix; speed_mps without a sign; time_ms of the
+   last accepted fix, valid once has_fix(). */
 class Gps : public awmr::GpsReceiver {
  public:
-  /* x and y go on from the origin of before a reset, unless the board was switched off. */
+  /* x and y keep the origin across a reset, except after power-on. */
   void begin() {
     port_ = &begin_gps_port();
     if ((reset_cause() & kSwitchedOn) != 0 || !is_kept()) forget_origin();
@@ -33,10 +33,10 @@ class Gps : public awmr::GpsReceiver {
   bool has_origin() const { return is_kept(); }
   void forget_origin() { kept_origin.crc = static_cast<uint16_t>(~crc_of_origin()); }
 
-  /* Why fixes are not believed; awmr::kSensorGood: they are. */
+  /* Reason why fixes are rejected; awmr::kSensorGood: they are accepted. */
   awmr::SensorFault fault() const { return awmr::GpsReceiver::fault(millis()); }
 
-  /* In the step, with the speed that is commanded, the heading and whether motors may turn. */
+  /* Call in the step, with the commanded speed, the heading and whether the vehicle is armed. */
   void read(float u_ref_mps = 0.0f, float psi_rad = 0.0f, bool is_armed = false) {
     const int8_t direction = u_ref_mps > 0.0f ? 1 : u_ref_mps < 0.0f ? -1 : 0;
     const awmr::GpsContext context = {psi_rad, direction, is_armed};
@@ -44,7 +44,7 @@ class Gps : public awmr::GpsReceiver {
   }
 
  private:
-  /* North and west of the origin, on the plane that touches the Earth there. */
+  /* Converts to north and west of the origin, in the tangent plane of the Earth there. */
   struct Projection {
     float west_m_per_e7 = 0.0f; /* of longitude */
 

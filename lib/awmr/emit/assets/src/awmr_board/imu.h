@@ -1,4 +1,4 @@
-/* MPU9250: gyroscope about z, magnetometer in x and y, for a board that lies level. */
+/* MPU9250: gyroscope about z, magnetometer in x and y, for a level board. */
 #ifndef AWMR_BOARD_IMU_H
 #define AWMR_BOARD_IMU_H
 
@@ -7,7 +7,7 @@
 #include "../awmr/control/heading_check.h"
 #include "../awmr/model/float_math.h"
 
-/* `awmr compass` writes src/awmr_compass.h from what the sketch CompassCalibration records. */
+/* `awmr compass` writes src/awmr_compass.h from the records of the sketch CompassCalibration. */
 #ifdef __has_include
 #if __has_include("../awmr_compass.h")
 #include "../awmr_compass.h"
@@ -29,23 +29,23 @@ class Imu {
  public:
   float psi_rad = 0.0f; /* in (-pi, pi], from true north, once has_heading() */
   float r_radps = 0.0f;
-  uint32_t time_ms = 0; /* of the last reading that was believed, valid once has_heading() */
-  float field_ahead = 0.0f; /* the last magnetic field, in counts, as the sensor gives it */
+  uint32_t time_ms = 0; /* of the last accepted reading, valid once has_heading() */
+  float field_ahead = 0.0f; /* the last magnetic field, raw counts of the sensor */
   float field_left = 0.0f;
-  uint32_t field_ms = 0; /* when; 0: none yet */
+  uint32_t field_ms = 0; /* its time; 0: none yet */
 
-  /* The gyroscope is calibrated and the magnetometer has given a heading: until then it is old, and
-     the motors stay off. */
+  /* True once the gyroscope is calibrated and the magnetometer has given a heading. Until then the
+     heading counts as old, and the motors stay off. */
   bool has_heading() const { return has_heading_; }
 
-  /* Why heading and yaw rate are not believed; awmr::kSensorGood: they are. */
+  /* Reason why heading and yaw rate are rejected; awmr::kSensorGood: they are accepted. */
   awmr::SensorFault fault() const { return check_.fault(millis()); }
 
   void begin() {
     Wire.begin();
     Wire.setClock(400000);
 #ifdef WIRE_HAS_TIMEOUT
-    Wire.setWireTimeout(3000, true); /* us: a bus that hangs is reset */
+    Wire.setWireTimeout(3000, true); /* us: resets a bus that hangs */
 #endif
     write(kMpu, 0x6B, 0x01); /* awake, gyroscope's clock */
     write(kMpu, 0x1A, 0x03); /* 41 Hz low pass */
@@ -109,7 +109,7 @@ class Imu {
   static int16_t word(uint8_t high, uint8_t low) {
     return static_cast<int16_t>(static_cast<uint16_t>(high) << 8 | low);
   }
-  /* True: there is a new field, neither beyond the sensor's range nor zero. */
+  /* True: there is a new field, within the sensor's range and not zero. */
   bool read_field(uint32_t now_ms) {
     uint8_t bytes[7];
     if (!request(kMag, 0x02, bytes, 1) || (bytes[0] & 0x01) == 0) return false;
@@ -141,7 +141,7 @@ class Imu {
   /* The maker's sensitivities: H_adjusted = H ((ASA - 128)/256 + 1). [AK8963 data sheet, 8.3.11] */
   void read_sensitivity() {
     uint8_t bytes[3];
-    sensitivity_[0] = sensitivity_[1] = 1.0f; /* where they cannot be read */
+    sensitivity_[0] = sensitivity_[1] = 1.0f; /* used if they cannot be read */
     write(kMag, 0x0A, 0x00);
     delay(1);
     write(kMag, 0x0A, 0x0F); /* fuse ROM */

@@ -1,4 +1,4 @@
-/* What is the Arduino Mega 2560's own: pins, the servo's timer, a serial port, a card. */
+/* Arduino Mega 2560: pins, the servo's timer, a serial port, a card. */
 #ifndef AWMR_BOARD_MEGA2560_H
 #define AWMR_BOARD_MEGA2560_H
 
@@ -11,7 +11,7 @@ const uint8_t kLeftPwmPin = 44, kLeftDirectionPin = 22;   /* OC5C, by timer 5 */
 const uint8_t kRightPwmPin = 45, kRightDirectionPin = 23; /* OC5B */
 const uint8_t kSdSelectPin = 53;
 
-/* The GPS sends to RX1, pin 19. */
+/* The GPS is connected to RX1, pin 19. */
 inline Stream& begin_gps_port() {
   Serial1.begin(38400);
   return Serial1;

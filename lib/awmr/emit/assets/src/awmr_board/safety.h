@@ -1,5 +1,5 @@
-/* Arming: motors turn only after the command ARM, until STOP, a silence, any fault or the end of the
-   route. What detects each fault is in SAFETY.md. */
+/* Arming: motors turn only after the command ARM, until STOP, a command time-out, any fault or the
+   end of the route. SAFETY.md lists the detector of each fault. */
 #ifndef AWMR_BOARD_SAFETY_H
 #define AWMR_BOARD_SAFETY_H
 
@@ -13,9 +13,9 @@ class Safety {
   bool is_armed() const { return arming_.is_armed(); }
   awmr::DisarmReason reason() const { return arming_.reason; }
 
-  /* In the step, first: true where a command came that the sketch has to obey. ARM, STOP and KEEP are
-     dealt with here, and everything else is refused while disarmed. `armed_now` tells that ARM was
-     just obeyed. */
+  /* Call first in the step: true if there is a command for the sketch. ARM, STOP and KEEP are
+     handled here, and all other commands are refused while disarmed. `armed_now` is set if this
+     call armed the vehicle. */
   bool read(Command& command, bool& armed_now) {
     armed_now = false;
     while (command.read()) {
@@ -50,14 +50,14 @@ class Safety {
     command.answer(kDisarmed);
   }
 
-  /* Before awmr_step(): disarmed, nobody commands, and the motors are off. */
+  /* Call before awmr_step(): while disarmed, ages the command, so that the motors are off. */
   void guard(awmr_input& input) const {
     if (is_armed()) return;
     input.command_ms = input.now_ms - AWMR_COMMAND_TIMEOUT_MS - 1;
     input.u_ref_mps = 0.0f;
   }
 
-  /* After awmr_step(), with the sensors' fault: any of them disarms. */
+  /* Call after awmr_step(), with the sensors' fault: any fault disarms. */
   void observe(uint8_t fault, uint8_t cause, Command& command) {
     fault_ = fault;
     cause_ = cause;
@@ -66,7 +66,7 @@ class Safety {
 
  private:
   awmr::Arming arming_;
-  uint8_t fault_ = 0xFF; /* of the last step; there was none yet */
+  uint8_t fault_ = 0xFF; /* of the last step; none yet */
   uint8_t cause_ = 0;
 };
 

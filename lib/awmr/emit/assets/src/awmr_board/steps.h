@@ -1,4 +1,4 @@
-/* When a step is due, what happens if it does not end, and why the chip began. */
+/* Calls the step periodically, handles steps that do not end, and stores the reset cause. */
 #ifndef AWMR_BOARD_STEPS_H
 #define AWMR_BOARD_STEPS_H
 
@@ -10,12 +10,13 @@
 
 namespace awmr_board {
 
-/* Bits of reset_cause(), those of MCUSR. 0: the bootloader took them. */
+/* Bits of reset_cause(), as in MCUSR. 0: the bootloader cleared them. */
 const uint8_t kSwitchedOn = 1, kResetButton = 2, kBrownOut = 4, kWatchdog = 8;
 
 static uint8_t kept_reset_cause __attribute__((section(".noinit")));
 
-/* Before main() and before RAM is cleared; a watchdog that bit goes on, and would bite again. */
+/* Runs before main() and before RAM is cleared. After a watchdog reset the watchdog is still active
+   and would reset the chip again. */
 static void keep_reset_cause() __attribute__((naked, used, section(".init3")));
 static void keep_reset_cause() {
   kept_reset_cause = MCUSR;
@@ -33,8 +34,8 @@ static volatile uint32_t the_step_number;
 static uint16_t ticks_left; /* of the board's timer, until the next sample time */
 static uint16_t ticks_per_step;
 
-/* The shortest time of the watchdog that is at least 250 ms and four sample times: a step that was
-   left out as the one before took too long resets nothing. */
+/* The shortest watchdog time that is at least 250 ms and four sample times, so that a step skipped
+   because the last one took too long causes no reset. */
 inline uint8_t watchdog_time() {
   return 4.0f * AWMR_SAMPLE_TIME_S <= 0.25f  ? WDTO_250MS
          : 4.0f * AWMR_SAMPLE_TIME_S <= 0.5f ? WDTO_500MS
@@ -43,9 +44,9 @@ inline uint8_t watchdog_time() {
                                              : WDTO_4S;
 }
 
-/* Calls `step` every AWMR_SAMPLE_TIME_S from the interrupt of the board's timer, other interrupts
-   allowed: the bus of the sensors, the serial lines and millis() need theirs. A step that is not
-   over when the next one is due goes on, and that one is left out. The watchdog resets a chip on
+/* Calls `step` every AWMR_SAMPLE_TIME_S from the interrupt of the board's timer. Other interrupts
+   stay enabled for the sensor bus, the serial lines and millis(). If a step is still running when
+   the next one is due, it continues and the next one is skipped. The watchdog resets a chip on
    which no step ends. */
 inline void begin_steps(Step step) {
   the_step = step;
@@ -55,7 +56,7 @@ inline void begin_steps(Step step) {
   wdt_enable(watchdog_time());
 }
 
-/* The sample time, from 1, at which the step that runs began. To be asked for in the step. */
+/* The sample time, from 1, at which the running step began. Call only in the step. */
 inline uint32_t step_number() { return the_step_number; }
 
 }  // namespace awmr_board

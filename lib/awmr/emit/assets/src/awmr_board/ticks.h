@@ -1,4 +1,4 @@
-/* The timer that calls the step: its interrupt AWMR_BOARD_TICK, and how it is started. */
+/* The timer that calls the step: its interrupt AWMR_BOARD_TICK, and its start. */
 #ifndef AWMR_BOARD_TICKS_H
 #define AWMR_BOARD_TICKS_H
 
@@ -10,7 +10,7 @@ namespace awmr_board {
 #if defined(__AVR_ATmega2560__)
 #define AWMR_BOARD_TICK TIMER3_COMPA_vect
 
-/* Starts timer 3. Ticks in a sample time: one. */
+/* Starts timer 3. Returns the ticks per sample time: one. */
 inline uint16_t begin_ticks(float sample_time_s) {
   const float counts = sample_time_s * (F_CPU / 8);
   const bool slow = counts > 65536.0f;
@@ -26,7 +26,7 @@ inline uint16_t begin_ticks(float sample_time_s) {
 #elif defined(__AVR_ATmega328P__)
 #define AWMR_BOARD_TICK TIMER2_COMPA_vect
 
-/* Starts timer 2: at most 256 counts of clock/64, 1.024 ms. Returns how many ticks a sample time has. */
+/* Starts timer 2: at most 256 counts of clock/64, 1.024 ms. Returns the ticks per sample time. */
 inline uint16_t begin_ticks(float sample_time_s) {
   const float counts = sample_time_s * (F_CPU / 64);
   const uint16_t ticks = static_cast<uint16_t>(counts / 256.0f + 0.999f);

@@ -1,5 +1,5 @@
-/* What is the Arduino Uno's own (ATmega328P): pins, the servo's timer, the GPS's port. It has 2 KiB of RAM,
-   which the log's ring and the card's library would not leave anything of. */
+/* Arduino Uno (ATmega328P): pins, the servo's timer, the GPS's port. Its 2 KiB of RAM have no room
+   for the log's ring buffer and the card's library. */
 #ifndef AWMR_BOARD_UNO_H
 #define AWMR_BOARD_UNO_H
 
@@ -14,8 +14,8 @@ const uint8_t kLeftPwmPin = 5, kLeftDirectionPin = 4;  /* OC0B, by timer 0, as m
 const uint8_t kRightPwmPin = 6, kRightDirectionPin = 7; /* OC0A */
 const uint8_t kGpsPin = 8, kUnusedPin = 12;
 
-/* The GPS sends to pin 8, at 9600 baud: a receiver that is made of pin changes has interrupts off for
-   as long as a character lasts. */
+/* The GPS is connected to pin 8, at 9600 baud: the software receiver disables interrupts for the
+   duration of a character. */
 static SoftwareSerial gps_serial(kGpsPin, kUnusedPin);
 inline Stream& begin_gps_port() {
   gps_serial.begin(9600);
