@@ -1,4 +1,4 @@
-/// Whether gains were tuned on the model that they are used with.
+/// Check that gains were tuned on the model with which they are used.
 #pragma once
 
 #include <filesystem>
@@ -9,9 +9,9 @@
 
 namespace awmr::cli {
 
-/// Adds a warning (`gains-of-another-model`) where the gains' file names the inputs that it was made
-/// from and the model is none of them, by SHA-256. Gains written by hand name no inputs and give no
-/// finding, nor do those of a pipe, which can be read only once. Errors: as read_json_file.
+/// Adds a warning (`gains-of-another-model`) if the gains file lists its inputs by SHA-256 and the
+/// model is not among them. Gains written by hand list no inputs and give no finding. Neither do
+/// gains from a pipe, which can be read only once. Errors: as read_json_file.
 Status note_other_model(const std::filesystem::path& gains, const std::filesystem::path& model,
                         std::vector<Finding>& findings);
 

@@ -1,4 +1,4 @@
-/// `--plant`, which commands take that drive scenarios.
+/// `--plant`, shared by commands that simulate scenarios.
 #pragma once
 
 #include <fmt/format.h>
@@ -18,11 +18,11 @@
 
 namespace awmr::cli {
 
-/// What moves, in place of what the scenarios say; none: as they say.
+/// Plant that overrides the scenarios'; empty: no override.
 using PlantChoice = std::optional<PlantKind>;
 
 inline constexpr const char* kPlantOption = "--plant";
-/// Under which an output's options say what moved.
+/// Key of the plant among the options recorded in an output.
 inline constexpr const char* kPlantName = "plant";
 
 inline void add_plant(CLI::App& command, PlantChoice& choice) {
@@ -37,7 +37,8 @@ inline void add_plant(CLI::App& command, PlantChoice& choice) {
       ->check(one_of(names_in(kPlantKindNames)));
 }
 
-/// Puts the choice into every scenario. Errors (input): a scenario has what has no meaning on tyres.
+/// Applies the choice to every scenario. Errors (input): a scenario uses a feature that the
+/// four-wheel plant does not support.
 inline Status choose(const PlantChoice& choice, std::span<Scenario> scenarios) {
   if (!choice) return {};
   std::vector<Fault> faults;
@@ -57,7 +58,7 @@ inline Status choose(const PlantChoice& choice, std::span<Scenario> scenarios) {
   return {};
 }
 
-/// What moves, in words: once where it is the same in all scenarios, else by scenario.
+/// Describes the plant: once if all scenarios share it, else per scenario.
 inline std::string plants_text(std::span<const Scenario> scenarios) {
   std::vector<std::string> plants;
   for (const Scenario& scenario : scenarios) plants.push_back(plant_text(scenario));
@@ -71,7 +72,8 @@ inline std::string plants_text(std::span<const Scenario> scenarios) {
   return text;
 }
 
-/// For an output's options; nothing where all scenarios run on the model's plant and nobody asked.
+/// Entry for the options recorded in an output; empty if all scenarios use the model's plant and
+/// there is no choice.
 inline std::vector<std::pair<std::string, std::string>> options_of(
     const PlantChoice& choice, std::span<const Scenario> scenarios) {
   const bool is_model = std::none_of(scenarios.begin(), scenarios.end(),
