@@ -1,5 +1,5 @@
-// Sensors that fail: raw readings made of the simulated motion, and the checks of the sketches over them
-// (control/heading_check.h, gps_check.h). A sensor that is not believed keeps its old time, as on the board.
+// Sensor failures: raw readings derived from the simulated motion, and the checks of the sketches
+// (control/heading_check.h, gps_check.h). A rejected sensor keeps its old time, as on the board.
 #pragma once
 
 #include <deque>
@@ -18,7 +18,7 @@ class CheckedSensors {
  public:
   CheckedSensors(cli::Injection injection, double sample_time_s, const SafetyLimits& limits);
 
-  /// The k-th step: puts the times of what is believed into `in`. `fails`: the injection is at work.
+  /// Step k: stores the times of accepted readings in `in`. `fails`: the injection is active.
   SensorFault step(std::size_t k, bool fails, AutopilotInput& in);
 
  private:
@@ -29,13 +29,13 @@ class CheckedSensors {
   std::mt19937 random_{1};
   std::int16_t word_ = 0;
   std::int16_t field_[3] = {0, 0, 0};
-  double heading_rad_ = 0.0;  ///< of the complementary filter
+  double heading_rad_ = 0.0;  ///< output of the complementary filter
   bool has_heading_ = false;
-  std::optional<double> stuck_rad_;  ///< heading that the compass keeps
+  std::optional<double> stuck_rad_;  ///< heading at which the compass is stuck
   std::optional<GpsFix> fix_;
   Position<float> fix_m_{};
   bool has_position_ = false;
-  /// A fix on its way from the receiver.
+  /// A delayed fix of the receiver.
   struct LateFix {
     std::uint32_t sent_ms;
     GpsFix fix;
