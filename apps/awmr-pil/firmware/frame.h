@@ -1,6 +1,6 @@
 // Frames exchanged by host and chip over a serial line; both compile this file.
-// start, type, sequence, length, payload of `length` bytes, CRC-16 of all after the start (low byte
-// first)
+//   start, type, sequence, length, payload of `length` bytes, CRC-16 of all after the start (low
+//   byte first)
 // The chip answers each request of the host once, with the same type and sequence number. If the
 // host repeats a request because the answer was lost, the chip repeats the answer but does not
 // execute the request again. Damaged frames are not answered: the host repeats the request after a

@@ -1,5 +1,5 @@
-/// The model driven by a log's commands. A template on the scalar: predictions in double,
-/// derivatives in ceres::Jet.
+/// Simulates the model with a log's commands. Templates on the scalar: double for predictions,
+/// ceres::Jet for derivatives.
 #pragma once
 
 #include <algorithm>
@@ -14,24 +14,23 @@
 
 namespace awmr {
 
-/// A part of a log that has no gap: the rows from `begin` up to but not including `end`.
+/// Part of a log without a gap: rows [begin, end).
 struct LogWindow {
   const DrivingLog* log = nullptr;
   std::size_t begin = 0;
   std::size_t end = 0;
 };
 
-/// The log cut at its gaps, and into pieces of at most `longest_s`; pieces shorter than 3 rows are
-/// left out.
+/// Splits the log at its gaps and into pieces of at most `longest_s`; pieces shorter than 3 rows
+/// are dropped.
 std::vector<LogWindow> windows_of(const DrivingLog& log, double longest_s);
 
-/// A command that was held from row to row, as its integral over time: the mean over any span is
-/// then a difference, whose derivative by a delay exists although the command jumps.
+/// Piecewise constant command, stored as its integral over time. The mean over any span is then a
+/// difference, whose derivative with respect to a delay exists although the command jumps.
 class HeldSignal {
  public:
   HeldSignal(const std::vector<double>& t_s, const std::vector<double>& value);
-  /// The integral up to t, a time inside or outside of the log; beyond its ends the end's value
-  /// holds.
+  /// Integral up to t, a time inside or outside the log; beyond its ends the end value holds.
   double integral(double t_s) const;
   double at(double t_s) const;
 
@@ -42,40 +41,40 @@ class HeldSignal {
   std::vector<double> integral_;
 };
 
-/// The commands of a log as held signals.
+/// Commands of a log as held signals.
 struct LogSignals {
   explicit LogSignals(const DrivingLog& log);
   const DrivingLog* log;
   HeldSignal left;
   HeldSignal right;
-  HeldSignal steering;  ///< the command, or the angle where only that was logged
+  HeldSignal steering;  ///< the command, or the angle if only that was logged
 };
 
-/// Mean of a command over [t, t + h] as it arrives `delay_s` later.
+/// Mean of a command, delayed by `delay_s`, over [t, t + h].
 template <class T>
 T delayed_mean(const HeldSignal& signal, double t_s, double h_s, const T& delay_s) {
-  // mean = (U(t + h - d) - U(t - d))/h, whose derivative by d is -(u(t + h - d) - u(t - d))/h. The
-  // linear term that carries it to T is zero in value.
+  // mean = (U(t + h - d) - U(t - d))/h, whose derivative with respect to d is -(u(t + h - d) - u(t
+  // - d))/h. The linear term that carries this derivative to T has the value zero.
   const double d = value_of(delay_s);
   const double mean = (signal.integral(t_s + h_s - d) - signal.integral(t_s - d)) / h_s;
   const double slope = -(signal.at(t_s + h_s - d) - signal.at(t_s - d)) / h_s;
   return T(mean) + slope * (delay_s - T(d));
 }
 
-/// The equal steps that a span is taken in, none longer than `longest_step_s` but for rounding.
+/// Number of equal steps in a span, none longer than `longest_step_s` apart from rounding.
 inline int steps_in(double span_s, double longest_step_s) {
   return std::max(1, static_cast<int>(std::ceil(span_s / longest_step_s - 1e-9)));
 }
 
-/// Runs the model over rows [begin, end) from the initial state `state` and calls visit(row, state)
-/// at every row. Steps are at most `longest_step_s`. `delay_s` null: none. The plant is one of
+/// Simulates rows [begin, end) from the initial state `state` and calls visit(row, state) at every
+/// row. Steps are at most `longest_step_s`. `delay_s` null: no delay. The plant is one of
 /// resolved_beside_friction().
 template <class T, class Visit>
 void replay(const LogSignals& signals, std::size_t begin, std::size_t end, Plant<T> plant,
             const T* delay_s, double longest_step_s, State<T> state, Visit visit) {
   const DrivingLog& log = *signals.log;
   const bool servo = log.steering_command_rad.has_value();
-  // A logged angle is what it is: no stop, no lag.
+  // A logged angle is used as it is: no stop, no lag.
   if (!servo) plant.steering_max_rad = T(10.0);
   const FrictionRates<T> friction = friction_rates(plant);
   if (friction.any()) plant = without_friction(plant);
@@ -112,9 +111,9 @@ void replay(const LogSignals& signals, std::size_t begin, std::size_t end, Plant
   }
 }
 
-/// The state delay_s >= 0 before the last of `states`, the states at the rows from `begin` on: so
-/// many Runge-Kutta steps from the row before. Their length carries the derivative by the delay.
-/// Before the first row the rates there hold.
+/// State at delay_s >= 0 before the last of `states`, the states at the rows from `begin` on. It is
+/// reached by Runge-Kutta steps from the row before, whose length carries the derivative with
+/// respect to the delay. Before the first row its rates are extrapolated.
 template <class T>
 State<T> earlier_state(const LogSignals& signals, std::size_t begin,
                        const std::vector<State<T>>& states, Plant<T> plant, const T& delay_s,
@@ -144,7 +143,7 @@ State<T> earlier_state(const LogSignals& signals, std::size_t begin,
   return state;
 }
 
-/// The component of the state that a channel reads.
+/// Component of the state that a channel measures.
 template <class T>
 constexpr T State<T>::*component_of(LogChannel channel) {
   switch (channel) {
@@ -166,7 +165,7 @@ constexpr T State<T>::*component_of(LogChannel channel) {
   return &State<T>::steering_rad;
 }
 
-/// What a channel of the log would have read in this state.
+/// Predicted reading of a channel of the log in this state.
 template <class T>
 T& channel_of(State<T>& s, LogChannel channel) {
   return s.*component_of<T>(channel);
@@ -176,26 +175,26 @@ const T& channel_of(const State<T>& s, LogChannel channel) {
   return s.*component_of<T>(channel);
 }
 
-/// Whether a row holds a new value of a channel to compare the model with. An angle that drives the
-/// model, where no command of the servo was logged, is no measurement of it.
+/// True if a row has a new value of a channel to compare with the model. A steering angle used as
+/// input, because no servo command was logged, is not a measurement.
 bool is_measurement(const DrivingLog& log, LogChannel channel, std::size_t row);
 
-/// The initial state of a window from what was measured in it: the first value of each channel, and
-/// where a channel is missing what follows from others (yaw rate from heading, heading and speed
-/// from position). What nothing tells is taken to be 0.
+/// Initial state of a window from its measurements: the first value of each channel. Missing
+/// channels are derived from others (yaw rate from heading, heading and speed from position), else
+/// 0.
 State<double> measured_initial_state(const LogWindow& window);
 
-/// The longest step of replay() for this plant, s: a quarter of its fastest fixed time constant,
-/// the servo's, sway's or that by which back-EMF brakes. A Runge-Kutta step of that length errs by 3e-5 of an excursion in each
-/// time constant.
+/// Longest step of replay() for this plant, s: a quarter of its shortest constant time constant,
+/// which is that of the servo, of sway or of back-EMF braking. A Runge-Kutta step of that length
+/// errs by 3e-5 of an excursion in each time constant.
 double replay_step_s(const Plant<double>& plant);
 
-/// The shortest step with which a log is worth following: no log shows what is over in 0.4 ms, and a
-/// replay would not end.
+/// Shortest useful step: no log shows effects shorter than 0.4 ms, and smaller steps would take too
+/// long.
 inline constexpr double kShortestReplayStep_s = 1e-4;
 
-/// Whether a log of this plant can be replayed. Errors (input): a time constant asks for steps below
-/// kShortestReplayStep_s; the fault names it, in the file `file`.
+/// Errors (input): a time constant of the plant requires steps below kShortestReplayStep_s, so that
+/// a log cannot be replayed. The fault names it, in the file `file`.
 Result<void> check_replay(const Plant<double>& plant, const std::string& file);
 
 }  // namespace awmr
