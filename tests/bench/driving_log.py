@@ -18,7 +18,7 @@ RATE_HZ = 100
 HELD_ROWS = 125
 TRUTH = {"surge_alpha": 1.3157, "surge_beta": 0.8841, "yaw_alpha": 0.3028, "yaw_beta": 0.8250, "sway_alpha": 3.0,
          "mass_norm": 0.0824, "inertia_norm": 0.0130, "time_constant_s": 0.02}
-# Standard deviations by the place in the state: of x and y, m; psi, rad; u, m/s; r, rad/s.
+# Standard deviations by the index in the state: of x and y, m; psi, rad; u, m/s; r, rad/s.
 NOISE = {0: 0.05, 1: 0.05, 2: math.radians(1.0), 3: 0.02, 5: math.radians(0.5)}
 COLUMNS = "t_s,force_left,force_right,steering_cmd_deg,x_m,y_m,heading_deg,speed_mps,yaw_rate_radps"
 

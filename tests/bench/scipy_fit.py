@@ -28,13 +28,16 @@ NAMES = {"surge_alpha": "surge.alpha", "surge_beta": "surge.beta", "yaw_alpha": 
          "sway_alpha": "sway.alpha", "mass_norm": "mass_norm", "inertia_norm": "inertia_norm",
          "time_constant_s": "steering.time_constant_s"}
 EXPONENTS = ("surge_beta", "yaw_beta")
-# Pulls, as standard deviations: of the parameters to the first guess, of an initial state to what was measured.
+# Standard deviations of the priors: parameters about the first guess, initial states about the
+# measurements.
 PARAMETER_STD = 5.0
 STATE_STD = np.array([100.0, 100.0, 10.0, 1.0, 1.0, 1.0, 0.2])
-# solve_ivp errs by less than a thousandth of the sensors' noise, and alike in all differences, as they share its steps.
+# solve_ivp errs by less than a thousandth of the sensor noise. The error is equal in all
+# differences because they use the same steps.
 TOLERANCES = {"rtol": 1e-5, "atol": 1e-7}
 DIFFERENCE = 1e-4
-# The search ends, as awmr's does, where a step is worth less than this of half the sum of squares: a third of a standard error.
+# As in awmr, the search ends when a step reduces half the sum of squares by less than this: a third
+# of a standard error.
 WORTH = 0.05
 
 
@@ -82,7 +85,7 @@ class Problem:
         self.windows = self.commands.shape[1]
         self.geometry = geometry_of(vehicle)
         guess = first_guess(self.commands, self.measured, vehicle)
-        # The chord at rest is a matter of awmr's steps: a quarter of the fastest time constant.
+        # The chord at rest depends on awmr's step: a quarter of the shortest time constant.
         self.step_s = 0.25 * min(guess["time_constant_s"], guess["mass_norm"] / guess["sway_alpha"])
         started = self.measured[:, :, 0].copy()
         started[6] = self.commands[2, :, 0]

@@ -14,7 +14,7 @@ import numpy as np
 NUMBERS = SimpleNamespace(cos=math.cos, sin=math.sin, arctan=math.atan, maximum=max, minimum=min,
                           where=lambda condition, chosen, other: chosen if condition else other)
 STATE_SIZE = 7
-# Near rest the controller's curves are the law itself; this keeps 0 to a negative power away.
+# Below rest the controller uses the law itself; this avoids 0 to a negative power.
 NO_CHORD = 1e-300
 
 

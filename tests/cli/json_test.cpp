@@ -1,4 +1,4 @@
-/// `--json`: one object on stdout, whatever the command; one on stderr where it fails.
+/// `--json`: one object on stdout for every command; one on stderr on failure.
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>

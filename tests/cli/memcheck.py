@@ -30,7 +30,8 @@ def commands(at, files):
     """{name: its words}; those that scripts/fuzz_commands does not mutate files for are said here."""
     words = {name: files.command_of(name, at, at / f"out_{name}") for name in files.READ}
     for name in ("identify-log", "live"):
-        words[name] += ["--time-limit", "1"]  # fifty times slower than they are, they would take minutes
+        # fifty times slower under memcheck: would take minutes
+        words[name] += ["--time-limit", "1"]
     both = ["--model", f"{at}/model.json", "--gains", f"{at}/gains.json"]
     words.update({
         "init": ["init", f"{at}/rover"],

@@ -13,7 +13,7 @@ import jsonschema
 SOURCE = Path(__file__).resolve().parents[2]
 AWMR = str(Path(sys.argv[1]).resolve())
 
-# Faults of malformed.txt that a schema can see: what hangs on one key alone.
+# Faults of malformed.txt that a schema can detect: those that depend on one key only.
 BY_ONE_KEY = ("this key is missing", "expected a number", "expected one of", "expected an object",
               "expected a whole number", "true or false", "expected a string", "unknown key")
 # A rule between two keys: a line goes from_m to_m unless it has points_m.
@@ -138,7 +138,7 @@ def main():
         fine = all([check(validators, document, document.get("command", "an error"), kind_of(document, Path()))
                     for document in pipeline(folder)])
         files = sorted(p for p in Path(folder).rglob("*.json") if "schemas" not in p.parts)
-        files = [p for p in files if "rover" not in p.parts]  # its values are still to be filled in
+        files = [p for p in files if "rover" not in p.parts]  # its values are not filled in yet
         files = [p for p in files if p.name != "library.json"]  # PlatformIO's format
         files += sorted((SOURCE / "configs").rglob("*.json"))
         kinds = set()

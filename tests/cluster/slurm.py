@@ -21,9 +21,9 @@ SUBMIT = str(ROOT / "scripts/cluster/submit")
 NODES = ("one", "two")
 DAEMONS = ("munged", "slurmctld", "slurmd")
 SKIPPED = 77
-LONGEST_S = 120  # that anything is waited for
+LONGEST_S = 120  # maximum wait for any condition
 
-# The slow part of the first array holds still when it is run for the first time, so that its node can be lost under it.
+# The slow shard of the first array blocks on its first run, so that its node can be lost meanwhile.
 SLOW_AWMR = """#!/usr/bin/env bash
 set -euo pipefail
 if [ "${SLURM_ARRAY_TASK_ID:-}" = 2 ] && [ "${SLURM_RESTART_COUNT:-0}" -lt 2 ] && [ ! -e "$QUICK" ]; then
@@ -33,7 +33,8 @@ fi
 exec "$PROGRAM" "$@"
 """
 
-# A lost node is missed after SlurmdTimeout; a task that is requeued waits for cred_expire. linear: a task has a node for itself.
+# A lost node is detected after SlurmdTimeout; a requeued task waits for cred_expire. linear: each
+# task has its own node.
 CONFIGURATION = """\
 ClusterName=awmr
 SlurmctldHost=localhost(127.0.0.1)
@@ -91,7 +92,7 @@ class Slurm:
 
     def __enter__(self):
         at = self.at
-        at.chmod(0o755)  # munge's socket is for every user, as far as its directory lets them
+        at.chmod(0o755)  # munge's socket is for every user who may enter its directory
         for name in ("munge", "state", "log", *NODES):
             (at / name).mkdir(mode=0o755)
         key = at / "munge.key"
@@ -139,7 +140,7 @@ class Slurm:
                 is_step = (path / "cmdline").read_bytes().startswith(b"slurmstepd")
                 directory = os.readlink(path / "cwd")
             except OSError:
-                continue  # it has ended, or is another user's
+                continue  # it has ended or belongs to another user
             is_task = all(mark.encode() in environment for mark in marks)
             if int(path.name) in daemons or is_task or is_step and directory in directories:
                 yield int(path.name)
