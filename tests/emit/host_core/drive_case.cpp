@@ -1,5 +1,5 @@
-// Runs one case of SAFETY.md against a sketch: drives it in the simulated world, breaks something at t = 10 s, and
-// prints what happened. Compiled once per sketch, which is included as AWMR_SKETCH.
+// Runs one case of SAFETY.md with a sketch: drives it in the simulated world, injects a failure at
+// t = 10 s, and prints the result. Compiled once per sketch, which is included as AWMR_SKETCH.
 #include "world.h"
 
 #include AWMR_SKETCH
@@ -100,7 +100,7 @@ int run_case(const Case& one) {
   return 0;
 }
 
-/// At rest, armed at speed 0: pushed by hand, or only the noise of the GPS.
+/// At rest, armed at speed 0: pushed by hand, or only GPS noise.
 void hold_still(double pushed_mps, double noise_mps) {
   World& w = world;
   w.gps_speed_noise = noise_mps;
@@ -118,7 +118,8 @@ void hold_still(double pushed_mps, double noise_mps) {
          before, fastest, w.u, hypot(w.x - x0, w.y - y0), driven_s, safety.is_armed());
 }
 
-/// Turned by hand at `rate` until t = 6 s: heading once it is at rest, and whether ARM waited for it.
+/// Turned by hand at `rate` until t = 6 s. Prints the heading at rest, and whether ARM waited for
+/// it.
 void start_turning(double rate) {
   World& w = world;
   w.forced_turn = rate;
@@ -136,7 +137,7 @@ void start_turning(double rate) {
          safety.is_armed(), error * 57.29578);
 }
 
-/// `turns` net turns, disarmed, then armed.
+/// `turns` net turns while disarmed, then armed.
 void turn_often(double turns) {
   World& w = world;
   setup();

@@ -1,4 +1,4 @@
-// The simulated vehicle, its sensors and its operator. Everything that a case breaks is a member.
+// Simulated vehicle, sensors and operator. Every quantity that a case modifies is a member.
 #pragma once
 #include <Arduino.h>
 #include <SD.h>
@@ -21,13 +21,13 @@ void setup();
 void loop();
 
 struct World {
-  // Time. The step runs each 10 ms of it.
+  // Time. The step runs every 10 ms.
   uint32_t start_ms = 1000, elapsed_ms = 0;
   // Motion, and how the vehicle differs from the model.
   double x = 0, y = 0, psi = 0.3, u = 0, r = 0;
   double mass_factor = 1, drag_factor = 1, motor_sign = 1, slope = 0;
   double forced_turn = 0;  // rad/s: turned by hand
-  bool is_held = false;    // by hand: u is 0
+  bool is_held = false;    // held by hand: u is 0
   std::map<int, int> duty, level;
   // Sensors.
   std::mt19937 random{7};
@@ -54,7 +54,7 @@ struct World {
   double force(int pwm, int direction) {
     return motor_sign * duty[pwm] / 255.0 * (level[direction] ? -1 : 1);
   }
-  // Reversed, the sides are exchanged as well: it drives the wrong way and turns the right one.
+  // Reversed motors with exchanged sides: it drives backwards but turns in the right direction.
   double left() { return motor_sign > 0 ? force(44, 22) : force(45, 23); }
   double right() { return motor_sign > 0 ? force(45, 23) : force(44, 22); }
   bool is_driven() { return duty[44] != 0 || duty[45] != 0; }
