@@ -34,7 +34,7 @@ class Citation:
     file: str
     line: int
     text: str
-    names: frozenset  # of what it documents and of what encloses it
+    names: frozenset  # of what it documents and of its enclosing scopes
 
 
 def indent_of(line):

@@ -91,7 +91,7 @@ class Module(unittest.TestCase):
         named = {one["name"]: one["sha256"] for one in json.loads(model.text())["inputs"]}
         self.assertEqual(named["surge.csv"], hashlib.sha256((folder / "surge.csv").read_bytes()).hexdigest())
         self.assertIn("vehicle.json", named)
-        # A vehicle out of a model has no file any more; its trials have.
+        # A vehicle taken from a model has no file; the trials have.
         model = awmr.identify(awmr.load_trials(self.model.vehicle, **reading)).model
         self.assertEqual([one["name"] for one in json.loads(model.text())["inputs"]], ["surge.csv"])
 

@@ -21,10 +21,11 @@ SKIPPED = 77
 LONGEST_S = 900
 OPTIONS = ["-std=c++20", "-O2", "-DNDEBUG", "-ffp-contract=off", "-DFMT_HEADER_ONLY", f"-I{ROOT / 'lib'}",
            "-isystem", "/usr/include/eigen3"]
-# As lib/awmr/simulate/CMakeLists.txt compiles them; the order of instructions has no effect on the numbers.
+# Flags as in lib/awmr/simulate/CMakeLists.txt; the order of instructions does not affect the
+# numbers.
 KERNELS = {"avx2": ["-mavx2", "-mfma"], "avx512": ["-mavx512f", "-mfma"], "neon": []}
 KERNEL_OPTIONS = ["-fno-tree-slp-vectorize"]
-# What batches need, without a reader of files and the libraries that these take.
+# Sources that batches need, without file readers and their libraries.
 PARTS = ["core/error", "core/option_text", "core/random", "core/text", "identify/logs/sensitivity_kernel", "model/family",
          "model/model", "model/observer_rate", "model/parameters", "model/rest_speed", "model/vehicle", "simulate/batch", "simulate/disturbance",
          "simulate/laws", "simulate/line_following", "simulate/metrics", "simulate/passage",
@@ -45,7 +46,8 @@ panic: action=fatal
 plugin_ctrl: speaker=0, sb16=0, es1370=0
 sound: waveoutdrv=dummy, waveindrv=dummy, midioutdrv=dummy
 """
-# The emulated processor says the size of one layout of its registers and has another: the kernel is told the plain one.
+# The emulated processor reports the size of one register layout but has another: the kernel uses
+# the plain one.
 BOOT = """\
 DEFAULT linux
 LABEL linux
