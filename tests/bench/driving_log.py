@@ -1,4 +1,4 @@
-"""Writes a driving log of 100 rows a second with a known truth, the paper's vehicle: new forces and a new angle every 1.25 s, and
+"""Writes a simulated driving log of the paper's vehicle with 100 rows a second: new forces and a new angle every 1.25 s, and
 sensors with white noise. Run by scripts/bench.
 
 usage: driving_log.py VEHICLE.json DURATION_S OUTPUT.csv
@@ -24,7 +24,7 @@ COLUMNS = "t_s,force_left,force_right,steering_cmd_deg,x_m,y_m,heading_deg,speed
 
 
 def command_of(chance):
-    """F'L, F'R and the angle in deg, rounded as the log has them; one in four coasts."""
+    """F'L, F'R and the angle in deg, rounded as in the log; one in four coasts."""
     level = 0.0 if chance.random() < 0.25 else 0.5 * (0.15 + 0.65 * chance.random())
     apart = 0.4 * level * (chance.random() - 0.5)
     return round(level - apart, 5), round(level + apart, 5), round(20.0 * (1.6 * chance.random() - 0.8), 3)

@@ -1,9 +1,9 @@
-"""The fit of awmr identify --log with SciPy: least_squares around solve_ivp on a log of driving_log.py. Prints what was found, and how
-dear it was, as JSON. Run by scripts/bench.
+"""The fit of awmr identify --log with SciPy: least_squares around solve_ivp on a log of driving_log.py. Prints result and
+cost as JSON. Run by scripts/bench.
 
-The problem is awmr's (lib/awmr/identify/logs): the log in windows of ten seconds, each with an initial state of its own that is
-pulled weakly to what was measured, eight parameters, all but the exponents as logarithms, that are pulled weakly to the first
-guess, and the errors of five channels over their standard deviations. Those are given here; awmr finds them. All windows are one
+The problem is awmr's (lib/awmr/identify/logs): the log in windows of ten seconds, each with its own initial state and a weak prior about
+the measurements, eight parameters, all but the exponents as logarithms, with a weak prior about the
+first guess, and the errors of five channels over their standard deviations. Those are given here; awmr finds them. All windows are one
 system of equations in NumPy, integrated from one change of the commands to the next. The Jacobian is by differences: fifteen are
 enough, as no window feels another's initial state, and all of them are one system too.
 
@@ -93,7 +93,7 @@ class Problem:
         self.pull = 1.0 / np.append(np.full(len(NAMES), PARAMETER_STD), np.tile(STATE_STD, self.windows))
 
     def bounds(self):
-        """Exponents as awmr has them by default; nothing else is bounded."""
+        """awmr's default bounds of the exponents; nothing else is bounded."""
         low, high = np.full(self.start.size, -np.inf), np.full(self.start.size, np.inf)
         for name, most in (("surge_beta", 1.0), ("yaw_beta", 4.0)):
             low[list(NAMES).index(name)], high[list(NAMES).index(name)] = 0.0, most

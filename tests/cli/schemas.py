@@ -96,7 +96,7 @@ def pipeline(folder):
 
 
 def edited(document, edit):
-    """As in malformed_test.cpp; None where the edit is no change of a JSON document."""
+    """Like malformed_test.cpp; None if the edit does not change a JSON document."""
     if edit.startswith("text"):
         return None
     document = json.loads(json.dumps(document))
@@ -114,7 +114,7 @@ def edited(document, edit):
 
 
 def malformed(validators, good):
-    """Those of malformed.txt that a schema can see are refused by it; returns how many were looked at."""
+    """Checks that the schemas refuse the cases of malformed.txt that they can detect; returns the number checked."""
     seen, passed = 0, []
     for line in (SOURCE / "tests/cli/malformed.txt").read_text().splitlines():
         fields = line.split(" | ")

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The figures of `awmr report --figures` as a thesis takes them: whole, legible by other programs, the same again.
+"""The figures of `awmr report --figures` for use in a thesis: complete, readable by other programs, reproducible.
 
 usage: figures.py AWMR
 """
@@ -29,7 +29,7 @@ def awmr(*words, code=0):
 
 
 def results(at):
-    """What `awmr run` leaves, with given gains: identification, a validated log, runs of headings and of a course, five samples."""
+    """Results of `awmr run` with given gains: identification, a validated log, heading and path runs, five samples."""
     paper, data = SOURCE / "configs/paper", SOURCE / "datasets/paper"
     awmr("identify", "--vehicle", paper / "vehicle.json", "--surge", data / "surge.csv", "--turning", data / "turning.csv",
          "--coastdown", data / "coastdown.csv", "-o", at / "model.json")

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Runs the kernels of batches on processors that this machine has not, and holds every bit of the metrics against this
-machine's own (lane_bits.cpp).
+"""Runs the kernels of batches on emulated processors and compares every bit of the metrics with this
+machine's (lane_bits.cpp).
 usage: other_processor.py neon|avx512
   neon    a 64-bit ARM, as qemu-user emulates it: the numbers of the AVX2 kernel
   avx512  a Skylake-X, as Bochs emulates it with a kernel of Debian's: those of the AVX2 kernel, and every operation of lanes
@@ -93,7 +93,7 @@ def on_arm(folder, _):
 
 
 def linux_image(folder):
-    """Debian's smallest kernel, which no machine has to run for this."""
+    """Debian's smallest kernel; it is only used in the emulator."""
     package = output_of(["apt-cache", "depends", "linux-image-cloud-amd64"]).split("Depends: ")[1].split()[0]
     run(["apt-get", "download", "-qq", package], cwd=folder, stderr=subprocess.DEVNULL)
     run(["dpkg-deb", "-x", next(folder.glob("*.deb")), folder / "linux"])
@@ -101,7 +101,7 @@ def linux_image(folder):
 
 
 def boot_disc(folder, programs):
-    """A disc that boots Linux, runs the programs and switches off."""
+    """A disc image that boots Linux, runs the programs and powers off."""
     root, disc = folder / "root", folder / "disc"
     for part in (root / "bin", root / "dev", disc):
         part.mkdir(parents=True)
