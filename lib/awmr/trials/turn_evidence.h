@@ -3,7 +3,7 @@
 /// Wheels roll no faster than straight ahead with the same force, u of the surge runs, and the
 /// wheelbase is longer than l_f:
 ///
-///     by steering   r <= u tan(d_r)/l_f                  side slip changes it by a factor, not by 57
+///     by steering   r <= u tan(d_r)/l_f                  side slip: a factor far below 57
 ///     differential  r <= (u(n F'R) - u(n F'L))/(2 d)
 ///
 /// The limit by grip needs no surge run. With speed v = r R and R >= l_f/tan(d_r):
