@@ -1,4 +1,5 @@
-// The operator's line when it fails: characters as they come from it, read as the sketches do (control/command_line.h).
+// Failures of the operator's line: its characters, read as in the sketches
+// (control/command_line.h).
 #pragma once
 
 #include <cstdint>
@@ -11,12 +12,13 @@
 
 namespace awmr::pil {
 
-/// The operator of one run, who sends KEEP every 0.3 s until the line fails.
+/// Simulated operator of one run, who sends KEEP every 0.3 s until the line fails.
 class CheckedCommands {
  public:
   explicit CheckedCommands(cli::Injection injection) : injection_(injection) {}
 
-  /// A step: puts the time of the last whole command into `times`. `fails`: the injection is at work.
+  /// One step: stores the time of the last complete command in `times`. `fails`: the injection is
+  /// active.
   void step(bool fails, Arming& arming, InputTimes& times);
 
  private:

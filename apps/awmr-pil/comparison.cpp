@@ -54,7 +54,7 @@ Sample sample_of(const LoopRow& row) {
           .fault = static_cast<double>(out.fault)};
 }
 
-/// The command as the chip gave it: actuators would hide a small difference.
+/// The command as output by the chip: the actuators would hide a small difference.
 Sample raw_sample_of(const LoopRow& row) {
   const Allocation<float>& command = row.step.output.command;
   Sample sample = sample_of(row);
@@ -74,7 +74,7 @@ Sample sample_of(const RunRow& row) {
           .fault = 0.0};
 }
 
-/// Angles of a reference may differ by whole turns.
+/// Reference angles may differ by whole turns.
 double apart(const Signal& signal, double a, double b) {
   if (std::isfinite(a) != std::isfinite(b)) return std::numeric_limits<double>::infinity();
   const double off = a - b;
@@ -109,7 +109,7 @@ std::vector<Sample> samples_of(const std::vector<Row>& rows, Of of) {
 double Difference::largest() const {
   double largest = 0.0;
   for (const auto& [name, value] : signals) {
-    // In degrees what psi_rad is in radians: one bound is for SI units.
+    // The bound is for SI units; psi_rad covers heading_deg in radians.
     if (name != "heading_deg") largest = std::max(largest, value);
   }
   return largest;

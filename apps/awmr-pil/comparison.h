@@ -1,4 +1,4 @@
-// How far two runs are apart, signal by signal.
+// Difference between two runs, signal by signal.
 #pragma once
 
 #include <string>
@@ -11,23 +11,24 @@
 namespace awmr::pil {
 
 struct Difference {
-  /// The largest absolute difference of each signal over all rows; infinite where only one of the
-  /// two is finite.
+  /// Largest absolute difference of each signal over all rows; infinite if only one of the two is
+  /// finite.
   std::vector<std::pair<std::string, double>> signals;
-  bool same_length = true;  ///< as many rows in both
+  bool same_length = true;  ///< both runs have the same number of rows
 
   double largest() const;
   double of(const std::string& signal) const;
 };
 
-/// Outputs of the control step as the executor gave them, and the vehicle's state.
+/// Compares the outputs of the control step, as the executor returned them, and the vehicle's
+/// state.
 Difference difference(const std::vector<LoopRow>& a, const std::vector<LoopRow>& b);
-/// From a run of simulate(), which is in double.
+/// Compares with a run of simulate(), which is in double.
 Difference difference(const std::vector<LoopRow>& a, const Run& b);
 
-/// The largest distance of the heading from those that the other run has at the same sample and at the
-/// ones before and after it, deg: a leg may end at a sample of one run and at the next one of the other,
-/// and rounding decides at which. Infinite where only one is finite.
+/// Largest heading difference from the closest of the other run's headings at the same sample and
+/// the samples before and after, deg. A leg may end one sample apart in the two runs because of
+/// rounding. Infinite if only one is finite.
 double heading_apart_deg(const std::vector<LoopRow>& a, const Run& b);
 
 struct Cycles {

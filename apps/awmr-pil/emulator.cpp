@@ -16,13 +16,13 @@ extern "C" {
 namespace awmr::pil {
 namespace {
 
-constexpr std::uint32_t kRamOffset = 0x800000;  ///< of RAM addresses in an ELF file
+constexpr std::uint32_t kRamOffset = 0x800000;  ///< offset of RAM addresses in an ELF file
 constexpr std::uint8_t kPaint = 0xC5;
-/// Cycles that simavr runs a call where nothing is due before; unset, it returns after every
-/// instruction. Timers and interrupts stay exact: the run ends where one is due.
+/// Maximum number of cycles that simavr runs per call; if unset, it returns after every
+/// instruction. Timers and interrupts stay exact because a run ends where one is due.
 constexpr avr_cycle_count_t kRunCycles = 1000;
 
-/// simavr's callbacks have no place for an object in this version: the one emulator.
+/// The only emulator: callbacks of this simavr version take no user data.
 Emulator* the_emulator = nullptr;
 
 void no_log(avr_t*, int, const char*, va_list) {}
@@ -72,7 +72,7 @@ std::span<std::uint8_t> Emulator::flash(const std::string& symbol, std::size_t s
 
 std::uint64_t Emulator::cycles() const { return avr_->cycle; }
 
-/// In place of simavr's own, which waits in real time.
+/// Replaces simavr's sleep, which waits in real time.
 void Emulator::sleep(avr_t* avr, std::uint64_t) {
   Emulator& self = *the_emulator;
   if (self.entered_at_ != 0) {
@@ -83,11 +83,11 @@ void Emulator::sleep(avr_t* avr, std::uint64_t) {
   self.asleep_ = true;
 }
 
-/// An interrupt that is raised between sei and the sleep after it is served before the instruction after
-/// the sleep [ATmega2560 data sheet, 7.7]. simavr 1.6 executes that one first: where it is cli, the
-/// interrupt is never served.
+/// An interrupt that is raised between sei and the following sleep is served before the instruction
+/// after the sleep [ATmega2560 data sheet, 7.7]. simavr 1.6 executes that instruction first. If it
+/// is cli, the interrupt is never served.
 void Emulator::serve_interrupt_after_sleep() {
-  constexpr unsigned kSleep = 0x9588;  // the instruction
+  constexpr unsigned kSleep = 0x9588;  // opcode of sleep
   if (avr_->state != cpu_Running || avr_->sreg[S_I] == 0 || avr_->pc < 2) return;
   const unsigned executed = avr_->flash[avr_->pc - 2] | avr_->flash[avr_->pc - 1] << 8U;
   if (executed != kSleep || avr_has_pending_interrupts(avr_) == 0) return;
@@ -104,7 +104,7 @@ Status Emulator::run_once() {
   if (state == cpu_Done || state == cpu_Crashed) {
     return program_fault(fmt::format("the emulated chip stopped at address {:#x}", avr_->pc));
   }
-  // An interrupt woke it: the program counter is at its vector, the first of which is reset's.
+  // Woken by an interrupt: the program counter is at its vector. Vector 0 is the reset.
   const bool at_vector = avr_->pc > 0 && avr_->pc < 57 * 4 && avr_->pc % 4 == 0;
   if (was_asleep && at_vector && state == cpu_Running && !asleep_) entered_at_ = avr_->cycle;
   if (asleep_ && at_vector && avr_->state == cpu_Running) entered_at_ = avr_->cycle;

@@ -1,4 +1,4 @@
-// An ATmega2560 on libsimavr, in this process.
+// ATmega2560 emulated in this process by libsimavr.
 #pragma once
 
 #include <cstdint>
@@ -17,44 +17,43 @@ namespace awmr::pil {
 
 inline constexpr double kClockHz = 16e6;
 
-/// What simavr 1.6 leaves out: the cycles between an interrupt and its vector's first instruction,
-/// on a chip with a 3-byte program counter. [ATmega2560 data sheet, 7.7.1]
+/// Cycles between an interrupt and the first instruction of its vector, on a chip with a 3-byte
+/// program counter; simavr 1.6 omits them. [ATmega2560 data sheet, 7.7.1]
 inline constexpr unsigned kInterruptEntryCycles = 5;
 
 class Emulator {
  public:
-  /// Errors (input): the file is no firmware for this chip. There is one emulator at a time.
+  /// Errors (input): the file is not firmware for this chip. Only one emulator may exist at a time.
   static Result<std::unique_ptr<Emulator>> load(const std::filesystem::path& elf);
   ~Emulator();
   Emulator(const Emulator&) = delete;
   Emulator& operator=(const Emulator&) = delete;
 
-  /// Flash takes .text and .data, RAM .data and .bss.
+  /// Flash holds .text and .data, RAM .data and .bss.
   unsigned flash_bytes() const { return flash_bytes_; }
   unsigned ram_bytes() const { return ram_bytes_; }
 
-  /// A variable in RAM by its symbol. Precondition: the firmware has it.
+  /// Returns a variable in RAM by its symbol. Precondition: the firmware defines it.
   std::span<std::uint8_t> ram(const std::string& symbol, std::size_t size);
-  /// A constant in flash by its symbol.
+  /// Returns a constant in flash by its symbol.
   std::span<std::uint8_t> flash(const std::string& symbol, std::size_t size);
 
-  /// Resets the chip, as its reset pin does: RAM keeps its bytes, the time goes on.
+  /// Resets the chip like its reset pin: RAM is kept and the time continues.
   void reset();
-  /// Runs until the chip goes to sleep. Errors (fault): it crashed, or is awake after
-  /// `cycle_limit`.
+  /// Runs until the chip sleeps. Errors (fault): it crashed or is still awake after `cycle_limit`.
   Status run_to_sleep(std::uint64_t cycle_limit);
-  /// Runs until `done` says so; asked after each run of instructions.
+  /// Runs until `done` returns true; it is called after each batch of instructions.
   Status run_until(const std::function<bool()>& done, std::uint64_t cycle_limit);
-  /// From an interrupt's entry (which counts) to the sleep after it, of the last interrupt.
+  /// Cycles of the last interrupt, from its entry (included) to the next sleep.
   unsigned last_interrupt_cycles() const { return last_interrupt_cycles_; }
   std::uint64_t cycles() const;
 
-  /// Fills the free RAM with a pattern; the chip has to be asleep.
+  /// Fills the free RAM with a pattern; the chip must be asleep.
   void paint_stack();
-  /// Bytes from the top of the RAM down to the lowest that was written since paint_stack().
+  /// Bytes from the top of RAM down to the lowest address written since paint_stack().
   unsigned stack_bytes() const;
 
-  /// Bytes that USART0 sends; and bytes for it to receive, as fast as it takes them.
+  /// Callback for bytes that USART0 sends, and input for it to receive as fast as it accepts them.
   void on_uart_output(std::function<void(std::uint8_t)> receive) { receive_ = std::move(receive); }
   void connect_uart();
   void send_to_uart(std::span<const std::uint8_t> bytes);

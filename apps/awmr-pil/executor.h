@@ -1,4 +1,4 @@
-// Whatever executes the control step: the host's own build of it, the emulated chip, a board.
+// Interface of control-step executors: the host's own build, the emulated chip, a board.
 #pragma once
 
 #include <cstdint>
@@ -17,27 +17,28 @@ namespace awmr::pil {
 struct Step {
   AutopilotOutput output{};
   std::optional<unsigned> cycles;  ///< absent on the host
-  bool restarted = false;          ///< the chip had been reset, and was started anew before it
+  bool restarted = false;          ///< the chip was reset and restarted before this step
 };
 
 class Executor {
  public:
   virtual ~Executor() = default;
-  /// Starts it: the fault of its start-up check. Errors: the link or the chip fails.
+  /// Starts the controller and returns the fault of its start-up check. Errors: the link or the
+  /// chip fails.
   virtual Result<std::uint8_t> start() = 0;
-  /// Resets the chip in mid-run; the next step starts it anew, with the same points.
+  /// Resets the chip during the run; the next step restarts it with the same points.
   virtual Status reset() = 0;
-  /// Goes to these points, or along the line through them, as the mission says.
+  /// Follows these points as waypoints or as a line, depending on the mission.
   virtual Status follow(const Points& points) = 0;
   virtual Result<Step> step(const AutopilotInput& input) = 0;
 };
 
-/// What a chip's firmware takes, where it can be told.
+/// Resource use of the chip's firmware, as far as known.
 struct ChipFigures {
   unsigned flash_bytes = 0;
   unsigned ram_bytes = 0;
-  std::optional<unsigned> stack_bytes = {};  ///< unknown of a real board
-  std::optional<std::size_t> repeats = {};   ///< requests sent again; absent without a line
+  std::optional<unsigned> stack_bytes = {};  ///< unknown for a real board
+  std::optional<std::size_t> repeats = {};   ///< requests sent again; absent without a serial line
 };
 
 class Chip : public Executor {
@@ -45,22 +46,24 @@ class Chip : public Executor {
   virtual ChipFigures figures() const = 0;
 };
 
-/// In float on this machine, as the chip does it; both have to outlive it.
+/// Runs the step in float on this machine, as the chip does; both arguments must outlive it.
 std::unique_ptr<Executor> host_executor(const AutopilotParameters& parameters,
                                         const Mission& mission);
 
-/// Through the RAM of an emulated chip. `damage_parameters`: flips a bit of them in flash first.
+/// Exchanges data through the RAM of an emulated chip. `damage_parameters` first flips a bit in
+/// flash.
 Result<std::unique_ptr<Chip>> memory_link(const std::filesystem::path& elf, bool damage_parameters);
-/// Through the USART of an emulated chip, over a line that flips a share `noise` of the bits and
-/// loses the same share of the bytes, both ways.
+/// Exchanges data through the USART of an emulated chip. The line flips a fraction `noise` of the
+/// bits and loses the same fraction of the bytes, in both directions.
 Result<std::unique_ptr<Chip>> uart_link(const std::filesystem::path& elf, bool damage_parameters,
                                         std::uint32_t parameters_crc, double noise);
-/// Through a serial port. `elf` is what the board is to have been flashed with.
+/// Exchanges data through a serial port. `elf` is the firmware that the board must have been
+/// flashed with.
 Result<std::unique_ptr<Chip>> port_link(const std::filesystem::path& port, unsigned baud,
                                         const std::filesystem::path& elf,
                                         std::uint32_t parameters_crc);
-/// Gives an emulated chip's USART to whoever opens the pseudo-terminal, whose name goes to stdout;
-/// until its other end is closed.
+/// Connects an emulated chip's USART to a pseudo-terminal, prints its name on stdout and returns
+/// when the other end is closed.
 Status serve_terminal(const std::filesystem::path& elf);
 
 }  // namespace awmr::pil

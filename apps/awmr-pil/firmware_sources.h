@@ -1,4 +1,4 @@
-// The firmware's own files, as they were built in.
+// Embedded source files of the firmware.
 #pragma once
 
 #include <string_view>
@@ -7,7 +7,7 @@
 
 namespace awmr::pil {
 
-/// Name and bytes.
+/// Name and content of each file.
 const std::vector<std::pair<std::string_view, std::string_view>>& firmware_sources();
 
 }  // namespace awmr::pil

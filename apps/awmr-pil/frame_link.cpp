@@ -8,12 +8,12 @@
 namespace awmr::pil {
 namespace {
 
-/// At one bit in a thousand damaged, four exchanges of ten succeed: 40 in a row fail once in 1e9.
+/// With one bit in a thousand damaged, four exchanges of ten succeed: 40 in a row fail once in 1e9.
 constexpr int kAttempts = 40;
-/// The first request is short, and nobody may be there to answer.
+/// Fewer attempts: the first request is short, and there may be no board.
 constexpr int kStartAttempts = 10;
 
-/// A request as it goes over the line.
+/// Encodes a request as a frame.
 std::vector<std::uint8_t> framed(std::uint8_t type, std::uint8_t sequence,
                                  std::span<const std::uint8_t> payload) {
   std::vector<std::uint8_t> frame{::pil::kFrameStart, type, sequence,
@@ -49,7 +49,7 @@ class FrameLink : public Chip {
     return ask(::pil::kFollow, writer.bytes(), 0);
   }
 
-  /// A chip that was reset answers nothing but a new start: where it is silent, it gets one.
+  /// A reset chip answers only a new start, so a silent chip is restarted.
   Result<Step> step(const AutopilotInput& input) override {
     const std::vector<std::uint8_t> request = pack(input);
     AWMR_ASSIGN_OR_RETURN(const bool answered, exchange(::pil::kStep, request, kStepBytes));
@@ -71,7 +71,7 @@ class FrameLink : public Chip {
  private:
   static constexpr std::size_t kStepBytes = kOutputBytes + 2;
 
-  /// Starts the chip: the fault of its start-up check.
+  /// Starts the chip and returns the fault of its start-up check.
   Result<std::uint8_t> greet() {
     AWMR_RETURN_IF_ERROR(ask(::pil::kHello, {}, 5));
     Reader reader(payload());
@@ -93,7 +93,7 @@ class FrameLink : public Chip {
     return type == ::pil::kHello ? kStartAttempts : kAttempts;
   }
 
-  /// An exchange that has to succeed.
+  /// Exchange whose failure is an error.
   Status ask(std::uint8_t type, std::span<const std::uint8_t> bytes, std::size_t length) {
     AWMR_ASSIGN_OR_RETURN(const bool answered, exchange(type, bytes, length));
     if (answered) return {};
@@ -103,8 +103,8 @@ class FrameLink : public Chip {
                     attempts_for(type), static_cast<char>(type)));
   }
 
-  /// Sends a request, again where the line stays silent, and waits for the answer of `length`
-  /// bytes; false: there was none.
+  /// Sends a request, repeats it if the line stays silent, and waits for the answer of `length`
+  /// bytes. False: no answer.
   Result<bool> exchange(std::uint8_t type, std::span<const std::uint8_t> bytes,
                         std::size_t length) {
     const std::vector<std::uint8_t> request = framed(type, ++sequence_, bytes);
@@ -117,7 +117,7 @@ class FrameLink : public Chip {
     return false;
   }
 
-  /// Reads until the answer to the present request is there; false: the line fell silent before.
+  /// Reads until the answer to the current request is complete; false: the line fell silent before.
   Result<bool> is_answered(std::uint8_t type, std::size_t length) {
     const Patience patience = type == ::pil::kHello ? Patience::kStart : Patience::kAnswer;
     reader_.reset();
@@ -125,7 +125,7 @@ class FrameLink : public Chip {
       AWMR_ASSIGN_OR_RETURN(const std::optional<std::uint8_t> byte, line_->receive(patience));
       if (!byte) return false;
       if (!reader_.take(*byte)) continue;
-      // An answer to a request before this one, which was repeated, is late and no longer wanted.
+      // Ignore a late answer to an earlier request that was repeated.
       if (reader_.type() != type || reader_.sequence() != sequence_) continue;
       if (reader_.length() == length) return true;
       return program_fault(fmt::format("the chip answered with {} bytes to a request '{}'",

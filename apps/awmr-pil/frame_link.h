@@ -1,4 +1,4 @@
-// The control step over a line of bytes: firmware/frame.h's frames.
+// Control step over a serial line, with the frames of firmware/frame.h.
 #pragma once
 
 #include <cstdint>
@@ -10,23 +10,23 @@
 
 namespace awmr::pil {
 
-/// How long to wait for a byte: for a chip that checks its parameters first, or for an answer.
+/// Timeout for a byte: kStart while the chip checks its parameters, kAnswer otherwise.
 enum class Patience { kStart, kAnswer };
 
-/// Bytes to and from a chip, emulated or real. They may be damaged or lost on the way.
+/// Byte stream to and from a chip, emulated or real. Bytes may be damaged or lost on the way.
 class Line {
  public:
   virtual ~Line() = default;
   virtual Status open() = 0;
-  /// Resets the chip at its other end. Errors (input): it cannot.
+  /// Resets the chip at the other end. Errors (input): not possible.
   virtual Status reset() = 0;
   virtual Status send(std::span<const std::uint8_t> bytes) = 0;
-  /// The next byte; none where the line stays silent. Errors: the chip or the line is gone.
+  /// Returns the next byte; none if the line stays silent. Errors: the chip or the line is gone.
   virtual Result<std::optional<std::uint8_t>> receive(Patience patience) = 0;
   virtual ChipFigures figures() const = 0;
 };
 
-/// `parameters_crc`: of the parameters that the chip has to hold.
+/// `parameters_crc`: CRC of the parameters that the chip must hold.
 std::unique_ptr<Chip> frame_link(std::unique_ptr<Line> line, std::uint32_t parameters_crc);
 
 }  // namespace awmr::pil

@@ -5,8 +5,8 @@
 namespace awmr::pil {
 namespace {
 
-/// A firmware with all parts, those that the mission does not need switched off: to give the bits
-/// of one without them is what it is compared for.
+/// Firmware with all parts compiled in and those that the mission does not need disabled. Its bits
+/// must equal those of a firmware built without these parts.
 template <class G, CombinedSplit split>
 class HostExecutor : public Executor {
  public:
@@ -51,7 +51,7 @@ class HostExecutor : public Executor {
   }
 
  private:
-  /// As pil_set_up() of the firmware's mission.h.
+  /// Like pil_set_up() in the firmware's mission.h.
   void set_up() {
     const Mission& mission = *mission_;
     const float sample_time_s = parameters_->sample_time_s;

@@ -11,10 +11,10 @@ namespace awmr::pil {
 namespace {
 
 constexpr std::size_t kStepsPerMode = 2000;
-constexpr int kFields = 11;  ///< floats of an AutopilotInput
+constexpr int kFields = 11;  ///< floats in an AutopilotInput
 constexpr float kAcceptance_m = 1.0F;
 
-/// One step's input and the points that are followed from it on.
+/// Input of one step, and the points to follow from it on.
 struct Attack {
   AutopilotInput input{};
   Points points;
@@ -29,7 +29,7 @@ float& field_of(AutopilotInput& in, int field) {
   return *fields[field];
 }
 
-/// The largest magnitude that the safety checks let pass.
+/// Largest magnitude accepted by the safety checks.
 float largest_of(const SafetyLimits& limits, int field) {
   constexpr float kHeading = 0.5F * float_math::kAngleMax;
   const float largest[kFields] = {kHeading,
@@ -46,7 +46,7 @@ float largest_of(const SafetyLimits& limits, int field) {
   return largest[field];
 }
 
-/// Of all sizes up to `largest`, with a turn for the ends, for what is subnormal and for any bits.
+/// Random value of any magnitude up to `largest`; sometimes a limit, a subnormal or arbitrary bits.
 float hostile_value(Random& random, float largest) {
   const float sign = (random.bits() & 1U) != 0 ? -1.0F : 1.0F;
   switch (random.bits() % 32) {
@@ -59,19 +59,19 @@ float hostile_value(Random& random, float largest) {
     case 3:
       return std::bit_cast<float>(random.bits());
     default:
-      // Evenly spread in the exponent, eight decades downwards.
+      // Log-uniform over eight decades below the largest.
       return sign * largest * static_cast<float>(std::pow(10.0, -8.0 * random.uniform()));
   }
 }
 
-/// Most often within a metre of the vehicle, where the next one is looked at as well.
+/// Usually within a metre of the vehicle, so that the next point is evaluated in the same step.
 Position<float> hostile_point(Random& random, const Position<float>& vehicle_m) {
   const float reach_m = random.bits() % 8 == 0 ? 1000.0F : kAcceptance_m;
   const auto off = [&] { return reach_m * static_cast<float>(2.0 * random.uniform() - 1.0); };
   return {vehicle_m.x_m + off(), vehicle_m.y_m + off()};
 }
 
-/// `best` with a few of its numbers drawn anew; now and then with all.
+/// Redraws a few of the numbers of `best`; sometimes all.
 Attack changed(const Attack& best, const SafetyLimits& limits, Random& random) {
   Attack attack = best;
   const std::uint32_t changes = random.bits() % 8 == 0 ? kFields : 1 + random.bits() % 3;
@@ -105,7 +105,7 @@ bool same(const AutopilotOutput& a, const AutopilotOutput& b) {
          a.command.steering_powerless == b.command.steering_powerless;
 }
 
-/// One step of both. Returns the chip's cycles and counts into `found`.
+/// Executes one step on both and counts it in `found`. Returns the chip's cycles.
 Result<unsigned> tried(Executor& chip, Executor& host, const Attack& attack, Hostile& found) {
   if (!attack.points.points_m.empty()) {
     AWMR_RETURN_IF_ERROR(chip.follow(attack.points));
@@ -125,8 +125,8 @@ Result<unsigned> tried(Executor& chip, Executor& host, const Attack& attack, Hos
 Result<Hostile> provoke(Executor& chip, Executor& host, const SafetyLimits& limits,
                         const Mission& mission, const Progress& progress) {
   Hostile found;
-  // Every step is at time 0; the first one, late after whatever was before it, is not looked at.
-  // Its mode is none: after a fault both remember nothing of the motion before.
+  // Every step is at time 0. The first is not evaluated because it follows a time jump. Its invalid
+  // mode raises a fault, after which chip and host have no memory of earlier motion.
   AutopilotInput first{};
   first.mode = 3;
   AWMR_RETURN_IF_ERROR(chip.step(first));
@@ -137,7 +137,7 @@ Result<Hostile> provoke(Executor& chip, Executor& host, const SafetyLimits& limi
     Attack best;
     best.input.mode = mode;
     if (!mission.points.points_m.empty()) {
-      // Without parts the firmware has room for more points than the mission's.
+      // Without optional parts the firmware has room for more points than the mission has.
       best.points.points_m.resize(parts_of(mission).empty() ? kMaxPoints
                                                             : mission.points.points_m.size());
       if (!mission.line) best.points.acceptance_m = kAcceptance_m;

@@ -1,4 +1,4 @@
-// The most cycles that a step can be made to take.
+// Search for the inputs that make a control step take the most cycles.
 #pragma once
 
 #include <cstddef>
@@ -8,17 +8,17 @@
 
 namespace awmr::pil {
 
-/// What was found with inputs that no vehicle gives.
+/// Results with inputs that no vehicle produces.
 struct Hostile {
-  unsigned cycles = 0;        ///< the most of any step, with the following of new points in it
-  std::size_t steps = 0;      ///< that were tried
-  std::size_t differing = 0;  ///< whose outputs are not the host's, bit for bit
+  unsigned cycles = 0;        ///< maximum over all steps, including the setup of new points
+  std::size_t steps = 0;      ///< number of steps tried
+  std::size_t differing = 0;  ///< steps whose outputs differ from the host's in any bit
 };
 
-/// Looks for the inputs that take the chip longest: at and beyond the limits, tiny, subnormal, no
-/// numbers, headings of many turns, references that move; where the mission has points, others that
-/// lie on the vehicle or anywhere. What took longest so far is changed a little, again and again.
-/// The same steps every time. Errors: the executors'.
+/// Searches for the slowest inputs: at and beyond the limits, tiny, subnormal, not finite, headings
+/// of many turns, moving references. If the mission has points, they are replaced by points on the
+/// vehicle or anywhere. The slowest input so far is mutated repeatedly. The sequence is
+/// deterministic. Errors: those of the executors.
 Result<Hostile> provoke(Executor& chip, Executor& host, const SafetyLimits& limits,
                         const Mission& mission, const Progress& progress = {});
 

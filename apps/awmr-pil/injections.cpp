@@ -9,7 +9,8 @@ namespace {
 
 using cli::Injection;
 
-// A sensor that is not believed disarms, and its readings get old: one of the two is first.
+// A rejected sensor disarms the vehicle, and its readings become stale: either fault may come
+// first.
 constexpr std::uint8_t kHeading = kFaultHeadingStale | kFaultCommandTimeout;
 constexpr std::uint8_t kSpeed = kFaultSpeedStale | kFaultCommandTimeout;
 
@@ -25,15 +26,15 @@ constexpr InjectionEffect kEffects[] = {
     {Injection::kCommandTimeout, Duration::kTwentySteps, kFaultCommandTimeout},
     {Injection::kStepLate, Duration::kOneStep, kFaultStepLate},
     {Injection::kParameters, Duration::kWholeRun, kFaultParameters},
-    // A detector's time and the autopilot's time-out. In a turn the gyroscope and the compass
-    // contradict each other before the words of a frozen one have repeated for long enough.
+    // Detection time plus the autopilot's timeout. In a turn, gyroscope and compass contradict each
+    // other before a frozen sensor has repeated its value for long enough.
     {Injection::kCompassSilent, Duration::kFromTheMiddle, kHeading, kCompassSilent, kSensorGood,
      1.5},
     {Injection::kCompassFrozen, Duration::kFromTheMiddle, kHeading, kCompassFrozen,
      kHeadingOutOfStep, 1.5},
     {Injection::kCompassJump, Duration::kFromTheMiddle, kHeading, kHeadingOutOfStep, kSensorGood,
      1.5},
-    // From the next turn on.
+    // Detected in the next turn.
     {Injection::kCompassStuck, Duration::kFromTheMiddle, kHeading, kHeadingOutOfStep, kSensorGood,
      40.0},
     {Injection::kGyroSilent, Duration::kFromTheMiddle, kHeading, kGyroSilent, kSensorGood, 1.5},
@@ -49,7 +50,7 @@ constexpr InjectionEffect kEffects[] = {
     {Injection::kGpsRepeated, Duration::kFromTheMiddle, kSpeed, kGpsRepeated, kSensorGood, 1.5},
     {Injection::kGpsLate, Duration::kFromTheMiddle, kSpeed, kGpsSilent, kSensorGood, 1.5},
     {Injection::kGpsJump, Duration::kFromTheMiddle, kSpeed, kGpsJump, kSensorGood, 1.5},
-    // Found by the motion: after metres, which a law that is driven by its model may creep along slowly.
+    // Detected by the motion, after metres, which a model-driven controller may cover slowly.
     {Injection::kGpsSpeedZero, Duration::kFromTheMiddle, kFaultCommandTimeout, kGpsInconsistent,
      kSensorGood, 40.0},
     {Injection::kGpsPositionFrozen, Duration::kFromTheMiddle, kFaultCommandTimeout,

@@ -1,4 +1,4 @@
-// What each injection of `awmr pil --inject` breaks, for how long, and what has to find it: one table.
+// Table of the injections of `awmr pil --inject`: effect, duration and expected detection.
 #pragma once
 
 #include <cstddef>
@@ -12,35 +12,34 @@ namespace awmr::pil {
 
 /// When an injection acts.
 enum class Duration {
-  kNever,         ///< the controller's inputs are left alone
+  kNever,         ///< the controller's inputs are not changed
   kWholeRun,      ///< from the start
-  kOneStep,       ///< at the middle
-  kTwentySteps,   ///< from the middle on
-  kFromTheMiddle  ///< to the end
+  kOneStep,       ///< in the middle of the run
+  kTwentySteps,   ///< from the middle of the run on
+  kFromTheMiddle  ///< from the middle to the end
 };
 
 /// One row of the table.
 struct InjectionEffect {
   cli::Injection injection;
   Duration duration;
-  std::uint8_t fault;  ///< bits of the autopilot's fault, one of which has to be raised
-  /// The sensor check that has to find it; kSensorGood: not a failure of a sensor.
+  std::uint8_t fault;  ///< expected fault bits of the autopilot; one of them must be raised
+  /// Sensor check that must detect it; kSensorGood: not a sensor failure.
   SensorFault cause = kSensorGood;
-  SensorFault other_cause = kSensorGood;  ///< or this one, where it is faster
-  /// Safe command, for failures that the sketches' checks find and that disarm; 0: none of these.
+  SensorFault other_cause = kSensorGood;  ///< alternative check that may be faster
+  /// Time limit for the safe command after failures that disarm; 0: does not apply.
   double within_s = 0.0;
 };
 
 const InjectionEffect& effect_of(cli::Injection injection);
 
-/// True for failures of a sensor, of the motors or of the operator's line, which the checks of the
-/// sketches find: the vehicle is disarmed.
+/// True for failures of a sensor, of the motors or of the operator's line. The checks of the
+/// sketches detect them and disarm the vehicle.
 bool disarms(cli::Injection injection);
-/// True for those of the operator's line.
+/// True for failures of the operator's line.
 bool is_command_failure(cli::Injection injection);
 
-/// True if `cause` is a sensor fault that this injection may raise first; kSensorGood for failures of
-/// the operator's line.
+/// True if this injection may raise `cause` first; kSensorGood for failures of the operator's line.
 bool is_expected_cause(cli::Injection injection, SensorFault cause);
 
 /// Samples at which an injection acts: [first, last).

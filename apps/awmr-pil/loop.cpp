@@ -26,8 +26,8 @@ std::size_t samples_of(const LoopSetup& setup) {
       std::floor(setup.scenario.duration_s / setup.sample_time_s + 1e-9));
 }
 
-/// The chip leads, avoids and shapes by itself: it is told the heading that a scenario without any
-/// of these asks for, and to stop at the end of the course or where there is no passage.
+/// The chip itself guides, avoids and shapes. Its input is the heading of a scenario without these,
+/// and the speed 0 at the end of the path or if there is no passage.
 AutopilotInput input_of(const LoopSetup& setup, double t_s, const Sensed& sensed,
                         const Pilot::Order& order) {
   const bool stops = order.finished || order.no_passage;
@@ -44,7 +44,7 @@ AutopilotInput input_of(const LoopSetup& setup, double t_s, const Sensed& sensed
   return in;
 }
 
-/// Older than every time-out.
+/// Longer than every timeout.
 constexpr std::uint32_t kSilence_ms = 4'000'000;
 
 void inject(Injection injection, AutopilotInput& in) {
@@ -76,7 +76,7 @@ void inject(Injection injection, AutopilotInput& in) {
   }
 }
 
-/// A pause before a step: the clock is ahead from then on.
+/// Pause before a step: the clock is ahead from then on.
 void delay(std::uint32_t by_ms, InputTimes& times) {
   times.now_ms += by_ms;
   times.heading_ms += by_ms;
@@ -84,7 +84,7 @@ void delay(std::uint32_t by_ms, InputTimes& times) {
   times.command_ms += by_ms;
 }
 
-/// What the actuators make of the chip's command.
+/// Applies the actuators to the chip's command.
 void command(const LoopSetup& setup, LoopRow& row) {
   const Allocation<float>& asked = row.step.output.command;
   row.force = {static_cast<double>(asked.force.left), static_cast<double>(asked.force.right)};
@@ -94,8 +94,8 @@ void command(const LoopSetup& setup, LoopRow& row) {
   }
 }
 
-/// Each side drives with the other's force, the other way: the vehicle turns as commanded, and drives
-/// against the command.
+/// Each side gets the negated force of the other: the vehicle turns as commanded but drives in the
+/// opposite direction.
 void reverse_motors(LoopRow& row) { row.force = {-row.force.right, -row.force.left}; }
 
 void swap_sides(LoopRow& row) { row.force = {row.force.right, row.force.left}; }

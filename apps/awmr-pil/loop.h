@@ -1,4 +1,4 @@
-// The closed loop of simulate/ with the control step executed elsewhere, in float.
+// Closed loop of simulate/ with the control step executed by an Executor, in float.
 #pragma once
 
 #include <vector>
@@ -20,28 +20,27 @@ struct LoopSetup {
   Mission mission;  ///< mission_of() the scenario
   YawMode mode = YawMode::kCombined;
   cli::Injection injection = cli::Injection::kNone;
-  SafetyLimits limits{};                 ///< the firmware's
-  std::size_t middle = 0;                ///< the sample from which on the injection works
-  std::vector<std::size_t> resets = {};  ///< samples before whose step the executor is reset
+  SafetyLimits limits{};                 ///< limits of the firmware
+  std::size_t middle = 0;                ///< first sample at which the injection acts
+  std::vector<std::size_t> resets = {};  ///< samples before which the executor is reset
 };
 
 struct LoopRow {
   double t_s = 0.0;
   State<double> state{};
   Step step;
-  SensorFault cause =
-      kSensorGood;  ///< the first sensor that is not believed, where failures are injected
-  SideForces<double> force{};         ///< the step's, as the actuators can make it
-  double steering_command_rad = 0.0;  ///< the same
+  SensorFault cause = kSensorGood;    ///< first rejected sensor, with injected failures
+  SideForces<double> force{};         ///< of this step, limited by the actuators
+  double steering_command_rad = 0.0;  ///< likewise
 };
 
-/// True where the simulated speed sensor gives |u|, and the firmware computes the direction.
+/// True if the simulated speed sensor gives |u|, so that the firmware computes the direction.
 bool has_unsigned_speed(const Scenario& scenario);
 
-/// Errors (input): the scenario asks for what the firmware does not do.
+/// Errors (input): the scenario uses a feature that the firmware does not support.
 Status check_scenario(const Scenario& scenario, const std::string& file);
 
-/// Errors: the executor's. Ends with the scenario, or where its course does.
+/// Runs until the scenario or its path ends. Errors: the executor's.
 Result<std::vector<LoopRow>> run_loop(const LoopSetup& setup, Executor& executor,
                                       const Progress& progress = {});
 

@@ -22,7 +22,7 @@ int report(const awmr::Error& error, bool json = false) {
   return awmr::exit_code(error);
 }
 
-/// On a terminal it is told what is being done, and how much time is left.
+/// On a terminal, displays the current work and the time left.
 awmr::Result<awmr::pil::Outcome> watched(const awmr::cli::PilOptions& options) {
   awmr::cli::Working working("reading");
   return awmr::pil::run_pil(

@@ -10,7 +10,7 @@
 namespace awmr::pil {
 namespace {
 
-/// Start-up computes a check sum over the parameters: a second is ten times what it takes.
+/// Start-up computes a checksum over the parameters; one second is ten times its duration.
 constexpr std::uint64_t kStartCycles = 16'000'000;
 
 class MemoryLink : public Chip {
@@ -42,14 +42,14 @@ class MemoryLink : public Chip {
     Writer writer;
     for (const Position<float>& point : points.points_m) writer.put(point.x_m).put(point.y_m);
     put("pil_points", writer);
-    // A line has none, and so has its firmware.
+    // A line has no acceptance radius, and neither has its firmware.
     if (points.acceptance_m > 0.0F) put("pil_acceptance_m", Writer().put(points.acceptance_m));
     put("pil_point_count", Writer().put(static_cast<std::int16_t>(points.points_m.size())));
     points_ = points;
     return {};
   }
 
-  /// The chip is asleep here, its last step done, so that nothing reads while this writes.
+  /// The chip sleeps here after its last step, so it does not read while the host writes.
   Result<Step> step(const AutopilotInput& input) override {
     const std::vector<std::uint8_t> bytes = pack(input);
     std::copy(bytes.begin(), bytes.end(), input_.begin());
@@ -66,13 +66,13 @@ class MemoryLink : public Chip {
   }
 
  private:
-  /// Runs to the first sleep: the fault of the start-up check.
+  /// Runs to the first sleep and returns the fault of the start-up check.
   Result<std::uint8_t> boot() {
     AWMR_RETURN_IF_ERROR(run_to_sleep());
     return emulator_->ram("pil_init_fault", 1)[0];
   }
 
-  /// Errors (input): the chip never sleeps, as the timer asks for the next step before one ends.
+  /// Errors (input): the chip never sleeps because a step takes longer than the timer's period.
   Status run_to_sleep() {
     const std::uint64_t begin = emulator_->cycles();
     const Status asleep = emulator_->run_to_sleep(kStartCycles);

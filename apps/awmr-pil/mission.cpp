@@ -31,7 +31,7 @@ void add(const WaypointCourse& course, Mission& mission) {
 }
 void add(const LineCourse& course, Mission& mission) {
   mission.points = points_of(course.points_m, 0.0);
-  // Other laws are refused before a firmware is built: check_scenario() in loop.h.
+  // check_scenario() in loop.h refuses other laws before a firmware is built.
   if (const auto* law = std::get_if<LineLaw<double>>(&course.law)) {
     mission.line =
         LineMission{{in_float(law->delta_rad), in_float(law->width_m), law->sideslip_compensation},
@@ -52,14 +52,14 @@ Avoidance<float> in_float(const Avoidance<double>& a) {
           in_float(a.side_hysteresis_rad), in_float(a.brake_m)};
 }
 
-/// Literals that read back to the same floats, in braces.
+/// Formats floats in braces, as literals that read back to the same values.
 std::string braced(std::initializer_list<float> values) {
   std::vector<std::string> literals;
   for (const float value : values) literals.push_back(fmt::format("{:.8e}f", value));
   return fmt::format("{{{}}}", fmt::join(literals, ", "));
 }
 
-/// What is set up once, after awmr_init().
+/// Statements executed once, after awmr_init().
 struct SetUp {
   std::string constants;
   std::string calls;

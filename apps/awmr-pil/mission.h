@@ -1,4 +1,4 @@
-// What a scenario asks of the firmware beside headings, in the numbers of the chip.
+// Guidance features that a scenario needs from the firmware, in the chip's number format.
 #pragma once
 
 #include <cstdint>
@@ -13,25 +13,25 @@
 
 namespace awmr::pil {
 
-/// Points to go to, or corners of a line.
+/// Waypoints, or corners of a line.
 struct Points {
   std::vector<Position<float>> points_m;
   float acceptance_m = 0.0F;
 };
 
-/// A line's law, without its corners.
+/// Law of a line, without its corners.
 struct LineMission {
   LineLaw<float> law{};
   float corner_m = 0.0F;
 };
 
-/// A path in time; `gain_per_s` is 0 for the open form.
+/// Timed path; `gain_per_s` is 0 for the open-loop form.
 struct PathMission {
   Lissajous<float> path{};
   float gain_per_s = 0.0F;
 };
 
-/// All of it. What is optional is off where it is absent.
+/// All guidance features. An absent optional is disabled.
 struct Mission {
   Points points;  ///< empty: neither waypoints nor a line
   bool skip_passed = false;
@@ -44,24 +44,24 @@ struct Mission {
   std::optional<Observers<float>> observers;
   CombinedSplit split = CombinedSplit::kRedistribute;
 
-  /// True where the chip leads; else it is told headings.
+  /// True if the chip computes the guidance; else it receives headings.
   bool leads() const { return !points.points_m.empty() || path.has_value(); }
 };
 
 Mission mission_of(const Scenario& scenario);
 
-/// The parts that the firmware needs for it.
+/// Firmware parts that the mission needs.
 std::set<FirmwarePart> parts_of(const Mission& mission);
 
-/// Most points that a firmware of these programs holds.
+/// Maximum number of points in these firmware programs.
 inline constexpr std::size_t kMaxPoints = 16;
 
-/// mission.h of the firmware: how many points it holds, what it sets up at the start and how it
-/// follows points. Where no part is needed it is the same for every mission.
+/// Generates mission.h of the firmware: its capacity for points, its setup and how it follows
+/// points. It is the same for every mission that needs no part.
 std::string mission_header(const Mission& mission);
 
-/// 0 where no part is needed; else a check sum of mission_header(), by which a board that was
-/// flashed for another mission is known.
+/// Returns 0 if no part is needed; else a checksum of mission_header(), which detects a board
+/// flashed for another mission.
 std::uint32_t mission_crc(const Mission& mission);
 
 }  // namespace awmr::pil

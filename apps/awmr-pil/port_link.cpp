@@ -18,7 +18,7 @@ namespace {
 
 constexpr int kStartTimeout_ms = 500;   ///< the check of the parameters takes 50
 constexpr int kAnswerTimeout_ms = 300;  ///< 140 bytes take 146 ms at 9600 baud
-/// A Mega 2560 restarts when its port is opened, and its boot loader waits.
+/// A Mega 2560 resets when its port is opened, and its boot loader waits.
 constexpr int kBootTime_ms = 2000;
 
 class Port : public Line {
@@ -81,7 +81,7 @@ class Port : public Line {
 Result<std::unique_ptr<Chip>> port_link(const std::filesystem::path& port, unsigned baud,
                                         const std::filesystem::path& elf,
                                         std::uint32_t parameters_crc) {
-  // The file tells what the board's flash and RAM hold.
+  // The ELF file gives the use of flash and RAM.
   const auto emulator = Emulator::load(elf);
   if (!emulator) return tl::unexpected(emulator.error());
   return frame_link(
@@ -100,7 +100,7 @@ Result<int> open_terminal() {
   return terminal;
 }
 
-/// Writes as much as the other side takes.
+/// Writes as many bytes as the other side accepts.
 void write_to(int terminal, const std::string& bytes) {
   std::size_t sent = 0;
   while (sent < bytes.size()) {
@@ -125,7 +125,7 @@ Status serve_terminal(const std::filesystem::path& elf) {
   bool was_open = false;
   for (;;) {
     pollfd waiting{.fd = terminal, .events = POLLIN, .revents = 0};
-    // Emulates on while there is something to do, and waits for bytes while there is nothing.
+    // Keeps emulating while output is pending, else waits for input.
     ::poll(&waiting, 1, answer.empty() ? 1 : 0);
     if ((waiting.revents & POLLIN) != 0) {
       std::uint8_t bytes[256];

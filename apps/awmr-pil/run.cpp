@@ -31,19 +31,19 @@ namespace fs = std::filesystem;
 using cli::Injection;
 using cli::PilOptions;
 
-/// What was read, and what follows from it.
+/// Inputs and values derived from them.
 struct Inputs {
   Model model;
-  EmitOptions emit;  ///< as the options say, with what the scenario needs
+  EmitOptions emit;  ///< the options, with the parts that the scenario needs
   Gains<double> gains;
   EmitInputs names;
   LoopSetup setup;
   AutopilotParameters parameters;
 };
 
-/// The step of pil_memory.cpp is started by a timer that counts eighths of the clock in 16 bits.
+/// Errors: a sample time too long for the timer of pil_memory.cpp, which counts clock/8 in 16 bits.
 Status check_sample_time(const Model& model) {
-  // In float and rounded as the firmware does it.
+  // Computed in float and rounded as in the firmware.
   const float counts = static_cast<float>(model.vehicle.sample_time_s) * 2e6F + 0.5F;
   if (counts >= 2.0F && counts < 65537.0F) return {};
   return input_error(
@@ -91,7 +91,7 @@ Result<Inputs> read_inputs(const PilOptions& options) {
   return in;
 }
 
-/// The samples before which the chip was started anew.
+/// Samples before which the chip was restarted.
 std::vector<std::size_t> restarts_of(const std::vector<LoopRow>& rows) {
   std::vector<std::size_t> restarts;
   for (std::size_t k = 0; k < rows.size(); ++k) {
@@ -100,7 +100,7 @@ std::vector<std::size_t> restarts_of(const std::vector<LoopRow>& rows) {
   return restarts;
 }
 
-/// The same loop in float on this machine, reset where the chip was.
+/// Runs the same loop in float on this machine, with resets at the same samples as the chip.
 Result<std::vector<LoopRow>> run_host(const Inputs& in, ResistanceForm form,
                                       const std::vector<std::size_t>& resets = {}) {
   EmitOptions options = in.emit;
@@ -115,7 +115,7 @@ Result<std::vector<LoopRow>> run_host(const Inputs& in, ResistanceForm form,
   return run_loop(setup, *host);
 }
 
-/// Puts what is injected into the middle of the run as it is without it.
+/// Places the injection in the middle of the run, whose length is that without injection.
 Status place_injection(Inputs& in) {
   Inputs undisturbed = in;
   undisturbed.setup.injection = Injection::kNone;
@@ -145,7 +145,7 @@ Result<std::unique_ptr<Chip>> connect(const PilOptions& options, const Inputs& i
   return memory_link(elf, damage);
 }
 
-/// The longest step of an emulated chip, whose run is over.
+/// Searches for the longest step of an emulated chip; called after its run.
 Result<std::optional<Hostile>> hostile_of(const PilOptions& options, const Inputs& in, Chip& chip,
                                           const Watch& watch) {
   if (options.port || options.injection != Injection::kNone) return std::optional<Hostile>();
@@ -157,8 +157,8 @@ Result<std::optional<Hostile>> hostile_of(const PilOptions& options, const Input
   return std::optional(hostile);
 }
 
-/// Of this process's processor time, which is what emulation takes on one core; with a real board
-/// of the clock's.
+/// Processor time of this process, which equals the emulation time on one core; wall-clock time
+/// with a real board.
 double elapsed_s(bool emulated) {
   timespec now{};
   ::clock_gettime(emulated ? CLOCK_PROCESS_CPUTIME_ID : CLOCK_MONOTONIC, &now);
@@ -199,7 +199,7 @@ Result<ChipRun> run_chip(const PilOptions& options, const Inputs& in, const Watc
   return run;
 }
 
-/// With the defaults that depend on scenario and firmware.
+/// Fills in the defaults that depend on scenario and firmware.
 PilOptions resolved(PilOptions options, const Inputs& in) {
   const std::set<FirmwarePart>& parts = in.emit.parts;
   const bool avoids = parts.contains(FirmwarePart::kAvoidance);
@@ -220,7 +220,8 @@ PilOptions resolved(PilOptions options, const Inputs& in) {
   return options;
 }
 
-/// The first fault comes in time and for the right reason, and stays: what is disarmed stays so.
+/// Checks that the first fault comes in time with the right cause, and that the vehicle stays
+/// disarmed.
 Injected disarming_of(const LoopSetup& setup, const std::vector<LoopRow>& rows) {
   Injected result;
   result.expected = effect_of(setup.injection).fault;
@@ -282,7 +283,7 @@ Status compare_runs(const PilOptions& options, const Inputs& in, Report& report)
   AWMR_RETURN_IF_ERROR(failure_of(exact, in.setup.scenario));
   report.from_double = difference(report.chip.rows, exact);
   report.heading_apart_deg = heading_apart_deg(report.chip.rows, exact);
-  // Other families than the power law have no powf to compare with.
+  // Only the power law has a powf version to compare with.
   if (in.model.surge_family != Family::kPower || in.model.yaw_family != Family::kPower) return {};
   const auto by_powf = run_host(in, ResistanceForm::kPowf);
   if (!by_powf) return tl::unexpected(by_powf.error());

@@ -1,4 +1,4 @@
-// The whole of `awmr pil`: build, run, compare, judge.
+// Implementation of `awmr pil`: build, run, compare, check.
 #pragma once
 
 #include "awmr/model/record.h"
@@ -16,17 +16,17 @@ namespace awmr::pil {
 struct Outcome {
   std::string summary;  ///< for stdout
   bool passed = false;
-  std::string document;  ///< the bytes of pil.json
+  std::string document;  ///< content of pil.json
   std::vector<Finding> findings = {};
 };
 
-/// Is told what is being done, and how far it is.
+/// Progress callbacks: the current work, and the fraction done.
 struct Watch {
   std::function<void(std::string_view)> doing = [](std::string_view) {};
   Progress progress = {};
 };
 
-/// Writes pil.json. Errors: bad input, no compiler, the chip or the link fails.
+/// Writes pil.json. Errors: invalid input, no compiler, failure of the chip or the link.
 Result<Outcome> run_pil(const cli::PilOptions& options, const Watch& watch);
 
 }  // namespace awmr::pil

@@ -8,13 +8,13 @@ namespace {
 
 using cli::Injection;
 
-/// rad/s of a word of the boards' gyroscope, +-500 deg/s.
+/// rad/s per count of the boards' gyroscope, +-500 deg/s.
 constexpr float kRadpsPerWord = 500.0F / 32768.0F * 0.0174532925F;
-/// Counts RMS of a live sensor.
+/// RMS noise of a working gyroscope, counts.
 constexpr double kGyroNoise = 5.0;
 constexpr double kFieldNoise = 3.0;
 constexpr double kFieldSize = 250.0;
-/// Of the complementary filter, s.
+/// Time constant of the complementary filter, s.
 constexpr double kLean_s = 2.0;
 constexpr double kFixPeriod_s = 0.2;
 constexpr double kCompassJump_rad = 1.0;
@@ -23,7 +23,7 @@ constexpr double kGyroDrift_radps = 0.15;
 constexpr std::uint32_t kGpsLate_ms = 2000;
 constexpr float kGpsJump_m = 20.0F;
 
-/// The verdict of the sketches' reader on a sentence that a receiver at fault sends; kFix for others.
+/// Result of the sketches' parser for the sentence of a faulty receiver; kFix for other injections.
 GpsSentence sentence_of(Injection injection) {
   const char* text = "";
   switch (injection) {

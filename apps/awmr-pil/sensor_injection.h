@@ -1,5 +1,5 @@
-// Sensors that fail: raw readings made of the simulated motion, and the checks of the sketches over them
-// (control/heading_check.h, gps_check.h). A sensor that is not believed keeps its old time, as on the board.
+// Sensor failures: raw readings derived from the simulated motion, and the checks of the sketches
+// (control/heading_check.h, gps_check.h). A rejected sensor keeps its old time, as on the board.
 #pragma once
 
 #include <deque>
@@ -30,14 +30,14 @@ class CheckedSensors {
   std::mt19937 random_{1};
   std::int16_t word_ = 0;
   std::int16_t field_[3] = {0, 0, 0};
-  double heading_rad_ = 0.0;  ///< of the complementary filter
+  double heading_rad_ = 0.0;  ///< output of the complementary filter
   bool has_heading_ = false;
   std::optional<double> stuck_rad_;  ///< heading that the compass keeps
   double turned_rad_ = 0.0;          ///< how far a compass that turns away has turned
   std::optional<GpsFix> fix_;
   Position<float> fix_m_{};
   bool has_position_ = false;
-  /// A fix on its way from the receiver.
+  /// A delayed fix of the receiver.
   struct LateFix {
     std::uint32_t sent_ms;
     GpsFix fix;

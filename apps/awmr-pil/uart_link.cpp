@@ -9,18 +9,18 @@
 namespace awmr::pil {
 namespace {
 
-/// Ten times what the check of the parameters takes.
+/// Ten times the duration of the parameter check.
 constexpr std::uint64_t kLineStartCycles = 16'000'000;
-/// 30 ms: a request, its step and its answer take 3, and after 20 the chip gives up a frame that
-/// was begun.
+/// 30 ms: a request, its step and its answer take 3 ms. The chip discards an incomplete frame after
+/// 20 ms.
 constexpr std::uint64_t kLineAnswerCycles = 480'000;
 
-/// Damages bytes on their way: the same ones every time.
+/// Damages transmitted bytes; the sequence is deterministic.
 class Noise {
  public:
   explicit Noise(double share) : share_(share) {}
 
-  /// The byte that arrives, if one does.
+  /// Returns the byte as received, or nothing if it is lost.
   std::optional<std::uint8_t> after(std::uint8_t byte) {
     if (share_ <= 0.0) return byte;
     if (random_.uniform() < share_) return std::nullopt;

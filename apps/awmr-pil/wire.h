@@ -1,4 +1,4 @@
-// awmr_input and awmr_output byte by byte as the chip has them: little-endian, without padding.
+// Byte layout of awmr_input and awmr_output on the chip: little-endian, without padding.
 #pragma once
 
 #include <cstdint>

@@ -30,15 +30,16 @@ constexpr std::string_view kPrefix = "awmr-pil-";
 constexpr int kEndingSignals[] = {SIGINT,  SIGTERM, SIGHUP,    SIGQUIT, SIGALRM,
                                   SIGUSR1, SIGUSR2, SIGVTALRM, SIGXCPU, SIGXFSZ};
 
-/// Held by whoever makes or removes the folder, and for good by the thread that ends the program.
+/// Held while the folder is created or removed, and permanently by the thread that ends the
+/// program.
 std::mutex folder_mutex;
-/// This run's; empty without one. Never destroyed: a signal may come while the program exits.
+/// Folder of this run; empty if none. Never destroyed: a signal may arrive during exit.
 fs::path& folder = *new fs::path;
 
-bool can_end = false;  ///< whether the thread that ends the program at a signal could be started
-sem_t not_ending;      ///< posted by that thread when it is asked and no signal came before
+bool can_end = false;  ///< the thread that ends the program at a signal was started
+sem_t not_ending;      ///< posted by that thread to answer question() if no signal came before
 
-/// `awmr-pil-NUMBER-XXXXXX`, with a process's number.
+/// True for `awmr-pil-NUMBER-XXXXXX`, where NUMBER is a process ID.
 bool is_run_folder(std::string_view name) {
   if (!name.starts_with(kPrefix)) return false;
   name.remove_prefix(kPrefix.size());
@@ -46,7 +47,7 @@ bool is_run_folder(std::string_view name) {
   return digits > 0 && name.substr(digits).starts_with('-');
 }
 
-/// A lock that ends with the process, on the folder itself; -1 where another process has it.
+/// Locks the folder itself until the process ends; -1 if another process holds the lock.
 int lock_folder(const fs::path& path) {
   const int file = ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
   if (file >= 0 && ::flock(file, LOCK_EX | LOCK_NB) == 0) return file;
@@ -54,9 +55,9 @@ int lock_folder(const fs::path& path) {
   return -1;
 }
 
-/// A folder of this user's (no link) that no process holds the lock of. The lock tells more than
-/// the number in the name, which may be another process's by now, a dead one's that nobody has
-/// waited for, or one's in another container on the same TMPDIR.
+/// True for a folder of this user (no link) that no process has locked. The lock is more reliable
+/// than the process ID in the name: that may belong to another process by now, to a zombie, or to a
+/// process in another container with the same TMPDIR.
 bool is_left_over(const fs::path& path) {
   if (!is_run_folder(path.filename().string())) return false;
   struct stat status {};
@@ -67,8 +68,8 @@ bool is_left_over(const fs::path& path) {
   return lock >= 0;
 }
 
-/// Again where the main thread or the compiler, which outlives a killed run, was still writing into
-/// it.
+/// Repeats the removal if the main thread or the compiler, which survives a killed run, was still
+/// writing into the folder.
 void remove_folder(const fs::path& path) {
   for (int attempt = 0; attempt < 20; ++attempt) {
     std::error_code error;
@@ -97,12 +98,12 @@ sigset_t handled_signals() {
   return signals;
 }
 
-/// Asks whether the program is about to end. Of the signals sent to a process the lowest number is
-/// taken first, so this one is answered only when none of the others waits.
+/// Signal that asks the ending thread whether the program is about to end. The lowest pending
+/// signal number is delivered first, so this one is answered only if no other is pending.
 int question() { return SIGRTMIN; }
 
-/// From here on nothing is told on stderr: what the main thread meets now (a killed compiler, a
-/// file that has gone) is this ending's doing. The emulator's library writes there by itself.
+/// Discards all further output on stderr: errors of the main thread (a killed compiler, a missing
+/// file) are now consequences of the shutdown. The emulator's library writes to stderr by itself.
 void silence_errors() {
   const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
   if (nowhere < 0) return;
@@ -110,7 +111,7 @@ void silence_errors() {
   ::close(nowhere);
 }
 
-/// Waits for a signal, cleans up, and lets it do what it does.
+/// Waits for a signal, cleans up, and then lets the signal take effect.
 void* end_at_signal(void*) {
   sigset_t signals = handled_signals();
   ::sigaddset(&signals, question());
@@ -150,7 +151,7 @@ Result<std::unique_ptr<WorkFolder>> WorkFolder::make() {
   std::unique_ptr<WorkFolder> made(new WorkFolder);
   made->path_ = name;
   made->lock_ = lock_folder(name);
-  // Only now, with its lock, it has a name by which another run would remove it.
+  // Renamed only after locking, because other runs remove unlocked folders of this name.
   const std::string suffix = name.substr(name.size() - 6);
   const fs::path locked = directory / fmt::format("{}{}-{}", kPrefix, ::getpid(), suffix);
   if (::rename(name.c_str(), locked.c_str()) == 0) folder = made->path_ = locked;

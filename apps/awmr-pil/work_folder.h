@@ -1,4 +1,4 @@
-// A private folder for one run, and how it goes away.
+// Private temporary folder for one run, and its removal.
 #pragma once
 
 #include <filesystem>
@@ -8,13 +8,13 @@
 
 namespace awmr::pil {
 
-/// A folder in TMPDIR that only this user can enter. It goes away with the object, at a signal that
-/// ends the program (see clean_up_at_signals), or, where the program had no time to clean up, at
-/// the next run's start: its name says whose it was, and a lock on it lasts as long as the process.
+/// Folder in TMPDIR that only this user can enter. It is removed with the object, or at a signal
+/// that ends the program (see clean_up_at_signals). If the program could not clean up, the next run
+/// removes it: its name identifies the process, whose lock ends with it.
 class WorkFolder {
  public:
-  /// Removes the folders of runs that are over, then makes this one's. There is one at a time.
-  /// Errors (input): TMPDIR is missing, no folder, or cannot be written to.
+  /// Removes the folders of finished runs, then creates this run's folder. Only one may exist at a
+  /// time. Errors (input): TMPDIR is missing, not a directory or not writable.
   static Result<std::unique_ptr<WorkFolder>> make();
   ~WorkFolder();
   WorkFolder(const WorkFolder&) = delete;
@@ -28,12 +28,11 @@ class WorkFolder {
 };
 
 /// From here on a signal that ends the program (SIGINT, SIGTERM, SIGHUP, ...) first ends the
-/// compiler and removes the work folder; the program then ends by that signal. To be called once,
-/// before there is another thread. A signal that is ignored stays so (nohup).
+/// compiler and removes the work folder. The program then ends by that signal. Call once, before
+/// any other thread exists. Ignored signals stay ignored (nohup).
 void clean_up_at_signals();
 
-/// Does not return if the program is about to end by a signal: what it did to the run is no fault
-/// to be reported.
+/// Does not return if a signal is about to end the program: errors that it caused are not reported.
 void end_if_told_to();
 
 }  // namespace awmr::pil

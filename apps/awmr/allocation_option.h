@@ -1,4 +1,4 @@
-/// `--allocation`, which several commands take.
+/// Command-line option `--allocation`, shared by several commands.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -14,7 +14,7 @@
 
 namespace awmr::cli {
 
-/// How forces follow from the laws, in place of what vehicle and scenarios say; none: as they say.
+/// Force allocation that overrides the vehicle and the scenarios; empty: no override.
 using AllocationChoice = std::optional<AllocationForm>;
 
 inline void add_allocation(CLI::App& command, AllocationChoice& choice) {
@@ -29,13 +29,13 @@ inline void add_allocation(CLI::App& command, AllocationChoice& choice) {
       ->check(one_of(names_in(kAllocationFormNames)));
 }
 
-/// For an output's options; nothing where there is no choice.
+/// Entry for the options recorded in an output; empty without a choice.
 inline std::vector<std::pair<std::string, std::string>> options_of(const AllocationChoice& choice) {
   if (!choice) return {};
   return {{"allocation", std::string(name_in(kAllocationFormNames, *choice))}};
 }
 
-/// Puts the choice into the model's vehicle and every scenario.
+/// Applies the choice to the model's vehicle and to every scenario.
 inline void choose(const AllocationChoice& choice, Model& model, std::span<Scenario> scenarios) {
   if (!choice) return;
   model.vehicle.allocation = *choice;

@@ -23,26 +23,26 @@
 namespace awmr::cli {
 namespace {
 
-/// What was found out about a project, in the order in which to mend it.
+/// Results of checking a project, in the order in which to fix them.
 struct Check {
-  std::vector<Finding> missing;      ///< values and trials that are still to come
-  std::vector<Finding> implausible;  ///< what contradicts itself or cannot be
-  std::vector<Finding> notes;        ///< what the trials' readers say of them
-  std::vector<Fault> faults;         ///< what cannot be read at all
+  std::vector<Finding> missing;      ///< values and trials not provided yet
+  std::vector<Finding> implausible;  ///< contradictory or impossible values
+  std::vector<Finding> notes;        ///< notes of the trial readers
+  std::vector<Fault> faults;         ///< unreadable files
 };
 
 void take(const Error& error, std::vector<Fault>& faults) {
   faults.insert(faults.end(), error.faults.begin(), error.faults.end());
 }
 
-/// The document's value at a fault's place, `FILE:/json/pointer`, is null.
+/// True if the value at a fault's place, `FILE:/json/pointer`, is null.
 bool is_null_at(const Json& document, const std::string& file, const std::string& place) {
   if (!place.starts_with(file + ":/")) return false;
   const Json::json_pointer pointer(place.substr(file.size() + 1));
   return document.contains(pointer) && document.at(pointer).is_null();
 }
 
-/// Reads a JSON file of the project. A null is a value that is still to be filled in.
+/// Reads a JSON file of the project. A null value is one that the user still has to fill in.
 template <class T>
 std::optional<T> read_filled(const fs::path& path, Result<T> (*read)(const fs::path&),
                              Check& check) {
@@ -60,7 +60,7 @@ std::optional<T> read_filled(const fs::path& path, Result<T> (*read)(const fs::p
   return std::nullopt;
 }
 
-/// True for a table or log with a row at least. A file that cannot be read is a fault.
+/// True for a table or log with at least one row. Adds a fault for an unreadable file.
 bool has_rows(const fs::path& path, Check& check) {
   const auto sample = sample_of(path);
   if (!sample) {
@@ -72,7 +72,7 @@ bool has_rows(const fs::path& path, Check& check) {
          std::any_of(sample->texts.begin(), sample->texts.end(), is_filled);
 }
 
-/// What each table is recorded for.
+/// The parameter that each kind of table identifies.
 ParameterId shown_by(TrialKind kind) {
   switch (kind) {
     case TrialKind::kTurning:
@@ -84,7 +84,7 @@ ParameterId shown_by(TrialKind kind) {
   }
 }
 
-/// The files in which something was recorded.
+/// Returns the files that contain at least one recorded row.
 TrialFiles recorded(const Project& project, const Vehicle& vehicle, Check& check) {
   TrialFiles files{
       .vehicle = vehicle, .steady_from_logs = project.steady_from_logs, .options = project.trials};
@@ -112,7 +112,7 @@ TrialFiles recorded(const Project& project, const Vehicle& vehicle, Check& check
   return files;
 }
 
-/// Without a driving log each table has to be there; a sway resistance that is not given is assumed.
+/// Without a driving log every table is required. A sway resistance that is not given is assumed.
 void check_what_nothing_shows(const Project& project, const Vehicle* vehicle, Check& check) {
   if (!project.logs.empty()) return;
   const auto nothing_shows = [&](ParameterId id) {
@@ -132,7 +132,7 @@ void check_what_nothing_shows(const Project& project, const Vehicle* vehicle, Ch
                    info(ParameterId::kSwayAlpha).meaning)});
 }
 
-/// What the columns of a file that could not be read may be, by their names: the mapping to paste.
+/// Adds the column mapping guessed from the column names of a file that could not be read.
 void add_mapping_hint(const fs::path& path, TrialKind kind, const TrialOptions& options,
                       std::vector<Fault>& faults) {
   const std::string place = path.string() + ":";
@@ -167,11 +167,11 @@ void add_mapping_hints(const TrialFiles& files, std::vector<Fault>& faults) {
   for (const fs::path& path : files.logs) add(path, TrialKind::kLog);
 }
 
-/// The trials against themselves and against the vehicle.
+/// Checks the trials for consistency with each other and with the vehicle.
 void check_trials(TrialFiles files, bool all_recorded, Check& check) {
   const bool nothing = !files.surge && !files.turning && files.coastdowns.empty();
   if (nothing && files.logs.empty()) return;
-  // A mapping may be for a file that has no rows yet.
+  // A mapping may refer to a file that has no rows yet.
   for (ColumnMapping& mapping : files.options.columns) mapping.standing |= !all_recorded;
   files.steady_from_logs = files.steady_from_logs && !files.logs.empty();
   const bool as_is = files.options.as_is;
@@ -187,7 +187,7 @@ void check_trials(TrialFiles files, bool all_recorded, Check& check) {
   const std::vector<Finding>& found = trials->findings;
   check.notes.insert(check.notes.end(), found.begin(), found.end());
   if (as_is || std::none_of(found.begin(), found.end(), contradicts)) return;
-  // Read again, the contradictions are faults that name the mapping which mends them.
+  // The second read reports the contradictions as faults with the mapping that fixes them.
   std::erase_if(check.notes, contradicts);
   files.options.as_is = false;
   if (const auto refused = load_trials(files); !refused) {

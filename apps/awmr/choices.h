@@ -1,4 +1,4 @@
-/// Options that take one of a table's names.
+/// Options that take one name from a table.
 #pragma once
 
 #include <fmt/format.h>
@@ -16,7 +16,7 @@
 
 namespace awmr::cli {
 
-/// The word is one of the names, which the help shows.
+/// Validator that accepts only these names and lists them in the help.
 inline CLI::Validator one_of(std::vector<std::string> names) {
   std::string shown = fmt::format("{{{}}}", fmt::join(names, ","));
   const auto check = [names = std::move(names)](const std::string& word) -> std::string {
@@ -27,8 +27,8 @@ inline CLI::Validator one_of(std::vector<std::string> names) {
   return {check, std::move(shown), ""};
 }
 
-/// Sets `value` to what the name stands for in `names`, which both have to outlive `command`. Any
-/// other word is a fault of the command line, and the help shows the names.
+/// Sets `value` to the entry of `names` with the given name. `value` and `names` must outlive
+/// `command`. Any other name is a command-line error; the help lists the names.
 template <class Value, std::size_t N>
 CLI::Option* add_choice(CLI::App& command, const std::string& option, Value& value,
                         const NameTable<Value, N>& names, const std::string& meaning) {

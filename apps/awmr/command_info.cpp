@@ -8,7 +8,7 @@
 namespace awmr::cli {
 namespace {
 
-/// The names between the braces of "TEXT:{a,b}", which one_of() put there; none without braces.
+/// The names between the braces of "TEXT:{a,b}", as written by one_of(); empty without braces.
 std::vector<std::string> choices_in(const std::string& type) {
   std::vector<std::string> names;
   const std::size_t open = type.find('{');

@@ -1,5 +1,5 @@
-/// The commands as data, taken from the definitions that parse them and make `--help`: what
-/// completions and manual pages are written from.
+/// Description of all commands as data, extracted from the definitions that parse the options and
+/// print `--help`. Completions and manual pages are generated from it.
 #pragma once
 
 #include <string>
@@ -11,10 +11,10 @@ class App;
 
 namespace awmr::cli {
 
-/// What the shell completes a value with.
+/// Kind of value for shell completion.
 enum class ValueKind {
-  kNone,    ///< a flag, which has no value
-  kOther,   ///< a number or a word of the user's own
+  kNone,    ///< a flag, without a value
+  kOther,   ///< free number or text
   kChoice,  ///< one of `choices`
   kFile,
   kDirectory,
@@ -24,9 +24,9 @@ struct OptionInfo {
   std::string name;        ///< "--output"; of a positional argument "PROJECT"
   std::string short_name;  ///< "-o", or empty
   ValueKind kind = ValueKind::kNone;
-  std::string value;                 ///< what stands for the value: "FILE", "INT", ...
+  std::string value;                 ///< placeholder of the value: "FILE", "INT", ...
   std::vector<std::string> choices;  ///< with kChoice
-  std::string range;                 ///< of a number: "in [0, 1000]", or empty
+  std::string range;                 ///< range of a number: "in [0, 1000]", or empty
   std::string meaning;
   bool positional = false;
   bool required = false;
@@ -34,13 +34,13 @@ struct OptionInfo {
 };
 
 struct CommandInfo {
-  std::string name;  ///< of the program itself: empty
+  std::string name;  ///< empty for the program itself
   std::string meaning;
-  std::string footer;  ///< examples, and what else stands below the options
+  std::string footer;  ///< help text below the options, such as examples
   std::vector<OptionInfo> options;
 };
 
-/// The program itself, then each of its commands in the order of the help.
+/// Returns the program itself, then its commands in the order of the help.
 std::vector<CommandInfo> commands_of(const CLI::App& app);
 
 }  // namespace awmr::cli

@@ -17,7 +17,7 @@ std::vector<std::string> command_names(const CLI::App& app) {
   return names;
 }
 
-/// `--NAME` of each; one letter is near to every other.
+/// `--NAME` of each option. One-letter names are excluded because they resemble every other.
 std::vector<std::string> option_names(const CLI::App& command) {
   std::vector<std::string> names;
   for (const CLI::Option* option : command.get_options()) {
@@ -26,7 +26,7 @@ std::vector<std::string> option_names(const CLI::App& command) {
   return names;
 }
 
-/// The first word that looks like an option and that the command does not know, without its value.
+/// Returns the first argument that looks like an option but is unknown, without its value.
 std::optional<std::string> unknown_option(const CLI::App& command) {
   const std::vector<std::string> words = command.remaining();
   const auto found = std::find_if(words.begin(), words.end(), [](const std::string& word) {

@@ -1,4 +1,4 @@
-/// What is wrong with a command line, in words.
+/// Error messages for an invalid command line.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -8,11 +8,11 @@
 
 namespace awmr::cli {
 
-/// "; did you mean 'NAME'?" with the nearest of the names; empty where none is near.
+/// Returns "; did you mean 'NAME'?" with the closest name; empty if none is close.
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& names);
 
-/// What CLI11 says of the command line; of a command or an option that there is not, its name and
-/// the nearest one, which CLI11 leaves out. `app` is as its parse left it.
+/// Describes the command-line error. Adds to CLI11's message the unknown command or option and the
+/// closest known name. `app` must be in the state that its parse left.
 std::string what_is_wrong(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv);
 
 }  // namespace awmr::cli

@@ -1,5 +1,5 @@
-/// The commands: each has its options, a function that does the work, and its place on the command
-/// line. `run` calls the same functions.
+/// The commands. Each has its options, a function that executes it and a function that adds it to
+/// the command line. `run` calls the same functions.
 #pragma once
 
 #include <filesystem>
@@ -29,14 +29,15 @@ namespace fs = std::filesystem;
 
 struct InitCommand {
   fs::path directory;
-  bool example = false;  ///< the paper's vehicle and made-up drives instead of a project to fill in
+  /// write the paper's vehicle and synthetic logs instead of an empty project
+  bool example = false;
   Drive drive = Drive::kFourWheel;
 };
 Result<Outcome> execute(const InitCommand& command);
 void add_init(CLI::App& app, Session& session);
 
 struct CheckCommand {
-  fs::path project;  ///< the file, or its directory
+  fs::path project;  ///< the project file or its directory
 };
 Result<Outcome> execute(const CheckCommand& command);
 void add_check(CLI::App& app, Session& session);
@@ -47,26 +48,27 @@ struct IdentifyCommand {
   std::vector<fs::path> coastdowns;
   std::optional<fs::path> turning;
   std::vector<fs::path> logs;
-  bool steady_from_logs = false;  ///< steady stretches of the logs become surge and turning rows
+  /// convert steady stretches of the logs into surge and turning rows
+  bool steady_from_logs = false;
   IdentifyOptions identify;
   TrialOptions trials;
   fs::path output;
-  InputNames names = {};  ///< of its inputs, in `run`; here and below
+  InputNames names = {};  ///< names of its inputs, used by `run`; the same below
 };
 Result<Outcome> execute(const IdentifyCommand& command);
 void add_identify(CLI::App& app, Session& session);
 
-/// A drive that is recorded, checked and fitted as it comes in, and at its end identified.
+/// Records a drive, checks and fits it while it is recorded, and identifies the model at its end.
 struct LiveCommand {
-  IdentifyCommand identify;  ///< of the recording; its `logs` are set by execute()
+  IdentifyCommand identify;  ///< settings for the recording; execute() sets its `logs`
   StreamSource source = {};
-  std::optional<fs::path> record = {};  ///< default: beside the model
-  double every_s = 5.0;                 ///< between two looks at the recording, > 0
-  double budget_s = 5.0;                ///< that a search may take while the drive goes on, > 0
-  double enough = 0.1;                  ///< half width that is enough, see precision.h, > 0
-  bool until_enough = false;            ///< end there
-  double duration_s = 0.0;              ///< end after that; 0: never
-  double idle_s = 0.0;                  ///< end where nothing came for that long; 0: never
+  std::optional<fs::path> record = {};  ///< default: next to the model
+  double every_s = 5.0;                 ///< interval between two updates, > 0
+  double budget_s = 5.0;                ///< time limit of an interim fit, > 0
+  double enough = 0.1;                  ///< sufficient half width, see precision.h, > 0
+  bool until_enough = false;            ///< stop when the intervals are narrow enough
+  double duration_s = 0.0;              ///< stop after this time; 0: no limit
+  double idle_s = 0.0;                  ///< stop after this time without data; 0: no limit
 };
 Result<Outcome> execute(const LiveCommand& command);
 void add_live(CLI::App& app, Session& session);
@@ -75,8 +77,8 @@ struct RecoverCommand {
   fs::path model;
   RecoverOptions recover;
   ShardChoice shard = {};
-  bool resume = false;                  ///< leave a part that is finished as it is
-  std::optional<fs::path> output = {};  ///< recover.json; of a part, its directory
+  bool resume = false;                  ///< skip a shard that is already finished
+  std::optional<fs::path> output = {};  ///< recover.json; the directory of a shard
 };
 Result<Outcome> execute(const RecoverCommand& command);
 void add_recover(CLI::App& app, Session& session);
@@ -106,7 +108,7 @@ struct TuneCommand {
   std::optional<int> draws = {};
   std::optional<int> sensitivity = {};
   HeadingRateChoice heading_rate_limit = {};
-  ShardChoice shard = {};  ///< of the judging; `output` is a directory then
+  ShardChoice shard = {};  ///< shard of the validation draws; `output` is then a directory
   bool resume = false;
   InputNames names = {};
 };
@@ -120,13 +122,13 @@ struct ValidateCommand {
   fs::path output;
   AllocationChoice allocation = {};
   std::vector<fs::path> logs = {};
-  TrialOptions trials = {};    ///< columns of the logs
-  bool other_columns = false;  ///< some of them may be for files that are not read here
+  TrialOptions trials = {};    ///< column mappings of the logs
+  bool other_columns = false;  ///< mappings may refer to files that this command does not read
   double horizon_s = 10.0;
   double log_tolerance = 0.3;
-  bool claims = false;                        ///< all fourteen, each with tolerance and reason
-  std::optional<fs::path> claims_table = {};  ///< Markdown
-  std::optional<fs::path> scenario = {};      ///< that the logs are drives of
+  bool claims = false;  ///< print all fourteen claims, each with tolerance and reason
+  std::optional<fs::path> claims_table = {};  ///< output file in Markdown
+  std::optional<fs::path> scenario = {};      ///< scenario that the logs are drives of
   AcceptanceOptions acceptance = {};
   InputNames names = {};
 };
@@ -155,7 +157,7 @@ struct CompareCommand {
   AllocationChoice allocation = {};
   HeadingRateChoice heading_rate_limit = {};
   PlantChoice plant = {};
-  bool resume = false;     ///< go on from the output directory
+  bool resume = false;     ///< continue from the output directory
   ShardChoice shard = {};  ///< as in `compare`
   InputNames names = {};
 };
@@ -174,8 +176,8 @@ struct EmitCommand {
   fs::path gains;
   fs::path output;
   EmitOptions emit = {};
-  bool header_only = false;  ///< awmr_params.h alone, without the library around it
-  bool as_is = false;        ///< take sizes that contradict each other
+  bool header_only = false;  ///< awmr_params.h alone, without the library
+  bool as_is = false;        ///< accept contradictory dimensions
 };
 Result<Outcome> execute(const EmitCommand& command);
 void add_emit(CLI::App& app, Session& session);
@@ -217,7 +219,7 @@ void add_compass(CLI::App& app, Session& session);
 
 struct ReportCommand {
   fs::path directory;
-  std::optional<fs::path> figures = {};  ///< where the figures for print go
+  std::optional<fs::path> figures = {};  ///< directory for the print figures
 };
 Result<Outcome> execute(const ReportCommand& command);
 void add_report(CLI::App& app, Session& session);
@@ -225,16 +227,16 @@ void add_report(CLI::App& app, Session& session);
 struct RunCommand {
   fs::path project;
   fs::path output;
-  bool figures = false;  ///< also the figures for print, in `figures` below the output
+  bool figures = false;  ///< also write the print figures to `figures` in the output directory
 };
 Result<Outcome> execute(const RunCommand& command);
 void add_run(CLI::App& app, Session& session);
 
-/// The heading in the help of the commands for the shell and other programs.
+/// Help heading of the commands for the shell and other programs.
 inline constexpr const char* kServiceGroup = "For the shell and other programs";
 
 void add_schema(CLI::App& app, Session& session);
-/// What the shell and the manual know of all the commands, these included.
+/// Adds the commands that print completions and manual pages, which cover all commands.
 void add_completion(CLI::App& app, Session& session);
 void add_man(CLI::App& app, Session& session);
 

@@ -30,10 +30,11 @@
 namespace awmr::cli {
 namespace {
 
-/// Set by Ctrl-C: what is running is finished, nothing more is begun.
+/// Set by Ctrl-C. Runs in progress finish, no new run starts.
 std::atomic<bool> stop_requested = false;
 
-/// While it lives, the first Ctrl-C asks for a stop and a second does what it did before.
+/// Handles SIGINT during its lifetime: the first requests a stop, the second has its previous
+/// effect.
 class StopOnInterrupt {
  public:
   StopOnInterrupt() {
@@ -54,7 +55,7 @@ class StopOnInterrupt {
   inline static struct sigaction before = {};
 };
 
-/// Each under its file name; under the path as given where two names are the same.
+/// Names each gains file by its file name, or by its path as given if two file names are equal.
 Result<std::vector<NamedGains>> read_named_gains(const std::vector<fs::path>& paths,
                                                  const Model& model) {
   AWMR_ASSIGN_OR_RETURN(const std::vector<Gains<double>> gains,
@@ -103,7 +104,7 @@ Result<Provenance> provenance_of(const CompareCommand& command,
   return Provenance{"compare", std::move(options), std::move(inputs)};
 }
 
-/// The comparison with a progress bar, until Ctrl-C.
+/// Runs the comparison with a progress bar until it ends or Ctrl-C is pressed.
 Result<Comparison> compare_until_interrupted(const Model& model,
                                              const std::vector<NamedGains>& gains,
                                              const std::vector<Scenario>& scenarios,
@@ -114,12 +115,12 @@ Result<Comparison> compare_until_interrupted(const Model& model,
   return compare(model, gains, scenarios, options);
 }
 
-/// What says where the rows of comparison.csv are from, and what they come to.
+/// Name of the JSON file with the inputs and the results of comparison.csv.
 const char* json_of(const CompareCommand& command) {
   return command.shard ? "shard.json" : "comparison.json";
 }
 
-/// The bytes of the file of that name.
+/// Returns the content of the file with that name.
 std::string document_of(const CompareCommand& command, const Comparison& comparison,
                         const Provenance& provenance) {
   return command.shard ? shard_text(comparison, command.compare, provenance)
@@ -129,7 +130,7 @@ std::string document_of(const CompareCommand& command, const Comparison& compari
 Status write_comparison(const CompareCommand& command, const Comparison& comparison,
                         const std::string& text) {
   AWMR_RETURN_IF_ERROR(make_directory(command.output));
-  // The last one names the hash of the first.
+  // comparison.json or shard.json is written last because it contains the hash of the table.
   const OutputFile files[] = {
       {command.output / "comparison.csv", comparison_csv(comparison), check_comparison_csv},
       {command.output / json_of(command), text,
@@ -137,8 +138,8 @@ Status write_comparison(const CompareCommand& command, const Comparison& compari
   return write_files(files);
 }
 
-/// Says how to go on and ends the program by the signal: the caller sees what it would have seen
-/// without the handler.
+/// Prints how to resume, then ends the program by the signal, so that the caller sees the usual
+/// exit status.
 void end_interrupted(const CompareCommand& command, const Comparison& comparison) {
   const std::string file = (command.output / "comparison.csv").string();
   const std::string text =
@@ -152,7 +153,7 @@ void end_interrupted(const CompareCommand& command, const Comparison& comparison
   std::raise(SIGINT);
 }
 
-/// Options as they were typed, until the command runs.
+/// Option values as typed, parsed when the command runs.
 struct Texts {
   std::optional<std::string> shard;
   std::vector<std::string> weights;
@@ -183,7 +184,7 @@ void add_preferences(CLI::App& command, Texts& texts) {
       ->check(within(0.0, 1.0));
 }
 
-/// How fast headings were led, with the rate that the model knows.
+/// Describes the heading-rate limit, with the rate that the model gives.
 std::string rate_in_words(const HeadingRateChoice& rate, const Model& model) {
   if (rate != kMeasuredRate) return words_of_rate(rate);
   return fmt::format(
@@ -212,7 +213,8 @@ void note_scrub(const Model& model, std::vector<Finding>& findings) {
                    model.yaw_scrub->ci95_m.hi)});
 }
 
-/// Every finding but that on the fastest turn, the same for a part as for the whole.
+/// Returns all findings except the one on the fastest turn. They are the same for a shard and the
+/// whole.
 Result<std::vector<Finding>> findings_of(const CompareCommand& command,
                                          const Comparison& comparison, const Model& model,
                                          const std::vector<Scenario>& scenarios) {

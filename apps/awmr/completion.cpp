@@ -8,7 +8,7 @@
 namespace awmr::cli {
 namespace {
 
-/// In single quotes, as every shell here reads them; a quote inside ends and begins them again.
+/// Single-quotes a string for bash, zsh and fish; an inner quote closes and reopens the quotes.
 std::string quoted(const std::string& text) {
   std::string result = "'";
   for (const char c : text) {
@@ -21,7 +21,7 @@ std::string quoted(const std::string& text) {
   return result + "'";
 }
 
-/// The meaning's first words, which fit beside an option in a list.
+/// Shortens the description to fit next to an option in a list.
 std::string brief(const std::string& meaning) {
   const std::size_t end = meaning.find_first_of(":;(");
   std::string text = meaning.substr(0, end);
@@ -47,7 +47,7 @@ std::vector<std::string> names_of(const std::vector<CommandInfo>& commands) {
   return names;
 }
 
-// ---- bash: the word before decides what the present one may be
+// ---- bash: the previous word determines the candidates for the current one
 
 std::string bash_action(const OptionInfo& option) {
   switch (option.kind) {
@@ -106,7 +106,7 @@ std::string bash_text(const std::vector<CommandInfo>& commands) {
 
 // ---- zsh: a specification for _arguments per option
 
-/// Colons and brackets delimit the parts of a specification.
+/// Escapes the colons and brackets that delimit the parts of a specification.
 std::string zsh_part(const std::string& text) {
   std::string result;
   for (const char c : text) {
@@ -209,7 +209,7 @@ std::string fish_line(const std::string& condition, const OptionInfo& option) {
     if (!option.short_name.empty()) line += " -s " + option.short_name.substr(1);
   }
   std::string values = fish_values(option);
-  // What stands without an option's name is offered, not required.
+  // Positional arguments are offered but not required.
   if (option.positional && values.starts_with(" -r")) values = " -F";
   return line + values + " -d " + quoted(brief(option.meaning)) + "\n";
 }

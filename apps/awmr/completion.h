@@ -1,4 +1,4 @@
-/// What the shells need to complete commands, options, choices and files.
+/// Shell completion of commands, options, choices and files.
 #pragma once
 
 #include <string>
@@ -13,7 +13,8 @@ enum class Shell { kBash, kZsh, kFish };
 inline constexpr NameTable<Shell, 3> kShellNames{
     {{"bash", Shell::kBash}, {"zsh", Shell::kZsh}, {"fish", Shell::kFish}}};
 
-/// The script for the shell: `commands` as commands_of() gives them, the program itself first.
+/// Returns the completion script. `commands` is the result of commands_of(), the program itself
+/// first.
 std::string completion_text(Shell shell, const std::vector<CommandInfo>& commands);
 
 }  // namespace awmr::cli

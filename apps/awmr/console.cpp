@@ -26,13 +26,13 @@
 namespace awmr::cli {
 namespace {
 
-/// False where the stream does not take it all, as on a full disk.
+/// Returns false if the stream does not accept all bytes, as on a full disk.
 bool print(std::FILE* stream, const std::string& text) {
   return std::fwrite(text.data(), 1, text.size(), stream) == text.size() &&
          std::fflush(stream) == 0;
 }
 
-/// How the outcome is told.
+/// Output options of a command.
 struct Manner {
   bool quiet = false;
   bool verbose = false;
@@ -45,7 +45,8 @@ int to_stdout(const std::string& text, int exit_code) {
   return 2;
 }
 
-/// The summary, its titles in bold: at the margin, a word or with indented lines below it.
+/// Prints the titles of the summary in bold: lines at the left margin that are one word or precede
+/// indented lines.
 std::string styled(const std::string& summary, const Style& style) {
   std::istringstream lines(printable_lines(summary));
   std::string text;
@@ -57,7 +58,8 @@ std::string styled(const std::string& summary, const Style& style) {
   return text;
 }
 
-/// With `--quiet`, what made the answer a no; else the findings, grouped unless all are asked for.
+/// Prints the findings: with `--quiet` only the errors behind a refusal, with `--verbose` all, else
+/// grouped.
 void tell_findings(const Outcome& outcome, Manner manner) {
   const Style style(stderr);
   std::string text;
@@ -80,7 +82,7 @@ int report(const std::string& command, const Result<Outcome>& result, Manner man
         result_text({command, exit_code, result->written, result->findings, result->document}),
         exit_code);
   }
-  // Results first, then what to know about them.
+  // Prints the results first, then the findings.
   const std::string text =
       result->summary + (manner.verbose ? result->details : "") + result->closing;
   if (!manner.quiet) exit_code = to_stdout(styled(text, Style(stdout)), exit_code);
@@ -88,8 +90,8 @@ int report(const std::string& command, const Result<Outcome>& result, Manner man
   return exit_code;
 }
 
-/// Whatever a command does that takes over a second and has no words of its own is told by its name;
-/// `live` has a screen of its own.
+/// Shows the command's name while it takes more than a second and reports no progress of its own.
+/// `live` has its own screen.
 Result<Outcome> watched(const std::string& name, const std::function<Result<Outcome>()>& execute) {
   if (name == "live") return execute();
   const Working working("awmr " + name);
@@ -100,7 +102,7 @@ std::string origin(const Estimate& estimate) {
   return fmt::format("{}, {}", name_in(kSourceNames, estimate.source), estimate.method);
 }
 
-/// Two digits, as an error has no more: 0.0099, 160.
+/// Formats an error with two significant digits: 0.0099, 160.
 std::string two_digits(double error) {
   if (!(error > 0.0)) return fmt::format("{:g}", error);
   const double digit = std::pow(10.0, std::floor(std::log10(error)) - 1.0);

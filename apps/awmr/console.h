@@ -1,4 +1,4 @@
-/// What every command shares: its outcome, its place on the command line, what it says to a person.
+/// Common to all commands: outcome, registration on the command line, terminal output.
 #pragma once
 
 #include <filesystem>
@@ -19,51 +19,52 @@ class Option;
 
 namespace awmr::cli {
 
-/// What a command leaves for the person who ran it.
+/// Result of a command as presented to the user.
 struct Outcome {
-  std::string summary = {};            ///< for stdout: results first, one screen
-  std::string details = {};            ///< below it with `--verbose`; the files have them anyway
-  std::string closing = {};            ///< the last line: what was written
-  std::string brief = {};              ///< the same in a few lines, for `run`
-  std::vector<Finding> findings = {};  ///< for stderr
-  bool refused = false;                ///< the work ran and the answer is no: exit code 1
-  std::string document = {};           ///< for `--json`: what its file holds, or would hold
-  std::vector<std::filesystem::path> written = {};  ///< the command's files
+  std::string summary = {};  ///< for stdout: results first, one screen
+  /// printed below the summary with `--verbose`; the files contain it too
+  std::string details = {};
+  std::string closing = {};            ///< last line: files written
+  std::string brief = {};              ///< short form of the summary, for `run`
+  std::vector<Finding> findings = {};  ///< printed on stderr
+  bool refused = false;                ///< the work completed with a negative result: exit code 1
+  std::string document = {};           ///< for `--json`: content of the output file, written or not
+  std::vector<std::filesystem::path> written = {};  ///< files written by the command
 };
 
-/// The program's state while one command runs.
+/// State of the program while one command runs.
 struct Session {
   int exit_code = 0;
 };
 
-/// Adds a subcommand with `--quiet`, `--verbose`, `--json`, `--version` and an example under its
-/// help; `execute` runs it.
+/// Adds a subcommand with `--quiet`, `--verbose`, `--json`, `--version` and an example below its
+/// help. `execute` runs it.
 CLI::App* add_command(CLI::App& app, Session& session, const std::string& name,
                       const std::string& description, const std::string& example,
                       std::function<Result<Outcome>()> execute);
 
-/// `-o FILE`, required.
+/// Adds `-o FILE`, required.
 CLI::Option* add_output(CLI::App& command, std::filesystem::path& path, const std::string& meaning);
-/// `-o DIR`, required.
+/// Adds `-o DIR`, required.
 CLI::Option* add_output_directory(CLI::App& command, std::filesystem::path& path,
                                   const std::string& meaning);
 
-/// Puts the outcome's findings, those that stderr shows, into its document. To be called once all of
-/// them are there, before the document is written.
+/// Copies the findings that stderr shows into the outcome's document. Call once all findings are
+/// known and before writing the document.
 void put_findings_into_document(Outcome& outcome);
 
-/// Puts the findings into the outcome's document, which is JSON, writes it where a path is given, and
-/// reports the file in the summary. Without `read_back` it is read back as JSON.
+/// Adds the findings to the outcome's JSON document, writes it if a path is given and adds the file
+/// to the summary. `read_back` verifies the file; by default it is parsed as JSON.
 Status write_document(const std::optional<std::filesystem::path>& path, Outcome& outcome,
                       const ReadBack& read_back = {});
 
-/// As check_output for files of a directory, which may not be there yet; nothing is made.
+/// Like check_output(), for files in a directory that may not exist yet. Creates nothing.
 Status check_outputs(const std::filesystem::path& directory, const std::vector<std::string>& names,
                      std::span<const std::filesystem::path> inputs);
 
 /// One line per identified quantity: value, standard error, 95 % interval, unit, origin.
 std::string parameter_table_text(const Model& model);
-/// The same in newtons, newton metres and kilograms; empty where m' is not known.
+/// The same quantities in newtons, newton metres and kilograms; empty if m' is unknown.
 std::string si_table_text(const Model& model);
 
 }  // namespace awmr::cli

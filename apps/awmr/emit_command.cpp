@@ -24,8 +24,8 @@
 namespace awmr::cli {
 namespace {
 
-/// `DIR/PATH` for each file, directories made as needed; all or none. Errors (input), before anything is
-/// written: as check_replaceable().
+/// Writes each file to `DIR/PATH` and creates directories as needed; all files or none. Errors
+/// (input), before anything is written: as check_replaceable().
 Status write_emitted(const EmitCommand& command, const std::vector<EmittedFile>& files,
                      const std::string& manifest) {
   const fs::path inputs[] = {command.model, command.gains};
@@ -65,7 +65,7 @@ Json table_json(const EmittedTable& table) {
           {"worst_relative_error", table.worst_relative_error}};
 }
 
-/// Told where the table that was chosen is not as good as one should be.
+/// Adds a warning if the selected resistance table is less accurate than usual.
 void add_coarse(const char* name, const EmittedTable& table, const EmitCommand& command,
                 Outcome& outcome) {
   if (command.emit.table_error || table.worst_share() <= kTableError) return;
@@ -76,10 +76,10 @@ void add_coarse(const char* name, const EmittedTable& table, const EmitCommand& 
                    name, 100.0 * table.worst_share(), 100.0 * kTableError)});
 }
 
-/// A warning where a sampled loop is unstable with the gains, whatever the vehicle.
+/// Returns a warning if the gains make a sampled loop unstable for any vehicle.
 std::vector<Finding> unstable_gains(const Gains<double>& gains, double sample_time_s,
                                     const EmitCommand& command) {
-  constexpr double kMost = 2.0;  // of a sampled integrator
+  constexpr double kMost = 2.0;  // stability limit of a sampled integrator
   const double heading = gains.heading.lambda + gains.heading.mu / gains.heading.epsilon;
   const double speed = gains.speed.mu / gains.speed.epsilon;
   std::vector<Finding> findings;
@@ -126,7 +126,7 @@ Status check_vehicle(const EmitCommand& command, const Vehicle& vehicle) {
       "Correct vehicle.json and identify again, or give " + option_text("as-is"));
 }
 
-/// How well the tables of resistance hold; nothing where powf is called instead.
+/// Reports the accuracy of the resistance tables; nothing if powf is called instead.
 Status add_tables(const Model& model, const Gains<double>& gains, const EmitInputs& inputs,
                   const EmitCommand& command, Outcome& outcome) {
   if (command.emit.resistance != ResistanceForm::kTable) return {};

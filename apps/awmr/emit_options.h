@@ -1,4 +1,4 @@
-/// The options of the firmware, the same for `emit` and `pil`.
+/// Firmware options, shared by `emit` and `pil`.
 #pragma once
 
 #include <filesystem>
@@ -12,10 +12,10 @@ class App;
 
 namespace awmr::cli {
 
-/// `--resistance`, `--table-error`, `--with`, `--split` and the time-outs.
+/// Adds `--resistance`, `--table-error`, `--with`, `--split` and the timeouts.
 void add_emit_options(CLI::App& command, EmitOptions& options);
 
-/// Names and hashes of the two files.
+/// Returns the names and hashes of the two input files.
 Result<EmitInputs> emit_inputs(const std::filesystem::path& model,
                                const std::filesystem::path& gains);
 

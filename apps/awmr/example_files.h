@@ -1,4 +1,4 @@
-/// The files of `awmr init --example`: the source's configs and datasets, as they are.
+/// Files of `awmr init --example`: unmodified copies of the source's configs and datasets.
 #pragma once
 
 #include <vector>
@@ -7,7 +7,7 @@
 
 namespace awmr {
 
-/// Each under its path in the source: "configs/paper/project.json".
+/// Each file has its path in the source tree: "configs/paper/project.json".
 const std::vector<EmbeddedFile>& example_files();
 
 }  // namespace awmr

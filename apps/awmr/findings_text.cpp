@@ -27,7 +27,7 @@ std::string severity_text(Severity severity, const Style& style) {
   return {};
 }
 
-/// "2 tau-turn-mismatch, 1 outlier", each code where it comes first.
+/// Counts the findings by code in order of first occurrence: "2 tau-turn-mismatch, 1 outlier".
 std::string counted(std::span<const Finding* const> findings) {
   std::vector<std::pair<std::string, int>> counts;
   for (const Finding* finding : findings) {

@@ -1,4 +1,4 @@
-/// Findings as a person reads them on a terminal.
+/// Findings formatted for a terminal.
 #pragma once
 
 #include <string>
@@ -9,11 +9,11 @@
 
 namespace awmr::cli {
 
-/// `warning: FILE:LINE: MESSAGE [CODE]`, as compilers do.
+/// Formats a finding as `warning: FILE:LINE: MESSAGE [CODE]`, like a compiler.
 std::string to_text(const Finding& finding, const Style& style);
 
-/// A line each, where there are few, those that change the numbers most first. Else every error and the
-/// first of the others, three in all at least, then how many there are of each further code.
+/// If there are few findings, one line each, largest effect first. Otherwise every error and the
+/// first of the others, at least three in all, then the count of each further code.
 std::string findings_text(const std::vector<Finding>& findings, const Style& style);
 
 }  // namespace awmr::cli

@@ -1,4 +1,4 @@
-/// Whether gains were tuned on the model that they are used with.
+/// Check that gains were tuned on the model with which they are used.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-/// `--heading-rate-limit`, which commands take that drive scenarios (simulate/validity.h).
+/// `--heading-rate-limit`, shared by commands that simulate scenarios (simulate/validity.h).
 #pragma once
 
 #include <fmt/format.h>
@@ -12,10 +12,10 @@
 
 namespace awmr::cli {
 
-/// Under which an output's options say what was chosen.
+/// Key of the choice among the options recorded in an output.
 inline constexpr const char* kRateName = "heading_rate_limit";
 
-/// `by_default`: what the command does without the option, in words.
+/// `by_default`: text that describes the behaviour without the option.
 inline void add_heading_rate_limit(CLI::App& command, HeadingRateChoice& choice,
                                    const char* by_default) {
   command
@@ -27,15 +27,15 @@ inline void add_heading_rate_limit(CLI::App& command, HeadingRateChoice& choice,
       ->check(CLI::Validator(fault_of_rate, "measured, none or deg/s", ""));
 }
 
-/// For an output's options; nothing where there is no choice.
+/// Entry for the options recorded in an output; empty without a choice.
 inline std::vector<std::pair<std::string, std::string>> options_of_rate(
     const HeadingRateChoice& choice) {
   if (choice.empty()) return {};
   return {{kRateName, choice}};
 }
 
-/// How fast headings were led with this choice, where the model is not at hand; nothing where that was the
-/// scenarios' affair alone.
+/// Describes the heading-rate limit when the model is not available; empty if only the scenarios
+/// define it.
 inline std::string words_of_rate(const HeadingRateChoice& choice) {
   if (choice == kNoRate) return {};
   if (choice == kMeasuredRate) return "headings are led as fast as yaw resistance was measured\n";

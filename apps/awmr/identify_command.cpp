@@ -36,7 +36,8 @@ Result<Provenance> provenance_of(const IdentifyCommand& command) {
   return provenance;
 }
 
-/// About the longest that the searches take, s, for the display alone: their limit is one of effort.
+/// Approximate upper bound of the search time, s, for display only: the actual limit is one of
+/// effort.
 double about_longest_s(const Trials& trials, const IdentifyOptions& options) {
   if (options.time_limit_s > 0.0 || trials.data.logs.empty()) return options.time_limit_s;
   double longest_s = 40.0;
@@ -58,7 +59,8 @@ std::string names_of(const EstimatorReport& report) {
   return report.family.empty() ? name : name + " " + report.family;
 }
 
-/// What turns by the sides met beside yaw resistance, where trials show it.
+/// Describes the scrub moment of differential turns in addition to yaw resistance, if trials show
+/// it.
 std::string scrub_text(const Model& model) {
   if (!model.yaw_scrub) return {};
   const YawScrub& scrub = *model.yaw_scrub;

@@ -1,4 +1,4 @@
-/// The names of identify's options, one table for the command line and the project file.
+/// Names of the options of identify, one table for the command line and the project file.
 #pragma once
 
 #include <string>
@@ -11,17 +11,18 @@
 
 namespace awmr::cli {
 
-/// `NAME` for surge and yaw, `surge=NAME` or `yaw=NAME` for one; NAME is a family or `auto`.
-/// Errors: an unknown name, with those there are; dead-zone for yaw alone.
+/// Parses `NAME` (surge and yaw), `surge=NAME` or `yaw=NAME`; NAME is a family or `auto`. Errors:
+/// an unknown name, listing the known ones; dead-zone other than for yaw.
 Status add_family(std::string_view text, IdentifyOptions& options);
 
-/// A parameter's name, `all`, `input_delay_s` or `bias.CHANNEL` (`bias.yaw_rate_radps`, ...).
+/// Adds a parameter to fit: its name, `all`, `input_delay_s` or `bias.CHANNEL`
+/// (`bias.yaw_rate_radps`, ...).
 Status add_asked(std::string_view name, IdentifyOptions& options);
 
-/// The options in words, for the model's provenance.
+/// Returns the options as text for the model's provenance.
 std::vector<std::pair<std::string, std::string>> described(const IdentifyOptions& options);
 
-/// How the trials were read, behind them.
+/// Appends the options with which the trials were read.
 void describe_reading(const TrialOptions& trials, bool steady_from_logs,
                       std::vector<std::pair<std::string, std::string>>& words);
 

@@ -1,5 +1,5 @@
-/// The options of a fit as words of the command line: those of `identify`, and of `live`, which ends
-/// with it.
+/// Command-line options of a fit, shared by `identify` and by `live`, which ends with an
+/// identification.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace awmr::cli {
 
-/// The command and what the command line says of it in words.
+/// The command and its options that are still unparsed text.
 struct IdentifyWords {
   IdentifyCommand command;
   ColumnWords columns;
@@ -25,13 +25,13 @@ struct IdentifyWords {
 /// Errors: a malformed column mapping; an unknown parameter or family.
 Result<IdentifyCommand> command_of(const IdentifyWords& words);
 
-/// `--vehicle` and the tables.
+/// Adds `--vehicle` and the tables.
 void add_table_files(CLI::App& sub, IdentifyCommand& command);
-/// What is fitted, and how.
+/// Adds the options for the fitted parameters and models.
 void add_fit_options(CLI::App& sub, IdentifyWords& words);
-/// How logs are fitted.
+/// Adds the options for fitting logs.
 void add_log_options(CLI::App& sub, IdentifyCommand& command);
-/// How files are read.
+/// Adds the options for reading files.
 void add_reading_options(CLI::App& sub, IdentifyWords& words);
 
 }  // namespace awmr::cli

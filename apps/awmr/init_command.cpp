@@ -16,13 +16,14 @@
 namespace awmr::cli {
 namespace {
 
-/// "@four_wheel " before a line: it is for this drive alone; "@steered ": for those with steering.
+/// True if a marked line applies to this drive. "@four_wheel " marks lines for that drive alone,
+/// "@steered " lines for drives with steering.
 bool is_for(std::string_view mark, Drive drive) {
   if (mark == "steered") return drive != Drive::kDifferential;
   return mark == name_in(kDriveNames, drive);
 }
 
-/// The lines of a template that are for this drive.
+/// Returns the lines of a template that apply to this drive.
 std::string for_drive(std::string_view text, Drive drive) {
   std::string lines;
   while (!text.empty()) {
@@ -39,7 +40,7 @@ std::string for_drive(std::string_view text, Drive drive) {
   return lines;
 }
 
-/// Errors: each file that is there already.
+/// Errors: each file that already exists.
 Result<std::vector<OutputFile>> files_to_write(const InitCommand& command) {
   std::vector<OutputFile> files;
   std::vector<Fault> faults;
@@ -62,7 +63,7 @@ Result<std::vector<OutputFile>> files_to_write(const InitCommand& command) {
   return files;
 }
 
-/// The directories of the files that are not there yet, outer ones first.
+/// Returns the directories that do not exist yet, outer ones first.
 Result<std::vector<fs::path>> new_directories(const std::vector<OutputFile>& files) {
   std::set<fs::path> found;
   for (const OutputFile& file : files) {
@@ -75,7 +76,7 @@ Result<std::vector<fs::path>> new_directories(const std::vector<OutputFile>& fil
   return std::vector<fs::path>(found.begin(), found.end());
 }
 
-/// All files or none, and no new directory without them.
+/// Writes all files or none. If writing fails, removes the directories that it created.
 Status write_all(const std::vector<OutputFile>& files) {
   AWMR_ASSIGN_OR_RETURN(const std::vector<fs::path> made, new_directories(files));
   Status written;
@@ -84,8 +85,8 @@ Status write_all(const std::vector<OutputFile>& files) {
   }
   if (written) written = write_files(files);
   if (written) return written;
-  std::error_code ignored;  // what is not empty or was never made stays as it is
-  // Clang 14 does not compile std::views::reverse of GCC 12's library.
+  std::error_code ignored;  // directories that are not empty or were not created remain
+  // Clang 14 cannot compile std::views::reverse of GCC 12's library.
   for (auto directory = made.rbegin(); directory != made.rend(); ++directory) {
     fs::remove(*directory, ignored);
   }

@@ -13,7 +13,7 @@ InputNames names_in_project(const std::vector<std::filesystem::path>& paths,
                             const std::filesystem::path& project) {
   InputNames names;
   for (const std::filesystem::path& path : paths) {
-    // Empty where one of the two is absolute and the other is not.
+    // Empty if one path is absolute and the other is relative.
     const auto relative =
         path.lexically_normal().lexically_relative(project.parent_path().lexically_normal());
     if (!relative.empty()) names[path] = relative.generic_string();
@@ -39,7 +39,7 @@ namespace {
 
 std::vector<ColumnMapping> columns_from_json(JsonObject& json) {
   json.schema(kColumnsSchema);
-  // What `awmr map` wrote for a person is not read back.
+  // Informational keys written by `awmr map` are ignored.
   for (const char* key : {"guesses", "open", "names", "command", "version", "options", "inputs"}) {
     json.ignore(key);
   }

@@ -1,5 +1,4 @@
-/// What `--json` prints in place of words: one JSON object, on stdout of what a command found out
-/// and did, on stderr of what went wrong.
+/// Output of `--json`: one JSON object, on stdout for results and on stderr for errors.
 #pragma once
 
 #include <filesystem>
@@ -15,30 +14,30 @@ namespace awmr::cli {
 inline constexpr const char* kResultSchema = "awmr.result/1";
 inline constexpr const char* kErrorSchema = "awmr.error/1";
 
-/// What a command leaves for a machine.
+/// Result of a command for machine use.
 struct JsonResult {
   std::string command;
   int exit_code = 0;
-  std::vector<std::filesystem::path> written = {};  ///< its files, each as the command names it
+  std::vector<std::filesystem::path> written = {};  ///< files written, each as named by the command
   std::vector<Finding> findings = {};
-  std::string document = {};  ///< JSON, as in the file that the command writes; empty: none
+  std::string document = {};  ///< JSON content of the output file; empty: none
 };
 
 /// `{"schema", "command", "version", "exit_code", "written", "findings", "result"}`; findings as in
 /// model.json, `result` is the document or null.
 std::string result_text(const JsonResult& result);
 
-/// `{"schema", "version", "exit_code", "errors": [{"place", "message"}]}` of every fault there is.
+/// `{"schema", "version", "exit_code", "errors": [{"place", "message"}]}` with all faults.
 std::string error_text(const Error& error);
 
-// Their JSON Schemas.
+// JSON Schemas of both objects.
 std::string result_schema();
 std::string error_schema();
 
-/// One document of several, each under its name; empty ones are left out.
+/// Combines several documents into one object under their names; empty ones are omitted.
 std::string joined(const std::vector<std::pair<std::string, std::string>>& documents);
 
-/// True where `--json` is among the arguments, whatever is wrong with the others.
+/// True if `--json` is among the arguments, even if other arguments are invalid.
 bool asks_for_json(int argc, char** argv);
 
 }  // namespace awmr::cli

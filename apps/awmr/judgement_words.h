@@ -1,4 +1,4 @@
-/// What fresh draws say of gains, as `tune` and `merge` print it.
+/// Validation of gains on fresh draws, as printed by `tune` and `merge`.
 #pragma once
 
 #include <string>
@@ -11,15 +11,15 @@
 
 namespace awmr::cli {
 
-/// What the gains do on draws that they were not tuned on, scenario by scenario where there are
-/// several; empty where none were judged.
+/// Metrics of the gains on draws not used for tuning, per scenario if there are several; empty
+/// without validation.
 std::string judged_table(const std::vector<JudgedGains>& all,
                          const std::vector<JudgedGains>& by_scenario);
 
-/// What fresh draws say of the goals with the tuned gains; empty without goals.
+/// Results of the goals with the tuned gains on fresh draws; empty without goals.
 std::string goals_text(const std::vector<JudgedGoal>& all);
 
-/// A warning where fresh draws do not show that a goal is met.
+/// Returns a warning for each goal that the fresh draws do not confirm.
 std::vector<Finding> goal_findings(const std::vector<JudgedGoal>& all);
 
 /// Adds a warning (`unsettled`) where fewer than 95 % of the runs settle after every step.
@@ -27,12 +27,12 @@ std::vector<Finding> goal_findings(const std::vector<JudgedGoal>& all);
 void note_unsettled(const std::string& scenario, YawMode mode, double completed_share,
                     std::vector<Finding>& findings);
 
-/// The same for the tuned gains on fresh draws, scenario by scenario where there are several.
+/// The same for the tuned gains on fresh draws, per scenario if there are several.
 std::vector<Finding> unsettled_findings(const std::vector<JudgedGains>& all,
                                         const std::vector<JudgedGains>& by_scenario);
 
-/// A warning (`beyond-trials`) on the run of a comparison that turns fastest; empty where none turns
-/// clearly faster than yaw resistance was measured. `provenance` is the comparison's.
+/// Returns a warning (`beyond-trials`) for the fastest-turning run of a comparison; empty if no run
+/// turns clearly faster than the yaw-resistance trials. `provenance` is that of the comparison.
 std::vector<Finding> extrapolation_findings(const Comparison& comparison,
                                             const Provenance& provenance);
 

@@ -27,7 +27,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using Seconds = std::chrono::duration<double>;
 
-/// Why the recording ended.
+/// Reason why the recording ended.
 enum class LiveEnd { kStream, kInterrupted, kDuration, kIdle, kEnough, kFull };
 constexpr NameTable<LiveEnd, 6> kLiveEndWords{{{"the stream ended", LiveEnd::kStream},
                                                {"interrupted", LiveEnd::kInterrupted},
@@ -36,7 +36,7 @@ constexpr NameTable<LiveEnd, 6> kLiveEndWords{{{"the stream ended", LiveEnd::kSt
                                                {"enough was recorded", LiveEnd::kEnough},
                                                {"the recording is full", LiveEnd::kFull}}};
 
-/// A wrong unit is told while the vehicle has hardly left: updates come each second at first.
+/// Updates come every second during this time, so that a wrong unit is reported early.
 constexpr double kAtFirst_s = 20.0;
 
 std::vector<fs::path> inputs_of(const LiveCommand& command) {
@@ -48,7 +48,8 @@ std::vector<fs::path> inputs_of(const LiveCommand& command) {
   return paths;
 }
 
-/// The recording's file: what was asked for, or beside the model, where no other one is lost by it.
+/// File of the recording: the requested one, or one next to the model that overwrites no other
+/// file.
 Result<fs::path> record_of(const LiveCommand& command) {
   fs::path record =
       command.record.value_or(fs::path(command.identify.output).replace_extension("csv"));
@@ -76,8 +77,8 @@ Status check(const LiveCommand& command) {
   return check_output(command.identify.output, inputs_of(command));
 }
 
-/// When to look at the recording again: not before the last look's own time has passed once more,
-/// so that looking takes at most half of the time.
+/// Time of the next update. The pause is at least as long as the last update took, so updates use
+/// at most half of the time.
 Clock::time_point next_look(Clock::time_point begin, Clock::time_point looked, double every_s) {
   const Clock::time_point now = Clock::now();
   const bool early = Seconds(now - begin).count() < kAtFirst_s;
@@ -92,7 +93,7 @@ struct Followed {
   LiveEnd end = LiveEnd::kStream;
 };
 
-/// Records and tells until something ends it.
+/// Records and reports until an end condition is met.
 Followed follow(const LiveCommand& command, const LiveFit& fit, OpenStream source,
                 Recording recording, LiveScreen& screen) {
   const Interruption interruption;
@@ -117,7 +118,7 @@ Followed follow(const LiveCommand& command, const LiveFit& fit, OpenStream sourc
   };
   std::optional<LiveEnd> end;
   while (!end) {
-    // What came during a look counts, whatever ends the recording now.
+    // Data that arrived during an update count, whatever ends the recording.
     const std::string bytes = stream.take(std::chrono::milliseconds(100));
     followed.recording.add(bytes);
     if (!bytes.empty()) last_byte = Clock::now();
@@ -140,7 +141,7 @@ Followed follow(const LiveCommand& command, const LiveFit& fit, OpenStream sourc
   return followed;
 }
 
-/// The recording as it stays, and the model that `identify` makes of it.
+/// Writes the final recording and the model that `identify` makes of it.
 Result<Outcome> finished(const LiveCommand& command, const Followed& followed) {
   const fs::path& record = command.identify.logs.front();
   AWMR_RETURN_IF_ERROR(write_file(record, followed.recording.text()));

@@ -1,4 +1,4 @@
-/// What a recording says so far, while it still grows.
+/// Interim identification of a growing recording.
 #pragma once
 
 #include <string>
@@ -10,18 +10,18 @@
 
 namespace awmr::cli {
 
-/// The manoeuvre that would help most, in words; none where nothing can be said.
+/// Describes the manoeuvre that would help most; empty if there is no recommendation.
 std::string next_manoeuvre(const Model& model);
 
-/// Every parameter asked for is known well enough.
+/// True if every requested parameter is known precisely enough.
 bool has_enough(const LiveUpdate& update);
 
-/// The recording so far, checked and fitted within the budget: what `identify` would make of it.
+/// Checks and fits the recording so far within the time budget, as `identify` would.
 class LiveFit {
  public:
   LiveFit(const LiveCommand& command, Vehicle vehicle);
 
-  /// Writes the recording first: whatever ends this program, the file stays.
+  /// Writes the recording first, so that the file remains if the program is killed.
   LiveUpdate update(const Recording& recording) const;
 
  private:

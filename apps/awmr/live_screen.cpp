@@ -17,7 +17,7 @@
 namespace awmr::cli {
 namespace {
 
-/// "+-1.2 %" of what is known up to a factor, "+-0.012" of an exponent.
+/// "+-1.2 %" for relative widths, "+-0.012" for an exponent.
 std::string half_width_text(const Precision& precision) {
   if (!precision.half_width) return "-";
   const double half = *precision.half_width;
@@ -25,8 +25,7 @@ std::string half_width_text(const Precision& precision) {
                                                   : fmt::format("+-{:.2g} %", 100.0 * half);
 }
 
-/// A bar that empties as the interval shrinks: full at 100 %, empty where it is enough, by the
-/// logarithm.
+/// Progress bar of a half width on a logarithmic scale: full at 100 %, empty when narrow enough.
 std::string bar_of(const Precision& precision, double enough) {
   constexpr int kWidth = 10;
   const double half = std::clamp(precision.half_width.value_or(1.0), 1e-9, 1.0);
@@ -55,7 +54,7 @@ std::string text_of(const Fault& fault) {
   return "error: " + printable(shortened(spell_options(place + fault.message, "--")));
 }
 
-/// The text cut into lines that no terminal wraps.
+/// Appends the text split into lines that fit the terminal width.
 void add_wrapped(std::string_view text, std::size_t columns, std::vector<std::string>& lines) {
   const std::size_t width = std::max<std::size_t>(columns, 20) - 1;
   while (!text.empty()) {
@@ -129,7 +128,7 @@ void LiveScreen::draw(const LiveUpdate& update) {
   drawn_ = lines.size();
 }
 
-/// A line for each update; faults once, until they are others.
+/// Prints a line per update. Faults are repeated only when they change.
 void LiveScreen::print_lines(const LiveUpdate& update) {
   std::string faults;
   for (const Fault& fault : shown_faults(update.faults)) faults += text_of(fault) + "\n";

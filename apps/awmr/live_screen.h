@@ -1,4 +1,4 @@
-/// What `live` tells while it records: one screen that is drawn again on a terminal, else lines.
+/// Display of `live`: a screen that is redrawn on a terminal, otherwise lines.
 #pragma once
 
 #include <cstddef>
@@ -12,31 +12,31 @@
 
 namespace awmr::cli {
 
-/// What is known of the recording so far.
+/// Interim result for the recording so far.
 struct LiveUpdate {
-  double span_s = 0.0;  ///< of the log's own time
+  double span_s = 0.0;  ///< duration by the log's time column
   std::size_t rows = 0;
   std::size_t set_aside = 0;
-  std::vector<Fault> faults = {};   ///< why the log could not be used as it is now
-  std::optional<Model> model = {};  ///< of the last fit
-  bool out_of_time = false;  ///< the fit did not end in its budget: `model` is of the one before
-  std::string next = {};     ///< the manoeuvre that would help most
-  double enough = 0.1;       ///< the half width that is enough
+  std::vector<Fault> faults = {};   ///< reasons why the log cannot be used yet
+  std::optional<Model> model = {};  ///< result of the last completed fit
+  bool out_of_time = false;         ///< the fit exceeded its budget: `model` is the previous one
+  std::string next = {};            ///< the manoeuvre that would help most
+  double enough = 0.1;              ///< half width that is enough
   std::vector<ParameterId> asked = {};
 };
 
-/// "surge.alpha +-0.12 %, yaw.beta -", the widest last where there are many; for exponents, which
-/// have no relative width, the half interval itself.
+/// "surge.alpha +-0.12 %, yaw.beta -", the widest last. Exponents have no relative width: their
+/// half interval is shown.
 std::string widths_text(const LiveUpdate& update);
-/// "enough: ..." or what to drive next.
+/// "enough: ..." or the next manoeuvre.
 std::string verdict_text(const LiveUpdate& update);
 
 class LiveScreen {
  public:
-  /// `title` stands above: where it is recorded.
+  /// `title` is the first line: the place of the recording.
   explicit LiveScreen(std::string title) : title_(std::move(title)) {}
   void show(const LiveUpdate& update);
-  /// A line that stays.
+  /// Prints a permanent line above the screen.
   void say(const std::string& line);
 
  private:
@@ -44,7 +44,7 @@ class LiveScreen {
   void print_lines(const LiveUpdate& update);
 
   std::string title_;
-  std::size_t drawn_ = 0;  ///< lines on the terminal that are drawn again
+  std::size_t drawn_ = 0;  ///< lines on the terminal to be redrawn
   std::string faults_told_ = {};
 };
 

@@ -18,9 +18,9 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// How soon the reader notices that it is to stop, and that a file has grown.
+/// Polling interval for a stop request and for growth of a file.
 constexpr int kPause_ms = 50;
-/// More is not read ahead: a pipe's writer then waits.
+/// Read-ahead limit, in bytes. Beyond it the writer of a pipe waits.
 constexpr std::size_t kMaxAhead = std::size_t{1} << 24U;
 
 bool is_regular(int file) {
@@ -28,7 +28,7 @@ bool is_regular(int file) {
   return ::fstat(file, &status) == 0 && S_ISREG(status.st_mode);
 }
 
-/// Another program has begun the file anew.
+/// True if another program truncated the file.
 bool became_shorter(int file) {
   struct stat status {};
   return ::fstat(file, &status) == 0 && status.st_size < ::lseek(file, 0, SEEK_CUR);
@@ -55,7 +55,7 @@ Result<OpenStream> open_stream(const StreamSource& source) {
     if (input.number() < 0) return input_error("--log -", "standard input is closed");
     return OpenStream{std::move(input)};
   }
-  // A pipe opens at once, and what ends a recording also ends the wait for its writer.
+  // With O_NONBLOCK a pipe opens at once, so waiting for its writer can be interrupted.
   Descriptor file(::open(name.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   if (file.number() < 0) {
     return input_error(name, std::string("cannot open the file: ") + std::strerror(errno));
@@ -132,7 +132,7 @@ Interruption::Interruption() {
   sigemptyset(&action.sa_mask);
   for (std::size_t i = 0; i < kSignals.size(); ++i) {
     ::sigaction(kSignals[i], nullptr, &before_[i]);
-    // Under nohup the terminal's end is ignored.
+    // nohup ignores SIGHUP; keep that.
     if (kSignals[i] == SIGHUP && before_[i].sa_handler == SIG_IGN) continue;
     ::sigaction(kSignals[i], &action, nullptr);
   }

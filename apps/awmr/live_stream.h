@@ -1,4 +1,4 @@
-/// What a recorder sends, taken up by a thread of its own: nothing is lost while a fit runs.
+/// Reads a recorder's data stream in its own thread, so that nothing is lost during a fit.
 #pragma once
 
 #include <array>
@@ -17,20 +17,21 @@
 
 namespace awmr::cli {
 
-/// Where the bytes come from: one of the two.
+/// Source of the data: exactly one of the two.
 struct StreamSource {
-  std::optional<std::filesystem::path> port = {};  ///< of a serial line
+  std::optional<std::filesystem::path> port = {};  ///< a serial port
   unsigned baud = 115200;
-  std::optional<std::filesystem::path> log = {};  ///< "-": standard input; a file may still grow
+  /// a file, which may still grow; "-": standard input
+  std::optional<std::filesystem::path> log = {};
 };
 
-/// A source, opened.
+/// An opened source.
 struct OpenStream {
   Descriptor file;
-  bool may_grow = false;  ///< at its end another program may still write more
+  bool may_grow = false;  ///< another program may append to the file
 };
 
-/// Errors (input): it cannot be opened, is a directory or no serial port.
+/// Errors (input): the source cannot be opened, is a directory or is not a serial port.
 Result<OpenStream> open_stream(const StreamSource& source);
 
 class RecorderStream {
@@ -40,9 +41,9 @@ class RecorderStream {
   RecorderStream(const RecorderStream&) = delete;
   RecorderStream& operator=(const RecorderStream&) = delete;
 
-  /// What has come since the last call, waited for up to `longest`.
+  /// Returns the bytes received since the last call; waits up to `longest` for them.
   std::string take(std::chrono::milliseconds longest);
-  /// No more will come.
+  /// True if no more data will come.
   bool is_over();
 
  private:
@@ -50,17 +51,17 @@ class RecorderStream {
   void hand_over(std::string_view bytes);
 
   OpenStream source_;
-  std::string bytes_;  ///< read and not yet taken
+  std::string bytes_;  ///< received but not yet taken
   bool over_ = false;
   std::mutex mutex_;
   std::condition_variable changed_;
   std::atomic<bool> stop_ = false;
-  std::thread reader_;  ///< last: it uses all of the above
+  std::thread reader_;  ///< last member: it uses all of the above
 };
 
-/// While it lives, SIGINT, SIGTERM and SIGHUP (a terminal that is closed) are noted in place of ending
-/// the program. After a SIGHUP further ones are ignored for good, so that the results are written: the
-/// kernel and the shell each send one. One object at a time.
+/// During its lifetime SIGINT, SIGTERM and SIGHUP (terminal closed) are recorded instead of ending
+/// the program. After a SIGHUP all further ones are ignored, because kernel and shell each send one
+/// and the results must still be written. One object at a time.
 class Interruption {
  public:
   Interruption();

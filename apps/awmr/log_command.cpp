@@ -31,7 +31,7 @@ std::string document_of(const AwlLog& log) {
   return awmr::to_text(json);
 }
 
-/// Where the table comes from, as a comment above it.
+/// Comment above the table that names its source.
 std::string origin_of(const AwlLog& log, const InputFile& input) {
   return fmt::format("# awmr {} log: {} SHA-256 {}, firmware of the parameters {}\n", version(),
                      input.name, input.sha256, log.parameters_sha256);

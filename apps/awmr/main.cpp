@@ -50,14 +50,14 @@ void add_commands(CLI::App& app, awmr::cli::Session& session) {
   awmr::cli::add_man(app, session);
 }
 
-/// What CLI11 did not parse, or was asked to show; the exit code.
+/// Handles parse errors and help requests; returns the exit code.
 int end_of_parsing(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
   if (error.get_exit_code() == 0) {
     app.exit(error);
     return std::cout.flush() ? 0 : 2;
   }
-  // Without any word the commands are shown; the exit code is that of a command line that is wrong,
-  // so that a script whose variable is empty does not pass.
+  // Without arguments, shows the commands and returns the exit code of a usage error. A script with
+  // an empty variable then fails.
   const std::string what = awmr::printable(awmr::cli::what_is_wrong(app, error, argc, argv));
   if (awmr::cli::asks_for_json(argc, argv)) {
     std::fputs(awmr::cli::error_text(awmr::input_error("", what).value()).c_str(), stderr);
@@ -95,7 +95,8 @@ int fail(const awmr::Error& error, int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  // Beyond a limit of the file size a write then fails, instead of the program being ended.
+  // With SIGXFSZ ignored, exceeding the file-size limit fails the write instead of ending the
+  // program.
   std::signal(SIGXFSZ, SIG_IGN);
   awmr::remove_temporaries_on_signals();
   try {

@@ -10,7 +10,7 @@
 namespace awmr::cli {
 namespace {
 
-/// Text as it stands: nothing in it is an escape, a hyphen stays the one that can be copied.
+/// Escapes text for roff, so that it prints literally and hyphens can be copied.
 std::string roff(const std::string& text) {
   std::string result;
   for (const char c : text) {
@@ -33,7 +33,7 @@ std::string roff(const std::string& text) {
   return result;
 }
 
-/// A line that begins with a dot would be a request.
+/// Escapes a leading dot, which would be a roff request.
 std::string roff_line(const std::string& text) {
   return (text.starts_with(".") ? "\\&" : "") + roff(text) + "\n";
 }
@@ -41,7 +41,7 @@ std::string roff_line(const std::string& text) {
 std::string bold(const std::string& text) { return "\\fB" + roff(text) + "\\fR"; }
 std::string italic(const std::string& text) { return "\\fI" + roff(text) + "\\fR"; }
 
-/// The first line, without a full stop.
+/// Returns the first line without its full stop.
 std::string first_line(const std::string& text) {
   std::string line = text.substr(0, text.find('\n'));
   while (line.ends_with('.')) line.pop_back();
@@ -51,7 +51,7 @@ std::string first_line(const std::string& text) {
 std::string head(const CommandInfo& command, const std::string& purpose) {
   std::string title = page_name(command);
   for (char& c : title) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-  // Without a date: the same sources give the same page.
+  // No date, so that the output is reproducible.
   return fmt::format(".TH {} 1 \"\" \"awmr {}\" \"awmr manual\"\n.SH NAME\n{} \\- {}\n",
                      roff(title), version(), roff(page_name(command)), roff(purpose));
 }
@@ -88,7 +88,7 @@ std::string entry(const OptionInfo& option) {
   return text;
 }
 
-/// Examples as they stand, and what else the help has below the options.
+/// Formats the help text below the options; examples are printed verbatim.
 std::string footer(const std::string& text) {
   std::string examples;
   std::string rest;
@@ -130,7 +130,7 @@ std::string options_of(const CommandInfo& command) {
   return text;
 }
 
-/// What the program is for, and its commands.
+/// Page of the program: purpose and commands.
 std::string program_page(const CommandInfo& program, const std::vector<CommandInfo>& commands) {
   std::string text =
       head(program, "parameter identification and tuning for autonomous wheeled robots");

@@ -1,4 +1,4 @@
-/// Manual pages, in the language of man(7).
+/// Manual pages in man(7) format.
 #pragma once
 
 #include <string>
@@ -8,10 +8,10 @@
 
 namespace awmr::cli {
 
-/// "awmr" of the program itself, "awmr-identify" of a command: the page's name, without section.
+/// Page name without section: "awmr" for the program, "awmr-identify" for a command.
 std::string page_name(const CommandInfo& command);
 
-/// The page of a command; of the program itself one that lists the commands.
+/// Returns the page of a command; the page of the program lists the commands.
 std::string man_page(const CommandInfo& command, const std::vector<CommandInfo>& commands);
 
 }  // namespace awmr::cli

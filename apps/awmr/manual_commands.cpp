@@ -1,4 +1,4 @@
-// `awmr completion` and `awmr man`: what the shell and the manual know of the commands.
+// `awmr completion` and `awmr man`.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -17,13 +17,13 @@
 namespace awmr::cli {
 namespace {
 
-/// A text for stdout; `--json` has it as a string.
+/// Outcome that prints a text; `--json` returns it as a string.
 Outcome text_outcome(std::string text) {
   std::string document = awmr::to_text(Json(text));
   return Outcome{.summary = std::move(text), .document = std::move(document)};
 }
 
-/// Every page into a directory, or one to stdout.
+/// Writes all pages to a directory, or one page to stdout.
 Result<Outcome> write_pages(const std::vector<CommandInfo>& commands, const fs::path& directory) {
   Outcome outcome;
   std::vector<OutputFile> files;

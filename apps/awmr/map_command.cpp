@@ -20,7 +20,7 @@
 namespace awmr::cli {
 namespace {
 
-/// The ways to give what a trial needs: of each, columns that do together.
+/// Alternative sets of columns, each sufficient for a trial.
 using Ways = std::vector<std::vector<const char*>>;
 std::vector<Ways> needs_of(TrialKind kind) {
   const Ways speed{{"speed_mps"}, {"distance_m", "elapsed_s"}};
@@ -39,8 +39,8 @@ std::vector<Ways> needs_of(TrialKind kind) {
   return {};
 }
 
-/// The columns that the trial needs and that nothing was taken for: of several ways to give them
-/// those of the way that lacks fewest.
+/// Returns the required columns without a guess. Of several alternative sets it uses the one that
+/// lacks fewest.
 std::vector<std::string> open_columns(const std::vector<ColumnGuess>& guesses, TrialKind kind) {
   std::set<std::string> found;
   for (const ColumnGuess& guess : guesses) found.insert(guess.column);
@@ -80,7 +80,7 @@ std::string text_of(const MapCommand& command, const std::vector<ColumnGuess>& g
   const std::vector<ColumnGuess> used = likely_columns(guesses);
   json["columns"] = Json::object();
   for (const ColumnGuess& guess : used) {
-    // A column that is called as it is asked for needs no mapping.
+    // A column that already has the required name needs no mapping.
     if (guess.expression != guess.column) json["columns"][guess.column] = guess.expression;
   }
   json["open"] = open_columns(used, command.trial);

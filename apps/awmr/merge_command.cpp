@@ -19,7 +19,7 @@
 namespace awmr::cli {
 namespace {
 
-/// Every part's two files, which the output must not replace.
+/// Both files of every shard, which the output must not overwrite.
 std::vector<fs::path> files_of(const MergeCommand& command, const char* table) {
   std::vector<fs::path> paths;
   for (const fs::path& part : command.parts) {

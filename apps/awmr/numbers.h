@@ -1,4 +1,4 @@
-/// The check of every number of the command line.
+/// Validation of numbers on the command line.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -14,12 +14,12 @@
 
 namespace awmr::cli {
 
-/// Any start of a sequence of random numbers.
+/// Largest random seed.
 inline constexpr std::uint64_t kAnySeed = std::numeric_limits<std::uint64_t>::max();
 
-/// A finite number from `min` to `max`, of the option's own type: whole for an integer, without a
-/// minus sign for an unsigned one. Nothing may stand behind the number, and it has to fit its type:
-/// CLI11 itself makes 2^64 - 1 of -1 and of 10^23, and lets nan pass every range.
+/// Accepts a finite number from `min` to `max` that fits the option's type: a whole number for
+/// integers, without minus sign for unsigned ones, with no text after it. CLI11 itself converts -1
+/// and 10^23 to 2^64 - 1 and accepts nan in every range.
 template <class Number>
 CLI::Validator within(Number min, Number max) {
   static_assert(std::is_arithmetic_v<Number>);

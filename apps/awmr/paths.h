@@ -1,4 +1,4 @@
-/// Options whose value is a file or a directory: help, manual and completions all see which.
+/// Options whose value is a file or directory. Help, manual and completions show which.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -14,7 +14,7 @@ inline CLI::Validator not_empty() {
       [](const std::string& path) { return path.empty() ? "is empty: give a path" : ""; }, "");
 }
 
-/// `path` is a path, perhaps optional, or a list of them.
+/// `path` is a path, an optional path or a list of paths.
 template <class Path>
 CLI::Option* add_file(CLI::App& command, const std::string& option, Path& path,
                       const std::string& meaning) {

@@ -14,7 +14,7 @@
 namespace awmr::cli {
 namespace {
 
-/// The options as they were given, for another program's command line.
+/// Returns the given options as a command line for another program.
 std::vector<std::string> arguments_of(const CLI::App& command) {
   std::vector<std::string> arguments;
   for (const CLI::Option* option : command.get_options()) {
@@ -27,7 +27,7 @@ std::vector<std::string> arguments_of(const CLI::App& command) {
   return arguments;
 }
 
-/// awmr-pil beside this program, else on the path.
+/// Finds awmr-pil next to this program, else in PATH.
 std::optional<fs::path> awmr_pil() {
   std::error_code error;
   const fs::path self = fs::read_symlink("/proc/self/exe", error);
@@ -37,7 +37,7 @@ std::optional<fs::path> awmr_pil() {
   return find_program("awmr-pil");
 }
 
-/// awmr-pil takes this process over, so that its output and its exit code are the command's.
+/// Replaces this process with awmr-pil, whose output and exit code become the command's.
 Result<Outcome> become_awmr_pil(std::vector<std::string> arguments) {
   const auto program = awmr_pil();
   int reason = ENOENT;
@@ -61,7 +61,7 @@ Result<Outcome> become_awmr_pil(std::vector<std::string> arguments) {
 }  // namespace
 
 void add_pil(CLI::App& app, Session& session) {
-  // CLI11 writes to the options long after this function has ended: the command holds them.
+  // The command owns the option variables because CLI11 writes to them after this function returns.
   struct Held {
     PilOptions options;
     CLI::App* command = nullptr;

@@ -1,4 +1,4 @@
-/// The options of `awmr pil`, shared with awmr-pil, which does the work.
+/// Options of `awmr pil`, shared with awmr-pil, which executes it.
 #pragma once
 
 #include <cstdint>
@@ -20,37 +20,37 @@ enum class PilLink { kMemory, kUart };
 inline constexpr NameTable<PilLink, 2> kPilLinkNames{
     {{"memory", PilLink::kMemory}, {"uart", PilLink::kUart}}};
 
-/// What the firmware is compiled for.
+/// Optimisation goal of the firmware build.
 enum class Optimize { kSpeed, kSize };
 inline constexpr NameTable<Optimize, 2> kOptimizeNames{
     {{"speed", Optimize::kSpeed}, {"size", Optimize::kSize}}};
 
-/// What can be done to the controller's inputs, or to its parameters, on purpose.
+/// Faults that can be injected into the controller's inputs or parameters.
 enum class Injection {
   kNone,
-  kNaN,             ///< the measured yaw rate
-  kInfinite,        ///< the measured speed
-  kRange,           ///< a speed that no vehicle of this model drives at
-  kMode,            ///< a mode that there is none of
-  kHeadingStale,    ///< heading no longer renewed
-  kSpeedStale,      ///< speed no longer renewed
-  kCommandTimeout,  ///< reference no longer renewed
+  kNaN,             ///< measured yaw rate is NaN
+  kInfinite,        ///< measured speed is infinite
+  kRange,           ///< speed beyond the range of this model's vehicle
+  kMode,            ///< undefined mode
+  kHeadingStale,    ///< heading no longer updated
+  kSpeedStale,      ///< speed no longer updated
+  kCommandTimeout,  ///< reference no longer updated
   kStepLate,        ///< a pause before a step
-  kParameters,      ///< a bit of the parameters in flash, before the start
-  kReset,           ///< the chip itself, as when the supply breaks in; it goes on from the start
-  // Failures of a sensor, found by the checks of the sketches (control/heading_check.h, gps_check.h).
-  kCompassSilent,      ///< no new field
-  kCompassFrozen,      ///< the same words
-  kCompassJump,        ///< off by 57 deg
-  kCompassStuck,       ///< the heading of the start of the failure, with noise
-  kGyroSilent,         ///< no word
-  kGyroFrozen,         ///< the same word
-  kGyroRange,          ///< reset to another range
-  kGyroDrift,          ///< off by 8.6 deg/s
+  kParameters,      ///< a bit flipped in the parameters in flash, before the start
+  kReset,           ///< reset of the chip, as by a supply drop; the run continues from the start-up
+  // Sensor failures, detected by the checks of the sketches (control/heading_check.h, gps_check.h).
+  kCompassSilent,      ///< no new field measurement
+  kCompassFrozen,      ///< raw values repeat
+  kCompassJump,        ///< offset of 57 deg
+  kCompassStuck,       ///< heading at the start of the failure, with noise
+  kGyroSilent,         ///< no raw value
+  kGyroFrozen,         ///< raw value repeats
+  kGyroRange,          ///< switched to another range
+  kGyroDrift,          ///< offset of 8.6 deg/s
   kGpsSilent,          ///< no sentence
   kGpsNoFix,           ///< sentences without a fix
   kGpsEmpty,           ///< sentences with empty fields
-  kGpsDamaged,         ///< sentences with a wrong check sum
+  kGpsDamaged,         ///< sentences with a wrong checksum
   kGpsRepeated,        ///< the same sentence
   kGpsLate,            ///< sentences 2 s late
   kGpsJump,            ///< off by 20 m
@@ -61,11 +61,11 @@ enum class Injection {
   kCompassTurning,     ///< turned away by 2.5 deg/s
   // Failures of the operator's line, read as the sketches do (control/command_line.h).
   kCommandSilence,        ///< no command
-  kCommandNoise,          ///< characters without a line's end
-  kCommandUnknown,        ///< lines that are no command
+  kCommandNoise,          ///< characters without a line end
+  kCommandUnknown,        ///< unknown commands
   kCommandRepeatedFrame,  ///< the same frame
   kStop,                  ///< STOP
-  kStopInNoise            ///< STOP amid noise, without a line's end
+  kStopInNoise            ///< STOP within noise, without a line end
 };
 inline constexpr NameTable<Injection, 37> kInjectionNames{
     {{"none", Injection::kNone},
@@ -112,24 +112,26 @@ struct PilOptions {
   std::filesystem::path scenario;
   YawMode mode = YawMode::kCombined;
   PilLink link = PilLink::kMemory;
-  std::optional<std::filesystem::path> port;  ///< a real board's, with kUart
+  std::optional<std::filesystem::path> port;  ///< serial port of a real board, with kUart
   unsigned baud = 500000;
   EmitOptions emit;
-  std::optional<Optimize> optimize;    ///< absent: for size where obstacles are avoided, else speed
+  std::optional<Optimize> optimize;    ///< absent: size if obstacles are avoided, else speed
   std::optional<unsigned> cycles_max;  ///< absent: 12,000 by table, 24,000 by powf
   unsigned flash_max = 16384;          ///< bytes
   unsigned ram_max = 1024;             ///< bytes, without the stack
-  std::optional<double> difference_max;  ///< from the host's float run; absent: 0 and 1e-6
-  /// From the host's double run, give or take a sample; absent: 0.05, and 2 where obstacles are avoided or sensors are
-  /// simulated, as what changes the course may then be noticed one of their samples apart.
+  /// bound on the difference from the host's float run; absent: 0 and 1e-6
+  std::optional<double> difference_max;
+  /// Bound on the heading difference from the host's double run, within one sample. Absent: 0.05,
+  /// or 2 if obstacles are avoided or sensors simulated: a path change may then be detected one of
+  /// their samples apart.
   std::optional<double> heading_max_deg;
   Injection injection = Injection::kNone;
-  double line_noise = 0.0;  ///< share of bits flipped and of bytes lost, with kUart and no port
-  std::optional<std::filesystem::path> build_directory;  ///< kept; absent: one that goes away
+  double line_noise = 0.0;  ///< fraction of bits flipped and of bytes lost, with kUart and no port
+  std::optional<std::filesystem::path> build_directory;  ///< kept after the run; absent: temporary
   std::filesystem::path output;
 };
 
-/// Everything but `-o`.
+/// Adds all options except `-o`.
 void add_pil_options(CLI::App& command, PilOptions& options);
 
 }  // namespace awmr::cli

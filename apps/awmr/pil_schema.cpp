@@ -1,4 +1,4 @@
-// pil.json as awmr-pil writes it.
+// Schema of pil.json, which awmr-pil writes.
 #include <limits>
 #include <string>
 
@@ -11,7 +11,7 @@ namespace {
 
 constexpr long kAnyCount = std::numeric_limits<int>::max();
 
-/// By signal; null where it is not finite.
+/// Differences by signal; null if not finite.
 void describe_difference(JsonObject json) {
   for (const std::string& signal : json.keys()) json.nullable_number(signal);
 }

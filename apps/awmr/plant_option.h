@@ -1,4 +1,4 @@
-/// `--plant`, which commands take that drive scenarios.
+/// `--plant`, shared by commands that simulate scenarios.
 #pragma once
 
 #include <fmt/format.h>
@@ -18,11 +18,11 @@
 
 namespace awmr::cli {
 
-/// What moves, in place of what the scenarios say; none: as they say.
+/// Plant that overrides the scenarios'; empty: no override.
 using PlantChoice = std::optional<PlantKind>;
 
 inline constexpr const char* kPlantOption = "--plant";
-/// Under which an output's options say what moved.
+/// Key of the plant among the options recorded in an output.
 inline constexpr const char* kPlantName = "plant";
 
 /// Of `compare`: the plants that the scenarios say, and whether the others change the verdict.
@@ -55,7 +55,8 @@ inline void add_plant_or_both(CLI::App& command, PlantChoice& choice) {
                "other one and with slower and faster gains");
 }
 
-/// Puts the choice into every scenario. Errors (input): a scenario has what has no meaning on tyres.
+/// Applies the choice to every scenario. Errors (input): a scenario uses a feature that the
+/// four-wheel plant does not support.
 inline Status choose(const PlantChoice& choice, std::span<Scenario> scenarios) {
   if (!choice) return {};
   std::vector<Fault> faults;
@@ -75,7 +76,7 @@ inline Status choose(const PlantChoice& choice, std::span<Scenario> scenarios) {
   return {};
 }
 
-/// What moves, in words: once where it is the same in all scenarios, else by scenario.
+/// Describes the plant: once if all scenarios share it, else per scenario.
 inline std::string plants_text(std::span<const Scenario> scenarios) {
   std::vector<std::string> plants;
   for (const Scenario& scenario : scenarios) plants.push_back(plant_text(scenario));
@@ -89,7 +90,8 @@ inline std::string plants_text(std::span<const Scenario> scenarios) {
   return text;
 }
 
-/// For an output's options; nothing where all scenarios run on the model's plant and nobody asked.
+/// Entry for the options recorded in an output; empty if all scenarios use the model's plant and
+/// there is no choice.
 inline std::vector<std::pair<std::string, std::string>> options_of(
     const PlantChoice& choice, std::span<const Scenario> scenarios) {
   const bool is_model = std::none_of(scenarios.begin(), scenarios.end(),

@@ -15,7 +15,7 @@ namespace {
 
 std::atomic<bool> drawn_on_terminal = true;
 std::atomic<bool> told_in_lines = true;
-/// The one of all Workings that is seen.
+/// The Working object that is displayed.
 std::atomic<const Working*> seen = nullptr;
 
 bool is_terminal() {

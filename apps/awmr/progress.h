@@ -1,4 +1,4 @@
-/// What long work tells the person who waits: a line on a terminal, from the first second on.
+/// Progress display of long work: one line on a terminal, from the first second on.
 #pragma once
 
 #include <chrono>
@@ -11,14 +11,14 @@
 
 namespace awmr::cli {
 
-/// Who is told how the work goes, from now on.
+/// Where progress is displayed from now on.
 struct ProgressManner {
-  bool on_terminal = true;  ///< lines that are drawn and drawn again; not with `--quiet`
-  bool in_lines = true;     ///< where there is no terminal, of `live`; not with `--json` either
+  bool on_terminal = true;  ///< redrawn lines on a terminal; not with `--quiet`
+  bool in_lines = true;     ///< plain lines of `live` without a terminal; not with `--json` either
 };
 void show_progress(ProgressManner manner);
 
-/// What was asked for, where stderr can be drawn on, and where it cannot.
+/// True if progress is enabled and stderr can be redrawn.
 bool draws_progress();
 bool tells_progress_in_lines();
 /// A line on stderr, but not with `--quiet` or `--json`: why work that begins now takes long.
@@ -27,18 +27,19 @@ void print_notice(std::string_view text);
 /// Of the terminal; longer lines would wrap, and could not be drawn again.
 std::size_t terminal_columns();
 
-/// While it lives, the terminal's last line says what is being done and for how long, and once parts
-/// are told, the share done and the time left; else, where it is known, the longest that it may take. Nothing is drawn where stderr is no terminal. Of several
-/// that live at once the latest is seen; they end in the opposite order.
+/// During its lifetime the terminal's last line shows the current work and the elapsed time. Once
+/// parts are reported, it also shows the fraction done and the time left; otherwise the longest
+/// expected duration, if known. Nothing is drawn if stderr is not a terminal. Of several objects
+/// the latest is displayed; they end in reverse order.
 class Working {
  public:
-  /// `most_s`: about the longest that it takes, s; 0 where that is not known.
+  /// `most_s`: approximate longest duration, s; 0 if unknown.
   explicit Working(std::string what, double most_s = 0.0);
   ~Working();  ///< clears the line
   Working(const Working&) = delete;
   Working& operator=(const Working&) = delete;
 
-  /// What is done now; its parts, if any, are counted anew.
+  /// Sets the current work and restarts the count of its parts.
   void doing(std::string_view what);
   void operator()(std::size_t done, std::size_t total);
 
@@ -52,12 +53,12 @@ class Working {
   std::size_t done_ = 0;
   std::size_t total_ = 0;
   Clock::time_point start_ = Clock::now();
-  Clock::time_point counted_from_ = start_;  ///< the beginning of what is done now
+  Clock::time_point counted_from_ = start_;  ///< start of the current work
   bool over_ = false;
   std::mutex mutex_;
   std::condition_variable wake_;
   std::thread drawer_;
-  const Working* covered_ = nullptr;  ///< that is seen again when this one has ended
+  const Working* covered_ = nullptr;  ///< displayed again when this one ends
 };
 
 }  // namespace awmr::cli

@@ -17,7 +17,7 @@ fs::path resolved(const fs::path& project, const std::string& name) {
   return (project.parent_path() / name).lexically_normal();
 }
 
-/// Reads the names of files, each relative to the project's. `faults` are those of the whole file.
+/// Reads file names relative to the project file. `faults` are those of the whole file.
 class FileNames {
  public:
   FileNames(const fs::path& project, const std::vector<Fault>& faults)
@@ -48,7 +48,7 @@ class FileNames {
   const std::vector<Fault>& faults_;
 };
 
-/// Mappings for one file, or with an empty name for every file.
+/// Reads the mappings for one file, or for every file if the name is empty.
 void read_columns(JsonObject json, const std::string& file, Project& project) {
   for (const std::string& name : json.keys()) {
     const std::string expression = json.string(name);
@@ -110,7 +110,7 @@ void read_identify(JsonObject json, Project& project) {
   json.reject_unknown_keys();
 }
 
-/// deg/s, or a word.
+/// Reads a rate in deg/s or a keyword.
 void read_heading_rate(JsonObject& json, Project& project) {
   const auto rate = json.optional_number_or_string(
       "heading_rate_limit", {.min = kLeadRates_degps.lo, .max = kLeadRates_degps.hi});
@@ -135,7 +135,7 @@ void read_compare(JsonObject json, const FileNames& files, Project& project) {
 
 constexpr std::string_view kProjectSchema = "awmr.project/1";
 
-/// `path` is the file's, to which those in it are relative.
+/// `path` is the project file; its file names are relative to it.
 Project project_from_json(JsonObject& json, const fs::path& path,
                           const std::vector<Fault>& faults) {
   Project project;

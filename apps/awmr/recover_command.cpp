@@ -39,7 +39,7 @@ Provenance provenance_of(const RecoverOptions& options, const std::vector<InputF
   return provenance;
 }
 
-/// The runs of a part, or all of them, with a progress bar.
+/// Executes the runs of a shard, or all of them, with a progress bar.
 Result<RecoverPart> recovered(const Model& model, const RecoverOptions& options,
                               const Shard& shard) {
   Working bar("simulating and fitting");
@@ -60,7 +60,7 @@ Result<Outcome> whole_outcome(const RecoverCommand& command, const RecoverPart& 
 Result<Outcome> part_outcome(const RecoverCommand& command, const RecoverPart& part,
                              const Provenance& provenance) {
   AWMR_RETURN_IF_ERROR(make_directory(*command.output));
-  // The last one names the hash of the first.
+  // The last file contains the hash of the first.
   const OutputFile files[] = {
       {*command.output / kRecoverTable, recover_csv(part),
        [&](std::string_view text, const std::string& file) {
@@ -76,7 +76,7 @@ Result<Outcome> part_outcome(const RecoverCommand& command, const RecoverPart& p
                  .written = {files[1].path, files[0].path}};
 }
 
-/// Whether what the command writes can be written, before the work begins.
+/// Checks before the work begins that the output can be written.
 Status check_output_of(const RecoverCommand& command) {
   if (!command.output) return {};
   const std::span inputs(&command.model, 1);
@@ -84,7 +84,7 @@ Status check_output_of(const RecoverCommand& command) {
                        : check_output(*command.output, inputs);
 }
 
-/// The command and what the command line says of it in words.
+/// The command and its options that are still unparsed text.
 struct RecoverWords {
   RecoverCommand command;
   std::string plan = "tables";
@@ -95,7 +95,7 @@ struct RecoverWords {
   std::vector<std::string> asked;
 };
 
-/// Errors (input): an unknown parameter, no such part.
+/// Errors (input): an unknown parameter or an invalid shard.
 Result<RecoverCommand> command_of(const RecoverWords& words) {
   RecoverCommand command = words.command;
   RecoverOptions& options = command.recover;

@@ -14,7 +14,7 @@
 namespace awmr::cli {
 namespace {
 
-/// All figures or none; those that there are no data for are told in a note.
+/// Writes all figures or none. A note lists those without data.
 Status write_figures(FigureSet figures, const fs::path& directory, Outcome& outcome) {
   AWMR_RETURN_IF_ERROR(make_directory(directory));
   for (OutputFile& file : figures.files) {

@@ -37,7 +37,7 @@ std::string scenario_name(const fs::path& scenario) {
   return fmt::format("scenario_{}.json", scenario.stem().string());
 }
 
-/// What the report draws: every scenario as it is, and its runs in every mode, with the tuned and
+/// Writes the data of the report: every scenario, and its runs in every mode with the tuned and
 /// with the paper's gains.
 Result<std::vector<fs::path>> write_runs(const Project& project, const InputNames& names,
                                          const fs::path& directory) {
@@ -71,7 +71,7 @@ Result<std::vector<fs::path>> write_runs(const Project& project, const InputName
   return written;
 }
 
-/// What the steps come to, and what each found out, under the name of its file.
+/// Combined outcome of the steps, and the document of each under the name of its file.
 struct Steps {
   Outcome total;
   std::vector<std::pair<std::string, std::string>> documents;
@@ -81,7 +81,7 @@ void add_written(Outcome& total, const std::vector<fs::path>& written) {
   total.written.insert(total.written.end(), written.begin(), written.end());
 }
 
-/// Takes a step's outcome into that of the whole, under its title.
+/// Adds a step's outcome to the total under its title.
 void add_step(Steps& steps, const char* title, Outcome step) {
   Outcome& total = steps.total;
   steps.documents.emplace_back(step.written.front().stem().string(), std::move(step.document));
@@ -117,7 +117,7 @@ Result<Outcome> validate_step(const Project& project, const InputNames& names,
                                  .names = names});
 }
 
-/// Every file that the project names, itself included.
+/// Returns every file that the project names, and the project file itself.
 std::vector<fs::path> inputs_of(const RunCommand& command, const Project& project,
                                 const TuneConfig& tune) {
   std::vector<fs::path> inputs{command.project, project.vehicle};
@@ -154,8 +154,8 @@ void add_faults(const Result<T>& read, std::vector<Fault>& faults) {
   faults.insert(faults.end(), read.error().faults.begin(), read.error().faults.end());
 }
 
-/// Errors (input), one for each file that run would replace and that no command of awmr wrote: results
-/// name their command, emitted files stand in their manifest.
+/// Errors (input): each file that run would overwrite and that no awmr command wrote. Results name
+/// their command; emitted files are listed in their manifest.
 Status check_own_results(const fs::path& directory) {
   std::vector<Fault> faults;
   for (const char* name : {"model.json", "gains.json", "validation.json", "comparison.json"}) {
@@ -186,8 +186,8 @@ Result<Trials> read_trials(const Project& project) {
                       .options = project.trials});
 }
 
-/// Every file that goes in. Errors, found before the first step and before anything is written: a
-/// broken file, two scenarios whose runs would have one name, an output that is an input.
+/// Returns every input file. Errors, detected before the first step and before anything is written:
+/// an invalid file, two scenarios with the same run names, an output that is an input.
 Result<std::vector<fs::path>> checked_inputs(const RunCommand& command, const Project& project) {
   TuneConfig tune;
   std::vector<Fault> faults;
@@ -222,7 +222,7 @@ Result<std::vector<fs::path>> checked_inputs(const RunCommand& command, const Pr
 
 constexpr const char* kFigures = "figures";
 
-/// The page and, where they are asked for, the figures.
+/// Writes the report page and, if requested, the figures.
 Status report_step(const RunCommand& command, Outcome& total) {
   ReportCommand report{.directory = command.output};
   if (command.figures) report.figures = command.output / kFigures;
@@ -232,7 +232,7 @@ Status report_step(const RunCommand& command, Outcome& total) {
   return {};
 }
 
-/// The Arduino library. A vehicle that the chip does not carry has none, which is told.
+/// Writes the Arduino library. A note reports a vehicle that the firmware does not support.
 void emit_library(const fs::path& model, const fs::path& gains, const fs::path& output, bool as_is,
                   Outcome& total) {
   const Result<Outcome> emitted =

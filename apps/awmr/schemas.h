@@ -1,4 +1,4 @@
-/// The JSON Schemas of all formats that the program reads and writes.
+/// JSON Schemas of all file formats that the program reads and writes.
 #pragma once
 
 #include <string>
@@ -7,14 +7,14 @@
 namespace awmr::cli {
 
 struct Schema {
-  std::string name;       ///< of the format: "vehicle"
+  std::string name;       ///< format name: "vehicle"
   std::string (*text)();  ///< JSON Schema, draft 2020-12
 };
 
-/// By the order in which the files are made.
+/// All schemas, in the order in which the files are created.
 const std::vector<Schema>& schemas();
 
-/// pil.json, which awmr-pil writes.
+/// Schema of pil.json, which awmr-pil writes.
 std::string pil_schema();
 
 }  // namespace awmr::cli

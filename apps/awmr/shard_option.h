@@ -1,4 +1,4 @@
-/// `--shard`, which the commands take that several machines can share.
+/// `--shard` of the commands whose work can be split across machines.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -12,7 +12,7 @@
 
 namespace awmr::cli {
 
-/// What is run of the work; none: all of it, to the files of a single run.
+/// Shard of the work to run; empty: all of it, written to the files of a single run.
 using ShardChoice = std::optional<Shard>;
 
 inline CLI::Option* add_shard(CLI::App& command, std::optional<std::string>& text) {
@@ -21,10 +21,10 @@ inline CLI::Option* add_shard(CLI::App& command, std::optional<std::string>& tex
       "I/N: part I of N, for as many machines; awmr merge puts the parts together");
 }
 
-/// Errors (input): a text that is not I/N.
+/// Errors (input): text that is not I/N.
 Result<ShardChoice> shard_of(const std::optional<std::string>& text);
 
-/// Where `--resume` finds a finished part, which stays as it is.
+/// Outcome if `--resume` finds a finished shard, which remains unchanged.
 Result<Outcome> finished_part(const Shard& shard, const std::filesystem::path& directory);
 
 }  // namespace awmr::cli

@@ -26,7 +26,7 @@
 namespace awmr::cli {
 namespace {
 
-/// How the run ended, where its guidance has an end.
+/// Describes how the run ended, if its guidance has an end.
 std::string end_of(const Run& run, const Scenario& scenario) {
   if (run.end == RunEnd::kNoPassage) {
     return "  no passage: the obstacles leave no way to where the guidance leads; stopped\n";
@@ -52,7 +52,7 @@ std::string summary_of(const Run& run, const Scenario& scenario, const SimulateC
          plant + end_of(run, scenario);
 }
 
-/// What there is of the course's figures.
+/// Formats the path metrics that are available.
 std::string figures_of(const Metrics& metrics) {
   std::string text;
   const auto add = [&text](const char* name, const std::optional<double>& value, const char* unit) {
@@ -72,7 +72,7 @@ constexpr NameTable<RunEnd, 4> kRunEndNames{{{"duration", RunEnd::kDuration},
                                              {"no-passage", RunEnd::kNoPassage},
                                              {"failed", RunEnd::kFailed}}};
 
-/// The metrics under their names in comparison.csv, the last row under those of run.csv.
+/// Metrics under their names in comparison.csv, and the last row under the names of run.csv.
 std::string document_of(const Run& run, const Scenario& scenario, YawMode mode,
                         const Metrics& metrics) {
   Json json;
@@ -160,7 +160,7 @@ Result<Outcome> execute(const SimulateCommand& command) {
     AWMR_RETURN_IF_ERROR(write_file(command.output, csv, check_run_text));
     return outcome;
   }
-  // The last one holds the hash of the first.
+  // The last file contains the hash of the first.
   const OutputFile files[] = {{command.output, csv, check_run_text},
                               {run_side_path(command.output), side, check_json_text}};
   AWMR_RETURN_IF_ERROR(write_files(files));

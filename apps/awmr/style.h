@@ -7,8 +7,8 @@
 
 namespace awmr::cli {
 
-/// Colours for what is written to a stream: none where it is no terminal, where NO_COLOR is set
-/// [no-color.org] or where the terminal is called dumb.
+/// Colours for a stream. Disabled if it is not a terminal, if NO_COLOR is set [no-color.org] or if
+/// TERM is dumb.
 class Style {
  public:
   explicit Style(std::FILE* stream);

@@ -20,7 +20,7 @@
 namespace awmr::cli {
 namespace {
 
-/// A metric of one closed loop, the controller staying as it was tuned while the plant varies.
+/// Metric of one closed loop with a fixed controller, evaluated while the plant varies.
 struct LoopMetric {
   const char* name;
   std::optional<double> Metrics::*value;
@@ -29,7 +29,7 @@ constexpr LoopMetric kLoopMetrics[] = {{"heading_iae_degs", &Metrics::heading_ia
                                        {"overshoot_deg", &Metrics::overshoot_deg},
                                        {"speed_drop_mps", &Metrics::speed_drop_mps}};
 
-/// The metrics of the closed loop that `--gains` and `--scenario` describe; none without them.
+/// Adds the metrics of the closed loop given by `--gains` and `--scenario`; none without them.
 Status add_metrics(const SuggestCommand& command, const Model& model, SuggestOptions& options) {
   if (!command.gains && !command.scenario) return {};
   if (!command.gains || !command.scenario) {

@@ -1,4 +1,4 @@
-/// What `awmr init` writes, as it was built in from templates/.
+/// Files that `awmr init` writes, embedded from templates/.
 #pragma once
 
 #include <vector>
@@ -7,8 +7,8 @@
 
 namespace awmr {
 
-/// In the order of their paths. A line that begins with `@NAME ` is for the drive of that name alone
-/// (model/vehicle.h), without this mark.
+/// Sorted by path. A line that begins with `@NAME ` applies only to the drive of that name
+/// (model/vehicle.h); the mark itself is removed.
 const std::vector<EmbeddedFile>& project_templates();
 
 }  // namespace awmr

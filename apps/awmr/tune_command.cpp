@@ -35,7 +35,7 @@ std::string gains_line(const char* name, const Gains<double>& gains, double obje
       gains.heading.reaching_time_constant_s(), objective);
 }
 
-/// The tuned gains under the baseline, with their time constants and objective.
+/// Table of the tuned gains and the baseline, with time constants and objective.
 std::string gains_table(const Tuning& tuning) {
   std::string text =
       fmt::format("  {:<14} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>10}\n", "gains", "lambda",
@@ -52,7 +52,7 @@ std::string gains_table(const Tuning& tuning) {
   return text;
 }
 
-/// By figure the inputs that move it most.
+/// Lists for each metric the inputs with the largest effect on it.
 std::string sensitivity_text(const RobustTuning& robust) {
   if (!robust.sensitivity) return {};
   constexpr std::size_t kMostInputs = 3;
@@ -78,7 +78,7 @@ std::string sensitivity_text(const RobustTuning& robust) {
   return text;
 }
 
-/// A warning where an observer is tuned on runs that nothing pushes.
+/// Returns a warning if an observer is tuned on runs without disturbance.
 std::vector<Finding> observer_findings(const TuneOptions& options) {
   const bool is_pushed = std::ranges::any_of(
       options.scenarios, [](const Scenario& scenario) { return scenario.disturbance.any(); });
@@ -89,10 +89,10 @@ std::vector<Finding> observer_findings(const TuneOptions& options) {
        "give one that pushes the vehicle, or none at all for the default ones"}};
 }
 
-/// A note where too few samples leave open what moves a figure most.
+/// Returns a note if too few samples leave the most influential input of a metric undetermined.
 std::vector<Finding> sensitivity_findings(const Tuning& tuning) {
   if (!tuning.robust || !tuning.robust->sensitivity) return {};
-  constexpr double kWide = 0.5;  // an index says little between 0.2 and 0.7
+  constexpr double kWide = 0.5;  // an index with a 95 % interval of 0.2 to 0.7 is uninformative
   int open = 0;
   const std::vector<SensitiveFigure>& figures = tuning.robust->sensitivity->figures;
   for (const SensitiveFigure& figure : figures) {
@@ -109,7 +109,7 @@ std::vector<Finding> sensitivity_findings(const Tuning& tuning) {
                    tuning.robust->sensitivity->samples, open, figures.size())}};
 }
 
-/// Findings of the goals and of the runs, on fresh draws where there are any.
+/// Findings of the goals and of the runs, on fresh draws if there are any.
 std::vector<Finding> judged_findings(const Tuning& tuning) {
   if (tuning.robust && !tuning.robust->judged.empty()) {
     std::vector<Finding> findings = goal_findings(tuning.robust->goals);
@@ -173,7 +173,7 @@ std::vector<Finding> findings_before_judging(const Model& model, const Tuning& t
   return findings;
 }
 
-/// What the gains stand at, and what the objective leaves open.
+/// Describes the active constraints and the range of equivalent gains.
 std::string standing_of(const Tuning& tuning) {
   std::string held;
   for (const ActiveConstraint& one : tuning.active) {
@@ -188,7 +188,7 @@ std::string standing_of(const Tuning& tuning) {
       tuning.speed_mu_as_good.lo, tuning.speed_mu_as_good.hi);
 }
 
-/// What was open of the vehicles that the gains are for; empty where nothing was.
+/// Describes the unmodelled variation that the gains account for; empty without any.
 std::string open_text(const OpenVehicle& open) {
   if (!open.any()) return {};
   std::string text = "  open      ";
@@ -280,7 +280,7 @@ Result<Outcome> part_outcome(const TuneCommand& command, const Tuning& tuning,
                              const TuneOptions& options, const Provenance& provenance,
                              std::vector<Finding> findings) {
   AWMR_RETURN_IF_ERROR(make_directory(command.output));
-  // The last one names the hashes of the others.
+  // The last file contains the hashes of the others.
   const std::string shard_json =
       with_findings(tune_shard_text(tuning, options, provenance), findings);
   const OutputFile files[] = {

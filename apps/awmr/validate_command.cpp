@@ -33,7 +33,7 @@ Result<Validation> validate_with_progress(const Model& model,
   return validate(model, gains, options);
 }
 
-/// The verdict, and the claims by what became of them.
+/// Summarises the verdict and the claims by outcome.
 std::string brief_of(const Validation& validation) {
   std::vector<std::string> reproduced;
   std::vector<std::string> others;
@@ -45,7 +45,7 @@ std::string brief_of(const Validation& validation) {
                      others.empty() ? "none" : fmt::format("{}", fmt::join(others, " ")));
 }
 
-/// What `judge` makes of each log.
+/// Returns the result of `judge` for each log.
 template <class Judge>
 auto judge_logs(const ValidateCommand& command, const Vehicle& vehicle, const Judge& judge,
                 std::vector<Finding>& findings)
@@ -72,7 +72,7 @@ auto judge_logs(const ValidateCommand& command, const Vehicle& vehicle, const Ju
   return all;
 }
 
-/// The logs by the model alone, or, of a scenario, as drives under the controller.
+/// Validates the logs against the model alone or, with a scenario, as drives under the controller.
 Status add_judged_logs(const ValidateCommand& command, const Model& model,
                        const std::optional<Gains<double>>& gains, Validation& validation,
                        std::vector<Finding>& findings) {
@@ -93,7 +93,7 @@ Status add_judged_logs(const ValidateCommand& command, const Model& model,
   return {};
 }
 
-/// Those of the file; without one, the paper's for its claims.
+/// Gains of the file, or without one the paper's if claims are checked.
 Result<std::optional<Gains<double>>> gains_of(const ValidateCommand& command, const Model& model) {
   if (command.gains) return read_gains_for(*command.gains, model.vehicle.sample_time_s);
   if (command.claims) return kPaperGains;
@@ -127,8 +127,8 @@ Result<Provenance> provenance_of(const ValidateCommand& command) {
   return Provenance{"validate", std::move(options), std::move(inputs)};
 }
 
-/// Adds a warning (`log-of-the-fit`) for each log that the model was fitted to, by SHA-256: the model is
-/// the first input, and no other input of a validation is one of the model's.
+/// Adds a warning (`log-of-the-fit`) for each log that the model was fitted to, by SHA-256. The
+/// model is the first input, and no other input of a validation is one of the model's.
 void note_fitted_logs(const Model& model, const Provenance& provenance,
                       std::vector<Finding>& findings) {
   for (const InputFile& input : provenance.inputs) {
@@ -142,7 +142,7 @@ void note_fitted_logs(const Model& model, const Provenance& provenance,
   }
 }
 
-/// The claims where they are asked for; else the verdict, and how each log is predicted.
+/// Lists the claims if requested; else the verdict and the prediction of each log.
 std::string summary_of(const ValidateCommand& command, const Validation& validation) {
   if (command.claims) return claims_table(validation.claims) + validation.verdict + '\n';
   const char* const title =

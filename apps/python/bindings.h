@@ -1,4 +1,4 @@
-/// What the parts of the Python module share.
+/// Common to all parts of the Python module.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -21,7 +21,7 @@ namespace awmr::python {
 
 namespace py = pybind11;
 
-/// Carries an Error out of a binding; errors.cpp makes a Python exception of it.
+/// C++ exception that carries an Error; errors.cpp converts it to a Python exception.
 class Raised : public std::exception {
  public:
   explicit Raised(Error error) : error_(std::move(error)) {}
@@ -32,14 +32,14 @@ class Raised : public std::exception {
   Error error_;
 };
 
-/// The value; without one the error is raised.
+/// Returns the value or raises the error.
 template <class T>
 T value_or_raise(Result<T> result) {
   if (!result) throw Raised(std::move(result).error());
   if constexpr (!std::is_void_v<T>) return std::move(*result);
 }
 
-/// What a name stands for. Raises InputError for any other, with the names there are.
+/// Returns the value for a name. Raises InputError for an unknown name and lists the known ones.
 template <class Value, std::size_t N>
 Value value_of(const NameTable<Value, N>& names, const std::string& name, const char* what) {
   if (const auto value = value_in(names, name)) return *value;
@@ -48,13 +48,13 @@ Value value_of(const NameTable<Value, N>& names, const std::string& name, const 
   throw Raised(input_error(what, "'" + name + "' is none of" + known).value());
 }
 
-/// The numbers as a NumPy array of their own.
+/// Copies the numbers into a NumPy array.
 template <class T>
 py::array_t<T> to_array(const std::vector<T>& values) {
   return py::array_t<T>(static_cast<py::ssize_t>(values.size()), values.data());
 }
 
-/// A field of every row, as an array.
+/// Returns one field of all rows as an array.
 template <class Row, class Member>
 py::array to_column(const std::vector<Row>& rows, Member member) {
   using T = decltype(member(rows.front()));
@@ -64,7 +64,7 @@ py::array to_column(const std::vector<Row>& rows, Member member) {
   return to_array(values);
 }
 
-/// module.read_NAME(path), which raises InputError. `read` is read_NAME of the library.
+/// Defines module.read_NAME(path), which raises InputError. `read` is read_NAME of the library.
 template <class Read>
 void bind_read(py::module_& module, const char* name, Read read, const char* text) {
   module.def(
@@ -72,15 +72,15 @@ void bind_read(py::module_& module, const char* name, Read read, const char* tex
       py::arg("path"), text);
 }
 
-/// A vehicle that knows the file it was read from, which a model then names.
+/// Vehicle with the file it was read from, for the provenance of a model.
 struct VehicleOfFile : Vehicle {
   InputFile file;
 };
 
-/// Trials that know their files and how these were read.
+/// Trials with their files and the options with which these were read.
 struct TrialsOfFiles : Trials {
   std::vector<InputFile> inputs = {};
-  std::vector<std::pair<std::string, std::string>> reading = {};  ///< options in words
+  std::vector<std::pair<std::string, std::string>> reading = {};  ///< options as text
   bool as_is = false;
 };
 

@@ -24,7 +24,7 @@ NamedComparison compared(const Model& model, const Gains<double>& gains,
   return {std::move(comparison), std::move(options)};
 }
 
-/// comparison.csv's columns; NaN where a metric has no meaning.
+/// Columns of comparison.csv; NaN where a metric is undefined.
 py::dict comparison_columns(const NamedComparison& named) {
   const std::vector<ComparisonRow>& rows = named.comparison.rows;
   py::dict columns;

@@ -4,13 +4,13 @@
 namespace awmr::python {
 namespace {
 
-/// "PLACE: MESSAGE", as the command line has it.
+/// "PLACE: MESSAGE", as on the command line.
 std::string text_of(const Fault& fault) {
   const std::string message = spell_options(fault.message, "--");
   return fault.place.empty() ? message : spell_options(fault.place, "--") + ": " + message;
 }
 
-/// The exception's classes, which live as long as the module.
+/// The exception classes, which live as long as the module.
 struct Classes {
   py::object base;
   py::object input;

@@ -11,7 +11,7 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-/// Raises InputError beyond the range that the command line's option has.
+/// Raises InputError outside the range of the command-line option.
 void check_within(const char* name, double value, double least, double most) {
   if (value >= least && value <= most) return;
   throw Raised(

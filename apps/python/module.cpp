@@ -1,4 +1,4 @@
-/// The Python module `awmr`: the library's functions under their own names.
+/// Python module `awmr`: the library's functions under their own names.
 #include "awmr/core/provenance.h"
 #include "bindings.h"
 

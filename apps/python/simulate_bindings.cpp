@@ -12,7 +12,7 @@ constexpr NameTable<RunEnd, 4> kRunEnds{{{"duration", RunEnd::kDuration},
                                          {"no-passage", RunEnd::kNoPassage},
                                          {"failed", RunEnd::kFailed}}};
 
-/// A run with what it takes to judge it.
+/// A run with the inputs needed to compute its metrics.
 struct JudgedRun {
   Run run;
   Scenario scenario;
@@ -33,7 +33,7 @@ JudgedRun simulated(const Model& model, const Gains<double>& gains, const Scenar
   return judged;
 }
 
-/// run.csv's columns.
+/// Columns of run.csv.
 py::dict run_columns(const JudgedRun& judged) {
   const std::vector<RunRow>& rows = judged.run.rows;
   std::vector<std::string_view> names;

@@ -10,7 +10,7 @@
 namespace awmr::python {
 namespace {
 
-/// Files by path or none; one path or several for what may come in several.
+/// Optional path; for kinds with several files a path or a list of paths.
 using Path = std::optional<std::filesystem::path>;
 using Paths =
     std::variant<std::monostate, std::filesystem::path, std::vector<std::filesystem::path>>;
@@ -21,7 +21,7 @@ std::vector<std::filesystem::path> all_of(const Paths& paths) {
   return {};
 }
 
-/// NaN stands for what was not given.
+/// NaN stands for absent values.
 template <class Row>
 py::array optional_column(const std::vector<Row>& rows, std::optional<double> Row::*field) {
   return to_column(rows, [field](const Row& row) {
@@ -86,7 +86,7 @@ py::list curves_of(const TrialsOfFiles& trials) {
   return all;
 }
 
-/// Time, commands and channels in SI units; of a channel NaN in the rows where it was not measured.
+/// Time, commands and channels in SI units; NaN in rows where a channel was not measured.
 py::dict columns_of(const DrivingLog& log) {
   py::dict columns;
   columns["line"] = to_array(log.line);
@@ -113,10 +113,10 @@ py::list logs_of(const TrialsOfFiles& trials) {
   return all;
 }
 
-/// As read_vehicle() returns it, or as a model has it, which knows no file.
+/// A vehicle as returned by read_vehicle(), or the vehicle of a model, which has no file.
 using AnyVehicle = std::variant<VehicleOfFile, Vehicle>;
 
-/// Of the vehicle and of every file, in the order in which the command line names them.
+/// Vehicle file and trial files, in the order in which the command line names them.
 Result<std::vector<InputFile>> inputs_of(const AnyVehicle& vehicle, const TrialFiles& files) {
   std::vector<InputFile> inputs;
   if (const auto* read = std::get_if<VehicleOfFile>(&vehicle)) inputs.push_back(read->file);

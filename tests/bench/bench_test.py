@@ -1,5 +1,5 @@
-"""scripts/bench in small: every row of README.md comes out, and does the same work as awmr's, which the script itself checks and
-says by its exit code. How fast the rows are is no matter here. usage: bench_test.py BUILD
+"""Runs scripts/bench with small inputs: every row of README.md is produced. The script itself checks that each row does the same work
+as awmr and reports it by its exit code. Speed is not tested. usage: bench_test.py BUILD
 """
 import pathlib
 import re
@@ -11,7 +11,7 @@ BENCH = HERE.parent.parent / "scripts/bench"
 
 
 def rows_of(text):
-    """The first cell of every row; in small, the sizes are others."""
+    """First cell of every row; small inputs have other sizes."""
     return [re.sub(r"\d+", "N", line.split("|")[1].strip()) for line in text.split("\n") if line.startswith("| ")]
 
 

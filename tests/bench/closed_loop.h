@@ -1,5 +1,5 @@
-/// A run of a heading scenario as one would write it by hand, for any scalar: who commands and who
-/// moves the vehicle is the caller's.
+/// Hand-written closed loop of a heading scenario, for any scalar type. The caller supplies the
+/// controller and the motion.
 #pragma once
 
 #include <cmath>
@@ -10,8 +10,8 @@
 
 namespace awmr::bench {
 
-/// The run's metering. `command(measured, reference)` returns the allocation of a sample, and
-/// `move(t_s, allocation, state)` moves the state on to the next one.
+/// Metrics of the run. `command(measured, reference)` returns the allocation of a sample;
+/// `move(t_s, allocation, state)` advances the state by one sample.
 template <class T, class Command, class Move>
 MeterSums<T> driven(const Scenario& scenario, double sample_time_s, const Resistance<T>& yaw,
                     const MeteredVehicle<T>& vehicle, const Command& command, const Move& move) {

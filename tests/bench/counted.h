@@ -1,12 +1,12 @@
-/// A number that counts what is done with it: the templates of model/, control/ and simulate/ made
-/// with it say how many operations they take.
+/// Scalar type that counts operations: instantiating the templates of model/, control/ and
+/// simulate/ with it gives their number of operations.
 #pragma once
 
 #include <cmath>
 
 namespace awmr::bench {
 
-/// What was done so far, in this program. Comparisons, signs and choices are no arithmetic.
+/// Operations so far in this program. Comparisons, signs and selections do not count.
 struct Operations {
   double additions = 0.0;  ///< and subtractions
   double multiplications = 0.0;

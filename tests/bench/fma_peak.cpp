@@ -1,22 +1,22 @@
-// What one core's arithmetic units can do at the most: independent fused multiplications and
-// additions of doubles in registers, with nothing to load or store. Held against by scripts/bench.
-// usage: fma_peak [--benchmark_format=json ...], as of every program of Google Benchmark
+// Measures the peak arithmetic rate of one core: independent fused multiply-adds of doubles in
+// registers, without loads or stores. Reference for scripts/bench.
+// usage: fma_peak [--benchmark_format=json ...], as for every Google Benchmark program
 #include <benchmark/benchmark.h>
 
 namespace {
 
-/// Sums that are computed side by side. An FMA takes four cycles, and two can begin in each: eight
-/// have to be under way at any time. With their two constants twelve fit into the sixteen registers
-/// that every processor with FMA has.
+/// Number of independent sums. An FMA takes four cycles and two can start per cycle, so eight must
+/// be in flight. Twelve sums and their two constants fit into the sixteen registers of every
+/// processor with FMA.
 constexpr int kSums = 12;
-/// Rounds between two looks at the clock.
+/// Rounds between two clock readings.
 constexpr int kRounds = 10000;
 
 using Four = double __attribute__((vector_size(32)));
 using Eight = double __attribute__((vector_size(64)));
 
-/// s = s x + y in twelve sums, again and again; x and y keep them near 1. The compiler is not told x
-/// and y, and is made to believe that the sums are read.
+/// s = s x + y in twelve sums, repeatedly; x and y keep them near 1. x and y are hidden from the
+/// compiler, and the sums appear to be read.
 #define AWMR_FMA_ROUNDS(Vector)                                              \
   Vector x = Vector{} + 0.999;                                               \
   Vector y = Vector{} + 0.001;                                               \
@@ -33,7 +33,7 @@ using Eight = double __attribute__((vector_size(64)));
     asm volatile("" : "+v"(g), "+v"(h), "+v"(i), "+v"(j), "+v"(k), "+v"(l)); \
   }
 
-/// Two floating-point operations for each FMA of each lane.
+/// Counts two floating-point operations per FMA and lane.
 void count(benchmark::State& state, int lanes) {
   const double operations = 2.0 * lanes * kSums * kRounds;
   state.counters["flop_per_s"] = benchmark::Counter(

@@ -25,7 +25,7 @@ def moved(plant, state, step_s, command):
 
 
 def resolves(state, step_s):
-    """Whether a step can follow the motion. The exponents are below 1: nothing but the turning can be too fast for it."""
+    """True if a step can follow the motion. The exponents are below 1, so only the turning can be too fast."""
     return np.max(np.abs(state[5])) * step_s <= 1.0
 
 
@@ -83,7 +83,7 @@ class Meter:
                        "yaw_resistance_m": resistance(c.yaw_alpha, c.yaw_beta, NO_CHORD, r, np)}
 
     def starts_step(self, sample, goal_rad, error_deg):
-        """Where a heading is newly commanded, the step before is closed."""
+        """A new heading command closes the previous step."""
         if self.before and goal_rad == self.before["goal_rad"]:
             return
         if self.before:
@@ -105,7 +105,7 @@ class Meter:
         m["settling_s"] = np.where(m["out_of_band"] > 0.0, np.inf, np.maximum(m["settling_s"], m["settled_s"]))
 
     def metrics(self, lane):
-        """By their names in comparison.csv; a run that did not settle or reach its speed lacks what hangs on it."""
+        """Metrics by their names in comparison.csv; a run that did not settle or reach its speed lacks the dependent ones."""
         self.close_step()
         m = {name: float(sums[lane]) for name, sums in self.sums.items()}
         found = {"overshoot_deg": m["overshoot_deg"], "heading_iae_degs": m["iae_degs"], "path_length_m": m["path_length_m"],

@@ -1,6 +1,7 @@
-// The loop that one would write by hand: Boost.odeint's runge_kutta4 around the same model, laws and
-// metrics, a run after the other, as many steps as `awmr compare` takes. What scripts/bench holds
-// batches against. usage: odeint_loop MODEL.json GAINS.json SCENARIO.json SAMPLES
+// Hand-written closed loop with Boost.odeint's runge_kutta4 and the same model, laws and metrics,
+// one run after the other, with the same steps as `awmr compare`. scripts/bench compares batches
+// with it.
+// usage: odeint_loop MODEL.json GAINS.json SCENARIO.json SAMPLES
 #include <array>
 #include <boost/numeric/odeint/stepper/runge_kutta4.hpp>
 #include <cstdio>
@@ -21,7 +22,7 @@ using Numbers = std::array<double, 7>;
 
 State<double> state_of(const Numbers& x) { return {x[0], x[1], x[2], x[3], x[4], x[5], x[6]}; }
 
-/// A run of the heading scenario; its metrics.
+/// Executes a run of the heading scenario and returns its metrics.
 Metrics driven(Plant<double> plant, const Controller<double>& controller, const Scenario& scenario,
                YawMode mode, double sample_time_s) {
   const int substeps = substeps_for(plant, sample_time_s);

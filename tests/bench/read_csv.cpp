@@ -1,5 +1,5 @@
-/// Reads the columns of a CSV file and says how long that took; for scripts/bench_csv.
-/// usage: read_csv FILE THREADS [nohash]
+/// Reads the columns of a CSV file and prints the time used; for scripts/bench_csv. usage: read_csv
+/// FILE THREADS [nohash]
 #include <fmt/format.h>
 #include <sys/resource.h>
 
@@ -28,7 +28,7 @@ double peak_mb() {
   return static_cast<double>(usage.ru_maxrss) / 1000.0;
 }
 
-/// All columns of the header.
+/// Returns all columns of the header.
 awmr::Result<std::vector<awmr::CsvColumn>> columns_of(const awmr::InputBytes& file) {
   std::string beginning(std::min<std::size_t>(file.size(), 4096), '\0');
   AWMR_RETURN_IF_ERROR(file.read(0, beginning));

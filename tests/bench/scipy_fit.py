@@ -1,9 +1,9 @@
-"""The fit of awmr identify --log with SciPy: least_squares around solve_ivp on a log of driving_log.py. Prints what was found, and how
-dear it was, as JSON. Run by scripts/bench.
+"""The fit of awmr identify --log with SciPy: least_squares around solve_ivp on a log of driving_log.py. Prints result and
+cost as JSON. Run by scripts/bench.
 
-The problem is awmr's (lib/awmr/identify/logs): the log in windows of ten seconds, each with an initial state of its own that is
-pulled weakly to what was measured, eight parameters, all but the exponents as logarithms, that are pulled weakly to the first
-guess, and the errors of five channels over their standard deviations. Those are given here; awmr finds them. All windows are one
+The problem is awmr's (lib/awmr/identify/logs): the log in windows of ten seconds, each with its own initial state and a weak prior about
+the measurements, eight parameters, all but the exponents as logarithms, with a weak prior about the
+first guess, and the errors of five channels over their standard deviations. Those are given here; awmr finds them. All windows are one
 system of equations in NumPy, integrated from one change of the commands to the next. The Jacobian is by differences: fifteen are
 enough, as no window feels another's initial state, and all of them are one system too.
 
@@ -28,13 +28,16 @@ NAMES = {"surge_alpha": "surge.alpha", "surge_beta": "surge.beta", "yaw_alpha": 
          "sway_alpha": "sway.alpha", "mass_norm": "mass_norm", "inertia_norm": "inertia_norm",
          "time_constant_s": "steering.time_constant_s"}
 EXPONENTS = ("surge_beta", "yaw_beta")
-# Pulls, as standard deviations: of the parameters to the first guess, of an initial state to what was measured.
+# Standard deviations of the priors: parameters about the first guess, initial states about the
+# measurements.
 PARAMETER_STD = 5.0
 STATE_STD = np.array([100.0, 100.0, 10.0, 1.0, 1.0, 1.0, 0.2])
-# solve_ivp errs by less than a thousandth of the sensors' noise, and alike in all differences, as they share its steps.
+# solve_ivp errs by less than a thousandth of the sensor noise. The error is equal in all
+# differences because they use the same steps.
 TOLERANCES = {"rtol": 1e-5, "atol": 1e-7}
 DIFFERENCE = 1e-4
-# The search ends, as awmr's does, where a step is worth less than this of half the sum of squares: a third of a standard error.
+# As in awmr, the search ends when a step reduces half the sum of squares by less than this: a third
+# of a standard error.
 WORTH = 0.05
 
 
@@ -82,7 +85,7 @@ class Problem:
         self.windows = self.commands.shape[1]
         self.geometry = geometry_of(vehicle)
         guess = first_guess(self.commands, self.measured, vehicle)
-        # The chord at rest is a matter of awmr's steps: a quarter of the fastest time constant.
+        # The chord at rest depends on awmr's step: a quarter of the shortest time constant.
         self.step_s = 0.25 * min(guess["time_constant_s"], guess["mass_norm"] / guess["sway_alpha"])
         started = self.measured[:, :, 0].copy()
         started[6] = self.commands[2, :, 0]
@@ -90,7 +93,7 @@ class Problem:
         self.pull = 1.0 / np.append(np.full(len(NAMES), PARAMETER_STD), np.tile(STATE_STD, self.windows))
 
     def bounds(self):
-        """Exponents as awmr has them by default; nothing else is bounded."""
+        """awmr's default bounds of the exponents; nothing else is bounded."""
         low, high = np.full(self.start.size, -np.inf), np.full(self.start.size, np.inf)
         for name, most in (("surge_beta", 1.0), ("yaw_beta", 4.0)):
             low[list(NAMES).index(name)], high[list(NAMES).index(name)] = 0.0, most

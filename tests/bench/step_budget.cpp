@@ -1,5 +1,5 @@
-// The arithmetic of a Runge-Kutta step of a closed loop, its share of laws, allocation and metrics
-// included, as JSON: counted over the nominal run by the templates themselves. For scripts/bench.
+// Counts the arithmetic operations of a Runge-Kutta step of a closed loop, including its share of
+// laws, allocation and metrics, over the nominal run. Prints JSON for scripts/bench.
 // usage: step_budget MODEL.json GAINS.json SCENARIO.json
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <bit>
 
 #include "counted.h"
-// The number comes before the templates that are made with it.
+// The scalar type must be declared before the templates that are instantiated with it.
 #include "awmr/model/gains_file.h"
 #include "awmr/model/model_file.h"
 #include "awmr/model/rest.h"
@@ -20,9 +20,9 @@ namespace {
 using namespace awmr;
 using bench::Counted;
 
-/// What a batch (lib/awmr/simulate/lanes/lane_math.h) spends on a function, in additions,
-/// multiplications, divisions and roots, an FMA being two. Sine and cosine of an angle are made at
-/// once; a polynomial of n coefficients is n - 1 FMAs.
+/// Cost of functions in a batch (lib/awmr/simulate/lanes/lane_math.h), in additions,
+/// multiplications, divisions and roots; an FMA counts as two. Sine and cosine of an angle are
+/// computed together. A polynomial of n coefficients is n - 1 FMAs.
 ///   pow      3 + 1 + 2 + 3 FMAs and a polynomial of 7, of the logarithm; 1; 3 and a polynomial of 12
 ///   sin, cos 1 + 4 FMAs, 3 products, 3 FMAs and two polynomials of 6
 ///   atan     4 + 1 + 3, an FMA and a polynomial of 11
@@ -30,14 +30,14 @@ constexpr double kPower = 48.0;
 constexpr double kSineAndCosine = 38.0;
 constexpr double kArcTangent = 31.0;
 
-/// The same struct of counted numbers.
+/// Converts a struct to counted scalars.
 template <class Of, class From>
 Of counted(const From& numbers) {
   static_assert(sizeof(Counted) == sizeof(double));
   return std::bit_cast<Of>(numbers);
 }
 
-/// Runge-Kutta steps of the run.
+/// Number of Runge-Kutta steps of the run.
 double drive(const Plant<double>& nominal, const Controller<double>& controller,
              const Scenario& scenario, double sample_time_s) {
   const int substeps = substeps_for(nominal, sample_time_s);

@@ -1,6 +1,6 @@
-"""The vehicle, its control laws and their allocation in Python: what scripts/bench holds awmr against.
+"""Vehicle, control laws and allocation in Python: the reference of scripts/bench.
 
-The equations are those of lib/awmr/model/dynamics.h and lib/awmr/control, written anew. A state is (x, y, psi, u, v, r, d_r)
+The equations are those of lib/awmr/model/dynamics.h and lib/awmr/control, implemented independently. A state is (x, y, psi, u, v, r, d_r)
 in m, rad, m/s and rad/s. Each of its numbers may be an array with a lane for every run, with `on=numpy`, or a plain number,
 with `on=NUMBERS`, which for a single run is several times as fast.
 """
@@ -14,7 +14,7 @@ import numpy as np
 NUMBERS = SimpleNamespace(cos=math.cos, sin=math.sin, arctan=math.atan, maximum=max, minimum=min,
                           where=lambda condition, chosen, other: chosen if condition else other)
 STATE_SIZE = 7
-# Near rest the controller's curves are the law itself; this keeps 0 to a negative power away.
+# Below rest the controller uses the law itself; this avoids 0 to a negative power.
 NO_CHORD = 1e-300
 
 
@@ -28,7 +28,7 @@ def resistance(alpha, beta, rest_speed, speed, on):
 
 
 def rest_speed(alpha, beta, inertia, step_s):
-    """Where the chord decays at the rate 1/h: w = (alpha h/inertia)^(1/(1 - beta)), beta < 1."""
+    """Speed below which the chord decays at the rate 1/h: w = (alpha h/inertia)^(1/(1 - beta)), beta < 1."""
     return (alpha * step_s / inertia) ** (1.0 / (1.0 - beta))
 
 
@@ -40,7 +40,7 @@ def resolved_at_rest(plant, step_s):
 
 
 def geometry_of(vehicle):
-    """What of vehicle.json the equations need."""
+    """The values of vehicle.json that the equations need."""
     return {"front_axle_m": vehicle["front_axle_m"], "half_track_m": vehicle["half_track_m"],
             "stop_rad": math.radians(vehicle["steering"]["max_deg"]),
             "fastest_radps": math.radians(vehicle["steering"]["max_rate_degps"])}
@@ -67,7 +67,7 @@ def rates(p, state, left, right, steering_command_rad, on):
 
 
 def steering_h(c, tau_speed, half_ratio, on):
-    """tan(d_r/2)/2 for a moment of 2 l_f half_ratio, inside its limit; and whether it is less than was asked for."""
+    """tan(d_r/2)/2 for a moment of 2 l_f half_ratio, limited; and whether it is less than requested."""
     able = tau_speed > 1e-6
     limit = c.h_max * on.maximum(0.0, on.minimum(1.0, 16.0 * tau_speed))
     asked = half_ratio / on.where(able, tau_speed, 1.0)
@@ -76,7 +76,7 @@ def steering_h(c, tau_speed, half_ratio, on):
 
 
 def allocated(c, tau_speed, tau_turn_m, on):
-    """F'L, F'R and d_r in combined mode: half of the moment each way, and what one path cannot deliver to the other."""
+    """F'L, F'R and d_r in combined mode: each way provides half of the moment, and takes over what the other cannot provide."""
     def clip(force):
         return on.maximum(c.force_min, on.minimum(c.force_max, force))
 
@@ -95,12 +95,12 @@ def allocated(c, tau_speed, tau_turn_m, on):
 
 
 def wrapped(angle_rad):
-    """The angle's equal in [-pi, pi)."""
+    """The equivalent angle in [-pi, pi)."""
     return (angle_rad + math.pi) % (2.0 * math.pi) - math.pi
 
 
 def control(c, psi_goal_rad, speed_mps, state, on):
-    """What the laws ask for, tau_speed and tau_turn, and F'L, F'R, d_r that it comes to."""
+    """Requests of the laws, tau_speed and tau_turn, and the resulting F'L, F'R, d_r."""
     _, _, psi, u, v, r, _ = state
     sliding = c.lambda_ * wrapped(psi_goal_rad - psi) - r
     tau_turn_m = (resistance(c.yaw_alpha, c.yaw_beta, NO_CHORD, r, on) +
@@ -131,7 +131,7 @@ def plants_around(plant, step_s, lanes):
 
 
 class HeadingRun:
-    """A run of a heading scenario in combined mode, as the files say: the nominal plant, its controller, and the course."""
+    """A run of a heading scenario in combined mode, as the files say: the nominal plant, its controller, and the headings."""
 
     def __init__(self, model_path, gains_path, scenario_path, substeps):
         model, gains, scenario = (json.loads(pathlib.Path(path).read_text())

@@ -1,4 +1,4 @@
-/// Every mistake a user can make: exit code, place and remedy, and no output file.
+/// User errors: exit code, place and remedy are reported and no output file is written.
 #include <gmock/gmock.h>
 
 #include "cli/program.h"
@@ -10,7 +10,7 @@ using ::testing::HasSubstr;
 
 class BadInput : public ::testing::Test {
  protected:
-  /// Identifies from a surge table of these bytes.
+  /// Identifies from a surge table with this content.
   ProcessResult identify_surge(const std::string& csv) {
     write_all(directory_.path() / "surge.csv", csv);
     return awmr("identify --vehicle configs/paper/vehicle.json --surge " + surge() + " -o " +

@@ -1,5 +1,4 @@
-/// Every numeric option with what is no number of its range: exit code 2, the option's name, and no
-/// crash.
+/// Numeric options with invalid values: exit code 2, the option's name, and no crash.
 #include <gmock/gmock.h>
 
 #include <string>

@@ -1,4 +1,4 @@
-/// `awmr check`: what a project still lacks and what in it cannot be, in words, before any fit.
+/// `awmr check` reports missing and implausible values of a project before any fit.
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>
@@ -13,7 +13,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// A project as `awmr init` writes it, filled in for a rover of 2.1 kg.
+/// A project as written by `awmr init`, filled in for a rover of 2.1 kg.
 class Check : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -53,7 +53,7 @@ class Check : public ::testing::Test {
   void write(const std::string& name, const nlohmann::ordered_json& json) const {
     write_all(path(name), json.dump(2));
   }
-  /// Check with one value of a file set.
+  /// Runs check with one value of a file changed.
   ProcessResult check_with(const std::string& name, const std::string& pointer,
                            const nlohmann::ordered_json& value) const {
     nlohmann::ordered_json json = read(name);
@@ -99,7 +99,7 @@ TEST_F(Check, WithoutASwayResistanceTablesAloneReachGainsAndAHeader) {
   EXPECT_THAT(result.err, HasSubstr("assumed-sway"));
   const nlohmann::ordered_json model = read("out/model.json");
   const auto& sway = model["sway"]["alpha"];
-  // sqrt(0.5 * 16) g m'/u at half of the 2.02 m/s of the fastest surge run, m' as it was fitted.
+  // sqrt(0.5 * 16) g m'/u at half of the fastest surge run, 2.02 m/s, with the fitted m'.
   const double value =
       std::sqrt(8.0) * 9.80665 * model["mass_norm"]["value"].get<double>() / 1.0121;
   EXPECT_NEAR(sway["value"].get<double>(), value, 1e-3 * value);

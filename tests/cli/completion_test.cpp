@@ -1,4 +1,4 @@
-/// Completions as the shells give them, manual pages as groff and mandoc read them.
+/// Completions as shown by the shells; manual pages as read by groff and mandoc.
 #include <gmock/gmock.h>
 
 #include <string>
@@ -13,7 +13,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
 
-/// What bash offers for the last of the words, one a line. It cuts "--mode=x" into three.
+/// Bash's completions of the last word, one per line. Bash splits "--mode=x" into three words.
 std::string in_bash(const std::string& words) {
   const ProcessResult run = run_process(
       "bash -c 'source <(" + std::string(AWMR_PROGRAM) + " completion bash); COMP_WORDS=(" + words +
@@ -36,7 +36,7 @@ TEST(Completion, OfBashKnowsCommandsOptionsChoicesAndFiles) {
   EXPECT_EQ(in_bash("awmr tune --draws \"\""), "\n\n");
 }
 
-/// What fish offers for the line.
+/// Fish's completions of the line.
 std::string in_fish(const std::string& line) {
   const ProcessResult run =
       run_process("export HOME=$(mktemp -d); fish --no-config -c '" + std::string(AWMR_PROGRAM) +
@@ -56,7 +56,7 @@ TEST(Completion, OfFishKnowsCommandsOptionsChoicesAndFiles) {
   EXPECT_THAT(in_fish("awmr report configs/p"), HasSubstr("configs/paper/"));
 }
 
-/// True once a tab has made `whole` of the line, in a zsh in a terminal of its own.
+/// True if a tab completes the line to `whole` in zsh, run in its own terminal.
 bool zsh_completes(const std::string& line, const std::string& whole) {
   const TemporaryDirectory directory;
   const std::string here = directory.path().string();
@@ -101,7 +101,7 @@ TEST(ManualPage, OfEveryCommandIsReadWithoutAWarning) {
     const ProcessResult groff =
         run_process("groff -man -ww -z -Tutf8 '" + page.path().string() + "'");
     EXPECT_EQ(groff.out + groff.err, "");
-    // The pages have no date, so that the same sources give the same bytes.
+    // The pages have no date, so that equal sources give equal bytes.
     const ProcessResult mandoc = run_process("mandoc -T lint -W warning '" + page.path().string() +
                                              "' | grep -v 'missing date'");
     EXPECT_EQ(mandoc.out + mandoc.err, "");

@@ -1,4 +1,4 @@
-/// Files that say two things, and results that do not belong together, are refused and not believed.
+/// Contradictory files, and results that do not belong together, are refused.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -37,7 +37,7 @@ class Contradiction : public ::testing::Test {
   static std::string kept(const std::string& name) { return (kept_->path() / name).string(); }
   std::string path(const std::string& name) const { return (directory_.path() / name).string(); }
 
-  /// The model with one value changed by hand.
+  /// The model with one value edited by hand.
   std::string edited(const char* pointer, const Json& value) const {
     Json model = Json::parse(read_all(kept("model.json")));
     model[Json::json_pointer(pointer)] = value;

@@ -1,4 +1,4 @@
-/// What the program could destroy, or claim wrongly of its inputs.
+/// Protection against data loss and against wrong provenance of inputs.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -28,7 +28,7 @@ class DataLoss : public ::testing::Test {
   }
   std::string path(const std::string& name) const { return (directory_.path() / name).string(); }
   std::string text(const std::string& name) const { return read_all(path(name)); }
-  /// Identifies from the surge table that lies here, by whatever path.
+  /// Identifies from the surge table in this directory, given by any path.
   ProcessResult identify(const std::string& surge, const std::string& output,
                          const std::string& before = "", const std::string& after = "") {
     return awmr_after(before, fmt::format("identify --vehicle {} --surge {} -o {} {}",
@@ -146,7 +146,7 @@ TEST_F(DataLoss, TwoScenariosWithOneFileNameOverwroteEachOther) {
   const ProcessResult result = awmr(fmt::format("run {} -o {}", path("project.json"), path("out")));
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_THAT(result.err, HasSubstr("two scenarios have the file name s.json"));
-  EXPECT_THAT(result.err, HasSubstr("missing.json"));  // before any step
+  EXPECT_THAT(result.err, HasSubstr("missing.json"));  // reported before any step
   EXPECT_FALSE(fs::exists(path("out")));
 }
 
@@ -163,7 +163,7 @@ TEST_F(DataLoss, ABrokenTuneFileWasFoundAfterIdentifying) {
   EXPECT_FALSE(fs::exists(path("out")));
 }
 
-/// `awmr COMMAND` that is stopped after `seconds` where it hangs: exit code 124.
+/// Runs `awmr COMMAND` and stops it after `seconds` if it hangs: exit code 124.
 ProcessResult within_seconds(int seconds, const std::string& command) {
   return run_process(fmt::format("timeout {} {} {}", seconds, AWMR_PROGRAM, command),
                      AWMR_SOURCE_DIR);
@@ -178,7 +178,7 @@ TEST_F(DataLoss, APipeInAResultsDirectoryIsRefused) {
     const bool is_model = name == std::string("model.json");
     if (is_model) fs::rename(at, path("kept.json"));
     ASSERT_EQ(::mkfifo(at.c_str(), 0600), 0);
-    // A program that has it open and writes nothing.
+    // Another program has it open and writes nothing.
     const int held = ::open(at.c_str(), O_RDWR | O_CLOEXEC);
     const std::string command = name == std::string("shard.json")
                                     ? "merge " + path(".") + " -o " + path("merged")
@@ -241,15 +241,15 @@ bool has_temporary_file(const fs::path& directory) {
   return false;
 }
 
-/// Runs `awmr init --example OUTPUT`, halts it once `directory` has a temporary file, sends `signal`,
-/// and lets it go on. The signal that ended it; 0: it ended before it was halted.
+/// Runs `awmr init --example OUTPUT`, stops it once `directory` contains a temporary file, sends
+/// `signal` and continues it. Returns the signal that ended it; 0: it ended before it was stopped.
 int end_while_writing(const fs::path& directory, const std::string& output, int signal) {
   const pid_t child = ::fork();
   if (child == 0) {
     const int nowhere = ::open("/dev/null", O_RDWR);
     ::dup2(nowhere, 1);
     ::dup2(nowhere, 2);
-    std::signal(signal, SIG_DFL);  // the shell may have it ignored
+    std::signal(signal, SIG_DFL);  // the shell may ignore it
     ::execl(AWMR_PROGRAM, AWMR_PROGRAM, "init", "--example", output.c_str(), nullptr);
     ::_exit(127);
   }
@@ -271,7 +271,7 @@ int end_while_writing(const fs::path& directory, const std::string& output, int 
 TEST_F(DataLoss, ASignalWhileFilesAreWrittenLeavesNoTemporaryFile) {
   for (const int signal : {SIGHUP, SIGINT, SIGTERM, SIGQUIT}) {
     int ended_by = 0;
-    // It may be done with its files before it is halted.
+    // It may have finished writing before it is stopped.
     for (int attempt = 0; attempt < 100 && ended_by == 0; ++attempt) {
       ended_by = end_while_writing(directory_.path(), path("example"), signal);
       EXPECT_FALSE(has_temporary_file(directory_.path())) << signal;

@@ -1,5 +1,5 @@
-/// A vehicle without steering through every command: its one mode is used, the others are refused
-/// by name.
+/// Every command with a vehicle without steering: its only mode is used, the others are refused by
+/// name.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -23,7 +23,7 @@ constexpr const char* kVehicle = R"({
   "length_m": 0.6, "width_m": 0.5, "half_track_m": 0.25, "wheel_force": {"min": -1, "max": 1},
   "sample_time_s": 0.01, "sway_alpha": 4})";
 
-/// Rows with an error of 1 % that changes its sign from one to the next.
+/// Value with an error of 1 % whose sign alternates from row to row.
 double with_error(double value, int row) { return value * (row % 2 == 0 ? 1.01 : 0.99); }
 
 /// Runs of a rover of a1 = 1.2, b1 = 0.7, a3 = 0.4, b3 = 0.9, m' = 0.5.
@@ -35,7 +35,7 @@ std::string surge_text() {
   return text;
 }
 
-/// To the left and to the right, on the spot and about one side.
+/// Turns to the left and to the right, on the spot and about one side.
 std::string turning_text() {
   std::string text = "force_left,force_right,yaw_rate_radps\n";
   for (int i = 1; i <= 8; ++i) {
@@ -157,7 +157,7 @@ TEST_F(DifferentialDrive, RefusesForcesOfSidesInPercent) {
                                 HasSubstr("force_right="), HasSubstr("--as-is")));
 }
 
-/// Alternating thrust and turns, by Euler steps of 1 ms of the same rover.
+/// Alternating thrust and turns of the same rover, by Euler steps of 1 ms.
 std::string log_text(const std::string& header, double steering_deg) {
   std::string text = header + "\n";
   double u = 0.0;
@@ -190,7 +190,7 @@ TEST_F(DifferentialDrive, IsIdentifiedFromALogWithoutSteeringColumns) {
   const ProcessResult result = awmr(command);
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const ordered_json model = ordered_json::parse(read_all(path("model.json")));
-  // Sway, which the generator leaves out, takes less than a few per cent at these rates.
+  // The generator omits sway, which takes less than a few per cent at these rates.
   EXPECT_NEAR(model["surge"]["alpha"]["value"].get<double>(), 1.2, 0.06);
   EXPECT_NEAR(model["yaw"]["alpha"]["value"].get<double>(), 0.4, 0.02);
   EXPECT_NEAR(model["mass_norm"]["value"].get<double>(), 0.5, 0.03);

@@ -1,4 +1,4 @@
-/// `awmr export`: the files as the programs that they are for read them.
+/// Files of `awmr export` as read by their target programs.
 #include <gmock/gmock.h>
 
 #include "cli/program.h"

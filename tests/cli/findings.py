@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Every finding's code has a line in apps/awmr/FINDINGS.md, and every code there is one.
+"""Checks that apps/awmr/FINDINGS.md lists exactly the codes of all findings.
 
 usage: findings.py SOURCE
 """

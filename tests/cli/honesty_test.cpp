@@ -1,5 +1,5 @@
-/// What the program does where files are of another vehicle, of the user, or of the fit itself, and that a
-/// finding on stderr stands in the command's file too.
+/// Behaviour with files of another vehicle, of the user or of the fit itself. Findings on stderr
+/// are also in the command's file.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -63,7 +63,7 @@ class Honesty : public ::testing::Test {
     return fmt::format("simulate --model {} --gains {} {} --mode combined -o {}", kept(model),
                        kept("gains.json"), kScenario, path(run));
   }
-  /// The page's data.
+  /// Data embedded in the report page.
   Json page() const {
     const std::string html = read_all(path("report.html"));
     const std::string begin = "id=\"data\">";
@@ -130,7 +130,7 @@ TEST_F(Honesty, AReportLeavesOutWhatIsNotOfItsModel) {
   const std::set<std::string> codes = codes_in(data.at("findings"));
   EXPECT_THAT(codes, Contains("result-of-another-model"));
   EXPECT_THAT(codes, Contains("result-without-origin"));
-  // Another model: nothing is left of what was made from the first.
+  // Another model: all results of the first are discarded.
   fs::copy(kept("other.json"), path("model.json"), fs::copy_options::overwrite_existing);
   ASSERT_EQ(awmr("report " + directory_.path().string()).exit_code, 0);
   EXPECT_FALSE(page().contains("gains"));
@@ -174,7 +174,7 @@ TEST_F(Honesty, ALogOfTheFitIsNoValidation) {
   EXPECT_THAT(validate(kept("model.json")), Not(Contains("log-of-the-fit")));
 }
 
-// One command a line, with the file that holds its document.
+// One command per line, with the file that contains its document.
 TEST_F(Honesty, FindingsOnStderrAreThoseOfTheFile) {
   const std::string model = kept("model.json");
   const std::string both = fmt::format("--model {} --gains {}", model, kept("gains.json"));
@@ -206,7 +206,8 @@ TEST_F(Honesty, FindingsOnStderrAreThoseOfTheFile) {
   EXPECT_THAT(seen, Not(IsEmpty()));
 }
 
-/// A document without what has to follow the order of the files: the list of inputs, and keys.
+/// The document without the parts that depend on the order of the files: the list of inputs, and
+/// keys.
 nlohmann::json without_inputs(const Json& document) {
   nlohmann::json unordered = nlohmann::json::parse(document.dump());
   unordered.erase("inputs");

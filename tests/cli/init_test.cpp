@@ -1,4 +1,4 @@
-/// A project for a robot of one's own: what `awmr init` writes, and that it takes nothing away.
+/// `awmr init`: the files of a new project, without overwriting anything.
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>

@@ -1,4 +1,4 @@
-/// `--json`: one object on stdout, whatever the command; one on stderr where it fails.
+/// `--json`: one object on stdout for every command; one on stderr on failure.
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>
@@ -14,7 +14,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using Json = nlohmann::json;
 
-/// A model and nominal gains from the paper's tables, and the words of a command with them.
+/// A model and nominal gains from the paper's tables, and command lines that use them.
 class JsonOutput : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -33,7 +33,7 @@ class JsonOutput : public ::testing::Test {
     return " --json --model " + path("model.json") + " --gains " + path("gains.json");
   }
 
-  /// What stdout holds, which is one object and nothing besides.
+  /// Stdout, which must be exactly one JSON object.
   static Json result_of(const ProcessResult& run, const std::string& command, int exit_code = 0) {
     EXPECT_EQ(run.exit_code, exit_code) << run.err;
     EXPECT_THAT(run.err, IsEmpty());

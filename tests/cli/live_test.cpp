@@ -1,5 +1,5 @@
-/// `awmr live`: a drive that comes in pieces, through a pipe, a growing file and a serial line, ends
-/// in an ordinary log and in the model that `identify` makes of it.
+/// `awmr live`: a drive that arrives in pieces, through a pipe, a growing file and a serial line,
+/// gives an ordinary log and the model that `identify` makes of it.
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <stdlib.h>
@@ -28,7 +28,7 @@ using ::testing::Not;
 const std::string kDrive = std::string(AWMR_SOURCE_DIR) + "/datasets/synthetic/drive_1.csv";
 const std::string kVehicle = " --vehicle configs/paper/vehicle.json";
 
-/// Behind `{ COMMAND`: a recorder that sends empty lines for as long as somebody reads them.
+/// Appended to `{ COMMAND`: a recorder that sends empty lines as long as there is a reader.
 const std::string kOnAndOn = "; while echo; do sleep 0.1; done 2>/dev/null; }";
 
 class Live : public ::testing::Test {
@@ -38,18 +38,18 @@ class Live : public ::testing::Test {
     return std::string(AWMR_PROGRAM) + " live" + kVehicle + " -o " + path("live.json") + " " +
            options;
   }
-  /// Runs a shell's words from the source directory.
+  /// Runs a shell command from the source directory.
   static ProcessResult shell(const std::string& words) {
     return run_process(words, AWMR_SOURCE_DIR);
   }
-  /// What `identify` makes of the recording, with the same options.
+  /// Model that `identify` makes of the recording with the same options.
   std::string identified(const std::string& options = "") const {
     const ProcessResult run = awmr("identify" + kVehicle + " --quiet --log " + path("live.csv") +
                                    " -o " + path("again.json") + " " + options);
     EXPECT_EQ(run.exit_code, 0) << run.err;
     return read_all(path("again.json"));
   }
-  /// Writes the drive's rows with one column changed, and gives its path.
+  /// Writes the drive with one column scaled and returns its path.
   std::string drive_with(const std::string& column, double factor) const {
     std::istringstream lines(read_all(kDrive));
     std::string text;
@@ -76,7 +76,7 @@ class Live : public ::testing::Test {
 };
 
 TEST_F(Live, APipeInPiecesEndsInTheLogAndItsModel) {
-  // Cut within lines and numbers.
+  // Split within lines and numbers.
   const ProcessResult run = shell("{ head -c 20011 " + kDrive + "; sleep 0.4; tail -c +20012 " +
                                   kDrive + " | head -c 30000; sleep 0.4; tail -c +50012 " + kDrive +
                                   "; } | " + live("--log - --every 0.1"));
@@ -101,7 +101,7 @@ TEST_F(Live, IsToldOnceInJson) {
 
 TEST_F(Live, AWrongUnitIsToldWhileTheDriveGoesOn) {
   const std::string drive = drive_with("speed_mps", 3.6);
-  // Ten seconds of the drive, then nothing until it is told.
+  // Ten seconds of the drive, then nothing until it is reported.
   const ProcessResult run =
       shell("{ head -n 1001 " + drive + "; for i in $(seq 200); do grep -q km/h " + path("said") +
             " && break; sleep 0.1; done; } | " + live("--log - --every 0.1") + " 2> " +
@@ -110,7 +110,7 @@ TEST_F(Live, AWrongUnitIsToldWhileTheDriveGoesOn) {
   EXPECT_THAT(run.err, AllOf(HasSubstr("map it by --column 'speed_mps="), HasSubstr("km/h")));
   EXPECT_LT(run.err.find("speed looks like km/h"), run.err.find("rows are in")) << run.err;
   EXPECT_FALSE(fs::exists(path("live.json")));
-  // The recording is there, and the mapping that was told makes a model of it.
+  // The recording exists, and the suggested mapping makes a model of it.
   EXPECT_EQ(read_all(path("live.csv")).size(), [&] {
     std::istringstream lines(read_all(drive));
     std::size_t bytes = 0;
@@ -132,7 +132,7 @@ TEST_F(Live, AGrowingFileIsFollowedUntilNothingMoreComes) {
 }
 
 TEST_F(Live, KeepsLogAndModelWhereItsTerminalIsClosed) {
-  // Two signals, as the kernel and the shell each send one.
+  // Two signals, because kernel and shell each send one.
   const ProcessResult run = shell("{ head -n 900 " + kDrive + kOnAndOn + " | { exec 3<&0; " +
                                   live("--log - --every 0.2") +
                                   " <&3 & pid=$!; sleep 1.5; kill -HUP $pid; sleep 0.1; "
@@ -259,7 +259,7 @@ TEST_F(Live, RefusesWhatItCannotRecord) {
     EXPECT_FALSE(fs::exists(path("live.json")));
   }
   EXPECT_EQ(read_all(path("there.csv")), "a recording");
-  // A second recording does not take the place of the first one unasked.
+  // A second recording does not overwrite the first one.
   const ProcessResult again = shell(live("--log -") + " < " + kDrive);
   EXPECT_EQ(again.exit_code, 2);
   EXPECT_THAT(again.err, HasSubstr("there is a recording already"));

@@ -1,5 +1,5 @@
-/// Malformed input, a case a line of malformed.txt: exit code 2, the place, the words, nothing
-/// written, within bounds of time and memory.
+/// Malformed input, one case per line of malformed.txt: exit code 2, the place, the message,
+/// nothing written, bounded time and memory.
 #include <gmock/gmock.h>
 
 #include <fstream>
@@ -20,11 +20,11 @@ using nlohmann::ordered_json;
 using ::testing::HasSubstr;
 
 struct Case {
-  int line = 0;       ///< of malformed.txt
-  std::string kind;   ///< what is malformed: a file of this kind, or the command line
-  std::string edit;   ///< how it comes from a good one; a command line as a whole
-  std::string place;  ///< behind the file's name, as the error has it
-  std::string words;  ///< of the message
+  int line = 0;       ///< line in malformed.txt
+  std::string kind;   ///< malformed input: a file of this kind, or the command line
+  std::string edit;   ///< change of a valid file; a complete command line
+  std::string place;  ///< place in the error, after the file's name
+  std::string words;  ///< expected text in the message
 };
 
 std::vector<std::string> split(const std::string& line) {
@@ -52,7 +52,7 @@ std::vector<Case> cases_of(const std::string& kind) {
   return cases;
 }
 
-/// The escapes \n, \r, \t, \\ and \xHH.
+/// Replaces the escapes \n, \r, \t, \\ and \xHH.
 std::string unescaped(const std::string& text) {
   std::string bytes;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -71,7 +71,7 @@ std::string unescaped(const std::string& text) {
   return bytes;
 }
 
-/// `text TEXT` is the whole file; `/pointer = JSON` and `/pointer gone` change the good one.
+/// `text TEXT` is the whole file; `/pointer = JSON` and `/pointer gone` change the valid one.
 std::string edited(const std::string& good, const std::string& edit) {
   if (edit == "text") return "";
   if (edit.starts_with("text ")) return unescaped(edit.substr(5));
@@ -105,8 +105,7 @@ std::string project_text() {
   return project.dump();
 }
 
-/// A kind of input: the ending of its file's name, and the command that reads it, where @ is the
-/// file.
+/// A kind of input: the extension of its file, and the command that reads it, with @ for the file.
 struct Kind {
   std::string name;
   std::string suffix;
@@ -151,7 +150,7 @@ class Malformed : public ::testing::TestWithParam<Kind> {
     return (directory_.path() / (name + suffix)).string();
   }
 
-  /// The words of a command with the paths in their places.
+  /// The command line with the paths inserted.
   std::string with_paths(std::string command, const std::string& bad) const {
     const std::pair<std::string, std::string> places[] = {{"VEHICLE", path("vehicle")},
                                                           {"MODEL", path("model")},
@@ -171,17 +170,17 @@ class Malformed : public ::testing::TestWithParam<Kind> {
     return command;
   }
 
-  /// Within 10 s of CPU and 2 GiB, which no refusal comes near to.
+  /// Runs within 10 s of CPU time and 2 GiB, far more than any refusal needs.
   static ProcessResult run_bounded(const std::string& arguments) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-    const std::string bounds = "ulimit -t 60; ";  // these take terabytes of addresses
+    const std::string bounds = "ulimit -t 60; ";  // these reserve terabytes of addresses
 #else
     const std::string bounds = "ulimit -t 10; ulimit -v 2097152; ";
 #endif
     return run_process(bounds + AWMR_PROGRAM + " " + arguments, AWMR_SOURCE_DIR);
   }
 
-  /// What lay there lies there as it was, and nothing else does.
+  /// Existing files are unchanged, and there are no new ones.
   void expect_nothing_written() {
     for (const auto& entry : fs::directory_iterator(directory_.path())) {
       const std::string name = entry.path().filename().string();

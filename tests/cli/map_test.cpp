@@ -1,5 +1,5 @@
-/// From a log that calls everything otherwise to a model: `awmr map`, its file given back, and what
-/// identify makes of it.
+/// From a log with unusual column names to a model: `awmr map`, its file as input, and the result
+/// of identify.
 #include <gmock/gmock.h>
 
 #include <sstream>
@@ -15,7 +15,8 @@ using ::testing::Not;
 class Map : public ::testing::Test {
  protected:
   std::string path(const std::string& name) const { return (directory_.path() / name).string(); }
-  /// The synthetic drive with other names, in milliseconds and km/h, with semicolons and commas.
+  /// Writes the synthetic drive with other names, in milliseconds and km/h, with semicolons and
+  /// commas.
   void write_foreign_log() {
     std::istringstream lines(
         read_all(std::string(AWMR_SOURCE_DIR) + "/datasets/synthetic/drive_1.csv"));

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Runs every command once under Valgrind's memcheck: an access to memory that is not there, a jump that hangs on a value that
-nobody set, or memory that is lost fails. The sanitizers see more and need a build of their own (scripts/nightly).
+"""Runs every command once under Valgrind's memcheck: an invalid memory access, a jump that depends on an
+uninitialised value, or a memory leak fails. The sanitizers detect more but need a separate build (scripts/nightly).
 usage: memcheck.py AWMR"""
 import concurrent.futures
 import importlib.machinery
@@ -18,7 +18,7 @@ MEMCHECK = ["valgrind", "-q", "--error-exitcode=99", "--leak-check=full", "--err
 
 
 def fuzz_commands():
-    """scripts/fuzz_commands, which knows a small good file of each kind and the words of a command."""
+    """Loads scripts/fuzz_commands, which has a small valid file of each kind and the command lines."""
     loader = importlib.machinery.SourceFileLoader("fuzz_commands", str(ROOT / "scripts/fuzz_commands"))
     module = importlib.util.module_from_spec(importlib.util.spec_from_loader("fuzz_commands", loader))
     sys.dont_write_bytecode = True
@@ -27,10 +27,11 @@ def fuzz_commands():
 
 
 def commands(at, files):
-    """{name: its words}; those that scripts/fuzz_commands does not mutate files for are said here."""
+    """{name: command line}; commands without mutated files in scripts/fuzz_commands are defined here."""
     words = {name: files.command_of(name, at, at / f"out_{name}") for name in files.READ}
     for name in ("identify-log", "live"):
-        words[name] += ["--time-limit", "1"]  # fifty times slower than they are, they would take minutes
+        # fifty times slower under memcheck: would take minutes
+        words[name] += ["--time-limit", "1"]
     both = ["--model", f"{at}/model.json", "--gains", f"{at}/gains.json"]
     words.update({
         "init": ["init", f"{at}/rover"],

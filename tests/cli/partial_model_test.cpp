@@ -1,5 +1,5 @@
-/// A model from surge runs and a coast-down through every command: used where straight motion will do, else
-/// refused by name.
+/// Every command with a model from surge runs and a coast-down: accepted if straight motion
+/// suffices, else refused by name.
 #include <gmock/gmock.h>
 
 #include <filesystem>

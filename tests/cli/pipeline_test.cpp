@@ -1,4 +1,4 @@
-/// From the paper's tables to every file of the contract, through the program itself.
+/// Full pipeline from the paper's tables to every output file, run through the program.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -69,7 +69,7 @@ TEST_F(Pipeline, NamesItsInputsRelativeToTheProjectAndItsOwnFilesByTheirNames) {
 }
 
 TEST_F(Pipeline, ReproducesTheReferenceFitsOfTables2And3) {
-  // Recomputed from the printed tables to the digits given: half a unit in the last place.
+  // Recomputed from the printed tables to their precision: half a unit in the last place.
   const Json model = json("model.json");
   EXPECT_NEAR(model["/surge/alpha/value"_json_pointer].get<double>(), 1.3157, 5e-5);
   EXPECT_NEAR(model["/surge/beta/value"_json_pointer].get<double>(), 0.8841, 5e-5);

@@ -1,4 +1,4 @@
-/// `--plant` from the command line: which plant ran is said in what is written and in what is printed.
+/// `--plant`: outputs and printed text name the plant used.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -35,7 +35,7 @@ class PlantOption : public ::testing::Test {
   static std::string with(const std::string& command, const std::string& words) {
     return fmt::format("{} --model {} --gains {} {}", command, model_, gains_, words);
   }
-  /// C3 with more keys, as a file.
+  /// C3 with additional keys, as a file.
   std::string changed_c3(const std::string& key, const Json& value) const {
     Json scenario = Json::parse(read_all(std::string(AWMR_SOURCE_DIR) + "/" + kC3));
     scenario["name"] = "changed";
@@ -84,14 +84,15 @@ TEST_F(PlantOption, OfCompareIsNamedInItsFilesAndByMerge) {
       awmr(fmt::format("merge {} {} -o {}", path("part1"), path("part2"), path("merged")));
   EXPECT_THAT(merged.out, HasSubstr(std::string("plant: ") + kUsualTyres));
   EXPECT_EQ(read_all(path("merged/comparison.json")), read_all(path("whole/comparison.json")));
-  // Scenarios that differ are told apart; without any tyres and unasked, nothing is said.
+  // Different plants are listed by scenario; without tyres and without the option nothing is
+  // printed.
   const std::string tyred = changed_c3("tyres", {{"friction", 0.3}});
   ASSERT_EQ(compare("-o " + path("both"), std::string(kC3) + " " + tyred).exit_code, 0);
   EXPECT_THAT(options("both").at("plant").get<std::string>(),
               HasSubstr("headings 30 then -30 deg: model; changed: four-wheel, friction 0.3"));
   ASSERT_EQ(compare("-o " + path("plain"), kC3).exit_code, 0);
   EXPECT_FALSE(options("plain").contains("plant"));
-  // Rows of another plant are not gone on with.
+  // Rows of another plant are not continued.
   EXPECT_EQ(compare("--plant model --samples 2 --resume -o " + path("whole"), kC3).exit_code, 2);
 }
 

@@ -9,7 +9,7 @@
 namespace awmr::testing::readme_test {
 namespace {
 
-/// The lines of the README's ```sh blocks that start with `awmr `.
+/// Lines of the README's ```sh blocks that start with `awmr `.
 std::vector<std::string> examples() {
   std::istringstream readme(read_all(std::string(AWMR_SOURCE_DIR) + "/README.md"));
   std::vector<std::string> lines;
@@ -37,7 +37,7 @@ TEST(Readme, EveryExampleRuns) {
   }
 }
 
-/// The lines of a command's help that are examples.
+/// Lines of a command's help that are examples.
 std::vector<std::string> examples_of(const std::string& command) {
   std::istringstream help(awmr(command + " --help").out);
   std::vector<std::string> lines;
@@ -49,7 +49,7 @@ std::vector<std::string> examples_of(const std::string& command) {
 
 TEST(Help, EveryExampleRunsWhereInitWroteTheirFiles) {
   const TemporaryDirectory directory;
-  // Each after those whose files it takes.
+  // Each command after those whose files it uses.
   for (const char* command :
        {"init",     "check",   "run",     "identify", "live",       "tune",   "validate",
         "simulate", "compare", "merge",   "emit",     "export",     "report", "suggest",

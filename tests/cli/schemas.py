@@ -13,7 +13,7 @@ import jsonschema
 SOURCE = Path(__file__).resolve().parents[2]
 AWMR = str(Path(sys.argv[1]).resolve())
 
-# Faults of malformed.txt that a schema can see: what hangs on one key alone.
+# Faults of malformed.txt that a schema can detect: those that depend on one key only.
 BY_ONE_KEY = ("this key is missing", "expected a number", "expected one of", "expected an object",
               "expected a whole number", "true or false", "expected a string", "unknown key")
 # A rule between two keys: a line goes from_m to_m unless it has points_m.
@@ -96,7 +96,7 @@ def pipeline(folder):
 
 
 def edited(document, edit):
-    """As in malformed_test.cpp; None where the edit is no change of a JSON document."""
+    """Like malformed_test.cpp; None if the edit does not change a JSON document."""
     if edit.startswith("text"):
         return None
     document = json.loads(json.dumps(document))
@@ -114,7 +114,7 @@ def edited(document, edit):
 
 
 def malformed(validators, good):
-    """Those of malformed.txt that a schema can see are refused by it; returns how many were looked at."""
+    """Checks that the schemas refuse the cases of malformed.txt that they can detect; returns the number checked."""
     seen, passed = 0, []
     for line in (SOURCE / "tests/cli/malformed.txt").read_text().splitlines():
         fields = line.split(" | ")
@@ -138,7 +138,7 @@ def main():
         fine = all([check(validators, document, document.get("command", "an error"), kind_of(document, Path()))
                     for document in pipeline(folder)])
         files = sorted(p for p in Path(folder).rglob("*.json") if "schemas" not in p.parts)
-        files = [p for p in files if "rover" not in p.parts]  # its values are still to be filled in
+        files = [p for p in files if "rover" not in p.parts]  # its values are not filled in yet
         files = [p for p in files if p.name != "library.json"]  # PlatformIO's format
         files += sorted((SOURCE / "configs").rglob("*.json"))
         kinds = set()

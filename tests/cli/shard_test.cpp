@@ -1,4 +1,4 @@
-/// Parts of compare, recover and tune from the command line: merged, mixed, taken up again.
+/// Shards of compare, recover and tune on the command line: merged, mixed, resumed.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -39,7 +39,7 @@ class ShardsOfCommands : public ::testing::Test {
         "configs/paper/scenarios/c3_heading_steps.json",
         model_, gains_, words);
   }
-  /// Both parts of the command, in directories of their own.
+  /// Runs both shards of the command, in separate directories.
   std::string parts_of(const std::string& name, const std::string& first,
                        const std::string& second) {
     expect_done(awmr(fmt::format("{} -o {}", first, path(name + "1"))));
@@ -58,7 +58,7 @@ TEST_F(ShardsOfCommands, OfARecoveryAreMergedToTheBytesOfASingleRun) {
   expect_done(merged);
   EXPECT_THAT(merged.out, HasSubstr("surge.alpha"));
   EXPECT_EQ(read_all(path("merged/recover.json")), read_all(path("whole.json")));
-  // A single part is a part as well.
+  // A single shard is a valid shard too.
   expect_done(awmr(recover("--shard 1/1 -o " + path("only"))));
   expect_done(awmr(fmt::format("merge {} -o {}", path("only"), path("merged_only"))));
   EXPECT_EQ(read_all(path("merged_only/recover.json")), read_all(path("whole.json")));
@@ -78,7 +78,7 @@ TEST_F(ShardsOfCommands, OfATuningAreMergedToTheBytesOfASingleRun) {
   EXPECT_EQ(read_all(path("merged/gains.json")), read_all(path("whole.json")));
   EXPECT_THAT(awmr(tune("--shard 2/2 --resume -o " + path("part2"))).out,
               HasSubstr("finished already"));
-  // The gains of a part are gains.
+  // The gains of a shard are usable as gains.
   expect_done(awmr(fmt::format("emit --model {} --gains {} -o {}", model_, path("part1/gains.json"),
                                path("firmware"))));
   const std::string mixed = path("part1") + " " + path("other");
@@ -108,7 +108,7 @@ TEST_F(ShardsOfCommands, OfDifferentKindsAreNotMixed) {
 }
 
 TEST_F(ShardsOfCommands, OfAProcessorThatRoundsDifferentlyAreNotMixed) {
-  // What the C library takes on a processor without fused multiply-add.
+  // As the C library behaves on a processor without fused multiply-add.
   const std::string other = "GLIBC_TUNABLES=glibc.cpu.hwcaps=-FMA,-AVX2,-FMA4 ";
   expect_done(awmr(recover("--shard 1/2 -o " + path("1"))));
   expect_done(run_process(other + AWMR_PROGRAM + " " + recover("--shard 2/2 -o " + path("2")),

@@ -1,4 +1,4 @@
-/// What a person sees: few findings, colours and progress on a terminal only.
+/// Terminal output: few findings; colours and progress on a terminal only.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ class Terminal : public ::testing::Test {
            "--coastdown datasets/paper/coastdown.csv --turning datasets/paper/turning.csv -o " +
            path("model.json");
   }
-  /// In a terminal of its own, stdout and stderr in one.
+  /// Runs in a separate terminal, stdout and stderr combined.
   static std::string on_terminal(const std::string& environment, const std::string& arguments) {
     return run_process("TERM=xterm " + environment + " script -qec '" + AWMR_PROGRAM + " " +
                            arguments + "' /dev/null",
@@ -61,7 +61,7 @@ TEST_F(Terminal, ShowsHowFarLongWorkIs) {
   const std::string tune = "tune --model " + path("model.json") + " -o " + path("gains.json");
   EXPECT_THAT(on_terminal("", tune), AllOf(HasSubstr("searching for gains ["), HasSubstr(" left")));
   EXPECT_THAT(on_terminal("", tune + " --nominal --quiet"), Not(HasSubstr("searching")));
-  // All families of two logs on one thread: seconds, also of a fast processor.
+  // All families for two logs on one thread: takes seconds even on a fast processor.
   EXPECT_THAT(on_terminal("",
                           "identify --vehicle configs/paper/vehicle.json --log "
                           "datasets/synthetic/drive_1.csv --log datasets/synthetic/drive_2.csv "

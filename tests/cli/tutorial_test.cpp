@@ -1,4 +1,4 @@
-/// The tutorial of datasets/rover: every command in it runs, in its order, and what comes out is true.
+/// Tutorial of datasets/rover: all its commands run in order, and the results are correct.
 #include <gmock/gmock.h>
 
 #include <map>
@@ -16,7 +16,7 @@ using nlohmann::json;
 
 const std::string kSource = AWMR_SOURCE_DIR;
 
-/// The lines of a document's ```sh blocks.
+/// Lines of a document's ```sh blocks.
 std::vector<std::string> commands_in(const std::string& path) {
   std::istringstream document(read_all(path));
   std::vector<std::string> lines;
@@ -31,7 +31,7 @@ std::vector<std::string> commands_in(const std::string& path) {
   return lines;
 }
 
-/// What datasets/rover/generate.py made the recordings from.
+/// True values used by datasets/rover/generate.py.
 const std::map<std::string, double> kTruth{{"/surge/alpha", 2.05}, {"/surge/beta", 0.80},
                                            {"/yaw/alpha", 0.042},  {"/yaw/beta", 0.90},
                                            {"/mass_norm", 0.7},    {"/inertia_norm", 0.00879667}};

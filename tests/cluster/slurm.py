@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Starts a Slurm of its own (Debian's slurm-wlm and munge: a controller and two nodes on the loopback, nothing outside of a
-temporary directory), shares a comparison and a recovery out to it by scripts/cluster, loses a node and a task in the middle,
-damages a part, and holds what is merged against the bytes of a single run.
-usage: slurm.py AWMR. Ends with 77 where Slurm is not installed (scripts/setup all)."""
+"""Starts its own Slurm (Debian's slurm-wlm and munge: a controller and two nodes on the loopback, nothing outside of a
+temporary directory), runs a comparison and a recovery on it with scripts/cluster, loses a node and a task in between,
+damages a part, and compares the merged results with the bytes of a single run.
+usage: slurm.py AWMR. Ends with 77 if Slurm is not installed (scripts/setup all)."""
 import getpass
 import json
 import os
@@ -21,9 +21,9 @@ SUBMIT = str(ROOT / "scripts/cluster/submit")
 NODES = ("one", "two")
 DAEMONS = ("munged", "slurmctld", "slurmd")
 SKIPPED = 77
-LONGEST_S = 120  # that anything is waited for
+LONGEST_S = 120  # maximum wait for any condition
 
-# The slow part of the first array holds still when it is run for the first time, so that its node can be lost under it.
+# The slow shard of the first array blocks on its first run, so that its node can be lost meanwhile.
 SLOW_AWMR = """#!/usr/bin/env bash
 set -euo pipefail
 if [ "${SLURM_ARRAY_TASK_ID:-}" = 2 ] && [ "${SLURM_RESTART_COUNT:-0}" -lt 2 ] && [ ! -e "$QUICK" ]; then
@@ -33,7 +33,8 @@ fi
 exec "$PROGRAM" "$@"
 """
 
-# A lost node is missed after SlurmdTimeout; a task that is requeued waits for cred_expire. linear: a task has a node for itself.
+# A lost node is detected after SlurmdTimeout; a requeued task waits for cred_expire. linear: each
+# task has its own node.
 CONFIGURATION = """\
 ClusterName=awmr
 SlurmctldHost=localhost(127.0.0.1)
@@ -72,7 +73,7 @@ def free_ports(count):
 
 
 def until(what, is_so):
-    """Waits until it is so."""
+    """Waits until the condition is true."""
     begun = time.monotonic()
     while not is_so():
         assert time.monotonic() < begun + LONGEST_S, f"not within {LONGEST_S} s: {what}"
@@ -81,7 +82,7 @@ def until(what, is_so):
 
 
 class Slurm:
-    """The daemons, from `with` to its end, and whatever they have started."""
+    """Context manager for the daemons and all processes that they start."""
 
     def __init__(self, at):
         self.at = at
@@ -91,7 +92,7 @@ class Slurm:
 
     def __enter__(self):
         at = self.at
-        at.chmod(0o755)  # munge's socket is for every user, as far as its directory lets them
+        at.chmod(0o755)  # munge's socket is for every user who may enter its directory
         for name in ("munge", "state", "log", *NODES):
             (at / name).mkdir(mode=0o755)
         key = at / "munge.key"
@@ -139,13 +140,13 @@ class Slurm:
                 is_step = (path / "cmdline").read_bytes().startswith(b"slurmstepd")
                 directory = os.readlink(path / "cwd")
             except OSError:
-                continue  # it has ended, or is another user's
+                continue  # it has ended or belongs to another user
             is_task = all(mark.encode() in environment for mark in marks)
             if int(path.name) in daemons or is_task or is_step and directory in directories:
                 yield int(path.name)
 
     def lose(self, node):
-        """The node as if its power had gone."""
+        """Ends the node as if its power had failed."""
         end(list(self.processes(node)))
         self.daemons.pop(node).wait()
 
@@ -161,7 +162,7 @@ class Slurm:
             return []  # the controller does not answer yet
 
     def tasks(self):
-        """{array task or "merge": (its state, its node)} of what waits or runs."""
+        """{array task or "merge": (its state, its node)} of all waiting or running jobs."""
         found = {}
         for line in self.say("squeue", "-h", "-r", "-o", "%K|%T|%N").splitlines():
             task, state, node = line.split("|")
@@ -173,7 +174,7 @@ class Slurm:
 
 
 def end(pids):
-    """All at once: none has the time to tell of another's end."""
+    """Kills all at once, so that none can report another's end."""
     for what in (signal.SIGSTOP, signal.SIGKILL):
         for pid in pids:
             try:
@@ -187,7 +188,7 @@ def awmr(at, *words):
 
 
 def prepare(at):
-    """The files of a small comparison; the words that compare and recover take."""
+    """Files of a small comparison; command lines of compare and recover."""
     tables = [word for kind in ("surge", "coastdown", "turning") for word in (f"--{kind}", ROOT / f"datasets/paper/{kind}.csv")]
     awmr(at, "identify", "--vehicle", ROOT / "configs/paper/vehicle.json", *tables, "-o", "model.json")
     (at / "gains.json").write_text(json.dumps({"heading": {"lambda": 3, "mu": 50, "epsilon": 12},
@@ -224,7 +225,7 @@ def lose_node_and_task(slurm, compare):
 
 
 def damage_and_submit_again(slurm, compare):
-    """Of four parts that lie there one is cut off: the next array runs that one alone."""
+    """One of four existing parts is truncated: the next array runs only that part."""
     at = slurm.at
     (at / "quick").touch()
     parts = [at / f"merged/part-{i}/shard.json" for i in range(1, 5)]

@@ -1,4 +1,5 @@
-/// How much scrub ends a mode's lead, held against simulate() on either side of the answer.
+/// Break-even scrub moment of a mode's advantage, compared with simulate() on either side of the
+/// result.
 #include "awmr/compare/break_even.h"
 
 #include <gmock/gmock.h>
@@ -109,7 +110,7 @@ TEST(BreakEven, IsRefusedForPartsAndSeveralSetsOfGains) {
   EXPECT_EQ(exit_code(sets.error()), 2);
 }
 
-/// The comparison where the model's turns by the sides have told this.
+/// The comparison with scrub measured in the model's differential turns.
 Comparison told_with(const std::optional<YawScrub>& scrub, std::optional<double> held_m = {}) {
   Model model = uncertain_model();
   model.yaw_scrub = scrub;
@@ -119,7 +120,7 @@ Comparison told_with(const std::optional<YawScrub>& scrub, std::optional<double>
   return std::move(*comparison);
 }
 
-/// Of ten turns at the rates of the runs that are compared.
+/// Scrub of ten turns at the rates of the compared runs.
 YawScrub scrub_of(const Interval& scrub_m) {
   return {0.5 * (scrub_m.lo + scrub_m.hi),
           0.25 * (scrub_m.hi - scrub_m.lo),
@@ -128,7 +129,7 @@ YawScrub scrub_of(const Interval& scrub_m) {
           {radians(20.0), radians(200.0)}};
 }
 
-/// The moments that end the leads of the model that knows of no scrub.
+/// Break-even moments of the model without scrub.
 std::vector<double> ending_moments_m() {
   std::vector<double> moments_m;
   const Comparison comparison = told_with(std::nullopt);
@@ -179,7 +180,7 @@ TEST(BreakEven, IsNotKeptAgainstWhatTheTyresHold) {
   const YawScrub moving = scrub_of({0.5 * ends_m.front(), 0.9 * ends_m.front()});
   EXPECT_THAT(comparison_table(told_with(moving, 2.0 * ends_m.back())),
               HasSubstr("kept in 0, lost in 0, open in 1"));
-  // Where every turn stood still, what held it is the least.
+  // If every turn stood still, the moment that held it is the lower bound.
   EXPECT_THAT(comparison_table(told_with(std::nullopt, 2.0 * ends_m.back())),
               HasSubstr("kept in 0, lost in 1, open in 0"));
   EXPECT_THAT(comparison_table(told_with(std::nullopt, 0.5 * ends_m.front())),
@@ -190,7 +191,7 @@ TEST(BreakEven, SaysHowManyTurnsWouldDecide) {
   const std::vector<double> ends_m = ending_moments_m();
   ASSERT_FALSE(ends_m.empty());
   const double end_m = ends_m.front();
-  // The end lies half-way out of the middle: a half as wide, and four times as many turns.
+  // The end is half-way from the middle: half as wide, and four times as many turns.
   const Comparison comparison =
       told_with(scrub_of({0.9 * end_m - 0.2 * end_m, 0.9 * end_m + 0.2 * end_m}));
   for (const BreakEven& entry : *comparison.break_even) {

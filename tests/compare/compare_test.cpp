@@ -86,7 +86,7 @@ TEST(Compare, SampleZeroIsTheModelItself) {
         metrics_of(simulate(plant, controller, scenario, kYawModes[i],
                             {.sample_time_s = model.vehicle.sample_time_s, .substeps = {}}),
                    scenario, controller);
-    // Batches round otherwise than simulate(), by 1e-13 or so: tests/simulate/batch_test.cpp.
+    // Batches round differently from simulate(), by 1e-13 or so: tests/simulate/batch_test.cpp.
     const double judge = *direct.heading_iae_degs;
     EXPECT_NEAR(*c.rows[4 * i].metrics.heading_iae_degs, judge, 1e-9 * judge);
     EXPECT_EQ(nominal.rows[i].metrics.heading_iae_degs, c.rows[4 * i].metrics.heading_iae_degs);
@@ -104,7 +104,7 @@ TEST(Compare, TheNoiseOfSampleZeroDoesNotHangOnTheSeed) {
 }
 
 TEST(Compare, ASampleIsTheSameVehicleInEveryScenarioAndMode) {
-  // In open loop straight ahead the modes do not differ, so neither may the drawn vehicles.
+  // The modes are equal in open loop straight ahead, so the sampled vehicles must be too.
   Scenario straight = short_open_loop();
   straight.guidance = OpenLoop{2.0, 0.0};
   Scenario again = straight;
@@ -139,7 +139,7 @@ TEST(Compare, RefusesBadOptionsAllAtOnce) {
   EXPECT_EQ(c.error().faults.size(), 3U);
 }
 
-/// What comparison.json says of each scenario, by its name.
+/// Entries of comparison.json by scenario name.
 std::map<std::string, Json> by_scenario(const Comparison& comparison,
                                         const CompareOptions& options) {
   std::map<std::string, Json> all;
@@ -169,7 +169,7 @@ TEST(Compare, RankingDoesNotDependOnTheOrderOfGains) {
   const CompareOptions options{.samples = 6, .seed = 3};
   Gains<double> faster = kPaperGains;
   faster.heading.lambda *= 1.5;
-  // The second and third are the same: nothing but their names tells them apart.
+  // The second and third are equal except for their names.
   std::vector<NamedGains> gains{{"a.json", kPaperGains}, {"c.json", faster}, {"b.json", faster}};
   const auto ranking = [&] {
     const auto c = compare(uncertain_model(), gains, {short_heading()}, options);
@@ -263,7 +263,7 @@ TEST(ComparisonCsv, HasTheContractsColumns) {
   EXPECT_EQ(first[1], "differential");
   EXPECT_EQ(first[2], "0");
   EXPECT_EQ(first[3], "1");
-  EXPECT_EQ(first[7], "");   // no line to be off
+  EXPECT_EQ(first[7], "");   // no line for a cross-track error
   EXPECT_EQ(first[13], "");  // no obstacle
 }
 
@@ -356,7 +356,7 @@ TEST(ComparisonTable, HasUnitsAndAlignedRows) {
   ASSERT_GT(lines.size(), 6U);
   EXPECT_THAT(lines[0], HasSubstr("step"));
   EXPECT_THAT(lines[2], HasSubstr("deg/s"));
-  EXPECT_THAT(lines[1], ::testing::Not(HasSubstr("x-track")));  // no line to be off
+  EXPECT_THAT(lines[1], ::testing::Not(HasSubstr("x-track")));  // no line for a cross-track error
   EXPECT_EQ(lines[3].size(), lines[1].size());
   EXPECT_EQ(lines[4].size(), lines[5].size());
   EXPECT_THAT(lines[6], HasSubstr("tie"));  // the verdict

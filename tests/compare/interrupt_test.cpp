@@ -1,4 +1,4 @@
-/// Ctrl-C on the program itself.
+/// Ctrl-C during compare, tested on the program.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -27,8 +27,8 @@ TEST(Interrupt, LeavesValidFilesAndResumeEndsInTheSameBytes) {
            "/gains.json --scenario configs/paper/scenarios/c8_waypoints.json --seed 5 --samples " +
            samples + " -o " + out + "/" + to;
   };
-  // Far more work than the time given, so that the signal finds it at work; longer where a busy machine
-  // has not finished a sample yet.
+  // Far more work than the time allows, so that the signal interrupts it; more time if a busy
+  // machine has not finished a sample yet.
   auto stopped = in_source("timeout --signal=INT 1 " + compare("200000", "part"));
   for (const char* seconds : {"2", "4", "8", "16"}) {
     if (stopped.err.find("--resume") != std::string::npos) break;
@@ -37,7 +37,7 @@ TEST(Interrupt, LeavesValidFilesAndResumeEndsInTheSameBytes) {
   }
   EXPECT_NE(stopped.exit_code, 0);
   EXPECT_NE(stopped.err.find("--resume"), std::string::npos) << stopped.err;
-  // Fewer samples in all: what is there is kept, what is missing is run.
+  // Fewer samples in total: existing ones are kept, missing ones are run.
   const auto resumed = in_source(compare("12", "part") + " --resume");
   EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
   EXPECT_EQ(in_source(compare("12", "whole")).exit_code, 0);

@@ -1,4 +1,4 @@
-/// Whatever the robot and its gains: every metric of every sample is finite, or the run is refused.
+/// For any robot and gains, every metric of every sample is finite, or the run is refused.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -31,7 +31,7 @@ void is_finite_or_refused(double beyond) {
     RC_ASSERT(comparison.error().kind != ErrorKind::kFault);
     return;
   }
-  RC_ASSERT(comparison->rows.size() == 18u);  // 2 scenarios, 3 modes, the nominal one and 2 draws
+  RC_ASSERT(comparison->rows.size() == 18u);  // 2 scenarios, 3 modes, nominal and 2 draws
   for (const ComparisonRow& row : comparison->rows) {
     const Metrics& m = row.metrics;
     for (const double value : {m.path_length_m, m.sideslip_max_deg, m.yaw_rate_max_degps,

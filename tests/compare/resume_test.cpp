@@ -1,4 +1,4 @@
-/// Stopping and going on, several sets of gains, noise from seeds.
+/// Stopping and resuming, several sets of gains, seeded noise.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ Comparison compared(const CompareOptions& options,
   return c.value_or(Comparison{});
 }
 
-/// Stopped once `runs` runs are done.
+/// Comparison stopped after `runs` runs.
 Comparison stopped_after(std::size_t runs) {
   std::atomic<bool> stop = false;
   CompareOptions options{.samples = 39, .seed = 3, .threads = 1};
@@ -38,7 +38,7 @@ Comparison stopped_after(std::size_t runs) {
 const CompareOptions kWhole{.samples = 39, .seed = 3, .threads = 2};
 
 TEST(Resume, AStoppedComparisonIsASmallerOne) {
-  // Sixteen samples at a time, 6 runs a sample: 16 whole samples and two modes of the next 16.
+  // Sixteen samples at a time, 6 runs per sample: 16 complete samples and two modes of the next 16.
   const Comparison c = stopped_after(16 * 6 + 20);
   EXPECT_TRUE(c.stopped);
   EXPECT_EQ(c.rows.size(), 128U);
@@ -169,7 +169,7 @@ TEST(SeveralGains, AreComparedWithEachOtherAndByMode) {
   const Json& scenario = json["scenarios"][0];
   EXPECT_EQ(scenario["modes"].size(), 6U);
   EXPECT_TRUE(scenario["modes"].contains("combined with slow.json"));
-  // 3 pairs of modes for each set, and a pair of sets for each mode.
+  // 3 pairs of modes for each set, and one pair of sets for each mode.
   std::set<std::string> pairs;
   for (const Json& d : scenario["paired_differences"]) {
     pairs.insert(d["first"].get<std::string>() + d["second"].get<std::string>());
@@ -194,7 +194,7 @@ TEST(Noise, IsTheSameForAllModesAndOtherInEverySample) {
       compare(uncertain_model(), kPaperGains, {noisy}, {.samples = 2, .seed = 1, .threads = 1});
   ASSERT_TRUE(c);
   for (std::size_t sample = 0; sample < 3; ++sample) {
-    // Nothing is commanded, so the modes differ by nothing.
+    // Nothing is commanded, so the modes are equal.
     EXPECT_EQ(c->rows[sample].metrics.path_length_m, c->rows[3 + sample].metrics.path_length_m);
     EXPECT_EQ(c->rows[sample].metrics.path_length_m, c->rows[6 + sample].metrics.path_length_m);
   }

@@ -1,4 +1,4 @@
-/// Parts of a comparison, and the bytes of the whole.
+/// Shards of a comparison merge to the bytes of the whole.
 #include "awmr/compare/shard.h"
 
 #include <gmock/gmock.h>
@@ -110,7 +110,7 @@ TEST_F(Shards, DamagedOrStoppedPartsAreRefused) {
   Comparison twice = run({2, 2});
   twice.rows.push_back(twice.rows.back());
   EXPECT_THAT(fault({first, write({2, 2}, twice)}), HasSubstr("stands there twice"));
-  // Rows of another part, under this one's name.
+  // Rows of another shard under this shard's name.
   EXPECT_THAT(fault({first, write({2, 2}, run({1, 2}))}), HasSubstr("is none of part 2 of 2"));
 }
 

@@ -64,7 +64,7 @@ TEST(Summary, WithoutSamplesHasTheNominalMeanAndNoQuantiles) {
   EXPECT_FALSE(s.q05 || s.q50 || s.q95);
 }
 
-/// Steering is 1 worse than differential in every sample, up to noise that both share.
+/// Steering is 1 worse than differential in every sample, apart from noise common to both.
 Comparison paired(int samples, double difference_spread) {
   Comparison c;
   for (const YawMode mode : {YawMode::kDifferential, YawMode::kSteering}) {
@@ -102,8 +102,8 @@ TEST(PairedDifferences, HaveTheWidthOfTheMeansStandardError) {
   const PairedDifference d = iae_difference(paired(400, 0.5), 1);
   ASSERT_TRUE(d.ci95);
   EXPECT_TRUE(d.ci95->contains(*d.mean));
-  // 2 * 1.96 * 0.5/sqrt(400) = 0.098; the sample's own deviation is known to 1/sqrt(800) = 3.5 %
-  // and the ends of 1000 resamples to 4 % each: 20 % is more than three of all together.
+  // 2 * 1.96 * 0.5/sqrt(400) = 0.098. The sample's deviation is known to 1/sqrt(800) = 3.5 % and
+  // the ends of 1000 resamples to 4 % each: 20 % is more than three times all combined.
   EXPECT_NEAR(d.ci95->hi - d.ci95->lo, 0.098, 0.2 * 0.098);
 }
 
@@ -135,7 +135,7 @@ TEST(Bootstrap, HoldsAMeanOfTenAsOftenAsItSays) {
       if (d.metric == MetricId::kSettlingTime) held += d.ci95->contains(0.0) ? 1 : 0;
     }
   }
-  // 95 % of 400, and three standard deviations; percentiles alone hold 90 %.
+  // 95 % of 400, minus three standard deviations; percentiles alone cover 90 %.
   EXPECT_GT(held, 367);
   EXPECT_LT(held, 393);
 }
@@ -252,7 +252,7 @@ TEST(Ranking, TellsEquivalentFromUndecidedAndBehind) {
   EXPECT_NEAR(ranking[2].score, std::pow((20.0 + 2.0) / (10.0 + 2.0), 0.25), 2e-3);
   EXPECT_TRUE(ranking[2].behind_ci95->contains(ranking[2].score));
   EXPECT_THAT(ranking[2].dominated_by, ElementsAre("differential", "steering"));
-  // Equal within the relevance: neither is first alone.
+  // Equal within the relevance margin: neither is first alone.
   EXPECT_EQ(ranking[0].first_by_samples, 0.5);
   EXPECT_EQ(ranking[1].first_by_samples, 0.5);
   EXPECT_DOUBLE_EQ(ranking[0].first_by_weights, ranking[1].first_by_weights);
@@ -265,7 +265,8 @@ TEST(Ranking, OfTwoModesDoesNotHangOnAThird) {
 }
 
 TEST(Ranking, AFailureThatMayBeChanceBarsNoClearWinner) {
-  // One failure of 40 is no lower share; twelve are (McNemar: 2^-11), and come after a worse score.
+  // One failure of 40 is not significantly lower; twelve are (McNemar: 2^-11) and rank after a
+  // worse score.
   EXPECT_EQ(ranking_of(settling({10.0, 30.0, 31.0}, {1, 0, 0}))[0].contender.mode,
             YawMode::kDifferential);
   const auto failing = ranking_of(settling({10.0, 30.0, 31.0}, {12, 0, 0}));
@@ -275,8 +276,8 @@ TEST(Ranking, AFailureThatMayBeChanceBarsNoClearWinner) {
 }
 
 TEST(Ranking, FollowsTheUsersWeightsAndSaysHowMuchItHangsOnThem) {
-  // Differential settles in half the time of steering and turns its motors 1.75 times as much: with offsets of
-  // 2 s and 1 /s (floors over the relevance) a factor of 1.5 either way.
+  // Differential settles in half the time of steering with 1.75 times its motor activity. With
+  // offsets of 2 s and 1 /s (floors over the relevance) both factors are 1.5.
   Comparison c;
   c.rows = {row(YawMode::kDifferential, 0, 50.0), row(YawMode::kSteering, 0, 50.0)};
   c.rows[0].metrics.settling_time_s = 2.0;
@@ -289,8 +290,7 @@ TEST(Ranking, FollowsTheUsersWeightsAndSaysHowMuchItHangsOnThem) {
   EXPECT_EQ(by_time[0].contender.mode, YawMode::kDifferential);
   EXPECT_EQ(by_work[0].contender.mode, YawMode::kSteering);
   EXPECT_THAT(by_time[0].dominated_by, IsEmpty());
-  // By symmetry each is first under half of all weights; 1000
-  // draws have a standard error of 1.6 %.
+  // By symmetry each is first under half of all weights; 1000 draws have a standard error of 1.6 %.
   EXPECT_NEAR(by_time[0].first_by_weights, 0.5, 0.06);
   EXPECT_NEAR(by_time[0].first_by_weights + by_time[1].first_by_weights, 1.0, 1e-12);
 }

@@ -1,4 +1,4 @@
-/// What is said in words, and the count over all scenarios.
+/// Text of the verdict, and the count over all scenarios.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// 20 samples in which steering takes `behind_s` longer than differential, give or take `spread_s`,
+/// 20 samples in which steering takes `behind_s` longer than differential, with spread `spread_s`,
 /// and fails in the first `failures`.
 Comparison twenty(double behind_s, double spread_s, int failures = 0) {
   Comparison c;
@@ -33,7 +33,7 @@ Comparison twenty(double behind_s, double spread_s, int failures = 0) {
 }
 
 struct Judged {
-  Comparison comparison;  // whose rows the other looks at
+  Comparison comparison;  // the other object refers to its rows
   JudgedScenario scenario;
 };
 
@@ -63,14 +63,15 @@ TEST(Verdict, GivesTheGapAsWhatTheOtherTakesMoreWhicheverComesFirst) {
 }
 
 TEST(Verdict, SaysThatATieIsATie) {
-  // A mean of 0.1 s with a standard error of 5/sqrt(20) = 1.1 s: 11 % of 10 s, one of four metrics.
+  // A mean of 0.1 s with a standard error of 5/sqrt(20) = 1.1 s: 11 % of 10 s, in one of four
+  // metrics.
   EXPECT_THAT(verdict(twenty(0.1, 5.0)), HasSubstr("tie: these runs do not tell them apart"));
   // 0.4 s with 0.02 s: less than 5 %, whatever p is.
   EXPECT_THAT(verdict(twenty(0.4, 0.1)), HasSubstr("tie: equal within 5 %"));
 }
 
 TEST(Verdict, GivesTheExactShareOfFailures) {
-  // 10 of 20 against 20 of 20: McNemar's p is 2/1024, and 10 of 20 has [27, 73] %.
+  // 10 of 20 compared with 20 of 20: McNemar's p is 2/1024, and 10 of 20 has [27, 73] %.
   const std::string text = verdict(twenty(0.0, 0.0, 10));
   EXPECT_THAT(text, HasSubstr("differential is best"));
   EXPECT_THAT(text, HasSubstr("steering completed 10 of 20 (95 %: 27 to 73 %)"));
@@ -103,7 +104,8 @@ TEST(Verdict, DoesNotRankByAFailureThatMayBeChance) {
 }
 
 TEST(Verdict, OfAFewSamplesNoneIsLedByWhatNeverCompletes) {
-  // 0 of 4 against 4 of 4: McNemar's p is 0.125, but steering fails each of them. It is the quicker one.
+  // 0 of 4 compared with 4 of 4: McNemar's p is 0.125, but steering fails each of them although it
+  // is faster.
   Comparison c = twenty(-3.0, 0.1, 20);
   std::erase_if(c.rows, [](const ComparisonRow& row) { return row.sample > 4; });
   const std::string text = verdict(c);
@@ -121,7 +123,7 @@ TEST(Verdict, SharesTheFirstPlaceAmongWhatIsTheSame) {
 }
 
 TEST(Verdict, TiesWhatIsEquivalentInEveryMetric) {
-  // Ten metrics of next to nothing, each sure, and each a hundredth of what matters.
+  // Ten metrics with tiny but certain differences, each a hundredth of the relevance margin.
   Comparison c = twenty(0.0, 0.0);
   for (ComparisonRow& row : c.rows) {
     row.metrics.settling_time_s = 0.01;

@@ -1,4 +1,4 @@
-/// The allocations: exact inverses inside the limits, finite and in order outside.
+/// Allocations: exact inverses inside the limits, finite and ordered outside.
 #include "awmr/control/allocation.h"
 
 #include <gtest/gtest.h>
@@ -36,7 +36,8 @@ double moment(const Allocation<double>& a) {
 TEST(Allocation, DeliversExactlyWhatIsAskedForInsideTheLimits) {
   EXPECT_TRUE(rc::check([] {
     const double tau_speed = drawn(0.1, 2.0);
-    // |d_r| < 20 deg needs |tau_turn| < l_f tau_speed tan(10 deg); the forces then stay inside too.
+    // |d_r| < 20 deg needs |tau_turn| < l_f tau_speed tan(10 deg); the forces are then within
+    // limits too.
     const double tau_turn_m = drawn(-1, 1) * 0.99 * 0.35 * tau_speed * std::tan(radians(10.0));
     for (const YawMode mode : kModes) {
       const Allocation<double> a = allocate(mode, tau_speed, tau_turn_m, limits());
@@ -88,12 +89,12 @@ TEST(Allocation, SaysWhenSteeringHasNoAuthority) {
     EXPECT_TRUE(allocate(YawMode::kSteering, tau_speed, 0.1, limits()).steering_powerless);
     const Allocation<double> combined = allocate(YawMode::kCombined, tau_speed, 0.1, limits());
     EXPECT_TRUE(combined.steering_powerless);
-    EXPECT_NEAR(moment(combined), 0.1, 1e-15);  // all of it by the forces
+    EXPECT_NEAR(moment(combined), 0.1, 1e-15);  // entirely by the forces
   }
   EXPECT_FALSE(allocate(YawMode::kSteering, 0.5, 0.1, limits()).steering_powerless);
 }
 
-/// Without its taper the steering command jumps by the stop's 20 degrees where tau_speed crosses 0.
+/// Without its taper the steering command jumps by the stop's 20 degrees when tau_speed crosses 0.
 TEST(Allocation, TheSteeringCommandHasNoJumpWhereThrustCrossesZero) {
   for (const AllocationForm form : {AllocationForm::kExact, AllocationForm::kPaper}) {
     for (const bool is_rear_driven : {true, false}) {
@@ -106,7 +107,8 @@ TEST(Allocation, TheSteeringCommandHasNoJumpWhereThrustCrossesZero) {
           double before_rad = 0.0;
           for (double tau_speed = -0.01; tau_speed < 0.2; tau_speed += step) {
             const double now_rad = allocate(mode, tau_speed, tau_turn_m, l).steering_rad;
-            // The limit rises by 20 degrees over 1/16 of tau_speed, and by 2 % faster than its mean at first.
+            // The limit rises by 20 degrees over 1/16 of tau_speed, initially 2 % faster than its
+            // mean.
             ASSERT_LE(std::abs(now_rad - before_rad), 1.1 * radians(20.0) * step / 0.0625)
                 << "tau_speed " << tau_speed << ", tau_turn " << tau_turn_m;
             before_rad = now_rad;
@@ -129,7 +131,7 @@ TEST(Allocation, TheSteeringsLimitRisesWithTheThrustAndCombinedMakesUpForIt) {
   EXPECT_NEAR(delivered(both).tau_speed, 0.015625, 1e-14);
 }
 
-/// An AVR rounds subnormal quotients otherwise than a host, so that there may be none.
+/// An AVR rounds subnormal quotients differently from a host, so there must be none.
 TEST(Allocation, OfFloatsSteersByNoSubnormalAngle) {
   const AllocationLimits<float> l = paper_controller_of<float>().limits;
   for (const YawMode mode : {YawMode::kSteering, YawMode::kCombined}) {
@@ -150,8 +152,8 @@ TEST(Allocation, ClipsTauSpeedFirstThenSteeringThenForces) {
   const Allocation<double> fast = allocate(YawMode::kSteering, 9.0, 0.0, limits());
   EXPECT_TRUE(fast.speed_limited);
   EXPECT_DOUBLE_EQ(fast.force.left, 1.0);
-  // At d_max the forces follow from the clipped angle: F' = tau_speed/(2 (1 + cos d_max)).
-  // The stop makes 0.35 m tan(10 deg) = 0.0617 m: 0.08 is a little beyond, 5 far.
+  // At d_max the forces follow from the clipped angle: F' = tau_speed/(2 (1 + cos d_max)). The stop
+  // gives 0.35 m tan(10 deg) = 0.0617 m: 0.08 is slightly beyond, 5 far.
   for (const double tau_turn_m : {0.08, 5.0}) {
     const Allocation<double> turning = allocate(YawMode::kSteering, 1.0, tau_turn_m, limits());
     EXPECT_TRUE(turning.steering_limited);
@@ -167,20 +169,20 @@ TEST(Allocation, RedistributionNeverDeliversLessOfTheMomentThanTheFixedHalf) {
     const double fixed = moment(
         allocate(YawMode::kCombined, tau_speed, tau_turn_m, limits(CombinedSplit::kFixedHalf)));
     const double shared = moment(allocate(YawMode::kCombined, tau_speed, tau_turn_m, limits()));
-    // Not beyond what was asked for either.
+    // Not beyond the request either.
     RC_ASSERT(shared >= std::min(fixed, tau_turn_m) - 1e-12);
     RC_ASSERT(shared <= std::max(fixed, tau_turn_m) + 1e-12);
   }));
 }
 
 TEST(Allocation, WhatClippedForcesLeaveOfTheMomentGoesToTheSteering) {
-  // tau_speed 3.6 leaves each force 0.1 of room: less than half of the moment asks for. Steering
+  // tau_speed 3.6 leaves each force 0.1 of room: less than half of the moment requires. Steering
   // has room for the rest, to either side.
   for (const double tau_turn_m : {0.3, -0.3}) {
     const Allocation<double> a = allocate(YawMode::kCombined, 3.6, tau_turn_m, limits());
     EXPECT_TRUE(a.force_limited);
     EXPECT_FALSE(a.steering_limited);
-    // The rest is worked out at the angle before, whose 1 + cos d_r is 0.3 % off.
+    // The rest is computed at the previous angle, whose 1 + cos d_r is 0.3 % off.
     EXPECT_NEAR(moment(a), tau_turn_m, 5e-3 * std::abs(tau_turn_m));
   }
 }
@@ -219,18 +221,19 @@ TEST(AllocationForSmallAngles, IsThePapersEquationWithItsMisprintsCorrected) {
 }
 
 TEST(AllocationForSmallAngles, GivesWhatALimitTakesFromOnePathToTheOther) {
-  // The stop, 20 deg, leaves steering l_f tau_speed d_max/2 of the moment; the sides make the rest.
+  // The stop, 20 deg, leaves steering l_f tau_speed d_max/2 of the moment; differential force
+  // provides the rest.
   const Allocation<double> stopped = allocate(YawMode::kCombined, 1.0, 0.4, small_angle_limits());
   EXPECT_TRUE(stopped.steering_limited);
   EXPECT_DOUBLE_EQ(stopped.steering_rad, radians(20.0));
   const auto tau = delivered_for_small_angles(stopped);
   EXPECT_NEAR(tau.tau_steering_m, 0.35 * 0.5 * radians(20.0), 1e-15);
   EXPECT_NEAR(tau.tau_steering_m + tau.tau_diff_m, 0.4, 1e-15);
-  // At tau_speed 3.9 the sides have 0.025 of room each: steering gets what they leave.
+  // At tau_speed 3.9 each side has 0.025 of room: steering gets the rest.
   const Allocation<double> forced = allocate(YawMode::kCombined, 3.9, 0.2, small_angle_limits());
   EXPECT_TRUE(forced.force_limited);
   const auto left = delivered_for_small_angles(forced);
-  // The clipped forces have changed tau_speed as well, for which the angle makes up.
+  // The clipped forces also changed tau_speed, for which the angle compensates.
   EXPECT_NEAR(left.tau_steering_m + left.tau_diff_m, 0.2, 1e-12);
 }
 
@@ -254,7 +257,8 @@ TEST(Allocation, FloatIsClippedAsEveryScalarIs) {
   struct Range {
     float lo, hi;
   };
-  // Forces that reverse, that do not, and that never stop; and a range on the other side.
+  // Reversible forces, non-reversible ones and ones that never reach 0; and a range on the other
+  // side.
   for (const Range range : {Range{-1.0F, 1.0F}, Range{-0.25F, 1.0F}, Range{-1.0F, 0.25F},
                             Range{0.0F, 1.0F}, Range{0.1F, 1.0F}, Range{-1.0F, -0.1F}}) {
     for (const float x : {0.0F, -0.0F, 0.05F, -0.05F, 0.1F, -0.1F, 0.25F, -0.25F, 0.5F, -0.5F, 1.0F,
@@ -273,7 +277,7 @@ TEST(Allocation, FloatIsClippedAsEveryScalarIs) {
   }
 }
 
-/// Inside the limits the motors' forces at the speed of their wheels are those that were allocated.
+/// Inside the limits the motor forces at wheel speed equal the allocated ones.
 TEST(Allocation, MotorsWithBackEmfMakeTheForcesOfTheAllocation) {
   EXPECT_TRUE(rc::check([] {
     AllocationLimits<double> l = limits();
@@ -315,8 +319,9 @@ GeneralisedForces<double> by_front_wheels(const Allocation<double>& a) {
 TEST(FrontWheelAllocation, DeliversExactlyWhatIsAskedForInsideTheLimits) {
   EXPECT_TRUE(rc::check([] {
     const double tau_speed = drawn(0.1, 1.5);
-    // |d_r| < 20 deg needs |tau_turn| < l_f tau_speed tan(20 deg) = 0.13 tau_speed; the forces, at most
-    // (1.5 + 0.19/0.36)/(2 cos 20 deg) = 1.08 by the sides alone, stay inside for half of that.
+    // |d_r| < 20 deg needs |tau_turn| < l_f tau_speed tan(20 deg) = 0.13 tau_speed. The forces, at
+    // most (1.5 + 0.19/0.36)/(2 cos 20 deg) = 1.08 in differential mode, are within limits for half
+    // of that.
     const double tau_turn_m = drawn(-1, 1) * 0.5 * 0.35 * tau_speed * std::tan(radians(20.0));
     for (const YawMode mode : kModes) {
       const Allocation<double> a = allocate(mode, tau_speed, tau_turn_m, front_limits());
@@ -341,7 +346,7 @@ TEST(FrontWheelAllocation, StaysInsideTheLimitsAndGivesBackWhatTheyTake) {
       RC_ASSERT(std::abs(a.steering_rad) <= l.steering_max_rad);
       RC_ASSERT(a.speed_limited == (std::abs(tau_speed) > 2.0));
     }
-    // With the stop reached, the sides make the rest of the moment.
+    // At the stop, differential force provides the rest of the moment.
     const Allocation<double> a = allocate(YawMode::kCombined, 0.5, 0.4 * drawn(-1, 1), l);
     const GeneralisedForces<double> tau = by_front_wheels(a);
     RC_ASSERT(a.force_limited || std::abs(tau.tau_speed - 0.5) < 1e-14);
@@ -352,7 +357,7 @@ TEST(FrontWheelAllocation, StaysInsideTheLimitsAndGivesBackWhatTheyTake) {
   EXPECT_NEAR(tau.tau_steering_m + tau.tau_diff_m, 0.3, 1e-14);
 }
 
-/// The small-angle form is the exact one where angles are small: it errs by their squares.
+/// The small-angle form approximates the exact one: its error is quadratic in the angles.
 TEST(FrontWheelAllocation, OfThePaperIsTheExactOneForSmallAngles) {
   AllocationLimits<double> small = front_limits();
   small.form = AllocationForm::kPaper;

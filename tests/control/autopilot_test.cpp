@@ -1,4 +1,4 @@
-/// What leads in a whole step of the autopilot, against the functions of guidance called one by one.
+/// Guidance in a complete autopilot step, compared with the guidance functions called one by one.
 #include "awmr/control/autopilot.h"
 
 #include <cmath>
@@ -29,7 +29,7 @@ class AutopilotLeads : public PaperAutopilot {
 
   AutopilotLeads() { start_autopilot(autopilot_, &block_, nullptr, 0, nullptr, 0, crc_); }
 
-  /// The output of the next step, at a place.
+  /// Output of the next step at a position.
   AutopilotOutput step_at(const Position<float>& position_m) {
     in_.position_m = position_m;
     const std::uint32_t now_ms = in_.times.now_ms + 30;
@@ -39,7 +39,7 @@ class AutopilotLeads : public PaperAutopilot {
     EXPECT_EQ(out.fault, kFaultNone);
     return out;
   }
-  /// The laws' answer to a reference, as they are without any part.
+  /// Expects the output of the plain laws for a reference, without any optional part.
   void expect_reference(const AutopilotOutput& out, const Reference<float>& ref) const {
     EXPECT_EQ(out.psi_ref_rad, ref.psi_rad);
     EXPECT_EQ(out.tau_speed, speed_law(autopilot_.controller, in_.measured, ref));
@@ -48,7 +48,7 @@ class AutopilotLeads : public PaperAutopilot {
   Reference<float> led_to(float psi_rad, float speed_share = 1.0F) const {
     return {psi_rad, 0.0F, 0.0F, in_.reference.speed_mps * speed_share, in_.reference.accel_mps2};
   }
-  /// The fault of a first step whose position is no number.
+  /// Fault of a first step whose position is NaN.
   std::uint8_t fault_without_position() {
     AutopilotInput in = good();
     in.position_m.x_m = kNaN;
@@ -62,7 +62,7 @@ class AutopilotLeads : public PaperAutopilot {
   AutopilotInput in_ = good();
 };
 
-/// A drive from the origin past (5, 5) to (10, 0) and on.
+/// Path from the origin past (5, 5) to (10, 0) and beyond.
 std::vector<Position<float>> drive() {
   std::vector<Position<float>> places;
   for (int i = 0; i <= 50; ++i) {
@@ -75,7 +75,7 @@ std::vector<Position<float>> drive() {
 TEST_F(AutopilotLeads, ByWaypointsUntilTheLastIsReached) {
   const Waypoints<float> waypoints{kPoints, 2, 3.0F, false};
   follow_waypoints(autopilot_, waypoints);
-  in_.reference.psi_rate_radps = 0.4F;  // not of a heading that leads
+  in_.reference.psi_rate_radps = 0.4F;  // not that of the guidance heading
   in_.reference.psi_accel_radps2 = 0.5F;
   auto progress = start_waypoints(Position<float>{0.0F, 0.0F}, in_.measured.psi_rad);
   bool has_arrived = false;
@@ -199,7 +199,7 @@ TEST_F(AutopilotLeads, WithAShapedHeadingThatBeginsAnewAfterAFault) {
   const HeadingShaping<float> filter{4.0F, 0.5F, 2.0F};
   shape_headings(autopilot_, filter, kSampleTime_s);
   in_.measured.psi_rad = 3.0F;
-  in_.reference.psi_rad = -2.5F;  // the short way is over the cut
+  in_.reference.psi_rad = -2.5F;  // the shorter turn crosses +-pi
   auto state = start_shaping(in_.measured.psi_rad);
   const auto expect_shaped = [&](int steps) {
     for (int i = 0; i < steps; ++i) {
@@ -384,7 +384,7 @@ TEST_F(AutopilotLeads, AGuidanceThatIsNoNumberIsAFaultInEveryMode) {
   static constexpr Position<float> kNowhere[] = {{kNaN, 5.0F}, {10.0F, kNaN}};
   constexpr std::uint8_t kModes[] = {0, 1, 2};
   for (const std::uint8_t mode : kModes) {
-    // Braking, the wheels are straight in steering mode, whatever heading is asked for.
+    // While braking in steering mode the wheels are straight, whatever the heading reference.
     for (const float speed_mps : {0.0F, 1.5F}) {
       start_autopilot(autopilot_, &block_, nullptr, 0, nullptr, 0, crc_);
       follow_waypoints(autopilot_, Waypoints<float>{kNowhere, 2, 1.0F, false});

@@ -1,4 +1,4 @@
-/// The laws that stand beside the paper's: pure pursuit, integral line of sight, LQI.
+/// Baseline laws: pure pursuit, integral line of sight, LQI.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -25,7 +25,7 @@ TEST(PurePursuit, GoesToTheFartherPointOfTheLineThatIsTheLookaheadAway) {
   EXPECT_NEAR(guided.psi_rad, std::atan2(-3.0, 4.0), 1e-15);  // to (14, 0): 3, 4, 5
   EXPECT_NEAR(guided.cross_track_m, 3.0, 1e-15);
   EXPECT_NEAR(guided.to_go_m, 90.0, 1e-12);
-  // Farther away than the lookahead: to the nearest point; before the line's start: to the start.
+  // Farther than the lookahead: steer to the nearest point; before the line's start: to the start.
   EXPECT_NEAR(guide(line, P{10.0, -8.0}, 0.0, progress).psi_rad, kPi / 2.0, 1e-15);
   EXPECT_NEAR(guide(line, P{-9.0, 4.0}, 0.0, progress).psi_rad, std::atan2(-4.0, 9.0), 1e-15);
 }
@@ -47,13 +47,13 @@ TEST(PurePursuit, TheGoalTurnsTheCornerBeforeTheVehicleWithoutAJump) {
   auto progress = start_polyline(0.0);
   EXPECT_NEAR(guide(line, P{7.999, 0.0}, 0.0, progress).psi_rad, 0.0, 1e-12);
   EXPECT_EQ(progress.segment, 0);
-  // The goal is the corner itself: 2 m ahead.
+  // The target is the corner itself: 2 m ahead.
   EXPECT_NEAR(guide(line, P{8.0, 0.0}, 0.0, progress).psi_rad, 0.0, 1e-12);
   EXPECT_EQ(progress.segment, 2);
-  // On the way round the cross-track error is that from the nearer segment.
+  // While turning the corner the cross-track error refers to the nearer segment.
   const auto inside = guide(line, P{8.8, 0.4}, 0.0, progress);
   EXPECT_NEAR(inside.psi_rad, std::atan2(1.6, 1.2), 1e-12);  // 2 m away
-  EXPECT_NEAR(inside.cross_track_m, 1.2, 1e-12);             // the segment before has no length
+  EXPECT_NEAR(inside.cross_track_m, 1.2, 1e-12);             // the previous segment has no length
   EXPECT_FALSE(guide(line, P{10.0, 9.9}, 0.0, progress).finished);
   EXPECT_TRUE(guide(line, P{10.1, 10.0}, 0.0, progress).finished);
 }
@@ -110,14 +110,14 @@ using Real = long double;
 using Matrix3 = Eigen::Matrix<Real, 3, 3>;
 using Vector3 = Eigen::Matrix<Real, 3, 1>;
 
-/// What the gains are the optimum of: x_dot = A x + B w, x = (e, e_dot, z).
+/// Plant for which the gains are optimal: x_dot = A x + B w, x = (e, e_dot, z).
 struct LinearPlant {
   Matrix3 a = Matrix3::Zero();
   Vector3 b{0.0L, -1.0L, 0.0L};
   LinearPlant() { a(0, 1) = a(2, 0) = 1.0L; }
 };
 
-/// P of A_c' P + P A_c + M = 0, by its nine linear equations.
+/// Solves A_c' P + P A_c + M = 0 for P by its nine linear equations.
 Matrix3 lyapunov(const Matrix3& closed, const Matrix3& m) {
   Eigen::Matrix<Real, 9, 9> equations = Eigen::Matrix<Real, 9, 9>::Zero();
   for (int i = 0; i < 3; ++i) {
@@ -138,10 +138,10 @@ LqiWeights<double> any_weights() {
           ratio_between(1e-3, 3.0)};
 }
 
-/// The gains solve A'P + PA - P B R^-1 B' P + Q = 0 with P > 0, and the loop's poles are stable. P is
-/// found from the gains' own loop, whose cost it is; that B' P then gives the gains back is what makes
-/// them the optimum. The gains are right to a few roundings of double, 1e-15, which the loop's
-/// condition raises; 1e-9 of the equation's largest term leaves room for a million.
+/// The gains solve A'P + PA - P B R^-1 B' P + Q = 0 with P > 0, and the loop's poles are stable. P
+/// is the cost of the loop closed with the gains. If B' P gives the same gains, they are optimal.
+/// The gains are accurate to a few roundings of double, 1e-15, amplified by the loop's condition;
+/// 1e-9 of the equation's largest term allows a factor of a million.
 RC_GTEST_PROP(Lqi, TheGainsSolveTheRiccatiEquationAndTheLoopIsStable, ()) {
   const LqiWeights<double> weights = any_weights();
   const double inertia_norm = ratio_between(1e-3, 10.0);
@@ -159,7 +159,7 @@ RC_GTEST_PROP(Lqi, TheGainsSolveTheRiccatiEquationAndTheLoopIsStable, ()) {
   const Matrix3 p = lyapunov(closed, q + r * k * k.transpose());
   RC_ASSERT(p.eigenvalues().real().minCoeff() > 0.0L);
   const Vector3 optimal = plant.b.transpose() * p / r;
-  // In units in which every state counts alike.
+  // Scaled so that all states have equal weight.
   const Vector3 off = (optimal - k).cwiseProduct(largest);
   RC_ASSERT(off.cwiseAbs().maxCoeff() < 1e-9L * k.cwiseProduct(largest).cwiseAbs().maxCoeff());
   const Matrix3 by_input = p * plant.b * plant.b.transpose() * p / r;
@@ -169,7 +169,8 @@ RC_GTEST_PROP(Lqi, TheGainsSolveTheRiccatiEquationAndTheLoopIsStable, ()) {
             1e-9L * (scale * (by_input + q) * scale).cwiseAbs().maxCoeff());
 }
 
-/// settles_when_sampled() is what the eigenvalues of the held law say: all within the unit circle.
+/// settles_when_sampled() agrees with the eigenvalues of the sampled law: all within the unit
+/// circle.
 RC_GTEST_PROP(Lqi, SettlesWhenSampledWhereEveryEigenvalueDoes, ()) {
   const LqiGains<double> gains = lqi_gains(any_weights(), ratio_between(1e-3, 10.0));
   const double t_s = ratio_between(1e-3, 1.0);
@@ -184,7 +185,7 @@ RC_GTEST_PROP(Lqi, SettlesWhenSampledWhereEveryEigenvalueDoes, ()) {
   RC_ASSERT(settles_when_sampled(gains, t_s) == (largest < 1.0L));
 }
 
-/// The gains of the ends of what a scenario may ask for are finite, and solve their equations.
+/// At the bounds of a scenario's parameters the gains are finite and solve their equations.
 TEST(Lqi, TheGainsAreFiniteAtTheEndsOfTheirRanges) {
   for (const double heading_deg : {1e-3, 180.0}) {
     for (const double yaw_rate_degps : {1e-3, 1e5}) {
@@ -222,8 +223,8 @@ TEST(Lqi, IntegratesButForWhatALimitTakesAwayOfWhatTheErrorAsksFor) {
   };
   EXPECT_NEAR(after(0.2, 0.5, false), 1.002, 1e-15);
   EXPECT_EQ(after(0.2, 0.3, true), 1.0);
-  EXPECT_NEAR(after(-0.2, 0.3, true), 0.998, 1e-15);        // the error leads out of the limit
-  EXPECT_NEAR(after(0.2, 0.5 - 1e-9, true), 1.002, 1e-15);  // nothing was lost but by rounding
+  EXPECT_NEAR(after(-0.2, 0.3, true), 0.998, 1e-15);        // the error leads out of saturation
+  EXPECT_NEAR(after(0.2, 0.5 - 1e-9, true), 1.002, 1e-15);  // nothing was lost except by rounding
   EXPECT_NEAR(after(0.2, 0.48, false), 1.002, 1e-15);       // small angles, no limit
 }
 

@@ -1,4 +1,4 @@
-/// Commands as lines and frames: what is taken, what is refused, and that STOP always acts.
+/// Commands as lines and frames: accepted, rejected, and STOP always acts.
 #include "awmr/control/command_line.h"
 
 #include <fmt/format.h>
@@ -16,7 +16,7 @@ struct Heard {
   float value;
 };
 
-/// Every verdict of these characters.
+/// Verdicts on these characters.
 std::vector<Heard> hear(CommandReader& reader, const std::string& text) {
   std::vector<Heard> heard;
   for (const char c : text) {
@@ -84,7 +84,7 @@ TEST(CommandLine, StopActsAtItsLastLetterWhereverItStands) {
       const auto heard = hear(reader, before + stop);
       ASSERT_EQ(heard.size(), 1U) << before;
       EXPECT_EQ(heard[0].word, CommandWord::kStop);
-      // The rest of the line is none, the next one is.
+      // The rest of the line is not a command, the next line is.
       EXPECT_TRUE(hear(reader, " and S 1\n").empty());
       EXPECT_EQ(only_verdict(reader, "K\n"), CommandVerdict::kTaken);
     }
@@ -115,7 +115,7 @@ TEST(CommandFrame, RefusesDamageAndTextAfterIt) {
       bad[i] = static_cast<char>(bad[i] ^ (1U << bit));
       CommandReader fresh;
       for (const Heard& heard : hear(fresh, bad)) {
-        // Lower and upper case are the same letter, also of the check sum's digits.
+        // Letter case is ignored, also in the digits of the checksum.
         if (heard.verdict != CommandVerdict::kTaken) continue;
         EXPECT_EQ(heard.word, CommandWord::kSpeed) << bad;
         EXPECT_EQ(heard.value, 0.5F) << bad;

@@ -1,5 +1,5 @@
-/// Direction of travel of a speed without a sign: no force pushes a vehicle further the way it must
-/// not go. Each run is a vehicle that rolls well, where the signed law runs away.
+/// Travel direction for a speed without a sign: no force accelerates a vehicle further in the wrong
+/// direction. Each run has a vehicle with low resistance, for which the signed law diverges.
 #include "awmr/control/directed_speed.h"
 
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ struct Vehicle {
   }
 };
 
-/// A whole autopilot for such a vehicle, m' = 1 and g1 = 0.2 u, fed with |u|.
+/// Complete autopilot for such a vehicle, m' = 1 and g1 = 0.2 u, with |u| as its input.
 class RollingVehicle : public PaperAutopilot {
  protected:
   RollingVehicle() {
@@ -51,7 +51,7 @@ class RollingVehicle : public PaperAutopilot {
     in_.reference = {0.0F, 0.0F, 0.0F, 0.0F, 0.0F};
     in_.speed_unsigned = 1;
   }
-  /// A step of 10 ms; a fix each 200 ms, `latency` steps old.
+  /// A step of 10 ms; a fix every 200 ms, `latency` steps old.
   void step(float u_ref_mps, bool is_unsigned = true) {
     const std::uint32_t now_ms = in_.times.now_ms + 10;
     in_.times.now_ms = in_.times.heading_ms = in_.times.command_ms = now_ms;
@@ -113,7 +113,7 @@ TEST_F(RollingVehicle, BrakesFromADriveAndStaysAtRest) {
       step(0.0F);
       slowest = std::min(slowest, vehicle_.u);
     }
-    // The model brakes a lighter vehicle for too long by the share that it is lighter.
+    // The model brakes a lighter vehicle too long, by the fraction that it is lighter.
     EXPECT_GT(slowest, -0.35) << mass;
     EXPECT_LT(std::abs(vehicle_.u), 0.05) << mass;
     EXPECT_LT(std::abs(vehicle_.x - from_m), 4.0) << mass;

@@ -39,7 +39,7 @@ TEST(Obstacles, BeyondTheManoeuvringDistanceNothingHappens) {
 }
 
 TEST(Obstacles, TheTurnIsTheTangentPlusSigmasShare) {
-  // D = 6, R = 2, D_obs = 4, w = 1/5: asin(1/3) + 0.2/5; an equal choice goes left.
+  // D = 6, R = 2, D_obs = 4, w = 1/5: asin(1/3) + 0.2/5; ties go left.
   const auto a = avoided({{{6.0, 0.0}, 1.0}});
   EXPECT_TRUE(a.active);
   EXPECT_NEAR(a.psi_rad, std::asin(1.0 / 3.0) + 0.04, 1e-12);
@@ -60,7 +60,7 @@ TEST(Obstacles, AWallOfOverlappingSectorsIsRoundedAsOne) {
   const std::vector<O> wall = {
       {{4.0, 0.0}, 1.0}, {{4.0, 2.5}, 1.0}, {{4.0, -2.5}, 1.0}, {{4.0, -5.0}, 1.0}};
   const auto a = avoided(wall);
-  // Leftmost edge: bearing of (4, 2.5) plus its half angle; the right one is further.
+  // Leftmost edge: bearing of (4, 2.5) plus its half angle; the right one is farther.
   const double d = std::hypot(4.0, 2.5);
   const double w = (5.0 - (d - 2.0)) / 5.0;
   EXPECT_NEAR(a.psi_rad, std::atan2(2.5, 4.0) + std::asin(2.0 / d) + 0.2 * w, 1e-12);
@@ -76,7 +76,7 @@ TEST(Obstacles, BehindTheVehicleTheyDoNotMatter) {
 }
 
 TEST(Obstacles, StartingInsideTheHeadingLeadsOutAndNotFurtherIn) {
-  const auto a = avoided({{{1.5, 0.0}, 1.0}});  // grown radius 2 > 1.5
+  const auto a = avoided({{{1.5, 0.0}, 1.0}});  // inflated radius 2 > 1.5
   EXPECT_NEAR(std::abs(a.psi_rad), pi<double>() / 2.0 + 0.2, 1e-9);
   EXPECT_EQ(a.speed_share, 0.0);  // it faces inwards
   EXPECT_EQ(avoided({{{-1.5, 0.0}, 1.0}}).speed_share, 1.0);
@@ -100,7 +100,7 @@ TEST(Obstacles, ARingAroundTheVehicleBlocksEveryDirection) {
 }
 
 TEST(Obstacles, TheSpeedFallsWithTheFreeWayAhead) {
-  // Brakes for R = 1 + 0.5 + 0.25: free way 3.0 - 1.75 = 1.25 of 2 m.
+  // Brakes for R = 1 + 0.5 + 0.25: free distance 3.0 - 1.75 = 1.25 of 2 m.
   EXPECT_NEAR(avoided({{{3.0, 0.0}, 1.0}}).speed_share, 0.625, 1e-12);
 }
 

@@ -85,11 +85,11 @@ TEST(Line, FarFromItTheLaneIsApproachedAtDelta) {
 TEST(Line, SideslipIsTakenOffOnlyWhereAskedFor) {
   EXPECT_NEAR(line_heading_rad(LineLaw<double>{1.0, 2.0, true}, 0.0, 0.0, 0.1), -0.1, 1e-15);
   EXPECT_NEAR(line_heading_rad(LineLaw<double>{1.0, 2.0, false}, 0.0, 0.0, 0.1), 0.0, 1e-15);
-  EXPECT_EQ(sideslip_rad(0.0, 0.01), 0.0);  // at rest there is no course
+  EXPECT_EQ(sideslip_rad(0.0, 0.01), 0.0);  // at rest the course is undefined
   EXPECT_NEAR(sideslip_rad(1.0, 1.0), kPi / 4.0, 1e-15);
 }
 
-/// The signed distance from A to B, left positive.
+/// Signed distance from the line A to B, left positive.
 double cross_track(P a, P b, P at) {
   const P points[] = {a, b};
   auto progress = start_polyline(0.0);

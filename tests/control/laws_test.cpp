@@ -1,4 +1,4 @@
-/// The heading and speed laws, by hand.
+/// Heading and speed laws, checked by hand calculation.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -20,8 +20,8 @@ TEST(Laws, WrapIsInMinusPiToPiWithPiItself) {
 }
 
 TEST(Laws, WrapTakesNoLongerForALargeAngleAndLeavesNaNAsItIs) {
-  // It took off 2 pi at a time: 50 s for a run at 1e10 deg, and without end from 1e17 on, where
-  // 2 pi less is the same number.
+  // An earlier version subtracted 2 pi repeatedly: 50 s for a run at 1e10 deg, and endless from
+  // 1e17 on, where subtracting 2 pi does not change the number.
   constexpr double kPi = pi<double>();
   for (const double angle : {1.7e8, 1e10, -1e17, 1e300, -1.7e308}) {
     const double wrapped = wrap_angle(angle);
@@ -47,7 +47,7 @@ TEST(Laws, HeadingLawBySubstitution) {
 }
 
 TEST(Laws, TheChipsConstantsGiveTheSameCommands) {
-  // The same equations with m' and I'z multiplied in: a dozen roundings of values of order 1.
+  // The same equations multiplied by m' and I'z: a dozen roundings of values of order 1.
   const Controller<double> c = paper_controller_of<double>();
   const PreparedController<double> chip = prepared(c);
   for (const double rate : {0.0, 0.3}) {
@@ -85,7 +85,8 @@ TEST(Laws, SpeedLawBySubstitution) {
 }
 
 TEST(DisturbanceObservers, SeeWhatTheCommandAndTheResistanceLeaveOut) {
-  // In a steady turn the momentum does not change, so d = -(tau + m' r v - g1) and -(tau_turn - g3).
+  // In a steady turn the momentum does not change, so d = -(tau + m' r v - g1) and -(tau_turn -
+  // g3).
   const Observers<double> observers{{3.0, 5.0}, {4.0, 5.0}, true};
   const ObservedMotion<double> motion{
       .momentum = {0.08, 0.01}, .resistance = {0.9, 0.2}, .coupling = 0.15};

@@ -1,5 +1,5 @@
 #pragma once
-// An autopilot for the tests of the whole step: the paper's robot with limits of the checks.
+// Autopilot fixture for tests of the complete step: the paper's robot with safety limits.
 #include <gtest/gtest.h>
 
 #include "awmr/control/autopilot.h"
@@ -14,7 +14,7 @@ inline constexpr SafetyLimits kLimits{.speed_max_mps = 3.0F,
                                       .command_timeout_ms = 1000,
                                       .step_timeout_ms = 30};
 
-/// The parameters of an autopilot that holds kLimits and the paper's robot, and its inputs.
+/// Autopilot parameters with kLimits and the paper's robot, and its inputs.
 class PaperAutopilot : public ::testing::Test {
  protected:
   PaperAutopilot() {

@@ -1,4 +1,4 @@
-/// The chip's table by hand: the ends of its cells, the chords between them, what is beyond.
+/// Resistance table of the chip, by hand: cell ends, interpolation between them, extrapolation.
 #include "awmr/control/resistance_table.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 namespace awmr::testing {
 namespace {
 
-/// Two cells an octave from 1 on: 10 at 1, 11 at 1.5, 13 at 2, 17 at 3 and 25 at 4.
+/// Two cells per octave from 1 on: 10 at 1, 11 at 1.5, 13 at 2, 17 at 3 and 25 at 4.
 constexpr ResistanceLine kLines[] = {
     {10.0F, 0.0F}, {2.0F, 8.0F}, {4.0F, 5.0F}, {4.0F, 5.0F}, {8.0F, -7.0F}};
 const ResistanceTable kTable{

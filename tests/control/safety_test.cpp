@@ -1,4 +1,4 @@
-/// The checks around a control step: what is refused, at which number, by which bit.
+/// Safety checks of a control step: rejected inputs, their bounds and fault bits.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,7 +16,7 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 float above(float x) { return std::nextafterf(x, kInfinity); }
 float below(float x) { return std::nextafterf(x, -kInfinity); }
 
-/// Limits that differ in size, so that none stands in for another.
+/// Limits of different size, so that none can be confused with another.
 AllocationConstants<float> constants() {
   AllocationLimits<float> limits = paper_controller_of<float>().limits;
   limits.force_min = -0.5F;
@@ -68,7 +68,7 @@ TEST(Times, AreOldOneMillisecondBeyondTheirLimit) {
   for (const Kind& kind : {Kind{&InputTimes::heading_ms, 100, kFaultHeadingStale},
                            Kind{&InputTimes::speed_ms, 600, kFaultSpeedStale},
                            Kind{&InputTimes::command_ms, 1000, kFaultCommandTimeout}}) {
-    // The second one is across the clock's wrap.
+    // The second one spans the clock's wrap-around.
     for (const std::uint32_t now_ms : {5000U, 50U}) {
       const auto fault_at = [&](std::uint32_t age_ms) {
         InputTimes times{now_ms, now_ms, now_ms, now_ms};
@@ -85,7 +85,7 @@ TEST(Times, AreOldOneMillisecondBeyondTheirLimit) {
 
 class AutopilotFaults : public PaperAutopilot {
  protected:
-  /// The output of a first step.
+  /// Output of a first step.
   AutopilotOutput step(const AutopilotInput& in) {
     Autopilot<Resistance<float>> autopilot{};
     start_autopilot(autopilot, &block_, nullptr, 0, nullptr, 0, crc_);
@@ -231,7 +231,7 @@ TEST_F(AutopilotFaults, DamagedParametersGiveTheSafeCommandForGood) {
 }
 
 TEST_F(AutopilotFaults, ACommandOutsideItsLimitsIsNotGivenOut) {
-  // A resistance that is no number gets past every check of the input.
+  // A NaN resistance passes every check of the input.
   block_.surge_alpha_beta[0] = kNaN;
   crc_ = crc32_of_parameters(&block_, nullptr, 0, nullptr, 0);
   expect_fault(good(), kFaultOutput, "a force that is no number");

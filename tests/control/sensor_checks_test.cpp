@@ -1,4 +1,4 @@
-/// Plausibility of compass, gyroscope and GPS, arming, and the RMC reader.
+/// Plausibility checks of compass, gyroscope and GPS, arming, and the RMC parser.
 #include "awmr/control/gps_receiver.h"
 #include "awmr/control/heading_check.h"
 
@@ -22,7 +22,7 @@ std::string sentence(const std::string& body) {
 constexpr const char* kGood =
     "GPRMC,123519.20,A,4807.0380000,N,01131.0000000,E,022.4,084.4,230394,003.1,W,A";
 
-/// The verdict on what the characters of a line give; kOther where they are no sentence.
+/// Parser verdict on the characters of a line; kOther if they are not a sentence.
 GpsSentence read(const std::string& line, GpsFix& fix) {
   RmcReader reader;
   GpsSentence kind = GpsSentence::kOther;
@@ -93,7 +93,7 @@ TEST(Rmc, RefusesEmptyAndMalformedFields) {
   }
 }
 
-/// A port of 64 characters, as Arduino's.
+/// A port with a buffer of 64 characters, as Arduino's.
 struct Port {
   std::string waiting;
   int most = 0;
@@ -115,7 +115,7 @@ struct ReceiverOnAPort {
   std::uint32_t now_ms = 0;
   std::string on_the_way;
   ReceiverOnAPort() { gps.begin(8.0F, 600, 0); }
-  /// A step of 10 ms at 38,400 baud. The characters that it read.
+  /// A step of 10 ms at 38,400 baud. Returns the number of characters read.
   int step() {
     now_ms += 10;
     port.receive(on_the_way.substr(0, 39));
@@ -176,7 +176,7 @@ TEST(FrozenCheck, FindsTheSameWordForHalfASecondAlsoAcrossTheClocksWrap) {
   }
 }
 
-/// rad/s of a word, as of the board's gyroscope.
+/// rad/s per count of the board's gyroscope.
 constexpr float kPerWord = 500.0F / 32768.0F * 0.0174532925F;
 
 GyroCalibration calibrated(double rate_radps, double sway_radps, bool has_compass) {
@@ -196,7 +196,7 @@ GyroCalibration calibrated(double rate_radps, double sway_radps, bool has_compas
 TEST(GyroCalibration, WaitsUntilTheVehicleIsAtRest) {
   const GyroCalibration still = calibrated(0.0, 0.0, true);
   EXPECT_TRUE(still.is_done());
-  // Mean of 100 words with 5 counts of noise: 4 standard errors.
+  // Mean of 100 values with 5 counts of noise: 4 standard errors.
   EXPECT_NEAR(still.bias_radps(), 0.02, 4 * 0.5 * static_cast<double>(kPerWord));
   EXPECT_FALSE(calibrated(0.5, 0.0, true).is_done());
   EXPECT_FALSE(calibrated(0.5, 0.0, false).is_done());
@@ -307,8 +307,8 @@ TEST(GpsCheck, FindsAVehicleThatMovesTheWrongWay) {
   EXPECT_EQ(gps.check.fault(gps.now_ms), kSensorGood) << "at rest the next arming may come";
 }
 
-/// Position errors that wander by 1 m RMS with a time constant of 60 s, speeds from 0.4 to 3 m/s that
-/// change, also in sign, by 0.3 to 1 m/s2, turns by up to 0.5 rad/s, and heading errors of 5 deg.
+/// Position errors wander by 1 m RMS with a time constant of 60 s. Speeds of 0.4 to 3 m/s change,
+/// also in sign, by 0.3 to 1 m/s2; turns up to 0.5 rad/s, heading errors of 5 deg.
 TEST(GpsCheck, RaisesNoFaultOnARoughDrive) {
   for (unsigned seed = 1; seed <= 40; ++seed) {
     std::mt19937 random(seed);

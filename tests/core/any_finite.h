@@ -1,4 +1,4 @@
-/// Numbers for properties.
+/// rapidcheck generators of numbers.
 #pragma once
 
 #include <rapidcheck.h>
@@ -8,9 +8,9 @@
 
 namespace awmr::testing {
 
-/// A finite double from its parts: all magnitudes, subnormal ones, both zeros.
+/// Any finite double, built from its parts: all magnitudes, subnormals, both zeros.
 inline rc::Gen<double> any_finite() {
-  // rapidcheck draws from a whole range only at its nominal size.
+  // rapidcheck covers the whole range only at its nominal size.
   return rc::gen::resize(
       rc::kNominalSize,
       rc::gen::map(

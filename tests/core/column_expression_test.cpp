@@ -1,5 +1,5 @@
-/// Columns by arithmetic: what is taken, what is refused, and which of three readings of a text
-/// the header decides for.
+/// Column formulas: accepted, rejected, and the choice between three readings of a text by the
+/// header.
 #include "awmr/core/column_expression.h"
 
 #include <gmock/gmock.h>
@@ -141,7 +141,7 @@ TEST(ParseColumn, ScalesAMappingForASuggestion) {
   EXPECT_EQ(scaled_expression(*parse_column("x=a/b"), 3.0, 1.0), "(a/b)*3+1");
 }
 
-/// The column x of a file, by these mappings.
+/// Column x of a file with these mappings.
 Result<CsvTable> x_of(std::string_view file, const std::vector<std::string>& mappings) {
   std::vector<ColumnMapping> parsed;
   for (const std::string& text : mappings) parsed.push_back(*parse_column(text));

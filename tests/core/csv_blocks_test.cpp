@@ -1,5 +1,4 @@
-/// Reading in blocks gives what reading the whole text gives, for any file, block size and number of
-/// threads.
+/// Reading in blocks equals reading the whole text, for any file, block size and number of threads.
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <rapidcheck.h>
@@ -34,8 +33,7 @@ Result<std::optional<CsvTable>> in_blocks(const std::string& text, const CsvBloc
                          blocks);
 }
 
-/// What tells the two readers apart; nothing as well where the one in blocks leaves the file to the
-/// other.
+/// Difference between the two readers; empty too if the block reader leaves the file to the other.
 std::string difference_by_blocks(const std::string& text, const CsvBlocks& blocks) {
   const auto table = in_blocks(text, blocks);
   if (!table) return to_text(table.error());
@@ -98,7 +96,7 @@ RC_GTEST_PROP(CsvBlocks, OfHostileBytesAreTheTableOfTheWholeText, ()) {
   RC_ASSERT(difference_by_blocks(text, blocks) == "");
 }
 
-/// A file of rows as programs write them, with odd lines between.
+/// A file of rows as programs write them, with irregular lines in between.
 RC_GTEST_PROP(CsvBlocks, OfOrdinaryFilesAreTheTableOfTheWholeText, ()) {
   const CsvBlocks blocks = *any_blocks();
   const std::string delimiter = *any_of({",", ";", "\t"});
@@ -126,7 +124,7 @@ RC_GTEST_PROP(CsvBlocks, OfOrdinaryFilesAreTheTableOfTheWholeText, ()) {
   if (whole) RC_ASSERT(difference(**table, *whole, kColumns) == "");
 }
 
-/// Whatever is wrong is said as it was: by the reader of whole texts.
+/// Faults are reported by the reader of whole texts, with unchanged messages.
 RC_GTEST_PROP(CsvBlocks, LeaveEveryFaultToTheReaderOfWholeTexts, ()) {
   const std::string bad = *any_of({"x", "", "nan", "1e999", "1,2", "\"1", "\"1\"2", "1;5", "0x5"});
   const auto at = *rc::gen::inRange(0, 20);
@@ -151,7 +149,7 @@ std::string rows_of(int first, int end, const std::string& decimals) {
 }
 
 TEST(CsvBlocks, ThreadsAndBlocksOfALargeFileDoNotChangeIt) {
-  // Rows become shorter, so that there are more of them than the first block lets expect.
+  // Rows become shorter, so there are more of them than the first block suggests.
   const std::string text = "t_s,z\n" + rows_of(0, 50'000, ".000000000000001") + "# a comment\n" +
                            rows_of(50'000, 250'000, "") + "250000,\"1\"\n\n250001,1";
   const auto whole = read_csv_text(text, "a.csv", kColumns).value();

@@ -1,4 +1,4 @@
-/// Numbers and tables that are written read back the same; no bytes break the reader.
+/// Written numbers and tables read back the same; no input crashes the reader.
 #include <gmock/gmock.h>
 #include <rapidcheck.h>
 #include <rapidcheck/gtest.h>
@@ -24,8 +24,8 @@ RC_GTEST_PROP(FormatNumber, ReadsBackTheSameBits, ()) {
 RC_GTEST_PROP(FormatNumber, NoShorterTextReadsBackTheSame, ()) {
   const double value = *any_finite();
   const std::string text = format_number(value);
-  // Rounding to some number of digits gives the nearest number with as many: if that does not read
-  // back the same, no other does.
+  // Rounding to n digits gives the nearest number with n digits: if it does not read back the same,
+  // no other does.
   for (int digits = 1; digits <= 17; ++digits) {
     for (const auto form : {std::chars_format::scientific, std::chars_format::general}) {
       char other[64];

@@ -1,4 +1,4 @@
-/// What a CSV file may look like.
+/// Accepted CSV formats.
 #include "awmr/core/csv.h"
 
 #include <gmock/gmock.h>
@@ -74,7 +74,7 @@ TEST(Csv, ReadsALastLineWithoutAnEnd) {
   expect_two_rows(read_text("tau_speed,speed_mps\n0.5,0.25\n2,1.66", kSurge));
 }
 
-/// `CODE@LINE` of each note of a table, and what the last one says.
+/// `CODE@LINE` of each note of a table, and the text of the last one.
 std::string notes_of(const Result<CsvTable>& table) {
   std::string text;
   for (const CsvNote& note : table->notes()) {
@@ -245,12 +245,12 @@ TEST(Csv, ARunMayLackAnOptionalValueWhateverTheOthersHave) {
   EXPECT_EQ(table->rows(), 5U);
   EXPECT_THAT(table->present("b"), ElementsAre(true, false, true, true, true));
   EXPECT_TRUE(table->notes().empty());
-  // Without a value in any row, or at all, it is no column; no row is left out for it.
+  // A column without any value does not count; no row is dropped for it.
   const auto without = read_text("a,b\n1,\n2,\n", columns);
   ASSERT_TRUE(without) << to_text(without.error());
   EXPECT_FALSE(without->has("b"));
   EXPECT_EQ(without->rows(), 2U);
-  // What must be there is a fault beside it, as ever.
+  // A missing required column is still reported as a fault.
   EXPECT_FALSE(read_text("a,b\n1,5\n,6\n", columns));
 }
 

@@ -1,4 +1,4 @@
-/// A test with a directory of its own.
+/// Test fixture with its own directory.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ namespace awmr::testing {
 class DirectoryTest : public ::testing::Test {
  protected:
   std::filesystem::path path(const std::string& name) const { return directory_.path() / name; }
-  /// What lies in it, in no order.
+  /// File names in the directory, unordered.
   std::vector<std::string> names() const {
     std::vector<std::string> found;
     for (const auto& entry : std::filesystem::directory_iterator(directory_.path())) {

@@ -1,4 +1,4 @@
-/// Thinning keeps what an eye would see: peaks, corners, both ends.
+/// Thinning keeps the visible features: peaks, corners, both ends.
 #include "awmr/core/drawn_rows.h"
 
 #include <gmock/gmock.h>
@@ -18,7 +18,7 @@ Signal times(std::size_t rows) {
   return t;
 }
 
-/// The farthest that `y` lies off the lines between the rows, over its range.
+/// Largest distance of `y` from the lines between the rows, relative to its range.
 double worst_distance(const Signal& t, const Signal& y, const std::vector<std::size_t>& rows) {
   const auto [low, high] = std::minmax_element(y.begin(), y.end());
   double worst = 0.0;

@@ -1,4 +1,4 @@
-/// Every number that is read is the one of std::from_chars, bit for bit.
+/// Every number read equals that of std::from_chars, bit for bit.
 #include <gmock/gmock.h>
 
 #include <bit>
@@ -44,7 +44,7 @@ std::string random_decimal(Random& random) {
   return text;
 }
 
-/// Doubles of all magnitudes as they are printed, and halfway between two of them.
+/// Printed doubles of all magnitudes, and midpoints between two of them.
 std::string random_double(Random& random) {
   const auto value = std::bit_cast<double>(random());
   if (!std::isfinite(value)) return "0";
@@ -58,7 +58,7 @@ std::string random_double(Random& random) {
   return {static_cast<const char*>(text), static_cast<const char*>(end)};
 }
 
-/// A number of a log: few digits, a fixed number of decimals.
+/// A logged number: few digits, a fixed number of decimals.
 std::string random_measurement(Random& random) {
   char text[400];
   const double value = static_cast<double>(static_cast<std::int64_t>(random())) *
@@ -80,7 +80,7 @@ std::string random_number(Random& random) {
   }
 }
 
-/// The whole text is a number in range.
+/// Converts a text that as a whole is a number in range.
 std::optional<double> from_chars(const std::string& text) {
   double value = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -113,7 +113,7 @@ TEST(ExactNumber, IsNoneWhereThereIsNone) {
   }
 }
 
-/// The numbers that the reader takes from a column of these cells.
+/// Values that the reader returns for a column of these cells.
 std::vector<double> values_of(const std::vector<std::string>& cells, int threads) {
   std::string text = "x\n";
   for (const std::string& cell : cells) text += cell + "\n";

@@ -1,4 +1,4 @@
-/// What an error says, for matchers.
+/// Text of errors, for matchers.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
-/// What writing and reading could lose: outputs that are inputs, links, read-only files, files that
-/// change meanwhile, programs that are killed.
+/// Protection against data loss on writing and reading: outputs that are inputs, links, read-only
+/// files, files that change meanwhile, killed programs.
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <sys/stat.h>
@@ -92,7 +92,7 @@ TEST_F(FileLoss, AMissingDirectoryIsFoundBeforeTheWork) {
   EXPECT_THAT(faults_of(check_output(directory_.path())), ElementsAre(HasSubstr("directory")));
 }
 
-/// The number of a process that has ended.
+/// ID of a process that has ended.
 pid_t ended_process() {
   const pid_t child = ::fork();
   if (child == 0) ::_exit(0);
@@ -167,7 +167,7 @@ TEST_F(FileLoss, AFullDeviceIsAnError) {
   EXPECT_THAT(faults_of(write_file("/dev/full", "x")), ElementsAre(HasSubstr("No space left")));
 }
 
-/// A program that does nothing but make temporary files, ended at any moment, 200 times.
+/// A program that only creates temporary files, ended at random times, 200 times.
 TEST_F(FileLoss, ASignalLeavesNoTemporaryFileWhereverItComes) {
   std::mt19937 random(1);
   for (int i = 0; i < 200; ++i) {

@@ -1,4 +1,4 @@
-/// Files that appear whole or not at all.
+/// Files are written completely or not at all.
 #include "awmr/core/file.h"
 
 #include <gmock/gmock.h>
@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 
 using FileTest = DirectoryTest;
 
-/// While it lives no file can grow beyond `bytes`: writing fails as on a full disk.
+/// During its lifetime no file can grow beyond `bytes`: writing fails as on a full disk.
 class FileSizeLimit {
  public:
   explicit FileSizeLimit(rlim_t bytes) {

@@ -1,4 +1,5 @@
-/// JSON made to exhaust the reader: it is refused with a place, in time and memory as its length.
+/// JSON designed to exhaust the reader is refused with a place, in time and memory proportional to
+/// its length.
 #include <gmock/gmock.h>
 
 #include <ctime>
@@ -40,7 +41,7 @@ std::string object_of(std::size_t keys) {
   return text;
 }
 
-/// Seconds of processor time that a call takes.
+/// Processor time of a call, s.
 template <class Work>
 double seconds(Work work) {
   const std::clock_t start = std::clock();

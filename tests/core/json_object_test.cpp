@@ -1,4 +1,4 @@
-/// One object, read strictly.
+/// Strict reading of one object.
 #include <gmock/gmock.h>
 
 #include <array>
@@ -13,7 +13,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-/// A document under test, with the faults of its reading as `PLACE: MESSAGE`.
+/// A document under test; its reading faults as `PLACE: MESSAGE`.
 class JsonObjectTest : public ::testing::Test {
  protected:
   JsonObject root(const char* text) {
@@ -139,7 +139,7 @@ TEST_F(JsonObjectTest, RangesAreStatedAndTheirEndsAreAllowedOrNot) {
 
 TEST_F(JsonObjectTest, WholeNumbersBeyondTheirRange) {
   JsonObject object = root(R"({"a": 18446744073709551615, "b": -9223372036854775808, "c": 3})");
-  (void)object.integer("a", -10, -1);  // -1 if its bits were taken as signed
+  (void)object.integer("a", -10, -1);  // -1 if its bits were read as signed
   EXPECT_EQ(object.integer("b", std::numeric_limits<long>::min(), 0),
             std::numeric_limits<long>::min());
   (void)object.integer("c", 4, 9);

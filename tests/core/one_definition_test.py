@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """No two types, and no two inline functions or templates of one signature, have the same name in one namespace.
 
-The linker keeps one of both for the whole program, and the program then takes one for the other: without a word, and
-only where the compiler did not inline what they have in common. So awmr::WindowSums of the trials and of the log fits
+The linker keeps one of both for the whole program, which then uses one in place of the other. This gives no warning and
+occurs only if the compiler did not inline the common functions. So awmr::WindowSums of the trials and of the log fits
 crashed programs that were compiled without optimisation. usage: one_definition_test.py
 """
 import collections
@@ -25,7 +25,7 @@ def code_of(path):
 
 
 def definitions(path):
-    """(namespace, what is defined) of all types and inline functions outside of anonymous namespaces."""
+    """(namespace, definition) of all types and inline functions outside of anonymous namespaces."""
     code = code_of(path)
     depth, open_at, names, start = 0, [], [], 0
     for m in re.finditer(r"[{};]", code):

@@ -1,4 +1,4 @@
-/// Loops on several threads: every item once, within loops, from several threads, with the first exception.
+/// Parallel loops: every item once, nested, from several threads, with the first exception.
 #include "awmr/core/parallel.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 namespace awmr::testing {
 namespace {
 
-/// How often a loop called each item.
+/// Number of calls for each item.
 std::vector<int> calls(std::size_t count, int threads) {
   std::vector<int> times(count, 0);
   parallel_for(count, threads, [&](std::size_t i) { ++times[i]; });
@@ -40,7 +40,7 @@ TEST(ParallelFor, TakesNoMoreThreadsThanItIsGivenFromLoopToLoop) {
     EXPECT_LE(here.size(), 3U);
     all.insert(here.begin(), here.end());
   }
-  // The threads of one loop serve the next: the caller's and those that loops before have left.
+  // Threads are reused: the caller's and those released by earlier loops.
   EXPECT_LE(all.size(), 8U);
 }
 
@@ -71,7 +71,7 @@ TEST(ParallelFor, ThrowsTheExceptionOfTheSmallestItemAndGoesOnAfterwards) {
       parallel_for(2, 2, [](std::size_t i) { throw std::runtime_error(i == 0 ? "0" : "1"); });
       FAIL();
     } catch (const std::runtime_error& error) {
-      // Item 0 begins before item 1 does, and then throws, too.
+      // Item 0 begins before item 1 and throws after it.
       EXPECT_STREQ(error.what(), "0");
     }
     EXPECT_EQ(calls(10, 2), std::vector<int>(10, 1));
@@ -91,7 +91,7 @@ TEST(ParallelFor, StopsBeforeTheNextItemAndTellsOfItsOwnOnTheCallersThread) {
   parallel_for(
       1000, 2, [&](std::size_t) { ++begun; }, control);
   EXPECT_GE(begun, 5);
-  EXPECT_LE(begun, 6);  // both threads may have asked before the fifth
+  EXPECT_LE(begun, 6);  // both threads may have fetched an item before the fifth
   EXPECT_LE(told, begun);
 }
 

@@ -1,4 +1,4 @@
-/// Programs started by argument list: what reaches them, and how they end.
+/// Programs started by argument list: their arguments, and how they end.
 #include "awmr/core/process.h"
 
 #include <gmock/gmock.h>
@@ -56,7 +56,7 @@ TEST(Process, PastItsTimeLimitItEndsWithAllThatItStarted) {
   EXPECT_LT(seconds_since(start), 10.0);
   const pid_t grandchild = std::atoi(end.output.c_str());
   ASSERT_GT(grandchild, 0);
-  // Dead, or a zombie that whoever inherits it has yet to bury; a signal takes its time.
+  // Dead, or a zombie not yet reaped by its new parent; a signal takes time.
   const auto is_over = [grandchild] {
     const std::string status = read_all("/proc/" + std::to_string(grandchild) + "/stat");
     return ::kill(grandchild, 0) != 0 || status.find(") Z") != std::string::npos;

@@ -13,8 +13,9 @@ namespace {
 using Counter = std::array<std::uint32_t, 4>;
 using Key = std::array<std::uint32_t, 2>;
 
-/// Philox4x32-10 as its authors print it, apart from the library that the program uses. [Salmon,
-/// Moraes, Dror and Shaw, "Parallel random numbers: as easy as 1, 2, 3", SC 2011, section 3.3]
+/// Philox4x32-10 as published by its authors, independent of the library that the program uses.
+/// [Salmon, Moraes, Dror and Shaw, "Parallel random numbers: as easy as 1, 2, 3", SC 2011, section
+/// 3.3]
 Counter philox(Counter c, Key k) {
   for (int round = 0; round < 10; ++round) {
     const std::uint64_t p0 = std::uint64_t{0xD2511F53} * c[0];
@@ -59,8 +60,8 @@ TEST(Random, ACopyGoesOnAsTheOriginal) {
   for (int i = 0; i < 50; ++i) EXPECT_EQ(one.normal(), other.normal());
 }
 
-// With fixed seeds the tests below are exact repetitions: they pass always or never. Their bounds
-// are 5 standard deviations of the statistic: a right generator misses one with probability 6e-7.
+// With fixed seeds the tests below are deterministic. Their bounds are 5 standard deviations of the
+// statistic: a correct generator misses one with probability 6e-7.
 constexpr int kDraws = 100000;
 const double kRootDraws = std::sqrt(static_cast<double>(kDraws));
 
@@ -123,7 +124,7 @@ TEST(Random, StreamsAndSeedsAreUncorrelated) {
 }
 
 TEST(Random, StreamsDoNotOverlap) {
-  // 1000 streams of 8 words: were two to share a block of 4 words, its first two words would agree.
+  // 1000 streams of 8 words: if two shared a block of 4 words, its first two words would agree.
   std::vector<std::uint64_t> pairs;
   for (std::uint64_t stream = 0; stream < 1000; ++stream) {
     Random random(5, stream);

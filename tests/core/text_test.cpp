@@ -1,4 +1,4 @@
-/// Text of a file as it may be shown.
+/// Sanitised text of a file for display.
 #include "awmr/core/text.h"
 
 #include <gmock/gmock.h>
@@ -17,7 +17,7 @@ TEST(Printable, ControlCharactersOfANameReachedTheTerminal) {
   EXPECT_EQ(printable("a\x1B[2Jb\r\n\t\x7F"), "a\\x1b[2Jb\\r\\n\\t\\x7f");
   EXPECT_EQ(printable("\xC2\x9B"
                       "31m"),
-            "\\u{9b}31m");  // CSI in one character
+            "\\u{9b}31m");  // CSI as one character
   EXPECT_EQ(printable("\xE2\x80\xAE"
                       "txt"),
             "\\u{202e}txt");  // right-to-left override
@@ -27,7 +27,7 @@ TEST(Printable, ControlCharactersOfANameReachedTheTerminal) {
 TEST(Printable, BytesThatAreNoUtf8AreEscaped) {
   EXPECT_EQ(printable("a\xFFz"), "a\\xffz");
   EXPECT_EQ(printable("\xC3"), "\\xc3");
-  EXPECT_EQ(printable("\xC0\x80"), "\\xc0\\x80");           // longer than need be
+  EXPECT_EQ(printable("\xC0\x80"), "\\xc0\\x80");           // overlong encoding
   EXPECT_EQ(printable("\xED\xA0\x80"), "\\xed\\xa0\\x80");  // a surrogate
   EXPECT_EQ(printable("\xF4\x90\x80\x80"), "\\xf4\\x90\\x80\\x80");
 }

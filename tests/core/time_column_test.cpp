@@ -1,4 +1,4 @@
-/// Time under other names, in other units and as dates.
+/// Time columns with other names, in other units and as dates.
 #include "awmr/core/time_column.h"
 
 #include <gmock/gmock.h>

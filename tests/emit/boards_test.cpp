@@ -1,5 +1,5 @@
-/// The emitted library on other boards: the sketches on Mega and Uno with Arduino's core, the
-/// autopilot on ARM by an emulator, to the host's bits.
+/// The emitted library on other boards: the sketches on Mega and Uno with Arduino's core; the
+/// autopilot on an emulated ARM gives the host's bits.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -36,8 +36,8 @@ struct Board {
   const char* name;
   const char* variant;
   std::vector<std::string> sketches;
-  int flash_bytes;  ///< beside the bootloader
-  int ram_bytes;    ///< for variables: a quarter is left to the stack
+  int flash_bytes;  ///< without the bootloader
+  int ram_bytes;    ///< for variables: a quarter is reserved for the stack
 };
 const Board kMega{
     "atmega2560",
@@ -66,8 +66,8 @@ class Sketches : public Boards, public ::testing::WithParamInterface<const Board
     return std::string("'") + kAvrGxx +
            "' -std=gnu++11 -fpermissive -fno-exceptions -fno-threadsafe-statics" + flags();
   }
-  /// Arduino's core and libraries as an archive, as its IDE makes it. They have warnings of their own; WString.cpp needs a macro that
-  /// avr-gcc 5.4 gives to C only.
+  /// Builds Arduino's core and libraries as an archive, as its IDE does. They have their own
+  /// warnings; WString.cpp needs a macro that avr-gcc 5.4 defines only for C.
   ProcessResult build_core() const {
     const std::string core = std::string(kArduino) + "/cores/arduino";
     const std::string libraries = std::string(kArduino) + "/libraries";
@@ -119,8 +119,8 @@ TEST_P(SketchesOnUno, ThatNeedACardSayThatThereIsNone) {
 INSTANTIATE_TEST_SUITE_P(, SketchesOnUno, ::testing::Values(&kUno),
                          [](const auto&) { return std::string("uno"); });
 
-/// Drives the autopilot by drawn inputs, a part more each round, and prints a sum over all bits that it
-/// commanded after each. Its own sums and products are apart as well (-ffp-contract=off).
+/// Runs the autopilot on random inputs, with one more part each round, and prints a sum over all
+/// output bits after each. Its own sums and products are not fused either (-ffp-contract=off).
 constexpr const char* kDriven = R"(#include "awmr.h"
 #include <stdio.h>
 #include <string.h>
@@ -187,7 +187,7 @@ int main(void) {
 }
 )";
 
-/// Where a Cortex-M begins: the table of vectors, and the floating-point unit switched on.
+/// Start-up code of a Cortex-M: the vector table, and enabling the floating-point unit.
 constexpr const char* kArmStart = R"(extern void _start(void);
 static void reset(void) {
 #ifdef __ARM_FP
@@ -238,7 +238,7 @@ class OtherProcessors : public Boards {
   }
 };
 
-/// An FPU's compiler would round a b + c once (vfma): awmr.cpp switches that off by itself.
+/// A compiler for an FPU would round a b + c once (vfma): awmr.cpp disables that itself.
 TEST_F(OtherProcessors, GiveTheHostsBitsWithAndWithoutAnFpu) {
   for (const char* program : {kArmGcc, kArmGxx, kQemuArm}) ASSERT_TRUE(found(program));
   const std::string host = on_host("-ffp-contract=off");
@@ -274,7 +274,7 @@ TEST_F(Boards, TheMetadataAreWhatArduinoAndPlatformIoRead) {
   EXPECT_TRUE(
       std::regex_match(json["version"].get<std::string>(), std::regex("\\d+\\.\\d+\\.\\d+")));
   EXPECT_THAT(properties, HasSubstr("version=" + json["version"].get<std::string>()));
-  // keywords.txt holds each function and type of awmr.h, after a tab what it is.
+  // keywords.txt lists each function and type of awmr.h with its kind after a tab.
   std::set<std::string> keywords;
   std::istringstream lines(text("keywords.txt"));
   for (std::string line; std::getline(lines, line);) {

@@ -1,5 +1,5 @@
-/// awmr_params.h as compilers see it: as C and C++, on the host and for the ATmega2560, warnings as
-/// errors; its values read back from what was compiled; its checks failing when they should.
+/// awmr_params.h in compilers: as C and C++, on the host and for the ATmega2560, with warnings as
+/// errors. Its values are read back from the compiled object, and its checks fail when they should.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -39,8 +39,8 @@ constexpr Compiler kCompilers[] = {
     {"AvrCxx14", kAvrGxx, "c++14", true, true},
 };
 
-/// Values that strain a literal: the ends of the range, whole numbers above 2^24, values whose
-/// ninth digit matters, exponents.
+/// Values that are hard to print as literals: ends of the range, whole numbers above 2^24, values
+/// whose ninth digit matters, exponents.
 Model strained_robot() {
   Model model = paper_robot();
   using Limits = std::numeric_limits<float>;
@@ -48,9 +48,9 @@ Model strained_robot() {
   model[ParameterId::kSurgeBeta].value = 0.0;
   model[ParameterId::kYawAlpha].value = static_cast<double>(Limits::min());
   model[ParameterId::kYawBeta].value = 1.0 / 3.0;
-  model[ParameterId::kSwayAlpha].value = 16777217.0;  // 2^24 + 1 is no float
+  model[ParameterId::kSwayAlpha].value = 16777217.0;  // 2^24 + 1 is not a float
   model[ParameterId::kMassNorm].value = 1e9;
-  model[ParameterId::kInertiaNorm].value = 1.00000012;  // 1 + 2^-23, all but
+  model[ParameterId::kInertiaNorm].value = 1.00000012;  // nearly 1 + 2^-23
   model.vehicle.wheel_force = {-0.1, 0.1};
   model.vehicle.name = "/* strained */ \?\?/";
   return model;
@@ -92,8 +92,8 @@ std::string comma_separated(const std::vector<std::string>& names) {
   return text.substr(0, text.size() - 2) + "\n";
 }
 
-/// An array of the macros in a section of its own, which objcopy takes out of the object file:
-/// the compiler's bits, without a run. Host and AVR are both little-endian IEEE 754.
+/// Puts an array of the macros into its own section, which objcopy extracts from the object file:
+/// the compiler's bits without executing the program. Host and AVR are both little-endian IEEE 754.
 std::vector<float> CompiledHeader::compiled_values(const std::vector<std::string>& names) const {
   const std::string source =
       "#include \"awmr_params.h\"\n#include \"awmr_params.h\"\n"
@@ -170,7 +170,7 @@ TEST_P(CompiledHeader, DoesNotCompileWhenEditedToAValueThatIsNotPositive) {
       checks.push_back(name + "_IS_POSITIVE");
     }
     write_header(edited);
-    // Every check by its name, so that none fails for another's reason.
+    // Every check is identified by its name, so that a failure of another one does not count.
     const bool is_clang = std::string(GetParam().name).starts_with("Clang");
     const ProcessResult result =
         compile(kUse, is_clang ? "-fsyntax-only -ferror-limit=0" : "-fsyntax-only");

@@ -1,4 +1,4 @@
-/// What other programs get of a model: held against the equations that their loops put them into.
+/// Exported parameters, compared with the equations of the target programs' control loops.
 #include "awmr/emit/export.h"
 
 #include <gmock/gmock.h>
@@ -36,7 +36,7 @@ std::string text_of(const Model& model, ExportFormat format, bool with_gains = t
   return text ? *text : to_text(text.error());
 }
 
-/// NAME,VALUE lines, or PX4's with tabs.
+/// Parses NAME,VALUE lines, or PX4's with tabs.
 std::map<std::string, double> parameters_of(const std::string& text) {
   std::map<std::string, double> values;
   std::istringstream lines(text);
@@ -49,7 +49,7 @@ std::map<std::string, double> parameters_of(const std::string& text) {
   return values;
 }
 
-// Printed with six decimals, so a product of two is off by some 1e-6 of its larger factor.
+// Printed with six decimals, so a product of two errs by some 1e-6 of its larger factor.
 constexpr double kPrinted = 2e-5;
 
 TEST(Export, OfMotorsWithBackEmfIsNotWorkedOutForAutopilots) {
@@ -78,8 +78,8 @@ TEST(Export, ArduPilotsCruiseHoldsItsSpeedAtItsThrottle) {
 }
 
 TEST(Export, ArduPilotsSpeedLoopClosesWithTheTimeConstantOfTheSpeedLaw) {
-  // With K_p and K_i of the closed loop of m' u' = 4 (K_p + K_i/s) e - g1'(u) u the plant's pole cancels:
-  // K_i/K_p = g1'/m', and 4 K_p/m' = mu_s/eps_s.
+  // With K_p and K_i of the closed loop of m' u' = 4 (K_p + K_i/s) e - g1'(u) u the plant's pole
+  // cancels: K_i/K_p = g1'/m', and 4 K_p/m' = mu_s/eps_s.
   const Model model = paper_robot();
   const SpeedGains<double> gains = kGains.speed;
   const auto values = parameters_of(text_of(model, ExportFormat::kArduPilot));
@@ -164,7 +164,8 @@ TEST(Export, AModelWithoutAYawLawGivesTheSpeedLoop) {
 }
 
 TEST(Export, TheIntervalOfADerivedNumberIsThatOfTheModelsCovariance) {
-  // RO_MAX_THR_SPEED = (4/a1)^(1/b1): with a1 alone uncertain its relative error is that of a1 over b1.
+  // RO_MAX_THR_SPEED = (4/a1)^(1/b1): if only a1 is uncertain, its relative error is that of a1
+  // over b1.
   Model model = paper_robot();
   const double alpha = *model[ParameterId::kSurgeAlpha].value;
   for (const ParameterInfo& parameter : parameter_table()) {
@@ -196,7 +197,7 @@ TEST(Export, HostileNamesStayInTheirComment) {
     plain.vehicle.name = "x";
     const std::string hostile = text_of(model, format);
     const std::string good = text_of(plain, format);
-    // One line differs: the first, a comment.
+    // Only the first line, a comment, differs.
     EXPECT_EQ(hostile.substr(hostile.find('\n')), good.substr(good.find('\n')));
     EXPECT_THAT(hostile.substr(0, hostile.find('\n')),
                 AllOf(Not(HasSubstr("*/")), Not(HasSubstr("\r")), Not(HasSubstr("\u2028"))));

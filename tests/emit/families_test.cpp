@@ -1,4 +1,4 @@
-/// Families other than the power law on their way to the chip.
+/// Resistance families other than the power law in the emitted firmware.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -89,7 +89,7 @@ TEST(Families, WithFrictionAtRestHaveATableFromTheRestSpeedOnAndTheValueThere) {
   EXPECT_EQ(p->rest->surge_at_rest, static_cast<float>(plant.surge.at(0.02)));
   EXPECT_EQ(p->rest->yaw_rest_speed, 0.0F);
   EXPECT_EQ(p->rest->dead_zone, 0.0F);
-  // As the simulated controller feeds it forward, with the sign of the error at rest, within 5e-4.
+  // Like the simulated controller's feed-forward, with the sign of the error at rest, within 5e-4.
   const RestingTable chip{p->surge.view(), p->rest->surge_rest_speed, p->rest->surge_at_rest};
   const Resistance<double> law = feed_forward(plant.surge);
   for (const float speed :

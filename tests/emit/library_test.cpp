@@ -1,5 +1,5 @@
-/// The emitted library as compilers see it: for the chip as C and C++, on the host under sanitizers;
-/// the same bytes every time. Sketches and other chips: boards_test.cpp.
+/// The emitted library in compilers: for the chip as C and C++, on the host with sanitizers;
+/// reproducible bytes. Sketches and other chips: boards_test.cpp.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -181,7 +181,8 @@ TEST(ResistanceTables, StayWithinTheirBoundOfTheLawBetweenTheirMeasuredPlaces) {
         autopilot_parameters(paper_robot(), kPaperGains, paper_inputs(), {.table_error = bound})
             .value();
     const ResistanceTable table = p.surge.view();
-    // Places that are no multiple of a cell's 64th; a chord's error changes little between them.
+    // Positions that are not multiples of 1/64 of a cell; the error of a chord changes little
+    // between them.
     for (int i = 1; i < 40000; ++i) {
       const float speed = static_cast<float>(i * 1.99e-4);
       const double exact = plant.surge(static_cast<double>(speed));
@@ -204,7 +205,7 @@ TEST(ResistanceTables, AreRefusedWhereNoTableIsGoodEnough) {
   EXPECT_THAT(to_text(p.error()), HasSubstr("table-error"));
 }
 
-/// So steep at rest that a chord is far off it, down to the lowest speed that a table knows.
+/// Resistance so steep at rest that a chord errs by much, down to the lowest speed of a table.
 Model steep_robot() {
   Model model = paper_robot();
   model[ParameterId::kSurgeBeta].value = 0.05;

@@ -1,4 +1,4 @@
-/// A model and gains as identify and tune would make them from the paper's tables, by hand.
+/// Hand-written model and gains as identify and tune would make them from the paper's tables.
 #pragma once
 
 #include <filesystem>
@@ -24,7 +24,7 @@ inline Model paper_robot() {
                     .source = Source::kFitted,
                     .method = "log-linear"};
   };
-  // The values of the paper's Appendix B, with the standard errors of its tables' log-linear fits.
+  // Values of the paper's Appendix B, with the standard errors of log-linear fits of its tables.
   model[ParameterId::kSurgeAlpha] = fitted(1.3268, 0.0183);
   model[ParameterId::kSurgeBeta] = fitted(0.8933, 0.0156);
   model[ParameterId::kYawAlpha] = fitted(0.3028, 0.0042);
@@ -42,7 +42,7 @@ inline EmitInputs paper_inputs() {
           .gains_file = "gains.json"};
 }
 
-/// The library that is emitted for it, as files.
+/// Writes the emitted library of this robot as files.
 inline void write_library(const std::filesystem::path& directory, const EmitOptions& options = {}) {
   const auto files = firmware_library(paper_robot(), kPaperGains, paper_inputs(), options);
   for (const EmittedFile& file : files.value()) {
@@ -51,7 +51,7 @@ inline void write_library(const std::filesystem::path& directory, const EmitOpti
   }
 }
 
-/// The contract's macros with the values they have to have, by name.
+/// The documented macros with their expected values, by name.
 inline std::vector<std::pair<std::string, double>> expected_macros(const Model& model,
                                                                    const Gains<double>& gains) {
   const auto value = [&model](ParameterId id) { return model[id].value.value(); };
@@ -76,7 +76,7 @@ inline std::vector<std::pair<std::string, double>> expected_macros(const Model& 
           {"AWMR_SPEED_EPSILON", gains.speed.epsilon}};
 }
 
-/// The text after `#define NAME `; empty where there is none.
+/// Text after `#define NAME `; empty if there is none.
 inline std::string macro_text(const std::string& header, const std::string& name) {
   const std::string start = "\n#define " + name + " ";
   const std::size_t at = header.find(start);

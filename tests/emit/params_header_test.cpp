@@ -1,5 +1,4 @@
-/// The text of awmr_params.h: what is in it, and what is refused. Compilers see it in
-/// compiled_header_test.cpp.
+/// Text of awmr_params.h: its content, and refused inputs. compiled_header_test.cpp compiles it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -110,7 +109,7 @@ TEST(ParamsHeader, KeepsNamesFromFilesInsideTheirComments) {
                           [](char c) { return c == '\n' || (c >= ' ' && c <= '~'); }));
   EXPECT_THAT(header, Not(HasSubstr("\n#error")));
   EXPECT_EQ(defined_names(header), defined_names(paper_header()));
-  // Comments end where they should: as many opened as closed, in turn.
+  // Comments end where they should: openings and closings alternate and match.
   int depth = 0;
   for (std::size_t i = 0; i + 1 < header.size(); ++i) {
     if (header.compare(i, 2, "/*") == 0) {

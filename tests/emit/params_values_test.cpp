@@ -1,4 +1,4 @@
-/// Properties over many values: what is written reads back as the float nearest to the double.
+/// Properties over many values: a written value reads back as the float nearest to the double.
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
@@ -14,7 +14,7 @@
 namespace awmr::testing {
 namespace {
 
-/// Any positive normal float, all exponents alike.
+/// Any positive normal float, uniform over the exponents.
 double any_positive_float() {
   const auto bits = *rc::gen::inRange<std::uint32_t>(0x00800000U, 0x7F800000U);
   float value = 0.0F;
@@ -22,7 +22,7 @@ double any_positive_float() {
   return static_cast<double>(value);
 }
 
-/// A double that is no float: between two neighbours.
+/// A double between two neighbouring floats.
 double any_positive_double() {
   const double value = any_positive_float();
   const double share = *rc::gen::inRange(0, 1000) / 1000.0;
@@ -59,7 +59,7 @@ TEST(ParamsValues, AreAcceptedExactlyWhereT2IsBelowT1) {
     const double t1_s = 1.0 / gains.heading.lambda;
     const double t2_s = gains.heading.epsilon / (2.0 * gains.heading.mu);
     // Three roundings to float32 and two of the product in it: within 5 * 2^-24 of the limit the
-    // answer may differ from the one in double.
+    // answer may differ from that in double.
     if (std::abs(t2_s / t1_s - 1.0) < 5.0 * 0x1p-24) return;
     const auto header = params_header(paper_robot(), gains, paper_inputs());
     RC_ASSERT(header.has_value() == (t2_s < t1_s));

@@ -1,5 +1,5 @@
-/// Whatever the robot and its gains: an emitted controller's commands are numbers within its limits,
-/// or it is refused.
+/// For any robot and gains, an emitted controller's commands are finite and within its limits, or
+/// the robot is refused.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 

@@ -1,5 +1,5 @@
-/// The emitted sketches, compiled for this machine, against a simulated vehicle and its sensors
-/// (host_core/): each hazard of SAFETY.md is made to happen, and its table holds what was seen.
+/// The emitted sketches, compiled for this machine, with a simulated vehicle and sensors
+/// (host_core/). Each hazard of SAFETY.md is injected; its table contains the measured results.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -16,14 +16,14 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// A row of the table: what goes wrong, what finds it, its code, and how soon the motors are off.
+/// Row of the table: failure, detecting check, its code, and the time until the motors are off.
 struct Hazard {
-  const char* name;  ///< of the case in drive_case.cpp
+  const char* name;  ///< name of the case in drive_case.cpp
   const char* hazard;
   const char* detector;
   int cause;             ///< SensorFault; 0: none
-  double within_s;       ///< motors off, at most
-  bool on_route = true;  ///< also driven with WaypointFollowing
+  double within_s;       ///< maximum time until the motors are off
+  bool on_route = true;  ///< also run with WaypointFollowing
 };
 
 constexpr Hazard kHazards[] = {
@@ -61,13 +61,14 @@ constexpr Hazard kHazards[] = {
     {"stop", "operator sends STOP", "the command", 0, 0.05},
     {"stop-in-noise", "STOP amid noise, without a line's end", "its last letter", 0, 0.05}};
 
-/// One row of the table in SAFETY.md.
+/// Formats one row of the table in SAFETY.md.
 std::string table_row(const Hazard& h) {
   return fmt::format("| {} | {} | {} | {:g} | `{}` |\n", h.hazard, h.detector,
                      h.cause != 0 ? std::to_string(h.cause) : "-", h.within_s, h.name);
 }
 
-/// A vehicle that rolls well, m' = 1 and g1 = 0.2 u: fed with |u|, its speed law runs away.
+/// A vehicle with low resistance, m' = 1 and g1 = 0.2 u: with |u| as its input, its speed law
+/// diverges.
 Model rolling_robot() {
   Model model = paper_robot();
   model[ParameterId::kSurgeAlpha].value = 0.2;
@@ -105,7 +106,7 @@ class SafeSketches : public ::testing::Test {
                     directory.path())));
     for (const auto& [sketch, start] :
          {std::pair{"HeadingHold", "S 1.0"}, std::pair{"WaypointFollowing", "G"}}) {
-      // naked functions are the chip's alone.
+      // naked functions exist only on the chip
       ASSERT_TRUE(succeeded(run_process(
           fmt::format(
               "{0} -std=c++17{1}-Dnaked= -D__AVR_ATmega2560__ '-DAWMR_START=\"{2}\\n\"' "
@@ -122,7 +123,7 @@ class SafeSketches : public ::testing::Test {
                     kGxx, flags, directory.path().string(), AWMR_SOURCE_DIR),
         directory.path())));
   }
-  /// NAME=VALUE pairs that a run of the sketch prints.
+  /// NAME=VALUE pairs printed by a run of the sketch.
   static std::map<std::string, double> drive(const TemporaryDirectory& directory,
                                              const std::string& line) {
     const ProcessResult run = run_process("./" + line, directory.path());
@@ -144,7 +145,7 @@ TemporaryDirectory* SafeSketches::rolling_ = nullptr;
 
 TEST_F(SafeSketches, DriveWhereNothingIsWrongAlsoAcrossTheClocksWrap) {
   for (const char* sketch : {"HeadingHold", "WaypointFollowing"}) {
-    // millis() wraps 12 s after the start, in the drive.
+    // millis() wraps 12 s after the start, during the drive.
     for (const char* start_ms : {"1000", "4294955000"}) {
       auto seen = drive(*paper_, fmt::format("{} none {}", sketch, start_ms));
       EXPECT_EQ(seen["drove"], 1) << sketch;

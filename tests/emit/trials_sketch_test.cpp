@@ -1,5 +1,5 @@
-/// The recorder of the sketch RecordTrials, driven on this machine: its tables give back the vehicle
-/// that they were recorded with.
+/// The recorder of the sketch RecordTrials, run on this machine: its tables identify the simulated
+/// vehicle.
 #include <awmr_trials.h>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -18,7 +18,8 @@ namespace {
 
 using namespace awmr_trials;
 
-/// Ten times as heavy for its motors as the paper's robot, which stops between two fixes of a GPS:
+/// Ten times as heavy relative to its motors as the paper's robot, which stops between two GPS
+/// fixes:
 /// m' du/dt = 2 F' (1 + cos d) - a1 u^b1,  I'z dr/dt = 2 F' l_f sin d - a3 r^b3
 struct Rover {
   double a1 = 1.3157, b1 = 0.8841, a3 = 0.3028, b3 = 0.8250, mass = 1.0, inertia = 0.15;
@@ -35,7 +36,7 @@ struct Rover {
   }
 };
 
-/// What the recorder is given: a step each 10 ms, a fix each 100 ms.
+/// Inputs of the recorder: a step every 10 ms, a fix every 100 ms.
 struct Drive {
   Recorder recorder;
   Rover rover = {};
@@ -54,7 +55,7 @@ struct Drive {
     }
     return recorder.step({now_ms, speed_mps, speed_ms, static_cast<float>(rover.r), is_held});
   }
-  /// Up to the next event; nothing for a minute is a fault of the test.
+  /// Runs to the next event; a minute without one is an error of the test.
   Event until_event(bool is_held = true) {
     for (int i = 0; i < 6000; ++i) {
       const Event event = step(is_held);
@@ -64,7 +65,7 @@ struct Drive {
   }
 };
 
-/// Eight time constants m'/a1, after which e^-8 = 3e-4 of the speed is lacking.
+/// Eight time constants m'/a1, after which e^-8 = 3e-4 of the speed is missing.
 constexpr Settings kSettings = {8.0F, 3.0F, 15.0F, 0.05F, 0.05F};
 
 TEST(TrialRecorder, ItsTablesGiveBackTheVehicle) {
@@ -108,14 +109,14 @@ TEST(TrialRecorder, ItsTablesGiveBackTheVehicle) {
   const auto found = identify(*trials, {});
   ASSERT_TRUE(found) << to_text(found.error());
   const auto value = [&](ParameterId id) { return found->model[id].value.value_or(NAN); };
-  // Cells have four digits behind the point: 1e-4 of the smallest speed, 0.4 m/s, is 2.5e-4, and the
-  // exponent is that over the logarithm of the range, about 1.3.
+  // Cells have four decimals: 1e-4 of the smallest speed, 0.4 m/s, is 2.5e-4. The exponent errs by
+  // that over the logarithm of the range, about 1.3.
   const Rover truth;
   EXPECT_NEAR(value(ParameterId::kSurgeAlpha), truth.a1, 5e-4 * truth.a1);
   EXPECT_NEAR(value(ParameterId::kSurgeBeta), truth.b1, 1e-3);
   EXPECT_NEAR(value(ParameterId::kYawAlpha), truth.a3, 2e-3 * truth.a3);
   EXPECT_NEAR(value(ParameterId::kYawBeta), truth.b3, 5e-3);
-  // A fix is up to a step of 10 ms older than its row says, of a coast-down of over a second.
+  // A fix is up to a step of 10 ms older than its row says, in a coast-down of over a second.
   EXPECT_NEAR(value(ParameterId::kMassNorm), truth.mass, 0.03 * truth.mass);
 }
 
@@ -146,7 +147,7 @@ TEST(TrialRecorder, ARunThatIsNotSteadyOrWithoutFixesGivesNoRow) {
   slow.recorder.go();
   EXPECT_EQ(slow.until_event(), kNotSteady);
   Drive heavy{Recorder(runs, 1, {0.1F, 2.0F, 15.0F, 0.05F, 0.05F})};
-  heavy.rover.mass = 5.0;  // still gets faster within the window
+  heavy.rover.mass = 5.0;  // still accelerates within the window
   heavy.recorder.go();
   EXPECT_EQ(heavy.until_event(), kNotSteady);
   EXPECT_EQ(heavy.recorder.state(), kWaiting);

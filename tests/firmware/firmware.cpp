@@ -1,5 +1,5 @@
-// A whole program for the ATmega2560: awmr_params.h and the controller of the simulator, in float.
-// What a vehicle's program would read from its sensors and write to its motors is volatile here.
+// Complete program for the ATmega2560: awmr_params.h and the simulator's controller, in float.
+// Inputs from sensors and outputs to motors are volatile here.
 #include "awmr/control/controller.h"
 #include "awmr_params.h"
 

@@ -1,4 +1,4 @@
-/// The emitted header and the simulator's own controller, built and linked for the ATmega2560.
+/// The emitted header and the simulator's controller, built and linked for the ATmega2560.
 #include <gtest/gtest.h>
 
 #include <iostream>
@@ -11,7 +11,7 @@
 namespace awmr::testing {
 namespace {
 
-// What avr-gcc 5.4 makes of it, 8,272 and 50 bytes, and 1 %; the chip has 262,144 and 8,192.
+// Size with avr-gcc 5.4, 8,272 and 50 bytes, plus 1 %; the chip has 262,144 and 8,192.
 constexpr long kFlashBytesMax = 8355;
 constexpr long kRamBytesMax = 51;  // without the stack
 
@@ -65,14 +65,14 @@ TEST_F(Firmware, LinksAndFitsTheChip) {
             << " bytes of RAM without the stack\n";
   RecordProperty("flash_bytes", std::to_string(flash_bytes));
   RecordProperty("ram_bytes", std::to_string(ram_bytes));
-  // Above what start-up code and vectors take alone (about 250 bytes): the controller is in it.
+  // More than start-up code and vectors alone (about 250 bytes): the controller is included.
   EXPECT_GT(flash_bytes, 1000);
   EXPECT_LT(flash_bytes, kFlashBytesMax);
   EXPECT_LT(ram_bytes, kRamBytesMax);
 }
 
 TEST_F(Firmware, NeedsNoHeapAndNoExceptions) {
-  // The object file names what it needs from elsewhere; nothing of a C++ run-time may be there.
+  // Undefined symbols of the object file: none of a C++ run-time is allowed.
   ASSERT_TRUE(
       succeeded(avr_gxx("-c '" AWMR_SOURCE_DIR "/tests/firmware/firmware.cpp' -o firmware.o")));
   const std::string bytes = read_all(directory_.path() / "firmware.o");

@@ -1,6 +1,6 @@
-/// The whole autopilot with every part that there is, any of them in use, over arbitrary bits of input,
-/// corners, obstacles and motors: every command is a number within its limits, a fault gives the safe
-/// command, and a step ends.
+/// Complete autopilot with all parts, any of them in use, over arbitrary input bits, corners,
+/// obstacles and motors. Every command is finite and within its limits, a fault gives the safe
+/// command, and every step terminates.
 #include <cmath>
 #include <cstring>
 #include <iterator>
@@ -18,7 +18,7 @@ using namespace awmr;
 constexpr float kSampleTime_s = 0.01F;
 constexpr int kMostPoints = 4;
 
-/// Which parts are in use, by a bit each.
+/// Parts in use, one bit each.
 enum Use : unsigned {
   kFresh = 1,
   kKnownMode = 2,
@@ -30,7 +30,7 @@ enum Use : unsigned {
   kObserver = 128
 };
 
-/// The paper's robot, with motors that have a dead zone and back-EMF.
+/// The paper's robot with a dead zone and back-EMF of its motors.
 struct Robot {
   ParameterBlock block{};
   RestBlock rest{};
@@ -50,7 +50,7 @@ struct Robot {
   }
 };
 
-/// Reads one thing after the other, zeros where the bytes end.
+/// Reads values in sequence; zeros after the last byte.
 class InputBytes {
  public:
   InputBytes(const std::uint8_t* data, std::size_t size) : data_(data), size_(size) {}
@@ -100,7 +100,7 @@ void check(const Whole& autopilot, const Robot& robot, const AutopilotOutput& ou
 
 }  // namespace
 
-/// Bytes: which parts are in use, an input, then corners and obstacles.
+/// Bytes: parts in use, an input, then corners and obstacles.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const Robot kRobot;
   InputBytes bytes(data, size);

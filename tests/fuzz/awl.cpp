@@ -1,5 +1,5 @@
-/// An on-board log is read with rows that are all finite and in order, or refused; what is lost and
-/// damaged adds up; either way in bounded memory.
+/// An on-board log is read with finite, ordered rows, or refused. The counts of lost and damaged
+/// data add up. Memory is bounded.
 #include "awmr/trials/awl.h"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-/// A formula over columns is compiled and gives a number, or is refused; so is a mapping.
+/// A column formula or mapping is compiled and gives a number, or is refused.
 #include "awmr/core/column_expression.h"
 
 #include <cmath>

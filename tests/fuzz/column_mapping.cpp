@@ -1,4 +1,4 @@
-/// A column mapping is read with a scale that can be undone, or refused.
+/// A column mapping is read with an invertible scale, or refused.
 #include <cmath>
 
 #include "awmr/core/csv.h"

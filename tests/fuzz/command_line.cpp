@@ -1,5 +1,5 @@
-/// Whatever bytes come over the line: a command is taken from a whole line or frame only, its value is
-/// a number, and the letters STOP always stop.
+/// For arbitrary bytes on the line: only a complete line or frame gives a command, its value is
+/// finite, and the letters STOP always stop.
 #include "awmr/control/command_line.h"
 
 #include <cmath>

@@ -1,5 +1,5 @@
-/// The emitted controller, compiled for this machine, with arbitrary bits in its input: every
-/// command is a number within its limits, and a fault gives the safe command.
+/// The emitted controller, compiled for this machine, with arbitrary input bits. Every command is
+/// finite and within its limits, and a fault gives the safe command.
 #include <cmath>
 #include <cstring>
 
@@ -12,8 +12,8 @@ namespace {
 
 bool is_between(float value, float lo, float hi) { return value >= lo && value <= hi; }
 
-/// Points are the sketch's own and not checked: one that is no number shows in what the laws ask
-/// for, and in the last gate, but never in a command.
+/// Points belong to the sketch and are not checked. A NaN point appears in the request of the laws
+/// and in the last check, but never in a command.
 void check(const awmr_output& out, bool is_following) {
   require(is_between(out.force_left, AWMR_WHEEL_FORCE_MIN, AWMR_WHEEL_FORCE_MAX), "left force");
   require(is_between(out.force_right, AWMR_WHEEL_FORCE_MIN, AWMR_WHEEL_FORCE_MAX), "right force");
@@ -28,11 +28,12 @@ void check(const awmr_output& out, bool is_following) {
   require((out.fault & AWMR_FAULT_OUTPUT) == 0, "the last gate has nothing to do");
 }
 
-/// Fresh at this step, so that what the bytes say of the motion decides.
+/// Makes all times current, so that the motion in the bytes decides.
 void renew(awmr_input& in) { in.now_ms = in.heading_ms = in.speed_ms = in.command_ms; }
 
-/// Starts it once: reading the parameters takes longer than a hundred steps. From then on a good
-/// step at this time, without points to follow, makes every input begin alike.
+/// Starts the controller once, because reading the parameters takes longer than a hundred steps.
+/// Later, a valid step at this time without points to follow gives every input the same initial
+/// state.
 void start_at(uint32_t now_ms) {
   static const bool kIsGood = awmr_init() == AWMR_FAULT_NONE;
   require(kIsGood, "the parameters are as they were emitted");
@@ -45,8 +46,8 @@ void start_at(uint32_t now_ms) {
 
 }  // namespace
 
-/// Bytes: one whose bits tell how to use the rest, then an awmr_input as it lies in memory, then
-/// points to follow.
+/// Bytes: one whose bits select how to use the rest, then an awmr_input as in memory, then points
+/// to follow.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   const unsigned use = *data++;

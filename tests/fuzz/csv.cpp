@@ -1,5 +1,5 @@
-/// A CSV table is read with finite values or refused with a fault that can be read; in blocks it is
-/// read as in one piece.
+/// A CSV table is read with finite values or refused with a readable fault. Reading in blocks gives
+/// the same table.
 #include <cmath>
 
 #include "awmr/core/csv_blocks.h"

@@ -1,4 +1,4 @@
-/// A DataFlash log is read with what its records say, or refused; either way in bounded memory.
+/// A DataFlash log is read according to its records, or refused. Memory is bounded.
 #include "awmr/trials/dataflash.h"
 
 #include "fuzz/signals.h"

@@ -1,4 +1,4 @@
-/// A DataFlash log as text is read with what its lines say, or refused; either way in bounded memory.
+/// A DataFlash log as text is read according to its lines, or refused. Memory is bounded.
 #include "awmr/trials/dataflash_text.h"
 
 #include "fuzz/signals.h"

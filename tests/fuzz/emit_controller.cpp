@@ -1,5 +1,5 @@
-/// Writes the emitted library of the paper's robot: `emit_controller DIR`, for the target
-/// control_step.
+/// Writes the emitted library of the paper's robot for the target control_step: `emit_controller
+/// DIR`.
 #include <filesystem>
 
 #include "awmr/core/file.h"

@@ -1,5 +1,5 @@
-/// A fuzz target's bytes as a file, for readers that take a path: one file in memory, written anew
-/// for every input.
+/// Provides a fuzz target's bytes as a file, for readers that take a path: one file in memory,
+/// rewritten for every input.
 #pragma once
 
 #include <fcntl.h>
@@ -14,8 +14,8 @@
 
 namespace awmr::fuzz {
 
-/// The path of a file of these bytes. It lies in a directory of its own, so that a relative path in
-/// the bytes leads nowhere.
+/// Path of a file with these bytes. It is in its own directory, so that relative paths in the bytes
+/// lead nowhere.
 inline const std::filesystem::path& file_of_bytes(const std::uint8_t* data, std::size_t size) {
   static const std::filesystem::path kPath = [] {
     const char* memory = ::access("/dev/shm", W_OK) == 0 ? "/dev/shm" : "/tmp";
@@ -32,7 +32,7 @@ inline const std::filesystem::path& file_of_bytes(const std::uint8_t* data, std:
   return kPath;
 }
 
-/// Whether a reader refused the file; a refusal is bad input that names a fault in words one can read.
+/// True if a reader refused the file. A refusal must be an input error with readable faults.
 template <class T>
 bool is_refused(const Result<T>& read) {
   if (read) return false;

@@ -1,5 +1,5 @@
-/// Whatever bytes come over the line: a frame is taken whole and with the right check sum only, and
-/// a conversation with a chip that answers them ends.
+/// For arbitrary bytes on the line: only complete frames with the right checksum are accepted, and
+/// a conversation with a chip that sends them ends.
 #include "firmware/frame.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ using awmr::fuzz::require;
 
 namespace {
 
-/// A chip that says these bytes whatever it is asked, and then no more.
+/// A chip that sends these bytes whatever is requested, and then nothing.
 class Recording : public awmr::pil::Line {
  public:
   explicit Recording(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
@@ -34,7 +34,7 @@ class Recording : public awmr::pil::Line {
   std::size_t at_ = 0;
 };
 
-/// Frames end where their own check sum says so, and nowhere else.
+/// Frames end exactly where their checksum matches.
 void check_reader(std::span<const std::uint8_t> bytes) {
   pil::FrameReader reader{};
   for (const std::uint8_t byte : bytes) {
@@ -47,7 +47,7 @@ void check_reader(std::span<const std::uint8_t> bytes) {
   }
 }
 
-/// The same frame as it is written: it is read whatever stood on the line before it.
+/// A valid frame is read whatever precedes it on the line.
 void check_written(std::span<const std::uint8_t> bytes) {
   const auto length = static_cast<std::uint8_t>(std::min<std::size_t>(bytes.size(), 140));
   pil::FrameReader reader{};

@@ -1,4 +1,5 @@
-/// Whatever bytes come from the GPS: reading ends, and a fix lies on the Earth, today.
+/// For arbitrary bytes from the GPS: reading ends, and a fix is on the Earth and has a valid time
+/// of day.
 #include "awmr/control/gps_sentence.h"
 
 #include <cmath>
@@ -24,7 +25,7 @@ void take(awmr::RmcReader& reader, char c) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   awmr::RmcReader reader;
   for (std::size_t i = 0; i < size; ++i) take(reader, static_cast<char>(data[i]));
-  // With its check sum made right, mutations reach the fields.
+  // With a corrected checksum, mutations reach the fields.
   std::string line = "$";
   unsigned sum = 0;
   for (std::size_t i = 0; i < size && data[i] != '*' && data[i] != 0; ++i) {

@@ -1,4 +1,4 @@
-/// A JSON document is read or refused, and what was read is written so that it reads back equal.
+/// A JSON document is read or refused; a document that was read is written and reads back equal.
 #include "awmr/core/json_document.h"
 #include "fuzz/target.h"
 

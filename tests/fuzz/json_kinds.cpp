@@ -1,5 +1,5 @@
-/// Each kind of JSON file is read with values in range, or refused by name; what is written of what
-/// was read reads back.
+/// Each kind of JSON file is read with values in range, or refused by name; its written form reads
+/// back.
 #include "awmr/model/gains_file.h"
 #include "awmr/model/model_file.h"
 #include "awmr/model/vehicle_file.h"

@@ -1,4 +1,5 @@
-/// A number reads back the same bits; a text reads back from its cell; what is shown steers nothing.
+/// A number reads back with the same bits; a text reads back from its cell; displayed text has no
+/// control characters.
 #include <bit>
 #include <cmath>
 

@@ -1,9 +1,10 @@
-/// Runs a fuzz target with any compiler: over the files of a directory, then over mutations of them.
+/// Runs a fuzz target with any compiler: over the files of a directory, then over mutations of
+/// them.
 ///
 ///   replay DIR MUTATIONS LAST_INPUT
 ///
-/// The mutations are drawn by a fixed seed, so that a run means the same everywhere. LAST_INPUT is
-/// the file that holds the input at work; it is left behind by a run that crashes.
+/// The mutations have a fixed seed, so that runs are reproducible. LAST_INPUT is the file with the
+/// current input; a crash leaves it behind.
 #include <fcntl.h>
 #include <sys/mman.h>
 #include <unistd.h>
@@ -29,7 +30,7 @@ using Random = std::minstd_rand;
 
 constexpr std::size_t kLongest = 4096;
 
-/// Text that a reader has to think about.
+/// Keywords that are significant to the readers.
 constexpr std::array<std::string_view, 24> kWords = {
     "0",  "-",    "1e308",       "1e-320", "nan",  "inf", "99999999999999999999",
     "\"", "\\",   "\n",          "\r\n",   ",",    ";",   "{",
@@ -42,7 +43,8 @@ void put(Bytes& input, std::size_t place, const std::uint8_t* from, std::size_t 
   input.insert(input.begin() + static_cast<std::ptrdiff_t>(place), from, from + count);
 }
 
-/// One small change: a bit, a byte, a piece left out, doubled or taken from another file, a word.
+/// One small change: a bit, a byte, a piece deleted, duplicated or taken from another file, a
+/// keyword.
 void change(Bytes& input, const Bytes& other, Random& random) {
   const std::size_t place = below(input.size() + 1, random);
   const std::size_t length = 1 + below(16, random);
@@ -70,7 +72,7 @@ void change(Bytes& input, const Bytes& other, Random& random) {
   if (input.size() > kLongest) input.resize(kLongest);
 }
 
-/// A file that has the bytes of the input at work, whatever ends the program.
+/// File with the bytes of the current input; it survives a crash.
 class LastInput {
  public:
   explicit LastInput(const char* path) : path_{path} {
@@ -85,7 +87,7 @@ class LastInput {
   ~LastInput() { (void)std::remove(path_); }
 
   [[nodiscard]] bool open_for_writing() const { return bytes_ != nullptr; }
-  /// Of a longer input, its beginning.
+  /// Of a longer input only the beginning is stored.
   void hold(const Bytes& input) {
     const std::size_t count = std::min(input.size(), kLongest);
     std::memcpy(bytes_, input.data(), count);

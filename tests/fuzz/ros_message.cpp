@@ -1,4 +1,4 @@
-/// A message in CDR gives as many numbers as its type has, or is refused.
+/// A CDR message gives as many numbers as its type has, or is refused.
 #include "awmr/trials/ros_message.h"
 
 #include "fuzz/target.h"

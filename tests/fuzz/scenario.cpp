@@ -1,5 +1,5 @@
-/// Every scenario that is read is simulated with finite rows and commands within their limits, or
-/// refused; shortened to a fifth of a second.
+/// Every scenario that is read is simulated, for a fifth of a second, with finite rows and commands
+/// within their limits, or refused.
 #include "awmr/simulate/scenario_file.h"
 
 #include <algorithm>

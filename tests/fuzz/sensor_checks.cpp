@@ -1,5 +1,5 @@
-/// Arbitrary readings at arbitrary times: a fault that is not good lasts as long as its cause, a fix
-/// that is believed is new, near and of this day, and nothing overflows.
+/// Arbitrary readings at arbitrary times: a fault lasts as long as its cause, an accepted fix is
+/// new, near and of the same day, and nothing overflows.
 #include "awmr/control/gps_check.h"
 #include "awmr/control/heading_check.h"
 

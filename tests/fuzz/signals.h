@@ -1,4 +1,4 @@
-/// What holds of the signals of any file.
+/// Properties of the signals of any file.
 #pragma once
 
 #include <cmath>
@@ -8,8 +8,8 @@
 
 namespace awmr::fuzz {
 
-/// Every column has a value by message, and there are no more values than bytes; the signals become
-/// a table or are refused.
+/// Every column has one value per message, and there are no more values than bytes. The signals
+/// become a table or are refused.
 inline void check(Result<Signals> signals, std::size_t bytes) {
   if (!signals) {
     require(!signals.error().faults.empty(), "an error names a fault");

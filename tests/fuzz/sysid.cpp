@@ -1,4 +1,4 @@
-/// A record of SysId is read, a value in every row of every column, or refused.
+/// A SysId record is read with a value in every cell, or refused.
 #include "awmr/trials/sysid.h"
 
 #include <cmath>

@@ -1,5 +1,5 @@
-/// What every fuzz target has: the entry that libFuzzer and the replay call, and a check that ends
-/// the program where a property does not hold.
+/// Common to all fuzz targets: the entry point for libFuzzer and the replay, and a check that
+/// aborts if a property is violated.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-/// Trial tables and driving logs are read with values that make sense, or refused by name.
+/// Trial tables and driving logs are read with plausible values, or refused by name.
 #include <cmath>
 #include <vector>
 
@@ -60,7 +60,7 @@ void check_tables(const std::filesystem::path& path, const awmr::TrialOptions& o
   check(findings);
 }
 
-/// As all tables of one folder, held against each other.
+/// Reads them as the tables of one vehicle, compared with each other.
 void check_folder(const std::filesystem::path& path) {
   for (const bool as_is : {false, true}) {
     const awmr::TrialOptions options{.columns = {}, .as_is = as_is};

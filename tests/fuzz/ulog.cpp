@@ -1,4 +1,4 @@
-/// A ULog is read with what its topics say, or refused; either way in bounded memory.
+/// A ULog is read according to its topics, or refused. Memory is bounded.
 #include "awmr/trials/ulog.h"
 
 #include "fuzz/signals.h"

@@ -86,8 +86,8 @@ TEST(CoastDown, FindsTheMomentOfMotorsOffInACurveRecordedFromBefore) {
 }
 
 TEST(CoastDown, TheClosedFormIsTheIntegratedOneForOtherFamiliesToo) {
-  // c + alpha w: u(t) = (u0 + c/alpha) e^(-alpha t/m') - c/alpha until rest. RK4 at 2 ms against
-  // it.
+  // c + alpha w: u(t) = (u0 + c/alpha) e^(-alpha t/m') - c/alpha until rest, compared with RK4 at 2
+  // ms.
   const double alpha = 1.1, c = 0.2, m = 0.3, u0 = 1.4;
   TrialData data;
   data.surge = TrialSet<SurgeRow>{"surge.csv", {}, 0};
@@ -106,7 +106,7 @@ TEST(CoastDown, TheClosedFormIsTheIntegratedOneForOtherFamiliesToo) {
   options.surge_family.family = Family::kCoulombLinear;
   const auto result = identify(vehicle(), data, options, {});
   ASSERT_TRUE(result);
-  // The stop falls inside a step: an error of about c h/m' = 1e-3 m/s in one row of a hundred.
+  // The stop is inside a step: an error of about c h/m' = 1e-3 m/s in one row of a hundred.
   EXPECT_NEAR(*result->model[ParameterId::kMassNorm].value / m, 1.0, 1e-3);
 }
 
@@ -124,7 +124,7 @@ TEST(CoastDown, IsManyTimesSurerThanAStopTime) {
   const auto relative = [](const Model& m) {
     return *m[ParameterId::kMassNorm].std_error / *m[ParameterId::kMassNorm].value;
   };
-  // d ln m'/d b1 is about -8 for the stop time; the curve's is below 1.
+  // d ln m'/d b1 is about -8 for the stop time; that of the curve is below 1.
   EXPECT_LT(relative(by_curve->model), 0.4 * relative(by_stop->model));
 }
 
@@ -192,7 +192,7 @@ TEST(CoastDown, AloneItShowsTheTermsOfTheFamilyAskedForOverItsFirst) {
   const auto* mass = found(result->model, "coulomb-linear", "mass_norm/surge.alpha");
   const auto* coulomb = found(result->model, "coulomb-linear", "surge.coulomb/surge.alpha");
   ASSERT_TRUE(mass && coulomb);
-  // Within four standard errors, which are some per cent.
+  // Within four standard errors of some per cent each.
   EXPECT_NEAR(mass->value, 0.5 / 0.8, 4.0 * *mass->std_error);
   EXPECT_NEAR(coulomb->value, 0.4 / 0.8, 4.0 * *coulomb->std_error);
   EXPECT_LT(*mass->std_error, 0.1 * mass->value);
@@ -213,7 +213,7 @@ TEST(CoastDown, AloneItTellsThatAPowerLawDoesNotDescribeIt) {
   EXPECT_FALSE(inadequate(plain->model));
   const auto* mass = found(plain->model, "power", "mass_norm/surge.alpha");
   EXPECT_NEAR(mass->value, 0.5 / 1.3, 4.0 * *mass->std_error);
-  // `auto` takes the better one, and its numbers stand first.
+  // `auto` selects the better one, whose numbers come first.
   IdentifyOptions options;
   options.surge_family = {.family = std::nullopt, .asked = true};
   const auto chosen = identify(vehicle(), coulomb, options, {});

@@ -1,5 +1,5 @@
-/// Hard and soft iron: a known ellipse is found again, its intervals hold it, and what is no turn or
-/// no ellipse is refused.
+/// Hard- and soft-iron calibration: recovers a known ellipse, its intervals cover the truth, and
+/// data without a turn or an ellipse are refused.
 #include "awmr/identify/compass/compass.h"
 
 #include <gmock/gmock.h>
@@ -52,7 +52,7 @@ TEST(Compass, FindsAKnownEllipseToTheRounding) {
     const auto fit = fit_compass(record_of(truth, {.turned_deg = turned, .noise = 0.0}), 4.5);
     ASSERT_TRUE(fit) << to_text(fit.error());
     const CompassCalibration& c = fit->calibration;
-    // The solver ends where a step promises less than 1e-8 of the residuals' size.
+    // The solver ends when a step promises less than 1e-8 of the residuals' size.
     EXPECT_NEAR(c.centre_ahead.value, truth.ahead_0, 1e-5);
     EXPECT_NEAR(c.centre_left.value, truth.left_0, 1e-5);
     EXPECT_NEAR(c.gain_ahead.value, truth.ahead, 1e-7);
@@ -78,15 +78,15 @@ TEST(Compass, IntervalsHoldTheTruthAsOftenAsTheySay) {
     held[1] += c.gain_ahead.ci95.contains(truth.ahead) ? 1 : 0;
     held[2] += c.gain_cross.ci95.contains(truth.cross) ? 1 : 0;
     held[3] += c.field.ci95.contains(truth.field) ? 1 : 0;
-    // Towards north the heading is 0; the bound of the worst direction holds there all the more.
+    // Towards north the heading is 0; the bound for the worst direction holds there too.
     const double ahead = truth.ahead_0 + truth.left() * truth.field - c.centre_ahead.value;
     const double left = truth.left_0 - truth.cross * truth.field - c.centre_left.value;
     const double heading = std::atan2(-(c.gain_cross.value * ahead + c.gain_left.value * left),
                                       c.gain_ahead.value * ahead + c.gain_cross.value * left);
     heading_held += std::abs(degrees(heading)) <= c.heading_error_deg ? 1 : 0;
   }
-  // 95 % of 400 are 380, with a binomial standard deviation of 4.4: three of them below; the jackknife
-  // leans to the wide side, by up to a percent.
+  // 95 % of 400 are 380, with a binomial standard deviation of 4.4: minus three of them. The
+  // jackknife is conservative by up to a percent.
   for (const int count : held) {
     EXPECT_GE(count, 0.92 * kRuns);
     EXPECT_LE(count, 0.99 * kRuns);
@@ -135,7 +135,7 @@ TEST(Compass, AxesThatAreExchangedOrTurnedShowAgainstTheGyroscope) {
     EXPECT_EQ(exit_code(fit.error()), 1);
     EXPECT_THAT(to_text(fit.error()), HasSubstr("wrong sign, or they are exchanged"));
   }
-  // deg/s, a gyroscope that stands still, and turns that are 11 % apart; 9 % are accepted.
+  // deg/s, a gyroscope stuck at zero, and turns that differ by 11 %; 9 % are accepted.
   for (const double factor : {57.3, 0.0, 1.11, 0.89}) {
     FieldRecord apart = record_of({}, {});
     for (double& value : apart.yaw_rate_radps) value *= factor;

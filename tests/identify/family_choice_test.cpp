@@ -1,5 +1,4 @@
-/// Where the search for a fit of logs begins, and that families of resistance are compared at their
-/// own optima.
+/// Initial guesses of log fits, and comparison of resistance families at their own optima.
 #include "awmr/identify/logs/family_choice.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +18,7 @@
 namespace awmr::testing {
 namespace {
 
-/// All that a log can show is free, and guessed from nothing but the log.
+/// All parameters that a log can identify are free, with initial guesses from the log only.
 LogFitOptions from_nothing(const std::vector<DrivingLog>& logs) {
   LogFitOptions options;
   options.vehicle = robot();
@@ -56,7 +55,7 @@ TEST(Multistart, MostStartsLeadToTheOptimum) {
       }
     }
   }
-  // Over whole windows of 10 s it was one of seven.
+  // With whole windows of 10 s it was one of seven.
   EXPECT_GT(there, 2 * all / 3) << there << " of " << all;
 }
 
@@ -84,8 +83,9 @@ TEST(NearestCurve, StaysCloseOverTheSpeedsDrivenInEveryFamily) {
   }
 }
 
-/// A vehicle of mass m' = 0.09 against 0.12 + 0.35 u, by the closed solution of each step of its command:
-/// slow ramps from rest, both ways, and two steps. `noise_mps`: of the speed.
+/// A vehicle of mass m' = 0.09 with resistance 0.12 + 0.35 u, by the closed solution of each
+/// command step: slow ramps from rest in both directions, and two steps. `noise_mps`: noise of the
+/// speed.
 DrivingLog ramps_with_friction(double noise_mps, std::uint64_t seed) {
   constexpr double kMass = 0.09, kCoulomb = 0.12, kAlpha = 0.35, kStep_s = 0.02;
   std::mt19937_64 chance(seed);
@@ -132,8 +132,8 @@ DrivingLog ramps_with_friction(double noise_mps, std::uint64_t seed) {
   return log;
 }
 
-/// Steps of thrust, each held for 0.5 to 2 s, of a vehicle with m' = 0.5 and 2.2 u of resistance, behind motors
-/// that lag by `lag_s`: straight, and nothing measured but the speed.
+/// Thrust steps, each held for 0.5 to 2 s, of a vehicle with m' = 0.5 and resistance 2.2 u, behind
+/// motors with the lag `lag_s`: straight, only the speed is measured.
 DrivingLog steps_behind_lag(double lag_s, std::uint64_t seed) {
   constexpr double kMass = 0.5, kAlpha = 2.2, kStep_s = 0.02, kFine_s = 1e-4, kNoise_mps = 0.005;
   std::mt19937_64 chance(seed);
@@ -193,7 +193,7 @@ TEST(Families, OfFrictionFromRestAreRightAtAnyNoise) {
     ASSERT_TRUE(result);
     const Model& model = result->model;
     EXPECT_TRUE(terms_of(model.surge_family).coulomb) << noise_mps;
-    // Two parameters, six logs: 4 deviations make a chance of 8e-4 for the test to fail.
+    // Two parameters, six logs: 4 deviations give a failure probability of 8e-4.
     for (const auto& [id, truth] :
          {std::pair(ParameterId::kSurgeCoulomb, 0.12), std::pair(ParameterId::kMassNorm, 0.09)}) {
       ASSERT_TRUE(model[id].value && model[id].std_error) << info(id).name << " at " << noise_mps;
@@ -241,7 +241,7 @@ TEST(Families, AreComparedAtTheirOwnOptimaWhateverTheFirstSearchFound) {
   EXPECT_TRUE(found.findings.empty()) << found.findings.front().message;
 }
 
-/// A fit with these errors of the speed at 100 Hz and the noise that they are likeliest with.
+/// A fit with these errors of the speed at 100 Hz and their most likely noise.
 LogFit fit_with_errors(const std::vector<double>& errors) {
   ErrorSeries series{errors, std::vector<double>(errors.size(), 0.01)};
   series.since_s.front() = 0.0;

@@ -1,4 +1,5 @@
-/// Known values come back: exactly from exact data, and inside their intervals at the stated rate.
+/// Known values are recovered: exactly from exact data, and inside their intervals at the stated
+/// rate.
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
@@ -24,7 +25,7 @@ TEST(Identify, ExactDataGiveTheTruthByEveryEstimator) {
     EXPECT_NEAR(*model[ParameterId::kInertiaNorm].value,
                 truth.mass_norm * (0.78 * 0.78 + 1.32 * 1.32) / 12.0, 1e-11);
     for (const EstimatorReport& report : model.record.reports) {
-      // Families with other terms bend to the truth only approximately; the mass has its own line.
+      // Families with other terms fit the truth only approximately; the mass has its own line.
       if (report.subject == FitSubject::kMass || report.family != "power") continue;
       const bool surge = report.subject == FitSubject::kSurge;
       EXPECT_NEAR(report.parameters[0].value, surge ? truth.a1 : truth.a3, 1e-9) << report.noise;
@@ -34,8 +35,8 @@ TEST(Identify, ExactDataGiveTheTruthByEveryEstimator) {
 }
 
 TEST(Identify, IntervalsCoverTheTruthAtTheirRateWhereTheNoiseIsTheEstimatorsOwn) {
-  // 95 % of 1000 runs: 950 with a standard deviation of 6.9; 4 of them make a chance of 6e-5 a
-  // check.
+  // 95 % of 1000 runs: 950 with a standard deviation of 6.9; 4 of them give a failure probability
+  // of 6e-5 per check.
   constexpr int kRuns = 1000;
   const Truth& truth = kTruths[0];
   int surge_alpha = 0;
@@ -56,8 +57,8 @@ TEST(Identify, IntervalsCoverTheTruthAtTheirRateWhereTheNoiseIsTheEstimatorsOwn)
   EXPECT_NEAR(surge_alpha, 950, 28);
   EXPECT_NEAR(surge_beta, 950, 28);
   EXPECT_NEAR(yaw_beta, 950, 28);
-  // ln m' is a nonlinear function of b1 (1 - b1 is 0.116 +- 0.014): first-order propagation costs a
-  // percent or so of coverage beyond the binomial spread.
+  // ln m' is a nonlinear function of b1 (1 - b1 is 0.116 +- 0.014): first-order propagation costs
+  // about a percent of coverage beyond the binomial spread.
   EXPECT_NEAR(mass, 950, 28 + 15);
 }
 
@@ -95,7 +96,7 @@ TEST(Identify, StopTimesErrorCarriesTheSurgeFitsCorrelation) {
   const double fit_share = c[0][0] / (a1 * a1) + 2.0 * by * c[0][1] / a1 + by * by * c[1][1];
   const double relative = *m[ParameterId::kMassNorm].std_error / *m[ParameterId::kMassNorm].value;
   EXPECT_GE(relative * relative, fit_share * (1.0 - 1e-9));
-  // The three runs' scatter about the fitted exponent adds the rest, at most a tenth here.
+  // The scatter of the three runs about the fitted exponent adds the rest, at most a tenth here.
   EXPECT_LT(relative * relative, 1.1 * fit_share);
 }
 

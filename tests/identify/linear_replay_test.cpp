@@ -1,4 +1,5 @@
-/// The motion's derivatives by hand against those of ceres::Jet, and few rows against many.
+/// Hand-coded derivatives of the motion compared with ceres::Jet, and reduced rows compared with
+/// all rows.
 #include <ceres/jet.h>
 #include <gtest/gtest.h>
 
@@ -23,7 +24,7 @@ constexpr std::size_t kSpeedDelay = kParameterCount + 1;
 constexpr std::size_t kFirstState = kParameterCount + 2;
 using Jet = ceres::Jet<double, kColumns>;
 
-/// A family of everything at once, b1 below 1 so that there is a chord at rest.
+/// A family with all terms, b1 below 1 so that there is a chord at rest.
 constexpr ParameterValues<double> kValues{0.9,  0.75, 0.06, 1.1,  4.0,   0.3,   0.0066,
                                           0.06, 0.05, 0.02, 0.01, 0.003, 0.015, 0.12};
 
@@ -37,7 +38,7 @@ Vehicle robot(Drive drive = Drive::kFourWheel) {
   return v;
 }
 
-/// Commands that jump, stop, go backwards and ask for more steering than there is.
+/// Commands that jump, stop, reverse and request more steering than available.
 DrivingLog commands(bool servo) {
   std::mt19937 chance(7);
   std::uniform_real_distribution<double> part(0.0, 1.0);
@@ -80,7 +81,7 @@ struct ByHand {
 constexpr double kInputDelay_s = 0.033;
 constexpr double kSpeedDelay_s = 0.047;
 
-/// Coulomb friction, whose stops cut steps, or none.
+/// Coulomb friction, whose stops split steps, or none.
 enum class Friction { kNone, kCoulomb };
 
 ParameterValues<double> values_with(Friction friction) {
@@ -151,7 +152,8 @@ ByJets by_jets(const DrivingLog& log, double step_s, Drive drive = Drive::kFourW
   return found;
 }
 
-/// Relative to the largest derivative by that column over the log, or to `least`. `but`: a column left out.
+/// Tolerance relative to the largest derivative of the column over the log, or to `least`. `but`: a
+/// column to skip.
 void expect_equal(const std::vector<State<Jet>>& jets, const std::vector<LinearMotion>& motions,
                   double tolerance, int but = -1, double least = 1e-9) {
   ASSERT_EQ(jets.size(), motions.size());
@@ -176,7 +178,7 @@ void expect_equal(const std::vector<State<Jet>>& jets, const std::vector<LinearM
 
 /// Rounding of 300 steps.
 constexpr double kRounding = 1e-11;
-/// The moment of a stop within a step is taken from the rates there, not from the step's polynomial.
+/// The time of a stop within a step follows from the rates there, not from the step's polynomial.
 constexpr double kStops = 5e-4;
 
 TEST(LinearReplay, WithStopsHasTheStatesAndTheDerivativesOfJets) {
@@ -211,9 +213,9 @@ TEST(LinearReplay, LooksBackAsJetsDo) {
 }
 
 TEST(LinearReplay, OfALateSensorChangesByTheMotionsRate) {
-  // Central differences over 2e-6 s of a motion whose rates are below 10 and change within 0.02 s at the
-  // least: their error is below 1e-6, but where a step holds a kink: the servo meets a limit, or the
-  // vehicle comes to rest.
+  // Central differences over 2e-6 s of a motion whose rates are below 10 and change within at least
+  // 0.02 s: the error is below 1e-6. Exceptions are steps with a kink, at a limit of the servo or
+  // where the vehicle stops.
   constexpr double kApart_s = 1e-6;
   const DrivingLog log = commands(true);
   const std::vector<LinearMotion> here = by_hand(log, 0.004, kSpeedDelay_s).earlier;
@@ -235,7 +237,7 @@ TEST(ProductSums, AreThoseOfAllRowsAndTheTriangleStandsForThem) {
   std::mt19937 chance(3);
   std::normal_distribution<double> normal;
   constexpr int kRows = 101;
-  // The last column is r; column 2 is 0, column 4 twice column 3, the others hang together.
+  // The last column is r; column 2 is 0, column 4 twice column 3, the others are correlated.
   constexpr int kSize = 12;
   const auto any = [&] { return normal(chance); };
   Eigen::MatrixXd all = Eigen::MatrixXd::NullaryExpr(kRows, kSize, any) *
@@ -270,7 +272,7 @@ TEST(ProductSums, AreThoseOfAllRowsAndTheTriangleStandsForThem) {
   few.topLeftCorner(kSize - 1, kSize - 1) = t.r;
   few.col(kSize - 1).head(kSize - 1) = t.z;
   few(kSize - 1, kSize - 1) = t.rest;
-  // A pivot of 1e-14 and less is left out: 1e-7 of the direction that it belongs to.
+  // Pivots of at most 1e-14 are dropped: 1e-7 of their direction.
   EXPECT_LT(relative(few.transpose() * few - expected).cwiseAbs().maxCoeff(), 1e-7);
 }
 

@@ -1,4 +1,4 @@
-/// The fit of driving logs: truth recovered, subsets of channels, gaps, and what a log cannot show.
+/// Fit of driving logs: known truth, subsets of channels, gaps, and non-identifiable parameters.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -29,7 +29,7 @@ TEST(Log, GivesEveryParameterFromNothingElse) {
     const auto result = identify(robot(), data, {}, {});
     ASSERT_TRUE(result);
     EXPECT_TRUE(result->refused.empty());
-    // Eight parameters, two truths: 4.5 deviations make a chance of 1e-4 for the test to fail.
+    // Eight parameters, two truths: 4.5 deviations give a failure probability of 1e-4.
     expect_recovered(*result, ParameterId::kSurgeAlpha, t.a1, 4.5);
     expect_recovered(*result, ParameterId::kSurgeBeta, t.b1, 4.5);
     expect_recovered(*result, ParameterId::kYawAlpha, t.a3, 4.5);
@@ -61,7 +61,7 @@ TEST(Log, SpeedAloneShowsSurgeAndRefusesYaw) {
     EXPECT_TRUE(refused(*result, id)) << info(id).name;
     EXPECT_FALSE(result->model[id].value) << info(id).name;
   }
-  // The given servo lag stays, and that the log does not show it is said.
+  // The given servo lag is kept, and it is reported as not identifiable from the log.
   EXPECT_TRUE(refused(*result, ParameterId::kSteeringTimeConstant));
   EXPECT_EQ(result->model[ParameterId::kSteeringTimeConstant].value, 0.02);
 }
@@ -70,7 +70,7 @@ TEST(Log, AtOneConstantThrustShowsOnlyACombinationOfAlphaAndBeta) {
   TrialData data;
   data.logs = {drive(kTruths[0], 5, {.duration_s = 10.0, .hold_s = 100.0, .straight = true})};
   DrivingLog& log = data.logs[0];
-  // From steady speed on: the start is cut off.
+  // From steady speed on: the start is removed.
   const auto keep = [](std::vector<double>& v) { v.erase(v.begin(), v.begin() + 300); };
   log.line.erase(log.line.begin(), log.line.begin() + 300);
   keep(log.t_s);
@@ -126,8 +126,7 @@ TEST(Log, GapsAndIrregularSamplesAreNoHindrance) {
 TEST(Log, FindsADelayAndABias) {
   const Truth& t = kTruths[1];
   DrivingLog log = drive(t, 8);
-  // The commands were logged three samples before they reached the wheels: in the log they stand
-  // early.
+  // The commands were logged three samples before they reached the wheels.
   const auto early = [](std::vector<double>& v) {
     std::rotate(v.begin(), v.begin() + 3, v.end());
     std::fill(v.end() - 3, v.end(), v[v.size() - 4]);
@@ -157,7 +156,7 @@ TEST(Log, FindsADelayAndABias) {
   EXPECT_LT(*parameter("input_delay_s").std_error, 0.003);
 }
 
-/// The commands of a log moved by so many rows: to later rows where positive.
+/// Shifts the commands of a log by this number of rows: to later rows if positive.
 void move_commands(DrivingLog& log, int rows) {
   const auto move = [rows](std::vector<double>& v) {
     const std::vector<double> old = v;
@@ -294,7 +293,7 @@ TEST(Log, ALateSpeedIsFoundAndAllowedFor) {
   }
 }
 
-/// Commands that reach the motors later than the log says.
+/// Commands that reach the motors later than logged.
 DrivingLog commanded_early(DrivingLog log, std::size_t rows) {
   const auto earlier = [rows](std::vector<double>& values) {
     std::rotate(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(rows), values.end());
@@ -391,7 +390,7 @@ TEST(BackEmf, IsRecoveredFromDrivingAndCoastingAndSaid) {
     const auto result = identify(robot(), data, {}, {});
     ASSERT_TRUE(result);
     EXPECT_TRUE(has_finding(*result, "back-emf", "AIC")) << seed;
-    // Three parameters, three seeds: 4.5 deviations make a chance of 6e-5 for the test to fail.
+    // Three parameters, three seeds: 4.5 deviations give a failure probability of 6e-5.
     expect_recovered(*result, ParameterId::kBackEmf, kBackEmf, 4.5);
     expect_recovered(*result, ParameterId::kSurgeAlpha, t.a1, 4.5);
     expect_recovered(*result, ParameterId::kMassNorm, t.mass_norm, 4.5);
@@ -399,7 +398,7 @@ TEST(BackEmf, IsRecoveredFromDrivingAndCoastingAndSaid) {
     ASSERT_TRUE(ci95);
     covered += ci95->contains(kBackEmf) ? 1 : 0;
   }
-  // Three misses of three at 5 % each have a chance of 1.3e-4.
+  // Three misses of three at 5 % each have a probability of 1.3e-4.
   EXPECT_GE(covered, 1);
 }
 
@@ -503,13 +502,13 @@ TEST(Log, AnErrorThatWandersBesidesTheWhiteOneIsTakenApart) {
     }
   }
   const ChannelNoise found = likeliest_noise(series, 1.0, {});
-  // 200 memories long: the drift's level and memory are known to about a tenth.
+  // 200 correlation times long: level and correlation time of the drift are known to about a tenth.
   EXPECT_NEAR(found.white_std, truth.white_std, 0.05 * truth.white_std);
   EXPECT_NEAR(found.drift_std, truth.drift_std, 0.3 * truth.drift_std);
   EXPECT_NEAR(std::log(found.correlation_s / truth.correlation_s), 0.0, 0.6);
 }
 
-/// Scores of `logs` logs, in turns above and below what the information says they scatter by.
+/// Scores of `logs` logs, alternating above and below their standard deviation by the information.
 Scores scattered(int logs, double times, double information) {
   Scores scores;
   const double size = times * std::sqrt(information / logs);
@@ -534,12 +533,12 @@ TEST(Log, WholeLogsThatScatterBeyondChanceWidenTheIntervals) {
   EXPECT_EQ(factor(2, 5.0), 1.0) << "two logs do not tell";
 }
 
-/// Errors that swing, d'' = -2 zeta omega d' - omega^2 d + noise, by small steps of their own, with
-/// white noise on top; standard deviation of the swings 1.
+/// Oscillating errors, d'' = -2 zeta omega d' - omega^2 d + noise, integrated with small steps,
+/// plus white noise. The oscillation has standard deviation 1.
 std::vector<ErrorSeries> swinging(double omega, double zeta, double white_std, double step_s) {
   constexpr int kSteps = 50;
   const double h = step_s / kSteps;
-  // Var d = q/(4 zeta omega^3) for a noise of the density q.
+  // Var d = q/(4 zeta omega^3) for noise of density q.
   const double push = std::sqrt(4.0 * zeta * omega * omega * omega * h);
   Random random(11, 4);
   std::vector<ErrorSeries> series(10);
@@ -565,9 +564,9 @@ TEST(Log, AnErrorThatSwingsIsOfSecondOrder) {
       const auto series = swinging(9.4, zeta, white_std, 0.01);
       const ChannelNoise found = likeliest_noise(series, 1.0, {});
       EXPECT_TRUE(found.second_order());
-      // A hundred seconds hold some 150 swings: the frequency is known to a few hundredths, the
-      // damping and the level to a tenth; three of those, and twice that where the slow one of two
-      // time constants, 4 zeta/omega long, hides the other.
+      // A hundred seconds contain some 150 oscillations: the frequency is known to a few
+      // hundredths, damping and level to a tenth. The bounds are three times that, and twice as
+      // much again if one of two time constants, the slow 4 zeta/omega, hides the other.
       const double loose = zeta > 1.0 ? 2.0 : 1.0;
       EXPECT_NEAR(std::log(found.frequency_radps / 9.4), 0.0, 0.2 * loose);
       EXPECT_NEAR(std::log(found.damping / zeta), 0.0, 0.35 * loose);

@@ -1,4 +1,4 @@
-/// Models identified from surge runs and coast-downs alone: what can still be planned, and what is
+/// Models identified from surge runs and coast-downs only: usable for planning in part, otherwise
 /// refused by name.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ RecoverOptions runs_of(RecoverPlan plan, int runs) {
   return options;
 }
 
-/// Identified from the trials that are left.
+/// Model identified from the remaining trials.
 Model partial_model(bool coastdown) {
   Vehicle v = paper_vehicle();
   v.sway_alpha.reset();
@@ -80,7 +80,8 @@ TEST(PartialModel, IsRecoveredFromItsOwnTables) {
     for (const RecoveredParameter& p : recovery->parameters) {
       names.push_back(info(p.id).name);
       EXPECT_EQ(p.truth, *model[p.id].value);
-      // 40 runs: the mean errs by rmse/sqrt(40), 4 of those are never reached by chance.
+      // 40 runs: the mean errs by rmse/sqrt(40); 4 of those are practically never exceeded by
+      // chance.
       EXPECT_LT(std::abs(p.bias), 4.0 * p.rmse / std::sqrt(40.0)) << names.back();
       EXPECT_GE(p.coverage95, 0.8) << names.back();
     }

@@ -1,4 +1,4 @@
-/// Whatever the robot: what `recover` says of simulated tables is finite, or refused.
+/// For any robot, the results of `recover` from simulated tables are finite, or refused.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -11,7 +11,7 @@
 namespace awmr::testing {
 namespace {
 
-/// Rows that such a robot would have measured.
+/// Adds rows that such a robot would have measured.
 void add_trials(Model& model) {
   const Plant<double> plant = model.plant().value();
   const auto add = [&](TrialKind kind, const Resistance<double>& law, double input) {
@@ -43,7 +43,7 @@ void is_finite_or_refused(double beyond) {
     RC_ASSERT(p.rmse >= 0.0 && p.rmse >= std::abs(p.bias) * (1.0 - 1e-9));
     RC_ASSERT(p.coverage95 >= 0.0 && p.coverage95 <= 1.0);
   }
-  RC_ASSERT(!recovery_text(*recovery, {}).empty());  // it throws for a number that is not finite
+  RC_ASSERT(!recovery_text(*recovery, {}).empty());  // throws for a number that is not finite
 }
 
 TEST(RecoverProperty, InTheBoxEveryFigureIsFinite) {

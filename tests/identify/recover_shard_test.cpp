@@ -1,4 +1,4 @@
-/// Parts of a recovery, and the bytes of the whole.
+/// Shards of a recovery merge to the bytes of the whole.
 #include "awmr/identify/planning/recover_shard.h"
 
 #include <gmock/gmock.h>
@@ -23,7 +23,7 @@ using ::testing::HasSubstr;
 const Provenance kProvenance{
     "recover", {{"runs", "7"}, {"recover_seed", "1"}}, {{"model.json", "ab"}}};
 
-/// A model and its runs, the same for all tests.
+/// A model and its runs, used by all tests.
 const Model& model() {
   static const Model fitted = [] {
     Model made = identify(paper_vehicle(), synthetic(kTruths[0], 0.02, 1), {}, {})->model;
@@ -55,7 +55,7 @@ class RecoverShards : public ::testing::Test {
     return path;
   }
   fs::path write(Shard shard) { return write(shard, part(shard)); }
-  /// The part in the directory with a table that was made up, and its hash.
+  /// Replaces the table of the shard in the directory, and its hash.
   static void change(const fs::path& path, const std::string& table) {
     std::string shard = read_all(path / kShardFile);
     const std::string before = sha256_hex(read_all(path / kRecoverTable));
@@ -102,7 +102,7 @@ TEST_F(RecoverShards, OfLogsMergeToTheBytesOfASingleRun) {
 }
 
 TEST_F(RecoverShards, WhatIsRefusedAsAWholeIsRefusedAlikeInParts) {
-  // The model's tables show nothing of the servo: no run gives its time constant.
+  // The model's tables do not identify the servo: no run gives its time constant.
   RecoverOptions options = seven_runs();
   options.identify.asked = {ParameterId::kSteeringTimeConstant};
   const auto whole = recover(model(), options, {});

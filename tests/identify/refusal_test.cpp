@@ -1,4 +1,4 @@
-/// What the data cannot show is refused by name.
+/// Non-identifiable parameters are refused by name.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -36,7 +36,7 @@ TEST(Refusal, EverySubsetOfTrialsIsRecoveredOrRefused) {
     if (mass) {
       EXPECT_NEAR(*m[ParameterId::kMassNorm].value, truth.mass_norm, 1e-11);
     }
-    // A coast-down without a surge trial is asked for m' and cannot give it.
+    // A coast-down without a surge trial cannot give the requested m'.
     if (data.coastdown && !data.surge) {
       EXPECT_THAT(result->refused, ElementsAre(ParameterId::kMassNorm, ParameterId::kInertiaNorm));
     } else {
@@ -92,7 +92,7 @@ TEST(Refusal, TimeNoiseWithoutTimesIsRefused) {
   ASSERT_TRUE(result);
   EXPECT_THAT(result->refused, ElementsAre(ParameterId::kSurgeAlpha, ParameterId::kSurgeBeta));
   EXPECT_TRUE(has_finding(result->model, "not-timed"));
-  // It said that the rows do not hold two different forces, which they do.
+  // An earlier message claimed that the rows do not have two different forces, which they do.
   for (const Finding& f : result->model.record.findings) {
     if (f.code != "not-identifiable" || f.severity != Severity::kError) continue;
     EXPECT_THAT(f.message, HasSubstr("elapsed_s in every row"));

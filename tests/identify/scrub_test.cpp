@@ -1,4 +1,4 @@
-/// What turns by the sides' forces meet beside the resistance of steered turns.
+/// Scrub moment of differential turns, in addition to the resistance of steered turns.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -27,7 +27,8 @@ Vehicle steered() {
   return v;
 }
 
-/// A turn at this rate that meets `scrub_m` beside g3; the noise is a factor on its moment.
+/// A turn at this rate with the scrub moment `scrub_m` in addition to g3; noise is a factor on its
+/// moment.
 TurningRow by_sides(double rate_radps, double scrub_m, double factor, int line) {
   const double moment_m = factor * (kTruth.a3 * std::pow(rate_radps, kTruth.b3) + scrub_m);
   const double half = moment_m / (4.0 * steered().half_track_m);
@@ -39,7 +40,7 @@ TurningRow by_sides(double rate_radps, double scrub_m, double factor, int line) 
           .sides = SideForces<double>{0.2 - half, 0.2 + half}};
 }
 
-/// The steered turns of synthetic(), and four by the sides at their rates.
+/// The steered turns of synthetic(), and four differential turns at their rates.
 TrialData turns(double scrub_m, double sigma, std::uint64_t seed) {
   TrialData data = synthetic(kTruth, sigma, seed);
   Random random(seed, 1);
@@ -69,7 +70,7 @@ TEST(Scrub, IsWhatTurnsByTheSidesMeetBesideYawResistance) {
   EXPECT_EQ(model.yaw_scrub->rows, 4);
   EXPECT_DOUBLE_EQ(model.yaw_scrub->yaw_rate_radps.lo, 0.07);
   EXPECT_DOUBLE_EQ(model.yaw_scrub->yaw_rate_radps.hi, 0.28);
-  // Yaw resistance is that of the steered turns, scrub or none.
+  // Yaw resistance is that of the steered turns, with or without scrub.
   EXPECT_EQ(model[ParameterId::kYawAlpha].value,
             identified(synthetic(kTruth, 1e-6, 1))[ParameterId::kYawAlpha].value);
   EXPECT_THAT(codes(model), Not(Contains("scrub-grows")));
@@ -85,8 +86,8 @@ TEST(Scrub, IntervalsHoldAtTheirRateAtLeast) {
     held += model.yaw_scrub->ci95_m.contains(0.01) ? 1 : 0;
   }
   RecordProperty("held", held);
-  // With few turns Welch's degrees of freedom are on the safe side: 97 % of 2,000 tables. Either side
-  // of it four standard errors of a binomial share.
+  // With few turns Welch's degrees of freedom are conservative: 97 % of 2,000 tables. The bounds
+  // are four standard errors of a binomial fraction on either side.
   const double share = held / double(kTables);
   EXPECT_GT(share, 0.95 - 4.0 * std::sqrt(0.95 * 0.05 / kTables));
   EXPECT_LT(share, 0.97 + 4.0 * std::sqrt(0.97 * 0.03 / kTables));
@@ -130,12 +131,12 @@ TEST(Scrub, ThatIsNoConstantIsToldWithAllThatItIs) {
   }
   RecordProperty("held", held);
   EXPECT_EQ(told, kTables);
-  // Both ends have to hold, each at 97.5 % to its side.
+  // Both ends must hold, each with 97.5 % on its side.
   EXPECT_GT(held / double(kTables), 0.95 - 4.0 * std::sqrt(0.95 * 0.05 / kTables));
 }
 
-/// How many of 200 tables with a constant scrub are said to have one that changes with the rate.
-/// `turn` makes the row of a table from its number and a standard normal deviate.
+/// Number of 200 tables with a constant scrub for which a rate-dependent scrub is reported. `turn`
+/// makes the row of a table from its number and a standard normal deviate.
 template <class MakeTurn>
 int alarms_with(const MakeTurn& turn) {
   int alarms = 0;
@@ -150,7 +151,8 @@ int alarms_with(const MakeTurn& turn) {
 }
 
 TEST(Scrub, OfTurnsWithOneForceOrAtOneRateDoesNotSeemToChange) {
-  // One force, whose rates scatter: what a turn met falls with its rate, by arithmetic alone.
+  // One force with scattered rates: the scrub of a turn then falls with its rate by arithmetic
+  // alone.
   const TurningRow exact = by_sides(0.2, 0.01, 1.0, 20);
   EXPECT_LE(alarms_with([&](int i, double deviate) {
               TurningRow row = exact;
@@ -159,19 +161,19 @@ TEST(Scrub, OfTurnsWithOneForceOrAtOneRateDoesNotSeemToChange) {
               return row;
             }),
             0);
-  // One rate, whose moments scatter.
+  // One rate with scattered moments.
   EXPECT_LE(alarms_with([](int i, double deviate) {
               return by_sides(0.2, 0.01, std::exp(0.1 * deviate), 20 + i);
             }),
             0);
-  // At several rates no more than one in twenty, give or take four standard errors.
+  // At several rates at most one in twenty, plus four standard errors.
   EXPECT_LE(alarms_with([](int i, double deviate) {
               return by_sides(0.05 * (1 + i % 4), 0.01, std::exp(0.03 * deviate), 20 + i);
             }),
             10 + 12);
 }
 
-/// A turn under this moment that did not happen.
+/// A turn attempt under this moment in which the vehicle stood still.
 TurningRow standing(double moment_m, int line) {
   TurningRow row = by_sides(0.1, 0.0, 1.0, line);
   const double half = moment_m / (4.0 * steered().half_track_m);
@@ -190,7 +192,7 @@ TEST(Scrub, OfTurnsThatStandStillIsAtLeastWhatTheyWereDrivenWith) {
   EXPECT_DOUBLE_EQ(*model.yaw_held_m, 0.09);
   EXPECT_THAT(codes(model), Contains("scrub-holds"));
   EXPECT_THAT(codes(model), Contains("few-scrub-rows"));
-  // The next turns are driven with more than what was held, up to tyres that slide.
+  // The next turns use more than the static moment, up to sliding tyres.
   const auto suggestion = suggest(model, {});
   ASSERT_TRUE(suggestion) << to_text(suggestion.error());
   ASSERT_FALSE(suggestion->scrub_turns.empty());

@@ -1,4 +1,4 @@
-/// The next trial: what it promises is what it then gives.
+/// Suggested trials: the predicted improvement is then achieved.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -31,7 +31,7 @@ TEST(Suggest, RanksEveryCandidateByWhatItPromisesAndNoneMakesItWorse) {
     EXPECT_GE(trial.d_gain, -1e-9);
     last = trial.std_error_after;
   }
-  // A stop time is a poor way to m': something that moves has to come before any turning run.
+  // A stop time determines m' poorly: a trial with motion must come before any turning run.
   EXPECT_TRUE(suggestion->trials.front().kind == TrialKind::kLog ||
               suggestion->trials.front().kind == TrialKind::kCoastdown);
 }
@@ -65,7 +65,7 @@ TEST(Suggest, ATurningRunSaysNothingOfSurge) {
 
 TEST(Suggest, ThePromiseForARepeatedTrialIsTheStandardErrorOfMoreRuns) {
   // One number, ln u, with noise s from n runs adds n (d ln u/d p)^2/s^2 to the information: four
-  // times the runs, four times the information.
+  // times the runs give four times the information.
   const Model model = some_model(0.05);
   const auto one = suggest(model, {.parameter = "surge.beta", .repeats = 1});
   const auto four = suggest(model, {.parameter = "surge.beta", .repeats = 4});
@@ -111,7 +111,7 @@ TEST(Suggest, ATermFittedAsZeroHasAFiniteErrorThatTrialsShrink) {
     EXPECT_LT(suggestion->trials.front().std_error_after,
               suggestion->trials.front().std_error_before);
   }
-  // In its own unit; C is kept invertible by a variance of 1e-8.
+  // In its own unit; a variance of 1e-8 keeps C invertible.
   const auto suggestion = suggest(model, {.parameter = "surge.coulomb"});
   EXPECT_NEAR(suggestion->trials.front().std_error_before, kSigma, 1e-6);
 }

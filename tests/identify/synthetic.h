@@ -1,4 +1,4 @@
-/// Trials made from known values.
+/// Simulated trials with known values.
 #pragma once
 
 #include <cmath>
@@ -25,8 +25,8 @@ inline Vehicle vehicle() {
   return v;
 }
 
-/// Ten surge, eight turning and three coast-down runs; the noise is a factor exp(sigma N) on the
-/// force that stands in the row, which is the log-linear estimator's own assumption.
+/// Ten surge, eight turning and three coast-down runs. The noise is a factor exp(sigma N) on the
+/// force in the row, as the log-linear estimator assumes.
 inline TrialData synthetic(const Truth& t, double sigma, std::uint64_t seed) {
   Random random(seed, 0);
   TrialData data;

@@ -1,4 +1,4 @@
-/// Logs of a made-up robot with a known truth.
+/// Logs of a simulated robot with known truth.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ inline Vehicle robot() {
   Vehicle v = paper_vehicle();
   v.name = "synthetic";
   v.yaw_inertia_kgm2.reset();  // the box formula
-  v.sway_alpha.reset();        // asked of the log
+  v.sway_alpha.reset();        // to be estimated from the log
   return v;
 }
 

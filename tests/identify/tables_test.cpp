@@ -1,4 +1,4 @@
-/// Families, robust losses, outliers and influence on tables of steady runs.
+/// Families, robust losses, outliers and influence for tables of steady runs.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ const Finding* finding(const Model& model, const std::string& code) {
   return nullptr;
 }
 
-/// Twelve surge runs on a curve, speeds off by `noise` deviations of a fixed pattern.
+/// Twelve surge runs on a curve, with speed errors of `noise` deviations in a fixed pattern.
 TrialData runs_on(const Resistance<double>& law, double dead_zone, double noise,
                   std::uint64_t seed) {
   Random random(seed, 3);
@@ -42,8 +42,8 @@ IdentifyOptions family(std::optional<Family> family) {
 }
 
 TEST(Families, ExactRunsGiveTheirOwnFamilyBack) {
-  // Each law is its family's at other values; the speeds are exact, so only rounding remains: 1e-12
-  // of the speeds times a condition number below 1e4.
+  // Each law belongs to its family with other values. The speeds are exact, so only rounding
+  // remains: 1e-12 of the speeds times a condition number below 1e4.
   const struct {
     Family family;
     Resistance<double> law;
@@ -129,7 +129,7 @@ TEST(Losses, LeaveOneBadRunWithoutSayWhileSquaresFollowIt) {
     const auto result = identify(vehicle(), data, options, {});
     ASSERT_TRUE(result);
     const Estimate& beta = result->model[ParameterId::kSurgeBeta];
-    // The other eleven runs fix b1 to about 0.004; squares are pulled away by ten times that.
+    // The other eleven runs fix b1 to about 0.004; a squared loss is pulled away by ten times that.
     EXPECT_NEAR(*beta.value, law.beta, 0.02) << static_cast<int>(loss);
     EXPECT_LT(std::abs(*beta.value - law.beta), 0.3 * std::abs(by_squares - law.beta));
     EXPECT_TRUE(beta.ci95->contains(law.beta)) << static_cast<int>(loss);
@@ -172,7 +172,7 @@ TEST(Outliers, ThatAreGrossAreSetAsideByName) {
 }
 
 TEST(Outliers, OfAPowerLawThatCoulombFrictionExplainsStay) {
-  // The slowest run lies far off any power law of the others.
+  // The slowest run is far off any power law of the others.
   TrialData data = runs_on({.alpha = 0.8, .beta = 1.0, .coulomb = 0.1}, 0.0, 1e-4, 3);
   const auto result = identify(vehicle(), data, {}, {});
   ASSERT_TRUE(result);
@@ -228,7 +228,7 @@ TEST(Options, ThatContradictEachOtherAreRefused) {
   EXPECT_FALSE(identify(vehicle(), data, options, {}));
 }
 
-/// Points above a straight line, which a range of exponents up to 1 can only follow at its end.
+/// Points above a straight line; exponents up to 1 can only follow at the bound.
 SteadyProblem steeper_than_its_range(Family family) {
   SteadyProblem problem;
   problem.family = family;
@@ -258,7 +258,8 @@ TEST(Bounds, AFitAtTheEndOfARangeIsTheBestOfTheRemainingCoordinates) {
 }
 
 TEST(Bounds, ATermThatStartsAtItsBoundLeavesItWhereTheCostFallsInwards) {
-  // Convex points are no power law below 1, but a line with a square term: q starts at 0 and rises.
+  // Convex points do not fit a power law below 1 but a line with a square term: q starts at 0 and
+  // rises.
   const SteadyFit fit = fit_steady(steeper_than_its_range(Family::kCoulombLinearQuadratic),
                                    {std::log(0.05), 1.0, 0.0, 0.0, 0.0});
   EXPECT_TRUE(fit.usable) << fit.stop_reason;
@@ -278,7 +279,7 @@ TEST(Tables, FourRowsGiveThePowerLawWithWideIntervalsWhateverTheFamilyAskedFor) 
     const Estimate& alpha = result->model[ParameterId::kSurgeAlpha];
     ASSERT_TRUE(alpha.ci95 && alpha.std_error);
     EXPECT_TRUE(alpha.ci95->contains(1.2));
-    // Student's t of two degrees of freedom is 4.303, either side.
+    // Student's t with two degrees of freedom is 4.303, on either side.
     EXPECT_GT(alpha.ci95->hi - alpha.ci95->lo, 8.0 * *alpha.std_error);
     const Finding* told = finding(result->model, "families-not-compared");
     EXPECT_EQ(told != nullptr, by_aicc);
@@ -294,7 +295,7 @@ TEST(Tables, ADeadZoneTakesFromEachSideWhatItCommands) {
     const auto points = turning_points({row}, 0.05);
     return points.empty() ? 0.0 : points[0].force;
   };
-  EXPECT_DOUBLE_EQ(moment(-0.1, 0.3), 0.4 * 0.3 / 0.4);  // 0.25 and -0.05 are left
+  EXPECT_DOUBLE_EQ(moment(-0.1, 0.3), 0.4 * 0.3 / 0.4);  // 0.25 and -0.05 remain
   EXPECT_DOUBLE_EQ(moment(0.1, 0.3), 0.4);               // both lose the same
   EXPECT_DOUBLE_EQ(moment(0.0, 0.2), 0.4 * 0.15 / 0.2);  // the left one has nothing to lose
   EXPECT_EQ(moment(-0.04, 0.04), 0.0);                   // nothing moves

@@ -1,5 +1,5 @@
-/// Tables with a mistake in them, through every method and family: a fit ends with a value or with a
-/// refusal in words, and nothing that is not finite comes out of it.
+/// Tables with one mistake, through every method and family: a fit ends with a value or a refusal
+/// with a message, and all results are finite.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -40,7 +40,7 @@ TrialData paper_tables() {
   return data;
 }
 
-/// A whole coast-down of the same vehicle, 2 s at 50 Hz.
+/// A complete coast-down of the same vehicle, 2 s at 50 Hz.
 CoastCurve coast_curve() {
   CoastCurve curve;
   curve.file = "curve.csv";
@@ -85,7 +85,7 @@ bool finite(const Estimate& e) {
          (!e.ci95 || (std::isfinite(e.ci95->lo) && std::isfinite(e.ci95->hi)));
 }
 
-/// What model.json would hold of it is finite, and what has no value has a finding.
+/// Results for model.json are finite, and missing values have a finding.
 void expect_value_or_refusal(const TrialData& data, const IdentifyOptions& options) {
   const auto result = identify(vehicle(), data, options, {});
   if (!result) {
@@ -111,7 +111,7 @@ void expect_value_or_refusal(const TrialData& data, const IdentifyOptions& optio
   EXPECT_TRUE(said);
 }
 
-/// Every number of the tables by reference.
+/// References to all numbers of the tables.
 std::vector<std::function<double&(TrialData&)>> cells(const TrialData& data) {
   std::vector<std::function<double&(TrialData&)>> all;
   for (std::size_t i = 0; i < data.surge->rows.size(); ++i) {
@@ -166,8 +166,8 @@ TEST(Typo, AFallingTableIsRefusedInWords) {
   EXPECT_FALSE(result->refused.empty());
 }
 
-/// Each mutation of each cell goes one of the ways, in turn, and one in eight with the rivals and
-/// every row left out: all of them would take an hour.
+/// Each mutation of each cell uses one of the methods, in turn. One in eight also runs the
+/// alternative families and the leave-one-out fits: all of them would take an hour.
 TEST(Typo, EveryCellOfThePapersTablesByEveryMethodAndFamily) {
   const TrialData paper = paper_tables();
   const auto all = cells(paper);

@@ -1,4 +1,4 @@
-/// The equations of motion by substitution, symmetry and agreement of their two forms.
+/// Equations of motion: substitution, symmetry and agreement of their two forms.
 #include "awmr/model/dynamics.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 namespace awmr::testing {
 namespace {
 
-/// A double in [lo, hi] from a whole number, so that shrinking works.
+/// A double in [lo, hi] derived from an integer, so that shrinking works.
 double drawn(double lo, double hi) {
   return lo + (hi - lo) * *rc::gen::inRange(0, 10001) / 10000.0;
 }
@@ -21,7 +21,7 @@ State<double> drawn_state() {
           drawn(-1, 1), drawn(-3, 3), drawn(-0.35, 0.35)};
 }
 
-/// Equal up to the rounding of sums of terms of at most about 1e3: 1e3 * 2^-52 * ten operations.
+/// Equal up to rounding of sums of terms of at most about 1e3: 1e3 * 2^-52 * ten operations.
 void expect_same(const State<double>& a, const State<double>& b) {
   constexpr double kRounding = 3e-12;
   RC_ASSERT(std::abs(a.x_m - b.x_m) < kRounding);
@@ -102,7 +102,7 @@ TEST(Dynamics, EachEquationBySubstitution) {
 }
 
 TEST(Dynamics, TheFrontWheelsTurnWithTheirForceAcross) {
-  // Two wheels, each with 0.3 sin 30 deg across, 0.4 m ahead of the centre of gravity.
+  // Two wheels, each with 0.3 sin 30 deg sideways, 0.4 m ahead of the centre of gravity.
   EXPECT_DOUBLE_EQ(steering_moment_m(0.4, 0.3, pi<double>() / 6.0), 0.12);
 }
 
@@ -147,7 +147,7 @@ TEST(BackEmf, StraightAheadEveryMotorLosesWithTheSpeed) {
   s.u_mps = 0.8;
   const State<double> d = state_rates(plant, s, SideForces<double>{0.5, 0.5}, 0.0);
   EXPECT_NEAR(d.u_mps, (4.0 * (0.5 - 0.3 * 0.8) - plant.surge(0.8)) / plant.mass_norm, 1e-13);
-  // Backwards under a forward command it adds to the force.
+  // Driving backwards under a forward command, it adds to the force.
   s.u_mps = -0.8;
   const State<double> back = state_rates(plant, s, SideForces<double>{0.5, 0.5}, 0.0);
   EXPECT_NEAR(back.u_mps, (4.0 * (0.5 + 0.3 * 0.8) + plant.surge(0.8)) / plant.mass_norm, 1e-13);
@@ -168,7 +168,7 @@ TEST(BackEmf, OfMotorsThatAreOffThereIsNone) {
   }));
 }
 
-/// A wheel pushes along the direction in which it rolls, so back-EMF takes the power k_e w^2 of each
+/// A wheel force acts along the rolling direction, so back-EMF takes the power k_e w^2 of each
 /// wheel out of the motion: sum m' u u_dot + m' v v_dot + I'z r r_dot.
 TEST(BackEmf, TakesItsPowerOutOfTheMotionOfEveryWheel) {
   EXPECT_TRUE(rc::check([] {
@@ -188,7 +188,7 @@ TEST(BackEmf, TakesItsPowerOutOfTheMotionOfEveryWheel) {
   }));
 }
 
-/// The equations by wheel with nothing at the rear, and those of the sides' generalised forces.
+/// Compares the equations by wheel without rear forces with those of the generalised forces.
 TEST(FrontWheelDrive, PushesWithTheFrontWheelsAlone) {
   EXPECT_TRUE(rc::check([] {
     const Plant<double> all = paper_plant_of<double>();

@@ -1,4 +1,4 @@
-"""Holds the index of the paper's equations, lib/awmr/model/README.md, to the citations in lib/.
+"""Checks the index of the paper's equations, lib/awmr/model/README.md, against the citations in lib/.
 
     equation_index_test.py           checks the tree, then that each kind of fault is found
     equation_index_test.py --list    prints every citation with what it stands at, for a new row
@@ -34,7 +34,7 @@ class Citation:
     file: str
     line: int
     text: str
-    names: frozenset  # of what it documents and of what encloses it
+    names: frozenset  # of what it documents and of its enclosing scopes
 
 
 def indent_of(line):
@@ -113,7 +113,7 @@ def mentions(path, name):
 
 
 def check(root):
-    """Every fault of the tree, as text; and the number of rows and citations."""
+    """All faults of the tree as text, and the number of rows and citations."""
     faults = []
     cited = citations(root, faults)
     rows, covered = [], set()

@@ -1,4 +1,5 @@
-/// The law that a model's trials show, and what they leave open of it, against differences.
+/// Resistance law fitted to a model's trials, and its uncertainty, compared with finite
+/// differences.
 #include "awmr/model/fitted_law.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +12,7 @@
 namespace awmr::testing {
 namespace {
 
-/// A yaw law of four terms, all with an uncertainty, beside one of surge.
+/// A yaw law with four terms, all uncertain, and a surge law.
 Model model_of_laws() {
   Model model;
   model[ParameterId::kYawAlpha].value = 0.3;
@@ -24,7 +25,7 @@ Model model_of_laws() {
   model.covariance.parameters = {ParameterId::kSurgeAlpha,   ParameterId::kYawBeta,
                                  ParameterId::kYawAlpha,     ParameterId::kYawCoulomb,
                                  ParameterId::kYawQuadratic, ParameterId::kWheelDeadZone};
-  // L L' of a lower triangle L: a covariance.
+  // L L' of a lower triangle L is a covariance.
   const std::size_t n = model.covariance.parameters.size();
   std::vector<std::vector<double>> lower(n, std::vector<double>(n, 0.0));
   for (std::size_t i = 0; i < n; ++i) {
@@ -41,7 +42,7 @@ Model model_of_laws() {
   return model;
 }
 
-/// The mean of the law over the rates; `zone`: with what the wheels' dead zones take.
+/// Mean of the law over the rates; `zone`: includes the wheels' dead zones.
 double mean_of_law(const Model& model, TrialKind kind, const std::vector<double>& rates) {
   double sum = 0.0;
   for (const double rate : rates) sum += fitted_law(model, kind)->at(rate);
@@ -94,7 +95,7 @@ TEST(FittedLaw, IsKnownUpToTheFastestTurnOfTablesAndLogs) {
   EXPECT_NEAR(*measured_yaw_rate_degps(model), 40.0, 1e-12);
   model.record.logged_yaw_rate_radps = radians(10.0);
   EXPECT_NEAR(*measured_yaw_rate_degps(model), 15.0, 1e-12);
-  model.vehicle.yaw_rate_max_degps = 8.0;  // what the builder says goes before all
+  model.vehicle.yaw_rate_max_degps = 8.0;  // the manufacturer's value has precedence
   EXPECT_EQ(*measured_yaw_rate_degps(model), 8.0);
 }
 

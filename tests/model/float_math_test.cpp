@@ -1,4 +1,4 @@
-/// float_math.h against double's functions of the C library, whose error (1e-16) does not count.
+/// float_math.h compared with the C library's double functions, whose error (1e-16) is negligible.
 #include "awmr/model/float_math.h"
 #include "awmr/model/float_bearing.h"
 #include "awmr/model/scalar_math.h"
@@ -14,7 +14,7 @@
 namespace awmr::testing {
 namespace {
 
-/// Steps through the floats' bit patterns; 1 (AWMR_EXHAUSTIVE set) is every float.
+/// Step through the floats' bit patterns; 1 (AWMR_EXHAUSTIVE set) tests every float.
 std::uint32_t stride() { return std::getenv("AWMR_EXHAUSTIVE") != nullptr ? 1U : 1009U; }
 
 struct Worst {
@@ -22,7 +22,7 @@ struct Worst {
   double relative = 0.0;
 };
 
-/// Worst errors of `f` against `reference` over the positive floats of [lo, hi] and their
+/// Worst errors of `f` compared with `reference` over the positive floats of [lo, hi] and their
 /// negatives.
 template <class F, class Reference>
 Worst worst_error(float lo, float hi, F f, Reference reference) {
@@ -42,7 +42,7 @@ Worst worst_error(float lo, float hi, F f, Reference reference) {
   return worst;
 }
 
-// From the least normal float: below it the chip's subnormal numbers are its own affair.
+// The smallest normal float: the chip treats subnormal numbers differently.
 constexpr float kLeast = std::numeric_limits<float>::min();
 
 TEST(FloatMath, SineAndCosineKeepTheirStatedErrorUpToTheLargestAngle) {
@@ -99,7 +99,7 @@ TEST(FloatMath, BearingAtTheAxesAndTheDiagonalsIsWithinItsLastPlace) {
   EXPECT_NEAR(float_math::bearing(3.0F, 0.0F), kQuarter, 0.5 * kUnit);
   EXPECT_NEAR(float_math::bearing(-3.0F, 0.0F), -kQuarter, 0.5 * kUnit);
   EXPECT_NEAR(float_math::bearing(0.0F, -1.0F), 2.0 * kQuarter, kUnit);
-  // A ratio of 1 is held as 1 - 2^-16, and the polynomial adds 1.2e-5.
+  // A ratio of 1 is stored as 1 - 2^-16, and the polynomial adds 1.2e-5.
   EXPECT_NEAR(float_math::bearing(1.0F, 1.0F), 0.5 * kQuarter, 2.5e-5);
   EXPECT_NEAR(float_math::bearing(-1.0F, -1.0F), -1.5 * kQuarter, 3e-5);
 }
@@ -122,7 +122,7 @@ TEST(FloatMath, AnglesOfTheAxesAndOfTheOriginAreExact) {
   EXPECT_EQ(float_math::atan2(-3.0F, 0.0F), -float_math::kPiBy2);
   EXPECT_EQ(float_math::atan2(0.0F, -1.0F), float_math::kPi);
   EXPECT_EQ(float_math::atan2(-0.0F, -1.0F), float_math::kPi);
-  // Half a turn has one sign, however little below the axis the vector lies.
+  // Half a turn has a fixed sign, however little below the axis the vector is.
   for (const float hair : {-1e-45F, -1e-30F, -1e-8F}) {
     EXPECT_EQ(float_math::atan2(hair, -1.0F), float_math::kPi) << hair;
     EXPECT_GT(float_math::bearing(hair, -1.0F), -float_math::kPi) << hair;
@@ -156,7 +156,7 @@ TEST(FloatMath, WrapsIntoMinusPiToPiAndChangesNothingThere) {
 }
 
 TEST(FloatMath, WrapsAtEveryOddMultipleOfPi) {
-  // Where rounding may leave the reduced angle on either side of pi.
+  // Cases in which rounding may put the reduced angle on either side of pi.
   for (int turns = 1; turns <= 2607; turns += 2) {
     float x = static_cast<float>(turns * 3.14159265358979323846);
     for (int i = 0; i < 8; ++i) x = std::nextafter(x, 0.0F);
@@ -185,7 +185,7 @@ TEST(FloatMath, OrdersAsTheOperatorsDo) {
 }
 
 TEST(FloatMath, RatioIsToTheNearestOfSixteenBits) {
-  // Of the leading 16 bits of each mantissa, whatever lies between the exponents.
+  // The leading 16 bits of each mantissa, with any exponents.
   for (std::uint32_t i = 0; i < 200'000; ++i) {
     const std::uint32_t hash = i * 2654435761U;
     const std::uint32_t apart = hash % 19U;

@@ -1,4 +1,4 @@
-/// A valid document, spoilt in one place.
+/// A valid JSON document with an error in one place.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -20,7 +20,7 @@ inline std::string bytes_of(const std::filesystem::path& path) {
   return bytes.str();
 }
 
-/// The faults with which `read` refuses `text`, as `POINTER: MESSAGE`; empty where it is accepted.
+/// Faults with which `read` refuses `text`, as `POINTER: MESSAGE`; empty if it is accepted.
 template <class Read>
 std::vector<std::string> faults_of(Read read, const std::string& text) {
   const ScratchFile file("file.json", text);
@@ -37,7 +37,7 @@ std::vector<std::string> faults_of(Read read, const std::string& text) {
   return faults;
 }
 
-/// A value put at a pointer, or taken away.
+/// Sets or removes the value at a pointer.
 struct Edit {
   std::string pointer;
   Json value;

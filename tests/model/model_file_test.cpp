@@ -32,7 +32,7 @@ Vehicle some_vehicle() {
   return vehicle;
 }
 
-/// Every field filled, with doubles that have no short decimal form.
+/// Every field is set, with doubles that have no short decimal form.
 Model some_model() {
   Model model;
   model.vehicle = some_vehicle();
@@ -41,7 +41,7 @@ Model some_model() {
     model[parameter.id] = {value, value / 7.0, Interval{value / 3.0, value * 3.0}, Source::kFitted,
                            "log-linear"};
   }
-  // As the covariance below has them.
+  // Consistent with the covariance below.
   model[ParameterId::kSurgeAlpha].std_error = std::sqrt(1e-4);
   model[ParameterId::kSurgeBeta].std_error = std::sqrt(2.5e-4);
   model[ParameterId::kMassNorm].source = Source::kDerived;
@@ -123,7 +123,7 @@ TEST(ModelFile, RoundTripsArbitraryNumbersAndGaps) {
     Model model = some_model();
     model.covariance = {};
     for (Estimate& estimate : model.estimates) {
-      // Magnitudes over all that the reader takes (ranges.h); a third of the values unknown.
+      // Magnitudes over the whole accepted range (ranges.h); a third of the values is unknown.
       const auto id = static_cast<ParameterId>(&estimate - model.estimates.data());
       const bool exponent = id == ParameterId::kSurgeBeta || id == ParameterId::kYawBeta;
       const bool time = id == ParameterId::kSteeringTimeConstant;
@@ -193,7 +193,7 @@ TEST(ModelFile, NeedsEveryKey) {
                           pointer.find("_beta_range") != std::string::npos ||
                           pointer == "/command" || pointer == "/version" ||
                           pointer.find("/options/") == 0 ||
-                          pointer.find("/si/") == 0;  // worked out of the rest, not read
+                          pointer.find("/si/") == 0;  // derived from the rest, not read
     const bool element = last.find_first_not_of("0123456789") == std::string::npos;
     if (optional || element) continue;
     EXPECT_THAT(faults_after({pointer, {}, true}), SizeIs(1)) << pointer;
@@ -296,7 +296,7 @@ TEST(Model, BecomesAPlantOfAMotionThatTakesNoMoreThanIsKnown) {
     }
   }
   EXPECT_EQ(some_model().simulated_motion(), Motion::kPlanar);
-  // What is not known multiplies zeros: a straight motion stays one.
+  // Unknown values are multiplied by zeros: a straight motion remains straight.
   Model straight = some_model();
   for (const ParameterInfo& parameter : parameter_table()) {
     if (!takes(Motion::kStraight, parameter.id)) straight[parameter.id].value.reset();
@@ -354,7 +354,7 @@ TEST(ModelFile, IsReadBackBeforeItReplacesTheOldOne) {
   Model model = some_model();
   const ScratchFile file("model.json", model_text(model));
   ASSERT_TRUE(write_model(model, file.path()));
-  model[ParameterId::kSurgeAlpha].value = 1e12;  // beyond what a model may hold
+  model[ParameterId::kSurgeAlpha].value = 1e12;  // beyond the allowed range of a model
   const auto refused = write_model(model, file.path());
   ASSERT_FALSE(refused);
   EXPECT_EQ(exit_code(refused.error()), 3);

@@ -1,4 +1,4 @@
-/// Vehicles that can be built raise no word; each wrong unit is named.
+/// Realistic vehicles give no finding; each wrong unit is named.
 #include "awmr/model/plausibility.h"
 
 #include <gmock/gmock.h>
@@ -12,7 +12,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-/// Mass, length, width, front axle, half track; servo and inertia as usual.
+/// Mass, length, width, front axle, half track; typical servo and inertia.
 Vehicle vehicle(double mass_kg, double length_m, double width_m, double front_axle_m,
                 double half_track_m) {
   Vehicle v = paper_vehicle();
@@ -40,14 +40,14 @@ std::string words(const Vehicle& v) {
 TEST(Plausibility, VehiclesThatThereAreRaiseNoWord) {
   const Vehicle built[] = {paper_vehicle(),
                            vehicle(0.16, 0.17, 0.09, 0.05, 0.035),   // model car, 1:28
-                           vehicle(0.25, 0.15, 0.12, 0.04, 0.055),   // toy of a kit
+                           vehicle(0.25, 0.15, 0.12, 0.04, 0.055),   // construction-kit toy
                            vehicle(2.1, 0.32, 0.22, 0.1, 0.085),     // Arduino rover
                            vehicle(3.2, 0.5, 0.3, 0.16, 0.13),       // model car, 1:10
                            vehicle(50.0, 0.99, 0.67, 0.26, 0.28),    // field robot
                            vehicle(10.0, 0.6, 0.45, 0.25, 0.18),     // mower
                            vehicle(120.0, 2.0, 1.5, 0.9, 0.7),       // weeder
                            vehicle(1500.0, 4.5, 1.8, 1.3, 0.77),     // car
-                           vehicle(18000.0, 8.0, 2.55, 3.0, 1.05),   // lorry
+                           vehicle(18000.0, 8.0, 2.55, 3.0, 1.05),   // truck
                            vehicle(400000.0, 14.8, 9.2, 4.2, 3.6)};  // mining truck
   for (const Vehicle& v : built) EXPECT_THAT(pointers(v), IsEmpty()) << v.mass_kg << words(v);
 }

@@ -1,4 +1,4 @@
-/// One model, one controller, many scalars.
+/// One model and one controller, instantiated for several scalar types.
 #include <ceres/jet.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-/// The model in newtons and kilograms: values by hand, covariance by the logarithms.
+/// The model in newtons and kilograms: values by hand, covariance by logarithms.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -22,8 +22,8 @@ SiQuantity quantity(const Model& model, const std::string& pointer) {
   return {};
 }
 
-/// Standard errors of 5 % of a1 and 10 % of m', the correlation of their logarithms -0.6, and
-/// intervals of two standard errors of a logarithm; I'z = m' Iz/m.
+/// Standard errors of 5 % of a1 and 10 % of m', correlation of their logarithms -0.6, and intervals
+/// of two standard errors of a logarithm; I'z = m' Iz/m.
 Model uncertain_model() {
   Model model = fitted_paper_model();
   const double a = *model[ParameterId::kSurgeAlpha].value;
@@ -100,7 +100,7 @@ TEST(SiUnits, HaveNoErrorWhereTheModelHasNoCovarianceOfIt) {
   Model model = uncertain_model();
   model.covariance = {};
   EXPECT_FALSE(quantity(model, "/surge/alpha").estimate.std_error);
-  // What was given is exact, and its error is that of m' alone.
+  // Given values are exact; the error is that of m' alone.
   model = uncertain_model();
   const Estimate sway = quantity(model, "/sway/alpha").estimate;
   EXPECT_NEAR(*sway.std_error, 0.1 * *sway.value, 1e-12 * *sway.value);

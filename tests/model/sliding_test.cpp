@@ -1,4 +1,4 @@
-/// Coulomb friction holds a vehicle, lets it go and stops it when and where arithmetic says.
+/// Coulomb friction holds, releases and stops a vehicle exactly as calculated.
 #include "awmr/model/sliding.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-/// Steady rates: found where there is one, and every search for one ends.
+/// Steady rates are found if they exist, and every search terminates.
 #include "awmr/model/steady.h"
 
 #include <gtest/gtest.h>
@@ -32,12 +32,12 @@ TEST(Steady, WhatMotorsLoseAddsToTheCurve) {
   }
 }
 
-/// Halves a bracket until nothing lies between its ends: slow, and right for any rising curve.
+/// Bisection to the last bit: slow, and correct for any rising curve.
 double by_bisection(const Resistance<double>& law, double force) {
   double lo = 1e-300;
   double hi = 1e9;
   for (int i = 0; i < 2000 && std::nextafter(lo, hi) < hi; ++i) {
-    // By ratios at first, since the ends are hundreds of powers of ten apart.
+    // By ratios first, because the ends are hundreds of powers of ten apart.
     const double middle = hi > 2.0 * lo ? std::sqrt(lo) * std::sqrt(hi) : 0.5 * (lo + hi);
     (law.at(middle) < force ? lo : hi) = middle;
   }
@@ -61,8 +61,8 @@ TEST(Steady, NewtonFindsWhatBisectionDoes) {
             const auto rate = steady_rate(law, force);
             ASSERT_TRUE(rate) << alpha << ' ' << beta << ' ' << quadratic << ' ' << coulomb << ' '
                               << excess;
-            // A rounding of g, which holds c too, moves the root by g/(w g') times as much; 8 of
-            // them, for the few operations of either way.
+            // A rounding of g, which includes c, moves the root by g/(w g') times as much. Eight
+            // roundings cover the few operations of either method.
             const double slope =
                 (beta * alpha * std::pow(truth, beta) + 2.0 * quadratic * truth * truth) / force;
             EXPECT_NEAR(*rate, truth, 8.0 * 2.3e-16 / slope * truth)
@@ -92,8 +92,8 @@ TEST(Steady, TheTimeToRestIsTheIntegralDownToRest) {
 }
 
 TEST(Steady, TheSearchEndsWhereTheCurveJumpsAtRest) {
-  // beta = 0: the curve starts at c + alpha = 1.3, so 0.2 lies in the jump and halving the speed
-  // went on for ever.
+  // beta = 0: the curve starts at c + alpha = 1.3, so 0.2 is inside the jump. Halving the speed did
+  // not terminate.
   const Resistance<double> law{
       .alpha = 1.2, .beta = 0.0, .rest_speed = 0.0, .coulomb = 0.1, .quadratic = 0.05};
   EXPECT_FALSE(steady_rate(law, 0.2).has_value());

@@ -1,4 +1,4 @@
-/// The scale of each parameter, there and back.
+/// Scale of each parameter and its inverse.
 #include "awmr/model/transform.h"
 
 #include <gtest/gtest.h>
@@ -17,8 +17,8 @@ TEST(Transform, KeepsExponentsAndTermsLinearAndTakesTheLogarithmOfTheRest) {
   EXPECT_EQ(to_coordinate(ParameterId::kSurgeCoulomb, 0.0), 0.0);
 }
 
-/// exp(ln p) errs by about |ln p| + 1 units in the last place; a central difference of step h by
-/// h^2/6 of the value and by rounding over h.
+/// exp(ln p) errs by about |ln p| + 1 units in the last place. A central difference of step h errs
+/// by h^2/6 of the value and by rounding over h.
 TEST(Transform, InvertsAndHasItsOwnDerivative) {
   constexpr double kValue = 0.37;
   constexpr double kStep = 1e-5;

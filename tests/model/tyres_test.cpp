@@ -1,4 +1,4 @@
-/// The tyres' law by what it has to be, and the vehicle on four of them by energy and symmetry.
+/// Properties of the tyre law; energy and symmetry of the four-wheel vehicle.
 #include "awmr/model/tyres.h"
 
 #include <gtest/gtest.h>
@@ -41,8 +41,8 @@ WheelForces<double> any_forces() {
 }
 
 TEST(Tyre, GrowsWithASmallSlipByItsCorneringStiffness) {
-  // sigma = 1e-6 where the wheel rolls at V = sqrt(1 + 0.1^2); the next term of F'y is sigma c_a F'z/(3 mu F'z),
-  // 4e-6, smaller than the first.
+  // sigma = 1e-6 for a wheel that rolls at V = sqrt(1 + 0.1^2). The next term of F'y is sigma c_a
+  // F'z/(3 mu F'z), 4e-6 times the first.
   constexpr double kSlides_mps = 1e-6;
   const double slip = kSlides_mps / std::hypot(1.0, kTyres.rest_speed_mps);
   for (const double along : {0.0, 0.05, 0.1}) {
@@ -59,8 +59,8 @@ TEST(Tyre, SaturatesAtWhatTheCircleOfFrictionLeaves) {
   }
 }
 
-/// Pacejka's form of the same law, (3.10): 3 mu F'z theta sigma (1 - theta sigma + (theta sigma)^2/3) with
-/// theta = c_a F'z/(3 mu F'z), up to theta sigma = 1.
+/// Pacejka's form of the same law, (3.10): 3 mu F'z theta sigma (1 - theta sigma + (theta
+/// sigma)^2/3) with theta = c_a F'z/(3 mu F'z), up to theta sigma = 1.
 TEST(Tyre, IsTheCubicOfTheBrushModel) {
   const double grip = kTyres.friction * kLoad;
   for (double share = 0.05; share < 1.0; share += 0.05) {
@@ -98,8 +98,8 @@ RC_GTEST_PROP(FourWheels, NoWheelLeavesItsCircleOfFriction, ()) {
   for (int i = 0; i < 4; ++i) RC_ASSERT(std::hypot(x[i], y[i]) <= grip * (1.0 + 1e-12));
 }
 
-/// The kinetic energy changes by what the wheels pass on along their way less what the tyres take
-/// sideways, which is never negative; with the motors off it only falls.
+/// The kinetic energy changes by the power of the wheels along their rolling direction minus the
+/// lateral tyre losses, which are never negative. With the motors off it only falls.
 RC_GTEST_PROP(FourWheels, TyresOnlyTakeEnergyAndNothingElseDoesBesideTheDrives, ()) {
   const FourWheels<double> vehicle = any_vehicle();
   const Plant<double>& p = vehicle.body;
@@ -114,7 +114,7 @@ RC_GTEST_PROP(FourWheels, TyresOnlyTakeEnergyAndNothingElseDoesBesideTheDrives, 
                         x.rear_left * w.rear_left + x.rear_right * w.rear_right;
   const double taken = tyre_power_mps(vehicle, s, force);
   RC_ASSERT(taken >= 0.0);
-  // Some twenty products of up to about 10, rounded.
+  // Some twenty products of up to about 10, with rounding.
   RC_ASSERT(std::abs(kinetic - (driven - taken)) < 1e-12);
   const State<double> off = state_rates(vehicle, s, SideForces<double>{0.0, 0.0}, 0.1);
   RC_ASSERT(p.mass_norm * (s.u_mps * off.u_mps + s.v_mps * off.v_mps) +
@@ -137,9 +137,9 @@ RC_GTEST_PROP(FourWheels, MirroredMotionHasMirroredRates, ()) {
   RC_ASSERT(std::abs(a.r_radps + b.r_radps) <= 1e-11);
 }
 
-/// What steps are chosen by: v and r die out no faster than at twice the tyres' rate, the bound that the
-/// coupling of the two leaves (rows' sums of the matrix of -d(v_dot, r_dot)/d(v, r), scaled to be symmetric),
-/// and what the velocity turns by and the drives resist beside it.
+/// Basis of the step size: v and r decay at most at twice the tyre rate. This is the bound of the
+/// coupled system by row sums of the matrix -d(v_dot, r_dot)/d(v, r), scaled to be symmetric, plus
+/// the rotation of the velocity and the resistance of the drives.
 RC_GTEST_PROP(FourWheels, NothingSidewaysIsMuchFasterThanTheTyresRate, ()) {
   FourWheels<double> vehicle = any_vehicle();
   vehicle.body.surge.alpha = 0.0;
@@ -152,15 +152,15 @@ RC_GTEST_PROP(FourWheels, NothingSidewaysIsMuchFasterThanTheTyresRate, ()) {
     moved.r_radps += dr;
     return state_rates(vehicle, moved, none, s.steering_rad);
   };
-  // Scaled by sqrt(I'z/m'), so that both speeds count by their energy.
+  // Scaled by sqrt(I'z/m'), so that both speeds are weighted by energy.
   const double scale = std::sqrt(vehicle.body.inertia_norm / vehicle.body.mass_norm);
   const double vv = (rates(h, 0).v_mps - rates(-h, 0).v_mps) / (2 * h);
   const double rr = (rates(0, h).r_radps - rates(0, -h).r_radps) / (2 * h);
   const double vr = (rates(0, h).v_mps - rates(0, -h).v_mps) / (2 * h) / scale;
   const double rv = (rates(h, 0).r_radps - rates(-h, 0).r_radps) / (2 * h) * scale;
   const double norm = std::sqrt(vv * vv + rr * rr + vr * vr + rv * rv);
-  // A slip beyond 1 also changes with the speed that a steered or turning wheel rolls at: by no more than
-  // the friction lets it, which is a third of a radian's stiffness and more than doubles no rate here.
+  // A slip beyond 1 also changes with the rolling speed of a steered or turning wheel. Friction
+  // limits this to a third of a radian's stiffness, which at most doubles any rate here.
   RC_ASSERT(norm <= 4.0 * tyre_rate(vehicle, s) + 2.0 * std::abs(s.u_mps) / scale + 1e-3);
 }
 
@@ -179,7 +179,7 @@ TEST(FourWheels, StrictScalarGivesTheSameBits) {
   EXPECT_EQ(a.r_radps.value(), b.r_radps);
 }
 
-/// Straight ahead the surge trials cannot tell the two vehicles apart, while the friction holds.
+/// Straight ahead, surge trials cannot distinguish the two vehicles unless the tyres slide.
 TEST(FourWheels, DrivesStraightAheadAsTheModelDoes) {
   const Plant<double> plant = paper_plant();
   const State<double> s{0.0, 0.0, 0.0, 1.2, 0.0, 0.0, 0.0};

@@ -1,5 +1,5 @@
-# Installs into WORK/prefix, looks at what is there, builds the README's example against it, runs it
-# on the paper's tables and holds its model against the program's.
+# Installs into WORK/prefix, checks the files, builds the README's example with them, runs it on the
+# paper's tables and compares its model with the program's.
 function(run directory)
   execute_process(COMMAND ${ARGN} WORKING_DIRECTORY ${directory} COMMAND_ECHO STDOUT
     OUTPUT_VARIABLE output ERROR_VARIABLE output RESULT_VARIABLE result)
@@ -14,7 +14,7 @@ file(REMOVE_RECURSE ${prefix} ${WORK}/consumer ${WORK}/run)
 file(MAKE_DIRECTORY ${WORK}/run)
 run(${WORK} ${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix})
 
-# Only public headers: none that says it is private or that needs a library which stays inside.
+# Only public headers: none marked as private or dependent on an internal library.
 file(GLOB_RECURSE headers RELATIVE ${prefix}/include ${prefix}/include/*)
 foreach(header IN LISTS headers)
   file(READ ${prefix}/include/${header} text)

@@ -1,5 +1,5 @@
-# Makes the Debian package, looks at what it holds and depends on, unpacks it into WORK/root and runs the program from
-# there, in a folder of its own, on the paper's project as the package has it.
+# Makes the Debian package, checks its content and dependencies, unpacks it into WORK/root and runs
+# the program from there, in a separate folder, on the packaged paper project.
 function(run directory)
   execute_process(COMMAND ${ARGN} WORKING_DIRECTORY ${directory} COMMAND_ECHO STDOUT
     OUTPUT_VARIABLE output ERROR_VARIABLE output RESULT_VARIABLE result)
@@ -11,7 +11,7 @@ endfunction()
 
 file(REMOVE_RECURSE ${WORK})
 file(MAKE_DIRECTORY ${WORK}/run)
-# Quickly: the package that is given to others is compressed well.
+# Fast compression here; the released package is compressed better.
 run(${BUILD} ${CPACK} -G DEB -B ${WORK} -D CPACK_DEBIAN_COMPRESSION_TYPE=gzip)
 file(GLOB package ${WORK}/awmr_*.deb)
 run(${WORK} dpkg-deb --field ${package})

@@ -1,5 +1,5 @@
-/// Boost.odeint as the reference of the closed loop: over each sample, from the row's state with
-/// the row's held command and disturbance to the next row's state.
+/// Boost.odeint as the reference of the closed loop: from each row's state with its held command
+/// and disturbance to the next row's state.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 namespace awmr::testing {
 namespace {
 
-/// The state a sample after the row's, with the row's command and disturbance held.
+/// State one sample after the row, with the row's command and disturbance held.
 State<double> reference(const Plant<double>& plant, const RunRow& row, double duration_s) {
   const auto rates = [&](const State<double>& s) {
     State<double> d = state_rates(plant, s, row.force, row.steering_command_rad);
@@ -53,14 +53,14 @@ TEST(ReferenceIntegrator, TheClosedLoopAgreesOverEverySampleInEveryMode) {
   for (const YawMode mode : kYawModes) {
     const awmr::Run run = simulate(plant, controller, disturbed_turns(), mode,
                                    {.sample_time_s = kSample_s, .substeps = {}});
-    // The chord at rest is part of what is simulated, not of the integrator's error.
+    // The chord at rest is part of the simulated equations, not of the integrator's error.
     const Plant<double> resolved = resolved_at_rest(plant, kSample_s / run.substeps);
     for (std::size_t i = 0; i + 1 < run.rows.size(); ++i) {
       const State<double> expected = reference(resolved, run.rows[i], kSample_s);
       const State<double>& found = run.rows[i + 1].state;
-      // (h/T)^5/120 = 1e-6 of an excursion: d_r moves by 0.05 rad in a sample at most, v follows it
-      // with 0.05 m/s; where the servo's rate limit or r = 0 is crossed inside a step, RK4 falls to
-      // first order there, and r is off by up to I'z's response to g3's chord.
+      // (h/T)^5/120 = 1e-6 of an excursion: d_r moves by at most 0.05 rad per sample, v follows it
+      // with 0.05 m/s. If the servo's rate limit or r = 0 is crossed inside a step, RK4 has first
+      // order there. r then errs by up to I'z's response to g3's chord.
       EXPECT_NEAR(found.x_m, expected.x_m, 1e-6) << name_of(mode) << " row " << i;
       EXPECT_NEAR(found.y_m, expected.y_m, 1e-6) << name_of(mode) << " row " << i;
       EXPECT_NEAR(found.psi_rad, expected.psi_rad, 1e-5) << name_of(mode) << " row " << i;

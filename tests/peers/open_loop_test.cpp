@@ -1,4 +1,4 @@
-/// The integrator against Boost.odeint: the same equations of motion, another method.
+/// The integrator compared with Boost.odeint: the same equations of motion, another method.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,8 +23,8 @@ struct Problem {
   std::optional<Tyres<double>> tyres = {};
 };
 
-/// The rates on four tyres once more, wheel by wheel: the velocity of each contact in the world's axes, its
-/// force by the cubic polynomial of the brush model (Pacejka's form), and the moments as cross products.
+/// Independent four-wheel rates, wheel by wheel: velocity of each contact in world axes, its force
+/// by the cubic polynomial of the brush model (Pacejka's form), and moments as cross products.
 State<double> rates_wheel_by_wheel(const Problem& problem, const State<double>& s) {
   const Plant<double>& p = problem.plant;
   const Tyres<double>& tyres = *problem.tyres;
@@ -64,7 +64,7 @@ State<double> rates_wheel_by_wheel(const Problem& problem, const State<double>& 
           steering_rate(p, s.steering_rad, problem.steering_command_rad)};
 }
 
-/// The state at `end_s` under forces and a steering command that are held.
+/// State at `end_s` with constant forces and steering command.
 State<double> reference(const Problem& problem, const State<double>& start, double end_s) {
   const auto rates = [&](const State<double>& s) {
     return problem.tyres
@@ -95,7 +95,7 @@ TEST(ReferenceIntegrator, OpenLoopPositionsAgreeAfterAMinuteInEveryMode) {
   }
 }
 
-/// The equations as well as the integrator are somebody else's here: the rates are summed anew.
+/// Equations and integrator are both independent here.
 TEST(ReferenceIntegrator, PositionsOnFourTyresAgreeAfterAMinuteInEveryMode) {
   const Plant<double> plant = paper_plant();
   Vehicle vehicle{};
@@ -109,7 +109,7 @@ TEST(ReferenceIntegrator, PositionsOnFourTyresAgreeAfterAMinuteInEveryMode) {
         const awmr::Run run =
             simulate(plant, controller, scenario, mode, {.sample_time_s = 0.01, .substeps = {}});
         const RunRow& first = run.rows.front();
-        // The chord at rest is part of the equations that are solved.
+        // The chord at rest is part of the equations.
         const Plant<double> resolved = resolved_at_rest(plant, scenario, 0.01 / run.substeps);
         const State<double> expected = reference(
             {resolved, first.force, first.steering_command_rad, scenario.tyres}, {}, 60.0);
@@ -117,7 +117,7 @@ TEST(ReferenceIntegrator, PositionsOnFourTyresAgreeAfterAMinuteInEveryMode) {
         const std::string where = std::string(name_of(mode)) + ", tau_turn " +
                                   std::to_string(tau_turn_m) + ", friction " +
                                   std::to_string(friction);
-        // A force has a kink where a wheel begins or ceases to spin or to slide. The step that goes over it
+        // A force has a kink where a wheel begins or ceases to spin or slide. The step across it
         // errs by up to its length, 3.3 ms, times the speed, about 1 m/s.
         EXPECT_NEAR(found.x_m, expected.x_m, 4e-3) << where;
         EXPECT_NEAR(found.y_m, expected.y_m, 4e-3) << where;

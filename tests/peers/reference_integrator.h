@@ -1,4 +1,4 @@
-/// An integrator that is not the simulator's: Boost.odeint's Dormand-Prince 5(4) with step-size
+/// Integrator independent of the simulator: Boost.odeint's Dormand-Prince 5(4) with step-size
 /// control.
 #pragma once
 
@@ -12,8 +12,8 @@
 
 namespace awmr::testing {
 
-/// The state at end_s of d(state)/dt = rates(state) from `start`, at tolerances far below those
-/// asked of the simulator.
+/// State at end_s of d(state)/dt = rates(state) from `start`, with tolerances far below those of
+/// the simulator's tests.
 template <class Rates>
 State<double> integrate_reference(const Rates& rates, const State<double>& start, double end_s) {
   namespace odeint = boost::numeric::odeint;

@@ -1,8 +1,8 @@
-"""The fit of a driving log against SciPy's: solve_ivp for the motion, least_squares for the search.
+"""Compares the fit of a driving log with SciPy's: solve_ivp for the motion, least_squares for the search.
 
 Both fit eight parameters and every window's initial state to the same simulated log, with white noise of unknown
-size; the equations of motion are written down anew here. SciPy begins at the program's guess of the size, gets its
-derivatives by finite differences over many trajectories at once, and knows which residuals hang on which numbers.
+size; the equations of motion are implemented independently here. SciPy begins at the program's guess of the size, gets its
+derivatives by finite differences over many trajectories at once, and knows which residuals depend on which numbers.
 
 The program's Runge-Kutta steps last a row, SciPy's end where a command changes and are held to 1e-7: what lies
 between them is the step's own error, which is largest for the servo's time constant of six rows. All parameters
@@ -143,7 +143,7 @@ class Problem:
         return np.vstack(blocks + [pull])
 
     def settle(self, z):
-        """The likeliest white noise of these residuals; the largest change of a level."""
+        """Most likely white noise of these residuals; the largest change of a level."""
         r, at, change = self.residuals(z), 0, 0.0
         squares, count = dict.fromkeys(PLACE, 0.0), dict.fromkeys(PLACE, 0)
         for rows in self.windows:
@@ -161,7 +161,7 @@ class Problem:
 
 
 def by_scipy(log, guess):
-    """The parameters, and how many Jacobians that took."""
+    """The parameters, and the number of Jacobians used."""
     problem = Problem(log, guess)
     z, jacobians = problem.begin(), 0
     for _ in range(6):
@@ -172,7 +172,7 @@ def by_scipy(log, guess):
 
 
 def by_awmr(awmr, directory):
-    """The parameters with their standard errors, the place that the search began at, and the seconds it took."""
+    """The parameters with their standard errors, the initial guess, and the run time in seconds."""
     out = directory / "model.json"
     begin = time.perf_counter()
     subprocess.run([awmr, "identify", "--vehicle", directory / "vehicle.json", "--log", directory / "log.csv",

@@ -1,4 +1,4 @@
-"""The power-law fit against SciPy's least squares: parameters and standard errors to 1e-8.
+"""Compares the power-law fit with SciPy's least squares: parameters and standard errors to 1e-8.
 
 usage: scipy_power_law.py AWMR SOURCE_DIR
 """

@@ -1,10 +1,10 @@
 #pragma once
-// USART0 of the chip in place of a card, for the programs of log_chip_test.cpp.
+// USART0 of the chip as a replacement for the card, for the programs of log_chip_test.cpp.
 #include <avr/io.h>
 #include <stddef.h>
 #include <stdint.h>
 
-/// Waits until every byte is on its way.
+/// Sends bytes; waits until each is transmitted.
 struct Uart {
   void begin() {
     UCSR0A = _BV(U2X0);

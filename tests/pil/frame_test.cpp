@@ -1,4 +1,4 @@
-/// Frames on a bad line: one that is damaged is not taken, and the one after it is.
+/// Frames on a disturbed line: a damaged one is rejected, the next one is accepted.
 #include "firmware/frame.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ Bytes framed(std::uint8_t sequence, const Bytes& payload) {
   return frame;
 }
 
-/// The sequence numbers of the frames that are taken of these bytes.
+/// Sequence numbers of the frames accepted from these bytes.
 std::vector<int> taken(pil::FrameReader& reader, const Bytes& bytes) {
   std::vector<int> sequences;
   for (const std::uint8_t byte : bytes) {
@@ -53,12 +53,12 @@ TEST(Frame, WithAnyOneBitFlippedIsNotTaken) {
 }
 
 TEST(Frame, IsFoundInsideOfADamagedOne) {
-  // Of the first one a byte was lost: it ends with the start of the second, which is found in it.
+  // The first frame lost a byte: it ends with the start of the second, which is found inside it.
   for (std::size_t lost = 0; lost < 10; ++lost) {
     Bytes bad = framed(5, {1, 2, 3, 4});
     bad.erase(bad.begin() + static_cast<std::ptrdiff_t>(lost));
     pil::FrameReader reader{};
-    // Where the length is lost, the payload's first byte stands for it: 1, which is shorter.
+    // If the length is lost, the payload's first byte replaces it: 1, which is shorter.
     EXPECT_EQ(taken(reader, bad + framed(6, {7})), std::vector<int>{6}) << lost;
   }
 }

@@ -1,5 +1,5 @@
-// A chip that logs and does nothing else, for log_chip_test.cpp: in a timer interrupt made-up steps
-// into the ring, in between blocks of it through USART0. Asleep between two interrupts.
+// Chip program that only logs, for log_chip_test.cpp. A timer interrupt puts generated steps into
+// the ring; blocks are sent through USART0 in between. The chip sleeps between interrupts.
 #include <avr/interrupt.h>
 #include <avr/io.h>
 #include <avr/sleep.h>
@@ -17,14 +17,14 @@ volatile uint8_t step;
 Uart uart;
 
 const uint8_t kSteps = 250;
-const uint8_t kStallFrom = 60, kStallTo = 150;  // longer than the 56 rows that the ring bridges
+const uint8_t kStallFrom = 60, kStallTo = 150;  // longer than the 56 rows that the ring buffers
 
 float number(uint8_t column) { return 0.125f * static_cast<float>(step) + column; }
 
 }  // namespace
 
 extern "C" {
-volatile uint16_t log_cycles_max;  // of a row; timer 1 counts at the clock's rate
+volatile uint16_t log_cycles_max;  // per row; timer 1 counts at the clock's rate
 volatile uint8_t log_done;
 }
 

@@ -1,5 +1,5 @@
-/// Rows of the on-board log as the chip's own code writes them, on the emulated chip: what they cost
-/// the control step, and that they read back as they were.
+/// Rows of the on-board log written by the chip's own code on the emulated chip: their cost in the
+/// control step, and that they read back unchanged.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -35,12 +35,12 @@ TEST_F(StepChip, AStepThatDoesNotEndResetsTheChipAndTheLogSaysSo) {
   EXPECT_EQ(log->runs, 2U);
   const auto& cause = log->columns[log->columns.size() - 2];
   const auto& run = log->columns.back();
-  // Whole blocks of eight rows were written before the hundredth step.
+  // Complete blocks of eight rows were written before the hundredth step.
   const auto first = static_cast<std::size_t>(std::count(run.begin(), run.end(), 1.0));
   EXPECT_EQ(first, 96U);
   for (std::size_t row = 0; row < log->rows(); ++row) {
     ASSERT_EQ(cause[row], run[row] == 1.0 ? 1.0 : 8.0);  // switched on, watchdog
-    // Steps are numbered from 1, each sample time one.
+    // Steps are numbered from 1, one per sample time.
     ASSERT_NEAR(log->columns[0][row],
                 0.01 * static_cast<double>((row < first ? row : row - first) + 1), 1e-12);
   }
@@ -62,8 +62,8 @@ TEST_F(LogChip, RowsReadBackAsTheyWereAndThoseOfAStallAreCounted) {
   const auto log = read_awl(file_, "a.awl");
   ASSERT_TRUE(log) << to_text(log.error());
   EXPECT_EQ(log->parameters_sha256, params_sha256(paper_inputs()));
-  // Of the 90 sample times of the stall the ring bridges 64 less the part of a block that was in it
-  // already; the block after the stall takes one sample time to be written.
+  // Of the 90 sample times of the stall the ring bridges 64 minus the part of a block already in
+  // it. Writing the block after the stall takes one sample time.
   EXPECT_GE(log->lost, kStallTo - kStallFrom - 64);
   EXPECT_LE(log->lost, kStallTo - kStallFrom - 56 + 1);
   EXPECT_EQ(log->rows(), kSteps - log->lost);

@@ -1,5 +1,5 @@
-/// The firmware on the emulated chip, through the program: the paper's scenarios bit for bit,
-/// budgets, faults injected, the serial protocol over a pseudo-terminal.
+/// The firmware on the emulated chip, run through the program: the paper's scenarios bit for bit,
+/// budgets, injected faults, the serial protocol over a pseudo-terminal.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -33,7 +33,8 @@ class Pil : public ::testing::Test {
         "--coastdown datasets/paper/coastdown.csv --turning datasets/paper/turning.csv -o " +
         path("model.json"));
     ASSERT_EQ(run.exit_code, 0) << run.err;
-    // Commands about as active as with the paper's gains, with which single precision is compared.
+    // Commands about as active as with the paper's gains, for which the single-precision bounds
+    // hold.
     write_all(path("tune.json"), R"({"baseline": "paper", "activity_max": 1.5})");
     const ProcessResult tuned =
         awmr("tune --nominal --quiet --model " + path("model.json") + " --config " +
@@ -49,7 +50,7 @@ class Pil : public ::testing::Test {
                 " --scenario " + scenario + " --mode " + mode + " " + options + " -o " +
                 path(output));
   }
-  /// As pil(), for what stands before it on the command line: variables, another directory.
+  /// Like pil(), with a prefix of the command line: variables, another directory.
   static ProcessResult pil_after(const std::string& before, const std::string& options,
                                  const std::string& output = "after.json") {
     return run_process("export " + before + " && " + std::string(AWMR_PROGRAM) + " pil --model " +
@@ -75,7 +76,7 @@ class Pil : public ::testing::Test {
   static inline TemporaryDirectory* directory_ = nullptr;
 };
 
-/// The line of the README's table for a run, made of its pil.json.
+/// The line of the README's table for a run, made from its pil.json.
 std::string readme_line(const std::string& name, const Json& json) {
   char line[200];
   std::snprintf(line, sizeof line, "| %s | %d / %.0f / %d | %.1f %% | %d | %.3f deg |",
@@ -91,14 +92,14 @@ class PilScenario : public Pil,
 
 TEST_P(PilScenario, RunsBitForBitAsOnTheHostAndWithinItsBudgets) {
   const auto [scenario, mode] = GetParam();
-  // Bounds are what was measured, the largest of the nine runs, and 1 %.
+  // Bounds are the largest measured value of the nine runs plus 1 %.
   const int cycles_max = 9140;
   const ProcessResult run = pil(scenario, mode, "--cycles-max " + std::to_string(cycles_max));
   ASSERT_EQ(run.exit_code, 0) << run.out << run.err;
   const Json json = result();
   EXPECT_EQ(largest(json["difference"]), 0.0);
   EXPECT_LE(json["difference_double"]["heading_deg"].get<double>(), 0.0071);
-  // Parts that are left out cost nothing: what these images took before there were any.
+  // Unused parts cost nothing: these images have the size from before parts existed.
   EXPECT_LE(json["flash_bytes"].get<int>(), 11830);
   EXPECT_LE(json["ram_bytes"].get<int>(), 415);
   EXPECT_GT(json["stack_bytes"].get<int>(), 50);
@@ -106,7 +107,7 @@ TEST_P(PilScenario, RunsBitForBitAsOnTheHostAndWithinItsBudgets) {
   EXPECT_LE(json["cycles"]["max"].get<int>(), cycles_max);
   EXPECT_LT(json["cycles"]["min"].get<int>(), json["cycles"]["max"].get<int>());
   EXPECT_EQ(json["verdict"], "passed");
-  // With hostile inputs it is the host's bits as well, and never longer than the sample time.
+  // Hostile inputs give the host's bits too, within the sample time.
   EXPECT_EQ(json["hostile"]["differing"].get<int>(), 0);
   EXPECT_GE(json["hostile"]["steps"].get<int>(), 6000);
   EXPECT_GT(json["cycles_bound"].get<int>(), json["cycles"]["max"].get<int>());
@@ -148,8 +149,8 @@ TEST_P(PilGuidance, LeadsByItselfBitForBitAsOnTheHostWithin16KiBAnd512BytesOfRam
   EXPECT_EQ(json["guidance_on_chip"].get<bool>(), !heading);
 }
 
-/// All of configs/ but those in open loop, which ask nothing of a controller, the baselines, and those
-/// of PilScenario.
+/// All of configs/ except open loop, which has no controller, the baselines, and those of
+/// PilScenario.
 INSTANTIATE_TEST_SUITE_P(
     , PilGuidance,
     ::testing::Values(
@@ -167,7 +168,7 @@ INSTANTIATE_TEST_SUITE_P(
       return file.substr(file.rfind('/') + 1);
     });
 
-/// The chip carries the paper's laws; what it does not carry it does not stand in for.
+/// The chip supports the paper's laws; others are refused, not replaced.
 TEST_F(Pil, RefusesTheBaselinesByName) {
   const std::pair<const char*, const char*> cases[] = {
       {"heading_steps_lqi",
@@ -184,7 +185,7 @@ TEST_F(Pil, RefusesTheBaselinesByName) {
   }
 }
 
-/// With nothing to follow but a heading that is reached, the commands decay as far as numbers go.
+/// If the only task is a heading that has been reached, the commands decay to the smallest numbers.
 TEST_F(Pil, AHeadingThatDecaysToNothingIsTheHostsBitsInEveryMode) {
   for (const char* mode : {"differential", "steering"}) {
     const ProcessResult run = pil("configs/scenarios/low_battery.json", mode, "");
@@ -221,7 +222,8 @@ TEST_F(Pil, FrictionAtRestADeadZoneAndBackEmfAreMadeUpForAsInTheSimulator) {
   }
 }
 
-/// In a scenario that asks for none of its own, where the chip is told headings and where it leads.
+/// In a scenario without its own observer, with headings from the host and with guidance on the
+/// chip.
 TEST_F(Pil, AnObserverTunedWithTheGainsWorksOnTheChip) {
   Json gains = Json::parse(read_all(path("gains.json")));
   gains["observer"] = {{"bandwidth_radps", 2.0}, {"yaw_max_m", 0.04}, {"surge_max", 1.3}};
@@ -281,9 +283,9 @@ TEST_F(Pil, AnOutputThatWasAnInputWasDestroyed) {
 }
 
 TEST_F(Pil, ByPowfItIsWithinTwoMillionths) {
-  // The two libraries' powf differ by up to 2.4e-7, which the steering's division by tau_speed
-  // raises (1.3e-6 measured with these gains, 9e-7 and less with those of awmr tune to every
-  // digit).
+  // The powf of the two libraries differs by up to 2.4e-7. The steering's division by tau_speed
+  // amplifies this: 1.3e-6 measured with these gains, at most 9e-7 with the full-precision gains of
+  // awmr tune.
   const ProcessResult run = pil(kC3, "combined", "--resistance powf --difference-max 2e-6");
   ASSERT_EQ(run.exit_code, 0) << run.out << run.err;
   EXPECT_LE(largest(result()["difference"]), 2e-6);
@@ -331,7 +333,7 @@ TEST(PilFaults, AreAllHazardsOfTheSafetyPage) {
       read_all(std::string(AWMR_SOURCE_DIR) + "/lib/awmr/emit/assets/SAFETY.md"));
   std::vector<std::string> hazards;
   for (std::string line; std::getline(page, line);) {
-    // A row of the five columns of the hazards.
+    // A row of the five-column hazard table.
     if (std::count(line.begin(), line.end(), '|') != 6 || !line.ends_with("` |")) continue;
     const std::size_t name = line.rfind(" `") + 2;
     hazards.push_back(line.substr(name, line.size() - 3 - name));
@@ -343,10 +345,10 @@ TEST(PilFaults, AreAllHazardsOfTheSafetyPage) {
 class PilFault : public Pil, public ::testing::WithParamInterface<const char*> {};
 
 TEST_P(PilFault, GivesTheSafeCommandAndItsCode) {
-  // Long enough for what only metres of motion show.
+  // Long enough for failures that only metres of motion reveal.
   Json scenario = Json::parse(read_all(std::filesystem::path(AWMR_SOURCE_DIR) / kC3));
   scenario["duration_s"] = 90;
-  // A turn after the middle, in which a compass that stands still shows.
+  // A turn after the middle, in which a stuck compass is detected.
   scenario["guidance"]["steps"].push_back({{"t_s", 60}, {"psi_deg", 30}});
   write_all(path("long.json"), scenario.dump());
   const ProcessResult run =
@@ -439,7 +441,7 @@ TEST_F(Pil, OverALineThatFlipsAHundredthOfTheBitsItEndsWithWords) {
 }
 
 TEST_F(Pil, OptionsAreNotUsedAfterTheyAreFreed) {
-  // Freed memory is overwritten at once, so that options that CLI11 still writes to are garbage.
+  // Freed memory is overwritten at once, so that a CLI11 write to destroyed options gives garbage.
   const ProcessResult run =
       pil_after("GLIBC_TUNABLES=glibc.malloc.tcache_count=0:glibc.malloc.perturb=165", "");
   EXPECT_EQ(run.exit_code, 0) << run.out << run.err;
@@ -527,7 +529,7 @@ TEST_F(Pil, TwoRunsGiveTheSameBytesAndTheRealTimeFactorIsOnStdoutOnly) {
 
 TEST_F(Pil, ASignalLeavesNoFolderBehind) {
   std::filesystem::create_directory(path("tmp"));
-  // At moments from before the compiler's start to the emulation's end, which takes seconds.
+  // At times from before the compiler's start to the end of the emulation, which takes seconds.
   for (const char* signal : {"TERM", "INT", "HUP"}) {
     for (const char* after_s : {"0.05", "0.2", "0.5", "1.0", "2.0"}) {
       const ProcessResult run = run_process(
@@ -552,7 +554,7 @@ TEST_F(Pil, AFolderThatAKilledRunLeftIsGoneAfterTheNext) {
     run_process("export TMPDIR=" + path("left") + "; " + killed + run_c8, AWMR_SOURCE_DIR);
   }
   ASSERT_GT(entries("left"), 0u);
-  // Not a dead run's: another name, no number, a link, a lock that is held.
+  // Not leftovers of a dead run: another name, no number, a link, a held lock.
   for (const char* name : {"other", "awmr-pil-abc", "awmr-pil-1-locked"}) {
     std::filesystem::create_directory(path("left/" + std::string(name)));
   }
@@ -590,7 +592,7 @@ TEST_F(Pil, SpeaksToABoardOnASerialPort) {
             R"({"name": "short", "duration_s": 1, "initial": {"x_m": 0, "y_m": 0, "psi_deg": 0,
              "u_mps": 0, "v_mps": 0, "r_degps": 0}, "speed_mps": 1,
              "guidance": {"type": "heading", "steps": [{"t_s": 0, "psi_deg": 30}]}})");
-  // The board: an emulated chip behind a pseudo-terminal, for as long as the port is open.
+  // The board: an emulated chip behind a pseudo-terminal, as long as the port is open.
   const ProcessResult run = run_process(
       std::string(AWMR_PIL_PROGRAM) + " serve " + path("board") + "/pil_uart.elf >" + path("tty") +
       " & board=$!; while ! [ -s " + path("tty") + " ]; do sleep 0.05; done; " + AWMR_PROGRAM +

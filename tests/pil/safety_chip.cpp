@@ -1,4 +1,5 @@
-// The sequence of safety_sequence.h on the chip, for safety_chip_test.cpp: a step a time, its cycles counted.
+// Runs the sequence of safety_sequence.h on the chip, for safety_chip_test.cpp, and counts the
+// cycles of each step.
 #include <avr/io.h>
 
 #include "awmr.cpp"
@@ -17,8 +18,8 @@ void keep_most(volatile uint16_t& most, uint16_t cycles) {
 }  // namespace
 
 extern "C" {
-// At most; timer 1 counts at the clock's rate. Of awmr_step(), of a whole step, and of those that read a sentence
-// and work on its fix.
+// Maximum cycles; timer 1 counts at the clock's rate. For awmr_step(), for a complete step, and for
+// steps that read a sentence and process its fix.
 volatile uint16_t safety_step_cycles, safety_whole_cycles, safety_fix_cycles;
 volatile uint32_t safety_hash;
 volatile uint8_t safety_causes[17], safety_disarmed;
@@ -44,7 +45,7 @@ int main() {
   for (uint8_t i = 0; i < 17; ++i) safety_causes[i] = sequence.causes[i];
   safety_disarmed = sequence.disarmed;
   log_done = 1;
-  // The emulator ends a chip that sleeps with its interrupts off.
+  // The emulator ends when the chip sleeps with interrupts off.
   for (;;) {
   }
 }

@@ -1,5 +1,5 @@
 /// Sensor checks, commands, arming and the direction of the speed on the emulated chip: the host's
-/// bits, and what they cost.
+/// bits, and the cost.
 #include <gtest/gtest.h>
 
 #include <iostream>
@@ -19,7 +19,7 @@ class SafetyChip : public Chip {
   }
 };
 
-/// The host's run of the same sequence, through the library that the chip has.
+/// The same sequence on the host, with the library that the chip uses.
 constexpr const char* kSafetyHost = R"(#include <stdio.h>
 #include "safety_sequence.h"
 static safety_sequence::Sequence sequence;
@@ -61,7 +61,7 @@ TEST_F(SafetyChip, SensorChecksCommandsArmingAndDirectionGiveTheHostsBitsWithinT
     unsigned steps = 0;
     host >> steps;
     EXPECT_EQ(causes[i], steps) << i;
-    // Those that the sequence makes happen.
+    // Faults that the sequence triggers.
     for (const std::size_t seen : {0, 2, 3, 4, 5, 7, 10, 12}) {
       if (seen == i) {
         EXPECT_GT(steps, 0U) << i;
@@ -75,7 +75,7 @@ TEST_F(SafetyChip, SensorChecksCommandsArmingAndDirectionGiveTheHostsBitsWithinT
             << " cycles at most, with sensor checks and commands " << whole
             << ", while a fix is worked on " << fix << "; " << emulator_->flash_bytes()
             << " bytes of flash, " << emulator_->ram_bytes() << " of RAM\n";
-  // The budget of a step is 20,000 cycles. The bounds are what avr-gcc 5.4 makes and 1 %.
+  // The budget of a step is 20,000 cycles. The bounds are those of avr-gcc 5.4 plus 1 %.
   EXPECT_LE(step, 16620U);
   EXPECT_LE(whole, 19300U);
   EXPECT_LE(fix, 20000U);

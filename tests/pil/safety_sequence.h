@@ -1,5 +1,5 @@
-// A drive with failures, step by step: sensor checks, commands, arming and the whole step of the autopilot, from drawn
-// raw readings. The chip and the host run it, and have to give the same bits: safety_chip_test.cpp.
+// A drive with failures, step by step: sensor checks, commands, arming and complete autopilot steps
+// from random raw readings. Chip and host must give the same bits: safety_chip_test.cpp.
 #pragma once
 
 #include "awmr.h"
@@ -11,7 +11,7 @@
 namespace safety_sequence {
 
 const uint16_t kSteps = 1600;
-// Characters that come to a port of 38,400 baud in a step of 10 ms.
+// Characters that arrive at a port of 38,400 baud in a step of 10 ms.
 const uint8_t kCharactersPerStep = 39;
 
 struct Sequence {
@@ -40,7 +40,7 @@ inline void begin(Sequence& s) {
   s = Sequence();
   s.seed = 1;
   s.hash = 2166136261UL;
-  s.now_ms = 0xFFFFE000UL;  // the clock wraps within the drive
+  s.now_ms = 0xFFFFE000UL;  // the clock wraps during the drive
   s.utc_ms = 43200000UL;
   s.heading.begin(s.now_ms);
   s.heading.turn.begin(590000L);
@@ -49,7 +49,7 @@ inline void begin(Sequence& s) {
   s.input.speed_unsigned = 1;
 }
 
-// One in four of the blocks of 200 steps has a failure of its own.
+// One in four blocks of 200 steps has its own failure.
 inline bool fails(uint16_t step, uint8_t which) {
   return step >= 400 && step % 200 < 120 && step / 200 == static_cast<uint16_t>(which + 2);
 }
@@ -65,7 +65,7 @@ inline void sense(Sequence& s, uint16_t step) {
   s.heading.step.take(fails(step, 3) && step % 200 < 30 ? 0.5F : 0.01F, 0.01F);
 }
 
-// A sentence, its check sum written behind it.
+// Sends a sentence followed by its checksum.
 inline void say_fix(Sequence& s, uint16_t step) {
   const char* pattern = "$GPRMC,120000.00,A,4806.0000000,N,01130.0000000,E,1.900,,230394,,,A*";
   char* text = s.sentence;
@@ -88,7 +88,7 @@ inline void say_fix(Sequence& s, uint16_t step) {
   text[++end] = '\0';
 }
 
-// What the sensors give at this step.
+// Sensor readings at this step.
 inline void prepare(Sequence& s, uint16_t step) {
   if (!fails(step, 0)) s.word = static_cast<int16_t>(static_cast<int16_t>(draw(s) % 21) - 10);
   for (uint8_t i = 0; i < 3; ++i) s.field[i] = static_cast<int16_t>(i * 100 + draw(s) % 9);

@@ -1,5 +1,5 @@
-// A chip whose steps come from the board's timer interrupt and write rows of the log; the 100th does
-// not end, once after the chip was switched on. For log_chip_test.cpp.
+// Chip program whose steps come from the board's timer interrupt and write rows of the log. The
+// 100th step hangs, once after power-on. For log_chip_test.cpp.
 #include <avr/io.h>
 #include <avr/sleep.h>
 

@@ -1,4 +1,4 @@
-"""The Python module gives the command line's numbers to the last bit, and its words where it fails."""
+"""The Python module gives the command line's numbers to the last bit, and its error messages."""
 import csv
 import hashlib
 import json
@@ -20,7 +20,7 @@ SCENARIO = PAPER / "scenarios/c3_heading_steps.json"
 
 
 def command(*words):
-    """What the program says, and its exit code."""
+    """Output of the program, and its exit code."""
     return subprocess.run([os.environ["AWMR"], *map(str, words)], capture_output=True, text=True)
 
 
@@ -60,7 +60,7 @@ class Module(unittest.TestCase):
         cls.folder.cleanup()
 
     def assert_same_model(self, model, path):
-        """To the byte: numbers, command, options, and inputs by SHA-256."""
+        """Byte for byte: numbers, command, options, and inputs by SHA-256."""
         self.assertEqual(model.text(), Path(path).read_text())
 
     def test_tables_give_the_same_model(self):
@@ -91,7 +91,7 @@ class Module(unittest.TestCase):
         named = {one["name"]: one["sha256"] for one in json.loads(model.text())["inputs"]}
         self.assertEqual(named["surge.csv"], hashlib.sha256((folder / "surge.csv").read_bytes()).hexdigest())
         self.assertIn("vehicle.json", named)
-        # A vehicle out of a model has no file any more; its trials have.
+        # A vehicle taken from a model has no file; the trials have.
         model = awmr.identify(awmr.load_trials(self.model.vehicle, **reading)).model
         self.assertEqual([one["name"] for one in json.loads(model.text())["inputs"]], ["surge.csv"])
 

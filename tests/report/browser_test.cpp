@@ -1,4 +1,4 @@
-/// The report in a browser without a window: what a reader sees on a desk, on a phone and on paper.
+/// The report in a headless browser: on a desktop, on a phone and on paper.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kGains = R"({"schema": "awmr.gains/1",
   "heading": {"lambda": 3, "mu": 50, "epsilon": 12}, "speed": {"mu": 5, "epsilon": 1.2}})";
-/// As a file's name, and as a scenario's.
+/// Used as the name of a file and of a scenario.
 constexpr const char* kHostileFile = "<img src=x onerror=boom()>";
 constexpr const char* kHostileName = R"(</script><script>boom()</script><svg onload=boom()>)";
 
@@ -36,8 +36,8 @@ std::string with(std::string text, const std::string& from, const std::string& t
   return text;
 }
 
-/// The page, with scripts that look at it, in a frame of that width: the browser's own window is
-/// never narrower than 500 px.
+/// The page, with test scripts, in a frame of this width: the browser's own window is never
+/// narrower than 500 px.
 std::string in_frame(std::string page, int width) {
   const fs::path source = fs::path(AWMR_SOURCE_DIR) / "tests/report";
   const auto script = [&](const char* name) {
@@ -59,7 +59,7 @@ std::string browser(const fs::path& profile, const std::string& arguments) {
          profile.string() + "' " + arguments;
 }
 
-/// What the scripts in the page found (probe_end.js).
+/// Results of the scripts in the page (probe_end.js).
 Json looked_at(const fs::path& report, int width) {
   const TemporaryDirectory directory;
   write_all(directory.path() / "framed.html", in_frame(read_all(report), width));
@@ -81,7 +81,7 @@ struct Extent {
   double high = -1e300;
 };
 
-/// Of a column of a run.
+/// Extent of a column of a run.
 Extent extent_of(const fs::path& csv, std::size_t column) {
   std::ifstream file(csv);
   std::string line;
@@ -97,8 +97,8 @@ Extent extent_of(const fs::path& csv, std::size_t column) {
   return extent;
 }
 
-/// Results as `awmr run` leaves them, without the search for gains: heading steps, the waypoint
-/// diamond, and a scenario whose names attack the page.
+/// Results as `awmr run` leaves them, without tuning: heading steps, the waypoint diamond, and a
+/// scenario whose names contain scripts.
 class ReportInBrowser : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -164,14 +164,15 @@ TEST_F(ReportInBrowser, OnAPhoneNothingIsWiderThanThePageAndItOpensShort) {
   EXPECT_LT(page.at("first_height"), 4000) << "what is closed at first takes a line each";
 }
 
-// The path turns back in x: a chart that takes its points for sorted draws a part of it only.
+// The path turns back in x: a chart that assumes sorted points draws only a part of it.
 TEST_F(ReportInBrowser, TheWaypointDiamondHasItsTrueExtentAtEqualAxes) {
   const Json page = looked_at(file("report.html"), 1280);
   const auto is_diamond = [](const Json& path) { return path.at("waypoints") == 4; };
   const Json& paths = page.at("paths");
   const auto path = std::find_if(paths.begin(), paths.end(), is_diamond);
   ASSERT_NE(path, paths.end());
-  // Of a range of 40 m a line may miss 1/2000, and a corner is drawn to some hundredths of a pixel.
+  // A line may err by 1/2000 of a range of 40 m, and a corner is drawn to some hundredths of a
+  // pixel.
   constexpr double kTolerance_m = 0.03;
   const fs::path run = file("run_c8_waypoints_differential_tuned.csv");
   const Extent x = extent_of(run, 1);
@@ -192,7 +193,7 @@ TEST_F(ReportInBrowser, HostileNamesAreTextOnThePage) {
   EXPECT_TRUE(page.at("shows_hostile_name"));
 }
 
-/// Largest difference of a run's column from what the page computed, over the column's size.
+/// Largest difference of a run's column from the page's result, relative to the column's size.
 double difference(const fs::path& csv, const Json& columns, const std::string& name) {
   std::ifstream file(csv);
   std::string line;
@@ -215,8 +216,8 @@ double difference(const fs::path& csv, const Json& columns, const std::string& n
   return row == page.size() ? largest / size : 1e300;
 }
 
-// The same sources, compiled for another machine: what remains is the last bits of sin, cos and pow,
-// which a loop that settles does not let grow.
+// The same sources, compiled for another machine: only the last bits of sin, cos and pow differ,
+// which a stable loop does not amplify.
 TEST_F(ReportInBrowser, TheLivePartComputesWhatTheCommandLineDoes) {
   if (read_all(file("report.html")).find("id=\"wasm\"></script>") != std::string::npos) {
     GTEST_SKIP() << "built without a toolchain for WebAssembly";
@@ -257,7 +258,7 @@ TEST_F(ReportInBrowser, TheLivePartComputesWhatTheCommandLineDoes) {
       EXPECT_TRUE(near(there[key], here[key])) << here["name"] << key;
     }
   }
-  // A slider moved, the gains copied, and taken by the command line.
+  // A slider is moved, the gains are copied and used on the command line.
   const Json& moved = page.at("moved");
   EXPECT_NE(moved["gains"]["heading"]["lambda"], gains["heading"]["lambda"]);
   write_all(tuned.path() / "moved.json", moved["gains"].dump());

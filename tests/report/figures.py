@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The figures of `awmr report --figures` as a thesis takes them: whole, legible by other programs, the same again.
+"""The figures of `awmr report --figures` for use in a thesis: complete, readable by other programs, reproducible.
 
 usage: figures.py AWMR
 """
@@ -29,7 +29,7 @@ def awmr(*words, code=0):
 
 
 def results(at):
-    """What `awmr run` leaves, with given gains: identification, a validated log, runs of headings and of a course, five samples."""
+    """Results of `awmr run` with given gains: identification, a validated log, heading and path runs, five samples."""
     paper, data = SOURCE / "configs/paper", SOURCE / "datasets/paper"
     awmr("identify", "--vehicle", paper / "vehicle.json", "--surge", data / "surge.csv", "--turning", data / "turning.csv",
          "--coastdown", data / "coastdown.csv", "-o", at / "model.json")
@@ -41,7 +41,8 @@ def results(at):
         for mode in MODES:
             awmr("simulate", *inputs, "--scenario", scenario, "--mode", mode, "-o", at / f"run_{stem}_{mode}_tuned.csv")
     subprocess.run([AWMR, "validate", *map(str, inputs), "--log", SOURCE / "datasets/synthetic/drive_2.csv", "-o",
-                    at / "validation.json"], capture_output=True, check=False)  # whether it passes is not asked here
+                    # passing is not required here
+                    at / "validation.json"], capture_output=True, check=False)
     awmr("compare", *inputs, "--samples", 5, "--scenario", paper / "scenarios/c3_heading_steps.json", "-o", at)
 
 
@@ -123,7 +124,7 @@ def main():
         for path in (at / "again").iterdir():
             assert path.read_bytes() == (at / "new/figures" / path.name).read_bytes(), path
 
-        # What there are no data for is told and not drawn.
+        # Figures without data are listed and not drawn.
         alone = at / "alone"
         alone.mkdir()
         awmr("identify", "--vehicle", SOURCE / "configs/paper/vehicle.json", "--surge", SOURCE / "datasets/paper/surge.csv",
@@ -134,13 +135,13 @@ def main():
         assert {finding["code"] for finding in told["findings"]} == {"not-drawn"}, told["findings"]
         assert len(told["findings"]) == 6, told["findings"]
 
-        # Where figures cannot be written, nothing is.
+        # If figures cannot be written, nothing is written.
         (alone / "report.html").unlink()
         for place in [alone / "model.json", alone / "model.json/figures", "/proc/figures"]:
             assert "error: " in awmr("report", alone, "--figures", place, code=2).stderr
             assert not (alone / "report.html").exists(), place
 
-        # A file that is not as awmr writes it, whatever is wrong with it.
+        # Files that differ from awmr's output in any way.
         good = json.loads((out / "comparison.json").read_text())
         for broken in [[], {**good, "scenarios": 3}, {**good, "ranking": None}, {**good, "scenarios": [{}]},
                        {**good, "scenarios": [{**good["scenarios"][0], "modes": []}]}]:

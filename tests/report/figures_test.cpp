@@ -1,4 +1,4 @@
-/// Figures for print: what is on the page, whatever the numbers and the names are.
+/// Print figures: content of the page for any numbers and names.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -72,7 +72,7 @@ Figure figure_of(std::vector<double> x, std::vector<double> y) {
                 .y = std::move(y)}}}}};
 }
 
-/// Left, right, top and bottom of a level label, the letters' height taken as the font's size.
+/// Left, right, top and bottom of a horizontal label; the height is the font size.
 struct Box {
   double left, right, top, bottom;
   bool meets(const Box& other) const {
@@ -93,7 +93,7 @@ Box box_of(const Label& label) {
           label.at.y + 0.1 * kTextSizePt};
 }
 
-/// Every label is on the page, and no two of them overlap.
+/// Every label is on the page, and no two overlap.
 void expect_legible(const Drawing& drawing) {
   std::vector<Box> boxes;
   for (const Layer& layer : drawing.layers) {
@@ -112,7 +112,7 @@ void expect_legible(const Drawing& drawing) {
   EXPECT_GT(boxes.size(), 2u);
 }
 
-/// Every point of a series lies on the page.
+/// Every point of a series is on the page.
 void expect_on_page(const Drawing& drawing) {
   for (const Layer& layer : drawing.layers) {
     for (const Mark& mark : layer.marks) {
@@ -170,7 +170,7 @@ TEST(Figures, EqualAxesAreEqual) {
   for (const Layer& layer : drawing->layers) {
     if (layer.name != "line") continue;
     const std::vector<PagePoint>& p = std::get<Outline>(layer.marks[0]).points;
-    // Ten metres to the right are as long as ten thirds of three metres up.
+    // Ten metres to the right are as long as ten thirds of three metres upwards.
     EXPECT_NEAR((p[1].x - p[0].x) / 10.0, (p[1].y - p[2].y) / 3.0, 1e-9);
   }
 }
@@ -195,7 +195,7 @@ TEST(Figures, ManyPointsAreThinnedAndThePeakStays) {
       highest = std::min(highest, std::get<Disc>(mark).centre.y);
     }
   }
-  // Five percent of room above the peak, which is nine tenths of the way beyond all others.
+  // Five percent of margin above the peak, which is nine tenths above all others.
   EXPECT_LT(highest, 0.2 * drawing->height_pt);
 }
 

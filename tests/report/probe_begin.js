@@ -1,6 +1,6 @@
-// Before the report's own scripts: counts what a console would show.
+// Runs before the report's own scripts: counts the messages of the console.
 const probe = {errors: [], booms: 0};
-/// What hostile names would call.
+/// Called by hostile names if they are executed.
 function boom() {
   ++probe.booms;
 }

@@ -1,7 +1,7 @@
-// Behind the report's scripts: looks at the page as it opens, then opens and draws all of it, and leaves what it found as JSON
-// in the attribute data-probe of the outermost page.
+// Runs after the report's scripts: inspects the page as it opens, then opens and draws all of it.
+// Leaves the results as JSON in the attribute data-probe of the outermost page.
 
-/// From the drawn shape back to the axes' units: what the eye sees of a line.
+/// Converts the drawn shape back to the units of the axes.
 function drawnExtent(chart, name) {
   const index = chart.series.findIndex((s) => s.name === name);
   const box = chart.node.querySelector(`.series_${index} path`).getBBox();
@@ -9,14 +9,14 @@ function drawnExtent(chart, name) {
   return {x: [at("x", box.x), at("x", box.x + box.width)], y: [at("y", box.y + box.height), at("y", box.y)]};
 }
 
-/// Everything that reaches over the right edge, except what lies in a box that scrolls on its own.
+/// Elements that extend over the right edge, except inside boxes that scroll.
 function overflowing() {
   const width = document.documentElement.clientWidth;
   return [...document.querySelectorAll("main *")].filter((node) => !node.closest(".scroll") && !node.ownerSVGElement && node.getBoundingClientRect().right > width + 1)
     .map((node) => `${node.tagName} ${node.className.baseVal ?? node.className}`).slice(0, 5);
 }
 
-/// Texts of axes that reach over the edge of their chart.
+/// Axis texts that extend over the edge of their chart.
 function clipped() {
   return allCharts.filter((chart) => {
     const frame = chart.node.getBoundingClientRect();
@@ -27,7 +27,7 @@ function clipped() {
   }).map((chart) => chart.title);
 }
 
-/// A run of the tuned gains in the page, to be held against the command line's.
+/// A run of the tuned gains in the page, to be compared with the command line's.
 function look_at_live() {
   const {columns, metrics, constraints} = awmrLive.run({...awmrLive.tuned, mode: "combined"});
   const {t_s, psi_rad, u_mps, steering_rad, r_radps} = columns;
@@ -37,7 +37,7 @@ function look_at_live() {
   slider.dispatchEvent(new Event("input"));
 }
 
-/// What the button copies after the slider has moved, and the run that the page makes of it.
+/// Text that the button copies after the slider was moved, and the resulting run in the page.
 function look_at_moved() {
   const gains = JSON.parse(document.querySelector(".live pre").textContent);
   const {heading, speed} = gains;
@@ -45,8 +45,8 @@ function look_at_moved() {
   probe.moved = {gains, columns: {psi_rad: run.columns.psi_rad}};
 }
 
-/// Calls `then` once the live part has come, or will not. It is unpacked in another thread, for which the browser's
-/// virtual time does not wait: each look takes some real milliseconds.
+/// Calls `then` when the live part has loaded or failed to load. It is unpacked in another thread,
+/// for which the browser's virtual time does not wait: each poll takes some real milliseconds.
 function whenLive(then, looks = 100) {
   const expected = document.getElementById("wasm").textContent && report.live;
   if (!expected || window.awmrLive || looks === 0) return then();
@@ -54,7 +54,7 @@ function whenLive(then, looks = 100) {
   setTimeout(() => whenLive(then, looks - 1), 20);
 }
 
-/// After all is opened and drawn.
+/// Inspects the page after everything is opened and drawn.
 function look() {
   probe.width = document.documentElement.clientWidth;
   probe.scroll_width = document.documentElement.scrollWidth;

@@ -1,4 +1,4 @@
-/// The report: one file, nothing from outside, nothing that a file's content can break.
+/// The report: one file, no external resources, not affected by the content of its inputs.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ Model some_model(const std::string& name) {
   return model;
 }
 
-/// Every parameter known, so that it can turn.
+/// Every parameter is known, so that it can turn.
 Model whole_model() {
   Model model = some_model("robot");
   for (Estimate& estimate : model.estimates) estimate.value = estimate.value.value_or(0.5);
@@ -59,7 +59,7 @@ TEST(Report, ANameCannotEndTheScriptThatHoldsIt) {
   ASSERT_TRUE(html);
   EXPECT_THAT(*html, Not(HasSubstr("</script><script>alert(1)")));
   EXPECT_THAT(*html, Not(HasSubstr("<script>alert(1)")));
-  // The name is there, escaped, so that the page shows it as it is.
+  // The name is included in escaped form, so that the page shows it unchanged.
   EXPECT_THAT(*html, HasSubstr("alert(1)"));
 }
 
@@ -83,7 +83,7 @@ TEST(Report, NeedsAModelAndRefusesABrokenCompanion) {
   EXPECT_THAT(broken.error().faults.front().place, HasSubstr("gains.json"));
 }
 
-// What the live part takes from gains.json beside the gains.
+// Inputs of the live part from gains.json other than the gains.
 TEST(Report, NamesThePlaceWhereGainsDoNotSayHowTheyWereTuned) {
   const ScratchFile model("model.json", model_text(whole_model()));
   const std::string gains = R"({"schema": "awmr.gains/1",

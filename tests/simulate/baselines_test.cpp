@@ -1,4 +1,4 @@
-/// What the baselines are there to show, in closed loop beside the paper's laws.
+/// Characteristic behaviour of the baselines in closed loop, compared with the paper's laws.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -53,8 +53,8 @@ double overshoot_rad(const awmr::Run& run, double psi_rad) {
   return most;
 }
 
-/// The slowest pole of the loop is -0.24 1/s: of the 3 deg that the moment costs at first exp(-0.24 100)
-/// is left. The sliding mode's error is that of world_test.cpp.
+/// The slowest pole of the loop is -0.24 1/s: of the initial error of 3 deg from the moment,
+/// exp(-0.24 100) is left. world_test.cpp has the error of the sliding mode.
 TEST(LqiInTheLoop, LeavesNoHeadingErrorUnderAConstantYawMoment) {
   Scenario s = heading_scenario(0.0, 100.0);
   s.disturbance.yaw = {constant(0.01)};
@@ -66,9 +66,9 @@ TEST(LqiInTheLoop, LeavesNoHeadingErrorUnderAConstantYawMoment) {
   }
 }
 
-/// A loop with an integral overshoots every step, as the integral of e has to come back to 0. What a
-/// limit adds to that is windup: with a tenth of the force the turn takes three times as long, and an
-/// integral that went on meanwhile would overshoot by far more.
+/// A loop with an integral overshoots every step because the integral of e must return to 0. Limits
+/// add windup. With a tenth of the force the turn takes three times as long; an integral that
+/// continued meanwhile would overshoot by far more.
 TEST(LqiInTheLoop, DoesNotWindUpInALargeTurnAtTheLimitsOfTheForces) {
   const double psi_rad = radians(170.0);
   Scenario s = heading_scenario(psi_rad, 60.0);
@@ -102,7 +102,7 @@ TEST(IlosInTheLoop, LeavesNoOffsetOnASideSlopeWhereLineOfSightDoes) {
       const LineLaw<double> los{radians(60.0), 5.0, compensated};
       const IntegralLos<double> ilos{3.0, 0.3, compensated};
       EXPECT_GT(std::abs(last_cross_track_m(on_a_side_slope(los), mode)), 0.05) << name_of(mode);
-      // y_int follows with sigma/Delta = 0.1 1/s at the slowest, over 150 s.
+      // y_int converges at 0.1 1/s = sigma/Delta at the slowest, over 150 s.
       EXPECT_LT(std::abs(last_cross_track_m(on_a_side_slope(ilos), mode)), 1e-3) << name_of(mode);
     }
   }
@@ -118,8 +118,9 @@ TEST(PurePursuitInTheLoop, ComesToALineFromBesideIt) {
   }
 }
 
-/// The corner is cut on its inside: with the goal on a circle of L about the vehicle it stays within
-/// L/2 of a right angle; steering, whose least radius is 5 m, swings out by some of that.
+/// The corner is cut on the inside. With the target on a circle of radius L about the vehicle it
+/// stays within L/2 of a right angle. Steering, with a minimum radius of 5 m, swings out by some of
+/// that.
 TEST(PurePursuitInTheLoop, RoundsACornerOnItsInside) {
   const Scenario s =
       line_scenario({{0.0, 0.0}, {30.0, 0.0}, {30.0, 40.0}}, PurePursuit<double>{4.0, true});

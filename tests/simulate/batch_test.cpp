@@ -1,4 +1,4 @@
-/// Batches against simulate(), which is the judge.
+/// Batches compared with simulate(), which is the reference.
 #include "awmr/simulate/batch.h"
 
 #include <gtest/gtest.h>
@@ -36,7 +36,7 @@ Controller<double> paper_controller() {
   return make_controller(paper_plant(), paper_vehicle(), kPaperGains);
 }
 
-/// The paper's plant with every number times exp(x), x uniform in [-spread, spread].
+/// The paper's plant with every number multiplied by exp(x), x uniform in [-spread, spread].
 Plant<double> drawn_plant(std::uint64_t sample, double spread) {
   Random random(7, sample);
   const auto draw = [&](double value) {
@@ -51,7 +51,7 @@ Plant<double> drawn_plant(std::uint64_t sample, double spread) {
   return plant;
 }
 
-/// Every instruction set that this processor has; and AWMR_INSTRUCTIONS, as it was, afterwards.
+/// All instruction sets of this processor; restores AWMR_INSTRUCTIONS afterwards.
 std::vector<BatchArithmetic> all_arithmetics() {
   std::vector<BatchArithmetic> all;
   for (const char* name : {"avx2", "avx512", "neon"}) {
@@ -89,9 +89,10 @@ Metrics judged(const BatchRun& run, const Scenario& scenario) {
       scenario, run.controller);
 }
 
-/// Rounding leaves 1e-13 or so of a run that does not itself amplify it. What a run amplifies is seen
-/// by a change of its mass by 1e-12: some of the vehicles are unstable under gains that are not theirs. It is
-/// the run that amplifies, and not one of its numbers: a time at a limit changes by whole samples, or by none.
+/// Rounding leaves about 1e-13 in a run that does not amplify it. The amplification of a run is
+/// measured by changing its mass by 1e-12, because some of the vehicles are unstable with these
+/// gains. It is a property of the run, not of a single metric: a time at a limit changes by whole
+/// samples or not at all.
 void expect_near(const Metrics& batch, const BatchRun& run, const Scenario& scenario,
                  const std::string& where) {
   BatchRun moved = run;
@@ -119,7 +120,7 @@ void expect_same(const Metrics& a, const Metrics& b, const std::string& where) {
   EXPECT_EQ(numbers_of(a), numbers_of(b)) << where;
 }
 
-/// Skips where batches would be simulate() itself.
+/// Skips if batches are not supported and simulate() runs instead.
 class Batch : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -162,7 +163,7 @@ TEST_F(Batch, IsTheRunOfSimulateOnFourTyres) {
   }
 }
 
-/// After a minute, without what a chaotic course would amplify.
+/// After a minute, without metrics that a chaotic path would amplify.
 TEST_F(Batch, IsTheRunOfSimulateOnFourTyresAfterAMinute) {
   Scenario scenario{.name = "a minute on tyres",
                     .duration_s = 60.0,
@@ -187,7 +188,7 @@ TEST_F(Batch, IsTheRunOfSimulateOnFourTyresAfterAMinute) {
   }
 }
 
-/// Side by side gains with and without an observer, and with another one.
+/// Gains with and without an observer, and with another one, in one batch.
 TEST_F(Batch, IsTheRunOfSimulateWhateverObserverItsGainsHave) {
   const ObserverGains<double> observers[] = {{}, {5.0, 0.1, 0.5}, {1.0, 0.02, 0.3}};
   for (const Scenario& scenario : shipped_scenarios()) {
@@ -254,7 +255,7 @@ TEST_F(Batch, IsTheRunOfSimulateFarBeyondThePapersVehicle) {
   }
 }
 
-/// With back-EMF of its own in every vehicle, and in none of one of them.
+/// Every vehicle has its own back-EMF, and one of them none.
 TEST_F(Batch, IsTheRunOfSimulateWithBackEmf) {
   std::vector<BatchRun> runs = drawn_runs(3, 0.2);
   for (std::size_t i = 1; i < runs.size(); ++i) {
@@ -273,7 +274,7 @@ TEST_F(Batch, IsTheRunOfSimulateWithBackEmf) {
   }
 }
 
-/// The lanes allocate to four wheels: simulate() takes vehicles of front-wheel drive, and their bits.
+/// Lanes allocate to four wheels: front-wheel-drive vehicles run in simulate(), with its bits.
 TEST_F(Batch, LeavesFrontWheelDriveToSimulate) {
   std::vector<BatchRun> runs = drawn_runs(2, 0.2);
   for (BatchRun& run : runs) {
@@ -325,7 +326,7 @@ TEST_F(Batch, HasTheSameBitsOnAllInstructions) {
   }
 }
 
-/// Resistance so stiff at the initial speed that no step follows it: simulate() says so.
+/// Resistance too stiff at the initial speed for any step: simulate() reports it.
 TEST_F(Batch, ARunThatFailsIsToldOfBySimulateAndTheOthersGoOn) {
   std::vector<BatchRun> runs = drawn_runs(3, 0.2, YawMode::kDifferential);
   runs[1].plant.surge.beta = 20.0;
@@ -370,7 +371,8 @@ std::vector<double> numbers_of(const RunRow& row) {
           row.tyre_power_mps};
 }
 
-/// Of the model's own vehicle, which amplifies nothing, in every mode beside the others.
+/// Rows of the model's own vehicle, which amplifies nothing, in every mode together with the
+/// others.
 TEST_F(Batch, RowsAreThoseOfSimulateInEveryShippedScenario) {
   const BatchArithmetic arithmetic = batch_arithmetic().value();
   for (const Scenario& scenario : shipped_scenarios()) {

@@ -1,4 +1,4 @@
-/// Whatever the plant and the scenario: finite, bounded, commands within limits; work has a bound.
+/// For any plant and scenario: finite and bounded results, commands within limits, bounded work.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -69,8 +69,8 @@ Scenario any_scenario(double beyond) {
   return s;
 }
 
-/// With every force at its largest for the whole run the speed is at most what the start has and
-/// the forces give: resistance only takes away.
+/// Upper bound of the speed: the initial speed plus the largest force over the whole run, without
+/// resistance.
 double largest_speed(const Plant<double>& p, const Scenario& s, double force) {
   const double energy =
       p.mass_norm * (s.initial.u_mps * s.initial.u_mps + s.initial.v_mps * s.initial.v_mps);
@@ -82,7 +82,7 @@ void is_finite_bounded_and_within_limits(double beyond) {
   const Scenario scenario = any_scenario(beyond);
   Vehicle vehicle = paper_vehicle();
   const auto controller = make_controller(plant, vehicle, {{3.0, 50.0, 12.0}, {2.0 * beyond, 0.5}});
-  // Time constants of microseconds are as well tested by the few that the box's inside has.
+  // Time constants of microseconds are tested well enough by the few inside the box.
   if (substeps_for(plant, 0.01) > 500) return;
   for (const YawMode mode : kYawModes) {
     const awmr::Run run = simulate(plant, controller, scenario, mode, {});
@@ -121,7 +121,7 @@ awmr::Run run_of(const Plant<double>& plant, const Scenario& scenario) {
 }
 
 TEST(Bounds, AStiffResistanceAtSpeedIsFollowedAndNotBlownUp) {
-  // b3 = 4 from -121 deg/s: g3'(r)/I'z is 940 /s there, and RK4 at 3.3 ms left the range of double.
+  // b3 = 4 from -121 deg/s: g3'(r)/I'z is 940 /s there, and RK4 at 3.3 ms overflowed.
   Plant<double> plant = paper_plant();
   plant.yaw.beta = 4.0;
   for (const double r0 : {-121.0, -12100.0, 5e4}) {
@@ -133,7 +133,7 @@ TEST(Bounds, AStiffResistanceAtSpeedIsFollowedAndNotBlownUp) {
       const double inverse =
           std::pow(std::abs(start), -3.0) + 3.0 * plant.yaw.alpha * row.t_s / plant.inertia_norm;
       const double expected = std::copysign(std::cbrt(1.0 / inverse), start);
-      // One step per time constant of the transient: its error is (1)^5/120 of what remains.
+      // One step per time constant of the transient: its error is (1)^5/120 of the remainder.
       ASSERT_NEAR(row.state.r_radps, expected, 1e-3 * std::abs(expected)) << r0 << " " << row.t_s;
     }
   }
@@ -198,7 +198,7 @@ TEST(Bounds, AHeadingManyTurnsAwayTakesNoLongerThanAnyOther) {
                YawMode::kCombined, {});
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
   EXPECT_EQ(run.end, RunEnd::kDuration);
-  EXPECT_LT(taken.count(), 10.0);  // it took over 50 s
+  EXPECT_LT(taken.count(), 10.0);  // earlier it took over 50 s
 }
 
 }  // namespace

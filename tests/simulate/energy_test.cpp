@@ -1,4 +1,4 @@
-/// Energy: work done is kinetic energy plus dissipation; the reduced model is the four-wheel one.
+/// Energy: work is kinetic energy plus dissipation; the reduced model equals the four-wheel form.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -54,8 +54,8 @@ double kinetic(const Plant<double>& p, const State<double>& s) {
          0.5 * p.inertia_norm * s.r_radps * s.r_radps;
 }
 
-/// What comes in and what resistance takes, per second: u X + v Y + r N - u g1 - v g2 - r g3. The
-/// terms m' r v u and -m' r u v of surge and sway cancel.
+/// Input power minus resistance: u X + v Y + r N - u g1 - v g2 - r g3. The terms m' r v u and -m' r
+/// u v of surge and sway cancel.
 double net_power(const Plant<double>& p, const State<double>& s, const RunRow& row) {
   const GeneralisedForces<double> tau =
       generalised_forces(p.front_axle_m, p.half_track_m, row.force, s.steering_rad);
@@ -76,20 +76,20 @@ RC_GTEST_PROP(Energy, WorkDoneIsKineticEnergyPlusDissipation, ()) {
   const Plant<double> resolved = resolved_at_rest(plant, kStep_s);
   double balance = 0.0;
   for (std::size_t i = 1; i < run.rows.size(); ++i) {
-    // The command and the disturbance of the row before hold over the step.
+    // Command and disturbance of the previous row hold over the step.
     balance += 0.5 * kStep_s *
                (net_power(resolved, run.rows[i - 1].state, run.rows[i - 1]) +
                 net_power(resolved, run.rows[i].state, run.rows[i - 1]));
   }
   const double gained =
       kinetic(plant, run.rows.back().state) - kinetic(plant, run.rows.front().state);
-  // The trapezoid's error is h^2/12 times the change of the power's slope, summed over the
-  // transients of time constant T >= 0.02 s: powers up to 3 per second give 3 (1e-3/0.02)^2/12 * T
-  // = 1e-5 each; the chord of yaw near rest adds as much where r changes its sign.
+  // The trapezoid's error is h^2/12 times the change of the power's slope, summed over transients
+  // of time constant T >= 0.02 s. Powers up to 3 per second give 3 (1e-3/0.02)^2/12 * T = 1e-5
+  // each. The yaw chord near rest adds as much where r changes its sign.
   RC_ASSERT(std::abs(balance - gained) < 2e-4);
 }
 
-/// A fault that takes nothing away makes the simulator use the four-wheel form.
+/// A fault without effect makes the simulator use the four-wheel form.
 RC_GTEST_PROP(FourWheels, AgreeWithTheReducedForm, ()) {
   const Plant<double> plant = any_plant();
   const Scenario reduced = any_open_loop();
@@ -99,19 +99,19 @@ RC_GTEST_PROP(FourWheels, AgreeWithTheReducedForm, ()) {
   for (const YawMode mode : kYawModes) {
     const State<double> a = simulate(plant, controller, reduced, mode, {}).rows.back().state;
     const State<double> b = simulate(plant, controller, four, mode, {}).rows.back().state;
-    // Sums in another order: 1e-16 a step, 1e3 steps of a damped system.
+    // Another order of summation: 1e-16 per step, 1e3 steps of a damped system.
     RC_ASSERT(std::abs(a.x_m - b.x_m) < 1e-10);
     RC_ASSERT(std::abs(a.y_m - b.y_m) < 1e-10);
     RC_ASSERT(std::abs(a.psi_rad - b.psi_rad) < 1e-10);
   }
 }
 
-/// 4 s of driving at F' 0.5 by each motor.
+/// 4 s of driving at F' 0.5 of each motor.
 Scenario driven_straight() {
   return {.name = "driven", .duration_s = 4.0, .initial = {}, .guidance = OpenLoop{2.0, 0.0}};
 }
 
-/// What the vehicle's resistances took and what it keeps: all that the motors put in, where none brakes.
+/// Dissipated plus kinetic energy: equals the motors' energy if none brakes.
 double taken_and_kept(const Plant<double>& plant, const awmr::Run& run) {
   double taken = 0.0;
   for (std::size_t i = 1; i < run.rows.size(); ++i) {
@@ -143,7 +143,7 @@ TEST(Work, IsThatOfTheForcesThatActWhateverKeepsThemFromTheWheels) {
     const awmr::Run run = simulate(plant, controller, scenario, YawMode::kCombined,
                                    {.sample_time_s = 1e-3, .substeps = {}});
     const Metrics metrics = metrics_of(run, scenario, controller);
-    // A rectangle's error: half a sample of the change of power, 2 m/s times 2 at the most.
+    // Error of the rectangle rule: half a sample of the change of power, at most 2 m/s times 2.
     EXPECT_NEAR(metrics.energy_mech, taken_and_kept(plant, run), 4e-3) << scenario.name;
   }
 }

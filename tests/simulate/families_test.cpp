@@ -1,4 +1,4 @@
-/// Every family of resistance through simulator and controller.
+/// Every resistance family in simulator and controller.
 #include <gtest/gtest.h>
 
 #include "awmr/model/gains_file.h"
@@ -34,7 +34,7 @@ TEST(Families, SettleAtTheSpeedThatTheLawAndTheDeadZoneLeave) {
     Plant<double> plant = plant_of(c.surge, c.dead_zone);
     const Vehicle vehicle = paper_vehicle();
     Controller<double> controller = make_controller(plant, vehicle, {});
-    // In open loop the command goes out as it is.
+    // In open loop the command is output unchanged.
     controller.limits.dead_zone = 0.0;
     const Scenario scenario{"open loop", 5.0, {}, 0.0, OpenLoop{1.2, 0.0}};
     const awmr::Run run = simulate(plant, controller, scenario, YawMode::kDifferential,
@@ -80,7 +80,7 @@ TEST(BackEmf, IsMadeUpForByTheController) {
   }
 }
 
-/// Where a speed asks for more than full voltage gives, the vehicle goes as fast as that lets it.
+/// If a speed needs more than full voltage, the vehicle drives at the speed of full voltage.
 TEST(BackEmf, AtFullVoltageEndsAtTheNoLoadSpeedLessWhatResists) {
   const Resistance<double> surge{.alpha = 1.3157, .beta = 0.8841};
   const Plant<double> plant = geared(0.8, surge);
@@ -92,7 +92,7 @@ TEST(BackEmf, AtFullVoltageEndsAtTheNoLoadSpeedLessWhatResists) {
   EXPECT_EQ(run.rows.back().force.left, 1.0);
 }
 
-/// Motors that are off brake with nothing: the stop time is that of the law, with a lag as well.
+/// Motors that are off do not brake: the stop time is that of the law, also with a lag.
 TEST(BackEmf, IsGoneWhereTheMotorsAreOff) {
   const Plant<double> ideal = geared(0.0, {.alpha = 1.3157, .beta = 0.8841});
   const Plant<double> plant = geared(0.5, {.alpha = 1.3157, .beta = 0.8841});
@@ -144,8 +144,8 @@ TEST(Families, TheControllerHoldsSpeedAndHeadingWithEveryOne) {
       const awmr::Run run =
           simulate(plant, controller, scenario, mode, {.sample_time_s = 0.01, .substeps = {}});
       const RunRow& last = run.rows.back();
-      // The feed-forward is the plant's own law, so no steady error remains (what is left decays
-      // with 1/lambda = 0.33 s; 8 s are 24 of them).
+      // The feed-forward is the plant's own law, so no steady error remains. The transient decays
+      // with 1/lambda = 0.33 s; 8 s are 24 of them.
       EXPECT_NEAR(last.state.u_mps, 0.8, 1e-3) << c.name;
       EXPECT_NEAR(last.state.psi_rad, 0.5, 1e-3) << c.name;
     }
@@ -165,7 +165,7 @@ TEST(Families, TheTimeToSlowDownIsTheSimulatorsToo) {
     for (const RunRow& row : run.rows) {
       if (row.state.u_mps > 0.5) at_half_s = row.t_s;
     }
-    EXPECT_NEAR(at_half_s, slowed_s, 0.01) << c.name;  // a sample
+    EXPECT_NEAR(at_half_s, slowed_s, 0.01) << c.name;  // one sample
   }
 }
 

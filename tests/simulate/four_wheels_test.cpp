@@ -1,4 +1,4 @@
-/// Runs on four tyres: what they have in common with the model's plant, and what has to hold of any.
+/// Runs on four tyres: agreement with the model's plant, and general properties.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -39,7 +39,7 @@ TEST(FourWheelRuns, ReachTheSpeedOfTheModelStraightAhead) {
   const State<double> wheels = driven(on_tyres(scenario), YawMode::kDifferential).rows.back().state;
   EXPECT_NEAR(wheels.u_mps, model.u_mps, 1e-9);
   EXPECT_EQ(wheels.y_m, 0.0);
-  // They come later, as no more than mu g is passed on.
+  // They are slower, because at most mu g is transmitted.
   EXPECT_LT(wheels.x_m, model.x_m);
 }
 
@@ -55,8 +55,8 @@ TEST(FourWheelRuns, NeverAcceleratesFasterThanTheFrictionLets) {
   }
 }
 
-/// Stiff tyres at a walking pace roll where they point: r = u tan(d)/(2 l_f) in radians, as the rear wheels
-/// do not slide. What is left of sliding is of the order of 3 % with a hundred per radian.
+/// Stiff tyres at walking pace roll where they point: r = u tan(d)/(2 l_f) in radians, because the
+/// rear wheels do not slide. With a stiffness of a hundred per radian about 3 % of sliding remains.
 TEST(FourWheelRuns, StiffTyresTurnAsTheWheelsPoint) {
   Scenario scenario = on_tyres(open_loop(0.6, 0.01, 20.0), {.cornering_per_rad = 100.0});
   const RunRow last = driven(scenario, YawMode::kSteering).rows.back();
@@ -70,7 +70,7 @@ double kinetic(const Plant<double>& p, const State<double>& s) {
          0.5 * p.inertia_norm * s.r_radps * s.r_radps;
 }
 
-/// What the wheels pass on along their way, less what the tyres take: per second, over F_max.
+/// Power of the wheels along their rolling direction minus tyre losses, over F_max.
 double net_power(const FourWheels<double>& vehicle, const RunRow& now, const RunRow& commanded) {
   const Plant<double>& p = vehicle.body;
   const WheelForces<double> force = by_wheel(p, commanded.force);
@@ -104,8 +104,8 @@ RC_GTEST_PROP(FourWheelRuns, WorkDoneIsKineticEnergyPlusWhatTheTyresTake, ()) {
   }
   const double gained =
       kinetic(vehicle.body, run.rows.back().state) - kinetic(vehicle.body, run.rows.front().state);
-  // The trapezoid rule, with rates up to 1000/s (c_a g/v_0 and more) and steps of 1e-4 s: (0.1)^2/12 of the
-  // sideways part of an energy of about 0.1, which dies out within milliseconds.
+  // Trapezoid rule with rates up to 1000/s (c_a g/v_0 and more) and steps of 1e-4 s: (0.1)^2/12 of
+  // the lateral part of an energy of about 0.1, which decays within milliseconds.
   RC_ASSERT(std::abs(gained - balance) < 2e-4);
 }
 
@@ -122,7 +122,7 @@ TEST(FourWheelRuns, MetersTheWorkOfTheTyres) {
   EXPECT_NEAR(metrics_of(run, scenario, controller).tyre_work, work, 1e-12);
 }
 
-/// Steps of a tenth of the length change the heading of a run by less than a hundredth of a degree.
+/// Steps of a tenth of the length change the heading by less than a hundredth of a degree.
 TEST(FourWheelRuns, DoNotHangOnTheStep) {
   for (const YawMode mode : kYawModes) {
     for (const double tau_turn_m : {0.02, 0.1, 0.2}) {

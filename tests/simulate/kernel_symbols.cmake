@@ -1,5 +1,6 @@
-# What a kernel file gives to the linker carries the name of its instruction set: a function of another
-# name would be merged with the rest of the program's, and run on processors without the instructions.
+# Checks that every symbol of a kernel file contains the name of its instruction set. Another
+# function would be merged with the rest of the program's and run on processors without the
+# instructions.
 # usage: cmake -DNM=nm -DLIBRARY=libawmr_simulate.a -DKERNELS=count -P kernel_symbols.cmake
 execute_process(COMMAND ${NM} -C ${LIBRARY} OUTPUT_VARIABLE listing ERROR_QUIET COMMAND_ERROR_IS_FATAL ANY)
 string(REPLACE ";" "," listing "${listing}")

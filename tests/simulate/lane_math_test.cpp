@@ -1,5 +1,5 @@
-// Lanes' elementary functions against the C library's long double ones. Built for each instruction set;
-// where the processor has not the instructions, nothing is run.
+// Elementary functions of lanes compared with the C library's long double ones. Built for each
+// instruction set; does nothing on a processor without the instructions.
 #include <cstdint>
 #include <cstdio>
 
@@ -13,7 +13,7 @@ using awmr::testing::has_instructions;
 constexpr double kInfinity = __builtin_inf();
 const double kNaN = __builtin_nan("");
 
-/// Numbers in (0, 1), the same on every machine.
+/// Reproducible numbers in (0, 1).
 double next_uniform() {
   static std::uint64_t state = 88172645463325252ULL;
   state ^= state << 13U;
@@ -23,7 +23,7 @@ double next_uniform() {
 }
 double between(double lo, double hi) { return lo + (hi - lo) * next_uniform(); }
 
-/// Off in units of the last place of the larger of the result and `least`.
+/// Error in units of the last place of the larger of the result and `least`.
 double ulps(double result, long double exact, double least) {
   const auto scale = static_cast<double>(fmaxl(fabsl(exact), least));
   const double place = nextafter(scale, kInfinity) - scale;
@@ -32,7 +32,7 @@ double ulps(double result, long double exact, double least) {
 
 int failures = 0;
 
-/// The worst error of f over the arguments that draw() gives, held against `most`.
+/// Checks the worst error of f over the arguments from draw() against `most`.
 template <class F, class Exact, class Draw>
 void check(const char* name, const F& f, const Exact& exact, const Draw& draw, double least,
            double most) {
@@ -52,7 +52,7 @@ void check(const char* name, const F& f, const Exact& exact, const Draw& draw, d
   if (!holds) ++failures;
 }
 
-/// Out of the range of a polynomial the result is NaN.
+/// Outside the range of a polynomial the result is NaN.
 template <class F>
 void check_out_of_range(const char* name, const F& f, double x, double y) {
   double result[Lanes::kCount];
@@ -71,7 +71,7 @@ int main() {
   }
   const auto raise = [](const Lanes& x, const Lanes& y) { return pow(x, y); };
   const auto raised = [](long double x, long double y) { return powl(x, y); };
-  // The error of log2(x) counts y times: 2 ulp of |y log2 x| < 20.
+  // The error of log2(x) is multiplied by y: 2 ulp of |y log2 x| < 20.
   check(
       "pow, speeds", raise, raised,
       [](double& x, double& y) {
@@ -121,14 +121,14 @@ int main() {
     check_out_of_range("sin", sine, x, 0.0);
     check_out_of_range("cos", cosine, x, 0.0);
   }
-  // Less than anything that it is added to counts as 2^-1000.
+  // Values below 2^-1000 count as 2^-1000: they are negligible in any sum.
   double least[Lanes::kCount];
   pow(Lanes(1e-200), Lanes(20.0)).store(least);
   if (!(least[0] < 1e-300)) {
     printf("pow(1e-200, 20) is %g and not next to nothing  FAILED\n", least[0]);
     ++failures;
   }
-  // Within half a turn, with the sign of the C library's remainder, as wrap_angle() of the laws.
+  // Within half a turn, with the sign of the C library's remainder, as in wrap_angle() of the laws.
   for (double x = -40.0; x < 40.0; x += 0.37) {
     double result[Lanes::kCount];
     wrap_angle(Lanes(x)).store(result);

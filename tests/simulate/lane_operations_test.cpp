@@ -1,5 +1,5 @@
-// What lanes do one by one against the same on doubles, bit for bit. Built for each instruction set; where the
-// processor has not the instructions, nothing is run.
+// Single lane operations compared with those on doubles, bit for bit. Built for each instruction
+// set; does nothing on a processor without the instructions.
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -15,7 +15,7 @@ using awmr::testing::has_instructions;
 constexpr int kBlocks = 2000;
 constexpr int kCount = Lanes::kCount;
 
-/// In (-20, 20), the same on every machine; now and then a number out of the ordinary.
+/// Reproducible numbers in (-20, 20), with occasional special values.
 double next_number() {
   constexpr double kOdd[] = {
       0.0, -0.0, 1.0, -1.0, 1e308, 5e-324, __builtin_inf(), __builtin_nan("")};
@@ -33,7 +33,7 @@ bool same(double a, double b) {
 
 int failures = 0;
 
-/// f of three Lanes against the same f of three doubles, each lane.
+/// Compares f of three Lanes with the same f of three doubles, lane by lane.
 template <class OfLanes, class OfDoubles>
 void check(const char* name, const OfLanes& of_lanes, const OfDoubles& of_doubles) {
   for (int block = 0; block < kBlocks; ++block) {
@@ -59,12 +59,12 @@ double larger(double a, double b) { return a < b ? b : a; }
 
 }  // namespace
 
-// The same words for both.
+// The same expression for both.
 #define AWMR_CHECK(words)                                                                        \
   check(                                                                                         \
       #words, [](const Lanes& x, const Lanes& y, const Lanes& z) { return of(x, y, z, words); }, \
       [](double x, double y, double z) { return of(x, y, z, words); })
-/// All three are used in no test, and no compiler is to say so.
+/// Silences unused warnings: not every check uses all three.
 template <class T>
 T of(const T&, const T&, const T&, const T& result) {
   return result;

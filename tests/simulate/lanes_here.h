@@ -1,5 +1,5 @@
-/// The lanes of the instruction set that a file is compiled for, and whether this processor has it. A file of
-/// which there is a program for each instruction set includes it.
+/// Lanes of the instruction set for which a file is compiled, and whether this processor has it.
+/// For files compiled into one program per instruction set.
 #pragma once
 
 #if defined(__AVX512F__)

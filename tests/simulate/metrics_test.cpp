@@ -1,4 +1,4 @@
-/// Metrics on runs made by hand.
+/// Metrics of hand-made runs.
 #include "awmr/simulate/metrics.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ namespace {
 
 const Scenario kSteps{"step", 4.0, {}, 1.0, HeadingSteps{{{0.0, radians(10.0)}}}};
 
-/// A 10 deg step whose heading is `psi_deg` at 0, 1, 2, 3, 4 s, at 1 m/s along x.
+/// A 10 deg step with the heading `psi_deg` at 0, 1, 2, 3, 4 s, at 1 m/s along x.
 awmr::Run by_hand(const double (&psi_deg)[5]) {
   awmr::Run run;
   for (int i = 0; i < 5; ++i) {
@@ -116,20 +116,20 @@ TEST(Metrics, WorkIsForceTimesTheWheelsSpeedAndNothingComesBack) {
     row.state.r_radps = 0.5;
     row.acting = {-0.2, 0.6, -0.2, 0.6};
   }
-  // d = 0.36 m: the left wheels run at 0.8 - 0.18 m/s and brake, the right ones at 0.98 m/s:
-  // 2 x 0.6 x 0.98 over 4 s.
+  // d = 0.36 m: the left wheels run at 0.8 - 0.18 m/s and brake, the right ones at 0.98 m/s: 2 x
+  // 0.6 x 0.98 over 4 s.
   const Metrics m = judged(run);
   EXPECT_NEAR(m.energy_mech, 4.0 * 2.0 * 0.6 * 0.98, 1e-12);
   EXPECT_NEAR(m.energy_electric, 4.0 * 2.0 * (0.04 + 0.36), 1e-12);
   EXPECT_NEAR(m.tyre_work, 4.0 * 0.3028 * std::pow(0.5, 0.825) * 0.5, 1e-12);
   EXPECT_EQ(m.saturation_s, 0.0);
   EXPECT_EQ(m.steering_travel_deg, 0.0);
-  // Wheel by wheel the same, of motors that lose next to nothing.
+  // The same wheel by wheel, with almost lossless motors.
   Controller<double> real = make_controller(paper_plant(), paper_vehicle(), {});
   real.limits.back_emf_s_per_m = 1e-12;
   EXPECT_NEAR(metrics_of(run, kSteps, real).energy_mech, m.energy_mech, 1e-9);
   EXPECT_NEAR(metrics_of(run, kSteps, real).energy_electric, m.energy_electric, 1e-9);
-  // Two wheels do half of both.
+  // Two wheels do half the work of four.
   for (RunRow& row : run.rows) row.acting = {-0.2, 0.6, 0.0, 0.0};
   real.limits.is_rear_driven = false;
   EXPECT_NEAR(metrics_of(run, kSteps, real).energy_mech, 0.5 * m.energy_mech, 1e-9);
@@ -145,7 +145,8 @@ TEST(Metrics, FrontWheelsRollAlongTheirAngle) {
     row.state.steering_rad = radians(20.0);
     row.acting = {0.5, 0.5, 0.5, 0.5};
   }
-  // Front: 0.8 cos 20 deg + (0.1 + 0.35 x 0.5) sin 20 deg, the d r of the sides cancel; rear: 0.8.
+  // Front: 0.8 cos 20 deg + (0.1 + 0.35 x 0.5) sin 20 deg, the d r of left and right cancel; rear:
+  // 0.8.
   const double front_mps = 0.8 * std::cos(radians(20.0)) + 0.275 * std::sin(radians(20.0));
   EXPECT_NEAR(judged(run).energy_mech, 4.0 * 2.0 * 0.5 * (front_mps + 0.8), 1e-12);
 }
@@ -157,7 +158,7 @@ TEST(Metrics, TravelAndSaturationAreCountedOverTheRun) {
   run.rows[1].force.left = 1.0;
   run.rows[2].force.right = -1.0;
   run.rows[3].steering_command_rad = radians(-20.0);
-  run.rows[4].force.left = 1.0;  // held by no sample
+  run.rows[4].force.left = 1.0;  // not held for any sample
   const Metrics m = judged(run);
   EXPECT_NEAR(m.steering_travel_deg, 20.0, 1e-12);
   EXPECT_EQ(m.saturation_s, 3.0);
@@ -223,7 +224,7 @@ TEST(Validity, HeadingsThatNothingLeadsAreTold) {
   const auto finding = not_led("", model);
   ASSERT_TRUE(finding);
   EXPECT_EQ(finding->code, "not-led");
-  EXPECT_FALSE(not_led(kNoRate, model));  // it was said
+  EXPECT_FALSE(not_led(kNoRate, model));  // a limit was given
   model.vehicle.yaw_rate_max_degps = 15.0;
   EXPECT_FALSE(not_led("", model));
 }
@@ -233,7 +234,7 @@ TEST(Validity, ATurnFasterThanTheTrialsCoveredIsTold) {
   std::vector<Finding> findings;
   EXPECT_FALSE(measured_yaw_rate_degps(model));
   note_extrapolation(model, 100.0, "run", findings);
-  EXPECT_TRUE(findings.empty());  // a model of given numbers: nobody said how far they hold
+  EXPECT_TRUE(findings.empty());  // given numbers have no known range of validity
   const auto trial = [](TrialKind kind, double measured) {
     TrialPoint point;
     point.kind = kind;
@@ -305,7 +306,7 @@ TEST(Validity, TyresThatTurnTheVehicleOtherwiseThanItsTrialsAreTold) {
   Model model = fitted_paper_model();
   Scenario on_tyres = kSteps;
   on_tyres.tyres = Tyres<double>{};
-  EXPECT_FALSE(tyres_differ(on_tyres, model));  // nobody measured how it turns
+  EXPECT_FALSE(tyres_differ(on_tyres, model));  // its turning was not measured
   model.vehicle.yaw_rate_max_degps = 15.0;
   const auto finding = tyres_differ(on_tyres, model);
   ASSERT_TRUE(finding);

@@ -1,4 +1,4 @@
-/// Clearance over random layouts, and what happens where there is no way.
+/// Clearance in random layouts, and behaviour if there is no passage.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,7 +14,7 @@ namespace {
 
 awmr::Run run_of(const Scenario& scenario, YawMode mode) {
   const Plant<double> plant = paper_plant();
-  // One RK4 step a sample, for speed: (h/T)^5/120 of the servo's lag is 3e-4 of its excursion.
+  // One RK4 step per sample, for speed: (h/T)^5/120 of the servo lag is 3e-4 of its excursion.
   return simulate(plant, make_controller(plant, paper_vehicle(), kPaperGains), scenario, mode,
                   {.sample_time_s = 0.01, .substeps = 1});
 }
@@ -35,15 +35,15 @@ TEST_P(Layouts, AThousandWithAPassageAreNeverTouched) {
     EXPECT_NE(run.end, RunEnd::kNoPassage) << "layout " << number;
     completed += run.end == RunEnd::kFinished ? 1 : 0;
   }
-  // Keeping clear is promised, arriving is not: the rule is local, and a vehicle that cannot turn
-  // on the spot may have to stop before it gets round.
+  // Clearance is guaranteed, arrival is not: the rule is local, and a vehicle that cannot turn on
+  // the spot may have to stop before it passes.
   EXPECT_GT(completed, GetParam() == YawMode::kSteering ? 700 : 950);
 }
 
 INSTANTIATE_TEST_SUITE_P(EveryMode, Layouts, ::testing::ValuesIn(kYawModes),
                          [](const auto& mode) { return std::string(name_of(mode.param)); });
 
-/// Discs on a circle of 8 m around the goal, touching each other when grown.
+/// Discs on a circle of 8 m around the goal, which touch when inflated.
 std::vector<Obstacle<double>> ring(const Position<double>& centre, int left_out) {
   std::vector<Obstacle<double>> discs;
   for (int i = 0; i < 20; ++i) {
@@ -56,19 +56,18 @@ std::vector<Obstacle<double>> ring(const Position<double>& centre, int left_out)
 }
 
 TEST(Passage, AClosedRingLeavesNoneAndAGapDoes) {
-  // Neighbours are 2 * 8 sin(9 deg) = 2.50 m apart; grown by 1.3 m each disc has 1.7 m. Without one
-  // disc the gap is 2 * 8 sin(18 deg) = 4.94 m, more than 3.4 m.
+  // Neighbours are 2 * 8 sin(9 deg) = 2.50 m apart; inflated by 1.3 m each disc has 1.7 m. Without
+  // one disc the gap is 2 * 8 sin(18 deg) = 4.94 m, more than 3.4 m.
   EXPECT_FALSE(passage_exists(ring({30.0, 0.0}, -1), 1.3, {0.0, 0.0}, {30.0, 0.0}));
   for (int gap = 0; gap < 20; ++gap) {
     EXPECT_TRUE(passage_exists(ring({30.0, 0.0}, gap), 1.3, {0.0, 0.0}, {30.0, 0.0})) << gap;
   }
-  // Both ends inside, both outside: there is a way.
+  // Both ends inside, or both outside: there is a passage.
   EXPECT_TRUE(passage_exists(ring({30.0, 0.0}, -1), 1.3, {28.0, 1.0}, {30.0, 0.0}));
   EXPECT_TRUE(passage_exists(ring({30.0, 0.0}, -1), 1.3, {0.0, 0.0}, {60.0, 0.0}));
 }
 
-/// By flooding a grid of 0.1 m: an upper and a lower bound, from discs grown a little less and
-/// more.
+/// Flood fill on a grid of 0.1 m: upper and lower bound from discs inflated slightly less and more.
 bool flooded(const std::vector<Obstacle<double>>& discs, double grow_m) {
   constexpr int kSize = 200;
   constexpr double kCell_m = 0.2;
@@ -100,7 +99,7 @@ bool flooded(const std::vector<Obstacle<double>>& discs, double grow_m) {
 }
 
 TEST(Passage, AgreesWithFloodingAGrid) {
-  // Many small discs around the goal, so that a part of the layouts is closed.
+  // Many small discs around the goal, so that some layouts are closed.
   int closed = 0;
   int decided = 0;
   for (std::uint64_t number = 0; number < 60; ++number) {
@@ -112,8 +111,8 @@ TEST(Passage, AgreesWithFloodingAGrid) {
       const double from_goal_m = 4.0 + 2.0 * random.uniform();
       discs.push_back({{20.0 + from_goal_m * std::cos(angle), from_goal_m * std::sin(angle)}, 0.9});
     }
-    // A way misses the nearest cells' centres by half a cell's diagonal, 0.141 m, at most: flooding
-    // discs smaller and larger by 0.15 m bounds the truth; where both agree it is known.
+    // A path is at most half a cell's diagonal, 0.141 m, from the nearest cell centres. Flooding
+    // with discs 0.15 m smaller and larger bounds the truth; if both agree it is known.
     const bool at_most = flooded(discs, 0.5 - 0.15);
     const bool at_least = flooded(discs, 0.5 + 0.15);
     const bool exists = passage_exists(discs, 0.5, {0.0, 0.0}, {20.0, 0.0});
@@ -151,7 +150,7 @@ TEST(NoPassage, AnObstacleOnTheWaypointMakesItMissed) {
 
 TEST(NoPassage, AStartInsideAnObstaclesMarginIsLeft) {
   Scenario scenario = random_layout(0);
-  scenario.obstacles = {{{1.0, 0.6}, 0.2}};  // grown by 1.3 m it holds the start
+  scenario.obstacles = {{{1.0, 0.6}, 0.2}};  // inflated by 1.3 m it covers the start
   EXPECT_EQ(run_of(scenario, YawMode::kDifferential).end, RunEnd::kFinished);
 }
 

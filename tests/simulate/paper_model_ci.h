@@ -1,11 +1,11 @@
-/// The paper's vehicle as an identified model, with intervals for corners.
+/// The paper's vehicle as an identified model, with intervals for corner cases.
 #pragma once
 
 #include "support/paper_vehicle.h"
 
 namespace awmr::testing {
 
-/// Every parameter within 10 % either way.
+/// Every parameter with an interval of +-10 %.
 inline Model model_with_intervals() {
   Model model = fitted_paper_model();
   for (Estimate& estimate : model.estimates) {

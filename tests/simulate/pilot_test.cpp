@@ -1,4 +1,4 @@
-/// Where a scenario's course leads from sample to sample, by hand.
+/// Guidance of a scenario's path from sample to sample, checked by hand.
 #include "awmr/simulate/pilot.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 namespace awmr::testing {
 namespace {
 
-/// At a place, at 1 m/s along x.
+/// At a position, with 1 m/s along x.
 Sensed at(double x_m, double y_m) { return {{0.0, 1.0, 0.0, 0.0}, {x_m, y_m}}; }
 
 Scenario along(Guidance guidance) {
@@ -36,7 +36,7 @@ TEST(Pilot, GoesToOnePointAfterTheOtherAndSlowsDownBeforeTheLast) {
   const Scenario scenario = along(WaypointCourse{
       .points_m = {{10.0, 0.0}, {10.0, 10.0}}, .acceptance_m = 1.0, .slow_down_m = 4.0});
   Pilot pilot(scenario, 0.01, at(0.0, 0.0));
-  const Pilot::Order first = pilot.at(0.0, at(7.5, 0.5));  // within 4 m, but not of the last
+  const Pilot::Order first = pilot.at(0.0, at(7.5, 0.5));  // within 4 m, but not of the last one
   EXPECT_EQ(first.course.leg, 0);
   EXPECT_EQ(first.course.target_m.x_m, 10.0);
   EXPECT_EQ(first.course.target_m.y_m, 0.0);

@@ -16,7 +16,7 @@ using ::testing::HasSubstr;
 
 constexpr int kDraws = 20000;
 
-/// The coordinates that are drawn: logarithms of a1, a3 and m', b1 as it is.
+/// Sampled coordinates: logarithms of a1, a3 and m'; b1 itself.
 std::array<double, 4> coordinates(const Plant<double>& plant) {
   return {std::log(plant.surge.alpha), plant.surge.beta, std::log(plant.yaw.alpha),
           std::log(plant.mass_norm)};
@@ -45,7 +45,7 @@ TEST(PlantSampler, DrawsHaveTheModelsMeanAndCovariance) {
     return model.covariance.matrix[i][j] / (scale[i] * scale[j]);
   };
   for (std::size_t i = 0; i < 4; ++i) {
-    // Standard error of a mean sigma/sqrt(n); 5 of them are passed once in 10^6 seeds.
+    // Standard error of a mean sigma/sqrt(n); five of them are exceeded once in 10^6 seeds.
     EXPECT_NEAR(mean[i], centre[i], 5.0 * std::sqrt(expected(i, i) / kDraws)) << i;
     for (std::size_t j = 0; j < 4; ++j) {
       double covariance = 0.0;
@@ -60,9 +60,9 @@ TEST(PlantSampler, DrawsHaveTheModelsMeanAndCovariance) {
   }
 }
 
-/// Of 32 random draws the mean has a standard error of sigma/sqrt(32) = 0.18 sigma, their mean square one of
-/// sqrt(2/32) = 0.25, and that of five seeds one of 0.11. Even draws are held to a third of the first and, over
-/// the seeds, to twice the last.
+/// The mean of 32 random draws has a standard error of sigma/sqrt(32) = 0.18 sigma, their mean
+/// square one of sqrt(2/32) = 0.25, and that of five seeds one of 0.11. The bounds for even draws
+/// are a third of the first and, over the seeds, twice the last.
 TEST(PlantSampler, EvenDrawsHaveTheModelsMeanAndSpreadWhileTheyAreFew) {
   constexpr int kFew = 32;
   constexpr int kSeeds = 5;
@@ -121,7 +121,7 @@ TEST(PlantSampler, KeepsPositiveQuantitiesPositiveWhateverTheirError) {
   }
 }
 
-/// The range bounds fits: an estimate at its end has its uncertainty on both sides.
+/// The range limits fits: an estimate at its end is uncertain in both directions.
 TEST(PlantSampler, DrawsExponentsOnBothSidesOfAnEndOfTheVehiclesRange) {
   for (const double beta : {0.995, 1.0, 1.4}) {
     Model model = uncertain_model();
@@ -150,8 +150,8 @@ TEST(PlantSampler, DrawsNoNegativeExponent) {
   }
 }
 
-/// A family's term may be exactly 0, and half of a normal about 0 is what is left of it where it
-/// has to be 0 or more: of mean sigma sqrt(2/pi) and variance sigma^2 (1 - 2/pi).
+/// A term of a family may be exactly 0. A normal about 0 restricted to values >= 0 is its half:
+/// mean sigma sqrt(2/pi) and variance sigma^2 (1 - 2/pi).
 TEST(PlantSampler, DrawsATermFittedAsZeroFromTheHalfOfItsNormalAboveZero) {
   constexpr double kSigma = 0.02;
   Model model = fitted_paper_model();
@@ -176,7 +176,7 @@ TEST(PlantSampler, DrawsATermFittedAsZeroFromTheHalfOfItsNormalAboveZero) {
 
 TEST(PlantSampler, DrawsATermWellAboveZeroAsTheNormalThatItsFitGave) {
   constexpr double kSigma = 0.02;
-  constexpr double kValue = 0.2;  // ten standard errors from 0: none is drawn again
+  constexpr double kValue = 0.2;  // ten standard errors from 0: none is redrawn
   Model model = fitted_paper_model();
   model.surge_family = Family::kDeadZone;
   model[ParameterId::kWheelDeadZone] = {kValue, kSigma, Interval{0.16, 0.24}, Source::kFitted, ""};
@@ -191,7 +191,7 @@ TEST(PlantSampler, DrawsATermWellAboveZeroAsTheNormalThatItsFitGave) {
     mean += z / kDraws;
     squares += z * z / kDraws;
   }
-  // Of standard normals: the mean errs by 1/sqrt(n), the mean square by sqrt(2/n).
+  // Standard normal numbers: the mean errs by 1/sqrt(n), the mean square by sqrt(2/n).
   EXPECT_NEAR(mean, 0.0, 5.0 / std::sqrt(kDraws));
   EXPECT_NEAR(squares, 1.0, 5.0 * std::sqrt(2.0 / kDraws));
 }

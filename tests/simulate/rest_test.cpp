@@ -1,4 +1,4 @@
-/// Coming to rest under a resistance whose slope is infinite there.
+/// Stopping under a resistance whose slope at rest is infinite.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -49,7 +49,7 @@ TEST(Rest, CoastDownFollowsItsClosedForm) {
 }
 
 TEST(Rest, SteadyYawRateOfAStronglyDampedVehicleIsTheLawsOwn) {
-  // g3(r) = a3 r^b3 = tau_turn has its root above the chord: the step has to be chosen for it.
+  // g3(r) = a3 r^b3 = tau_turn has its root above the chord: the step must be chosen for it.
   Plant<double> plant = paper_plant();
   plant.yaw = {0.9, 0.3};
   const awmr::Run run = run_open_loop(plant, {}, 5.0, {0.5, 0.2});
@@ -92,8 +92,8 @@ TEST(Simulate, RowsStandAtWholeSamplesFromZeroToTheDuration) {
 }
 
 TEST(Simulate, TheCommandOfARowHoldsUntilTheNext) {
-  // From rest at constant tau_speed the first sample's speed follows from the first row's command
-  // only.
+  // From rest at constant tau_speed the first sample's speed depends only on the first row's
+  // command.
   const awmr::Run run = run_open_loop(paper_plant(), {}, 0.02, {2.0, 0.0});
   EXPECT_EQ(run.rows[0].force.left, 0.5);
   EXPECT_EQ(run.rows[0].state.u_mps, 0.0);

@@ -1,4 +1,4 @@
-/// Every scenario file runs in every mode, and is the same in a mirror and elsewhere.
+/// Every scenario file runs in every mode, and is symmetric under mirroring and displacement.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -43,14 +43,14 @@ class ScenarioFiles : public ::testing::TestWithParam<fs::path> {
   }
 };
 
-/// What not every mode completes, and why.
+/// Scenarios that some modes do not complete, with the reason.
 const std::set<std::string> kNotForAll{
     "c11_lissajous", "c11_lissajous_closed",  // turns tighter than steering's 5 m
     "wheel_failure",                          // steering cannot hold a line against a dead wheel
 };
 
-/// What no mode completes: the sliding mode under a constant yaw moment, which leaves it beside the heading by
-/// more than counts as settled. That is what the scenarios beside it are held against.
+/// Scenarios that no mode completes: under a constant yaw moment the sliding mode leaves a heading
+/// error above the settling band. Other scenarios are compared with it.
 const std::set<std::string> kForNone{"heading_steps_pushed"};
 
 bool is_completed(const std::string& file, YawMode mode) {
@@ -74,7 +74,7 @@ TEST_P(ScenarioFiles, RunsInEveryMode) {
   }
 }
 
-/// Left and right are alike to the last bit or nearly: rounding of sums taken in another order.
+/// Left and right are equal up to rounding of sums in another order.
 TEST_P(ScenarioFiles, IsTheSameInAMirror) {
   Scenario s = scenario();
   s.duration_s = std::min(s.duration_s, 60.0);
@@ -92,7 +92,7 @@ TEST_P(ScenarioFiles, IsTheSameInAMirror) {
   }
 }
 
-/// Whether the runs take up each leg in the same sample.
+/// True if both runs switch to each leg in the same sample.
 bool switch_alike(const awmr::Run& a, const awmr::Run& b) {
   const std::size_t rows = std::min(a.rows.size(), b.rows.size());
   for (std::size_t i = 0; i < rows; ++i) {
@@ -101,18 +101,18 @@ bool switch_alike(const awmr::Run& a, const awmr::Run& b) {
   return true;
 }
 
-/// Where it is and which way it faces does not matter. Rounding at 1e-14 m of positions near 100 m
-/// passes through guidance and control, which are damped: 1e-6 leaves room for the sectors'
-/// tolerance. A leg that ends within rounding of a sample's time may be left a sample later, which
-/// moves what follows by u T_s = 0.01 m at most. Near r = 0, where the slope of g3 is infinite, a
-/// plant that differs from the controller's model swings in a cycle of some 0.001 rad/s in which
-/// differences grow (tenfold in 1.5 s): 20 s are compared.
+/// Position and orientation do not matter. Rounding of 1e-14 m at positions near 100 m passes
+/// through guidance and control, which are damped: 1e-6 allows for the sectors' tolerance. A leg
+/// that ends within rounding of a sample's time may end one sample later, which moves the rest by
+/// at most u T_s = 0.01 m. Near r = 0, where the slope of g3 is infinite, a plant that differs from
+/// the controller's model has a limit cycle of some 0.001 rad/s in which differences grow (tenfold
+/// in 1.5 s): 20 s are compared.
 TEST_P(ScenarioFiles, IsTheSameElsewhere) {
   Scenario s = scenario();
   if (std::holds_alternative<LissajousCourse>(s.guidance)) return;
   if (s.sensors) {
-    s.sensors->heading.quantum = 0.0;  // its steps do not turn with the world
-    // What is drawn for x and y does not turn either.
+    s.sensors->heading.quantum = 0.0;  // its steps do not rotate with the world
+    // The random numbers for x and y do not rotate either.
     if (s.sensors->gps) s.sensors->gps->x = s.sensors->gps->y = {};
   }
   s.duration_s = std::min(s.duration_s, 20.0);

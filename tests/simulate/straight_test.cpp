@@ -1,4 +1,5 @@
-/// Models that know straight motion alone: straight runs are those of the whole model, others are refused by name.
+/// Models of straight motion only: straight runs equal those of the full model, others are refused
+/// by name.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -44,7 +45,7 @@ DisturbanceTerm constant(double value) {
   return term;
 }
 
-/// The same in any vehicle that does not turn; each has a law or a disturbance of its own.
+/// Straight motion with different laws and disturbances.
 std::vector<Scenario> straight_scenarios() {
   std::vector<Scenario> scenarios{straight_on(OpenLoop{1.2, 0.0}),
                                   straight_on(HeadingSteps{{{0.0, 0.0}}}),
@@ -53,12 +54,12 @@ std::vector<Scenario> straight_scenarios() {
   scenarios[1].initial.psi_rad = scenarios[1].initial.u_mps = 0.3;
   std::get<HeadingSteps>(scenarios[1].guidance).steps[0].psi_rad = 0.3;
   scenarios[3].disturbance.surge = {constant(-0.3)};
-  // Uphill: the sine of pi is 1e-16, which is no turn.
+  // Uphill: the sine of pi is 1e-16, which is not a turn.
   scenarios[4].disturbance.slope = {{radians(5.0), radians(180.0)}};
   return scenarios;
 }
 
-/// The run of `model` with ten RK4 steps a sample, whatever it knows.
+/// Run of `model` with ten RK4 steps per sample, also for a partial model.
 awmr::Run run_of(const Model& model, const Scenario& scenario, YawMode mode) {
   return simulate(*model.plant(model.simulated_motion()), *controller_for(model, kPaperGains),
                   scenario, mode, {.sample_time_s = model.vehicle.sample_time_s, .substeps = 10});
@@ -72,7 +73,7 @@ TEST(StraightRun, IsThatOfTheWholeModel) {
       const awmr::Run straight = run_of(straight_model(), scenario, mode);
       ASSERT_EQ(whole.rows.size(), straight.rows.size());
       for (std::size_t i = 0; i < whole.rows.size(); ++i) {
-        // What is not known multiplies zeros, or the 1e-16 of the sine of pi.
+        // Unknown values are multiplied by zeros, or by the 1e-16 of the sine of pi.
         EXPECT_NEAR(whole.rows[i].state.u_mps, straight.rows[i].state.u_mps, 1e-12);
         EXPECT_NEAR(whole.rows[i].state.x_m, straight.rows[i].state.x_m, 1e-12);
         EXPECT_NEAR(whole.rows[i].state.y_m, straight.rows[i].state.y_m, 1e-12);

@@ -1,4 +1,4 @@
-/// A scenario seen in a mirror or from elsewhere.
+/// A scenario mirrored or displaced.
 #pragma once
 
 #include <cmath>
@@ -16,8 +16,7 @@ inline void mirror_points(std::vector<Position<double>>& points) {
   for (Position<double>& point : points) point.y_m = -point.y_m;
 }
 
-/// Left for right: y, psi, v, r, d_r change their sign, and so do sway, yaw and what is drawn for
-/// them.
+/// Mirrored: y, psi, v, r, d_r change their sign, and so do sway, yaw and their random numbers.
 inline Scenario mirrored(Scenario s) {
   s.initial.y_m *= -1.0;
   s.initial.psi_rad *= -1.0;
@@ -48,7 +47,7 @@ inline Scenario mirrored(Scenario s) {
   return s;
 }
 
-/// Turned about the origin by `angle_rad`, then moved.
+/// Rotation about the origin by `angle_rad`, then translation.
 struct Elsewhere {
   double angle_rad, dx_m, dy_m;
 

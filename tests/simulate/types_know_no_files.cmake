@@ -1,5 +1,5 @@
-# Types, equations and the closed loop build for targets without a file system: what they include
-# is asked of the compiler's preprocessor.
+# Types, equations and the closed loop build for targets without a file system. The preprocessor
+# lists their includes.
 foreach(source
     core/provenance.h model/vehicle.h model/model.h model/record.h model/vehicle.cpp model/family.cpp
     model/parameters.cpp model/model.cpp control/controller.h control/autopilot.h

@@ -82,8 +82,8 @@ TEST(Disturbances, BandLimitedNoiseHasItsDeviationAndMemory) {
     product += x * run.rows[i + kLag].disturbance.sway;
   }
   const double n = static_cast<double>(run.rows.size() - kLag);
-  // Correlation time 1/(2 pi) s: about 400 * pi independent values, variance known to
-  // sqrt(2/1257) = 4 %; four times that.
+  // Correlation time 1/(2 pi) s: about 400 * pi independent values, variance known to sqrt(2/1257)
+  // = 4 %; the bound is four times that.
   EXPECT_NEAR(square / n, 0.01, 0.16 * 0.01);
   EXPECT_NEAR(product / square, std::exp(-0.2 * pi<double>()), 0.1);
 }
@@ -94,7 +94,7 @@ TEST(Disturbances, AreTheSameForTheSameSampleAndOtherForAnother) {
   sine.kind = DisturbanceTerm::Kind::kSine;
   sine.value = 0.1;
   sine.frequency_hz = 0.5;
-  s.disturbance.yaw = {sine};  // its phase is drawn
+  s.disturbance.yaw = {sine};  // its phase is random
   EXPECT_EQ(run_csv(run_of(s, YawMode::kCombined, 3), s),
             run_csv(run_of(s, YawMode::kCombined, 3), s));
   EXPECT_NE(run_csv(run_of(s, YawMode::kCombined, 3), s),
@@ -102,7 +102,8 @@ TEST(Disturbances, AreTheSameForTheSameSampleAndOtherForAnother) {
 }
 
 TEST(Wheels, ADeadWheelCostsAQuarterOfTheThrust) {
-  // Open loop, straight, differential with both sides alike: the front pair's failure halves it.
+  // Open loop, straight, differential with equal sides: a failure of the front pair halves the
+  // force.
   Scenario s = straight(20.0);
   s.guidance = OpenLoop{1.0, 0.0};
   s.faults = {{.wheels = {Wheel::kFrontLeft, Wheel::kFrontRight}, .window = {}, .share = 0.0}};
@@ -121,7 +122,7 @@ TEST(Wheels, ASlipperyPatchUnderTheLeftWheelsTurnsLeftOnlyThere) {
   EXPECT_EQ(run_of(s, YawMode::kDifferential).rows.back().state.psi_rad, 0.0);
 }
 
-/// A wheel on ice passes on no more than the ice lets it, however its motor makes its force.
+/// A wheel on ice transmits no more than the ice allows, however its motor produces the force.
 TEST(Wheels, OnASlipperyPatchBackEmfBrakesNoMoreThanTheGroundHolds) {
   Scenario s = straight(1.0);
   s.patches = {{.centre_m = {0.0, 0.0}, .radius_m = 5.0, .force_max = 0.1}};
@@ -188,7 +189,7 @@ TEST(Battery, SagsUnderTheMotorsCurrent) {
 }
 
 TEST(Battery, SagIsTheVoltageThatTheCurrentsLeave) {
-  // Two sides that turn at other speeds, two motors each: Kirchhoff's law by iteration.
+  // Two sides with different speeds, two motors each: Kirchhoff's law by iteration.
   const SideForces<double> command{0.8, -0.3};
   State<double> at{};
   at.u_mps = 1.2;
@@ -232,7 +233,7 @@ TEST(SensorChannels, HaveTheirNoiseBiasAndSteps) {
   EXPECT_NEAR(std::sqrt(square / n), 0.02, 0.03 * 0.02);  // s.e. 1/sqrt(2 10^4) = 0.7 %
 }
 
-/// Largest distance of the position told from the true one, from `from_s` on.
+/// Largest difference between measured and true position, from `from_s` on.
 double largest_error_m(const awmr::Run& run, double from_s, double to_s) {
   double largest = 0.0;
   for (const RunRow& row : run.rows) {
@@ -251,15 +252,15 @@ Scenario with_gps(double latency_s, std::vector<Window> dropouts) {
   gps.latency_s = latency_s;
   gps.dropouts = std::move(dropouts);
   Sensors sensors;
-  sensors.speed.bias = 0.1;  // what dead reckoning goes wrong by, 0.1 m a second
+  sensors.speed.bias = 0.1;  // error of dead reckoning, 0.1 m per second
   sensors.gps = gps;
   s.sensors = sensors;
   return s;
 }
 
 TEST(GpsReceiver, BetweenFixesAndForItsLatencyThePositionIsCarriedOn) {
-  // Dead reckoning runs for 0.2 s + latency at most and drifts by 0.1 m/s; the speed's held value
-  // over a sample adds less than 0.01 m where the speed or heading changes.
+  // Dead reckoning runs for at most 0.2 s + latency and drifts by 0.1 m/s. The speed held over a
+  // sample adds less than 0.01 m where speed or heading changes.
   EXPECT_LT(largest_error_m(run_of(with_gps(0.0, {})), 1.0, 60.0), 0.1 * 0.2 + 0.01);
   EXPECT_LT(largest_error_m(run_of(with_gps(0.5, {})), 1.0, 60.0), 0.1 * 0.7 + 0.01);
   EXPECT_GT(largest_error_m(run_of(with_gps(0.5, {})), 1.0, 60.0), 0.1 * 0.5);
@@ -325,7 +326,7 @@ TEST(Motors, TheForceFollowsItsCommandWithTheirTimeConstant) {
     u += 0.5 * kStep_s * (first + accel(u + kStep_s * first, next));
     force = next;
   }
-  // Held at its mean over each sample, the force is right to (T_s/tau)^2/24 of its change.
+  // Held at its mean over each sample, the force is accurate to (T_s/tau)^2/24 of its change.
   EXPECT_NEAR(run.rows.back().state.u_mps, u, 1e-3 * u);
   EXPECT_LT(run.rows[5].state.u_mps, run_of(
                                          [&] {
@@ -372,7 +373,7 @@ TEST(Observer, OfTheGainsWorksAsThatOfTheScenarioWhichComesFirst) {
   EXPECT_EQ(rows(bare, tuned), rows(own, kPaperGains));
   EXPECT_EQ(rows(own, slower), rows(own, kPaperGains));
   EXPECT_NE(rows(bare, slower), rows(bare, kPaperGains));
-  // An LQI has an integral of its own.
+  // An LQI has its own integral.
   Scenario lqi = bare;
   lqi.control.lqi = {
       .heading_rad = 0.05, .yaw_rate_radps = 1.0, .integral_rad_s = 0.05, .tau_turn_m = 0.1};

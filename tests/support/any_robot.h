@@ -1,4 +1,4 @@
-/// Robots drawn at random, from a toy to a tractor, for properties that hold for all of them.
+/// Random robots, from a toy to a tractor, for properties that hold for all of them.
 #pragma once
 
 #include <rapidcheck.h>
@@ -14,12 +14,12 @@ inline double between(double lo, double hi) {
   return lo + (hi - lo) * *rc::gen::inRange(0, 1000001) / 1e6;
 }
 
-/// From one to the other in equal ratios, both > 0.
+/// Log-uniform between two values, both > 0.
 inline double ratio_between(double lo, double hi) {
   return lo * std::pow(hi / lo, *rc::gen::inRange(0, 1000001) / 1e6);
 }
 
-/// The box of vehicles from a toy to a tractor; `beyond` 10: ten times past either end.
+/// The range of vehicles from a toy to a tractor; `beyond` 10: ten times beyond either end.
 inline Plant<double> any_plant(double beyond) {
   return {.surge = {.alpha = ratio_between(0.1 / beyond, 5.0 * beyond),
                     .beta = between(0.0, 1.0 + 0.3 * beyond),
@@ -36,7 +36,7 @@ inline Plant<double> any_plant(double beyond) {
           .steering_time_constant_s = ratio_between(0.01 / beyond, 0.5 * beyond)};
 }
 
-/// A model of such a plant by the power law, as a reader would have it.
+/// A power-law model of such a plant, as a reader would return it.
 inline Model any_model(double beyond) {
   const Plant<double> plant = any_plant(beyond);
   Model model;
@@ -55,7 +55,7 @@ inline Model any_model(double beyond) {
   return model;
 }
 
-/// Gains from sluggish to hard.
+/// Gains from slow to aggressive.
 inline Gains<double> any_gains(double beyond) {
   return {.heading = {.lambda = ratio_between(0.5 / beyond, 15.0 * beyond),
                       .mu = ratio_between(1.0 / beyond, 200.0 * beyond),

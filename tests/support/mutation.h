@@ -1,6 +1,7 @@
 #pragma once
-// What scripts/mutants writes into the sources, so that all mutants of a folder are compiled at once and one of them is
-// chosen when a test starts, by the environment variable AWMR_MUTANT (its number; none: the program as it is).
+// Constructs that scripts/mutants writes into the sources, so that all mutants of a folder are
+// compiled at once. The environment variable AWMR_MUTANT selects one by its number when a test
+// starts (not set: the unchanged program).
 //
 //   a + b   a + awmr_mutation::Sign{7} * b          mutant 7 changes the sign of the term
 //   a * b   a * awmr_mutation::Factor{7} * b        mutant 7 divides
@@ -9,7 +10,7 @@
 //   0.5     awmr_mutation::number(7, 0.5, 1.0)      mutant 7 is 1.0
 //   if (c)  if (awmr_mutation::chosen(7) != bool(c)) mutant 7 is !c
 //
-// Nothing changes in what the compiler works out itself: there the program stays as it is.
+// Expressions that the compiler evaluates itself are not changed.
 
 #include <cstdlib>
 #include <type_traits>
@@ -43,7 +44,8 @@ constexpr auto operator*(Sign sign, const T& value) {
   return chosen(sign.id) ? Value(-value) : Value(value);
 }
 
-// An operator between two operands: (a op Between) keeps a, (that op b) applies the operator or the other one.
+// An operator between two operands: (a op Between) keeps a, (that op b) applies the original or the
+// mutated operator.
 template <typename Kind, typename A>
 struct Half {
   const A& a;

@@ -1,5 +1,5 @@
-/// The one robot of the tests: configs/paper/vehicle.json and what Tables 2 and 3 give for it. A test whose numbers
-/// hang on another field copies this one and sets that field.
+/// Default robot of the tests: configs/paper/vehicle.json with the results of Tables 2 and 3. A
+/// test whose numbers depend on another field copies this vehicle and sets that field.
 #pragma once
 
 #include "awmr/control/controller.h"
@@ -9,14 +9,15 @@
 
 namespace awmr::testing {
 
-/// configs/paper/vehicle.json; throws where it cannot be read.
+/// configs/paper/vehicle.json; throws if it cannot be read.
 inline const Vehicle& paper_vehicle() {
   static const Vehicle kVehicle =
       read_vehicle(AWMR_SOURCE_DIR "/configs/paper/vehicle.json").value();
   return kVehicle;
 }
 
-/// By ParameterId: a1, b1, a3, b3 log-linear from the tables as printed, m' as printed, and I'z = m' Iz/m.
+/// By ParameterId: a1, b1, a3, b3 log-linear from the tables as printed, m' as printed, and I'z =
+/// m' Iz/m.
 template <class T>
 ParameterValues<T> paper_values_of() {
   ParameterValues<T> values;
@@ -60,7 +61,7 @@ Controller<T> paper_controller_of() {
                      .split = CombinedSplit::kRedistribute}};
 }
 
-/// A model of these values, without uncertainty.
+/// Model with these values, without uncertainty.
 inline Model fitted_paper_model() {
   Model model;
   model.vehicle = paper_vehicle();

@@ -1,4 +1,4 @@
-/// Runs a program and keeps what it said.
+/// Runs a program and captures its output.
 #pragma once
 
 #include <sys/wait.h>
@@ -28,7 +28,7 @@ inline void write_all(const std::filesystem::path& path, const std::string& byte
   std::ofstream(path, std::ios::binary) << bytes;
 }
 
-/// A directory of its own for one test, removed at its end.
+/// Temporary directory for one test, removed at its end.
 class TemporaryDirectory {
  public:
   TemporaryDirectory() {

@@ -1,4 +1,4 @@
-/// Whether two tables are the same: bits of the numbers, rows, places, notes.
+/// Comparison of two tables: bits of the numbers, rows, places, notes.
 #pragma once
 
 #include <bit>
@@ -10,7 +10,7 @@
 
 namespace awmr::testing {
 
-/// What tells two columns apart, or nothing.
+/// First difference between two columns; empty if they are equal.
 inline std::string difference_of_columns(const CsvTable& a, const CsvTable& b,
                                          const std::string& name) {
   if (a.has(name) != b.has(name)) return name + " is in one of them";
@@ -38,8 +38,8 @@ inline std::string difference_of_notes(const CsvTable& a, const CsvTable& b) {
   return {};
 }
 
-/// What tells the tables apart, or nothing. Finding places takes long in a long file: they are those
-/// of every `step`th row.
+/// First difference between the tables; empty if they are equal. Places are compared only in every
+/// `step`th row, because finding them takes long in a long file.
 inline std::string difference(const CsvTable& a, const CsvTable& b,
                               std::span<const CsvColumn> columns, std::size_t step = 1) {
   if (a.rows() != b.rows()) return "the number of rows";

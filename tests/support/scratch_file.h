@@ -1,4 +1,4 @@
-/// A file in a directory of its own that goes away with the object.
+/// A file in its own directory, removed with the object.
 #pragma once
 
 #include <stdlib.h>

@@ -1,5 +1,5 @@
-/// A number that converts from double only when asked to, and to nothing: code that compiles with
-/// it mixes no double into its scalar by accident.
+/// Scalar type with explicit conversion from double and none to other types: code that compiles
+/// with it does not mix double into its scalar by accident.
 #pragma once
 
 #include <cmath>

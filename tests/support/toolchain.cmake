@@ -1,5 +1,5 @@
-# awmr_use_toolchain(TARGET): tells a test where the compilers are that it runs, as defines. One that
-# is missing is "…-NOTFOUND"; the test then fails and says so (tests/support/toolchain.h).
+# awmr_use_toolchain(TARGET): passes the paths of the compilers that a test runs as defines. A
+# missing one is "…-NOTFOUND"; the test then fails with a message (tests/support/toolchain.h).
 function(awmr_use_toolchain target)
   foreach(program gcc g++ clang clang++ objcopy avr-gcc avr-g++ avr-objcopy avr-size avr-gcc-ar
           arm-none-eabi-gcc arm-none-eabi-g++ qemu-system-arm)

@@ -1,4 +1,4 @@
-/// Compilers that tests run. The target needs `awmr_use_toolchain(TARGET)` (toolchain.cmake).
+/// Compilers used by tests. The target needs `awmr_use_toolchain(TARGET)` (toolchain.cmake).
 #pragma once
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ inline constexpr const char* kArmGcc = AWMR_TOOL_ARM_NONE_EABI_GCC;
 inline constexpr const char* kArmGxx = AWMR_TOOL_ARM_NONE_EABI_GXX;
 inline constexpr const char* kQemuArm = AWMR_TOOL_QEMU_SYSTEM_ARM;
 
-/// For ASSERT_TRUE: was the program found when the build was configured?
+/// For ASSERT_TRUE: the program was found when the build was configured.
 inline ::testing::AssertionResult found(std::string_view program) {
   if (program.ends_with("-NOTFOUND") || program.empty()) {
     return ::testing::AssertionFailure()
@@ -35,7 +35,7 @@ inline ::testing::AssertionResult found(std::string_view program) {
   return ::testing::AssertionSuccess();
 }
 
-/// For ASSERT_TRUE: the program ended with 0 and had nothing to say against it.
+/// For ASSERT_TRUE: the program ended with 0 and printed no warnings.
 inline ::testing::AssertionResult succeeded(const ProcessResult& result) {
   if (result.exit_code == 0) return ::testing::AssertionSuccess();
   return ::testing::AssertionFailure() << "exit code " << result.exit_code << "\n"

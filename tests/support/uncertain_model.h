@@ -1,4 +1,4 @@
-// The paper's vehicle with a covariance over four fitted parameters.
+// The paper's vehicle with a covariance of four fitted parameters.
 #pragma once
 
 #include "awmr/core/units.h"
@@ -20,7 +20,7 @@ inline Model uncertain_model() {
   return model;
 }
 
-/// One heading step, short: enough for every metric of a heading.
+/// One short heading step: enough for every heading metric.
 inline Scenario short_heading(const std::string& name = "step") {
   return {.name = name,
           .duration_s = 3.0,

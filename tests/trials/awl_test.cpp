@@ -1,5 +1,4 @@
-/// The on-board log: what is read, what is lost and damaged is told, and every way in which a file
-/// can lie.
+/// On-board log: rows read, findings on lost and damaged data, and all kinds of invalid files.
 #include "awmr/trials/awl.h"
 
 #include <gmock/gmock.h>
@@ -150,7 +149,7 @@ TEST(Awl, RowsThatMeasureNothingAreSetAside) {
     if (i < 5) row.fault = 0x08;                                       // no heading yet
     if (i == 20) row.u_mps = std::numeric_limits<float>::quiet_NaN();  // no number
     if (i == 25) row.psi_rad = std::numeric_limits<float>::infinity();
-    if (i == 30) row.fault = 0x20;  // a command that is late is no measurement that is
+    if (i == 30) row.fault = 0x20;  // a late command is not a measurement fault
     bytes += awl_bytes(row);
   }
   const auto log = read_awl(bytes, "a.awl");
@@ -243,16 +242,16 @@ TEST(LogRing, KeepsRowsInOrderAndCountsThoseItHasNoRoomFor) {
     return count;
   };
   for (int i = 0; i < 7; ++i) put();
-  EXPECT_EQ(take(false), 0);  // no whole block yet
+  EXPECT_EQ(take(false), 0);  // no complete block yet
   put();
   EXPECT_EQ(take(false), 8);
-  for (int i = 0; i < 20; ++i) put();  // 16 have room
+  for (int i = 0; i < 20; ++i) put();  // there is room for 16
   EXPECT_EQ(take(false), 8);
   EXPECT_EQ(take(false), 8);
   for (int i = 0; i < 3; ++i) put();
   EXPECT_EQ(take(true), 3);  // the rest of a file
   for (int i = 0; i < 5; ++i) put();
-  EXPECT_EQ(take(false), 5);  // up to the block's end: blocks stay in one piece
+  EXPECT_EQ(take(false), 5);  // up to the block's end: blocks are not split
   for (int turn = 0; turn < 100; ++turn) {
     for (int i = 0; i < 8; ++i) put();
     EXPECT_EQ(take(false), 8);

@@ -1,4 +1,4 @@
-/// Writes on-board logs by the chip's own code, and headers as one likes.
+/// Generates on-board logs with the chip's own code, and arbitrary headers.
 #pragma once
 
 #include <cstring>
@@ -9,7 +9,7 @@
 
 namespace awmr::testing {
 
-/// The columns of LogRow, as awmr_log.h lists them.
+/// Columns of LogRow, as awmr_log.h lists them.
 inline std::string awl_json(const std::string& time_scale = "0.01") {
   std::string json =
       R"({"schema":"awmr.awl/1","parameters_sha256":"abc","row_bytes":64,"columns":[)"
@@ -26,7 +26,7 @@ inline std::string awl_json(const std::string& time_scale = "0.01") {
   return json + "]}";
 }
 
-/// A header with its check sum around any text.
+/// A header with a valid checksum around any text.
 inline std::string awl_header(const std::string& json) {
   std::string bytes(reinterpret_cast<const char*>(kLogMagic), sizeof kLogMagic);
   bytes += json;
@@ -36,7 +36,7 @@ inline std::string awl_header(const std::string& json) {
   return bytes + le(~crc);
 }
 
-/// A sealed row of a vehicle that gets faster and turns.
+/// A sealed row of a vehicle that accelerates and turns.
 inline LogRow awl_row(std::uint32_t sequence) {
   const float t_s = 0.01F * static_cast<float>(sequence);
   LogRow row{};

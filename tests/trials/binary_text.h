@@ -1,4 +1,4 @@
-/// Writes logs of ULog, DataFlash and ROS 2 from their public descriptions, as small as they can be.
+/// Generates minimal ULog, DataFlash and ROS 2 logs from the public format descriptions.
 #pragma once
 
 #include <bit>
@@ -10,7 +10,7 @@
 
 namespace awmr::testing {
 
-/// A number's bytes, the least significant first.
+/// Bytes of a number, least significant first.
 template <class T>
 std::string le(T value) {
   std::string bytes(sizeof(T), '\0');
@@ -52,7 +52,7 @@ inline std::string dataflash_record(std::uint8_t type, const std::string& fields
 
 // CDR
 
-/// A message in CDR: numbers are aligned to their size behind the first four bytes.
+/// A CDR message: numbers are aligned to their size, counted from after the first four bytes.
 class Cdr {
  public:
   template <class T>

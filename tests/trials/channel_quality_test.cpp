@@ -1,5 +1,5 @@
-/// Slow against coarse sensors, spikes, stuck and saturated channels: judged on signals whose defect
-/// is known.
+/// Slow and coarse sensors, spikes, stuck and saturated channels, tested on signals with known
+/// defects.
 #include "awmr/trials/channel_quality.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ std::vector<double> times() {
   return t_s;
 }
 
-/// A command that changes every 1.2 s, and a speed that follows it within 0.3 s.
+/// A command that changes every 1.2 s, and a speed that follows within 0.3 s.
 struct Drive {
   std::vector<double> command;
   std::vector<double> speed;
@@ -86,7 +86,7 @@ TEST(ChannelQuality, ASlowAndCoarseSensorCountsWhereItRepeatsToo) {
   }
   const ChannelQuality q = judged(d);
   EXPECT_EQ(q.repeats, Repeats::kSlow);
-  // A reading every 5 rows, give or take those next to long repeats.
+  // A reading every 5 rows, except next to long repeats.
   EXPECT_NEAR(static_cast<double>(fresh_rows(q)), kRows / 5.0, kRows / 50.0);
 }
 
@@ -147,7 +147,7 @@ TEST(ChannelQuality, RestIsNotStuckWhateverTinyNumberStandsForIt) {
   }
 }
 
-/// A controller keeps the speed to the last digit of a coarse sensor while its command works against the
+/// A controller keeps the speed within one step of a coarse sensor while its command reacts to the
 /// ground.
 TEST(ChannelQuality, ASteadySpeedThatIsKeptIsNotStuck) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {

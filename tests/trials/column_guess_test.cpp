@@ -1,4 +1,4 @@
-/// Guesses of what the columns of a file are: what is sure, what stays open, and why.
+/// Guesses for the columns of a file: confidence, open columns, and reasons.
 #include "awmr/trials/column_guess.h"
 
 #include <gmock/gmock.h>
@@ -61,7 +61,7 @@ TEST(GuessColumns, ReadsColumnsThatAreCalledByTheirUnit) {
               ElementsAre("likely t_s=ms*0.001", "likely speed_mps=kmh*0.2777778",
                           "likely yaw_rate_radps=gyro_dps*0.01745329",
                           "likely steering_cmd_deg=servo_deg"));
-  // Metres per second, perhaps: they do not grow from row to row.
+  // Possibly metres per second: they do not grow from row to row.
   EXPECT_THAT(guesses_of("ms\n1\n1.2\n0.9\n"), IsEmpty());
 }
 

@@ -1,4 +1,4 @@
-/// ArduPilot DataFlash: what is read, and every way in which a file can lie.
+/// ArduPilot DataFlash: signals read, and all kinds of invalid files.
 #include "awmr/trials/dataflash.h"
 
 #include <gmock/gmock.h>

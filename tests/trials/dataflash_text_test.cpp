@@ -1,5 +1,5 @@
-/// ArduPilot's logs as text: the signals of the same drive in the binary form, and every way in which a
-/// line can lie.
+/// ArduPilot's logs as text: the same signals as from the binary form of the drive, and all kinds
+/// of invalid lines.
 #include "awmr/trials/dataflash_text.h"
 
 #include <fmt/format.h>
@@ -40,7 +40,7 @@ std::string binary_imu(std::uint64_t time_us, std::uint8_t instance, float rate)
   return dataflash_record(11, le(time_us) + le(instance) + le(std::int16_t{25}) + le(rate));
 }
 
-/// By name: times and values.
+/// Times and values by signal name.
 using Told =
     std::map<std::string, std::pair<std::vector<std::int64_t>, std::vector<double>>, std::less<>>;
 Told told(const Signals& signals) {

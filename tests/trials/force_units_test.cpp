@@ -1,4 +1,4 @@
-/// Forces in other units: one unit for all tables, and no unit where none is clear.
+/// Forces in other units: one unit for all tables, and none if the unit is unclear.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
 
-/// The refusal of these tables, each of which may be empty; and of a vehicle with this wheel_force.
+/// Refusal of these tables, each of which may be empty, for a vehicle with this wheel_force.
 std::string refusal_of(const std::string& surge, const std::string& turning,
                        const Interval& wheel_force = {-1.0, 1.0},
                        std::vector<ColumnMapping> columns = {}) {
@@ -37,21 +37,21 @@ TEST(ForceUnits, TheLargestForceOfAllTablesDecidesForEachColumn) {
                              HasSubstr("force_right=\"force_right\"*0.003921569"),
                              HasSubstr("turning.csv:2: wheel_force is 89"),
                              HasSubstr("surge.csv:2: tau_speed is"), Not(HasSubstr("percent"))));
-  // Each of the two columns wheel_force is mended by the same mapping.
+  // The same mapping corrects the column wheel_force of both tables.
   const std::string mapping = "wheel_force=\"wheel_force\"*0.003921569";
   EXPECT_NE(refused.find(mapping), refused.rfind(mapping));
 }
 
 TEST(ForceUnits, TauSpeedIsFourTimesTheForceOfAWheel) {
   const std::string turns = kTurns + "10,89,0.088,,\n0,,0.2,0,255\n";
-  // Up to 255 it may be one wheel's counts or the sum of four wheels'; beyond, it is the sum.
+  // Values up to 255 may be one wheel's counts or the sum of four; larger ones are the sum.
   EXPECT_THAT(refusal_of("tau_speed,speed_mps\n102,0.55\n255,1.66\n", turns),
               AllOf(HasSubstr("tau_speed=\"tau_speed\"*0.01568627"),
                     HasSubstr("tau_speed=\"tau_speed\"*0.003921569")));
   EXPECT_THAT(refusal_of("tau_speed,speed_mps\n300,0.55\n800,1.66\n", turns),
               AllOf(Not(HasSubstr("0.01568627")),
                     HasSubstr("tau_speed=\"tau_speed\"*0.003921569', or take it")));
-  // 400 is four times 100 %, and the end of no scale itself.
+  // 400 is four times 100 %, and not the end of a scale itself.
   EXPECT_THAT(refusal_of("tau_speed,speed_mps\n300,0.55\n400,1.66\n", ""),
               AllOf(HasSubstr("look like percent;"),
                     HasSubstr("tau_speed=\"tau_speed\"*0.01', or take it")));
@@ -67,33 +67,33 @@ TEST(ForceUnits, MicrosecondsOfAServoPulseHaveAnOffset) {
   EXPECT_THAT(refusal_of("", kTurns + "0,,0.2,1400,1600\n0,,0.3,1350,1900\n"),
               AllOf(HasSubstr("force_left=\"force_left\"*0.002-3"),
                     HasSubstr("force_right=\"force_right\"*0.002-3")));
-  // The mapping mends it; one that was there is taken in.
+  // The mapping corrects it; an existing one is combined with it.
   EXPECT_EQ(
       refusal_of(surge, "", {-1.0, 1.0}, {*parse_column("wheel_force=\"wheel_force\"*0.002-3")}),
       "");
   EXPECT_THAT(refusal_of("ms,speed_mps\n0.6,0.28\n1.0,1.66\n", "", {-1.0, 1.0},
                          {*parse_column("wheel_force=ms*1000+1000")}),
               HasSubstr("wheel_force=\"ms\"*2-1'"));
-  // A pulse below 900 us there is not: these are counts.
+  // Pulses below 900 us do not exist: these are counts.
   EXPECT_THAT(refusal_of("wheel_force,speed_mps\n500,0.28\n2000,1.66\n", ""),
               Not(HasSubstr("microseconds")));
 }
 
 TEST(ForceUnits, WhereNoUnitIsClearAllAreNamed) {
-  // 89 is 89 % or 35 % of 255, and four times 89 N move 37 kg with 9.6 m/s^2.
+  // 89 is 89 % or 35 % of 255, and four times 89 N accelerate 37 kg by 9.6 m/s^2.
   EXPECT_THAT(refusal_of("wheel_force,speed_mps\n40,0.55\n89,1.66\n", ""),
               AllOf(HasSubstr("percent, 8-bit PWM counts or newtons"),
                     HasSubstr("wheel_force=\"wheel_force\"*0.01' (percent)"),
                     HasSubstr("wheel_force=\"wheel_force\"*0.003921569' (8-bit PWM counts)")));
-  // A mapping says what it is for, also where the other units have none.
+  // A mapping names its unit even if the other units have none.
   EXPECT_THAT(refusal_of("wheel_force,speed_mps\n20,0.55\n38,1.66\n", ""),
               AllOf(HasSubstr("percent, volts"), HasSubstr("newtons"),
                     HasSubstr("wheel_force=\"wheel_force\"*0.01' (percent), or take it")));
-  // 12 is below a fifth of every scale: volts, or newtons, which no factor is known for.
+  // 12 is below a fifth of every scale: volts, or newtons, for which no factor is known.
   EXPECT_THAT(refusal_of("wheel_force,speed_mps\n4,0.55\n12,1.66\n", ""),
               AllOf(HasSubstr("volts"), HasSubstr("newtons"), Not(HasSubstr("map it")),
                     Not(HasSubstr("percent"))));
-  // Four times 1023 N would move it with 111 m/s^2.
+  // Four times 1023 N would accelerate it by 111 m/s^2.
   EXPECT_THAT(refusal_of("wheel_force,speed_mps\n300,0.55\n800,1.66\n", ""),
               Not(HasSubstr("newtons")));
 }

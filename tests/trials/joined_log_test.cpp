@@ -1,5 +1,4 @@
-/// Signals of different rates in one file, several runs in one file, time in other units: what a log
-/// makes of them.
+/// Logs with signals of different rates, with several runs, and with time in other units.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -23,8 +22,8 @@ using ::testing::StartsWith;
 
 std::string number(double value) { return std::to_string(value); }
 
-/// A command every 40 ms, a speed every 10 ms 3 ms later, a position every 200 ms 1 ms later: as one
-/// wide table with empty cells.
+/// A command every 40 ms, a speed every 10 ms with an offset of 3 ms, a position every 200 ms with
+/// an offset of 1 ms: one wide table with empty cells.
 std::string wide_log(int rows = 400) {
   std::string text = "t_s,cmd.left,force_right,steering_cmd_deg,speed_mps,x_m,y_m,note\n";
   for (int ms = 0; ms < rows; ++ms) {
@@ -43,7 +42,7 @@ TEST(JoinedLog, CommandsHoldAndMeasurementsCountInTheirOwnRows) {
   const auto read = accepted(read_log, wide_log(), kLeft);
   const DrivingLog& log = read.set;
   EXPECT_TRUE(log.joined);
-  // 10 commands, 40 speeds, 2 positions; the rows with a note alone are gone.
+  // 10 commands, 40 speeds, 2 positions; rows with only a note are dropped.
   EXPECT_EQ(log.rows(), 52U);
   EXPECT_EQ(log[LogChannel::kSpeed]->fresh_count, 40);
   EXPECT_EQ(log[LogChannel::kX]->fresh_count, 2);
@@ -64,7 +63,7 @@ TEST(JoinedLog, CommandsHoldAndMeasurementsCountInTheirOwnRows) {
 TEST(JoinedLog, ShortStepsBetweenSignalsMakeNoGaps) {
   const auto read = accepted(read_log, wide_log(4000), kLeft);
   EXPECT_THAT(codes_of(read.findings), Each(Not(StartsWith("log-gap"))));
-  // Speeds 10 ms apart make most of the time, the 3 ms and 7 ms about the commands little.
+  // Speeds 10 ms apart cover most of the time, the 3 ms and 7 ms steps around the commands little.
   EXPECT_NEAR(read.set.median_step_s(), 10e-3, 1e-9);
   EXPECT_THAT(windows_of(read.set, 1.0), SizeIs(4));
 }
@@ -133,7 +132,7 @@ TEST(JoinedLog, ACommandThatIsNotRenewedForLongIsAWarning) {
   EXPECT_THAT(codes_of(read.findings), Contains("command-held@0"));
 }
 
-/// Two runs of this many rows each, the second with times of its own.
+/// Two runs of this many rows each, the second with its own times.
 std::string two_runs(int rows, bool numbered) {
   std::string text = std::string(numbered ? "run," : "") +
                      "t_s,force_left,force_right,steering_cmd_deg,speed_mps\n";

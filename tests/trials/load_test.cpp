@@ -1,4 +1,4 @@
-/// Trial files read and joined.
+/// Reading and combining trial files.
 #include "awmr/trials/load.h"
 
 #include <gmock/gmock.h>
@@ -24,7 +24,7 @@ TrialFiles paper_files() {
           .coastdowns = {kPaper / "coastdown.csv"}};
 }
 
-/// The faults of a surge or turning table with these rows.
+/// Faults of a surge or turning table with these rows.
 std::string refusal_of(const std::string& name, const std::string& text, bool as_is = false) {
   const ScratchFile file(name, text);
   TrialFiles files{.vehicle = paper_vehicle(), .options = {.columns = {}, .as_is = as_is}};
@@ -58,7 +58,7 @@ TEST(LoadTrials, SteeringInRadiansIsRefused) {
 }
 
 TEST(LoadTrials, SpeedsAndTimesInOtherUnitsAreRefusedWithTheMappingThatMends) {
-  // The same three runs, 0.5, 1 and 2 m/s over 10 m, as people write them.
+  // The same three runs, 0.5, 1 and 2 m/s over 10 m, in common notations.
   const std::pair<const char*, const char*> cases[] = {
       {"tau_speed,speed_mps,distance_m,elapsed_s\n1,1.8,10,20\n2,3.6,10,10\n4,7.2,10,5\n",
        "speed_mps=\"speed_mps\"*0.2777778"},
@@ -107,7 +107,7 @@ TEST(LoadTrials, AStopInMillisecondsIsRefused) {
 TEST(LoadTrials, ACoastDownThatBeginsFasterThanTheSurgeRunsAllowIsRefusedWithTheLikelyUnit) {
   const ScratchFile file("coastdown.csv", "initial_speed_mps,stop_time_s\n5.98,0.573\n");
   TrialFiles files{.vehicle = paper_vehicle(), .surge = kPaper / "surge.csv"};
-  files.vehicle.wheel_force = {0.0, 0.5};  // what the fastest run used
+  files.vehicle.wheel_force = {0.0, 0.5};  // force of the fastest run
   files.coastdowns = {file.path()};
   const auto trials = load_trials(files);
   ASSERT_FALSE(trials);
@@ -116,7 +116,7 @@ TEST(LoadTrials, ACoastDownThatBeginsFasterThanTheSurgeRunsAllowIsRefusedWithThe
                     HasSubstr("initial_speed_mps=\"initial_speed_mps\"*0.2777778")));
   files.options.as_is = true;
   EXPECT_TRUE(load_trials(files));
-  // A downhill start within the runs' own reach stands.
+  // A downhill start within the speed range of the runs is accepted.
   files.options.as_is = false;
   const ScratchFile fast("coastdown.csv", "initial_speed_mps,stop_time_s\n1.9,0.6\n");
   files.coastdowns = {fast.path()};

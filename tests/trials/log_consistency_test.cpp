@@ -1,6 +1,5 @@
-/// Wrong units, signs and sides are found before any fit, each by its factor, and good logs raise no
-/// alarm. The logs come from first-order responses with noise, which share nothing with the model
-/// that is fitted.
+/// Wrong units, signs and sides are detected before any fit, each by its factor, and correct logs
+/// give no finding. The logs are first-order responses with noise, independent of the fitted model.
 #include "awmr/trials/log_consistency.h"
 
 #include <gmock/gmock.h>
@@ -23,7 +22,7 @@ using ::testing::HasSubstr;
 constexpr double kStep_s = 0.02;
 constexpr std::size_t kRows = 2000;
 
-/// What one log is made of; the defaults are a sound one.
+/// Properties of a log; the defaults give a correct one.
 struct Making {
   bool position = true;
   bool heading = true;
@@ -31,7 +30,7 @@ struct Making {
   bool sides_apart = true;
   double noise = 1.0;
   double gyro_bias_radps = 0.0;
-  bool combined = false;  ///< the sides make the moment that the steering makes
+  bool combined = false;  ///< the sides produce the same moment as the steering
 };
 
 Measured measured(std::vector<double> values) {
@@ -110,7 +109,7 @@ TEST(LogConsistency, AHundredGoodLogsRaiseNoAlarm) {
   }
 }
 
-/// The same drive with its second half pushed and driven backwards.
+/// The same drive with its second half commanded and driven backwards.
 DrivingLog reversing_log(std::uint64_t seed, bool is_signed) {
   DrivingLog log = sound_log(seed);
   std::vector<double>& speed = log[LogChannel::kSpeed]->value;
@@ -199,7 +198,7 @@ TEST(LogConsistency, TheFirstTenSecondsOfAHundredGoodLogsRaiseNoAlarm) {
   }
 }
 
-/// Every n-th value, held until the next.
+/// Keeps every n-th value, held until the next.
 void hold(LogChannel channel, std::size_t n, DrivingLog& log) {
   Measured& held = *log[channel];
   held.held = true;
@@ -225,7 +224,7 @@ TEST(LogConsistency, SensorsSlowerThanTheLogHaveNoOtherUnit) {
   }
 }
 
-/// Every n-th row.
+/// Keeps every n-th row.
 DrivingLog thinned(const DrivingLog& log, std::size_t n) {
   DrivingLog thin = log;
   const auto thin_out = [n](auto& values) {
@@ -286,8 +285,8 @@ struct WrongTurn {
   std::function<void(DrivingLog&)> make;
   std::string column;
   std::string words;
-  /// In so many of ten drives the first ten seconds tell it. A unit shows at once, a sign once the
-  /// vehicle has been driven so that it matters.
+  /// Minimum number of ten drives whose first ten seconds reveal it. A unit shows at once, a sign
+  /// only when the drive makes it observable.
   int early = 9;
 };
 
@@ -411,7 +410,7 @@ TEST(LogConsistency, AFixThatComesBackAndOneAfterADropoutAreNoOtherRun) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     DrivingLog log = sound_log(seed);
     channel(log, LogChannel::kX)[700] += 40.0;
-    // Two seconds without a fix, in which the vehicle drives on.
+    // Two seconds without a fix while the vehicle continues.
     for (const LogChannel c : {LogChannel::kX, LogChannel::kY}) {
       for (std::size_t i = 1000; i < 1100; ++i) log[c]->fresh[i] = false;
     }
@@ -420,7 +419,7 @@ TEST(LogConsistency, AFixThatComesBackAndOneAfterADropoutAreNoOtherRun) {
   }
 }
 
-/// A small rover turns by more than a radian in the second that a window takes.
+/// A small rover turns by more than a radian within a window of one second.
 TEST(LogConsistency, OfAVehicleThatTurnsQuicklyAMirroredYIsNamed) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     DrivingLog log = sound_log(seed, {.sides_apart = false});
@@ -496,7 +495,7 @@ TEST(LogConsistency, ASpeedOrRateThatNoVehicleHasIsImplausibleByItself) {
 }
 
 TEST(LogConsistency, AGyroInDegreesIsFoundByTheSteeringAngleWithoutAHeading) {
-  constexpr double kGently = 0.15;  // so that no rate is beyond what vehicles do
+  constexpr double kGently = 0.15;  // so that no rate is implausible for a vehicle
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     DrivingLog log =
         sound_log(seed, {.position = false, .heading = false, .sides_apart = false, .noise = 0.2});

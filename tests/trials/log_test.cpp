@@ -1,4 +1,4 @@
-/// Driving logs: what is read, what is refused, what counts as measured; steady runs found in them.
+/// Driving logs: accepted and refused data, measured rows, and steady runs in logs.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ using ::testing::HasSubstr;
 using ::testing::SizeIs;
 using ::testing::StartsWith;
 
-/// Twelve rows at 10 Hz with these further columns, each a function of the row.
+/// Twelve rows at 10 Hz with these additional columns, each a function of the row.
 template <class Cell>
 std::string log_text(const std::string& columns, Cell cell, int rows = 12) {
   std::string text = "t_s,force_left,force_right,steering_cmd_deg," + columns + "\n";
@@ -96,7 +96,7 @@ TEST(Log, UnwrapsTheHeadingEitherWay) {
 }
 
 TEST(Log, CountsOnlyNewValuesOfASlowSensor) {
-  // Positions each third row, y now and then the same by chance.
+  // Positions in every third row; y sometimes repeats by chance.
   const auto read = accepted_log(log_text(
       "x_m,y_m,speed_mps",
       [](int i) {
@@ -120,7 +120,7 @@ TEST(Log, TakesASignalAtRestAsMeasured) {
 
 TEST(Log, TurnsLatitudeAndLongitudeIntoMetres) {
   // On the WGS-84 ellipsoid at the equator a degree of longitude is 111319.49 m, one of latitude
-  // there 110574.3 m; over 1e-4 of a degree the Earth's curve is below a micrometre.
+  // 110574.3 m. Over 1e-4 of a degree the Earth's curvature is below a micrometre.
   const auto read = accepted_log(log_text("latitude_deg,longitude_deg", [](int i) {
     return "0.000" + std::to_string(i % 10) + ",0.00" + std::to_string(10 + i);
   }));
@@ -165,7 +165,7 @@ TEST(Log, AHeldSignalsDelayedMeanHasItsDerivative) {
   const HeldSignal signal(t, value);
   // Over [1.2, 2.2] with a delay of 0.5: [0.7, 1.7] is 0.3 of 1 and 0.7 of 3.
   EXPECT_NEAR(delayed_mean(signal, 1.2, 1.0, 0.5), 0.3 * 1.0 + 0.7 * 3.0, 1e-12);
-  // Beyond the ends the end's value holds.
+  // Beyond the ends the end value holds.
   EXPECT_NEAR(delayed_mean(signal, 0.0, 1.0, 2.0), 1.0, 1e-12);
   EXPECT_NEAR(delayed_mean(signal, 5.0, 1.0, 0.0), 5.0, 1e-12);
 }

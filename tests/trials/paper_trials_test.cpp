@@ -1,4 +1,4 @@
-/// The paper's own tables: what is read of them, and each contradiction they hold.
+/// The paper's own tables: the rows read, and each contradiction in them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-/// Vehicles and tables of runs as there are, drawn at random: what no check may call wrong. The physics is
-/// written here once more, and otherwise than in the library: a bicycle with slip, sides that scrub.
+/// Random realistic vehicles and tables of runs, which no check may refuse. The physics differs
+/// from the library's on purpose: a bicycle with slip, and differential drive with scrub.
 #pragma once
 
 #include <fmt/format.h>
@@ -15,20 +15,20 @@ namespace awmr::testing {
 
 struct Campaign {
   Vehicle vehicle;
-  std::string surge;    ///< tables as they are written
-  std::string turning;  ///< yaw_rate_radps in the unit that was asked for
+  std::string surge;    ///< tables as written to files
+  std::string turning;  ///< yaw_rate_radps in the requested unit
 };
 
-/// What is drawn of a vehicle beside its file.
+/// Random properties of a vehicle that are not in its file.
 struct DrawnVehicle {
   double top_speed_mps;  ///< at F' = 1
   double steepness;      ///< u ~ F'^steepness
   double wheelbase_m;
-  double slows;               ///< the share of its speed that a turn leaves
+  double slows;               ///< fraction of the speed that remains in a turn
   double characteristic_mps;  ///< of understeer
-  double friction;            ///< of the ground
+  double friction;            ///< of tyres on the ground
   double agility;             ///< above 1: oversteer, or rear wheels that steer as well
-  double scrubs;              ///< the share of the rolling difference that scrub leaves
+  double scrubs;              ///< fraction of the rolling speed difference left by scrub
 };
 
 class CampaignDraw {
@@ -65,8 +65,8 @@ class CampaignDraw {
     }
     return v;
   }
-  /// From a crawl of a third of its length a second to a racing model car at 30, of 25 m/s at most; without
-  /// steering at 15, of 8 m/s at most.
+  /// From a crawl of a third of its length per second to a racing model car at 30 lengths/s, at
+  /// most 25 m/s. Without steering up to 15 lengths/s, at most 8 m/s.
   DrawnVehicle behaviour() {
     const double length = made_.vehicle.length_m;
     const double top = made_.vehicle.has_steering()
@@ -98,7 +98,7 @@ class CampaignDraw {
     }
     return text;
   }
-  /// A bicycle: r = u tan(d)/L / (1 + (u/u_ch)^2), and no more than grip holds on its circle, r u <= mu g.
+  /// A bicycle: r = u tan(d)/L / (1 + (u/u_ch)^2), limited by grip on its circle, r u <= mu g.
   std::string steered_table() {
     std::string text = "steering_deg,wheel_force,yaw_rate_radps\n";
     for (const double share : {0.25, 0.5, 0.75, 1.0}) {
@@ -116,7 +116,7 @@ class CampaignDraw {
     }
     return text;
   }
-  /// Sides that roll as they would straight ahead, but for what scrub takes.
+  /// Sides roll as they would straight ahead, reduced by scrub.
   std::string side_table() {
     std::string text = "force_left,force_right,yaw_rate_radps\n";
     const std::pair<double, double> runs[] = {{-0.3, 0.3}, {-0.5, 0.5}, {-0.8, 0.8}, {0.2, 0.5},

@@ -1,4 +1,4 @@
-/// A stream in pieces of any size becomes the log that it was; damaged lines stay as comments.
+/// A stream in pieces of any size becomes the original log; damaged lines stay as comments.
 #include "awmr/trials/recording.h"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-/// Rows that repeat an earlier one are told, unless runs that are read so coarsely agree by chance.
+/// Repeated rows are reported, unless coarse readings explain them by chance.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,14 +13,14 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-/// How a table of runs was timed.
+/// Timing of a table of runs.
 struct Timing {
-  double scatter;  ///< of a run's time, standard deviation over the time
-  double hand_s;   ///< of the stop watch
+  double scatter;  ///< relative standard deviation of a run's time
+  double hand_s;   ///< error of the stop watch
   int decimals;
 };
 
-/// Ten metres at five forces, driven so many times each.
+/// Ten metres at five forces, with `runs` runs each.
 std::string surge_text(std::uint64_t seed, int runs, const Timing& timing) {
   Random random(seed, 0);
   std::string text = "tau_speed,distance_m,elapsed_s\n";
@@ -34,7 +34,7 @@ std::string surge_text(std::uint64_t seed, int runs, const Timing& timing) {
   return text;
 }
 
-/// The messages of `repeated-rows`, of which there is at most one.
+/// Messages of `repeated-rows`; there is at most one.
 template <class Reader>
 std::string told_of(Reader read, const std::string& text) {
   std::string told;
@@ -47,11 +47,12 @@ std::string told_of(Reader read, const std::string& text) {
   return told;
 }
 
-/// The table with its rows once more.
+/// The table with its rows duplicated.
 std::string copied(const std::string& text) { return text + text.substr(text.find('\n') + 1); }
 
 TEST(RepeatedRows, ATableThatStandsTwiceIsNamedWithItsLines) {
-  // Times to 0.01 s; by chance five pairs of runs at s = 0.3 % of 5 to 18 s hold 0.7 that are the same.
+  // Times to 0.01 s: five pairs of runs with s = 0.3 % of 5 to 18 s contain 0.7 equal ones by
+  // chance.
   const std::string table = surge_text(1, 1, {0.005, 0.0, 2});
   EXPECT_EQ(told_of(read_surge, table), "");
   EXPECT_THAT(told_of(read_surge, copied(table)),
@@ -60,13 +61,13 @@ TEST(RepeatedRows, ATableThatStandsTwiceIsNamedWithItsLines) {
 }
 
 TEST(RepeatedRows, ACopyToTheMillisecondIsNamed) {
-  // s = 0.3 % of 100 s: two runs are the same to 1 ms with 0.28 0.001/0.3 = 0.0009.
+  // s = 0.3 % of 100 s: two runs are equal to 1 ms with probability 0.28 0.001/0.3 = 0.0009.
   const std::string text = "tau_speed,distance_m,elapsed_s\n0.2,10,100.123\n0.4,10,50.456\n";
   EXPECT_THAT(told_of(read_surge, text + "0.2,10,100.123\n"), HasSubstr("1 of 3 rows"));
   EXPECT_EQ(told_of(read_surge, text + "0.2,10,100.124\n"), "");
-  // The same time at another force is another run.
+  // An equal time at another force is another run.
   EXPECT_EQ(told_of(read_surge, text + "0.3,10,100.123\n"), "");
-  // A speed that differs as well.
+  // So is one with a different speed.
   EXPECT_EQ(told_of(read_surge,
                     "tau_speed,distance_m,elapsed_s,speed_mps\n0.2,10,100.123,0.1\n"
                     "0.2,10,100.123,0.11\n"),
@@ -74,7 +75,8 @@ TEST(RepeatedRows, ACopyToTheMillisecondIsNamed) {
 }
 
 TEST(RepeatedRows, ASingleCopyIsNamedWhereItIsLessLikelyThanOneInAHundred) {
-  // Two readings of s = 0.003 t to q = 1 ms are the same with q/(2 s sqrt(pi)) = 0.094 s/t: 1 in 100 at 9.4 s.
+  // Two readings with s = 0.003 t, rounded to q = 1 ms, are equal with probability q/(2 s sqrt(pi))
+  // = 0.094 s/t: 1 in 100 at 9.4 s.
   EXPECT_THAT(told_of(read_surge, "tau_speed,distance_m,elapsed_s\n1,10,9.913\n1,10,9.913\n"),
               HasSubstr("1 of 2 rows"));
   EXPECT_EQ(told_of(read_surge, "tau_speed,distance_m,elapsed_s\n1,10,8.913\n1,10,8.913\n"), "");
@@ -96,7 +98,7 @@ TEST(RepeatedRows, TurnsAndStopsAreJudgedAsWell) {
       "15,0.35,2,83.081\n20,0.35,2,58.741\n";
   EXPECT_EQ(told_of(kReadTurning, turns), "");
   EXPECT_THAT(told_of(kReadTurning, copied(turns)), HasSubstr("3 of 6 rows"));
-  // The turn to the other side in the same time is another run.
+  // A turn to the other side in the same time is another run.
   EXPECT_EQ(told_of(kReadTurning, turns + "-10,0.35,2,142.613\n"), "");
   const std::string stops =
       "initial_speed_mps,stop_time_s\n1.66,0.573\n1.2,0.512\n0.9,0.468\n0.5,0.391\n";
@@ -111,13 +113,13 @@ TEST(RepeatedRows, TurnsAndStopsAreJudgedAsWell) {
 }
 
 TEST(RepeatedRows, CoarseReadingsAgreeByChance) {
-  // To 0.1 s, and to two decimals of a speed that repeats to 0.3 %: half of all pairs are the same.
+  // Times to 0.1 s, and speeds of two decimals that repeat to 0.3 %: half of all pairs are equal.
   EXPECT_EQ(told_of(read_surge,
                     "tau_speed,distance_m,elapsed_s\n1,10,13.9\n1,10,13.9\n1.4,10,9.3\n"
                     "1.4,10,9.3\n2,10,6\n2,10,6\n"),
             "");
   EXPECT_EQ(told_of(read_surge, "tau_speed,speed_mps\n1,0.72\n1,0.72\n1.4,1.03\n1.4,1.03\n"), "");
-  // A speed that was computed from such times has digits, but no more readings.
+  // A speed computed from such times has more digits but no more resolution.
   EXPECT_EQ(told_of(read_surge,
                     "tau_speed,speed_mps\n1,0.719424460431655\n1,0.719424460431655\n"
                     "1.4,1.07526881720430\n1.4,1.06382978723404\n"),

@@ -1,4 +1,4 @@
-/// Bags of ROS 2: the usual messages, bags that lie, bags in parts, tables with a topic each.
+/// ROS 2 bags: the usual messages, invalid bags, split bags, tables with one topic each.
 #include <gmock/gmock.h>
 #include <sqlite3.h>
 
@@ -30,7 +30,7 @@ struct BagTopic {
   std::string type;
 };
 
-/// A bag as rosbag2 lays it out; `more` is run at the end.
+/// Writes a bag in the layout of rosbag2; `more` is SQL executed at the end.
 void write_bag(const std::filesystem::path& path, const std::vector<BagTopic>& topics,
                const std::vector<BagMessage>& messages, const std::string& more = "") {
   sqlite3* database = nullptr;

@@ -1,5 +1,5 @@
-/// SysId's JSON: runs, units and signs of a drive whose motion is known, and every way in which a record can
-/// lack what a log needs.
+/// SysId's JSON: runs, units and signs of a drive with known motion, and all kinds of incomplete
+/// records.
 #include "awmr/trials/sysid.h"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-/// Mappings of trials: those of the vehicle, and those that are unknown or unused.
+/// Column mappings of trials: from the vehicle, unknown ones, unused ones.
 #include "awmr/trials/trial_columns.h"
 
 #include <gmock/gmock.h>
@@ -13,7 +13,7 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-/// Loads a surge table `tau,V` with these mappings; the error's text, empty where it is accepted.
+/// Loads a surge table `tau,V` with these mappings and returns the error text; empty if accepted.
 std::string refusal_of(const std::vector<std::string>& mappings,
                        const std::map<std::string, std::string>& vehicle_columns = {}) {
   const ScratchFile file("surge.csv", "tau,V\n0.5,0.9\n1,2.7\n2,5.4\n");

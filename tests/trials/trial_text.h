@@ -1,4 +1,4 @@
-/// Trials from text, and what the readers say of it.
+/// Trials from text, and the findings of their readers.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -24,7 +24,7 @@ struct Read {
   std::vector<Finding> findings;
 };
 
-/// Reads text that has to be accepted.
+/// Reads text that must be accepted.
 template <class Reader>
 auto accepted(Reader read, const std::string& text, const TrialOptions& options = {}) {
   const ScratchFile file("trial.csv", text);
@@ -36,7 +36,7 @@ auto accepted(Reader read, const std::string& text, const TrialOptions& options 
   return Read<Set>{set ? *set : Set{}, findings};
 }
 
-/// The faults with which text is refused, as `LINE:COLUMN: MESSAGE`; empty where it is accepted.
+/// Faults of refused text, as `LINE:COLUMN: MESSAGE`; empty if it is accepted.
 template <class Reader>
 std::vector<std::string> faults_of(Reader read, const std::string& text,
                                    const TrialOptions& options = {}) {

@@ -1,4 +1,4 @@
-/// Yaw rates in other units are named before any fit; those of vehicles as there are never.
+/// Wrong units of yaw rates are reported before any fit; realistic vehicles are never refused.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ constexpr double kDegree = 57.29577951308232;
 constexpr double kPerMinute = 9.549296585513721;
 constexpr Drive kDrives[] = {Drive::kFourWheel, Drive::kFrontWheel, Drive::kDifferential};
 
-/// The refusal of tables, of which there may be no surge runs; empty where they are taken.
+/// Refusal of tables, with or without surge runs; empty if they are accepted.
 std::string refusal_of(const Vehicle& vehicle, const std::string& surge,
                        const std::string& turning) {
   const ScratchFile surge_file("surge.csv", surge);
@@ -32,7 +32,7 @@ std::string refusal_of(const Vehicle& vehicle, const std::string& surge,
   return trials ? "" : to_text(trials.error());
 }
 
-/// How many of so many drawn campaigns, all rates times `factor`, are refused with `words`.
+/// Number of random campaigns, with all rates times `factor`, that are refused with `words`.
 int named(Drive drive, double factor, bool with_surge, int campaigns, std::string_view words) {
   int count = 0;
   for (int i = 0; i < campaigns; ++i) {
@@ -48,7 +48,7 @@ int named(Drive drive, double factor, bool with_surge, int campaigns, std::strin
   return count;
 }
 
-/// The paper's Table 3, the rates times `factor`.
+/// The paper's Table 3 with the rates times `factor`.
 std::string paper_turns(double factor) {
   std::string text = "steering_deg,wheel_force,yaw_rate_radps\n";
   const std::pair<double, double> runs[] = {{5, 0.038}, {10, 0.088}, {15, 0.15}, {20, 0.22}};
@@ -111,7 +111,7 @@ TEST(TurnUnits, AMomentThatIsPrintedWithoutAnAngleSaysNothingOfTheRate) {
             "");
 }
 
-/// Where the bounds lie, by the formulas of turn_evidence.h worked out once more.
+/// The bounds, computed independently from the formulas of turn_evidence.h.
 TEST(TurnUnits, TheBoundsAreWhereTheyAreSaidToBe) {
   const std::string surge = "wheel_force,speed_mps\n0.2,0.5\n0.4,1.0\n0.8,3.0\n";
   const double tan20 = std::tan(std::acos(-1.0) / 9.0);
@@ -152,7 +152,7 @@ TEST(TurnUnits, TheBoundsAreWhereTheyAreSaidToBe) {
   EXPECT_THAT(sides_without(25.1), HasSubstr("more than 25 rad/s"));
 }
 
-/// 200 vehicles of each drive, with surge runs and without: 1200 campaigns.
+/// 200 vehicles of each drive, with and without surge runs: 1200 campaigns.
 TEST(TurnUnits, NoGoodTableIsRefused) {
   for (const Drive drive : kDrives) {
     for (const bool with_surge : {true, false}) {
@@ -161,7 +161,7 @@ TEST(TurnUnits, NoGoodTableIsRefused) {
   }
 }
 
-/// What random_campaign.h draws is the same in every run, so that the counts are exact.
+/// random_campaign.h is reproducible, so the counts are exact.
 TEST(TurnUnits, WrongTablesOfDrawnVehiclesAreNamed) {
   constexpr int kCampaigns = 50;
   for (const Drive drive : kDrives) {

@@ -111,7 +111,7 @@ TEST(TurningTrial, RefusesNegativeAndImpossibleCellsAllAtOnce) {
                   StartsWith("5:11: "), StartsWith("6:1: ")));
 }
 
-/// A vehicle without steering of half_track_m 0.36.
+/// A vehicle without steering with half_track_m 0.36.
 const auto kReadSides = [](const std::filesystem::path& path, const TrialOptions& options,
                            std::vector<Finding>& findings) {
   Vehicle vehicle = paper_vehicle();
@@ -158,7 +158,7 @@ TEST(TurningTrial, RefusesRunsThatTurnBothWaysOrContradictThemselves) {
               ElementsAre(HasSubstr("no yaw rate")));
   EXPECT_THAT(faults_of(kReadTurning, header + steered + "0,,0.2,0.3,0.1\n"),
               ElementsAre(HasSubstr("signs must agree")));
-  // What a steered run leaves empty is missing, as in a table of steered runs alone.
+  // Cells required of a steered run are reported as missing, as in a table of only steered runs.
   EXPECT_THAT(faults_of(kReadTurning, header + steered + "10,,0.1,,\n0,,0.2,0.1,0.3\n"),
               ElementsAre(AllOf(StartsWith("3:4: "), HasSubstr("the cell is empty"))));
   EXPECT_THAT(faults_of(kReadTurning, "steering_deg,force_left,yaw_rate_radps\n0,0.1,0.2\n"),
@@ -178,7 +178,7 @@ TEST(TurningTrial, KeepsTurnsByTheSidesThatStoodStill) {
   EXPECT_DOUBLE_EQ(read.set.standing[0].tau_turn_m, 2.0 * 0.36 * 0.2);
   EXPECT_EQ(read.set.standing[0].line, 3);
   EXPECT_EQ(read.set.set_aside, 0);
-  // Where nothing steered, they tell nothing.
+  // Without steered turns they give no information.
   const auto alone = accepted(kReadTurning,
                               "steering_deg,force_left,force_right,turns,elapsed_s\n"
                               "0,0.1,0.3,0,20\n0,0.2,0.1,1,30\n");
@@ -216,12 +216,12 @@ TEST(TurningTrial, NeedsARateInEachRowAndLeavesNoneOut) {
                         "steering_deg,wheel_force,yaw_rate_radps\n10,0.35,0.1\n"
                         "15,0.35,\n20,0.35,0.2\n20,0.35,0.2\n20,0.35,0.2\n"),
               ElementsAre(AllOf(StartsWith("3:9: "), HasSubstr("no yaw rate"))));
-  // A row of nothing but its angle was left out without a word.
+  // An earlier version silently dropped a row with only an angle.
   EXPECT_THAT(faults_of(kReadTurning,
                         "steering_deg,wheel_force,yaw_rate_radps\n10,0.35,0.1\n"
                         "15,,\n20,0.35,0.2\n"),
               ElementsAre(StartsWith("3:5: "), StartsWith("3:4: ")));
-  // A formula keeps nothing of the row before.
+  // A formula does not reuse values of the previous row.
   EXPECT_THAT(faults_of(kReadTurning, "steering_deg,wheel_force,a,b\n10,0.35,0.1,1\n15,0.35,,1\n",
                         {.columns = {*parse_column("yaw_rate_radps=a*b")}}),
               ElementsAre(HasSubstr("no yaw rate")));

@@ -1,4 +1,4 @@
-/// PX4 ULog: what is read, and every way in which a file can lie.
+/// PX4 ULog: signals read, and all kinds of invalid files.
 #include "awmr/trials/ulog.h"
 
 #include <gmock/gmock.h>

@@ -94,7 +94,7 @@ TEST(Constraints, KnowTheAuthorityOfFrontWheelDriveAndOfMotorsWithBackEmf) {
   EXPECT_NEAR(turning_authority_m(context.own(), context.speed_mps),
               0.35 * 1.3268 * std::tan(std::acos(-1.0) / 9.0), kRounding);
   context.plant.back_emf_s_per_m = 0.2;
-  // Of the voltage 0.2 more is taken by 1 m/s.
+  // At 1 m/s back-EMF takes another 0.2 of the voltage.
   EXPECT_NEAR(turning_authority_m(context.own(), context.speed_mps),
               2.0 * 0.36 * (1.0 - 1.3268 / 2.0 - 0.2), kRounding);
 }
@@ -157,7 +157,8 @@ TEST(Constraints, HoldForThePapersGains) {
   }
 }
 
-/// Of linear resistance g3 = a I'z r the law makes w = (a - lambda - k) n - lambda k n_psi of noise.
+/// For linear resistance g3 = a I'z r the law gives w = (a - lambda - k) n - lambda k n_psi from
+/// noise.
 TEST(SteeringRate, IsThatOfIndependentReadingsThroughTheLaw) {
   ConstraintContext context = paper_context(ReachingForm::kStrict, 0.8);
   context.plant.yaw = {.alpha = 0.3, .beta = 1.0};
@@ -168,7 +169,7 @@ TEST(SteeringRate, IsThatOfIndependentReadingsThroughTheLaw) {
   const double w = std::hypot(3.0 * k * 0.02, (a - 3.0 - k) * 0.01);
   const double per_moment = 2.0 / (0.35 * 1.3268);  // 2/(l_f g1(1 m/s))
   const double expected = per_moment * 0.0128 * std::sqrt(2.0) * w / 0.01 * 180.0 / std::acos(-1.0);
-  // The midpoint rule over +-6 deviations leaves 1e-8 of the tails.
+  // The midpoint rule over +-6 deviations neglects 1e-8 in the tails.
   EXPECT_NEAR(steering_rate_rms_degps(kPaperGains, context), expected, 1e-6 * expected);
   context.limits.steering_rate_rms_degps = expected - 1.0;
   EXPECT_LT(named(constraints_of(kPaperGains, context), "steering rate").margin, 0.0);
@@ -176,7 +177,7 @@ TEST(SteeringRate, IsThatOfIndependentReadingsThroughTheLaw) {
   EXPECT_EQ(steering_rate_rms_degps(kPaperGains, context), 0.0);
 }
 
-/// No pair of poles whose slower one is faster by a twentieth meets every constraint.
+/// No pole pair whose slower pole is faster by a twentieth meets every constraint.
 TEST(PolePlacement, IsTheFastestThatTheConstraintsAllow) {
   ConstraintContext context = paper_context(ReachingForm::kStrict, 0.8);
   context.latency_s = 0.02;
@@ -211,7 +212,7 @@ TEST(PolePlacement, KeepsTheConstraintsOfEachDraw) {
 TEST(SampledLoop, IsTheDoubleIntegratorsWithoutResistanceAndServo) {
   // a = 0, s = 1: psi+ = psi + T r + T^2/2 w, r+ = r + T w, w = -(l + k) r - l k psi gives
   //   z^2 - (2 - T (l + k) - T^2/2 l k) z + (1 - T (l + k) + T^2/2 l k) = 0.
-  // The servo hangs on the side with its own real pole, damping 1.
+  // The servo adds its own real pole, damping 1.
   const double l = 8.0;
   const double k = 150.0;
   const double t = 0.01;
@@ -230,7 +231,7 @@ TEST(SampledLoop, IsTheDoubleIntegratorsWithoutResistanceAndServo) {
                                         .servo_time_constant_s = 0.02,
                                         .sample_time_s = t,
                                         .direct_share = 1.0});
-  // Eigenvalues of a 3 by 3 matrix of size about 1, well apart: a few hundred roundings at most.
+  // Well-separated eigenvalues of a 3 by 3 matrix of size about 1: at most a few hundred roundings.
   EXPECT_NEAR(damping, expected, 1e-10);
   EXPECT_LT(damping, 0.5);  // z = -0.58: rings with every sample
 }
@@ -282,8 +283,8 @@ TEST(SampledLoop, LosesDampingWithLambdaPlusKTimesTheLag) {
 }
 
 TEST(Constraints, TakeTheWorstDampingOfAllModesAndYawRates) {
-  // The worst is that of steering (direct share 0), at k = 190 that of the differential mode (1); the
-  // combined mode lies between them.
+  // The worst is steering (direct share 0), at k = 190 the differential mode (1); the combined mode
+  // is in between.
   const ConstraintContext context = paper_context(ReachingForm::kStrict, 0.8);
   for (const double k : {2.0, 10.0, 40.0, 120.0, 190.0}) {
     const Gains<double> gains{{3.0, k, 1.0}, {5.0, 1.2}};
@@ -305,7 +306,7 @@ TEST(Constraints, TakeTheWorstDampingOfAllModesAndYawRates) {
   }
 }
 
-/// A sample of the loop from one state to the next, by a thousand Euler-Heun steps.
+/// Integrates the loop over one sample with a thousand Euler-Heun steps.
 Eigen::Vector3d after_a_sample(const SampledHeadingLoop& loop, Eigen::Vector3d x) {
   const double w = (loop.fed_forward_rate - loop.lambda - loop.reaching_rate) * x(1) -
                    loop.lambda * loop.reaching_rate * x(0);
@@ -325,8 +326,8 @@ Eigen::Vector3d after_a_sample(const SampledHeadingLoop& loop, Eigen::Vector3d x
   return x;
 }
 
-/// What the law knows of the plant, whose a is 25 1/s: all, too little of its inertia, too much of its
-/// resistance.
+/// Knowledge of the law about the plant, whose a is 25 1/s: exact, too small an inertia, too large
+/// a resistance.
 struct Known {
   double fed_forward_rate;
   double input_gain;
@@ -357,7 +358,7 @@ TEST(SampledLoop, IsTheEquationsOfItsHeaderWhateverTheDirectShare) {
   }
 }
 
-/// The largest |z| of the loop with latency, motor lag and the observer of control/, by the growth of
+/// Largest |z| of the loop with latency, motor lag and the observer of control/, from the growth of
 /// its free motion.
 double growth(const SampledHeadingLoop& loop) {
   struct Motion {
@@ -393,7 +394,7 @@ double growth(const SampledHeadingLoop& loop) {
       x = {x.psi + 0.5 * h * (a.psi + b.psi), x.r + 0.5 * h * (a.r + b.r),
            x.servo + 0.5 * h * (a.servo + b.servo), x.motor + 0.5 * h * (a.motor + b.motor)};
     }
-    // Scaled back now and again, so that nothing over- or underflows.
+    // Rescaled regularly to avoid overflow and underflow.
     if (k % 100 != 99) continue;
     const double size = std::hypot(std::hypot(x.psi, x.r), std::hypot(x.servo, x.motor));
     if (k >= kSamples / 2) log_size += std::log(size);
@@ -458,7 +459,7 @@ TEST(SampledLoop, IsStableExactlyWhereItsMotionUnderAnObserverDecays) {
 }
 
 TEST(SampledLoop, GainsTheRootOfItsObserverForShortSamples) {
-  // -lambda, -k and -L: real and apart, and far from them the servo.
+  // -lambda, -k and -L: real and separate, and far from the servo pole.
   const double damping = damping_ratio({.lambda = 3.0,
                                         .reaching_rate = 5.0,
                                         .resistance_rate = 20.0,
@@ -483,7 +484,7 @@ TEST(Constraints, StandForThePlantThatLeavesThemTheLeast) {
   ConstraintContext context = paper_context(ReachingForm::kStrict, 0.8);
   const std::vector<ConstraintReport> own = constraints_of(kPaperGains, context);
   Plant<double> heavy = context.plant;
-  heavy.yaw.alpha *= 1.5;  // asks more of mu
+  heavy.yaw.alpha *= 1.5;  // needs a larger mu
   context.draws = {context.own(), {heavy, context.wheel_force}};
   const std::vector<ConstraintReport> worst = constraints_of(kPaperGains, context);
   ASSERT_EQ(worst.size(), own.size());
@@ -497,7 +498,7 @@ TEST(Constraints, StandForThePlantThatLeavesThemTheLeast) {
 
 TEST(Constraints, CountWhatTheLawDoesNotKnowOfADraw) {
   ConstraintContext context = paper_context(ReachingForm::kStrict, 0.8);
-  Plant<double> loaded = context.plant;  // by as much as its own mass and a half
+  Plant<double> loaded = context.plant;  // by 150 % of its own mass
   loaded.mass_norm *= 2.5;
   loaded.inertia_norm *= 2.5;
   Plant<double> light = context.plant;
@@ -536,7 +537,7 @@ TEST(Constraints, AskForDampingWithLatencyWhereThereIsAny) {
   const std::vector<ConstraintReport> late = constraints_of(kPaperGains, context);
   ASSERT_EQ(late.size(), without + 2);
   EXPECT_LT(named(late, "late damping").value, 0.7);
-  // Twice as late and a sample more: 5 samples, of the worst of the modes and rates.
+  // Twice the latency plus a sample: 5 samples, worst of all modes and rates.
   double worst = 1.0;
   for (const double rate_degps : {1.0, 5.0, 20.0, 60.0}) {
     const double rate = rate_degps * std::acos(-1.0) / 180.0;
@@ -555,7 +556,7 @@ TEST(Constraints, AskForDampingWithLatencyWhereThereIsAny) {
   }
   EXPECT_NEAR(named(late, "delay margin").value, worst, 1e-9);
   EXPECT_EQ(named(late, "delay margin").limit, 0.05);
-  // Of the draws too: less resistance than the law makes up for rings more.
+  // For the draws too: with less resistance than the law compensates for, the loop is less damped.
   Plant<double> slippery = context.plant;
   slippery.yaw.alpha *= 0.8;
   context.draws = {{slippery, context.wheel_force}};

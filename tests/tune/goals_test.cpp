@@ -1,4 +1,4 @@
-/// Goals as chances: what a run's excess is, which quantile counts, and what fresh draws say.
+/// Probabilistic goals: excess of a run, the relevant quantile, and the verdict on fresh draws.
 #include "awmr/tune/goals.h"
 
 #include <gmock/gmock.h>
@@ -79,7 +79,7 @@ TEST(Goal, IsMetMissedOrOpenByTheExactIntervalOfItsShare) {
   EXPECT_EQ(judged(400, 400).verdict, GoalVerdict::kMet);
   EXPECT_EQ(judged(300, 400).verdict, GoalVerdict::kMissed);
   EXPECT_EQ(judged(362, 400).verdict, GoalVerdict::kOpen);
-  EXPECT_EQ(judged(5, 5).verdict, GoalVerdict::kOpen);  // five runs do not show 90 %
+  EXPECT_EQ(judged(5, 5).verdict, GoalVerdict::kOpen);  // five runs cannot show 90 %
   const JudgedGoal some = judged(362, 400);
   EXPECT_EQ(some.held, 362);
   EXPECT_EQ(some.runs, 400);
@@ -90,7 +90,7 @@ TEST(Goal, OfADrawHoldsWhereAllItsScenariosKeepIt) {
   const TuningGoal goal = quick_and_calm(0.5);
   const GoalInMode one{&goal, YawMode::kCombined};
   const std::vector<Scenario> scenarios{kScenario, held_out_scenario(paper_model()).value()};
-  // Two draws, of which the first fails in its second scenario.
+  // Two draws; the first fails in its second scenario.
   const std::vector<ModeScore> scores{run_with(1.0, 0.0), run_with(3.0, 0.0), run_with(1.0, 0.0),
                                       run_with(1.6, 0.0)};
   const JudgedGoal judged = judged_goal(one, {"robust", outcomes_of(scores, scenarios)}, 2);
@@ -124,7 +124,7 @@ TuneOptions options_with(const TuningGoal& goal) {
   return options;
 }
 
-/// The share quantile of the settling time of the fresh draws in differential mode.
+/// Quantile of the settling time of the fresh draws in differential mode, at the goal's share.
 double settled_s(const Tuning& tuning) {
   for (const JudgedGains& judged : tuning.robust->judged) {
     if (judged.gains != "robust" || judged.mode != YawMode::kDifferential) continue;
@@ -142,7 +142,7 @@ TEST(Goal, ThatIsHardHoldsOnTheDrawsOfTheSearchAndMovesTheGains) {
   without.goals.clear();
   const Result<Tuning> free = tune(model, without);
   ASSERT_TRUE(free) << to_text(free.error());
-  // Calmer commands than the search would choose by itself.
+  // Lower activity than the search would choose by itself.
   double activity = 0.0;
   for (const ModeScore& score : free->scores) {
     if (score.mode == YawMode::kDifferential) activity = score.metrics.control_variation;
@@ -155,7 +155,7 @@ TEST(Goal, ThatIsHardHoldsOnTheDrawsOfTheSearchAndMovesTheGains) {
     if (score.mode != YawMode::kDifferential) continue;
     EXPECT_LE(score.metrics.control_variation, 0.9 * activity);
   }
-  ASSERT_EQ(held->robust->goals.size(), 3U);  // by robust, paper's and nominal gains
+  ASSERT_EQ(held->robust->goals.size(), 3U);  // with robust, paper's and nominal gains
   EXPECT_EQ(held->robust->goals.front().gains, "robust");
   EXPECT_EQ(held->robust->goals.front().runs, 100);
   EXPECT_NE(held->gains.heading.lambda, free->gains.heading.lambda);
@@ -168,7 +168,7 @@ TEST(Goal, ThatNoGainsReachIsRefusedByItsName) {
   ASSERT_FALSE(tuning);
   EXPECT_EQ(tuning.error().kind, ErrorKind::kRefused);
   EXPECT_THAT(to_text(tuning.error()), HasSubstr("reach the goal \"settling_time_s <= 0.05"));
-  // Soft, it is striven for.
+  // A soft goal is approached.
   goal.is_soft = true;
   const Result<Tuning> striven = tune(uncertain_model(), options_with(goal));
   ASSERT_TRUE(striven) << to_text(striven.error());

@@ -1,4 +1,4 @@
-/// What gains are scored and judged by, each figure worked out a second time from the runs.
+/// Objective and metrics of gains, each recomputed from the runs.
 #include "awmr/tune/objective.h"
 
 #include <gmock/gmock.h>
@@ -27,7 +27,7 @@ Scenario short_turn() {
   return scenario;
 }
 
-/// Plants whose mass grows from one to the next; the first is the model's own.
+/// Plants whose mass increases from one to the next; the first is the model's own.
 ObjectiveSetting setting_of(int plants, double tail_share = 1.0) {
   const Model model = paper_model();
   ObjectiveSetting setting{.vehicles = {},
@@ -45,7 +45,7 @@ ObjectiveSetting setting_of(int plants, double tail_share = 1.0) {
   return setting;
 }
 
-/// In the one scenario, with the paper's gains.
+/// Score in the only scenario, with the paper's gains.
 ModeScore score_of(const ObjectiveSetting& setting, std::size_t plant, YawMode mode) {
   const auto scores = run_all(setting, draw_noise(setting), std::span(&kPaperGains, 1)).front();
   const auto modes = yaw_modes(setting.vehicle);

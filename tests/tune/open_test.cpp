@@ -1,4 +1,4 @@
-/// Gains for vehicles of which neither trials nor data sheets say everything.
+/// Gains for vehicles with unmodelled variation.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// The paper's printed model (Appendix B, Tables 2 and 3), as `identify` would hand it over.
+// The paper's printed model (Appendix B, Tables 2 and 3), as returned by `identify`.
 #pragma once
 
 #include "support/paper_vehicle.h"

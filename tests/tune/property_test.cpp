@@ -1,5 +1,5 @@
-/// Whatever the robot: gains are found that hold their constraints, or they are refused; and what they do
-/// does not depend on the step or on the form of the equations.
+/// For any robot, tuned gains meet their constraints or the robot is refused. Their effect does not
+/// depend on the step size or on the form of the equations.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -49,7 +49,7 @@ void is_sound_or_refused(double beyond) {
     RC_ASSERT(std::isfinite(gain) && gain > 0.0);
   }
   const std::string text = gains_text(*tuning, few_evaluations(), {});
-  RC_ASSERT(!text.empty());  // it throws for a number that is not finite
+  RC_ASSERT(!text.empty());  // throws for a number that is not finite
 }
 
 TEST(TuneProperty, InTheBoxGainsAreSoundOrRefused) {
@@ -60,7 +60,7 @@ TEST(TuneProperty, AndTenTimesBeyondIt) {
   EXPECT_TRUE(rc::check([] { is_sound_or_refused(10.0); }));
 }
 
-/// The largest difference of heading, rad, and of speed, m/s, between two runs.
+/// Largest difference between two runs: heading, rad, and speed, m/s.
 double difference(const awmr::Run& a, const awmr::Run& b) {
   EXPECT_EQ(a.rows.size(), b.rows.size());
   double largest = 0.0;
@@ -79,7 +79,7 @@ TEST(TunedGains, DoTheSameAtTenTimesFinerStepsAndWithFourWheels) {
   const Plant<double> plant = model.plant().value();
   const auto controller = make_controller(plant, model.vehicle, tuning.gains);
   const Scenario scenario = short_scenario();
-  Scenario four_wheels = scenario;  // a motor that gives all of its force: the equations by wheel
+  Scenario four_wheels = scenario;  // a motor without loss of force: selects the equations by wheel
   four_wheels.faults = {{.wheels = {Wheel::kFrontLeft}, .window = {}, .share = 1.0}};
   const int steps = substeps_for(plant, 0.01);
   for (const YawMode mode : kYawModes) {

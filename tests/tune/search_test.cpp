@@ -20,7 +20,7 @@
 namespace awmr::testing {
 namespace {
 
-/// A shorter default: what is tested does not need the last per cent.
+/// Shorter search: the tests do not need the last per cent.
 TuneOptions short_options() {
   TuneOptions options;
   options.nominal = true;
@@ -47,8 +47,8 @@ std::string text_of(const TuneOptions& options) {
   return gains_text(*tuning, options, {.command = "tune", .options = {}, .inputs = {}});
 }
 
-/// The documented objective, written out again: weighted figures over the baseline's, floors 0.1
-/// deg s^2, 0.5 deg, 0.01/s, 0.001, 0.001 m s.
+/// The documented objective, implemented independently: weighted metrics relative to the
+/// baseline's, floors 0.1 deg s^2, 0.5 deg, 0.01/s, 0.001, 0.001 m s.
 double mode_objective(const TuneOptions& options, const Gains<double>& gains, YawMode mode,
                       const Gains<double>& baseline) {
   const Model model = paper_model();
@@ -85,7 +85,7 @@ TEST(History, IsTheBestSoFarOfTheSearchAndEndsWithTheGainsThatItFound) {
   const TuneOptions options = short_options();
   const Result<Tuning> tuning = tune(paper_model(), options);
   ASSERT_TRUE(tuning) << to_text(tuning.error());
-  // Then mu and mu_s were made as small as does not matter.
+  // Afterwards mu and mu_s were reduced as far as possible without effect.
   const double found = tuning->history.best.back().objective;
   EXPECT_NEAR(tuning->objective, found, kIndifferent * found);
   EXPECT_EQ(tuning->history.evaluations, tuning->evaluations);
@@ -94,7 +94,7 @@ TEST(History, IsTheBestSoFarOfTheSearchAndEndsWithTheGainsThatItFound) {
   EXPECT_LE(history.best.size(), kMostHistorySteps);
   EXPECT_GT(history.global_evaluations, 0);
   EXPECT_LE(history.global_evaluations, history.evaluations);
-  // The first point is pole placement, which the objective is normalised by.
+  // The first point is pole placement, by which the objective is normalised.
   EXPECT_EQ(history.best.front().evaluation, 1);
   EXPECT_NEAR(history.best.front().objective, 1.0, 1e-9);
   int evaluation = 0;
@@ -160,7 +160,7 @@ TEST_P(Tuned, MeetsEveryConstraintAndBeatsPolePlacementWhenSimulatedAgain) {
   const HeadingGains<double>& g = tuning->gains.heading;
   const double reaching_s =
       options.form == ReachingForm::kStrict ? g.epsilon / g.mu : g.epsilon / (2.0 * g.mu);
-  // The same quotients in another order: a rounding or two.
+  // The same quotients in another order: one or two roundings.
   EXPECT_LE(reaching_s, options.margin / g.lambda * (1.0 + 1e-14));
   for (const ConstraintReport& c : tuning->constraints) {
     if (!c.required) continue;
@@ -171,7 +171,7 @@ TEST_P(Tuned, MeetsEveryConstraintAndBeatsPolePlacementWhenSimulatedAgain) {
     mean += mode_objective(options, tuning->gains, mode, tuning->baseline.gains) / 3.0;
   }
   EXPECT_LT(mean, 1.0);
-  // The same figures, summed in another order.
+  // The same metrics, summed in another order.
   EXPECT_NEAR(tuning->objective, mean, 1e-12);
   EXPECT_EQ(tuning->baseline_objective, 1.0);
   EXPECT_EQ(tuning->held_out_scores.size(), std::size(kYawModes));
@@ -210,10 +210,11 @@ double mean_objective(const TuneOptions& options, const Gains<double>& gains,
   return sum / 3.0;
 }
 
-/// The search ends at gains whose mu and epsilon scale together without effect; another seed at others.
+/// At the optimum mu and epsilon can be scaled together without effect; the result depends on the
+/// seed.
 TEST(Tune, TakesTheLeastMuThatScoresAsWell) {
   TuneOptions options = short_options();
-  options.local_evaluations = 150;  // near its end, from where no other mu is much better
+  options.local_evaluations = 150;  // near the optimum, from where no other mu is much better
   options.baseline = Baseline{kPaperGains, kPaperSource};
   const Tuning tuning = tune(paper_model(), options).value();
   const HeadingGains<double>& heading = tuning.gains.heading;
@@ -243,7 +244,7 @@ TEST(Tune, NamesTheConstraintThatHoldsTheGainsAndWhatItCosts) {
   const auto held = std::ranges::find(tuning.active, "T2 < T1 (strict)", &ActiveConstraint::name);
   ASSERT_NE(held, tuning.active.end());
   EXPECT_GT(held->wider_gains, 0.0);
-  // Broken by a tenth of itself, the limit is 0.3/0.9.
+  // With a violation of a tenth, the limit is 0.3/0.9.
   options.margin = 0.3 / 0.9;
   const Tuning wider = tune(paper_model(), options).value();
   EXPECT_NEAR(held->wider_gains, 1.0 - wider.objective / tuning.objective, 0.01);
@@ -284,7 +285,8 @@ TEST(Tune, RefusesBoundsThatExcludeEveryFeasibleGain) {
 }
 
 TEST(Tune, TakesGainsThatAreWorseThanTheBaseline) {
-  // The bounds leave the paper's gains alone: they keep every limit, and no other gains are a gate.
+  // The bounds allow only the paper's gains. They meet every limit, and gains worse than the
+  // baseline are accepted.
   TuneOptions options = short_options();
   options.bounds = {.lambda = Interval{3.0, 3.0},
                     .mu = Interval{50.0, 50.0},
@@ -356,7 +358,7 @@ TEST(DefaultScenario, IsThePapersForThePapersVehicle) {
 }
 
 TEST(DefaultScenario, IsNoFasterThanTheVehicleReachesAndWasMeasured) {
-  // g1 = 5 u: 4 F'max hold 0.8 m/s, of which a third of the thrust makes 0.27.
+  // g1 = 5 u: 4 F'max hold 0.8 m/s; a third of the thrust gives 0.27.
   Model model = paper_model();
   model[ParameterId::kSurgeAlpha].value = 5.0;
   model[ParameterId::kSurgeBeta].value = 1.0;
@@ -435,7 +437,7 @@ TEST(Conditions, AreTheVehiclesWhereItSaysAndTheDefaultsElse) {
   const Scenario under_them = under(c, default_tuning_scenario(paper_model()).value());
   EXPECT_DOUBLE_EQ(under_them.sensors->heading.noise, radians(0.3));
   EXPECT_EQ(under_them.sensors->speed.late_s, 0.05);
-  // What a scenario says of its own sensors stands.
+  // A scenario's own sensors have precedence.
   Scenario own = default_tuning_scenario(paper_model()).value();
   own.sensors = Sensors{};
   EXPECT_EQ(under(c, own).sensors->heading.noise, 0.0);
@@ -467,17 +469,17 @@ TEST(Robust, BeatsThePapersGainsOnFreshDraws) {
     const JudgedFigure iae = figure("robust", mode, "heading_iae_degs");
     EXPECT_LT(iae.q95, figure("paper", mode, "heading_iae_degs").q95) << name_of(mode);
     EXPECT_LE(iae.median, iae.q95);
-    // The limit is the servo's rate limit less a tenth while a heading is held; steps add to it.
+    // The limit is the servo's rate limit minus a tenth while a heading is held; steps add to it.
     EXPECT_LE(figure("robust", mode, "steering_rate_rms_degps").median, 300.0);
   }
-  // Each constraint holds for the model's own plant and for each of the draws.
+  // Each constraint holds for the model's own plant and for each draw.
   for (const ConstraintReport& c : tuning->constraints) {
     if (!c.required) continue;
     EXPECT_GE(c.margin, 0.0) << c.name;
   }
 }
 
-/// The heading error, deg, and speed error, m/s, that a push leaves at the end of a run.
+/// Heading error, deg, and speed error, m/s, at the end of a run with a disturbance.
 std::pair<double, double> left_by_a_push(const Scenario& pushed, const Gains<double>& gains) {
   const Run run = simulate(paper_model(), gains, pushed, YawMode::kCombined).value();
   const RunRow& last = run.rows.back();
@@ -497,7 +499,7 @@ TEST(Observed, AnObserverTunedWithTheGainsTakesOffWhatPushesAllTheTime) {
   ASSERT_TRUE(tuning) << to_text(tuning.error());
   const ObserverGains<double>& observer = tuning->gains.observer;
   EXPECT_TRUE(options.observer->bandwidth_radps.contains(observer.bandwidth_radps));
-  // Half of l_f g1(1 m/s) tan(10 deg), and of what is left of four wheels at F_max.
+  // Half of l_f g1(1 m/s) tan(10 deg), and of the remaining force of four wheels at F_max.
   EXPECT_NEAR(observer.yaw_max_m, 0.5 * 0.35 * 1.3268 * std::tan(radians(10.0)), 1e-12);
   EXPECT_NEAR(observer.surge_max, 0.5 * (4.0 - 1.3268), 1e-12);
   EXPECT_FALSE(tuning->baseline.gains.observer.is_on());
@@ -533,7 +535,7 @@ TEST(Observed, IsJudgedBesideTheSameGainsWithoutIt) {
     if (judged.mode == YawMode::kDifferential) settled[judged.gains] = judged.completed_share;
   }
   EXPECT_EQ(settled.at("robust"), 1.0);
-  EXPECT_LE(settled.at("unobserved"), 0.5);  // never where it is pushed
+  EXPECT_LE(settled.at("unobserved"), 0.5);  // never with a disturbance
   EXPECT_LE(settled.at("baseline"), 0.5);
 }
 

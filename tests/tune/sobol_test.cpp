@@ -1,4 +1,4 @@
-/// Sobol's indices: functions whose indices are known, and the tuned loop's.
+/// Sobol indices: functions with known indices, and the tuned loop's.
 #include "awmr/tune/sobol.h"
 
 #include <gmock/gmock.h>
@@ -19,7 +19,7 @@ using ::testing::HasSubstr;
 
 using Function = std::function<double(const std::vector<double>&)>;
 
-/// Of a function of `inputs` numbers, each uniform in [-pi, pi].
+/// Indices of a function of `inputs` numbers, each uniform in [-pi, pi].
 std::vector<SobolIndex> indices_of(const Function& f, std::size_t inputs, std::size_t samples) {
   Random random(11, 1);
   const auto drawn = [&] {
@@ -105,13 +105,13 @@ TEST(Sensitivity, OfTheTunedLoopNamesWhatWasAssumed) {
     double totals = 0.0;
     for (const SobolIndex& index : figure.by_input) totals += index.total;
     if (figure.deviation > 0.0) {
-      EXPECT_GT(totals, 0.8) << figure.name;  // together they make all of it
+      EXPECT_GT(totals, 0.8) << figure.name;  // together they explain all of it
     }
   }
   const std::string text =
       gains_text(*tuning, options, {.command = "tune", .options = {}, .inputs = {}});
   EXPECT_THAT(text, HasSubstr("\"sensitivity\""));
-  // The gains are those without the question.
+  // The gains equal those without sensitivity analysis.
   options.sensitivity = 0;
   EXPECT_EQ(tune(uncertain_model(), options)->gains.heading.mu, tuning->gains.heading.mu);
 }

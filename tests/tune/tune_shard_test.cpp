@@ -1,5 +1,5 @@
-/// The judging in parts: their runs put together are the bytes of a single run, and what is not a part of
-/// it is named.
+/// Validation in shards: the merged runs have the bytes of a single run, and anything that is not
+/// one of its shards is named.
 #include "awmr/tune/tune_shard.h"
 
 #include <gmock/gmock.h>
@@ -58,7 +58,7 @@ class TuneShard : public ::testing::Test {
     const auto merged = merge_tune_shards(parts);
     return merged ? "merged" : to_text(merged.error());
   }
-  /// The text with `from` in it as `to`.
+  /// Replaces `from` in the text by `to`.
   static void edit(const std::filesystem::path& path, const std::string& from,
                    const std::string& to) {
     std::string text = read_all(path);
@@ -106,7 +106,7 @@ TEST_F(TuneShard, WhatIsNotThePartIsNamed) {
   EXPECT_THAT(fault({first, second}), HasSubstr("other options"));
 }
 
-/// Rows that are lost, doubled or in another place, with a hash that fits them.
+/// Rows that are lost, duplicated or moved, with a matching hash.
 TEST_F(TuneShard, ATableThatIsNotThatOfItsPartIsNamedByItsLine) {
   const auto only = write({1, 1});
   const std::string table = read_all(only / kJudgedTable);

@@ -1,5 +1,5 @@
-/// Nine vehicles from 2 kg to 300 kg: steered and differential, servos of 0.02 to 0.15 s, 20 to 100 Hz, power-law,
-/// linear, quadratic and Coulomb friction. The fifth is the paper's.
+/// Nine vehicles from 2 kg to 300 kg: steered and differential, servos of 0.02 to 0.15 s, 20 to 100
+/// Hz, power-law, linear, quadratic and Coulomb friction. The fifth is the paper's.
 #pragma once
 
 #include <cmath>
@@ -19,7 +19,7 @@ struct TestVehicle {
   double motor_force_n;           ///< F_max of one motor
   Resistance<double> surge, yaw;  ///< over F_max
   double sway_alpha;
-  double measured_mps, measured_degps;  ///< the fastest trials; 0: no trial tells
+  double measured_mps, measured_degps;  ///< the fastest trials; 0: unknown
 };
 
 inline std::vector<TestVehicle> test_vehicles() {
@@ -171,7 +171,8 @@ inline std::vector<TestVehicle> test_vehicles() {
   };
 }
 
-/// Its model, with a standard error of 2 % of each resistance and 5 % of m' and I'z, which err together.
+/// Model of the vehicle with a standard error of 2 % of each resistance and 5 % of m' and I'z,
+/// which are fully correlated.
 inline Model model_of(const TestVehicle& v) {
   Model model;
   Vehicle& vehicle = model.vehicle;
@@ -229,8 +230,8 @@ inline Model model_of(const TestVehicle& v) {
   model.covariance.parameters = {ParameterId::kSurgeAlpha, ParameterId::kSurgeBeta,
                                  ParameterId::kYawAlpha,   ParameterId::kYawBeta,
                                  ParameterId::kMassNorm,   ParameterId::kInertiaNorm};
-  // A law alpha w^beta is best known at some rate w0 of its trials: ln alpha + beta ln w0 and beta err
-  // independently by 0.02.
+  // A law alpha w^beta is known best at a rate w0 of its trials: ln alpha + beta ln w0 and beta
+  // have independent errors of 0.02.
   constexpr double kError = 0.02 * 0.02;
   const auto of_law = [&](std::size_t at, double alpha, double w0) {
     auto& c = model.covariance.matrix;

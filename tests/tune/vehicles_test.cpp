@@ -14,7 +14,7 @@ namespace {
 
 class Vehicles : public ::testing::TestWithParam<TestVehicle> {};
 
-/// A row of the table in lib/awmr/tune/README.md; quantiles of the mode that takes the longest.
+/// A row of the table in lib/awmr/tune/README.md; quantiles of the slowest mode.
 std::string row_of(const TestVehicle& vehicle, const Scenario& scenario, const Tuning& tuning) {
   std::string row =
       fmt::format("| {} | {:g} / {:g} | {:g} m/s, {:g} deg |", vehicle.name, vehicle.servo_s,
@@ -53,7 +53,7 @@ TEST_P(Vehicles, HaveGainsThatKeepEveryConstraintAndScoreBetterThanPolePlacement
   for (const ConstraintReport& c : tuning->constraints) {
     EXPECT_TRUE(!c.required || c.margin >= 0.0) << c.name;
   }
-  // Not a copy: the gains that act inside the layers differ by a hundredth at least.
+  // Not a copy: the gains effective inside the layers differ by at least a hundredth.
   const Gains<double>& tuned = tuning->gains;
   const Gains<double>& poles = tuning->baseline.gains;
   double differs = 0.0;

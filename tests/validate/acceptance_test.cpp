@@ -1,5 +1,5 @@
-/// A drive under the controller against what is foretold of it: the vehicle that was foretold is
-/// accepted at the stated rate, another one is not, and the change is named.
+/// A drive under the controller compared with its prediction: the predicted vehicle is accepted at
+/// the stated rate, another one is rejected, and the change is named.
 #include "awmr/validate/acceptance.h"
 
 #include <gmock/gmock.h>
@@ -22,8 +22,8 @@ Scenario drive_scenario() {
   return under(conditions_of(paper_vehicle()), scenario);
 }
 
-/// What a recorder at 50 Hz writes of the vehicle under the controller: two seconds of waiting, then
-/// the run, with the noise that the controller saw as well.
+/// Recording at 50 Hz of the vehicle under the controller: two seconds of waiting, then the run,
+/// with the noise that the controller saw.
 DrivingLog recorded(const Plant<double>& vehicle, const Scenario& world, std::uint64_t seed) {
   const Model model = uncertain_model();
   const Run run = simulate(vehicle, *controller_for(model, kPaperGains), world, YawMode::kCombined,
@@ -49,7 +49,7 @@ DrivingLog recorded(const Plant<double>& vehicle, const Scenario& world, std::ui
       ++log[channel]->fresh_count;
     }
   };
-  // At rest each reading has its own noise: that of the run's row, of another seed.
+  // At rest each reading has its own noise: that of the run's row, with another seed.
   Random random(seed, 99);
   for (int k = 0; k < kWaiting; ++k) {
     RunRow row = run.rows.front();
@@ -80,8 +80,8 @@ const Suspect* suspect(const Acceptance& acceptance, std::string_view what) {
 }
 
 TEST(Acceptance, TakesTheVehicleThatWasForetoldAtTheStatedRate) {
-  // 40 vehicles of the model's own uncertainty: rejected by chance are 2 of them on average, more
-  // than 6 in 1 % of all series (binomial).
+  // 40 vehicles from the model's uncertainty: on average 2 are rejected by chance, more than 6 in 1
+  // % of all series (binomial).
   const auto sampler = PlantSampler::make(uncertain_model());
   ASSERT_TRUE(sampler);
   int rejected = 0;
@@ -171,7 +171,8 @@ TEST(Acceptance, ABandWithoutGivenNoiseTakesTheLogsOwn) {
                               [](const ChannelAcceptance& one) { return one.channel == "x_m"; });
   ASSERT_NE(x, acceptance.channels.end());
   EXPECT_TRUE(x->noise_from_log);
-  // A standard deviation of 400 readings is good to 1/sqrt(2 * 400) = 3.5 %, by medians some 5 %.
+  // The standard deviation of 400 readings is known to 1/sqrt(2 * 400) = 3.5 %, by medians to some
+  // 5 %.
   EXPECT_NEAR(x->noise, 0.05, 0.01);
   EXPECT_FALSE(x->inside) << "the vehicle drove 8 m, and the position says none";
 }

@@ -21,8 +21,8 @@ std::vector<Point> arc(double x_m, double y_m, double radius_m, double angle_rad
 TEST(CircleFit, RecoversAFullCircleFarFromTheOrigin) {
   const auto circle = fit_circle(arc(1000.0, -300.0, 1.145, 2.0 * std::numbers::pi, 500));
   ASSERT_TRUE(circle);
-  // The coordinates carry 1000 * 2^-53 = 1.1e-13 m of rounding; sums of 500 stay below 100 times
-  // it.
+  // The coordinates have 1000 * 2^-53 = 1.1e-13 m of rounding; sums of 500 stay below 100 times
+  // that.
   EXPECT_NEAR(circle->x_m, 1000.0, 1e-11);
   EXPECT_NEAR(circle->y_m, -300.0, 1e-11);
   EXPECT_NEAR(circle->radius_m, 1.145, 1e-11);

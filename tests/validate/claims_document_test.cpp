@@ -1,4 +1,4 @@
-/// lib/awmr/validate/CLAIMS.md is what the program says.
+/// lib/awmr/validate/CLAIMS.md equals the program's output.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-/// C8 to C12, and the files that hold the same runs.
+/// C8 to C12, and the files of the same runs.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

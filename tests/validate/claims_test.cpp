@@ -113,8 +113,8 @@ TEST(Claims, ThePapersGainsReproduceAllButTheSlightDrop) {
     const Claim claim = claim_of(claims, id);
     EXPECT_TRUE(claim.reproduced) << id << ": " << claim.figure;
   }
-  // The exact allocation and the m' r v of the speed law leave steering and combined no slight
-  // drop.
+  // With the exact allocation and the m' r v of the speed law, steering and combined have no
+  // visible drop.
   const Claim drop = claim_of(claims, "C5");
   EXPECT_FALSE(drop.reproduced);
   EXPECT_THAT(drop.figure, HasSubstr("F' in [-1, 1]"));
@@ -134,7 +134,7 @@ TEST(Claims, TheSideslipIsAlsoGivenForThePapersGains) {
   Gains<double> fast = kPaperGains;
   fast.heading = {.lambda = 6.0, .mu = 100.0, .epsilon = 6.0};
   const Claim own = claim_of(heading_claims_of(model, fast), "C6");
-  // At 200 deg/s sway is m' r u/a_s = 0.0768 * 3.5/3 = 0.09 m/s: 5 deg without any steering.
+  // At 200 deg/s sway is m' r u/a_s = 0.0768 * 3.5/3 = 0.09 m/s: 5 deg even without steering.
   EXPECT_FALSE(own.reproduced) << own.figure;
   EXPECT_THAT(own.figure, HasSubstr("with the paper's gains"));
   const Claim paper = claim_of(heading_claims_of(model, kPaperGains), "C6");
@@ -144,7 +144,7 @@ TEST(Claims, TheSideslipIsAlsoGivenForThePapersGains) {
 TEST(Claims, AControllerThatIsTooStiffForItsSampleTimeChatters) {
   const Model model = fitted_paper_model();
   Gains<double> stiff = kPaperGains;
-  // mu/eps = 1000/s against 100 samples a second: S is overshot at every sample.
+  // mu/eps = 1000/s with 100 samples a second: S overshoots at every sample.
   stiff.heading = {.lambda = 3.0, .mu = 200.0, .epsilon = 0.2};
   const Claim claim = claim_of(heading_claims_of(model, stiff), "C7");
   EXPECT_FALSE(claim.reproduced) << claim.figure;
@@ -165,9 +165,9 @@ TEST(Reversals, CountsTurningPointsBeyondTheBand) {
   EXPECT_EQ(reversals(std::vector<double>{0, 1, 2, 3}, 0.1), 0);
   EXPECT_EQ(reversals(std::vector<double>{0, 1, 0, 1, 0}, 0.1), 3);
   EXPECT_EQ(reversals(std::vector<double>{0, 1, 0.95, 1, 0.95, 1}, 0.1), 0);
-  // Slow drift back by small steps is one reversal.
+  // A slow drift back in small steps is one reversal.
   EXPECT_EQ(reversals(std::vector<double>{0, 1, 0.95, 0.9, 0.85, 0.8, 0.75}, 0.1), 1);
-  // A plain sine of n periods turns 2 n times.
+  // A sine of n periods has 2 n reversals.
   std::vector<double> sine;
   for (int i = 0; i < 1000; ++i) sine.push_back(std::sin(0.01 * i * 2.0 * 3.14159265358979));
   EXPECT_EQ(reversals(sine, 0.1), 20);
@@ -183,13 +183,13 @@ TEST(AllowedSettling, AddsTheActuatorsAndTheLawsShare) {
   EXPECT_NEAR(allowed, 1.0 / 0.202832 + 2.293333, 1e-4);
 }
 
-/// The largest drop that the mode's name is followed by in C5's figure.
+/// Largest drop given after the mode's name in C5's figure.
 double drop_in(const Claim& claim, const std::string& mode) {
   const std::size_t at = claim.figure.find(mode + " ") + mode.size() + 1;
   return std::stod(claim.figure.substr(at));
 }
 
-/// With m' and I'z as they follow from the tables, for which there are independent simulations.
+/// With m' and I'z computed from the tables, for which there are independent simulations.
 Model identified_paper_model() {
   Model model = fitted_paper_model();
   model[ParameterId::kMassNorm].value = 0.0823643;
@@ -230,8 +230,8 @@ TEST(OpenCases, ClaimsAreJudgedInEachAsTheModelThereWouldBe) {
   add_open_cases(model, kPaperGains, batch_arithmetic().value(), claims);
   const Claim held = claim_of(claims, "C5");
   for (const ClaimCase& open : held.cases) {
-    // What decides, by the reference figures: small angles make the drop, and with F' up to 0.5 the
-    // differential mode drops as well.
+    // The deciding factors, by the reference figures: small angles cause the drop, and with F' up
+    // to 0.5 the differential mode drops as well.
     EXPECT_EQ(open.reproduced,
               open.allocation == AllocationForm::kPaper && open.wheel_force.hi > 0.5);
   }
@@ -240,7 +240,7 @@ TEST(OpenCases, ClaimsAreJudgedInEachAsTheModelThereWouldBe) {
   ASSERT_EQ(path.modes.size(), 3U);
   for (const ClaimCase& open : path.modes[1].cases) EXPECT_FALSE(open.reproduced);
   EXPECT_EQ(path.modes[1].mode, YawMode::kSteering);
-  // Combined is best where F' is in [0, 1], the allocation exact and the moment redistributed.
+  // Combined is best if F' is in [0, 1], the allocation is exact and the moment is redistributed.
   for (const ClaimCase& open : claim_of(claims, "C12").cases) {
     EXPECT_EQ(open.reproduced, open.allocation == AllocationForm::kExact &&
                                    open.wheel_force.lo == 0.0 && open.wheel_force.hi == 1.0 &&

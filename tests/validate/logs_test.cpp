@@ -1,4 +1,4 @@
-/// A model held against logs.
+/// Validation of a model on logs.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -22,7 +22,7 @@ Plant<double> plant(double alpha) {
   return plant;
 }
 
-/// What plant(1) does under steps of thrust and steering, at 50 Hz, without noise.
+/// Response of plant(1) to steps of thrust and steering, at 50 Hz, without noise.
 DrivingLog exact_log() {
   DrivingLog log;
   log.file = "exact.csv";
@@ -53,8 +53,8 @@ TEST(LogValidation, TheTrueModelPredictsExactly) {
   ASSERT_EQ(validation.channels.size(), 3U);
   EXPECT_TRUE(validation.passed);
   for (const ChannelValidation& c : validation.channels) {
-    // What is not measured is assumed at each window's begin (the servo at its command, no sway),
-    // and the log holds its commands at 50 Hz: that is all that is off.
+    // The only errors: unmeasured states are assumed at each window's start (servo at its command,
+    // no sway), and the log holds its commands at 50 Hz.
     EXPECT_LT(c.long_horizon.nrmse, 0.1) << c.channel;
     EXPECT_LT(c.one_step.nrmse, 0.03) << c.channel;
     EXPECT_NEAR(c.long_horizon.r2, 1.0 - c.long_horizon.nrmse * c.long_horizon.nrmse, 1e-12);

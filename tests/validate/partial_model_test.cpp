@@ -1,4 +1,4 @@
-/// Models that know straight motion alone, held against their trials, the paper's claims and logs.
+/// Models of straight motion only, compared with their trials, the paper's claims and logs.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -83,7 +83,7 @@ DrivingLog straight_log(double tau_speed) {
   }
   speed.fresh_count = 201;
   log[LogChannel::kSpeed] = speed;
-  log[LogChannel::kYawRate] = speed;  // whatever it says, straight motion does not predict it
+  log[LogChannel::kYawRate] = speed;  // straight motion does not predict it, whatever its values
   return log;
 }
 

@@ -1,5 +1,5 @@
-/// Whatever the robot: a validation has finite figures or says that there is none, and its file can be
-/// written.
+/// For any robot, a validation has finite results or reports that there are none, and its file can
+/// be written.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -24,7 +24,7 @@ TrialPoint any_trial(TrialKind kind) {
   return trial;
 }
 
-/// Its runs would take minutes; that each of them has a bound is simulate/bounds_test's.
+/// Its runs would take minutes; simulate/bounds_test checks that each run has a bound.
 bool is_stiff(const Plant<double>& plant) {
   const auto decay_rate = [](const Resistance<double>& law, double inertia, double force) {
     const double w = steady_rate(law, force).value_or(0.0);
@@ -55,8 +55,7 @@ void has_finite_figures(double beyond) {
         validation->coastdown_rms_relative_error}) {
     RC_ASSERT(!figure || (std::isfinite(*figure) && *figure >= 0.0));
   }
-  RC_ASSERT(
-      !validation_text(*validation, {}).empty());  // it throws for a number that is not finite
+  RC_ASSERT(!validation_text(*validation, {}).empty());  // throws for a number that is not finite
 }
 
 TEST(ValidateProperty, InTheBoxEveryFigureIsFinite) {

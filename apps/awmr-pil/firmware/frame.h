@@ -1,9 +1,10 @@
-// The frames that host and chip exchange over a serial line; both compile this file.
-//   start, type, sequence, length, payload of `length` bytes, CRC-16 of all after the start (low byte
-//   first)
-// The host asks, the chip answers each request once, with its type and its sequence number. A
-// request that comes again, as its answer was lost, is answered again and not done again. A frame
-// that is damaged is not answered: the host asks again when the line has been silent.
+// Frames exchanged by host and chip over a serial line; both compile this file.
+//   start, type, sequence, length, payload of `length` bytes, CRC-16 of all after the start (low
+//   byte first)
+// The chip answers each request of the host once, with the same type and sequence number. If the
+// host repeats a request because the answer was lost, the chip repeats the answer but does not
+// execute the request again. Damaged frames are not answered: the host repeats the request after a
+// silence.
 #pragma once
 
 #include <stdint.h>
@@ -18,17 +19,17 @@ constexpr uint8_t kHeadBytes = 3;  // type, sequence, length
 constexpr uint8_t kMaxPayload = 140;
 constexpr uint8_t kMaxFrame = kHeadBytes + kMaxPayload + 2;  // after the start
 
-// Requests and what is in them; the answer has the same type.
+// Requests and their payloads -> payloads of the answers, which have the same type.
 constexpr uint8_t kHello = 'H';   // nothing -> awmr_init()'s fault, AWMR_PARAMETERS_CRC32 xor
                                   // kPilMission
 constexpr uint8_t kFollow = 'F';  // acceptance_m, points as x_m, y_m -> nothing
 constexpr uint8_t kStep = 'S';    // awmr_input -> awmr_output, cycles (16 bit)
 
-/// Takes bytes as they come; true when the last one completed a whole frame, which stays until the
-/// next byte. In a frame that turns out to be damaged it looks for the start of another one.
+/// Consumes bytes as they arrive. Returns true when a byte completed a valid frame, which stays
+/// until the next byte. After a damaged frame it searches inside it for the start of another one.
 struct FrameReader {
   uint8_t bytes[kMaxFrame];  // of this frame, after its start
-  uint8_t count;             // of them
+  uint8_t count;             // bytes received
   bool is_inside;            // a start was seen
 
   uint8_t type() const { return bytes[0]; }
@@ -36,7 +37,7 @@ struct FrameReader {
   uint8_t length() const { return bytes[2]; }
   const uint8_t* payload() const { return bytes + kHeadBytes; }
 
-  /// Forgets a frame that was begun: to be called after a silence.
+  /// Discards an incomplete frame; to be called after a silence.
   void reset() {
     is_inside = false;
     count = 0;
@@ -64,7 +65,7 @@ struct FrameReader {
     if (count < kHeadBytes) return true;
     return length() <= kMaxPayload && count < kHeadBytes + length() + 2;
   }
-  /// What came after a whole frame, which only a damaged one before it can bring about, is lost.
+  /// Bytes after a complete frame, which occur only after a damaged one, are lost.
   bool is_whole() const {
     if (length() > kMaxPayload) return false;
     const uint8_t covered = static_cast<uint8_t>(kHeadBytes + length());

@@ -1,5 +1,5 @@
-// Firmware for `awmr pil --link memory`: the control step in a timer interrupt, asleep in between.
-// The emulator's host writes the inputs and reads the outputs in RAM, by these symbols.
+// Firmware for `awmr pil --link memory`: the control step runs in a timer interrupt, and the chip
+// sleeps in between. The host accesses inputs and outputs in RAM by these symbols.
 #include <avr/interrupt.h>
 #include <avr/io.h>
 #include <avr/sleep.h>
@@ -11,15 +11,15 @@ extern "C" {
 awmr_input pil_input;
 awmr_output pil_output;
 awmr_point pil_points[kPilPoints];
-int16_t pil_point_count;  // above 0: follow them from the next step on
+int16_t pil_point_count;  // above 0: follow these points from the next step on
 float pil_acceptance_m;
 uint8_t pil_init_fault;
-volatile uint8_t pil_steps;  // done, modulo 256
+volatile uint8_t pil_steps;  // steps executed, modulo 256
 }
 
 namespace {
 
-// Timer 1 counts F_CPU/8 up to the sample time; 32 ms is the longest that it can.
+// Timer 1 counts F_CPU/8 up to the sample time; its maximum is 32 ms.
 const uint32_t kTimerCounts = static_cast<uint32_t>(AWMR_SAMPLE_TIME_S * (F_CPU / 8) + 0.5f);
 static_assert(kTimerCounts >= 2 && kTimerCounts <= 65536,
               "the sample time has to be between 1 us and 32 ms");

@@ -1,5 +1,5 @@
-// Firmware for `awmr pil --link uart`: the control step on request over USART0 (the USB serial of a
-// Mega 2560), asleep in between. Also what `--port` expects on a real board.
+// Firmware for `awmr pil --link uart`: executes the control step on request over USART0 (the USB
+// serial of a Mega 2560) and sleeps in between. `--port` needs the same firmware on a real board.
 #include <avr/interrupt.h>
 #include <avr/io.h>
 #include <avr/sleep.h>
@@ -16,19 +16,19 @@
 namespace {
 
 const uint8_t kRingMask = 31;
-volatile uint8_t ring[kRingMask + 1];  // the main loop takes each byte before 32 more have come
+volatile uint8_t ring[kRingMask + 1];  // the main loop takes each byte before 32 more arrive
 volatile uint8_t ring_head;
 uint8_t ring_tail;
 
-// Timer 3 counts F_CPU/64. After a pause of 20 ms and 20 bytes' time a frame that was begun is
-// given up. USB makes shorter pauses inside a frame; the host waits longer before it asks again.
+// Timer 3 counts F_CPU/64. An incomplete frame is discarded after a pause of 20 ms plus the time of
+// 20 bytes. Pauses of USB inside a frame are shorter; the host waits longer before it repeats.
 const uint16_t kPause =
     static_cast<uint16_t>(F_CPU / 64UL / 50UL + 20UL * 10UL * (F_CPU / 64UL) / PIL_BAUD);
 
 pil::FrameReader reader;
 awmr_point points[kPilPoints];
 
-/// The last answer, to be given again to a request that comes again.
+/// The last answer, repeated if its request is repeated.
 struct {
   uint8_t type;
   uint8_t sequence;
@@ -36,7 +36,7 @@ struct {
   uint8_t payload[sizeof(awmr_output) + sizeof(uint16_t)];
 } reply;
 bool is_answered;  // `reply` is the answer to a request
-bool is_greeted;   // since the reset: before, nothing but a hello is answered
+bool is_greeted;   // greeted since the reset: before, only a hello is answered
 
 void send(uint8_t byte) {
   while ((UCSR0A & _BV(UDRE0)) == 0) {
@@ -61,7 +61,7 @@ void answer(const void* payload, uint8_t length) {
   reply.sequence = reader.sequence();
   reply.length = length;
   memcpy(reply.payload, payload, length);
-  is_answered = reply.type != pil::kHello;  // a hello starts anew each time
+  is_answered = reply.type != pil::kHello;  // every hello restarts the controller
   send_reply();
 }
 
@@ -86,7 +86,7 @@ void follow() {
   answer(points, 0);
 }
 
-// Timer 1 runs at the clock's own rate: a step of up to 65535 cycles is counted.
+// Timer 1 counts clock cycles, so a step of up to 65535 cycles can be measured.
 void step() {
   awmr_input input;
   struct {
@@ -122,7 +122,7 @@ void serve() {
   }
 }
 
-/// One byte of the line.
+/// Processes one byte of the line.
 void take(uint8_t byte) {
   static uint16_t last;
   const uint16_t now = TCNT3;
@@ -155,7 +155,7 @@ int main() {
     cli();
     while (ring_tail == ring_head) {
       sei();
-      sleep_cpu();  // the instruction after sei() runs before any interrupt: none is missed
+      sleep_cpu();  // the instruction after sei() runs before any interrupt, so none is missed
       cli();
     }
     sei();

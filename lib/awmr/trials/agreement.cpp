@@ -15,7 +15,7 @@ constexpr double kCourseError = 0.005;
 constexpr double kLargestRoundingShare = 0.05;
 
 /// Decimal places of a number written with up to 12 significant digits: 79.16 has 2, 1e-05 has 5.
-/// 12 undo the last-digit noise of a mapping's scale and offset.
+/// Limiting to 12 digits removes the last-digit noise of a mapping's scale and offset.
 int decimal_places(double value) {
   const std::string text = fmt::format("{:.11e}", value);  // d.ddddddddddde[+-]dd
   const std::size_t exponent_mark = text.find('e');
@@ -51,7 +51,7 @@ double rounding_error(double printed, double last_place) {
 namespace {
 
 bool is_automatic(double elapsed_last_place) {
-  // The slack of 1e-9 is for a last place that pow() gives as 1.0000000000000002e-3.
+  // The slack of 1e-9 allows for pow() returning 1.0000000000000002e-3.
   return elapsed_last_place <= kAutomaticTiming_s * (1.0 + 1e-9);
 }
 

@@ -22,14 +22,14 @@ using awl::Lost;
 using awl::Place;
 using awl::Scan;
 
-/// Bits of SafetyFault with which a row's motion was not measured at its time.
+/// Bits of SafetyFault for which the motion in a row is not a current measurement.
 constexpr unsigned kNotMeasured = kFaultHeadingStale | kFaultSpeedStale | kFaultNotFinite;
 
-/// Bits of `reset_cause`, those of the chip's MCUSR. [ATmega2560 data sheet, 12.5.1]
+/// Bits of `reset_cause`, as in the chip's MCUSR. [ATmega2560 data sheet, 12.5.1]
 constexpr unsigned kBrownOut = 4;
 constexpr unsigned kWatchdog = 8;
 
-/// The first few of what `text_of` says of each.
+/// Lists the first few items, each formatted by `text_of`.
 template <class Items, class TextOf>
 std::string list_of(const Items& items, const TextOf& text_of) {
   constexpr std::size_t kMost = 4;
@@ -70,7 +70,7 @@ void tell_of_scan(const Scan& scan, const std::string& file, AwlLog& log) {
   }
 }
 
-/// The rows that can be rows of a log, and a finding of each kind of those that cannot.
+/// Returns the rows usable in a log and adds a finding for each kind of unusable row.
 std::vector<Place> usable_rows(std::string_view bytes, const Scan& scan, const std::string& file,
                                AwlLog& log) {
   const Layout& layout = scan.layout;
@@ -98,7 +98,7 @@ std::vector<Place> usable_rows(std::string_view bytes, const Scan& scan, const s
   return measured;
 }
 
-/// Without the runs that are too short to be logs, the others numbered anew.
+/// Removes runs that are too short to be logs and renumbers the others.
 std::vector<Place> without_short_runs(const std::vector<Place>& rows, const std::string& file,
                                       AwlLog& log) {
   std::vector<Place> kept;
@@ -123,7 +123,7 @@ std::vector<Place> without_short_runs(const std::vector<Place>& rows, const std:
   return kept;
 }
 
-/// A chip that lost its power for a moment, or whose watchdog bit, began anew where it stood.
+/// Adds a finding for runs that began with a supply drop or a watchdog reset.
 void tell_of_resets(std::string_view bytes, const Layout& layout, const std::vector<Place>& rows,
                     const std::string& file, AwlLog& log) {
   std::size_t run = 0;

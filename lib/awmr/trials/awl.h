@@ -1,5 +1,5 @@
-/// The log of the emitted firmware (`.awl`): control/log_row.h says what is in a file, its header
-/// says what is in a row.
+/// Log of the emitted firmware (`.awl`). control/log_row.h defines the file, and the file's header
+/// defines its rows.
 #pragma once
 
 #include <cstddef>
@@ -13,35 +13,38 @@
 
 namespace awmr {
 
-/// What a file holds, and what of it is lost.
+/// Content of a file, with counts of the lost data.
 struct AwlLog {
   std::vector<std::string> header = {};           ///< `t_s` first, `run` last
-  std::vector<std::vector<double>> columns = {};  ///< of each name, by row; all finite
+  std::vector<std::vector<double>> columns = {};  ///< by name, then by row; all finite
   std::string parameters_sha256 = {};  ///< of the firmware's model and gains, as in awmr_params.h
-  std::size_t runs = 0;                ///< 1, and one more wherever the chip began anew
-  std::size_t lost = 0;                ///< rows that the chip numbered and that are not in the file
-  std::size_t damaged_bytes = 0;       ///< that belong to no whole header and no whole row
+  std::size_t runs = 0;                ///< 1, plus one for each restart of the chip
+  std::size_t lost = 0;                ///< rows numbered by the chip but missing from the file
+  std::size_t damaged_bytes = 0;       ///< bytes outside complete headers and rows
   std::vector<Finding> findings = {};
 
   std::size_t rows() const { return columns.empty() ? 0 : columns.front().size(); }
 };
 
-/// A header begins within the first kilobytes.
+/// True if a header begins within the first kilobytes.
 bool is_awl(std::string_view bytes);
 
-/// All whole rows of a file, its rows told by their check sums wherever they begin. Told as findings:
-/// rows whose number is missing (`rows-lost`), bytes that are no row (`log-damaged`), a file that
-/// ends inside a row (`log-truncated`), rows set aside because what they say was measured was not
-/// (`rows-not-measured`) or because their run is too short to be a log (`short-run`), each with its
-/// places, and a chip that was reset without being switched off (`chip-reset`).
-/// Errors (input): no header that is whole, one of another version, or one that does not describe
-/// its rows; two headers that describe them differently; (refused) no row that is whole.
+/// Reads all complete rows of a file; a checksum identifies a row wherever it begins. Findings,
+/// each with its places:
+///   `rows-lost`          missing row numbers
+///   `log-damaged`        bytes that are not a row
+///   `log-truncated`      the file ends inside a row
+///   `rows-not-measured`  rows set aside because their motion is not a current measurement
+///   `short-run`          rows set aside because their run is too short to be a log
+///   `chip-reset`         the chip was reset without being switched off
+/// Errors: (input) no complete header, a header of another version or one that does not describe
+/// its rows, two headers that differ; (refused) no complete row.
 Result<AwlLog> read_awl(std::string_view bytes, const std::string& file);
 
-/// As read_awl() of a file's bytes, whose hash is noted. Errors: as read_input().
+/// Like read_awl() for a file, whose hash is recorded. Errors: as read_input().
 Result<AwlLog> read_awl_file(const std::filesystem::path& path);
 
-/// The contract's log: header and rows, every number in the shortest form that reads back the same.
+/// The log as CSV: header and rows, every number in the shortest form that reads back the same.
 std::string log_csv(const AwlLog& log);
 
 }  // namespace awmr

@@ -19,7 +19,7 @@ constexpr long kLargestRow = 512;
 constexpr std::size_t kLongestName = 64;
 const NumberRule kScaleRule{.min = 1e-12, .max = 1e12};
 
-/// A name becomes a cell of the CSV's first line: letters, digits and _ alone.
+/// A name becomes a cell of the CSV header, so only letters, digits and _ are allowed.
 bool is_plain(std::string_view name) {
   constexpr std::string_view kAllowed =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_";
@@ -28,7 +28,7 @@ bool is_plain(std::string_view name) {
 
 std::size_t bytes_of(Kind kind) { return kind == Kind::kByte ? 1 : 4; }
 
-/// The columns, one behind the other.
+/// Returns the columns with consecutive offsets.
 std::vector<Column> columns_in(JsonObject& header) {
   std::vector<Column> columns;
   std::set<std::string> names;

@@ -1,4 +1,4 @@
-/// What the header of an `.awl` file says of its rows. Private to this folder.
+/// Header of an `.awl` file, which describes its rows. Private to this folder.
 #pragma once
 
 #include <cstddef>
@@ -19,8 +19,8 @@ inline constexpr NameTable<Kind, 3> kKindNames{
 struct Column {
   std::string name;
   Kind kind = Kind::kFloat;
-  double scale = 1.0;      ///< what is counted in units of
-  std::size_t offset = 0;  ///< in the row
+  double scale = 1.0;      ///< unit of the stored counts
+  std::size_t offset = 0;  ///< byte offset in the row
 
   bool operator==(const Column&) const = default;
 };
@@ -31,21 +31,21 @@ struct Layout {
   std::vector<Column> columns;  ///< the first is t_s
 
   bool operator==(const Layout&) const = default;
-  /// The column of this name, or nothing.
+  /// Returns the column of this name, or null.
   const Column* find(std::string_view name) const;
 };
 
 /// The column's value in a row of `row_bytes`.
 double value_in(std::string_view row, const Column& column);
 
-/// The bits of a column of bytes; 0 where there is no such column.
+/// Value of a bit-field column of one byte; 0 if there is no such column.
 unsigned bits_in(std::string_view row, const Layout& layout, std::string_view name);
 
-/// The JSON of the header that begins at this place; nothing where none does or it is damaged.
+/// JSON of the header that begins at this offset; empty if none begins there or it is damaged.
 std::optional<std::string_view> header_at(std::string_view bytes, std::size_t at);
 
-/// Errors (input), as `FILE:/pointer`: another version, a column twice, another one than t_s
-/// first, bytes of a row that are not those of its columns.
+/// Errors (input), as `FILE:/pointer`: another version, a duplicate column, a first column other
+/// than t_s, a row size that differs from that of the columns.
 Result<Layout> layout_of(std::string_view json, const std::string& file);
 
 }  // namespace awmr::awl

@@ -14,10 +14,10 @@ namespace {
 const std::string_view kMagic(reinterpret_cast<const char*>(kLogMagic), sizeof kLogMagic);
 const std::string_view kSync(reinterpret_cast<const char*>(kLogSync), sizeof kLogSync);
 
-/// So many damaged headers are no log; the time to look at them would grow beyond that of reading.
+/// Limit on damaged headers. Without it, checking them would take longer than reading the file.
 constexpr std::size_t kMostDamagedHeaders = 1000;
 
-/// Where a header may begin, at the latest, in a file that is one.
+/// The first header of a log begins within this number of bytes.
 constexpr std::size_t kHeaderWithin = 4 * kLogHeaderBytes;
 
 bool is_row(std::string_view bytes, std::size_t at, std::size_t row_bytes) {
@@ -32,8 +32,8 @@ std::uint32_t sequence_of(std::string_view bytes, std::size_t offset) {
   return number_in<std::uint32_t>(bytes.substr(offset + kLogRowCovered));
 }
 
-/// Notes the whole row at this place: its run, and what is lost before it. `anew`: a header stands
-/// before it.
+/// Adds the complete row at this offset with its run, and the rows lost before it. `anew`: a header
+/// precedes the row.
 void add_row(std::string_view bytes, std::size_t at, bool anew, Scan& scan) {
   const std::uint32_t sequence = sequence_of(bytes, at);
   const double t_s = time_of(bytes, at, scan.layout);
@@ -56,7 +56,7 @@ void add_row(std::string_view bytes, std::size_t at, bool anew, Scan& scan) {
   scan.rows.push_back({at, run});
 }
 
-/// Passes over bytes up to where something may begin; returns that place.
+/// Skips bytes to the next possible start of a row or header and returns its offset.
 std::size_t pass_over(std::string_view bytes, std::size_t at, Scan& scan) {
   const char starts[] = {kMagic[0], kSync[0]};
   const std::size_t found = bytes.find_first_of(std::string_view(starts, sizeof starts), at + 1);
@@ -69,7 +69,7 @@ std::size_t pass_over(std::string_view bytes, std::size_t at, Scan& scan) {
   return next;
 }
 
-/// Takes the header in; all of a file describe the same rows.
+/// Adds the header; all headers of a file must describe the same rows.
 Status add_header(std::string_view json, std::size_t at, const std::string& file, Scan& scan) {
   AWMR_ASSIGN_OR_RETURN(Layout layout, layout_of(json, file));
   if (scan.layout.row_bytes > 0 && scan.layout != layout) {
@@ -81,7 +81,7 @@ Status add_header(std::string_view json, std::size_t at, const std::string& file
   return {};
 }
 
-/// What is left at the end is the beginning of a row, if it is shorter than one.
+/// Bytes left at the end are a truncated row if they are shorter than a row.
 void note_end(std::string_view bytes, Scan& scan) {
   if (scan.damaged.empty() || scan.damaged.back().end != bytes.size()) return;
   const std::size_t size = bytes.size() - scan.damaged.back().begin;

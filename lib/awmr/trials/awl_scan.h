@@ -1,5 +1,4 @@
-/// Which bytes of an `.awl` file are rows, which are nothing, and which rows are missing. Private to
-/// this folder.
+/// Finds rows, damaged bytes and missing rows of an `.awl` file. Private to this folder.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +11,7 @@
 
 namespace awmr::awl {
 
-/// A row that is whole.
+/// A complete row.
 struct Place {
   std::size_t offset = 0;
   std::size_t run = 1;
@@ -24,29 +23,30 @@ struct Damage {
   std::size_t end = 0;
 };
 
-/// Rows with numbers that are not in the file.
+/// Gap in the row numbers.
 struct Lost {
   std::size_t count = 0;
-  double before_s = 0.0;    ///< time of the next row
-  bool is_damaged = false;  ///< bytes between the rows were, else the chip did not write them
+  double before_s = 0.0;  ///< time of the next row
+  /// the bytes between the rows are damaged; else the chip did not write them
+  bool is_damaged = false;
 };
 
 struct Scan {
-  Layout layout = {};  ///< of the rows; row_bytes 0: there is no whole header
+  Layout layout = {};  ///< of the rows; row_bytes 0: no complete header
   std::vector<Place> rows = {};
   std::vector<Damage> damaged = {};
   std::vector<Lost> lost = {};
-  std::size_t truncated = 0;  ///< bytes at the end that begin a row
+  std::size_t truncated = 0;  ///< length of an incomplete row at the end, bytes
 };
 
-/// A header seems to begin within the first kilobytes.
+/// True if a header seems to begin within the first kilobytes.
 bool begins_log(std::string_view bytes);
 
-/// Finds rows by their check sums, wherever they begin. Errors (input): no whole header; as
-/// layout_of(); headers that differ; damaged headers without end.
+/// Finds rows by their checksums, wherever they begin. Errors (input): no complete header; as
+/// layout_of(); headers that differ; too many damaged headers.
 Result<Scan> scan_of(std::string_view bytes, const std::string& file);
 
-/// t_s of the row at this place.
+/// t_s of the row at this offset.
 double time_of(std::string_view bytes, std::size_t offset, const Layout& layout);
 
 }  // namespace awmr::awl

@@ -1,5 +1,4 @@
-/// Takes numbers off the front of bytes that nobody vouches for: every taking may fail. Private to
-/// this folder.
+/// Bounds-checked reading of numbers from untrusted bytes. Private to this folder.
 #pragma once
 
 #include <bit>
@@ -12,7 +11,7 @@
 
 namespace awmr {
 
-/// The first sizeof(T) bytes as a number; `big`: the most significant one first.
+/// Converts the first sizeof(T) bytes to a number; `big`: most significant byte first.
 template <class T>
 T number_in(std::string_view bytes, bool big = false) {
   using Bits = std::conditional_t<
@@ -27,14 +26,15 @@ T number_in(std::string_view bytes, bool big = false) {
   return std::bit_cast<T>(static_cast<Bits>(bits));
 }
 
-/// Bytes with a place in them.
+/// Bytes with a read position.
 class ByteReader {
  public:
   explicit ByteReader(std::string_view bytes) : bytes_(bytes) {}
 
   std::size_t offset() const { return offset_; }
   std::size_t left() const { return bytes_.size() - offset_; }
-  /// The next `size` bytes; nothing, and no step, where there are fewer.
+  /// Returns the next `size` bytes and advances; returns nothing and does not advance if there are
+  /// fewer.
   std::optional<std::string_view> take(std::size_t size) {
     if (left() < size) return std::nullopt;
     const std::string_view taken = bytes_.substr(offset_, size);
@@ -46,7 +46,7 @@ class ByteReader {
     const auto taken = take(sizeof(T));
     return taken ? std::optional<T>(number_in<T>(*taken, big)) : std::nullopt;
   }
-  /// Steps to an offset, at most the end.
+  /// Moves to an offset, at most the end.
   void seek(std::size_t offset) { offset_ = offset < bytes_.size() ? offset : bytes_.size(); }
 
  private:

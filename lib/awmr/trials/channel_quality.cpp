@@ -11,9 +11,9 @@
 namespace awmr {
 namespace {
 
-/// More repeats than this among the rows of a moving signal are no chance.
+/// A larger fraction of repeats in a moving signal is not by chance.
 constexpr double kRepeatedShare = 0.5;
-/// A grid that is finer than what the signal does from row to row is only how it was written.
+/// With fewer repeats the grid is finer than the signal's change per row: only the number format.
 constexpr double kSomeRepeats = 0.2;
 
 double quantile(std::vector<double> values, double share) {
@@ -23,7 +23,7 @@ double quantile(std::vector<double> values, double share) {
   return *place;
 }
 
-/// The rows at which the value changes, and by how much.
+/// Rows at which the value changes, with the size of the change.
 struct Changes {
   std::vector<std::size_t> row;
   std::vector<double> step;  ///< absolute
@@ -39,7 +39,7 @@ Changes changes_of(std::span<const double> value) {
   return changes;
 }
 
-/// The smallest step, if the changes are mostly one or two of it and all of them multiples.
+/// Returns the smallest step if most changes are one or two steps and all are multiples of it.
 double quantum_of(const Changes& changes) {
   const double smallest = *std::min_element(changes.step.begin(), changes.step.end());
   std::size_t on_grid = 0;
@@ -47,7 +47,7 @@ double quantum_of(const Changes& changes) {
   for (const double step : changes.step) {
     const double times = step / smallest;
     steps.push_back(times);
-    // A number written with few digits misses its multiple by rounding.
+    // A number written with few digits misses the exact multiple by its rounding.
     if (std::abs(times - std::round(times)) < 0.05 + 1e-6 * times) ++on_grid;
   }
   const bool grid = static_cast<double>(on_grid) > 0.98 * static_cast<double>(steps.size());
@@ -55,7 +55,7 @@ double quantum_of(const Changes& changes) {
   return grid && median(steps) < kMostlySteps ? smallest : 0.0;
 }
 
-/// Rows between changes, from the first change to the last.
+/// Number of rows between successive changes.
 std::vector<double> gaps_of(const Changes& changes) {
   std::vector<double> gaps;
   for (std::size_t i = 1; i < changes.row.size(); ++i) {
@@ -64,7 +64,8 @@ std::vector<double> gaps_of(const Changes& changes) {
   return gaps;
 }
 
-/// Readings of a slow sensor: its changes, and where it repeated a value, one every usual gap.
+/// Marks the readings of a slow sensor: its changes, and one per usual gap where it repeated a
+/// value.
 std::vector<bool> slow_readings(const Changes& changes, std::size_t rows) {
   std::vector<bool> fresh(rows, false);
   fresh[0] = true;
@@ -88,7 +89,7 @@ void judge_repeats(std::span<const double> value, ChannelQuality& quality) {
   const double repeated = moving - static_cast<double>(changes.row.size() - 1);
   const double quantum = quantum_of(changes);
   const bool often = repeated > kRepeatedShare * moving;
-  // Two rows at least between nearly all changes: the sensor has a rate of its own.
+  // The sensor has its own rate if nearly all changes are at least two rows apart.
   const bool own_rate = often && quantile(gaps_of(changes), 0.05) >= 2.0;
   if (own_rate) {
     quality.repeats = Repeats::kSlow;
@@ -100,8 +101,8 @@ void judge_repeats(std::span<const double> value, ChannelQuality& quality) {
   }
 }
 
-/// Each reading against the middle of itself and its two neighbours on either side: an edge of the
-/// signal passes, a jump away and back of up to two readings does not.
+/// Compares each reading with the median of itself and its two neighbours on either side. Edges
+/// pass; jumps away and back of up to two readings are spikes.
 void find_spikes(std::span<const double> value, ChannelQuality& quality) {
   std::vector<std::size_t> rows;
   for (std::size_t i = 0; i < value.size(); ++i) {
@@ -136,7 +137,7 @@ void find_spikes(std::span<const double> value, ChannelQuality& quality) {
   }
 }
 
-/// Values so much smaller than the signal are rest, and so are they in the commands.
+/// Values smaller than this fraction of the signal count as rest, for commands too.
 constexpr double kRestShare = 1e-6;
 
 double largest_size(std::span<const double> values) {
@@ -157,9 +158,9 @@ std::vector<RowSpan> equal_runs(std::span<const double> value) {
   return runs;
 }
 
-/// For how long within the run, up to 0.3 s before its end, the command is off its first 0.3 s by `notable`
-/// on the mean of 0.3 s: a controller that keeps a steady speed changes its command all the time, but on
-/// the mean only a little.
+/// Time within the run, ending 0.3 s before its end, during which the 0.3 s mean of the command
+/// differs by `notable` from its first 0.3 s. The mean is used because a controller that holds a
+/// speed changes its command constantly but on average only little.
 double changed_s(std::span<const double> t_s, std::span<const double> activity, const RowSpan& run,
                  double notable) {
   constexpr double kMean_s = 0.3;
@@ -179,9 +180,9 @@ double changed_s(std::span<const double> t_s, std::span<const double> activity, 
   return changed;
 }
 
-/// One value for a second and more, far longer than this sensor otherwise repeats one, while the
-/// vehicle was told something else for 0.3 s. Rest is not stuck, and neither is a value that is held long
-/// twice: a set-point that is kept.
+/// Finds a value that is constant for a second or more, far longer than the sensor usually repeats
+/// one, while the command changed for 0.3 s. Rest is not stuck. Neither is a value that is held
+/// twice for long, which indicates a constant set-point.
 void find_stuck(std::span<const double> t_s, std::span<const double> value,
                 std::span<const double> activity, ChannelQuality& quality) {
   const std::vector<RowSpan> runs = equal_runs(value);
@@ -209,13 +210,13 @@ void find_stuck(std::span<const double> t_s, std::span<const double> value,
     const bool is_told = notable > 0.0 && changed_s(t_s, activity, run, notable) >= kLeastChanged_s;
     if (!is_told) continue;
     quality.stuck.push_back(run);
-    // The first reading was still one.
+    // The first reading of the run is valid.
     for (std::size_t i = run.begin + 1; i < run.end; ++i) quality.fresh[i] = false;
   }
 }
 
-/// Rows that all read the largest (or the smallest) value of a signal that otherwise hardly repeats
-/// one exactly. Rows in which the vehicle is told to do nothing do not count: there it rests at some value.
+/// Finds rows at the largest (or smallest) value of a signal that otherwise rarely repeats a value
+/// exactly. Rows without a command do not count, because the vehicle rests there at some value.
 void find_saturation(std::span<const double> all, std::span<const double> activity,
                      ChannelQuality& quality) {
   const double idle = 0.02 * largest_size(activity);
@@ -239,7 +240,7 @@ void find_saturation(std::span<const double> all, std::span<const double> activi
     }
     i = end;
   }
-  // A signal of a few values has no range to end.
+  // A signal with few levels has no range limit to detect.
   constexpr std::size_t kFewestLevels = 20;
   if (levels < kFewestLevels) return;
   for (const double bound : {*high, *low}) {

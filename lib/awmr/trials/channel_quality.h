@@ -1,6 +1,5 @@
-/// What is wrong with one channel of a log, judged by its readings alone: a sensor slower than the
-/// log, a coarse one, readings that jump away and back, one that is stuck, one that ends at its
-/// range.
+/// Quality checks of one log channel by its readings: sensors slower than the log, coarse
+/// resolution, spikes, stuck values, saturation.
 #pragma once
 
 #include <cstddef>
@@ -9,11 +8,11 @@
 
 namespace awmr {
 
-/// How a sensor comes to repeat its values.
+/// Reason why a sensor repeats its values.
 enum class Repeats {
   kNone,    ///< most rows bring a new value
-  kSlow,    ///< slower than the log: its values change at its own rate, and are held in between
-  kCoarse,  ///< on a grid: a value changes when the signal crosses to the next step
+  kSlow,    ///< slower than the log: values change at the sensor's rate and are held in between
+  kCoarse,  ///< on a grid: the value changes when the signal crosses to the next step
 };
 
 /// Rows [begin, end).
@@ -27,18 +26,18 @@ struct ChannelQuality {
   std::vector<bool> fresh;          ///< by row: counts as measured
   double quantum = 0.0;             ///< step of a coarse sensor, in the unit of the values
   std::vector<std::size_t> spikes;  ///< rows that jump away and back
-  std::vector<RowSpan> stuck;       ///< one value while the vehicle was told to do other things
-  std::size_t saturated = 0;        ///< rows that read the end of the sensor's range
+  std::vector<RowSpan> stuck;       ///< constant while the command changed
+  std::size_t saturated = 0;        ///< rows at the end of the sensor's range
   double saturated_at = 0.0;
 };
 
-/// `activity` by row: what the vehicle is told to do, any scale (a signal that is stuck while this
-/// changes is stuck; one that rests while this rests is not). Times rise.
+/// `activity` by row: the command, in any scale. A signal that is constant while this changes is
+/// stuck; one that rests while this rests is not. Times rise.
 ///
-/// Slow against coarse: a slow sensor leaves at least two rows between changes and jumps by many of
-/// its smallest differences; a coarse one changes in neighbouring rows too, mostly by one step. A
-/// slow sensor's readings count once; of a coarse one every row counts, since where it does not
-/// change the signal did not cross either. Spikes, stuck and saturated rows do not count.
+/// A slow sensor leaves at least two rows between changes and jumps by many of its smallest
+/// differences. A coarse one also changes in neighbouring rows, mostly by one step. Each reading of
+/// a slow sensor counts once. Of a coarse one every row counts, because an unchanged value means
+/// that the signal did not cross a step. Spikes, stuck and saturated rows do not count.
 ChannelQuality channel_quality(std::span<const double> t_s, std::span<const double> value,
                                std::span<const double> activity);
 

@@ -11,8 +11,8 @@
 namespace awmr {
 namespace {
 
-/// The initial speed, the deceleration and one row to judge them by; whether all curves together show
-/// the parameters is judged by the fit.
+/// Minimum for the initial speed, the deceleration and one row to check them. The fit decides
+/// whether all curves together identify the parameters.
 constexpr std::size_t kShortestCurve = 3;
 
 bool is_curve(const TrialReader& reader) { return reader.has("t_s") && reader.has("speed_mps"); }
@@ -71,7 +71,7 @@ TrialSet<StopTimeRow> read_stop_times(TrialReader& reader, std::vector<Finding>&
   return set;
 }
 
-/// A run is what has one value of `run`, in one piece; without that column the file is one run.
+/// A run is a contiguous block with one value of `run`; without that column the file is one run.
 std::vector<CoastCurve> read_curves(TrialReader& reader) {
   std::vector<CoastCurve> curves;
   std::optional<double> run;

@@ -21,7 +21,7 @@
 namespace awmr {
 namespace {
 
-/// What a guess of the unit comes to.
+/// Guessed unit of a column.
 struct Scale {
   std::string expression;
   Confidence confidence = Confidence::kUnsure;
@@ -40,7 +40,8 @@ std::optional<Scale> by_unit_in_name(const std::string& quoted, const Words& wor
                fmt::format("the name ends in the unit {}", unit->spelling)};
 }
 
-/// ROS 2 messages are in SI units by their convention, and ArduPilot's gyros in rad/s.
+/// True for ROS 2 messages, which are in SI units by convention, and for ArduPilot's gyros in
+/// rad/s.
 bool is_si_by_convention(const Words& words) {
   const bool ros = has_any(words, {"twist", "pose", "drive"}) ||
                    (has_any(words, {"angular"}) && has_any(words, {"velocity", "z"}));
@@ -53,7 +54,7 @@ double largest(const std::vector<double>& values) {
   return most;
 }
 
-/// The usual battery, which the reason names.
+/// Assumed battery voltage, which the reason states.
 constexpr double kUsualVolts = 12.0;
 
 Scale force_scale(const std::string& quoted, const Words& words,
@@ -100,7 +101,7 @@ Scale scale_of(const std::string& quoted, const Words& words, Dimension dimensio
           "the name says no unit, and the values fit several"};
 }
 
-/// The name as it stands in an expression.
+/// Returns the name as written in an expression.
 std::string quoted(const std::string& name) {
   const bool bare = std::all_of(name.begin(), name.end(), [](char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '.';
@@ -116,7 +117,7 @@ std::vector<double> first_of(const std::vector<double>& values) {
           values.begin() + static_cast<std::ptrdiff_t>(std::min(values.size(), kShown))};
 }
 
-/// The heading from the quaternion of one message, where all four numbers are there.
+/// Guesses the heading from the quaternion of a message with all four components.
 void add_quaternions(const FileSample& sample, std::vector<ColumnGuess>& guesses) {
   const std::set<std::string> names(sample.names.begin(), sample.names.end());
   for (const std::string& name : sample.names) {
@@ -146,7 +147,7 @@ void add_time(const FileSample& sample, std::vector<ColumnGuess>& guesses) {
                        (*time)->meaning + "; it is taken without a mapping as well"});
   }
   if (!guesses.empty()) return;
-  // `ms`, `millis`: by its name it may be metres per second, but those do not grow from row to row.
+  // `ms`, `millis`: the name may mean metres per second, but those do not grow from row to row.
   for (std::size_t i = 0; i < sample.names.size(); ++i) {
     const Words words = words_of(sample.names[i]);
     const auto unit = unit_in(words, Dimension::kTime);
@@ -157,7 +158,7 @@ void add_time(const FileSample& sample, std::vector<ColumnGuess>& guesses) {
   }
 }
 
-/// The column of the file that a guess is made from, scaled or not; none for a formula of several.
+/// Column of the file from which a guess is made, scaled or not; none for a formula of several.
 std::optional<std::size_t> source_of(const ColumnGuess& guess, const FileSample& sample) {
   for (std::size_t i = 0; i < sample.names.size(); ++i) {
     const std::string name = quoted(sample.names[i]);
@@ -168,12 +169,12 @@ std::optional<std::size_t> source_of(const ColumnGuess& guess, const FileSample&
   return std::nullopt;
 }
 
-/// A channel that is constant while others move is not proposed: it is no measurement.
+/// Removes guesses for a channel that is constant while others move: it is not a measurement.
 void withdraw_constants(const FileSample& sample, std::vector<ColumnGuess>& guesses) {
   for (ColumnGuess& guess : guesses) {
     const auto source = source_of(guess, sample);
     if (!source) continue;
-    // The other channels by their first guess, this one by the column in question.
+    // Other channels use their first guess, this one the column in question.
     const auto values = [&](std::string_view column) -> std::optional<std::span<const double>> {
       if (column == guess.column) return sample.values[*source];
       for (const ColumnGuess& other : guesses) {
@@ -196,7 +197,7 @@ void withdraw_constants(const FileSample& sample, std::vector<ColumnGuess>& gues
   }
 }
 
-/// Where two columns fit as well, neither is likely.
+/// If two columns fit equally well, neither is likely.
 void settle(std::span<ColumnGuess> guesses) {
   std::stable_sort(guesses.begin(), guesses.end(), [](const ColumnGuess& a, const ColumnGuess& b) {
     return a.confidence < b.confidence;
@@ -210,8 +211,8 @@ void settle(std::span<ColumnGuess> guesses) {
   }
 }
 
-/// Surge, sway and yaw rate by their letters, as vehicle dynamics and `awmr simulate` write them
-/// (u_mps, v_mps, r_radps): where a log has both u and v, v is the sway and not the speed.
+/// True if surge, sway and yaw rate are named by their letters, as in vehicle dynamics and `awmr
+/// simulate` (u_mps, v_mps, r_radps). In a log with both u and v, v is the sway and not the speed.
 bool has_body_velocities(const FileSample& sample) {
   const auto has = [&](const char* letter) {
     return std::any_of(sample.names.begin(), sample.names.end(),
@@ -220,7 +221,7 @@ bool has_body_velocities(const FileSample& sample) {
   return has("u") && has("v");
 }
 Words with_body_velocity(Words words) {
-  // A letter, and at most a unit of two words: u_ref_mps is a reference.
+  // A letter and at most a unit of two words: u_ref_mps is a reference.
   const bool is_reading = words.size() == 1 || unit_in(words, Dimension::kSpeed) ||
                           unit_in(words, Dimension::kAngularRate);
   if (!is_reading || words.size() > 3 || has_any(words, {"ref", "cmd", "des"})) return words;
@@ -230,7 +231,7 @@ Words with_body_velocity(Words words) {
   return words;
 }
 
-/// What the columns of the sample may be of one column that is asked for.
+/// Guesses which columns of the sample provide one required column.
 std::vector<ColumnGuess> guesses_of(const std::string& column, const FileSample& sample,
                                     TrialKind kind) {
   std::vector<ColumnGuess> guesses;

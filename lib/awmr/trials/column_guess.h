@@ -1,5 +1,4 @@
-/// What the columns of an unknown file may be: guesses, each with its reason, to be confirmed by who
-/// knows the vehicle.
+/// Guesses for the columns of an unknown file, each with its reason. The user must confirm them.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +11,7 @@
 
 namespace awmr {
 
-/// The first rows of a file of any format that logs are read from.
+/// First rows of a file in any supported log format.
 struct FileSample {
   std::vector<std::string> names;
   std::vector<std::vector<double>> values;  ///< by name: the first numbers, at most kSampleRows
@@ -20,14 +19,14 @@ struct FileSample {
 };
 inline constexpr std::size_t kSampleRows = 1000;
 
-/// Errors: as the reader of the file's format; a directory that has no log.
+/// Errors: as the reader of the file's format; a directory without a log.
 Result<FileSample> sample_of(const std::filesystem::path& path);
 
-/// How far a guess goes.
+/// Confidence of a guess.
 enum class Confidence {
-  kSure,    ///< the name is the one that is asked for
-  kLikely,  ///< name and unit, by the name or by what the values can be
-  kUnsure,  ///< the unit is open, or another column fits as well: not to be used unseen
+  kSure,    ///< the name is the required one
+  kLikely,  ///< name and unit fit, by the name or by the values
+  kUnsure,  ///< the unit is unknown, or another column fits too: needs confirmation
 };
 inline constexpr NameTable<Confidence, 3> kConfidenceNames{{{"sure", Confidence::kSure},
                                                             {"likely", Confidence::kLikely},
@@ -38,14 +37,14 @@ struct ColumnGuess {
   std::string expression;  ///< as parse_column() takes it
   Confidence confidence = Confidence::kUnsure;
   std::string why;
-  std::vector<double> samples = {};  ///< the first few values of what it is made from
+  std::vector<double> samples = {};  ///< first few values of the source column
 };
 
-/// The guesses for the columns of a trial, in the order of columns_of(kind), the surest of a column
-/// first. Names are read for words and units: column_words.h.
+/// Guesses the columns of a trial in the order of columns_of(kind), the most confident one first.
+/// Words and units are taken from the names: column_words.h.
 std::vector<ColumnGuess> guess_columns(const FileSample& sample, TrialKind kind);
 
-/// Of these, what may be used unseen: the first guess of each column that is not unsure.
+/// The guesses usable without confirmation: the first one of each column, unless it is unsure.
 std::vector<ColumnGuess> likely_columns(const std::vector<ColumnGuess>& guesses);
 
 }  // namespace awmr

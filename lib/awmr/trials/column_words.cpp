@@ -8,7 +8,7 @@
 namespace awmr {
 namespace {
 
-/// What the words of a name have to be for a column: one of each of `all`, none of `none`.
+/// Rule for the words of a name: one word of each set in `all`, none of `none`.
 struct Rule {
   const char* column;
   std::vector<std::set<std::string>> all;
@@ -51,16 +51,16 @@ std::vector<Rule> log_rules() {
       {"yaw_rate_radps", {{"gyr", "gyro"}}, {"x", "y", "z", "temp"}, Dimension::kAngularRate},
       {"steering_deg", {kSteerWords}, kCommand, Dimension::kAngle},
       {"steering_cmd_deg", {kSteerWords, kCommand}, {}, Dimension::kAngle},
-      // What a program tells its servo.
+      // The command of a servo.
       {"steering_cmd_deg", {{"servo"}}, {"feedback", "measured", "actual"}, Dimension::kAngle},
       {"latitude_deg", {{"lat", "latitude"}}, {}, Dimension::kGeographic},
       {"longitude_deg", {{"lon", "lng", "long", "longitude"}}, {}, Dimension::kGeographic}};
-  // What accelerates or is a time or a covariance is none of them.
+  // Accelerations, times and covariances are none of these columns.
   for (Rule& rule : rules) rule.none.insert(kAcceleration.begin(), kAcceleration.end());
   return rules;
 }
 
-/// Of the tables: a row a run.
+/// Rules for tables with one run per row.
 std::vector<Rule> table_rules() {
   static const std::set<std::string> kInitial{"initial", "start", "from", "v0", "u0"};
   static const std::set<std::string> kStop{"stop", "stopping", "rest"};
@@ -127,7 +127,7 @@ const std::vector<Unit>& units() {
   return kUnits;
 }
 
-/// `kmh`, `km/h`, `dps`: a unit that only one quantity of a vehicle has, and no word beside it.
+/// True for `kmh`, `km/h`, `dps`: a unit of only one vehicle quantity, without another word.
 bool is_unit_alone(const Rule& rule, const Words& words) {
   static const std::set<std::string> kOnlyOne{"speed_mps", "yaw_rate_radps", "elapsed_s", "t_s"};
   if (kOnlyOne.count(rule.column) == 0 || words.size() > 2) return false;
@@ -174,7 +174,7 @@ std::optional<Dimension> dimension_as(TrialKind kind, const std::string& column,
                                       const Words& words) {
   for (const Rule& rule : rules_of(kind)) {
     if (rule.column != column) continue;
-    // A column that is called by its unit alone, as `kmh` or `ms`.
+    // A column may be named by its unit alone, such as `kmh` or `ms`.
     if (is_unit_alone(rule, words) || fits(rule, words)) return rule.dimension;
   }
   return std::nullopt;

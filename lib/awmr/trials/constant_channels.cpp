@@ -7,11 +7,11 @@
 namespace awmr {
 namespace {
 
-/// What counts as motion in a channel.
+/// Threshold above which a channel shows motion.
 struct MotionLimit {
   std::string_view column;
-  double least;      ///< in the column's unit
-  bool is_position;  ///< its change counts, not its size
+  double least;      ///< threshold in the column's unit
+  bool is_position;  ///< compare the change of the value, not its size
 };
 constexpr std::array<MotionLimit, 8> kMotionLimits{{{"x_m", 0.2, true},
                                                     {"y_m", 0.2, true},
@@ -23,7 +23,7 @@ constexpr std::array<MotionLimit, 8> kMotionLimits{{{"x_m", 0.2, true},
                                                     {"yaw_rate_radps", 0.1, false}}};
 constexpr std::array<LogChannel, 4> kMotionChannels{LogChannel::kHeading, LogChannel::kSpeed,
                                                     LogChannel::kSway, LogChannel::kYawRate};
-/// Fewer values are constant by chance.
+/// With fewer values a channel may be constant by chance.
 constexpr std::size_t kFewestValues = 10;
 
 bool is_constant(std::span<const double> values) {

@@ -1,5 +1,5 @@
-/// Channels that are the same to the last bit in a whole file while others move: a message's unused field, a
-/// set-point in place of a measurement, a dead sensor. Private to this folder.
+/// Channels with exactly one value in a whole file while others move: an unused message field, a
+/// set-point logged as a measurement, a dead sensor. Private to this folder.
 #pragma once
 
 #include <functional>
@@ -12,7 +12,7 @@
 
 namespace awmr {
 
-/// The values of a column of a log, in its own unit; nothing where there is none.
+/// Returns the values of a log column in its own unit; empty if there is none.
 using ColumnValues = std::function<std::optional<std::span<const double>>(std::string_view column)>;
 
 struct ConstantChannel {
@@ -20,9 +20,9 @@ struct ConstantChannel {
   double value = 0.0;  ///< in the column's unit
 };
 
-/// Of speed, lateral speed, yaw rate and heading those that are constant, where some other channel shows
-/// motion: a speed beyond 0.05 m/s, a yaw rate beyond 0.1 rad/s, a heading that changes by 5 deg, a position
-/// that changes by 0.2 m. A file of a vehicle at rest has none.
+/// Returns the constant ones among speed, lateral speed, yaw rate and heading, if another channel
+/// shows motion. Motion is a speed beyond 0.05 m/s, a yaw rate beyond 0.1 rad/s, a heading change
+/// of 5 deg or a position change of 0.2 m. A file of a vehicle at rest has none.
 std::vector<ConstantChannel> constant_channels(const ColumnValues& values);
 
 }  // namespace awmr

@@ -24,7 +24,7 @@ struct File {
   std::vector<std::string> header;
 };
 
-/// The mappings of the time, with their places among all.
+/// The mappings of the time, with their indices among all mappings.
 struct TimeMappings {
   std::vector<ColumnMapping> mappings = {};
   std::vector<std::size_t> places = {};
@@ -57,7 +57,7 @@ Result<std::vector<File>> read_files(std::span<const std::filesystem::path> path
   return files;
 }
 
-/// How many files have a column of each name.
+/// Number of files that have a column of each name.
 std::map<std::string, int> counts_of(const std::vector<File>& files) {
   std::map<std::string, int> counts;
   for (const File& file : files) {
@@ -66,14 +66,14 @@ std::map<std::string, int> counts_of(const std::vector<File>& files) {
   return counts;
 }
 
-/// From when to when a file has rows, s.
+/// First and last time of a file's rows, s.
 struct Span {
   const File* file = nullptr;
   double begin_s = 0.0;
   double end_s = 0.0;
 };
 
-/// Errors: no time that all files share.
+/// Errors: the files have no time in common.
 Status check_spans(const std::vector<Span>& spans) {
   if (spans.empty()) return {};
   const auto last = std::max_element(spans.begin(), spans.end(), [](const Span& a, const Span& b) {
@@ -99,7 +99,7 @@ void note_zero_starts(const std::vector<Span>& spans, std::vector<CsvNote>& note
                    "where each counts from its own first row they are shifted"});
 }
 
-/// The rows of a table in which the column has a value, as a topic of its own.
+/// Converts the rows of a table in which the column has a value to a topic.
 Topic topic_of(const CsvTable& table, const std::string& column, std::size_t place) {
   Topic topic{.name = column, .columns = {place}, .values = {{}}};
   const std::vector<bool>& present = table.present(column);
@@ -112,7 +112,7 @@ Topic topic_of(const CsvTable& table, const std::string& column, std::size_t pla
   return topic;
 }
 
-/// Nanoseconds since 1970 fit into 64 bits until 2262.
+/// Errors: a time outside 64-bit nanoseconds since 1970, which last until 2262.
 Status check_time(const CsvTable& table) {
   constexpr double kMost_s = 9e9;
   for (std::size_t row = 0; row < table.rows(); ++row) {
@@ -123,7 +123,7 @@ Status check_time(const CsvTable& table) {
   return {};
 }
 
-/// Adds the wanted columns of one file.
+/// Adds the requested columns of one file.
 Status add_file(const File& file, const std::map<std::string, int>& counts,
                 const TimeMappings& times, const Wanted& wanted, CsvTopics& topics,
                 std::vector<Span>& spans) {

@@ -1,4 +1,4 @@
-/// Tables with one topic each, as signals. Private to this folder.
+/// Signals from several tables with one topic each. Private to this folder.
 #pragma once
 
 #include <filesystem>
@@ -9,15 +9,15 @@
 
 namespace awmr {
 
-/// Signals read from several tables, and which mappings gave their times.
+/// Signals read from several tables, and the mappings that gave their times.
 struct CsvTopics {
   Signals signals = {};
   std::vector<std::size_t> mapped = {};
 };
 
-/// A column is called `FILE.COLUMN`, without the file's extension, and by its own name where no other
-/// file has it. Each file has a time, t_s or what stands for it, and all have one clock. Errors: as
-/// read_csv(); no time that all files share.
+/// Names a column `FILE.COLUMN`, without the file's extension, or by its own name if no other file
+/// has it. Each file has a time column, t_s or one that replaces it, and all share one clock.
+/// Errors: as read_csv(); the files have no time in common.
 Result<CsvTopics> read_csv_topics(std::span<const std::filesystem::path> paths,
                                   std::span<const ColumnMapping> mappings, const Wanted& wanted);
 

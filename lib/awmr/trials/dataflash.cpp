@@ -34,8 +34,8 @@ void mark_instance(std::string_view record, const dataflash::Format& fmtu,
   if (found->second.fields[mark].kind->bytes == 1) found->second.instance = mark;
 }
 
-/// Calls `take(type, record, offset)` for every record that a known format describes; how many bytes
-/// were passed over. `take` may add formats.
+/// Calls `take(type, record, offset)` for every record of a known format and returns the number of
+/// bytes skipped. `take` may add formats.
 template <class Take>
 Result<std::size_t> for_each_record(std::string_view bytes, const dataflash::Formats& formats,
                                     const Take& take) {
@@ -69,13 +69,13 @@ std::uint8_t instance_in(const dataflash::Format& format, std::string_view recor
   return static_cast<std::uint8_t>(record[format.fields[*format.instance].offset]);
 }
 
-/// A type of record and the instance it is of: a topic.
+/// A topic: record type and instance.
 using TopicKey = std::pair<std::uint8_t, std::uint8_t>;
 
-/// What the first pass over the file finds: its formats, and which topics have records.
+/// Result of the first pass over the file: formats, and topics with records.
 struct Contents {
   dataflash::Formats formats = {};
-  std::map<TopicKey, std::size_t> topics = {};  ///< the number of their records
+  std::map<TopicKey, std::size_t> topics = {};  ///< number of records
   std::size_t skipped = 0;
 };
 
@@ -109,10 +109,10 @@ Result<Contents> contents_of(std::string_view bytes, const std::string& file) {
   return contents;
 }
 
-/// A topic with what is wanted of it.
+/// A topic and its requested fields.
 struct Listed {
   std::size_t topic = 0;                        ///< in Signals::topics
-  std::vector<const dataflash::Field*> wanted;  ///< in the order of its columns
+  std::vector<const dataflash::Field*> wanted;  ///< in column order
 };
 
 std::map<TopicKey, Listed> list_topics(const Contents& contents, const Wanted& wanted,
@@ -138,7 +138,7 @@ std::map<TopicKey, Listed> list_topics(const Contents& contents, const Wanted& w
   return listed;
 }
 
-/// The time of a record, ns; nothing where it cannot be one.
+/// Time of a record, ns; empty if invalid.
 std::optional<std::int64_t> time_of(const dataflash::Format& format, std::string_view record) {
   const dataflash::Field& field = format.fields[*format.time];
   const double unit_ns = field.name == "TimeUS" ? 1e3 : 1e6;

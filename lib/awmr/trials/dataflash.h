@@ -1,9 +1,9 @@
 /// ArduPilot DataFlash logs (`.bin`): self-describing records. Private to this folder.
 ///
-/// Every record begins with A3 95 and its type; an FMT record says the length, the fields and their
-/// names of a type. Signals are called `NAME.FIELD`, and `NAME[2].FIELD` where FMTU marks a field as
-/// the number of one of several alike sensors. Texts are left out; c, C, e, E count in hundredths, L
-/// in 1e-7 degrees, as the format says.
+/// Every record begins with A3 95 and its type. An FMT record defines the length, the fields and
+/// their names for a type. Signals are named `NAME.FIELD`, or `NAME[2].FIELD` if FMTU marks a field
+/// as the instance number of similar sensors. Texts are omitted. c, C, e, E are in hundredths, L in
+/// 1e-7 degrees, as the format defines.
 #pragma once
 
 #include <string>
@@ -15,10 +15,10 @@ namespace awmr {
 
 bool is_dataflash(std::string_view bytes);
 
-/// The header of the file, and the values of what is wanted. Bytes between records (a write that was
-/// lost) and a file that ends inside one are passed over and noted. Errors: an FMT record whose
-/// length is not that of its fields, whose names are not as many, that has an unknown field, or that
-/// says another thing of a known type; too many signals.
+/// Returns the header of the file and the values of the requested signals. Bytes between records (a
+/// lost write) and a file that ends inside a record are skipped and noted. Errors: an FMT record
+/// with a wrong length or number of names, an unknown field, or a definition that contradicts an
+/// earlier one of its type; too many signals.
 Result<Signals> read_dataflash(std::string_view bytes, const std::string& file,
                                const Wanted& wanted);
 

@@ -1,5 +1,5 @@
-/// The formats that an ArduPilot DataFlash log defines for its records (FMT) and the kinds of their
-/// fields. Private to this folder. [ArduPilot, libraries/AP_Logger/LogStructure.h]
+/// Record formats (FMT) of an ArduPilot DataFlash log and the kinds of their fields. Private to
+/// this folder. [ArduPilot, libraries/AP_Logger/LogStructure.h]
 #pragma once
 
 #include <cstddef>
@@ -14,42 +14,43 @@
 
 namespace awmr::dataflash {
 
-inline constexpr std::size_t kRecordHeaderBytes = 3;  ///< two of synchronisation and the type
+/// two for synchronisation and one for the type
+inline constexpr std::size_t kRecordHeaderBytes = 3;
 
-/// A character of a record's format.
+/// Field kind, by its character in the format.
 struct FieldKind {
   char character;
   std::size_t bytes;
   double scale;  ///< 0: a text
 };
-/// A named value of a record.
+/// A named field of a record.
 struct Field {
   std::string name;
   const FieldKind* kind = nullptr;
-  std::size_t offset = 0;  ///< in the record, behind its header
+  std::size_t offset = 0;  ///< byte offset after the record header
 };
 
-/// A type of record.
+/// Definition of a record type.
 struct Format {
-  std::string definition;  ///< the bytes that define it, without its own header
+  std::string definition;  ///< the bytes of the definition, without the record header
   std::string name;
-  std::size_t bytes = 0;  ///< of a record, with its header
+  std::size_t bytes = 0;  ///< size of a record, with its header
   std::vector<Field> fields = {};
-  std::optional<std::size_t> time = {};      ///< in `fields`: TimeUS or TimeMS
-  std::optional<std::size_t> instance = {};  ///< in `fields`: which of several alike
+  std::optional<std::size_t> time = {};      ///< index in `fields`: TimeUS or TimeMS
+  std::optional<std::size_t> instance = {};  ///< index in `fields`: instance number
 };
 
-/// By the type that stands in a record's header.
+/// Formats by the type in the record header.
 using Formats = std::map<std::uint8_t, Format>;
 
-/// The number of this kind at the beginning of the bytes, scaled.
+/// Returns the scaled number of this kind at the beginning of the bytes.
 double value_in(std::string_view bytes, const FieldKind& kind);
 
-/// The text of a fixed number of bytes, up to its first NUL.
+/// Text in a field of fixed size, up to its first NUL.
 std::string text_of(std::string_view bytes);
 
-/// A format from the 86 bytes behind the header of an FMT record: type, length, name[4], format[16],
-/// labels[64]. Errors: names and kinds that do not agree, an unknown kind, another length.
+/// Parses the 86 bytes after the header of an FMT record: type, length, name[4], format[16],
+/// labels[64]. Errors: names that do not match the kinds, an unknown kind, a wrong length.
 tl::expected<Format, std::string> format_of(std::string_view bytes);
 
 }  // namespace awmr::dataflash

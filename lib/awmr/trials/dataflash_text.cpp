@@ -15,7 +15,7 @@
 namespace awmr {
 namespace {
 
-/// A line's cells, without the blanks around them.
+/// Cells of a line, without surrounding blanks.
 using Cells = std::vector<std::string_view>;
 
 std::string_view without_blanks(std::string_view text) {
@@ -56,14 +56,14 @@ std::optional<Number> number_of(std::string_view text) {
   return number;
 }
 
-/// A text as the binary form holds it: of a fixed number of bytes.
+/// Pads a text to the fixed size of the binary format.
 std::string padded(std::string_view text, std::size_t bytes) {
   std::string padded(text.substr(0, bytes));
   padded.resize(bytes, '\0');
   return padded;
 }
 
-/// An FMT line as the binary record that it was: type, length, name[4], format[16], labels[64].
+/// Converts an FMT line to its binary record: type, length, name[4], format[16], labels[64].
 std::optional<std::string> binary_format(const Cells& cells) {
   constexpr std::size_t kLabels = 5;
   constexpr std::size_t kNameBytes = 4, kKindBytes = 16, kLabelBytes = 64;
@@ -83,7 +83,7 @@ std::optional<std::string> binary_format(const Cells& cells) {
          padded(labels, kLabelBytes);
 }
 
-/// By the name that stands at the beginning of a line.
+/// Formats by the name at the beginning of a line.
 using NamedFormats = std::map<std::string, dataflash::Format, std::less<>>;
 
 /// FMTU: TimeUS, type, units, multipliers; the unit '#' marks the number of an instance.
@@ -98,7 +98,7 @@ void mark_instance_by_units(const Cells& cells, NamedFormats& formats) {
   }
 }
 
-/// As many values as fields; a text at the end may have commas of its own.
+/// True if there is one value per field; a text at the end may contain commas.
 bool has_its_fields(const Cells& cells, const dataflash::Format& format) {
   const std::size_t values = cells.size() - 1;
   if (values == format.fields.size()) return true;
@@ -106,7 +106,7 @@ bool has_its_fields(const Cells& cells, const dataflash::Format& format) {
          format.fields.back().kind->scale == 0.0;
 }
 
-/// The format that a line has, if a known one and all of it.
+/// Returns the format of a line if it is known and the line is complete.
 const dataflash::Format* format_of_line(const Cells& cells, const NamedFormats& formats) {
   const auto found = formats.find(cells.front());
   if (found == formats.end() || !has_its_fields(cells, found->second)) return nullptr;
@@ -117,7 +117,7 @@ tl::unexpected<Error> error_at(const std::string& file, int line, const std::str
   return input_error(fmt::format("{}:{}", file, line), why);
 }
 
-/// Adds what an FMT line defines.
+/// Adds the format that an FMT line defines.
 Status define(const Cells& cells, const std::string& file, int line, NamedFormats& formats) {
   const std::optional<std::string> record = binary_format(cells);
   if (!record) {
@@ -131,10 +131,10 @@ Status define(const Cells& cells, const std::string& file, int line, NamedFormat
                   fmt::format("a second, other format of {}", printable(known->second.name)));
 }
 
-/// A name and the instance it is of: a topic.
+/// A topic: name and instance.
 using TextTopic = std::pair<std::string, std::uint8_t>;
 
-/// Nothing where the instance is no number.
+/// Empty if the instance is not a number.
 std::optional<TextTopic> topic_of_line(const Cells& cells, const dataflash::Format& format) {
   if (!format.instance) return TextTopic{format.name, std::uint8_t{0}};
   const auto instance = number_of<std::uint8_t>(cells[1 + *format.instance]);
@@ -142,10 +142,10 @@ std::optional<TextTopic> topic_of_line(const Cells& cells, const dataflash::Form
   return TextTopic{format.name, *instance};
 }
 
-/// What the first pass over the file finds.
+/// Result of the first pass over the file.
 struct TextContents {
   NamedFormats formats = {};
-  std::map<TextTopic, std::size_t> topics = {};  ///< the number of their records
+  std::map<TextTopic, std::size_t> topics = {};  ///< number of records
   std::size_t lines = 0, skipped = 0;
 };
 
@@ -171,10 +171,10 @@ Result<TextContents> text_contents(std::string_view bytes, const std::string& fi
   return contents;
 }
 
-/// A topic with what is wanted of it.
+/// A topic and its requested fields.
 struct ListedText {
   std::size_t topic = 0;            ///< in Signals::topics
-  std::vector<std::size_t> fields;  ///< in the order of its columns
+  std::vector<std::size_t> fields;  ///< in column order
 };
 
 std::map<TextTopic, ListedText> list_text_topics(const TextContents& contents, const Wanted& wanted,
@@ -200,7 +200,7 @@ std::map<TextTopic, ListedText> list_text_topics(const TextContents& contents, c
   return listed;
 }
 
-/// ns; nothing where it cannot be a time.
+/// Time in ns; empty if invalid.
 std::optional<std::int64_t> time_of_line(const Cells& cells, const dataflash::Format& format) {
   const bool in_us = format.fields[*format.time].name == "TimeUS";
   const std::int64_t unit_ns = in_us ? 1'000 : 1'000'000;
@@ -243,7 +243,7 @@ bool is_dataflash_text(std::string_view bytes) {
 
 Result<Signals> read_dataflash_text(std::string_view bytes, const std::string& file,
                                     const Wanted& wanted) {
-  // Nobody knows whether a last line without an end is all there.
+  // A last line without a line end may be incomplete.
   const std::string_view whole = bytes.substr(0, bytes.rfind('\n') + 1);
   AWMR_ASSIGN_OR_RETURN(TextContents contents, text_contents(whole, file));
   if (whole.size() < bytes.size()) {

@@ -26,7 +26,7 @@ const std::vector<CsvColumn>& field_columns() {
   return columns;
 }
 
-/// Mappings are of columns that there are.
+/// Errors: a mapping of a column that does not exist.
 Status check_names(const std::vector<ColumnMapping>& mappings) {
   std::vector<Fault> faults;
   for (const ColumnMapping& mapping : mappings) {

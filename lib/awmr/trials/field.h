@@ -1,4 +1,4 @@
-/// A record of the magnetic field while the vehicle turns.
+/// Magnetic-field record of a turning vehicle.
 #pragma once
 
 #include <filesystem>
@@ -10,17 +10,18 @@
 
 namespace awmr {
 
-/// By row, at least 30.
+/// Values by row, at least 30.
 struct FieldRecord {
   std::string file;
   std::vector<double> t_s = {};
-  std::vector<double> ahead = {};           ///< in any unit, the same for both
+  std::vector<double> ahead = {};           ///< in any unit, the same as `left`
   std::vector<double> left = {};            ///< to the left
   std::vector<double> yaw_rate_radps = {};  ///< left positive; empty: not recorded
 };
 
-/// Columns t_s, field_ahead, field_left and, optional, yaw_rate_radps. Errors: as read_csv(); time
-/// that does not rise; fewer than 30 rows; a mapping of another column, or one that is not used.
+/// Reads the columns t_s, field_ahead, field_left and, optionally, yaw_rate_radps. Errors: as
+/// read_csv(); time that does not rise; fewer than 30 rows; a mapping of another column, or an
+/// unused mapping.
 Result<FieldRecord> read_field(const std::filesystem::path& path,
                                const std::vector<ColumnMapping>& mappings);
 

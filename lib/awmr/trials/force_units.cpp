@@ -20,8 +20,8 @@ constexpr std::array<FullScale, 5> kFullScales{{{100.0, "percent"},
                                                 {1000.0, "per mille"},
                                                 {1023.0, "10-bit PWM counts"},
                                                 {4095.0, "12-bit PWM counts"}}};
-constexpr double kEndOfScale = 0.005;    // of its end: what is driven at full power reaches it
-constexpr double kLeastShare = 0.2;      // of full power that a whole campaign reaches
+constexpr double kEndOfScale = 0.005;    // of the end of the scale, which full power reaches
+constexpr double kLeastShare = 0.2;      // fraction of full power that a whole campaign reaches
 constexpr double kPlainlyBeyond = 1.05;  // of the limit: below, forces are over a smaller F_max
 
 constexpr Interval kPulse_us{900.0, 2200.0};
@@ -49,7 +49,7 @@ bool may_be_newtons(double largest, const Vehicle& vehicle) {
   return implausible_values(vehicle).empty() && kAcceleration_mps2.contains(pushed_mps2);
 }
 
-/// The scales that the largest force may be of; the one whose end it reaches, if any, alone.
+/// Returns the possible scales of the largest force; only one if the force reaches its end.
 std::vector<ForceUnit> scales_of(double largest) {
   std::vector<ForceUnit> found;
   for (const FullScale& scale : kFullScales) {
@@ -65,7 +65,7 @@ bool is_full_power(double largest) {
       kFullScales, [&](const FullScale& scale) { return is_end_of_scale(largest, scale.end); });
 }
 
-/// Units without doubles, in their order.
+/// Adds a unit unless it is already in the list.
 void add_unit(std::vector<ForceUnit>& units, const ForceUnit& unit) {
   const bool is_known =
       std::ranges::any_of(units, [&](const ForceUnit& one) { return one.words == unit.words; });
@@ -127,7 +127,7 @@ ThrustUnits thrust_units(const ForceSpan& thrust, const std::optional<ForceSpan>
                          const Vehicle& vehicle) {
   const int n = vehicle.driven_wheels();
   const ForceSpan of_one{thrust.least / n, thrust.largest / n};
-  // Up to n it is n F', beyond what the vehicle is said to do.
+  // Values up to n are n F' beyond the vehicle's stated limit.
   const bool is_sum = is_share_of_f_max(of_one);
   ForceUnits units;
   if (wheels && !is_sum) {

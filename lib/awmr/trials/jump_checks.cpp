@@ -10,15 +10,15 @@
 namespace awmr {
 namespace {
 
-/// Beyond what the vehicle does in the time between two readings, but for 5 % of them, by this factor.
+/// A jump exceeds this multiple of the 95 % quantile of the change between two readings.
 constexpr double kTimes = 10.0;
 constexpr double kQuantile = 0.95;
-/// A smaller jump is a fix that was corrected, not another place.
+/// A smaller jump is a corrected fix, not another place.
 constexpr double kVehicleLengths = 4.0;
 constexpr double kLeastTurn_rad = 1.0;
 constexpr std::size_t kFewest = 20;
 
-/// From one reading of a signal to the next one.
+/// Change from one reading of a signal to the next.
 struct Move {
   std::size_t from = 0;  ///< rows
   std::size_t to = 0;
@@ -26,7 +26,7 @@ struct Move {
   double size = 0.0;
 };
 
-/// `size(a, b)`: how far apart the readings of two rows are.
+/// `size(a, b)`: distance between the readings of two rows.
 using Size = std::function<double(std::size_t, std::size_t)>;
 
 std::vector<Move> moves_between(const DrivingLog& log, const std::vector<std::size_t>& rows,
@@ -39,7 +39,7 @@ std::vector<Move> moves_between(const DrivingLog& log, const std::vector<std::si
   return moves;
 }
 
-/// What 95 % of the moves keep below in a second.
+/// 95 % quantile of the change per second.
 double common_rate(const std::vector<Move>& moves) {
   std::vector<double> rates;
   for (const Move& move : moves) rates.push_back(move.size / move.span_s);
@@ -48,7 +48,7 @@ double common_rate(const std::vector<Move>& moves) {
   return rates[static_cast<std::size_t>(place)];
 }
 
-/// The first move that is none of the vehicle's, and from which the signal does not come back.
+/// The first change too large for the vehicle after which the signal does not return.
 std::optional<Move> jump_in(const std::vector<Move>& moves, double least, const Size& size) {
   if (moves.size() < kFewest) return std::nullopt;
   const double rate = common_rate(moves);

@@ -12,7 +12,7 @@
 namespace awmr {
 namespace {
 
-/// The value read, or nothing and its faults among the others.
+/// Returns the value, or nothing and adds the faults.
 template <class Read>
 std::optional<Read> keep(Result<Read> read, std::vector<Fault>& faults) {
   if (read) return std::move(*read);
@@ -20,7 +20,7 @@ std::optional<Read> keep(Result<Read> read, std::vector<Fault>& faults) {
   return std::nullopt;
 }
 
-/// Curves of several files add up; stop times come in one file.
+/// Curves of several files are combined; stop times must be in one file.
 void add_coastdown(const std::filesystem::path& path, CoastdownSet set, TrialData& data,
                    std::vector<Fault>& faults) {
   if (const auto* curves = std::get_if<std::vector<CoastCurve>>(&set)) {
@@ -42,7 +42,7 @@ void join(std::optional<TrialSet<Row>>& all, TrialSet<Row> found) {
   }
 }
 
-/// Rows found in logs join those of a file; their findings name the log.
+/// Adds the rows found in logs to those of a file; their findings name the log.
 void add_steady_runs(Trials& trials) {
   for (const DrivingLog& log : trials.data.logs) {
     SteadyRuns runs = steady_runs(log, trials.vehicle, {}, trials.findings);
@@ -51,7 +51,7 @@ void add_steady_runs(Trials& trials) {
   }
 }
 
-/// The runs of one file, each where it is sound in itself.
+/// Adds the consistent runs of one file.
 void add_logs(const std::filesystem::path& path, std::vector<DrivingLog> logs,
               const TrialOptions& options, Trials& trials, std::vector<Fault>& faults) {
   for (DrivingLog& log : logs) {
@@ -65,7 +65,7 @@ void add_logs(const std::filesystem::path& path, std::vector<DrivingLog> logs,
   }
 }
 
-/// The indices of all mappings that gave a column.
+/// Indices of all mappings that gave a column.
 std::vector<std::size_t> mappings_used(const TrialData& data) {
   std::vector<std::size_t> used;
   const auto add = [&](const std::vector<std::size_t>& more) {
@@ -88,7 +88,8 @@ std::vector<std::filesystem::path> paths_of(const TrialFiles& files) {
   return paths;
 }
 
-/// The tables, and then each against itself, the vehicle and the others.
+/// Reads the tables, then checks each for consistency with itself, the vehicle and the other
+/// tables.
 void read_tables(const TrialFiles& files, const TrialOptions& options, Trials& trials,
                  std::vector<Fault>& faults) {
   auto& [vehicle, data, findings] = trials;
@@ -113,7 +114,7 @@ void read_tables(const TrialFiles& files, const TrialOptions& options, Trials& t
   }
 }
 
-/// By name, so that no number of a fit depends on the order in which the files were given.
+/// Sorted by name, so that results do not depend on the order in which the files were given.
 std::vector<std::filesystem::path> in_order_of_names(std::vector<std::filesystem::path> paths) {
   std::sort(paths.begin(), paths.end(), [](const auto& a, const auto& b) {
     return std::pair(a.filename(), a) < std::pair(b.filename(), b);

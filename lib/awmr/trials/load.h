@@ -1,4 +1,4 @@
-/// All the trial files of one vehicle, read and joined: the way in to identify().
+/// Reads and combines all trial files of one vehicle: the input of identify().
 ///
 ///     const auto trials = load_trials({.vehicle = *robot, .surge = "surge.csv"});
 #pragma once
@@ -14,28 +14,28 @@
 
 namespace awmr {
 
-/// Which files to read; those of the vehicle's trials that there are.
+/// Trial files to read.
 struct TrialFiles {
   Vehicle vehicle;
-  /// Runs at constant thrust, wheels straight: show a1, b1.
+  /// Runs at constant thrust with straight wheels: identify a1, b1.
   std::optional<std::filesystem::path> surge = {};
-  /// Runs at constant thrust and steering: show a3, b3.
+  /// Runs at constant thrust and steering: identify a3, b3.
   std::optional<std::filesystem::path> turning = {};
-  /// Motors off: show m', I'z. Any number of files of whole curves, one of stop times.
+  /// Motors off: identify m', I'z. Any number of files with curves, one with stop times.
   std::vector<std::filesystem::path> coastdowns = {};
-  /// Driving logs: commands and whatever was measured, by time.
+  /// Driving logs: commands and measurements by time.
   std::vector<std::filesystem::path> logs = {};
-  /// Steady stretches of the logs join the surge and turning rows. For when there is a log, but
-  /// nobody drove the runs of the tables.
+  /// Adds steady stretches of the logs to the surge and turning rows. For use when there is a log
+  /// but no table runs.
   bool steady_from_logs = false;
-  /// Names of the columns, and which of two values of one quantity counts; of every file.
+  /// Column names, and which of two values of one quantity to use; for every file.
   TrialOptions options = {};
 };
 
-/// Reads and joins them. Errors (input): no file at all; as read_surge(), read_turning(),
-/// read_coastdown() and read_log(), the faults of all files together; tables and logs that contradict
+/// Reads and combines the files. Errors (input): no file; as read_surge(), read_turning(),
+/// read_coastdown() and read_log(), with the faults of all files; tables and logs that contradict
 /// themselves or the vehicle (table_consistency.h, log_consistency.h); a second file of stop times;
-/// steady stretches asked for without a log; a mapping that is unknown or unused.
+/// steady stretches requested without a log; an unknown or unused mapping.
 Result<Trials> load_trials(const TrialFiles& files);
 
 }  // namespace awmr

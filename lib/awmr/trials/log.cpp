@@ -20,7 +20,7 @@
 namespace awmr {
 namespace {
 
-/// The values of a column that is asked for once: of the only run they are moved out of the table.
+/// Values of a column that is requested once; with a single run they are moved out of the table.
 std::vector<double> values_of(TrialReader& reader, RowSpan rows, std::string_view column,
                               double scale) {
   const std::span<const double> cells = reader.table().column(column);
@@ -33,7 +33,7 @@ std::vector<double> values_of(TrialReader& reader, RowSpan rows, std::string_vie
   return values;
 }
 
-/// The rows, counted from the run's first, in which the column has a value of its own.
+/// Rows with a value in the column, counted from the first row of the run.
 std::vector<std::size_t> rows_present(const TrialReader& reader, RowSpan rows,
                                       std::string_view column) {
   const std::vector<bool>& present = reader.table().present(column);
@@ -44,7 +44,7 @@ std::vector<std::size_t> rows_present(const TrialReader& reader, RowSpan rows,
   return found;
 }
 
-/// Adds whole turns so that no step is larger than half of one.
+/// Adds whole turns so that no step exceeds half a turn.
 void unwrap(std::vector<double>& angle_rad) {
   const double turn = 2.0 * pi<double>();
   double turns = 0.0;
@@ -75,8 +75,8 @@ void check_log_columns(TrialReader& reader, bool has_steering) {
   }
 }
 
-/// The rows of each run: those with one value of `run`, in one piece; without that column the file
-/// is one run.
+/// Rows of each run. A run is a contiguous block with one value of `run`; without that column the
+/// file is one run.
 std::vector<RowSpan> runs_of(const TrialReader& reader) {
   const std::size_t rows = reader.table().rows();
   std::vector<RowSpan> runs;
@@ -88,7 +88,7 @@ std::vector<RowSpan> runs_of(const TrialReader& reader) {
   return runs;
 }
 
-/// The angle drives the model where no command was logged: it has to be known then.
+/// Without a command the model uses the steering angle: the run begins where it is known.
 RowSpan from_known_steering(const TrialReader& reader, RowSpan run) {
   if (reader.has("steering_cmd_deg") || !reader.has("steering_deg")) return run;
   const std::vector<std::size_t> known = rows_present(reader, run, "steering_deg");
@@ -116,7 +116,7 @@ void check_time(TrialReader& reader, RowSpan run) {
                           kShortestLog));
 }
 
-/// East and north of the first row, by the library's local tangent plane.
+/// East and north of the first row, in the library's local tangent plane.
 void add_geographic(TrialReader& reader, RowSpan rows, DrivingLog& log,
                     std::vector<Finding>& findings) {
   const std::vector<double> latitude = values_of(reader, rows, "latitude_deg", 1.0);
@@ -163,7 +163,8 @@ double DrivingLog::median_step_s() const {
   std::vector<double> steps;
   for (std::size_t i = 1; i < t_s.size(); ++i) steps.push_back(t_s[i] - t_s[i - 1]);
   if (!joined) return median(std::move(steps));
-  // Rows of two signals may come in pairs, close together; by time the short steps count little.
+  // Rows of two signals may come in close pairs. In a time-weighted median the short steps count
+  // little.
   std::sort(steps.begin(), steps.end());
   double left_s = 0.5 * (t_s.back() - t_s.front());
   for (const double step_s : steps) {
@@ -186,7 +187,7 @@ bool is_joined(const CsvTable& table) {
   return false;
 }
 
-/// Time and commands of one run.
+/// Returns the time and commands of one run.
 DrivingLog commands_of(TrialReader& reader, RowSpan rows) {
   const CsvTable& table = reader.table();
   DrivingLog log;
@@ -202,13 +203,13 @@ DrivingLog commands_of(TrialReader& reader, RowSpan rows) {
     log.steering_command_rad =
         values_of(reader, rows, "steering_cmd_deg", info(LogChannel::kSteering).to_si);
   } else if (!reader.has("steering_deg")) {
-    log.steering_command_rad.emplace(log.t_s.size(), 0.0);  // a vehicle without steering
+    log.steering_command_rad.emplace(log.t_s.size(), 0.0);  // vehicle without steering
   }
   return log;
 }
 
-/// Channels of the file that are no measurement, each told. A value that was held counts once more, which
-/// changes nothing.
+/// Returns the channels that are not measurements and adds a finding for each. Repeated values are
+/// counted too, which does not affect the result.
 std::vector<LogChannel> find_unmeasured(const TrialReader& reader, std::vector<Finding>& findings) {
   const CsvTable& table = reader.table();
   const auto values = [&](std::string_view column) -> std::optional<std::span<const double>> {

@@ -11,7 +11,7 @@
 namespace awmr {
 namespace {
 
-/// The times of the first few rows, for a message.
+/// Formats the times of the first few rows for a message.
 std::string times_of(const DrivingLog& log, const std::vector<std::size_t>& rows) {
   constexpr std::size_t kMost = 4;
   std::string text;
@@ -52,7 +52,7 @@ void note_quality(LogChannel channel, const DrivingLog& log, const ChannelQualit
   }
 }
 
-/// What the vehicle is told to do that shows in a channel: thrust in speeds, turning in the rest.
+/// The command that affects a channel: thrust for speeds, turning for the rest.
 std::vector<double> activity_for(LogChannel channel, const DrivingLog& log) {
   const bool turning = channel == LogChannel::kHeading || channel == LogChannel::kYawRate;
   std::vector<double> activity(log.rows());
@@ -73,8 +73,8 @@ std::vector<double> picked(const std::vector<double>& values,
   return some;
 }
 
-/// The quality of the readings in `rows`, said of the rows of the log. A row without a reading
-/// does not count as measured.
+/// Channel quality of the readings in `rows`, mapped to the rows of the log. A row without a
+/// reading does not count as measured.
 ChannelQuality quality_in(const std::vector<std::size_t>& rows, LogChannel channel,
                           const DrivingLog& log, const std::vector<double>& values) {
   const std::vector<double> activity = activity_for(channel, log);
@@ -110,7 +110,7 @@ void join_position(DrivingLog& log) {
   for (std::size_t i = 1; i < log.rows(); ++i) {
     const bool new_x = x.value[i] != x.value[i - 1];
     const bool new_y = y.value[i] != y.value[i - 1];
-    // A new value that does not count was set aside, and its partner goes with it.
+    // A new value that does not count was excluded; its partner is excluded with it.
     const bool set_aside = (new_x && !x.fresh[i]) || (new_y && !y.fresh[i]);
     x.fresh[i] = y.fresh[i] = (new_x || new_y) && !set_aside;
   }

@@ -1,5 +1,5 @@
-/// What counts as measured in a log, and what is told of its channels and commands. Private to this
-/// folder.
+/// Detects which values of a log are measurements, and reports problems of channels and commands.
+/// Private to this folder.
 #pragma once
 
 #include <cstddef>
@@ -10,28 +10,28 @@
 
 namespace awmr {
 
-/// Fewer rows are no log.
+/// Minimum number of rows of a log.
 inline constexpr std::size_t kShortestLog = 10;
 
-/// A channel from its values by row, SI; `rows` are those in which it has a reading. The log's times
-/// and commands have to be there. Findings: `spikes`, `stuck-sensor`, `saturated-channel`,
+/// Builds a channel from its values by row, SI; `rows` are those with a reading. The log's times
+/// and commands must be set. Findings: `spikes`, `stuck-sensor`, `saturated-channel`,
 /// `quantised-samples`.
 Measured measured_of(LogChannel channel, const DrivingLog& log,
                      const std::vector<std::size_t>& rows, std::vector<double> values,
                      std::vector<Finding>& findings);
 
-/// A receiver gives x and y together: a repeat of one alone is chance.
+/// A receiver gives x and y together, so a repeat of only one is chance: both count.
 void join_position(DrivingLog& log);
 
-/// Finding `held-samples`: channels slower than the log.
+/// Adds finding `held-samples`: channels slower than the log.
 void note_held(const DrivingLog& log, std::vector<Finding>& findings);
 
-/// Finding `command-held`: a command that came in `rows` only and was not renewed for long may have
-/// ended.
+/// Adds finding `command-held`: a command with values only in `rows` that was not renewed for long
+/// and may have ended.
 void note_stale_command(std::string_view column, const DrivingLog& log,
                         const std::vector<std::size_t>& rows, std::vector<Finding>& findings);
 
-/// Finding `log-gap`: nothing was logged for long.
+/// Adds finding `log-gap`: no rows for a long time.
 void note_gaps(const DrivingLog& log, std::vector<Finding>& findings);
 
 }  // namespace awmr

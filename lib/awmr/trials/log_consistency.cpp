@@ -16,10 +16,10 @@ std::vector<Contradiction> contradictions(const DrivingLog& log, const Vehicle& 
   const Evidence evidence = evidence_of(log, vehicle, mappings);
   if (auto rest = rest_contradiction(evidence)) return {*std::move(rest)};
   std::vector<Contradiction> found = unit_contradictions(evidence);
-  // With a wrong time no rate has the sign that it seems to have.
+  // With a wrong time unit the signs of rates are unreliable.
   if (!found.empty() && found.front().column == "t_s") return found;
   for (Contradiction& one : sign_contradictions(evidence)) found.push_back(std::move(one));
-  // Positions in another unit jump as well.
+  // Positions in a wrong unit jump as well.
   if (found.empty()) {
     if (auto jump = jump_contradiction(evidence)) found.push_back(*std::move(jump));
   }
@@ -37,7 +37,7 @@ std::optional<GyroBias> gyro_bias(const DrivingLog& log) {
   }
   if (offsets.size() < 10) return std::nullopt;
   const double bias = median(offsets);
-  // A median has sqrt(pi/2) = 1.2533 times a mean's standard error.
+  // The standard error of a median is sqrt(pi/2) = 1.2533 times that of a mean.
   const double error = 1.2533 * kStdPerMad * median_absolute_deviation(offsets, bias) /
                        std::sqrt(static_cast<double>(offsets.size()));
   return GyroBias{bias, error};

@@ -1,16 +1,16 @@
-/// What contradicts itself in a driving log: units, signs and sides, found by holding the channels
-/// against each other, the commands and the vehicle, before anything is fitted.
+/// Checks a driving log for wrong units, signs and sides before anything is fitted, by comparing
+/// the channels with each other, the commands and the vehicle.
 ///
 /// Robust ratios over windows of a second need no model of the vehicle:
 ///
-///     change of heading      against   integral of the yaw rate
-///     distance of positions  against   integral of the speed
-///     course of positions    against   heading
-///     yaw rate               against   tau_steering and tau_diff of the commands (allocation.h)
-///     sign of the speed      against   thrust to the rear that speeds the vehicle up
-///     a reading's change     against   what the vehicle does in the time between two: two runs
-///     curvature r/u          against   tan(d_r)/l_f: no vehicle turns far more sharply than its
-///                                      front axle points
+///     change of heading      with   integral of the yaw rate
+///     distance of positions  with   integral of the speed
+///     course of positions    with   heading
+///     yaw rate               with   tau_steering and tau_diff of the commands (allocation.h)
+///     sign of the speed      with   rearward thrust that accelerates the vehicle
+///     change of a reading    with   usual change between two readings: two runs in one file
+///     curvature r/u          with   tan(d_r)/l_f: a vehicle cannot turn far more sharply than its
+///                                   front axle points
 ///
 /// A vehicle that never moves is refused first. A ratio near 57.3, 3.6, 1000 or -1 tells which unit or sign is off; where one of several columns
 /// may be to blame, all are named.
@@ -27,18 +27,17 @@
 
 namespace awmr {
 
-/// A column that cannot be what its name says, and the mapping that would mend it.
+/// A column whose values contradict its name, and the mapping that would correct it.
 struct Contradiction {
-  std::string column;   ///< "yaw_rate_radps"
-  std::string message;  ///< what was compared, what was found, the likely cause
-  std::string
-      mapping;  ///< `NAME=SOURCE*FACTOR`, to be given as a column mapping; may be two, or none
-  std::string remedy = {};  ///< what to do, where that mapping alone does not say it; else empty
+  std::string column;       ///< "yaw_rate_radps"
+  std::string message;      ///< the comparison, its result, the likely cause
+  std::string mapping;      ///< `NAME=SOURCE*FACTOR`, a column mapping; may be two, or none
+  std::string remedy = {};  ///< what to do if the mapping alone does not suffice; else empty
 };
 
-/// Empty for a log whose channels agree. `mappings`: those that the log was read with, so that the
-/// remedy starts from the file's own column. A comparison whose signal is too weak to tell (a
-/// straight drive, a vehicle at rest, fewer than 10 windows) says nothing.
+/// Empty if all channels agree. `mappings`: those with which the log was read, so that the remedy
+/// refers to the file's own column. A comparison with too weak a signal (a straight drive, a
+/// vehicle at rest, fewer than 10 windows) is skipped.
 std::vector<Contradiction> contradictions(const DrivingLog& log, const Vehicle& vehicle,
                                           std::span<const ColumnMapping> mappings);
 
@@ -49,15 +48,15 @@ std::vector<Contradiction> contradictions(const DrivingLog& log, const Vehicle& 
 Status check_consistency(const DrivingLog& log, const std::string& place, const Vehicle& vehicle,
                          const TrialOptions& options, std::vector<Finding>& findings);
 
-/// The constant offset of the yaw rate against the heading, where both were measured and agree.
+/// Constant offset of the yaw rate from the heading's rate, if both were measured and agree.
 struct GyroBias {
   double bias_radps = 0.0;
   double std_error_radps = 0.0;
-  /// It is there, by five standard errors or more.
+  /// True for a bias of at least five standard errors.
   bool significant() const;
 };
 std::optional<GyroBias> gyro_bias(const DrivingLog& log);
-/// The log shows a significant one.
+/// True if the log shows a significant bias.
 bool has_gyro_bias(const DrivingLog& log);
 
 }  // namespace awmr

@@ -12,9 +12,10 @@
 namespace awmr {
 namespace {
 
-/// A response follows its command by about this much; commands are averaged that much earlier.
+/// Approximate response time: commands are averaged this much earlier.
 constexpr double kResponse_s = 0.2;
-/// Commands as they acted on the window: averaged over the same length, a little earlier.
+/// Adds the commands effective in the window: averaged over the same length, earlier by
+/// kResponse_s.
 void add_commands(const DrivingLog& log, const Vehicle& vehicle, const LogWindow& window,
                   EvidenceWindow& sums) {
   const double delay_s = log.steering_command_rad ? kResponse_s : 0.0;
@@ -61,7 +62,7 @@ EvidenceWindow sums_of(const DrivingLog& log, const Vehicle& vehicle, const LogW
   return sums;
 }
 
-/// Whether every position and heading of a row is a reading, none of them held from a row before.
+/// True if position and heading of a row are new readings, not held from an earlier row.
 bool has_readings(const DrivingLog& log, std::size_t row) {
   return std::ranges::all_of(
       std::array{LogChannel::kX, LogChannel::kY, LogChannel::kHeading}, [&](LogChannel channel) {
@@ -69,9 +70,9 @@ bool has_readings(const DrivingLog& log, std::size_t row) {
       });
 }
 
-/// The windows moved to where they begin and end with readings: what a sensor slower than the log moved
-/// between two held values belongs to another time. An end moves on into the window behind, or back where
-/// there is none; windows that this makes twice or half as long are left out.
+/// Moves the windows so that they begin and end with readings: a change between two held values of
+/// a slow sensor belongs to another time. An end moves forward into the next window, or back if
+/// there is none. Windows whose length then doubles or halves are dropped.
 std::vector<LogWindow> between_readings(const std::vector<LogWindow>& windows) {
   std::vector<LogWindow> moved;
   for (std::size_t i = 0; i < windows.size(); ++i) {
@@ -91,8 +92,8 @@ std::vector<LogWindow> between_readings(const std::vector<LogWindow>& windows) {
   return moved;
 }
 
-/// Between two windows that follow each other, two more that take a part of both; none where there
-/// are windows enough.
+/// Inserts two windows that overlap both neighbours between consecutive windows; none if there are
+/// enough windows.
 std::vector<LogWindow> windows_between(const std::vector<LogWindow>& windows) {
   constexpr std::size_t kEnough = 20;
   constexpr std::size_t kParts = 3;
@@ -154,8 +155,8 @@ MomentShares moment_shares(const std::vector<EvidenceWindow>& windows,
   const double determinant = ss * dd - sd * sd;
   const bool steering_only = dd < 1e-6 * ss;
   const bool sides_only = ss < 1e-6 * dd;
-  // A controller that steers and drives the sides apart together leaves but one moment to be seen:
-  // beyond a correlation of 0.9 the shares are those of what this line leaves out, inertia first.
+  // A controller that combines steering and differential forces makes only one moment observable.
+  // Beyond a correlation of 0.9 the shares would fit the neglected effects, mainly inertia.
   const bool apart = determinant > 0.19 * ss * dd && !steering_only && !sides_only;
   if (n < 10.0 || rr <= 0.0) return {};
   constexpr double kSignificant = 5.0;  // standard errors
@@ -167,9 +168,9 @@ MomentShares moment_shares(const std::vector<EvidenceWindow>& windows,
   if (steering_only) return {shown(sr / ss, 1.0 / ss, sr * sr / ss), 0};
   if (sides_only) return {0.0, shown(dr / dd, 1.0 / dd, dr * dr / dd)};
   if (!apart) {
-    // Moments that nearly cancel each other turn nothing: one of them has the wrong sign, that which the
-    // rate is against.
-    constexpr double kNearlyEqual = 4.0;  // of their squares
+    // Moments that nearly cancel do not turn the vehicle. The one that opposes the rate has the
+    // wrong sign.
+    constexpr double kNearlyEqual = 4.0;  // bound on the ratio of their squares
     const bool cancel = sd < 0.0 && ss < kNearlyEqual * dd && dd < kNearlyEqual * ss;
     if (sd < 0.0 && !cancel) return {};
     return {shown(sr / ss, 1.0 / ss, sr * sr / ss), shown(dr / dd, 1.0 / dd, dr * dr / dd)};
@@ -182,7 +183,7 @@ MomentShares moment_shares(const std::vector<EvidenceWindow>& windows,
 
 namespace {
 
-/// What a column was read from, times a factor, plus an offset.
+/// The source of a column times a factor, plus an offset.
 std::string scaled_source(std::span<const ColumnMapping> mappings, std::string_view column,
                           double factor, double offset) {
   ColumnMapping used{std::string(column), std::string(column)};

@@ -1,5 +1,4 @@
-/// What the windows of a log say of each signal, for the checks of its units and signs. Private to
-/// this folder.
+/// Per-window sums of a log's signals, for the checks of units and signs. Private to this folder.
 #pragma once
 
 #include <optional>
@@ -13,18 +12,18 @@
 
 namespace awmr {
 
-/// Windows of this length average the noise out and still turn by less than a circle.
+/// Window length: long enough to average the noise, short enough to turn by less than a circle.
 inline constexpr double kEvidenceWindow_s = 1.0;
 
-/// What one window says of each signal; sums over the window, so that noise averages out.
+/// Sums of the signals over one window, in which noise averages out.
 struct EvidenceWindow {
   double turned_rad = 0.0;       ///< change of heading
   double rate_rad = 0.0;         ///< integral of the yaw rate
-  double moved_m = 0.0;          ///< distance between the first and the last position
+  double moved_m = 0.0;          ///< distance between first and last position
   double course_rad = 0.0;       ///< its direction
-  double heading_rad = 0.0;      ///< in the middle
+  double heading_rad = 0.0;      ///< in the middle of the window
   double driven_m = 0.0;         ///< integral of the speed
-  bool has_stuck_speed = false;  ///< every reading of the speed is the same, and not 0
+  bool has_stuck_speed = false;  ///< all readings of the speed are the same and not 0
   double thrust = 0.0;           ///< mean of F'L + F'R
   double steering_rad = 0.0;     ///< mean command
   double tau_steering_m = 0.0;   ///< l_f (F'L + F'R) sin d_r, as in allocation.h
@@ -32,20 +31,20 @@ struct EvidenceWindow {
   double span_s = 0.0;
 };
 
-/// The log with its windows and the mappings it was read with: what every comparison needs.
+/// A log with its windows and the mappings with which it was read: the input of every comparison.
 struct Evidence {
   const DrivingLog& log;
   const Vehicle& vehicle;
   std::span<const ColumnMapping> mappings;
-  std::vector<EvidenceWindow> windows;  ///< side by side
-  /// For medians, which need twenty: those of a shorter log overlap by two thirds, so that ten
-  /// seconds are enough to tell a wrong unit.
+  std::vector<EvidenceWindow> windows;  ///< consecutive, without overlap
+  /// Windows for medians, which need twenty. In a shorter log they overlap by two thirds, so that
+  /// ten seconds suffice to detect a wrong unit.
   std::vector<EvidenceWindow> overlapping;
 
   bool has(LogChannel channel) const { return log[channel].has_value(); }
 };
 
-/// The windows are a second long, so that noise averages out.
+/// Builds windows of kEvidenceWindow_s.
 Evidence evidence_of(const DrivingLog& log, const Vehicle& vehicle,
                      std::span<const ColumnMapping> mappings);
 
@@ -55,7 +54,7 @@ std::vector<LogWindow> evidence_rows(const DrivingLog& log, double length_s);
 /// The integral of a channel over a window, by trapezoids.
 double integral_of(const DrivingLog& log, LogChannel channel, const LogWindow& window);
 
-/// One number of every window.
+/// Returns one field of every window.
 template <class Member>
 std::vector<double> series(const std::vector<EvidenceWindow>& windows, Member member) {
   std::vector<double> values;
@@ -64,7 +63,7 @@ std::vector<double> series(const std::vector<EvidenceWindow>& windows, Member me
   return values;
 }
 
-/// The partial regression of a rate on the two moments; 0 where a moment's share is not shown.
+/// Partial regression of a rate on the two moments; 0 for a moment without significant share.
 struct MomentShares {
   double steering = 0.0;
   double sides = 0.0;
@@ -73,21 +72,21 @@ struct MomentShares {
 MomentShares moment_shares(const std::vector<EvidenceWindow>& windows,
                            double (*rate)(const EvidenceWindow&));
 
-/// `NAME="SOURCE"*FACTOR+OFFSET`, from the column that NAME was read from.
+/// `NAME="SOURCE"*FACTOR+OFFSET`, where SOURCE is the column from which NAME was read.
 std::string scaled_mapping(std::span<const ColumnMapping> mappings, std::string_view column,
                            double factor, double offset = 0.0);
 std::string scaled_mapping(const Evidence& evidence, std::string_view column, double factor,
                            double offset = 0.0);
-/// The two forces, each from the other's column.
+/// Mapping that swaps the two force columns.
 std::string swapped_mapping(const Evidence& evidence);
 
 /// A vehicle that never moves: then no channel can be compared with another.
 std::optional<Contradiction> rest_contradiction(const Evidence& evidence);
 /// Units: time, forces, steering angle, yaw rate against heading, speed against positions.
 std::vector<Contradiction> unit_contradictions(const Evidence& evidence);
-/// Positions, or without them the heading, that go on elsewhere from one reading to the next.
+/// Detects a jump of the position, or without it of the heading, to another place.
 std::optional<Contradiction> jump_contradiction(const Evidence& evidence);
-/// Signs and sides: steering, forces, yaw rate, heading, y, direction of motion.
+/// Checks signs and sides: steering, forces, yaw rate, heading, y, direction of motion.
 std::vector<Contradiction> sign_contradictions(const Evidence& evidence);
 
 }  // namespace awmr

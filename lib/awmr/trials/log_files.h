@@ -1,4 +1,4 @@
-/// The files that a trial is read from.
+/// Files of a trial.
 #pragma once
 
 #include <filesystem>
@@ -8,8 +8,9 @@
 
 namespace awmr {
 
-/// The path itself, or of a directory the files in it that are joined into one log, by name: the
-/// bags (`.db3`) where there are some, else the tables (`.csv`). Errors: a directory without either.
+/// Returns the path itself, or for a directory its files sorted by name, which are joined into one
+/// log: the bags (`.db3`) if there are any, else the tables (`.csv`). Errors: a directory without
+/// either.
 Result<std::vector<std::filesystem::path>> files_of(const std::filesystem::path& path);
 
 }  // namespace awmr

@@ -1,4 +1,4 @@
-/// What would mend a column that is in another unit. Private to this folder.
+/// Mappings that correct a column in a wrong unit. Private to this folder.
 #pragma once
 
 #include <span>
@@ -10,8 +10,8 @@
 
 namespace awmr {
 
-/// What a column most likely holds, and what makes it what it is taken for: its values times `factor`,
-/// plus `offset`.
+/// Likely content of a column, and its conversion to the expected unit: value times `factor`, plus
+/// `offset`.
 struct Mending {
   std::string words;        ///< "8-bit PWM counts"
   std::string_view column;  ///< "wheel_force"
@@ -19,9 +19,9 @@ struct Mending {
   double offset = 0.0;
 };
 
-/// "map it by --column 'A'", and where there are several, or others that no mapping is known for
-/// (`in_doubt`), "(percent) or by --column 'B' (PWM counts)". Empty where there is none. `mappings` are those
-/// that the table was read with.
+/// "map it by --column 'A'"; if there are several, or other units without a known mapping
+/// (`in_doubt`), "(percent) or by --column 'B' (PWM counts)". Empty without any. `mappings` are
+/// those with which the table was read.
 std::string mapped_by(std::span<const Mending> mendings, std::span<const ColumnMapping> mappings,
                       bool in_doubt = false);
 

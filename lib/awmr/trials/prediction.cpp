@@ -12,18 +12,18 @@
 namespace awmr {
 namespace {
 
-/// Sums over the samples of a channel.
+/// Error sums over the samples of a channel.
 struct Sums {
   double one_step = 0.0;      ///< squared errors
   double long_horizon = 0.0;  ///< squared errors
   double measured = 0.0;
-  double squares = 0.0;  ///< of what was measured
+  double squares = 0.0;  ///< sum of y^2 of the measurements
   int count = 0;
   PredictedSeries series = {};
 };
 using ChannelSums = std::array<Sums, kChannelCount>;
 
-/// The model ready to run over any rows of a log.
+/// Model and settings for predicting any rows of a log.
 struct Predictor {
   LogSignals signals;
   Plant<double> plant;
@@ -51,7 +51,7 @@ void run(const Predictor& model, std::size_t begin, std::size_t end, const State
                  model.lagged ? &*model.lagged : nullptr);
 }
 
-/// visit(channel, value) for everything that was measured in a row.
+/// Calls visit(channel, value) for each measurement in a row.
 template <class Visit>
 void each_measurement(const DrivingLog& log, std::size_t row, Visit visit) {
   for (const LogChannel channel : kChannels) {
@@ -59,7 +59,8 @@ void each_measurement(const DrivingLog& log, std::size_t row, Visit visit) {
   }
 }
 
-/// One row on from what was measured in this row, and from the long run for the rest.
+/// Predicts the next row from the measurements in this row, with the rest of the state from the
+/// long-horizon run.
 void add_one_step(const Predictor& model, std::size_t row, State<double> state, ChannelSums& sums) {
   const DrivingLog& log = *model.signals.log;
   each_measurement(log, row, [&](LogChannel channel, double measured) {

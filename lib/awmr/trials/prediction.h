@@ -1,4 +1,4 @@
-/// How well a model predicts a log from its commands.
+/// Accuracy of a model that predicts a log from its commands.
 #pragma once
 
 #include <cstddef>
@@ -9,14 +9,14 @@
 
 namespace awmr {
 
-/// How far predictions of one channel are from what was measured.
+/// Prediction error of one channel.
 struct PredictionError {
-  double nrmse = 0.0;  ///< root mean square error over the channel's own standard deviation
+  double nrmse = 0.0;  ///< root mean square error divided by the channel's standard deviation
   double r2 = 0.0;     ///< 1 - sum of squared errors / sum of squares about the mean
   double rmse = 0.0;   ///< SI
 };
 
-/// Readings of a channel, and what the commands alone predict for them.
+/// Readings of a channel and their predictions from the commands.
 struct PredictedSeries {
   std::vector<double> t_s = {};        ///< rising
   std::vector<double> measured = {};   ///< SI
@@ -26,9 +26,9 @@ struct PredictedSeries {
 struct ChannelPrediction {
   LogChannel channel = LogChannel::kX;
   int samples = 0;
-  PredictionError one_step;      ///< from the last measured row to the next
-  PredictionError long_horizon;  ///< by the commands alone over windows of `horizon_s`
-  PredictedSeries series = {};   ///< the long horizon, as far as it was asked for
+  PredictionError one_step;      ///< from one measured row to the next
+  PredictionError long_horizon;  ///< from the commands alone, over windows of `horizon_s`
+  PredictedSeries series = {};   ///< long-horizon series, if requested
 };
 
 struct PredictionOptions {
@@ -39,8 +39,8 @@ struct PredictionOptions {
   std::size_t most_in_series = 0;
 };
 
-/// By channel, in the order of kChannels. A channel that does not vary (a log at rest) has no NRMSE
-/// and is left out.
+/// Errors by channel, in the order of kChannels. A constant channel (a log at rest) has no NRMSE
+/// and is omitted.
 std::vector<ChannelPrediction> predict_log(const DrivingLog& log, const Plant<double>& plant,
                                            const PredictionOptions& options);
 

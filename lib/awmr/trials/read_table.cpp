@@ -28,10 +28,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Of these a file's format is known; is_awl() looks at most of them.
+/// First bytes of a file used to detect its format; is_awl() needs the most.
 constexpr std::size_t kSampleBytes = std::size_t{1} << 14U;
 
-/// The table of signals that have times of their own.
+/// Converts signals with their own times to a table.
 Result<CsvTable> table_of_signals(CsvTopics topics, const std::string& file,
                                   std::span<const CsvColumn> columns,
                                   std::span<const ColumnMapping> mappings) {
@@ -45,7 +45,7 @@ Result<CsvTable> table_of_signals(CsvTopics topics, const std::string& file,
   return table_of(std::move(raw), std::move(sources), mappings, std::move(faults));
 }
 
-/// The columns of a file without lines.
+/// Table of columns from a file without lines.
 Result<CsvTable> table_of_columns(std::vector<std::string> header,
                                   std::vector<std::vector<double>> values,
                                   std::vector<CsvNote> notes, const std::string& file,
@@ -61,7 +61,7 @@ Result<CsvTable> table_of_columns(std::vector<std::string> header,
   return table_of(std::move(raw), std::move(sources), mappings, std::move(faults));
 }
 
-/// The rows of an on-board log.
+/// Table of an on-board log.
 Result<CsvTable> table_of_awl(std::string_view bytes, const std::string& file,
                               std::span<const CsvColumn> columns,
                               std::span<const ColumnMapping> mappings) {
@@ -74,7 +74,7 @@ Result<CsvTable> table_of_awl(std::string_view bytes, const std::string& file,
                           columns, mappings);
 }
 
-/// The rows of SysId's tests.
+/// Table of SysId's tests.
 Result<CsvTable> table_of_sysid(std::string_view bytes, const std::string& file,
                                 std::span<const CsvColumn> columns,
                                 std::span<const ColumnMapping> mappings) {
@@ -83,7 +83,7 @@ Result<CsvTable> table_of_sysid(std::string_view bytes, const std::string& file,
                           columns, mappings);
 }
 
-/// A bag may be cut into several files: its topics go on from one to the next.
+/// Appends the next file of a bag: its topics continue.
 void append(Signals part, Signals& all) {
   std::vector<std::size_t> places;
   for (const std::string& name : part.header) {
@@ -119,7 +119,7 @@ Result<Signals> read_bags(std::span<const fs::path> paths, const Wanted& wanted)
   return all;
 }
 
-/// The file is of none of the recorders' formats, each of which is known by its first bytes.
+/// True if the first bytes match none of the recorders' formats.
 Result<bool> begins_as_text(const InputBytes& file) {
   std::string first(std::min(kSampleBytes, file.size()), '\0');
   AWMR_RETURN_IF_ERROR(file.read(0, first));

@@ -1,4 +1,4 @@
-/// A trial's file, of any format, as a table of its columns. Private to this folder.
+/// Reads a trial file of any format as a table of columns. Private to this folder.
 #pragma once
 
 #include <filesystem>
@@ -13,13 +13,13 @@
 
 namespace awmr {
 
-/// The signals of a binary file; nothing where it is of no format with signals.
+/// Reads the signals of a binary file; empty if its format has no signals.
 std::optional<Result<Signals>> read_signals(std::string_view bytes, const std::string& file,
                                             const Wanted& wanted);
 
-/// The format is known by the first bytes: ULog, DataFlash, a bag of ROS 2 in SQLite,
-/// the emitted firmware's own, SysId's JSON, else text. Of a
-/// directory the files are joined by time. Errors: as read_csv(); those of the formats.
+/// The first bytes determine the format: ULog, DataFlash, ROS 2 bag in SQLite, the emitted
+/// firmware's log, SysId's JSON, else text. The files of a directory are joined by time. Errors: as
+/// read_csv(); those of the formats.
 Result<CsvTable> read_table(const std::filesystem::path& path, std::span<const CsvColumn> columns,
                             const TrialOptions& options);
 Result<CsvTable> read_table(const std::filesystem::path& path, TrialKind kind,

@@ -1,5 +1,4 @@
-/// Trial CSVs -> typed trials in SI units, with what is doubtful about them. See the contract's
-/// columns in the README.
+/// Reads trial CSVs as typed trials in SI units, with findings. The README lists the columns.
 #pragma once
 
 #include <filesystem>
@@ -15,8 +14,7 @@
 
 namespace awmr {
 
-/// Which value is used where a row gives a speed or yaw rate both as printed and through its
-/// timing.
+/// Value to use if a row contains a speed or yaw rate both printed and timed.
 enum class Preference { kPrinted, kTimed };
 inline constexpr NameTable<Preference, 2> kPreferenceNames{
     {{"printed", Preference::kPrinted}, {"timed", Preference::kTimed}}};
@@ -24,16 +22,16 @@ inline constexpr NameTable<Preference, 2> kPreferenceNames{
 struct TrialOptions {
   std::vector<ColumnMapping> columns;
   Preference preference = Preference::kPrinted;
-  /// Trials that contradict themselves or the vehicle (log_consistency.h, table_consistency.h) are
-  /// taken as they are, with a warning. For when a vehicle really is as odd as they are.
+  /// Accept trials that contradict themselves or the vehicle (log_consistency.h,
+  /// table_consistency.h), with a warning. For unusual vehicles.
   bool as_is = false;
-  /// False: the vehicle has no steering, and a log without a column of it drives wheels straight.
+  /// False: the vehicle has no steering, and a log without a steering column has straight wheels.
   bool has_steering = true;
-  /// n of the vehicle: tau_speed = n F' of a surge row.
+  /// Number of driven wheels n: tau_speed = n F' of a surge row.
   int driven_wheels = 4;
 };
 
-/// Findings added: `speed-mismatch`, `yaw-rate-mismatch`, `tau-turn-mismatch`, `steering-stop`,
+/// Findings: `speed-mismatch`, `yaw-rate-mismatch`, `tau-turn-mismatch`, `steering-stop`,
 /// `rows-set-aside`. Errors: as read_csv; missing column combinations; negative speed, time or
 /// distance; a curve whose time does not rise or that is too short.
 Result<TrialSet<SurgeRow>> read_surge(const std::filesystem::path& path,
@@ -44,15 +42,16 @@ Result<TrialSet<TurningRow>> read_turning(const std::filesystem::path& path, con
 Result<CoastdownSet> read_coastdown(const std::filesystem::path& path, const TrialOptions& options,
                                     std::vector<Finding>& findings);
 
-/// Columns t_s, force_left, force_right, steering_cmd_deg or steering_deg (for a vehicle that has
-/// steering), and any of the channels;
-/// latitude_deg and longitude_deg stand in for x_m and y_m (local tangent plane at the first row).
-/// Findings: `held-samples`, `log-gap`, and those of channel_quality.h. Errors: as read_csv; time
-/// that does not rise; nothing measured; fewer than 10 rows; more than one run.
+/// Columns: t_s, force_left, force_right, steering_cmd_deg or steering_deg (for a vehicle with
+/// steering), and any of the channels. latitude_deg and longitude_deg may replace x_m and y_m
+/// (local tangent plane at the first row). Findings: `held-samples`, `log-gap`, and those of
+/// channel_quality.h. Errors: as read_csv; time that does not rise; no measurement; fewer than 10
+/// rows; more than one run.
 Result<DrivingLog> read_log(const std::filesystem::path& path, const TrialOptions& options,
                             std::vector<Finding>& findings);
 
-/// As read_log(), of a file with one run or several, told apart by a column `run`: a log for each.
+/// Like read_log() for a file with one or several runs, separated by a column `run`: one log per
+/// run.
 Result<std::vector<DrivingLog>> read_logs(const std::filesystem::path& path,
                                           const TrialOptions& options,
                                           std::vector<Finding>& findings);

@@ -19,13 +19,13 @@
 namespace awmr {
 namespace {
 
-/// A comment has no row, an empty line neither.
+/// True for comments and empty lines.
 bool is_blank(std::string_view line) {
   const std::size_t first = line.find_first_not_of(" \t");
   return first == std::string_view::npos || line[first] == '#';
 }
 
-/// The text behind the marks of a comment; another line as it is.
+/// Text of a comment without its marks; other lines unchanged.
 std::string_view without_marks(std::string_view line) {
   return line.substr(std::min(line.find_first_not_of("# \t"), line.size()));
 }
@@ -40,7 +40,7 @@ bool is_number(const CsvCell& cell, char delimiter) {
          (delimiter != ',' && number_with_comma(cell, commas).has_value());
 }
 
-/// The cells of one line; none where its quotes are not in order.
+/// Cells of one line; none if its quotes are unbalanced.
 std::vector<CsvCell> cells_of(std::string_view line, char delimiter) {
   CsvScanner scanner(line);
   scanner.set_delimiter(delimiter);
@@ -49,7 +49,7 @@ std::vector<CsvCell> cells_of(std::string_view line, char delimiter) {
   return cells;
 }
 
-/// The header that a line holds: it names a column of a log.
+/// Parses a line as a header: it must name a column of a log.
 std::optional<Recording::Header> header_of(std::string_view line,
                                            std::span<const ColumnMapping> mappings) {
   const std::span<const CsvColumn> columns = columns_of(TrialKind::kLog);
@@ -68,7 +68,7 @@ Recording::Recording(std::vector<ColumnMapping> mappings, std::size_t most_bytes
 
 void Recording::add(std::string_view bytes) {
   while (!bytes.empty()) {
-    // CR LF ends one line, and so do both alone.
+    // CR LF, CR and LF each end one line.
     if (bytes.front() == '\n' && after_return_) bytes.remove_prefix(1);
     const std::size_t end = std::min(bytes.find_first_of("\r\n"), bytes.size());
     const std::size_t room = kMaxRecordedLine - line_.size();
@@ -103,8 +103,8 @@ void Recording::take(const std::string& line) {
   put(line);
 }
 
-/// True where the line itself is the header. Names behind a '#' are one once the first row below
-/// them has as many cells.
+/// True if the line itself is the header. Names after a '#' become the header if the first row
+/// below has as many cells.
 bool Recording::find_header(const std::string& line) {
   const std::optional<Header> header = header_of(without_marks(line), mappings_);
   if (is_blank(line)) {
@@ -122,7 +122,7 @@ bool Recording::find_header(const std::string& line) {
   return false;
 }
 
-/// What came before the header is no part of the log: it becomes comments.
+/// Lines before the header become comments.
 void Recording::put_before_aside() {
   const std::string before = std::exchange(text_, {});
   lines_ = 0;
@@ -138,7 +138,7 @@ void Recording::put_before_aside() {
   }
 }
 
-/// Why the line cannot be a row, or nothing.
+/// Reason why the line cannot be a row; empty for a row.
 std::string Recording::damage_of(const std::string& line) {
   if (std::any_of(line.begin(), line.end(), is_control)) return "it has control characters";
   const std::vector<CsvCell> cells = cells_of(line, header_.delimiter);
@@ -155,7 +155,7 @@ std::string Recording::damage_of(const std::string& line) {
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const std::string_view text = cells[i].text;
     if (!is_number_[i] || is_number(cells[i], header_.delimiter)) continue;
-    // Words such as "nan" are what the recorder means to say: the reader has to judge them.
+    // Words such as "nan" are intended by the recorder and left to the reader.
     if (std::any_of(text.begin(), text.end(), is_digit)) {
       return fmt::format("its cell of {} is \"{}\", no number", header_.names[i],
                          shortened(text, 40));

@@ -1,4 +1,5 @@
-/// A driving log while it comes in: bytes in pieces of any size -> the text of a log in whole lines.
+/// Collects a driving log from a stream: bytes in pieces of any size -> the text of a log in whole
+/// lines.
 #pragma once
 
 #include <cstddef>
@@ -11,20 +12,20 @@
 
 namespace awmr {
 
-/// The longest line that is taken, in bytes; a longer one is damaged.
+/// Maximum line length in bytes; a longer line is damaged.
 inline constexpr std::size_t kMaxRecordedLine = std::size_t{1} << 16U;
-/// The most that is recorded, in bytes: some two million rows.
+/// Maximum recording size in bytes: some two million rows.
 inline constexpr std::size_t kMaxRecording = std::size_t{1} << 28U;
 
-/// A serial line loses bytes, a board prints words before its header and the header again when it
-/// restarts. Such a line stays in the text, at its place, as a comment: nothing is lost, the numbers
-/// of the lines are the stream's own, and what remains is an ordinary log.
+/// A serial line loses bytes. A board prints text before its header and repeats the header after a
+/// restart. Such a line stays in the text at its place, as a comment: nothing is lost, line numbers
+/// match the stream, and the rest is an ordinary log.
 ///
-/// Set aside are, once the header is known (the first line that names a column of a log):
-///   lines with more or fewer cells than it, or as a second header
-///   lines with a cell that has digits but is no number, where the first row had a number
+/// Once the header is known (the first line that names a column of a log), these are set aside:
+///   lines with more or fewer cells than the header, or a repeated header
+///   lines with a cell that has digits but is not a number, where the first row had a number
 ///   lines with control characters, too long, or without an end
-/// A number that lost a digit cannot be told from a right one.
+/// A number that lost a digit cannot be detected.
 class Recording {
  public:
   struct Header {
@@ -32,24 +33,24 @@ class Recording {
     char delimiter = ',';
   };
 
-  /// `mappings`: those that the log will be read with, so that a header in other words is known.
-  /// `most_bytes`: of text.
+  /// `mappings`: those with which the log will be read, so that a header with other names is
+  /// recognised. `most_bytes`: limit of the text.
   explicit Recording(std::vector<ColumnMapping> mappings = {},
                      std::size_t most_bytes = kMaxRecording);
 
-  /// The next piece of the stream. Beyond the bound it is dropped; see full().
+  /// Adds the next piece of the stream. Data beyond the limit are dropped; see full().
   void add(std::string_view bytes);
-  /// The stream is over. A line without an end may have been cut in a number: it is set aside.
+  /// Ends the stream. A last line without an end may be cut inside a number and is set aside.
   void finish();
 
-  /// Whole lines.
+  /// The complete lines.
   const std::string& text() const { return text_; }
-  /// Lines behind the header that were not set aside, comments and empty ones left out.
+  /// Lines after the header, without those set aside, comments and empty lines.
   std::size_t rows() const { return rows_; }
   bool has_header() const { return !header_.names.empty(); }
   std::size_t set_aside() const { return set_aside_; }
   bool full() const { return full_; }
-  /// What was set aside and why, of `file`: `lines-set-aside`, or nothing.
+  /// Reports the lines set aside, with reasons, for `file`: `lines-set-aside`, or nothing.
   std::vector<Finding> findings(const std::string& file) const;
 
  private:
@@ -64,17 +65,17 @@ class Recording {
   std::vector<ColumnMapping> mappings_;
   std::size_t most_bytes_;
   std::string text_ = {};
-  std::string line_ = {};  ///< so far
+  std::string line_ = {};  ///< incomplete last line
   bool line_too_long_ = false;
   bool after_return_ = false;  ///< the last byte was a carriage return, which ended its line
   bool full_ = false;
   Header header_ = {};
-  Header commented_ = {};             ///< the last one behind a '#', above the first row
+  Header commented_ = {};             ///< last header candidate after a '#', above the first row
   std::vector<bool> is_number_ = {};  ///< by column, in the first row
-  int lines_ = 0;                     ///< in text_
+  int lines_ = 0;                     ///< lines in text_
   std::size_t rows_ = 0;
   std::size_t set_aside_ = 0;
-  int first_aside_ = 0;  ///< line of the first one set aside
+  int first_aside_ = 0;  ///< line number of the first line set aside
   std::string first_why_ = {};
 };
 

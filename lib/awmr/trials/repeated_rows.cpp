@@ -13,11 +13,11 @@
 namespace awmr {
 namespace {
 
-/// P(k or more) that is told.
+/// Significance level: P(k or more) below which repeats are reported.
 constexpr double kChance = 0.01;
-/// So many differences within settings show how much runs scatter.
+/// Minimum number of differences within equal settings to estimate the scatter of runs.
 constexpr int kFewestDifferences = 3;
-/// A reading with more digits was computed: they do not show how finely it was read.
+/// A reading with more digits was computed, so they do not show its resolution.
 constexpr double kComputed = 1e-6;
 
 /// p of the header; a = q/(2 s).
@@ -28,10 +28,10 @@ double chance_of_same(double q, double s) {
   return std::erf(a) - (1.0 - std::exp(-a * a)) / (a * std::sqrt(pi<double>()));
 }
 
-/// P(k or more) of a Poisson number of mean L, k > L; at most that is told of so many.
+/// P(k or more) of a Poisson number of mean L, k > L: an upper bound for the repeats.
 double chance_of_so_many(double expected, int k) {
   if (k <= expected) return 1.0;
-  // The first term L^k e^-L / k!, and each next one L/(k+1), L/(k+2), ... of the one before.
+  // The first term is L^k e^-L / k!; each next one is L/(k+1), L/(k+2), ... times the previous.
   double term = std::exp(k * std::log(expected) - expected - std::lgamma(k + 1.0));
   double sum = 0.0;
   for (int j = k; term > 1e-6 * sum; ++j) {
@@ -41,13 +41,13 @@ double chance_of_so_many(double expected, int k) {
   return sum;
 }
 
-/// The runs of like settings, by their readings in order.
+/// Runs with equal settings, with their readings in order.
 struct LikeRuns {
   std::vector<std::size_t> rows;
   std::vector<double> readings;
 };
 
-/// A reading that all rows have.
+/// The first of the rule's columns that has a value in all rows.
 std::optional<std::string_view> reading_of(const TrialReader& reader,
                                            const std::vector<std::size_t>& rows,
                                            const RepeatRule& rule) {
@@ -77,8 +77,8 @@ std::vector<LikeRuns> like_runs(const TrialReader& reader, const std::vector<std
   return found;
 }
 
-/// The standard deviation over the reading of runs of like settings, from readings that differ; none of
-/// too few.
+/// Relative standard deviation of runs with equal settings, from distinct readings; empty if there
+/// are too few.
 std::optional<double> scatter_seen(const std::vector<LikeRuns>& groups) {
   double squares = 0.0;
   int differences = 0;
@@ -94,7 +94,7 @@ std::optional<double> scatter_seen(const std::vector<LikeRuns>& groups) {
   return std::sqrt(squares / differences);
 }
 
-/// q: how finely the reading was taken. Of a computed one, the least difference between any two.
+/// q: resolution of the reading. For a computed one, the smallest difference between any two.
 double resolution_of(const TrialReader& reader, std::string_view reading,
                      const std::vector<LikeRuns>& groups) {
   std::set<double> values;

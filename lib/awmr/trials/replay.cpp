@@ -23,7 +23,7 @@ std::optional<std::size_t> first_fresh(const LogWindow& window, LogChannel chann
   return std::nullopt;
 }
 
-/// The slope of a channel over about a fifth of a second from the window's begin.
+/// Slope of a channel over about the first fifth of a second of the window.
 std::optional<double> first_slope(const LogWindow& window, LogChannel channel) {
   const auto first = first_fresh(window, channel, window.begin);
   if (!first) return std::nullopt;
@@ -48,11 +48,11 @@ std::vector<LogWindow> windows_of(const DrivingLog& log, double longest_s) {
     if (end - begin >= kShortestWindow) windows.push_back({&log, begin, end});
     begin = end;
   };
-  std::size_t piece_end = 0;  // of the piece without a gap that `begin` is in
+  std::size_t piece_end = 0;  // end of the gap-free piece that contains `begin`
   for (std::size_t row = 1; row <= log.rows(); ++row) {
     if (row == log.rows() || log.t_s[row] - log.t_s[row - 1] > gap_s) {
       piece_end = row;
-      // Equal parts, so that no short rest remains.
+      // Equal parts, so that no short remainder is left.
       const double span_s = log.t_s[piece_end - 1] - log.t_s[begin];
       const auto parts = static_cast<std::size_t>(std::max(1.0, std::ceil(span_s / longest_s)));
       const std::size_t first = begin;

@@ -1,5 +1,5 @@
-/// The model driven by a log's commands. A template on the scalar: predictions in double,
-/// derivatives in ceres::Jet.
+/// Simulates the model with a log's commands. Templates on the scalar: double for predictions,
+/// ceres::Jet for derivatives.
 #pragma once
 
 #include <algorithm>
@@ -15,15 +15,15 @@
 
 namespace awmr {
 
-/// A part of a log that has no gap: the rows from `begin` up to but not including `end`.
+/// Part of a log without a gap: rows [begin, end).
 struct LogWindow {
   const DrivingLog* log = nullptr;
   std::size_t begin = 0;
   std::size_t end = 0;
 };
 
-/// The log cut at its gaps, and into pieces of at most `longest_s`; pieces shorter than 3 rows are
-/// left out.
+/// Splits the log at its gaps and into pieces of at most `longest_s`; pieces shorter than 3 rows
+/// are dropped.
 std::vector<LogWindow> windows_of(const DrivingLog& log, double longest_s);
 
 /// The equal steps that a span is taken in, none longer than `longest_step_s` but for rounding.
@@ -57,7 +57,7 @@ void replay(const LogSignals& signals, std::size_t begin, std::size_t end, Plant
             const LaggedForces* lagged = nullptr) {
   const DrivingLog& log = *signals.log;
   const bool servo = log.steering_command_rad.has_value();
-  // A logged angle is what it is: no stop, no lag.
+  // A logged angle is used as it is: no stop, no lag.
   if (!servo) plant.steering_max_rad = T(10.0);
   const FrictionRates<T> friction = friction_rates(plant);
   if (friction.any()) plant = without_friction(plant);
@@ -95,9 +95,9 @@ void replay(const LogSignals& signals, std::size_t begin, std::size_t end, Plant
   }
 }
 
-/// The state delay_s >= 0 before the last of `states`, the states at the rows from `begin` on: so
-/// many Runge-Kutta steps from the row before. Their length carries the derivative by the delay.
-/// Before the first row the rates there hold.
+/// State at delay_s >= 0 before the last of `states`, the states at the rows from `begin` on. It is
+/// reached by Runge-Kutta steps from the row before, whose length carries the derivative with
+/// respect to the delay. Before the first row its rates are extrapolated.
 template <class T>
 State<T> earlier_state(const LogSignals& signals, std::size_t begin,
                        const std::vector<State<T>>& states, Plant<T> plant, const T& delay_s,
@@ -127,7 +127,7 @@ State<T> earlier_state(const LogSignals& signals, std::size_t begin,
   return state;
 }
 
-/// The component of the state that a channel reads.
+/// Component of the state that a channel measures.
 template <class T>
 constexpr T State<T>::*component_of(LogChannel channel) {
   switch (channel) {
@@ -149,7 +149,7 @@ constexpr T State<T>::*component_of(LogChannel channel) {
   return &State<T>::steering_rad;
 }
 
-/// What a channel of the log would have read in this state.
+/// Predicted reading of a channel of the log in this state.
 template <class T>
 T& channel_of(State<T>& s, LogChannel channel) {
   return s.*component_of<T>(channel);
@@ -159,26 +159,26 @@ const T& channel_of(const State<T>& s, LogChannel channel) {
   return s.*component_of<T>(channel);
 }
 
-/// Whether a row holds a new value of a channel to compare the model with. An angle that drives the
-/// model, where no command of the servo was logged, is no measurement of it.
+/// True if a row has a new value of a channel to compare with the model. A steering angle used as
+/// input, because no servo command was logged, is not a measurement.
 bool is_measurement(const DrivingLog& log, LogChannel channel, std::size_t row);
 
-/// The initial state of a window from what was measured in it: the first value of each channel, and
-/// where a channel is missing what follows from others (yaw rate from heading, heading and speed
-/// from position). What nothing tells is taken to be 0.
+/// Initial state of a window from its measurements: the first value of each channel. Missing
+/// channels are derived from others (yaw rate from heading, heading and speed from position), else
+/// 0.
 State<double> measured_initial_state(const LogWindow& window);
 
-/// The longest step of replay() for this plant, s: a quarter of its fastest fixed time constant,
-/// the servo's, sway's or that by which back-EMF brakes. A Runge-Kutta step of that length errs by 3e-5 of an excursion in each
-/// time constant.
+/// Longest step of replay() for this plant, s: a quarter of its shortest constant time constant,
+/// which is that of the servo, of sway or of back-EMF braking. A Runge-Kutta step of that length
+/// errs by 3e-5 of an excursion in each time constant.
 double replay_step_s(const Plant<double>& plant);
 
-/// The shortest step with which a log is worth following: no log shows what is over in 0.4 ms, and a
-/// replay would not end.
+/// Shortest useful step: no log shows effects shorter than 0.4 ms, and smaller steps would take too
+/// long.
 inline constexpr double kShortestReplayStep_s = 1e-4;
 
-/// Whether a log of this plant can be replayed. Errors (input): a time constant asks for steps below
-/// kShortestReplayStep_s; the fault names it, in the file `file`.
+/// Errors (input): a time constant of the plant requires steps below kShortestReplayStep_s, so that
+/// a log cannot be replayed. The fault names it, in the file `file`.
 Result<void> check_replay(const Plant<double>& plant, const std::string& file);
 
 }  // namespace awmr

@@ -1,5 +1,5 @@
-/// Below these a vehicle rests: simulators and filters write 3.9e-312 where they mean 0. No vehicle of the
-/// sizes that are read moves so slowly. Private to this folder.
+/// Thresholds below which a vehicle is at rest: simulators and filters may write 3.9e-312 for 0. No
+/// supported vehicle moves so slowly. Private to this folder.
 #pragma once
 
 #include <cmath>

@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kFewestPairs = 10;
 constexpr double kLargestSpread = 0.6;
-/// Distances and turns of a window below this are rest, whatever was written.
+/// Distances and turns of a window below this count as rest.
 constexpr double kSmallest = 1e-9;
 
 }  // namespace

@@ -1,5 +1,4 @@
-/// Medians, and how many times one signal is another by them: a tenth of wild pairs does not move
-/// it.
+/// Medians, and the ratio of two signals by medians, which tolerates a tenth of outliers.
 #pragma once
 
 #include <optional>
@@ -8,23 +7,23 @@
 
 namespace awmr {
 
-/// Precondition: not empty. The upper of the two middle values where their number is even.
+/// Precondition: not empty. For an even number of values the upper of the two middle ones.
 double median(std::vector<double> values);
 
-/// The median of |value - middle|, `middle` being the values' own median. Precondition: not empty.
+/// Median of |value - middle|, where `middle` is the median of the values. Precondition: not empty.
 double median_absolute_deviation(std::span<const double> values, double middle);
-/// The standard deviation of normal values over their median absolute deviation.
+/// Ratio of the standard deviation to the median absolute deviation of normal values.
 inline constexpr double kStdPerMad = 1.4826;
 
 struct RobustRatio {
   double ratio = 0.0;
   double spread = 0.0;  ///< median absolute deviation of the ratios over |ratio|
-  int pairs = 0;        ///< that the ratio rests on
+  int pairs = 0;        ///< number of pairs used
 };
 
-/// The median of y/x over the half of the pairs with the larger |x|. None with fewer than 10 such
-/// pairs, or where the ratios scatter by more than 0.6 of their size: then the two signals do not
-/// follow each other.
+/// Median of y/x over the half of the pairs with the larger |x|. Empty with fewer than 10 such
+/// pairs, or if the ratios scatter by more than 0.6 of their size: the signals are then not
+/// proportional.
 std::optional<RobustRatio> robust_ratio(std::span<const double> x, std::span<const double> y);
 
 }  // namespace awmr

@@ -8,12 +8,12 @@
 namespace awmr {
 namespace {
 
-/// What a message is made of, in the order of its definition.
+/// Elements of a message, in the order of its definition.
 enum class Part { kHeader, kText, kFloat32, kFloat64, kSkipped9, kSkipped36 };
 
 struct Piece {
   Part part;
-  std::string_view name;  ///< of a number
+  std::string_view name;  ///< for numbers
 };
 
 struct MessageType {
@@ -52,7 +52,7 @@ std::vector<Piece> odometry() {
           {Part::kSkipped36, ""}};
 }
 
-/// After the public message definitions. Covariances are passed over.
+/// From the public message definitions. Covariances are skipped.
 const std::array<MessageType, 7>& types() {
   static const std::array<MessageType, 7> kTypes{
       {{"std_msgs/msg/Float32", {{Part::kFloat32, "data"}}},
@@ -91,7 +91,8 @@ const MessageType* type_of(std::string_view name) {
   return nullptr;
 }
 
-/// A number is aligned to its size, counted from behind the four bytes that say how it is encoded.
+/// Reads CDR. Numbers are aligned to their size, counted from the end of the 4-byte encoding
+/// header.
 class CdrReader {
  public:
   /// Precondition: at least four bytes.
@@ -113,7 +114,7 @@ class CdrReader {
     }
     return true;
   }
-  /// Seconds, nanoseconds, frame.
+  /// Skips seconds, nanoseconds and frame.
   bool skip_header() { return number<std::int32_t>() && number<std::uint32_t>() && skip_text(); }
 
  private:
@@ -121,7 +122,7 @@ class CdrReader {
   ByteReader body_;
 };
 
-/// Takes one piece; false where the bytes end. A number goes into `values`.
+/// Reads one element and appends a number to `values`; false at the end of the bytes.
 bool take(const Piece& piece, CdrReader& reader, std::vector<double>& values) {
   switch (piece.part) {
     case Part::kHeader:

@@ -26,7 +26,7 @@ tl::unexpected<Error> wrong(const std::string& file, std::string_view what) {
   return input_error(file, fmt::format("this is no bag of ROS 2 that can be read: {}", what));
 }
 
-/// The bytes as a database in memory, which nothing in it can leave: no file is opened.
+/// Opens the bytes as an in-memory database, so that its content cannot access any file.
 Result<Database> open(std::string_view bytes, const std::string& file) {
   sqlite3* handle = nullptr;
   const int opened = sqlite3_open(":memory:", &handle);
@@ -39,10 +39,10 @@ Result<Database> open(std::string_view bytes, const std::string& file) {
   auto* copy = static_cast<unsigned char*>(sqlite3_malloc64(bytes.size()));
   if (copy == nullptr) return program_fault("no memory for the bag");
   std::copy(bytes.begin(), bytes.end(), copy);
-  // A database in memory has no write-ahead log: bytes 18 and 19 say which journal there is.
+  // An in-memory database has no write-ahead log; bytes 18 and 19 give the journal mode.
   if (bytes.size() > 19 && copy[18] == 2 && copy[19] == 2) copy[18] = copy[19] = 1;
   const auto size = static_cast<sqlite3_int64>(bytes.size());
-  // SQLite frees the copy, also where it fails.
+  // SQLite frees the copy even if this fails.
   if (sqlite3_deserialize(handle, "main", copy, size, size,
                           SQLITE_DESERIALIZE_FREEONCLOSE | SQLITE_DESERIALIZE_READONLY) !=
       SQLITE_OK) {
@@ -95,7 +95,7 @@ Result<std::vector<BagTopic>> topics_of(sqlite3* database, const std::string& fi
   return topics;
 }
 
-/// The names of a topic's signals go into the header; which of its numbers are wanted.
+/// Adds the names of a topic's signals to the header; returns the indices of the requested numbers.
 std::vector<std::size_t> list(const BagTopic& bag, const std::vector<std::string>& fields,
                               const Wanted& wanted, Signals& signals) {
   Topic& topic = signals.topics.emplace_back(Topic{.name = bag.name});

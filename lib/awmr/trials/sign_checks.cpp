@@ -12,7 +12,7 @@
 namespace awmr {
 namespace {
 
-/// Columns whose sign may be wrong, and what that would mean.
+/// Columns whose sign may be wrong.
 enum class Signed { kSteering, kSides, kYawRate, kHeading, kY };
 constexpr std::size_t kSignedCount = 5;
 
@@ -23,9 +23,11 @@ struct SignRelation {
   int sign;
 };
 
-/// +1: positions move where the heading points; -1: where its mirror image does; 0: cannot be told.
+/// Sign relation of positions and heading. +1: positions move along the heading; -1: along its
+/// mirror image; 0: undetermined.
 int course_sign(const std::vector<EvidenceWindow>& windows) {
-  // Of a turn of constant rate the chord points along the heading in its middle, as long as it is no circle.
+  // In a turn at constant rate the chord is parallel to the heading in its middle, unless it nears
+  // a full circle.
   constexpr double kFurthestTurn_rad = 2.5;
   if (windows.empty()) return 0;
   std::vector<double> moved = series(windows, [](const EvidenceWindow& w) { return w.moved_m; });
@@ -39,9 +41,10 @@ int course_sign(const std::vector<EvidenceWindow>& windows) {
     headings += std::polar(1.0, 2.0 * w.heading_rad);
     n += 1.0;
   }
-  // On a straight drive the two cannot be told apart.
+  // On a straight drive the two cannot be distinguished.
   if (n < 10.0 || std::abs(headings) / n > 0.95) return 0;
-  // How far the angles scatter, 0 to 1: one way by the noise alone, the other way by twice the headings as well.
+  // Scatter of the angles, 0 to 1. With the right sign only noise scatters, with the wrong sign
+  // twice the headings too.
   constexpr double kMostNoise = 0.3;
   const auto holds = [n](double one, double other) {
     const double of_one = 1.0 - one / n;
@@ -81,7 +84,7 @@ std::vector<SignRelation> sign_relations(const Evidence& evidence) {
   return relations;
 }
 
-/// The smallest sets of columns whose signs, turned, make all relations agree.
+/// Smallest sets of columns for which a sign change makes all relations agree.
 std::vector<unsigned> smallest_flips(const std::vector<SignRelation>& relations) {
   std::vector<unsigned> best;
   std::size_t least = kSignedCount + 1;
@@ -142,7 +145,7 @@ std::vector<Contradiction> judge_signs(const Evidence& evidence) {
   return found;
 }
 
-/// Thrust forward and motion backward.
+/// Forward thrust with backward motion.
 std::optional<Contradiction> judge_direction(const Evidence& evidence) {
   if (!evidence.has(LogChannel::kSpeed)) return std::nullopt;
   const auto ratio = robust_ratio(
@@ -155,11 +158,11 @@ std::optional<Contradiction> judge_direction(const Evidence& evidence) {
                        scaled_mapping(evidence, "speed_mps", -1.0)};
 }
 
-/// How much speed the vehicle gathers, m/s, over all spans in which it is pushed backwards: the rise of
-/// means of a quarter of a second above the least before them in the span. The first half second does
-/// not count, in which motors and sensors may lag.
+/// Largest speed gain, m/s, during spans of rearward thrust: the rise of quarter-second means above
+/// the smallest earlier mean of the span. The first half second is excluded because motors and
+/// sensors may lag.
 double gathered_backwards_mps(const DrivingLog& log) {
-  constexpr double kPushes = 0.1;  // of the largest thrust
+  constexpr double kPushes = 0.1;  // fraction of the largest thrust
   constexpr double kLag_s = 0.5;
   constexpr double kMean_s = 0.25;
   const std::vector<double>& speed = log[LogChannel::kSpeed]->value;
@@ -186,10 +189,10 @@ double gathered_backwards_mps(const DrivingLog& log) {
   return gathered;
 }
 
-/// A speed without a sign: it is never negative, though the vehicle gathers speed while it is pushed
-/// backwards. Whatever it resists, thrust to the rear brakes a vehicle that drives forward.
+/// Detects an unsigned speed: it is never negative although rearward thrust increases it. Rearward
+/// thrust brakes a vehicle that drives forward, whatever its resistance.
 std::optional<Contradiction> judge_unsigned(const Evidence& evidence) {
-  constexpr double kNegative = 0.05;  // of the largest speed
+  constexpr double kNegative = 0.05;  // fraction of the largest speed
   constexpr double kMuch = 0.15;
   if (!evidence.has(LogChannel::kSpeed)) return std::nullopt;
   const auto [slowest, fastest] = std::ranges::minmax(evidence.log[LogChannel::kSpeed]->value);

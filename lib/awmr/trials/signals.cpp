@@ -39,7 +39,7 @@ Status check(const Topic& topic, const Signals& signals, const std::string& file
   return {};
 }
 
-/// The times of all topics that have a column, each once, in order.
+/// Sorted distinct times of all topics that have a column.
 std::vector<std::int64_t> times_of(const std::vector<Topic>& topics) {
   std::vector<std::int64_t> times;
   for (const Topic& topic : topics) {
@@ -90,7 +90,7 @@ Result<RawTable> join(Signals signals, const std::string& file) {
   const std::vector<std::int64_t> times = times_of(signals.topics);
   raw.lines.append(1, times.size());
   for (std::size_t row = 0; row < times.size(); ++row) {
-    // In unsigned arithmetic the difference of two times in order cannot overflow.
+    // Unsigned arithmetic: the difference of two ordered times cannot overflow.
     const std::uint64_t since =
         static_cast<std::uint64_t>(times[row]) - static_cast<std::uint64_t>(times[0]);
     raw.columns[0].value.push_back(1e-9 * static_cast<double>(since));

@@ -1,5 +1,5 @@
-/// Signals with times of their own, as flight controllers and robots log them, and how they become
-/// one table. Private to this folder.
+/// Signals with their own times, as logged by flight controllers and robots, and their conversion
+/// to one table. Private to this folder.
 #pragma once
 
 #include <cstdint>
@@ -13,30 +13,30 @@
 
 namespace awmr {
 
-/// The messages of one topic, in the order of the file.
+/// Messages of one topic, in file order.
 struct Topic {
   std::string name;
   std::vector<std::int64_t> time_ns = {};
   std::vector<std::size_t> columns = {};         ///< indices into the header
-  std::vector<std::vector<double>> values = {};  ///< of each column, by message
+  std::vector<std::vector<double>> values = {};  ///< by column, then by message
 };
 
-/// A file's signals: all their names, `TOPIC.FIELD`, and the values of those that were wanted.
+/// Signals of a file: the names of all, `TOPIC.FIELD`, and the values of the requested ones.
 struct Signals {
   std::vector<std::string> header = {};
   std::vector<Topic> topics = {};
   std::vector<CsvNote> notes = {};
 };
 
-/// Whether a signal's values are asked for.
+/// True if a signal's values are requested.
 using Wanted = std::function<bool(const std::string& name)>;
 
-/// More signals than this are not taken from one file.
+/// Maximum number of signals per file.
 inline constexpr std::size_t kMostSignals = 200'000;
 
-/// One row for every time at which some topic has a message, each value in its own row and nowhere
-/// else; the first column is t_s, counted from the first row. NaN stands for no value, as in uORB,
-/// and is noted. Errors: no messages; the time of a topic does not rise; an infinite value.
+/// Creates one row for every time at which some topic has a message. Each value is in its own row
+/// only. The first column is t_s, counted from the first row. NaN means no value, as in uORB, and
+/// is noted. Errors: no messages; the time of a topic does not rise; an infinite value.
 Result<RawTable> join(Signals signals, const std::string& file);
 
 }  // namespace awmr

@@ -17,13 +17,13 @@ struct Stretch {
   std::size_t end = 0;
 };
 
-/// The angle as it was measured, or else as it was commanded.
+/// The measured angle, or else the commanded one.
 const std::vector<double>& steering_angle_of(const DrivingLog& log) {
   return log[LogChannel::kSteering] ? log[LogChannel::kSteering]->value : *log.steering_command_rad;
 }
 
 std::vector<Stretch> constant_commands(const DrivingLog& log, double same) {
-  // The command, not the angle, tells where it changed: the angle's noise would end every stretch.
+  // Uses the command to find changes: the noise of the angle would end every stretch.
   const std::vector<double>& steering = log.driving_steering_rad();
   const double gap_s = kGapSteps * log.median_step_s();
   std::vector<Stretch> stretches;
@@ -43,7 +43,7 @@ std::vector<Stretch> constant_commands(const DrivingLog& log, double same) {
   return stretches;
 }
 
-/// Mean, rise from end to end and their errors of a rate, by the straight line through it.
+/// Straight-line fit of a rate: mean, rise from end to end, and their errors.
 struct Line {
   int count = 0;
   double mean = 0.0;
@@ -88,7 +88,7 @@ bool is_steady(const Line& line, double drift) {
          std::abs(line.rise) <= 3.0 * line.rise_error;
 }
 
-/// Cuts the stretch to its steady rest; none where there is no such rest.
+/// Shortens the stretch to its steady part; empty if there is none.
 std::optional<Line> steady_rest(const DrivingLog& log, const Measured& rate, const SteadyRule& rule,
                                 Stretch& stretch) {
   for (double from_s = log.t_s[stretch.begin] + rule.settling_s;; from_s += rule.later_s) {
@@ -108,17 +108,17 @@ double mean_of(const std::vector<double>& signal, Stretch s) {
   return sum / static_cast<double>(s.end - s.begin);
 }
 
-/// A steady run as it was driven.
+/// A steady run and its commands.
 struct SteadyRun {
   SteadySegment segment;
-  double wheel_force = 0.0;   ///< F' of each wheel, the mean of the sides
+  double wheel_force = 0.0;   ///< F' of each wheel, the mean of both sides
   double steering_rad = 0.0;  ///< signed
   SideForces<double> sides{};
 };
 
-/// The run in a stretch of constant commands, or nothing where it shows no resistance: driven
-/// backward or, with steering, unevenly, never steady, at rest, or turning against its command.
-/// Without steering the difference of the sides turns the vehicle.
+/// Returns the run in a stretch of constant commands, or nothing if it gives no resistance: never
+/// steady, at rest, or turning against its command. With steering also: driven backward or with
+/// unequal sides. Without steering the difference of the sides turns the vehicle.
 std::optional<SteadyRun> steady_run(const DrivingLog& log, const Vehicle& vehicle,
                                     const SteadyRule& rule, Stretch stretch) {
   const double left = mean_of(log.force_left, stretch);
@@ -131,7 +131,7 @@ std::optional<SteadyRun> steady_run(const DrivingLog& log, const Vehicle& vehicl
   if (!rate || (!by_sides && (!(left > 0.0) || uneven))) return std::nullopt;
   const auto line = steady_rest(log, *rate, rule, stretch);
   if (!line) return std::nullopt;
-  // At rest within the scatter: no information for a resistance curve.
+  // At rest within the scatter, so no information for a resistance curve.
   if (!(std::abs(line->mean) > 3.0 * line->mean_error) || line->mean == 0.0) return std::nullopt;
   const double left_turn = by_sides ? right - left : steering_rad;
   if (turning ? line->mean * left_turn < 0.0 : line->mean < 0.0) return std::nullopt;
@@ -142,7 +142,7 @@ std::optional<SteadyRun> steady_run(const DrivingLog& log, const Vehicle& vehicl
                    {left, right}};
 }
 
-/// A run without steering.
+/// Turning row of a vehicle without steering.
 TurningRow sides_turning_row(const SteadyRun& run, const Vehicle& vehicle) {
   const auto [least, most] = std::minmax(run.sides.left, run.sides.right);
   return {.line = run.segment.line,

@@ -1,4 +1,4 @@
-/// Steady runs found in a driving log, as rows of surge and turning trials.
+/// Extracts steady runs from a driving log as rows of surge and turning trials.
 #pragma once
 
 #include <string>
@@ -8,44 +8,44 @@
 
 namespace awmr {
 
-/// The rule. A steady segment is the part of a stretch of constant commands in which the measured
-/// rate neither rises nor falls:
+/// Criteria of a steady segment: the part of a stretch of constant commands in which the measured
+/// rate neither rises nor falls.
 ///   - force_left, force_right and steering each stay within `same` of one value;
-///   - the first `settling_s` after a change of command are left out, then `later_s` more at a time
+///   - the first `settling_s` after a change of command are excluded, then `later_s` more at a time
 ///     until the rest is steady or shorter than `shortest_s`;
-///   - a rest is steady where the straight line through its rate rises by less than `drift` of the
-///     mean from end to end, or by less than three of its own standard errors.
+///   - a rest is steady if the straight line through its rate rises from end to end by less than
+///     `drift` of the mean, or by less than three of its own standard errors.
 /// With |steering| <= straight_rad it is a surge run (rate: speed), else a turning run (rate: yaw
-/// rate). Both sides have to be driven alike, forward.
+/// rate). Both sides must be driven equally, forward.
 struct SteadyRule {
   double same = 1e-3;            ///< >= 0, in F' and in rad of steering: larger for noisy commands
   double settling_s = 1.0;       ///< s, >= 0: longer for vehicles that settle slowly
   double shortest_s = 1.0;       ///< s, > 0: shorter accepts more and less certain segments
   double later_s = 0.25;         ///< s, > 0
-  double drift = 0.03;           ///< > 0, a share of the mean rate: smaller is stricter
+  double drift = 0.03;           ///< > 0, fraction of the mean rate: smaller is stricter
   double straight_rad = 0.0087;  ///< rad, > 0: half a degree
 };
 
-/// One stretch of a log in which the vehicle moved steadily.
+/// A stretch of a log with steady motion.
 struct SteadySegment {
   double begin_s = 0.0;
   double end_s = 0.0;
-  int line = 0;            ///< of its first row
+  int line = 0;            ///< line of its first row
   bool turning = false;    ///< a turning run, else a surge run
   double mean_rate = 0.0;  ///< rad/s of a turning run, m/s of a surge run
-  /// Of the mean, in its unit, from the scatter about the straight line. It takes the errors of
-  /// neighbouring rows as independent.
+  /// Standard error of the mean, in its unit, from the scatter about the straight line. Assumes
+  /// independent errors of neighbouring rows.
   double std_error = 0.0;
 };
 
-/// The steady segments of a log, and the trials that they amount to.
+/// Steady segments of a log and the resulting trial rows.
 struct SteadyRuns {
   TrialSet<SurgeRow> surge;
   TrialSet<TurningRow> turning;
   std::vector<SteadySegment> segments;
 };
 
-/// Adds a note `steady-segment` for each.
+/// Adds a note `steady-segment` for each segment.
 SteadyRuns steady_runs(const DrivingLog& log, const Vehicle& vehicle, const SteadyRule& rule,
                        std::vector<Finding>& findings);
 

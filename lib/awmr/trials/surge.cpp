@@ -25,7 +25,7 @@ void check_surge_columns(TrialReader& reader) {
   }
 }
 
-/// tau_speed as printed, else from the force of one wheel.
+/// tau_speed as printed, else computed from the force of one wheel.
 double tau_speed_of(TrialReader& reader, std::size_t row, int driven_wheels,
                     std::vector<Finding>& findings) {
   const auto printed = reader.non_negative(row, "tau_speed");

@@ -15,7 +15,7 @@
 namespace awmr {
 namespace {
 
-/// The tests in the order of their runs.
+/// Names of the tests in the order of their runs.
 constexpr std::array<std::string_view, 9> kSysIdTests{
     "slow-forward",    "slow-backward",       "fast-forward",
     "fast-backward",   "quasistatic-forward", "quasistatic-backward",
@@ -30,7 +30,7 @@ constexpr std::array<SysIdLength, 3> kSysIdLengths{
 
 enum class SysIdUnit { kNone, kDegrees, kMetres };
 
-/// A number of a row: where it stands, what it is called and its unit.
+/// A number of a row: its index, name and unit.
 struct SysIdField {
   std::size_t index;
   std::string_view name;
@@ -38,7 +38,7 @@ struct SysIdField {
 };
 
 struct SysIdRow {
-  std::size_t numbers;  ///< of a row
+  std::size_t numbers;  ///< numbers per row
   std::vector<SysIdField> fields;
   bool is_drivetrain;
 };
@@ -78,7 +78,7 @@ const SysIdRow& simple_form() {
   return kForm;
 }
 
-/// What is read of a document, and its faults.
+/// Parses a document and collects its faults.
 class SysIdReader {
  public:
   SysIdReader(const Json& document, std::string file)
@@ -102,7 +102,7 @@ class SysIdReader {
   std::string file_;
   std::vector<Fault> faults_ = {};
   SysIdLog log_ = {};
-  double metres_ = 1.0;  ///< of a rotation
+  double metres_ = 1.0;  ///< metres per rotation
   double runs_ = 0.0;
   std::vector<std::string> tests_ = {};
   std::vector<std::string> unsigned_tests_ = {};
@@ -116,7 +116,7 @@ std::optional<std::string> SysIdReader::text_at(const char* key) {
   return std::nullopt;
 }
 
-/// By the length of the rows; null after a fault.
+/// Selects the row format by the row length; null after a fault.
 const SysIdRow* SysIdReader::find_form() {
   const std::string test = text_at("test").value_or("");
   if (test == "Arm" || test == "Elevator") {
@@ -213,8 +213,9 @@ void SysIdReader::read_run(std::string_view test, const SysIdRow& form) {
   tests_.emplace_back(test);
 }
 
-/// Some robot programs record magnitudes. In a run that drives a side backward with a voltage that is never
-/// negative, the voltage is mirrored; SysId itself gives every voltage its velocity's sign.
+/// Some robot programs record magnitudes. If a run drives a side backward but its voltage is never
+/// negative, the voltage sign is inverted. SysId itself gives every voltage the sign of its
+/// velocity.
 void SysIdReader::correct_voltage_signs(std::size_t begin, const SysIdRow& form,
                                         std::string_view test) {
   const auto values_of = [&](std::string_view name) -> std::vector<double>& {
@@ -245,7 +246,7 @@ void SysIdReader::correct_voltage_signs(std::size_t begin, const SysIdRow& form,
   if (is_mirrored) unsigned_tests_.emplace_back(test);
 }
 
-/// u of a drivetrain: the mean of its sides.
+/// Speed u of a drivetrain: the mean of its sides.
 void SysIdReader::add_speed() {
   const auto values_of = [&](std::string_view name) -> const std::vector<double>& {
     const auto found = std::ranges::find(log_.header, name);

@@ -1,5 +1,4 @@
-/// The JSON that WPILib's SysId records of a robot driven through its characterization tests. Private to this
-/// folder.
+/// JSON recorded by WPILib's SysId during a robot's characterization tests. Private to this folder.
 ///
 ///     {"sysid": true, "test": "Drivetrain", "units": "Meters", "unitsPerRotation": 0.4788,
 ///      "slow-forward": [[t, left V, right V, left rot, right rot, left rot/s, right rot/s, rad, rad/s], ...],
@@ -23,7 +22,7 @@
 
 namespace awmr {
 
-/// Its tests, a row after the other. `t_s` begins at 0 in each run.
+/// All tests in sequence. `t_s` begins at 0 in each run.
 struct SysIdLog {
   std::vector<std::string> header = {};  ///< run, t_s, left_volts, ..., in SI units and degrees
   std::vector<std::vector<double>> columns = {};  ///< by name
@@ -32,11 +31,11 @@ struct SysIdLog {
   std::size_t rows() const { return columns.empty() ? 0 : columns.front().size(); }
 };
 
-/// By its first bytes.
+/// True if the first bytes are those of a SysId record.
 bool is_sysid(std::string_view bytes);
 
-/// Errors: JSON that is no such record; a mechanism that does not drive; units that are no lengths; no rows;
-/// rows of another size; a time that does not rise.
+/// Errors: JSON that is not such a record; a mechanism that does not drive; units that are not
+/// lengths; no rows; rows of another size; a time that does not rise.
 Result<SysIdLog> read_sysid(std::string_view bytes, const std::string& file);
 
 }  // namespace awmr

@@ -16,7 +16,7 @@
 namespace awmr {
 namespace {
 
-/// Where the file and its findings are named, and what becomes of a contradiction.
+/// A table with the names for its findings, and the treatment of contradictions.
 struct Table {
   const std::filesystem::path& path;
   const std::string& file;
@@ -24,7 +24,7 @@ struct Table {
   std::vector<Finding>& findings;
   std::vector<Fault>& faults;
 
-  /// `remedy`: "map it by ..."; may be empty.
+  /// Reports a contradiction. `remedy`: "map it by ..."; may be empty.
   void tell(int line, const std::string& message, const std::string& remedy) const {
     if (options.as_is) {
       findings.push_back({file, line, Severity::kWarning, "table-contradiction", message});
@@ -41,15 +41,15 @@ struct Table {
   }
 };
 
-/// The first row whose force is above the vehicle's, and the span of all rows' forces.
+/// The first row whose force exceeds the vehicle's limit, and the range of all rows' forces.
 template <class Row>
 struct Beyond {
   const Row* first = nullptr;
   ForceSpan span{std::numeric_limits<double>::infinity(), 0.0};
 };
 
-/// `force` is a member of Row, or a function of one that gives the span of its forces. A force of 0 tells
-/// nothing of its unit.
+/// `force` is a member of Row, or a function of it that returns the range of its forces. Zero
+/// forces are ignored because they do not depend on the unit.
 template <class Row, class Force>
 Beyond<Row> beyond(const std::vector<Row>& rows, Force force, double limit) {
   Beyond<Row> found;
@@ -77,12 +77,12 @@ double side_limit(const Vehicle& vehicle) {
   return std::max(vehicle.wheel_force.hi, -vehicle.wheel_force.lo);
 }
 
-/// Forces of single wheels that are in another unit, in all of a folder's tables.
+/// Single-wheel forces in another unit, over all tables of a vehicle.
 struct FolderForces {
   std::optional<ForceSpan> wheels = {};
 
-  /// What tells the unit of a column: all columns' forces, but for one that has F' of more than the
-  /// vehicle's.
+  /// Range that decides the unit of a column: that of all columns, unless the column itself
+  /// contains F' beyond the vehicle's limit.
   ForceSpan beside(const ForceSpan& own) const {
     return is_share_of_f_max(own) || !wheels ? own : *wheels;
   }
@@ -113,7 +113,7 @@ std::string limits_text(const Interval& force) {
   return fmt::format("wheel_force [{:g}, {:g}] of the vehicle", force.lo, force.hi);
 }
 
-/// In turns by the sides each has a force of its own.
+/// Differential turns have one force per side.
 void check_sides(const Table& table, const std::vector<TurningRow>& rows, const Tables& tables) {
   const auto [first, span] = beyond(rows, side_forces, side_limit(tables.vehicle));
   if (first == nullptr) return;
@@ -165,10 +165,10 @@ void check_thrust(const Table& table, const TrialSet<SurgeRow>& surge, const Tab
              remedy_of(found.units, found.mendings, table.options.columns));
 }
 
-/// Angles in radians are small beside the stop in degrees. False where they are.
+/// Detects angles in radians, which are small compared with the stop in degrees. False if detected.
 bool check_steering(const Table& table, const std::vector<TurningRow>& rows,
                     const Vehicle& vehicle) {
-  constexpr double kSmall = 0.02;  // of the stop: what a degree is in radians
+  constexpr double kSmall = 0.02;  // fraction of the stop: a degree expressed in radians
   if (rows.empty()) return true;
   const double steepest_deg =
       degrees(std::ranges::max_element(rows, {}, &TurningRow::steering_rad)->steering_rad);
@@ -183,8 +183,8 @@ bool check_steering(const Table& table, const std::vector<TurningRow>& rows,
   return false;
 }
 
-/// A vehicle coasts from a speed that it was driven to. Where no run was nearly as fast, the speed is in
-/// another unit or the resistance is extrapolated.
+/// A vehicle coasts from a speed to which it was driven. If no run was nearly as fast, the speed is
+/// in another unit or the resistance is extrapolated.
 void warn_of_fast_coasts(const Table& table, int line, double fastest_mps,
                          const std::optional<TrialSet<SurgeRow>>& surge) {
   constexpr double kFar = 1.5;

@@ -1,5 +1,5 @@
-/// What contradicts the vehicle in tables of runs, found before anything is fitted: forces beyond its
-/// limits, steering angles in another unit. Private to this folder.
+/// Checks tables of runs against the vehicle before anything is fitted: forces beyond its limits,
+/// steering angles in another unit. Private to this folder.
 #pragma once
 
 #include <filesystem>
@@ -10,17 +10,18 @@
 
 namespace awmr {
 
-/// All tables of one vehicle: each is judged by what the others tell as well.
+/// All tables of one vehicle: each is checked with the information of the others too.
 struct Tables {
   const Vehicle& vehicle;
-  const std::optional<TrialSet<SurgeRow>>& surge;      ///< tells how fast the vehicle can be
-  const std::optional<TrialSet<TurningRow>>& turning;  ///< tells the unit of the forces, with surge
+  const std::optional<TrialSet<SurgeRow>>& surge;  ///< gives the speed that the vehicle can reach
+  /// gives the unit of the forces, together with surge
+  const std::optional<TrialSet<TurningRow>>& turning;
 };
 
-/// Faults: a tau_speed above 4 F'max, a wheel_force or a side's force above F'max, with the likely units
-/// (force_units.h; one unit for all tables); steering angles that are all below 2 % of the stop, as angles
-/// in radians are; speeds and times in other units (table_units.h); turns faster than wheels can roll
-/// (turn_evidence.h). Each names the first such row, and the mapping that would mend it. With
+/// Faults: a tau_speed above 4 F'max, a wheel_force or a side's force above F'max, with the likely
+/// units (force_units.h; one unit for all tables); steering angles all below 2 % of the stop, as in
+/// radians; speeds and times in other units (table_units.h); turns faster than wheels can roll
+/// (turn_evidence.h). Each names the first such row and the mapping that would correct it. With
 /// `options.as_is` they are findings (`table-contradiction`, a warning) instead.
 void check_consistency(const TrialSet<SurgeRow>& surge, const std::filesystem::path& path,
                        const Tables& tables, const TrialOptions& options,
@@ -28,7 +29,8 @@ void check_consistency(const TrialSet<SurgeRow>& surge, const std::filesystem::p
 void check_consistency(const TrialSet<TurningRow>& turning, const std::filesystem::path& path,
                        const Tables& tables, const TrialOptions& options,
                        std::vector<Finding>& findings, std::vector<Fault>& faults);
-/// Also `coast-beyond-surge` (a warning): the coast-downs begin at a speed far above that of every run.
+/// Also adds the warning `coast-beyond-surge`: the coast-downs begin far above the speed of every
+/// run.
 void check_consistency(const CoastdownSet& coastdown, const std::filesystem::path& path,
                        const Tables& tables, const TrialOptions& options,
                        std::vector<Finding>& findings, std::vector<Fault>& faults);

@@ -18,7 +18,7 @@
 namespace awmr {
 namespace {
 
-/// How many times too large a unit makes a ratio of two columns, and which of them has it.
+/// A wrong unit: its factor on the ratio of two columns, and which column has it.
 struct TableUnit {
   double times;
   std::string_view column;
@@ -40,10 +40,10 @@ constexpr std::array<TableUnit, 2> kTableTurnUnits{
 
 constexpr Interval kLengthsPerSecond{0.02, 100.0};
 constexpr double kUsualLengthsPerSecond = 20.0;
-constexpr double kSlowTable_radps = 0.01;  // its fastest turn does that at least
+constexpr double kSlowTable_radps = 0.01;  // minimum for the fastest turn of a table
 constexpr double kLeastDeceleration_mps2 = 0.01;
 
-/// The unit whose factor all ratios have, within a tenth; none for ratios that scatter.
+/// The unit whose factor matches all ratios within a tenth; none for ratios that scatter.
 template <std::size_t N>
 const TableUnit* unit_of(const std::vector<double>& ratios, const std::array<TableUnit, N>& units) {
   for (const TableUnit& unit : units) {
@@ -60,7 +60,7 @@ struct Smaller {
   std::string_view words;
 };
 
-/// Hundredths or thousandths, whichever brings the fastest run nearer to what is common.
+/// Selects hundredths or thousandths, whichever brings the fastest run nearer to common values.
 Smaller smaller_unit(double lengths_per_second, Smaller hundredth, Smaller thousandth) {
   constexpr double kCommon = 3.0;
   const auto apart = [&](const Smaller& unit) {
@@ -69,7 +69,7 @@ Smaller smaller_unit(double lengths_per_second, Smaller hundredth, Smaller thous
   return apart(hundredth) <= apart(thousandth) ? hundredth : thousandth;
 }
 
-/// A vehicle whose own sizes cannot be says nothing of speeds.
+/// False for a vehicle with implausible dimensions, which cannot be used to check speeds.
 bool tells_lengths(const Vehicle& vehicle) { return implausible_values(vehicle).empty(); }
 
 template <class Row>
@@ -99,8 +99,9 @@ std::vector<double> printed_over_timed(const std::vector<TurningRow>& rows) {
   return ratios;
 }
 
-/// What the vehicle can do at the most by its surge runs, as long as its resistance grows with at least the
-/// square root of the speed: tau_speed/tau_run = (u/u_run)^b, b >= 1/2. None where the runs used less than half of the force: friction at rest then says too much.
+/// Upper bound of the vehicle's speed from its surge runs, if its resistance grows at least with
+/// the square root of the speed: tau_speed/tau_run = (u/u_run)^b, b >= 1/2. Empty if the runs used
+/// less than half of the force, because friction at rest then dominates.
 std::optional<double> top_speed_mps(const std::optional<TrialSet<SurgeRow>>& surge,
                                     const Vehicle& vehicle) {
   constexpr double kRoom = 1.3;
@@ -111,7 +112,7 @@ std::optional<double> top_speed_mps(const std::optional<TrialSet<SurgeRow>>& sur
   return kRoom * fastest_run->speed_mps / std::min(1.0, share * share);
 }
 
-/// The unit that brings a speed below what the vehicle can do.
+/// Unit that reduces a speed below the vehicle's top speed.
 Smaller unit_below(double speed_mps, double top_mps) {
   constexpr Smaller kUnits[] = {{1.0 / 3.6, "the speed looks like km/h"},
                                 {1e-2, "the speed looks like cm/s"},
@@ -122,7 +123,7 @@ Smaller unit_below(double speed_mps, double top_mps) {
   return kUnits[2];
 }
 
-/// One unit is likely, and its factor mends it.
+/// Builds the result for a single likely unit, with its factor as the mapping.
 WrongUnit wrong(int line, std::string message, std::string_view column, double factor) {
   return {line, std::move(message), {{"", column, factor}}};
 }
@@ -141,7 +142,8 @@ std::optional<WrongUnit> wrong_unit(const TrialSet<SurgeRow>& surge, const Vehic
   const double speed_mps = fastest(surge.rows, &SurgeRow::speed_mps);
   const double lengths = speed_mps / vehicle.length_m;
   if (const TableUnit* unit = unit_of(ratios, kTableSpeedUnits)) {
-    // 1000 is either's: a speed that a vehicle of this length has is right.
+    // A factor of 1000 may be either; if the speed is usual for this vehicle's length, the time is
+    // wrong.
     const bool is_time = unit->times == 1000.0 && lengths <= kUsualLengthsPerSecond;
     if (is_time) unit = &kTableSpeedUnits[4];
     return wrong(first.line,
@@ -183,7 +185,7 @@ std::optional<WrongUnit> wrong_unit(const TrialSet<TurningRow>& turning) {
 
 namespace {
 
-/// What a file of coast-downs says of its units, and the columns that say it.
+/// Evidence on the units in a file of coast-downs, and its columns.
 struct Coasts {
   int line;
   double fastest_mps;
@@ -246,7 +248,7 @@ std::optional<WrongUnit> wrong_unit(const std::vector<CoastCurve>& curves,
     fastest_mps = std::max(fastest_mps, most);
     hardest_mps2 = std::max(hardest_mps2, (most - least) / (curve.t_s.back() - curve.t_s.front()));
   }
-  // A curve that does not fall is set aside by itself.
+  // Curves that do not fall are set aside elsewhere.
   if (!(hardest_mps2 > 0.0)) return std::nullopt;
   return wrong_unit({curves.front().line, fastest_mps, hardest_mps2, "speed_mps", "t_s"}, surge,
                     vehicle);

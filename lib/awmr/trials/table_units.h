@@ -1,4 +1,4 @@
-/// Units of tables of runs, by what speeds and times can be. Private to this folder.
+/// Checks the units of tables of runs by plausible speeds and times. Private to this folder.
 ///
 ///     speed_mps over distance_m/elapsed_s       1; 3.6, 1000, 0.01, ... tell a unit
 ///     yaw_rate_radps over 2 pi turns/elapsed_s  1; 57.3, 1000 tell a unit
@@ -17,18 +17,18 @@
 
 namespace awmr {
 
-/// A column in another unit.
+/// A column in a wrong unit.
 struct WrongUnit {
-  int line = 0;                   ///< of the first row
-  std::string message;            ///< what was compared, what was found, the likely units
-  std::vector<Mending> mendings;  ///< the likeliest first; empty where a mapping mends nothing
-  std::string remedy = {};        ///< then this does
+  int line = 0;                   ///< line of the first affected row
+  std::string message;            ///< the comparison, its result, the likely units
+  std::vector<Mending> mendings;  ///< the most likely first; empty if no mapping corrects it
+  std::string remedy = {};        ///< what to do if there is no mapping
 };
 
-/// None where the table's units can be what they say; the first that cannot.
+/// The first column whose values are implausible for its unit; empty if there is none.
 std::optional<WrongUnit> wrong_unit(const TrialSet<SurgeRow>& surge, const Vehicle& vehicle);
 std::optional<WrongUnit> wrong_unit(const TrialSet<TurningRow>& turning);
-/// `surge`: the same vehicle's runs, which tell how fast it can be.
+/// `surge`: runs of the same vehicle, which give the speed that it can reach.
 std::optional<WrongUnit> wrong_unit(const TrialSet<StopTimeRow>& coastdown,
                                     const std::optional<TrialSet<SurgeRow>>& surge,
                                     const Vehicle& vehicle);

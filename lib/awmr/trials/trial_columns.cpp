@@ -26,7 +26,8 @@ const CsvColumn kSurgeColumns[] = {{"tau_speed", false},
                                    {"distance_m", false},
                                    {"elapsed_s", false}};
 
-// A run leaves empty what its kind has not, or what was not measured in it: turning.cpp says what each needs.
+// A run leaves cells empty that its kind lacks or that were not measured; turning.cpp defines what
+// each kind requires.
 const CsvColumn kTurningColumns[] = {{"steering_deg", true},
                                      {"wheel_force", false, EmptyCells::kOptional},
                                      {"force_left", false, EmptyCells::kOptional},
@@ -36,7 +37,7 @@ const CsvColumn kTurningColumns[] = {{"steering_deg", true},
                                      {"elapsed_s", false, EmptyCells::kOptional},
                                      {"tau_turn", false, EmptyCells::kOptional}};
 
-/// Of a vehicle without steering.
+/// For a vehicle without steering.
 const CsvColumn kSidesTurningColumns[] = {
     {"force_left", true, EmptyCells::kOptional},      {"force_right", true, EmptyCells::kOptional},
     {"yaw_rate_radps", false, EmptyCells::kOptional}, {"turns", false, EmptyCells::kOptional},
@@ -63,7 +64,7 @@ const CsvColumn kLogColumns[] = {{"t_s", true},
                                  {"longitude_deg", false, EmptyCells::kAbsent},
                                  {"run", false}};
 
-/// Every column that some trial has, each once.
+/// All columns of all trials, without duplicates.
 std::vector<std::string> all_columns() {
   std::set<std::string> names;
   for (const TrialKind kind : values_in(kTrialKindNames)) {
@@ -85,14 +86,14 @@ std::string place_of(const ColumnMapping& mapping) {
   return fmt::format("column mapping \"{}\"", shortened(text_of(mapping), 100));
 }
 
-/// A file that was given, and the names in its header.
+/// A file and the names in its header.
 struct Header {
   std::string path;
   std::vector<std::string> names;
 };
 
-/// The names in a file's header; of a directory of tables also without the table's name. None where
-/// the header cannot be told, as where it stands in a comment.
+/// Names in a file's header; for a directory of tables also without the table's name. Empty if the
+/// header cannot be determined, as when it is in a comment.
 std::optional<Header> header_of(const std::filesystem::path& path) {
   const auto sample = sample_of(path);
   if (!sample) return std::nullopt;
@@ -106,7 +107,7 @@ std::optional<Header> header_of(const std::filesystem::path& path) {
   return header;
 }
 
-/// Of every file; none where one of them does not tell its header.
+/// Headers of all files; empty if one of them is unknown.
 std::vector<Header> headers_of(std::span<const std::filesystem::path> files) {
   std::vector<Header> headers;
   for (const std::filesystem::path& path : files) {
@@ -117,7 +118,7 @@ std::vector<Header> headers_of(std::span<const std::filesystem::path> files) {
   return headers;
 }
 
-/// "; did you mean NAME?", or what there is.
+/// "; did you mean NAME?", or the list of names.
 std::string nearest_of(const std::string& name, const std::vector<std::string>& names) {
   const std::string near = nearest(name, names);
   return near.empty()
@@ -125,14 +126,14 @@ std::string nearest_of(const std::string& name, const std::vector<std::string>& 
              : fmt::format("; did you mean \"{}\"?", near);
 }
 
-/// Why a mapping's text is no formula; empty where it is one.
+/// Syntax error of a mapping's formula; empty if it is valid.
 std::string why_no_formula(const ColumnMapping& mapping) {
   const auto formula = ColumnExpression::parse(mapping.expression);
   if (mapping.expression.empty() || formula) return "";
   return fmt::format(" (as arithmetic: {})", formula.error());
 }
 
-/// Why none of the files can use a mapping; nothing where one can, or where no header is known.
+/// Reason why no file can use a mapping; empty if one can or if no header is known.
 std::optional<std::string> unusable(const ColumnMapping& mapping,
                                     const std::vector<Header>& headers) {
   std::vector<std::string> files;
@@ -154,7 +155,7 @@ std::optional<std::string> unusable(const ColumnMapping& mapping,
                      nearest_of(*missing, names), why_no_formula(mapping));
 }
 
-/// Its absence is an error of its own, where the file is read.
+/// True for required columns: the reader of the file reports their absence.
 bool is_required(const std::string& column) {
   for (const TrialKind kind : values_in(kTrialKindNames)) {
     for (const CsvColumn& c : columns_of(kind)) {
@@ -177,7 +178,7 @@ std::string trials_with(const std::string& column) {
   return fmt::format("{}", fmt::join(kinds, ", "));
 }
 
-/// Why no file that could use a mapping did.
+/// Reason why no file that could use a mapping did.
 std::string asked_of_none(const ColumnMapping& mapping) {
   return fmt::format(
       "no file that has what it is made from is asked for {}, which is a column of: {}; correct it "

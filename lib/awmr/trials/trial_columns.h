@@ -1,4 +1,4 @@
-/// The columns of each kind of trial, and the mappings that give them.
+/// Columns of each kind of trial, and mappings to them.
 #pragma once
 
 #include <filesystem>
@@ -12,23 +12,23 @@
 
 namespace awmr {
 
-/// What is read of a file of this kind; see the contract's columns in the README.
+/// Columns read from a file of this kind; the README lists them.
 std::span<const CsvColumn> columns_of(TrialKind kind);
-/// Of a turning table of this vehicle: without steering the sides have a force each.
+/// Columns of a turning table for this vehicle: without steering each side has its own force.
 std::span<const CsvColumn> turning_columns(const Vehicle& vehicle);
 
-/// The options with the vehicle's own mappings behind their own, and without steering where it has
-/// none. Errors: as parse_column(); a mapping of a column that no trial has, with the nearest one.
+/// Appends the vehicle's mappings to those of the options, and disables steering if the vehicle has
+/// none. Errors: as parse_column(); a mapping of a column that no trial has, with the closest name.
 Result<TrialOptions> with_vehicle_columns(TrialOptions options, const Vehicle& vehicle);
 
-/// Errors: a mapping that none of the files used, with the reason: no file is called so, none has
-/// the columns that it is made from (with the nearest), or none is asked for its column. `used` are
-/// indices into the options' mappings. The vehicle's may be unused.
+/// Errors: a mapping that none of the files used, with the reason: no file has its file name, none
+/// has its source columns (with the closest name), or none needs its column. `used` are indices
+/// into the options' mappings. The vehicle's mappings may be unused.
 Status check_mappings(const TrialOptions& options, std::span<const std::size_t> used,
                       std::span<const std::filesystem::path> files);
 
-/// The mappings that none of the files can use, where a file could not be read: a misspelt mapping
-/// is often why.
+/// Mappings that none of the files can use. Reported when a file could not be read, because a
+/// misspelt mapping is a frequent cause.
 std::vector<Fault> unusable_mappings(const TrialOptions& options,
                                      std::span<const std::filesystem::path> files);
 

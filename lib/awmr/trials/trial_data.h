@@ -11,20 +11,20 @@
 
 namespace awmr {
 
-/// Each kind that is absent or empty was not given.
+/// Kinds that were not given are absent or empty.
 struct TrialData {
   std::optional<TrialSet<SurgeRow>> surge = {};
   std::optional<TrialSet<TurningRow>> turning = {};
-  std::optional<TrialSet<StopTimeRow>> coastdown = {};  ///< coast-downs that were timed
-  std::vector<CoastCurve> curves = {};                  ///< coast-downs that were recorded
+  std::optional<TrialSet<StopTimeRow>> coastdown = {};  ///< timed coast-downs
+  std::vector<CoastCurve> curves = {};                  ///< recorded coast-downs
   std::vector<DrivingLog> logs = {};
 };
 
-/// Trials as read, with what is doubtful about them.
+/// Trials with the findings of their readers.
 struct Trials {
   Vehicle vehicle;
   TrialData data;
-  std::vector<Finding> findings;  ///< in this order: surge, turning, coast-downs, logs
+  std::vector<Finding> findings;  ///< order: surge, turning, coast-downs, logs
 };
 
 }  // namespace awmr

@@ -76,7 +76,7 @@ std::optional<RateInRow> rate_of(TrialReader& reader, std::size_t row, const Rat
   if (!counted) return RateInRow{printed.value_or(0.0), {}, {}};
 
   if (*elapsed_s == 0.0) {
-    // A row at rest may carry 0 for its time; motion may not. The amount counts only where no
+    // A row at rest may have a time of 0, a row with motion may not. The amount counts only if no
     // printed value says that the vehicle stood.
     const double motion = printed.value_or(*amount);
     if (motion != 0.0) {

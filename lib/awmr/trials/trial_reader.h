@@ -1,4 +1,4 @@
-/// What the readers of the three trial files share. Private to this folder.
+/// Common to the readers of the three trial files. Private to this folder.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@
 
 namespace awmr {
 
-/// The cells of one file, with the faults found in them.
+/// Cells of one file, and the faults found in them.
 class TrialReader {
  public:
   TrialReader(CsvTable table, const TrialOptions& options)
@@ -19,11 +19,11 @@ class TrialReader {
 
   const CsvTable& table() const { return table_; }
   bool has(std::string_view column) const { return table_.has(column); }
-  /// As CsvTable::take().
+  /// Same as CsvTable::take().
   std::vector<double> take(std::string_view column) { return table_.take(column); }
-  /// The cell, or nothing where the file has no such column or the row leaves it empty.
+  /// Returns the cell; empty if the file has no such column or the row leaves it empty.
   std::optional<double> cell(std::size_t row, std::string_view column) const;
-  /// As cell(); a negative value is a fault.
+  /// Like cell(); a negative value is a fault.
   std::optional<double> non_negative(std::size_t row, std::string_view column);
 
   void fault(std::size_t row, std::string_view column, std::string message);
@@ -41,33 +41,33 @@ class TrialReader {
   std::vector<Fault> faults_;
 };
 
-/// A quantity as printed in `printed_column`, and as `amount` over `elapsed_s` of the same row.
+/// A quantity printed in `printed_column` and timed as `amount` over `elapsed_s` in the same row.
 struct Rate {
   std::string_view printed_column;  ///< "speed_mps"
   std::string_view amount_column;   ///< "distance_m", "turns"
   double per_amount = 1.0;          ///< 2 pi rad in a turn
-  std::string code;                 ///< of the finding where the two disagree
+  std::string code;                 ///< code of the finding if the two disagree
 };
 
 struct RateInRow {
   double used = 0.0;
-  std::optional<double> amount;  ///< only where the row was timed: elapsed_s > 0
+  std::optional<double> amount;  ///< only if the row was timed: elapsed_s > 0
   std::optional<double> elapsed_s;
 };
 
-/// Takes the rate of a row, magnitudes throughout; adds a finding where its two values disagree,
-/// and a fault where a value is negative or motion takes no time. Nothing on a fault.
+/// Returns the rate of a row, as magnitudes. Adds a finding if its two values disagree, and a fault
+/// if a value is negative or motion takes no time. Empty on a fault.
 std::optional<RateInRow> rate_of(TrialReader& reader, std::size_t row, const Rate& rate,
                                  std::optional<double> printed, Preference preference,
                                  std::vector<Finding>& findings);
 
-/// How the file was taken, where that was found out: the table's notes as findings.
+/// Adds the table's notes on its detected format to the findings.
 void note_format(const TrialReader& reader, std::vector<Finding>& findings);
 
-/// "line 4", "lines 4, 7, 9": of the table's rows, not empty; beyond twelve "... and 3 more".
+/// "line 4", "lines 4, 7, 9" for the table's rows, not empty; beyond twelve "... and 3 more".
 std::string lines_of(const TrialReader& reader, std::span<const std::size_t> rows);
 
-/// The note that says how many rows were set aside, and which.
+/// Adds the note that reports which rows were set aside.
 void note_rows_set_aside(const TrialReader& reader, std::span<const std::size_t> rows,
                          std::string_view why, std::vector<Finding>& findings);
 

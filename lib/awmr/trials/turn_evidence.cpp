@@ -19,20 +19,21 @@
 namespace awmr {
 namespace {
 
-/// Times what wheels roll: 3 for a steered vehicle that drifts, or whose rear wheels steer as well; 4 by
-/// the sides, where u is interpolated twice.
+/// Bounds as multiples of the rate of rolling wheels: 3 for a steered vehicle that drifts or also
+/// steers its rear wheels; 4 for differential turns, where u is interpolated twice.
 constexpr double kMostSteered = 3.0;
 constexpr double kMostBySides = 4.0;
-/// Below, nothing has turned: a wheelbase of five times l_f and the worst understeer leave several times more.
+/// Below this the vehicle has not turned: a wheelbase of five times l_f and the worst understeer
+/// leave several times more.
 constexpr double kLeastSteered = 0.01;
 constexpr double kMostAcceleration_mps2 = 60.0;
 constexpr double kFastestTurn_radps = 25.0;
 
-/// What a right unit leaves of the shares that are judged.
+/// Range of the shares in the right unit.
 constexpr Interval kPossibleShare{0.03, 2.5};
 constexpr double kPossibleAcceleration_mps2 = 15.0;
 
-/// A unit that makes a rate so many times too large.
+/// A unit that makes a rate too large by a factor.
 struct RateUnit {
   double times;
   std::string_view column;
@@ -52,14 +53,15 @@ constexpr std::array<RateUnit, 4> kTimedUnits{
      {6.283185, "turns", 1.0 / 6.283185, "turns in radians"},
      {1e-3, "elapsed_s", 1e-3, "a time in milliseconds"}}};
 
-/// What one row says: its share of what is possible, and what to tell of it.
+/// Evaluation of one row: its fraction of the possible rate, and the text for the message.
 struct TurnShare {
   const TurningRow* row;
-  double share;      ///< of what wheels roll, or of the acceleration that grip allows
+  double share;      ///< fraction of the rolling rate, or of the acceleration that grip allows
   std::string told;  ///< "that is more than ..."
 };
 
-/// u of the surge runs over tau_speed: a polygon through the origin and the runs, that never falls.
+/// Speed u over tau_speed: piecewise linear through the origin and the surge runs, never
+/// decreasing.
 class SpeedCurve {
  public:
   explicit SpeedCurve(const std::vector<SurgeRow>& rows) {
@@ -68,8 +70,8 @@ class SpeedCurve {
     double most = 0.0;
     for (auto& [tau, speed] : points_) most = speed = std::max(most, speed);
   }
-  /// Odd. Beyond the runs u grows with the square of tau_speed, as resistance grows with the root of the
-  /// speed at least; beyond 1.5 times the hardest run nothing is said.
+  /// Odd in tau. Beyond the runs u grows with the square of tau_speed, as resistance grows at least
+  /// with the square root of the speed. Empty beyond 1.5 times the hardest run.
   std::optional<double> at(double tau) const {
     if (tau < 0.0) {
       const auto forwards = at(-tau);
@@ -107,7 +109,7 @@ double hardest(const Rows& rows) {
   return most;
 }
 
-/// What the surge runs say of speeds; none where their units, or those of the forces, cannot be trusted.
+/// Speed curve from the surge runs; empty if their units or those of the forces are unreliable.
 std::optional<SpeedCurve> speed_curve(const TrialSet<TurningRow>& turning,
                                       const std::optional<TrialSet<SurgeRow>>& surge,
                                       const Vehicle& vehicle) {
@@ -117,7 +119,7 @@ std::optional<SpeedCurve> speed_curve(const TrialSet<TurningRow>& turning,
   for (const SurgeRow& row : surge->rows) thrust = std::max(thrust, row.tau_speed);
   const bool surge_beyond = thrust > vehicle.driven_wheels() * limit;
   const bool turns_beyond = std::max(hardest(turning.rows), hardest(turning.by_sides)) > limit;
-  // Both in the same wrong unit, as of PWM counts, are as good as F'.
+  // Equal wrong units in both, such as PWM counts, work as well as F'.
   const bool is_same =
       surge_beyond == turns_beyond && (!surge_beyond || surge->force_column == "wheel_force");
   return is_same ? std::optional<SpeedCurve>(surge->rows) : std::nullopt;
@@ -144,8 +146,8 @@ std::optional<TurnShare> steered_share(const TurningRow& row, const SpeedCurve& 
                                *u, most)};
 }
 
-/// r over (u(n F'R) - u(n F'L))/(2 d). Runs that scatter may lie about level: the slope is at least half of
-/// that to the origin.
+/// r over (u(n F'R) - u(n F'L))/(2 d). Runs that scatter may make the curve flat, so the slope used
+/// is at least half of that to the origin.
 std::optional<TurnShare> side_share(const TurningRow& row, const SpeedCurve& speed,
                                     const Vehicle& vehicle) {
   const int n = vehicle.driven_wheels();
@@ -163,7 +165,7 @@ std::optional<TurnShare> side_share(const TurningRow& row, const SpeedCurve& spe
                                difference, most)};
 }
 
-/// r over that at which the smallest circle takes all the grip that there is.
+/// r over the rate at which the smallest circle uses all of the grip.
 TurnShare grip_share(const TurningRow& row, const Vehicle& vehicle) {
   const double radius_m = vehicle.front_axle_m / std::tan(row.steering_rad);
   const double most = std::sqrt(kMostAcceleration_mps2 / radius_m);
@@ -173,12 +175,12 @@ TurnShare grip_share(const TurningRow& row, const Vehicle& vehicle) {
                       row.yaw_rate_radps * row.yaw_rate_radps * radius_m, kMostAcceleration_mps2)};
 }
 
-/// One way to judge all rows.
+/// One criterion for all rows.
 struct TurnJudgement {
   std::vector<TurnShare> shares;
-  double most;   ///< that a share may be
-  double least;  ///< that the largest share may be; 0: any
-  /// Of a right unit.
+  double most;   ///< maximum possible share
+  double least;  ///< minimum of the largest share; 0: no minimum
+  /// Range of shares in the right unit.
   Interval possible;
 };
 
@@ -204,12 +206,12 @@ std::vector<TurnJudgement> judgements(const TrialSet<TurningRow>& turning,
                             fmt::format("more than {:g} rad/s", kFastestTurn_radps)});
     }
   }
-  // A vehicle whose own sizes cannot be says nothing of turns.
+  // A vehicle with implausible dimensions cannot be used to check turns.
   if (!implausible_values(vehicle).empty()) return {std::move(any)};
   return {std::move(steered), std::move(by_sides), std::move(circle), std::move(any)};
 }
 
-/// The units that make of a share one that is possible.
+/// Units that bring a share into the possible range.
 std::vector<Mending> turn_mendings(double share, const Interval& possible, bool is_printed) {
   const bool is_fast = share > possible.hi;
   std::vector<Mending> found;
@@ -232,7 +234,7 @@ WrongUnit wrong_column(const TurnShare& told_by, const TurnJudgement& judgement,
   return {line, fmt::format("{}: {} {}", told, what, words_of(mendings)), mendings};
 }
 
-/// Rows that are apart from all others are wrong by themselves.
+/// Rows far from all others are wrong themselves.
 WrongUnit wrong_rows(const std::vector<TurnShare>& shares, double most) {
   std::vector<int> lines;
   for (const TurnShare& one : shares) {
@@ -247,7 +249,7 @@ WrongUnit wrong_rows(const std::vector<TurnShare>& shares, double most) {
           fmt::format("correct line{} {}", lines.size() == 1 ? "" : "s", fmt::join(lines, ", "))};
 }
 
-/// The column that a judgement condemns, or the rows.
+/// Returns the column or the rows that violate a criterion.
 std::optional<WrongUnit> wrong_by(TurnJudgement judgement, bool is_printed) {
   constexpr double kApart = 10.0;
   std::vector<TurnShare>& shares = judgement.shares;

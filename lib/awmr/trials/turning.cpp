@@ -21,7 +21,7 @@ const Rate kTurningRate{.printed_column = "yaw_rate_radps",
                         .per_amount = 2.0 * pi<double>(),
                         .code = "yaw-rate-mismatch"};
 
-/// l_f and the steering angle are set up to about 1 %; F' is set exactly.
+/// l_f and the steering angle are known to about 1 %; F' is set exactly.
 constexpr double kGeometryError = 0.01;
 
 void check_turning_columns(TrialReader& reader, const Vehicle& vehicle) {
@@ -37,21 +37,21 @@ void check_turning_columns(TrialReader& reader, const Vehicle& vehicle) {
   }
 }
 
-/// What turns the vehicle in a row, as the file has it.
+/// Cause of the turn in a row, as given in the file.
 struct Turn {
-  double left = 0.0;        ///< its sign is that of a turn to the left
+  double left = 0.0;        ///< sign of the left-right term: positive in a turn to the left
   std::string in_words;     ///< "steering_deg 5", for messages
-  double computed_m = 0.0;  ///< tau_turn by the forces, m, >= 0
-  std::string equation;     ///< by which it was computed
-  std::string parameter;    ///< the vehicle's that it hangs on: "front_axle_m"
+  double computed_m = 0.0;  ///< tau_turn computed from the forces, m, >= 0
+  std::string equation;     ///< equation used
+  std::string parameter;    ///< vehicle parameter used: "front_axle_m"
   double length_m = 0.0;    ///< the parameter's value
-  // What the row keeps of it.
+  // Values stored in the row.
   double steering_rad = 0.0;
   double wheel_force = 0.0;
   std::optional<SideForces<double>> sides = {};
 };
 
-/// A faulty cell where its sign is not that of the turn: counted turns have none.
+/// Adds a fault if the sign is not that of the turn; counted turns have no sign.
 void check_side(TrialReader& reader, std::size_t row, const char* column, double value,
                 const Turn& turn) {
   if (value * turn.left >= 0.0) return;
@@ -61,7 +61,7 @@ void check_side(TrialReader& reader, std::size_t row, const char* column, double
                            value, turn.in_words));
 }
 
-/// The yaw rate's magnitude.
+/// Magnitude of the yaw rate.
 std::optional<double> printed_yaw_rate(TrialReader& reader, std::size_t row, const Turn& turn) {
   const auto rate = reader.cell(row, "yaw_rate_radps");
   if (!rate) return std::nullopt;
@@ -78,8 +78,8 @@ void check_stop(const TrialReader& reader, std::size_t row, const Vehicle& vehic
                   steering_deg, vehicle.steering_max_deg)));
 }
 
-/// tau_turn as printed, else as computed. The paper heads its column N m; over F_max, as everywhere
-/// here, it is in m.
+/// tau_turn as printed, else as computed. The paper heads its column N m; over F_max, as in all of
+/// awmr, it is in m.
 double tau_turn_of(TrialReader& reader, std::size_t row, const Turn& turn,
                    std::vector<Finding>& findings) {
   const auto cell = reader.cell(row, "tau_turn");
@@ -103,9 +103,9 @@ double tau_turn_of(TrialReader& reader, std::size_t row, const Turn& turn,
   return printed;
 }
 
-/// A run that turns by its steering:
+/// A steered turn:
 ///   tau_turn = 2 l_f F' sin d_r                                                       [paper (62)]
-/// Nothing on a fault.
+/// Empty on a fault.
 std::optional<Turn> by_steering(TrialReader& reader, std::size_t row, const Vehicle& vehicle,
                                 double wheel_force) {
   const double steering_deg = *reader.cell(row, "steering_deg");
@@ -125,7 +125,7 @@ std::optional<Turn> by_steering(TrialReader& reader, std::size_t row, const Vehi
               .wheel_force = wheel_force};
 }
 
-/// A run that turns by its sides, without steering:
+/// A differential turn, with straight wheels:
 ///   tau_turn = 2 d (F'R - F'L)                                                        [paper (41)]
 Turn by_sides(const TrialReader& reader, std::size_t row, const Vehicle& vehicle) {
   const double left = *reader.cell(row, "force_left");
@@ -140,7 +140,8 @@ Turn by_sides(const TrialReader& reader, std::size_t row, const Vehicle& vehicle
           .sides = sides};
 }
 
-/// A faulty cell where wheel_force is given beside the forces of the sides and is not their mean.
+/// Adds a fault if wheel_force is given together with the forces of the sides and is not their
+/// mean.
 void check_mean(TrialReader& reader, std::size_t row, double left, double right) {
   const auto mean = reader.cell(row, "wheel_force");
   if (!mean) return;
@@ -154,7 +155,7 @@ void check_mean(TrialReader& reader, std::size_t row, double left, double right)
                   *mean, left, right, computed));
 }
 
-/// F' of a steered run that gives no side's; a faulty cell where it is empty or negative.
+/// F' of a steered run without forces of the sides; a fault if it is empty or negative.
 std::optional<double> wheel_force_of(TrialReader& reader, std::size_t row) {
   if (!reader.has("wheel_force")) {
     reader.fault(row, "force_left", "no force: give both sides', or a column wheel_force");
@@ -167,7 +168,7 @@ std::optional<double> wheel_force_of(TrialReader& reader, std::size_t row) {
   return force;
 }
 
-/// A faulty row where nothing says how fast it turned.
+/// Adds a fault for a row without any rate of turn.
 bool has_rate(TrialReader& reader, std::size_t row) {
   if (reader.cell(row, "yaw_rate_radps")) return true;
   if (reader.cell(row, "turns") && reader.cell(row, "elapsed_s")) return true;
@@ -176,8 +177,8 @@ bool has_rate(TrialReader& reader, std::size_t row) {
   return false;
 }
 
-/// A run of a vehicle with steering, which turns by it or, with straight wheels, by its sides.
-/// Nothing on a fault.
+/// A run of a vehicle with steering: a steered turn or, with straight wheels, a differential one.
+/// Empty on a fault.
 std::optional<Turn> by_steering_or_sides(TrialReader& reader, std::size_t row,
                                          const Vehicle& vehicle) {
   const auto left = reader.cell(row, "force_left");
@@ -212,14 +213,15 @@ std::optional<Turn> by_steering_or_sides(TrialReader& reader, std::size_t row,
   return std::nullopt;
 }
 
-/// A run of a vehicle without steering. Nothing on a fault; check_sides_given() names rows without forces.
+/// A run of a vehicle without steering. Empty on a fault; check_sides_given() reports rows without
+/// forces.
 std::optional<Turn> by_sides_alone(TrialReader& reader, std::size_t row, const Vehicle& vehicle) {
   if (!reader.cell(row, "force_left") || !reader.cell(row, "force_right")) return std::nullopt;
   if (!has_rate(reader, row)) return std::nullopt;
   return by_sides(reader, row, vehicle);
 }
 
-/// One fault for all rows of a vehicle without steering that lack the force of a side.
+/// Adds one fault for all rows of a vehicle without steering that lack a side's force.
 void check_sides_given(TrialReader& reader) {
   std::vector<std::size_t> without;
   for (std::size_t row = 0; row < reader.table().rows(); ++row) {
@@ -236,7 +238,7 @@ void check_sides_given(TrialReader& reader) {
 }
 
 /// The row with its moment and its yaw rate, both magnitudes: g3 is odd, so a turn to the right is
-/// taken as its mirror image to the left.
+/// mirrored to the left.
 std::optional<TurningRow> read_row(TrialReader& reader, std::size_t row, const Vehicle& vehicle,
                                    Preference preference, std::vector<Finding>& findings) {
   const auto turn = vehicle.has_steering() ? by_steering_or_sides(reader, row, vehicle)
@@ -257,7 +259,7 @@ std::optional<TurningRow> read_row(TrialReader& reader, std::size_t row, const V
                     .sides = turn->sides};
 }
 
-/// Turns by the sides that are alone in a table of a vehicle with steering are what g3 is fitted to.
+/// If a vehicle with steering has only differential turns in its table, g3 is fitted to these.
 void take_sides_alone(TrialSet<TurningRow>& set, std::vector<Finding>& findings) {
   if (!set.rows.empty() || set.by_sides.empty()) return;
   set.rows = std::exchange(set.by_sides, {});
@@ -307,7 +309,7 @@ Result<TrialSet<TurningRow>> read_turning(const std::filesystem::path& path, con
   }
   if (!reader.faults().empty()) return input_errors(std::move(reader.faults()));
   if (set.rows.empty()) {
-    // Nothing steered tells what the tyres hold from what resists.
+    // Without steered turns the static tyre moment cannot be separated from the resistance.
     set.standing.clear();
     set_aside.insert(set_aside.end(), standing.begin(), standing.end());
     std::sort(set_aside.begin(), set_aside.end());

@@ -16,15 +16,15 @@ namespace {
 constexpr std::string_view kMagic("\x55\x4C\x6F\x67\x01\x12\x35", 7);
 constexpr std::size_t kFileHeaderBytes = 16;
 
-/// A topic whose messages are in the file.
+/// A topic with messages in the file.
 struct Subscription {
   std::size_t needed = 0;
-  std::optional<std::size_t> time_offset = {};  ///< of `timestamp`; none: no time series
+  std::optional<std::size_t> time_offset = {};  ///< offset of `timestamp`; empty: not a time series
   std::vector<ulog::Leaf> wanted = {};
-  std::size_t topic = 0;  ///< in Signals::topics
+  std::size_t topic = 0;  ///< index in Signals::topics
 };
 
-/// What is read so far.
+/// Parser state.
 struct Reading {
   const std::string& file;
   const Wanted& wanted;
@@ -37,7 +37,7 @@ tl::unexpected<Error> wrong(const Reading& reading, std::size_t offset, std::str
   return input_error(reading.file, fmt::format("byte {}: {}", offset, what));
 }
 
-/// 'A': instance, id, name.
+/// Message 'A': instance, id, name.
 Status subscribe(ByteReader message, std::size_t offset, Reading& reading) {
   const auto instance = message.number<std::uint8_t>();
   const auto id = message.number<std::uint16_t>();
@@ -72,7 +72,7 @@ Status subscribe(ByteReader message, std::size_t offset, Reading& reading) {
   return {};
 }
 
-/// 'D': id, fields.
+/// Message 'D': id, fields.
 Status take_data(std::string_view message, std::size_t offset, Reading& reading) {
   ByteReader reader(message);
   const auto id = reader.number<std::uint16_t>();
@@ -101,7 +101,7 @@ Status take_data(std::string_view message, std::size_t offset, Reading& reading)
   return {};
 }
 
-/// 'B': flags that a reader must know, and where data were appended after a crash.
+/// Message 'B': required flags, and the offsets of data appended after a crash.
 Result<std::vector<std::uint64_t>> flags_of(std::string_view message, std::size_t offset,
                                             const Reading& reading) {
   constexpr std::size_t kFlagBytes = 40;
@@ -133,7 +133,7 @@ Result<Signals> read_ulog(std::string_view bytes, const std::string& file, const
     const auto size = reader.number<std::uint16_t>();
     const auto type = reader.number<char>();
     const auto message = size && type ? reader.take(*size) : std::nullopt;
-    // What was appended after a crash begins where the message before it was cut.
+    // Data appended after a crash begin where the previous message was cut.
     const auto cut = std::find_if(appended.begin(), appended.end(), [&](std::uint64_t at) {
       return at > offset && at < (message ? reader.offset() : bytes.size());
     });

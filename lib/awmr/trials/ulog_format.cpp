@@ -15,7 +15,7 @@
 namespace awmr::ulog {
 namespace {
 
-constexpr int kDeepest = 8;  ///< types within types
+constexpr int kDeepest = 8;  ///< maximum nesting of types
 
 constexpr NameTable<Basic, 12> kBasicNames{{{"int8_t", Basic::kI8},
                                             {"uint8_t", Basic::kU8},
@@ -65,7 +65,8 @@ std::optional<Field> field_of(std::string_view text) {
   return field;
 }
 
-/// Adds the numbers of a format, `prefix` before their names; bounded by the size of a message.
+/// Adds the numbers of a format, with `prefix` before their names; limited by the size of a
+/// message.
 tl::expected<void, std::string> lay_out(std::string_view format, const std::string& prefix,
                                         int depth, const Formats& formats, Layout& layout) {
   const auto found = formats.find(format);

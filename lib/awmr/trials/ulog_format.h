@@ -1,5 +1,5 @@
-/// The formats that a PX4 ULog defines for its messages, and where the numbers of a topic stand in
-/// them. Private to this folder. [PX4, ULog file format]
+/// Message formats of a PX4 ULog and the offsets of their numbers. Private to this folder. [PX4,
+/// ULog file format]
 #pragma once
 
 #include <cstddef>
@@ -14,9 +14,9 @@ namespace awmr::ulog {
 
 inline constexpr std::size_t kLongestMessage = 65535;  ///< its size is a 16-bit number
 
-/// The types that a format is made of in the end.
+/// Basic types.
 enum class Basic { kI8, kU8, kI16, kU16, kI32, kU32, kI64, kU64, kFloat, kDouble, kBool, kChar };
-/// `float[3] vel` of a format.
+/// A field such as `float[3] vel`.
 struct Field {
   std::string type;
   std::size_t count = 1;
@@ -32,24 +32,24 @@ struct Leaf {
   std::size_t offset = 0;
 };
 
-/// A topic's message, laid out.
+/// Layout of a topic's message.
 struct Layout {
   std::vector<Leaf> leaves = {};
   std::size_t bytes = 0;   ///< all fields
-  std::size_t needed = 0;  ///< without the padding at the end, which is not logged
+  std::size_t needed = 0;  ///< without the trailing padding, which is not logged
 };
 
-/// The number of this type at the beginning of the bytes.
+/// Returns the number of this type at the beginning of the bytes.
 double value_in(std::string_view bytes, Basic type);
 
-/// A name from a file as a message shows it.
+/// Sanitises a name from a file for a message.
 std::string shown(std::string_view text);
 
-/// Adds `vehicle_odometry:uint64_t timestamp;float[3] position;`. Errors: what is no format.
+/// Adds `vehicle_odometry:uint64_t timestamp;float[3] position;`. Errors: an invalid format.
 tl::expected<void, std::string> add_format(std::string_view text, Formats& formats);
 
-/// Where the numbers of a topic's messages stand. Errors: an unknown type, types within types
-/// without end, more bytes than a message can have.
+/// Offsets of the numbers in a topic's messages. Errors: an unknown type, endless nesting, more
+/// bytes than a message can have.
 tl::expected<Layout, std::string> layout_of(std::string_view format, const Formats& formats);
 
 }  // namespace awmr::ulog

@@ -15,11 +15,11 @@
 namespace awmr {
 namespace {
 
-/// Ratios within these are calibration, slip or noise; beyond them a unit is wrong.
+/// Ratios within this range are calibration, slip or noise; beyond it a unit is wrong.
 constexpr double kLowestAgreement = 0.6;
 constexpr double kHighestAgreement = 1.6;
 
-/// A factor that a wrong unit makes, and what it is called.
+/// Factor caused by a wrong unit, and the unit's name.
 struct UnitFactor {
   double factor;
   std::string_view words;
@@ -40,7 +40,7 @@ std::optional<UnitFactor> known_factor(double ratio, const std::array<UnitFactor
   return best;
 }
 
-/// Of a time that is in another unit, by the rows' distance over the sample time.
+/// Contradiction for a time in another unit, from the row interval over the sample time.
 Contradiction time_in(const UnitFactor& unit, const Evidence& evidence) {
   const double step_s = evidence.log.median_step_s();
   const double sample_time_s = evidence.vehicle.sample_time_s;
@@ -60,7 +60,7 @@ std::optional<Contradiction> judge_time(const Evidence& evidence) {
     if (ratio < 0.3 * unit.factor || ratio > 30.0 * unit.factor) continue;
     return time_in(unit, evidence);
   }
-  // No vehicle is logged a thousand times a second and twenty times as often as it is controlled.
+  // Nobody logs a thousand times a second and also twenty times as often as the controller runs.
   constexpr double kFastest_s = 1e-3;
   constexpr double kOften = 0.05;
   if (step_s >= kFastest_s || ratio >= kOften) return std::nullopt;
@@ -87,7 +87,7 @@ std::optional<Contradiction> judge_force(const Evidence& evidence, std::string_v
       "vehicle: ",
       worst, limit.lo, limit.hi);
   if (of_both.largest <= std::max(limit.hi, -limit.lo) * kForceRounding) {
-    // Its size is one that the vehicle has the other way: no unit is wrong.
+    // The vehicle has this magnitude in the other direction, so no unit is wrong.
     return Contradiction{
         std::string(column), beyond + "the other way the vehicle has such a force", "",
         fmt::format("widen wheel_force in vehicle.json to {:.4g}, or correct the signs", worst)};
@@ -101,7 +101,7 @@ std::optional<Contradiction> judge_force(const Evidence& evidence, std::string_v
                        remedy_of(units, mendings, evidence.mappings)};
 }
 
-/// Of both sides; 0 is no reading of a servo pulse but the lack of one.
+/// Range of both sides; 0 in a servo-pulse column means no reading.
 ForceSpan force_span(const DrivingLog& log) {
   ForceSpan span{std::numeric_limits<double>::infinity(), 0.0};
   for (const auto* values : {&log.force_left, &log.force_right}) {
@@ -122,8 +122,8 @@ std::vector<Contradiction> judge_forces(const Evidence& evidence) {
   return found;
 }
 
-/// The numbers of the heading column all lie within one turn counted in radians, +-3.15 or 0 to 6.3.
-/// A vehicle that turns by less than 6 degrees in a whole log has shown nothing of its yaw anyway.
+/// True if all headings lie within one turn counted in radians, +-3.15 or 0 to 6.3. A vehicle that
+/// turns by less than 6 degrees in a whole log shows nothing of its yaw anyway.
 bool heading_spans_radians(const DrivingLog& log) {
   double least = 360.0;
   double most = -360.0;
@@ -135,8 +135,8 @@ bool heading_spans_radians(const DrivingLog& log) {
   return most - least < 2.0 * pi<double>() + 0.1;
 }
 
-/// How fast the yaw rate says that the vehicle turns where it turns: the median of the upper half. Under
-/// kSlowTurn, counted in degrees per second nobody would call it turning.
+/// Typical yaw rate while turning: the median of the upper half. Below kSlowTurn, read as deg/s, it
+/// would hardly count as turning.
 constexpr double kSlowTurn = 2.0;
 double turning_rate(const Evidence& evidence) {
   std::vector<double> rates = series(evidence.windows, [](const EvidenceWindow& w) {
@@ -148,14 +148,14 @@ double turning_rate(const Evidence& evidence) {
 
 bool agree(double ratio) { return ratio >= kLowestAgreement && ratio <= kHighestAgreement; }
 
-/// The values less their median.
+/// Subtracts the median from the values.
 std::vector<double> centred(std::vector<double> values) {
   const double middle = median(values);
   for (double& value : values) value -= middle;
   return values;
 }
 
-/// What 95 % of the readings that count stay below, by size: a spike does not move it.
+/// 95 % quantile of the magnitude of the readings, so that spikes do not matter.
 double usual_largest(const Measured& channel) {
   std::vector<double> sizes;
   for (std::size_t row = 0; row < channel.value.size(); ++row) {
@@ -178,11 +178,11 @@ std::optional<Contradiction> judge_rates(const Evidence& evidence) {
   if (!ratio) return std::nullopt;
   const double size = std::abs(ratio->ratio);
   if (agree(size)) return std::nullopt;
-  // A large bias of the gyro looks like another unit until it is taken off.
+  // A large gyro bias looks like a wrong unit until it is subtracted.
   const auto without_bias = robust_ratio(centred(rate), centred(turned));
   if (without_bias && agree(without_bias->ratio)) return std::nullopt;
   const double degree = 180.0 / pi<double>();
-  // By what the yaw rate is to be multiplied.
+  // Factors by which to multiply the yaw rate.
   static constexpr std::array<UnitFactor, 5> kUnits{
       {{57.29578, "rad/s, converted from deg/s once too often"},
        {1.0 / 57.29578, "degrees per second"},
@@ -211,10 +211,10 @@ std::optional<Contradiction> judge_rates(const Evidence& evidence) {
                        "data sheets"};
 }
 
-/// How many times as fast the yaw rate is as wheels that roll about their steering angle would turn the
-/// vehicle, u tan(d)/(2 l_f), by the windows in which the sides push alike.
+/// Ratio of the yaw rate to that of rolling wheels at this steering angle, u tan(d)/(2 l_f), over
+/// windows with equal forces on both sides.
 std::optional<double> rate_over_rolling(const Evidence& evidence) {
-  constexpr double kLittle = 0.1;  // of the steering's moment
+  constexpr double kLittle = 0.1;  // fraction of the steering moment
   if (!evidence.has(LogChannel::kSpeed) || !evidence.vehicle.has_steering()) return std::nullopt;
   std::vector<double> rolling;
   std::vector<double> rate;
@@ -229,13 +229,13 @@ std::optional<double> rate_over_rolling(const Evidence& evidence) {
   return std::abs(ratio->ratio);
 }
 
-/// A rate that no wheeled vehicle turns at, where no heading is there to compare it with.
+/// Detects a rate beyond any wheeled vehicle, for logs without a heading.
 std::optional<Contradiction> judge_rate_alone(const Evidence& evidence) {
-  constexpr double kLargest_radps = 25.0;  // as of turning tables
+  constexpr double kLargest_radps = 25.0;  // as for turning tables
   if (!evidence.has(LogChannel::kYawRate) || evidence.has(LogChannel::kHeading)) return {};
   const double rate_radps = usual_largest(*evidence.log[LogChannel::kYawRate]);
-  // A vehicle that slides turns by another rate than wheels that roll, but not by this factor; degrees
-  // for radians make 57.
+  // Sliding changes the rate relative to rolling wheels, but not by this factor. Degrees for
+  // radians give 57.
   constexpr double kMostSlide = 14.0;
   if (rate_radps <= kLargest_radps) {
     const auto ratio = rate_over_rolling(evidence);
@@ -255,8 +255,8 @@ std::optional<Contradiction> judge_rate_alone(const Evidence& evidence) {
                        scaled_mapping(evidence, "yaw_rate_radps", pi<double>() / 180.0)};
 }
 
-/// A speed that is a wheel's rate: the radius that makes metres per second of it, where a wheel of this
-/// vehicle may have it.
+/// Describes a speed that is the angular rate of a wheel: the radius that converts it to metres per
+/// second, if plausible for this vehicle.
 std::string words_of_wheel(double ratio, const Vehicle& vehicle) {
   constexpr double kSmallestRadius_m = 0.01;
   const double rpm_radius_m = ratio * 60.0 / (2.0 * pi<double>());
@@ -273,7 +273,7 @@ std::string words_of_wheel(double ratio, const Vehicle& vehicle) {
 std::optional<Contradiction> judge_speed(const Evidence& evidence) {
   const bool position = evidence.has(LogChannel::kX) && evidence.has(LogChannel::kY);
   if (!position || !evidence.has(LogChannel::kSpeed)) return std::nullopt;
-  // A sensor that is stuck has no unit.
+  // A stuck sensor has no unit.
   std::vector<EvidenceWindow> windows = evidence.overlapping;
   std::erase_if(windows, [](const EvidenceWindow& w) { return w.has_stuck_speed; });
   const auto ratio =
@@ -309,10 +309,10 @@ std::optional<Contradiction> judge_speed(const Evidence& evidence) {
                        "sheets"};
 }
 
-/// A speed that no wheeled vehicle of this length drives at, where no position is there to compare it with.
+/// Detects a speed beyond any wheeled vehicle of this length, for logs without positions.
 std::optional<Contradiction> judge_speed_alone(const Evidence& evidence) {
   constexpr double kLargest_mps = 100.0;
-  constexpr double kLargestLengthsPerSecond = 100.0;  // as of surge tables
+  constexpr double kLargestLengthsPerSecond = 100.0;  // as for surge tables
   if (!evidence.has(LogChannel::kSpeed) || !implausible_values(evidence.vehicle).empty()) return {};
   const double length_m = evidence.vehicle.length_m;
   const double speed_mps = usual_largest(*evidence.log[LogChannel::kSpeed]);
@@ -330,10 +330,9 @@ std::optional<Contradiction> judge_speed_alone(const Evidence& evidence) {
                   option_text("column '" + scaled_mapping(evidence, "speed_mps", 1e-3) + "'"))};
 }
 
-/// How sharply the vehicle turns for its steering angle, over what its front axle allows:
-/// (r/u)/(tan d_r/l_f), at most about 1 for a vehicle that steers by its front axle. The angle is
-/// taken times `factor`; windows in which the sides would then turn the vehicle more than its
-/// steering are left out.
+/// Sharpness of the turn over what the front axle allows: (r/u)/(tan d_r/l_f), at most about 1 for
+/// a vehicle with front-axle steering. The angle is multiplied by `factor`. Windows in which the
+/// sides would then turn the vehicle more than its steering are skipped.
 std::optional<double> sharpness(const Evidence& evidence, double factor) {
   const bool heading = evidence.has(LogChannel::kHeading);
   if (!evidence.has(LogChannel::kSpeed)) return std::nullopt;
@@ -359,7 +358,8 @@ double largest_steering_deg(const DrivingLog& log) {
   return largest_deg;
 }
 
-/// What a servo is told in place of an angle: an angle about 90 deg, a pulse's length, a share of the stop.
+/// Detects servo commands given instead of an angle: an angle about 90 deg, a pulse length, a
+/// fraction of the stop.
 std::optional<Contradiction> judge_servo(const Evidence& evidence, const std::string& column) {
   const std::vector<double>& angle_rad = evidence.log.driving_steering_rad();
   const auto [low_rad, high_rad] = std::ranges::minmax_element(angle_rad);
@@ -368,7 +368,7 @@ std::optional<Contradiction> judge_servo(const Evidence& evidence, const std::st
   const double stop_deg = evidence.vehicle.steering_max_deg;
   const std::string reads =
       fmt::format("reads {:.4g} to {:.4g} deg, where the stop is at {:g} deg", low, high, stop_deg);
-  // Calibration and trim: both ends a little beyond the stop.
+  // Allowance for calibration and trim: both ends slightly beyond the stop.
   constexpr double kBeyondStop = 1.2;
   constexpr Interval kServoPulse_us{900.0, 2200.0};
   for (const double centre : {90.0, 180.0}) {
@@ -422,11 +422,12 @@ std::optional<Contradiction> judge_steering_unit(const Evidence& evidence) {
             "map it by {}",
             option_text(fmt::format("column '{}=(COUNTS - CENTRE)*DEGREES_PER_COUNT'", column)))};
   }
-  // In radians the stop itself would read as 1.7 % of what it is in degrees.
+  // Radians read as degrees make the stop itself 1.7 % of its value.
   if (largest_deg > 0.025 * stop_deg) return std::nullopt;
   const double degree = 180.0 / pi<double>();
-  // As radians it turns no more sharply than its axle points, as degrees 57 times more; and a
-  // moment by steering turns it about as well as the same moment by the sides.
+  // If the angle is in radians, the vehicle turns no more sharply than its axle points; read as
+  // degrees, 57 times more. A steering moment turns it about as well as the same moment by the
+  // sides.
   constexpr double kImpossible = 8.0;
   const MomentShares shares = moment_shares(
       evidence.windows, evidence.has(LogChannel::kHeading)
@@ -449,7 +450,7 @@ std::optional<Contradiction> judge_steering_unit(const Evidence& evidence) {
 
 std::vector<Contradiction> unit_contradictions(const Evidence& evidence) {
   std::vector<Contradiction> found = judge_forces(evidence);
-  // Windows of a second mean nothing before the time is right.
+  // Windows of a second are meaningless while the time unit is wrong.
   if (auto time = judge_time(evidence)) {
     found.insert(found.begin(), *time);
     return found;

@@ -1,5 +1,5 @@
-// Arduino's core for the host: what the emitted sketches use of it, on a simulated Mega 2560 with its sensors and
-// vehicle (world.h).
+// Arduino's core for the host: the functions that the emitted sketches use, on a simulated Mega
+// 2560 with its sensors and vehicle (world.h).
 #pragma once
 #include <math.h>
 #include <stddef.h>

@@ -1,4 +1,4 @@
-// A card that keeps its files in memory.
+// SD card that keeps its files in memory.
 #pragma once
 #include <Arduino.h>
 

@@ -1,4 +1,4 @@
-// The bus of the simulated sensors.
+// I2C bus of the simulated sensors.
 #pragma once
 #include <Arduino.h>
 class TwoWire {

@@ -1,5 +1,5 @@
-// Runs one case of SAFETY.md against a sketch: drives it in the simulated world, breaks something at t = 10 s, and
-// prints what happened. Compiled once per sketch, which is included as AWMR_SKETCH.
+// Runs one case of SAFETY.md with a sketch: drives it in the simulated world, injects a failure at
+// t = 10 s, and prints the result. Compiled once per sketch, which is included as AWMR_SKETCH.
 #include "world.h"
 
 #include AWMR_SKETCH
@@ -105,7 +105,7 @@ int run_case(const Case& one) {
   return 0;
 }
 
-/// At rest, armed at speed 0: pushed by hand, or only the noise of the GPS.
+/// At rest, armed at speed 0: pushed by hand, or only GPS noise.
 void hold_still(double pushed_mps, double noise_mps) {
   World& w = world;
   w.gps_speed_noise = noise_mps;
@@ -190,7 +190,7 @@ void start_turning(double rate) {
          safety.is_armed(), error * 57.29578);
 }
 
-/// `turns` net turns, disarmed, then armed.
+/// `turns` net turns while disarmed, then armed.
 void turn_often(double turns) {
   World& w = world;
   setup();

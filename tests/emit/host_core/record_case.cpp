@@ -1,5 +1,5 @@
-// Runs RecordTrials in the simulated world for two runs, a sensor broken in the second half of the first, and prints
-// how many rows its tables have after each.
+// Runs RecordTrials in the simulated world for two runs, with a sensor failure in the second half
+// of the first. Prints the number of table rows after each.
 #include "world.h"
 
 #include AWMR_SKETCH

@@ -1,4 +1,4 @@
-// The simulated vehicle, its sensors and its operator. Everything that a case breaks is a member.
+// Simulated vehicle, sensors and operator. Every quantity that a case modifies is a member.
 #pragma once
 #include <Arduino.h>
 #include <SD.h>
@@ -21,7 +21,7 @@ void setup();
 void loop();
 
 struct World {
-  // Time. The step runs each 10 ms of it.
+  // Time. The step runs every 10 ms.
   uint32_t start_ms = 1000, elapsed_ms = 0;
   // Motion, and how the vehicle differs from the model.
   double x = 0, y = 0, psi = 0.3, u = 0, r = 0;
@@ -29,7 +29,7 @@ struct World {
   bool sides_swapped = false;
   double servo_sign = 1;
   double forced_turn = 0;  // rad/s: turned by hand
-  bool is_held = false;    // by hand: u is 0
+  bool is_held = false;    // held by hand: u is 0
   std::map<int, int> duty, level;
   // Sensors.
   std::mt19937 random{7};

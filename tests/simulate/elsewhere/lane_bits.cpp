@@ -1,6 +1,7 @@
-// What batches and the inner loops of log fits come to, bit by bit, for processors that the tests do not run on:
-// other_processor.py builds this for one, runs it there, and holds what it prints against what it prints here.
-// Headings and open loop alone: there every number is made by the kernels and none by a C library.
+// Bits of the results of batches and of the inner loops of log fits, for processors on which the
+// tests do not run. other_processor.py builds this for one, runs it there, and compares the output
+// with this machine's. Headings and open loop only: there every number comes from the kernels and
+// none from a C library.
 #include <cinttypes>
 #include <cstdio>
 #include <cstring>
@@ -17,7 +18,7 @@ using namespace awmr;
 
 constexpr double kSampleTime_s = 0.01;
 
-/// A vehicle like the paper's, every number up to 20 % off it.
+/// A vehicle like the paper's with every number changed by up to 20 %.
 Plant<double> drawn_plant(std::uint64_t sample) {
   Random random(7, sample);
   const auto about = [&random](double value) { return value * (0.8 + 0.4 * random.uniform()); };
@@ -33,7 +34,7 @@ Plant<double> drawn_plant(std::uint64_t sample) {
           .steering_time_constant_s = about(0.02)};
 }
 
-/// Every third one's gains have an observer of their own.
+/// The gains of every third run have their own observer.
 std::vector<BatchRun> drawn_runs(YawMode mode) {
   Vehicle vehicle;
   vehicle.wheel_force = {-1.0, 1.0};
@@ -48,7 +49,7 @@ std::vector<BatchRun> drawn_runs(YawMode mode) {
   return runs;
 }
 
-/// Steps of the heading, by themselves and with what else a kernel computes; a course without a law.
+/// Heading steps, alone and with the other features of a kernel, and an open-loop path.
 std::vector<Scenario> scenarios() {
   const Scenario headings = heading_steps({30.0, -30.0, 170.0}, {.hold_s = 4.0});
   Scenario observed = headings;
@@ -89,7 +90,7 @@ void print_metrics(const Metrics& metrics) {
   }
 }
 
-/// Sensitivities and sums of drawn numbers, by the widest instructions that the loops find.
+/// Prints sensitivities and sums of random numbers, with the widest instructions available.
 void print_loops_of_fits() {
   constexpr std::size_t kColumns = 12;
   Random random(11, 0);
@@ -115,7 +116,7 @@ void print_loops_of_fits() {
 
 }  // namespace
 
-/// The kernel comes by its name or, without one, is the widest.
+/// The kernel is given by name; by default it is the widest.
 int main(int argc, char** argv) {
   const auto kernels = lanes::supported_kernels();
   const lanes::Kernel* kernel = kernels.empty() || argc > 1 ? nullptr : kernels.front();

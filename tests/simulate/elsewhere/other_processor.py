@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Runs the kernels of batches on processors that this machine has not, and holds every bit of the metrics against this
-machine's own (lane_bits.cpp).
+"""Runs the kernels of batches on emulated processors and compares every bit of the metrics with this
+machine's (lane_bits.cpp).
 usage: other_processor.py neon|avx512
   neon    a 64-bit ARM, as qemu-user emulates it: the numbers of the AVX2 kernel
   avx512  a Skylake-X, as Bochs emulates it with a kernel of Debian's: those of the AVX2 kernel, and every operation of lanes
@@ -21,10 +21,11 @@ SKIPPED = 77
 LONGEST_S = 900
 OPTIONS = ["-std=c++20", "-O2", "-DNDEBUG", "-ffp-contract=off", "-DFMT_HEADER_ONLY", f"-I{ROOT / 'lib'}",
            "-isystem", "/usr/include/eigen3"]
-# As lib/awmr/simulate/CMakeLists.txt compiles them; the order of instructions has no effect on the numbers.
+# Flags as in lib/awmr/simulate/CMakeLists.txt; the order of instructions does not affect the
+# numbers.
 KERNELS = {"avx2": ["-mavx2", "-mfma"], "avx512": ["-mavx512f", "-mfma"], "neon": []}
 KERNEL_OPTIONS = ["-fno-tree-slp-vectorize"]
-# What batches need, without a reader of files and the libraries that these take.
+# Sources that batches need, without file readers and their libraries.
 PARTS = ["core/error", "core/option_text", "core/random", "core/text", "identify/logs/sensitivity_kernel", "model/family",
          "model/model", "model/observer_rate", "model/parameters", "model/rest_speed", "model/vehicle", "simulate/batch", "simulate/disturbance",
          "simulate/laws", "simulate/line_following", "simulate/metrics", "simulate/passage",
@@ -45,7 +46,8 @@ panic: action=fatal
 plugin_ctrl: speaker=0, sb16=0, es1370=0
 sound: waveoutdrv=dummy, waveindrv=dummy, midioutdrv=dummy
 """
-# The emulated processor says the size of one layout of its registers and has another: the kernel is told the plain one.
+# The emulated processor reports the size of one register layout but has another: the kernel uses
+# the plain one.
 BOOT = """\
 DEFAULT linux
 LABEL linux
@@ -91,7 +93,7 @@ def on_arm(folder, _):
 
 
 def linux_image(folder):
-    """Debian's smallest kernel, which no machine has to run for this."""
+    """Debian's smallest kernel; it is only used in the emulator."""
     package = output_of(["apt-cache", "depends", "linux-image-cloud-amd64"]).split("Depends: ")[1].split()[0]
     run(["apt-get", "download", "-qq", package], cwd=folder, stderr=subprocess.DEVNULL)
     run(["dpkg-deb", "-x", next(folder.glob("*.deb")), folder / "linux"])
@@ -99,7 +101,7 @@ def linux_image(folder):
 
 
 def boot_disc(folder, programs):
-    """A disc that boots Linux, runs the programs and switches off."""
+    """A disc image that boots Linux, runs the programs and powers off."""
     root, disc = folder / "root", folder / "disc"
     for part in (root / "bin", root / "dev", disc):
         part.mkdir(parents=True)
