@@ -205,8 +205,9 @@ AWMR_INLINE T fed_forward_speed(const T& u_mps, const Reference<T>& ref, const T
   T w_mps = u_mps;
   const Mask<T> too_fast = math::is_opposite(u_mps, error_mps) && math::is_beyond(wanted, limit);
   if (any(too_fast)) {
-    const T ahead = math::larger(T(ref.speed_mps + epsilon()), T(0.0));
-    const T back = -math::larger(T(epsilon() - ref.speed_mps), T(0.0));
+    const T epsilon_mps = epsilon();
+    const T ahead = math::larger(T(ref.speed_mps + epsilon_mps), T(0.0));
+    const T back = -math::larger(T(epsilon_mps - ref.speed_mps), T(0.0));
     w_mps = select(too_fast, select(u_mps > T(0.0), ahead, back), w_mps);
   }
   const Mask<T> stands = math::is_zero(ref.speed_mps);
