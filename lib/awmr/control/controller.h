@@ -190,6 +190,14 @@ AWMR_INLINE T heading_law(const PreparedController<T, G>& c, const Measurement<T
   return math::plus_product(held, k.inertia_norm, ref.psi_accel_radps2);
 }
 
+/// The end of [0, u_d + eps_s], or [u_d - eps_s, 0], that lies on the side of u. Rarely called.
+template <class T>
+AWMR_CALLED T fastest_fed_forward(const T& u_mps, const T& u_d_mps, const T& epsilon_mps) {
+  using math::select;
+  return select(u_mps > T(0.0), math::larger(T(u_d_mps + epsilon_mps), T(0.0)),
+                T(-math::larger(T(epsilon_mps - u_d_mps), T(0.0))));
+}
+
 /// Speed whose resistance the speed law feeds forward, m/s:
 ///   w = 0                     at u_d = 0
 ///   w = max(0, u_d + eps_s)   where the vehicle is faster than that, forward; backward likewise
@@ -205,10 +213,7 @@ AWMR_INLINE T fed_forward_speed(const T& u_mps, const Reference<T>& ref, const T
   T w_mps = u_mps;
   const Mask<T> too_fast = math::is_opposite(u_mps, error_mps) && math::is_beyond(wanted, limit);
   if (any(too_fast)) {
-    const T epsilon_mps = epsilon();
-    const T ahead = math::larger(T(ref.speed_mps + epsilon_mps), T(0.0));
-    const T back = -math::larger(T(epsilon_mps - ref.speed_mps), T(0.0));
-    w_mps = select(too_fast, select(u_mps > T(0.0), ahead, back), w_mps);
+    w_mps = select(too_fast, fastest_fed_forward(u_mps, ref.speed_mps, T(epsilon())), w_mps);
   }
   const Mask<T> stands = math::is_zero(ref.speed_mps);
   return any(stands) ? select(stands, T(0.0), w_mps) : w_mps;

@@ -46,7 +46,7 @@ class GpsReceiver {
  private:
   /// A port of 38,400 baud gives 39 characters in 10 ms, a sentence has 72. Those that are left have
   /// to fit into the port's 64 together with the next 39.
-  static constexpr uint8_t kCharactersPerStep = 26;
+  static constexpr uint8_t kCharactersPerStep = 27;
   static constexpr uint8_t kCharactersLeft = 24;
   enum class Work : uint8_t { kNone, kFix, kPublish, kMotion };
 

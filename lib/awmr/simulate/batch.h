@@ -19,13 +19,13 @@ namespace awmr {
 
 /// Standard normals by sample that the sensors of a run take their noise from. Runs that differ in plant, gains
 /// or mode alone share them: drawing them takes as long as a tenth of a run.
-struct SensorNoise {
+struct DrawnNoise {
   std::vector<double> heading, yaw_rate, speed;  ///< empty: the sensor has no noise
 };
 
 /// The numbers that a run with this seed and sample draws. Some 24 bytes a sample.
-SensorNoise draw_sensor_noise(const Scenario& scenario, double sample_time_s, std::uint64_t seed,
-                              std::uint64_t sample);
+DrawnNoise draw_sensor_noise(const Scenario& scenario, double sample_time_s, std::uint64_t seed,
+                             std::uint64_t sample);
 
 /// One of the runs: its vehicle, the controller, how it turns, and where its random numbers come from.
 struct BatchRun {
@@ -35,7 +35,7 @@ struct BatchRun {
   std::uint64_t seed = 0;    ///< as in SimulateOptions
   std::uint64_t sample = 0;  ///< as in SimulateOptions
   /// Null, or draw_sensor_noise() of the run's scenario, seed and sample: the same numbers, faster.
-  const SensorNoise* noise = nullptr;
+  const DrawnNoise* noise = nullptr;
 };
 
 /// By which instructions batches are computed.

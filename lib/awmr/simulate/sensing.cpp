@@ -27,9 +27,9 @@ double read(const Channel& channel, double truth, const Normal& next_normal) {
 
 }  // namespace
 
-SensorNoise draw_sensor_noise(const Scenario& scenario, double sample_time_s, std::uint64_t seed,
-                              std::uint64_t sample) {
-  SensorNoise noise;
+DrawnNoise draw_sensor_noise(const Scenario& scenario, double sample_time_s, std::uint64_t seed,
+                             std::uint64_t sample) {
+  DrawnNoise noise;
   if (!scenario.sensors) return noise;
   const RunSeed run = run_seed(scenario.seed, seed, sample);
   const std::size_t readings = samples_in(scenario.duration_s, sample_time_s) + 1;
@@ -57,7 +57,7 @@ double Sensing::Sensor::read(std::size_t k, double truth) {
 }
 
 Sensing::Sensing(const std::optional<Sensors>& sensors, double sample_time_s, const RunSeed& seed,
-                 const SensorNoise* noise)
+                 const DrawnNoise* noise)
     : sensors_(sensors),
       sample_time_s_(sample_time_s),
       heading_(sensors ? sensors->heading : Channel{}, sample_time_s, seed.random(kHeading),

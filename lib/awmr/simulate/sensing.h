@@ -24,7 +24,7 @@ class Sensing {
  public:
   /// `noise`: null, or what draw_sensor_noise() gives for this seed; it outlives the sensors.
   Sensing(const std::optional<Sensors>& sensors, double sample_time_s, const RunSeed& seed,
-          const SensorNoise* noise = nullptr);
+          const DrawnNoise* noise = nullptr);
   /// The k-th sample; to be asked once per sample, in order from 0.
   Sensed at(std::size_t k, const State<double>& truth);
 

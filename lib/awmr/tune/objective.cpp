@@ -57,6 +57,12 @@ std::vector<BatchRun> runs_of(const ObjectiveSetting& setting,
   return runs;
 }
 
+/// The mean, the same bits in whatever order the values come.
+double mean_in_any_order(std::vector<double> values) {
+  std::ranges::sort(values);
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
 }  // namespace
 
 std::array<double, std::size(kObjectiveTerms)> figures_of(const ModeScore& score) {
@@ -104,7 +110,7 @@ RunNoise draw_noise(const ObjectiveSetting& setting) {
     bytes += 3.0 * sizeof(double) * samples * static_cast<double>(vehicles);
   }
   if (bytes > kMostNoiseBytes) return {};
-  RunNoise noise(setting.scenarios.size(), std::vector<SensorNoise>(vehicles));
+  RunNoise noise(setting.scenarios.size(), std::vector<DrawnNoise>(vehicles));
   parallel_for(setting.scenarios.size() * vehicles, 0, [&](std::size_t i) {
     const std::size_t scenario = i / vehicles;
     noise[scenario][i % vehicles] =
@@ -204,14 +210,15 @@ Evaluation Objective::evaluate(std::vector<ModeScore> scores) const {
     if (one.goal->is_soft) evaluation.objective += std::max(0.0, quantile - 1.0);
   }
   if (!std::isfinite(evaluation.objective)) evaluation.valid = false;
+  std::vector<double> settling_s, control_variation;
   for (std::size_t i = 0; i < scores.size(); ++i) {
     const Metrics& metrics = scores[i].metrics;
-    evaluation.trade_off.settling_time_s +=
-        metrics.settling_time_s.value_or(setting_.scenarios[i % scenarios].duration_s) /
-        static_cast<double>(scores.size());
-    evaluation.trade_off.control_variation +=
-        metrics.control_variation / static_cast<double>(scores.size());
+    settling_s.push_back(
+        metrics.settling_time_s.value_or(setting_.scenarios[i % scenarios].duration_s));
+    control_variation.push_back(metrics.control_variation);
   }
+  evaluation.trade_off.settling_time_s = mean_in_any_order(std::move(settling_s));
+  evaluation.trade_off.control_variation = mean_in_any_order(std::move(control_variation));
   scores.resize(per_vehicle);
   evaluation.scores = std::move(scores);
   return evaluation;

@@ -67,7 +67,7 @@ struct ObjectiveSetting {
 
 /// What the sensors' noise of all runs is made of, by scenario, then vehicle. Empty where it would take more
 /// than kMostNoiseBytes: the runs then draw it themselves.
-using RunNoise = std::vector<std::vector<SensorNoise>>;
+using RunNoise = std::vector<std::vector<DrawnNoise>>;
 inline constexpr double kMostNoiseBytes = 64e6;
 RunNoise draw_noise(const ObjectiveSetting& setting);
 

@@ -108,7 +108,7 @@ awmr::Autopilot<Resistance, Parts> autopilot;
 
 // The barriers prevent the compiler from moving the caller's writes and reads across the call,
 // whatever it assumes about aliasing of the two types.
-inline void follow(const awmr_point* points, int16_t count, float acceptance_m, bool skip_passed) {
+__attribute__((noinline)) void follow(const awmr_point* points, int16_t count, float acceptance_m, bool skip_passed) {
   // An acceptance that is no distance: each step is a fault, AWMR_FAULT_OUTPUT, until the next route.
   static const awmr_point kNowhere = {__builtin_nanf(""), __builtin_nanf("")};
   if (!(acceptance_m >= 0.0f && acceptance_m < 1e6f)) {
