@@ -165,8 +165,6 @@ Result<Outcome> finished(const LiveCommand& command, const Followed& followed) {
                                             name_in(kLiveEndWords, followed.end),
                                             100.0 * command.enough, widths_text(last))});
   }
-  put_findings_into_document(outcome);
-  AWMR_RETURN_IF_ERROR(write_file(command.identify.output, outcome.document, check_model_text));
   return outcome;
 }
 
