@@ -46,15 +46,15 @@ class GpsReceiver {
  private:
   /// A port of 38,400 baud gives 39 characters in 10 ms, a sentence has 72. Those that are left have
   /// to fit into the port's 64 together with the next 39.
-  static constexpr uint8_t kCharactersPerStep = 27;
+  static constexpr uint8_t kCharactersPerStep = 28;
   static constexpr uint8_t kCharactersLeft = 24;
-  enum class Work : uint8_t { kNone, kFix, kPublish, kMotion };
+  enum class Work : uint8_t { kNone, kFix, kAccept, kPublish, kMotion };
 
   RmcReader reader_;
   GpsCheck check_;
   RmcNumbers numbers_ = {};           // of the current sentence
-  GpsPlace believed_ = {0.0F, 0.0F};  // accepted but not published, valid with Work::kPublish
-  float believed_mps_ = 0.0F;
+  GpsPlace believed_ = {0.0F, 0.0F};  // not published yet, valid from Work::kAccept on
+  GpsFix fix_ = {};                   // of the same sentence
   uint32_t sentence_ms_ = 0;
   Work due_ = Work::kNone;
   bool has_fix_ = false;
@@ -75,15 +75,16 @@ class GpsReceiver {
     switch (due_) {
       case Work::kNone:
         break;
-      case Work::kFix: {
-        const GpsFix fix = to_fix(numbers_);
-        believed_ = project(fix);
-        believed_mps_ = fix.speed_mps;
-        const bool is_believed =
-            check_.accept_fix(fix, believed_.x_m, believed_.y_m, sentence_ms_, at);
-        due_ = is_believed ? Work::kPublish : Work::kNone;
+      case Work::kFix:
+        fix_ = to_fix(numbers_);
+        believed_ = project(fix_);
+        due_ = Work::kAccept;
         break;
-      }
+      case Work::kAccept:
+        due_ = check_.accept_fix(fix_, believed_.x_m, believed_.y_m, sentence_ms_, at)
+                   ? Work::kPublish
+                   : Work::kNone;
+        break;
       case Work::kPublish:
         publish();
         due_ = Work::kMotion;
@@ -97,7 +98,7 @@ class GpsReceiver {
   void publish() {
     x_m = believed_.x_m;
     y_m = believed_.y_m;
-    speed_mps = believed_mps_;
+    speed_mps = fix_.speed_mps;
     time_ms = sentence_ms_;
     has_fix_ = true;
   }
