@@ -123,6 +123,10 @@ Status check_scenario(const Scenario& scenario, const std::string& file) {
                       "is open loop, which asks nothing of a controller: give "
                       "heading, waypoints, line or lissajous"});
   }
+  if (scenario.held_tau_speed()) {
+    faults.push_back({file + ":/guidance/tau_speed",
+                      "the firmware holds a speed, not a thrust: give speed_mps in its place"});
+  }
   if (scenario.control.allocation.value_or(AllocationForm::kExact) != AllocationForm::kExact) {
     faults.push_back({file + ":/control/allocation", "the firmware's is exact: remove"});
   }

@@ -395,6 +395,15 @@ TEST(Tune, NamesAllUnfitOptionsAtOnce) {
   EXPECT_EQ(tuning.error().faults.size(), 6U) << to_text(tuning.error());
 }
 
+TEST(Tune, RefusesAScenarioThatHoldsAThrustInPlaceOfASpeed) {
+  TuneOptions options = short_options();
+  std::get<HeadingSteps>(options.scenarios.front().guidance).tau_speed = 1.4;
+  const Result<Tuning> tuning = tune(paper_model(), options);
+  ASSERT_FALSE(tuning);
+  EXPECT_EQ(tuning.error().kind, ErrorKind::kInput);
+  EXPECT_EQ(tuning.error().faults.size(), 1U) << to_text(tuning.error());
+}
+
 TEST(Tune, AMillionEvaluationsOfLongScenariosHadNoEnd) {
   TuneOptions options = short_options();
   options.global_evaluations = 1'000'000;

@@ -122,6 +122,9 @@ void set_up_lane(Batch& batch, const BatchRun& run, std::size_t lane) {
     put(open->tau_speed, lane, block.tau_speed);
     put(open->tau_turn_m, lane, block.tau_turn_m);
   }
+  if (const auto tau_speed = batch.scenario.held_tau_speed()) {
+    put(*tau_speed, lane, block.tau_speed);
+  }
 }
 
 /// All of a block. A lane without a run is a copy of the first, so that its numbers are harmless.
@@ -133,6 +136,7 @@ Batch set_up(std::span<const BatchRun> runs, const Scenario& scenario, double sa
   block.setup.split = controller.limits.split;
   block.setup.form = controller.limits.form;
   block.setup.is_open_loop = std::holds_alternative<OpenLoop>(scenario.guidance);
+  block.setup.holds_tau_speed = scenario.held_tau_speed().has_value();
   block.setup.is_lqi = scenario.control.lqi.has_value();
   block.setup.sample_time_s = sample_time_s;
   block.setup.lag = motor_lag(scenario.actuators, sample_time_s);

@@ -25,6 +25,7 @@ constexpr NumberRule kApproachAngle{.min = 0.0, .max = 90.0, .min_excluded = tru
 
 HeadingSteps read_heading_steps(JsonObject& json) {
   HeadingSteps heading;
+  heading.tau_speed = json.optional_number("tau_speed", kForce);
   std::vector<JsonObject> steps = json.objects("steps");
   for (JsonObject& step : steps) {
     heading.steps.push_back(

@@ -6,7 +6,10 @@ namespace awmr {
 
 Laws::Laws(const Controller<double>& controller, const Scenario& scenario, YawMode mode,
            double sample_time_s, const Measurement<double>& start)
-    : controller_(controller_in(scenario, controller)), mode_(mode), sample_time_s_(sample_time_s) {
+    : controller_(controller_in(scenario, controller)),
+      mode_(mode),
+      held_tau_speed_(scenario.held_tau_speed()),
+      sample_time_s_(sample_time_s) {
   const Observers<double> observers = observers_in(scenario, controller.gains);
   if (observers.yaw.bandwidth_radps > 0.0) {
     observers_ = observers;
@@ -23,6 +26,10 @@ Command<double> Laws::open_loop(const OpenLoop& open) const {
 
 Command<double> Laws::follow(const Measurement<double>& m, const Reference<double>& reference) {
   Command<double> command = control_step(controller_, mode_, m, reference);
+  if (held_tau_speed_) {
+    command.tau_speed = *held_tau_speed_;
+    reallocate(m, command);
+  }
   if (lqi_) {
     command.tau_turn_m =
         lqi_law(controller_.yaw, controller_.inertia_norm, *lqi_, m, reference, lqi_state_);

@@ -29,6 +29,7 @@ class Laws {
 
   Controller<double> controller_;
   YawMode mode_;
+  std::optional<double> held_tau_speed_;  ///< in place of the speed law
   double sample_time_s_;
   std::optional<Observers<double>> observers_;
   ObserversState<double> observed_{};

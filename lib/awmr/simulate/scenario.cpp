@@ -27,6 +27,11 @@ bool has_noise(const Channel& channel) { return channel.noise > 0.0; }
 
 }  // namespace
 
+std::optional<double> Scenario::held_tau_speed() const {
+  const auto* heading = std::get_if<HeadingSteps>(&guidance);
+  return heading ? heading->tau_speed : std::nullopt;
+}
+
 bool Scenario::random() const {
   if (is_random(disturbance.surge) || is_random(disturbance.sway) || is_random(disturbance.yaw)) {
     return true;

@@ -41,6 +41,9 @@ struct HeadingStep {
 /// Headings to hold, each from its time on; the first at t = 0.
 struct HeadingSteps {
   std::vector<HeadingStep> steps;  ///< strictly increasing in time, not empty
+  /// Held in place of a speed, dimensionless, forward positive, as in the paper's experiment: no speed
+  /// law and no surge observer then. Absent: the speed law holds the scenario's speed_mps.
+  std::optional<double> tau_speed = {};
 };
 
 /// Points to go to by line of sight; the run ends when the last is reached.
@@ -84,7 +87,7 @@ struct Scenario {
   std::string name;
   double duration_s = 0.0;  ///< s, > 0
   State<double> initial{};  ///< the initial state
-  double speed_mps = 0.0;   ///< u_d, m/s, >= 0
+  double speed_mps = 0.0;   ///< u_d, m/s, >= 0; 0 where a tau_speed is held in its place
   Guidance guidance;
   std::vector<Obstacle<double>> obstacles = {};
   std::optional<Avoidance<double>> avoidance = {};  ///< absent: obstacles are only measured
@@ -101,6 +104,8 @@ struct Scenario {
   std::optional<Tyres<double>> tyres = {};
   std::uint64_t seed = 0;  ///< of everything random in the scenario
 
+  /// The thrust that is held in place of a speed; absent: a speed is held, or open loop.
+  std::optional<double> held_tau_speed() const;
   /// True where something in the scenario is drawn from a seed.
   bool random() const;
 };

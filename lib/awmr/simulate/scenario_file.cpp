@@ -21,6 +21,19 @@ State<double> read_initial(JsonObject json) {
   return state;
 }
 
+/// u_d, which a heading under a constant thrust has none of.
+double read_speed(JsonObject& json, bool holds_thrust) {
+  if (!json.has("speed_mps")) {
+    if (!holds_thrust) json.fault("speed_mps", "this key is missing; add it");
+    return 0.0;
+  }
+  if (holds_thrust) {
+    json.fault("speed_mps",
+               "the guidance holds tau_speed in place of a speed; remove one of the two");
+  }
+  return json.number("speed_mps", kSpeed_mps);
+}
+
 /// What is there, but without effect.
 void reject_idle_keys(JsonObject& json, const Scenario& scenario) {
   const bool open = std::holds_alternative<OpenLoop>(scenario.guidance);
@@ -49,8 +62,8 @@ Scenario scenario_from_json(JsonObject& json) {
   scenario.name = json.string("name");
   scenario.duration_s = json.number("duration_s", kDuration_s);
   scenario.initial = read_initial(json.object("initial"));
-  scenario.speed_mps = json.number("speed_mps", kSpeed_mps);
   scenario.guidance = read_guidance(json.object("guidance"));
+  scenario.speed_mps = read_speed(json, scenario.held_tau_speed().has_value());
   scenario.obstacles = read_obstacles(json);
   if (auto avoidance = json.optional_object("avoidance")) {
     scenario.avoidance = read_avoidance(*avoidance);

@@ -108,7 +108,10 @@ Controller<double> controller_in(const Scenario& scenario, Controller<double> co
   return controller;
 }
 
-Observers<double> observers_in(const Scenario& scenario, const Gains<double>& gains) {
+namespace {
+
+/// Without the limits that a held thrust leaves a surge observer: none.
+Observers<double> observers_of_both(const Scenario& scenario, const Gains<double>& gains) {
   if (const auto& own = scenario.control.observer) {
     return {{own->bandwidth_radps, own->yaw_max_m},
             {own->bandwidth_radps, own->surge_max},
@@ -117,6 +120,14 @@ Observers<double> observers_in(const Scenario& scenario, const Gains<double>& ga
   const ObserverGains<double> tuned =
       scenario.control.lqi ? ObserverGains<double>{} : gains.observer;
   return {{tuned.bandwidth_radps, tuned.yaw_max_m}, {tuned.bandwidth_radps, tuned.surge_max}, true};
+}
+
+}  // namespace
+
+Observers<double> observers_in(const Scenario& scenario, const Gains<double>& gains) {
+  Observers<double> observers = observers_of_both(scenario, gains);
+  if (scenario.held_tau_speed()) observers.surge.limit = 0.0;
+  return observers;
 }
 
 double largest_force(const Controller<double>& controller) {

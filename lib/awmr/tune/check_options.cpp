@@ -59,6 +59,11 @@ void check_scenarios(const std::vector<Scenario>& scenarios, bool observer_is_se
                                         "guidance of type 'heading'",
                                         scenario.name)});
     }
+    if (scenario.held_tau_speed()) {
+      faults.push_back({"", fmt::format("scenario '{}' holds tau_speed in place of a speed, so its "
+                                        "speed law has no target; give speed_mps in its place",
+                                        scenario.name)});
+    }
     if (scenario.control.lqi) {
       faults.push_back({"", fmt::format("scenario '{}' names the heading law lqi, which takes no "
                                         "gains; those of the sliding mode are tuned",

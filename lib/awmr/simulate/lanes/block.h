@@ -29,10 +29,11 @@ struct alignas(64) Row {
 struct BlockSetup {
   CombinedSplit split = CombinedSplit::kRedistribute;
   AllocationForm form = AllocationForm::kExact;
-  bool is_open_loop = false;  ///< tau_speed and tau_turn stand in the block, and no law asks
-  bool is_observed = false;   ///< by an observer of any run; bandwidth 0 where a run has none
-  bool anti_windup = true;    ///< as in Observers
-  bool is_lqi = false;        ///< the heading law; false: the sliding mode
+  bool is_open_loop = false;     ///< tau_speed and tau_turn stand in the block, and no law asks
+  bool holds_tau_speed = false;  ///< tau_speed stands in the block, and the speed law is not asked
+  bool is_observed = false;      ///< by an observer of any run; bandwidth 0 where a run has none
+  bool anti_windup = true;       ///< as in Observers
+  bool is_lqi = false;           ///< the heading law; false: the sliding mode
   double sample_time_s = 0.0;
   MotorLag lag;
   bool is_by_wheel = false;   ///< each wheel has a force of its own
