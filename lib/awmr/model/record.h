@@ -101,13 +101,15 @@ struct EstimatorReport {
   Estimator estimator = Estimator::kLogLinear;
   std::string noise;  ///< where the error is put: "log force", "force", "speed", "time", ...
   std::vector<EstimatorParameter> parameters;
-  double residual_std = 0.0;        ///< in the unit of the noise
-  int rows_used = 0;                ///< of the tables or logs
-  int degrees_of_freedom = 0;       ///< of the residuals: rows less parameters
-  int rank = 0;                     ///< of the problem: how many combinations the data show
-  double condition_number = 0.0;    ///< of the problem, >= 1; infinite where the rank is lacking
-  std::string stop_reason;          ///< why the solver ended
-  std::string family = {};          ///< of resistance; empty: the paper's power law
+  double residual_std = 0.0;      ///< in the unit of the noise
+  int rows_used = 0;              ///< of the tables or logs
+  int degrees_of_freedom = 0;     ///< of the residuals: rows less parameters
+  int rank = 0;                   ///< of the problem: how many combinations the data show
+  double condition_number = 0.0;  ///< of the problem, >= 1; infinite where the rank is lacking
+  std::string stop_reason;        ///< why the solver ended
+  std::string family = {};        ///< of resistance; empty: the paper's power law
+  /// Probability that the errors lie where this estimator puts them, (0, 1]; absent: not averaged.
+  std::optional<double> weight = {};
   std::optional<double> aicc = {};  ///< corrected Akaike criterion; less is better, same noise only
   std::vector<Diagnostic> diagnostics = {};
   std::vector<LeaveOneOut> leave_one_out = {};
