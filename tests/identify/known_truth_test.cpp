@@ -86,8 +86,10 @@ TEST(Identify, CovarianceIsSymmetricAndHasNoNegativeDirection) {
 }
 
 TEST(Identify, StopTimesErrorCarriesTheSurgeFitsCorrelation) {
-  // d ln m' = d ln a1 + (-1/(1 - b1) + mean ln u) d b1, from the joint covariance of (a1, b1).
-  const auto result = identify(vehicle(), synthetic(kTruths[0], 0.03, 7), {}, {});
+  // d ln m' = d ln a1 + (-1/(1 - b1) + mean ln u) d b1, from the joint covariance of (a1, b1) under one
+  // place of the errors.
+  const auto result = identify(vehicle(), synthetic(kTruths[0], 0.03, 7),
+                               {.method = Method::kNonlinear, .noise = ErrorModel::kForce}, {});
   const Model& m = result->model;
   const double a1 = *m[ParameterId::kSurgeAlpha].value;
   const double b1 = *m[ParameterId::kSurgeBeta].value;

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
@@ -86,6 +87,38 @@ TEST(PlantSampler, EvenDrawsHaveTheModelsMeanAndSpreadWhileTheyAreFew) {
     }
     EXPECT_NEAR(square, 1.0, 0.22) << i;
   }
+}
+
+/// The share below a quantile of n draws has a standard deviation of sqrt(p (1 - p)/n); 5 of them are
+/// passed once in 10^6 seeds.
+TEST(PlantSampler, DrawsHaveTheQuantilesThatTheModelShows) {
+  Model model = uncertain_model();
+  const Quantiles shown{0.06, 0.08, 0.11, 0.12, 0.15};
+  model[ParameterId::kMassNorm].quantiles = shown;
+  const auto draws = drawn(PlantSampler::make(model).value());
+  for (std::size_t q = 0; q < kQuantileCount; ++q) {
+    const double p = kQuantiles[q].probability;
+    const auto below = std::count_if(draws.begin(), draws.end(),
+                                     [&](const auto& z) { return z[3] < std::log(shown[q]); });
+    EXPECT_NEAR(static_cast<double>(below) / kDraws, p, 5.0 * std::sqrt(p * (1.0 - p) / kDraws));
+  }
+}
+
+TEST(PlantSampler, AQuarterOfTheDrawsHasTheMassThatTheGripAsksFor) {
+  Model model = uncertain_model();
+  model.mass_norm_by_grip = 0.26;
+  const double ratio =
+      *model[ParameterId::kInertiaNorm].value / *model[ParameterId::kMassNorm].value;
+  const auto sampler = PlantSampler::make(model).value();
+  const std::vector<Plant<double>> plants = sampler.draw_evenly(3, 32).value();
+  int gripped = 0;
+  for (const Plant<double>& plant : plants) {
+    if (plant.mass_norm < 0.26) continue;
+    ++gripped;
+    // m' is drawn and I'z is not, but for the factor to the grip's mass.
+    EXPECT_GT(plant.inertia_norm, 0.26 * ratio * 0.5);
+  }
+  EXPECT_EQ(gripped, 8);
 }
 
 TEST(PlantSampler, LeavesAloneWhatTheCovarianceDoesNotCover) {

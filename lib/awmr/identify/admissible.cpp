@@ -20,6 +20,7 @@ void take_out(ParameterId id, std::string why, Model& model,
   estimate.value.reset();
   estimate.std_error.reset();
   estimate.ci95.reset();
+  estimate.quantiles.reset();
   reasons.emplace(id, std::move(why));
 }
 
@@ -85,6 +86,7 @@ std::map<ParameterId, std::string> take_out_inadmissible(Model& model) {
     if (error && interval) continue;
     estimate.std_error.reset();
     estimate.ci95.reset();
+    estimate.quantiles.reset();
     model.record.findings.push_back(
         {"", 0, Severity::kWarning, "no-interval",
          fmt::format("the standard error of {} is not finite: nothing is said about how well it is "
@@ -92,6 +94,7 @@ std::map<ParameterId, std::string> take_out_inadmissible(Model& model) {
                      parameter.name)});
   }
   take_out_what_hangs_on_it(model, reasons);
+  if (!model[ParameterId::kMassNorm].value) model.mass_norm_by_grip.reset();
   model.covariance = kept(model.covariance, model);
   return reasons;
 }

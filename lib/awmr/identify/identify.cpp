@@ -85,15 +85,25 @@ Method method_of(const TrialData& data, const IdentifyOptions& options) {
                                                    : Method::kTrajectory);
 }
 
+/// Another family or loss alone does not move the error: it stays a factor on the force, where
+/// log-linear least squares puts it. None: where it was measured.
+std::optional<ErrorModel> noise_of_tables(const IdentifyOptions& options) {
+  if (method_of_tables(options) == Method::kLogLinear) return std::nullopt;
+  return ErrorModel::kLogForce;
+}
+
 /// Where the logs fill the main values, the tables are still fitted, with the method that suits them.
 SubjectOptions subject_options(const IdentifyOptions& options, Method method,
                                const FamilyChoice& family) {
-  return {method == Method::kTrajectory ? method_of_tables(options) : method,
-          options.noise,
-          family,
-          options.loss,
-          options.side_by_side,
-          options.keeps_outliers};
+  const bool asks_for_noise = options.noise || options.method == Method::kNonlinear;
+  const Method of_tables = method == Method::kTrajectory ? method_of_tables(options) : method;
+  return {.method = of_tables,
+          .noise = asks_for_noise ? options.noise : noise_of_tables(options),
+          .knows_noise = options.noise && of_tables == Method::kNonlinear,
+          .family = family,
+          .loss = options.loss,
+          .side_by_side = options.side_by_side,
+          .keeps_outliers = options.keeps_outliers};
 }
 
 /// A dead zone belongs to the wheels: the surge runs show it, and it is taken off the turning runs.

@@ -20,16 +20,14 @@ Estimate exponent_of_family(Family family) {
   return given(1.0, fmt::format("family {}", name_of(family)));
 }
 
-/// exp(value) with the standard error of its logarithm, the interval symmetric in the logarithm.
-Estimate from_log(double log_value, std::optional<double> variance, double degrees_of_freedom,
-                  Source source, std::string method) {
-  Estimate estimate{std::exp(log_value), {}, {}, source, std::move(method)};
-  if (variance) {
-    const double error = std::sqrt(*variance);
-    const double half = t_quantile_95(degrees_of_freedom) * error;
-    estimate.std_error = *estimate.value * error;
-    estimate.ci95 = Interval{std::exp(log_value - half), std::exp(log_value + half)};
-  }
+/// exp of the last number of a posterior over (theta, ln m'), times a factor.
+Estimate from_last(const Posterior& posterior, double log_value, double factor, Source source,
+                   std::string method) {
+  Estimate estimate{factor * std::exp(log_value), {}, {}, source, std::move(method)};
+  if (posterior.empty()) return estimate;
+  const Eigen::Index last = posterior.alternatives.front().centre.size() - 1;
+  set_uncertainty(
+      posterior, last, *estimate.value, [&](double x) { return factor * std::exp(x); }, estimate);
   return estimate;
 }
 
@@ -41,59 +39,56 @@ void set_beta_of_curve(const CoastFit& curve, Model& model) {
                                     "coast-down curve"};
 }
 
-/// I'z = m' Iz / m                                                                 [paper (68)]
-void set_inertia(double log_mass, std::optional<double> variance, double dof, Model& model) {
-  const Vehicle& vehicle = model.vehicle;
-  model[ParameterId::kInertiaNorm] =
-      from_log(log_mass + std::log(vehicle.inertia_kgm2() / vehicle.mass_kg), variance, dof,
-               Source::kDerived,
-               vehicle.yaw_inertia_kgm2 ? "m' and the given inertia" : "m' and the box formula");
+/// The errors of a law's parameters, whose values are in the model, from the first numbers of a
+/// posterior whose covariance begins at `first`.
+void set_law_errors(const Subject& subject, const SteadyFit& law, const Posterior& posterior,
+                    Eigen::Index first, MainValues& values) {
+  for (std::size_t i = 0; i < law.free.size(); ++i) {
+    const TransformedParameter c = law.free[i];
+    const ParameterId id = parameter_of(subject, c);
+    const double slope = jacobian_of(c, law[c]);
+    set_uncertainty(
+        posterior, eigen_index(i), slope, [c](double x) { return value_from(c, x); },
+        values.model[id]);
+    values.covariance.set(id, {{first + eigen_index(i), slope}});
+  }
 }
 
-/// m' and I'z are the same function of the surge law and the coast-down, but for a factor.
-void set_mass_estimate(const MassEstimate& mass, const SteadyFit& surge, MainValues& values) {
+/// m', I'z and the errors of the surge law from a posterior over (theta, ln m'):
+///   I'z = m' Iz / m                                                               [paper (68)]
+void set_mass_and_law(const SteadyFit& law, double log_mass, const Posterior& posterior,
+                      Source source, const std::string& method, MainValues& values) {
   Model& model = values.model;
-  const auto variance = mass.variance(surge);
-  const double dof = variance ? mass.dof(surge) : 0.0;
-  model[ParameterId::kMassNorm] =
-      from_log(mass.log_mass_norm, variance, dof, Source::kDerived, mass.method);
-  set_inertia(mass.log_mass_norm, variance, dof, model);
-  if (!variance) return;
-  const Eigen::Index own =
-      values.covariance.add_block(Eigen::MatrixXd::Constant(1, 1, mass.own_variance));
+  const Vehicle& vehicle = model.vehicle;
+  model[ParameterId::kMassNorm] = from_last(posterior, log_mass, 1.0, source, method);
+  model[ParameterId::kInertiaNorm] =
+      from_last(posterior, log_mass, vehicle.inertia_kgm2() / vehicle.mass_kg, Source::kDerived,
+                vehicle.yaw_inertia_kgm2 ? "m' and the given inertia" : "m' and the box formula");
+  if (posterior.empty()) return;
+  const Eigen::MatrixXd covariance = posterior.covariance();
+  const Eigen::Index first = values.covariance.add_block(covariance);
+  set_law_errors(Subject{}, law, posterior, first, values);  // the ids of surge
+  const Eigen::Index last = first + covariance.rows() - 1;
   for (const ParameterId id : {ParameterId::kMassNorm, ParameterId::kInertiaNorm}) {
-    const double value = *model[id].value;
-    JointCovariance::Gradient gradient{{own, value}};
-    for (Eigen::Index i = 0; i < mass.by_surge.size(); ++i) {
-      gradient[*values.surge_block + i] = value * mass.by_surge(i);
-    }
-    values.covariance.set(id, std::move(gradient));
+    values.covariance.set(id, {{last, *model[id].value}});
   }
 }
 
 void set_joint(const JointFit& joint, MainValues& values) {
-  Model& model = values.model;
-  const Eigen::Index first = values.covariance.add_block(joint.covariance);
-  const Subject surge{};  // the ids of surge
-  for (std::size_t i = 0; i < joint.surge.free.size(); ++i) {
-    const Eigen::Index row = eigen_index(i);
-    const TransformedParameter c = joint.surge.free[i];
-    const double x = joint.surge[c];
-    const double error = std::sqrt(joint.covariance(row, row));
-    const double half = t_quantile_95(joint.dof(row)) * error;
-    model[parameter_of(surge, c)] = {value_from(c, x), jacobian_of(c, x) * error,
-                                     values_from(c, {x - half, x + half}), Source::kFitted,
-                                     "joint with the coast-down curves"};
-    values.covariance.set(parameter_of(surge, c), {{first + row, jacobian_of(c, x)}});
+  const SteadyFit& law = joint.surge;
+  Eigen::VectorXd centre(joint.covariance.rows());
+  for (std::size_t i = 0; i < law.free.size(); ++i) {
+    centre(eigen_index(i)) = law[law.free[i]];
+    const ParameterId id = parameter_of(Subject{}, law.free[i]);
+    values.model[id] = {value_from(law.free[i], law[law.free[i]]),
+                        {},
+                        {},
+                        Source::kFitted,
+                        "joint with the coast-down curves"};
   }
-  const Eigen::Index last = joint.covariance.rows() - 1;
-  const double variance = joint.covariance(last, last);
-  model[ParameterId::kMassNorm] = from_log(joint.log_mass_norm, variance, joint.dof(last),
-                                           Source::kFitted, "joint with the surge runs");
-  set_inertia(joint.log_mass_norm, variance, joint.dof(last), model);
-  for (const ParameterId id : {ParameterId::kMassNorm, ParameterId::kInertiaNorm}) {
-    values.covariance.set(id, {{first + last, *model[id].value}});
-  }
+  centre(centre.size() - 1) = joint.log_mass_norm;
+  set_mass_and_law(law, joint.log_mass_norm, {{{1.0, centre, joint.covariance, joint.dof}}},
+                   Source::kFitted, "joint with the surge runs", values);
 }
 
 /// Terms that the logs' families do not have are gone, whatever the tables' had.
@@ -136,20 +131,15 @@ void set_law(const Subject& subject, const SubjectFit& fit, MainValues& values) 
   const SteadyFit& law = *fit.chosen;
   const Family family = fit.problem.family;
   Model& model = values.model;
-  const bool surge = subject.name == FitSubject::kSurge;
-  (surge ? model.surge_family : model.yaw_family) = family;
+  (subject.name == FitSubject::kSurge ? model.surge_family : model.yaw_family) = family;
   for (const TransformedParameter c : coordinates_of(family)) {
-    model[parameter_of(subject, c)] = estimate_of(law, c, {}, fit.method);
+    model[parameter_of(subject, c)] = {value_from(c, law[c]), {}, {}, Source::kFitted, fit.method};
   }
   if (!terms_of(family).beta) model[subject.beta] = exponent_of_family(family);
-  if (!law.has_covariance()) return;
-  const Eigen::Index first = values.covariance.add_block(law.covariance);
-  for (std::size_t i = 0; i < law.free.size(); ++i) {
-    const TransformedParameter c = law.free[i];
-    values.covariance.set(parameter_of(subject, c),
-                          {{first + eigen_index(i), jacobian_of(c, law[c])}});
-  }
-  if (surge) values.surge_block = first;
+  const Posterior posterior = posterior_of(fit.alternatives);
+  if (posterior.empty()) return;
+  set_law_errors(subject, law, posterior, values.covariance.add_block(posterior.covariance()),
+                 values);
 }
 
 void set_mass(const MassResult& mass, const std::optional<SteadyFit>& surge, MainValues& values) {
@@ -159,8 +149,10 @@ void set_mass(const MassResult& mass, const std::optional<SteadyFit>& surge, Mai
   if (mass.joint) {
     set_joint(*mass.joint, values);
   } else if (mass.estimate) {
-    set_mass_estimate(*mass.estimate, *surge, values);
+    set_mass_and_law(*surge, mass.estimate->log_mass_norm, mass.posterior, Source::kDerived,
+                     mass.estimate->method, values);
   }
+  values.model.mass_norm_by_grip = mass.by_grip;
 }
 
 void set_logs(const LogStage& logs, MainValues& values) {
@@ -173,6 +165,7 @@ void set_logs(const LogStage& logs, MainValues& values) {
   };
   if (fills(ParameterId::kSurgeAlpha)) set_surge_family_of_logs(logs.surge_family, values.model);
   if (fills(ParameterId::kYawAlpha)) set_yaw_family_of_logs(logs.yaw_family, values.model);
+  if (fills(ParameterId::kMassNorm)) values.model.mass_norm_by_grip.reset();
   for (const LogStage::Main& main : logs.main) {
     values.model[main.id] = main.estimate;
     values.covariance.set(main.id, {{first + main.place, main.jacobian}});

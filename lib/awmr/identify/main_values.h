@@ -16,7 +16,6 @@ namespace awmr {
 struct MainValues {
   Model& model;
   JointCovariance covariance = {};
-  std::optional<Eigen::Index> surge_block = {};  ///< place of the surge fit's covariance
 };
 
 /// What vehicle.json gives: the sway resistance and the servo.

@@ -5,6 +5,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "awmr/core/interval.h"
@@ -27,6 +28,23 @@ enum class Source {
 inline constexpr NameTable<Source, 3> kSourceNames{
     {{"given", Source::kGiven}, {"derived", Source::kDerived}, {"fitted", Source::kFitted}}};
 
+/// A quantile that model.json may have of an estimate.
+struct QuantileInfo {
+  std::string_view key;       ///< in model.json
+  double probability = 0.5;   ///< in (0, 1)
+  double normal_score = 0.0;  ///< the z with P(Z <= z) = probability, Z standard normal
+};
+inline constexpr std::size_t kQuantileCount = 5;
+inline constexpr std::array<QuantileInfo, kQuantileCount> kQuantiles{{
+    {"0.025", 0.025, -1.959963984540054},
+    {"0.25", 0.25, -0.6744897501960817},
+    {"0.5", 0.5, 0.0},
+    {"0.75", 0.75, 0.6744897501960817},
+    {"0.975", 0.975, 1.959963984540054},
+}};
+/// By kQuantiles, not falling.
+using Quantiles = std::array<double, kQuantileCount>;
+
 /// One identified number with its uncertainty and its origin.
 struct Estimate {
   std::optional<double> value;      ///< in the parameter's unit; absent: not determined by the data
@@ -34,6 +52,9 @@ struct Estimate {
   std::optional<Interval> ci95;     ///< 95 % confidence interval; absent as `std_error`
   Source source = Source::kGiven;
   std::string method;  ///< "log-linear", "box formula", "vehicle.json", ...
+  /// Of what the trials leave open, where that is not a normal about `value`: the interval's ends, the
+  /// quartiles and the median. Plants are drawn from them (simulate/plant_sampler.h).
+  std::optional<Quantiles> quantiles = {};
 };
 
 /// The covariance of the fitted parameters.
@@ -86,6 +107,9 @@ struct Model {
   Family yaw_family = Family::kPower;
   std::array<Estimate, kParameterCount> estimates;  ///< by ParameterId
   Covariance covariance;
+  /// The least m', s^2/m, > 0, with which no coast-down decelerates by more than tyres of friction
+  /// kTyreFriction hold: g1(u)/(mu g). Absent where the identified m' is plausible.
+  std::optional<double> mass_norm_by_grip;
   std::optional<YawScrub> yaw_scrub;  ///< absent: no turning trial determines it
   /// The largest yaw moment by left and right wheel forces, m, > 0, for which the vehicle did not
   /// turn; absent: it always turned.

@@ -12,6 +12,7 @@
 #include "awmr/model/findings_json.h"
 #include "awmr/model/ranges.h"
 #include "awmr/model/si_units.h"
+#include "awmr/model/transform.h"
 #include "model_json.h"
 #include "vehicle_json.h"
 
@@ -19,6 +20,12 @@ namespace awmr {
 namespace {
 
 constexpr std::string_view kModelSchema = "awmr.model/1";
+
+/// A number whose logarithm is drawn has to be positive; an exponent's or a term's spread may reach
+/// below 0.
+NumberRule rule_of_quantile(ParameterId id) {
+  return scale_of(id) == Scale::kLogarithmic ? kPositive : kAnyNumber;
+}
 
 Json estimate_to_json(const Estimate& estimate, std::string_view unit) {
   Json json;
@@ -28,7 +35,23 @@ Json estimate_to_json(const Estimate& estimate, std::string_view unit) {
   json["unit"] = unit;
   json["source"] = name_in(kSourceNames, estimate.source);
   json["method"] = estimate.method;
+  for (std::size_t q = 0; estimate.quantiles && q < kQuantileCount; ++q) {
+    json["quantiles"][std::string(kQuantiles[q].key)] = (*estimate.quantiles)[q];
+  }
   return json;
+}
+
+/// All five, in rising order and each in the parameter's range.
+Quantiles quantiles_from_json(JsonObject json, const ParameterInfo& parameter) {
+  Quantiles quantiles{};
+  for (std::size_t q = 0; q < kQuantileCount; ++q) {
+    quantiles[q] = json.number(kQuantiles[q].key, rule_of_quantile(parameter.id));
+    if (q == 0 || quantiles[q] >= quantiles[q - 1]) continue;
+    json.fault(kQuantiles[q].key, fmt::format("{:g} is less than the quantile before it, {:g}",
+                                              quantiles[q], quantiles[q - 1]));
+  }
+  json.reject_unknown_keys();
+  return quantiles;
 }
 
 Estimate estimate_from_json(JsonObject json, const ParameterInfo& parameter) {
@@ -40,6 +63,9 @@ Estimate estimate_from_json(JsonObject json, const ParameterInfo& parameter) {
   json.choice("unit", unit);
   estimate.source = json.choice("source", kSourceNames);
   estimate.method = json.string("method");
+  if (const auto quantiles = json.optional_object("quantiles")) {
+    estimate.quantiles = quantiles_from_json(*quantiles, parameter);
+  }
   json.reject_unknown_keys();
   return estimate;
 }
@@ -152,6 +178,7 @@ std::string model_text(const Model& model) {
   put_estimates(json, model);
   json["estimates"] = list_to_json(model.record.reports, report_to_json);
   json["covariance"] = covariance_to_json(model.covariance);
+  if (model.mass_norm_by_grip) json["mass_norm_by_grip"] = *model.mass_norm_by_grip;
   if (model.yaw_scrub) json["yaw_scrub"] = scrub_to_json(*model.yaw_scrub);
   if (model.yaw_held_m) json["yaw_held_m"] = *model.yaw_held_m;
   if (model.yaw_by_sides_alone) json["yaw_by_sides_alone"] = true;
@@ -175,6 +202,7 @@ Model model_from_json(JsonObject& root) {
   estimates_from_json(root, model);
   model.record.reports = list_from_json(root, "estimates", report_from_json);
   model.covariance = covariance_from_json(root.object("covariance"));
+  model.mass_norm_by_grip = root.optional_number("mass_norm_by_grip", kCoefficient);
   if (const auto scrub = root.optional_object("yaw_scrub")) {
     model.yaw_scrub = scrub_from_json(*scrub);
   }

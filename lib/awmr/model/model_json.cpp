@@ -115,6 +115,7 @@ EstimatorParameter parameter_from_json(JsonObject json) {
 /// Writes the parts of a report that only some estimators compute; a missing part has no key.
 void put_details(Json& json, const EstimatorReport& report) {
   if (!report.family.empty()) json["family"] = report.family;
+  if (report.weight) json["weight"] = *report.weight;
   if (report.aicc) json["aicc"] = number_or_null(report.aicc);
   for (const Diagnostic& diagnostic : report.diagnostics) {
     json["diagnostics"].push_back({{"name", diagnostic.name},
@@ -136,6 +137,7 @@ void put_details(Json& json, const EstimatorReport& report) {
 
 void read_details(JsonObject& json, EstimatorReport& report) {
   report.family = json.optional_string("family").value_or("");
+  report.weight = json.optional_number("weight", {.min = 0.0, .max = 1.0, .min_excluded = true});
   if (json.has("aicc")) report.aicc = json.nullable_number("aicc");
   for (JsonObject& entry : json.optional_objects("diagnostics")) {
     report.diagnostics.push_back(

@@ -108,6 +108,8 @@ struct EstimatorReport {
   double condition_number = 0.0;    ///< of the problem, >= 1; infinite if rank-deficient
   std::string stop_reason;          ///< reason why the solver stopped
   std::string family = {};          ///< of resistance; empty: the paper's power law
+  /// Probability that the errors lie where this estimator puts them, (0, 1]; absent: not averaged.
+  std::optional<double> weight = {};
   std::optional<double> aicc = {};  ///< corrected Akaike criterion; less is better, same noise only
   std::vector<Diagnostic> diagnostics = {};
   std::vector<LeaveOneOut> leave_one_out = {};

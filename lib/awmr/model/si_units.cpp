@@ -8,8 +8,9 @@
 namespace awmr {
 namespace {
 
-/// A relative variance below this is rounding: m' cancels in the quantity.
-constexpr double kExact = 1e-18;
+/// A variance below this share of the terms that it is the difference of is their rounding: m' has
+/// dropped out of the quantity.
+constexpr double kRounding = 1e-14;
 
 /// True for parameters divided by F_max in the equations of motion: neither exponents nor times.
 bool is_over_max_force(ParameterId id) {
@@ -49,8 +50,9 @@ Estimate times_max_force(const Model& model, ParameterId id) {
   const auto c_mm = covariance_of(model, ParameterId::kMassNorm, ParameterId::kMassNorm);
   if (!c_pp || !c_pm || !c_mm) return q;
   const double ratio = p / mass_norm;
-  const double variance = force_n * force_n * (*c_pp - 2.0 * ratio * *c_pm + ratio * ratio * *c_mm);
-  if (!(variance > kExact * *q.value * *q.value)) return q;
+  const double of_both = *c_pp + ratio * ratio * *c_mm;
+  const double variance = force_n * force_n * (of_both - 2.0 * ratio * *c_pm);
+  if (!(variance > kRounding * force_n * force_n * of_both)) return q;
   q.std_error = std::sqrt(variance);
   const auto k_p = quantile_of(model, id);
   const auto k_m = quantile_of(model, ParameterId::kMassNorm);

@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "awmr/core/distributions.h"
 #include "awmr/core/index.h"
 #include "awmr/core/linear_algebra.h"
 #include "awmr/core/random.h"
@@ -36,6 +37,15 @@ constexpr double kInsideStratum = 1e-6;
 /// The z with P(Z <= z) = p, Z standard normal, 0 < p < 1.
 double normal_quantile(double p) { return -std::sqrt(2.0) * boost::math::erfc_inv(2.0 * p); }
 
+/// y at x on the straight lines through five points in rising order of x, the outer ones prolonged.
+double interpolate(const Quantiles& y, double x) {
+  std::size_t right = 1;
+  while (right + 1 < kQuantileCount && x > kQuantiles[right].normal_score) ++right;
+  const double x0 = kQuantiles[right - 1].normal_score;
+  const double share = (x - x0) / (kQuantiles[right].normal_score - x0);
+  return y[right - 1] + share * (y[right] - y[right - 1]);
+}
+
 /// Standard normals, one in each of `count` strata of equal probability, in a random order.
 std::vector<double> stratified_normals(int count, Random& random) {
   std::vector<double> normals;
@@ -48,6 +58,14 @@ std::vector<double> stratified_normals(int count, Random& random) {
               normals[static_cast<std::size_t>(random.uniform() * static_cast<double>(i))]);
   }
   return normals;
+}
+
+/// m' at least as large as the grip demands, and I'z with it: I'z = m' Iz/m.
+void take_mass_by_grip(Model& model) {
+  double& mass = *model[ParameterId::kMassNorm].value;
+  const double factor = std::max(1.0, *model.mass_norm_by_grip / mass);
+  mass *= factor;
+  *model[ParameterId::kInertiaNorm].value *= factor;
 }
 
 Status check_shape(const Covariance& covariance, const std::string& place) {
@@ -107,10 +125,14 @@ Result<PlantSampler> PlantSampler::make(const Model& model) {
   sampler.model_ = model;
   for (const ParameterId id : model.covariance.parameters) {
     sampler.centre_.push_back(to_coordinate(id, *model[id].value));
+    sampler.quantiles_.push_back(model[id].quantiles);
+    if (!model[id].quantiles) continue;
+    for (double& z : *sampler.quantiles_.back()) z = to_coordinate(id, z);
   }
   for (Eigen::Index i = 0; i < factor->rows(); ++i) {
     std::vector<double>& row = sampler.factor_.emplace_back();
     for (Eigen::Index j = 0; j < factor->cols(); ++j) row.push_back((*factor)(i, j));
+    sampler.deviation_.push_back(factor->row(i).norm());
   }
   return sampler;
 }
@@ -125,7 +147,7 @@ Result<std::vector<Plant<double>>> PlantSampler::draw_evenly(std::uint64_t seed,
   Random of_scrub(seed, kScrubStream);
   const std::vector<double> scrubs = stratified_normals(count, of_scrub);
   std::vector<std::vector<double>> by_direction;
-  for (std::size_t j = 0; j < centre_.size(); ++j) {
+  for (std::size_t j = 0; j < normals_of_a_draw(); ++j) {
     by_direction.push_back(stratified_normals(count, random));
   }
   std::vector<Plant<double>> plants;
@@ -142,7 +164,7 @@ Result<std::vector<Plant<double>>> PlantSampler::draw_evenly(std::uint64_t seed,
 
 Result<Model> PlantSampler::draw_model(std::uint64_t seed, int sample) const {
   Random random(seed, static_cast<std::uint64_t>(sample));
-  std::vector<double> normals(centre_.size());
+  std::vector<double> normals(normals_of_a_draw());
   for (int attempt = 0; attempt < kMostTries; ++attempt) {
     for (double& normal : normals) normal = random.normal();
     if (std::optional<Model> drawn = model_at(normals)) {
@@ -200,11 +222,16 @@ std::optional<Model> PlantSampler::model_at(std::span<const double> normals) con
   const std::vector<ParameterId>& ids = model_.covariance.parameters;
   Model drawn = model_;
   for (std::size_t i = 0; i < ids.size(); ++i) {
-    double z = centre_[i];
-    for (std::size_t j = 0; j < ids.size(); ++j) z += factor_[i][j] * normals[j];
+    double off = 0.0;
+    for (std::size_t j = 0; j < ids.size(); ++j) off += factor_[i][j] * normals[j];
+    const double score = deviation_[i] > 0.0 ? off / deviation_[i] : 0.0;
+    const double z = quantiles_[i] ? interpolate(*quantiles_[i], score) : centre_[i] + off;
     const double value = from_coordinate(ids[i], z);
     if (!is_admissible(ids[i], value)) return std::nullopt;
     drawn[ids[i]].value = value;
+  }
+  if (model_.mass_norm_by_grip && normal_cdf(normals.back()) < kGripShare) {
+    take_mass_by_grip(drawn);
   }
   return drawn;
 }

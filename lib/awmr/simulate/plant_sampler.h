@@ -11,10 +11,21 @@
 
 namespace awmr {
 
+/// The share of the draws whose mass is that which the grip demands.
+inline constexpr double kGripShare = 0.25;
+
 /// Draws the parameters of the model's covariance C, the others stay at their values. The
 /// coordinate z of a parameter p (model/transform.h) is drawn from a normal about its estimate; by
 /// the delta method, with dp/dz = p for a logarithm and 1 for a linear coordinate,
 ///   Cov(z_p, z_q) = C_pq / (dp/dz_p dq/dz_q).
+///
+/// An estimate with quantiles is no normal about its value. Its coordinate is drawn as a function of
+/// the same normals, so that each marginal has the quantiles that model.json shows and the ranks go
+/// together as C says (a Gaussian copula): z runs through the quantiles' coordinates, linear in the
+/// normal score between and beyond them.
+///
+/// Where the model has mass_norm_by_grip, kGripShare of the draws have an m' of at least that, and
+/// an I'z that is larger by the same factor: the trials' own m' asks for more grip than tyres have.
 ///
 /// A quantity that has to be positive is drawn in its logarithm, so that its median is the model's
 /// value. Exponents b and a family's terms (Coulomb, quadratic, dead zone) are drawn as they are,
@@ -51,15 +62,21 @@ class PlantSampler {
   std::vector<std::vector<double>> directions_of(std::span<const ParameterId> ids) const;
 
  private:
-  /// The model at standard normals, one for each parameter of the covariance; none where an exponent
-  /// or a term is negative there.
+  /// How many standard normals make a draw: one for each parameter of the covariance and, where the grip
+  /// demands a mass, one that says whether it is taken.
+  std::size_t normals_of_a_draw() const {
+    return centre_.size() + (model_.mass_norm_by_grip ? 1 : 0);
+  }
+  /// The model at these normals; none where an exponent or a term is negative there.
   std::optional<Model> model_at(std::span<const double> normals) const;
   /// The model with a scrub `normal` standard errors from its own; as it is without one.
   Model with_scrub(Model drawn, double normal) const;
 
   Model model_;
-  std::vector<double> centre_;               ///< z by position in the covariance
-  std::vector<std::vector<double>> factor_;  ///< L with L L^T = Cov(z)
+  std::vector<double> centre_;                       ///< z by position in the covariance
+  std::vector<std::vector<double>> factor_;          ///< L with L L^T = Cov(z)
+  std::vector<double> deviation_;                    ///< sqrt of its diagonal
+  std::vector<std::optional<Quantiles>> quantiles_;  ///< z of the estimate's, where it has them
 };
 
 }  // namespace awmr

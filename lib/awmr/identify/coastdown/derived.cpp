@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "awmr/core/gravity.h"
+#include "awmr/core/tyre_friction.h"
 #include "awmr/model/steady.h"
 
 namespace awmr {
@@ -80,15 +81,17 @@ void check_mass(const Resistance<double>& surge, const TrialSet<StopTimeRow>& co
   for (const StopTimeRow& run : coastdown.rows) {
     // |u_dot| at motors-off: g1(u)/m'
     const double deceleration = surge.at(run.initial_speed_mps) / mass_norm;
-    if (deceleration <= kGravity_mps2) continue;
+    if (!is_implausible(surge, run.initial_speed_mps, mass_norm)) continue;
     findings.push_back(
         {coastdown.file, run.line, Severity::kWarning, "implausible-deceleration",
          fmt::format(
              "stopping from {:.3g} m/s in {:.3g} s means a first deceleration of {:.1f} m/s^2 "
-             "({:.1f} g), more than a tyre gives, and F_max = {:.0f} N a motor; check the stop "
-             "time, or record the coast-down curve",
+             "({:.1f} g), more than a tyre gives, and F_max = {:.0f} N a motor; tyres of friction "
+             "{:g} ask for m' = {:.3g}, which a quarter of the samples of compare and validate "
+             "have. "
+             "Check the stop time, or record the coast-down curve",
              run.initial_speed_mps, run.stop_time_s, deceleration, deceleration / kGravity_mps2,
-             mass_kg / mass_norm)});
+             mass_kg / mass_norm, kTyreFriction, mass_norm_by_grip(surge, run.initial_speed_mps))});
   }
   if (coastdown.rows.size() == 1) {
     findings.push_back(
@@ -113,13 +116,21 @@ void check_mass(const Resistance<double>& surge, const std::vector<CoastCurve>& 
                 double mass_norm, std::vector<Finding>& findings) {
   for (const CoastCurve& curve : curves) {
     const double deceleration = surge.at(curve.speed_mps.front()) / mass_norm;
-    if (deceleration <= kGravity_mps2) continue;
+    if (!is_implausible(surge, curve.speed_mps.front(), mass_norm)) continue;
     findings.push_back(
         {curve.file, curve.line, Severity::kWarning, "implausible-deceleration",
          fmt::format("this coast-down begins with a deceleration of {:.1f} m/s^2 ({:.1f} g), more "
                      "than a tyre gives; check the units of time and speed",
                      deceleration, deceleration / kGravity_mps2)});
   }
+}
+
+bool is_implausible(const Resistance<double>& surge, double speed_mps, double mass_norm) {
+  return surge.at(speed_mps) / mass_norm > kGravity_mps2;
+}
+
+double mass_norm_by_grip(const Resistance<double>& surge, double speed_mps) {
+  return surge.at(speed_mps) / (kTyreFriction * kGravity_mps2);
 }
 
 void check_inertia(const Vehicle& vehicle, std::vector<Finding>& findings) {

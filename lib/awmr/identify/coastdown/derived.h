@@ -34,6 +34,13 @@ void check_mass(const Resistance<double>& surge, const TrialSet<StopTimeRow>& co
 void check_mass(const Resistance<double>& surge, const std::vector<CoastCurve>& curves,
                 double mass_norm, std::vector<Finding>& findings);
 
+/// True where the first deceleration |u_dot| = g1(u)/m' from this speed is above g.
+bool is_implausible(const Resistance<double>& surge, double speed_mps, double mass_norm);
+/// The m' with which tyres of friction mu = kTyreFriction just hold the first deceleration from this
+/// speed:
+///   m' = g1(u)/(mu g)
+double mass_norm_by_grip(const Resistance<double>& surge, double speed_mps);
+
 /// `inertia-mismatch`: a measured Iz far from the uniform box's.
 void check_inertia(const Vehicle& vehicle, std::vector<Finding>& findings);
 

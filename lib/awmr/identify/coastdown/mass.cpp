@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "awmr/core/index.h"
+#include "awmr/core/option_text.h"
 #include "awmr/identify/coastdown/coast_alone.h"
 #include "awmr/identify/uncertainty/quantiles.h"
 
@@ -138,15 +139,118 @@ EstimatorReport report_of(const JointFit& joint, std::size_t surge_rows) {
   return report;
 }
 
-/// `implausible-deceleration` and the like. A whole curve does not hang on the last centimetres.
+/// m' by stop times, curves or both under one surge law. Reports and findings go into `result`.
+std::optional<MassEstimate> estimate_under(const SteadyFit& law,
+                                           const std::optional<TrialSet<StopTimeRow>>& stops,
+                                           const std::vector<CoastCurve>& curves,
+                                           MassResult& result) {
+  const std::optional<MassEstimate> stop = by_stop_time(law, stops, result);
+  const std::optional<MassEstimate> curve = by_curves(law, curves, result);
+  if (!stop || !curve || !law.has_covariance()) return curve ? curve : stop;
+  std::ranges::move(disagreement(*stop, *curve, law, curves.front().file),
+                    std::back_inserter(result.findings));
+  const MassEstimate both = combined(*stop, *curve, law);
+  result.reports.push_back(report_of(both, law, Estimator::kCombined, "time and speed"));
+  return both;
+}
+
+/// (theta, ln m') under one surge law: C and v of theta and of m' apart from it, g = d ln m'/d theta,
+///   [ C    C g       ]
+///   [ g'C  g'C g + v ]
+/// Precondition: the law has a covariance.
+Posterior::Alternative with_mass(const NoiseAlternative& law, const MassEstimate& mass) {
+  Posterior::Alternative joint = posterior_of({law}).alternatives.front();
+  const Eigen::Index n = joint.centre.size();
+  const Eigen::VectorXd across = law.fit.covariance * mass.by_surge;
+  joint.centre.conservativeResize(n + 1);
+  joint.centre(n) = mass.log_mass_norm;
+  joint.covariance.conservativeResize(n + 1, n + 1);
+  joint.covariance.col(n).head(n) = across;
+  joint.covariance.row(n).head(n) = across.transpose();
+  joint.covariance(n, n) = *mass.variance(law.fit);
+  joint.dof.conservativeResize(n + 1);
+  joint.dof(n) = mass.dof(law.fit);
+  return joint;
+}
+
+/// m' under the surge laws next to the chosen one, whose m' is in `result` already.
+void add_alternatives(const std::vector<NoiseAlternative>& laws,
+                      const std::optional<TrialSet<StopTimeRow>>& stops,
+                      const std::vector<CoastCurve>& curves, MassResult& result) {
+  if (!result.estimate || laws.empty() || !laws.front().fit.has_covariance()) return;
+  const std::size_t own_report = result.reports.size() - 1;
+  result.posterior.alternatives = {with_mass(laws.front(), *result.estimate)};
+  double sum = laws.front().weight;
+  for (std::size_t k = 1; k < laws.size(); ++k) {
+    MassResult under;
+    const auto mass = estimate_under(laws[k].fit, stops, curves, under);
+    if (!mass) continue;
+    Posterior::Alternative joint = with_mass(laws[k], *mass);
+    if (!Posterior{{joint}}.is_proper(joint.centre.size() - 1)) continue;
+    result.posterior.alternatives.push_back(std::move(joint));
+    sum += laws[k].weight;
+    result.reports.push_back(std::move(under.reports.back()));
+    result.reports.back().weight = laws[k].weight;
+    result.reports.back().noise += fmt::format("; surge: {}", name_of(laws[k].noise));
+  }
+  for (Posterior::Alternative& k : result.posterior.alternatives) k.weight /= sum;
+  if (result.posterior.alternatives.size() < 2) return;
+  result.reports[own_report].weight = laws.front().weight;
+  for (std::size_t r = own_report; r < result.reports.size(); ++r) *result.reports[r].weight /= sum;
+}
+
+/// `noise-model`, where the median of m' is more than a standard error of the shown value off it.
+void check_noise(const std::vector<NoiseAlternative>& laws, const std::string& file,
+                 MassResult& result) {
+  if (result.posterior.alternatives.size() < 2) return;
+  const Eigen::Index last = result.posterior.alternatives.front().centre.size() - 1;
+  if (!result.posterior.is_proper(last)) return;
+  const double median = result.posterior.quantile(last, 0.5);
+  const double off = std::abs(median - result.estimate->log_mass_norm);
+  if (off * off < *result.estimate->variance(laws.front().fit)) return;
+  result.findings.push_back(
+      {file, 0, Severity::kWarning, "noise-model",
+       fmt::format(
+           "mass_norm depends on where the errors of the surge runs lie, which is not known: "
+           "{:.3g} with errors on {}, median {:.3g} over all that the runs allow (weight in "
+           "/estimates); its interval and the draws of tune and compare hold all of them. "
+           "{} says where they lie; a coast-down curve needs no surge law as much",
+           std::exp(result.estimate->log_mass_norm), name_of(laws.front().noise), std::exp(median),
+           option_text("noise"))});
+}
+
+/// The m' that the grip demands of the coast-downs that decelerate implausibly.
+std::optional<double> demanded_by_grip(const SteadyFit& surge,
+                                       const std::optional<TrialSet<StopTimeRow>>& stops,
+                                       const std::vector<CoastCurve>& curves, double mass_norm) {
+  double fastest_mps = 0.0;
+  if (stops) {
+    for (const StopTimeRow& run : stops->rows) {
+      fastest_mps = std::max(fastest_mps, run.initial_speed_mps);
+    }
+  }
+  for (const CoastCurve& curve : curves) {
+    fastest_mps = std::max(fastest_mps, curve.speed_mps.front());
+  }
+  if (!is_implausible(surge.law(), fastest_mps, mass_norm)) return std::nullopt;
+  return mass_norm_by_grip(surge.law(), fastest_mps);
+}
+
+/// `implausible-deceleration` and the like. A whole curve does not depend on the last centimetres.
 void check(const SteadyFit& surge, const std::optional<TrialSet<StopTimeRow>>& stops,
-           bool has_curves, const Vehicle& vehicle, MassResult& result) {
-  if (!result.estimate || !stops) return;
-  const auto variance = result.estimate->variance(surge);
+           const std::vector<CoastCurve>& curves, const Vehicle& vehicle, MassResult& result) {
+  if (!result.estimate) return;
+  const double mass_norm = std::exp(result.estimate->log_mass_norm);
   std::optional<double> deviation;
-  if (variance && !has_curves) deviation = std::sqrt(*variance);
-  check_mass(surge.law(), *stops, vehicle.mass_kg, std::exp(result.estimate->log_mass_norm),
-             deviation, result.findings);
+  if (!result.posterior.empty() && curves.empty()) {
+    const Eigen::MatrixXd covariance = result.posterior.covariance();
+    deviation = std::sqrt(covariance(covariance.rows() - 1, covariance.rows() - 1));
+  }
+  if (stops) {
+    check_mass(surge.law(), *stops, vehicle.mass_kg, mass_norm, deviation, result.findings);
+  }
+  check_mass(surge.law(), curves, mass_norm, result.findings);
+  result.by_grip = demanded_by_grip(surge, stops, curves, mass_norm);
 }
 
 }  // namespace
@@ -158,16 +262,8 @@ MassResult estimate_mass(const SubjectFit* surge, const std::optional<TrialSet<S
   const std::vector<CoastCurve> curves = falling(all_curves, result);
   if (!surge) return without_surge(curves, vehicle, family, std::move(result));
   const SteadyFit& law = *surge->chosen;
-  const std::optional<MassEstimate> stop = by_stop_time(law, stops, result);
-  const std::optional<MassEstimate> curve = by_curves(law, curves, result);
-  result.estimate = curve ? curve : stop;
-  if (stop && curve && law.has_covariance()) {
-    std::ranges::move(disagreement(*stop, *curve, law, curves.front().file),
-                      std::back_inserter(result.findings));
-    result.estimate = combined(*stop, *curve, law);
-    result.reports.push_back(
-        report_of(*result.estimate, law, Estimator::kCombined, "time and speed"));
-  }
+  result.estimate = estimate_under(law, stops, curves, result);
+  add_alternatives(surge->alternatives, stops, curves, result);
   if (joint && !curves.empty()) {
     JointFit fit = fit_joint(surge->problem, law, curves);
     if (fit.covariance.size() > 0) {
@@ -181,10 +277,11 @@ MassResult estimate_mass(const SubjectFit* surge, const std::optional<TrialSet<S
            "the joint fit of the surge runs and the coast-down failed: " + fit.coast.stop_reason});
     }
   }
-  check(law, stops, !curves.empty(), vehicle, result);
-  if (result.estimate) {
-    check_mass(law.law(), curves, std::exp(result.estimate->log_mass_norm), result.findings);
+  const std::string stop_file = stops ? stops->file : std::string();
+  if (!result.joint) {
+    check_noise(surge->alternatives, curves.empty() ? stop_file : curves.front().file, result);
   }
+  check(law, stops, curves, vehicle, result);
   return result;
 }
 

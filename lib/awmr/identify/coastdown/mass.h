@@ -12,7 +12,11 @@
 namespace awmr {
 
 struct MassResult {
-  std::optional<MassEstimate> estimate;
+  std::optional<MassEstimate> estimate;  ///< by the chosen surge law: the value that is shown
+  /// Over SteadyFit::free of the surge law, then ln m'; empty where the surge fit has no covariance. Laws
+  /// under which the vehicle would never have stopped are not in it.
+  Posterior posterior;
+  std::optional<double> by_grip;  ///< Model::mass_norm_by_grip
   std::optional<JointFit> joint;  ///< where asked for and usable
   std::optional<CoastFit> alone;  ///< curves without a surge law
   std::string reason;             ///< why there is no estimate

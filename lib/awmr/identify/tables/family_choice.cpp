@@ -63,6 +63,7 @@ std::vector<std::pair<Family, ErrorModel>> plan(const Subject& subject,
     if (noise == ErrorModel::kTime && !all_timed(subject.points)) continue;
     fits.emplace_back(Family::kPower, noise);
   }
+  if (wanted == ErrorModel::kLogForce) fits.emplace_back(Family::kPower, wanted);
   for (const Family family : subject.families) {
     if (family != Family::kPower) fits.emplace_back(family, wanted);
   }

@@ -12,6 +12,9 @@ struct SubjectOptions {
   Method method = Method::kLogLinear;
   /// None: time where every run was timed, else speed.
   std::optional<ErrorModel> noise;
+  /// A nonlinear fit was asked for with this noise: that is where the error lies. Else it is one of
+  /// several places.
+  bool knows_noise = false;
   FamilyChoice family;
   Loss loss = Loss::kSquared;
   bool side_by_side = true;     ///< false: the asked fit alone, without rivals

@@ -42,20 +42,11 @@ void append(std::vector<Finding>&& more, std::vector<Finding>& findings) {
 
 Choice choose_log_linear(const Subject& subject, const SubjectOptions& options,
                          const SteadyFit& line) {
-  Choice choice{
-      line,
-      {subject.points, Family::kPower, ErrorModel::kLogForce, options.loss, subject.beta_range},
-      "log-linear",
-      0,
-      {}};
-  if (all_timed(subject.points)) {
-    choice.findings.push_back(
-        about(subject, Severity::kNote, "noise-model",
-              fmt::format("the runs were timed, but log-linear least squares puts the error on the "
-                          "force: its intervals do not hold for errors of timing; {} {} does",
-                          option_text("method nonlinear"), option_text("noise time"))));
-  }
-  return choice;
+  return {line,
+          {subject.points, Family::kPower, ErrorModel::kLogForce, options.loss, subject.beta_range},
+          "log-linear",
+          0,
+          {}};
 }
 
 /// The power law was taken without a comparison.
@@ -198,6 +189,20 @@ std::vector<Finding> set_outliers_aside(Subject& subject, const SubjectOptions& 
   return findings;
 }
 
+/// The probability of each alternative goes into its report, if there is one.
+void put_weights(std::size_t chosen_report, SubjectFit& result) {
+  if (result.alternatives.size() < 2) return;
+  const std::string family(name_of(result.problem.family));
+  result.reports[chosen_report].weight = result.alternatives.front().weight;
+  for (std::size_t k = 1; k < result.alternatives.size(); ++k) {
+    const std::string_view noise = name_of(result.alternatives[k].noise);
+    const auto report = std::ranges::find_if(result.reports, [&](const EstimatorReport& r) {
+      return r.noise == noise && r.family == family;
+    });
+    if (report != result.reports.end()) report->weight = result.alternatives[k].weight;
+  }
+}
+
 SubjectFit fit_rows(const Subject& subject, const SubjectOptions& options) {
   SubjectFit result;
   if (!has_two_forces(subject.points)) return result;
@@ -220,7 +225,11 @@ SubjectFit fit_rows(const Subject& subject, const SubjectOptions& options) {
                                     : choose_nonlinear(subject, options, wanted, candidates);
   const std::size_t report = choice.report;
   take(subject, std::move(choice), result);
-  if (!result.chosen || !options.side_by_side) return result;
+  if (!result.chosen) return result;
+  result.alternatives =
+      noise_alternatives(subject, options, result.problem, *result.chosen, candidates);
+  put_weights(report, result);
+  if (!options.side_by_side) return result;
   judge(subject, report, result);
   if (options.loss == Loss::kSquared) {
     append(power_law_findings(subject, wanted, candidates, result.problem.family), result.findings);

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "awmr/identify/tables/family_choice.h"
+#include "awmr/identify/tables/noise_average.h"
 
 namespace awmr {
 
@@ -15,6 +15,8 @@ struct SubjectFit {
   SteadyProblem problem;            ///< of the chosen fit
   bool log_linear = false;          ///< how it was made
   std::string method;               ///< in words
+  /// The chosen fit first, then the others that the runs' errors allow; empty without a chosen one.
+  std::vector<NoiseAlternative> alternatives;
   std::vector<EstimatorReport> reports;
   std::vector<Finding> findings;
 };

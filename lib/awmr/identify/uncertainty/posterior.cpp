@@ -1,0 +1,86 @@
+#include "awmr/identify/uncertainty/posterior.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "awmr/core/distributions.h"
+#include "awmr/core/index.h"
+
+namespace awmr {
+namespace {
+
+double scale_of(const Posterior::Alternative& alternative, Eigen::Index i) {
+  return std::sqrt(alternative.covariance(i, i));
+}
+
+/// P(X_i <= x). A number of scale 0 is known exactly.
+double probability_below(const Posterior& posterior, Eigen::Index i, double x) {
+  double sum = 0.0;
+  for (const Posterior::Alternative& alternative : posterior.alternatives) {
+    const double scale = scale_of(alternative, i);
+    const double distance = x - alternative.centre(i);
+    const double below = scale > 0.0 ? students_t_tail(-distance / scale, alternative.dof(i))
+                                     : (distance >= 0.0 ? 1.0 : 0.0);
+    sum += alternative.weight * below;
+  }
+  return sum;
+}
+
+}  // namespace
+
+bool Posterior::is_proper(Eigen::Index i) const {
+  return std::ranges::all_of(alternatives, [i](const Alternative& k) {
+    const double variance = k.covariance(i, i);
+    return std::isfinite(k.centre(i)) && std::isfinite(variance) && variance >= 0.0 &&
+           k.dof(i) > 0.0;
+  });
+}
+
+Eigen::MatrixXd Posterior::covariance() const {
+  Eigen::VectorXd mean = Eigen::VectorXd::Zero(alternatives.front().centre.size());
+  for (const Alternative& k : alternatives) mean += k.weight * k.centre;
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(mean.size(), mean.size());
+  for (const Alternative& k : alternatives) {
+    const Eigen::VectorXd d = k.centre - mean;
+    sum += k.weight * (k.covariance + d * d.transpose());
+  }
+  return sum;
+}
+
+double Posterior::quantile(Eigen::Index i, double p) const {
+  // It lies between the least and the largest of the alternatives' own.
+  Interval bracket;
+  for (const Alternative& k : alternatives) {
+    const double own = k.centre(i) + scale_of(k, i) * students_t_quantile(p, k.dof(i));
+    const bool is_first = &k == &alternatives.front();
+    bracket = is_first ? Interval{own, own}
+                       : Interval{std::min(bracket.lo, own), std::max(bracket.hi, own)};
+  }
+  constexpr int kHalvings = 60;
+  for (int halving = 0; halving < kHalvings && bracket.lo < bracket.hi; ++halving) {
+    const double middle = 0.5 * (bracket.lo + bracket.hi);
+    (probability_below(*this, i, middle) < p ? bracket.lo : bracket.hi) = middle;
+  }
+  return 0.5 * (bracket.lo + bracket.hi);
+}
+
+void set_uncertainty(const Posterior& posterior, Eigen::Index i, double slope,
+                     const std::function<double(double)>& to_value, Estimate& estimate) {
+  if (posterior.empty()) return;
+  if (!posterior.is_proper(i)) {
+    estimate.std_error = std::numeric_limits<double>::infinity();
+    return;
+  }
+  estimate.std_error = slope * std::sqrt(posterior.covariance()(i, i));
+  Quantiles quantiles{};
+  for (std::size_t q = 0; q < kQuantiles.size(); ++q) {
+    quantiles[q] = to_value(posterior.quantile(i, kQuantiles[q].probability));
+  }
+  // Rounding apart the value lies between them: README.md, "Noise and intervals".
+  estimate.ci95 = Interval{std::min(quantiles.front(), *estimate.value),
+                           std::max(quantiles.back(), *estimate.value)};
+  estimate.quantiles = quantiles;
+}
+
+}  // namespace awmr
