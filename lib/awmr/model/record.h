@@ -101,13 +101,13 @@ struct EstimatorReport {
   Estimator estimator = Estimator::kLogLinear;
   std::string noise;  ///< quantity with the error: "log force", "force", "speed", "time", ...
   std::vector<EstimatorParameter> parameters;
-  double residual_std = 0.0;        ///< in the unit of the noise
-  int rows_used = 0;                ///< of the tables or logs
-  int degrees_of_freedom = 0;       ///< of the residuals: rows minus parameters
-  int rank = 0;                     ///< number of parameter combinations that the data determine
-  double condition_number = 0.0;    ///< of the problem, >= 1; infinite if rank-deficient
-  std::string stop_reason;          ///< reason why the solver stopped
-  std::string family = {};          ///< of resistance; empty: the paper's power law
+  double residual_std = 0.0;      ///< in the unit of the noise
+  int rows_used = 0;              ///< of the tables or logs
+  int degrees_of_freedom = 0;     ///< of the residuals: rows minus parameters
+  int rank = 0;                   ///< number of parameter combinations that the data determine
+  double condition_number = 0.0;  ///< of the problem, >= 1; infinite if rank-deficient
+  std::string stop_reason;        ///< reason why the solver stopped
+  std::string family = {};        ///< of resistance; empty: the paper's power law
   /// Probability that the errors lie where this estimator puts them, (0, 1]; absent: not averaged.
   std::optional<double> weight = {};
   std::optional<double> aicc = {};  ///< corrected Akaike criterion; less is better, same noise only
