@@ -16,9 +16,11 @@ AWMR = str(Path(sys.argv[1]).resolve())
 # Faults of malformed.txt that a schema can detect: those that depend on one key only.
 BY_ONE_KEY = ("this key is missing", "expected a number", "expected one of", "expected an object",
               "expected a whole number", "true or false", "expected a string", "unknown key")
-# A rule between two keys: a line goes from_m to_m unless it has points_m.
+# Rules between two keys: a line goes from_m to_m unless it has points_m, and a scenario has a speed_mps unless its
+# headings have a tau_speed.
 BETWEEN_KEYS = ['scenario | /guidance = {"type": "line", "from_m": [0, 0], "delta_deg": 60, "width_m": 5} '
-                '| :/guidance/to_m | this key is missing']
+                '| :/guidance/to_m | this key is missing',
+                'scenario | /speed_mps gone | :/speed_mps | this key is missing']
 
 
 def awmr(words, folder, codes=(0,)):

@@ -97,7 +97,7 @@ bool may_be_smoothed(LogChannel channel) {
 std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& settled, Loss loss) {
   // With a resistance that is nearly linear a filter of the speed looks like a lag of the motors, which more
   // vehicles have: it has to be likelier by this much of AIC.
-  constexpr double kLikelierFilter = 4.0;
+  constexpr double kLikelierFilter = 10.0;
   std::optional<NoiseIteration> best;
   double least = akaike_of(settled);
   const auto consider = [&](NoiseIteration fit, double by = 0.0) {
