@@ -173,9 +173,7 @@ Claim yaw_rate_limited(const HeadingSetting& setting) {
   const bool in_steering = holds(in_mode(runs, YawMode::kSteering));
   return {
       .id = "C13",
-      .statement =
-          "headings 30 then 45 deg at a constant tau_speed of 1.4: reached, the yaw rate stays "
-          "below 20 deg/s",
+      .statement = "headings 30, 45 deg at tau_speed 1.4: reached, yaw rate below 20 deg/s",
       .reproduced = everywhere,
       .figure = by_mode(runs, "deg/s",
                         [](const ModeRun& run) -> std::optional<double> {
