@@ -95,9 +95,10 @@ bool may_be_smoothed(LogChannel channel) {
 /// The likeliest fit with one more delay or lag free, of the commands, of the steering alone or of one
 /// sensor, after one round; none where no suspect makes the fit likelier.
 std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& settled, Loss loss) {
-  // With a resistance that is nearly linear a filter of the speed looks like a lag of the motors, which more
-  // vehicles have: it has to be likelier by this much of AIC.
+  // A filter of the speed looks like a lag of the motors, which more vehicles have, where no other channel
+  // tells them apart; both give the same mass then. Else it has to be likelier by this much of AIC.
   constexpr double kLikelierFilter = 10.0;
+  const bool tells_filters = settled.problem.model.noise.size() > 1;
   std::optional<NoiseIteration> best;
   double least = akaike_of(settled);
   const auto consider = [&](NoiseIteration fit, double by = 0.0) {
@@ -121,7 +122,9 @@ std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& sett
     // Also where a sensor's delay does as well as one of the commands: a lag may do better than both.
     if (is_of_commands(delay) && !is_lag_given)
       consider(tried(settled, motor_lag(), found_s, loss));
-    if (is_sensor && may_be_smoothed(delay.channel)) filters.emplace_back(delay.channel, found_s);
+    if (is_sensor && tells_filters && may_be_smoothed(delay.channel)) {
+      filters.emplace_back(delay.channel, found_s);
+    }
   }
   for (const auto& [channel, found_s] : filters) {
     consider(tried(settled, sensor_lag_of(channel), found_s, loss), kLikelierFilter);
