@@ -38,6 +38,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   awmr::GpsCheck gps;
   awmr::Arming arming;
   heading.begin(now_ms);
+  heading.turn.begin(100000);
   gps.begin(3.0F, 600, now_ms);
   std::uint32_t last_utc_ms = 0xFFFFFFFFU;
   while (in.size > 0) {
@@ -46,6 +47,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto word = in.get<std::int16_t>();
     if ((use & 1U) != 0) {
       heading.take_gyro(word, now_ms);
+      heading.turn.take(word, bounded(static_cast<std::int16_t>(use), 0.01F) - 1.0F);
       heading.calibration.take(word, 2.6e-4F, (use & 2U) != 0, bounded(word, 1e-4F));
     }
     if ((use & 2U) != 0) {
@@ -67,8 +69,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if ((use & 32U) != 0) gps.take_unusable(awmr::GpsSentence::kDamaged, now_ms);
     const awmr::SensorFault a = heading.fault(now_ms);
     const awmr::SensorFault b = gps.fault(now_ms);
-    require(a <= awmr::kHeadingOutOfStep, "a fault of the heading");
-    require(b == awmr::kSensorGood || (b >= awmr::kGpsSilent && b <= awmr::kWrongWay),
+    require(a <= awmr::kHeadingOutOfStep || a == awmr::kWrongTurn, "a fault of the heading");
+    require(b == awmr::kSensorGood || (b >= awmr::kGpsSilent && b <= awmr::kOffHeading),
             "a fault of the GPS");
     require(!heading.calibration.is_done() || std::fabs(heading.calibration.bias_radps()) < 0.09F,
             "an offset");
