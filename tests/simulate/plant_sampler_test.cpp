@@ -121,6 +121,20 @@ TEST(PlantSampler, AQuarterOfTheDrawsHasTheMassThatTheGripAsksFor) {
   EXPECT_EQ(gripped, 8);
 }
 
+TEST(PlantSampler, PlantsAtGivenNormalsDoNotHaveTheMassThatTheGripAsksFor) {
+  const Model bare = uncertain_model();
+  Model model = bare;
+  model.mass_norm_by_grip = 0.26;
+  const auto sampler = PlantSampler::make(model).value();
+  const auto without = PlantSampler::make(bare).value();
+  const std::size_t count = model.covariance.parameters.size();
+  for (const double normal : {-2.0, -0.7, 0.0, 1.0}) {
+    const std::vector<double> normals(count, normal);
+    EXPECT_EQ(sampler.plant_at(normals)->mass_norm, without.plant_at(normals)->mass_norm);
+    EXPECT_EQ(sampler.plant_at(normals)->inertia_norm, without.plant_at(normals)->inertia_norm);
+  }
+}
+
 TEST(PlantSampler, LeavesAloneWhatTheCovarianceDoesNotCover) {
   const Model model = uncertain_model();
   const auto sampler = PlantSampler::make(model);

@@ -230,9 +230,8 @@ std::optional<Model> PlantSampler::model_at(std::span<const double> normals) con
     if (!is_admissible(ids[i], value)) return std::nullopt;
     drawn[ids[i]].value = value;
   }
-  if (model_.mass_norm_by_grip && normal_cdf(normals.back()) < kGripShare) {
-    take_mass_by_grip(drawn);
-  }
+  const bool has_grip_normal = normals.size() > ids.size();
+  if (has_grip_normal && normal_cdf(normals.back()) < kGripShare) take_mass_by_grip(drawn);
   return drawn;
 }
 
