@@ -188,19 +188,27 @@ WheelForces<T> wheel_forces(const Plant<T>& p, const State<T>& s, const WheelFor
   return e;
 }
 
-/// Both parts of the yaw moment of wheel forces, m.
+/// Parts of the yaw moment of wheel forces, m: tau_steering, and tau_diff by axle.
 template <class T>
 struct YawMoments {
-  T steering_m;  ///< l_f S_f sin d_r
-  T diff_m;      ///< d cos d_r (F'FR - F'FL) + d (F'RR - F'RL)
+  T steering_m;    ///< l_f S_f sin d_r
+  T front_diff_m;  ///< d cos d_r (F'FR - F'FL)
+  T rear_diff_m;   ///< d (F'RR - F'RL)
+  T sum_m() const { return steering_m + front_diff_m + rear_diff_m; }
 };
 
 template <class T>
 YawMoments<T> yaw_moments(const Plant<T>& p, const WheelForces<T>& e, const T& cos_d,
                           const T& sin_d) {
   return {p.front_axle_m * (e.front_left + e.front_right) * sin_d,
-          p.half_track_m * cos_d * (e.front_right - e.front_left) +
-              p.half_track_m * (e.rear_right - e.rear_left)};
+          p.half_track_m * cos_d * (e.front_right - e.front_left),
+          p.half_track_m * (e.rear_right - e.rear_left)};
+}
+
+/// scrub_moment_m() of these moments.
+template <class T>
+T scrub_of(const Plant<T>& p, const State<T>& s, const YawMoments<T>& tau) {
+  return scrub_moment_m(p, s.r_radps, tau.steering_m, T(tau.front_diff_m + tau.rear_diff_m));
 }
 
 }  // namespace detail
@@ -223,13 +231,9 @@ State<T> state_rates(const Plant<T>& p, const State<T>& s, const WheelForces<T>&
   const WheelForces<T> e = detail::wheel_forces(p, s, f);
   const T front = e.front_left + e.front_right;
   const T rear = e.rear_left + e.rear_right;
-  T moment = p.front_axle_m * front * sin_d +
-             p.half_track_m * cos_d * (e.front_right - e.front_left) +
-             p.half_track_m * (e.rear_right - e.rear_left);
-  if (any(p.yaw_scrub_m > T(0.0))) {
-    const detail::YawMoments<T> tau = detail::yaw_moments(p, e, cos_d, sin_d);
-    moment = moment - scrub_moment_m(p, s.r_radps, tau.steering_m, tau.diff_m);
-  }
+  const detail::YawMoments<T> tau = detail::yaw_moments(p, e, cos_d, sin_d);
+  T moment = tau.sum_m();
+  if (any(p.yaw_scrub_m > T(0.0))) moment = moment - detail::scrub_of(p, s, tau);
   return detail::rates(p, s, front * cos_d + rear, front * sin_d, moment,
                        steering_rate(p, s.steering_rad, steering_command_rad));
 }
@@ -328,7 +332,7 @@ T scrub_power_mps(const Plant<T>& p, const State<T>& s, const SideForces<T>& f) 
   const WheelForces<T> e = detail::wheel_forces(p, s, by_wheel(p, f));
   const detail::YawMoments<T> tau =
       detail::yaw_moments(p, e, T(cos(s.steering_rad)), T(sin(s.steering_rad)));
-  return scrub_moment_m(p, s.r_radps, tau.steering_m, tau.diff_m) * s.r_radps;
+  return detail::scrub_of(p, s, tau) * s.r_radps;
 }
 
 /// Rates of the state where the wheels of a side are commanded alike. With back-EMF, or where the rear

@@ -22,6 +22,12 @@ std::optional<double> steady_rate(const Resistance<double>& law, double force,
 std::optional<double> stop_time_s(const Resistance<double>& law, double mass_norm,
                                   double speed_mps);
 
+/// Time constant with which a resistance slows the motion at the speed w > 0, s: inertia w/g(w). `inertia` is
+/// m' for surge and I'z for yaw.
+inline double relaxation_time_s(const Resistance<double>& law, double inertia, double w) {
+  return inertia * w / law.at(w);
+}
+
 /// The speed, m/s or rad/s, below which a simulation with steps of h = step_s seconds replaces the
 /// resistance by its chord (Resistance::rest_speed). `inertia` is m' for surge and I'z for yaw.
 ///

@@ -21,7 +21,7 @@ constexpr double kChordSpeed = 1e-3;
 
 double step_for_chord(const Resistance<double>& law, double inertia) {
   if (law.beta >= 1.0 && !(law.coulomb > 0.0)) return std::numeric_limits<double>::infinity();
-  return inertia * kChordSpeed / law.at(kChordSpeed);
+  return relaxation_time_s(law, inertia, kChordSpeed);
 }
 
 RunSeed seed_of(const Scenario& scenario, const SimulateOptions& options) {

@@ -130,7 +130,7 @@ double resistance_step_s(Resistance<double> law, double inertia, double force) {
   law.coulomb = 0.0;
   double step_s = std::numeric_limits<double>::infinity();
   for (const double w : {kChordSpeed, steady_rate(law, force).value_or(kChordSpeed)}) {
-    step_s = std::min(step_s, inertia * w / (std::max(1.0, law.beta) * law.at(w)));
+    step_s = std::min(step_s, relaxation_time_s(law, inertia, w) / std::max(1.0, law.beta));
   }
   return step_s;
 }
