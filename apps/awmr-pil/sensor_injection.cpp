@@ -52,8 +52,7 @@ CheckedSensors::CheckedSensors(Injection injection, double sample_time_s,
                                const SafetyLimits& limits)
     : injection_(injection), sample_time_s_(sample_time_s) {
   heading_.begin(0);
-  heading_.turn.begin(static_cast<std::int32_t>(
-      1.5707963267948966 / (static_cast<double>(kRadpsPerWord) * sample_time_s)));
+  heading_.turn.begin(kRadpsPerWord, static_cast<float>(sample_time_s));
   gps_.begin(limits.speed_max_mps, limits.speed_timeout_ms, 0);
   // At rest before the run.
   for (int i = 0; i < 100; ++i) {
@@ -65,7 +64,7 @@ CheckedSensors::CheckedSensors(Injection injection, double sample_time_s,
 SensorFault CheckedSensors::step(std::size_t k, bool fails, float moment_m, AutopilotInput& in) {
   const std::uint32_t now_ms = in.times.now_ms;
   if (fails && injection_ == Injection::kCompassTurning) {
-    // The gyroscope is led by the compass: the heading turns away with it.
+    // The heading filter follows the compass.
     turned_rad_ += kCompassTurning_radps * sample_time_s_;
     in.measured.psi_rad =
         float_math::wrapped(in.measured.psi_rad + static_cast<float>(turned_rad_));

@@ -38,7 +38,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   awmr::GpsCheck gps;
   awmr::Arming arming;
   heading.begin(now_ms);
-  heading.turn.begin(100000);
+  heading.turn.begin(2.6e-4F, 0.05F);
   gps.begin(3.0F, 600, now_ms);
   std::uint32_t last_utc_ms = 0xFFFFFFFFU;
   while (in.size > 0) {

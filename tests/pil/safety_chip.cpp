@@ -22,7 +22,7 @@ extern "C" {
 // steps that read a sentence and process its fix.
 volatile uint16_t safety_step_cycles, safety_whole_cycles, safety_fix_cycles;
 volatile uint32_t safety_hash;
-volatile uint8_t safety_causes[17], safety_disarmed;
+volatile uint8_t safety_causes[awmr::kSensorFaultCount], safety_disarmed;
 volatile uint8_t log_done;
 }
 
@@ -42,7 +42,7 @@ int main() {
     safety_sequence::finish(sequence);
   }
   safety_hash = sequence.hash;
-  for (uint8_t i = 0; i < 17; ++i) safety_causes[i] = sequence.causes[i];
+  for (uint8_t i = 0; i < awmr::kSensorFaultCount; ++i) safety_causes[i] = sequence.causes[i];
   safety_disarmed = sequence.disarmed;
   log_done = 1;
   // The emulator ends when the chip sleeps with interrupts off.

@@ -5,6 +5,7 @@
 #include <iostream>
 #include <sstream>
 
+#include "awmr/control/sensor_fault.h"
 #include "pil/chip.h"
 
 namespace awmr::testing {
@@ -35,7 +36,7 @@ int main() {
     safety_sequence::finish(sequence);
   }
   printf("%lu %u", (unsigned long)sequence.hash, sequence.disarmed);
-  for (int i = 0; i < 17; ++i) printf(" %u", sequence.causes[i]);
+  for (int i = 0; i < awmr::kSensorFaultCount; ++i) printf(" %u", sequence.causes[i]);
   return 0;
 }
 )";
@@ -56,8 +57,8 @@ TEST_F(SafetyChip, SensorChecksCommandsArmingAndDirectionGiveTheHostsBitsWithinT
       hash);
   EXPECT_EQ(emulator_->ram("safety_disarmed", 1)[0], disarmed);
   EXPECT_GE(disarmed, 6U);
-  const auto causes = emulator_->ram("safety_causes", 17);
-  for (std::size_t i = 0; i < 17; ++i) {
+  const auto causes = emulator_->ram("safety_causes", kSensorFaultCount);
+  for (std::size_t i = 0; i < kSensorFaultCount; ++i) {
     unsigned steps = 0;
     host >> steps;
     EXPECT_EQ(causes[i], steps) << i;

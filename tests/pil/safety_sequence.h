@@ -26,8 +26,8 @@ struct Sequence {
   int16_t field[3];
   char sentence[96];
   uint8_t arrived, taken;  // characters of it that came to the port, and that were read from it
-  uint8_t causes[17];      // steps with each sensor fault, at most 255
-  uint8_t disarmed;        // how often
+  uint8_t causes[awmr::kSensorFaultCount];  // steps with each sensor fault, at most 255
+  uint8_t disarmed;                         // how often
 };
 
 inline uint32_t draw(Sequence& s) {
@@ -43,7 +43,7 @@ inline void begin(Sequence& s) {
   s.now_ms = 0xFFFFE000UL;  // the clock wraps during the drive
   s.utc_ms = 43200000UL;
   s.heading.begin(s.now_ms);
-  s.heading.turn.begin(590000L);
+  s.heading.turn.begin(2.6e-4F, 0.01F);
   s.gps.begin(AWMR_SPEED_MAX_MPS, AWMR_SPEED_TIMEOUT_MS, s.now_ms);
   s.input.mode = AWMR_COMBINED;
   s.input.speed_unsigned = 1;

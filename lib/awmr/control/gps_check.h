@@ -282,10 +282,9 @@ class GpsCheck {
 
   /// Checks the displacement against the commanded direction.
   void compare_with_direction() {
-    moved_ = body_displacement(motion_.dx_m, motion_.dy_m, context_.psi_rad);
     if (direction_ == 0) return;
-    const float ahead_m = moved_.ahead_m;
-    against_m_ -= direction_ > 0 ? ahead_m : -ahead_m;
+    moved_ = body_displacement(motion_.dx_m, motion_.dy_m, context_.psi_rad);
+    against_m_ -= direction_ > 0 ? moved_.ahead_m : -moved_.ahead_m;
     if (against_m_ < -kAhead_m) {
       against_m_ = -kAhead_m;
       braking_s_ = 0.0F;

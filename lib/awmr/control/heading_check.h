@@ -49,6 +49,7 @@ class GyroCalibration {
     if (has_heading) take_heading(heading_rad);
     if (count_ < kSamples) return;
     bias_radps_ = static_cast<float>(sum_) * rate_per_word / static_cast<float>(kSamples);
+    bias_word_ = static_cast<int16_t>(sum_ / kSamples);
     const float spread_radps =
         static_cast<float>(static_cast<int32_t>(most_) - least_) * rate_per_word;
     count_ = 0;
@@ -57,6 +58,7 @@ class GyroCalibration {
   }
   bool is_done() const { return is_done_; }
   float bias_radps() const { return bias_radps_; }
+  int16_t bias_word() const { return bias_word_; }
 
  private:
   static constexpr uint8_t kSamples = 100;
@@ -74,6 +76,7 @@ class GyroCalibration {
   uint8_t count_ = 0;
   bool is_done_ = false;
   float bias_radps_ = 0.0F;
+  int16_t bias_word_ = 0;
   float first_rad_ = 0.0F;
   float turned_rad_ = 0.0F;  // compass heading change since its first reading
   bool has_first_ = false;
@@ -123,8 +126,10 @@ class StepCheck {
 /// servo, or a gyroscope of the wrong sign, turn the vehicle away from where it is to head.
 class TurnCheck {
  public:
-  /// Sum of the gyroscope's words over a quarter of a turn.
-  void begin(int32_t quarter_turn_words) { quarter_turn_words_ = quarter_turn_words; }
+  /// rad/s of a word, and the time between two words, s.
+  void begin(float rate_per_word, float dt_s) {
+    quarter_turn_words_ = static_cast<int32_t>(float_math::kPiBy2 / (rate_per_word * dt_s));
+  }
   /// A word of the gyroscope, its offset taken off, and the moment commanded since the last one, m; 0: the
   /// motors are off. In whole numbers, which cost the chip little.
   void take(int16_t word, float moment_m) {
@@ -146,7 +151,7 @@ class TurnCheck {
  private:
   /// 5.7 deg/s of an MPU9250 at +-500 deg/s: noise does not turn so fast.
   static constexpr int16_t kTurning = 375;
-  int32_t quarter_turn_words_ = 0;
+  int32_t quarter_turn_words_ = 0;  // sum of the words over a quarter of a turn
   int32_t against_words_ = 0;
   bool is_wrong_ = false;
 

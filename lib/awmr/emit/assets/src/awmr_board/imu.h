@@ -6,6 +6,7 @@
 
 #include "../awmr/control/heading_check.h"
 #include "../awmr/model/float_math.h"
+#include "../awmr_params.h"
 
 /* `awmr compass` writes src/awmr_compass.h from the records of the sketch CompassCalibration. */
 #ifdef __has_include
@@ -54,6 +55,7 @@ class Imu {
     read_sensitivity();
     write(kMag, 0x0A, 0x16); /* 16 bit, 100 Hz */
     check_.begin(millis());
+    check_.turn.begin(kRadpsPerWord, AWMR_SAMPLE_TIME_S);
   }
 
   /* After awmr_step(): the yaw moment that is commanded until the next step, m; 0: the motors are off. */
@@ -79,11 +81,7 @@ class Imu {
       r_radps = 0.0f;
       return;
     }
-    if (bias_word_ == kNoBias) {
-      bias_word_ = static_cast<int16_t>(check_.calibration.bias_radps() / kRadpsPerWord);
-      check_.turn.begin(static_cast<int32_t>(1.5707963f / (kRadpsPerWord * dt_s)));
-    }
-    check_.turn.take(static_cast<int16_t>(raw - bias_word_), moment_m_);
+    check_.turn.take(static_cast<int16_t>(raw - check_.calibration.bias_word()), moment_m_);
     r_radps = kRadpsPerWord * raw - check_.calibration.bias_radps();
     psi_rad = awmr::float_math::wrapped(psi_rad + r_radps * dt_s);
     if (has_field) lean(magnetic_rad, dt_s);
@@ -100,10 +98,8 @@ class Imu {
   static constexpr float kLean_s = 2.0f;
   awmr::HeadingCheck check_;
   float sensitivity_[2] = {0.0f, 0.0f}; /* of the magnetometer's own x and y */
-  static const int16_t kNoBias = -32768;
   bool has_heading_ = false;
   uint8_t steps_ = 0;
-  int16_t bias_word_ = kNoBias; /* of the gyroscope, once it is calibrated */
   float moment_m_ = 0.0f;
 
   static int16_t word(uint8_t high, uint8_t low) {
