@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <iterator>
 #include <memory>
 #include <utility>
 
@@ -94,7 +96,7 @@ std::vector<Finding> unstable_gains(const Gains<double>& gains, double sample_ti
   return findings;
 }
 
-/// A warning where samples are shorter than the chip's longest step, or longer than what a heading may be old.
+/// Warns if samples are shorter than the chip's longest step, or longer than half the heading timeout.
 std::vector<Finding> sample_time(double sample_time_s, const EmitCommand& command) {
   constexpr double kLongestStep_s = 20000.0 / 16e6;
   const double oldest_s = 1e-3 * command.emit.heading_timeout_ms;
@@ -163,12 +165,10 @@ Result<Outcome> execute(const EmitCommand& command) {
   }
   AWMR_RETURN_IF_ERROR(check_replaceable(command.output, files));
   AWMR_RETURN_IF_ERROR(note_other_model(command.gains, command.model, outcome.findings));
-  for (Finding& finding : sample_time(model.vehicle.sample_time_s, command)) {
-    outcome.findings.push_back(std::move(finding));
-  }
-  for (Finding& finding : unstable_gains(gains, model.vehicle.sample_time_s, command)) {
-    outcome.findings.push_back(std::move(finding));
-  }
+  const double sample_time_s = model.vehicle.sample_time_s;
+  std::ranges::move(sample_time(sample_time_s, command), std::back_inserter(outcome.findings));
+  std::ranges::move(unstable_gains(gains, sample_time_s, command),
+                    std::back_inserter(outcome.findings));
   if (const auto plant = model.plant(Motion::kStraight)) {
     if (auto finding = unsigned_speed_finding(*plant, gains, model.vehicle.wheel_force.hi,
                                               command.gains.string())) {

@@ -108,26 +108,19 @@ Controller<double> controller_in(const Scenario& scenario, Controller<double> co
   return controller;
 }
 
-namespace {
-
-/// Without the limits that a held thrust leaves a surge observer: none.
-Observers<double> observers_of_both(const Scenario& scenario, const Gains<double>& gains) {
+Observers<double> observers_in(const Scenario& scenario, const Gains<double>& gains) {
+  // A held thrust leaves a surge observer nothing to act on.
+  const auto surge_limit = [&](double limit) { return scenario.held_tau_speed() ? 0.0 : limit; };
   if (const auto& own = scenario.control.observer) {
     return {{own->bandwidth_radps, own->yaw_max_m},
-            {own->bandwidth_radps, own->surge_max},
+            {own->bandwidth_radps, surge_limit(own->surge_max)},
             own->anti_windup};
   }
   const ObserverGains<double> tuned =
       scenario.control.lqi ? ObserverGains<double>{} : gains.observer;
-  return {{tuned.bandwidth_radps, tuned.yaw_max_m}, {tuned.bandwidth_radps, tuned.surge_max}, true};
-}
-
-}  // namespace
-
-Observers<double> observers_in(const Scenario& scenario, const Gains<double>& gains) {
-  Observers<double> observers = observers_of_both(scenario, gains);
-  if (scenario.held_tau_speed()) observers.surge.limit = 0.0;
-  return observers;
+  return {{tuned.bandwidth_radps, tuned.yaw_max_m},
+          {tuned.bandwidth_radps, surge_limit(tuned.surge_max)},
+          true};
 }
 
 double largest_force(const Controller<double>& controller) {

@@ -4,10 +4,10 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <string>
 #include <utility>
 
+#include "awmr/model/model_json.h"
 #include "awmr/model/wheel_force_json.h"
 
 namespace awmr {
@@ -123,7 +123,7 @@ namespace {
 
 Json worst_case_json(const char* name, const WorstCase& worst) {
   Json json;
-  json[name] = std::isfinite(worst.value) ? Json(worst.value) : Json(nullptr);
+  json[name] = number_or_null(worst.value);
   json["yaw_rate_degps"] = degrees(worst.yaw_rate_radps);
   json["parameters"] = Json::object();
   for (const auto& [id, value] : worst.parameters) json["parameters"][info(id).name] = value;
@@ -137,7 +137,7 @@ Json certificate_json(const Certificate& certificate) {
   Json json = {
       {"set", certificate.parameters > 0 ? kCertifiedSet : kUncertifiedSet},
       {"damping_min", certificate.damping_min()},
-      {"delay_margin_s", std::isfinite(margin_s) ? Json(margin_s) : Json(nullptr)},
+      {"delay_margin_s", number_or_null(margin_s)},
       {"method",
        "heading loop inside the boundary layer, discretised exactly with hold, servo, latency and "
        "motor lag; least value over the ellipsoid of the parameters and the yaw rates by centre, "

@@ -67,33 +67,46 @@ std::vector<Case> cases() {
   };
 }
 
+/// Starts the sketch, leaves it 3 s for its sensors, arms it and runs it for `armed_s`.
+void start_and_arm(double armed_s) {
+  setup();
+  world.run(3);
+  world.say("ARM\n");
+  world.run(armed_s);
+}
+
+/// When the vehicle was first disarmed, and the first sensor fault. Called once per ms.
+struct FirstStop {
+  double t = 0;
+  double stopped_s = -1;  ///< -1: never
+  int cause = 0;
+  void watch() {
+    t += 0.001;
+    if (stopped_s < 0 && !safety.is_armed()) stopped_s = t;
+    if (cause == 0) cause = awmr_board::sensor_fault(imu, gps);
+  }
+};
+
 /// Prints name=value pairs. Times in s after the injection, -1: never.
 int run_case(const Case& one) {
   World& w = world;
-  setup();
-  w.run(3);
-  w.say("ARM\n");
-  w.run(0.2);
+  start_and_arm(0.2);
   w.say(AWMR_START);
   w.run(6.8);
   const bool drove = w.is_driven() && w.u > 0.3;
   one.inject();
-  double stopped_s = -1, x0 = w.x, y0 = w.y, away = 0, fastest = 0;
+  double x0 = w.x, y0 = w.y, away = 0, fastest = 0;
   bool drives_again = false;
-  int cause = 0;
-  double t = 0;
+  FirstStop stop;
   w.run(one.watch_s, [&] {
-    t += 0.001;
+    stop.watch();
     fastest = std::max(fastest, fabs(w.u));
     away = std::max(away, hypot(w.x - x0, w.y - y0));
-    if (stopped_s < 0 && !safety.is_armed()) stopped_s = t;
-    if (stopped_s >= 0 && (safety.is_armed() || w.is_driven())) drives_again = true;
-    const int now = awmr_board::sensor_fault(imu, gps);
-    if (cause == 0 && now != 0) cause = now;
+    if (stop.stopped_s >= 0 && (safety.is_armed() || w.is_driven())) drives_again = true;
   });
   const bool is_off = !w.is_driven();
   one.mend();
-  w.run(25, [&] { drives_again = drives_again || (stopped_s >= 0 && w.is_driven()); });
+  w.run(25, [&] { drives_again = drives_again || (stop.stopped_s >= 0 && w.is_driven()); });
   if (w.keep.empty()) w.say(frame(10, "ARM"));
   w.say("ARM\n");
   w.run(0.1);
@@ -101,7 +114,7 @@ int run_case(const Case& one) {
   printf(
       "case=%s drove=%d stopped_s=%.2f off=%d drives_again=%d cause=%d away_m=%.2f "
       "fastest_mps=%.2f rearmed=%d\n",
-      one.name, drove, stopped_s, is_off, drives_again, cause, away, fastest, rearmed);
+      one.name, drove, stop.stopped_s, is_off, drives_again, stop.cause, away, fastest, rearmed);
   return 0;
 }
 
@@ -109,10 +122,7 @@ int run_case(const Case& one) {
 void hold_still(double pushed_mps, double noise_mps) {
   World& w = world;
   w.gps_speed_noise = noise_mps;
-  setup();
-  w.run(3);
-  w.say("ARM\n");
-  w.run(1);
+  start_and_arm(1);
   const double before = w.u = pushed_mps, x0 = w.x, y0 = w.y;
   double fastest = 0, driven_s = 0;
   w.run(60, [&] {
@@ -127,10 +137,7 @@ void hold_still(double pushed_mps, double noise_mps) {
 /// is driven meanwhile.
 void stand_on_slope(double pull, bool drives_first) {
   World& w = world;
-  setup();
-  w.run(3);
-  w.say("ARM\n");
-  w.run(0.2);
+  start_and_arm(0.2);
   if (drives_first) {
     w.say("S 0.5\n");
     w.run(10);
@@ -153,33 +160,21 @@ void drive_wrong(double offset_deg, double servo_sign) {
   World& w = world;
   w.compass_offset = offset_deg / 57.29578;
   w.servo_sign = servo_sign;
-  setup();
-  w.run(3);
-  w.say("ARM\n");
-  w.run(0.2);
+  start_and_arm(0.2);
   if (servo_sign < 0) w.say("M 1\n");
   w.say(AWMR_START);
   w.run(5);
   w.say("H 90\n");
-  double stopped_s = -1, t = 0;
-  int cause = 0;
-  w.run(60, [&] {
-    t += 0.001;
-    if (stopped_s < 0 && !safety.is_armed()) stopped_s = t;
-    const int now = awmr_board::sensor_fault(imu, gps);
-    if (cause == 0 && now != 0) cause = now;
-  });
-  printf("stopped_s=%.2f cause=%d away_m=%.2f\n", stopped_s, cause, hypot(w.x, w.y));
+  FirstStop stop;
+  w.run(60, [&] { stop.watch(); });
+  printf("stopped_s=%.2f cause=%d away_m=%.2f\n", stop.stopped_s, stop.cause, hypot(w.x, w.y));
 }
 
 /// Turned by hand at `rate` until t = 6 s: heading once it is at rest, and whether ARM waited for it.
 void start_turning(double rate) {
   World& w = world;
   w.forced_turn = rate;
-  setup();
-  w.run(3);
-  w.say("ARM\n");
-  w.run(3);
+  start_and_arm(3);
   const bool armed_turning = safety.is_armed();
   w.forced_turn = 0;
   w.run(4);
@@ -209,10 +204,7 @@ void turn_often(double turns) {
 /// Drives what AWMR_START starts for `seconds`, then at speed 0 for a minute.
 void drive_and_stop(double seconds) {
   World& w = world;
-  setup();
-  w.run(3);
-  w.say("ARM\n");
-  w.run(0.2);
+  start_and_arm(0.2);
   w.say(AWMR_START);
   bool was_armed = true;
   double slowest = 0, fastest = 0, ended_s = -1, end_x = 0, end_y = 0, t = 0;

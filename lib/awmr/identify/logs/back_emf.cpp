@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "awmr/core/index.h"
-#include "awmr/core/option_text.h"
 #include "awmr/identify/logs/family_score.h"
 #include "awmr/identify/uncertainty/akaike.h"
 

@@ -275,7 +275,7 @@ LogFitOptions from_optimum(LogFitOptions options, const FamilyFit& fit) {
   options.initial_guess = fitted_values(fit.options, fit.fit);
   options.guessed.clear();
   options.also_from.clear();
-  std::erase_if(options.suspects, [](ParameterId id) { return id != ParameterId::kBackEmf; });
+  options.suspects.clear();
   options.finds_delays = false;
   return options;
 }
