@@ -39,7 +39,7 @@ struct ComparisonRow {
   std::string gains = {};  ///< NamedGains::name
 };
 
-/// What is compared in a scenario: a mode with a set of gains.
+/// A yaw mode with a set of gains, as ranked in a scenario.
 struct Contender {
   YawMode mode{};
   std::string gains;  ///< NamedGains::name; empty where there is one set only
@@ -120,7 +120,7 @@ inline constexpr NameTable<Lead, 3> kLeadNames{
 /// Absent where no scrub was measured.
 std::optional<Lead> lead_of(const BreakEven& entry);
 
-/// What a ranking should not depend on.
+/// An assumption that is changed to test whether the ranking depends on it.
 enum class ChangeKind { kPlant, kWeights, kGains };
 inline constexpr NameTable<ChangeKind, 3> kChangeKindNames{{{"plant", ChangeKind::kPlant},
                                                             {"weights", ChangeKind::kWeights},

@@ -123,7 +123,8 @@ struct ChangedCourse {
   std::vector<NamedGains> gains;
 };
 
-/// What is to be run, in the order of the scenarios; what cannot be, goes into `changes` at once.
+/// Returns the runs to make, in the order of the scenarios. Changes that cannot be run are added to
+/// `changes` with their reason.
 std::vector<ChangedCourse> changed_courses(const std::vector<NamedGains>& gains,
                                            const std::vector<Scenario>& scenarios,
                                            std::vector<Change>& changes) {

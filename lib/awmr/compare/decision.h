@@ -31,7 +31,7 @@ inline constexpr NameTable<DecisionKind, 3> kDecisionKindNames{
      {"level", DecisionKind::kLevel},
      {"undecided", DecisionKind::kUndecided}}};
 
-/// What a scenario's ranking comes to over all changes.
+/// Result of a scenario: its first ranks, and whether they hold under every change.
 struct Decision {
   std::vector<Contender> first;  ///< of rank 1 in the ranking itself
   std::vector<Change> changes;   ///< those that have a ranking; never empty: weights need no runs

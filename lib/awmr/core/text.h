@@ -30,8 +30,8 @@ std::string printable_lines(std::string_view text);
 /// Maximum length that `shortened` leaves unchanged, in bytes.
 inline constexpr std::size_t kLongestShown = 1000;
 
-/// The text; if longer than `longest`, its beginning and its end, because the end of a message says
-/// what to do.
+/// The text; if longer than `longest`, its beginning and its end, because a message ends with its
+/// remedy.
 std::string shortened(std::string_view text, std::size_t longest = kLongestShown);
 
 }  // namespace awmr

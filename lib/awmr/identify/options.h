@@ -99,9 +99,10 @@ struct IdentifyOptions {
   int threads = 0;              ///< 0: all; the result does not depend on it
   bool side_by_side = true;     ///< false: the asked estimator alone, without its rivals and tests
   bool keeps_outliers = false;  ///< tables: gross outliers are fitted with the other runs
-  /// Logs: is told what begins, in words, for who waits. It has no part in the result.
+  /// Logs: called with a description of each step as it begins. Does not affect the result.
   std::function<void(std::string_view)> doing = {};
-  /// Logs: is told why the work that begins may take more than ten seconds. No part in the result either.
+  /// Logs: called with the reason before a step that may take more than 10 s. Does not affect the
+  /// result.
   std::function<void(std::string_view)> notice = {};
 };
 

@@ -25,8 +25,8 @@ class Physics {
   /// The disturbance over the sample that begins at `t_s`, without the slope's share; to be asked
   /// once per sample, before step().
   const BodyLoad& disturb(double t_s);
-  /// What the tyres' side forces take from the vehicle at its state with these commands, over F_max, m/s;
-  /// without tyres, what the model's scrub takes.
+  /// Power that the tyres' side forces dissipate with these commands, over F_max, m/s; without tyres,
+  /// the power of the model's scrub.
   double tyre_power_mps(const SideForces<double>& command) const;
   /// RunRow::acting of the last step().
   const WheelForces<double>& acting() const { return acting_; }

@@ -41,11 +41,11 @@ struct RunRow {
   BodyLoad disturbance = {};                  ///< without a slope's share
   /// From the vehicle's circle to the nearest obstacle, < 0 inside of it; 0 without obstacles.
   double clearance_m = 0.0;
-  /// What the tyres' side forces take from the vehicle with what is commanded, over F_max; without tyres,
-  /// what the model's scrub takes beside g3.
+  /// Power that the tyres' side forces dissipate with the commands, over F_max; without tyres, the
+  /// power of the model's scrub, without g3.
   double tyre_power_mps = 0.0;
-  /// What came to the wheels, over F_max, of what was commanded, over the sample that ends here: beyond
-  /// the motors' lag, the battery, faults and the ground. 0 in the first row.
+  /// Mean wheel forces over the sample that ends here, over F_max, after the motors' lag, the battery,
+  /// faults and the ground. 0 in the first row.
   WheelForces<double> acting = {0.0, 0.0, 0.0, 0.0};
 };
 

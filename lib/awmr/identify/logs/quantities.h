@@ -60,8 +60,8 @@ FreeQuantity sensor_lag_of(LogChannel channel);
 /// The time by which a channel is read late, s.
 FreeQuantity sensor_delay_of(LogChannel channel);
 
-/// What a fit is free to move, in this order: the parameters, the delays and the lag of the commands, the
-/// biases, the sensors' delays, their lags.
+/// Free quantities of a fit, in this order: the parameters, the delays and the lag of the commands,
+/// the biases, the sensors' delays, their lags.
 std::vector<FreeQuantity> free_quantities(const LogFitOptions& options);
 
 /// By quantity: the coordinate at the initial guess; a bias begins at zero.

@@ -1,4 +1,4 @@
-/// What trials leave open of several numbers at once, where it is not known which assumption holds.
+/// Joint uncertainty of several numbers, weighted over alternative assumptions.
 /// Private to identify/.
 #pragma once
 
