@@ -2,11 +2,17 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 #include <complex>
+#include <cstdint>
 #include <limits>
+#include <optional>
 #include <unsupported/Eigen/MatrixFunctions>
+#include <utility>
+#include <vector>
 
+#include "awmr/core/interval.h"
 #include "awmr/core/linear_algebra.h"
 #include "awmr/core/units.h"
 
@@ -127,7 +133,7 @@ class CompensatedLoop {
   std::complex<double> operator()(double omega_radps) const {
     const double t_s = loop_.sample_time_s;
     const std::complex<double> z = std::polar(1.0, omega_radps * t_s);
-    const Eigen::Vector4cd by = plant_.gamma0 + plant_.gamma1 / z;
+    const Eigen::Vector4cd by = plant_.gamma0 + plant_.gamma1 * std::conj(z);  // |z| = 1
     // (z I - Phi) x = by from the last row up: neither actuator acts on the other.
     const Eigen::Matrix4d& phi = plant_.phi;
     const std::complex<double> motor = by(3) / (z - phi(3, 3));
@@ -150,54 +156,91 @@ class CompensatedLoop {
   HeldPlant plant_;
 };
 
-/// The least delay, s, above `least_s` at which the loop has a pole on the unit circle.
-double next_crossing_s(const SampledHeadingLoop& loop, double part, double least_s) {
-  constexpr int kCrossingFrequencies = 100;
-  constexpr int kCrossingBisections = 36;
-  const CompensatedLoop open(loop, part);
+bool is_same_delay(double a_s, double b_s, const SampledHeadingLoop& loop) {
+  constexpr double kConverged = 1e-7;  // of a sample time
+  return std::abs(a_s - b_s) < kConverged * loop.sample_time_s;
+}
+
+/// |P|^2 - 1 at w, rad/s.
+double excess_at(const CompensatedLoop& open, double omega_radps) {
+  return std::norm(open(omega_radps)) - 1.0;
+}
+
+/// Ranges of w, rad/s, at whose ends |P| lies on both sides of 1.
+std::vector<Interval> crossings_of(const SampledHeadingLoop& loop, const CompensatedLoop& open) {
+  constexpr int kFrequencies = 100;
   const double k = loop.reaching_rate;
   // The heading integrates: far below its own gain |P| > 1.
   const double lowest =
       1e-4 * loop.lambda * k / (loop.lambda + k + loop.resistance_rate + loop.fed_forward_rate);
   const double nyquist = pi<double>() / loop.sample_time_s;
-  const double ratio = std::pow(nyquist / lowest, 1.0 / kCrossingFrequencies);
-  const auto excess = [&](double omega) { return std::abs(open(omega)) - 1.0; };
-  double next = std::numeric_limits<double>::infinity();
+  const double ratio = std::pow(nyquist / lowest, 1.0 / kFrequencies);
+  std::vector<Interval> ranges;
   double low = lowest;
-  double at_low = excess(low);
-  for (int i = 1; i <= kCrossingFrequencies; ++i) {
-    const double high = i == kCrossingFrequencies ? nyquist : lowest * std::pow(ratio, i);
-    const double at_high = excess(high);
-    if ((at_low > 0.0) != (at_high > 0.0)) {
-      double above = at_low > 0.0 ? low : high;
-      double below = at_low > 0.0 ? high : low;
-      for (int j = 0; j < kCrossingBisections; ++j) {
-        const double middle = 0.5 * (above + below);
-        (excess(middle) > 0.0 ? above : below) = middle;
-      }
-      const double turn_s = 2.0 * pi<double>() / above;
-      const double delay_s = std::arg(open(above)) / above;
-      next = std::min(next, delay_s + turn_s * (std::floor((least_s - delay_s) / turn_s) + 1.0));
-    }
+  bool is_above = excess_at(open, low) > 0.0;
+  for (int i = 1; i <= kFrequencies; ++i) {
+    const double high = i == kFrequencies ? nyquist : lowest * std::pow(ratio, i);
+    const bool was_above = std::exchange(is_above, excess_at(open, high) > 0.0);
+    if (is_above != was_above) ranges.push_back({low, high});
     low = high;
-    at_low = at_high;
   }
-  return next;
+  return ranges;
+}
+
+/// The least delay, s, above `least_s` at which the loop has a pole on the unit circle, with w in one
+/// of the ranges; nothing if |P| does not pass 1 in one of them.
+std::optional<double> next_crossing_s(const CompensatedLoop& open,
+                                      const std::vector<Interval>& ranges, double least_s) {
+  constexpr std::uintmax_t kEvaluationsMax = 60;
+  constexpr int kBits = 40;
+  const auto excess = [&](double omega) { return excess_at(open, omega); };
+  double next_s = std::numeric_limits<double>::infinity();
+  for (const Interval& range : ranges) {
+    const double at_low = excess(range.lo);
+    const double at_high = excess(range.hi);
+    if ((at_low > 0.0) == (at_high > 0.0)) return std::nullopt;
+    std::uintmax_t evaluations = kEvaluationsMax;
+    const double omega_radps = boost::math::tools::toms748_solve(
+                                   excess, range.lo, range.hi, at_low, at_high,
+                                   boost::math::tools::eps_tolerance<double>(kBits), evaluations)
+                                   .first;
+    const double turn_s = 2.0 * pi<double>() / omega_radps;
+    const double delay_s = std::arg(open(omega_radps)) / omega_radps;
+    next_s = std::min(next_s, delay_s + turn_s * (std::floor((least_s - delay_s) / turn_s) + 1.0));
+  }
+  return next_s;
+}
+
+/// The fixed point of the delay, s, from the part f of a sample, with w in the ranges as long as |P|
+/// passes 1 in each: at least one step, as the ranges belong to this f.
+double settled_delay_s(const SampledHeadingLoop& loop, const std::vector<Interval>& ranges,
+                       double part, double present_s) {
+  constexpr int kSteps = 30;
+  double delay_s = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < kSteps; ++i) {
+    const std::optional<double> next_s =
+        next_crossing_s(CompensatedLoop(loop, part), ranges, present_s);
+    if (!next_s) break;
+    const double before_s = std::exchange(delay_s, *next_s);
+    if (!std::isfinite(delay_s) || is_same_delay(delay_s, before_s, loop)) break;
+    part = split_delay(delay_s, loop.sample_time_s).part;
+  }
+  return delay_s;
 }
 
 }  // namespace
 
 double delay_margin_s(const SampledHeadingLoop& loop) {
-  constexpr int kDelayIterations = 30;
-  constexpr double kDelayConverged = 1e-7;  // of a sample time
+  constexpr int kSearches = 10;
   if (!(damping_ratio(loop) > 0.0)) return 0.0;
   const double present_s = loop.late_samples * loop.sample_time_s + loop.command_delay_s;
-  double delay_s = next_crossing_s(loop, 0.0, present_s);
-  for (int i = 0; i < kDelayIterations && std::isfinite(delay_s); ++i) {
-    const double before_s = delay_s;
-    const double part = split_delay(before_s, loop.sample_time_s).part;
-    delay_s = next_crossing_s(loop, part, present_s);
-    if (std::abs(delay_s - before_s) < kDelayConverged * loop.sample_time_s) break;
+  double delay_s = std::numeric_limits<double>::infinity();
+  double part = 0.0;
+  for (int i = 0; i < kSearches; ++i) {
+    const std::vector<Interval> ranges = crossings_of(loop, CompensatedLoop(loop, part));
+    const double before_s = std::exchange(delay_s, settled_delay_s(loop, ranges, part, present_s));
+    if (!std::isfinite(delay_s) || is_same_delay(delay_s, before_s, loop)) break;
+    part = split_delay(delay_s, loop.sample_time_s).part;
   }
   return delay_s - present_s;
 }
