@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "awmr/core/drawn_rows.h"
 #include "awmr/core/json.h"
 #include "awmr/model/model.h"
 #include "awmr/report/figures/figures_of.h"
@@ -46,6 +47,24 @@ bool is_vehicle_of_paper(const Vehicle& vehicle) {
   return near(vehicle.mass_kg, 37.0) && near(vehicle.length_m, 1.32) &&
          near(vehicle.width_m, 0.78) && near(vehicle.front_axle_m, 0.35) &&
          near(vehicle.half_track_m, 0.36);
+}
+
+/// Rounds all numbers to five digits; the page shows fewer.
+void round_numbers(Json& json) {
+  if (json.is_number_float()) json = drawn_number(json.get<double>());
+  if (!json.is_structured()) return;
+  for (Json& value : json) round_numbers(value);
+}
+
+/// Rounds what the page only shows. The gains themselves are simulated and copied.
+void round_shown(Json& data) {
+  for (const char* name : {"model", "validation", "comparison", "pil", "suggest"}) {
+    if (data.contains(name)) round_numbers(data[name]);
+  }
+  if (!data.contains("gains")) return;
+  for (const auto& [key, value] : data["gains"].items()) {
+    if (key != "heading" && key != "speed" && key != "observer") round_numbers(value);
+  }
 }
 
 /// The page, with each `@name@` of its frame replaced once by the part of that name.
@@ -96,6 +115,7 @@ Result<ReportPage> report_page(const fs::path& directory) {
   AWMR_ASSIGN_OR_RETURN(ReportData data, read_report_data(directory));
   data.json["paper_vehicle"] = is_vehicle_of_paper(data.model.vehicle);
   AWMR_RETURN_IF_ERROR(add_live(directory, data.model, data.json));
+  round_shown(data.json);
   return ReportPage{assembled(data.json), std::move(data.left_out)};
 }
 
