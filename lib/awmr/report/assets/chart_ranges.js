@@ -49,7 +49,7 @@ function rangeSpecification(chart) {
       mark("symbol", "rows", {x: {scale: "x", field: "middle"}, y: row, size: {value: 70},
         shape: {signal: "datum.shape || 'circle'"}, fill: colour, stroke: {value: "var(--paper)"},
         opacity: isThere, tooltip}, {clip: false, aria: true, description: chart.title}),
-      mark("text", "rows", {x: {value: 6}, y: row, baseline: {value: "middle"}, font: {value: font},
+      mark("text", "rows", {x: {scale: "x", value: 0, offset: 6}, y: row, baseline: {value: "middle"}, font: {value: font},
         text: {field: "absent"}, fill: {value: "var(--dim)"}, fontSize: {value: 11},
         opacity: {signal: "isNumber(datum.middle) ? 0 : 1"}}),
     ],

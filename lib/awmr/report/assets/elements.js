@@ -71,6 +71,7 @@ function contentsEntry(root, title) {
     if (details && details.parentNode === root) details.open = true;
   };
   root.link = link;
+  root.setAttribute("aria-label", title);
 }
 
 /// Adds a collapsible section of the report. Returns the container of its content.

@@ -52,13 +52,13 @@ function vehicleSketch(parent, vehicle) {
     const force = (y > 0 ? 1.3 : 1.9) * size + 8;
     const at = (distance) => turned(distance, 0, angle).map((v, i) => v + (i ? y : x));
     path([at(0), at(force)], {class: "force", "marker-end": "url(#tip)"});
-    if (isFront || !steers) label(at(force + 16), y > 0 ? "F′L" : "F′R",
-      "force of a wheel over F_max");
+    if (isFront) label(at(force + 16), y > 0 ? "F′L" : "F′R", "force of a wheel over F_max");
   }
   if (steers) {
-    path([[l, d], [l + 2.9 * size + 20, d]], {class: "rule"});
-    arc(l, d, 2.4 * size + 14, 0, delta);
-    label([l + 2.9 * size + 14, d + 12], "δ", "steering angle");
+    const beyond = 1.3 * size + 56;
+    path([[l, d], [l + beyond, d]], {class: "rule"});
+    arc(l, d, beyond - 10, 0, delta);
+    label([l + beyond, d + 13], "δ", "steering angle");
   }
   const [x, y] = place(0, 0);
   drawIn(svg, "circle", {cx: x, cy: y, r: 4, fill: "var(--ink)"});

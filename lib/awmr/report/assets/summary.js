@@ -96,7 +96,8 @@ function modeTile(list, comparison) {
     "awmr compare ranks the modes");
   const alone = distinct(ranked.map((s) => (firstOf(s).length === 1 ? firstOf(s)[0] : "")));
   const basis = comparison.samples ? plural(comparison.samples, "sample") : "nominal runs only";
-  const all = ranked.length === 1 ? scenarioWords(ranked[0].name) : `${ranked.length} scenarios`;
+  const all = ranked.length === 1
+    ? `“${scenarioWords(ranked[0].name)}”` : `${ranked.length} scenarios`;
   if (alone.length === 1 && alone[0]) return tile(list, comparison.samples ? "good" : "doubt",
     "Best mode", alone[0], `${all}; ${basis}`);
   if (ranked.length > 1) {
@@ -108,7 +109,7 @@ function modeTile(list, comparison) {
     const counts = [...wins, ...(tied ? [`ties in ${tied}`] : []),
       ...(open ? [`undecided in ${open}`] : [])];
     return tile(list, "doubt", "Best mode", "undecided",
-      `of ${all}: ${counts.join(", ")}; ${basis}`);
+      `${counts.join(", ")} of ${all}; ${basis}`);
   }
   const level = firstOf(ranked[0]);
   tile(list, "doubt", "Best mode", "undecided",
