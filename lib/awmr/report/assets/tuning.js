@@ -54,7 +54,7 @@ function constraintsTable(parent, constraints) {
   if (!constraints.length) return;
   const signs = {"at-least": "≥ ", "at-most": "≤ "};
   small(parent, "Bars are values, red rules are limits, the shaded side is the safe one.");
-  table(parent, ["constraint", "", "value and limit", "#value", "#limit", "meaning"],
+  table(parent, ["constraint", "state", "value and limit", "#value", "#limit", "meaning"],
     constraints.map((c) => {
     const [state, tone] = constraintState(c);
     const cell = document.createElement("span");
@@ -164,18 +164,26 @@ function robustCharts(parent, robust) {
   }
 }
 
+/// One row of a quantile chart. A run that does not settle counts with its duration, so that a
+/// median is a settling time only if most runs settle.
+function quantileRow(mode, name, set, figure) {
+  const {median, q95} = set[figure], label = `${mode}, ${gainsWords[name]}`;
+  const settled = `settled: ${percent(set.completed_share)}`;
+  const look = {label, colour: colourOf(mode), ...gainsStyle[name]};
+  if (figure === "settling_time_s" && set.completed_share < 0.5) {
+    return {...look, absent: absentWords[figure], note: `${label}\n${settled}`};
+  }
+  return {...look, low: median, high: q95, middle: median,
+    note: `${label}\nmedian ${digits(median)}, 95 % ${digits(q95)}\n${settled}`};
+}
+
 /// Hue by mode; line and mark by set of gains.
 function quantileCharts(parent, quantiles) {
   const grid = add(parent, "div", undefined, {class: "grid thirds"});
   for (const [figure, title] of robustFigures) {
     const rows = Object.entries(quantiles).flatMap(([mode, sets]) =>
-      gainsOrder.filter((name) => (sets[name] || {})[figure]).map((name) => {
-      const {median, q95} = sets[name][figure], label = `${mode}, ${gainsWords[name]}`;
-      return {label, low: median, high: q95, middle: median, colour: colourOf(mode),
-        ...gainsStyle[name],
-        note: `${label}\nmedian ${digits(median)}, 95 % ${digits(q95)}\nsettled: ` +
-          `${percent(sets[name].completed_share)}`};
-    }));
+      gainsOrder.filter((name) => (sets[name] || {})[figure])
+        .map((name) => quantileRow(mode, name, sets[name], figure)));
     ranges(grid, {title, rows});
   }
 }
