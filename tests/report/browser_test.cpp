@@ -153,6 +153,71 @@ TEST_F(ReportInBrowser, OnADeskAllIsDrawnWithoutErrorsOrRequestsAndNothingIsCut)
   EXPECT_LT(fs::file_size(file("report.html")), 3'000'000u);
 }
 
+TEST_F(ReportInBrowser, OpensWithASummaryOnOneScreenAndContentsOfEverySection) {
+  const Json page = looked_at(file("report.html"), 1440);
+  const Json& summary = page.at("summary");
+  EXPECT_LE(summary.at("bottom"), 900) << "pixels of the frame";
+  EXPECT_EQ(summary.at("tiles"), 4);
+  EXPECT_EQ(summary.at("sketches"), 1);
+  EXPECT_EQ(summary.at("charts"), 1);
+  EXPECT_THAT(summary.at("symbols"), ::testing::Contains("\u03bb"));
+  EXPECT_EQ(page.at("contents").size(), page.at("sections").get<std::size_t>());
+  EXPECT_THAT(page.at("contents"), ::testing::Each(true));
+  EXPECT_THAT(page.at("orphans"), IsEmpty()) << page.at("orphans");
+}
+
+TEST_F(ReportInBrowser, AxesIncludeZeroExtrapolatedTurnsAreShadedAndColoursAreLegible) {
+  const Json page = looked_at(file("report.html"), 1280);
+  EXPECT_THAT(page.at("truncated"), IsEmpty()) << page.at("truncated");
+  EXPECT_THAT(page.at("shaded"), ::testing::Contains("yaw rate"));
+  // WCAG 2.1 AA: 1.4.3 for text, 1.4.11 for graphics.
+  EXPECT_GE(page.at("contrasts").at("text"), 4.5);
+  EXPECT_GE(page.at("contrasts").at("line"), 3.0);
+}
+
+TEST_F(ReportInBrowser, SavesChartsWithoutColoursOfThePage) {
+  const Json page = looked_at(file("report.html"), 1280);
+  EXPECT_THAT(page.at("unresolved"), IsEmpty()) << page.at("unresolved");
+  EXPECT_THAT(page.at("saved"), ::testing::Each("data:image/png;base64,"));
+}
+
+// The steps are too close for any mode to settle.
+TEST_F(ReportInBrowser, SaysWhatNeverSettled) {
+  const TemporaryDirectory directory;
+  for (const char* name : {"model.json", "gains.json"})
+    fs::copy(file(name), directory.path() / name);
+  Json scenario = Json::parse(read_all(file("scenario_c3_heading_steps.json")));
+  scenario["duration_s"] = 1;
+  scenario["guidance"]["steps"] = Json::parse(
+      R"([{"t_s": 0, "psi_deg": 30}, {"t_s": 0.1, "psi_deg": -30}, {"t_s": 0.2, "psi_deg": 90}])");
+  write_all(directory.path() / "scenario_close.json", scenario.dump());
+  ASSERT_TRUE(succeeded(run_process(awmr("compare --model model.json --gains gains.json -o . "
+                                         "--scenario scenario_close.json"),
+                                    directory.path())));
+  ASSERT_TRUE(succeeded(run_process(awmr("report ."), directory.path())));
+  const Json page = looked_at(directory.path() / "report.html", 1280);
+  EXPECT_THAT(page.at("errors"), IsEmpty()) << page.at("errors");
+  EXPECT_THAT(page.at("never_settled"), ::testing::Contains("never settled"));
+}
+
+TEST_F(ReportInBrowser, IsWholeWithoutGainsComparisonOrTurns) {
+  const TemporaryDirectory directory;
+  const fs::path root = AWMR_SOURCE_DIR;
+  ASSERT_LE(run_process(awmr("identify --vehicle '" +
+                             (root / "configs/paper/vehicle.json").string() + "' --surge '" +
+                             (root / "datasets/paper/surge.csv").string() + "' -o model.json"),
+                        directory.path())
+                .exit_code,
+            1);
+  ASSERT_TRUE(succeeded(run_process(awmr("report ."), directory.path())));
+  const Json page = looked_at(directory.path() / "report.html", 1440);
+  EXPECT_THAT(page.at("errors"), IsEmpty()) << page.at("errors");
+  EXPECT_THAT(page.at("orphans"), IsEmpty()) << page.at("orphans");
+  EXPECT_EQ(page.at("summary").at("tiles"), 4);
+  EXPECT_EQ(page.at("summary").at("charts"), 1);
+  EXPECT_THAT(page.at("shaded"), IsEmpty());
+}
+
 TEST_F(ReportInBrowser, OnAPhoneNothingIsWiderThanThePageAndItOpensShort) {
   const Json page = looked_at(file("report.html"), 390);
   EXPECT_THAT(page.at("errors"), IsEmpty()) << page.at("errors");
@@ -249,6 +314,7 @@ TEST_F(ReportInBrowser, TheLivePartComputesWhatTheCommandLineDoes) {
   };
   const Json gains = Json::parse(read_all(tuned.path() / "gains.json"));
   ASSERT_EQ(page["live"]["constraints"].size(), gains["constraints"].size());
+  EXPECT_EQ(page["bars"], 2 * gains["constraints"].size()) << "of the sliders and of the tuning";
   for (std::size_t i = 0; i < gains["constraints"].size(); ++i) {
     const Json& here = gains["constraints"][i];
     const Json& there = page["live"]["constraints"][i];

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "awmr/core/drawn_rows.h"
 #include "awmr/model/fitted_law.h"
 
 namespace awmr {
@@ -113,7 +114,10 @@ Json steady_json(const DrawnFit& fit) {
                {"has_band", fit.has_band},
                {"left_over", Json::array()},
                {"bound_percent", fit.bound_percent}};
-  for (const CurvePoint& p : fit.curve) json["curve"].push_back({p.rate, p.value, p.half_band});
+  for (const CurvePoint& p : fit.curve) {
+    json["curve"].push_back(
+        {drawn_number(p.rate), drawn_number(p.value), drawn_number(p.half_band)});
+  }
   for (const LeftOver& one : fit.left_over) json["left_over"].push_back({one.trial, one.percent});
   return json;
 }
@@ -166,7 +170,7 @@ Json fits_json(const Model& model) {
   for (const CoastdownCurve& curve : coastdown_curves(model)) {
     Json points = Json::array();
     for (std::size_t i = 0; i < curve.t_s.size(); ++i) {
-      points.push_back({curve.t_s[i], curve.speed_mps[i]});
+      points.push_back({drawn_number(curve.t_s[i]), drawn_number(curve.speed_mps[i])});
     }
     curves.push_back({{"initial_speed_mps", curve.initial_speed_mps}, {"points", points}});
   }

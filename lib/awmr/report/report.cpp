@@ -1,7 +1,10 @@
 #include "awmr/report/report.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -46,6 +49,26 @@ bool is_vehicle_of_paper(const Vehicle& vehicle) {
   return near(vehicle.mass_kg, 37.0) && near(vehicle.length_m, 1.32) &&
          near(vehicle.width_m, 0.78) && near(vehicle.front_axle_m, 0.35) &&
          near(vehicle.half_track_m, 0.36);
+}
+
+/// Rounds all numbers to eight digits; the page shows at most two of a standard error.
+void round_numbers(Json& json) {
+  if (json.is_number_float()) {
+    json = std::strtod(fmt::format("{:.8g}", json.get<double>()).c_str(), nullptr);
+  }
+  if (!json.is_structured()) return;
+  for (Json& value : json) round_numbers(value);
+}
+
+/// Rounds what the page only shows. The gains themselves are simulated and copied.
+void round_shown(Json& data) {
+  for (const char* name : {"model", "validation", "comparison", "pil", "suggest"}) {
+    if (data.contains(name)) round_numbers(data[name]);
+  }
+  if (!data.contains("gains")) return;
+  for (const auto& [key, value] : data["gains"].items()) {
+    if (key != "heading" && key != "speed" && key != "observer") round_numbers(value);
+  }
 }
 
 /// The page, with each `@name@` of its frame replaced once by the part of that name.
@@ -96,6 +119,7 @@ Result<ReportPage> report_page(const fs::path& directory) {
   AWMR_ASSIGN_OR_RETURN(ReportData data, read_report_data(directory));
   data.json["paper_vehicle"] = is_vehicle_of_paper(data.model.vehicle);
   AWMR_RETURN_IF_ERROR(add_live(directory, data.model, data.json));
+  round_shown(data.json);
   return ReportPage{assembled(data.json), std::move(data.left_out)};
 }
 

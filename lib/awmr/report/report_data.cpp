@@ -13,6 +13,7 @@
 #include "awmr/core/hash.h"
 #include "awmr/model/finding_rank.h"
 #include "awmr/model/findings_json.h"
+#include "awmr/model/fitted_law.h"
 #include "awmr/model/gains_file.h"
 #include "awmr/model/model_file.h"
 #include "awmr/report/drawn_fit.h"
@@ -173,6 +174,9 @@ Result<ReportData> read_report_data(const std::filesystem::path& directory) {
   AWMR_ASSIGN_OR_RETURN(data.json["runs"], read_runs(directory, is_own));
   AWMR_ASSIGN_OR_RETURN(data.json["scenarios"], read_scenarios(directory));
   data.json["fits"] = fits_json(data.model);
+  if (const auto fastest_degps = measured_yaw_rate_degps(data.model)) {
+    data.json["yaw_rate_measured_degps"] = *fastest_degps;
+  }
   data.json["metric_words"] = metric_words_json();
   findings.insert(findings.end(), data.left_out.begin(), data.left_out.end());
   data.json["findings"] = shown_findings(findings);

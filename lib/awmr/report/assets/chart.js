@@ -7,51 +7,77 @@ const allCharts = [];
 /// align.
 const margin = {left: 62, right: 14, top: 8, bottom: 40};
 
+const font = "system-ui, sans-serif";
 const style = {
-  axis: {labelColor: "var(--dim)", titleColor: "var(--dim)", gridColor: "var(--line)", domainColor: "var(--line)",
-    tickColor: "var(--line)", labelFont: "system-ui, sans-serif", titleFont: "system-ui, sans-serif", labelFontSize: 11,
-    titleFontSize: 12, titleFontWeight: "normal", labelFlush: true},
+  axis: {labelColor: "var(--dim)", titleColor: "var(--dim)", gridColor: "var(--line)",
+    domainColor: "var(--line)", tickColor: "var(--line)", labelFont: font, titleFont: font,
+    labelFontSize: 11, titleFontSize: 12, titleFontWeight: "normal", labelFlush: true},
+  legend: {labelColor: "var(--ink)", labelFont: font, labelFontSize: 11, labelLimit: 260},
+};
+
+/// Vega's shapes of points. The first two are drawn by the legend, too.
+const shapePaths = {
+  cross: "M11.5 0h3v3.5H18v3h-3.5V10h-3V6.5H8v-3h3.5z", diamond: "M13 0l5 5-5 5-5-5z",
+  square: "M9 1h8v8h-8z", "triangle-up": "M13 0l5 9h-10z",
+};
+
+/// Marks of each kind of series.
+const markOfKind = {
+  band: (s, at, colour) => ({type: "area",
+    update: {...at, y2: {scale: "y", field: "2"}, fill: colour, fillOpacity: {value: 0.18}}}),
+  points: (s, at, colour) =>
+    ({type: "symbol", aria: false, update: {...at, fill: s.fill ? {value: s.fill} : colour,
+    size: {value: s.size || 55}, shape: {value: s.shape || "circle"},
+    stroke: s.fill ? colour : {value: "var(--paper)"}, strokeWidth: {value: s.fill ? 1.5 : 1}}}),
+  line: (s, at, colour) =>
+    ({type: "line", update: {...at, stroke: colour, strokeWidth: {value: s.width || 2},
+    strokeDash: {value: s.dash || []}, strokeJoin: {value: "round"},
+    interpolate: {value: s.step ? "step-after" : "linear"},
+      defined: {signal: "isValid(datum[1])"}}}),
+  // Everything beyond +-limit.
+  shade: (s, at, colour) =>
+    ({type: "rect", aria: false, update: {x: {value: 0}, x2: {signal: "width"},
+    y: {signal: "scale('y', min(datum[1], domain_y[1]))"},
+    y2: {signal: "scale('y', max(datum[0], domain_y[0]))"}, fill: colour}}),
 };
 
 /// The mark of one series, visible unless the signal `hidden` contains its index.
 function markOf(series, index) {
-  const x = {scale: "x", field: "0"};
-  const y = {scale: "y", field: "1"};
-  const visible = {signal: `indexof(hidden, ${index}) < 0 ? ${series.opacity || 1} : 0`};
-  const colour = {value: series.colour};
-  const mark = {clip: true, name: `series_${index}`, from: {data: `data_${index}`}, aria: true,
-    description: series.name, encode: {update: {x, y, opacity: visible}}};
-  const draw = mark.encode.update;
-  if (series.kind === "band") {
-    mark.type = "area";
-    Object.assign(draw, {y2: {scale: "y", field: "2"}, fill: colour, fillOpacity: {value: 0.18}});
-  } else if (series.kind === "points") {
-    Object.assign(mark, {type: "symbol", aria: false});
-    Object.assign(draw, {fill: colour, size: {value: series.size || 55}, shape: {value: series.shape || "circle"},
-      stroke: {value: "var(--paper)"}, strokeWidth: {value: 1}});
-  } else {
-    mark.type = "line";
-    Object.assign(draw, {stroke: colour, strokeWidth: {value: series.width || 2}, strokeDash: {value: series.dash || []},
-      strokeJoin: {value: "round"}, interpolate: {value: series.step ? "step-after" : "linear"}, defined: {signal: "isValid(datum[1])"}});
-  }
-  return mark;
+  const at = {x: {scale: "x", field: "0"}, y: {scale: "y", field: "1"}};
+  const {update, ...mark} = {aria: true, ...markOfKind[series.kind](series, at,
+    {value: series.colour})};
+  update.opacity = {signal: `indexof(hidden, ${index}) < 0 ? ${series.opacity || 1} : 0`};
+  return {...mark, clip: true, name: `series_${index}`, from: {data: `data_${index}`},
+    description: series.name, encode: {update}};
 }
+const valuesOf = (s) => (s.kind === "shade" ? [[s.limit, 1e12], [-1e12, -s.limit]] : s.points);
 
 /// Entry that represents all circles in a list of hidden series.
 const circlesKey = "circles";
 /// List of hidden elements of a chart.
-const hiddenOf = (chart) => [...chart.series.flatMap((s, i) => (s.hidden ? [i] : [])), ...(chart.circlesHidden ? [circlesKey] : [])];
+const hiddenOf = (chart) => [...chart.series.flatMap((s, i) => (s.hidden ? [i] : [])),
+  ...(chart.circlesHidden ? [circlesKey] : [])];
 
 /// The circles of a chart with equal axes (obstacles), in its units.
 function circleMarks(circles) {
-  return circles.map((circle) => ({type: "arc", clip: true, description: circle.name, encode: {update: {
-    x: {scale: "x", value: circle.x}, y: {scale: "y", value: circle.y}, startAngle: {value: 0}, endAngle: {value: 2 * Math.PI},
-    opacity: {signal: `indexof(hidden, '${circlesKey}') < 0 ? 1 : 0`},
-    outerRadius: {signal: `abs(scale('x', ${circle.radius}) - scale('x', 0))`}, fill: {value: "var(--bad)"},
-    fillOpacity: {value: 0.25}, stroke: {value: "var(--bad)"}}}}));
+  return circles.map((circle) => ({type: "arc", clip: true, interactive: false, aria: true,
+    description: circle.name, encode: {update: {
+      opacity: {signal: `indexof(hidden, '${circlesKey}') < 0 ? 1 : 0`},
+      x: {scale: "x", value: circle.x}, y: {scale: "y", value: circle.y},
+      startAngle: {value: 0}, endAngle: {value: 2 * Math.PI}, innerRadius: {value: 0},
+      outerRadius: {signal: `abs(scale('x', ${circle.radius}) - scale('x', 0))`},
+      fill: {value: obstacleLook.colour}, fillOpacity: {value: 0.25},
+      stroke: {value: obstacleLook.colour}}}}));
 }
 
-/// `chart`: {title, x, y, series: [{name, kind: "line" | "points" | "band", points: [[x, y, ...]], colour, ...}], equal, circles}
+/// The vertical line at the pointer.
+const pointedRule = {type: "rule", interactive: false, aria: false, encode: {update: {
+  x: {scale: "x", signal: "pointed"}, y: {value: 0}, y2: {signal: "height"},
+  stroke: {value: "var(--dim)"}, strokeDash: {value: [2, 2]},
+  opacity: {signal: "isNumber(pointed) && inrange(pointed, domain_x) ? 1 : 0"}}}};
+
+/// `chart`: {title, x, y, series: [{name, kind: "line" | "points" | "band" | "shade",
+/// points: [[x, y, ...]], colour, ...}], equal, circles}
 function specification(chart) {
   // With equal axes, x and y have the same scale: the range is extended on the axis that has space
   // left.
@@ -61,32 +87,35 @@ function specification(chart) {
     {name: "view_x", value: chart.extent.x}, {name: "view_y", value: chart.extent.y},
     {name: "hidden", value: hiddenOf(chart)},
     {name: "pointed", value: null},
-    {name: "mid_x", update: "(view_x[0] + view_x[1]) / 2"}, {name: "mid_y", update: "(view_y[0] + view_y[1]) / 2"},
+    {name: "mid_x", update: "(view_x[0] + view_x[1]) / 2"},
+    {name: "mid_y", update: "(view_y[0] + view_y[1]) / 2"},
     {name: "unit", update: "max((view_x[1] - view_x[0]) / width, (view_y[1] - view_y[0]) / height)"},
-    {name: "domain_x", update: domain("x", "width")}, {name: "domain_y", update: domain("y", "height")},
+    {name: "domain_x", update: domain("x", "width")},
+      {name: "domain_y", update: domain("y", "height")},
   ];
-  const scale = (name, range) => ({name, type: "linear", range, domain: {signal: `domain_${name}`}, zero: false, nice: false});
-  const axis = (name, orient, title) => ({scale: name, orient, title, grid: true, tickCount: {signal: orient === "bottom"
-    ? "ceil(width / 80)" : "ceil(height / 45)"}, labelOverlap: true, titlePadding: 4,
+  const scale = (name, range) => (
+    {name, type: "linear", range, domain: {signal: `domain_${name}`}, zero: false, nice: false});
+  const axis = (name, orient, title) => ({scale: name, orient, title, grid: true,
+    tickCount: {signal: orient === "bottom" ? "ceil(width / 80)" : "ceil(height / 45)"},
+    labelOverlap: true, titlePadding: 4,
     ...(orient === "left" ? {minExtent: 40, maxExtent: 40, labelLimit: 46} : {})});
-  const order = {band: 0, line: 1, points: 2};
+  const order = {shade: 0, band: 1, line: 2, points: 3};
   const marks = chart.series.map(markOf).map((mark, i) => [order[chart.series[i].kind], mark]);
   return {
     description: described(chart), autosize: "none", padding: margin,
     width: 300, height: chart.height, config: style, signals,
-    data: chart.series.map((s, i) => ({name: `data_${i}`, values: s.points})),
+    data: chart.series.map((s, i) => ({name: `data_${i}`, values: valuesOf(s)})),
     scales: [scale("x", "width"), scale("y", "height")],
     axes: [axis("x", "bottom", chart.x), axis("y", "left", chart.y)],
-    marks: [...circleMarks(chart.circles || []), ...marks.sort((a, b) => a[0] - b[0]).map((entry) => entry[1]),
-      {type: "rule", interactive: false, aria: false, encode: {update: {x: {scale: "x", signal: "pointed"}, y: {value: 0},
-        y2: {signal: "height"}, stroke: {value: "var(--dim)"}, strokeDash: {value: [2, 2]},
-        opacity: {signal: "isNumber(pointed) && inrange(pointed, domain_x) ? 1 : 0"}}}}],
+    marks: [...circleMarks(chart.circles || []),
+      ...marks.sort((a, b) => a[0] - b[0]).map((entry) => entry[1]), pointedRule],
   };
 }
 
-/// Range of both axes over the visible series, with a small margin.
-function extentOf(series, circles) {
-  const range = (values, room) => {
+/// Range of both axes over the visible series, with a small margin; `zero` names the axes that
+/// include 0, `least` is the smallest range of y.
+function extentOf({series, circles, zero = "", least = 0}) {
+  const range = (values, room, most) => {
     let low = Infinity, high = -Infinity;
     for (const v of values) {
       if (!isNumber(v)) continue;
@@ -95,50 +124,73 @@ function extentOf(series, circles) {
     }
     if (low > high) return [0, 1];
     const span = high - low || Math.max(1e-3, Math.abs(high) * 0.1);
-    return [low - room * span, high + room * span];
+    const more = Math.max(room * span, (most - span) / 2);
+    return [low - more, high + more];
   };
-  const around = (circles || []).flatMap((c) => [[c.x - c.radius, c.y - c.radius], [c.x + c.radius, c.y + c.radius]]);
+  const around = (circles || []).flatMap((c) =>
+    [[c.x - c.radius, c.y - c.radius], [c.x + c.radius, c.y + c.radius]]);
   const points = series.flatMap((s) => s.points);
+  const origin = (axis) => (zero.includes(axis) ? [0] : []);
   return {
-    x: range([...points, ...around].map((p) => p[0]), 0.02),
-    y: range([...points, ...around].flatMap((p, i) => (i < points.length && isNumber(p[2]) ? [p[1], p[2]] : [p[1]])), 0.06),
+    x: range([...points.map((p) => p[0]), ...around.map((p) => p[0]), ...origin("x")], 0.02, 0),
+    y: range([...points.flatMap((p) => (isNumber(p[2]) ? [p[1], p[2]] : [p[1]])),
+      ...around.map((p) => p[1]), ...origin("y")], 0.06, least),
   };
 }
 
-/// Description of a chart for screen readers: its axes, and start, end and range of each series.
+/// Description of a chart for screen readers: its axes, and the range of each series.
 function described(chart) {
   const of = (s) => {
+    if (s.kind === "shade") return s.name;
     const values = s.points.map((p) => p[1]).filter(isNumber);
-    return values.length ? `${s.name}: ${plural(values.length, "point")} from ${digits(Math.min(...values), 3)} to ` +
-      `${digits(Math.max(...values), 3)}` : `${s.name}: empty`;
+    return values.length ? `${s.name}: ${plural(values.length, "point")} from ` +
+      `${digits(Math.min(...values))} to ${digits(Math.max(...values))}` : `${s.name}: empty`;
   };
-  return `${chart.title}, ${chart.y} over ${chart.x}. ${chart.series.filter((s) => !s.hidden).map(of).join("; ")}.`;
+  const shown = chart.series.filter((s) => !s.hidden);
+  return `${chart.title}, ${chart.y} over ${chart.x}. ${shown.map(of).join("; ")}.`;
+}
+
+/// Adds the frame of a chart: a caption with its buttons, and the box in which it is drawn.
+function framed(parent, chart) {
+  chart.figure = add(parent, "figure");
+  const caption = add(chart.figure, "figcaption");
+  add(caption, "span", chart.title);
+  const button = (text, label, classes) => add(caption, "button", text,
+    {class: classes, type: "button", "aria-label": `${label} ${chart.title}`});
+  chart.reset = button("whole", "show all of", "reset");
+  chart.reset.hidden = true;
+  for (const kind of ["svg", "png"]) {
+    button(kind.toUpperCase(), `save as ${kind.toUpperCase()}:`, "save").onclick = () =>
+      save(chart, kind);
+  }
+  if (chart.series.length > 1 && chart.legend !== false) legend(chart.figure, chart.series,
+    [chart]);
+  chart.node = add(chart.figure, "div", undefined,
+    {class: "plot", style: `min-height: ${chart.height}px`});
+  register(chart);
+  return chart;
 }
 
 /// Adds a chart to `parent`. It is drawn when it is near the visible area, or before printing.
 /// Charts of one `group` share the x range, the cursor and the hidden series. With `legend` false,
 /// the group's own legend is used.
 function plot(parent, options) {
-  const chart = {height: 260, circles: [], ...options, series: options.series.filter((s) => s.points.length)};
-  if (!chart.series.length) return;
-  chart.extent = extentOf(chart.series, chart.circles);
-  chart.figure = add(parent, "figure");
-  const caption = add(chart.figure, "figcaption");
-  add(caption, "span", chart.title);
-  chart.reset = add(caption, "button", "whole", {class: "reset", type: "button", hidden: "", "aria-label": `show all of ${chart.title}`});
-  if (chart.legend !== false && chart.series.length > 1) legend(chart.figure, chart.series, [chart]);
-  chart.node = add(chart.figure, "div", undefined, {class: "plot", style: `min-height: ${chart.height}px`});
-  chart.specification = specification;
-  register(chart);
+  const series = options.series.filter((s) => s.kind === "shade" || s.points.length);
+  if (!series.some((s) => s.kind !== "shade")) return undefined;
+  const chart = {height: 260, circles: [], specification, ...options,
+    series: series.map((s) => ({points: [], ...s}))};
+  chart.extent = extentOf(chart);
   if (chart.group) chart.group.push(chart);
-  return chart;
+  return framed(parent, chart);
 }
 
 /// Adds buttons that show and hide the series of these names in all of `charts`.
 function legend(parent, entries, charts) {
-  const box = add(parent, "div", undefined, {class: "legend", role: "group", "aria-label": "what is drawn"});
+  const box = add(parent, "div", undefined, {class: "legend", role: "group",
+    "aria-label": "series"});
   for (const entry of entries) {
-    const button = add(box, "button", undefined, {type: "button", "aria-pressed": String(!entry.hidden)});
+    const button = add(box, "button", undefined,
+      {type: "button", "aria-pressed": String(!entry.hidden)});
     button.appendChild(sample(entry));
     add(button, "span", entry.name);
     button.onclick = () => {
@@ -155,18 +207,20 @@ function legend(parent, entries, charts) {
 
 /// Sample of a series for the legend.
 function sample(entry) {
-  const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
-  svg.setAttribute("viewBox", "0 0 26 10");
-  svg.setAttribute("aria-hidden", "true");
-  const elements = {points: "circle", circle: "circle", band: "rect", line: "line"};
-  const outline = {cross: "M11.5 0h3v3.5H18v3h-3.5V10h-3V6.5H8v-3h3.5z", diamond: "M13 0l5 5-5 5-5-5z"}[entry.shape];
-  const shape = document.createElementNS(svg.namespaceURI, outline ? "path" : elements[entry.kind]);
-  const drawn = entry.kind === "circle" ? {cx: 13, cy: 5, r: 4.5, fill: entry.colour, "fill-opacity": 0.25, stroke: entry.colour}
-    : outline ? {d: outline, fill: entry.colour}
-    : entry.kind === "points" ? {cx: 13, cy: 5, r: 4, fill: entry.colour}
-    : entry.kind === "band" ? {x: 0, y: 0, width: 26, height: 10, fill: entry.colour, "fill-opacity": 0.25}
-    : {x1: 0, y1: 5, x2: 26, y2: 5, stroke: entry.colour, "stroke-opacity": entry.opacity || 1, "stroke-width": entry.width || 2, "stroke-dasharray": (entry.dash || []).join(" ")};
-  for (const [name, value] of Object.entries(drawn)) shape.setAttribute(name, value);
-  svg.appendChild(shape);
+  const {kind, colour, opacity, width, dash, shape, fill} = entry;
+  const svg = drawIn(document.createElement("span"), "svg",
+    {viewBox: "0 0 26 10", "aria-hidden": "true"});
+  const inked = {fill: fill || colour, ...(fill && {stroke: colour, "stroke-width": 1.5})};
+  const block = {x: 0, y: 0, width: 26, height: 10, fill: colour};
+  const [tag, drawn] = {
+    circle: ["circle", {cx: 13, cy: 5, r: 4.5, fill: colour, "fill-opacity": 0.25, stroke: colour}],
+    points: shapePaths[shape] ? ["path", {d: shapePaths[shape], ...inked}]
+      : ["circle", {cx: 13, cy: 5, r: 4, ...inked}],
+    band: ["rect", {...block, "fill-opacity": 0.25}],
+    shade: ["rect", block],
+    line: ["line", {x1: 0, y1: 5, x2: 26, y2: 5, stroke: colour, "stroke-opacity": opacity || 1,
+      "stroke-width": width || 2, "stroke-dasharray": (dash || []).join(" ")}],
+  }[kind];
+  drawIn(svg, tag, drawn);
   return svg;
 }

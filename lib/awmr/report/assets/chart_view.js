@@ -38,9 +38,11 @@ addEventListener("afterprint", () => {
 function draw(chart) {
   if (chart.view) return;
   onScreen.unobserve(chart.node);
-  const view = new vega.View(vega.parse(chart.specification(chart)), {renderer: "svg", hover: false, logLevel: vega.Error});
+  const view = new vega.View(vega.parse(chart.specification(chart)),
+    {renderer: "svg", hover: false, logLevel: vega.Error});
   chart.view = view;
-  if (!chart.series.length) view.tooltip((handler, event, item, value) => hint(chart, event, value));
+  if (!chart.series.length) view.tooltip((handler, event, item, value) =>
+    hint(chart, event, value));
   view.initialize(chart.node);
   fit(chart, chart.node.clientWidth || 480);
   chart.node.classList.add("drawn");
@@ -56,7 +58,9 @@ function fit(chart, outer, most = Infinity) {
   if (!chart.series.length) return chart.view.width(outer).run();  // Vega reserves space for names
   const width = outer - margin.left - margin.right;
   const {x, y} = chart.extent;
-  const height = chart.equal ? Math.min(420, 1.2 * most, Math.max(130, width * (y[1] - y[0]) / (x[1] - x[0]))) : Math.min(chart.height, most) - margin.top - margin.bottom;
+  const height = chart.equal ? Math.min(420, 1.2 * most,
+    Math.max(130, width * (y[1] - y[0]) / (x[1] - x[0])))
+      : Math.min(chart.height, most) - margin.top - margin.bottom;
   chart.view.width(width).height(height).run();
 }
 
@@ -65,10 +69,12 @@ function place(chart, event) {
   const box = chart.node.getBoundingClientRect();
   const [left, top] = chart.view.origin();
   const pixel = {x: event.clientX - box.left - left, y: event.clientY - box.top - top};
-  return {...pixel, unit: {x: chart.view.scale("x").invert(pixel.x), y: chart.view.scale("y").invert(pixel.y)}};
+  return {...pixel, unit: {x: chart.view.scale("x").invert(pixel.x),
+    y: chart.view.scale("y").invert(pixel.y)}};
 }
 
-const linked = (chart) => (chart.group && !chart.equal ? chart.group.filter((c) => c.view && !c.equal) : [chart]);
+const linked = (chart) => (chart.group && !chart.equal
+  ? chart.group.filter((c) => c.view && !c.equal) : [chart]);
 
 function listen(chart) {
   const node = chart.node;
@@ -123,16 +129,19 @@ function whole(chart) {
 /// Shows the values at the pointer: of every line at its x, or of the nearest point.
 function point(chart, event) {
   const at = place(chart, event);
-  const shown = chart.series.filter((s) => !s.hidden && s.kind !== "band");
+  const shown = chart.series.filter((s) => !s.hidden && s.kind !== "band" && s.kind !== "shade");
   const nearest = (s) => s.points.reduce((best, p) => {
     const distance = chart.byPoint || chart.equal
-      ? Math.hypot(chart.view.scale("x")(p[0]) - at.x, chart.view.scale("y")(p[1]) - at.y) : Math.abs(chart.view.scale("x")(p[0]) - at.x);
+      ? Math.hypot(chart.view.scale("x")(p[0]) - at.x, chart.view.scale("y")(p[1]) - at.y)
+        : Math.abs(chart.view.scale("x")(p[0]) - at.x);
     return distance < best.distance ? {distance, p} : best;
   }, {distance: Infinity});
   let found = shown.map((s) => ({s, ...nearest(s)})).filter((f) => f.distance < 40);
-  if (chart.byPoint || chart.equal) found = found.sort((a, b) => a.distance - b.distance).slice(0, 1);
+  if (chart.byPoint || chart.equal) found = found.sort((a, b) => a.distance - b.distance).slice(0,
+    1);
   if (!found.length) return leave(chart);
-  const words = (f) => `${f.s.name}: ${digits(f.p[1])}` + (chart.byPoint || chart.equal ? ` at ${digits(f.p[0])}` : "") +
+  const words = (f) => `${f.s.name}: ${digits(f.p[1])}` +
+    (chart.byPoint || chart.equal ? ` at ${digits(f.p[0])}` : "") +
     (typeof f.p[2] === "string" ? `\n${f.p[2]}` : "");
   const head = chart.byPoint || chart.equal ? [] : [`${chart.x}: ${digits(found[0].p[0])}`];
   hint(chart, event, [...head, ...found.map(words)].join("\n"));
@@ -142,7 +151,8 @@ function point(chart, event) {
 
 function leave(chart) {
   hint(chart, null, null);
-  for (const other of linked(chart)) if (other.series.length) other.view.signal("pointed", null).run();
+  for (const other of linked(chart)) if (other.series.length) other.view.signal("pointed",
+    null).run();
 }
 
 function hint(chart, event, text) {
@@ -153,6 +163,7 @@ function hint(chart, event, text) {
   chart.hint = add(chart.node, "div", text, {class: "hint", role: "status"});
   const x = event.clientX - frame.left, y = event.clientY - frame.top;
   const width = chart.hint.offsetWidth;
-  chart.hint.style.left = `${Math.max(0, x + 14 + width > frame.width ? x - width - 14 : x + 14)}px`;
+  const left = x + 14 + width > frame.width ? x - width - 14 : x + 14;
+  chart.hint.style.left = `${Math.max(0, left)}px`;
   chart.hint.style.top = `${Math.max(0, y - 10)}px`;
 }

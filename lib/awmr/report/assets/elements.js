@@ -2,59 +2,129 @@
 // Elements common to all sections. Text from the data is inserted only as text nodes and
 // attributes, never as HTML.
 
-function add(parent, tag, text, attributes) {
+function add(parent, tag, content, attributes) {
   const node = document.createElement(tag);
-  if (text !== undefined) node.textContent = text;
+  if (content !== undefined && content !== null) node.append(content);
   for (const [name, value] of Object.entries(attributes || {})) node.setAttribute(name, value);
   parent.appendChild(node);
   return node;
 }
 
+/// Adds a paragraph in small print.
+const small = (parent, text) => add(parent, "p", text, {class: "small"});
+
+/// Adds an SVG element.
+function drawIn(parent, tag, attributes, text) {
+  const node = document.createElementNS("http://www.w3.org/2000/svg", tag);
+  for (const [name, value] of Object.entries(attributes)) node.setAttribute(name, value);
+  if (text !== undefined) node.textContent = text;
+  parent.appendChild(node);
+  return node;
+}
+
 const isNumber = (x) => typeof x === "number" && Number.isFinite(x);
-/// Four significant digits, with trailing zeros where they show precision; a dash for missing
-/// values.
-function digits(x, n = 4) {
+/// Three significant digits; a dash for missing values.
+function digits(x, n = 3) {
   if (!isNumber(x)) return "–";
-  return x !== 0 && (Math.abs(x) < 1e-4 || Math.abs(x) >= 1e7) ? x.toExponential(n - 1) : Number(x.toPrecision(n)).toString();
+  const size = Math.abs(x);
+  if (size !== 0 && (size < 1e-4 || size >= 1e7)) return x.toExponential(n - 1);
+  return size >= 10 ** (n - 1) ? String(Math.round(x)) : Number(x.toPrecision(n)).toString();
 }
 const interval = (pair) => (pair ? `${digits(pair[0])} to ${digits(pair[1])}` : "–");
-const percent = (x) => (isNumber(x) ? `${digits(100 * x, 3)} %` : "–");
+const percent = (x) => (isNumber(x) ? `${digits(100 * x, 2)} %` : "–");
 const plural = (n, word) => `${n} ${word}${n === 1 ? "" : "s"}`;
+/// Decimals that show two digits of a standard error.
+const decimalsOf = (error) => Math.max(0, Math.min(8, 1 - Math.floor(Math.log10(error))));
 
-/// Adds a collapsible section of the report; on a narrow screen it is closed at first. Returns the
-/// container of its content.
-function section(title, lead) {
-  const details = add(add(document.getElementById("report"), "section"), "details");
-  details.open = innerWidth > 640;
-  add(details, "summary", title);
+/// Metrics that are absent because the run did not get there.
+const absentWords = {settling_time_s: "never settled", finish_time_s: "not finished"};
+/// A metric's value for people: at most three decimals.
+function metricValue(name, x) {
+  if (!isNumber(x)) return absentWords[name] || "–";
+  return x !== 0 && Math.abs(x) < 5e-4 ? "< 0.001"
+    : Number(Number(digits(x)).toFixed(3)).toString();
+}
+
+/// "settling_time_s" as "settling time, s"
+const metricWords = (name) => report.metric_words[name] || name.replaceAll("_", " ");
+
+/// A scenario's name for people. Names of the tuning's manoeuvres state their headings and whether
+/// their rate is limited: heading_30_-30_led.
+function scenarioWords(name) {
+  const own = (report.scenarios[name] || {}).name;
+  const parts = /^heading((?:_-?\d+(?:\.\d+)?)+)(_[a-z_]+)?$/.exec(name);
+  if (own || !parts) return own || name.replaceAll("_", " ");
+  const headings = parts[1].slice(1).split("_").map((h) => h.replace("-", "−"));
+  return `headings ${headings.join(" then ")} deg${parts[2] ? ", rate-limited" : ""}`;
+}
+
+/// Opens sections at first, except on narrow screens.
+const isWide = innerWidth > 640;
+
+/// Adds an entry of the contents; a click opens the section if it is closed.
+function contentsEntry(root, title) {
+  root.id = title.toLowerCase().replace(/[^a-z]+/g, "-");
+  const link = add(add(document.getElementById("contents"), "li"), "a", title,
+    {href: `#${root.id}`});
+  link.onclick = () => {
+    const details = root.querySelector("details");
+    if (details && details.parentNode === root) details.open = true;
+  };
+  root.link = link;
+  root.setAttribute("aria-label", title);
+}
+
+/// Adds a collapsible section of the report. Returns the container of its content.
+function section(title, lead, short = title, open = isWide) {
+  const root = add(document.getElementById("report"), "section");
+  contentsEntry(root, short);
+  const details = add(root, "details");
+  details.open = open;
+  add(add(details, "summary"), "h2", title);
   if (lead) add(details, "p", lead, {class: "lead"});
   return add(details, "div");
 }
 
 /// A part that is closed at first.
-function folded(parent, title) {
+function folded(parent, title, open = false) {
   const details = add(parent, "details");
-  add(details, "summary", title);
+  details.open = open;
+  add(add(details, "summary"), "h3", title);
   return add(details, "div");
 }
 
+/// A round mark with a text for screen readers; tone: "good", "doubt" or "bad".
+function mark(parent, tone) {
+  const [sign, words] = {good: ["✓", "good"], doubt: ["!", "attention"], bad: ["✗", "bad"]}[tone];
+  return add(parent, "span", sign, {class: `mark ${tone}`, role: "img", "aria-label": words});
+}
+
+const lengthOf = (cell) => (cell instanceof Node ? cell.textContent : String(cell)).length;
+const isEmptyCell = (cell) => cell === "–" || cell === "" || cell === undefined;
+
 /// `head`: a name for each column, with a leading "#" for columns of numbers. `rows`: arrays of
-/// text. `best(row, column)`: whether to emphasise a cell.
+/// text or nodes. `best(row, column)`: whether to emphasise a cell. Empty columns are left out.
 function table(parent, head, rows, best) {
-  const numeric = head.map((name) => name.startsWith("#"));
-  const names = head.map((name) => name.replace(/^#/, ""));
-  const node = add(add(parent, "div", undefined, {class: "scroll"}), "table", undefined, {class: "cards"});
+  const columns = head.map((name, i) =>
+    ({i, name: name.replace(/^#/, ""), numeric: name.startsWith("#")}))
+    .filter(({i}) => i === 0 || rows.some((row) => !isEmptyCell(row[i])));
+  const box = add(parent, "div", undefined, {class: "scroll"});
+  const node = add(box, "table", undefined, {class: "cards"});
   const header = add(add(node, "thead"), "tr");
-  names.forEach((name, i) => add(header, "th", name, {scope: "col", class: numeric[i] ? "n" : ""}));
+  for (const {name, numeric} of columns) {
+    write(add(header, "th", undefined, {scope: "col", class: numeric ? "n" : ""}), name);
+  }
   const body = add(node, "tbody");
   rows.forEach((row, k) => {
     const line = add(body, "tr");
-    row.forEach((cell, i) => {
-      const marks = [numeric[i] ? "n" : "", best && best(k, i) ? "best" : "", String(cell).length > 60 ? "wide" : ""];
-      const td = add(line, "td", undefined, {class: marks.join(" ").trim(), "data-column": names[i]});
-      add(td, "span", cell);
-      if (cell === "–" || cell === "" || cell === undefined) td.setAttribute("data-empty", "");
-    });
+    for (const {i, name, numeric} of columns) {
+      const classes = [numeric && "n", best && best(k, i) && "best", lengthOf(row[i]) > 60
+        && "wide"];
+      const td = add(line, "td", undefined, {class: classes.filter(Boolean).join(" "),
+        "data-column": plainSymbols(name)});
+      add(td, "span", row[i]);
+      if (isEmptyCell(row[i])) td.setAttribute("data-empty", "");
+    }
   });
   return node;
 }
@@ -68,11 +138,31 @@ function groupBy(list, key) {
   return groups;
 }
 
-/// Yaw-control modes in order, each with its colour, width and dashes: thick lines below thin ones,
-/// so that coinciding lines are all visible.
+/// Yaw-control modes in order, each with its hue. Thick lines are below thin ones, so that
+/// coinciding lines are all visible.
 const modes = ["differential", "steering", "combined"];
 const modeStyle = {
-  differential: {colour: "var(--one)", width: 4.5, dash: [], opacity: 0.55},
-  steering: {colour: "var(--two)", width: 2.2, dash: [8, 4]},
-  combined: {colour: "var(--three)", width: 1.4, dash: []},
+  differential: {colour: "var(--differential)", width: 4.5, opacity: 0.55},
+  steering: {colour: "var(--steering)", width: 2.2},
+  combined: {colour: "var(--combined)", width: 1.4},
 };
+/// Colour of a mode; several sets of gains give labels like "combined with NAME".
+const colourOf = (label) => (modeStyle[label.split(/[ ,]/)[0]] || {colour: "var(--dim)"}).colour;
+
+/// Sets of gains, each with its line and mark, whatever the mode.
+const gainsOrder = ["robust", "nominal", "baseline", "paper"];
+const gainsStyle = {
+  robust: {dash: [], shape: "circle"}, tuned: {dash: [], shape: "circle"},
+  nominal: {dash: [9, 3, 2, 3], shape: "diamond"}, baseline: {dash: [7, 4], shape: "square"},
+  paper: {dash: [2, 3], shape: "triangle-up"}, lqi: {dash: [12, 4], shape: "cross"},
+};
+
+/// Name of a mode after a sample of its colour.
+function modeCell(mode, more = "") {
+  const node = document.createElement("span");
+  const name = add(node, "span", undefined, {class: "state"});
+  add(name, "span", undefined, {class: "swatch", style: `background: ${colourOf(mode)}`});
+  name.append(mode);
+  node.append(more);
+  return node;
+}

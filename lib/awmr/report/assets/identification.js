@@ -1,59 +1,99 @@
-// Identification: the trials with the fitted curve, its band and residuals; the values; the
-// findings.
+// Identification: the trials with the fitted curve, its band and residuals; values; logs and
+// drives.
 
-/// Curve, band and residuals are part of the data (drawn_fit.h), which are also used for the print
-/// figures.
-function fitCharts(parent, model, fit, kind, xTitle, yTitle) {
-  if (!fit) return;
-  const rows = model.trials.filter((t) => t.kind === kind);
-  const about = (t) => model.findings.filter((f) => f.file === t.file && f.line === t.line);
-  const note = (t) => [`${t.file}:${t.line}`, ...about(t).map((f) => f.message)].join("\n");
-  const good = rows.filter((t) => !about(t).some(isWarning)), odd = rows.filter((t) => about(t).some(isWarning));
-  const as = (list, point) => list.filter((t) => isNumber(t.measured)).map((t) => [...point(t), note(t)]);
+/// Rows of trials as points: measurements in ink, rows with a warning as hollow diamonds.
+const measuredLook = {kind: "points", colour: "var(--ink)"};
+const warnedLook = {kind: "points", colour: "var(--warn)", fill: "var(--paper)", shape: "diamond",
+  size: 90};
+const modelLook = {kind: "line", colour: "var(--model)"};
+
+const axisWords = {surge: ["speed, m/s", "thrust τ_speed"],
+  turning: ["yaw rate, rad/s", "yaw moment τ_turn, m"]};
+
+/// A note of each row, with its findings.
+function rowNote(model) {
+  return (t) => [`${t.file}:${t.line}`, ...findingsOfRow(model, t).map((f) =>
+    f.message)].join("\n");
+}
+const findingsOfRow = (model, t) => model.findings.filter((f) => f.file === t.file
+  && f.line === t.line);
+
+/// Steady runs with the fitted curve and its band. Curve, band and residuals are part of the data
+/// (drawn_fit.h), which are also used for the print figures.
+function fitChart(parent, model, fit, kind, height = 300) {
+  if (!fit) return undefined;
+  const rows = model.trials.filter((t) => t.kind === kind && isNumber(t.measured));
+  const isOdd = (t) => findingsOfRow(model, t).some(isWarning);
+  const note = rowNote(model);
+  const points = (list) => list.map((t) => [t.measured, t.input, note(t)]);
   const series = [];
   if (fit.curve.length) {
     const {law} = fit;
-    if (fit.has_band) series.push({name: "95 % band of the curve", kind: "band", points: fit.curve.map(([w, value, half]) => [w, Math.max(0, value - half), value + half]), colour: "var(--three)"});
-    const words = [law.constant ? digits(law.constant) : "", `${digits(law.alpha)} w^${digits(law.beta, 3)}`, law.quadratic ? `${digits(law.quadratic)} w²` : ""];
-    series.push({name: `fit ${words.filter(Boolean).join(" + ")}`, kind: "line", points: fit.curve.map(([w, value]) => [w, value]), colour: "var(--three)"});
+    if (fit.has_band) {
+      series.push({name: "95 % band of the curve", kind: "band", colour: "var(--model)",
+        points: fit.curve.map(([w, value, half]) => [w, Math.max(0, value - half), value + half])});
+    }
+    const terms = [law.constant ? digits(law.constant) : "",
+      `${digits(law.alpha)} w^${digits(law.beta)}`,
+      law.quadratic ? `${digits(law.quadratic)} w²` : ""];
+    series.push({name: `fit ${terms.filter(Boolean).join(" + ")}`, ...modelLook,
+      points: fit.curve.map(([w, value]) => [w, value])});
   }
-  const measured = (t) => [t.measured, t.input];
-  series.push({name: "measured", kind: "points", points: as(good, measured), colour: "var(--one)"},
-    {name: "measured, with a warning", kind: "points", shape: "diamond", size: 90, points: as(odd, measured), colour: "var(--two)"});
-  plot(parent, {title: `${kind} trials`, x: xTitle, y: yTitle, series, byPoint: true, height: 300});
-  residualChart(parent, kind, fit, model.trials, xTitle, note);
+  series.push({name: "measured", ...measuredLook, points: points(rows.filter((t) => !isOdd(t)))},
+    {name: "measured, with a warning", ...warnedLook, points: points(rows.filter(isOdd))});
+  const [x, y] = axisWords[kind];
+  return plot(parent, {title: `${kind} trials`, x, y, series, byPoint: true, zero: "xy", height});
 }
 
-/// Residuals, in percent of the prediction, and the band that contains 99 of 100 rows if errors are
-/// normal.
-function residualChart(parent, kind, fit, trials, xTitle, note) {
-  const left = fit.left_over.map(([i, percentage]) => [trials[i].measured, percentage, note(trials[i])]);
-  if (!left.length) return;
-  const ends = [Math.min(...left.map((p) => p[0])), Math.max(...left.map((p) => p[0]))];
-  const bound = fit.bound_percent;
-  plot(parent, {title: `${kind} trials: measured less predicted`, x: xTitle, y: "% of the prediction", byPoint: true, height: 300, series: [
-    {name: `99 % band, ±${digits(bound, 3)} %`, kind: "band", points: ends.map((x) => [x, -bound, bound]), colour: "var(--dim)"},
-    {name: "as predicted", kind: "line", points: ends.map((x) => [x, 0]), colour: "var(--dim)", width: 1, dash: [3, 3]},
-    {name: "left over", kind: "points", points: left, colour: "var(--one)"}]});
+/// Residuals, in percent of the prediction, and the limits that contain 99 of 100 rows if errors
+/// are normal.
+function residualChart(parent, model, fit, kind) {
+  if (!fit) return;
+  const note = rowNote(model);
+  const points = fit.left_over.map(([i, percentage]) =>
+    [model.trials[i].measured, percentage, note(model.trials[i])]);
+  if (!points.length) return;
+  const last = Math.max(...points.map((p) => p[0])), bound = fit.bound_percent;
+  const level = (y) => [[0, y], [last, y]];
+  plot(parent, {title: `${kind} trials: residuals`, x: axisWords[kind][0],
+    y: "measured − predicted, %", byPoint: true, height: 300, zero: "xy", series: [
+    {name: `99 % limits, ±${digits(bound)} %`, kind: "line", colour: "var(--model)", width: 1.4,
+      points: [...level(bound), [null, null], ...level(-bound)]},
+    {name: "as predicted", kind: "line", points: level(0), colour: "var(--dim)", width: 1},
+    {name: "residual", ...measuredLook, points}]});
 }
 
 /// The coast-down: m' du/dt = -g1(u) from each initial speed, and the measured stops.
 function coastdownChart(parent, model, coasts) {
   if (!coasts.length) return;
   const rows = model.trials.filter((t) => t.kind === "coastdown");
-  const curves = coasts.map((coast) => ({name: `model, from ${digits(coast.initial_speed_mps)} m/s`, kind: "line", points: coast.points, colour: "var(--three)"}));
-  const stops = rows.map((t) => [t.measured, 0, `${t.file}:${t.line}: from ${digits(t.input)} m/s`]);
+  const curves = coasts.map((coast) =>
+    ({name: `model, from ${digits(coast.initial_speed_mps)} m/s`, ...modelLook,
+      points: coast.points}));
+  const stops = rows.map((t) => [t.measured, 0,
+    `${t.file}:${t.line}: from ${digits(t.input)} m/s`]);
   plot(parent, {title: "coast-down", x: "t, s", y: "speed, m/s", byPoint: true, height: 300,
-    series: [...curves, {name: "stop, measured", kind: "points", points: stops, colour: "var(--one)"}]});
+    zero: "xy",
+    series: [...curves, {name: "stop, measured", ...measuredLook, points: stops}]});
 }
 
+/// Values, rounded to two digits of their standard error.
 function estimateRows(rows) {
-  return rows.map(([name, e]) => [name, digits(e.value, 5), digits(e.std_error, 2), interval(e.ci95), e.unit, `${e.source}, ${e.method}`]);
+  return rows.map(([name, e]) => {
+    const round = (x) => (!isNumber(x) ? "–" : e.std_error > 0 ? x.toFixed(decimalsOf(e.std_error))
+      : digits(x, 4));
+    return [name, isNumber(e.value) ? round(e.value) : "unknown", e.std_error > 0
+      ? round(e.std_error) : "–",
+      e.ci95 ? `${round(e.ci95[0])} to ${round(e.ci95[1])}` : "–", symbolic(e.unit),
+        isNumber(e.value) ? `${e.source}, ${e.method}` : ""];
+  });
 }
 const estimateHead = ["quantity", "#value", "#standard error", "95 % interval", "unit", "origin"];
 /// All quantities below `entry`, by path.
-const leaves = (entry, path) => (entry && typeof entry === "object" ? ("value" in entry ? [[path, entry]]
-  : Object.entries(entry).flatMap(([key, below]) => leaves(below, path ? `${path}.${key}` : key))) : []);
+const leaves = (entry, path) => (entry && typeof entry === "object"
+  ? ("value" in entry ? [[path, entry]]
+  : Object.entries(entry).flatMap(([key, below]) => leaves(below, path ? `${path}.${key}` : key)))
+    : []);
 
 /// Correlation of each pair of parameters: a table, coloured by strength.
 function correlations(parent, covariance) {
@@ -61,34 +101,27 @@ function correlations(parent, covariance) {
   if (names.length < 2) return;
   const at = names.map((name) => covariance.parameters.indexOf(name));
   const box = folded(parent, "Correlations");
-  add(box, "p", "Near ±1, the data show only a combination of the two.", {class: "small"});
-  const node = table(box, ["", ...names.map((name) => `#${name}`)], at.map((i, k) => [names[k], ...at.map((j) =>
-    digits(covariance.matrix[i][j] / Math.sqrt(covariance.matrix[i][i] * covariance.matrix[j][j]), 2))]));
+  small(box, "Near ±1, the data determine only a combination of the two. The darker, the stronger.");
+  const node = table(box, ["", ...names.map((name) => `#${name}`)],
+    at.map((i, k) => [names[k], ...at.map((j) =>
+    digits(covariance.matrix[i][j] / Math.sqrt(covariance.matrix[i][i] * covariance.matrix[j][j]),
+      2))]));
   for (const cell of node.querySelectorAll("td.n")) {
     const r = Math.max(-1, Math.min(1, Number(cell.textContent) || 0));
-    cell.style.background = `color-mix(in srgb, var(${r < 0 ? "--two" : "--one"}) ${Math.round(45 * Math.abs(r))}%, transparent)`;
-  }
-}
-
-function findingsTable(parent, findings) {
-  if (!findings.length) return;
-  add(parent, "h3", "Findings");
-  const where = (f) => (f.file ? `${f.file}${f.line ? `:${f.line}` : ""}` : "");
-  const order = ["error", "warning", "note"];
-  for (const severity of order) {
-    const list = findings.filter((f) => f.severity === severity);
-    if (!list.length) continue;
-    const box = folded(parent, plural(list.length, severity));
-    box.parentNode.open = severity !== "note" && innerWidth > 640;
-    table(box, ["where", "what", "code"], list.map((f) => [where(f), f.message, f.code]));
+    cell.style.background = `color-mix(in srgb, var(--dim) ${Math.round(45 * Math.abs(r))}%, ` +
+      `transparent)`;
   }
 }
 
 function estimatorsTable(parent, estimates) {
   const box = folded(parent, `Estimators side by side (${estimates.length})`);
-  add(box, "p", "The paper's log-linear fit puts the error on the logarithm of the force, which is set exactly; what is measured is time.", {class: "small"});
-  table(box, ["of", "estimator", "noise on", "estimates", "#AICc", "#residual std", "#rows", "stopped because"], estimates.map((r) => [r.subject,
-    [r.estimator, r.family].filter(Boolean).join(", "), r.noise, r.parameters.map((p) => `${p.name} ${digits(p.value)} ± ${digits(p.std_error, 2)}`).join("; "),
+  small(box, "The paper's log-linear fit assumes errors on the logarithm of the force. But the " +
+    "force is set exactly; time is measured.");
+  table(box, ["of", "estimator", "noise on", "estimates", "#AICc", "#residual std", "#rows",
+    "stopped because"], estimates.map((r) => [r.subject,
+    [r.estimator, r.family].filter(Boolean).join(", "), r.noise,
+      r.parameters.map((p) =>
+        `${p.name} ${digits(p.value)} ± ${digits(p.std_error, 2)}`).join("; "),
     digits(r.aicc), digits(r.residual_std, 3), r.rows_used, r.stop_reason.split(". ")[0]]));
 }
 
@@ -103,32 +136,50 @@ function influenceTable(parent, estimates) {
       const value = (one.parameters || {})[name] ?? (one.values || [])[i];
       return isNumber(value) ? percent(value / e.parameters[i].value - 1) : "–";
     };
-    table(box, [`row (${e.estimator})`, ...names.map((n) => `#${n}`)], e.leave_one_out.map((one) => [
-      `${one.file || ""}${one.line ? `:${one.line}` : ""}`, ...names.map((name, i) => change(one, name, i))]));
+    table(box, [`row (${e.estimator})`, ...names.map((n) => `#${n}`)],
+      e.leave_one_out.map((one) => [
+      `${one.file || ""}${one.line ? `:${one.line}` : ""}`,
+        ...names.map((name, i) => change(one, name, i))]));
   }
 }
 
+/// The result of validation in a sentence; trials that were fitted do not show how another drive is
+/// predicted.
+function validationWords(data) {
+  const {validation} = data;
+  if (!validation || !validation.verdict) return;
+  return `${validation.verdict}.` + (unseenLogs(data).length || (validation.drives || []).length
+    ? "" :
+    " These data were fitted, so the fit is sound. Only a log that was not fitted shows how well " +
+    "another drive is predicted.");
+}
+
 function identificationSection(data) {
-  const {model} = data;
+  const {model, fits} = data;
   const box = section("Identification", model.trials.length
-    ? "Points are the trials' rows; diamonds carry a warning, which shows under the pointer." : "");
+    ? "Points are rows of the trials. Diamonds have a warning, which the pointer shows." : "",
+      "Model");
+  const words = validationWords(data);
+  if (words) add(box, "p", words[0].toUpperCase() + words.slice(1));
   const charts = add(box, "div", undefined, {class: "grid"});
-  fitCharts(charts, model, data.fits.surge, "surge", "speed, m/s", "tau_speed");
-  fitCharts(charts, model, data.fits.turning, "turning", "yaw rate, rad/s", "tau_turn, m");
-  coastdownChart(charts, model, data.fits.coastdown);
+  for (const kind of ["surge", "turning"]) {
+    fitChart(charts, model, fits[kind], kind);
+    residualChart(charts, model, fits[kind], kind);
+  }
+  coastdownChart(charts, model, fits.coastdown);
   if (!charts.childElementCount) charts.remove();
   add(box, "h3", "Parameters");
   const parts = ["surge", "yaw", "sway", "wheel", "mass_norm", "inertia_norm", "steering"];
   table(box, estimateHead, estimateRows(parts.flatMap((name) => leaves(model[name], name))));
   if (model.si) {
     const si = folded(box, "The same in SI units");
-    add(si, "p", "What the equations divide by F_max = m/m', the largest force of a wheel, times it again.", {class: "small"});
+    small(si, "Multiplied by F_max = m/m', the largest force of a wheel, by which the equations " +
+      "are divided.");
     table(si, estimateHead, estimateRows(leaves(model.si, "")));
   }
   correlations(box, model.covariance);
   influenceTable(box, model.estimates);
   estimatorsTable(box, model.estimates);
-  findingsTable(box, model.findings);
   logsPart(box, data.validation);
   drivesPart(box, data.validation);
 }
@@ -136,42 +187,60 @@ function identificationSection(data) {
 /// Drives under the controller compared with their predictions.
 function drivesPart(parent, validation) {
   for (const drive of (validation || {}).drives || []) {
-    add(parent, "h3", `The drive ${drive.file} against “${drive.scenario}”, ${drive.mode}: ${drive.inside ? "as foretold" : "not as foretold"}`);
-    add(parent, "p", `${digits(drive.duration_s)} s against ${drive.draws} foretold drives; as far off as this one or farther: ` +
-      `${percent(drive.p_value)} of them. Distances are those of half seconds, over the spread of the foretold.`, {class: "small"});
-    table(parent, ["channel", "#samples", "#distance", "#allowed", "#outside since, s", "#measured less foretold"],
-      Object.entries(drive.channels).map(([name, c]) => [name, c.samples, digits(c.distance, 3), digits(c.allowed, 3),
-        c.outside_since_s === null ? "" : digits(c.outside_since_s), `${digits(c.difference, 3)} ${c.unit}`]));
+    add(parent, "h3", `Drive ${drive.file}, “${scenarioWords(drive.scenario)}”, ${drive.mode}: ` +
+      `${drive.inside ? "as predicted" : "not as predicted"}`);
+    small(parent, `${digits(drive.duration_s)} s, compared with ${drive.draws} predicted drives, ` +
+      `of which ${percent(drive.p_value)} are as far ` +
+      "from the others or farther. Distances are over half seconds, divided by the spread of the " +
+      "predictions.");
+    table(parent, ["channel", "#samples", "#distance", "#allowed", "#outside since, s",
+      "#measured − predicted"],
+      Object.entries(drive.channels).map(([name, c]) =>
+        [channelWords(name), c.samples, digits(c.distance, 3), digits(c.allowed, 3),
+        c.outside_since_s === null ? "" : digits(c.outside_since_s),
+          `${digits(c.difference, 3)} ${c.unit}`]));
     if (drive.suspects.length) {
-      table(parent, ["what would explain it, alone", "#value", "#explains"],
-        drive.suspects.map((s) => [s.what, `${digits(s.value, 3)} ${s.unit}`, percent(s.explained)]));
+      table(parent, ["fault hypothesis, alone", "#value", "#explains"],
+        drive.suspects.map((s) => [s.what, `${digits(s.value, 3)} ${s.unit}`,
+          percent(s.explained)]));
     }
   }
 }
 
-/// Measured and predicted signals by channel; results of older versions have no series.
+/// "yaw_rate_radps" as "yaw rate"
+const channelWords = (name) => name.replace(/_[a-z]+$/, "").replaceAll("_", " ");
+
+/// A channel of a log, measured and predicted. The prediction is drawn over the noisy measurement.
+function channelChart(parent, log, name, more) {
+  const {series, unit} = log.channels[name];
+  const points = (key) => series.t_s.map((t, i) => [t, series[key][i]]);
+  return plot(parent, {title: `${channelWords(name)}: ${log.file}`, x: "t, s",
+    y: `${channelWords(name)}, ${unit}`, height: 220, ...more, series: [
+    {name: "measured", kind: "line", points: points("measured"), colour: "var(--ink)", width: 1.2,
+      opacity: 0.45},
+    {name: "predicted", ...modelLook, points: points("predicted")}]});
+}
+
+/// All channels of a log; results of older versions have no series.
 function logCharts(parent, log) {
-  const channels = Object.entries(log.channels).filter(([, c]) => c.series);
-  if (!channels.length) return;
-  const grid = add(folded(parent, `${log.file}: measured and predicted`), "div", undefined, {class: "grid"});
+  const names = Object.keys(log.channels).filter((name) => log.channels[name].series);
+  if (!names.length) return;
+  const grid = add(folded(parent, `${log.file}: measured and predicted`), "div", undefined,
+    {class: "grid"});
   const group = [];
-  for (const [name, {series, unit}] of channels) {
-    const points = (key) => series.t_s.map((t, i) => [t, series[key][i]]);
-    const words = name.replace(/_[a-z]+$/, "").replaceAll("_", " ");
-    // The prediction is drawn over the noisy measurement and must be visible on it.
-    plot(grid, {title: words, x: "t, s", y: `${words}, ${unit}`, group, height: 220, series: [
-      {name: "measured", kind: "line", points: points("measured"), colour: "var(--one)", width: 1.2, opacity: 0.45},
-      {name: "predicted", kind: "line", points: points("predicted"), colour: "var(--two)", width: 2}]});
-  }
+  for (const name of names) channelChart(grid, log, name, {group});
 }
 
 function logsPart(parent, validation) {
   const logs = (validation || {}).logs || [];
   if (!logs.length) return;
-  add(parent, "h3", "Logs, measured against predicted");
-  add(parent, "p", "Predicted from the commands alone over windows; NRMSE is the error over the signal's own deviation.", {class: "small"});
-  table(parent, ["log", "channel", "#samples", "#R², to the next row", "#R², over a window", "#NRMSE, over a window"],
-    logs.flatMap((log) => Object.entries(log.channels).map(([name, c]) => [`${log.file}, windows of ${digits(log.horizon_s)} s`, name, c.samples,
-      digits(c.one_step.r2), digits(c.long_horizon.r2), digits(c.long_horizon.nrmse, 3)])));
+  add(parent, "h3", "Logs, measured and predicted");
+  small(parent, "Predicted from the commands alone over windows. NRMSE is the error divided by " +
+    "the signal's standard deviation.");
+  table(parent, ["log", "channel", "#samples", "#R², to the next row", "#R², over a window",
+    "#NRMSE, over a window"],
+    logs.flatMap((log) => Object.entries(log.channels).map(([name, c]) =>
+      [`${log.file}, windows of ${digits(log.horizon_s)} s`, channelWords(name), c.samples,
+      digits(c.one_step.r2), digits(c.long_horizon.r2), digits(c.long_horizon.nrmse)])));
   for (const log of logs) logCharts(parent, log);
 }

@@ -1,16 +1,19 @@
 // Interactive gains: the program's own simulator and constraints, compiled to WebAssembly, run at
 // every move of a slider.
 
-const liveColumns = ["t_s", "psi_rad", "psi_ref_rad", "u_mps", "force_left", "force_right", "steering_rad", "r_radps"];
+const liveColumns = ["t_s", "psi_rad", "psi_ref_rad", "u_mps", "force_left", "force_right",
+  "steering_rad", "r_radps"];
 /// Gains and other adjustable values; `log`: the slider has a logarithmic scale.
 const liveSliders = [
-  {key: "lambda", name: "lambda, 1/s", low: 0.5, high: 15, log: true}, {key: "mu", name: "mu, rad/s²", low: 1, high: 200, log: true},
-  {key: "epsilon", name: "epsilon, rad/s", low: 0.1, high: 50, log: true}, {key: "speed_mu", name: "mu_s, m/s²", low: 0.5, high: 100, log: true},
+  {key: "lambda", name: "lambda, 1/s", low: 0.5, high: 15, log: true},
+    {key: "mu", name: "mu, rad/s²", low: 1, high: 200, log: true},
+  {key: "epsilon", name: "epsilon, rad/s", low: 0.1, high: 50, log: true},
+    {key: "speed_mu", name: "mu_s, m/s²", low: 0.5, high: 100, log: true},
   {key: "speed_epsilon", name: "epsilon_s, m/s", low: 0.05, high: 10, log: true},
   {key: "observer", name: "observer's bandwidth, rad/s", low: 0.2, high: 20, log: true},
   {key: "sample_time_s", name: "sample time, s", low: 0.002, high: 0.1, log: true},
-  {key: "mass", name: "mass, times the model's", low: 0.5, high: 2, log: true},
-  {key: "friction", name: "friction, times the model's", low: 0.5, high: 2, log: true},
+  {key: "mass", name: "mass factor", low: 0.5, high: 2, log: true},
+  {key: "friction", name: "friction factor", low: 0.5, high: 2, log: true},
   {key: "heading_noise_deg", name: "heading noise, deg", low: 0, high: 5, log: false},
 ];
 
@@ -18,44 +21,56 @@ const liveSliders = [
 /// {rows, constraints, metrics, ended}.
 async function liveModule(packed, numbers) {
   const bytes = Uint8Array.from(atob(packed), (c) => c.charCodeAt(0));
-  const wasm = await new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
+  const unpacked = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
+  const wasm = await new Response(unpacked).arrayBuffer();
   // The C library needs system functions that are never used: every call returns "not available".
   const system = new Proxy({}, {get: () => () => 52});
-  const {exports} = (await WebAssembly.instantiate(wasm, {wasi_snapshot_preview1: system})).instance;
+  const {exports} = (await WebAssembly.instantiate(wasm,
+    {wasi_snapshot_preview1: system})).instance;
   exports._initialize();
   const room = exports.live_setup(numbers.length);
   new Float64Array(exports.memory.buffer, room, numbers.length).set(numbers);
   exports.live_begin();
   return (s) => {
-    const ended = exports.live_run(s.lambda, s.mu, s.epsilon, s.speed_mu, s.speed_epsilon, s.observer || 0, modes.indexOf(s.mode), s.sample_time_s,
+    const ended = exports.live_run(s.lambda, s.mu, s.epsilon, s.speed_mu, s.speed_epsilon,
+      s.observer || 0, modes.indexOf(s.mode), s.sample_time_s,
       s.mass, s.friction, s.heading_noise_deg);
-    const text = new TextDecoder().decode(new Uint8Array(exports.memory.buffer, exports.live_text(), exports.live_size()).slice());
-    const table = new Float64Array(exports.memory.buffer, exports.live_table(), exports.live_rows() * liveColumns.length).slice();
-    const columns = Object.fromEntries(liveColumns.map((name, i) => [name, Array.from({length: exports.live_rows()}, (_, k) => table[k * liveColumns.length + i])]));
+    const text = new TextDecoder().decode(new Uint8Array(exports.memory.buffer,
+      exports.live_text(), exports.live_size()).slice());
+    const table = new Float64Array(exports.memory.buffer, exports.live_table(),
+      exports.live_rows() * liveColumns.length).slice();
+    const columns = Object.fromEntries(liveColumns.map((name, i) =>
+      [name, Array.from({length: exports.live_rows()}, (_, k) =>
+        table[k * liveColumns.length + i])]));
     return {columns, ended: Boolean(ended), ...JSON.parse(text)};
   };
 }
 
 /// The gains in the form that --gains accepts; `observer`: the tuned one, if any.
 function gainsDocument(s, observer) {
-  const gains = {schema: "awmr.gains/1", heading: {lambda: s.lambda, mu: s.mu, epsilon: s.epsilon}, speed: {mu: s.speed_mu, epsilon: s.speed_epsilon}};
+  const gains = {schema: "awmr.gains/1", heading: {lambda: s.lambda, mu: s.mu, epsilon: s.epsilon},
+    speed: {mu: s.speed_mu, epsilon: s.speed_epsilon}};
   return observer ? {...gains, observer: {...observer, bandwidth_radps: s.observer}} : gains;
 }
 
 function liveSlider(parent, slider, settings, changed) {
   const row = add(parent, "label", undefined, {class: "slider"});
-  add(row, "span", slider.name);
+  write(add(row, "span"), slider.name);
   const input = add(row, "input", undefined, {type: "range", min: 0, max: 1000, step: 1});
   const shown = add(row, "output");
-  const low = Math.min(slider.low, settings[slider.key]), high = Math.max(slider.high, settings[slider.key]);
-  const place = () => 1000 * (slider.log ? Math.log(settings[slider.key] / low) / Math.log(high / low) : (settings[slider.key] - low) / (high - low));
+  const low = Math.min(slider.low, settings[slider.key]),
+    high = Math.max(slider.high, settings[slider.key]);
+  const place = () => 1000 * (slider.log
+    ? Math.log(settings[slider.key] / low) / Math.log(high / low)
+      : (settings[slider.key] - low) / (high - low));
   const show = () => {
     input.value = place();
     shown.textContent = digits(settings[slider.key], 4);
   };
   input.oninput = () => {
     const part = input.value / 1000;
-    settings[slider.key] = Number((slider.log ? low * (high / low) ** part : low + part * (high - low)).toPrecision(4));
+    settings[slider.key] = Number((slider.log ? low * (high / low) ** part : low +
+      part * (high - low)).toPrecision(4));
     shown.textContent = digits(settings[slider.key], 4);
     changed();
   };
@@ -78,54 +93,67 @@ function thinned(points, most = 500) {
   return kept;
 }
 
+/// The run of the sliders in its mode's hue, the tuned gains under the same conditions in grey.
 function liveCharts(parent, start) {
-  const grid = add(parent, "div", undefined, {class: "grid"});
   const group = [];
-  const line = (name, points, colour, more) => ({name, kind: "line", points: thinned(points), colour, ...more});
-  const faint = {width: 1.2, dash: [3, 3]};
-  const of = (run, key, scale = (x) => x) => pairs(run.columns.t_s, scale(run.columns[key]));
-  const kinds = [
-    ["heading", "heading, deg", (run) => [of(run, "psi_rad", degreesOf)], [["reference", of(start, "psi_ref_rad", degreesOf)]]],
-    ["speed", "speed, m/s", (run) => [of(run, "u_mps")], []],
-    ["steering angle", "steering, deg", (run) => [of(run, "steering_rad", degreesOf)], []],
-    ["forces, left and right", "F'", (run) => [of(run, "force_left"), of(run, "force_right")], []],
-  ];
-  const charts = kinds.map(([title, y, lines, others]) => {
-    const names = lines(start).length > 1 ? ["left", "right"] : ["these gains"];
-    const series = [...lines(start).map((points, i) => line(names[i], points, ["var(--one)", "var(--two)"][i], {width: 2.2})),
-      ...lines(start).map((points, i) => line(names.length > 1 ? `${names[i]}, tuned` : "tuned gains", points, "var(--dim)", faint)),
-      ...others.map(([name, points]) => line(name, points, "var(--dim)", {width: 1, dash: [6, 3]}))];
-    return {lines, chart: plot(grid, {title, x: "t, s", y, series, group, height: 220})};
+  const line = (name, colour, width) => ({name, kind: "line", colour, width});
+  const lines = [line("tuned gains", "var(--dim)", 4), line("these gains", "var(--live)", 1.8)];
+  const limit = report.yaw_rate_measured_degps;
+  const shade = isNumber(limit) ? [extrapolatedLook(limit)] : [];
+  const box = add(parent, "div");
+  legend(box, [...lines, referenceLook, ...shade], group);
+  const grid = add(box, "div", undefined, {class: "grid thirds"});
+  const of = (run, key, scale = (x) => x) =>
+    thinned(pairs(run.columns.t_s, scale(run.columns[key])));
+  const kinds = [["heading", "heading ψ, deg", "psi_rad", degreesOf],
+    ["yaw rate", "yaw rate, deg/s", "r_radps", degreesOf],
+    ["speed", "speed, m/s", "u_mps"], ["steering angle", "steering δ, deg", "steering_rad",
+      degreesOf],
+    ["force, left wheels", "F′L", "force_left"], ["force, right wheels", "F′R", "force_right"]];
+  const charts = kinds.map(([title, y, key, scale]) => {
+    const series = lines.map((look) => ({...look, points: of(start, key, scale)}));
+    if (key === "psi_rad") series.push({...referenceLook,
+      points: of(start, "psi_ref_rad", degreesOf)});
+    if (key === "r_radps") series.push(...shade);
+    return [key, scale, plot(grid, {title, x: "t, s", y, series, group, legend: false, height: 190,
+      zero: scale ? "" : "y"})];
   });
-  return (run, tuned) => {
-    for (const {lines, chart} of charts) {
-      [...lines(run), ...lines(tuned)].forEach((points, i) => {
-        chart.series[i].points = thinned(points);
-        if (chart.view) chart.view.data(`data_${i}`, chart.series[i].points);
-      });
-      chart.extent = extentOf(chart.series, []);
-      if (chart.view) chart.view.signal("view_x", chart.extent.x).signal("view_y", chart.extent.y).run();
+  return (run, tuned, mode) => {
+    box.style.setProperty("--live", colourOf(mode));
+    for (const [key, scale, chart] of charts) {
+      [tuned, run].forEach((one, i) => { chart.series[i].points = of(one, key, scale); });
+      chart.extent = extentOf(chart);
+      const {view, extent, series} = chart;
+      if (!view) continue;
+      for (const i of [0, 1]) view.data(`data_${i}`, series[i].points);
+      view.signal("view_x", extent.x).signal("view_y", extent.y).run();
     }
   };
 }
 
 async function liveSection(data) {
   const packed = document.getElementById("wasm").textContent;
-  if (!packed && data.gains) section("Try other gains", "No sliders: this awmr was built without WebAssembly. To have them: scripts/setup all, scripts/build release, then awmr report.");
+  if (!packed && data.gains) section("Try other gains",
+    "This awmr was built without WebAssembly, so the page has no sliders. For sliders: " +
+    "scripts/setup all, scripts/build release, then awmr report.", "Try gains");
   if (!packed || !data.live) return;
-  const box = section("Try other gains", `${data.live.scenario}, simulated here by the program's own code as you move the sliders. Grey: the tuned gains under the same conditions.`);
+  const box = section("Try other gains",
+    `${data.live.scenario}, simulated here by the program's own code as you move the sliders. ` +
+    `Grey: the tuned gains under the same conditions.`, "Try gains");
   box.parentNode.parentNode.classList.add("live");
   const {heading, speed, observer} = data.gains;
-  const gains = {lambda: heading.lambda, mu: heading.mu, epsilon: heading.epsilon, speed_mu: speed.mu, speed_epsilon: speed.epsilon,
+  const gains = {lambda: heading.lambda, mu: heading.mu, epsilon: heading.epsilon,
+    speed_mu: speed.mu, speed_epsilon: speed.epsilon,
     ...(observer && {observer: observer.bandwidth_radps})};
   const tuned = {...gains,
-    mode: data.live.modes[data.live.modes.length - 1], sample_time_s: data.live.sample_time_s, mass: 1, friction: 1, heading_noise_deg: 0};
+    mode: data.live.modes[data.live.modes.length - 1], sample_time_s: data.live.sample_time_s,
+      mass: 1, friction: 1, heading_noise_deg: 0};
   const settings = {...tuned};
   let run = null;
   try {
     run = await liveModule(packed, data.live.numbers);
   } catch (error) {
-    add(box, "p", `This browser cannot run it (${error.message}).`);
+    add(box, "p", `This browser cannot run the simulation (${error.message}).`);
     return;
   }
   const controls = add(box, "div", undefined, {class: "controls"});
@@ -134,7 +162,8 @@ async function liveSection(data) {
   const select = add(choice, "select");
   for (const mode of data.live.modes) add(select, "option", mode);
   select.value = settings.mode;
-  const shows = liveSliders.filter((slider) => slider.key in tuned).map((slider) => liveSlider(controls, slider, settings, () => changed()));
+  const shows = liveSliders.filter((slider) => slider.key in tuned).map((slider) =>
+    liveSlider(controls, slider, settings, () => changed()));
   const buttons = add(box, "p");
   const copy = add(buttons, "button", "Copy these gains as JSON", {type: "button"});
   const back = add(buttons, "button", "Back to the tuned gains", {type: "button"});
@@ -151,10 +180,10 @@ async function liveSection(data) {
       waiting = false;
       const result = run(settings);
       const besides = run({...settings, ...gains});
-      redraw(result, besides);
+      redraw(result, besides, settings.mode);
       liveTables(tables, result, besides);
       shownGains.textContent = JSON.stringify(gainsDocument(settings, observer));
-      said.textContent = result.ended ? "" : " The simulation could not go on: these gains let a number grow without bound.";
+      said.textContent = result.ended ? "" : " The simulation diverges with these gains.";
     });
   }
   select.onchange = () => {
@@ -168,10 +197,11 @@ async function liveSection(data) {
   };
   copy.onclick = async () => {
     try {
-      await navigator.clipboard.writeText(JSON.stringify(gainsDocument(settings, observer), null, 1));
-      said.textContent = " Copied: save them as a file, which simulate, compare and emit take for their gains.";
+      await navigator.clipboard.writeText(JSON.stringify(gainsDocument(settings, observer), null,
+        1));
+      said.textContent = " Copied. Save them as a file for --gains of simulate, compare and emit.";
     } catch {
-      said.textContent = " This browser does not let a page copy; the gains stand below.";
+      said.textContent = " This browser does not permit copying; the gains are below.";
     }
   };
   changed();
@@ -180,12 +210,8 @@ async function liveSection(data) {
 
 function liveTables(parent, result, tuned) {
   parent.textContent = "";
-  const state = (c) => (c.margin >= 0 ? "kept" : c.required ? "broken" : "not kept");
-  const node = table(parent, ["constraint", "", "#value", "#limit", "#margin", "meaning"], result.constraints.map((c) => [c.name, state(c),
-    digits(c.value), digits(c.limit), digits(c.margin, 3), c.meaning]));
-  result.constraints.forEach((c, i) => {
-    if (!(c.margin >= 0)) node.tBodies[0].rows[i].cells[1].classList.add(c.required ? "error" : "warning");
-  });
-  const names = Object.keys(result.metrics);
-  table(parent, ["figure", "#these gains", "#tuned"], names.map((name) => [metricWords(name), digits(result.metrics[name]), digits(tuned.metrics[name])]));
+  constraintsTable(parent, result.constraints);
+  table(parent, ["metric", "#these gains", "#tuned gains"],
+    Object.keys(result.metrics).map((name) => [metricWords(name),
+    metricValue(name, result.metrics[name]), metricValue(name, tuned.metrics[name])]));
 }

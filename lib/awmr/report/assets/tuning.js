@@ -1,137 +1,235 @@
-// Tuning: active constraints, and performance of the gains on sampled vehicles that were not used
+// Tuning: constraints, search, and performance of the gains on sampled vehicles that were not used
 // for tuning.
 
-const setOrder = ["robust", "nominal", "baseline", "paper"];
-const setColour = {robust: "var(--one)", nominal: "var(--three)", baseline: "var(--two)", paper: "var(--three)"};
-const setWords = {robust: "tuned", nominal: "nominal", baseline: "baseline", paper: "the paper's"};
+const gainsWords = {robust: "tuned", nominal: "nominal", baseline: "baseline",
+  paper: "the paper's"};
 
 /// Baseline for which the objective is 1; files without `source` use the paper's gains.
 function baselineWords(gains) {
-  const {source} = gains.baseline || {};
-  return !source || source === "paper" ? "the paper's gains" : source === "pole-placement" ? "pole placement" : source;
+  const {source = "paper"} = gains.baseline || {};
+  return {paper: "the paper's gains", "pole-placement": "pole placement"}[source] || source;
 }
 
 /// Describes the unmodelled variation of the vehicles; empty if there is none.
 function openWords(open) {
   if (!open) return "";
   const masses = open.mass_factors ? [`m' and I'z times ${open.mass_factors.join(", ")}`] : [];
-  const forces = open.wheel_forces ? [`F' ${open.wheel_forces.map((f) => `${f.min} to ${f.max}`).join(", ")}`] : [];
-  return `; open: ${[...masses, ...forces].join("; ")}`;
+  const forces = open.wheel_forces
+    ? [`F' ${open.wheel_forces.map((f) => `${f.min} to ${f.max}`).join(", ")}`] : [];
+  return `; unmodelled: ${[...masses, ...forces].join("; ")}`;
 }
 
+/// State of a constraint and its tone.
+function constraintState({margin, required, limit}) {
+  if (!(margin >= 0)) return required ? ["broken", "bad"] : ["not kept", "doubt"];
+  return [margin < 0.01 * Math.abs(limit) ? "at its limit" : "kept", "good"];
+}
+
+/// Results of the live part do not state the sense.
+const senseOf = ({sense, value, limit, margin}) => sense ||
+  (Math.abs(limit - value - margin) <= Math.abs(value - limit - margin) ? "at-most" : "at-least");
+
+/// The value as a bar from 0, the limit as a rule, the safe side shaded; to scale, in percent of
+/// the width.
+function constraintBar(constraint) {
+  const {value, limit, margin} = constraint;
+  const reach = 1.25 * Math.max(Math.abs(value), Math.abs(limit)) || 1;
+  const low = Math.min(0, value, limit) < 0 ? -reach : 0;
+  const at = (x) => 100 * (x - low) / (reach - low);
+  const svg = drawIn(document.createElement("span"), "svg",
+    {class: `bar${margin >= 0 ? "" : " broken"}`, "aria-hidden": "true"});
+  const block = (from, to, y, height, classes) =>
+    drawIn(svg, "rect", {x: `${Math.min(from, to)}%`, y: `${y}%`,
+    width: `${Math.abs(to - from)}%`, height: `${height}%`, class: classes});
+  block(0, 100, 0, 100, "track");
+  block(at(limit), senseOf(constraint) === "at-least" ? 100 : 0, 0, 100, "safe");
+  block(at(0), at(value), 30, 40, "value");
+  drawIn(svg, "line", {x1: `${at(limit)}%`, x2: `${at(limit)}%`, y1: "0", y2: "100%",
+    class: "limit"});
+  return svg;
+}
+
+/// Constraints with value, limit and safe side.
 function constraintsTable(parent, constraints) {
-  add(parent, "h3", "Constraints");
-  const state = (c) => (c.margin < 0 ? (c.required ? "broken" : "not kept") : c.margin < 0.01 * Math.abs(c.limit) ? "binds" : "kept");
-  table(parent, ["constraint", "", "#value", "#limit", "#margin", "meaning"], constraints.map((c) => [
-    c.name + (c.required ? "" : " (told, not asked)"), state(c), digits(c.value), `${({"at-least": "≥ ", "at-most": "≤ "})[c.sense] || ""}${digits(c.limit)}`, digits(c.margin, 3), c.meaning]));
+  if (!constraints.length) return;
+  const signs = {"at-least": "≥ ", "at-most": "≤ "};
+  small(parent, "Bars are values, red rules are limits, the shaded side is the safe one.");
+  table(parent, ["constraint", "state", "value and limit", "#value", "#limit", "meaning"],
+    constraints.map((c) => {
+    const [state, tone] = constraintState(c);
+    const cell = document.createElement("span");
+    cell.className = "state";
+    mark(cell, tone);
+    cell.append(` ${state}`);
+    const bar = isNumber(c.value) && isNumber(c.limit) ? constraintBar(c) : "–";
+    return [symbolic(c.name + (c.required ? "" : " (reported only)")), cell, bar, digits(c.value),
+      `${signs[senseOf(c)]}${digits(c.limit)}`, symbolic(c.meaning)];
+  }));
 }
 
-/// Settling time against command activity: what the search met, and the named gains.
+/// Settling time and command activity: the front found by the search, and the named gains.
 function tradeOffChart(parent, gains) {
   const {trade_off: tradeOff} = gains;
   if (!tradeOff) return;
   const at = (p) => [p.settling_time_s, p.control_variation];
-  const words = {...setWords, tuned: "tuned", baseline: baselineWords(gains), lqi: "LQI"};
-  const colour = {...setColour, tuned: setColour.robust, lqi: "var(--ink)"};
-  const series = [{name: "met by the search", kind: "line", points: tradeOff.front.map(at), colour: "var(--dim)", width: 1.2},
-    ...Object.entries(tradeOff.gains).map(([name, point]) => ({name: words[name] || name, kind: "points", points: [at(point)], colour: colour[name]}))];
-  add(parent, "h3", "Settling against command activity");
-  add(parent, "p", "Means over the modes, manoeuvres and plants of the search; nothing that the search met and that keeps every constraint is better in both than the line.", {class: "small"});
-  plot(add(parent, "div", undefined, {class: "grid"}), {title: "trade-off", x: "settling time, s", y: "control variation, 1/s", series, height: 260});
+  const words = {...gainsWords, tuned: "tuned", baseline: baselineWords(gains), lqi: "LQI"};
+  const series = [{name: "front of the search", kind: "line", points: tradeOff.front.map(at),
+    colour: "var(--dim)", width: 1.2},
+    ...Object.entries(tradeOff.gains).map(([name, point]) =>
+      ({name: words[name] || name, kind: "points", size: 80,
+      points: [at(point)], colour: "var(--ink)", shape: (gainsStyle[name] || {}).shape}))];
+  add(parent, "h3", "Settling time and command activity");
+  small(parent, "Means over the modes, manoeuvres and plants of the search. No gains of the " +
+    "search that keep every constraint are better in both than the line.");
+  plot(add(parent, "div", undefined, {class: "grid"}),
+    {title: "trade-off", x: "settling time, s", y: "control variation, 1/s", series, height: 260,
+      zero: "xy", byPoint: true});
 }
 
 /// The worst damping and delay margin of the heading loop over the model's confidence set.
 function certificateTable(parent, certificate) {
   if (!certificate) return;
   add(parent, "h3", "Certificate");
-  add(parent, "p", `The worst cases over the model's parameters (${certificate.set}) and yaw rates of ${certificate.yaw_rate_degps.map((r) => digits(r, 3)).join(" to ")} deg/s, ` +
-    `with readings ${digits(certificate.latency_s)} s late: ${certificate.method}.`, {class: "small"});
-  const place = (worst) => `${digits(worst.yaw_rate_degps, 3)} deg/s; ${Object.entries(worst.parameters).map(([name, value]) => `${name} ${digits(value)}`).join(", ")}`;
+  small(parent, `Worst cases over the model's parameters (${certificate.set}) and yaw rates of ` +
+    `${certificate.yaw_rate_degps.map((r) => digits(r, 3)).join(" to ")} deg/s, ` +
+    `with a latency of ${digits(certificate.latency_s)} s: ${certificate.method}.`);
+  const place = (worst) =>
+    `${digits(worst.yaw_rate_degps, 3)} deg/s; ` +
+    `${Object.entries(worst.parameters).map(([name, value]) => `${name} ${digits(value)}`).join(", ")}`;
   const margin = (seconds) => (seconds === null ? "any" : digits(seconds, 3));
-  table(parent, ["mode", "#damping", "at", "#delay margin, s", "at"], Object.entries(certificate.modes).map(([mode, {damping, delay_margin: delay}]) => [
-    mode, digits(damping.min, 3), place(damping), margin(delay.min_s), place(delay)]));
+  table(parent, ["mode", "#damping", "at", "#delay margin, s", "at"],
+    Object.entries(certificate.modes).map(([mode, {damping, delay_margin: delay}]) => [
+    modeCell(mode), digits(damping.min, 3), place(damping), margin(delay.min_s), place(delay)]));
 }
 
-/// The best objective so far against evaluations, of the search for the tuned gains and of the one without noise.
+/// The best objective so far by number of evaluations, of the search for the tuned gains and of the
+/// one without noise.
 function historyChart(parent, gains) {
-  const of = (name, history, look) => {
-    if (!history || !history.best.length) return [];
-    const last = history.best[history.best.length - 1];
-    const steps = history.best.map((s) => [s.evaluation, s.objective]);
-    return [{name, kind: "line", step: true, points: [...steps, [history.evaluations, last.objective]], ...look}];
-  };
   const own = (gains.search || {}).history, {nominal_history: nominal} = gains.robust || {};
-  const series = [...of(gains.robust ? "tuned" : "tuned (nominal)", own, {colour: setColour.robust, width: 2.4}),
-    ...of("nominal", nominal, {colour: setColour.nominal, width: 1.6, dash: [7, 3]})];
-  if (!series.length) return;
-  const all = series.flatMap((s) => s.points.map((p) => p[0]));
-  series.push({name: baselineWords(gains), kind: "line", points: [[Math.min(...all), 1], [Math.max(...all), 1]], colour: setColour.baseline, width: 1.2, dash: [2, 3]});
-  add(parent, "h3", "The search");
-  const phases = [["tuned", own], ["nominal", nominal]].filter(([, h]) => h && h.best.length)
-    .map(([name, h]) => `${name}: local from evaluation ${h.global_evaluations + 1} of ${h.evaluations}`);
-  add(parent, "p", `The best gains so far that keep every constraint; 1 is ${baselineWords(gains)}. A global search, then a local one (${phases.join("; ")}). ` +
-    (nominal ? "Each is over the baseline under its own conditions." : ""), {class: "small"});
-  plot(add(parent, "div", undefined, {class: "grid"}), {title: "objective, best so far", x: "evaluation", y: "objective", series, height: 260});
+  const searches = [["robust", own, 2.4], ["nominal", nominal, 1.6]].filter(([, h]) => h
+    && h.best.length);
+  if (!searches.length) return;
+  const series = searches.map(([set, history, width]) => {
+    const steps = history.best.map((s) => [s.evaluation, s.objective]);
+    return {name: set === "robust" && !gains.robust ? "tuned (nominal)" : gainsWords[set],
+      kind: "line", step: true,
+      points: [...steps, [history.evaluations, steps[steps.length - 1][1]]], colour: "var(--ink)",
+        width, dash: gainsStyle[set].dash};
+  });
+  const last = Math.max(...searches.map(([, h]) => h.evaluations));
+  series.push({name: baselineWords(gains), kind: "line", points: [[0, 1], [last, 1]],
+    colour: "var(--ink)", width: 1.2, dash: gainsStyle.baseline.dash});
+  add(parent, "h3", "Search");
+  const phases = searches.map(([set, h]) =>
+    `${gainsWords[set]}: local from evaluation ${h.global_evaluations + 1} of ${h.evaluations}`);
+  small(parent, `The best gains so far that keep every constraint; 1 is ${baselineWords(gains)}. ` +
+    `A global search, then a local one (${phases.join("; ")}).` +
+    (nominal ? " Each is relative to the baseline under its own conditions." : ""));
+  plot(add(parent, "div", undefined, {class: "grid"}),
+    {title: "objective, best so far", x: "evaluation", y: "objective", series, height: 260,
+      zero: "xy"});
 }
 
-const robustFigures = [["settling_time_s", "settling time, s"], ["overshoot_deg", "overshoot, deg"], ["heading_iae_degs", "heading error, deg s"],
-  ["control_variation", "control variation, 1/s"], ["steering_rate_rms_degps", "steering rate, RMS, deg/s"]];
+const robustFigures = [["settling_time_s", "settling time, s"],
+  ["overshoot_deg", "overshoot, deg"], ["heading_iae_degs", "heading error, deg s"],
+  ["control_variation", "control variation, 1/s"],
+    ["steering_rate_rms_degps", "steering rate, RMS, deg/s"]];
 
 function goalsTable(parent, goals) {
   if (!goals || !goals.length) return;
   add(parent, "h3", "Goals");
-  add(parent, "p", "In how many fresh draws every limit is kept, with the 95 % interval of that share.", {class: "small"});
-  const limits = (goal) => Object.entries(goal.at_most).map(([name, most]) => `${metricWords(name)} at most ${digits(most)}`).join("; ") + (goal.soft ? " (soft)" : "");
-  table(parent, ["goal", "mode", "gains", "#asked", "#kept", "verdict"], goals.map((goal) => [limits(goal), goal.mode, setWords[goal.gains] || goal.gains,
-    percent(goal.share), `${percent(goal.held / goal.runs)} (${percent(goal.ci95[0])} to ${percent(goal.ci95[1])})`, goal.gains === "robust" ? goal.verdict : ""]));
+  small(parent, "Share of fresh draws in which every limit is kept, with its 95 % interval.");
+  const limits = (goal) => Object.entries(goal.at_most).map(([name, most]) =>
+    `${metricWords(name)} at most ${digits(most)}`).join("; ") + (goal.soft ? " (soft)" : "");
+  table(parent, ["goal", "mode", "gains", "#required", "#kept", "verdict"],
+    goals.map((goal) => [limits(goal), modeCell(goal.mode), gainsWords[goal.gains] || goal.gains,
+    percent(goal.share),
+      `${percent(goal.held / goal.runs)} (${percent(goal.ci95[0])} to ${percent(goal.ci95[1])})`,
+        goal.gains === "robust" ? goal.verdict : ""]));
 }
 
 function robustCharts(parent, robust) {
   if (!robust || !robust.quantiles) return;
   const n = robust.noise, late = robust.latency;
-  add(parent, "h3", "On draws that none was tuned on");
-  add(parent, "p", `${robust.judged_draws} fresh draws (${robust.drawn_from}${openWords(robust.open)}); heading noise ${n.heading_deg} deg, yaw rate ${n.yaw_rate_degps} deg/s, ` +
-    `speed ${n.speed_mps} m/s; readings ${late.heading_s} s late; motors ${robust.motor_time_constant_s} s behind. From the median (mark) to the 95 % quantile.`, {class: "small"});
+  add(parent, "h3", "On draws that were not used for tuning");
+  small(parent, `${robust.judged_draws} fresh draws ` +
+    `(${robust.drawn_from}${openWords(robust.open)}); noise: heading ${n.heading_deg} deg, yaw ` +
+    `rate ${n.yaw_rate_degps} deg/s, ` +
+    `speed ${n.speed_mps} m/s; latency ${late.heading_s} s; motor lag ` +
+    `${robust.motor_time_constant_s} s. The mark is the median, the bar ends at the 95 % quantile.`);
   if (!robust.by_scenario) return quantileCharts(parent, robust.quantiles);
   for (const [scenario, quantiles] of Object.entries(robust.by_scenario)) {
-    add(parent, "h4", scenario);
+    add(parent, "h4", scenarioWords(scenario));
     quantileCharts(parent, quantiles);
   }
 }
 
+/// One row of a quantile chart. A run that does not settle counts with its duration, so that a
+/// median is a settling time only if most runs settle.
+function quantileRow(mode, name, set, figure) {
+  const {median, q95} = set[figure], label = `${mode}, ${gainsWords[name]}`;
+  const settled = `settled: ${percent(set.completed_share)}`;
+  const look = {label, colour: colourOf(mode), ...gainsStyle[name]};
+  if (figure === "settling_time_s" && set.completed_share < 0.5) {
+    return {...look, absent: absentWords[figure], note: `${label}\n${settled}`};
+  }
+  return {...look, low: median, high: q95, middle: median,
+    note: `${label}\nmedian ${digits(median)}, 95 % ${digits(q95)}\n${settled}`};
+}
+
+/// Hue by mode; line and mark by set of gains.
 function quantileCharts(parent, quantiles) {
-  const grid = add(parent, "div", undefined, {class: "grid small"});
+  const grid = add(parent, "div", undefined, {class: "grid thirds"});
   for (const [figure, title] of robustFigures) {
-    const rows = Object.entries(quantiles).flatMap(([mode, sets]) => setOrder.filter((name) => (sets[name] || {})[figure]).map((name) => [name, sets[name]]).map(([name, q]) => {
-      const {median, q95} = q[figure];
-      return {label: `${mode}, ${setWords[name] || name}`, low: median, high: q95, middle: median, colour: setColour[name] || "var(--dim)",
-        note: `${mode}, ${setWords[name] || name}\nmedian ${digits(median)}, 95 % ${digits(q95)}\nsettled: ${percent(q.completed_share)}`};
-    }));
-    ranges(grid, {title, rows, zero: true});
+    const rows = Object.entries(quantiles).flatMap(([mode, sets]) =>
+      gainsOrder.filter((name) => (sets[name] || {})[figure])
+        .map((name) => quantileRow(mode, name, sets[name], figure)));
+    ranges(grid, {title, rows});
   }
 }
 
 function sensitivityTable(parent, sensitivity) {
   if (!sensitivity) return;
-  const box = folded(parent, "What moves the tuned loop");
-  add(box, "p", `Total Sobol indices over ${sensitivity.samples} samples: the share of how far a figure varies that is left while this alone is not known. `
-    + "Noise level, latency and lag each from none to twice what is assumed.", {class: "small"});
+  const box = folded(parent, "Sensitivity of the tuned loop");
+  small(box, `Total Sobol indices over ${sensitivity.samples} samples: the share of a figure's ` +
+    `variance that remains while only this input is unknown. `
+    + "Noise level, latency and lag are varied from none to twice the assumed values.");
   const mostMoving = (figure) => [...figure.by_input].sort((a, b) => b.total - a.total).slice(0, 3)
-    .map((one) => `${one.input} ${digits(one.total, 2)} (${digits(one.total_ci95[0], 2)} to ${digits(one.total_ci95[1], 2)})`).join("; ");
-  table(box, ["mode", "figure", "#mean and spread", "moved most by"], sensitivity.figures.map((figure) => [figure.mode, metricWords(figure.figure),
+    .map((one) => `${one.input} ${digits(one.total, 2)} (${digits(one.total_ci95[0], 2)} to ` +
+      `${digits(one.total_ci95[1], 2)})`).join("; ");
+  table(box, ["mode", "figure", "#mean and spread", "most sensitive to"],
+    sensitivity.figures.map((figure) => [modeCell(figure.mode), metricWords(figure.figure),
     `${digits(figure.mean, 3)} ± ${digits(figure.std, 2)}`, mostMoving(figure)]));
+}
+
+/// The objective of the tuned gains next to the baseline's, and how many goals are met.
+function objectiveWords(gains) {
+  const {objective, baseline, goals = []} = gains;
+  if (!objective) return "";
+  const held = objective.held_out
+    ? ` On manoeuvres that were not used for tuning: ${digits(objective.held_out.value)}.` : "";
+  const robust = goals.filter((goal) => goal.gains === "robust");
+  const count = (verdict) => robust.filter((goal) => goal.verdict === verdict).length;
+  return `Objective ${digits(objective.value)}; ${baselineWords(gains)}: ` +
+    `${digits((baseline || {}).objective ?? 1)}; less is better.${held}` +
+    (robust.length ? ` Of ${plural(robust.length, "goal")} on fresh draws, ${count("met")} met, ` +
+      `${count("missed")} missed.` : "");
 }
 
 function tuningSection(data) {
   const {gains} = data;
   if (!gains) return;
-  const box = section("Tuning");
-  if (gains.search) add(box, "p", `${gains.search.algorithm}: ${gains.search.evaluations} evaluations, ${gains.search.stop_reason}.`, {class: "small"});
-  if (gains.objective && gains.objective.formula) add(box, "p", `Objective: ${gains.objective.formula}.`, {class: "small"});
-  if (Array.isArray(gains.constraints)) constraintsTable(box, gains.constraints);
+  const {search, objective, constraints = []} = gains;
+  if (!search && !objective && !constraints.length && !gains.robust && !gains.metrics) return;
+  const box = section("Tuning", objectiveWords(gains));
+  if (constraints.length) add(box, "h3", "Constraints");
+  constraintsTable(box, constraints);
   certificateTable(box, gains.certificate);
   tradeOffChart(box, gains);
   historyChart(box, gains);
+  if (search) small(box,
+    `${search.algorithm}: ${search.evaluations} evaluations, ${search.stop_reason}.`);
+  if (objective && objective.formula) small(box, `Objective: ${objective.formula}.`);
   goalsTable(box, gains.goals);
   robustCharts(box, gains.robust);
   sensitivityTable(box, gains.sensitivity);
@@ -141,12 +239,16 @@ function tuningSection(data) {
 /// Metrics of the objective, by mode and scenario: tuned, and the baseline's in brackets.
 function metricsTable(parent, gains) {
   const base = (gains.baseline || {}).metrics || {};
-  const rows = Object.entries(gains.metrics || {}).flatMap(([mode, scenarios]) => Object.entries(scenarios).map(([name, m]) => {
+  const rows = Object.entries(gains.metrics || {}).flatMap(([mode, scenarios]) =>
+    Object.entries(scenarios).map(([name, m]) => {
     const paper = (base[mode] || {})[name] || {};
-    const pair = (key) => `${digits(m[key], 3)} (${digits(paper[key], 3)})`;
-    return [mode, name, pair("settling_time_s"), pair("overshoot_deg"), pair("heading_iae_degs"), pair("control_variation"), pair("sideslip_max_deg")];
+    const pair = (key) => `${metricValue(key, m[key])} (${metricValue(key, paper[key])})`;
+    return [modeCell(mode), scenarioWords(name), pair("settling_time_s"), pair("overshoot_deg"),
+      pair("heading_iae_degs"), pair("control_variation"), pair("sideslip_max_deg")];
   }));
   if (!rows.length) return;
-  const box = folded(parent, `Figures by mode and manoeuvre (in brackets ${baselineWords(gains)})`);
-  table(box, ["mode", "manoeuvre", "#settling, s", "#overshoot, deg", "#heading error, deg s", "#variation, 1/s", "#sideslip, deg"], rows);
+  const box = folded(parent,
+    `Metrics by mode and manoeuvre (in brackets: ${baselineWords(gains)})`);
+  table(box, ["mode", "manoeuvre", "#settling time, s", "#overshoot, deg", "#heading error, deg s",
+    "#control variation, 1/s", "#sideslip, deg"], rows);
 }

@@ -1,0 +1,51 @@
+// Symbols of the control laws: how they are written, and what they mean, shown on hover and focus.
+const symbols = new Map(Object.entries({
+  lambda: ["λ", "lambda, 1/s: slope of the sliding surface. On it, the heading error decays with " +
+    "T1 = 1/λ"],
+  mu: ["μ", "mu, rad/s²: reaching gain of the heading law, the angular acceleration towards the " +
+    "surface"],
+  epsilon: ["ε", "epsilon, rad/s: boundary layer. Within it, the heading law is linear and does " +
+    "not chatter"],
+  mu_s: ["μₛ", "mu_s, m/s²: reaching gain of the speed law"],
+  epsilon_s: ["εₛ", "epsilon_s, m/s: boundary layer of the speed law"],
+  T1: ["T1", "T1 = 1/λ: time constant of the heading error on the sliding surface"],
+  T2: ["T2", "T2 = ε/(2 μ): time constant with which the sliding surface is reached; below T1"],
+  delta: ["δ", "delta: steering angle of the front wheels"],
+  psi: ["ψ", "psi: heading, counter-clockwise from the x axis"],
+  zeta: ["ζ", "zeta: damping ratio"],
+  tau_speed: ["τ_speed", "tau_speed: thrust of all wheels over F_max"],
+  tau_turn: ["τ_turn", "tau_turn, m: yaw moment over F_max"],
+  "F'": ["F′", "F': force of one wheel over F_max, the largest force of a motor"],
+  "m'": ["m′", "m', s²/m: mass over F_max"],
+  "I'z": ["I′z", "I'z, s² m: yaw inertia over F_max"],
+}));
+symbols.set("eps", symbols.get("epsilon"));
+
+const symbolParts = (text) => text.replaceAll("<=", "≤").replaceAll(">=", "≥").replaceAll("^2", "²")
+  .split(/([A-Za-z][A-Za-z0-9_']*)/);
+const plainSymbols = (text) => symbolParts(text).map((part) =>
+  (symbols.get(part) || [part])[0]).join("");
+
+/// The first occurrence of a symbol can be reached by keyboard.
+const metSymbols = new Set();
+
+/// Appends text; known symbols get their letter and their meaning.
+function write(node, text) {
+  for (const part of symbolParts(text)) {
+    const symbol = symbols.get(part);
+    if (!symbol) {
+      node.append(part);
+      continue;
+    }
+    const mark = add(node, "abbr", symbol[0], {title: symbol[1]});
+    if (!metSymbols.has(part)) mark.tabIndex = 0;
+    metSymbols.add(part);
+  }
+}
+
+/// Text with its symbols, as a node of its own.
+function symbolic(text) {
+  const node = document.createElement("span");
+  write(node, text);
+  return node;
+}

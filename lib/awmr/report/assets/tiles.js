@@ -1,0 +1,126 @@
+// The tiles of the summary: model error, settling time, best mode, warnings.
+
+const isWarning = (f) => f.severity === "warning" || f.severity === "error";
+
+function tile(list, tone, head, figure, text) {
+  const item = add(list, "li", undefined, {class: tone});
+  add(item, "b", head);
+  mark(item, tone);
+  add(item, "span", figure, {class: "figure"});
+  add(item, "span", text, {class: "small"});
+}
+
+/// Logs that were not among the data of the fit, by hash and by name without folders.
+function unseenLogs({model, validation}) {
+  const base = (name) => name.split("/").pop();
+  const hashes = model.inputs.map((input) => input.sha256);
+  const fitted = [...model.inputs, ...(validation.inputs || []).filter((input) =>
+    hashes.includes(input.sha256))];
+  const names = fitted.map((input) => base(input.name));
+  return (validation.logs || []).filter((log) => !names.includes(base(log.file)));
+}
+
+/// The largest error of the model: of its predictions of logs that were not fitted, else of logs
+/// that were, else of its trials.
+function modelTile(list, data) {
+  const {validation} = data;
+  if (!validation) return tile(list, "doubt", "Model error", "not validated",
+    "awmr validate compares the model with data");
+  const tone = validation.passed === false ? "bad" : "good";
+  const unseen = unseenLogs(data);
+  const logs = unseen.length ? unseen : validation.logs || [];
+  const source = unseen.length ? "not fitted" : "fitted";
+  const errors = logs.flatMap((log) => Object.entries(log.channels).map(([name, c]) =>
+    [(c.long_horizon || {}).nrmse,
+    `largest NRMSE, ${channelWords(name)}, ${log.file} (${source})`]));
+  const trials = Object.entries(validation.rms_relative_error || {}).filter(([, error]) =>
+    isNumber(error));
+  if (!errors.length && trials.length) {
+    errors.push([Math.max(...trials.map(([, error]) => error)),
+      `largest RMS of ${trials.map(([kind]) => kind).join(", ")}, on the fitted trials`]);
+  }
+  const found = errors.filter(([error]) => isNumber(error)).sort((a, b) => b[0] - a[0])[0];
+  if (found) return tile(list, tone, "Model error", percent(found[0]), found[1]);
+  const drives = validation.drives || [];
+  if (!drives.length) return tile(list, tone, "Model error", validation.passed ? "validated"
+    : "not validated", validation.verdict || "");
+  const outside = drives.filter((drive) => !drive.inside).length;
+  tile(list, outside ? "bad" : "good", "Model against drives",
+    `${drives.length - outside} of ${drives.length} as predicted`,
+    `drives under the controller, over ${plural(drives[0].draws, "predicted drive")}`);
+}
+
+/// Settling time of the baseline's and of the tuned gains in the mode of the gains: medians over
+/// draws that were not tuned on, else the first manoeuvre of the tuning.
+function settlingTile(list, gains) {
+  if (!gains) return tile(list, "doubt", "Settling time", "no gains",
+    "awmr tune computes gains for the model");
+  const broken = (gains.constraints || []).filter((c) => c.required && !(c.margin >= 0));
+  const unmet = (gains.goals || []).filter((goal) => goal.gains === "robust"
+    && goal.verdict !== "met");
+  const tone = broken.length ? "bad" : unmet.length ? "doubt" : "good";
+  const met = broken.length ? `${plural(broken.length, "constraint")} broken`
+    : "every constraint kept";
+  const {by_scenario: byScenario = {}, quantiles = {}} = gains.robust || {};
+  const sets = Object.values(byScenario)[0] || quantiles;
+  const mode = gains.mode || modes.filter((m) => sets[m] || (gains.metrics || {})[m]).pop();
+  const median = (set) => (set.completed_share < 0.5 ? null : (set.settling_time_s || {}).median);
+  const words = (x) => (isNumber(x) ? `${digits(x)} s` : absentWords.settling_time_s);
+  const change = (from, to) => (isNumber(from) && isNumber(to) ? `${digits(from)} → ${words(to)}`
+    : `${words(from)} → ${words(to)}`);
+  const {robust: after, baseline: before} = sets[mode] || {};
+  if (after && before) {
+    return tile(list, tone, "Settling time", change(median(before), median(after)),
+      `${baselineWords(gains)} → tuned, ${mode}, median of ${gains.robust.judged_draws} draws; ` +
+      `${met}`);
+  }
+  const [manoeuvre, metrics] = Object.entries((gains.metrics || {})[mode] || {})[0] || [];
+  if (!metrics) return tile(list, tone, "Gains", "given", "no tuning is recorded with these gains");
+  const base = (((gains.baseline || {}).metrics || {})[mode] || {})[manoeuvre];
+  tile(list, tone, "Settling time", base ? change(base.settling_time_s, metrics.settling_time_s)
+    : words(metrics.settling_time_s),
+    `${base ? `${baselineWords(gains)} → tuned, ` : ""}${mode}, ${scenarioWords(manoeuvre)}; ` +
+    `${met}`);
+}
+
+/// Modes in first place by scenario: those that stay first under every change, where that was
+/// checked.
+const firstOf = (scenario) => (scenario.decision ? scenario.decision.never_behind
+  : scenario.ranking.filter((r) => r.rank === 1).map((r) => r.mode));
+
+/// The best mode, if it alone is first in every ranked scenario.
+function modeTile(list, comparison) {
+  const ranked = ((comparison || {}).scenarios || []).filter((s) => s.ranking.length);
+  if (!ranked.length) return tile(list, "doubt", "Best mode", "not compared",
+    "awmr compare ranks the modes");
+  const alone = distinct(ranked.map((s) => (firstOf(s).length === 1 ? firstOf(s)[0] : "")));
+  const basis = comparison.samples ? plural(comparison.samples, "sample") : "nominal runs only";
+  const all = ranked.length === 1
+    ? `“${scenarioWords(ranked[0].name)}”` : `${ranked.length} scenarios`;
+  if (alone.length === 1 && alone[0]) return tile(list, comparison.samples ? "good" : "doubt",
+    "Best mode", alone[0], `${all}; ${basis}`);
+  if (ranked.length > 1) {
+    const wins = distinct(alone).filter(Boolean).map((mode) =>
+      `${mode} first in ` +
+      `${ranked.filter((s) => firstOf(s).length === 1 && firstOf(s)[0] === mode).length}`);
+    const tied = ranked.filter((s) => firstOf(s).length > 1).length;
+    const open = ranked.filter((s) => !firstOf(s).length).length;
+    const counts = [...wins, ...(tied ? [`ties in ${tied}`] : []),
+      ...(open ? [`undecided in ${open}`] : [])];
+    return tile(list, "doubt", "Best mode", "undecided",
+      `${counts.join(", ")} of ${all}; ${basis}`);
+  }
+  const level = firstOf(ranked[0]);
+  tile(list, "doubt", "Best mode", "undecided",
+    `${level.length ? `${level.join(" and ")} tie` : "no mode stays first"} in ${all}; ${basis}`);
+}
+
+function warningsTile(list, findings) {
+  const count = (severity) => findings.filter((f) => f.severity === severity).length;
+  const errors = count("error"), warnings = count("warning");
+  const figure = errors ? `${plural(errors, "error")}, ${plural(warnings, "warning")}` : warnings
+    ? plural(warnings, "warning") : "none";
+  const first = findings.filter(isWarning)[0];
+  tile(list, errors ? "bad" : warnings ? "doubt" : "good", "Warnings", figure,
+    `${first ? `first: ${first.code.replaceAll("-", " ")}; ` : ""}${plural(count("note"), "note")}`);
+}
