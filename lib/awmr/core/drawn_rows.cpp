@@ -78,6 +78,10 @@ std::vector<std::size_t> drawn_rows(std::span<const double> t,
   return rows;
 }
 
-double drawn_number(double x) { return std::strtod(fmt::format("{:.5g}", x).c_str(), nullptr); }
+double rounded_number(double x, int digits) {
+  return std::strtod(fmt::format("{:.{}g}", x, digits).c_str(), nullptr);
+}
+
+double drawn_number(double x) { return rounded_number(x, 5); }
 
 }  // namespace awmr

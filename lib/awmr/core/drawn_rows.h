@@ -21,7 +21,10 @@ std::vector<std::size_t> drawn_rows(std::span<const double> t,
 /// pixel at tenfold zoom.
 inline constexpr double kDrawnTolerance = 1.0 / 2000.0;
 
-/// Rounds a finite number to five digits.
+/// Rounds a finite number to this many significant digits, 1 to 17.
+double rounded_number(double x, int digits);
+
+/// Rounds a finite number to the five digits that a chart shows.
 double drawn_number(double x);
 
 }  // namespace awmr

@@ -1,14 +1,12 @@
 #include "awmr/report/report.h"
 
-#include <fmt/format.h>
-
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "awmr/core/drawn_rows.h"
 #include "awmr/core/json.h"
 #include "awmr/model/model.h"
 #include "awmr/report/figures/figures_of.h"
@@ -53,9 +51,7 @@ bool is_vehicle_of_paper(const Vehicle& vehicle) {
 
 /// Rounds all numbers to eight digits; the page shows at most two of a standard error.
 void round_numbers(Json& json) {
-  if (json.is_number_float()) {
-    json = std::strtod(fmt::format("{:.8g}", json.get<double>()).c_str(), nullptr);
-  }
+  if (json.is_number_float()) json = rounded_number(json.get<double>(), 8);
   if (!json.is_structured()) return;
   for (Json& value : json) round_numbers(value);
 }

@@ -6,9 +6,9 @@ const liveColumns = ["t_s", "psi_rad", "psi_ref_rad", "u_mps", "force_left", "fo
 /// Gains and other adjustable values; `log`: the slider has a logarithmic scale.
 const liveSliders = [
   {key: "lambda", name: "lambda, 1/s", low: 0.5, high: 15, log: true},
-    {key: "mu", name: "mu, rad/s²", low: 1, high: 200, log: true},
+  {key: "mu", name: "mu, rad/s²", low: 1, high: 200, log: true},
   {key: "epsilon", name: "epsilon, rad/s", low: 0.1, high: 50, log: true},
-    {key: "speed_mu", name: "mu_s, m/s²", low: 0.5, high: 100, log: true},
+  {key: "speed_mu", name: "mu_s, m/s²", low: 0.5, high: 100, log: true},
   {key: "speed_epsilon", name: "epsilon_s, m/s", low: 0.05, high: 10, log: true},
   {key: "observer", name: "observer's bandwidth, rad/s", low: 0.2, high: 20, log: true},
   {key: "sample_time_s", name: "sample time, s", low: 0.002, high: 0.1, log: true},
@@ -98,8 +98,7 @@ function liveCharts(parent, start) {
   const group = [];
   const line = (name, colour, width) => ({name, kind: "line", colour, width});
   const lines = [line("tuned gains", "var(--dim)", 4), line("these gains", "var(--live)", 1.8)];
-  const limit = report.yaw_rate_measured_degps;
-  const shade = isNumber(limit) ? [extrapolatedLook(limit)] : [];
+  const shade = extrapolatedYawRates();
   const box = add(parent, "div");
   legend(box, [...lines, referenceLook, ...shade], group);
   const grid = add(box, "div", undefined, {class: "grid thirds"});

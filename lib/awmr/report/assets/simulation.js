@@ -34,15 +34,12 @@ function waypointsOf(scenario) {
   return guidance.from_m && guidance.to_m ? [guidance.from_m, guidance.to_m] : [];
 }
 
-const extrapolatedLook = (limit) => (
-  {name: `extrapolated, beyond ±${digits(limit)} deg/s`, kind: "shade", limit,
-    colour: "var(--shade)"});
-/// Yaw rates beyond those at which yaw resistance was measured, if a run reaches them.
-function extrapolatedYawRates(runs) {
+/// Yaw rates beyond those at which yaw resistance was measured: a list of one series; empty where
+/// none was measured.
+function extrapolatedYawRates() {
   const limit = report.yaw_rate_measured_degps;
-  const isBeyond = isNumber(limit) && runs.some((run) =>
-    run.columns.r_degps.some((r) => Math.abs(r) > limit));
-  return isBeyond ? [extrapolatedLook(limit)] : [];
+  return isNumber(limit) ? [{name: `extrapolated, beyond ±${digits(limit)} deg/s`, kind: "shade",
+    limit, colour: "var(--shade)"}] : [];
 }
 
 function scenarioPart(parent, stem, runs, scenario, open) {
@@ -58,7 +55,8 @@ function scenarioPart(parent, stem, runs, scenario, open) {
     ({x: o.x_m, y: o.y_m, radius: o.radius_m, name: obstacleLook.name}));
   const course = {name: points.length > 2 ? "waypoints" : "ends of the line", kind: "points",
     shape: "cross", points, colour: "var(--ink)"};
-  const shade = extrapolatedYawRates(runs);
+  const shade = extrapolatedYawRates().filter(({limit}) =>
+    runs.some((run) => run.columns.r_degps.some((r) => Math.abs(r) > limit)));
   legend(box, [...entries, referenceLook, ...(points.length ? [course] : []),
     ...(circles.length ? [obstacleLook] : []), ...shade], group);
   const grid = add(box, "div", undefined, {class: "grid"});
