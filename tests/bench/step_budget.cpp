@@ -49,9 +49,9 @@ double drive(const Plant<double>& nominal, const Controller<double>& controller,
   const auto command = [&](const Measurement<Counted>& measured,
                            const Reference<Counted>& reference) {
     Allocation<Counted> a;
-    allocate(YawMode::kCombined, speed_law(laws, measured, reference),
-             heading_law(laws, measured, reference), laws.constants.allocation,
-             controller.limits.split, a);
+    allocate(kFourWheelSteering, yaw_split<Counted>(YawMode::kCombined, controller.limits.split),
+             speed_law(laws, measured, reference), heading_law(laws, measured, reference),
+             laws.constants.allocation, a);
     return a;
   };
   const auto move = [&](double, const Allocation<Counted>& a, State<Counted>& state) {

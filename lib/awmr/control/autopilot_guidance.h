@@ -185,7 +185,8 @@ template <class G>
 AWMR_INLINE void allocate_asked(Without<Observer>&, const PreparedController<float, G>&,
                                 YawMode mode, CombinedSplit split, const Measurement<float>&,
                                 const Asked& asked) {
-  allocate(mode, asked.tau_speed, asked.tau_turn_m, asked.limits, split, asked.command);
+  allocate(kFourWheelSteering, yaw_split<float>(mode, split), asked.tau_speed, asked.tau_turn_m,
+           asked.limits, asked.command);
 }
 
 /// Allocates the laws' outputs minus the estimated disturbance.
@@ -205,11 +206,12 @@ void allocate_asked(Observer& part, const PreparedController<float, G>& c, YawMo
     asked.tau_turn_m -= disturbance.yaw_m;
     asked.tau_speed -= disturbance.surge;
   }
-  allocate(mode, asked.tau_speed, asked.tau_turn_m, asked.limits, split, asked.command);
+  allocate(kFourWheelSteering, yaw_split<float>(mode, split), asked.tau_speed, asked.tau_turn_m,
+           asked.limits, asked.command);
   if (!part.is_on) return;
   const GeneralisedForces<float> allocated =
-      generalised_forces(0.5F * asked.limits.axle_twice_m, asked.limits.half_track_m,
-                         asked.command.force, asked.command.steering_rad);
+      generalised_forces(asked.limits.front_axle_m, asked.limits.half_track_m, asked.command.force,
+                         asked.command.steering_rad);
   advance(part.observers, disturbance, {asked.tau_speed, asked.tau_turn_m}, allocated, motion,
           part.sample_time_s, part.state);
 }

@@ -248,7 +248,8 @@ AWMR_INLINE T speed_law(const PreparedController<T, G>& c, const Measurement<T>&
   const T w_mps = fed_forward_speed(m.u_mps, ref, error, wanted, k.speed_limit,
                                     [&k] { return T(k.speed_limit / k.speed_slope); });
   const T accel_mps2 = math::difference(ref.accel_mps2, T(m.r_radps * m.v_mps));
-  return fed_forward(c.surge, w_mps, error) + (k.mass_norm * accel_mps2 + correction);
+  return fed_forward(c.surge, w_mps, error) +
+         math::plus_product(correction, k.mass_norm, accel_mps2);
 }
 
 /// Computes both laws and the allocation for one sample.

@@ -97,7 +97,8 @@ void set_up_lane(Batch& batch, const BatchRun& run, std::size_t lane) {
   const Controller<double> controller = controller_in(batch.scenario, run.controller);
   const int substeps = substeps_for(run.plant, batch.scenario, batch.sample_time_s);
   const double step_s = batch.sample_time_s / substeps;
-  put(static_cast<double>(static_cast<int>(run.mode)), lane, block.mode);
+  put(yaw_split<double>(run.mode, controller.limits.split).steering_share, lane,
+      block.steering_share);
   put(resolved_at_rest(run.plant, batch.scenario, step_s), lane, block.plant);
   put(step_s, lane, block.step_s);
   put(static_cast<double>(substeps), lane, block.substeps);

@@ -62,9 +62,9 @@ struct Block {
   Row active;  ///< 1; 0 once the run has ended, or where the lane has none
 
   // Constant over a run.
-  Row mode;          ///< the number of its YawMode
-  Plant<Row> plant;  ///< with its chord at rest
-  Row step_s;        ///< h
+  Row steering_share;  ///< YawSplit of its mode
+  Plant<Row> plant;    ///< with its chord at rest
+  Row step_s;          ///< h
   Row substeps;
   PreparedController<Row> controller;
   DisturbanceObserver<Row> yaw_observer, surge_observer;
