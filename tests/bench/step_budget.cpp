@@ -8,6 +8,7 @@
 
 #include "counted.h"
 // The scalar type must be declared before the templates that are instantiated with it.
+#include "awmr/control/control_step.h"
 #include "awmr/model/gains_file.h"
 #include "awmr/model/model_file.h"
 #include "awmr/model/rest.h"

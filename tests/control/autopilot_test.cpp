@@ -94,7 +94,7 @@ TEST_F(AutopilotLeads, ByWaypointsUntilTheLastIsReached) {
 TEST_F(AutopilotLeads, SlowerOnTheLastLegAlone) {
   const Waypoints<float> waypoints{kPoints, 2, 0.8F, false};
   follow_waypoints(autopilot_, waypoints);
-  part_of<SlowDown>(autopilot_).distance_m = 4.0F;
+  part_of<SlowDown<float>>(autopilot_).distance_m = 4.0F;
   auto progress = start_waypoints(Position<float>{0.0F, 0.0F}, in_.measured.psi_rad);
   int slower = 0;
   for (const Position<float>& place : drive()) {
@@ -114,7 +114,7 @@ TEST_F(AutopilotLeads, AlongALineToItsEnd) {
   const Polyline<float> line{corners, 3, 1.0F, {1.0F, 2.0F, true}};
   follow_waypoints(autopilot_, {kPoints, 2, 3.0F, false});
   follow_line(autopilot_, line);
-  part_of<SlowDown>(autopilot_).distance_m = 3.0F;
+  part_of<SlowDown<float>>(autopilot_).distance_m = 3.0F;
   auto progress = start_polyline(in_.measured.psi_rad);
   const float sideslip = sideslip_rad(in_.measured.u_mps, in_.measured.v_mps);
   bool has_arrived = false, was_slower = false;

@@ -15,10 +15,11 @@
 
 #include <stdint.h>
 
-#include "awmr/control/controller.h"
 #include "awmr/control/displacement.h"
 #include "awmr/control/gps_sentence.h"
-#include "awmr/control/guidance.h"
+#include "awmr/control/guidance/position.h"
+#include "awmr/control/measurement.h"
+#include "awmr/model/gains.h"
 
 namespace awmr {
 

@@ -13,6 +13,8 @@ namespace awmr {
 template <class T>
 AllocationConstants<T> at_speed(AllocationConstants<T> c, const T& back_emf_s_per_m, const T& u_mps,
                                 double driven_wheels = 4.0) {
+  using math::any;
+  if (!any(back_emf_s_per_m > T(0.0))) return c;
   const T lost = back_emf_s_per_m * u_mps;
   c.tau_speed_min = c.tau_speed_min - T(driven_wheels) * lost;
   c.tau_speed_max = c.tau_speed_max - T(driven_wheels) * lost;

@@ -3,12 +3,10 @@
 /// program, and share no code with it.
 #pragma once
 
-#include "awmr/control/controller.h"
-#include "awmr/control/disturbance_observer.h"
-#include "awmr/control/heading_lqi.h"
 #include "awmr/simulate/four_wheel_motion.h"
 #include "awmr/simulate/meter.h"
 #include "awmr/simulate/motion.h"
+#include "awmr/simulate/run_controller.h"
 
 namespace awmr {
 namespace lanes {
