@@ -56,7 +56,7 @@ class HostExecutor : public Executor {
     const Mission& mission = *mission_;
     const float sample_time_s = parameters_->sample_time_s;
     if (mission.path) follow_path(autopilot_, mission.path->path, mission.path->gain_per_s);
-    if (mission.slow_down_m) part_of<SlowDown>(autopilot_).distance_m = *mission.slow_down_m;
+    if (mission.slow_down_m) part_of<SlowDown<float>>(autopilot_).distance_m = *mission.slow_down_m;
     if (mission.avoidance) {
       sectors_.resize(mission.obstacles.size());
       avoid_obstacles(autopilot_, *mission.avoidance, mission.obstacles.data(), sectors_.data(),

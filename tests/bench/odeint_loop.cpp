@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "awmr/control/control_step.h"
 #include "awmr/model/gains_file.h"
 #include "awmr/model/model_file.h"
 #include "awmr/model/rest.h"

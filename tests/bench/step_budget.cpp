@@ -8,6 +8,7 @@
 
 #include "counted.h"
 // The scalar type must be declared before the templates that are instantiated with it.
+#include "awmr/control/control_step.h"
 #include "awmr/model/gains_file.h"
 #include "awmr/model/model_file.h"
 #include "awmr/model/rest.h"
@@ -49,9 +50,9 @@ double drive(const Plant<double>& nominal, const Controller<double>& controller,
   const auto command = [&](const Measurement<Counted>& measured,
                            const Reference<Counted>& reference) {
     Allocation<Counted> a;
-    allocate(YawMode::kCombined, speed_law(laws, measured, reference),
-             heading_law(laws, measured, reference), laws.constants.allocation,
-             controller.limits.split, a);
+    allocate(kFourWheelSteering, yaw_split<Counted>(YawMode::kCombined, controller.limits.split),
+             speed_law(laws, measured, reference), heading_law(laws, measured, reference),
+             laws.constants.allocation, a);
     return a;
   };
   const auto move = [&](double, const Allocation<Counted>& a, State<Counted>& state) {

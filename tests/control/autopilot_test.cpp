@@ -12,6 +12,8 @@ namespace {
 
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 constexpr float kSampleTime_s = 0.03F;
+const YawSplit<float> kCombinedSplit =
+    yaw_split<float>(YawMode::kCombined, CombinedSplit::kRedistribute);
 
 /// Wide enough for the obstacles of these tests to matter.
 constexpr Avoidance<float> kAvoidance{.mmd_base_m = 2.0F,
@@ -92,7 +94,7 @@ TEST_F(AutopilotLeads, ByWaypointsUntilTheLastIsReached) {
 TEST_F(AutopilotLeads, SlowerOnTheLastLegAlone) {
   const Waypoints<float> waypoints{kPoints, 2, 0.8F, false};
   follow_waypoints(autopilot_, waypoints);
-  part_of<SlowDown>(autopilot_).distance_m = 4.0F;
+  part_of<SlowDown<float>>(autopilot_).distance_m = 4.0F;
   auto progress = start_waypoints(Position<float>{0.0F, 0.0F}, in_.measured.psi_rad);
   int slower = 0;
   for (const Position<float>& place : drive()) {
@@ -112,7 +114,7 @@ TEST_F(AutopilotLeads, AlongALineToItsEnd) {
   const Polyline<float> line{corners, 3, 1.0F, {1.0F, 2.0F, true}};
   follow_waypoints(autopilot_, {kPoints, 2, 3.0F, false});
   follow_line(autopilot_, line);
-  part_of<SlowDown>(autopilot_).distance_m = 3.0F;
+  part_of<SlowDown<float>>(autopilot_).distance_m = 3.0F;
   auto progress = start_polyline(in_.measured.psi_rad);
   const float sideslip = sideslip_rad(in_.measured.u_mps, in_.measured.v_mps);
   bool has_arrived = false, was_slower = false;
@@ -242,13 +244,11 @@ TEST_F(AutopilotLeads, LessTheDisturbanceThatTheObserverSees) {
     EXPECT_EQ(out.tau_speed, tau_speed);
     EXPECT_EQ(out.tau_turn_m, tau_turn_m);
     Allocation<float> command{};
-    allocate(YawMode::kCombined, tau_speed, tau_turn_m, k.allocation, CombinedSplit::kRedistribute,
-             command);
+    allocate(kFourWheelSteering, kCombinedSplit, tau_speed, tau_turn_m, k.allocation, command);
     EXPECT_EQ(out.command.force.left, command.force.left);
     EXPECT_EQ(out.command.steering_rad, command.steering_rad);
-    const auto allocated =
-        generalised_forces(0.5F * k.allocation.axle_twice_m, k.allocation.half_track_m,
-                           command.force, command.steering_rad);
+    const auto allocated = generalised_forces(k.allocation.front_axle_m, k.allocation.half_track_m,
+                                              command.force, command.steering_rad);
     advance(observers, seen, {tau_speed, tau_turn_m}, allocated, motion, kSampleTime_s, state);
     if (i > 0) {
       EXPECT_NE(seen.surge, 0.0F);
@@ -302,8 +302,8 @@ TEST_F(AutopilotLeads, WithDrivesThatMakeUpForBackEmfAndForcesThatItLeaves) {
       in_.measured.r_radps = r_radps;
       const AutopilotOutput out = step_at({0.0F, 0.0F});
       Allocation<float> made{};
-      allocate(YawMode::kCombined, out.tau_speed, out.tau_turn_m, at_speed(at_rest, 0.2F, u_mps),
-               CombinedSplit::kRedistribute, made);
+      allocate(kFourWheelSteering, kCombinedSplit, out.tau_speed, out.tau_turn_m,
+               at_speed(at_rest, 0.2F, u_mps), made);
       const SideForces<float> command =
           motor_commands(made.force, at_rest, 0.1F, 0.2F, u_mps, r_radps);
       EXPECT_EQ(out.command.force.left, command.left) << u_mps << " " << r_radps;

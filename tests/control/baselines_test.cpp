@@ -5,8 +5,8 @@
 #include <Eigen/Dense>
 #include <cmath>
 
-#include "awmr/control/guidance_ilos.h"
-#include "awmr/control/guidance_pure_pursuit.h"
+#include "awmr/control/guidance/ilos.h"
+#include "awmr/control/guidance/pure_pursuit.h"
 #include "awmr/control/heading_lqi.h"
 #include "support/any_robot.h"
 #include "support/strict_scalar.h"

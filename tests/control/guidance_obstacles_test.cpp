@@ -1,5 +1,5 @@
 /// Obstacle avoidance, one step at a time.
-#include "awmr/control/guidance_obstacles.h"
+#include "awmr/control/guidance/obstacles.h"
 
 #include <gtest/gtest.h>
 

@@ -1,13 +1,13 @@
 /// Waypoints, lines, timed paths and reference shaping.
-#include "awmr/control/guidance.h"
+#include "awmr/control/guidance/waypoints.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "awmr/control/guidance_line.h"
-#include "awmr/control/guidance_path.h"
-#include "awmr/control/guidance_shaping.h"
+#include "awmr/control/guidance/heading_shaping.h"
+#include "awmr/control/guidance/line.h"
+#include "awmr/control/guidance/timed_path.h"
 #include "support/strict_scalar.h"
 
 namespace awmr::testing {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "awmr/control/controller.h"
+#include "awmr/control/feed_forward.h"
 
 namespace awmr::testing {
 namespace {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "awmr/control/feed_forward.h"
 #include "emit/paper_robot.h"
 
 namespace awmr::testing {

@@ -1,6 +1,6 @@
 // Complete program for the ATmega2560: awmr_params.h and the simulator's controller, in float.
 // Inputs from sensors and outputs to motors are volatile here.
-#include "awmr/control/controller.h"
+#include "awmr/control/control_step.h"
 #include "awmr_params.h"
 
 namespace {

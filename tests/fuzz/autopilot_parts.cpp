@@ -119,7 +119,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if ((use & kWaypoints) != 0) follow_waypoints(autopilot, {corners, kMostPoints, 1.0F, true});
   if ((use & kLine) != 0) follow_line(autopilot, {corners, kMostPoints, 0.5F, {1.0F, 2.0F, true}});
   if ((use & kPath) != 0) follow_path(autopilot, {10.0F, 8.0F, 0.1F, 0.3F}, 0.5F);
-  part_of<SlowDown>(autopilot).distance_m = (use & kLine) != 0 ? 2.0F : 0.0F;
+  part_of<SlowDown<float>>(autopilot).distance_m = (use & kLine) != 0 ? 2.0F : 0.0F;
   if ((use & kObstacles) != 0) {
     const Avoidance<float> avoidance{2.0F, 1.0F, 0.2F, 0.3F, 0.2F, 0.3F, 0.2F, 1.0F};
     avoid_obstacles(autopilot, avoidance, obstacles, sectors, 2);

@@ -77,8 +77,8 @@ TEST_F(SafetyChip, SensorChecksCommandsArmingAndDirectionGiveTheHostsBitsWithinT
             << ", while a fix is worked on " << fix << "; " << emulator_->flash_bytes()
             << " bytes of flash, " << emulator_->ram_bytes() << " of RAM\n";
   // The budget of a step is 20,000 cycles. The bounds are those of avr-gcc 5.4 plus 1 %.
-  EXPECT_LE(step, 16780U);
-  EXPECT_LE(whole, 19520U);
+  EXPECT_LE(step, 17090U);
+  EXPECT_LE(whole, 19830U);
   EXPECT_LE(fix, 20000U);
   EXPECT_LE(emulator_->flash_bytes(), 26170U);
   EXPECT_LE(emulator_->ram_bytes(), 988U);

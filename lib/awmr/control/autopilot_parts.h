@@ -1,58 +1,17 @@
-/// Optional features of a firmware in addition to heading hold and waypoints. A part that is not
-/// compiled in needs no flash, RAM or time. Freestanding C++14.
+/// Optional features of a firmware in addition to heading hold and waypoints: those of the guidance
+/// (guidance/parts.h), the disturbance observer and the motors' curve. Freestanding C++14.
 #pragma once
 
 #include <stdint.h>
 
-#include "awmr/control/disturbance_observer.h"
-#include "awmr/control/guidance.h"
-#include "awmr/control/guidance_line.h"
-#include "awmr/control/guidance_obstacles.h"
-#include "awmr/control/guidance_path.h"
-#include "awmr/control/guidance_shaping.h"
+#include "awmr/control/control_step.h"
+#include "awmr/control/flash.h"
+#include "awmr/control/guidance/parts.h"
+#include "awmr/control/motor_command.h"
+#include "awmr/control/optional_part.h"
 #include "awmr/control/yaw_mode.h"
 
 namespace awmr {
-
-/// Follows a line or polyline.
-struct LineFollower {
-  Polyline<float> line;              ///< count 0: none
-  PolylineProgress<float> progress;  ///< valid once is_started
-  bool is_started;                   ///< the first step along the line was made
-};
-
-/// Follows a Lissajous figure as a function of time.
-struct PathFollower {
-  Lissajous<float> path;
-  float gain_per_s;   ///< k of closed_path(), > 0; 0: open_path()
-  float held_rad;     ///< psi_d of the last step, valid once is_started
-  uint32_t start_ms;  ///< the path's t = 0, valid once is_started
-  bool is_on;
-  bool is_started;  ///< the first step along the path was made
-};
-
-/// Reduces the speed before the last waypoint, or the line's end.
-struct SlowDown {
-  float distance_m;  ///< m before the end; 0: disabled
-};
-
-/// Avoids obstacles.
-struct Avoider {
-  Avoidance<float> avoidance;
-  const Obstacle<float>* obstacles;  ///< not owned; `count` of them
-  Sector<float>* sectors;            ///< room for `count`; not owned
-  int count;                         ///< 0: none
-  AvoidanceState state;
-};
-
-/// Shapes the heading reference.
-struct Shaper {
-  HeadingShaping<float> filter;
-  float sample_time_s;
-  ShapedHeading<float> state;  ///< valid once is_started
-  bool is_on;
-  bool is_started;
-};
 
 /// Subtracts the estimated disturbance from the command.
 struct Observer {
@@ -69,29 +28,15 @@ struct MotorCurve {
   float back_emf_s_per_m;  ///< k_e of a motor, s/m; 0: none
 };
 
-/// Empty stand-in for a part that is not compiled in. All operations on it are no-ops.
-template <class Part>
-struct Without {};
-
-/// `Part`, or Without<Part>.
-template <bool kIsIn, class Part>
-struct Optional {
-  typedef Part type;
-};
-template <class Part>
-struct Optional<false, Part> {
-  typedef Without<Part> type;
-};
-
 /// List of the compiled parts. A firmware defines its own struct with these names.
 struct NoParts {
-  typedef Without<LineFollower> Line;
-  typedef Without<PathFollower> Path;
-  typedef Without<SlowDown> Arrival;
-  typedef Without<Avoider> Avoidance;
-  typedef Without<Shaper> Shaping;
-  typedef Without<Observer> Observation;
-  typedef Without<MotorCurve> Motors;
+  typedef Disabled<LineFollower<float>> Line;
+  typedef Disabled<PathFollower<float, uint32_t>> Path;
+  typedef Disabled<SlowDown<float>> Arrival;
+  typedef Disabled<Avoider<float>> Avoidance;
+  typedef Disabled<Shaper<float>> Shaping;
+  typedef Disabled<Observer> Observation;
+  typedef Disabled<MotorCurve> Motors;
   static constexpr CombinedSplit kSplit = CombinedSplit::kRedistribute;
   static constexpr bool kIsDirected = true;  ///< AutopilotInput::speed_unsigned is supported
 };
@@ -99,33 +44,64 @@ struct NoParts {
 /// All parts, with either split.
 template <CombinedSplit split = CombinedSplit::kRedistribute>
 struct AllParts {
-  typedef LineFollower Line;
-  typedef PathFollower Path;
-  typedef SlowDown Arrival;
-  typedef Avoider Avoidance;
-  typedef Shaper Shaping;
+  typedef LineFollower<float> Line;
+  typedef PathFollower<float, uint32_t> Path;
+  typedef SlowDown<float> Arrival;
+  typedef Avoider<float> Avoidance;
+  typedef Shaper<float> Shaping;
   typedef Observer Observation;
   typedef MotorCurve Motors;
   static constexpr CombinedSplit kSplit = split;
   static constexpr bool kIsDirected = true;
 };
 
-/// Switches a part off; a no-op for a part that is not compiled in.
-template <class Part>
-void switch_off(Without<Part>&) {}
-inline void switch_off(LineFollower& part) { part.line.count = 0; }
-inline void switch_off(PathFollower& part) { part.is_on = false; }
-inline void switch_off(SlowDown& part) { part.distance_m = 0.0F; }
-inline void switch_off(Avoider& part) { part.count = 0; }
-inline void switch_off(Shaper& part) { part.is_on = false; }
-inline void switch_off(Observer& part) { part.is_on = false; }
+inline void disable(Observer& part) { part.is_on = false; }
+inline void reset(Observer& part) { part.is_started = false; }
 
-/// Resets the part after a step with the safe command: its memory of the vehicle's motion is no
-/// longer valid.
-template <class Part>
-void begin_anew(Without<Part>&) {}
-inline void begin_anew(Avoider& part) { part.state = AvoidanceState(); }
-inline void begin_anew(Shaper& part) { part.is_started = false; }
-inline void begin_anew(Observer& part) { part.is_started = false; }
+/// Motor commands that make the forces with a dead zone.
+AWMR_INLINE void make_up_dead_zone(const Disabled<MotorCurve>&, SideForces<float>&) {}
+inline void make_up_dead_zone(const MotorCurve& part, SideForces<float>& force) {
+  force = with_dead_zone(force, part.dead_zone);
+}
+
+/// Allocation limits at the speed u, m/s.
+AWMR_INLINE const AllocationConstants<float>& limits_at(const Disabled<MotorCurve>&,
+                                                        const AllocationConstants<float>& c,
+                                                        const float& /*u_mps*/) {
+  return c;
+}
+inline AllocationConstants<float> limits_at(const MotorCurve& part,
+                                            const AllocationConstants<float>& c,
+                                            const float& u_mps) {
+  return at_speed(c, part.back_emf_s_per_m, u_mps);
+}
+
+/// Motor drives that make the forces with back-EMF.
+AWMR_INLINE void make_up_back_emf(const Disabled<MotorCurve>&, const AllocationConstants<float>&,
+                                  const Measurement<float>&, SideForces<float>&) {}
+inline void make_up_back_emf(const MotorCurve& part, const AllocationConstants<float>& c,
+                             const Measurement<float>& m, SideForces<float>& force) {
+  force = motor_drives(force, c, part.back_emf_s_per_m, m.u_mps, m.r_radps);
+}
+
+/// Allocates the laws' outputs, with the observer's compensation if it is compiled in and on.
+template <class G>
+AWMR_INLINE void allocate_observed(Disabled<Observer>&, const PreparedController<float, G>& c,
+                                   const Measurement<float>& m,
+                                   const AllocationRequest<float>& request) {
+  const Observers<float>* const none = 0;
+  ObserversState<float>* const no_state = 0;
+  allocate_compensated(none, c, m, 0.0F, request, no_state);
+}
+template <class G>
+void allocate_observed(Observer& part, const PreparedController<float, G>& c,
+                       const Measurement<float>& m, const AllocationRequest<float>& request) {
+  if (part.is_on && !part.is_started) {
+    part.state = start_observers(part.observers, observed_motion(c, m).momentum);
+    part.is_started = true;
+  }
+  allocate_compensated(part.is_on ? &part.observers : 0, c, m, part.sample_time_s, request,
+                       &part.state);
+}
 
 }  // namespace awmr

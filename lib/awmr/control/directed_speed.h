@@ -15,10 +15,11 @@
 
 #include <stdint.h>
 
-#include "awmr/control/controller.h"
 #include "awmr/control/displacement.h"
 #include "awmr/control/gps_sentence.h"
-#include "awmr/control/guidance.h"
+#include "awmr/control/guidance/position.h"
+#include "awmr/control/measurement.h"
+#include "awmr/model/gains.h"
 
 namespace awmr {
 
@@ -57,12 +58,6 @@ T magnitude(const T& value) {
   return value < T(0.0) ? -value : value;
 }
 inline float magnitude(const float& value) { return float_of(float_math::magnitude_bits(value)); }
-/// `size` with the sign of `of`; +size for 0.
-template <class T>
-T with_sign(const T& size, const T& of) {
-  return of < T(0.0) ? -size : size;
-}
-
 }  // namespace detail
 
 /// Predicts the speed over the step of `dt_s` that ends now:
@@ -78,7 +73,7 @@ void predict_speed(DirectedSpeed<T>& d, const G& surge, const T& mass_inverse,
   if (size > speed_max_mps) size = speed_max_mps;
   size -= step * surge(size);
   if (!(size > T(0.0)) || math::is_opposite(pushed, before)) size = T(0.0);
-  d.predicted_mps = detail::with_sign(size, pushed);
+  d.predicted_mps = math::with_sign(size, pushed);
   if (d.settled_s < T(kSettled_s)) d.settled_s += dt_s;
   if (math::is_opposite(d.tau_speed, before)) {
     d.settled_s = T(0.0);
@@ -100,7 +95,7 @@ void correct_speed(DirectedSpeed<T>& d, const SpeedReading<T>& reading) {
   d.fix_m = reading.position_m;
   d.has_fix = true;
   if (!(d.settled_s < T(kSettled_s)) && detail::magnitude(d.along_m) > T(kVerified_m)) {
-    d.predicted_mps = detail::with_sign(speed, d.along_m);
+    d.predicted_mps = math::with_sign(speed, d.along_m);
     d.along_m = T(0.0);
     return;
   }
@@ -112,7 +107,7 @@ void correct_speed(DirectedSpeed<T>& d, const SpeedReading<T>& reading) {
   } else if (size > speed) {
     size = speed;
   }
-  d.predicted_mps = detail::with_sign(size, d.predicted_mps);
+  d.predicted_mps = math::with_sign(size, d.predicted_mps);
 }
 
 /// Replaces |u| in `m` by the signed speed. Sets both speeds to 0 if no force is permitted.
@@ -130,7 +125,7 @@ void apply_direction(const DirectedSpeed<T>& d, Measurement<T>& m, Reference<T>&
     ref.accel_mps2 = T(0.0);
     return;
   }
-  m.u_mps = detail::with_sign(speed, is_known ? d.predicted_mps : ref.speed_mps);
+  m.u_mps = math::with_sign(speed, is_known ? d.predicted_mps : ref.speed_mps);
 }
 
 /// True where the speed law, fed with |u| of a vehicle that rolls backward at the speed u, pushes it

@@ -1,9 +1,11 @@
 /// LQI (linear-quadratic with integral) heading law, a baseline for comparison with the sliding
-/// mode of controller.h. Freestanding C++14.
+/// mode of heading_law.h. Freestanding C++14.
 #pragma once
 
-#include "awmr/control/allocation.h"
-#include "awmr/control/controller.h"
+#include "awmr/control/allocation_limits.h"
+#include "awmr/control/feed_forward.h"
+#include "awmr/control/measurement.h"
+#include "awmr/control/wrap_angle.h"
 #include "awmr/model/dynamics.h"
 
 namespace awmr {

@@ -1,6 +1,8 @@
 /// The three modes of making a yaw moment. Freestanding C++14.
 #pragma once
 
+#include "awmr/model/scalar_math.h"
+
 namespace awmr {
 
 enum class YawMode {
@@ -14,5 +16,20 @@ enum class CombinedSplit {
   kFixedHalf,     ///< as in the paper: half of tau_turn each way, regardless of limits
   kRedistribute,  ///< the part that the saturated path cannot make goes to the other path
 };
+
+/// Shares of the two paths in a yaw moment.
+template <class T>
+struct YawSplit {
+  T steering_share;       ///< s: 0 differential, 1/2 combined, 1 steering
+  Mask<T> redistributes;  ///< what one path cannot make goes to the other
+};
+
+/// The shares in a mode.
+template <class T>
+YawSplit<T> yaw_split(YawMode mode, CombinedSplit split) {
+  const bool combined = mode == YawMode::kCombined;
+  return {combined ? T(0.5) : T(mode == YawMode::kSteering ? 1.0 : 0.0),
+          Mask<T>(combined && split == CombinedSplit::kRedistribute)};
+}
 
 }  // namespace awmr

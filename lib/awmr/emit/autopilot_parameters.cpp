@@ -199,7 +199,7 @@ Result<AutopilotParameters> autopilot_parameters(const Model& model, const Gains
   }
   parameters.split = options.split;
   parameters.block = block_of(plant, model, gains, options);
-  parameters.steering_max_tan_half = 2.0F * parameters.block.constants.allocation.h_max;
+  parameters.steering_max_tan_half = parameters.block.constants.allocation.q_max;
   parameters.block.safety.speed_max_mps = largest_below(surge.top);
   parameters.block.safety.yaw_rate_max_radps = largest_below(yaw.top);
   if (options.resistance == ResistanceForm::kTable) {

@@ -3,7 +3,7 @@
 
 namespace awmr {
 
-/// Gains of the heading law, heading_law() in control/controller.h, on S = e_dot + lambda e.
+/// Gains of the heading law, heading_law() in control/heading_law.h, on S = e_dot + lambda e.
 template <class T>
 struct HeadingGains {
   /// lambda, 1/s, > 0: slope of the sliding surface. Larger: the heading error falls faster.
@@ -24,7 +24,7 @@ struct HeadingGains {
   T reaching_time_constant_s() const { return epsilon / (T(2.0) * mu); }
 };
 
-/// Gains of the speed law, speed_law() in control/controller.h, on e_u = u_d - u. The paper prints
+/// Gains of the speed law, speed_law() in control/speed_law.h, on e_u = u_d - u. The paper prints
 /// no values for them.
 template <class T>
 struct SpeedGains {

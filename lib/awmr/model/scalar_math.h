@@ -62,6 +62,12 @@ inline double atan(double x) { return ::atan(x); }
 inline float atan2(float y, float x) { return float_math::called_atan2(y, x); }
 inline double atan2(double y, double x) { return ::atan2(y, x); }
 inline double hypot(double x, double y) { return ::hypot(x, y); }
+/// 2 atan x.
+template <class T>
+T twice_atan(const T& x) {
+  return T(2.0) * atan(x);
+}
+inline float twice_atan(float x) { return float_math::twice_atan(x); }
 inline float pow(float x, float y) { return ::powf(x, y); }
 inline double pow(double x, double y) { return ::pow(x, y); }
 
@@ -117,10 +123,18 @@ template <class T>
 Mask<T> is_above(const T& x, const T& y) {
   return x > y;
 }
-inline bool is_above(float x, float y) {
+AWMR_CALLED inline bool is_above(float x, float y) {
+  if (float_math::leading_order_of(x) < float_math::leading_order_of(y)) return false;
   return float_math::order_of(x) > float_math::order_of(y) && !float_math::is_nan(x) &&
          !float_math::is_nan(y);
 }
+
+/// x < y or x > y; false for NaN. For float by the bits of a y that is x or a limit of it.
+template <class T>
+Mask<T> is_different(const T& x, const T& y) {
+  return x < y || x > y;
+}
+inline bool is_different(float x, float y) { return bits_of(x) != bits_of(y); }
 
 /// |x| > limit, limit >= 0. For float, by comparing bits, with NaN beyond every limit.
 template <class T>
@@ -130,6 +144,14 @@ Mask<T> is_beyond(const T& x, const T& limit) {
 inline bool is_beyond(float x, float limit) {
   return float_math::magnitude_bits(x) > bits_of(limit);
 }
+
+/// `size` with the sign of `of`; size for 0. For float by the bits.
+template <class T>
+T with_sign(const T& size, const T& of) {
+  using math::select;
+  return select(of < T(0.0), T(-size), size);
+}
+inline float with_sign(float size, float of) { return bits_of(of) > 0x80000000UL ? -size : size; }
 
 /// x = 0. For float by the bits.
 template <class T>
@@ -161,6 +183,12 @@ template <class T>
 T clamp(const T& x, const T& lo, const T& hi) {
   using math::select;
   return select(x > hi, hi, select(x < lo, lo, x));
+}
+/// As above for float, usually by the leading 16 bits. NaN stays NaN.
+AWMR_CALLED inline float clamp(float x, float lo, float hi) {
+  if (float_math::is_inside(x, lo, hi)) return x;
+  if (is_above(x, hi)) return hi;
+  return is_above(lo, x) ? lo : x;
 }
 
 }  // namespace math

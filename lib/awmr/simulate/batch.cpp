@@ -95,37 +95,30 @@ bool has_pilots(const Batch& batch) {
 void set_up_lane(Batch& batch, const BatchRun& run, std::size_t lane) {
   Block& block = *batch.block;
   const Controller<double> controller = controller_in(batch.scenario, run.controller);
+  const RunController<double> laws =
+      run_controller(batch.scenario, run.controller, run.mode, batch.sample_time_s);
   const int substeps = substeps_for(run.plant, batch.scenario, batch.sample_time_s);
   const double step_s = batch.sample_time_s / substeps;
-  put(static_cast<double>(static_cast<int>(run.mode)), lane, block.mode);
+  put(laws.split.steering_share, lane, block.steering_share);
   put(resolved_at_rest(run.plant, batch.scenario, step_s), lane, block.plant);
   put(step_s, lane, block.step_s);
   put(static_cast<double>(substeps), lane, block.substeps);
-  put(prepared(controller), lane, block.controller);
-  const Observers<double> observers = observers_in(batch.scenario, controller.gains);
-  put(observers.yaw, lane, block.yaw_observer);
-  put(observers.surge, lane, block.surge_observer);
-  block.setup.anti_windup = observers.anti_windup;
-  block.setup.is_observed =
-      block.setup.is_observed || (observers.yaw.bandwidth_radps > 0.0 && !block.setup.is_open_loop);
-  if (const auto& weights = batch.scenario.control.lqi) {
-    put(lqi_gains(*weights, controller.inertia_norm), lane, block.lqi);
-  }
-  put(controller.limits.dead_zone, lane, block.dead_zone);
-  put(controller.limits.back_emf_s_per_m, lane, block.back_emf);
-  block.setup.has_back_emf = block.setup.has_back_emf || run.plant.back_emf_s_per_m > 0.0 ||
-                             controller.limits.back_emf_s_per_m > 0.0;
+  put(laws.laws, lane, block.controller);
+  put(laws.observers.yaw, lane, block.yaw_observer);
+  put(laws.observers.surge, lane, block.surge_observer);
+  block.setup.anti_windup = laws.observers.anti_windup;
+  block.setup.is_observed = block.setup.is_observed || laws.is_observed;
+  put(laws.lqi, lane, block.lqi);
+  put(laws.dead_zone, lane, block.dead_zone);
+  put(laws.back_emf_s_per_m, lane, block.back_emf);
+  block.setup.has_back_emf =
+      block.setup.has_back_emf || run.plant.back_emf_s_per_m > 0.0 || laws.back_emf_s_per_m > 0.0;
   block.setup.has_scrub = block.setup.has_scrub || run.plant.yaw_scrub_m > 0.0;
   put(largest_force(controller), lane, block.force_most);
   put(metered_vehicle(controller.limits), lane, block.metered);
   put(batch.scenario.initial, lane, block.state);
-  if (const auto* open = std::get_if<OpenLoop>(&batch.scenario.guidance)) {
-    put(open->tau_speed, lane, block.tau_speed);
-    put(open->tau_turn_m, lane, block.tau_turn_m);
-  }
-  if (const auto tau_speed = batch.scenario.held_tau_speed()) {
-    put(*tau_speed, lane, block.tau_speed);
-  }
+  put(laws.tau_speed, lane, block.tau_speed);
+  put(laws.tau_turn_m, lane, block.tau_turn_m);
 }
 
 /// All of a block. A lane without a run is a copy of the first, so that its numbers are harmless.
@@ -176,14 +169,12 @@ void sense(Batch& batch, std::size_t k) {
 /// d_hat = 0 for what the sensors say first.
 void start_observing(Block& block) {
   for (std::size_t lane = 0; lane < kBatchRuns; ++lane) {
-    const auto controller = lane_of<PreparedController<double>>(block.controller, lane);
+    const auto laws = lane_of<PreparedController<double>>(block.controller, lane);
     const auto measured = lane_of<Measurement<double>>(block.measured, lane);
     const Observers<double> observers{
         lane_of<DisturbanceObserver<double>>(block.yaw_observer, lane),
         lane_of<DisturbanceObserver<double>>(block.surge_observer, lane), block.setup.anti_windup};
-    put(start_observers(observers, {controller.constants.mass_norm * measured.u_mps,
-                                    controller.constants.inertia_norm * measured.r_radps}),
-        lane, block.observed);
+    put(start_observers(observers, observed_motion(laws, measured).momentum), lane, block.observed);
   }
 }
 

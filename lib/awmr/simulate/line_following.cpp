@@ -5,36 +5,31 @@ namespace {
 
 /// The step of a run in which a line is followed.
 struct LineStep {
-  const LineCourse& course;
+  CourseFollower& part;
   const Position<double>& position_m;
-  double sideslip;
-  double sample_time_s;
-  LineProgress& progress;
-
-  int count() const { return static_cast<int>(course.points_m.size()); }
+  double sideslip_rad;
 
   PolylineGuidance<double> operator()(const LineLaw<double>& law) const {
-    const Polyline<double> line{course.points_m.data(), count(), course.corner_m, law};
-    return guide(line, position_m, sideslip, progress.along);
+    return guide(Polyline<double>{part.line.points_m, part.line.count, part.course->corner_m, law},
+                 position_m, sideslip_rad, part.progress);
   }
   PolylineGuidance<double> operator()(const IntegralLos<double>& law) const {
-    const Polyline<double, IntegralLos<double>> line{course.points_m.data(), count(),
-                                                     course.corner_m, law};
-    return guide(line, position_m, sideslip, sample_time_s, progress.along, progress.integral);
+    const Polyline<double, IntegralLos<double>> line{part.line.points_m, part.line.count,
+                                                     part.course->corner_m, law};
+    return guide(line, position_m, sideslip_rad, part.sample_time_s, part.progress, part.integral);
   }
   PolylineGuidance<double> operator()(const PurePursuit<double>& law) const {
-    const PursuedLine<double> line{course.points_m.data(), count(), law};
-    return guide(line, position_m, sideslip, progress.along);
+    return guide(PursuedLine<double>{part.line.points_m, part.line.count, law}, position_m,
+                 sideslip_rad, part.progress);
   }
 };
 
 }  // namespace
 
-PolylineGuidance<double> follow_line(const LineCourse& course, const Sensed& sensed,
-                                     double sample_time_s, LineProgress& progress) {
-  const double sideslip = sideslip_rad(sensed.motion.u_mps, sensed.motion.v_mps);
-  return std::visit(LineStep{course, sensed.position_m, sideslip, sample_time_s, progress},
-                    course.law);
+PolylineGuidance<double> guide_line(CourseFollower& part, const Position<double>& position_m,
+                                    double sideslip_rad) {
+  part.guided = std::visit(LineStep{part, position_m, sideslip_rad}, part.course->law);
+  return part.guided;
 }
 
 }  // namespace awmr

@@ -1,20 +1,28 @@
-/// A line by whichever law the scenario names. Private to this folder.
+/// A line by whichever law the scenario names, as a part of the guidance (control/guidance). Private to
+/// this folder.
 #pragma once
 
-#include "awmr/control/guidance_ilos.h"
+#include "awmr/control/guidance/ilos.h"
 #include "awmr/simulate/scenario.h"
-#include "awmr/simulate/sensing.h"
 
 namespace awmr {
 
-/// What following a line remembers from sample to sample, whatever the law.
-struct LineProgress {
-  PolylineProgress<double> along;
-  CrossTrackIntegral<double> integral = start_integral<double>();
+/// LineFollower of any law.
+struct CourseFollower {
+  struct Corners {
+    const Position<double>* points_m;
+    int count;  ///< 0: there is no line
+  } line;
+  PolylineProgress<double> progress;
+  bool is_started;
+  const LineCourse* course;  ///< not owned
+  double sample_time_s;
+  CrossTrackIntegral<double> integral;
+  PolylineGuidance<double> guided;  ///< of the last step
 };
 
 /// Where the line leads at one sample; to be asked once per sample.
-PolylineGuidance<double> follow_line(const LineCourse& course, const Sensed& sensed,
-                                     double sample_time_s, LineProgress& progress);
+PolylineGuidance<double> guide_line(CourseFollower& part, const Position<double>& position_m,
+                                    double sideslip_rad);
 
 }  // namespace awmr

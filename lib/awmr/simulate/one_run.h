@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "awmr/control/disturbance_observer.h"
+#include "awmr/simulate/run_controller.h"
 #include "awmr/simulate/scenario.h"
 #include "awmr/simulate/simulate.h"
 
@@ -15,9 +15,9 @@ inline constexpr double kStopped_mps = 1e-3;
 /// The controller with what the scenario changes of it.
 Controller<double> controller_in(const Scenario& scenario, Controller<double> controller);
 
-/// The scenario's observer, or else the one of the gains; bandwidth 0 where there is none. An LQI takes
-/// no gains, and so not their observer.
-Observers<double> observers_in(const Scenario& scenario, const Gains<double>& gains);
+/// The controller of a run in this scenario and mode.
+RunController<double> run_controller(const Scenario& scenario, const Controller<double>& controller,
+                                     YawMode mode, double sample_time_s);
 
 /// F' of a wheel at the most, over F_max: what overcomes the dead zone, and the zone.
 double largest_force(const Controller<double>& controller);

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "awmr/control/guidance_obstacles.h"
+#include "awmr/control/guidance/obstacles.h"
 
 namespace awmr {
 

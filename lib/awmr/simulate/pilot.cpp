@@ -2,18 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "awmr/simulate/passage.h"
 
 namespace awmr {
 namespace {
-
-constexpr double kNoTarget_m = std::numeric_limits<double>::infinity();
-
-double share_left(const std::optional<double>& slow_down_m, double to_go_m) {
-  return slow_down_m ? arrival_share(*slow_down_m, to_go_m) : 1.0;
-}
 
 /// Distance of p from the line through a and b, left of its direction positive; from a where the
 /// two coincide.
@@ -35,35 +28,68 @@ double heading_at(const HeadingSteps& guidance, double t_s) {
 }
 
 Pilot::Pilot(const Scenario& scenario, double sample_time_s, const Sensed& start)
-    : scenario_(&scenario),
-      sample_time_s_(sample_time_s),
-      waypoints_(start_waypoints(start.position_m, start.motion.psi_rad)),
-      line_{start_polyline(start.motion.psi_rad)},
-      sectors_(scenario.obstacles.size()),
-      shaped_(start_shaping(start.motion.psi_rad)),
-      held_rad_(start.motion.psi_rad) {}
-
-Pilot::Order Pilot::at(double t_s, const Sensed& sensed) {
-  target_distance_m_ = kNoTarget_m;
-  Order order = std::visit([&](const auto& course) { return guidance(course, t_s, sensed); },
-                           scenario_->guidance);
-  order.course.psi_goal_rad = order.reference.psi_rad;
-  if (order.finished || order.no_passage) order.reference.speed_mps = 0.0;
-  if (scenario_->avoidance && !order.no_passage) steer_clear(sensed, order);
-  if (scenario_->shaping) {
-    // What the filter held before this sample, then one sample on.
-    shape(*scenario_->shaping, order.reference.psi_rad, sample_time_s_, shaped_);
-    order.reference.psi_rad = shaped_.psi_rad;
-    order.reference.psi_rate_radps = shaped_.psi_rate_radps;
-    order.reference.psi_accel_radps2 = shaped_.psi_accel_radps2;
+    : scenario_(&scenario), sample_time_s_(sample_time_s), sectors_(scenario.obstacles.size()) {
+  std::visit([&](const auto& course) { set_up(course, start); }, scenario.guidance);
+  if (scenario.avoidance) {
+    static_cast<Avoider<double>&>(laws_) = {*scenario.avoidance,
+                                            scenario.obstacles.data(),
+                                            sectors_.data(),
+                                            static_cast<int>(scenario.obstacles.size()),
+                                            {}};
   }
-  return order;
+  if (scenario.shaping) {
+    static_cast<Shaper<double>&>(laws_) = {*scenario.shaping, sample_time_s,
+                                           start_shaping(start.motion.psi_rad), true, true};
+  }
 }
 
-Pilot::Order Pilot::guidance(const HeadingSteps& steps, double t_s, const Sensed&) {
+void Pilot::set_up(const WaypointCourse& course, const Sensed& start) {
+  laws_.waypoints = {course.points_m.data(), static_cast<int>(course.points_m.size()),
+                     course.acceptance_m, course.skip_passed};
+  laws_.progress = start_waypoints(start.position_m, start.motion.psi_rad);
+  laws_.is_leg_started = true;
+  laws_.acceptance_m2 = course.acceptance_m * course.acceptance_m;
+  laws_.distance_m = course.slow_down_m.value_or(0.0);
+}
+
+void Pilot::set_up(const LineCourse& course, const Sensed& start) {
+  CourseFollower& part = laws_;
+  part.line = {course.points_m.data(), static_cast<int>(course.points_m.size())};
+  part.course = &course;
+  part.progress = start_polyline(start.motion.psi_rad);
+  part.is_started = true;
+  part.sample_time_s = sample_time_s_;
+  part.integral = start_integral<double>();
+  laws_.distance_m = course.slow_down_m.value_or(0.0);
+}
+
+void Pilot::set_up(const LissajousCourse& course, const Sensed& start) {
+  PathFollower<double, double>& part = laws_;
+  part.path = course.path;
+  part.gain_per_s = course.closed_loop ? course.position_gain_per_s : 0.0;
+  part.held_rad = start.motion.psi_rad;
+  part.start = 0.0;
+  part.is_started = true;
+  part.is_on = true;
+}
+
+Pilot::Order Pilot::at(double t_s, const Sensed& sensed) {
+  const VehiclePose<double, double> pose{sensed.position_m, sensed.motion, t_s};
   Order order;
-  order.reference.psi_rad = heading_at(steps, t_s);
   order.reference.speed_mps = scenario_->speed_mps;
+  if (const auto* steps = std::get_if<HeadingSteps>(&scenario_->guidance)) {
+    order.reference.psi_rad = heading_at(*steps, t_s);
+  }
+  const GuidanceTarget<double> target = lead(laws_, pose, order.reference);
+  order.finished = target.arrived;
+  std::visit([&](const auto& course) { describe(course, t_s, sensed, order); },
+             scenario_->guidance);
+  order.course.psi_goal_rad = order.reference.psi_rad;
+  if (order.finished || order.no_passage) order.reference.speed_mps = 0.0;
+  if (!order.no_passage) {
+    steer_clear(part_of<Avoider<double>>(laws_), pose, target, order.reference);
+  }
+  shape_heading(part_of<Shaper<double>>(laws_), pose, order.reference);
   return order;
 }
 
@@ -78,78 +104,32 @@ bool Pilot::way_is_free(const Position<double>& from, const Position<double>& to
   return passage_;
 }
 
-Pilot::Order Pilot::guidance(const WaypointCourse& course, double, const Sensed& sensed) {
+void Pilot::describe(const WaypointCourse& course, double, const Sensed& sensed, Order& order) {
   const int count = static_cast<int>(course.points_m.size());
-  const Waypoints<double> waypoints{course.points_m.data(), count, course.acceptance_m,
-                                    course.skip_passed};
-  const Position<double>& position_m = sensed.position_m;
-  const auto guided = scenario_->avoidance
-                          ? guide_past_covered(*scenario_->avoidance, scenario_->obstacles.data(),
-                                               static_cast<int>(scenario_->obstacles.size()),
-                                               waypoints, position_m, waypoints_)
-                          : guide(waypoints, position_m, waypoints_);
-  Order order;
-  order.finished = guided.finished;
-  order.reference.psi_rad = guided.psi_rad;
-  order.course.leg = std::min(waypoints_.next, count - 1);
+  order.course.leg = std::min(laws_.progress.next, count - 1);
   order.course.target_m = course.points_m[static_cast<std::size_t>(order.course.leg)];
+  if (order.finished) return;
   order.course.cross_track_m =
-      guided.finished ? 0.0
-                      : from_line_m(waypoints_.leg_start_m, order.course.target_m, position_m);
-  target_distance_m_ = distance_m(position_m, order.course.target_m);
-  const bool last = order.course.leg == count - 1;
-  order.reference.speed_mps =
-      scenario_->speed_mps * (last ? share_left(course.slow_down_m, target_distance_m_) : 1.0);
-  order.no_passage =
-      !guided.finished && !way_is_free(position_m, order.course.target_m, waypoints_.next);
-  return order;
+      from_line_m(laws_.progress.leg_start_m, order.course.target_m, sensed.position_m);
+  order.no_passage = !way_is_free(sensed.position_m, order.course.target_m, laws_.progress.next);
 }
 
-Pilot::Order Pilot::guidance(const LineCourse& course, double, const Sensed& sensed) {
+void Pilot::describe(const LineCourse& course, double, const Sensed& sensed, Order& order) {
   const int count = static_cast<int>(course.points_m.size());
-  const auto guided = follow_line(course, sensed, sample_time_s_, line_);
-  Order order;
-  order.finished = guided.finished;
-  order.reference.psi_rad = guided.psi_rad;
-  order.course.leg = std::min(line_.along.segment, count - 2);
+  const CourseFollower& part = laws_;
+  order.course.leg = std::min(part.progress.segment, count - 2);
   order.course.target_m = course.points_m[static_cast<std::size_t>(order.course.leg) + 1];
-  order.course.cross_track_m = guided.cross_track_m;
-  const bool last = order.course.leg == count - 2;
-  if (last) target_distance_m_ = distance_m(sensed.position_m, order.course.target_m);
-  order.reference.speed_mps =
-      scenario_->speed_mps * (last ? share_left(course.slow_down_m, guided.to_go_m) : 1.0);
-  order.no_passage = !guided.finished && !way_is_free(sensed.position_m, course.points_m.back(), 0);
-  return order;
+  order.course.cross_track_m = part.guided.cross_track_m;
+  order.no_passage = !order.finished && !way_is_free(sensed.position_m, course.points_m.back(), 0);
 }
 
-Pilot::Order Pilot::guidance(const LissajousCourse& course, double t_s, const Sensed& sensed) {
+void Pilot::describe(const LissajousCourse& course, double t_s, const Sensed& sensed,
+                     Order& order) {
   const PathPoint<double> path = course.path.at(t_s);
-  const PathGuidance<double> guided =
-      course.closed_loop
-          ? closed_path(path, course.position_gain_per_s, sensed.position_m,
-                        sideslip_rad(sensed.motion.u_mps, sensed.motion.v_mps), held_rad_)
-          : open_path(path, held_rad_);
-  held_rad_ = guided.psi_rad;
-  Order order;
-  order.reference.psi_rad = guided.psi_rad;
-  order.reference.psi_rate_radps = guided.psi_rate_radps;
-  order.reference.speed_mps = scenario_->speed_mps > 0.0 ? scenario_->speed_mps : guided.speed_mps;
   order.course.target_m = path.position_m;
   const Position<double> ahead{path.position_m.x_m + path.vx_mps,
                                path.position_m.y_m + path.vy_mps};
   order.course.cross_track_m = from_line_m(path.position_m, ahead, sensed.position_m);
-  return order;
-}
-
-void Pilot::steer_clear(const Sensed& sensed, Order& order) {
-  const Avoided<double> avoided =
-      avoid(*scenario_->avoidance, scenario_->obstacles.data(), sectors_.data(),
-            static_cast<int>(scenario_->obstacles.size()), sensed.position_m, sensed.motion.psi_rad,
-            sensed.motion.u_mps, order.reference.psi_rad, target_distance_m_, avoidance_);
-  order.reference.speed_mps *= avoided.speed_share;
-  if (!avoided.active) return;
-  order.reference.psi_rad = avoided.psi_rad;
-  order.reference.psi_rate_radps = 0.0;
 }
 
 }  // namespace awmr

@@ -5,7 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "awmr/control/controller.h"
+#include "awmr/control/guidance/guidance.h"
+#include "awmr/control/measurement.h"
 #include "awmr/simulate/line_following.h"
 #include "awmr/simulate/scenario.h"
 #include "awmr/simulate/sensing.h"
@@ -21,6 +22,8 @@ class Pilot {
  public:
   /// `start` is what the sensors say at t = 0.
   Pilot(const Scenario& scenario, double sample_time_s, const Sensed& start);
+  Pilot(const Pilot&) = delete;
+  Pilot(Pilot&&) = default;
 
   struct Order {
     Reference<double> reference{};
@@ -31,27 +34,35 @@ class Pilot {
   /// To be asked once per sample, in order; not in open loop.
   Order at(double t_s, const Sensed& sensed);
   /// Waypoints passed by or covered by an obstacle, so far.
-  int missed() const { return waypoints_.missed; }
+  int missed() const { return laws_.progress.missed; }
 
  private:
-  Order guidance(const HeadingSteps& steps, double t_s, const Sensed& sensed);
-  Order guidance(const WaypointCourse& course, double t_s, const Sensed& sensed);
-  Order guidance(const LineCourse& course, double t_s, const Sensed& sensed);
-  Order guidance(const LissajousCourse& course, double t_s, const Sensed& sensed);
-  Order guidance(const OpenLoop&, double, const Sensed&) { return {}; }
-  void steer_clear(const Sensed& sensed, Order& order);
+  /// The parts of the guidance that a scenario can have; without a clock that wraps.
+  struct Parts {
+    using Line = CourseFollower;
+    using Path = PathFollower<double, double>;
+    using Arrival = SlowDown<double>;
+    using Avoidance = Avoider<double>;
+    using Shaping = Shaper<double>;
+  };
+
+  void set_up(const OpenLoop&, const Sensed&) {}
+  void set_up(const HeadingSteps&, const Sensed&) {}
+  void set_up(const WaypointCourse& course, const Sensed& start);
+  void set_up(const LineCourse& course, const Sensed& start);
+  void set_up(const LissajousCourse& course, const Sensed& start);
+  void describe(const OpenLoop&, double, const Sensed&, Order&) {}
+  void describe(const HeadingSteps&, double, const Sensed&, Order&) {}
+  void describe(const WaypointCourse& course, double t_s, const Sensed& sensed, Order& order);
+  void describe(const LineCourse& course, double t_s, const Sensed& sensed, Order& order);
+  void describe(const LissajousCourse& course, double t_s, const Sensed& sensed, Order& order);
   bool way_is_free(const Position<double>& from, const Position<double>& to, int leg);
 
   const Scenario* scenario_;
   double sample_time_s_;
-  WaypointProgress<double> waypoints_;
-  LineProgress line_;
-  AvoidanceState avoidance_;
+  GuidanceLaws<double, Parts> laws_{};
   std::vector<Sector<double>> sectors_;  ///< of the obstacles
-  ShapedHeading<double> shaped_;
-  double held_rad_;
-  double target_distance_m_ = 0.0;  ///< to where the guidance leads, for the avoidance
-  std::optional<int> leg_checked_;  ///< the leg whose passage was looked for
+  std::optional<int> leg_checked_;       ///< the leg whose passage was looked for
   bool passage_ = true;
 };
 

@@ -9,12 +9,12 @@
 #include <variant>
 #include <vector>
 
-#include "awmr/control/guidance_ilos.h"
-#include "awmr/control/guidance_line.h"
-#include "awmr/control/guidance_obstacles.h"
-#include "awmr/control/guidance_path.h"
-#include "awmr/control/guidance_pure_pursuit.h"
-#include "awmr/control/guidance_shaping.h"
+#include "awmr/control/guidance/heading_shaping.h"
+#include "awmr/control/guidance/ilos.h"
+#include "awmr/control/guidance/line.h"
+#include "awmr/control/guidance/obstacles.h"
+#include "awmr/control/guidance/pure_pursuit.h"
+#include "awmr/control/guidance/timed_path.h"
 #include "awmr/control/yaw_mode.h"
 #include "awmr/core/name_table.h"
 #include "awmr/core/result.h"

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "awmr/control/controller.h"
-#include "awmr/control/guidance.h"
+#include "awmr/control/guidance/waypoints.h"
 #include "awmr/model/state.h"
 #include "awmr/simulate/batch.h"
 #include "awmr/simulate/disturbance.h"

@@ -9,7 +9,6 @@
 
 #include "awmr/core/units.h"
 #include "awmr/model/observer_rate.h"
-#include "awmr/simulate/laws.h"
 #include "awmr/simulate/one_run.h"
 #include "awmr/simulate/physics.h"
 #include "awmr/simulate/pilot.h"
@@ -53,40 +52,31 @@ bool is_finite(const RunRow& row) {
                      [](double number) { return std::isfinite(number); });
 }
 
-/// `motion`: what the motors are told of it; at rest in open loop, which measures nothing.
-void fill(RunRow& row, const Command<double>& command, const AllocationLimits<double>& limits,
-          const Measurement<double>& motion) {
-  row.tau_speed = command.tau_speed;
-  row.tau_turn_m = command.tau_turn_m;
-  row.force = motor_commands(command.allocation.force, prepared(limits), limits.dead_zone,
-                             limits.back_emf_s_per_m, motion.u_mps, motion.r_radps);
-  row.steering_command_rad = command.allocation.steering_rad;
-}
-
-/// What the guidance orders at this row and what the laws make of it. Returns how the run ends
-/// here; kDuration: it goes on.
-RunEnd follow_guidance(Pilot& pilot, Laws& laws, const Sensed& sensed,
-                       const AllocationLimits<double>& limits, RunRow& row) {
+/// What the guidance orders at this row. Returns how the run ends here; kDuration: it goes on.
+RunEnd follow_guidance(Pilot& pilot, const Sensed& sensed, Reference<double>& reference,
+                       RunRow& row) {
   const Pilot::Order order = pilot.at(row.t_s, sensed);
+  reference = order.reference;
   row.course = order.course;
   row.psi_ref_rad = order.reference.psi_rad;
   row.u_ref_mps = order.reference.speed_mps;
-  fill(row, laws.follow(sensed.motion, order.reference), limits, sensed.motion);
   if (order.no_passage && std::abs(row.state.u_mps) < kStopped_mps) return RunEnd::kNoPassage;
   return order.finished ? RunEnd::kFinished : RunEnd::kDuration;
 }
 
 /// What is commanded at this row, as far as the actuators can. Returns how the run ends here.
-RunEnd command(const Scenario& scenario, const Controller<double>& controller, const Sensed& sensed,
-               Pilot& pilot, Laws& laws, RunRow& row) {
+RunEnd command(const Scenario& scenario, double force_most, const RunController<double>& controller,
+               const Sensed& sensed, Pilot& pilot, RunControllerState<double>& state, RunRow& row) {
   RunEnd end = RunEnd::kDuration;
-  if (const auto* open = std::get_if<OpenLoop>(&scenario.guidance)) {
-    fill(row, laws.open_loop(*open), controller.limits, {});
-  } else {
-    end = follow_guidance(pilot, laws, sensed, controller.limits, row);
-  }
+  Reference<double> reference{};
+  if (!controller.is_open_loop) end = follow_guidance(pilot, sensed, reference, row);
+  const RunCommand<double> made = command_sample(controller, sensed.motion, reference, state);
+  row.tau_speed = made.tau_speed;
+  row.tau_turn_m = made.tau_turn_m;
+  row.force = made.force;
+  row.steering_command_rad = made.steering_rad;
   if (scenario.actuators) {
-    quantise(*scenario.actuators, largest_force(controller), row.force, row.steering_command_rad);
+    quantise(*scenario.actuators, force_most, row.force, row.steering_command_rad);
   }
   return end;
 }
@@ -95,9 +85,10 @@ RunEnd command(const Scenario& scenario, const Controller<double>& controller, c
 
 GeneralisedForces<double> delivered_forces(const AllocationLimits<double>& limits,
                                            const SideForces<double>& force, double steering_rad) {
-  return limits.is_rear_driven
-             ? generalised_forces(limits.front_axle_m, limits.half_track_m, force, steering_rad)
-             : front_wheel_forces(limits.front_axle_m, limits.half_track_m, force, steering_rad);
+  Allocation<double> a{};
+  a.force = force;
+  a.steering_rad = steering_rad;
+  return allocated_forces(geometry_of(limits), prepared(limits), a);
 }
 
 Controller<double> controller_in(const Scenario& scenario, Controller<double> controller) {
@@ -108,6 +99,10 @@ Controller<double> controller_in(const Scenario& scenario, Controller<double> co
   return controller;
 }
 
+namespace {
+
+/// The scenario's observer, or else the one of the gains; bandwidth 0 where there is none. An LQI takes
+/// no gains, and so not their observer.
 Observers<double> observers_in(const Scenario& scenario, const Gains<double>& gains) {
   // A held thrust leaves a surge observer nothing to act on.
   const auto surge_limit = [&](double limit) { return scenario.held_tau_speed() ? 0.0 : limit; };
@@ -121,6 +116,32 @@ Observers<double> observers_in(const Scenario& scenario, const Gains<double>& ga
   return {{tuned.bandwidth_radps, tuned.yaw_max_m},
           {tuned.bandwidth_radps, surge_limit(tuned.surge_max)},
           true};
+}
+
+}  // namespace
+
+RunController<double> run_controller(const Scenario& scenario, const Controller<double>& controller,
+                                     YawMode mode, double sample_time_s) {
+  const Controller<double> own = controller_in(scenario, controller);
+  const auto held = scenario.held_tau_speed();
+  const auto* const open = std::get_if<OpenLoop>(&scenario.guidance);
+  RunController<double> c{.laws = prepared(own),
+                          .geometry = geometry_of(own.limits),
+                          .split = yaw_split<double>(mode, own.limits.split),
+                          .dead_zone = own.limits.dead_zone,
+                          .back_emf_s_per_m = own.limits.back_emf_s_per_m,
+                          .sample_time_s = sample_time_s,
+                          .is_open_loop = open != nullptr,
+                          .holds_tau_speed = held.has_value(),
+                          .is_lqi = scenario.control.lqi.has_value() && !open,
+                          .is_observed = false,
+                          .tau_speed = open ? open->tau_speed : held.value_or(0.0),
+                          .tau_turn_m = open ? open->tau_turn_m : 0.0,
+                          .lqi = {},
+                          .observers = observers_in(scenario, own.gains)};
+  c.is_observed = c.observers.yaw.bandwidth_radps > 0.0 && !open;
+  if (c.is_lqi) c.lqi = lqi_gains(*scenario.control.lqi, own.inertia_norm);
+  return c;
 }
 
 double largest_force(const Controller<double>& controller) {
@@ -212,7 +233,8 @@ Run simulate(const Plant<double>& plant, const Controller<double>& controller,
                   run_seed(scenario.seed, options.seed, options.sample));
   Sensed sensed = sensing.at(0, physics.state());
   Pilot pilot(scenario, sample_s, sensed);
-  Laws laws(controller, scenario, mode, sample_s, sensed.motion);
+  const RunController<double> laws = run_controller(scenario, controller, mode, sample_s);
+  RunControllerState<double> state = start_controller(laws, sensed.motion);
 
   Run run;
   run.substeps = physics.substeps();
@@ -226,7 +248,7 @@ Run simulate(const Plant<double>& plant, const Controller<double>& controller,
     row.measured = sensed.motion;
     row.measured_position_m = sensed.position_m;
     if (!scenario.obstacles.empty()) row.clearance_m = clearance_m(scenario, row.state);
-    run.end = command(scenario, controller, sensed, pilot, laws, row);
+    run.end = command(scenario, largest_force(controller), laws, sensed, pilot, state, row);
     row.disturbance = physics.disturb(row.t_s);
     row.tyre_power_mps = physics.tyre_power_mps(row.force);
     if (!is_finite(row)) {

@@ -30,7 +30,7 @@ std::optional<Finding> unsigned_speed_finding(const Plant<double>& plant,
                                               const std::string& file);
 
 /// Lets the heading that is held or led to turn by at most `limit_degps`, > 0, by a filter of
-/// kShapingBandwidth_radps where the scenario has none (control/guidance_shaping.h); one that it has
+/// kShapingBandwidth_radps where the scenario has none (control/guidance/heading_shaping.h); one that it has
 /// keeps its bandwidth and the lesser limit. In open loop there is no heading to limit.
 void limit_heading_rate(double limit_degps, Scenario& scenario);
 inline constexpr double kShapingBandwidth_radps = 4.0;

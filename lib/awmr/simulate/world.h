@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "awmr/control/guidance.h"
+#include "awmr/control/guidance/waypoints.h"
 #include "awmr/control/heading_lqi.h"
 #include "awmr/control/yaw_mode.h"
 #include "awmr/model/allocation_form.h"

@@ -1,4 +1,5 @@
 #include "awmr/validate/claims.h"
+#include "awmr/control/allocation.h"
 
 #include <algorithm>
 #include <cmath>

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <vector>
 
+#include "awmr/control/allocation.h"
 #include "awmr/model/paper_gains.h"
 #include "awmr/validate/circle_fit.h"
 #include "awmr/validate/claims.h"

@@ -3,12 +3,10 @@
 /// program, and share no code with it.
 #pragma once
 
-#include "awmr/control/controller.h"
-#include "awmr/control/disturbance_observer.h"
-#include "awmr/control/heading_lqi.h"
 #include "awmr/simulate/four_wheel_motion.h"
 #include "awmr/simulate/meter.h"
 #include "awmr/simulate/motion.h"
+#include "awmr/simulate/run_controller.h"
 
 namespace awmr {
 namespace lanes {
@@ -62,9 +60,9 @@ struct Block {
   Row active;  ///< 1; 0 once the run has ended, or where the lane has none
 
   // Constant over a run.
-  Row mode;          ///< the number of its YawMode
-  Plant<Row> plant;  ///< with its chord at rest
-  Row step_s;        ///< h
+  Row steering_share;  ///< YawSplit of its mode
+  Plant<Row> plant;    ///< with its chord at rest
+  Row step_s;          ///< h
   Row substeps;
   PreparedController<Row> controller;
   DisturbanceObserver<Row> yaw_observer, surge_observer;

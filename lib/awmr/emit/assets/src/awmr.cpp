@@ -61,9 +61,8 @@ const awmr::ParameterBlock awmr_parameters AWMR_IN_FLASH = {
      AWMR_MASS_NORM * (AWMR_SPEED_MU / AWMR_SPEED_EPSILON),
      AWMR_MASS_NORM * AWMR_SPEED_MU,
      {4.0f * AWMR_ALLOCATED_FORCE_MIN, 4.0f * AWMR_ALLOCATED_FORCE_MAX, AWMR_ALLOCATED_FORCE_MIN,
-      AWMR_ALLOCATED_FORCE_MAX, AWMR_HALF_TRACK_M, 0.5f / AWMR_HALF_TRACK_M, 1.0f / AWMR_HALF_TRACK_M,
-      2.0f * AWMR_FRONT_AXLE_M, 0.25f / AWMR_FRONT_AXLE_M, 0.5f / AWMR_FRONT_AXLE_M, AWMR_STEERING_MAX_RAD,
-      0.5f * AWMR_STEERING_MAX_TAN_HALF}},
+      AWMR_ALLOCATED_FORCE_MAX, AWMR_FRONT_AXLE_M, AWMR_HALF_TRACK_M, 1.0f / AWMR_HALF_TRACK_M,
+      AWMR_STEERING_MAX_RAD, AWMR_STEERING_MAX_TAN_HALF}},
     {AWMR_SPEED_MAX_MPS, AWMR_YAW_RATE_MAX_RADPS, AWMR_HEADING_TIMEOUT_MS, AWMR_SPEED_TIMEOUT_MS,
      AWMR_COMMAND_TIMEOUT_MS, AWMR_STEP_TIMEOUT_MS},
     AWMR_TABLE_SHAPE(AWMR_SURGE_TABLE),
@@ -92,11 +91,11 @@ const awmr::ObserverBlock awmr_tuned_observer AWMR_IN_FLASH = {
 namespace {
 
 struct Parts {
-  typedef awmr::Optional<AWMR_WITH_LINE, awmr::LineFollower>::type Line;
-  typedef awmr::Optional<AWMR_WITH_PATH, awmr::PathFollower>::type Path;
-  typedef awmr::Optional<AWMR_WITH_SLOW_DOWN, awmr::SlowDown>::type Arrival;
-  typedef awmr::Optional<AWMR_WITH_AVOIDANCE, awmr::Avoider>::type Avoidance;
-  typedef awmr::Optional<AWMR_WITH_SHAPING, awmr::Shaper>::type Shaping;
+  typedef awmr::Optional<AWMR_WITH_LINE, awmr::LineFollower<float>>::type Line;
+  typedef awmr::Optional<AWMR_WITH_PATH, awmr::PathFollower<float, uint32_t>>::type Path;
+  typedef awmr::Optional<AWMR_WITH_SLOW_DOWN, awmr::SlowDown<float>>::type Arrival;
+  typedef awmr::Optional<AWMR_WITH_AVOIDANCE, awmr::Avoider<float>>::type Avoidance;
+  typedef awmr::Optional<AWMR_WITH_SHAPING, awmr::Shaper<float>>::type Shaping;
   typedef awmr::Optional<AWMR_WITH_OBSERVER, awmr::Observer>::type Observation;
   typedef awmr::Optional<AWMR_FRICTION_AT_REST, awmr::MotorCurve>::type Motors;
   static constexpr bool kIsDirected = AWMR_WITH_DIRECTION;
@@ -181,7 +180,7 @@ void awmr_follow_path(const awmr_path* path) {
 
 #if AWMR_WITH_SLOW_DOWN
 void awmr_slow_down(float distance_m) {
-  awmr::part_of<awmr::SlowDown>(autopilot).distance_m = distance_m;
+  awmr::part_of<awmr::SlowDown<float>>(autopilot).distance_m = distance_m;
 }
 #endif
 
@@ -202,7 +201,7 @@ __attribute__((noinline)) void awmr_avoid(const awmr_avoidance* avoidance,
 
 #if AWMR_WITH_SHAPING
 void awmr_shape(const awmr_shaping* shaping) {
-  if (shaping == 0) return awmr::switch_off(awmr::part_of<awmr::Shaper>(autopilot));
+  if (shaping == 0) return awmr::disable(awmr::part_of<awmr::Shaper<float>>(autopilot));
   const awmr::HeadingShaping<float> filter = {shaping->omega_radps, shaping->rate_max_radps,
                                               shaping->accel_max_radps2};
   awmr::shape_headings(autopilot, filter, AWMR_SAMPLE_TIME_S);
@@ -211,7 +210,7 @@ void awmr_shape(const awmr_shaping* shaping) {
 
 #if AWMR_WITH_OBSERVER
 void awmr_observe(const awmr_observer* observer) {
-  if (observer == 0) return awmr::switch_off(awmr::part_of<awmr::Observer>(autopilot));
+  if (observer == 0) return awmr::disable(awmr::part_of<awmr::Observer>(autopilot));
   const awmr::Observers<float> observers = {{observer->bandwidth_radps, observer->yaw_max_m},
                                             {observer->bandwidth_radps, observer->surge_max},
                                             observer->anti_windup != 0};

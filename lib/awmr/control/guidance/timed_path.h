@@ -1,8 +1,8 @@
 /// Following a timed path. Freestanding C++14.
 #pragma once
 
-#include "awmr/control/controller.h"
-#include "awmr/control/guidance.h"
+#include "awmr/control/guidance/position.h"
+#include "awmr/control/wrap_angle.h"
 
 namespace awmr {
 

@@ -1,11 +1,11 @@
 /// Integral line-of-sight (ILOS) following of a line or polyline, a baseline for comparison with
-/// the law of guidance_line.h. Freestanding C++14.
+/// the law of line.h. Freestanding C++14.
 ///
 /// A side slope, an unmeasured sideslip or a steady heading error leaves a vehicle that aims at the
 /// line offset from it. ILOS shifts the aim to the other side until the offset is 0.
 #pragma once
 
-#include "awmr/control/guidance_line.h"
+#include "awmr/control/guidance/line.h"
 
 namespace awmr {
 
@@ -51,7 +51,7 @@ T line_heading_rad(const IntegralLos<T>& law, const T& psi_line_rad, const T& cr
   return called_wrap_angle(T(psi_line_rad - beta - atan(q)));
 }
 
-/// guide() of guidance_line.h with this law. y_int restarts at 0 on each segment, because the
+/// guide() of line.h with this law. y_int restarts at 0 on each segment, because the
 /// disturbance comes from another side there.
 template <class T>
 PolylineGuidance<T> guide(const Polyline<T, IntegralLos<T>>& line, const Position<T>& position_m,

@@ -2,7 +2,7 @@
 /// Freestanding C++14.
 #pragma once
 
-#include "awmr/control/controller.h"
+#include "awmr/control/wrap_angle.h"
 
 namespace awmr {
 
@@ -25,7 +25,7 @@ struct HeadingShaping {
 /// Output and state of the filter.
 template <class T>
 struct ShapedHeading {
-  T psi_rad;           ///< psi_d, rad, not wrapped
+  T psi_rad;           ///< psi_d, rad, see without_turns()
   T psi_rate_radps;    ///< psi_d_dot, rad/s
   T psi_accel_radps2;  ///< psi_d_ddot, rad/s^2, over the step that ends here
 };
@@ -47,7 +47,7 @@ void shape(const HeadingShaping<T>& filter, const T& target_rad, const T& sample
   state.psi_accel_radps2 = math::saturate(
       T(2.0) * filter.omega_radps * (rate - state.psi_rate_radps), filter.accel_max_radps2);
   state.psi_rate_radps += sample_time_s * state.psi_accel_radps2;
-  state.psi_rad += sample_time_s * state.psi_rate_radps;
+  state.psi_rad = without_turns(T(state.psi_rad + sample_time_s * state.psi_rate_radps));
 }
 
 }  // namespace awmr

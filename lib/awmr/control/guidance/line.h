@@ -1,8 +1,8 @@
 /// Following a line or a polyline. Freestanding C++14.
 #pragma once
 
-#include "awmr/control/controller.h"
-#include "awmr/control/guidance.h"
+#include "awmr/control/guidance/position.h"
+#include "awmr/control/wrap_angle.h"
 
 namespace awmr {
 
@@ -50,7 +50,7 @@ T line_heading_rad(const LineLaw<T>& law, const T& psi_line_rad, const T& cross_
 }
 
 /// Corners joined by line segments, driven from the first to the last. Two corners are one line.
-/// `Law` is the approach to a segment: this one, or that of guidance_ilos.h.
+/// `Law` is the approach to a segment: this one, or that of ilos.h.
 template <class T, class Law = LineLaw<T>>
 struct Polyline {
   const Position<T>* points_m;  ///< the corners in the world frame, m; not owned, `count` of them

@@ -1,11 +1,11 @@
 /// Pure-pursuit following of a line or polyline, a baseline for comparison with the law of
-/// guidance_line.h. Freestanding C++14.
+/// line.h. Freestanding C++14.
 ///
 /// The vehicle drives to a goal on the line at the lookahead distance ahead of it. The goal passes
 /// a corner before the vehicle does, so the corner is rounded on its inside.
 #pragma once
 
-#include "awmr/control/guidance_line.h"
+#include "awmr/control/guidance/line.h"
 
 namespace awmr {
 
@@ -60,7 +60,7 @@ T nearer_cross_track_m(const PursuedLine<T>& line, int segment, const Position<T
 /// the goal reaches the end of the current one. On the last segment the goal continues straight
 /// beyond its end, and the segment is driven to its end.
 ///
-/// Segments of zero length are skipped as in guide() of guidance_line.h.
+/// Segments of zero length are skipped as in guide() of line.h.
 template <class T>
 PolylineGuidance<T> guide(const PursuedLine<T>& line, const Position<T>& position_m,
                           const T& sideslip, PolylineProgress<T>& progress) {

@@ -33,8 +33,8 @@
 ///   an obstacle on a waypoint see covers()
 #pragma once
 
-#include "awmr/control/controller.h"
-#include "awmr/control/guidance.h"
+#include "awmr/control/guidance/waypoints.h"
+#include "awmr/control/wrap_angle.h"
 
 namespace awmr {
 

@@ -1,0 +1,108 @@
+/// Limits of the actuators for the allocation, and its result. Freestanding C++14.
+#pragma once
+
+#include "awmr/control/flash.h"
+#include "awmr/control/steering_geometry.h"
+#include "awmr/control/yaw_mode.h"
+#include "awmr/model/allocation_form.h"
+#include "awmr/model/scalar_math.h"
+#include "awmr/model/state.h"
+
+namespace awmr {
+
+/// Geometry and actuator limits of the vehicle.
+template <class T>
+struct AllocationLimits {
+  T front_axle_m;           ///< l_f, m, > 0: centre of gravity to front axle
+  T half_track_m;           ///< d, m, > 0: centre line to the middle of a wheel
+  T force_min;              ///< F'min of one wheel, over F_max, in [-1, F'max); < 0 reverses
+  T force_max;              ///< F'max of one wheel, over F_max, in (0, 1]
+  T steering_max_rad;       ///< d_max, rad, in (0, pi/2): stop of the front wheels, either side
+  T steering_max_tan_half;  ///< tan_half(d_max): precomputed for the chip
+  /// Action of the combined mode when one path saturates.
+  CombinedSplit split = CombinedSplit::kRedistribute;
+  /// The chip supports only kExact.
+  AllocationForm form = AllocationForm::kExact;
+  /// F'0 of every wheel, over F_max, >= 0. The allocated forces and the limits above exclude it;
+  /// the motor command is with_dead_zone() of them.
+  T dead_zone = T(0.0);
+  /// k_e of every motor, s/m, >= 0 (motor_force() in model/dynamics.h): a wheel that rolls at u m/s
+  /// can make forces in [F'min - k_e u, F'max - k_e u].
+  T back_emf_s_per_m = T(0.0);
+  /// False: only the front wheels are driven. The chip supports only four driven wheels.
+  bool is_rear_driven = true;
+};
+
+/// Constants of the allocation, computed once from the limits. All members are of type T, so there
+/// is no padding and a check sum can cover it.
+template <class T>
+struct AllocationConstants {
+  T tau_speed_min;       ///< n F'min of n driven wheels
+  T tau_speed_max;       ///< n F'max
+  T force_min;           ///< F'min
+  T force_max;           ///< F'max
+  T front_axle_m;        ///< l_f, m
+  T half_track_m;        ///< d, m
+  T half_track_inverse;  ///< 1/d, 1/m
+  T steering_max_rad;    ///< d_max, rad
+  T q_max;               ///< q of d_max, see steering_geometry.h
+};
+
+/// The steering geometry of the vehicle.
+template <class T>
+SteeringGeometry geometry_of(const AllocationLimits<T>& limits) {
+  return {limits.is_rear_driven, limits.form};
+}
+
+/// Computes the constants from the limits.
+template <class T>
+AllocationConstants<T> prepared(const AllocationLimits<T>& l) {
+  const SteeringGeometry geometry = geometry_of(l);
+  const bool on_chip = geometry.is_rear_driven && geometry.form == AllocationForm::kExact;
+  const T wheels = T(geometry.driven_wheels());
+  return {wheels * l.force_min,
+          wheels * l.force_max,
+          l.force_min,
+          l.force_max,
+          l.front_axle_m,
+          l.half_track_m,
+          T(1.0) / l.half_track_m,
+          l.steering_max_rad,
+          on_chip ? l.steering_max_tan_half : geometry.to_q(l.steering_max_rad)};
+}
+
+/// Below this tau_speed, the front wheels push too little to turn the vehicle: d_r is 0.
+template <class T>
+constexpr T steering_authority_min() {
+  return T(1e-6);
+}
+/// From this tau_speed on (1/64 of the thrust of four motors), d_r can reach its stop.
+template <class T>
+constexpr T steering_authority_full() {
+  return T(0.0625);
+}
+
+/// Limit of |q| at tau_speed: q_max sat(tau_speed/authority_full, [0, 1]). The q for a moment grows
+/// as 1/tau_speed, but is 0 for tau_speed <= 0: a constant limit would make it jump there from the
+/// stop to straight. The reduced limit costs at most 1/256 of the steering moment at full thrust.
+template <class T>
+AWMR_INLINE T steering_limit(const AllocationConstants<T>& c, const T& tau_speed) {
+  using math::any;
+  const T full = steering_authority_full<T>();
+  if (!any(math::is_above(full, tau_speed))) return c.q_max;
+  return c.q_max * math::clamp(T(tau_speed * (T(1.0) / full)), T(0.0), T(1.0));
+}
+
+/// The commands, and the limits that are active.
+template <class T>
+struct Allocation {
+  SideForces<T> force;       ///< F' of each wheel of a side, in [F'min, F'max]
+  T steering_rad;            ///< the commanded d_r, rad, left positive, |d_r| <= d_max
+  Mask<T> speed_limited;     ///< tau_speed was clipped
+  Mask<T> steering_limited;  ///< d_r was clipped
+  Mask<T> force_limited;     ///< an F' was clipped
+  /// Steering was requested, but tau_speed is too small to steer with.
+  Mask<T> steering_powerless;
+};
+
+}  // namespace awmr

@@ -1,0 +1,73 @@
+/// What the autopilot does from its next step on: routes, obstacles, shaping, observer. Freestanding
+/// C++14.
+#pragma once
+
+#include "awmr/control/autopilot_state.h"
+
+namespace awmr {
+
+/// Follows these points from the next step on. With no points, holds the reference heading again.
+template <class G, class P>
+void follow_waypoints(Autopilot<G, P>& a, const Waypoints<float>& waypoints) {
+  a.waypoints = waypoints;
+  a.acceptance_m2 = waypoints.acceptance_m * waypoints.acceptance_m;
+  a.is_leg_started = false;
+  disable(part_of<typename P::Line>(a));
+  disable(part_of<typename P::Path>(a));
+}
+
+/// Follows this line from the next step on.
+template <class G, class P>
+void follow_line(Autopilot<G, P>& a, const Polyline<float>& line) {
+  follow_waypoints(a, Waypoints<float>{0, 0, 0.0F, false});
+  LineFollower<float>& part = part_of<LineFollower<float>>(a);
+  part.line = line;
+  part.is_started = false;
+}
+
+/// Follows this path from the next step on; that step is the path's t = 0.
+template <class G, class P>
+void follow_path(Autopilot<G, P>& a, const Lissajous<float>& path, float gain_per_s) {
+  follow_waypoints(a, Waypoints<float>{0, 0, 0.0F, false});
+  typename P::Path& part = part_of<typename P::Path>(a);
+  part.path = path;
+  part.gain_per_s = gain_per_s;
+  part.is_on = true;
+  part.is_started = false;
+}
+
+/// Avoids `count` obstacles from the next step on; 0: none. `sectors` has room for `count`
+/// elements.
+template <class G, class P>
+void avoid_obstacles(Autopilot<G, P>& a, const Avoidance<float>& avoidance,
+                     const Obstacle<float>* obstacles, Sector<float>* sectors, int count) {
+  Avoider<float>& part = part_of<Avoider<float>>(a);
+  part.avoidance = avoidance;
+  part.obstacles = obstacles;
+  part.sectors = sectors;
+  part.count = count;
+  part.state = AvoidanceState();
+}
+
+/// Shapes the heading reference from the next step on, starting from the vehicle's heading.
+template <class G, class P>
+void shape_headings(Autopilot<G, P>& a, const HeadingShaping<float>& filter, float sample_time_s) {
+  Shaper<float>& part = part_of<Shaper<float>>(a);
+  part.filter = filter;
+  part.sample_time_s = sample_time_s;
+  part.is_on = true;
+  part.is_started = false;
+}
+
+/// Estimates the disturbance from the next step on, starting from 0.
+template <class G, class P>
+void observe_disturbance(Autopilot<G, P>& a, const Observers<float>& observers,
+                         float sample_time_s) {
+  Observer& part = part_of<Observer>(a);
+  part.observers = observers;
+  part.sample_time_s = sample_time_s;
+  part.is_on = true;
+  part.is_started = false;
+}
+
+}  // namespace awmr

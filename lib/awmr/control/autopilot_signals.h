@@ -1,0 +1,34 @@
+/// Input and output of one autopilot step. Freestanding C++14.
+#pragma once
+
+#include <stdint.h>
+
+#include "awmr/control/allocation_limits.h"
+#include "awmr/control/guidance/position.h"
+#include "awmr/control/measurement.h"
+#include "awmr/control/safety.h"
+
+namespace awmr {
+
+/// Input of one step.
+struct AutopilotInput {
+  uint8_t mode;                 ///< a YawMode
+  Measurement<float> measured;  ///< motion of the vehicle from the sensors
+  Position<float> position_m;   ///< read only if guidance needs it
+  Reference<float> reference;   ///< its heading is ignored while guidance is active
+  InputTimes times;             ///< time stamps of all inputs
+  /// Not 0: measured.u_mps is |u|, as from a GPS; its sign is computed (directed_speed.h).
+  uint8_t speed_unsigned = 0;
+};
+
+/// Output of one step.
+struct AutopilotOutput {
+  Allocation<float> command;  ///< for the motors and the servo
+  float tau_speed;            ///< requested by the speed law, dimensionless; 0 on a fault
+  float tau_turn_m;           ///< requested by the heading law, m; 0 on a fault
+  float psi_ref_rad;          ///< heading reference
+  bool arrived;               ///< the route is finished
+  uint8_t fault;              ///< SafetyFault bits; not 0: `command` is the safe command
+};
+
+}  // namespace awmr

@@ -1,0 +1,81 @@
+/// State of the autopilot between two steps, and its start from the parameters. Freestanding C++14.
+#pragma once
+
+#include <stdint.h>
+
+#include "awmr/control/autopilot_parts.h"
+#include "awmr/control/controller.h"
+#include "awmr/control/directed_speed.h"
+#include "awmr/control/guidance/guidance.h"
+#include "awmr/control/parameters_block.h"
+#include "awmr/control/resistance_table.h"
+#include "awmr/control/safety.h"
+
+namespace awmr {
+
+/// State of the autopilot between two steps. G is the type of the resistances, as in Controller; P
+/// lists the compiled parts (autopilot_parts.h).
+template <class G, class P = NoParts>
+struct Autopilot : GuidanceLaws<float, P>, P::Observation, P::Motors {
+  PreparedController<float, G> controller;
+  SafetyLimits limits;
+  uint32_t last_step_ms;           ///< valid once has_stepped
+  DirectedSpeed<float> direction;  ///< for a speed without a sign
+  uint32_t direction_ms;           ///< InputTimes::speed_ms of the last reading
+  float mass_inverse;              ///< 1/m'
+  bool has_stepped;                ///< at least one step since the start
+  bool are_parameters_good;        ///< the check sum was correct at the start
+};
+
+/// Sets the motors' curve, if it is compiled in.
+inline void set_motors(const RestBlock*, Disabled<MotorCurve>&) {}
+inline void set_motors(const RestBlock* rest, MotorCurve& part) {
+  part.dead_zone = rest != 0 ? flash_float(&rest->dead_zone) : 0.0F;
+  part.back_emf_s_per_m = rest != 0 ? flash_float(&rest->back_emf_s_per_m) : 0.0F;
+}
+
+/// Enables the observer that was tuned with the gains, if it is compiled in.
+inline void set_observer(const ObserverBlock*, Disabled<Observer>&) {}
+inline void set_observer(const ObserverBlock* tuned, Observer& part) {
+  if (tuned == 0) return;
+  ObserverBlock read;
+  read_flash(tuned, read);
+  part.observers = {
+      {read.bandwidth_radps, read.yaw_max_m}, {read.bandwidth_radps, read.surge_max}, true};
+  part.sample_time_s = read.sample_time_s;
+  part.is_on = true;
+  part.is_started = false;
+}
+
+/// Reads the parameters and checks them against `crc`, the check sum in the emitted header. If they
+/// differ, returns false, and every step then gives the safe command. On an AVR, the block, the
+/// lines, `rest` and `observer` are in flash. `rest` is for RestingTable and MotorCurve, `observer`
+/// for Observer.
+template <class G, class P>
+bool start_autopilot(Autopilot<G, P>& a, const ParameterBlock* block,
+                     const ResistanceLine* surge_lines, size_t surge_count,
+                     const ResistanceLine* yaw_lines, size_t yaw_count, uint32_t crc,
+                     const RestBlock* rest = 0, const ObserverBlock* observer = 0) {
+  PreparedController<float, G>& c = a.controller;
+  read_flash(&block->constants, c.constants);
+  set_resistance(&block->surge_table, block->surge_alpha_beta, surge_lines, c.surge);
+  set_resistance(&block->yaw_table, block->yaw_alpha_beta, yaw_lines, c.yaw);
+  if (rest != 0) {
+    set_rest(&rest->surge_rest_speed, &rest->surge_at_rest, c.surge);
+    set_rest(&rest->yaw_rest_speed, &rest->yaw_at_rest, c.yaw);
+  }
+  set_motors(rest, part_of<typename P::Motors>(a));
+  read_flash(&block->safety, a.limits);
+  disable_guidance(a);
+  disable(part_of<typename P::Observation>(a));
+  set_observer(observer, part_of<typename P::Observation>(a));
+  a.has_stepped = false;
+  a.direction = DirectedSpeed<float>();
+  a.direction_ms = 0;
+  a.mass_inverse = 1.0F / c.constants.mass_norm;
+  a.are_parameters_good = crc32_of_parameters(block, surge_lines, surge_count, yaw_lines, yaw_count,
+                                              rest, observer) == crc;
+  return a.are_parameters_good;
+}
+
+}  // namespace awmr

@@ -1,0 +1,88 @@
+/// One sample of the controller after its guidance: laws, disturbance observer, allocation.
+/// Freestanding C++14.
+#pragma once
+
+#include "awmr/control/allocation.h"
+#include "awmr/control/controller.h"
+#include "awmr/control/disturbance_observer.h"
+#include "awmr/control/heading_law.h"
+#include "awmr/control/measurement.h"
+#include "awmr/control/speed_law.h"
+#include "awmr/model/dynamics.h"
+
+namespace awmr {
+
+/// Outputs of the laws, and the resulting commands.
+template <class T>
+struct Command {
+  T tau_speed;               ///< dimensionless, forward positive: requested, before any limit
+  T tau_turn_m;              ///< m, counter-clockwise positive: requested, before any limit
+  Allocation<T> allocation;  ///< forces and angle, within their limits
+};
+
+/// What is allocated, and with which limits.
+template <class T>
+struct AllocationRequest {
+  const SteeringGeometry& geometry;
+  const YawSplit<T>& split;
+  const AllocationConstants<T>& limits;
+  T& tau_speed;   ///< as in Command
+  T& tau_turn_m;  ///< as in Command
+  Allocation<T>& command;
+};
+
+/// Motion of the controller's model, as the observers need it.
+template <class T, class G>
+ObservedMotion<T> observed_motion(const PreparedController<T, G>& c, const Measurement<T>& m) {
+  const ControlConstants<T>& k = c.constants;
+  return {{k.mass_norm * m.u_mps, k.inertia_norm * m.r_radps},
+          {c.surge(m.u_mps), c.yaw(m.r_radps)},
+          k.mass_norm * m.r_radps * m.v_mps};
+}
+
+/// Generalised forces of allocated commands.
+template <class T>
+GeneralisedForces<T> allocated_forces(const SteeringGeometry& geometry,
+                                      const AllocationConstants<T>& c, const Allocation<T>& a) {
+  return geometry.is_rear_driven
+             ? generalised_forces(c.front_axle_m, c.half_track_m, a.force, a.steering_rad)
+             : front_wheel_forces(c.front_axle_m, c.half_track_m, a.force, a.steering_rad);
+}
+
+/// Allocates the request minus the estimated disturbance, and gives the observers what the limits
+/// leave of it. `observers` null: there are none.
+template <class T, class G>
+AWMR_INLINE void allocate_compensated(const Observers<T>* observers,
+                                      const PreparedController<T, G>& c, const Measurement<T>& m,
+                                      const T& sample_time_s, const AllocationRequest<T>& request,
+                                      ObserversState<T>* state) {
+  ObservedMotion<T> motion;
+  AxisForces<T> disturbance;
+  if (observers) {
+    motion = observed_motion(c, m);
+    disturbance = estimate(*observers, motion, *state);
+    request.tau_turn_m -= disturbance.yaw_m;
+    request.tau_speed -= disturbance.surge;
+  }
+  allocate(request.geometry, request.split, request.tau_speed, request.tau_turn_m, request.limits,
+           request.command);
+  if (observers) {
+    advance(*observers, disturbance, {request.tau_speed, request.tau_turn_m},
+            allocated_forces(request.geometry, request.limits, request.command), motion,
+            sample_time_s, *state);
+  }
+}
+
+/// Both laws and the allocation for one sample, without observers.
+template <class T, class G>
+Command<T> control_step(const Controller<T, G>& c, YawMode mode, const Measurement<T>& m,
+                        const Reference<T>& ref) {
+  const PreparedController<T, G> laws = prepared(c);
+  Command<T> command{};
+  command.tau_speed = speed_law(laws, m, ref);
+  command.tau_turn_m = heading_law(laws, m, ref);
+  command.allocation = allocate(mode, command.tau_speed, command.tau_turn_m, c.limits, m.u_mps);
+  return command;
+}
+
+}  // namespace awmr

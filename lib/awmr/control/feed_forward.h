@@ -1,0 +1,40 @@
+/// Resistance that a law feeds forward. Freestanding C++14.
+#pragma once
+
+#include "awmr/control/resistance_table.h"
+#include "awmr/model/resistance.h"
+#include "awmr/model/scalar_math.h"
+
+namespace awmr {
+
+/// Resistance that a law adds to its command, at the speed w:
+///   g(w)                                        for |w| >= rest_speed
+///   g(rest_speed) sat((w + intent)/rest_speed)  below
+/// The second line is for curves that jump at rest (feed_forward() in resistance.h). There the
+/// curve does not give the force that starts the motion, but the sign of `intent`, the speed error,
+/// gives its direction.
+template <class T>
+T fed_forward(const Resistance<T>& law, const T& speed, const T& intent) {
+  using math::abs;
+  using math::all;
+  using math::any;
+  using math::select;
+  const Mask<T> rests = abs(speed) < law.rest_speed;
+  if (!any(rests)) return law(speed);
+  const T held =
+      law.at(law.rest_speed) * math::saturate(T((speed + intent) / law.rest_speed), T(1.0));
+  if (MaskOf<T>::kOneLane || all(rests)) return held;
+  return select(rests, held, law(speed));
+}
+/// As above, for a table.
+inline float fed_forward(const RestingTable& law, const float& speed, const float& intent) {
+  if (!law.is_resting(speed)) return law.table(speed);
+  return law.at_rest * math::saturate((speed + intent) / law.rest_speed, 1.0F);
+}
+/// As above, for a table without a jump at rest; `intent` is not used.
+template <class T, class G>
+T fed_forward(const G& table, const T& speed, const T&) {
+  return table(speed);
+}
+
+}  // namespace awmr

@@ -1,0 +1,206 @@
+/// Guidance of one step: by waypoints, a line or a path, then obstacle avoidance, then heading
+/// shaping. A function of a part has a no-op overload for Disabled<Part>. Freestanding C++14.
+#pragma once
+
+#include "awmr/control/flash.h"
+#include "awmr/control/guidance/parts.h"
+
+namespace awmr {
+
+/// The guidance's laws and their state. P lists the parts (autopilot_parts.h).
+template <class T, class P>
+struct GuidanceLaws : P::Line, P::Path, P::Arrival, P::Avoidance, P::Shaping {
+  Waypoints<T> waypoints;        ///< count 0: none
+  T acceptance_m2;               ///< the square of waypoints.acceptance_m
+  WaypointProgress<T> progress;  ///< valid once is_leg_started
+  bool is_leg_started;           ///< the first step towards the waypoints was made
+};
+
+/// Target of the guidance in one step.
+template <class T>
+struct GuidanceTarget {
+  const Position<T>* target_m;  ///< 0: no point, or none nearby
+  bool arrived;                 ///< the route is finished
+};
+
+/// Disables all parts.
+template <class T, class P>
+void disable_guidance(GuidanceLaws<T, P>& g) {
+  g.waypoints.count = 0;
+  disable(part_of<typename P::Line>(g));
+  disable(part_of<typename P::Path>(g));
+  disable(part_of<typename P::Arrival>(g));
+  disable(part_of<typename P::Avoidance>(g));
+  disable(part_of<typename P::Shaping>(g));
+}
+
+/// True if the guidance reads the position in the next step.
+template <class T, class P>
+AWMR_INLINE bool needs_position(GuidanceLaws<T, P>& g) {
+  return g.waypoints.count > 0 || needs_position(part_of<typename P::Line>(g)) ||
+         needs_position(part_of<typename P::Path>(g)) ||
+         needs_position(part_of<typename P::Avoidance>(g));
+}
+
+/// A constant heading reference.
+template <class T>
+AWMR_INLINE void hold_heading(const T& psi_rad, Reference<T>& ref) {
+  ref.psi_rad = psi_rad;
+  ref.psi_rate_radps = T(0.0);
+  ref.psi_accel_radps2 = T(0.0);
+}
+
+/// Reduces the speed on the last leg. `to_go_m` is a function that returns the remaining distance,
+/// m.
+template <class T, class ToGo>
+AWMR_INLINE void slow_down(const Disabled<SlowDown<T>>&, bool, const ToGo&, Reference<T>&) {}
+template <class T, class ToGo>
+AWMR_INLINE void slow_down(const SlowDown<T>& part, bool is_last, const ToGo& to_go_m,
+                           Reference<T>& ref) {
+  if (!is_last || !(part.distance_m > T(0.0))) return;
+  ref.speed_mps *= arrival_share(part.distance_m, T(to_go_m()));
+}
+
+/// guide() in waypoints.h, skipping waypoints covered by obstacles.
+template <class T>
+AWMR_INLINE WaypointGuidance<T> guide_clear(const Disabled<Avoider<T>>&,
+                                            const Waypoints<T>& waypoints, const T& acceptance_m2,
+                                            const Position<T>& position_m,
+                                            WaypointProgress<T>& progress) {
+  return guide(waypoints, acceptance_m2, position_m, progress);
+}
+template <class T>
+WaypointGuidance<T> guide_clear(const Avoider<T>& part, const Waypoints<T>& waypoints,
+                                const T& /*acceptance_m2*/, const Position<T>& position_m,
+                                WaypointProgress<T>& progress) {
+  return guide_past_covered(part.avoidance, part.obstacles, part.count, waypoints, position_m,
+                            progress);
+}
+
+/// Writes the line-of-sight heading to the waypoint into the reference. False: there is none.
+template <class T, class P, class Time>
+AWMR_INLINE bool lead_by_waypoints(GuidanceLaws<T, P>& g, const VehiclePose<T, Time>& at,
+                                   Reference<T>& ref, GuidanceTarget<T>& target) {
+  if (g.waypoints.count <= 0) return false;
+  if (!g.is_leg_started) {
+    g.progress = start_waypoints(at.position_m, at.measured.psi_rad);
+    g.is_leg_started = true;
+  }
+  const WaypointGuidance<T> guided = guide_clear(part_of<typename P::Avoidance>(g), g.waypoints,
+                                                 g.acceptance_m2, at.position_m, g.progress);
+  hold_heading(guided.psi_rad, ref);
+  target.arrived = guided.finished;
+  target.target_m = g.waypoints.points_m + (g.progress.next - (guided.finished ? 1 : 0));
+  slow_down(
+      part_of<typename P::Arrival>(g), g.progress.next + 1 >= g.waypoints.count,
+      [&] { return distance_m(at.position_m, *target.target_m); }, ref);
+  return true;
+}
+
+/// guide() of the part's law for lines.
+template <class T>
+AWMR_INLINE PolylineGuidance<T> guide_line(LineFollower<T>& part, const Position<T>& position_m,
+                                           const T& sideslip) {
+  return guide(part.line, position_m, sideslip, part.progress);
+}
+
+/// Writes the heading along the line into the reference. False: there is no line to follow.
+template <class Part, class Arrival, class T, class Time>
+AWMR_INLINE bool lead_by_line(Disabled<Part>&, const Arrival&, const VehiclePose<T, Time>&,
+                              Reference<T>&, GuidanceTarget<T>&) {
+  return false;
+}
+template <class Line, class Arrival, class T, class Time>
+AWMR_CALLED bool lead_by_line(Line& part, const Arrival& arrival, const VehiclePose<T, Time>& at,
+                              Reference<T>& ref, GuidanceTarget<T>& target) {
+  if (part.line.count <= 0) return false;
+  if (!part.is_started) part.progress = start_polyline(at.measured.psi_rad);
+  part.is_started = true;
+  const T sideslip = sideslip_rad(at.measured.u_mps, at.measured.v_mps);
+  const PolylineGuidance<T> guided = guide_line(part, at.position_m, sideslip);
+  hold_heading(guided.psi_rad, ref);
+  const bool is_last = part.progress.segment + 2 >= part.line.count;
+  slow_down(
+      arrival, is_last, [&guided] { return guided.to_go_m; }, ref);
+  target.target_m = is_last ? part.line.points_m + (part.line.count - 1) : 0;
+  target.arrived = guided.finished;
+  return true;
+}
+
+/// Writes heading and speed of the path into the reference; a requested speed above 0 is kept.
+template <class Part, class T, class Time>
+AWMR_INLINE void lead_by_path(Disabled<Part>&, const VehiclePose<T, Time>&, Reference<T>&) {}
+template <class T, class Time>
+AWMR_CALLED void lead_by_path(PathFollower<T, Time>& part, const VehiclePose<T, Time>& at,
+                              Reference<T>& ref) {
+  if (!part.is_on) return;
+  if (!part.is_started) {
+    part.held_rad = at.measured.psi_rad;
+    part.start = at.now;
+    part.is_started = true;
+  }
+  const PathPoint<T> point = part.path.at(elapsed_s(part.start, at.now));
+  const PathGuidance<T> guided =
+      part.gain_per_s > T(0.0)
+          ? closed_path(point, part.gain_per_s, at.position_m,
+                        sideslip_rad(at.measured.u_mps, at.measured.v_mps), part.held_rad)
+          : open_path(point, part.held_rad);
+  part.held_rad = guided.psi_rad;
+  hold_heading(guided.psi_rad, ref);
+  ref.psi_rate_radps = guided.psi_rate_radps;
+  if (!(ref.speed_mps > T(0.0))) ref.speed_mps = guided.speed_mps;
+}
+
+/// Leads by waypoints, a line or a path; without them, the reference stays as it is.
+template <class T, class P, class Time>
+AWMR_INLINE GuidanceTarget<T> lead(GuidanceLaws<T, P>& g, const VehiclePose<T, Time>& at,
+                                   Reference<T>& ref) {
+  GuidanceTarget<T> target = {0, false};
+  if (!lead_by_waypoints(g, at, ref, target) &&
+      !lead_by_line(part_of<typename P::Line>(g), part_of<typename P::Arrival>(g), at, ref,
+                    target)) {
+    lead_by_path(part_of<typename P::Path>(g), at, ref);
+  }
+  return target;
+}
+
+/// Target distance that is larger than any obstacle's, m.
+template <class T>
+constexpr T no_target_m() {
+  return T(1e30);
+}
+
+/// Turns the reference heading away from obstacles and reduces its speed if that is not enough.
+template <class Part, class T, class Time>
+AWMR_INLINE void steer_clear(Disabled<Part>&, const VehiclePose<T, Time>&, const GuidanceTarget<T>&,
+                             Reference<T>&) {}
+template <class T, class Time>
+AWMR_CALLED void steer_clear(Avoider<T>& part, const VehiclePose<T, Time>& at,
+                             const GuidanceTarget<T>& target, Reference<T>& ref) {
+  if (part.count <= 0) return;
+  const T target_m =
+      target.target_m != 0 ? distance_m(at.position_m, *target.target_m) : no_target_m<T>();
+  const Avoided<T> avoided =
+      avoid(part.avoidance, part.obstacles, part.sectors, part.count, at.position_m,
+            at.measured.psi_rad, at.measured.u_mps, ref.psi_rad, target_m, part.state);
+  ref.speed_mps *= avoided.speed_share;
+  if (!avoided.active) return;
+  ref.psi_rad = avoided.psi_rad;
+  ref.psi_rate_radps = T(0.0);
+}
+
+/// Shapes the reference's heading, starting from the vehicle's heading.
+template <class Part, class T, class Time>
+AWMR_INLINE void shape_heading(Disabled<Part>&, const VehiclePose<T, Time>&, Reference<T>&) {}
+template <class T, class Time>
+AWMR_CALLED void shape_heading(Shaper<T>& part, const VehiclePose<T, Time>& at, Reference<T>& ref) {
+  if (!part.is_on) return;
+  if (!part.is_started) part.state = start_shaping(at.measured.psi_rad);
+  part.is_started = true;
+  shape(part.filter, ref.psi_rad, part.sample_time_s, part.state);
+  ref.psi_rad = part.state.psi_rad;
+  ref.psi_rate_radps = part.state.psi_rate_radps;
+  ref.psi_accel_radps2 = part.state.psi_accel_radps2;
+}
+
+}  // namespace awmr

@@ -1,0 +1,124 @@
+/// Parts of the guidance: for each law its parameters and its state. Freestanding C++14.
+#pragma once
+
+#include <stdint.h>
+
+#include "awmr/control/guidance/heading_shaping.h"
+#include "awmr/control/guidance/line.h"
+#include "awmr/control/guidance/obstacles.h"
+#include "awmr/control/guidance/timed_path.h"
+#include "awmr/control/guidance/waypoints.h"
+#include "awmr/control/measurement.h"
+#include "awmr/control/optional_part.h"
+
+namespace awmr {
+
+/// Pose and motion of the vehicle for the guidance of one step. Time is the type of its clock: ms
+/// that can wrap on the chip, s in the simulator.
+template <class T, class Time>
+struct VehiclePose {
+  const Position<T>& position_m;
+  const Measurement<T>& measured;
+  Time now;
+};
+
+/// Seconds since `start`.
+inline float elapsed_s(uint32_t start_ms, uint32_t now_ms) {
+  return 0.001F * static_cast<float>(now_ms - start_ms);
+}
+inline double elapsed_s(double start_s, double now_s) { return now_s - start_s; }
+
+/// Follows a line or polyline.
+template <class T>
+struct LineFollower {
+  Polyline<T> line;              ///< count 0: none
+  PolylineProgress<T> progress;  ///< valid once is_started
+  bool is_started;               ///< the first step along the line was made
+};
+
+/// Follows a Lissajous figure as a function of time.
+template <class T, class Time>
+struct PathFollower {
+  Lissajous<T> path;
+  T gain_per_s;  ///< k of closed_path(), > 0; 0: open_path()
+  T held_rad;    ///< psi_d of the last step, valid once is_started
+  Time start;    ///< the path's t = 0, valid once is_started
+  bool is_on;
+  bool is_started;  ///< the first step along the path was made
+};
+
+/// Reduces the speed before the last waypoint, or the line's end.
+template <class T>
+struct SlowDown {
+  T distance_m;  ///< m before the end; 0: disabled
+};
+
+/// Avoids obstacles.
+template <class T>
+struct Avoider {
+  Avoidance<T> avoidance;
+  const Obstacle<T>* obstacles;  ///< not owned; `count` of them
+  Sector<T>* sectors;            ///< room for `count`; not owned
+  int count;                     ///< 0: none
+  AvoidanceState state;
+};
+
+/// Shapes the heading reference.
+template <class T>
+struct Shaper {
+  HeadingShaping<T> filter;
+  T sample_time_s;
+  ShapedHeading<T> state;  ///< valid once is_started
+  bool is_on;
+  bool is_started;
+};
+
+template <class T>
+void disable(LineFollower<T>& part) {
+  part.line.count = 0;
+}
+template <class T, class Time>
+void disable(PathFollower<T, Time>& part) {
+  part.is_on = false;
+}
+template <class T>
+void disable(SlowDown<T>& part) {
+  part.distance_m = T(0.0);
+}
+template <class T>
+void disable(Avoider<T>& part) {
+  part.count = 0;
+}
+template <class T>
+void disable(Shaper<T>& part) {
+  part.is_on = false;
+}
+
+template <class T>
+void reset(Avoider<T>& part) {
+  part.state = AvoidanceState();
+}
+template <class T>
+void reset(Shaper<T>& part) {
+  part.is_started = false;
+}
+
+/// True if the part reads the position in the next step.
+template <class Part>
+AWMR_INLINE bool needs_position(const Disabled<Part>&) {
+  return false;
+}
+template <class T>
+bool needs_position(const LineFollower<T>& part) {
+  return part.line.count > 0;
+}
+template <class T, class Time>
+bool needs_position(const PathFollower<T, Time>& part) {
+  return part.is_on && part.gain_per_s > T(0.0);
+}
+template <class T>
+bool needs_position(const Avoider<T>& part) {
+  return part.count > 0;
+}
+
+}  // namespace awmr

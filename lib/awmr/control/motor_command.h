@@ -1,0 +1,57 @@
+/// Commands of motors with back-EMF and a dead zone that make allocated forces. Freestanding C++14.
+#pragma once
+
+#include "awmr/control/allocation_limits.h"
+#include "awmr/model/resistance.h"
+#include "awmr/model/scalar_math.h"
+#include "awmr/model/state.h"
+
+namespace awmr {
+
+/// Constants of the allocation at the speed u, m/s, for motors with back-EMF: each force limit is
+/// reduced by k_e u. motor_drives() handles the turn's part of a wheel's speed, +- d r.
+template <class T>
+AllocationConstants<T> at_speed(AllocationConstants<T> c, const T& back_emf_s_per_m, const T& u_mps,
+                                double driven_wheels = 4.0) {
+  using math::any;
+  if (!any(back_emf_s_per_m > T(0.0))) return c;
+  const T lost = back_emf_s_per_m * u_mps;
+  c.tau_speed_min = c.tau_speed_min - T(driven_wheels) * lost;
+  c.tau_speed_max = c.tau_speed_max - T(driven_wheels) * lost;
+  c.force_min = c.force_min - lost;
+  c.force_max = c.force_max - lost;
+  return c;
+}
+
+/// Motor drives e that make these forces at the speed u, m/s, and yaw rate r, rad/s:
+///   e = sat(F' + k_e w, [F'min, F'max]),   w = u -+ d r           upper sign: left, lower: right
+/// w is the speed of a rear wheel; a front wheel's differs by d_r^2/2 of it and by l_f r d_r.
+/// A drive of 0 switches the motor off: a vehicle that cannot reverse its motors (F'min = 0) brakes
+/// by back-EMF while its drive is above 0, and rolls freely otherwise. NaN stays NaN.
+template <class T>
+SideForces<T> motor_drives(const SideForces<T>& force, const AllocationConstants<T>& c,
+                           const T& back_emf_s_per_m, const T& u_mps, const T& r_radps) {
+  using math::any;
+  if (!any(back_emf_s_per_m > T(0.0))) return force;
+  const T turn_mps = c.half_track_m * r_radps;
+  return {
+      math::clamp(T(force.left + back_emf_s_per_m * (u_mps - turn_mps)), c.force_min, c.force_max),
+      math::clamp(T(force.right + back_emf_s_per_m * (u_mps + turn_mps)), c.force_min,
+                  c.force_max)};
+}
+
+/// Motor commands that make these drives with a dead zone.
+template <class T>
+SideForces<T> with_dead_zone(const SideForces<T>& drive, const T& dead_zone) {
+  return {with_dead_zone(drive.left, dead_zone), with_dead_zone(drive.right, dead_zone)};
+}
+
+/// Motor commands that make these forces, with dead zone and back-EMF.
+template <class T>
+SideForces<T> motor_commands(const SideForces<T>& force, const AllocationConstants<T>& c,
+                             const T& dead_zone, const T& back_emf_s_per_m, const T& u_mps,
+                             const T& r_radps) {
+  return with_dead_zone(motor_drives(force, c, back_emf_s_per_m, u_mps, r_radps), dead_zone);
+}
+
+}  // namespace awmr

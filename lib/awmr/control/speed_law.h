@@ -1,0 +1,59 @@
+/// The speed law. Freestanding C++14.
+#pragma once
+
+#include "awmr/control/controller.h"
+#include "awmr/control/feed_forward.h"
+#include "awmr/control/flash.h"
+#include "awmr/control/measurement.h"
+
+namespace awmr {
+
+/// The end of [0, u_d + eps_s], or [u_d - eps_s, 0], that lies on the side of u. Rarely called.
+template <class T>
+AWMR_CALLED T fastest_fed_forward(const T& u_mps, const T& u_d_mps, const T& epsilon_mps) {
+  using math::select;
+  return select(u_mps > T(0.0), math::larger(T(u_d_mps + epsilon_mps), T(0.0)),
+                T(-math::larger(T(epsilon_mps - u_d_mps), T(0.0))));
+}
+
+/// Speed whose resistance the speed law feeds forward, m/s:
+///   w = 0                     at u_d = 0
+///   w = max(0, u_d + eps_s)   where the vehicle is faster than that, forward; backward likewise
+///   w = u                     else
+/// With g1(u) everywhere, a vehicle that a slope pulls would be driven along the slope by g1(u) - m' mu_s: without
+/// end where it is faster than u_d, and at u_d = 0 wherever g1(u) is more than the correction. `wanted` and `limit`
+/// are the correction before and at its saturation, `epsilon` a function that gives eps_s.
+template <class T, class Epsilon>
+AWMR_INLINE T fed_forward_speed(const T& u_mps, const Reference<T>& ref, const T& error_mps,
+                                const T& wanted, const T& limit, const Epsilon& epsilon) {
+  using math::any;
+  using math::select;
+  T w_mps = u_mps;
+  const Mask<T> too_fast = math::is_opposite(u_mps, error_mps) && math::is_beyond(wanted, limit);
+  if (any(too_fast)) {
+    w_mps = select(too_fast, fastest_fed_forward(u_mps, ref.speed_mps, T(epsilon())), w_mps);
+  }
+  const Mask<T> stands = math::is_zero(ref.speed_mps);
+  return any(stands) ? select(stands, T(0.0), w_mps) : w_mps;
+}
+
+/// The speed law, dimensionless:
+///   tau_speed = g1(w) + m' (u_d_dot - r v) + m' mu_s sat(e_u/eps_s),   e_u = u_d - u
+///                                                                    [paper (97)-(102), corrected]
+/// Corrected: (100)-(102) are printed without u_d_dot, which (99) has; the disturbance drops out as
+/// in the heading law. The paper has g1(u) at every speed; w is fed_forward_speed().
+template <class T, class G>
+AWMR_INLINE T speed_law(const PreparedController<T, G>& c, const Measurement<T>& m,
+                        const Reference<T>& ref) {
+  const ControlConstants<T>& k = c.constants;
+  const T error = ref.speed_mps - m.u_mps;
+  const T wanted = k.speed_slope * error;
+  const T correction = math::saturate(wanted, k.speed_limit);
+  const T w_mps = fed_forward_speed(m.u_mps, ref, error, wanted, k.speed_limit,
+                                    [&k] { return T(k.speed_limit / k.speed_slope); });
+  const T accel_mps2 = math::difference(ref.accel_mps2, T(m.r_radps * m.v_mps));
+  return fed_forward(c.surge, w_mps, error) +
+         math::plus_product(correction, k.mass_norm, accel_mps2);
+}
+
+}  // namespace awmr
