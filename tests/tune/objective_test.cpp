@@ -84,17 +84,24 @@ TEST(ModeScores, AreThoseOfTheRun) {
 TEST(ObjectiveTerms, AreRatiosAboveTheirFloors) {
   ModeScore score;
   ModeScore baseline;
+  score.duration_s = 0.95;  // never settled
+  baseline.metrics.settling_time_s = 0.15;
   score.metrics.heading_itae_degs2 = 0.5;
   score.metrics.overshoot_deg = 1.5;
   score.metrics.control_variation = 0.05;
   score.metrics.control_effort = 0.004;
   score.metrics.speed_itae_m_s = 0.009;
   const auto by = [&](double ObjectiveWeights::*weight) {
-    ObjectiveWeights weights{
-        .itae = 0.0, .overshoot = 0.0, .control_variation = 0.0, .effort = 0.0, .speed_itae = 0.0};
+    ObjectiveWeights weights{.settling = 0.0,
+                             .itae = 0.0,
+                             .overshoot = 0.0,
+                             .control_variation = 0.0,
+                             .effort = 0.0,
+                             .speed_itae = 0.0};
     weights.*weight = 3.0;
     return objective_of(score, baseline, weights);
   };
+  EXPECT_NEAR(by(&ObjectiveWeights::settling), (0.95 + 0.05) / (0.15 + 0.05), 1e-12);
   EXPECT_NEAR(by(&ObjectiveWeights::itae), (0.5 + 0.1) / 0.1, 1e-12);
   EXPECT_NEAR(by(&ObjectiveWeights::overshoot), (1.5 + 0.5) / 0.5, 1e-12);
   EXPECT_NEAR(by(&ObjectiveWeights::control_variation), (0.05 + 0.01) / 0.01, 1e-12);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cmath>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,10 @@ struct TestVehicle {
   double sway_alpha;
   double measured_mps, measured_degps;  ///< the fastest trials; 0: unknown
 };
+
+inline std::ostream& operator<<(std::ostream& out, const TestVehicle& vehicle) {
+  return out << vehicle.name;
+}
 
 inline std::vector<TestVehicle> test_vehicles() {
   return {

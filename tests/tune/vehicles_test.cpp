@@ -14,7 +14,7 @@ namespace {
 
 class Vehicles : public ::testing::TestWithParam<TestVehicle> {};
 
-/// A row of the table in lib/awmr/tune/README.md; quantiles of the slowest mode.
+/// Gains and quantiles of the slowest mode, as a row of a table.
 std::string row_of(const TestVehicle& vehicle, const Scenario& scenario, const Tuning& tuning) {
   std::string row =
       fmt::format("| {} | {:g} / {:g} | {:g} m/s, {:g} deg |", vehicle.name, vehicle.servo_s,

@@ -39,7 +39,8 @@ void check_observer(const std::optional<ObserverSearch>& observer, std::vector<F
 }
 
 void check_weights(const ObjectiveWeights& w, std::vector<Fault>& faults) {
-  const double values[] = {w.itae, w.overshoot, w.control_variation, w.effort, w.speed_itae};
+  const double values[] = {w.settling,          w.itae,   w.overshoot,
+                           w.control_variation, w.effort, w.speed_itae};
   double sum = 0.0;
   for (const double value : values) {
     if (!(value >= 0.0)) faults.push_back({"", fmt::format("weights: {} is below 0", value)});

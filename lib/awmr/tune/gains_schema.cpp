@@ -44,7 +44,12 @@ void describe_constraints(JsonObject& json) {
 void describe_objective(JsonObject json) {
   json.number("value");
   JsonObject weights = json.object("weights");
-  for (const ObjectiveTerm& term : kObjectiveTerms) weights.number(term.name, kNonNegative);
+  for (const ObjectiveTerm& term : kObjectiveTerms) {
+    // Files of before the term "settling" have no weight of it.
+    if (term.weight != &ObjectiveWeights::settling || weights.has(term.name)) {
+      weights.number(term.name, kNonNegative);
+    }
+  }
   weights.reject_unknown_keys();
   json.string("formula");
   for (JsonObject& term : json.objects("terms")) {

@@ -67,8 +67,12 @@ double mean_in_any_order(std::vector<double> values) {
 
 std::array<double, std::size(kObjectiveTerms)> figures_of(const ModeScore& score) {
   const Metrics& m = score.metrics;
-  return {m.heading_itae_degs2.value_or(0.0), m.overshoot_deg.value_or(0.0), m.control_variation,
-          m.control_effort, m.speed_itae_m_s};
+  return {m.settling_time_s.value_or(score.duration_s),
+          m.heading_itae_degs2.value_or(0.0),
+          m.overshoot_deg.value_or(0.0),
+          m.control_variation,
+          m.control_effort,
+          m.speed_itae_m_s};
 }
 
 double objective_of(const ModeScore& score, const ModeScore& baseline,
@@ -80,10 +84,10 @@ double objective_of(const ModeScore& score, const ModeScore& baseline,
   for (std::size_t i = 0; i < x.size(); ++i) {
     const double weight = weights.*kObjectiveTerms[i].weight;
     const double floor = kObjectiveTerms[i].floor;
-    sum += weight * ((x[i] + floor) / (x0[i] + floor));  // exactly the weight where x = x0
+    sum += weight * std::log((x[i] + floor) / (x0[i] + floor));  // exactly 0 where x = x0
     total += weight;
   }
-  return sum / total;
+  return std::exp(sum / total);
 }
 
 double mean_and_tail(std::vector<double> values, double tail_share) {
@@ -147,6 +151,7 @@ std::vector<std::vector<ModeScore>> run_all(const ObjectiveSetting& setting, con
           .scenario = scenario.name,
           .mode = block[j].mode,
           .metrics = metrics[j] ? *metrics[j] : metrics_of_failed(block[j], scenario, setting),
+          .duration_s = scenario.duration_s,
           .has_failed = !metrics[j]};
     }
   });
@@ -184,24 +189,26 @@ Evaluation Objective::evaluate(std::vector<ModeScore> scores) const {
     s.objective = objective_of(s, baseline_scores_[i], setting_.weights);
     if (!std::isfinite(s.objective) || s.has_failed) evaluation.valid = false;
   }
+  double log_of_all = 0.0;
   for (std::size_t mode = 0; mode < modes; ++mode) {
-    double objective = 0.0;
+    double log_objective = 0.0;
     double variation = 0.0;
     double of_baseline = 0.0;
     for (std::size_t scenario = 0; scenario < scenarios; ++scenario) {
       std::vector<double> by_vehicle;
       for (std::size_t i = mode * scenarios + scenario; i < scores.size(); i += per_vehicle) {
-        by_vehicle.push_back(scores[i].objective);
+        by_vehicle.push_back(std::log(scores[i].objective));
         variation += scores[i].metrics.control_variation;
         of_baseline += baseline_scores_[i].metrics.control_variation;
       }
-      objective += mean_and_tail(std::move(by_vehicle), setting_.tail_share);
+      log_objective += mean_and_tail(std::move(by_vehicle), setting_.tail_share);
     }
-    evaluation.mode_objective.push_back(objective / static_cast<double>(scenarios));
+    log_objective /= static_cast<double>(scenarios);
+    evaluation.mode_objective.push_back(std::exp(log_objective));
     evaluation.mode_activity.push_back(of_baseline > 0.0 ? variation / of_baseline : 1.0);
-    evaluation.objective += evaluation.mode_objective.back();
+    log_of_all += log_objective;
   }
-  evaluation.objective /= static_cast<double>(modes);
+  evaluation.objective = std::exp(log_of_all / static_cast<double>(modes));
   const std::vector<RunOutcome> outcomes =
       setting_.goals.empty() ? std::vector<RunOutcome>{} : outcomes_of(scores, setting_.scenarios);
   for (const GoalInMode& one : by_mode(setting_.goals, setting_.modes())) {

@@ -1,15 +1,18 @@
 /// What the search makes small. Private to tune/.
 ///
-/// For each mode and scenario, with x a figure of the run and x0 the same figure with the baseline
-/// gains in the same mode and scenario:
+/// For each run, with x a figure of it and x0 the same figure with the baseline gains on the same vehicle in
+/// the same mode and scenario:
 ///
-///     J = sum_i w_i (x_i + f_i)/(x0_i + f_i) / sum_i w_i
+///     ln J = sum_i w_i ln((x_i + f_i)/(x0_i + f_i)) / sum_i w_i
 ///
-/// over heading ITAE, overshoot, control variation, effort and speed ITAE. f_i is a floor in the
+/// over settling time, heading ITAE, overshoot, control variation, effort and speed ITAE. f_i is a floor in the
 /// unit of x_i, below which a difference does not matter: the baseline scores exactly 1, even where
-/// its overshoot is 0. Over several vehicles, J of a mode and scenario is (mean + CVaR)/2, CVaR the
-/// mean over the worst share of them. The objective is the mean of J over modes and scenarios, and for
-/// each soft goal and mode what the quantile of its excess (goals.h) is beyond 1.
+/// its overshoot is 0. Over several vehicles, ln J of a mode and scenario is (mean + CVaR)/2, CVaR the
+/// mean over the worst share of them. The objective is the geometric mean of J over modes and scenarios, plus
+/// for each soft goal and mode the excess of the quantile of its excess (goals.h) over 1.
+///
+/// A geometric mean, because the best gains then do not depend on the baseline: half of a figure weighs the same
+/// whatever the baseline's is. In a sum of the ratios, a figure in which the baseline is bad hardly counts.
 #pragma once
 
 #include <array>
@@ -32,6 +35,7 @@ struct ObjectiveTerm {
   double floor;                      ///< f_i in the figure's unit, > 0
 };
 inline constexpr ObjectiveTerm kObjectiveTerms[] = {
+    {"settling", &ObjectiveWeights::settling, "settling_time_s", 0.05},
     {"itae", &ObjectiveWeights::itae, "heading_itae_degs2", 0.1},
     {"overshoot", &ObjectiveWeights::overshoot, "overshoot_deg", 0.5},
     {"control_variation", &ObjectiveWeights::control_variation, "control_variation", 0.01},
@@ -42,7 +46,7 @@ inline constexpr ObjectiveTerm kObjectiveTerms[] = {
 /// x_i of one run, in the order of kObjectiveTerms.
 std::array<double, std::size(kObjectiveTerms)> figures_of(const ModeScore& score);
 
-/// J of one run; exactly 1 for the baseline against itself.
+/// J of one run; exactly 1 for the baseline against itself. Infinite or NaN where a figure is.
 double objective_of(const ModeScore& score, const ModeScore& baseline,
                     const ObjectiveWeights& weights);
 
@@ -73,11 +77,11 @@ RunNoise draw_noise(const ObjectiveSetting& setting);
 
 struct Evaluation {
   std::vector<ModeScore> scores;       ///< of the first vehicle, by mode, then scenario
-  std::vector<double> mode_objective;  ///< mean over the scenarios, in the order of modes()
+  std::vector<double> mode_objective;  ///< geometric mean over scenarios, in the order of modes()
   std::vector<double> mode_activity;   ///< control variation over the baseline's, of all vehicles
   std::vector<double> goal_quantile;   ///< of the excess, by goal, then mode (goals.h)
   TradeOffPoint trade_off;             ///< over all runs
-  double objective = 0.0;  ///< mean over the modes, and what soft goals add; finite where `valid`
+  double objective = 0.0;  ///< geometric mean over the modes, plus soft goals; finite where `valid`
   bool valid = false;      ///< finite, and no run breaks off
 };
 

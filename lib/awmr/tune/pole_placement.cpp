@@ -112,4 +112,21 @@ Gains<double> place_poles(const ConstraintContext& context) {
       .fastest();
 }
 
+Gains<double> slowed(Gains<double> gains, double share) {
+  gains.heading.lambda *= share;
+  gains.heading.epsilon *= share;
+  gains.heading.mu *= share * share;
+  return gains;
+}
+
+Gains<double> with_wide_layers(Gains<double> gains, const ConstraintContext& context) {
+  const double k = gains.heading.mu / gains.heading.epsilon;
+  const double k_s = gains.speed.mu / gains.speed.epsilon;
+  gains.heading.mu = std::max(gains.heading.mu, gains.heading.lambda * k * context.step_rad);
+  gains.heading.epsilon = gains.heading.mu / k;
+  gains.speed.mu = std::max(gains.speed.mu, k_s * context.speed_mps);
+  gains.speed.epsilon = gains.speed.mu / k_s;
+  return gains;
+}
+
 }  // namespace awmr

@@ -16,4 +16,12 @@ namespace awmr {
 /// Where no pair meets every constraint, the one that breaks them least.
 Gains<double> place_poles(const ConstraintContext& context);
 
+/// The same poles with layers that hold what the scenarios begin with, S = lambda e and e_u = u_d, so that the
+/// loops are linear but for the actuators:
+///   mu >= lambda k e,   mu_s >= k_s u_d,   e the largest step
+Gains<double> with_wide_layers(Gains<double> gains, const ConstraintContext& context);
+
+/// lambda, mu/epsilon and the layer S = lambda e times `share`; the speed gains stay.
+Gains<double> slowed(Gains<double> gains, double share);
+
 }  // namespace awmr

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 #include <utility>
 
 #include "awmr/core/parallel.h"
@@ -20,16 +21,17 @@ constexpr double kInvalid = 1.0;
 
 }  // namespace
 
-void bound_around(const Gains<double>& gains, GainBounds& bounds) {
-  const std::pair<std::optional<Interval>*, double> all[] = {
-      {&bounds.lambda, gains.heading.lambda},
-      {&bounds.mu, gains.heading.mu},
-      {&bounds.epsilon, gains.heading.epsilon},
-      {&bounds.speed_mu, gains.speed.mu},
-      {&bounds.speed_epsilon, gains.speed.epsilon}};
-  for (const auto& [bound, gain] : all) {
-    if (!*bound) *bound = Interval{gain / kBoundFactor, gain * kBoundFactor};
-  }
+void bound_around(std::span<const Gains<double>> gains, GainBounds& bounds) {
+  const auto around = [gains](std::optional<Interval>& bound, const auto& gain_of) {
+    if (bound) return;
+    const auto [least, largest] = std::ranges::minmax(gains | std::views::transform(gain_of));
+    bound = Interval{least / kBoundFactor, largest * kBoundFactor};
+  };
+  around(bounds.lambda, [](const Gains<double>& g) { return g.heading.lambda; });
+  around(bounds.mu, [](const Gains<double>& g) { return g.heading.mu; });
+  around(bounds.epsilon, [](const Gains<double>& g) { return g.heading.epsilon; });
+  around(bounds.speed_mu, [](const Gains<double>& g) { return g.speed.mu; });
+  around(bounds.speed_epsilon, [](const Gains<double>& g) { return g.speed.epsilon; });
 }
 
 SearchSpace::SearchSpace(const TuneOptions& options) : observer_(options.observer) {
@@ -157,9 +159,10 @@ std::vector<Looked> Problem::look_at(std::span<const Point> points) {
   }
   simulated += static_cast<int>(found.size());
   if (options_.progress) {
-    options_.progress(static_cast<std::size_t>(evaluations),
-                      static_cast<std::size_t>(options_.global_evaluations) +
-                          static_cast<std::size_t>(options_.local_evaluations));
+    const auto total = static_cast<std::size_t>(options_.global_evaluations) +
+                       static_cast<std::size_t>(options_.local_evaluations);
+    // The starts are not in the budget.
+    options_.progress(std::min(static_cast<std::size_t>(evaluations), total), total);
   }
   return all;
 }

@@ -19,8 +19,8 @@ inline constexpr unsigned kMostDimensions = 6;
 /// Their logarithms; the last is 0 where no observer is searched.
 using Point = std::array<double, kMostDimensions>;
 
-/// Gives the bounds that are absent: kBoundFactor either side of the gains.
-void bound_around(const Gains<double>& gains, GainBounds& bounds);
+/// Gives the bounds that are absent: from the least of these gains over kBoundFactor to the largest times it.
+void bound_around(std::span<const Gains<double>> gains, GainBounds& bounds);
 
 /// Where the search looks.
 class SearchSpace {

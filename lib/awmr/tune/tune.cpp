@@ -141,7 +141,9 @@ Status limit_observer(const ConstraintContext& context, std::optional<ObserverSe
 
 /// The setting with the vehicle's own plant and the draws that a search runs.
 ObjectiveSetting searched(ObjectiveSetting setting, const TuneOptions& options) {
-  const std::size_t draws = std::max<std::size_t>(at(kSearchedDraws), options.open.combinations());
+  const std::size_t as_many_runs =
+      at(kSearchedDraws) * std::size(kYawModes) / setting.modes().size();
+  const std::size_t draws = std::max(as_many_runs, options.open.combinations());
   if (setting.vehicles.size() > 1 + draws) setting.vehicles.resize(1 + draws);
   return setting;
 }
@@ -153,18 +155,24 @@ Status check_baseline(const Objective& objective, const Baseline& baseline) {
                      "by them: give other gains as baseline, or slower scenarios");
 }
 
-/// Where the search starts: pole placement and the baseline, as far as they meet the constraints; else the
-/// gains nearest to pole placement that do. Errors (refused): none do.
+/// Where the search starts in addition to pole placement: a vehicle whose noise is large is best with slower poles.
+constexpr double kSlowerStarts[] = {0.7, 0.5, 0.35, 0.25};
+
+/// Where the search starts: pole placement with wide layers, the same slowed, pole placement and the baseline, as far as
+/// they meet the constraints; else the gains nearest to the first that do. Errors (refused): none do.
 Result<std::vector<Gains<double>>> starts_of(const TuneOptions& options,
                                              const ConstraintContext& context,
-                                             const Gains<double>& poles) {
-  const Candidate start = feasible_start(options, context, poles);
-  if (start.violation > 0.0) return infeasible(start, context);
-  std::vector<Gains<double>> starts{start.gains};
-  if (options.baseline) {
-    const Candidate other = feasible_start(options, context, options.baseline->gains);
+                                             std::span<const Gains<double>> poles) {
+  const Candidate first = feasible_start(options, context, poles.front());
+  if (first.violation > 0.0) return infeasible(first, context);
+  std::vector<Gains<double>> starts{first.gains};
+  const auto add = [&](const Gains<double>& gains) {
+    const Candidate other = feasible_start(options, context, gains);
     if (!(other.violation > 0.0)) starts.push_back(other.gains);
-  }
+  };
+  for (const Gains<double>& other : poles.subspan(1)) add(other);
+  for (const double share : kSlowerStarts) add(slowed(poles.front(), share));
+  if (options.baseline) add(options.baseline->gains);
   return starts;
 }
 
@@ -172,11 +180,12 @@ Result<std::vector<Gains<double>>> starts_of(const TuneOptions& options,
 Result<Tuning> search_gains(const Model& model, const ObjectiveSetting& setting,
                             const ConstraintContext& context, TuneOptions options,
                             const Scenario& held_out) {
-  const Gains<double> poles = place_poles(context);
+  const Gains<double> narrow = place_poles(context);
+  const Gains<double> poles[] = {with_wide_layers(narrow, context), narrow};
   bound_around(poles, options.bounds);
   AWMR_ASSIGN_OR_RETURN(const std::vector<Gains<double>> starts,
                         starts_of(options, context, poles));
-  const Baseline baseline = options.baseline.value_or(Baseline{poles, kPolePlacement});
+  const Baseline baseline = options.baseline.value_or(Baseline{narrow, kPolePlacement});
   const Objective all(setting, baseline.gains);
   AWMR_RETURN_IF_ERROR(check_baseline(all, baseline));
   const Objective some(searched(setting, options), baseline.gains);

@@ -37,15 +37,17 @@ inline constexpr NameTable<ReachingForm, 2> kReachingFormNames{
 /// Weights of the objective's terms, >= 0 and not all 0; each term is over its value with the
 /// baseline's gains in the same mode and scenario (see objective.h).
 struct ObjectiveWeights {
-  double itae = 1.0;                ///< heading: integral of t |psi_d - psi|, t from each step
-  double overshoot = 0.5;           ///< heading: travel beyond the command
-  double control_variation = 0.25;  ///< how restless the commands are
-  double effort = 0.25;             ///< how large the commands are
+  double settling = 1.0;           ///< heading: settling time; the whole run where it never settles
+  double itae = 0.5;               ///< heading: integral of t |psi_d - psi|, t from each step
+  double overshoot = 1.0;          ///< heading: travel beyond the command
+  double control_variation = 0.5;  ///< how restless the commands are
+  double effort = 0.25;            ///< how large the commands are
   double speed_itae = 0.25;  ///< speed: integral of t |u_d - u|; without it mu_s, eps_s are free
 };
 
 /// Where the search looks. Symbols and units as in model/gains.h. Absent: kBoundFactor either side of
-/// pole placement; what is too fast for the sampled loop is cut off by the constraints.
+/// pole placement, with the least mu that dominates and with wide layers; what is too fast for the
+/// sampled loop is cut off by the constraints.
 struct GainBounds {
   std::optional<Interval> lambda = {};         ///< 1/s
   std::optional<Interval> mu = {};             ///< rad/s^2
@@ -94,7 +96,8 @@ struct ObserverSearch {
 };
 inline constexpr double kObserverShare = 0.5;
 
-/// Draws that the search runs; gains are finished on all of them.
+/// Draws that the search of three modes runs, and as many runs with fewer modes: 12 draws with one. Gains are
+/// finished on all of them.
 inline constexpr int kSearchedDraws = 4;
 /// A share of the objective that does not matter: what it leaves open is settled by a rule.
 inline constexpr double kIndifferent = 1e-3;
@@ -207,7 +210,9 @@ struct ModeScore {
   std::string scenario;
   YawMode mode{};
   Metrics metrics{};
-  double objective = 0.0;   ///< weighted mean of the normalised terms; 1 for the baseline itself
+  double duration_s = 0.0;  ///< of the scenario
+  double objective =
+      0.0;  ///< weighted geometric mean of its terms over the baseline's; 1 for itself
   bool has_failed = false;  ///< the run broke off: its metrics are those of what came before
 };
 

@@ -294,7 +294,8 @@ Json objective_json(const Tuning& tuning, const TuneOptions& options) {
   json["value"] = tuning.objective;
   json["weights"] = Json::object();
   json["formula"] =
-      "mean over modes and scenarios of sum_i w_i (x_i + f_i)/(x0_i + f_i) / sum_i w_i; x0: the "
+      "exp of the mean over modes and scenarios of sum_i w_i ln((x_i + f_i)/(x0_i + f_i)) / sum_i "
+      "w_i; x0: the "
       "baseline's figure in the same mode and scenario; f: a floor below which nothing matters";
   if (std::ranges::any_of(options.goals, &TuningGoal::is_soft)) {
     json["formula"] = json["formula"].get<std::string>() +

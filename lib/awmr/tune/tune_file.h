@@ -23,8 +23,8 @@ struct TuneConfig {
 Result<std::optional<Baseline>> baseline_named(const std::filesystem::path& name);
 
 /// tune.json (`awmr.tune/1`), strict, every key optional:
-///   schema, mode (the only one tuned for), form ("paper" | "strict"), margin, weights {itae, overshoot, control_variation,
-///   effort, speed_itae}, bounds {lambda, mu, epsilon, speed_mu, speed_epsilon: [lo, hi]},
+///   schema, mode (the only one tuned for), form ("paper" | "strict"), margin, weights {settling, itae, overshoot,
+///   control_variation, effort, speed_itae}, bounds {lambda, mu, epsilon, speed_mu, speed_epsilon: [lo, hi]},
 ///   nominal, draws (32), judged_draws (50; with goals 500), tail_share, activity_max,
 ///   limits {steering_rate_rms_degps, damping, late_damping, delayed_damping, noise_share},
 ///   baseline ("pole-placement" | "paper" | path of a gains.json relative to the file),

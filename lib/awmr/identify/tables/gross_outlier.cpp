@@ -32,7 +32,7 @@ Subject without(Subject subject, std::size_t point) {
 
 std::optional<GrossOutlier> gross_outlier(const Subject& subject, const SubjectOptions& options) {
   constexpr double kFar = 10.0;
-  constexpr double kUnlikely = 0.01;
+  constexpr double kUnlikely = 0.001;
   constexpr double kAsClose = 3.0;
   const SteadyFit line = fit_log_linear(subject.points);
   if (!line.usable) return std::nullopt;

@@ -1,0 +1,177 @@
+#include "peers/trade_off/gain_limits.h"
+
+#include <Eigen/Core>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+namespace awmr::peers {
+namespace {
+
+/// psi, r, angle moment, force moment, each of unit gain.
+using Vector4 = Eigen::Vector4d;
+
+struct Loop {
+  double own_rate = 0.0;    ///< g3'/I'z of the body, 1/s
+  double known_rate = 0.0;  ///< that is fed forward, over the model's I'z
+  double gain = 1.0;        ///< I'z of the model over the body's
+  double by_forces = 0.0;   ///< share of the moment
+  double motor_s = 0.0;
+  int late = 0;
+};
+
+/// The body over a sample by the classical Runge-Kutta method, the command held.
+Vector4 held(const Loop& loop, const Geometry& g, Vector4 x, double command) {
+  const double servo_s = g.servo_s > 0.0 ? g.servo_s : g.sample_s;
+  const auto rates = [&](const Vector4& y) {
+    const double forces = loop.motor_s > 0.0 ? y[3] : command;
+    return Vector4(y[1],
+                   -loop.own_rate * y[1] +
+                       loop.gain * ((1.0 - loop.by_forces) * y[2] + loop.by_forces * forces),
+                   (command - y[2]) / servo_s,
+                   loop.motor_s > 0.0 ? (command - y[3]) / loop.motor_s : 0.0);
+  };
+  double fastest = std::max(loop.own_rate, 1.0 / servo_s);
+  if (loop.motor_s > 0.0) fastest = std::max(fastest, 1.0 / loop.motor_s);
+  const int steps = std::max(4, static_cast<int>(std::ceil(5.0 * fastest * g.sample_s)));
+  const double h = g.sample_s / steps;
+  for (int i = 0; i < steps; ++i) {
+    const Vector4 a = rates(x);
+    const Vector4 b = rates(x + 0.5 * h * a);
+    const Vector4 c = rates(x + 0.5 * h * b);
+    const Vector4 d = rates(x + h * c);
+    x += h / 6.0 * (a + 2.0 * b + 2.0 * c + d);
+  }
+  return x;
+}
+
+/// Smallest damping ratio of the modes of the map from sample to sample: the columns are what becomes of
+/// each unit state. A mode of which less than a tenth is left after a sample does not count.
+double damping(const Loop& loop, const Geometry& g, const LawGains& k) {
+  const double k_s = k.mu / k.epsilon;
+  const Eigen::Index n = 4 + loop.late;
+  Eigen::RowVectorXd law = Eigen::RowVectorXd::Zero(n);
+  law[0] = -k.lambda * k_s;
+  law[1] = loop.known_rate - k.lambda - k_s;
+  Eigen::MatrixXd map = Eigen::MatrixXd::Zero(n, n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    Eigen::VectorXd x = Eigen::VectorXd::Unit(n, i);
+    const double ordered = law * x;
+    const double acts = loop.late > 0 ? x[4] : ordered;
+    map.col(i).head<4>() = held(loop, g, x.head<4>(), acts);
+    for (Eigen::Index j = 4; j + 1 < n; ++j) map(j, i) = x[j + 1];
+    if (loop.late > 0) map(n - 1, i) = ordered;
+  }
+  const Eigen::VectorXcd poles = Eigen::EigenSolver<Eigen::MatrixXd>(map, false).eigenvalues();
+  double least = 1.0;
+  for (const std::complex<double>& z : poles) {
+    if (std::abs(z) < 0.1) continue;
+    const std::complex<double> s = std::log(z);
+    if (std::abs(s) > 0.0) least = std::min(least, -s.real() / std::abs(s));
+  }
+  return least;
+}
+
+double least_damping(const Controls& c, const Geometry& g, const Body& body, double rate, int late,
+                     double motor_s) {
+  Loop loop{.own_rate = body.yaw.slope(rate) / body.inertia,
+            .known_rate = c.fed_forward == FedForward::kMeasured
+                              ? c.known.yaw.slope(rate) / c.known.inertia
+                              : 0.0,
+            .gain = c.known.inertia / body.inertia,
+            .by_forces = 1.0,
+            .motor_s = motor_s,
+            .late = late};
+  double least = damping(loop, g, c.gains);
+  if (!(g.servo_s > 0.0)) return least;
+  for (const double share : {0.5, 0.0}) {
+    loop.by_forces = share;
+    least = std::min(least, damping(loop, g, c.gains));
+  }
+  return least;
+}
+
+/// RMS rate of the steering command by noise while a heading is held, deg/s.
+double steering_rate_degps(const Controls& c, const Geometry& g, const SensorErrors& errors,
+                           double speed_mps) {
+  const double k = c.gains.mu / c.gains.epsilon;
+  constexpr int kPoints = 2000;
+  double squares = 0.0;
+  double weights = 0.0;
+  for (int i = 0; i < kPoints; ++i) {
+    const double z = -5.0 + 10.0 * (i + 0.5) / kPoints;
+    const double weight = std::exp(-0.5 * z * z);
+    const double n = z * errors.yaw_rate_radps;
+    double fed = 0.0;
+    if (c.fed_forward == FedForward::kMeasured) {
+      const bool rests = c.known.yaw.coulomb > 0.0 && std::abs(n) < 0.02;
+      fed = rests ? c.known.yaw.of_magnitude(0.02) * n / 0.02
+                  : std::copysign(c.known.yaw.of_magnitude(std::abs(n)), n);
+    }
+    const double w = fed / c.known.inertia - (c.gains.lambda + k) * n;
+    squares += weight * w * w;
+    weights += weight;
+  }
+  const double by_heading = c.gains.lambda * k * errors.heading_rad;
+  const double rms = std::sqrt(2.0 * (squares / weights + by_heading * by_heading));
+  return 2.0 * c.known.inertia * rms /
+         (g.front_axle_m * c.known.surge.of_magnitude(speed_mps) * g.sample_s) * 180.0 /
+         std::numbers::pi;
+}
+
+/// Largest moment of the weaker way to turn, m.
+double authority(const Geometry& g, const Body& body, double speed_mps) {
+  const double thrust = body.surge.of_magnitude(speed_mps);
+  const double by_forces =
+      4.0 * g.half_track_m * std::min(g.force_max - thrust / 4.0, thrust / 4.0 - g.force_min);
+  if (!(g.servo_s > 0.0)) return by_forces;
+  return std::min(by_forces, g.front_axle_m * thrust * std::tan(0.5 * g.steering_max_rad));
+}
+
+double above(double value, double limit) { return value / limit - 1.0; }
+double below(double value, double limit) { return 1.0 - value / limit; }
+
+}  // namespace
+
+double excess(const Controls& c, const Geometry& g, const SensorErrors& errors,
+              const std::vector<Body>& bodies, const Limits& limits, const Examined& examined) {
+  const LawGains& k = c.gains;
+  const double speed_rate = k.speed_mu / k.speed_epsilon;
+  const double late_s = std::max(errors.heading_late_s, errors.yaw_rate_late_s);
+  const int late = static_cast<int>(std::lround(late_s / g.sample_s));
+  const double slowest = std::numbers::pi / 180.0;
+  double worst = above(k.epsilon / k.mu * k.lambda, limits.margin);
+  if (g.servo_s > 0.0) {
+    worst = std::max(worst, above(steering_rate_degps(c, g, errors, examined.speed_mps),
+                                  limits.steering_rate_degps));
+  }
+  std::vector<const Body*> all{&c.known};
+  for (const Body& body : bodies) all.push_back(&body);
+  for (const Body* body : all) {
+    if (worst > 0.0) return worst;
+    const auto take = [&worst](double e) { worst = std::max(worst, e); };
+    const double rate = speed_rate * c.known.mass / body->mass;
+    take(above(rate * g.sample_s, 0.5));
+    const double lag_s = std::max(g.servo_s, g.motor_s) + late_s + 0.5 * g.sample_s;
+    take(above(rate * lag_s, 1.0 / (4.0 * limits.damping * limits.damping)));
+    take(below(k.mu, 0.2 * body->yaw.of_magnitude(examined.fastest_radps) / c.known.inertia));
+    take(below(k.speed_mu, 0.2 * body->surge.of_magnitude(examined.speed_mps) / c.known.mass));
+    take(above(c.known.inertia * k.lambda * k.mu / k.epsilon * errors.heading_rad,
+               limits.noise_share * authority(g, *body, examined.speed_mps)));
+    if (worst > 0.0) return worst;
+    for (const double share : {1.0 / 60.0, 1.0 / 12.0, 1.0 / 3.0, 1.0}) {
+      const double r = std::max(share * examined.fastest_radps, slowest);
+      take(below(least_damping(c, g, *body, r, 0, 0.0), limits.damping));
+      if (share > 0.5 || share < 0.05) {
+        take(below(least_damping(c, g, *body, r, late, g.motor_s), limits.late_damping));
+        take(below(least_damping(c, g, *body, r, 2 * late + 1, g.motor_s), limits.delayed_damping));
+      }
+      if (worst > 0.0) return worst;
+    }
+  }
+  return worst;
+}
+
+}  // namespace awmr::peers

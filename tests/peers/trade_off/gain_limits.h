@@ -1,0 +1,28 @@
+/// Limits that the README of tune states for gains, in code of its own: the independent admissible set of the
+/// cross-check.
+#pragma once
+
+#include <vector>
+
+#include "peers/trade_off/heading_simulator.h"
+
+namespace awmr::peers {
+
+struct Limits {
+  double margin = 0.8;  ///< epsilon/mu <= margin/lambda
+  double damping = 0.7, late_damping = 0.25, delayed_damping = 0.05;
+  double noise_share = 0.25;
+  double steering_rate_degps = 0.0;  ///< RMS
+};
+
+/// What the limits are examined for.
+struct Examined {
+  double speed_mps = 0.0, fastest_radps = 0.0;
+};
+
+/// Largest excess of any limit over the model and the drawn bodies, relative to the limit; <= 0: all are kept.
+/// Stops at the first body that breaks one.
+double excess(const Controls& controls, const Geometry& vehicle, const SensorErrors& errors,
+              const std::vector<Body>& bodies, const Limits& limits, const Examined& examined);
+
+}  // namespace awmr::peers

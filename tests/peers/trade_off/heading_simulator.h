@@ -1,0 +1,81 @@
+/// Simulator of headings that shares no code with lib/awmr: its own integrator, laws, allocation, sensors and
+/// metrics, written from the equations of the READMEs. The cross-check of `tune`.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+namespace awmr::peers {
+
+/// g(w) = (c + alpha |w|^beta + q w^2) sgn w, over F_max.
+struct Friction {
+  double coulomb = 0.0, alpha = 0.0, beta = 1.0, quadratic = 0.0;
+  double of_magnitude(double w) const;  ///< g(w), w > 0
+  double slope(double w) const;         ///< g'(w), w > 0
+};
+
+/// Masses and resistances, over F_max.
+struct Body {
+  double mass = 0.0;     ///< m', s^2/m
+  double inertia = 0.0;  ///< I'z, s^2 m
+  Friction surge, yaw;
+  double sway = 0.0;  ///< a_s
+};
+
+struct Geometry {
+  double front_axle_m = 0.0, half_track_m = 0.0;
+  double steering_max_rad = 0.0, steering_rate_radps = 0.0;
+  double servo_s = 0.0;  ///< 0: no steering
+  double sample_s = 0.0;
+  double force_min = -1.0, force_max = 1.0;  ///< of one wheel, over F_max
+  double motor_s = 0.0;                      ///< lag of the motors
+};
+
+struct SensorErrors {
+  double heading_rad = 0.0, yaw_rate_radps = 0.0, speed_mps = 0.0;  ///< standard deviations
+  double heading_late_s = 0.0, yaw_rate_late_s = 0.0, speed_late_s = 0.0;
+};
+
+struct LawGains {
+  double lambda = 0.0, mu = 0.0, epsilon = 0.0;
+  double speed_mu = 0.0, speed_epsilon = 0.0;
+};
+
+/// The yaw rate whose g3 the heading law adds: the measured one (the paper's) or that of the reference.
+enum class FedForward { kMeasured, kReference };
+
+struct Controls {
+  Body known;  ///< the model that the laws know
+  LawGains gains;
+  FedForward fed_forward = FedForward::kMeasured;
+};
+
+enum class Mode { kDifferential, kSteering, kCombined };
+
+/// Headings, each held for `hold_s`, at a speed; with a rate limit through a second-order filter.
+struct Course {
+  double speed_mps = 0.0, hold_s = 0.0;
+  std::vector<double> headings_rad;
+  std::optional<double> rate_limit_radps;
+};
+
+/// Standard normals of the readings of one run: heading, yaw rate, speed.
+using Noise = std::array<std::vector<double>, 3>;
+
+struct RunFigures {
+  double settling_s = 0.0;     ///< longest of the steps; the whole hold where it does not settle
+  double overshoot_deg = 0.0;  ///< largest travel beyond a step
+  double variation = 0.0;      ///< total variation of the commands over their limits, 1/s
+  double steering_rms_degps = 0.0;  ///< RMS rate of the steering command
+};
+
+/// Two runs with steps of the integrator of `step_s` and half of it differ by its error.
+RunFigures drive(const Body& body, const Geometry& vehicle, const SensorErrors& errors,
+                 const Controls& controls, Mode mode, const Course& course, const Noise& noise,
+                 double step_s = 2e-3);
+
+/// Readings that a course takes.
+std::size_t readings_of(const Course& course, const Geometry& vehicle);
+
+}  // namespace awmr::peers
