@@ -47,7 +47,7 @@ constexpr Hazard kHazards[] = {
      0.9},
     {"gps-position-frozen", "GPS position stands still", "1.5 m by speed, none by position", 13,
      2.5},
-    {"gps-speed-zero", "GPS speed is stuck at 0", "displacement 2 m beyond the speed's", 13, 13.0},
+    {"gps-speed-zero", "GPS speed is stuck at 0", "displacement 3 m beyond the speed's", 13, 20.0},
     {"motors-reversed", "motors drive the wrong way, but turn the right way",
      "2 m against the commanded direction", 14, 8.0},
     {"sides-swapped", "left and right motors swapped", "quarter turn against the commanded moment",

@@ -80,7 +80,7 @@ TEST_F(SafetyChip, SensorChecksCommandsArmingAndDirectionGiveTheHostsBitsWithinT
   EXPECT_LE(step, 16780U);
   EXPECT_LE(whole, 19520U);
   EXPECT_LE(fix, 20000U);
-  EXPECT_LE(emulator_->flash_bytes(), 26850U);
+  EXPECT_LE(emulator_->flash_bytes(), 26600U);
   EXPECT_LE(emulator_->ram_bytes(), 1012U);
 }
 

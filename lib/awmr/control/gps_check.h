@@ -167,9 +167,8 @@ class GpsCheck {
   static constexpr float kWindow_m = 20.0F;
   static constexpr uint32_t kWindow_ms = 30000;
   /// Permitted displacement beyond 1.5 times the distance travelled, m: the drift of the position
-  /// in a window, if the vehicle is commanded to stand and if it is commanded to drive.
-  static constexpr float kFurtherAtRest_m = 3.0F;
-  static constexpr float kFurther_m = 2.0F;
+  /// in a window.
+  static constexpr float kFurther_m = 3.0F;
   /// Maximum distance travelled without any change of position, m.
   static constexpr float kSame_m = 1.5F;
   /// Maximum displacement against the commanded direction, m, in as many consecutive fixes. At most
@@ -282,8 +281,7 @@ class GpsCheck {
     travelled_m_ += travelled_m;
     const float moved_m =
         detail::size_of(fix_.x_m - anchor_.x_m) + detail::size_of(fix_.y_m - anchor_.y_m);
-    const float further_m = direction_ != 0 ? kFurther_m : kFurtherAtRest_m;
-    if (moved_m > 1.5F * travelled_m_ + further_m) is_inconsistent_ = true;
+    if (moved_m > 1.5F * travelled_m_ + kFurther_m) is_inconsistent_ = true;
   }
 
   /// Restarts when the commanded direction changes. A moving vehicle must brake first.

@@ -48,7 +48,7 @@ std::vector<Case> cases() {
       {"gps-position-frozen", [&] { w.gps_still = true, w.still_x = w.x, w.still_y = w.y; },
        [&] { w.gps_still = false; }},
       {"gps-speed-zero", [&] { w.gps_speed_gain = 0, w.gps_speed_noise = 0; },
-       [&] { w.gps_speed_gain = 1, w.gps_speed_noise = 0.05; }},
+       [&] { w.gps_speed_gain = 1, w.gps_speed_noise = 0.05; }, 30},
       {"motors-reversed", [&] { w.motor_sign = -1; }, [&] { w.motor_sign = 1; }},
       {"sides-swapped", [&] { w.sides_swapped = true, w.say("M 0\nH 60\n"); },
        [&] { w.sides_swapped = false; }},
