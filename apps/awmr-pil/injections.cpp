@@ -59,6 +59,11 @@ constexpr InjectionEffect kEffects[] = {
      kSensorGood, 40.0},
     // In the next turn.
     {Injection::kSidesSwapped, Duration::kFromTheMiddle, kHeading, kWrongTurn, kSensorGood, 40.0},
+    // The heading filter leaves the compass, or the vehicle turns against the moment.
+    {Injection::kGyroReversed, Duration::kFromTheMiddle, kHeading, kHeadingOutOfStep, kWrongTurn,
+     40.0},
+    {Injection::kSteeringStuck, Duration::kFromTheMiddle, kFaultCommandTimeout, kOffCourse,
+     kSensorGood, 60.0},
     {Injection::kCompassTurning, Duration::kFromTheMiddle, kFaultCommandTimeout, kOffHeading,
      kWrongWay, 40.0},
     // The command time-out and the wait between two commands; STOP acts in the next step.

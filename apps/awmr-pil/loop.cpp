@@ -100,6 +100,13 @@ void reverse_motors(LoopRow& row) { row.force = {-row.force.right, -row.force.le
 
 void swap_sides(LoopRow& row) { row.force = {row.force.right, row.force.left}; }
 
+/// Failures of motors and servo.
+void fail_actuators(Injection injection, LoopRow& row) {
+  if (injection == Injection::kMotorsReversed) reverse_motors(row);
+  if (injection == Injection::kSidesSwapped) swap_sides(row);
+  if (injection == Injection::kSteeringStuck) row.steering_command_rad = 0.0;
+}
+
 /// Moves the simulated vehicle on by a sample under the row's command.
 Status drive(Physics& physics, const LoopRow& row, const std::string& scenario) {
   physics.disturb(row.t_s);
@@ -165,7 +172,7 @@ Result<std::vector<LoopRow>> run_loop(const LoopSetup& setup, Executor& executor
   const std::size_t samples = samples_of(setup);
   const Window window = injection_window(setup.injection, setup.middle, samples);
   const bool is_checked = disarms(setup.injection);
-  CheckedSensors checked(setup.injection, setup.sample_time_s, setup.limits);
+  CheckedSensors checked(setup.injection, setup.sample_time_s, setup.limits, setup.off_course_mrad);
   CheckedCommands commands(setup.injection);
   Arming arming;
   arming.arm(kFaultNone, kSensorGood);
@@ -182,8 +189,11 @@ Result<std::vector<LoopRow>> run_loop(const LoopSetup& setup, Executor& executor
       if (is_command_failure(setup.injection)) {
         commands.step(fails, arming, input.times);
       } else {
-        const float moment_m = rows.size() > 1 ? rows[k - 1].step.output.tau_turn_m : 0.0F;
-        row.cause = checked.step(k, fails, arming.is_armed() ? moment_m : 0.0F, input);
+        const Commanded before =
+            rows.size() > 1 && arming.is_armed()
+                ? Commanded{rows[k - 1].step.output.tau_turn_m, rows[k - 1].step.output.psi_ref_rad}
+                : Commanded{0.0F, input.reference.psi_rad};
+        row.cause = checked.step(k, fails, before, input);
       }
       if (!arming.is_armed()) input.times.command_ms -= kSilence_ms;
     } else if (k >= window.first && k < window.last) {
@@ -198,8 +208,7 @@ Result<std::vector<LoopRow>> run_loop(const LoopSetup& setup, Executor& executor
     row.step = *step;
     if (is_checked) arming.observe(step->output.fault, row.cause);
     command(setup, row);
-    if (setup.injection == Injection::kMotorsReversed && k >= window.first) reverse_motors(row);
-    if (setup.injection == Injection::kSidesSwapped && k >= window.first) swap_sides(row);
+    if (k >= window.first) fail_actuators(setup.injection, row);
     if (progress) progress(k, samples);
     if (step->output.arrived || order.no_passage || k == samples) break;
     AWMR_RETURN_IF_ERROR(drive(physics, row, setup.scenario.name));

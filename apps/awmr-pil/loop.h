@@ -21,6 +21,7 @@ struct LoopSetup {
   YawMode mode = YawMode::kCombined;
   cli::Injection injection = cli::Injection::kNone;
   SafetyLimits limits{};                 ///< limits of the firmware
+  float off_course_mrad = 0.0F;          ///< of the sketches, AWMR_OFF_COURSE_MRAD
   std::size_t middle = 0;                ///< first sample at which the injection acts
   std::vector<std::size_t> resets = {};  ///< samples before which the executor is reset
 };

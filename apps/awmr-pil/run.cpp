@@ -88,6 +88,7 @@ Result<Inputs> read_inputs(const PilOptions& options) {
   in.emit.parts = parameters->parts;
   in.parameters = *parameters;
   in.setup.limits = parameters->block.safety;
+  in.setup.off_course_mrad = parameters->off_course_mrad;
   return in;
 }
 

@@ -49,11 +49,11 @@ std::int16_t rounded(double counts) { return static_cast<std::int16_t>(std::lrou
 }  // namespace
 
 CheckedSensors::CheckedSensors(Injection injection, double sample_time_s,
-                               const SafetyLimits& limits)
+                               const SafetyLimits& limits, float off_course_mrad)
     : injection_(injection), sample_time_s_(sample_time_s) {
   heading_.begin(0);
   heading_.turn.begin(kRadpsPerWord, static_cast<float>(sample_time_s));
-  gps_.begin(limits.speed_max_mps, limits.speed_timeout_ms, 0);
+  gps_.begin(limits.speed_max_mps, off_course_mrad, limits.speed_timeout_ms, 0);
   // At rest before the run.
   for (int i = 0; i < 100; ++i) {
     heading_.calibration.take(rounded(kGyroNoise * std::normal_distribution<double>()(random_)),
@@ -61,8 +61,13 @@ CheckedSensors::CheckedSensors(Injection injection, double sample_time_s,
   }
 }
 
-SensorFault CheckedSensors::step(std::size_t k, bool fails, float moment_m, AutopilotInput& in) {
+SensorFault CheckedSensors::step(std::size_t k, bool fails, const Commanded& before,
+                                 AutopilotInput& in) {
   const std::uint32_t now_ms = in.times.now_ms;
+  psi_ref_rad_ = before.psi_ref_rad;
+  if (fails && injection_ == Injection::kGyroReversed) {
+    in.measured.r_radps = -in.measured.r_radps;
+  }
   if (fails && injection_ == Injection::kCompassTurning) {
     // The heading filter follows the compass.
     turned_rad_ += kCompassTurning_radps * sample_time_s_;
@@ -71,7 +76,7 @@ SensorFault CheckedSensors::step(std::size_t k, bool fails, float moment_m, Auto
   }
   if (fails && injection_ == Injection::kGpsSpeedZero) in.measured.u_mps = 0.0F;
   sense_heading(fails, in);
-  heading_.turn.take(word_, moment_m);
+  heading_.turn.take(word_, before.moment_m);
   const auto samples =
       static_cast<std::size_t>(std::max(1L, std::lround(kFixPeriod_s / sample_time_s_)));
   if (k % samples == 0) sense_position(k, fails, in);
@@ -143,7 +148,7 @@ void CheckedSensors::take_fix(const GpsFix& fix, const Position<float>& position
                                 : in.reference.speed_mps < 0.0F ? -1
                                                                 : 0;
   if (gps_.take_fix(fix, position_m.x_m, position_m.y_m, now_ms,
-                    {in.measured.psi_rad, direction, true})) {
+                    {in.measured.psi_rad, psi_ref_rad_, direction, true})) {
     speed_ms_ = now_ms;
   }
 }

@@ -13,14 +13,20 @@
 
 namespace awmr::pil {
 
+/// What the autopilot commanded in the step before.
+struct Commanded {
+  float moment_m;     ///< yaw moment; 0: the motors are off
+  float psi_ref_rad;  ///< heading that is to be held
+};
+
 /// Compass, gyroscope and GPS of one run.
 class CheckedSensors {
  public:
-  CheckedSensors(cli::Injection injection, double sample_time_s, const SafetyLimits& limits);
+  CheckedSensors(cli::Injection injection, double sample_time_s, const SafetyLimits& limits,
+                 float off_course_mrad);
 
   /// The k-th step: puts the times of what is believed into `in`. `fails`: the injection is at work.
-  /// `moment_m`: the yaw moment commanded since the step before; 0: the motors are off.
-  SensorFault step(std::size_t k, bool fails, float moment_m, AutopilotInput& in);
+  SensorFault step(std::size_t k, bool fails, const Commanded& before, AutopilotInput& in);
 
  private:
   cli::Injection injection_;
@@ -45,6 +51,7 @@ class CheckedSensors {
   };
   std::deque<LateFix> late_;
   std::uint32_t heading_ms_ = 0, speed_ms_ = 0;
+  float psi_ref_rad_ = 0.0F;  ///< heading that is to be held
 
   void sense_heading(bool fails, const AutopilotInput& in);
   void sense_position(std::size_t k, bool fails, const AutopilotInput& in);

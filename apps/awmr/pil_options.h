@@ -58,6 +58,8 @@ enum class Injection {
   kGpsPositionFrozen,  ///< the same position, with a speed
   kMotorsReversed,     ///< each side drives the wrong way, turning the right one
   kSidesSwapped,       ///< left and right motors exchanged
+  kGyroReversed,       ///< yaw rate of the wrong sign
+  kSteeringStuck,      ///< the servo stands straight
   kCompassTurning,     ///< turned away by 2.5 deg/s
   // Failures of the operator's line, read as the sketches do (control/command_line.h).
   kCommandSilence,        ///< no command
@@ -67,7 +69,7 @@ enum class Injection {
   kStop,                  ///< STOP
   kStopInNoise            ///< STOP within noise, without a line end
 };
-inline constexpr NameTable<Injection, 37> kInjectionNames{
+inline constexpr NameTable<Injection, 39> kInjectionNames{
     {{"none", Injection::kNone},
      {"nan", Injection::kNaN},
      {"infinite", Injection::kInfinite},
@@ -98,6 +100,8 @@ inline constexpr NameTable<Injection, 37> kInjectionNames{
      {"gps-position-frozen", Injection::kGpsPositionFrozen},
      {"motors-reversed", Injection::kMotorsReversed},
      {"sides-swapped", Injection::kSidesSwapped},
+     {"gyro-reversed", Injection::kGyroReversed},
+     {"steering-stuck", Injection::kSteeringStuck},
      {"compass-turning", Injection::kCompassTurning},
      {"command-silence", Injection::kCommandSilence},
      {"command-noise", Injection::kCommandNoise},

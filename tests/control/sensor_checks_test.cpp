@@ -114,7 +114,7 @@ struct ReceiverOnAPort {
   GpsReceiver gps;
   std::uint32_t now_ms = 0;
   std::string on_the_way;
-  ReceiverOnAPort() { gps.begin(8.0F, 600, 0); }
+  ReceiverOnAPort() { gps.begin(8.0F, 20.0F, 600, 0); }
   /// A step of 10 ms at 38,400 baud. Returns the number of characters read.
   int step() {
     now_ms += 10;
@@ -124,7 +124,7 @@ struct ReceiverOnAPort {
     const auto project = [](const GpsFix& fix) {
       return GpsPlace{static_cast<float>(fix.lat_e7 - 481173000), 0.0F};
     };
-    gps.read(port, project, {0.0F, 1, true}, now_ms);
+    gps.read(port, project, {0.0F, 0.0F, 1, true}, now_ms);
     return before - port.available();
   }
 };
@@ -205,14 +205,16 @@ TEST(GyroCalibration, WaitsUntilTheVehicleIsAtRest) {
   EXPECT_FALSE(calibrated(0.0, 0.1, false).is_done()) << "its mean is good, its spread is not";
 }
 
+constexpr float kOffCourse_mrad = 20.0F;
+
 struct Receiver {
   GpsCheck check;
   GpsFix fix{1000, 0, 0, 1.0F};
   std::uint32_t now_ms = 5000;
   float x_m = 0.0F, y_m = 0.0F;
-  GpsContext at{0.0F, 1, true};
+  GpsContext at{0.0F, 0.0F, 1, true};
 
-  Receiver() { check.begin(8.0F, 600, now_ms); }
+  Receiver() { check.begin(8.0F, kOffCourse_mrad, 600, now_ms); }
   bool next(std::uint32_t utc_ms = 200, std::uint32_t wait_ms = 200) {
     fix.utc_ms = (fix.utc_ms + utc_ms) % kDay_ms;
     now_ms += wait_ms;
@@ -307,6 +309,74 @@ TEST(GpsCheck, FindsAVehicleThatMovesTheWrongWay) {
   EXPECT_EQ(gps.check.fault(gps.now_ms), kSensorGood) << "at rest the next arming may come";
 }
 
+/// A vehicle at 1 m/s that turns by `turn_radps` until its heading is `wanted_rad`, in `seconds`. Distance driven
+/// when kOffCourse was raised; -1: never.
+double off_course_after_m(double wanted_rad, double turn_radps, double seconds) {
+  Receiver gps;
+  double psi_rad = 0.0;
+  gps.at.psi_ref_rad = static_cast<float>(wanted_rad);
+  for (int i = 0; i < 5 * seconds; ++i) {
+    psi_rad = std::min(wanted_rad, psi_rad + 0.2 * turn_radps);
+    gps.at.psi_rad = static_cast<float>(psi_rad);
+    gps.x_m += static_cast<float>(0.2 * std::cos(psi_rad));
+    gps.y_m += static_cast<float>(0.2 * std::sin(psi_rad));
+    gps.next();
+    if (gps.check.fault(gps.now_ms) == kOffCourse) return 0.2 * (i + 1);
+  }
+  return -1.0;
+}
+
+TEST(GpsCheck, FindsAVehicleThatDoesNotTurnToItsHeading) {
+  constexpr double kLimit_mrad = static_cast<double>(kOffCourse_mrad);
+  // Straight on: after kOffCourse_mrad/(e - pi/4). The first fix has no motion, the second a
+  // new heading, and the last is at most one late: three fixes of 0.2 m.
+  for (const double error_rad : {1.0, 1.57, 2.5, 3.1}) {
+    EXPECT_NEAR(off_course_after_m(error_rad, 0.0, 300.0), kLimit_mrad / (error_rad - 0.785), 0.6)
+        << error_rad;
+  }
+  EXPECT_EQ(off_course_after_m(0.75, 0.0, 300.0), -1.0);
+  // A turn by 180 deg with the radius R takes 2.8 R of the 20 m rad.
+  EXPECT_EQ(off_course_after_m(3.14, 1.0 / 6.8, 300.0), -1.0);
+  EXPECT_GT(off_course_after_m(3.14, 1.0 / 8.0, 300.0), 0.0);
+}
+
+TEST(GpsCheck, TakesANewHeadingForANewCourse) {
+  // The heading is reversed every 7 m, each of which adds 7 m (pi - pi/4) = 16.5 m rad; the limit is 20.
+  Receiver gps;
+  for (int i = 0; i < 3000; ++i) {
+    if (i % 35 == 0) gps.at.psi_ref_rad = gps.at.psi_ref_rad > 0.0F ? 0.0F : 3.1F;
+    gps.x_m += 0.2F;
+    gps.next();
+    ASSERT_EQ(gps.check.fault(gps.now_ms), kSensorGood) << i;
+  }
+}
+
+/// Distance turned, rad, when a turn from `rate_radps`, which falls by `fall` of itself in a turn of 90 deg, against
+/// the moment is found; -1: never.
+double wrong_turn_after_rad(double rate_radps, double fall) {
+  TurnCheck check;
+  check.begin(kPerWord, 0.01F);
+  double turned_rad = 0.0;
+  for (int i = 0; i < 20000; ++i) {
+    const double now_radps = rate_radps * std::max(0.0, 1.0 - fall * turned_rad / 1.5707963);
+    turned_rad += 0.01 * now_radps;
+    check.take(static_cast<std::int16_t>(std::lround(now_radps / static_cast<double>(kPerWord))),
+               -0.1F);
+    if (check.is_wrong()) return turned_rad;
+  }
+  return -1.0;
+}
+
+TEST(TurnCheck, FindsAQuarterTurnAgainstTheMomentUnlessTheTurnIsBraked) {
+  for (const double rate_radps : {0.2, 1.0, 4.0}) {
+    // A quarter turn and one sample.
+    EXPECT_NEAR(wrong_turn_after_rad(rate_radps, 0.0), 1.5707963, 0.011 * rate_radps);
+    EXPECT_NEAR(wrong_turn_after_rad(rate_radps, -1.0), 1.5707963, 0.021 * rate_radps);
+    EXPECT_EQ(wrong_turn_after_rad(rate_radps, 0.3), -1.0);
+    EXPECT_EQ(wrong_turn_after_rad(rate_radps, 1.0), -1.0);
+  }
+}
+
 /// Position errors wander by 1 m RMS with a time constant of 60 s. Speeds of 0.4 to 3 m/s change,
 /// also in sign, by 0.3 to 1 m/s2; turns up to 0.5 rad/s, heading errors of 5 deg.
 TEST(GpsCheck, RaisesNoFaultOnARoughDrive) {
@@ -336,6 +406,7 @@ TEST(GpsCheck, RaisesNoFaultOnARoughDrive) {
       gps.y_m = y_m + wander_y_m + 0.02F * noise(random);
       gps.fix.speed_mps = std::abs(u_mps + 0.05F * noise(random));
       gps.at.psi_rad = psi_rad + 0.09F * std::sin(0.01F * static_cast<float>(i));
+      gps.at.psi_ref_rad = psi_rad + 0.35F * std::sin(0.02F * static_cast<float>(i));
       gps.at.direction = wanted_mps > 0.0F ? 1 : -1;
       ASSERT_TRUE(gps.next()) << seed << " " << i;
       ASSERT_EQ(gps.check.fault(gps.now_ms), kSensorGood) << seed << " " << i;

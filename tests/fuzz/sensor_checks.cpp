@@ -39,7 +39,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   awmr::Arming arming;
   heading.begin(now_ms);
   heading.turn.begin(2.6e-4F, 0.05F);
-  gps.begin(3.0F, 600, now_ms);
+  gps.begin(3.0F, 20.0F, 600, now_ms);
   std::uint32_t last_utc_ms = 0xFFFFFFFFU;
   while (in.size > 0) {
     const auto use = in.get<std::uint8_t>();
@@ -58,9 +58,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if ((use & 8U) != 0) {
       const awmr::GpsFix fix{in.get<std::uint32_t>() % awmr::kDay_ms, 0, 0,
                              std::fabs(bounded(in.get<std::int16_t>(), 1e-3F))};
-      const bool taken = gps.take_fix(
-          fix, bounded(word, 0.01F), bounded(in.get<std::int16_t>(), 0.01F), now_ms,
-          {bounded(word, 1e-3F), static_cast<std::int8_t>(use >> 6U), (use & 16U) != 0});
+      const bool taken =
+          gps.take_fix(fix, bounded(word, 0.01F), bounded(in.get<std::int16_t>(), 0.01F), now_ms,
+                       {bounded(word, 1e-3F), bounded(static_cast<std::int16_t>(use), 0.02F),
+                        static_cast<std::int8_t>(use >> 6U), (use & 16U) != 0});
       require(!taken || fix.utc_ms != last_utc_ms, "a sentence that is repeated is not believed");
       last_utc_ms = fix.utc_ms;
       if (taken && gps.fault(now_ms) == awmr::kGpsSilent)
@@ -70,7 +71,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const awmr::SensorFault a = heading.fault(now_ms);
     const awmr::SensorFault b = gps.fault(now_ms);
     require(a <= awmr::kHeadingOutOfStep || a == awmr::kWrongTurn, "a fault of the heading");
-    require(b == awmr::kSensorGood || (b >= awmr::kGpsSilent && b <= awmr::kOffHeading),
+    require(b == awmr::kSensorGood || (b >= awmr::kGpsSilent && b <= awmr::kOffHeading) ||
+                b == awmr::kOffCourse,
             "a fault of the GPS");
     require(!heading.calibration.is_done() || std::fabs(heading.calibration.bias_radps()) < 0.09F,
             "an offset");

@@ -321,6 +321,8 @@ constexpr const char* kFaults[] = {"nan",
                                    "gps-position-frozen",
                                    "motors-reversed",
                                    "sides-swapped",
+                                   "gyro-reversed",
+                                   "steering-stuck",
                                    "compass-turning",
                                    "command-silence",
                                    "command-noise",
@@ -339,7 +341,7 @@ TEST(PilFaults, AreAllHazardsOfTheSafetyPage) {
     const std::size_t name = line.rfind(" `") + 2;
     hazards.push_back(line.substr(name, line.size() - 3 - name));
   }
-  EXPECT_EQ(hazards.size(), 26U);
+  EXPECT_EQ(hazards.size(), 28U);
   EXPECT_THAT(kFaults, ::testing::IsSupersetOf(hazards));
 }
 
@@ -349,14 +351,17 @@ TEST_P(PilFault, GivesTheSafeCommandAndItsCode) {
   // Long enough for failures that only metres of motion reveal.
   Json scenario = Json::parse(read_all(std::filesystem::path(AWMR_SOURCE_DIR) / kC3));
   scenario["duration_s"] = 90;
-  // A turn after the middle, in which a stuck compass is detected.
-  scenario["guidance"]["steps"].push_back({{"t_s", 60}, {"psi_deg", 30}});
+  const std::string name = GetParam();
+  // A turn after the middle, in which a stuck compass is detected; by 180 deg for a stuck servo, which is
+  // detected after metres at a wrong heading.
+  scenario["guidance"]["steps"].push_back(
+      {{"t_s", 60}, {"psi_deg", name == "steering-stuck" ? 150 : 30}});
   write_all(path("long.json"), scenario.dump());
-  const ProcessResult run =
-      // Combined, the steering undoes what swapped sides do.
-      pil(path("long.json"),
-          GetParam() == std::string("sides-swapped") ? "differential" : "combined",
-          std::string("--inject ") + GetParam());
+  // Combined, each path undoes what the other does wrong.
+  const char* mode = name == "sides-swapped"    ? "differential"
+                     : name == "steering-stuck" ? "steering"
+                                                : "combined";
+  const ProcessResult run = pil(path("long.json"), mode, "--inject " + name);
   ASSERT_EQ(run.exit_code, 0) << run.out << run.err;
   const Json injected = result()["injected"];
   EXPECT_TRUE(injected["safe"].get<bool>());

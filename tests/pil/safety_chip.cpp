@@ -38,7 +38,7 @@ int main() {
     const uint16_t step = TCNT1;
     awmr_step(&sequence.input, &sequence.output);
     keep_most(safety_step_cycles, since(step));
-    keep_most(number % 20 < 8 ? safety_fix_cycles : safety_whole_cycles, since(whole));
+    keep_most(number % 20 < 9 ? safety_fix_cycles : safety_whole_cycles, since(whole));
     safety_sequence::finish(sequence);
   }
   safety_hash = sequence.hash;

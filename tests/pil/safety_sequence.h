@@ -44,7 +44,7 @@ inline void begin(Sequence& s) {
   s.utc_ms = 43200000UL;
   s.heading.begin(s.now_ms);
   s.heading.turn.begin(2.6e-4F, 0.01F);
-  s.gps.begin(AWMR_SPEED_MAX_MPS, AWMR_SPEED_TIMEOUT_MS, s.now_ms);
+  s.gps.begin(AWMR_SPEED_MAX_MPS, AWMR_OFF_COURSE_MRAD, AWMR_SPEED_TIMEOUT_MS, s.now_ms);
   s.input.mode = AWMR_COMBINED;
   s.input.speed_unsigned = 1;
 }
@@ -114,7 +114,7 @@ struct Port {
 };
 
 inline void read_gps(Sequence& s) {
-  const awmr::GpsContext at = {0.0F, 1, s.arming.is_armed()};
+  const awmr::GpsContext at = {0.0F, s.output.psi_ref_rad, 1, s.arming.is_armed()};
   Projection projection;
   Port port = {s};
   s.gps.read(port, projection, at, s.now_ms);

@@ -10,8 +10,9 @@ namespace awmr {
 
 /// The vehicle's command at the time of a fix.
 struct GpsContext {
-  float psi_rad;     ///< heading
-  int8_t direction;  ///< of the commanded speed: 1, 0 or -1
+  float psi_rad;      ///< heading
+  float psi_ref_rad;  ///< heading that is to be held
+  int8_t direction;   ///< of the commanded speed: 1, 0 or -1
   /// False: a position elsewhere is accepted after ten fixes, 2 s at 5 Hz.
   bool is_armed;
 };
@@ -19,9 +20,11 @@ struct GpsContext {
 /// Plausibility of GPS fixes.
 class GpsCheck {
  public:
-  /// speed_max_mps: the vehicle's largest speed. timeout_ms: time without a fix before a fault.
-  void begin(float speed_max_mps, uint32_t timeout_ms, uint32_t now_ms) {
+  /// speed_max_mps: the vehicle's largest speed. off_course_mrad: distance driven off the wanted heading
+  /// before a fault, m rad. timeout_ms: time without a fix before a fault.
+  void begin(float speed_max_mps, float off_course_mrad, uint32_t timeout_ms, uint32_t now_ms) {
     speed_max_mps_ = speed_max_mps;
+    off_course_max_mrad_ = off_course_mrad;
     timeout_ms_ = timeout_ms;
     sentence_ms_ = now_ms;
   }
@@ -85,7 +88,8 @@ class GpsCheck {
   }
 
   /// Compares the displacement of the last fix that was believed, at the first call with its speed, at
-  /// the second with the command, at the third with the heading. False: that is done.
+  /// the second with the command, at the third with the heading; at the fourth the heading with that
+  /// which is to be held. False: that is done.
   bool check_motion() {
     switch (due_) {
       case Due::kSpeed:
@@ -101,8 +105,12 @@ class GpsCheck {
         compare_with_direction();
         break;
       case Due::kTrack:
-        due_ = Due::kNothing;
+        due_ = Due::kCourse;
         compare_with_heading();
+        break;
+      case Due::kCourse:
+        due_ = Due::kNothing;
+        compare_with_reference();
         break;
       case Due::kNothing:
         break;
@@ -121,6 +129,7 @@ class GpsCheck {
     }
     if (is_wrong_way_) return kWrongWay;
     if (is_off_heading_) return kOffHeading;
+    if (is_off_course_) return kOffCourse;
     if (is_inconsistent_) return kGpsInconsistent;
     return kSensorGood;
   }
@@ -130,7 +139,8 @@ class GpsCheck {
     has_anchor_ = false;
     same_m_ = against_m_ = 0.0F;
     against_fixes_ = 0;
-    is_wrong_way_ = is_inconsistent_ = is_off_heading_ = false;
+    is_wrong_way_ = is_inconsistent_ = is_off_heading_ = is_off_course_ = false;
+    off_course_mrad_ = 0.0F;
     restart_track();
   }
 
@@ -143,7 +153,7 @@ class GpsCheck {
     float dx_m, dy_m, time_s;
   };
   /// What is left to compare the last motion with.
-  enum class Due : uint8_t { kNothing, kSpeed, kDirection, kTrack };
+  enum class Due : uint8_t { kNothing, kSpeed, kDirection, kTrack, kCourse };
 
   /// Maximum lag of fixes behind the earliest, ms.
   static constexpr int32_t kGpsLag_ms = 500;
@@ -157,9 +167,8 @@ class GpsCheck {
   static constexpr float kWindow_m = 20.0F;
   static constexpr uint32_t kWindow_ms = 30000;
   /// Permitted displacement beyond 1.5 times the distance travelled, m: the drift of the position
-  /// in a window, if the vehicle is commanded to stand and if it is commanded to drive.
-  static constexpr float kFurtherAtRest_m = 3.0F;
-  static constexpr float kFurther_m = 2.0F;
+  /// in a window.
+  static constexpr float kFurther_m = 3.0F;
   /// Maximum distance travelled without any change of position, m.
   static constexpr float kSame_m = 1.5F;
   /// Maximum displacement against the commanded direction, m, in as many consecutive fixes. At most
@@ -176,12 +185,18 @@ class GpsCheck {
   static constexpr float kOffTrack = 0.577F;
   /// Displacements over which the heading changes by more than this, rad, are left out.
   static constexpr float kStraight_rad = 0.1F;
+  /// Difference of heading and wanted heading up to which the vehicle is on its course: pi/4, beyond
+  /// what gusts, slopes and unequal motors hold it off.
+  static constexpr float kOnCourse_rad = 0.785F;
+  /// A change of the wanted heading between two fixes by more than this, rad, is a new one.
+  static constexpr float kNewCourse_rad = 0.35F;
   /// After a change of the commanded direction the vehicle brakes for at most this long, s, and gets
   /// faster by no more than this, m/s.
   static constexpr float kBraking_s = 10.0F;
   static constexpr float kFaster_mps = 0.5F;
 
   float speed_max_mps_ = 0.0F;
+  float off_course_max_mrad_ = 0.0F;
   uint32_t timeout_ms_ = 0;
   uint32_t sentence_ms_ = 0;
   uint32_t utc_ms_ = 0;
@@ -189,15 +204,17 @@ class GpsCheck {
   int32_t lag_ms_ = 0;
   Place fix_ = {0.0F, 0.0F, 0.0F, 0};   // last accepted fix
   Motion motion_ = {0.0F, 0.0F, 0.0F};  // displacement to it, valid if one is due
-  GpsContext context_ = {0.0F, 0, false};
+  GpsContext context_ = {0.0F, 0.0F, 0, false};
   Place anchor_ = {0.0F, 0.0F, 0.0F, 0};   // where the window began, valid with has_anchor_
   float travelled_m_ = 0.0F;               // integral of the speed since then
   float same_m_ = 0.0F;                    // integral of the speed while the position stood still
   float against_m_ = 0.0F;                 // against the commanded direction
   BodyDisplacement moved_ = {0.0F, 0.0F};  // by the last fix, valid with Due::kTrack
-  float track_ahead_m_ = 0.0F;             // sum of |ahead| since the track was compared
-  float track_left_m_ = 0.0F;              // sum of left, of the way that the vehicle drives
+  float track_ahead_m_ = 0.0F;             // sum of ahead since the track was compared
+  float track_left_m_ = 0.0F;              // sum of left
   float track_psi_rad_ = 0.0F;             // heading at the fix before
+  float off_course_mrad_ = 0.0F;           // distance driven off the wanted heading
+  float course_rad_ = 0.0F;                // wanted heading at the fix before
   float braking_s_ = 0.0F;                 // left of kBraking_s
   float braked_from_mps_ = 0.0F;           // speed when the commanded direction changed
   int8_t direction_ = 0;
@@ -211,6 +228,7 @@ class GpsCheck {
   Due due_ = Due::kNothing;
   bool is_wrong_way_ = false;
   bool is_off_heading_ = false;
+  bool is_off_course_ = false;
   bool is_inconsistent_ = false;
 
   bool refuse(SensorFault why) {
@@ -263,8 +281,7 @@ class GpsCheck {
     travelled_m_ += travelled_m;
     const float moved_m =
         detail::size_of(fix_.x_m - anchor_.x_m) + detail::size_of(fix_.y_m - anchor_.y_m);
-    const float further_m = direction_ != 0 ? kFurther_m : kFurtherAtRest_m;
-    if (moved_m > 1.5F * travelled_m_ + further_m) is_inconsistent_ = true;
+    if (moved_m > 1.5F * travelled_m_ + kFurther_m) is_inconsistent_ = true;
   }
 
   /// Restarts when the commanded direction changes. A moving vehicle must brake first.
@@ -301,14 +318,35 @@ class GpsCheck {
   void compare_with_heading() {
     const float turned_rad = float_math::wrapped(context_.psi_rad - track_psi_rad_);
     track_psi_rad_ = context_.psi_rad;
-    if (direction_ == 0 || !(fix_.speed_mps > kStandstill_mps)) return restart_track();
+    if (direction_ == 0) return restart_track();
     if (detail::size_of(turned_rad) > kStraight_rad) return;
-    track_ahead_m_ += detail::size_of(moved_.ahead_m);
-    track_left_m_ += direction_ > 0 ? moved_.left_m : -moved_.left_m;
+    track_ahead_m_ += moved_.ahead_m;
+    track_left_m_ += moved_.left_m;
+    const float ahead_m = detail::size_of(track_ahead_m_);
     const float left_m = detail::size_of(track_left_m_);
-    if (track_ahead_m_ + left_m < kTrack_m) return;
-    if (left_m > kOffTrack * track_ahead_m_) is_off_heading_ = true;
+    if (ahead_m + left_m < kTrack_m) return;
+    if (left_m > kOffTrack * ahead_m) is_off_heading_ = true;
     restart_track();
+  }
+
+  /// Distance driven at a heading that is off the wanted one, m rad:
+  ///   off = max(0, off + int (|psi_d - psi| - pi/4) |u| dt)
+  /// It grows without end where the vehicle does not turn to where it is to head, whatever the reason: a
+  /// gyroscope of the wrong sign, a servo or motor that has failed, a point inside of the turning
+  /// circle. A turn by 180 deg with the radius R takes
+  ///   R int_(pi/4)^pi (e - pi/4) de = 2.8 R
+  void compare_with_reference() {
+    const float turned_rad = float_math::wrapped(context_.psi_ref_rad - course_rad_);
+    course_rad_ = context_.psi_ref_rad;
+    if (direction_ == 0 || detail::size_of(turned_rad) > kNewCourse_rad) {
+      off_course_mrad_ = 0.0F;
+      return;
+    }
+    const float error_rad = float_math::wrapped(context_.psi_ref_rad - context_.psi_rad);
+    off_course_mrad_ +=
+        (detail::size_of(error_rad) - kOnCourse_rad) * (fix_.speed_mps * motion_.time_s);
+    if (off_course_mrad_ < 0.0F) off_course_mrad_ = 0.0F;
+    if (off_course_mrad_ > off_course_max_mrad_) is_off_course_ = true;
   }
 };
 

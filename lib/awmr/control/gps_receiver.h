@@ -6,6 +6,8 @@
 ///   3. Publish position and speed, for the autopilot in this step.
 ///   4. Compare the displacement with the speed.
 ///   5. Compare the displacement with the command.
+///   6. Compare the displacement with the heading.
+///   7. Compare the heading with the one that is to be held.
 /// If the next sentence ends earlier, a fix in step 2 is dropped and the rest is done at once.
 #pragma once
 
@@ -26,8 +28,8 @@ class GpsReceiver {
   uint32_t time_ms = 0;    ///< arrival time of its sentence, valid once has_fix()
 
   /// As GpsCheck::begin().
-  void begin(float speed_max_mps, uint32_t timeout_ms, uint32_t now_ms) {
-    check_.begin(speed_max_mps, timeout_ms, now_ms);
+  void begin(float speed_max_mps, float off_course_mrad, uint32_t timeout_ms, uint32_t now_ms) {
+    check_.begin(speed_max_mps, off_course_mrad, timeout_ms, now_ms);
   }
   bool has_fix() const { return has_fix_; }
   /// Reason why fixes are rejected; kSensorGood: they are accepted.

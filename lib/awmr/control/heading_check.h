@@ -123,7 +123,9 @@ class StepCheck {
 };
 
 /// The yaw rate beside the commanded yaw moment: left and right motors that are swapped, a reversed
-/// servo, or a gyroscope of the wrong sign, turn the vehicle away from where it is to head.
+/// servo, or a gyroscope of the wrong sign, turn the vehicle away from where it is to head. A vehicle
+/// that is braked in a turn gets slower: only a quarter turn at a rate that does not fall by a quarter
+/// is wrong.
 class TurnCheck {
  public:
   /// rad/s of a word, and the time between two words, s.
@@ -138,13 +140,16 @@ class TurnCheck {
       return;
     }
     if (float_math::magnitude_bits(moment_m) == 0) return;
-    if ((word < 0) == (bits_of(moment_m) >> 31U != 0)) {
+    const uint16_t size = static_cast<uint16_t>(word < 0 ? -static_cast<int32_t>(word) : word);
+    if ((word < 0) == (bits_of(moment_m) >> 31U != 0) || size < fastest_ - fastest_ / 4U) {
       against_words_ = 0;
-    } else {
-      against_words_ += word < 0 ? -static_cast<int32_t>(word) : word;
-      is_wrong_ = is_wrong_ || against_words_ > quarter_turn_words_;
-      if (is_wrong_) against_words_ = 0;
+      fastest_ = size;
+      return;
     }
+    if (size > fastest_) fastest_ = size;
+    against_words_ += size;
+    is_wrong_ = is_wrong_ || against_words_ > quarter_turn_words_;
+    if (is_wrong_) against_words_ = 0;
   }
   bool is_wrong() const { return is_wrong_; }
 
@@ -153,10 +158,12 @@ class TurnCheck {
   static constexpr int16_t kTurning = 375;
   int32_t quarter_turn_words_ = 0;  // sum of the words over a quarter of a turn
   int32_t against_words_ = 0;
+  uint16_t fastest_ = 0;  // size of the fastest word since against_words_ was 0
   bool is_wrong_ = false;
 
   void restart() {
     against_words_ = 0;
+    fastest_ = 0;
     is_wrong_ = false;
   }
 };

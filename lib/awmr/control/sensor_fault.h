@@ -31,9 +31,10 @@ enum SensorFault : uint8_t {
   kGpsInconsistent = 13,   ///< speed and displacement contradict each other
   kWrongWay = 14,          ///< driven one way, it moves the other
   kOffHeading = 15,        ///< the track of the positions is 30 deg and more off the heading
-  kWrongTurn = 16          ///< the vehicle turns against the commanded yaw moment
+  kWrongTurn = 16,         ///< the vehicle turns against the commanded yaw moment
+  kOffCourse = 17          ///< it does not turn to the heading that is to be held
 };
-constexpr uint8_t kSensorFaultCount = 17;
+constexpr uint8_t kSensorFaultCount = 18;
 
 namespace detail {
 

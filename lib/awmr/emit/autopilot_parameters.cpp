@@ -110,6 +110,49 @@ double route_speed_mps(const Plant<double>& plant, double full_force) {
   return std::min(kUsual_mps, kShare * top_mps);
 }
 
+/// The fastest steady turn at a speed, rad/s, of a vehicle with steering by that alone; none if the
+/// moment does not overcome the resistance at rest.
+///   tau_turn = l_f tau_speed tan(d_max/2)                                      [paper (41)]
+///   tau_turn = d (4 F'max - tau_speed)                              by the wheel forces
+std::optional<double> turn_of_vehicle(const Plant<double>& plant, const Vehicle& vehicle,
+                                      double full_force, double speed_mps) {
+  const double tau_speed = plant.surge.at(speed_mps);
+  const double moment_m = vehicle.has_steering() ? plant.front_axle_m * tau_speed *
+                                                       tan_half(radians(vehicle.steering_max_deg))
+                                                 : plant.half_track_m * (full_force - tau_speed);
+  return steady_rate(plant.yaw, moment_m);
+}
+
+/// The fastest steady turn that the heading law commands at a speed, rad/s, with 40 % more resistance
+/// than the model's and motors that differ by 16 %. Outside of the boundary layer, sat = 1:
+///   1.4 g3(r) + 0.08 d tau_speed = g3(r) + I'z (mu - lambda r)                 [paper (89)]
+std::optional<double> turn_of_law(const Plant<double>& plant, const HeadingGains<double>& gains,
+                                  double speed_mps) {
+  constexpr double kMore = 0.4;
+  constexpr double kUnequal = 0.08;
+  const double unequal_m = kUnequal * plant.half_track_m * plant.surge.at(speed_mps);
+  return steady_rate(plant.yaw, (plant.inertia_norm * gains.mu - unequal_m) / kMore,
+                     plant.inertia_norm * gains.lambda / kMore);
+}
+
+/// AWMR_OFF_COURSE_MRAD: a turn by 180 deg with the radius R takes 2.8 R of it (control/gps_check.h),
+/// the way until a turn begins the rest. R is the largest at speeds from a quarter of the route's on:
+/// friction at rest makes slow turns wide.
+double off_course_mrad(const Plant<double>& plant, const Vehicle& vehicle,
+                       const HeadingGains<double>& gains, double full_force, double route_mps) {
+  constexpr double kLeast_mrad = 10.0;
+  constexpr double kMost_mrad = 60.0;
+  double most = kLeast_mrad;
+  for (const double share : {0.25, 0.5, 0.75, 1.0}) {
+    const double speed_mps = share * route_mps;
+    const auto by_vehicle = turn_of_vehicle(plant, vehicle, full_force, speed_mps);
+    const auto by_law = turn_of_law(plant, gains, speed_mps);
+    if (!by_vehicle || !by_law) return kMost_mrad;
+    most = std::max(most, kLeast_mrad + 2.8 * speed_mps / std::min(*by_vehicle, *by_law));
+  }
+  return std::min(most, kMost_mrad);
+}
+
 /// Refuses what the simulated controller does and the firmware does not.
 Status check_allocation(const Model& model) {
   if (model.vehicle.allocation == AllocationForm::kExact) return {};
@@ -189,7 +232,10 @@ Result<AutopilotParameters> autopilot_parameters(const Model& model, const Gains
   AutopilotParameters parameters;
   parameters.resistance = options.resistance;
   parameters.sample_time_s = single(model.vehicle.sample_time_s);
-  parameters.route_speed_mps = single(route_speed_mps(plant, full_force));
+  const double route_mps = route_speed_mps(plant, full_force);
+  parameters.route_speed_mps = single(route_mps);
+  parameters.off_course_mrad =
+      single(off_course_mrad(plant, model.vehicle, gains.heading, full_force, route_mps));
   parameters.parts = options.parts;
   if (gains.observer.is_on()) {
     parameters.parts.insert(FirmwarePart::kObserver);

@@ -5,11 +5,26 @@
 #include <Wire.h>
 #include <awmr.h>
 
+#include <cmath>
 #include <cstdio>
 #include <functional>
 #include <map>
 #include <random>
 #include <vector>
+
+// The header of a power law lacks the terms of other friction models.
+#ifndef AWMR_SURGE_COULOMB
+#define AWMR_SURGE_COULOMB 0.0
+#endif
+#ifndef AWMR_SURGE_QUADRATIC
+#define AWMR_SURGE_QUADRATIC 0.0
+#endif
+#ifndef AWMR_YAW_COULOMB
+#define AWMR_YAW_COULOMB 0.0
+#endif
+#ifndef AWMR_YAW_QUADRATIC
+#define AWMR_YAW_QUADRATIC 0.0
+#endif
 
 Stream Serial, Serial1;
 TwoWire Wire;
@@ -21,13 +36,16 @@ void setup();
 void loop();
 
 struct World {
-  // Time. The step runs every 10 ms.
+  // Time. The step runs every sample time.
   uint32_t start_ms = 1000, elapsed_ms = 0;
+  const uint32_t step_ms = static_cast<uint32_t>(lround(1000.0 * AWMR_SAMPLE_TIME_S));
   // Motion, and how the vehicle differs from the model.
   double x = 0, y = 0, psi = 0.3, u = 0, r = 0;
   double mass_factor = 1, drag_factor = 1, motor_sign = 1, slope = 0;
   bool sides_swapped = false;
-  double servo_sign = 1;
+  double left_gain = 1, right_gain = 1;
+  double motor_lag_s = 0, left_force = 0, right_force = 0;
+  double servo_sign = 1, servo_offset = 0, servo_lag_s = 0, servo_stuck = NAN, servo_rad = 0;
   double forced_turn = 0;  // rad/s: turned by hand
   bool is_held = false;    // held by hand: u is 0
   std::map<int, int> duty, level;
@@ -35,12 +53,15 @@ struct World {
   std::mt19937 random{7};
   double gyro_bias = 0.02, gyro_gain = 1, gyro_noise = 5, compass_offset = 0, compass_noise = 3;
   double compass_rate = 0;  // rad/s: the compass turns away
+  double compass_ahead_sign = 1, compass_left_sign = 1, compass_distortion = 0;
+  bool compass_axes_swapped = false;
   bool gyro_answers = true, gyro_frozen = false, compass_answers = true, compass_frozen = false;
   bool compass_stuck = false;
   double stuck_psi = 0;
   std::map<int, int> registers;
   int gyro_word = 0, field[3] = {0, 0, 0};
   double gps_noise_m = 0.1, gps_speed_noise = 0.05, gps_jump_m = 0, gps_speed_gain = 1;
+  double gps_wander_m = 0, wander_x = 0, wander_y = 0;
   uint32_t gps_delay_ms = 0, gps_latency_ms = 0;
   bool gps_answers = true, gps_repeats = false, gps_empty = false, gps_void = false,
        gps_still = false;
@@ -59,23 +80,40 @@ struct World {
   }
   // Reversed, the sides are exchanged as well: it drives the wrong way and turns the right one.
   bool is_exchanged() const { return (motor_sign < 0) != sides_swapped; }
-  double left() { return is_exchanged() ? force(45, 23) : force(44, 22); }
-  double right() { return is_exchanged() ? force(44, 22) : force(45, 23); }
+  double left() { return left_gain * (is_exchanged() ? force(45, 23) : force(44, 22)); }
+  double right() { return right_gain * (is_exchanged() ? force(44, 22) : force(45, 23)); }
   bool is_driven() { return duty[44] != 0 || duty[45] != 0; }
-  double steering() { return servo_sign * (OCR4A / 2.0 - 1500) / 573.0; }
+  double steering() const {
+    return std::isnan(servo_stuck) ? servo_sign * (OCR4A / 2.0 - 1500) / 573.0 + servo_offset
+                                   : servo_stuck;
+  }
+  // First-order lag; none for a time constant of 0.
+  static double lagged(double from, double to, double dt, double time_constant_s) {
+    return time_constant_s > 0 ? from + dt / time_constant_s * (to - from) : to;
+  }
+  static double surge_drag(double w) {
+    return AWMR_SURGE_COULOMB + AWMR_SURGE_ALPHA * pow(fabs(w), AWMR_SURGE_BETA) +
+           AWMR_SURGE_QUADRATIC * w * w;
+  }
+  static double yaw_drag(double w) {
+    return AWMR_YAW_COULOMB + AWMR_YAW_ALPHA * pow(fabs(w), AWMR_YAW_BETA) +
+           AWMR_YAW_QUADRATIC * w * w;
+  }
 
   void move(double dt) {
-    const double d = steering(), sum = left() + right();
+    left_force = lagged(left_force, left(), dt, motor_lag_s);
+    right_force = lagged(right_force, right(), dt, motor_lag_s);
+    servo_rad = lagged(servo_rad, steering(), dt, servo_lag_s);
+    const double d = servo_rad, sum = left_force + right_force;
     const double thrust = sum * (1 + cos(d));
     const double mass = mass_factor * AWMR_MASS_NORM;
-    const auto drag = [](double a, double b, double w) { return a * pow(fabs(w), b); };
     double next = u + dt * (thrust - slope) / mass;
-    const double loss = dt * drag_factor * drag(AWMR_SURGE_ALPHA, AWMR_SURGE_BETA, next) / mass;
+    const double loss = dt * drag_factor * surge_drag(next) / mass;
     u = fabs(next) > loss ? next - copysign(loss, next) : 0;
-    const double moment =
-        AWMR_FRONT_AXLE_M * sum * sin(d) + AWMR_HALF_TRACK_M * (right() - left()) * (1 + cos(d));
+    const double moment = AWMR_FRONT_AXLE_M * sum * sin(d) +
+                          AWMR_HALF_TRACK_M * (right_force - left_force) * (1 + cos(d));
     next = r + dt * moment / AWMR_INERTIA_NORM;
-    const double turn = dt * drag(AWMR_YAW_ALPHA, AWMR_YAW_BETA, next) / AWMR_INERTIA_NORM;
+    const double turn = dt * drag_factor * yaw_drag(next) / AWMR_INERTIA_NORM;
     r = fabs(next) > turn ? next - copysign(turn, next) : 0;
     if (forced_turn != 0) r = forced_turn;
     if (is_held) u = 0;
@@ -89,9 +127,13 @@ struct World {
           lround(gyro_gain * (r + gyro_bias) * 32768 / 500 * 57.29578 + noise(gyro_noise)));
     }
     if (compass_frozen) return;
-    const double seen = compass_stuck ? stuck_psi : psi + compass_offset;
-    field[0] = static_cast<int>(lround(-250 * sin(seen) + noise(compass_noise)));
-    field[1] = static_cast<int>(lround(250 * cos(seen) + noise(compass_noise)));
+    const double seen =
+        (compass_stuck ? stuck_psi : psi + compass_offset) + compass_distortion * sin(2 * psi);
+    field[0] =
+        static_cast<int>(lround(compass_left_sign * -250 * sin(seen) + noise(compass_noise)));
+    field[1] =
+        static_cast<int>(lround(compass_ahead_sign * 250 * cos(seen) + noise(compass_noise)));
+    if (compass_axes_swapped) std::swap(field[0], field[1]);
     field[2] = static_cast<int>(lround(400 + noise(compass_noise)));
   }
   void navigate() {
@@ -105,8 +147,14 @@ struct World {
     }
   }
   std::string sentence() {
-    const double px = gps_still ? still_x : x + gps_jump_m + noise(gps_noise_m);
-    const double py = gps_still ? still_y : y + noise(gps_noise_m);
+    if (gps_wander_m > 0) {
+      // Correlated over a minute.
+      for (double* wander : {&wander_x, &wander_y}) {
+        *wander += noise(gps_wander_m * sqrt(2 * 0.2 / 60)) - 0.2 / 60 * *wander;
+      }
+    }
+    const double px = gps_still ? still_x : x + gps_jump_m + wander_x + noise(gps_noise_m);
+    const double py = gps_still ? still_y : y + wander_y + noise(gps_noise_m);
     const double lat = 48.1 + px / 111319.491,
                  lon = 11.5 - py / (111319.491 * cos(48.1 * 0.0174532925));
     const double knots = fabs(gps_speed_gain * u + noise(gps_speed_noise)) / 0.514444444;
@@ -142,7 +190,7 @@ struct World {
     move(0.001);
     navigate();
     if (keeps && elapsed_ms % 300 == 0) say(keep);
-    if (elapsed_ms % 10 == 0) {
+    if (elapsed_ms % step_ms == 0) {
       sense();
       TIMER3_COMPA_vect();
       loop();
@@ -162,7 +210,7 @@ void delay(uint32_t ms) {
   for (; ms > 0; --ms) {
     ++world.elapsed_ms;
     world.move(0.001);
-    if (world.elapsed_ms % 10 == 0) world.sense();
+    if (world.elapsed_ms % world.step_ms == 0) world.sense();
   }
 }
 void pinMode(uint8_t, uint8_t) {}

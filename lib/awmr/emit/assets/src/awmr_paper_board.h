@@ -87,7 +87,7 @@ inline uint8_t sensor_fault(const Imu& imu, const Gps& gps) {
    sensors, drives, disarms on a fault, logs. */
 inline void step(Imu& imu, Gps& gps, Command& command, Safety& safety, Log& card, awmr_input& input,
                  awmr_output& output) {
-  gps.read(input.u_ref_mps, imu.psi_rad, safety.is_armed());
+  gps.read(input.u_ref_mps, imu.psi_rad, output.psi_ref_rad, safety.is_armed());
   imu.read(AWMR_SAMPLE_TIME_S);
   measure(imu, gps, command, input);
   safety.guard(input);

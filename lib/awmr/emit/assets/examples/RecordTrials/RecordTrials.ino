@@ -64,7 +64,7 @@ void step() {
     }
     command.answer(awmr_board::kOk);
   }
-  gps.read(recorder.force(), imu.psi_rad, safety.is_armed());
+  gps.read(recorder.force(), imu.psi_rad, imu.psi_rad, safety.is_armed());
   imu.read(AWMR_SAMPLE_TIME_S);
   const uint32_t now_ms = millis();
   const uint8_t cause = awmr_board::sensor_fault(imu, gps);

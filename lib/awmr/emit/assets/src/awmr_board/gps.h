@@ -28,7 +28,7 @@ class Gps : public awmr::GpsReceiver {
     port_ = &begin_gps_port();
     if ((reset_cause() & kSwitchedOn) != 0 || !is_kept()) forget_origin();
     projection_.set_latitude();
-    awmr::GpsReceiver::begin(AWMR_SPEED_MAX_MPS, AWMR_SPEED_TIMEOUT_MS, millis());
+    awmr::GpsReceiver::begin(AWMR_SPEED_MAX_MPS, AWMR_OFF_COURSE_MRAD, AWMR_SPEED_TIMEOUT_MS, millis());
   }
   bool has_origin() const { return is_kept(); }
   void forget_origin() { kept_origin.crc = static_cast<uint16_t>(~crc_of_origin()); }
@@ -36,10 +36,12 @@ class Gps : public awmr::GpsReceiver {
   /* Reason why fixes are rejected; awmr::kSensorGood: they are accepted. */
   awmr::SensorFault fault() const { return awmr::GpsReceiver::fault(millis()); }
 
-  /* Call in the step, with the commanded speed, the heading and whether the vehicle is armed. */
-  void read(float u_ref_mps = 0.0f, float psi_rad = 0.0f, bool is_armed = false) {
+  /* Call in the step, with the commanded speed, the heading, the heading that is to be held and
+     whether the vehicle is armed. */
+  void read(float u_ref_mps = 0.0f, float psi_rad = 0.0f, float psi_ref_rad = 0.0f,
+            bool is_armed = false) {
     const int8_t direction = u_ref_mps > 0.0f ? 1 : u_ref_mps < 0.0f ? -1 : 0;
-    const awmr::GpsContext context = {psi_rad, direction, is_armed};
+    const awmr::GpsContext context = {psi_rad, psi_ref_rad, direction, is_armed};
     awmr::GpsReceiver::read(*port_, projection_, context, millis());
   }
 
