@@ -61,6 +61,40 @@ TEST(BackEmf, IsInTheHeaderAndOnTheChip) {
   EXPECT_THAT(autopilot_header(*firmware), HasSubstr("#define AWMR_BACK_EMF_S_PER_M 0.25f"));
 }
 
+/// The rate, at least 0, at which a rising function crosses zero; bisection.
+template <class F>
+double zero_of(const F& rising) {
+  double lo = 0.0;
+  double hi = 1e3;
+  for (int i = 0; i < 100; ++i) (rising(0.5 * (lo + hi)) < 0.0 ? lo : hi) = 0.5 * (lo + hi);
+  return lo;
+}
+
+/// A turn by 180 deg takes 2.8 of its radius, of distance off course times its angle; 10 m rad are
+/// left for its beginning. Recomputed for turn_of_vehicle() and turn_of_law().
+TEST(OffCourse, IsTenPlusAHalfTurnOfTheWidestRadiusAtTheRoutesSpeeds) {
+  const Model model = paper_robot();
+  const Plant<double> plant = model.plant().value();
+  const auto parameters = autopilot_parameters(model, kPaperGains, paper_inputs(), {});
+  ASSERT_TRUE(parameters) << to_text(parameters.error());
+  double most = 0.0;
+  for (const double share : {0.25, 0.5, 0.75, 1.0}) {
+    const double speed_mps = share * static_cast<double>(parameters->route_speed_mps);
+    const double force = plant.surge.at(speed_mps);
+    const double moment_m =
+        plant.front_axle_m * force * std::tan(0.5 * radians(model.vehicle.steering_max_deg));
+    const double by_vehicle = zero_of([&](double rate) { return plant.yaw.at(rate) - moment_m; });
+    const HeadingGains<double>& gains = kPaperGains.heading;
+    const double by_law = zero_of([&](double rate) {
+      return 1.4 * plant.yaw.at(rate) + 0.08 * plant.half_track_m * force - plant.yaw.at(rate) -
+             plant.inertia_norm * (gains.mu - gains.lambda * rate);
+    });
+    most = std::max(most, 10.0 + 2.8 * speed_mps / std::min(by_vehicle, by_law));
+  }
+  EXPECT_NEAR(static_cast<double>(parameters->off_course_mrad), most, 1e-5 * most);
+  EXPECT_LT(most, 60.0);
+}
+
 TEST(FrontWheelDrive, IsRefusedByTheFirmwareAndHasAHeader) {
   Model model = paper_robot();
   model.vehicle.drive = Drive::kFrontWheel;

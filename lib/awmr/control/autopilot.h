@@ -40,7 +40,7 @@ AWMR_INLINE uint8_t check_input(Autopilot<G, P>& a, const AutopilotInput& in) {
   fault |= check_reference(a.limits, in.reference);
   fault |= check_times(a.limits, in.times);
   fault |= check_period(a, in.times.now_ms);
-  if (in.speed_unsigned != 0 || needs_position(a)) {
+  if (in.speed_unsigned != 0 || guidance_needs_position(a)) {
     fault |= check_magnitude(in.position_m.x_m, kPositionMax);
     fault |= check_magnitude(in.position_m.y_m, kPositionMax);
   }

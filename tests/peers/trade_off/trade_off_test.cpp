@@ -69,7 +69,7 @@ TEST_P(TradeOff, TunedGainsAreOnTheIndependentFront) {
       of_best.settling_s, of_baseline.settling_s, of_tuned.variation, of_best.variation,
       of_baseline.variation, of_tuned.overshoot_deg, of_best.overshoot_deg,
       of_baseline.overshoot_deg, 100.0 * (of_tuned.settling_s / of_best.settling_s - 1.0),
-             100.0 * std::max(0.0, excess_over(one.limit_bodies)));
+      100.0 * std::max(0.0, excess_over(one.limit_bodies)));
 }
 
 INSTANTIATE_TEST_SUITE_P(FromToyToTractor, TradeOff, ::testing::ValuesIn(testing::test_vehicles()));

@@ -36,7 +36,7 @@ void disable_guidance(GuidanceLaws<T, P>& g) {
 
 /// True if the guidance reads the position in the next step.
 template <class T, class P>
-AWMR_INLINE bool needs_position(GuidanceLaws<T, P>& g) {
+AWMR_INLINE bool guidance_needs_position(GuidanceLaws<T, P>& g) {
   return g.waypoints.count > 0 || needs_position(part_of<typename P::Line>(g)) ||
          needs_position(part_of<typename P::Path>(g)) ||
          needs_position(part_of<typename P::Avoidance>(g));
