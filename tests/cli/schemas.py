@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Every JSON file that the program writes, every one of configs/ and whatever --json prints is valid by the
-program's own JSON Schemas, which refuse what the program refuses. usage: schemas.py AWMR"""
+program's own JSON Schemas, which refuse what the program refuses. usage: schemas.py AWMR [FOLDER]
+With FOLDER: the JSON files of that folder."""
 import json
 import os
 import subprocess
@@ -61,16 +62,22 @@ def pipeline(folder):
         os.symlink(SOURCE / name, Path(folder, name))
     c3 = "configs/paper/scenarios/c3_heading_steps.json"
     loop = "--model out/model.json --gains out/gains.json"
-    goals = {"goals": [{"at_most": {"settling_time_s": 6}}, {"at_most": {"overshoot_deg": 1}, "soft": True}],
-             "global_evaluations": 80, "local_evaluations": 20, "draws": 4, "sensitivity": 16, "judged_draws": 4, "observer": {"bandwidth_radps": [0.5, 5]},
-             "open": {"mass_factors": [1, 1.2], "wheel_forces": [{"min": -1, "max": 1}, {"min": -1, "max": 0.9}]}}
+    short = {"global_evaluations": 20, "local_evaluations": 5, "draws": 4, "sensitivity": 16, "judged_draws": 4}
+    goals = {"goals": [{"at_most": {"settling_time_s": 6}}, {"at_most": {"overshoot_deg": 1}, "soft": True}], **short,
+             "observer": {"bandwidth_radps": [0.5, 5]},
+             "open": {"mass_factors": [1, 1.2], "wheel_forces": [{"min": -1, "max": 1}]}}
     Path(folder, "striving.json").write_text(json.dumps({"schema": "awmr.tune/1", **goals}))
+    Path(folder, "short.json").write_text(json.dumps({"schema": "awmr.tune/1", **short}))
+    project = json.loads(Path(folder, "configs/paper/project.json").read_text())
+    project["vehicle"] = "configs/paper/vehicle.json"
+    project["trials"] = {name: path.removeprefix("../../") for name, path in project["trials"].items()}
+    project["compare"]["scenarios"] = [c3]
+    Path(folder, "project.json").write_text(json.dumps({**project, "tune": "short.json"}))
     prints = [
-        awmr("run configs/paper/project.json -o out --json", folder),
+        awmr("run project.json -o out --json", folder),
         awmr("identify --vehicle configs/paper/vehicle.json --log datasets/synthetic/drive_1.csv "
              "-o driven.json --json", folder),
         awmr("validate --model driven.json --log datasets/synthetic/drive_2.csv -o logs.json --json", folder),
-        awmr(f"validate {loop} --claims -o claims.json --json", folder),
         awmr("tune --nominal --model out/model.json -o nominal.json --json", folder),
         awmr("tune --model out/model.json --config striving.json -o striven.json --json", folder),
         awmr(f"simulate --model out/model.json --gains striven.json --scenario {c3} --mode combined -o striven.csv --json", folder),
@@ -84,8 +91,8 @@ def pipeline(folder):
         awmr("recover --model out/model.json --runs 5 --shard 1/2 -o recovered1 --json", folder),
         awmr("recover --model out/model.json --runs 5 --shard 2/2 -o recovered2 --json", folder),
         awmr("merge recovered1 recovered2 -o recovered --json", folder),
-        awmr("tune --model out/model.json --config striving.json --shard 1/2 -o tuned1 --json", folder),
-        awmr("tune --model out/model.json --config striving.json --shard 2/2 -o tuned2 --json", folder),
+        awmr("tune --model out/model.json --config short.json --shard 1/2 -o tuned1 --json", folder),
+        awmr("tune --model out/model.json --config short.json --shard 2/2 -o tuned2 --json", folder),
         awmr("merge tuned1 tuned2 -o tuned --json", folder),
         awmr(f"emit {loop} -o firmware --json", folder),
         awmr("init rover --json", folder),
@@ -134,20 +141,34 @@ def malformed(validators, good):
     return seen, not passed
 
 
+def files_are_valid(validators, files, kinds):
+    fine = True
+    for path in files:
+        document = json.loads(path.read_text())
+        kinds.add(kind_of(document, path))
+        fine &= check(validators, document, path, kind_of(document, path))
+    return fine
+
+
+def files_of(folder):
+    """Without the values to fill in of `init`, and PlatformIO's library.json."""
+    return sorted(p for p in Path(folder).rglob("*.json")
+                  if not {"schemas", "rover", "my_rover"} & set(p.parts) and p.name != "library.json")
+
+
 def main():
     with tempfile.TemporaryDirectory() as folder:
         validators = schemas_of(folder)
+        kinds = set()
+        if len(sys.argv) > 2:
+            files = files_of(sys.argv[2])
+            fine = files_are_valid(validators, files, kinds)
+            print(f"{len(files)} files of {len(kinds)} formats: {', '.join(sorted(kinds))}")
+            return 0 if fine and len(kinds) >= 15 else 1
         fine = all([check(validators, document, document.get("command", "an error"), kind_of(document, Path()))
                     for document in pipeline(folder)])
-        files = sorted(p for p in Path(folder).rglob("*.json") if "schemas" not in p.parts)
-        files = [p for p in files if "rover" not in p.parts]  # its values are not filled in yet
-        files = [p for p in files if p.name != "library.json"]  # PlatformIO's format
-        files += sorted((SOURCE / "configs").rglob("*.json"))
-        kinds = set()
-        for path in files:
-            document = json.loads(path.read_text())
-            kinds.add(kind_of(document, path))
-            fine &= check(validators, document, path, kind_of(document, path))
+        files = files_of(folder) + sorted((SOURCE / "configs").rglob("*.json"))
+        fine &= files_are_valid(validators, files, kinds)
         good = {"vehicle": SOURCE / "configs/paper/vehicle.json",
                 "scenario": SOURCE / "configs/paper/scenarios/c3_heading_steps.json",
                 "project": SOURCE / "configs/paper/project.json",

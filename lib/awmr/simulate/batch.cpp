@@ -321,6 +321,9 @@ bool is_finite(const MeterSums<double>& sums) {
 std::vector<std::optional<Metrics>> drive(Batch& batch) {
   Block& block = *batch.block;
   const std::size_t samples = samples_in(batch.scenario.duration_s, batch.sample_time_s);
+  if (batch.keeps_rows) {
+    for_active(batch, [&](std::size_t lane) { batch.parts[lane].run.rows.reserve(samples + 1); });
+  }
   const auto goes_on = [&] {
     return std::any_of(std::begin(block.active.lane), std::end(block.active.lane),
                        [](double active) { return active > 0.0; });
